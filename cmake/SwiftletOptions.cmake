@@ -1,0 +1,36 @@
+# Language, warnings and how the result is made the same everywhere.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}")
+
+option(SWIFTLET_TESTS "Build the tests" ON)
+option(SWIFTLET_BENCHMARKS "Build the benchmarks" OFF)
+option(SWIFTLET_FUZZ "Build the fuzzers (clang)" OFF)
+option(SWIFTLET_WARNINGS_AS_ERRORS "Stop at a warning" ON)
+set(SWIFTLET_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize= takes them")
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+# Same seed, same bytes: no contraction to fused multiply-add, no instruction set beyond the platform's baseline.
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(-Wno-maybe-uninitialized) # False alarms inside Eigen at -O2 with g++ 12.
+endif()
+if(SWIFTLET_WARNINGS_AS_ERRORS)
+  add_compile_options(-Werror)
+endif()
+if(SWIFTLET_SANITIZE)
+  add_compile_options(-fsanitize=${SWIFTLET_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${SWIFTLET_SANITIZE})
+endif()

@@ -1,0 +1,34 @@
+# swiftlet_library(NAME [FOLDER dir] DEPENDS targets... [PRIVATE targets...] [EXCLUDE regex])
+#   A static library of every .cpp below its folder: target swiftlet_NAME, alias swiftlet::NAME. DEPENDS are public (they
+#   stand in headers), PRIVATE stay in the sources. Libraries from outside are included as system headers.
+function(swiftlet_library name)
+  cmake_parse_arguments(ARG "" "EXCLUDE" "DEPENDS;PRIVATE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  if(ARG_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX "${ARG_EXCLUDE}")
+  endif()
+  add_library(swiftlet_${name} STATIC ${sources})
+  add_library(swiftlet::${name} ALIAS swiftlet_${name})
+  set_target_properties(swiftlet_${name} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(swiftlet_${name} PUBLIC cxx_std_20)
+  target_include_directories(swiftlet_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/swiftlet>)
+  target_link_libraries(swiftlet_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY SWIFTLET_LIBRARIES swiftlet_${name})
+endfunction()
+
+# swiftlet_tests(NAME [DEPENDS targets...] [LABELS labels...])
+#   One GoogleTest program test_NAME of every *_test.cpp in tests/NAME; each test of it is a ctest test.
+function(swiftlet_tests name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPENDS;LABELS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/${name}/*.cpp")
+  add_executable(test_${name} ${sources})
+  target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(test_${name} PRIVATE SWIFTLET_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                             SWIFTLET_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
+                       PROPERTIES LABELS "${name};${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,34 @@
+// What an operator asks from the page or a tablet, and the answer. Hold and land always work; the others are refused
+// with a reason where the mission or the map has no place for them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include <Eigen/Core>
+
+namespace swiftlet::common {
+
+struct HoldCommand {};
+struct ResumeCommand {};
+struct HomeCommand {};
+struct LandCommand {};
+struct GoalCommand {
+  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+};
+
+struct OperatorCommand {
+  std::uint64_t id = 0;
+  std::variant<HoldCommand, ResumeCommand, HomeCommand, LandCommand, GoalCommand> kind;
+};
+
+struct CommandResult {
+  std::uint64_t id = 0;
+  bool accepted = false;
+  std::string reason;  ///< Why it was refused; empty when accepted.
+};
+
+std::string toString(const OperatorCommand& command);
+
+}  // namespace swiftlet::common

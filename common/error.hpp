@@ -1,0 +1,51 @@
+// Input read at start (configuration, mission, world, map) that is wrong: one exception type that says where and what.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace swiftlet::common {
+
+/// Where in a file something stands. Lines and columns count from 1; 0 means unknown.
+struct SourceLocation {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+/// "file:line:column", leaving out what is unknown.
+std::string toString(const SourceLocation& location);
+
+/// One problem of an input file, as the user reads it.
+struct Problem {
+  SourceLocation location;
+  std::string element;  ///< The key, tag or field it is about; may be empty.
+  std::string message;  ///< What is wrong and what was expected, with the offending text.
+  std::string hint;     ///< "did you mean `x`?"; may be empty.
+};
+
+/// "file:line:column: element: message, hint".
+std::string toString(const Problem& problem);
+
+/// Thrown for input that cannot be used; carries every problem found, not only the first.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(Problem problem);
+  explicit InputError(std::vector<Problem> problems);
+  const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+/// The candidate nearest to `word` by edit distance, if it is near enough to be what was meant.
+std::optional<std::string> nearestWord(std::string_view word, std::span<const std::string> candidates);
+
+/// "did you mean `x`?" or an empty string.
+std::string didYouMean(std::string_view word, std::span<const std::string> candidates);
+
+}  // namespace swiftlet::common

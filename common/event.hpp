@@ -1,0 +1,22 @@
+// Something worth telling: a state change, a priority switch, a refusal, a fault. Events go to the page, to the
+// terminal and to events.jsonl.
+#pragma once
+
+#include <string>
+
+#include "common/time.hpp"
+
+namespace swiftlet::common {
+
+enum class Severity { kInfo, kWarning, kError };
+const char* toString(Severity severity);
+
+struct Event {
+  Time stamp;
+  Severity severity = Severity::kInfo;
+  std::string source;  ///< The part that says it: "mission", "flight", "slam2d", "avoidance" ...
+  std::string text;    ///< What happened, with values.
+  std::string reason;  ///< Why; may be empty.
+};
+
+}  // namespace swiftlet::common

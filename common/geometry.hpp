@@ -1,0 +1,55 @@
+// Rigid transforms. Frames follow REP-103/105: ENU world, FLU body, metres, radians.
+// T_a_b takes coordinates in b to a: point_a = T_a_b * point_b; T_a_c = T_a_b * T_b_c.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace swiftlet::common {
+
+/// The angle in (-pi, pi]. NaN and infinity stay as they are (NaN).
+double wrapAngle(double angle_rad);
+
+/// A pose in the plane, an element of SE(2).
+struct Pose2 {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double yaw_rad = 0.0;
+
+  Eigen::Vector2d position_m() const { return {x_m, y_m}; }
+  Pose2 inverse() const;
+  Pose2 operator*(const Pose2& other) const;
+  Eigen::Vector2d operator*(const Eigen::Vector2d& point) const;
+};
+
+/// A pose in space, an element of SE(3).
+struct Pose3 {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+
+  Pose3 inverse() const;
+  Pose3 operator*(const Pose3& other) const;
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const;
+};
+
+/// Intrinsic z-y-x Euler angles: R = Rz(yaw) * Ry(pitch) * Rx(roll). Pitch is in [-pi/2, pi/2].
+struct RollPitchYaw {
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+  double yaw_rad = 0.0;
+};
+
+RollPitchYaw rollPitchYaw(const Eigen::Quaterniond& rotation);
+Eigen::Quaterniond quaternionFrom(const RollPitchYaw& angles);
+double yawOf(const Eigen::Quaterniond& rotation);
+
+/// The projection on the plane: x, y and yaw.
+Pose2 planar(const Pose3& pose);
+/// The planar pose lifted to height z, without roll and pitch.
+Pose3 lifted(const Pose2& pose, double z_m);
+
+/// The rotation vector v becomes a unit quaternion and back; small angles are exact to second order.
+Eigen::Quaterniond expSO3(const Eigen::Vector3d& rotation_rad);
+Eigen::Vector3d logSO3(const Eigen::Quaterniond& rotation);
+
+}  // namespace swiftlet::common

@@ -1,0 +1,23 @@
+#include "common/intent.hpp"
+
+#include <fmt/format.h>
+
+namespace swiftlet::common {
+namespace {
+
+struct Describe {
+  std::string operator()(const HoldIntent&) const { return "hold"; }
+  std::string operator()(const TakeOffIntent& i) const { return fmt::format("take off to {:.2f} m", i.height_m); }
+  std::string operator()(const LandIntent&) const { return "land"; }
+  std::string operator()(const ExploreIntent&) const { return "explore"; }
+  std::string operator()(const GoToIntent& i) const {
+    return fmt::format("go to ({:.2f}, {:.2f})", i.goal_map_m.x(), i.goal_map_m.y());
+  }
+  std::string operator()(const AvoidIntent&) const { return "avoid obstacle"; }
+};
+
+}  // namespace
+
+std::string toString(const Intent& intent) { return std::visit(Describe{}, intent.kind); }
+
+}  // namespace swiftlet::common

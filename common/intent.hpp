@@ -1,0 +1,55 @@
+// What a behaviour wants and how it stands. Behaviours emit an Intent each tick; the autonomy carries it out and
+// answers with the IntentStatus of that Intent. The same `id` means the same wish, still wanted.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+
+namespace swiftlet::common {
+
+struct TakeOffIntent {
+  double height_m = 1.0;  ///< Above the take-off floor.
+};
+struct LandIntent {};
+/// Stop and stay.
+struct HoldIntent {};
+struct ExploreIntent {
+  double clearance_m = 0.10;  ///< Between hull and obstacle.
+};
+struct GoToIntent {
+  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+  std::optional<double> height_m;  ///< Above the take-off floor; none: stay at the present height.
+  std::optional<double> yaw_map_rad;
+  double tolerance_m = 0.05;
+  double clearance_m = 0.10;
+};
+/// Give the vehicle to the reactive layer until the danger is over.
+struct AvoidIntent {};
+
+using IntentKind = std::variant<HoldIntent, TakeOffIntent, LandIntent, ExploreIntent, GoToIntent, AvoidIntent>;
+
+struct Intent {
+  std::uint64_t id = 0;  ///< 0: nobody asked; the vehicle holds.
+  IntentKind kind;
+};
+
+enum class IntentState { kRunning, kSucceeded, kFailed };
+
+struct IntentStatus {
+  std::uint64_t id = 0;
+  IntentState state = IntentState::kRunning;
+  std::string reason;  ///< For people: what it is doing, or why it failed.
+  /// The vehicle has stopped and may be handed over; for an intent that is being given up.
+  bool released = true;
+};
+
+/// "go to (3.00, -1.50)", for events and the page.
+std::string toString(const Intent& intent);
+
+}  // namespace swiftlet::common

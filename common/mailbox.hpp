@@ -1,0 +1,61 @@
+// How threads talk: the newest value for telemetry, a queue that loses nothing for commands and their results.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace swiftlet::common {
+
+/// Holds the newest value; a reader that is late misses the older ones. Any thread may post and read.
+template <typename Value>
+class LatestValue {
+ public:
+  void post(std::shared_ptr<const Value> value) {
+    const std::scoped_lock lock(mutex_);
+    value_ = std::move(value);
+    ++sequence_;
+  }
+  /// Null until the first post.
+  std::shared_ptr<const Value> read() const {
+    const std::scoped_lock lock(mutex_);
+    return value_;
+  }
+  /// How many values were posted; tells a reader whether there is a new one.
+  std::uint64_t sequence() const {
+    const std::scoped_lock lock(mutex_);
+    return sequence_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<const Value> value_;
+  std::uint64_t sequence_ = 0;
+};
+
+/// First in, first out, nothing lost. Any thread may push and take.
+template <typename Value>
+class LosslessQueue {
+ public:
+  void push(Value value) {
+    const std::scoped_lock lock(mutex_);
+    values_.push_back(std::move(value));
+  }
+  /// Everything that is waiting, oldest first.
+  std::vector<Value> takeAll() {
+    const std::scoped_lock lock(mutex_);
+    std::vector<Value> taken(std::make_move_iterator(values_.begin()), std::make_move_iterator(values_.end()));
+    values_.clear();
+    return taken;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::deque<Value> values_;
+};
+
+}  // namespace swiftlet::common

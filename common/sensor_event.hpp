@@ -1,0 +1,77 @@
+// What a vehicle reports. Every event has two stamps: when it was measured and when it arrived at the computer.
+// Events are immutable values; large ones are behind shared_ptr<const ...>.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "common/time.hpp"
+
+namespace swiftlet::common {
+
+struct Stamps {
+  Time measured;  ///< Of the first beam or image row, for sensors that sweep.
+  Time arrived;   ///< When the autonomy may use it; never before `measured`.
+};
+
+/// One inertial sample with the attitude of the vehicle's own AHRS.
+struct ImuSample {
+  Stamps stamps;
+  Eigen::Vector3d angular_velocity_body_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d specific_force_body_m_s2 = Eigen::Vector3d::Zero();  ///< +g upwards at rest.
+  /// Roll and pitch are good to about 1 deg; yaw drifts and has an arbitrary origin.
+  Eigen::Quaterniond rotation_ahrs_body = Eigen::Quaterniond::Identity();
+};
+
+/// One sweep of the 2D laser, in the laser frame, all beams including those a mirror deflects (LaserConfig says which).
+struct LaserScan {
+  Stamps stamps;
+  double angle_min_rad = 0.0;
+  double angle_increment_rad = 0.0;
+  Duration time_increment;  ///< Between two beams; beam i was measured at stamps.measured + i * time_increment.
+  double range_min_m = 0.0;
+  double range_max_m = 0.0;
+  /// NaN: invalid. Above range_max_m or infinite: nothing was hit within range. Below range_min_m: invalid.
+  std::vector<float> ranges_m;
+};
+
+struct BatterySample {
+  Stamps stamps;
+  double voltage_v = 0.0;
+  double remaining = 1.0;  ///< In [0, 1], as the vehicle estimates it.
+};
+
+/// The pilot's sticks, each in [-1, 1]; thrust in [0, 1]. `takes_over` is the switch by which the pilot flies alone.
+struct PilotSample {
+  Stamps stamps;
+  double roll = 0.0;
+  double pitch = 0.0;
+  double yaw_rate = 0.0;
+  double thrust = 0.0;
+  bool takes_over = false;
+};
+
+/// An 8-bit RGB picture, row by row from the top left.
+struct Image {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint8_t> rgb;  ///< 3 * width_px * height_px bytes.
+};
+
+/// One frame of the onboard camera, for the operator's stream.
+struct CameraFrame {
+  Stamps stamps;
+  Image image;
+};
+
+using SensorEvent = std::variant<ImuSample, std::shared_ptr<const LaserScan>, BatterySample, PilotSample,
+                                 std::shared_ptr<const CameraFrame>>;
+
+const Stamps& stampsOf(const SensorEvent& event);
+
+}  // namespace swiftlet::common

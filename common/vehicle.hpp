@@ -1,0 +1,42 @@
+// The one interface between the autonomy and what flies: the simulator, a MAVLink autopilot or a replay.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/sensor_event.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::common {
+
+/// What the autonomy asks of the autopilot's inner loop, 100 times a second.
+struct Setpoint {
+  Time stamp;
+  bool motors_on = false;
+  double roll_rad = 0.0;        ///< FLU: positive rolls to the right (left side up).
+  double pitch_rad = 0.0;       ///< FLU: positive pitches nose down, the vehicle accelerates forwards.
+  double yaw_rate_rad_s = 0.0;  ///< Positive counter-clockwise seen from above.
+  double thrust = 0.0;          ///< Collective, 0 to 1 of the greatest thrust at full battery.
+};
+
+/// A vehicle in time. Called from one thread.
+class Vehicle {
+ public:
+  virtual ~Vehicle() = default;
+
+  virtual Time now() const = 0;
+
+  /// Lets time pass to `time` and appends the events that arrived since the last call, ordered by arrival; events that
+  /// arrive at the same instant come in a fixed order. Simulator and replay compute; a real vehicle waits.
+  /// Returns false when there is nothing more to come (crashed, end of the log, link closed); `stopReason` then says
+  /// why.
+  [[nodiscard]] virtual bool advanceTo(Time time, std::vector<SensorEvent>& events) = 0;
+
+  /// Hands a setpoint to the autopilot. The last one stays in force; the autopilot's own link-loss rule applies.
+  virtual void apply(const Setpoint& setpoint) = 0;
+
+  /// Why advanceTo returned false; empty while it returns true.
+  virtual std::string stopReason() const = 0;
+};
+
+}  // namespace swiftlet::common

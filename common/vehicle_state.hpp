@@ -1,0 +1,33 @@
+// Where the vehicle is, as the autonomy believes.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::common {
+
+/// The estimate at one time. `T_odom_body` is continuous; `T_map_odom` may jump when the SLAM corrects.
+/// The origin of both frames is the take-off pose; z is the height above the take-off floor.
+struct VehicleState {
+  Time stamp;
+  Pose3 T_odom_body;
+  Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_body_rad_s = Eigen::Vector3d::Zero();
+  Pose2 T_map_odom;
+
+  Eigen::Matrix3d position_covariance_m2 = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d velocity_covariance_m2_s2 = Eigen::Matrix3d::Zero();
+  double yaw_variance_rad2 = 0.0;
+
+  double height_above_ground_m = 0.0;  ///< Over what is below right now (table, floor).
+  bool horizontal_valid = false;       ///< x, y, yaw and their velocities may be used for control.
+  bool vertical_valid = false;         ///< z and its velocity may be used for control.
+
+  Pose3 T_map_body() const { return lifted(T_map_odom, 0.0) * T_odom_body; }
+  Pose2 T_map_body_planar() const { return planar(T_map_body()); }
+  Eigen::Vector3d velocity_map_m_s() const { return lifted(T_map_odom, 0.0).rotation * velocity_odom_m_s; }
+};
+
+}  // namespace swiftlet::common
