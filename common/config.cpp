@@ -58,7 +58,8 @@ struct YamlReader::Impl {
 
   std::string pathOf(std::string_view name) const {
     const std::string& base = levels.back().path;
-    return base.empty() ? std::string(name) : fmt::format("{}.{}", base, name);
+    if (base.empty() || name.empty()) return base + std::string(name);
+    return fmt::format("{}.{}", base, name);
   }
 
   void report(const YAML::Node& node, std::string_view name, std::string message, std::string hint = {}) {
@@ -98,8 +99,10 @@ struct YamlReader::Impl {
 
   template <typename Value>
   static bool convert(const YAML::Node& node, Value& value) {
-    if (!node.IsScalar()) return false;
-    return YAML::convert<Value>::decode(node, value);
+    Value read{};
+    if (!node.IsScalar() || !YAML::convert<Value>::decode(node, read)) return false;
+    value = std::move(read);
+    return true;
   }
 
   static std::string textOf(const YAML::Node& node) {

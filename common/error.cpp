@@ -62,6 +62,7 @@ std::optional<std::string> nearestWord(std::string_view word, std::span<const st
   const std::string* best = nullptr;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
+    if (word.size() >= 3 && candidate.starts_with(word)) return candidate;  // `roll` for `roll_deg`.
     const std::size_t distance = editDistance(word, candidate);
     if (distance < best_distance) {
       best_distance = distance;

@@ -39,7 +39,7 @@ TEST(Config, WrongTypeAndRangeAreReportedTogether) {
   const std::string text = problemsOf<LaserConfig>("beams: many\nrange_max_m: -3\nmount: {roll: 3}\n");
   EXPECT_THAT(text, HasSubstr("test.yaml:1:8: beams: `many` is not a whole number"));
   EXPECT_THAT(text, HasSubstr("test.yaml:2:14: range_max_m: -3 is not within"));
-  EXPECT_THAT(text, HasSubstr("test.yaml:3:9: unknown key `roll`"));
+  EXPECT_THAT(text, HasSubstr("test.yaml:3:9: mount: unknown key `roll`, did you mean `roll_deg`?"));
 }
 
 TEST(Config, NotYamlAndMissingFile) {
