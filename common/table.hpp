@@ -11,7 +11,7 @@ enum class Mark { kNone, kGood, kBad };
 struct TableCell {
   std::string text;
   Mark mark = Mark::kNone;
-  std::string link;  ///< Relative to the report that shows it; may be empty.
+  std::string link = {};  ///< Relative to the report that shows it; may be empty.
 };
 
 struct Table {
