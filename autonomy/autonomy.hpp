@@ -54,7 +54,11 @@ class Autonomy {
   std::shared_ptr<const common::World> world() const { return world_; }
   /// The mission has ended and the vehicle stands with its motors off.
   bool finished() const;
+  /// The end came by the operator's Land, not by the mission.
+  bool landedByOperator() const { return supervisor_.landedByOperator(); }
   common::VehicleState state() const { return estimator_.state(); }
+  /// What was wished for at the last tick of the behaviours.
+  const common::Intent& missionIntent() const { return wish_; }
 
   std::vector<common::Event> takeEvents();
   std::vector<common::CommandResult> takeResults();

@@ -38,6 +38,7 @@ std::optional<common::CommandResult> Supervisor::take(const common::OperatorComm
     return accepted;
   }
   if (std::holds_alternative<common::LandCommand>(command.kind)) {
+    landed_by_operator_ = !supervision_.land;
     land(now, "the operator asked for it");
     return accepted;
   }

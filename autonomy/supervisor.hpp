@@ -52,6 +52,7 @@ class Supervisor {
   /// `airborne`: a fault on the ground is no reason to land.
   const Supervision& tick(common::Time now, bool airborne, const common::VehicleStatus& status);
 
+  bool landedByOperator() const { return landed_by_operator_; }
   std::vector<common::Event> takeEvents();
 
  private:
@@ -61,6 +62,7 @@ class Supervisor {
   SupervisorConfig config_;
   std::optional<common::Time> last_scan_;
   bool operator_holds_ = false;
+  bool landed_by_operator_ = false;
   bool laser_holds_ = false;
   Supervision supervision_;
   std::vector<common::Event> events_;

@@ -5,9 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -44,9 +44,9 @@ struct CostLayers {
 /// What a cell is, after unknown slivers between beams were closed.
 enum class CellState : std::uint8_t { kUnknown, kFree, kOccupied };
 
-/// A dense copy of the grid's extent plus one tile of margin, in the `map` frame, on the grid's own cells. A value: copy
-/// it to give a job its snapshot. Reading is safe from any thread while nobody updates the same object.
-/// Distances run from cell centre to cell centre and are exact up to the reach of the cost.
+/// A dense copy of the grid's extent plus one tile of margin, in the `map` frame, on the grid's own cells. A value:
+/// copy it to give a job its snapshot. Reading is safe from any thread while nobody updates the same object. Distances
+/// run from cell centre to cell centre and are exact up to the reach of the cost.
 class CostMap {
  public:
   struct Config {
@@ -62,11 +62,11 @@ class CostMap {
   };
 
   using Cost = std::uint16_t;
-  static constexpr Cost kOpenCost = 8;         ///< Of a cell far from everything.
-  static constexpr Cost kLethal = 0xFFFF;      ///< The centre may not be there.
-  static constexpr int kStraightEdge = 12;     ///< Edge cost = this times the sum of the two cell costs.
-  static constexpr int kDiagonalEdge = 17;     ///< 17 / 12 is the square root of 2 within 0.2 %.
-  static constexpr int kMaxReachCells = 63;    ///< Greatest lethal or comfort distance; below a tile.
+  static constexpr Cost kOpenCost = 8;       ///< Of a cell far from everything.
+  static constexpr Cost kLethal = 0xFFFF;    ///< The centre may not be there.
+  static constexpr int kStraightEdge = 12;   ///< Edge cost = this times the sum of the two cell costs.
+  static constexpr int kDiagonalEdge = 17;   ///< 17 / 12 is the square root of 2 within 0.2 %.
+  static constexpr int kMaxReachCells = 63;  ///< Greatest lethal or comfort distance; below a tile.
   static constexpr std::int32_t kStraightMin = 2 * kStraightEdge * kOpenCost;  ///< The cheapest edge there is.
 
   /// A map that is lethal everywhere. `config` is validated.
@@ -74,8 +74,8 @@ class CostMap {
 
   /// Brings the map to the given grid. Costs are recomputed only around cells whose state changed since the last call
   /// (tiles with the same identity are not read), unless the footprint changed. Equal to a fresh map, always.
-  /// The grid has the resolution of the constructor; radius + comfort distance stay within kMaxReachCells cells (a
-  /// greater comfort distance is cut). The grid must outlive nothing: it is held as a snapshot (shared tiles).
+  /// `grid` is a snapshot that nobody writes to any more (OccupancyGrid::snapshot()), of the constructor's resolution;
+  /// a copy of it (shared tiles) is held. Radius plus comfort distance beyond kMaxReachCells cells is cut there.
   void update(const common::OccupancyGrid& grid, const Footprint& footprint, const CostLayers& layers = {});
 
   const Config& config() const { return config_; }
@@ -113,19 +113,33 @@ class CostMap {
   /// The cost of going between two 8-neighbours, neither lethal. A diagonal is forbidden (kNoEdge) when one of the two
   /// cells beside it is lethal: no corner is cut.
   static constexpr std::int32_t kNoEdge = INT32_MAX;
-  std::int32_t edgeCost(int from, int dx, int dy) const;
+  std::int32_t edgeCost(int from, int dx, int dy) const {
+    const int to = from + dy * stride() + dx;
+    const bool diagonal = dx != 0 && dy != 0;
+    if (isLethal(to) || (diagonal && (isLethal(from + dx) || isLethal(from + dy * stride())))) return kNoEdge;
+    return (diagonal ? kDiagonalEdge : kStraightEdge) * (cost(from) + cost(to)) + stepCost(from, to);
+  }
+  /// What the step of the surface between two cells adds; 0 without levels.
+  std::int32_t stepCost(int from, int to) const {
+    if (height_cm_.empty()) return 0;
+    return height_edge_ *
+           std::abs(height_cm_[static_cast<std::size_t>(from)] - height_cm_[static_cast<std::size_t>(to)]);
+  }
+  std::int32_t stepCostPerCm() const { return height_edge_; }
   /// The greatest cost an edge can have under this config.
   std::int32_t maxEdgeCost() const { return max_edge_cost_; }
 
  private:
   struct Changes;
-  void resizeTo(const common::OccupancyGrid& grid);
+  void reshape(const common::CellRect& rect, const Footprint& footprint);
   void readTiles(const common::OccupancyGrid& grid, bool all, Changes& changes);
   void closeSlivers(Changes& changes);
-  void updateDistances(Changes& changes, bool all);
-  void costTile(int tile);
-  void applyHeights(const common::LevelMap* levels);
+  void updateDistances(const Changes& changes, bool all);
+  void costTile(int x0, int y0);
   void applyLayers(const CostLayers& layers);
+  void applyDisc(const Disc& disc);
+  void applyHeights(const common::LevelMap* levels);
+  void applyLocalizability(const LocalizabilityGrid* layer);
   Cost costOfMargin(double margin_m) const;
 
   Config config_;
@@ -135,8 +149,9 @@ class CostMap {
   int reach_cells_ = 0;
   int unknown_reach_cells_ = 0;
   std::int32_t max_edge_cost_ = 0;
-  std::vector<CellState> raw_;    ///< As the grid says.
-  std::vector<CellState> state_;  ///< Slivers closed.
+  std::int32_t height_edge_ = 0;                  ///< Edge cost of a step of 1 cm.
+  std::vector<CellState> raw_;                    ///< As the grid says.
+  std::vector<CellState> state_;                  ///< Slivers closed.
   std::vector<std::int16_t> occupied_distance2_;  ///< In cells squared, cut at (reach + 1) squared.
   std::vector<std::int16_t> unknown_distance2_;
   std::vector<Cost> margin_cost_;  ///< Cost by occupied distance squared.

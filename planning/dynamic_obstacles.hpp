@@ -67,9 +67,9 @@ class DynamicObstacles {
 
   explicit DynamicObstacles(const Config& config);
 
-  /// `points_map_m`: end points of one scan in order of bearing, seen from `sensor_map_m`. Points that are not finite are
-  /// left out. A point is unexplained when it lies in space the background knows as free, with nothing occupied near;
-  /// what lies in unknown space is new, not dynamic.
+  /// `points_map_m`: end points of one scan in order of bearing, seen from `sensor_map_m`. Points that are not finite
+  /// are left out. A point is unexplained when it lies in space the background knows as free, with nothing occupied
+  /// near; what lies in unknown space is new, not dynamic.
   void update(common::Time stamp, std::span<const Eigen::Vector2f> points_map_m, const Eigen::Vector2d& sensor_map_m,
               const common::OccupancyGrid& background);
   void clear() { obstacles_.clear(); }

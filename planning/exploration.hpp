@@ -21,10 +21,10 @@ namespace swiftlet::planning {
 /// Where to look from.
 struct Viewpoint {
   common::Pose2 pose_map;
-  Path path;                                                 ///< From the present pose.
+  Path path;                                               ///< From the present pose.
   Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();  ///< The unknown place it is for.
-  double gain_m2 = 0.0;                                      ///< Unknown area expected to be seen.
-  double localizability = 0.0;                               ///< 0 to 1, see localizability.hpp.
+  double gain_m2 = 0.0;                                    ///< Unknown area expected to be seen.
+  double localizability = 0.0;                             ///< 0 to 1, see localizability.hpp.
   double utility = 0.0;
 };
 

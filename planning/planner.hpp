@@ -41,12 +41,13 @@ class Planner {
 /// A chain of cells, each an 8-neighbour of the one before it.
 using CellPath = std::vector<common::CellIndex>;
 
-/// The way from a start out of the lethal zone to the first cell where the centre may be: the cheapest chain that avoids
-/// what is occupied, within `reach_m`; the start alone when it is not lethal; none when it is shut in.
+/// The way from a start out of the lethal zone to the first cell where the centre may be: the cheapest chain that
+/// avoids what is occupied, within `reach_m`; the start alone when it is not lethal; none when it is shut in.
 std::optional<CellPath> escapeFrom(const CostMap& map, common::CellIndex start, double reach_m = 1.0);
 
 /// The place nearest to a point where the centre may be, within `reach_m`.
-std::optional<Eigen::Vector2d> nearestFree(const CostMap& map, const Eigen::Vector2d& point_map_m, double reach_m = 3.0);
+std::optional<Eigen::Vector2d> nearestFree(const CostMap& map, const Eigen::Vector2d& point_map_m,
+                                           double reach_m = 3.0);
 
 /// What both planners ask first: the ends in the map, the goal free, the start free or able to escape.
 /// The chain returned ends at the cell where the search starts.
@@ -54,8 +55,8 @@ tl::expected<CellPath, PlanFailure> admit(const CostMap& map, const Eigen::Vecto
                                           const Eigen::Vector2d& goal_map_m);
 PlanFailure unreachable(const CostMap& map, const Eigen::Vector2d& goal_map_m);
 
-/// Integral of the cost over a segment in metres of open space, and the greatest cell cost met. `lethal` when it
-/// touches a lethal cell.
+/// Integral of the cost over a segment in metres of open space, steps of the surface included, and the greatest cell
+/// cost met. `lethal` when it touches a lethal cell.
 struct SegmentCost {
   double cost_m = 0.0;
   CostMap::Cost greatest = 0;
