@@ -13,6 +13,7 @@
 #include "common/vehicle.hpp"
 #include "common/vehicle_config.hpp"
 #include "simulation/quadrotor.hpp"
+#include "simulation/sensors/inertial_unit.hpp"
 
 namespace swiftlet::simulation {
 
@@ -30,13 +31,6 @@ struct AutopilotConfig {
   std::vector<std::string> validate() const;
 };
 
-/// What the autopilot measures itself at each of its ticks.
-struct AttitudeMeasurement {
-  Eigen::Quaterniond rotation_ahrs_body = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d angular_velocity_body_rad_s = Eigen::Vector3d::Zero();
-  double battery_voltage_v = 0.0;
-};
-
 class Autopilot {
  public:
   Autopilot(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe, const AutopilotConfig& config);
@@ -44,7 +38,7 @@ class Autopilot {
   /// A setpoint has come over the link at `arrived`.
   void receive(const common::Setpoint& setpoint, common::Time arrived);
 
-  /// One tick of the attitude loop: the throttles until the next. `pilot_has_control` makes `pilot` the setpoint.
+  /// One tick of the attitude loop: the throttles of the motors until the next.
   std::array<double, 4> tick(common::Time now, const AttitudeMeasurement& measured, double step_s);
 
   bool linkLost(common::Time now) const;

@@ -62,21 +62,25 @@ class Quadrotor {
   void step(const std::array<double, 4>& throttles, const Eigen::Vector3d& wind_world_m_s, double floor_world_m,
             double step_s);
 
-  /// A push at the centre of mass.
+  /// A push at the centre of mass, spread over kPush_s.
   void push(const Eigen::Vector3d& impulse_world_n_s);
+  static constexpr double kPush_s = 0.1;
 
-  /// Downward speed at the last touch-down; 0 before the first.
-  double touchDownSpeed_m_s() const { return touch_down_speed_m_s_; }
+  /// How far the gear gives way under the standing vehicle.
+  static constexpr double kGearSag_m = 0.004;
 
  private:
   void spinMotors(const std::array<double, 4>& throttles, double step_s);
-  void stand(double floor_world_m, double step_s);
+  Eigen::Vector3d takePush(double step_s);
+  double gearForce_n(double floor_world_m) const;
+  void rub(double step_s);
 
   common::VehicleConfig vehicle_;
   QuadrotorConfig config_;
   QuadrotorState state_;
   Battery battery_;
-  double touch_down_speed_m_s_ = 0.0;
+  Eigen::Vector3d push_world_n_s_ = Eigen::Vector3d::Zero();  ///< What is left of it.
+  double push_left_s_ = 0.0;
 };
 
 }  // namespace swiftlet::simulation

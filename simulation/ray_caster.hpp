@@ -66,6 +66,8 @@ class RayCaster {
   /// `distances_m` has the size of `rays`.
   void castAll(std::span<const Ray> rays, double max_m, std::span<const Actor> actors,
                std::span<float> distances_m) const;
+  /// The same with shape and normal.
+  void castAll(std::span<const Ray> rays, double max_m, std::span<const Actor> actors, std::span<Hit> hits) const;
 
   /// The smallest horizontal distance between the static world and the hull while its centre moves along the segment
   /// from one point to another, up to limit_m. The hull sweeps the union of its height bands, so that nothing thin

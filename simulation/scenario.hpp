@@ -45,6 +45,7 @@ struct Variation {
   double battery_remaining = 0.0;  ///< The start charge is lowered by up to this.
   /// Goals as x, y, x, y, ... in `map`: a draw is taken only if the vehicle can get to all of them.
   std::vector<double> reachable_map_m;
+  double flight_height_m = 1.0;  ///< Of the body above the take-off floor, where that is judged.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

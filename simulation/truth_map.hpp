@@ -32,6 +32,10 @@ struct FreeSpace {
   double visible_area_m2 = 0.0;
 };
 
+/// Where the centre of the hull can get to from the start, by a flood over cells: all of it nothing when the start does
+/// not fit.
+common::TiledGrid<std::uint8_t> reachableSpace(const RayCaster& rays, const FreeSpaceQuery& query);
+
 FreeSpace freeSpace(const RayCaster& rays, const FreeSpaceQuery& query);
 
 /// Horizontal distance from a point to the nearest surface that crosses this height, up to limit_m.

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "common/error.hpp"
 #include "common/geometry.hpp"
 
 namespace swiftlet::simulation {
@@ -21,10 +22,15 @@ using Color = Eigen::Vector3f;
 /// One rigid piece of a model: a triangle soup.
 struct Shape {
   std::string model;  ///< Name of the top-level model it belongs to.
+  std::string part;   ///< Nested models and link inside it, "kitchen/shelf"; for messages.
+  common::SourceLocation source;
   Color color = Color::Constant(0.7F);
   std::vector<Eigen::Vector3f> vertices_world_m;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into the vertices; either winding.
 };
+
+/// "model/part".
+std::string nameOf(const Shape& shape);
 
 struct WorldModel {
   std::string file;
@@ -32,6 +38,8 @@ struct WorldModel {
   std::vector<Shape> shapes;
   /// The pose of `<frame name="start">`, if the world has one.
   std::optional<common::Pose3> T_world_start;
+  /// Where that frame stands in the file, or the world itself when it has none.
+  common::SourceLocation start_source;
   /// What was skipped or replaced, each as "file:line: ...".
   std::vector<std::string> warnings;
 
