@@ -1,0 +1,101 @@
+// The reactive layer at the laser rate, under every intent (Saeedi, section III-G): beams smoothed by a sliding window
+// and put into bins; the speed is limited so that the vehicle can stop; from what is unmapped or closing it retreats.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "common/world.hpp"
+#include "planning/cost_map.hpp"
+#include "planning/dynamic_obstacles.hpp"
+
+namespace swiftlet::planning {
+
+/// One scan and what is known beside it. The level frame is the body frame without roll and pitch.
+struct AvoidanceInput {
+  common::Time stamp;
+  std::span<const Eigen::Vector2f> points_level_m;  ///< In order of bearing; points that are not finite are left out.
+  Eigen::Vector2d velocity_level_m_s = Eigen::Vector2d::Zero();
+  Eigen::Vector2d travel_level = Eigen::Vector2d::Zero();  ///< Where the intent wants to go; zero: along the velocity.
+  common::Pose2 T_map_level;
+  const CostMap* cost_map = nullptr;           ///< May be null: then nothing is known to be mapped.
+  std::span<const DynamicObstacle> obstacles;  ///< From DynamicObstacles, in the `map` frame.
+};
+
+struct AvoidanceDecision {
+  double speed_limit_m_s = 0.0;                               ///< Along the direction of travel.
+  std::optional<Eigen::Vector2d> retreat_velocity_level_m_s;  ///< When set it replaces what the intent wants.
+  common::AvoidanceStatus status;
+};
+
+/// The range of one sector, from the body origin; infinity when it holds no return.
+struct Bin {
+  double bearing_rad = 0.0;  ///< Of the middle.
+  double range_m = 0.0;
+  Eigen::Vector2d nearest_level_m = Eigen::Vector2d::Zero();  ///< The smoothed return that gave the range.
+};
+
+/// Keeps the hysteresis and the last decision. One thread; call once a scan.
+///
+///           danger: unmapped and near, or on a course to hit          gone for `calm_s`
+///   calm ------------------------------------------------> retreating -----------------> calm
+class Avoidance {
+ public:
+  /// kMean is the paper's; its mean over 5 deg hides a thin pole. kRobustMinimum takes the least of the medians of
+  /// three neighbouring beams, which one stray return does not move.
+  enum class BinRange { kMean, kRobustMinimum };
+
+  struct Config {
+    int bins = 54;
+    double field_of_view_deg = 270.0;
+    BinRange bin_range = BinRange::kRobustMinimum;
+    int smoothing_window = 5;
+    double max_speed_m_s = 1.5;
+    double deceleration_m_s2 = 1.0;
+    double latency_s = 0.15;
+    double margin_m = 0.05;
+    double retreat_distance_m = 0.45;
+    double contact_time_s = 1.8;
+    double contact_gap_m = 0.20;
+    double retreat_speed_m_s = 0.8;
+    double look_ahead_m = 1.0;
+    double release_factor = 1.3;
+    double calm_s = 0.6;
+    double self_radius_m = 0.10;
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+    /// Problems of these distances with a clearance the planner may use: what would stop the vehicle on a path that the
+    /// planner may take is refused. Empty when they fit.
+    std::vector<std::string> validateAgainst(double clearance_m) const;
+  };
+
+  Avoidance(const Config& config, double hull_radius_m);
+
+  [[nodiscard]] AvoidanceDecision update(const AvoidanceInput& input);
+
+  /// The sectors of a scan; free function of its arguments, for displays and tests.
+  static std::vector<Bin> bins(const Config& config, std::span<const Eigen::Vector2f> points_level_m);
+
+ private:
+  struct Threat;
+  std::optional<Threat> worstThreat(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
+  Eigen::Vector2d retreatFrom(const Threat& threat, const AvoidanceInput& input,
+                              const std::vector<Eigen::Vector2d>& points) const;
+  double speedLimit(const AvoidanceInput& input, const std::vector<Eigen::Vector2d>& points) const;
+
+  Config config_;
+  double hull_radius_m_;
+  bool retreating_ = false;
+  common::Time danger_stamp_;
+  Eigen::Vector2d last_retreat_level_ = Eigen::Vector2d::Zero();
+};
+
+}  // namespace swiftlet::planning
