@@ -15,8 +15,8 @@ perception::ProjectedScan scanAt(const test::PlanarWorld& world, const Pose2& po
   common::RandomStream random(7, "matcher_benchmark", frame);
   const common::LaserConfig laser;
   const auto still = [&](Time) { return common::lifted(pose, 1.0); };
-  return perception::project(test::sweep(world, laser, still, Time::fromSeconds(static_cast<double>(frame)), random), laser, still,
-                             perception::ScanProjectionConfig{});
+  return perception::project(test::sweep(world, laser, still, Time::fromSeconds(static_cast<double>(frame)), random),
+                             laser, still, perception::ScanProjectionConfig{});
 }
 
 test::PlanarWorld corridor() {
@@ -78,7 +78,8 @@ void projectScan(benchmark::State& state) {
   const common::LaserConfig laser;
   const auto still = [&](Time) { return common::lifted(Pose2{0.3, 0.1, 0.4}, 1.0); };
   const auto scan = test::sweep(world, laser, still, Time{}, random);
-  for (auto _ : state) benchmark::DoNotOptimize(perception::project(scan, laser, still, perception::ScanProjectionConfig{}));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(perception::project(scan, laser, still, perception::ScanProjectionConfig{}));
 }
 BENCHMARK(projectScan)->Unit(benchmark::kMicrosecond);
 

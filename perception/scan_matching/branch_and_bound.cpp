@@ -56,7 +56,22 @@ const std::vector<std::int32_t>& BranchAndBound::offsetsAt(const LikelihoodField
 
 BestPose BranchAndBound::search(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m,
                                 const PoseGrid& grid) {
-  BestPose best;
+  excluded_ = nullptr;
+  return searchFrom(field, points_m, grid, BestPose{});
+}
+
+BestPose BranchAndBound::searchElsewhere(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m,
+                                         const PoseGrid& grid, const ExcludedPoses& excluded, int floor) {
+  excluded_ = &excluded;
+  BestPose least;
+  least.score = floor;
+  const BestPose best = searchFrom(field, points_m, grid, least);
+  excluded_ = nullptr;
+  return best;
+}
+
+BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m,
+                                    const PoseGrid& grid, BestPose best) {
   if (points_m.empty() || field.empty() || grid.rotations <= 0 || grid.translations <= 0) return best;
   SWIFTLET_CHECK(grid.rotations < INT16_MAX && grid.translations < INT16_MAX, grid.rotations, grid.translations);
   const int top = topLevelFor(grid.translations);
@@ -107,9 +122,18 @@ BestPose BranchAndBound::search(LikelihoodField& field, const std::vector<Eigen:
   return best;
 }
 
+/// Whether all poses of the block are.
+bool BranchAndBound::isExcluded(const Node& node, int level) const {
+  const int half = excluded_->half_translation, last = (1 << level) - 1;
+  const int x = node.x << level, y = node.y << level;
+  return std::abs(node.rotation - excluded_->center.rotation) <= excluded_->half_rotation &&
+         x >= excluded_->center.x - half && x + last <= excluded_->center.x + half && y >= excluded_->center.y - half &&
+         y + last <= excluded_->center.y + half;
+}
+
 void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int level, int translations,
                              BestPose& best) {
-  if (node.bound <= best.score) return;
+  if (node.bound <= best.score || (excluded_ != nullptr && isExcluded(node, level))) return;
   if (level == 0) {
     best = {node.bound, node.x, node.y, node.rotation};
     return;

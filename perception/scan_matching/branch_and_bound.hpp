@@ -30,6 +30,13 @@ struct BestPose {
   int rotation = 0;
 };
 
+/// Poses within these distances of one pose, in steps of the grid.
+struct ExcludedPoses {
+  BestPose center;
+  int half_translation = 0;
+  int half_rotation = 0;
+};
+
 /// Keeps its buffers between searches. Not thread-safe.
 class BranchAndBound {
  public:
@@ -38,6 +45,9 @@ class BranchAndBound {
   /// The highest score of the grid, exactly; of equal ones any, but always the same. At most kMaxWindowPoints points,
   /// in the level frame of the scan.
   BestPose search(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid);
+  /// The same among the poses that are not excluded, if one scores more than `floor`; else the score is `floor`.
+  BestPose searchElsewhere(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
+                           const ExcludedPoses& excluded, int floor);
 
   /// The cells of the points at one rotation and the first translation, for scoring around the best. Points that can
   /// have no support anywhere in a window of `border` cells are left out.
@@ -61,9 +71,13 @@ class BranchAndBound {
   };
 
   const std::vector<std::int32_t>& offsetsAt(const LikelihoodField& field, int rotation, int level);
+  BestPose searchFrom(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
+                      BestPose best);
+  bool isExcluded(const Node& node, int level) const;
   void descend(const LikelihoodField& field, const Node& node, int level, int translations, BestPose& best);
 
   Instructions instructions_;
+  const ExcludedPoses* excluded_ = nullptr;  // During a search only.
   std::vector<float> x_m_, y_m_;
   std::vector<Rotation> rotations_;
   std::vector<Node> nodes_;

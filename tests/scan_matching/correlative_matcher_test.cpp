@@ -45,7 +45,8 @@ TEST(CorrelativeMatcher, Accuracy) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(5, "accuracy");
   for (const auto estimate : {PoseEstimate::kFinest, PoseEstimate::kWeightedMean, PoseEstimate::kSurface}) {
-    double sum2_t = 0, sum2_r = 0, nees = 0; int n = 0, failed = 0;
+    double sum2_t = 0, sum2_r = 0, nees = 0;
+    int n = 0, failed = 0;
     double quality = 0;
     for (int trial = 0; trial < 300; ++trial) {
       CorrelativeMatcherConfig config;
@@ -56,12 +57,20 @@ TEST(CorrelativeMatcher, Accuracy) {
       const Pose2 step{random.uniform(-0.08, 0.08), random.uniform(-0.08, 0.08), random.uniform(-0.01, 0.01)};
       const Pose2 truth = reference * step;
       const MatchResult m = matcher.match(scanAt(world, truth, 2 * trial + 1), reference, {0.1, 0.02});
-      if (m.failed) { ++failed; continue; }
-      Eigen::Vector3d e(m.T_reference_body.x_m - truth.x_m, m.T_reference_body.y_m - truth.y_m, common::wrapAngle(m.T_reference_body.yaw_rad - truth.yaw_rad));
-      sum2_t += e.head<2>().squaredNorm(); sum2_r += e.z() * e.z(); ++n; quality += m.quality;
+      if (m.failed) {
+        ++failed;
+        continue;
+      }
+      Eigen::Vector3d e(m.T_reference_body.x_m - truth.x_m, m.T_reference_body.y_m - truth.y_m,
+                        common::wrapAngle(m.T_reference_body.yaw_rad - truth.yaw_rad));
+      sum2_t += e.head<2>().squaredNorm();
+      sum2_r += e.z() * e.z();
+      ++n;
+      quality += m.quality;
       nees += e.dot(m.covariance.ldlt().solve(e));
     }
-    printf("estimate %d: n %d failed %d rms %.2f mm %.4f deg nees %.2f quality %.2f\n", int(estimate), n, failed, 1e3 * std::sqrt(sum2_t / n), std::sqrt(sum2_r / n) * 57.3, nees / n, quality / n);
+    printf("estimate %d: n %d failed %d rms %.2f mm %.4f deg nees %.2f quality %.2f\n", int(estimate), n, failed,
+           1e3 * std::sqrt(sum2_t / n), std::sqrt(sum2_r / n) * 57.3, nees / n, quality / n);
   }
 }
 
