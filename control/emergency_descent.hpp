@@ -44,15 +44,16 @@ class EmergencyDescent {
  public:
   struct Config {
     double descent_m_s = 0.4;
-    double touchdown_descent_m_s = 0.2;  ///< Below `touchdown_height_m`.
+    double touchdown_descent_m_s = 0.2;  ///< Less than `touchdown_height_m` above standing.
     double touchdown_height_m = 0.4;
-    double gain_1_s = 2.5;  ///< Vertical speed error to acceleration.
+    double gain_1_s = 2.5;       ///< Vertical speed error to acceleration.
+    double integral_1_s2 = 0.8;  ///< Integral of the vertical speed error to acceleration.
     double alpha = 0.4;
     double beta = 0.08;
     double jump_m = 0.15;
     double blind_after_s = 0.5;   ///< Without a raw height for this long: sink by thrust alone.
     double blind_thrust = 0.95;   ///< Of the hover command.
-    double rest_height_m = 0.25;  ///< Lower than this over the ground it may be standing.
+    double rest_margin_m = 0.08;  ///< Less than this above where it stood it may be standing.
     double rest_s = 0.5;          ///< So long low and still: on the ground.
     double blind_rest_s = 12.0;   ///< Blind for this long: the motors stop.
 
@@ -64,7 +65,8 @@ class EmergencyDescent {
 
   /// In every state, so that the filter is ready when it is needed.
   void observe(const RawHeight& raw) { filter_.update(raw); }
-  void start(common::Time now);
+  /// `standing_height_m` is what the mirror showed on the ground.
+  void start(common::Time now, double standing_height_m);
   /// Level, yaw rate zero.
   common::Setpoint tick(common::Time now, double dt_s, const ThrustModel& thrust);
   bool touchedDown() const { return touched_down_; }
@@ -75,7 +77,8 @@ class EmergencyDescent {
   AlphaBetaFilter filter_;
   common::Time started_;
   common::Time last_moving_;
-  double reference_thrust_ = 0.0;
+  double standing_height_m_ = 0.0;
+  double integral_m_s2_ = 0.0;
   bool touched_down_ = false;
 };
 

@@ -61,7 +61,9 @@ class FlightController {
     double climb_m_s = 0.5;
     double descent_m_s = 0.4;
     double touchdown_descent_m_s = 0.2;
-    double touchdown_height_m = 0.4;  ///< Over what is below: slower from here on.
+    double touchdown_height_m = 0.4;   ///< Over what is below: slower from here on.
+    double take_off_timeout_s = 15.0;  ///< Not hovering after this long: land again.
+    double climb_acceleration_m_s2 = 0.8;
     double hover_tolerance_m = 0.10;  ///< Taking off ends this close to the height ...
     double hover_speed_m_s = 0.15;    ///< ... and this slow ...
     double hover_s = 0.4;             ///< ... for so long.
@@ -102,19 +104,22 @@ class FlightController {
   const PositionController& positionController() const { return position_; }
 
  private:
+  /// An input the state does not take changes nothing.
   void transition(FlightInput input, const std::string& reason);
-  void enter(common::FlightState state);
+  void enter(common::FlightState from, common::FlightState entered);
   void say(common::Severity severity, std::string text, std::string reason = {});
   void watch(const FlightTick& tick);
+  void watchHorizontal(const FlightTick& tick);
   void keepPathInMap(const common::VehicleState& state);
-  common::Setpoint tickLanded(const FlightTick& tick);
-  common::Setpoint tickTakingOff(const FlightTick& tick);
-  common::Setpoint tickFlying(const FlightTick& tick);
-  common::Setpoint tickLanding(const FlightTick& tick);
-  common::Setpoint track(const FlightTick& tick, const Reference& reference, bool on_ground);
+  common::Setpoint setpointFor(const FlightTick& tick);
+  common::Setpoint takeOff(const FlightTick& tick);
+  common::Setpoint fly(const FlightTick& tick);
+  common::Setpoint descend(const FlightTick& tick);
+  common::Setpoint track(const FlightTick& tick, const Reference& reference, bool on_ground = false);
+  void moveVertically(double goal_m, double speed_m_s, double height_m);
+  bool heldFor(bool condition, double seconds);
 
   Config config_;
-  common::VehicleConfig vehicle_;
   FlightStateMachine machine_;
   PathFollower follower_;
   PositionController position_;
@@ -122,18 +127,21 @@ class FlightController {
   std::vector<common::Event> events_;
 
   common::Time now_;
+  bool ticked_ = false;
+  double dt_s_;
   common::VehicleState last_state_;
   common::Pose2 T_map_odom_;
-  double dt_s_;
-  double rest_height_m_ = 0.0;  ///< Of the body origin while standing.
+  double standing_height_m_ = 0.0;  ///< Of the body origin over the take-off floor.
+  double standing_raw_m_ = 0.0;     ///< The same as the mirror sees it.
   double take_off_height_m_ = 1.0;
-  Reference vertical_;  ///< Taking off and landing: the reference they move themselves.
+  double height_reference_m_ = 0.0;  ///< Taking off and landing move it themselves.
+  double climb_reference_m_s_ = 0.0;
+  bool lifted_ = false;
   common::Time state_since_;
   std::optional<common::Time> condition_since_;  ///< Hover reached, or touched down.
   std::optional<common::Time> horizontal_lost_;
   std::optional<common::Time> vertical_lost_;
   double last_thrust_ = 0.0;
-  bool lands_level_ = false;
 };
 
 }  // namespace swiftlet::control

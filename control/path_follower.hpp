@@ -77,11 +77,13 @@ class PathFollower {
   const std::vector<Eigen::Vector3d>& points_odom_m() const { return points_; }
 
  private:
+  void lay(std::vector<Eigen::Vector3d> points);
+  /// The path from where the reference is and as it moves; `turns`: its first corner is a turn at speed.
+  std::vector<Eigen::Vector3d> joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const;
   void advanceCarrot(double dt_s);
+  void pullReference(double dt_s);
   void advanceYaw(double dt_s);
   double allowedSpeed() const;
-  void planSpeeds();
-  Eigen::Vector3d pointAt(double distance_m) const;
   std::size_t segmentAt(double distance_m) const;
 
   Config config_;

@@ -33,7 +33,8 @@ class PositionController {
     double max_acceleration_up_m_s2 = 4.0;
     double max_integral_m_s2 = 2.0;
     double max_yaw_rate_deg_s = 90.0;
-    double latency_s = 0.03;  ///< From measurement to thrust; the state is carried forward by it.
+    double latency_s = 0.03;       ///< From measurement to command; the state is carried forward by it ...
+    double attitude_lag_s = 0.08;  ///< ... and, horizontally, by what the attitude takes to follow.
     ThrustModel::Config thrust;
 
     void describe(common::config::Fields& fields);
@@ -61,14 +62,16 @@ class PositionController {
   const Eigen::Vector3d& integral_m_s2() const { return integral_m_s2_; }
 
  private:
-  Eigen::Vector3d wantedAcceleration(const common::VehicleState& state, const Reference& reference,
-                                     Horizontal horizontal) const;
+  /// Velocity still missing, horizontally and vertically: what P, I and the lead act on.
+  Eigen::Vector3d missingVelocity(const common::VehicleState& state, const Reference& reference,
+                                  Horizontal horizontal) const;
+  void integrate(const Eigen::Vector3d& missing_m_s, const Eigen::Vector3d& wanted_m_s2,
+                 const Eigen::Vector3d& given_m_s2, double dt_s);
 
   Config config_;
   common::VehicleConfig vehicle_;
   ThrustModel thrust_;
   Eigen::Vector3d integral_m_s2_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d last_acceleration_m_s2_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace swiftlet::control
