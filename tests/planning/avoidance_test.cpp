@@ -83,8 +83,8 @@ class Story {
 
   std::vector<Eigen::Vector2f> scan() const {
     std::vector<Eigen::Vector2f> points;
-    for (int i = 0; i < 1081; ++i) {
-      const double bearing_rad = (i * 0.25 - 135.0) * std::numbers::pi / 180.0;
+    for (int i = 0; i < beams; ++i) {
+      const double bearing_rad = (i * 270.0 / (beams - 1) - 135.0) * std::numbers::pi / 180.0;
       const double r = range(pose.yaw_rad + bearing_rad);
       if (r < 30.0) points.push_back((r * Point(std::cos(bearing_rad), std::sin(bearing_rad))).cast<float>());
     }
@@ -136,6 +136,7 @@ class Story {
   double least_wall_m = 1e9;
   int retreats = 0;
   bool live_map = false;
+  int beams = 1081;
   const CostMap& map() const { return map_; }
 
  private:
@@ -257,6 +258,7 @@ TEST(Avoidance, APersonCrossingIsYieldedTo) {
   for (const double side : {-1.0, 1.0}) {
     for (double phase_m = 0.5; phase_m <= 3.0; phase_m += 0.25) {
       Story story;
+      story.beams = 361;
       story.live_map = side > 0.0;
       story.pose = {2.0, 4.0, 0.0};
       story.velocity_map_m_s = {0.8, 0};
@@ -271,6 +273,7 @@ TEST(Avoidance, APersonCrossingIsYieldedTo) {
 TEST(Avoidance, APersonWalkingAtItIsAvoided) {
   for (const double aside_m : {-0.3, -0.1, 0.0, 0.1, 0.3}) {
     Story story;
+    story.beams = 361;
     story.live_map = aside_m >= 0.0;
     story.pose = {3.0, 4.0, 0.0};
     story.people.push_back({{6.5, 4.0 + aside_m}, {-1.0, 0}});
