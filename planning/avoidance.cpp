@@ -14,6 +14,8 @@ using Point = Eigen::Vector2d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTimeStep_s = 0.1;
+constexpr double kStill_m_s = 1e-3;
+constexpr double kSameBody_m = 0.3;
 constexpr int kDirections = 36;
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -67,9 +69,15 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
 
   AvoidanceDecision decision;
   const double speed_m_s = input.velocity_level_m_s.norm();
-  const Point& course = input.travel_level.norm() > 1e-3 ? input.travel_level : input.velocity_level_m_s;
-  decision.speed_limit_m_s =
-      course.norm() > 1e-3 ? speedLimit(course.normalized(), speed_m_s, points, around) : config_.max_speed_m_s;
+  const bool wishes = input.wish_level_m_s.norm() > kStill_m_s;
+  const Point& course = wishes ? input.wish_level_m_s : input.velocity_level_m_s;
+  decision.speed_limit_m_s = config_.max_speed_m_s;
+  if (course.norm() > kStill_m_s) {
+    decision.speed_limit_m_s = speedLimit(course.normalized(), points);
+    const double intended_m_s = std::min(course.norm(), decision.speed_limit_m_s);
+    const double yielding_m_s = yieldingSpeed(course.normalized(), speed_m_s, intended_m_s, around);
+    if (yielding_m_s < intended_m_s) decision.speed_limit_m_s = yielding_m_s;
+  }
   if (retreating_) {
     last_retreat_level_ = retreat(input, points, around);
     decision.retreat_velocity_level_m_s = last_retreat_level_;
@@ -123,9 +131,14 @@ std::vector<Avoidance::Threat> Avoidance::threats(const AvoidanceInput& input, c
     result.push_back(threat);
   }
   if (input.cost_map == nullptr) return result;
+  const auto followed_count = static_cast<std::ptrdiff_t>(result.size());
   for (const Bin& bin : bins) {
     const double gap_m = bin.range_m - hull_radius_m_;
     if (gap_m >= config_.retreat_distance_m * slack || isMapped(input, bin.nearest_level_m)) continue;
+    const bool followed = std::any_of(result.begin(), result.begin() + followed_count, [&](const Threat& t) {
+      return (t.center_m - bin.nearest_level_m).norm() <= t.radius_m + kSameBody_m;
+    });
+    if (followed) continue;
     result.push_back(
         {bin.nearest_level_m, 0.0, Point::Zero(), true,
          fmt::format("something unmapped {:.2f} m off the hull at {}", gap_m, bearingInWords(bin.nearest_level_m))});
@@ -137,32 +150,39 @@ double Avoidance::gapAfter(const Threat& threat, const Point& moved_m, double ti
   return (threat.center_m + threat.velocity_m_s * time_s - moved_m).norm() - threat.radius_m - hull_radius_m_;
 }
 
-double Avoidance::speedLimit(const Point& direction, double speed_m_s, const Points& points,
-                             const std::vector<Threat>& threats) const {
+double Avoidance::speedLimit(const Point& direction, const Points& points) const {
   double gap_m = kInfinity;
   for (const Point& p : points) gap_m = std::min(gap_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
+  return gap_m < kInfinity ? std::min(config_.max_speed_m_s, stoppingSpeed(gap_m)) : config_.max_speed_m_s;
+}
+
+double Avoidance::stoppingSpeed(double gap_m) const {
   // v t + v^2 / (2 a) = gap
   const double a = config_.deceleration_m_s2, t = config_.latency_s;
-  double limit_m_s = config_.max_speed_m_s;
-  if (gap_m < kInfinity) limit_m_s = std::min(limit_m_s, std::sqrt(a * a * t * t + 2.0 * a * gap_m) - a * t);
+  return std::sqrt(a * a * t * t + 2.0 * a * gap_m) - a * t;
+}
 
-  // The fastest at which nothing that moves comes nearer than it does to a vehicle that stops at once.
-  constexpr double kStep_m_s = 0.1;
-  const auto least = [&](const Threat& threat, double v) {
+double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double intended_m_s,
+                                const std::vector<Threat>& threats) const {
+  constexpr double kStep_m_s = 0.1, kHorizon_s = 2.5;
+  const double a = config_.deceleration_m_s2;
+  const auto leastGap = [&](const Threat& threat, double v) {
     double moved_m = 0.0, now_m_s = speed_m_s, least_m = kInfinity;
-    for (double time_s = 0.0; time_s <= 2.0; time_s += kTimeStep_s) {
+    for (double time_s = 0.0; time_s <= kHorizon_s; time_s += kTimeStep_s) {
       least_m = std::min(least_m, gapAfter(threat, moved_m * direction, time_s));
-      if (time_s >= t) now_m_s = now_m_s > v ? std::max(v, now_m_s - a * kTimeStep_s) : v;
+      if (time_s >= config_.latency_s) now_m_s += std::clamp(v - now_m_s, -a * kTimeStep_s, a * kTimeStep_s);
       moved_m += now_m_s * kTimeStep_s;
     }
     return least_m;
   };
+  double result_m_s = intended_m_s;
   for (const Threat& threat : threats) {
     if (threat.velocity_m_s.isZero()) continue;
-    const double enough_m = std::min(config_.contact_gap_m, least(threat, 0.0) - 1e-6);
-    while (limit_m_s > 0.0 && least(threat, limit_m_s) < enough_m) limit_m_s -= kStep_m_s;
+    // Nearer than the gap it may come only as far as it would to a vehicle that stops at once.
+    const double enough_m = std::min(config_.release_factor * config_.contact_gap_m, leastGap(threat, 0.0) - 1e-6);
+    while (result_m_s > 0.0 && leastGap(threat, result_m_s) < enough_m) result_m_s -= kStep_m_s;
   }
-  return std::max(0.0, limit_m_s);
+  return std::max(0.0, result_m_s);
 }
 
 double Avoidance::freeLength(const Point& direction, const AvoidanceInput& input, const Points& points) const {
@@ -186,7 +206,8 @@ double Avoidance::freeLength(const Point& direction, const AvoidanceInput& input
 }
 
 Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const {
-  if (threats.empty()) return Point::Zero();
+  // The danger may just have passed: then it stands until it is over for good.
+  if (std::none_of(threats.begin(), threats.end(), [](const Threat& t) { return t.dangerous; })) return Point::Zero();
   constexpr double kHorizon_s = 1.5, kLeastFree_m = 0.10;
   constexpr double kAway = 0.06, kSame = 0.05, kFreest = 0.03;
   const double a = config_.deceleration_m_s2;
@@ -221,8 +242,7 @@ Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, cons
     best_free_m = free_m;
     best = direction;
   }
-  const double t = config_.latency_s;
-  return best * std::min(config_.retreat_speed_m_s, std::sqrt(a * a * t * t + 2.0 * a * best_free_m) - a * t);
+  return best * std::min(config_.retreat_speed_m_s, stoppingSpeed(best_free_m));
 }
 
 }  // namespace swiftlet::planning

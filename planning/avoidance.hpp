@@ -23,14 +23,14 @@ struct AvoidanceInput {
   common::Time stamp;
   std::span<const Eigen::Vector2f> points_level_m;  ///< In order of bearing; points that are not finite are left out.
   Eigen::Vector2d velocity_level_m_s = Eigen::Vector2d::Zero();
-  Eigen::Vector2d travel_level = Eigen::Vector2d::Zero();  ///< Where the intent wants to go; zero: along the velocity.
+  Eigen::Vector2d wish_level_m_s = Eigen::Vector2d::Zero();  ///< What the intent wants; zero: to stop.
   common::Pose2 T_map_level;
   const CostMap* cost_map = nullptr;           ///< May be null: then nothing is known to be mapped.
   std::span<const DynamicObstacle> obstacles;  ///< From DynamicObstacles, in the `map` frame.
 };
 
 struct AvoidanceDecision {
-  double speed_limit_m_s = 0.0;                               ///< Along the direction of travel.
+  double speed_limit_m_s = 0.0;                               ///< Along the wish, or the velocity when that is zero.
   std::optional<Eigen::Vector2d> retreat_velocity_level_m_s;  ///< When set it replaces what the intent wants.
   common::AvoidanceStatus status;
 };
@@ -104,8 +104,10 @@ class Avoidance {
 
   std::vector<Threat> threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
   double gapAfter(const Threat& threat, const Eigen::Vector2d& moved_m, double time_s) const;
-  double speedLimit(const Eigen::Vector2d& direction, double speed_m_s, const Points& points,
-                    const std::vector<Threat>& threats) const;
+  double speedLimit(const Eigen::Vector2d& direction, const Points& points) const;
+  double stoppingSpeed(double gap_m) const;
+  double yieldingSpeed(const Eigen::Vector2d& direction, double speed_m_s, double intended_m_s,
+                       const std::vector<Threat>& threats) const;
   double freeLength(const Eigen::Vector2d& direction, const AvoidanceInput& input, const Points& points) const;
   Eigen::Vector2d retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const;
   bool isMapped(const AvoidanceInput& input, const Eigen::Vector2d& point_level_m) const;

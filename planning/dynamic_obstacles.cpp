@@ -23,6 +23,23 @@ bool unexplained(const common::OccupancyGrid& background, const Point& point_m, 
   return true;
 }
 
+/// Beams pass the middle of where it should be and end well behind it.
+bool seenThrough(const DynamicObstacle& obstacle, double age_s, std::span<const Eigen::Vector2f> points_map_m,
+                 const Point& sensor_map_m) {
+  constexpr int kBeams = 2;
+  constexpr double kBehind_m = 0.2;
+  const Point to = obstacle.center_map_m + obstacle.velocity_map_m_s * age_s - sensor_map_m;
+  int through = 0;
+  for (const Eigen::Vector2f& point : points_map_m) {
+    const Point beam = point.cast<double>() - sensor_map_m;
+    const double length_m = beam.norm();
+    if (!(length_m > to.norm() + obstacle.radius_m + kBehind_m) || beam.dot(to) <= 0.0) continue;
+    const double aside_m = std::abs(beam.x() * to.y() - beam.y() * to.x()) / length_m;
+    if (aside_m < 0.5 * obstacle.radius_m && ++through >= kBeams) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void BackgroundMap::add(common::Time stamp, std::shared_ptr<const common::OccupancyGrid> grid) {
@@ -42,6 +59,7 @@ void DynamicObstacles::Config::describe(common::config::Fields& fields) {
   fields("max_radius_m", max_radius_m, "A larger cluster is cut.");
   fields("assumed_depth_m", assumed_depth_m, "The laser sees the near side; the body is this much behind it.");
   fields("time_to_live_s", time_to_live_s, "How long it is believed in after it was last seen.");
+  fields("refuted_after_s", refuted_after_s, "Not seen for this long where beams pass through, it is gone.");
   fields("max_speed_m_s", max_speed_m_s, "Nothing is thought to move faster.");
   fields("smoothing_s", smoothing_s, "Time constant of the filter on place and velocity.");
   fields("keep_out_m", keep_out_m,
@@ -58,6 +76,7 @@ std::vector<std::string> DynamicObstacles::Config::validate() const {
       .within("max_radius_m", max_radius_m, 0.05, 5)
       .within("assumed_depth_m", assumed_depth_m, 0, 2)
       .within("time_to_live_s", time_to_live_s, 0, 60)
+      .within("refuted_after_s", refuted_after_s, 0, 60)
       .within("max_speed_m_s", max_speed_m_s, 0.1, 20)
       .within("smoothing_s", smoothing_s, 0.01, 5)
       .within("keep_out_m", keep_out_m, 0, 2)
@@ -133,8 +152,11 @@ void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2
     o.radius_m = std::max(seen.radius_m, 0.9 * o.radius_m);
     o.last_seen = stamp;
   }
-  std::erase_if(obstacles_,
-                [&](const DynamicObstacle& o) { return (stamp - o.last_seen).seconds() > config_.time_to_live_s; });
+  std::erase_if(obstacles_, [&](const DynamicObstacle& o) {
+    const double age_s = (stamp - o.last_seen).seconds();
+    return age_s > config_.time_to_live_s ||
+           (age_s > config_.refuted_after_s && seenThrough(o, age_s, points_map_m, sensor_map_m));
+  });
 }
 
 std::vector<Disc> DynamicObstacles::discs(common::Time now, double horizon_s) const {

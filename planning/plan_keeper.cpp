@@ -103,6 +103,7 @@ bool PlanKeeper::offer(const Path& path, common::Time now, const CostMap& map, c
 
 void PlanKeeper::advanceTo(const Point& position_map_m) {
   const std::vector<Point>& points = path_->points_map_m;
+  constexpr double kSame_m = 1e-9;  // At a corner the segment after it counts.
   // Only forwards, and not past a place that is farther off than where it stands: a path may pass itself.
   double best_m = std::numeric_limits<double>::infinity();
   std::size_t best_segment = segment_;
@@ -111,8 +112,8 @@ void PlanKeeper::advanceTo(const Point& position_map_m) {
     double share = shareNearest(points[i], points[i + 1], position_map_m);
     if (i == segment_) share = std::max(share, along_);
     const double off_m = (points[i] + share * (points[i + 1] - points[i]) - position_map_m).norm();
-    if (off_m < best_m) {
-      best_m = off_m;
+    if (off_m <= best_m + kSame_m) {
+      best_m = std::min(best_m, off_m);
       best_segment = i;
       best_along = share;
     } else if (off_m > best_m + config_.max_deviation_m) {
