@@ -28,22 +28,22 @@ void FilterState::clonePose() {
   }
   const int n = dimension();
   clones[static_cast<std::size_t>(clone_count++)] = {stamp, stamp, {rotation_odom_body, position_odom_m}};
-  covariance.conservativeResize(n + kClone, n + kClone);
+  covariance.conservativeResize(n + kCloneSize, n + kCloneSize);
   covariance.block(n, 0, 3, n) = covariance.block(kPosition, 0, 3, n);
   covariance.block(n + 3, 0, 3, n) = covariance.block(kAttitude, 0, 3, n);
-  covariance.block(0, n, n + kClone, 3) = covariance.block(0, kPosition, n + kClone, 3);
-  covariance.block(0, n + 3, n + kClone, 3) = covariance.block(0, kAttitude, n + kClone, 3);
+  covariance.block(0, n, n + kCloneSize, 3) = covariance.block(0, kPosition, n + kCloneSize, 3);
+  covariance.block(0, n + 3, n + kCloneSize, 3) = covariance.block(0, kAttitude, n + kCloneSize, 3);
 }
 
 void FilterState::dropClone(int index) {
   SWIFTLET_CHECK(index >= 0 && index < clone_count, index, clone_count);
-  const int n = dimension(), at = kCore + kClone * index, after = n - at - kClone;
+  const int n = dimension(), at = kCore + kCloneSize * index, after = n - at - kCloneSize;
   const ErrorCovariance old = covariance;
-  covariance.resize(n - kClone, n - kClone);
+  covariance.resize(n - kCloneSize, n - kCloneSize);
   covariance.topLeftCorner(at, at) = old.topLeftCorner(at, at);
-  covariance.block(at, 0, after, at) = old.block(at + kClone, 0, after, at);
-  covariance.block(0, at, at, after) = old.block(0, at + kClone, at, after);
-  covariance.block(at, at, after, after) = old.block(at + kClone, at + kClone, after, after);
+  covariance.block(at, 0, after, at) = old.block(at + kCloneSize, 0, after, at);
+  covariance.block(0, at, at, after) = old.block(0, at + kCloneSize, at, after);
+  covariance.block(at, at, after, after) = old.block(at + kCloneSize, at + kCloneSize, after, after);
   for (int i = index; i + 1 < clone_count; ++i)
     clones[static_cast<std::size_t>(i)] = clones[static_cast<std::size_t>(i + 1)];
   --clone_count;
@@ -58,8 +58,8 @@ void FilterState::inject(const ErrorVector& error) {
   gyroscope_bias_rad_s += error.segment<3>(kGyroscopeBias);
   for (int i = 0; i < clone_count; ++i) {
     common::Pose3& pose = clones[static_cast<std::size_t>(i)].T_odom_body;
-    pose.position_m += error.segment<3>(kCore + kClone * i);
-    rotateBy(pose.rotation, error.segment<3>(kCore + kClone * i + 3));
+    pose.position_m += error.segment<3>(kCore + kCloneSize * i);
+    rotateBy(pose.rotation, error.segment<3>(kCore + kCloneSize * i + 3));
   }
 }
 

@@ -19,9 +19,9 @@ inline constexpr int kAttitude = 6;
 inline constexpr int kAccelerometerBias = 9;
 inline constexpr int kGyroscopeBias = 12;
 inline constexpr int kCore = 15;
-inline constexpr int kClone = 6;
+inline constexpr int kCloneSize = 6;
 inline constexpr int kMaxClones = 4;
-inline constexpr int kMaxDimension = kCore + kClone * kMaxClones;
+inline constexpr int kMaxDimension = kCore + kCloneSize * kMaxClones;
 
 /// As large as the clones present ask, without heap use.
 using ErrorCovariance =
@@ -62,7 +62,7 @@ struct FilterState {
   common::Time last_recovery;
   bool diverged = false;
 
-  int dimension() const { return kCore + kClone * clone_count; }
+  int dimension() const { return kCore + kCloneSize * clone_count; }
   /// Index of the clone taken at `time`, or -1.
   int cloneAt(common::Time time) const;
   /// Appends a clone of the present pose; the one used longest ago makes room.

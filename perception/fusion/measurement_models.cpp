@@ -41,7 +41,7 @@ Linearized<3> relativePose(const FilterState& state, int clone, const common::Po
   Eigen::Matrix2d to_level;
   to_level << c, s, -s, c;
   const Eigen::Vector2d moved = to_level * (state.position_odom_m - from.position_m).head<2>();
-  const int at = kCore + kClone * clone;
+  const int at = kCore + kCloneSize * clone;
 
   Linearized<3> m;
   m.residual.head<2>() = T_clone_body.position_m() - moved;
