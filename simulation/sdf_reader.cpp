@@ -188,6 +188,15 @@ Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& con
   return sorted;
 }
 
+/// libsdformat also throws, of several kinds.
+sdf::Errors loadOrExplain(sdf::Root& root, const std::string& file, const sdf::ParserConfig& config) {
+  try {
+    return root.Load(file, config);
+  } catch (const std::exception& exception) {
+    throw InputError(Problem{{file}, "", fmt::format("libsdformat gave up: {}", exception.what()), ""});
+  }
+}
+
 }  // namespace
 
 SdfFile readSdf(const std::string& file, const UriResolver& resolver) {
@@ -202,7 +211,7 @@ SdfFile readSdf(const std::string& file, const UriResolver& resolver) {
 
   SdfFile result;
   const ConsoleCapture console;
-  const sdf::Errors errors = result.root.Load(file, config);
+  const sdf::Errors errors = loadOrExplain(result.root, file, config);
   Sorted sorted = sortErrors(errors, console.lines(), file, text);
   if (sorted.problems.empty() && result.root.WorldCount() == 0 && result.root.Model() == nullptr)
     sorted.problems.push_back({{file}, "sdf", "it has neither a <world> nor a <model>", ""});

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "common/error.hpp"
+#include "common/random.hpp"
 #include "fixtures.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/truth_map.hpp"
@@ -177,6 +178,37 @@ TEST_F(WorldFile, SaysWhereABadWorldIsBad) {
   EXPECT_THAT(problemOf(model("a", "<mesh><uri>bad.dae</uri></mesh>")),
               AllOf(HasSubstr("w.sdf:4: mesh"), HasSubstr("bad.dae")));
   EXPECT_THAT(problemOf(""), HasSubstr("no geometry"));
+}
+
+TEST_F(WorldFile, IsLoadedOrRefusedWhateverIsInIt) {
+  const std::string sound = world("<frame name=\"start\"><pose>1 2 0 0 0 0</pose></frame>\n" + model("box", kBox) +
+                                  model("ball", "<sphere><radius>1</radius></sphere>"));
+  int loaded = 0, refused = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    common::RandomStream random(1, "mutation", i);
+    std::string text = sound;
+    for (int change = 0; change < 3; ++change) {
+      const auto at = static_cast<std::size_t>(random.uniform(0, static_cast<double>(text.size())));
+      switch (random.bits() % 3) {
+        case 0:
+          text[at] = "0-<>/e\"9n "[random.bits() % 10];
+          break;
+        case 1:
+          text.erase(at, 1 + random.bits() % 8);
+          break;
+        default:
+          text.insert(at, text.substr(random.bits() % text.size(), random.bits() % 30));
+          break;
+      }
+    }
+    const std::string said = problem([&] { loadWorld(folder_.write("w.sdf", text)); });
+    (said == "no error" ? loaded : refused) += 1;
+    if (said != "no error") {
+      EXPECT_THAT(said, HasSubstr("w.sdf")) << text;
+    }
+  }
+  EXPECT_GT(loaded, 10);
+  EXPECT_GT(refused, 10);
 }
 
 TEST_F(WorldFile, SaysWhereAStartIsBad) {
