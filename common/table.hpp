@@ -1,0 +1,26 @@
+// A table of figures for people: one value that prints as text in a terminal and as rows in a report.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace swiftlet::common {
+
+enum class Mark { kNone, kGood, kBad };
+
+struct TableCell {
+  std::string text;
+  Mark mark = Mark::kNone;
+  std::string link = {};  ///< Relative to the report that shows it; may be empty.
+};
+
+struct Table {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<TableCell>> rows;  ///< Each as long as `columns`.
+};
+
+/// Columns aligned by spaces, the first one to the left and the others to the right; marks and links are left out.
+std::string toText(const Table& table);
+
+}  // namespace swiftlet::common
