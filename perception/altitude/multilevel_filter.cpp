@@ -67,7 +67,9 @@ struct MultilevelFilter::Impl {
   void extendLevels();
   void searchForLoopClosures(AltitudeUpdate& outcome);
 
-  double beamVariance(int beams) const { return square(config.beam_noise_m) / beams + square(config.surface_noise_m); }
+  double beamVariance(int averaged) const {
+    return square(config.beam_noise_m) / averaged + square(config.surface_noise_m);
+  }
   void enter(const Group& group);
   void learn(LevelEstimate& level, double height_m, double variance_m2);
   std::optional<double> heightAboveGround();
