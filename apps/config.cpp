@@ -1,8 +1,8 @@
 // swiftlet config
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "apps/command.hpp"
 #include "apps/system.hpp"

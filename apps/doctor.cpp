@@ -6,8 +6,8 @@
 #include <memory>
 #include <thread>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
@@ -48,7 +48,8 @@ Finding profilesFinding() {
 
 Finding coresFinding() {
   const unsigned cores = std::thread::hardware_concurrency();
-  return {"processor cores", cores >= 2, fmt::format("{}", cores), "two or more are needed to fly faster than real time"};
+  return {"processor cores", cores >= 2, fmt::format("{}", cores),
+          "two or more are needed to fly faster than real time"};
 }
 
 Finding writableFinding() {
@@ -73,9 +74,10 @@ Finding dataSetsFinding() {
 }
 
 int doctor(bool json) {
-  const std::vector<Finding> findings{coresFinding(),           folderFinding("missions"), folderFinding("worlds"),
-                                      folderFinding("config"),  folderFinding("trials"),   profilesFinding(),
-                                      writableFinding(),        diskFinding(),             dataSetsFinding()};
+  const std::vector<Finding> findings{
+      coresFinding(),          folderFinding("missions"), folderFinding("worlds"), folderFinding("config"),
+      folderFinding("trials"), profilesFinding(),         writableFinding(),       diskFinding(),
+      dataSetsFinding()};
   bool well = true;
   auto report = nlohmann::json::array();
   for (const Finding& finding : findings) {

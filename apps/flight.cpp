@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <mutex>
 #include <thread>
 
 #include <fmt/chrono.h>
@@ -27,7 +28,10 @@ double secondsSince(Clock::time_point begin) { return std::chrono::duration<doub
 class Flight {
  public:
   Flight(const FlightSetup& setup, const FlightHooks& hooks)
-      : setup_(setup), hooks_(hooks), vehicle_(makeVehicle(setup)), recorder_(vehicle_->T_world_map()),
+      : setup_(setup),
+        hooks_(hooks),
+        vehicle_(makeVehicle(setup)),
+        recorder_(vehicle_->T_world_map()),
         autonomy_(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser,
                   behaviors::Mission::fromFile(setup.mission_file), common::makeLockstepJobs(1)),
         folder_({}, setup.out, runInfo(setup), setup.system.toYaml(true)) {}
@@ -46,6 +50,8 @@ class Flight {
     simulation::Scenario scenario = setup.scenario;
     scenario.vehicle = setup.system.vehicle;
     scenario.laser = setup.system.laser;
+    static std::mutex sdformat_is_not_thread_safe;
+    const std::scoped_lock lock(sdformat_is_not_thread_safe);
     return std::make_unique<simulation::SimulatedVehicle>(simulation::loadWorld(scenario.world, scenario.model_paths),
                                                           scenario);
   }
@@ -70,7 +76,9 @@ class Flight {
     if (autonomy_.finished()) {
       const common::MissionStatus& mission = autonomy_.world()->mission;
       const bool done = mission.state == common::MissionState::kDone;
-      return end(done ? Outcome::kDone : autonomy_.landedByOperator() ? Outcome::kStopped : Outcome::kFailed,
+      return end(done                           ? Outcome::kDone
+                 : autonomy_.landedByOperator() ? Outcome::kStopped
+                                                : Outcome::kFailed,
                  mission.reason);
     }
     return false;

@@ -1,5 +1,5 @@
-// One simulated flight from the first tick to the last: the loop that lets time pass, feeds the autonomy, writes the run
-// folder and takes down the truth for the scorer. Used by `fly` and by `trial`.
+// One simulated flight from the first tick to the last: the loop that lets time pass, feeds the autonomy, writes the
+// run folder and takes down the truth for the scorer. Used by `fly` and by `trial`.
 #pragma once
 
 #include <atomic>
@@ -24,10 +24,10 @@ struct FlightSetup {
   std::string mission_file;
   simulation::Scenario scenario;  ///< World, start, weather, seed; vehicle and laser are taken from the system.
   std::filesystem::path out;
-  std::string started;          ///< For the run's records.
-  double speed = 0.0;           ///< Times real time; 0: as fast as the machine can.
-  double time_limit_s = 1800.0; ///< Of simulated time.
-  double linger_s = 0.0;        ///< Simulated time to go on after the end, so that a page sees it.
+  std::string started;           ///< For the run's records.
+  double speed = 0.0;            ///< Times real time; 0: as fast as the machine can.
+  double time_limit_s = 1800.0;  ///< Of simulated time.
+  double linger_s = 0.0;         ///< Simulated time to go on after the end, so that a page sees it.
 };
 
 struct FlightProgress {

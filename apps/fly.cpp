@@ -5,9 +5,9 @@
 #include <csignal>
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/color.h>
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
@@ -47,8 +47,8 @@ FlightSetup setupOf(const FlyOptions& options) {
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
   setup.linger_s = options.headless ? 0.0 : 2.0;
-  setup.out = options.out.empty() ? interfaces::freshRunFolder(
-                                        "runs", setup.started, std::filesystem::path(options.mission).stem().string())
+  setup.out = options.out.empty() ? interfaces::freshRunFolder("runs", setup.started,
+                                                               std::filesystem::path(options.mission).stem().string())
                                   : std::filesystem::path(options.out);
   return setup;
 }
@@ -56,7 +56,8 @@ FlightSetup setupOf(const FlyOptions& options) {
 std::string progressLine(const FlightProgress& progress) {
   const common::World& world = *progress.world;
   return fmt::format("{:6.1f} s  {:<24.24} {:6.1f} m2  {:6.1f} m  battery {:3.0f} %  {:5.1f} x real time",
-                     progress.simulated_s, world.mission.phase.empty() ? toString(world.status.flight_state) : world.mission.phase,
+                     progress.simulated_s,
+                     world.mission.phase.empty() ? toString(world.status.flight_state) : world.mission.phase,
                      world.explored_area_m2, world.status.distance_flown_m, 100.0 * world.status.battery_remaining,
                      progress.wall_s > 0 ? progress.simulated_s / progress.wall_s : 0.0);
 }

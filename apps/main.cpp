@@ -1,8 +1,8 @@
 // swiftlet: the only main(). Each subcommand is one file beside this one.
 #include <exception>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "apps/command.hpp"
 #include "common/error.hpp"

@@ -44,11 +44,12 @@ std::vector<interfaces::ReportPlot> plotsOf(const interfaces::FlightSummary& sum
              {seriesOf("over the take-off floor", samples, [](const FlightSample& s) { return s.position_map_m.z(); }),
               seriesOf("over what is below", samples, [](const FlightSample& s) { return s.height_above_ground_m; })},
              spans),
-      plotOf("Speed", "m/s", {seriesOf("horizontal", samples, [](const FlightSample& s) { return s.speed_m_s; })}, spans),
+      plotOf("Speed", "m/s", {seriesOf("horizontal", samples, [](const FlightSample& s) { return s.speed_m_s; })},
+             spans),
       plotOf("Nearest return", "m from the hull",
              {seriesOf("nearest", samples, [](const FlightSample& s) { return s.nearest_m; })}, spans),
-      plotOf("Explored", "m2", {seriesOf("free area known", samples, [](const FlightSample& s) { return s.explored_area_m2; })},
-             spans),
+      plotOf("Explored", "m2",
+             {seriesOf("free area known", samples, [](const FlightSample& s) { return s.explored_area_m2; })}, spans),
       plotOf("Battery", "V", {seriesOf("voltage", samples, [](const FlightSample& s) { return s.battery_v; })}, spans),
   };
 }

@@ -20,8 +20,8 @@ WebLink::WebLink(const std::string& address, int port, const std::string& title,
   options.title = title;
   options.hull_diameter_m = hull_diameter_m;
   options.unix_time = unixTime;
-  server_ = std::make_unique<web::WebServer>(io_, options,
-                                             web::WebServer::Sources{world_, camera_, commands_, results_});
+  server_ =
+      std::make_unique<web::WebServer>(io_, options, web::WebServer::Sources{world_, camera_, commands_, results_});
   thread_ = std::thread([this] { io_.run(); });
 }
 

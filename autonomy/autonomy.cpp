@@ -102,8 +102,9 @@ common::Setpoint Autonomy::tick(Time now) {
 }
 
 bool Autonomy::finished() const {
-  return mission_over_ && (controller_.state() == FlightState::kLanded || controller_.state() == FlightState::kPoweredOff ||
-                           controller_.state() == FlightState::kPreparation);
+  return mission_over_ &&
+         (controller_.state() == FlightState::kLanded || controller_.state() == FlightState::kPoweredOff ||
+          controller_.state() == FlightState::kPreparation);
 }
 
 std::vector<common::Event> Autonomy::takeEvents() {
@@ -158,8 +159,8 @@ void Autonomy::tickBehaviors(Time now) {
   takeSnapshot(now);
   if (prepared_) wish_ = wishOf(now);
   executor_.want(wish_);
-  executor_.tick({now, estimator_.state(), estimator_.grid(), estimator_.levels(), reactive_.discs(now),
-                  reactive_.decision()});
+  executor_.tick(
+      {now, estimator_.state(), estimator_.grid(), estimator_.levels(), reactive_.discs(now), reactive_.decision()});
 }
 
 /// The supervisor's wish before the mission's.

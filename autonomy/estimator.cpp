@@ -111,10 +111,10 @@ std::vector<common::Event> Estimator::takeEvents() { return std::exchange(events
 
 void Estimator::initialize(const common::LaserScan& scan) {
   if (!last_imu_) return;
-  const common::RollPitchYaw tilt = rollPitchYaw(last_imu_->rotation_ahrs_body);
+  const common::RollPitchYaw tilt = common::rollPitchYaw(last_imu_->rotation_ahrs_body);
   const Pose3 T_level_body{common::quaternionFrom({tilt.roll_rad, tilt.pitch_rad, 0.0}), Eigen::Vector3d::Zero()};
-  const auto standing =
-      project(scan, laser_, [&](Time) { return T_level_body; }, config_.projection);
+  const auto standing = project(
+      scan, laser_, [&](Time) { return T_level_body; }, config_.projection);
   const double height_m = medianBelow_m(standing).value_or(0.5 * vehicle_.hull_height_m);
 
   const auto initialized = filter_.initialize(height_m);
@@ -133,7 +133,8 @@ perception::ProjectedScan Estimator::projectScan(const common::LaserScan& scan) 
   const Time begin = scan.stamps.measured, end = begin + sweepOf(scan);
   const perception::PoseHistory history = filter_.poses(begin, end);
   const Pose3 newest = filter_.state().T_odom_body;
-  return project(scan, laser_, [&](Time t) { return history.at(t).value_or(newest); }, config_.projection);
+  return project(
+      scan, laser_, [&](Time t) { return history.at(t).value_or(newest); }, config_.projection);
 }
 
 bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {

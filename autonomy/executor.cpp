@@ -112,7 +112,8 @@ Eigen::Vector2d Executor::travelDirection_map() const {
 
 std::optional<Eigen::Vector2d> Executor::goal_map_m() const {
   if (const auto* go_to = std::get_if<common::GoToIntent>(&intent_.kind)) return go_to->goal_map_m;
-  if (std::holds_alternative<common::ExploreIntent>(intent_.kind) && viewpoint_) return viewpoint_->pose_map.position_m();
+  if (std::holds_alternative<common::ExploreIntent>(intent_.kind) && viewpoint_)
+    return viewpoint_->pose_map.position_m();
   return std::nullopt;
 }
 
@@ -123,9 +124,12 @@ std::optional<std::string> Executor::refusalOfGoal(const Eigen::Vector2d& goal_m
   const auto place = fmt::format("({:.2f}, {:.2f})", goal_map_m.x(), goal_map_m.y());
   if (!cost_map_->contains(cell)) return place + " is outside the map";
   switch (cost_map_->stateAt(cell)) {
-    case planning::CellState::kUnknown: return place + " is not explored yet";
-    case planning::CellState::kOccupied: return place + " is in an obstacle";
-    case planning::CellState::kFree: break;
+    case planning::CellState::kUnknown:
+      return place + " is not explored yet";
+    case planning::CellState::kOccupied:
+      return place + " is in an obstacle";
+    case planning::CellState::kFree:
+      break;
   }
   if (cost_map_->costAt(cell) == planning::CostMap::kLethal)
     return fmt::format("{} is nearer to an obstacle than the hull and {:.2f} m", place,
@@ -214,9 +218,8 @@ void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&
       reached = true;
     }
   }
-  const bool due =
-      !last_exploration_ || (now_ - *last_exploration_).seconds() >= config_.explore_period_s || reached ||
-      (replan && !keeper_.plan());
+  const bool due = !last_exploration_ || (now_ - *last_exploration_).seconds() >= config_.explore_period_s || reached ||
+                   (replan && !keeper_.plan());
   if (!due || !jobs_.idle("planning")) return;
   PlanningRequest request;
   request.question = ExploreRequest{viewpoint_, memory_.attempts()};

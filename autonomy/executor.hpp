@@ -26,16 +26,16 @@ struct ExecutorConfig {
   planning::CostMap::Config cost_map;
   planning::ExplorationConfig exploration;
   planning::PlanKeeper::Config plan_keeper;
-  double planning_latency_s = 0.06;   ///< Declared for a planning job.
-  double planning_period_s = 0.25;    ///< The cost map is never older than this plus the latency.
-  double explore_period_s = 0.5;      ///< How often the next viewpoint is thought over.
-  double clearance_m = 0.10;          ///< Where an intent names none.
-  double arrival_speed_m_s = 0.15;    ///< A goal is reached when slower than this,
-  double arrival_s = 0.25;            ///< and within the tolerance for this long.
+  double planning_latency_s = 0.06;  ///< Declared for a planning job.
+  double planning_period_s = 0.25;   ///< The cost map is never older than this plus the latency.
+  double explore_period_s = 0.5;     ///< How often the next viewpoint is thought over.
+  double clearance_m = 0.10;         ///< Where an intent names none.
+  double arrival_speed_m_s = 0.15;   ///< A goal is reached when slower than this,
+  double arrival_s = 0.25;           ///< and within the tolerance for this long.
   double viewpoint_tolerance_m = 0.15;
   double viewpoint_tolerance_deg = 12.0;
-  double give_up_s = 20.0;            ///< No way to the goal for this long: the intent fails.
-  double retreat_path_m = 0.5;        ///< How far ahead a retreat is commanded.
+  double give_up_s = 20.0;      ///< No way to the goal for this long: the intent fails.
+  double retreat_path_m = 0.5;  ///< How far ahead a retreat is commanded.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -1,5 +1,5 @@
-// The planning job: brings the cost map up to date and answers one request. It keeps the cost map and the D* Lite search
-// between jobs; while a job is out, the worker belongs to it.
+// The planning job: brings the cost map up to date and answers one request. It keeps the cost map and the D* Lite
+// search between jobs; while a job is out, the worker belongs to it.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
-// The reactive layer at the laser rate: what moves, how fast one may fly, and when to retreat. It acts below every intent.
+// The reactive layer at the laser rate: what moves, how fast one may fly, and when to retreat. It acts below every
+// intent.
 #pragma once
 
 #include <memory>

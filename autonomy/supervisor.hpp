@@ -1,5 +1,5 @@
-// Stands above the mission: what must work whatever the mission says. Hold and land from the operator, and the answers to
-// a silent laser, an empty battery and a lost estimate.
+// Stands above the mission: what must work whatever the mission says. Hold and land from the operator, and the answers
+// to a silent laser, an empty battery and a lost estimate.
 #pragma once
 
 #include <optional>

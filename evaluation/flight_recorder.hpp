@@ -3,7 +3,7 @@
 #pragma once
 
 #include <deque>
-#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,7 +16,7 @@
 #include "common/trajectory.hpp"
 #include "common/vehicle_state.hpp"
 #include "common/world.hpp"
-#include "simulation/simulated_vehicle.hpp"
+#include "simulation/truth.hpp"
 
 namespace swiftlet::evaluation {
 
@@ -65,6 +65,8 @@ class FlightRecorder {
   /// At every snapshot.
   void world(const common::World& world);
 
+  /// What was taken down so far; cruise_height_world_m is missing.
+  const FlightRecord& record() const { return record_; }
   FlightRecord finish() const;
 
  private:

@@ -132,6 +132,24 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   return score;
 }
 
+std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) {
+  std::vector<std::pair<std::string, double>> figures;
+  const auto add = [&](const char* name, const std::optional<double>& value) {
+    if (value) figures.emplace_back(name, *value);
+  };
+  add("coverage", score.coverage);
+  add("goal_error_m", score.goal_error_m);
+  add("home_error_m", score.home_error_m);
+  add("estimate_rms_m", score.estimate_rms_m);
+  add("estimate_spatial_rms_m", score.estimate_spatial_rms_m);
+  add("estimate_yaw_rms_rad", score.estimate_yaw_rms_rad);
+  add("map_wall_error_median_m", score.map_wall_error_median_m);
+  add("map_wall_error_p95_m", score.map_wall_error_p95_m);
+  add("min_clearance_m", score.min_clearance_m);
+  add("reachable_area_m2", score.reachable_area_m2);
+  return figures;
+}
+
 std::vector<std::string> missed(const FlightScore& score, const Criteria& criteria) {
   Judge judge;
   if (criteria.mission_done && !score.mission_done) judge.fail(fmt::format("mission: {}", score.outcome));

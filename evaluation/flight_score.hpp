@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/config.hpp"
@@ -79,6 +80,9 @@ struct TrueWorld {
 /// `wall_time_s` is how long the machine took; 0: not known.
 FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
                     double wall_time_s);
+
+/// The measured figures by the names of results.json, for the report of the flight.
+std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score);
 
 /// The criteria alone: fills `failures` from the figures.
 std::vector<std::string> missed(const FlightScore& score, const Criteria& criteria);

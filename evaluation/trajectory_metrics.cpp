@@ -27,50 +27,55 @@ std::size_t nearest(const common::Trajectory& trajectory, common::Time stamp) {
   return stamp - trajectory[index - 1].stamp <= trajectory[index].stamp - stamp ? index - 1 : index;
 }
 
-template <int kDimension>
-using Points = Eigen::Matrix<double, kDimension, Eigen::Dynamic>;
+/// Below this the points tell no direction.
+constexpr double kLeastSpread_m2 = 1e-12;
 
-/// The rotation and translation that bring `from` onto `to`; none when fewer than kDimension - 1 directions of the
-/// points are determined.
-template <int kDimension>
-std::optional<Eigen::Matrix<double, kDimension + 1, kDimension + 1>> umeyama(const Points<kDimension>& from,
-                                                                             const Points<kDimension>& to) {
-  const auto spread = [](const Points<kDimension>& points) {
-    const Points<kDimension> centred = points.colwise() - points.rowwise().mean();
-    return Eigen::Matrix<double, kDimension, 1>(
-        Eigen::JacobiSVD<Eigen::Matrix<double, kDimension, kDimension>>(centred * centred.transpose())
-            .singularValues());
-  };
-  // A rotation is determined when the points spread in all directions but one.
-  const double from_spread = spread(from)[kDimension - 2], to_spread = spread(to)[kDimension - 2];
-  constexpr double kLeast_m2 = 1e-12;
-  if (from_spread < kLeast_m2 || to_spread < kLeast_m2) return std::nullopt;
-  return Eigen::umeyama(from, to, false);
+struct Means {
+  Eigen::Vector3d estimate = Eigen::Vector3d::Zero();
+  Eigen::Vector3d truth = Eigen::Vector3d::Zero();
+};
+
+Means meansOf(const std::vector<PosePair>& pairs) {
+  Means means;
+  for (const PosePair& pair : pairs) {
+    means.estimate += pair.estimate.position_m;
+    means.truth += pair.truth.position_m;
+  }
+  means.estimate /= static_cast<double>(pairs.size());
+  means.truth /= static_cast<double>(pairs.size());
+  return means;
+}
+
+/// The transform with this rotation that brings mean to mean.
+Pose3 about(const Means& means, const Eigen::Quaterniond& rotation) {
+  return {rotation, means.truth - rotation * means.estimate};
 }
 
 std::optional<Pose3> alignPlanar(const std::vector<PosePair>& pairs) {
-  Points<2> from(2, pairs.size()), to(2, pairs.size());
-  double rise_m = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    from.col(static_cast<Eigen::Index>(i)) = pairs[i].estimate.position_m.head<2>();
-    to.col(static_cast<Eigen::Index>(i)) = pairs[i].truth.position_m.head<2>();
-    rise_m += (pairs[i].truth.position_m.z() - pairs[i].estimate.position_m.z()) / static_cast<double>(pairs.size());
+  const Means means = meansOf(pairs);
+  double dot_m2 = 0, cross_m2 = 0;
+  for (const PosePair& pair : pairs) {
+    const Eigen::Vector3d a = pair.estimate.position_m - means.estimate, b = pair.truth.position_m - means.truth;
+    dot_m2 += a.x() * b.x() + a.y() * b.y();
+    cross_m2 += a.x() * b.y() - a.y() * b.x();
   }
-  const auto T = umeyama<2>(from, to);
-  if (!T) return std::nullopt;
-  return common::lifted({(*T)(0, 2), (*T)(1, 2), std::atan2((*T)(1, 0), (*T)(0, 0))}, rise_m);
+  if (std::hypot(dot_m2, cross_m2) < kLeastSpread_m2) return std::nullopt;
+  return about(means, common::quaternionFrom({0.0, 0.0, std::atan2(cross_m2, dot_m2)}));
 }
 
+/// Umeyama 1991, eq. 40-43, without scale.
 std::optional<Pose3> alignSpatial(const std::vector<PosePair>& pairs) {
-  Points<3> from(3, pairs.size()), to(3, pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    from.col(static_cast<Eigen::Index>(i)) = pairs[i].estimate.position_m;
-    to.col(static_cast<Eigen::Index>(i)) = pairs[i].truth.position_m;
-  }
-  const auto T = umeyama<3>(from, to);
-  if (!T) return std::nullopt;
-  const Eigen::Matrix3d rotation = T->topLeftCorner<3, 3>();
-  return Pose3{Eigen::Quaterniond(rotation).normalized(), T->topRightCorner<3, 1>()};
+  const Means means = meansOf(pairs);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const PosePair& pair : pairs)
+    covariance += (pair.truth.position_m - means.truth) * (pair.estimate.position_m - means.estimate).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (svd.singularValues()[1] < kLeastSpread_m2) return std::nullopt;
+  // A reflection would fit better, but is none that a vehicle could have made.
+  const double sign = svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1.0 : 1.0;
+  const Eigen::Matrix3d rotation =
+      svd.matrixU() * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+  return about(means, Eigen::Quaterniond(rotation).normalized());
 }
 
 double angleOf(const Eigen::Quaterniond& rotation) { return common::logSO3(rotation).norm(); }

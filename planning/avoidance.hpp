@@ -23,14 +23,14 @@ struct AvoidanceInput {
   common::Time stamp;
   std::span<const Eigen::Vector2f> points_level_m;  ///< In order of bearing; points that are not finite are left out.
   Eigen::Vector2d velocity_level_m_s = Eigen::Vector2d::Zero();
-  Eigen::Vector2d travel_level = Eigen::Vector2d::Zero();  ///< Where the intent wants to go; zero: along the velocity.
+  Eigen::Vector2d wish_level_m_s = Eigen::Vector2d::Zero();  ///< What the intent wants; zero: to stop.
   common::Pose2 T_map_level;
   const CostMap* cost_map = nullptr;           ///< May be null: then nothing is known to be mapped.
   std::span<const DynamicObstacle> obstacles;  ///< From DynamicObstacles, in the `map` frame.
 };
 
 struct AvoidanceDecision {
-  double speed_limit_m_s = 0.0;                               ///< Along the direction of travel.
+  double speed_limit_m_s = 0.0;                               ///< Along the wish, or the velocity when that is zero.
   std::optional<Eigen::Vector2d> retreat_velocity_level_m_s;  ///< When set it replaces what the intent wants.
   common::AvoidanceStatus status;
 };
@@ -46,6 +46,10 @@ struct Bin {
 ///
 ///           danger: unmapped and near, or on a course to hit          gone for `calm_s`
 ///   calm ------------------------------------------------> retreating -----------------> calm
+///
+/// Retreat is for what standing still does not solve: something unmapped within `retreat_distance_m` of the hull, or
+/// something moving that would come within `contact_gap_m` of the vehicle at rest before `contact_time_s`. What the map
+/// holds and does not move only brakes. All distances are from the hull.
 class Avoidance {
  public:
   /// kMean is the paper's; its mean over 5 deg hides a thin pole. kRobustMinimum takes the least of the medians of
@@ -61,9 +65,11 @@ class Avoidance {
     double deceleration_m_s2 = 1.0;
     double latency_s = 0.15;
     double margin_m = 0.05;
-    double retreat_distance_m = 0.45;
+    double retreat_distance_m = 0.25;
     double contact_time_s = 1.8;
     double contact_gap_m = 0.20;
+    double closing_speed_m_s = 0.15;
+    double mapped_within_m = 0.15;
     double retreat_speed_m_s = 0.8;
     double look_ahead_m = 1.0;
     double release_factor = 1.3;
@@ -81,20 +87,36 @@ class Avoidance {
 
   [[nodiscard]] AvoidanceDecision update(const AvoidanceInput& input);
 
-  /// The sectors of a scan; free function of its arguments, for displays and tests.
-  static std::vector<Bin> bins(const Config& config, std::span<const Eigen::Vector2f> points_level_m);
+  /// The returns after the sliding window, and the sectors of a scan; functions of their arguments alone.
+  static std::vector<Eigen::Vector2d> smoothed(const Config& config, std::span<const Eigen::Vector2f> points_level_m);
+  static std::vector<Bin> bins(const Config& config, const std::vector<Eigen::Vector2d>& smoothed_level_m);
 
  private:
-  struct Threat;
-  std::optional<Threat> worstThreat(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
-  Eigen::Vector2d retreatFrom(const Threat& threat, const AvoidanceInput& input,
-                              const std::vector<Eigen::Vector2d>& points) const;
-  double speedLimit(const AvoidanceInput& input, const std::vector<Eigen::Vector2d>& points) const;
+  /// Something unmapped or moving, in the level frame.
+  struct Threat {
+    Eigen::Vector2d center_m;
+    double radius_m;
+    Eigen::Vector2d velocity_m_s;
+    bool dangerous;
+    std::string why;
+  };
+  using Points = std::vector<Eigen::Vector2d>;
+
+  std::vector<Threat> threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
+  double gapAfter(const Threat& threat, const Eigen::Vector2d& moved_m, double time_s) const;
+  double speedLimit(const Eigen::Vector2d& direction, const Points& points) const;
+  double stoppingSpeed(double gap_m) const;
+  double yieldingSpeed(const Eigen::Vector2d& direction, double speed_m_s, double intended_m_s,
+                       const std::vector<Threat>& threats) const;
+  double freeLength(const Eigen::Vector2d& direction, const AvoidanceInput& input, const Points& points) const;
+  Eigen::Vector2d retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const;
+  bool isMapped(const AvoidanceInput& input, const Eigen::Vector2d& point_level_m) const;
 
   Config config_;
   double hull_radius_m_;
   bool retreating_ = false;
   common::Time danger_stamp_;
+  std::string danger_;
   Eigen::Vector2d last_retreat_level_ = Eigen::Vector2d::Zero();
 };
 

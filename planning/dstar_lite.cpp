@@ -47,6 +47,7 @@ void DStarLite::restart(const CostMap& map, int goal) {
   goal_ = goal;
   key_offset_ = 0;
   cost_ = map.costs();
+  marked_.assign(cost_.size(), 0);
   height_cm_ = map.heights_cm();
   heap_.clear();
   if (vertices_.size() != map.size() || generation_ == UINT16_MAX) {
@@ -64,8 +65,13 @@ void DStarLite::restart(const CostMap& map, int goal) {
 void DStarLite::adoptChanges(const CostMap& map) {
   std::vector<std::int32_t> affected;
   const auto add = [&](std::int32_t index) {
-    for (const int row : {index - stride_, index, index + stride_})
-      for (int i = row - 1; i <= row + 1; ++i) affected.push_back(i);
+    for (const int row : {index - stride_, index, index + stride_}) {
+      for (int i = row - 1; i <= row + 1; ++i) {
+        if (marked_[static_cast<std::size_t>(i)]) continue;
+        marked_[static_cast<std::size_t>(i)] = 1;
+        affected.push_back(i);
+      }
+    }
   };
   constexpr std::size_t kBlock = 64;  // The rectangle is made of tiles this wide.
   const auto& now = map.costs();
@@ -83,12 +89,11 @@ void DStarLite::adoptChanges(const CostMap& map) {
       add(static_cast<std::int32_t>(i));
     }
   }
-  std::sort(affected.begin(), affected.end());
-  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
   for (const std::int32_t index : affected) {
     Vertex& vertex = touch(index);
     if (index != goal_) vertex.rhs = bestOverNeighbours(index);
     updateVertex(index, vertex);
+    marked_[static_cast<std::size_t>(index)] = 0;
   }
 }
 

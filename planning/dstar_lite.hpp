@@ -78,6 +78,7 @@ class DStarLite final : public Planner {
   std::vector<std::int16_t> height_cm_;  ///< The same; empty without levels.
   std::vector<Vertex> vertices_;
   std::vector<Entry> heap_;
+  std::vector<std::uint8_t> marked_;  ///< All zero between calls.
   std::int32_t search_cost_ = 0;
   int expansions_ = 0;
 };

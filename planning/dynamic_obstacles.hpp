@@ -57,7 +57,10 @@ class DynamicObstacles {
     double max_radius_m = 0.6;
     double assumed_depth_m = 0.10;
     double time_to_live_s = 2.0;
+    double refuted_after_s = 0.2;
     double max_speed_m_s = 2.5;
+    double smoothing_s = 0.15;
+    double keep_out_m = 0.25;
     double max_range_m = 6.0;
     double background_age_s = 2.0;
 

@@ -78,7 +78,7 @@ struct ExplorationConfig {
   double localizability_weight = 0.3;
   int max_attempts = 3;
   double attempt_radius_m = 0.35;
-  int max_tour = 24;
+  int max_evaluated = 30;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

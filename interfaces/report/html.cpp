@@ -107,6 +107,7 @@ std::string facts(const std::vector<std::pair<std::string, std::string>>& facts)
 }
 
 std::string table(const common::Table& table) {
+  if (table.rows.empty()) return "<p class=\"empty\">None.</p>";
   std::string body = "<div class=\"wide\"><table class=\"figures\">\n<thead><tr>";
   for (const std::string& column : table.columns) body += fmt::format("<th>{}</th>", escape(column));
   body += "</tr></thead>\n<tbody>\n";

@@ -9,31 +9,38 @@
 
 #include "common/config.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
+#include "perception/scan_matching/window_sums.hpp"
 
 namespace swiftlet::perception {
+
+/// How the pose is taken from the scores. The grid alone makes a hovering vehicle's estimate oscillate; both averages
+/// are without phase shift.
+enum class PoseEstimate {
+  kFinest,        ///< The best pose of the finest grid.
+  kWeightedMean,  ///< Mean of the best poses of all levels, weighted by a Gaussian about the finest (Grzonka 2012,
+                  ///< IV-A).
+  kSurface,       ///< The peak of a quadratic through the scores around the finest.
+};
 
 struct CorrelativeMatcherConfig {
   double resolution_m = 0.01;  ///< Of the finest level; each coarser one doubles it.
   double angular_resolution_deg = 0.1;
-  int levels = 3;             ///< Resolutions that take part in the weighted mean (1, 2 and 4 cm; Grzonka 2012).
-  double sigma_m = 0.02;      ///< Spread of the end points about the contour of the reference.
-  int max_points = 256;       ///< Points of a scan that are matched, spread evenly along its contour.
+  int levels = 3;  ///< Resolutions that take part in the weighted mean (1, 2 and 4 cm; Grzonka 2012, IV-A).
+  PoseEstimate estimate = PoseEstimate::kSurface;
+  double sigma_m = 0.02;     ///< Spread of the end points about the contour of the reference.
+  int search_points = 256;   ///< Points of a scan that are searched with, spread evenly along its contour; at most 256.
+  int surface_points = 512;  ///< Points from which pose and covariance are taken around the best.
   double max_range_m = 20.0;  ///< Points farther than this are not used; bounds the memory of the field.
   double max_gap_m = 0.3;     ///< Neighbouring end points of the reference nearer than this are joined to a contour.
   double min_quality = 0.35;  ///< Below this the match failed.
   int min_points = 30;        ///< With fewer points the match failed.
-  double covariance_scale = 1.0;      ///< Factor on the covariance, calibrated so that the normalized error is honest.
-  double unobservable_sigma_m = 0.5;  ///< A direction less certain than this is not seen.
+  double covariance_scale = 2.0;  ///< On the covariance of independent points; calibrated, see the test of honesty.
+  double unobservable_sigma_m =
+      0.1;  ///< A direction less certain than this is not seen: the pose keeps the guess there.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
 };
-
-/// Which instructions add up the scores. All give the same bits.
-enum class Instructions { kScalar, kSse41, kAvx2 };
-/// The best this machine has.
-Instructions bestInstructions();
-const char* toString(Instructions instructions);
 
 class CorrelativeMatcher final : public ScanMatcher {
  public:

@@ -44,17 +44,22 @@ struct GridDrawingConfig {
   std::vector<std::string> validate() const;
 };
 
+/// When a loop is sought and when it is believed.
 struct LoopClosureConfig {
-  double max_relative_sigma_m = 4.0;  ///< Projected uncertainty beyond which a candidate is not searched.
-  double min_window_m = 0.5;          ///< Least half width of the search.
-  double max_window_m = 4.0;          ///< Greatest; the ellipse is cut there.
+  double spacing_m = 1.0;    ///< Way between two searches.
+  double max_sigma_m = 4.0;  ///< Projected uncertainty is cut here; bounds the search window.
+  double min_window_m = 0.5;
   double min_window_deg = 10.0;
   double max_window_deg = 40.0;
-  int query_scans = 5;           ///< Key scans joined to the query, up to the newest.
-  int reference_scans = 9;       ///< Key scans around the candidate joined to the reference.
-  double min_quality = 0.55;     ///< Less is no closure.
-  double max_ambiguity = 0.85;   ///< A second, distinct peak must score less than this share of the best.
-  int max_candidates = 4;        ///< Searched per task.
+  int query_scans = 5;                  ///< Newest key scans joined to the query.
+  int reference_scans = 9;              ///< Key scans around the candidate joined to the reference.
+  int max_candidates = 4;               ///< Places searched per task.
+  double resolution_m = 0.04;           ///< Of the wide search,
+  double angular_resolution_deg = 0.5;  ///< which a fine match follows.
+  double min_quality = 0.60;            ///< Of the fine match.
+  double max_ambiguity = 0.90;          ///< A second, distinct place must score less than this share of the best.
+  double distinct_m = 0.4;              ///< What counts as distinct.
+  double distinct_deg = 12.0;
   double max_edge_sigmas = 4.0;  ///< A closure whose error after optimization is larger is taken back.
 
   void describe(common::config::Fields& fields);
@@ -66,19 +71,22 @@ struct Slam2dConfig {
   GridDrawingConfig grid;
   LoopClosureConfig loops;
   optimization::PoseGraph2DConfig graph;
-  double key_distance_m = 0.4;     ///< A scan becomes a key scan after this distance,
-  double key_rotation_deg = 25.0;  ///< this rotation,
-  double key_time_s = 5.0;         ///< or this time.
-  double draw_distance_m = 0.10;   ///< Between key scans, a scan is drawn after this distance,
-  double draw_rotation_deg = 6.0;  ///< this rotation,
-  double draw_time_s = 0.25;       ///< or this time.
-  int scans_per_key =
-      16;  ///< Scans kept with a key scan for drawing the grid anew; later ones are drawn and forgotten.
-  double local_radius_m = 4.0;  ///< Key scans within this are the reference of the local match.
-  double local_sigma_m = 0.08;  ///< As long as their projected uncertainty is below this; beyond it is a loop's work.
+  double key_distance_m = 0.4;       ///< A scan is matched to the map after this distance,
+  double key_rotation_deg = 25.0;    ///< this rotation,
+  double key_time_s = 2.0;           ///< or this time; it becomes a key scan where there is none near.
+  double reuse_distance_m = 0.25;    ///< "Near": a key scan within this distance
+  double reuse_rotation_deg = 20.0;  ///< and rotation. So the graph does not grow in known area.
+  double draw_distance_m = 0.10;     ///< Between key scans, a scan is drawn after this distance,
+  double draw_rotation_deg = 6.0;    ///< this rotation,
+  double draw_time_s = 0.25;         ///< or this time.
+  int scans_per_key = 16;            ///< Drawn scans kept with a key scan for drawing the grid anew; the newest stay.
+  double local_radius_m = 4.0;       ///< Key scans within this are the reference of the local match,
+  double local_sigma_m = 0.10;  ///< as long as their projected uncertainty is below this; beyond it is a loop's work.
   int local_scans = 10;         ///< At most so many.
   double local_window_m = 0.15;
   double local_window_deg = 3.0;
+  double edge_sigma_m = 0.004;  ///< No edge is more certain than this: what the matcher cannot know (tilt, clutter).
+  double edge_sigma_deg = 0.06;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -86,10 +94,10 @@ struct Slam2dConfig {
 
 /// What adding a scan did.
 struct SlamUpdate {
-  bool key_scan = false;
-  bool drawn = false;  ///< The grid changed.
+  bool key_scan = false;  ///< It became a node of the graph.
+  bool drawn = false;     ///< The grid changed.
   bool T_map_odom_changed = false;
-  bool local_match = false;  ///< The key scan was matched to older ones.
+  bool local_match = false;  ///< It was matched to older key scans.
   double quality = 0.0;      ///< Of that match.
   common::Pose2 T_map_body;  ///< Of the scan, corrected.
 };
@@ -124,7 +132,7 @@ struct SlamCounts {
   std::uint64_t ignored_scans = 0;  ///< Out of order, or without a finite pose.
   std::uint64_t key_scans = 0;
   std::uint64_t local_matches = 0;
-  std::uint64_t local_failures = 0;  ///< Key scans that matched nothing older.
+  std::uint64_t local_failures = 0;  ///< Scans that should have matched older ones, but did not.
   std::uint64_t loop_candidates = 0;
   std::uint64_t loops_closed = 0;
   std::uint64_t loops_rejected = 0;

@@ -1,0 +1,30 @@
+#include "behaviors/avoid_obstacle.hpp"
+
+namespace swiftlet::behaviors {
+
+tree::NodeManifest AvoidObstacle::manifest() {
+  return {
+      .id = "AvoidObstacle",
+      .kind = tree::NodeKind::kAction,
+      .ports = {},
+      .description = "Gives the vehicle to the reactive layer while that retreats from an obstacle; skipped otherwise.",
+      .may_skip = true};
+}
+
+std::string AvoidObstacle::reason(const tree::TickContext& context) const {
+  const std::string& reason = flightTick(context).flight.world->avoidance.reason;
+  return reason.empty() ? "the reactive layer retreats" : reason;
+}
+
+bool AvoidObstacle::onAsked(const tree::TickContext& context) const {
+  const common::World& world = *flightTick(context).flight.world;
+  return world.status.flight_state == common::FlightState::kFlying && world.avoidance.retreating;
+}
+
+tree::Status AvoidObstacle::act(tree::TickContext& context) {
+  if (!onAsked(context)) return tree::Status::kSuccess;
+  wish(flightTick(context), common::AvoidIntent{});
+  return tree::Status::kRunning;
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,19 @@
+// Explore: SUCCESS when every frontier that is left has a reason why it is left.
+#pragma once
+
+#include "behaviors/flight_leaf.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::behaviors {
+
+class Explore final : public IntentLeaf {
+ public:
+  explicit Explore(const tree::NodeSetup& setup) : IntentLeaf(setup), clearance_m_(setup, "clearance_m") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  Wish makeWish(const FlightTick& tick) override;
+  tree::Input<double> clearance_m_;
+};
+
+}  // namespace swiftlet::behaviors

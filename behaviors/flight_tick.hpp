@@ -1,0 +1,37 @@
+// What a mission hands down its tree: the engine's tick and the flight around it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "behaviors/context.hpp"
+#include "behaviors/tree/node.hpp"
+
+namespace swiftlet::behaviors {
+
+class FlightTick final : public tree::TickContext {
+ public:
+  FlightTick(Context& context, std::uint64_t& last_intent_id, std::optional<common::OperatorCommand>& command)
+      : tree::TickContext(context.now.nanoseconds()),
+        flight(context),
+        pending_command(command),
+        last_intent_id_(last_intent_id) {}
+
+  std::uint64_t newIntentId() { return ++last_intent_id_; }
+  void emit(std::uint64_t id, common::IntentKind kind) { flight.intent = common::Intent{id, std::move(kind)}; }
+
+  Context& flight;
+  /// The newest goal or home that was accepted and that no OperatorCommand has taken yet.
+  std::optional<common::OperatorCommand>& pending_command;
+
+ private:
+  std::uint64_t& last_intent_id_;
+};
+
+/// The trees of missions are only ever ticked by Mission, with a FlightTick.
+inline FlightTick& flightTick(tree::TickContext& context) { return static_cast<FlightTick&>(context); }
+inline const FlightTick& flightTick(const tree::TickContext& context) {
+  return static_cast<const FlightTick&>(context);
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,34 @@
+#include "behaviors/go_home.hpp"
+
+#include "behaviors/ports.hpp"
+
+namespace swiftlet::behaviors {
+
+tree::NodeManifest GoHome::manifest() {
+  return {.id = "GoHome",
+          .kind = tree::NodeKind::kAction,
+          .ports = {tolerancePort(), clearancePort()},
+          .description = "Flies back to the take-off place."};
+}
+
+GoHome::GoHome(const tree::NodeSetup& setup)
+    : IntentLeaf(setup), tolerance_m_(setup, "tolerance_m"), clearance_m_(setup, "clearance_m") {}
+
+IntentLeaf::Wish GoHome::makeWish(const FlightTick& tick) {
+  const auto tolerance_m = tolerance_m_.get();
+  const auto clearance_m = clearance_m_.get();
+  if (!tolerance_m) return {std::nullopt, tolerance_m_.problem()};
+  if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
+  made_ = {};
+  made_.goal_map_m = tick.flight.world->home_map.position_m();
+  made_.tolerance_m = *tolerance_m;
+  made_.clearance_m = *clearance_m;
+  return {made_, {}};
+}
+
+bool GoHome::isOutdated(const FlightTick& tick) const {
+  const Eigen::Vector2d home_map_m = tick.flight.world->home_map.position_m();
+  return (home_map_m - made_.goal_map_m).norm() > 0.5 * made_.tolerance_m;
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,18 @@
+// Land: SUCCESS when the vehicle stands on the floor with its motors off.
+#pragma once
+
+#include "behaviors/flight_leaf.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::behaviors {
+
+class Land final : public IntentLeaf {
+ public:
+  using IntentLeaf::IntentLeaf;
+  static tree::NodeManifest manifest();
+
+ private:
+  Wish makeWish(const FlightTick&) override { return {common::LandIntent{}, {}}; }
+};
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,206 @@
+#include "behaviors/mission_check.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include "behaviors/tree/parser.hpp"
+
+namespace swiftlet::behaviors {
+namespace {
+
+/// Where the vehicle may be at a place of the tree.
+struct Whereabouts {
+  bool ground = false;
+  bool air = false;
+};
+
+Whereabouts either(Whereabouts a, Whereabouts b) { return {a.ground || b.ground, a.air || b.air}; }
+bool nowhere(Whereabouts w) { return !w.ground && !w.air; }
+
+/// Where it may be when a node ended, by how it ended.
+struct Exits {
+  Whereabouts success;
+  Whereabouts failure;
+};
+
+/// Walks the tree as it would be ticked and follows where the vehicle may be.
+class Walk {
+ public:
+  Walk(const tree::Tree& tree, std::vector<tree::Problem>& problems)
+      : tree_(tree), problems_(problems), skips_(tree.nodes().size()) {
+    // Preorder: children stand behind their parents.
+    for (std::size_t i = tree.nodes().size(); i-- > 0;) skips_[i] = computeMaySkip(tree.nodes()[i]);
+  }
+
+  Exits walk(const tree::Node& node, Whereabouts entry) {
+    const tree::NodeManifest* manifest = manifestOf(node);
+    const std::string_view id = manifest == nullptr ? std::string_view("SubTree") : std::string_view(manifest->id);
+    if (node.children().empty()) return walkLeaf(node, id, entry);
+    if (id == "Sequence" || id == "ReactiveSequence") return walkChain(node, entry, true);
+    if (id == "Fallback" || id == "ReactiveFallback") return walkChain(node, entry, false);
+    if (id == "Priority") return walkPriority(node, entry);
+    if (id == "Parallel") return walkParallel(node, entry);
+    return walkDecorator(node, id, entry);
+  }
+
+  bool takesOff() const { return takes_off_; }
+  bool maySkip(const tree::Node& node) const { return skips_[static_cast<std::size_t>(node.id())]; }
+
+ private:
+  const tree::NodeManifest* manifestOf(const tree::Node& node) const {
+    return tree_.nodes()[static_cast<std::size_t>(node.id())].manifest;
+  }
+
+  bool computeMaySkip(const tree::NodeRecord& record) const {
+    if (record.manifest != nullptr && record.manifest->id == "Delay") return false;
+    const auto& children = record.node->children();
+    if (children.empty()) return record.manifest != nullptr && record.manifest->may_skip;
+    return std::all_of(children.begin(), children.end(), [&](const auto& child) { return maySkip(*child); });
+  }
+
+  Exits walkLeaf(const tree::Node& node, std::string_view id, Whereabouts entry) {
+    if (nowhere(entry)) return {};
+    if (id == "TakeOff") {
+      takes_off_ = true;
+      return {{false, true}, {entry.ground, true}};
+    }
+    if (id == "AlwaysSuccess" || id == "SetBlackboard") return {entry, {}};
+    if (id == "AlwaysFailure") return {{}, entry};
+    const bool lands = id == "Land";
+    const bool flies = lands || id == "Explore" || id == "MoveToGoal" || id == "GoHome" || id == "OperatorCommand";
+    if (flies && !entry.air)
+      problems_.push_back({tree_.locationOf(node.id()),
+                           std::string(id),
+                           "the vehicle stands on the floor here, expected a TakeOff before it",
+                           {}});
+    if (lands) return {{true, false}, entry};
+    if (id == "OperatorCommand") return {{}, entry};
+    return {entry, entry};
+  }
+
+  /// A Sequence goes on with SUCCESS, a Fallback with FAILURE; both go on with SKIPPED.
+  Exits walkChain(const tree::Node& node, Whereabouts entry, bool on_success) {
+    Exits exits;
+    Whereabouts at = entry;
+    for (const auto& child : node.children()) {
+      const Exits child_exits = walk(*child, at);
+      Whereabouts& out = on_success ? exits.failure : exits.success;
+      out = either(out, on_success ? child_exits.failure : child_exits.success);
+      const Whereabouts on = on_success ? child_exits.success : child_exits.failure;
+      at = maySkip(*child) ? either(at, on) : on;
+    }
+    (on_success ? exits.success : exits.failure) = at;
+    return exits;
+  }
+
+  Exits walkPriority(const tree::Node& node, Whereabouts entry) {
+    Exits exits;
+    Whereabouts at = entry;
+    for (const auto& child : node.children()) {
+      const Exits child_exits = walk(*child, at);
+      exits.failure = either(exits.failure, child_exits.failure);
+      at = maySkip(*child) ? either(at, child_exits.success) : child_exits.success;
+      if (child == node.children().back() || maySkip(*child)) continue;
+      problems_.push_back({tree_.locationOf(child->id()), child->name(),
+                           "never answers SKIPPED, so that nothing below it in the Priority keeps the vehicle",
+                           "only what steps back by itself (AvoidObstacle, Hold) belongs above another"});
+    }
+    exits.success = at;
+    return exits;
+  }
+
+  Exits walkParallel(const tree::Node& node, Whereabouts entry) {
+    Exits all;
+    Whereabouts anywhere = entry;
+    for (const auto& child : node.children()) {
+      const Exits exits = walk(*child, anywhere);
+      anywhere = either(anywhere, either(exits.success, exits.failure));
+    }
+    all.success = all.failure = anywhere;
+    return all;
+  }
+
+  Exits walkDecorator(const tree::Node& node, std::string_view id, Whereabouts entry) {
+    Exits exits = walk(*node.children().front(), entry);
+    const Whereabouts both = either(exits.success, exits.failure);
+    if (id == "Inverter") return {exits.failure, exits.success};
+    if (id == "ForceSuccess") return {both, {}};
+    if (id == "ForceFailure") return {{}, both};
+    if (id == "Timeout") return {exits.success, either(entry, both)};
+    return exits;
+  }
+
+  const tree::Tree& tree_;
+  std::vector<tree::Problem>& problems_;
+  std::vector<bool> skips_;
+  bool takes_off_ = false;
+};
+
+std::string metres(double value) { return tree::toString(tree::Value(value)) + " m"; }
+
+void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vector<tree::Problem>& problems) {
+  const auto report = [&](const tree::Node& node, const tree::NodeManifest& manifest, const char* port,
+                          std::string message, const char* hint) {
+    problems.push_back({tree.locationOf(node.id(), port), manifest.id + "." + port, std::move(message), hint});
+  };
+  for (const tree::NodeRecord& record : tree.nodes()) {
+    if (record.manifest == nullptr) continue;
+    const int id = record.node->id();
+    for (const tree::Value& value : tree.knownValues(id, "clearance_m"))
+      if (const auto* clearance_m = std::get_if<double>(&value);
+          clearance_m != nullptr && *clearance_m < limits.retreat_distance_m)
+        report(*record.node, *record.manifest, "clearance_m",
+               metres(*clearance_m) + " is nearer than the " + metres(limits.retreat_distance_m) +
+                   " at which the reactive layer retreats",
+               "raise it, or lower the retreat distance in the system profile");
+    const auto checkHeight = [&](const char* port, double height_m) {
+      if (height_m > limits.max_height_m)
+        report(*record.node, *record.manifest, port,
+               metres(height_m) + " is above the greatest height, " + metres(limits.max_height_m), "");
+    };
+    for (const tree::Value& value : tree.knownValues(id, "height_m"))
+      if (const auto* height_m = std::get_if<double>(&value)) checkHeight("height_m", *height_m);
+    for (const tree::Value& value : tree.knownValues(id, "goal"))
+      if (const auto* goal = std::get_if<tree::Point>(&value); goal != nullptr && goal->z)
+        checkHeight("goal", *goal->z);
+  }
+}
+
+std::vector<common::Problem> check(tree::ParseResult parsed, const MissionLimits& limits) {
+  if (!parsed.tree) return toCommon(parsed.problems);
+  return toCommon(semanticProblems(*parsed.tree, limits));
+}
+
+}  // namespace
+
+std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems) {
+  std::vector<common::Problem> result;
+  for (const tree::Problem& problem : problems)
+    result.push_back({{problem.location.file, problem.location.line, problem.location.column},
+                      problem.element,
+                      problem.message,
+                      problem.hint});
+  return result;
+}
+
+std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const MissionLimits& limits) {
+  std::vector<tree::Problem> problems;
+  Walk walk(tree, problems);
+  walk.walk(tree.root(), {true, false});
+  if (!walk.takesOff() && problems.empty())
+    problems.push_back({tree.locationOf(0), tree.name(), "the mission never takes off, expected a TakeOff", {}});
+  checkLimits(tree, limits, problems);
+  return problems;
+}
+
+std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits) {
+  return check(tree::parseFile(path, missionRegistry()), limits);
+}
+
+std::vector<common::Problem> checkMissionText(const std::string& text, const std::string& name,
+                                              const MissionLimits& limits) {
+  return check(tree::parseText(text, name, missionRegistry()), limits);
+}
+
+}  // namespace swiftlet::behaviors

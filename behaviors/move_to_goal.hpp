@@ -1,0 +1,22 @@
+// MoveToGoal: SUCCESS when the vehicle is within tolerance_m of `goal` (in `map`: x;y at the present height, or x;y;z
+// with z above the take-off floor).
+#pragma once
+
+#include "behaviors/flight_leaf.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::behaviors {
+
+class MoveToGoal final : public IntentLeaf {
+ public:
+  explicit MoveToGoal(const tree::NodeSetup& setup);
+  static tree::NodeManifest manifest();
+
+ private:
+  Wish makeWish(const FlightTick& tick) override;
+  tree::Input<tree::Point> goal_;
+  tree::Input<double> tolerance_m_;
+  tree::Input<double> clearance_m_;
+};
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,75 @@
+#include "behaviors/narrator.hpp"
+
+#include <utility>
+
+namespace swiftlet::behaviors {
+namespace {
+
+using tree::Node;
+using tree::Status;
+using tree::Switch;
+
+/// What a child of a Priority is doing: the name of the behaviour under way in it, or its own.
+const std::string& describe(const Node& node) {
+  for (const auto& child : node.children())
+    if (tree::isActive(child->status())) return describe(*child);
+  return node.name();
+}
+
+}  // namespace
+
+void Narrator::onStatus(const Node& node, Status from, Status to) {
+  if (!node.children().empty() && to != Status::kFailure) return;
+  switch (to) {
+    case Status::kRunning:
+      if (!tree::isActive(from)) say(common::Severity::kInfo, node.name() + " starts", {});
+      break;
+    case Status::kSuccess:
+      if (tree::isActive(from)) say(common::Severity::kInfo, node.name() + " is done", {});
+      break;
+    case Status::kFailure:
+      if (failed_node_ != node.id()) break;  // A parent that fails because its child did adds nothing.
+      say(common::Severity::kWarning, node.name() + " failed", failure_reason_);
+      failed_node_ = -1;
+      break;
+    case Status::kIdle:
+      if (from == Status::kRunning) say(common::Severity::kInfo, node.name() + " is given up", {});
+      break;
+    case Status::kSkipped:
+    case Status::kSuspended:
+      break;
+  }
+}
+
+void Narrator::onSwitch(const Switch& change) {
+  const std::string& to = describe(*change.to);
+  switch (change.kind) {
+    case Switch::Kind::kLetsGo:
+      say(common::Severity::kInfo, describe(*change.from) + " lets go for " + to, change.reason);
+      return;
+    case Switch::Kind::kKeeps:
+      say(common::Severity::kInfo, to + " goes on", change.reason);
+      return;
+    case Switch::Kind::kTakes:
+      break;
+  }
+  if (change.to->status() == Status::kSuspended)
+    say(common::Severity::kInfo, to + " resumes", change.reason);
+  else if (change.from == nullptr)
+    say(common::Severity::kInfo, to + " has the vehicle", change.reason);
+  else
+    say(common::Severity::kInfo, to + " takes over from " + describe(*change.from), change.reason);
+}
+
+void Narrator::onFailure(const Node& node, std::string_view reason) {
+  failed_node_ = node.id();
+  failure_reason_ = reason;
+  failure_ = node.name() + ": " + failure_reason_;
+}
+
+void Narrator::say(common::Severity severity, std::string text, std::string reason) {
+  if (context_ == nullptr) return;
+  context_->events.push_back({context_->now, severity, "mission", std::move(text), std::move(reason)});
+}
+
+}  // namespace swiftlet::behaviors

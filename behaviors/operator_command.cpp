@@ -1,0 +1,78 @@
+#include "behaviors/operator_command.hpp"
+
+#include <utility>
+
+#include "behaviors/ports.hpp"
+
+namespace swiftlet::behaviors {
+
+tree::NodeManifest OperatorCommand::manifest() {
+  return {.id = "OperatorCommand",
+          .kind = tree::NodeKind::kAction,
+          .ports = {tolerancePort(), clearancePort()},
+          .description = "Flies to the goals the operator gives, or home, and holds between."};
+}
+
+OperatorCommand::OperatorCommand(const tree::NodeSetup& setup)
+    : FlightLeaf(setup), tolerance_m_(setup, "tolerance_m"), clearance_m_(setup, "clearance_m") {}
+
+void OperatorCommand::onStart(tree::TickContext& context) {
+  FlightLeaf::onStart(context);
+  command_.reset();
+  goal_.reset();
+}
+
+tree::Status OperatorCommand::act(tree::TickContext& context) {
+  FlightTick& tick = flightTick(context);
+  if (!tolerance_m_.get()) return fail(context, tolerance_m_.problem());
+  if (!clearance_m_.get()) return fail(context, clearance_m_.problem());
+  finish(tick);
+  take(tick);
+  if (goal_)
+    wish(tick, *goal_);
+  else
+    wishHold(tick);
+  return tree::Status::kRunning;
+}
+
+void OperatorCommand::take(FlightTick& tick) {
+  if (!tick.pending_command) return;
+  const common::OperatorCommand next = *std::exchange(tick.pending_command, std::nullopt);
+  if (command_) say(tick, common::Severity::kInfo, toString(*command_) + " given up", "replaced by " + toString(next));
+  command_ = next;
+  goal_ = goalOf(tick, next);
+  renewWish();
+}
+
+/// Looks at the goal under way before a new one may replace it: what was reached is said to be reached.
+void OperatorCommand::finish(FlightTick& tick) {
+  if (!command_) return;
+  switch (wishState(tick)) {
+    case common::IntentState::kRunning:
+      return;
+    case common::IntentState::kSucceeded:
+      say(tick, common::Severity::kInfo, toString(*command_) + " reached", {});
+      break;
+    case common::IntentState::kFailed:
+      say(tick, common::Severity::kWarning, toString(*command_) + " not reached", tick.flight.status.reason);
+      break;
+  }
+  command_.reset();
+  goal_.reset();
+}
+
+std::optional<common::GoToIntent> OperatorCommand::goalOf(const FlightTick& tick,
+                                                          const common::OperatorCommand& command) const {
+  common::GoToIntent goal;
+  goal.tolerance_m = *tolerance_m_.get();
+  goal.clearance_m = *clearance_m_.get();
+  const auto* point = std::get_if<common::GoalCommand>(&command.kind);
+  goal.goal_map_m = point != nullptr ? point->goal_map_m : tick.flight.world->home_map.position_m();
+  return goal;
+}
+
+void OperatorCommand::say(FlightTick& tick, common::Severity severity, std::string text, std::string reason) const {
+  tick.flight.events.push_back({tick.flight.now, severity, "mission", std::move(text), std::move(reason)});
+}
+
+}  // namespace swiftlet::behaviors

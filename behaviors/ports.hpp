@@ -1,0 +1,26 @@
+// Ports that several behaviours share, so that they mean the same everywhere.
+#pragma once
+
+#include "behaviors/tree/port.hpp"
+
+namespace swiftlet::behaviors {
+
+inline tree::PortManifest clearancePort() {
+  return {.name = "clearance_m",
+          .type = tree::PortType::kDouble,
+          .default_value = "0.10",
+          .minimum = 0.0,
+          .maximum = 5.0,
+          .description = "Between the hull and what is in the map."};
+}
+
+inline tree::PortManifest tolerancePort() {
+  return {.name = "tolerance_m",
+          .type = tree::PortType::kDouble,
+          .default_value = "0.05",
+          .minimum = 0.01,
+          .maximum = 5.0,
+          .description = "Arrived when nearer to the goal than this."};
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,29 @@
+#include "behaviors/avoid_obstacle.hpp"
+#include "behaviors/explore.hpp"
+#include "behaviors/go_home.hpp"
+#include "behaviors/hold.hpp"
+#include "behaviors/land.hpp"
+#include "behaviors/mission.hpp"
+#include "behaviors/move_to_goal.hpp"
+#include "behaviors/operator_command.hpp"
+#include "behaviors/take_off.hpp"
+
+namespace swiftlet::behaviors {
+
+const tree::Registry& missionRegistry() {
+  static const tree::Registry kRegistry = [] {
+    tree::Registry registry = tree::Registry::standard();
+    registry.add<TakeOff>();
+    registry.add<Land>();
+    registry.add<Hold>();
+    registry.add<Explore>();
+    registry.add<MoveToGoal>();
+    registry.add<GoHome>();
+    registry.add<AvoidObstacle>();
+    registry.add<OperatorCommand>();
+    return registry;
+  }();
+  return kRegistry;
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,23 @@
+#include "behaviors/take_off.hpp"
+
+namespace swiftlet::behaviors {
+
+tree::NodeManifest TakeOff::manifest() {
+  return {.id = "TakeOff",
+          .kind = tree::NodeKind::kAction,
+          .ports = {{.name = "height_m",
+                     .type = tree::PortType::kDouble,
+                     .default_value = "1.0",
+                     .minimum = 0.3,
+                     .maximum = 100.0,
+                     .description = "Above the take-off floor."}},
+          .description = "Climbs from the floor to a height and hovers."};
+}
+
+IntentLeaf::Wish TakeOff::makeWish(const FlightTick&) {
+  const auto height_m = height_m_.get();
+  if (!height_m) return {std::nullopt, height_m_.problem()};
+  return {common::TakeOffIntent{*height_m}, {}};
+}
+
+}  // namespace swiftlet::behaviors

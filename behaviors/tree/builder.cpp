@@ -1,0 +1,221 @@
+#include "behaviors/tree/builder.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "behaviors/tree/composite.hpp"
+#include "behaviors/tree/elements.hpp"
+#include "behaviors/tree/nodes/subtree.hpp"
+
+namespace swiftlet::tree {
+
+struct Builder::Scope {
+  Scope* outer = nullptr;
+  bool autoremap = false;
+  std::map<std::string, Slot*, std::less<>> names;
+  std::set<std::string, std::less<>> used;
+};
+
+Builder::Builder(const Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems)
+    : documents_(documents),
+      registry_(registry),
+      options_(options),
+      problems_(problems),
+      tree_(std::make_unique<TreeParts>()) {
+  tree_->name = documents.main_id;
+  for (const auto& document : documents.documents) {
+    files_[document.get()] = tree_->sources.size();
+    tree_->sources.push_back(document->source);
+  }
+}
+
+Builder::~Builder() = default;
+
+Tree Builder::build() {
+  Scope scope;
+  main_scope_ = &scope;
+  for (const std::string& entry : options_.host_entries) tree_->flows[find(scope, entry)->id].by_host = true;
+  const TreeDefinition& main = *documents_.main;
+  tree_->root = makeNode({main.document, &main.element->children.front(), -1, 0}, scope);
+  if (!gave_up_) checkEntries(*tree_, problems_);
+  return Tree(std::move(tree_));
+}
+
+std::unique_ptr<Node> Builder::makeNode(const Place& place, Scope& scope) {
+  if (tooLarge(place)) return nullptr;
+  return isSubTree(*place.element) ? makeSubTree(place, scope) : makeTyped(place, scope);
+}
+
+std::unique_ptr<Node> Builder::makeSubTree(const Place& place, Scope& scope) {
+  const std::string& id = *place.element->attribute("ID");
+  const std::string* name = place.element->attribute("name");
+  const int record = addRecord(place, nullptr);
+  tree_->setups[static_cast<std::size_t>(record)].name = name == nullptr ? id : *name;
+  auto node = std::make_unique<SubTree>(tree_->setups[static_cast<std::size_t>(record)]);
+  finishRecord(record, *node);
+
+  Scope inner;
+  bindSubTree(place, scope, inner);
+  std::set<std::string> passed;
+  for (const auto& [port, slot] : inner.names) passed.insert(port);
+  const TreeDefinition& definition = documents_.trees.find(id)->second;
+  if (auto child =
+          makeNode({definition.document, &definition.element->children.front(), record, place.depth + 1}, inner))
+    node->addChild(std::move(child));
+  if (!gave_up_) checkUnused(place, inner, passed);
+  return node;
+}
+
+void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner) {
+  inner.outer = &outer;
+  inner.autoremap = isAutoremapped(*place.element);
+  const auto bind = [&](const std::string& port, const std::string& text) {
+    if (const auto entry = entryOf(text, port)) {
+      inner.names[port] = find(outer, *entry);
+      return;
+    }
+    Slot* slot = makeSlot(port);
+    slot->value = text;
+    tree_->flows[slot->id].literals.push_back({text, originOf(place), port});
+    inner.names[port] = slot;
+  };
+  for (const XmlAttribute& attribute : place.element->attributes)
+    if (!isStructural(*place.element, attribute.name)) bind(attribute.name, attribute.value);
+  const auto model = documents_.subtree_models.find(*place.element->attribute("ID"));
+  if (model == documents_.subtree_models.end()) return;
+  for (const auto& [port, text] : model->second)
+    if (text && !inner.names.contains(port)) bind(port, *text);
+}
+
+void Builder::checkUnused(const Place& place, const Scope& inner, const std::set<std::string>& passed) {
+  const std::string& id = *place.element->attribute("ID");
+  const auto model = documents_.subtree_models.find(id);
+  for (const std::string& port : passed) {
+    if (inner.used.contains(port)) continue;
+    if (model != documents_.subtree_models.end() && model->second.contains(port)) continue;
+    std::vector<std::string> candidates;
+    for (const std::string& name : inner.used)
+      if (!passed.contains(name)) candidates.push_back(name);
+    problems_.add({place.document->at(*place.element, port), "SubTree",
+                   "the tree `" + id + "` has no entry {" + port + "}", didYouMean(port, candidates)});
+  }
+}
+
+std::unique_ptr<Node> Builder::makeTyped(const Place& place, Scope& scope) {
+  const NodeType& type = *typeOf(*place.element, registry_);
+  const std::string* name = place.element->attribute("name");
+  const int record = addRecord(place, &type.manifest);
+  NodeSetup setup;
+  setup.name = name == nullptr || name->empty() ? type.manifest.id : *name;
+  bindPorts(place, scope, type.manifest, setup);
+  recordFlow(originOf(place), type.manifest, setup);
+  auto node = type.build(setup);
+  tree_->setups[static_cast<std::size_t>(record)] = std::move(setup);
+  finishRecord(record, *node);
+
+  if (!place.element->children.empty()) {
+    auto* composite = dynamic_cast<Composite*>(node.get());
+    for (const XmlElement& element : place.element->children) {
+      auto child = makeNode({place.document, &element, record, place.depth + 1}, scope);
+      if (child == nullptr) return node;
+      if (composite != nullptr) composite->addChild(std::move(child));
+    }
+  }
+  if (std::string problem = node->checkBuilt(); !problem.empty())
+    problems_.add({place.document->at(*place.element), type.manifest.id, std::move(problem), {}});
+  return node;
+}
+
+void Builder::bindPorts(const Place& place, Scope& scope, const NodeManifest& manifest, NodeSetup& setup) {
+  setup.ports.reserve(manifest.ports.size());
+  for (const PortManifest& port : manifest.ports) {
+    PortBinding& binding = setup.ports.emplace_back();
+    binding.manifest = &port;
+    const std::string* text = place.element->attribute(port.name);
+    if (text == nullptr && port.default_value) text = &*port.default_value;
+    if (text == nullptr) continue;
+    if (const auto entry = entryOf(*text, port.name))
+      binding.slot = find(scope, *entry);
+    else if (port.direction != Direction::kInput)
+      binding.slot = find(scope, *text);
+    else
+      binding.literal = readValue(port, *text).value;
+  }
+}
+
+void Builder::recordFlow(const NodeOrigin& origin, const NodeManifest& manifest, const NodeSetup& setup) {
+  const PortBinding* anything = nullptr;
+  for (const PortBinding& binding : setup.ports)
+    if (binding.manifest->direction == Direction::kInput && binding.manifest->type == PortType::kAny)
+      anything = &binding;
+  for (const PortBinding& binding : setup.ports) {
+    if (binding.slot == nullptr) continue;
+    if (binding.manifest->direction != Direction::kOutput)
+      recordRead(binding.slot->id, origin, manifest, *binding.manifest);
+    if (binding.manifest->direction == Direction::kInput) continue;
+    EntryFlow& flow = tree_->flows[binding.slot->id];
+    if (binding.manifest->type != PortType::kAny || anything == nullptr)
+      flow.typed_writes.push_back(binding.manifest->type);
+    else if (anything->slot != nullptr)
+      flow.copied_from.push_back(anything->slot->id);
+    else if (anything->literal)
+      flow.literals.push_back({toString(*anything->literal), origin, anything->manifest->name});
+  }
+}
+
+void Builder::recordRead(std::size_t slot, const NodeOrigin& origin, const NodeManifest& manifest,
+                         const PortManifest& port) {
+  auto& reads = tree_->flows[slot].reads;
+  const auto known =
+      std::find_if(reads.begin(), reads.end(), [&](const EntryRead& read) { return read.port == &port; });
+  if (known == reads.end()) reads.push_back({&port, manifest.id, origin});
+}
+
+int Builder::addRecord(const Place& place, const NodeManifest* manifest) {
+  tree_->records.push_back({nullptr, place.parent, manifest});
+  tree_->setups.emplace_back();
+  tree_->origins.push_back(originOf(place));
+  return static_cast<int>(tree_->records.size()) - 1;
+}
+
+void Builder::finishRecord(int id, Node& node) {
+  node.setId(id);
+  tree_->records[static_cast<std::size_t>(id)].node = &node;
+}
+
+Slot* Builder::find(Scope& scope, const std::string& name) {
+  if (name.starts_with('@')) return find(*main_scope_, name.substr(1));
+  scope.used.insert(name);
+  if (const auto known = scope.names.find(name); known != scope.names.end()) return known->second;
+  const bool outer = scope.autoremap && scope.outer != nullptr && !name.starts_with('_');
+  Slot* slot = outer ? find(*scope.outer, name) : makeSlot(name);
+  scope.names.emplace(name, slot);
+  return slot;
+}
+
+Slot* Builder::makeSlot(const std::string& name) {
+  Slot& slot = tree_->slots.emplace_back();
+  slot.name = name;
+  slot.id = tree_->slots.size() - 1;
+  tree_->flows.emplace_back();
+  return &slot;
+}
+
+NodeOrigin Builder::originOf(const Place& place) const { return {files_.at(place.document), place.element->offset}; }
+
+bool Builder::tooLarge(const Place& place) {
+  if (gave_up_) return true;
+  const ParseLimits& limits = options_.limits;
+  std::string message;
+  if (place.depth >= limits.depth)
+    message = "nodes are nested deeper than " + std::to_string(limits.depth) + ", subtrees included";
+  else if (static_cast<int>(tree_->records.size()) >= limits.nodes)
+    message = "more than " + std::to_string(limits.nodes) + " nodes, subtrees included";
+  else
+    return false;
+  gave_up_ = true;
+  problems_.add({place.document->at(*place.element), place.element->name, std::move(message), {}});
+  return true;
+}
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,249 @@
+#include "behaviors/tree/checker.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "behaviors/tree/elements.hpp"
+
+namespace swiftlet::tree {
+namespace {
+
+/// Types of BehaviorTree.CPP that this engine does not have, so that the message can say so.
+constexpr std::array<std::string_view, 27> kElsewhere = {
+    "AsyncFallback",     "AsyncSequence",   "ConsumeQueue",
+    "EntryUpdated",      "IfThenElse",      "KeepRunningUntilFailure",
+    "LoopBool",          "LoopDouble",      "LoopInt",
+    "LoopString",        "ManualSelector",  "ParallelAll",
+    "Precondition",      "RunOnce",         "Script",
+    "ScriptCondition",   "SequenceStar",    "SequenceWithMemory",
+    "SkipUnlessUpdated", "Sleep",           "Switch2",
+    "Switch3",           "Switch4",         "TestNode",
+    "UnsetBlackboard",   "WaitValueUpdate", "WhileDoElse"};
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "`" : ", `") + word + "`";
+  return text;
+}
+
+std::vector<std::string> portNames(const NodeManifest& manifest) {
+  std::vector<std::string> names;
+  for (const PortManifest& port : manifest.ports) names.push_back(port.name);
+  return names;
+}
+
+/// "`clearance_cm` is in centimetres, expected `clearance_m` in metres", when only the unit differs.
+std::string otherUnit(std::string_view given, const NodeManifest& manifest) {
+  for (const PortManifest& port : manifest.ports) {
+    const auto expected = unitInWords(unitOf(port.name));
+    if (expected.empty() || withoutUnit(port.name) != withoutUnit(given)) continue;
+    const auto actual = unitInWords(unitOf(given));
+    return "port `" + std::string(given) + "` is " + (actual.empty() ? "without a unit" : "in " + std::string(actual)) +
+           ", expected `" + port.name + "` in " + std::string(expected);
+  }
+  return {};
+}
+
+struct Use {
+  const Document* document = nullptr;
+  const XmlElement* element = nullptr;
+};
+
+/// Depth is bounded by that of the XML.
+void collectSubTrees(const Document& document, const XmlElement& element, std::map<std::string, Use>& uses) {
+  if (isSubTree(element))
+    if (const std::string* id = element.attribute("ID")) uses.try_emplace(*id, Use{&document, &element});
+  for (const XmlElement& child : element.children) collectSubTrees(document, child, uses);
+}
+
+}  // namespace
+
+Checker::Checker(const Documents& documents, const Registry& registry, Problems& problems)
+    : documents_(documents), registry_(registry), problems_(problems), node_names_(registry.ids()) {
+  node_names_.push_back("SubTree");
+  for (const auto& [id, tree] : documents.trees) tree_names_.push_back(id);
+}
+
+void Checker::check() {
+  // In the order of the files, not of the names.
+  for (const auto& document : documents_.documents) {
+    for (const XmlElement& element : document->root.children) {
+      const std::string* id = element.attribute("ID");
+      const auto tree = documents_.trees.find(id == nullptr ? "BehaviorTree" : *id);
+      if (tree != documents_.trees.end() && tree->second.element == &element) checkTree(tree->first, tree->second);
+    }
+  }
+  checkRecursion();
+}
+
+void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
+  const XmlElement& element = *tree.element;
+  const Document& document = *tree.document;
+  if (registry_.find(id) != nullptr)
+    problems_.add({document.at(element, "ID"), element.name, "`" + id + "` is the name of a node type", {}});
+  if (element.children.size() != 1)
+    problems_.add({document.at(element),
+                   element.name,
+                   "`" + id + "` has " + std::to_string(element.children.size()) + " children, expected 1",
+                   {}});
+  if (element.text_offset)
+    problems_.add({document.source.locate(*element.text_offset), element.name, "text is not expected here", {}});
+  for (const XmlElement& child : element.children) checkElement(document, child);
+}
+
+void Checker::checkElement(const Document& document, const XmlElement& element) {
+  if (problems_.full()) return;
+  if (isSubTree(element))
+    checkSubTree(document, element);
+  else if (typeOf(element, registry_) != nullptr)
+    checkNode(document, element);
+  else
+    checkUnknown(document, element);
+  if (element.text_offset)
+    problems_.add({document.source.locate(*element.text_offset), element.name, "text is not expected here", {}});
+  for (const XmlElement& child : element.children) checkElement(document, child);
+}
+
+void Checker::checkSubTree(const Document& document, const XmlElement& element) {
+  const std::string* id = element.attribute("ID");
+  if (id == nullptr)
+    problems_.add({document.at(element), element.name, "the attribute `ID` is missing", {}});
+  else if (!documents_.trees.contains(*id))
+    problems_.add({document.at(element, "ID"), element.name, "there is no <BehaviorTree ID=\"" + *id + "\">",
+                   didYouMean(*id, tree_names_)});
+  if (!element.children.empty())
+    problems_.add({document.at(element), element.name, "a SubTree has no children here", {}});
+  for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, nullptr);
+}
+
+void Checker::checkNode(const Document& document, const XmlElement& element) {
+  const NodeManifest& manifest = typeOf(element, registry_)->manifest;
+  if (const auto kind = explicitKind(element.name); kind && *kind != manifest.kind)
+    problems_.add({document.at(element), element.name, "`" + manifest.id + "` is not of this kind",
+                   std::string("write <") + toString(manifest.kind) + " ID=\"" + manifest.id + "\">"});
+  for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, &manifest);
+  for (const PortManifest& port : manifest.ports)
+    if (port.required && element.attribute(port.name) == nullptr)
+      problems_.add(
+          {document.at(element), manifest.id, "port `" + port.name + "` is missing, expected " + expectedOf(port), {}});
+  checkChildren(document, element, manifest);
+}
+
+void Checker::checkUnknown(const Document& document, const XmlElement& element) {
+  const bool is_explicit = explicitKind(element.name).has_value();
+  const std::string* id = is_explicit ? element.attribute("ID") : &element.name;
+  if (id == nullptr) {
+    problems_.add({document.at(element), element.name, "the attribute `ID` is missing", {}});
+    return;
+  }
+  std::string message = "unknown node `" + *id + "`";
+  std::string hint = didYouMean(*id, node_names_);
+  if (documents_.trees.contains(*id)) {
+    hint = "a tree is used as <SubTree ID=\"" + *id + "\"/>";
+  } else if (std::find(kElsewhere.begin(), kElsewhere.end(), *id) != kElsewhere.end()) {
+    message = "`" + *id + "` is a node of BehaviorTree.CPP that this engine does not have";
+  }
+  problems_.add({is_explicit ? document.at(element, "ID") : document.at(element), element.name, std::move(message),
+                 std::move(hint)});
+}
+
+void Checker::checkAttribute(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
+                             const NodeManifest* manifest) {
+  const std::string& name = attribute.name;
+  const auto place = [&] { return document.at(element, name); };
+  const std::string owner = manifest == nullptr ? element.name : manifest->id;
+  if (isStructural(element, name)) {
+    if (name == "_autoremap" && !parseValue(attribute.value, PortType::kBool, {}))
+      problems_.add({place(), owner + "." + name, "`" + attribute.value + "` is not true or false", {}});
+    return;
+  }
+  if (isScripted(name)) {
+    problems_.add({place(), owner + "." + name, "scripted conditions are not supported", {}});
+    return;
+  }
+  if (const auto entry = entryOf(attribute.value, name); entry && !isEntryName(*entry)) {
+    problems_.add(
+        {place(), owner + "." + name, "`" + attribute.value + "` does not name an entry, expected `{name}`", {}});
+    return;
+  }
+  const PortManifest* port = manifest == nullptr ? nullptr : manifest->findPort(name);
+  if (port != nullptr) {
+    checkPort(document, element, attribute, *port);
+  } else if (name.starts_with('_')) {
+    problems_.add({place(), owner, "unknown attribute `" + name + "`",
+                   name == "__shared_blackboard" ? "did you mean `_autoremap`?" : ""});
+  } else if (manifest != nullptr) {
+    const auto names = portNames(*manifest);
+    std::string message = otherUnit(name, *manifest);
+    if (message.empty())
+      message = "unknown port `" + name + "`, expected " + (names.empty() ? "no ports" : joined(names));
+    problems_.add({place(), owner, std::move(message), didYouMean(name, names)});
+  }
+}
+
+void Checker::checkPort(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
+                        const PortManifest& port) {
+  if (entryOf(attribute.value, port.name)) return;
+  const auto where = [&] {
+    return (explicitKind(element.name) ? *element.attribute("ID") : element.name) + "." + port.name;
+  };
+  if (port.direction != Direction::kInput) {
+    // The key of SetBlackboard may stand without braces.
+    if (port.type == PortType::kAny && isEntryName(attribute.value)) return;
+    problems_.add(
+        {document.at(element, port.name), where(), "`" + attribute.value + "` is not an entry, expected `{name}`", {}});
+    return;
+  }
+  std::string problem = readValue(port, attribute.value).problem;
+  if (!problem.empty()) problems_.add({document.at(element, port.name), where(), std::move(problem), {}});
+}
+
+void Checker::checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest) {
+  const auto children = static_cast<int>(element.children.size());
+  if (children >= manifest.minChildren() && children <= manifest.maxChildren()) return;
+  const std::string expected = manifest.kind == NodeKind::kControl     ? "at least 1"
+                               : manifest.kind == NodeKind::kDecorator ? "exactly 1"
+                                                                       : "none";
+  problems_.add(
+      {document.at(element),
+       manifest.id,
+       "has " + std::to_string(children) + (children == 1 ? " child" : " children") + ", expected " + expected,
+       {}});
+}
+
+/// Depth-first over "uses"; a tree met again while it is open contains itself.
+void Checker::checkRecursion() {
+  std::map<std::string, std::map<std::string, Use>> uses;
+  for (const auto& [id, tree] : documents_.trees) collectSubTrees(*tree.document, *tree.element, uses[id]);
+
+  enum class Mark : unsigned char { kNew, kOpen, kDone };
+  std::map<std::string, Mark> marks;
+  for (const auto& [start, unused] : uses) {
+    if (marks[start] == Mark::kDone) continue;
+    using Next = std::map<std::string, Use>::const_iterator;
+    std::vector<std::pair<std::string, Next>> path = {{start, uses[start].begin()}};
+    marks[start] = Mark::kOpen;
+    while (!path.empty() && !problems_.full()) {
+      auto& [id, next] = path.back();
+      if (next == uses[id].end()) {
+        marks[id] = Mark::kDone;
+        path.pop_back();
+        continue;
+      }
+      const auto& [used, use] = *next++;
+      if (!uses.contains(used) || marks[used] == Mark::kDone) continue;
+      if (marks[used] == Mark::kNew) {
+        marks[used] = Mark::kOpen;
+        path.emplace_back(used, uses[used].begin());
+        continue;
+      }
+      std::string chain;
+      const auto first = std::find_if(path.begin(), path.end(), [&](const auto& step) { return step.first == used; });
+      for (auto step = first; step != path.end(); ++step) chain += step->first + " -> ";
+      problems_.add({use.document->at(*use.element), "SubTree", "the tree contains itself: " + chain + used, {}});
+    }
+  }
+}
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,39 @@
+// Checks the elements of every tree, used or not, against the registry: types, ports, literals, numbers of children,
+// subtrees that exist and do not contain themselves.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "behaviors/tree/documents.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::tree {
+
+class Checker {
+ public:
+  Checker(const Documents& documents, const Registry& registry, Problems& problems);
+  void check();
+
+ private:
+  void checkTree(const std::string& id, const TreeDefinition& tree);
+  void checkElement(const Document& document, const XmlElement& element);
+  void checkSubTree(const Document& document, const XmlElement& element);
+  void checkNode(const Document& document, const XmlElement& element);
+  void checkUnknown(const Document& document, const XmlElement& element);
+  void checkAttribute(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
+                      const NodeManifest* manifest);
+  void checkPort(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
+                 const PortManifest& port);
+  void checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest);
+  void checkRecursion();
+
+  const Documents& documents_;
+  const Registry& registry_;
+  Problems& problems_;
+  std::vector<std::string> node_names_;
+  std::vector<std::string> tree_names_;
+};
+
+}  // namespace swiftlet::tree

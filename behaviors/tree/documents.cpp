@@ -1,0 +1,225 @@
+#include "behaviors/tree/documents.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace swiftlet::tree {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads at most one byte more than the limit, so that a huge file is noticed and not loaded.
+std::optional<std::string> readFromDisk(const std::string& path, std::size_t limit) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  const auto size = static_cast<std::size_t>(fs::file_size(path, error));
+  std::string text(std::min(error ? limit + 1 : size, limit + 1), '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+std::string normalized(const fs::path& path) { return path.lexically_normal().generic_string(); }
+
+bool isForEditors(std::string_view attribute) {
+  return attribute.starts_with("xmlns") || attribute.starts_with("xsi:") || attribute == "project_name";
+}
+
+constexpr std::array<std::string_view, 5> kModelKinds = {"Action", "Condition", "Control", "Decorator", "SubTree"};
+
+bool isPortTag(std::string_view name) { return name == "input_port" || name == "output_port" || name == "inout_port"; }
+
+}  // namespace
+
+void Problems::add(Problem problem) {
+  if (full()) return;
+  if (list_.size() == limit_) problem = {{}, {}, "there are more problems", {}};
+  list_.push_back(std::move(problem));
+}
+
+Documents::Documents(const ParseOptions& options, Problems& problems)
+    : options_(options), problems_(problems), read_file_(options.read_file) {
+  if (!read_file_)
+    read_file_ = [limit = options.limits.file_bytes](const std::string& path) { return readFromDisk(path, limit); };
+}
+
+void Documents::load(const std::string& path) {
+  auto text = read_file_(path);
+  if (!text) {
+    problems_.add({{path, 0, 0}, {}, "cannot be read", {}});
+    return;
+  }
+  load(std::move(*text), path);
+}
+
+void Documents::load(std::string text, const std::string& name) {
+  // Includes are finished first: the main file is the last.
+  if (add(std::move(text), name, nullptr, nullptr)) findMain(*documents.back());
+}
+
+bool Documents::add(std::string text, const std::string& path, const Document* from, const XmlElement* element) {
+  const Location place = from == nullptr ? Location{path, 0, 0} : from->at(*element);
+  const std::string tag = from == nullptr ? std::string() : "include";
+  if (text.size() > options_.limits.file_bytes) {
+    problems_.add(
+        {place, tag, "`" + path + "` is larger than " + std::to_string(options_.limits.file_bytes) + " bytes", {}});
+    return false;
+  }
+  if (static_cast<int>(seen_.size()) >= options_.limits.files) {
+    problems_.add({place, tag, "more than " + std::to_string(options_.limits.files) + " files", {}});
+    return false;
+  }
+  seen_.insert(normalized(path));
+  SourceText source(path, std::move(text));
+  XmlResult xml = parseXml(source, options_.limits.depth + 2);
+  if (!xml.root) {
+    problems_.add(std::move(*xml.problem));
+    return false;
+  }
+  auto document = std::make_unique<Document>(Document{std::move(source), std::move(*xml.root)});
+  const Document& kept = *document;
+  const bool usable = checkRoot(kept);
+  if (usable) {
+    open_.push_back(normalized(path));
+    readChildren(kept, path);
+    open_.pop_back();
+  }
+  documents.push_back(std::move(document));
+  return usable;
+}
+
+bool Documents::checkRoot(const Document& document) {
+  const XmlElement& root = document.root;
+  if (root.name != "root") {
+    problems_.add({document.at(root), root.name, "the outermost element must be <root BTCPP_format=\"4\">", {}});
+    return false;
+  }
+  const std::string* format = root.attribute("BTCPP_format");
+  if (format == nullptr || *format != "4") {
+    problems_.add({format == nullptr ? document.at(root) : document.at(root, "BTCPP_format"), "root",
+                   format == nullptr ? "BTCPP_format is missing, expected BTCPP_format=\"4\""
+                                     : "BTCPP_format=\"" + *format + "\", expected \"4\"",
+                   "a file of format 3 is brought to format 4 by opening and saving it in Groot2"});
+    return false;
+  }
+  const std::vector<std::string> known = {"BTCPP_format", "main_tree_to_execute"};
+  for (const XmlAttribute& attribute : root.attributes)
+    if (!isForEditors(attribute.name) && std::find(known.begin(), known.end(), attribute.name) == known.end())
+      problems_.add({document.at(root, attribute.name), "root", "unknown attribute `" + attribute.name + "`",
+                     didYouMean(attribute.name, known)});
+  if (root.text_offset)
+    problems_.add({document.source.locate(*root.text_offset), "root", "text is not expected here", {}});
+  return true;
+}
+
+void Documents::readChildren(const Document& document, const std::string& path) {
+  const std::vector<std::string> known = {"BehaviorTree", "TreeNodesModel", "include"};
+  const bool alone = std::count_if(document.root.children.begin(), document.root.children.end(),
+                                   [](const XmlElement& e) { return e.name == "BehaviorTree"; }) == 1;
+  for (const XmlElement& element : document.root.children) {
+    if (problems_.full()) return;
+    if (element.name == "include")
+      include(document, element, path);
+    else if (element.name == "BehaviorTree")
+      addTree(document, element, alone);
+    else if (element.name == "TreeNodesModel")
+      readModel(document, element);
+    else
+      problems_.add({document.at(element), element.name,
+                     "unknown element, expected <BehaviorTree>, <include> or <TreeNodesModel>",
+                     didYouMean(element.name, known)});
+  }
+}
+
+void Documents::include(const Document& document, const XmlElement& element, const std::string& path) {
+  const std::string* wanted = element.attribute("path");
+  if (element.attribute("ros_pkg") != nullptr) {
+    problems_.add(
+        {document.at(element, "ros_pkg"), "include", "ros_pkg is not supported", "give a path relative to this file"});
+    return;
+  }
+  if (wanted == nullptr || wanted->empty()) {
+    problems_.add({document.at(element), "include", "the attribute `path` is missing", {}});
+    return;
+  }
+  const std::string target = normalized(fs::path(path).parent_path() / *wanted);
+  if (std::find(open_.begin(), open_.end(), target) != open_.end()) {
+    std::string chain;
+    for (const std::string& file : open_) chain += file + " -> ";
+    problems_.add({document.at(element), "include", "files include each other: " + chain + target, {}});
+    return;
+  }
+  if (seen_.contains(target)) return;
+  auto text = read_file_(target);
+  if (!text) {
+    problems_.add({document.at(element, "path"), "include", "`" + target + "` cannot be read", {}});
+    return;
+  }
+  add(std::move(*text), target, &document, &element);
+}
+
+void Documents::addTree(const Document& document, const XmlElement& element, bool alone) {
+  const std::string* id = element.attribute("ID");
+  if (id != nullptr && id->empty()) {
+    problems_.add({document.at(element, "ID"), element.name, "the ID is empty", {}});
+    return;
+  }
+  if (id == nullptr && !alone) {
+    problems_.add(
+        {document.at(element), element.name, "the attribute `ID` is missing, expected where there are several", {}});
+    return;
+  }
+  const std::string name = id == nullptr ? "BehaviorTree" : *id;
+  const auto [other, is_new] = trees.try_emplace(name, TreeDefinition{&document, &element});
+  if (is_new) return;
+  const Location first = other->second.document->at(*other->second.element);
+  problems_.add({document.at(element),
+                 element.name,
+                 "`" + name + "` is defined twice, first at " + toString(Problem{first, {}, {}, {}}),
+                 {}});
+}
+
+void Documents::readModel(const Document& document, const XmlElement& element) {
+  for (const XmlElement& model : element.children) {
+    if (std::find(kModelKinds.begin(), kModelKinds.end(), model.name) == kModelKinds.end()) continue;
+    if (problems_.full()) return;
+    const std::string* id = model.attribute("ID");
+    if (id == nullptr) problems_.add({document.at(model), model.name, "the attribute `ID` is missing", {}});
+    for (const XmlElement& port : model.children) {
+      if (!isPortTag(port.name)) continue;
+      const std::string* name = port.attribute("name");
+      if (name == nullptr) problems_.add({document.at(port), port.name, "the attribute `name` is missing", {}});
+      if (name == nullptr || id == nullptr || model.name != "SubTree") continue;
+      const std::string* value = port.attribute("default");
+      subtree_models[*id][*name] = value == nullptr ? std::nullopt : std::optional(*value);
+    }
+  }
+}
+
+void Documents::findMain(const Document& document) {
+  const XmlElement& root = document.root;
+  std::vector<std::string> ids;
+  for (const auto& [id, tree] : trees) ids.push_back(id);
+  const std::string* wanted = root.attribute("main_tree_to_execute");
+  if (wanted == nullptr && trees.size() != 1) {
+    problems_.add({document.at(root),
+                   "root",
+                   trees.empty() ? "there is no <BehaviorTree>"
+                                 : "main_tree_to_execute is missing, expected where there are several trees",
+                   {}});
+    return;
+  }
+  main_id = wanted == nullptr ? ids.front() : *wanted;
+  if (const auto found = trees.find(main_id); found != trees.end())
+    main = &found->second;
+  else
+    problems_.add({document.at(root, "main_tree_to_execute"), "root",
+                   "there is no <BehaviorTree ID=\"" + main_id + "\">", didYouMean(main_id, ids)});
+}
+
+}  // namespace swiftlet::tree

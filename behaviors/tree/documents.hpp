@@ -1,0 +1,80 @@
+// The files of one tree: the main file and what it includes, and the <BehaviorTree> elements found in them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "behaviors/tree/parser.hpp"
+#include "behaviors/tree/xml.hpp"
+
+namespace swiftlet::tree {
+
+/// Collects problems up to a limit.
+class Problems {
+ public:
+  explicit Problems(int limit) : limit_(static_cast<std::size_t>(limit)) {}
+  void add(Problem problem);
+  bool empty() const { return list_.empty(); }
+  /// Looking for more is a waste of time.
+  bool full() const { return list_.size() > limit_; }
+  std::vector<Problem> take() { return std::move(list_); }
+
+ private:
+  std::size_t limit_;
+  std::vector<Problem> list_;
+};
+
+struct Document {
+  SourceText source;
+  XmlElement root;
+
+  Location at(const XmlElement& element) const { return source.locate(element.offset); }
+  Location at(const XmlElement& element, std::string_view attribute) const {
+    return source.locate(element.offset, attribute);
+  }
+};
+
+struct TreeDefinition {
+  const Document* document = nullptr;
+  const XmlElement* element = nullptr;  ///< <BehaviorTree>.
+};
+
+/// Ports that <TreeNodesModel> declares for a <SubTree ID>, with their defaults.
+using SubTreeModel = std::map<std::string, std::optional<std::string>, std::less<>>;
+
+class Documents {
+ public:
+  Documents(const ParseOptions& options, Problems& problems);
+
+  void load(const std::string& path);
+  void load(std::string text, const std::string& name);
+
+  std::vector<std::unique_ptr<Document>> documents;  ///< In the order they were finished reading; stable addresses.
+  std::map<std::string, TreeDefinition, std::less<>> trees;
+  std::map<std::string, SubTreeModel, std::less<>> subtree_models;
+  /// Null when there is none, which is then among the problems.
+  const TreeDefinition* main = nullptr;
+  std::string main_id;
+
+ private:
+  /// False when this file cannot hold a tree at all.
+  bool add(std::string text, const std::string& path, const Document* from, const XmlElement* include);
+  void include(const Document& document, const XmlElement& element, const std::string& path);
+  bool checkRoot(const Document& document);
+  void readChildren(const Document& document, const std::string& path);
+  void addTree(const Document& document, const XmlElement& element, bool alone);
+  void readModel(const Document& document, const XmlElement& element);
+  void findMain(const Document& document);
+
+  const ParseOptions& options_;
+  Problems& problems_;
+  FileReader read_file_;
+  std::set<std::string> seen_;
+  std::vector<std::string> open_;  ///< The chain of includes being read.
+};
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,59 @@
+#include "behaviors/tree/elements.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace swiftlet::tree {
+namespace {
+
+template <std::size_t N>
+bool isOneOf(std::string_view word, const std::array<std::string_view, N>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+}  // namespace
+
+std::optional<NodeKind> explicitKind(std::string_view tag) {
+  for (const NodeKind kind : {NodeKind::kAction, NodeKind::kCondition, NodeKind::kControl, NodeKind::kDecorator})
+    if (tag == toString(kind)) return kind;
+  return std::nullopt;
+}
+
+const NodeType* typeOf(const XmlElement& element, const Registry& registry) {
+  if (!explicitKind(element.name)) return registry.find(element.name);
+  const std::string* id = element.attribute("ID");
+  return id == nullptr ? nullptr : registry.find(*id);
+}
+
+bool isStructural(const XmlElement& element, std::string_view attribute) {
+  constexpr std::array<std::string_view, 5> kEverywhere = {"name", "_description", "_uid", "_fullpath", "_fullPath"};
+  if (attribute == "ID") return isSubTree(element) || explicitKind(element.name).has_value();
+  if (attribute == "_autoremap") return isSubTree(element);
+  return isOneOf(attribute, kEverywhere);
+}
+
+bool isScripted(std::string_view attribute) {
+  constexpr std::array<std::string_view, 8> kConditions = {"_skipIf",    "_successIf", "_failureIf", "_while",
+                                                           "_onSuccess", "_onFailure", "_onHalted",  "_post"};
+  return isOneOf(attribute, kConditions);
+}
+
+bool isAutoremapped(const XmlElement& element) {
+  const std::string* value = element.attribute("_autoremap");
+  return value != nullptr && (*value == "true" || *value == "1");
+}
+
+std::optional<std::string> entryOf(std::string_view text, std::string_view port) {
+  if (text.size() < 2 || text.front() != '{' || text.back() != '}') return std::nullopt;
+  text = text.substr(1, text.size() - 2);
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return std::string(text == "=" ? port : text);
+}
+
+bool isEntryName(std::string_view name) {
+  if (name.starts_with('@')) name.remove_prefix(1);
+  return !name.empty() && name.find_first_of(" \t\r\n{}") == std::string_view::npos;
+}
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "behaviors/tree/builder.hpp"
+
+namespace swiftlet::tree {
+namespace {
+
+bool fits(PortType written, PortType read) {
+  const auto isText = [](PortType type) { return type == PortType::kAny || type == PortType::kString; };
+  return isText(written) || isText(read) || written == read || (written == PortType::kInt && read == PortType::kDouble);
+}
+
+bool isSet(const EntryFlow& flow) {
+  return flow.by_host || !flow.literals.empty() || !flow.copied_from.empty() || !flow.typed_writes.empty();
+}
+
+std::vector<std::string> namesOfSet(const TreeParts& tree) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < tree.slots.size(); ++i)
+    if (isSet(tree.flows[i])) names.push_back(tree.slots[i].name);
+  return names;
+}
+
+void checkEntry(const TreeParts& tree, std::size_t slot, Problems& problems) {
+  const EntryFlow& flow = tree.flows[slot];
+  const std::string entry = "{" + tree.slots[slot].name + "}";
+  if (!isSet(flow)) {
+    const EntryRead& read = flow.reads.front();
+    problems.add({tree.locate(read.origin, read.port->name), read.owner + "." + read.port->name,
+                  "nothing sets the entry " + entry, didYouMean(tree.slots[slot].name, namesOfSet(tree))});
+    return;
+  }
+  for (const EntryRead& read : flow.reads) {
+    const std::string reader = read.owner + "." + read.port->name;
+    for (const PortType written : flow.typed_writes)
+      if (!fits(written, read.port->type))
+        problems.add(
+            {tree.locate(read.origin, read.port->name),
+             reader,
+             "the entry " + entry + " is written as " + toString(written) + ", expected " + expectedOf(*read.port),
+             {}});
+    if (read.port->type == PortType::kAny) continue;
+    for (const LiteralWrite* literal : tree.literalsOf(slot))
+      if (const ReadValue value = readValue(*read.port, literal->text); !value.value)
+        problems.add({tree.locate(literal->origin, literal->attribute),
+                      literal->attribute,
+                      value.problem + " (read by " + reader + " from " + entry + ")",
+                      {}});
+  }
+}
+
+}  // namespace
+
+void checkEntries(const TreeParts& tree, Problems& problems) {
+  for (std::size_t i = 0; i < tree.slots.size() && !problems.full(); ++i)
+    if (!tree.flows[i].reads.empty()) checkEntry(tree, i, problems);
+}
+
+std::vector<const LiteralWrite*> TreeParts::literalsOf(std::size_t slot) const {
+  std::vector<std::size_t> reached = {slot};
+  std::vector<const LiteralWrite*> literals;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const EntryFlow& flow = flows[reached[i]];
+    for (const LiteralWrite& literal : flow.literals) literals.push_back(&literal);
+    for (const std::size_t from : flow.copied_from)
+      if (reached.size() < kMaxCopies && std::find(reached.begin(), reached.end(), from) == reached.end())
+        reached.push_back(from);
+  }
+  return literals;
+}
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,29 @@
+// Delay: waits delay_msec (RUNNING), then is what the child is.
+// The clock starts at the first tick and stands still from the tick that suspends this node to the one that resumes it.
+// The child is asked only when the time is over: before that the Delay has something to do, whatever the child would
+// say.
+#pragma once
+
+#include "behaviors/tree/composite.hpp"
+#include "behaviors/tree/registry.hpp"
+#include "behaviors/tree/stopwatch.hpp"
+
+namespace swiftlet::tree {
+
+class Delay final : public Composite {
+ public:
+  explicit Delay(const NodeSetup& setup);
+  static NodeManifest manifest();
+
+ private:
+  Status run(TickContext& context) override;
+  void clear(TickContext& context) override { watch_.restart(context.now_ns); }
+  void onResume(TickContext& context) override { watch_.resume(context.now_ns); }
+  Release onSuspend(TickContext& context) override;
+  bool onAsked(const TickContext& context) const override;
+
+  Input<Duration> delay_msec_;
+  Stopwatch watch_;
+};
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,18 @@
+// ForceFailure: FAILURE when the child ends with SUCCESS or FAILURE; RUNNING and SKIPPED stay.
+#pragma once
+
+#include "behaviors/tree/composite.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::tree {
+
+class ForceFailure final : public Composite {
+ public:
+  using Composite::Composite;
+  static NodeManifest manifest();
+
+ private:
+  Status run(TickContext& context) override;
+};
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,91 @@
+#include "behaviors/tree/nodes/parallel.hpp"
+
+#include <algorithm>
+
+namespace swiftlet::tree {
+namespace {
+
+/// How many children `asked` means; -1 is all of `children`.
+std::size_t threshold(std::int64_t asked, std::size_t children) {
+  const auto all = static_cast<std::int64_t>(children);
+  return static_cast<std::size_t>(std::max<std::int64_t>(0, asked < 0 ? all + asked + 1 : asked));
+}
+
+std::string tooMany(const char* port, const std::optional<std::int64_t>& asked, std::size_t children) {
+  if (!asked || *asked <= static_cast<std::int64_t>(children)) return {};
+  return std::string(port) + " is " + std::to_string(*asked) + ", but it has only " + std::to_string(children) +
+         (children == 1 ? " child" : " children");
+}
+
+}  // namespace
+
+NodeManifest Parallel::manifest() {
+  return {.id = "Parallel",
+          .kind = NodeKind::kControl,
+          .ports = {{.name = "success_count",
+                     .type = PortType::kInt,
+                     .default_value = "-1",
+                     .minimum = -1000,
+                     .maximum = 1000,
+                     .description = "So many children must succeed; negative: counted from the end, -1 is all."},
+                    {.name = "failure_count",
+                     .type = PortType::kInt,
+                     .default_value = "1",
+                     .minimum = -1000,
+                     .maximum = 1000,
+                     .description = "So many failures make it fail; negative: counted from the end, -1 is all."}},
+          .description = "All children in the same tick, until enough of them succeeded or failed."};
+}
+
+Parallel::Parallel(const NodeSetup& setup)
+    : Composite(setup), success_count_(setup, "success_count"), failure_count_(setup, "failure_count") {}
+
+std::string Parallel::checkBuilt() const {
+  const std::string success = tooMany("success_count", success_count_.get(), count());
+  return success.empty() ? tooMany("failure_count", failure_count_.get(), count()) : success;
+}
+
+void Parallel::clear(TickContext&) {
+  ended_.assign(count(), false);
+  successes_ = failures_ = 0;
+}
+
+Status Parallel::run(TickContext& context) {
+  const auto success_count = success_count_.get();
+  const auto failure_count = failure_count_.get();
+  if (!success_count) return endWith(context, fail(context, success_count_.problem()));
+  if (!failure_count) return endWith(context, fail(context, failure_count_.problem()));
+  if (const std::string problem = checkBuilt(); !problem.empty()) return endWith(context, fail(context, problem));
+  const std::size_t needed = threshold(*success_count, count());
+  const std::size_t bearable = threshold(*failure_count, count());
+
+  std::size_t skipped = 0;
+  for (std::size_t i = 0; i < count(); ++i) {
+    if (!ended_[i]) {
+      switch (child(i).tick(context)) {
+        case Status::kSuccess:
+          ended_[i] = true;
+          ++successes_;
+          break;
+        case Status::kFailure:
+          ended_[i] = true;
+          ++failures_;
+          break;
+        case Status::kSkipped:
+          ++skipped;
+          break;
+        case Status::kRunning:
+        case Status::kIdle:
+        case Status::kSuspended:
+          break;
+      }
+    }
+    if (skipped == i + 1) continue;  // Nothing to judge yet; all SKIPPED must not look like a result.
+    if (successes_ >= needed || (*success_count < 0 && successes_ + skipped >= needed))
+      return endWith(context, Status::kSuccess);
+    if (count() - failures_ < needed || failures_ == bearable) return endWith(context, Status::kFailure);
+  }
+  return skipped == count() ? Status::kSkipped : Status::kRunning;
+}
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,36 @@
+// Parallel: all children in the same tick, in order.
+//   a child that ended with SUCCESS or FAILURE is not asked again; RUNNING and SKIPPED ones are, at every tick
+//   success_count children SUCCESS                      -> SUCCESS
+//   failure_count children FAILURE, or too few are left -> FAILURE
+//   all children SKIPPED in this tick                   -> SKIPPED
+//   otherwise                                           -> RUNNING
+// A negative count is counted from the number of children: -1 is all of them, and SKIPPED then counts as SUCCESS.
+// The counts are looked at after each child; those under way are halted, which may take several ticks (RUNNING), and
+// then the result stands.
+#pragma once
+
+#include <vector>
+
+#include "behaviors/tree/composite.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::tree {
+
+class Parallel final : public Composite {
+ public:
+  explicit Parallel(const NodeSetup& setup);
+  static NodeManifest manifest();
+  std::string checkBuilt() const override;
+
+ private:
+  Status run(TickContext& context) override;
+  void clear(TickContext&) override;
+
+  Input<std::int64_t> success_count_;
+  Input<std::int64_t> failure_count_;
+  std::vector<bool> ended_;
+  std::size_t successes_ = 0;
+  std::size_t failures_ = 0;
+};
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,17 @@
+// SubTree: another tree in this place, with blackboard entries of its own; is what that tree is.
+// Which entries it shares is fixed when the tree is built, see builder.hpp.
+#pragma once
+
+#include "behaviors/tree/composite.hpp"
+
+namespace swiftlet::tree {
+
+class SubTree final : public Composite {
+ public:
+  using Composite::Composite;
+
+ private:
+  Status run(TickContext& context) override { return child().tick(context); }
+};
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,42 @@
+#include "behaviors/tree/parser.hpp"
+
+#include <utility>
+
+#include "behaviors/tree/builder.hpp"
+#include "behaviors/tree/checker.hpp"
+#include "behaviors/tree/documents.hpp"
+
+namespace swiftlet::tree {
+namespace {
+
+ParseResult finish(const Documents& documents, const Registry& registry, const ParseOptions& options,
+                   Problems& problems) {
+  ParseResult result;
+  Checker(documents, registry, problems).check();
+  // Subtrees that exist and do not contain themselves are what building rests on.
+  if (problems.empty() && documents.main != nullptr) {
+    Tree tree = Builder(documents, registry, options, problems).build();
+    if (problems.empty()) result.tree = std::move(tree);
+  }
+  result.problems = problems.take();
+  return result;
+}
+
+}  // namespace
+
+ParseResult parseFile(const std::string& path, const Registry& registry, const ParseOptions& options) {
+  Problems problems(options.limits.problems);
+  Documents documents(options, problems);
+  documents.load(path);
+  return finish(documents, registry, options, problems);
+}
+
+ParseResult parseText(std::string text, const std::string& name, const Registry& registry,
+                      const ParseOptions& options) {
+  Problems problems(options.limits.problems);
+  Documents documents(options, problems);
+  documents.load(std::move(text), name);
+  return finish(documents, registry, options, problems);
+}
+
+}  // namespace swiftlet::tree

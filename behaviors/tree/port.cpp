@@ -1,0 +1,121 @@
+#include "behaviors/tree/port.hpp"
+
+#include <cassert>
+#include <type_traits>
+
+namespace swiftlet::tree {
+namespace {
+
+/// What a range is about: the number itself, or a duration in the unit of its port.
+std::optional<double> magnitude(const Value& value, std::string_view port_name) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* number = std::get_if<std::int64_t>(&value)) return static_cast<double>(*number);
+  if (const auto* duration = std::get_if<Duration>(&value)) {
+    const auto one = parseValue("1", PortType::kDuration, unitOf(port_name));
+    if (one)
+      return static_cast<double>(duration->nanoseconds) / static_cast<double>(std::get<Duration>(*one).nanoseconds);
+  }
+  return std::nullopt;
+}
+
+bool inRange(const PortManifest& port, const Value& value) {
+  if (!port.minimum && !port.maximum) return true;
+  const auto number = magnitude(value, port.name);
+  return !number || ((!port.minimum || *number >= *port.minimum) && (!port.maximum || *number <= *port.maximum));
+}
+
+/// The value of an entry as this port takes it; a whole number is also a number, and text is read.
+template <typename T>
+std::optional<T> converted(const PortManifest& port, const Value& value) {
+  if (const T* exact = std::get_if<T>(&value)) return inRange(port, value) ? std::optional<T>(*exact) : std::nullopt;
+  if constexpr (std::is_same_v<T, double>)
+    if (const auto* whole = std::get_if<std::int64_t>(&value); whole != nullptr && inRange(port, value))
+      return static_cast<double>(*whole);
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    const ReadValue read = readValue(port, *text);
+    if (read.value)
+      if (const T* result = std::get_if<T>(&*read.value)) return *result;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string expectedOf(const PortManifest& port) {
+  std::string text;
+  switch (port.type) {
+    case PortType::kAny:
+    case PortType::kString:
+      return "text";
+    case PortType::kDouble:
+      text = "a number";
+      break;
+    case PortType::kInt:
+      text = "a whole number";
+      break;
+    case PortType::kBool:
+      return "true or false";
+    case PortType::kPoint:
+      return "a point `x;y` or `x;y;z` in metres";
+    case PortType::kDuration:
+      text = "a time";
+      break;
+  }
+  if (const auto words = unitInWords(unitOf(port.name)); !words.empty()) text += " in " + std::string(words);
+  if (port.minimum && port.maximum)
+    text += " from " + toString(Value(*port.minimum)) + " to " + toString(Value(*port.maximum));
+  else if (port.minimum)
+    text += " not below " + toString(Value(*port.minimum));
+  else if (port.maximum)
+    text += " not above " + toString(Value(*port.maximum));
+  return text;
+}
+
+ReadValue readValue(const PortManifest& port, std::string_view text) {
+  ReadValue read;
+  read.value = parseValue(text, port.type, unitOf(port.name));
+  if (!read.value) {
+    read.problem = "`" + std::string(text) + "` is not " + expectedOf(port);
+  } else if (!inRange(port, *read.value)) {
+    read.value.reset();
+    read.problem = "`" + std::string(text) + "` is out of range, expected " + expectedOf(port);
+  }
+  return read;
+}
+
+const PortBinding& NodeSetup::port(std::string_view port_name) const {
+  for (const PortBinding& binding : ports)
+    if (binding.manifest->name == port_name) return binding;
+  assert(!"the manifest does not declare this port");
+  static const PortBinding kNothing;
+  return kNothing;
+}
+
+template <typename T>
+std::optional<T> Input<T>::get() const {
+  if (binding_.literal) {
+    const T* value = std::get_if<T>(&*binding_.literal);
+    return value == nullptr ? std::nullopt : std::optional<T>(*value);
+  }
+  if (binding_.slot == nullptr || !binding_.slot->value) return std::nullopt;
+  return converted<T>(*binding_.manifest, *binding_.slot->value);
+}
+
+template <typename T>
+std::string Input<T>::problem() const {
+  if (binding_.manifest == nullptr) return "no such port";
+  const std::string port = "port " + binding_.manifest->name + ": ";
+  if (binding_.slot == nullptr) return port + "not given";
+  const std::string entry = "the entry {" + binding_.slot->name + "}";
+  if (!binding_.slot->value) return port + entry + " is not set";
+  return port + entry + " is `" + toString(*binding_.slot->value) + "`, expected " + expectedOf(*binding_.manifest);
+}
+
+template class Input<std::string>;
+template class Input<double>;
+template class Input<std::int64_t>;
+template class Input<bool>;
+template class Input<Point>;
+template class Input<Duration>;
+
+}  // namespace swiftlet::tree

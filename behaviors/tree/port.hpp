@@ -1,0 +1,90 @@
+// Ports: what a node type declares, what an XML attribute binds to it, and how a node reads and writes it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "behaviors/tree/value.hpp"
+
+namespace swiftlet::tree {
+
+enum class Direction : unsigned char { kInput, kOutput, kInOut };
+
+struct PortManifest {
+  std::string name = {};  ///< Ends with its unit where it has one.
+  PortType type = PortType::kString;
+  Direction direction = Direction::kInput;
+  bool required = false;
+  std::optional<std::string> default_value = std::nullopt;  ///< Text, read as an attribute would be.
+  std::optional<double> minimum = std::nullopt;             ///< Inclusive; numbers and durations (in the port's unit).
+  std::optional<double> maximum = std::nullopt;
+  std::string description = {};  ///< One sentence.
+};
+
+/// "a number in metres from 0 to 5", for messages and documents.
+std::string expectedOf(const PortManifest& port);
+
+/// The value of `text` for this port, or what is wrong with it.
+struct ReadValue {
+  std::optional<Value> value;
+  std::string problem;
+};
+ReadValue readValue(const PortManifest& port, std::string_view text);
+
+/// One blackboard entry. Subtrees that remap a name share the slot.
+struct Slot {
+  std::string name;
+  std::size_t id = 0;  ///< Unique in its tree.
+  std::optional<Value> value;
+};
+
+/// What stands behind a port of one node: a literal, a blackboard entry, or nothing.
+struct PortBinding {
+  const PortManifest* manifest = nullptr;
+  std::optional<Value> literal;
+  Slot* slot = nullptr;
+};
+
+/// What a node is made from. It outlives nothing: nodes take what they need in the constructor.
+struct NodeSetup {
+  std::string name;  ///< The attribute `name`, or the type.
+  std::vector<PortBinding> ports;
+
+  const PortBinding& port(std::string_view port_name) const;
+};
+
+/// A port read as T (std::string, double, std::int64_t, bool, Point or Duration). A text entry is read when asked for.
+template <typename T>
+class Input {
+ public:
+  /// The manifest must declare the port; it outlives the node (it lives in the registry).
+  Input(const NodeSetup& setup, std::string_view port_name) : binding_(setup.port(port_name)) {}
+
+  /// Given in the XML or by a default.
+  bool given() const { return binding_.literal.has_value() || binding_.slot != nullptr; }
+  /// Nothing when not given, when the entry is not set yet, or when it holds what this port cannot take.
+  std::optional<T> get() const;
+  /// Why get() has nothing: "port goal: the entry {target} is not set".
+  std::string problem() const;
+
+ private:
+  PortBinding binding_;
+};
+
+/// A port that is written.
+class Output {
+ public:
+  Output(const NodeSetup& setup, std::string_view port_name) : binding_(setup.port(port_name)) {}
+  /// Does nothing when the port is not given.
+  void set(Value value) const {
+    if (binding_.slot != nullptr) binding_.slot->value = std::move(value);
+  }
+
+ private:
+  PortBinding binding_;
+};
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,78 @@
+#include "behaviors/tree/problem.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "behaviors/tree/value.hpp"
+
+namespace swiftlet::tree {
+namespace {
+
+/// For letters of ASCII; the locale must not matter.
+std::string lowered(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row[b.size()];
+}
+
+const std::string* nearest(std::string_view word, std::span<const std::string> candidates) {
+  for (const std::string& candidate : candidates)
+    if (withoutUnit(candidate) == withoutUnit(word)) return &candidate;
+  constexpr std::size_t kLongestName = 100;  // Nobody mistypes a longer one, and the distance is quadratic.
+  if (word.size() > kLongestName) return nullptr;
+  const std::string low = lowered(word);
+  const std::string* best = nullptr;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > kLongestName) continue;
+    const std::size_t distance = editDistance(low, lowered(candidate));
+    if (distance < best_distance && distance < candidate.size()) {
+      best_distance = distance;
+      best = &candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string toString(const Problem& problem) {
+  std::string text = problem.location.file;
+  if (problem.location.line > 0) {
+    text += ":" + std::to_string(problem.location.line);
+    if (problem.location.column > 0) text += ":" + std::to_string(problem.location.column);
+  }
+  for (const std::string* part : {&problem.element, &problem.message})
+    if (!part->empty()) text += (text.empty() ? "" : ": ") + *part;
+  if (!problem.hint.empty()) text += ", " + problem.hint;
+  return text;
+}
+
+std::string toString(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += toString(problem) + "\n";
+  return text;
+}
+
+std::string didYouMean(std::string_view word, std::span<const std::string> candidates) {
+  const std::string* best = nearest(word, candidates);
+  return best == nullptr ? std::string() : "did you mean `" + *best + "`?";
+}
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,34 @@
+// What is wrong in a tree file, as the user reads it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace swiftlet::tree {
+
+/// Lines and columns count from 1, columns in characters; 0 means unknown.
+struct Location {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+struct Problem {
+  Location location;
+  std::string element;  ///< The tag, or "Tag.port".
+  std::string message;  ///< What is wrong, with the offending text, and what was expected.
+  std::string hint;     ///< "did you mean `x`?"; may be empty.
+};
+
+/// "file:line:column: element: message, hint".
+std::string toString(const Problem& problem);
+/// One line a problem.
+std::string toString(const std::vector<Problem>& problems);
+
+/// "did you mean `x`?" for the candidate nearest to `word` by edit distance, or an empty string when none is near.
+/// A name that differs in its unit only (`clearance_cm`, `clearance`) is nearest of all.
+std::string didYouMean(std::string_view word, std::span<const std::string> candidates);
+
+}  // namespace swiftlet::tree

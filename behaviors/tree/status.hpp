@@ -1,0 +1,23 @@
+// The words of the engine: how a node stands, and whether it has let go of what it held.
+#pragma once
+
+namespace swiftlet::tree {
+
+/// kIdle was not ticked since its parent started; kSuccess, kFailure and kSkipped are how it ended last; kRunning and
+/// kSuspended are under way. tick() never returns kIdle or kSuspended.
+enum class Status : unsigned char { kIdle, kRunning, kSuccess, kFailure, kSkipped, kSuspended };
+
+/// "IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED", "SUSPENDED".
+const char* toString(Status status);
+
+/// Under way: it keeps its progress, and a tick goes on with it instead of starting anew.
+constexpr bool isActive(Status status) { return status == Status::kRunning || status == Status::kSuspended; }
+
+/// The answer of a node asked to let go: not yet (ask again next tick), or done.
+enum class Release : unsigned char { kLettingGo, kReleased };
+
+constexpr Release both(Release a, Release b) {
+  return a == Release::kReleased && b == Release::kReleased ? Release::kReleased : Release::kLettingGo;
+}
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,65 @@
+// A built tree: the nodes, their blackboard entries and where each came from.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "behaviors/tree/node.hpp"
+#include "behaviors/tree/problem.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::tree {
+
+/// One node, for display.
+struct NodeView {
+  int id = 0;
+  int parent = -1;  ///< -1 for the root.
+  std::string name;
+  Status status = Status::kIdle;
+};
+
+/// What is known of a node beside its state.
+struct NodeRecord {
+  Node* node = nullptr;
+  int parent = -1;
+  const NodeManifest* manifest = nullptr;  ///< Null for a SubTree node.
+};
+
+struct TreeParts;
+
+class Tree {
+ public:
+  /// Made by the parser.
+  explicit Tree(std::unique_ptr<TreeParts> parts);
+  Tree(Tree&&) noexcept;
+  Tree& operator=(Tree&&) noexcept;
+  ~Tree();
+
+  Status tick(TickContext& context);
+  /// Asked each tick until it returns kReleased; the tree is then IDLE and may be ticked anew.
+  Release halt(TickContext& context);
+
+  /// Sets an entry of the main tree that was named in ParseOptions::host_entries; false when it was not, or nobody
+  /// reads it.
+  bool set(std::string_view entry, Value value);
+
+  /// The ID of the main tree.
+  const std::string& name() const;
+  const Node& root() const;
+  /// In preorder; the id of a node is its index.
+  const std::vector<NodeRecord>& nodes() const;
+  std::vector<NodeView> view() const;
+
+  /// Where the element of a node stands, or one of its attributes (the element when it is not there).
+  Location locationOf(int id, std::string_view attribute = {}) const;
+  /// Every value a port is known to take before the first tick: its literal or default, or the texts that subtree ports
+  /// and SetBlackboard give its entry. Values that cannot be read are left out (they are problems already).
+  std::vector<Value> knownValues(int id, std::string_view port) const;
+
+ private:
+  std::unique_ptr<TreeParts> parts_;
+};
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,59 @@
+// What a Tree owns. Inside the engine only.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "behaviors/tree/tree.hpp"
+#include "behaviors/tree/xml.hpp"
+
+namespace swiftlet::tree {
+
+/// Where a node stands: a file and an offset in it.
+struct NodeOrigin {
+  std::size_t file = 0;
+  std::size_t offset = 0;
+};
+
+/// One place that gives an entry a text.
+struct LiteralWrite {
+  std::string text;
+  NodeOrigin origin;
+  std::string attribute;
+};
+
+/// One port that reads an entry.
+struct EntryRead {
+  const PortManifest* port = nullptr;
+  std::string owner;  ///< The node's type.
+  NodeOrigin origin;
+};
+
+/// All that flows into and out of one entry, as far as the file tells.
+struct EntryFlow {
+  std::vector<LiteralWrite> literals;
+  std::vector<EntryRead> reads;          ///< One for each port manifest.
+  std::vector<std::size_t> copied_from;  ///< Slots whose value SetBlackboard copies here.
+  std::vector<PortType> typed_writes;    ///< By output ports of leaves.
+  bool by_host = false;
+};
+
+struct TreeParts {
+  std::string name;
+  std::unique_ptr<Node> root;
+  std::vector<NodeRecord> records;
+  std::vector<NodeSetup> setups;    ///< By node id.
+  std::vector<NodeOrigin> origins;  ///< By node id.
+  std::vector<SourceText> sources;
+  std::deque<Slot> slots;       ///< Stable addresses.
+  std::deque<EntryFlow> flows;  ///< By slot id.
+
+  Location locate(const NodeOrigin& origin, std::string_view attribute = {}) const;
+  /// Every text that may reach a slot: given to it, or to those it is copied from (at most kMaxCopies of them).
+  std::vector<const LiteralWrite*> literalsOf(std::size_t slot) const;
+  static constexpr std::size_t kMaxCopies = 64;
+};
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,176 @@
+#include "behaviors/tree/value.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace swiftlet::tree {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  std::string_view words;
+  double seconds = 0.0;  ///< For units of time.
+};
+
+constexpr std::array kUnits = {Unit{"m", "metres"},
+                               Unit{"cm", "centimetres"},
+                               Unit{"mm", "millimetres"},
+                               Unit{"km", "kilometres"},
+                               Unit{"m_s", "metres per second"},
+                               Unit{"m_s2", "metres per second squared"},
+                               Unit{"rad", "radians"},
+                               Unit{"rad_s", "radians per second"},
+                               Unit{"deg", "degrees"},
+                               Unit{"deg_s", "degrees per second"},
+                               Unit{"hz", "hertz"},
+                               Unit{"kg", "kilograms"},
+                               Unit{"v", "volts"},
+                               Unit{"px", "pixels"},
+                               Unit{"ns", "nanoseconds", 1e-9},
+                               Unit{"us", "microseconds", 1e-6},
+                               Unit{"ms", "milliseconds", 1e-3},
+                               Unit{"msec", "milliseconds", 1e-3},
+                               Unit{"s", "seconds", 1.0},
+                               Unit{"sec", "seconds", 1.0},
+                               Unit{"min", "minutes", 60.0}};
+
+const Unit* findUnit(std::string_view name) {
+  for (const Unit& unit : kUnits)
+    if (unit.name == name) return &unit;
+  return nullptr;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+template <typename Number>
+std::optional<Number> parseNumber(std::string_view text) {
+  text = trimmed(text);
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || text.empty()) return std::nullopt;
+  if constexpr (std::is_same_v<Number, double>)
+    if (!std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::optional<Value> parseBool(std::string_view text) {
+  text = trimmed(text);
+  if (text == "true" || text == "1") return Value(true);
+  if (text == "false" || text == "0") return Value(false);
+  return std::nullopt;
+}
+
+std::optional<Value> parsePoint(std::string_view text) {
+  std::array<double, 3> numbers{};
+  std::size_t count = 0;
+  while (true) {
+    const std::size_t end = text.find(';');
+    const auto number = parseNumber<double>(text.substr(0, end));
+    if (!number || count == numbers.size()) return std::nullopt;
+    numbers[count++] = *number;
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+  }
+  if (count < 2) return std::nullopt;
+  return Point{numbers[0], numbers[1], count == 3 ? std::optional(numbers[2]) : std::nullopt};
+}
+
+std::optional<Value> parseDuration(std::string_view text, std::string_view unit) {
+  const Unit* known = findUnit(unit);
+  const auto number = parseNumber<double>(text);
+  if (!number || known == nullptr || known->seconds == 0.0) return std::nullopt;
+  const double nanoseconds = std::round(*number * known->seconds * 1e9);
+  constexpr double kLongest = 9e18;
+  if (std::abs(nanoseconds) > kLongest) return std::nullopt;
+  return Duration{static_cast<std::int64_t>(nanoseconds)};
+}
+
+std::string numberText(double number) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
+  return {buffer.data(), result.ptr};
+}
+
+struct ToText {
+  std::string operator()(const std::string& text) const { return text; }
+  std::string operator()(double number) const { return numberText(number); }
+  std::string operator()(std::int64_t number) const { return std::to_string(number); }
+  std::string operator()(bool yes) const { return yes ? "true" : "false"; }
+  std::string operator()(const Point& point) const {
+    return numberText(point.x) + ";" + numberText(point.y) + (point.z ? ";" + numberText(*point.z) : std::string());
+  }
+  std::string operator()(const Duration& duration) const {
+    return numberText(static_cast<double>(duration.nanoseconds) * 1e-9) + " s";
+  }
+};
+
+}  // namespace
+
+const char* toString(PortType type) {
+  switch (type) {
+    case PortType::kAny:
+      return "text";
+    case PortType::kString:
+      return "text";
+    case PortType::kDouble:
+      return "number";
+    case PortType::kInt:
+      return "whole number";
+    case PortType::kBool:
+      return "true or false";
+    case PortType::kPoint:
+      return "point";
+    case PortType::kDuration:
+      return "duration";
+  }
+  return "?";
+}
+
+std::string_view unitOf(std::string_view port_name) {
+  if (findUnit(port_name) != nullptr) return port_name;
+  // The longest ending that is a unit: `speed_m_s` is in m_s, not in s.
+  for (std::size_t i = port_name.find('_'); i != std::string_view::npos; i = port_name.find('_', i + 1))
+    if (findUnit(port_name.substr(i + 1)) != nullptr) return port_name.substr(i + 1);
+  return {};
+}
+
+std::string_view unitInWords(std::string_view unit) {
+  const Unit* known = findUnit(unit);
+  return known == nullptr ? std::string_view() : known->words;
+}
+
+std::string_view withoutUnit(std::string_view port_name) {
+  const std::string_view unit = unitOf(port_name);
+  if (unit.empty() || unit.size() == port_name.size()) return port_name;
+  return port_name.substr(0, port_name.size() - unit.size() - 1);
+}
+
+std::optional<Value> parseValue(std::string_view text, PortType type, std::string_view unit) {
+  switch (type) {
+    case PortType::kAny:
+    case PortType::kString:
+      return Value(std::string(text));
+    case PortType::kDouble:
+      return parseNumber<double>(text);
+    case PortType::kInt:
+      return parseNumber<std::int64_t>(text);
+    case PortType::kBool:
+      return parseBool(text);
+    case PortType::kPoint:
+      return parsePoint(text);
+    case PortType::kDuration:
+      return parseDuration(text, unit);
+  }
+  return std::nullopt;
+}
+
+std::string toString(const Value& value) { return std::visit(ToText{}, value); }
+
+}  // namespace swiftlet::tree

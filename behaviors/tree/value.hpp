@@ -1,0 +1,48 @@
+// The values that ports and blackboard entries hold, and how they are read from text.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace swiftlet::tree {
+
+/// "x;y" or "x;y;z".
+struct Point {
+  double x = 0.0;
+  double y = 0.0;
+  std::optional<double> z;
+  bool operator==(const Point&) const = default;
+};
+
+/// A span of time; in text a number whose unit is the ending of the port's name (`msec`, `_ms`, `_s`, `_min`).
+struct Duration {
+  std::int64_t nanoseconds = 0;
+  auto operator<=>(const Duration&) const = default;
+};
+
+/// Text that came through SetBlackboard or a literal stays text until a typed port reads it.
+using Value = std::variant<std::string, double, std::int64_t, bool, Point, Duration>;
+
+enum class PortType : unsigned char { kAny, kString, kDouble, kInt, kBool, kPoint, kDuration };
+
+/// "number", "whole number", "point" ...: for messages.
+const char* toString(PortType type);
+
+/// The unit that ends a port's name ("clearance_m" -> "m", "msec" -> "msec"); empty when there is none.
+std::string_view unitOf(std::string_view port_name);
+/// "m" -> "metres"; empty for what is not a unit.
+std::string_view unitInWords(std::string_view unit);
+/// The name without its unit: "clearance_m" -> "clearance".
+std::string_view withoutUnit(std::string_view port_name);
+
+/// Nothing when `text` is not of that type. Numbers are finite, in the C locale, with blanks around them allowed; bool
+/// is true, false, 1 or 0. `unit` is that of the port and matters for kDuration only.
+std::optional<Value> parseValue(std::string_view text, PortType type, std::string_view unit);
+
+/// As parseValue would read it back (durations: nanoseconds, for people).
+std::string toString(const Value& value);
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,146 @@
+#include "behaviors/tree/xml.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include <expat.h>
+
+namespace swiftlet::tree {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+class Reader {
+ public:
+  Reader(const SourceText& source, int max_depth) : source_(source), max_depth_(max_depth) {
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(parser_.get(), onOpen, onClose);
+    XML_SetCharacterDataHandler(parser_.get(), onText);
+    XML_SetStartDoctypeDeclHandler(parser_.get(), onDoctype);
+  }
+
+  XmlResult read() {
+    XmlResult result;
+    const std::string& text = source_.text();
+    if (text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+      result.problem = Problem{{source_.file(), 0, 0}, {}, "the file is too large", {}};
+      return result;
+    }
+    const XML_Status status = XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), XML_TRUE);
+    if (problem_)
+      result.problem = std::move(problem_);
+    else if (status != XML_STATUS_OK)
+      result.problem = malformed();
+    else
+      result.root = std::move(root_);
+    return result;
+  }
+
+ private:
+  struct Free {
+    void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
+  };
+
+  static void onOpen(void* self, const XML_Char* name, const XML_Char** attributes) {
+    static_cast<Reader*>(self)->open(name, attributes);
+  }
+  static void onClose(void* self, const XML_Char*) { static_cast<Reader*>(self)->open_.pop_back(); }
+  static void onText(void* self, const XML_Char* text, int length) {
+    static_cast<Reader*>(self)->text({text, static_cast<std::size_t>(length)});
+  }
+  static void onDoctype(void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
+    static_cast<Reader*>(self)->stop("<!DOCTYPE>", "a DOCTYPE is not supported");
+  }
+
+  void open(const XML_Char* name, const XML_Char** attributes) {
+    if (problem_) return;
+    if (static_cast<int>(open_.size()) >= max_depth_) {
+      stop(name, "elements are nested deeper than " + std::to_string(max_depth_));
+      return;
+    }
+    XmlElement& element = open_.empty() ? root_.emplace() : open_.back()->children.emplace_back();
+    element.name = name;
+    element.offset = offset();
+    for (; *attributes != nullptr; attributes += 2) element.attributes.push_back({attributes[0], attributes[1]});
+    open_.push_back(&element);
+  }
+
+  void text(std::string_view text) {
+    if (problem_ || open_.empty() || open_.back()->text_offset) return;
+    if (text.find_first_not_of(kBlanks) != std::string_view::npos) open_.back()->text_offset = offset();
+  }
+
+  void stop(std::string element, std::string message) {
+    if (problem_) return;
+    problem_ = Problem{source_.locate(offset()), std::move(element), std::move(message), {}};
+    XML_StopParser(parser_.get(), XML_FALSE);
+  }
+
+  Problem malformed() const {
+    const XML_Error code = XML_GetErrorCode(parser_.get());
+    Problem problem{source_.locate(offset()), {}, std::string("malformed XML: ") + XML_ErrorString(code), {}};
+    if (!open_.empty()) {
+      const XmlElement& innermost = *open_.back();
+      const Location opened = source_.locate(innermost.offset);
+      problem.element = "<" + innermost.name + ">";
+      problem.hint = "<" + innermost.name + "> was opened at line " + std::to_string(opened.line);
+    }
+    return problem;
+  }
+
+  std::size_t offset() const {
+    const XML_Index index = XML_GetCurrentByteIndex(parser_.get());
+    return index < 0 ? 0 : static_cast<std::size_t>(index);
+  }
+
+  const SourceText& source_;
+  int max_depth_;
+  // The encoding is fixed so that byte offsets are those of the text.
+  std::unique_ptr<XML_ParserStruct, Free> parser_{XML_ParserCreate("UTF-8")};
+  std::optional<XmlElement> root_;
+  // Into the children of the one before; those do not move while a child of theirs is open.
+  std::vector<XmlElement*> open_;
+  std::optional<Problem> problem_;
+};
+
+bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+}  // namespace
+
+const std::string* XmlElement::attribute(std::string_view attribute_name) const {
+  for (const XmlAttribute& attribute : attributes)
+    if (attribute.name == attribute_name) return &attribute.value;
+  return nullptr;
+}
+
+Location SourceText::locate(std::size_t offset) const {
+  const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text_.size()));
+  const auto line = std::count(text_.begin(), end, '\n') + 1;
+  auto start = std::find(std::make_reverse_iterator(end), text_.rend(), '\n').base();
+  if (start == text_.begin() && text_.starts_with("\xEF\xBB\xBF")) start += std::min<std::ptrdiff_t>(3, end - start);
+  const auto column = std::count_if(start, end, [](char c) { return !continues(c); }) + 1;
+  return {file_, static_cast<int>(line), static_cast<int>(column)};
+}
+
+Location SourceText::locate(std::size_t element_offset, std::string_view attribute) const {
+  // The tag was read by expat, so it is well-formed: <name blanks name blanks = blanks quote ... quote ...
+  std::size_t at = text_.find_first_of(" \t\r\n/>", element_offset);
+  while (at != std::string::npos) {
+    at = text_.find_first_not_of(kBlanks, at);
+    if (at == std::string::npos || text_[at] == '>' || text_[at] == '/') break;
+    const std::size_t name_end = text_.find_first_of(" \t\r\n=", at);
+    if (name_end == std::string::npos) break;
+    if (std::string_view(text_).substr(at, name_end - at) == attribute) return locate(at);
+    const std::size_t quote = text_.find_first_of("\"'", name_end);
+    if (quote == std::string::npos) break;
+    const std::size_t closing = text_.find(text_[quote], quote + 1);
+    if (closing == std::string::npos) break;
+    at = closing + 1;
+  }
+  return locate(element_offset);
+}
+
+XmlResult parseXml(const SourceText& source, int max_depth) { return Reader(source, max_depth).read(); }
+
+}  // namespace swiftlet::tree
