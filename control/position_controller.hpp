@@ -21,9 +21,9 @@ namespace swiftlet::control {
 class PositionController {
  public:
   struct Config {
-    double horizontal_p_1_s = 1.8;   ///< Position error to velocity.
-    double horizontal_v_1_s = 3.6;   ///< Velocity error to acceleration.
-    double horizontal_i_1_s2 = 1.2;  ///< Integral of the velocity-loop error to acceleration.
+    double horizontal_p_1_s = 2.2;   ///< Position error to velocity.
+    double horizontal_v_1_s = 5.0;   ///< Velocity error to acceleration.
+    double horizontal_i_1_s2 = 2.5;  ///< Integral of the velocity-loop error to acceleration.
     double vertical_p_1_s = 1.8;
     double vertical_v_1_s = 4.5;
     double vertical_i_1_s2 = 2.0;

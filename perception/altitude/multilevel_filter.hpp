@@ -69,7 +69,7 @@ class MultilevelFilter {
  public:
   struct Config {
     double resolution_m = 0.10;             ///< Cells of the level map.
-    double neighbourhood_m = 0.50;          ///< A level known within this distance may explain a beam.
+    double neighbourhood_m = 0.80;          ///< A level known within this distance may explain a beam.
     double join_distance_m = 0.20;          ///< Two levels whose cells come this close meet.
     double beam_noise_m = 0.015;            ///< Standard deviation of one distance, attitude error included.
     double surface_noise_m = 0.005;         ///< How far a real surface is from flat; shared by all beams of a scan.
