@@ -176,6 +176,8 @@ export class MapView {
     if (this.mode === 'fit') this.fit();
     const pose = this.store.pose();
     if (this.mode === 'follow' && pose) this.center = { x_m: pose.x_m, y_m: pose.y_m };
+    // So that a program can find a place of the map on the screen: what is at the middle, and CSS pixels a metre.
+    this.canvas.dataset.view = `${this.center.x_m} ${this.center.y_m} ${this.scale}`;
   }
 
   fit() {

@@ -35,7 +35,10 @@ export function showState(state) {
 
   const { remaining, voltage_v } = state.battery;
   setText('battery', remaining === null ? '–' : `${Math.round(100 * remaining)} % · ${withUnit(voltage_v, 1, 'V')}`);
-  element('battery-meter').value = remaining ?? 0;
+  const meter = element('battery-meter');
+  meter.style.setProperty('--share', remaining ?? 0);
+  meter.setAttribute('aria-valuenow', Math.round(100 * (remaining ?? 0)));
+  meter.dataset.level = remaining < 0.15 ? 'empty' : remaining < 0.3 ? 'low' : 'good';
   setText('explored', withUnit(state.explored_area_m2, 1, 'm²'));
   setText('time', clockText(state.stamp_s));
   setText('flown', withUnit(state.distance_flown_m, 1, 'm'));
@@ -44,7 +47,6 @@ export function showState(state) {
   setText('deviation', state.horizontal_valid ? withUnit(100 * state.position_deviation_m, 0, 'cm') : 'lost');
   setText('realtime', state.realtime_factor === null ? '–' : `${state.realtime_factor.toFixed(1)} ×`);
   setText('age', `${Math.round(1000 * state.age_s)} ms`);
-  element('events-card').dataset.now = state.stamp_s;
   showTree(mission.tree);
 }
 
