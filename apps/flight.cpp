@@ -114,9 +114,9 @@ class Flight {
     const common::VehicleState state = autonomy_.state();
     folder_.state(state);
     recorder_.tick(vehicle_->truth(), state);
+    recorder_.intent(now_, autonomy_.intent(), autonomy_.intentStatus());
     if (const auto world = autonomy_.world(); world != last_world_) {
       last_world_ = world;
-      recorder_.intent(now_, autonomy_.missionIntent(), world->intent);
       recorder_.world(*world);
       folder_.world(*world);
       if (hooks_.web) hooks_.web->world().post(world);

@@ -160,6 +160,7 @@ void Autonomy::tickBehaviors(Time now) {
   status_.flight_state = controller_.state();
   takeSnapshot(now);
   if (prepared_) wish_ = wishOf(now);
+  if (mission_over_) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
   executor_.want(wish_);
   executor_.tick(
       {now, estimator_.state(), estimator_.grid(), estimator_.levels(), reactive_.discs(now), reactive_.decision()});
