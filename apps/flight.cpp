@@ -74,7 +74,7 @@ class Flight {
     if (now_.seconds() >= setup_.time_limit_s) return end(Outcome::kStopped, "the time limit is over");
     if (folder_.failure()) return end(Outcome::kStopped, *folder_.failure());
     if (autonomy_.finished()) {
-      const common::MissionStatus& mission = autonomy_.world()->mission;
+      const common::MissionStatus& mission = autonomy_.missionStatus();
       const bool done = mission.state == common::MissionState::kDone;
       return end(done                           ? Outcome::kDone
                  : autonomy_.landedByOperator() ? Outcome::kStopped

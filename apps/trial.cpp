@@ -48,12 +48,15 @@ fs::path cacheFolder() {
   return fs::temp_directory_path() / "swiftlet";
 }
 
-/// Where the world's files are: with the software, or in an archive of the data sets, unpacked once.
-fs::path worldBase(const TrialConfig& trial) {
+/// The world's files are with the software, or in an archive of the data sets that is unpacked once.
+void findWorld(TrialConfig& trial) {
   const fs::path root = common::findData("worlds").parent_path();
-  if (trial.archive.empty()) return root;
-  return interfaces::unpackInto(cacheFolder(),
-                                evaluation::findArchive(trial.archive, root / ".." / "shared" / "datasets"));
+  const fs::path unpacked =
+      trial.archive.empty()
+          ? root
+          : interfaces::unpackInto(cacheFolder(),
+                                   evaluation::findArchive(trial.archive, root / ".." / "shared" / "datasets"));
+  trial.resolvePaths(unpacked, root);
 }
 
 FlightSetup setupOf(const TrialConfig& trial, int seed, const fs::path& out) {
@@ -157,7 +160,7 @@ int trial(const TrialOptions& options) {
   TrialResults results;
   for (TrialConfig& trial : evaluation::readTrials(common::findData(options.trials))) {
     if (!options.system.empty()) trial.system = options.system;
-    trial.resolvePaths(worldBase(trial));
+    findWorld(trial);
     results.trials.push_back(flyAll(trial, options, out));
     writeResults(results, out);
   }

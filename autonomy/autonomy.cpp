@@ -82,7 +82,6 @@ void Autonomy::process(const common::OperatorCommand& command, Time now) {
 common::Setpoint Autonomy::tick(Time now) {
   jobs_->deliverDue(now);
   processDueScans(now);
-  prepare();
 
   const double period_s = 1.0 / config_.behavior_rate_hz;
   if (!last_behaviors_ || (now - *last_behaviors_).seconds() >= period_s - 1e-6) {
@@ -98,6 +97,7 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
   const common::Setpoint setpoint = controller_.tick(flight);
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
+  prepare();
   return setpoint;
 }
 
@@ -136,7 +136,7 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
 
   const common::VehicleState state = estimator_.state();
   const auto cost_map = executor_.costMap();
-  const auto& decision = reactive_.update(outcome->scan, outcome->T_map_body, state, executor_.travelDirection_map(),
+  const auto& decision = reactive_.update(outcome->scan, outcome->T_map_body, state, executor_.wishedVelocity_map_m_s(),
                                           estimator_.grid(), cost_map.get());
   executor_.react(decision, state);
 
@@ -149,6 +149,8 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
 
 void Autonomy::prepare() {
   if (prepared_ || !estimator_.ready()) return;
+  const common::VehicleState state = estimator_.state();
+  if (!state.horizontal_valid || !state.vertical_valid) return;
   prepared_ = controller_.command(control::Prepared{}).has_value();
 }
 

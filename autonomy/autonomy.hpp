@@ -54,6 +54,7 @@ class Autonomy {
   std::shared_ptr<const common::World> world() const { return world_; }
   /// The mission has ended and the vehicle stands with its motors off.
   bool finished() const;
+  const common::MissionStatus& missionStatus() const { return mission_status_; }
   /// The end came by the operator's Land, not by the mission.
   bool landedByOperator() const { return supervisor_.landedByOperator(); }
   common::VehicleState state() const { return estimator_.state(); }

@@ -119,9 +119,9 @@ void Estimator::initialize(const common::LaserScan& scan) {
 
   const auto initialized = filter_.initialize(height_m);
   if (!initialized) {
-    if (initialized.error() != last_refusal_)
+    if (!waiting_said_)
       say(scan.stamps.arrived, Severity::kInfo, "fusion", "waiting to stand still", initialized.error());
-    last_refusal_ = initialized.error();
+    waiting_said_ = true;
     return;
   }
   altitude_.initialize(filter_.newest(), Eigen::Vector2d::Zero(), height_m);

@@ -99,7 +99,7 @@ class Estimator {
   perception::Slam2d slam_;
 
   std::optional<common::ImuSample> last_imu_;
-  std::string last_refusal_;  ///< Why the filter could not be initialized; said once.
+  bool waiting_said_ = false;
   double height_above_ground_m_ = 0.0;
   Eigen::Matrix3d covariance_since_map_ = Eigen::Matrix3d::Zero();
   perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;

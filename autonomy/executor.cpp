@@ -101,11 +101,11 @@ void Executor::react(const planning::AvoidanceDecision& decision, const common::
   }
 }
 
-Eigen::Vector2d Executor::travelDirection_map() const {
+Eigen::Vector2d Executor::wishedVelocity_map_m_s() const {
   const auto points = keeper_.remaining();
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Eigen::Vector2d step = points[i] - points.front();
-    if (step.norm() > 0.05) return step.normalized();
+    if (step.norm() > 0.05) return config_.exploration.speed_m_s * step.normalized();
   }
   return Eigen::Vector2d::Zero();
 }

@@ -64,8 +64,8 @@ class Executor {
   void react(const planning::AvoidanceDecision& decision, const common::VehicleState& state);
 
   const common::IntentStatus& status() const { return status_; }
-  /// In the `map` frame, a unit vector along the path being flown; zero when none is.
-  Eigen::Vector2d travelDirection_map() const;
+  /// Along the path being flown; zero when none is.
+  Eigen::Vector2d wishedVelocity_map_m_s() const;
 
   std::shared_ptr<const planning::CostMap> costMap() const { return cost_map_; }
   std::shared_ptr<const std::vector<common::Frontier>> frontiers() const { return frontiers_; }

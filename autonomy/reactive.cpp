@@ -20,7 +20,7 @@ Reactive::Reactive(const ReactiveConfig& config, double hull_radius_m)
 
 const planning::AvoidanceDecision& Reactive::update(const perception::ProjectedScan& scan,
                                                     const common::Pose2& T_map_body, const common::VehicleState& state,
-                                                    const Eigen::Vector2d& travel_map,
+                                                    const Eigen::Vector2d& wish_map_m_s,
                                                     const std::shared_ptr<const common::OccupancyGrid>& grid,
                                                     const planning::CostMap* cost_map) {
   background_.add(scan.stamp, grid);
@@ -36,7 +36,7 @@ const planning::AvoidanceDecision& Reactive::update(const perception::ProjectedS
   input.stamp = scan.stamp;
   input.points_level_m = scan.points_level_m;
   input.velocity_level_m_s = level_from_map * Eigen::Vector2d(state.velocity_map_m_s().head<2>());
-  input.travel_level = level_from_map * travel_map;
+  input.wish_level_m_s = level_from_map * wish_map_m_s;
   input.T_map_level = T_map_body;
   input.cost_map = cost_map;
   input.obstacles = obstacles_.obstacles();

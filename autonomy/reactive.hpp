@@ -27,9 +27,9 @@ class Reactive {
  public:
   Reactive(const ReactiveConfig& config, double hull_radius_m);
 
-  /// `cost_map` may be null before the first plan. `travel_map` is where the intent wants to go, zero when it holds.
+  /// `cost_map` may be null before the first plan. `wish_map_m_s` is the velocity the intent wants, zero when it holds.
   const planning::AvoidanceDecision& update(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
-                                            const common::VehicleState& state, const Eigen::Vector2d& travel_map,
+                                            const common::VehicleState& state, const Eigen::Vector2d& wish_map_m_s,
                                             const std::shared_ptr<const common::OccupancyGrid>& grid,
                                             const planning::CostMap* cost_map);
 

@@ -74,6 +74,7 @@ TickResult Mission::tick(Context& context) {
   self.narrator.listen(&context);
   const Status status = self.tree.tick(tick);
   self.narrator.listen(nullptr);
+  if (status != Status::kRunning) context.intent.reset();  // Whoever ended in this tick wishes nothing any more.
   self.result = self.resultOf(context, status);
   return self.result;
 }
@@ -128,7 +129,8 @@ TickResult Mission::Impl::resultOf(const Context& context, Status status) {
     case Status::kSuccess:
       return {MissionState::kDone, "done", {}};
     case Status::kFailure:
-      return {MissionState::kFailed, "failed", narrator.failure()};
+      return {MissionState::kFailed, "failed",
+              narrator.failure().empty() ? "the tree answered FAILURE" : narrator.failure()};
     case Status::kRunning:
     case Status::kSkipped:
     case Status::kIdle:

@@ -22,10 +22,10 @@ void Narrator::onStatus(const Node& node, Status from, Status to) {
   if (!node.children().empty() && to != Status::kFailure) return;
   switch (to) {
     case Status::kRunning:
-      if (!tree::isActive(from)) say(common::Severity::kInfo, node.name() + " starts", {});
+      if (!tree::isActive(from) && !isToldBySwitches(node)) say(common::Severity::kInfo, node.name() + " starts", {});
       break;
     case Status::kSuccess:
-      if (tree::isActive(from)) say(common::Severity::kInfo, node.name() + " is done", {});
+      if (tree::isActive(from) && !isToldBySwitches(node)) say(common::Severity::kInfo, node.name() + " is done", {});
       break;
     case Status::kFailure:
       if (failed_node_ != node.id()) break;  // A parent that fails because its child did adds nothing.
@@ -65,6 +65,14 @@ void Narrator::onFailure(const Node& node, std::string_view reason) {
   failed_node_ = node.id();
   failure_reason_ = reason;
   failure_ = node.name() + ": " + failure_reason_;
+}
+
+/// A child of a Priority: who has the vehicle is said already.
+bool Narrator::isToldBySwitches(const Node& node) const {
+  const int parent = tree_.nodes()[static_cast<std::size_t>(node.id())].parent;
+  if (parent < 0) return false;
+  const tree::NodeManifest* manifest = tree_.nodes()[static_cast<std::size_t>(parent)].manifest;
+  return manifest != nullptr && manifest->id == "Priority";
 }
 
 void Narrator::say(common::Severity severity, std::string text, std::string reason) {

@@ -22,6 +22,7 @@ class Narrator final : public tree::Observer {
   void onFailure(const tree::Node& node, std::string_view reason) override;
 
  private:
+  bool isToldBySwitches(const tree::Node& node) const;
   void say(common::Severity severity, std::string text, std::string reason);
 
   const tree::Tree& tree_;

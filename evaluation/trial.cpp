@@ -59,9 +59,12 @@ std::vector<std::string> TrialConfig::validate() const {
       .problems();
 }
 
-void TrialConfig::resolvePaths(const fs::path& base) {
-  scenario.world = (base / scenario.world).lexically_normal().string();
-  for (std::string& path : scenario.model_paths) path = (base / path).lexically_normal().string();
+void TrialConfig::resolvePaths(const fs::path& unpacked, const fs::path& root) {
+  const auto resolve = [&](std::string& path) {
+    path = ((fs::exists(unpacked / path) ? unpacked : root) / path).lexically_normal().string();
+  };
+  resolve(scenario.world);
+  for (std::string& path : scenario.model_paths) resolve(path);
 }
 
 TrialConfig readTrial(const fs::path& file) {

@@ -25,8 +25,8 @@ struct TrialConfig {
   std::string description;
   std::string mission;              ///< XML file, relative to the root of the software.
   std::string system = "swiftlet";  ///< Profile.
-  /// The world comes in this archive, relative to the folder of data sets; empty: it is with the software. The
-  /// scenario's `world` and `model_paths` are relative to the unpacked archive then, to the software's root otherwise.
+  /// The world, or the models it is made of, come in this archive, relative to the folder of data sets; empty: all is
+  /// with the software.
   std::string archive;
   int repeat = 1;               ///< Flights, unless the user says otherwise.
   double time_limit_s = 600.0;  ///< Simulated; the flight is ended then.
@@ -38,8 +38,9 @@ struct TrialConfig {
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
 
-  /// `world` and `model_paths` of the scenario as absolute paths below `base`.
-  void resolvePaths(const std::filesystem::path& base);
+  /// Makes `world` and `model_paths` of the scenario paths below `unpacked`, the archive's content, where there is such
+  /// a file, and below `root`, where the software is, otherwise.
+  void resolvePaths(const std::filesystem::path& unpacked, const std::filesystem::path& root);
 };
 
 /// Throws common::InputError.

@@ -87,13 +87,18 @@ std::vector<std::string> Avoidance::Config::validate() const {
       .problems();
 }
 
-std::vector<std::string> Avoidance::Config::validateAgainst(double clearance_m) const {
+std::vector<std::string> Avoidance::Config::validateAgainst(double clearance_m, double keep_out_m) const {
   std::vector<std::string> problems;
   if (margin_m >= clearance_m)
     problems.push_back(
-        fmt::format("margin_m: {:.2f} m forbids the clearance of {:.2f} m that the planner may use; "
-                    "it must be smaller",
+        fmt::format("margin_m: {:.2f} m forbids the clearance of {:.2f} m that the planner may use; it must be smaller",
                     margin_m, clearance_m));
+  if (retreat_distance_m * release_factor > clearance_m + keep_out_m)
+    problems.push_back(
+        fmt::format("retreat_distance_m: {:.2f} m (times {:.2f} to be released) forbids passing unmapped things at "
+                    "{:.2f} m, as the "
+                    "planner may; it must be smaller",
+                    retreat_distance_m, release_factor, clearance_m + keep_out_m));
   return problems;
 }
 

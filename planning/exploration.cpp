@@ -130,7 +130,8 @@ class Explorer {
     option.view = scout.view(lookout.place, std::atan2(travel_m.y(), travel_m.x()));
     option.time_s = travelTime(lookout.path_m, option.view.yaw_map_rad);
     const double trust = 1.0 - config_.localizability_weight * (1.0 - option.view.localizability);
-    option.utility = trust * (config_.strategy == ExplorationStrategy::kNearest ? 1.0 : option.view.gain_m2) /
+    const double exponent = config_.strategy == ExplorationStrategy::kNearest ? 0.0 : config_.gain_exponent;
+    option.utility = trust * std::pow(option.view.gain_m2, exponent) /
                      (option.time_s + config_.speed_m_s / config_.acceleration_m_s2);
     return option;
   }
@@ -165,7 +166,7 @@ class Explorer {
 
   void choose(ExplorationResult& result) {
     if (options_.empty()) return;
-    const Option* best = config_.strategy == ExplorationStrategy::kTour ? firstOfTour() : greatestUtility();
+    const Option* best = greatestUtility();
     if (current_ && best->utility <= current_->utility * (1.0 + config_.hysteresis)) {
       best = &*current_;
       result.kept_current = true;
@@ -188,8 +189,6 @@ class Explorer {
     return &*std::max_element(options_.begin(), options_.end(),
                               [](const Option& a, const Option& b) { return a.utility < b.utility; });
   }
-
-  const Option* firstOfTour() const { return greatestUtility(); }
 
   void finish(ExplorationResult& result) {
     const auto open = std::count_if(frontiers_.begin(), frontiers_.end(),

@@ -44,7 +44,7 @@ struct ExplorationBounds {
 };
 
 /// How the next viewpoint is chosen among the best of each frontier.
-enum class ExplorationStrategy { kNearest, kUtility, kTour };
+enum class ExplorationStrategy { kNearest, kUtility };
 
 struct ExplorationInput {
   std::shared_ptr<const CostMap> cost_map;  ///< Not null. Built at the clearance to be flown; holds the grid's states.
@@ -64,12 +64,13 @@ struct ExplorationResult {
 };
 
 struct ExplorationConfig {
-  ExplorationStrategy strategy = ExplorationStrategy::kTour;
+  ExplorationStrategy strategy = ExplorationStrategy::kUtility;
   double min_frontier_m = 0.30;
   double segment_m = 1.5;
   double laser_range_m = 12.0;
   double laser_field_of_view_deg = 270.0;
   double gain_depth_m = 2.0;
+  double gain_exponent = 0.6;
   double min_gain_m2 = 0.03;
   double speed_m_s = 0.8;
   double yaw_rate_rad_s = 1.0;

@@ -11,6 +11,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kThrustOnGround = 0.2;
+constexpr double kSmallRateError_rad_s = 0.3;
+constexpr double kMostIntegral_rad = 0.3;
+
 double finiteOr(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
 
 }  // namespace
@@ -69,6 +73,15 @@ common::Setpoint Autopilot::effective(common::Time now, const AttitudeMeasuremen
   return setpoint;
 }
 
+/// The integral takes out a constant lean; it neither winds up in a step nor against the floor.
+void Autopilot::integrate(const Vector3d& rate_error, double thrust, double step_s) {
+  if (thrust < kThrustOnGround) rate_integral_rad_.setZero();
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(rate_error[axis]) < kSmallRateError_rad_s)
+      rate_integral_rad_[axis] =
+          std::clamp(rate_integral_rad_[axis] + step_s * rate_error[axis], -kMostIntegral_rad, kMostIntegral_rad);
+}
+
 std::array<double, 4> Autopilot::tick(common::Time now, const AttitudeMeasurement& measured, double step_s) {
   const common::Setpoint setpoint = effective(now, measured);
   motors_on_ = setpoint.motors_on;
@@ -92,9 +105,7 @@ std::array<double, 4> Autopilot::tick(common::Time now, const AttitudeMeasuremen
                              -sin_roll * pitch_rate + cos_roll * cos_pitch * setpoint.yaw_rate_rad_s);
 
   const Vector3d error = wanted_rate - measured.angular_velocity_body_rad_s;
-  const bool flying = setpoint.thrust > 0.2;  // On the ground the integral would wind up against the floor.
-  rate_integral_rad_ =
-      flying ? (rate_integral_rad_ + step_s * error).cwiseMax(-0.3).cwiseMin(0.3).eval() : Vector3d::Zero().eval();
+  integrate(error, setpoint.thrust, step_s);
   const Vector3d gain(config_.rate_gain_1_s, config_.rate_gain_1_s, config_.yaw_rate_gain_1_s);
   const Vector3d acceleration = gain.cwiseProduct(error) + config_.rate_integral_1_s2 * rate_integral_rad_;
 

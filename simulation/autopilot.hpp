@@ -45,6 +45,7 @@ class Autopilot {
   bool motorsOn() const { return motors_on_; }
 
  private:
+  void integrate(const Eigen::Vector3d& rate_error, double thrust, double step_s);
   common::Setpoint effective(common::Time now, const AttitudeMeasurement& measured) const;
 
   common::VehicleConfig vehicle_;

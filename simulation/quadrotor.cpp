@@ -91,7 +91,7 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   state_.T_world_body.rotation = (R_world_body * common::expSO3(step_s * omega)).normalized();
 
   state_.standing = gear_n > 0.0;
-  if (state_.standing) rub(step_s);
+  if (state_.standing) rub(gear_n, step_s);
 
   const Vector3d felt_world =
       (state_.velocity_world_m_s - velocity_before) / step_s + kGravity_m_s2 * Vector3d::UnitZ();
@@ -107,10 +107,14 @@ double Quadrotor::gearForce_n(double floor_world_m) const {
       0.0, vehicle_.mass_kg * frequency_rad_s * (frequency_rad_s * pressed_m - 2.0 * state_.velocity_world_m_s.z()));
 }
 
-// Friction of the feet: what still moves stops within some hundredths of a second, and the body comes to lie level.
-void Quadrotor::rub(double step_s) {
+// Dry friction holds the feet; what still turns stops within some hundredths of a second, and the body comes to lie
+// level.
+void Quadrotor::rub(double gear_n, double step_s) {
+  constexpr double kFriction = 0.8;
+  auto slide = state_.velocity_world_m_s.head<2>();
+  const double speed = slide.norm(), stopped = kFriction * gear_n / vehicle_.mass_kg * step_s;
+  slide *= speed > stopped ? 1.0 - stopped / speed : 0.0;
   const double keep = std::exp(-step_s / 0.03);
-  state_.velocity_world_m_s.head<2>() *= keep;
   state_.angular_velocity_body_rad_s *= keep;
   common::RollPitchYaw angles = common::rollPitchYaw(state_.T_world_body.rotation);
   angles.roll_rad *= keep;

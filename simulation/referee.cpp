@@ -88,7 +88,7 @@ void Referee::judgeContacts(common::Time now, const QuadrotorState& state, std::
                             Truth& truth) {
   if (first_) last_position_world_m_ = state.T_world_body.position_m;
   first_ = false;
-  if (!state.standing) judgeWorld(now, state, truth);
+  judgeWorld(now, state, truth);
   for (std::size_t i = 0; i < walkers.size(); ++i)
     if (walkers[i].actor()) judgeWalker(now, state, *walkers[i].actor(), fmt::format("walker {}", i + 1), truth);
   last_position_world_m_ = state.T_world_body.position_m;
@@ -98,7 +98,7 @@ void Referee::judgeWorld(common::Time now, const QuadrotorState& state, Truth& t
   const Clearance clearance =
       rays_.sweep(hull_, last_position_world_m_, state.T_world_body.position_m, Truth::kClearanceLimit_m);
   truth.clearance_m = clearance.distance_m;
-  truth.min_clearance_m = std::min(truth.min_clearance_m, clearance.distance_m);
+  if (!state.standing) truth.min_clearance_m = std::min(truth.min_clearance_m, clearance.distance_m);
   if (clearance.shape == Hit::kNothing || clearance.distance_m > 0.0) return;
   const std::string name = nameOf(world_.shapes[static_cast<std::size_t>(clearance.shape)]);
   crash(truth, now, name, touchedAt(name, clearance.point_world_m), clearance.point_world_m);

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <iterator>
 #include <memory>
 #include <sstream>
 
@@ -23,13 +26,12 @@ using common::InputError;
 using common::Problem;
 
 std::string readText(const std::string& file) {
+  std::error_code ignored;
+  const bool regular = std::filesystem::is_regular_file(file, ignored);  // A folder opens as a stream, too.
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream) text << stream.rdbuf();
-  // A folder opens as a stream but cannot be read.
-  if (!stream || text.fail())
+  if (!regular || !stream)
     throw InputError(Problem{{file}, "", "cannot be read", "give the path of an SDF world (.sdf or .world)"});
-  return text.str();
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 /// Malformed XML is told by expat, which knows line and column; libsdformat tells it to the terminal only, and then
@@ -53,13 +55,20 @@ void requireSdf(const std::string& file, const std::string& text) {
   if (root != "sdf") throw InputError(Problem{{file, 1}, root, "the root element of a world is <sdf>", ""});
 }
 
-/// Takes what libsdformat prints for as long as it lives.
+/// Takes what libsdformat prints for as long as it lives. What fails as SDF it also tries as URDF, whose parser
+/// complains on std::cerr; that is dropped.
 class ConsoleCapture {
  public:
-  ConsoleCapture() : stream_(sdf::Console::Instance()->GetMsgStream()), before_(stream_.GetStream()) {
+  ConsoleCapture()
+      : stream_(sdf::Console::Instance()->GetMsgStream()),
+        before_(stream_.GetStream()),
+        cerr_before_(std::cerr.rdbuf(dropped_.rdbuf())) {
     stream_.SetStream(&text_);
   }
-  ~ConsoleCapture() { stream_.SetStream(before_); }
+  ~ConsoleCapture() {
+    stream_.SetStream(before_);
+    std::cerr.rdbuf(cerr_before_);
+  }
   ConsoleCapture(const ConsoleCapture&) = delete;
   ConsoleCapture& operator=(const ConsoleCapture&) = delete;
 
@@ -78,6 +87,8 @@ class ConsoleCapture {
  private:
   sdf::Console::ConsoleStream& stream_;
   std::ostream* before_;
+  std::ostringstream dropped_;
+  std::streambuf* cerr_before_;
   std::ostringstream text_;
 };
 
@@ -177,6 +188,15 @@ Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& con
   return sorted;
 }
 
+/// libsdformat also throws, of several kinds.
+sdf::Errors loadOrExplain(sdf::Root& root, const std::string& file, const sdf::ParserConfig& config) {
+  try {
+    return root.Load(file, config);
+  } catch (const std::exception& exception) {
+    throw InputError(Problem{{file}, "", fmt::format("libsdformat gave up: {}", exception.what()), ""});
+  }
+}
+
 }  // namespace
 
 SdfFile readSdf(const std::string& file, const UriResolver& resolver) {
@@ -191,7 +211,7 @@ SdfFile readSdf(const std::string& file, const UriResolver& resolver) {
 
   SdfFile result;
   const ConsoleCapture console;
-  const sdf::Errors errors = result.root.Load(file, config);
+  const sdf::Errors errors = loadOrExplain(result.root, file, config);
   Sorted sorted = sortErrors(errors, console.lines(), file, text);
   if (sorted.problems.empty() && result.root.WorldCount() == 0 && result.root.Model() == nullptr)
     sorted.problems.push_back({{file}, "sdf", "it has neither a <world> nor a <model>", ""});

@@ -14,7 +14,7 @@ namespace {
 using common::CellIndex;
 using Grid = common::TiledGrid<std::uint8_t>;
 
-constexpr double kViewSpacing_m = 0.25;
+constexpr double kViewSpacing_m = 0.4;
 constexpr int kViewRays = 720;
 
 Hull bandHull(const FreeSpaceQuery& query) { return {query.hull_radius_m, 0.5 * (query.top_m - query.bottom_m)}; }
@@ -54,7 +54,7 @@ Grid dilated(const Grid& grid, double radius_m) {
 
 /// Marks every cell a ray passes before it meets something.
 void markRay(Grid& seen, const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double length_m) {
-  const double step_m = 0.5 * seen.resolution_m();
+  const double step_m = seen.resolution_m();
   for (double along_m = 0.0; along_m < length_m; along_m += step_m) {
     const Eigen::Vector2d point = from + along_m * direction;
     const CellIndex cell = seen.cellAt(point);

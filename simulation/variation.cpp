@@ -87,7 +87,9 @@ std::optional<Problem> placeStart(Realization& drawn, const RayCaster& rays) {
   const Clearance clearance = rays.sweep(hull, body, body, 0.01);
   if (clearance.shape == Hit::kNothing) return std::nullopt;
   const Shape& shape = drawn.world.shapes[static_cast<std::size_t>(clearance.shape)];
-  return startProblem(drawn, fmt::format("is inside or touches `{}` ({})", nameOf(shape), toString(shape.source)),
+  return startProblem(drawn,
+                      fmt::format("is inside or touches `{}`{}", nameOf(shape),
+                                  shape.source.file.empty() ? "" : " (" + toString(shape.source) + ")"),
                       "move the start");
 }
 
@@ -128,17 +130,22 @@ Realization realize(const WorldModel& world, const Scenario& scenario) {
                                fmt::format("there is no model `{}`", obstacle),
                                common::didYouMean(obstacle, models)});
   const int draws = varies(scenario.variation) ? kMostDraws : 1;
-  std::optional<Problem> first;
+  std::optional<Problem> blocked, unreachable;
   for (int draw = 0; draw < draws; ++draw) {
     Realization drawn = drawOnce(world, scenario, draw);
     const RayCaster rays(drawn.world);
-    std::optional<Problem> problem = placeStart(drawn, rays);
-    if (!problem) problem = unreachableGoal(drawn, rays);
+    if (const auto problem = placeStart(drawn, rays)) {
+      if (!blocked) blocked = problem;
+      continue;
+    }
+    const auto problem = unreachableGoal(drawn, rays);
     if (!problem) return drawn;
-    if (!first) first = problem;
+    if (!unreachable) unreachable = problem;
   }
-  if (draws > 1) first->message += fmt::format("; nor do {} other draws of the seed's variation", draws - 1);
-  throw InputError(*first);
+  // A start that was free but led nowhere says more than one that was not.
+  Problem problem = unreachable ? *unreachable : *blocked;
+  if (draws > 1) problem.message += fmt::format("; none of the {} draws of the seed's variation will do", draws);
+  throw InputError(problem);
 }
 
 }  // namespace swiftlet::simulation

@@ -1,4 +1,5 @@
-// People in the world. They walk a path, cross the vehicle's way or follow it, and never yield; walls stop them.
+// People in the world. They walk a path as written, cross the vehicle's way where that way is free, or follow it until
+// something stands in the way. They never yield to the vehicle.
 #pragma once
 
 #include <cstdint>

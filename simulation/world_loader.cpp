@@ -237,6 +237,9 @@ class Loader {
     shape.vertices_world_m.reserve(triangles.vertices_m.size());
     for (const Eigen::Vector3f& vertex : triangles.vertices_m)
       shape.vertices_world_m.push_back((T_world_item * vertex.cast<double>()).cast<float>());
+    const auto finite = [](const Eigen::Vector3f& vertex) { return vertex.allFinite(); };
+    if (!std::all_of(shape.vertices_world_m.begin(), shape.vertices_world_m.end(), finite))
+      problems_.push_back({source, nameOf(shape), "its size or pose is not finite", ""});
     world_.shapes.push_back(std::move(shape));
   }
 

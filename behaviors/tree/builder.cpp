@@ -136,7 +136,7 @@ void Builder::bindPorts(const Place& place, Scope& scope, const NodeManifest& ma
     if (text == nullptr) continue;
     if (const auto entry = entryOf(*text, port.name))
       binding.slot = find(scope, *entry);
-    else if (port.direction != Direction::kInput)
+    else if (port.direction == Direction::kOutput)
       binding.slot = find(scope, *text);
     else
       binding.literal = readValue(port, *text).value;

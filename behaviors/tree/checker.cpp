@@ -188,7 +188,7 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
   const auto where = [&] {
     return (explicitKind(element.name) ? *element.attribute("ID") : element.name) + "." + port.name;
   };
-  if (port.direction != Direction::kInput) {
+  if (port.direction == Direction::kOutput) {
     // The key of SetBlackboard may stand without braces.
     if (port.type == PortType::kAny && isEntryName(attribute.value)) return;
     problems_.add(

@@ -23,13 +23,21 @@ std::vector<std::string> namesOfSet(const TreeParts& tree) {
   return names;
 }
 
+/// The same name set in another tree is the usual cause: subtrees share nothing by themselves.
+std::string hintFor(const TreeParts& tree, const std::string& name) {
+  const std::vector<std::string> names = namesOfSet(tree);
+  if (std::find(names.begin(), names.end(), name) == names.end()) return didYouMean(name, names);
+  return "another tree has one of this name: share it by " + name + "=\"{" + name +
+         "}\" or _autoremap=\"true\" on the SubTree";
+}
+
 void checkEntry(const TreeParts& tree, std::size_t slot, Problems& problems) {
   const EntryFlow& flow = tree.flows[slot];
   const std::string entry = "{" + tree.slots[slot].name + "}";
   if (!isSet(flow)) {
     const EntryRead& read = flow.reads.front();
     problems.add({tree.locate(read.origin, read.port->name), read.owner + "." + read.port->name,
-                  "nothing sets the entry " + entry, didYouMean(tree.slots[slot].name, namesOfSet(tree))});
+                  "nothing sets the entry " + entry, hintFor(tree, tree.slots[slot].name)});
     return;
   }
   for (const EntryRead& read : flow.reads) {

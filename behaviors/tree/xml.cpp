@@ -68,7 +68,8 @@ class Reader {
 
   void text(std::string_view text) {
     if (problem_ || open_.empty() || open_.back()->text_offset) return;
-    if (text.find_first_not_of(kBlanks) != std::string_view::npos) open_.back()->text_offset = offset();
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    if (first != std::string_view::npos) open_.back()->text_offset = offset() + first;
   }
 
   void stop(std::string element, std::string message) {

@@ -28,10 +28,10 @@ struct LinkConfig {
 struct ImuConfig {
   double rate_hz = 200.0;
   double gyro_noise_rad_s = 0.005;       ///< Standard deviation of a sample.
-  double gyro_bias_rad_s = 0.01;         ///< Standard deviation of the bias at the start.
+  double gyro_bias_rad_s = 0.004;        ///< Standard deviation of the bias at the start.
   double gyro_bias_walk_rad_s = 0.0005;  ///< Growth of its standard deviation in one second.
   double accel_noise_m_s2 = 0.08;
-  double accel_bias_m_s2 = 0.08;
+  double accel_bias_m_s2 = 0.05;
   double accel_bias_walk_m_s2 = 0.002;
   double tilt_error_deg = 0.7;       ///< Standard deviation of the slow error of roll and of pitch.
   double tilt_error_time_s = 15.0;   ///< Its correlation time.
@@ -49,9 +49,9 @@ struct CameraConfig {
   int width_px = 320;
   int height_px = 240;
   double rate_hz = 10.0;
-  double field_of_view_deg = 70.0;  ///< Horizontal.
-  double pixel_noise = 2.0;         ///< Standard deviation in grey levels of 255.
-  common::MountConfig mount;        ///< Looks along its +x.
+  double field_of_view_deg = 70.0;                     ///< Horizontal.
+  double pixel_noise = 2.0;                            ///< Standard deviation in grey levels of 255.
+  common::MountConfig mount{.x_m = 0.1, .z_m = 0.05};  ///< Looks along its +x.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -21,6 +21,8 @@ FakeBackend::FakeBackend(Setup setup) : setup_(std::move(setup)) {
   options.token = setup_.token;
   options.title = "explore_and_return in example flat";
   options.command_timeout_s = 0.5;
+  options.stall_timeout_s = setup_.stall_timeout_s;
+  options.max_connections = setup_.max_connections;
   options.unix_time = unixTime;
   server_ =
       std::make_unique<web::WebServer>(io_, options, web::WebServer::Sources{world_, camera_, commands_, results_});

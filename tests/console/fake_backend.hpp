@@ -22,8 +22,10 @@ class FakeBackend {
     int port = 0;
     std::string token = "operator-token";
     double worlds_per_second = 20.0;
-    bool answers = true;     ///< False: commands are swallowed.
-    bool flies = true;       ///< False: no world is ever posted.
+    bool answers = true;  ///< False: commands are swallowed.
+    bool flies = true;    ///< False: no world is ever posted.
+    double stall_timeout_s = 10.0;
+    int max_connections = 256;
     double warm_up_s = 4.0;  ///< Flown before the first world.
   };
 

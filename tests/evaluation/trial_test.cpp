@@ -84,13 +84,17 @@ TEST_F(Trials, NothingThere) {
   EXPECT_THAT(problemOf(folder_ / "none.yaml"), HasSubstr("none.yaml: cannot be opened"));
 }
 
-TEST_F(Trials, PathsAreBelowTheirBase) {
+TEST_F(Trials, PathsAreInTheArchiveOrWithTheSoftware) {
+  put("papers/in_archive.world", "");
   TrialConfig trial;
-  trial.scenario.world = "worlds/w.world";
+  trial.scenario.world = "in_archive.world";
   trial.scenario.model_paths = {"models", "."};
-  trial.resolvePaths("/cache/house");
-  EXPECT_EQ(trial.scenario.world, "/cache/house/worlds/w.world");
-  EXPECT_EQ(trial.scenario.model_paths[0], "/cache/house/models");
+  trial.resolvePaths(folder_ / "papers", "/software");
+  EXPECT_EQ(trial.scenario.world, (folder_ / "papers/in_archive.world").string());
+  EXPECT_EQ(trial.scenario.model_paths[0], "/software/models");
+  trial.scenario.world = "trials/worlds/with_software.sdf";
+  trial.resolvePaths(folder_ / "papers", "/software");
+  EXPECT_EQ(trial.scenario.world, "/software/trials/worlds/with_software.sdf");
 }
 
 TEST_F(Trials, ArchivesAreFoundOrAskedFor) {

@@ -334,8 +334,11 @@ TEST(Avoidance, AMarginThatForbidsTheClearanceIsRefused) {
   Avoidance::Config config;
   EXPECT_TRUE(config.validate().empty());
   EXPECT_TRUE(config.validateAgainst(0.10).empty());
-  ASSERT_EQ(config.validateAgainst(0.05).size(), 1u);
+  ASSERT_EQ(config.validateAgainst(0.05).size(), 2u);
   EXPECT_THAT(config.validateAgainst(0.05)[0], HasSubstr("forbids the clearance of 0.05 m"));
+  config.retreat_distance_m = 0.45;
+  ASSERT_EQ(config.validateAgainst(0.10).size(), 1u);
+  EXPECT_THAT(config.validateAgainst(0.10)[0], HasSubstr("forbids passing unmapped things at 0.35 m"));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ RC_GTEST_PROP(CostMap, DistancesEqualBruteForce, (std::uint64_t seed)) {
     for (const CellIndex o : cells) best = std::min(best, std::hypot(o.x - c.x, o.y - c.y) * 0.04);
     return best;
   };
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 80; ++i) {
     const CellIndex c{static_cast<int>(random.uniform(-5, 55)), static_cast<int>(random.uniform(-5, 45))};
     const double wall_m = nearest_m(c, occupied);
     RC_ASSERT(std::abs(map.obstacleDistance_m(c) - std::min(wall_m, map.reach_m())) < 1e-9);
@@ -42,12 +42,12 @@ RC_GTEST_PROP(CostMap, RepairedEqualsFresh, (std::uint64_t seed)) {
   common::RandomStream random(seed, "repair");
   common::OccupancyGrid grid = test::room(150, 100);
   CostMap map({}, grid.resolution_m());
-  for (int step = 0; step < 8; ++step) {
+  for (int step = 0; step < 5; ++step) {
     // Some changes lie outside, so that the map grows.
     test::clutter(grid, {{-40, -30}, {190, 130}}, 3, random);
     std::vector<Disc> discs;
     for (int i = 0; i < step % 3; ++i) discs.push_back({{random.uniform(0, 7), random.uniform(0, 5)}, 0.25});
-    const Footprint footprint{0.275, step < 6 ? 0.10 : 0.20};
+    const Footprint footprint{0.275, step < 4 ? 0.10 : 0.20};
     map.update(grid.snapshot(), footprint, {discs, nullptr, nullptr});
     CostMap fresh({}, grid.resolution_m());
     fresh.update(grid.snapshot(), footprint, {discs, nullptr, nullptr});

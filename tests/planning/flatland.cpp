@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 namespace swiftlet::planning::test {
@@ -70,16 +69,22 @@ void scan(const Flatland& world, const Pose2& pose, const FlightConfig& config, 
     if (random.chance(config.dropout_rate)) continue;
     const double angle_rad = pose.yaw_rad - half_rad + 2.0 * half_rad * beam / (config.beams - 1);
     const Point direction(std::cos(angle_rad), std::sin(angle_rad));
-    CellIndex last{INT32_MAX, 0};
+    std::vector<CellIndex> passed;
+    bool lost = false;
     for (double r = 0.0; r < config.range_m; r += 0.4 * kRes) {
       const Point point_m = pose.position_m() + r * direction;
       const CellIndex cell = grid.cellAt(point_m);
-      if (cell == last) continue;
-      last = cell;
-      const bool hit = world.occupiedAt(point_m);
-      grid.set(cell, common::occupancy::updated(grid.at(cell), hit ? 17 : -8));
-      if (hit) break;
+      if (!passed.empty() && cell == passed.back()) continue;
+      passed.push_back(cell);
+      if (!world.occupiedAt(point_m)) continue;
+      const CellIndex truth{cell.x + world.start.x, cell.y + world.start.y};
+      for (const common::CellRect& black : world.black) lost |= black.contains(truth);
+      if (!lost) grid.set(cell, common::occupancy::updated(grid.at(cell), 17));
+      passed.pop_back();
+      break;
     }
+    if (lost) continue;
+    for (const CellIndex cell : passed) grid.set(cell, common::occupancy::updated(grid.at(cell), -8));
   }
 }
 
@@ -235,35 +240,6 @@ FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_
   }
   report.coverage = coverageOf(world, grid, config.footprint.radius_m());
   return report;
-}
-
-void writePicture(const FlightReport& report, const Flatland& world, const std::string& file) {
-  std::ofstream out(file, std::ios::binary);
-  const int w = world.width, h = world.height;
-  std::vector<unsigned char> pixels(static_cast<std::size_t>(w) * h * 3, 128);
-  const auto put = [&](CellIndex c, int r, int g, int b) {
-    const int x = c.x + world.start.x, y = h - 1 - (c.y + world.start.y);
-    if (x < 0 || y < 0 || x >= w || y >= h) return;
-    unsigned char* p = &pixels[(static_cast<std::size_t>(y) * w + x) * 3];
-    p[0] = static_cast<unsigned char>(r);
-    p[1] = static_cast<unsigned char>(g);
-    p[2] = static_cast<unsigned char>(b);
-  };
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) {
-      const CellIndex c = world.toMap({x, y});
-      if (world.occupied(x, y)) put(c, 90, 90, 160);
-      const auto value = report.grid.at(c);
-      if (common::occupancy::isFree(value)) put(c, 255, 255, 255);
-      if (!common::occupancy::isUnknown(value) && common::occupancy::isOccupied(value)) put(c, 0, 0, 0);
-    }
-  for (const Point& p : report.trail_map_m) put(report.grid.cellAt(p), 40, 120, 255);
-  for (const common::Frontier& f : report.last.frontiers)
-    for (const CellIndex c : f.cells)
-      put(c, f.reason == common::FrontierReason::kTooSmall ? 255 : 200,
-          f.reason == common::FrontierReason::kUnreachable ? 0 : 160, 0);
-  out << "P6\n" << w << ' ' << h << "\n255\n";
-  out.write(reinterpret_cast<const char*>(pixels.data()), static_cast<std::streamsize>(pixels.size()));
 }
 
 }  // namespace swiftlet::planning::test

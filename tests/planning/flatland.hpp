@@ -19,6 +19,7 @@ struct Flatland {
   int height = 0;
   common::CellIndex start;  ///< In cells of the truth.
   std::vector<bool> walls;
+  std::vector<common::CellRect> black;  ///< Walls in here return no beam: what lies before them stays unseen.
 
   bool occupied(int x, int y) const {
     return x < 0 || y < 0 || x >= width || y >= height || walls[static_cast<std::size_t>(y) * width + x];
@@ -63,8 +64,5 @@ struct FlightReport {
 
 /// Flies until explore() says done or the time is up.
 FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_t seed);
-
-/// Truth, map, trail and frontiers as a portable pixmap, to look at.
-void writePicture(const FlightReport& report, const Flatland& world, const std::string& file);
 
 }  // namespace swiftlet::planning::test

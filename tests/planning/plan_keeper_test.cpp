@@ -108,7 +108,7 @@ TEST_F(Keeping, TwoEqualWaysDoNotSwing) {
   DStarLite planner;
   Point position{2, 4};
   int taken = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 140; ++i) {
     // Noise beside either way in turn makes the other cheaper by a little.
     test::fill(grid, {{118, i % 2 ? 14 : 144}, {122, i % 2 ? 16 : 146}}, test::kWallCell);
     test::fill(grid, {{118, i % 2 ? 144 : 14}, {122, i % 2 ? 146 : 16}}, test::kFreeCell);

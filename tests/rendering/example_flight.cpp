@@ -105,6 +105,7 @@ void ExampleFlight::describe() {
   world_.stamp = world_.state.stamp = common::Time::fromSeconds(time_s_);
   world_.state.T_odom_body = common::lifted(pose_, 1.0 + 0.02 * std::sin(time_s_));
   world_.state.height_above_ground_m = 1.0;
+  world_.state.position_covariance_m2 = Eigen::Vector3d(4e-4, 3e-4, 1e-4).asDiagonal();
   world_.grid = std::make_shared<const common::OccupancyGrid>(grid_.snapshot());
   world_.trail_map_m = std::make_shared<const std::vector<Vector2d>>(trail_);
   world_.plan_map_m.clear();

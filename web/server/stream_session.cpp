@@ -11,8 +11,6 @@ namespace {
 
 using boost::system::error_code;
 
-constexpr int kStalledTicks = 10 * kTicksPerSecond;
-
 class StreamSession : public Connection, public std::enable_shared_from_this<StreamSession> {
  public:
   StreamSession(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket, const StreamPictures& asked)
@@ -52,14 +50,16 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
   void tick(common::Time now) override {
     if (!self_) return;
     if (writing_ || unsentBytes(socket_.native_handle()) > kMostUnsentBytes) {
-      if (++stalled_ticks_ > kStalledTicks) close();
+      if (++stalled_ticks_ > core_->options.stall_timeout_s * kTicksPerSecond) close();
       return;
     }
     stalled_ticks_ = 0;
     if (!beat_.due(now)) return;
     const auto frame = core_->hub.frame(*view_, last_, period_, sent_);
+    // Without something new the client stays due, so that it need not wait for the next beat when it comes.
+    if (!frame) return;
     beat_.done(now);
-    if (frame) send(frame, now);
+    send(frame, now);
   }
 
  private:

@@ -39,6 +39,7 @@ class WebServer {
     std::vector<std::string> allowed_hosts;  ///< Host names besides IP addresses, localhost and this machine's name.
     double hull_diameter_m = 0.55;
     double command_timeout_s = 2.0;  ///< How long an answer waits for the CommandResult.
+    double stall_timeout_s = 10.0;   ///< A stream's client that takes nothing for so long is dropped.
     int max_connections = 256;
     /// The time now since 1970; for the age of frames only. Called from the thread that runs the IoContext.
     std::function<common::Time()> unix_time;

@@ -44,6 +44,7 @@ bool Priority::lowerHaveLetGo(TickContext& context, std::size_t index) {
   if (holder_ == kNobody || holder_ <= index || child(holder_).status() != Status::kRunning) return true;
   if (asker_ != index) {
     asker_ = index;
+    if (!isActive(child(index).status())) child(index).reset(context);  // It waits; SKIPPED would be wrong.
     tell(context, Switch::Kind::kLetsGo, index, child(index).reason(context));
   }
   return child(holder_).suspend(context) == Release::kReleased;

@@ -7,7 +7,7 @@
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::fprintf(stderr, "usage: consumer VEHICLE.yaml\n");
+    std::fprintf(stderr, "usage: data_sheet VEHICLE.yaml\n");
     return 2;
   }
   try {

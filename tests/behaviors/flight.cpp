@@ -1,0 +1,136 @@
+#include "tests/behaviors/flight.hpp"
+
+#include <utility>
+
+namespace swiftlet::behaviors::testing {
+namespace {
+
+/// 10 m x 10 m of free floor around the origin, and a wall at x = 4 m.
+std::shared_ptr<const common::OccupancyGrid> someGrid() {
+  auto grid = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.1));
+  for (int y = -50; y < 50; ++y)
+    for (int x = -50; x < 50; ++x) grid->set({x, y}, x == 40 ? 50 : -50);
+  return grid;
+}
+
+common::World someWorld() {
+  common::World world;
+  world.grid = someGrid();
+  world.levels = std::make_shared<common::LevelMap>();
+  world.frontiers = std::make_shared<std::vector<common::Frontier>>();
+  world.trail_map_m = std::make_shared<std::vector<Eigen::Vector2d>>();
+  world.status.flight_state = common::FlightState::kFlying;
+  return world;
+}
+
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace
+
+Flight::Flight(const std::string& inside, const std::string& more)
+    : Flight(Mission::fromText("<root BTCPP_format=\"4\" main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\">" + inside +
+                                   "</BehaviorTree>" + more + "</root>",
+                               "mission.xml")) {}
+
+Flight::Flight(Mission flown) : mission(std::move(flown)) {
+  context.world = std::make_shared<common::World>(someWorld());
+  context.hull_radius_m = 0.275;
+}
+
+std::string Flight::tick() {
+  context.now += common::Duration::fromMilliseconds(100);
+  last = mission.tick(context);
+  std::string text = upper(common::toString(last.state));
+  if (context.intent) text += " " + std::to_string(context.intent->id) + " " + toString(*context.intent);
+  return text;
+}
+
+Flight& Flight::runs() {
+  context.status = {context.intent ? context.intent->id : 0, common::IntentState::kRunning, "", false};
+  return *this;
+}
+
+Flight& Flight::stops() {
+  runs();
+  context.status.released = true;
+  return *this;
+}
+
+Flight& Flight::succeeds() {
+  stops();
+  context.status.state = common::IntentState::kSucceeded;
+  return *this;
+}
+
+Flight& Flight::fails(const std::string& reason) {
+  stops();
+  context.status.state = common::IntentState::kFailed;
+  context.status.reason = reason;
+  return *this;
+}
+
+Flight& Flight::holds(bool hold, const std::string& reason) {
+  context.hold = hold;
+  context.hold_reason = reason;
+  return *this;
+}
+
+Flight& Flight::retreats(bool retreating, const std::string& reason) {
+  changeWorld([&](common::World& world) {
+    world.avoidance.retreating = retreating;
+    world.avoidance.reason = reason;
+  });
+  return *this;
+}
+
+Flight& Flight::is(common::FlightState state) {
+  changeWorld([&](common::World& world) { world.status.flight_state = state; });
+  return *this;
+}
+
+Flight& Flight::home(double x_m, double y_m) {
+  changeWorld([&](common::World& world) { world.home_map = {x_m, y_m, 0.0}; });
+  return *this;
+}
+
+Flight& Flight::goal(double x_m, double y_m) { return command({0, common::GoalCommand{{x_m, y_m}}}); }
+
+Flight& Flight::homeCommand() { return command({0, common::HomeCommand{}}); }
+
+Flight& Flight::command(common::OperatorCommand given) {
+  given.id = ++commands_;
+  context.commands.push_back(given);
+  return *this;
+}
+
+std::vector<std::string> Flight::events() {
+  std::vector<std::string> texts;
+  for (const common::Event& event : std::exchange(context.events, {}))
+    texts.push_back(event.text + (event.reason.empty() ? "" : " (" + event.reason + ")"));
+  return texts;
+}
+
+std::vector<std::string> Flight::results() {
+  std::vector<std::string> texts;
+  for (const common::CommandResult& result : std::exchange(context.results, {}))
+    texts.push_back(std::to_string(result.id) + (result.accepted ? " accepted" : " refused: " + result.reason));
+  return texts;
+}
+
+std::string Flight::view() const {
+  std::string text;
+  for (const common::TreeNodeView& node : mission.view())
+    text += (text.empty() ? "" : ", ") + node.name + " " + node.status;
+  return text;
+}
+
+void Flight::changeWorld(const std::function<void(common::World&)>& change) {
+  auto world = std::make_shared<common::World>(*context.world);
+  change(*world);
+  context.world = std::move(world);
+}
+
+}  // namespace swiftlet::behaviors::testing

@@ -1,0 +1,51 @@
+// A mission flown by hand: the test plays the autonomy, tick by tick.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "behaviors/mission.hpp"
+
+namespace swiftlet::behaviors::testing {
+
+class Flight {
+ public:
+  /// `inside` stands in <BehaviorTree ID="M">.
+  explicit Flight(const std::string& inside, const std::string& more = {});
+  explicit Flight(Mission flown);
+
+  /// 100 ms pass, one tick: "RUNNING 1 take off to 1.00 m" is the state and the intent with its id.
+  std::string tick();
+  /// What the autonomy answers to the last intent at the next tick.
+  Flight& runs();   ///< Under way, moving.
+  Flight& stops();  ///< Under way, and the vehicle has stopped.
+  Flight& succeeds();
+  Flight& fails(const std::string& reason);
+
+  Flight& holds(bool hold, const std::string& reason = {});
+  Flight& retreats(bool retreating, const std::string& reason = {});
+  Flight& is(common::FlightState state);
+  Flight& home(double x_m, double y_m);
+  /// A goal, or home, from the operator; the id of the command counts from 1.
+  Flight& goal(double x_m, double y_m);
+  Flight& homeCommand();
+  Flight& command(common::OperatorCommand command);
+
+  /// "text (reason)" of the events since the last call.
+  std::vector<std::string> events();
+  /// "1 accepted", "2 refused: reason" since the last call.
+  std::vector<std::string> results();
+  std::string view() const;
+
+  Mission mission;
+  Context context;
+  TickResult last;
+
+ private:
+  void changeWorld(const std::function<void(common::World&)>& change);
+  std::uint64_t commands_ = 0;
+};
+
+}  // namespace swiftlet::behaviors::testing

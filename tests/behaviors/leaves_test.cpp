@@ -1,0 +1,312 @@
+// The behaviours, tick by tick; the test plays the autonomy.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/behaviors/flight.hpp"
+
+namespace swiftlet::behaviors::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+TEST(TakeOff, IsOneWishUntilItIsDone) {
+  Flight flight(R"(<TakeOff height_m="1.5"/>)");
+  EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.50 m");
+  EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.50 m") << "nobody has answered yet";
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 1 take off to 1.50 m");
+  EXPECT_EQ(flight.last.phase, "take off to 1.50 m");
+  EXPECT_EQ(flight.succeeds().tick(), "DONE");
+  EXPECT_EQ(flight.tick(), "DONE") << "an ended mission stays ended";
+  EXPECT_THAT(flight.events(), ElementsAre("TakeOff starts", "TakeOff is done"));
+}
+
+TEST(TakeOff, AFailureEndsTheMissionWithItsReason) {
+  Flight flight("<Sequence><TakeOff/><Land/></Sequence>");
+  EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.00 m");
+  EXPECT_EQ(flight.fails("the battery is empty").tick(), "FAILED");
+  EXPECT_EQ(flight.last.reason, "TakeOff: the battery is empty");
+  EXPECT_THAT(flight.events(), ElementsAre("TakeOff starts", "TakeOff failed (the battery is empty)"));
+}
+
+TEST(Leaves, AnAnswerToAnOlderWishIsNotMistakenForTheNewOne) {
+  Flight flight("<Sequence><TakeOff/><Land/></Sequence>");
+  flight.tick();
+  EXPECT_EQ(flight.succeeds().tick(), "RUNNING 2 land");
+  EXPECT_EQ(flight.tick(), "RUNNING 2 land") << "the status still says that wish 1 succeeded";
+  EXPECT_EQ(flight.succeeds().tick(), "DONE");
+}
+
+TEST(Explore, HandsDownItsClearance) {
+  Flight flight(R"(<Explore clearance_m="0.25"/>)");
+  flight.tick();
+  EXPECT_DOUBLE_EQ(std::get<common::ExploreIntent>(flight.context.intent->kind).clearance_m, 0.25);
+}
+
+TEST(MoveToGoal, HandsDownGoalHeightAndTolerance) {
+  Flight flight(R"(<MoveToGoal goal="3.0;-1.5;1.2" tolerance_m="0.2" clearance_m="0.3"/>)");
+  EXPECT_EQ(flight.tick(), "RUNNING 1 go to (3.00, -1.50)");
+  const auto wish = std::get<common::GoToIntent>(flight.context.intent->kind);
+  EXPECT_EQ(wish.height_m, 1.2);
+  EXPECT_EQ(wish.tolerance_m, 0.2);
+  EXPECT_EQ(wish.clearance_m, 0.3);
+  EXPECT_FALSE(wish.yaw_map_rad);
+}
+
+TEST(MoveToGoal, StaysAtItsHeightWithoutZ) {
+  Flight flight(R"(<MoveToGoal goal="3.0;-1.5"/>)");
+  flight.tick();
+  EXPECT_FALSE(std::get<common::GoToIntent>(flight.context.intent->kind).height_m);
+}
+
+TEST(MoveToGoal, ReadsItsGoalFromAnEntry) {
+  Flight flight(
+      R"(<Sequence><SetBlackboard value="1;2" output_key="target"/><MoveToGoal goal="{target}"/></Sequence>)");
+  EXPECT_EQ(flight.tick(), "RUNNING 1 go to (1.00, 2.00)");
+}
+
+TEST(GoHome, FollowsACorrectionOfHome) {
+  Flight flight(R"(<GoHome tolerance_m="0.1"/>)");
+  flight.home(0.0, 0.0);
+  EXPECT_EQ(flight.tick(), "RUNNING 1 go to (0.00, 0.00)");
+  EXPECT_EQ(flight.home(0.04, 0.0).tick(), "RUNNING 1 go to (0.00, 0.00)") << "well within the tolerance";
+  EXPECT_EQ(flight.home(0.2, 0.1).tick(), "RUNNING 2 go to (0.20, 0.10)");
+}
+
+constexpr const char* kMission =
+    R"(<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><Explore/><Land/></Sequence></Priority>)";
+
+/// In the middle of Explore, which is wish 2.
+Flight exploring() {
+  Flight flight(kMission);
+  flight.tick();
+  flight.succeeds().tick();
+  flight.runs().tick();
+  flight.events();
+  return flight;
+}
+
+TEST(Hold, TakesOverOnlyWhenTheVehicleHasStopped) {
+  Flight flight = exploring();
+  flight.holds(true, "the operator holds");
+  EXPECT_EQ(flight.tick(), "RUNNING 3 hold") << "Explore wishes to stop";
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 3 hold") << "not stopped yet";
+  EXPECT_EQ(flight.stops().tick(), "HELD 4 hold") << "the Hold's own";
+  EXPECT_EQ(flight.last.reason, "the operator holds");
+  EXPECT_EQ(flight.view(),
+            "Priority RUNNING, AvoidObstacle SKIPPED, Hold RUNNING, Sequence SUSPENDED, TakeOff SUCCESS, "
+            "Explore SUSPENDED, Land IDLE");
+  EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for Hold (the operator holds)",
+                                           "Hold takes over from Explore (the operator holds)"));
+  flight.holds(false);
+  EXPECT_EQ(flight.stops().tick(), "RUNNING 5 explore") << "resumed in the same tick, as a new wish";
+  EXPECT_THAT(flight.events(), ElementsAre("Explore resumes (Hold ended with SUCCESS)"));
+}
+
+TEST(Hold, GivenUpBeforeTheVehicleStopped) {
+  Flight flight = exploring();
+  flight.holds(true).tick();
+  EXPECT_EQ(flight.runs().holds(false).tick(), "RUNNING 4 explore");
+  EXPECT_THAT(flight.events(),
+              ElementsAre("Explore lets go for Hold (the operator holds)", "Explore goes on (Hold asks no longer)"));
+}
+
+TEST(Hold, AnswersForAnotherWishDoNotReleaseTheVehicle) {
+  Flight flight = exploring();
+  flight.stops().holds(true);
+  EXPECT_EQ(flight.tick(), "RUNNING 3 hold") << "released is about Explore's wish, not about the hold";
+  EXPECT_EQ(flight.tick(), "RUNNING 3 hold");
+}
+
+TEST(Hold, DuringTakeOffTheClimbIsResumed) {
+  Flight flight(kMission);
+  flight.is(common::FlightState::kTakingOff);
+  EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.00 m");
+  flight.runs().holds(true).tick();
+  EXPECT_EQ(flight.stops().tick(), "HELD 3 hold");
+  EXPECT_EQ(flight.holds(false).tick(), "RUNNING 4 take off to 1.00 m");
+}
+
+TEST(Hold, BeforeTheFirstTickTheMissionWaits) {
+  Flight flight(kMission);
+  EXPECT_EQ(flight.holds(true).tick(), "HELD 1 hold");
+  EXPECT_EQ(flight.holds(false).tick(), "RUNNING 2 take off to 1.00 m");
+}
+
+TEST(AvoidObstacle, HasTheVehicleWhileTheReactiveLayerRetreats) {
+  Flight flight = exploring();
+  flight.retreats(true, "0.31 m ahead, closing");
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 4 avoid obstacle")
+      << "the layer moves it already: nothing has to stop first";
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 4 avoid obstacle");
+  EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for AvoidObstacle (0.31 m ahead, closing)",
+                                           "AvoidObstacle takes over from Explore (0.31 m ahead, closing)"));
+  EXPECT_EQ(flight.retreats(false).tick(), "RUNNING 5 explore");
+  EXPECT_THAT(flight.events(), ElementsAre("Explore resumes (AvoidObstacle ended with SUCCESS)"));
+}
+
+TEST(AvoidObstacle, IsSkippedUnlessFlying) {
+  for (const auto state :
+       {common::FlightState::kLanded, common::FlightState::kTakingOff, common::FlightState::kLanding}) {
+    Flight flight(kMission);
+    EXPECT_EQ(flight.is(state).retreats(true).tick(), "RUNNING 1 take off to 1.00 m");
+  }
+}
+
+TEST(AvoidObstacle, InterruptsAHold) {
+  Flight flight = exploring();
+  flight.holds(true).tick();
+  flight.stops().tick();
+  EXPECT_EQ(flight.retreats(true).tick(), "RUNNING 5 avoid obstacle");
+  EXPECT_EQ(flight.view(),
+            "Priority RUNNING, AvoidObstacle RUNNING, Hold SUSPENDED, Sequence SUSPENDED, TakeOff SUCCESS, "
+            "Explore SUSPENDED, Land IDLE");
+  EXPECT_EQ(flight.retreats(false).tick(), "HELD 6 hold");
+  flight.events();
+  flight.retreats(true).tick();
+  EXPECT_EQ(flight.retreats(false).holds(false).tick(), "RUNNING 8 explore") << "the hold ended meanwhile";
+}
+
+constexpr const char* kOperator =
+    R"(<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><OperatorCommand tolerance_m="0.1"/></Sequence></Priority>)";
+
+/// Taken off; OperatorCommand holds as wish 2.
+Flight waiting() {
+  Flight flight(kOperator);
+  flight.tick();
+  flight.succeeds().tick();
+  flight.events();
+  return flight;
+}
+
+TEST(OperatorCommand, HoldsUntilAGoalComesAndAgainAfterIt) {
+  Flight flight = waiting();
+  EXPECT_EQ(flight.stops().tick(), "RUNNING 2 hold");
+  EXPECT_EQ(flight.goal(1.0, 2.0).tick(), "RUNNING 3 go to (1.00, 2.00)");
+  EXPECT_THAT(flight.results(), ElementsAre("1 accepted"));
+  EXPECT_DOUBLE_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).tolerance_m, 0.1);
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 3 go to (1.00, 2.00)");
+  EXPECT_EQ(flight.succeeds().tick(), "RUNNING 4 hold");
+  EXPECT_THAT(flight.events(), ElementsAre("goal (1.00, 2.00) reached"));
+}
+
+TEST(OperatorCommand, ANewGoalReplacesTheOldOne) {
+  Flight flight = waiting();
+  flight.goal(1.0, 2.0).tick();
+  EXPECT_EQ(flight.runs().goal(-1.0, 0.0).tick(), "RUNNING 4 go to (-1.00, 0.00)");
+  EXPECT_THAT(flight.events(), ElementsAre("goal (1.00, 2.00) given up (replaced by goal (-1.00, 0.00))"));
+  EXPECT_EQ(flight.tick(), "RUNNING 4 go to (-1.00, 0.00)") << "what is said of wish 3 does not matter";
+}
+
+TEST(OperatorCommand, OfSeveralGoalsInOneTickTheLastCounts) {
+  Flight flight = waiting();
+  EXPECT_EQ(flight.goal(1.0, 2.0).goal(2.0, 2.0).tick(), "RUNNING 3 go to (2.00, 2.00)");
+  EXPECT_THAT(flight.results(), ElementsAre("1 accepted", "2 accepted"));
+}
+
+TEST(OperatorCommand, AGoalThatCannotBeReachedIsToldAndTheMissionGoesOn) {
+  Flight flight = waiting();
+  flight.goal(1.0, 2.0).tick();
+  EXPECT_EQ(flight.fails("no path at clearance 0.10 m").tick(), "RUNNING 4 hold");
+  EXPECT_THAT(flight.events(), ElementsAre("goal (1.00, 2.00) not reached (no path at clearance 0.10 m)"));
+}
+
+TEST(OperatorCommand, GoesHome) {
+  Flight flight = waiting();
+  EXPECT_EQ(flight.home(0.5, 0.25).homeCommand().tick(), "RUNNING 3 go to (0.50, 0.25)");
+  flight.succeeds().tick();
+  EXPECT_THAT(flight.events(), ElementsAre("home reached"));
+}
+
+TEST(OperatorCommand, RefusesWhatCannotBeAGoal) {
+  Flight flight = waiting();
+  flight.goal(4.05, 0.0)
+      .goal(20.0, 0.0)
+      .goal(3.9, 0.0)
+      .goal(std::nan(""), 0.0)
+      .goal(1e300, 0.0)
+      .command({0, common::LandCommand{}});
+  EXPECT_EQ(flight.tick(), "RUNNING 2 hold");
+  EXPECT_THAT(flight.results(),
+              ElementsAre("1 refused: (4.05, 0.00) is in an obstacle", "2 refused: (20.00, 0.00) is outside the map",
+                          "3 refused: (3.90, 0.00) is 0.16 m from an obstacle, the hull needs 0.28 m",
+                          "4 refused: the goal is not a point of the map",
+                          "5 refused: the goal is not a point of the map", "6 refused: not a command for the mission"));
+}
+
+TEST(OperatorCommand, AGoalGivenWhileHeldIsFlownAfterwards) {
+  Flight flight = waiting();
+  flight.stops().holds(true).tick();
+  EXPECT_EQ(flight.goal(1.0, 2.0).tick(), "HELD 3 hold");
+  EXPECT_THAT(flight.results(), ElementsAre("1 accepted"));
+  EXPECT_EQ(flight.holds(false).tick(), "RUNNING 4 go to (1.00, 2.00)");
+}
+
+TEST(OperatorCommand, AHoldInterruptsAGoalAndItIsResumed) {
+  Flight flight = waiting();
+  flight.goal(1.0, 2.0).tick();
+  EXPECT_EQ(flight.runs().holds(true).tick(), "RUNNING 4 hold");
+  EXPECT_EQ(flight.stops().tick(), "HELD 5 hold");
+  EXPECT_EQ(flight.holds(false).tick(), "RUNNING 6 go to (1.00, 2.00)");
+}
+
+TEST(OperatorCommand, WhoHoldsAlreadyLetsGoAtOnce) {
+  Flight flight = waiting();
+  EXPECT_EQ(flight.stops().holds(true).tick(), "HELD 3 hold");
+}
+
+TEST(OperatorCommand, AGoalGivenDuringTakeOffIsFlownAfterIt) {
+  Flight flight(kOperator);
+  flight.goal(1.0, 2.0).tick();
+  EXPECT_THAT(flight.results(), ElementsAre("1 accepted"));
+  EXPECT_EQ(flight.succeeds().tick(), "RUNNING 2 go to (1.00, 2.00)");
+}
+
+TEST(Commands, AreRefusedWhereTheMissionHasNoOperatorCommand) {
+  Flight flight = exploring();
+  EXPECT_FALSE(flight.mission.acceptsGoals());
+  flight.goal(1.0, 2.0).homeCommand().tick();
+  EXPECT_THAT(flight.results(), ElementsAre("1 refused: the mission M has no OperatorCommand: it flies its own goals",
+                                            "2 refused: the mission M has no OperatorCommand: it flies its own goals"));
+  EXPECT_TRUE(waiting().mission.acceptsGoals());
+}
+
+TEST(Commands, AreRefusedWhenTheMissionHasEnded) {
+  Flight flight("<Timeout msec='1'><OperatorCommand/></Timeout>");
+  flight.tick();
+  EXPECT_EQ(flight.stops().tick(), "FAILED");
+  flight.goal(1.0, 2.0).tick();
+  EXPECT_THAT(flight.results(), ElementsAre("1 refused: the mission has ended"));
+}
+
+TEST(Mission, LetsGoForWhoeverStandsAboveIt) {
+  Flight flight = exploring();
+  EXPECT_FALSE(flight.mission.letGo(flight.context));
+  EXPECT_EQ(toString(*flight.context.intent), "hold");
+  EXPECT_FALSE(flight.runs().mission.letGo(flight.context));
+  EXPECT_TRUE(flight.stops().mission.letGo(flight.context));
+  EXPECT_THAT(flight.events(), ElementsAre("Explore is given up"));
+  EXPECT_EQ(flight.view(),
+            "Priority IDLE, AvoidObstacle IDLE, Hold IDLE, Sequence IDLE, TakeOff IDLE, Explore IDLE, Land IDLE");
+  EXPECT_EQ(flight.tick().substr(10), "take off to 1.00 m") << "it stands at its beginning";
+}
+
+TEST(Mission, NothingToDoIsNoIntent) {
+  Flight flight("<Priority><AvoidObstacle/><Hold/></Priority>");
+  EXPECT_EQ(flight.tick(), "RUNNING");
+  EXPECT_EQ(flight.last.phase, "nothing to do");
+}
+
+TEST(Mission, ATimeoutStopsTheVehicleBeforeItFails) {
+  Flight flight(R"(<Fallback><Timeout msec="250"><Explore/></Timeout><Land/></Fallback>)");
+  flight.tick();
+  flight.runs().tick();
+  flight.runs().tick();
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 2 hold") << "300 ms have passed";
+  EXPECT_EQ(flight.stops().tick(), "RUNNING 3 land");
+  EXPECT_THAT(flight.events(), ElementsAre("Explore starts", "Explore is given up",
+                                           "Timeout failed (timed out after 0.25 s)", "Land starts"));
+}
+
+}  // namespace
+}  // namespace swiftlet::behaviors::testing

@@ -1,0 +1,131 @@
+// The shipped missions, and what `check` says of missions.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/behaviors/flight.hpp"
+
+namespace swiftlet::behaviors::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::string kMissions = std::string(SWIFTLET_SOURCE_DIR) + "/missions/";
+
+std::vector<std::string> problemsOf(const std::string& inside, const MissionLimits& limits = {}) {
+  const std::string text = "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">\n<BehaviorTree ID=\"M\">\n" + inside +
+                           "\n</BehaviorTree></root>";
+  std::vector<std::string> lines;
+  for (const common::Problem& problem : checkMissionText(text, "m.xml", limits)) lines.push_back(toString(problem));
+  return lines;
+}
+
+TEST(ShippedMissions, AreSound) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kMissions)) {
+    if (entry.path().extension() != ".xml") continue;
+    ++count;
+    for (const common::Problem& problem :
+         checkMission(entry.path().string(), {.retreat_distance_m = 0.10, .max_height_m = 3.0}))
+      ADD_FAILURE() << toString(problem);
+  }
+  EXPECT_GE(count, 2);
+}
+
+TEST(ExploreAndReturn, FliesFigure5) {
+  Flight flight(Mission::fromFile(kMissions + "explore_and_return.xml"));
+  EXPECT_EQ(flight.mission.name(), "ExploreAndReturn");
+  EXPECT_FALSE(flight.mission.acceptsGoals());
+  EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.00 m");
+  EXPECT_EQ(flight.succeeds().tick(), "RUNNING 2 explore");
+  EXPECT_THAT(flight.succeeds().tick(), HasSubstr("RUNNING 3 go to ("));
+  EXPECT_EQ(flight.succeeds().tick(), "RUNNING 4 go to (0.00, 0.00)");
+  EXPECT_EQ(flight.succeeds().tick(), "RUNNING 5 land");
+  EXPECT_EQ(flight.succeeds().tick(), "DONE");
+}
+
+TEST(OperatorGoals, TakesOffAndWaits) {
+  Flight flight(Mission::fromFile(kMissions + "operator_goals.xml"));
+  EXPECT_TRUE(flight.mission.acceptsGoals());
+  flight.tick();
+  EXPECT_EQ(flight.succeeds().tick(), "RUNNING 2 hold");
+  EXPECT_EQ(flight.goal(1.0, 1.0).tick(), "RUNNING 3 go to (1.00, 1.00)");
+}
+
+TEST(FromFile, ThrowsEveryProblem) {
+  try {
+    Mission::fromText(
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence><Takeoff/><Land "
+        "now=\"1\"/></Sequence></BehaviorTree></root>",
+        "m.xml");
+    FAIL();
+  } catch (const common::InputError& error) {
+    ASSERT_EQ(error.problems().size(), 2U);
+    EXPECT_EQ(toString(error.problems()[0]), "m.xml:1:55: Takeoff: unknown node `Takeoff`, did you mean `TakeOff`?");
+    EXPECT_EQ(toString(error.problems()[1]), "m.xml:1:71: Land: unknown port `now`, expected no ports");
+  }
+  EXPECT_THROW(Mission::fromFile("/nonexistent.xml"), common::InputError);
+}
+
+TEST(Check, NeverTakesOff) {
+  EXPECT_THAT(problemsOf("<Hold/>"), ElementsAre("m.xml:3:1: M: the mission never takes off, expected a TakeOff"));
+  EXPECT_THAT(problemsOf("<Sequence>\n<Explore/>\n<TakeOff/></Sequence>"),
+              ElementsAre("m.xml:4:1: Explore: the vehicle stands on the floor here, expected a TakeOff before it"));
+  EXPECT_THAT(problemsOf("<Sequence><TakeOff/><Land/>\n<GoHome/></Sequence>"),
+              ElementsAre(HasSubstr("m.xml:4:1: GoHome: the vehicle stands on the floor")));
+}
+
+TEST(Check, FollowsWhereTheVehicleMayBe) {
+  for (const char* sound :
+       {"<Sequence><TakeOff/><Land/><TakeOff/><Land/></Sequence>",
+        "<Fallback><Sequence><TakeOff/><Explore/><Land/></Sequence><Sequence><GoHome/><Land/></Sequence></Fallback>",
+        "<Sequence><ForceSuccess><TakeOff/></ForceSuccess><Explore/></Sequence>",
+        "<Sequence><TakeOff/><Timeout msec='5'><Explore/></Timeout><Land/></Sequence>",
+        "<Sequence><TakeOff/><Fallback><Timeout "
+        "msec='5'><Explore/></Timeout><AlwaysSuccess/></Fallback><Land/></Sequence>",
+        "<Repeat num_cycles='2'><Sequence><TakeOff/><Land/></Sequence></Repeat>",
+        "<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><Land/></Sequence></Priority>",
+        "<Parallel><TakeOff/><Hold/></Parallel>"})
+    EXPECT_THAT(problemsOf(sound), ElementsAre()) << sound;
+  for (const char* wrong :
+       {"<Fallback><TakeOff/><AlwaysSuccess/></Fallback>", "<Sequence><AlwaysFailure/><TakeOff/><Explore/></Sequence>",
+        "<Fallback><AlwaysSuccess/><Sequence><TakeOff/><Explore/></Sequence></Fallback>"})
+    EXPECT_LE(problemsOf(wrong).size(), 1U) << wrong;
+  EXPECT_EQ(problemsOf("<Sequence><Inverter><TakeOff/></Inverter><Land/></Sequence>").size(), 0U);
+}
+
+TEST(Check, ClearanceBelowTheRetreatDistance) {
+  const MissionLimits limits{.retreat_distance_m = 0.2, .max_height_m = 3.0};
+  EXPECT_THAT(problemsOf("<Sequence><TakeOff/>\n<Explore clearance_m=\"0.15\"/></Sequence>", limits),
+              ElementsAre("m.xml:4:10: Explore.clearance_m: 0.15 m is nearer than the 0.2 m at which the reactive "
+                          "layer retreats, raise it, "
+                          "or lower the retreat distance in the system profile"));
+  EXPECT_THAT(problemsOf("<Sequence><TakeOff/>\n<Explore/></Sequence>", limits),
+              ElementsAre(HasSubstr("m.xml:4:1: Explore.clearance_m: 0.1 m is nearer")))
+      << "defaults count";
+  EXPECT_THAT(problemsOf("<Sequence><SetBlackboard value=\"0.05\" output_key=\"c\"/><TakeOff/><Explore "
+                         "clearance_m=\"{c}\"/></Sequence>",
+                         limits),
+              ElementsAre(HasSubstr("0.05 m is nearer")))
+      << "entries count";
+  EXPECT_THAT(problemsOf("<Sequence><TakeOff/><Explore clearance_m=\"0.2\"/></Sequence>", limits), ElementsAre());
+}
+
+TEST(Check, TooHigh) {
+  EXPECT_THAT(
+      problemsOf("<Sequence><TakeOff height_m=\"4\"/><MoveToGoal goal=\"1;2;9\"/></Sequence>", {.max_height_m = 3.0}),
+      ElementsAre(HasSubstr("TakeOff.height_m: 4 m is above the greatest height, 3 m"),
+                  HasSubstr("MoveToGoal.goal: 9 m is above the greatest height, 3 m")));
+}
+
+TEST(Check, WhatNeverStepsBackStarvesWhatIsBelow) {
+  EXPECT_THAT(
+      problemsOf(
+          "<Priority>\n<Sequence><TakeOff/><Land/></Sequence>\n<Sequence><TakeOff/><Land/></Sequence></Priority>"),
+      ElementsAre(HasSubstr("m.xml:4:1: Sequence: never answers SKIPPED")));
+}
+
+}  // namespace
+}  // namespace swiftlet::behaviors::testing

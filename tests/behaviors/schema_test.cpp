@@ -1,0 +1,80 @@
+// The schema and the palette are made from the registry: stale ones fail here, and the schema says of missions what the
+// parser says.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "behaviors/mission.hpp"
+
+namespace swiftlet::behaviors {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kMissions = fs::path(SWIFTLET_SOURCE_DIR) / "missions";
+
+std::string textOf(const fs::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void expectFresh(const fs::path& shipped, const std::string& made) {
+  const fs::path fresh = fs::path(SWIFTLET_BINARY_DIR) / shipped.filename();
+  std::ofstream(fresh) << made;
+  EXPECT_TRUE(textOf(shipped) == made) << shipped << " is stale: cp " << fresh << " " << shipped;
+}
+
+TEST(Schema, IsFresh) { expectFresh(kMissions / "swiftlet.xsd", tree::writeSchema(missionRegistry())); }
+
+TEST(Palette, IsFresh) { expectFresh(kMissions / "groot2/palette.xml", tree::writeTreeNodesModel(missionRegistry())); }
+
+TEST(Palette, CanStandInAMission) {
+  const std::string palette = tree::writeTreeNodesModel(missionRegistry());
+  const std::size_t begin = palette.find("  <TreeNodesModel>"), end = palette.find("</root>");
+  const std::string mission =
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence><TakeOff/><Land/></Sequence></BehaviorTree>" +
+      palette.substr(begin, end - begin) + "</root>";
+  EXPECT_TRUE(checkMissionText(mission, "m.xml").empty());
+}
+
+/// 0: valid by the schema, anything else: not.
+int xmllint(const std::string& text) {
+  const fs::path file = fs::path(SWIFTLET_BINARY_DIR) / "schema_test.xml";
+  std::ofstream(file) << text;
+  return std::system(
+      ("xmllint --noout --schema '" + (kMissions / "swiftlet.xsd").string() + "' '" + file.string() + "' 2>/dev/null")
+          .c_str());
+}
+
+std::string mission(const std::string& inside) {
+  return "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\">" + inside + "</BehaviorTree></root>";
+}
+
+TEST(Schema, AgreesWithTheParser) {
+  if (std::system("xmllint --version 2>/dev/null") != 0)
+    GTEST_SKIP() << "NO xmllint (apt: libxml2-utils): the schema was not tried";
+  for (const auto& entry : fs::directory_iterator(kMissions)) {
+    if (entry.path().extension() != ".xml") continue;
+    EXPECT_EQ(xmllint(textOf(entry.path())), 0) << entry.path();
+  }
+  for (const char* good :
+       {"<Sequence><TakeOff height_m='{h}'/><MoveToGoal goal='1;-2.5;3' clearance_m=' 0.1 '/><Land/></Sequence>",
+        "<Timeout msec='1500'><Explore name='look round'/></Timeout>", "<Action ID='TakeOff' height_m='1'/>",
+        "<SubTree ID='X' goal='{g}' _autoremap='true'/>", "<SetBlackboard value='1;2' output_key='{goal}'/>"})
+    EXPECT_EQ(xmllint(mission(good)), 0) << good;
+  for (const char* bad :
+       {"<TakeOff hight_m='1'/>", "<TakeOff height_m='1 m'/>", "<TakeOff height_m='1000'/>", "<MoveToGoal/>",
+        "<MoveToGoal goal='1'/>", "<Sequence/>", "<Inverter><Land/><Land/></Inverter>", "<Land><Land/></Land>",
+        "<Tumble/>", "<Repeat num_cycles='1.5'><Land/></Repeat>", "<SubTree/>", "<Land/><Land/>"}) {
+    EXPECT_NE(xmllint(mission(bad)), 0) << bad;
+    EXPECT_FALSE(checkMissionText(mission(bad), "m.xml").empty()) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::behaviors

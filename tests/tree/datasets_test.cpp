@@ -1,0 +1,149 @@
+// Trees that others wrote: BehaviorTree.CPP's examples and fuzzing corpus, Groot's, Nav2's, Aerostack2's. Those of
+// format 4 are read, with their node types registered as the problems name them; everything else is refused with a
+// place.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <regex>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "behaviors/tree/leaf.hpp"
+#include "behaviors/tree/nodes/sequence.hpp"
+#include "behaviors/tree/parser.hpp"
+
+namespace swiftlet::tree {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Beside the repository, or where SWIFTLET_DATASETS says.
+fs::path datasets() {
+  if (const char* told = std::getenv("SWIFTLET_DATASETS")) return fs::path(told) / "08-behavior-trees";
+  for (fs::path up = SWIFTLET_SOURCE_DIR; up != up.root_path(); up = up.parent_path())
+    if (fs::exists(up / "shared/datasets/08-behavior-trees")) return up / "shared/datasets/08-behavior-trees";
+  return {};
+}
+
+std::vector<fs::path> files() {
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::recursive_directory_iterator(datasets()))
+    if (entry.path().extension() == ".xml") paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::string textOf(const fs::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// The text at a problem's place: what stands there must be what the problem is about.
+std::string lineAt(const Location& place) {
+  std::ifstream file(place.file);
+  std::string line;
+  for (int i = 0; i < place.line; ++i) std::getline(file, line);
+  return place.column > 0 && place.column <= static_cast<int>(line.size())
+             ? line.substr(static_cast<std::size_t>(place.column - 1))
+             : "";
+}
+
+class Nothing final : public Leaf {
+  using Leaf::Leaf;
+  Status act(TickContext&) override { return Status::kSuccess; }
+};
+
+/// Learns node types from the problems they cause, as a user would register them.
+class Learner {
+ public:
+  /// False when the problem is about something else.
+  bool learn(const Problem& problem, const std::string& text) {
+    std::smatch match;
+    if (std::regex_search(problem.message, match,
+                          std::regex("(?:unknown node )?`([^`]+)`(?: is a node of BehaviorTree.CPP.*)?$")) &&
+        (problem.message.starts_with("unknown node") || problem.message.ends_with("does not have"))) {
+      NodeManifest& manifest = manifests_[match[1]];
+      manifest.id = match[1];
+      // A type is a control node when it has children anywhere in the file.
+      const bool has_children = std::regex_search(text, std::regex("</" + manifest.id + ">"));
+      manifest.kind = has_children                     ? NodeKind::kControl
+                      : problem.element == "Condition" ? NodeKind::kCondition
+                                                       : NodeKind::kAction;
+      return true;
+    }
+    if (std::regex_search(problem.message, match, std::regex("unknown port `([^`]+)`")) &&
+        manifests_.contains(problem.element)) {
+      manifests_[problem.element].ports.push_back(
+          {.name = match[1], .type = PortType::kString, .direction = Direction::kInOut});
+      return true;
+    }
+    // Entries are filled by the host, or by outputs we cannot tell from inputs.
+    if (std::regex_search(problem.message, match, std::regex("nothing sets the entry \\{([^}]+)\\}"))) {
+      options.host_entries.push_back(match[1]);
+      return true;
+    }
+    return false;
+  }
+
+  Registry registry() const {
+    Registry registry = Registry::standard();
+    for (const auto& [id, manifest] : manifests_) {
+      if (manifest.kind == NodeKind::kControl)
+        registry.add(manifest, [](const NodeSetup& setup) { return std::make_unique<Sequence>(setup); });
+      else
+        registry.add(manifest, [](const NodeSetup& setup) { return std::make_unique<Nothing>(setup); });
+    }
+    return registry;
+  }
+
+  ParseOptions options;
+
+ private:
+  std::map<std::string, NodeManifest> manifests_;
+};
+
+/// Rounds of reading and registering, until it is read or what is left is not about registration.
+std::vector<Problem> readByLearning(const fs::path& path, bool& read) {
+  Learner learner;
+  learner.options.limits.problems = 10'000;
+  for (int round = 0; round < 4; ++round) {
+    const Registry registry = learner.registry();
+    ParseResult result = parseFile(path.string(), registry, learner.options);
+    read = result.tree.has_value();
+    if (read) {
+      TickContext context;
+      for (int i = 0; i < 10; ++i) result.tree->tick(context);
+      return {};
+    }
+    bool learned = false;
+    for (const Problem& problem : result.problems) learned = learner.learn(problem, textOf(path)) || learned;
+    if (!learned) return result.problems;
+  }
+  return {};
+}
+
+TEST(OthersTrees, AreReadOrRefusedWithAPlace) {
+  if (datasets().empty()) GTEST_SKIP() << "NO DATA: shared/datasets/08-behavior-trees is not here, nothing was tested";
+  int read_count = 0, refused = 0;
+  for (const fs::path& path : files()) {
+    bool read = false;
+    const std::vector<Problem> problems = readByLearning(path, read);
+    (read ? read_count : refused)++;
+    EXPECT_NE(read, !problems.empty()) << path;
+    const bool format4 = textOf(path).find("BTCPP_format=\"4\"") != std::string::npos;
+    EXPECT_TRUE(format4 || !read) << path << " is not of format 4";
+    for (const Problem& problem : problems) {
+      EXPECT_GT(problem.location.line, 0) << toString(problem);
+      EXPECT_FALSE(lineAt(problem.location).empty()) << toString(problem);
+    }
+  }
+  std::cout << read_count << " read, " << refused << " refused\n";
+  EXPECT_GE(read_count, 20) << "format 4 files of others that use nothing but nodes and includes must be read";
+}
+
+}  // namespace
+}  // namespace swiftlet::tree

@@ -1,0 +1,221 @@
+// Decorators, leaves of the engine, subtrees and blackboard entries, tick by tick.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/tree/story.hpp"
+
+namespace swiftlet::tree::testing {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST(Inverter, TurnsSuccessAndFailureRound) {
+  Story story("<Inverter><A/></Inverter>");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "FAILURE: A");
+  story.says("A", "FAILURE");
+  EXPECT_EQ(story.tick(), "SUCCESS: start A");
+  story.says("A", "nothing");
+  EXPECT_EQ(story.tick(), "SKIPPED");
+}
+
+TEST(Force, IsWhatItsNameSays) {
+  Story success("<ForceSuccess><A/></ForceSuccess>"), failure("<ForceFailure><A/></ForceFailure>");
+  for (Story* story : {&success, &failure}) EXPECT_EQ(story->tick(), "RUNNING: start A");
+  for (const char* end : {"SUCCESS", "FAILURE"}) {
+    EXPECT_EQ(success.says("A", end).tick().substr(0, 7), "SUCCESS");
+    EXPECT_EQ(failure.says("A", end).tick().substr(0, 7), "FAILURE");
+  }
+  for (Story* story : {&success, &failure}) EXPECT_EQ(story->says("A", "nothing").tick(), "SKIPPED");
+}
+
+TEST(Repeat, CountsSuccessesOneCycleATickAtMost) {
+  Story story(R"(<Repeat num_cycles="3"><A/></Repeat>)");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "SUCCESS: start A");
+  EXPECT_EQ(story.tick(), "RUNNING: start A") << "counts anew";
+}
+
+TEST(Repeat, ACycleThatEndsStartsTheNextInTheSameTick) {
+  Story story(R"(<Repeat num_cycles="2"><A/></Repeat>)");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "SUCCESS: A, start A");
+}
+
+TEST(Repeat, AFailureEndsItAndSkippedPasses) {
+  Story story(R"(<Repeat num_cycles="3"><A/></Repeat>)");
+  story.says("A", "FAILURE");
+  EXPECT_EQ(story.tick(), "FAILURE: start A");
+  story.says("A", "nothing");
+  EXPECT_EQ(story.tick(), "SKIPPED");
+}
+
+TEST(Repeat, MinusOneIsForEverAndZeroNever) {
+  Story forever(R"(<Repeat num_cycles="-1"><A/></Repeat>)"), never(R"(<Repeat num_cycles="0"><A/></Repeat>)");
+  forever.says("A", "SUCCESS");
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(forever.tick(), "RUNNING: start A");
+  EXPECT_EQ(never.tick(), "SUCCESS");
+}
+
+TEST(Retry, CountsFailures) {
+  Story story(R"(<RetryUntilSuccessful num_attempts="2"><A/></RetryUntilSuccessful>)");
+  story.says("A", "FAILURE");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "FAILURE: start A");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "SUCCESS: start A");
+}
+
+TEST(Retry, ZeroNeverAsksAndSkippedPasses) {
+  Story zero(R"(<RetryUntilSuccessful num_attempts="0"><A/></RetryUntilSuccessful>)");
+  EXPECT_EQ(zero.tick(), "FAILURE");
+  Story story(R"(<RetryUntilSuccessful num_attempts="2"><A/></RetryUntilSuccessful>)");
+  EXPECT_EQ(story.says("A", "nothing").tick(), "SKIPPED");
+}
+
+TEST(Timeout, HaltsTheChildWhenTheTimeIsOver) {
+  Story story(R"(<Timeout msec="1000"><A/></Timeout>)");
+  story.says("A", "stops in 1");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(999), "RUNNING: A");
+  EXPECT_EQ(story.tick(1), "RUNNING: A halting") << "not ticked once more";
+  EXPECT_EQ(story.tick(), "FAILURE: A halted");
+  EXPECT_THAT(story.failures(), ElementsAre("Timeout: timed out after 1 s"));
+  EXPECT_EQ(story.tick(), "RUNNING: start A") << "the clock starts anew";
+}
+
+TEST(Timeout, IsWhatTheChildIsInTime) {
+  Story story(R"(<Timeout msec="1000"><A/></Timeout>)");
+  story.tick();
+  EXPECT_EQ(story.says("A", "SUCCESS").tick(500), "SUCCESS: A");
+  EXPECT_EQ(story.says("A", "FAILURE").tick(5000), "FAILURE: start A");
+  EXPECT_EQ(story.says("A", "nothing").tick(), "SKIPPED");
+}
+
+TEST(Timeout, ZeroIsNoLimit) {
+  Story story(R"(<Timeout msec="0"><A/></Timeout>)");
+  story.tick();
+  EXPECT_EQ(story.tick(1'000'000), "RUNNING: A");
+}
+
+TEST(Delay, StartsTheChildLater) {
+  Story story(R"(<Delay delay_msec="1000"><A/></Delay>)");
+  EXPECT_EQ(story.tick(), "RUNNING");
+  EXPECT_EQ(story.tick(999), "RUNNING");
+  EXPECT_EQ(story.tick(1), "RUNNING: start A");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "SUCCESS: A");
+  EXPECT_EQ(story.tick(), "RUNNING") << "waits anew";
+}
+
+TEST(SetBlackboard, WritesTextAndCopies) {
+  Story story(R"(<Sequence>
+      <SetBlackboard value="2" output_key="n"/>
+      <SetBlackboard value="{n}" output_key="{m}"/>
+      <Repeat num_cycles="{m}"><A/></Repeat>
+    </Sequence>)");
+  ASSERT_EQ(toString(story.problems()), "");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "SUCCESS: start A");
+}
+
+TEST(SetBlackboard, AnEntryThatIsNotSetYetFailsWithAReason) {
+  Story story(R"(<Sequence>
+      <Repeat num_cycles="{n}"><A/></Repeat>
+      <SetBlackboard value="2" output_key="n"/>
+    </Sequence>)");
+  ASSERT_EQ(toString(story.problems()), "");
+  EXPECT_EQ(story.tick(), "FAILURE");
+  EXPECT_THAT(story.failures(), ElementsAre("Repeat: port num_cycles: the entry {n} is not set"));
+}
+
+constexpr const char* kThrice =
+    R"(<BehaviorTree ID="Thrice"><Repeat num_cycles="{times}"><A/></Repeat></BehaviorTree>)";
+
+TEST(SubTree, TakesALiteralPort) {
+  Story story(R"(<SubTree ID="Thrice" times="1"/>)", kThrice);
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "SUCCESS: start A");
+  EXPECT_EQ(story.view(), "Thrice SUCCESS, Repeat SUCCESS, A SUCCESS");
+}
+
+TEST(SubTree, RemapsAnEntryOfTheOuterTree) {
+  Story story(R"(<Sequence><SetBlackboard value="1" output_key="n"/><SubTree ID="Thrice" times="{n}"/></Sequence>)",
+              kThrice);
+  EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
+}
+
+TEST(SubTree, HasEntriesOfItsOwn) {
+  Story story(R"(<Sequence><SetBlackboard value="1" output_key="times"/><SubTree ID="Thrice"/></Sequence>)", kThrice);
+  ASSERT_EQ(story.problems().size(), 1U);
+  EXPECT_EQ(
+      toString(story.problems()[0]),
+      "story.xml:5:35: Repeat.num_cycles: nothing sets the entry {times}, another tree has one of this name: share it "
+      "by times=\"{times}\" or _autoremap=\"true\" on the SubTree");
+}
+
+TEST(SubTree, AutoremapSharesAllButPrivateNames) {
+  const char* autoremap =
+      R"(<Sequence><SetBlackboard value="1" output_key="times"/><SubTree ID="Thrice" _autoremap="true"/></Sequence>)";
+  EXPECT_EQ(Story(autoremap, kThrice).says("A", "SUCCESS").tick(), "SUCCESS: start A");
+  Story is_private(
+      R"(<Sequence><SetBlackboard value="1" output_key="_n"/><SubTree ID="Private" _autoremap="true"/></Sequence>)",
+      R"(<BehaviorTree ID="Private"><Repeat num_cycles="{_n}"><A/></Repeat></BehaviorTree>)");
+  EXPECT_EQ(is_private.problems().size(), 1U);
+}
+
+TEST(SubTree, EqualSignIsTheSameName) {
+  Story story(R"(<Sequence><SetBlackboard value="1" output_key="times"/><SubTree ID="Thrice" times="{=}"/></Sequence>)",
+              kThrice);
+  EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
+}
+
+TEST(SubTree, AnAtSignIsAnEntryOfTheMainTree) {
+  Story story(R"(<Sequence><SetBlackboard value="1" output_key="n"/><SubTree ID="Deep"/></Sequence>)",
+              R"(<BehaviorTree ID="Deep"><Repeat num_cycles="{@n}"><A/></Repeat></BehaviorTree>)");
+  ASSERT_EQ(toString(story.problems()), "");
+  EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
+}
+
+TEST(SubTree, TakesTheDefaultOfItsModel) {
+  Story story(
+      R"(<SubTree ID="Thrice"/>)",
+      std::string(kThrice) +
+          R"(<TreeNodesModel><SubTree ID="Thrice"><input_port name="times" default="1"/></SubTree></TreeNodesModel>)");
+  ASSERT_EQ(toString(story.problems()), "");
+  EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
+}
+
+TEST(SubTree, TwoUsesOfOneTreeAreTwoTrees) {
+  Story story(
+      R"(<Sequence><SubTree ID="Thrice" times="1" name="first"/><SubTree ID="Thrice" times="2" name="second"/></Sequence>)",
+      kThrice);
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, start A");
+  EXPECT_EQ(story.tick(), "SUCCESS: start A");
+}
+
+TEST(Tree, TheHostSetsTheEntriesItNamed) {
+  Stage stage;
+  const Registry registry = withStandIns(stage);
+  ParseOptions options;
+  options.host_entries = {"n"};
+  ParseResult parsed = parseText(file(R"(<Repeat num_cycles="{n}"><A/></Repeat>)"), "host.xml", registry, options);
+  ASSERT_EQ(toString(parsed.problems), "");
+  TickContext context;
+  EXPECT_EQ(parsed.tree->tick(context), Status::kFailure) << "not set yet";
+  EXPECT_FALSE(parsed.tree->set("m", std::int64_t{0}));
+  EXPECT_TRUE(parsed.tree->set("n", std::int64_t{0}));
+  EXPECT_EQ(parsed.tree->tick(context), Status::kSuccess);
+  EXPECT_TRUE(parsed.tree->set("n", std::int64_t{-7}));
+  EXPECT_EQ(parsed.tree->tick(context), Status::kFailure) << "out of range";
+}
+
+}  // namespace
+}  // namespace swiftlet::tree::testing

@@ -1,0 +1,187 @@
+#include "tests/tree/oracle.hpp"
+
+#include <algorithm>
+
+namespace swiftlet::tree::testing {
+namespace {
+
+bool isBelow(const std::string& path, const std::string& root) { return path.starts_with(root); }
+
+template <typename Set>
+void eraseBelow(Set& set, const std::string& root) {
+  std::erase_if(set, [&](const auto& entry) {
+    if constexpr (requires { entry.first; })
+      return isBelow(entry.first, root);
+    else
+      return isBelow(entry, root);
+  });
+}
+
+std::string nameOf(int leaf) { return std::string(1, static_cast<char>('A' + leaf)); }
+
+}  // namespace
+
+std::string childPath(const std::string& path, std::size_t index) { return path + std::to_string(index) + "/"; }
+
+std::string toXml(const Shape& shape) {
+  if (shape.type == "Leaf") return "<" + nameOf(shape.leaf) + "/>";
+  std::string text = "<" + shape.type;
+  if (shape.type == "Repeat") text += " num_cycles=\"" + std::to_string(shape.number) + "\"";
+  if (shape.type == "RetryUntilSuccessful") text += " num_attempts=\"" + std::to_string(shape.number) + "\"";
+  if (shape.type == "Parallel")
+    text += " success_count=\"" + std::to_string(shape.number) + "\" failure_count=\"" + std::to_string(shape.number2) +
+            "\"";
+  text += ">";
+  for (const Shape& child : shape.children) text += toXml(child);
+  return text + "</" + shape.type + ">";
+}
+
+Status Oracle::tick(const Shape& shape, const Answers& answers, std::vector<std::string>& log) {
+  answers_ = &answers;
+  log_ = &log;
+  return eval(shape, "/");
+}
+
+/// Every node: its memory lasts while it answers RUNNING.
+Status Oracle::eval(const Shape& shape, const std::string& path) {
+  Status status = Status::kFailure;
+  if (shape.type == "Leaf") status = evalLeaf(shape, path);
+  if (shape.type == "Sequence") status = evalChain(shape, path, Status::kSuccess);
+  if (shape.type == "Fallback") status = evalChain(shape, path, Status::kFailure);
+  if (shape.type == "ReactiveSequence") status = evalReactive(shape, path, Status::kSuccess);
+  if (shape.type == "ReactiveFallback") status = evalReactive(shape, path, Status::kFailure);
+  if (shape.type == "Parallel") status = evalParallel(shape, path);
+  if (shape.type == "Repeat") status = evalLoop(shape, path, Status::kSuccess);
+  if (shape.type == "RetryUntilSuccessful") status = evalLoop(shape, path, Status::kFailure);
+  if (shape.type == "Priority") status = evalPriority(shape, path);
+  if (shape.type == "Inverter" || shape.type.starts_with("Force")) {
+    status = eval(shape.children[0], childPath(path, 0));
+    const bool ended = status == Status::kSuccess || status == Status::kFailure;
+    if (ended && shape.type == "Inverter") status = status == Status::kSuccess ? Status::kFailure : Status::kSuccess;
+    if (ended && shape.type == "ForceSuccess") status = Status::kSuccess;
+    if (ended && shape.type == "ForceFailure") status = Status::kFailure;
+  }
+  if (status == Status::kRunning)
+    memory_.under_way.insert(path);
+  else
+    forget(path);
+  return status;
+}
+
+Status Oracle::evalLeaf(const Shape& shape, const std::string& path) {
+  const bool active = memory_.under_way.contains(path);
+  const Status answer = (*answers_)[static_cast<std::size_t>(shape.leaf)];
+  if (!active && answer == Status::kSkipped) return Status::kSkipped;
+  const bool resumed = memory_.suspended.erase(path) > 0;
+  log_->push_back((active ? resumed ? "resume " : "" : "start ") + nameOf(shape.leaf));
+  return answer == Status::kSkipped ? Status::kRunning : answer;
+}
+
+Status Oracle::evalChain(const Shape& shape, const std::string& path, Status goes_on) {
+  int& position = memory_.number[path];
+  int& skipped = memory_.number[path + "skipped"];
+  if (bug_ == Bug::kSequenceRestarts && goes_on == Status::kSuccess) position = skipped = 0;
+  for (; position < static_cast<int>(shape.children.size()); ++position) {
+    const auto i = static_cast<std::size_t>(position);
+    const Status status = eval(shape.children[i], childPath(path, i));
+    if (status == Status::kSkipped)
+      ++skipped;
+    else if (status != goes_on)
+      return status;
+  }
+  return skipped == static_cast<int>(shape.children.size()) ? Status::kSkipped : goes_on;
+}
+
+Status Oracle::evalReactive(const Shape& shape, const std::string& path, Status goes_on) {
+  bool all_skipped = true;
+  for (std::size_t i = 0; i < shape.children.size(); ++i) {
+    const std::string child = childPath(path, i);
+    if (bug_ == Bug::kReactiveRemembers && memory_.ended.contains(child)) continue;
+    const Status status = eval(shape.children[i], child);
+    if (bug_ == Bug::kReactiveRemembers && status == goes_on) memory_.ended[child] = status;
+    all_skipped = all_skipped && status == Status::kSkipped;
+    if (status == Status::kSkipped || status == goes_on) continue;
+    for (std::size_t other = 0; other < shape.children.size(); ++other)
+      if (other != i) forget(childPath(path, other));
+    return status;
+  }
+  return all_skipped ? Status::kSkipped : goes_on;
+}
+
+Status Oracle::evalParallel(const Shape& shape, const std::string& path) {
+  const int all = static_cast<int>(shape.children.size());
+  const int needed = std::max(0, shape.number < 0 ? all + shape.number + 1 : shape.number);
+  const int bearable = std::max(0, shape.number2 < 0 ? all + shape.number2 + 1 : shape.number2);
+  int skipped = 0;
+  for (int i = 0; i < all; ++i) {
+    const std::string child = childPath(path, static_cast<std::size_t>(i));
+    if (!memory_.ended.contains(child)) {
+      const Status status = eval(shape.children[static_cast<std::size_t>(i)], child);
+      if (status == Status::kSkipped) ++skipped;
+      if (status == Status::kSuccess || status == Status::kFailure) memory_.ended[child] = status;
+    }
+    if (skipped == i + 1) continue;
+    int successes = 0, failures = 0;
+    for (int k = 0; k < all; ++k) {
+      const auto ended = memory_.ended.find(childPath(path, static_cast<std::size_t>(k)));
+      if (ended == memory_.ended.end()) continue;
+      ++(ended->second == Status::kSuccess ? successes : failures);
+    }
+    if (successes + (shape.number < 0 ? skipped : 0) >= needed) return Status::kSuccess;
+    if (all - failures < needed || failures == bearable) return Status::kFailure;
+  }
+  return skipped == all ? Status::kSkipped : Status::kRunning;
+}
+
+Status Oracle::evalLoop(const Shape& shape, const std::string& path, Status counted) {
+  int& count = memory_.number[path];
+  while (shape.number == -1 || count < shape.number) {
+    const bool fresh = !memory_.under_way.contains(childPath(path, 0));
+    const Status status = eval(shape.children[0], childPath(path, 0));
+    if (status != counted) return status;
+    ++count;
+    if (fresh && (shape.number == -1 || count < shape.number)) return Status::kRunning;
+  }
+  return counted;
+}
+
+Status Oracle::evalPriority(const Shape& shape, const std::string& path) {
+  bool anything = false;
+  for (std::size_t i = 0; i < shape.children.size(); ++i) {
+    const std::string child = childPath(path, i);
+    if (!wants(shape.children[i], child)) continue;
+    for (std::size_t lower = i + 1; lower < shape.children.size(); ++lower) {
+      if (bug_ == Bug::kPriorityResets)
+        forget(childPath(path, lower));
+      else
+        suspendBelow(childPath(path, lower));
+    }
+    const Status status = eval(shape.children[i], child);
+    if (status == Status::kRunning || status == Status::kFailure) return status;
+    anything = anything || status == Status::kSuccess;
+  }
+  return anything ? Status::kSuccess : Status::kSkipped;
+}
+
+bool Oracle::wants(const Shape& shape, const std::string& path) {
+  if (memory_.under_way.contains(path)) return true;
+  Oracle trial = *this;
+  std::vector<std::string> unheard;
+  trial.log_ = &unheard;
+  return trial.eval(shape, path) != Status::kSkipped;
+}
+
+void Oracle::forget(const std::string& path) {
+  eraseBelow(memory_.under_way, path);
+  eraseBelow(memory_.suspended, path);
+  eraseBelow(memory_.number, path);
+  // A parallel's list of ended children belongs to the parallel, not to the child.
+  std::erase_if(memory_.ended, [&](const auto& entry) { return entry.first != path && isBelow(entry.first, path); });
+}
+
+void Oracle::suspendBelow(const std::string& path) {
+  for (const std::string& active : memory_.under_way)
+    if (isBelow(active, path)) memory_.suspended.insert(active);
+}
+
+}  // namespace swiftlet::tree::testing

@@ -1,0 +1,63 @@
+// A naive interpreter of trees: no node objects, only a map from the path of a node to the little it remembers. Letting
+// go takes no time here, and "would it be skipped?" is answered by trying it on a copy of the whole memory.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "behaviors/tree/status.hpp"
+
+namespace swiftlet::tree::testing {
+
+struct Shape {
+  std::string type;  ///< A node type, or "Leaf".
+  int number = 0;    ///< num_cycles, num_attempts, success_count.
+  int number2 = 0;   ///< failure_count.
+  int leaf = 0;      ///< Which stand-in.
+  std::vector<Shape> children;
+};
+
+/// What every stand-in would say in one tick; kSkipped: it has nothing to do (if it is under way, it goes on running).
+using Answers = std::vector<Status>;
+
+/// Deliberately wrong variants, to see that the comparison notices.
+enum class Bug { kNone, kSequenceRestarts, kPriorityResets, kReactiveRemembers };
+
+class Oracle {
+ public:
+  explicit Oracle(Bug bug = Bug::kNone) : bug_(bug) {}
+  /// The answer of the root and, in `log`, the stand-ins ticked, in order: "start A", "A", "resume A".
+  Status tick(const Shape& shape, const Answers& answers, std::vector<std::string>& log);
+
+ private:
+  struct Memory {
+    std::set<std::string> under_way;
+    std::set<std::string> suspended;      ///< Leaves that let go.
+    std::map<std::string, int> number;    ///< Position of a Sequence, count of a Repeat.
+    std::map<std::string, Status> ended;  ///< Children of a Parallel.
+  };
+
+  Status eval(const Shape& shape, const std::string& path);
+  Status evalLeaf(const Shape& shape, const std::string& path);
+  Status evalChain(const Shape& shape, const std::string& path, Status goes_on);
+  Status evalReactive(const Shape& shape, const std::string& path, Status goes_on);
+  Status evalParallel(const Shape& shape, const std::string& path);
+  Status evalLoop(const Shape& shape, const std::string& path, Status counted);
+  Status evalPriority(const Shape& shape, const std::string& path);
+  bool wants(const Shape& shape, const std::string& path);
+  void forget(const std::string& path);
+  void suspendBelow(const std::string& path);
+
+  Bug bug_;
+  Memory memory_;
+  const Answers* answers_ = nullptr;
+  std::vector<std::string>* log_ = nullptr;
+};
+
+std::string childPath(const std::string& path, std::size_t index);
+/// The shape as XML, with stand-ins A, B, ...
+std::string toXml(const Shape& shape);
+
+}  // namespace swiftlet::tree::testing

@@ -1,0 +1,118 @@
+// Random trees with random leaves: the engine answers and ticks exactly as a naive interpreter does.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include "tests/tree/oracle.hpp"
+#include "tests/tree/story.hpp"
+
+namespace swiftlet::tree::testing {
+namespace {
+
+constexpr int kLeaves = 5;
+constexpr int kTicks = 25;
+
+Shape randomShape(int depth) {
+  Shape shape;
+  const int kind = depth <= 0 ? 0 : *rc::gen::inRange(0, 14);
+  static const std::vector<std::string> kControls = {"Sequence",         "Fallback", "ReactiveSequence",
+                                                     "ReactiveFallback", "Parallel", "Priority"};
+  static const std::vector<std::string> kDecorators = {"Inverter", "ForceSuccess", "ForceFailure", "Repeat",
+                                                       "RetryUntilSuccessful"};
+  if (kind < 3) {
+    shape.type = "Leaf";
+    shape.leaf = *rc::gen::inRange(0, kLeaves);
+    return shape;
+  }
+  const bool control = kind < 9;
+  shape.type =
+      control ? kControls[static_cast<std::size_t>(kind - 3)] : kDecorators[static_cast<std::size_t>(kind - 9)];
+  const int children = control ? *rc::gen::inRange(1, 4) : 1;
+  for (int i = 0; i < children; ++i) shape.children.push_back(randomShape(depth - 1));
+  const bool parallel = shape.type == "Parallel";
+  shape.number = parallel ? *rc::gen::inRange(-children, children + 1) : *rc::gen::inRange(-1, 4);
+  shape.number2 = parallel ? *rc::gen::inRange(-children, children + 1) : 0;
+  return shape;
+}
+
+Answers randomAnswers() {
+  Answers answers;
+  for (int i = 0; i < kLeaves; ++i)
+    answers.push_back(*rc::gen::weightedElement<Status>(
+        {{4, Status::kRunning}, {3, Status::kSuccess}, {2, Status::kFailure}, {2, Status::kSkipped}}));
+  return answers;
+}
+
+void letSay(Story& story, const Answers& answers) {
+  for (int i = 0; i < kLeaves; ++i) {
+    const Status answer = answers[static_cast<std::size_t>(i)];
+    const std::string actor(1, static_cast<char>('A' + i));
+    // A stand-in that is under way and has nothing to do goes on running, as the oracle's does.
+    story.says(actor, answer == Status::kSkipped ? "RUNNING, nothing" : toString(answer));
+  }
+}
+
+/// Only the ticks: the oracle knows nothing of letting go.
+std::string ticksOnly(const std::string& told) {
+  std::string kept = told.substr(0, told.find(':'));
+  for (std::size_t at = told.find(": "); at != std::string::npos;) {
+    const std::size_t end = told.find(", ", at + 2);
+    const std::string word = told.substr(at + 2, end == std::string::npos ? end : end - at - 2);
+    if (!word.ends_with("ed")) kept += " " + word;
+    at = end;
+  }
+  return kept;
+}
+
+std::string oracleTick(Oracle& oracle, const Shape& shape, const Answers& answers) {
+  std::vector<std::string> log;
+  std::string text = toString(oracle.tick(shape, answers, log));
+  for (const std::string& entry : log) text += " " + entry;
+  return text;
+}
+
+RC_GTEST_PROP(Engine, EqualsTheNaiveInterpreter, ()) {
+  const Shape shape = randomShape(4);
+  Story story(toXml(shape));
+  RC_ASSERT(story.problems().empty());
+  Oracle oracle;
+  RC_LOG() << toXml(shape) << "\n";
+  for (int i = 0; i < kTicks; ++i) {
+    const Answers answers = randomAnswers();
+    letSay(story, answers);
+    RC_ASSERT(ticksOnly(story.tick()) == oracleTick(oracle, shape, answers));
+  }
+}
+
+/// True when a tree is found on which the engine and the wrong oracle differ.
+bool isNoticed(Bug bug, const std::string& type) {
+  bool noticed = false;
+  rc::detail::TestParams params;
+  params.maxSuccess = 300;
+  params.disableShrinking = true;
+  rc::detail::checkTestable(
+      [&] {
+        Shape shape = randomShape(3);
+        shape.type = type;
+        if (shape.children.empty()) shape.children = {randomShape(2), randomShape(2)};
+        Story story(toXml(shape));
+        if (!story.problems().empty()) return;
+        Oracle oracle(bug);
+        for (int i = 0; i < kTicks && !noticed; ++i) {
+          const Answers answers = randomAnswers();
+          letSay(story, answers);
+          noticed = ticksOnly(story.tick()) != oracleTick(oracle, shape, answers);
+        }
+      },
+      rc::detail::TestMetadata{}, params);
+  return noticed;
+}
+
+TEST(Engine, PlantedBugsAreNoticed) {
+  EXPECT_TRUE(isNoticed(Bug::kSequenceRestarts, "Sequence"));
+  EXPECT_TRUE(isNoticed(Bug::kPriorityResets, "Priority"));
+  EXPECT_TRUE(isNoticed(Bug::kReactiveRemembers, "ReactiveSequence"));
+}
+
+}  // namespace
+}  // namespace swiftlet::tree::testing
