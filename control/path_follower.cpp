@@ -154,8 +154,8 @@ const Reference& PathFollower::advance(double dt_s) {
 void PathFollower::advanceCarrot(double dt_s) {
   const double before = carrot_speed_m_s_;
   const double step = limits_.acceleration_m_s2 * dt_s;
-  // Braking may be a little firmer than planned, so that a sampled profile does not creep over its limits.
-  carrot_speed_m_s_ = std::clamp(allowedSpeed(), std::max(0.0, before - 1.2 * step), before + step);
+  // Curves are sampled: braking for them may be a little firmer than planned.
+  carrot_speed_m_s_ = std::clamp(allowedSpeed(dt_s), std::max(0.0, before - 1.2 * step), before + step);
   carrot_m_ += 0.5 * (before + carrot_speed_m_s_) * dt_s;
   const double end_m = distances_m_.back();
   if (carrot_m_ >= end_m - 1e-5) {
@@ -166,13 +166,17 @@ void PathFollower::advanceCarrot(double dt_s) {
       std::clamp((carrot_speed_m_s_ - before) / dt_s, -1.2 * limits_.acceleration_m_s2, limits_.acceleration_m_s2);
 }
 
-double PathFollower::allowedSpeed() const {
+double PathFollower::allowedSpeed(double dt_s) const {
   double speed = std::min(limits_.speed_m_s, speed_limit_m_s_);
   if (points_.size() < 2) return 0.0;
   const std::size_t segment = segmentAt(carrot_m_);
   const double to_next_m = distances_m_[segment + 1] - carrot_m_;
   const double next = speeds_m_s_[segment + 1];
-  speed = std::min(speed, std::sqrt(next * next + 2.0 * limits_.acceleration_m_s2 * std::max(0.0, to_next_m)));
+  // v^2 = next^2 + 2 a (way left after this step): solved for the speed at the end of the step, so that braking needs
+  // no more than a to the very end.
+  const double a = limits_.acceleration_m_s2, half = 0.5 * a * dt_s;
+  const double left2 = next * next + 2.0 * a * std::max(0.0, to_next_m) - a * dt_s * carrot_speed_m_s_;
+  speed = std::min(speed, std::max(0.0, std::sqrt(std::max(0.0, half * half + left2)) - half));
   const Eigen::Vector3d along = points_[segment + 1] - points_[segment];
   const double length_m = along.norm();
   if (std::abs(along.z()) > 1e-6) speed = std::min(speed, config_.climb_speed_m_s * length_m / std::abs(along.z()));

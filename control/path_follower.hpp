@@ -83,7 +83,7 @@ class PathFollower {
   void advanceCarrot(double dt_s);
   void pullReference(double dt_s);
   void advanceYaw(double dt_s);
-  double allowedSpeed() const;
+  double allowedSpeed(double dt_s) const;
   std::size_t segmentAt(double distance_m) const;
 
   Config config_;
