@@ -112,6 +112,7 @@ std::vector<common::Event> Autonomy::takeEvents() {
   collect(supervisor_.takeEvents());
   collect(executor_.takeEvents());
   collect(controller_.takeEvents());
+  std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   return std::exchange(events_, {});
 }
 
