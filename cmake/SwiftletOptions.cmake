@@ -25,7 +25,8 @@ endif()
 # Same seed, same bytes: no contraction to fused multiply-add, no instruction set beyond the platform's baseline.
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  add_compile_options(-Wno-maybe-uninitialized) # False alarms inside Eigen at -O2 with g++ 12.
+  # False alarms inside Eigen at -O2 with g++ 12.
+  add_compile_options(-Wno-maybe-uninitialized -Wno-stringop-overread)
 endif()
 if(SWIFTLET_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)

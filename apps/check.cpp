@@ -1,0 +1,57 @@
+// swiftlet check: validates missions without flying.
+#include <memory>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.hpp"
+#include "apps/system.hpp"
+#include "behaviors/mission.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> missions;
+  std::string system = "swiftlet";
+  bool json = false;
+};
+
+int check(const CheckOptions& options) {
+  (void)loadSystem(options.system);
+  auto report = nlohmann::json::array();
+  std::size_t count = 0;
+  for (const std::string& mission : options.missions) {
+    for (const common::Problem& problem : behaviors::checkMission(mission)) {
+      ++count;
+      report.push_back({{"file", problem.location.file},
+                        {"line", problem.location.line},
+                        {"column", problem.location.column},
+                        {"element", problem.element},
+                        {"message", problem.message},
+                        {"hint", problem.hint}});
+      if (!options.json) fmt::print(stderr, "{}\n", toString(problem));
+    }
+  }
+  if (options.json) {
+    fmt::print("{}\n", nlohmann::json{{"problems", report}}.dump(2));
+  } else if (count == 0) {
+    fmt::print("{} mission{} sound\n", options.missions.size(), options.missions.size() == 1 ? " is" : "s are");
+  }
+  return count == 0 ? kDone : kBadInput;
+}
+
+}  // namespace
+
+void addCheck(CLI::App& program, Run& run) {
+  auto options = std::make_shared<CheckOptions>();
+  auto* command = program.add_subcommand("check", "Validate missions without flying; every error with its place.");
+  command->add_option("missions", options->missions, "Mission files.")->required();
+  command->add_option("--system", options->system, "The profile they are to be flown with.")->capture_default_str();
+  command->add_flag("--json", options->json, "Print the problems as JSON.");
+  command->footer("Example: swiftlet check missions/*.xml");
+  command->callback([&run, options] { run = [options] { return check(*options); }; });
+}
+
+}  // namespace swiftlet::apps

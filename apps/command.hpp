@@ -1,0 +1,28 @@
+// A subcommand of the program: it declares its options and is run when it was chosen.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace swiftlet::apps {
+
+/// Exit codes of the program.
+enum ExitCode : int {
+  kDone = 0,
+  kFailed = 1,    ///< The mission or the check failed.
+  kBadInput = 2,  ///< Wrong usage or input that cannot be used.
+};
+
+/// Each adds its subcommand; when it is chosen, `run` is set to what carries it out and returns the exit code.
+using Run = std::function<int()>;
+void addFly(CLI::App& program, Run& run);
+void addCheck(CLI::App& program, Run& run);
+void addTrial(CLI::App& program, Run& run);
+void addConfig(CLI::App& program, Run& run);
+void addDoctor(CLI::App& program, Run& run);
+void addVersion(CLI::App& program, Run& run);
+
+}  // namespace swiftlet::apps

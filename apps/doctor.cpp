@@ -1,0 +1,107 @@
+// swiftlet doctor: what is missing on this machine and how to get it.
+#include <unistd.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.hpp"
+#include "apps/system.hpp"
+#include "common/data_paths.hpp"
+#include "common/error.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+struct Finding {
+  std::string what;
+  bool ok = true;
+  std::string detail;
+  std::string remedy;
+};
+
+Finding folderFinding(const std::string& name) {
+  try {
+    return {name, true, common::findData(name).string(), ""};
+  } catch (const common::InputError&) {
+    return {name, false, "not found", "run from the source tree, install the package, or set SWIFTLET_DATA"};
+  }
+}
+
+Finding profilesFinding() {
+  try {
+    std::string names;
+    for (const std::string& name : systemNames()) {
+      (void)loadSystem(name);
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    return {"system profiles", true, names, ""};
+  } catch (const common::InputError& e) {
+    return {"system profiles", false, e.what(), "correct the file it names"};
+  }
+}
+
+Finding coresFinding() {
+  const unsigned cores = std::thread::hardware_concurrency();
+  return {"processor cores", cores >= 2, fmt::format("{}", cores),
+          "two or more are needed to fly faster than real time"};
+}
+
+Finding writableFinding() {
+  const bool writable = access(".", W_OK) == 0;
+  return {"this folder", writable, writable ? "writable, runs go to ./runs" : "not writable",
+          "give fly and trial a folder by --out"};
+}
+
+Finding diskFinding() {
+  std::error_code error;
+  const auto space = std::filesystem::space(".", error);
+  const double gib = error ? 0.0 : static_cast<double>(space.available) / (1 << 30);
+  return {"free disk", gib > 0.5, fmt::format("{:.1f} GiB", gib), "a run takes some megabytes; free some room"};
+}
+
+Finding dataSetsFinding() {
+  const char* variable = std::getenv("SWIFTLET_DATASETS");
+  const std::filesystem::path folder = variable ? variable : "../shared/datasets";
+  const bool there = std::filesystem::is_directory(folder);
+  return {"data sets", true, there ? folder.string() : "none (only trials in worlds by others need them)",
+          "set SWIFTLET_DATASETS"};
+}
+
+int doctor(bool json) {
+  const std::vector<Finding> findings{
+      coresFinding(),          folderFinding("missions"), folderFinding("worlds"), folderFinding("config"),
+      folderFinding("trials"), profilesFinding(),         writableFinding(),       diskFinding(),
+      dataSetsFinding()};
+  bool well = true;
+  auto report = nlohmann::json::array();
+  for (const Finding& finding : findings) {
+    well = well && finding.ok;
+    report.push_back({{"what", finding.what},
+                      {"ok", finding.ok},
+                      {"detail", finding.detail},
+                      {"remedy", finding.ok ? "" : finding.remedy}});
+    if (json) continue;
+    fmt::print("{:<8}{:<18}{}\n", finding.ok ? "ok" : "missing", finding.what, finding.detail);
+    if (!finding.ok) fmt::print("{:<26}-> {}\n", "", finding.remedy);
+  }
+  if (json) fmt::print("{}\n", nlohmann::json{{"well", well}, {"findings", report}}.dump(2));
+  return well ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addDoctor(CLI::App& program, Run& run) {
+  auto json = std::make_shared<bool>(false);
+  auto* command = program.add_subcommand("doctor", "Say what is missing on this machine and how to get it.");
+  command->add_flag("--json", *json, "Print as JSON.");
+  command->footer("Example: swiftlet doctor");
+  command->callback([&run, json] { run = [json] { return doctor(*json); }; });
+}
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,60 @@
+// One simulated flight from the first tick to the last: the loop that lets time pass, feeds the autonomy, writes the
+// run folder and takes down the truth for the scorer. Used by `fly` and by `trial`.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/system.hpp"
+#include "evaluation/flight_recorder.hpp"
+#include "interfaces/flight_summary.hpp"
+#include "interfaces/run_folder.hpp"
+#include "simulation/simulated_vehicle.hpp"
+
+namespace swiftlet::apps {
+
+class WebLink;
+
+struct FlightSetup {
+  System system;
+  std::string mission_file;
+  simulation::Scenario scenario;  ///< World, start, weather, seed; vehicle and laser are taken from the system.
+  std::filesystem::path out;
+  std::string started;           ///< For the run's records.
+  double speed = 0.0;            ///< Times real time; 0: as fast as the machine can.
+  double time_limit_s = 1800.0;  ///< Of simulated time.
+  double linger_s = 0.0;         ///< Simulated time to go on after the end, so that a page sees it.
+};
+
+struct FlightProgress {
+  std::shared_ptr<const common::World> world;
+  double simulated_s = 0.0;
+  double wall_s = 0.0;
+};
+
+struct FlightHooks {
+  std::function<void(const FlightProgress&)> progress;  ///< About ten times a second of wall time.
+  std::function<void(const common::Event&)> event;
+  WebLink* web = nullptr;
+  const std::atomic<bool>* stop = nullptr;  ///< Ends the flight from outside.
+};
+
+struct FlightResult {
+  interfaces::FlightSummary summary;
+  evaluation::FlightRecord record;
+  std::unique_ptr<simulation::SimulatedVehicle> vehicle;  ///< As it was at the end; for the scorer.
+  std::filesystem::path folder;
+  std::optional<std::string> write_failure;
+};
+
+/// Throws common::InputError for a mission, world or folder that cannot be used, before anything moves.
+FlightResult flySimulated(const FlightSetup& setup, const FlightHooks& hooks);
+
+/// "2026-11-21_14-03-55", local time.
+std::string startedNow();
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,181 @@
+// swiftlet fly: one mission in the simulator, with the page.
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+
+#include <fmt/color.h>
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.hpp"
+#include "apps/flight.hpp"
+#include "apps/speed.hpp"
+#include "apps/web_link.hpp"
+#include "behaviors/mission.hpp"
+#include "common/data_paths.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+std::atomic<bool> stop_requested{false};
+extern "C" void requestStop(int) { stop_requested = true; }
+
+struct FlyOptions {
+  std::string mission;
+  std::string world = "worlds/unb_case1.sdf";
+  std::string system = "swiftlet";
+  int seed = 1;
+  std::string speed;
+  bool headless = false;
+  std::string listen = "127.0.0.1";
+  int port = 8080;
+  std::string out;
+  double time_limit_s = 1800.0;
+  bool json = false;
+};
+
+FlightSetup setupOf(const FlyOptions& options) {
+  FlightSetup setup;
+  setup.system = loadSystem(options.system);
+  setup.mission_file = common::findData(options.mission).string();
+  setup.scenario.seed = options.seed;
+  setup.scenario.world = common::findData(options.world).string();
+  setup.started = startedNow();
+  setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
+  setup.time_limit_s = options.time_limit_s;
+  setup.linger_s = options.headless ? 0.0 : 2.0;
+  setup.out = options.out.empty() ? interfaces::freshRunFolder("runs", setup.started,
+                                                               std::filesystem::path(options.mission).stem().string())
+                                  : std::filesystem::path(options.out);
+  return setup;
+}
+
+std::string progressLine(const FlightProgress& progress) {
+  const common::World& world = *progress.world;
+  return fmt::format("{:6.1f} s  {:<24.24} {:6.1f} m2  {:6.1f} m  battery {:3.0f} %  {:5.1f} x real time",
+                     progress.simulated_s,
+                     world.mission.phase.empty() ? toString(world.status.flight_state) : world.mission.phase,
+                     world.explored_area_m2, world.status.distance_flown_m, 100.0 * world.status.battery_remaining,
+                     progress.wall_s > 0 ? progress.simulated_s / progress.wall_s : 0.0);
+}
+
+/// One line that is rewritten on a terminal; a line every few seconds elsewhere.
+class Terminal {
+ public:
+  explicit Terminal(bool quiet) : quiet_(quiet), interactive_(isatty(STDOUT_FILENO) != 0) {}
+
+  void progress(const FlightProgress& progress) {
+    if (quiet_) return;
+    if (interactive_) {
+      fmt::print("\r\033[K{}", progressLine(progress));
+      std::fflush(stdout);
+      line_open_ = true;
+    } else if (progress.wall_s - last_s_ >= 2.0) {
+      last_s_ = progress.wall_s;
+      fmt::print("{}\n", progressLine(progress));
+      std::fflush(stdout);
+    }
+  }
+
+  void event(const common::Event& event) {
+    if (quiet_) return;
+    closeLine();
+    const std::string text = fmt::format("{:6.1f} s  {}: {}{}", event.stamp.seconds(), event.source, event.text,
+                                         event.reason.empty() ? "" : " (" + event.reason + ")");
+    if (interactive_ && event.severity != common::Severity::kInfo) {
+      fmt::print(fg(event.severity == common::Severity::kError ? fmt::color::red : fmt::color::orange), "{}\n", text);
+    } else {
+      fmt::print("{}\n", text);
+    }
+  }
+
+  void closeLine() {
+    if (line_open_) fmt::print("\r\033[K");
+    line_open_ = false;
+  }
+
+ private:
+  bool quiet_;
+  bool interactive_;
+  bool line_open_ = false;
+  double last_s_ = -10.0;
+};
+
+void printEnd(const FlightResult& result, bool json) {
+  const interfaces::FlightSummary& summary = result.summary;
+  if (json) {
+    fmt::print("{}\n", nlohmann::json{{"outcome", toString(summary.outcome)},
+                                      {"reason", summary.reason},
+                                      {"mission_time_s", summary.mission_time.seconds()},
+                                      {"distance_m", summary.distance_m},
+                                      {"explored_area_m2", summary.explored_area_m2},
+                                      {"realtime_factor", summary.realtime_factor.value_or(0.0)},
+                                      {"run", result.folder.string()},
+                                      {"report", (result.folder / "report.html").string()}}
+                           .dump(2));
+    return;
+  }
+  fmt::print("\n{}{} after {:.1f} s and {:.1f} m, {:.1f} m2 explored, {:.1f} x real time\n", toString(summary.outcome),
+             summary.reason.empty() ? "" : " (" + summary.reason + ")", summary.mission_time.seconds(),
+             summary.distance_m, summary.explored_area_m2, summary.realtime_factor.value_or(0.0));
+  fmt::print("run     {}\nreport  {}\n", result.folder.string(), (result.folder / "report.html").string());
+}
+
+int fly(const FlyOptions& options) {
+  const FlightSetup setup = setupOf(options);
+  std::signal(SIGINT, requestStop);
+  std::signal(SIGTERM, requestStop);
+
+  std::unique_ptr<WebLink> web;
+  if (!options.headless) {
+    const auto title = fmt::format("{} in {}", std::filesystem::path(options.mission).stem().string(),
+                                   std::filesystem::path(options.world).stem().string());
+    web = std::make_unique<WebLink>(options.listen, options.port, title, setup.system.vehicle.hull_diameter_m);
+    if (!options.json) fmt::print("page    {}\n\n", web->operatorUrl());
+    std::fflush(stdout);
+  }
+  Terminal terminal(options.json);
+  FlightHooks hooks;
+  hooks.progress = [&](const FlightProgress& progress) { terminal.progress(progress); };
+  hooks.event = [&](const common::Event& event) { terminal.event(event); };
+  hooks.web = web.get();
+  hooks.stop = &stop_requested;
+
+  const FlightResult result = flySimulated(setup, hooks);
+  terminal.closeLine();
+  printEnd(result, options.json);
+  if (result.write_failure) {
+    fmt::print(stderr, "{}\n", *result.write_failure);
+    return kBadInput;
+  }
+  return result.summary.outcome == interfaces::Outcome::kDone ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addFly(CLI::App& program, Run& run) {
+  auto options = std::make_shared<FlyOptions>();
+  auto* command = program.add_subcommand("fly", "Fly a mission in the simulator; the page shows it live.");
+  command->add_option("mission", options->mission, "Mission file (XML).")->required();
+  command->add_option("--world", options->world, "World to fly in (SDF).")->capture_default_str();
+  command->add_option("--system", options->system, "A profile of config/systems, or a file.")->capture_default_str();
+  command->add_option("--seed", options->seed, "Of all that is random.")->capture_default_str();
+  command->add_option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");
+  command->add_flag("--headless", options->headless, "Without the page.");
+  command->add_option("--listen", options->listen, "Address the page listens on.")->capture_default_str();
+  command->add_option("--port", options->port, "Port of the page, 0 for any.")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65535));
+  command->add_option("--out", options->out, "Folder of the run; default runs/<time>-<mission>.");
+  command->add_option("--time-limit", options->time_limit_s, "Simulated seconds after which the flight is stopped.")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--json", options->json, "Print the outcome as JSON, nothing else.");
+  command->footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
+  command->callback([&run, options] { run = [options] { return fly(*options); }; });
+}
+
+}  // namespace swiftlet::apps

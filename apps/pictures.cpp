@@ -1,0 +1,85 @@
+#include "apps/pictures.hpp"
+
+#include "rendering/encode.hpp"
+#include "rendering/map_renderer.hpp"
+#include "rendering/map_svg.hpp"
+#include "rendering/plot_svg.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+using interfaces::FlightSample;
+
+template <typename Value>
+rendering::Series seriesOf(const std::string& name, const std::vector<FlightSample>& samples, Value value) {
+  rendering::Series series;
+  series.name = name;
+  for (const FlightSample& sample : samples) series.points.emplace_back(sample.time_s, value(sample));
+  return series;
+}
+
+std::vector<rendering::Span> spansOf(const std::vector<interfaces::Phase>& phases) {
+  std::vector<rendering::Span> spans;
+  for (const interfaces::Phase& phase : phases)
+    spans.push_back({phase.begin.seconds(), phase.end.seconds(), phase.name});
+  return spans;
+}
+
+interfaces::ReportPlot plotOf(const std::string& title, const std::string& y_label,
+                              std::vector<rendering::Series> series, std::vector<rendering::Span> spans) {
+  rendering::Plot plot;
+  plot.title = title;
+  plot.x_label = "time (s)";
+  plot.y_label = y_label;
+  plot.series = std::move(series);
+  plot.spans = std::move(spans);
+  return {"", rendering::plotSvg(plot)};
+}
+
+std::vector<interfaces::ReportPlot> plotsOf(const interfaces::FlightSummary& summary) {
+  const auto& samples = summary.samples;
+  const auto spans = spansOf(summary.phases);
+  return {
+      plotOf("Height", "m",
+             {seriesOf("over the take-off floor", samples, [](const FlightSample& s) { return s.position_map_m.z(); }),
+              seriesOf("over what is below", samples, [](const FlightSample& s) { return s.height_above_ground_m; })},
+             spans),
+      plotOf("Speed", "m/s", {seriesOf("horizontal", samples, [](const FlightSample& s) { return s.speed_m_s; })},
+             spans),
+      plotOf("Nearest return", "m from the hull",
+             {seriesOf("nearest", samples, [](const FlightSample& s) { return s.nearest_m; })}, spans),
+      plotOf("Explored", "m2",
+             {seriesOf("free area known", samples, [](const FlightSample& s) { return s.explored_area_m2; })}, spans),
+      plotOf("Battery", "V", {seriesOf("voltage", samples, [](const FlightSample& s) { return s.battery_v; })}, spans),
+  };
+}
+
+std::vector<Eigen::Vector2d> planarPoints(const common::Trajectory& trajectory) {
+  std::vector<Eigen::Vector2d> points;
+  for (const common::StampedPose& pose : trajectory) points.emplace_back(pose.pose.position_m.head<2>());
+  return points;
+}
+
+}  // namespace
+
+interfaces::ReportPictures reportPictures(const common::World& world, const interfaces::FlightSummary& summary,
+                                          const common::Trajectory& truth_map, double hull_diameter_m) {
+  rendering::MapView view;
+  view.width_px = 960;
+  view.height_px = 720;
+  view.hull_diameter_m = hull_diameter_m;
+  view.layers.laser = false;
+  const rendering::Bytes png = rendering::encodePng(rendering::renderMap(world, view));
+
+  std::vector<rendering::MapLine> lines{{"estimate", *world.trail_map_m, false}};
+  if (!truth_map.empty()) lines.push_back({"ground truth", planarPoints(truth_map), true});
+  std::vector<rendering::MapMark> marks{{"home", world.home_map.position_m()}};
+
+  interfaces::ReportPictures pictures;
+  pictures.map_png.assign(png.begin(), png.end());
+  pictures.map_svg = rendering::mapSvg(world, lines, marks);
+  pictures.plots = plotsOf(summary);
+  return pictures;
+}
+
+}  // namespace swiftlet::apps

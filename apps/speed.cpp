@@ -1,0 +1,21 @@
+#include "apps/speed.hpp"
+
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+
+namespace swiftlet::apps {
+
+double parseSpeed(const std::string& text) {
+  if (text == "max") return 0.0;
+  double speed = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
+  if (error != std::errc{} || end != text.data() + text.size() || !(speed > 0.0 && speed <= 1000.0))
+    throw common::InputError(common::Problem{
+        {}, "--speed", fmt::format("`{}` is neither max nor a number above 0 and up to 1000", text), ""});
+  return speed;
+}
+
+}  // namespace swiftlet::apps

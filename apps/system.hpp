@@ -1,0 +1,38 @@
+// A system profile: which vehicle and laser, and how the autonomy is set. config/systems/NAME.yaml.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "autonomy/autonomy.hpp"
+#include "common/config.hpp"
+#include "common/vehicle_config.hpp"
+
+namespace swiftlet::apps {
+
+struct SystemConfig {
+  std::string vehicle = "cobra";   ///< config/vehicles/NAME.yaml, or a file.
+  std::string laser = "utm_30lx";  ///< config/sensors/NAME.yaml, or a file.
+  autonomy::AutonomyConfig autonomy;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct System {
+  std::string name;
+  SystemConfig config;
+  common::VehicleConfig vehicle;
+  common::LaserConfig laser;
+
+  /// The effective configuration as YAML: the profile, then vehicle and laser as it names them.
+  std::string toYaml(bool comments) const;
+};
+
+/// `name` is a profile of config/systems or a file. Throws common::InputError.
+System loadSystem(const std::string& name);
+
+/// The names of the profiles that come along.
+std::vector<std::string> systemNames();
+
+}  // namespace swiftlet::apps

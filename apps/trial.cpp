@@ -1,0 +1,195 @@
+// swiftlet trial: scripted flights with pass criteria.
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include "apps/command.hpp"
+#include "apps/flight.hpp"
+#include "common/data_paths.hpp"
+#include "common/table.hpp"
+#include "evaluation/flight_score.hpp"
+#include "evaluation/trial.hpp"
+#include "evaluation/trial_results.hpp"
+#include "interfaces/files/archive.hpp"
+#include "interfaces/files/atomic_file.hpp"
+#include "interfaces/report/report.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using evaluation::TrialConfig;
+using evaluation::TrialResult;
+using evaluation::TrialResults;
+
+std::atomic<bool> stop_requested{false};
+extern "C" void requestTrialStop(int) { stop_requested = true; }
+
+struct TrialOptions {
+  std::string trials;
+  int repeat = 0;
+  int jobs = 1;
+  int seed = 1;
+  std::string system;
+  std::string out;
+  bool json = false;
+};
+
+fs::path cacheFolder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME")) return fs::path(cache) / "swiftlet";
+  if (const char* home = std::getenv("HOME")) return fs::path(home) / ".cache" / "swiftlet";
+  return fs::temp_directory_path() / "swiftlet";
+}
+
+/// The world's files are with the software, or in an archive of the data sets that is unpacked once.
+void findWorld(TrialConfig& trial) {
+  const fs::path root = common::findData("worlds").parent_path();
+  const fs::path unpacked =
+      trial.archive.empty()
+          ? root
+          : interfaces::unpackInto(cacheFolder(),
+                                   evaluation::findArchive(trial.archive, root / ".." / "shared" / "datasets"));
+  trial.resolvePaths(unpacked, root);
+}
+
+FlightSetup setupOf(const TrialConfig& trial, int seed, const fs::path& out) {
+  FlightSetup setup;
+  setup.system = loadSystem(trial.system);
+  setup.mission_file = common::findData(trial.mission).string();
+  setup.scenario = trial.scenario;
+  setup.scenario.seed = seed;
+  setup.started = startedNow();
+  setup.time_limit_s = trial.time_limit_s;
+  setup.out = out / fmt::format("{}-{:03}", trial.name, seed);
+  return setup;
+}
+
+evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::path& out) {
+  FlightHooks hooks;
+  hooks.stop = &stop_requested;
+  const FlightResult result = flySimulated(setupOf(trial, seed, out), hooks);
+  evaluation::TrueWorld truth;
+  truth.rays = &result.vehicle->rays();
+  truth.vehicle = result.vehicle->scenario().vehicle;
+  truth.laser = result.vehicle->scenario().laser;
+  truth.clearance_m = trial.clearance_m;
+  auto score =
+      evaluation::scoreOf(result.record, truth, trial.criteria, seed, result.summary.wall_time_s.value_or(0.0));
+  score.folder = result.folder.filename().string();
+  return score;
+}
+
+std::string flightLine(const std::string& trial, const evaluation::FlightScore& score) {
+  std::string line = fmt::format("{:<24} seed {:<4} {:<8} {:6.1f} s {:5.1f} x", trial, score.seed,
+                                 score.passed() ? "passed" : "FAILED", score.mission_time_s, score.realtime_factor);
+  for (const std::string& failure : score.failures) line += "\n    " + failure;
+  return line;
+}
+
+/// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds.
+TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out) {
+  const int count = options.repeat > 0 ? options.repeat : trial.repeat;
+  TrialResult result{trial.name, trial.description, trial.system, trial.paper, {}};
+  std::vector<std::optional<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
+  std::atomic<int> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (int i = next++; i < count && !stop_requested; i = next++) {
+      try {
+        auto score = flyOne(trial, options.seed + i, out);
+        const std::scoped_lock lock(mutex);
+        if (!options.json) fmt::print("{}\n", flightLine(trial.name, score));
+        std::fflush(stdout);
+        scores[static_cast<std::size_t>(i)] = std::move(score);
+      } catch (...) {
+        const std::scoped_lock lock(mutex);
+        failure = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < std::min(options.jobs, count); ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+  for (auto& score : scores)
+    if (score) result.flights.push_back(std::move(*score));
+  return result;
+}
+
+interfaces::TrialReport reportOf(const TrialResults& results) {
+  interfaces::TrialReport report;
+  report.title = "Swiftlet trials";
+  report.subtitle = startedNow();
+  report.passed = results.passed();
+  report.tables.push_back(summaryTable(results));
+  report.tables.push_back(failureTable(results));
+  for (const TrialResult& trial : results.trials) {
+    report.tables.push_back(flightTable(trial));
+    for (const auto& flight : trial.flights)
+      report.pictures.push_back({fmt::format("{} seed {}", trial.name, flight.seed), flight.folder + "/map.png", "",
+                                 flight.folder + "/report.html", flight.passed()});
+  }
+  return report;
+}
+
+void writeResults(const TrialResults& results, const fs::path& out) {
+  for (const auto& [name, text] : {std::pair{"results.json", toJson(results)},
+                                   std::pair{"report.html", interfaces::trialReport(reportOf(results))}}) {
+    if (const auto written = interfaces::writeAtomically(out / name, text); !written)
+      throw common::InputError(common::Problem{{}, "", written.error().message, ""});
+  }
+}
+
+int trial(const TrialOptions& options) {
+  std::signal(SIGINT, requestTrialStop);
+  std::signal(SIGTERM, requestTrialStop);
+  const fs::path out =
+      options.out.empty() ? interfaces::freshRunFolder("runs", startedNow(), "trial") : fs::path(options.out);
+  fs::create_directories(out);
+
+  TrialResults results;
+  for (TrialConfig& trial : evaluation::readTrials(common::findData(options.trials))) {
+    if (!options.system.empty()) trial.system = options.system;
+    findWorld(trial);
+    results.trials.push_back(flyAll(trial, options, out));
+    writeResults(results, out);
+  }
+  if (options.json) {
+    fmt::print("{}\n", toJson(results));
+  } else {
+    fmt::print("\n{}\nresults {}\nreport  {}\n", toText(summaryTable(results)), (out / "results.json").string(),
+               (out / "report.html").string());
+  }
+  return results.passed() ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addTrial(CLI::App& program, Run& run) {
+  auto options = std::make_shared<TrialOptions>();
+  auto* command = program.add_subcommand("trial", "Fly scripted trials and score them against the truth.");
+  command->add_option("trial", options->trials, "Trial file (YAML), or a folder of them.")->required();
+  command->add_option("--repeat", options->repeat, "Flights of each trial, seeds S, S+1, ...; default: what it says.")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--jobs", options->jobs, "Flights at the same time.")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  command->add_option("--seed", options->seed, "The first seed S.")->capture_default_str();
+  command->add_option("--system", options->system, "Profile to fly them all with, instead of their own.");
+  command->add_option("--out", options->out, "Folder of the results; default runs/<time>-trial.");
+  command->add_flag("--json", options->json, "Print the results as JSON, nothing else.");
+  command->footer("Example: swiftlet trial trials/papers/unb_case1.yaml --repeat 20");
+  command->callback([&run, options] { run = [options] { return trial(*options); }; });
+}
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,235 @@
+#include "autonomy/estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::Pose2;
+using common::Pose3;
+using common::Severity;
+using common::Time;
+
+namespace {
+
+/// Vertical distance from the body down to what is below: the median of the mirror beams.
+std::optional<double> medianBelow_m(const perception::ProjectedScan& scan) {
+  if (scan.mirror.empty()) return std::nullopt;
+  std::vector<double> distances_m;
+  for (const auto& point : scan.mirror) distances_m.push_back(point.belowBody_m());
+  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
+  std::nth_element(distances_m.begin(), middle, distances_m.end());
+  return *middle;
+}
+
+common::Duration sweepOf(const common::LaserScan& scan) {
+  return scan.time_increment * static_cast<std::int64_t>(scan.ranges_m.size());
+}
+
+}  // namespace
+
+void EstimatorConfig::describe(common::config::Fields& fields) {
+  fields.section("projection", projection, "Scans out of motion and tilt.");
+  fields.section("odometry", odometry, "Scans matched to the last ones.");
+  fields.section("altitude", altitude, "Height and levels from the mirror beams.");
+  fields.section("fusion", fusion, "Error-state filter.");
+  fields.section("slam", slam, "Graph SLAM and the map.");
+  fields("match_floor_m", match_floor_m, "Least standard deviation of a match.");
+  fields("match_floor_deg", match_floor_deg, "Likewise of its yaw.");
+  fields("match_per_tilt_m_rad", match_per_tilt_m_rad, "What each radian of tilt adds: the attitude is not exact.");
+  fields("match_per_tilt_deg_rad", match_per_tilt_deg_rad, "Likewise to the yaw.");
+  fields("slam_latency_s", slam_latency_s, "Declared for a SLAM job.");
+}
+
+std::vector<std::string> EstimatorConfig::validate() const {
+  return common::Validation()
+      .within("match_floor_m", match_floor_m, 0, 1)
+      .within("match_floor_deg", match_floor_deg, 0, 10)
+      .within("match_per_tilt_m_rad", match_per_tilt_m_rad, 0, 10)
+      .within("match_per_tilt_deg_rad", match_per_tilt_deg_rad, 0, 100)
+      .within("slam_latency_s", slam_latency_s, 0.01, 10)
+      .problems();
+}
+
+Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& laser,
+                     const common::VehicleConfig& vehicle, common::JobRunner& jobs)
+    : config_(config),
+      laser_(laser),
+      vehicle_(vehicle),
+      jobs_(jobs),
+      filter_(config.fusion),
+      odometry_(config.odometry),
+      altitude_(config.altitude),
+      slam_(config.slam),
+      published_grid_(std::make_shared<common::OccupancyGrid>(slam_.snapshot())),
+      published_levels_(std::make_shared<common::LevelMap>()) {}
+
+void Estimator::addImu(const common::ImuSample& sample) {
+  filter_.predict(sample);
+  last_imu_ = sample;
+  if (filter_.initialized()) altitude_.addAcceleration(sample.stamps.measured, filter_.accelerationOdom_m_s2().z());
+}
+
+std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Time now) {
+  if (!filter_.initialized()) {
+    initialize(scan);
+    return std::nullopt;
+  }
+  ScanOutcome outcome;
+  outcome.scan = projectScan(scan);
+  outcome.matched = fuseOdometry(outcome.scan);
+
+  const Pose3 T_odom_body = filter_.poseAt(outcome.scan.stamp).value_or(outcome.scan.T_odom_body);
+  outcome.T_map_body = slam_.T_map_odom() * planar(T_odom_body);
+  fuseHeight(outcome.scan, outcome.T_map_body);
+  if (const auto below_m = medianBelow_m(outcome.scan))
+    outcome.raw_height = control::RawHeight{outcome.scan.stamp, *below_m};
+
+  if (outcome.matched) addToMap(outcome, now);
+  reportHealth(now);
+  return outcome;
+}
+
+common::VehicleState Estimator::state() const {
+  common::VehicleState state = filter_.state();
+  state.T_map_odom = slam_.T_map_odom();
+  state.height_above_ground_m = height_above_ground_m_;
+  return state;
+}
+
+std::shared_ptr<const common::OccupancyGrid> Estimator::grid() {
+  if (published_grid_version_ != grid_version_) {
+    published_grid_ = std::make_shared<common::OccupancyGrid>(slam_.snapshot());
+    published_grid_version_ = grid_version_;
+  }
+  return published_grid_;
+}
+
+std::shared_ptr<const common::LevelMap> Estimator::levels() {
+  if (published_levels_version_ != altitude_.levelsVersion()) {
+    published_levels_ = std::make_shared<common::LevelMap>(altitude_.levels());
+    published_levels_version_ = altitude_.levelsVersion();
+  }
+  return published_levels_;
+}
+
+std::vector<common::Event> Estimator::takeEvents() { return std::exchange(events_, {}); }
+
+void Estimator::initialize(const common::LaserScan& scan) {
+  if (!last_imu_) return;
+  const common::RollPitchYaw tilt = common::rollPitchYaw(last_imu_->rotation_ahrs_body);
+  const Pose3 T_level_body{common::quaternionFrom({tilt.roll_rad, tilt.pitch_rad, 0.0}), Eigen::Vector3d::Zero()};
+  const auto standing = project(
+      scan, laser_, [&](Time) { return T_level_body; }, config_.projection);
+  const double height_m = medianBelow_m(standing).value_or(0.5 * vehicle_.hull_height_m);
+
+  const auto initialized = filter_.initialize(height_m);
+  if (!initialized) {
+    if (!waiting_said_)
+      say(scan.stamps.arrived, Severity::kInfo, "fusion", "waiting to stand still", initialized.error());
+    waiting_said_ = true;
+    return;
+  }
+  altitude_.initialize(filter_.newest(), Eigen::Vector2d::Zero(), height_m);
+  say(scan.stamps.arrived, Severity::kInfo, "fusion",
+      fmt::format("initialized, body {:.3f} m above the floor", height_m));
+}
+
+perception::ProjectedScan Estimator::projectScan(const common::LaserScan& scan) {
+  const Time begin = scan.stamps.measured, end = begin + sweepOf(scan);
+  const perception::PoseHistory history = filter_.poses(begin, end);
+  const Pose3 newest = filter_.state().T_odom_body;
+  return project(
+      scan, laser_, [&](Time t) { return history.at(t).value_or(newest); }, config_.projection);
+}
+
+bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
+  const auto relative = odometry_.add(scan);
+  if (!relative) return false;
+  if (relative->from == relative->to) {
+    (void)filter_.addClone(relative->from);
+    return true;
+  }
+  if (!filter_.hasClone(relative->from)) (void)filter_.addClone(relative->from);
+  const Eigen::Matrix3d covariance = relative->covariance + tiltCovariance(scan);
+  const auto inserted = filter_.addRelativePose(relative->from, relative->to, relative->T_from_to, covariance);
+  if (relative->reference_changed) {
+    (void)filter_.addClone(relative->to);
+    // Within one reference the error does not grow; it accumulates from reference to reference.
+    covariance_since_map_ += covariance;
+  }
+  return inserted == perception::Insertion::kTaken;
+}
+
+Eigen::Matrix3d Estimator::tiltCovariance(const perception::ProjectedScan& scan) const {
+  const double cos_tilt = (scan.T_odom_body.rotation * Eigen::Vector3d::UnitZ()).z();
+  const double tilt_rad = std::acos(std::clamp(cos_tilt, -1.0, 1.0));
+  const double position_m = config_.match_floor_m + config_.match_per_tilt_m_rad * tilt_rad;
+  const double yaw_rad =
+      (config_.match_floor_deg + config_.match_per_tilt_deg_rad * tilt_rad) * std::numbers::pi / 180.0;
+  return Eigen::Vector3d(position_m * position_m, position_m * position_m, yaw_rad * yaw_rad).asDiagonal();
+}
+
+void Estimator::fuseHeight(const perception::ProjectedScan& scan, const Pose2& T_map_body) {
+  std::vector<perception::GroundPoint> ground;
+  ground.reserve(scan.mirror.size());
+  for (const auto& point : scan.mirror)
+    ground.push_back({T_map_body * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
+
+  const auto update = altitude_.update(scan.stamp, T_map_body.position_m(), ground);
+  if (update.height_above_ground_m) height_above_ground_m_ = *update.height_above_ground_m;
+  if (update.measurement) {
+    (void)filter_.addHeight(update.measurement->stamp, update.measurement->height_m, update.measurement->variance_m2,
+                            update.measurement->level_variance_m2);
+  }
+  if (update.levels_joined > 0)
+    say(scan.stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", update.levels_joined));
+}
+
+void Estimator::addToMap(ScanOutcome& outcome, Time now) {
+  const Pose3 T_odom_body = filter_.poseAt(outcome.scan.stamp).value_or(outcome.scan.T_odom_body);
+  const auto update = slam_.addScan(outcome.scan, planar(T_odom_body), covariance_since_map_);
+  covariance_since_map_.setZero();
+  outcome.T_map_body = update.T_map_body;
+  outcome.map_changed = update.drawn || update.T_map_odom_changed;
+  if (update.drawn) ++grid_version_;
+  submitSlamTask(now);
+}
+
+void Estimator::submitSlamTask(Time now) {
+  if (!jobs_.idle("slam")) return;
+  auto task = slam_.takeTask();
+  if (!task) return;
+  jobs_.submit("slam", now, common::Duration::fromSeconds(config_.slam_latency_s),
+               [this, task = std::move(*task)]() -> common::JobRunner::Deliver {
+                 return [this, result = run(task)](Time delivered) {
+                   if (slam_.apply(result)) ++grid_version_;
+                   for (const auto& loop : result.accepted)
+                     say(delivered, Severity::kInfo, "slam2d",
+                         fmt::format("loop closed between key scans {} and {}", loop.from, loop.to),
+                         fmt::format("quality {:.2f}, {:.3f} m from what was believed", loop.quality, loop.shift_m));
+                 };
+               });
+}
+
+void Estimator::reportHealth(Time now) {
+  const auto health = filter_.health();
+  if (health.status == last_health_) return;
+  const Severity severity = health.status == perception::FusionStatus::kOk         ? Severity::kInfo
+                            : health.status == perception::FusionStatus::kDiverged ? Severity::kError
+                                                                                   : Severity::kWarning;
+  say(now, severity, "fusion", fmt::format("estimate {}", perception::toString(health.status)), health.reason);
+  last_health_ = health.status;
+}
+
+void Estimator::say(Time now, Severity severity, std::string source, std::string text, std::string reason) {
+  events_.push_back({now, severity, std::move(source), std::move(text), std::move(reason)});
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,120 @@
+// From raw samples to a state: IMU -> error-state filter; scan -> projection -> matching -> altitude -> filter -> SLAM.
+//
+//   IMU sample ----------------------------------------------> predict --+
+//   scan --> project --> match to the local map --> relative pose -----> |  error-state filter --> VehicleState
+//                  \--> mirror beams --> levels --> virtual height ----> |          |
+//                   \--> SLAM (map, T_map_odom) <---------------- pose at the scan -+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/event.hpp"
+#include "common/jobs.hpp"
+#include "common/level_map.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/sensor_event.hpp"
+#include "common/vehicle_config.hpp"
+#include "common/vehicle_state.hpp"
+#include "control/emergency_descent.hpp"
+#include "perception/altitude/multilevel_filter.hpp"
+#include "perception/fusion/error_state_filter.hpp"
+#include "perception/projection/scan_projection.hpp"
+#include "perception/scan_matching/laser_odometry.hpp"
+#include "perception/slam2d/slam2d.hpp"
+
+namespace swiftlet::autonomy {
+
+struct EstimatorConfig {
+  perception::ScanProjectionConfig projection;
+  perception::LaserOdometryConfig odometry;
+  perception::MultilevelFilter::Config altitude;
+  perception::ErrorStateFilter::Config fusion;
+  perception::Slam2dConfig slam;
+  // What a wrong attitude does to a match, beyond the matcher's own covariance: it grows with the tilt.
+  double match_floor_m = 0.004;
+  double match_floor_deg = 0.10;
+  double match_per_tilt_m_rad = 0.05;
+  double match_per_tilt_deg_rad = 1.5;
+  double slam_latency_s = 0.4;  ///< Declared for a SLAM job: loop search, optimization, drawing the map anew.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// What one scan gave.
+struct ScanOutcome {
+  perception::ProjectedScan scan;
+  bool matched = false;
+  bool map_changed = false;
+  common::Pose2 T_map_body;  ///< At the scan's stamp.
+  std::optional<control::RawHeight> raw_height;
+};
+
+/// One thread; SLAM jobs go to the runner it is given.
+class Estimator {
+ public:
+  Estimator(const EstimatorConfig& config, const common::LaserConfig& laser, const common::VehicleConfig& vehicle,
+            common::JobRunner& jobs);
+
+  void addImu(const common::ImuSample& sample);
+  /// Before the filter is initialized a scan initializes it (the vehicle stands still) and gives nothing.
+  std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
+
+  bool ready() const { return filter_.initialized(); }
+  /// While true the filter is told that the vehicle stands.
+  void setAtRest(bool at_rest) { filter_.setAtRest(at_rest); }
+
+  /// At the newest IMU sample, with T_map_odom.
+  common::VehicleState state() const;
+  perception::FusionHealth health() const { return filter_.health(); }
+
+  /// Changes whenever the grid does.
+  std::uint64_t gridVersion() const { return grid_version_; }
+  std::shared_ptr<const common::OccupancyGrid> grid();
+  std::shared_ptr<const common::LevelMap> levels();
+
+  std::vector<common::Event> takeEvents();
+  const perception::SlamCounts& slamCounts() const { return slam_.counts(); }
+  const perception::LaserOdometryCounts& odometryCounts() const { return odometry_.counts(); }
+  perception::FusionCounts fusionCounts() const { return filter_.counts(); }
+
+ private:
+  void initialize(const common::LaserScan& scan);
+  perception::ProjectedScan projectScan(const common::LaserScan& scan);
+  bool fuseOdometry(const perception::ProjectedScan& scan);
+  Eigen::Matrix3d tiltCovariance(const perception::ProjectedScan& scan) const;
+  void fuseHeight(const perception::ProjectedScan& scan, const common::Pose2& T_map_body);
+  void addToMap(ScanOutcome& outcome, common::Time now);
+  void submitSlamTask(common::Time now);
+  void reportHealth(common::Time now);
+  void say(common::Time now, common::Severity severity, std::string source, std::string text, std::string reason = {});
+
+  EstimatorConfig config_;
+  common::LaserConfig laser_;
+  common::VehicleConfig vehicle_;
+  common::JobRunner& jobs_;
+
+  perception::ErrorStateFilter filter_;
+  perception::LaserOdometry odometry_;
+  perception::MultilevelFilter altitude_;
+  perception::Slam2d slam_;
+
+  std::optional<common::ImuSample> last_imu_;
+  bool waiting_said_ = false;
+  double height_above_ground_m_ = 0.0;
+  Eigen::Matrix3d covariance_since_map_ = Eigen::Matrix3d::Zero();
+  perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;
+  std::uint64_t grid_version_ = 0;
+  std::uint64_t published_grid_version_ = 0;
+  std::shared_ptr<const common::OccupancyGrid> published_grid_;
+  std::uint64_t published_levels_version_ = 0;
+  std::shared_ptr<const common::LevelMap> published_levels_;
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy

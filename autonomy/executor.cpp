@@ -1,0 +1,365 @@
+#include "autonomy/executor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::FlightState;
+using common::IntentState;
+using common::Severity;
+using common::Time;
+
+void ExecutorConfig::describe(common::config::Fields& fields) {
+  fields.section("cost_map", cost_map, "Where the vehicle may be.");
+  fields.section("exploration", exploration, "Frontiers and viewpoints.");
+  fields.section("plan_keeper", plan_keeper, "How long a plan is kept.");
+  fields("planning_latency_s", planning_latency_s, "Declared for a planning job.");
+  fields("planning_period_s", planning_period_s, "How often the cost map is brought up to date.");
+  fields("explore_period_s", explore_period_s, "How often the next viewpoint is thought over.");
+  fields("clearance_m", clearance_m, "Between hull and obstacle, where an intent names none.");
+  fields("arrival_speed_m_s", arrival_speed_m_s, "A goal is reached when slower than this.");
+  fields("arrival_s", arrival_s, "A goal is reached when within its tolerance for this long.");
+  fields("viewpoint_tolerance_m", viewpoint_tolerance_m, "How near a viewpoint counts as reached.");
+  fields("viewpoint_tolerance_deg", viewpoint_tolerance_deg, "How well it must be turned to.");
+  fields("give_up_s", give_up_s, "Without a way to the goal for this long the intent fails.");
+  fields("retreat_path_m", retreat_path_m, "How far ahead a retreat is commanded.");
+}
+
+std::vector<std::string> ExecutorConfig::validate() const {
+  return common::Validation()
+      .within("planning_latency_s", planning_latency_s, 0.0, 2.0)
+      .within("planning_period_s", planning_period_s, 0.05, 5.0)
+      .within("explore_period_s", explore_period_s, 0.1, 10.0)
+      .within("clearance_m", clearance_m, 0.0, 2.0)
+      .positive("arrival_speed_m_s", arrival_speed_m_s)
+      .within("arrival_s", arrival_s, 0.0, 5.0)
+      .positive("viewpoint_tolerance_m", viewpoint_tolerance_m)
+      .positive("viewpoint_tolerance_deg", viewpoint_tolerance_deg)
+      .positive("give_up_s", give_up_s)
+      .within("retreat_path_m", retreat_path_m, 0.1, 2.0)
+      .problems();
+}
+
+Executor::Executor(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
+                   control::FlightController& controller, common::JobRunner& jobs)
+    : config_(config),
+      vehicle_(vehicle),
+      controller_(controller),
+      jobs_(jobs),
+      worker_(std::make_shared<PlanningWorker>(config.cost_map, config.exploration, grid_resolution_m)),
+      keeper_(config.plan_keeper),
+      memory_(config.exploration.attempt_radius_m),
+      frontiers_(std::make_shared<std::vector<common::Frontier>>()) {}
+
+void Executor::want(const common::Intent& intent) {
+  if (intent.id == intent_.id && started_) return;
+  intent_ = intent;
+  started_ = false;
+  status_ = {intent.id, IntentState::kRunning, toString(intent), false};
+}
+
+void Executor::tick(const ExecutorInput& input) {
+  now_ = input.now;
+  state_ = input.state;
+  if (!started_) start(input);
+  if (status_.state == IntentState::kRunning)
+    std::visit([&](const auto& kind) { carryOut(input, kind); }, intent_.kind);
+  const bool due = !last_request_ || (now_ - *last_request_).seconds() >= config_.planning_period_s;
+  if (due && jobs_.idle("planning")) requestPlan(input, {});
+  status_.released = controller_.stopped() && !retreating_;
+}
+
+void Executor::react(const planning::AvoidanceDecision& decision, const common::VehicleState& state) {
+  state_ = state;
+  controller_.setSpeedLimit(decision.speed_limit_m_s);
+  if (controller_.state() != FlightState::kFlying) return;
+  if (decision.retreat_velocity_level_m_s && decision.retreat_velocity_level_m_s->norm() > 1e-3) {
+    const common::Pose2 T_map_body = state.T_map_body_planar();
+    const Eigen::Vector2d way =
+        Eigen::Rotation2Dd(T_map_body.yaw_rad) * decision.retreat_velocity_level_m_s->normalized();
+    const Eigen::Vector2d to = T_map_body.position_m() + config_.retreat_path_m * way;
+    const double z_m = cruise_height_m_;
+    (void)controller_.follow({{{T_map_body.x_m, T_map_body.y_m, z_m}, {to.x(), to.y(), z_m}},
+                              control::FlightMode::kFast,
+                              T_map_body.yaw_rad});
+    keeper_.clear();
+    retreating_ = true;
+  } else if (decision.status.retreating) {
+    controller_.hold();
+    keeper_.clear();
+    retreating_ = true;
+  } else if (retreating_) {
+    controller_.hold();
+    retreating_ = false;
+  }
+}
+
+Eigen::Vector2d Executor::wishedVelocity_map_m_s() const {
+  const auto points = keeper_.remaining();
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Eigen::Vector2d step = points[i] - points.front();
+    if (step.norm() > 0.05) return config_.exploration.speed_m_s * step.normalized();
+  }
+  return Eigen::Vector2d::Zero();
+}
+
+std::optional<Eigen::Vector2d> Executor::goal_map_m() const {
+  if (const auto* go_to = std::get_if<common::GoToIntent>(&intent_.kind)) return go_to->goal_map_m;
+  if (std::holds_alternative<common::ExploreIntent>(intent_.kind) && viewpoint_)
+    return viewpoint_->pose_map.position_m();
+  return std::nullopt;
+}
+
+std::optional<std::string> Executor::refusalOfGoal(const Eigen::Vector2d& goal_map_m) const {
+  if (!goal_map_m.allFinite()) return "the goal is not a place";
+  if (!cost_map_) return "there is no map yet";
+  const common::CellIndex cell = cost_map_->cellAt(goal_map_m);
+  const auto place = fmt::format("({:.2f}, {:.2f})", goal_map_m.x(), goal_map_m.y());
+  if (!cost_map_->contains(cell)) return place + " is outside the map";
+  switch (cost_map_->stateAt(cell)) {
+    case planning::CellState::kUnknown:
+      return place + " is not explored yet";
+    case planning::CellState::kOccupied:
+      return place + " is in an obstacle";
+    case planning::CellState::kFree:
+      break;
+  }
+  if (cost_map_->costAt(cell) == planning::CostMap::kLethal)
+    return fmt::format("{} is nearer to an obstacle than the hull and {:.2f} m", place,
+                       cost_map_->footprint().clearance_m);
+  return std::nullopt;
+}
+
+std::vector<common::Event> Executor::takeEvents() { return std::exchange(events_, {}); }
+
+// ------------------------------------------------------------------------------------------------------ the intents
+
+void Executor::start(const ExecutorInput& input) {
+  started_ = true;
+  keeper_.clear();
+  viewpoint_.reset();
+  within_since_.reset();
+  no_way_since_.reset();
+  goal_yaw_map_rad_.reset();
+  last_exploration_.reset();
+  done_answers_ = 0;
+  if (controller_.state() == FlightState::kFlying && !retreating_) controller_.hold();
+  if (const auto* go_to = std::get_if<common::GoToIntent>(&intent_.kind)) {
+    if (go_to->height_m) cruise_height_m_ = *go_to->height_m;
+    goal_yaw_map_rad_ = go_to->yaw_map_rad;
+  } else if (const auto* take_off = std::get_if<common::TakeOffIntent>(&intent_.kind)) {
+    if (controller_.state() == FlightState::kFlying) return;
+    cruise_height_m_ = take_off->height_m;
+    const auto commanded = controller_.command(control::TakeOff{take_off->height_m});
+    if (!commanded) fail(commanded.error());
+  } else if (std::holds_alternative<common::LandIntent>(intent_.kind)) {
+    if (!control::isAirborne(controller_.state())) return;
+    const auto commanded = controller_.command(control::Land{});
+    if (!commanded) fail(commanded.error());
+  }
+  (void)input;
+}
+
+void Executor::carryOut(const ExecutorInput&, const common::HoldIntent&) { status_.reason = "holding"; }
+
+void Executor::carryOut(const ExecutorInput& input, const common::AvoidIntent&) {
+  status_.reason = input.avoidance.status.reason;
+}
+
+void Executor::carryOut(const ExecutorInput&, const common::TakeOffIntent&) {
+  if (controller_.state() == FlightState::kFlying) return succeed("at the take-off height");
+  if (controller_.state() == FlightState::kTakingOff) return;
+  if (controller_.state() == FlightState::kLanded) return;
+  fail(fmt::format("cannot take off while {}", toString(controller_.state())));
+}
+
+void Executor::carryOut(const ExecutorInput&, const common::LandIntent&) {
+  if (!control::isAirborne(controller_.state())) succeed("on the ground");
+}
+
+void Executor::carryOut(const ExecutorInput& input, const common::GoToIntent& go_to) {
+  if (controller_.state() != FlightState::kFlying)
+    return fail(fmt::format("cannot fly to a goal while {}", toString(controller_.state())));
+  if (retreating_) return;
+  if (arrived(input, go_to.goal_map_m, go_to.tolerance_m)) {
+    return succeed(fmt::format("reached ({:.2f}, {:.2f})", go_to.goal_map_m.x(), go_to.goal_map_m.y()));
+  }
+  const bool replan = keepPlan(input);
+  if (no_way_since_ && (now_ - *no_way_since_).seconds() > config_.give_up_s) return fail(no_way_);
+  if (replan && jobs_.idle("planning")) {
+    PlanningRequest request;
+    request.question = GoalRequest{go_to.goal_map_m};
+    requestPlan(input, std::move(request));
+  }
+}
+
+void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&) {
+  if (controller_.state() != FlightState::kFlying)
+    return fail(fmt::format("cannot explore while {}", toString(controller_.state())));
+  if (retreating_) return;
+  const bool replan = keepPlan(input);
+  bool reached = false;
+  if (viewpoint_) {
+    const common::Pose2 pose = state_.T_map_body_planar();
+    const double turn_rad = std::abs(common::wrapAngle(pose.yaw_rad - viewpoint_->pose_map.yaw_rad));
+    const bool near = (pose.position_m() - viewpoint_->pose_map.position_m()).norm() < config_.viewpoint_tolerance_m;
+    const bool turned = turn_rad < config_.viewpoint_tolerance_deg * std::numbers::pi / 180.0;
+    if (near && turned) {
+      memory_.tried(*viewpoint_);
+      viewpoint_.reset();
+      keeper_.clear();
+      reached = true;
+    }
+  }
+  const bool due = !last_exploration_ || (now_ - *last_exploration_).seconds() >= config_.explore_period_s || reached ||
+                   (replan && !keeper_.plan());
+  if (!due || !jobs_.idle("planning")) return;
+  PlanningRequest request;
+  request.question = ExploreRequest{viewpoint_, memory_.attempts()};
+  last_exploration_ = now_;
+  requestPlan(input, std::move(request));
+}
+
+// --------------------------------------------------------------------------------------------------------- planning
+
+void Executor::requestPlan(const ExecutorInput& input, PlanningRequest request) {
+  request.intent_id = intent_.id;
+  request.grid = input.grid;
+  request.levels = input.levels;
+  request.discs = input.discs;
+  request.footprint = {vehicle_.hullRadius_m(), clearance_m()};
+  request.T_map_body = input.state.T_map_body_planar();
+  last_request_ = now_;
+  jobs_.submit("planning", now_, common::Duration::fromSeconds(config_.planning_latency_s),
+               [this, worker = worker_, request = std::move(request)]() -> common::JobRunner::Deliver {
+                 return [this, answer = worker->answer(request)](Time delivered) { receive(answer, delivered); };
+               });
+}
+
+void Executor::receive(const PlanningAnswer& answer, Time now) {
+  now_ = now;
+  cost_map_ = answer.cost_map;
+  if (answer.exploration) {
+    frontiers_ = std::make_shared<std::vector<common::Frontier>>(answer.exploration->frontiers);
+    explored_area_m2_ = answer.exploration->explored_area_m2;
+  }
+  if (answer.intent_id != intent_.id || status_.state != IntentState::kRunning || retreating_) return;
+  if (answer.path) receivePath(*answer.path);
+  if (answer.exploration) receiveExploration(*answer.exploration);
+}
+
+void Executor::receivePath(const tl::expected<planning::Path, planning::PlanFailure>& path) {
+  if (path) {
+    no_way_since_.reset();
+    offer(*path);
+    return;
+  }
+  if (!no_way_since_) {
+    no_way_since_ = now_;
+    say(Severity::kWarning, "no way to the goal at present", path.error().text);
+  }
+  no_way_ = path.error().text;
+  status_.reason = "waiting: " + no_way_;
+}
+
+void Executor::receiveExploration(const planning::ExplorationResult& result) {
+  status_.reason = result.reason;
+  if (result.next) {
+    done_answers_ = 0;
+    if (!result.kept_current) {
+      viewpoint_ = result.next;
+      goal_yaw_map_rad_ = result.next->pose_map.yaw_rad;
+      keeper_.clear();
+    }
+    offer(result.next->path);
+    return;
+  }
+  viewpoint_.reset();
+  keeper_.clear();
+  controller_.hold();
+  if (!result.done) return;
+  // The last scans may still be on their way into the map: done is believed when it is said twice, standing still.
+  if (controller_.stopped() && ++done_answers_ >= 2) {
+    for (const common::Frontier& frontier : result.frontiers)
+      say(Severity::kInfo,
+          fmt::format("frontier of {:.2f} m at ({:.2f}, {:.2f}) left: {}", frontier.length_m,
+                      frontier.centroid_map_m.x(), frontier.centroid_map_m.y(), toString(frontier.reason)),
+          frontier.explanation);
+    succeed(fmt::format("explored {:.1f} m2, {} frontiers left, each with a reason", result.explored_area_m2,
+                        result.frontiers.size()));
+  }
+}
+
+/// Stops when the plan has become invalid; true when a new plan is wanted.
+bool Executor::keepPlan(const ExecutorInput& input) {
+  if (!cost_map_) return true;
+  if (!keeper_.plan()) return true;
+  const auto check = keeper_.check(now_, *cost_map_, input.state.T_map_body_planar().position_m());
+  if (!check.valid) {
+    say(Severity::kInfo, "plan given up", check.reason);
+    controller_.hold();
+    keeper_.clear();
+  }
+  return check.replan;
+}
+
+void Executor::offer(const planning::Path& path) {
+  if (!cost_map_) return;
+  if (keeper_.offer(path, now_, *cost_map_, state_.T_map_body_planar().position_m())) fly();
+}
+
+void Executor::fly() {
+  control::FlightPath path;
+  for (const Eigen::Vector2d& point : keeper_.plan()->points_map_m)
+    path.points_map_m.emplace_back(point.x(), point.y(), cruise_height_m_);
+  path.mode = control::FlightMode::kFast;
+  path.goal_yaw_map_rad = goal_yaw_map_rad_;
+  (void)controller_.follow(path);
+}
+
+bool Executor::arrived(const ExecutorInput& input, const Eigen::Vector2d& goal_map_m, double tolerance_m) {
+  const Eigen::Vector3d position_map_m = input.state.T_map_body().position_m;
+  const bool within = (position_map_m.head<2>() - goal_map_m).norm() < tolerance_m &&
+                      std::abs(position_map_m.z() - cruise_height_m_) < std::max(0.10, tolerance_m) &&
+                      input.state.velocity_odom_m_s.norm() < config_.arrival_speed_m_s;
+  if (!within) {
+    within_since_.reset();
+    return false;
+  }
+  if (!within_since_) within_since_ = now_;
+  return (now_ - *within_since_).seconds() >= config_.arrival_s;
+}
+
+double Executor::clearance_m() const {
+  if (const auto* go_to = std::get_if<common::GoToIntent>(&intent_.kind)) return go_to->clearance_m;
+  if (const auto* explore = std::get_if<common::ExploreIntent>(&intent_.kind)) return explore->clearance_m;
+  return config_.clearance_m;
+}
+
+void Executor::succeed(std::string reason) {
+  say(Severity::kInfo, toString(intent_) + ": done", reason);
+  status_.state = IntentState::kSucceeded;
+  status_.reason = std::move(reason);
+  keeper_.clear();
+}
+
+void Executor::fail(std::string reason) {
+  say(Severity::kWarning, toString(intent_) + ": failed", reason);
+  if (controller_.state() == FlightState::kFlying) controller_.hold();
+  status_.state = IntentState::kFailed;
+  status_.reason = std::move(reason);
+  keeper_.clear();
+}
+
+void Executor::say(Severity severity, std::string text, std::string reason) {
+  events_.push_back({now_, severity, "flight", std::move(text), std::move(reason)});
+}
+
+}  // namespace swiftlet::autonomy

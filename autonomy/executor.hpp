@@ -1,0 +1,132 @@
+// Carries out one Intent at a time: asks for plans (as jobs), keeps them while they are good, hands paths to the flight
+// controller, and says how it stands. The reactive layer's retreat comes before everything the intent wants.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autonomy/planning_worker.hpp"
+#include "common/config.hpp"
+#include "common/event.hpp"
+#include "common/intent.hpp"
+#include "common/jobs.hpp"
+#include "common/vehicle_config.hpp"
+#include "common/vehicle_state.hpp"
+#include "common/world.hpp"
+#include "control/flight_controller.hpp"
+#include "planning/avoidance.hpp"
+#include "planning/plan_keeper.hpp"
+
+namespace swiftlet::autonomy {
+
+struct ExecutorConfig {
+  planning::CostMap::Config cost_map;
+  planning::ExplorationConfig exploration;
+  planning::PlanKeeper::Config plan_keeper;
+  double planning_latency_s = 0.06;  ///< Declared for a planning job.
+  double planning_period_s = 0.25;   ///< The cost map is never older than this plus the latency.
+  double explore_period_s = 0.5;     ///< How often the next viewpoint is thought over.
+  double clearance_m = 0.10;         ///< Where an intent names none.
+  double arrival_speed_m_s = 0.15;   ///< A goal is reached when slower than this,
+  double arrival_s = 0.25;           ///< and within the tolerance for this long.
+  double viewpoint_tolerance_m = 0.15;
+  double viewpoint_tolerance_deg = 12.0;
+  double give_up_s = 20.0;      ///< No way to the goal for this long: the intent fails.
+  double retreat_path_m = 0.5;  ///< How far ahead a retreat is commanded.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// What the executor sees of the world at one tick.
+struct ExecutorInput {
+  common::Time now;
+  common::VehicleState state;
+  std::shared_ptr<const common::OccupancyGrid> grid;
+  std::shared_ptr<const common::LevelMap> levels;
+  std::vector<planning::Disc> discs;
+  const planning::AvoidanceDecision& avoidance;
+};
+
+/// One thread. tick() at the behaviours' rate; retreat() at the laser rate.
+class Executor {
+ public:
+  Executor(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
+           control::FlightController& controller, common::JobRunner& jobs);
+
+  /// The intent from now on; the same id goes on with what is under way.
+  void want(const common::Intent& intent);
+  void tick(const ExecutorInput& input);
+  /// Follows the retreat of the reactive layer, or gives the vehicle back to the intent when there is none.
+  void react(const planning::AvoidanceDecision& decision, const common::VehicleState& state);
+
+  const common::IntentStatus& status() const { return status_; }
+  /// Along the path being flown; zero when none is.
+  Eigen::Vector2d wishedVelocity_map_m_s() const;
+
+  std::shared_ptr<const planning::CostMap> costMap() const { return cost_map_; }
+  std::shared_ptr<const std::vector<common::Frontier>> frontiers() const { return frontiers_; }
+  std::vector<Eigen::Vector2d> remainingPlan_map_m() const { return keeper_.remaining(); }
+  std::optional<Eigen::Vector2d> goal_map_m() const;
+  double exploredArea_m2() const { return explored_area_m2_; }
+  /// Where the vehicle's centre may be, for judging an operator's goal: the reason it is refused, or none.
+  std::optional<std::string> refusalOfGoal(const Eigen::Vector2d& goal_map_m) const;
+
+  std::vector<common::Event> takeEvents();
+
+ private:
+  void start(const ExecutorInput& input);
+  void carryOut(const ExecutorInput& input, const common::HoldIntent&);
+  void carryOut(const ExecutorInput& input, const common::AvoidIntent&);
+  void carryOut(const ExecutorInput& input, const common::TakeOffIntent& take_off);
+  void carryOut(const ExecutorInput& input, const common::LandIntent&);
+  void carryOut(const ExecutorInput& input, const common::GoToIntent& go_to);
+  void carryOut(const ExecutorInput& input, const common::ExploreIntent& explore);
+
+  void requestPlan(const ExecutorInput& input, PlanningRequest request);
+  void receive(const PlanningAnswer& answer, common::Time now);
+  void receivePath(const tl::expected<planning::Path, planning::PlanFailure>& path);
+  void receiveExploration(const planning::ExplorationResult& result);
+  bool keepPlan(const ExecutorInput& input);
+  void offer(const planning::Path& path);
+  void fly();
+  bool arrived(const ExecutorInput& input, const Eigen::Vector2d& goal_map_m, double tolerance_m);
+  double clearance_m() const;
+  void succeed(std::string reason);
+  void fail(std::string reason);
+  void say(common::Severity severity, std::string text, std::string reason = {});
+
+  ExecutorConfig config_;
+  common::VehicleConfig vehicle_;
+  control::FlightController& controller_;
+  common::JobRunner& jobs_;
+  std::shared_ptr<PlanningWorker> worker_;
+  planning::PlanKeeper keeper_;
+  planning::ExplorationMemory memory_;
+
+  common::Intent intent_;
+  bool started_ = false;  ///< The present intent has had its first tick.
+  common::IntentStatus status_;
+  common::Time now_;
+  common::VehicleState state_;
+  double cruise_height_m_ = 1.0;
+  std::optional<double> goal_yaw_map_rad_;
+
+  std::shared_ptr<const planning::CostMap> cost_map_;
+  std::shared_ptr<const std::vector<common::Frontier>> frontiers_;
+  double explored_area_m2_ = 0.0;
+  std::optional<common::Time> last_request_;
+  std::optional<common::Time> last_exploration_;
+  std::optional<planning::Viewpoint> viewpoint_;
+  int done_answers_ = 0;  ///< Explorations in a row that found nothing open.
+  std::optional<common::Time> within_since_;
+  std::optional<common::Time> no_way_since_;
+  std::string no_way_;
+  bool retreating_ = false;
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,61 @@
+// The planning job: brings the cost map up to date and answers one request. It keeps the cost map and the D* Lite
+// search between jobs; while a job is out, the worker belongs to it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "common/level_map.hpp"
+#include "common/occupancy_grid.hpp"
+#include "planning/cost_map.hpp"
+#include "planning/dstar_lite.hpp"
+#include "planning/exploration.hpp"
+#include "planning/planner.hpp"
+
+namespace swiftlet::autonomy {
+
+struct GoalRequest {
+  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+};
+struct ExploreRequest {
+  std::optional<planning::Viewpoint> current;
+  std::vector<planning::ExplorationAttempt> attempts;
+};
+
+struct PlanningRequest {
+  std::uint64_t intent_id = 0;
+  std::shared_ptr<const common::OccupancyGrid> grid;
+  std::shared_ptr<const common::LevelMap> levels;
+  std::vector<planning::Disc> discs;
+  planning::Footprint footprint;
+  common::Pose2 T_map_body;
+  std::variant<std::monostate, GoalRequest, ExploreRequest> question;  ///< Nothing: only the cost map is wanted.
+};
+
+struct PlanningAnswer {
+  std::uint64_t intent_id = 0;
+  std::shared_ptr<const planning::CostMap> cost_map;
+  std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;  ///< For a GoalRequest.
+  std::optional<planning::ExplorationResult> exploration;                   ///< For an ExploreRequest.
+};
+
+/// One job at a time; a pure function of the requests so far.
+class PlanningWorker {
+ public:
+  PlanningWorker(const planning::CostMap::Config& cost_map, const planning::ExplorationConfig& exploration,
+                 double resolution_m)
+      : exploration_(exploration), map_(cost_map, resolution_m) {}
+
+  PlanningAnswer answer(const PlanningRequest& request);
+
+ private:
+  planning::ExplorationConfig exploration_;
+  planning::CostMap map_;
+  planning::DStarLite planner_;
+};
+
+}  // namespace swiftlet::autonomy

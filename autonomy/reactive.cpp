@@ -1,0 +1,47 @@
+#include "autonomy/reactive.hpp"
+
+#include <limits>
+
+namespace swiftlet::autonomy {
+
+void ReactiveConfig::describe(common::config::Fields& fields) {
+  fields.section("avoidance", avoidance, "Braking and retreat.");
+  fields.section("dynamic_obstacles", dynamic_obstacles, "People and other things that move.");
+}
+
+std::vector<std::string> ReactiveConfig::validate() const { return {}; }
+
+Reactive::Reactive(const ReactiveConfig& config, double hull_radius_m)
+    : avoidance_(config.avoidance, hull_radius_m),
+      background_(common::Duration::fromSeconds(config.dynamic_obstacles.background_age_s)),
+      obstacles_(config.dynamic_obstacles) {
+  decision_.speed_limit_m_s = std::numeric_limits<double>::infinity();
+}
+
+const planning::AvoidanceDecision& Reactive::update(const perception::ProjectedScan& scan,
+                                                    const common::Pose2& T_map_body, const common::VehicleState& state,
+                                                    const Eigen::Vector2d& wish_map_m_s,
+                                                    const std::shared_ptr<const common::OccupancyGrid>& grid,
+                                                    const planning::CostMap* cost_map) {
+  background_.add(scan.stamp, grid);
+  std::vector<Eigen::Vector2f> points_map_m;
+  points_map_m.reserve(scan.points_level_m.size());
+  for (const Eigen::Vector2f& point : scan.points_level_m)
+    points_map_m.push_back((T_map_body * Eigen::Vector2d(point.cast<double>())).cast<float>());
+  if (const auto background = background_.at(scan.stamp))
+    obstacles_.update(scan.stamp, points_map_m, T_map_body.position_m(), *background);
+
+  const Eigen::Rotation2Dd level_from_map(-T_map_body.yaw_rad);
+  planning::AvoidanceInput input;
+  input.stamp = scan.stamp;
+  input.points_level_m = scan.points_level_m;
+  input.velocity_level_m_s = level_from_map * Eigen::Vector2d(state.velocity_map_m_s().head<2>());
+  input.wish_level_m_s = level_from_map * wish_map_m_s;
+  input.T_map_level = T_map_body;
+  input.cost_map = cost_map;
+  input.obstacles = obstacles_.obstacles();
+  decision_ = avoidance_.update(input);
+  return decision_;
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,47 @@
+// The reactive layer at the laser rate: what moves, how fast one may fly, and when to retreat. It acts below every
+// intent.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/vehicle_state.hpp"
+#include "perception/projection/scan_projection.hpp"
+#include "planning/avoidance.hpp"
+#include "planning/dynamic_obstacles.hpp"
+
+namespace swiftlet::autonomy {
+
+struct ReactiveConfig {
+  planning::Avoidance::Config avoidance;
+  planning::DynamicObstacles::Config dynamic_obstacles;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// One thread; update() once a scan.
+class Reactive {
+ public:
+  Reactive(const ReactiveConfig& config, double hull_radius_m);
+
+  /// `cost_map` may be null before the first plan. `wish_map_m_s` is the velocity the intent wants, zero when it holds.
+  const planning::AvoidanceDecision& update(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
+                                            const common::VehicleState& state, const Eigen::Vector2d& wish_map_m_s,
+                                            const std::shared_ptr<const common::OccupancyGrid>& grid,
+                                            const planning::CostMap* cost_map);
+
+  const planning::AvoidanceDecision& decision() const { return decision_; }
+  /// Where people are and will soon be, for the cost map.
+  std::vector<planning::Disc> discs(common::Time now) const { return obstacles_.discs(now); }
+
+ private:
+  planning::Avoidance avoidance_;
+  planning::BackgroundMap background_;
+  planning::DynamicObstacles obstacles_;
+  planning::AvoidanceDecision decision_;
+};
+
+}  // namespace swiftlet::autonomy

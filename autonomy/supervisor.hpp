@@ -1,0 +1,71 @@
+// Stands above the mission: what must work whatever the mission says. Hold and land from the operator, and the answers
+// to a silent laser, an empty battery and a lost estimate.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/command.hpp"
+#include "common/config.hpp"
+#include "common/event.hpp"
+#include "common/time.hpp"
+#include "common/vehicle_config.hpp"
+#include "common/vehicle_state.hpp"
+#include "common/world.hpp"
+#include "perception/fusion/error_state_filter.hpp"
+
+namespace swiftlet::autonomy {
+
+struct SupervisorConfig {
+  double laser_hold_s = 0.3;         ///< Without a usable scan for this long it holds,
+  double laser_land_s = 1.0;         ///< and for this long it lands.
+  double battery_land_share = 0.12;  ///< Remaining charge at which it lands where it is.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// What the supervisor asks for in one tick.
+struct Supervision {
+  bool hold = false;
+  std::string hold_reason;
+  bool land = false;  ///< For good: the mission is over.
+  std::string land_reason;
+};
+
+/// One thread.
+///
+///             hold command, or no scan for laser_hold_s
+///   watching ------------------------------------------> holding
+///      ^  resume command, scans are back                    |
+///      +----------------------------------------------------+
+///   any -- land command, no scan for laser_land_s, battery low --> landing (stays)
+class Supervisor {
+ public:
+  explicit Supervisor(const SupervisorConfig& config) : config_(config) {}
+
+  /// Hold, resume and land are taken here and answered; everything else is for the mission.
+  std::optional<common::CommandResult> take(const common::OperatorCommand& command, common::Time now);
+  void scanArrived(common::Time now) { last_scan_ = now; }
+
+  /// `airborne`: a fault on the ground is no reason to land.
+  const Supervision& tick(common::Time now, bool airborne, const common::VehicleStatus& status);
+
+  bool landedByOperator() const { return landed_by_operator_; }
+  std::vector<common::Event> takeEvents();
+
+ private:
+  void land(common::Time now, std::string reason);
+  void say(common::Time now, common::Severity severity, std::string text, std::string reason);
+
+  SupervisorConfig config_;
+  std::optional<common::Time> last_scan_;
+  bool operator_holds_ = false;
+  bool landed_by_operator_ = false;
+  bool laser_holds_ = false;
+  Supervision supervision_;
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,76 @@
+// links: rendering fake_backend
+// A 640 pixel view of a flat of about 250 x 190 cells, from a snapshot to bytes.
+#include <benchmark/benchmark.h>
+
+#include "rendering/encode.hpp"
+#include "rendering/map_renderer.hpp"
+#include "rendering/resize.hpp"
+#include "tests/rendering/example_flight.hpp"
+
+namespace swiftlet::rendering {
+namespace {
+
+/// 300 x 300 cells, all known.
+std::shared_ptr<const common::World> wholeMap() {
+  testing::ExampleFlight flight;
+  auto world = std::make_shared<common::World>(*flight.advance(30.0));
+  common::OccupancyGrid grid = *world->grid;
+  for (int y = -80; y < 220; ++y)
+    for (int x = -60; x < 240; ++x)
+      if (common::occupancy::isUnknown(grid.at({x, y})))
+        grid.set({x, y}, static_cast<common::occupancy::Cell>(-(x * y) % 60));
+  world->grid = std::make_shared<const common::OccupancyGrid>(grid.snapshot());
+  return world;
+}
+
+void fresh(benchmark::State& state) {
+  const auto world = wholeMap();
+  MapView view;
+  view.width_px = static_cast<int>(state.range(0));
+  view.height_px = view.width_px * 3 / 4;
+  for (auto _ : state) benchmark::DoNotOptimize(renderMap(*world, view));
+}
+BENCHMARK(fresh)->Arg(320)->Arg(640)->Arg(1280)->Unit(benchmark::kMillisecond);
+
+void streamed(benchmark::State& state) {
+  auto world = std::make_shared<common::World>(*wholeMap());
+  common::OccupancyGrid grid = *world->grid;
+  MapRenderer renderer;
+  int step = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    grid.snapshot();
+    for (int tile = 0; tile < 4; ++tile) grid.set({64 * (tile % 2) + step % 60, 64 * (tile / 2)}, 50);
+    ++step;
+    world->grid = std::make_shared<const common::OccupancyGrid>(grid.snapshot());
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(renderer.render(*world, {}));
+  }
+}
+BENCHMARK(streamed)->Unit(benchmark::kMillisecond);
+
+void jpeg(benchmark::State& state) {
+  const common::Image image = renderMap(*wholeMap(), {});
+  JpegEncoder encoder;
+  std::size_t bytes = 0;
+  for (auto _ : state) bytes = encoder.encode(image, 85).size();
+  state.counters["bytes"] = static_cast<double>(bytes);
+}
+BENCHMARK(jpeg)->Unit(benchmark::kMillisecond);
+
+void png(benchmark::State& state) {
+  const common::Image image = renderMap(*wholeMap(), {});
+  std::size_t bytes = 0;
+  for (auto _ : state) bytes = encodePng(image).size();
+  state.counters["bytes"] = static_cast<double>(bytes);
+}
+BENCHMARK(png)->Unit(benchmark::kMillisecond);
+
+void shrinkCamera(benchmark::State& state) {
+  const common::CameraFrame frame = testing::ExampleFlight::cameraFrame(1.0, 1280, 720);
+  for (auto _ : state) benchmark::DoNotOptimize(shrinkToWidth(frame.image, 480));
+}
+BENCHMARK(shrinkCamera)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace swiftlet::rendering

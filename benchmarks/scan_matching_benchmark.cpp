@@ -1,0 +1,86 @@
+// links: perception common
+#include <benchmark/benchmark.h>
+
+#include "perception/projection/scan_projection.hpp"
+#include "perception/scan_matching/correlative_matcher.hpp"
+#include "tests/scan_matching/planar_world.hpp"
+
+namespace {
+
+using namespace swiftlet;
+using common::Pose2;
+using common::Time;
+
+perception::ProjectedScan scanAt(const test::PlanarWorld& world, const Pose2& pose, std::uint64_t frame) {
+  common::RandomStream random(7, "matcher_benchmark", frame);
+  const common::LaserConfig laser;
+  const auto still = [&](Time) { return common::lifted(pose, 1.0); };
+  return perception::project(test::sweep(world, laser, still, Time::fromSeconds(static_cast<double>(frame)), random),
+                             laser, still, perception::ScanProjectionConfig{});
+}
+
+test::PlanarWorld corridor() {
+  test::PlanarWorld world;
+  world.addPolyline({{-40.0, -1.0}, {40.0, -1.0}}, false);
+  world.addPolyline({{-40.0, 1.0}, {40.0, 1.0}}, false);
+  return world;
+}
+
+/// A 1,081-beam scan, covariance included; the argument chooses the instructions.
+void match(benchmark::State& state, const test::PlanarWorld& world, const perception::SearchWindow& window) {
+  const auto instructions = static_cast<perception::Instructions>(state.range(0));
+  if (!perception::isAvailable(instructions)) {
+    state.SkipWithError("this machine has no such instructions");
+    return;
+  }
+  state.SetLabel(toString(instructions));
+  perception::CorrelativeMatcher matcher({}, instructions);
+  const Pose2 reference{0.3, 0.1, 0.4};
+  matcher.addReference(scanAt(world, reference, 0), reference);
+  std::vector<perception::ProjectedScan> scans;
+  std::vector<Pose2> guesses;
+  common::RandomStream random(1, "guess");
+  for (std::uint64_t i = 0; i < 32; ++i) {
+    const Pose2 step{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.2, 0.2)};
+    scans.push_back(scanAt(world, reference * step, i + 1));
+    guesses.push_back(reference * step *
+                      Pose2{random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), random.uniform(-0.01, 0.01)});
+  }
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(matcher.match(scans[i % 32], guesses[i % 32], window));
+    ++i;
+  }
+}
+
+const perception::SearchWindow kFlight{0.04, 0.026};
+const perception::SearchWindow kWide{0.10, 0.052};
+BENCHMARK_CAPTURE(match, flat_4cm_1p5deg, test::flat(), kFlight)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(match, flat_10cm_3deg, test::flat(), kWide)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(match, corridor_4cm_1p5deg, corridor(), kFlight)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+
+void addReference(benchmark::State& state) {
+  const test::PlanarWorld world = test::flat();
+  const Pose2 reference{0.3, 0.1, 0.4};
+  const auto scan = scanAt(world, reference, 0);
+  perception::CorrelativeMatcher matcher{{}};
+  for (auto _ : state) {
+    matcher.clearReference();
+    matcher.addReference(scan, reference);
+    benchmark::DoNotOptimize(matcher.match(scan, reference, {0.0, 0.0}));
+  }
+}
+BENCHMARK(addReference)->Unit(benchmark::kMicrosecond);
+
+void projectScan(benchmark::State& state) {
+  const test::PlanarWorld world = test::flat();
+  common::RandomStream random(7, "project");
+  const common::LaserConfig laser;
+  const auto still = [&](Time) { return common::lifted(Pose2{0.3, 0.1, 0.4}, 1.0); };
+  const auto scan = test::sweep(world, laser, still, Time{}, random);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(perception::project(scan, laser, still, perception::ScanProjectionConfig{}));
+}
+BENCHMARK(projectScan)->Unit(benchmark::kMicrosecond);
+
+}  // namespace

@@ -1,0 +1,55 @@
+#include "common/data_paths.hpp"
+
+#include <cstdlib>
+#include <string>
+#include <system_error>
+
+#include "common/error.hpp"
+
+namespace swiftlet::common {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What stands beside the missing file, to tell a slip of the pen from a wrong folder.
+std::vector<std::string> siblingsOf(const fs::path& name, const std::vector<fs::path>& folders) {
+  std::vector<std::string> siblings;
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder / name.parent_path(), error))
+      siblings.push_back((name.parent_path() / entry.path().filename()).string());
+  }
+  return siblings;
+}
+
+}  // namespace
+
+std::vector<fs::path> dataFolders() {
+  std::vector<fs::path> candidates = {"."};
+  if (const char* given = std::getenv("SWIFTLET_DATA"); given != nullptr && *given != '\0')
+    candidates.emplace_back(given);
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) candidates.push_back(program.parent_path().parent_path() / "share/swiftlet");
+  candidates.emplace_back(SWIFTLET_SOURCE_DIR);
+
+  std::vector<fs::path> folders;
+  for (const fs::path& candidate : candidates)
+    if (fs::is_directory(candidate, error)) folders.push_back(candidate);
+  return folders;
+}
+
+fs::path findData(const fs::path& name) {
+  const std::vector<fs::path> folders = name.is_absolute() ? std::vector<fs::path>{"/"} : dataFolders();
+  std::string places;
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    const fs::path path = folder == "." ? name : folder / name;
+    if (!name.empty() && fs::exists(path, error)) return path;
+    places += (places.empty() ? "" : ", ") + folder.string();
+  }
+  const std::string message = name.is_absolute() ? "no such file" : "no such file in " + places;
+  throw InputError(Problem{{name.string()}, "", message, didYouMean(name.string(), siblingsOf(name, folders))});
+}
+
+}  // namespace swiftlet::common

@@ -1,0 +1,30 @@
+// A table of figures for people: one value that prints as text in a terminal and as rows in a report.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace swiftlet::common {
+
+enum class Mark { kNone, kGood, kBad };
+
+struct TableCell {
+  std::string text;
+  Mark mark = Mark::kNone;
+  std::string link = {};  ///< Relative to the report that shows it; may be empty.
+};
+
+struct Table {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<TableCell>> rows;  ///< Each as long as `columns`.
+};
+
+/// Whether every cell of a column that holds anything begins as a number does. Such columns are aligned to the right.
+bool isNumeric(const Table& table, std::size_t column);
+
+/// Columns aligned by spaces; marks and links are left out.
+std::string toText(const Table& table);
+
+}  // namespace swiftlet::common

@@ -1,0 +1,118 @@
+#include "control/emergency_descent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::control {
+namespace {
+
+constexpr double kStill_m_s = 0.10;
+constexpr double kMaxAcceleration_m_s2 = 2.0;
+constexpr double kMaxIntegral_m_s2 = 2.0;
+
+}  // namespace
+
+void AlphaBetaFilter::reset() {
+  samples_ = 0;
+  velocity_m_s_ = 0.0;
+}
+
+void AlphaBetaFilter::update(const RawHeight& raw) {
+  if (!std::isfinite(raw.height_m) || raw.height_m < 0.0) return;
+  const double dt_s = (raw.stamp - stamp_).seconds();
+  if (samples_ > 0 && dt_s <= 0.0) return;
+  constexpr double kForgotten_s = 1.0;
+  if (samples_ == 0 || dt_s > kForgotten_s) {
+    stamp_ = raw.stamp;
+    height_m_ = raw.height_m;
+    velocity_m_s_ = 0.0;
+    samples_ = 1;
+    return;
+  }
+  const double predicted_m = height_m_ + velocity_m_s_ * dt_s;
+  const double residual_m = raw.height_m - predicted_m;
+  if (std::abs(residual_m) > jump_m_) {
+    height_m_ = raw.height_m;
+  } else {
+    height_m_ = predicted_m + alpha_ * residual_m;
+    velocity_m_s_ += beta_ / dt_s * residual_m;
+  }
+  stamp_ = raw.stamp;
+  ++samples_;
+}
+
+EmergencyDescent::EmergencyDescent(const Config& config)
+    : config_(config), filter_(config.alpha, config.beta, config.jump_m) {}
+
+void EmergencyDescent::start(common::Time now, double standing_height_m) {
+  started_ = last_moving_ = now;
+  standing_height_m_ = standing_height_m;
+  integral_m_s2_ = 0.0;
+  touched_down_ = false;
+}
+
+common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const ThrustModel& thrust) {
+  common::Setpoint setpoint;
+  setpoint.stamp = now;
+  setpoint.motors_on = !touched_down_;
+  if (touched_down_) return setpoint;
+
+  const bool sees = filter_.ready() && (now - filter_.stamp()).seconds() <= config_.blind_after_s;
+  if (!sees) {
+    setpoint.thrust = config_.blind_thrust * thrust.hoverCommand();
+    touched_down_ = (now - started_).seconds() > config_.blind_rest_s;
+    return setpoint;
+  }
+  const bool low = filter_.height_m() < standing_height_m_ + config_.touchdown_height_m;
+  const double wanted_m_s = low ? -config_.touchdown_descent_m_s : -config_.descent_m_s;
+  const double error_m_s = wanted_m_s - filter_.velocity_m_s();
+  integral_m_s2_ =
+      std::clamp(integral_m_s2_ + config_.integral_1_s2 * error_m_s * dt_s, -kMaxIntegral_m_s2, kMaxIntegral_m_s2);
+  const double acceleration_m_s2 =
+      std::clamp(config_.gain_1_s * error_m_s + integral_m_s2_, -kMaxAcceleration_m_s2, kMaxAcceleration_m_s2);
+  setpoint.thrust = thrust.commandFor(acceleration_m_s2, 1.0);
+
+  const bool may_stand =
+      filter_.height_m() < standing_height_m_ + config_.rest_margin_m && std::abs(filter_.velocity_m_s()) < kStill_m_s;
+  if (!may_stand) last_moving_ = now;
+  touched_down_ = (now - last_moving_).seconds() >= config_.rest_s;
+  return setpoint;
+}
+
+void EmergencyDescent::Config::describe(common::config::Fields& fields) {
+  fields("descent_m_s", descent_m_s, "Speed of descent.");
+  fields("touchdown_descent_m_s", touchdown_descent_m_s, "Speed of descent near the ground.");
+  fields("touchdown_height_m", touchdown_height_m, "Near the ground begins this far above standing.");
+  fields("gain_1_s", gain_1_s, "Vertical speed error to acceleration.");
+  fields("integral_1_s2", integral_1_s2, "Its integral to acceleration.");
+  fields("alpha", alpha, "Share of the residual that corrects the height.");
+  fields("beta", beta, "Share of the residual that corrects the speed.");
+  fields("jump_m", jump_m, "A larger residual is a step of the ground.");
+  fields("blind_after_s", blind_after_s, "Without a raw height for this long: sink by thrust alone.");
+  fields("blind_thrust", blind_thrust, "Thrust then, as a share of the hover command.");
+  fields("rest_margin_m", rest_margin_m, "Less than this above where it stood it may be standing.");
+  fields("rest_s", rest_s, "So long low and still: on the ground.");
+  fields("blind_rest_s", blind_rest_s, "After sinking blind for this long the motors stop.");
+}
+
+std::vector<std::string> EmergencyDescent::Config::validate() const {
+  return common::Validation()
+      .within("descent_m_s", descent_m_s, 0.05, 2)
+      .within("touchdown_descent_m_s", touchdown_descent_m_s, 0.05, 2)
+      .within("touchdown_height_m", touchdown_height_m, 0, 5)
+      .within("gain_1_s", gain_1_s, 0, 20)
+      .within("integral_1_s2", integral_1_s2, 0, 20)
+      .within("alpha", alpha, 0.01, 1)
+      .within("beta", beta, 0.001, 1)
+      .positive("jump_m", jump_m)
+      .positive("blind_after_s", blind_after_s)
+      .within("blind_thrust", blind_thrust, 0.5, 1)
+      .within("rest_margin_m", rest_margin_m, 0, 1)
+      .positive("rest_s", rest_s)
+      .positive("blind_rest_s", blind_rest_s)
+      .problems();
+}
+
+}  // namespace swiftlet::control

@@ -1,0 +1,85 @@
+// Comes down without the fused estimate (Tomic 2012, "Action"): level attitude, vertical speed from an alpha-beta
+// filter on the raw height the mirror measures.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/time.hpp"
+#include "common/vehicle.hpp"
+#include "control/thrust_model.hpp"
+
+namespace swiftlet::control {
+
+/// One raw height over whatever is below.
+struct RawHeight {
+  common::Time stamp;  ///< When it was measured.
+  double height_m = 0.0;
+};
+
+/// Height and vertical speed from raw heights, alpha-beta. A jump of the ground below (an edge of a table) moves the
+/// height but not the speed.
+class AlphaBetaFilter {
+ public:
+  AlphaBetaFilter(double alpha, double beta, double jump_m) : alpha_(alpha), beta_(beta), jump_m_(jump_m) {}
+  void reset();
+  /// Non-finite or older ones are left out.
+  void update(const RawHeight& raw);
+  bool ready() const { return samples_ >= 2; }
+  common::Time stamp() const { return stamp_; }
+  double height_m() const { return height_m_; }
+  double velocity_m_s() const { return velocity_m_s_; }
+
+ private:
+  double alpha_, beta_, jump_m_;
+  common::Time stamp_;
+  double height_m_ = 0.0;
+  double velocity_m_s_ = 0.0;
+  int samples_ = 0;
+};
+
+class EmergencyDescent {
+ public:
+  struct Config {
+    double descent_m_s = 0.4;
+    double touchdown_descent_m_s = 0.2;  ///< Less than `touchdown_height_m` above standing.
+    double touchdown_height_m = 0.4;
+    double gain_1_s = 2.5;       ///< Vertical speed error to acceleration.
+    double integral_1_s2 = 0.8;  ///< Integral of the vertical speed error to acceleration.
+    double alpha = 0.4;
+    double beta = 0.08;
+    double jump_m = 0.15;
+    double blind_after_s = 0.5;   ///< Without a raw height for this long: sink by thrust alone.
+    double blind_thrust = 0.95;   ///< Of the hover command.
+    double rest_margin_m = 0.08;  ///< Less than this above where it stood it may be standing.
+    double rest_s = 0.5;          ///< So long low and still: on the ground.
+    double blind_rest_s = 12.0;   ///< Blind for this long: the motors stop.
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+  };
+
+  EmergencyDescent(const Config& config);
+
+  /// In every state, so that the filter is ready when it is needed.
+  void observe(const RawHeight& raw) { filter_.update(raw); }
+  /// `standing_height_m` is what the mirror showed on the ground.
+  void start(common::Time now, double standing_height_m);
+  /// Level, yaw rate zero.
+  common::Setpoint tick(common::Time now, double dt_s, const ThrustModel& thrust);
+  bool touchedDown() const { return touched_down_; }
+  const AlphaBetaFilter& filter() const { return filter_; }
+
+ private:
+  Config config_;
+  AlphaBetaFilter filter_;
+  common::Time started_;
+  common::Time last_moving_;
+  double standing_height_m_ = 0.0;
+  double integral_m_s2_ = 0.0;
+  bool touched_down_ = false;
+};
+
+}  // namespace swiftlet::control

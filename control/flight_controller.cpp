@@ -1,0 +1,380 @@
+#include "control/flight_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::control {
+
+using common::FlightState;
+using common::Severity;
+
+namespace {
+
+constexpr double kLiftedOff_m = 0.06;
+constexpr double kSpoolShare = 0.6;       ///< Of the hover command, before it lifts.
+constexpr double kReferenceLead_m = 0.3;  ///< The height reference runs no farther ahead of the vehicle.
+constexpr double kTouchdownSpeed_m_s = 0.10;
+constexpr double kTouchdownMargin_m = 0.20;
+/// A velocity known this well is worth damping although the position is not known.
+constexpr double kDampedVelocitySigma_m_s = 0.6;
+
+bool isFinite(const common::VehicleState& state) {
+  return state.T_odom_body.position_m.allFinite() && state.T_odom_body.rotation.coeffs().allFinite() &&
+         state.velocity_odom_m_s.allFinite() && state.velocity_covariance_m2_s2.allFinite();
+}
+
+Eigen::Vector3d inFrame(const common::Pose2& T, const Eigen::Vector3d& point_m) {
+  const Eigen::Vector2d planar_m = T * Eigen::Vector2d(point_m.head<2>());
+  return {planar_m.x(), planar_m.y(), point_m.z()};
+}
+
+}  // namespace
+
+FlightController::FlightController(const Config& config, const common::VehicleConfig& vehicle)
+    : config_(config),
+      follower_(config.path),
+      position_(config.position, vehicle),
+      emergency_(config.emergency),
+      dt_s_(1.0 / config.rate_hz) {}
+
+tl::expected<void, std::string> FlightController::command(const FlightCommand& command) {
+  const auto apply = [this](FlightInput input, const std::string& reason) -> tl::expected<void, std::string> {
+    const FlightState from = state();
+    const auto result = machine_.apply(input);
+    if (!result) return tl::unexpected(result.error());
+    enter(from, *result);
+    say(Severity::kInfo, common::toString(*result), reason);
+    return {};
+  };
+  if (std::holds_alternative<Prepared>(command)) return apply(FlightInput::kPrepared, "the estimate has started");
+  if (std::holds_alternative<Land>(command)) {
+    if (state() == FlightState::kLanding) return {};
+    return apply(FlightInput::kLand, "commanded");
+  }
+  if (std::holds_alternative<DisengageMotors>(command)) return apply(FlightInput::kDisengageMotors, "commanded");
+  if (const auto* emergency = std::get_if<Emergency>(&command)) {
+    if (state() == FlightState::kEmergencyLanding) return {};
+    return apply(FlightInput::kEmergency, emergency->reason);
+  }
+  const double height_m = std::get<TakeOff>(command).height_m;
+  const double least_m = last_state_.T_odom_body.position_m.z() + config_.hover_tolerance_m;
+  if (!std::isfinite(height_m) || height_m < least_m)
+    return tl::unexpected(fmt::format("a take-off height of {:.2f} m is not above {:.2f} m", height_m, least_m));
+  if (!last_state_.horizontal_valid || !last_state_.vertical_valid)
+    return tl::unexpected(std::string("take off is not possible without a valid estimate"));
+  if (state() == FlightState::kPoweredOff) {
+    if (auto engaged = apply(FlightInput::kEngageMotors, "to take off"); !engaged) return engaged;
+  }
+  take_off_height_m_ = height_m;
+  return apply(FlightInput::kTakeOff, fmt::format("to {:.2f} m", height_m));
+}
+
+tl::expected<void, std::string> FlightController::follow(const FlightPath& path) {
+  if (!machine_.activation().waypoints)
+    return tl::unexpected(fmt::format("no paths while {}", common::toString(state())));
+  const bool finite = std::all_of(path.points_map_m.begin(), path.points_map_m.end(),
+                                  [](const Eigen::Vector3d& point) { return point.allFinite(); }) &&
+                      std::isfinite(path.goal_yaw_map_rad.value_or(0.0));
+  if (!finite) return tl::unexpected(std::string("the path has points that are not finite"));
+
+  const common::Pose2 T_odom_map = T_map_odom_.inverse();
+  std::vector<Eigen::Vector3d> points_odom_m;
+  points_odom_m.reserve(path.points_map_m.size());
+  for (const Eigen::Vector3d& point : path.points_map_m) points_odom_m.push_back(inFrame(T_odom_map, point));
+  std::optional<double> yaw_odom_rad;
+  if (path.goal_yaw_map_rad) yaw_odom_rad = common::wrapAngle(*path.goal_yaw_map_rad + T_odom_map.yaw_rad);
+  follower_.setPath(std::move(points_odom_m), path.mode, yaw_odom_rad);
+  return {};
+}
+
+void FlightController::hold() { follower_.stop(); }
+
+void FlightController::setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
+
+common::Setpoint FlightController::tick(const FlightTick& tick) {
+  // The first ticks after a pause must not integrate over it.
+  dt_s_ = ticked_ ? std::clamp((tick.now - now_).seconds(), 1e-3, 5.0 / config_.rate_hz) : 1.0 / config_.rate_hz;
+  ticked_ = true;
+  now_ = tick.now;
+  if (tick.raw_height) emergency_.observe(*tick.raw_height);
+  if (isFinite(tick.state)) {
+    keepPathInMap(tick.state);
+    last_state_ = tick.state;
+  }
+  watch(tick);
+  common::Setpoint setpoint = setpointFor(tick);
+  setpoint.stamp = now_;
+  last_thrust_ = setpoint.thrust;
+  return setpoint;
+}
+
+common::Setpoint FlightController::setpointFor(const FlightTick& tick) {
+  common::Setpoint setpoint;
+  switch (state()) {
+    case FlightState::kPreparation:
+    case FlightState::kPoweredOff:
+      position_.thrust().observeVoltage(tick.battery_v, dt_s_);
+      return setpoint;
+    case FlightState::kLanded:
+      position_.thrust().observeVoltage(tick.battery_v, dt_s_);
+      setpoint.motors_on = true;
+      return setpoint;
+    case FlightState::kTakingOff:
+      return takeOff(tick);
+    case FlightState::kFlying:
+      return fly(tick);
+    case FlightState::kLanding:
+      return descend(tick);
+    case FlightState::kEmergencyLanding:
+      position_.thrust().observeVoltage(tick.battery_v, dt_s_);
+      setpoint = emergency_.tick(now_, dt_s_, position_.thrust());
+      if (emergency_.touchedDown()) transition(FlightInput::kTouchedDown, "emergency landing ended on the ground");
+      return setpoint;
+  }
+  return setpoint;
+}
+
+common::Setpoint FlightController::takeOff(const FlightTick& tick) {
+  const double spooled = (now_ - state_since_).seconds() / config_.spool_up_s;
+  const double height_m = last_state_.T_odom_body.position_m.z();
+  if (spooled < 1.0) {
+    common::Setpoint setpoint;
+    setpoint.motors_on = true;
+    position_.thrust().observeVoltage(tick.battery_v, dt_s_);
+    setpoint.thrust = spooled * kSpoolShare * position_.thrust().hoverCommand();
+    return setpoint;
+  }
+  lifted_ = lifted_ || height_m > standing_height_m_ + kLiftedOff_m;
+  moveVertically(take_off_height_m_, config_.climb_m_s, height_m);
+  const common::Setpoint setpoint = track(tick, follower_.advance(dt_s_), !lifted_);
+
+  const bool hovers = std::abs(height_m - take_off_height_m_) <= config_.hover_tolerance_m &&
+                      last_state_.velocity_odom_m_s.norm() <= config_.hover_speed_m_s;
+  if (heldFor(hovers, config_.hover_s)) {
+    transition(FlightInput::kHoverReached, fmt::format("hovers at {:.2f} m", height_m));
+  } else if ((now_ - state_since_).seconds() > config_.take_off_timeout_s) {
+    transition(FlightInput::kLand, fmt::format("not hovering after {:.0f} s", config_.take_off_timeout_s));
+  }
+  return setpoint;
+}
+
+common::Setpoint FlightController::fly(const FlightTick& tick) { return track(tick, follower_.advance(dt_s_)); }
+
+common::Setpoint FlightController::descend(const FlightTick& tick) {
+  const double height_m = last_state_.T_odom_body.position_m.z();
+  const double over_ground_m = last_state_.height_above_ground_m;
+  const bool near = over_ground_m < standing_raw_m_ + config_.touchdown_height_m;
+  moveVertically(-std::numeric_limits<double>::infinity(), near ? config_.touchdown_descent_m_s : config_.descent_m_s,
+                 height_m);
+  const common::Setpoint setpoint = track(tick, follower_.advance(dt_s_));
+
+  // What pushes from below while the controller wants down is the ground.
+  const bool rests = setpoint.thrust < config_.touchdown_thrust * position_.thrust().hoverCommand() &&
+                     std::abs(last_state_.velocity_odom_m_s.z()) < kTouchdownSpeed_m_s &&
+                     over_ground_m < standing_raw_m_ + kTouchdownMargin_m;
+  if (!heldFor(rests, config_.touchdown_s)) return setpoint;
+  transition(FlightInput::kTouchedDown, fmt::format("{:.2f} m over the ground", over_ground_m));
+  common::Setpoint landed;
+  landed.motors_on = true;
+  return landed;
+}
+
+common::Setpoint FlightController::track(const FlightTick& tick, const Reference& reference, bool on_ground) {
+  using Horizontal = PositionController::Horizontal;
+  Reference target = reference;
+  if (state() != FlightState::kFlying) {
+    target.position_odom_m.z() = height_reference_m_;
+    target.velocity_odom_m_s.z() = climb_reference_m_s_;
+    target.acceleration_odom_m_s2.z() = 0.0;
+  }
+  Horizontal horizontal = Horizontal::kPosition;
+  if (!tick.state.horizontal_valid) {
+    const double variance = last_state_.velocity_covariance_m2_s2.diagonal().head<2>().maxCoeff();
+    horizontal = variance < kDampedVelocitySigma_m_s * kDampedVelocitySigma_m_s && !tick.fusion_diverged
+                     ? Horizontal::kVelocity
+                     : Horizontal::kLevel;
+  }
+  return position_.tick(now_, dt_s_, tick.state, target, tick.battery_v, horizontal, on_ground);
+}
+
+void FlightController::moveVertically(double goal_m, double speed_m_s, double height_m) {
+  const double left_m = goal_m - height_reference_m_;
+  const double stoppable = std::sqrt(2.0 * config_.climb_acceleration_m_s2 * std::abs(left_m));
+  const double wanted = std::copysign(std::min({speed_m_s, stoppable, std::abs(left_m) / dt_s_}), left_m);
+  const double step = config_.climb_acceleration_m_s2 * dt_s_;
+  climb_reference_m_s_ = std::clamp(wanted, climb_reference_m_s_ - 1.2 * step, climb_reference_m_s_ + 1.2 * step);
+  height_reference_m_ = std::clamp(height_reference_m_ + climb_reference_m_s_ * dt_s_, height_m - kReferenceLead_m,
+                                   height_m + kReferenceLead_m);
+}
+
+bool FlightController::heldFor(bool condition, double seconds) {
+  if (!condition) {
+    condition_since_.reset();
+    return false;
+  }
+  if (!condition_since_) condition_since_ = now_;
+  return (now_ - *condition_since_).seconds() >= seconds;
+}
+
+void FlightController::watch(const FlightTick& tick) {
+  const bool vertical = isFinite(tick.state) && tick.state.vertical_valid;
+  if (vertical) {
+    vertical_lost_.reset();
+  } else if (!vertical_lost_) {
+    vertical_lost_ = now_;
+  }
+  if (tick.fusion_diverged && state() == FlightState::kLanded) transition(FlightInput::kEmergency, "fusion diverged");
+  if (!isAirborne(state()) || state() == FlightState::kEmergencyLanding) return;
+  if (tick.fusion_diverged) {
+    transition(FlightInput::kEmergency, "fusion diverged");
+  } else if (vertical_lost_ && (now_ - *vertical_lost_).seconds() >= config_.vertical_loss_s) {
+    transition(FlightInput::kEmergency, fmt::format("no valid height for {:.1f} s", config_.vertical_loss_s));
+  } else {
+    watchHorizontal(tick);
+  }
+}
+
+void FlightController::watchHorizontal(const FlightTick& tick) {
+  if (tick.state.horizontal_valid) {
+    if (horizontal_lost_) {
+      // Where it is now, not where it was to be: that may be far away.
+      Eigen::Vector3d here = last_state_.T_odom_body.position_m;
+      here.z() = follower_.reference().position_odom_m.z();
+      follower_.reset(here, common::yawOf(last_state_.T_odom_body.rotation));
+      say(Severity::kInfo, "horizontal estimate is back");
+    }
+    horizontal_lost_.reset();
+    return;
+  }
+  if (!horizontal_lost_) {
+    horizontal_lost_ = now_;
+    follower_.stop();
+    say(Severity::kWarning, "horizontal estimate lost", "holding the velocity");
+  }
+  if (state() != FlightState::kLanding && (now_ - *horizontal_lost_).seconds() >= config_.horizontal_loss_s)
+    transition(FlightInput::kLand, fmt::format("no horizontal estimate for {:.1f} s", config_.horizontal_loss_s));
+}
+
+void FlightController::keepPathInMap(const common::VehicleState& state) {
+  const common::Pose2& now = state.T_map_odom;
+  const bool same = now.x_m == T_map_odom_.x_m && now.y_m == T_map_odom_.y_m && now.yaw_rad == T_map_odom_.yaw_rad;
+  if (same) return;
+  follower_.movePath(now.inverse() * T_map_odom_);
+  T_map_odom_ = now;
+}
+
+void FlightController::transition(FlightInput input, const std::string& reason) {
+  const FlightState from = state();
+  const auto result = machine_.apply(input);
+  if (!result) return;
+  enter(from, *result);
+  const bool bad = input == FlightInput::kEmergency || input == FlightInput::kLand;
+  say(bad ? Severity::kWarning : Severity::kInfo, common::toString(*result), reason);
+}
+
+void FlightController::enter(FlightState from, FlightState entered) {
+  state_since_ = now_;
+  condition_since_.reset();
+  const Eigen::Vector3d& position_m = last_state_.T_odom_body.position_m;
+  const double yaw_rad = common::yawOf(last_state_.T_odom_body.rotation);
+  switch (entered) {
+    case FlightState::kTakingOff:
+      standing_height_m_ = position_m.z();
+      standing_raw_m_ = emergency_.filter().ready() ? emergency_.filter().height_m() : position_m.z();
+      follower_.reset(position_m, yaw_rad);
+      position_.reset();
+      height_reference_m_ = position_m.z();
+      climb_reference_m_s_ = 0.0;
+      lifted_ = false;
+      return;
+    case FlightState::kFlying: {
+      Eigen::Vector3d hover = follower_.reference().position_odom_m;
+      hover.z() = take_off_height_m_;
+      follower_.reset(hover, follower_.reference().yaw_odom_rad);
+      return;
+    }
+    case FlightState::kLanding:
+      // While taking off the height reference already moves on its own; while flying it is the path's.
+      if (from == FlightState::kFlying) {
+        height_reference_m_ = follower_.reference().position_odom_m.z();
+        climb_reference_m_s_ = follower_.reference().velocity_odom_m_s.z();
+      }
+      follower_.stop();
+      return;
+    case FlightState::kEmergencyLanding:
+      emergency_.start(now_, standing_raw_m_);
+      return;
+    case FlightState::kPreparation:
+    case FlightState::kPoweredOff:
+    case FlightState::kLanded:
+      follower_.reset(position_m, yaw_rad);
+      return;
+  }
+}
+
+bool FlightController::stopped() const {
+  if (!isAirborne(state())) return true;
+  if (state() != FlightState::kFlying) return false;
+  return follower_.reference().velocity_odom_m_s.norm() < config_.stopped_speed_m_s &&
+         last_state_.velocity_odom_m_s.norm() < config_.stopped_speed_m_s;
+}
+
+bool FlightController::pathFinished() const { return follower_.finished(); }
+
+std::vector<common::Event> FlightController::takeEvents() { return std::exchange(events_, {}); }
+
+void FlightController::say(Severity severity, std::string text, std::string reason) {
+  events_.push_back({now_, severity, "flight", std::move(text), std::move(reason)});
+}
+
+void FlightController::Config::describe(common::config::Fields& fields) {
+  fields("rate_hz", rate_hz, "Ticks a second.");
+  fields("spool_up_s", spool_up_s, "From engaging the motors to lifting.");
+  fields("climb_m_s", climb_m_s, "Climb speed when taking off.");
+  fields("descent_m_s", descent_m_s, "Descent speed when landing.");
+  fields("touchdown_descent_m_s", touchdown_descent_m_s, "Descent speed near the ground.");
+  fields("touchdown_height_m", touchdown_height_m, "Near the ground begins this far above standing.");
+  fields("take_off_timeout_s", take_off_timeout_s, "Not hovering after this long: land again.");
+  fields("climb_acceleration_m_s2", climb_acceleration_m_s2, "Vertical acceleration of taking off and landing.");
+  fields("hover_tolerance_m", hover_tolerance_m, "Taking off ends this close to the height.");
+  fields("hover_speed_m_s", hover_speed_m_s, "And this slow.");
+  fields("hover_s", hover_s, "For so long.");
+  fields("touchdown_thrust", touchdown_thrust, "Below this share of the hover command the ground carries it.");
+  fields("touchdown_s", touchdown_s, "For so long.");
+  fields("stopped_speed_m_s", stopped_speed_m_s, "Slower than this it has stopped.");
+  fields("horizontal_loss_s", horizontal_loss_s, "Without a horizontal estimate for this long: land.");
+  fields("vertical_loss_s", vertical_loss_s, "Without a vertical estimate for this long: emergency.");
+  fields.section("path", path, "References from paths.");
+  fields.section("position", position, "Position controller.");
+  fields.section("emergency", emergency, "Emergency descent.");
+}
+
+std::vector<std::string> FlightController::Config::validate() const {
+  return common::Validation()
+      .within("rate_hz", rate_hz, 20, 1000)
+      .within("spool_up_s", spool_up_s, 0.05, 10)
+      .within("climb_m_s", climb_m_s, 0.05, 3)
+      .within("descent_m_s", descent_m_s, 0.05, 3)
+      .within("touchdown_descent_m_s", touchdown_descent_m_s, 0.05, 3)
+      .within("touchdown_height_m", touchdown_height_m, 0, 5)
+      .positive("take_off_timeout_s", take_off_timeout_s)
+      .within("climb_acceleration_m_s2", climb_acceleration_m_s2, 0.05, 5)
+      .positive("hover_tolerance_m", hover_tolerance_m)
+      .positive("hover_speed_m_s", hover_speed_m_s)
+      .within("hover_s", hover_s, 0, 10)
+      .within("touchdown_thrust", touchdown_thrust, 0.1, 0.99)
+      .within("touchdown_s", touchdown_s, 0, 10)
+      .positive("stopped_speed_m_s", stopped_speed_m_s)
+      .positive("horizontal_loss_s", horizontal_loss_s)
+      .positive("vertical_loss_s", vertical_loss_s)
+      .problems();
+}
+
+}  // namespace swiftlet::control

@@ -1,0 +1,147 @@
+// The action layer in one object: state machine, path follower, position controller and emergency descent (Tomic 2012,
+// "Action"). Ticked at 100 Hz; returns the setpoint for the autopilot.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+#include <tl/expected.hpp>
+
+#include "common/config.hpp"
+#include "common/event.hpp"
+#include "common/vehicle.hpp"
+#include "common/vehicle_config.hpp"
+#include "common/vehicle_state.hpp"
+#include "common/world.hpp"
+#include "control/emergency_descent.hpp"
+#include "control/flight_state_machine.hpp"
+#include "control/path_follower.hpp"
+#include "control/position_controller.hpp"
+
+namespace swiftlet::control {
+
+/// The fusion has been initialized on the ground: preparation -> powered off.
+struct Prepared {};
+/// To this height over the take-off floor, above where it stands. Engages the motors when they are off.
+struct TakeOff {
+  double height_m = 1.0;
+};
+struct Land {};
+struct DisengageMotors {};
+struct Emergency {
+  std::string reason;
+};
+using FlightCommand = std::variant<Prepared, TakeOff, Land, DisengageMotors, Emergency>;
+
+/// A path in `map`; it follows the map when SLAM corrects T_map_odom.
+struct FlightPath {
+  std::vector<Eigen::Vector3d> points_map_m;  ///< z over the take-off floor. The last one is the goal.
+  FlightMode mode = FlightMode::kCareful;
+  std::optional<double> goal_yaw_map_rad;
+};
+
+/// What one tick knows.
+struct FlightTick {
+  common::Time now;
+  common::VehicleState state;
+  std::optional<RawHeight> raw_height;  ///< A new one since the last tick, else none.
+  double battery_v = 0.0;               ///< Latest; 0 while unknown.
+  bool fusion_diverged = false;
+};
+
+/// One thread. Never throws; refused commands say why.
+class FlightController {
+ public:
+  struct Config {
+    double rate_hz = 100.0;
+    double spool_up_s = 0.8;  ///< From engaging the motors to lifting.
+    double climb_m_s = 0.5;
+    double descent_m_s = 0.4;
+    double touchdown_descent_m_s = 0.2;
+    double touchdown_height_m = 0.4;   ///< Over what is below: slower from here on.
+    double take_off_timeout_s = 15.0;  ///< Not hovering after this long: land again.
+    double climb_acceleration_m_s2 = 0.8;
+    double hover_tolerance_m = 0.10;  ///< Taking off ends this close to the height ...
+    double hover_speed_m_s = 0.15;    ///< ... and this slow ...
+    double hover_s = 0.4;             ///< ... for so long.
+    double touchdown_thrust = 0.7;    ///< Below this share of the hover command something else carries the vehicle.
+    double touchdown_s = 0.3;
+    double stopped_speed_m_s = 0.10;
+    double horizontal_loss_s = 1.0;  ///< No horizontal estimate for this long: land level.
+    double vertical_loss_s = 0.3;    ///< No vertical estimate for this long: emergency.
+    PathFollower::Config path;
+    PositionController::Config position;
+    EmergencyDescent::Config emergency;
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+  };
+
+  FlightController(const Config& config, const common::VehicleConfig& vehicle);
+
+  tl::expected<void, std::string> command(const FlightCommand& command);
+  /// Only while flying (Table 1). An empty path stops.
+  tl::expected<void, std::string> follow(const FlightPath& path);
+  /// Stops as fast as the flight mode allows and holds.
+  void hold();
+  /// From the reactive layer; infinity lifts it.
+  void setSpeedLimit(double speed_m_s);
+
+  common::Setpoint tick(const FlightTick& tick);
+
+  common::FlightState state() const { return machine_.state(); }
+  /// On the ground, or flying with the reference at rest and the vehicle slow.
+  bool stopped() const;
+  /// The goal of the last path is reached by the reference.
+  bool pathFinished() const;
+  double remaining_m() const { return follower_.remaining_m(); }
+  const Reference& reference() const { return follower_.reference(); }
+  /// What happened since the last call.
+  std::vector<common::Event> takeEvents();
+  const PositionController& positionController() const { return position_; }
+
+ private:
+  /// An input the state does not take changes nothing.
+  void transition(FlightInput input, const std::string& reason);
+  void enter(common::FlightState from, common::FlightState entered);
+  void say(common::Severity severity, std::string text, std::string reason = {});
+  void watch(const FlightTick& tick);
+  void watchHorizontal(const FlightTick& tick);
+  void keepPathInMap(const common::VehicleState& state);
+  common::Setpoint setpointFor(const FlightTick& tick);
+  common::Setpoint takeOff(const FlightTick& tick);
+  common::Setpoint fly(const FlightTick& tick);
+  common::Setpoint descend(const FlightTick& tick);
+  common::Setpoint track(const FlightTick& tick, const Reference& reference, bool on_ground = false);
+  void moveVertically(double goal_m, double speed_m_s, double height_m);
+  bool heldFor(bool condition, double seconds);
+
+  Config config_;
+  FlightStateMachine machine_;
+  PathFollower follower_;
+  PositionController position_;
+  EmergencyDescent emergency_;
+  std::vector<common::Event> events_;
+
+  common::Time now_;
+  bool ticked_ = false;
+  double dt_s_;
+  common::VehicleState last_state_;
+  common::Pose2 T_map_odom_;
+  double standing_height_m_ = 0.0;  ///< Of the body origin over the take-off floor.
+  double standing_raw_m_ = 0.0;     ///< The same as the mirror sees it.
+  double take_off_height_m_ = 1.0;
+  double height_reference_m_ = 0.0;  ///< Taking off and landing move it themselves.
+  double climb_reference_m_s_ = 0.0;
+  bool lifted_ = false;
+  common::Time state_since_;
+  std::optional<common::Time> condition_since_;  ///< Hover reached, or touched down.
+  std::optional<common::Time> horizontal_lost_;
+  std::optional<common::Time> vertical_lost_;
+  double last_thrust_ = 0.0;
+};
+
+}  // namespace swiftlet::control

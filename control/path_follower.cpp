@@ -1,0 +1,309 @@
+#include "control/path_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "common/check.hpp"
+#include "common/validation.hpp"
+#include "control/path_shape.hpp"
+
+namespace swiftlet::control {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+/// Sudden change of the velocity vector that the reference filter may be asked to smooth.
+constexpr double kKink_m_s = 0.12;
+/// How far the reference may lie off a new path before a line is drawn that leads it there.
+constexpr double kOnPath_m = 0.03;
+/// A new path is joined somewhere on its first stretch of this length.
+constexpr double kJoin_m = 1.5;
+constexpr double kAtGoal_m = 1e-3;
+constexpr double kAtRest_m_s = 1e-3;
+constexpr double kYawReached_rad = 0.01;
+/// Shorter looks ahead do not tell a direction.
+constexpr double kLeastLook_m = 0.05;
+
+}  // namespace
+
+const char* toString(FlightMode mode) {
+  switch (mode) {
+    case FlightMode::kFast:
+      return "fast";
+    case FlightMode::kCareful:
+      return "careful";
+    case FlightMode::kAccurate:
+      return "accurate";
+  }
+  return "";
+}
+
+PathFollower::PathFollower(const Config& config)
+    : config_(config), limits_(config.careful), speed_limit_m_s_(std::numeric_limits<double>::infinity()) {
+  reset(Eigen::Vector3d::Zero(), 0.0);
+}
+
+void PathFollower::reset(const Eigen::Vector3d& position_odom_m, double yaw_odom_rad) {
+  reference_ = {};
+  reference_.position_odom_m = position_odom_m;
+  reference_.yaw_odom_rad = hold_yaw_odom_rad_ = yaw_odom_rad;
+  goal_yaw_odom_rad_.reset();
+  faces_travel_ = false;
+  lay({position_odom_m});
+  carrot_speed_m_s_ = carrot_acceleration_m_s2_ = 0.0;
+}
+
+void PathFollower::lay(std::vector<Eigen::Vector3d> points) {
+  points_ = std::move(points);
+  distances_m_ = distancesAlong(points_);
+  speeds_m_s_ =
+      speedsAlong(points_, {limits_.speed_m_s, limits_.acceleration_m_s2, config_.climb_speed_m_s, kKink_m_s});
+  carrot_m_ = 0.0;
+}
+
+void PathFollower::setPath(std::vector<Eigen::Vector3d> points, FlightMode mode,
+                           std::optional<double> goal_yaw_odom_rad) {
+  limits_ = config_.limits(mode);
+  if (points.empty()) {
+    stop();
+    return;
+  }
+  points = simplified(points, config_.simplify_tolerance_m);
+  bool turns = false;
+  points = joined(points, turns);
+  lay(rounded(points, limits_.corner_deviation_m, turns));
+  carrot_speed_m_s_ = 0.0;
+  if (points_.size() > 1) {
+    const Eigen::Vector3d direction = (points_[1] - points_[0]).normalized();
+    carrot_speed_m_s_ = std::max(0.0, reference_.velocity_odom_m_s.dot(direction));
+  }
+  goal_yaw_odom_rad_ = goal_yaw_odom_rad;
+  faces_travel_ = remaining_m() > config_.turn_distance_m;
+}
+
+std::vector<Eigen::Vector3d> PathFollower::joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const {
+  const std::vector<double> along = distancesAlong(points);
+  const auto rest = [&](double from_m) {
+    std::vector<Eigen::Vector3d> out{pointOn(points, along, from_m)};
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (along[i] > from_m + 1e-6) out.push_back(points[i]);
+    return out;
+  };
+  const Eigen::Vector3d& here = reference_.position_odom_m;
+  const Eigen::Vector3d& velocity = reference_.velocity_odom_m_s;
+  const auto [near_m, off_m] = nearestOn(points, along, here, kJoin_m);
+
+  std::vector<Eigen::Vector3d> out = rest(near_m);
+  // Within reach of the reference filter: the carrot starts on the path itself.
+  const Eigen::Vector3d direction =
+      out.size() > 1 ? Eigen::Vector3d((out[1] - out[0]).normalized()) : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d across = velocity - std::max(0.0, velocity.dot(direction)) * direction;
+  if (off_m <= kOnPath_m && across.norm() <= 2.0 * kKink_m_s) return out;
+
+  if (velocity.norm() <= 2.0 * kKink_m_s) {  // Slow: straight to a point as far ahead as it is off.
+    out = rest(std::min(near_m + off_m, along.back()));
+    out.insert(out.begin(), here);
+    return out;
+  }
+  // Fast in another direction: on along the velocity, as far as turning (or stopping) takes, then over to the path.
+  const double speed = velocity.norm();
+  const Eigen::Vector3d heading = velocity / speed;
+  const Eigen::Vector3d target = pointOn(points, along, std::min(near_m + std::max(off_m, 0.3), along.back()));
+  const double cosine = std::clamp(heading.dot((target - here).normalized()), -1.0, 1.0);
+  const double stop_m = 0.5 * speed * speed / limits_.acceleration_m_s2;
+  const double turn_m = 2.0 * stop_m * std::sqrt((1.0 - cosine) / std::max(1e-6, 1.0 + cosine));
+  const Eigen::Vector3d corner = here + std::min(stop_m, turn_m) * heading;
+  const auto [corner_m, corner_off_m] = nearestOn(points, along, corner, kJoin_m);
+  out = rest(std::min(corner_m + std::max(corner_off_m, std::min(stop_m, turn_m)), along.back()));
+  out.insert(out.begin(), {here, corner});
+  turns = true;
+  return out;
+}
+
+void PathFollower::stop() {
+  const Eigen::Vector3d& velocity = reference_.velocity_odom_m_s;
+  const double speed = velocity.norm();
+  std::vector<Eigen::Vector3d> points{reference_.position_odom_m};
+  if (speed > kAtRest_m_s)
+    points.push_back(reference_.position_odom_m + velocity * (0.5 * speed / limits_.acceleration_m_s2));
+  lay(std::move(points));
+  carrot_speed_m_s_ = points_.size() > 1 ? speed : 0.0;
+  goal_yaw_odom_rad_.reset();
+  faces_travel_ = false;
+  hold_yaw_odom_rad_ = reference_.yaw_odom_rad;
+}
+
+void PathFollower::setSpeedLimit(double speed_m_s) {
+  speed_limit_m_s_ = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s);
+}
+
+void PathFollower::movePath(const common::Pose2& T_new_old) {
+  for (Eigen::Vector3d& point : points_) point.head<2>() = T_new_old * Eigen::Vector2d(point.head<2>());
+  if (goal_yaw_odom_rad_) *goal_yaw_odom_rad_ += T_new_old.yaw_rad;
+}
+
+const Reference& PathFollower::advance(double dt_s) {
+  advanceCarrot(dt_s);
+  pullReference(dt_s);
+  advanceYaw(dt_s);
+  return reference_;
+}
+
+void PathFollower::advanceCarrot(double dt_s) {
+  const double before = carrot_speed_m_s_;
+  const double step = limits_.acceleration_m_s2 * dt_s;
+  // Curves are sampled: braking for them may be a little firmer than planned.
+  carrot_speed_m_s_ = std::clamp(allowedSpeed(dt_s), std::max(0.0, before - 1.2 * step), before + step);
+  carrot_m_ += 0.5 * (before + carrot_speed_m_s_) * dt_s;
+  const double end_m = distances_m_.back();
+  if (carrot_m_ >= end_m - 1e-5) {
+    carrot_m_ = end_m;
+    carrot_speed_m_s_ = 0.0;
+  }
+  carrot_acceleration_m_s2_ =
+      std::clamp((carrot_speed_m_s_ - before) / dt_s, -1.2 * limits_.acceleration_m_s2, limits_.acceleration_m_s2);
+}
+
+double PathFollower::allowedSpeed(double dt_s) const {
+  double speed = std::min(limits_.speed_m_s, speed_limit_m_s_);
+  if (points_.size() < 2) return 0.0;
+  const std::size_t segment = segmentAt(carrot_m_);
+  const double to_next_m = distances_m_[segment + 1] - carrot_m_;
+  const double next = speeds_m_s_[segment + 1];
+  // v^2 = next^2 + 2 a (way left after this step): solved for the speed at the end of the step, so that braking needs
+  // no more than a to the very end.
+  const double a = limits_.acceleration_m_s2, half = 0.5 * a * dt_s;
+  const double left2 = next * next + 2.0 * a * std::max(0.0, to_next_m) - a * dt_s * carrot_speed_m_s_;
+  speed = std::min(speed, std::max(0.0, std::sqrt(std::max(0.0, half * half + left2)) - half));
+  const Eigen::Vector3d along = points_[segment + 1] - points_[segment];
+  const double length_m = along.norm();
+  if (std::abs(along.z()) > 1e-6) speed = std::min(speed, config_.climb_speed_m_s * length_m / std::abs(along.z()));
+  const double planar_m = along.head<2>().norm();
+  if (faces_travel_ && planar_m > 0.5 * length_m) {
+    const double off_nose = common::wrapAngle(std::atan2(along.y(), along.x()) - reference_.yaw_odom_rad);
+    if (std::abs(off_nose) > config_.turn_first_angle_deg * kRadPerDeg)
+      speed = std::min(speed, config_.turn_first_speed_m_s);
+  }
+  return speed;
+}
+
+void PathFollower::pullReference(double dt_s) {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  if (points_.size() > 1) {
+    const std::size_t segment = segmentAt(carrot_m_);
+    direction = (points_[segment + 1] - points_[segment]).normalized();
+  }
+  const Eigen::Vector3d carrot_velocity = carrot_speed_m_s_ * direction;
+  const double w = config_.filter_rad_s;
+  // x'' = c'' + 2 w (c' - x') + w^2 (c - x): critically damped, without lag behind a carrot on a straight line. Exact
+  // for the error, which decays as (e0 + (e0' + w e0) t) exp(-w t).
+  const Eigen::Vector3d carrot = pointOn(points_, distances_m_, carrot_m_);
+  const Eigen::Vector3d carrot_before =
+      carrot - carrot_velocity * dt_s + 0.5 * carrot_acceleration_m_s2_ * dt_s * dt_s * direction;
+  const Eigen::Vector3d velocity_before = carrot_velocity - carrot_acceleration_m_s2_ * dt_s * direction;
+  const Eigen::Vector3d error = reference_.position_odom_m - carrot_before;
+  const Eigen::Vector3d error_rate = reference_.velocity_odom_m_s - velocity_before;
+  const Eigen::Vector3d slope = error_rate + w * error;
+  const double decay = std::exp(-w * dt_s);
+  const Eigen::Vector3d error_now = decay * (error + dt_s * slope);
+  const Eigen::Vector3d error_rate_now = decay * (slope - w * (error + dt_s * slope));
+  reference_.position_odom_m = carrot + error_now;
+  reference_.velocity_odom_m_s = carrot_velocity + error_rate_now;
+  reference_.acceleration_odom_m_s2 =
+      carrot_acceleration_m_s2_ * direction - 2.0 * w * error_rate_now - w * w * error_now;
+}
+
+void PathFollower::advanceYaw(double dt_s) {
+  double wanted_rad = hold_yaw_odom_rad_;
+  const double left_m = remaining_m();
+  if (faces_travel_ && left_m > config_.turn_distance_m) {
+    const Eigen::Vector3d ahead = pointOn(points_, distances_m_, carrot_m_ + config_.look_ahead_m);
+    const Eigen::Vector2d look = (ahead - reference_.position_odom_m).head<2>();
+    if (look.norm() > kLeastLook_m) hold_yaw_odom_rad_ = wanted_rad = std::atan2(look.y(), look.x());
+  } else if (goal_yaw_odom_rad_) {
+    hold_yaw_odom_rad_ = wanted_rad = *goal_yaw_odom_rad_;
+  }
+  const double error = common::wrapAngle(wanted_rad - reference_.yaw_odom_rad);
+  const double most_rad_s = config_.yaw_rate_deg_s * kRadPerDeg;
+  const double step = config_.yaw_acceleration_deg_s2 * kRadPerDeg * dt_s;
+  const double stoppable = std::sqrt(2.0 * config_.yaw_acceleration_deg_s2 * kRadPerDeg * std::abs(error));
+  // The last step lands on the goal instead of hunting about it.
+  const double rate = std::min({most_rad_s, stoppable, std::abs(error) / dt_s});
+  reference_.yaw_rate_rad_s = std::clamp(std::copysign(rate, error), reference_.yaw_rate_rad_s - 1.2 * step,
+                                         reference_.yaw_rate_rad_s + 1.2 * step);
+  reference_.yaw_odom_rad = common::wrapAngle(reference_.yaw_odom_rad + reference_.yaw_rate_rad_s * dt_s);
+}
+
+double PathFollower::remaining_m() const { return distances_m_.back() - carrot_m_; }
+
+bool PathFollower::finished() const {
+  const bool there = remaining_m() <= 0.0 && (reference_.position_odom_m - points_.back()).norm() <= kAtGoal_m &&
+                     reference_.velocity_odom_m_s.norm() <= kAtRest_m_s;
+  return there && (!goal_yaw_odom_rad_ ||
+                   std::abs(common::wrapAngle(*goal_yaw_odom_rad_ - reference_.yaw_odom_rad)) <= kYawReached_rad);
+}
+
+std::size_t PathFollower::segmentAt(double distance_m) const {
+  const auto after = std::upper_bound(distances_m_.begin() + 1, distances_m_.end() - 1, distance_m);
+  return static_cast<std::size_t>(after - distances_m_.begin()) - 1;
+}
+
+const PathFollower::Limits& PathFollower::Config::limits(FlightMode mode) const {
+  switch (mode) {
+    case FlightMode::kFast:
+      return fast;
+    case FlightMode::kCareful:
+      return careful;
+    case FlightMode::kAccurate:
+      return accurate;
+  }
+  SWIFTLET_CHECK(false, static_cast<int>(mode));
+  return careful;
+}
+
+void PathFollower::Limits::describe(common::config::Fields& fields) {
+  fields("speed_m_s", speed_m_s, "Greatest speed.");
+  fields("acceleration_m_s2", acceleration_m_s2, "Greatest acceleration along the path and across it.");
+  fields("corner_deviation_m", corner_deviation_m, "How far a corner may be cut.");
+}
+
+std::vector<std::string> PathFollower::Limits::validate() const {
+  return common::Validation()
+      .within("speed_m_s", speed_m_s, 0.01, 20)
+      .within("acceleration_m_s2", acceleration_m_s2, 0.05, 10)
+      .within("corner_deviation_m", corner_deviation_m, 0.001, 5)
+      .problems();
+}
+
+void PathFollower::Config::describe(common::config::Fields& fields) {
+  fields.section("fast", fast, "Flight mode fast.");
+  fields.section("careful", careful, "Flight mode careful.");
+  fields.section("accurate", accurate, "Flight mode accurate.");
+  fields("climb_speed_m_s", climb_speed_m_s, "Greatest vertical part of the speed.");
+  fields("filter_rad_s", filter_rad_s, "Bandwidth of the reference filter.");
+  fields("simplify_tolerance_m", simplify_tolerance_m, "Points this close to a line between others are left out.");
+  fields("turn_distance_m", turn_distance_m, "Goals farther than this are faced.");
+  fields("yaw_rate_deg_s", yaw_rate_deg_s, "Greatest yaw rate.");
+  fields("yaw_acceleration_deg_s2", yaw_acceleration_deg_s2, "Greatest yaw acceleration.");
+  fields("look_ahead_m", look_ahead_m, "The yaw faces the path this far ahead.");
+  fields("turn_first_angle_deg", turn_first_angle_deg, "Flying this far off the nose it turns first.");
+  fields("turn_first_speed_m_s", turn_first_speed_m_s, "Greatest speed meanwhile.");
+}
+
+std::vector<std::string> PathFollower::Config::validate() const {
+  return common::Validation()
+      .within("climb_speed_m_s", climb_speed_m_s, 0.05, 5)
+      .within("filter_rad_s", filter_rad_s, 0.5, 50)
+      .within("simplify_tolerance_m", simplify_tolerance_m, 0, 1)
+      .within("turn_distance_m", turn_distance_m, 0, 100)
+      .within("yaw_rate_deg_s", yaw_rate_deg_s, 1, 360)
+      .within("yaw_acceleration_deg_s2", yaw_acceleration_deg_s2, 1, 3600)
+      .within("look_ahead_m", look_ahead_m, 0.05, 10)
+      .within("turn_first_angle_deg", turn_first_angle_deg, 0, 180)
+      .within("turn_first_speed_m_s", turn_first_speed_m_s, 0.01, 5)
+      .problems();
+}
+
+}  // namespace swiftlet::control

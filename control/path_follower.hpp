@@ -1,0 +1,104 @@
+// From a path to a smooth reference (Tomic 2012, "Action": straight lines between waypoints, flown in modes, run
+// through a filter of the vehicle's translational dynamics). A carrot runs along the lines under a trapezoid of speed;
+// the reference is pulled after it by a critically damped filter fed with the carrot's own speed and acceleration, so
+// that it lies on the carrot on a straight line and rounds the corners. Whatever is changed in flight (path, limit,
+// frame) moves the carrot alone: the reference stays continuous in position and velocity.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "control/reference.hpp"
+
+namespace swiftlet::control {
+
+enum class FlightMode { kFast, kCareful, kAccurate };
+const char* toString(FlightMode mode);
+
+/// One thread.
+class PathFollower {
+ public:
+  struct Limits {
+    double speed_m_s = 1.0;
+    double acceleration_m_s2 = 1.0;
+    double corner_deviation_m = 0.05;  ///< How far the reference may leave the lines at a corner.
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+  };
+
+  struct Config {
+    Limits fast{1.0, 1.2, 0.08};
+    Limits careful{0.6, 0.8, 0.05};
+    Limits accurate{0.3, 0.5, 0.02};
+    double climb_speed_m_s = 0.5;        ///< Vertical part of the speed, all modes.
+    double filter_rad_s = 5.0;           ///< Bandwidth of the reference filter.
+    double simplify_tolerance_m = 0.01;  ///< Points this close to the line between their neighbours are left out.
+    double turn_distance_m = 0.6;        ///< Goals farther than this are faced; nearer ones are flown to sideways.
+    double yaw_rate_deg_s = 60.0;
+    double yaw_acceleration_deg_s2 = 180.0;
+    double look_ahead_m = 0.5;            ///< The yaw faces the path this far ahead.
+    double turn_first_angle_deg = 100.0;  ///< Flying this far off the nose is behind the laser: turn first.
+    double turn_first_speed_m_s = 0.15;   ///< Meanwhile.
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+    const Limits& limits(FlightMode mode) const;
+  };
+
+  explicit PathFollower(const Config& config);
+
+  /// Places the reference at rest; forgets the path.
+  void reset(const Eigen::Vector3d& position_odom_m, double yaw_odom_rad);
+
+  /// Replaces the path. The points are in odom, the goal is the last one; an empty path stops. Where the reference is
+  /// off the first line it joins the nearest point of the first lines. `goal_yaw_odom_rad` is turned to near the goal.
+  void setPath(std::vector<Eigen::Vector3d> points_odom_m, FlightMode mode,
+               std::optional<double> goal_yaw_odom_rad = std::nullopt);
+  /// Stops as fast as the mode's limits allow and holds there.
+  void stop();
+  /// From the reactive layer; 0 halts on the path, infinity lifts the limit. Holds until changed.
+  void setSpeedLimit(double speed_m_s);
+  /// odom was re-expressed: the path moves by T_new_old, the reference does not.
+  void movePath(const common::Pose2& T_new_old);
+
+  /// Advances by dt and returns the reference there.
+  const Reference& advance(double dt_s);
+  const Reference& reference() const { return reference_; }
+
+  double remaining_m() const;
+  /// The carrot is at the goal and the reference rests there (1 mm, 1 mm/s).
+  bool finished() const;
+  const std::vector<Eigen::Vector3d>& points_odom_m() const { return points_; }
+
+ private:
+  void lay(std::vector<Eigen::Vector3d> points);
+  /// The path from where the reference is and as it moves; `turns`: its first corner is a turn at speed.
+  std::vector<Eigen::Vector3d> joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const;
+  void advanceCarrot(double dt_s);
+  void pullReference(double dt_s);
+  void advanceYaw(double dt_s);
+  double allowedSpeed(double dt_s) const;
+  std::size_t segmentAt(double distance_m) const;
+
+  Config config_;
+  Limits limits_;
+  double speed_limit_m_s_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<double> distances_m_;  ///< Along the path, per point.
+  std::vector<double> speeds_m_s_;   ///< Greatest at each point, so that all later ones can be met.
+  std::optional<double> goal_yaw_odom_rad_;
+  double carrot_m_ = 0.0;
+  double carrot_speed_m_s_ = 0.0;
+  double carrot_acceleration_m_s2_ = 0.0;
+  double hold_yaw_odom_rad_ = 0.0;
+  bool faces_travel_ = false;
+  Reference reference_;
+};
+
+}  // namespace swiftlet::control

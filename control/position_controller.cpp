@@ -1,0 +1,165 @@
+#include "control/position_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::control {
+namespace {
+
+constexpr double kGravity_m_s2 = 9.81;
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+bool finite(const common::VehicleState& state) {
+  return state.T_odom_body.position_m.allFinite() && state.T_odom_body.rotation.coeffs().allFinite() &&
+         state.velocity_odom_m_s.allFinite();
+}
+
+Eigen::Vector2d limited(const Eigen::Vector2d& v, double most) {
+  const double norm = v.norm();
+  return norm > most ? Eigen::Vector2d(v * (most / norm)) : v;
+}
+
+/// Horizontal acceleration that the present tilt makes at hover thrust.
+Eigen::Vector2d accelerationOfTilt(const Eigen::Quaterniond& rotation) {
+  const Eigen::Vector3d up = rotation * Eigen::Vector3d::UnitZ();
+  return kGravity_m_s2 * up.head<2>() / std::max(0.5, up.z());
+}
+
+/// The attitude whose thrust points along the wanted force; FLU, in the frame of the heading.
+void setTilt(common::Setpoint& setpoint, const Eigen::Vector3d& acceleration_odom_m_s2, double yaw_rad) {
+  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  const Eigen::Vector3d force(c * acceleration_odom_m_s2.x() + s * acceleration_odom_m_s2.y(),
+                              -s * acceleration_odom_m_s2.x() + c * acceleration_odom_m_s2.y(),
+                              kGravity_m_s2 + acceleration_odom_m_s2.z());
+  // Ry(pitch) Rx(roll) e_z = (sin p cos r, -sin r, cos p cos r).
+  setpoint.pitch_rad = std::atan2(force.x(), force.z());
+  setpoint.roll_rad = std::atan2(-force.y(), std::hypot(force.x(), force.z()));
+}
+
+}  // namespace
+
+PositionController::PositionController(const Config& config, const common::VehicleConfig& vehicle)
+    : config_(config), vehicle_(vehicle), thrust_(config.thrust, vehicle) {}
+
+void PositionController::reset() { integral_m_s2_.setZero(); }
+
+common::Setpoint PositionController::tick(common::Time now, double dt_s, const common::VehicleState& state,
+                                          const Reference& reference, double battery_v, Horizontal horizontal,
+                                          bool on_ground) {
+  common::Setpoint setpoint;
+  setpoint.stamp = now;
+  setpoint.motors_on = true;
+  thrust_.observeVoltage(battery_v, dt_s);
+  if (!finite(state)) {
+    setpoint.thrust = thrust_.hoverCommand();
+    return setpoint;
+  }
+  if (on_ground) horizontal = Horizontal::kLevel;
+  const Eigen::Vector3d missing_m_s = missingVelocity(state, reference, horizontal);
+  const Eigen::Vector3d gain_1_s(config_.horizontal_v_1_s, config_.horizontal_v_1_s, config_.vertical_v_1_s);
+  Eigen::Vector3d wanted_m_s2 = gain_1_s.cwiseProduct(missing_m_s) + integral_m_s2_;
+  wanted_m_s2.z() += reference.acceleration_odom_m_s2.z();
+  if (horizontal == Horizontal::kPosition) wanted_m_s2.head<2>() += reference.acceleration_odom_m_s2.head<2>();
+
+  Eigen::Vector3d given_m_s2 = wanted_m_s2;
+  given_m_s2.z() = std::clamp(wanted_m_s2.z(), -config_.max_acceleration_up_m_s2, config_.max_acceleration_up_m_s2);
+  given_m_s2.head<2>() =
+      limited(wanted_m_s2.head<2>(), std::tan(vehicle_.max_tilt_deg * kRadPerDeg) * (kGravity_m_s2 + given_m_s2.z()));
+  if (on_ground) given_m_s2.head<2>().setZero();
+
+  const double yaw_rad = common::yawOf(state.T_odom_body.rotation);
+  setTilt(setpoint, given_m_s2, yaw_rad);
+  const double cos_tilt = std::cos(setpoint.roll_rad) * std::cos(setpoint.pitch_rad);
+  setpoint.thrust = thrust_.commandFor(given_m_s2.z(), cos_tilt);
+  if (horizontal == Horizontal::kPosition) {
+    const double most_rad_s = config_.max_yaw_rate_deg_s * kRadPerDeg;
+    setpoint.yaw_rate_rad_s =
+        std::clamp(reference.yaw_rate_rad_s + config_.yaw_p_1_s * common::wrapAngle(reference.yaw_odom_rad - yaw_rad),
+                   -most_rad_s, most_rad_s);
+  }
+  integrate(missing_m_s, wanted_m_s2, given_m_s2, dt_s);
+  if (!on_ground) integral_m_s2_.z() -= thrust_.learn(integral_m_s2_.z(), dt_s);
+  return setpoint;
+}
+
+Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& state, const Reference& reference,
+                                                    Horizontal horizontal) const {
+  const double lead_s = config_.latency_s + config_.attitude_lag_s;
+  Eigen::Vector3d missing_m_s = Eigen::Vector3d::Zero();
+  const double climb_error_m = reference.position_odom_m.z() - state.T_odom_body.position_m.z();
+  const double climb_velocity_error_m_s = reference.velocity_odom_m_s.z() - state.velocity_odom_m_s.z();
+  missing_m_s.z() = climb_velocity_error_m_s +
+                    std::clamp(config_.vertical_p_1_s * (climb_error_m + config_.latency_s * climb_velocity_error_m_s),
+                               -config_.max_climb_m_s, config_.max_climb_m_s);
+  if (horizontal == Horizontal::kLevel) return missing_m_s;
+
+  // Where state and reference will be when the command has become a tilt. The integral is the part of the tilt that
+  // wind and a wrong horizon eat up: it does not accelerate.
+  const Eigen::Vector2d acceleration_m_s2 = accelerationOfTilt(state.T_odom_body.rotation) - integral_m_s2_.head<2>();
+  if (horizontal == Horizontal::kVelocity) {
+    missing_m_s.head<2>() = -state.velocity_odom_m_s.head<2>() - lead_s * acceleration_m_s2;
+    return missing_m_s;
+  }
+  const Eigen::Vector2d acceleration_error = reference.acceleration_odom_m_s2.head<2>() - acceleration_m_s2;
+  const Eigen::Vector2d velocity_error = (reference.velocity_odom_m_s - state.velocity_odom_m_s).head<2>();
+  const Eigen::Vector2d position_error = (reference.position_odom_m - state.T_odom_body.position_m).head<2>();
+  const Eigen::Vector2d position_error_then =
+      position_error + lead_s * velocity_error + 0.5 * lead_s * lead_s * acceleration_error;
+  missing_m_s.head<2>() = velocity_error + lead_s * acceleration_error +
+                          limited(config_.horizontal_p_1_s * position_error_then, config_.max_correction_m_s);
+  return missing_m_s;
+}
+
+void PositionController::integrate(const Eigen::Vector3d& missing_m_s, const Eigen::Vector3d& wanted_m_s2,
+                                   const Eigen::Vector3d& given_m_s2, double dt_s) {
+  const Eigen::Vector3d gain_1_s2(config_.horizontal_i_1_s2, config_.horizontal_i_1_s2, config_.vertical_i_1_s2);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double refused_m_s2 = wanted_m_s2[axis] - given_m_s2[axis];
+    // What the vehicle cannot give must not be asked for ever louder.
+    if (refused_m_s2 * missing_m_s[axis] > 1e-9) continue;
+    integral_m_s2_[axis] = std::clamp(integral_m_s2_[axis] + dt_s * gain_1_s2[axis] * missing_m_s[axis],
+                                      -config_.max_integral_m_s2, config_.max_integral_m_s2);
+  }
+}
+
+void PositionController::Config::describe(common::config::Fields& fields) {
+  fields("horizontal_p_1_s", horizontal_p_1_s, "Position error to velocity.");
+  fields("horizontal_v_1_s", horizontal_v_1_s, "Velocity error to acceleration.");
+  fields("horizontal_i_1_s2", horizontal_i_1_s2, "Integral of the velocity error to acceleration.");
+  fields("vertical_p_1_s", vertical_p_1_s, "Height error to climb speed.");
+  fields("vertical_v_1_s", vertical_v_1_s, "Climb speed error to acceleration.");
+  fields("vertical_i_1_s2", vertical_i_1_s2, "Integral of the climb speed error to acceleration.");
+  fields("yaw_p_1_s", yaw_p_1_s, "Yaw error to yaw rate.");
+  fields("max_correction_m_s", max_correction_m_s, "Velocity that a position error may ask for.");
+  fields("max_climb_m_s", max_climb_m_s, "Climb speed that a height error may ask for.");
+  fields("max_acceleration_up_m_s2", max_acceleration_up_m_s2, "Greatest vertical acceleration asked for.");
+  fields("max_integral_m_s2", max_integral_m_s2, "Greatest integral part.");
+  fields("max_yaw_rate_deg_s", max_yaw_rate_deg_s, "Greatest yaw rate.");
+  fields("latency_s", latency_s, "From measurement to command.");
+  fields("attitude_lag_s", attitude_lag_s, "What the attitude takes to follow a command.");
+  fields.section("thrust", thrust, "Thrust by battery voltage.");
+}
+
+std::vector<std::string> PositionController::Config::validate() const {
+  return common::Validation()
+      .within("horizontal_p_1_s", horizontal_p_1_s, 0, 10)
+      .within("horizontal_v_1_s", horizontal_v_1_s, 0, 20)
+      .within("horizontal_i_1_s2", horizontal_i_1_s2, 0, 20)
+      .within("vertical_p_1_s", vertical_p_1_s, 0, 10)
+      .within("vertical_v_1_s", vertical_v_1_s, 0, 20)
+      .within("vertical_i_1_s2", vertical_i_1_s2, 0, 20)
+      .within("yaw_p_1_s", yaw_p_1_s, 0, 10)
+      .positive("max_correction_m_s", max_correction_m_s)
+      .positive("max_climb_m_s", max_climb_m_s)
+      .within("max_acceleration_up_m_s2", max_acceleration_up_m_s2, 0.1, 9)
+      .within("max_integral_m_s2", max_integral_m_s2, 0, 9)
+      .positive("max_yaw_rate_deg_s", max_yaw_rate_deg_s)
+      .within("latency_s", latency_s, 0, 0.5)
+      .within("attitude_lag_s", attitude_lag_s, 0, 0.5)
+      .problems();
+}
+
+}  // namespace swiftlet::control

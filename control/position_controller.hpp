@@ -1,0 +1,77 @@
+// Cascaded PID: position -> velocity -> acceleration -> roll, pitch and thrust; P on yaw (Grzonka 2012, equations 3 to
+// 5; Saeedi, III-E). The reference's velocity and acceleration are fed forward.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/vehicle.hpp"
+#include "common/vehicle_config.hpp"
+#include "common/vehicle_state.hpp"
+#include "control/reference.hpp"
+#include "control/thrust_model.hpp"
+
+namespace swiftlet::control {
+
+/// At 100 Hz. One thread; keeps the integral between ticks. NaN in the state never leaves it as NaN: the setpoint is
+/// then level at hover thrust.
+class PositionController {
+ public:
+  struct Config {
+    double horizontal_p_1_s = 2.2;   ///< Position error to velocity.
+    double horizontal_v_1_s = 5.0;   ///< Velocity error to acceleration.
+    double horizontal_i_1_s2 = 2.5;  ///< Integral of the velocity-loop error to acceleration.
+    double vertical_p_1_s = 1.8;
+    double vertical_v_1_s = 4.5;
+    double vertical_i_1_s2 = 2.0;
+    double yaw_p_1_s = 2.0;
+    double max_correction_m_s = 1.0;  ///< Velocity that a position error may ask for on top of the reference's.
+    double max_climb_m_s = 1.0;       ///< Likewise, vertically.
+    double max_acceleration_up_m_s2 = 4.0;
+    double max_integral_m_s2 = 2.0;
+    double max_yaw_rate_deg_s = 90.0;
+    double latency_s = 0.03;       ///< From measurement to command; the state is carried forward by it ...
+    double attitude_lag_s = 0.08;  ///< ... and, horizontally, by what the attitude takes to follow.
+    ThrustModel::Config thrust;
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+  };
+
+  enum class Horizontal {
+    kPosition,  ///< Hold the reference.
+    kVelocity,  ///< Position unknown: only damp the velocity.
+    kLevel,     ///< Neither known: the trim learned so far.
+  };
+
+  PositionController(const Config& config, const common::VehicleConfig& vehicle);
+
+  /// Forgets the integrals; the learned hover command stays.
+  void reset();
+
+  /// `on_ground`: integrals rest and the tilt stays zero.
+  common::Setpoint tick(common::Time now, double dt_s, const common::VehicleState& state, const Reference& reference,
+                        double battery_v, Horizontal horizontal = Horizontal::kPosition, bool on_ground = false);
+
+  ThrustModel& thrust() { return thrust_; }
+  const ThrustModel& thrust() const { return thrust_; }
+  /// Level frame of odom axes; what wind, trim and a wrong horizon ask for.
+  const Eigen::Vector3d& integral_m_s2() const { return integral_m_s2_; }
+
+ private:
+  /// Velocity still missing, horizontally and vertically: what P, I and the lead act on.
+  Eigen::Vector3d missingVelocity(const common::VehicleState& state, const Reference& reference,
+                                  Horizontal horizontal) const;
+  void integrate(const Eigen::Vector3d& missing_m_s, const Eigen::Vector3d& wanted_m_s2,
+                 const Eigen::Vector3d& given_m_s2, double dt_s);
+
+  Config config_;
+  common::VehicleConfig vehicle_;
+  ThrustModel thrust_;
+  Eigen::Vector3d integral_m_s2_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace swiftlet::control

@@ -1,0 +1,61 @@
+#include "control/thrust_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::control {
+namespace {
+constexpr double kGravity_m_s2 = 9.81;
+}
+
+ThrustModel::ThrustModel(const Config& config, const common::VehicleConfig& vehicle)
+    : config_(config), vehicle_(vehicle), voltage_v_(vehicle.battery_full_v) {}
+
+void ThrustModel::observeVoltage(double voltage_v, double dt_s) {
+  if (!std::isfinite(voltage_v) || voltage_v <= 0.0) return;
+  // A meter that is plainly wrong must not double the thrust.
+  const double believable_v = std::clamp(voltage_v, 0.8 * vehicle_.battery_empty_v, 1.05 * vehicle_.battery_full_v);
+  const double share = voltage_seen_ ? std::min(1.0, dt_s / config_.voltage_filter_s) : 1.0;
+  voltage_v_ += share * (believable_v - voltage_v_);
+  voltage_seen_ = true;
+}
+
+double ThrustModel::learn(double correction_m_s2, double dt_s) {
+  const double before = correction_;
+  const double step_m_s2 = correction_m_s2 * std::min(1.0, dt_s / config_.learning_time_s);
+  correction_ = std::clamp(correction_ * (1.0 + step_m_s2 / kGravity_m_s2), 1.0 - config_.max_correction,
+                           1.0 + config_.max_correction);
+  return (correction_ / before - 1.0) * kGravity_m_s2;
+}
+
+double ThrustModel::commandFor(double acceleration_up_m_s2, double cos_tilt) const {
+  const double sag = std::pow(voltage_v_ / vehicle_.battery_full_v, config_.voltage_exponent);
+  const double force_n = vehicle_.mass_kg * (kGravity_m_s2 + acceleration_up_m_s2) / std::max(0.5, cos_tilt);
+  return std::clamp(correction_ * force_n / (vehicle_.max_thrust_n * sag), config_.min_thrust, config_.max_thrust);
+}
+
+double ThrustModel::hoverCommand() const { return commandFor(0.0, 1.0); }
+
+void ThrustModel::Config::describe(common::config::Fields& fields) {
+  fields("voltage_exponent", voltage_exponent, "Thrust of a command goes with (voltage / full) to this power.");
+  fields("voltage_filter_s", voltage_filter_s, "Time constant that smooths the voltage.");
+  fields("learning_time_s", learning_time_s, "Time constant by which the hover command is learned.");
+  fields("max_correction", max_correction, "The learned factor stays within 1 +- this.");
+  fields("min_thrust", min_thrust, "Least thrust in flight.");
+  fields("max_thrust", max_thrust, "Greatest thrust commanded.");
+}
+
+std::vector<std::string> ThrustModel::Config::validate() const {
+  return common::Validation()
+      .within("voltage_exponent", voltage_exponent, 0, 4)
+      .positive("voltage_filter_s", voltage_filter_s)
+      .positive("learning_time_s", learning_time_s)
+      .within("max_correction", max_correction, 0, 0.9)
+      .within("min_thrust", min_thrust, 0, max_thrust)
+      .within("max_thrust", max_thrust, 0, 1)
+      .problems();
+}
+
+}  // namespace swiftlet::control

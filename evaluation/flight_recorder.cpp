@@ -1,0 +1,122 @@
+#include "evaluation/flight_recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "evaluation/statistics.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using common::Duration;
+using common::MissionState;
+using common::Pose3;
+using common::Time;
+
+constexpr Duration kHistory = Duration::fromMilliseconds(1000);
+constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(50);
+/// A goal this near to home is home.
+constexpr double kSamePlace_m = 1e-3;
+
+Pose3 interpolated(const simulation::Truth& before, const simulation::Truth& after, Time stamp) {
+  const double whole_s = (after.stamp - before.stamp).seconds();
+  const double share = whole_s > 0 ? (stamp - before.stamp).seconds() / whole_s : 1.0;
+  const Pose3 &a = before.T_world_body, &b = after.T_world_body;
+  return {a.rotation.slerp(share, b.rotation), a.position_m + share * (b.position_m - a.position_m)};
+}
+
+}  // namespace
+
+FlightRecorder::FlightRecorder(const Pose3& T_world_map) { record_.T_world_map = T_world_map; }
+
+void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleState& estimate) {
+  if (!first_tick_) first_tick_ = truth.stamp;
+  if (!history_.empty() && truth.airborne)
+    record_.true_distance_m +=
+        (truth.T_world_body.position_m - history_.back().T_world_body.position_m).head<2>().norm();
+  if (truth.airborne) heights_world_m_.push_back(truth.T_world_body.position_m.z());
+  history_.push_back(truth);
+  while (truth.stamp - history_.front().stamp > kHistory) history_.pop_front();
+  record_.last_truth = truth;
+  record_.flight_time_s = (truth.stamp - *first_tick_).seconds();
+
+  if (!last_estimate_ || estimate.stamp > *last_estimate_) pending_.push_back(estimate);
+  last_estimate_ = std::max(estimate.stamp, last_estimate_.value_or(estimate.stamp));
+  for (; !pending_.empty() && pending_.front().stamp <= truth.stamp; pending_.pop_front())
+    if (const auto T_world_body = truthAt(pending_.front().stamp); T_world_body && truth.airborne)
+      compare(pending_.front(), *T_world_body);
+}
+
+/// The truth of a time in the history; none before it and after it.
+std::optional<Pose3> FlightRecorder::truthAt(Time stamp) const {
+  const auto after = std::lower_bound(history_.begin(), history_.end(), stamp,
+                                      [](const simulation::Truth& truth, Time t) { return truth.stamp < t; });
+  if (after == history_.end()) return std::nullopt;
+  if (after->stamp == stamp) return after->T_world_body;
+  if (after == history_.begin()) return std::nullopt;
+  return interpolated(*std::prev(after), *after, stamp);
+}
+
+void FlightRecorder::compare(const common::VehicleState& estimate, const Pose3& T_world_body) {
+  const Pose3 T_map_body = estimate.T_map_body();
+  const Pose3 T_map_truth = record_.T_world_map.inverse() * T_world_body;
+  const Eigen::Vector3d error_m = T_map_body.position_m - T_map_truth.position_m;
+  record_.horizontal_errors_m.push_back(error_m.head<2>().norm());
+  record_.spatial_errors_m.push_back(error_m.norm());
+  record_.yaw_errors_rad.push_back(
+      std::abs(common::wrapAngle(common::yawOf(T_map_body.rotation) - common::yawOf(T_map_truth.rotation))));
+  if (next_trajectory_ && estimate.stamp < *next_trajectory_) return;
+  next_trajectory_ = estimate.stamp + kTrajectoryPeriod;
+  record_.estimate_map.push_back({estimate.stamp, T_map_body});
+  record_.truth_map.push_back({estimate.stamp, T_map_truth});
+}
+
+void FlightRecorder::intent(Time now, const common::Intent& intent, const common::IntentStatus& status) {
+  const auto* go_to = std::get_if<common::GoToIntent>(&intent.kind);
+  if (go_to == nullptr || status.id != intent.id || status.state != common::IntentState::kSucceeded) return;
+  if (counted_intent_ == intent.id) return;
+  const std::optional<Pose3> T_world_body = truthAt(now);
+  if (!T_world_body) return;
+  counted_intent_ = intent.id;
+  const Eigen::Vector2d truth_map_m = (record_.T_world_map.inverse() * T_world_body->position_m).head<2>();
+  const bool home = (go_to->goal_map_m - home_map_m_).norm() < kSamePlace_m;
+  record_.goals.push_back({now, home, go_to->goal_map_m, (truth_map_m - go_to->goal_map_m).norm()});
+}
+
+void FlightRecorder::world(const common::World& world) {
+  home_map_m_ = world.home_map.position_m();
+  record_.map = world.grid;
+  record_.explored_area_m2 = world.explored_area_m2;
+  if (mission_over_ || world.mission.state == MissionState::kReady) return;
+  if (!mission_begin_) mission_begin_ = world.stamp;
+  record_.mission = world.mission.state;
+  record_.mission_reason = world.mission.reason;
+  record_.mission_time_s = (world.stamp - *mission_begin_).seconds();
+  followTree(world.mission.tree);
+  mission_over_ = world.mission.state == MissionState::kDone || world.mission.state == MissionState::kFailed;
+}
+
+void FlightRecorder::followTree(const common::TreeView& tree) {
+  std::map<int, const common::TreeNodeView*> by_id;
+  for (const common::TreeNodeView& node : tree) by_id[node.id] = &node;
+  const auto isSuspended = [&](int id) {
+    const auto found = by_id.find(id);
+    return found != by_id.end() && found->second->status == "SUSPENDED";
+  };
+  for (const common::TreeNodeView& node : tree) {
+    if (node.status == "SUSPENDED") {
+      if (!isSuspended(node.parent) && suspended_.insert(node.id).second) ++record_.interruptions;
+    } else if (suspended_.erase(node.id) > 0 && (node.status == "RUNNING" || node.status == "SUCCESS")) {
+      ++record_.resumed;
+    }
+  }
+}
+
+FlightRecord FlightRecorder::finish() const {
+  FlightRecord record = record_;
+  if (!heights_world_m_.empty()) record.cruise_height_world_m = quantile(heights_world_m_, 0.5);
+  return record;
+}
+
+}  // namespace swiftlet::evaluation

@@ -1,0 +1,170 @@
+#include "evaluation/flight_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/validation.hpp"
+#include "evaluation/map_metrics.hpp"
+#include "evaluation/statistics.hpp"
+#include "simulation/truth_map.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using common::MissionState;
+
+std::optional<double> rmsOf(const std::vector<double>& errors) {
+  if (errors.empty()) return std::nullopt;
+  return statisticsOf(errors).rmse;
+}
+
+std::optional<double> worstOf(const std::vector<ReachedGoal>& goals, bool home) {
+  std::optional<double> worst;
+  for (const ReachedGoal& goal : goals)
+    if (goal.home == home) worst = std::max(goal.error_m, worst.value_or(0.0));
+  return worst;
+}
+
+std::string outcomeOf(const FlightRecord& record) {
+  if (record.last_truth.crashed) return record.last_truth.crash_reason;
+  if (record.mission == MissionState::kDone) return "done";
+  if (record.mission == MissionState::kFailed) return "mission failed: " + record.mission_reason;
+  return fmt::format("not finished after {:.0f} s", record.flight_time_s);
+}
+
+void scoreCollision(const simulation::Truth& truth, FlightScore& score) {
+  score.min_clearance_m = truth.min_clearance_m;
+  score.min_walker_clearance_m = truth.min_walker_clearance_m;
+  if (!truth.crashed) return;
+  score.collisions = 1;
+  score.collision = truth.crash_reason;
+  score.avoidable_collisions = truth.by_walker && truth.yielding ? 0 : 1;
+}
+
+void scoreMap(const FlightRecord& record, const TrueWorld& world, FlightScore& score) {
+  if (record.map == nullptr || record.horizontal_errors_m.empty()) return;
+  const common::Pose2 T_world_map = common::planar(record.T_world_map);
+  const double cruise_m = record.cruise_height_world_m, half_height_m = 0.5 * world.vehicle.hull_height_m;
+
+  simulation::FreeSpaceQuery query;
+  query.start_world_m = T_world_map.position_m();
+  query.hull_radius_m = world.vehicle.hullRadius_m() + world.clearance_m;
+  query.bottom_m = cruise_m - half_height_m;
+  query.top_m = cruise_m + half_height_m;
+  query.resolution_m = record.map->resolution_m();
+  query.range_max_m = world.laser.range_max_m;
+  const simulation::FreeSpace free_space = simulation::freeSpace(*world.rays, query);
+  score.coverage = coverage(*record.map, T_world_map, free_space);
+  score.reachable_area_m2 = free_space.covered_area_m2;
+
+  if (const auto error = wallError(*record.map, T_world_map, *world.rays, cruise_m + world.laser.mount.z_m)) {
+    score.map_wall_error_median_m = error->median_m;
+    score.map_wall_error_p95_m = error->p95_m;
+  }
+}
+
+class Judge {
+ public:
+  void atMost(const char* name, const std::optional<double>& value, double bound) {
+    if (std::isinf(bound)) return;
+    if (!value) return fail(fmt::format("{}: not measured, at most {:g} was asked for", name, bound));
+    if (!(*value <= bound)) fail(fmt::format("{}: {:.3f}, at most {:g} was asked for", name, *value, bound));
+  }
+  void atLeast(const char* name, const std::optional<double>& value, double bound) {
+    if (bound <= 0) return;
+    if (!value) return fail(fmt::format("{}: not measured, at least {:g} was asked for", name, bound));
+    if (!(*value >= bound)) fail(fmt::format("{}: {:.4f}, at least {:g} was asked for", name, *value, bound));
+  }
+  void fail(std::string text) { failures.push_back(std::move(text)); }
+
+  std::vector<std::string> failures;
+};
+
+}  // namespace
+
+void Criteria::describe(common::config::Fields& fields) {
+  fields("mission_done", mission_done, "The mission must end well.");
+  fields("collisions_max", collisions_max, "Touches of anything, a walker that runs into the vehicle included.");
+  fields("coverage_min", coverage_min, "Share of the reachable free space that is in the map.");
+  fields("goal_error_max_m", goal_error_max_m, "From each goal to the true place when it is reported as reached.");
+  fields("home_error_max_m", home_error_max_m, "The same for home.");
+  fields("mission_time_max_s", mission_time_max_s, "Simulated time of the mission.");
+  fields("estimate_rms_max_m", estimate_rms_max_m, "Horizontal error of the estimate.");
+  fields("map_wall_error_max_m", map_wall_error_max_m, "Median distance of mapped walls to true ones.");
+  fields("all_resumed", all_resumed, "Everything that was interrupted must have gone on.");
+}
+
+std::vector<std::string> Criteria::validate() const {
+  return common::Validation()
+      .within("collisions_max", collisions_max, 0, 1)
+      .within("coverage_min", coverage_min, 0, 1)
+      .positive("goal_error_max_m", goal_error_max_m)
+      .positive("home_error_max_m", home_error_max_m)
+      .positive("mission_time_max_s", mission_time_max_s)
+      .positive("estimate_rms_max_m", estimate_rms_max_m)
+      .positive("map_wall_error_max_m", map_wall_error_max_m)
+      .problems();
+}
+
+FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
+                    double wall_time_s) {
+  FlightScore score;
+  score.seed = seed;
+  score.outcome = outcomeOf(record);
+  score.mission_done = record.mission == MissionState::kDone && !record.last_truth.crashed;
+  score.goal_error_m = worstOf(record.goals, false);
+  score.home_error_m = worstOf(record.goals, true);
+  score.estimate_rms_m = rmsOf(record.horizontal_errors_m);
+  score.estimate_spatial_rms_m = rmsOf(record.spatial_errors_m);
+  score.estimate_yaw_rms_rad = rmsOf(record.yaw_errors_rad);
+  scoreCollision(record.last_truth, score);
+  scoreMap(record, world, score);
+  score.mission_time_s = record.mission_time_s;
+  score.flight_time_s = record.flight_time_s;
+  score.distance_m = record.true_distance_m;
+  score.explored_area_m2 = record.explored_area_m2;
+  score.interruptions = record.interruptions;
+  score.resumed = record.resumed;
+  if (wall_time_s > 0) score.realtime_factor = record.flight_time_s / wall_time_s;
+  score.failures = missed(score, criteria);
+  return score;
+}
+
+std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) {
+  std::vector<std::pair<std::string, double>> figures;
+  const auto add = [&](const char* name, const std::optional<double>& value) {
+    if (value) figures.emplace_back(name, *value);
+  };
+  add("coverage", score.coverage);
+  add("goal_error_m", score.goal_error_m);
+  add("home_error_m", score.home_error_m);
+  add("estimate_rms_m", score.estimate_rms_m);
+  add("estimate_spatial_rms_m", score.estimate_spatial_rms_m);
+  add("estimate_yaw_rms_rad", score.estimate_yaw_rms_rad);
+  add("map_wall_error_median_m", score.map_wall_error_median_m);
+  add("map_wall_error_p95_m", score.map_wall_error_p95_m);
+  add("min_clearance_m", score.min_clearance_m);
+  add("reachable_area_m2", score.reachable_area_m2);
+  return figures;
+}
+
+std::vector<std::string> missed(const FlightScore& score, const Criteria& criteria) {
+  Judge judge;
+  if (criteria.mission_done && !score.mission_done) judge.fail(fmt::format("mission: {}", score.outcome));
+  if (score.collisions > criteria.collisions_max)
+    judge.fail(
+        fmt::format("collision: {}{}", score.collision, score.avoidable_collisions == 0 ? ", not avoidable" : ""));
+  judge.atLeast("coverage", score.coverage, criteria.coverage_min);
+  judge.atMost("goal error, m", score.goal_error_m, criteria.goal_error_max_m);
+  judge.atMost("home error, m", score.home_error_m, criteria.home_error_max_m);
+  judge.atMost("mission time, s", score.mission_time_s, criteria.mission_time_max_s);
+  judge.atMost("estimate RMS, m", score.estimate_rms_m, criteria.estimate_rms_max_m);
+  judge.atMost("map wall error, m", score.map_wall_error_median_m, criteria.map_wall_error_max_m);
+  if (criteria.all_resumed && score.resumed < score.interruptions)
+    judge.fail(fmt::format("interruptions: {} of {} went on", score.resumed, score.interruptions));
+  return judge.failures;
+}
+
+}  // namespace swiftlet::evaluation

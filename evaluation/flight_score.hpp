@@ -1,0 +1,90 @@
+// The figures of one flight, and whether they are good enough.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/config.hpp"
+#include "evaluation/flight_recorder.hpp"
+#include "simulation/ray_caster.hpp"
+#include "simulation/scenario.hpp"
+
+namespace swiftlet::evaluation {
+
+/// What a flight must reach to pass. What is left at its default is not asked for, but for the first two.
+struct Criteria {
+  static constexpr double kAny = std::numeric_limits<double>::infinity();
+
+  bool mission_done = true;
+  /// The reports count every touch; a flight that was touched is over, so that this is 0 or 1 for one flight.
+  int collisions_max = 0;
+  double coverage_min = 0.0;
+  double goal_error_max_m = kAny;
+  double home_error_max_m = kAny;
+  double mission_time_max_s = kAny;
+  double estimate_rms_max_m = kAny;
+  double map_wall_error_max_m = kAny;  ///< Of the median.
+  bool all_resumed = true;             ///< Everything that was interrupted went on.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// An optional figure is none where it could not be measured: no goal was reached, nothing flew.
+struct FlightScore {
+  std::int64_t seed = 0;
+  std::string folder;   ///< Of the run, relative to the trial's; set by the caller.
+  std::string outcome;  ///< "done", or why not.
+  bool mission_done = false;
+
+  std::optional<double> coverage;      ///< Of the free space the hull can cover, at the mission's clearance.
+  std::optional<double> goal_error_m;  ///< The worst of the mission's goals.
+  std::optional<double> home_error_m;
+  std::optional<double> estimate_rms_m;  ///< Horizontal, against the truth in the true map frame: no alignment.
+  std::optional<double> estimate_spatial_rms_m;
+  std::optional<double> estimate_yaw_rms_rad;
+  std::optional<double> map_wall_error_median_m;
+  std::optional<double> map_wall_error_p95_m;
+
+  int collisions = 0;
+  int avoidable_collisions = 0;  ///< Not those where a walker ran into a vehicle that stood still or made way.
+  std::string collision;         ///< What was touched; empty when nothing was.
+  double min_clearance_m = 0.0;  ///< From the hull, while airborne; capped by the simulator.
+  double min_walker_clearance_m = 0.0;
+
+  double mission_time_s = 0.0;
+  double flight_time_s = 0.0;  ///< Simulated.
+  double distance_m = 0.0;     ///< True.
+  double explored_area_m2 = 0.0;
+  double reachable_area_m2 = 0.0;  ///< What `coverage` is a share of.
+  int interruptions = 0;
+  int resumed = 0;
+  double realtime_factor = 0.0;
+
+  std::vector<std::string> failures;  ///< Every criterion that was missed, with figure and bound; empty: passed.
+  bool passed() const { return failures.empty(); }
+};
+
+/// What the scorer needs to know of the world as it was for this flight, after the seed's variation.
+struct TrueWorld {
+  const simulation::RayCaster* rays = nullptr;
+  common::VehicleConfig vehicle;
+  common::LaserConfig laser;
+  double clearance_m = 0.10;  ///< The mission's: where hull and clearance do not fit, nobody expects it to go.
+};
+
+/// `wall_time_s` is how long the machine took; 0: not known.
+FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
+                    double wall_time_s);
+
+/// The measured figures by the names of results.json, for the report of the flight.
+std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score);
+
+/// The criteria alone: fills `failures` from the figures.
+std::vector<std::string> missed(const FlightScore& score, const Criteria& criteria);
+
+}  // namespace swiftlet::evaluation

@@ -1,0 +1,33 @@
+// How well a map shows the true building.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "common/occupancy_grid.hpp"
+#include "simulation/ray_caster.hpp"
+#include "simulation/truth_map.hpp"
+
+namespace swiftlet::evaluation {
+
+/// The share of the free space a vehicle can cover that the map knows, in [0, 1]; 1 when there is no such space.
+/// `T_world_map` places the map in the world. Cells the map takes for occupied count as known: that they should be free
+/// is an error of the map, which `wallError` measures, and not of the exploration.
+double coverage(const common::OccupancyGrid& map, const common::Pose2& T_world_map,
+                const simulation::FreeSpace& free_space);
+
+/// Distance from the centres of the map's occupied cells to the nearest true surface at one height.
+struct WallError {
+  double median_m = 0.0;
+  double p95_m = 0.0;
+  double max_m = 0.0;  ///< Distances are capped at kLimit_m.
+  std::size_t cells = 0;
+  static constexpr double kLimit_m = 1.0;
+};
+
+/// None when the map has no occupied cell.
+std::optional<WallError> wallError(const common::OccupancyGrid& map, const common::Pose2& T_world_map,
+                                   const simulation::RayCaster& rays, double height_world_m);
+
+}  // namespace swiftlet::evaluation

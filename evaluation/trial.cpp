@@ -1,0 +1,110 @@
+#include "evaluation/trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/validation.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+namespace fs = std::filesystem;
+using common::InputError;
+using common::Problem;
+
+bool isTrialFile(const fs::path& path) { return path.extension() == ".yaml" || path.extension() == ".yml"; }
+
+}  // namespace
+
+void PaperFigure::describe(common::config::Fields& fields) {
+  fields("figure", figure, "Which figure, as the results name it.");
+  fields("value", value, "What the paper reports.");
+}
+
+std::vector<std::string> PaperFigure::validate() const {
+  return common::Validation()
+      .require(!figure.empty(), "figure", "is missing")
+      .require(std::isfinite(value), "value", "is not finite")
+      .problems();
+}
+
+void TrialConfig::describe(common::config::Fields& fields) {
+  fields("name", name, "For tables and folders.");
+  fields("description", description, "What is flown and why.");
+  fields("mission", mission, "XML file, relative to the root of the software.");
+  fields("system", system, "System profile.");
+  fields("archive", archive,
+         "The world's archive below the folder of data sets; empty: the world is with the software.");
+  fields("repeat", repeat, "Flights, each with the next seed.");
+  fields("time_limit_s", time_limit_s, "Simulated time after which a flight is ended.");
+  fields("clearance_m", clearance_m,
+         "The mission's, between hull and obstacle: where it does not fit is not reachable.");
+  fields.section("criteria", criteria, "What a flight must reach to pass.");
+  fields.list("paper", paper, "Figures of the paper that is flown again.");
+  fields.section("scenario", scenario, "World, start, weather, people, faults, and what the seed varies.");
+}
+
+std::vector<std::string> TrialConfig::validate() const {
+  return common::Validation()
+      .require(!mission.empty(), "mission", "is missing")
+      .require(!system.empty(), "system", "is missing")
+      .require(!scenario.world.empty(), "scenario", "names no `world`")
+      .within("repeat", repeat, 1, 10'000)
+      .within("time_limit_s", time_limit_s, 1, 100'000)
+      .within("clearance_m", clearance_m, 0, 5)
+      .problems();
+}
+
+void TrialConfig::resolvePaths(const fs::path& unpacked, const fs::path& root) {
+  const auto resolve = [&](std::string& path) {
+    path = ((fs::exists(unpacked / path) ? unpacked : root) / path).lexically_normal().string();
+  };
+  resolve(scenario.world);
+  for (std::string& path : scenario.model_paths) resolve(path);
+}
+
+TrialConfig readTrial(const fs::path& file) {
+  TrialConfig trial = common::config::readFile<TrialConfig>(file.string());
+  if (trial.name.empty()) trial.name = file.stem().string();
+  return trial;
+}
+
+std::vector<TrialConfig> readTrials(const fs::path& file_or_folder) {
+  std::error_code failure;
+  if (!fs::is_directory(file_or_folder, failure)) return {readTrial(file_or_folder)};
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(file_or_folder))
+    if (entry.is_regular_file() && isTrialFile(entry.path())) files.push_back(entry.path());
+  if (files.empty())
+    throw InputError(Problem{{file_or_folder.string()}, "", "holds no trials", "expected are files NAME.yaml"});
+  std::sort(files.begin(), files.end());
+
+  std::vector<TrialConfig> trials;
+  std::vector<Problem> problems;
+  for (const fs::path& file : files) {
+    try {
+      trials.push_back(readTrial(file));
+    } catch (const InputError& e) {
+      problems.insert(problems.end(), e.problems().begin(), e.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return trials;
+}
+
+fs::path findArchive(const std::string& archive, const fs::path& default_folder) {
+  const char* variable = std::getenv("SWIFTLET_DATASETS");
+  const fs::path folder = variable != nullptr && *variable != '\0' ? fs::path(variable) : default_folder;
+  const fs::path file = folder / archive;
+  if (fs::is_regular_file(file)) return file;
+  throw InputError(Problem{{file.string()},
+                           "archive",
+                           "there is no such file",
+                           "set SWIFTLET_DATASETS to the folder that holds `" + archive + "`"});
+}
+
+}  // namespace swiftlet::evaluation

@@ -1,0 +1,57 @@
+// A trial: a mission flown by script, several times, with figures it must reach. Read from trials/*.yaml.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "evaluation/flight_score.hpp"
+#include "simulation/scenario.hpp"
+
+namespace swiftlet::evaluation {
+
+/// A figure of the paper that the trial flies again.
+struct PaperFigure {
+  std::string figure;  ///< As in the results: goal_error_max_m.
+  double value = 0.0;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct TrialConfig {
+  std::string name;  ///< The file's name, when it gives none.
+  std::string description;
+  std::string mission;              ///< XML file, relative to the root of the software.
+  std::string system = "swiftlet";  ///< Profile.
+  /// The world, or the models it is made of, come in this archive, relative to the folder of data sets; empty: all is
+  /// with the software.
+  std::string archive;
+  int repeat = 1;               ///< Flights, unless the user says otherwise.
+  double time_limit_s = 600.0;  ///< Simulated; the flight is ended then.
+  double clearance_m = 0.10;    ///< The mission's, for what counts as reachable.
+  Criteria criteria;
+  std::vector<PaperFigure> paper;
+  simulation::Scenario scenario;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+
+  /// Makes `world` and `model_paths` of the scenario paths below `unpacked`, the archive's content, where there is such
+  /// a file, and below `root`, where the software is, otherwise.
+  void resolvePaths(const std::filesystem::path& unpacked, const std::filesystem::path& root);
+};
+
+/// Throws common::InputError.
+TrialConfig readTrial(const std::filesystem::path& file);
+
+/// The trial of a file, or all trials of a folder and its subfolders, ordered by path. Throws common::InputError with
+/// the problems of all files.
+std::vector<TrialConfig> readTrials(const std::filesystem::path& file_or_folder);
+
+/// Where an archive is: below the folder of the environment's SWIFTLET_DATASETS if it is set, below `default_folder`
+/// otherwise. Throws common::InputError that says how to get it.
+std::filesystem::path findArchive(const std::string& archive, const std::filesystem::path& default_folder);
+
+}  // namespace swiftlet::evaluation

@@ -1,0 +1,245 @@
+#include "evaluation/trial_results.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "evaluation/statistics.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using common::Mark;
+using common::Table;
+using common::TableCell;
+using nlohmann::ordered_json;
+
+/// The figure of the flights that have it.
+template <typename Member>
+std::vector<double> figures(const std::vector<FlightScore>& flights, Member member) {
+  std::vector<double> values;
+  for (const FlightScore& flight : flights)
+    if (const std::optional<double> value = flight.*member) values.push_back(*value);
+  return values;
+}
+
+template <typename Member>
+std::optional<double> atQuantile(const std::vector<FlightScore>& flights, Member member, double q) {
+  const std::vector<double> values = figures(flights, member);
+  if (values.empty()) return std::nullopt;
+  return quantile(values, q);
+}
+
+constexpr double kMin = 0.0, kMedian = 0.5, kMax = 1.0;
+
+ordered_json orNull(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json flightJson(const FlightScore& flight) {
+  return {{"seed", flight.seed},
+          {"passed", flight.passed()},
+          {"outcome", flight.outcome},
+          {"failures", flight.failures},
+          {"folder", flight.folder},
+          {"mission_done", flight.mission_done},
+          {"collisions", flight.collisions},
+          {"avoidable_collisions", flight.avoidable_collisions},
+          {"collision", flight.collision},
+          {"coverage", orNull(flight.coverage)},
+          {"goal_error_m", orNull(flight.goal_error_m)},
+          {"home_error_m", orNull(flight.home_error_m)},
+          {"mission_time_s", flight.mission_time_s},
+          {"flight_time_s", flight.flight_time_s},
+          {"distance_m", flight.distance_m},
+          {"explored_area_m2", flight.explored_area_m2},
+          {"reachable_area_m2", flight.reachable_area_m2},
+          {"estimate_rms_m", orNull(flight.estimate_rms_m)},
+          {"estimate_spatial_rms_m", orNull(flight.estimate_spatial_rms_m)},
+          {"estimate_yaw_rms_rad", orNull(flight.estimate_yaw_rms_rad)},
+          {"map_wall_error_median_m", orNull(flight.map_wall_error_median_m)},
+          {"map_wall_error_p95_m", orNull(flight.map_wall_error_p95_m)},
+          {"min_clearance_m", flight.min_clearance_m},
+          {"min_walker_clearance_m", flight.min_walker_clearance_m},
+          {"interruptions", flight.interruptions},
+          {"resumed", flight.resumed},
+          {"realtime_factor", flight.realtime_factor}};
+}
+
+ordered_json trialJson(const TrialResult& trial) {
+  ordered_json flights = ordered_json::array(), paper = ordered_json::object();
+  for (const FlightScore& flight : trial.flights) flights.push_back(flightJson(flight));
+  for (const PaperFigure& figure : trial.paper) paper[figure.figure] = figure.value;
+  return {{"name", trial.name},
+          {"system", trial.system},
+          {"runs", trial.flights.size()},
+          {"passed", trial.passed()},
+          {"collisions", trial.collisions()},
+          {"coverage_min", orNull(trial.coverageMin())},
+          {"goal_error_max_m", orNull(trial.goalErrorMax_m())},
+          {"goal_error_median_m", orNull(trial.goalErrorMedian_m())},
+          {"home_error_max_m", orNull(trial.homeErrorMax_m())},
+          {"home_error_median_m", orNull(trial.homeErrorMedian_m())},
+          {"mission_time_median_s", orNull(trial.missionTimeMedian_s())},
+          {"estimate_rms_median_m", orNull(trial.estimateRmsMedian_m())},
+          {"map_wall_error_median_m", orNull(trial.mapWallErrorMedian_m())},
+          {"realtime_factor_median", orNull(trial.realtimeFactorMedian())},
+          {"paper", paper},
+          {"flights", flights}};
+}
+
+std::string shown(const std::optional<double>& value, int decimals) {
+  return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
+}
+
+std::string percent(const std::optional<double>& value) { return value ? fmt::format("{:.1f} %", 100 * *value) : "-"; }
+
+TableCell counted(int good, int all) {
+  return {fmt::format("{}/{}", good, all), good == all ? Mark::kGood : Mark::kBad};
+}
+
+/// The columns of the summary that a paper may have a figure for, by the names of results.json.
+struct SummaryColumn {
+  const char* title;
+  const char* figure;
+  std::string (*show)(const std::optional<double>&);
+  std::optional<double> (TrialResult::*value)() const;
+};
+
+template <int kDecimals>
+std::string decimals(const std::optional<double>& value) {
+  return shown(value, kDecimals);
+}
+
+const std::vector<SummaryColumn>& summaryColumns() {
+  static const std::vector<SummaryColumn> columns = {
+      {"coverage min", "coverage_min", percent, &TrialResult::coverageMin},
+      {"goal err max m", "goal_error_max_m", decimals<3>, &TrialResult::goalErrorMax_m},
+      {"median m", "goal_error_median_m", decimals<3>, &TrialResult::goalErrorMedian_m},
+      {"home err max m", "home_error_max_m", decimals<3>, &TrialResult::homeErrorMax_m},
+      {"time median s", "mission_time_median_s", decimals<1>, &TrialResult::missionTimeMedian_s},
+      {"estimate RMS m", "estimate_rms_median_m", decimals<3>, &TrialResult::estimateRmsMedian_m},
+      {"wall err m", "map_wall_error_median_m", decimals<3>, &TrialResult::mapWallErrorMedian_m},
+      {"x real time", "realtime_factor_median", decimals<1>, &TrialResult::realtimeFactorMedian},
+  };
+  return columns;
+}
+
+std::vector<TableCell> summaryRow(const TrialResult& trial) {
+  const int runs = static_cast<int>(trial.flights.size());
+  std::vector<TableCell> row = {{trial.name}, counted(trial.passed(), runs)};
+  row.push_back({fmt::format("{}", trial.collisions()), trial.collisions() == 0 ? Mark::kGood : Mark::kBad});
+  for (const SummaryColumn& column : summaryColumns()) row.push_back({column.show((trial.*column.value)())});
+  return row;
+}
+
+std::vector<TableCell> paperRow(const TrialResult& trial) {
+  std::vector<TableCell> row = {{"  the paper"}, {""}, {""}};
+  for (const SummaryColumn& column : summaryColumns()) {
+    const auto found = std::find_if(trial.paper.begin(), trial.paper.end(),
+                                    [&](const PaperFigure& figure) { return figure.figure == column.figure; });
+    row.push_back({found == trial.paper.end() ? "" : column.show(found->value)});
+  }
+  return row;
+}
+
+}  // namespace
+
+int TrialResult::passed() const {
+  return static_cast<int>(std::count_if(flights.begin(), flights.end(), [](const auto& f) { return f.passed(); }));
+}
+
+int TrialResult::collisions() const {
+  int sum = 0;
+  for (const FlightScore& flight : flights) sum += flight.collisions;
+  return sum;
+}
+
+std::optional<double> TrialResult::coverageMin() const { return atQuantile(flights, &FlightScore::coverage, kMin); }
+std::optional<double> TrialResult::goalErrorMax_m() const {
+  return atQuantile(flights, &FlightScore::goal_error_m, kMax);
+}
+std::optional<double> TrialResult::goalErrorMedian_m() const {
+  return atQuantile(flights, &FlightScore::goal_error_m, kMedian);
+}
+std::optional<double> TrialResult::homeErrorMax_m() const {
+  return atQuantile(flights, &FlightScore::home_error_m, kMax);
+}
+std::optional<double> TrialResult::homeErrorMedian_m() const {
+  return atQuantile(flights, &FlightScore::home_error_m, kMedian);
+}
+std::optional<double> TrialResult::missionTimeMedian_s() const {
+  std::vector<FlightScore> done;
+  std::copy_if(flights.begin(), flights.end(), std::back_inserter(done), [](const auto& f) { return f.mission_done; });
+  return atQuantile(done, &FlightScore::mission_time_s, kMedian);
+}
+std::optional<double> TrialResult::estimateRmsMedian_m() const {
+  return atQuantile(flights, &FlightScore::estimate_rms_m, kMedian);
+}
+std::optional<double> TrialResult::mapWallErrorMedian_m() const {
+  return atQuantile(flights, &FlightScore::map_wall_error_median_m, kMedian);
+}
+std::optional<double> TrialResult::realtimeFactorMedian() const {
+  return atQuantile(flights, &FlightScore::realtime_factor, kMedian);
+}
+
+bool TrialResults::passed() const {
+  return !trials.empty() && std::all_of(trials.begin(), trials.end(), [](const TrialResult& trial) {
+    return !trial.flights.empty() && trial.passed() == static_cast<int>(trial.flights.size());
+  });
+}
+
+std::string toJson(const TrialResults& results) {
+  ordered_json trials = ordered_json::array();
+  for (const TrialResult& trial : results.trials) trials.push_back(trialJson(trial));
+  return ordered_json{{"trials", trials}}.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+Table summaryTable(const TrialResults& results) {
+  Table table{"Trials", {"trial", "passed", "collisions"}, {}};
+  for (const SummaryColumn& column : summaryColumns()) table.columns.emplace_back(column.title);
+  for (const TrialResult& trial : results.trials) {
+    table.rows.push_back(summaryRow(trial));
+    if (!trial.paper.empty()) table.rows.push_back(paperRow(trial));
+  }
+  return table;
+}
+
+Table flightTable(const TrialResult& trial) {
+  Table table{"Flights of " + trial.name,
+              {"seed", "passed", "outcome", "coverage", "goal err m", "home err m", "time s", "distance m",
+               "estimate RMS m", "wall err m", "clearance m", "interrupted", "resumed", "x real time"},
+              {}};
+  for (const FlightScore& flight : trial.flights) {
+    const std::string link = flight.folder.empty() ? "" : flight.folder + "/report.html";
+    table.rows.push_back({{fmt::format("{}", flight.seed), Mark::kNone, link},
+                          {flight.passed() ? "yes" : "no", flight.passed() ? Mark::kGood : Mark::kBad},
+                          {flight.outcome},
+                          {percent(flight.coverage)},
+                          {shown(flight.goal_error_m, 3)},
+                          {shown(flight.home_error_m, 3)},
+                          {shown(flight.mission_time_s, 1)},
+                          {shown(flight.distance_m, 1)},
+                          {shown(flight.estimate_rms_m, 3)},
+                          {shown(flight.map_wall_error_median_m, 3)},
+                          {shown(flight.min_clearance_m, 2)},
+                          {fmt::format("{}", flight.interruptions)},
+                          {fmt::format("{}", flight.resumed)},
+                          {shown(flight.realtime_factor, 1)}});
+  }
+  return table;
+}
+
+Table failureTable(const TrialResults& results) {
+  Table table{"What was missed", {"trial", "seed", "criterion"}, {}};
+  for (const TrialResult& trial : results.trials)
+    for (const FlightScore& flight : trial.flights)
+      for (const std::string& failure : flight.failures)
+        table.rows.push_back({{trial.name}, {fmt::format("{}", flight.seed)}, {failure, Mark::kBad}});
+  return table;
+}
+
+}  // namespace swiftlet::evaluation

@@ -1,0 +1,55 @@
+// The flights of trials put together: one table, one JSON file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/table.hpp"
+#include "evaluation/flight_score.hpp"
+#include "evaluation/trial.hpp"
+
+namespace swiftlet::evaluation {
+
+/// The flights of one trial, in the order of their seeds.
+struct TrialResult {
+  std::string name;
+  std::string description;
+  std::string system;
+  std::vector<PaperFigure> paper;
+  std::vector<FlightScore> flights;
+
+  int passed() const;
+  int collisions() const;
+  /// Over the flights that have the figure; none when none has.
+  std::optional<double> coverageMin() const;
+  std::optional<double> goalErrorMax_m() const;
+  std::optional<double> goalErrorMedian_m() const;
+  std::optional<double> homeErrorMax_m() const;
+  std::optional<double> homeErrorMedian_m() const;
+  std::optional<double> missionTimeMedian_s() const;  ///< Of the missions that ended well.
+  std::optional<double> estimateRmsMedian_m() const;
+  std::optional<double> mapWallErrorMedian_m() const;
+  std::optional<double> realtimeFactorMedian() const;
+};
+
+struct TrialResults {
+  std::vector<TrialResult> trials;
+
+  /// Every flight of every trial, and at least one.
+  bool passed() const;
+};
+
+/// results.json; what could not be measured is null.
+std::string toJson(const TrialResults& results);
+
+/// One row a trial, under it one with the paper's figures where there are some.
+common::Table summaryTable(const TrialResults& results);
+
+/// One row a flight, linked to the report in its folder.
+common::Table flightTable(const TrialResult& trial);
+
+/// Every criterion that was missed, by trial and seed; no rows when all passed.
+common::Table failureTable(const TrialResults& results);
+
+}  // namespace swiftlet::evaluation

@@ -1,0 +1,90 @@
+#include "interfaces/files/atomic_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace swiftlet::interfaces {
+namespace {
+
+FileError errorOf(const std::filesystem::path& file, int error_number) {
+  return {fmt::format("{}: {}", file.string(), std::strerror(error_number))};
+}
+
+/// 0 or the errno of the write that failed.
+int writeAll(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return 0;
+}
+
+/// The name of the file's entry itself reaches the disk only with its folder.
+int syncFolder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return errno;
+  const int failure = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  return failure;
+}
+
+}  // namespace
+
+Written writeAtomically(const std::filesystem::path& file, std::string_view bytes, Durability durability) {
+  std::filesystem::path temporary = file;
+  temporary += fmt::format(".{}.part", ::getpid());
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) return tl::unexpected(errorOf(file, errno));
+
+  int failure = writeAll(descriptor, bytes);
+  if (failure == 0 && durability == Durability::kPower && ::fsync(descriptor) != 0) failure = errno;
+  if (::close(descriptor) != 0 && failure == 0) failure = errno;
+  if (failure == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) failure = errno;
+  if (failure != 0) {
+    ::unlink(temporary.c_str());
+    return tl::unexpected(errorOf(file, failure));
+  }
+  if (durability == Durability::kPower) failure = syncFolder(file.parent_path());
+  if (failure != 0) return tl::unexpected(errorOf(file, failure));
+  return {};
+}
+
+tl::expected<AppendFile, FileError> AppendFile::create(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
+  if (descriptor < 0) return tl::unexpected(errorOf(file, errno));
+  return AppendFile(file, descriptor);
+}
+
+AppendFile::~AppendFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+AppendFile::AppendFile(AppendFile&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
+
+AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
+  std::swap(file_, other.file_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+Written AppendFile::append(std::string_view record) {
+  if (const int failure = writeAll(descriptor_, record); failure != 0) {
+    // A truncation frees space, so it succeeds where the write did not; if it fails all the same, the reader still
+    // leaves out a last line without an end.
+    [[maybe_unused]] const int truncated = ::ftruncate(descriptor_, size_);
+    return tl::unexpected(errorOf(file_, failure));
+  }
+  size_ += static_cast<std::int64_t>(record.size());
+  return {};
+}
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,47 @@
+// Files that are never seen half written: whole files by a temporary one and a rename, growing files by whole records.
+// What goes wrong (full disk, missing rights) is an expected answer, not an exception, so that it can be met in flight.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+namespace swiftlet::interfaces {
+
+/// Why a file could not be written, in words for people: "out/map.pgm: No space left on device".
+struct FileError {
+  std::string message;
+};
+using Written = tl::expected<void, FileError>;
+
+/// What the file must survive: a killed process, or also a cut of the power (slower: waits for the disk).
+enum class Durability { kProcess, kPower };
+
+/// Replaces `file` by `bytes` in one step: readers see the old content or the new one. When it fails, the old content
+/// stands and nothing is left behind. The folder must exist.
+[[nodiscard]] Written writeAtomically(const std::filesystem::path& file, std::string_view bytes,
+                                      Durability durability = Durability::kProcess);
+
+/// A file that grows by whole records, each in the kernel's hands when `append` returns. A record that does not fit on
+/// the disk is taken back. Used by one thread.
+class AppendFile {
+ public:
+  /// Starts an empty file; an older one of that name is replaced.
+  [[nodiscard]] static tl::expected<AppendFile, FileError> create(const std::filesystem::path& file);
+  ~AppendFile();
+  AppendFile(AppendFile&& other) noexcept;
+  AppendFile& operator=(AppendFile&& other) noexcept;
+
+  [[nodiscard]] Written append(std::string_view record);
+
+ private:
+  AppendFile(std::filesystem::path file, int descriptor) : file_(std::move(file)), descriptor_(descriptor) {}
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::int64_t size_ = 0;
+};
+
+}  // namespace swiftlet::interfaces

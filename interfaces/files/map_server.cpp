@@ -1,0 +1,225 @@
+#include "interfaces/files/map_server.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/config.hpp"
+#include "common/error.hpp"
+#include "common/validation.hpp"
+#include "interfaces/files/text_file.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::CellRect;
+using common::InputError;
+using common::OccupancyGrid;
+using common::Problem;
+namespace occupancy = common::occupancy;
+
+constexpr char kOccupiedPixel = 0;
+constexpr char kFreePixel = static_cast<char>(254);
+constexpr char kUnknownPixel = static_cast<char>(205);
+
+/// What the picture covers; one cell when nothing is known.
+CellRect pictured(const OccupancyGrid& grid) {
+  const CellRect known = knownExtent(grid);
+  return known.empty() ? CellRect{{0, 0}, {1, 1}} : known;
+}
+
+char pixelOf(occupancy::Cell cell) {
+  if (occupancy::isUnknown(cell)) return kUnknownPixel;
+  return occupancy::isOccupied(cell) ? kOccupiedPixel : kFreePixel;
+}
+
+enum class Mode { kTrinary, kScale, kRaw };
+
+struct MapYaml {
+  std::string image;
+  double resolution_m = 0.0;
+  std::vector<double> origin;
+  int negate = 0;
+  double occupied_thresh = 0.65;
+  double free_thresh = 0.196;
+  Mode mode = Mode::kTrinary;
+
+  void describe(common::config::Fields& fields) {
+    fields("image", image, "The picture, relative to this file.");
+    fields("resolution", resolution_m, "Metres a pixel.");
+    fields("origin", origin, "x, y and yaw of the lower left pixel's corner, metres and radians.");
+    fields("negate", negate, "1: white is occupied.");
+    fields("occupied_thresh", occupied_thresh, "Probability from which a pixel is occupied.");
+    fields("free_thresh", free_thresh, "Probability up to which a pixel is free.");
+    fields.choice("mode", mode, {"trinary", "scale", "raw"}, "How pixels are understood.");
+  }
+
+  std::vector<std::string> validate() const {
+    return common::Validation()
+        .require(!image.empty(), "image", "is missing")
+        .require(image.empty() || image.ends_with(".pgm"), "image",
+                 fmt::format("`{}` is not a .pgm picture; convert it, for instance by ImageMagick's `convert`", image))
+        .require(resolution_m > 0, "resolution", "is missing or not positive")
+        .require(
+            origin.size() == 3 && std::all_of(origin.begin(), origin.end(), [](double v) { return std::isfinite(v); }),
+            "origin", "is not a list of three finite numbers: x, y, yaw")
+        .require(negate == 0 || negate == 1, "negate", "is neither 0 nor 1")
+        .within("occupied_thresh", occupied_thresh, 0, 1)
+        .within("free_thresh", free_thresh, 0, 1)
+        .require(free_thresh < occupied_thresh, "free_thresh", "is not below occupied_thresh")
+        .problems();
+  }
+};
+
+occupancy::Cell cellOfProbability(double probability) {
+  const double odds = std::clamp(probability, 1e-6, 1 - 1e-6);
+  const double steps = std::log(odds / (1 - odds)) / occupancy::kLogOddsPerStep;
+  return static_cast<occupancy::Cell>(
+      std::lround(std::clamp<double>(steps, -occupancy::kMaxSteps, occupancy::kMaxSteps)));
+}
+
+/// Thresholds are inclusive, as in nav2.
+occupancy::Cell cellOf(std::uint8_t pixel, const MapYaml& yaml) {
+  if (yaml.mode == Mode::kRaw) return pixel <= 100 ? cellOfProbability(pixel / 100.0) : occupancy::kUnknown;
+  const double occupied = (yaml.negate == 1 ? pixel : 255 - pixel) / 255.0;
+  if (occupied >= yaml.occupied_thresh) return occupancy::kMaxSteps;
+  if (occupied <= yaml.free_thresh) return -occupancy::kMaxSteps;
+  if (yaml.mode == Mode::kTrinary) return occupancy::kUnknown;
+  return cellOfProbability((occupied - yaml.free_thresh) / (yaml.occupied_thresh - yaml.free_thresh));
+}
+
+/// The header of a PGM: words between blanks, `#` to the end of the line is a comment.
+class PgmHeader {
+ public:
+  PgmHeader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  std::string_view word() {
+    skipBlank();
+    const std::size_t begin = at_;
+    while (at_ < bytes_.size() && !isBlank(bytes_[at_]) && bytes_[at_] != '#') ++at_;
+    return bytes_.substr(begin, at_ - begin);
+  }
+
+  int number(const char* element, int low, int high) {
+    const std::string_view text = word();
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < low || value > high)
+      throw fail(element, fmt::format("`{}` is not a whole number from {} to {}", text.substr(0, 20), low, high));
+    return value;
+  }
+
+  InputError fail(const char* element, const std::string& message, const std::string& hint = "") const {
+    return InputError(Problem{{name_, line_}, element, message, hint});
+  }
+
+  /// What follows the one blank that ends the header.
+  std::string_view rest() const { return bytes_.substr(std::min(at_ + 1, bytes_.size())); }
+
+ private:
+  static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+  void skipBlank() {
+    for (bool comment = false; at_ < bytes_.size(); ++at_) {
+      const char c = bytes_[at_];
+      if (c == '#') comment = true;
+      if (c == '\n') {
+        comment = false;
+        ++line_;
+      }
+      if (!comment && !isBlank(c)) return;
+    }
+  }
+
+  std::string_view bytes_;
+  std::string name_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+};
+
+/// The grid of the picture, its cells moved by whole cells as far as the origin asks.
+StoredMap place(const GreyImage& image, const MapYaml& yaml) {
+  StoredMap map{common::makeOccupancyGrid(yaml.resolution_m), {yaml.origin[0], yaml.origin[1], yaml.origin[2]}};
+  common::CellIndex corner;
+  if (std::abs(map.T_map_grid.yaw_rad) < 1e-9) {
+    corner = {static_cast<int>(std::lround(yaml.origin[0] / yaml.resolution_m)),
+              static_cast<int>(std::lround(yaml.origin[1] / yaml.resolution_m))};
+    // A yaml file keeps few decimals: what is less than a thousandth of a cell is rounding.
+    const auto remainder = [&](double origin_m, int cells) {
+      const double rest_m = origin_m - cells * yaml.resolution_m;
+      return std::abs(rest_m) < 1e-3 * yaml.resolution_m ? 0.0 : rest_m;
+    };
+    map.T_map_grid = {remainder(yaml.origin[0], corner.x), remainder(yaml.origin[1], corner.y), 0.0};
+  }
+  for (int row = 0; row < image.height_px; ++row) {
+    for (int column = 0; column < image.width_px; ++column) {
+      const std::size_t index = static_cast<std::size_t>(row) * image.width_px + column;
+      const occupancy::Cell cell = cellOf(static_cast<std::uint8_t>(image.pixels[index]), yaml);
+      if (!occupancy::isUnknown(cell)) map.grid.set({corner.x + column, corner.y + image.height_px - 1 - row}, cell);
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+std::string toPgm(const OccupancyGrid& grid) {
+  const CellRect rect = pictured(grid);
+  std::string bytes =
+      fmt::format("P5\n# swiftlet {} m/pixel\n{} {}\n255\n", grid.resolution_m(), rect.width(), rect.height());
+  bytes.reserve(bytes.size() + static_cast<std::size_t>(rect.width()) * rect.height());
+  for (int y = rect.end.y - 1; y >= rect.begin.y; --y)
+    for (int x = rect.begin.x; x < rect.end.x; ++x) bytes += pixelOf(grid.at({x, y}));
+  return bytes;
+}
+
+std::string toMapYaml(const OccupancyGrid& grid, const std::string& image) {
+  const CellRect rect = pictured(grid);
+  // 0.196 and not 0.25: the unknown pixel 205 has probability 0.19608, and would be read as free.
+  return fmt::format(
+      "image: {}\nmode: trinary\nresolution: {:.6f}\norigin: [{:.6f}, {:.6f}, 0.000000]\nnegate: 0\n"
+      "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
+      image, grid.resolution_m(), rect.begin.x * grid.resolution_m(), rect.begin.y * grid.resolution_m());
+}
+
+Written writeMap(const std::filesystem::path& folder, const std::string& name, const OccupancyGrid& grid,
+                 Durability durability) {
+  return writeAtomically(folder / (name + ".pgm"), toPgm(grid), durability).and_then([&] {
+    return writeAtomically(folder / (name + ".yaml"), toMapYaml(grid, name + ".pgm"), durability);
+  });
+}
+
+StoredMap readMap(const std::filesystem::path& yaml_file) {
+  const auto yaml = common::config::readFile<MapYaml>(yaml_file.string());
+  const std::filesystem::path image_file = yaml_file.parent_path() / yaml.image;
+  return place(parsePgm(readBytes(image_file), image_file.string()), yaml);
+}
+
+GreyImage parsePgm(std::string_view bytes, const std::string& name) {
+  constexpr int kMaxSide = 1 << 15;
+  PgmHeader header(bytes, name);
+  const std::string_view magic = header.word();
+  if (magic != "P5" && magic != "P2")
+    throw header.fail("PGM", fmt::format("begins with `{}`, P5 or P2 was expected", magic.substr(0, 8)));
+  GreyImage image;
+  image.width_px = header.number("width", 1, kMaxSide);
+  image.height_px = header.number("height", 1, kMaxSide);
+  const int greatest = header.number("greatest value", 1, 255);
+  const std::size_t count = static_cast<std::size_t>(image.width_px) * image.height_px;
+
+  // Each pixel takes at least one byte: a header that promises more than there is must not allocate it.
+  const std::string_view data = header.rest();
+  if (data.size() < (magic == "P5" ? count : count - 1))
+    throw header.fail("pixels", fmt::format("the file ends after {} of {} pixels", data.size(), count));
+  image.pixels.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int value = magic == "P5" ? static_cast<std::uint8_t>(data[i]) : header.number("pixel", 0, greatest);
+    image.pixels += static_cast<char>(std::min(value, greatest) * 255 / greatest);
+  }
+  return image;
+}
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,43 @@
+#include "interfaces/files/text_file.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "common/error.hpp"
+
+namespace swiftlet::interfaces {
+
+std::string readBytes(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file))
+    throw common::InputError(common::Problem{{file.string()}, "", "is a folder, a file was expected", ""});
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw common::InputError(
+        common::Problem{{file.string()}, "", std::string("cannot be opened: ") + std::strerror(errno), ""});
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  return std::move(bytes).str();
+}
+
+std::vector<Word> wordsOf(std::string_view line) {
+  constexpr std::string_view kBlank = " \t\r";
+  std::vector<Word> words;
+  for (std::size_t begin = line.find_first_not_of(kBlank); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(kBlank, begin), line.size());
+    words.push_back({line.substr(begin, end - begin), static_cast<int>(begin) + 1});
+    begin = line.find_first_not_of(kBlank, end);
+  }
+  return words;
+}
+
+bool parseNumber(std::string_view word, double& value) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+}
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,26 @@
+// Whole text files, and numbers read with their place, for the readers beside this.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace swiftlet::interfaces {
+
+/// The bytes of a file. Throws InputError when it cannot be read.
+std::string readBytes(const std::filesystem::path& file);
+
+/// A word of a line and the column it starts at, counted from 1.
+struct Word {
+  std::string_view text;
+  int column = 0;
+};
+
+/// The words of a line, separated by spaces and tabs; views into `line`.
+std::vector<Word> wordsOf(std::string_view line);
+
+/// The whole word as a finite number; false when it is anything else.
+bool parseNumber(std::string_view word, double& value);
+
+}  // namespace swiftlet::interfaces

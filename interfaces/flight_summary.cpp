@@ -1,0 +1,78 @@
+#include "interfaces/flight_summary.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "common/check.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json orNull(const std::optional<double>& value) { return value ? ordered_json(*value) : ordered_json(nullptr); }
+
+ordered_json phaseJson(const Phase& phase) {
+  return {{"name", phase.name},
+          {"begin_s", phase.begin.seconds()},
+          {"end_s", phase.end.seconds()},
+          {"duration_s", (phase.end - phase.begin).seconds()}};
+}
+
+ordered_json frontierJson(const common::Frontier& frontier) {
+  return {{"x_m", frontier.centroid_map_m.x()},  {"y_m", frontier.centroid_map_m.y()},
+          {"length_m", frontier.length_m},       {"reason", common::toString(frontier.reason)},
+          {"explanation", frontier.explanation}, {"attempts", frontier.attempts}};
+}
+
+}  // namespace
+
+const char* toString(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kFlying:
+      return "flying";
+    case Outcome::kDone:
+      return "done";
+    case Outcome::kFailed:
+      return "failed";
+    case Outcome::kCrashed:
+      return "crashed";
+    case Outcome::kStopped:
+      return "stopped";
+  }
+  SWIFTLET_CHECK(false, static_cast<int>(outcome));
+}
+
+std::string toJson(const FlightSummary& summary) {
+  ordered_json phases = ordered_json::array(), frontiers = ordered_json::array(), figures = ordered_json::object();
+  for (const Phase& phase : summary.phases) phases.push_back(phaseJson(phase));
+  for (const common::Frontier& frontier : summary.frontiers) frontiers.push_back(frontierJson(frontier));
+  for (const Figure& figure : summary.figures) figures[figure.name] = figure.value;
+  const ordered_json json = {
+      {"format", "swiftlet mission 1"},
+      {"mission", summary.info.mission},
+      {"mission_file", summary.info.mission_file},
+      {"world", summary.info.world},
+      {"system", summary.info.system},
+      {"seed", summary.info.seed},
+      {"version", summary.info.version},
+      {"outcome", toString(summary.outcome)},
+      {"reason", summary.reason},
+      {"mission_time_s", summary.mission_time.seconds()},
+      {"distance_m", summary.distance_m},
+      {"explored_area_m2", summary.explored_area_m2},
+      {"coverage", orNull(summary.coverage)},
+      {"battery_remaining", summary.battery_remaining},
+      {"phases", phases},
+      {"frontiers", frontiers},
+      {"figures", figures},
+      {"machine",
+       {{"started", summary.info.started},
+        {"wall_time_s", orNull(summary.wall_time_s)},
+        {"realtime_factor", orNull(summary.realtime_factor)}}},
+  };
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace swiftlet::interfaces

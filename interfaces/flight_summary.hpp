@@ -1,0 +1,79 @@
+// One flight in figures and words: what mission.json keeps and report.html shows.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/event.hpp"
+#include "common/world.hpp"
+
+namespace swiftlet::interfaces {
+
+enum class Outcome {
+  kFlying,   ///< Not over; in the files of a run that is over: the process was killed.
+  kDone,     ///< The mission succeeded.
+  kFailed,   ///< The mission failed; the reason says why.
+  kCrashed,  ///< Something was touched.
+  kStopped,  ///< Ended from outside: by the operator, a time limit, or a disk that is full.
+};
+const char* toString(Outcome outcome);
+
+/// What is known before the flight.
+struct RunInfo {
+  std::string mission;       ///< Its name, for titles and folders.
+  std::string mission_file;  ///< As given by the user.
+  std::string world;
+  std::string system;  ///< The profile.
+  std::int64_t seed = 0;
+  std::string version;
+  std::string started;  ///< Local date and time; the caller's clock.
+};
+
+/// A stretch of the flight with one intent.
+struct Phase {
+  std::string name;
+  common::Time begin;
+  common::Time end;
+};
+
+/// A named figure of a flight, its unit at the end of the name: goal_error_m.
+struct Figure {
+  std::string name;
+  double value = 0.0;
+};
+
+/// The flight a few times a second, for plots.
+struct FlightSample {
+  double time_s = 0.0;
+  Eigen::Vector3d position_map_m = Eigen::Vector3d::Zero();
+  double speed_m_s = 0.0;  ///< Horizontal.
+  double height_above_ground_m = 0.0;
+  double battery_v = 0.0;
+  double explored_area_m2 = 0.0;
+  double nearest_m = 0.0;             ///< From the hull to the nearest return; may be infinite.
+  double position_deviation_m = 0.0;  ///< Horizontal standard deviation, as the filter believes.
+};
+
+struct FlightSummary {
+  RunInfo info;
+  Outcome outcome = Outcome::kFlying;
+  std::string reason;
+  common::Duration mission_time;  ///< From the first tick of the mission to its end.
+  double distance_m = 0.0;        ///< By the estimate.
+  double explored_area_m2 = 0.0;
+  double battery_remaining = 1.0;
+  std::optional<double> coverage;  ///< Of the reachable free space, where the truth is known; in [0, 1].
+  std::vector<Phase> phases;
+  std::vector<common::Frontier> frontiers;  ///< Those that remained, each with its reason.
+  std::vector<Figure> figures;
+  std::vector<FlightSample> samples;
+  std::optional<double> wall_time_s;  ///< How long the machine took.
+  std::optional<double> realtime_factor;
+};
+
+/// mission.json, indented. Figures that are not finite are null.
+std::string toJson(const FlightSummary& summary);
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "interfaces/report/html.hpp"
+#include "interfaces/report/report.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::Mark;
+using html::escape;
+
+/// More events than this are left to events.jsonl.
+constexpr std::size_t kMaxEvents = 2000;
+
+/// Told apart by people with any colour vision, on light and on dark (after Okabe and Ito).
+constexpr std::array<const char*, 7> kPhaseColors = {"#0072b2", "#e69f00", "#009e73", "#cc79a7",
+                                                     "#56b4e9", "#d55e00", "#8a8f98"};
+
+std::string minutes(double seconds) {
+  const int whole = static_cast<int>(std::lround(seconds));
+  return whole < 60 ? fmt::format("{:.1f} s", seconds) : fmt::format("{} min {:02} s", whole / 60, whole % 60);
+}
+
+std::string shown(const Figure& figure) {
+  if (!std::isfinite(figure.value)) return "not known";
+  return fmt::format("{:.4g}", figure.value);
+}
+
+std::pair<std::string, Mark> verdictOf(const FlightSummary& summary) {
+  switch (summary.outcome) {
+    case Outcome::kFlying:
+      return {"not finished", Mark::kNone};
+    case Outcome::kDone:
+      return {"done", Mark::kGood};
+    case Outcome::kFailed:
+      return {"failed", Mark::kBad};
+    case Outcome::kCrashed:
+      return {"crashed", Mark::kBad};
+    case Outcome::kStopped:
+      return {"stopped", Mark::kNone};
+  }
+  return {"", Mark::kNone};
+}
+
+std::string header(const FlightSummary& summary) {
+  const auto [verdict, mark] = verdictOf(summary);
+  std::string text = fmt::format("<h1>{} {}</h1>\n", escape(summary.info.mission), html::pill(verdict, mark));
+  if (!summary.reason.empty()) text += fmt::format("<p>{}</p>\n", escape(summary.reason));
+  if (summary.outcome == Outcome::kFlying)
+    text += "<p>The flight goes on, or its program was ended before it could say how the flight ended.</p>\n";
+  text += fmt::format("<p>{} in {}, system {}, seed {}, version {}{}</p>", escape(summary.info.mission_file),
+                      escape(summary.info.world), escape(summary.info.system), summary.info.seed,
+                      escape(summary.info.version),
+                      summary.info.started.empty() ? "" : ", started " + escape(summary.info.started));
+  return text;
+}
+
+std::string summarySection(const FlightSummary& summary) {
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"Mission time", minutes(summary.mission_time.seconds())},
+      {"Distance flown", fmt::format("{:.1f} m", summary.distance_m)},
+      {"Area explored", fmt::format("{:.1f} m²", summary.explored_area_m2)}};
+  if (summary.coverage) facts.emplace_back("Coverage", fmt::format("{:.1f} %", 100 * *summary.coverage));
+  facts.emplace_back("Frontiers left", fmt::format("{}", summary.frontiers.size()));
+  facts.emplace_back("Battery left", fmt::format("{:.0f} %", 100 * summary.battery_remaining));
+  if (summary.realtime_factor) facts.emplace_back("Real time", fmt::format("× {:.1f}", *summary.realtime_factor));
+  return html::section("Summary", html::facts(facts));
+}
+
+std::string figuresSection(const std::vector<Figure>& figures) {
+  if (figures.empty()) return "";
+  common::Table table{"", {"figure", "value"}, {}};
+  for (const Figure& figure : figures) table.rows.push_back({{figure.name}, {shown(figure)}});
+  return html::section("Figures", html::table(table));
+}
+
+std::string mapSection(const ReportPictures& pictures) {
+  if (!pictures.map_svg.empty()) return html::section("Map", fmt::format("<figure>{}</figure>", pictures.map_svg));
+  if (pictures.map_png.empty()) return "";
+  return html::section("Map", fmt::format("<figure><img src=\"{}\" alt=\"The map of the flight\"></figure>",
+                                          html::pngUrl(pictures.map_png)));
+}
+
+std::string plotsSection(const std::vector<ReportPlot>& plots) {
+  if (plots.empty()) return "";
+  std::string body = "<div class=\"plots\">\n";
+  for (const ReportPlot& plot : plots) {
+    body += "<figure>" + plot.svg;
+    if (!plot.title.empty()) body += fmt::format("<figcaption>{}</figcaption>", escape(plot.title));
+    body += "</figure>\n";
+  }
+  return html::section("Plots", body + "</div>");
+}
+
+std::string phasesSection(const std::vector<Phase>& phases) {
+  if (phases.empty()) return "";
+  std::string bar = "<div class=\"bar\">", rows;
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const Phase& phase = phases[i];
+    const double duration_s = (phase.end - phase.begin).seconds();
+    const auto first = std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.name == phase.name; });
+    const char* color = kPhaseColors[static_cast<std::size_t>(first - phases.begin()) % kPhaseColors.size()];
+    const std::string name = escape(phase.name);
+    bar += fmt::format("<span style=\"flex:{:.3f};background:{}\" title=\"{}, {:.1f} s\"></span>",
+                       std::max(duration_s, 1e-3), color, name, duration_s);
+    rows += fmt::format(
+        "<tr><td><span class=\"dot\" style=\"background:{}\"></span>{}</td><td class=\"number\">{:.1f} s</td><td "
+        "class=\"number\">{:.1f} s</td></tr>\n",
+        color, name, phase.begin.seconds(), duration_s);
+  }
+  return html::section("Phases",
+                       bar +
+                           "</div>\n<div class=\"wide\"><table><thead><tr><th>phase</th>"
+                           "<th class=\"number\">begins</th><th class=\"number\">takes</th></tr></thead>\n<tbody>\n" +
+                           rows + "</tbody></table></div>");
+}
+
+std::string frontiersSection(const std::vector<common::Frontier>& frontiers) {
+  if (frontiers.empty())
+    return html::section("Frontiers left", "<p class=\"empty\">None: nothing was left to explore.</p>");
+  std::string rows;
+  for (const common::Frontier& frontier : frontiers)
+    rows += fmt::format("<tr><td>({:.2f}, {:.2f})</td><td>{:.2f} m</td><td>{}</td><td class=\"quiet\">{}</td></tr>\n",
+                        frontier.centroid_map_m.x(), frontier.centroid_map_m.y(), frontier.length_m,
+                        common::toString(frontier.reason), escape(frontier.explanation));
+  return html::section("Frontiers left",
+                       "<div class=\"wide\"><table><thead><tr><th>at, in the map</th><th>length</th><th>reason</th>"
+                       "<th></th></tr></thead>\n<tbody>\n" +
+                           rows + "</tbody></table></div>");
+}
+
+std::string eventsSection(const std::vector<common::Event>& events) {
+  std::string rows;
+  const std::size_t count = std::min(events.size(), kMaxEvents);
+  for (std::size_t i = 0; i < count; ++i) {
+    const common::Event& event = events[i];
+    const char* style = event.severity == common::Severity::kError     ? "bad"
+                        : event.severity == common::Severity::kWarning ? "warn"
+                                                                       : "";
+    rows += fmt::format(
+        "<tr><td class=\"quiet\">{:.2f}</td><td class=\"quiet\">{}</td><td class=\"{}\">{}</td><td "
+        "class=\"quiet\">{}</td></tr>\n",
+        event.stamp.seconds(), escape(event.source), style, escape(event.text), escape(event.reason));
+  }
+  std::string body =
+      "<div "
+      "class=\"wide\"><table><thead><tr><th>s</th><th>by</th><th>event</th><th>reason</th></tr></thead>\n<tbody>\n" +
+      rows + "</tbody></table></div>";
+  if (events.size() > count)
+    body += fmt::format("\n<p class=\"empty\">{} more are in events.jsonl.</p>", events.size() - count);
+  return html::section("Events", events.empty() ? "<p class=\"empty\">None.</p>" : body);
+}
+
+std::string settingsSection(const std::string& config_yaml) {
+  if (config_yaml.empty()) return "";
+  return fmt::format("<section>\n<details><summary>Settings</summary>\n<pre>{}</pre></details>\n</section>\n",
+                     escape(config_yaml));
+}
+
+}  // namespace
+
+std::string flightReport(const FlightSummary& summary, const std::vector<common::Event>& events,
+                         const ReportPictures& pictures, const std::string& config_yaml) {
+  const std::string body = summarySection(summary) + mapSection(pictures) + phasesSection(summary.phases) +
+                           plotsSection(pictures.plots) + figuresSection(summary.figures) +
+                           frontiersSection(summary.frontiers) + eventsSection(events) + settingsSection(config_yaml);
+  return html::page(summary.info.mission + ": " + toString(summary.outcome), header(summary), body);
+}
+
+}  // namespace swiftlet::interfaces

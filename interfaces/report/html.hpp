@@ -1,0 +1,36 @@
+// The pieces the reports are made of.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/table.hpp"
+
+namespace swiftlet::interfaces::html {
+
+/// Text as it may stand between tags and in quoted attributes. Bytes that are not UTF-8 become U+FFFD.
+std::string escape(std::string_view text);
+
+/// "data:image/png;base64,..."
+std::string pngUrl(std::string_view png);
+
+/// A link that stays inside the folder of the report: a relative path with special characters encoded.
+std::string relativeUrl(std::string_view path);
+
+/// A word on a coloured ground.
+std::string pill(const std::string& text, common::Mark mark);
+
+std::string section(const std::string& title, const std::string& body);
+
+/// Small facts side by side: label and value.
+std::string facts(const std::vector<std::pair<std::string, std::string>>& facts);
+
+/// Scrolls sideways where the screen is narrow.
+std::string table(const common::Table& table);
+
+/// A whole document. `title` is escaped here, the others are HTML.
+std::string page(const std::string& title, const std::string& header, const std::string& body);
+
+}  // namespace swiftlet::interfaces::html

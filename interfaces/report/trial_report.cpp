@@ -1,0 +1,36 @@
+#include <fmt/format.h>
+
+#include "interfaces/report/html.hpp"
+#include "interfaces/report/report.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::Mark;
+using html::escape;
+
+std::string pictureOf(const TrialPicture& picture) {
+  const std::string source = picture.png.empty() ? html::relativeUrl(picture.file) : html::pngUrl(picture.png);
+  std::string image = fmt::format("<img loading=\"lazy\" src=\"{}\" alt=\"{}\">", source, escape(picture.caption));
+  if (!picture.link.empty()) image = fmt::format("<a href=\"{}\">{}</a>", html::relativeUrl(picture.link), image);
+  return fmt::format("<figure>{}<figcaption>{} {}</figcaption></figure>\n", image, escape(picture.caption),
+                     picture.passed ? "" : html::pill("failed", Mark::kBad));
+}
+
+}  // namespace
+
+std::string trialReport(const TrialReport& report) {
+  const std::string verdict = report.passed ? html::pill("passed", Mark::kGood) : html::pill("not passed", Mark::kBad);
+  const std::string header =
+      fmt::format("<h1>{} {}</h1>\n<p>{}</p>", escape(report.title), verdict, escape(report.subtitle));
+  std::string body;
+  for (const common::Table& table : report.tables) body += html::section(table.title, html::table(table));
+  if (!report.pictures.empty()) {
+    std::string pictures = "<div class=\"pictures\">\n";
+    for (const TrialPicture& picture : report.pictures) pictures += pictureOf(picture);
+    body += html::section("Maps", pictures + "</div>");
+  }
+  return html::page(report.title, header, body);
+}
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,235 @@
+#include "interfaces/run_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "common/check.hpp"
+#include "common/error.hpp"
+#include "common/validation.hpp"
+#include "interfaces/files/json_lines.hpp"
+#include "interfaces/files/map_server.hpp"
+#include "interfaces/files/tum.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+namespace fs = std::filesystem;
+using common::Duration;
+using common::InputError;
+using common::MissionState;
+using common::Problem;
+using common::Time;
+
+/// Every file a run may leave; only these are ever removed.
+constexpr std::array<const char*, 11> kFiles = {"mission.json", "events.jsonl", "trajectory.tum", "map.pgm",
+                                                "map.yaml",     "map.png",      "report.html",    "config.yaml",
+                                                "map.bt",       "cloud.ply",    "log.mcap"};
+
+bool isRunFile(const std::string& name) {
+  // A `.part` is what a killed process left of a file of ours.
+  return std::any_of(kFiles.begin(), kFiles.end(), [&](const std::string& file) {
+    return name == file || (name.starts_with(file + ".") && name.ends_with(".part"));
+  });
+}
+
+/// The folder, made or cleared of an older run.
+fs::path prepared(fs::path path) {
+  const auto fail = [&](const std::string& message, const std::string& hint) {
+    return InputError(Problem{{path.string()}, "", message, hint});
+  };
+  try {
+    if (fs::exists(path) && !fs::is_directory(path)) throw fail("is not a folder", "give a folder for the run");
+    fs::create_directories(path);
+    std::vector<fs::path> old;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+      if (!entry.is_regular_file() || !isRunFile(entry.path().filename().string()))
+        throw fail(fmt::format("holds `{}`, which is no file of a run", entry.path().filename().string()),
+                   "give an empty or new folder");
+      old.push_back(entry.path());
+    }
+    for (const fs::path& file : old) fs::remove(file);
+  } catch (const fs::filesystem_error& e) {
+    throw fail(fmt::format("cannot be used: {}", e.code().message()), "");
+  }
+  return path;
+}
+
+template <typename Writer>
+Writer opened(tl::expected<Writer, FileError> writer) {
+  if (!writer) throw InputError(Problem{{}, "", writer.error().message, ""});
+  return std::move(*writer);
+}
+
+/// True for the first call and then once a period; keeps to the lattice of periods, so that late calls do not add up.
+class Every {
+ public:
+  explicit Every(double period_s) : period_(Duration::fromSeconds(period_s)) {}
+  bool due(Time now) {
+    if (next_ && now < *next_) return false;
+    next_ = next_ && now - *next_ < period_ ? *next_ + period_ : now + period_;
+    return true;
+  }
+
+ private:
+  Duration period_;
+  std::optional<Time> next_;
+};
+
+FlightSample sampleOf(const common::World& world) {
+  const common::VehicleState& state = world.state;
+  FlightSample sample;
+  sample.time_s = world.stamp.seconds();
+  sample.position_map_m = state.T_map_body().position_m;
+  sample.speed_m_s = state.velocity_odom_m_s.head<2>().norm();
+  sample.height_above_ground_m = state.height_above_ground_m;
+  sample.battery_v = world.status.battery_voltage_v;
+  sample.explored_area_m2 = world.explored_area_m2;
+  sample.nearest_m = world.avoidance.nearest_m;
+  sample.position_deviation_m = std::sqrt(std::max(0.0, state.position_covariance_m2.topLeftCorner<2, 2>().trace()));
+  return sample;
+}
+
+}  // namespace
+
+fs::path freshRunFolder(const fs::path& parent, const std::string& started, const std::string& mission) {
+  std::string name = started + "-" + mission;
+  for (char& c : name) {
+    const bool good =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+    if (!good) c = '-';
+  }
+  fs::path path = parent / name;
+  for (int number = 2; fs::exists(path); ++number) path = parent / fmt::format("{}-{}", name, number);
+  return path;
+}
+
+void RunFolder::Config::describe(common::config::Fields& fields) {
+  fields("map_period_s", map_period_s, "Between two writings of map, mission.json and report.");
+  fields("trajectory_period_s", trajectory_period_s, "Between two poses of trajectory.tum.");
+  fields("sample_period_s", sample_period_s, "Between two samples for the report's plots.");
+}
+
+std::vector<std::string> RunFolder::Config::validate() const {
+  return common::Validation()
+      .within("map_period_s", map_period_s, 0.5, 60)
+      .within("trajectory_period_s", trajectory_period_s, 0.001, 0.05)
+      .within("sample_period_s", sample_period_s, 0.01, 10)
+      .problems();
+}
+
+struct RunFolder::Impl {
+  Impl(const Config& config, fs::path folder, RunInfo info, std::string yaml)
+      : path(prepared(std::move(folder))),
+        config_yaml(std::move(yaml)),
+        events_file(opened(EventWriter::create(path / "events.jsonl"))),
+        trajectory_file(opened(TumWriter::create(path / "trajectory.tum"))),
+        trajectory_due(config.trajectory_period_s),
+        sample_due(config.sample_period_s),
+        map_due(config.map_period_s) {
+    summary.info = std::move(info);
+  }
+
+  void keep(const Written& written) {
+    if (!written && !failure) failure = written.error().message;
+  }
+
+  void write(const char* name, std::string_view bytes, Durability durability = Durability::kProcess) {
+    keep(writeAtomically(path / name, bytes, durability));
+  }
+
+  void writeSummary(Durability durability = Durability::kProcess) {
+    write("mission.json", toJson(summary), durability);
+    write("report.html", flightReport(summary, events, pictures, config_yaml), durability);
+  }
+
+  void track(const common::World& world);
+
+  fs::path path;
+  std::string config_yaml;
+  EventWriter events_file;
+  TumWriter trajectory_file;
+  Every trajectory_due, sample_due, map_due;
+  FlightSummary summary;
+  std::vector<common::Event> events;
+  ReportPictures pictures;
+  std::shared_ptr<const common::OccupancyGrid> grid;
+  std::optional<Time> mission_begin;
+  bool mission_over = false;
+  std::optional<std::string> failure;
+};
+
+/// The summary follows the flight: its figures, and the phases by the mission's own words for them.
+void RunFolder::Impl::track(const common::World& world) {
+  summary.distance_m = world.status.distance_flown_m;
+  summary.explored_area_m2 = world.explored_area_m2;
+  summary.battery_remaining = world.status.battery_remaining;
+  if (world.frontiers) summary.frontiers = *world.frontiers;
+  grid = world.grid;
+  if (world.mission.state == MissionState::kReady || mission_over) return;
+
+  if (!mission_begin) mission_begin = world.stamp;
+  summary.mission_time = world.stamp - *mission_begin;
+  mission_over = world.mission.state == MissionState::kDone || world.mission.state == MissionState::kFailed;
+  if (!summary.phases.empty()) summary.phases.back().end = world.stamp;
+  if (mission_over || world.mission.phase.empty()) return;
+  if (summary.phases.empty() || summary.phases.back().name != world.mission.phase)
+    summary.phases.push_back({world.mission.phase, world.stamp, world.stamp});
+}
+
+RunFolder::RunFolder(const Config& config, fs::path path, RunInfo info, std::string config_yaml)
+    : impl_(std::make_unique<Impl>(config, std::move(path), std::move(info), std::move(config_yaml))) {
+  impl_->write("config.yaml", impl_->config_yaml);
+  impl_->writeSummary();
+  if (impl_->failure) throw InputError(Problem{{}, "", *impl_->failure, ""});
+}
+
+RunFolder::~RunFolder() = default;
+RunFolder::RunFolder(RunFolder&&) noexcept = default;
+RunFolder& RunFolder::operator=(RunFolder&&) noexcept = default;
+
+void RunFolder::state(const common::VehicleState& state) {
+  if (impl_->failure || !impl_->trajectory_due.due(state.stamp)) return;
+  impl_->keep(impl_->trajectory_file.write({state.stamp, state.T_map_body()}));
+}
+
+void RunFolder::event(const common::Event& event) {
+  impl_->events.push_back(event);
+  if (!impl_->failure) impl_->keep(impl_->events_file.write(event));
+}
+
+void RunFolder::world(const common::World& world) {
+  impl_->track(world);
+  if (impl_->sample_due.due(world.stamp)) impl_->summary.samples.push_back(sampleOf(world));
+  if (impl_->failure || !impl_->map_due.due(world.stamp)) return;
+  impl_->keep(writeMap(impl_->path, "map", *impl_->grid));
+  impl_->writeSummary();
+}
+
+void RunFolder::show(ReportPictures pictures) {
+  impl_->pictures = std::move(pictures);
+  if (!impl_->failure && !impl_->pictures.map_png.empty()) impl_->write("map.png", impl_->pictures.map_png);
+}
+
+void RunFolder::finish(const FlightEnd& end) {
+  Impl& run = *impl_;
+  run.summary.outcome = end.outcome;
+  run.summary.reason = end.reason;
+  run.summary.coverage = end.coverage;
+  run.summary.figures = end.figures;
+  run.summary.wall_time_s = end.wall_time_s;
+  if (end.wall_time_s && *end.wall_time_s > 0)
+    run.summary.realtime_factor = run.summary.mission_time.seconds() / *end.wall_time_s;
+  if (run.grid) run.keep(writeMap(run.path, "map", *run.grid, Durability::kPower));
+  if (!run.pictures.map_png.empty()) run.write("map.png", run.pictures.map_png, Durability::kPower);
+  run.writeSummary(Durability::kPower);
+}
+
+const fs::path& RunFolder::path() const { return impl_->path; }
+const FlightSummary& RunFolder::summary() const { return impl_->summary; }
+const std::optional<std::string>& RunFolder::failure() const { return impl_->failure; }
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,83 @@
+// What a run leaves: a folder that is readable at every moment of the flight, also after the process was killed.
+//
+//   mission.json     outcome, times, distance, phases, frontiers with reasons, figures; "flying" until the end
+//   events.jsonl     every event as it happens
+//   trajectory.tum   the estimate in `map`
+//   map.pgm, map.yaml, map.png    replaced whole every few seconds and at the end
+//   report.html      the same in one page
+//   config.yaml      the settings in force
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/event.hpp"
+#include "common/vehicle_state.hpp"
+#include "common/world.hpp"
+#include "interfaces/flight_summary.hpp"
+#include "interfaces/report/report.hpp"
+
+namespace swiftlet::interfaces {
+
+/// A folder below `parent` that does not exist yet: STARTED-MISSION, with a number where that is taken. Characters that
+/// are no good in file names become `-`.
+std::filesystem::path freshRunFolder(const std::filesystem::path& parent, const std::string& started,
+                                     const std::string& mission);
+
+/// How the flight ended, as the caller knows it.
+struct FlightEnd {
+  Outcome outcome = Outcome::kDone;
+  std::string reason;
+  std::optional<double> coverage;
+  std::vector<Figure> figures;
+  std::optional<double> wall_time_s;
+};
+
+/// Used by one thread. Nothing throws after the constructor: what cannot be written (full disk) is kept in `failure`,
+/// writing stops, and the caller decides; no file is left half written.
+class RunFolder {
+ public:
+  struct Config {
+    double map_period_s = 3.0;          ///< Between two writings of map, mission.json and report.
+    double trajectory_period_s = 0.04;  ///< Between two poses of trajectory.tum; at most 0.05 (20 Hz).
+    double sample_period_s = 0.2;       ///< Between two samples for plots.
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+  };
+
+  /// Makes the folder. One that is there must be empty or an older run, whose files are removed first; anything else
+  /// is refused. Throws common::InputError that says why.
+  RunFolder(const Config& config, std::filesystem::path path, RunInfo info, std::string config_yaml);
+  ~RunFolder();
+  RunFolder(RunFolder&&) noexcept;
+  RunFolder& operator=(RunFolder&&) noexcept;
+
+  /// At every estimate.
+  void state(const common::VehicleState& state);
+  /// At every event, in order.
+  void event(const common::Event& event);
+  /// At every snapshot.
+  void world(const common::World& world);
+  /// The pictures of the next report and map.png; may be given again and again.
+  void show(ReportPictures pictures);
+  /// The last map, mission.json and report, safe from a cut of the power. Called once, last; tries everything even if
+  /// something failed before.
+  void finish(const FlightEnd& end);
+
+  const std::filesystem::path& path() const;
+  /// What is known so far; after `finish` the whole flight.
+  const FlightSummary& summary() const;
+  /// Why something could not be written; none while all is well.
+  const std::optional<std::string>& failure() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,61 @@
+// Pose graphs in the plane: the poses that best satisfy relative measurements, by sparse Levenberg-Marquardt (Ceres).
+// Deterministic: one thread, bounded by iterations, never by time. Pure function, safe from any thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+
+namespace swiftlet::optimization {
+
+/// "Seen from pose `from`, pose `to` stands at T_from_to."
+struct PoseEdge2D {
+  int from = 0;
+  int to = 0;
+  common::Pose2 T_from_to;
+  /// Inverse covariance of the additive errors (x_m, y_m, yaw_rad) of T_from_to; symmetric positive definite.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
+  bool robust = false;  ///< May be wrong (a loop closure): its pull is bounded by the robust kernel.
+};
+
+struct PoseGraph2D {
+  std::vector<common::Pose2> poses;  ///< The initial guess.
+  std::vector<PoseEdge2D> edges;
+  int fixed = 0;  ///< This pose does not move.
+};
+
+struct PoseGraph2DConfig {
+  int max_iterations = 30;
+  double robust_width = 3.0;        ///< Normalized error (sigmas) beyond which a robust edge loses influence (Cauchy).
+  double relative_decrease = 1e-6;  ///< Converged when the cost changes by less than this share.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct PoseGraph2DSolution {
+  std::vector<common::Pose2> poses;
+  std::vector<double> squared_errors;  ///< Of each edge at the solution: e' * information * e, 3 degrees of freedom.
+  double initial_cost = 0.0;
+  double final_cost = 0.0;
+  int iterations = 0;
+  bool converged = false;  ///< False: stopped by max_iterations or not solvable; `poses` are the best found.
+};
+
+/// Poses that no edge ties to the fixed one stay where they were (a slight prior holds them). Indices must be valid.
+PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraph2DConfig& config);
+
+/// The error of an edge, (R_from' (t_to - t_from) - t, yaw), and its Jacobians with respect to (x, y, yaw) of each
+/// pose.
+struct EdgeError2D {
+  Eigen::Vector3d error;
+  Eigen::Matrix3d jacobian_from;
+  Eigen::Matrix3d jacobian_to;
+};
+EdgeError2D edgeError(const common::Pose2& from, const common::Pose2& to, const common::Pose2& T_from_to);
+
+}  // namespace swiftlet::optimization

@@ -1,0 +1,68 @@
+// The levels and the cells they cover, with a grid that answers which levels lie near a place.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/level_map.hpp"
+#include "common/tiled_grid.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::perception::altitude {
+
+/// What the beams of one scan said of one level.
+struct LevelSight {
+  common::Time stamp;
+  double distance_below_m = 0.0;  ///< Mean over the beams.
+  int beams = 0;
+};
+
+struct LevelEstimate {
+  double height_m = 0.0;
+  double variance_m2 = 0.0;
+  std::vector<common::CellIndex> cells;  ///< Sorted.
+  bool seen = false;
+  LevelSight last;
+};
+
+class LevelStore {
+ public:
+  explicit LevelStore(double resolution_m);
+
+  void clear();
+  /// The id is the order of creation.
+  int add(double height_m, double variance_m2);
+  LevelEstimate& at(int level) { return levels_[static_cast<std::size_t>(resolved(level))]; }
+  const LevelEstimate& at(int level) const { return levels_[static_cast<std::size_t>(resolved(level))]; }
+
+  common::CellIndex cellAt(const Eigen::Vector2d& position_map_m) const { return heads_.cellAt(position_map_m); }
+  /// True when the level did not cover the cell before.
+  bool extend(int level, common::CellIndex cell);
+  /// The levels with a cell within the distance (square), ascending.
+  void near(common::CellIndex center, double distance_m, std::vector<int>& levels) const;
+  /// Whether cells of both levels, within `distance_m` (square) of `center`, come as close as `gap_m`.
+  bool meet(int a, int b, common::CellIndex center, double distance_m, double gap_m) const;
+  /// Both become the older one: Gaussians multiplied, cells united (Grzonka 2012, IV-C).
+  int join(int a, int b);
+
+  common::LevelMap snapshot() const;
+
+ private:
+  struct Entry {
+    int level;
+    std::int32_t next;
+  };
+  int resolved(int level) const;
+  int reach(double distance_m) const;
+  bool covers(int level, common::CellIndex cell) const;
+
+  double resolution_m_;
+  std::vector<LevelEstimate> levels_;
+  std::vector<int> joined_into_;  ///< Itself while it lives.
+  std::vector<Entry> entries_;
+  common::TiledGrid<std::int32_t> heads_;  ///< First entry of each cell, -1 for none.
+};
+
+}  // namespace swiftlet::perception::altitude

@@ -1,0 +1,118 @@
+// The height of the vehicle and of the surfaces below it, from the laser beams a mirror bends down (Grzonka 2012,
+// section IV-C, Algorithm 1; Grzonka 2009, section III-E).
+//
+// Stage 1, a Kalman filter over (z, v_z): predicted by the vertical acceleration; the levels known in the neighbourhood
+// that explain a beam give one virtual measurement of the height over the take-off floor, as if nothing were below.
+// Stage 2, one Kalman filter a level: what no level explains becomes a new level; a level is re-estimated only when the
+// vehicle enters or leaves it (else level and height would drag each other away); a level grows by the cells where it
+// was measured; two levels that meet and agree are joined:
+//   h = (s_j^2 h_i + s_i^2 h_j) / (s_i^2 + s_j^2),   s^2 = s_i^2 s_j^2 / (s_i^2 + s_j^2).
+//
+// Where the paper leaves a choice, this filter never uses the same information twice: a level that is entered and the
+// height learn from one innovation, each by its prior; while it is over a level the height is never surer than the
+// level.
+//
+// Heights are of the body origin over the take-off floor, which is level 0 at height 0 without error. The filter lives
+// at the time of the last scan; the vehicle's present height comes from the fusion filter, which takes the virtual
+// measurement as one of its measurements.
+// One thread. Deterministic: the order of the points given is the only order there is. No heap use in the steady state.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/level_map.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::perception {
+
+/// Where one deflected beam ended.
+struct GroundPoint {
+  Eigen::Vector2d position_map_m = Eigen::Vector2d::Zero();
+  /// Vertical distance from the body origin down to the point, attitude and mirror mount already removed.
+  /// NaN, infinite or not positive: the beam has no return and is left out.
+  double distance_below_m = 0.0;
+};
+
+struct HeightState {
+  common::Time stamp;
+  double height_m = 0.0;  ///< Over the take-off floor.
+  double velocity_m_s = 0.0;
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< Of (height_m, velocity_m_s).
+};
+
+/// One measurement of the height over the take-off floor, made of all beams whose level is known.
+struct VirtualHeight {
+  common::Time stamp;
+  double height_m = 0.0;
+  double variance_m2 = 0.0;        ///< Independent from scan to scan: range noise over the beams used.
+  double level_variance_m2 = 0.0;  ///< Of the levels themselves: the same error as long as they stay below.
+  int beams = 0;
+};
+
+/// What one scan did.
+struct AltitudeUpdate {
+  std::optional<VirtualHeight> measurement;     ///< None: no beam is explained by a known level (line 10).
+  std::optional<double> height_above_ground_m;  ///< Over the highest surface below that two beams agree on.
+  int levels_added = 0;
+  int levels_joined = 0;
+  int beams_rejected = 0;  ///< Valid beams that belong to no level and to no cluster: outliers, edges.
+};
+
+class MultilevelFilter {
+ public:
+  struct Config {
+    double resolution_m = 0.10;             ///< Cells of the level map.
+    double neighbourhood_m = 0.80;          ///< A level known within this distance may explain a beam.
+    double join_distance_m = 0.20;          ///< Two levels whose cells come this close meet.
+    double beam_noise_m = 0.015;            ///< Standard deviation of one distance, attitude error included.
+    double surface_noise_m = 0.005;         ///< How far a real surface is from flat; shared by all beams of a scan.
+    double acceleration_noise_m_s2 = 0.30;  ///< Error of the vertical acceleration over one scan period.
+    double gate_sigma = 3.5;                ///< Half width of all confidence regions, in standard deviations.
+    double cluster_gap_m = 0.06;            ///< Beams sorted by distance: a gap wider than this separates two surfaces.
+    int min_cluster_beams = 2;              ///< Fewer unexplained beams are outliers.
+    int confirm_scans = 2;                  ///< Scans in a row that must see a new surface before it becomes a level.
+    double enter_after_s = 0.3;             ///< A level not seen for this long is entered anew when it is seen again.
+    double max_prediction_s = 0.5;  ///< Longer gaps between scans are predicted as if this long, with the noise.
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+  };
+
+  explicit MultilevelFilter(const Config& config);
+  ~MultilevelFilter();
+  MultilevelFilter(MultilevelFilter&&) noexcept;
+  MultilevelFilter& operator=(MultilevelFilter&&) noexcept;
+
+  /// Starts anew, standing on the take-off floor: level 0 at the cells about `position_map_m`.
+  /// `height_m` is that of the body origin while standing (measured by the mirror, or known from the airframe).
+  void initialize(common::Time time, const Eigen::Vector2d& position_map_m, double height_m,
+                  double height_sigma_m = 0.02);
+  bool initialized() const;
+
+  /// The vertical acceleration over ENU (gravity and bias removed), at the IMU's rate. Kept until the scan that needs
+  /// it: scans come late. A non-finite or out-of-order one is left out.
+  void addAcceleration(common::Time time, double acceleration_up_m_s2);
+
+  /// Algorithm 1 for one scan at `time`, the vehicle over `position_map_m`. Scans must come in order of time; an
+  /// earlier one is ignored. Without accelerations since the last scan the velocity is predicted constant.
+  AltitudeUpdate update(common::Time time, const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points);
+
+  const HeightState& state() const;
+  /// Copies of all levels with their cells.
+  common::LevelMap levels() const;
+  /// Counts every change of any level; levels() need not be asked while it stays.
+  std::uint64_t levelsVersion() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,165 @@
+// Inertial measurements fused with late measurements of relative pose and height: an error-state Kalman filter
+// (Tomic 2012, "Data Fusion"; Bachrach 2009, 5.2). Direct state 16: position, velocity, attitude quaternion,
+// accelerometer and gyroscope bias; error state 15. Attitude errors are in the odom frame: R = exp(error) *
+// R_estimated.
+//
+// A laser odometry measures the pose of a scan relative to a reference scan that stays the same over many scans. The
+// pose at the reference is cloned into the state (stochastic cloning), so that its error and all correlations are kept.
+//
+// Every measurement is applied at the time it was measured: the filter keeps a ring of IMU samples, states and
+// measurements, steps back, and replays everything after. The state is a function of what was measured when, not of
+// when it arrived: the same measurements late, on time or in another order give the same bits.
+//
+// Outliers are gated by their Mahalanobis distance. A gate that stays closed for `recovery_s` is opened by force, the
+// covariance widened by what the measurement says; doing so too often is a divergence. A divergence stays until
+// initialize().
+//
+// One thread. No heap use after construction, except in poses(). Non-finite or impossible input is counted and left
+// out.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <tl/expected.hpp>
+
+#include "common/config.hpp"
+#include "common/sensor_event.hpp"
+#include "common/vehicle_state.hpp"
+#include "perception/fusion/pose_history.hpp"
+
+namespace swiftlet::perception {
+
+enum class FusionStatus { kNotInitialized, kOk, kDegraded, kDiverged };
+const char* toString(FusionStatus status);
+
+struct FusionHealth {
+  FusionStatus status = FusionStatus::kNotInitialized;
+  std::string reason;  ///< Empty when ok.
+};
+
+/// What became of a measurement that was handed in. Whether the gate lets it pass shows in the counts.
+enum class Insertion {
+  kTaken,
+  kInvalid,           ///< Not finite, covariance not positive, time before the reference.
+  kTooOld,            ///< Older than the history.
+  kTooNew,            ///< So far ahead of the IMU that clocks must be wrong.
+  kUnknownReference,  ///< The reference was never cloned, or was dropped for newer ones.
+};
+const char* toString(Insertion insertion);
+
+struct FusionCounts {
+  std::uint64_t imu_samples = 0;
+  std::uint64_t imu_dropped = 0;  ///< Non-finite, repeated or out of order.
+  std::uint64_t measurements = 0;
+  std::uint64_t refused = 0;  ///< Not kTaken.
+  std::uint64_t replays = 0;  ///< IMU steps computed again.
+  /// Along the present history: each measurement counts once however often it is replayed.
+  std::uint64_t relative_poses_gated = 0;
+  std::uint64_t heights_gated = 0;
+  std::uint64_t recoveries = 0;
+};
+
+class ErrorStateFilter {
+ public:
+  struct Config {
+    double history_s = 1.0;  ///< How late a measurement may come.
+    double gravity_m_s2 = 9.81;
+    // IMU, as continuous densities.
+    double accelerometer_noise_m_s2_rthz = 0.02;
+    double gyroscope_noise_rad_s_rthz = 0.002;
+    double accelerometer_bias_walk_m_s3_rthz = 0.003;
+    double gyroscope_bias_walk_rad_s2_rthz = 0.0002;
+    double accelerometer_bias_sigma_m_s2 = 0.2;  ///< At the start.
+    // Attitude of the vehicle's own AHRS; roll and pitch only.
+    bool use_ahrs = true;
+    double ahrs_sigma_deg = 1.0;
+    double ahrs_correlation_s = 2.0;  ///< The error keeps this long; the noise is widened to match.
+    // Gravity vector as pseudo-measurement of roll and pitch (for vehicles without an AHRS).
+    bool use_gravity = false;
+    double gravity_sigma_m_s2 = 1.0;  ///< What the vehicle's own acceleration adds.
+    double attitude_rate_hz = 10.0;   ///< Of either of them.
+    // At rest on the ground.
+    double rest_s = 0.5;                       ///< IMU stretch that initialize() averages.
+    double rest_gyroscope_sigma_rad_s = 0.05;  ///< More spread than this: it is moving.
+    double rest_accelerometer_sigma_m_s2 = 0.5;
+    double zero_velocity_sigma_m_s = 0.02;
+    double zero_rotation_sigma_rad_s = 0.01;
+    // Gates, recovery, divergence.
+    double gate_sigma = 4.0;  ///< Per degree of freedom, roughly.
+    double recovery_s = 0.4;  ///< A gate closed for this long is opened by force.
+    int max_recoveries = 3;   ///< More within `recovery_window_s`: diverged.
+    double recovery_window_s = 5.0;
+    double max_speed_m_s = 8.0;              ///< A faster estimate is a divergence.
+    double horizontal_timeout_s = 0.5;       ///< Without a relative pose: degraded.
+    double vertical_timeout_s = 1.0;         ///< Without a height: degraded.
+    double valid_velocity_sigma_m_s = 0.35;  ///< Up to here the velocity may be used for control.
+    double valid_height_sigma_m = 0.25;
+    double diverged_velocity_sigma_m_s = 3.0;
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+  };
+
+  explicit ErrorStateFilter(const Config& config);
+  ~ErrorStateFilter();
+  ErrorStateFilter(ErrorStateFilter&&) noexcept;
+  ErrorStateFilter& operator=(ErrorStateFilter&&) noexcept;
+
+  /// The strapdown step to the sample's time. Before initialize() samples are only gathered for it.
+  void predict(const common::ImuSample& sample);
+
+  /// Starts at the newest IMU sample, at x = y = yaw = 0 and the given height: roll, pitch and the gyroscope bias from
+  /// the last `rest_s` of samples. Fails, with the reason, when there are too few or when the vehicle moved. Forgets
+  /// all.
+  tl::expected<void, std::string> initialize(double height_m, double height_sigma_m = 0.02);
+  bool initialized() const;
+
+  /// While true, the vehicle is known to stand still: zero velocity and rotation are measured from the next sample on.
+  void setAtRest(bool at_rest);
+
+  /// Clones the pose at `time` (usually of a scan that becomes the reference). Up to four clones are kept; then the one
+  /// that was used longest ago is dropped.
+  Insertion addClone(common::Time time);
+  /// T_from_to in the level frame of the body at `from`, which must be cloned: heading and planar displacement.
+  /// Covariance of (x, y, yaw).
+  Insertion addRelativePose(common::Time from, common::Time to, const common::Pose2& T_from_to,
+                            const Eigen::Matrix3d& covariance);
+  /// Height of the body origin over the take-off floor. `common_variance_m2` is the part of the error that does not
+  /// change from one measurement to the next (of the level below); it is not averaged away.
+  Insertion addHeight(common::Time time, double height_m, double variance_m2, double common_variance_m2 = 0.0);
+  /// A landmark of known place, or a correction that shall move odom itself. SLAM's corrections stay outside, in
+  /// T_map_odom.
+  Insertion addAbsolutePose2(common::Time time, const common::Pose2& T_odom_body, const Eigen::Matrix3d& covariance);
+
+  bool hasClone(common::Time time) const;
+
+  /// At the newest IMU sample. T_map_odom is the identity and height_above_ground_m the height over the take-off floor;
+  /// who knows better fills them in.
+  common::VehicleState state() const;
+  common::Time newest() const;
+  /// Acceleration in odom, gravity and bias removed, at the newest sample: what MultilevelFilter wants.
+  Eigen::Vector3d accelerationOdom_m_s2() const;
+  Eigen::Vector3d accelerometerBias_m_s2() const;
+  Eigen::Vector3d gyroscopeBias_rad_s() const;
+  /// Of the errors (position, velocity, attitude, accelerometer bias, gyroscope bias).
+  Eigen::Matrix<double, 15, 15> covariance() const;
+
+  /// Interpolated in the history; up to 20 ms after the newest sample extrapolated. None outside.
+  std::optional<common::Pose3> poseAt(common::Time time) const;
+  /// The poses that cover [from, to] as far as the history goes; for many questions, as when a scan is deskewed.
+  PoseHistory poses(common::Time from, common::Time to) const;
+
+  FusionHealth health() const;
+  FusionCounts counts() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::perception

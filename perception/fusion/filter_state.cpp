@@ -1,0 +1,71 @@
+#include "perception/fusion/filter_state.hpp"
+
+#include "common/check.hpp"
+
+namespace swiftlet::perception::fusion {
+namespace {
+
+void rotateBy(Eigen::Quaterniond& rotation, const Eigen::Vector3d& error_rad) {
+  rotation = (common::expSO3(error_rad) * rotation).normalized();
+}
+
+}  // namespace
+
+int FilterState::cloneAt(common::Time time) const {
+  for (int i = 0; i < clone_count; ++i)
+    if (clones[static_cast<std::size_t>(i)].stamp == time) return i;
+  return -1;
+}
+
+void FilterState::clonePose() {
+  if (cloneAt(stamp) >= 0) return;
+  if (clone_count == kMaxClones) {
+    int oldest = 0;
+    for (int i = 1; i < clone_count; ++i)
+      if (clones[static_cast<std::size_t>(i)].last_used < clones[static_cast<std::size_t>(oldest)].last_used)
+        oldest = i;
+    dropClone(oldest);
+  }
+  const int n = dimension();
+  clones[static_cast<std::size_t>(clone_count++)] = {stamp, stamp, {rotation_odom_body, position_odom_m}};
+  covariance.conservativeResize(n + kCloneSize, n + kCloneSize);
+  covariance.block(n, 0, 3, n) = covariance.block(kPosition, 0, 3, n);
+  covariance.block(n + 3, 0, 3, n) = covariance.block(kAttitude, 0, 3, n);
+  covariance.block(0, n, n + kCloneSize, 3) = covariance.block(0, kPosition, n + kCloneSize, 3);
+  covariance.block(0, n + 3, n + kCloneSize, 3) = covariance.block(0, kAttitude, n + kCloneSize, 3);
+}
+
+void FilterState::dropClone(int index) {
+  SWIFTLET_CHECK(index >= 0 && index < clone_count, index, clone_count);
+  const int n = dimension(), at = kCore + kCloneSize * index, after = n - at - kCloneSize;
+  const ErrorCovariance old = covariance;
+  covariance.resize(n - kCloneSize, n - kCloneSize);
+  covariance.topLeftCorner(at, at) = old.topLeftCorner(at, at);
+  covariance.block(at, 0, after, at) = old.block(at + kCloneSize, 0, after, at);
+  covariance.block(0, at, at, after) = old.block(0, at + kCloneSize, at, after);
+  covariance.block(at, at, after, after) = old.block(at + kCloneSize, at + kCloneSize, after, after);
+  for (int i = index; i + 1 < clone_count; ++i)
+    clones[static_cast<std::size_t>(i)] = clones[static_cast<std::size_t>(i + 1)];
+  --clone_count;
+}
+
+void FilterState::inject(const ErrorVector& error) {
+  SWIFTLET_CHECK(error.size() == dimension(), error.size(), dimension());
+  position_odom_m += error.segment<3>(kPosition);
+  velocity_odom_m_s += error.segment<3>(kVelocity);
+  rotateBy(rotation_odom_body, error.segment<3>(kAttitude));
+  accelerometer_bias_m_s2 += error.segment<3>(kAccelerometerBias);
+  gyroscope_bias_rad_s += error.segment<3>(kGyroscopeBias);
+  for (int i = 0; i < clone_count; ++i) {
+    common::Pose3& pose = clones[static_cast<std::size_t>(i)].T_odom_body;
+    pose.position_m += error.segment<3>(kCore + kCloneSize * i);
+    rotateBy(pose.rotation, error.segment<3>(kCore + kCloneSize * i + 3));
+  }
+}
+
+bool FilterState::finite() const {
+  return position_odom_m.allFinite() && velocity_odom_m_s.allFinite() && rotation_odom_body.coeffs().allFinite() &&
+         accelerometer_bias_m_s2.allFinite() && gyroscope_bias_rad_s.allFinite() && covariance.allFinite();
+}
+
+}  // namespace swiftlet::perception::fusion

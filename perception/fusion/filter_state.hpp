@@ -1,0 +1,76 @@
+// What the fusion filter estimates at one instant: direct state, clones, and the covariance of their errors. Plain
+// data, copied into the history at each IMU sample.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::perception::fusion {
+
+// Places of the errors in the covariance; clones (position, attitude) follow the core.
+inline constexpr int kPosition = 0;
+inline constexpr int kVelocity = 3;
+inline constexpr int kAttitude = 6;
+inline constexpr int kAccelerometerBias = 9;
+inline constexpr int kGyroscopeBias = 12;
+inline constexpr int kCore = 15;
+inline constexpr int kCloneSize = 6;
+inline constexpr int kMaxClones = 4;
+inline constexpr int kMaxDimension = kCore + kCloneSize * kMaxClones;
+
+/// As large as the clones present ask, without heap use.
+using ErrorCovariance =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxDimension, kMaxDimension>;
+using ErrorVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxDimension, 1>;
+
+struct ClonedPose {
+  common::Time stamp;
+  common::Time last_used;
+  common::Pose3 T_odom_body;
+};
+
+/// What a gate remembers; part of the state, so that a replay comes to the same decisions.
+struct GateMemory {
+  bool closed = false;
+  common::Time closed_since;
+  common::Time last_accepted;
+  std::uint64_t rejected = 0;
+};
+
+struct FilterState {
+  common::Time stamp;
+  Eigen::Vector3d position_odom_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation_odom_body = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d accelerometer_bias_m_s2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gyroscope_bias_rad_s = Eigen::Vector3d::Zero();
+
+  std::array<ClonedPose, kMaxClones> clones;
+  int clone_count = 0;
+  ErrorCovariance covariance = ErrorCovariance::Zero(kCore, kCore);
+
+  double height_common_variance_m2 = 0.0;  ///< Of the last height: what averaging does not reduce.
+  GateMemory relative_gate;
+  GateMemory height_gate;
+  std::uint64_t recoveries = 0;
+  int recent_recoveries = 0;
+  common::Time last_recovery;
+  bool diverged = false;
+
+  int dimension() const { return kCore + kCloneSize * clone_count; }
+  /// Index of the clone taken at `time`, or -1.
+  int cloneAt(common::Time time) const;
+  /// Appends a clone of the present pose; the one used longest ago makes room.
+  void clonePose();
+  void dropClone(int index);
+  /// Adds an estimated error to the direct state and the clones.
+  void inject(const ErrorVector& error);
+  bool finite() const;
+};
+
+}  // namespace swiftlet::perception::fusion

@@ -1,0 +1,116 @@
+#include "perception/fusion/imu_model.hpp"
+
+#include <algorithm>
+
+namespace swiftlet::perception::fusion {
+namespace {
+
+/// Longer than this between two samples is a gap: what happened inside is not known to the noise densities alone.
+constexpr double kGap_s = 0.05;
+constexpr double kGapAcceleration_m_s2 = 3.0;
+constexpr double kGapRotation_rad_s = 0.5;
+
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+/// The non-trivial 3x3 blocks of the transition.
+struct Blocks {
+  double dt_s;
+  Eigen::Matrix3d velocity_attitude;
+  Eigen::Matrix3d velocity_accelerometer;  ///< Also attitude by gyroscope: both are -R dt.
+  Eigen::Matrix3d velocity_gyroscope;
+};
+
+/// x <- F x for the rows of a matrix, block by block.
+template <typename Rows>
+void applyToRows(const Blocks& f, Rows&& x) {
+  auto position = x.template middleRows<3>(kPosition);
+  auto velocity = x.template middleRows<3>(kVelocity);
+  auto attitude = x.template middleRows<3>(kAttitude);
+  const auto accelerometer = x.template middleRows<3>(kAccelerometerBias);
+  const auto gyroscope = x.template middleRows<3>(kGyroscopeBias);
+  for (Eigen::Index column = 0; column < x.cols(); ++column) {
+    const Eigen::Vector3d theta = attitude.col(column), gyro = gyroscope.col(column);
+    const Eigen::Vector3d push = f.velocity_attitude * theta + f.velocity_accelerometer * accelerometer.col(column);
+    position.col(column) += f.dt_s * (velocity.col(column) + 0.5 * push);
+    velocity.col(column) += push + f.velocity_gyroscope * gyro;
+    attitude.col(column) += f.velocity_accelerometer * gyro;
+  }
+}
+
+struct Midpoint {
+  double dt_s;
+  Eigen::Vector3d angular_velocity_body_rad_s;
+  Eigen::Quaterniond rotation_odom_body;
+  Eigen::Vector3d force_odom_m_s2;
+};
+
+Midpoint midpoint(const FilterState& state, const ImuValue& begin, const ImuValue& end) {
+  Midpoint m;
+  m.dt_s = (end.stamp - begin.stamp).seconds();
+  m.angular_velocity_body_rad_s =
+      0.5 * (begin.angular_velocity_body_rad_s + end.angular_velocity_body_rad_s) - state.gyroscope_bias_rad_s;
+  m.rotation_odom_body = state.rotation_odom_body * common::expSO3(0.5 * m.dt_s * m.angular_velocity_body_rad_s);
+  m.force_odom_m_s2 = m.rotation_odom_body * (0.5 * (begin.specific_force_body_m_s2 + end.specific_force_body_m_s2) -
+                                              state.accelerometer_bias_m_s2);
+  return m;
+}
+
+Blocks blocks(const Midpoint& m) {
+  const Eigen::Matrix3d rotation = m.rotation_odom_body.toRotationMatrix();
+  const Eigen::Matrix3d force = skew(m.force_odom_m_s2);
+  return {m.dt_s, -m.dt_s * force, -m.dt_s * rotation, 0.5 * m.dt_s * m.dt_s * force * rotation};
+}
+
+void addNoise(FilterState& state, double dt_s, const ImuNoise& noise) {
+  const auto square = [](double x) { return x * x; };
+  const double gap_s = std::max(0.0, dt_s - kGap_s);
+  const double acceleration = square(noise.accelerometer_m_s2_rthz) * dt_s + square(kGapAcceleration_m_s2 * gap_s);
+  const double rotation = square(noise.gyroscope_rad_s_rthz) * dt_s + square(kGapRotation_rad_s * gap_s);
+  auto diagonal = state.covariance.diagonal();
+  diagonal.segment<3>(kPosition).array() += acceleration * dt_s * dt_s / 3.0;
+  diagonal.segment<3>(kVelocity).array() += acceleration;
+  diagonal.segment<3>(kAttitude).array() += rotation;
+  diagonal.segment<3>(kAccelerometerBias).array() += square(noise.accelerometer_walk_m_s3_rthz) * dt_s;
+  diagonal.segment<3>(kGyroscopeBias).array() += square(noise.gyroscope_walk_rad_s2_rthz) * dt_s;
+}
+
+}  // namespace
+
+ImuValue interpolate(const ImuValue& first, const ImuValue& second, common::Time time) {
+  if (time == first.stamp) return first;
+  if (time == second.stamp) return second;
+  const double share = (time - first.stamp).seconds() / (second.stamp - first.stamp).seconds();
+  const auto mix = [share](const Eigen::Vector3d& a, const Eigen::Vector3d& b) -> Eigen::Vector3d {
+    return a + share * (b - a);
+  };
+  return {time, mix(first.angular_velocity_body_rad_s, second.angular_velocity_body_rad_s),
+          mix(first.specific_force_body_m_s2, second.specific_force_body_m_s2)};
+}
+
+void propagate(FilterState& state, const ImuValue& begin, const ImuValue& end, const ImuNoise& noise) {
+  const Midpoint m = midpoint(state, begin, end);
+  const Blocks f = blocks(m);
+  applyToRows(f, state.covariance);
+  // F P is done; (F P) F^T = (F (F P)^T)^T, and P is symmetric, so the same rows of its transpose.
+  applyToRows(f, state.covariance.transpose());
+  addNoise(state, m.dt_s, noise);
+
+  const Eigen::Vector3d acceleration = m.force_odom_m_s2 - Eigen::Vector3d(0.0, 0.0, noise.gravity_m_s2);
+  state.position_odom_m += m.dt_s * (state.velocity_odom_m_s + 0.5 * m.dt_s * acceleration);
+  state.velocity_odom_m_s += m.dt_s * acceleration;
+  state.rotation_odom_body =
+      (state.rotation_odom_body * common::expSO3(m.dt_s * m.angular_velocity_body_rad_s)).normalized();
+  state.stamp = end.stamp;
+}
+
+Eigen::Matrix<double, kCore, kCore> transition(const FilterState& state, const ImuValue& begin, const ImuValue& end) {
+  Eigen::Matrix<double, kCore, kCore> matrix = Eigen::Matrix<double, kCore, kCore>::Identity();
+  applyToRows(blocks(midpoint(state, begin, end)), matrix);
+  return matrix;
+}
+
+}  // namespace swiftlet::perception::fusion

@@ -1,0 +1,35 @@
+// The strapdown step and the growth of its error (Tomic 2012, "Data Fusion"). Attitude errors are in odom.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/time.hpp"
+#include "perception/fusion/filter_state.hpp"
+
+namespace swiftlet::perception::fusion {
+
+struct ImuValue {
+  common::Time stamp;
+  Eigen::Vector3d angular_velocity_body_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d specific_force_body_m_s2 = Eigen::Vector3d::Zero();
+};
+
+/// Between two samples, linearly; `time` must lie between them.
+ImuValue interpolate(const ImuValue& first, const ImuValue& second, common::Time time);
+
+struct ImuNoise {
+  double accelerometer_m_s2_rthz = 0.0;
+  double gyroscope_rad_s_rthz = 0.0;
+  double accelerometer_walk_m_s3_rthz = 0.0;
+  double gyroscope_walk_rad_s2_rthz = 0.0;
+  double gravity_m_s2 = 9.81;
+};
+
+/// From `begin` to `end` by the midpoint rule; the state must stand at begin.stamp. Clones keep still, their
+/// correlations follow.
+void propagate(FilterState& state, const ImuValue& begin, const ImuValue& end, const ImuNoise& noise);
+
+/// The transition of the core error that `propagate` applies, as a matrix; for tests.
+Eigen::Matrix<double, kCore, kCore> transition(const FilterState& state, const ImuValue& begin, const ImuValue& end);
+
+}  // namespace swiftlet::perception::fusion

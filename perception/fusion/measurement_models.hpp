@@ -1,0 +1,44 @@
+// What the fusion filter measures, linearized: residual = measured - predicted = H * error + noise.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+#include "perception/fusion/filter_state.hpp"
+
+namespace swiftlet::perception::fusion {
+
+/// K rows; the columns of H beyond the state's dimension are not read.
+template <int K>
+struct Linearized {
+  Eigen::Matrix<double, K, 1> residual = Eigen::Matrix<double, K, 1>::Zero();
+  Eigen::Matrix<double, K, kMaxDimension> jacobian = Eigen::Matrix<double, K, kMaxDimension>::Zero();
+  Eigen::Matrix<double, K, K> noise = Eigen::Matrix<double, K, K>::Identity();
+};
+
+/// Planar pose of the body in the level frame of the body at a clone.
+Linearized<3> relativePose(const FilterState& state, int clone, const common::Pose2& T_clone_body,
+                           const Eigen::Matrix3d& covariance);
+Linearized<1> height(const FilterState& state, double height_m, double variance_m2);
+Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom_body,
+                           const Eigen::Matrix3d& covariance);
+/// Roll and pitch from the direction of "up" in the body frame; says nothing on yaw.
+Linearized<2> upDirection(const FilterState& state, const Eigen::Vector3d& up_body, double variance_rad2);
+/// The specific force taken for gravity alone.
+Linearized<3> gravity(const FilterState& state, const Eigen::Vector3d& specific_force_body_m_s2, double gravity_m_s2,
+                      double variance_m2_s4);
+Linearized<3> zeroVelocity(const FilterState& state, double variance_m2_s2);
+Linearized<3> zeroRotation(const FilterState& state, const Eigen::Vector3d& angular_velocity_body_rad_s,
+                           double variance_rad2_s2);
+
+/// d yaw / d attitude error (in odom).
+Eigen::RowVector3d yawJacobian(const Eigen::Quaterniond& rotation);
+
+/// Squared Mahalanobis distance of the residual.
+template <int K>
+double mahalanobis2(const FilterState& state, const Linearized<K>& measurement);
+/// The Kalman update. False, and nothing changed, when the innovation covariance cannot be inverted.
+template <int K>
+bool update(FilterState& state, const Linearized<K>& measurement);
+
+}  // namespace swiftlet::perception::fusion

@@ -1,0 +1,51 @@
+// What an IMU at rest shows: the direction of gravity and the gyroscope's bias. Tells when it does not rest.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <tl/expected.hpp>
+
+#include "common/geometry.hpp"
+#include "common/sensor_event.hpp"
+
+namespace swiftlet::perception::fusion {
+
+struct RestEstimate {
+  Eigen::Vector3d angular_velocity_body_rad_s;
+  Eigen::Vector3d specific_force_body_m_s2;
+  Eigen::Quaterniond rotation_level_body;  ///< Yaw zero.
+  double gyroscope_mean_sigma_rad_s = 0.0;
+  double accelerometer_mean_sigma_m_s2 = 0.0;
+};
+
+/// Keeps the last `rest_s` of samples, at most 1024.
+class RestEstimator {
+ public:
+  struct Limits {
+    double rest_s;
+    double gyroscope_sigma_rad_s;
+    double accelerometer_sigma_m_s2;
+    double gravity_m_s2;
+  };
+  explicit RestEstimator(const Limits& limits);
+
+  void add(const common::ImuSample& sample);
+  /// Or why not: too few samples, moving, or a force that is not gravity's.
+  tl::expected<RestEstimate, std::string> estimate() const;
+
+ private:
+  struct Sample {
+    common::Time stamp;
+    Eigen::Vector3d angular_velocity_body_rad_s;
+    Eigen::Vector3d specific_force_body_m_s2;
+  };
+  Limits limits_;
+  std::vector<Sample> samples_;  ///< Ring.
+  std::size_t next_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace swiftlet::perception::fusion

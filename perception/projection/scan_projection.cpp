@@ -1,0 +1,211 @@
+#include "perception/projection/scan_projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose3;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr int kIntervals = 8;
+
+bool isFinite(const Pose3& pose) { return pose.position_m.allFinite() && pose.rotation.coeffs().allFinite(); }
+
+struct Affine {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d translation;
+};
+
+Affine affine(const Pose3& pose) { return {pose.rotation.toRotationMatrix(), pose.position_m}; }
+
+/// T_level_sensor for any beam: exact at a few knots of the sweep, linear between them. Between two knots the body
+/// turns by milliradians, so that the matrix stays a rotation to 1e-5.
+class SweptMount {
+ public:
+  SweptMount(const std::vector<Pose3>& T_level_body, const Pose3& T_body_sensor, int beams) : beams_(beams) {
+    knots_.reserve(T_level_body.size());
+    for (const Pose3& pose : T_level_body) knots_.push_back(affine(pose * T_body_sensor));
+  }
+
+  Affine at(int beam) const {
+    if (knots_.size() == 1) return knots_.front();
+    const double position = static_cast<double>(beam) * (static_cast<double>(knots_.size()) - 1.0) / (beams_ - 1);
+    const auto k = std::min(static_cast<std::size_t>(position), knots_.size() - 2);
+    const double share = position - static_cast<double>(k);
+    return {(1.0 - share) * knots_[k].rotation + share * knots_[k + 1].rotation,
+            (1.0 - share) * knots_[k].translation + share * knots_[k + 1].translation};
+  }
+
+ private:
+  std::vector<Affine> knots_;
+  int beams_;
+};
+
+/// Tells what a beam ended on by how far it rose or sank.
+class Surfaces {
+ public:
+  Surfaces(double sensor_height_odom_m, const ScanProjectionConfig& config)
+      : config_(config),
+        above_floor_m_(std::max(sensor_height_odom_m - config.floor_height_odom_m, 0.05)),
+        below_ceiling_m_(config.ceiling_height_odom_m > 0.0
+                             ? std::max(config.ceiling_height_odom_m - sensor_height_odom_m, 0.05)
+                             : 0.0),
+        sin_attitude_error_(std::sin(config.attitude_error_deg * kRadPerDeg)) {}
+
+  // The margin never takes more than half of the way, so that a level beam near the floor is never the floor's.
+  bool onFloor(double rise_m, double range_m) const {
+    return -rise_m > above_floor_m_ - std::min(margin(range_m), 0.5 * above_floor_m_);
+  }
+  bool onCeiling(double rise_m, double range_m) const {
+    return below_ceiling_m_ > 0.0 && rise_m > below_ceiling_m_ - std::min(margin(range_m), 0.5 * below_ceiling_m_);
+  }
+
+  /// The range up to which a beam that hit no wall says "free" for the body's height.
+  double freeRange(double slope, double range_m) const {
+    double band_m = std::min(config_.free_band_m, 0.5 * above_floor_m_);
+    if (below_ceiling_m_ > 0.0) band_m = std::min(band_m, 0.5 * below_ceiling_m_);
+    return std::abs(slope) * range_m > band_m ? band_m / std::abs(slope) : range_m;
+  }
+
+ private:
+  double margin(double range_m) const { return config_.surface_margin_m + sin_attitude_error_ * range_m; }
+
+  const ScanProjectionConfig& config_;
+  double above_floor_m_;
+  double below_ceiling_m_;
+  double sin_attitude_error_;
+};
+
+std::vector<Pose3> bodyDuringSweep(const common::LaserScan& scan, const PoseAt& pose_at, const Pose3& T_level_odom,
+                                   int beams) {
+  const int knots = scan.time_increment.nanoseconds() == 0 || beams < 2 ? 1 : kIntervals + 1;
+  std::vector<Pose3> poses;
+  for (int k = 0; k < knots; ++k) {
+    const auto offset =
+        knots == 1 ? common::Duration() : scan.time_increment * (beams - 1) * k / static_cast<std::int64_t>(knots - 1);
+    poses.push_back(T_level_odom * pose_at(scan.stamps.measured + offset));
+  }
+  return poses;
+}
+
+}  // namespace
+
+void ScanProjectionConfig::describe(common::config::Fields& fields) {
+  fields("floor_height_odom_m", floor_height_odom_m, "Of the take-off floor; the origin of odom is on it.");
+  fields("ceiling_height_odom_m", ceiling_height_odom_m, "Of the ceiling over that floor; 0 when unknown.");
+  fields("surface_margin_m", surface_margin_m, "End points this near to floor or ceiling are left out.");
+  fields("attitude_error_deg", attitude_error_deg, "Of roll and pitch; widens that margin with the range.");
+  fields("free_band_m", free_band_m, "A beam without a wall clears cells while within this of the body's height.");
+  fields("body_radius_m", body_radius_m, "Returns nearer than this to the body's axis are the vehicle itself.");
+  fields("min_no_return_run", min_no_return_run,
+         "Fewer neighbouring beams without return are dropouts, not free space.");
+}
+
+std::vector<std::string> ScanProjectionConfig::validate() const {
+  return common::Validation()
+      .within("floor_height_odom_m", floor_height_odom_m, -10, 10)
+      .within("ceiling_height_odom_m", ceiling_height_odom_m, 0, 100)
+      .within("surface_margin_m", surface_margin_m, 0, 1)
+      .within("attitude_error_deg", attitude_error_deg, 0, 20)
+      .within("free_band_m", free_band_m, 0.01, 10)
+      .within("body_radius_m", body_radius_m, 0, 2)
+      .within("min_no_return_run", min_no_return_run, 1, 1000)
+      .problems();
+}
+
+ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& laser, const PoseAt& pose_at,
+                      const ScanProjectionConfig& config) {
+  const int beams = static_cast<int>(scan.ranges_m.size());
+  ProjectedScan result;
+  result.stamp = scan.stamps.measured + scan.time_increment * std::max(beams - 1, 0) / 2;
+  result.T_odom_body = pose_at(result.stamp);
+
+  const Pose3 T_level_odom = Pose3{common::quaternionFrom({0.0, 0.0, common::yawOf(result.T_odom_body.rotation)}),
+                                   result.T_odom_body.position_m}
+                                 .inverse();
+  const std::vector<Pose3> T_level_body = bodyDuringSweep(scan, pose_at, T_level_odom, beams);
+  if (beams < 2 || !isFinite(result.T_odom_body) || !std::all_of(T_level_body.begin(), T_level_body.end(), isFinite) ||
+      !std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_increment_rad)) {
+    result.counts.invalid = beams;
+    return result;
+  }
+  result.points_level_m.reserve(static_cast<std::size_t>(beams));
+  result.heights_level_m.reserve(static_cast<std::size_t>(beams));
+
+  const SweptMount laser_mount(T_level_body, laser.mount.pose(), beams);
+  const SweptMount mirror_mount(T_level_body, laser.mirror_mount.pose(), beams);
+  const Surfaces surfaces(result.T_odom_body.position_m.z() + laser_mount.at(beams / 2).translation.z(), config);
+  const bool has_mirror = beams == laser.beams && laser.mirror_beams > 0;
+  const double body_radius2_m2 = config.body_radius_m * config.body_radius_m;
+
+  // The direction is turned from beam to beam; over thousands of beams this keeps 12 digits and saves the sines.
+  double cos_beam = std::cos(scan.angle_min_rad), sin_beam = std::sin(scan.angle_min_rad);
+  const double cos_step = std::cos(scan.angle_increment_rad), sin_step = std::sin(scan.angle_increment_rad);
+  std::vector<Eigen::Vector2f> run;  // Ends of the view along the present run of beams without return.
+  const auto endRun = [&] {
+    if (static_cast<int>(run.size()) >= config.min_no_return_run)
+      result.misses_level_m.insert(result.misses_level_m.end(), run.begin(), run.end());
+    run.clear();
+  };
+
+  for (int beam = 0; beam < beams; ++beam) {
+    const Eigen::Vector3d direction(cos_beam, sin_beam, 0.0);
+    const double next_cos = cos_beam * cos_step - sin_beam * sin_step;
+    sin_beam = sin_beam * cos_step + cos_beam * sin_step;
+    cos_beam = next_cos;
+    const double range_m = scan.ranges_m[static_cast<std::size_t>(beam)];
+    const bool too_short = !(range_m >= scan.range_min_m) || range_m <= 0.0;  // True for NaN.
+
+    if (has_mirror && laser.isMirrorBeam(beam)) {
+      endRun();
+      if (too_short || range_m > scan.range_max_m) {
+        ++result.counts.mirror_invalid;
+        continue;
+      }
+      const Affine mount = mirror_mount.at(beam);
+      const Eigen::Vector3d end = mount.rotation * (range_m * laser.direction(beam)) + mount.translation;
+      result.mirror.push_back({static_cast<float>(end.x()), static_cast<float>(end.y()), static_cast<float>(end.z())});
+      ++result.counts.mirror;
+      continue;
+    }
+    if (too_short) {
+      endRun();
+      ++result.counts.invalid;
+      continue;
+    }
+    const Affine mount = laser_mount.at(beam);
+    const Eigen::Vector3d ray = mount.rotation * direction;
+    const auto pointAt = [&](double along_m) -> Eigen::Vector2f {
+      return (mount.translation + along_m * ray).head<2>().cast<float>();
+    };
+    if (range_m > scan.range_max_m) {
+      run.push_back(pointAt(surfaces.freeRange(ray.z(), scan.range_max_m)));
+      ++result.counts.no_returns;
+      continue;
+    }
+    endRun();
+    const Eigen::Vector3d end = mount.translation + range_m * ray;
+    if (end.head<2>().squaredNorm() < body_radius2_m2) {
+      ++result.counts.invalid;
+    } else if (const double rise_m = range_m * ray.z(); surfaces.onFloor(rise_m, range_m)) {
+      result.misses_level_m.push_back(pointAt(surfaces.freeRange(ray.z(), range_m)));
+      ++result.counts.floor_hits;
+    } else if (surfaces.onCeiling(rise_m, range_m)) {
+      result.misses_level_m.push_back(pointAt(surfaces.freeRange(ray.z(), range_m)));
+      ++result.counts.ceiling_hits;
+    } else {
+      result.points_level_m.push_back(end.head<2>().cast<float>());
+      result.heights_level_m.push_back(static_cast<float>(end.z()));
+      ++result.counts.hits;
+    }
+  }
+  endRun();
+  return result;
+}
+
+}  // namespace swiftlet::perception

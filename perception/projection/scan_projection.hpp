@@ -1,0 +1,79 @@
+// One sweep of the 2D laser, taken out of its motion and tilt: every beam is placed by the pose the body had when that
+// beam was fired and projected to the gravity-levelled frame of one reference time (Grzonka 2009, eq. 1 and 2).
+//
+// The level frame: origin at the body, x and y horizontal, yaw that of the body, all at `stamp`, the middle of the
+// sweep (the time at which the errors of the motion used for deskewing are smallest and cancel to first order).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/sensor_event.hpp"
+#include "common/time.hpp"
+#include "common/vehicle_config.hpp"
+
+namespace swiftlet::perception {
+
+/// T_odom_body at any time within the sweep, interpolated or predicted. z is the height above the take-off floor.
+using PoseAt = std::function<common::Pose3(common::Time)>;
+
+/// An end point of a beam that the mirror bent down; the altitude filter reads these.
+struct MirrorPoint {
+  float x_level_m = 0.0F;
+  float y_level_m = 0.0F;
+  float z_level_m = 0.0F;  ///< Relative to the body at `stamp`; negative below it.
+  double belowBody_m() const { return -static_cast<double>(z_level_m); }
+};
+
+/// What became of the beams; the sum of all is the number of beams.
+struct BeamCounts {
+  int hits = 0;            ///< Ended on something that counts as a wall; in `points_level_m`.
+  int no_returns = 0;      ///< Infinite or beyond the laser's range.
+  int invalid = 0;         ///< NaN, negative, too short, or on the vehicle itself.
+  int floor_hits = 0;      ///< Left out: ended on the floor.
+  int ceiling_hits = 0;    ///< Left out: ended on the ceiling.
+  int mirror = 0;          ///< Valid beams on the mirror; in `mirror`.
+  int mirror_invalid = 0;  ///< Beams on the mirror without a valid range.
+  bool operator==(const BeamCounts&) const = default;
+};
+
+struct ProjectedScan {
+  common::Time stamp;                           ///< The middle of the sweep.
+  common::Pose3 T_odom_body;                    ///< At `stamp`, as predicted by `PoseAt`.
+  std::vector<Eigen::Vector2f> points_level_m;  ///< End points, in beam order.
+  std::vector<float> heights_level_m;           ///< Height of each end point relative to the body.
+  /// Where the view along a beam that hit no wall ends: everything from the body to there is free. At the greatest
+  /// range for a beam without return, nearer where the beam leaves the height band in which "free" means free for the
+  /// body (a tilted beam, one that ends on floor or ceiling).
+  std::vector<Eigen::Vector2f> misses_level_m;
+  std::vector<MirrorPoint> mirror;
+  BeamCounts counts;
+};
+
+struct ScanProjectionConfig {
+  double floor_height_odom_m = 0.0;    ///< Of the take-off floor; the origin of odom is on it.
+  double ceiling_height_odom_m = 0.0;  ///< 0: unknown, nothing is left out as ceiling.
+  double surface_margin_m = 0.05;      ///< End points this near to floor or ceiling are theirs.
+  double attitude_error_deg = 1.0;     ///< Widens that margin with the range (Grzonka 2009: accurate up to 1 deg).
+  double free_band_m =
+      0.30;  ///< A beam that hit no wall clears cells as long as it is within this of the body's height.
+  double body_radius_m = 0.0;  ///< Returns nearer than this to the body's axis are the vehicle itself and invalid.
+  int min_no_return_run = 3;   ///< Fewer neighbouring beams without return are dropouts, not free space.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// Projects one sweep. Never fails: what cannot be used is counted. A scan whose number of beams differs from the
+/// laser's has its own angles used, and no mirror beams. Pure function; `pose_at` is called some ten times, in order of
+/// time.
+ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& laser, const PoseAt& pose_at,
+                      const ScanProjectionConfig& config);
+
+}  // namespace swiftlet::perception

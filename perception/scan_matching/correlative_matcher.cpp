@@ -1,0 +1,417 @@
+#include "perception/scan_matching/correlative_matcher.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "common/validation.hpp"
+#include "perception/scan_matching/branch_and_bound.hpp"
+#include "perception/scan_matching/likelihood_field.hpp"
+#include "perception/scan_matching/scan_contour.hpp"
+#include "perception/scan_matching/score_surface.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kTopValue = 255.0;
+/// Least spread of the end points that is believed; the field's bytes resolve no finer.
+constexpr double kMinResidual_m = 0.004;
+/// No pose is better than this, whatever the number of points.
+constexpr double kFloorSigma_m = 0.0005;
+constexpr double kFloorSigma_rad = 0.0001;
+/// The greatest uncertainty given, along what cannot be seen.
+constexpr double kMaxSigma_m = 10.0;
+
+bool isFinite(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
+}
+
+/// Points in the two arrays that the transformation wants.
+struct SplitPoints {
+  std::vector<float> x_m, y_m;
+
+  std::vector<float> heights_m;  ///< Over the body; empty when not known.
+
+  explicit SplitPoints(const std::vector<Eigen::Vector2f>& points_m) {
+    x_m.reserve(points_m.size());
+    y_m.reserve(points_m.size());
+    for (const Eigen::Vector2f& p : points_m) {
+      x_m.push_back(p.x());
+      y_m.push_back(p.y());
+    }
+  }
+};
+
+/// At most `count` points of the scan with their heights.
+SplitPoints spreadWithHeights(const ProjectedScan& scan, int count, double max_range_m) {
+  std::vector<Eigen::Vector2f> points;
+  std::vector<float> heights;
+  for (const int i : spreadIndices(scan.points_level_m, count, max_range_m)) {
+    points.push_back(scan.points_level_m[static_cast<std::size_t>(i)]);
+    if (scan.heights_level_m.size() == scan.points_level_m.size())
+      heights.push_back(scan.heights_level_m[static_cast<std::size_t>(i)]);
+  }
+  SplitPoints result(points);
+  result.heights_m = std::move(heights);
+  return result;
+}
+
+/// What the scores say about the pose, relative to the finest.
+struct SurfaceFit {
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad) from the finest pose to the peak.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  std::optional<Eigen::Vector2d> unobservable_direction;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();          ///< Of the surface, per step,
+  Eigen::Matrix3d peak_of_gradient = Eigen::Matrix3d::Zero();  ///< and how the peak (m, m, rad) follows it.
+};
+
+}  // namespace
+
+void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
+  fields("resolution_m", resolution_m, "Of the finest level.");
+  fields("angular_resolution_deg", angular_resolution_deg, "Of the finest level.");
+  fields("levels", levels, "Resolutions in the weighted mean, each twice as coarse as the one before.");
+  fields.choice("estimate", estimate, {"finest", "weighted_mean", "surface"}, "How the pose is taken from the scores.");
+  fields("sigma_m", sigma_m, "Spread of the end points about the contour of the reference.");
+  fields("search_points", search_points, "Points of a scan that are searched with.");
+  fields("surface_points", surface_points, "Points from which pose and covariance are taken around the best.");
+  fields("max_range_m", max_range_m, "Points farther than this are not used.");
+  fields("max_gap_m", max_gap_m, "Neighbouring end points nearer than this are joined to a contour.");
+  fields("guess_weight", guess_weight, "A pose far from the guess loses at most this much quality.");
+  fields("guess_distance_m", guess_distance_m, "Half of it is lost at this distance.");
+  fields("guess_rotation_deg", guess_rotation_deg, "Or at this rotation.");
+  fields("min_quality", min_quality, "Below this mean score the match failed.");
+  fields("min_points", min_points, "With fewer points the match failed.");
+  fields("covariance_scale", covariance_scale, "Factor on the covariance of independent points.");
+  fields("attitude_error_deg", attitude_error_deg, "Error of roll and pitch, which the covariance allows for.");
+  fields("unobservable_sigma_m", unobservable_sigma_m, "A direction less certain than this is not seen.");
+}
+
+std::vector<std::string> CorrelativeMatcherConfig::validate() const {
+  return common::Validation()
+      .within("resolution_m", resolution_m, 0.001, 1)
+      .within("angular_resolution_deg", angular_resolution_deg, 0.01, 10)
+      .within("levels", levels, 1, 3)
+      .within("sigma_m", sigma_m, 0.5 * resolution_m, LikelihoodField::kMaxKernelCells * resolution_m / 3.0 + 1e-9)
+      .within("search_points", search_points, 10, 256)
+      .within("surface_points", surface_points, 10, 4096)
+      .within("max_range_m", max_range_m, 0.5, 100)
+      .within("max_gap_m", max_gap_m, 0, 10)
+      .within("guess_weight", guess_weight, 0, 1)
+      .within("guess_distance_m", guess_distance_m, 0.001, 100)
+      .within("guess_rotation_deg", guess_rotation_deg, 0.01, 360)
+      .within("min_quality", min_quality, 0, 1)
+      .within("min_points", min_points, 3, 256)
+      .within("covariance_scale", covariance_scale, 0.01, 1000)
+      .within("attitude_error_deg", attitude_error_deg, 0, 20)
+      .within("unobservable_sigma_m", unobservable_sigma_m, 0.001, 10)
+      .problems();
+}
+
+struct CorrelativeMatcher::Impl {
+  Impl(const CorrelativeMatcherConfig& config_in, Instructions instructions_in)
+      : config(config_in),
+        instructions(instructions_in),
+        field(config_in.resolution_m, config_in.sigma_m),
+        search(instructions_in) {}
+
+  PoseGrid gridAround(const Pose2& guess, const SearchWindow& window) const {
+    const int half = std::clamp(static_cast<int>(std::ceil(window.half_translation_m / config.resolution_m)), 0, 4000);
+    const double step_rad = config.angular_resolution_deg * kRadPerDeg;
+    const int half_turn = std::clamp(static_cast<int>(std::ceil(window.half_rotation_rad / step_rad)), 0,
+                                     static_cast<int>(std::floor(std::numbers::pi / step_rad)));
+    return {guess.x_m - half * config.resolution_m,
+            guess.y_m - half * config.resolution_m,
+            guess.yaw_rad - half_turn * step_rad,
+            step_rad,
+            2 * half_turn + 1,
+            2 * half + 1};
+  }
+
+  GuessPenalty penaltyFor(std::size_t points) const {
+    return {static_cast<int>(config.guess_weight * kTopValue * static_cast<double>(points)),
+            config.guess_distance_m / config.resolution_m, config.guess_rotation_deg / config.angular_resolution_deg};
+  }
+
+  Pose2 poseAt(const PoseGrid& grid, const BestPose& best) const {
+    return {grid.first_x_m + best.x * config.resolution_m, grid.first_y_m + best.y * config.resolution_m,
+            common::wrapAngle(grid.first_yaw_rad + best.rotation * grid.step_yaw_rad)};
+  }
+
+  MatchResult evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points, const Pose2& guess,
+                       const PoseGrid& grid, const BestPose& best);
+  double support(const SplitPoints& points, const Pose2& pose);
+  ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
+  SurfaceFit fit(const ScoreSurface& surface, double supported, const Pose2& center, const Pose2& guess) const;
+  Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad,
+                                     const SurfaceFit& surface_fit);
+  Eigen::Vector3d weightedMean(const SplitPoints& points, const PoseGrid& grid, const BestPose& best);
+  void addWindows(const SplitPoints& points, const Pose2& center, double yaw_rad, int half, int rows,
+                  std::vector<std::uint32_t>& sums);
+
+  CorrelativeMatcherConfig config;
+  Instructions instructions;
+  LikelihoodField field;
+  BranchAndBound search;
+  std::vector<std::int32_t> x_cells, y_cells, offsets;
+};
+
+/// sums[row * 16 + column]: the scores of the translations from -half, in both directions, about `center` with its
+/// rotation replaced.
+void CorrelativeMatcher::Impl::addWindows(const SplitPoints& points, const Pose2& center, double yaw_rad, int half,
+                                          int rows, std::vector<std::uint32_t>& sums) {
+  sums.assign(static_cast<std::size_t>(rows) * kWindowColumns, 0);
+  std::vector<std::uint16_t> part(sums.size());
+  BranchAndBound::cellsAt(field, points.x_m, points.y_m, yaw_rad, center.x_m - half * config.resolution_m,
+                          center.y_m - half * config.resolution_m, rows + kWindowColumns, x_cells, y_cells);
+  const LikelihoodField::Level level = field.level(0);
+  offsets.resize(x_cells.size());
+  for (std::size_t i = 0; i < offsets.size(); ++i) offsets[i] = y_cells[i] * level.stride + x_cells[i];
+  for (std::size_t begin = 0; begin < offsets.size(); begin += kMaxWindowPoints) {
+    const std::size_t count = std::min<std::size_t>(kMaxWindowPoints, offsets.size() - begin);
+    sumWindows(instructions, level.cells, level.stride, std::span(offsets).subspan(begin, count), rows, part.data());
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += part[i];
+  }
+}
+
+ScoreSurface CorrelativeMatcher::Impl::surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad) {
+  constexpr int kHalf = ScoreSurface::kHalf;
+  ScoreSurface surface;
+  surface.step_m = config.resolution_m;
+  surface.step_rad = step_rad;
+  std::vector<std::uint32_t> sums;
+  for (int k = -kHalf; k <= kHalf; ++k) {
+    addWindows(points, center, center.yaw_rad + k * step_rad, kHalf, ScoreSurface::kSize, sums);
+    for (int y = -kHalf; y <= kHalf; ++y)
+      for (int x = -kHalf; x <= kHalf; ++x)
+        surface.at(x, y, k) = sums[static_cast<std::size_t>((y + kHalf) * kWindowColumns + x + kHalf)];
+  }
+  return surface;
+}
+
+double CorrelativeMatcher::Impl::support(const SplitPoints& points, const Pose2& pose) {
+  BranchAndBound::cellsAt(field, points.x_m, points.y_m, pose.yaw_rad, pose.x_m, pose.y_m, 1, x_cells, y_cells);
+  double supported = 0.0;
+  for (std::size_t i = 0; i < x_cells.size(); ++i) supported += field.at(x_cells[i], y_cells[i]) > 0 ? 1.0 : 0.0;
+  return supported;
+}
+
+/// Each supported point adds -(d / reach)^2 to the score, with d along the normal of its contour; the curvature is
+/// therefore the sum of n n', and with the spread of d, read off the height of the peak, the covariance follows as that
+/// of least squares.
+SurfaceFit CorrelativeMatcher::Impl::fit(const ScoreSurface& surface, double supported, const Pose2& center,
+                                         const Pose2& guess) const {
+  const Quadratic q = fitQuadratic(surface);
+  const Eigen::Vector3d step(surface.step_m, surface.step_m, surface.step_rad);
+  const double reach2 = field.reach_m() * field.reach_m();
+  const double peak = surface.at(0, 0, 0) / (kTopValue * std::max(supported, 1.0));
+  const double residual2 = std::max(reach2 * (1.0 - peak), kMinResidual_m * kMinResidual_m);
+
+  // In units of one step, where all three axes move the points by about as much.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(-q.hessian);
+  const double information_per_curvature =
+      reach2 / (2.0 * kTopValue * residual2 * config.covariance_scale) / (surface.step_m * surface.step_m);
+  const double min_information = 1.0 / (kMaxSigma_m * kMaxSigma_m);
+  Eigen::Vector3d peak_steps = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_steps = Eigen::Matrix3d::Zero();
+  const Eigen::Vector3d guess_steps =
+      Eigen::Vector3d(guess.x_m - center.x_m, guess.y_m - center.y_m, common::wrapAngle(guess.yaw_rad - center.yaw_rad))
+          .cwiseQuotient(step);
+  SurfaceFit result;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = eigen.eigenvectors().col(i);
+    const double curvature = eigen.eigenvalues()(i);
+    const double information = std::max(curvature * information_per_curvature, min_information);  // 1 / m^2
+    covariance_steps += axis * axis.transpose() / (information * surface.step_m * surface.step_m);
+    const bool seen = information * config.unobservable_sigma_m * config.unobservable_sigma_m > 1.0;
+    if (seen) {
+      const double along = axis.dot(q.gradient) / curvature;
+      peak_steps += axis * std::clamp<double>(along, -ScoreSurface::kHalf, ScoreSurface::kHalf);
+      result.peak_of_gradient += axis * axis.transpose() / curvature;
+    } else {
+      peak_steps += axis * axis.dot(guess_steps);
+    }
+  }
+  result.offset = peak_steps.cwiseProduct(step);
+  result.gradient = q.gradient;
+  result.peak_of_gradient = step.asDiagonal() * result.peak_of_gradient;
+  result.covariance = step.asDiagonal() * covariance_steps * step.asDiagonal();
+  result.covariance.diagonal() +=
+      Eigen::Vector3d(kFloorSigma_m * kFloorSigma_m, kFloorSigma_m * kFloorSigma_m, kFloorSigma_rad * kFloorSigma_rad);
+
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> translation(result.covariance.topLeftCorner<2, 2>().eval());
+  if (translation.eigenvalues()(1) > config.unobservable_sigma_m * config.unobservable_sigma_m)
+    result.unobservable_direction = translation.eigenvectors().col(1);
+  return result;
+}
+
+/// A wrong attitude moves an end point sideways by its height over the body. All points move together, so that more of
+/// them do not help; how far the peak follows is tried out for an error about each axis.
+Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& points, const Pose2& center,
+                                                             double step_rad, const SurfaceFit& surface_fit) {
+  constexpr float kLeastShift_m = 0.0005F;
+  const auto error_rad = static_cast<float>(config.attitude_error_deg * kRadPerDeg);
+  float greatest_m = 0.0F;
+  for (const float height : points.heights_m) greatest_m = std::max(greatest_m, std::abs(height));
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  if (greatest_m * error_rad < kLeastShift_m) return covariance;
+  for (const bool about_x : {true, false}) {
+    SplitPoints moved = points;
+    std::vector<float>& coordinates = about_x ? moved.y_m : moved.x_m;
+    for (std::size_t i = 0; i < coordinates.size(); ++i) coordinates[i] += error_rad * points.heights_m[i];
+    const Eigen::Vector3d gradient = fitQuadratic(surfaceAround(moved, center, step_rad)).gradient;
+    const Eigen::Vector3d shift = surface_fit.peak_of_gradient * (gradient - surface_fit.gradient);
+    covariance += shift * shift.transpose();
+  }
+  return covariance;
+}
+
+/// The best pose of a coarser level is that of the mean scores of its blocks, blocks lying on the grid of the search: a
+/// likelihood field of that resolution, sampled at that resolution.
+Eigen::Vector3d CorrelativeMatcher::Impl::weightedMean(const SplitPoints& points, const PoseGrid& grid,
+                                                       const BestPose& best) {
+  constexpr int kHalf = 7;
+  constexpr int kRotations = 4;
+  const Pose2 finest = poseAt(grid, best);
+  std::array<std::vector<std::uint32_t>, 2 * kRotations + 1> scores;
+  for (int k = -kRotations; k <= kRotations; ++k)
+    addWindows(points, finest, finest.yaw_rad + k * grid.step_yaw_rad, kHalf, 2 * kHalf + 1,
+               scores[static_cast<std::size_t>(k + kRotations)]);
+
+  const double coarsest_m = config.resolution_m * (1 << (config.levels - 1));
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weights = 0.0;
+  for (int level = 0; level < config.levels; ++level) {
+    const int block = 1 << level;
+    std::uint64_t top = 0;
+    Eigen::Vector3d estimate = Eigen::Vector3d::Zero();  // From the finest pose, in cells and rotation steps.
+    for (int k = -kRotations; k <= kRotations; ++k) {
+      if ((best.rotation + k) % block != 0) continue;
+      for (int y0 = -kHalf; y0 + block - 1 <= kHalf; ++y0) {
+        if ((best.y + y0) % block != 0) continue;
+        for (int x0 = -kHalf; x0 + block - 1 <= kHalf; ++x0) {
+          if ((best.x + x0) % block != 0) continue;
+          std::uint64_t score = 0;
+          for (int y = y0; y < y0 + block; ++y)
+            for (int x = x0; x < x0 + block; ++x)
+              score += scores[static_cast<std::size_t>(k + kRotations)]
+                             [static_cast<std::size_t>((y + kHalf) * kWindowColumns + x + kHalf)];
+          if (score <= top) continue;
+          top = score;
+          estimate = Eigen::Vector3d(x0 + 0.5 * (block - 1), y0 + 0.5 * (block - 1), k);
+        }
+      }
+    }
+    const double distance_m = estimate.head<2>().norm() * config.resolution_m;
+    const double weight = std::exp(-0.5 * distance_m * distance_m / (coarsest_m * coarsest_m));
+    sum += weight * estimate;
+    weights += weight;
+  }
+  return (sum / weights).cwiseProduct(Eigen::Vector3d(config.resolution_m, config.resolution_m, grid.step_yaw_rad));
+}
+
+MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points,
+                                               const Pose2& guess, const PoseGrid& grid, const BestPose& best) {
+  MatchResult result;
+  result.points_used = static_cast<int>(points.size());
+  result.finest_score = best.score;
+  result.finest_T_reference_body = poseAt(grid, best);
+  result.T_reference_body = result.finest_T_reference_body;
+  const int penalty = BranchAndBound::leastPenalty(penaltyFor(points.size()), grid, best.x, best.y, best.rotation, 0);
+  result.quality = (best.score + penalty) / (kTopValue * static_cast<double>(points.size()));
+  const auto atEdge = [](int i, int size) { return size > 1 && (i == 0 || i == size - 1); };
+  result.at_window_edge =
+      atEdge(best.x, grid.translations) || atEdge(best.y, grid.translations) || atEdge(best.rotation, grid.rotations);
+
+  // One step of rotation moves the points by about one cell, so that the surface is as wide in each direction.
+  double lever2 = 0.0;
+  for (const Eigen::Vector2f& p : points) lever2 += p.squaredNorm();
+  const double lever_m = std::sqrt(lever2 / static_cast<double>(points.size()));
+  const SplitPoints surface_points = spreadWithHeights(scan, config.surface_points, config.max_range_m);
+  field.prepare(0, 2 * kWindowColumns + 2 * ScoreSurface::kSize);
+  const double supported = support(surface_points, result.finest_T_reference_body);
+  result.overlap = supported / static_cast<double>(surface_points.x_m.size());
+  const double step_rad = config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
+  const ScoreSurface surface = surfaceAround(surface_points, result.finest_T_reference_body, step_rad);
+  const SurfaceFit surface_fit = fit(surface, supported, result.finest_T_reference_body, guess);
+  result.covariance = surface_fit.covariance +
+                      attitudeCovariance(surface_points, result.finest_T_reference_body, step_rad, surface_fit);
+  result.unobservable_direction = surface_fit.unobservable_direction;
+
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  if (config.estimate == PoseEstimate::kSurface) offset = surface_fit.offset;
+  if (config.estimate == PoseEstimate::kWeightedMean) offset = weightedMean(surface_points, grid, best);
+  result.T_reference_body.x_m += offset.x();
+  result.T_reference_body.y_m += offset.y();
+  result.T_reference_body.yaw_rad = common::wrapAngle(result.T_reference_body.yaw_rad + offset.z());
+  result.failed = result.quality < config.min_quality || result.points_used < config.min_points;
+  return result;
+}
+
+CorrelativeMatcher::CorrelativeMatcher(const CorrelativeMatcherConfig& config, Instructions instructions)
+    : impl_(std::make_unique<Impl>(config, instructions)) {}
+CorrelativeMatcher::~CorrelativeMatcher() = default;
+CorrelativeMatcher::CorrelativeMatcher(CorrelativeMatcher&&) noexcept = default;
+CorrelativeMatcher& CorrelativeMatcher::operator=(CorrelativeMatcher&&) noexcept = default;
+
+void CorrelativeMatcher::clearReference() { impl_->field.clear(); }
+
+void CorrelativeMatcher::addReference(const ProjectedScan& scan, const Pose2& T_reference_body) {
+  if (!isFinite(T_reference_body)) return;
+  std::vector<ContourSegment> contour =
+      contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m);
+  const Eigen::Rotation2Dd rotation(T_reference_body.yaw_rad);
+  const Eigen::Matrix2d R = rotation.toRotationMatrix();
+  for (ContourSegment& segment : contour) {
+    segment.begin_m = R * segment.begin_m + T_reference_body.position_m();
+    segment.end_m = R * segment.end_m + T_reference_body.position_m();
+  }
+  impl_->field.draw(contour);
+}
+
+MatchResult CorrelativeMatcher::match(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window) {
+  if (!isFinite(guess) || impl_->field.empty()) return {};
+  const std::vector<Eigen::Vector2f> points =
+      spreadPoints(scan.points_level_m, impl_->config.search_points, impl_->config.max_range_m);
+  if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
+  const PoseGrid grid = impl_->gridAround(guess, window);
+  const BestPose best = impl_->search.search(impl_->field, points, grid, impl_->penaltyFor(points.size()));
+  return impl_->evaluate(scan, points, guess, grid, best);
+}
+
+MatchResult CorrelativeMatcher::matchExhaustively(const ProjectedScan& scan, const Pose2& guess,
+                                                  const SearchWindow& window) {
+  if (!isFinite(guess) || impl_->field.empty()) return {};
+  const std::vector<Eigen::Vector2f> points =
+      spreadPoints(scan.points_level_m, impl_->config.search_points, impl_->config.max_range_m);
+  if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
+  const PoseGrid grid = impl_->gridAround(guess, window);
+  const SplitPoints split(points);
+  BestPose best;
+  std::vector<std::int32_t> x_cells, y_cells;
+  for (int k = 0; k < grid.rotations; ++k) {
+    x_cells.resize(points.size());
+    y_cells.resize(points.size());
+    const double scale = 1.0 / impl_->field.resolution_m(), yaw_rad = grid.first_yaw_rad + k * grid.step_yaw_rad;
+    transformToCells(split.x_m, split.y_m, static_cast<float>(std::cos(yaw_rad) * scale),
+                     static_cast<float>(std::sin(yaw_rad) * scale),
+                     static_cast<float>(grid.first_x_m * scale - impl_->field.beginX()),
+                     static_cast<float>(grid.first_y_m * scale - impl_->field.beginY()), x_cells, y_cells);
+    for (int y = 0; y < grid.translations; ++y) {
+      for (int x = 0; x < grid.translations; ++x) {
+        int score = -BranchAndBound::leastPenalty(impl_->penaltyFor(points.size()), grid, x, y, k, 0);
+        for (std::size_t i = 0; i < points.size(); ++i) score += impl_->field.at(x_cells[i] + x, y_cells[i] + y);
+        if (score > best.score) best = {score, x, y, k};
+      }
+    }
+  }
+  return impl_->evaluate(scan, points, guess, grid, best);
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,70 @@
+// Multi-resolution correlative scan matching: the best pose of a grid of poses by coarse-to-fine search with a bound,
+// so that the answer is that of the exhaustive search at the finest resolution (Olson 2009, as used by Grzonka 2012,
+// section IV-A, and Bachrach 2009, section 5.1). Scores are sums of bytes, the same on every machine.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "perception/scan_matching/scan_matcher.hpp"
+#include "perception/scan_matching/window_sums.hpp"
+
+namespace swiftlet::perception {
+
+/// How the pose is taken from the scores. The grid alone makes a hovering vehicle's estimate oscillate; both averages
+/// are without phase shift.
+enum class PoseEstimate {
+  kFinest,        ///< The best pose of the finest grid.
+  kWeightedMean,  ///< Mean of the best poses of all levels, weighted by a Gaussian about the finest (Grzonka 2012,
+                  ///< IV-A).
+  kSurface,       ///< The peak of a quadratic through the scores around the finest.
+};
+
+struct CorrelativeMatcherConfig {
+  double resolution_m = 0.01;  ///< Of the finest level; each coarser one doubles it.
+  double angular_resolution_deg = 0.1;
+  int levels = 3;  ///< Resolutions that take part in the weighted mean (1, 2 and 4 cm; Grzonka 2012, IV-A).
+  PoseEstimate estimate = PoseEstimate::kSurface;
+  double sigma_m = 0.02;     ///< Spread of the end points about the contour of the reference.
+  int search_points = 256;   ///< Points of a scan that are searched with, spread evenly along its contour; at most 256.
+  int surface_points = 512;  ///< Points from which pose and covariance are taken around the best.
+  double max_range_m = 20.0;  ///< Points farther than this are not used; bounds the memory of the field.
+  double max_gap_m = 0.3;     ///< Neighbouring end points of the reference nearer than this are joined to a contour.
+  double guess_weight = 0.1;  ///< A pose far from the guess loses at most this much quality: the motion's prior.
+  double guess_distance_m = 0.08;   ///< Half of it at this distance,
+  double guess_rotation_deg = 3.0;  ///< or this rotation.
+  double min_quality = 0.35;        ///< Below this the match failed.
+  int min_points = 30;              ///< With fewer points the match failed.
+  double covariance_scale = 1.5;    ///< On the covariance of independent points; calibrated, see the test of honesty.
+  double attitude_error_deg = 1.0;  ///< Of roll and pitch: moves each end point by its height over the body times this.
+  double unobservable_sigma_m =
+      0.1;  ///< A direction less certain than this is not seen: the pose keeps the guess there.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+class CorrelativeMatcher final : public ScanMatcher {
+ public:
+  explicit CorrelativeMatcher(const CorrelativeMatcherConfig& config, Instructions instructions = bestInstructions());
+  ~CorrelativeMatcher() override;
+  CorrelativeMatcher(CorrelativeMatcher&&) noexcept;
+  CorrelativeMatcher& operator=(CorrelativeMatcher&&) noexcept;
+
+  void clearReference() override;
+  void addReference(const ProjectedScan& scan, const common::Pose2& T_reference_body) override;
+  [[nodiscard]] MatchResult match(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,
+                                  const SearchWindow& window) override;
+
+  /// The oracle: every pose of the window at the finest resolution, one by one. Slow; `finest_*` are those of `match`.
+  [[nodiscard]] MatchResult matchExhaustively(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,
+                                              const SearchWindow& window);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,213 @@
+#include "perception/scan_matching/laser_odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numbers>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+}  // namespace
+
+void LaserOdometryConfig::describe(common::config::Fields& fields) {
+  fields.section("matcher", matcher, "Matching of a scan to the local map.");
+  fields("max_acceleration_m_s2", max_acceleration_m_s2, "Widens the search with the time since the last match.");
+  fields("max_angular_acceleration_rad_s2", max_angular_acceleration_rad_s2, "The same for the rotation.");
+  fields("guess_error_m", guess_error_m, "Half the least search window.");
+  fields("guess_error_deg", guess_error_deg, "The same for the rotation.");
+  fields("max_window_m", max_window_m, "Half the greatest search window.");
+  fields("max_window_deg", max_window_deg, "The same for the rotation.");
+  fields("min_overlap", min_overlap, "A scan with a smaller share of supported points joins the local map.");
+  fields("max_reference_distance_m", max_reference_distance_m, "A scan this far from the reference joins too.");
+  fields("max_reference_rotation_deg", max_reference_rotation_deg, "Or turned this much.");
+  fields("level_tilt_deg", level_tilt_deg, "A scan tilted more than this is joined only when it must be.");
+  fields("tilted_overlap_margin", tilted_overlap_margin, "So much less overlap makes it join all the same.");
+  fields("local_map_scans", local_map_scans, "Key scans kept in the local map.");
+  fields("max_failures", max_failures, "After so many scans without a match it starts anew.");
+}
+
+std::vector<std::string> LaserOdometryConfig::validate() const {
+  return common::Validation()
+      .within("max_acceleration_m_s2", max_acceleration_m_s2, 0, 100)
+      .within("max_angular_acceleration_rad_s2", max_angular_acceleration_rad_s2, 0, 1000)
+      .within("guess_error_m", guess_error_m, 0.001, max_window_m)
+      .within("guess_error_deg", guess_error_deg, 0.01, max_window_deg)
+      .within("max_window_m", max_window_m, 0.01, 5)
+      .within("max_window_deg", max_window_deg, 0.1, 180)
+      .within("min_overlap", min_overlap, 0, 1)
+      .within("max_reference_distance_m", max_reference_distance_m, 0.05, 100)
+      .within("max_reference_rotation_deg", max_reference_rotation_deg, 1, 360)
+      .within("level_tilt_deg", level_tilt_deg, 0, 90)
+      .within("tilted_overlap_margin", tilted_overlap_margin, 0, 1)
+      .within("local_map_scans", local_map_scans, 1, 100)
+      .within("max_failures", max_failures, 1, 100'000)
+      .problems();
+}
+
+struct LaserOdometry::Impl {
+  struct KeyScan {
+    common::Time stamp;
+    ProjectedScan scan;
+    Pose2 T_local_body;
+    Eigen::Matrix3d covariance_local;  ///< Of that pose against the map drawn before; zero for the first.
+  };
+
+  explicit Impl(const LaserOdometryConfig& config_in) : config(config_in), matcher(config_in.matcher) {}
+
+  std::optional<RelativePose> start(const ProjectedScan& scan);
+  MatchResult matchWidening(const ProjectedScan& scan, const Pose2& guess);
+  void addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body, const Eigen::Matrix3d& covariance_local);
+  RelativePose relativeTo(const KeyScan& reference, const ProjectedScan& scan, const MatchResult& match) const;
+  bool shouldJoin(const RelativePose& relative, const ProjectedScan& scan, const MatchResult& match) const;
+  void drawLocalMap();
+
+  LaserOdometryConfig config;
+  CorrelativeMatcher matcher;
+  LaserOdometryCounts counts;
+  std::deque<KeyScan> key_scans;  ///< The last one is the reference.
+  common::Time last_stamp, last_match;
+  Pose2 last_T_odom_body;   ///< As predicted, at the last match.
+  Pose2 last_T_local_body;  ///< As matched.
+  int failures = 0;
+};
+
+void LaserOdometry::Impl::drawLocalMap() {
+  matcher.clearReference();
+  for (const KeyScan& key : key_scans) matcher.addReference(key.scan, key.T_local_body);
+}
+
+void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body,
+                                     const Eigen::Matrix3d& covariance_local) {
+  ++counts.references;
+  key_scans.push_back({scan.stamp, scan, T_local_body, covariance_local});
+  if (static_cast<int>(key_scans.size()) <= config.local_map_scans) {
+    matcher.addReference(scan, T_local_body);
+    return;
+  }
+  // Half of the map is forgotten at once, so that drawing it anew is rare.
+  const auto kept = static_cast<std::size_t>(config.local_map_scans / 2 + 1);
+  while (key_scans.size() > kept) key_scans.pop_front();
+  drawLocalMap();
+}
+
+std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan) {
+  if (static_cast<int>(scan.points_level_m.size()) < config.matcher.min_points) return std::nullopt;
+  key_scans.clear();
+  matcher.clearReference();
+  addKeyScan(scan, Pose2{}, Eigen::Matrix3d::Zero());
+  last_match = scan.stamp;
+  last_T_odom_body = common::planar(scan.T_odom_body);
+  last_T_local_body = Pose2{};
+  failures = 0;
+  RelativePose first;
+  first.from = first.to = scan.stamp;
+  first.reference_changed = true;
+  return first;
+}
+
+/// The window covers what the vehicle can have done against the prediction; a best pose at its edge asks for more.
+MatchResult LaserOdometry::Impl::matchWidening(const ProjectedScan& scan, const Pose2& guess) {
+  const double elapsed_s = (scan.stamp - last_match).seconds();
+  const double half_dt2 = 0.5 * elapsed_s * elapsed_s;
+  SearchWindow window;
+  window.half_translation_m =
+      std::min(config.max_window_m, config.guess_error_m + config.max_acceleration_m_s2 * half_dt2);
+  window.half_rotation_rad =
+      std::min(config.max_window_deg * kRadPerDeg,
+               config.guess_error_deg * kRadPerDeg + config.max_angular_acceleration_rad_s2 * half_dt2);
+  MatchResult result = matcher.match(scan, guess, window);
+  while ((result.at_window_edge || result.failed) && result.points_used > 0 &&
+         (window.half_translation_m < config.max_window_m ||
+          window.half_rotation_rad < config.max_window_deg * kRadPerDeg)) {
+    window.half_translation_m = std::min(config.max_window_m, 3.0 * window.half_translation_m);
+    window.half_rotation_rad = std::min(config.max_window_deg * kRadPerDeg, 3.0 * window.half_rotation_rad);
+    result = matcher.match(scan, guess, window);
+  }
+  return result;
+}
+
+/// Both scans stand in the local map with their own errors; that of the reference's heading swings the way between.
+RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const ProjectedScan& scan,
+                                             const MatchResult& match) const {
+  RelativePose relative;
+  relative.from = reference.stamp;
+  relative.to = scan.stamp;
+  relative.T_from_to = reference.T_local_body.inverse() * match.T_reference_body;
+  relative.quality = match.quality;
+  const Eigen::Matrix2d to_reference = Eigen::Rotation2Dd(-reference.T_local_body.yaw_rad).toRotationMatrix();
+  Eigen::Matrix3d swing = Eigen::Matrix3d::Identity();
+  swing(0, 2) = -(match.T_reference_body.y_m - reference.T_local_body.y_m);
+  swing(1, 2) = match.T_reference_body.x_m - reference.T_local_body.x_m;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = to_reference;
+  relative.covariance =
+      rotation * (match.covariance + swing * reference.covariance_local * swing.transpose()) * rotation.transpose();
+  if (match.unobservable_direction) relative.unobservable_direction = to_reference * *match.unobservable_direction;
+  return relative;
+}
+
+/// A tilted scan is drawn with the error of its attitude; as long as the map still holds it, a level one is waited for.
+bool LaserOdometry::Impl::shouldJoin(const RelativePose& relative, const ProjectedScan& scan,
+                                     const MatchResult& match) const {
+  const bool far = relative.T_from_to.position_m().norm() > config.max_reference_distance_m ||
+                   std::abs(relative.T_from_to.yaw_rad) > config.max_reference_rotation_deg * kRadPerDeg;
+  if (!far && match.overlap >= config.min_overlap) return false;
+  const double cos_tilt = (scan.T_odom_body.rotation * Eigen::Vector3d::UnitZ()).z();
+  const bool tilted = cos_tilt < std::cos(config.level_tilt_deg * kRadPerDeg);
+  return !tilted || match.overlap < config.min_overlap - config.tilted_overlap_margin;
+}
+
+LaserOdometry::LaserOdometry(const LaserOdometryConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+LaserOdometry::~LaserOdometry() = default;
+LaserOdometry::LaserOdometry(LaserOdometry&&) noexcept = default;
+LaserOdometry& LaserOdometry::operator=(LaserOdometry&&) noexcept = default;
+
+const LaserOdometryCounts& LaserOdometry::counts() const { return impl_->counts; }
+
+std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan) {
+  Impl& self = *impl_;
+  ++self.counts.scans;
+  const Pose2 T_odom_body = common::planar(scan.T_odom_body);
+  if (!std::isfinite(T_odom_body.x_m) || !std::isfinite(T_odom_body.y_m) || !std::isfinite(T_odom_body.yaw_rad)) {
+    ++self.counts.failures;
+    return std::nullopt;
+  }
+  if (self.key_scans.empty()) {
+    self.last_stamp = scan.stamp;
+    return self.start(scan);
+  }
+  if (scan.stamp <= self.last_stamp) {
+    ++self.counts.out_of_order;
+    return std::nullopt;
+  }
+  self.last_stamp = scan.stamp;
+
+  const Pose2 guess = self.last_T_local_body * (self.last_T_odom_body.inverse() * T_odom_body);
+  const MatchResult match = self.matchWidening(scan, guess);
+  if (match.failed) {
+    ++self.counts.failures;
+    if (++self.failures < self.config.max_failures) return std::nullopt;
+    ++self.counts.restarts;
+    return self.start(scan);
+  }
+  self.failures = 0;
+  self.last_match = scan.stamp;
+  self.last_T_odom_body = T_odom_body;
+  self.last_T_local_body = match.T_reference_body;
+
+  RelativePose relative = self.relativeTo(self.key_scans.back(), scan, match);
+  if (self.shouldJoin(relative, scan, match)) {
+    relative.reference_changed = true;
+    self.addKeyScan(scan, match.T_reference_body, match.covariance);
+  }
+  return relative;
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,81 @@
+// Odometry from the laser alone: each scan is matched to a local map of the last key scans. A scan joins the local map
+// only when it overlaps it insufficiently, so that hovering does not drift (Bachrach 2009, section 5.1).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/time.hpp"
+#include "perception/scan_matching/correlative_matcher.hpp"
+#include "perception/scan_matching/scan_matcher.hpp"
+
+namespace swiftlet::perception {
+
+/// Where the scan at `to` stands relative to the reference key scan at `from`.
+///
+/// The filter keeps a clone of its pose at `from`. When `reference_changed` is set, this measurement is still relative
+/// to `from`, and the scan at `to` is the reference from the next measurement on: apply this one, then clone the pose
+/// at `to`. The first scan, and the first after the odometry was lost, have from == to: nothing to apply, only to
+/// clone.
+struct RelativePose {
+  common::Time from;
+  common::Time to;
+  common::Pose2 T_from_to;                               ///< Between the level frames of the two scans.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x_m, y_m, yaw_rad) in the frame at `from`.
+  double quality = 0.0;
+  bool reference_changed = false;
+  std::optional<Eigen::Vector2d> unobservable_direction;  ///< In the frame at `from`.
+};
+
+struct LaserOdometryConfig {
+  CorrelativeMatcherConfig matcher;
+  double max_acceleration_m_s2 = 5.0;  ///< Widens the search with the time since the last match (Bachrach 2009, 5.1).
+  double max_angular_acceleration_rad_s2 = 20.0;
+  double guess_error_m = 0.04;  ///< Half the least search window.
+  double guess_error_deg = 1.5;
+  double max_window_m = 0.5;
+  double max_window_deg = 15.0;
+  double min_overlap = 0.75;                 ///< A scan with a smaller share of supported points joins the local map.
+  double max_reference_distance_m = 2.0;     ///< So does one farther than this from the reference,
+  double max_reference_rotation_deg = 60.0;  ///< or turned more than this against it.
+  double level_tilt_deg = 2.0;  ///< A scan tilted more than this is drawn with the error of its attitude; it waits
+  double tilted_overlap_margin = 0.15;  ///< until the overlap is smaller by this.
+  int local_map_scans = 8;              ///< Key scans kept in the local map.
+  int max_failures = 20;                ///< After so many scans without a match it starts anew from the present one.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct LaserOdometryCounts {
+  std::uint64_t scans = 0;
+  std::uint64_t failures = 0;      ///< Scans that did not match.
+  std::uint64_t references = 0;    ///< Key scans.
+  std::uint64_t restarts = 0;      ///< Times it was lost and started anew.
+  std::uint64_t out_of_order = 0;  ///< Scans not newer than the one before; ignored.
+};
+
+/// Not thread-safe.
+class LaserOdometry {
+ public:
+  explicit LaserOdometry(const LaserOdometryConfig& config);
+  ~LaserOdometry();
+  LaserOdometry(LaserOdometry&&) noexcept;
+  LaserOdometry& operator=(LaserOdometry&&) noexcept;
+
+  /// The guess is the last match moved by the change of ProjectedScan::T_odom_body since then. Nothing is returned when
+  /// the scan does not match.
+  [[nodiscard]] std::optional<RelativePose> add(const ProjectedScan& scan);
+
+  const LaserOdometryCounts& counts() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::perception

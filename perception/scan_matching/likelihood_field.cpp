@@ -1,0 +1,232 @@
+#include "perception/scan_matching/likelihood_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#if defined(__x86_64__)
+#include <emmintrin.h>
+#endif
+
+#include "common/check.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+/// Windows are read 16 bytes at a time; the last may reach beyond the array.
+constexpr std::size_t kOverread = 64;
+
+int floorToMultiple(int value, int step) {
+  const int remainder = value % step;
+  return value - (remainder < 0 ? remainder + step : remainder);
+}
+
+/// out = max(out, in), 16 bytes.
+void raiseRow(const std::uint8_t* in, std::uint8_t* out) {
+#if defined(__x86_64__)
+  const __m128i a = _mm_loadu_si128(reinterpret_cast<const __m128i*>(in));
+  const __m128i b = _mm_loadu_si128(reinterpret_cast<const __m128i*>(out));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_max_epu8(a, b));
+#else
+  for (int c = 0; c < 16; ++c) out[c] = std::max(out[c], in[c]);
+#endif
+}
+
+}  // namespace
+
+LikelihoodField::LikelihoodField(double resolution_m, double sigma_m) : resolution_m_(resolution_m), sigma_m_(sigma_m) {
+  SWIFTLET_CHECK(resolution_m > 0.0 && sigma_m > 0.0 && 3.0 * sigma_m <= (kMaxKernelCells + 1e-9) * resolution_m,
+                 resolution_m, sigma_m);
+  makeKernels();
+}
+
+void LikelihoodField::makeKernels() {
+  const double reach_cells = reach_m() / resolution_m_;
+  for (int sub_y = 0; sub_y < kSubcells; ++sub_y) {
+    for (int sub_x = 0; sub_x < kSubcells; ++sub_x) {
+      auto& kernel = kernels_[static_cast<std::size_t>(sub_y * kSubcells + sub_x)];
+      const double center_x = kMaxKernelCells + (sub_x + 0.5) / kSubcells;
+      const double center_y = kMaxKernelCells + (sub_y + 0.5) / kSubcells;
+      for (int y = 0; y < kKernelSize; ++y) {
+        for (int x = 0; x < kKernelSize; ++x) {
+          const double distance = std::hypot(x + 0.5 - center_x, y + 0.5 - center_y) / reach_cells;
+          const double value = std::max(0.0, 255.0 * (1.0 - distance * distance));
+          kernel[static_cast<std::size_t>(y * kKernelSize + x)] = static_cast<std::uint8_t>(std::lround(value));
+        }
+      }
+    }
+  }
+}
+
+void LikelihoodField::clear() {
+  const int tiles_x = width_ / kTile;
+  for (const int tile : drawn_tiles_) {
+    const int x0 = tile % tiles_x * kTile, y0 = tile / tiles_x * kTile;
+    for (int k = 0; k <= prepared_top_; ++k) {
+      // One cell before the tile: coarse cells there look into it.
+      const int begin_x = std::max((x0 >> k) - 1, 0), begin_y = std::max((y0 >> k) - 1, 0);
+      const int end_x = (x0 + kTile) >> k, end_y = (y0 + kTile) >> k;
+      for (int y = begin_y; y < end_y; ++y)
+        std::memset(
+            &levels_[static_cast<std::size_t>(k)][static_cast<std::size_t>(y) * static_cast<std::size_t>(width_ >> k) +
+                                                  static_cast<std::size_t>(begin_x)],
+            0, static_cast<std::size_t>(end_x - begin_x));
+    }
+    tile_levels_[static_cast<std::size_t>(tile)] = 0;
+  }
+  drawn_tiles_.clear();
+  drawn_ = false;
+}
+
+void LikelihoodField::draw(std::span<const ContourSegment> segments) {
+  if (segments.empty()) return;
+  double low_x = INFINITY, low_y = INFINITY, high_x = -INFINITY, high_y = -INFINITY;
+  for (const ContourSegment& s : segments) {
+    low_x = std::min({low_x, s.begin_m.x(), s.end_m.x()});
+    low_y = std::min({low_y, s.begin_m.y(), s.end_m.y()});
+    high_x = std::max({high_x, s.begin_m.x(), s.end_m.x()});
+    high_y = std::max({high_y, s.begin_m.y(), s.end_m.y()});
+  }
+  const double scale = 1.0 / resolution_m_;
+  const auto cell = [&](double value_m) { return static_cast<int>(std::floor(value_m * scale)); };
+  const int margin = kMaxKernelCells + 1;
+  reserve(cell(low_x) - margin, cell(low_y) - margin, cell(high_x) + margin, cell(high_y) + margin, border_);
+
+  Eigen::Vector2d last(0.0, 0.0);
+  bool stamped = false;
+  for (const ContourSegment& s : segments) {
+    const Eigen::Vector2d begin(s.begin_m.x() * scale - begin_x_, s.begin_m.y() * scale - begin_y_);
+    const Eigen::Vector2d end(s.end_m.x() * scale - begin_x_, s.end_m.y() * scale - begin_y_);
+    const int steps = static_cast<int>(std::ceil((end - begin).norm()));
+    // The beginning of a piece is most often the end of the one before.
+    if (!stamped || begin != last) stamp(begin.x(), begin.y());
+    for (int i = 1; i <= steps; ++i) {
+      const Eigen::Vector2d at = begin + (end - begin) * (static_cast<double>(i) / steps);
+      stamp(at.x(), at.y());
+    }
+    last = end;
+    stamped = true;
+  }
+  drawn_ = true;
+}
+
+void LikelihoodField::stamp(double x_cells, double y_cells) {
+  const int x = static_cast<int>(x_cells), y = static_cast<int>(y_cells);
+  const int sub_x = static_cast<int>((x_cells - x) * kSubcells), sub_y = static_cast<int>((y_cells - y) * kSubcells);
+  const auto& kernel = kernels_[static_cast<std::size_t>(sub_y * kSubcells + sub_x)];
+  const int x0 = x - kMaxKernelCells, y0 = y - kMaxKernelCells;
+  std::uint8_t* out =
+      &levels_[0][static_cast<std::size_t>(y0) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x0)];
+  const std::uint8_t* in = kernel.data();
+  for (int row = 0; row < kKernelSize; ++row, out += width_, in += kKernelSize) raiseRow(in, out);
+
+  const int tiles_x = width_ / kTile;
+  const int tile_x0 = x0 / kTile, tile_x1 = (x0 + kKernelSize - 1) / kTile;
+  const int tile_y0 = y0 / kTile, tile_y1 = (y0 + kKernelSize - 1) / kTile;
+  for (int ty = tile_y0; ty <= tile_y1; ++ty)
+    for (int tx = tile_x0; tx <= tile_x1; ++tx) markTile(ty * tiles_x + tx);
+}
+
+void LikelihoodField::markTile(int tile) {
+  std::uint8_t& levels = tile_levels_[static_cast<std::size_t>(tile)];
+  if (levels == 0) drawn_tiles_.push_back(tile);
+  levels = 1;
+}
+
+void LikelihoodField::reserve(int min_x, int min_y, int max_x, int max_y, int border) {
+  if (drawn_) {
+    min_x = std::min(min_x, min_x_);
+    min_y = std::min(min_y, min_y_);
+    max_x = std::max(max_x, max_x_);
+    max_y = std::max(max_y, max_y_);
+  }
+  min_x_ = min_x;
+  min_y_ = min_y;
+  max_x_ = max_x;
+  max_y_ = max_y;
+  border_ = std::max(border_, border);
+  if (width_ > 0 && min_x - border_ >= begin_x_ && min_y - border_ >= begin_y_ && max_x + border_ < begin_x_ + width_ &&
+      max_y + border_ < begin_y_ + height_)
+    return;
+
+  // Some slack, so that a vehicle under way does not make the array grow with every scan.
+  const int slack = 2 * kTile;
+  const int begin_x = floorToMultiple(min_x - border_ - slack, kTile);
+  const int begin_y = floorToMultiple(min_y - border_ - slack, kTile);
+  const int width = floorToMultiple(max_x + border_ + slack, kTile) + kTile - begin_x;
+  const int height = floorToMultiple(max_y + border_ + slack, kTile) + kTile - begin_y;
+  std::array<std::vector<std::uint8_t>, kLevels> levels;
+  for (int k = 0; k < kLevels; ++k)
+    levels[static_cast<std::size_t>(k)].assign(
+        static_cast<std::size_t>(width >> k) * static_cast<std::size_t>(height >> k) + kOverread, 0);
+  std::vector<std::uint8_t> tile_levels(
+      static_cast<std::size_t>(width / kTile) * static_cast<std::size_t>(height / kTile), 0);
+  std::vector<int> drawn_tiles;
+  for (const int tile : drawn_tiles_) {
+    const int old_x = tile % (width_ / kTile) * kTile, old_y = tile / (width_ / kTile) * kTile;
+    const int x = old_x + begin_x_ - begin_x, y = old_y + begin_y_ - begin_y;
+    for (int row = 0; row < kTile; ++row)
+      std::memcpy(
+          &levels[0][static_cast<std::size_t>(y + row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)],
+          &levels_[0][static_cast<std::size_t>(old_y + row) * static_cast<std::size_t>(width_) +
+                      static_cast<std::size_t>(old_x)],
+          kTile);
+    const int new_tile = y / kTile * (width / kTile) + x / kTile;
+    tile_levels[static_cast<std::size_t>(new_tile)] = 1;
+    drawn_tiles.push_back(new_tile);
+  }
+  levels_ = std::move(levels);
+  tile_levels_ = std::move(tile_levels);
+  drawn_tiles_ = std::move(drawn_tiles);
+  begin_x_ = begin_x;
+  begin_y_ = begin_y;
+  width_ = width;
+  height_ = height;
+}
+
+void LikelihoodField::prepare(int top_level, int border) {
+  SWIFTLET_CHECK(top_level < kLevels, top_level);
+  if (!drawn_) return;
+  prepared_top_ = std::max(prepared_top_, top_level);
+  if (border > border_) reserve(min_x_, min_y_, max_x_, max_y_, border);
+  for (int k = 1; k <= top_level; ++k) {
+    for (const int tile : drawn_tiles_) {
+      std::uint8_t& levels = tile_levels_[static_cast<std::size_t>(tile)];
+      if (levels != k) continue;
+      updateTile(tile, k);
+      levels = static_cast<std::uint8_t>(k + 1);
+    }
+  }
+}
+
+void LikelihoodField::updateTile(int tile, int k) {
+  const int tiles_x = width_ / kTile;
+  const int x0 = tile % tiles_x * kTile, y0 = tile / tiles_x * kTile;
+  const auto fine_stride = static_cast<std::size_t>(width_ >> (k - 1));
+  const auto coarse_stride = static_cast<std::size_t>(width_ >> k);
+  const std::vector<std::uint8_t>& fine = levels_[static_cast<std::size_t>(k - 1)];
+  std::vector<std::uint8_t>& coarse = levels_[static_cast<std::size_t>(k)];
+  // A tile is never at the border of the array, so that the cells around it exist.
+  const int begin_x = (x0 >> k) - 1, end_x = (x0 + kTile) >> k;
+  const int begin_y = (y0 >> k) - 1, end_y = (y0 + kTile) >> k;
+  const int fine_columns = 2 * (end_x - begin_x) + 1;
+
+  constexpr int kRow = 80;  // At least 2 * (kTile / 2 + 1) + 1, in whole 16-byte lanes.
+  std::array<std::uint8_t, kRow + 16> column_max{};
+  std::array<std::uint8_t, kRow> window_max{};
+  for (int y = begin_y; y < end_y; ++y) {
+    const std::uint8_t* __restrict a =
+        &fine[static_cast<std::size_t>(2 * y) * fine_stride + static_cast<std::size_t>(2 * begin_x)];
+    const std::uint8_t* __restrict b = a + fine_stride;
+    const std::uint8_t* __restrict c = b + fine_stride;
+    for (int x = 0; x < fine_columns; ++x)
+      column_max[static_cast<std::size_t>(x)] = std::max(std::max(a[x], b[x]), c[x]);
+    const std::uint8_t* in = column_max.data();
+    for (int x = 0; x < kRow; ++x)
+      window_max[static_cast<std::size_t>(x)] = std::max(std::max(in[x], in[x + 1]), in[x + 2]);
+    std::uint8_t* out = &coarse[static_cast<std::size_t>(y) * coarse_stride + static_cast<std::size_t>(begin_x)];
+    for (int x = 0; x < end_x - begin_x; ++x) out[x] = window_max[static_cast<std::size_t>(2 * x)];
+  }
+}
+
+}  // namespace swiftlet::perception

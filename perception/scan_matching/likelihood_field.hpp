@@ -1,0 +1,86 @@
+// The likelihood field: for each cell, how likely a beam ends there given the contours drawn so far, in bytes. A value
+// is 255 (1 - d^2 / (3 sigma)^2) for the distance d to the nearest contour, 0 beyond 3 sigma: the logarithm of a
+// Gaussian over a constant share of outliers. Only cells near contours are touched when drawing (Bachrach 2009,
+// section 5.1.1).
+//
+// Coarser levels hold upper bounds: cell X of level k covers the cells X 2^k .. X 2^k + 2^(k+1) - 2 of the finest, so
+// that one look-up bounds a point moved by 0 .. 2^k - 1 cells from any place in it (Olson 2009).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "perception/scan_matching/scan_contour.hpp"
+
+namespace swiftlet::perception {
+
+/// Not thread-safe. Reading through `level` is valid until the next call that is not const.
+class LikelihoodField {
+ public:
+  static constexpr int kLevels = 7;
+  static constexpr int kTile = 64;
+  /// The widest kernel, in cells from its centre.
+  static constexpr int kMaxKernelCells = 7;
+
+  /// 3 sigma must be at most kMaxKernelCells cells.
+  LikelihoodField(double resolution_m, double sigma_m);
+
+  double resolution_m() const { return resolution_m_; }
+  /// The distance at which a point has no support.
+  double reach_m() const { return 3.0 * sigma_m_; }
+
+  void clear();
+  void draw(std::span<const ContourSegment> segments_reference_m);
+  bool empty() const { return !drawn_; }
+
+  /// Makes levels 0 .. top current, and sees to it that a window of `border` cells beside anything drawn is
+  /// addressable.
+  void prepare(int top_level, int border);
+
+  struct Level {
+    const std::uint8_t* cells = nullptr;
+    int stride = 0;
+  };
+  Level level(int k) const { return {levels_[static_cast<std::size_t>(k)].data(), width_ >> k}; }
+  /// The cell of the finest level at the array's beginning, relative to the reference frame's origin.
+  int beginX() const { return begin_x_; }
+  int beginY() const { return begin_y_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// The value at a finest cell of the array; 0 outside.
+  std::uint8_t at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= width_ || y >= height_) return 0;
+    return levels_[0][static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  }
+
+ private:
+  static constexpr int kKernelSize = 16;
+  static constexpr int kSubcells = 4;
+
+  void makeKernels();
+  void reserve(int min_x, int min_y, int max_x, int max_y, int border);
+  void stamp(double x_cells, double y_cells);
+  void markTile(int tile);
+  void updateTile(int tile, int level);
+
+  double resolution_m_;
+  double sigma_m_;
+  std::array<std::array<std::uint8_t, kKernelSize * kKernelSize>, kSubcells * kSubcells> kernels_{};
+
+  int begin_x_ = 0, begin_y_ = 0;  // Multiples of kTile.
+  int width_ = 0, height_ = 0;
+  int border_ = kTile;
+  int min_x_ = 0, min_y_ = 0, max_x_ = 0, max_y_ = 0;  // Drawn cells, relative to the frame's origin.
+  bool drawn_ = false;
+  int prepared_top_ = 0;  ///< No level above this was ever computed.
+  std::array<std::vector<std::uint8_t>, kLevels> levels_;
+
+  /// Of each tile of the finest level: levels below this are current; 0: never drawn.
+  std::vector<std::uint8_t> tile_levels_;
+  std::vector<int> drawn_tiles_;
+};
+
+}  // namespace swiftlet::perception

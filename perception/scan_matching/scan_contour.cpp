@@ -1,0 +1,92 @@
+#include "perception/scan_matching/scan_contour.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swiftlet::perception {
+namespace {
+
+/// How much longer than its neighbours a step along a surface may be, and by how much in any case (noise).
+constexpr float kMaxStretch = 2.5F;
+constexpr float kGapNoise_m = 0.05F;
+/// A leap between surfaces counts as this much contour, so that lone points are still chosen.
+constexpr float kLeap_m = 0.3F;
+
+std::vector<Eigen::Vector2f> usable(std::span<const Eigen::Vector2f> points_m, double max_range_m) {
+  const auto max2 = static_cast<float>(max_range_m * max_range_m);
+  std::vector<Eigen::Vector2f> result;
+  result.reserve(points_m.size());
+  for (const Eigen::Vector2f& p : points_m)
+    if (p.squaredNorm() <= max2) result.push_back(p);  // False for NaN.
+  return result;
+}
+
+}  // namespace
+
+std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m, double max_gap_m, double max_range_m) {
+  const std::vector<Eigen::Vector2f> points = usable(points_m, max_range_m);
+  std::vector<ContourSegment> segments;
+  if (points.empty()) return segments;
+  segments.reserve(points.size());
+
+  const std::size_t gaps = points.size() - 1;
+  std::vector<float> gap(gaps);
+  for (std::size_t i = 0; i < gaps; ++i) gap[i] = (points[i + 1] - points[i]).norm();
+
+  bool joined_before = false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    bool joined = false;
+    if (i < gaps && gap[i] < static_cast<float>(max_gap_m)) {
+      const float before = i > 0 ? gap[i - 1] : gap[i];
+      const float after = i + 1 < gaps ? gap[i + 1] : gap[i];
+      joined = gap[i] <= kMaxStretch * std::min(before, after) + kGapNoise_m;
+    }
+    if (joined)
+      segments.push_back({points[i].cast<double>(), points[i + 1].cast<double>()});
+    else if (!joined_before)
+      segments.push_back({points[i].cast<double>(), points[i].cast<double>()});
+    joined_before = joined;
+  }
+  return segments;
+}
+
+std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m) {
+  const auto max2 = static_cast<float>(max_range_m * max_range_m);
+  std::vector<int> usable_points;
+  std::vector<float> step;  // From the usable point before.
+  usable_points.reserve(points_m.size());
+  step.reserve(points_m.size());
+  float length = 0.0F;
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    if (!(points_m[i].squaredNorm() <= max2)) continue;  // True for NaN.
+    const float leap =
+        usable_points.empty()
+            ? 0.0F
+            : std::min((points_m[i] - points_m[static_cast<std::size_t>(usable_points.back())]).norm(), kLeap_m);
+    usable_points.push_back(static_cast<int>(i));
+    step.push_back(leap);
+    length += leap;
+  }
+  if (usable_points.size() <= static_cast<std::size_t>(count)) return usable_points;
+
+  const float spacing = length / static_cast<float>(count);
+  std::vector<int> chosen;
+  chosen.reserve(static_cast<std::size_t>(count));
+  float along = 0.5F * spacing;
+  for (std::size_t i = 0; i < usable_points.size() && chosen.size() < static_cast<std::size_t>(count); ++i) {
+    along += step[i];
+    if (along < spacing) continue;
+    along = std::fmod(along, spacing);
+    chosen.push_back(usable_points[i]);
+  }
+  return chosen;
+}
+
+std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m) {
+  std::vector<Eigen::Vector2f> chosen;
+  for (const int i : spreadIndices(points_m, count, max_range_m))
+    chosen.push_back(points_m[static_cast<std::size_t>(i)]);
+  return chosen;
+}
+
+}  // namespace swiftlet::perception

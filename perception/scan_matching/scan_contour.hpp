@@ -1,0 +1,29 @@
+// The shape a scan saw: its end points joined to contours, and points spread evenly along them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+
+namespace swiftlet::perception {
+
+/// A piece of a contour, in whatever frame its points were given; begin == end for a lone point.
+struct ContourSegment {
+  Eigen::Vector2d begin_m;
+  Eigen::Vector2d end_m;
+};
+
+/// Joins neighbouring points that are likely of one surface: nearer than `max_gap_m` and not much farther apart than
+/// those before and after (an occlusion edge leaps, a wall seen at a grazing angle only stretches). Points beyond
+/// `max_range_m` and points that are not finite are left out (Bachrach 2009, section 5.1.1).
+std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m, double max_gap_m, double max_range_m);
+
+/// Indices of at most `count` of the points, evenly spread along the contour, so that a near wall, dense with beams,
+/// does not outweigh a far one. Finite points within `max_range_m` only; ascending.
+std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m);
+std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m);
+
+}  // namespace swiftlet::perception

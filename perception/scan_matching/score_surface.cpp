@@ -1,0 +1,41 @@
+#include "perception/scan_matching/score_surface.hpp"
+
+namespace swiftlet::perception {
+
+Quadratic fitQuadratic(const ScoreSurface& surface) {
+  // On a symmetric grid 1, u_i, u_i u_j and u_i^2 - mean(u^2) are orthogonal, so that each coefficient is one sum.
+  constexpr int kHalf = ScoreSurface::kHalf;
+  constexpr double kCount = ScoreSurface::kSize * ScoreSurface::kSize * ScoreSurface::kSize;
+  double m2 = 0.0, m4 = 0.0;  // Mean of u^2 and u^4 along one axis.
+  for (int u = -kHalf; u <= kHalf; ++u) {
+    m2 += static_cast<double>(u) * u / ScoreSurface::kSize;
+    m4 += static_cast<double>(u) * u * u * u / ScoreSurface::kSize;
+  }
+
+  double sum = 0.0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for (int rotation = -kHalf; rotation <= kHalf; ++rotation) {
+    for (int y = -kHalf; y <= kHalf; ++y) {
+      for (int x = -kHalf; x <= kHalf; ++x) {
+        const double score = surface.at(x, y, rotation);
+        const Eigen::Vector3d u(x, y, rotation);
+        sum += score;
+        first += score * u;
+        second += score * u * u.transpose();
+      }
+    }
+  }
+
+  Quadratic q;
+  q.gradient = first / (kCount * m2);
+  q.hessian = second / (kCount * m2 * m2);
+  q.constant = sum / kCount;
+  for (int i = 0; i < 3; ++i) {
+    q.hessian(i, i) = 2.0 * (second(i, i) - m2 * sum) / (kCount * (m4 - m2 * m2));
+    q.constant -= 0.5 * q.hessian(i, i) * m2;
+  }
+  return q;
+}
+
+}  // namespace swiftlet::perception

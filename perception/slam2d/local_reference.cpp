@@ -1,0 +1,60 @@
+#include "perception/slam2d/local_reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+/// Two views nearer than this and turned less against each other show the same.
+constexpr double kSameView_m = 0.7;
+constexpr double kSameView_rad = 40.0 * std::numbers::pi / 180.0;
+
+double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+
+bool isSameView(const Pose2& a, const Pose2& b) {
+  return distance(a, b) < kSameView_m && std::abs(common::wrapAngle(a.yaw_rad - b.yaw_rad)) < kSameView_rad;
+}
+
+}  // namespace
+
+std::vector<int> localReferenceKeys(const SlamGraph& graph, int anchor, const Pose2& T_map_body,
+                                    const Slam2dConfig& config) {
+  const auto poseOf = [&](int key) -> const Pose2& { return graph.keys[static_cast<std::size_t>(key)].T_map_body; };
+  std::vector<int> near;
+  for (const ProjectedUncertainty& u : projectUncertainty(graph, anchor, config.local_sigma_m))
+    if (distance(poseOf(u.key), T_map_body) < config.local_radius_m) near.push_back(u.key);
+  std::sort(near.begin(), near.end());
+
+  std::vector<int> chosen;
+  for (const int key : near)
+    if (std::none_of(chosen.begin(), chosen.end(), [&](int other) { return isSameView(poseOf(key), poseOf(other)); }))
+      chosen.push_back(key);
+  std::stable_sort(chosen.begin(), chosen.end(),
+                   [&](int a, int b) { return distance(poseOf(a), T_map_body) < distance(poseOf(b), T_map_body); });
+  if (static_cast<int>(chosen.size()) > config.local_scans - 1)
+    chosen.resize(static_cast<std::size_t>(config.local_scans - 1));
+  if (std::find(chosen.begin(), chosen.end(), anchor) == chosen.end()) chosen.push_back(anchor);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+MatchResult LocalReference::match(const SlamGraph& graph, const std::vector<int>& keys, const ProjectedScan& scan,
+                                  const Pose2& guess_T_map_body, const SearchWindow& window) {
+  if (drawn_.empty() || !std::includes(keys.begin(), keys.end(), drawn_.begin(), drawn_.end())) {
+    matcher_.clearReference();
+    drawn_.clear();
+  }
+  for (const int key : keys) {
+    if (std::binary_search(drawn_.begin(), drawn_.end(), key)) continue;
+    const KeyScan& source = graph.keys[static_cast<std::size_t>(key)];
+    matcher_.addReference(*source.scan, source.T_map_body);
+  }
+  drawn_ = keys;
+  return matcher_.match(scan, guess_T_map_body, window);
+}
+
+}  // namespace swiftlet::perception

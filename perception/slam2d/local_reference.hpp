@@ -1,0 +1,32 @@
+// The key scans a new one is matched to, drawn in the map frame.
+#pragma once
+
+#include <vector>
+
+#include "perception/scan_matching/correlative_matcher.hpp"
+#include "perception/slam2d/slam_graph.hpp"
+
+namespace swiftlet::perception {
+
+/// Key scans near `pose` that are firmly tied to `anchor`: the oldest of each place, since they carry no later drift,
+/// and the anchor itself. In ascending order.
+std::vector<int> localReferenceKeys(const SlamGraph& graph, int anchor, const common::Pose2& T_map_body,
+                                    const Slam2dConfig& config);
+
+/// Keeps what is drawn between matches; draws anew only when a key scan left the reference or moved.
+class LocalReference {
+ public:
+  explicit LocalReference(const CorrelativeMatcherConfig& config) : matcher_(config) {}
+
+  /// The pose is that of the scan in the map.
+  MatchResult match(const SlamGraph& graph, const std::vector<int>& keys, const ProjectedScan& scan,
+                    const common::Pose2& guess_T_map_body, const SearchWindow& window);
+  /// The poses of the key scans changed.
+  void invalidate() { drawn_.clear(); }
+
+ private:
+  CorrelativeMatcher matcher_;
+  std::vector<int> drawn_;
+};
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,170 @@
+#include "perception/slam2d/loop_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "perception/scan_matching/branch_and_bound.hpp"
+#include "perception/scan_matching/likelihood_field.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+/// The ellipse of the projected uncertainty that is searched, in sigmas.
+constexpr double kSigmas = 3.0;
+/// Within this distance two views overlap even without any uncertainty.
+constexpr double kViewDistance_m = 2.0;
+/// The wide search's spread, in its cells.
+constexpr double kWideSigmaCells = 2.0;
+
+double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+
+/// The newest scans up to the query that are firmly tied to it, as one scan in its frame.
+ProjectedScan joinedQuery(const SlamGraph& graph, int query, int count) {
+  const Pose2& T_map_query = graph.keys[static_cast<std::size_t>(query)].T_map_body;
+  ProjectedScan joined;
+  joined.stamp = graph.keys[static_cast<std::size_t>(query)].scan->stamp;
+  for (int key = query; key >= std::max(0, query - count + 1); --key) {
+    const KeyScan& source = graph.keys[static_cast<std::size_t>(key)];
+    const Pose2 T_query_key = between(T_map_query, source.T_map_body);
+    const auto c = static_cast<float>(std::cos(T_query_key.yaw_rad)),
+               s = static_cast<float>(std::sin(T_query_key.yaw_rad));
+    for (const Eigen::Vector2f& p : source.scan->points_level_m)
+      joined.points_level_m.emplace_back(c * p.x() - s * p.y() + static_cast<float>(T_query_key.x_m),
+                                         s * p.x() + c * p.y() + static_cast<float>(T_query_key.y_m));
+  }
+  return joined;
+}
+
+/// Key scans around the candidate that are firmly tied to it, and not to the query.
+std::vector<int> referenceKeys(const SlamGraph& graph, int query, int candidate, const Slam2dConfig& config) {
+  std::vector<char> of_query(graph.keys.size(), 0);
+  for (const ProjectedUncertainty& u : projectUncertainty(graph, query, config.local_sigma_m))
+    of_query[static_cast<std::size_t>(u.key)] = 1;
+  std::vector<int> keys;
+  const Pose2& center = graph.keys[static_cast<std::size_t>(candidate)].T_map_body;
+  for (const ProjectedUncertainty& u : projectUncertainty(graph, candidate, config.local_sigma_m))
+    if (of_query[static_cast<std::size_t>(u.key)] == 0 &&
+        distance(center, graph.keys[static_cast<std::size_t>(u.key)].T_map_body) < config.local_radius_m)
+      keys.push_back(u.key);
+  std::stable_sort(keys.begin(), keys.end(), [&](int a, int b) {
+    return distance(center, graph.keys[static_cast<std::size_t>(a)].T_map_body) <
+           distance(center, graph.keys[static_cast<std::size_t>(b)].T_map_body);
+  });
+  if (static_cast<int>(keys.size()) > config.loops.reference_scans)
+    keys.resize(static_cast<std::size_t>(config.loops.reference_scans));
+  return keys;
+}
+
+/// Contours of the reference scans in the map frame.
+void drawReference(const SlamGraph& graph, const std::vector<int>& keys, const CorrelativeMatcherConfig& config,
+                   LikelihoodField& field) {
+  for (const int key : keys) {
+    const KeyScan& source = graph.keys[static_cast<std::size_t>(key)];
+    std::vector<ContourSegment> contour = contourOf(source.scan->points_level_m, config.max_gap_m, config.max_range_m);
+    for (ContourSegment& segment : contour) {
+      segment.begin_m = source.T_map_body * segment.begin_m;
+      segment.end_m = source.T_map_body * segment.end_m;
+    }
+    field.draw(contour);
+  }
+}
+
+}  // namespace
+
+Eigen::Matrix3d edgeCovariance(const Eigen::Matrix3d& covariance, const Slam2dConfig& config) {
+  const double sigma_rad = config.edge_sigma_deg * kRadPerDeg;
+  Eigen::Matrix3d result = 0.5 * (covariance + covariance.transpose());
+  result.diagonal() += Eigen::Vector3d(config.edge_sigma_m * config.edge_sigma_m,
+                                       config.edge_sigma_m * config.edge_sigma_m, sigma_rad * sigma_rad);
+  return result;
+}
+
+std::vector<LoopCandidate> loopCandidates(const SlamGraph& graph, int query, const Slam2dConfig& config) {
+  const Pose2& here = graph.keys[static_cast<std::size_t>(query)].T_map_body;
+  std::vector<LoopCandidate> near;
+  for (const ProjectedUncertainty& u : projectUncertainty(graph, query, INFINITY)) {
+    if (u.sigma_m <= config.local_sigma_m) continue;
+    const double reach_m = std::max(kViewDistance_m, kSigmas * std::min(u.sigma_m, config.loops.max_sigma_m));
+    if (distance(here, graph.keys[static_cast<std::size_t>(u.key)].T_map_body) <= reach_m)
+      near.push_back({u.key, u.covariance_map, u.sigma_m});
+  }
+  const auto distanceTo = [&](const LoopCandidate& c) {
+    return distance(here, graph.keys[static_cast<std::size_t>(c.key)].T_map_body);
+  };
+  std::stable_sort(near.begin(), near.end(), [&](const LoopCandidate& a, const LoopCandidate& b) {
+    return distanceTo(a) != distanceTo(b) ? distanceTo(a) < distanceTo(b) : a.key < b.key;
+  });
+  std::vector<LoopCandidate> chosen;
+  for (const LoopCandidate& candidate : near) {
+    if (static_cast<int>(chosen.size()) >= config.loops.max_candidates) break;
+    const Pose2& pose = graph.keys[static_cast<std::size_t>(candidate.key)].T_map_body;
+    const bool apart = std::all_of(chosen.begin(), chosen.end(), [&](const LoopCandidate& other) {
+      return distance(pose, graph.keys[static_cast<std::size_t>(other.key)].T_map_body) > kViewDistance_m;
+    });
+    if (apart) chosen.push_back(candidate);
+  }
+  return chosen;
+}
+
+std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const LoopCandidate& candidate,
+                                    const Slam2dConfig& config) {
+  const LoopClosureConfig& loops = config.loops;
+  const std::vector<int> reference = referenceKeys(graph, query, candidate.key, config);
+  if (reference.empty()) return std::nullopt;
+  const ProjectedScan joined = joinedQuery(graph, query, loops.query_scans);
+  const std::vector<Eigen::Vector2f> points =
+      spreadPoints(joined.points_level_m, config.matcher.search_points, config.matcher.max_range_m);
+  if (static_cast<int>(points.size()) < config.matcher.min_points) return std::nullopt;
+
+  LikelihoodField field(loops.resolution_m, kWideSigmaCells * loops.resolution_m);
+  drawReference(graph, reference, config.matcher, field);
+  if (field.empty()) return std::nullopt;
+
+  const Pose2& believed = graph.keys[static_cast<std::size_t>(query)].T_map_body;
+  const double half_m = std::clamp(kSigmas * candidate.sigma_m, loops.min_window_m, loops.max_sigma_m);
+  const double half_rad = std::clamp(kSigmas * std::sqrt(candidate.covariance_map(2, 2)),
+                                     loops.min_window_deg * kRadPerDeg, loops.max_window_deg * kRadPerDeg);
+  const int half = static_cast<int>(std::ceil(half_m / loops.resolution_m));
+  const double step_rad = loops.angular_resolution_deg * kRadPerDeg;
+  const int half_turn = static_cast<int>(std::ceil(half_rad / step_rad));
+  const PoseGrid grid{believed.x_m - half * loops.resolution_m,
+                      believed.y_m - half * loops.resolution_m,
+                      believed.yaw_rad - half_turn * step_rad,
+                      step_rad,
+                      2 * half_turn + 1,
+                      2 * half + 1};
+  BranchAndBound wide(bestInstructions());
+  const BestPose best = wide.search(field, points, grid);
+  if (best.score < loops.min_quality * 255.0 * static_cast<double>(points.size())) return std::nullopt;
+
+  const ExcludedPoses same_place{best, static_cast<int>(loops.distinct_m / loops.resolution_m),
+                                 static_cast<int>(loops.distinct_deg * kRadPerDeg / step_rad)};
+  const int rival = static_cast<int>(loops.max_ambiguity * best.score);
+  if (wide.searchElsewhere(field, points, grid, same_place, rival).score > rival) return std::nullopt;
+
+  CorrelativeMatcher fine(config.matcher);
+  for (const int key : reference)
+    fine.addReference(*graph.keys[static_cast<std::size_t>(key)].scan,
+                      graph.keys[static_cast<std::size_t>(key)].T_map_body);
+  const Pose2 coarse{grid.first_x_m + best.x * loops.resolution_m, grid.first_y_m + best.y * loops.resolution_m,
+                     grid.first_yaw_rad + best.rotation * step_rad};
+  const MatchResult match = fine.match(joined, coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
+  if (match.failed || match.quality < loops.min_quality || match.unobservable_direction) return std::nullopt;
+
+  const Pose2& T_map_candidate = graph.keys[static_cast<std::size_t>(candidate.key)].T_map_body;
+  FoundLoop found;
+  found.edge.from = candidate.key;
+  found.edge.to = query;
+  found.edge.T_from_to = between(T_map_candidate, match.T_reference_body);
+  found.edge.covariance = edgeCovariance(turned(match.covariance, -T_map_candidate.yaw_rad), config);
+  found.edge.loop = true;
+  found.quality = match.quality;
+  found.shift_m = distance(believed, match.T_reference_body);
+  return found;
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,289 @@
+#include "perception/slam2d/slam2d.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/check.hpp"
+#include "perception/slam2d/local_reference.hpp"
+#include "perception/slam2d/slam_task.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+using common::Time;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+bool isFinite(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
+}
+
+/// Since when the vehicle moved how far.
+struct Progress {
+  Pose2 T_odom_body;
+  Time stamp;
+
+  bool exceeds(const Pose2& T_odom_body_now, Time now, double distance_m, double rotation_deg, double time_s) const {
+    const Pose2 step = between(T_odom_body, T_odom_body_now);
+    return step.position_m().norm() > distance_m || std::abs(step.yaw_rad) > rotation_deg * kRadPerDeg ||
+           (now - stamp).seconds() > time_s;
+  }
+};
+
+/// A tilted scan carries the error of its attitude into the map: a level one is waited for, for half as far again.
+constexpr double kPatience = 1.5;
+
+bool isLevel(const ProjectedScan& scan, double tilt_deg) {
+  return (scan.T_odom_body.rotation * Eigen::Vector3d::UnitZ()).z() >= std::cos(tilt_deg * kRadPerDeg);
+}
+
+}  // namespace
+
+struct Slam2d::Impl {
+  explicit Impl(const Slam2dConfig& config_in)
+      : config(config_in),
+        reference(config_in.matcher),
+        drawer(config_in.grid),
+        grid(common::makeOccupancyGrid(config_in.grid.resolution_m)) {}
+
+  Pose2 T_map_body() const { return poseOf(anchor) * T_anchor_body; }
+  const Pose2& poseOf(int key) const { return graph.keys[static_cast<std::size_t>(key)].T_map_body; }
+
+  void follow(const Pose2& T_odom_body, const Eigen::Matrix3d& covariance_since_last);
+  bool correct(const ProjectedScan& scan, SlamUpdate& update);
+  void addKeyScan(const ProjectedScan& scan, const std::vector<int>& matched_keys, const MatchResult* match);
+  void standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
+  std::optional<int> keyNear(const std::vector<int>& keys) const;
+  void draw(const ProjectedScan& scan);
+
+  Slam2dConfig config;
+  SlamGraph graph;
+  LocalReference reference;
+  GridDrawer drawer;
+  common::OccupancyGrid grid;
+  SlamCounts counts;
+
+  // Where the vehicle is: relative to a key scan, so that a corrected graph takes it along.
+  int anchor = -1;
+  Pose2 T_anchor_body;
+  Eigen::Matrix3d covariance_anchor = Eigen::Matrix3d::Zero();
+  Pose2 T_odom_body;
+  Pose2 T_map_odom;
+  Time last_stamp;
+
+  Progress last_match, last_drawn;
+  double way_since_search_m = 0.0;
+  bool search_due = false;
+
+  std::uint64_t tasks = 0;
+  bool task_outstanding = false;
+  std::size_t task_keys = 0;
+  int task_query = 0;
+  std::vector<std::pair<int, AttachedScan>> drawn_since_task;
+};
+
+/// Moves the estimate by what the filter says happened since the last scan.
+void Slam2d::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& covariance_since_last) {
+  const Pose2 step = between(T_odom_body, T_odom_body_now);
+  const Pose2 moved = T_anchor_body * step;
+  const Eigen::Matrix3d step_covariance =
+      covariance_since_last.allFinite() ? covariance_since_last : Eigen::Matrix3d::Zero();
+  covariance_anchor =
+      propagated(covariance_anchor, T_anchor_body, moved, turned(step_covariance, T_anchor_body.yaw_rad));
+  T_anchor_body = moved;
+  T_odom_body = T_odom_body_now;
+  way_since_search_m += step.position_m().norm();
+}
+
+void Slam2d::Impl::standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key) {
+  anchor = key;
+  T_anchor_body = T_key_body;
+  covariance_anchor = covariance_key;
+}
+
+/// A key scan among `keys` that stands where the vehicle is.
+std::optional<int> Slam2d::Impl::keyNear(const std::vector<int>& keys) const {
+  std::optional<int> nearest;
+  double nearest_m = config.reuse_distance_m;
+  for (const int key : keys) {
+    const Pose2 step = between(poseOf(key), T_map_body());
+    if (step.position_m().norm() > nearest_m || std::abs(step.yaw_rad) > config.reuse_rotation_deg * kRadPerDeg)
+      continue;
+    nearest_m = step.position_m().norm();
+    nearest = key;
+  }
+  return nearest;
+}
+
+void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const std::vector<int>& matched_keys,
+                              const MatchResult* match) {
+  const int key = static_cast<int>(graph.keys.size());
+  auto copy = std::make_shared<ProjectedScan>(scan);
+  copy->misses_level_m.clear();  // Kept where they are drawn.
+  copy->mirror.clear();
+  const Pose2 pose = match != nullptr ? match->T_reference_body : key == 0 ? Pose2{} : T_map_body();
+  graph.keys.push_back({std::move(copy), pose, {}, {}});
+  if (key > 0) graph.add({anchor, key, T_anchor_body, edgeCovariance(covariance_anchor, config), false});
+  if (match != nullptr) {
+    // One match, two edges: to the nearest view and to the oldest, each with half the weight.
+    const auto distance_m = [&](int other) { return between(poseOf(other), pose).position_m().norm(); };
+    const int nearest = *std::min_element(matched_keys.begin(), matched_keys.end(),
+                                          [&](int a, int b) { return distance_m(a) < distance_m(b); });
+    for (const int other : {matched_keys.front(), nearest}) {
+      graph.add({other, key, between(poseOf(other), pose),
+                 edgeCovariance(2.0 * turned(match->covariance, -poseOf(other).yaw_rad), config), false});
+      if (matched_keys.front() == nearest) break;
+    }
+  }
+  standOn(key, Pose2{}, Eigen::Matrix3d::Zero());
+  ++counts.key_scans;
+  if (way_since_search_m >= config.loops.spacing_m) search_due = true;
+}
+
+/// The local match: pulls the estimate onto the older key scans around it. False: nothing to be learned from this scan.
+bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
+  const std::vector<int> keys = localReferenceKeys(graph, anchor, T_map_body(), config);
+  const MatchResult match =
+      reference.match(graph, keys, scan, T_map_body(), {config.local_window_m, config.local_window_deg * kRadPerDeg});
+  update.quality = match.quality;
+  update.local_match = !match.failed;
+  if (match.failed) {
+    ++counts.local_failures;
+    if (match.points_used == 0 || T_anchor_body.position_m().norm() < config.reuse_distance_m) return false;
+    addKeyScan(scan, {}, nullptr);
+    update.key_scan = true;
+    return true;
+  }
+  ++counts.local_matches;
+  const Pose2 before = T_anchor_body;
+  T_anchor_body = between(poseOf(anchor), match.T_reference_body);
+  if (const std::optional<int> near = keyNear(keys)) {
+    standOn(*near, between(poseOf(*near), match.T_reference_body),
+            edgeCovariance(turned(match.covariance, -poseOf(*near).yaw_rad), config));
+    return true;
+  }
+  T_anchor_body = before;  // The edge of the motion says what was measured before the match.
+  addKeyScan(scan, keys, &match);
+  update.key_scan = true;
+  return true;
+}
+
+void Slam2d::Impl::draw(const ProjectedScan& scan) {
+  const AttachedScan attached{std::make_shared<const DrawnScan>(thinForDrawing(scan, config.grid)), T_anchor_body};
+  drawer.draw(*attached.scan, T_map_body(), grid);
+  std::deque<AttachedScan>& drawn = graph.keys[static_cast<std::size_t>(anchor)].drawn;
+  drawn.push_back(attached);
+  if (static_cast<int>(drawn.size()) > config.scans_per_key) drawn.pop_front();
+  if (task_outstanding) drawn_since_task.emplace_back(anchor, attached);
+}
+
+Slam2d::Slam2d(const Slam2dConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+Slam2d::~Slam2d() = default;
+Slam2d::Slam2d(Slam2d&&) noexcept = default;
+Slam2d& Slam2d::operator=(Slam2d&&) noexcept = default;
+
+SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
+                           const Eigen::Matrix3d& covariance_since_last) {
+  Impl& self = *impl_;
+  SlamUpdate update;
+  ++self.counts.scans;
+  const bool first = self.graph.keys.empty();
+  if (!isFinite(T_odom_body) || (!first && scan.stamp <= self.last_stamp) ||
+      (first && static_cast<int>(scan.points_level_m.size()) < self.config.matcher.min_points)) {
+    ++self.counts.ignored_scans;
+    update.T_map_body = first ? T_odom_body : self.T_map_body();
+    return update;
+  }
+  self.last_stamp = scan.stamp;
+  bool learned = false;
+  if (first) {
+    self.T_odom_body = T_odom_body;
+    self.addKeyScan(scan, {}, nullptr);
+    self.graph.keys.front().T_map_body = T_odom_body;  // The map begins where odom does.
+    update.key_scan = learned = true;
+  } else {
+    self.follow(T_odom_body, covariance_since_last);
+    const double patience = isLevel(scan, self.config.level_tilt_deg) ? 1.0 : kPatience;
+    if (self.last_match.exceeds(T_odom_body, scan.stamp, patience * self.config.key_distance_m,
+                                patience * self.config.key_rotation_deg, patience * self.config.key_time_s)) {
+      self.last_match = {T_odom_body, scan.stamp};
+      learned = self.correct(scan, update);
+    }
+  }
+  if (first) self.last_match = {T_odom_body, scan.stamp};
+  if (learned || self.last_drawn.exceeds(T_odom_body, scan.stamp, self.config.draw_distance_m,
+                                         self.config.draw_rotation_deg, self.config.draw_time_s)) {
+    self.draw(scan);
+    self.last_drawn = {T_odom_body, scan.stamp};
+    update.drawn = true;
+  }
+  update.T_map_body = self.T_map_body();
+  if (learned && !first) {
+    self.T_map_odom = update.T_map_body * T_odom_body.inverse();
+    update.T_map_odom_changed = update.local_match;
+  }
+  return update;
+}
+
+Pose2 Slam2d::T_map_odom() const { return impl_->T_map_odom; }
+
+common::OccupancyGrid Slam2d::snapshot() { return impl_->grid.snapshot(); }
+
+const SlamCounts& Slam2d::counts() const { return impl_->counts; }
+
+std::vector<Slam2d::KeyPose> Slam2d::keyPoses() const {
+  std::vector<KeyPose> poses;
+  for (const KeyScan& key : impl_->graph.keys) poses.push_back({key.scan->stamp, key.T_map_body});
+  return poses;
+}
+
+std::optional<SlamTask> Slam2d::takeTask() {
+  Impl& self = *impl_;
+  if (self.task_outstanding || !self.search_due) return std::nullopt;
+  self.search_due = false;
+  const int query = static_cast<int>(self.graph.keys.size()) - 1;
+  std::vector<LoopCandidate> candidates = loopCandidates(self.graph, query, self.config);
+  if (candidates.empty()) return std::nullopt;
+  self.way_since_search_m = 0.0;
+  self.counts.loop_candidates += candidates.size();
+  self.task_outstanding = true;
+  self.task_keys = self.graph.keys.size();
+  self.task_query = query;
+  self.drawn_since_task.clear();
+  auto data = std::make_shared<SlamTask::Data>();
+  data->id = ++self.tasks;
+  data->graph = self.graph;
+  data->query = query;
+  data->candidates = std::move(candidates);
+  data->config = self.config;
+  return SlamTask{std::move(data)};
+}
+
+bool Slam2d::apply(const SlamResult& result) {
+  Impl& self = *impl_;
+  SWIFTLET_CHECK(self.task_outstanding && result.data != nullptr && result.data->id == self.tasks, self.tasks);
+  self.task_outstanding = false;
+  self.counts.loops_closed += result.accepted.size();
+  self.counts.loops_rejected += static_cast<std::uint64_t>(result.rejected);
+  const std::vector<Pose2>& poses = result.data->T_map_key;
+  if (poses.empty()) return false;
+
+  // What came after the task was built on its query; it moves along.
+  const Pose2 correction = poses[static_cast<std::size_t>(self.task_query)] * self.poseOf(self.task_query).inverse();
+  for (std::size_t i = 0; i < self.graph.keys.size(); ++i)
+    self.graph.keys[i].T_map_body = i < self.task_keys ? poses[i] : correction * self.graph.keys[i].T_map_body;
+  for (const SlamEdge& closure : result.data->closures) self.graph.add(closure);
+  self.reference.invalidate();
+  if (result.data->drawn) {
+    self.grid = result.data->grid;
+    for (const auto& [key, attached] : self.drawn_since_task)
+      self.drawer.draw(*attached.scan, self.poseOf(key) * attached.T_key_body, self.grid);
+  }
+  self.drawn_since_task.clear();
+  self.T_map_odom = self.T_map_body() * self.T_odom_body.inverse();
+  return true;
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,178 @@
+// Graph SLAM in the plane (Grzonka 2009, section III.D): key scans are nodes, matches are edges, loops are sought where
+// the projected uncertainty allows, and the map is an occupancy grid drawn from the scans at their best poses.
+//
+// In flight each scan costs a fraction of a millisecond: a key scan is matched to the older key scans around it, which
+// bounds the drift inside known area, and drawn into the grid. What is heavy (loop search, optimization, drawing the
+// grid anew) is a value: `takeTask` hands it out, `run` computes it anywhere, `apply` takes the result in.
+//
+//   addScan --> key scan --> takeTask() --> run(task) on any thread --> apply(result)
+//
+// Frames: the poses given are T_odom_body, continuous. The map frame is that of the grid; T_map_odom jumps with a local
+// correction (millimetres, at a key scan) and with a loop closure (apply).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/time.hpp"
+#include "optimization/pose_graph_2d.hpp"
+#include "perception/projection/scan_projection.hpp"
+#include "perception/scan_matching/correlative_matcher.hpp"
+
+namespace swiftlet::perception {
+
+/// How scans are drawn into the grid.
+struct GridDrawingConfig {
+  double resolution_m = 0.05;
+  int hit_steps = 18;  ///< Log-odds steps (common::occupancy) a cell gains when a beam ends in it,
+  int free_steps = 9;  ///< and loses when beams only pass. Each cell changes at most once a scan; a hit wins.
+  int max_steps = 70;  ///< Confidence is capped at this (Bachrach 2009, section 5.3).
+  double max_hit_range_m = 20.0;    ///< End points farther than this are not drawn; the view to there still clears.
+  double max_free_range_m = 10.0;   ///< Beams without return clear up to here.
+  double max_height_above_m = 0.6;  ///< End points higher than this over the body are not drawn,
+  double max_height_below_m = 0.6;  ///< nor those deeper than this below it.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// When a loop is sought and when it is believed.
+struct LoopClosureConfig {
+  double spacing_m = 1.0;    ///< Way between two searches.
+  double max_sigma_m = 4.0;  ///< Projected uncertainty is cut here; bounds the search window.
+  double min_window_m = 0.5;
+  double min_window_deg = 10.0;
+  double max_window_deg = 40.0;
+  int query_scans = 5;                  ///< Newest key scans joined to the query.
+  int reference_scans = 9;              ///< Key scans around the candidate joined to the reference.
+  int max_candidates = 4;               ///< Places searched per task.
+  double resolution_m = 0.04;           ///< Of the wide search,
+  double angular_resolution_deg = 0.5;  ///< which a fine match follows.
+  double min_quality = 0.60;            ///< Of the fine match.
+  double max_ambiguity = 0.90;          ///< A second, distinct place must score less than this share of the best.
+  double distinct_m = 0.4;              ///< What counts as distinct.
+  double distinct_deg = 12.0;
+  double max_edge_sigmas = 4.0;  ///< A closure whose error after optimization is larger is taken back.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct Slam2dConfig {
+  CorrelativeMatcherConfig matcher;
+  GridDrawingConfig grid;
+  LoopClosureConfig loops;
+  optimization::PoseGraph2DConfig graph;
+  double key_distance_m = 0.4;       ///< A scan is matched to the map after this distance,
+  double key_rotation_deg = 25.0;    ///< this rotation,
+  double key_time_s = 2.0;           ///< or this time; it becomes a key scan where there is none near.
+  double level_tilt_deg = 2.0;       ///< A scan tilted more than this waits half as long again, for a level one.
+  double reuse_distance_m = 0.25;    ///< "Near": a key scan within this distance
+  double reuse_rotation_deg = 20.0;  ///< and rotation. So the graph does not grow in known area.
+  double draw_distance_m = 0.10;     ///< Between key scans, a scan is drawn after this distance,
+  double draw_rotation_deg = 6.0;    ///< this rotation,
+  double draw_time_s = 0.25;         ///< or this time.
+  int scans_per_key = 16;            ///< Drawn scans kept with a key scan for drawing the grid anew; the newest stay.
+  double local_radius_m = 4.0;       ///< Key scans within this are the reference of the local match,
+  double local_sigma_m = 0.10;  ///< as long as their projected uncertainty is below this; beyond it is a loop's work.
+  int local_scans = 10;         ///< At most so many.
+  double local_window_m = 0.15;
+  double local_window_deg = 3.0;
+  double edge_sigma_m = 0.004;  ///< No edge is more certain than this: what the matcher cannot know (tilt, clutter).
+  double edge_sigma_deg = 0.06;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// What adding a scan did.
+struct SlamUpdate {
+  bool key_scan = false;  ///< It became a node of the graph.
+  bool drawn = false;     ///< The grid changed.
+  bool T_map_odom_changed = false;
+  bool local_match = false;  ///< It was matched to older key scans.
+  double quality = 0.0;      ///< Of that match.
+  common::Pose2 T_map_body;  ///< Of the scan, corrected.
+};
+
+struct LoopClosure {
+  int from = 0;  ///< Key scans.
+  int to = 0;
+  common::Pose2 T_from_to;
+  double quality = 0.0;
+  double shift_m = 0.0;  ///< How far the closure lies from what was believed.
+};
+
+/// Work to be run elsewhere. Holds only shared immutable data; cheap to copy.
+struct SlamTask {
+  struct Data;
+  std::shared_ptr<const Data> data;
+};
+
+struct SlamResult {
+  struct Data;
+  std::shared_ptr<const Data> data;
+  std::vector<LoopClosure> accepted;  ///< Loops closed, for the record.
+  int candidates = 0;                 ///< Places searched.
+  int rejected = 0;                   ///< Matches not believed.
+};
+
+/// Pure function of the task; safe on any thread.
+SlamResult run(const SlamTask& task);
+
+struct SlamCounts {
+  std::uint64_t scans = 0;
+  std::uint64_t ignored_scans = 0;  ///< Out of order, or without a finite pose.
+  std::uint64_t key_scans = 0;
+  std::uint64_t local_matches = 0;
+  std::uint64_t local_failures = 0;  ///< Scans that should have matched older ones, but did not.
+  std::uint64_t loop_candidates = 0;
+  std::uint64_t loops_closed = 0;
+  std::uint64_t loops_rejected = 0;
+};
+
+/// Single-threaded; the values it hands out are safe anywhere.
+class Slam2d {
+ public:
+  explicit Slam2d(const Slam2dConfig& config);
+  ~Slam2d();
+  Slam2d(Slam2d&&) noexcept;
+  Slam2d& operator=(Slam2d&&) noexcept;
+
+  /// `T_odom_body`: the filter's pose at the scan's stamp. `covariance_since_last`: of the motion since the last scan
+  /// given here, of the additive errors (x_m, y_m, yaw_rad) in the body frame of that last scan.
+  SlamUpdate addScan(const ProjectedScan& scan, const common::Pose2& T_odom_body,
+                     const Eigen::Matrix3d& covariance_since_last);
+
+  /// Takes odom to map.
+  common::Pose2 T_map_odom() const;
+  /// The map as it is now; tiles are shared, cheap.
+  common::OccupancyGrid snapshot();
+
+  /// Heavy work, when there is any and none is outstanding.
+  [[nodiscard]] std::optional<SlamTask> takeTask();
+  /// Takes the result of the outstanding task; true when T_map_odom or the grid changed.
+  bool apply(const SlamResult& result);
+
+  const SlamCounts& counts() const;
+  struct KeyPose {
+    common::Time stamp;
+    common::Pose2 T_map_body;
+  };
+  /// Every key scan at its best pose so far.
+  std::vector<KeyPose> keyPoses() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::perception

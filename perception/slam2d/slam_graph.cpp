@@ -1,0 +1,110 @@
+#include "perception/slam2d/slam_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+double largerSigma(const Eigen::Matrix3d& covariance) {
+  const double a = covariance(0, 0), b = covariance(1, 1), c = covariance(0, 1);
+  return std::sqrt(std::max(0.0, 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + c * c)));
+}
+
+}  // namespace
+
+void SlamGraph::add(SlamEdge edge) {
+  const int index = static_cast<int>(edges.size());
+  keys[static_cast<std::size_t>(edge.from)].edges.push_back(index);
+  keys[static_cast<std::size_t>(edge.to)].edges.push_back(index);
+  edges.push_back(std::move(edge));
+}
+
+Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const Pose2& from, const Pose2& to,
+                           const Eigen::Matrix3d& step_covariance) {
+  Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+  F(0, 2) = -(to.y_m - from.y_m);
+  F(1, 2) = to.x_m - from.x_m;
+  return F * covariance * F.transpose() + step_covariance;
+}
+
+Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
+  return rotation * covariance * rotation.transpose();
+}
+
+Pose2 between(const Pose2& T_map_a, const Pose2& T_map_b) { return T_map_a.inverse() * T_map_b; }
+
+std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m) {
+  const std::size_t size = graph.keys.size();
+  std::vector<ProjectedUncertainty> best(size);
+  std::vector<char> done(size, 0);
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  for (std::size_t i = 0; i < size; ++i) best[i] = {static_cast<int>(i), Eigen::Matrix3d::Zero(), INFINITY};
+  best[static_cast<std::size_t>(start)].sigma_m = 0.0;
+  open.push({0.0, start});
+
+  std::vector<ProjectedUncertainty> result;
+  while (!open.empty()) {
+    const auto [sigma, key] = open.top();
+    open.pop();
+    if (done[static_cast<std::size_t>(key)] != 0) continue;
+    if (sigma > max_sigma_m) break;
+    done[static_cast<std::size_t>(key)] = 1;
+    result.push_back(best[static_cast<std::size_t>(key)]);
+    for (const int index : graph.keys[static_cast<std::size_t>(key)].edges) {
+      const SlamEdge& edge = graph.edges[static_cast<std::size_t>(index)];
+      const int other = edge.from == key ? edge.to : edge.from;
+      if (done[static_cast<std::size_t>(other)] != 0) continue;
+      const Pose2& here = graph.keys[static_cast<std::size_t>(key)].T_map_body;
+      const Pose2& there = graph.keys[static_cast<std::size_t>(other)].T_map_body;
+      const double edge_yaw_rad = graph.keys[static_cast<std::size_t>(edge.from)].T_map_body.yaw_rad;
+      // Walked backwards, the edge's own heading error swings the step as well.
+      Eigen::Matrix3d own = turned(edge.covariance, edge_yaw_rad);
+      if (edge.to == key) own = propagated(own, here, there, Eigen::Matrix3d::Zero());
+      const Eigen::Matrix3d covariance =
+          propagated(best[static_cast<std::size_t>(key)].covariance_map, here, there, own);
+      const double other_sigma = largerSigma(covariance);
+      if (other_sigma >= best[static_cast<std::size_t>(other)].sigma_m) continue;
+      best[static_cast<std::size_t>(other)] = {other, covariance, other_sigma};
+      open.push({other_sigma, other});
+    }
+  }
+  return result;
+}
+
+common::OccupancyGrid drawGrid(const SlamGraph& graph, const GridDrawingConfig& config) {
+  struct Item {
+    const AttachedScan* attached;
+    const KeyScan* key;
+  };
+  std::vector<Item> items;
+  for (const KeyScan& key : graph.keys)
+    for (const AttachedScan& attached : key.drawn) items.push_back({&attached, &key});
+  std::stable_sort(items.begin(), items.end(),
+                   [](const Item& a, const Item& b) { return a.attached->scan->stamp < b.attached->scan->stamp; });
+  common::OccupancyGrid grid = common::makeOccupancyGrid(config.resolution_m);
+  GridDrawer drawer(config);
+  for (const Item& item : items)
+    drawer.draw(*item.attached->scan, item.key->T_map_body * item.attached->T_key_body, grid);
+  return grid;
+}
+
+optimization::PoseGraph2D toPoseGraph(const SlamGraph& graph) {
+  optimization::PoseGraph2D result;
+  for (const KeyScan& key : graph.keys) result.poses.push_back(key.T_map_body);
+  for (const SlamEdge& edge : graph.edges)
+    result.edges.push_back({edge.from, edge.to, edge.T_from_to, edge.covariance.inverse(), edge.loop});
+  return result;
+}
+
+}  // namespace swiftlet::perception

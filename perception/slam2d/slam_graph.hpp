@@ -1,0 +1,73 @@
+// The graph of key scans, and how far the uncertainty between two of them reaches.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "optimization/pose_graph_2d.hpp"
+#include "perception/projection/scan_projection.hpp"
+#include "perception/slam2d/grid_drawing.hpp"
+
+namespace swiftlet::perception {
+
+/// A drawn scan and where it stands in the level frame of its key scan.
+struct AttachedScan {
+  std::shared_ptr<const DrawnScan> scan;
+  common::Pose2 T_key_body;
+};
+
+struct KeyScan {
+  std::shared_ptr<const ProjectedScan> scan;
+  common::Pose2 T_map_body;
+  std::deque<AttachedScan> drawn;  ///< Oldest first.
+  std::vector<int> edges;          ///< Of the graph, that begin or end here.
+};
+
+struct SlamEdge {
+  int from = 0;
+  int to = 0;
+  common::Pose2 T_from_to;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< Of (x_m, y_m, yaw_rad) in the frame of `from`.
+  bool loop = false;
+};
+
+struct SlamGraph {
+  std::vector<KeyScan> keys;
+  std::vector<SlamEdge> edges;
+
+  void add(SlamEdge edge);
+};
+
+/// The uncertainty of a key scan's pose as seen from another, along the most certain path.
+struct ProjectedUncertainty {
+  int key = 0;
+  Eigen::Matrix3d covariance_map = Eigen::Matrix3d::Zero();  ///< Of (x_m, y_m, yaw_rad), axes of the map.
+  double sigma_m = 0.0;                                      ///< The larger axis of the position.
+};
+
+/// Dijkstra projection of the covariances from `start` (Grzonka 2009, section III.D), in order of growing sigma_m, up
+/// to `max_sigma_m`.
+std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m);
+
+/// The uncertainty after one more step from pose `from` to pose `to`: what was uncertain before swings about the step's
+/// beginning, and the step adds its own. All with the axes of the frame of the two poses.
+Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const common::Pose2& from, const common::Pose2& to,
+                           const Eigen::Matrix3d& step_covariance);
+
+/// A covariance of (x_m, y_m, yaw_rad) given along the axes of a frame that is turned by `yaw_rad`, along ours.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad);
+
+/// The pose of b in a.
+common::Pose2 between(const common::Pose2& T_map_a, const common::Pose2& T_map_b);
+
+/// Draws all attached scans at their key scans' poses, oldest first.
+common::OccupancyGrid drawGrid(const SlamGraph& graph, const GridDrawingConfig& config);
+
+optimization::PoseGraph2D toPoseGraph(const SlamGraph& graph);
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,29 @@
+// What travels between the SLAM and the thread that runs its heavy work; private to slam2d.
+#pragma once
+
+#include <vector>
+
+#include "common/occupancy_grid.hpp"
+#include "perception/slam2d/loop_search.hpp"
+#include "perception/slam2d/slam2d.hpp"
+#include "perception/slam2d/slam_graph.hpp"
+
+namespace swiftlet::perception {
+
+struct SlamTask::Data {
+  std::uint64_t id = 0;
+  SlamGraph graph;  ///< A copy; its scans are shared and immutable.
+  int query = 0;
+  std::vector<LoopCandidate> candidates;
+  Slam2dConfig config;
+};
+
+struct SlamResult::Data {
+  std::uint64_t id = 0;
+  std::vector<common::Pose2> T_map_key;  ///< Of every key scan of the task; empty when nothing was found.
+  std::vector<SlamEdge> closures;
+  common::OccupancyGrid grid = common::makeOccupancyGrid(1.0);
+  bool drawn = false;  ///< The grid is drawn anew.
+};
+
+}  // namespace swiftlet::perception

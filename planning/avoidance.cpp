@@ -1,0 +1,248 @@
+#include "planning/avoidance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace swiftlet::planning {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTimeStep_s = 0.1;
+constexpr double kStill_m_s = 1e-3;
+constexpr double kSameBody_m = 0.3;
+constexpr int kDirections = 36;
+
+double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// How far a disc of `radius_m` at the origin may go before it touches the point; infinity when it passes.
+double gapAlong(const Point& direction, const Point& point_m, double radius_m) {
+  const double ahead_m = point_m.dot(direction), aside_m = std::abs(cross(direction, point_m));
+  if (ahead_m <= 0.0 || aside_m >= radius_m) return kInfinity;
+  if (point_m.norm() <= radius_m) {
+    // Already nearer than it should be: it may slide past, not go closer.
+    constexpr double kSlide = 0.2;
+    return ahead_m > kSlide * point_m.norm() ? 0.0 : kInfinity;
+  }
+  return ahead_m - std::sqrt(radius_m * radius_m - aside_m * aside_m);
+}
+
+Point directionAt(int i) {
+  const double angle_rad = 2.0 * std::numbers::pi * i / kDirections;
+  return {std::cos(angle_rad), std::sin(angle_rad)};
+}
+
+std::string bearingInWords(const Point& p) {
+  return fmt::format("{:.0f} deg", std::atan2(p.y(), p.x()) * 180.0 / std::numbers::pi);
+}
+
+}  // namespace
+
+Avoidance::Avoidance(const Config& config, double hull_radius_m) : config_(config), hull_radius_m_(hull_radius_m) {}
+
+AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
+  const Points returns = smoothed(config_, input.points_level_m);
+  const std::vector<Bin> sectors = bins(config_, returns);
+  Points points = returns;
+  if (config_.bin_range == BinRange::kMean) {
+    points.clear();
+    for (const Bin& bin : sectors)
+      if (std::isfinite(bin.range_m)) points.push_back(bin.nearest_level_m);
+  }
+  const std::vector<Threat> around = threats(input, sectors);
+  for (const Threat& threat : around) {
+    if (!threat.dangerous) continue;
+    danger_stamp_ = input.stamp;
+    danger_ = threat.why;
+    retreating_ = true;
+    break;
+  }
+  if (retreating_ && (input.stamp - danger_stamp_).seconds() > config_.calm_s) {
+    retreating_ = false;
+    last_retreat_level_.setZero();
+  }
+
+  AvoidanceDecision decision;
+  const double speed_m_s = input.velocity_level_m_s.norm();
+  const bool wishes = input.wish_level_m_s.norm() > kStill_m_s;
+  const Point& course = wishes ? input.wish_level_m_s : input.velocity_level_m_s;
+  decision.speed_limit_m_s = config_.max_speed_m_s;
+  if (course.norm() > kStill_m_s) {
+    decision.speed_limit_m_s = speedLimit(course.normalized(), points);
+    const double intended_m_s = std::min(course.norm(), decision.speed_limit_m_s);
+    const double yielding_m_s = yieldingSpeed(course.normalized(), speed_m_s, intended_m_s, around);
+    if (yielding_m_s < intended_m_s) decision.speed_limit_m_s = yielding_m_s;
+  }
+  if (retreating_) {
+    last_retreat_level_ = retreat(input, points, around);
+    decision.retreat_velocity_level_m_s = last_retreat_level_;
+  }
+
+  common::AvoidanceStatus& status = decision.status;
+  status.nearest_m = kInfinity;
+  for (const Point& p : points) {
+    const double gap_m = p.norm() - hull_radius_m_;
+    if (gap_m >= status.nearest_m) continue;
+    status.nearest_m = gap_m;
+    status.nearest_bearing_body_rad = std::atan2(p.y(), p.x());
+  }
+  status.braking = decision.speed_limit_m_s < config_.max_speed_m_s;
+  status.retreating = retreating_;
+  if (retreating_)
+    status.reason = danger_;
+  else if (status.braking)
+    status.reason =
+        fmt::format("at most {:.2f} m/s, nearest {:.2f} m off the hull", decision.speed_limit_m_s, status.nearest_m);
+  return decision;
+}
+
+bool Avoidance::isMapped(const AvoidanceInput& input, const Point& point_level_m) const {
+  const common::CellIndex cell = input.cost_map->cellAt(input.T_map_level * point_level_m);
+  return input.cost_map->stateAt(cell) != CellState::kFree ||
+         input.cost_map->obstacleDistance_m(cell) <= config_.mapped_within_m;
+}
+
+std::vector<Avoidance::Threat> Avoidance::threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const {
+  const double slack = retreating_ ? config_.release_factor : 1.0;
+  std::vector<Threat> result;
+  const common::Pose2 T_level_map = input.T_map_level.inverse();
+  const Eigen::Rotation2Dd to_level(T_level_map.yaw_rad);
+  for (const DynamicObstacle& o : input.obstacles) {
+    const double age_s = std::max(0.0, (input.stamp - o.last_seen).seconds());
+    const bool moving = o.velocity_map_m_s.norm() >= config_.closing_speed_m_s;
+    const Point velocity_map_m_s = moving ? o.velocity_map_m_s : Point::Zero();
+    Threat threat{T_level_map * Point(o.center_map_m + velocity_map_m_s * age_s), o.radius_m,
+                  to_level * velocity_map_m_s, false, ""};
+    const double gap_m = gapAfter(threat, Point::Zero(), 0.0);
+    const bool leaving = moving && threat.velocity_m_s.dot(threat.center_m) > 0.0;
+    double least_m = gap_m;
+    for (double t = kTimeStep_s; t <= config_.contact_time_s * slack; t += kTimeStep_s)
+      least_m = std::min(least_m, gapAfter(threat, Point::Zero(), t));
+    const bool near = gap_m < config_.retreat_distance_m * slack;
+    const bool closing = moving && least_m < config_.contact_gap_m * slack;
+    threat.dangerous = (near || closing) && !leaving;
+    threat.why = fmt::format("{} {:.2f} m off the hull at {}", closing ? "something closing in," : "something unmapped",
+                             gap_m, bearingInWords(threat.center_m));
+    result.push_back(threat);
+  }
+  if (input.cost_map == nullptr) return result;
+  const auto followed_count = static_cast<std::ptrdiff_t>(result.size());
+  for (const Bin& bin : bins) {
+    const double gap_m = bin.range_m - hull_radius_m_;
+    if (gap_m >= config_.retreat_distance_m * slack || isMapped(input, bin.nearest_level_m)) continue;
+    const bool followed = std::any_of(result.begin(), result.begin() + followed_count, [&](const Threat& t) {
+      return (t.center_m - bin.nearest_level_m).norm() <= t.radius_m + kSameBody_m;
+    });
+    if (followed) continue;
+    result.push_back(
+        {bin.nearest_level_m, 0.0, Point::Zero(), true,
+         fmt::format("something unmapped {:.2f} m off the hull at {}", gap_m, bearingInWords(bin.nearest_level_m))});
+  }
+  return result;
+}
+
+double Avoidance::gapAfter(const Threat& threat, const Point& moved_m, double time_s) const {
+  return (threat.center_m + threat.velocity_m_s * time_s - moved_m).norm() - threat.radius_m - hull_radius_m_;
+}
+
+double Avoidance::speedLimit(const Point& direction, const Points& points) const {
+  double gap_m = kInfinity;
+  for (const Point& p : points) gap_m = std::min(gap_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
+  return gap_m < kInfinity ? std::min(config_.max_speed_m_s, stoppingSpeed(gap_m)) : config_.max_speed_m_s;
+}
+
+double Avoidance::stoppingSpeed(double gap_m) const {
+  // v t + v^2 / (2 a) = gap
+  const double a = config_.deceleration_m_s2, t = config_.latency_s;
+  return std::sqrt(a * a * t * t + 2.0 * a * gap_m) - a * t;
+}
+
+double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double intended_m_s,
+                                const std::vector<Threat>& threats) const {
+  constexpr double kStep_m_s = 0.1, kHorizon_s = 2.5;
+  const double a = config_.deceleration_m_s2;
+  const auto leastGap = [&](const Threat& threat, double v) {
+    double moved_m = 0.0, now_m_s = speed_m_s, least_m = kInfinity;
+    for (double time_s = 0.0; time_s <= kHorizon_s; time_s += kTimeStep_s) {
+      least_m = std::min(least_m, gapAfter(threat, moved_m * direction, time_s));
+      if (time_s >= config_.latency_s) now_m_s += std::clamp(v - now_m_s, -a * kTimeStep_s, a * kTimeStep_s);
+      moved_m += now_m_s * kTimeStep_s;
+    }
+    return least_m;
+  };
+  double result_m_s = intended_m_s;
+  for (const Threat& threat : threats) {
+    if (threat.velocity_m_s.isZero()) continue;
+    // Nearer than the gap it may come only as far as it would to a vehicle that stops at once.
+    const double enough_m = std::min(config_.release_factor * config_.contact_gap_m, leastGap(threat, 0.0) - 1e-6);
+    while (result_m_s > 0.0 && leastGap(threat, result_m_s) < enough_m) result_m_s -= kStep_m_s;
+  }
+  return std::max(0.0, result_m_s);
+}
+
+double Avoidance::freeLength(const Point& direction, const AvoidanceInput& input, const Points& points) const {
+  double free_m = config_.look_ahead_m;
+  for (const Point& p : points) free_m = std::min(free_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
+  if (input.cost_map == nullptr) return free_m;
+  // The map answers for what the laser does not see. Coming from a place that is already too close, only a way out
+  // counts.
+  const CostMap& map = *input.cost_map;
+  const auto room = [&](double along_m) {
+    const common::CellIndex cell = map.cellAt(input.T_map_level * Point(direction * along_m));
+    return map.stateAt(cell) == CellState::kFree ? map.obstacleDistance_m(cell) : 0.0;
+  };
+  double last_m = room(0.0);
+  for (double along_m = 0.5 * map.resolution_m(); along_m < free_m; along_m += 0.5 * map.resolution_m()) {
+    const double room_m = room(along_m);
+    if (room_m < hull_radius_m_ + config_.margin_m && room_m < last_m) return along_m;
+    last_m = room_m;
+  }
+  return free_m;
+}
+
+Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const {
+  // The danger may just have passed: then it stands until it is over for good.
+  if (std::none_of(threats.begin(), threats.end(), [](const Threat& t) { return t.dangerous; })) return Point::Zero();
+  constexpr double kHorizon_s = 1.5, kLeastFree_m = 0.10;
+  constexpr double kAway = 0.06, kSame = 0.05, kFreest = 0.03;
+  const double a = config_.deceleration_m_s2;
+  const double enough_m = config_.release_factor * std::max(config_.retreat_distance_m, config_.contact_gap_m);
+  Point away = Point::Zero();
+  for (const Threat& threat : threats)
+    if (threat.dangerous) away -= threat.center_m.normalized();
+  if (away.norm() > 1e-6) away.normalize();
+
+  const auto leastGap = [&](const Point& direction, double free_m) {
+    double least_m = kInfinity;
+    for (double t = 0.3; t <= kHorizon_s; t += kTimeStep_s) {
+      const double moved_m = std::min({0.5 * a * t * t, config_.retreat_speed_m_s * t, free_m});
+      for (const Threat& threat : threats) least_m = std::min(least_m, gapAfter(threat, moved_m * direction, t));
+    }
+    return std::min(least_m, enough_m);
+  };
+  const double standing_m = leastGap(Point::Zero(), 0.0);
+  double best_score = standing_m + 0.02, best_free_m = 0.0;
+  Point best = Point::Zero();
+  for (int i = 0; i < kDirections; ++i) {
+    const Point direction = directionAt(i);
+    const double free_m = freeLength(direction, input, points);
+    if (free_m < kLeastFree_m) continue;
+    const double moving_m = leastGap(direction, free_m);
+    if (moving_m < standing_m) continue;
+    const double score = moving_m + kAway * direction.dot(away) +
+                         kSame * direction.dot(last_retreat_level_) / config_.retreat_speed_m_s +
+                         kFreest * free_m / config_.look_ahead_m;
+    if (score <= best_score) continue;
+    best_score = score;
+    best_free_m = free_m;
+    best = direction;
+  }
+  return best * std::min(config_.retreat_speed_m_s, stoppingSpeed(best_free_m));
+}
+
+}  // namespace swiftlet::planning

@@ -1,0 +1,89 @@
+// What lies over the grid in a cost map: discs, heights, localizability.
+#include <algorithm>
+#include <cmath>
+
+#include "planning/cost_map.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+constexpr double kMaxStep_m = 5.0;
+
+}  // namespace
+
+void CostMap::applyLayers(const CostLayers& layers) {
+  cost_ = static_cost_;
+  applyLocalizability(layers.localizability);
+  for (const Disc& disc : layers.discs) applyDisc(disc);
+  applyHeights(layers.levels);
+
+  const int width = rect_.width(), height = rect_.height();
+  if (size() == 0) return;
+  std::fill_n(cost_.begin(), width, kLethal);
+  std::fill_n(cost_.end() - width, width, kLethal);
+  for (int y = 0; y < height; ++y) {
+    cost_[static_cast<std::size_t>(y) * width] = kLethal;
+    cost_[static_cast<std::size_t>(y) * width + width - 1] = kLethal;
+  }
+  const double greatest_cell =
+      kOpenCost * (1.0 + config_.comfort_weight + (layers.localizability ? config_.localizability_weight : 0.0)) + 1.0;
+  max_edge_cost_ = static_cast<std::int32_t>(2 * kDiagonalEdge * greatest_cell) +
+                   (height_cm_.empty() ? 0 : height_edge_ * static_cast<int>(kMaxStep_m * 100.0));
+}
+
+void CostMap::applyDisc(const Disc& disc) {
+  if (!disc.center_map_m.allFinite()) return;
+  const double lethal_m = disc.radius_m + footprint_.radius_m();
+  const double reach_m = lethal_m + (this->reach_m() - footprint_.radius_m());
+  const Eigen::Vector2d corner = Eigen::Vector2d::Constant(reach_m);
+  const common::CellIndex low = cellAt(disc.center_map_m - corner), high = cellAt(disc.center_map_m + corner);
+  for (int y = std::max(low.y, rect_.begin.y); y <= std::min(high.y, rect_.end.y - 1); ++y) {
+    for (int x = std::max(low.x, rect_.begin.x); x <= std::min(high.x, rect_.end.x - 1); ++x) {
+      const double margin_m = (centerOf({x, y}) - disc.center_map_m).norm() - lethal_m;
+      Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
+      cost = std::max(cost, costOfMargin(margin_m));
+    }
+  }
+}
+
+void CostMap::applyLocalizability(const LocalizabilityGrid* layer) {
+  if (layer == nullptr || config_.localizability_weight <= 0.0) return;
+  for (int y = rect_.begin.y; y < rect_.end.y; ++y) {
+    for (int x = rect_.begin.x; x < rect_.end.x; ++x) {
+      Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
+      if (cost == kLethal) continue;
+      const double blindness = 1.0 - layer->at(layer->cellAt(centerOf({x, y}))) / 255.0;
+      cost = static_cast<Cost>(cost + std::lround(kOpenCost * config_.localizability_weight * blindness));
+    }
+  }
+}
+
+void CostMap::applyHeights(const common::LevelMap* levels) {
+  height_cm_.clear();
+  const bool flat = levels == nullptr || config_.height_step_weight <= 0.0 ||
+                    std::all_of(levels->levels.begin(), levels->levels.end(),
+                                [](const common::Level& level) { return std::abs(level.height_m) < 0.01; });
+  if (flat) return;
+  height_edge_ =
+      static_cast<std::int32_t>(std::lround(config_.height_step_weight * 0.01 / resolution_m() * kStraightMin));
+  height_cm_.assign(size(), 0);
+  const double half_m = 0.5 * levels->resolution_m;
+  for (const common::Level& level : levels->levels) {
+    const auto height_cm =
+        static_cast<std::int16_t>(std::lround(std::clamp(level.height_m, -0.5 * kMaxStep_m, 0.5 * kMaxStep_m) * 100.0));
+    for (const common::CellIndex cell : level.cells) {
+      const Eigen::Vector2d low_m{cell.x * levels->resolution_m, cell.y * levels->resolution_m};
+      const common::CellIndex low = cellAt(low_m), high = cellAt(low_m + Eigen::Vector2d::Constant(2.0 * half_m));
+      for (int y = low.y; y <= high.y; ++y) {
+        for (int x = low.x; x <= high.x; ++x) {
+          const Eigen::Vector2d offset_m = centerOf({x, y}) - low_m;
+          if (!contains({x, y}) || offset_m.minCoeff() < 0.0 || offset_m.maxCoeff() >= levels->resolution_m) continue;
+          std::int16_t& known_cm = height_cm_[static_cast<std::size_t>(indexOf({x, y}))];
+          known_cm = std::max(known_cm, height_cm);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace swiftlet::planning

@@ -1,0 +1,163 @@
+// Where the vehicle's centre may be and what it costs to be there: the occupancy grid dilated by the hull and its
+// clearance (Saeedi, section III-F), with a cost that falls with the distance to the closest obstacle, so that paths
+// keep to the middle of passages, and a price on steps of the surface below (Grzonka 2012, section IV-E).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/level_map.hpp"
+#include "common/occupancy_grid.hpp"
+
+namespace swiftlet::planning {
+
+/// What must fit through: the hull is an upright cylinder, the clearance is kept between it and anything occupied.
+struct Footprint {
+  double hull_radius_m = 0.275;
+  double clearance_m = 0.10;
+  double radius_m() const { return hull_radius_m + clearance_m; }
+};
+
+/// An obstacle that is not in the grid: a person, a place that was tried and failed. In the `map` frame.
+struct Disc {
+  Eigen::Vector2d center_map_m = Eigen::Vector2d::Zero();
+  double radius_m = 0.0;
+};
+
+/// How good the laser fixes the pose at a place, 0 (not at all) to 255; see localizability.hpp.
+using LocalizabilityGrid = common::TiledGrid<std::uint8_t>;
+
+/// What lies over the grid. Pointers may be null and are read during the call only.
+struct CostLayers {
+  std::span<const Disc> discs;
+  const common::LevelMap* levels = nullptr;
+  const LocalizabilityGrid* localizability = nullptr;
+};
+
+/// What a cell is, after unknown slivers between beams were closed.
+enum class CellState : std::uint8_t { kUnknown, kFree, kOccupied };
+
+/// A dense copy of the grid's extent plus one tile of margin, in the `map` frame, on the grid's own cells. A value:
+/// copy it to give a job its snapshot. Reading is safe from any thread while nobody updates the same object. Distances
+/// run from cell centre to cell centre and are exact up to the reach of the cost.
+class CostMap {
+ public:
+  struct Config {
+    double comfort_distance_m = 0.60;
+    double comfort_weight = 4.0;
+    bool pass_unknown = false;
+    double unknown_gap_m = 0.10;
+    double height_step_weight = 2.0;
+    double localizability_weight = 0.0;
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+  };
+
+  using Cost = std::uint16_t;
+  static constexpr Cost kOpenCost = 8;       ///< Of a cell far from everything.
+  static constexpr Cost kLethal = 0xFFFF;    ///< The centre may not be there.
+  static constexpr int kStraightEdge = 12;   ///< Edge cost = this times the sum of the two cell costs.
+  static constexpr int kDiagonalEdge = 17;   ///< 17 / 12 is the square root of 2 within 0.2 %.
+  static constexpr int kMaxReachCells = 63;  ///< Greatest lethal or comfort distance; below a tile.
+  static constexpr std::int32_t kStraightMin = 2 * kStraightEdge * kOpenCost;  ///< The cheapest edge there is.
+
+  /// A map that is lethal everywhere. `config` is validated.
+  CostMap(const Config& config, double resolution_m);
+
+  /// Brings the map to the given grid. Costs are recomputed only around cells whose state changed since the last call
+  /// (tiles with the same identity are not read), unless the footprint changed. Equal to a fresh map, always.
+  /// `grid` is a snapshot that nobody writes to any more (OccupancyGrid::snapshot()), of the constructor's resolution;
+  /// a copy of it (shared tiles) is held. Radius plus comfort distance beyond kMaxReachCells cells is cut there.
+  void update(const common::OccupancyGrid& grid, const Footprint& footprint, const CostLayers& layers = {});
+
+  const Config& config() const { return config_; }
+  const Footprint& footprint() const { return footprint_; }
+  double resolution_m() const { return grid_.resolution_m(); }
+
+  // Cells. Indices into the dense rectangle run row by row; the outermost cells are lethal, so that the eight
+  // neighbours of a cell that is not lethal always exist.
+  const common::CellRect& rect() const { return rect_; }
+  int stride() const { return rect_.width(); }
+  std::size_t size() const { return cost_.size(); }
+  bool contains(common::CellIndex c) const { return rect_.contains(c); }
+  int indexOf(common::CellIndex c) const { return (c.y - rect_.begin.y) * stride() + (c.x - rect_.begin.x); }
+  common::CellIndex cellOf(int index) const {
+    return {rect_.begin.x + index % stride(), rect_.begin.y + index / stride()};
+  }
+  common::CellIndex cellAt(const Eigen::Vector2d& point_map_m) const { return grid_.cellAt(point_map_m); }
+  Eigen::Vector2d centerOf(common::CellIndex c) const { return grid_.centerOf(c); }
+
+  Cost cost(int index) const { return cost_[static_cast<std::size_t>(index)]; }
+  Cost costAt(common::CellIndex c) const { return contains(c) ? cost(indexOf(c)) : kLethal; }
+  bool isLethal(int index) const { return cost(index) == kLethal; }
+  CellState state(int index) const { return state_[static_cast<std::size_t>(index)]; }
+  CellState stateAt(common::CellIndex c) const { return contains(c) ? state(indexOf(c)) : CellState::kUnknown; }
+  const std::vector<Cost>& costs() const { return cost_; }
+  const std::vector<CellState>& states() const { return state_; }
+  /// Height of the surface below in cm; empty without levels.
+  const std::vector<std::int16_t>& heights_cm() const { return height_cm_; }
+
+  /// From the centre of the cell to that of the nearest occupied one of the grid (discs are not counted); never above
+  /// reach_m(), which is also the answer where nothing is near and outside the map.
+  double obstacleDistance_m(common::CellIndex c) const;
+  double reach_m() const { return reach_cells_ * resolution_m(); }
+
+  /// The cost of going between two 8-neighbours, neither lethal. A diagonal is forbidden (kNoEdge) when one of the two
+  /// cells beside it is lethal: no corner is cut.
+  static constexpr std::int32_t kNoEdge = INT32_MAX;
+  std::int32_t edgeCost(int from, int dx, int dy) const {
+    const int to = from + dy * stride() + dx;
+    const bool diagonal = dx != 0 && dy != 0;
+    if (isLethal(to) || (diagonal && (isLethal(from + dx) || isLethal(from + dy * stride())))) return kNoEdge;
+    return (diagonal ? kDiagonalEdge : kStraightEdge) * (cost(from) + cost(to)) + stepCost(from, to);
+  }
+  /// What the step of the surface between two cells adds; 0 without levels.
+  std::int32_t stepCost(int from, int to) const {
+    if (height_cm_.empty()) return 0;
+    return height_edge_ *
+           std::abs(height_cm_[static_cast<std::size_t>(from)] - height_cm_[static_cast<std::size_t>(to)]);
+  }
+  std::int32_t stepCostPerCm() const { return height_edge_; }
+  /// The greatest cost an edge can have under this config.
+  std::int32_t maxEdgeCost() const { return max_edge_cost_; }
+
+ private:
+  struct Changes;
+  void reshape(const common::CellRect& rect, const Footprint& footprint);
+  void readTiles(const common::OccupancyGrid& grid, bool all, Changes& changes);
+  void closeSlivers(Changes& changes);
+  void updateDistances(const Changes& changes, bool all);
+  void costTile(int x0, int y0);
+  void applyLayers(const CostLayers& layers);
+  void applyDisc(const Disc& disc);
+  void applyHeights(const common::LevelMap* levels);
+  void applyLocalizability(const LocalizabilityGrid* layer);
+  Cost costOfMargin(double margin_m) const;
+
+  Config config_;
+  common::OccupancyGrid grid_;  ///< The snapshot last read, for the identity of its tiles.
+  Footprint footprint_{-1.0, -1.0};
+  common::CellRect rect_;
+  int reach_cells_ = 0;
+  int unknown_reach_cells_ = 0;
+  std::int32_t max_edge_cost_ = 0;
+  std::int32_t height_edge_ = 0;                  ///< Edge cost of a step of 1 cm.
+  std::vector<CellState> raw_;                    ///< As the grid says.
+  std::vector<CellState> state_;                  ///< Slivers closed.
+  std::vector<std::int16_t> occupied_distance2_;  ///< In cells squared, cut at (reach + 1) squared.
+  std::vector<std::int16_t> unknown_distance2_;
+  std::vector<Cost> margin_cost_;  ///< Cost by occupied distance squared.
+  std::vector<Cost> static_cost_;  ///< Grid only.
+  std::vector<Cost> cost_;         ///< With the layers.
+  std::vector<std::int16_t> height_cm_;
+};
+
+}  // namespace swiftlet::planning

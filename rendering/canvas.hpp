@@ -1,0 +1,63 @@
+// A small software rasterizer: anti-aliased lines, discs, polygons and text over an RGB picture. Pixel coordinates:
+// (0, 0) is the upper left corner, y down, pixel i covers [i, i + 1). Anything outside the picture, or not finite, is
+// clipped. A shape is painted once even where it crosses itself, so that translucent lines have no darker joints.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/sensor_event.hpp"
+#include "rendering/color.hpp"
+
+namespace swiftlet::rendering {
+
+enum class Align { kLeft, kCenter, kRight };
+
+class Canvas {
+ public:
+  using Point = Eigen::Vector2d;
+
+  explicit Canvas(common::Image image);
+
+  int width_px() const { return image_.width_px; }
+  int height_px() const { return image_.height_px; }
+
+  void fillRect(double x0, double y0, double x1, double y1, Color color);
+  void line(const Point& a, const Point& b, double width_px, Color color);
+  void polyline(std::span<const Point> points, double width_px, Color color);
+  void dashedPolyline(std::span<const Point> points, double width_px, double dash_px, double gap_px, Color color);
+  void disc(const Point& center, double radius_px, Color color);
+  /// Many discs as one shape.
+  void discs(std::span<const Point> centers, double radius_px, Color color);
+  void ring(const Point& center, double radius_px, double width_px, Color color);
+  /// Even-odd rule.
+  void polygon(std::span<const Point> corners, Color color);
+  /// `baseline` is where the text starts, is centred or ends. `halo` is painted around it first if it is visible.
+  void text(std::string_view text, const Point& baseline, double height_px, Color color, Align align = Align::kLeft,
+            Color halo = {0, 0, 0, 0});
+
+  common::Image take() { return std::move(image_); }
+
+ private:
+  struct Box {
+    int x0, y0, x1, y1;
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+  };
+  Box clipped(double x0, double y0, double x1, double y1) const;
+  void coverSegment(const Point& a, const Point& b, double radius_px);
+  void coverDisc(const Point& center, double radius_px);
+  void cover(int x, int y, double coverage);
+  void touch(const Box& box);
+  /// Paints what is covered and clears the cover.
+  void paint(Color color);
+
+  common::Image image_;
+  std::vector<std::uint8_t> cover_;
+  Box touched_;
+};
+
+}  // namespace swiftlet::rendering

@@ -1,0 +1,65 @@
+#include <png.h>
+
+#include "common/check.hpp"
+#include "rendering/encode.hpp"
+
+namespace swiftlet::rendering {
+namespace {
+
+void append(png_structp png, png_bytep data, png_size_t size) {
+  auto* bytes = static_cast<Bytes*>(png_get_io_ptr(png));
+  bytes->insert(bytes->end(), data, data + size);
+}
+
+[[noreturn]] void fail(png_structp, png_const_charp message) {
+  // Only memory can run out: the arguments were checked and the output is a vector.
+  common::checkFailed("libpng", __FILE__, __LINE__, std::string(" ") + message);
+}
+
+Bytes encode(int width_px, int height_px, int color_type, int channels, const std::uint8_t* pixels) {
+  Bytes bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(png, &bytes, append, nullptr);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width_px), static_cast<png_uint_32>(height_px), 8, color_type,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  // Maps are large even areas: no filter compresses them best, and fast.
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  png_set_compression_level(png, 6);
+  png_write_info(png, info);
+  for (int y = 0; y < height_px; ++y) png_write_row(png, pixels + static_cast<std::size_t>(y) * width_px * channels);
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &info);
+  return bytes;
+}
+
+}  // namespace
+
+Bytes encodePng(const common::Image& image) {
+  SWIFTLET_CHECK(image.width_px > 0 && image.height_px > 0, image.width_px, image.height_px);
+  SWIFTLET_CHECK(image.rgb.size() == 3 * static_cast<std::size_t>(image.width_px) * image.height_px);
+  return encode(image.width_px, image.height_px, PNG_COLOR_TYPE_RGB, 3, image.rgb.data());
+}
+
+Bytes encodeGreyPng(int width_px, int height_px, const Bytes& pixels) {
+  SWIFTLET_CHECK(width_px > 0 && height_px > 0, width_px, height_px);
+  SWIFTLET_CHECK(pixels.size() == static_cast<std::size_t>(width_px) * height_px, pixels.size());
+  return encode(width_px, height_px, PNG_COLOR_TYPE_GRAY, 1, pixels.data());
+}
+
+std::string base64(const Bytes& bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = bytes.size() - i;
+    const unsigned group = bytes[i] << 16 | (left > 1 ? bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
+    text += kDigits[group >> 18];
+    text += kDigits[group >> 12 & 63];
+    text += left > 1 ? kDigits[group >> 6 & 63] : '=';
+    text += left > 2 ? kDigits[group & 63] : '=';
+  }
+  return text;
+}
+
+}  // namespace swiftlet::rendering

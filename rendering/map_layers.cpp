@@ -1,0 +1,166 @@
+#include "rendering/map_layers.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace swiftlet::rendering {
+namespace {
+
+using Eigen::Vector2d;
+
+/// A level lower than this is the floor itself.
+constexpr double kFloor_m = 0.05;
+
+std::vector<Vector2d> toPixels(const Viewport& viewport, const std::vector<Vector2d>& points_map_m) {
+  std::vector<Vector2d> pixels;
+  pixels.reserve(points_map_m.size() + 1);
+  for (const Vector2d& point : points_map_m) pixels.push_back(viewport.toPixel(point));
+  return pixels;
+}
+
+void drawLevel(Layer& layer, const common::Level& level, double resolution_m) {
+  const double px = layer.viewport.px_per_m * resolution_m;
+  const Color color =
+      layer.theme().level.withAlpha(static_cast<std::uint8_t>(std::min(170.0, 45.0 + 90.0 * std::abs(level.height_m))));
+  Vector2d sum = Vector2d::Zero();
+  for (const common::CellIndex& cell : level.cells) {
+    const Vector2d corner = layer.viewport.toPixel(Vector2d(cell.x, cell.y + 1) * resolution_m);
+    layer.canvas.fillRect(corner.x(), corner.y(), corner.x() + px, corner.y() + px, color);
+    sum += Vector2d(cell.x + 0.5, cell.y + 0.5) * resolution_m;
+  }
+  const Vector2d middle = layer.viewport.toPixel(sum / static_cast<double>(level.cells.size()));
+  const double height_px = 9.0 * layer.scale;
+  layer.canvas.text(fmt::format("{:.2f} m", level.height_m), {middle.x(), middle.y() + 0.5 * height_px}, height_px,
+                    layer.theme().text, Align::kCenter, layer.theme().free.withAlpha(200));
+}
+
+/// 1, 2 or 5 times a power of ten.
+double roundLength(double longest) {
+  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  for (const double factor : {5.0, 2.0})
+    if (factor * power <= longest) return factor * power;
+  return power;
+}
+
+}  // namespace
+
+void drawMetreLines(Layer& layer) {
+  const Viewport& v = layer.viewport;
+  const double every_m = v.px_per_m >= 14.0 ? 1.0 : v.px_per_m >= 3.0 ? 5.0 : 20.0;
+  const Vector2d low = v.toMap({0.0, static_cast<double>(v.height_px)});
+  const Vector2d high = v.toMap({static_cast<double>(v.width_px), 0.0});
+  for (double x = std::ceil(low.x() / every_m) * every_m; x <= high.x(); x += every_m) {
+    const double px = std::floor(v.toPixel({x, 0.0}).x());
+    layer.canvas.fillRect(px, 0.0, px + 1.0, v.height_px, layer.theme().grid);
+  }
+  for (double y = std::ceil(low.y() / every_m) * every_m; y <= high.y(); y += every_m) {
+    const double py = std::floor(v.toPixel({0.0, y}).y());
+    layer.canvas.fillRect(0.0, py, v.width_px, py + 1.0, layer.theme().grid);
+  }
+}
+
+void drawLevels(Layer& layer, const common::LevelMap& levels) {
+  for (const common::Level& level : levels.levels)
+    if (!level.cells.empty() && std::abs(level.height_m) > kFloor_m) drawLevel(layer, level, levels.resolution_m);
+}
+
+void drawFrontiers(Layer& layer, const std::vector<common::Frontier>& frontiers, double resolution_m) {
+  const double radius_px = std::max(1.3 * layer.scale, 0.45 * resolution_m * layer.viewport.px_per_m);
+  std::vector<Vector2d> centers;
+  for (const common::Frontier& frontier : frontiers) {
+    centers.clear();
+    for (const common::CellIndex& c : frontier.cells)
+      centers.push_back(layer.viewport.toPixel(Vector2d(c.x + 0.5, c.y + 0.5) * resolution_m));
+    layer.canvas.discs(centers, radius_px, frontierColor(frontier.reason, layer.scheme).withAlpha(220));
+  }
+}
+
+void drawLaser(Layer& layer, const common::LaserPoints& laser) {
+  std::vector<Vector2d> centers;
+  centers.reserve(laser.points_map_m.size());
+  for (const Eigen::Vector2f& point : laser.points_map_m)
+    centers.push_back(layer.viewport.toPixel(point.cast<double>()));
+  layer.canvas.discs(centers, 0.9 * layer.scale, layer.theme().laser);
+}
+
+void drawTrail(Layer& layer, const std::vector<Vector2d>& trail_map_m, const Vector2d& vehicle_map_m) {
+  std::vector<Vector2d> pixels = toPixels(layer.viewport, trail_map_m);
+  pixels.push_back(layer.viewport.toPixel(vehicle_map_m));
+  layer.canvas.polyline(pixels, 2.2 * layer.scale, layer.theme().trail);
+}
+
+void drawPlan(Layer& layer, const std::vector<Vector2d>& plan_map_m, const Vector2d& vehicle_map_m) {
+  if (plan_map_m.empty()) return;
+  std::vector<Vector2d> pixels{layer.viewport.toPixel(vehicle_map_m)};
+  for (const Vector2d& point : plan_map_m) pixels.push_back(layer.viewport.toPixel(point));
+  layer.canvas.dashedPolyline(pixels, 2.4 * layer.scale, 7.0 * layer.scale, 5.5 * layer.scale, layer.theme().plan);
+  layer.canvas.disc(pixels.back(), 3.2 * layer.scale, layer.theme().plan);
+}
+
+void drawHome(Layer& layer, const Vector2d& home_map_m) {
+  const Vector2d at = layer.viewport.toPixel(home_map_m);
+  const double s = layer.scale;
+  layer.canvas.disc(at, 8.5 * s, layer.theme().free.withAlpha(230));
+  layer.canvas.ring(at, 8.5 * s, 1.6 * s, layer.theme().home);
+  const std::array<Vector2d, 5> house{at + Vector2d(-3.6, 3.8) * s, at + Vector2d(-3.6, -0.6) * s,
+                                      at + Vector2d(0.0, -4.4) * s, at + Vector2d(3.6, -0.6) * s,
+                                      at + Vector2d(3.6, 3.8) * s};
+  layer.canvas.polygon(house, layer.theme().home);
+}
+
+void drawGoal(Layer& layer, const Vector2d& goal_map_m) {
+  const Vector2d at = layer.viewport.toPixel(goal_map_m);
+  const double s = layer.scale;
+  layer.canvas.ring(at, 8.0 * s, 4.5 * s, layer.theme().free.withAlpha(200));
+  layer.canvas.ring(at, 8.0 * s, 2.2 * s, layer.theme().goal);
+  for (const Vector2d& direction : {Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, 1), Vector2d(0, -1)})
+    layer.canvas.line(at + 8.0 * s * direction, at + 12.5 * s * direction, 2.2 * s, layer.theme().goal);
+  layer.canvas.disc(at, 2.4 * s, layer.theme().goal);
+}
+
+void drawVehicle(Layer& layer, const common::Pose2& T_map_body, double hull_diameter_m) {
+  const Theme& theme = layer.theme();
+  const Vector2d at = layer.viewport.toPixel(T_map_body.position_m());
+  const double radius = std::max(7.0 * layer.scale, 0.5 * hull_diameter_m * layer.viewport.px_per_m);
+  const double width = std::clamp(0.14 * radius, 1.4 * layer.scale, 3.0 * layer.scale);
+  layer.canvas.disc(at, radius, theme.vehicle.withAlpha(70));
+  layer.canvas.ring(at, radius, width, theme.vehicle);
+  const auto ahead = [&](double along, double left) {
+    const double c = std::cos(T_map_body.yaw_rad), s = std::sin(T_map_body.yaw_rad);
+    return Vector2d(at + radius * Vector2d(c * along - s * left, -(s * along + c * left)));
+  };
+  const std::array<Vector2d, 4> arrow{ahead(0.78, 0.0), ahead(-0.52, 0.48), ahead(-0.26, 0.0), ahead(-0.52, -0.48)};
+  layer.canvas.polygon(arrow, theme.vehicle);
+}
+
+void drawLegend(Layer& layer) {
+  const Theme& theme = layer.theme();
+  const double s = layer.scale, bottom = layer.viewport.height_px - 14.0 * s;
+  const double length_m = roundLength(110.0 * s / layer.viewport.px_per_m);
+  const double x0 = 14.0 * s, x1 = x0 + length_m * layer.viewport.px_per_m;
+  const Color halo = theme.unknown.withAlpha(220);
+  for (const double extra : {2.0 * s, 0.0}) {
+    const Color color = extra > 0.0 ? halo : theme.text;
+    const std::array<Vector2d, 4> bar{Vector2d(x0, bottom - 5.0 * s), Vector2d(x0, bottom), Vector2d(x1, bottom),
+                                      Vector2d(x1, bottom - 5.0 * s)};
+    layer.canvas.polyline(bar, 1.5 * s + 2.0 * extra, color);
+  }
+  layer.canvas.text(fmt::format("{:g} m", length_m), {0.5 * (x0 + x1), bottom - 6.0 * s}, 8.5 * s, theme.text,
+                    Align::kCenter, halo);
+
+  const Vector2d origin(layer.viewport.width_px - 46.0 * s, bottom);
+  const auto arrow = [&](const Vector2d& direction, const char* name, Color color) {
+    const Vector2d tip = origin + 22.0 * s * direction, side(-direction.y(), direction.x());
+    layer.canvas.line(origin, tip, 1.6 * s, color);
+    const std::array<Vector2d, 3> head{tip + 5.0 * s * direction, tip + 3.4 * s * side, tip - 3.4 * s * side};
+    layer.canvas.polygon(head, color);
+    layer.canvas.text(name, tip + 10.0 * s * direction + Vector2d(0.0, 3.0 * s), 8.5 * s, theme.text, Align::kCenter,
+                      halo);
+  };
+  arrow({1.0, 0.0}, "x", rgb(0xd9480f));
+  arrow({0.0, -1.0}, "y", rgb(0x2f9e44));
+}
+
+}  // namespace swiftlet::rendering

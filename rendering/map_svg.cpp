@@ -1,0 +1,69 @@
+#include "rendering/map_svg.hpp"
+
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "rendering/encode.hpp"
+#include "rendering/map_renderer.hpp"
+#include "rendering/svg.hpp"
+
+namespace swiftlet::rendering {
+namespace {
+
+/// The aspect of what is known, so that no half of the picture is empty.
+int heightFor(const common::World& world, int width_px) {
+  const common::CellRect known = common::knownExtent(*world.grid);
+  const double aspect = known.empty() ? 0.75 : static_cast<double>(known.height()) / known.width();
+  return static_cast<int>(std::lround(width_px * std::clamp(aspect, 0.4, 1.4)));
+}
+
+}  // namespace
+
+std::string mapSvg(const common::World& world, const std::vector<MapLine>& lines, const std::vector<MapMark>& marks,
+                   int width_px) {
+  MapView view;
+  // The PNG has twice the pixels, for screens that show them.
+  view.width_px = 2 * width_px;
+  view.height_px = 2 * heightFor(world, width_px);
+  view.layers.trail = view.layers.plan = view.layers.laser = view.layers.vehicle = false;
+  view.layers.home = view.layers.goal = false;
+  view.viewport = fitViewport(world, view.width_px, view.height_px);
+  const auto toPixel = [&](const Eigen::Vector2d& p) { return Eigen::Vector2d(0.5 * view.viewport->toPixel(p)); };
+
+  const int height_px = view.height_px / 2;
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out,
+                 R"(<svg class="sw" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" )"
+                 R"(style="max-width:100%;height:auto" role="img" aria-label="Map">{2})",
+                 width_px, height_px, svg::style());
+  fmt::format_to(out, R"(<image width="{}" height="{}" href="data:image/png;base64,{}"/>)", width_px, height_px,
+                 base64(encodePng(renderMap(world, view))));
+  // The picture below is always light, so its lines are too.
+  text += R"(<g style="--c1:#1f6fe0;--c2:#d9480f;--c3:#0a8f6c;--c4:#9c36b5;--c5:#b7791f;--c6:#c2255c;--ink:#2b3947">)";
+  double name_y = 20.0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::vector<Eigen::Vector2d> pixels;
+    for (const Eigen::Vector2d& p : lines[i].points_map_m) pixels.push_back(toPixel(p));
+    const std::string classes = fmt::format("s s{}{}", i % 6 + 1, lines[i].dashed ? " dash" : "");
+    for (const std::string& list : svg::pointLists(pixels))
+      fmt::format_to(out, R"(<polyline class="{}" points="{}"/>)", classes, list);
+    fmt::format_to(out, R"(<path class="{}" d="M14 {:.1f}h18"/><text class="name" x="38" y="{:.1f}">{}</text>)",
+                   classes, name_y - 4.0, name_y, svg::escaped(lines[i].name));
+    name_y += 17.0;
+  }
+  for (const MapMark& mark : marks) {
+    const Eigen::Vector2d p = toPixel(mark.point_map_m);
+    if (!p.allFinite()) continue;
+    fmt::format_to(out,
+                   R"(<circle cx="{0:.1f}" cy="{1:.1f}" r="4.5" fill="#fff" stroke="#c2255c" stroke-width="2"/>)"
+                   R"(<text class="name" x="{2:.1f}" y="{3:.1f}">{4}</text>)",
+                   p.x(), p.y(), p.x() + 8.0, p.y() + 4.0, svg::escaped(mark.name));
+  }
+  text += "</g></svg>\n";
+  return text;
+}
+
+}  // namespace swiftlet::rendering

@@ -1,0 +1,12 @@
+// Smaller pictures for streams.
+#pragma once
+
+#include "common/sensor_event.hpp"
+
+namespace swiftlet::rendering {
+
+/// The picture at most `width_px` wide, each new pixel the mean of the area it covers; the aspect is kept. A picture
+/// that is small enough already is returned as it is. `width_px` is positive.
+common::Image shrinkToWidth(const common::Image& image, int width_px);
+
+}  // namespace swiftlet::rendering

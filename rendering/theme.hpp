@@ -1,0 +1,37 @@
+// The colours of a map picture. The page's style sheet has the same values, so that a stream and the page look alike.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "common/world.hpp"
+#include "rendering/color.hpp"
+
+namespace swiftlet::rendering {
+
+enum class Scheme { kLight, kDark };
+
+/// "light" or "dark".
+std::optional<Scheme> schemeFrom(std::string_view word);
+
+struct Theme {
+  Color unknown;  ///< Never observed.
+  Color free;     ///< Surely free.
+  Color wall;     ///< Surely occupied.
+  Color grid;     ///< The lines every metre.
+  Color text;
+  Color trail;
+  Color plan;
+  Color goal;
+  Color home;
+  Color vehicle;
+  Color laser;
+  Color level;  ///< Surfaces above the floor, with the height in their opacity.
+};
+
+const Theme& themeOf(Scheme scheme);
+
+/// Open frontiers invite, the others say by their colour why they were left.
+Color frontierColor(common::FrontierReason reason, Scheme scheme);
+
+}  // namespace swiftlet::rendering

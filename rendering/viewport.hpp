@@ -1,0 +1,32 @@
+// Which part of the `map` frame a picture shows: x of the map to the right, y up, no rotation.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/world.hpp"
+
+namespace swiftlet::rendering {
+
+struct Viewport {
+  Eigen::Vector2d center_map_m = Eigen::Vector2d::Zero();
+  double px_per_m = 50.0;  ///< Positive.
+  int width_px = 640;
+  int height_px = 480;
+
+  /// Pixel coordinates: (0, 0) is the upper left corner of the picture, y down; pixel i covers [i, i + 1).
+  Eigen::Vector2d toPixel(const Eigen::Vector2d& point_map_m) const {
+    return {0.5 * width_px + (point_map_m.x() - center_map_m.x()) * px_per_m,
+            0.5 * height_px - (point_map_m.y() - center_map_m.y()) * px_per_m};
+  }
+  Eigen::Vector2d toMap(const Eigen::Vector2d& pixel) const {
+    return {center_map_m.x() + (pixel.x() - 0.5 * width_px) / px_per_m,
+            center_map_m.y() - (pixel.y() - 0.5 * height_px) / px_per_m};
+  }
+  bool operator==(const Viewport&) const = default;
+};
+
+/// The viewport that shows all that is known of the world, its vehicle, home and goal, with a margin. Its borders sit
+/// on whole metres, so that a growing map makes the picture jump seldom. At least 6 m are shown.
+Viewport fitViewport(const common::World& world, int width_px, int height_px);
+
+}  // namespace swiftlet::rendering

@@ -1,0 +1,124 @@
+#include "simulation/autopilot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::simulation {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kThrustOnGround = 0.2;
+constexpr double kSmallRateError_rad_s = 0.3;
+constexpr double kMostIntegral_rad = 0.3;
+
+double finiteOr(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
+
+}  // namespace
+
+void AutopilotConfig::describe(common::config::Fields& fields) {
+  fields("attitude_gain_1_s", attitude_gain_1_s, "Rate asked per radian of roll or pitch error.");
+  fields("max_rate_rad_s", max_rate_rad_s, "Greatest roll and pitch rate asked.");
+  fields("max_yaw_rate_rad_s", max_yaw_rate_rad_s, "Greatest yaw rate asked.");
+  fields("rate_gain_1_s", rate_gain_1_s, "Angular acceleration asked per roll or pitch rate error.");
+  fields("yaw_rate_gain_1_s", yaw_rate_gain_1_s, "Angular acceleration asked per yaw rate error.");
+  fields("rate_integral_1_s2", rate_integral_1_s2, "Angular acceleration asked per integrated rate error.");
+  fields("link_timeout_s", link_timeout_s, "Without a new setpoint for so long it levels and descends.");
+  fields("failsafe_thrust_share", failsafe_thrust_share, "Thrust then, as a share of the weight.");
+}
+
+std::vector<std::string> AutopilotConfig::validate() const {
+  return common::Validation()
+      .within("attitude_gain_1_s", attitude_gain_1_s, 0.1, 100)
+      .within("max_rate_rad_s", max_rate_rad_s, 0.1, 50)
+      .within("max_yaw_rate_rad_s", max_yaw_rate_rad_s, 0.1, 50)
+      .within("rate_gain_1_s", rate_gain_1_s, 0.1, 500)
+      .within("yaw_rate_gain_1_s", yaw_rate_gain_1_s, 0.1, 500)
+      .within("rate_integral_1_s2", rate_integral_1_s2, 0, 500)
+      .within("link_timeout_s", link_timeout_s, 0.05, 10)
+      .within("failsafe_thrust_share", failsafe_thrust_share, 0.5, 1)
+      .problems();
+}
+
+Autopilot::Autopilot(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe,
+                     const AutopilotConfig& config)
+    : vehicle_(vehicle), airframe_(airframe), config_(config) {}
+
+void Autopilot::receive(const common::Setpoint& setpoint, common::Time arrived) {
+  setpoint_ = setpoint;
+  received_ = arrived;
+}
+
+bool Autopilot::linkLost(common::Time now) const { return (now - received_).seconds() > config_.link_timeout_s; }
+
+/// The setpoint within the vehicle's limits, or the autopilot's own when the link is lost.
+common::Setpoint Autopilot::effective(common::Time now, const AttitudeMeasurement& measured) const {
+  common::Setpoint setpoint = setpoint_;
+  if (setpoint.motors_on && linkLost(now)) {
+    // Its own voltage meter tells how much throttle the sinking thrust takes.
+    const double sag = measured.battery_voltage_v / vehicle_.battery_full_v;
+    setpoint.roll_rad = setpoint.pitch_rad = setpoint.yaw_rate_rad_s = 0.0;
+    setpoint.thrust = config_.failsafe_thrust_share * vehicle_.mass_kg * kGravity_m_s2 /
+                      (vehicle_.max_thrust_n * std::max(0.25, sag * sag));
+  }
+  const double max_tilt_rad = vehicle_.max_tilt_deg * std::numbers::pi / 180.0;
+  setpoint.roll_rad = std::clamp(finiteOr(setpoint.roll_rad, 0.0), -max_tilt_rad, max_tilt_rad);
+  setpoint.pitch_rad = std::clamp(finiteOr(setpoint.pitch_rad, 0.0), -max_tilt_rad, max_tilt_rad);
+  setpoint.yaw_rate_rad_s =
+      std::clamp(finiteOr(setpoint.yaw_rate_rad_s, 0.0), -config_.max_yaw_rate_rad_s, config_.max_yaw_rate_rad_s);
+  setpoint.thrust = std::clamp(finiteOr(setpoint.thrust, 0.0), 0.0, 1.0);
+  return setpoint;
+}
+
+/// The integral takes out a constant lean; it neither winds up in a step nor against the floor.
+void Autopilot::integrate(const Vector3d& rate_error, double thrust, double step_s) {
+  if (thrust < kThrustOnGround) rate_integral_rad_.setZero();
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(rate_error[axis]) < kSmallRateError_rad_s)
+      rate_integral_rad_[axis] =
+          std::clamp(rate_integral_rad_[axis] + step_s * rate_error[axis], -kMostIntegral_rad, kMostIntegral_rad);
+}
+
+std::array<double, 4> Autopilot::tick(common::Time now, const AttitudeMeasurement& measured, double step_s) {
+  const common::Setpoint setpoint = effective(now, measured);
+  motors_on_ = setpoint.motors_on;
+  if (!motors_on_) {
+    rate_integral_rad_.setZero();
+    return {};
+  }
+
+  // Attitude: roll and pitch error of the AHRS; the yaw rate is the gyro's.
+  const common::RollPitchYaw angles = common::rollPitchYaw(measured.rotation_ahrs_body);
+  const auto rateFor = [this](double error_rad) {
+    return std::clamp(config_.attitude_gain_1_s * error_rad, -config_.max_rate_rad_s, config_.max_rate_rad_s);
+  };
+  const double roll_rate = rateFor(setpoint.roll_rad - angles.roll_rad);
+  const double pitch_rate = rateFor(setpoint.pitch_rad - angles.pitch_rad);
+  // Euler angle rates to body rates.
+  const double sin_roll = std::sin(angles.roll_rad), cos_roll = std::cos(angles.roll_rad);
+  const double sin_pitch = std::sin(angles.pitch_rad), cos_pitch = std::cos(angles.pitch_rad);
+  const Vector3d wanted_rate(roll_rate - sin_pitch * setpoint.yaw_rate_rad_s,
+                             cos_roll * pitch_rate + sin_roll * cos_pitch * setpoint.yaw_rate_rad_s,
+                             -sin_roll * pitch_rate + cos_roll * cos_pitch * setpoint.yaw_rate_rad_s);
+
+  const Vector3d error = wanted_rate - measured.angular_velocity_body_rad_s;
+  integrate(error, setpoint.thrust, step_s);
+  const Vector3d gain(config_.rate_gain_1_s, config_.rate_gain_1_s, config_.yaw_rate_gain_1_s);
+  const Vector3d acceleration = gain.cwiseProduct(error) + config_.rate_integral_1_s2 * rate_integral_rad_;
+
+  // Torques as shares of the full thrust of one motor, around the collective.
+  const double motor_n = 0.25 * vehicle_.max_thrust_n;
+  const double lever_m = airframe_.arm_m / std::sqrt(2.0);
+  const double roll = airframe_.inertia_xx_kg_m2 * acceleration.x() / (4.0 * lever_m * motor_n);
+  const double pitch = airframe_.inertia_yy_kg_m2 * acceleration.y() / (4.0 * lever_m * motor_n);
+  const double yaw = std::clamp(
+      airframe_.inertia_zz_kg_m2 * acceleration.z() / (4.0 * airframe_.torque_per_thrust_m * motor_n), -0.15, 0.15);
+  const double collective = setpoint.thrust;
+  return {std::clamp(collective + roll - pitch + yaw, 0.0, 1.0), std::clamp(collective - roll - pitch - yaw, 0.0, 1.0),
+          std::clamp(collective - roll + pitch + yaw, 0.0, 1.0), std::clamp(collective + roll + pitch - yaw, 0.0, 1.0)};
+}
+
+}  // namespace swiftlet::simulation

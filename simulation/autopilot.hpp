@@ -1,0 +1,60 @@
+// The autopilot inside the vehicle: an AHRS that is good to about a degree, and the attitude loop that flies on it at
+// 500 Hz: attitude error -> rate -> torque -> four throttles. It never sees the true attitude.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "common/config.hpp"
+#include "common/vehicle.hpp"
+#include "common/vehicle_config.hpp"
+#include "simulation/quadrotor.hpp"
+#include "simulation/sensors/inertial_unit.hpp"
+
+namespace swiftlet::simulation {
+
+struct AutopilotConfig {
+  double attitude_gain_1_s = 7.0;   ///< Rate asked per radian of roll or pitch error.
+  double max_rate_rad_s = 4.0;      ///< Greatest roll and pitch rate asked.
+  double max_yaw_rate_rad_s = 2.5;  ///< Greatest yaw rate asked.
+  double rate_gain_1_s = 18.0;      ///< Angular acceleration asked per rad/s of roll or pitch rate error.
+  double yaw_rate_gain_1_s = 7.0;
+  double rate_integral_1_s2 = 12.0;     ///< Takes out what leans the vehicle constantly.
+  double link_timeout_s = 0.5;          ///< Without a new setpoint for so long it levels and descends.
+  double failsafe_thrust_share = 0.93;  ///< Thrust then, as a share of the weight.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+class Autopilot {
+ public:
+  Autopilot(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe, const AutopilotConfig& config);
+
+  /// A setpoint has come over the link at `arrived`.
+  void receive(const common::Setpoint& setpoint, common::Time arrived);
+
+  /// One tick of the attitude loop: the throttles of the motors until the next.
+  std::array<double, 4> tick(common::Time now, const AttitudeMeasurement& measured, double step_s);
+
+  bool linkLost(common::Time now) const;
+  bool motorsOn() const { return motors_on_; }
+
+ private:
+  void integrate(const Eigen::Vector3d& rate_error, double thrust, double step_s);
+  common::Setpoint effective(common::Time now, const AttitudeMeasurement& measured) const;
+
+  common::VehicleConfig vehicle_;
+  QuadrotorConfig airframe_;
+  AutopilotConfig config_;
+  common::Setpoint setpoint_;
+  common::Time received_;
+  Eigen::Vector3d rate_integral_rad_ = Eigen::Vector3d::Zero();
+  bool motors_on_ = false;
+};
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,54 @@
+#include "simulation/battery.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::simulation {
+
+void Battery::Config::describe(common::config::Fields& fields) {
+  fields("capacity_ah", capacity_ah, "Charge of the full battery.");
+  fields("resistance_ohm", resistance_ohm, "Inner resistance: the sag under load.");
+  fields("electronics_w", electronics_w, "What computer and sensors draw.");
+  fields("power_w_per_n15", power_w_per_n15, "Power of one motor over its thrust^1.5.");
+}
+
+std::vector<std::string> Battery::Config::validate() const {
+  return common::Validation()
+      .within("capacity_ah", capacity_ah, 0.1, 100)
+      .within("resistance_ohm", resistance_ohm, 0, 1)
+      .within("electronics_w", electronics_w, 0, 1000)
+      .within("power_w_per_n15", power_w_per_n15, 0, 100)
+      .problems();
+}
+
+Battery::Battery(const common::VehicleConfig& vehicle, const Config& config, double remaining)
+    : config_(config),
+      full_v_(vehicle.battery_full_v),
+      empty_v_(vehicle.battery_empty_v),
+      remaining_(std::clamp(remaining, 0.0, 1.0)),
+      voltage_v_(openCircuit_v()) {}
+
+// The curve of a lithium-polymer cell: steep at both ends, a gentle slope between. 0 charge is the empty voltage.
+double Battery::openCircuit_v() const {
+  const double s = remaining_;
+  const double shape = 0.62 * s + 0.18 * (1.0 - std::exp(-20.0 * s)) + 0.20 * std::exp(-8.0 * (1.0 - s));
+  return empty_v_ + (full_v_ - empty_v_) * std::min(1.0, shape);
+}
+
+void Battery::draw(double power_w, double step_s) {
+  // P = U I and U = U0 - R I; the smaller root is the stable one, and beyond the greatest power it collapses to U0 / 2.
+  const double open_v = openCircuit_v(), r = config_.resistance_ohm;
+  const double discriminant = std::max(0.0, open_v * open_v - 4.0 * r * (power_w + config_.electronics_w));
+  voltage_v_ = 0.5 * (open_v + std::sqrt(discriminant));
+  const double current_a = r > 0.0 ? (open_v - voltage_v_) / r : (power_w + config_.electronics_w) / open_v;
+  remaining_ = std::max(0.0, remaining_ - current_a * step_s / (3600.0 * config_.capacity_ah));
+}
+
+double Battery::thrustShare() const {
+  const double ratio = voltage_v_ / full_v_;
+  return ratio * ratio;
+}
+
+}  // namespace swiftlet::simulation

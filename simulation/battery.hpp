@@ -1,0 +1,47 @@
+// A lithium-polymer pack: open-circuit voltage over charge, sag over its inner resistance, charge drawn by the motors.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/vehicle_config.hpp"
+
+namespace swiftlet::simulation {
+
+class Battery {
+ public:
+  struct Config {
+    double capacity_ah = 5.0;
+    double resistance_ohm = 0.025;
+    double electronics_w = 15.0;  ///< Computer and sensors.
+    /// Electrical power of one motor is this times thrust^1.5 (momentum theory of a hovering rotor).
+    double power_w_per_n15 = 6.0;
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+  };
+
+  Battery(const common::VehicleConfig& vehicle, const Config& config, double remaining);
+
+  /// Draws `power_w` for a step.
+  void draw(double power_w, double step_s);
+
+  /// At the terminals, under the present load.
+  double voltage_v() const { return voltage_v_; }
+  double openCircuit_v() const;
+  /// Share of the charge, in [0, 1].
+  double remaining() const { return remaining_; }
+  double fullVoltage_v() const { return full_v_; }
+  /// (voltage / full voltage)^2, what the thrust falls with.
+  double thrustShare() const;
+
+ private:
+  Config config_;
+  double full_v_;
+  double empty_v_;
+  double remaining_;
+  double voltage_v_;
+};
+
+}  // namespace swiftlet::simulation

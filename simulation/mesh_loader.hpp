@@ -1,0 +1,23 @@
+// Triangles of a mesh file, through assimp.
+#pragma once
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "simulation/triangulate.hpp"
+#include "simulation/world_model.hpp"
+
+namespace swiftlet::simulation {
+
+struct Mesh {
+  Triangles triangles;
+  Color color = Color::Constant(0.7F);  ///< Of the materials, averaged over the triangles.
+};
+
+/// In metres: a COLLADA file's unit is applied, its `<up_axis>` is not, because Gazebo, for which these files were
+/// made, takes coordinates as they stand. `submesh` keeps the node or mesh of that name alone; empty keeps all. The
+/// error is a sentence without the file's name.
+tl::expected<Mesh, std::string> loadMesh(const std::string& file, const std::string& submesh = {});
+
+}  // namespace swiftlet::simulation

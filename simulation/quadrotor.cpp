@@ -1,0 +1,138 @@
+#include "simulation/quadrotor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::simulation {
+
+using Eigen::Vector3d;
+
+void QuadrotorConfig::describe(common::config::Fields& fields) {
+  fields("inertia_xx_kg_m2", inertia_xx_kg_m2, "About the forward axis.");
+  fields("inertia_yy_kg_m2", inertia_yy_kg_m2, "About the left axis.");
+  fields("inertia_zz_kg_m2", inertia_zz_kg_m2, "About the up axis.");
+  fields("arm_m", arm_m, "From the centre to a rotor axis.");
+  fields("torque_per_thrust_m", torque_per_thrust_m, "Reaction torque of a rotor per newton of thrust.");
+  fields("motor_lag_s", motor_lag_s, "Time constant of a motor's thrust.");
+  fields("linear_drag_n_s_m", linear_drag_n_s_m, "Drag per speed through the air.");
+  fields("quadratic_drag_n_s2_m2", quadratic_drag_n_s2_m2, "Drag per squared speed through the air.");
+  fields("angular_drag_n_m_s", angular_drag_n_m_s, "Torque against turning, per turn rate.");
+  fields("gear_height_m", gear_height_m, "From the feet to the body origin.");
+  fields("gear_radius_m", gear_radius_m, "From the centre to a foot.");
+  fields.section("battery", battery, "The battery.");
+}
+
+std::vector<std::string> QuadrotorConfig::validate() const {
+  return common::Validation()
+      .within("inertia_xx_kg_m2", inertia_xx_kg_m2, 1e-4, 10)
+      .within("inertia_yy_kg_m2", inertia_yy_kg_m2, 1e-4, 10)
+      .within("inertia_zz_kg_m2", inertia_zz_kg_m2, 1e-4, 10)
+      .within("arm_m", arm_m, 0.02, 2)
+      .within("torque_per_thrust_m", torque_per_thrust_m, 0.001, 0.5)
+      .within("motor_lag_s", motor_lag_s, 0.005, 0.5)
+      .within("linear_drag_n_s_m", linear_drag_n_s_m, 0, 10)
+      .within("quadratic_drag_n_s2_m2", quadratic_drag_n_s2_m2, 0, 10)
+      .within("angular_drag_n_m_s", angular_drag_n_m_s, 0, 1)
+      .within("gear_height_m", gear_height_m, 0.01, 2)
+      .within("gear_radius_m", gear_radius_m, 0.01, 2)
+      .problems();
+}
+
+Quadrotor::Quadrotor(const common::VehicleConfig& vehicle, const QuadrotorConfig& config,
+                     const common::Pose3& T_world_body, double battery_remaining)
+    : vehicle_(vehicle), config_(config), battery_(vehicle, config.battery, battery_remaining) {
+  state_.T_world_body = T_world_body;
+  state_.specific_force_body_m_s2 = kGravity_m_s2 * Vector3d::UnitZ();
+}
+
+void Quadrotor::spinMotors(const std::array<double, 4>& throttles, double step_s) {
+  const double most_n = 0.25 * vehicle_.max_thrust_n * battery_.thrustShare();
+  const double blend = 1.0 - std::exp(-step_s / config_.motor_lag_s);
+  double power_w = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    double& thrust_n = state_.thrusts_n[i];
+    thrust_n += blend * (most_n * std::clamp(throttles[i], 0.0, 1.0) - thrust_n);
+    power_w += config_.battery.power_w_per_n15 * thrust_n * std::sqrt(thrust_n);
+  }
+  battery_.draw(power_w, step_s);
+}
+
+void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& wind_world_m_s, double floor_world_m,
+                     double step_s) {
+  spinMotors(throttles, step_s);
+  const auto& f = state_.thrusts_n;
+  const Eigen::Quaterniond& R_world_body = state_.T_world_body.rotation;
+
+  // Forces other than gravity, in the world: thrust along the body's z, drag against the air, the floor, a push.
+  const Vector3d airspeed_world = state_.velocity_world_m_s - wind_world_m_s;
+  const Vector3d drag_world =
+      -(config_.linear_drag_n_s_m + config_.quadratic_drag_n_s2_m2 * airspeed_world.norm()) * airspeed_world;
+  const double gear_n = gearForce_n(floor_world_m);
+  const Vector3d force_world = R_world_body * Vector3d(0.0, 0.0, f[0] + f[1] + f[2] + f[3]) + drag_world +
+                               Vector3d(0.0, 0.0, gear_n) + takePush(step_s);
+  const Vector3d acceleration_world = force_world / vehicle_.mass_kg - kGravity_m_s2 * Vector3d::UnitZ();
+
+  // Euler's equation in the body frame. Motors: front left, front right, rear right, rear left.
+  const double lever_m = config_.arm_m / std::sqrt(2.0);
+  const Vector3d torque(lever_m * (f[0] + f[3] - f[1] - f[2]), lever_m * (f[2] + f[3] - f[0] - f[1]),
+                        config_.torque_per_thrust_m * (f[0] + f[2] - f[1] - f[3]));
+  const Vector3d inertia(config_.inertia_xx_kg_m2, config_.inertia_yy_kg_m2, config_.inertia_zz_kg_m2);
+  Vector3d& omega = state_.angular_velocity_body_rad_s;
+  const Vector3d angular_acceleration =
+      (torque - config_.angular_drag_n_m_s * omega - omega.cross(inertia.cwiseProduct(omega))).cwiseQuotient(inertia);
+
+  // Semi-implicit Euler: the new velocities move the pose.
+  const Vector3d velocity_before = state_.velocity_world_m_s;
+  state_.velocity_world_m_s += step_s * acceleration_world;
+  omega += step_s * angular_acceleration;
+  state_.T_world_body.position_m += step_s * state_.velocity_world_m_s;
+  state_.T_world_body.rotation = (R_world_body * common::expSO3(step_s * omega)).normalized();
+
+  state_.standing = gear_n > 0.0;
+  if (state_.standing) rub(gear_n, step_s);
+
+  const Vector3d felt_world =
+      (state_.velocity_world_m_s - velocity_before) / step_s + kGravity_m_s2 * Vector3d::UnitZ();
+  state_.specific_force_body_m_s2 = state_.T_world_body.rotation.conjugate() * felt_world;
+}
+
+// A critically damped spring that gives way by kGearSag_m under the vehicle's weight.
+double Quadrotor::gearForce_n(double floor_world_m) const {
+  const double pressed_m = floor_world_m + config_.gear_height_m - state_.T_world_body.position_m.z();
+  if (!(pressed_m > 0.0)) return 0.0;
+  const double frequency_rad_s = std::sqrt(kGravity_m_s2 / kGearSag_m);
+  return std::max(
+      0.0, vehicle_.mass_kg * frequency_rad_s * (frequency_rad_s * pressed_m - 2.0 * state_.velocity_world_m_s.z()));
+}
+
+// Dry friction holds the feet; what still turns stops within some hundredths of a second, and the body comes to lie
+// level.
+void Quadrotor::rub(double gear_n, double step_s) {
+  constexpr double kFriction = 0.8;
+  auto slide = state_.velocity_world_m_s.head<2>();
+  const double speed = slide.norm(), stopped = kFriction * gear_n / vehicle_.mass_kg * step_s;
+  slide *= speed > stopped ? 1.0 - stopped / speed : 0.0;
+  const double keep = std::exp(-step_s / 0.03);
+  state_.angular_velocity_body_rad_s *= keep;
+  common::RollPitchYaw angles = common::rollPitchYaw(state_.T_world_body.rotation);
+  angles.roll_rad *= keep;
+  angles.pitch_rad *= keep;
+  state_.T_world_body.rotation = common::quaternionFrom(angles);
+}
+
+void Quadrotor::push(const Vector3d& impulse_world_n_s) {
+  push_world_n_s_ += impulse_world_n_s;
+  push_left_s_ = kPush_s;
+}
+
+Vector3d Quadrotor::takePush(double step_s) {
+  if (push_left_s_ <= 0.0) return Vector3d::Zero();
+  const Vector3d force = push_world_n_s_ / std::max(push_left_s_, step_s);
+  push_world_n_s_ -= step_s * force;
+  push_left_s_ -= step_s;
+  return force;
+}
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,86 @@
+// The rigid body in the air: four lagging motors in X, drag against the wind, a sagging battery and a floor to stand
+// on.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/vehicle_config.hpp"
+#include "simulation/battery.hpp"
+
+namespace swiftlet::simulation {
+
+inline constexpr double kGravity_m_s2 = 9.81;
+
+struct QuadrotorConfig {
+  double inertia_xx_kg_m2 = 0.020;
+  double inertia_yy_kg_m2 = 0.021;
+  double inertia_zz_kg_m2 = 0.036;
+  double arm_m = 0.165;                ///< From the centre to a rotor axis.
+  double torque_per_thrust_m = 0.016;  ///< Reaction torque of a rotor about its axis, per newton of thrust.
+  double motor_lag_s = 0.035;
+  double linear_drag_n_s_m = 0.25;
+  double quadratic_drag_n_s2_m2 = 0.06;
+  double angular_drag_n_m_s = 0.004;
+  double gear_height_m = 0.15;  ///< From the feet to the body origin; below the hull.
+  double gear_radius_m = 0.15;  ///< From the centre to a foot.
+  Battery::Config battery;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// Thrusts by motor: front left, front right, rear right, rear left; front left and rear right turn clockwise.
+using MotorThrusts = std::array<double, 4>;
+
+struct QuadrotorState {
+  common::Pose3 T_world_body;
+  Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_body_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d specific_force_body_m_s2 = Eigen::Vector3d::Zero();  ///< What an accelerometer feels.
+  MotorThrusts thrusts_n{};                                            ///< Now, after the lag.
+  bool standing = true;                                                ///< The feet carry the weight.
+};
+
+/// Advances by fixed steps; the caller finds the floor and judges contacts.
+class Quadrotor {
+ public:
+  Quadrotor(const common::VehicleConfig& vehicle, const QuadrotorConfig& config, const common::Pose3& T_world_body,
+            double battery_remaining);
+
+  const QuadrotorState& state() const { return state_; }
+  const Battery& battery() const { return battery_; }
+
+  /// One step. `throttles` in [0, 1] of the greatest thrust of one motor at full battery; what it gives falls with the
+  /// square of the voltage. `floor_world_m` is the height of the floor below the feet, -infinity for none.
+  void step(const std::array<double, 4>& throttles, const Eigen::Vector3d& wind_world_m_s, double floor_world_m,
+            double step_s);
+
+  /// A push at the centre of mass, spread over kPush_s.
+  void push(const Eigen::Vector3d& impulse_world_n_s);
+  static constexpr double kPush_s = 0.1;
+
+  /// How far the gear gives way under the standing vehicle.
+  static constexpr double kGearSag_m = 0.004;
+
+ private:
+  void spinMotors(const std::array<double, 4>& throttles, double step_s);
+  Eigen::Vector3d takePush(double step_s);
+  double gearForce_n(double floor_world_m) const;
+  void rub(double gear_n, double step_s);
+
+  common::VehicleConfig vehicle_;
+  QuadrotorConfig config_;
+  QuadrotorState state_;
+  Battery battery_;
+  Eigen::Vector3d push_world_n_s_ = Eigen::Vector3d::Zero();  ///< What is left of it.
+  double push_left_s_ = 0.0;
+};
+
+}  // namespace swiftlet::simulation

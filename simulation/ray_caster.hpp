@@ -1,0 +1,83 @@
+// Rays and hull against the world. Static triangles lie in an Embree scene pinned to one instruction set, so that the
+// same ray gives the same range on every machine; people are upright cylinders, tested exactly beside it.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <Eigen/Core>
+
+namespace swiftlet::simulation {
+
+struct WorldModel;
+
+/// A solid upright cylinder: a walking person.
+struct Actor {
+  Eigen::Vector2d position_world_m = Eigen::Vector2d::Zero();
+  double radius_m = 0.25;
+  double bottom_m = 0.0;
+  double top_m = 1.75;
+};
+
+struct Ray {
+  Eigen::Vector3f origin_world_m;
+  Eigen::Vector3f direction_world;  ///< Unit length.
+};
+
+struct Hit {
+  static constexpr int kNothing = -1;
+
+  double distance_m = std::numeric_limits<double>::infinity();
+  int shape = kNothing;  ///< Index into WorldModel::shapes; shapes.size() + k for actor k.
+  Eigen::Vector3f normal_world = Eigen::Vector3f::Zero();  ///< Unit, facing the origin of the ray.
+
+  explicit operator bool() const { return shape != kNothing; }
+};
+
+/// The vehicle's hull: a solid upright cylinder, given by its centre.
+struct Hull {
+  double radius_m = 0.275;
+  double half_height_m = 0.125;
+};
+
+/// What is nearest to the hull. The distance is horizontal, to whatever lies in the hull's height band.
+struct Clearance {
+  double distance_m = 0.0;  ///< 0: touching. The limit of the query when nothing is nearer.
+  int shape = Hit::kNothing;
+  Eigen::Vector3d point_world_m = Eigen::Vector3d::Zero();  ///< Nearest point; valid when shape is.
+};
+
+/// Const and without state: safe to use from several threads at once.
+class RayCaster {
+ public:
+  explicit RayCaster(const WorldModel& world);
+  ~RayCaster();
+  RayCaster(RayCaster&&) noexcept;
+  RayCaster& operator=(RayCaster&&) noexcept;
+
+  /// The nearest surface within max_m along a unit direction; surfaces count from both sides.
+  Hit cast(const Eigen::Vector3d& origin_world_m, const Eigen::Vector3d& direction_world, double max_m,
+           std::span<const Actor> actors = {}) const;
+
+  /// Distances only, infinity where nothing is within max_m; fastest for neighbouring rays in a row.
+  /// `distances_m` has the size of `rays`.
+  void castAll(std::span<const Ray> rays, double max_m, std::span<const Actor> actors,
+               std::span<float> distances_m) const;
+  /// The same with shape and normal.
+  void castAll(std::span<const Ray> rays, double max_m, std::span<const Actor> actors, std::span<Hit> hits) const;
+
+  /// The smallest horizontal distance between the static world and the hull while its centre moves along the segment
+  /// from one point to another, up to limit_m. The hull sweeps the union of its height bands, so that nothing thin
+  /// slips through between two steps.
+  Clearance sweep(const Hull& hull, const Eigen::Vector3d& from_world_m, const Eigen::Vector3d& to_world_m,
+                  double limit_m) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,55 @@
+// Finds the floor under the feet and judges contacts: landing on something is fine, touching anything else ends the
+// flight.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "common/time.hpp"
+#include "simulation/quadrotor.hpp"
+#include "simulation/ray_caster.hpp"
+#include "simulation/scenario.hpp"
+#include "simulation/truth.hpp"
+#include "simulation/walkers.hpp"
+#include "simulation/world_model.hpp"
+
+namespace swiftlet::simulation {
+
+class Referee {
+ public:
+  /// World and rays must outlive it.
+  Referee(const WorldModel& world, const RayCaster& rays, const Scenario& scenario);
+
+  /// Highest floor under the feet at the last look; -infinity when there is none.
+  double floor_world_m() const { return floor_world_m_; }
+
+  /// Looks for the floor under the feet. Call at 100 Hz or more.
+  void lookDown(const QuadrotorState& state);
+
+  /// After each physics step: whether a touch-down was a landing or a crash.
+  void judgeTouchDown(common::Time now, const QuadrotorState& before, const QuadrotorState& after, Truth& truth) const;
+
+  /// Sweeps the hull from where it was at the last call. Call at 100 Hz or more.
+  void judgeContacts(common::Time now, const QuadrotorState& state, std::span<const Walker> walkers, Truth& truth);
+
+ private:
+  void judgeWorld(common::Time now, const QuadrotorState& state, Truth& truth) const;
+  void judgeWalker(common::Time now, const QuadrotorState& state, const Actor& walker, const std::string& name,
+                   Truth& truth) const;
+
+  const WorldModel& world_;
+  const RayCaster& rays_;
+  Hull hull_;
+  double gear_height_m_;
+  double gear_radius_m_;
+  double lowest_world_m_;
+  double floor_world_m_;
+  double feet_apart_m_ = 0.0;  ///< In height, at the last look.
+  int floor_shape_ = Hit::kNothing;
+  Eigen::Vector3d last_position_world_m_;
+  bool first_ = true;
+};
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,142 @@
+// One scripted flight: where, from where, with what weather, people, pushes and faults; and what a seed may vary.
+// The trial file's `scenario` section is read into it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/vehicle_config.hpp"
+#include "simulation/autopilot.hpp"
+#include "simulation/quadrotor.hpp"
+#include "simulation/sensors/sensor_config.hpp"
+
+namespace swiftlet::simulation {
+
+struct StartConfig {
+  bool from_world = true;  ///< The world's `<frame name="start">`, or its origin where it has none.
+  double x_m = 0.0;        ///< In the world's frame.
+  double y_m = 0.0;
+  double z_m = 0.0;  ///< The floor is the first surface below half a metre above this.
+  double yaw_deg = 0.0;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct WindConfig {
+  double mean_x_m_s = 0.0;
+  double mean_y_m_s = 0.0;
+  double gust_m_s = 0.0;  ///< Standard deviation of each horizontal component.
+  double gust_time_s = 2.0;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// How far a seed may move things; all uniform in +- the value.
+struct Variation {
+  double start_position_m = 0.0;
+  double start_yaw_deg = 0.0;
+  std::vector<std::string> obstacles;  ///< Models that are shifted.
+  double obstacle_m = 0.3;
+  double wind_m_s = 0.0;           ///< Added to each component of the mean wind.
+  double battery_remaining = 0.0;  ///< The start charge is lowered by up to this.
+  /// Goals as x, y, x, y, ... in `map`: a draw is taken only if the vehicle can get to all of them.
+  std::vector<double> reachable_map_m;
+  double flight_height_m = 1.0;  ///< Of the body above the take-off floor, where that is judged.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+enum class WalkerMode {
+  kPath,       ///< Walks its points.
+  kCrossPath,  ///< Walks across the vehicle's way, some metres ahead, starting where the vehicle can see it.
+  kFollow,     ///< Walks after the vehicle in its trail.
+};
+enum class WalkerEnd { kStay, kLeave, kReturn, kLoop };
+
+/// A person. It never yields.
+struct WalkerConfig {
+  WalkerMode mode = WalkerMode::kPath;
+  std::vector<double> path_world_m;  ///< x, y, x, y, ... for kPath.
+  WalkerEnd at_end = WalkerEnd::kLoop;
+  double speed_m_s = 1.0;
+  double radius_m = 0.25;
+  double height_m = 1.75;
+  double start_s = 0.0;
+  double distance_m = 2.5;  ///< kCrossPath: how far ahead it crosses. kFollow: how near it comes, hull to person.
+  double repeat_s = 0.0;    ///< kCrossPath: crosses again after this long; 0: once.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct PushConfig {
+  double time_s = 0.0;
+  double x_n_s = 0.0;  ///< In the world's frame.
+  double y_n_s = 0.0;
+  double z_n_s = 0.0;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+enum class FaultKind {
+  kSilent,  ///< Nothing arrives.
+  kNan,     ///< Every number is NaN.
+  kRepeat,  ///< The last good measurement again and again, with new stamps.
+  kLate,    ///< Arrives `late_s` later.
+};
+
+struct FaultConfig {
+  Sensor sensor = Sensor::kLaser;
+  FaultKind kind = FaultKind::kSilent;
+  double from_s = 0.0;
+  double to_s = 0.0;
+  double late_s = 0.5;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// The sticks from `time_s` until the next entry.
+struct PilotConfig {
+  double time_s = 0.0;
+  double roll = 0.0;
+  double pitch = 0.0;
+  double yaw_rate = 0.0;
+  double thrust = 0.0;
+  bool takes_over = false;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct Scenario {
+  int seed = 1;
+  std::string world;                     ///< SDF file; the caller loads it.
+  std::vector<std::string> model_paths;  ///< Where its includes are.
+  StartConfig start;
+  double battery_remaining = 1.0;
+  WindConfig wind;
+  Variation variation;
+  std::vector<WalkerConfig> walkers;
+  std::vector<PushConfig> pushes;
+  std::vector<FaultConfig> faults;
+  std::vector<PilotConfig> pilot;  ///< Empty: there is no remote control, and no pilot samples.
+  QuadrotorConfig quadrotor;
+  AutopilotConfig autopilot;
+  SensorsConfig sensors;
+
+  /// The data sheets the autonomy knows too; they come from the system profile, not from the scenario's file.
+  common::VehicleConfig vehicle;
+  common::LaserConfig laser;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,40 @@
+// Measurements on their way to the computer: through their links and through what is broken.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/sensor_event.hpp"
+#include "simulation/scenario.hpp"
+#include "simulation/sensors/link.hpp"
+
+namespace swiftlet::simulation {
+
+class EventQueue {
+ public:
+  explicit EventQueue(const Scenario& scenario);
+
+  /// Number `frame` of a sensor is ready to be sent; its stamp `measured` is set.
+  void send(Sensor sensor, std::uint64_t frame, common::Time ready, common::SensorEvent event);
+
+  /// Appends what has arrived by `until`, by time of arrival, then in the order of Sensor, then by frame.
+  void take(common::Time until, std::vector<common::SensorEvent>& events);
+
+ private:
+  struct Entry {
+    common::Time arrived;
+    Sensor sensor;
+    std::uint64_t frame;
+    common::SensorEvent event;
+  };
+  const FaultConfig* activeFault(Sensor sensor, common::Time measured) const;
+
+  std::vector<FaultConfig> faults_;
+  std::vector<Link> links_;  ///< By Sensor.
+  std::array<std::optional<common::SensorEvent>, kSensorCount> last_good_;
+  std::vector<Entry> under_way_;
+};
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,92 @@
+#include "simulation/sensors/inertial_unit.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "common/random.hpp"
+
+namespace swiftlet::simulation {
+namespace {
+
+using common::RandomStream;
+using Eigen::Vector3d;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kGreatestFelt_m_s2 = 157.0;  // 16 g.
+
+Vector3d gaussians(RandomStream& random, double standard_deviation) {
+  const double x = random.gaussian(standard_deviation), y = random.gaussian(standard_deviation);
+  return {x, y, random.gaussian(standard_deviation)};
+}
+
+}  // namespace
+
+InertialUnit::InertialUnit(const ImuConfig& config, int seed) : config_(config), seed_(seed) {
+  RandomStream random(static_cast<std::uint64_t>(seed), "inertial unit");
+  gyro_bias_rad_s_ = gaussians(random, config.gyro_bias_rad_s);
+  accel_bias_m_s2_ = gaussians(random, config.accel_bias_m_s2);
+  slow_tilt_rad_ = gaussians(random, config.tilt_error_deg * kRadPerDeg).head<2>();
+  yaw_drift_rad_s_ = random.gaussian(config.yaw_drift_deg_s * kRadPerDeg);
+  yaw_rad_ = random.uniform(-std::numbers::pi, std::numbers::pi);
+}
+
+void InertialUnit::feel(const QuadrotorState& state) {
+  felt_sum_m_s2_ += state.specific_force_body_m_s2;
+  rate_sum_rad_s_ += state.angular_velocity_body_rad_s;
+  ++felt_count_;
+}
+
+Eigen::Quaterniond InertialUnit::withErrors(const QuadrotorState& state, const Vector3d& noise_rad) const {
+  common::RollPitchYaw angles = common::rollPitchYaw(state.T_world_body.rotation);
+  angles.roll_rad += slow_tilt_rad_.x() + lean_rad_.x() + noise_rad.x();
+  angles.pitch_rad += slow_tilt_rad_.y() + lean_rad_.y() + noise_rad.y();
+  angles.yaw_rad += yaw_rad_ + noise_rad.z();
+  return common::quaternionFrom(angles);
+}
+
+AttitudeMeasurement InertialUnit::attitude(std::uint64_t tick, const QuadrotorState& state, double step_s) {
+  RandomStream random(static_cast<std::uint64_t>(seed_), "ahrs", tick);
+  const double root_step = std::sqrt(step_s);
+
+  // Gauss-Markov: correlated over tilt_error_time_s, of constant variance.
+  const double keep = std::exp(-step_s / config_.tilt_error_time_s);
+  const double drive_rad = config_.tilt_error_deg * kRadPerDeg * std::sqrt(1.0 - keep * keep);
+  const Vector3d tilt_drive = gaussians(random, drive_rad);
+  slow_tilt_rad_ = keep * slow_tilt_rad_ + tilt_drive.head<2>();
+  gyro_bias_rad_s_ += gaussians(random, config_.gyro_bias_walk_rad_s * root_step);
+  accel_bias_m_s2_ += gaussians(random, config_.accel_bias_walk_m_s2 * root_step);
+  yaw_rad_ += step_s * yaw_drift_rad_s_ + random.gaussian(config_.yaw_walk_deg * kRadPerDeg * root_step);
+
+  // While accelerating forwards (nose down) the accelerometers feel less tilt than there is.
+  const Vector3d acceleration_world = (state.velocity_world_m_s - last_velocity_world_m_s_) / step_s;
+  last_velocity_world_m_s_ = state.velocity_world_m_s;
+  const double yaw = common::yawOf(state.T_world_body.rotation);
+  const Eigen::Vector2d level = Eigen::Rotation2Dd(-yaw) * acceleration_world.head<2>();
+  const Eigen::Vector2d target = config_.tilt_per_accel_deg * kRadPerDeg * Eigen::Vector2d(level.y(), -level.x());
+  lean_rad_ += step_s / config_.tilt_accel_time_s * (target - lean_rad_);
+
+  AttitudeMeasurement measured;
+  measured.rotation_ahrs_body = withErrors(state, gaussians(random, config_.tilt_noise_deg * kRadPerDeg));
+  measured.angular_velocity_body_rad_s =
+      state.angular_velocity_body_rad_s + gyro_bias_rad_s_ + gaussians(random, config_.gyro_noise_rad_s);
+  return measured;
+}
+
+common::ImuSample InertialUnit::sample(std::uint64_t frame, const QuadrotorState& state) {
+  RandomStream random(static_cast<std::uint64_t>(seed_), "imu", frame);
+  const double share = felt_count_ > 0 ? 1.0 / felt_count_ : 0.0;
+  common::ImuSample sample;
+  sample.angular_velocity_body_rad_s =
+      share * rate_sum_rad_s_ + gyro_bias_rad_s_ + gaussians(random, config_.gyro_noise_rad_s);
+  sample.specific_force_body_m_s2 =
+      (share * felt_sum_m_s2_ + accel_bias_m_s2_ + gaussians(random, config_.accel_noise_m_s2))
+          .cwiseMax(-kGreatestFelt_m_s2)
+          .cwiseMin(kGreatestFelt_m_s2);
+  sample.rotation_ahrs_body = withErrors(state, gaussians(random, config_.tilt_noise_deg * kRadPerDeg));
+  felt_sum_m_s2_.setZero();
+  rate_sum_rad_s_.setZero();
+  felt_count_ = 0;
+  return sample;
+}
+
+}  // namespace swiftlet::simulation

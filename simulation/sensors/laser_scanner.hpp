@@ -1,0 +1,53 @@
+// The laser: beams swept in time along the vehicle's path, bent down by the mirror where there is one, with range
+// noise, millimetres, dropouts and a shortest and longest range.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "common/geometry.hpp"
+#include "common/sensor_event.hpp"
+#include "common/vehicle_config.hpp"
+#include "simulation/ray_caster.hpp"
+
+namespace swiftlet::simulation {
+
+/// Where the vehicle and the walkers were at one instant.
+struct Moment {
+  common::Time time;
+  common::Pose3 T_world_body;
+  std::vector<Actor> actors;
+};
+
+class LaserScanner {
+ public:
+  LaserScanner(const common::LaserConfig& config, int seed);
+
+  common::Duration sweep() const { return time_increment_ * (config_.beams - 1); }
+
+  /// Scan number `frame`, started at `start`. `track` is ordered in time and covers the whole sweep. Of the stamps,
+  /// `measured` is set. A beam without a return, or nearer than range_min_m, reads 0 (the device's error code); one
+  /// that meets nothing within range_max_m reads infinity.
+  common::LaserScan scan(std::uint64_t frame, common::Time start, const std::vector<Moment>& track,
+                         const RayCaster& rays);
+
+ private:
+  struct Beam {
+    Eigen::Vector3d origin_body_m;
+    Eigen::Vector3d direction_body;
+  };
+  void sweepRays(common::Time start, const std::vector<Moment>& track, const RayCaster& rays);
+  void addNoise(std::uint64_t frame, std::vector<float>& ranges_m) const;
+
+  common::LaserConfig config_;
+  int seed_;
+  common::Duration time_increment_;
+  std::vector<Beam> beams_;
+  std::vector<Ray> rays_;  // Kept between scans to spare the allocation.
+  std::vector<float> distances_m_;
+};
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,29 @@
+// The way of measurements to the computer: latency, jitter, loss; first in, first out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/time.hpp"
+#include "simulation/sensors/sensor_config.hpp"
+
+namespace swiftlet::simulation {
+
+class Link {
+ public:
+  /// `name` names the random stream.
+  Link(const LinkConfig& config, int seed, std::string name);
+
+  /// When number `frame`, ready at `ready`, arrives; none when it is lost. Call in the order of frames; leaving some
+  /// out changes nothing for the others.
+  std::optional<common::Time> arrival(std::uint64_t frame, common::Time ready);
+
+ private:
+  LinkConfig config_;
+  int seed_;
+  std::string name_;
+  common::Time last_;
+};
+
+}  // namespace swiftlet::simulation

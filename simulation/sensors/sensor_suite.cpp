@@ -1,0 +1,102 @@
+#include "simulation/sensors/sensor_suite.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "common/random.hpp"
+
+namespace swiftlet::simulation {
+
+using common::Time;
+
+SensorSuite::SensorSuite(const Scenario& scenario, const WorldModel& world)
+    : scenario_(scenario),
+      inertial_(scenario.sensors.imu, scenario.seed),
+      laser_(scenario.laser, scenario.seed),
+      camera_(scenario.sensors.camera, world, scenario.seed),
+      queue_(scenario),
+      imu_clock_(scenario.sensors.imu.rate_hz),
+      laser_clock_(scenario.laser.rate_hz),
+      battery_clock_(scenario.sensors.battery_rate_hz),
+      pilot_clock_(scenario.sensors.pilot_rate_hz),
+      camera_clock_(scenario.sensors.camera.rate_hz) {
+  imu_clock_.frame = 1;  // The first sample is the mean of the first period.
+}
+
+AttitudeMeasurement SensorSuite::attitude(std::uint64_t tick, const QuadrotorState& state, const Battery& battery,
+                                          double step_s) {
+  AttitudeMeasurement measured = inertial_.attitude(tick, state, step_s);
+  measured.battery_voltage_v = battery.voltage_v();
+  return measured;
+}
+
+void SensorSuite::begin(const QuadrotorState& state, const std::vector<Actor>& actors) {
+  track_.assign(1, {Time(), state.T_world_body, actors});
+}
+
+void SensorSuite::step(Time now, const QuadrotorState& state, const Battery& battery, const std::vector<Actor>& actors,
+                       const RayCaster& rays) {
+  inertial_.feel(state);
+  if (imu_clock_.due(now)) {
+    common::ImuSample sample = inertial_.sample(imu_clock_.frame, state);
+    sample.stamps.measured = now;
+    queue_.send(Sensor::kImu, imu_clock_.frame++, now, sample);
+  }
+  stepLaser(now, state, actors, rays);
+  stepSlow(now, battery);
+  stepCamera(now, state, actors, rays);
+}
+
+void SensorSuite::stepLaser(Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
+                            const RayCaster& rays) {
+  track_.push_back({now, state.T_world_body, actors});
+  const Time start = laser_clock_.next(), end = start + laser_.sweep();
+  if (now < end) return;
+  auto scan = std::make_shared<common::LaserScan>(laser_.scan(laser_clock_.frame, start, track_, rays));
+  // The sweep ended between two steps; nothing arrives before it was computed.
+  queue_.send(Sensor::kLaser, laser_clock_.frame++, now, std::shared_ptr<const common::LaserScan>(std::move(scan)));
+  const Time next = laser_clock_.next();
+  const auto first_needed =
+      std::find_if(track_.begin(), track_.end() - 1, [next](const Moment& moment) { return moment.time > next; });
+  track_.erase(track_.begin(), first_needed == track_.begin() ? first_needed : first_needed - 1);
+}
+
+void SensorSuite::stepCamera(Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
+                             const RayCaster& rays) {
+  if (!camera_clock_.due(now)) return;
+  const std::uint64_t number = camera_clock_.frame++;
+  if (!camera_wanted_) return;
+  auto frame = std::make_shared<common::CameraFrame>();
+  frame->stamps.measured = now;
+  frame->image = camera_.render(number, state.T_world_body, actors, rays);
+  queue_.send(Sensor::kCamera, number, now, std::shared_ptr<const common::CameraFrame>(std::move(frame)));
+}
+
+void SensorSuite::stepSlow(Time now, const Battery& battery) {
+  if (battery_clock_.due(now)) {
+    common::RandomStream random(static_cast<std::uint64_t>(scenario_.seed), "battery", battery_clock_.frame);
+    common::BatterySample sample;
+    sample.stamps.measured = now;
+    sample.voltage_v = battery.voltage_v() + random.gaussian(scenario_.sensors.battery_noise_v);
+    sample.remaining = battery.remaining();
+    queue_.send(Sensor::kBattery, battery_clock_.frame++, now, sample);
+  }
+  const PilotConfig* stick = sticks(now);
+  if (pilot_clock_.due(now)) {
+    const std::uint64_t number = pilot_clock_.frame++;
+    if (stick == nullptr) return;
+    queue_.send(
+        Sensor::kPilot, number, now,
+        common::PilotSample{{now, now}, stick->roll, stick->pitch, stick->yaw_rate, stick->thrust, stick->takes_over});
+  }
+}
+
+const PilotConfig* SensorSuite::sticks(Time now) const {
+  const PilotConfig* present = nullptr;
+  for (const PilotConfig& entry : scenario_.pilot)
+    if (entry.time_s <= now.seconds()) present = &entry;
+  return present;
+}
+
+}  // namespace swiftlet::simulation

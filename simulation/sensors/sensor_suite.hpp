@@ -1,0 +1,65 @@
+// All sensors of the vehicle on their clocks. What nobody consumes is not rendered; that changes no other byte.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/sensor_event.hpp"
+#include "simulation/quadrotor.hpp"
+#include "simulation/ray_caster.hpp"
+#include "simulation/scenario.hpp"
+#include "simulation/sensors/camera.hpp"
+#include "simulation/sensors/event_queue.hpp"
+#include "simulation/sensors/inertial_unit.hpp"
+#include "simulation/sensors/laser_scanner.hpp"
+#include "simulation/world_model.hpp"
+
+namespace swiftlet::simulation {
+
+class SensorSuite {
+ public:
+  SensorSuite(const Scenario& scenario, const WorldModel& world);
+
+  /// What the autopilot measures at its tick number `tick`.
+  AttitudeMeasurement attitude(std::uint64_t tick, const QuadrotorState& state, const Battery& battery, double step_s);
+
+  /// The state at time 0, before the first step.
+  void begin(const QuadrotorState& state, const std::vector<Actor>& actors);
+
+  /// After each physics step: measures what is due.
+  void step(common::Time now, const QuadrotorState& state, const Battery& battery, const std::vector<Actor>& actors,
+            const RayCaster& rays);
+
+  void take(common::Time until, std::vector<common::SensorEvent>& events) { queue_.take(until, events); }
+  void setCameraConsumer(bool wanted) { camera_wanted_ = wanted; }
+
+  /// The pilot's sticks now; null without a remote control.
+  const PilotConfig* sticks(common::Time now) const;
+
+ private:
+  /// Counts the periods of a sensor; true once at or after each.
+  struct Clock {
+    explicit Clock(double rate_hz) : period(common::Duration::fromSeconds(1.0 / rate_hz)) {}
+    common::Duration period;
+    std::uint64_t frame = 0;
+    common::Time next() const { return common::Time() + period * static_cast<std::int64_t>(frame); }
+    bool due(common::Time now) const { return now >= next(); }
+  };
+
+  void stepLaser(common::Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
+                 const RayCaster& rays);
+  void stepCamera(common::Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
+                  const RayCaster& rays);
+  void stepSlow(common::Time now, const Battery& battery);
+
+  Scenario scenario_;
+  InertialUnit inertial_;
+  LaserScanner laser_;
+  Camera camera_;
+  EventQueue queue_;
+  Clock imu_clock_, laser_clock_, battery_clock_, pilot_clock_, camera_clock_;
+  std::vector<Moment> track_;  ///< Since the start of the present sweep.
+  bool camera_wanted_ = false;
+};
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,130 @@
+#include "simulation/truth_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace swiftlet::simulation {
+namespace {
+
+using common::CellIndex;
+using Grid = common::TiledGrid<std::uint8_t>;
+
+constexpr double kViewSpacing_m = 0.4;
+constexpr int kViewRays = 720;
+
+Hull bandHull(const FreeSpaceQuery& query) { return {query.hull_radius_m, 0.5 * (query.top_m - query.bottom_m)}; }
+double bandMiddle_m(const FreeSpaceQuery& query) { return 0.5 * (query.bottom_m + query.top_m); }
+
+bool fits(const RayCaster& rays, const FreeSpaceQuery& query, const Eigen::Vector2d& point) {
+  const Eigen::Vector3d centre(point.x(), point.y(), bandMiddle_m(query));
+  return rays.sweep(bandHull(query), centre, centre, 1e-6).shape == Hit::kNothing;
+}
+
+/// Neighbours are joined only if the hull passes from one to the other, so that a flood leaks through nothing thin.
+bool passes(const RayCaster& rays, const FreeSpaceQuery& query, const Eigen::Vector2d& from,
+            const Eigen::Vector2d& to) {
+  const double height_m = bandMiddle_m(query);
+  return rays.sweep(bandHull(query), {from.x(), from.y(), height_m}, {to.x(), to.y(), height_m}, 1e-6).shape ==
+         Hit::kNothing;
+}
+
+std::size_t count(const Grid& grid) {
+  std::size_t cells = 0;
+  grid.forEachCell([&cells](CellIndex, std::uint8_t cell) { cells += cell; });
+  return cells;
+}
+
+Grid dilated(const Grid& grid, double radius_m) {
+  const double resolution_m = grid.resolution_m();
+  const int reach = static_cast<int>(std::ceil(radius_m / resolution_m));
+  Grid covered(resolution_m);
+  grid.forEachCell([&](CellIndex c, std::uint8_t cell) {
+    if (cell == 0) return;
+    for (int dy = -reach; dy <= reach; ++dy)
+      for (int dx = -reach; dx <= reach; ++dx)
+        if (std::hypot(dx, dy) * resolution_m <= radius_m) covered.set({c.x + dx, c.y + dy}, 1);
+  });
+  return covered;
+}
+
+/// Marks every cell a ray passes before it meets something.
+void markRay(Grid& seen, const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double length_m) {
+  const double step_m = seen.resolution_m();
+  for (double along_m = 0.0; along_m < length_m; along_m += step_m) {
+    const Eigen::Vector2d point = from + along_m * direction;
+    const CellIndex cell = seen.cellAt(point);
+    if (seen.at(cell) == 0) seen.set(cell, 1);
+  }
+}
+
+Grid seenFrom(const RayCaster& rays, const FreeSpaceQuery& query, const Grid& reachable) {
+  Grid seen(query.resolution_m);
+  const int stride = std::max(1, static_cast<int>(std::lround(kViewSpacing_m / query.resolution_m)));
+  const auto height_m = static_cast<float>(bandMiddle_m(query));
+  std::vector<Ray> fan(kViewRays);
+  std::vector<float> distances_m(kViewRays);
+  reachable.forEachCell([&](CellIndex c, std::uint8_t cell) {
+    if (cell == 0 || c.x % stride != 0 || c.y % stride != 0) return;
+    const Eigen::Vector2d from = reachable.centerOf(c);
+    for (int i = 0; i < kViewRays; ++i) {
+      const double angle_rad = 2.0 * std::numbers::pi * i / kViewRays;
+      fan[static_cast<std::size_t>(i)] = {
+          {static_cast<float>(from.x()), static_cast<float>(from.y()), height_m},
+          {static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad)), 0.0F}};
+    }
+    rays.castAll(fan, query.range_max_m, {}, distances_m);
+    for (std::size_t i = 0; i < fan.size(); ++i)
+      markRay(seen, from, fan[i].direction_world.head<2>().cast<double>(),
+              std::min<double>(distances_m[i], query.range_max_m));
+  });
+  return seen;
+}
+
+}  // namespace
+
+common::TiledGrid<std::uint8_t> reachableSpace(const RayCaster& rays, const FreeSpaceQuery& query) {
+  Grid reachable(query.resolution_m);
+  const CellIndex start = reachable.cellAt(query.start_world_m);
+  if (!fits(rays, query, query.start_world_m)) return reachable;
+  reachable.set(start, 1);
+  std::deque<CellIndex> open{start};
+  const double cell_m2 = query.resolution_m * query.resolution_m;
+  double area_m2 = cell_m2;
+  while (!open.empty() && area_m2 < query.max_area_m2) {
+    const CellIndex from = open.front();
+    open.pop_front();
+    const Eigen::Vector2d at = from == start ? query.start_world_m : reachable.centerOf(from);
+    for (const CellIndex next : std::array<CellIndex, 4>{
+             {{from.x + 1, from.y}, {from.x - 1, from.y}, {from.x, from.y + 1}, {from.x, from.y - 1}}}) {
+      if (reachable.at(next) != 0 || !passes(rays, query, at, reachable.centerOf(next))) continue;
+      reachable.set(next, 1);
+      area_m2 += cell_m2;
+      open.push_back(next);
+    }
+  }
+  return reachable;
+}
+
+FreeSpace freeSpace(const RayCaster& rays, const FreeSpaceQuery& query) {
+  FreeSpace space{reachableSpace(rays, query), Grid(query.resolution_m), Grid(query.resolution_m)};
+  space.covered = dilated(space.reachable, query.hull_radius_m);
+  space.visible = seenFrom(rays, query, space.reachable);
+  const double cell_m2 = query.resolution_m * query.resolution_m;
+  space.reachable_area_m2 = cell_m2 * static_cast<double>(count(space.reachable));
+  space.covered_area_m2 = cell_m2 * static_cast<double>(count(space.covered));
+  space.visible_area_m2 = cell_m2 * static_cast<double>(count(space.visible));
+  return space;
+}
+
+double distanceToSurface2d(const RayCaster& rays, const Eigen::Vector2d& point_world_m, double height_world_m,
+                           double limit_m) {
+  const Eigen::Vector3d point(point_world_m.x(), point_world_m.y(), height_world_m);
+  return rays.sweep({0.0, 1e-3}, point, point, limit_m).distance_m;
+}
+
+}  // namespace swiftlet::simulation

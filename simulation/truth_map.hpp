@@ -1,0 +1,45 @@
+// The free space a vehicle can reach and see, computed from the true world: what coverage and map accuracy are measured
+// against. For evaluation only.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "common/tiled_grid.hpp"
+#include "simulation/ray_caster.hpp"
+
+namespace swiftlet::simulation {
+
+struct FreeSpaceQuery {
+  Eigen::Vector2d start_world_m = Eigen::Vector2d::Zero();
+  double hull_radius_m = 0.275;
+  double bottom_m = 0.85;  ///< Height band of the hull in flight, in the world's frame.
+  double top_m = 1.15;
+  double resolution_m = 0.05;
+  double range_max_m = 30.0;      ///< How far the laser sees.
+  double max_area_m2 = 10'000.0;  ///< Where the flood stops when the world has no walls.
+};
+
+/// Grids in the world's frame; 1: yes, 0: no.
+struct FreeSpace {
+  common::TiledGrid<std::uint8_t> reachable;  ///< The centre of the hull can get there from the start.
+  /// What the hull can cover: every cell within the hull's radius of a reachable one.
+  common::TiledGrid<std::uint8_t> covered;
+  common::TiledGrid<std::uint8_t> visible;  ///< Seen at mid height from somewhere reachable.
+  double reachable_area_m2 = 0.0;
+  double covered_area_m2 = 0.0;
+  double visible_area_m2 = 0.0;
+};
+
+/// Where the centre of the hull can get to from the start, by a flood over cells: all of it nothing when the start does
+/// not fit.
+common::TiledGrid<std::uint8_t> reachableSpace(const RayCaster& rays, const FreeSpaceQuery& query);
+
+FreeSpace freeSpace(const RayCaster& rays, const FreeSpaceQuery& query);
+
+/// Horizontal distance from a point to the nearest surface that crosses this height, up to limit_m.
+double distanceToSurface2d(const RayCaster& rays, const Eigen::Vector2d& point_world_m, double height_world_m,
+                           double limit_m);
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,151 @@
+#include "simulation/variation.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/random.hpp"
+#include "simulation/ray_caster.hpp"
+#include "simulation/truth_map.hpp"
+
+namespace swiftlet::simulation {
+namespace {
+
+using common::InputError;
+using common::Problem;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kSearchFloorFrom_m = 0.5;  // Above the start.
+constexpr double kSearchFloorDown_m = 20.0;
+constexpr double kUnevenFloor_m = 0.03;
+
+StartConfig nominalStart(const WorldModel& world, const Scenario& scenario) {
+  StartConfig start = scenario.start;
+  if (start.from_world) {
+    const common::Pose3 T_world_start = world.T_world_start.value_or(common::Pose3{});
+    const Eigen::Vector3d& position = T_world_start.position_m;
+    start = {false, position.x(), position.y(), position.z(), common::yawOf(T_world_start.rotation) / kRadPerDeg};
+  }
+  return start;
+}
+
+/// One draw of everything the seed varies.
+Realization drawOnce(const WorldModel& world, const Scenario& scenario, int draw) {
+  const Variation& variation = scenario.variation;
+  common::RandomStream random(static_cast<std::uint64_t>(scenario.seed), "variation", static_cast<std::uint64_t>(draw));
+  const auto within = [&random](double most) { return random.uniform(-most, most); };
+  Realization drawn{world, scenario, {}, draw};
+  StartConfig& start = drawn.scenario.start = nominalStart(world, scenario);
+  start.x_m += within(variation.start_position_m);
+  start.y_m += within(variation.start_position_m);
+  start.yaw_deg += within(variation.start_yaw_deg);
+  drawn.scenario.wind.mean_x_m_s += within(variation.wind_m_s);
+  drawn.scenario.wind.mean_y_m_s += within(variation.wind_m_s);
+  drawn.scenario.battery_remaining =
+      std::max(0.01, scenario.battery_remaining - variation.battery_remaining * random.uniform());
+  for (const std::string& obstacle : variation.obstacles) {
+    const double x_m = within(variation.obstacle_m);
+    drawn.world.moveModel(obstacle, {x_m, within(variation.obstacle_m)});
+  }
+  return drawn;
+}
+
+Problem startProblem(const Realization& drawn, const std::string& message, const std::string& hint) {
+  const StartConfig& start = drawn.scenario.start;
+  return {drawn.world.start_source, "start",
+          fmt::format("at ({:.2f}, {:.2f}, {:.2f}) {}", start.x_m, start.y_m, start.z_m, message), hint};
+}
+
+/// Puts the start on its floor; says what is in the way, if something is.
+std::optional<Problem> placeStart(Realization& drawn, const RayCaster& rays) {
+  const Scenario& scenario = drawn.scenario;
+  const StartConfig& start = scenario.start;
+  double lowest_m = INFINITY, highest_m = -INFINITY;
+  for (int foot = 0; foot < 5; ++foot) {
+    const double angle_rad = start.yaw_deg * kRadPerDeg + (0.25 + 0.5 * foot) * std::numbers::pi;
+    const double reach_m = foot < 4 ? scenario.quadrotor.gear_radius_m : 0.0;
+    const Eigen::Vector3d from(start.x_m + reach_m * std::cos(angle_rad), start.y_m + reach_m * std::sin(angle_rad),
+                               start.z_m + kSearchFloorFrom_m);
+    const Hit hit = rays.cast(from, -Eigen::Vector3d::UnitZ(), kSearchFloorDown_m);
+    if (!hit) return startProblem(drawn, "has no floor under it", "give the scenario a start over a floor");
+    lowest_m = std::min(lowest_m, from.z() - hit.distance_m);
+    highest_m = std::max(highest_m, from.z() - hit.distance_m);
+  }
+  if (highest_m - lowest_m > kUnevenFloor_m)
+    return startProblem(drawn,
+                        fmt::format("stands on an edge: its feet are {:.2f} m apart in height", highest_m - lowest_m),
+                        "move the start");
+  drawn.T_world_map = common::lifted({start.x_m, start.y_m, start.yaw_deg * kRadPerDeg}, highest_m);
+
+  const common::VehicleConfig& vehicle = scenario.vehicle;
+  const Eigen::Vector3d body(start.x_m, start.y_m,
+                             highest_m + scenario.quadrotor.gear_height_m - Quadrotor::kGearSag_m);
+  const Hull hull{vehicle.hullRadius_m(), 0.5 * vehicle.hull_height_m};
+  const Clearance clearance = rays.sweep(hull, body, body, 0.01);
+  if (clearance.shape == Hit::kNothing) return std::nullopt;
+  const Shape& shape = drawn.world.shapes[static_cast<std::size_t>(clearance.shape)];
+  return startProblem(drawn,
+                      fmt::format("is inside or touches `{}`{}", nameOf(shape),
+                                  shape.source.file.empty() ? "" : " (" + toString(shape.source) + ")"),
+                      "move the start");
+}
+
+std::optional<Problem> unreachableGoal(const Realization& drawn, const RayCaster& rays) {
+  const std::vector<double>& goals = drawn.scenario.variation.reachable_map_m;
+  if (goals.empty()) return std::nullopt;
+  const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
+  FreeSpaceQuery query;
+  query.start_world_m = drawn.T_world_map.position_m.head<2>();
+  query.hull_radius_m = vehicle.hullRadius_m() + 0.1;
+  const double middle_m = drawn.T_world_map.position_m.z() + drawn.scenario.variation.flight_height_m;
+  query.bottom_m = middle_m - 0.5 * vehicle.hull_height_m;
+  query.top_m = middle_m + 0.5 * vehicle.hull_height_m;
+  query.resolution_m = 0.1;
+  const auto reachable = reachableSpace(rays, query);
+  for (std::size_t i = 0; i + 1 < goals.size(); i += 2) {
+    const Eigen::Vector3d goal_world = drawn.T_world_map * Eigen::Vector3d(goals[i], goals[i + 1], 0.0);
+    if (reachable.at(reachable.cellAt(goal_world.head<2>())) == 0)
+      return Problem{drawn.world.start_source, "reachable_map_m",
+                     fmt::format("the goal ({:.2f}, {:.2f}) cannot be reached from the start", goals[i], goals[i + 1]),
+                     "move the goal or the start"};
+  }
+  return std::nullopt;
+}
+
+bool varies(const Variation& v) {
+  return v.start_position_m > 0.0 || v.start_yaw_deg > 0.0 || (!v.obstacles.empty() && v.obstacle_m > 0.0);
+}
+
+}  // namespace
+
+Realization realize(const WorldModel& world, const Scenario& scenario) {
+  const std::vector<std::string> models = world.modelNames();
+  for (const std::string& obstacle : scenario.variation.obstacles)
+    if (!world.hasModel(obstacle))
+      throw InputError(Problem{{world.file},
+                               "variation.obstacles",
+                               fmt::format("there is no model `{}`", obstacle),
+                               common::didYouMean(obstacle, models)});
+  const int draws = varies(scenario.variation) ? kMostDraws : 1;
+  std::optional<Problem> blocked, unreachable;
+  for (int draw = 0; draw < draws; ++draw) {
+    Realization drawn = drawOnce(world, scenario, draw);
+    const RayCaster rays(drawn.world);
+    if (const auto problem = placeStart(drawn, rays)) {
+      if (!blocked) blocked = problem;
+      continue;
+    }
+    const auto problem = unreachableGoal(drawn, rays);
+    if (!problem) return drawn;
+    if (!unreachable) unreachable = problem;
+  }
+  // A start that was free but led nowhere says more than one that was not.
+  Problem problem = unreachable ? *unreachable : *blocked;
+  if (draws > 1) problem.message += fmt::format("; none of the {} draws of the seed's variation will do", draws);
+  throw InputError(problem);
+}
+
+}  // namespace swiftlet::simulation

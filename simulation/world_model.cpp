@@ -1,0 +1,40 @@
+#include "simulation/world_model.hpp"
+
+#include <algorithm>
+
+namespace swiftlet::simulation {
+
+std::string nameOf(const Shape& shape) { return shape.part.empty() ? shape.model : shape.model + "/" + shape.part; }
+
+std::vector<std::string> WorldModel::modelNames() const {
+  std::vector<std::string> names;
+  for (const Shape& shape : shapes)
+    if (std::find(names.begin(), names.end(), shape.model) == names.end()) names.push_back(shape.model);
+  return names;
+}
+
+bool WorldModel::hasModel(const std::string& model) const {
+  return std::any_of(shapes.begin(), shapes.end(), [&](const Shape& shape) { return shape.model == model; });
+}
+
+void WorldModel::moveModel(const std::string& model, const Eigen::Vector2d& shift_world_m) {
+  const Eigen::Vector3f shift(static_cast<float>(shift_world_m.x()), static_cast<float>(shift_world_m.y()), 0.0F);
+  for (Shape& shape : shapes)
+    if (shape.model == model)
+      for (Eigen::Vector3f& vertex : shape.vertices_world_m) vertex += shift;
+}
+
+std::size_t WorldModel::triangleCount() const {
+  std::size_t count = 0;
+  for (const Shape& shape : shapes) count += shape.triangles.size();
+  return count;
+}
+
+Eigen::AlignedBox3f WorldModel::bounds_world_m() const {
+  Eigen::AlignedBox3f bounds;
+  for (const Shape& shape : shapes)
+    for (const Eigen::Vector3f& vertex : shape.vertices_world_m) bounds.extend(vertex);
+  return bounds;
+}
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,65 @@
+// The world the simulator flies in: triangles with a colour and the name of the model they belong to, in the world's
+// own frame (ENU, metres). Loaded once, then immutable data that any thread may read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "common/error.hpp"
+#include "common/geometry.hpp"
+
+namespace swiftlet::simulation {
+
+/// Linear red, green, blue in [0, 1].
+using Color = Eigen::Vector3f;
+
+/// One rigid piece of a model: a triangle soup.
+struct Shape {
+  std::string model;  ///< Name of the top-level model it belongs to.
+  std::string part;   ///< Nested models and link inside it, "kitchen/shelf"; for messages.
+  common::SourceLocation source;
+  Color color = Color::Constant(0.7F);
+  std::vector<Eigen::Vector3f> vertices_world_m;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into the vertices; either winding.
+};
+
+/// "model/part".
+std::string nameOf(const Shape& shape);
+
+struct WorldModel {
+  std::string file;
+  std::string name;
+  std::vector<Shape> shapes;
+  /// The pose of `<frame name="start">`, if the world has one.
+  std::optional<common::Pose3> T_world_start;
+  /// Where that frame stands in the file, or the world itself when it has none.
+  common::SourceLocation start_source;
+  /// What was skipped or replaced, each as "file:line: ...".
+  std::vector<std::string> warnings;
+
+  /// Names of the top-level models, in the order of the file.
+  std::vector<std::string> modelNames() const;
+  bool hasModel(const std::string& model) const;
+  /// Shifts every shape of a model horizontally.
+  void moveModel(const std::string& model, const Eigen::Vector2d& shift_world_m);
+  std::size_t triangleCount() const;
+  /// Smallest box around all shapes.
+  Eigen::AlignedBox3f bounds_world_m() const;
+};
+
+/// Reads an SDF world, or a bare `<model>` file as a world of that one model. Boxes, cylinders, spheres, capsules,
+/// ellipsoids, planes and meshes are triangulated; collision geometry counts, the visual one where a link has none.
+/// `model://` and `file://` URIs are looked for in `model_paths`, in the folders of SDF_PATH, and around the file
+/// itself (its folder, and the folders `models` and `media` beside and above it). An include that cannot be found and
+/// brings no geometry that matters (Sun) is a warning; the well-known ground plane is replaced by one at z = 0. Throws
+/// common::InputError (file:line) when the file cannot be read, is malformed, or refers to something missing. Not
+/// thread-safe: libsdformat has global state.
+WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths = {});
+
+}  // namespace swiftlet::simulation

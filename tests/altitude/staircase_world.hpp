@@ -1,0 +1,100 @@
+// Boxes on a floor, seen from above by mirror beams: what the multilevel filter is tested on.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "common/random.hpp"
+#include "perception/altitude/multilevel_filter.hpp"
+
+namespace swiftlet::perception {
+
+struct Box {
+  double x0, x1, y0, y1, height_m;
+};
+
+struct Overflight {
+  std::vector<Box> boxes;
+  MultilevelFilter filter{MultilevelFilter::Config{}};
+  common::RandomStream random{1, "altitude"};
+
+  double scan_hz = 40.0;
+  int beams = 10;
+  double spread_rad = 0.035;
+  double beam_sigma_m = 0.01;
+  double acceleration_sigma_m_s2 = 0.1;
+  double acceleration_bias_m_s2 = 0.0;
+  double outlier_rate = 0.0, dropout_rate = 0.0;
+  double height_offset_m = 0.0;  ///< Of all beams: a wrong mirror mount.
+
+  common::Time now;
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
+  double z_m = 0.15, vz_m_s = 0.0;
+  double worst_error_m = 0.0, squares_m2 = 0.0;
+  int scans = 0, added = 0, joined = 0, without_measurement = 0;
+  AltitudeUpdate last;
+
+  double surface(const Eigen::Vector2d& at) const {
+    double height_m = 0.0;
+    for (const Box& box : boxes)
+      if (at.x() >= box.x0 && at.x() < box.x1 && at.y() >= box.y0 && at.y() < box.y1)
+        height_m = std::max(height_m, box.height_m);
+    return height_m;
+  }
+
+  void start() { filter.initialize(now, position_m, z_m); }
+
+  /// One scan after 1 / scan_hz of constant acceleration.
+  void scan(double acceleration_m_s2) {
+    const int steps = static_cast<int>(std::lround(200.0 / scan_hz));
+    for (int i = 0; i < steps; ++i) {
+      now += common::Duration::fromMilliseconds(5);
+      z_m += vz_m_s * 0.005 + 0.5 * acceleration_m_s2 * 0.005 * 0.005;
+      vz_m_s += acceleration_m_s2 * 0.005;
+      filter.addAcceleration(now,
+                             acceleration_m_s2 + acceleration_bias_m_s2 + random.gaussian(acceleration_sigma_m_s2));
+    }
+    std::vector<GroundPoint> points;
+    for (int i = 0; i < beams; ++i) {
+      const double angle = beams > 1 ? spread_rad * (static_cast<double>(i) / (beams - 1) - 0.5) : 0.0;
+      Eigen::Vector2d at = position_m + Eigen::Vector2d(0.0, std::tan(angle) * z_m);
+      double below_m = z_m - surface(at) + height_offset_m + random.gaussian(beam_sigma_m);
+      if (random.chance(dropout_rate)) below_m = std::numeric_limits<double>::quiet_NaN();
+      if (random.chance(outlier_rate)) below_m = random.uniform(0.1, 6.0);
+      points.push_back({at, below_m});
+    }
+    last = filter.update(now, position_m, points);
+    added += last.levels_added;
+    joined += last.levels_joined;
+    without_measurement += last.measurement ? 0 : 1;
+    const double error_m = filter.state().height_m - z_m;
+    worst_error_m = std::max(worst_error_m, std::abs(error_m));
+    squares_m2 += error_m * error_m;
+    ++scans;
+  }
+
+  /// Climbs (or sinks) to a height in place, smoothly.
+  void climbTo(double goal_m, double speed_m_s = 0.5) {
+    while (std::abs(goal_m - z_m) > 1e-3 || std::abs(vz_m_s) > 1e-3) {
+      const double stoppable = std::sqrt(2.0 * 0.8 * std::abs(goal_m - z_m));
+      const double wanted = std::copysign(std::min(speed_m_s, stoppable), goal_m - z_m);
+      const double settle = std::abs(goal_m - z_m) * 10.0;
+      scan(std::clamp((std::copysign(std::min(std::abs(wanted), settle), wanted) - vz_m_s) * scan_hz, -1.0, 1.0));
+    }
+  }
+
+  /// Straight to a place, swaying a little in height as a vehicle does.
+  void flyTo(const Eigen::Vector2d& goal_m, double speed_m_s = 0.5) {
+    const double hold_m = z_m;
+    while ((goal_m - position_m).norm() > 1e-6) {
+      const double step_m = std::min(speed_m_s / scan_hz, (goal_m - position_m).norm());
+      position_m += step_m * (goal_m - position_m).normalized();
+      scan(std::clamp(4.0 * (hold_m - z_m) - 2.0 * vz_m_s + random.gaussian(0.3), -2.0, 2.0));
+    }
+  }
+
+  double rms_m() const { return std::sqrt(squares_m2 / scans); }
+};
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,86 @@
+// What stands above the mission, tick by tick.
+#include "autonomy/supervisor.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::Time;
+using testing::HasSubstr;
+
+class SupervisorStory : public testing::Test {
+ protected:
+  const Supervision& at(double t_s, bool airborne = true) {
+    return supervisor_.tick(Time::fromSeconds(t_s), airborne, status_);
+  }
+  void scanAt(double t_s) { supervisor_.scanArrived(Time::fromSeconds(t_s)); }
+
+  Supervisor supervisor_{SupervisorConfig{}};
+  common::VehicleStatus status_;
+};
+
+TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
+  EXPECT_FALSE(at(0.0).hold);
+  const auto held = supervisor_.take({1, common::HoldCommand{}}, Time::fromSeconds(0.1));
+  ASSERT_TRUE(held && held->accepted);
+  EXPECT_TRUE(at(0.1).hold);
+  EXPECT_TRUE(at(60.0).hold);
+  ASSERT_TRUE(supervisor_.take({2, common::ResumeCommand{}}, Time::fromSeconds(61)));
+  EXPECT_FALSE(at(61.0).hold);
+}
+
+TEST_F(SupervisorStory, GoalsAreForTheMission) {
+  EXPECT_FALSE(supervisor_.take({1, common::GoalCommand{}}, Time{}).has_value());
+  EXPECT_FALSE(supervisor_.take({2, common::HomeCommand{}}, Time{}).has_value());
+}
+
+TEST_F(SupervisorStory, SilentLaserHoldsThenLandsForGood) {
+  scanAt(1.0);
+  EXPECT_FALSE(at(1.2).hold);
+  EXPECT_TRUE(at(1.4).hold);
+  EXPECT_FALSE(at(1.4).land);
+  EXPECT_TRUE(at(2.1).land);
+  EXPECT_THAT(at(2.1).land_reason, HasSubstr("no scan for 1.1 s"));
+  scanAt(2.2);
+  EXPECT_TRUE(at(2.3).land) << "landing is not taken back";
+}
+
+TEST_F(SupervisorStory, ShortSilenceHoldsOnly) {
+  scanAt(1.0);
+  EXPECT_TRUE(at(1.5).hold);
+  scanAt(1.6);
+  EXPECT_FALSE(at(1.7).hold);
+  EXPECT_FALSE(at(1.7).land);
+}
+
+TEST_F(SupervisorStory, SilenceOnTheGroundIsNoReasonToLand) {
+  scanAt(1.0);
+  EXPECT_FALSE(at(30.0, false).land);
+  EXPECT_FALSE(at(30.0, false).hold);
+}
+
+TEST_F(SupervisorStory, EmptyBatteryLands) {
+  status_.battery_remaining = 0.5;
+  EXPECT_FALSE(at(1.0).land);
+  status_.battery_remaining = 0.1;
+  EXPECT_TRUE(at(1.1).land);
+  EXPECT_FALSE(supervisor_.landedByOperator());
+}
+
+TEST_F(SupervisorStory, EachChangeIsAnEventWithItsReason) {
+  scanAt(1.0);
+  at(1.4);
+  at(1.5);
+  scanAt(1.6);
+  at(1.6);
+  const auto events = supervisor_.takeEvents();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].text, "hold");
+  EXPECT_THAT(events[0].reason, HasSubstr("no scan"));
+  EXPECT_EQ(events[1].text, "scans are back");
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,204 @@
+// Sensors of the simulator -> odometry, altitude, fusion -> controller -> the simulator's motors. No SLAM, no planner:
+// what the inner loop is worth by itself.
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <variant>
+
+#include <gtest/gtest.h>
+
+#include "control/flight_controller.hpp"
+#include "perception/altitude/multilevel_filter.hpp"
+#include "perception/fusion/error_state_filter.hpp"
+#include "perception/projection/scan_projection.hpp"
+#include "perception/scan_matching/laser_odometry.hpp"
+#include "tests/simulation/fixtures.hpp"
+
+namespace swiftlet {
+namespace {
+
+using common::FlightState;
+using common::Time;
+
+struct Loop {
+  explicit Loop(int seed, bool table = false) : vehicle(room(table), scenario(seed)) {}
+
+  static simulation::WorldModel room(bool table) {
+    simulation::WorldModel world = simulation::boxRoom();
+    // Corners, so that no direction is blind.
+    world.shapes.push_back(simulation::boxShape("cupboard", {2.5, 2.5, 0}, {3.5, 3.3, 2.5}));
+    world.shapes.push_back(simulation::boxShape("shelf", {-4.9, -1.0, 0}, {-4.4, 1.0, 2.5}));
+    if (table) world.shapes.push_back(simulation::boxShape("table", {1.0, -0.8, 0}, {2.2, 0.8, 0.5}));
+    return world;
+  }
+  static simulation::Scenario scenario(int seed) {
+    simulation::Scenario scenario;
+    scenario.seed = seed;
+    scenario.start.from_world = false;
+    scenario.vehicle =
+        common::config::readFile<common::VehicleConfig>(SWIFTLET_SOURCE_DIR "/config/vehicles/cobra.yaml");
+    scenario.laser = common::config::readFile<common::LaserConfig>(SWIFTLET_SOURCE_DIR "/config/sensors/utm_30lx.yaml");
+    scenario.wind.gust_m_s = 0.2;
+    return scenario;
+  }
+
+  simulation::SimulatedVehicle vehicle;
+  perception::ErrorStateFilter fusion{perception::ErrorStateFilter::Config{}};
+  perception::MultilevelFilter altitude{perception::MultilevelFilter::Config{}};
+  perception::LaserOdometry odometry{perception::LaserOdometryConfig{}};
+  control::FlightController controller{control::FlightController::Config{}, scenario(1).vehicle};
+  double battery_v = 0, over_ground_m = 0;
+  std::optional<control::RawHeight> raw_height;
+  std::vector<common::SensorEvent> events;
+  int scans = 0;
+  double estimate2_m2 = 0, velocity2 = 0, worst_tracking_m = 0;
+  int ticks = 0;
+
+  void onScan(const common::LaserScan& scan) {
+    using namespace perception;
+    const Time begin = scan.stamps.measured;
+    const Time end = begin + scan.time_increment * static_cast<std::int64_t>(scan.ranges_m.size());
+    const PoseHistory history = fusion.poses(begin, end);
+    const auto newest = fusion.state().T_odom_body;
+    const ProjectedScan projected = project(
+        scan, scenario(1).laser, [&](Time t) { return history.at(t).value_or(newest); }, ScanProjectionConfig{});
+    if (!fusion.initialized()) {
+      double sum_m = 0;
+      for (const auto& point : projected.mirror) sum_m += point.belowBody_m();
+      if (projected.mirror.empty() || !fusion.initialize(sum_m / static_cast<double>(projected.mirror.size()))) return;
+      altitude.initialize(fusion.newest(), {0, 0}, fusion.state().T_odom_body.position_m.z());
+      ASSERT_TRUE(controller.command(control::Prepared{}));
+      return;
+    }
+    ++scans;
+    if (const auto relative = odometry.add(projected)) {
+      if (relative->from != relative->to) {
+        EXPECT_EQ(fusion.addRelativePose(relative->from, relative->to, relative->T_from_to, relative->covariance),
+                  Insertion::kTaken);
+      }
+      if (relative->reference_changed || relative->from == relative->to) (void)fusion.addClone(relative->to);
+    }
+    const common::Pose2 here = planar(fusion.poseAt(projected.stamp)->operator*(common::Pose3{}));
+    std::vector<GroundPoint> ground;
+    for (const auto& point : projected.mirror)
+      ground.push_back({here * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
+    const auto update = altitude.update(projected.stamp, here.position_m(), ground);
+    if (update.measurement)
+      (void)fusion.addHeight(projected.stamp, update.measurement->height_m, update.measurement->variance_m2,
+                             update.measurement->level_variance_m2);
+    if (update.height_above_ground_m) {
+      over_ground_m = *update.height_above_ground_m;
+      raw_height = control::RawHeight{projected.stamp, over_ground_m};
+    }
+  }
+
+  bool tick() {
+    events.clear();
+    if (!vehicle.advanceTo(vehicle.now() + common::Duration::fromMilliseconds(10), events)) return false;
+    for (const auto& event : events) {
+      if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
+        fusion.predict(*imu);
+        altitude.addAcceleration(imu->stamps.measured, fusion.accelerationOdom_m_s2().z());
+      } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
+        onScan(**scan);
+      } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
+        battery_v = battery->voltage_v;
+      }
+    }
+    fusion.setAtRest(!control::isAirborne(controller.state()));
+    control::FlightTick tick;
+    tick.now = vehicle.now();
+    tick.state = fusion.state();
+    tick.state.height_above_ground_m = over_ground_m;
+    tick.raw_height = std::exchange(raw_height, std::nullopt);
+    tick.battery_v = battery_v;
+    tick.fusion_diverged = fusion.health().status == perception::FusionStatus::kDiverged;
+    vehicle.apply(controller.tick(tick));
+    if (controller.state() == FlightState::kFlying) {
+      const auto truth = T_map_body();
+      estimate2_m2 += (tick.state.T_odom_body.position_m - truth.position_m).squaredNorm();
+      const Eigen::Vector3d velocity = vehicle.T_world_map().rotation.conjugate() * vehicle.truth().velocity_world_m_s;
+      velocity2 += (tick.state.velocity_odom_m_s - velocity).squaredNorm();
+      ++ticks;
+    }
+    return true;
+  }
+  common::Pose3 T_map_body() const { return vehicle.T_world_map().inverse() * vehicle.truth().T_world_body; }
+  template <typename Condition>
+  bool until(Condition&& condition, double at_most_s) {
+    for (int i = 0; i < static_cast<int>(at_most_s * 100); ++i) {
+      if (condition()) return true;
+      if (!tick()) return false;
+    }
+    return condition();
+  }
+  bool hover() {
+    return until([&] { return controller.state() == FlightState::kPoweredOff; }, 3.0) &&
+           until([&] { return controller.command(control::TakeOff{1.0}).has_value(); }, 1.0) &&
+           until([&] { return controller.state() == FlightState::kFlying; }, 10.0);
+  }
+};
+
+TEST(ClosedLoop, hoversOnItsOwnSensors) {
+  double worst_m = 0, worst_height_m = 0;
+  for (int seed = 1; seed <= 3; ++seed) {
+    Loop loop(seed);
+    ASSERT_TRUE(loop.hover()) << loop.vehicle.stopReason();
+    loop.until([] { return false; }, 4.0);
+    const Eigen::Vector3d at = loop.controller.reference().position_odom_m;
+    double horizontal2 = 0, height = 0;
+    constexpr int kTicks = 1500;
+    for (int i = 0; i < kTicks; ++i) {
+      ASSERT_TRUE(loop.tick());
+      const Eigen::Vector3d off = loop.T_map_body().position_m - at;
+      horizontal2 += off.head<2>().squaredNorm() / kTicks;
+      height = std::max(height, std::abs(off.z()));
+    }
+    std::printf("seed %d: hover %.3f m RMS, %.3f m worst height; estimate %.3f m, %.3f m/s RMS; fusion %s %s\n", seed,
+                std::sqrt(horizontal2), height, std::sqrt(loop.estimate2_m2 / loop.ticks),
+                std::sqrt(loop.velocity2 / loop.ticks), toString(loop.fusion.health().status),
+                loop.fusion.health().reason.c_str());
+    worst_m = std::max(worst_m, std::sqrt(horizontal2));
+    worst_height_m = std::max(worst_height_m, height);
+  }
+  EXPECT_LT(worst_m, 0.06);  // The paper's figure [MIT].
+  EXPECT_LT(worst_height_m, 0.10);
+}
+
+TEST(ClosedLoop, fliesOverATableAndLands) {
+  Loop loop(4, true);
+  ASSERT_TRUE(loop.hover()) << loop.vehicle.stopReason();
+  ASSERT_TRUE(loop.controller.follow(
+      {{{0, 0, 1}, {3, 0, 1}, {3, -2, 1}, {0, -2, 1}, {0, 0, 1}}, control::FlightMode::kFast, {}}));
+  double worst_m = 0, worst_height_m = 0;
+  ASSERT_TRUE(loop.until(
+      [&] {
+        const Eigen::Vector3d off = loop.T_map_body().position_m - loop.controller.reference().position_odom_m;
+        worst_m = std::max(worst_m, off.head<2>().norm());
+        worst_height_m = std::max(worst_height_m, std::abs(off.z()));
+        return loop.controller.pathFinished();
+      },
+      40.0))
+      << loop.vehicle.stopReason();
+  loop.until([] { return false; }, 1.5);
+  const Eigen::Vector3d home = loop.T_map_body().position_m;
+  ASSERT_TRUE(loop.controller.command(control::Land{}));
+  EXPECT_TRUE(loop.until([&] { return loop.controller.state() == FlightState::kLanded; }, 12.0))
+      << loop.vehicle.stopReason();
+  const auto levels = loop.altitude.levels();
+  std::printf(
+      "path: %.3f m worst off the reference, %.3f m in height; home within %.3f m; estimate %.3f m, %.3f m/s RMS\n",
+      worst_m, worst_height_m, home.head<2>().norm(), std::sqrt(loop.estimate2_m2 / loop.ticks),
+      std::sqrt(loop.velocity2 / loop.ticks));
+  for (const auto& level : levels.levels)
+    std::printf("  level %d: %.3f +- %.3f m, %zu cells\n", level.id, level.height_m, std::sqrt(level.variance_m2),
+                level.cells.size());
+  EXPECT_LT(worst_m, 0.25);
+  EXPECT_LT(worst_height_m, 0.12);
+  EXPECT_LT(home.head<2>().norm(), 0.12);
+  ASSERT_GE(levels.levels.size(), 2u);
+  EXPECT_NEAR(levels.levels[1].height_m, 0.5, 0.03);
+}
+
+}  // namespace
+}  // namespace swiftlet

@@ -1,0 +1,238 @@
+// Every input that cannot be used is refused with exit code 2, a message that says where and what, and nothing written.
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/commands/missions.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace swiftlet::commands {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::describe;
+using test_support::ProgramEnd;
+using test_support::ProgramOptions;
+using test_support::readText;
+using test_support::runSwiftlet;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+class BadInput : public test_support::Scratch {
+ protected:
+  std::string hop() const { return write("hop.xml", missionWith(kHop)); }
+
+  ProgramEnd fly(std::vector<std::string> more, const ProgramOptions& options = {}) const {
+    std::vector<std::string> arguments = {"fly", "--speed", "max", "--time-limit", "5", "--out", path("run")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runSwiftlet(arguments, options);
+  }
+
+  /// Refused, in these words, before anything was written.
+  void expectRefused(const ProgramEnd& end, const std::string& pattern) const {
+    EXPECT_EQ(end.exit_code, 2) << describe(end);
+    EXPECT_THAT(end.err, ContainsRegex(pattern));
+    EXPECT_FALSE(fs::exists(path("run"))) << "something was written: " << describe(end);
+  }
+
+  /// A wrong mission is refused by `check` and by `fly` in the same words.
+  void expectMissionRefused(const std::string& leaves, const std::string& pattern) const {
+    const std::string mission = write("broken.xml", missionWith(leaves));
+    expectRefused(runSwiftlet({"check", mission}), pattern);
+    expectRefused(fly({"--headless", mission}), pattern);
+  }
+  void expectWorldRefused(const std::string& world, const std::string& pattern) const {
+    expectRefused(fly({"--headless", hop(), "--world", write("broken.sdf", world)}), pattern);
+  }
+};
+
+TEST_F(BadInput, MissionThatIsNoXml) {
+  const std::string mission =
+      write("broken.xml", "<root BTCPP_format=\"4\">\n  <BehaviorTree ID=\"Main\">\n    <Land/>\n</root>\n");
+  expectRefused(runSwiftlet({"check", mission}), "broken\\.xml:4:[0-9]+: ");
+  expectRefused(fly({"--headless", mission}), "broken\\.xml:4:[0-9]+: ");
+}
+
+TEST_F(BadInput, MissionThatIsEmpty) {
+  expectRefused(runSwiftlet({"check", write("broken.xml", "")}), "broken\\.xml:1");
+}
+
+TEST_F(BadInput, MissionThatIsMissing) {
+  expectRefused(runSwiftlet({"check", path("none.xml")}), "none\\.xml: ");
+  expectRefused(fly({"--headless", path("none.xml")}), "none\\.xml: ");
+}
+
+TEST_F(BadInput, MissionWithTheNameOfAnother) {
+  expectRefused(fly({"--headless", "missions/explore_and_retrun.xml"}),
+                "did you mean `missions/explore_and_return\\.xml`");
+}
+
+TEST_F(BadInput, UnknownNode) {
+  expectMissionRefused("      <Explor clearance_m=\"0.1\"/>\n", "broken\\.xml:4:7: .*Explor.*did you mean `Explore`");
+}
+
+TEST_F(BadInput, UnknownPort) {
+  expectMissionRefused("      <TakeOff hight_m=\"1.0\"/>\n",
+                       "broken\\.xml:4:[0-9]+: .*hight_m.*did you mean `height_m`");
+}
+
+TEST_F(BadInput, PortWithoutItsUnit) {
+  expectMissionRefused("      <TakeOff height=\"1.0\"/>\n", "broken\\.xml:4:[0-9]+: .*height.*did you mean `height_m`");
+}
+
+TEST_F(BadInput, PortOfTheWrongType) {
+  expectMissionRefused("      <TakeOff height_m=\"high\"/>\n", "broken\\.xml:4:[0-9]+: .*height_m.*high");
+}
+
+TEST_F(BadInput, GoalThatIsNoPoint) {
+  expectMissionRefused("      <MoveToGoal goal=\"3.0;north\"/>\n", "broken\\.xml:4:[0-9]+: .*goal.*3\\.0;north");
+}
+
+TEST_F(BadInput, EveryMistakeIsNamedNotOnlyTheFirst) {
+  const std::string mission =
+      write("broken.xml", missionWith("      <Explor/>\n      <TakeOff height_m=\"high\"/>\n      <Lend/>\n"));
+  const ProgramEnd end = runSwiftlet({"check", mission});
+  for (const std::string line : {":4:", ":5:", ":6:"}) EXPECT_THAT(end.err, HasSubstr("broken.xml" + line));
+
+  const auto json = nlohmann::json::parse(runSwiftlet({"check", "--json", mission}).out);
+  EXPECT_EQ(json.at("problems").size(), 3u) << json.dump(2);
+  EXPECT_EQ(json.at("problems")[1].at("line"), 5);
+}
+
+TEST_F(BadInput, WorldThatIsMissing) {
+  expectRefused(fly({"--headless", hop(), "--world", "worlds/none.sdf"}), "worlds/none\\.sdf: no such file");
+}
+
+TEST_F(BadInput, WorldThatIsNoXml) { expectWorldRefused("<sdf version=\"1.9\">\n<world>\n", "broken\\.sdf:[0-9]+"); }
+
+TEST_F(BadInput, WorldWithAShapeThatIsNone) {
+  expectWorldRefused(worldWith(floorBox() + box("wall", "2 0 1 0 0 0", "1 -1 wide")), "broken\\.sdf:[0-9]+");
+}
+
+TEST_F(BadInput, WorldWithoutAFloor) {
+  expectWorldRefused(worldWith(box("wall", "3 0 1 0 0 0", "0.2 4 2")), "broken\\.sdf.*floor");
+}
+
+TEST_F(BadInput, StartInsideAWall) {
+  expectWorldRefused(worldWith(floorBox() + box("pillar", "0.1 0 1 0 0 0", "0.3 0.3 2")),
+                     "broken\\.sdf.*start.*`?pillar");
+}
+
+TEST_F(BadInput, UnknownConfigKey) {
+  const std::string system = write("mine.yaml", "vehicle: cobra\nlasser: utm_30lx\n");
+  expectRefused(fly({"--headless", hop(), "--system", system}), "mine\\.yaml:2:1: .*lasser.*did you mean `laser`");
+  expectRefused(runSwiftlet({"config", "--system", system}), "mine\\.yaml:2:1: ");
+}
+
+TEST_F(BadInput, ConfigThatIsNoYaml) {
+  const std::string system = write("mine.yaml", "vehicle: cobra\n  laser: [utm\n");
+  expectRefused(fly({"--headless", hop(), "--system", system}), "mine\\.yaml:2");
+}
+
+TEST_F(BadInput, UnknownSystem) {
+  expectRefused(fly({"--headless", hop(), "--system", "swiftled"}), "did you mean `(config/systems/)?swiftlet");
+}
+
+TEST_F(BadInput, PortInUse) {
+  const int socket_in_use = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(bind(socket_in_use, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(listen(socket_in_use, 1), 0);
+  socklen_t size = sizeof address;
+  getsockname(socket_in_use, reinterpret_cast<sockaddr*>(&address), &size);
+  const std::string port = std::to_string(ntohs(address.sin_port));
+
+  expectRefused(fly({hop(), "--world", write("room.sdf", worldWith(room())), "--port", port}), port + ".*in use");
+  close(socket_in_use);
+}
+
+TEST_F(BadInput, ListenAddressThatIsNone) {
+  expectRefused(fly({hop(), "--world", write("room.sdf", worldWith(room())), "--port", "0", "--listen", "300.1.1.1"}),
+                "300\\.1\\.1\\.1");
+}
+
+TEST_F(BadInput, OutIsAFile) {
+  write("taken", "mine");
+  const ProgramEnd end =
+      fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--out", path("taken")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("taken"));
+  EXPECT_EQ(readText(path("taken")), "mine");
+}
+
+TEST_F(BadInput, OutIsSomebodyElsesFolder) {
+  fs::create_directories(path("thesis"));
+  write("thesis/chapter1.tex", "years of work");
+  const ProgramEnd end =
+      fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--out", path("thesis")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("thesis"));
+  EXPECT_EQ(readText(path("thesis/chapter1.tex")), "years of work");
+}
+
+// A disk that fills up in flight: the flight ends, the message says why, and no file is left half written.
+TEST_F(BadInput, FullDisk) {
+  ProgramOptions options;
+  options.largest_file_bytes = 8192;
+  const ProgramEnd end =
+      fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--time-limit", "60"}, options);
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, ContainsRegex("run/?.*(trajectory\\.tum|map\\.p|report|mission|events)")) << "which file?";
+  for (const auto& entry : fs::directory_iterator(path("run"))) {
+    const std::string name = entry.path().filename().string();
+    if (name == "mission.json") {
+      EXPECT_TRUE(nlohmann::json::accept(readText(entry.path()))) << name << " is half written";
+    }
+    if (name == "report.html") {
+      EXPECT_THAT(readText(entry.path()), HasSubstr("</html>"));
+    }
+    EXPECT_TRUE(name == "mission.json" || name == "report.html" || name == "events.jsonl" || name == "trajectory.tum" ||
+                name == "config.yaml" || name.starts_with("map."))
+        << name << " was left behind";
+  }
+}
+
+TEST_F(BadInput, FullDiskFromTheBeginning) {
+  const ProgramEnd end =
+      fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--out", "/dev/full/run"});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("/dev/full"));
+}
+
+struct Usage {
+  std::string name;
+  std::vector<std::string> arguments;
+  std::string says;
+};
+void PrintTo(const Usage& usage, std::ostream* stream) { *stream << usage.name; }
+class WrongUsage : public testing::TestWithParam<Usage> {};
+
+TEST_P(WrongUsage, IsRefused) {
+  const ProgramEnd end = runSwiftlet(GetParam().arguments);
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr(GetParam().says)) << describe(end);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Commands, WrongUsage,
+    testing::Values(
+        Usage{"nothing", {}, "subcommand"}, Usage{"unknown_command", {"swim"}, "swim"},
+        Usage{"no_mission", {"fly", "--headless"}, "mission"},
+        Usage{"unknown_option", {"fly", "missions/explore_and_return.xml", "--sped", "2"}, "--sped"},
+        Usage{"bad_speed", {"fly", "missions/explore_and_return.xml", "--headless", "--speed", "fast"}, "fast"},
+        Usage{"negative_speed", {"fly", "missions/explore_and_return.xml", "--headless", "--speed", "-1"}, "-1"},
+        Usage{"bad_port", {"fly", "missions/explore_and_return.xml", "--port", "70000"}, "70000"},
+        Usage{"bad_seed", {"fly", "missions/explore_and_return.xml", "--seed", "lucky"}, "lucky"},
+        Usage{"missing_trial", {"trial", "trials/none.yaml"}, "trials/none.yaml"},
+        Usage{"check_nothing", {"check"}, "missions"}),
+    [](const auto& usage) { return usage.param.name; });
+
+}  // namespace
+}  // namespace swiftlet::commands

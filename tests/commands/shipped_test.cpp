@@ -1,0 +1,83 @@
+// Everything that comes with the software can be used: missions, worlds, trials, profiles and data sheets.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/vehicle_config.hpp"
+#include "evaluation/trial.hpp"
+#include "simulation/world_model.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace swiftlet::commands {
+namespace {
+
+namespace fs = std::filesystem;
+using common::config::readFile;
+using test_support::describe;
+using test_support::ProgramEnd;
+using test_support::runSwiftlet;
+
+const fs::path kRoot = SWIFTLET_SOURCE_DIR;
+
+/// Paths, from the root, of the shipped files below `folder` that end so; at least `least` of them.
+std::vector<std::string> shipped(const std::string& folder, const std::string& ending, std::size_t least) {
+  std::vector<std::string> files;
+  if (fs::exists(kRoot / folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+      if (entry.path().extension() == ending) files.push_back(fs::relative(entry.path(), kRoot).string());
+  }
+  std::sort(files.begin(), files.end());
+  EXPECT_GE(files.size(), least) << "in " << folder;
+  return files;
+}
+
+TEST(Shipped, EachMissionIsSoundAndFoundFromAnywhere) {
+  test_support::ProgramOptions elsewhere;
+  elsewhere.working_folder = "/";
+  for (const std::string& mission : shipped("missions", ".xml", 2)) {
+    const ProgramEnd end = runSwiftlet({"check", mission}, elsewhere);
+    EXPECT_EQ(end.exit_code, 0) << mission << ": " << describe(end);
+  }
+}
+
+TEST(Shipped, EachWorldLoads) {
+  for (const std::string& world : shipped("worlds", ".sdf", 1))
+    EXPECT_FALSE(simulation::loadWorld((kRoot / world).string(), {}).shapes.empty()) << world;
+}
+
+TEST(Shipped, EachTrialLoadsAndNamesThingsThatAreThere) {
+  for (const std::string& file : shipped("trials", ".yaml", 1)) {
+    const evaluation::TrialConfig trial = evaluation::readTrial(kRoot / file);
+    EXPECT_TRUE(fs::exists(kRoot / trial.mission)) << file << ": " << trial.mission;
+    EXPECT_TRUE(fs::exists(kRoot / "config/systems" / (trial.system + ".yaml"))) << file << ": " << trial.system;
+    if (trial.archive.empty()) {
+      EXPECT_TRUE(fs::exists(kRoot / trial.scenario.world)) << file << ": " << trial.scenario.world;
+    }
+  }
+}
+
+TEST(Shipped, EachDataSheetLoads) {
+  for (const std::string& file : shipped("config/vehicles", ".yaml", 1))
+    EXPECT_NO_THROW(readFile<common::VehicleConfig>((kRoot / file).string())) << file;
+  for (const std::string& file : shipped("config/sensors", ".yaml", 1))
+    EXPECT_NO_THROW(readFile<common::LaserConfig>((kRoot / file).string())) << file;
+}
+
+class Profiles : public test_support::Scratch {};
+
+// "swiftlet config > mine.yaml" is where one's own profile begins.
+TEST_F(Profiles, EachLoadsAndWhatConfigPrintsIsReadBack) {
+  for (const std::string& file : shipped("config/systems", ".yaml", 1)) {
+    const std::string name = fs::path(file).stem().string();
+    const ProgramEnd printed = runSwiftlet({"config", "--system", name});
+    ASSERT_EQ(printed.exit_code, 0) << name << ": " << describe(printed);
+    const ProgramEnd again = runSwiftlet({"config", "--system", write(name + ".yaml", printed.out)});
+    EXPECT_EQ(again.exit_code, 0) << name << ": " << describe(again);
+    EXPECT_EQ(again.out, printed.out) << name;
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::commands

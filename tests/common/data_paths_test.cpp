@@ -1,0 +1,80 @@
+#include "common/data_paths.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "common/error.hpp"
+
+namespace swiftlet::common {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of data that $SWIFTLET_DATA points to while the test runs.
+class DataPaths : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("swiftlet_data_paths_" + std::to_string(getpid()));
+    fs::create_directories(folder_ / "missions");
+    std::ofstream(folder_ / "missions/only_here.xml") << "<root/>";
+    std::ofstream(folder_ / "CMakeLists.txt") << "# Not the one of the source tree.";
+    setenv("SWIFTLET_DATA", folder_.c_str(), 1);
+  }
+  void TearDown() override {
+    unsetenv("SWIFTLET_DATA");
+    fs::remove_all(folder_);
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(DataPaths, TheEnvironmentComesBeforeTheSourceTree) {
+  EXPECT_EQ(findData("missions/only_here.xml"), folder_ / "missions/only_here.xml");
+  const fs::path before = fs::current_path();
+  fs::current_path(fs::temp_directory_path());
+  EXPECT_EQ(findData("CMakeLists.txt"), folder_ / "CMakeLists.txt");
+  fs::current_path(before);
+}
+
+TEST_F(DataPaths, WhatIsHereComesFirst) {
+  const fs::path before = fs::current_path();
+  fs::create_directories(folder_ / "here/missions");
+  std::ofstream(folder_ / "here/missions/only_here.xml") << "<root/>";
+  fs::current_path(folder_ / "here");
+  EXPECT_EQ(findData("missions/only_here.xml"), "missions/only_here.xml");
+  fs::current_path(before);
+}
+
+TEST_F(DataPaths, TheSourceTreeIsFoundFromAnywhere) {
+  const fs::path before = fs::current_path();
+  fs::current_path("/");
+  EXPECT_TRUE(
+      fs::equivalent(findData("common/data_paths.hpp"), fs::path(SWIFTLET_SOURCE_DIR) / "common/data_paths.hpp"));
+  fs::current_path(before);
+}
+
+TEST_F(DataPaths, AbsolutePathsAreTakenAsTheyAre) {
+  EXPECT_EQ(findData(folder_ / "missions"), folder_ / "missions");
+  EXPECT_THROW(findData(folder_ / "missions/other.xml"), InputError);
+}
+
+TEST_F(DataPaths, AMissingFileNamesItsNeighbour) {
+  try {
+    findData("missions/only_hare.xml");
+    FAIL() << "a file that does not exist was found";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("missions/only_hare.xml: no such file"), std::string::npos) << text;
+    EXPECT_NE(text.find("did you mean `missions/only_here.xml`?"), std::string::npos) << text;
+    EXPECT_NE(text.find(folder_.string()), std::string::npos) << text;
+  }
+}
+
+TEST_F(DataPaths, AnEmptyNameIsNoFolder) { EXPECT_THROW(findData(""), InputError); }
+
+}  // namespace
+}  // namespace swiftlet::common

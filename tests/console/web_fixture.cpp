@@ -1,0 +1,15 @@
+// Serves the operator's page with a made-up flight until its standard input ends: web_fixture [PORT [TOKEN]].
+#include <cstdlib>
+#include <iostream>
+
+#include "tests/console/fake_backend.hpp"
+
+int main(int count, char** arguments) {
+  swiftlet::testing::FakeBackend::Setup setup;
+  if (count > 1) setup.port = std::atoi(arguments[1]);
+  if (count > 2) setup.token = arguments[2];
+  swiftlet::testing::FakeBackend backend(setup);
+  std::cout << backend.server().operatorUrl() << std::endl;
+  std::string line;
+  while (std::getline(std::cin, line)) {}
+}

@@ -1,0 +1,268 @@
+// The controller in closed loop with the small model: stories of whole flights.
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "control/flight_controller.hpp"
+#include "tests/control/quadrotor_model.hpp"
+
+namespace swiftlet::control {
+namespace {
+
+using common::FlightState;
+
+struct Flight {
+  QuadrotorModel model;
+  FlightController controller{FlightController::Config{}, common::VehicleConfig{}};
+  common::Pose2 T_map_odom;
+  bool horizontal_valid = true, vertical_valid = true, diverged = false, mirror = true;
+  double greatest_tilt_rad = 0;
+
+  void tick() {
+    FlightTick tick;
+    tick.now = model.now;
+    tick.state = model.estimate();
+    tick.state.T_map_odom = T_map_odom;
+    tick.state.horizontal_valid = horizontal_valid && !diverged;
+    tick.state.vertical_valid = vertical_valid && !diverged;
+    tick.fusion_diverged = diverged;
+    if (diverged) tick.state.velocity_odom_m_s.setConstant(std::numeric_limits<double>::quiet_NaN());
+    const bool scan = (model.now.nanoseconds() / 10'000'000) % 3 == 0;
+    if (scan && mirror)
+      tick.raw_height = RawHeight{model.now, model.position_m.z() - model.floor_m + model.random.gaussian(0.01)};
+    tick.battery_v = model.voltage_v;
+    model.apply(controller.tick(tick));
+    model.advance(0.01);
+    greatest_tilt_rad = std::max({greatest_tilt_rad, std::abs(model.roll_rad), std::abs(model.pitch_rad)});
+  }
+  template <typename Condition>
+  bool until(Condition&& condition, double at_most_s) {
+    for (int i = 0; i < static_cast<int>(at_most_s * 100); ++i) {
+      if (condition()) return true;
+      tick();
+    }
+    return condition();
+  }
+  void run(double seconds) {
+    until([] { return false; }, seconds);
+  }
+  void hover(double height_m = 1.0) {
+    tick();
+    ASSERT_TRUE(controller.command(Prepared{}));
+    ASSERT_TRUE(controller.command(TakeOff{height_m}));
+    ASSERT_TRUE(until([&] { return controller.state() == FlightState::kFlying; }, 12.0));
+  }
+};
+
+struct Rms {
+  double horizontal_m, vertical_m, worst_vertical_m;
+};
+Rms hoverFor(Flight& flight, double seconds, const Eigen::Vector3d& at) {
+  double horizontal2 = 0, vertical2 = 0, worst = 0;
+  const int n = static_cast<int>(seconds * 100);
+  for (int i = 0; i < n; ++i) {
+    flight.tick();
+    const Eigen::Vector3d error = flight.model.position_m - at;
+    horizontal2 += error.head<2>().squaredNorm();
+    vertical2 += error.z() * error.z();
+    worst = std::max(worst, std::abs(error.z()));
+  }
+  return {std::sqrt(horizontal2 / n), std::sqrt(vertical2 / n), worst};
+}
+
+TEST(Flight, hoversWithinThreeCentimetresOnAWanderingHorizon) {
+  double worst_m = 0, worst_height_m = 0;
+  for (int seed = 1; seed <= 5; ++seed) {
+    Flight flight;
+    flight.model.random = common::RandomStream(static_cast<std::uint64_t>(seed), "hover");
+    flight.hover();
+    flight.run(3.0);
+    const Rms rms = hoverFor(flight, 30.0, flight.controller.reference().position_odom_m);
+    worst_m = std::max(worst_m, rms.horizontal_m);
+    worst_height_m = std::max(worst_height_m, rms.worst_vertical_m);
+  }
+  RecordProperty("hover_rms_m", std::to_string(worst_m));
+  std::printf("hover: worst of 5 seeds %.3f m RMS horizontally, %.3f m worst vertically\n", worst_m, worst_height_m);
+  EXPECT_LT(worst_m, 0.03);
+  EXPECT_LT(worst_height_m, 0.05);
+}
+
+TEST(Flight, learnsTheHoverThrustOfAWeakAndSaggingVehicle) {
+  Flight flight;
+  flight.model.thrust_factor = 0.88;
+  flight.model.voltage_drop_v_s = 0.02;  // 1.2 V in a minute.
+  flight.hover();
+  flight.run(20.0);
+  const Rms rms = hoverFor(flight, 40.0, flight.controller.reference().position_odom_m);
+  EXPECT_LT(rms.worst_vertical_m, 0.05);
+  EXPECT_NEAR(flight.controller.positionController().thrust().correction(), 1.0 / 0.88, 0.05);
+}
+
+TEST(Flight, holdsAgainstWind) {
+  Flight flight;
+  flight.model.wind_m_s = {2.0, -1.0, 0.0};
+  flight.hover();
+  flight.run(8.0);
+  EXPECT_LT(hoverFor(flight, 20.0, flight.controller.reference().position_odom_m).horizontal_m, 0.03);
+}
+
+TEST(Flight, followsAPathWithCornersToItsGoal) {
+  Flight flight;
+  flight.hover();
+  const Eigen::Vector3d goal(1.0, 3.0, 1.2);
+  ASSERT_TRUE(flight.controller.follow({{{0, 0, 1}, {3, 0, 1}, {3, 3, 1}, goal}, FlightMode::kFast, 1.0}));
+  double worst_m = 0;
+  EXPECT_TRUE(flight.until(
+      [&] {
+        worst_m = std::max(worst_m, (flight.model.position_m - flight.controller.reference().position_odom_m).norm());
+        return flight.controller.pathFinished();
+      },
+      25.0));
+  flight.run(1.5);
+  EXPECT_LT((flight.model.position_m - goal).norm(), 0.06);
+  EXPECT_NEAR(flight.model.yaw_rad, 1.0, 0.05);
+  EXPECT_LT(worst_m, 0.15);
+  EXPECT_TRUE(flight.controller.stopped());
+  std::printf("path: worst tracking error %.3f m, greatest tilt %.1f deg, %.1f s\n", worst_m,
+              flight.greatest_tilt_rad * 57.3, flight.model.now.seconds());
+}
+
+TEST(Flight, brakesFromFullSpeedWithoutOvershootWhenHalted) {
+  Flight flight;
+  flight.hover();
+  ASSERT_TRUE(flight.controller.follow({{{0, 0, 1}, {8, 0, 1}}, FlightMode::kFast, {}}));
+  ASSERT_TRUE(flight.until([&] { return flight.model.position_m.x() > 3.0; }, 10.0));
+  flight.controller.setSpeedLimit(0.0);
+  const double from_m = flight.model.position_m.x();
+  double farthest_m = 0;
+  flight.until(
+      [&] {
+        farthest_m = std::max(farthest_m, flight.model.position_m.x() - from_m);
+        return false;
+      },
+      3.0);
+  EXPECT_TRUE(flight.controller.stopped());
+  EXPECT_LT(farthest_m, 1.0 / (2 * 1.2) + 0.2);
+  flight.controller.setSpeedLimit(std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(flight.until([&] { return flight.controller.pathFinished(); }, 12.0));
+}
+
+TEST(Flight, aCorrectionOfTheMapMovesTheHoldPointSmoothly) {
+  Flight flight;
+  flight.hover();
+  flight.run(2.0);
+  flight.T_map_odom = {0.20, 0.0, 0.0};  // The same map point is now 0.2 m behind in odom.
+  flight.greatest_tilt_rad = 0;
+  flight.run(4.0);
+  EXPECT_NEAR(flight.model.position_m.x(), -0.20, 0.06);
+  EXPECT_LT(flight.greatest_tilt_rad * 57.3, 20.0);
+}
+
+TEST(Flight, landsSoftlyAndKnowsIt) {
+  Flight flight;
+  flight.hover();
+  ASSERT_TRUE(flight.controller.command(Land{}));
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 10.0));
+  EXPECT_LT(flight.model.hardest_touch_m_s, 0.35);
+  flight.run(0.5);
+  EXPECT_NEAR(flight.model.position_m.z(), QuadrotorModel::kStanding_m, 1e-6);
+  EXPECT_LT(flight.model.thrust_n, 0.1);
+  EXPECT_TRUE(flight.controller.stopped());
+}
+
+TEST(Flight, landsOnATableBelow) {
+  Flight flight;
+  flight.hover(1.5);
+  flight.model.floor_m = 0.75;
+  ASSERT_TRUE(flight.controller.command(Land{}));
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 10.0));
+  EXPECT_NEAR(flight.model.position_m.z(), 0.75 + QuadrotorModel::kStanding_m, 1e-6);
+  EXPECT_LT(flight.model.hardest_touch_m_s, 0.35);
+}
+
+TEST(Flight, landCancelsTakingOff) {
+  Flight flight;
+  flight.tick();
+  ASSERT_TRUE(flight.controller.command(Prepared{}));
+  ASSERT_TRUE(flight.controller.command(TakeOff{1.5}));
+  ASSERT_TRUE(flight.until([&] { return flight.model.position_m.z() > 0.7; }, 10.0));
+  EXPECT_EQ(flight.controller.state(), FlightState::kTakingOff);
+  EXPECT_FALSE(flight.controller.follow({{{1, 0, 1}}, FlightMode::kFast, {}}));
+  ASSERT_TRUE(flight.controller.command(Land{}));
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 10.0));
+  EXPECT_LT(flight.model.position_m.z(), 0.2);
+}
+
+TEST(Flight, divergenceEndsInAnEmergencyLandingWithoutTheEstimate) {
+  Flight flight;
+  flight.hover(1.5);
+  flight.diverged = true;
+  flight.tick();
+  EXPECT_EQ(flight.controller.state(), FlightState::kEmergencyLanding);
+  EXPECT_EQ(flight.controller.takeEvents().back().severity, common::Severity::kWarning);
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kPoweredOff; }, 15.0));
+  EXPECT_NEAR(flight.model.position_m.z(), QuadrotorModel::kStanding_m, 1e-6);
+  EXPECT_LT(flight.model.hardest_touch_m_s, 0.6);
+  flight.run(0.1);
+  EXPECT_FALSE(flight.model.in_force.motors_on);
+}
+
+TEST(Flight, emergencyOverATableEdgeIsNotFooledByTheStep) {
+  Flight flight;
+  flight.hover(1.8);
+  flight.diverged = true;
+  flight.run(0.5);
+  flight.model.floor_m = 0.75;
+  flight.run(0.5);
+  flight.model.floor_m = 0.0;
+  double fastest_m_s = 0;
+  EXPECT_TRUE(flight.until(
+      [&] {
+        fastest_m_s = std::max(fastest_m_s, flight.model.velocity_m_s.norm());
+        return flight.controller.state() == FlightState::kPoweredOff;
+      },
+      15.0));
+  EXPECT_LT(flight.model.hardest_touch_m_s, 0.6);
+}
+
+TEST(Flight, comesDownBlindWhenNothingIsLeft) {
+  Flight flight;
+  flight.hover(1.0);
+  flight.diverged = true;
+  flight.mirror = false;
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kPoweredOff; }, 20.0));
+  EXPECT_NEAR(flight.model.position_m.z(), QuadrotorModel::kStanding_m, 1e-6);
+  EXPECT_LT(flight.model.hardest_touch_m_s, 1.5);
+}
+
+TEST(Flight, aSilentLaserMeansHoldThenLand) {
+  Flight flight;
+  flight.hover();
+  ASSERT_TRUE(flight.controller.follow({{{0, 0, 1}, {5, 0, 1}}, FlightMode::kFast, {}}));
+  flight.run(3.0);
+  flight.horizontal_valid = false;
+  flight.run(0.8);
+  EXPECT_EQ(flight.controller.state(), FlightState::kFlying);
+  EXPECT_LT(flight.model.velocity_m_s.head<2>().norm(), 0.35);
+  flight.run(0.4);
+  EXPECT_EQ(flight.controller.state(), FlightState::kLanding);
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 10.0));
+}
+
+TEST(Flight, refusesWhatTheStateDoesNotAllow) {
+  Flight flight;
+  flight.tick();
+  EXPECT_FALSE(flight.controller.command(TakeOff{1.0}));
+  EXPECT_FALSE(flight.controller.command(Land{}));
+  ASSERT_TRUE(flight.controller.command(Prepared{}));
+  EXPECT_THAT(flight.controller.command(TakeOff{0.1}).error(), testing::HasSubstr("0.10"));
+  EXPECT_THAT(flight.controller.command(TakeOff{std::nan("")}).error(), testing::HasSubstr("height"));
+  EXPECT_FALSE(flight.controller.follow({{{1, 0, 1}}, FlightMode::kFast, {}}));
+  flight.horizontal_valid = false;
+  flight.tick();
+  EXPECT_THAT(flight.controller.command(TakeOff{1.0}).error(), testing::HasSubstr("estimate"));
+}
+
+}  // namespace
+}  // namespace swiftlet::control

@@ -1,0 +1,231 @@
+// Laws of the reference: continuous, within its limits, on its path, at its goal - whatever is changed on the way.
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "common/random.hpp"
+#include "control/path_follower.hpp"
+#include "control/path_shape.hpp"
+
+namespace swiftlet::control {
+namespace {
+
+constexpr double kDt_s = 0.01;
+
+double distanceToPath(const Points& points, const Eigen::Vector3d& point) {
+  const auto along = distancesAlong(points);
+  return nearestOn(points, along, point, std::numeric_limits<double>::infinity()).off_m;
+}
+
+/// Follows a reference and keeps the worst of what must stay small.
+struct Watch {
+  PathFollower follower{PathFollower::Config{}};
+  double worst_jump_m = 0, worst_speed_m_s = 0, worst_acceleration_m_s2 = 0, worst_yaw_rate = 0, seconds = 0;
+
+  explicit Watch(const Eigen::Vector3d& start = Eigen::Vector3d::Zero()) { follower.reset(start, 0.0); }
+  void step() {
+    const Reference before = follower.reference();
+    const Reference after = follower.advance(kDt_s);
+    const Eigen::Vector3d moved = after.position_odom_m - before.position_odom_m;
+    const Eigen::Vector3d mean = 0.5 * (before.velocity_odom_m_s + after.velocity_odom_m_s);
+    worst_jump_m = std::max(worst_jump_m, (moved - kDt_s * mean).norm());
+    worst_speed_m_s = std::max(worst_speed_m_s, after.velocity_odom_m_s.norm());
+    worst_acceleration_m_s2 =
+        std::max(worst_acceleration_m_s2, (after.velocity_odom_m_s - before.velocity_odom_m_s).norm() / kDt_s);
+    worst_yaw_rate =
+        std::max(worst_yaw_rate, std::abs(common::wrapAngle(after.yaw_odom_rad - before.yaw_odom_rad)) / kDt_s);
+    seconds += kDt_s;
+  }
+  bool finish(double at_most_s = 60.0) {
+    while (!follower.finished() && seconds < at_most_s) step();
+    return follower.finished();
+  }
+};
+
+TEST(PathFollower, aStraightLineIsATrapezoid) {
+  Watch watch;
+  watch.follower.setPath({{0, 0, 0}, {4, 0, 0}}, FlightMode::kFast);
+  ASSERT_TRUE(watch.finish());
+  EXPECT_EQ(watch.follower.reference().yaw_odom_rad, 0.0);
+  EXPECT_NEAR((watch.follower.reference().position_odom_m - Eigen::Vector3d(4, 0, 0)).norm(), 0.0, 1e-3);
+  EXPECT_LE(watch.worst_speed_m_s, 1.001);
+  EXPECT_LE(watch.worst_acceleration_m_s2, 1.2 * 1.25);
+  // 4 m at 1 m/s and 1.2 m/s^2 take 4.83 s; the rest is for settling to a millimetre.
+  EXPECT_LT(watch.seconds, 5.6);
+}
+
+TEST(PathFollower, theReferenceLiesOnAStraightLineWithoutLag) {
+  Watch watch({0, 0, 1});
+  watch.follower.setPath({{0, 0, 1}, {3, 3, 1}}, FlightMode::kFast);
+  const double whole_m = watch.follower.remaining_m();
+  double lag_m = 0;
+  while (!watch.follower.finished() && watch.seconds < 60) {
+    watch.step();
+    const double carrot_m = whole_m - watch.follower.remaining_m();
+    const double reference_m = (watch.follower.reference().position_odom_m - Eigen::Vector3d(0, 0, 1)).norm();
+    lag_m = std::max(lag_m, std::abs(carrot_m - reference_m));
+  }
+  EXPECT_LT(lag_m, 0.005);
+}
+
+TEST(PathFollower, cornersAreRoundedWithinTheModesDeviation) {
+  const Points corner = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}};
+  for (const auto& [mode, deviation_m] : {std::pair(FlightMode::kFast, 0.08), std::pair(FlightMode::kCareful, 0.05),
+                                          std::pair(FlightMode::kAccurate, 0.02)}) {
+    Watch watch({0, 0, 0});
+    watch.follower.setPath(corner, mode);
+    double off_m = 0;
+    while (!watch.follower.finished() && watch.seconds < 60) {
+      watch.step();
+      off_m = std::max(off_m, distanceToPath(corner, watch.follower.reference().position_odom_m));
+    }
+    ASSERT_TRUE(watch.follower.finished());
+    EXPECT_LT(off_m, deviation_m + 0.01) << toString(mode);
+    EXPECT_LT(watch.worst_acceleration_m_s2, 3.0) << toString(mode);
+    std::printf("corner %s: %.3f m off, %.1f s, %.2f m/s^2\n", toString(mode), off_m, watch.seconds,
+                watch.worst_acceleration_m_s2);
+  }
+}
+
+TEST(PathFollower, aNewPathInFlightIsContinuousAndKeepsTheSpeed) {
+  Watch watch;
+  watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kFast);
+  for (int i = 0; i < 250; ++i) watch.step();
+  const Eigen::Vector3d here = watch.follower.reference().position_odom_m;
+  ASSERT_NEAR(watch.follower.reference().velocity_odom_m_s.x(), 1.0, 1e-3);
+  // The planner's start is where it believes the vehicle to be: a few centimetres off.
+  watch.follower.setPath({here + Eigen::Vector3d(-0.02, 0.02, 0), {5, 0.3, 0}, {10, 0, 0}}, FlightMode::kFast);
+  watch.worst_acceleration_m_s2 = 0;
+  for (int i = 0; i < 50; ++i) watch.step();
+  EXPECT_GT(watch.follower.reference().velocity_odom_m_s.norm(), 0.9) << "it did not stop for it";
+  EXPECT_LT(watch.worst_acceleration_m_s2, 2.5);
+  ASSERT_TRUE(watch.finish());
+  EXPECT_LT(watch.worst_jump_m, 2e-4);
+}
+
+TEST(PathFollower, turningBackAtSpeedBrakesFirst) {
+  Watch watch;
+  watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kFast);
+  for (int i = 0; i < 300; ++i) watch.step();
+  const double x = watch.follower.reference().position_odom_m.x();
+  watch.follower.setPath({{x, 0, 0}, {0, 0, 0}}, FlightMode::kFast);
+  double farthest_m = x;
+  while (!watch.follower.finished() && watch.seconds < 60) {
+    watch.step();
+    farthest_m = std::max(farthest_m, watch.follower.reference().position_odom_m.x());
+  }
+  EXPECT_TRUE(watch.follower.finished());
+  EXPECT_LT(farthest_m - x, 1.0 / (2 * 1.2) + 0.1);
+  EXPECT_LT(watch.worst_acceleration_m_s2, 3.0);
+}
+
+TEST(PathFollower, stopTakesTheBrakingDistance) {
+  Watch watch;
+  watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kCareful);
+  for (int i = 0; i < 300; ++i) watch.step();
+  const Eigen::Vector3d from = watch.follower.reference().position_odom_m;
+  watch.follower.stop();
+  ASSERT_TRUE(watch.finish());
+  EXPECT_NEAR((watch.follower.reference().position_odom_m - from).norm(), 0.36 / (2 * 0.8), 0.02);
+  EXPECT_LT(watch.worst_acceleration_m_s2, 1.3);
+}
+
+TEST(PathFollower, aSpeedLimitActsWithinItsBraking) {
+  Watch watch;
+  watch.follower.setPath({{0, 0, 0}, {20, 0, 0}}, FlightMode::kFast);
+  for (int i = 0; i < 300; ++i) watch.step();
+  watch.follower.setSpeedLimit(0.25);
+  for (int i = 0; i < 70; ++i) watch.step();  // 0.75 m/s at 1.2 m/s^2: 0.63 s.
+  EXPECT_NEAR(watch.follower.reference().velocity_odom_m_s.norm(), 0.25, 0.02);
+  watch.follower.setSpeedLimit(std::numeric_limits<double>::quiet_NaN());
+  for (int i = 0; i < 60; ++i) watch.step();
+  EXPECT_LT(watch.follower.reference().velocity_odom_m_s.norm(), 0.02) << "what is not a number is no permission";
+  EXPECT_FALSE(watch.follower.finished());
+  watch.follower.setSpeedLimit(std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(watch.finish());
+}
+
+TEST(PathFollower, facesWhereItFliesFarAndHoldsTheYawNear) {
+  Watch watch;
+  watch.follower.setPath({{0, 0, 0}, {0, 4, 0}}, FlightMode::kFast);
+  ASSERT_TRUE(watch.finish());
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, std::numbers::pi / 2, 0.02);
+  EXPECT_LE(watch.worst_yaw_rate * 180 / std::numbers::pi, 60.1);
+  watch.seconds = 0;
+  watch.follower.setPath({{0, 4, 0}, {-0.3, 4, 0}}, FlightMode::kFast);
+  ASSERT_TRUE(watch.finish());
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, std::numbers::pi / 2, 0.02) << "sideways";
+}
+
+TEST(PathFollower, doesNotFlyFastWhereTheLaserDoesNotSee) {
+  Watch watch;
+  watch.follower.setPath({{0, 0, 0}, {-4, 0, 0}}, FlightMode::kFast);
+  while (std::abs(watch.follower.reference().yaw_odom_rad) < 75 * std::numbers::pi / 180) {
+    watch.step();
+    EXPECT_LT(watch.follower.reference().velocity_odom_m_s.norm(), 0.2);
+  }
+  EXPECT_TRUE(watch.finish());
+}
+
+TEST(PathFollower, movingTheMapMovesThePathNotTheReference) {
+  Watch watch;
+  watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kFast);
+  for (int i = 0; i < 300; ++i) watch.step();
+  watch.follower.movePath({0.1, -0.2, 0.03});
+  watch.worst_jump_m = 0;
+  ASSERT_TRUE(watch.finish());
+  EXPECT_LT(watch.worst_jump_m, 6e-4);
+  const Eigen::Vector2d goal = common::Pose2{0.1, -0.2, 0.03} * Eigen::Vector2d(10, 0);
+  EXPECT_LT((watch.follower.reference().position_odom_m.head<2>() - goal).norm(), 2e-3);
+}
+
+TEST(PathFollower, anyPathsAnyTimeStayContinuousAndEndAtTheGoal) {
+  rc::check([] {
+    const auto seed = *rc::gen::inRange(1, 1'000'000);
+    common::RandomStream random(static_cast<std::uint64_t>(seed), "paths");
+    Watch watch;
+    Points path;
+    for (int replan = 0; replan < 6; ++replan) {
+      path = {watch.follower.reference().position_odom_m +
+              Eigen::Vector3d(random.gaussian(0.03), random.gaussian(0.03), random.gaussian(0.02))};
+      const int n = 1 + static_cast<int>(random.uniform(0, 8));
+      for (int i = 0; i < n; ++i)
+        path.push_back(path.back() + Eigen::Vector3d(random.gaussian(0.8), random.gaussian(0.8), random.gaussian(0.1)));
+      watch.follower.setPath(path, static_cast<FlightMode>(static_cast<int>(random.uniform(0, 3))));
+      if (random.chance(0.3)) watch.follower.setSpeedLimit(random.uniform(0.2, 1.0));
+      for (int i = 0; i < static_cast<int>(random.uniform(10, 300)); ++i) watch.step();
+    }
+    RC_ASSERT(watch.finish(200.0));
+    RC_ASSERT((watch.follower.reference().position_odom_m - path.back()).norm() < 2e-3);
+    RC_ASSERT(watch.worst_jump_m < 1e-3);
+    RC_ASSERT(watch.worst_speed_m_s < 1.35);
+    RC_ASSERT(watch.worst_acceleration_m_s2 < 8.0);
+  });
+}
+
+TEST(PathShape, simplifyingStaysWithinTheTolerance) {
+  rc::check([] {
+    common::RandomStream random(static_cast<std::uint64_t>(*rc::gen::inRange(1, 1'000'000)), "simplify");
+    Points points{{0, 0, 0}};
+    for (int i = 0; i < 60; ++i)
+      points.push_back(points.back() + Eigen::Vector3d(random.uniform(0, 0.1), random.gaussian(0.02), 0));
+    const Points fewer = simplified(points, 0.02);
+    RC_ASSERT(fewer.front() == points.front());
+    RC_ASSERT(fewer.back() == points.back());
+    for (const auto& point : points) RC_ASSERT(distanceToPath(fewer, point) <= 0.02 + 1e-9);
+  });
+}
+
+TEST(PathShape, noPointIsPassedFasterThanWhatComesAllows) {
+  const Points points = rounded({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1.1, 1, 0}, {1.1, 0, 0}}, 0.05);
+  const auto speeds = speedsAlong(points, {1.0, 1.0, 0.5, 0.12});
+  const auto along = distancesAlong(points);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    EXPECT_LE(speeds[i] * speeds[i], speeds[i + 1] * speeds[i + 1] + 2.0 * (along[i + 1] - along[i]) + 1e-9);
+  EXPECT_EQ(speeds.back(), 0.0);
+}
+
+}  // namespace
+}  // namespace swiftlet::control

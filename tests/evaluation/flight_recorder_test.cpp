@@ -1,0 +1,163 @@
+// The recorder as a story, tick by tick.
+#include "evaluation/flight_recorder.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "evaluation/statistics.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using common::Duration;
+using common::MissionState;
+using common::Pose3;
+using common::Time;
+
+/// The take-off place: at (3, 4) on a floor of 0.2 m, heading along the world's y.
+const Pose3 kTakeOff{common::quaternionFrom({0, 0, M_PI_2}), {3, 4, 0.2}};
+
+/// The truth when the vehicle is really at this place of the `map` frame.
+simulation::Truth truthAt(double time_s, const Eigen::Vector3d& position_map_m) {
+  simulation::Truth truth;
+  truth.stamp = Time::fromSeconds(time_s);
+  truth.T_world_body = kTakeOff * Pose3{Eigen::Quaterniond::Identity(), position_map_m};
+  truth.airborne = true;
+  return truth;
+}
+
+common::VehicleState estimateAt(double time_s, const Eigen::Vector3d& position_map_m) {
+  common::VehicleState state;
+  state.stamp = Time::fromSeconds(time_s);
+  state.T_odom_body.position_m = position_map_m;
+  return state;
+}
+
+common::World worldOf(double time_s, MissionState mission, const std::vector<std::pair<int, std::string>>& nodes = {}) {
+  common::World world;
+  world.stamp = Time::fromSeconds(time_s);
+  world.mission.state = mission;
+  for (const auto& [id, status] : nodes) world.mission.tree.push_back({id, id - 1, "node", status});
+  return world;
+}
+
+TEST(FlightRecorder, ErrorsAreInTheTrueMapFrame) {
+  FlightRecorder recorder(kTakeOff);
+  recorder.tick(truthAt(0.0, {0, 0, 1}), estimateAt(0.0, {0.03, 0.04, 1}));
+  recorder.tick(truthAt(0.1, {1, 0, 1}), estimateAt(0.1, {1.03, 0.04, 1.12}));
+  const FlightRecord record = recorder.finish();
+  ASSERT_EQ(record.horizontal_errors_m.size(), 2u);
+  EXPECT_NEAR(record.horizontal_errors_m[1], 0.05, 1e-12);
+  EXPECT_NEAR(record.spatial_errors_m[1], 0.13, 1e-12);
+  EXPECT_NEAR(record.yaw_errors_rad[1], 0.0, 1e-12);
+  EXPECT_NEAR(record.true_distance_m, 1.0, 1e-12);
+  EXPECT_NEAR(record.cruise_height_world_m, 1.2, 1e-12);
+  ASSERT_EQ(record.truth_map.size(), 2u);
+  EXPECT_NEAR((record.truth_map[1].pose.position_m - Eigen::Vector3d(1, 0, 1)).norm(), 0, 1e-12);
+}
+
+TEST(FlightRecorder, ACorrectedMapFrameCounts) {
+  FlightRecorder recorder(kTakeOff);
+  common::VehicleState state = estimateAt(0.0, {2, 0, 1});
+  state.T_map_odom = {0.0, 0.1, M_PI_2};  // odom has drifted; map puts it right.
+  recorder.tick(truthAt(0.0, {0, 2.1, 1}), state);
+  EXPECT_NEAR(recorder.finish().horizontal_errors_m.at(0), 0.0, 1e-12);
+  EXPECT_NEAR(recorder.finish().yaw_errors_rad.at(0), M_PI_2, 1e-12);
+}
+
+TEST(FlightRecorder, AnEstimateIsComparedWithTheTruthOfItsOwnTime) {
+  FlightRecorder recorder(kTakeOff);
+  const auto along = [](double time_s) { return Eigen::Vector3d(time_s, 0, 1); };  // 1 m/s
+  for (int i = 0; i <= 20; ++i) {
+    const double now_s = 0.01 * i;
+    recorder.tick(truthAt(now_s, along(now_s)), estimateAt(now_s - 0.035, along(now_s - 0.035)));
+  }
+  const auto late = recorder.finish();
+  EXPECT_NEAR(statisticsOf(late.horizontal_errors_m).max, 0.0, 1e-9) << "late by 35 ms, and exact";
+  EXPECT_EQ(late.horizontal_errors_m.size(), 17u) << "those of times before the first truth cannot be compared";
+
+  FlightRecorder early(kTakeOff);
+  for (int i = 0; i <= 20; ++i)
+    early.tick(truthAt(0.01 * i, along(0.01 * i)), estimateAt(0.01 * i + 0.02, along(0.01 * i + 0.02)));
+  EXPECT_NEAR(statisticsOf(early.finish().horizontal_errors_m).max, 0.0, 1e-9);
+  EXPECT_EQ(early.finish().horizontal_errors_m.size(), 19u) << "the last two wait for a truth that did not come";
+}
+
+TEST(FlightRecorder, TheSameEstimateTwiceCountsOnce) {
+  FlightRecorder recorder(kTakeOff);
+  for (int i = 0; i < 5; ++i) recorder.tick(truthAt(0.01 * i, {0, 0, 1}), estimateAt(0.0, {0, 0, 1}));
+  EXPECT_EQ(recorder.finish().horizontal_errors_m.size(), 1u);
+}
+
+TEST(FlightRecorder, OnTheGroundNothingIsMeasured) {
+  FlightRecorder recorder(kTakeOff);
+  simulation::Truth truth = truthAt(0.0, {0, 0, 0});
+  truth.airborne = false;
+  recorder.tick(truth, estimateAt(0.0, {5, 5, 0}));
+  EXPECT_TRUE(recorder.finish().horizontal_errors_m.empty());
+  EXPECT_EQ(recorder.finish().true_distance_m, 0.0);
+}
+
+TEST(FlightRecorder, AGoalIsMeasuredWhenItsSuccessIsReported) {
+  FlightRecorder recorder(kTakeOff);
+  const common::Intent to_goal{7, common::GoToIntent{{3.0, -1.5}, {}, {}, 0.05, 0.1}};
+  const common::Intent to_home{8, common::GoToIntent{{0.0, 0.0}, {}, {}, 0.05, 0.1}};
+  const auto step = [&](double time_s, const Eigen::Vector3d& truth_map_m, const common::Intent& intent,
+                        common::IntentStatus status) {
+    recorder.tick(truthAt(time_s, truth_map_m), estimateAt(time_s, truth_map_m));
+    recorder.intent(Time::fromSeconds(time_s), intent, status);
+  };
+  using common::IntentState;
+  step(1.0, {2.0, -1.5, 1}, to_goal, {7, IntentState::kRunning, "", true});
+  step(1.1, {2.9, -1.5, 1}, to_goal, {6, IntentState::kSucceeded, "", true});  // Of an older intent.
+  step(1.2, {3.0, -1.44, 1}, to_goal, {7, IntentState::kSucceeded, "", true});
+  step(1.3, {3.5, -1.5, 1}, to_goal, {7, IntentState::kSucceeded, "", true});  // Still reported; measured already.
+  step(2.0, {0.03, 0.04, 1}, to_home, {8, IntentState::kSucceeded, "", true});
+  const FlightRecord record = recorder.finish();
+  ASSERT_EQ(record.goals.size(), 2u);
+  EXPECT_FALSE(record.goals[0].home);
+  EXPECT_NEAR(record.goals[0].error_m, 0.06, 1e-12);
+  EXPECT_TRUE(record.goals[1].home);
+  EXPECT_NEAR(record.goals[1].error_m, 0.05, 1e-12);
+}
+
+TEST(FlightRecorder, AFailedGoalIsNoGoal) {
+  FlightRecorder recorder(kTakeOff);
+  recorder.tick(truthAt(1.0, {0, 0, 1}), estimateAt(1.0, {0, 0, 1}));
+  recorder.intent(Time::fromSeconds(1), {7, common::GoToIntent{{3, 0}, {}, {}, 0.05, 0.1}},
+                  {7, common::IntentState::kFailed, "unreachable", true});
+  recorder.intent(Time::fromSeconds(1), {8, common::HoldIntent{}}, {8, common::IntentState::kSucceeded, "", true});
+  EXPECT_TRUE(recorder.finish().goals.empty());
+}
+
+TEST(FlightRecorder, InterruptionsAndTheirEnds) {
+  FlightRecorder recorder(kTakeOff);
+  const auto tree = [&](double time_s, const std::string& sequence, const std::string& explore) {
+    recorder.world(worldOf(time_s, MissionState::kRunning, {{0, "RUNNING"}, {1, sequence}, {2, explore}}));
+  };
+  tree(0, "RUNNING", "RUNNING");
+  tree(1, "SUSPENDED", "SUSPENDED");  // One interruption, whatever is below it.
+  tree(2, "SUSPENDED", "SUSPENDED");
+  tree(3, "RUNNING", "RUNNING");
+  tree(4, "SUSPENDED", "SUSPENDED");
+  tree(5, "IDLE", "IDLE");  // Given up.
+  tree(6, "SUSPENDED", "SUSPENDED");
+  const FlightRecord record = recorder.finish();
+  EXPECT_EQ(record.interruptions, 3);
+  EXPECT_EQ(record.resumed, 1);
+}
+
+TEST(FlightRecorder, MissionTimeRunsFromItsFirstTickToItsEnd) {
+  FlightRecorder recorder(kTakeOff);
+  recorder.world(worldOf(0.0, MissionState::kReady));
+  recorder.world(worldOf(2.0, MissionState::kRunning));
+  recorder.world(worldOf(50.0, MissionState::kHeld));
+  recorder.world(worldOf(82.5, MissionState::kDone));
+  recorder.world(worldOf(99.0, MissionState::kDone));
+  EXPECT_DOUBLE_EQ(recorder.finish().mission_time_s, 80.5);
+  EXPECT_EQ(recorder.finish().mission, MissionState::kDone);
+}
+
+}  // namespace
+}  // namespace swiftlet::evaluation

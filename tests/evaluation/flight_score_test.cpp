@@ -1,0 +1,144 @@
+// From a record to figures, and from figures to a verdict.
+#include "evaluation/flight_score.hpp"
+
+#include <gmock/gmock.h>
+
+#include "common/error.hpp"
+#include "small_world.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using common::MissionState;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A flight in the small room that did everything right.
+FlightRecord goodRecord() {
+  FlightRecord record;
+  record.T_world_map.position_m = {1.0, 1.0, 0.0};
+  record.goals = {{common::Time::fromSeconds(60), false, {1.0, 0.5}, 0.06},
+                  {common::Time::fromSeconds(80), true, {0, 0}, 0.04}};
+  record.horizontal_errors_m = {0.03, 0.03};
+  record.spatial_errors_m = {0.04, 0.04};
+  record.yaw_errors_rad = {0.01, 0.01};
+  record.cruise_height_world_m = 1.0;
+  record.mission = MissionState::kDone;
+  record.mission_time_s = 82.0;
+  record.flight_time_s = 90.0;
+  record.true_distance_m = 40.0;
+  common::OccupancyGrid map = common::makeOccupancyGrid(0.05);
+  smallMap().forEachCell([&](common::CellIndex c, common::occupancy::Cell value) {
+    if (!common::occupancy::isUnknown(value)) map.set({c.x - 20, c.y - 20}, value);
+  });
+  record.map = std::make_shared<common::OccupancyGrid>(map);
+  return record;
+}
+
+class FlightScoring : public testing::Test {
+ protected:
+  FlightScore score(const FlightRecord& record, const Criteria& criteria = {}) {
+    TrueWorld world;
+    world.rays = &rays_;
+    return scoreOf(record, world, criteria, 7, 3.0);
+  }
+  simulation::RayCaster rays_{smallWorld(1.0F)};
+};
+
+TEST_F(FlightScoring, AGoodFlight) {
+  Criteria criteria;
+  criteria.coverage_min = 0.99;
+  criteria.goal_error_max_m = criteria.home_error_max_m = 0.16;
+  criteria.mission_time_max_s = 90;
+  criteria.estimate_rms_max_m = criteria.map_wall_error_max_m = 0.05;
+  const FlightScore result = score(goodRecord(), criteria);
+  EXPECT_THAT(result.failures, IsEmpty());
+  EXPECT_EQ(result.seed, 7);
+  EXPECT_EQ(result.outcome, "done");
+  EXPECT_EQ(result.coverage, 1.0);
+  EXPECT_EQ(result.goal_error_m, 0.06);
+  EXPECT_EQ(result.home_error_m, 0.04);
+  EXPECT_NEAR(*result.estimate_rms_m, 0.03, 1e-12);
+  EXPECT_NEAR(*result.map_wall_error_median_m, 0.025, 1e-3);
+  EXPECT_DOUBLE_EQ(result.realtime_factor, 30.0);
+  EXPECT_GT(result.reachable_area_m2, 8.0);
+}
+
+TEST_F(FlightScoring, EveryMissIsNamed) {
+  FlightRecord record = goodRecord();
+  record.mission = MissionState::kFailed;
+  record.mission_reason = "goal unreachable";
+  record.goals.clear();
+  record.map = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+  record.interruptions = 2;
+  record.resumed = 1;
+  Criteria criteria;
+  criteria.coverage_min = 0.99;
+  criteria.goal_error_max_m = 0.16;
+  criteria.mission_time_max_s = 80;
+  criteria.estimate_rms_max_m = 0.02;
+  EXPECT_THAT(score(record, criteria).failures,
+              ElementsAre("mission: mission failed: goal unreachable", "coverage: 0.0000, at least 0.99 was asked for",
+                          "goal error, m: not measured, at most 0.16 was asked for",
+                          "mission time, s: 82.000, at most 80 was asked for",
+                          "estimate RMS, m: 0.030, at most 0.02 was asked for", "interruptions: 1 of 2 went on"));
+}
+
+TEST_F(FlightScoring, TheWorstGoalCounts) {
+  FlightRecord record = goodRecord();
+  record.goals.push_back({common::Time::fromSeconds(70), false, {0, 1}, 0.2});
+  EXPECT_EQ(score(record).goal_error_m, 0.2);
+}
+
+TEST_F(FlightScoring, ACollisionThatCouldBeAvoided) {
+  FlightRecord record = goodRecord();
+  record.last_truth.crashed = true;
+  record.last_truth.crash_reason = "touched `north_wall`";
+  const FlightScore result = score(record);
+  EXPECT_EQ(result.collisions, 1);
+  EXPECT_EQ(result.avoidable_collisions, 1);
+  EXPECT_FALSE(result.mission_done);
+  EXPECT_THAT(result.failures, ElementsAre("mission: touched `north_wall`", "collision: touched `north_wall`"));
+}
+
+TEST_F(FlightScoring, AWalkerThatRanIntoAVehicleThatStoodStill) {
+  FlightRecord record = goodRecord();
+  record.last_truth.crashed = record.last_truth.by_walker = record.last_truth.yielding = true;
+  record.last_truth.crash_reason = "touched `walker_0`";
+  const FlightScore result = score(record);
+  EXPECT_EQ(result.collisions, 1) << "it is reported all the same";
+  EXPECT_EQ(result.avoidable_collisions, 0);
+  EXPECT_THAT(result.failures.back(), HasSubstr("not avoidable"));
+  record.last_truth.yielding = false;
+  EXPECT_EQ(score(record).avoidable_collisions, 1);
+}
+
+TEST_F(FlightScoring, AFlightThatNeverTookOff) {
+  FlightRecord record;
+  record.flight_time_s = 300;
+  const FlightScore result = score(record);
+  EXPECT_EQ(result.outcome, "not finished after 300 s");
+  EXPECT_FALSE(result.coverage || result.goal_error_m || result.estimate_rms_m || result.map_wall_error_median_m);
+  EXPECT_FALSE(result.passed());
+}
+
+TEST(CriteriaConfig, NotANumberIsNotGoodEnough) {
+  FlightScore score;
+  score.mission_done = true;
+  score.estimate_rms_m = std::numeric_limits<double>::quiet_NaN();
+  Criteria criteria;
+  criteria.estimate_rms_max_m = 0.05;
+  EXPECT_EQ(missed(score, criteria).size(), 1u);
+}
+
+TEST(CriteriaConfig, IsChecked) {
+  Criteria criteria;
+  EXPECT_THAT(criteria.validate(), IsEmpty());
+  criteria.coverage_min = 99;  // Meant as per cent.
+  criteria.goal_error_max_m = -1;
+  EXPECT_EQ(criteria.validate().size(), 2u);
+}
+
+}  // namespace
+}  // namespace swiftlet::evaluation

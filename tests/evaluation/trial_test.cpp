@@ -1,0 +1,201 @@
+// Trial files and the results of trials.
+#include "evaluation/trial.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "common/error.hpp"
+#include "evaluation/trial_results.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+class Trials : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("swiftlet-trials-" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "papers");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path put(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  static std::string problemOf(const fs::path& path) {
+    try {
+      readTrials(path);
+    } catch (const common::InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+  fs::path folder_;
+};
+
+constexpr const char* kSmallest = "mission: missions/a.xml\nscenario: {world: worlds/w.sdf}\n";
+
+TEST_F(Trials, ReadAFile) {
+  const auto trials =
+      readTrials(put("house.yaml", std::string(kSmallest) + "repeat: 10\ncriteria: {coverage_min: 0.99}\n"
+                                                            "paper: [{figure: mission_time_median_s, value: 320}]\n"));
+  ASSERT_EQ(trials.size(), 1u);
+  EXPECT_EQ(trials[0].name, "house") << "by the file's name";
+  EXPECT_EQ(trials[0].repeat, 10);
+  EXPECT_EQ(trials[0].criteria.coverage_min, 0.99);
+  EXPECT_EQ(trials[0].criteria.collisions_max, 0);
+  EXPECT_EQ(trials[0].paper.at(0).value, 320);
+  EXPECT_EQ(trials[0].system, "swiftlet");
+}
+
+TEST_F(Trials, ReadAFolderInOrder) {
+  put("b.yaml", kSmallest);
+  put("a.yaml", kSmallest);
+  put("papers/c.yml", kSmallest);
+  put("notes.txt", "not a trial");
+  const auto trials = readTrials(folder_);
+  ASSERT_EQ(trials.size(), 3u);
+  EXPECT_EQ(trials[0].name, "a");
+  EXPECT_EQ(trials[2].name, "c");
+}
+
+TEST_F(Trials, MistakesOfAllFilesAreSaidAtOnce) {
+  put("a.yaml", "mission: m.xml\nscenario: {wrold: w.sdf}\n");
+  put("b.yaml", "scenario: {world: w.sdf}\ncriteria: {coverage_min: 99}\n");
+  const std::string problem = problemOf(folder_);
+  EXPECT_THAT(problem, HasSubstr("a.yaml:2:12: scenario: unknown key `wrold`, did you mean `world`?"));
+  EXPECT_THAT(problem, HasSubstr("scenario: names no `world`"));
+  EXPECT_THAT(problem, HasSubstr("b.yaml"));
+  EXPECT_THAT(problem, HasSubstr("mission: is missing"));
+  EXPECT_THAT(problem, HasSubstr("coverage_min: 99 is not within"));
+}
+
+TEST_F(Trials, NothingThere) {
+  EXPECT_THAT(problemOf(folder_ / "papers"), HasSubstr("holds no trials"));
+  EXPECT_THAT(problemOf(folder_ / "none.yaml"), HasSubstr("none.yaml: cannot be opened"));
+}
+
+TEST_F(Trials, PathsAreInTheArchiveOrWithTheSoftware) {
+  put("papers/in_archive.world", "");
+  TrialConfig trial;
+  trial.scenario.world = "in_archive.world";
+  trial.scenario.model_paths = {"models", "."};
+  trial.resolvePaths(folder_ / "papers", "/software");
+  EXPECT_EQ(trial.scenario.world, (folder_ / "papers/in_archive.world").string());
+  EXPECT_EQ(trial.scenario.model_paths[0], "/software/models");
+  trial.scenario.world = "trials/worlds/with_software.sdf";
+  trial.resolvePaths(folder_ / "papers", "/software");
+  EXPECT_EQ(trial.scenario.world, "/software/trials/worlds/with_software.sdf");
+}
+
+TEST_F(Trials, ArchivesAreFoundOrAskedFor) {
+  put("papers/w.tar.xz", "");
+  ::unsetenv("SWIFTLET_DATASETS");
+  EXPECT_EQ(findArchive("papers/w.tar.xz", folder_), folder_ / "papers/w.tar.xz");
+  try {
+    findArchive("none.tar.xz", folder_);
+    FAIL();
+  } catch (const common::InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("none.tar.xz: archive: there is no such file, set SWIFTLET_DATASETS"));
+  }
+  ::setenv("SWIFTLET_DATASETS", (folder_ / "papers").c_str(), 1);
+  EXPECT_EQ(findArchive("w.tar.xz", "/nowhere"), folder_ / "papers/w.tar.xz");
+  ::unsetenv("SWIFTLET_DATASETS");
+}
+
+TEST(ShippedTrials, AllLoad) {
+  const auto trials = readTrials(fs::path(SWIFTLET_SOURCE_DIR) / "trials");
+  EXPECT_GE(trials.size(), 7u);
+  for (const TrialConfig& trial : trials) {
+    EXPECT_FALSE(trial.description.empty()) << trial.name;
+    EXPECT_TRUE(trial.criteria.mission_done) << trial.name;
+    EXPECT_EQ(trial.criteria.collisions_max, 0) << trial.name;
+  }
+}
+
+FlightScore flight(std::int64_t seed, double goal_error_m, double time_s) {
+  FlightScore score;
+  score.seed = seed;
+  score.folder = "unb-" + std::to_string(seed);
+  score.outcome = "done";
+  score.mission_done = true;
+  score.coverage = 0.99 + 0.001 * static_cast<double>(seed);
+  score.goal_error_m = goal_error_m;
+  score.home_error_m = 2 * goal_error_m;
+  score.estimate_rms_m = 0.03;
+  score.mission_time_s = time_s;
+  score.realtime_factor = 20;
+  return score;
+}
+
+TrialResults results() {
+  TrialResult trial{"unb", "", "swiftlet", {{"goal_error_max_m", 0.16}}, {}};
+  trial.flights = {flight(1, 0.02, 80), flight(2, 0.05, 90), flight(3, 0.04, 70), flight(4, 0.03, 60)};
+  FlightScore crashed;
+  crashed.seed = 5;
+  crashed.collisions = 1;
+  crashed.outcome = "touched `box`";
+  crashed.mission_time_s = 4;
+  crashed.failures = {"collision: touched `box`"};
+  trial.flights.push_back(crashed);
+  return {{trial}};
+}
+
+TEST(TrialResultsJson, HasTheFiguresOfAllFlights) {
+  const json parsed = json::parse(toJson(results()));
+  ASSERT_EQ(parsed["trials"].size(), 1u);
+  const json& trial = parsed["trials"][0];
+  EXPECT_EQ(trial["name"], "unb");
+  EXPECT_EQ(trial["runs"], 5);
+  EXPECT_EQ(trial["passed"], 4);
+  EXPECT_EQ(trial["collisions"], 1);
+  EXPECT_NEAR(trial["coverage_min"].get<double>(), 0.991, 1e-12);
+  EXPECT_NEAR(trial["goal_error_max_m"].get<double>(), 0.05, 1e-12);
+  EXPECT_NEAR(trial["goal_error_median_m"].get<double>(), 0.035, 1e-12);
+  EXPECT_NEAR(trial["home_error_max_m"].get<double>(), 0.10, 1e-12);
+  EXPECT_NEAR(trial["mission_time_median_s"].get<double>(), 75, 1e-12) << "a crash is no fast mission";
+  EXPECT_NEAR(trial["estimate_rms_median_m"].get<double>(), 0.03, 1e-12);
+  EXPECT_NEAR(trial["realtime_factor_median"].get<double>(), 20, 1e-12);
+  ASSERT_EQ(trial["flights"].size(), 5u);
+  EXPECT_TRUE(trial["flights"][4]["goal_error_m"].is_null());
+  EXPECT_EQ(trial["flights"][4]["failures"][0], "collision: touched `box`");
+}
+
+TEST(TrialResultsJson, WithoutFlightsAllIsNull) {
+  const json trial = json::parse(toJson(TrialResults{{{"empty", "", "swiftlet", {}, {}}}}))["trials"][0];
+  EXPECT_EQ(trial["runs"], 0);
+  EXPECT_TRUE(trial["coverage_min"].is_null());
+  EXPECT_TRUE(trial["flights"].is_array());
+}
+
+TEST(TrialResults, PassWhenEveryFlightDoes) {
+  TrialResults all = results();
+  EXPECT_FALSE(all.passed());
+  all.trials[0].flights.pop_back();
+  EXPECT_TRUE(all.passed());
+  EXPECT_FALSE(TrialResults{}.passed()) << "no flight proves nothing";
+}
+
+TEST(TrialResults, Tables) {
+  const std::string summary = toText(summaryTable(results()));
+  EXPECT_THAT(summary, HasSubstr("unb"));
+  EXPECT_THAT(summary, HasSubstr("4/5"));
+  EXPECT_THAT(summary, HasSubstr("99.1 %"));
+  EXPECT_THAT(summary, testing::ContainsRegex("the paper .*0.160")) << "the paper's figure stands below ours";
+  const common::Table flights = flightTable(results().trials[0]);
+  EXPECT_EQ(flights.rows.size(), 5u);
+  EXPECT_EQ(flights.rows[0][0].link, "unb-1/report.html");
+  EXPECT_EQ(failureTable(results()).rows.size(), 1u);
+}
+
+}  // namespace
+}  // namespace swiftlet::evaluation

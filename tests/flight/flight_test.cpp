@@ -1,0 +1,149 @@
+// The program flies. Worlds and missions are the shipped ones; what is checked are the files a run leaves.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tests/flight/run_files.hpp"
+#include "tests/flight/tablet.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace swiftlet::flight {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::describe;
+using test_support::ProgramEnd;
+using test_support::ProgramOptions;
+using test_support::readText;
+using test_support::runSwiftlet;
+using testing::HasSubstr;
+
+const std::string kMission = "missions/explore_and_return.xml";
+
+std::vector<std::string> shippedMissions() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(SWIFTLET_SOURCE_DIR) / "missions"))
+    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class ShippedMission : public test_support::Scratch, public testing::WithParamInterface<std::string> {};
+
+TEST_P(ShippedMission, FliesAndLeavesItsRun) {
+  const std::string mission = "missions/" + GetParam() + ".xml";
+  // A mission that waits for an operator never ends by itself: it is ended by the clock.
+  const bool waits = readText(fs::path(SWIFTLET_SOURCE_DIR) / mission).find("<OperatorCommand") != std::string::npos;
+  const ProgramEnd end = runSwiftlet({"fly", mission, "--headless", "--speed", "max", "--seed", "3", "--json", "--out",
+                                      path("run"), "--time-limit", waits ? "20" : "300"});
+  ASSERT_EQ(end.exit_code, waits ? 1 : 0) << describe(end);
+  const auto said = nlohmann::json::parse(end.out);
+  EXPECT_EQ(said.at("outcome"), waits ? "stopped" : "done") << said.dump(2);
+  EXPECT_EQ(said.at("run"), path("run"));
+
+  expectSoundRun(path("run"));
+  const auto mission_json = nlohmann::json::parse(readText(path("run/mission.json")));
+  EXPECT_EQ(mission_json.at("outcome"), said.at("outcome"));
+  EXPECT_EQ(mission_json.at("mission"), GetParam());
+  EXPECT_EQ(mission_json.at("seed"), 3);
+  if (waits) return;
+  EXPECT_GT(mission_json.at("distance_m").get<double>(), 3.0);
+  EXPECT_FALSE(mission_json.at("phases").empty());
+  for (const auto& frontier : mission_json.at("frontiers"))
+    EXPECT_NE(frontier.at("reason"), "open") << "left without a reason: " << frontier;
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, ShippedMission, testing::ValuesIn(shippedMissions()),
+                         [](const auto& mission) { return mission.param; });
+
+class Determinism : public test_support::Scratch {
+ protected:
+  ProgramEnd fly(const std::string& run, const std::string& seed, std::vector<std::string> more,
+                 const ProgramOptions& options = {}) {
+    std::vector<std::string> arguments = {"fly", kMission, "--speed", "max",          "--seed",
+                                          seed,  "--out",  path(run), "--time-limit", "40"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runSwiftlet(arguments, options);
+  }
+  void expectSame(const std::string& a, const std::string& b) const {
+    for (const std::string name : {"/trajectory.tum", "/map.pgm", "/events.jsonl"})
+      EXPECT_TRUE(readText(path(a + name)) == readText(path(b + name))) << a << " and " << b << " differ in " << name;
+  }
+};
+
+TEST_F(Determinism, TheSameSeedLeavesTheSameBytes) {
+  const ProgramEnd first = fly("first", "11", {"--headless"});
+  ASSERT_GE(readTum(path("first/trajectory.tum")).size(), 500u) << describe(first);
+  fly("second", "11", {"--headless"});
+  expectSame("first", "second");
+  fly("other", "12", {"--headless"});
+  EXPECT_FALSE(readText(path("first/trajectory.tum")) == readText(path("other/trajectory.tum")))
+      << "the seed is ignored";
+}
+
+TEST_F(Determinism, ATabletThatWatchesChangesNothing) {
+  fly("alone", "11", {"--headless"});
+  std::unique_ptr<Tablet> tablet;
+  ProgramOptions options;
+  options.while_running = [&](pid_t, const std::string& out) {
+    const auto address = out.find("http://127.0.0.1:");
+    if (!tablet && address != std::string::npos && out.find('\n', address) != std::string::npos)
+      tablet = std::make_unique<Tablet>(std::stoi(out.substr(address + 17)));
+  };
+  const ProgramEnd watched = fly("watched", "11", {"--port", "0"}, options);
+  ASSERT_TRUE(tablet) << describe(watched);
+  EXPECT_GT(tablet->frames(), 3) << describe(watched);
+  expectSame("alone", "watched");
+}
+
+class CutShort : public test_support::Scratch {
+ protected:
+  /// Flies until trajectory.tum holds `bytes`, then sends the signal.
+  ProgramEnd flyAndSend(int signal, std::uintmax_t bytes) {
+    bool sent = false;
+    ProgramOptions options;
+    options.while_running = [&, signal, bytes](pid_t process, const std::string&) {
+      std::error_code missing;
+      const auto size = fs::file_size(path("run/trajectory.tum"), missing);
+      if (sent || missing || size < bytes || !fs::exists(path("run/report.html"))) return;
+      sent = true;
+      kill(process, signal);
+    };
+    const ProgramEnd end =
+        runSwiftlet({"fly", kMission, "--headless", "--speed", "4", "--seed", "5", "--out", path("run")}, options);
+    EXPECT_TRUE(sent) << "the flight was over before it could be cut short: " << describe(end);
+    return end;
+  }
+};
+
+TEST_F(CutShort, AKilledProcessLeavesARunThatCanBeRead) {
+  const ProgramEnd end = flyAndSend(SIGKILL, 40'000);
+  EXPECT_EQ(end.signal, SIGKILL) << describe(end);
+  expectSoundRun(path("run"));
+  EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), "flying");
+}
+
+TEST_F(CutShort, AnInterruptEndsTheRunInOrder) {
+  const ProgramEnd end = flyAndSend(SIGINT, 20'000);
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  expectSoundRun(path("run"));
+  EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), "stopped");
+}
+
+TEST_F(CutShort, AnOlderRunIsReplacedAsAWhole) {
+  const std::vector<std::string> fly = {"fly",          kMission, "--headless", "--speed",  "max",
+                                        "--time-limit", "8",      "--out",      path("run")};
+  runSwiftlet(fly);
+  const auto poses = readTum(path("run/trajectory.tum")).size();
+  runSwiftlet(fly);
+  expectSoundRun(path("run"));
+  EXPECT_EQ(readTum(path("run/trajectory.tum")).size(), poses);
+}
+
+}  // namespace
+}  // namespace swiftlet::flight

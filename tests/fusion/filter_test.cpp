@@ -1,0 +1,338 @@
+// The error-state filter as a whole: late measurements, consistency, outliers, silence, garbage.
+#include <algorithm>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/fusion/synthetic_flight.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Duration;
+using common::Time;
+
+void expectSameState(const ErrorStateFilter& a, const ErrorStateFilter& b, double tolerance) {
+  const auto x = a.state(), y = b.state();
+  EXPECT_EQ(x.stamp, y.stamp);
+  EXPECT_LE((x.T_odom_body.position_m - y.T_odom_body.position_m).norm(), tolerance);
+  EXPECT_LE((x.T_odom_body.rotation.coeffs() - y.T_odom_body.rotation.coeffs()).norm(), tolerance);
+  EXPECT_LE((x.velocity_odom_m_s - y.velocity_odom_m_s).norm(), tolerance);
+  EXPECT_LE((a.accelerometerBias_m_s2() - b.accelerometerBias_m_s2()).norm(), tolerance);
+  EXPECT_LE((a.covariance() - b.covariance()).cwiseAbs().maxCoeff(), tolerance);
+}
+
+TEST(ErrorStateFilter, lateIsAsGoodAsOnTime) {
+  SyntheticFlight flight(1, 12.0);
+  const auto imu = flight.imuSamples();
+  flight.delay_s = 0.0;
+  auto on_time = flight.deliveries();
+  auto late = on_time;
+  for (Delivery& delivery : late) delivery.arrives += Duration::fromSeconds(0.173);
+  ErrorStateFilter a({}), b({});
+  // Nothing is under way at the end.
+  const auto last = Time::fromSeconds(11.5);
+  std::erase_if(on_time, [&](const Delivery& d) { return d.arrives > last; });
+  std::erase_if(late, [&](const Delivery& d) { return d.arrives > last + Duration::fromSeconds(0.173); });
+  feed(a, imu, on_time, flight.restUntil());
+  feed(b, imu, late, flight.restUntil());
+  EXPECT_GT(b.counts().replays, 10 * a.counts().replays);
+  EXPECT_EQ(a.counts().refused, 0u);
+  EXPECT_EQ(b.counts().refused, 0u);
+  expectSameState(a, b, 1e-12);
+}
+
+TEST(ErrorStateFilter, theOrderOfArrivalDoesNotMatter) {
+  SyntheticFlight flight(2, 8.0);
+  const auto imu = flight.imuSamples();
+  const auto in_order = flight.deliveries();
+  ErrorStateFilter a({});
+  feed(a, imu, in_order, flight.restUntil());
+  for (int seed = 1; seed <= 3; ++seed) {
+    common::RandomStream random(static_cast<std::uint64_t>(seed), "order");
+    auto shuffled = in_order;
+    for (Delivery& delivery : shuffled)
+      if (delivery.order < 2) delivery.arrives += Duration::fromSeconds(random.uniform(0.0, 0.03));
+    ErrorStateFilter b({});
+    feed(b, imu, shuffled, flight.restUntil());
+    EXPECT_EQ(b.counts().refused, 0u);
+    expectSameState(a, b, 1e-12);
+  }
+}
+
+TEST(ErrorStateFilter, theSameInputGivesTheSameBits) {
+  SyntheticFlight flight(3, 6.0);
+  const auto imu = flight.imuSamples();
+  const auto deliveries = flight.deliveries();
+  ErrorStateFilter a({}), b({});
+  feed(a, imu, deliveries, flight.restUntil());
+  feed(b, imu, deliveries, flight.restUntil());
+  expectSameState(a, b, 0.0);
+}
+
+/// Error and covariance of what is observable: height, velocity, tilt, biases.
+struct Consistency {
+  double nees = 0;
+  double velocity_m_s = 0;
+  double tilt_rad = 0;
+};
+
+TEST(ErrorStateFilter, itsErrorsAreAsLargeAsItSays) {
+  constexpr int kRuns = 24;
+  double nees_sum = 0;
+  double velocity2 = 0, tilt2 = 0;
+  int samples = 0;
+  const std::vector<int> rows = {2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14};
+  for (int run = 0; run < kRuns; ++run) {
+    common::RandomStream random(static_cast<std::uint64_t>(run), "bias");
+    SensorNoise noise;
+    noise.accelerometer_bias = {random.gaussian(0.1), random.gaussian(0.1), random.gaussian(0.1)};
+    SyntheticFlight flight(static_cast<std::uint64_t>(100 + run), 16.0, noise);
+    const auto imu = flight.imuSamples();
+    const Eigen::Vector3d accelerometer_bias = flight.accelerometer_bias, gyroscope_bias = flight.gyroscope_bias;
+    ErrorStateFilter::Config config;
+    config.accelerometer_bias_sigma_m_s2 = 0.1;
+    ErrorStateFilter filter(config);
+    feed(filter, imu, flight.deliveries(), flight.restUntil());
+    const auto state = filter.state();
+    const Truth truth = flight.motion.truth(state.stamp.seconds());
+    Eigen::Matrix<double, 15, 1> error;
+    error << truth.T_odom_body.position_m - state.T_odom_body.position_m, truth.velocity_m_s - state.velocity_odom_m_s,
+        common::logSO3(truth.T_odom_body.rotation * state.T_odom_body.rotation.conjugate()),
+        accelerometer_bias - filter.accelerometerBias_m_s2(), gyroscope_bias - filter.gyroscopeBias_rad_s();
+    const auto covariance = filter.covariance();
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    Eigen::VectorXd e(n);
+    Eigen::MatrixXd p(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      e(i) = error(rows[static_cast<std::size_t>(i)]);
+      for (Eigen::Index j = 0; j < n; ++j)
+        p(i, j) = covariance(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
+    }
+    // The attitude error in odom depends on the (drifting) yaw only in the second order.
+    nees_sum += e.dot(p.ldlt().solve(e));
+    velocity2 += error.segment<3>(3).squaredNorm() / 3;
+    tilt2 += error.segment<2>(6).squaredNorm() / 2;
+    ++samples;
+  }
+  const double nees = nees_sum / (kRuns * static_cast<double>(rows.size()));
+  std::printf("consistency: NEES %.2f per degree of freedom over %d runs, velocity %.4f m/s, tilt %.3f deg RMS\n", nees,
+              kRuns, std::sqrt(velocity2 / samples), std::sqrt(tilt2 / samples) * 57.3);
+  // 24 runs of 12 degrees of freedom: one standard deviation of the mean is 0.08.
+  EXPECT_GT(nees, 0.6);
+  EXPECT_LT(nees, 1.35);
+  EXPECT_LT(std::sqrt(velocity2 / samples), 0.025);
+  EXPECT_LT(std::sqrt(tilt2 / samples), 0.01);
+}
+
+TEST(ErrorStateFilter, startsLevelledAndKnowsItsGyroscope) {
+  SensorNoise noise;
+  SyntheticFlight flight(5, 1.0, noise);
+  ErrorStateFilter filter({});
+  EXPECT_EQ(filter.health().status, FusionStatus::kNotInitialized);
+  EXPECT_FALSE(filter.initialize(0.15));
+  for (const auto& sample : flight.imuSamples()) filter.predict(sample);
+  ASSERT_TRUE(filter.initialize(0.15));
+  const auto angles = common::rollPitchYaw(filter.state().T_odom_body.rotation);
+  // 0.08 m/s^2 of unknown accelerometer bias look like half a degree.
+  EXPECT_NEAR(angles.roll_rad, 0.0, 0.012);
+  EXPECT_NEAR(angles.pitch_rad, 0.0, 0.012);
+  EXPECT_NEAR(angles.yaw_rad, 0.0, 1e-12);
+  EXPECT_NEAR((filter.gyroscopeBias_rad_s() - noise.gyroscope_bias).norm(), 0.0, 0.003);
+  EXPECT_EQ(filter.state().T_odom_body.position_m, Eigen::Vector3d(0, 0, 0.15));
+}
+
+TEST(ErrorStateFilter, refusesToStartWhileMoving) {
+  SyntheticFlight flight(6, 6.0);
+  ErrorStateFilter filter({});
+  for (const auto& sample : flight.imuSamples()) filter.predict(sample);
+  EXPECT_THAT(filter.initialize(0.15).error(), testing::HasSubstr("moves"));
+  EXPECT_FALSE(filter.initialize(std::nan("")));
+}
+
+TEST(ErrorStateFilter, outliersAreGated) {
+  SyntheticFlight flight(7, 12.0);
+  const auto imu = flight.imuSamples();
+  auto deliveries = flight.deliveries();
+  // Every tenth scan is followed by a wild match against the same reference, every tenth height by a wild one.
+  const auto count = deliveries.size();
+  const Eigen::Matrix3d covariance = 1e-4 * Eigen::Matrix3d::Identity();
+  for (std::size_t i = 300; i < count; i += 20) {
+    const Time to = deliveries[i].arrives - Duration::fromSeconds(flight.delay_s);
+    deliveries.push_back({deliveries[i].arrives, 5, [=](ErrorStateFilter& f) { (void)f.addHeight(to, 3.0, 1e-4); }});
+    deliveries.push_back({deliveries[i].arrives, 6, [=](ErrorStateFilter& f) {
+                            (void)f.addAbsolutePose2(to, {}, 1e6 * covariance);  // Says nothing.
+                          }});
+  }
+  ErrorStateFilter filter({});
+  double worst_m = 0;
+  feed(filter, imu, deliveries, flight.restUntil(), [&](double t) {
+    const auto state = filter.state();
+    worst_m = std::max(worst_m, std::abs(state.T_odom_body.position_m.z() - flight.motion.pose(t).position_m.z()));
+  });
+  EXPECT_GT(filter.counts().heights_gated, 20u);
+  EXPECT_EQ(filter.counts().recoveries, 0u);
+  EXPECT_LT(worst_m, 0.05);
+}
+
+TEST(ErrorStateFilter, aGateThatStaysShutIsForcedOpenAndReported) {
+  SyntheticFlight flight(8, 14.0);
+  const auto imu = flight.imuSamples();
+  auto deliveries = flight.deliveries();
+  for (Delivery& delivery : deliveries) {
+    if (delivery.order != 0 || delivery.arrives < Time::fromSeconds(8.0)) continue;
+    const double t = delivery.arrives.seconds() - flight.delay_s;
+    const Time at = delivery.arrives - Duration::fromSeconds(flight.delay_s);
+    const double shifted_m = flight.motion.pose(t).position_m.z() + 0.5;  // The height jumps for good.
+    delivery.deliver = [=](ErrorStateFilter& f) { (void)f.addHeight(at, shifted_m, 1e-4); };
+  }
+  ErrorStateFilter filter({});
+  bool degraded = false;
+  feed(filter, imu, deliveries, flight.restUntil(), [&](double t) {
+    if (t > 8.5 && t < 9.0) degraded = degraded || filter.health().status == FusionStatus::kDegraded;
+  });
+  EXPECT_TRUE(degraded);
+  EXPECT_GE(filter.counts().recoveries, 1u);
+  EXPECT_LE(filter.counts().recoveries, 3u);
+  const auto state = filter.state();
+  EXPECT_NEAR(state.T_odom_body.position_m.z(), flight.motion.pose(state.stamp.seconds()).position_m.z() + 0.5, 0.05);
+  EXPECT_EQ(filter.health().status, FusionStatus::kOk);
+}
+
+TEST(ErrorStateFilter, contradictionWithoutEndIsADivergenceThatStays) {
+  SyntheticFlight flight(9, 16.0);
+  const auto imu = flight.imuSamples();
+  auto deliveries = flight.deliveries();
+  for (Delivery& delivery : deliveries) {
+    if (delivery.order != 0 || delivery.arrives < Time::fromSeconds(6.0)) continue;
+    const Time at = delivery.arrives - Duration::fromSeconds(flight.delay_s);
+    const double nonsense_m = std::fmod(delivery.arrives.seconds(), 1.2) > 0.6 ? 5.0 : 0.5;
+    delivery.deliver = [=](ErrorStateFilter& f) { (void)f.addHeight(at, nonsense_m, 1e-4); };
+  }
+  ErrorStateFilter filter({});
+  feed(filter, imu, deliveries, flight.restUntil());
+  EXPECT_EQ(filter.health().status, FusionStatus::kDiverged);
+  EXPECT_FALSE(filter.state().horizontal_valid);
+  EXPECT_FALSE(filter.state().vertical_valid);
+}
+
+TEST(ErrorStateFilter, aSilentLaserDegradesAndComesBack) {
+  SyntheticFlight flight(10, 16.0);
+  flight.silent_from_s = 8.0;
+  flight.silent_until_s = 9.2;
+  flight.reference_every_s = 0.5;
+  const auto imu = flight.imuSamples();
+  ErrorStateFilter filter({});
+  FusionStatus during = FusionStatus::kOk;
+  double drift_m = 0;
+  feed(filter, imu, flight.deliveries(), flight.restUntil(), [&](double t) {
+    if (t < 9.15 || t > 9.16) return;
+    during = filter.health().status;
+    const auto truth = flight.motion.truth(t);
+    drift_m = (filter.state().velocity_odom_m_s - truth.velocity_m_s).norm();
+  });
+  EXPECT_EQ(during, FusionStatus::kDegraded);
+  EXPECT_LT(drift_m, 0.3);
+  EXPECT_EQ(filter.health().status, FusionStatus::kOk) << filter.health().reason;
+  EXPECT_TRUE(filter.state().horizontal_valid);
+}
+
+TEST(ErrorStateFilter, garbageIsCountedAndLeftOut) {
+  SyntheticFlight flight(11, 6.0);
+  const auto imu = flight.imuSamples();
+  const auto deliveries = flight.deliveries();
+  ErrorStateFilter clean({}), dirty({});
+  feed(clean, imu, deliveries, flight.restUntil());
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  std::uint64_t refused = 0;
+  feed(dirty, imu, deliveries, flight.restUntil(), [&](double t) {
+    if (static_cast<int>(t * 200) % 50 != 0) return;
+    const Time now = Time::fromSeconds(t);
+    common::ImuSample sample = imu[10];
+    dirty.predict(sample);  // Out of order.
+    sample.stamps.measured = now + Duration::fromMilliseconds(1);
+    sample.specific_force_body_m_s2.x() = nan;
+    dirty.predict(sample);
+    sample.specific_force_body_m_s2.x() = 0;
+    sample.rotation_ahrs_body.coeffs().setZero();
+    dirty.predict(sample);
+    const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+    EXPECT_EQ(dirty.addHeight(now, nan, 1.0), Insertion::kInvalid);
+    EXPECT_EQ(dirty.addHeight(now, 1.0, -1.0), Insertion::kInvalid);
+    EXPECT_EQ(dirty.addRelativePose(now, now, {}, identity), Insertion::kInvalid);
+    EXPECT_EQ(dirty.addRelativePose(now - Duration::fromMilliseconds(7), now, {}, identity),
+              Insertion::kUnknownReference);
+    EXPECT_EQ(dirty.addRelativePose(now - Duration::fromMilliseconds(7), now, {nan, 0, 0}, identity),
+              Insertion::kInvalid);
+    EXPECT_EQ(dirty.addAbsolutePose2(now, {}, -identity), Insertion::kInvalid);
+    EXPECT_EQ(dirty.addHeight(now - Duration::fromSeconds(2.0), 1.0, 1.0), Insertion::kTooOld);
+    EXPECT_EQ(dirty.addHeight(now + Duration::fromSeconds(2.0), 1.0, 1.0), Insertion::kTooNew);
+    refused += 8;
+  });
+  EXPECT_EQ(dirty.counts().refused, refused);
+  EXPECT_GT(dirty.counts().imu_dropped, 30u);
+  expectSameState(clean, dirty, 0.0);
+}
+
+TEST(ErrorStateFilter, survivesLostImuSamples) {
+  SyntheticFlight flight(12, 14.0);
+  auto imu = flight.imuSamples();
+  common::RandomStream random(1, "loss");
+  std::erase_if(imu, [&](const common::ImuSample& s) {
+    const double t = s.stamps.measured.seconds();
+    return t > 3.0 && (random.chance(0.05) || (t > 8.0 && t < 8.08));
+  });
+  ErrorStateFilter filter({});
+  feed(filter, imu, flight.deliveries(), flight.restUntil());
+  const auto state = filter.state();
+  const Truth truth = flight.motion.truth(state.stamp.seconds());
+  EXPECT_LT((state.velocity_odom_m_s - truth.velocity_m_s).norm(), 0.12);
+  EXPECT_EQ(filter.health().status, FusionStatus::kOk) << filter.health().reason;
+}
+
+TEST(ErrorStateFilter, posesInterpolateTheHistory) {
+  SyntheticFlight flight(13, 8.0);
+  ErrorStateFilter filter({});
+  feed(filter, flight.imuSamples(), flight.deliveries(), flight.restUntil());
+  const Time newest = filter.newest();
+  const Time from = newest - Duration::fromMilliseconds(40);
+  const PoseHistory history = filter.poses(from, newest);
+  EXPECT_LE(history.poses().size(), 10u);
+  for (int i = 0; i <= 1080; ++i) {
+    const Time t = from + Duration::fromMicroseconds(i * 37);
+    if (t > newest) break;
+    const auto a = history.at(t), b = filter.poseAt(t);
+    ASSERT_TRUE(a && b);
+    EXPECT_LT((a->position_m - b->position_m).norm(), 1e-12);
+    EXPECT_LT(a->rotation.angularDistance(b->rotation), 1e-7);
+  }
+  EXPECT_FALSE(filter.poseAt(newest - Duration::fromSeconds(3.0)));
+  EXPECT_TRUE(filter.poseAt(newest + Duration::fromMilliseconds(15)));
+  EXPECT_FALSE(filter.poseAt(newest + Duration::fromMilliseconds(50)));
+  EXPECT_TRUE(
+      filter.poses(newest, newest + Duration::fromMilliseconds(15)).covers(newest + Duration::fromMilliseconds(15)));
+}
+
+TEST(ErrorStateFilter, absolutePosesRemoveDrift) {
+  SyntheticFlight flight(14, 20.0);
+  flight.reference_every_s = 0.05;  // Much drift.
+  const auto imu = flight.imuSamples();
+  auto deliveries = flight.deliveries();
+  for (double t = 8.0; t < 20.0; t += 1.0) {
+    const auto pose = planar(flight.motion.pose(t));
+    const Time at = Time::fromSeconds(t);
+    deliveries.push_back({at + Duration::fromSeconds(0.3), 9, [=](ErrorStateFilter& f) {
+                            EXPECT_EQ(f.addAbsolutePose2(at, pose, 1e-4 * Eigen::Matrix3d::Identity()),
+                                      Insertion::kTaken);
+                          }});
+  }
+  ErrorStateFilter filter({});
+  feed(filter, imu, deliveries, flight.restUntil());
+  const auto state = filter.state();
+  const Truth truth = flight.motion.truth(state.stamp.seconds());
+  EXPECT_LT((state.T_odom_body.position_m - truth.T_odom_body.position_m).norm(), 0.08);
+}
+
+}  // namespace
+}  // namespace swiftlet::perception

@@ -1,0 +1,57 @@
+// events.jsonl: one event a line, whatever the text.
+#include "interfaces/files/json_lines.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "support.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::Event;
+using common::Severity;
+using common::Time;
+using testing::HasSubstr;
+
+TEST(Events, OneLineOfJson) {
+  EXPECT_EQ(toJson({Time::fromSeconds(12.5), Severity::kWarning, "flight", "held", "laser silent"}),
+            R"({"t_s":12.5,"severity":"warning","source":"flight","text":"held","reason":"laser silent"})");
+}
+
+TEST(Events, AnyTextStaysOnItsLine) {
+  const ScratchFolder folder;
+  const std::string odd = "two\nlines, \"quoted\", \t tab, \xff no UTF-8, é";
+  auto writer = EventWriter::create(folder / "e.jsonl");
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE(writer->write({Time::fromNanoseconds(1), Severity::kInfo, "mission", odd, ""}));
+  ASSERT_TRUE(writer->write({Time::fromNanoseconds(2), Severity::kError, "x", "second", "why"}));
+  const auto events = readEvents(folder / "e.jsonl");
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_THAT(events[0].text, HasSubstr("two\nlines, \"quoted\", \t tab"));
+  EXPECT_EQ(events[1].severity, Severity::kError);
+  EXPECT_EQ(events[1].stamp, Time::fromNanoseconds(2));
+  EXPECT_EQ(events[1].reason, "why");
+}
+
+TEST(Events, ALineThatWasCutOffIsLeftOut) {
+  const ScratchFolder folder;
+  const std::string line = toJson({Time::fromSeconds(1), Severity::kInfo, "a", "b", ""});
+  put(folder / "e.jsonl", line + "\n" + line.substr(0, 20));
+  EXPECT_EQ(readEvents(folder / "e.jsonl").size(), 1u);
+}
+
+TEST(Events, MistakesSayWhere) {
+  const ScratchFolder folder;
+  const std::string line = toJson({Time::fromSeconds(1), Severity::kInfo, "a", "b", ""});
+  const auto problem = [&](const std::string& second) {
+    put(folder / "e.jsonl", line + "\n" + second + "\n");
+    return problemOf([&] { readEvents(folder / "e.jsonl"); });
+  };
+  EXPECT_THAT(problem("not json"), HasSubstr("e.jsonl:2: event: "));
+  EXPECT_THAT(problem(R"({"t_s": 1})"), HasSubstr("e.jsonl:2: event: "));
+  EXPECT_THAT(problem(R"({"t_s":1,"severity":"loud","source":"a","text":"b"})"), HasSubstr("unknown severity `loud`"));
+}
+
+}  // namespace
+}  // namespace swiftlet::interfaces

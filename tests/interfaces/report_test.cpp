@@ -1,0 +1,139 @@
+// Reports are one file each, show what there is, and whatever text they are given stays text.
+#include "interfaces/report/report.hpp"
+
+#include <limits>
+#include <regex>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "interfaces/report/html.hpp"
+#include "support.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::Mark;
+using common::Time;
+using testing::HasSubstr;
+using testing::Not;
+
+FlightSummary summaryOf(const std::string& text) {
+  FlightSummary summary;
+  summary.info = {text, text, text, text, 7, text, text};
+  summary.outcome = Outcome::kFailed;
+  summary.reason = text;
+  summary.mission_time = common::Duration::fromSeconds(83.4);
+  summary.coverage = 0.9931;
+  summary.phases = {{text, Time::fromSeconds(0), Time::fromSeconds(3)},
+                    {"explore", Time::fromSeconds(3), Time::fromSeconds(9)}};
+  common::Frontier frontier;
+  frontier.reason = common::FrontierReason::kTooSmall;
+  frontier.explanation = text;
+  summary.frontiers = {frontier};
+  summary.figures = {{text, 0.05}, {"unknown_m", std::numeric_limits<double>::quiet_NaN()}};
+  return summary;
+}
+
+std::vector<common::Event> eventsOf(const std::string& text, std::size_t count) {
+  return std::vector<common::Event>(count, {Time::fromSeconds(1), common::Severity::kWarning, text, text, text});
+}
+
+/// Tags that are opened are closed, in order.
+void expectBalanced(const std::string& page) {
+  const std::set<std::string> void_tags = {"meta", "img", "br"};
+  std::vector<std::string> open;
+  const std::regex tag("<(/?)([a-zA-Z0-9]+)[^>]*?(/?)>");
+  const std::size_t body = page.find("</style>");
+  for (std::sregex_iterator it(page.begin() + static_cast<std::ptrdiff_t>(body) + 8, page.end(), tag), end; it != end;
+       ++it) {
+    const std::string name = (*it)[2];
+    if (void_tags.contains(name) || (*it)[3].length() > 0) continue;
+    if ((*it)[1].length() == 0) {
+      open.push_back(name);
+    } else if (name != "head" && name != "html") {
+      ASSERT_FALSE(open.empty()) << name;
+      ASSERT_EQ(open.back(), name);
+      open.pop_back();
+    }
+  }
+  EXPECT_TRUE(open.empty());
+}
+
+TEST(FlightReport, ShowsTheFlight) {
+  const std::string page = flightReport(summaryOf("house"), eventsOf("goal refused", 1),
+                                        {"PNG", "", {{"Height", "<svg id=\"plot\"></svg>"}}}, "speed: 1\n");
+  for (const char* part : {"failed", "1 min 23 s", "99.3 %", "too small", "goal refused", "<svg id=\"plot\">",
+                           "speed: 1", "not known", "data:image/png;base64,UE5H"})
+    EXPECT_THAT(page, HasSubstr(part));
+  expectBalanced(page);
+}
+
+TEST(FlightReport, ShowsNothingThatIsNotThere) {
+  FlightSummary summary;
+  summary.info.mission = "hold";
+  const std::string page = flightReport(summary, {}, {}, "");
+  EXPECT_THAT(page, HasSubstr("not finished"));
+  EXPECT_THAT(page, HasSubstr("nothing was left to explore"));
+  EXPECT_THAT(page, Not(HasSubstr("Coverage")));
+  EXPECT_THAT(page, Not(HasSubstr("<img")));
+  expectBalanced(page);
+}
+
+TEST(FlightReport, TextStaysText) {
+  const std::string evil = "</pre><script>alert('1')</script>\" onload=\"x";
+  const std::string page = flightReport(summaryOf(evil), eventsOf(evil, 1), {}, evil);
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("\" onload")));
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(&#39;1&#39;)"));
+  expectBalanced(page);
+}
+
+TEST(FlightReport, LoadsNothingFromElsewhere) {
+  const std::string page = flightReport(summaryOf("house"), eventsOf("x", 3), {"PNG", "", {}}, "a: 1");
+  EXPECT_THAT(page, Not(testing::ContainsRegex("(src|href)=\"(https?:)?//")));
+  EXPECT_THAT(page, Not(HasSubstr("@import")));
+  EXPECT_THAT(page, Not(HasSubstr("url(")));
+}
+
+TEST(FlightReport, AFloodOfEventsIsCutAndSaid) {
+  const std::string page = flightReport(summaryOf("house"), eventsOf("again", 5000), {}, "");
+  EXPECT_THAT(page, HasSubstr("3000 more are in events.jsonl"));
+}
+
+TEST(TrialReport, TablesLinksAndPictures) {
+  TrialReport report{"unb_case1", "20 flights", false, {}, {}};
+  report.tables.push_back(
+      {"Flights", {"seed", "passed"}, {{{"7", Mark::kNone, "flights/a b-7/report.html"}, {"no", Mark::kBad}}}});
+  report.pictures.push_back({"seed 7", "flights/a b-7/map.png", "", "flights/a b-7/report.html", false});
+  const std::string page = trialReport(report);
+  for (const char* part : {"not passed", "<td class=\"bad\">no</td>", "href=\"./flights/a%20b-7/report.html\"",
+                           "src=\"./flights/a%20b-7/map.png\"", "seed 7"})
+    EXPECT_THAT(page, HasSubstr(part));
+  expectBalanced(page);
+}
+
+TEST(Table, NumbersStandToTheRightAndWordsToTheLeft) {
+  const common::Table table{"T", {"name", "x"}, {{{"é"}, {"-1.50"}}, {{"longer"}, {""}}, {{"z"}, {"12"}}}};
+  EXPECT_TRUE(common::isNumeric(table, 1));
+  EXPECT_FALSE(common::isNumeric(table, 0));
+  EXPECT_EQ(toText(table), "T\nname        x\n-------------\né       -1.50\nlonger\nz          12\n");
+  EXPECT_THAT(html::table(table), HasSubstr("<td class=\"number \">12</td>"));
+}
+
+TEST(Html, EscapesAndMendsText) {
+  EXPECT_EQ(html::escape("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
+  EXPECT_EQ(html::escape("é \xE2\x82\xAC"), "é \xE2\x82\xAC");
+  EXPECT_EQ(html::escape("x\xff\xC3"), "x\xEF\xBF\xBD\xEF\xBF\xBD");
+}
+
+TEST(Html, Base64IsThatOfOthers) {
+  EXPECT_EQ(html::pngUrl(""), "data:image/png;base64,");
+  EXPECT_EQ(html::pngUrl("f"), "data:image/png;base64,Zg==");
+  EXPECT_EQ(html::pngUrl("fo"), "data:image/png;base64,Zm8=");
+  EXPECT_EQ(html::pngUrl("foobar"), "data:image/png;base64,Zm9vYmFy");
+  EXPECT_EQ(html::pngUrl(std::string("\xff\x00\xfe", 3)), "data:image/png;base64,/wD+");
+}
+
+}  // namespace
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,236 @@
+// What a run leaves, whatever becomes of the run.
+#include "interfaces/run_folder.hpp"
+
+#include <csignal>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "interfaces/files/json_lines.hpp"
+#include "interfaces/files/map_server.hpp"
+#include "interfaces/files/tum.hpp"
+#include "support.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::Event;
+using common::FrontierReason;
+using common::MissionState;
+using common::Severity;
+using common::Time;
+using nlohmann::json;
+using testing::HasSubstr;
+
+const RunInfo kInfo{
+    "explore_and_return", "missions/explore_and_return.xml", "worlds/unb_case1.sdf", "swiftlet", 7, "0.1.0",
+    "2025-01-31 14:05:09"};
+const std::string kPng = "\x89PNG not really";
+
+/// A flight along x at 1 m/s; the map grows with it.
+struct Flight {
+  common::OccupancyGrid grid = common::makeOccupancyGrid(0.05);
+  double time_s = 0.0;
+
+  common::VehicleState state() const {
+    common::VehicleState state;
+    state.stamp = Time::fromSeconds(time_s);
+    state.T_odom_body.position_m = {time_s, 0.0, 1.0};
+    state.velocity_odom_m_s = {1.0, 0.0, 0.0};
+    state.T_map_odom = {0.0, 0.5, 0.0};
+    return state;
+  }
+
+  common::World world(MissionState mission, const std::string& phase) {
+    grid.set(grid.cellAt(time_s, 0.0), -10);
+    grid.set(grid.cellAt(time_s, 1.0), 10);
+    common::World world;
+    world.stamp = Time::fromSeconds(time_s);
+    world.state = state();
+    world.status.distance_flown_m = time_s;
+    world.status.battery_remaining = 0.5;
+    world.grid = std::make_shared<common::OccupancyGrid>(grid.snapshot());
+    world.levels = std::make_shared<common::LevelMap>();
+    common::Frontier frontier;
+    frontier.centroid_map_m = {1.5, -2.0};
+    frontier.length_m = 0.3;
+    frontier.reason = FrontierReason::kUnreachable;
+    frontier.explanation = "unreachable at clearance 0.10 m";
+    world.frontiers = std::make_shared<std::vector<common::Frontier>>(1, frontier);
+    world.trail_map_m = std::make_shared<std::vector<Eigen::Vector2d>>();
+    world.explored_area_m2 = 12.5;
+    world.mission.state = mission;
+    world.mission.phase = phase;
+    return world;
+  }
+
+  /// 10 s of it: two phases, estimates at 100 Hz, snapshots at 10 Hz.
+  void flyInto(RunFolder& run) {
+    for (int tick = 0; tick <= 1000; ++tick) {
+      time_s = 0.01 * tick;
+      run.state(state());
+      if (tick % 10 != 0) continue;
+      const MissionState mission = time_s < 1 ? MissionState::kReady : MissionState::kRunning;
+      run.world(world(mission, time_s < 1 ? "" : time_s < 4 ? "take off" : "explore"));
+    }
+    run.world(world(MissionState::kDone, ""));
+  }
+};
+
+TEST(RunFolder, LeavesEveryFile) {
+  const ScratchFolder folder;
+  const fs::path path = folder / "deep/run";
+  RunFolder run({}, path, kInfo, "speed: 1\n");
+  run.event({Time::fromSeconds(0.5), Severity::kInfo, "mission", "ready", ""});
+  Flight flight;
+  flight.flyInto(run);
+  run.show({kPng, "", {{"Height", "<svg></svg>"}}});
+  FlightEnd end{Outcome::kDone, "", 0.995, {{"goal_error_m", 0.05}}, 0.5};
+  run.finish(end);
+  ASSERT_EQ(run.failure(), std::nullopt);
+
+  const json mission = json::parse(bytesOf(path / "mission.json"));
+  EXPECT_EQ(mission["outcome"], "done");
+  EXPECT_EQ(mission["seed"], 7);
+  EXPECT_NEAR(mission["mission_time_s"].get<double>(), 9.0, 1e-9);
+  EXPECT_NEAR(mission["machine"]["realtime_factor"].get<double>(), 18.0, 1e-9);
+  EXPECT_EQ(mission["coverage"], 0.995);
+  EXPECT_EQ(mission["figures"]["goal_error_m"], 0.05);
+  ASSERT_EQ(mission["phases"].size(), 2u);
+  EXPECT_EQ(mission["phases"][0]["name"], "take off");
+  EXPECT_NEAR(mission["phases"][0]["duration_s"].get<double>(), 3.0, 1e-9);
+  EXPECT_NEAR(mission["phases"][1]["end_s"].get<double>(), 10.0, 1e-9);
+  ASSERT_EQ(mission["frontiers"].size(), 1u);
+  EXPECT_EQ(mission["frontiers"][0]["reason"], "unreachable");
+
+  const common::Trajectory trajectory = readTum(path / "trajectory.tum");
+  EXPECT_EQ(trajectory.size(), 251u) << "25 Hz for 10 s";
+  EXPECT_EQ(trajectory.back().pose.position_m, Eigen::Vector3d(10, 0.5, 1)) << "in map, not in odom";
+  EXPECT_EQ(readEvents(path / "events.jsonl").size(), 1u);
+  const StoredMap map = readMap(path / "map.yaml");
+  EXPECT_TRUE(common::occupancy::isOccupied(map.grid.at(map.grid.cellAt(10.0, 1.0))));
+  EXPECT_EQ(bytesOf(path / "map.png"), kPng);
+  EXPECT_EQ(bytesOf(path / "config.yaml"), "speed: 1\n");
+  EXPECT_THAT(bytesOf(path / "report.html"), HasSubstr("explore_and_return"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(path), fs::directory_iterator{}), 8) << "and nothing else";
+  EXPECT_EQ(run.summary().samples.size(), 51u) << "5 Hz for 10 s";
+}
+
+TEST(RunFolder, SameFlightSameBytes) {
+  const ScratchFolder folder;
+  for (const char* name : {"a", "b"}) {
+    RunFolder run({}, folder / name, kInfo, "");
+    Flight flight;
+    flight.flyInto(run);
+    run.finish({});
+  }
+  for (const char* file : {"trajectory.tum", "map.pgm", "map.yaml", "mission.json", "report.html"})
+    EXPECT_EQ(bytesOf(folder / "a" / file), bytesOf(folder / "b" / file)) << file;
+}
+
+TEST(RunFolder, IsReadableAfterTheProcessWasKilled) {
+  const ScratchFolder folder;
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    RunFolder run({}, folder / "run", kInfo, "speed: 1\n");
+    Flight flight;
+    for (int tick = 0;; ++tick) {
+      flight.time_s = 0.01 * tick;
+      run.state(flight.state());
+      run.event({Time::fromSeconds(flight.time_s), Severity::kInfo, "mission", "tick", ""});
+      run.world(flight.world(MissionState::kRunning, "explore"));
+      if (tick == 1000 && ::write(ready[1], "x", 1) != 1) ::_exit(1);
+    }
+  }
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  ::usleep(3000);  // It goes on writing, so that the signal meets it somewhere in its work.
+  ::kill(child, SIGKILL);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+
+  const json mission = json::parse(bytesOf(folder / "run/mission.json"));
+  EXPECT_EQ(mission["outcome"], "flying");
+  EXPECT_GE(mission["mission_time_s"].get<double>(), 9.0);
+  EXPECT_GE(readEvents(folder / "run/events.jsonl").size(), 1000u);
+  EXPECT_GE(readTum(folder / "run/trajectory.tum").size(), 250u);
+  EXPECT_FALSE(knownExtent(readMap(folder / "run/map.yaml").grid).empty());
+  EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("</html>"));
+  EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("not finished"));
+
+  // The next run may have the folder.
+  RunFolder({}, folder / "run", kInfo, "");
+  EXPECT_EQ(bytesOf(folder / "run/events.jsonl"), "");
+  EXPECT_FALSE(fs::exists(folder / "run/map.pgm")) << "no map of another flight";
+}
+
+TEST(RunFolder, FullDiskIsSaidAndNothingIsHalfWritten) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(withFullDisk(15'000, [&] {
+    RunFolder run({}, folder / "run", kInfo, "");
+    Flight flight;
+    flight.flyInto(run);
+    const bool said = run.failure() && run.failure()->find("trajectory.tum: File too large") != std::string::npos;
+    run.finish({Outcome::kStopped, "the disk is full", {}, {}, {}});
+    return said;
+  }));
+  EXPECT_FALSE(readTum(folder / "run/trajectory.tum").empty());
+  EXPECT_EQ(bytesOf(folder / "run/trajectory.tum").back(), '\n');
+  EXPECT_EQ(json::parse(bytesOf(folder / "run/mission.json"))["outcome"], "stopped");
+  for (const auto& entry : fs::directory_iterator(folder / "run")) EXPECT_NE(entry.path().extension(), ".part");
+}
+
+TEST(RunFolder, RefusesFoldersOfOthers) {
+  const ScratchFolder folder;
+  const auto problem = [&](const fs::path& path) { return problemOf([&] { RunFolder({}, path, kInfo, ""); }); };
+  put(folder / "home/thesis.tex", "years of work");
+  put(folder / "home/map.pgm", "a map");
+  EXPECT_THAT(problem(folder / "home"), HasSubstr("holds `thesis.tex`, which is no file of a run, give an empty"));
+  EXPECT_EQ(bytesOf(folder / "home/map.pgm"), "a map") << "nothing is touched";
+  fs::create_directories(folder / "nested/map.pgm");
+  EXPECT_THAT(problem(folder / "nested"), HasSubstr("holds `map.pgm`"));
+  put(folder / "file", "");
+  EXPECT_THAT(problem(folder / "file"), HasSubstr("file: is not a folder"));
+  EXPECT_THAT(problem(folder / "file/below"), HasSubstr("cannot be used: Not a directory"));
+}
+
+TEST(RunFolder, FreshNames) {
+  const ScratchFolder folder;
+  const auto fresh = [&] { return freshRunFolder(folder, "2025-01-31T14:05:09", "explore and/return"); };
+  const fs::path first = fresh();
+  EXPECT_EQ(first.filename(), "2025-01-31T14-05-09-explore-and-return");
+  EXPECT_EQ(first.parent_path(), folder.path());
+  fs::create_directories(first);
+  EXPECT_EQ(fresh().filename(), "2025-01-31T14-05-09-explore-and-return-2");
+}
+
+TEST(RunFolder, NotFiniteEstimatesAreLeftOut) {
+  const ScratchFolder folder;
+  RunFolder run({}, folder / "run", kInfo, "");
+  Flight flight;
+  common::VehicleState broken = flight.state();
+  broken.T_odom_body.position_m.x() = std::nan("");
+  run.state(broken);
+  common::World world = flight.world(MissionState::kRunning, "explore");
+  world.state = broken;
+  world.status.distance_flown_m = std::nan("");
+  run.world(world);
+  run.finish({});
+  EXPECT_EQ(run.failure(), std::nullopt);
+  EXPECT_TRUE(readTum(folder / "run/trajectory.tum").empty());
+  EXPECT_TRUE(json::parse(bytesOf(folder / "run/mission.json"))["distance_m"].is_null());
+}
+
+TEST(RunFolder, ConfigIsChecked) {
+  RunFolder::Config config;
+  EXPECT_TRUE(config.validate().empty());
+  config.trajectory_period_s = 0.1;  // 10 Hz; a run has at least 20.
+  config.map_period_s = -1;
+  EXPECT_EQ(config.validate().size(), 2u);
+}
+
+}  // namespace
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,110 @@
+// What the tests of this folder share: a scratch folder, real data where there is some, and other people's readers.
+#pragma once
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+
+namespace swiftlet::interfaces {
+
+namespace fs = std::filesystem;
+
+/// A folder of the running test's own, empty at the start and removed at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = fs::temp_directory_path() / ("swiftlet-" + std::string(info->test_suite_name()) + "-" + info->name() + "-" +
+                                         std::to_string(::getpid()));
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  operator const fs::path&() const { return path_; }  // NOLINT: it stands for its path.
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+inline void put(const fs::path& file, const std::string& bytes) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+inline std::string bytesOf(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  return std::move(bytes).str();
+}
+
+/// What a shell command prints; none when it fails.
+inline std::optional<std::string> outputOf(const std::string& command) {
+  FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return std::nullopt;
+  std::string output;
+  char block[4096];
+  for (std::size_t count = 0; (count = std::fread(block, 1, sizeof block, pipe)) > 0;) output.append(block, count);
+  return ::pclose(pipe) == 0 ? std::optional(output) : std::nullopt;
+}
+
+/// A file or folder of the data sets; none, said loudly, when they are not on this machine.
+inline std::optional<fs::path> dataset(const std::string& relative) {
+  const char* variable = std::getenv("SWIFTLET_DATASETS");
+  const fs::path root(SWIFTLET_SOURCE_DIR);
+  for (const fs::path& folder :
+       {fs::path(variable == nullptr ? "" : variable), root / "../shared/datasets", root / "../../shared/datasets"})
+    if (!folder.empty() && fs::exists(folder / relative)) return folder / relative;
+  std::cerr << "NO DATA: " << relative << " is not on this machine; set SWIFTLET_DATASETS to test with real data\n";
+  return std::nullopt;
+}
+
+/// The InputError a call throws, as text; empty when it throws none.
+template <typename Call>
+std::string problemOf(Call&& call) {
+  try {
+    call();
+  } catch (const common::InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// Runs `body` in a process of its own whose files may not grow beyond a size, as on a disk that is full; true when it
+/// returned true.
+inline bool withFullDisk(std::size_t bytes, const std::function<bool()>& body) {
+  std::cout.flush();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, bytes};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    ::_exit(body() ? 0 : 1);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace swiftlet::interfaces

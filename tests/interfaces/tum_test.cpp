@@ -1,0 +1,99 @@
+// Trajectories: exact, the same bytes each time, and refused with line and column when they are none.
+#include "interfaces/files/tum.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include "support.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::Time;
+using testing::HasSubstr;
+
+common::StampedPose pose(std::int64_t ns, double x, double y, double z, const Eigen::Quaterniond& q) {
+  return {Time::fromNanoseconds(ns), {q, {x, y, z}}};
+}
+
+TEST(Tum, WritesOneLineAPose) {
+  EXPECT_EQ(toTumLine(pose(1'305'031'102'160'407'000, 1.344379, -0.5, 0, {0.5, -0.5, 0.5, -0.5})),
+            "1305031102.160407000 1.344379000 -0.500000000 0.000000000 -0.500000000 0.500000000 -0.500000000 "
+            "0.500000000\n");
+}
+
+TEST(Tum, NegativeZeroIsZero) {
+  EXPECT_EQ(toTumLine(pose(0, -0.0, -1e-12, 0, Eigen::Quaterniond::Identity())),
+            toTumLine(pose(0, 0, 0, 0, Eigen::Quaterniond::Identity())));
+}
+
+TEST(Tum, StampsBeforeZeroReadBack) {
+  const auto back = parseTum(toTumLine(pose(-1'500'000'001, 0, 0, 0, Eigen::Quaterniond::Identity())), "t");
+  ASSERT_EQ(back.size(), 1u);
+  EXPECT_NEAR(back[0].stamp.seconds(), -1.500000001, 1e-9);
+}
+
+RC_GTEST_PROP(Tum, ReadsBackWhatItWrote, ()) {
+  const auto ns = *rc::gen::inRange<std::int64_t>(0, 4'000'000'000'000'000'000);
+  const auto draw = [] { return *rc::gen::inRange(-1'000'000, 1'000'000) * 1e-5; };
+  const Eigen::Quaterniond q = Eigen::Quaterniond(draw() + 11, draw(), draw(), draw()).normalized();
+  const auto written = pose(ns, draw(), draw(), draw(), q);
+  const auto back = parseTum(toTumLine(written), "t");
+  RC_ASSERT(back.size() == 1u);
+  RC_ASSERT(back[0].stamp == written.stamp);
+  RC_ASSERT((back[0].pose.position_m - written.pose.position_m).norm() < 2e-9);
+  RC_ASSERT(back[0].pose.rotation.angularDistance(q) < 1e-8);
+}
+
+TEST(Tum, SkipsCommentsAndBlankLinesAndTakesExponents) {
+  const auto trajectory = parseTum("# a comment\n\n  1.5 +1 2e0 3 0 0 0 2\r\n2.000000000000e+00\t1 2 3 0 0 0 1", "t");
+  ASSERT_EQ(trajectory.size(), 2u);
+  EXPECT_EQ(trajectory[0].stamp, Time::fromNanoseconds(1'500'000'000));
+  EXPECT_EQ(trajectory[0].pose.position_m, Eigen::Vector3d(1, 2, 3));
+  EXPECT_DOUBLE_EQ(trajectory[0].pose.rotation.norm(), 1.0);
+  EXPECT_EQ(trajectory[1].stamp, Time::fromNanoseconds(2'000'000'000));
+}
+
+TEST(Tum, LastLineOfAKilledWriterIsLeftOut) { EXPECT_EQ(parseTum("1 0 0 0 0 0 0 1\n2 0 0", "t").size(), 1u); }
+
+TEST(Tum, MistakesSayWhere) {
+  const auto problem = [](const std::string& text) { return problemOf([&] { parseTum(text, "x.tum"); }); };
+  const std::string good = "1 0 0 0 0 0 0 1\n";
+  EXPECT_THAT(problem(good + "2 0 0 0 0 0 1\n"), HasSubstr("x.tum:2:13: pose: 7 numbers instead of 8"));
+  EXPECT_THAT(problem("# c\n2 0 zero 0 0 0 0 1\n"), HasSubstr("x.tum:2:5: y: `zero` is not a finite number"));
+  EXPECT_THAT(problem("2 0 0 nan 0 0 0 1\n"), HasSubstr("x.tum:1:7: z: `nan` is not a finite number"));
+  EXPECT_THAT(problem("x 0 0 0 0 0 0 1\n"), HasSubstr("x.tum:1:1: t: `x` is not a time"));
+  EXPECT_THAT(problem("1e300 0 0 0 0 0 0 1\n"), HasSubstr("is not a time"));
+  EXPECT_THAT(problem("1 0 0 0 0 0 0 0\n"), HasSubstr("x.tum:1:9: qx qy qz qw: a rotation of length zero"));
+  EXPECT_THAT(problem(good + good), HasSubstr("x.tum:2:1: t: 1.000000000 does not come after 1.000000000"));
+  EXPECT_THAT(problemOf([] { readTum("/nowhere/x.tum"); }), HasSubstr("/nowhere/x.tum: cannot be opened"));
+}
+
+TEST(Tum, WriterLeavesOutWhatIsNotFinite) {
+  const ScratchFolder folder;
+  auto writer = TumWriter::create(folder / "t.tum");
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE(writer->write(pose(1, std::nan(""), 0, 0, Eigen::Quaterniond::Identity())));
+  ASSERT_TRUE(writer->write(pose(2, 0, std::numeric_limits<double>::infinity(), 0, Eigen::Quaterniond::Identity())));
+  ASSERT_TRUE(writer->write(pose(3, 0, 0, 0, Eigen::Quaterniond::Identity())));
+  EXPECT_EQ(writer->skipped(), 2);
+  EXPECT_EQ(readTum(folder / "t.tum").size(), 1u);
+}
+
+TEST(Tum, ReadsTheBenchmarksOwnFiles) {
+  const auto folder = dataset("03-rgbd/tum-trajectories");
+  if (!folder) GTEST_SKIP() << "no TUM trajectories";
+  const auto read = [&](const char* name) {
+    return parseTum(outputOf("zcat " + (*folder / name).string()).value_or(""), name);
+  };
+  EXPECT_EQ(read("freiburg1_xyz-groundtruth.txt.gz").size(), 3000u);
+  const auto estimate = read("freiburg1_xyz-rgbdslam.txt.gz");
+  EXPECT_EQ(estimate.size(), 788u);
+  EXPECT_EQ(estimate.front().stamp, Time::fromNanoseconds(1'305'031'102'160'407'000));
+}
+
+}  // namespace
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,345 @@
+// The reactive layer as stories, tick by tick: what the laser sees, what the vehicle may do.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "grid_builder.hpp"
+#include "planning/avoidance.hpp"
+#include "planning/dynamic_obstacles.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+using common::Duration;
+using common::Pose2;
+using common::Time;
+using testing::HasSubstr;
+using Point = Eigen::Vector2d;
+
+constexpr double kHull_m = 0.275;
+constexpr double kTick_s = 0.025;
+
+struct Person {
+  Point place_map_m;
+  Point velocity_map_m_s;
+  double radius_m = 0.25;
+};
+
+/// A room with a vehicle, a laser of 1,081 beams over 270 deg, and people who do not yield.
+class Story {
+ public:
+  explicit Story(int width_cells = 200, int height_cells = 160, Avoidance::Config config = {})
+      : grid_(test::room(width_cells, height_cells)),
+        map_({}, 0.05),
+        truth_({}, 0.05),
+        avoidance_(config, kHull_m),
+        config_(config),
+        background_(Duration::fromSeconds(DynamicObstacles::Config().background_age_s)) {
+    learn();
+    truth_ = map_;
+  }
+
+  void addWall(common::CellRect rect) {
+    test::fill(grid_, rect, test::kWallCell);
+    learn();
+    truth_ = map_;
+  }
+  void learn() {
+    snapshot_ = std::make_shared<common::OccupancyGrid>(grid_.snapshot());
+    map_.update(*snapshot_, {});
+    background_.add(now, snapshot_);
+  }
+
+  /// What SLAM does all the time: whoever stands in the scan gets into the map, and out again.
+  void mapScan(const std::vector<Eigen::Vector2f>& points_map) {
+    for (const auto& p : points_map) {
+      const Point hit = p.cast<double>(), step = hit - pose.position_m();
+      common::CellIndex last = grid_.cellAt(hit);
+      for (double r = step.norm() - 0.05; r > 0.0; r -= 0.05) {
+        const common::CellIndex cell = grid_.cellAt(pose.position_m() + step.normalized() * r);
+        if (cell != last && cell != grid_.cellAt(hit)) grid_.set(cell, common::occupancy::updated(grid_.at(cell), -8));
+        last = cell;
+      }
+      grid_.set(grid_.cellAt(hit), common::occupancy::updated(grid_.at(grid_.cellAt(hit)), 17));
+    }
+    learn();
+  }
+
+  double range(double bearing_map_rad) const {
+    const Point u(std::cos(bearing_map_rad), std::sin(bearing_map_rad));
+    double best = 30.0;
+    for (double r = 0.0; r < best;) {
+      const common::CellIndex cell = truth_.cellAt(pose.position_m() + r * u);
+      if (truth_.stateAt(cell) != CellState::kFree) best = std::min(best, r);
+      r += std::max(0.01, truth_.obstacleDistance_m(cell) - 0.1);
+    }
+    for (const Person& person : people) best = std::min(best, toDisc(person.place_map_m, person.radius_m, u));
+    for (const Person& pole : poles) best = std::min(best, toDisc(pole.place_map_m, pole.radius_m, u));
+    return best;
+  }
+
+  std::vector<Eigen::Vector2f> scan() const {
+    std::vector<Eigen::Vector2f> points;
+    for (int i = 0; i < beams; ++i) {
+      const double bearing_rad = (i * 270.0 / (beams - 1) - 135.0) * std::numbers::pi / 180.0;
+      const double r = range(pose.yaw_rad + bearing_rad);
+      if (r < 30.0) points.push_back((r * Point(std::cos(bearing_rad), std::sin(bearing_rad))).cast<float>());
+    }
+    return points;
+  }
+
+  /// One scan at the present instant; `wish` is the velocity the intent asks for, in the map frame.
+  AvoidanceDecision sense(const Point& wish_map_m_s) {
+    const std::vector<Eigen::Vector2f> points = scan();
+    std::vector<Eigen::Vector2f> points_map;
+    for (const auto& p : points) points_map.push_back((pose * Point(p.cast<double>())).cast<float>());
+    if (live_map && ++scans_ % 4 == 0) mapScan(points_map);
+    dynamic_.update(now, points_map, pose.position_m(), *background_.at(now));
+    const Eigen::Rotation2Dd to_level(-pose.yaw_rad);
+    return avoidance_.update(
+        {now, points, to_level * velocity_map_m_s, to_level * wish_map_m_s, pose, &map_, dynamic_.obstacles()});
+  }
+
+  /// Senses, obeys with the acceleration it has, and lets time pass. Returns the smallest gap to anyone.
+  AvoidanceDecision tick(const Point& wish_map_m_s) {
+    const AvoidanceDecision decision = sense(wish_map_m_s);
+    Point target = wish_map_m_s;
+    if (target.norm() > decision.speed_limit_m_s) target = target.normalized() * decision.speed_limit_m_s;
+    if (decision.retreat_velocity_level_m_s)
+      target = Eigen::Rotation2Dd(pose.yaw_rad) * *decision.retreat_velocity_level_m_s;
+    delayed_.push_back(target);
+    if (delayed_.size() > 4) delayed_.erase(delayed_.begin());
+    const Point change = delayed_.front() - velocity_map_m_s;
+    const double most = 1.2 * kTick_s;
+    velocity_map_m_s += change.norm() > most ? Point(change.normalized() * most) : change;
+    pose.x_m += velocity_map_m_s.x() * kTick_s;
+    pose.y_m += velocity_map_m_s.y() * kTick_s;
+    for (Person& person : people) person.place_map_m += person.velocity_map_m_s * kTick_s;
+    now += Duration::fromSeconds(kTick_s);
+    for (const Person& person : people)
+      least_gap_m = std::min(least_gap_m, (person.place_map_m - pose.position_m()).norm() - person.radius_m - kHull_m);
+    least_wall_m = std::min(least_wall_m, truth_.obstacleDistance_m(truth_.cellAt(pose.position_m())) - kHull_m);
+    retreats += decision.status.retreating && !was_retreating_;
+    was_retreating_ = decision.status.retreating;
+    return decision;
+  }
+
+  Pose2 pose{5.0, 4.0, 0.0};
+  Point velocity_map_m_s = Point::Zero();
+  std::vector<Person> people;
+  std::vector<Person> poles;
+  Time now = Time::fromSeconds(10.0);
+  double least_gap_m = 1e9;
+  double least_wall_m = 1e9;
+  int retreats = 0;
+  bool live_map = false;
+  int beams = 1081;
+  const CostMap& map() const { return map_; }
+
+ private:
+  double toDisc(const Point& center_m, double radius_m, const Point& u) const {
+    const Point to = center_m - pose.position_m();
+    const double ahead_m = to.dot(u), aside2 = to.squaredNorm() - ahead_m * ahead_m;
+    if (ahead_m <= 0.0 || aside2 >= radius_m * radius_m) return 30.0;
+    return ahead_m - std::sqrt(radius_m * radius_m - aside2);
+  }
+
+  common::OccupancyGrid grid_;
+  std::shared_ptr<const common::OccupancyGrid> snapshot_;
+  CostMap map_;
+  CostMap truth_;
+  Avoidance avoidance_;
+  Avoidance::Config config_;
+  BackgroundMap background_;
+  DynamicObstacles dynamic_{DynamicObstacles::Config()};
+  std::vector<Point> delayed_;
+  bool was_retreating_ = false;
+  int scans_ = 0;
+};
+
+TEST(Avoidance, NothingNearNothingLimited) {
+  Story story;
+  const AvoidanceDecision d = story.sense({0.5, 0});
+  EXPECT_EQ(d.speed_limit_m_s, Avoidance::Config().max_speed_m_s);
+  EXPECT_FALSE(d.retreat_velocity_level_m_s);
+  EXPECT_FALSE(d.status.braking);
+  EXPECT_NEAR(d.status.nearest_m, 4.0 - kHull_m, 0.06);
+  EXPECT_NEAR(std::abs(d.status.nearest_bearing_body_rad), std::numbers::pi / 2, 0.05);
+}
+
+TEST(Avoidance, FullSpeedAtAWallStopsBeforeIt) {
+  Story story;
+  for (int i = 0; i < 600; ++i) story.tick({1.5, 0});
+  EXPECT_LT(story.velocity_map_m_s.norm(), 0.02);
+  EXPECT_GT(10.0 - story.pose.x_m - kHull_m, 0.02);
+  EXPECT_LT(10.0 - story.pose.x_m - kHull_m, 0.15);
+  EXPECT_EQ(story.retreats, 0);  // the wall is known
+}
+
+TEST(Avoidance, AWallAlongsideAtThePlannersClearanceDoesNotBrake) {
+  Story story;
+  story.pose.y_m = kHull_m + 0.10;
+  const AvoidanceDecision d = story.sense({1.0, 0});
+  EXPECT_GE(d.speed_limit_m_s, 1.4);
+  EXPECT_FALSE(d.retreat_velocity_level_m_s);
+  // Towards it: no.
+  EXPECT_LT(story.sense({0, -1.0}).speed_limit_m_s, 0.3);
+  // Pushed closer than the margin it may still slide along and leave.
+  story.pose.y_m = kHull_m + 0.02;
+  EXPECT_GT(story.sense({0, 1.0}).speed_limit_m_s, 1.0);
+  EXPECT_EQ(story.sense({0, -1.0}).speed_limit_m_s, 0.0);
+}
+
+TEST(Avoidance, TheMeanHidesAThinPoleTheRobustMinimumDoesNot) {
+  Avoidance::Config mean, robust;
+  mean.bin_range = Avoidance::BinRange::kMean;
+  for (const double distance_m : {0.8, 1.2, 1.6}) {
+    Story story;
+    story.pose = {2.0, 4.0, 0.0};
+    story.poles.push_back({{2.0 + distance_m, 4.02}, {0, 0}, 0.015});
+    const auto points = story.scan();
+    const auto at = [&](const Avoidance::Config& config) {
+      double least_m = 30.0;
+      for (const Bin& bin : Avoidance::bins(config, Avoidance::smoothed(config, points)))
+        if (std::abs(bin.bearing_rad) < 0.1) least_m = std::min(least_m, bin.range_m);
+      return least_m;
+    };
+    EXPECT_NEAR(at(robust), distance_m - 0.015, 0.02);
+    EXPECT_GT(at(mean), distance_m + 1.0);
+    Story braking(200, 160, robust), blind(200, 160, mean);
+    braking.pose = blind.pose = story.pose;
+    braking.poles = blind.poles = story.poles;
+    EXPECT_LT(braking.sense({1.5, 0}).speed_limit_m_s, 1.5);
+    EXPECT_GE(blind.sense({1.5, 0}).speed_limit_m_s, 1.4);
+  }
+}
+
+TEST(Avoidance, OneStrayReturnDoesNotBrake) {
+  Story story;
+  auto points = story.scan();
+  points[540] = {0.5f, 0.0f};
+  points[300] = {NAN, NAN};
+  Avoidance avoidance({}, kHull_m);
+  const AvoidanceDecision d = avoidance.update({story.now, points, {0.5, 0}, {0.5, 0}, story.pose, &story.map(), {}});
+  EXPECT_FALSE(d.status.braking);
+}
+
+TEST(Avoidance, SomethingUnmappedCloseMakesItRetreatStraightAway) {
+  Story story;
+  story.people.push_back({{5.0 + kHull_m + 0.25 + 0.15, 4.0}, {0, 0}});
+  AvoidanceDecision d;
+  for (int i = 0; i < 5; ++i) d = story.tick({0, 0});
+  ASSERT_TRUE(d.retreat_velocity_level_m_s);
+  EXPECT_LT(d.retreat_velocity_level_m_s->x(), -0.3);
+  EXPECT_LT(std::abs(d.retreat_velocity_level_m_s->y()), 0.25);
+  EXPECT_THAT(d.status.reason, HasSubstr("unmapped"));
+  for (int i = 0; i < 200; ++i) d = story.tick({0, 0});
+  EXPECT_FALSE(d.status.retreating);
+  EXPECT_EQ(story.retreats, 1);
+  EXPECT_GT((story.people[0].place_map_m - story.pose.position_m()).norm() - 0.25 - kHull_m, 0.25);
+}
+
+TEST(Avoidance, ARetreatDoesNotBackIntoAWallTheLaserDoesNotSee) {
+  Story story;
+  story.addWall({{80, 50}, {84, 110}});  // 0.5 m behind the hull's centre
+  story.pose = {4.2 + kHull_m + 0.10, 4.0, 0.0};
+  story.people.push_back({{story.pose.x_m + kHull_m + 0.25 + 0.15, 4.0}, {0, 0}});
+  for (int i = 0; i < 200; ++i) story.tick({0, 0});
+  EXPECT_GE(story.retreats, 1);
+  EXPECT_GT(story.least_wall_m, 0.02);
+  EXPECT_GT(story.least_gap_m, 0.0);
+}
+
+TEST(Avoidance, APersonCrossingIsYieldedTo) {
+  // Crossing 1.5 m ahead at 1 m/s, from either side, at any phase.
+  for (const double side : {-1.0, 1.0}) {
+    for (double phase_m = 0.5; phase_m <= 3.0; phase_m += 0.25) {
+      Story story;
+      story.beams = 361;
+      story.live_map = side > 0.0;
+      story.pose = {2.0, 4.0, 0.0};
+      story.velocity_map_m_s = {0.8, 0};
+      story.people.push_back({{3.5, 4.0 + side * phase_m}, {0, -side * 1.0}});
+      for (int i = 0; i < 240; ++i) story.tick({0.8, 0});
+      EXPECT_GT(story.least_gap_m, 0.05) << side << ' ' << phase_m;
+      EXPECT_GT(story.pose.x_m, 3.5) << "it goes on afterwards " << side << ' ' << phase_m;
+    }
+  }
+}
+
+TEST(Avoidance, APersonWalkingAtItIsAvoided) {
+  for (const double aside_m : {-0.3, -0.1, 0.0, 0.1, 0.3}) {
+    Story story;
+    story.beams = 361;
+    story.live_map = aside_m >= 0.0;
+    story.pose = {3.0, 4.0, 0.0};
+    story.people.push_back({{6.5, 4.0 + aside_m}, {-1.0, 0}});
+    for (int i = 0; i < 280; ++i) story.tick({0, 0});
+    EXPECT_GT(story.least_gap_m, 0.0) << aside_m;
+    EXPECT_GE(story.retreats, 1);
+    EXPECT_GT(story.least_wall_m, 0.02);
+  }
+}
+
+TEST(Avoidance, AFollowerWasSeenAndIsNotForgotten) {
+  // Seen while it passed from the front to the side, then in the rear 90 deg: the memory stops a flight backwards.
+  Story story;
+  story.pose = {5.0, 4.0, 0.0};
+  story.people.push_back({{4.1, 3.1}, {-0.0, 0.0}});
+  for (int i = 0; i < 20; ++i) story.tick({0, 0});
+  story.pose.yaw_rad = 0.9;  // now the person stands behind, unseen
+  const auto points = story.scan();
+  for (const auto& p : points)
+    ASSERT_GT((story.pose * Point(p.cast<double>()) - story.people[0].place_map_m).norm(), 0.3);
+  const Point back = (story.people[0].place_map_m - story.pose.position_m()).normalized();
+  for (int i = 0; i < 40; ++i) story.tick(0.5 * back);
+  EXPECT_GT(story.least_gap_m, 0.05);
+}
+
+TEST(Avoidance, WhatTheMapHoldsDoesNotMakeItRetreat) {
+  Story story(60, 30);  // 3 m by 1.5 m
+  for (double y = kHull_m + 0.10; y <= 1.5 - kHull_m - 0.10; y += 0.1) {
+    story.pose = {1.5, y, 0.3};
+    EXPECT_FALSE(story.sense({0.3, 0}).retreat_velocity_level_m_s) << y;
+  }
+}
+
+TEST(Avoidance, DoesNotChatter) {
+  Story story;
+  story.people.push_back({{5.0 + kHull_m + 0.25 + 0.26, 4.0}, {0, 0}});
+  for (int i = 0; i < 400; ++i) {
+    // Someone who sways about the retreat distance.
+    story.people[0].velocity_map_m_s = {0.1 * std::sin(i * 0.1), 0.0};
+    story.tick({0, 0});
+  }
+  EXPECT_LE(story.retreats, 2);
+}
+
+TEST(Avoidance, WithoutAMapItStillBrakes) {
+  Story story;
+  story.pose = {9.4, 4.0, 0.0};
+  const auto points = story.scan();
+  Avoidance avoidance({}, kHull_m);
+  const AvoidanceDecision d = avoidance.update({story.now, points, {1, 0}, {1, 0}, story.pose, nullptr, {}});
+  EXPECT_LT(d.speed_limit_m_s, 0.8);
+  EXPECT_FALSE(d.retreat_velocity_level_m_s);
+  EXPECT_EQ(avoidance.update({story.now, {}, {1, 0}, {1, 0}, story.pose, nullptr, {}}).speed_limit_m_s,
+            Avoidance::Config().max_speed_m_s);
+}
+
+TEST(Avoidance, AMarginThatForbidsTheClearanceIsRefused) {
+  Avoidance::Config config;
+  EXPECT_TRUE(config.validate().empty());
+  EXPECT_TRUE(config.validateAgainst(0.10).empty());
+  ASSERT_EQ(config.validateAgainst(0.05).size(), 2u);
+  EXPECT_THAT(config.validateAgainst(0.05)[0], HasSubstr("forbids the clearance of 0.05 m"));
+  config.retreat_distance_m = 0.45;
+  ASSERT_EQ(config.validateAgainst(0.10).size(), 1u);
+  EXPECT_THAT(config.validateAgainst(0.10)[0], HasSubstr("forbids passing unmapped things at 0.35 m"));
+}
+
+}  // namespace
+}  // namespace swiftlet::planning

@@ -1,0 +1,106 @@
+// What moves is found where the map of a while ago shows free space, followed, and forgotten.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "grid_builder.hpp"
+#include "planning/dynamic_obstacles.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+using common::Duration;
+using common::Time;
+using Point = Eigen::Vector2d;
+
+/// The side of a disc that faces the sensor, and nothing else.
+std::vector<Eigen::Vector2f> front(const Point& center, double radius_m, const Point& sensor) {
+  std::vector<Eigen::Vector2f> points;
+  const double facing = std::atan2(sensor.y() - center.y(), sensor.x() - center.x());
+  for (double a = -1.2; a <= 1.2; a += 0.08)
+    points.push_back((center + radius_m * Point(std::cos(facing + a), std::sin(facing + a))).cast<float>());
+  return points;
+}
+
+struct Moving : testing::Test {
+  common::OccupancyGrid grid = test::room(200, 160);
+  DynamicObstacles tracker{DynamicObstacles::Config()};
+  Point sensor{5, 4};
+  static Time at(double s) { return Time::fromSeconds(s); }
+};
+
+TEST_F(Moving, WallsAreExplainedAndUnknownSpaceIsNotDynamic) {
+  test::fill(grid, {{150, 100}, {190, 150}}, common::occupancy::kUnknown);
+  std::vector<Eigen::Vector2f> points;
+  for (int i = 0; i < 100; ++i) points.push_back({10.02f, 1.0f + 0.05f * static_cast<float>(i)});  // a wall
+  for (int i = 0; i < 20; ++i) points.push_back({8.0f + 0.05f * static_cast<float>(i), 6.0f});     // never seen
+  points.push_back({NAN, 1.0f});
+  points.push_back({5.5f, 4.5f});  // a speck of noise
+  tracker.update(at(0), points, sensor, grid);
+  EXPECT_TRUE(tracker.obstacles().empty());
+}
+
+TEST_F(Moving, APersonIsOneDiscWithAVelocity) {
+  const int id = 1;
+  for (int i = 0; i <= 40; ++i) {
+    const double t = i * 0.025;
+    tracker.update(at(t), front({7.5, 2.5 + t}, 0.25, sensor), sensor, grid);
+    ASSERT_EQ(tracker.obstacles().size(), 1u) << t;
+    EXPECT_EQ(tracker.obstacles()[0].id, id);
+  }
+  const DynamicObstacle& person = tracker.obstacles()[0];
+  EXPECT_NEAR((person.center_map_m - Point(7.5, 3.5)).norm(), 0.0, 0.15);
+  EXPECT_NEAR((person.velocity_map_m_s - Point(0, 1)).norm(), 0.0, 0.25);
+  EXPECT_NEAR(person.radius_m, 0.2, 0.1);
+}
+
+TEST_F(Moving, DiscsRunAheadAndExpire) {
+  for (int i = 0; i <= 40; ++i) {
+    const double t = i * 0.025;
+    tracker.update(at(t), front({7.5, 2.5 + t}, 0.25, sensor), sensor, grid);
+  }
+  double farthest_y = 0.0;
+  for (const Disc& disc : tracker.discs(at(1.0), 0.5)) farthest_y = std::max(farthest_y, disc.center_map_m.y());
+  EXPECT_GT(farthest_y, 3.7);
+  // Out of sight it is believed in for a while.
+  tracker.update(at(2.0), {}, sensor, grid);
+  EXPECT_EQ(tracker.obstacles().size(), 1u);
+  tracker.update(at(3.5), {}, sensor, grid);
+  EXPECT_TRUE(tracker.obstacles().empty());
+  EXPECT_TRUE(tracker.discs(at(3.5)).empty());
+}
+
+TEST_F(Moving, BeamsThroughItsPlaceRefuteIt) {
+  for (int i = 0; i < 10; ++i) tracker.update(at(i * 0.025), front({7.5, 4}, 0.25, sensor), sensor, grid);
+  ASSERT_EQ(tracker.obstacles().size(), 1u);
+  std::vector<Eigen::Vector2f> wall;
+  for (int i = -10; i <= 10; ++i) wall.push_back({10.02f, 4.0f + 0.02f * static_cast<float>(i)});
+  tracker.update(at(0.6), wall, sensor, grid);
+  EXPECT_TRUE(tracker.obstacles().empty());
+}
+
+TEST_F(Moving, TwoPeopleApartAreTwo) {
+  std::vector<Eigen::Vector2f> points = front({7.5, 3.2}, 0.25, sensor);
+  for (const auto& p : front({7.5, 4.8}, 0.25, sensor)) points.push_back(p);
+  tracker.update(at(0), points, sensor, grid);
+  EXPECT_EQ(tracker.obstacles().size(), 2u);
+}
+
+TEST(BackgroundMap, GivesTheNewestThatIsOldEnough) {
+  BackgroundMap background(Duration::fromSeconds(2));
+  EXPECT_EQ(background.at(Time::fromSeconds(0)), nullptr);
+  std::vector<std::shared_ptr<const common::OccupancyGrid>> grids;
+  for (int i = 0; i < 5; ++i) {
+    grids.push_back(std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.05)));
+    background.add(Time::fromSeconds(i), grids.back());
+  }
+  EXPECT_EQ(background.at(Time::fromSeconds(1)), grids[0]);
+  EXPECT_EQ(background.at(Time::fromSeconds(4)), grids[2]);
+  EXPECT_EQ(background.at(Time::fromSeconds(5.5)), grids[3]);
+  background.restart();
+  EXPECT_EQ(background.at(Time::fromSeconds(6)), nullptr);
+}
+
+}  // namespace
+}  // namespace swiftlet::planning

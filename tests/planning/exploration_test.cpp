@@ -1,0 +1,221 @@
+// Exploration of flat worlds by an ideal vehicle: it always ends, nothing that can be reached is left, and what is left
+// has its reason.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "flatland.hpp"
+#include "grid_builder.hpp"
+#include "planning/frontiers.hpp"
+#include "planning/localizability.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+using common::FrontierReason;
+using testing::HasSubstr;
+
+void expectExplored(const test::FlightReport& report, const std::string& name) {
+  EXPECT_TRUE(report.done) << name << ": " << report.last.reason;
+  EXPECT_GE(report.coverage, 0.99) << name;
+  EXPECT_FALSE(report.touched) << name;
+  for (const common::Frontier& frontier : report.last.frontiers) {
+    EXPECT_NE(frontier.reason, FrontierReason::kOpen) << name;
+    EXPECT_FALSE(frontier.explanation.empty()) << name;
+  }
+}
+
+/// Kept in the test's record: the figures of a flight.
+void record(const test::FlightReport& r, const std::string& name) {
+  testing::Test::RecordProperty(name, fmt::format("{:.1f} s {:.1f} m coverage {:.4f} {} calls {} frontiers left",
+                                                  r.time_s, r.length_m, r.coverage, r.calls, r.last.frontiers.size()));
+}
+
+test::FlightConfig quick() {
+  test::FlightConfig config;
+  config.beams = 361;
+  return config;
+}
+
+int countOf(const ExplorationResult& result, FrontierReason reason) {
+  return static_cast<int>(std::count_if(result.frontiers.begin(), result.frontiers.end(),
+                                        [&](const common::Frontier& f) { return f.reason == reason; }));
+}
+
+TEST(Exploration, PocketsBehindBoxesAreSeen) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const std::string name = fmt::format("pocket_{}", seed);
+    const test::FlightReport report = test::fly(test::pocketRoom(seed), quick(), seed);
+    record(report, name);
+    expectExplored(report, name);
+    EXPECT_LT(report.time_s, 60.0) << name;
+  }
+}
+
+TEST(Exploration, RandomBuildingsAreExplored) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const std::string name = fmt::format("building_{}", seed);
+    const test::FlightReport report = test::fly(test::randomBuilding(seed, 14, 10, 3, 2, 8), quick(), seed);
+    record(report, name);
+    expectExplored(report, name);
+  }
+}
+
+TEST(Exploration, AWallThatSwallowsBeamsDoesNotKeepItFlying) {
+  test::Flatland world = test::pocketRoom(3);
+  world.black.push_back({{world.width - 2, 40}, {world.width, 90}});
+  test::FlightConfig config = quick();
+  config.limit_s = 300.0;
+  const test::FlightReport report = test::fly(world, config, 3);
+  record(report, "black_wall");
+  EXPECT_TRUE(report.done) << report.last.reason;
+  EXPECT_GE(countOf(report.last, FrontierReason::kBlacklisted) + countOf(report.last, FrontierReason::kUnreachable) +
+                countOf(report.last, FrontierReason::kTooSmall),
+            1);
+  EXPECT_EQ(countOf(report.last, FrontierReason::kOpen), 0);
+}
+
+/// Two rooms side by side, the right one unknown behind a doorway of `door` cells.
+struct TwoRooms : testing::Test {
+  ExplorationResult look(int door, ExplorationInput input = {}, ExplorationConfig config = {}) {
+    common::OccupancyGrid grid = test::room(100, 100);
+    test::fill(grid, {{100, 50}, {101, 50 + door}}, test::kFreeCell);
+    auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
+    map->update(grid.snapshot(), {});
+    input.cost_map = map;
+    input.pose_map = {2.0, 2.5, 0.0};
+    return explore(input, config);
+  }
+};
+
+TEST_F(TwoRooms, ADoorwayIsOpenAndLookedInto) {
+  const ExplorationResult result = look(24);
+  ASSERT_EQ(result.frontiers.size(), 1u);
+  EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kOpen);
+  EXPECT_FALSE(result.done);
+  ASSERT_TRUE(result.next);
+  EXPECT_GT(result.next->gain_m2, 1.0);
+  EXPECT_EQ(result.next->path.points_map_m.front(), Eigen::Vector2d(2.0, 2.5));
+  // The target is within the field of view.
+  const Eigen::Vector2d to = result.next->target_map_m - result.next->pose_map.position_m();
+  EXPECT_LT(std::abs(common::wrapAngle(std::atan2(to.y(), to.x()) - result.next->pose_map.yaw_rad)),
+            135.0 * M_PI / 180.0);
+  EXPECT_NEAR(result.explored_area_m2, (100 * 100 + 24) * 0.0025, 1e-6);
+}
+
+TEST_F(TwoRooms, ACrackIsTooSmall) {
+  const ExplorationResult result = look(3);
+  ASSERT_EQ(result.frontiers.size(), 1u);
+  EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kTooSmall);
+  EXPECT_EQ(result.frontiers[0].explanation, "too small: 0.15 m long");
+  EXPECT_TRUE(result.done);
+  EXPECT_FALSE(result.next);
+}
+
+TEST_F(TwoRooms, OutOfBounds) {
+  ExplorationInput input;
+  input.bounds = ExplorationBounds{{0, 0}, {4.5, 5}};
+  EXPECT_EQ(look(24, input).frontiers[0].reason, FrontierReason::kOutOfBounds);
+}
+
+TEST_F(TwoRooms, BlacklistedAfterEnoughLooks) {
+  ExplorationMemory memory(0.35);
+  ExplorationConfig config;
+  for (int i = 0; i < config.max_attempts; ++i) {
+    ExplorationInput input;
+    input.attempts = memory.attempts();
+    const ExplorationResult result = look(24, input);
+    ASSERT_TRUE(result.next) << i;
+    EXPECT_EQ(result.frontiers[0].attempts, i);
+    memory.tried(*result.next);
+  }
+  ExplorationInput input;
+  input.attempts = memory.attempts();
+  const ExplorationResult result = look(24, input);
+  EXPECT_TRUE(result.done);
+  EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kBlacklisted);
+  EXPECT_EQ(result.frontiers[0].explanation, "blacklisted: looked at 3 times");
+}
+
+TEST_F(TwoRooms, TheSameInputGivesTheSameAnswer) {
+  const ExplorationResult a = look(24), b = look(24);
+  EXPECT_EQ(a.reason, b.reason);
+  EXPECT_EQ(a.next->path.points_map_m, b.next->path.points_map_m);
+  EXPECT_EQ(a.next->utility, b.next->utility);
+}
+
+TEST_F(TwoRooms, TheViewpointIsKeptWhileItIsGoodEnough) {
+  ExplorationInput input;
+  input.current = look(24).next;
+  const Eigen::Vector2d place = input.current->pose_map.position_m();
+  input.current->target_map_m.y() += 0.1;
+  const ExplorationResult again = look(24, input);
+  EXPECT_TRUE(again.kept_current);
+  EXPECT_NEAR((again.next->pose_map.position_m() - place).norm(), 0.0, 0.05);
+  // Where nothing is left to see it is given up.
+  input.current->target_map_m = {1.0, 1.0};
+  EXPECT_FALSE(look(24, input).kept_current);
+}
+
+TEST(Exploration, BehindAPassageTooNarrowForTheHullIsUnreachable) {
+  // A passage 0.4 m wide that turns up; the room to the left of its end shows from inside the passage alone.
+  common::OccupancyGrid grid = test::room(100, 100);
+  test::fill(grid, {{100, 47}, {119, 57}}, test::kWallCell);
+  test::fill(grid, {{109, 57}, {119, 81}}, test::kWallCell);
+  test::fill(grid, {{100, 48}, {118, 56}}, test::kFreeCell);
+  test::fill(grid, {{110, 56}, {118, 80}}, test::kFreeCell);
+  test::fill(grid, {{109, 70}, {110, 80}}, common::occupancy::kUnknown);
+  auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
+  map->update(grid.snapshot(), {});
+  const ExplorationResult result = explore({map, {2.0, 2.6, 0.0}, std::nullopt, {}, std::nullopt}, {});
+  ASSERT_EQ(result.frontiers.size(), 1u);
+  EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kUnreachable);
+  EXPECT_THAT(result.frontiers[0].explanation, HasSubstr("at clearance 0.10 m"));
+  EXPECT_TRUE(result.done);
+}
+
+TEST(Exploration, AVehicleShutInSaysSo) {
+  common::OccupancyGrid grid = test::room(40, 4);
+  auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
+  map->update(grid.snapshot(), {});
+  const ExplorationResult result = explore({map, {1.0, 0.1, 0.0}, std::nullopt, {}, std::nullopt}, {});
+  EXPECT_FALSE(result.next);
+  EXPECT_THAT(result.reason, HasSubstr("shut in"));
+}
+
+TEST(Frontiers, LongOnesAreCutAndCoverEveryBorderCell) {
+  common::OccupancyGrid grid = common::makeOccupancyGrid(0.05);
+  test::fill(grid, {{0, 0}, {120, 80}}, test::kFreeCell);
+  const CostMap map = test::mapOf(grid);
+  std::size_t cells = 0;
+  for (const FrontierRun& run : findFrontiers(map, 1.5)) {
+    EXPECT_LE(static_cast<double>(run.cells.size()) * 0.05, 3.1);
+    EXPECT_NEAR(run.run_length_m, 396 * 0.05, 1e-9);
+    cells += run.cells.size();
+  }
+  EXPECT_EQ(cells, 396u);
+}
+
+TEST(Localizability, RoomsFixThePoseCorridorsDoNot) {
+  common::OccupancyGrid square = test::room(100, 100);
+  common::OccupancyGrid corridor = test::room(1200, 40);
+  const double in_room = localizabilityAt(test::mapOf(square), {50, 50}, 12.0);
+  const double in_corridor = localizabilityAt(test::mapOf(corridor), {600, 20}, 12.0);
+  const double at_its_end = localizabilityAt(test::mapOf(corridor), {30, 20}, 12.0);
+  EXPECT_GT(in_room, 0.6);
+  EXPECT_LT(in_corridor, 0.05);
+  EXPECT_GT(at_its_end, 2.0 * in_corridor);
+  EXPECT_GT(at_its_end, 0.1);
+  EXPECT_LE(in_room, 1.0);
+  EXPECT_EQ(localizability({}, 90), 0.0);
+  const LocalizabilityGrid layer = localizabilityGrid(test::mapOf(corridor), 1.0, 12.0);
+  EXPECT_LT(layer.at({30, 1}), 20);
+  EXPECT_EQ(layer.at({30, 50}), 255);  // nothing known there
+}
+
+}  // namespace
+}  // namespace swiftlet::planning

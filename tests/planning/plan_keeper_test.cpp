@@ -1,0 +1,132 @@
+// A plan is kept until it is invalid or old, and gives way only to a clearly better one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "grid_builder.hpp"
+#include "planning/dstar_lite.hpp"
+#include "planning/plan_keeper.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+using common::Time;
+using testing::HasSubstr;
+using Point = Eigen::Vector2d;
+
+Path pathOf(const CostMap& map, std::vector<Point> points) {
+  Path path{std::move(points), 0.0, 0.0};
+  for (std::size_t i = 1; i < path.points_map_m.size(); ++i) {
+    path.length_m += (path.points_map_m[i] - path.points_map_m[i - 1]).norm();
+    path.cost_m += segmentCost(map, path.points_map_m[i - 1], path.points_map_m[i]).cost_m;
+  }
+  return path;
+}
+
+struct Keeping : testing::Test {
+  common::OccupancyGrid grid = test::room(240, 160);
+  CostMap map = test::mapOf(grid);
+  PlanKeeper keeper{PlanKeeper::Config()};
+  Path straight = pathOf(map, {{2, 4}, {10, 4}});
+
+  static Time at(double s) { return Time::fromSeconds(s); }
+};
+
+TEST_F(Keeping, WithoutAPlanItAsks) {
+  const PlanKeeper::Check check = keeper.check(at(0), map, {2, 4});
+  EXPECT_FALSE(check.valid);
+  EXPECT_TRUE(check.replan);
+  EXPECT_TRUE(keeper.remaining().empty());
+}
+
+TEST_F(Keeping, KeptForHalfASecondThenCompared) {
+  ASSERT_TRUE(keeper.offer(straight, at(0), map, {2, 4}));
+  EXPECT_FALSE(keeper.check(at(0.3), map, {2.3, 4}).replan);
+  const PlanKeeper::Check old = keeper.check(at(0.5), map, {2.4, 4});
+  EXPECT_TRUE(old.valid);
+  EXPECT_TRUE(old.replan);
+  // The answer is as good as the old: not taken, and there is peace for another half second.
+  EXPECT_FALSE(keeper.offer(pathOf(map, {{2.4, 4}, {6, 4.1}, {10, 4}}), at(0.5), map, {2.4, 4}));
+  EXPECT_FALSE(keeper.check(at(0.9), map, {2.7, 4}).replan);
+  EXPECT_EQ(keeper.plan()->points_map_m, straight.points_map_m);
+}
+
+TEST_F(Keeping, AClearlyBetterPlanIsTaken) {
+  keeper.offer(pathOf(map, {{2, 4}, {6, 6.5}, {10, 4}}), at(0), map, {2, 4});
+  EXPECT_TRUE(keeper.offer(straight, at(0.5), map, {2, 4}));
+}
+
+TEST_F(Keeping, APersonOnItMakesItInvalid) {
+  keeper.offer(straight, at(0), map, {2, 4});
+  const std::vector<Disc> discs{{{6, 4.2}, 0.25}};
+  map.update(grid.snapshot(), {}, {discs, nullptr, nullptr});
+  const PlanKeeper::Check check = keeper.check(at(0.1), map, {2.1, 4});
+  EXPECT_FALSE(check.valid);
+  EXPECT_TRUE(check.replan);
+  EXPECT_THAT(check.reason, HasSubstr("blocked"));
+  // A detour is dearer and yet taken.
+  DStarLite planner;
+  const auto detour = planner.plan(map, {2.1, 4}, {10, 4});
+  ASSERT_TRUE(detour);
+  EXPECT_TRUE(keeper.offer(*detour, at(0.1), map, {2.1, 4}));
+  EXPECT_TRUE(keeper.check(at(0.2), map, {2.1, 4}).valid);
+}
+
+TEST_F(Keeping, WhatLiesBehindDoesNotMatter) {
+  keeper.offer(straight, at(0), map, {2, 4});
+  ASSERT_TRUE(keeper.check(at(0.1), map, {6, 4}).valid);
+  const std::vector<Disc> discs{{{4, 4}, 0.25}};
+  map.update(grid.snapshot(), {}, {discs, nullptr, nullptr});
+  EXPECT_TRUE(keeper.check(at(0.2), map, {6, 4.05}).valid);
+  EXPECT_NEAR(keeper.remaining().front().x(), 6.0, 1e-9);
+}
+
+TEST_F(Keeping, PushedFarOffItReplans) {
+  keeper.offer(straight, at(0), map, {2, 4});
+  EXPECT_THAT(keeper.check(at(0.1), map, {3, 4.5}).reason, HasSubstr("0.50 m off the plan"));
+}
+
+TEST_F(Keeping, AnotherGoalReplacesWithoutComparison) {
+  keeper.offer(straight, at(0), map, {2, 4});
+  keeper.check(at(0.1), map, {2, 4});
+  EXPECT_TRUE(keeper.offer(pathOf(map, {{2, 4}, {2, 7}, {9, 7}}), at(0.1), map, {2, 4}));
+  keeper.clear();
+  EXPECT_EQ(keeper.plan(), nullptr);
+}
+
+TEST_F(Keeping, APlanOutOfTheInflatedZoneIsValid) {
+  DStarLite planner;
+  const Point pushed{0.3, 4};
+  const auto path = planner.plan(map, pushed, {10, 4});
+  ASSERT_TRUE(path);
+  keeper.offer(*path, at(0), map, pushed);
+  EXPECT_TRUE(keeper.check(at(0.1), map, pushed).valid);
+}
+
+TEST_F(Keeping, TwoEqualWaysDoNotSwing) {
+  // A box in the middle, ways of equal length on both sides, a map that flickers: one way is kept.
+  test::fill(grid, {{110, 60}, {130, 100}}, test::kWallCell);
+  DStarLite planner;
+  Point position{2, 4};
+  int taken = 0;
+  for (int i = 0; i < 140; ++i) {
+    // Noise beside either way in turn makes the other cheaper by a little.
+    test::fill(grid, {{118, i % 2 ? 14 : 144}, {122, i % 2 ? 16 : 146}}, test::kWallCell);
+    test::fill(grid, {{118, i % 2 ? 144 : 14}, {122, i % 2 ? 146 : 16}}, test::kFreeCell);
+    map.update(grid.snapshot(), {});
+    const Time now = at(i * 0.1);
+    if (keeper.check(now, map, position).replan) {
+      const auto path = planner.plan(map, position, {10, 4});
+      ASSERT_TRUE(path);
+      taken += keeper.offer(*path, now, map, position);
+    }
+    const std::vector<Point> rest = keeper.remaining();
+    const Point step = rest[1] - rest[0];
+    position = rest[0] + (step.norm() > 0.08 ? Point(step.normalized() * 0.08) : step);
+    if (rest.size() == 2 && step.norm() < 0.1) break;
+  }
+  EXPECT_LE(taken, 3);
+  EXPECT_NEAR(position.x(), 10.0, 0.2);
+}
+
+}  // namespace
+}  // namespace swiftlet::planning

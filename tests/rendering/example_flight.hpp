@@ -1,0 +1,42 @@
+// A made-up flight through a made-up flat, for looking at pictures and pages and for tests of them: the grid grows as
+// the vehicle goes round, with trail, plan, levels, frontiers of every reason and a mission tree.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/sensor_event.hpp"
+#include "common/world.hpp"
+
+namespace swiftlet::testing {
+
+class ExampleFlight {
+ public:
+  ExampleFlight();
+
+  /// Flies on for `seconds` and returns the world then.
+  std::shared_ptr<const common::World> advance(double seconds);
+  common::World& world() { return world_; }
+
+  /// A camera picture that changes with time.
+  static common::CameraFrame cameraFrame(double time_s, int width_px, int height_px);
+
+  /// Free and already seen.
+  bool isKnownFree(const Eigen::Vector2d& point_map_m) const;
+  void flyTo(const Eigen::Vector2d& goal_map_m) { world_.goal_map_m = goal_map_m; }
+
+ private:
+  bool isWall(const Eigen::Vector2d& point_map_m) const;
+  void look();
+  void move(double seconds);
+  void describe();
+
+  common::OccupancyGrid grid_ = common::makeOccupancyGrid(0.05);
+  std::vector<Eigen::Vector2d> trail_;
+  common::Pose2 pose_;
+  double time_s_ = 0.0;
+  std::size_t waypoint_ = 0;
+  common::World world_;
+};
+
+}  // namespace swiftlet::testing

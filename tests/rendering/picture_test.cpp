@@ -1,0 +1,38 @@
+// The map as a picture: caching changes nothing, walls survive scaling, the bytes are stable.
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "rendering/encode.hpp"
+#include "rendering/map_renderer.hpp"
+#include "tests/rendering/example_flight.hpp"
+
+namespace swiftlet::rendering {
+namespace {
+
+TEST(MapRendererTest, CachedEqualsFreshWhileTheMapGrows) {
+  testing::ExampleFlight flight;
+  MapRenderer renderer;
+  MapView view;
+  for (int i = 0; i < 12; ++i) {
+    const auto world = flight.advance(0.7);
+    ASSERT_EQ(renderer.render(*world, view).rgb, renderMap(*world, view).rgb) << "at step " << i;
+  }
+}
+
+TEST(MapRendererTest, WritesPicturesToLookAt) {
+  testing::ExampleFlight flight;
+  const auto world = flight.advance(16.0);
+  for (const Scheme scheme : {Scheme::kLight, Scheme::kDark}) {
+    MapView view;
+    view.scheme = scheme;
+    const Bytes png = encodePng(renderMap(*world, view));
+    std::ofstream(std::string(SWIFTLET_BINARY_DIR) + (scheme == Scheme::kLight ? "/map_light.png" : "/map_dark.png"),
+                  std::ios::binary)
+        .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+    EXPECT_GT(png.size(), 5000u);
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::rendering

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# debian_package.sh BUILD_DIR SCRATCH_DIR: packs the build by CPack, reads the packages as dpkg would and runs what is
+# inside. Exit 77 (skipped) where there is no dpkg-shlibdeps.
+set -euo pipefail
+build=$1 scratch=$2
+fail() { echo "FAILED: $*" >&2; exit 1; }
+command -v dpkg-shlibdeps >/dev/null || { echo 'skipped: no dpkg-shlibdeps (Debian: dpkg-dev)'; exit 77; }
+rm -rf "$scratch"
+mkdir -p "$scratch"
+
+# Packing fast matters more here than packing small.
+cpack --config "$build/CPackConfig.cmake" -B "$scratch" -D CPACK_DEBIAN_COMPRESSION_TYPE=zstd >"$scratch/cpack.log" 2>&1 ||
+  { cat "$scratch/cpack.log"; fail 'cpack'; }
+
+develop=$(echo "$scratch"/swiftlet-dev_*.deb)
+[ "$(dpkg-deb -f "$develop" Package)" = swiftlet-dev ] || fail "no swiftlet-dev in $scratch"
+dpkg-deb -c "$develop" >"$scratch/develop.txt"
+grep -q '/usr/include/swiftlet/common/time.hpp' "$scratch/develop.txt" || fail 'swiftlet-dev has no headers'
+grep -q '/libswiftlet_common.a' "$scratch/develop.txt" || fail 'swiftlet-dev has no libraries'
+
+program=$(echo "$scratch"/swiftlet_*.deb)
+[ "$(dpkg-deb -f "$program" Package)" = swiftlet ] || fail "no swiftlet in $scratch"
+dpkg-deb -c "$program" >"$scratch/program.txt"
+grep -q '/usr/share/doc/swiftlet/copyright' "$scratch/program.txt" || fail 'swiftlet has no licence'
+if [ -x "$build/swiftlet" ]; then
+  [[ $(dpkg-deb -f "$program" Depends) == *libc6* ]] || fail 'swiftlet depends on nothing'
+  dpkg-deb -x "$program" "$scratch/root"
+  cd / # Away from the source tree's folders: the program must find its own.
+  "$scratch/root/usr/bin/swiftlet" version || fail 'the packed program does not start'
+  "$scratch/root/usr/bin/swiftlet" check missions/explore_and_return.xml || fail 'the packed program does not find its data'
+fi
+echo "Packed: $(cd "$scratch" && du -h ./*.deb | tr '\n' ' ')"

@@ -1,0 +1,144 @@
+// What is left lying about, what a script says of itself, what the presets are called.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/repository/source_tree.hpp"
+
+namespace swiftlet::repository {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+bool hasWord(const std::string& line, const std::string& word) {
+  for (auto at = line.find(word); at != std::string::npos; at = line.find(word, at + 1)) {
+    const bool begins = at == 0 || !isWordCharacter(line[at - 1]);
+    const bool ends = at + word.size() >= line.size() || !isWordCharacter(line[at + word.size()]);
+    if (begins && ends) return true;
+  }
+  return false;
+}
+
+/// "file:line: text" of every line of the files with those endings that has one of the words.
+std::vector<std::string> linesWith(const std::vector<std::string>& words, const std::vector<std::string>& endings) {
+  std::vector<std::string> found;
+  for (const auto& [path, text] : trackedFiles()) {
+    if (path == "tests/repository/habits_test.cpp" || !endsWithAny(path, endings)) continue;
+    int number = 0;
+    for (const std::string& line : linesOf(text)) {
+      ++number;
+      for (const std::string& word : words)
+        if (hasWord(line, word)) found.push_back(path + ":" + std::to_string(number) + ": " + line);
+    }
+  }
+  return found;
+}
+
+TEST(Files, NothingIsMarkedUnfinished) {
+  const auto marked = linesWith({"TODO", "FIXME", "XXX", "HACK", "TBD"}, {""});
+  EXPECT_THAT(marked, IsEmpty()) << joined(marked);
+  const auto said = linesWith({"not implemented", "not yet implemented", "placeholder", "for now"}, {".cpp", ".hpp"});
+  EXPECT_THAT(said, IsEmpty()) << joined(said);
+}
+
+TEST(Files, NameNoPathOfAMachine) {
+  std::vector<std::string> found;
+  for (const auto& [path, text] : trackedFiles()) {
+    if (path == "tests/repository/habits_test.cpp") continue;
+    int number = 0;
+    for (const std::string& line : linesOf(text)) {
+      ++number;
+      for (const std::string place : {"/home/", "/root/", "/Users/", SWIFTLET_SOURCE_DIR "/"})
+        if (const auto at = line.find(place); at != std::string::npos && (at == 0 || !isWordCharacter(line[at - 1])))
+          found.push_back(path + ":" + std::to_string(number) + ": " + line);
+    }
+  }
+  EXPECT_THAT(found, IsEmpty()) << joined(found);
+}
+
+// Time and chance are injected, and only apps and the job pool own threads; otherwise a flight would not repeat.
+TEST(Files, LibrariesTakeNoTimeChanceOrThreadsOfTheirOwn) {
+  const std::vector<std::string> forbidden = {"_clock::now",  "std::rand",    "srand(",       "random_device",
+                                              "std::thread(", "std::thread ", "std::jthread", "std::async",
+                                              "sleep_for",    "sleep_until"};
+  std::vector<std::string> found;
+  for (const auto& [path, text] : trackedFiles()) {
+    const std::string top = topFolderOf(path);
+    if (!endsWithAny(path, {".cpp", ".hpp"}) || top == "apps" || top == "tests" || top == "benchmarks" ||
+        top == "fuzz" || path.starts_with("common/jobs."))
+      continue;
+    int number = 0;
+    for (const std::string& line : linesOf(text)) {
+      ++number;
+      const std::string code = line.substr(0, line.find("//"));
+      for (const std::string& word : forbidden)
+        if (code.find(word) != std::string::npos) found.push_back(path + ":" + std::to_string(number) + ": " + line);
+    }
+  }
+  EXPECT_THAT(found, IsEmpty()) << joined(found);
+}
+
+std::string withoutComments(std::string page) {
+  for (auto begin = page.find("<!--"); begin != std::string::npos; begin = page.find("<!--", begin))
+    page.erase(begin, page.find("-->", begin) - begin);
+  return page;
+}
+
+TEST(Files, LinksBetweenThePagesLeadSomewhere) {
+  for (const auto& [path, page] : trackedFiles()) {
+    if (!path.ends_with(".md")) continue;
+    const std::string text = withoutComments(page);
+    for (auto at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
+      std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
+      target = target.substr(0, target.find('#'));
+      if (target.empty() || target.find("://") != std::string::npos) continue;
+      const auto file = std::filesystem::path(SWIFTLET_SOURCE_DIR) / folderOf(path) / target;
+      EXPECT_TRUE(std::filesystem::exists(file)) << path << " links to " << target << ", which is not there";
+    }
+  }
+}
+
+TEST(Scripts, EachSaysWhatItDoes) {
+  int count = 0;
+  for (const auto& [path, text] : trackedFiles()) {
+    if (!path.starts_with("scripts/") || path.ends_with(".txt")) continue;
+    ++count;
+    const Answer answer = run(path + " --help");
+    EXPECT_EQ(answer.exit_code, 0) << path << ": " << answer.text;
+    EXPECT_TRUE(answer.text.starts_with(path)) << path << " --help begins with its own name:\n" << answer.text;
+    EXPECT_THAT(answer.text, HasSubstr("\nExample: ")) << path;
+    EXPECT_THAT(answer.text, HasSubstr("--help")) << path;
+    EXPECT_EQ(run("bash -n " + path).exit_code, 0) << path;
+  }
+  EXPECT_GE(count, 6);
+}
+
+TEST(Scripts, RefuseWhatTheyDoNotKnow) {
+  for (const std::string script : {"setup", "build", "format", "tidy", "fuzz"}) {
+    const Answer answer = run("scripts/" + script + " --frobnicate");
+    EXPECT_EQ(answer.exit_code, 2) << script << ": " << answer.text;
+    EXPECT_THAT(answer.text, HasSubstr("--frobnicate")) << script;
+  }
+}
+
+TEST(Presets, AreComplete) {
+  const auto presets = nlohmann::json::parse(trackedFiles().at("CMakePresets.json"));
+  std::set<std::string> configured, built;
+  for (const auto& preset : presets.at("configurePresets"))
+    if (!preset.value("hidden", false)) configured.insert(preset.at("name"));
+  for (const auto& preset : presets.at("buildPresets")) built.insert(preset.at("configurePreset"));
+  const std::set<std::string> expected = {"release", "dev", "asan", "tsan", "coverage", "fuzz"};
+  EXPECT_EQ(configured, expected);
+  EXPECT_EQ(built, expected);
+  EXPECT_EQ(run("cmake --list-presets").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace swiftlet::repository

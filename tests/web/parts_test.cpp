@@ -1,0 +1,200 @@
+// The parts behind the sockets: tiles, commands, JSON.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/rendering/example_flight.hpp"
+#include "web/server/command_desk.hpp"
+#include "web/server/state_json.hpp"
+#include "web/server/tile_codec.hpp"
+#include "web/server/tile_feed.hpp"
+
+namespace swiftlet::web {
+namespace {
+
+using common::occupancy::Cell;
+constexpr int kTile = common::OccupancyGrid::kTileSize;
+
+TEST(TileCodecTest, DecodesToTheShadesOfEveryCell) {
+  const bool held = rc::check("tiles survive coding", [] {
+    auto grid = common::makeOccupancyGrid(0.05);
+    const auto runs = *rc::gen::container<std::vector<std::pair<int, int>>>(
+        rc::gen::pair(rc::gen::inRange(1, 900), rc::gen::inRange(-128, 101)));
+    int at = 0;
+    for (const auto& [length, value] : runs)
+      for (int i = 0; i < length && at < kTile * kTile; ++i, ++at)
+        grid.set({at % kTile - kTile, at / kTile}, static_cast<Cell>(value));
+    const std::vector<int> shades = decodeTile(encodeTile(grid, {-kTile, 0}));
+    RC_ASSERT(shades.size() == static_cast<std::size_t>(kTile) * kTile);
+    for (int i = 0; i < kTile * kTile; ++i)
+      RC_ASSERT(shades[static_cast<std::size_t>(i)] == shadeOf(grid.at({i % kTile - kTile, i / kTile})));
+  });
+  EXPECT_TRUE(held);
+}
+
+TEST(TileCodecTest, ShadesTellFreeFromOccupiedFromUnknown) {
+  EXPECT_EQ(shadeOf(common::occupancy::kUnknown), 0);
+  for (int c = -100; c <= 100; ++c) {
+    const int shade = shadeOf(static_cast<Cell>(c));
+    EXPECT_EQ(shade >= 5, common::occupancy::isOccupied(static_cast<Cell>(c))) << c;
+    EXPECT_GE(shade, 1);
+    EXPECT_LE(shade, 8);
+  }
+}
+
+TEST(TileCodecTest, RefusesMalformedBytes) {
+  EXPECT_TRUE(decodeTile("").empty());
+  EXPECT_TRUE(decodeTile("\x0f").empty());
+  EXPECT_TRUE(decodeTile(std::string("\x0f\xff\xff", 3)).empty());
+}
+
+/// What a page makes of the messages.
+struct Page {
+  std::map<std::pair<int, int>, std::vector<int>> tiles;
+
+  void take(const std::string& m) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(m.at(i)); };
+    const auto i16 = [&](std::size_t i) { return static_cast<std::int16_t>(byte(i) | byte(i + 1) << 8); };
+    ASSERT_EQ(byte(0), 1);
+    if (byte(1) == 1) tiles.clear();
+    std::size_t at = 8;
+    for (int n = i16(2); n > 0; --n) {
+      const auto length = static_cast<std::uint16_t>(i16(at + 4));
+      tiles[{i16(at), i16(at + 2)}] = decodeTile(m.substr(at + 6, length));
+      at += 6u + length;
+    }
+    ASSERT_EQ(at, m.size());
+  }
+  int shadeAt(common::CellIndex c) const {
+    const int tx = static_cast<int>(std::floor(static_cast<double>(c.x) / kTile));
+    const int ty = static_cast<int>(std::floor(static_cast<double>(c.y) / kTile));
+    const auto it = tiles.find({tx, ty});
+    return it == tiles.end() ? 0
+                             : it->second.at(static_cast<std::size_t>((c.y - ty * kTile) * kTile + c.x - tx * kTile));
+  }
+};
+
+TEST(TileFeedTest, APageThatTakesEveryMessageHasTheMapWheneverItCame) {
+  testing::ExampleFlight flight;
+  TileFeed feed;
+  TileReader early, late;
+  Page early_page, late_page;
+  std::shared_ptr<const common::World> world;
+  for (int i = 0; i < 8; ++i) {
+    world = flight.advance(1.0);
+    feed.update(world->grid);
+    for (std::string m = early.next(feed, 1000); !m.empty(); m = early.next(feed, 1000)) early_page.take(m);
+  }
+  for (std::string m = late.next(feed, 1000); !m.empty(); m = late.next(feed, 1000)) late_page.take(m);
+  world->grid->forEachCell([&](common::CellIndex c, Cell value) {
+    ASSERT_EQ(early_page.shadeAt(c), shadeOf(value));
+    ASSERT_EQ(late_page.shadeAt(c), shadeOf(value));
+  });
+}
+
+TEST(TileFeedTest, WhatVanishesFromTheMapVanishesFromThePage) {
+  auto first = common::makeOccupancyGrid(0.05), second = common::makeOccupancyGrid(0.05);
+  first.set({500, 3}, 50);
+  second.set({0, 0}, 50);
+  TileFeed feed;
+  TileReader reader;
+  Page page;
+  feed.update(std::make_shared<const common::OccupancyGrid>(first));
+  page.take(reader.next(feed, 1000));
+  EXPECT_GE(page.shadeAt({500, 3}), 5);
+  feed.update(std::make_shared<const common::OccupancyGrid>(second));
+  page.take(reader.next(feed, 1000));
+  EXPECT_EQ(page.shadeAt({500, 3}), 0);
+  EXPECT_GE(page.shadeAt({0, 0}), 5);
+  EXPECT_TRUE(reader.next(feed, 1000).empty());
+}
+
+TEST(TileFeedTest, SeeingAgainWhatIsKnownCostsNothing) {
+  auto grid = common::makeOccupancyGrid(0.05);
+  grid.set({3, 3}, 99);
+  TileFeed feed;
+  TileReader reader;
+  feed.update(std::make_shared<const common::OccupancyGrid>(grid.snapshot()));
+  EXPECT_FALSE(reader.next(feed, 1000).empty());
+  grid.set({3, 3}, 100);
+  feed.update(std::make_shared<const common::OccupancyGrid>(grid.snapshot()));
+  EXPECT_TRUE(reader.next(feed, 1000).empty());
+}
+
+TEST(CommandDeskTest, BringsEachAnswerToWhoAsked) {
+  common::LosslessQueue<common::OperatorCommand> commands;
+  common::LosslessQueue<common::CommandResult> results;
+  CommandDesk desk(commands, results, 3);
+  std::vector<std::string> log;
+  const auto note = [&log](std::uint64_t id, const std::optional<common::CommandResult>& result) {
+    log.push_back(std::to_string(id) + (result ? result->accepted ? " yes" : " no: " + result->reason : " silence"));
+  };
+  ASSERT_TRUE(desk.give(common::HoldCommand{}, note));
+  ASSERT_TRUE(desk.give(common::HomeCommand{}, note));
+  ASSERT_TRUE(desk.give(common::LandCommand{}, note));
+  const auto asked = commands.takeAll();
+  ASSERT_EQ(asked.size(), 3u);
+  results.push({asked[1].id, false, "no home"});
+  results.push({asked[0].id, true, ""});
+  results.push({99, true, ""});
+  desk.tick();
+  EXPECT_TRUE(desk.waiting());
+  desk.tick();
+  desk.tick();
+  EXPECT_FALSE(desk.waiting());
+  EXPECT_EQ(log, (std::vector<std::string>{"2 no: no home", "1 yes", "3 silence"}));
+  results.push({asked[2].id, true, ""});
+  desk.tick();
+  EXPECT_EQ(log.size(), 3u);
+}
+
+TEST(CommandDeskTest, DoesNotLetStrangersPileUp) {
+  common::LosslessQueue<common::OperatorCommand> commands;
+  common::LosslessQueue<common::CommandResult> results;
+  CommandDesk desk(commands, results, 1000);
+  int given = 0;
+  for (int i = 0; i < 1000; ++i)
+    given += desk.give(common::HoldCommand{}, [](std::uint64_t, const std::optional<common::CommandResult>&) {});
+  EXPECT_EQ(given, 64);
+  EXPECT_EQ(commands.takeAll().size(), 64u);
+}
+
+TEST(StateJsonTest, HasEverythingAndIsValidJson) {
+  testing::ExampleFlight flight;
+  flight.flyTo({1.0, 0.5});
+  const auto world = flight.advance(0.5);
+  const std::vector<NumberedEvent> events{
+      {7, {common::Time::fromSeconds(1.5), common::Severity::kWarning, "web", "a", "b"}}};
+  const auto json = nlohmann::json::parse(completeJson(*world, {}, events));
+  EXPECT_NEAR(json["pose"]["x_m"], world->state.T_map_body_planar().x_m, 1e-3);
+  EXPECT_EQ(json["flight_state"], "flying");
+  EXPECT_EQ(json["goal"]["x_m"], 1.0);
+  EXPECT_EQ(json["trail"].size(), world->trail_map_m->size());
+  EXPECT_EQ(json["frontiers"].size(), world->frontiers->size());
+  EXPECT_EQ(json["frontiers"][1]["reason"], "unreachable");
+  EXPECT_EQ(json["levels"][0]["height_m"], 0.76);
+  EXPECT_EQ(json["mission"]["tree"][1]["name"], "AvoidObstacle");
+  EXPECT_EQ(json["events"][0]["number"], 7);
+}
+
+TEST(StateJsonTest, SurvivesNumbersAndTextThatAreNone) {
+  testing::ExampleFlight flight;
+  common::World world = *flight.advance(0.1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  world.state.T_odom_body.position_m.setConstant(nan);
+  world.state.T_odom_body.rotation.coeffs().setConstant(nan);
+  world.status.battery_voltage_v = nan;
+  world.avoidance.nearest_m = std::numeric_limits<double>::infinity();
+  world.plan_map_m = {{nan, 1e300}};
+  world.mission.phase = "bad \xff\xc3 text \n\x01";
+  const auto json = nlohmann::json::parse(completeJson(world, {}, {}));
+  EXPECT_TRUE(json["pose"]["x_m"].is_null());
+  EXPECT_TRUE(json["avoidance"]["nearest_m"].is_null());
+  EXPECT_TRUE(json["plan"][0][0].is_null());
+}
+
+}  // namespace
+}  // namespace swiftlet::web

@@ -1,0 +1,127 @@
+// Every way a request can be refused, without a socket.
+#include "web/server/route.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "web/server/target.hpp"
+
+namespace swiftlet::web {
+namespace {
+
+const Policy kPolicy{"secret-token", {"cobra.local"}, {"index.html", "page.js"}};
+
+Request get(std::string target) { return {"GET", std::move(target), "127.0.0.1:8080", "", "", "", false}; }
+
+Request post(std::string target, std::string body = "") {
+  return {"POST", std::move(target), "127.0.0.1:8080", "", "Bearer secret-token", std::move(body), false};
+}
+
+int statusOf(const Action& action) {
+  const auto* refuse = std::get_if<Refuse>(&action);
+  return refuse == nullptr ? 200 : refuse->status;
+}
+
+std::string reasonOf(const Action& action) {
+  const auto* refuse = std::get_if<Refuse>(&action);
+  return refuse == nullptr ? "" : refuse->reason;
+}
+
+TEST(RouteTest, ServesThePageAtTheRoot) {
+  const Action action = route(get("/?token=secret-token"), kPolicy);
+  EXPECT_EQ(std::get<ServeFile>(action).name, "index.html");
+  EXPECT_EQ(std::get<ServeFile>(route(get("/page.js"), kPolicy)).name, "page.js");
+}
+
+TEST(RouteTest, ReadsStreamParameters) {
+  const auto stream = std::get<StreamPictures>(route(get("/stream/map.mjpg?width=320&fps=5&scheme=dark"), kPolicy));
+  EXPECT_EQ(stream.view.width_px, 320);
+  EXPECT_EQ(stream.view.height_px, 240);
+  EXPECT_EQ(stream.view.scheme, rendering::Scheme::kDark);
+  EXPECT_DOUBLE_EQ(stream.fps, 5.0);
+}
+
+TEST(RouteTest, ReducesWhatIsTooMuchAndRefusesWhatIsNoNumber) {
+  const auto stream = std::get<StreamPictures>(route(get("/stream/map.mjpg?width=99999&fps=1e9"), kPolicy));
+  EXPECT_EQ(stream.view.width_px, 1920);
+  EXPECT_DOUBLE_EQ(stream.fps, 30.0);
+  for (const char* bad : {"width=", "width=abc", "width=-5", "width=12px", "width=nan", "width=inf&fps=-inf", "fps=0",
+                          "scheme=pink", "width=1&width=2", "width=%zz"})
+    EXPECT_EQ(statusOf(route(get(std::string("/stream/map.mjpg?") + bad), kPolicy)), 400) << bad;
+  EXPECT_THAT(reasonOf(route(get("/stream/map.mjpg?widht=3"), kPolicy)), ::testing::HasSubstr("did you mean `width`"));
+}
+
+TEST(RouteTest, RefusesForeignHosts) {
+  for (const char* host : {"", "evil.example", "127.0.0.1.evil.example", "localhost.evil.example:8080", "cobra.local:x",
+                           "1.2.3", "1.2.3.4.5", "[::1", "a b", "999.1.1.1.example"}) {
+    Request request = get("/api/state");
+    request.host = host;
+    EXPECT_EQ(statusOf(route(request, kPolicy)), 403) << host;
+  }
+  for (const char* host :
+       {"localhost", "LOCALHOST:80", "192.168.1.20:8080", "[::1]:8080", "[fe80::1]", "Cobra.local:8080"}) {
+    Request request = get("/api/state");
+    request.host = host;
+    EXPECT_TRUE(std::holds_alternative<SendState>(route(request, kPolicy))) << host;
+  }
+}
+
+TEST(RouteTest, CommandsNeedTheToken) {
+  Request request = post("/api/hold");
+  EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(request, kPolicy)));
+  for (const char* wrong :
+       {"", "Bearer ", "Bearer secret-toke", "Bearer secret-tokenx", "Basic secret-token", "secret-token"}) {
+    request.authorization = wrong;
+    EXPECT_EQ(statusOf(route(request, kPolicy)), 401) << wrong;
+  }
+  request = post("/api/hold?token=secret-token");
+  request.authorization.clear();
+  EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(request, kPolicy)));
+  // A server without a token obeys nobody.
+  Policy open = kPolicy;
+  open.token.clear();
+  EXPECT_EQ(statusOf(route(post("/api/hold?token="), open)), 401);
+}
+
+TEST(RouteTest, ForeignPagesMayNeitherCommandNorConnect) {
+  for (const char* origin : {"http://evil.example", "null", "https://127.0.0.1:8080", "http://127.0.0.1:8081"}) {
+    Request request = post("/api/land");
+    request.origin = origin;
+    EXPECT_EQ(statusOf(route(request, kPolicy)), 403) << origin;
+    request = get("/api/ws");
+    request.wants_websocket = true;
+    request.origin = origin;
+    EXPECT_EQ(statusOf(route(request, kPolicy)), 403) << origin;
+  }
+  Request own = post("/api/land");
+  own.origin = "http://127.0.0.1:8080";
+  EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(own, kPolicy)));
+}
+
+TEST(RouteTest, GoalsAreReadStrictly) {
+  const auto command = std::get<GiveCommand>(route(post("/api/goal", R"({"x_m": 3, "y_m": -1.5})"), kPolicy));
+  EXPECT_EQ(std::get<common::GoalCommand>(command.kind).goal_map_m, Eigen::Vector2d(3.0, -1.5));
+  for (const char* bad : {"", "{", "[]", "null", "[1,2]", R"({"x_m":1})", R"({"x_m":"1","y_m":2})",
+                          R"({"x_m":1e300,"y_m":2})", R"({"x_m":1e999,"y_m":2})", R"({"x_m":1,"y_m":2,"z_m":3})",
+                          R"({"x_m":null,"y_m":2})", R"({"x_m":1,"y_m":2}x)", "\xff\xfe"})
+    EXPECT_EQ(statusOf(route(post("/api/goal", bad), kPolicy)), 400) << bad;
+  EXPECT_EQ(statusOf(route(post("/api/goal", std::string(4000, '[')), kPolicy)), 400);
+}
+
+TEST(RouteTest, SaysWhichMethodWouldDo) {
+  const Action action = route(get("/api/goal"), kPolicy);
+  EXPECT_EQ(std::get<Refuse>(action).status, 405);
+  EXPECT_EQ(std::get<Refuse>(action).allow, "POST");
+  EXPECT_EQ(statusOf(route(post("/api/state"), kPolicy)), 405);
+  EXPECT_EQ(statusOf(route(get("/api/ws"), kPolicy)), 426);
+}
+
+TEST(RouteTest, ServesNothingElse) {
+  for (const char* target : {"/etc/passwd", "/api", "/api/", "/index", "//", "/api/state/"})
+    EXPECT_EQ(statusOf(route(get(target), kPolicy)), 404) << target;
+  for (const char* target : {"", "x", "http://127.0.0.1/", "*", "/../page.js", "/%2e%2e/page.js", "/page.js%00", "/%"})
+    EXPECT_EQ(statusOf(route(get(target), kPolicy)), 400) << target;
+}
+
+}  // namespace
+}  // namespace swiftlet::web

@@ -1,0 +1,250 @@
+// The server over real sockets: the page, commands, streams, bad requests and slow clients.
+#include "web/server/web_server.hpp"
+
+#include <sys/socket.h>
+
+#include <chrono>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "common/error.hpp"
+#include "tests/console/fake_backend.hpp"
+#include "tests/web/http_client.hpp"
+
+namespace swiftlet::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using namespace std::chrono_literals;
+
+nlohmann::json jsonOf(const Reply& reply) { return nlohmann::json::parse(reply.body, nullptr, false); }
+
+/// True as soon as `holds` does, within five seconds.
+template <typename Holds>
+bool eventually(Holds holds) {
+  for (int i = 0; i < 500; ++i) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(10ms);
+  }
+  return false;
+}
+
+TEST(ServerTest, ServesThePageWithEverythingItNeeds) {
+  FakeBackend backend({});
+  const Reply page = request(backend.port(), "GET", "/?token=operator-token");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_THAT(page.headers.at("content-security-policy"), HasSubstr("frame-ancestors 'none'"));
+  EXPECT_EQ(page.headers.at("referrer-policy"), "no-referrer");
+  for (const char* file : {"/main.js", "/style.css", "/link.js", "/map_view.js", "/map_store.js", "/panels.js",
+                           "/commands.js", "/icon.svg"})
+    EXPECT_EQ(request(backend.port(), "GET", file).status, 200) << file;
+  // The page works offline: nothing names another host.
+  for (const char* file : {"/", "/main.js", "/style.css", "/link.js", "/commands.js"})
+    EXPECT_EQ(request(backend.port(), "GET", file).body.find("https://"), std::string::npos) << file;
+  const Reply again = request(backend.port(), "GET", "/", "If-None-Match: " + page.headers.at("etag") + "\r\n");
+  EXPECT_EQ(again.status, 304);
+}
+
+TEST(ServerTest, AnswersStateAndMap) {
+  FakeBackend backend({});
+  const Reply state = request(backend.port(), "GET", "/api/state");
+  EXPECT_EQ(state.status, 200);
+  EXPECT_EQ(jsonOf(state)["flight_state"], "flying");
+  const Reply map = request(backend.port(), "GET", "/api/map.png?width=320");
+  EXPECT_EQ(map.headers.at("content-type"), "image/png");
+  EXPECT_EQ(map.body.substr(1, 3), "PNG");
+}
+
+TEST(ServerTest, SaysSoBeforeTheFirstWorld) {
+  FakeBackend::Setup setup;
+  setup.flies = false;
+  FakeBackend backend(setup);
+  EXPECT_EQ(request(backend.port(), "GET", "/api/state").status, 503);
+  EXPECT_EQ(request(backend.port(), "GET", "/api/map.png").status, 503);
+  RawClient stream(backend.port());
+  stream.send("GET /stream/map.mjpg HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_THAT(stream.readUntil("Content-Length: "), HasSubstr("image/jpeg"));
+}
+
+TEST(ServerTest, AnswersACommandWithItsResult) {
+  FakeBackend backend({});
+  const Reply good = request(backend.port(), "POST", "/api/goal", bearer(), R"({"x_m": 1.0, "y_m": 0.5})");
+  EXPECT_EQ(good.status, 200);
+  EXPECT_EQ(jsonOf(good)["accepted"], true);
+  const Reply bad = request(backend.port(), "POST", "/api/goal", bearer(), R"({"x_m": 40, "y_m": 0.5})");
+  EXPECT_EQ(bad.status, 409);
+  EXPECT_THAT(jsonOf(bad)["reason"].get<std::string>(), HasSubstr("not known to be free"));
+  for (const char* name : {"hold", "resume", "home", "land"})
+    EXPECT_EQ(request(backend.port(), "POST", std::string("/api/") + name + "?token=operator-token").status, 200)
+        << name;
+  EXPECT_EQ(backend.commandsSeen().size(), 6u);
+  EXPECT_EQ(jsonOf(request(backend.port(), "GET", "/api/state"))["events"].size(), 6u);
+}
+
+TEST(ServerTest, WithoutTheTokenNothingReachesTheVehicle) {
+  FakeBackend backend({});
+  EXPECT_EQ(request(backend.port(), "POST", "/api/land").status, 401);
+  EXPECT_EQ(request(backend.port(), "POST", "/api/land?token=wrong").status, 401);
+  EXPECT_EQ(request(backend.port(), "POST", "/api/land", bearer() + "Origin: http://evil.example\r\n").status, 403);
+  EXPECT_EQ(request(backend.port(), "GET", "/api/land?token=operator-token").status, 405);
+  std::this_thread::sleep_for(150ms);
+  EXPECT_TRUE(backend.commandsSeen().empty());
+}
+
+TEST(ServerTest, ACommandThatNobodyAnswersTimesOut) {
+  FakeBackend::Setup setup;
+  setup.answers = false;
+  FakeBackend backend(setup);
+  const Reply reply = request(backend.port(), "POST", "/api/hold", bearer());
+  EXPECT_EQ(reply.status, 504);
+  EXPECT_EQ(jsonOf(reply)["accepted"], false);
+}
+
+TEST(ServerTest, KeepsAConnectionForManyRequests) {
+  FakeBackend backend({});
+  RawClient client(backend.port());
+  for (int i = 0; i < 3; ++i) {
+    client.send("POST /api/hold HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n" + bearer() + "\r\n");
+    EXPECT_EQ(client.readReply().status, 200);
+  }
+}
+
+TEST(ServerTest, BadRequestsGetAnAnswerAndHarmNothing) {
+  FakeBackend backend({});
+  const std::pair<std::string, int> cases[] = {
+      {"GARBAGE\r\n\r\n", 400},
+      {"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(20000, 'a') + "\r\n\r\n", 431},
+      {"POST /api/goal HTTP/1.1\r\nHost: localhost\r\nContent-Length: 999999\r\n\r\n{", 413},
+      {"GET /" + std::string(7000, '%') + " HTTP/1.1\r\nHost: localhost\r\n\r\n", 400},
+      {"GET / HTTP/1.1\r\n\r\n", 403},
+      {"GET /\x01 HTTP/1.1\r\nHost: localhost\r\n\r\n", 400},
+      {"DELETE / HTTP/1.1\r\nHost: localhost\r\n\r\n", 405},
+      {"POST /api/goal HTTP/1.1\r\nHost: localhost\r\nContent-Length: abc\r\n\r\n", 400},
+  };
+  for (const auto& [bytes, status] : cases) {
+    RawClient client(backend.port());
+    client.send(bytes);
+    EXPECT_EQ(client.readReply().status, status) << bytes.substr(0, 60);
+  }
+  EXPECT_EQ(request(backend.port(), "GET", "/").status, 200);
+}
+
+TEST(ServerTest, MoreConnectionsThanAllowedAreToldSo) {
+  FakeBackend::Setup setup;
+  setup.max_connections = 8;
+  FakeBackend backend(setup);
+  std::vector<std::unique_ptr<RawClient>> silent;
+  for (int i = 0; i < 8; ++i) silent.push_back(std::make_unique<RawClient>(backend.port()));
+  ASSERT_TRUE(eventually([&] { return request(backend.port(), "GET", "/").status == 503; }));
+  silent.clear();
+  EXPECT_TRUE(eventually([&] { return request(backend.port(), "GET", "/").status == 200; }));
+}
+
+TEST(ServerTest, TheCameraIsWantedOnlyWhileSomebodyWatches) {
+  FakeBackend backend({});
+  EXPECT_FALSE(backend.server().cameraWanted());
+  {
+    RawClient client(backend.port());
+    client.send("GET /stream/camera.mjpg?width=160 HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_THAT(client.readUntil("Content-Length: "), HasSubstr("multipart/x-mixed-replace"));
+    EXPECT_TRUE(backend.server().cameraWanted());
+    EXPECT_THAT(client.readUntil("X-Timestamp: "), HasSubstr(""));
+  }
+  EXPECT_TRUE(eventually([&] { return !backend.server().cameraWanted(); }));
+}
+
+/// Reads parts of a stream and returns the age of each frame when it was there, in seconds.
+std::vector<double> frameAges(int port, const std::string& target, double duration_s) {
+  RawClient client(port);
+  client.send("GET " + target + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  client.readUntil("--swiftlet-frame\r\n");
+  std::vector<double> ages;
+  const common::Time begin = unixTime();
+  while ((unixTime() - begin).seconds() < duration_s) {
+    const std::string head = client.readUntil("\r\n\r\n");
+    const std::size_t length = head.find("Content-Length: "), stamp = head.find("X-Timestamp: ");
+    if (length == std::string::npos || stamp == std::string::npos) break;
+    const std::string jpeg = client.readBytes(std::stoul(head.substr(length + 16)));
+    ages.push_back(unixTime().seconds() - std::stod(head.substr(stamp + 13)));
+    EXPECT_EQ(jpeg.substr(0, 2), "\xff\xd8");
+    EXPECT_EQ(client.readUntil("--swiftlet-frame\r\n").substr(0, 4), "\r\n--");
+  }
+  return ages;
+}
+
+TEST(StreamTest, SendsWholePicturesAtTheRateAsked) {
+  FakeBackend backend({});
+  const std::vector<double> ages = frameAges(backend.port(), "/stream/map.mjpg?width=320&fps=10", 1.5);
+  EXPECT_GE(ages.size(), 8u);
+  EXPECT_LE(ages.size(), 18u);
+}
+
+TEST(StreamTest, AClientThatReadsNothingDelaysNobodyAndIsDropped) {
+  FakeBackend::Setup setup;
+  setup.stall_timeout_s = 0.5;
+  FakeBackend backend(setup);
+  RawClient stuck(backend.port());
+  const int small = 4096;
+  setsockopt(stuck.nativeSocket(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+  stuck.send("GET /stream/camera.mjpg?width=640&fps=30 HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  ASSERT_TRUE(eventually([&] { return backend.server().cameraWanted(); }));
+  std::vector<double> ages = frameAges(backend.port(), "/stream/map.mjpg?width=320&fps=10", 1.5);
+  ASSERT_GE(ages.size(), 5u);
+  std::sort(ages.begin(), ages.end());
+  // Generous, for a loaded machine; benchmark_stream prints the real figures.
+  EXPECT_LT(ages[ages.size() / 2], 0.5);
+  EXPECT_TRUE(eventually([&] { return !backend.server().cameraWanted(); }));
+}
+
+TEST(WebServerTest, APortInUseIsAClearError) {
+  FakeBackend backend({});
+  FakeBackend::Setup second;
+  second.port = backend.port();
+  try {
+    FakeBackend other(second);
+    FAIL() << "two servers on one port";
+  } catch (const common::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("is in use"));
+    EXPECT_THAT(error.what(), HasSubstr("choose another port"));
+  }
+}
+
+TEST(WebServerTest, BadOptionsAreClearErrors) {
+  common::LatestValue<common::World> world;
+  common::LatestValue<common::CameraFrame> camera;
+  common::LosslessQueue<common::OperatorCommand> commands;
+  common::LosslessQueue<common::CommandResult> results;
+  web::IoContext io;
+  const auto make = [&](const std::string& address, int port, const std::string& token) {
+    web::WebServer::Options options;
+    options.address = address;
+    options.port = port;
+    options.token = token;
+    options.unix_time = unixTime;
+    web::WebServer server(io, options, {world, camera, commands, results});
+  };
+  EXPECT_THROW(make("elsewhere", 0, "operator-token"), common::InputError);
+  EXPECT_THROW(make("192.0.2.1", 0, "operator-token"), common::InputError);
+  EXPECT_THROW(make("127.0.0.1", 70000, "operator-token"), common::InputError);
+  EXPECT_THROW(make("127.0.0.1", 0, "short"), common::InputError);
+  EXPECT_THROW(make("127.0.0.1", 0, "with blanks in it"), common::InputError);
+  EXPECT_NO_THROW(make("::1", 0, web::makeToken()));
+  EXPECT_NE(web::makeToken(), web::makeToken());
+}
+
+TEST(WebServerTest, StopsWithClientsConnected) {
+  auto backend = std::make_unique<FakeBackend>(FakeBackend::Setup{});
+  RawClient stream(backend->port()), idle(backend->port());
+  stream.send("GET /stream/map.mjpg HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  stream.readUntil("--swiftlet-frame");
+  const common::Time begin = unixTime();
+  backend.reset();
+  EXPECT_LT((unixTime() - begin).seconds(), 2.0);
+  EXPECT_TRUE(idle.closed());
+}
+
+}  // namespace
+}  // namespace swiftlet::testing

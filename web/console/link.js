@@ -1,0 +1,78 @@
+// The live connection: parses what the server sends, reconnects by itself, and says how old the data is.
+
+const kTileSize = 64;
+
+/** Run-length coded shades of a tile to 64 * 64 numbers, row by row from the bottom. */
+export function decodeTile(bytes) {
+  const shades = new Uint8Array(kTileSize * kTileSize);
+  let at = 0;
+  for (let i = 0; i < bytes.length; ++i) {
+    const shade = bytes[i] >> 4;
+    let n = bytes[i] & 15;
+    if (n === 15) {
+      n = bytes[i + 1] | (bytes[i + 2] << 8);
+      i += 2;
+    }
+    shades.fill(shade, at, at + n + 1);
+    at += n + 1;
+  }
+  return shades;
+}
+
+function decodeBinary(buffer) {
+  const view = new DataView(buffer);
+  const count = view.getUint16(2, true);
+  if (view.getUint8(0) === 2) {
+    const points = new Float32Array(2 * count);
+    for (let i = 0; i < 2 * count; ++i) points[i] = view.getInt16(4 + 2 * i, true) / 100;
+    return { type: 'laser', points };
+  }
+  const tiles = [];
+  let at = 8;
+  for (let i = 0; i < count; ++i) {
+    const length = view.getUint16(at + 4, true);
+    tiles.push({
+      x: view.getInt16(at, true),
+      y: view.getInt16(at + 2, true),
+      shades: decodeTile(new Uint8Array(buffer, at + 6, length)),
+    });
+    at += 6 + length;
+  }
+  return { type: 'tiles', forget: view.getUint8(1) === 1, resolution_m: view.getFloat32(4, true), tiles };
+}
+
+export class Link {
+  /** `onMessage` is given each decoded message; "hello" is the first after every (re)connection. */
+  constructor(onMessage) {
+    this.onMessage = onMessage;
+    this.lastMessage_ms = null;
+    this.delay_ms = 250;
+    this.connect();
+  }
+
+  connect() {
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    const socket = new WebSocket(`${scheme}://${location.host}/api/ws`);
+    socket.binaryType = 'arraybuffer';
+    socket.onmessage = (event) => {
+      this.lastMessage_ms = performance.now();
+      this.delay_ms = 250;
+      this.onMessage(typeof event.data === 'string' ? JSON.parse(event.data) : decodeBinary(event.data));
+    };
+    socket.onclose = () => {
+      clearInterval(watch);
+      setTimeout(() => this.connect(), this.delay_ms);
+      this.delay_ms = Math.min(4000, this.delay_ms * 2);
+    };
+    // A connection that died without a word (a tablet that left the network) would otherwise stay for minutes.
+    const opened_ms = performance.now();
+    const watch = setInterval(() => {
+      if (performance.now() - Math.max(opened_ms, this.lastMessage_ms ?? 0) > 6000) socket.close();
+    }, 1000);
+  }
+
+  /** Seconds since the server said something; null before the first time. */
+  silence_s() {
+    return this.lastMessage_ms === null ? null : (performance.now() - this.lastMessage_ms) / 1000;
+  }
+}

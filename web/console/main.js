@@ -1,0 +1,125 @@
+// The operator's page: wires the link, the map, the panels and the commands.
+import { Commands } from './commands.js';
+import { Link } from './link.js';
+import { MapStore } from './map_store.js';
+import { MapView } from './map_view.js';
+import { forgetEvents, showEvents, showFrontiers, showState, toast } from './panels.js';
+
+const element = (id) => document.getElementById(id);
+const commands = new Commands();
+const store = new MapStore();
+const buttons = [...document.querySelectorAll('[data-command]')];
+
+const view = new MapView(element('map'), store, {
+  onTap: sendGoal,
+  onMode: (mode) => {
+    element('fit').setAttribute('aria-pressed', String(mode === 'fit'));
+    element('follow').setAttribute('aria-pressed', String(mode === 'follow'));
+  },
+});
+
+const link = new Link((message) => {
+  store.take(message);
+  if (message.type === 'hello') {
+    element('title').textContent = message.title;
+    document.title = message.title ? `${message.title} – Swiftlet` : 'Swiftlet';
+    forgetEvents();
+  }
+  if (message.type === 'state') {
+    showState(message);
+    const held = message.mission.state === 'held';
+    document.querySelector('[data-command=hold]').setAttribute('aria-pressed', String(held));
+  }
+  if (message.type === 'frontiers') showFrontiers(message.frontiers);
+  if (message.type === 'events') showEvents(message.events);
+  view.draw();
+});
+
+// --- commands -----------------------------------------------------------------------------------------------------
+
+function showAccess() {
+  element('access').hidden = commands.allowed;
+  for (const button of [...buttons, ...element('goal-form').elements]) button.disabled = !commands.allowed;
+}
+
+const kTitles = { hold: 'Holding', resume: 'Resumed', home: 'Flying home', land: 'Landing' };
+
+async function sendGoal(goal) {
+  const where = `(${goal.x_m.toFixed(2)}, ${goal.y_m.toFixed(2)})`;
+  if (!commands.allowed) {
+    toast('View only', 'Open the operator’s link, printed when the flight starts, to send goals.', false);
+    return;
+  }
+  view.showMarker({ ...goal, state: 'asked' });
+  const answer = await commands.give('goal', goal);
+  view.showMarker(answer.accepted ? null : { ...goal, state: 'refused' });
+  if (answer.accepted) toast('Goal accepted', where, true);
+  else toast('Goal refused', answer.reason, false);
+  showAccess();
+}
+
+for (const button of buttons) {
+  const { command } = button.dataset;
+  button.addEventListener('click', async () => {
+    button.setAttribute('aria-busy', 'true');
+    const answer = await commands.give(command);
+    button.removeAttribute('aria-busy');
+    if (answer.accepted) toast(kTitles[command], '', true);
+    else toast(`${button.textContent.trim()} refused`, answer.reason, false);
+    showAccess();
+  });
+}
+
+element('goal-form').addEventListener('submit', (event) => {
+  event.preventDefault();
+  sendGoal({ x_m: element('goal-x').valueAsNumber, y_m: element('goal-y').valueAsNumber });
+});
+
+// --- the map's tools and the camera -------------------------------------------------------------------------------
+
+element('zoom-in').addEventListener('click', () => view.zoom(1.4));
+element('zoom-out').addEventListener('click', () => view.zoom(1 / 1.4));
+element('fit').addEventListener('click', () => view.setMode('fit'));
+element('follow').addEventListener('click', () => view.setMode(view.mode === 'follow' ? 'free' : 'follow'));
+
+element('camera-toggle').addEventListener('click', ({ currentTarget: button }) => {
+  const shown = button.getAttribute('aria-expanded') === 'true';
+  button.setAttribute('aria-expanded', String(!shown));
+  button.textContent = shown ? 'Show' : 'Hide';
+  const camera = element('camera');
+  camera.hidden = shown;
+  // Without the image nobody asks for pictures, and the camera is not rendered.
+  camera.replaceChildren();
+  if (shown) return;
+  const image = new Image();
+  image.alt = 'Picture of the onboard camera';
+  image.src = `/stream/camera.mjpg?width=480&fps=10&t=${Date.now()}`;
+  camera.append(image);
+});
+
+// --- how old is what is shown -------------------------------------------------------------------------------------
+
+function showLink() {
+  const silence = link.silence_s();
+  const age = silence === null || !store.state ? null : store.state.age_s + (performance.now() - store.stateReceived_ms) / 1000;
+  let level = 'good', text = 'Live', lost = '';
+  if (silence === null) {
+    [level, text] = ['wait', 'Connecting'];
+  } else if (silence > 1.5) {
+    [level, text] = ['bad', `No link for ${silence.toFixed(0)} s`];
+    lost = `Link lost ${silence.toFixed(0)} s ago. The map shows the last known state.`;
+  } else if (age === null) {
+    [level, text] = ['wait', 'Waiting for the vehicle'];
+  } else if (age > 1.5) {
+    [level, text] = ['warn', `No data for ${age.toFixed(0)} s`];
+  }
+  const pill = element('link');
+  if (pill.dataset.level !== level) pill.dataset.level = level;
+  if (pill.textContent !== text) pill.textContent = text;
+  element('lost').hidden = !lost;
+  if (element('lost').textContent !== lost) element('lost').textContent = lost;
+  document.body.classList.toggle('lost-link', Boolean(lost));
+}
+
+showAccess();
+setInterval(showLink, 250);

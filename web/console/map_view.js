@@ -1,0 +1,289 @@
+// The map on a canvas: which part of it is shown, and its layers from the tiles up.
+import { readColors } from './map_colors.js';
+import { listenToGestures } from './map_gestures.js';
+import { paintGoal, paintHome, paintScale, paintVehicle } from './map_symbols.js';
+
+const kTileSize = 64;
+/** What lies over the map: the tools at the right, scale and legend at the bottom. */
+const kInsets_px = { left: 20, right: 68, top: 20, bottom: 52 };
+
+export class MapView {
+  /** `onTap({x_m, y_m})`; `onMode("fit" | "follow" | "free")`. */
+  constructor(canvas, store, { onTap, onMode }) {
+    Object.assign(this, { canvas, store, onMode });
+    this.context = canvas.getContext('2d', { alpha: false });
+    this.center = { x_m: 0, y_m: 0 };
+    this.scale = 60; // CSS pixels a metre.
+    this.mode = 'fit';
+    this.marker = null; // What the operator asked for: {x_m, y_m, state: "asked" | "refused", since_ms}.
+    this.colors = readColors();
+    this.wanted = false;
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+      this.colors = readColors();
+      for (const tile of store.tiles.values()) tile.picture = null;
+      this.draw();
+    });
+    new ResizeObserver(() => this.draw()).observe(canvas);
+    listenToGestures(this, onTap);
+    this.draw();
+  }
+
+  /** Draws soon; call it when the store has changed. */
+  draw() {
+    if (this.wanted) return;
+    this.wanted = true;
+    requestAnimationFrame(() => {
+      this.wanted = false;
+      this.paint();
+    });
+  }
+
+  setMode(mode) {
+    if (this.mode === mode) return;
+    this.mode = mode;
+    this.onMode(mode);
+    this.draw();
+  }
+
+  showMarker(marker) {
+    this.marker = marker && { ...marker, since_ms: performance.now() };
+    this.draw();
+  }
+
+  toScreen(x_m, y_m) {
+    return [
+      this.width / 2 + (x_m - this.center.x_m) * this.scale,
+      this.height / 2 - (y_m - this.center.y_m) * this.scale,
+    ];
+  }
+
+  toMap(x_px, y_px) {
+    return {
+      x_m: this.center.x_m + (x_px - this.width / 2) / this.scale,
+      y_m: this.center.y_m - (y_px - this.height / 2) / this.scale,
+    };
+  }
+
+  zoom(factor, x_px = this.width / 2, y_px = this.height / 2) {
+    const fixed = this.toMap(x_px, y_px);
+    this.scale = Math.min(600, Math.max(4, this.scale * factor));
+    const moved = this.toMap(x_px, y_px);
+    this.center.x_m += fixed.x_m - moved.x_m;
+    this.center.y_m += fixed.y_m - moved.y_m;
+    if (this.mode === 'fit') this.setMode('free');
+    this.draw();
+  }
+
+  pan(dx_px, dy_px) {
+    this.center.x_m -= dx_px / this.scale;
+    this.center.y_m += dy_px / this.scale;
+    this.setMode('free');
+    this.draw();
+  }
+
+  // --- drawing --------------------------------------------------------------------------------------------------
+
+  frame() {
+    const box = this.canvas.getBoundingClientRect();
+    const ratio = Math.min(3, window.devicePixelRatio || 1);
+    this.width = box.width;
+    this.height = box.height;
+    const width = Math.max(1, Math.round(box.width * ratio)), height = Math.max(1, Math.round(box.height * ratio));
+    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
+    this.ratio = ratio;
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    if (this.mode === 'fit') this.fit();
+    const pose = this.store.pose();
+    if (this.mode === 'follow' && pose) this.center = { x_m: pose.x_m, y_m: pose.y_m };
+    // So that a program can find a place of the map on the screen: what is at the middle, and CSS pixels a metre.
+    this.canvas.dataset.view = `${this.center.x_m} ${this.center.y_m} ${this.scale}`;
+  }
+
+  fit() {
+    const { x0, y0, x1, y1 } = this.store.bounds_m();
+    const { left, right, top, bottom } = kInsets_px;
+    const width = Math.max(50, this.width - left - right), height = Math.max(50, this.height - top - bottom);
+    this.scale = Math.min(width / Math.max(6, x1 - x0), height / Math.max(4, y1 - y0));
+    this.center = {
+      x_m: (x0 + x1) / 2 + (right - left) / 2 / this.scale,
+      y_m: (y0 + y1) / 2 + (top - bottom) / 2 / this.scale,
+    };
+  }
+
+  paint() {
+    this.frame();
+    const { context, colors, store } = this;
+    context.fillStyle = colors.unknown;
+    context.fillRect(0, 0, this.width, this.height);
+    this.paintTiles();
+    this.paintGrid();
+    this.paintLevels();
+    this.paintFrontiers();
+    this.paintLaser();
+    const { state } = store;
+    const pose = store.pose();
+    if (state) {
+      if (pose) this.paintLine([...store.trail, [pose.x_m, pose.y_m]], colors.trail, 2.5, []);
+      if (pose && state.plan.length > 0) this.paintPlan([[pose.x_m, pose.y_m], ...state.plan]);
+      paintHome(this, state.home);
+      if (state.goal) paintGoal(this, state.goal, colors.goal, false);
+    }
+    this.paintMarker();
+    if (pose) paintVehicle(this, pose);
+    paintScale(this);
+    // Glide to the newest pose, then rest until something changes.
+    if (pose && performance.now() - store.stateReceived_ms < 130) this.draw();
+  }
+
+  picture(tile) {
+    if (tile.picture) return tile.picture;
+    const picture = document.createElement('canvas');
+    picture.width = picture.height = kTileSize;
+    const context = picture.getContext('2d');
+    const data = context.createImageData(kTileSize, kTileSize);
+    for (let i = 0; i < tile.shades.length; ++i) {
+      const [red, green, blue] = this.colors.shades[tile.shades[i]];
+      const row = kTileSize - 1 - ((i / kTileSize) | 0);
+      const at = 4 * (row * kTileSize + (i % kTileSize));
+      data.data[at] = red;
+      data.data[at + 1] = green;
+      data.data[at + 2] = blue;
+      data.data[at + 3] = 255;
+    }
+    context.putImageData(data, 0, 0);
+    tile.picture = picture;
+    return picture;
+  }
+
+  paintTiles() {
+    const { context, ratio } = this;
+    const size_m = kTileSize * this.store.resolution_m;
+    // On whole device pixels, so that no seam shows between tiles.
+    const snap = (value) => Math.round(value * ratio) / ratio;
+    context.imageSmoothingEnabled = this.scale * this.store.resolution_m * ratio < 2;
+    for (const tile of this.store.tiles.values()) {
+      const [x0, y1] = this.toScreen(tile.x * size_m, tile.y * size_m);
+      const [x1, y0] = this.toScreen((tile.x + 1) * size_m, (tile.y + 1) * size_m);
+      if (!tile.known || x1 < 0 || y1 < 0 || x0 > this.width || y0 > this.height) continue;
+      context.drawImage(this.picture(tile), snap(x0), snap(y0), snap(x1) - snap(x0), snap(y1) - snap(y0));
+    }
+  }
+
+  paintGrid() {
+    const { context } = this;
+    const every = this.scale >= 18 ? 1 : this.scale >= 5 ? 5 : 20;
+    const low = this.toMap(0, this.height), high = this.toMap(this.width, 0);
+    context.fillStyle = this.colors.grid;
+    for (let x = Math.ceil(low.x_m / every) * every; x <= high.x_m; x += every)
+      context.fillRect(Math.round(this.toScreen(x, 0)[0]), 0, 1, this.height);
+    for (let y = Math.ceil(low.y_m / every) * every; y <= high.y_m; y += every)
+      context.fillRect(0, Math.round(this.toScreen(0, y)[1]), this.width, 1);
+  }
+
+  /** Rows of cells [x, y, length]. */
+  paintRuns(runs, resolution_m, grow_px) {
+    const size = this.scale * resolution_m;
+    for (const [x, y, length] of runs) {
+      const [left, top] = this.toScreen(x * resolution_m, (y + 1) * resolution_m);
+      this.context.fillRect(left - grow_px, top - grow_px, length * size + 2 * grow_px, size + 2 * grow_px);
+    }
+  }
+
+  paintLevels() {
+    const { context, store } = this;
+    for (const level of store.levels) {
+      if (Math.abs(level.height_m) < 0.05 || level.cells.length === 0) continue;
+      context.globalAlpha = Math.min(0.65, 0.18 + 0.35 * Math.abs(level.height_m));
+      context.fillStyle = this.colors.level;
+      this.paintRuns(level.cells, store.levelResolution_m, 0);
+      context.globalAlpha = 1;
+      let count = 0, x = 0, y = 0;
+      for (const [cx, cy, length] of level.cells) {
+        x += length * (cx + length / 2);
+        y += length * (cy + 0.5);
+        count += length;
+      }
+      const [px, py] = this.toScreen((x / count) * store.levelResolution_m, (y / count) * store.levelResolution_m);
+      this.paintText(`${level.height_m.toFixed(2)} m`, px, py + 4, 'center');
+    }
+  }
+
+  paintFrontiers() {
+    this.context.globalAlpha = 0.9;
+    const size = this.scale * this.store.frontierResolution_m;
+    for (const frontier of this.store.frontiers) {
+      this.context.fillStyle = this.colors.frontier[frontier.reason] ?? this.colors.text;
+      this.paintRuns(frontier.cells, this.store.frontierResolution_m, Math.max(0, (3 - size) / 2));
+    }
+    this.context.globalAlpha = 1;
+  }
+
+  paintLaser() {
+    const { context } = this;
+    const { laser } = this.store;
+    context.fillStyle = this.colors.laser;
+    context.beginPath();
+    for (let i = 0; i < laser.length; i += 2) {
+      const [x, y] = this.toScreen(laser[i], laser[i + 1]);
+      context.rect(x - 1.1, y - 1.1, 2.2, 2.2);
+    }
+    context.fill();
+  }
+
+  paintLine(points, color, width, dash) {
+    const { context } = this;
+    if (points.length < 2) return;
+    context.beginPath();
+    for (const [x, y] of points) if (x !== null && y !== null) context.lineTo(...this.toScreen(x, y));
+    Object.assign(context, { strokeStyle: color, lineWidth: width, lineJoin: 'round', lineCap: 'round' });
+    context.setLineDash(dash);
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  paintPlan(points) {
+    this.paintLine(points, this.colors.plan, 2.8, [7, 7]);
+    const [x, y] = this.toScreen(...points.at(-1));
+    this.paintDisc(x, y, 4, this.colors.plan);
+  }
+
+  paintDisc(x, y, radius, color) {
+    this.context.beginPath();
+    this.context.arc(x, y, radius, 0, 2 * Math.PI);
+    this.context.fillStyle = color;
+    this.context.fill();
+  }
+
+  paintRing(x, y, radius, width, color) {
+    this.context.beginPath();
+    this.context.arc(x, y, radius, 0, 2 * Math.PI);
+    Object.assign(this.context, { strokeStyle: color, lineWidth: width });
+    this.context.stroke();
+  }
+
+  paintMarker() {
+    if (!this.marker) return;
+    const age_s = (performance.now() - this.marker.since_ms) / 1000;
+    if (this.marker.state === 'refused') {
+      if (age_s > 4) {
+        this.marker = null;
+        return;
+      }
+      this.context.globalAlpha = Math.min(1, 4 - age_s);
+      paintGoal(this, this.marker, this.colors.frontier.blacklisted, true);
+    } else {
+      this.context.globalAlpha = 0.55 + 0.35 * Math.sin(8 * age_s);
+      paintGoal(this, this.marker, this.colors.goal, false);
+    }
+    this.context.globalAlpha = 1;
+    this.draw();
+  }
+
+  paintText(text, x, y, align) {
+    const { context, colors } = this;
+    Object.assign(context, { font: '600 12px system-ui, sans-serif', textAlign: align, lineWidth: 3.5, strokeStyle: colors.free,
+      fillStyle: colors.text, lineJoin: 'round' });
+    context.strokeText(text, x, y);
+    context.fillText(text, x, y);
+  }
+}

@@ -1,0 +1,109 @@
+// The figures and lists beside the map.
+
+const element = (id) => document.getElementById(id);
+
+function setText(id, text) {
+  const node = element(id);
+  if (node.textContent !== text) node.textContent = text;
+}
+
+function make(tag, properties = {}, ...children) {
+  const node = Object.assign(document.createElement(tag), properties);
+  node.append(...children);
+  return node;
+}
+
+const withUnit = (value, decimals, unit) => (value === null || value === undefined ? '–' : `${value.toFixed(decimals)} ${unit}`);
+
+export function clockText(seconds) {
+  const whole = Math.max(0, Math.floor(seconds));
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
+}
+
+export function showState(state) {
+  const { flight_state: flight, mission, avoidance } = state;
+  setText('flight-state', flight);
+  element('flight-state').className = flight.startsWith('emergency') ? 'chip bad' : 'chip';
+  setText('mission-state', mission.state);
+  element('mission-state').className =
+    { failed: 'chip bad', held: 'chip warn', done: 'chip' }[mission.state] ?? 'chip soft';
+  const reacts = avoidance.retreating ? 'retreating' : avoidance.braking ? 'braking' : '';
+  setText('avoidance', reacts);
+  element('avoidance').hidden = !reacts;
+  setText('phase', mission.phase || '–');
+  setText('intent', mission.reason || (reacts && avoidance.reason) || state.intent.reason);
+
+  const { remaining, voltage_v } = state.battery;
+  setText('battery', remaining === null ? '–' : `${Math.round(100 * remaining)} % · ${withUnit(voltage_v, 1, 'V')}`);
+  const meter = element('battery-meter');
+  meter.style.setProperty('--share', remaining ?? 0);
+  meter.setAttribute('aria-valuenow', Math.round(100 * (remaining ?? 0)));
+  meter.dataset.level = remaining < 0.15 ? 'empty' : remaining < 0.3 ? 'low' : 'good';
+  setText('explored', withUnit(state.explored_area_m2, 1, 'm²'));
+  setText('time', clockText(state.stamp_s));
+  setText('flown', withUnit(state.distance_flown_m, 1, 'm'));
+  setText('speed', withUnit(state.speed_m_s, 2, 'm/s'));
+  setText('height', withUnit(state.pose.z_m, 2, 'm'));
+  setText('deviation', state.horizontal_valid ? withUnit(100 * state.position_deviation_m, 0, 'cm') : 'lost');
+  setText('realtime', state.realtime_factor === null ? '–' : `${state.realtime_factor.toFixed(1)} ×`);
+  setText('age', `${Math.round(1000 * state.age_s)} ms`);
+  showTree(mission.tree);
+}
+
+let shownTree = '';
+
+function showTree(nodes) {
+  const key = JSON.stringify(nodes);
+  if (key === shownTree) return;
+  shownTree = key;
+  const lists = new Map([[-1, make('ul')]]);
+  for (const { id, parent, name, status } of nodes) {
+    const row = make('div', { className: 'node' }, make('span', { textContent: name }),
+      make('small', { textContent: status.toLowerCase() }));
+    row.dataset.status = status;
+    const children = make('ul', { hidden: true });
+    lists.set(id, children);
+    const list = lists.get(parent) ?? lists.get(-1);
+    list.hidden = false;
+    list.append(make('li', {}, row, children));
+  }
+  element('tree').replaceChildren(...lists.get(-1).childNodes);
+}
+
+export function showFrontiers(frontiers) {
+  const open = frontiers.filter(({ reason }) => reason === 'open').length;
+  setText('frontier-count', frontiers.length === 0 ? 'none' : `${open} open, ${frontiers.length - open} left out`);
+  const rows = frontiers.map(({ reason, explanation, centroid_m: [x, y], length_m }) =>
+    make('li', {}, make('i', { className: `dot ${reason.replaceAll(' ', '-')}`, title: reason }),
+      make('span', { textContent: `${explanation || reason} · ${length_m.toFixed(1)} m at (${x.toFixed(1)}, ${y.toFixed(1)})` })));
+  element('frontiers').replaceChildren(...(rows.length ? rows : [make('li', { className: 'empty', textContent: 'Nothing left to explore.' })]));
+}
+
+let lastEvent = 0;
+
+/** A new connection sends them all again. */
+export function forgetEvents() {
+  lastEvent = 0;
+  element('events').replaceChildren();
+}
+
+export function showEvents(events) {
+  const list = element('events');
+  for (const { number, stamp_s, severity, source, text, reason } of events) {
+    if (number <= lastEvent) continue;
+    lastEvent = number;
+    const words = make('div', {}, make('b', { textContent: text }), make('small', { textContent: reason ? `${source}: ${reason}` : source }));
+    const row = make('li', {}, make('time', { textContent: clockText(stamp_s) }), words);
+    row.dataset.severity = severity;
+    list.prepend(row);
+  }
+  while (list.children.length > 200) list.lastChild.remove();
+}
+
+export function toast(title, text, good) {
+  const note = make('div', { className: good ? 'toast' : 'toast bad' }, make('b', { textContent: title }), text);
+  const list = element('toasts');
+  list.append(note);
+  while (list.children.length > 3) list.firstChild.remove();
+  setTimeout(() => note.remove(), good ? 2500 : 7000);
+}

@@ -1,0 +1,44 @@
+// Hands commands over and brings each answer back to who asked. On the thread of the event loop.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "common/command.hpp"
+#include "common/mailbox.hpp"
+
+namespace swiftlet::web {
+
+class CommandDesk {
+ public:
+  using Kind = decltype(common::OperatorCommand::kind);
+  /// Nothing: no answer came in time; the command may still be carried out.
+  using Answer = std::function<void(std::uint64_t id, const std::optional<common::CommandResult>& result)>;
+
+  /// `patience` in ticks.
+  CommandDesk(common::LosslessQueue<common::OperatorCommand>& commands,
+              common::LosslessQueue<common::CommandResult>& results, int patience)
+      : commands_(commands), results_(results), patience_(patience) {}
+
+  /// False, and nothing is handed over, while too many wait for their answer.
+  [[nodiscard]] bool give(const Kind& kind, Answer answer);
+  /// Delivers what has come.
+  void tick();
+  bool waiting() const { return !waiting_.empty(); }
+
+ private:
+  struct Waiting {
+    Answer answer;
+    int patience;
+  };
+
+  common::LosslessQueue<common::OperatorCommand>& commands_;
+  common::LosslessQueue<common::CommandResult>& results_;
+  int patience_;
+  std::uint64_t last_id_ = 0;
+  std::map<std::uint64_t, Waiting> waiting_;
+};
+
+}  // namespace swiftlet::web

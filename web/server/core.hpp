@@ -1,0 +1,84 @@
+// What all connections of one server share, and the tick that drives those that are sent something by themselves. It
+// runs only while there is one, so that a server nobody looks at costs nothing. Everything on the one thread of the
+// event loop, but for what WebServer says.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include <boost/asio/steady_timer.hpp>
+
+#include "web/server/command_desk.hpp"
+#include "web/server/frame_hub.hpp"
+#include "web/server/route.hpp"
+#include "web/server/telemetry.hpp"
+#include "web/server/web_server.hpp"
+
+namespace swiftlet::web {
+
+inline constexpr int kTicksPerSecond = 100;
+
+/// A connection that can be closed from above and may want the tick.
+class Connection {
+ public:
+  virtual ~Connection() = default;
+  virtual void close() = 0;
+  /// Every 10 ms, after Core::watch().
+  virtual void tick(common::Time /*now*/) {}
+};
+
+class Core : public std::enable_shared_from_this<Core> {
+ public:
+  Core(boost::asio::io_context& io, WebServer::Options options_in, WebServer::Sources sources, Policy policy_in);
+
+  /// Counts a connection and closes it when the server stops.
+  void add(const std::shared_ptr<Connection>& connection);
+  /// The connection gets the tick as long as it lives.
+  void watch(const std::shared_ptr<Connection>& connection);
+  /// Starts the tick if it stands still; needed after a command was given.
+  void wake();
+  bool full() const;
+  void close();
+  bool closed() const { return closed_; }
+
+  WebServer::Options options;
+  Policy policy;
+  Telemetry telemetry;
+  FrameHub hub;
+  CommandDesk desk;
+  std::atomic<int> camera_watchers = 0;
+
+ private:
+  void schedule();
+  void tick();
+
+  boost::asio::steady_timer timer_;
+  std::vector<std::weak_ptr<Connection>> connections_;
+  std::vector<std::weak_ptr<Connection>> watchers_;
+  bool ticking_ = false;
+  bool closed_ = false;
+};
+
+/// Something is due `per_second` times a second, at the same instants for everybody, so that what one is sent can be
+/// shared with the others.
+class Beat {
+ public:
+  explicit Beat(double per_second) : per_second_(per_second) {}
+  bool due(common::Time now) const { return indexOf(now) != last_; }
+  void done(common::Time now) { last_ = indexOf(now); }
+
+ private:
+  std::int64_t indexOf(common::Time now) const { return static_cast<std::int64_t>(now.seconds() * per_second_); }
+  double per_second_;
+  std::int64_t last_ = -1;
+};
+
+/// Bytes that wait in the kernel for a client to take them.
+int unsentBytes(int native_socket);
+/// A client with more than this waiting is not sent anything newer: it would only grow old there.
+inline constexpr int kMostUnsentBytes = 32 * 1024;
+/// For the kernel's own buffer; without a bound it would hold seconds of old pictures.
+inline constexpr int kSendBufferBytes = 128 * 1024;
+
+}  // namespace swiftlet::web

@@ -1,0 +1,62 @@
+// Pictures for the streams: each view that somebody watches is drawn and encoded once for all who watch it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "rendering/encode.hpp"
+#include "rendering/map_renderer.hpp"
+#include "web/server/route.hpp"
+#include "web/server/telemetry.hpp"
+
+namespace swiftlet::web {
+
+/// One part of a multipart stream: its headers, the JPEG and the boundary that follows. The boundary goes with the
+/// picture it ends, because browsers show a picture only when they have read it.
+struct StreamFrame {
+  std::string bytes;
+  std::uint64_t source_sequence = 0;
+  common::Time encoded_unix_time;
+};
+
+inline constexpr const char* kStreamBoundary = "swiftlet-frame";
+
+class FrameHub {
+ public:
+  FrameHub(Telemetry& telemetry, double hull_diameter_m) : telemetry_(telemetry), hull_diameter_m_(hull_diameter_m) {}
+
+  /// A watcher of a view; the view's caches live as long as one of them.
+  class View;
+  std::shared_ptr<View> watch(const PictureView& view);
+
+  /// The frame to send to a watcher that sent `last` before: a new one if the source has changed, the last one again
+  /// after a second without change (so that a client can tell silence from a broken link), otherwise null.
+  std::shared_ptr<const StreamFrame> frame(View& view, const std::shared_ptr<const StreamFrame>& last,
+                                           common::Duration period, common::Time sent);
+
+  /// A single picture as PNG. A world must have been seen.
+  rendering::Bytes png(const PictureView& view) const;
+
+ private:
+  std::shared_ptr<const StreamFrame> encode(View& view, common::Time now);
+
+  Telemetry& telemetry_;
+  double hull_diameter_m_;
+  rendering::JpegEncoder jpeg_;
+  std::map<PictureView, std::weak_ptr<View>> views_;
+};
+
+class FrameHub::View {
+ public:
+  explicit View(const PictureView& asked) : asked_(asked) {}
+
+ private:
+  friend class FrameHub;
+  PictureView asked_;
+  rendering::MapRenderer renderer_;
+  std::shared_ptr<const StreamFrame> frame_;
+};
+
+}  // namespace swiftlet::web

@@ -1,0 +1,221 @@
+#include "web/server/http_session.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <nlohmann/json.hpp>
+
+#include "web/server/assets.hpp"
+#include "web/server/page_session.hpp"
+#include "web/server/stream_session.hpp"
+
+namespace swiftlet::web {
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+using boost::system::error_code;
+using Response = http::response<http::string_body>;
+
+constexpr std::uint32_t kMostHeaderBytes = 8 * 1024;
+constexpr std::uint64_t kMostBodyBytes = 4 * 1024;
+constexpr auto kRequestTimeout = std::chrono::seconds(15);
+
+/// Nothing from elsewhere is loaded, no other page may frame this one (a click on Land must be meant), and the token in
+/// the address is not passed on.
+constexpr const char* kContentPolicy =
+    "default-src 'self'; img-src 'self' blob: data:; connect-src 'self' ws: wss:; frame-ancestors 'none'; "
+    "base-uri 'none'; form-action 'none'";
+
+std::string text(beast::string_view view) { return {view.data(), view.size()}; }
+
+class HttpSession : public Connection, public std::enable_shared_from_this<HttpSession> {
+ public:
+  HttpSession(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket)
+      : core_(std::move(core)), stream_(std::move(socket)), buffer_(kMostHeaderBytes + kMostBodyBytes) {}
+
+  void start() {
+    core_->add(shared_from_this());
+    if (core_->full()) return sendError(503, "too many connections; close some pages");
+    read();
+  }
+
+  void close() override {
+    error_code ignored;
+    if (stream_.socket().is_open()) stream_.socket().close(ignored);
+  }
+
+ private:
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(kMostHeaderBytes);
+    parser_->body_limit(kMostBodyBytes);
+    stream_.expires_after(kRequestTimeout);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](const error_code& error, std::size_t) { self->onRead(error); });
+  }
+
+  void onRead(const error_code& error) {
+    if (core_->closed()) return close();
+    if (error == http::error::end_of_stream || error == beast::error::timeout) return close();
+    keep_alive_ = false;
+    if (error == http::error::body_limit) return sendError(413, "the body is too large");
+    if (error == http::error::header_limit || error == http::error::buffer_overflow)
+      return sendError(431, "the headers are too large");
+    if (error && error.category() == http::make_error_code(http::error::bad_method).category())
+      return sendError(400, "this is not an HTTP request: " + error.message());
+    if (error) return close();
+    request_ = parser_->release();
+    keep_alive_ = request_.keep_alive();
+    act();
+  }
+
+  void act() {
+    Request request;
+    request.method = text(request_.method_string());
+    request.target = text(request_.target());
+    request.host = text(request_[http::field::host]);
+    request.origin = text(request_[http::field::origin]);
+    request.authorization = text(request_[http::field::authorization]);
+    request.body = request_.body();
+    request.wants_websocket = beast::websocket::is_upgrade(request_);
+    std::visit([this](const auto& action) { perform(action); }, route(request, core_->policy));
+  }
+
+  void perform(const Refuse& refuse) {
+    Response response = json(refuse.status, {{"accepted", false}, {"reason", refuse.reason}});
+    if (!refuse.allow.empty()) response.set(http::field::allow, refuse.allow);
+    if (refuse.status == 401) response.set(http::field::www_authenticate, "Bearer");
+    send(std::move(response));
+  }
+
+  void perform(const ServeFile& file) {
+    const auto all = assets();
+    const auto asset = std::find_if(all.begin(), all.end(), [&](const Asset& a) { return a.name == file.name; });
+    Response response = make(200, {asset->media_type.data(), asset->media_type.size()});
+    response.set(http::field::etag, beast::string_view(asset->tag.data(), asset->tag.size()));
+    response.set(http::field::cache_control, "no-cache");
+    response.set("Content-Security-Policy", kContentPolicy);
+    if (text(request_[http::field::if_none_match]) == asset->tag)
+      response.result(http::status::not_modified);
+    else
+      response.body() = asset->content;
+    send(std::move(response));
+  }
+
+  void perform(const StreamPictures& stream) {
+    if (request_.version() < 11) return sendError(400, "streams need HTTP/1.1");
+    startStream(core_, stream_.release_socket(), stream);
+  }
+
+  void perform(const SendPicture& picture) {
+    core_->telemetry.look();
+    if (!core_->telemetry.world().value) return sendError(503, "there is no map yet");
+    const rendering::Bytes png = core_->hub.png(picture.view);
+    Response response = make(200, "image/png");
+    response.body().assign(png.begin(), png.end());
+    send(std::move(response));
+  }
+
+  void perform(const SendState&) {
+    Telemetry& telemetry = core_->telemetry;
+    telemetry.look();
+    if (!telemetry.world().value) return sendError(503, "there is no state yet");
+    Response response = make(200, "application/json");
+    response.body() = completeJson(*telemetry.world().value, telemetry.observe(), telemetry.eventsAfter(0));
+    send(std::move(response));
+  }
+
+  void perform(const OpenSocket&) { startPage(core_, stream_.release_socket(), std::move(request_)); }
+
+  void perform(const GiveCommand& command) {
+    const bool given = core_->desk.give(
+        command.kind,
+        [self = shared_from_this()](std::uint64_t id, const std::optional<common::CommandResult>& result) {
+          self->answer(id, result);
+        });
+    if (!given) return sendError(503, "too many commands wait for their answer");
+    stream_.expires_never();
+    core_->wake();
+  }
+
+  void answer(std::uint64_t id, const std::optional<common::CommandResult>& result) {
+    if (!stream_.socket().is_open()) return;
+    if (!result) {
+      send(json(
+          504, {{"id", id}, {"accepted", false}, {"reason", "no answer in time; the vehicle may still carry it out"}}));
+    } else {
+      send(
+          json(result->accepted ? 200 : 409, {{"id", id}, {"accepted", result->accepted}, {"reason", result->reason}}));
+    }
+  }
+
+  Response make(int status, beast::string_view media_type) const {
+    Response response(static_cast<http::status>(status), 11);
+    response.set(http::field::content_type, media_type);
+    response.set(http::field::cache_control, "no-store");
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set("Referrer-Policy", "no-referrer");
+    return response;
+  }
+
+  Response json(int status, const nlohmann::ordered_json& body) const {
+    Response response = make(status, "application/json");
+    response.body() = body.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return response;
+  }
+
+  void sendError(int status, const std::string& reason) {
+    send(json(status, {{"accepted", false}, {"reason", reason}}));
+  }
+
+  void send(Response response) {
+    response.keep_alive(keep_alive_);
+    response.prepare_payload();
+    auto shared = std::make_shared<Response>(std::move(response));
+    stream_.expires_after(kRequestTimeout);
+    http::async_write(stream_, *shared, [self = shared_from_this(), shared](const error_code& error, std::size_t) {
+      if (error || self->core_->closed()) return self->close();
+      if (shared->keep_alive()) return self->read();
+      self->finish();
+    });
+  }
+
+  /// Says that nothing more comes and waits for the client's end: closing with unread bytes in the socket would make
+  /// the kernel discard the answer.
+  void finish() {
+    error_code ignored;
+    stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+    drain(16);
+  }
+
+  void drain(int reads_left) {
+    if (reads_left == 0) return close();
+    buffer_.clear();
+    stream_.expires_after(std::chrono::seconds(2));
+    stream_.async_read_some(buffer_.prepare(4096),
+                            [self = shared_from_this(), reads_left](const error_code& error, std::size_t) {
+                              if (error) return self->close();
+                              self->drain(reads_left - 1);
+                            });
+  }
+
+  std::shared_ptr<Core> core_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::string_body>> parser_;
+  http::request<http::string_body> request_;
+  bool keep_alive_ = false;
+};
+
+}  // namespace
+
+void startHttp(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket) {
+  std::make_shared<HttpSession>(std::move(core), std::move(socket))->start();
+}
+
+}  // namespace swiftlet::web

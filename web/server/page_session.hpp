@@ -1,0 +1,20 @@
+// One page connected by WebSocket. Ten times a second it is sent what has changed since it was last sent something:
+//   text   {"type": "hello" | "state" | "frontiers" | "levels" | "trail" | "events", ...}
+//   binary map tiles (see TileReader) and laser points (see Telemetry::laser)
+// A page that is slow misses states and gets the newest; nothing queues up for it.
+#pragma once
+
+#include <memory>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+
+#include "web/server/core.hpp"
+
+namespace swiftlet::web {
+
+void startPage(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket,
+               boost::beast::http::request<boost::beast::http::string_body> upgrade);
+
+}  // namespace swiftlet::web

@@ -1,0 +1,214 @@
+#include "web/server/route.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "common/error.hpp"
+#include "web/server/target.hpp"
+
+namespace swiftlet::web {
+namespace {
+
+constexpr double kGreatestCoordinate_m = 1e5;
+
+/// The decision as soon as something speaks against the request.
+struct Refused {
+  Refuse refuse;
+};
+
+[[noreturn]] void refuse(int status, std::string reason, std::string allow = {}) {
+  throw Refused{{status, std::move(reason), std::move(allow)}};
+}
+
+/// Text of a stranger, made fit to stand in a message.
+std::string shown(std::string_view text) {
+  std::string result = "`";
+  for (const char c : text.substr(0, 40))
+    result += static_cast<unsigned char>(c) >= 32 && static_cast<unsigned char>(c) < 127 ? c : '?';
+  return result + (text.size() > 40 ? "...`" : "`");
+}
+
+/// Takes as long for a wrong token as for the right one.
+bool sameSecret(std::string_view given, std::string_view secret) {
+  unsigned char difference = given.size() == secret.size() ? 0 : 1;
+  for (std::size_t i = 0; i < secret.size(); ++i)
+    difference = static_cast<unsigned char>(difference | (secret[i] ^ (i < given.size() ? given[i] : '\0')));
+  return difference == 0;
+}
+
+void checkHost(const Request& request, const Policy& policy) {
+  const auto name = hostName(request.host);
+  if (name && (*name == "localhost" || isAddressLiteral(*name) ||
+               std::find(policy.hosts.begin(), policy.hosts.end(), *name) != policy.hosts.end()))
+    return;
+  refuse(403, fmt::format("the host {} is not this server: open the page by its address, or allow the name at start",
+                          shown(request.host)));
+}
+
+void checkMethod(const Request& request, const std::string& wanted) {
+  if (request.method != wanted) refuse(405, fmt::format("use {} here, not {}", wanted, shown(request.method)), wanted);
+}
+
+/// Browsers say where a page that posts or opens a socket came from; only our own page may.
+void checkOrigin(const Request& request) {
+  if (request.origin.empty() || request.origin == "http://" + request.host) return;
+  refuse(403, fmt::format("a page of {} may not do this", shown(request.origin)));
+}
+
+void checkToken(const Request& request, const Target& target, const Policy& policy) {
+  constexpr std::string_view kBearer = "Bearer ";
+  std::string_view given;
+  if (request.authorization.compare(0, kBearer.size(), kBearer) == 0)
+    given = std::string_view(request.authorization).substr(kBearer.size());
+  else if (const auto it = target.query.find("token"); it != target.query.end())
+    given = it->second;
+  if (given.empty())
+    refuse(401,
+           "this needs the operator's token: open the link printed at start, or send `Authorization: Bearer TOKEN`");
+  if (policy.token.empty() || !sameSecret(given, policy.token))
+    refuse(401, "the operator's token is wrong: open the link printed at this program's start");
+}
+
+class Parameters {
+ public:
+  Parameters(const Target& target, std::vector<std::string> known) : query_(target.query) {
+    for (const auto& [key, value] : query_) {
+      // Pages add `t` or `_` to get past a cache.
+      if (key == "token" || key == "t" || key == "_") continue;
+      if (std::find(known.begin(), known.end(), key) == known.end()) {
+        const std::string hint = common::didYouMean(key, known);
+        refuse(400, fmt::format("unknown parameter {}{}{}", shown(key), hint.empty() ? "" : ", ", hint));
+      }
+    }
+  }
+
+  double number(const std::string& key, double otherwise, double least, double greatest, const char* unit) const {
+    const auto it = query_.find(key);
+    if (it == query_.end()) return otherwise;
+    double value = 0.0;
+    const char* end = it->second.data() + it->second.size();
+    const auto [stop, error] = std::from_chars(it->second.data(), end, value);
+    if (error != std::errc() || stop != end || !(value >= least))
+      refuse(400, fmt::format("{}: {} is not a number of at least {:g}{}", key, shown(it->second), least, unit));
+    return std::min(value, greatest);
+  }
+
+  rendering::Scheme scheme() const {
+    const auto it = query_.find("scheme");
+    if (it == query_.end()) return rendering::Scheme::kLight;
+    const auto scheme = rendering::schemeFrom(it->second);
+    if (!scheme) refuse(400, fmt::format("scheme: {} is neither `light` nor `dark`", shown(it->second)));
+    return *scheme;
+  }
+
+ private:
+  const std::map<std::string, std::string>& query_;
+};
+
+PictureView mapView(const Parameters& parameters) {
+  PictureView view;
+  view.width_px = static_cast<int>(parameters.number("width", 640, 64, 1920, " pixels"));
+  view.height_px =
+      static_cast<int>(parameters.number("height", std::max(64, view.width_px * 3 / 4), 64, 1920, " pixels"));
+  view.scheme = parameters.scheme();
+  return view;
+}
+
+double framesPerSecond(const Parameters& parameters) {
+  return parameters.number("fps", 10.0, 0.1, 30.0, " per second");
+}
+
+Action mapStream(const Target& target) {
+  const Parameters parameters(target, {"width", "height", "fps", "scheme"});
+  return StreamPictures{mapView(parameters), framesPerSecond(parameters)};
+}
+
+Action mapPicture(const Target& target) {
+  return SendPicture{mapView(Parameters(target, {"width", "height", "scheme"}))};
+}
+
+Action cameraStream(const Target& target) {
+  const Parameters parameters(target, {"width", "fps"});
+  PictureView view;
+  view.source = PictureView::Source::kCamera;
+  view.width_px = static_cast<int>(parameters.number("width", 640, 32, 1920, " pixels"));
+  view.height_px = 0;
+  return StreamPictures{view, framesPerSecond(parameters)};
+}
+
+double coordinate(const nlohmann::json& body, const char* key) {
+  const auto it = body.find(key);
+  if (it == body.end() || !it->is_number())
+    refuse(400, fmt::format("{}: a number of metres in the map is missing; send {{\"x_m\": 1.0, \"y_m\": 2.0}}", key));
+  const double value = it->get<double>();
+  if (!std::isfinite(value) || std::abs(value) > kGreatestCoordinate_m)
+    refuse(400, fmt::format("{}: {} is not within {:g} m of the origin", key, value, kGreatestCoordinate_m));
+  return value;
+}
+
+Action goal(const Request& request) {
+  const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
+  if (!body.is_object()) refuse(400, "the body is not a JSON object; send {\"x_m\": 1.0, \"y_m\": 2.0}");
+  for (const auto& [key, value] : body.items())
+    if (key != "x_m" && key != "y_m") refuse(400, fmt::format("unknown key {}; send x_m and y_m", shown(key)));
+  return GiveCommand{common::GoalCommand{{coordinate(body, "x_m"), coordinate(body, "y_m")}}};
+}
+
+Action command(const Request& request, const std::string& name) {
+  if (name == "goal") return goal(request);
+  if (name == "hold") return GiveCommand{common::HoldCommand{}};
+  if (name == "resume") return GiveCommand{common::ResumeCommand{}};
+  if (name == "home") return GiveCommand{common::HomeCommand{}};
+  return GiveCommand{common::LandCommand{}};
+}
+
+Action read(const Request& request, const Target& target) {
+  checkMethod(request, "GET");
+  if (target.path == "/stream/map.mjpg") return mapStream(target);
+  if (target.path == "/stream/camera.mjpg") return cameraStream(target);
+  if (target.path == "/api/map.png") return mapPicture(target);
+  if (target.path == "/api/state") return SendState{};
+  checkOrigin(request);
+  if (!request.wants_websocket) refuse(426, "this is a WebSocket: connect with `Upgrade: websocket`");
+  return OpenSocket{};
+}
+
+Action decide(const Request& request, const Policy& policy) {
+  static const std::vector<std::string> kReads{"/stream/map.mjpg", "/stream/camera.mjpg", "/api/map.png", "/api/state",
+                                               "/api/ws"};
+  static const std::vector<std::string> kCommands{"/api/goal", "/api/hold", "/api/resume", "/api/home", "/api/land"};
+  const auto in = [](const std::vector<std::string>& list, const std::string& item) {
+    return std::find(list.begin(), list.end(), item) != list.end();
+  };
+  checkHost(request, policy);
+  const auto target = parseTarget(request.target);
+  if (!target) refuse(400, fmt::format("the address {} is malformed", shown(request.target)));
+  if (in(kReads, target->path)) return read(request, *target);
+  if (in(kCommands, target->path)) {
+    checkMethod(request, "POST");
+    checkOrigin(request);
+    checkToken(request, *target, policy);
+    return command(request, target->path.substr(5));
+  }
+  const std::string file = target->path == "/" ? "index.html" : target->path.substr(1);
+  if (!in(policy.files, file)) refuse(404, fmt::format("there is no {} here", shown(target->path)));
+  checkMethod(request, "GET");
+  return ServeFile{file};
+}
+
+}  // namespace
+
+Action route(const Request& request, const Policy& policy) {
+  try {
+    return decide(request, policy);
+  } catch (const Refused& refused) {
+    return refused.refuse;
+  }
+}
+
+}  // namespace swiftlet::web

@@ -1,0 +1,58 @@
+// What to do with a request: a pure function, so that every refusal can be tested and fuzzed without a socket.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/command.hpp"
+#include "rendering/theme.hpp"
+#include "web/server/request.hpp"
+
+namespace swiftlet::web {
+
+/// One picture as a client asked for it; equal views share one encoding.
+struct PictureView {
+  enum class Source { kMap, kCamera };
+  Source source = Source::kMap;
+  int width_px = 640;
+  int height_px = 480;  ///< Of the map; the camera keeps its aspect.
+  rendering::Scheme scheme = rendering::Scheme::kLight;
+
+  auto operator<=>(const PictureView&) const = default;
+};
+
+struct ServeFile {
+  std::string name;  ///< As embedded: "index.html".
+};
+struct StreamPictures {
+  PictureView view;
+  double fps = 10.0;
+};
+struct SendPicture {
+  PictureView view;
+};
+struct SendState {};
+struct OpenSocket {};
+struct GiveCommand {
+  decltype(common::OperatorCommand::kind) kind;
+};
+struct Refuse {
+  int status = 400;  ///< 400, 401, 403, 404, 405, 426
+  std::string reason;
+  std::string allow;  ///< For 405: the methods that would do.
+};
+
+using Action = std::variant<ServeFile, StreamPictures, SendPicture, SendState, OpenSocket, GiveCommand, Refuse>;
+
+struct Policy {
+  std::string token;
+  std::vector<std::string> hosts;  ///< Names, lower case, that may stand in Host besides addresses and localhost.
+  std::vector<std::string> files;  ///< The embedded ones.
+};
+
+/// Checked in this order: host (403), target (400), path (404), method (405), origin (403), token (401), parameters and
+/// body (400). Widths, heights and rates that are too large are reduced to what is offered.
+Action route(const Request& request, const Policy& policy);
+
+}  // namespace swiftlet::web

@@ -1,0 +1,188 @@
+#include "web/server/state_json.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace swiftlet::web {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// nlohmann::json writes what is not finite as null.
+double rounded(double value, double unit = 1e-3) {
+  return std::isfinite(value) ? std::round(value / unit) * unit : value;
+}
+
+/// Doubles like 0.1 + 0.2 would be written with 17 digits; through an integer they are short.
+Json number(double value, int decimals = 3) {
+  const double power = std::pow(10.0, decimals);
+  if (!std::isfinite(value) || std::abs(value) * power > 9e15) return rounded(value);
+  return std::round(value * power) / power;
+}
+
+Json point(const Eigen::Vector2d& p) { return Json::array({number(p.x()), number(p.y())}); }
+
+Json points(const std::vector<Eigen::Vector2d>& list, std::size_t from = 0) {
+  Json array = Json::array();
+  for (std::size_t i = from; i < list.size(); ++i) array.push_back(point(list[i]));
+  return array;
+}
+
+/// Rows of cells as [x, y, length]; the cells may come in any order.
+Json runs(std::vector<common::CellIndex> cells) {
+  std::sort(cells.begin(), cells.end(),
+            [](common::CellIndex a, common::CellIndex b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  Json array = Json::array();
+  for (std::size_t begin = 0; begin < cells.size();) {
+    std::size_t end = begin + 1;
+    while (end < cells.size() && cells[end].y == cells[begin].y && cells[end].x <= cells[end - 1].x + 1) ++end;
+    array.push_back({cells[begin].x, cells[begin].y, cells[end - 1].x - cells[begin].x + 1});
+    begin = end;
+  }
+  return array;
+}
+
+const char* word(common::IntentState state) {
+  switch (state) {
+    case common::IntentState::kRunning:
+      return "running";
+    case common::IntentState::kSucceeded:
+      return "succeeded";
+    case common::IntentState::kFailed:
+      return "failed";
+  }
+  return "unknown";
+}
+
+Json poseOf(const common::World& world) {
+  const common::Pose3 pose = world.state.T_map_body();
+  const common::RollPitchYaw angles = common::rollPitchYaw(pose.rotation);
+  return {{"x_m", number(pose.position_m.x())},       {"y_m", number(pose.position_m.y())},
+          {"z_m", number(pose.position_m.z())},       {"roll_rad", number(angles.roll_rad, 4)},
+          {"pitch_rad", number(angles.pitch_rad, 4)}, {"yaw_rad", number(angles.yaw_rad, 4)}};
+}
+
+Json missionOf(const common::MissionStatus& mission) {
+  Json tree = Json::array();
+  for (const common::TreeNodeView& node : mission.tree)
+    tree.push_back({{"id", node.id}, {"parent", node.parent}, {"name", node.name}, {"status", node.status}});
+  return {
+      {"state", common::toString(mission.state)}, {"phase", mission.phase}, {"reason", mission.reason}, {"tree", tree}};
+}
+
+Json stateOf(const common::World& world, const Observation& seen) {
+  const Eigen::Vector3d velocity = world.state.velocity_map_m_s();
+  const auto optional = [](const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); };
+  return {
+      {"type", "state"},
+      {"sequence", seen.sequence},
+      {"stamp_s", number(world.stamp.seconds())},
+      {"age_s", number(seen.world_age_s)},
+      {"camera_age_s", optional(seen.camera_age_s)},
+      {"realtime_factor", optional(seen.realtime_factor)},
+      {"pose", poseOf(world)},
+      {"velocity_m_s", {number(velocity.x()), number(velocity.y()), number(velocity.z())}},
+      {"speed_m_s", number(velocity.norm())},
+      {"height_above_ground_m", number(world.state.height_above_ground_m)},
+      {"position_deviation_m",
+       number(std::sqrt(std::max(0.0, world.state.position_covariance_m2.topLeftCorner<2, 2>().trace())))},
+      {"horizontal_valid", world.state.horizontal_valid},
+      {"vertical_valid", world.state.vertical_valid},
+      {"flight_state", common::toString(world.status.flight_state)},
+      {"battery",
+       {{"voltage_v", number(world.status.battery_voltage_v, 2)},
+        {"remaining", number(world.status.battery_remaining)}}},
+      {"distance_flown_m", number(world.status.distance_flown_m, 2)},
+      {"explored_area_m2", number(world.explored_area_m2, 2)},
+      {"avoidance",
+       {{"braking", world.avoidance.braking},
+        {"retreating", world.avoidance.retreating},
+        {"reason", world.avoidance.reason},
+        {"nearest_m", number(world.avoidance.nearest_m, 2)}}},
+      {"intent", {{"state", word(world.intent.state)}, {"reason", world.intent.reason}}},
+      {"mission", missionOf(world.mission)},
+      {"home", {{"x_m", number(world.home_map.x_m)}, {"y_m", number(world.home_map.y_m)}}},
+      {"goal", world.goal_map_m ? Json{{"x_m", number(world.goal_map_m->x())}, {"y_m", number(world.goal_map_m->y())}}
+                                : Json(nullptr)},
+      {"plan", points(world.plan_map_m)}};
+}
+
+Json frontierOf(const common::Frontier& frontier) {
+  return {{"reason", common::toString(frontier.reason)},
+          {"explanation", frontier.explanation},
+          {"centroid_m", point(frontier.centroid_map_m)},
+          {"length_m", number(frontier.length_m, 2)},
+          {"attempts", frontier.attempts},
+          {"cells", runs(frontier.cells)}};
+}
+
+Json frontiersOf(const std::vector<common::Frontier>& frontiers, double resolution_m) {
+  Json list = Json::array();
+  for (const common::Frontier& frontier : frontiers) list.push_back(frontierOf(frontier));
+  return {{"type", "frontiers"}, {"resolution_m", resolution_m}, {"frontiers", list}};
+}
+
+Json levelsOf(const common::LevelMap& levels) {
+  Json list = Json::array();
+  for (const common::Level& level : levels.levels)
+    list.push_back({{"id", level.id},
+                    {"height_m", number(level.height_m)},
+                    {"deviation_m", number(std::sqrt(std::max(0.0, level.variance_m2)))},
+                    {"cells", runs(level.cells)}});
+  return {{"type", "levels"}, {"resolution_m", levels.resolution_m}, {"levels", list}};
+}
+
+Json eventsOf(std::span<const NumberedEvent> events) {
+  Json list = Json::array();
+  for (const auto& [sequence, event] : events)
+    list.push_back({{"number", sequence},
+                    {"stamp_s", number(event.stamp.seconds())},
+                    {"severity", common::toString(event.severity)},
+                    {"source", event.source},
+                    {"text", event.text},
+                    {"reason", event.reason}});
+  return list;
+}
+
+/// A text that is not UTF-8 must not stop the page.
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+std::string stateJson(const common::World& world, const Observation& observation) {
+  return dump(stateOf(world, observation));
+}
+
+std::string frontiersJson(const std::vector<common::Frontier>& frontiers, double resolution_m) {
+  return dump(frontiersOf(frontiers, resolution_m));
+}
+
+std::string levelsJson(const common::LevelMap& levels) { return dump(levelsOf(levels)); }
+
+std::string trailJson(const std::vector<Eigen::Vector2d>& trail_map_m, std::size_t from) {
+  return dump({{"type", "trail"}, {"from", from}, {"points", points(trail_map_m, from)}});
+}
+
+std::string eventsJson(std::span<const NumberedEvent> events) {
+  return dump({{"type", "events"}, {"events", eventsOf(events)}});
+}
+
+std::string completeJson(const common::World& world, const Observation& observation,
+                         std::span<const NumberedEvent> events) {
+  Json json = stateOf(world, observation);
+  json.erase("type");
+  json["trail"] = points(*world.trail_map_m);
+  json["frontiers"] = frontiersOf(*world.frontiers, world.grid->resolution_m())["frontiers"];
+  json["levels"] = levelsOf(*world.levels)["levels"];
+  json["resolution_m"] = world.grid->resolution_m();
+  json["levels_resolution_m"] = world.levels->resolution_m;
+  json["events"] = eventsOf(events);
+  return dump(json);
+}
+
+std::string helloJson(const std::string& title, double hull_diameter_m) {
+  return dump({{"type", "hello"}, {"title", title}, {"hull_diameter_m", hull_diameter_m}});
+}
+
+}  // namespace swiftlet::web

@@ -1,0 +1,43 @@
+// The world as JSON: for /api/state in one document, for the page in parts that are sent when they change.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "common/event.hpp"
+#include "common/world.hpp"
+
+namespace swiftlet::web {
+
+/// What is known beside the world.
+struct Observation {
+  std::uint64_t sequence = 0;             ///< Of the world.
+  double world_age_s = 0.0;               ///< Since the server saw it first.
+  std::optional<double> camera_age_s;     ///< None: no camera picture yet.
+  std::optional<double> realtime_factor;  ///< Simulated seconds per second; none until two worlds were seen.
+};
+
+/// An event and its place in the flight's list.
+struct NumberedEvent {
+  std::uint64_t number = 0;  ///< From 1.
+  common::Event event;
+};
+
+/// Lengths in metres to the millimetre, angles in radians; what is not finite becomes null.
+std::string stateJson(const common::World& world, const Observation& observation);
+std::string frontiersJson(const std::vector<common::Frontier>& frontiers, double resolution_m);
+std::string levelsJson(const common::LevelMap& levels);
+/// The points from `from` on; the page puts them after the first `from` it has.
+std::string trailJson(const std::vector<Eigen::Vector2d>& trail_map_m, std::size_t from);
+std::string eventsJson(std::span<const NumberedEvent> events);
+
+/// All of it in one object.
+std::string completeJson(const common::World& world, const Observation& observation,
+                         std::span<const NumberedEvent> events);
+
+/// What a page needs once.
+std::string helloJson(const std::string& title, double hull_diameter_m);
+
+}  // namespace swiftlet::web

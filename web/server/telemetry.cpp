@@ -1,0 +1,96 @@
+#include "web/server/telemetry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swiftlet::web {
+namespace {
+
+constexpr std::size_t kKeptEvents = 200;
+constexpr double kClockWindow_s = 3.0;
+constexpr double kLaserSpacing_m = 0.04;
+
+/// The scan thinned to what a page can show.
+std::string laserBytes(const common::LaserPoints& laser) {
+  std::string bytes(4, '\0');
+  Eigen::Vector2f last = Eigen::Vector2f::Constant(1e9f);
+  std::size_t count = 0;
+  for (const Eigen::Vector2f& p : laser.points_map_m) {
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 320.0f || (p - last).norm() < kLaserSpacing_m) continue;
+    last = p;
+    for (const float coordinate : {p.x(), p.y()}) {
+      const auto cm = static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(100.0f * coordinate)));
+      bytes += static_cast<char>(cm & 255);
+      bytes += static_cast<char>(cm >> 8);
+    }
+    if (++count == 2000) break;
+  }
+  bytes[0] = 2;
+  bytes[2] = static_cast<char>(count & 255);
+  bytes[3] = static_cast<char>(count >> 8);
+  return bytes;
+}
+
+}  // namespace
+
+void Telemetry::look() {
+  const common::Time at = now();
+  camera_.look(sources_.camera, at);
+  if (!world_.look(sources_.world, at) || !world_.value) return;
+  const double unix_s = at.seconds();
+  // A world from before the last one is another flight.
+  if (!clock_.empty() && world_.value->stamp.seconds() < clock_.back().second) clock_.clear();
+  if (clock_.empty() || unix_s - clock_.back().first > 0.05) clock_.emplace_back(unix_s, world_.value->stamp.seconds());
+  while (clock_.size() > 2 && unix_s - clock_.front().first > kClockWindow_s) clock_.pop_front();
+}
+
+Observation Telemetry::observe() const {
+  Observation seen;
+  const common::Time at = now();
+  seen.sequence = world_.sequence;
+  if (world_.value) seen.world_age_s = (at - world_.unix_time).seconds();
+  if (camera_.value) seen.camera_age_s = (at - camera_.unix_time).seconds();
+  if (clock_.size() >= 2 && clock_.back().first - clock_.front().first > 0.5)
+    seen.realtime_factor =
+        (clock_.back().second - clock_.front().second) / (clock_.back().first - clock_.front().first);
+  return seen;
+}
+
+void Telemetry::followTrail() {
+  const auto& next = world_.value->trail_map_m;
+  if (next == trail_) return;
+  const bool grown =
+      trail_ && next->size() >= trail_->size() && std::equal(trail_->begin(), trail_->end(), next->begin());
+  if (!grown) ++trail_version_;
+  trail_ = next;
+}
+
+void Telemetry::encodeParts() {
+  if (!world_.value) return;
+  const common::World& world = *world_.value;
+  state_ = std::make_shared<const std::string>(stateJson(world, observe()));
+  if (world_.sequence == encoded_sequence_) return;
+  encoded_sequence_ = world_.sequence;
+  if (!encoded_ || encoded_->frontiers != world.frontiers)
+    frontiers_.set(frontiersJson(*world.frontiers, world.grid->resolution_m()));
+  if (!encoded_ || encoded_->levels != world.levels) levels_.set(levelsJson(*world.levels));
+  if (world.laser && (!encoded_ || encoded_->laser != world.laser)) laser_.set(laserBytes(*world.laser));
+  tiles_.update(world.grid);
+  followTrail();
+  encoded_ = world_.value;
+}
+
+void Telemetry::postEvent(const common::Event& event) {
+  const std::scoped_lock lock(events_mutex_);
+  events_.push_back({++event_count_, event});
+  if (events_.size() > kKeptEvents) events_.pop_front();
+}
+
+std::vector<NumberedEvent> Telemetry::eventsAfter(std::uint64_t number) const {
+  const std::scoped_lock lock(events_mutex_);
+  const auto first = std::find_if(events_.begin(), events_.end(),
+                                  [number](const NumberedEvent& event) { return event.number > number; });
+  return {first, events_.end()};
+}
+
+}  // namespace swiftlet::web

@@ -1,0 +1,98 @@
+// What the server has seen of the flight: the newest world and camera frame with the time it saw them, the parts of the
+// world encoded once for all pages, the events. Only on the thread of the event loop, but for postEvent().
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "web/server/state_json.hpp"
+#include "web/server/tile_feed.hpp"
+#include "web/server/web_server.hpp"
+
+namespace swiftlet::web {
+
+/// The newest value and when it was seen first.
+template <typename Value>
+struct Seen {
+  std::shared_ptr<const Value> value;
+  std::uint64_t sequence = 0;
+  common::Time unix_time;
+
+  bool look(const common::LatestValue<Value>& source, common::Time now) {
+    const std::uint64_t newest = source.sequence();
+    if (newest == sequence) return false;
+    sequence = newest;
+    value = source.read();
+    unix_time = now;
+    return true;
+  }
+};
+
+/// A text for the pages and a number that rises when it changes.
+struct Part {
+  SharedText text;
+  std::uint64_t version = 0;
+
+  void set(std::string next) {
+    if (text && *text == next) return;
+    text = std::make_shared<const std::string>(std::move(next));
+    ++version;
+  }
+};
+
+class Telemetry {
+ public:
+  Telemetry(WebServer::Sources sources, std::function<common::Time()> unix_time)
+      : sources_(sources), unix_time_(std::move(unix_time)) {}
+
+  common::Time now() const { return unix_time_(); }
+  /// Looks for something new; cheap when there is nothing.
+  void look();
+
+  const Seen<common::World>& world() const { return world_; }
+  const Seen<common::CameraFrame>& camera() const { return camera_; }
+  Observation observe() const;
+
+  /// The parts below are brought up to date by encodeParts(), which a page's tick calls; null before the first world.
+  void encodeParts();
+  const SharedText& state() const { return state_; }
+  const Part& frontiers() const { return frontiers_; }
+  const Part& levels() const { return levels_; }
+  const TileFeed& tiles() const { return tiles_; }
+  /// Little endian: u8 2, u8 0, u16 number of points, then i16 x, i16 y in centimetres; null: no scan.
+  const Part& laser() const { return laser_; }
+  /// Rises when earlier points of the trail have moved.
+  std::uint64_t trailVersion() const { return trail_version_; }
+
+  void postEvent(const common::Event& event);
+  /// Those after `number`, oldest first.
+  std::vector<NumberedEvent> eventsAfter(std::uint64_t number) const;
+
+ private:
+  void followTrail();
+
+  WebServer::Sources sources_;
+  std::function<common::Time()> unix_time_;
+  Seen<common::World> world_;
+  Seen<common::CameraFrame> camera_;
+  /// (unix, simulated) seconds of worlds of the last seconds.
+  std::deque<std::pair<double, double>> clock_;
+
+  std::uint64_t encoded_sequence_ = 0;
+  SharedText state_;
+  Part frontiers_, levels_, laser_;
+  std::shared_ptr<const common::World> encoded_;
+  TileFeed tiles_;
+  std::shared_ptr<const std::vector<Eigen::Vector2d>> trail_;
+  std::uint64_t trail_version_ = 1;
+
+  mutable std::mutex events_mutex_;
+  std::deque<NumberedEvent> events_;
+  std::uint64_t event_count_ = 0;
+};
+
+}  // namespace swiftlet::web

@@ -1,0 +1,22 @@
+// Map tiles as bytes for the page: nine shades, run-length coded. A tile that was seen compresses to some hundred
+// bytes, and observing again what is known changes nothing in it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/occupancy_grid.hpp"
+
+namespace swiftlet::web {
+
+/// 0: unknown; 1 (surely) to 4 (barely): free; 5 (barely) to 8 (surely): occupied.
+int shadeOf(common::occupancy::Cell cell);
+
+/// The tile whose lower left cell is `corner`, row by row from the bottom. Each run is one byte `shade << 4 | n`, n the
+/// length minus 1 up to 14; n = 15: two more bytes, low first, hold the length minus 1.
+std::string encodeTile(const common::OccupancyGrid& grid, common::CellIndex corner);
+
+/// The shades of a tile, row by row; empty if the text is malformed.
+std::vector<int> decodeTile(const std::string& bytes);
+
+}  // namespace swiftlet::web
