@@ -26,7 +26,9 @@ inline std::filesystem::path datasets() {
 inline std::vector<std::string> linesOf(const std::filesystem::path& file) {
   std::vector<std::string> lines;
   if (!std::filesystem::exists(file)) return lines;
-  const std::string tool = file.extension() == ".bz2" ? "bzip2 -dc '" : file.extension() == ".gz" ? "gzip -dc '" : "cat '";
+  const std::string tool = file.extension() == ".bz2"  ? "bzip2 -dc '"
+                           : file.extension() == ".gz" ? "gzip -dc '"
+                                                       : "cat '";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((tool + file.string() + "'").c_str(), "r"), pclose);
   if (!pipe) return lines;
   std::string line;
@@ -122,7 +124,8 @@ inline RelationError scoreRelations(const std::vector<Relation>& relations,
   }
   if (error.compared == 0) return error;
   error.translation_mean_m = sum / error.compared;
-  error.translation_std_m = std::sqrt(std::max(0.0, sum2 / error.compared - error.translation_mean_m * error.translation_mean_m));
+  error.translation_std_m =
+      std::sqrt(std::max(0.0, sum2 / error.compared - error.translation_mean_m * error.translation_mean_m));
   error.rotation_mean_deg = yaw / error.compared * 180.0 / std::numbers::pi;
   return error;
 }
