@@ -29,7 +29,7 @@ void ExecutorConfig::describe(common::config::Fields& fields) {
   fields("viewpoint_tolerance_m", viewpoint_tolerance_m, "How near a viewpoint counts as reached.");
   fields("viewpoint_tolerance_deg", viewpoint_tolerance_deg, "How well it must be turned to.");
   fields("give_up_s", give_up_s, "Without a way to the goal for this long the intent fails.");
-  fields("retreat_path_m", retreat_path_m, "How far ahead a retreat is commanded.");
+  fields("retreat_deceleration_m_s2", retreat_deceleration_m_s2, "How hard a retreat may brake: it ends within reach.");
 }
 
 std::vector<std::string> ExecutorConfig::validate() const {
@@ -43,7 +43,7 @@ std::vector<std::string> ExecutorConfig::validate() const {
       .positive("viewpoint_tolerance_m", viewpoint_tolerance_m)
       .positive("viewpoint_tolerance_deg", viewpoint_tolerance_deg)
       .positive("give_up_s", give_up_s)
-      .within("retreat_path_m", retreat_path_m, 0.1, 2.0)
+      .within("retreat_deceleration_m_s2", retreat_deceleration_m_s2, 0.1, 10.0)
       .problems();
 }
 
@@ -82,9 +82,13 @@ void Executor::react(const planning::AvoidanceDecision& decision, const common::
   if (controller_.state() != FlightState::kFlying) return;
   if (decision.retreat_velocity_level_m_s && decision.retreat_velocity_level_m_s->norm() > 1e-3) {
     const common::Pose2 T_map_body = state.T_map_body_planar();
-    const Eigen::Vector2d way =
-        Eigen::Rotation2Dd(T_map_body.yaw_rad) * decision.retreat_velocity_level_m_s->normalized();
-    const Eigen::Vector2d to = T_map_body.position_m() + config_.retreat_path_m * way;
+    const Eigen::Vector2d velocity_map_m_s =
+        Eigen::Rotation2Dd(T_map_body.yaw_rad) * *decision.retreat_velocity_level_m_s;
+    const double speed_m_s = velocity_map_m_s.norm();
+    controller_.setSpeedLimit(std::min(decision.speed_limit_m_s, speed_m_s));
+    // The path is as long as that speed needs to stop: the reactive layer made sure that so much is free.
+    const double length_m = speed_m_s * speed_m_s / (2.0 * config_.retreat_deceleration_m_s2);
+    const Eigen::Vector2d to = T_map_body.position_m() + length_m / speed_m_s * velocity_map_m_s;
     const double z_m = cruise_height_m_;
     (void)controller_.follow({{{T_map_body.x_m, T_map_body.y_m, z_m}, {to.x(), to.y(), z_m}},
                               control::FlightMode::kFast,

@@ -34,8 +34,8 @@ struct ExecutorConfig {
   double arrival_s = 0.25;           ///< and within the tolerance for this long.
   double viewpoint_tolerance_m = 0.15;
   double viewpoint_tolerance_deg = 12.0;
-  double give_up_s = 20.0;      ///< No way to the goal for this long: the intent fails.
-  double retreat_path_m = 0.5;  ///< How far ahead a retreat is commanded.
+  double give_up_s = 20.0;                 ///< No way to the goal for this long: the intent fails.
+  double retreat_deceleration_m_s2 = 1.0;  ///< How hard a retreat may brake: it ends within reach.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
