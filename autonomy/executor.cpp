@@ -28,6 +28,7 @@ void ExecutorConfig::describe(common::config::Fields& fields) {
   fields("arrival_s", arrival_s, "A goal is reached when within its tolerance for this long.");
   fields("viewpoint_tolerance_m", viewpoint_tolerance_m, "How near a viewpoint counts as reached.");
   fields("viewpoint_tolerance_deg", viewpoint_tolerance_deg, "How well it must be turned to.");
+  fields("make_room_s", make_room_s, "Without a way for this long it goes aside, so that others can pass.");
   fields("give_up_s", give_up_s, "Without a way to the goal for this long the intent fails.");
   fields("retreat_deceleration_m_s2", retreat_deceleration_m_s2, "How hard a retreat may brake: it ends within reach.");
 }
@@ -43,6 +44,7 @@ std::vector<std::string> ExecutorConfig::validate() const {
       .positive("viewpoint_tolerance_m", viewpoint_tolerance_m)
       .positive("viewpoint_tolerance_deg", viewpoint_tolerance_deg)
       .positive("give_up_s", give_up_s)
+      .positive("make_room_s", make_room_s)
       .within("retreat_deceleration_m_s2", retreat_deceleration_m_s2, 0.1, 10.0)
       .problems();
 }
@@ -151,6 +153,8 @@ void Executor::start(const ExecutorInput& input) {
   viewpoint_.reset();
   within_since_.reset();
   no_way_since_.reset();
+  made_room_.reset();
+  making_room_ = false;
   goal_yaw_map_rad_.reset();
   last_exploration_.reset();
   done_answers_ = 0;
@@ -196,12 +200,35 @@ void Executor::carryOut(const ExecutorInput& input, const common::GoToIntent& go
     return succeed(fmt::format("reached ({:.2f}, {:.2f})", go_to.goal_map_m.x(), go_to.goal_map_m.y()));
   }
   const bool replan = keepPlan(input);
+  if (makesRoom(input)) return;
   if (no_way_since_ && (now_ - *no_way_since_).seconds() > config_.give_up_s) return fail(no_way_);
   if (replan && jobs_.idle("planning")) {
     PlanningRequest request;
     request.question = GoalRequest{go_to.goal_map_m};
     requestPlan(input, std::move(request));
   }
+}
+
+/// True while it goes aside, or asks for a place to go.
+bool Executor::makesRoom(const ExecutorInput& input) {
+  if (making_room_) {
+    if (keeper_.plan() && (now_ - *made_room_).seconds() < config_.give_up_s / 4.0 &&
+        (keeper_.plan()->points_map_m.back() - input.state.T_map_body_planar().position_m()).norm() >
+            config_.viewpoint_tolerance_m)
+      return true;
+    making_room_ = false;
+    keeper_.clear();
+    return false;
+  }
+  if (!no_way_since_ || keeper_.plan() || !jobs_.idle("planning")) return false;
+  const Time since = std::max(*no_way_since_, made_room_.value_or(*no_way_since_));
+  if ((now_ - since).seconds() < config_.make_room_s) return false;
+  say(Severity::kInfo, "goes aside to make room", no_way_);
+  made_room_ = now_;
+  PlanningRequest request;
+  request.question = MakeRoomRequest{};
+  requestPlan(input, std::move(request));
+  return true;
 }
 
 void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&) {
@@ -255,7 +282,12 @@ void Executor::receive(const PlanningAnswer& answer, Time now) {
     explored_area_m2_ = answer.exploration->explored_area_m2;
   }
   if (answer.intent_id != intent_.id || status_.state != IntentState::kRunning || retreating_) return;
-  if (answer.path) receivePath(*answer.path);
+  if (answer.path && answer.makes_room) {
+    making_room_ = answer.path->has_value();
+    if (making_room_) offer(**answer.path);
+  } else if (answer.path) {
+    receivePath(*answer.path);
+  }
   if (answer.exploration) receiveExploration(*answer.exploration);
 }
 
