@@ -111,19 +111,24 @@ class Flight {
   }
 
   void publish() {
-    const common::VehicleState state = autonomy_.state();
-    folder_.state(state);
-    recorder_.tick(vehicle_->truth(), state);
+    const bool recorded = !ended_;  // The page sees what comes after the end; the run is the same without a page.
+    if (recorded) {
+      const common::VehicleState state = autonomy_.state();
+      folder_.state(state);
+      recorder_.tick(vehicle_->truth(), state);
+      recorder_.intent(now_, autonomy_.intent(), autonomy_.intentStatus());
+    }
     if (const auto world = autonomy_.world(); world != last_world_) {
       last_world_ = world;
-      recorder_.intent(now_, autonomy_.missionIntent(), world->intent);
-      recorder_.world(*world);
-      folder_.world(*world);
       if (hooks_.web) hooks_.web->world().post(world);
-      if ((now_ - last_picture_).seconds() >= kPicturePeriod_s) showPictures();
+      if (recorded) {
+        recorder_.world(*world);
+        folder_.world(*world);
+      }
+      if (recorded && (now_ - last_picture_).seconds() >= kPicturePeriod_s) showPictures();
     }
     for (const common::Event& event : autonomy_.takeEvents()) {
-      folder_.event(event);
+      if (recorded) folder_.event(event);
       if (hooks_.event) hooks_.event(event);
       if (hooks_.web) hooks_.web->postEvent(event);
     }

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   using namespace swiftlet;
 
   CLI::App program{"Explore, map and fly home indoors: autonomy for small quadrotors.", "swiftlet"};
-  program.require_subcommand(1);
+  program.require_subcommand(0, 1);  // At least one is required below, so that an unknown one is named first.
   program.footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
 
   apps::Run run;
@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
 
   try {
     program.parse(argc, argv);
+    if (program.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
     return run();
   } catch (const CLI::ParseError& e) {
     return program.exit(e) == 0 ? apps::kDone : apps::kBadInput;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "common/data_paths.hpp"
 
@@ -10,21 +11,18 @@ namespace {
 
 /// "utm_30lx" -> config/sensors/utm_30lx.yaml; anything with a dot or a slash is a file.
 std::string fileFor(const std::string& name, const std::string& folder) {
-  if (name.find('/') != std::string::npos || name.find('.') != std::string::npos) return name;
+  if (name.find('/') != std::string::npos || name.find('.') != std::string::npos)
+    return common::findData(name).string();
   return common::findData(std::filesystem::path("config") / folder / (name + ".yaml")).string();
 }
 
-struct Everything {
-  SystemConfig config;
-  common::VehicleConfig vehicle;
-  common::LaserConfig laser;
-
-  void describe(common::config::Fields& fields) {
-    fields.section("system", config, "The profile.");
-    fields.section("vehicle", vehicle, "The vehicle it names.");
-    fields.section("laser", laser, "The laser it names.");
-  }
-};
+/// Every line behind "# ".
+std::string asComment(const std::string& yaml) {
+  std::string text;
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line);) text += "# " + line + "\n";
+  return text;
+}
 
 }  // namespace
 
@@ -38,8 +36,10 @@ std::vector<std::string> SystemConfig::validate() const { return {}; }
 
 std::string System::toYaml(bool comments) const {
   using common::config::YamlPrinter;
-  return YamlPrinter(comments ? YamlPrinter::Comments::kYes : YamlPrinter::Comments::kNo)
-      .print(Everything{config, vehicle, laser});
+  if (!comments) return YamlPrinter(YamlPrinter::Comments::kNo).print(config);
+  const auto print = [](const auto& any) { return YamlPrinter(YamlPrinter::Comments::kYes).print(any); };
+  return print(config) + "\n# The data sheets these name:\n#\n# vehicle " + config.vehicle + "\n" +
+         asComment(print(vehicle)) + "#\n# laser " + config.laser + "\n" + asComment(print(laser));
 }
 
 System loadSystem(const std::string& name) {

@@ -25,7 +25,7 @@ struct System {
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
 
-  /// The effective configuration as YAML: the profile, then vehicle and laser as it names them.
+  /// The effective profile as YAML that loadSystem reads back; with comments, also the data sheets it names.
   std::string toYaml(bool comments) const;
 };
 

@@ -112,6 +112,7 @@ std::vector<common::Event> Autonomy::takeEvents() {
   collect(supervisor_.takeEvents());
   collect(executor_.takeEvents());
   collect(controller_.takeEvents());
+  std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   return std::exchange(events_, {});
 }
 
@@ -160,6 +161,7 @@ void Autonomy::tickBehaviors(Time now) {
   status_.flight_state = controller_.state();
   takeSnapshot(now);
   if (prepared_) wish_ = wishOf(now);
+  if (mission_over_) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
   executor_.want(wish_);
   executor_.tick(
       {now, estimator_.state(), estimator_.grid(), estimator_.levels(), reactive_.discs(now), reactive_.decision()});

@@ -58,8 +58,9 @@ class Autonomy {
   /// The end came by the operator's Land, not by the mission.
   bool landedByOperator() const { return supervisor_.landedByOperator(); }
   common::VehicleState state() const { return estimator_.state(); }
-  /// What was wished for at the last tick of the behaviours.
-  const common::Intent& missionIntent() const { return wish_; }
+  /// What is carried out since the last tick of the behaviours, and how it stands.
+  const common::Intent& intent() const { return wish_; }
+  const common::IntentStatus& intentStatus() const { return executor_.status(); }
 
   std::vector<common::Event> takeEvents();
   std::vector<common::CommandResult> takeResults();

@@ -1,6 +1,8 @@
 #include "autonomy/estimator.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -38,11 +40,21 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
   fields.section("altitude", altitude, "Height and levels from the mirror beams.");
   fields.section("fusion", fusion, "Error-state filter.");
   fields.section("slam", slam, "Graph SLAM and the map.");
+  fields("match_floor_m", match_floor_m, "Least standard deviation of a match.");
+  fields("match_floor_deg", match_floor_deg, "Likewise of its yaw.");
+  fields("match_per_tilt_m_rad", match_per_tilt_m_rad, "What each radian of tilt adds: the attitude is not exact.");
+  fields("match_per_tilt_deg_rad", match_per_tilt_deg_rad, "Likewise to the yaw.");
   fields("slam_latency_s", slam_latency_s, "Declared for a SLAM job.");
 }
 
 std::vector<std::string> EstimatorConfig::validate() const {
-  return common::Validation().within("slam_latency_s", slam_latency_s, 0.01, 10).problems();
+  return common::Validation()
+      .within("match_floor_m", match_floor_m, 0, 1)
+      .within("match_floor_deg", match_floor_deg, 0, 10)
+      .within("match_per_tilt_m_rad", match_per_tilt_m_rad, 0, 10)
+      .within("match_per_tilt_deg_rad", match_per_tilt_deg_rad, 0, 100)
+      .within("slam_latency_s", slam_latency_s, 0.01, 10)
+      .problems();
 }
 
 Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& laser,
@@ -145,14 +157,23 @@ bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
     return true;
   }
   if (!filter_.hasClone(relative->from)) (void)filter_.addClone(relative->from);
-  const auto inserted =
-      filter_.addRelativePose(relative->from, relative->to, relative->T_from_to, relative->covariance);
+  const Eigen::Matrix3d covariance = relative->covariance + tiltCovariance(scan);
+  const auto inserted = filter_.addRelativePose(relative->from, relative->to, relative->T_from_to, covariance);
   if (relative->reference_changed) {
     (void)filter_.addClone(relative->to);
     // Within one reference the error does not grow; it accumulates from reference to reference.
-    covariance_since_map_ += relative->covariance;
+    covariance_since_map_ += covariance;
   }
   return inserted == perception::Insertion::kTaken;
+}
+
+Eigen::Matrix3d Estimator::tiltCovariance(const perception::ProjectedScan& scan) const {
+  const double cos_tilt = (scan.T_odom_body.rotation * Eigen::Vector3d::UnitZ()).z();
+  const double tilt_rad = std::acos(std::clamp(cos_tilt, -1.0, 1.0));
+  const double position_m = config_.match_floor_m + config_.match_per_tilt_m_rad * tilt_rad;
+  const double yaw_rad =
+      (config_.match_floor_deg + config_.match_per_tilt_deg_rad * tilt_rad) * std::numbers::pi / 180.0;
+  return Eigen::Vector3d(position_m * position_m, position_m * position_m, yaw_rad * yaw_rad).asDiagonal();
 }
 
 void Estimator::fuseHeight(const perception::ProjectedScan& scan, const Pose2& T_map_body) {

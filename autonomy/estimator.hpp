@@ -35,6 +35,11 @@ struct EstimatorConfig {
   perception::MultilevelFilter::Config altitude;
   perception::ErrorStateFilter::Config fusion;
   perception::Slam2dConfig slam;
+  // What a wrong attitude does to a match, beyond the matcher's own covariance: it grows with the tilt.
+  double match_floor_m = 0.004;
+  double match_floor_deg = 0.10;
+  double match_per_tilt_m_rad = 0.05;
+  double match_per_tilt_deg_rad = 1.5;
   double slam_latency_s = 0.4;  ///< Declared for a SLAM job: loop search, optimization, drawing the map anew.
 
   void describe(common::config::Fields& fields);
@@ -82,6 +87,7 @@ class Estimator {
   void initialize(const common::LaserScan& scan);
   perception::ProjectedScan projectScan(const common::LaserScan& scan);
   bool fuseOdometry(const perception::ProjectedScan& scan);
+  Eigen::Matrix3d tiltCovariance(const perception::ProjectedScan& scan) const;
   void fuseHeight(const perception::ProjectedScan& scan, const common::Pose2& T_map_body);
   void addToMap(ScanOutcome& outcome, common::Time now);
   void submitSlamTask(common::Time now);

@@ -28,8 +28,9 @@ void ExecutorConfig::describe(common::config::Fields& fields) {
   fields("arrival_s", arrival_s, "A goal is reached when within its tolerance for this long.");
   fields("viewpoint_tolerance_m", viewpoint_tolerance_m, "How near a viewpoint counts as reached.");
   fields("viewpoint_tolerance_deg", viewpoint_tolerance_deg, "How well it must be turned to.");
+  fields("make_room_s", make_room_s, "Without a way for this long it goes aside, so that others can pass.");
   fields("give_up_s", give_up_s, "Without a way to the goal for this long the intent fails.");
-  fields("retreat_path_m", retreat_path_m, "How far ahead a retreat is commanded.");
+  fields("retreat_deceleration_m_s2", retreat_deceleration_m_s2, "How hard a retreat may brake: it ends within reach.");
 }
 
 std::vector<std::string> ExecutorConfig::validate() const {
@@ -43,7 +44,8 @@ std::vector<std::string> ExecutorConfig::validate() const {
       .positive("viewpoint_tolerance_m", viewpoint_tolerance_m)
       .positive("viewpoint_tolerance_deg", viewpoint_tolerance_deg)
       .positive("give_up_s", give_up_s)
-      .within("retreat_path_m", retreat_path_m, 0.1, 2.0)
+      .positive("make_room_s", make_room_s)
+      .within("retreat_deceleration_m_s2", retreat_deceleration_m_s2, 0.1, 10.0)
       .problems();
 }
 
@@ -82,9 +84,13 @@ void Executor::react(const planning::AvoidanceDecision& decision, const common::
   if (controller_.state() != FlightState::kFlying) return;
   if (decision.retreat_velocity_level_m_s && decision.retreat_velocity_level_m_s->norm() > 1e-3) {
     const common::Pose2 T_map_body = state.T_map_body_planar();
-    const Eigen::Vector2d way =
-        Eigen::Rotation2Dd(T_map_body.yaw_rad) * decision.retreat_velocity_level_m_s->normalized();
-    const Eigen::Vector2d to = T_map_body.position_m() + config_.retreat_path_m * way;
+    const Eigen::Vector2d velocity_map_m_s =
+        Eigen::Rotation2Dd(T_map_body.yaw_rad) * *decision.retreat_velocity_level_m_s;
+    const double speed_m_s = velocity_map_m_s.norm();
+    controller_.setSpeedLimit(std::min(decision.speed_limit_m_s, speed_m_s));
+    // The path is as long as that speed needs to stop: the reactive layer made sure that so much is free.
+    const double length_m = speed_m_s * speed_m_s / (2.0 * config_.retreat_deceleration_m_s2);
+    const Eigen::Vector2d to = T_map_body.position_m() + length_m / speed_m_s * velocity_map_m_s;
     const double z_m = cruise_height_m_;
     (void)controller_.follow({{{T_map_body.x_m, T_map_body.y_m, z_m}, {to.x(), to.y(), z_m}},
                               control::FlightMode::kFast,
@@ -147,6 +153,8 @@ void Executor::start(const ExecutorInput& input) {
   viewpoint_.reset();
   within_since_.reset();
   no_way_since_.reset();
+  made_room_.reset();
+  making_room_ = false;
   goal_yaw_map_rad_.reset();
   last_exploration_.reset();
   done_answers_ = 0;
@@ -192,12 +200,35 @@ void Executor::carryOut(const ExecutorInput& input, const common::GoToIntent& go
     return succeed(fmt::format("reached ({:.2f}, {:.2f})", go_to.goal_map_m.x(), go_to.goal_map_m.y()));
   }
   const bool replan = keepPlan(input);
+  if (makesRoom(input)) return;
   if (no_way_since_ && (now_ - *no_way_since_).seconds() > config_.give_up_s) return fail(no_way_);
   if (replan && jobs_.idle("planning")) {
     PlanningRequest request;
     request.question = GoalRequest{go_to.goal_map_m};
     requestPlan(input, std::move(request));
   }
+}
+
+/// True while it goes aside, or asks for a place to go.
+bool Executor::makesRoom(const ExecutorInput& input) {
+  if (making_room_) {
+    if (keeper_.plan() && (now_ - *made_room_).seconds() < config_.give_up_s / 4.0 &&
+        (keeper_.plan()->points_map_m.back() - input.state.T_map_body_planar().position_m()).norm() >
+            config_.viewpoint_tolerance_m)
+      return true;
+    making_room_ = false;
+    keeper_.clear();
+    return false;
+  }
+  if (!no_way_since_ || keeper_.plan() || !jobs_.idle("planning")) return false;
+  const Time since = std::max(*no_way_since_, made_room_.value_or(*no_way_since_));
+  if ((now_ - since).seconds() < config_.make_room_s) return false;
+  say(Severity::kInfo, "goes aside to make room", no_way_);
+  made_room_ = now_;
+  PlanningRequest request;
+  request.question = MakeRoomRequest{};
+  requestPlan(input, std::move(request));
+  return true;
 }
 
 void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&) {
@@ -251,7 +282,12 @@ void Executor::receive(const PlanningAnswer& answer, Time now) {
     explored_area_m2_ = answer.exploration->explored_area_m2;
   }
   if (answer.intent_id != intent_.id || status_.state != IntentState::kRunning || retreating_) return;
-  if (answer.path) receivePath(*answer.path);
+  if (answer.path && answer.makes_room) {
+    making_room_ = answer.path->has_value();
+    if (making_room_) offer(**answer.path);
+  } else if (answer.path) {
+    receivePath(*answer.path);
+  }
   if (answer.exploration) receiveExploration(*answer.exploration);
 }
 

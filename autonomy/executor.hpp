@@ -34,8 +34,9 @@ struct ExecutorConfig {
   double arrival_s = 0.25;           ///< and within the tolerance for this long.
   double viewpoint_tolerance_m = 0.15;
   double viewpoint_tolerance_deg = 12.0;
-  double give_up_s = 20.0;      ///< No way to the goal for this long: the intent fails.
-  double retreat_path_m = 0.5;  ///< How far ahead a retreat is commanded.
+  double give_up_s = 60.0;   ///< No way to the goal for this long: the intent fails.
+  double make_room_s = 4.0;  ///< No way for this long: it goes aside, so that who stands in the way can pass.
+  double retreat_deceleration_m_s2 = 1.0;  ///< How hard a retreat may brake: it ends within reach.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -91,6 +92,7 @@ class Executor {
   void receivePath(const tl::expected<planning::Path, planning::PlanFailure>& path);
   void receiveExploration(const planning::ExplorationResult& result);
   bool keepPlan(const ExecutorInput& input);
+  bool makesRoom(const ExecutorInput& input);
   void offer(const planning::Path& path);
   void fly();
   bool arrived(const ExecutorInput& input, const Eigen::Vector2d& goal_map_m, double tolerance_m);
@@ -125,6 +127,8 @@ class Executor {
   std::optional<common::Time> within_since_;
   std::optional<common::Time> no_way_since_;
   std::string no_way_;
+  std::optional<common::Time> made_room_;  ///< When it last went aside.
+  bool making_room_ = false;
   bool retreating_ = false;
   std::vector<common::Event> events_;
 };

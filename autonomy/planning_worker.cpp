@@ -1,5 +1,9 @@
 #include "autonomy/planning_worker.hpp"
 
+#include <algorithm>
+
+#include "planning/wavefront.hpp"
+
 namespace swiftlet::autonomy {
 
 PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
@@ -13,6 +17,9 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   answer.cost_map = std::make_shared<const planning::CostMap>(map_);
   if (const auto* goal = std::get_if<GoalRequest>(&request.question)) {
     answer.path = planner_.plan(map_, request.T_map_body.position_m(), goal->goal_map_m);
+  } else if (std::holds_alternative<MakeRoomRequest>(request.question)) {
+    answer.path = makeRoom(request.T_map_body.position_m());
+    answer.makes_room = true;
   } else if (const auto* explore_request = std::get_if<ExploreRequest>(&request.question)) {
     planning::ExplorationInput input;
     input.cost_map = answer.cost_map;
@@ -22,6 +29,28 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
     answer.exploration = planning::explore(input, exploration_);
   }
   return answer;
+}
+
+/// The cheapest-to-reach field decides what is near; of what is within reach the widest and farthest place wins.
+tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::makeRoom(const Eigen::Vector2d& position_map_m) {
+  constexpr double kReach_m = 6.0, kPerMetreOfWidth = 3.0;
+  const common::CellIndex here = map_.cellAt(position_map_m);
+  if (map_.costAt(here) == planning::CostMap::kLethal)
+    return tl::unexpected(planning::PlanFailure{planning::PlanFailure::Reason::kStartBlocked, "no room to move", {}});
+  planning::CostField field;
+  field.spread(map_, here);
+  int best = map_.indexOf(here);
+  double best_score = 0.0;
+  for (int i = 0; i < static_cast<int>(map_.size()); ++i) {
+    if (!field.reached(i)) continue;
+    const double away_m = std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
+    const double score = away_m + kPerMetreOfWidth * map_.obstacleDistance_m(map_.cellOf(i));
+    if (score > best_score) {
+      best_score = score;
+      best = i;
+    }
+  }
+  return planner_.plan(map_, position_map_m, map_.centerOf(map_.cellOf(best)));
 }
 
 }  // namespace swiftlet::autonomy

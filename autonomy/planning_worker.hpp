@@ -25,6 +25,8 @@ struct ExploreRequest {
   std::optional<planning::Viewpoint> current;
   std::vector<planning::ExplorationAttempt> attempts;
 };
+/// Where to wait when somebody stands in the only way: far along free ground and wide, so that others can come past.
+struct MakeRoomRequest {};
 
 struct PlanningRequest {
   std::uint64_t intent_id = 0;
@@ -33,13 +35,15 @@ struct PlanningRequest {
   std::vector<planning::Disc> discs;
   planning::Footprint footprint;
   common::Pose2 T_map_body;
-  std::variant<std::monostate, GoalRequest, ExploreRequest> question;  ///< Nothing: only the cost map is wanted.
+  std::variant<std::monostate, GoalRequest, MakeRoomRequest, ExploreRequest>
+      question;  ///< Nothing: only the cost map is wanted.
 };
 
 struct PlanningAnswer {
   std::uint64_t intent_id = 0;
   std::shared_ptr<const planning::CostMap> cost_map;
-  std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;  ///< For a GoalRequest.
+  std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;  ///< For a goal or for room.
+  bool makes_room = false;                                                  ///< `path` answers a MakeRoomRequest.
   std::optional<planning::ExplorationResult> exploration;                   ///< For an ExploreRequest.
 };
 
@@ -53,6 +57,8 @@ class PlanningWorker {
   PlanningAnswer answer(const PlanningRequest& request);
 
  private:
+  tl::expected<planning::Path, planning::PlanFailure> makeRoom(const Eigen::Vector2d& position_map_m);
+
   planning::ExplorationConfig exploration_;
   planning::CostMap map_;
   planning::DStarLite planner_;

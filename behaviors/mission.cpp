@@ -21,13 +21,12 @@ struct Mission::Impl {
   void answerCommands(Context& context);
   std::string refusal(const Context& context, const common::OperatorCommand& command) const;
   TickResult resultOf(const Context& context, Status status);
-  bool holds(const Context& context) const;
+  static bool holds(const Context& context);
 
   tree::Tree tree;
   Narrator narrator;
   std::uint64_t last_intent_id = 0;
   std::optional<common::OperatorCommand> pending_command;
-  std::vector<int> hold_nodes;
   bool accepts_goals = false;
   TickResult result;
 };
@@ -44,9 +43,7 @@ tree::Tree sound(tree::ParseResult parsed) {
 
 Mission::Mission(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {
   for (const tree::NodeRecord& record : impl_->tree.nodes()) {
-    if (record.manifest == nullptr) continue;
-    if (record.manifest->id == "OperatorCommand") impl_->accepts_goals = true;
-    if (record.manifest->id == "Hold") impl_->hold_nodes.push_back(record.node->id());
+    if (record.manifest != nullptr && record.manifest->id == "OperatorCommand") impl_->accepts_goals = true;
   }
 }
 
@@ -145,11 +142,8 @@ TickResult Mission::Impl::resultOf(const Context& context, Status status) {
   return running;
 }
 
-bool Mission::Impl::holds(const Context& context) const {
-  if (!context.hold) return false;
-  for (const int id : hold_nodes)
-    if (tree.nodes()[static_cast<std::size_t>(id)].node->status() == Status::kRunning) return true;
-  return false;
+bool Mission::Impl::holds(const Context& context) {
+  return context.hold && context.intent && std::holds_alternative<common::HoldIntent>(context.intent->kind);
 }
 
 }  // namespace swiftlet::behaviors

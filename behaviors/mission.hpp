@@ -22,7 +22,8 @@ struct MissionLimits {
 };
 
 struct TickResult {
-  /// kRunning, kHeld (the hold has the vehicle), kDone or kFailed. After kDone and kFailed a tick does nothing.
+  /// kRunning, kHeld (Context::hold, and the mission wishes nothing but to hold: from the first tick in which it stops
+  /// for it), kDone or kFailed. After kDone and kFailed a tick does nothing.
   common::MissionState state = common::MissionState::kReady;
   std::string phase;   ///< The wish in words: "go to (3.00, -1.50)".
   std::string reason;  ///< Why it failed or holds.

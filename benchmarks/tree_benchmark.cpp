@@ -37,7 +37,7 @@ std::string fileOf(const std::string& inside) {
 const char* const kTwenty = R"(<Sequence>
   <Fallback><AlwaysFailure/><Inverter><AlwaysFailure/></Inverter></Fallback>
   <ReactiveSequence><AlwaysSuccess/><AlwaysSuccess/><ForceSuccess><AlwaysFailure/></ForceSuccess></ReactiveSequence>
-  <Parallel><AlwaysSuccess/><AlwaysSuccess/><AlwaysSuccess/></Parallel>
+  <Parallel><AlwaysSuccess/><AlwaysSuccess/><AlwaysSuccess/><AlwaysSuccess/></Parallel>
   <Timeout msec="1000"><Sequence><AlwaysSuccess/><AlwaysSuccess/><AlwaysSuccess/></Sequence></Timeout>
 </Sequence>)";
 

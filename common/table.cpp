@@ -13,30 +13,48 @@ std::size_t widthOf(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-void append(std::string& line, const std::string& text, std::size_t column, std::size_t width) {
-  const std::string padding(width - widthOf(text), ' ');
-  if (column > 0) line += "  ";
-  line += column == 0 ? text + padding : padding + text;
+struct Column {
+  std::size_t width = 0;
+  bool right = false;
+};
+
+std::string joined(const std::vector<Column>& columns, const std::vector<std::string>& texts) {
+  std::string line;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string padding(columns[i].width - widthOf(texts[i]), ' ');
+    if (i > 0) line += "  ";
+    line += columns[i].right ? padding + texts[i] : texts[i] + padding;
+  }
+  return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
 }  // namespace
 
+bool isNumeric(const Table& table, std::size_t column) {
+  return std::all_of(table.rows.begin(), table.rows.end(), [&](const std::vector<TableCell>& row) {
+    const std::string& text = row[column].text;
+    return text.empty() || text[0] == '-' || (text[0] >= '0' && text[0] <= '9');
+  });
+}
+
 std::string toText(const Table& table) {
-  std::vector<std::size_t> widths;
-  for (const std::string& column : table.columns) widths.push_back(widthOf(column));
-  for (const auto& row : table.rows) {
-    SWIFTLET_CHECK(row.size() == widths.size(), row.size(), widths.size());
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], widthOf(row[i].text));
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    columns.push_back({widthOf(table.columns[i]), isNumeric(table, i)});
+    for (const auto& row : table.rows) {
+      SWIFTLET_CHECK(row.size() == table.columns.size(), row.size(), table.columns.size());
+      columns.back().width = std::max(columns.back().width, widthOf(row[i].text));
+    }
   }
 
+  std::size_t total = 0;
+  for (const Column& column : columns) total += column.width + (total > 0 ? 2 : 0);
   std::string text = table.title.empty() ? "" : table.title + "\n";
-  std::string head;
-  for (std::size_t i = 0; i < widths.size(); ++i) append(head, table.columns[i], i, widths[i]);
-  text += head + "\n" + std::string(widthOf(head), '-') + "\n";
+  text += joined(columns, table.columns) + std::string(total, '-') + "\n";
   for (const auto& row : table.rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) append(line, row[i].text, i, widths[i]);
-    text += line + "\n";
+    std::vector<std::string> texts;
+    for (const TableCell& cell : row) texts.push_back(cell.text);
+    text += joined(columns, texts);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // A table of figures for people: one value that prints as text in a terminal and as rows in a report.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct Table {
   std::vector<std::vector<TableCell>> rows;  ///< Each as long as `columns`.
 };
 
-/// Columns aligned by spaces, the first one to the left and the others to the right; marks and links are left out.
+/// Whether every cell of a column that holds anything begins as a number does. Such columns are aligned to the right.
+bool isNumeric(const Table& table, std::size_t column);
+
+/// Columns aligned by spaces; marks and links are left out.
 std::string toText(const Table& table);
 
 }  // namespace swiftlet::common

@@ -231,7 +231,8 @@ void Checker::checkRecursion() {
         path.pop_back();
         continue;
       }
-      const auto& [used, use] = *next++;
+      const std::string& used = next->first;
+      const Use& use = (next++)->second;
       if (!uses.contains(used) || marks[used] == Mark::kDone) continue;
       if (marks[used] == Mark::kNew) {
         marks[used] = Mark::kOpen;

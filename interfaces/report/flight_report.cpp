@@ -102,18 +102,21 @@ std::string phasesSection(const std::vector<Phase>& phases) {
   for (std::size_t i = 0; i < phases.size(); ++i) {
     const Phase& phase = phases[i];
     const double duration_s = (phase.end - phase.begin).seconds();
-    const char* color = kPhaseColors[i % kPhaseColors.size()];
+    const auto first = std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.name == phase.name; });
+    const char* color = kPhaseColors[static_cast<std::size_t>(first - phases.begin()) % kPhaseColors.size()];
     const std::string name = escape(phase.name);
     bar += fmt::format("<span style=\"flex:{:.3f};background:{}\" title=\"{}, {:.1f} s\"></span>",
                        std::max(duration_s, 1e-3), color, name, duration_s);
     rows += fmt::format(
-        "<tr><td><span class=\"dot\" style=\"background:{}\"></span>{}</td><td>{:.1f} s</td><td>{:.1f} s</td></tr>\n",
+        "<tr><td><span class=\"dot\" style=\"background:{}\"></span>{}</td><td class=\"number\">{:.1f} s</td><td "
+        "class=\"number\">{:.1f} s</td></tr>\n",
         color, name, phase.begin.seconds(), duration_s);
   }
-  return html::section("Phases", bar +
-                                     "</div>\n<div class=\"wide\"><table class=\"figures\"><thead><tr><th>phase</th>"
-                                     "<th>begins</th><th>takes</th></tr></thead>\n<tbody>\n" +
-                                     rows + "</tbody></table></div>");
+  return html::section("Phases",
+                       bar +
+                           "</div>\n<div class=\"wide\"><table><thead><tr><th>phase</th>"
+                           "<th class=\"number\">begins</th><th class=\"number\">takes</th></tr></thead>\n<tbody>\n" +
+                           rows + "</tbody></table></div>");
 }
 
 std::string frontiersSection(const std::vector<common::Frontier>& frontiers) {

@@ -37,10 +37,10 @@ std::size_t characterLength(std::string_view text) {
   return length;
 }
 
-std::string cell(const common::TableCell& cell) {
+std::string cell(const common::TableCell& cell, bool numeric) {
   std::string text = escape(cell.text);
   if (!cell.link.empty()) text = fmt::format("<a href=\"{}\">{}</a>", relativeUrl(cell.link), text);
-  return fmt::format("<td class=\"{}\">{}</td>", classOf(cell.mark), text);
+  return fmt::format("<td class=\"{}{}\">{}</td>", numeric ? "number " : "", classOf(cell.mark), text);
 }
 
 }  // namespace
@@ -108,12 +108,16 @@ std::string facts(const std::vector<std::pair<std::string, std::string>>& facts)
 
 std::string table(const common::Table& table) {
   if (table.rows.empty()) return "<p class=\"empty\">None.</p>";
-  std::string body = "<div class=\"wide\"><table class=\"figures\">\n<thead><tr>";
-  for (const std::string& column : table.columns) body += fmt::format("<th>{}</th>", escape(column));
+  std::vector<bool> numeric;
+  std::string body = "<div class=\"wide\"><table>\n<thead><tr>";
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    numeric.push_back(common::isNumeric(table, i));
+    body += fmt::format("<th class=\"{}\">{}</th>", numeric[i] ? "number" : "", escape(table.columns[i]));
+  }
   body += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     body += "<tr>";
-    for (const common::TableCell& c : row) body += cell(c);
+    for (std::size_t i = 0; i < row.size(); ++i) body += cell(row[i], numeric[i]);
     body += "</tr>\n";
   }
   return body + "</tbody></table></div>";

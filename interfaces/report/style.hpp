@@ -13,7 +13,7 @@ inline constexpr const char* kStyle = R"css(
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--ground); color: var(--ink);
   font: 15px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif; }
-header, main { max-width: 1080px; margin: 0 auto; padding: 0 20px; }
+header, main { max-width: 1200px; margin: 0 auto; padding: 0 20px; }
 header { padding-top: 36px; padding-bottom: 8px; }
 h1 { font-size: 26px; line-height: 1.25; margin: 0 0 6px; letter-spacing: -0.01em; }
 h2 { font-size: 16px; margin: 0 0 14px; }
@@ -31,7 +31,7 @@ table { border-collapse: collapse; width: 100%; font-size: 14px; font-variant-nu
 th { text-align: left; color: var(--quiet); font-weight: 500; font-size: 13px; }
 th, td { padding: 6px 14px 6px 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 tr:last-child td { border-bottom: 0; }
-table.figures th:not(:first-child), table.figures td:not(:first-child) { text-align: right; white-space: nowrap; }
+th.number, td.number { text-align: right; } td.number { white-space: nowrap; } th { vertical-align: bottom; }
 td.good { color: var(--good); } td.bad { color: var(--bad); font-weight: 600; } td.warn { color: var(--warn); }
 td.quiet { color: var(--quiet); }
 a { color: var(--accent); }
@@ -47,7 +47,7 @@ figure { margin: 0; } figcaption { color: var(--quiet); font-size: 13px; padding
 pre { margin: 12px 0 0; overflow-x: auto; font: 13px/1.45 ui-monospace, "SF Mono", Menlo, Consolas, monospace; }
 summary { cursor: pointer; font-weight: 600; }
 .empty { color: var(--quiet); margin: 0; }
-footer { color: var(--quiet); font-size: 13px; max-width: 1080px; margin: 0 auto; padding: 4px 20px 40px; }
+footer { color: var(--quiet); font-size: 13px; max-width: 1200px; margin: 0 auto; padding: 4px 20px 40px; }
 @media print { body { background: #fff; } section { break-inside: avoid; } }
 )css";
 

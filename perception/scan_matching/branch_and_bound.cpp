@@ -42,6 +42,15 @@ void BranchAndBound::cellsAt(const LikelihoodField& field, std::span<const float
   y_cells.resize(kept);
 }
 
+int BranchAndBound::leastPenalty(const GuessPenalty& penalty, const PoseGrid& grid, int x, int y, int rotation,
+                                 int level) {
+  if (penalty.greatest == 0) return 0;
+  const double middle = 0.5 * (grid.translations - 1), size = (1 << level) - 1;
+  const auto gap = [&](int first) { return std::max({0.0, first - middle, middle - first - size}); };
+  const double dx = gap(x), dy = gap(y);
+  return penalty.at(dx * dx + dy * dy, rotation - 0.5 * (grid.rotations - 1));
+}
+
 const std::vector<std::int32_t>& BranchAndBound::offsetsAt(const LikelihoodField& field, int rotation, int level) {
   Rotation& r = rotations_[static_cast<std::size_t>(rotation)];
   std::vector<std::int32_t>& offsets = r.offsets[static_cast<std::size_t>(level)];
@@ -55,14 +64,16 @@ const std::vector<std::int32_t>& BranchAndBound::offsetsAt(const LikelihoodField
 }
 
 BestPose BranchAndBound::search(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m,
-                                const PoseGrid& grid) {
+                                const PoseGrid& grid, const GuessPenalty& penalty) {
   excluded_ = nullptr;
+  penalty_ = penalty;
   return searchFrom(field, points_m, grid, BestPose{});
 }
 
 BestPose BranchAndBound::searchElsewhere(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m,
                                          const PoseGrid& grid, const ExcludedPoses& excluded, int floor) {
   excluded_ = &excluded;
+  penalty_ = {};
   BestPose least;
   least.score = floor;
   const BestPose best = searchFrom(field, points_m, grid, least);
@@ -103,7 +114,8 @@ BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Ei
       sumWindows(instructions_, level.cells + x0, level.stride, offsets, blocks, sums.data());
       for (int y = 0; y < blocks; ++y)
         for (int x = x0; x < std::min(blocks, x0 + kWindowColumns); ++x)
-          nodes_.push_back({sums[static_cast<std::size_t>(y * kWindowColumns + x - x0)],
+          nodes_.push_back({sums[static_cast<std::size_t>(y * kWindowColumns + x - x0)] -
+                                leastPenalty(penalty_, grid, x << top, y << top, k, top),
                             static_cast<std::int32_t>(nodes_.size()), static_cast<std::int16_t>(k),
                             static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)});
     }
@@ -112,12 +124,12 @@ BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Ei
   const auto better = [](const Node& a, const Node& b) {
     return a.bound != b.bound ? a.bound > b.bound : a.order < b.order;
   };
-  descend(field, *std::min_element(nodes_.begin(), nodes_.end(), better), top, grid.translations, best);
+  descend(field, *std::min_element(nodes_.begin(), nodes_.end(), better), top, grid, best);
   std::erase_if(nodes_, [&](const Node& node) { return node.bound <= best.score; });
   std::sort(nodes_.begin(), nodes_.end(), better);
   for (const Node& node : nodes_) {
     if (node.bound <= best.score) break;
-    descend(field, node, top, grid.translations, best);
+    descend(field, node, top, grid, best);
   }
   return best;
 }
@@ -131,7 +143,7 @@ bool BranchAndBound::isExcluded(const Node& node, int level) const {
          y + last <= excluded_->center.y + half;
 }
 
-void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int level, int translations,
+void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int level, const PoseGrid& grid,
                              BestPose& best) {
   if (node.bound <= best.score || (excluded_ != nullptr && isExcluded(node, level))) return;
   if (level == 0) {
@@ -147,14 +159,16 @@ void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int
   for (int i = 0; i < 4; ++i) {
     const int dx = i % 2, dy = i / 2;
     Node& child = children[static_cast<std::size_t>(i)];
-    child = {sums[static_cast<std::size_t>(dy * kWindowColumns + dx)], i, node.rotation,
-             static_cast<std::int16_t>(2 * node.x + dx), static_cast<std::int16_t>(2 * node.y + dy)};
+    const int x = 2 * node.x + dx, y = 2 * node.y + dy;
+    child = {sums[static_cast<std::size_t>(dy * kWindowColumns + dx)] -
+                 leastPenalty(penalty_, grid, x << (level - 1), y << (level - 1), node.rotation, level - 1),
+             i, node.rotation, static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
     // Blocks wholly outside the window.
-    if (child.x << (level - 1) >= translations || child.y << (level - 1) >= translations) child.bound = -1;
+    if (x << (level - 1) >= grid.translations || y << (level - 1) >= grid.translations) child.bound = -1;
   }
   std::sort(children.begin(), children.end(),
             [](const Node& a, const Node& b) { return a.bound != b.bound ? a.bound > b.bound : a.order < b.order; });
-  for (const Node& child : children) descend(field, child, level - 1, translations, best);
+  for (const Node& child : children) descend(field, child, level - 1, grid, best);
 }
 
 }  // namespace swiftlet::perception

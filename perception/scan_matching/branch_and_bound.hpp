@@ -23,8 +23,23 @@ struct PoseGrid {
   int translations = 0;
 };
 
+/// What a pose loses for its distance from the middle of the grid, the guess: the prior of the motion. It saturates, so
+/// that a wrong guess does not outvote the scene.
+struct GuessPenalty {
+  int greatest = 0;                ///< In units of the score.
+  double half_translations = 1.0;  ///< Half of it is lost at so many steps,
+  double half_rotations = 1.0;     ///< or at so many of rotation.
+
+  int at(double translations2, double rotations) const {
+    if (greatest == 0) return 0;
+    const double r2 = translations2 / (half_translations * half_translations) +
+                      rotations * rotations / (half_rotations * half_rotations);
+    return static_cast<int>(greatest * (r2 / (1.0 + r2)));
+  }
+};
+
 struct BestPose {
-  int score = -1;  ///< -1: nothing was searched.
+  int score = -1;  ///< The sum less the penalty; -1: nothing was searched.
   int x = 0;
   int y = 0;
   int rotation = 0;
@@ -44,7 +59,8 @@ class BranchAndBound {
 
   /// The highest score of the grid, exactly; of equal ones any, but always the same. At most kMaxWindowPoints points,
   /// in the level frame of the scan.
-  BestPose search(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid);
+  BestPose search(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
+                  const GuessPenalty& penalty = {});
   /// The same among the poses that are not excluded, if one scores more than `floor`; else the score is `floor`.
   BestPose searchElsewhere(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
                            const ExcludedPoses& excluded, int floor);
@@ -54,6 +70,9 @@ class BranchAndBound {
   static void cellsAt(const LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m,
                       double yaw_rad, double shift_x_m, double shift_y_m, int border,
                       std::vector<std::int32_t>& x_cells, std::vector<std::int32_t>& y_cells);
+
+  /// The least penalty in a block of 2^level translations a side.
+  static int leastPenalty(const GuessPenalty& penalty, const PoseGrid& grid, int x, int y, int rotation, int level);
 
  private:
   struct Node {
@@ -74,10 +93,11 @@ class BranchAndBound {
   BestPose searchFrom(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
                       BestPose best);
   bool isExcluded(const Node& node, int level) const;
-  void descend(const LikelihoodField& field, const Node& node, int level, int translations, BestPose& best);
+  void descend(const LikelihoodField& field, const Node& node, int level, const PoseGrid& grid, BestPose& best);
 
   Instructions instructions_;
   const ExcludedPoses* excluded_ = nullptr;  // During a search only.
+  GuessPenalty penalty_;
   std::vector<float> x_m_, y_m_;
   std::vector<Rotation> rotations_;
   std::vector<Node> nodes_;

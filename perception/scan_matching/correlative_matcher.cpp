@@ -36,6 +36,8 @@ bool isFinite(const Pose2& pose) {
 struct SplitPoints {
   std::vector<float> x_m, y_m;
 
+  std::vector<float> heights_m;  ///< Over the body; empty when not known.
+
   explicit SplitPoints(const std::vector<Eigen::Vector2f>& points_m) {
     x_m.reserve(points_m.size());
     y_m.reserve(points_m.size());
@@ -46,11 +48,27 @@ struct SplitPoints {
   }
 };
 
+/// At most `count` points of the scan with their heights.
+SplitPoints spreadWithHeights(const ProjectedScan& scan, int count, double max_range_m) {
+  std::vector<Eigen::Vector2f> points;
+  std::vector<float> heights;
+  for (const int i : spreadIndices(scan.points_level_m, count, max_range_m)) {
+    points.push_back(scan.points_level_m[static_cast<std::size_t>(i)]);
+    if (scan.heights_level_m.size() == scan.points_level_m.size())
+      heights.push_back(scan.heights_level_m[static_cast<std::size_t>(i)]);
+  }
+  SplitPoints result(points);
+  result.heights_m = std::move(heights);
+  return result;
+}
+
 /// What the scores say about the pose, relative to the finest.
 struct SurfaceFit {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad) from the finest pose to the peak.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   std::optional<Eigen::Vector2d> unobservable_direction;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();          ///< Of the surface, per step,
+  Eigen::Matrix3d peak_of_gradient = Eigen::Matrix3d::Zero();  ///< and how the peak (m, m, rad) follows it.
 };
 
 }  // namespace
@@ -65,9 +83,13 @@ void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
   fields("surface_points", surface_points, "Points from which pose and covariance are taken around the best.");
   fields("max_range_m", max_range_m, "Points farther than this are not used.");
   fields("max_gap_m", max_gap_m, "Neighbouring end points nearer than this are joined to a contour.");
+  fields("guess_weight", guess_weight, "A pose far from the guess loses at most this much quality.");
+  fields("guess_distance_m", guess_distance_m, "Half of it is lost at this distance.");
+  fields("guess_rotation_deg", guess_rotation_deg, "Or at this rotation.");
   fields("min_quality", min_quality, "Below this mean score the match failed.");
   fields("min_points", min_points, "With fewer points the match failed.");
   fields("covariance_scale", covariance_scale, "Factor on the covariance of independent points.");
+  fields("attitude_error_deg", attitude_error_deg, "Error of roll and pitch, which the covariance allows for.");
   fields("unobservable_sigma_m", unobservable_sigma_m, "A direction less certain than this is not seen.");
 }
 
@@ -81,9 +103,13 @@ std::vector<std::string> CorrelativeMatcherConfig::validate() const {
       .within("surface_points", surface_points, 10, 4096)
       .within("max_range_m", max_range_m, 0.5, 100)
       .within("max_gap_m", max_gap_m, 0, 10)
+      .within("guess_weight", guess_weight, 0, 1)
+      .within("guess_distance_m", guess_distance_m, 0.001, 100)
+      .within("guess_rotation_deg", guess_rotation_deg, 0.01, 360)
       .within("min_quality", min_quality, 0, 1)
       .within("min_points", min_points, 3, 256)
       .within("covariance_scale", covariance_scale, 0.01, 1000)
+      .within("attitude_error_deg", attitude_error_deg, 0, 20)
       .within("unobservable_sigma_m", unobservable_sigma_m, 0.001, 10)
       .problems();
 }
@@ -108,6 +134,11 @@ struct CorrelativeMatcher::Impl {
             2 * half + 1};
   }
 
+  GuessPenalty penaltyFor(std::size_t points) const {
+    return {static_cast<int>(config.guess_weight * kTopValue * static_cast<double>(points)),
+            config.guess_distance_m / config.resolution_m, config.guess_rotation_deg / config.angular_resolution_deg};
+  }
+
   Pose2 poseAt(const PoseGrid& grid, const BestPose& best) const {
     return {grid.first_x_m + best.x * config.resolution_m, grid.first_y_m + best.y * config.resolution_m,
             common::wrapAngle(grid.first_yaw_rad + best.rotation * grid.step_yaw_rad)};
@@ -118,6 +149,8 @@ struct CorrelativeMatcher::Impl {
   double support(const SplitPoints& points, const Pose2& pose);
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
   SurfaceFit fit(const ScoreSurface& surface, double supported, const Pose2& center, const Pose2& guess) const;
+  Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad,
+                                     const SurfaceFit& surface_fit);
   Eigen::Vector3d weightedMean(const SplitPoints& points, const PoseGrid& grid, const BestPose& best);
   void addWindows(const SplitPoints& points, const Pose2& center, double yaw_rad, int half, int rows,
                   std::vector<std::uint32_t>& sums);
@@ -200,11 +233,14 @@ SurfaceFit CorrelativeMatcher::Impl::fit(const ScoreSurface& surface, double sup
     if (seen) {
       const double along = axis.dot(q.gradient) / curvature;
       peak_steps += axis * std::clamp<double>(along, -ScoreSurface::kHalf, ScoreSurface::kHalf);
+      result.peak_of_gradient += axis * axis.transpose() / curvature;
     } else {
       peak_steps += axis * axis.dot(guess_steps);
     }
   }
   result.offset = peak_steps.cwiseProduct(step);
+  result.gradient = q.gradient;
+  result.peak_of_gradient = step.asDiagonal() * result.peak_of_gradient;
   result.covariance = step.asDiagonal() * covariance_steps * step.asDiagonal();
   result.covariance.diagonal() +=
       Eigen::Vector3d(kFloorSigma_m * kFloorSigma_m, kFloorSigma_m * kFloorSigma_m, kFloorSigma_rad * kFloorSigma_rad);
@@ -213,6 +249,27 @@ SurfaceFit CorrelativeMatcher::Impl::fit(const ScoreSurface& surface, double sup
   if (translation.eigenvalues()(1) > config.unobservable_sigma_m * config.unobservable_sigma_m)
     result.unobservable_direction = translation.eigenvectors().col(1);
   return result;
+}
+
+/// A wrong attitude moves an end point sideways by its height over the body. All points move together, so that more of
+/// them do not help; how far the peak follows is tried out for an error about each axis.
+Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& points, const Pose2& center,
+                                                             double step_rad, const SurfaceFit& surface_fit) {
+  constexpr float kLeastShift_m = 0.0005F;
+  const auto error_rad = static_cast<float>(config.attitude_error_deg * kRadPerDeg);
+  float greatest_m = 0.0F;
+  for (const float height : points.heights_m) greatest_m = std::max(greatest_m, std::abs(height));
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  if (greatest_m * error_rad < kLeastShift_m) return covariance;
+  for (const bool about_x : {true, false}) {
+    SplitPoints moved = points;
+    std::vector<float>& coordinates = about_x ? moved.y_m : moved.x_m;
+    for (std::size_t i = 0; i < coordinates.size(); ++i) coordinates[i] += error_rad * points.heights_m[i];
+    const Eigen::Vector3d gradient = fitQuadratic(surfaceAround(moved, center, step_rad)).gradient;
+    const Eigen::Vector3d shift = surface_fit.peak_of_gradient * (gradient - surface_fit.gradient);
+    covariance += shift * shift.transpose();
+  }
+  return covariance;
 }
 
 /// The best pose of a coarser level is that of the mean scores of its blocks, blocks lying on the grid of the search: a
@@ -266,7 +323,8 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   result.finest_score = best.score;
   result.finest_T_reference_body = poseAt(grid, best);
   result.T_reference_body = result.finest_T_reference_body;
-  result.quality = best.score / (kTopValue * static_cast<double>(points.size()));
+  const int penalty = BranchAndBound::leastPenalty(penaltyFor(points.size()), grid, best.x, best.y, best.rotation, 0);
+  result.quality = (best.score + penalty) / (kTopValue * static_cast<double>(points.size()));
   const auto atEdge = [](int i, int size) { return size > 1 && (i == 0 || i == size - 1); };
   result.at_window_edge =
       atEdge(best.x, grid.translations) || atEdge(best.y, grid.translations) || atEdge(best.rotation, grid.rotations);
@@ -275,14 +333,15 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   double lever2 = 0.0;
   for (const Eigen::Vector2f& p : points) lever2 += p.squaredNorm();
   const double lever_m = std::sqrt(lever2 / static_cast<double>(points.size()));
-  const SplitPoints surface_points(spreadPoints(scan.points_level_m, config.surface_points, config.max_range_m));
+  const SplitPoints surface_points = spreadWithHeights(scan, config.surface_points, config.max_range_m);
   field.prepare(0, 2 * kWindowColumns + 2 * ScoreSurface::kSize);
   const double supported = support(surface_points, result.finest_T_reference_body);
   result.overlap = supported / static_cast<double>(surface_points.x_m.size());
-  const ScoreSurface surface = surfaceAround(surface_points, result.finest_T_reference_body,
-                                             config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m));
+  const double step_rad = config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
+  const ScoreSurface surface = surfaceAround(surface_points, result.finest_T_reference_body, step_rad);
   const SurfaceFit surface_fit = fit(surface, supported, result.finest_T_reference_body, guess);
-  result.covariance = surface_fit.covariance;
+  result.covariance = surface_fit.covariance +
+                      attitudeCovariance(surface_points, result.finest_T_reference_body, step_rad, surface_fit);
   result.unobservable_direction = surface_fit.unobservable_direction;
 
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
@@ -322,7 +381,7 @@ MatchResult CorrelativeMatcher::match(const ProjectedScan& scan, const Pose2& gu
       spreadPoints(scan.points_level_m, impl_->config.search_points, impl_->config.max_range_m);
   if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
   const PoseGrid grid = impl_->gridAround(guess, window);
-  const BestPose best = impl_->search.search(impl_->field, points, grid);
+  const BestPose best = impl_->search.search(impl_->field, points, grid, impl_->penaltyFor(points.size()));
   return impl_->evaluate(scan, points, guess, grid, best);
 }
 
@@ -346,7 +405,7 @@ MatchResult CorrelativeMatcher::matchExhaustively(const ProjectedScan& scan, con
                      static_cast<float>(grid.first_y_m * scale - impl_->field.beginY()), x_cells, y_cells);
     for (int y = 0; y < grid.translations; ++y) {
       for (int x = 0; x < grid.translations; ++x) {
-        int score = 0;
+        int score = -BranchAndBound::leastPenalty(impl_->penaltyFor(points.size()), grid, x, y, k, 0);
         for (std::size_t i = 0; i < points.size(); ++i) score += impl_->field.at(x_cells[i] + x, y_cells[i] + y);
         if (score > best.score) best = {score, x, y, k};
       }

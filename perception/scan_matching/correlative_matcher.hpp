@@ -32,9 +32,13 @@ struct CorrelativeMatcherConfig {
   int surface_points = 512;  ///< Points from which pose and covariance are taken around the best.
   double max_range_m = 20.0;  ///< Points farther than this are not used; bounds the memory of the field.
   double max_gap_m = 0.3;     ///< Neighbouring end points of the reference nearer than this are joined to a contour.
-  double min_quality = 0.35;  ///< Below this the match failed.
-  int min_points = 30;        ///< With fewer points the match failed.
-  double covariance_scale = 2.0;  ///< On the covariance of independent points; calibrated, see the test of honesty.
+  double guess_weight = 0.1;  ///< A pose far from the guess loses at most this much quality: the motion's prior.
+  double guess_distance_m = 0.08;   ///< Half of it at this distance,
+  double guess_rotation_deg = 3.0;  ///< or this rotation.
+  double min_quality = 0.35;        ///< Below this the match failed.
+  int min_points = 30;              ///< With fewer points the match failed.
+  double covariance_scale = 1.5;    ///< On the covariance of independent points; calibrated, see the test of honesty.
+  double attitude_error_deg = 1.0;  ///< Of roll and pitch: moves each end point by its height over the body times this.
   double unobservable_sigma_m =
       0.1;  ///< A direction less certain than this is not seen: the pose keeps the guess there.
 

@@ -27,6 +27,8 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields("min_overlap", min_overlap, "A scan with a smaller share of supported points joins the local map.");
   fields("max_reference_distance_m", max_reference_distance_m, "A scan this far from the reference joins too.");
   fields("max_reference_rotation_deg", max_reference_rotation_deg, "Or turned this much.");
+  fields("level_tilt_deg", level_tilt_deg, "A scan tilted more than this is joined only when it must be.");
+  fields("tilted_overlap_margin", tilted_overlap_margin, "So much less overlap makes it join all the same.");
   fields("local_map_scans", local_map_scans, "Key scans kept in the local map.");
   fields("max_failures", max_failures, "After so many scans without a match it starts anew.");
 }
@@ -42,6 +44,8 @@ std::vector<std::string> LaserOdometryConfig::validate() const {
       .within("min_overlap", min_overlap, 0, 1)
       .within("max_reference_distance_m", max_reference_distance_m, 0.05, 100)
       .within("max_reference_rotation_deg", max_reference_rotation_deg, 1, 360)
+      .within("level_tilt_deg", level_tilt_deg, 0, 90)
+      .within("tilted_overlap_margin", tilted_overlap_margin, 0, 1)
       .within("local_map_scans", local_map_scans, 1, 100)
       .within("max_failures", max_failures, 1, 100'000)
       .problems();
@@ -52,13 +56,16 @@ struct LaserOdometry::Impl {
     common::Time stamp;
     ProjectedScan scan;
     Pose2 T_local_body;
+    Eigen::Matrix3d covariance_local;  ///< Of that pose against the map drawn before; zero for the first.
   };
 
   explicit Impl(const LaserOdometryConfig& config_in) : config(config_in), matcher(config_in.matcher) {}
 
   std::optional<RelativePose> start(const ProjectedScan& scan);
   MatchResult matchWidening(const ProjectedScan& scan, const Pose2& guess);
-  void addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body);
+  void addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body, const Eigen::Matrix3d& covariance_local);
+  RelativePose relativeTo(const KeyScan& reference, const ProjectedScan& scan, const MatchResult& match) const;
+  bool shouldJoin(const RelativePose& relative, const ProjectedScan& scan, const MatchResult& match) const;
   void drawLocalMap();
 
   LaserOdometryConfig config;
@@ -76,9 +83,10 @@ void LaserOdometry::Impl::drawLocalMap() {
   for (const KeyScan& key : key_scans) matcher.addReference(key.scan, key.T_local_body);
 }
 
-void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body) {
+void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body,
+                                     const Eigen::Matrix3d& covariance_local) {
   ++counts.references;
-  key_scans.push_back({scan.stamp, scan, T_local_body});
+  key_scans.push_back({scan.stamp, scan, T_local_body, covariance_local});
   if (static_cast<int>(key_scans.size()) <= config.local_map_scans) {
     matcher.addReference(scan, T_local_body);
     return;
@@ -93,7 +101,7 @@ std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan
   if (static_cast<int>(scan.points_level_m.size()) < config.matcher.min_points) return std::nullopt;
   key_scans.clear();
   matcher.clearReference();
-  addKeyScan(scan, Pose2{});
+  addKeyScan(scan, Pose2{}, Eigen::Matrix3d::Zero());
   last_match = scan.stamp;
   last_T_odom_body = common::planar(scan.T_odom_body);
   last_T_local_body = Pose2{};
@@ -123,6 +131,37 @@ MatchResult LaserOdometry::Impl::matchWidening(const ProjectedScan& scan, const 
     result = matcher.match(scan, guess, window);
   }
   return result;
+}
+
+/// Both scans stand in the local map with their own errors; that of the reference's heading swings the way between.
+RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const ProjectedScan& scan,
+                                             const MatchResult& match) const {
+  RelativePose relative;
+  relative.from = reference.stamp;
+  relative.to = scan.stamp;
+  relative.T_from_to = reference.T_local_body.inverse() * match.T_reference_body;
+  relative.quality = match.quality;
+  const Eigen::Matrix2d to_reference = Eigen::Rotation2Dd(-reference.T_local_body.yaw_rad).toRotationMatrix();
+  Eigen::Matrix3d swing = Eigen::Matrix3d::Identity();
+  swing(0, 2) = -(match.T_reference_body.y_m - reference.T_local_body.y_m);
+  swing(1, 2) = match.T_reference_body.x_m - reference.T_local_body.x_m;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = to_reference;
+  relative.covariance =
+      rotation * (match.covariance + swing * reference.covariance_local * swing.transpose()) * rotation.transpose();
+  if (match.unobservable_direction) relative.unobservable_direction = to_reference * *match.unobservable_direction;
+  return relative;
+}
+
+/// A tilted scan is drawn with the error of its attitude; as long as the map still holds it, a level one is waited for.
+bool LaserOdometry::Impl::shouldJoin(const RelativePose& relative, const ProjectedScan& scan,
+                                     const MatchResult& match) const {
+  const bool far = relative.T_from_to.position_m().norm() > config.max_reference_distance_m ||
+                   std::abs(relative.T_from_to.yaw_rad) > config.max_reference_rotation_deg * kRadPerDeg;
+  if (!far && match.overlap >= config.min_overlap) return false;
+  const double cos_tilt = (scan.T_odom_body.rotation * Eigen::Vector3d::UnitZ()).z();
+  const bool tilted = cos_tilt < std::cos(config.level_tilt_deg * kRadPerDeg);
+  return !tilted || match.overlap < config.min_overlap - config.tilted_overlap_margin;
 }
 
 LaserOdometry::LaserOdometry(const LaserOdometryConfig& config) : impl_(std::make_unique<Impl>(config)) {}
@@ -163,24 +202,10 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan) {
   self.last_T_odom_body = T_odom_body;
   self.last_T_local_body = match.T_reference_body;
 
-  const Impl::KeyScan& reference = self.key_scans.back();
-  RelativePose relative;
-  relative.from = reference.stamp;
-  relative.to = scan.stamp;
-  relative.T_from_to = reference.T_local_body.inverse() * match.T_reference_body;
-  relative.quality = match.quality;
-  const Eigen::Matrix2d to_reference = Eigen::Rotation2Dd(-reference.T_local_body.yaw_rad).toRotationMatrix();
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() = to_reference;
-  relative.covariance = rotation * match.covariance * rotation.transpose();
-  if (match.unobservable_direction) relative.unobservable_direction = to_reference * *match.unobservable_direction;
-
-  // A match that does not hold all directions would draw its error into the local map for good.
-  const bool far = relative.T_from_to.position_m().norm() > self.config.max_reference_distance_m ||
-                   std::abs(relative.T_from_to.yaw_rad) > self.config.max_reference_rotation_deg * kRadPerDeg;
-  if (far || match.overlap < self.config.min_overlap) {
+  RelativePose relative = self.relativeTo(self.key_scans.back(), scan, match);
+  if (self.shouldJoin(relative, scan, match)) {
     relative.reference_changed = true;
-    self.addKeyScan(scan, match.T_reference_body);
+    self.addKeyScan(scan, match.T_reference_body, match.covariance);
   }
   return relative;
 }

@@ -42,8 +42,10 @@ struct LaserOdometryConfig {
   double min_overlap = 0.75;                 ///< A scan with a smaller share of supported points joins the local map.
   double max_reference_distance_m = 2.0;     ///< So does one farther than this from the reference,
   double max_reference_rotation_deg = 60.0;  ///< or turned more than this against it.
-  int local_map_scans = 8;                   ///< Key scans kept in the local map.
-  int max_failures = 20;  ///< After so many scans without a match it starts anew from the present one.
+  double level_tilt_deg = 2.0;  ///< A scan tilted more than this is drawn with the error of its attitude; it waits
+  double tilted_overlap_margin = 0.15;  ///< until the overlap is smaller by this.
+  int local_map_scans = 8;              ///< Key scans kept in the local map.
+  int max_failures = 20;                ///< After so many scans without a match it starts anew from the present one.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

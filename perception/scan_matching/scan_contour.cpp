@@ -50,22 +50,42 @@ std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m,
   return segments;
 }
 
-std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m) {
-  std::vector<Eigen::Vector2f> points = usable(points_m, max_range_m);
-  if (points.size() <= static_cast<std::size_t>(count)) return points;
-
+std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m) {
+  const auto max2 = static_cast<float>(max_range_m * max_range_m);
+  std::vector<int> usable_points;
+  std::vector<float> step;  // From the usable point before.
+  usable_points.reserve(points_m.size());
+  step.reserve(points_m.size());
   float length = 0.0F;
-  for (std::size_t i = 1; i < points.size(); ++i) length += std::min((points[i] - points[i - 1]).norm(), kLeap_m);
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    if (!(points_m[i].squaredNorm() <= max2)) continue;  // True for NaN.
+    const float leap =
+        usable_points.empty()
+            ? 0.0F
+            : std::min((points_m[i] - points_m[static_cast<std::size_t>(usable_points.back())]).norm(), kLeap_m);
+    usable_points.push_back(static_cast<int>(i));
+    step.push_back(leap);
+    length += leap;
+  }
+  if (usable_points.size() <= static_cast<std::size_t>(count)) return usable_points;
+
   const float spacing = length / static_cast<float>(count);
-  std::vector<Eigen::Vector2f> chosen;
+  std::vector<int> chosen;
   chosen.reserve(static_cast<std::size_t>(count));
   float along = 0.5F * spacing;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (i > 0) along += std::min((points[i] - points[i - 1]).norm(), kLeap_m);
+  for (std::size_t i = 0; i < usable_points.size() && chosen.size() < static_cast<std::size_t>(count); ++i) {
+    along += step[i];
     if (along < spacing) continue;
     along = std::fmod(along, spacing);
-    if (chosen.size() < static_cast<std::size_t>(count)) chosen.push_back(points[i]);
+    chosen.push_back(usable_points[i]);
   }
+  return chosen;
+}
+
+std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m) {
+  std::vector<Eigen::Vector2f> chosen;
+  for (const int i : spreadIndices(points_m, count, max_range_m))
+    chosen.push_back(points_m[static_cast<std::size_t>(i)]);
   return chosen;
 }
 

@@ -21,8 +21,9 @@ struct ContourSegment {
 /// `max_range_m` and points that are not finite are left out (Bachrach 2009, section 5.1.1).
 std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m, double max_gap_m, double max_range_m);
 
-/// At most `count` of the points, evenly spread along the contour, so that a near wall, dense with beams, does not
-/// outweigh a far one. Finite points within `max_range_m` only; the order is kept.
+/// Indices of at most `count` of the points, evenly spread along the contour, so that a near wall, dense with beams,
+/// does not outweigh a far one. Finite points within `max_range_m` only; ascending.
+std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m);
 std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m);
 
 }  // namespace swiftlet::perception

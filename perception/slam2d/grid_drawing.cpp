@@ -9,8 +9,9 @@ namespace {
 
 using common::CellIndex;
 
-constexpr std::uint8_t kFree = 1;
-constexpr std::uint8_t kHit = 2;
+/// A mark counts the beams that crossed a cell in its low half, those that ended there in its high half.
+constexpr std::uint32_t kCrossed = 1;
+constexpr std::uint32_t kEnded = 1 << 16;
 
 std::vector<CellIndex> cellsOf(const std::vector<Eigen::Vector2f>& points_level_m, const common::Pose2& T_map_body,
                                const common::OccupancyGrid& grid) {
@@ -19,7 +20,7 @@ std::vector<CellIndex> cellsOf(const std::vector<Eigen::Vector2f>& points_level_
   cells.reserve(points_level_m.size());
   for (const Eigen::Vector2f& p : points_level_m) {
     const CellIndex cell = grid.cellAt(T_map_body.x_m + c * p.x() - s * p.y(), T_map_body.y_m + s * p.x() + c * p.y());
-    if (cells.empty() || !(cells.back() == cell)) cells.push_back(cell);
+    cells.push_back(cell);
   }
   return cells;
 }
@@ -68,10 +69,12 @@ void GridDrawer::draw(const DrawnScan& scan, const common::Pose2& T_map_body, co
   marks_.assign(static_cast<std::size_t>(rect_.width()) * static_cast<std::size_t>(rect_.height()), 0);
   for (const CellIndex& c : frees_) {
     markRay(body, c);
-    markAt(c) = kFree;
+    markAt(c) += kCrossed;
   }
-  for (const CellIndex& c : hits_) markRay(body, c);
-  for (const CellIndex& c : hits_) markAt(c) = kHit;
+  for (const CellIndex& c : hits_) {
+    markRay(body, c);
+    markAt(c) += kEnded;
+  }
   apply(grid);
 }
 
@@ -87,17 +90,21 @@ void GridDrawer::markRay(CellIndex from, CellIndex to) {
   std::int64_t y = static_cast<std::int64_t>(from.y - rect_.begin.y) * kOne + kOne / 2;
   const auto width = static_cast<std::int64_t>(rect_.width());
   for (int i = 0; i < steps; ++i, x += step_x, y += step_y)
-    marks_[static_cast<std::size_t>((y >> 16) * width + (x >> 16))] = kFree;
+    marks_[static_cast<std::size_t>((y >> 16) * width + (x >> 16))] += kCrossed;
 }
 
+/// Where beams end and others pass, most decide: noise that puts some ends before or behind the wall does not thicken
+/// it. But a cell in which any ends is never called free, so that a wall seen at a grazing angle gets no holes.
 void GridDrawer::apply(common::OccupancyGrid& grid) const {
-  const std::uint8_t* mark = marks_.data();
+  const std::uint32_t* mark = marks_.data();
   for (int y = rect_.begin.y; y < rect_.end.y; ++y) {
     for (int x = rect_.begin.x; x < rect_.end.x; ++x, ++mark) {
       if (*mark == 0) continue;
+      const std::uint32_t ended = *mark >> 16, crossed = *mark & 0xFFFF;
+      if (ended > 0 && ended < crossed) continue;
       const common::occupancy::Cell old = grid.at({x, y});
       const int sum =
-          (common::occupancy::isUnknown(old) ? 0 : old) + (*mark == kHit ? config_.hit_steps : -config_.free_steps);
+          (common::occupancy::isUnknown(old) ? 0 : old) + (ended > 0 ? config_.hit_steps : -config_.free_steps);
       const auto value = static_cast<common::occupancy::Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
       // Not writing what does not change leaves the tile shared with the snapshots.
       if (value != old) grid.set({x, y}, value);

@@ -33,14 +33,14 @@ class GridDrawer {
  private:
   void markRay(common::CellIndex from, common::CellIndex to);
   void apply(common::OccupancyGrid& grid) const;
-  std::uint8_t& markAt(common::CellIndex c) {
+  std::uint32_t& markAt(common::CellIndex c) {
     return marks_[static_cast<std::size_t>(c.y - rect_.begin.y) * static_cast<std::size_t>(rect_.width()) +
                   static_cast<std::size_t>(c.x - rect_.begin.x)];
   }
 
   GridDrawingConfig config_;
   common::CellRect rect_;
-  std::vector<std::uint8_t> marks_;
+  std::vector<std::uint32_t> marks_;
   std::vector<common::CellIndex> hits_, frees_;
 };
 

@@ -32,6 +32,13 @@ struct Progress {
   }
 };
 
+/// A tilted scan carries the error of its attitude into the map: a level one is waited for, for half as far again.
+constexpr double kPatience = 1.5;
+
+bool isLevel(const ProjectedScan& scan, double tilt_deg) {
+  return (scan.T_odom_body.rotation * Eigen::Vector3d::UnitZ()).z() >= std::cos(tilt_deg * kRadPerDeg);
+}
+
 }  // namespace
 
 struct Slam2d::Impl {
@@ -198,8 +205,9 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
     update.key_scan = learned = true;
   } else {
     self.follow(T_odom_body, covariance_since_last);
-    if (self.last_match.exceeds(T_odom_body, scan.stamp, self.config.key_distance_m, self.config.key_rotation_deg,
-                                self.config.key_time_s)) {
+    const double patience = isLevel(scan, self.config.level_tilt_deg) ? 1.0 : kPatience;
+    if (self.last_match.exceeds(T_odom_body, scan.stamp, patience * self.config.key_distance_m,
+                                patience * self.config.key_rotation_deg, patience * self.config.key_time_s)) {
       self.last_match = {T_odom_body, scan.stamp};
       learned = self.correct(scan, update);
     }

@@ -74,6 +74,7 @@ struct Slam2dConfig {
   double key_distance_m = 0.4;       ///< A scan is matched to the map after this distance,
   double key_rotation_deg = 25.0;    ///< this rotation,
   double key_time_s = 2.0;           ///< or this time; it becomes a key scan where there is none near.
+  double level_tilt_deg = 2.0;       ///< A scan tilted more than this waits half as long again, for a level one.
   double reuse_distance_m = 0.25;    ///< "Near": a key scan within this distance
   double reuse_rotation_deg = 20.0;  ///< and rotation. So the graph does not grow in known area.
   double draw_distance_m = 0.10;     ///< Between key scans, a scan is drawn after this distance,

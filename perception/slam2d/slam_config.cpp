@@ -75,6 +75,7 @@ void Slam2dConfig::describe(common::config::Fields& fields) {
   fields("key_distance_m", key_distance_m, "A scan is matched to the map after this distance.");
   fields("key_rotation_deg", key_rotation_deg, "Or after this rotation.");
   fields("key_time_s", key_time_s, "Or after this time.");
+  fields("level_tilt_deg", level_tilt_deg, "A scan tilted more than this waits half as long again, for a level one.");
   fields("reuse_distance_m", reuse_distance_m, "No new key scan within this distance of one.");
   fields("reuse_rotation_deg", reuse_rotation_deg, "And within this rotation.");
   fields("draw_distance_m", draw_distance_m, "A scan is drawn after this distance.");
@@ -95,6 +96,7 @@ std::vector<std::string> Slam2dConfig::validate() const {
       .within("key_distance_m", key_distance_m, 0.02, 10)
       .within("key_rotation_deg", key_rotation_deg, 1, 180)
       .within("key_time_s", key_time_s, 0.01, 1e6)
+      .within("level_tilt_deg", level_tilt_deg, 0, 90)
       .within("reuse_distance_m", reuse_distance_m, 0, 10)
       .within("reuse_rotation_deg", reuse_rotation_deg, 0, 180)
       .within("draw_distance_m", draw_distance_m, 0.01, 10)

@@ -89,8 +89,8 @@ Flight exploring() {
 TEST(Hold, TakesOverOnlyWhenTheVehicleHasStopped) {
   Flight flight = exploring();
   flight.holds(true, "the operator holds");
-  EXPECT_EQ(flight.tick(), "RUNNING 3 hold") << "Explore wishes to stop";
-  EXPECT_EQ(flight.runs().tick(), "RUNNING 3 hold") << "not stopped yet";
+  EXPECT_EQ(flight.tick(), "HELD 3 hold") << "Explore wishes to stop";
+  EXPECT_EQ(flight.runs().tick(), "HELD 3 hold") << "not stopped yet";
   EXPECT_EQ(flight.stops().tick(), "HELD 4 hold") << "the Hold's own";
   EXPECT_EQ(flight.last.reason, "the operator holds");
   EXPECT_EQ(flight.view(),
@@ -114,8 +114,8 @@ TEST(Hold, GivenUpBeforeTheVehicleStopped) {
 TEST(Hold, AnswersForAnotherWishDoNotReleaseTheVehicle) {
   Flight flight = exploring();
   flight.stops().holds(true);
-  EXPECT_EQ(flight.tick(), "RUNNING 3 hold") << "released is about Explore's wish, not about the hold";
-  EXPECT_EQ(flight.tick(), "RUNNING 3 hold");
+  EXPECT_EQ(flight.tick(), "HELD 3 hold") << "released is about Explore's wish, not about the hold";
+  EXPECT_EQ(flight.tick(), "HELD 3 hold");
 }
 
 TEST(Hold, DuringTakeOffTheClimbIsResumed) {
@@ -245,7 +245,7 @@ TEST(OperatorCommand, AGoalGivenWhileHeldIsFlownAfterwards) {
 TEST(OperatorCommand, AHoldInterruptsAGoalAndItIsResumed) {
   Flight flight = waiting();
   flight.goal(1.0, 2.0).tick();
-  EXPECT_EQ(flight.runs().holds(true).tick(), "RUNNING 4 hold");
+  EXPECT_EQ(flight.runs().holds(true).tick(), "HELD 4 hold");
   EXPECT_EQ(flight.stops().tick(), "HELD 5 hold");
   EXPECT_EQ(flight.holds(false).tick(), "RUNNING 6 go to (1.00, 2.00)");
 }

@@ -5,7 +5,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "tests/commands/missions.hpp"
 #include "tests/support/program.hpp"
@@ -27,8 +29,11 @@ class BadInput : public test_support::Scratch {
  protected:
   std::string hop() const { return write("hop.xml", missionWith(kHop)); }
 
+  /// `--out` and `--time-limit` have short values unless they are among `more`.
   ProgramEnd fly(std::vector<std::string> more, const ProgramOptions& options = {}) const {
-    std::vector<std::string> arguments = {"fly", "--speed", "max", "--time-limit", "5", "--out", path("run")};
+    std::vector<std::string> arguments = {"fly", "--speed", "max"};
+    for (const auto& [option, value] : {std::pair{"--time-limit", std::string("5")}, {"--out", path("run")}})
+      if (std::find(more.begin(), more.end(), option) == more.end()) arguments.insert(arguments.end(), {option, value});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runSwiftlet(arguments, options);
   }
@@ -177,29 +182,37 @@ TEST_F(BadInput, OutIsSomebodyElsesFolder) {
   EXPECT_EQ(readText(path("thesis/chapter1.tex")), "years of work");
 }
 
-// A disk that fills up in flight: the flight ends, the message says why, and no file is left half written.
-TEST_F(BadInput, FullDisk) {
+class FullDisk : public BadInput, public testing::WithParamInterface<std::size_t> {};
+
+// Whenever the disk fills up: the message says which file, and none is left half written.
+TEST_P(FullDisk, EndsTheFlight) {
   ProgramOptions options;
-  options.largest_file_bytes = 8192;
+  options.largest_file_bytes = GetParam();
   const ProgramEnd end =
       fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--time-limit", "60"}, options);
   EXPECT_EQ(end.exit_code, 2) << describe(end);
-  EXPECT_THAT(end.err, ContainsRegex("run/?.*(trajectory\\.tum|map\\.p|report|mission|events)")) << "which file?";
+  EXPECT_THAT(end.err, ContainsRegex("run/[a-z]+\\.[a-z]+: .*(too large|No space)"));
   for (const auto& entry : fs::directory_iterator(path("run"))) {
-    const std::string name = entry.path().filename().string();
+    const std::string name = entry.path().filename().string(), text = readText(entry.path());
+    SCOPED_TRACE(name);
+    EXPECT_THAT(name, testing::AnyOf("mission.json", "report.html", "events.jsonl", "trajectory.tum", "config.yaml",
+                                     "map.pgm", "map.yaml", "map.png"))
+        << "was left behind";
     if (name == "mission.json") {
-      EXPECT_TRUE(nlohmann::json::accept(readText(entry.path()))) << name << " is half written";
+      EXPECT_TRUE(nlohmann::json::accept(text));
+    } else if (name == "report.html") {
+      EXPECT_THAT(text, HasSubstr("</html>"));
+    } else if (name != "map.pgm" && name != "map.png") {
+      EXPECT_TRUE(text.empty() || text.ends_with("\n"))
+          << "half a line: " << text.substr(text.size() - std::min<std::size_t>(text.size(), 80));
     }
-    if (name == "report.html") {
-      EXPECT_THAT(readText(entry.path()), HasSubstr("</html>"));
-    }
-    EXPECT_TRUE(name == "mission.json" || name == "report.html" || name == "events.jsonl" || name == "trajectory.tum" ||
-                name == "config.yaml" || name.starts_with("map."))
-        << name << " was left behind";
   }
 }
 
-TEST_F(BadInput, FullDiskFromTheBeginning) {
+// The configuration is written first and has about 20 kB; the first report has more than 40.
+INSTANTIATE_TEST_SUITE_P(AtTheStartAndInFlight, FullDisk, testing::Values(8'192, 40'960));
+
+TEST_F(BadInput, OutThatCannotBeMade) {
   const ProgramEnd end =
       fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--out", "/dev/full/run"});
   EXPECT_EQ(end.exit_code, 2) << describe(end);

@@ -37,6 +37,7 @@ TEST(Shipped, EachMissionIsSoundAndFoundFromAnywhere) {
   test_support::ProgramOptions elsewhere;
   elsewhere.working_folder = "/";
   for (const std::string& mission : shipped("missions", ".xml", 2)) {
+    if (mission.starts_with("missions/groot2/")) continue;  // The editor's palette.
     const ProgramEnd end = runSwiftlet({"check", mission}, elsewhere);
     EXPECT_EQ(end.exit_code, 0) << mission << ": " << describe(end);
   }

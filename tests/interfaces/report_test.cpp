@@ -113,6 +113,14 @@ TEST(TrialReport, TablesLinksAndPictures) {
   expectBalanced(page);
 }
 
+TEST(Table, NumbersStandToTheRightAndWordsToTheLeft) {
+  const common::Table table{"T", {"name", "x"}, {{{"é"}, {"-1.50"}}, {{"longer"}, {""}}, {{"z"}, {"12"}}}};
+  EXPECT_TRUE(common::isNumeric(table, 1));
+  EXPECT_FALSE(common::isNumeric(table, 0));
+  EXPECT_EQ(toText(table), "T\nname        x\n-------------\né       -1.50\nlonger\nz          12\n");
+  EXPECT_THAT(html::table(table), HasSubstr("<td class=\"number \">12</td>"));
+}
+
 TEST(Html, EscapesAndMendsText) {
   EXPECT_EQ(html::escape("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
   EXPECT_EQ(html::escape("é \xE2\x82\xAC"), "é \xE2\x82\xAC");

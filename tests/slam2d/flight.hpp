@@ -31,7 +31,8 @@ class SmoothPath {
     std::vector<Eigen::Vector2d> yaws;
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       const Eigen::Vector2d ahead = positions_[std::min(i + 10, positions_.size() - 1)] - positions_[i];
-      if (ahead.norm() > 0.02) yaw += std::clamp(common::wrapAngle(std::atan2(ahead.y(), ahead.x()) - yaw), -0.03, 0.03);
+      if (ahead.norm() > 0.02)
+        yaw += std::clamp(common::wrapAngle(std::atan2(ahead.y(), ahead.x()) - yaw), -0.03, 0.03);
       yaws.emplace_back(yaw, 0.0);
     }
     yaws_ = smoothed(yaws, 15);
@@ -80,7 +81,7 @@ class Flight {
  public:
   struct Step {
     perception::ProjectedScan scan;
-    common::Pose2 T_odom_body;        ///< After the laser's measurement.
+    common::Pose2 T_odom_body;  ///< After the laser's measurement.
     Eigen::Matrix3d covariance_since_last;
     common::Pose2 truth_T_world_body;
     std::optional<perception::RelativePose> relative;
@@ -89,6 +90,10 @@ class Flight {
   Flight(PlanarWorld world, SmoothPath path, common::LaserConfig laser, std::uint64_t seed,
          perception::LaserOdometryConfig odometry = {})
       : world_(std::move(world)), path_(std::move(path)), laser_(laser), seed_(seed), odometry_(odometry) {}
+
+  double attitude_error_rad = 0.0175;
+  double prediction_error_m = 0.003;
+  double prediction_error_rad = 0.0008;
 
   bool done() const { return frame_ / laser_.rate_hz + 0.1 > path_.duration_s(); }
   PlanarWorld& world() { return world_; }
@@ -103,16 +108,17 @@ class Flight {
 
     // The attitude error wanders with a standard deviation of one degree over seconds.
     for (double* angle : {&roll_error_rad_, &pitch_error_rad_})
-      *angle = 0.99 * *angle + random.gaussian(0.0175 * std::sqrt(1.0 - 0.99 * 0.99));
+      *angle = 0.99 * *angle + random.gaussian(attitude_error_rad * std::sqrt(1.0 - 0.99 * 0.99));
     // The prediction since the last scan: true motion plus what an IMU would get wrong.
-    const common::Pose2 noise{random.gaussian(0.003), random.gaussian(0.003), random.gaussian(0.0008)};
+    const common::Pose2 noise{random.gaussian(prediction_error_m), random.gaussian(prediction_error_m),
+                              random.gaussian(prediction_error_rad)};
     const auto predicted = [&](common::Time t) {
       const common::Pose3 truth = path_.at(t);
       const common::Pose2 since = T_world_last_.inverse() * common::planar(truth);
       const common::Pose2 pose = T_odom_last_ * since * noise;
       const common::RollPitchYaw angles = common::rollPitchYaw(truth.rotation);
-      return common::Pose3{common::quaternionFrom({angles.roll_rad + roll_error_rad_, angles.pitch_rad + pitch_error_rad_,
-                                                   pose.yaw_rad}),
+      return common::Pose3{common::quaternionFrom(
+                               {angles.roll_rad + roll_error_rad_, angles.pitch_rad + pitch_error_rad_, pose.yaw_rad}),
                            {pose.x_m, pose.y_m, truth.position_m.z()}};
     };
     if (frame_ == 1) T_world_last_ = start();
@@ -150,10 +156,10 @@ class Flight {
 inline std::vector<Eigen::Vector2d> flatLoop(int loops) {
   std::vector<Eigen::Vector2d> waypoints{{0.0, 0.0}};
   for (int i = 0; i < loops; ++i)
-    for (const Eigen::Vector2d& p : {Eigen::Vector2d(2.3, -1.5), Eigen::Vector2d(2.5, 0.9), Eigen::Vector2d(4.6, 0.9),
-                                     Eigen::Vector2d(5.2, -2.0), Eigen::Vector2d(8.2, -1.6), Eigen::Vector2d(8.2, 2.0),
-                                     Eigen::Vector2d(6.2, 4.2), Eigen::Vector2d(4.6, 0.9), Eigen::Vector2d(2.3, 0.9),
-                                     Eigen::Vector2d(2.5, 4.3), Eigen::Vector2d(-1.0, 4.2), Eigen::Vector2d(-1.0, 0.5)})
+    for (const Eigen::Vector2d& p :
+         {Eigen::Vector2d(2.3, -1.5), Eigen::Vector2d(2.5, 0.9), Eigen::Vector2d(4.6, 0.9), Eigen::Vector2d(5.2, -2.0),
+          Eigen::Vector2d(8.2, -1.6), Eigen::Vector2d(8.2, 2.0), Eigen::Vector2d(6.2, 4.2), Eigen::Vector2d(4.6, 0.9),
+          Eigen::Vector2d(2.3, 0.9), Eigen::Vector2d(2.5, 4.3), Eigen::Vector2d(-1.0, 4.2), Eigen::Vector2d(-1.0, 0.5)})
       waypoints.push_back(p);
   return waypoints;
 }

@@ -1,6 +1,7 @@
 // What the page knows of the world, fed by the link's messages.
 
 const kTileSize = 64;
+const kFarthest_m = 100;
 
 /** The known cells of a tile as a rectangle in cells within the tile, or null. */
 function knownRect(shades) {
@@ -101,8 +102,13 @@ export class MapStore {
       include((x * kTileSize + known.x0) * this.resolution_m, (y * kTileSize + known.y0) * this.resolution_m);
       include((x * kTileSize + known.x1) * this.resolution_m, (y * kTileSize + known.y1) * this.resolution_m);
     }
+    if (box.x0 > box.x1) include(0, 0);
+    // A diverged estimate must not shrink the map to a dot.
+    const { x0, y0, x1, y1 } = box;
+    const near = ({ x_m: x, y_m: y }) =>
+      x !== null && y !== null && x > x0 - kFarthest_m && x < x1 + kFarthest_m && y > y0 - kFarthest_m && y < y1 + kFarthest_m;
     for (const point of [this.state?.pose, this.state?.home, this.state?.goal])
-      if (point && point.x_m !== null && point.y_m !== null) include(point.x_m, point.y_m);
-    return box.x0 <= box.x1 ? box : { x0: -3, y0: -3, x1: 3, y1: 3 };
+      if (point && near(point)) include(point.x_m, point.y_m);
+    return box;
   }
 }

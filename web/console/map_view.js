@@ -1,48 +1,21 @@
-// The map on a canvas: draws the store, moves and zooms by touch, mouse and keys, and reports taps as map coordinates.
+// The map on a canvas: which part of it is shown, and its layers from the tiles up.
+import { readColors } from './map_colors.js';
+import { listenToGestures } from './map_gestures.js';
+import { paintGoal, paintHome, paintScale, paintVehicle } from './map_symbols.js';
 
 const kTileSize = 64;
-const kTapSlack_px = 9;
 /** What lies over the map: the tools at the right, scale and legend at the bottom. */
 const kInsets_px = { left: 20, right: 68, top: 20, bottom: 52 };
-
-/** "#rrggbb" or "rgb(r g b / a%)" of a style property, as the canvas takes it. */
-const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-
-function parseHex(hex) {
-  const value = parseInt(hex.slice(1), 16);
-  return [value >> 16, (value >> 8) & 255, value & 255];
-}
-
-const mix = (a, b, t) => a.map((value, i) => Math.round(value + t * (b[i] - value)));
-
-function readColors() {
-  const color = {};
-  for (const name of ['unknown', 'free', 'wall', 'grid', 'text', 'trail', 'plan', 'goal', 'home', 'vehicle', 'laser', 'level'])
-    color[name] = style(`--map-${name}`);
-  color.card = style('--card');
-  color.frontier = Object.fromEntries(
-    ['open', 'too small', 'unreachable', 'out of bounds', 'blacklisted'].map((reason) => [
-      reason,
-      style(`--frontier-${reason.replaceAll(' ', '-')}`),
-    ]),
-  );
-  const [unknown, free, wall] = [color.unknown, color.free, color.wall].map(parseHex);
-  // Shades 1 (surely) to 4 are free, 5 to 8 (surely) occupied; see web/server/tile_codec.hpp.
-  color.shades = [unknown, ...[1, 0.9, 0.75, 0.6].map((t) => mix(unknown, free, t)),
-    ...[0.6, 0.75, 0.9, 1].map((t) => mix(unknown, wall, t))];
-  return color;
-}
 
 export class MapView {
   /** `onTap({x_m, y_m})`; `onMode("fit" | "follow" | "free")`. */
   constructor(canvas, store, { onTap, onMode }) {
-    Object.assign(this, { canvas, store, onTap, onMode });
+    Object.assign(this, { canvas, store, onMode });
     this.context = canvas.getContext('2d', { alpha: false });
     this.center = { x_m: 0, y_m: 0 };
     this.scale = 60; // CSS pixels a metre.
     this.mode = 'fit';
     this.marker = null; // What the operator asked for: {x_m, y_m, state: "asked" | "refused", since_ms}.
-    this.pointers = new Map();
     this.colors = readColors();
     this.wanted = false;
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
@@ -51,7 +24,7 @@ export class MapView {
       this.draw();
     });
     new ResizeObserver(() => this.draw()).observe(canvas);
-    this.listen();
+    listenToGestures(this, onTap);
     this.draw();
   }
 
@@ -108,60 +81,6 @@ export class MapView {
     this.draw();
   }
 
-  // --- touch, mouse, keys ---------------------------------------------------------------------------------------
-
-  listen() {
-    const { canvas } = this;
-    const at = (event) => {
-      const box = canvas.getBoundingClientRect();
-      return { x: event.clientX - box.left, y: event.clientY - box.top };
-    };
-    canvas.addEventListener('pointerdown', (event) => {
-      if (event.button !== 0) return;
-      canvas.setPointerCapture(event.pointerId);
-      this.pointers.set(event.pointerId, at(event));
-      if (this.pointers.size === 1) this.press = { ...at(event), moved: false };
-      else this.press.moved = true;
-    });
-    canvas.addEventListener('pointermove', (event) => {
-      const last = this.pointers.get(event.pointerId);
-      if (!last) return;
-      const next = at(event);
-      if (Math.hypot(next.x - this.press.x, next.y - this.press.y) > kTapSlack_px) this.press.moved = true;
-      if (this.pointers.size === 2) this.pinch(event.pointerId, last, next);
-      else if (this.press.moved) this.pan(next.x - last.x, next.y - last.y);
-      if (this.press.moved) this.pointers.set(event.pointerId, next);
-    });
-    const release = (event, tap) => {
-      if (!this.pointers.delete(event.pointerId)) return;
-      if (tap && this.pointers.size === 0 && !this.press.moved) this.onTap(this.toMap(this.press.x, this.press.y));
-    };
-    canvas.addEventListener('pointerup', (event) => release(event, true));
-    canvas.addEventListener('pointercancel', (event) => release(event, false));
-    canvas.addEventListener('wheel', (event) => {
-      event.preventDefault();
-      const { x, y } = at(event);
-      this.zoom(Math.exp(-event.deltaY * 0.0015), x, y);
-    }, { passive: false });
-    canvas.addEventListener('keydown', (event) => {
-      const moves = { ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] };
-      if (moves[event.key]) this.pan(...moves[event.key]);
-      else if (event.key === '+' || event.key === '=') this.zoom(1.3);
-      else if (event.key === '-') this.zoom(1 / 1.3);
-      else if (event.key === 'f' || event.key === 'F') this.setMode('fit');
-      else return;
-      event.preventDefault();
-    });
-  }
-
-  pinch(id, last, next) {
-    const [other] = [...this.pointers].filter(([key]) => key !== id).map(([, point]) => point);
-    const before = Math.hypot(last.x - other.x, last.y - other.y);
-    const after = Math.hypot(next.x - other.x, next.y - other.y);
-    this.pan((next.x - last.x) / 2, (next.y - last.y) / 2);
-    if (before > 1) this.zoom(after / before, (next.x + other.x) / 2, (next.y + other.y) / 2);
-  }
-
   // --- drawing --------------------------------------------------------------------------------------------------
 
   frame() {
@@ -206,12 +125,12 @@ export class MapView {
     if (state) {
       if (pose) this.paintLine([...store.trail, [pose.x_m, pose.y_m]], colors.trail, 2.5, []);
       if (pose && state.plan.length > 0) this.paintPlan([[pose.x_m, pose.y_m], ...state.plan]);
-      this.paintHome(state.home);
-      if (state.goal) this.paintGoal(state.goal, colors.goal, false);
+      paintHome(this, state.home);
+      if (state.goal) paintGoal(this, state.goal, colors.goal, false);
     }
     this.paintMarker();
-    if (pose) this.paintVehicle(pose);
-    this.paintScale();
+    if (pose) paintVehicle(this, pose);
+    paintScale(this);
     // Glide to the newest pose, then rest until something changes.
     if (pose && performance.now() - store.stateReceived_ms < 130) this.draw();
   }
@@ -342,35 +261,6 @@ export class MapView {
     this.context.stroke();
   }
 
-  paintHome({ x_m, y_m }) {
-    const { context, colors } = this;
-    const [x, y] = this.toScreen(x_m, y_m);
-    this.paintDisc(x, y, 11, colors.free);
-    this.paintRing(x, y, 11, 2, colors.home);
-    context.beginPath();
-    for (const [dx, dy] of [[-4.8, 4.8], [-4.8, -0.6], [0, -5.6], [4.8, -0.6], [4.8, 4.8]]) context.lineTo(x + dx, y + dy);
-    context.fillStyle = colors.home;
-    context.fill();
-  }
-
-  paintGoal({ x_m, y_m }, color, crossed) {
-    const { context } = this;
-    const [x, y] = this.toScreen(x_m, y_m);
-    context.lineCap = 'round';
-    this.paintRing(x, y, 10, 6, this.colors.free);
-    this.paintRing(x, y, 10, 3, color);
-    const ends = crossed ? [[-5, -5, 5, 5], [-5, 5, 5, -5]]
-      : [[0, -10, 0, -16], [0, 10, 0, 16], [-10, 0, -16, 0], [10, 0, 16, 0]];
-    context.beginPath();
-    for (const [ax, ay, bx, by] of ends) {
-      context.moveTo(x + ax, y + ay);
-      context.lineTo(x + bx, y + by);
-    }
-    Object.assign(context, { strokeStyle: color, lineWidth: 3 });
-    context.stroke();
-    if (!crossed) this.paintDisc(x, y, 3, color);
-  }
-
   paintMarker() {
     if (!this.marker) return;
     const age_s = (performance.now() - this.marker.since_ms) / 1000;
@@ -380,32 +270,13 @@ export class MapView {
         return;
       }
       this.context.globalAlpha = Math.min(1, 4 - age_s);
-      this.paintGoal(this.marker, this.colors.frontier.blacklisted, true);
+      paintGoal(this, this.marker, this.colors.frontier.blacklisted, true);
     } else {
       this.context.globalAlpha = 0.55 + 0.35 * Math.sin(8 * age_s);
-      this.paintGoal(this.marker, this.colors.goal, false);
+      paintGoal(this, this.marker, this.colors.goal, false);
     }
     this.context.globalAlpha = 1;
     this.draw();
-  }
-
-  paintVehicle({ x_m, y_m, yaw_rad }) {
-    const { context, colors } = this;
-    const [x, y] = this.toScreen(x_m, y_m);
-    const radius = Math.max(11, (this.scale * this.store.hullDiameter_m) / 2);
-    context.globalAlpha = 0.28;
-    this.paintDisc(x, y, radius, colors.vehicle);
-    context.globalAlpha = 1;
-    this.paintRing(x, y, radius, Math.min(3, Math.max(1.8, 0.12 * radius)), colors.vehicle);
-    context.save();
-    context.translate(x, y);
-    context.rotate(-yaw_rad);
-    context.beginPath();
-    for (const [ahead, left] of [[0.78, 0], [-0.52, 0.48], [-0.26, 0], [-0.52, -0.48]])
-      context.lineTo(radius * ahead, radius * left);
-    context.fillStyle = colors.vehicle;
-    context.fill();
-    context.restore();
   }
 
   paintText(text, x, y, align) {
@@ -414,23 +285,5 @@ export class MapView {
       fillStyle: colors.text, lineJoin: 'round' });
     context.strokeText(text, x, y);
     context.fillText(text, x, y);
-  }
-
-  paintScale() {
-    const { context, colors } = this;
-    const longest_m = 110 / this.scale;
-    const power = 10 ** Math.floor(Math.log10(longest_m));
-    const length_m = [5, 2, 1].map((f) => f * power).find((value) => value <= longest_m);
-    const x = 16, y = this.height - 16, width = length_m * this.scale;
-    for (const [color, line] of [[colors.unknown, 5], [colors.text, 2]]) {
-      context.beginPath();
-      context.moveTo(x, y - 6);
-      context.lineTo(x, y);
-      context.lineTo(x + width, y);
-      context.lineTo(x + width, y - 6);
-      Object.assign(context, { strokeStyle: color, lineWidth: line, lineJoin: 'miter', lineCap: 'butt' });
-      context.stroke();
-    }
-    this.paintText(`${length_m} m`, x + width / 2, y - 7, 'center');
   }
 }

@@ -1,0 +1,65 @@
+// Bad values and silence from the laser in flight: the vehicle goes on, or comes down safely and says why.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/flight/run_files.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace swiftlet::flight {
+namespace {
+
+using test_support::describe;
+using test_support::ProgramEnd;
+using test_support::readText;
+using test_support::runSwiftlet;
+using testing::HasSubstr;
+
+class LaserFault : public test_support::Scratch {
+ protected:
+  /// Flies the shipped mission with one fault; the only flight of the results.
+  nlohmann::json flyWith(const std::string& fault) {
+    std::ofstream(path("fault.yaml")) << "name: fault\n"
+                                         "mission: missions/explore_and_return.xml\n"
+                                         "time_limit_s: 200\n"
+                                         "scenario:\n"
+                                         "  world: worlds/unb_case1.sdf\n"
+                                         "  faults:\n"
+                                         "    - "
+                                      << fault << "\n";
+    const ProgramEnd end = runSwiftlet({"trial", path("fault.yaml"), "--repeat", "1", "--out", path("out"), "--json"});
+    EXPECT_LE(end.exit_code, 1) << describe(end);
+    return nlohmann::json::parse(readText(path("out/results.json"))).at("trials").at(0).at("flights").at(0);
+  }
+  std::string events() const { return readText(path("out/fault-001/events.jsonl")); }
+};
+
+TEST_F(LaserFault, NotANumberInScansDoesNotStopTheFlight) {
+  const auto flight = flyWith("{sensor: laser, kind: nan, from_s: 10.0, to_s: 10.2}");
+  EXPECT_TRUE(flight.at("passed").get<bool>()) << flight.dump(2);
+}
+
+TEST_F(LaserFault, ShortSilenceHoldsAndGoesOn) {
+  const auto flight = flyWith("{sensor: laser, kind: silent, from_s: 12.0, to_s: 12.6}");
+  EXPECT_EQ(flight.at("collisions"), 0);
+  EXPECT_TRUE(flight.at("mission_done").get<bool>()) << flight.dump(2);
+  EXPECT_THAT(events(), HasSubstr("no scan for 0.3"));
+  EXPECT_THAT(events(), HasSubstr("scans are back"));
+}
+
+TEST_F(LaserFault, LongSilenceHoldsThenLandsAndIsReported) {
+  const auto flight = flyWith("{sensor: laser, kind: silent, from_s: 12.0, to_s: 1000}");
+  EXPECT_FALSE(flight.at("mission_done").get<bool>());
+  EXPECT_EQ(flight.at("collisions"), 0) << flight.dump(2);
+  EXPECT_THAT(events(), HasSubstr("no scan for 0.3"));
+  EXPECT_THAT(events(), HasSubstr("\"land\""));
+  const auto mission = nlohmann::json::parse(readText(path("out/fault-001/mission.json")));
+  EXPECT_EQ(mission.at("outcome"), "failed");
+  EXPECT_THAT(mission.at("reason").get<std::string>(), HasSubstr("landed: no scan for 1."));
+}
+
+}  // namespace
+}  // namespace swiftlet::flight

@@ -1,0 +1,191 @@
+// The rasterizer, the grid layer and scaling against the slow obvious way.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "rendering/canvas.hpp"
+#include "rendering/grid_layer.hpp"
+#include "rendering/map_renderer.hpp"
+#include "rendering/resize.hpp"
+#include "rendering/stroke_font.hpp"
+#include "tests/rendering/example_flight.hpp"
+
+namespace swiftlet::rendering {
+namespace {
+
+using Point = Canvas::Point;
+
+common::Image black(int width_px, int height_px) {
+  return {width_px, height_px, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width_px) * height_px, 0)};
+}
+
+double ink(const common::Image& image) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) sum += image.rgb[i] / 255.0;
+  return sum;
+}
+
+TEST(CanvasTest, CoversTheAreaOfTheShape) {
+  const auto inkOf = [](const auto& draw) {
+    Canvas canvas(black(200, 200));
+    draw(canvas);
+    return ink(canvas.take());
+  };
+  const Color white = rgb(0xffffff);
+  EXPECT_NEAR(inkOf([&](Canvas& c) { c.disc({100.3, 99.8}, 40.0, white); }), M_PI * 1600, 20);
+  EXPECT_NEAR(inkOf([&](Canvas& c) { c.ring({100.3, 99.8}, 40.0, 6.0, white); }), 2 * M_PI * 40 * 6, 20);
+  EXPECT_NEAR(inkOf([&](Canvas& c) {
+                c.line({20, 30}, {170, 150}, 5.0, white);
+              }),
+              std::hypot(150, 120) * 5 + M_PI * 6.25, 20);
+  EXPECT_NEAR(inkOf([&](Canvas& c) { c.fillRect(10.25, 20.5, 60.75, 80.0, white); }), 50.5 * 59.5, 5);
+  const std::vector<Point> triangle{{20, 20}, {180, 40}, {60, 170}};
+  EXPECT_NEAR(inkOf([&](Canvas& c) { c.polygon(triangle, white); }), 0.5 * (160 * 150 - 40 * 20), 60);
+}
+
+TEST(CanvasTest, ATranslucentLineHasNoDarkerJoints) {
+  Canvas canvas(black(100, 100));
+  const std::vector<Point> line{{10, 50}, {50, 50}, {50, 50.1}, {90, 50}};
+  canvas.polyline(line, 8.0, rgb(0xffffff).withAlpha(100));
+  const common::Image image = canvas.take();
+  for (int x = 12; x < 88; ++x) EXPECT_EQ(image.rgb[3 * static_cast<std::size_t>(50 * 100 + x)], 100) << x;
+}
+
+TEST(CanvasTest, WhatIsOutsideOrNotFiniteIsClipped) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), far = 1e300;
+  const bool held = rc::check("nothing is written outside", [&] {
+    const auto coordinate = [&] {
+      return *rc::gen::weightedOneOf<double>(
+          {{6, rc::gen::map(rc::gen::inRange(-500, 500), [](int i) { return i / 3.0; })},
+           {1, rc::gen::element(nan, far, -far, 1e9, -1e9)}});
+    };
+    Canvas canvas(black(*rc::gen::inRange(1, 40), *rc::gen::inRange(1, 40)));
+    const std::vector<Point> points{
+        {coordinate(), coordinate()}, {coordinate(), coordinate()}, {coordinate(), coordinate()}};
+    canvas.polyline(points, 3.0, rgb(0xffffff));
+    canvas.dashedPolyline(points, 3.0, 5.0, 4.0, rgb(0xffffff));
+    canvas.polygon(points, rgb(0xff0000));
+    canvas.discs(points, 4.0, rgb(0x00ff00));
+    canvas.ring(points[0], 6.0, 2.0, rgb(0x00ff00));
+    canvas.fillRect(points[0].x(), points[0].y(), points[1].x(), points[1].y(), rgb(0xffffff));
+    canvas.text("x", points[0], 9.0, rgb(0xffffff), Align::kCenter, rgb(0));
+  });
+  EXPECT_TRUE(held);
+}
+
+TEST(StrokeFontTest, EveryCharacterHasStrokesWithinItsLine) {
+  for (int c = 33; c < 127; ++c) {
+    const std::string text(1, static_cast<char>(c));
+    ASSERT_FALSE(textStrokes(text).empty()) << text;
+    for (const auto& stroke : textStrokes(text))
+      for (const auto& p : stroke) {
+        EXPECT_GE(p.x(), -1e-9) << text;
+        EXPECT_LE(p.x(), textWidth(text) + 1e-9) << text;
+        EXPECT_GE(p.y(), -0.34) << text;
+        EXPECT_LE(p.y(), 1.0 + 1e-9) << text;
+      }
+  }
+  EXPECT_FALSE(textStrokes("\xc3\xa9").empty());
+  EXPECT_DOUBLE_EQ(textWidth(""), 0.0);
+}
+
+/// The mean colour of the cells under a pixel, by many samples.
+Eigen::Vector3d sampled(const common::OccupancyGrid& grid, const Viewport& viewport, int x, int y) {
+  const auto colors = cellColors(themeOf(Scheme::kLight));
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  constexpr int kSamples = 24;
+  for (int i = 0; i < kSamples; ++i)
+    for (int j = 0; j < kSamples; ++j) {
+      const auto cell = grid.cellAt(viewport.toMap({x + (i + 0.5) / kSamples, y + (j + 0.5) / kSamples}));
+      const Color c = colors[static_cast<std::size_t>(grid.at(cell) + 128)];
+      sum += Eigen::Vector3d(c.red, c.green, c.blue);
+    }
+  return sum / (kSamples * kSamples);
+}
+
+TEST(GridLayerTest, APixelIsTheMeanOfTheCellsItCovers) {
+  testing::ExampleFlight flight;
+  const auto world = flight.advance(3.0);
+  // Many cells a pixel, about one, many pixels a cell.
+  for (const double px_per_m : {3.7, 19.0, 61.3}) {
+    const Viewport viewport{{1.234, 0.567}, px_per_m, 90, 70};
+    common::Image image = black(90, 70);
+    drawGrid(*world->grid, viewport, themeOf(Scheme::kLight), {0, 0, 90, 70}, image);
+    for (int y = 0; y < 70; y += 3)
+      for (int x = 0; x < 90; x += 3) {
+        const Eigen::Vector3d wanted = sampled(*world->grid, viewport, x, y);
+        const std::uint8_t* pixel = &image.rgb[3 * static_cast<std::size_t>(y * 90 + x)];
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(pixel[c], wanted[c], 11.0) << px_per_m << " " << x << "," << y;
+      }
+  }
+}
+
+TEST(GridLayerTest, PiecesEqualTheWhole) {
+  testing::ExampleFlight flight;
+  const auto world = flight.advance(2.0);
+  const Viewport viewport{{0.3, 1.1}, 37.0, 120, 90};
+  common::Image whole = black(120, 90), pieces = black(120, 90);
+  drawGrid(*world->grid, viewport, themeOf(Scheme::kDark), {0, 0, 120, 90}, whole);
+  for (int y = 0; y < 90; y += 17)
+    for (int x = 0; x < 120; x += 23)
+      drawGrid(*world->grid, viewport, themeOf(Scheme::kDark), {x, y, std::min(120, x + 23), std::min(90, y + 17)},
+               pieces);
+  EXPECT_EQ(whole.rgb, pieces.rgb);
+}
+
+TEST(ViewportTest, ScreenAndMapAreInverse) {
+  const Viewport viewport{{3.0, -2.0}, 42.0, 640, 480};
+  const Eigen::Vector2d p(1.25, 0.5);
+  EXPECT_TRUE(viewport.toMap(viewport.toPixel(p)).isApprox(p));
+  EXPECT_LT(viewport.toPixel({0, 1}).y(), viewport.toPixel({0, 0}).y());
+}
+
+TEST(ViewportTest, ADivergedEstimateDoesNotEmptyThePicture) {
+  testing::ExampleFlight flight;
+  common::World world = *flight.advance(1.0);
+  const Viewport sound = fitViewport(world, 640, 480);
+  for (const double bad :
+       {1e12, -1e30, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    world.state.T_odom_body.position_m.setConstant(bad);
+    EXPECT_EQ(fitViewport(world, 640, 480), sound);
+    EXPECT_EQ(renderMap(world, {}).width_px, 640);
+  }
+}
+
+TEST(MapRendererTest, AnEmptyMapIsAPictureToo) {
+  common::World world;
+  world.grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+  world.levels = std::make_shared<const common::LevelMap>();
+  world.frontiers = std::make_shared<const std::vector<common::Frontier>>();
+  world.trail_map_m = std::make_shared<const std::vector<Eigen::Vector2d>>();
+  MapView view;
+  view.width_px = 16;
+  view.height_px = 16;
+  EXPECT_EQ(renderMap(world, view).rgb.size(), 768u);
+}
+
+TEST(ResizeTest, EachPixelIsTheMeanOfItsArea) {
+  common::Image image = black(12, 8);
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<std::uint8_t>(i * 37 % 251);
+  const common::Image small = shrinkToWidth(image, 6);
+  ASSERT_EQ(small.width_px, 6);
+  ASSERT_EQ(small.height_px, 4);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 6; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const auto at = [&](int px, int py) { return image.rgb[static_cast<std::size_t>(3 * (py * 12 + px) + c)]; };
+        const int sum = at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1);
+        EXPECT_EQ(small.rgb[static_cast<std::size_t>(3 * (y * 6 + x) + c)], (sum + 2) / 4);
+      }
+  EXPECT_EQ(shrinkToWidth(image, 12).rgb, image.rgb);
+  // An even picture stays even at any ratio.
+  common::Image grey = black(101, 57);
+  std::fill(grey.rgb.begin(), grey.rgb.end(), std::uint8_t{77});
+  for (const int width : {1, 7, 50, 100})
+    for (const std::uint8_t value : shrinkToWidth(grey, width).rgb) ASSERT_EQ(value, 77);
+}
+
+}  // namespace
+}  // namespace swiftlet::rendering

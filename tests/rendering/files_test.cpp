@@ -1,0 +1,123 @@
+// What ends in files: PNG, JPEG, SVG.
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include "rendering/encode.hpp"
+#include "rendering/map_renderer.hpp"
+#include "rendering/map_svg.hpp"
+#include "rendering/plot_svg.hpp"
+#include "tests/rendering/example_flight.hpp"
+
+namespace swiftlet::rendering {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+common::Image pattern(int width_px, int height_px) {
+  common::Image image{width_px, height_px, {}};
+  for (int i = 0; i < 3 * width_px * height_px; ++i) image.rgb.push_back(static_cast<std::uint8_t>(i * 7));
+  return image;
+}
+
+TEST(EncodeTest, PngReadsBackAsTheSamePicture) {
+  const common::Image image = pattern(31, 17);
+  const Bytes png = encodePng(image);
+  png_image reader{};
+  reader.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_memory(&reader, png.data(), png.size()), 0);
+  reader.format = PNG_FORMAT_RGB;
+  Bytes pixels(PNG_IMAGE_SIZE(reader));
+  ASSERT_NE(png_image_finish_read(&reader, nullptr, pixels.data(), 0, nullptr), 0);
+  EXPECT_EQ(pixels, image.rgb);
+  EXPECT_EQ(encodePng(image), png);
+}
+
+TEST(EncodeTest, JpegStartsAndEndsAsOneAndIsTheSameEachTime) {
+  JpegEncoder encoder;
+  const Bytes large = encoder.encode(pattern(200, 100), 80);
+  EXPECT_EQ(large[0], 0xff);
+  EXPECT_EQ(large[1], 0xd8);
+  EXPECT_EQ(large[large.size() - 1], 0xd9);
+  const Bytes small = encoder.encode(pattern(8, 8), 80);
+  EXPECT_LT(small.size(), large.size());
+  EXPECT_EQ(encoder.encode(pattern(200, 100), 80), large);
+}
+
+TEST(EncodeTest, Base64AsTheStandardHasIt) {
+  const auto of = [](const std::string& text) { return base64(Bytes(text.begin(), text.end())); };
+  EXPECT_EQ(of(""), "");
+  EXPECT_EQ(of("f"), "Zg==");
+  EXPECT_EQ(of("fo"), "Zm8=");
+  EXPECT_EQ(of("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(of("\xff\xfe\xfd"), "//79");
+}
+
+int countOf(const std::string& text, const std::string& what) {
+  int count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
+}
+
+Plot altitudePlot() {
+  Plot plot{"Altitude",
+            "time (s)",
+            "height (m)",
+            {{"estimate", {}, false}, {"truth & more", {}, true}},
+            {{0, 4, "taking off"}, {60, 70, "hold"}},
+            {},
+            {},
+            720,
+            260};
+  for (int i = 0; i < 9000; ++i) {
+    const double t = 0.01 * i;
+    const double z = std::min(1.0, 0.3 * t);
+    plot.series[0].points.emplace_back(t, i == 4321 ? 1.9 : z + 0.03 * std::sin(9 * t) + 0.01 * std::sin(77 * t));
+    plot.series[1].points.emplace_back(t, z);
+  }
+  return plot;
+}
+
+TEST(PlotSvgTest, ThinsWithoutLosingAPeak) {
+  const std::string svg = plotSvg(altitudePlot());
+  EXPECT_LT(svg.size(), 80'000u);
+  EXPECT_THAT(svg, HasSubstr("prefers-color-scheme:dark"));
+  EXPECT_THAT(svg, HasSubstr("truth &amp; more"));
+  EXPECT_THAT(svg, HasSubstr(">time (s)<"));
+  // The one sample at 1.9 m of an axis up to 2 m: 5 % below the top of the frame of 182 px that starts at 34.
+  EXPECT_THAT(svg, HasSubstr(",43.1"));
+  std::ofstream(std::string(SWIFTLET_BINARY_DIR) + "/plot.svg") << svg;
+}
+
+TEST(PlotSvgTest, BreaksTheLineAtNanAndSurvivesNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Plot plot{"t", "x", "y", {{"a", {{0, 1}, {1, 2}, {2, nan}, {3, 1}, {4, 1}}, false}}, {}, {}, {}, 400, 200};
+  EXPECT_EQ(countOf(plotSvg(plot), "<polyline"), 2);
+  plot.series = {{"flat", {{0, 5}, {1, 5}}, false}, {"empty", {}, false}, {"none", {{nan, nan}}, false}};
+  EXPECT_THAT(plotSvg(plot), Not(HasSubstr("nan")));
+  plot.series.clear();
+  EXPECT_THAT(plotSvg(plot), Not(HasSubstr("nan")));
+  plot.series = {{"<script>", {{0, 1e300}, {1, -1e300}}, false}};
+  EXPECT_THAT(plotSvg(plot), Not(HasSubstr("<script>")));
+}
+
+TEST(MapSvgTest, HasThePictureTheLinesAndTheMarks) {
+  testing::ExampleFlight flight;
+  const auto world = flight.advance(6.0);
+  const std::string svg =
+      mapSvg(*world, {{"estimate", *world->trail_map_m, false}, {"truth", {{0, 0}, {1.8, 1}}, true}},
+             {{"home", {0, 0}}, {"goal", {1.8, 3.2}}});
+  EXPECT_THAT(svg, HasSubstr("data:image/png;base64,iVBOR"));
+  EXPECT_EQ(countOf(svg, "<polyline"), 2);
+  EXPECT_EQ(countOf(svg, "<circle"), 2);
+  std::ofstream(std::string(SWIFTLET_BINARY_DIR) + "/map.svg") << svg;
+}
+
+}  // namespace
+}  // namespace swiftlet::rendering

@@ -1,0 +1,67 @@
+// What stands on the map at a fixed size: home, goal, vehicle and the scale. `view` is the MapView they are painted on.
+
+export function paintHome(view, { x_m, y_m }) {
+  const { context, colors } = view;
+  const [x, y] = view.toScreen(x_m, y_m);
+  view.paintDisc(x, y, 11, colors.free);
+  view.paintRing(x, y, 11, 2, colors.home);
+  context.beginPath();
+  for (const [dx, dy] of [[-4.8, 4.8], [-4.8, -0.6], [0, -5.6], [4.8, -0.6], [4.8, 4.8]]) context.lineTo(x + dx, y + dy);
+  context.fillStyle = colors.home;
+  context.fill();
+}
+
+export function paintGoal(view, { x_m, y_m }, color, crossed) {
+  const { context } = view;
+  const [x, y] = view.toScreen(x_m, y_m);
+  context.lineCap = 'round';
+  view.paintRing(x, y, 10, 6, view.colors.free);
+  view.paintRing(x, y, 10, 3, color);
+  const ends = crossed ? [[-5, -5, 5, 5], [-5, 5, 5, -5]]
+    : [[0, -10, 0, -16], [0, 10, 0, 16], [-10, 0, -16, 0], [10, 0, 16, 0]];
+  context.beginPath();
+  for (const [ax, ay, bx, by] of ends) {
+    context.moveTo(x + ax, y + ay);
+    context.lineTo(x + bx, y + by);
+  }
+  Object.assign(context, { strokeStyle: color, lineWidth: 3 });
+  context.stroke();
+  if (!crossed) view.paintDisc(x, y, 3, color);
+}
+
+export function paintVehicle(view, { x_m, y_m, yaw_rad }) {
+  const { context, colors } = view;
+  const [x, y] = view.toScreen(x_m, y_m);
+  const radius = Math.max(11, (view.scale * view.store.hullDiameter_m) / 2);
+  context.globalAlpha = 0.28;
+  view.paintDisc(x, y, radius, colors.vehicle);
+  context.globalAlpha = 1;
+  view.paintRing(x, y, radius, Math.min(3, Math.max(1.8, 0.12 * radius)), colors.vehicle);
+  context.save();
+  context.translate(x, y);
+  context.rotate(-yaw_rad);
+  context.beginPath();
+  for (const [ahead, left] of [[0.78, 0], [-0.52, 0.48], [-0.26, 0], [-0.52, -0.48]])
+    context.lineTo(radius * ahead, radius * left);
+  context.fillStyle = colors.vehicle;
+  context.fill();
+  context.restore();
+}
+
+export function paintScale(view) {
+  const { context, colors } = view;
+  const longest_m = 110 / view.scale;
+  const power = 10 ** Math.floor(Math.log10(longest_m));
+  const length_m = [5, 2, 1].map((f) => f * power).find((value) => value <= longest_m);
+  const x = 16, y = view.height - 16, width = length_m * view.scale;
+  for (const [color, line] of [[colors.unknown, 5], [colors.text, 2]]) {
+    context.beginPath();
+    context.moveTo(x, y - 6);
+    context.lineTo(x, y);
+    context.lineTo(x + width, y);
+    context.lineTo(x + width, y - 6);
+    Object.assign(context, { strokeStyle: color, lineWidth: line, lineJoin: 'miter', lineCap: 'butt' });
+    context.stroke();
+  }
+  view.paintText(`${length_m} m`, x + width / 2, y - 7, 'center');
+}
