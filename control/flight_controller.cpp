@@ -151,7 +151,11 @@ common::Setpoint FlightController::takeOff(const FlightTick& tick) {
     setpoint.thrust = spooled * kSpoolShare * position_.thrust().hoverCommand();
     return setpoint;
   }
-  lifted_ = lifted_ || height_m > standing_height_m_ + kLiftedOff_m;
+  if (!lifted_ && height_m > standing_height_m_ + kLiftedOff_m) {
+    // The lead that the reference took while the feet still stood would become overshoot.
+    lifted_ = true;
+    height_reference_m_ = height_m;
+  }
   moveVertically(take_off_height_m_, config_.climb_m_s, height_m);
   const common::Setpoint setpoint = track(tick, follower_.advance(dt_s_), !lifted_);
 

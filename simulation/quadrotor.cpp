@@ -81,7 +81,8 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   const Vector3d inertia(config_.inertia_xx_kg_m2, config_.inertia_yy_kg_m2, config_.inertia_zz_kg_m2);
   Vector3d& omega = state_.angular_velocity_body_rad_s;
   const Vector3d angular_acceleration =
-      (torque - config_.angular_drag_n_m_s * omega - omega.cross(inertia.cwiseProduct(omega))).cwiseQuotient(inertia);
+      (torque - config_.angular_drag_n_m_s * omega - omega.cross(inertia.cwiseProduct(omega))).cwiseQuotient(inertia) +
+      gearTurning(gear_n);
 
   // Semi-implicit Euler: the new velocities move the pose.
   const Vector3d velocity_before = state_.velocity_world_m_s;
@@ -107,19 +108,23 @@ double Quadrotor::gearForce_n(double floor_world_m) const {
       0.0, vehicle_.mass_kg * frequency_rad_s * (frequency_rad_s * pressed_m - 2.0 * state_.velocity_world_m_s.z()));
 }
 
-// Dry friction holds the feet; what still turns stops within some hundredths of a second, and the body comes to lie
-// level.
+// The feet stop a turn within some hundredths of a second and push the body level. A torque, so that what the
+// gyroscopes feel stays the motion of the body, also while the motors lean it against the floor.
+Vector3d Quadrotor::gearTurning(double gear_n) const {
+  constexpr double kFrequency_rad_s = 33.0;
+  const double carried = std::min(1.0, gear_n / (vehicle_.mass_kg * kGravity_m_s2));
+  const common::RollPitchYaw angles = common::rollPitchYaw(state_.T_world_body.rotation);
+  const Vector3d lean_rad(angles.roll_rad, angles.pitch_rad, 0.0);
+  return -carried *
+         (kFrequency_rad_s * kFrequency_rad_s * lean_rad + 2.0 * kFrequency_rad_s * state_.angular_velocity_body_rad_s);
+}
+
+// Dry friction holds the feet.
 void Quadrotor::rub(double gear_n, double step_s) {
   constexpr double kFriction = 0.8;
   auto slide = state_.velocity_world_m_s.head<2>();
   const double speed = slide.norm(), stopped = kFriction * gear_n / vehicle_.mass_kg * step_s;
   slide *= speed > stopped ? 1.0 - stopped / speed : 0.0;
-  const double keep = std::exp(-step_s / 0.03);
-  state_.angular_velocity_body_rad_s *= keep;
-  common::RollPitchYaw angles = common::rollPitchYaw(state_.T_world_body.rotation);
-  angles.roll_rad *= keep;
-  angles.pitch_rad *= keep;
-  state_.T_world_body.rotation = common::quaternionFrom(angles);
 }
 
 void Quadrotor::push(const Vector3d& impulse_world_n_s) {

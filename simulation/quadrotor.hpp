@@ -73,6 +73,7 @@ class Quadrotor {
   void spinMotors(const std::array<double, 4>& throttles, double step_s);
   Eigen::Vector3d takePush(double step_s);
   double gearForce_n(double floor_world_m) const;
+  Eigen::Vector3d gearTurning(double gear_n) const;  ///< Angular acceleration.
   void rub(double gear_n, double step_s);
 
   common::VehicleConfig vehicle_;

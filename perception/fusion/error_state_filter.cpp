@@ -30,6 +30,8 @@ constexpr double kMaxAhead_s = 0.5;
 /// IMU samples a second that the history has room for; a faster IMU shortens it.
 constexpr double kRingRate_hz = 256.0;
 constexpr std::size_t kMeasurementCapacity = 1024;
+/// Standard deviations that an AHRS may be off before it is believed more than the filter.
+constexpr double kAhrsGate = 3.0;
 
 double square(double x) { return x * x; }
 
@@ -93,6 +95,7 @@ struct ErrorStateFilter::Impl {
   // One state.
   void apply(FilterState& state, const Measurement& measurement) const;
   void applySlot(FilterState& state, const Slot& s) const;
+  void updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const;
   template <int K>
   void gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& measurement) const;
   void recover(FilterState& state) const;
@@ -215,12 +218,7 @@ void ErrorStateFilter::Impl::apply(FilterState& state, const Measurement& m) con
 
 void ErrorStateFilter::Impl::applySlot(FilterState& state, const Slot& s) const {
   if (!s.attitude_due) return;
-  if (config.use_ahrs) {
-    // N samples of an error that keeps for tau are worth as much as white ones of this variance (integral of the
-    // autocorrelation).
-    const double correlated_samples = 1.0 + 2.0 * config.ahrs_correlation_s * config.attitude_rate_hz;
-    update(state, upDirection(state, s.up_body, square(config.ahrs_sigma_deg * kRadPerDeg) * correlated_samples));
-  }
+  if (config.use_ahrs) updateByAhrs(state, s.up_body);
   if (config.use_gravity) {
     update(state,
            gravity(state, s.imu.specific_force_body_m_s2, config.gravity_m_s2, square(config.gravity_sigma_m_s2)));
@@ -230,6 +228,23 @@ void ErrorStateFilter::Impl::applySlot(FilterState& state, const Slot& s) const 
     update(state, zeroRotation(state, s.imu.angular_velocity_body_rad_s, square(config.zero_rotation_sigma_rad_s)));
     state.relative_gate.last_accepted = s.imu.stamp;
   }
+}
+
+void ErrorStateFilter::Impl::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const {
+  const double variance = square(config.ahrs_sigma_deg * kRadPerDeg);
+  Linearized<2> m = upDirection(state, up_body, variance);
+  if (mahalanobis2(state, m) > square(kAhrsGate)) {
+    // The AHRS does not err that far: the filter's own horizon has slipped, and with it what it takes for bias.
+    const double slipped2 = m.residual.squaredNorm();
+    auto diagonal = state.covariance.diagonal();
+    diagonal.segment<2>(kAttitude).array() += slipped2;
+    diagonal.segment<3>(kAccelerometerBias).array() += square(config.gravity_m_s2) * slipped2;
+  } else {
+    // N samples of an error that keeps for tau are worth as much as white ones of this variance (integral of the
+    // autocorrelation).
+    m.noise *= 1.0 + 2.0 * config.ahrs_correlation_s * config.attitude_rate_hz;
+  }
+  update(state, m);
 }
 
 template <int K>
@@ -252,6 +267,8 @@ void ErrorStateFilter::Impl::gatedUpdate(FilterState& state, GateMemory& gate, c
       diagonal.segment<2>(kPosition).array() += jump2;
       diagonal.segment<2>(kVelocity).array() += jump2 / square(config.recovery_s);
       diagonal(kAttitude + 2) += square(m.residual(K - 1));
+      // What carried the velocity away is most often a slipped horizon.
+      diagonal.segment<2>(kAttitude).array() += jump2 / square(square(config.recovery_s) * config.gravity_m_s2);
     }
     recover(state);
   }

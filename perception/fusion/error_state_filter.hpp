@@ -73,12 +73,12 @@ class ErrorStateFilter {
     double accelerometer_noise_m_s2_rthz = 0.02;
     double gyroscope_noise_rad_s_rthz = 0.002;
     double accelerometer_bias_walk_m_s3_rthz = 0.003;
-    double gyroscope_bias_walk_rad_s2_rthz = 0.0002;
+    double gyroscope_bias_walk_rad_s2_rthz = 0.0005;
     double accelerometer_bias_sigma_m_s2 = 0.2;  ///< At the start.
     // Attitude of the vehicle's own AHRS; roll and pitch only.
     bool use_ahrs = true;
     double ahrs_sigma_deg = 1.0;
-    double ahrs_correlation_s = 2.0;  ///< The error keeps this long; the noise is widened to match.
+    double ahrs_correlation_s = 10.0;  ///< The error keeps this long; the noise is widened to match.
     // Gravity vector as pseudo-measurement of roll and pitch (for vehicles without an AHRS).
     bool use_gravity = false;
     double gravity_sigma_m_s2 = 1.0;  ///< What the vehicle's own acceleration adds.

@@ -291,6 +291,27 @@ TEST(ErrorStateFilter, survivesLostImuSamples) {
   EXPECT_EQ(filter.health().status, FusionStatus::kOk) << filter.health().reason;
 }
 
+TEST(ErrorStateFilter, aSlippedHorizonIsPulledBackByTheAhrs) {
+  SyntheticFlight flight(15, 16.0);
+  auto imu = flight.imuSamples();
+  // A knock: the gyroscope reports five degrees of roll that did not happen.
+  for (auto& sample : imu) {
+    const double t = sample.stamps.measured.seconds();
+    if (t > 8.0 && t < 8.1) sample.angular_velocity_body_rad_s.x() += 0.87;
+  }
+  ErrorStateFilter filter({});
+  double late_tilt_rad = 0;
+  feed(filter, imu, flight.deliveries(), flight.restUntil(), [&](double t) {
+    if (t < 11.0) return;
+    const auto slip = filter.state().T_odom_body.rotation * flight.motion.pose(t).rotation.conjugate();
+    late_tilt_rad = std::max(late_tilt_rad, common::logSO3(slip).head<2>().norm());
+  });
+  EXPECT_NE(filter.health().status, FusionStatus::kDiverged);
+  EXPECT_LT(late_tilt_rad, 0.03);
+  const auto state = filter.state();
+  EXPECT_LT((state.velocity_odom_m_s - flight.motion.truth(state.stamp.seconds()).velocity_m_s).norm(), 0.1);
+}
+
 TEST(ErrorStateFilter, posesInterpolateTheHistory) {
   SyntheticFlight flight(13, 8.0);
   ErrorStateFilter filter({});

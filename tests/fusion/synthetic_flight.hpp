@@ -50,9 +50,9 @@ struct Motion {
 
 struct SensorNoise {
   double accelerometer = 0.02, gyroscope = 0.002;  ///< Densities.
-  double accelerometer_walk = 0.003, gyroscope_walk = 0.0002;
+  double accelerometer_walk = 0.003, gyroscope_walk = 0.0005;
   Eigen::Vector3d accelerometer_bias{0.08, -0.06, 0.10}, gyroscope_bias{0.004, -0.003, 0.005};
-  double ahrs_sigma_rad = 1.0 * std::numbers::pi / 180.0, ahrs_correlation_s = 2.0;
+  double ahrs_sigma_rad = 1.0 * std::numbers::pi / 180.0, ahrs_correlation_s = 10.0;
   double scan_m = 0.01, scan_rad = 0.2 * std::numbers::pi / 180.0, height_m = 0.01;
 };
 

@@ -264,6 +264,20 @@ TEST(InertialUnit, ASampleIsTheMeanOverItsPeriodWithNoiseAndBias) {
   EXPECT_GT(std::abs(mean), 1e-3) << "the bias stays";
 }
 
+TEST(Quadrotor, GyroscopesFeelNoTurnThatDoesNotHappenWhileMotorsLeanItAgainstTheFloor) {
+  Quadrotor quadrotor(kVehicle, kAirframe, {Eigen::Quaterniond::Identity(), {0, 0, kAirframe.gear_height_m}}, 1.0);
+  Eigen::Quaterniond felt = Eigen::Quaterniond::Identity();
+  for (int i = 0; i < 2000; ++i) {
+    quadrotor.step({0.25, 0.22, 0.22, 0.25}, Eigen::Vector3d::Zero(), 0.0, 0.001);
+    felt = felt * common::expSO3(0.001 * quadrotor.state().angular_velocity_body_rad_s);
+  }
+  EXPECT_TRUE(quadrotor.state().standing);
+  EXPECT_LT(quadrotor.state().angular_velocity_body_rad_s.head<2>().norm(), 1e-3);
+  EXPECT_LT(felt.angularDistance(quadrotor.state().T_world_body.rotation), 1e-3);
+  const auto angles = common::rollPitchYaw(quadrotor.state().T_world_body.rotation);
+  EXPECT_LT(std::abs(angles.roll_rad) + std::abs(angles.pitch_rad), 0.01) << "the gear holds it level";
+}
+
 TEST(Wind, GustsHaveTheirMeanAndSpread) {
   Wind wind({.mean_x_m_s = 1.0, .mean_y_m_s = -0.5, .gust_m_s = 0.4, .gust_time_s = 0.5}, 3);
   double sum = 0.0, squares = 0.0;
