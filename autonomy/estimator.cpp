@@ -150,7 +150,10 @@ perception::ProjectedScan Estimator::projectScan(const common::LaserScan& scan) 
 }
 
 bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
-  const auto relative = odometry_.add(scan);
+  // From the same history as the scan's prediction, so that a correction since the last match does not count as motion.
+  const auto last_match = odometry_.lastMatch();
+  const auto T_odom_last = last_match ? filter_.poseAt(*last_match) : std::nullopt;
+  const auto relative = odometry_.add(scan, T_odom_last ? std::optional(planar(*T_odom_last)) : std::nullopt);
   if (!relative) return false;
   if (relative->from == relative->to) {
     (void)filter_.addClone(relative->from);

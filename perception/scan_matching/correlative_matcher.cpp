@@ -19,15 +19,7 @@ namespace {
 using common::Pose2;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr double kTopValue = 255.0;
-/// Least spread of the end points that is believed; the field's bytes resolve no finer.
-constexpr double kMinResidual_m = 0.004;
-/// No pose is better than this, whatever the number of points.
-constexpr double kFloorSigma_m = 0.0005;
-constexpr double kFloorSigma_rad = 0.0001;
-/// The greatest uncertainty given, along what cannot be seen.
-constexpr double kMaxSigma_m = 10.0;
-
+constexpr double kTopValue = LikelihoodField::kTopValue;
 bool isFinite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
 }
@@ -62,15 +54,6 @@ SplitPoints spreadWithHeights(const ProjectedScan& scan, int count, double max_r
   return result;
 }
 
-/// What the scores say about the pose, relative to the finest.
-struct SurfaceFit {
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad) from the finest pose to the peak.
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::optional<Eigen::Vector2d> unobservable_direction;
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();          ///< Of the surface, per step,
-  Eigen::Matrix3d peak_of_gradient = Eigen::Matrix3d::Zero();  ///< and how the peak (m, m, rad) follows it.
-};
-
 }  // namespace
 
 void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
@@ -90,6 +73,8 @@ void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
   fields("min_points", min_points, "With fewer points the match failed.");
   fields("covariance_scale", covariance_scale, "Factor on the covariance of independent points.");
   fields("attitude_error_deg", attitude_error_deg, "Error of roll and pitch, which the covariance allows for.");
+  fields("min_normal_spread", min_normal_spread,
+         "A direction with a smaller share of the contour facing it is not seen.");
   fields("unobservable_sigma_m", unobservable_sigma_m, "A direction less certain than this is not seen.");
 }
 
@@ -110,6 +95,7 @@ std::vector<std::string> CorrelativeMatcherConfig::validate() const {
       .within("min_points", min_points, 3, 256)
       .within("covariance_scale", covariance_scale, 0.01, 1000)
       .within("attitude_error_deg", attitude_error_deg, 0, 20)
+      .within("min_normal_spread", min_normal_spread, 0, 0.5)
       .within("unobservable_sigma_m", unobservable_sigma_m, 0.001, 10)
       .problems();
 }
@@ -148,9 +134,8 @@ struct CorrelativeMatcher::Impl {
                        const PoseGrid& grid, const BestPose& best);
   double support(const SplitPoints& points, const Pose2& pose);
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
-  SurfaceFit fit(const ScoreSurface& surface, double supported, const Pose2& center, const Pose2& guess) const;
   Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad,
-                                     const SurfaceFit& surface_fit);
+                                     const SurfacePeak& peak);
   Eigen::Vector3d weightedMean(const SplitPoints& points, const PoseGrid& grid, const BestPose& best);
   void addWindows(const SplitPoints& points, const Pose2& center, double yaw_rad, int half, int rows,
                   std::vector<std::uint32_t>& sums);
@@ -202,59 +187,10 @@ double CorrelativeMatcher::Impl::support(const SplitPoints& points, const Pose2&
   return supported;
 }
 
-/// Each supported point adds -(d / reach)^2 to the score, with d along the normal of its contour; the curvature is
-/// therefore the sum of n n', and with the spread of d, read off the height of the peak, the covariance follows as that
-/// of least squares.
-SurfaceFit CorrelativeMatcher::Impl::fit(const ScoreSurface& surface, double supported, const Pose2& center,
-                                         const Pose2& guess) const {
-  const Quadratic q = fitQuadratic(surface);
-  const Eigen::Vector3d step(surface.step_m, surface.step_m, surface.step_rad);
-  const double reach2 = field.reach_m() * field.reach_m();
-  const double peak = surface.at(0, 0, 0) / (kTopValue * std::max(supported, 1.0));
-  const double residual2 = std::max(reach2 * (1.0 - peak), kMinResidual_m * kMinResidual_m);
-
-  // In units of one step, where all three axes move the points by about as much.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(-q.hessian);
-  const double information_per_curvature =
-      reach2 / (2.0 * kTopValue * residual2 * config.covariance_scale) / (surface.step_m * surface.step_m);
-  const double min_information = 1.0 / (kMaxSigma_m * kMaxSigma_m);
-  Eigen::Vector3d peak_steps = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance_steps = Eigen::Matrix3d::Zero();
-  const Eigen::Vector3d guess_steps =
-      Eigen::Vector3d(guess.x_m - center.x_m, guess.y_m - center.y_m, common::wrapAngle(guess.yaw_rad - center.yaw_rad))
-          .cwiseQuotient(step);
-  SurfaceFit result;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d axis = eigen.eigenvectors().col(i);
-    const double curvature = eigen.eigenvalues()(i);
-    const double information = std::max(curvature * information_per_curvature, min_information);  // 1 / m^2
-    covariance_steps += axis * axis.transpose() / (information * surface.step_m * surface.step_m);
-    const bool seen = information * config.unobservable_sigma_m * config.unobservable_sigma_m > 1.0;
-    if (seen) {
-      const double along = axis.dot(q.gradient) / curvature;
-      peak_steps += axis * std::clamp<double>(along, -ScoreSurface::kHalf, ScoreSurface::kHalf);
-      result.peak_of_gradient += axis * axis.transpose() / curvature;
-    } else {
-      peak_steps += axis * axis.dot(guess_steps);
-    }
-  }
-  result.offset = peak_steps.cwiseProduct(step);
-  result.gradient = q.gradient;
-  result.peak_of_gradient = step.asDiagonal() * result.peak_of_gradient;
-  result.covariance = step.asDiagonal() * covariance_steps * step.asDiagonal();
-  result.covariance.diagonal() +=
-      Eigen::Vector3d(kFloorSigma_m * kFloorSigma_m, kFloorSigma_m * kFloorSigma_m, kFloorSigma_rad * kFloorSigma_rad);
-
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> translation(result.covariance.topLeftCorner<2, 2>().eval());
-  if (translation.eigenvalues()(1) > config.unobservable_sigma_m * config.unobservable_sigma_m)
-    result.unobservable_direction = translation.eigenvectors().col(1);
-  return result;
-}
-
 /// A wrong attitude moves an end point sideways by its height over the body. All points move together, so that more of
 /// them do not help; how far the peak follows is tried out for an error about each axis.
 Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& points, const Pose2& center,
-                                                             double step_rad, const SurfaceFit& surface_fit) {
+                                                             double step_rad, const SurfacePeak& peak) {
   constexpr float kLeastShift_m = 0.0005F;
   const auto error_rad = static_cast<float>(config.attitude_error_deg * kRadPerDeg);
   float greatest_m = 0.0F;
@@ -266,7 +202,7 @@ Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& 
     std::vector<float>& coordinates = about_x ? moved.y_m : moved.x_m;
     for (std::size_t i = 0; i < coordinates.size(); ++i) coordinates[i] += error_rad * points.heights_m[i];
     const Eigen::Vector3d gradient = fitQuadratic(surfaceAround(moved, center, step_rad)).gradient;
-    const Eigen::Vector3d shift = surface_fit.peak_of_gradient * (gradient - surface_fit.gradient);
+    const Eigen::Vector3d shift = peak.peak_of_gradient * (gradient - peak.gradient);
     covariance += shift * shift.transpose();
   }
   return covariance;
@@ -284,7 +220,8 @@ Eigen::Vector3d CorrelativeMatcher::Impl::weightedMean(const SplitPoints& points
     addWindows(points, finest, finest.yaw_rad + k * grid.step_yaw_rad, kHalf, 2 * kHalf + 1,
                scores[static_cast<std::size_t>(k + kRotations)]);
 
-  const double coarsest_m = config.resolution_m * (1 << (config.levels - 1));
+  // Wider, the coarse levels' own quantization outweighs what their averaging gains.
+  const double spread_m = 0.5 * config.resolution_m;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double weights = 0.0;
   for (int level = 0; level < config.levels; ++level) {
@@ -309,7 +246,7 @@ Eigen::Vector3d CorrelativeMatcher::Impl::weightedMean(const SplitPoints& points
       }
     }
     const double distance_m = estimate.head<2>().norm() * config.resolution_m;
-    const double weight = std::exp(-0.5 * distance_m * distance_m / (coarsest_m * coarsest_m));
+    const double weight = std::exp(-0.5 * distance_m * distance_m / (spread_m * spread_m));
     sum += weight * estimate;
     weights += weight;
   }
@@ -339,14 +276,21 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   result.overlap = supported / static_cast<double>(surface_points.x_m.size());
   const double step_rad = config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
   const ScoreSurface surface = surfaceAround(surface_points, result.finest_T_reference_body, step_rad);
-  const SurfaceFit surface_fit = fit(surface, supported, result.finest_T_reference_body, guess);
-  result.covariance = surface_fit.covariance +
-                      attitudeCovariance(surface_points, result.finest_T_reference_body, step_rad, surface_fit);
-  result.unobservable_direction = surface_fit.unobservable_direction;
-
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-  if (config.estimate == PoseEstimate::kSurface) offset = surface_fit.offset;
-  if (config.estimate == PoseEstimate::kWeightedMean) offset = weightedMean(surface_points, grid, best);
+  const Eigen::Vector3d guess_offset(guess.x_m - result.finest_T_reference_body.x_m,
+                                     guess.y_m - result.finest_T_reference_body.y_m,
+                                     common::wrapAngle(guess.yaw_rad - result.finest_T_reference_body.yaw_rad));
+  SurfacePeak peak = findPeak(
+      surface, {supported, field.reach_m(), config.covariance_scale, config.unobservable_sigma_m}, guess_offset);
+  peak.covariance += attitudeCovariance(surface_points, result.finest_T_reference_body, step_rad, peak);
+  if (config.estimate == PoseEstimate::kFinest) peak.offset.setZero();
+  if (config.estimate == PoseEstimate::kWeightedMean) peak.offset = weightedMean(surface_points, grid, best);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(normalSpread(surface_points.x_m, surface_points.y_m));
+  if (normals.eigenvalues()(0) < config.min_normal_spread)
+    holdAlong(Eigen::Rotation2Dd(result.finest_T_reference_body.yaw_rad) * normals.eigenvectors().col(0), guess_offset,
+              peak);
+  const Eigen::Vector3d& offset = peak.offset;
+  result.covariance = peak.covariance;
+  result.unobservable_direction = peak.unobservable_direction;
   result.T_reference_body.x_m += offset.x();
   result.T_reference_body.y_m += offset.y();
   result.T_reference_body.yaw_rad = common::wrapAngle(result.T_reference_body.yaw_rad + offset.z());

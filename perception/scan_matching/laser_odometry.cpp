@@ -171,7 +171,11 @@ LaserOdometry& LaserOdometry::operator=(LaserOdometry&&) noexcept = default;
 
 const LaserOdometryCounts& LaserOdometry::counts() const { return impl_->counts; }
 
-std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan) {
+std::optional<common::Time> LaserOdometry::lastMatch() const {
+  return impl_->key_scans.empty() ? std::nullopt : std::optional(impl_->last_match);
+}
+
+std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const std::optional<Pose2>& T_odom_last) {
   Impl& self = *impl_;
   ++self.counts.scans;
   const Pose2 T_odom_body = common::planar(scan.T_odom_body);
@@ -189,7 +193,7 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan) {
   }
   self.last_stamp = scan.stamp;
 
-  const Pose2 guess = self.last_T_local_body * (self.last_T_odom_body.inverse() * T_odom_body);
+  const Pose2 guess = self.last_T_local_body * (T_odom_last.value_or(self.last_T_odom_body).inverse() * T_odom_body);
   const MatchResult match = self.matchWidening(scan, guess);
   if (match.failed) {
     ++self.counts.failures;

@@ -67,9 +67,15 @@ class LaserOdometry {
   LaserOdometry(LaserOdometry&&) noexcept;
   LaserOdometry& operator=(LaserOdometry&&) noexcept;
 
-  /// The guess is the last match moved by the change of ProjectedScan::T_odom_body since then. Nothing is returned when
-  /// the scan does not match.
-  [[nodiscard]] std::optional<RelativePose> add(const ProjectedScan& scan);
+  /// Nothing is returned when the scan does not match. The guess is the last match moved by the change of T_odom_body
+  /// since then. `T_odom_last` is where the estimate that predicted this scan has the body at `lastMatch()`; a filter
+  /// that took in that match must give it, or its correction counts twice. Without it, the prediction of that scan
+  /// stands (wheels, a simulator: an odometry that nobody corrects).
+  [[nodiscard]] std::optional<RelativePose> add(const ProjectedScan& scan,
+                                                const std::optional<common::Pose2>& T_odom_last = std::nullopt);
+
+  /// The stamp of the last scan that matched.
+  std::optional<common::Time> lastMatch() const;
 
   const LaserOdometryCounts& counts() const;
 

@@ -19,6 +19,7 @@ namespace swiftlet::perception {
 /// Not thread-safe. Reading through `level` is valid until the next call that is not const.
 class LikelihoodField {
  public:
+  static constexpr int kTopValue = 255;
   static constexpr int kLevels = 7;
   static constexpr int kTile = 64;
   /// The widest kernel, in cells from its centre.

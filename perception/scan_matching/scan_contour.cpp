@@ -9,6 +9,10 @@ namespace {
 /// How much longer than its neighbours a step along a surface may be, and by how much in any case (noise).
 constexpr float kMaxStretch = 2.5F;
 constexpr float kGapNoise_m = 0.05F;
+/// Longer gaps are bridged only along a straight line: a wall that ends in dots, far away and seen at a grazing angle.
+/// Dots would match the dots of the next scan wherever the vehicle moved along the wall.
+constexpr float kShortGap_m = 0.3F;
+constexpr float kStraight_cos = 0.966F;  // 15 degrees.
 /// A leap between surfaces counts as this much contour, so that lone points are still chosen.
 constexpr float kLeap_m = 0.3F;
 
@@ -19,6 +23,15 @@ std::vector<Eigen::Vector2f> usable(std::span<const Eigen::Vector2f> points_m, d
   for (const Eigen::Vector2f& p : points_m)
     if (p.squaredNorm() <= max2) result.push_back(p);  // False for NaN.
   return result;
+}
+
+/// Whether the step from point i to the next goes on as the one before and the one after.
+bool isStraight(const std::vector<Eigen::Vector2f>& points, std::size_t i) {
+  if (i == 0 || i + 2 >= points.size()) return false;
+  const Eigen::Vector2f before = points[i] - points[i - 1], step = points[i + 1] - points[i],
+                        after = points[i + 2] - points[i + 1];
+  return before.dot(step) > kStraight_cos * before.norm() * step.norm() &&
+         after.dot(step) > kStraight_cos * after.norm() * step.norm();
 }
 
 }  // namespace
@@ -39,7 +52,8 @@ std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m,
     if (i < gaps && gap[i] < static_cast<float>(max_gap_m)) {
       const float before = i > 0 ? gap[i - 1] : gap[i];
       const float after = i + 1 < gaps ? gap[i + 1] : gap[i];
-      joined = gap[i] <= kMaxStretch * std::min(before, after) + kGapNoise_m;
+      joined = gap[i] <= kMaxStretch * std::min(before, after) + kGapNoise_m &&
+               (gap[i] <= kShortGap_m || isStraight(points, i));
     }
     if (joined)
       segments.push_back({points[i].cast<double>(), points[i + 1].cast<double>()});
@@ -87,6 +101,27 @@ std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> point
   for (const int i : spreadIndices(points_m, count, max_range_m))
     chosen.push_back(points_m[static_cast<std::size_t>(i)]);
   return chosen;
+}
+
+Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> y_m) {
+  constexpr float kBaseline2_m2 = 0.04F;
+  constexpr float kLongest2_m2 = 4.0F;
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  double count = 0.0;
+  std::size_t begin = 0;
+  for (std::size_t end = 1; end < x_m.size(); ++end) {
+    const auto step2 = [&](std::size_t from) {
+      const float dx = x_m[end] - x_m[from], dy = y_m[end] - y_m[from];
+      return dx * dx + dy * dy;
+    };
+    while (begin + 1 < end && step2(begin + 1) >= kBaseline2_m2) ++begin;
+    const float length2 = step2(begin);
+    if (length2 < kBaseline2_m2 || length2 > kLongest2_m2) continue;
+    const Eigen::Vector2d normal(y_m[begin] - y_m[end], x_m[end] - x_m[begin]);
+    sum += normal * normal.transpose() / static_cast<double>(length2);
+    count += 1.0;
+  }
+  return count > 0.0 ? Eigen::Matrix2d(sum / count) : Eigen::Matrix2d::Zero();
 }
 
 }  // namespace swiftlet::perception

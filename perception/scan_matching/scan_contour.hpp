@@ -26,4 +26,9 @@ std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m,
 std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m);
 std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m);
 
+/// How well the shape of a scan holds a translation: the mean of n n' over the normals n of its contour, in the frame
+/// of the points, which must be in order. Each normal is taken over some decimetres, so that noise does not pose as
+/// structure. The eigenvalues are in [0, 1] and sum up to 1; zero when there is no contour.
+Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> y_m);
+
 }  // namespace swiftlet::perception

@@ -13,16 +13,20 @@ using common::CellIndex;
 constexpr std::uint32_t kCrossed = 1;
 constexpr std::uint32_t kEnded = 1 << 16;
 
-std::vector<CellIndex> cellsOf(const std::vector<Eigen::Vector2f>& points_level_m, const common::Pose2& T_map_body,
-                               const common::OccupancyGrid& grid) {
+/// In cells of the grid, with fractions.
+std::vector<Eigen::Vector2d> toGrid(const std::vector<Eigen::Vector2f>& points_level_m, const common::Pose2& T_map_body,
+                                    double resolution_m) {
   const double c = std::cos(T_map_body.yaw_rad), s = std::sin(T_map_body.yaw_rad);
-  std::vector<CellIndex> cells;
-  cells.reserve(points_level_m.size());
-  for (const Eigen::Vector2f& p : points_level_m) {
-    const CellIndex cell = grid.cellAt(T_map_body.x_m + c * p.x() - s * p.y(), T_map_body.y_m + s * p.x() + c * p.y());
-    cells.push_back(cell);
-  }
-  return cells;
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(points_level_m.size());
+  for (const Eigen::Vector2f& p : points_level_m)
+    points.emplace_back((T_map_body.x_m + c * p.x() - s * p.y()) / resolution_m,
+                        (T_map_body.y_m + s * p.x() + c * p.y()) / resolution_m);
+  return points;
+}
+
+CellIndex cellOf(const Eigen::Vector2d& p) {
+  return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
 }
 
 }  // namespace
@@ -56,41 +60,54 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
 }
 
 void GridDrawer::draw(const DrawnScan& scan, const common::Pose2& T_map_body, common::OccupancyGrid& grid) {
-  const CellIndex body = grid.cellAt(T_map_body.position_m());
-  hits_ = cellsOf(scan.hits_level_m, T_map_body, grid);
-  frees_ = cellsOf(scan.free_level_m, T_map_body, grid);
-  rect_ = {body, {body.x + 1, body.y + 1}};
-  for (const auto* cells : {&hits_, &frees_}) {
-    for (const CellIndex& c : *cells) {
+  const Eigen::Vector2d body = T_map_body.position_m() / grid.resolution_m();
+  hits_ = toGrid(scan.hits_level_m, T_map_body, grid.resolution_m());
+  frees_ = toGrid(scan.free_level_m, T_map_body, grid.resolution_m());
+  const CellIndex center = cellOf(body);
+  rect_ = {center, {center.x + 1, center.y + 1}};
+  for (const auto* points : {&hits_, &frees_}) {
+    for (const Eigen::Vector2d& p : *points) {
+      const CellIndex c = cellOf(p);
       rect_.begin = {std::min(rect_.begin.x, c.x), std::min(rect_.begin.y, c.y)};
       rect_.end = {std::max(rect_.end.x, c.x + 1), std::max(rect_.end.y, c.y + 1)};
     }
   }
   marks_.assign(static_cast<std::size_t>(rect_.width()) * static_cast<std::size_t>(rect_.height()), 0);
-  for (const CellIndex& c : frees_) {
-    markRay(body, c);
-    markAt(c) += kCrossed;
+  for (const Eigen::Vector2d& p : frees_) {
+    markRay(body, p);
+    markAt(cellOf(p)) += kCrossed;
   }
-  for (const CellIndex& c : hits_) {
-    markRay(body, c);
-    markAt(c) += kEnded;
+  for (const Eigen::Vector2d& p : hits_) {
+    markRay(body, p);
+    markAt(cellOf(p)) += kEnded;
   }
   apply(grid);
 }
 
-/// All cells from `from` up to, but without, `to`: one step along the longer axis at a time.
-void GridDrawer::markRay(CellIndex from, CellIndex to) {
-  const int dx = to.x - from.x, dy = to.y - from.y;
-  const int steps = std::max(std::abs(dx), std::abs(dy));
-  if (steps == 0) return;
-  constexpr int kOne = 1 << 16;
-  const std::int64_t step_x = static_cast<std::int64_t>(dx) * kOne / steps;
-  const std::int64_t step_y = static_cast<std::int64_t>(dy) * kOne / steps;
-  std::int64_t x = static_cast<std::int64_t>(from.x - rect_.begin.x) * kOne + kOne / 2;
-  std::int64_t y = static_cast<std::int64_t>(from.y - rect_.begin.y) * kOne + kOne / 2;
-  const auto width = static_cast<std::int64_t>(rect_.width());
-  for (int i = 0; i < steps; ++i, x += step_x, y += step_y)
-    marks_[static_cast<std::size_t>((y >> 16) * width + (x >> 16))] += kCrossed;
+/// Every cell the line touches, up to, but without, that of its end (Amanatides and Woo 1987). Lines through cell
+/// centres only would leave pinholes between the rays, and each would be a frontier.
+void GridDrawer::markRay(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const CellIndex begin = cellOf(from), end = cellOf(to);
+  const Eigen::Vector2d way = to - from;
+  int left_x = std::abs(end.x - begin.x), left_y = std::abs(end.y - begin.y);
+  const double per_x = 1.0 / std::max(std::abs(way.x()), 1e-12), per_y = 1.0 / std::max(std::abs(way.y()), 1e-12);
+  double next_x = per_x * (way.x() >= 0.0 ? begin.x + 1 - from.x() : from.x() - begin.x);
+  double next_y = per_y * (way.y() >= 0.0 ? begin.y + 1 - from.y() : from.y() - begin.y);
+  const std::ptrdiff_t step_x = way.x() >= 0.0 ? 1 : -1;
+  const std::ptrdiff_t step_y = way.y() >= 0.0 ? rect_.width() : -static_cast<std::ptrdiff_t>(rect_.width());
+  std::uint32_t* mark = &markAt(begin);
+  while (left_x + left_y > 0) {
+    *mark += kCrossed;
+    if (left_y == 0 || (left_x > 0 && next_x < next_y)) {
+      mark += step_x;
+      next_x += per_x;
+      --left_x;
+    } else {
+      mark += step_y;
+      next_y += per_y;
+      --left_y;
+    }
+  }
 }
 
 /// Where beams end and others pass, most decide: noise that puts some ends before or behind the wall does not thicken

@@ -31,7 +31,7 @@ class GridDrawer {
   void draw(const DrawnScan& scan, const common::Pose2& T_map_body, common::OccupancyGrid& grid);
 
  private:
-  void markRay(common::CellIndex from, common::CellIndex to);
+  void markRay(const Eigen::Vector2d& from, const Eigen::Vector2d& to);  // In cells.
   void apply(common::OccupancyGrid& grid) const;
   std::uint32_t& markAt(common::CellIndex c) {
     return marks_[static_cast<std::size_t>(c.y - rect_.begin.y) * static_cast<std::size_t>(rect_.width()) +
@@ -41,7 +41,7 @@ class GridDrawer {
   GridDrawingConfig config_;
   common::CellRect rect_;
   std::vector<std::uint32_t> marks_;
-  std::vector<common::CellIndex> hits_, frees_;
+  std::vector<Eigen::Vector2d> hits_, frees_;  // In cells.
 };
 
 }  // namespace swiftlet::perception

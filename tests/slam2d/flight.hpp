@@ -128,10 +128,11 @@ class Flight {
     step.truth_T_world_body = common::planar(path_.at(step.scan.stamp));
     step.T_odom_body = common::planar(step.scan.T_odom_body);
     step.covariance_since_last = Eigen::Vector3d(9e-6, 9e-6, 6.4e-7).asDiagonal();
-    step.relative = odometry_.add(step.scan);
+    step.relative = odometry_.add(step.scan, T_odom_matched_);
     if (step.relative) {
       if (step.relative->from != step.relative->to) step.T_odom_body = T_odom_reference_ * step.relative->T_from_to;
       if (step.relative->reference_changed) T_odom_reference_ = step.T_odom_body;
+      T_odom_matched_ = step.T_odom_body;
       step.covariance_since_last = Eigen::Vector3d(4e-6, 4e-6, 1e-6).asDiagonal();
     }
     T_odom_last_ = step.T_odom_body;
@@ -149,7 +150,7 @@ class Flight {
   perception::LaserOdometry odometry_;
   std::uint64_t frame_ = 0;
   double roll_error_rad_ = 0.0, pitch_error_rad_ = 0.0;
-  common::Pose2 T_odom_last_, T_odom_reference_, T_world_last_;
+  common::Pose2 T_odom_last_, T_odom_matched_, T_odom_reference_, T_world_last_;
 };
 
 /// Loops through both rooms of the flat.

@@ -1,0 +1,143 @@
+#include "perception/scan_matching/laser_odometry.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "tests/scan_matching/scenes.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+using test::errorOf;
+
+/// A scan taken at `truth` whose prediction says `predicted`.
+ProjectedScan scanWith(const test::PlanarWorld& world, const Pose2& truth, const Pose2& predicted,
+                       std::uint64_t frame) {
+  ProjectedScan scan = test::scanAt(world, truth, frame);
+  scan.T_odom_body = common::lifted(predicted, 1.0);
+  return scan;
+}
+
+TEST(LaserOdometry, TheFirstScanIsTheReference) {
+  LaserOdometry odometry{{}};
+  EXPECT_FALSE(odometry.lastMatch());
+  const auto first = odometry.add(test::scanAt(test::flat(), {}, 1));
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->from, first->to);
+  EXPECT_TRUE(first->reference_changed);
+  EXPECT_EQ(odometry.counts().references, 1U);
+  EXPECT_EQ(odometry.lastMatch(), first->to);
+}
+
+TEST(LaserOdometry, HoveringDoesNotDrift) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometry odometry{{}};
+  const auto first = odometry.add(test::scanAt(world, {}, 0));
+  double worst_m = 0.0;
+  for (std::uint64_t frame = 1; frame < 400; ++frame) {
+    const double phase = 0.03 * static_cast<double>(frame);
+    const Pose2 truth{0.05 * std::sin(phase), 0.05 * std::sin(2.0 * phase), 0.03 * std::sin(phase)};
+    // The prediction drifts away steadily; the measurements must not follow.
+    const Pose2 drifting{truth.x_m + 0.001 * static_cast<double>(frame), truth.y_m, truth.yaw_rad};
+    const auto relative = odometry.add(scanWith(world, truth, drifting, frame));
+    ASSERT_TRUE(relative);
+    EXPECT_EQ(relative->from, first->to);
+    EXPECT_FALSE(relative->reference_changed);
+    worst_m = std::max(worst_m, errorOf(relative->T_from_to, truth).head<2>().norm());
+  }
+  EXPECT_LT(worst_m, 0.006);
+}
+
+TEST(LaserOdometry, ChainsItsReferencesAcrossTheRoom) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometry odometry{{}};
+  Pose2 T_start_reference, at_reference;
+  common::Time reference;
+  int changes = 0;
+  for (std::uint64_t frame = 0; frame < 300; ++frame) {
+    const double t = static_cast<double>(frame) / 40.0;
+    const Pose2 truth{0.9 * t, 0.9 * std::sin(0.3 * t), 0.4 * std::sin(0.4 * t)};
+    const auto relative = odometry.add(scanWith(world, truth, truth, frame));
+    ASSERT_TRUE(relative) << frame;
+    if (frame > 0) {
+      EXPECT_EQ(relative->from, reference);
+      const Pose2 estimate = T_start_reference * relative->T_from_to;
+      EXPECT_LT((estimate.position_m() - truth.position_m()).norm(), 0.02) << frame;
+    }
+    if (!relative->reference_changed) continue;
+    T_start_reference = frame == 0 ? truth : T_start_reference * relative->T_from_to;
+    reference = relative->to;
+    ++changes;
+  }
+  EXPECT_GE(changes, 4);
+  EXPECT_LE(changes, 40);
+  EXPECT_EQ(odometry.counts().failures, 0U);
+}
+
+TEST(LaserOdometry, AGuessThatIsFarOffIsFoundByWidening) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometry odometry{{}};
+  static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
+  const Pose2 truth{0.30, -0.25, 0.12};
+  const auto relative = odometry.add(scanWith(world, truth, {}, 1));
+  ASSERT_TRUE(relative);
+  EXPECT_LT(errorOf(relative->T_from_to, truth).head<2>().norm(), 0.01);
+}
+
+TEST(LaserOdometry, ACorrectedEstimateIsNotCountedTwice) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometryConfig narrow;
+  narrow.guess_error_m = narrow.max_window_m = 0.05;
+  LaserOdometry odometry(narrow);
+  // The prediction lags by 4 cm a scan; the filter takes in each match and predicts from there.
+  Pose2 corrected;
+  std::optional<Pose2> last;
+  for (std::uint64_t frame = 0; frame < 40; ++frame) {
+    const Pose2 truth{0.04 * static_cast<double>(frame), 0.0, 0.0};
+    const auto relative = odometry.add(scanWith(world, truth, corrected, frame), last);
+    ASSERT_TRUE(relative) << frame;
+    corrected = truth;
+    last = corrected;
+  }
+  EXPECT_EQ(odometry.counts().failures, 0U);
+}
+
+TEST(LaserOdometry, LosesItsWayAndStartsAnew) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometryConfig config;
+  config.max_failures = 5;
+  LaserOdometry odometry(config);
+  static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
+  // Carried to the other room and turned, with its eyes closed.
+  const Pose2 elsewhere{6.5, 2.0, 0.8};
+  for (std::uint64_t frame = 1; frame <= 4; ++frame) EXPECT_FALSE(odometry.add(scanWith(world, elsewhere, {}, frame)));
+  const auto anew = odometry.add(scanWith(world, elsewhere, {}, 5));
+  ASSERT_TRUE(anew);
+  EXPECT_EQ(anew->from, anew->to);
+  EXPECT_TRUE(anew->reference_changed);
+  EXPECT_EQ(odometry.counts().restarts, 1U);
+  EXPECT_TRUE(odometry.add(scanWith(world, elsewhere, {}, 6)));
+}
+
+TEST(LaserOdometry, IgnoresWhatIsLateEmptyOrNotANumber) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometry odometry{{}};
+  EXPECT_FALSE(odometry.add({}));
+  static_cast<void>(odometry.add(test::scanAt(world, {}, 10)));
+  EXPECT_FALSE(odometry.add(test::scanAt(world, {}, 10)));
+  EXPECT_FALSE(odometry.add(test::scanAt(world, {}, 9)));
+  EXPECT_EQ(odometry.counts().out_of_order, 2U);
+  ProjectedScan lost = test::scanAt(world, {}, 11);
+  lost.T_odom_body.position_m.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(odometry.add(lost));
+  ProjectedScan empty;
+  empty.stamp = test::scanAt(world, {}, 12).stamp;
+  EXPECT_FALSE(odometry.add(empty));
+  EXPECT_TRUE(odometry.add(test::scanAt(world, {}, 13)));
+}
+
+}  // namespace
+}  // namespace swiftlet::perception

@@ -1,0 +1,194 @@
+// The parts below the matcher, each against the slow obvious way.
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "common/random.hpp"
+#include "perception/scan_matching/likelihood_field.hpp"
+#include "perception/scan_matching/scan_contour.hpp"
+#include "perception/scan_matching/score_surface.hpp"
+#include "perception/scan_matching/window_sums.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+RC_GTEST_PROP(WindowSums, AllInstructionsAddTheSame, ()) {
+  constexpr int kStride = 64, kRows = 40;
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const int count = *rc::gen::inRange(0, kMaxWindowPoints + 1), rows = *rc::gen::inRange(1, 18);
+  common::RandomStream random(seed, "sums");
+  std::vector<std::uint8_t> cells(kStride * kRows + 16);
+  for (auto& cell : cells) cell = random.chance(0.3) ? 255 : static_cast<std::uint8_t>(random.bits());
+  std::vector<std::int32_t> offsets;
+  for (int i = 0; i < count; ++i)
+    offsets.push_back(static_cast<std::int32_t>(random.uniform() * (kRows - rows)) * kStride +
+                      static_cast<std::int32_t>(random.uniform() * kStride));
+  std::vector<int> expected(static_cast<std::size_t>(rows) * kWindowColumns, 0);
+  for (const auto offset : offsets)
+    for (int i = 0; i < rows * kWindowColumns; ++i)
+      expected[static_cast<std::size_t>(i)] +=
+          cells[static_cast<std::size_t>(offset + i / kWindowColumns * kStride + i % kWindowColumns)];
+  for (const Instructions instructions : {Instructions::kScalar, Instructions::kSse41, Instructions::kAvx2}) {
+    if (!isAvailable(instructions)) continue;
+    std::vector<std::uint16_t> sums(expected.size());
+    sumWindows(instructions, cells.data(), kStride, offsets, rows, sums.data());
+    for (std::size_t i = 0; i < sums.size(); ++i) RC_ASSERT(static_cast<int>(sums[i]) == expected[i]);
+  }
+}
+
+RC_GTEST_PROP(WindowSums, CellsAreFloors, ()) {
+  common::RandomStream random(*rc::gen::arbitrary<std::uint64_t>(), "cells");
+  const int size = *rc::gen::inRange(0, 23);
+  std::vector<float> x, y;
+  for (int i = 0; i < size; ++i) {
+    x.push_back(static_cast<float>(random.uniform(-20.0, 20.0)));
+    y.push_back(static_cast<float>(random.uniform(-20.0, 20.0)));
+  }
+  const auto c = static_cast<float>(100.0 * std::cos(1.0)), s = static_cast<float>(100.0 * std::sin(1.0));
+  std::vector<std::int32_t> cx(x.size()), cy(x.size());
+  transformToCells(x, y, c, s, 3.25F, -7.5F, cx, cy);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    RC_ASSERT(cx[i] == static_cast<std::int32_t>(std::floor(c * x[i] - s * y[i] + 3.25F)));
+    RC_ASSERT(cy[i] == static_cast<std::int32_t>(std::floor(s * x[i] + c * y[i] + -7.5F)));
+  }
+}
+
+std::vector<ContourSegment> randomContour(common::RandomStream& random, int size) {
+  std::vector<ContourSegment> contour;
+  for (int i = 0; i < size; ++i) {
+    const Eigen::Vector2d begin(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
+    contour.push_back({begin, begin + Eigen::Vector2d(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5))});
+  }
+  return contour;
+}
+
+double distanceTo(const ContourSegment& segment, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d edge = segment.end_m - segment.begin_m;
+  const double share = std::clamp((p - segment.begin_m).dot(edge) / std::max(edge.squaredNorm(), 1e-12), 0.0, 1.0);
+  return (segment.begin_m + share * edge - p).norm();
+}
+
+TEST(LikelihoodField, HoldsTheDistanceToTheNearestContour) {
+  common::RandomStream random(2, "field");
+  const auto contour = randomContour(random, 12);
+  LikelihoodField field(0.01, 0.02);
+  field.draw(contour);
+  for (int trial = 0; trial < 20000; ++trial) {
+    const int x = static_cast<int>(random.uniform() * field.width()),
+              y = static_cast<int>(random.uniform() * field.height());
+    const Eigen::Vector2d center((field.beginX() + x + 0.5) * 0.01, (field.beginY() + y + 0.5) * 0.01);
+    double distance_m = 1e9;
+    for (const ContourSegment& segment : contour) distance_m = std::min(distance_m, distanceTo(segment, center));
+    // Contours are drawn as dots a cell apart, on a quarter of a cell.
+    const double found_m =
+        field.at(x, y) == 0 ? field.reach_m() : field.reach_m() * std::sqrt(1.0 - field.at(x, y) / 255.0);
+    EXPECT_NEAR(found_m, std::min(distance_m, field.reach_m()), 0.006);
+  }
+}
+
+TEST(LikelihoodField, CoarseCellsBoundEveryPoseOfTheirBlock) {
+  common::RandomStream random(3, "bound");
+  LikelihoodField field(0.01, 0.02);
+  field.draw(randomContour(random, 6));
+  field.prepare(3, 100);
+  field.draw(randomContour(random, 6));  // Drawing more must update the levels too.
+  field.prepare(LikelihoodField::kLevels - 1, 200);
+  for (int k = 1; k < LikelihoodField::kLevels; ++k) {
+    const LikelihoodField::Level level = field.level(k);
+    for (int trial = 0; trial < 20000; ++trial) {
+      const int x = static_cast<int>(random.uniform() * (field.width() - 200));
+      const int y = static_cast<int>(random.uniform() * (field.height() - 200));
+      const int dx = static_cast<int>(random.uniform() * (1 << k)), dy = static_cast<int>(random.uniform() * (1 << k));
+      ASSERT_GE(level.cells[(y >> k) * level.stride + (x >> k)], field.at(x + dx, y + dy)) << k;
+    }
+  }
+}
+
+TEST(LikelihoodField, GrowsWithoutLosingAnythingAndForgetsEverything) {
+  common::RandomStream random(4, "grow");
+  auto near = randomContour(random, 6), far = near;
+  for (ContourSegment& s : far) s = {s.begin_m + Eigen::Vector2d(-15.0, 9.0), s.end_m + Eigen::Vector2d(-15.0, 9.0)};
+  std::vector<ContourSegment> both = near;
+  both.insert(both.end(), far.begin(), far.end());
+  LikelihoodField step_by_step(0.01, 0.02), at_once(0.01, 0.02);
+  step_by_step.draw(near);
+  step_by_step.prepare(4, 64);
+  step_by_step.draw(far);
+  at_once.draw(both);
+  const auto valueAt = [](const LikelihoodField& f, int x, int y) { return f.at(x - f.beginX(), y - f.beginY()); };
+  for (int y = -400; y < 1400; ++y)
+    for (int x = -1900; x < 400; ++x) ASSERT_EQ(valueAt(step_by_step, x, y), valueAt(at_once, x, y));
+
+  step_by_step.prepare(LikelihoodField::kLevels - 1, 64);
+  step_by_step.clear();
+  EXPECT_TRUE(step_by_step.empty());
+  for (int k = 0; k < LikelihoodField::kLevels; ++k) {
+    const LikelihoodField::Level level = step_by_step.level(k);
+    for (int i = 0; i < (step_by_step.height() >> k) * level.stride; ++i) ASSERT_EQ(level.cells[i], 0) << k;
+  }
+}
+
+TEST(ScanContour, JoinsSurfacesAndNotLeaps) {
+  std::vector<Eigen::Vector2f> points;
+  for (int i = 0; i < 20; ++i) points.emplace_back(2.0F, -1.0F + 0.05F * static_cast<float>(i));  // A wall,
+  for (int i = 0; i < 20; ++i) points.emplace_back(2.25F, 0.0F + 0.05F * static_cast<float>(i));  // and one behind it.
+  int leaps = 0;
+  for (const ContourSegment& s : contourOf(points, 0.3, 20.0)) leaps += s.begin_m.x() != s.end_m.x() ? 1 : 0;
+  EXPECT_EQ(leaps, 0);
+  EXPECT_EQ(contourOf(points, 0.3, 20.0).size(), 38U);
+  // A grazing wall stretches step by step and stays one.
+  points.clear();
+  for (float x = 1.0F, gap = 0.05F; x < 3.0F; x += gap, gap *= 1.15F) points.emplace_back(x, 1.0F);
+  EXPECT_EQ(contourOf(points, 0.5, 20.0).size(), points.size() - 1);
+  EXPECT_TRUE(contourOf({}, 0.3, 20.0).empty());
+}
+
+TEST(ScanContour, SpreadsPointsEvenly) {
+  std::vector<Eigen::Vector2f> points;
+  for (int i = 0; i < 1000; ++i) points.emplace_back(0.001F * static_cast<float>(i), 1.0F);      // Dense,
+  for (int i = 1; i < 50; ++i) points.emplace_back(1.0F + 0.02F * static_cast<float>(i), 1.0F);  // sparse.
+  const auto chosen = spreadPoints(points, 40, 20.0);
+  EXPECT_LE(chosen.size(), 40U);
+  EXPECT_GE(chosen.size(), 38U);
+  const auto dense = std::count_if(chosen.begin(), chosen.end(), [](const auto& p) { return p.x() < 1.0F; });
+  EXPECT_NEAR(static_cast<double>(dense), 20.0, 2.0);
+}
+
+TEST(ScanContour, NormalsTellACorridorFromARoom) {
+  std::vector<float> x, y;
+  common::RandomStream random(1, "normals");
+  for (int side : {-1, 1})
+    for (int i = 0; i < 200; ++i) {
+      x.push_back(0.05F * static_cast<float>(i));
+      y.push_back(static_cast<float>(side + random.gaussian(0.01)));
+    }
+  EXPECT_LT(normalSpread(x, y)(0, 0), 0.02);
+  for (int i = 0; i < 40; ++i) {
+    x.push_back(static_cast<float>(10.0 + random.gaussian(0.01)));
+    y.push_back(1.0F - 0.05F * static_cast<float>(i));
+  }
+  EXPECT_GT(normalSpread(x, y)(0, 0), 0.06);
+}
+
+TEST(ScoreSurface, AQuadraticIsFoundExactly) {
+  Eigen::Matrix3d hessian;
+  hessian << -40.0, 6.0, -4.0, 6.0, -30.0, 8.0, -4.0, 8.0, -20.0;
+  const Eigen::Vector3d gradient(24.0, -18.0, 12.0);
+  ScoreSurface surface;
+  for (int k = -3; k <= 3; ++k)
+    for (int j = -3; j <= 3; ++j)
+      for (int i = -3; i <= 3; ++i) {
+        const Eigen::Vector3d u(i, j, k);
+        surface.at(i, j, k) =
+            static_cast<std::uint32_t>(std::lround(5000.0 + gradient.dot(u) + 0.5 * u.dot(hessian * u)));
+      }
+  const Quadratic q = fitQuadratic(surface);
+  EXPECT_LT((q.hessian - hessian).norm(), 0.1);
+  EXPECT_LT((q.gradient - gradient).norm(), 0.1);
+  EXPECT_NEAR(q.constant, 5000.0, 0.5);
+}
+
+}  // namespace
+}  // namespace swiftlet::perception

@@ -1,0 +1,35 @@
+// Scans of still scenes, for the tests of matching.
+#pragma once
+
+#include "perception/projection/scan_projection.hpp"
+#include "tests/scan_matching/planar_world.hpp"
+
+namespace swiftlet::test {
+
+inline perception::ProjectedScan scanAt(const PlanarWorld& world, const common::Pose2& pose, std::uint64_t frame,
+                                        double height_m = 1.0) {
+  common::RandomStream random(7, "scene", frame);
+  common::LaserConfig laser;
+  laser.sweep_s = 0.0;
+  const auto still = [&](common::Time) { return common::lifted(pose, height_m); };
+  const auto start = common::Time::fromSeconds(static_cast<double>(frame) / laser.rate_hz);
+  return perception::project(sweep(world, laser, still, start, random), laser, still, {});
+}
+
+/// Somewhere in the first room of the flat, away from the walls.
+inline common::Pose2 poseInFlat(common::RandomStream& random) {
+  return {random.uniform(-1.0, 2.5), random.uniform(-2.0, 2.0), random.uniform(-3.1, 3.1)};
+}
+
+inline PlanarWorld corridor() {
+  PlanarWorld world;
+  world.addPolyline({{-60.0, -1.0}, {60.0, -1.0}}, false);
+  world.addPolyline({{-60.0, 1.0}, {60.0, 1.0}}, false);
+  return world;
+}
+
+inline Eigen::Vector3d errorOf(const common::Pose2& estimate, const common::Pose2& truth) {
+  return {estimate.x_m - truth.x_m, estimate.y_m - truth.y_m, common::wrapAngle(estimate.yaw_rad - truth.yaw_rad)};
+}
+
+}  // namespace swiftlet::test
