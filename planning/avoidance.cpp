@@ -114,7 +114,7 @@ std::vector<Avoidance::Threat> Avoidance::threats(const AvoidanceInput& input, c
   const Eigen::Rotation2Dd to_level(T_level_map.yaw_rad);
   for (const DynamicObstacle& o : input.obstacles) {
     const double age_s = std::max(0.0, (input.stamp - o.last_seen).seconds());
-    const bool moving = o.velocity_map_m_s.norm() >= config_.closing_speed_m_s;
+    const bool moving = o.moving && o.velocity_map_m_s.norm() >= config_.closing_speed_m_s;
     const Point velocity_map_m_s = moving ? o.velocity_map_m_s : Point::Zero();
     Threat threat{T_level_map * Point(o.center_map_m + velocity_map_m_s * age_s), o.radius_m,
                   to_level * velocity_map_m_s, false, ""};
