@@ -205,7 +205,7 @@ void Executor::carryOut(const ExecutorInput& input, const common::GoToIntent& go
   if (no_way_since_ && (now_ - *no_way_since_).seconds() > config_.give_up_s) return fail(no_way_);
   if (replan && jobs_.idle("planning")) {
     PlanningRequest request;
-    request.question = GoalRequest{go_to.goal_map_m};
+    request.question = GoalRequest{go_to.goal_map_m, go_to.tolerance_m};
     requestPlan(input, std::move(request));
   }
 }
