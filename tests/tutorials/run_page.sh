@@ -37,7 +37,7 @@ fail() { echo "FAILED: $page:$((10#$line)): $*" >&2; exit 1; }
 
 comparable() {
   if [ "$1" = 'text exact' ]; then cat; else sed -E 's/[0-9]+(\.[0-9]+)?/0/g; s/-{4,}/---/g; s/[[:blank:]]+/ /g'; fi |
-    sed -E 's/[[:blank:]]+$//; s/^ //'
+    sed -E 's/[[:space:]]+$//; s/^ //'
 }
 
 # compare WORDS EXPECTED PRINTED
