@@ -39,7 +39,7 @@ struct GridDrawingConfig {
   double max_free_range_m = 10.0;   ///< Beams without return clear up to here.
   double max_height_above_m = 0.25;  ///< What is higher than this over the body does not touch the hull,
   double max_height_below_m = 0.25;  ///< nor what is deeper than this below it.
-  double slice_height_m = 0.2;       ///< The map is kept in slices of this height.
+  double slice_height_m = 0.05;       ///< The map is kept in slices of this height.
   int fade_steps = 1;                ///< What a slice loses where the next one is seen free.
 
   void describe(common::config::Fields& fields);
