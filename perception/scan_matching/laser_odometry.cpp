@@ -76,8 +76,8 @@ struct LaserOdometry::Impl {
   std::deque<KeyScan> key_scans;  ///< The last one is the reference.
   common::Time last_stamp, last_match;
   common::Time last_seen_whole;  ///< The last match that saw all directions.
-  Pose2 last_T_odom_body;   ///< As predicted, at the last match.
-  Pose2 last_T_local_body;  ///< As matched.
+  Pose2 last_T_odom_body;        ///< As predicted, at the last match.
+  Pose2 last_T_local_body;       ///< As matched.
   int failures = 0;
 };
 
