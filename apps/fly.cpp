@@ -12,9 +12,9 @@
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
+#include "apps/mission_limits.hpp"
 #include "apps/speed.hpp"
 #include "apps/web_link.hpp"
-#include "behaviors/mission.hpp"
 #include "common/data_paths.hpp"
 
 namespace swiftlet::apps {
@@ -41,6 +41,7 @@ FlightSetup setupOf(const FlyOptions& options) {
   FlightSetup setup;
   setup.system = loadSystem(options.system);
   setup.mission_file = common::findData(options.mission).string();
+  requireSound(setup.mission_file, setup.system);
   setup.scenario.seed = options.seed;
   setup.scenario.world = common::findData(options.world).string();
   setup.started = startedNow();

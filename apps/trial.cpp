@@ -12,6 +12,7 @@
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
+#include "apps/mission_limits.hpp"
 #include "common/data_paths.hpp"
 #include "common/table.hpp"
 #include "evaluation/flight_score.hpp"
@@ -71,18 +72,28 @@ FlightSetup setupOf(const TrialConfig& trial, int seed, const fs::path& out) {
   return setup;
 }
 
+evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evaluation::FlightRecord& record,
+                                const simulation::SimulatedVehicle& vehicle, double wall_time_s) {
+  evaluation::TrueWorld truth;
+  truth.rays = &vehicle.rays();
+  truth.vehicle = vehicle.scenario().vehicle;
+  truth.laser = vehicle.scenario().laser;
+  truth.clearance_m = trial.clearance_m;
+  truth.reachable_area_max_m2 = trial.reachable_area_max_m2;
+  return evaluation::scoreOf(record, truth, trial.criteria, seed, wall_time_s);
+}
+
+/// The score is in the flight's own files too.
 evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::path& out) {
+  evaluation::FlightScore score;
   FlightHooks hooks;
   hooks.stop = &stop_requested;
-  const FlightResult result = flySimulated(setupOf(trial, seed, out), hooks);
-  evaluation::TrueWorld truth;
-  truth.rays = &result.vehicle->rays();
-  truth.vehicle = result.vehicle->scenario().vehicle;
-  truth.laser = result.vehicle->scenario().laser;
-  truth.clearance_m = trial.clearance_m;
-  auto score =
-      evaluation::scoreOf(result.record, truth, trial.criteria, seed, result.summary.wall_time_s.value_or(0.0));
-  score.folder = result.folder.filename().string();
+  hooks.score = [&](const auto& record, const auto& vehicle, interfaces::FlightEnd& end) {
+    score = scoreOf(trial, seed, record, vehicle, end.wall_time_s.value_or(0.0));
+    end.coverage = score.coverage;
+    for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
+  };
+  score.folder = flySimulated(setupOf(trial, seed, out), hooks).folder.filename().string();
   return score;
 }
 
@@ -90,13 +101,14 @@ std::string flightLine(const std::string& trial, const evaluation::FlightScore& 
   std::string line = fmt::format("{:<24} seed {:<4} {:<8} {:6.1f} s {:5.1f} x", trial, score.seed,
                                  score.passed() ? "passed" : "FAILED", score.mission_time_s, score.realtime_factor);
   for (const std::string& failure : score.failures) line += "\n    " + failure;
+  if (!score.coverage_problem.empty()) line += "\n    no coverage: " + score.coverage_problem;
   return line;
 }
 
 /// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds.
 TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out) {
   const int count = options.repeat > 0 ? options.repeat : trial.repeat;
-  TrialResult result{trial.name, trial.description, trial.system, trial.paper, {}};
+  TrialResult result{trial.name, trial.description, trial.system, trial.paper, {}, trial.criteria};
   std::vector<std::optional<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
   std::mutex mutex;
@@ -150,16 +162,29 @@ void writeResults(const TrialResults& results, const fs::path& out) {
   }
 }
 
+/// What is to be flown, its missions sound for the systems that fly them; nothing flies before all are.
+std::vector<TrialConfig> trialsOf(const TrialOptions& options) {
+  auto trials = evaluation::readTrials(common::findData(options.trials));
+  std::vector<common::Problem> problems;
+  for (TrialConfig& trial : trials) {
+    if (!options.system.empty()) trial.system = options.system;
+    for (auto& problem : missionProblems(trial.mission, loadSystem(trial.system)))
+      problems.push_back(std::move(problem));
+  }
+  if (!problems.empty()) throw common::InputError(std::move(problems));
+  return trials;
+}
+
 int trial(const TrialOptions& options) {
   std::signal(SIGINT, requestTrialStop);
   std::signal(SIGTERM, requestTrialStop);
+  std::vector<TrialConfig> trials = trialsOf(options);
   const fs::path out =
       options.out.empty() ? interfaces::freshRunFolder("runs", startedNow(), "trial") : fs::path(options.out);
   fs::create_directories(out);
 
   TrialResults results;
-  for (TrialConfig& trial : evaluation::readTrials(common::findData(options.trials))) {
-    if (!options.system.empty()) trial.system = options.system;
+  for (TrialConfig& trial : trials) {
     findWorld(trial);
     results.trials.push_back(flyAll(trial, options, out));
     writeResults(results, out);
@@ -167,7 +192,10 @@ int trial(const TrialOptions& options) {
   if (options.json) {
     fmt::print("{}\n", toJson(results));
   } else {
-    fmt::print("\n{}\nresults {}\nreport  {}\n", toText(summaryTable(results)), (out / "results.json").string(),
+    fmt::print("\n{}\n", toText(summaryTable(results)));
+    for (const TrialResult& trial : results.trials)
+      for (const std::string& failure : trial.missed()) fmt::print("{}, all flights: {}\n", trial.name, failure);
+    fmt::print("results {}\nreport  {}\n", (out / "results.json").string(),
                (out / "report.html").string());
   }
   return results.passed() ? kDone : kFailed;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -25,9 +26,27 @@ std::string minutes(double seconds) {
   return whole < 60 ? fmt::format("{:.1f} s", seconds) : fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 
-std::string shown(const Figure& figure) {
-  if (!std::isfinite(figure.value)) return "not known";
-  return fmt::format("{:.4g}", figure.value);
+/// Endings of names, the longest first, and what a reader knows them by.
+constexpr std::array<std::pair<std::string_view, const char*>, 8> kUnits = {{{"_m_s2", "m/s²"},
+                                                                            {"_m_s", "m/s"},
+                                                                            {"_rad", "rad"},
+                                                                            {"_deg", "°"},
+                                                                            {"_m2", "m²"},
+                                                                            {"_hz", "Hz"},
+                                                                            {"_m", "m"},
+                                                                            {"_s", "s"}}};
+
+/// "goal_error_m", 0.0213 -> {"goal error", "0.0213 m"}.
+std::pair<std::string, std::string> shown(const Figure& figure) {
+  std::string name = figure.name, unit;
+  for (const auto& [ending, words] : kUnits) {
+    if (!name.ends_with(ending)) continue;
+    name.resize(name.size() - ending.size());
+    unit = std::string(" ") + words;
+    break;
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return {name, std::isfinite(figure.value) ? fmt::format("{:.4g}{}", figure.value, unit) : "not known"};
 }
 
 std::pair<std::string, Mark> verdictOf(const FlightSummary& summary) {
@@ -74,7 +93,10 @@ std::string summarySection(const FlightSummary& summary) {
 std::string figuresSection(const std::vector<Figure>& figures) {
   if (figures.empty()) return "";
   common::Table table{"", {"figure", "value"}, {}};
-  for (const Figure& figure : figures) table.rows.push_back({{figure.name}, {shown(figure)}});
+  for (const Figure& figure : figures) {
+    auto [name, value] = shown(figure);
+    table.rows.push_back({{std::move(name)}, {std::move(value)}});
+  }
   return html::section("Figures", html::table(table));
 }
 
