@@ -1,7 +1,6 @@
 // swiftlet trial: scripted flights with pass criteria.
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -13,6 +12,7 @@
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
+#include "apps/stop_signals.hpp"
 #include "common/data_paths.hpp"
 #include "common/table.hpp"
 #include "evaluation/flight_score.hpp"
@@ -29,9 +29,6 @@ namespace fs = std::filesystem;
 using evaluation::TrialConfig;
 using evaluation::TrialResult;
 using evaluation::TrialResults;
-
-std::atomic<bool> stop_requested{false};
-extern "C" void requestTrialStop(int) { stop_requested = true; }
 
 struct TrialOptions {
   std::string trials;
@@ -84,10 +81,10 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
 }
 
 /// The score is in the flight's own files too.
-evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::path& out) {
+evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::path& out, const std::atomic<bool>& stop) {
   evaluation::FlightScore score;
   FlightHooks hooks;
-  hooks.stop = &stop_requested;
+  hooks.stop = &stop;
   hooks.score = [&](const auto& record, const auto& vehicle, interfaces::FlightEnd& end) {
     score = scoreOf(trial, seed, record, vehicle, end.wall_time_s.value_or(0.0));
     end.coverage = score.coverage;
@@ -106,7 +103,8 @@ std::string flightLine(const std::string& trial, const evaluation::FlightScore& 
 }
 
 /// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds.
-TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out) {
+TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out,
+                   const std::atomic<bool>& stop) {
   const int count = options.repeat > 0 ? options.repeat : trial.repeat;
   TrialResult result{trial.name, trial.description, trial.system, trial.paper, {}, trial.criteria};
   std::vector<std::optional<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
@@ -114,9 +112,9 @@ TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const 
   std::mutex mutex;
   std::exception_ptr failure;
   const auto work = [&] {
-    for (int i = next++; i < count && !stop_requested; i = next++) {
+    for (int i = next++; i < count && !stop; i = next++) {
       try {
-        auto score = flyOne(trial, options.seed + i, out);
+        auto score = flyOne(trial, options.seed + i, out, stop);
         const std::scoped_lock lock(mutex);
         if (!options.json) fmt::print("{}\n", flightLine(trial.name, score));
         std::fflush(stdout);
@@ -176,17 +174,16 @@ std::vector<TrialConfig> trialsOf(const TrialOptions& options) {
 }
 
 int trial(const TrialOptions& options) {
-  std::signal(SIGINT, requestTrialStop);
-  std::signal(SIGTERM, requestTrialStop);
   std::vector<TrialConfig> trials = trialsOf(options);
   const fs::path out =
       options.out.empty() ? interfaces::freshRunFolder("runs", startedNow(), "trial") : fs::path(options.out);
   fs::create_directories(out);
 
+  const std::atomic<bool>& stop = stopOnSignals();
   TrialResults results;
   for (TrialConfig& trial : trials) {
     findWorld(trial);
-    results.trials.push_back(flyAll(trial, options, out));
+    results.trials.push_back(flyAll(trial, options, out, stop));
     writeResults(results, out);
   }
   if (options.json) {
@@ -195,8 +192,7 @@ int trial(const TrialOptions& options) {
     fmt::print("\n{}\n", toText(summaryTable(results)));
     for (const TrialResult& trial : results.trials)
       for (const std::string& failure : trial.missed()) fmt::print("{}, all flights: {}\n", trial.name, failure);
-    fmt::print("results {}\nreport  {}\n", (out / "results.json").string(),
-               (out / "report.html").string());
+    fmt::print("results {}\nreport  {}\n", (out / "results.json").string(), (out / "report.html").string());
   }
   return results.passed() ? kDone : kFailed;
 }

@@ -8,7 +8,8 @@ namespace swiftlet::behaviors {
 
 class Explore final : public IntentLeaf {
  public:
-  explicit Explore(const tree::NodeSetup& setup) : IntentLeaf(setup), clearance_m_(setup, "clearance_m"), bounds_(setup, "bounds") {}
+  explicit Explore(const tree::NodeSetup& setup)
+      : IntentLeaf(setup), clearance_m_(setup, "clearance_m"), bounds_(setup, "bounds") {}
   static tree::NodeManifest manifest();
 
  private:

@@ -66,8 +66,8 @@ void scoreMap(const FlightRecord& record, const TrueWorld& world, FlightScore& s
   query.range_max_m = world.laser.range_max_m;
   query.max_area_m2 = world.reachable_area_max_m2;
   if (isOpen(*world.rays, query)) {
-    score.coverage_problem = fmt::format(
-        "the world is not closed: the hull gets from the start to more than {:g} m2", world.reachable_area_max_m2);
+    score.coverage_problem = fmt::format("the world is not closed: the hull gets from the start to more than {:g} m2",
+                                         world.reachable_area_max_m2);
   } else {
     const simulation::FreeSpace free_space = simulation::freeSpace(*world.rays, query);
     score.coverage = coverage(*record.map, T_world_map, free_space);

@@ -144,7 +144,7 @@ void drawSpans(const Plot& plot, const Frame& f, std::back_insert_iterator<std::
 void drawNames(const Plot& plot, const Frame& f, std::back_insert_iterator<std::string> out) {
   double right = f.left + f.width;
   for (std::size_t i = plot.series.size(); i-- > 0;) {
-    const double width = 7.0 * static_cast<double>(plot.series[i].name.size());
+    const double width = 6.4 * static_cast<double>(plot.series[i].name.size());
     fmt::format_to(out, R"(<text class="name" x="{:.1f}" y="20" text-anchor="end">{}</text>)", right,
                    svg::escaped(plot.series[i].name));
     fmt::format_to(out, R"(<path class="s s{}{}" d="M{:.1f} 16h16"/>)", i % 6 + 1, plot.series[i].dashed ? " dash" : "",

@@ -44,7 +44,8 @@ TEST_F(LaserFault, NotANumberInScansDoesNotStopTheFlight) {
   // What the scorer found is in the flight's own files too.
   const auto mission = nlohmann::json::parse(readText(path("out/fault-001/mission.json")));
   EXPECT_EQ(mission.at("coverage"), flight.at("coverage"));
-  for (const std::string figure : {"goal_error_m", "home_error_m", "estimate_rms_m", "map_wall_error_median_m", "collisions"})
+  for (const std::string figure :
+       {"goal_error_m", "home_error_m", "estimate_rms_m", "map_wall_error_median_m", "collisions"})
     EXPECT_EQ(mission.at("figures").at(figure), flight.at(figure)) << figure;
   const std::string report = readText(path("out/fault-001/report.html"));
   for (const std::string words : {"Coverage", "goal error", "home error", "estimate rms", "map wall error median"})
