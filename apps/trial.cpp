@@ -94,11 +94,12 @@ evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::pat
   return score;
 }
 
-std::string flightLine(const std::string& trial, const evaluation::FlightScore& score) {
-  std::string line = fmt::format("{:<24} seed {:<4} {:<8} {:6.1f} s {:5.1f} x", trial, score.seed,
+std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& score) {
+  std::string line = fmt::format("{:<24} seed {:<4} {:<8} {:6.1f} s {:5.1f} x", trial.name, score.seed,
                                  score.passed() ? "passed" : "FAILED", score.mission_time_s, score.realtime_factor);
   for (const std::string& failure : score.failures) line += "\n    " + failure;
-  if (!score.coverage_problem.empty()) line += "\n    no coverage: " + score.coverage_problem;
+  if (!score.coverage_problem.empty() && trial.criteria.coverage_min <= 0)
+    line += "\n    no coverage: " + score.coverage_problem;
   return line;
 }
 
@@ -116,7 +117,7 @@ TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const 
       try {
         auto score = flyOne(trial, options.seed + i, out, stop);
         const std::scoped_lock lock(mutex);
-        if (!options.json) fmt::print("{}\n", flightLine(trial.name, score));
+        if (!options.json) fmt::print("{}\n", flightLine(trial, score));
         std::fflush(stdout);
         scores[static_cast<std::size_t>(i)] = std::move(score);
       } catch (...) {

@@ -53,7 +53,7 @@ std::string_view style() {
 .sw text{fill:var(--soft)}.sw .title{fill:var(--ink);font-size:14px;font-weight:600}.sw .name{fill:var(--ink)}
 .sw .halo{paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}
 .sw .tick{font-variant-numeric:tabular-nums}.sw .frame{fill:var(--paper)}.sw .axis{stroke:var(--soft);fill:none}
-.sw .rule{stroke:var(--line);fill:none}.sw .span{fill:var(--soft);opacity:.1}
+.sw .rule{stroke:var(--line);fill:none}.sw .span{fill:var(--soft);opacity:.16}.sw .odd{opacity:.05}
 .sw .s{fill:none;stroke-width:1.6;stroke-linejoin:round;stroke-linecap:round}.sw .dash{stroke-dasharray:5 4}
 .sw .s1{stroke:var(--c1)}.sw .s2{stroke:var(--c2)}.sw .s3{stroke:var(--c3)}
 .sw .s4{stroke:var(--c4)}.sw .s5{stroke:var(--c5)}.sw .s6{stroke:var(--c6)}
