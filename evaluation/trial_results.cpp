@@ -123,17 +123,17 @@ std::string decimals(const std::optional<double>& value) {
 const std::vector<SummaryColumn>& summaryColumns() {
   static const std::vector<SummaryColumn> columns = {
       {"coverage min", "coverage_min", percent, &TrialResult::coverageMin, &Criteria::coverage_min},
-      {"goal err max m", "goal_error_max_m", decimals<3>, &TrialResult::goalErrorMax_m, &Criteria::goal_error_max_m},
-      {"median m", "goal_error_median_m", decimals<3>, &TrialResult::goalErrorMedian_m,
+      {"goal err max (m)", "goal_error_max_m", decimals<3>, &TrialResult::goalErrorMax_m, &Criteria::goal_error_max_m},
+      {"median (m)", "goal_error_median_m", decimals<3>, &TrialResult::goalErrorMedian_m,
        &Criteria::goal_error_median_max_m},
-      {"home err max m", "home_error_max_m", decimals<3>, &TrialResult::homeErrorMax_m, &Criteria::home_error_max_m},
-      {"median m", "home_error_median_m", decimals<3>, &TrialResult::homeErrorMedian_m,
+      {"home err max (m)", "home_error_max_m", decimals<3>, &TrialResult::homeErrorMax_m, &Criteria::home_error_max_m},
+      {"median (m)", "home_error_median_m", decimals<3>, &TrialResult::homeErrorMedian_m,
        &Criteria::home_error_median_max_m},
-      {"time median s", "mission_time_median_s", decimals<1>, &TrialResult::missionTimeMedian_s,
+      {"time median (s)", "mission_time_median_s", decimals<1>, &TrialResult::missionTimeMedian_s,
        &Criteria::mission_time_median_max_s},
-      {"RMS median m", "estimate_rms_median_m", decimals<3>, &TrialResult::estimateRmsMedian_m,
+      {"RMS median (m)", "estimate_rms_median_m", decimals<3>, &TrialResult::estimateRmsMedian_m,
        &Criteria::estimate_rms_median_max_m},
-      {"wall err median m", "map_wall_error_median_m", decimals<3>, &TrialResult::mapWallErrorMedian_m,
+      {"wall err median (m)", "map_wall_error_median_m", decimals<3>, &TrialResult::mapWallErrorMedian_m,
        &Criteria::map_wall_error_median_max_m},
       {"x real time", "realtime_factor_median", decimals<1>, &TrialResult::realtimeFactorMedian, nullptr},
   };
@@ -270,8 +270,8 @@ Table summaryTable(const TrialResults& results) {
 
 Table flightTable(const TrialResult& trial) {
   Table table{"Flights of " + trial.name,
-              {"seed", "passed", "outcome", "coverage", "goal err m", "home err m", "time s", "distance m",
-               "estimate RMS m", "wall err m", "clearance m", "interrupted", "resumed", "x real time"},
+              {"seed", "passed", "outcome", "coverage", "goal err (m)", "home err (m)", "time (s)", "distance (m)",
+               "estimate RMS (m)", "wall err (m)", "clearance (m)", "interrupted", "resumed", "x real time"},
               {}};
   for (const FlightScore& flight : trial.flights) {
     const std::string link = flight.folder.empty() ? "" : flight.folder + "/report.html";

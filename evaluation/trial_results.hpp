@@ -18,7 +18,7 @@ struct TrialResult {
   std::string system;
   std::vector<PaperFigure> paper;
   std::vector<FlightScore> flights;
-  Criteria criteria;
+  Criteria criteria = {};
 
   int passed() const;
   /// The criteria over all flights that are missed.

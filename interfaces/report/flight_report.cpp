@@ -74,7 +74,7 @@ std::string header(const FlightSummary& summary) {
   text += fmt::format("<p>{} in {}, system {}, seed {}, version {}{}</p>", escape(summary.info.mission_file),
                       escape(summary.info.world), escape(summary.info.system), summary.info.seed,
                       escape(summary.info.version),
-                      summary.info.started.empty() ? "" : ", started " + escape(summary.info.started));
+                      summary.info.started.empty() ? "" : ", started " + escape(html::moment(summary.info.started)));
   return text;
 }
 

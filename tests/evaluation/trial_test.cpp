@@ -222,7 +222,7 @@ TEST(CriteriaOverAllFlights, AreInTheTablesAndTheJson) {
   ASSERT_EQ(summary.rows.size(), 3u);
   EXPECT_THAT(toText(summary), testing::ContainsRegex("asked for +98.0 % +70.0"));
   const auto time =
-      std::find(summary.columns.begin(), summary.columns.end(), "time median s") - summary.columns.begin();
+      std::find(summary.columns.begin(), summary.columns.end(), "time median (s)") - summary.columns.begin();
   EXPECT_EQ(summary.rows[0][static_cast<std::size_t>(time)].mark, common::Mark::kBad);
   EXPECT_EQ(summary.rows[0][3].mark, common::Mark::kGood);
   const common::Table failures = failureTable(all);
