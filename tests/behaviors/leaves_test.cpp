@@ -55,12 +55,6 @@ TEST(Explore, HandsDownItsBoundsIfItHasSome) {
   EXPECT_EQ(bounds->max_map_m, Eigen::Vector2d(4, 5));
 }
 
-TEST(Explore, FailsOnAnEntryThatIsNoRectangle) {
-  Flight flight(R"(<Sequence><SetBlackboard value="1;2" output_key="room"/><Explore bounds="{room}"/></Sequence>)");
-  EXPECT_EQ(flight.tick(), "FAILED");
-  EXPECT_NE(flight.last.reason.find("expected a rectangle"), std::string::npos) << flight.last.reason;
-}
-
 TEST(MoveToGoal, HandsDownGoalHeightAndTolerance) {
   Flight flight(R"(<MoveToGoal goal="3.0;-1.5;1.2" tolerance_m="0.2" clearance_m="0.3"/>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 go to (3.00, -1.50)");

@@ -125,6 +125,10 @@ TEST(Check, BoundsThatAreNoRectangle) {
   EXPECT_EQ(problemsOf("<Sequence><TakeOff/><Explore bounds=\"0;0;3\"/></Sequence>").size(), 1U);
   EXPECT_EQ(problemsOf("<Sequence><TakeOff/><Explore bound=\"0;0;3;3\"/></Sequence>").size(), 1U);
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/><Explore bounds=\"-2;0;4;3\"/></Sequence>"), ElementsAre());
+  EXPECT_THAT(problemsOf("<Sequence><SetBlackboard value=\"1;2\" output_key=\"room\"/><TakeOff/><Explore "
+                         "bounds=\"{room}\"/></Sequence>"),
+              ElementsAre(HasSubstr("(read by Explore.bounds from {room})")))
+      << "entries count";
 }
 
 TEST(Check, TooHigh) {

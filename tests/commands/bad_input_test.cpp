@@ -110,7 +110,7 @@ TEST_F(BadInput, BoundsThatAreNoRectangle) {
 }
 
 TEST_F(BadInput, MissionThatNeverTakesOff) {
-  expectMissionRefused("      <Hold/>\n", "broken\\.xml:2:3: Main: the mission never takes off");
+  expectMissionRefused("      <Hold/>\n", "broken\\.xml:3:5: Main: the mission never takes off");
 }
 
 TEST_F(BadInput, MissionThatTheSystemCannotFly) {
