@@ -74,7 +74,8 @@ TEST_F(Bounds, WhatLiesOutsideIsLeftAndSaidToBe) {
                                       path("run"), "--time-limit", "300"});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   int out_of_bounds = 0;
-  for (const auto& frontier : nlohmann::json::parse(readText(path("run/mission.json"))).at("frontiers")) {
+  const auto mission_json = nlohmann::json::parse(readText(path("run/mission.json")));
+  for (const auto& frontier : mission_json.at("frontiers")) {
     EXPECT_NE(frontier.at("reason"), "open") << frontier;
     if (frontier.at("reason") != "out of bounds") continue;
     ++out_of_bounds;
