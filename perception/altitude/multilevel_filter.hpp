@@ -73,12 +73,15 @@ class MultilevelFilter {
     double join_distance_m = 0.20;          ///< Two levels whose cells come this close meet.
     double beam_noise_m = 0.015;            ///< Standard deviation of one distance, attitude error included.
     double surface_noise_m = 0.005;         ///< How far a real surface is from flat; shared by all beams of a scan.
-    double acceleration_noise_m_s2 = 0.30;  ///< Error of the vertical acceleration over one scan period.
+    double acceleration_noise_m_s2 = 0.10;  ///< Error of the vertical acceleration over one scan period.
     double gate_sigma = 3.5;                ///< Half width of all confidence regions, in standard deviations.
     double cluster_gap_m = 0.06;            ///< Beams sorted by distance: a gap wider than this separates two surfaces.
     int min_cluster_beams = 2;              ///< Fewer unexplained beams are outliers.
-    int confirm_scans = 2;                  ///< Scans in a row that must see a new surface before it becomes a level.
-    double enter_after_s = 0.3;             ///< A level not seen for this long is entered anew when it is seen again.
+    int confirm_scans = 3;                  ///< Scans in a row that must see a new surface before it becomes a level,
+    double confirm_s = 0.3;                 ///< and for how long.
+    double slope_sigma = 4.5;       ///< What rises or falls by more, in standard deviations, is a slope and no level.
+    double doubt_s = 0.3;           ///< How long a level is left alone after it behaved like a slope.
+    double enter_after_s = 0.3;     ///< A level not seen for this long is entered anew when it is seen again.
     double max_prediction_s = 0.5;  ///< Longer gaps between scans are predicted as if this long, with the noise.
 
     void describe(common::config::Fields& fields);
