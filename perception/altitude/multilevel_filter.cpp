@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include "common/validation.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr double kFarthest_m = 60.0;
 constexpr int kNone = -1;
+constexpr int kFloor = 0;
 
 double square(double x) { return x * x; }
 
@@ -74,6 +76,8 @@ struct MultilevelFilter::Impl {
   void matchBeams();
   void groupBeams();
   bool leftALevel() const;
+  void forgetTheLast();
+  std::optional<VirtualHeight> settled();
   void doubtSlopes();
   std::optional<VirtualHeight> updateHeight();
   void clusterRest(AltitudeUpdate& outcome);
@@ -99,6 +103,7 @@ struct MultilevelFilter::Impl {
   HeightFilter height;
   LevelStore store;
   std::vector<Candidate> candidates;
+  std::deque<VirtualHeight> settling;
   HeightState state;
   bool initialized = false;
   std::uint64_t version = 0;
@@ -166,6 +171,7 @@ int MultilevelFilter::Impl::likeliestLevel(double distance_below_m, int averaged
 /// on no level is not on one with its edge either: over a slope, that edge would take the height along.
 void MultilevelFilter::Impl::matchBeams() {
   store.near(center, config.neighbourhood_m, near);
+  if (config.one_floor && (near.empty() || near.front() != kFloor)) near.insert(near.begin(), kFloor);
   for (Beam& beam : beams) beam.level = kNone;
   for (std::size_t begin = 0, end = 0; begin < beams.size(); begin = end) {
     end = endOfSurface(begin);
@@ -182,6 +188,18 @@ bool MultilevelFilter::Impl::leftALevel() const {
   });
 }
 
+void MultilevelFilter::Impl::forgetTheLast() {
+  height.recall();
+  settling.clear();
+}
+
+std::optional<VirtualHeight> MultilevelFilter::Impl::settled() {
+  if (settling.empty() || (now - settling.front().stamp).seconds() < config.settle_s) return std::nullopt;
+  const VirtualHeight oldest = settling.front();
+  settling.pop_front();
+  return oldest;
+}
+
 /// Over a level the innovations are noise. Over a slope they lean to one side, each within its gate, and the height
 /// would follow them: a level whose innovations add up to more than noise does is left alone for a while.
 void MultilevelFilter::Impl::doubtSlopes() {
@@ -191,7 +209,7 @@ void MultilevelFilter::Impl::doubtSlopes() {
     level.innovation_variance_m2 += height.ownVariance_m2() + beamVariance(g.beams);
     if (square(level.innovation_sum_m) <= square(config.slope_sigma) * level.innovation_variance_m2) return false;
     level.innovation_sum_m = level.innovation_variance_m2 = 0.0;
-    height.recall();
+    forgetTheLast();
     level.doubted_until = now + common::Duration::fromSeconds(config.doubt_s);
     for (Beam& beam : beams)
       if (beam.level == g.level) beam.level = kNone;
@@ -414,6 +432,7 @@ void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map
   f.height.start(time, height_m, square(height_sigma_m));
   f.store.clear();
   f.candidates.clear();
+  f.settling.clear();
   f.present.clear();
   const int floor = f.store.add(0.0, 0.0);
   const CellIndex here = f.store.cellAt(position_map_m);
@@ -449,11 +468,12 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
   f.matchBeams();
   if (f.leftALevel()) {
     // The last that was seen of it may have been the beginning of a slope.
-    f.height.recall();
+    f.forgetTheLast();
     f.matchBeams();
   }
   f.doubtSlopes();
-  outcome.measurement = f.updateHeight();
+  if (const auto measured = f.updateHeight()) f.settling.push_back(*measured);
+  outcome.measurement = f.settled();
 
   // 2nd stage: update map.
   for (const Group& g : f.groups) f.present.push_back(g.level);
@@ -492,6 +512,8 @@ void MultilevelFilter::Config::describe(common::config::Fields& fields) {
   fields("slope_sigma", slope_sigma, "What rises or falls by more than this many standard deviations is a slope.");
   fields("doubt_s", doubt_s, "How long a level is left alone after it behaved like a slope.");
   fields("enter_after_s", enter_after_s, "A level not seen for this long is entered anew.");
+  fields("one_floor", one_floor, "The take-off floor may be met again anywhere, not only near where it was seen.");
+  fields("settle_s", settle_s, "A measurement that was not doubted for this long is given out.");
   fields("max_prediction_s", max_prediction_s, "Longer gaps between scans are predicted as if this long.");
 }
 
@@ -511,6 +533,7 @@ std::vector<std::string> MultilevelFilter::Config::validate() const {
       .within("slope_sigma", slope_sigma, 1, 100)
       .within("doubt_s", doubt_s, 0, 10)
       .within("enter_after_s", enter_after_s, 0, 10)
+      .within("settle_s", settle_s, 0, 1)
       .within("max_prediction_s", max_prediction_s, 0.01, 10)
       .problems();
 }

@@ -58,7 +58,9 @@ struct VirtualHeight {
 
 /// What one scan did.
 struct AltitudeUpdate {
-  std::optional<VirtualHeight> measurement;     ///< None: no beam is explained by a known level (line 10).
+  /// Of a scan `settle_s` ago: by then it is known whether it met a level or the beginning of a slope. None: no beam
+  /// was explained by a known level (line 10), or it was a slope.
+  std::optional<VirtualHeight> measurement;
   std::optional<double> height_above_ground_m;  ///< Over the highest surface below that two beams agree on.
   int levels_added = 0;
   int levels_joined = 0;
@@ -82,6 +84,8 @@ class MultilevelFilter {
     double slope_sigma = 4.5;       ///< What rises or falls by more, in standard deviations, is a slope and no level.
     double doubt_s = 0.3;           ///< How long a level is left alone after it behaved like a slope.
     double enter_after_s = 0.3;     ///< A level not seen for this long is entered anew when it is seen again.
+    bool one_floor = true;          ///< The take-off floor is looked for everywhere, not only in the neighbourhood.
+    double settle_s = 0.15;         ///< A measurement that was not doubted for this long is given out.
     double max_prediction_s = 0.5;  ///< Longer gaps between scans are predicted as if this long, with the noise.
 
     void describe(common::config::Fields& fields);

@@ -22,7 +22,7 @@ TEST(MultilevelFilter, tracksClimbAndHoverOverAFlatFloor) {
   flight.flyTo({5.0, 0.0}, 1.0);
   EXPECT_EQ(flight.filter.levels().levels.size(), 1u);
   EXPECT_EQ(flight.filter.levels().levels[0].height_m, 0.0);
-  EXPECT_EQ(flight.without_measurement, 0);
+  EXPECT_LE(flight.without_measurement, 7);  // Until the first has settled.
   EXPECT_LT(flight.rms_m(), 0.012);
   EXPECT_NEAR(flight.filter.state().velocity_m_s, flight.vz_m_s, 0.05);
   ASSERT_TRUE(flight.last.height_above_ground_m);
@@ -139,8 +139,26 @@ TEST(MultilevelFilter, manyCrossingsDoNotDrift) {
               100 * flight.rms_m(), map.levels.size());
 }
 
+/// Only levels near by may explain a beam, as in the paper.
+MultilevelFilter onlyNear() {
+  MultilevelFilter::Config config;
+  config.one_floor = false;
+  return MultilevelFilter(config);
+}
+
+TEST(MultilevelFilter, theFloorBehindAWideTableIsKnownAtOnce) {
+  Overflight flight;
+  flight.boxes = {{1.0, 4.0, -1.5, 1.5, 0.77}};
+  flight.start();
+  flight.climbTo(1.5);
+  flight.flyTo({6.0, 0.0});
+  EXPECT_EQ(flight.filter.levels().levels.size(), 2u);
+  EXPECT_LT(flight.worst_error_m, 0.04);
+}
+
 TEST(MultilevelFilter, theFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
   Overflight flight;
+  flight.filter = onlyNear();
   flight.boxes = {{1.0, 4.0, -1.5, 1.5, 0.77}};
   flight.start();
   flight.climbTo(1.5);
@@ -263,6 +281,7 @@ TEST(MultilevelFilter, theSameFlightGivesTheSameBits) {
 TEST(MultilevelFilter, joinIsTheFormulaOfThePaper) {
   // h = (s_j^2 h_i + s_i^2 h_j) / (s_i^2 + s_j^2): twice the same information halves the variance.
   Overflight flight;
+  flight.filter = onlyNear();
   flight.boxes = {{1.0, 4.0, -1.5, 1.5, 0.77}};
   flight.start();
   flight.climbTo(1.5);
@@ -274,7 +293,9 @@ TEST(MultilevelFilter, joinIsTheFormulaOfThePaper) {
 }
 
 TEST(MultilevelFilter, garbageInNothingOut) {
-  MultilevelFilter filter({});
+  MultilevelFilter::Config config;
+  config.settle_s = 0.0;
+  MultilevelFilter filter(config);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<GroundPoint> points(10, GroundPoint{{0, 0}, 1.0});
   EXPECT_FALSE(filter.update(common::Time::fromSeconds(1.0), {0, 0}, points).measurement);
