@@ -1,7 +1,6 @@
 // swiftlet trial: scripted flights with pass criteria.
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -12,6 +11,8 @@
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
+#include "apps/mission_limits.hpp"
+#include "apps/stop_signals.hpp"
 #include "common/data_paths.hpp"
 #include "common/table.hpp"
 #include "evaluation/flight_score.hpp"
@@ -28,9 +29,6 @@ namespace fs = std::filesystem;
 using evaluation::TrialConfig;
 using evaluation::TrialResult;
 using evaluation::TrialResults;
-
-std::atomic<bool> stop_requested{false};
-extern "C" void requestTrialStop(int) { stop_requested = true; }
 
 struct TrialOptions {
   std::string trials;
@@ -71,42 +69,55 @@ FlightSetup setupOf(const TrialConfig& trial, int seed, const fs::path& out) {
   return setup;
 }
 
-evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::path& out) {
-  FlightHooks hooks;
-  hooks.stop = &stop_requested;
-  const FlightResult result = flySimulated(setupOf(trial, seed, out), hooks);
+evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evaluation::FlightRecord& record,
+                                const simulation::SimulatedVehicle& vehicle, double wall_time_s) {
   evaluation::TrueWorld truth;
-  truth.rays = &result.vehicle->rays();
-  truth.vehicle = result.vehicle->scenario().vehicle;
-  truth.laser = result.vehicle->scenario().laser;
+  truth.rays = &vehicle.rays();
+  truth.vehicle = vehicle.scenario().vehicle;
+  truth.laser = vehicle.scenario().laser;
   truth.clearance_m = trial.clearance_m;
-  auto score =
-      evaluation::scoreOf(result.record, truth, trial.criteria, seed, result.summary.wall_time_s.value_or(0.0));
-  score.folder = result.folder.filename().string();
+  truth.reachable_area_max_m2 = trial.reachable_area_max_m2;
+  return evaluation::scoreOf(record, truth, trial.criteria, seed, wall_time_s);
+}
+
+/// The score is in the flight's own files too.
+evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::path& out, const std::atomic<bool>& stop) {
+  evaluation::FlightScore score;
+  FlightHooks hooks;
+  hooks.stop = &stop;
+  hooks.score = [&](const auto& record, const auto& vehicle, interfaces::FlightEnd& end) {
+    score = scoreOf(trial, seed, record, vehicle, end.wall_time_s.value_or(0.0));
+    end.coverage = score.coverage;
+    for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
+  };
+  score.folder = flySimulated(setupOf(trial, seed, out), hooks).folder.filename().string();
   return score;
 }
 
-std::string flightLine(const std::string& trial, const evaluation::FlightScore& score) {
-  std::string line = fmt::format("{:<24} seed {:<4} {:<8} {:6.1f} s {:5.1f} x", trial, score.seed,
+std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& score) {
+  std::string line = fmt::format("{:<24} seed {:<4} {:<8} {:6.1f} s {:5.1f} x", trial.name, score.seed,
                                  score.passed() ? "passed" : "FAILED", score.mission_time_s, score.realtime_factor);
   for (const std::string& failure : score.failures) line += "\n    " + failure;
+  if (!score.coverage_problem.empty() && trial.criteria.coverage_min <= 0)
+    line += "\n    no coverage: " + score.coverage_problem;
   return line;
 }
 
 /// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds.
-TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out) {
+TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out,
+                   const std::atomic<bool>& stop) {
   const int count = options.repeat > 0 ? options.repeat : trial.repeat;
-  TrialResult result{trial.name, trial.description, trial.system, trial.paper, {}};
+  TrialResult result{trial.name, trial.description, trial.system, trial.paper, {}, trial.criteria};
   std::vector<std::optional<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
   std::mutex mutex;
   std::exception_ptr failure;
   const auto work = [&] {
-    for (int i = next++; i < count && !stop_requested; i = next++) {
+    for (int i = next++; i < count && !stop; i = next++) {
       try {
-        auto score = flyOne(trial, options.seed + i, out);
+        auto score = flyOne(trial, options.seed + i, out, stop);
         const std::scoped_lock lock(mutex);
-        if (!options.json) fmt::print("{}\n", flightLine(trial.name, score));
+        if (!options.json) fmt::print("{}\n", flightLine(trial, score));
         std::fflush(stdout);
         scores[static_cast<std::size_t>(i)] = std::move(score);
       } catch (...) {
@@ -150,25 +161,39 @@ void writeResults(const TrialResults& results, const fs::path& out) {
   }
 }
 
+/// What is to be flown, its missions sound for the systems that fly them; nothing flies before all are.
+std::vector<TrialConfig> trialsOf(const TrialOptions& options) {
+  auto trials = evaluation::readTrials(common::findData(options.trials));
+  std::vector<common::Problem> problems;
+  for (TrialConfig& trial : trials) {
+    if (!options.system.empty()) trial.system = options.system;
+    for (auto& problem : missionProblems(trial.mission, loadSystem(trial.system)))
+      problems.push_back(std::move(problem));
+  }
+  if (!problems.empty()) throw common::InputError(std::move(problems));
+  return trials;
+}
+
 int trial(const TrialOptions& options) {
-  std::signal(SIGINT, requestTrialStop);
-  std::signal(SIGTERM, requestTrialStop);
+  std::vector<TrialConfig> trials = trialsOf(options);
   const fs::path out =
       options.out.empty() ? interfaces::freshRunFolder("runs", startedNow(), "trial") : fs::path(options.out);
   fs::create_directories(out);
 
+  const std::atomic<bool>& stop = stopOnSignals();
   TrialResults results;
-  for (TrialConfig& trial : evaluation::readTrials(common::findData(options.trials))) {
-    if (!options.system.empty()) trial.system = options.system;
+  for (TrialConfig& trial : trials) {
     findWorld(trial);
-    results.trials.push_back(flyAll(trial, options, out));
+    results.trials.push_back(flyAll(trial, options, out, stop));
     writeResults(results, out);
   }
   if (options.json) {
     fmt::print("{}\n", toJson(results));
   } else {
-    fmt::print("\n{}\nresults {}\nreport  {}\n", toText(summaryTable(results)), (out / "results.json").string(),
-               (out / "report.html").string());
+    fmt::print("\n{}\n", toText(summaryTable(results)));
+    for (const TrialResult& trial : results.trials)
+      for (const std::string& failure : trial.missed()) fmt::print("{}, all flights: {}\n", trial.name, failure);
+    fmt::print("results {}\nreport  {}\n", (out / "results.json").string(), (out / "report.html").string());
   }
   return results.passed() ? kDone : kFailed;
 }
