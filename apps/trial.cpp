@@ -12,6 +12,8 @@
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
+#include "apps/numbers.hpp"
+#include "behaviors/mission.hpp"
 #include "common/data_paths.hpp"
 #include "common/table.hpp"
 #include "evaluation/flight_score.hpp"
@@ -75,6 +77,7 @@ evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::pat
   FlightHooks hooks;
   hooks.stop = &stop_requested;
   const FlightResult result = flySimulated(setupOf(trial, seed, out), hooks);
+  if (result.write_failure) throw common::InputError(common::Problem{{}, "", *result.write_failure, ""});
   evaluation::TrueWorld truth;
   truth.rays = &result.vehicle->rays();
   truth.vehicle = result.vehicle->scenario().vehicle;
@@ -150,17 +153,35 @@ void writeResults(const TrialResults& results, const fs::path& out) {
   }
 }
 
-int trial(const TrialOptions& options) {
-  std::signal(SIGINT, requestTrialStop);
-  std::signal(SIGTERM, requestTrialStop);
-  const fs::path out =
+/// Everything that is flown, read and found before the first flight: a mistake in the last trial is told at once.
+std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
+  std::vector<TrialConfig> trials = evaluation::readTrials(common::findData(options.trials));
+  for (TrialConfig& trial : trials) {
+    if (!options.system.empty()) trial.system = options.system;
+    (void)loadSystem(trial.system);
+    (void)behaviors::Mission::fromFile(common::findData(trial.mission).string());
+    findWorld(trial);
+  }
+  return trials;
+}
+
+fs::path madeFolder(const TrialOptions& options) {
+  fs::path out =
       options.out.empty() ? interfaces::freshRunFolder("runs", startedNow(), "trial") : fs::path(options.out);
-  fs::create_directories(out);
+  std::error_code failure;
+  fs::create_directories(out, failure);
+  if (failure) throw common::InputError(common::Problem{{out.string()}, "--out", failure.message(), ""});
+  return out;
+}
+
+int trial(const TrialOptions& options) {
+  for (const int stops : {SIGINT, SIGTERM, SIGHUP}) std::signal(stops, requestTrialStop);
+  const std::vector<TrialConfig> trials = preparedTrials(options);
+  const fs::path out = madeFolder(options);
 
   TrialResults results;
-  for (TrialConfig& trial : evaluation::readTrials(common::findData(options.trials))) {
-    if (!options.system.empty()) trial.system = options.system;
-    findWorld(trial);
+  for (const TrialConfig& trial : trials) {
+    if (stop_requested) break;
     results.trials.push_back(flyAll(trial, options, out));
     writeResults(results, out);
   }
@@ -170,7 +191,7 @@ int trial(const TrialOptions& options) {
     fmt::print("\n{}\nresults {}\nreport  {}\n", toText(summaryTable(results)), (out / "results.json").string(),
                (out / "report.html").string());
   }
-  return results.passed() ? kDone : kFailed;
+  return results.passed() && !stop_requested ? kDone : kFailed;
 }
 
 }  // namespace
@@ -180,11 +201,13 @@ void addTrial(CLI::App& program, Run& run) {
   auto* command = program.add_subcommand("trial", "Fly scripted trials and score them against the truth.");
   command->add_option("trial", options->trials, "Trial file (YAML), or a folder of them.")->required();
   command->add_option("--repeat", options->repeat, "Flights of each trial, seeds S, S+1, ...; default: what it says.")
-      ->check(CLI::PositiveNumber);
+      ->check(numberWithin(1, 10'000));
   command->add_option("--jobs", options->jobs, "Flights at the same time.")
       ->capture_default_str()
-      ->check(CLI::Range(1, 64));
-  command->add_option("--seed", options->seed, "The first seed S.")->capture_default_str();
+      ->check(numberWithin(1, 64));
+  command->add_option("--seed", options->seed, "The first seed S.")
+      ->capture_default_str()
+      ->check(numberWithin(0, kGreatestSeed));
   command->add_option("--system", options->system, "Profile to fly them all with, instead of their own.");
   command->add_option("--out", options->out, "Folder of the results; default runs/<time>-trial.");
   command->add_flag("--json", options->json, "Print the results as JSON, nothing else.");
