@@ -97,6 +97,9 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
   const common::Setpoint setpoint = controller_.tick(flight);
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
+  // Not while landing: the map stays that of the flight.
+  if (controller_.state() == FlightState::kTakingOff || controller_.state() == FlightState::kFlying)
+    estimator_.setFlightHeight(flight.state.T_odom_body.position_m.z());
   prepare();
   return setpoint;
 }

@@ -66,6 +66,8 @@ class Estimator {
   std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
 
   bool ready() const { return filter_.initialized(); }
+  /// The height over the take-off floor that the map is to be of.
+  void setFlightHeight(double height_m) { grid_version_ += slam_.setFlightHeight(height_m) ? 1 : 0; }
   /// While true the filter is told that the vehicle stands.
   void setAtRest(bool at_rest) { filter_.setAtRest(at_rest); }
 

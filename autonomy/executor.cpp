@@ -87,7 +87,8 @@ void Executor::react(const planning::AvoidanceDecision& decision, const common::
     const Eigen::Vector2d velocity_map_m_s =
         Eigen::Rotation2Dd(T_map_body.yaw_rad) * *decision.retreat_velocity_level_m_s;
     const double speed_m_s = velocity_map_m_s.norm();
-    controller_.setSpeedLimit(std::min(decision.speed_limit_m_s, speed_m_s));
+    // The other limit is for the way the vehicle was going, not for the way out.
+    controller_.setSpeedLimit(speed_m_s);
     // The path is as long as that speed needs to stop: the reactive layer made sure that so much is free.
     const double length_m = speed_m_s * speed_m_s / (2.0 * config_.retreat_deceleration_m_s2);
     const Eigen::Vector2d to = T_map_body.position_m() + length_m / speed_m_s * velocity_map_m_s;
@@ -204,7 +205,7 @@ void Executor::carryOut(const ExecutorInput& input, const common::GoToIntent& go
   if (no_way_since_ && (now_ - *no_way_since_).seconds() > config_.give_up_s) return fail(no_way_);
   if (replan && jobs_.idle("planning")) {
     PlanningRequest request;
-    request.question = GoalRequest{go_to.goal_map_m};
+    request.question = GoalRequest{go_to.goal_map_m, go_to.tolerance_m};
     requestPlan(input, std::move(request));
   }
 }

@@ -16,7 +16,7 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   answer.intent_id = request.intent_id;
   answer.cost_map = std::make_shared<const planning::CostMap>(map_);
   if (const auto* goal = std::get_if<GoalRequest>(&request.question)) {
-    answer.path = planner_.plan(map_, request.T_map_body.position_m(), goal->goal_map_m);
+    answer.path = goTo(*goal, request.T_map_body.position_m());
   } else if (std::holds_alternative<MakeRoomRequest>(request.question)) {
     answer.path = makeRoom(request.T_map_body.position_m());
     answer.makes_room = true;
@@ -29,6 +29,17 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
     answer.exploration = planning::explore(input, exploration_);
   }
   return answer;
+}
+
+tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const GoalRequest& goal,
+                                                                         const Eigen::Vector2d& position_map_m) {
+  auto path = planner_.plan(map_, position_map_m, goal.goal_map_m);
+  if (path || !path.error().nearest_free_map_m) return path;
+  // Some of the tolerance is left to the controller.
+  constexpr double kShareOfTolerance = 0.8;
+  const Eigen::Vector2d& nearest = *path.error().nearest_free_map_m;
+  if ((nearest - goal.goal_map_m).norm() > kShareOfTolerance * goal.tolerance_m) return path;
+  return planner_.plan(map_, position_map_m, nearest);
 }
 
 /// The cheapest-to-reach field decides what is near; of what is within reach the widest and farthest place wins.

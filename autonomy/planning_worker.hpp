@@ -20,6 +20,7 @@ namespace swiftlet::autonomy {
 
 struct GoalRequest {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+  double tolerance_m = 0.0;  ///< Of a goal that is too close to something, a place this near will do.
 };
 struct ExploreRequest {
   std::optional<planning::Viewpoint> current;
@@ -57,6 +58,8 @@ class PlanningWorker {
   PlanningAnswer answer(const PlanningRequest& request);
 
  private:
+  tl::expected<planning::Path, planning::PlanFailure> goTo(const GoalRequest& goal,
+                                                           const Eigen::Vector2d& position_map_m);
   tl::expected<planning::Path, planning::PlanFailure> makeRoom(const Eigen::Vector2d& position_map_m);
 
   planning::ExplorationConfig exploration_;

@@ -1,8 +1,14 @@
 #include "autonomy/reactive.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace swiftlet::autonomy {
+namespace {
+
+constexpr float kInTheWay_m = 0.25F;
+
+}  // namespace
 
 void ReactiveConfig::describe(common::config::Fields& fields) {
   fields.section("avoidance", avoidance, "Braking and retreat.");
@@ -26,8 +32,14 @@ const planning::AvoidanceDecision& Reactive::update(const perception::ProjectedS
   background_.add(scan.stamp, grid);
   std::vector<Eigen::Vector2f> points_map_m;
   points_map_m.reserve(scan.points_level_m.size());
-  for (const Eigen::Vector2f& point : scan.points_level_m)
-    points_map_m.push_back((T_map_body * Eigen::Vector2d(point.cast<double>())).cast<float>());
+  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
+    // What is above or below the hull's way is not in the background.
+    const bool in_the_way = std::abs(scan.heights_level_m[i]) <= kInTheWay_m;
+    points_map_m.push_back(
+        in_the_way ? Eigen::Vector2f((T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>())).cast<float>())
+                   : Eigen::Vector2f(kNowhere, kNowhere));
+  }
   if (const auto background = background_.at(scan.stamp))
     obstacles_.update(scan.stamp, points_map_m, T_map_body.position_m(), *background);
 

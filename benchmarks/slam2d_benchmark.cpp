@@ -1,7 +1,7 @@
 // links: perception common
 #include <benchmark/benchmark.h>
 
-#include "perception/slam2d/grid_drawing.hpp"
+#include "perception/slam2d/sliced_map.hpp"
 #include "perception/slam2d/slam2d.hpp"
 #include "tests/slam2d/flight.hpp"
 
@@ -57,12 +57,11 @@ BENCHMARK(laserOdometry)->Unit(benchmark::kMicrosecond)->Iterations(6000);
 
 void drawScan(benchmark::State& state) {
   const perception::GridDrawingConfig config;
-  perception::GridDrawer drawer(config);
-  common::OccupancyGrid grid = common::makeOccupancyGrid(config.resolution_m);
+  perception::SlicedMap map(config);
   const auto& step = flownSteps()[400];
   for (auto _ : state) {
     const perception::DrawnScan drawn = perception::thinForDrawing(step.scan, config);
-    drawer.draw(drawn, step.T_odom_body, grid);
+    map.draw(drawn, step.T_odom_body);
   }
 }
 BENCHMARK(drawScan)->Unit(benchmark::kMicrosecond);

@@ -114,7 +114,7 @@ std::vector<Avoidance::Threat> Avoidance::threats(const AvoidanceInput& input, c
   const Eigen::Rotation2Dd to_level(T_level_map.yaw_rad);
   for (const DynamicObstacle& o : input.obstacles) {
     const double age_s = std::max(0.0, (input.stamp - o.last_seen).seconds());
-    const bool moving = o.velocity_map_m_s.norm() >= config_.closing_speed_m_s;
+    const bool moving = o.moving && o.velocity_map_m_s.norm() >= config_.closing_speed_m_s;
     const Point velocity_map_m_s = moving ? o.velocity_map_m_s : Point::Zero();
     Threat threat{T_level_map * Point(o.center_map_m + velocity_map_m_s * age_s), o.radius_m,
                   to_level * velocity_map_m_s, false, ""};
@@ -186,22 +186,22 @@ double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double
 }
 
 double Avoidance::freeLength(const Point& direction, const AvoidanceInput& input, const Points& points) const {
+  // More than when flying a plan: a retreat is flown backwards in a hurry, often along what is not seen.
+  const double radius_m = hull_radius_m_ + config_.retreat_margin_m;
   double free_m = config_.look_ahead_m;
-  for (const Point& p : points) free_m = std::min(free_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
+  for (const Point& p : points) free_m = std::min(free_m, gapAlong(direction, p, radius_m));
   if (input.cost_map == nullptr) return free_m;
-  // The map answers for what the laser does not see. Coming from a place that is already too close, only a way out
-  // counts.
+  // The map answers for what the laser does not see. From a place that is already too close one may go along, but not
+  // closer.
   const CostMap& map = *input.cost_map;
   const auto room = [&](double along_m) {
     const common::CellIndex cell = map.cellAt(input.T_map_level * Point(direction * along_m));
     return map.stateAt(cell) == CellState::kFree ? map.obstacleDistance_m(cell) : 0.0;
   };
-  double last_m = room(0.0);
-  for (double along_m = 0.5 * map.resolution_m(); along_m < free_m; along_m += 0.5 * map.resolution_m()) {
-    const double room_m = room(along_m);
-    if (room_m < hull_radius_m_ + config_.margin_m && room_m < last_m) return along_m;
-    last_m = room_m;
-  }
+  const double step_m = 0.5 * map.resolution_m();
+  const double least_m = std::min(room(0.0), radius_m) - step_m;
+  for (double along_m = step_m; along_m < free_m; along_m += step_m)
+    if (room(along_m) < least_m) return along_m - step_m;
   return free_m;
 }
 

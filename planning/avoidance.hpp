@@ -71,6 +71,7 @@ class Avoidance {
     double closing_speed_m_s = 0.15;
     double mapped_within_m = 0.15;
     double retreat_speed_m_s = 0.8;
+    double retreat_margin_m = 0.15;
     double look_ahead_m = 1.0;
     double release_factor = 1.3;
     double calm_s = 0.6;

@@ -59,6 +59,7 @@ void Avoidance::Config::describe(common::config::Fields& fields) {
   fields("closing_speed_m_s", closing_speed_m_s, "Slower things do not count as moving.");
   fields("mapped_within_m", mapped_within_m, "A return this near to something mapped or unknown is that.");
   fields("retreat_speed_m_s", retreat_speed_m_s, "Greatest speed of a retreat.");
+  fields("retreat_margin_m", retreat_margin_m, "Between hull and obstacle when a retreat has ended.");
   fields("look_ahead_m", look_ahead_m, "How far the way of a retreat is looked at.");
   fields("release_factor", release_factor, "While retreating, distances and times are longer by this.");
   fields("calm_s", calm_s, "A retreat ends this long after the danger.");
@@ -80,6 +81,7 @@ std::vector<std::string> Avoidance::Config::validate() const {
       .within("closing_speed_m_s", closing_speed_m_s, 0.01, 5)
       .within("mapped_within_m", mapped_within_m, 0, 1)
       .within("retreat_speed_m_s", retreat_speed_m_s, 0.05, 10)
+      .within("retreat_margin_m", retreat_margin_m, 0, 2)
       .within("look_ahead_m", look_ahead_m, 0.1, 10)
       .within("release_factor", release_factor, 1, 5)
       .within("calm_s", calm_s, 0, 10)

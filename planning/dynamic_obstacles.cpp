@@ -56,11 +56,13 @@ void DynamicObstacles::Config::describe(common::config::Fields& fields) {
          "An end point this near to something mapped or unknown is explained.");
   fields("cluster_gap_m", cluster_gap_m, "Unexplained end points nearer to each other belong together.");
   fields("min_points", min_points, "Fewer points are taken for noise.");
-  fields("max_radius_m", max_radius_m, "A larger cluster is cut.");
+  fields("max_radius_m", max_radius_m, "A larger cluster is part of the building, seen from where it was not before.");
   fields("assumed_depth_m", assumed_depth_m, "The laser sees the near side; the body is this much behind it.");
   fields("time_to_live_s", time_to_live_s, "How long it is believed in after it was last seen.");
   fields("refuted_after_s", refuted_after_s, "Not seen for this long where beams pass through, it is gone.");
   fields("max_speed_m_s", max_speed_m_s, "Nothing is thought to move faster.");
+  fields("moved_m", moved_m, "What has come this far is moving.");
+  fields("moved_within_s", moved_within_s, "What has not come that far in this time is standing.");
   fields("smoothing_s", smoothing_s, "Time constant of the filter on place and velocity.");
   fields("keep_out_m", keep_out_m,
          "Added to the radius for the planner, so that it does not plan what makes the vehicle retreat.");
@@ -78,6 +80,8 @@ std::vector<std::string> DynamicObstacles::Config::validate() const {
       .within("time_to_live_s", time_to_live_s, 0, 60)
       .within("refuted_after_s", refuted_after_s, 0, 60)
       .within("max_speed_m_s", max_speed_m_s, 0.1, 20)
+      .within("moved_m", moved_m, 0.01, 5)
+      .within("moved_within_s", moved_within_s, 0.1, 60)
       .within("smoothing_s", smoothing_s, 0.01, 5)
       .within("keep_out_m", keep_out_m, 0, 2)
       .within("max_range_m", max_range_m, 0.5, 100)
@@ -94,14 +98,15 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const
   std::vector<Cluster> clusters;
   std::vector<Point> members;
   const auto close = [&] {
-    if (static_cast<int>(members.size()) >= config_.min_points) {
+    if (static_cast<int>(members.size()) >= config_.min_points &&
+        (members.back() - members.front()).norm() <= 2.0 * config_.max_radius_m) {
       Point mean = Point::Zero();
       for (const Point& p : members) mean += p / static_cast<double>(members.size());
       double extent_m = 0.0;
       for (const Point& p : members) extent_m = std::max(extent_m, (p - mean).norm());
       const Point away = mean - sensor_map_m;
       const Point center = away.norm() > 1e-6 ? Point(mean + away.normalized() * config_.assumed_depth_m) : mean;
-      clusters.push_back({center, std::min(std::max(extent_m, config_.assumed_depth_m), config_.max_radius_m)});
+      clusters.push_back({center, std::clamp(extent_m, config_.assumed_depth_m, config_.max_radius_m)});
     }
     members.clear();
   };
@@ -109,9 +114,7 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const
     if (!point.allFinite()) continue;
     const Point p = point.cast<double>();
     if ((p - sensor_map_m).norm() > config_.max_range_m || !unexplained(background, p, cells)) continue;
-    const bool apart = !members.empty() && (p - members.back()).norm() > config_.cluster_gap_m;
-    const bool large = !members.empty() && (p - members.front()).norm() > 2.0 * config_.max_radius_m;
-    if (apart || large) close();
+    if (!members.empty() && (p - members.back()).norm() > config_.cluster_gap_m) close();
     members.push_back(p);
   }
   close();
@@ -135,7 +138,8 @@ void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2
       nearest_m = off_m;
     }
     if (!nearest) {
-      obstacles_.push_back({next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), stamp, stamp});
+      obstacles_.push_back({next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, seen.center_map_m, stamp,
+                            stamp, stamp});
       continue;
     }
     taken[*nearest] = true;
@@ -151,12 +155,24 @@ void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2
     if (speed_m_s > config_.max_speed_m_s) o.velocity_map_m_s *= config_.max_speed_m_s / speed_m_s;
     o.radius_m = std::max(seen.radius_m, 0.9 * o.radius_m);
     o.last_seen = stamp;
+    judgeMotion(o);
   }
   std::erase_if(obstacles_, [&](const DynamicObstacle& o) {
     const double age_s = (stamp - o.last_seen).seconds();
     return age_s > config_.time_to_live_s ||
            (age_s > config_.refuted_after_s && seenThrough(o, age_s, points_map_m, sensor_map_m));
   });
+}
+
+/// What comes into view bit by bit seems to move for a moment, but soon stays where it is.
+void DynamicObstacles::judgeMotion(DynamicObstacle& o) const {
+  const bool moved = (o.center_map_m - o.anchor_map_m).norm() >= config_.moved_m;
+  const bool waited = (o.last_seen - o.anchor_stamp).seconds() >= config_.moved_within_s;
+  if (moved || waited) {
+    o.moving = moved;
+    o.anchor_map_m = o.center_map_m;
+    o.anchor_stamp = o.last_seen;
+  }
 }
 
 std::vector<Disc> DynamicObstacles::discs(common::Time now, double horizon_s) const {

@@ -43,6 +43,10 @@ struct DynamicObstacle {
   Eigen::Vector2d center_map_m = Eigen::Vector2d::Zero();
   double radius_m = 0.0;
   Eigen::Vector2d velocity_map_m_s = Eigen::Vector2d::Zero();
+  /// It has left a place where it was seen; the velocity of one that has not is not to be believed.
+  bool moving = false;
+  Eigen::Vector2d anchor_map_m = Eigen::Vector2d::Zero();  ///< That place,
+  common::Time anchor_stamp;                               ///< and when it was seen there.
   common::Time first_seen;
   common::Time last_seen;
 };
@@ -59,6 +63,8 @@ class DynamicObstacles {
     double time_to_live_s = 2.0;
     double refuted_after_s = 0.2;
     double max_speed_m_s = 2.5;
+    double moved_m = 0.25;
+    double moved_within_s = 1.0;
     double smoothing_s = 0.15;
     double keep_out_m = 0.25;
     double max_range_m = 6.0;
@@ -89,6 +95,7 @@ class DynamicObstacles {
   };
   std::vector<Cluster> cluster(std::span<const Eigen::Vector2f> points_map_m, const Eigen::Vector2d& sensor_map_m,
                                const common::OccupancyGrid& background) const;
+  void judgeMotion(DynamicObstacle& obstacle) const;
 
   Config config_;
   int next_id_ = 1;

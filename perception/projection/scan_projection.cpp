@@ -146,7 +146,7 @@ ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& 
   // The direction is turned from beam to beam; over thousands of beams this keeps 12 digits and saves the sines.
   double cos_beam = std::cos(scan.angle_min_rad), sin_beam = std::sin(scan.angle_min_rad);
   const double cos_step = std::cos(scan.angle_increment_rad), sin_step = std::sin(scan.angle_increment_rad);
-  std::vector<Eigen::Vector2f> run;  // Ends of the view along the present run of beams without return.
+  std::vector<Eigen::Vector3f> run;  // Ends of the view along the present run of beams without return.
   const auto endRun = [&] {
     if (static_cast<int>(run.size()) >= config.min_no_return_run)
       result.misses_level_m.insert(result.misses_level_m.end(), run.begin(), run.end());
@@ -180,8 +180,8 @@ ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& 
     }
     const Affine mount = laser_mount.at(beam);
     const Eigen::Vector3d ray = mount.rotation * direction;
-    const auto pointAt = [&](double along_m) -> Eigen::Vector2f {
-      return (mount.translation + along_m * ray).head<2>().cast<float>();
+    const auto pointAt = [&](double along_m) -> Eigen::Vector3f {
+      return (mount.translation + along_m * ray).cast<float>();
     };
     if (range_m > scan.range_max_m) {
       run.push_back(pointAt(surfaces.freeRange(ray.z(), scan.range_max_m)));

@@ -51,7 +51,8 @@ struct ProjectedScan {
   /// Where the view along a beam that hit no wall ends: everything from the body to there is free. At the greatest
   /// range for a beam without return, nearer where the beam leaves the height band in which "free" means free for the
   /// body (a tilted beam, one that ends on floor or ceiling).
-  std::vector<Eigen::Vector2f> misses_level_m;
+  /// The third coordinate is the height relative to the body.
+  std::vector<Eigen::Vector3f> misses_level_m;
   std::vector<MirrorPoint> mirror;
   BeamCounts counts;
 };

@@ -45,8 +45,7 @@ struct Slam2d::Impl {
   explicit Impl(const Slam2dConfig& config_in)
       : config(config_in),
         reference(config_in.matcher),
-        drawer(config_in.grid),
-        grid(common::makeOccupancyGrid(config_in.grid.resolution_m)) {}
+        map(config_in.grid) {}
 
   Pose2 T_map_body() const { return poseOf(anchor) * T_anchor_body; }
   const Pose2& poseOf(int key) const { return graph.keys[static_cast<std::size_t>(key)].T_map_body; }
@@ -61,8 +60,8 @@ struct Slam2d::Impl {
   Slam2dConfig config;
   SlamGraph graph;
   LocalReference reference;
-  GridDrawer drawer;
-  common::OccupancyGrid grid;
+  SlicedMap map;
+  std::optional<double> flight_height_m;
   SlamCounts counts;
 
   // Where the vehicle is: relative to a key scan, so that a corrected graph takes it along.
@@ -172,7 +171,7 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
 
 void Slam2d::Impl::draw(const ProjectedScan& scan) {
   const AttachedScan attached{std::make_shared<const DrawnScan>(thinForDrawing(scan, config.grid)), T_anchor_body};
-  drawer.draw(*attached.scan, T_map_body(), grid);
+  map.draw(*attached.scan, T_map_body());
   std::deque<AttachedScan>& drawn = graph.keys[static_cast<std::size_t>(anchor)].drawn;
   drawn.push_back(attached);
   if (static_cast<int>(drawn.size()) > config.scans_per_key) drawn.pop_front();
@@ -229,7 +228,12 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
 
 Pose2 Slam2d::T_map_odom() const { return impl_->T_map_odom; }
 
-common::OccupancyGrid Slam2d::snapshot() { return impl_->grid.snapshot(); }
+bool Slam2d::setFlightHeight(double height_m) {
+  impl_->flight_height_m = height_m;
+  return impl_->map.setFlightHeight(height_m);
+}
+
+common::OccupancyGrid Slam2d::snapshot() { return impl_->map.atFlightHeight(); }
 
 const SlamCounts& Slam2d::counts() const { return impl_->counts; }
 
@@ -276,10 +280,11 @@ bool Slam2d::apply(const SlamResult& result) {
     self.graph.keys[i].T_map_body = i < self.task_keys ? poses[i] : correction * self.graph.keys[i].T_map_body;
   for (const SlamEdge& closure : result.data->closures) self.graph.add(closure);
   self.reference.invalidate();
-  if (result.data->drawn) {
-    self.grid = result.data->grid;
+  if (result.data->map) {
+    self.map = *result.data->map;
+    if (self.flight_height_m) (void)self.map.setFlightHeight(*self.flight_height_m);
     for (const auto& [key, attached] : self.drawn_since_task)
-      self.drawer.draw(*attached.scan, self.poseOf(key) * attached.T_key_body, self.grid);
+      self.map.draw(*attached.scan, self.poseOf(key) * attached.T_key_body);
   }
   self.drawn_since_task.clear();
   self.T_map_odom = self.T_map_body() * self.T_odom_body.inverse();

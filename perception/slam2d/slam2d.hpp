@@ -37,8 +37,10 @@ struct GridDrawingConfig {
   int max_steps = 70;  ///< Confidence is capped at this (Bachrach 2009, section 5.3).
   double max_hit_range_m = 20.0;    ///< End points farther than this are not drawn; the view to there still clears.
   double max_free_range_m = 10.0;   ///< Beams without return clear up to here.
-  double max_height_above_m = 0.6;  ///< End points higher than this over the body are not drawn,
-  double max_height_below_m = 0.6;  ///< nor those deeper than this below it.
+  double max_height_above_m = 0.25;  ///< What is higher than this over the body does not touch the hull,
+  double max_height_below_m = 0.25;  ///< nor what is deeper than this below it.
+  double slice_height_m = 0.05;       ///< The map is kept in slices of this height.
+  int fade_steps = 1;                ///< What a slice loses where the next one is seen free.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -154,7 +156,10 @@ class Slam2d {
 
   /// Takes odom to map.
   common::Pose2 T_map_odom() const;
-  /// The map as it is now; tiles are shared, cheap.
+  /// The height over the take-off floor that the map shall be of; at first that of the body in the first scan.
+  /// True when the map is another one now.
+  bool setFlightHeight(double height_m);
+  /// What may touch the hull at flight height, as known now; tiles are shared, cheap.
   common::OccupancyGrid snapshot();
 
   /// Heavy work, when there is any and none is outstanding.

@@ -12,8 +12,10 @@ void GridDrawingConfig::describe(common::config::Fields& fields) {
   fields("max_steps", max_steps, "Cap of the confidence.");
   fields("max_hit_range_m", max_hit_range_m, "End points farther than this are not drawn.");
   fields("max_free_range_m", max_free_range_m, "Beams without return clear up to here.");
-  fields("max_height_above_m", max_height_above_m, "End points higher over the body are not drawn.");
-  fields("max_height_below_m", max_height_below_m, "End points deeper below the body are not drawn.");
+  fields("max_height_above_m", max_height_above_m, "What is higher over the body does not touch the hull.");
+  fields("max_height_below_m", max_height_below_m, "What is deeper below the body does not touch the hull.");
+  fields("slice_height_m", slice_height_m, "The map is kept in horizontal slices of this height.");
+  fields("fade_steps", fade_steps, "Log-odds steps a slice loses where the next one is seen free.");
 }
 
 std::vector<std::string> GridDrawingConfig::validate() const {
@@ -26,6 +28,8 @@ std::vector<std::string> GridDrawingConfig::validate() const {
       .within("max_free_range_m", max_free_range_m, 0, 100)
       .within("max_height_above_m", max_height_above_m, 0, 100)
       .within("max_height_below_m", max_height_below_m, 0, 100)
+      .within("slice_height_m", slice_height_m, 0.05, 10)
+      .within("fade_steps", fade_steps, 0, max_steps)
       .problems();
 }
 

@@ -82,7 +82,7 @@ std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int
   return result;
 }
 
-common::OccupancyGrid drawGrid(const SlamGraph& graph, const GridDrawingConfig& config) {
+SlicedMap drawMap(const SlamGraph& graph, const GridDrawingConfig& config) {
   struct Item {
     const AttachedScan* attached;
     const KeyScan* key;
@@ -92,11 +92,10 @@ common::OccupancyGrid drawGrid(const SlamGraph& graph, const GridDrawingConfig& 
     for (const AttachedScan& attached : key.drawn) items.push_back({&attached, &key});
   std::stable_sort(items.begin(), items.end(),
                    [](const Item& a, const Item& b) { return a.attached->scan->stamp < b.attached->scan->stamp; });
-  common::OccupancyGrid grid = common::makeOccupancyGrid(config.resolution_m);
-  GridDrawer drawer(config);
+  SlicedMap map(config);
   for (const Item& item : items)
-    drawer.draw(*item.attached->scan, item.key->T_map_body * item.attached->T_key_body, grid);
-  return grid;
+    map.draw(*item.attached->scan, item.key->T_map_body * item.attached->T_key_body);
+  return map;
 }
 
 optimization::PoseGraph2D toPoseGraph(const SlamGraph& graph) {

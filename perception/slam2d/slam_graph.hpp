@@ -11,7 +11,7 @@
 #include "common/time.hpp"
 #include "optimization/pose_graph_2d.hpp"
 #include "perception/projection/scan_projection.hpp"
-#include "perception/slam2d/grid_drawing.hpp"
+#include "perception/slam2d/sliced_map.hpp"
 
 namespace swiftlet::perception {
 
@@ -66,7 +66,7 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad);
 common::Pose2 between(const common::Pose2& T_map_a, const common::Pose2& T_map_b);
 
 /// Draws all attached scans at their key scans' poses, oldest first.
-common::OccupancyGrid drawGrid(const SlamGraph& graph, const GridDrawingConfig& config);
+SlicedMap drawMap(const SlamGraph& graph, const GridDrawingConfig& config);
 
 optimization::PoseGraph2D toPoseGraph(const SlamGraph& graph);
 

@@ -61,8 +61,7 @@ SlamResult run(const SlamTask& task) {
       greatestShift(in.graph, out->T_map_key) > kVisibleCells * in.config.grid.resolution_m) {
     SlamGraph moved = in.graph;
     for (std::size_t i = 0; i < moved.keys.size(); ++i) moved.keys[i].T_map_body = out->T_map_key[i];
-    out->grid = drawGrid(moved, in.config.grid).snapshot();  // Its tiles are cloned before anybody writes.
-    out->drawn = true;
+    out->map = drawMap(moved, in.config.grid).snapshot();  // Its tiles are cloned before anybody writes.
   }
   result.data = std::move(out);
   return result;

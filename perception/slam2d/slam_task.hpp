@@ -1,9 +1,9 @@
 // What travels between the SLAM and the thread that runs its heavy work; private to slam2d.
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "common/occupancy_grid.hpp"
 #include "perception/slam2d/loop_search.hpp"
 #include "perception/slam2d/slam2d.hpp"
 #include "perception/slam2d/slam_graph.hpp"
@@ -22,8 +22,7 @@ struct SlamResult::Data {
   std::uint64_t id = 0;
   std::vector<common::Pose2> T_map_key;  ///< Of every key scan of the task; empty when nothing was found.
   std::vector<SlamEdge> closures;
-  common::OccupancyGrid grid = common::makeOccupancyGrid(1.0);
-  bool drawn = false;  ///< The grid is drawn anew.
+  std::optional<SlicedMap> map;    ///< Drawn anew, when the poses moved by enough to be seen.
 };
 
 }  // namespace swiftlet::perception

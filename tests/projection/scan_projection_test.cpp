@@ -108,7 +108,7 @@ TEST(ScanProjection, LeavesOutWhatItSeesOfTheFloorAndTheCeiling) {
   // What they crossed near the height of the body is still free.
   EXPECT_EQ(projected.misses_level_m.size(),
             static_cast<std::size_t>(projected.counts.floor_hits + projected.counts.ceiling_hits));
-  for (const Eigen::Vector2f& end : projected.misses_level_m) {
+  for (const Eigen::Vector3f& end : projected.misses_level_m) {
     EXPECT_GT(end.norm(), 1.0);
     EXPECT_LE(std::abs(end.x()) * std::tan(15.0 * kRadPerDeg), config.free_band_m + 1e-3);
   }
@@ -135,7 +135,7 @@ TEST(ScanProjection, CountsWhatCannotBeUsed) {
   EXPECT_EQ(projected.points_level_m.size(), 3U);
   // The lone beam without return is a dropout; the three side by side are free space up to the greatest range.
   ASSERT_EQ(projected.misses_level_m.size(), 3U);
-  EXPECT_NEAR(projected.misses_level_m[0].norm(), laser.range_max_m, 1e-3);
+  EXPECT_NEAR(projected.misses_level_m[0].head<2>().norm(), laser.range_max_m, 1e-3);
 }
 
 TEST(ScanProjection, SurvivesGarbage) {

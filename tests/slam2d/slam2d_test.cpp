@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "perception/slam2d/grid_drawing.hpp"
+#include "perception/slam2d/sliced_map.hpp"
 #include "tests/slam2d/flight.hpp"
 
 namespace swiftlet::perception {
@@ -282,17 +282,17 @@ DrawnScan around(double radius_m, int beams) {
   DrawnScan scan;
   for (int i = 0; i < beams; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / beams;
-    scan.hits_level_m.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle));
+    scan.hits_level_m.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle), 0.0);
   }
   return scan;
 }
 
 TEST(GridDrawing, FreeInsideOccupiedAtTheEndUnknownBeyond) {
   const GridDrawingConfig config;
-  GridDrawer drawer(config);
-  common::OccupancyGrid grid = common::makeOccupancyGrid(config.resolution_m);
+  SlicedMap map(config);
   const Pose2 pose{0.51, -0.32, 0.4};
-  for (int i = 0; i < 3; ++i) drawer.draw(around(2.0, 720), pose, grid);
+  for (int i = 0; i < 3; ++i) map.draw(around(2.0, 720), pose);
+  const common::OccupancyGrid grid = map.atFlightHeight();
   int occupied = 0;
   grid.forEachCell([&](CellIndex c, common::occupancy::Cell value) {
     const double range_m = (grid.centerOf(c) - pose.position_m()).norm();
@@ -305,28 +305,66 @@ TEST(GridDrawing, FreeInsideOccupiedAtTheEndUnknownBeyond) {
 
 TEST(GridDrawing, AWalkerIsClearedAgain) {
   const GridDrawingConfig config;
-  GridDrawer drawer(config);
-  common::OccupancyGrid grid = common::makeOccupancyGrid(config.resolution_m);
+  SlicedMap map(config);
   DrawnScan person = around(3.0, 720);
-  for (Eigen::Vector2f& p : person.hits_level_m)
+  for (Eigen::Vector3f& p : person.hits_level_m)
     if (std::abs(std::atan2(p.y(), p.x())) < 0.15F) p *= 0.5F;
-  for (int i = 0; i < 50; ++i) drawer.draw(person, {}, grid);
-  const CellIndex where = grid.cellAt(1.5, 0.0);
-  EXPECT_TRUE(common::occupancy::isOccupied(grid.at(where)));
-  EXPECT_EQ(grid.at(where), config.max_steps);  // Capped, however long they stood there.
+  for (int i = 0; i < 50; ++i) map.draw(person, {});
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  EXPECT_EQ(where(), config.max_steps);  // Capped, however long they stood there.
   int scans = 0;
-  for (; common::occupancy::isOccupied(grid.at(where)) && scans < 100; ++scans) drawer.draw(around(3.0, 720), {}, grid);
+  for (; common::occupancy::isOccupied(where()) && scans < 100; ++scans) map.draw(around(3.0, 720), {});
   EXPECT_LE(scans, 8);
 }
 
 TEST(GridDrawing, WhatDoesNotChangeStaysShared) {
   const GridDrawingConfig config;
-  GridDrawer drawer(config);
-  common::OccupancyGrid grid = common::makeOccupancyGrid(config.resolution_m);
-  for (int i = 0; i < 30; ++i) drawer.draw(around(1.0, 360), {}, grid);
-  const common::OccupancyGrid snapshot = grid.snapshot();
-  drawer.draw(around(1.0, 360), {}, grid);
-  EXPECT_EQ(snapshot.tileIdentity({0, 0}), grid.tileIdentity({0, 0}));
+  SlicedMap map(config);
+  for (int i = 0; i < 30; ++i) map.draw(around(1.0, 360), {});
+  const common::OccupancyGrid before = map.atFlightHeight();
+  map.draw(around(1.0, 360), {});
+  EXPECT_EQ(before.tileIdentity({0, 0}), map.atFlightHeight().tileIdentity({0, 0}));
+}
+
+/// A wall of 3 m around, and in front of it something lower, which beams meet that point `below_m` down.
+DrawnScan over(double below_m, double body_height_m) {
+  DrawnScan scan = around(3.0, 720);
+  scan.body_height_m = body_height_m;
+  for (Eigen::Vector3f& p : scan.hits_level_m) {
+    const bool ahead = std::abs(std::atan2(p.y(), p.x())) < 0.2F;
+    if (ahead && below_m > 0.0) p *= 0.5F;
+    if (ahead) p.z() = static_cast<float>(-below_m);
+  }
+  return scan;
+}
+
+TEST(GridDrawing, LevelBeamsDoNotEraseWhatIsLower) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  for (int i = 0; i < 10; ++i) map.draw(over(0.0, 1.0), {});
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+  map.draw(over(0.15, 1.0), {});  // A nod, one scan long.
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  for (int i = 0; i < 10; ++i) map.draw(over(0.0, 1.0), {});
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  // A trace that is never met again goes in the end.
+  for (int i = 0; i < 60; ++i) map.draw(over(0.0, 1.0), {});
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+}
+
+TEST(GridDrawing, WhatIsFarBelowTheHullIsNotInItsWayUntilItSinks) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  for (int i = 0; i < 3; ++i) map.draw(over(0.0, 0.6), {});
+  for (int i = 0; i < 3; ++i) map.draw(over(0.01, 0.6), {});  // Something as high as 0.6 m.
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  EXPECT_TRUE(map.setFlightHeight(1.4));
+  for (int i = 0; i < 3; ++i) map.draw(over(0.0, 1.4), {});  // From far above it.
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+  map.draw(over(0.4, 1.4), {});  // A view that ends far below says that the hull's height is free.
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+  EXPECT_TRUE(map.setFlightHeight(0.6));
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
 }
 
 TEST(GridDrawing, ThinsAndBoundsWhatItKeeps) {
@@ -337,12 +375,14 @@ TEST(GridDrawing, ThinsAndBoundsWhatItKeeps) {
   scan.points_level_m.emplace_back(3.0F, 0.0F);
   scan.heights_level_m.assign(1001, 0.0F);
   scan.heights_level_m.push_back(1.5F);  // Far above the body.
-  scan.misses_level_m = {{0.0F, 30.0F}, {std::numeric_limits<float>::quiet_NaN(), 0.0F}};
+  scan.misses_level_m = {{0.0F, 30.0F, 0.0F}, {std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F}};
   const DrawnScan drawn = thinForDrawing(scan, config);
   EXPECT_LT(drawn.hits_level_m.size(), 60U);
-  ASSERT_EQ(drawn.free_level_m.size(), 2U);
+  ASSERT_EQ(drawn.free_level_m.size(), 3U);
   EXPECT_NEAR(drawn.free_level_m[0].norm(), config.max_hit_range_m, 1e-3);
-  EXPECT_NEAR(drawn.free_level_m[1].norm(), config.max_free_range_m, 1e-3);
+  EXPECT_NEAR(drawn.free_level_m[1].z(), config.max_height_above_m, 1e-6);  // Free as long as it was in the hull's way.
+  EXPECT_NEAR(drawn.free_level_m[1].x(), 3.0 * config.max_height_above_m / 1.5, 1e-6);
+  EXPECT_NEAR(drawn.free_level_m[2].norm(), config.max_free_range_m, 1e-3);
 }
 
 }  // namespace

@@ -1,0 +1,215 @@
+#include "perception/slam2d/sliced_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace swiftlet::perception {
+namespace {
+
+using common::CellIndex;
+using common::occupancy::Cell;
+namespace occupancy = common::occupancy;
+
+/// A mark counts the beams that crossed a cell in its low half, those that ended there in its high half.
+constexpr std::uint32_t kCrossed = 1;
+constexpr std::uint32_t kEnded = 1 << 16;
+/// A flight height that differs by less is the same.
+constexpr double kHeightHysteresis_m = 0.10;
+
+CellIndex cellOf(const Eigen::Vector2d& p) {
+  return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
+}
+
+/// The part of the view that is within `share` of its length.
+Eigen::Vector3f shortened(const Eigen::Vector3f& end, float share) { return share < 1.0F ? end * share : end; }
+
+}  // namespace
+
+DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& config) {
+  DrawnScan drawn;
+  drawn.stamp = scan.stamp;
+  drawn.body_height_m = scan.T_odom_body.position_m.z();
+  const auto spacing = static_cast<float>(0.4 * config.resolution_m);
+  const auto add = [&](std::vector<Eigen::Vector3f>& list, const Eigen::Vector3f& p) {
+    if (list.empty() || (p - list.back()).head<2>().squaredNorm() > spacing * spacing) list.push_back(p);
+  };
+  const auto range = [](const Eigen::Vector3f& p) { return p.head<2>().norm(); };
+  const auto withinRange = [&](const Eigen::Vector3f& p, double range_m) {
+    return shortened(p, static_cast<float>(range_m) / std::max(range(p), 1e-6F));
+  };
+  for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
+    const float height_m = i < scan.heights_level_m.size() ? scan.heights_level_m[i] : 0.0F;
+    const Eigen::Vector3f end(scan.points_level_m[i].x(), scan.points_level_m[i].y(), height_m);
+    if (!end.allFinite()) continue;
+    const double band_m = height_m > 0.0F ? config.max_height_above_m : config.max_height_below_m;
+    // A view that ended above or below the band says that it was free as long as it was within.
+    if (std::abs(height_m) > band_m)
+      add(drawn.free_level_m,
+          withinRange(shortened(end, static_cast<float>(band_m) / std::abs(height_m)), config.max_hit_range_m));
+    else if (range(end) > static_cast<float>(config.max_hit_range_m))
+      add(drawn.free_level_m, withinRange(end, config.max_hit_range_m));
+    else
+      add(drawn.hits_level_m, end);
+  }
+  for (const Eigen::Vector3f& end : scan.misses_level_m)
+    if (end.allFinite()) add(drawn.free_level_m, withinRange(end, config.max_free_range_m));
+  return drawn;
+}
+
+SlicedMap::SlicedMap(const GridDrawingConfig& config)
+    : config_(config), combined_(common::makeOccupancyGrid(config.resolution_m)) {}
+
+SlicedMap SlicedMap::snapshot() {
+  for (auto& [slice, grid] : slices_) grid = grid.snapshot();
+  combined_ = combined_.snapshot();
+  return *this;
+}
+
+void SlicedMap::draw(const DrawnScan& scan, const common::Pose2& T_map_body) {
+  if (highest_ < lowest_) (void)setFlightHeight(scan.body_height_m);
+  split(scan, T_map_body);
+  for (const auto& [slice, rays] : rays_)
+    if (!rays.empty()) drawSlice(slice, rays);
+}
+
+/// Slices are centred on multiples of their height, where missions like to fly.
+int SlicedMap::sliceAt(double height_m) const {
+  return static_cast<int>(std::floor(height_m / config_.slice_height_m + 0.5));
+}
+
+common::OccupancyGrid& SlicedMap::sliceGrid(int slice) {
+  return slices_.try_emplace(slice, common::makeOccupancyGrid(config_.resolution_m)).first->second;
+}
+
+bool SlicedMap::setFlightHeight(double height_m) {
+  if (!std::isfinite(height_m)) return false;
+  if (highest_ >= lowest_ && std::abs(height_m - flight_height_m_) <= kHeightHysteresis_m) return false;
+  flight_height_m_ = height_m;
+  const int lowest = sliceAt(height_m - config_.max_height_below_m);
+  const int highest = sliceAt(height_m + config_.max_height_above_m);
+  if (lowest == lowest_ && highest == highest_) return false;
+  lowest_ = lowest;
+  highest_ = highest;
+  for (const auto& [slice, grid] : slices_) grid.forEachCell([&](CellIndex c, Cell) { combine(c); });
+  return true;
+}
+
+/// Cuts each view where it passes from one slice into the next.
+void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
+  for (auto& [slice, rays] : rays_) rays.clear();
+  const double c = std::cos(T_map_body.yaw_rad), s = std::sin(T_map_body.yaw_rad);
+  const Eigen::Vector2d body = T_map_body.position_m() / config_.resolution_m;
+  const int body_slice = sliceAt(scan.body_height_m);
+  const auto add = [&](const Eigen::Vector3f& end, bool ended) {
+    const Eigen::Vector2d to((T_map_body.x_m + c * end.x() - s * end.y()) / config_.resolution_m,
+                             (T_map_body.y_m + s * end.x() + c * end.y()) / config_.resolution_m);
+    const int last = sliceAt(scan.body_height_m + end.z());
+    const int step = last > body_slice ? 1 : -1;
+    Eigen::Vector2d from = body;
+    for (int slice = body_slice; slice != last; slice += step) {
+      const double boundary_m = (slice + 0.5 * step) * config_.slice_height_m - scan.body_height_m;
+      const Eigen::Vector2d cut = body + (to - body) * std::clamp(boundary_m / end.z(), 0.0, 1.0);
+      rays_[slice].push_back({from, cut, false});
+      from = cut;
+    }
+    rays_[last].push_back({from, to, ended});
+  };
+  for (const Eigen::Vector3f& end : scan.free_level_m) add(end, false);
+  for (const Eigen::Vector3f& end : scan.hits_level_m) add(end, true);
+}
+
+void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays) {
+  const CellIndex first = cellOf(rays.front().from);
+  rect_ = {first, {first.x + 1, first.y + 1}};
+  for (const Ray& ray : rays) {
+    for (const CellIndex& c : {cellOf(ray.from), cellOf(ray.to)}) {
+      rect_.begin = {std::min(rect_.begin.x, c.x), std::min(rect_.begin.y, c.y)};
+      rect_.end = {std::max(rect_.end.x, c.x + 1), std::max(rect_.end.y, c.y + 1)};
+    }
+  }
+  marks_.assign(static_cast<std::size_t>(rect_.width()) * static_cast<std::size_t>(rect_.height()), 0);
+  for (const Ray& ray : rays) {
+    markRay(ray);
+    markAt(cellOf(ray.to)) += ray.ended ? kEnded : kCrossed;
+  }
+  apply(slice);
+}
+
+/// Every cell the line touches, up to, but without, that of its end (Amanatides and Woo 1987). Lines through cell
+/// centres only would leave pinholes between the rays, and each would be a frontier.
+void SlicedMap::markRay(const Ray& ray) {
+  const Eigen::Vector2d& from = ray.from;
+  const CellIndex begin = cellOf(from), end = cellOf(ray.to);
+  const Eigen::Vector2d way = ray.to - from;
+  int left_x = std::abs(end.x - begin.x), left_y = std::abs(end.y - begin.y);
+  const double per_x = 1.0 / std::max(std::abs(way.x()), 1e-12), per_y = 1.0 / std::max(std::abs(way.y()), 1e-12);
+  double next_x = per_x * (way.x() >= 0.0 ? begin.x + 1 - from.x() : from.x() - begin.x);
+  double next_y = per_y * (way.y() >= 0.0 ? begin.y + 1 - from.y() : from.y() - begin.y);
+  const std::ptrdiff_t step_x = way.x() >= 0.0 ? 1 : -1;
+  const std::ptrdiff_t step_y = way.y() >= 0.0 ? rect_.width() : -static_cast<std::ptrdiff_t>(rect_.width());
+  std::uint32_t* mark = &markAt(begin);
+  while (left_x + left_y > 0) {
+    *mark += kCrossed;
+    if (left_y == 0 || (left_x > 0 && next_x < next_y)) {
+      mark += step_x;
+      next_x += per_x;
+      --left_x;
+    } else {
+      mark += step_y;
+      next_y += per_y;
+      --left_y;
+    }
+  }
+}
+
+/// Where beams end and others pass, most decide: noise that puts some ends before or behind the wall does not thicken
+/// it. But a cell in which any ends is never called free, so that a wall seen at a grazing angle gets no holes.
+void SlicedMap::apply(int slice) {
+  common::OccupancyGrid& grid = sliceGrid(slice);
+  const std::uint32_t* mark = marks_.data();
+  for (int y = rect_.begin.y; y < rect_.end.y; ++y) {
+    for (int x = rect_.begin.x; x < rect_.end.x; ++x, ++mark) {
+      if (*mark == 0) continue;
+      const std::uint32_t ended = *mark >> 16, crossed = *mark & 0xFFFF;
+      if (ended > 0 && ended < crossed) continue;
+      const CellIndex cell{x, y};
+      const Cell old = grid.at(cell);
+      const int sum = (occupancy::isUnknown(old) ? 0 : old) + (ended > 0 ? config_.hit_steps : -config_.free_steps);
+      const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
+      if (ended == 0) {
+        fade(slice - 1, cell);
+        fade(slice + 1, cell);
+      }
+      // Not writing what does not change leaves the tile shared with the snapshots.
+      if (value != old) {
+        grid.set(cell, value);
+        combine(cell);
+      }
+    }
+  }
+}
+
+/// Most things are upright: what is free says a little about what is above and below, so that a trace of somebody who
+/// passed goes in the end.
+void SlicedMap::fade(int slice, CellIndex cell) {
+  const auto found = slices_.find(slice);
+  if (found == slices_.end()) return;
+  const Cell old = found->second.at(cell);
+  if (!occupancy::isOccupied(old)) return;
+  found->second.set(cell, static_cast<Cell>(std::max(old - config_.fade_steps, 0)));
+  combine(cell);
+}
+
+void SlicedMap::combine(CellIndex cell) {
+  Cell value = occupancy::kUnknown;
+  for (auto slice = slices_.lower_bound(lowest_); slice != slices_.end() && slice->first <= highest_; ++slice) {
+    const Cell here = slice->second.at(cell);
+    if (occupancy::isUnknown(here)) continue;
+    const bool both_free = occupancy::isFree(value) && occupancy::isFree(here);
+    value = both_free ? std::min(value, here) : std::max(value, here);
+  }
+  if (value != combined_.at(cell)) combined_.set(cell, value);
+}
+
+}  // namespace swiftlet::perception

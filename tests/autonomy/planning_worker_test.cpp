@@ -1,0 +1,61 @@
+// What the planning job answers: ways to goals, to nearly free goals, and to where others can come past.
+#include <gtest/gtest.h>
+
+#include "autonomy/planning_worker.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::CellIndex;
+
+/// A room of 8 m by 4 m from the origin on, walls included.
+std::shared_ptr<common::OccupancyGrid> room() {
+  auto grid = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 160; ++x) {
+      const bool wall = x == 0 || y == 0 || x == 159 || y == 79;
+      grid->set({x, y}, wall ? common::occupancy::kMaxSteps : -common::occupancy::kMaxSteps);
+    }
+  return grid;
+}
+
+struct Worker : testing::Test {
+  PlanningAnswer ask(decltype(PlanningRequest::question) question) {
+    PlanningRequest request;
+    request.grid = std::make_shared<const common::OccupancyGrid>(grid->snapshot());
+    request.footprint = {0.275, 0.10};
+    request.T_map_body = {2.0, 2.0, 0.0};
+    request.question = std::move(question);
+    return worker.answer(request);
+  }
+  std::shared_ptr<common::OccupancyGrid> grid = room();
+  PlanningWorker worker{planning::CostMap::Config{}, planning::ExplorationConfig{}, 0.05};
+};
+
+TEST_F(Worker, FindsTheWayToAGoal) {
+  const auto answer = ask(GoalRequest{{6.0, 2.0}, 0.05});
+  ASSERT_TRUE(answer.path && *answer.path);
+  EXPECT_EQ((*answer.path)->points_map_m.back(), Eigen::Vector2d(6.0, 2.0));
+}
+
+TEST_F(Worker, AGoalJustTooCloseToTheWallIsReachedWithinItsTolerance) {
+  const Eigen::Vector2d goal(6.0, 0.38);  // The wall ends at 0.05 m; hull and clearance are 0.375 m.
+  const auto strict = ask(GoalRequest{goal, 0.0});
+  ASSERT_TRUE(strict.path && !*strict.path);
+  EXPECT_EQ(strict.path->error().reason, planning::PlanFailure::Reason::kGoalBlocked);
+  const auto tolerant = ask(GoalRequest{goal, 0.15});
+  ASSERT_TRUE(tolerant.path && *tolerant.path);
+  EXPECT_LT(((*tolerant.path)->points_map_m.back() - goal).norm(), 0.8 * 0.15);
+  EXPECT_FALSE(ask(GoalRequest{{6.0, 0.1}, 0.15}).path->has_value());
+}
+
+TEST_F(Worker, MakesRoomFarFromANarrowPlace) {
+  for (int y = 0; y < 80; ++y)
+    if (y < 30 || y > 50) grid->set({50, y}, common::occupancy::kMaxSteps);  // A door of 1 m at x = 2.5 m.
+  const auto answer = ask(MakeRoomRequest{});
+  ASSERT_TRUE(answer.path && *answer.path && answer.makes_room);
+  EXPECT_GT(((*answer.path)->points_map_m.back() - Eigen::Vector2d(2.5, 2.0)).norm(), 1.0);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy
