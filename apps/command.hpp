@@ -12,8 +12,8 @@ namespace swiftlet::apps {
 /// Exit codes of the program.
 enum ExitCode : int {
   kDone = 0,
-  kFailed = 1,    ///< The mission or the check failed.
-  kBadInput = 2,  ///< Wrong usage or input that cannot be used.
+  kFailed = 1,    ///< A flight did not pass, or something is missing.
+  kBadInput = 2,  ///< Wrong usage or input that cannot be used, a mission that is not sound too.
 };
 
 /// Each adds its subcommand; when it is chosen, `run` is set to what carries it out and returns the exit code.

@@ -37,6 +37,8 @@ class Flight {
         folder_({}, setup.out, runInfo(setup), setup.system.toYaml(true)) {}
 
   FlightResult fly() {
+    for (const std::string& warning : vehicle_->world().warnings)
+      tell({now_, common::Severity::kWarning, "world", warning, ""}, true);
     while (!over()) {
       now_ += kTick;
       step();
@@ -127,13 +129,15 @@ class Flight {
       }
       if (recorded && (now_ - last_picture_).seconds() >= kPicturePeriod_s) showPictures();
     }
-    for (const common::Event& event : autonomy_.takeEvents()) {
-      if (recorded) folder_.event(event);
-      if (hooks_.event) hooks_.event(event);
-      if (hooks_.web) hooks_.web->postEvent(event);
-    }
+    for (const common::Event& event : autonomy_.takeEvents()) tell(event, recorded);
     for (common::CommandResult& result : autonomy_.takeResults())
       if (hooks_.web) hooks_.web->postResult(std::move(result));
+  }
+
+  void tell(const common::Event& event, bool recorded) {
+    if (recorded) folder_.event(event);
+    if (hooks_.event) hooks_.event(event);
+    if (hooks_.web) hooks_.web->postEvent(event);
   }
 
   void showPictures() {

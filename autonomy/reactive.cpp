@@ -37,8 +37,9 @@ const planning::AvoidanceDecision& Reactive::update(const perception::ProjectedS
     // What is above or below the hull's way is not in the background.
     const bool in_the_way = std::abs(scan.heights_level_m[i]) <= kInTheWay_m;
     points_map_m.push_back(
-        in_the_way ? Eigen::Vector2f((T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>())).cast<float>())
-                   : Eigen::Vector2f(kNowhere, kNowhere));
+        in_the_way
+            ? Eigen::Vector2f((T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>())).cast<float>())
+            : Eigen::Vector2f(kNowhere, kNowhere));
   }
   if (const auto background = background_.at(scan.stamp))
     obstacles_.update(scan.stamp, points_map_m, T_map_body.position_m(), *background);

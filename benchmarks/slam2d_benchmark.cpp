@@ -1,8 +1,8 @@
 // links: perception common
 #include <benchmark/benchmark.h>
 
-#include "perception/slam2d/sliced_map.hpp"
 #include "perception/slam2d/slam2d.hpp"
+#include "perception/slam2d/sliced_map.hpp"
 #include "tests/slam2d/flight.hpp"
 
 namespace {

@@ -138,8 +138,8 @@ void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2
       nearest_m = off_m;
     }
     if (!nearest) {
-      obstacles_.push_back({next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, seen.center_map_m, stamp,
-                            stamp, stamp});
+      obstacles_.push_back(
+          {next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, seen.center_map_m, stamp, stamp, stamp});
       continue;
     }
     taken[*nearest] = true;

@@ -5,17 +5,23 @@
 
 namespace swiftlet::perception::altitude {
 namespace {
-constexpr std::size_t kRing = 512;  ///< 2.5 s at 200 Hz: later scans find a shorter stretch.
-}
+constexpr double kBias_m_s2 = 0.08;      ///< Before anything is learned; what a wrong horizon leaves of gravity.
+constexpr double kBiasWalk_m_s2 = 0.01;  ///< Per square root of a second.
+constexpr double kRecall_s = 0.15;       ///< A belief that is recalled is once to twice this old.
+constexpr std::size_t kRing = 512;       ///< 2.5 s at 200 Hz: later scans find a shorter stretch.
+}  // namespace
 
 HeightFilter::HeightFilter(double acceleration_noise_m_s2, double max_prediction_s)
     : acceleration_noise_m_s2_(acceleration_noise_m_s2), max_prediction_s_(max_prediction_s), ring_(kRing) {}
 
 void HeightFilter::start(common::Time time, double height_m, double height_variance_m2) {
   stamp_ = time;
-  state_ = {height_m, 0.0};
-  covariance_ << height_variance_m2, 0.0, 0.0, 1e-4;
+  now_.updated = time;
+  now_.state = {height_m, 0.0, 0.0};
+  now_.covariance = Eigen::Vector3d(height_variance_m2, 1e-4, kBias_m_s2 * kBias_m_s2).asDiagonal();
+  before_ = long_before_ = now_;
   count_ = 0;
+  reference_variance_m2_ = 0.0;
 }
 
 void HeightFilter::addAcceleration(common::Time time, double acceleration_up_m_s2) {
@@ -46,28 +52,52 @@ void HeightFilter::predictTo(common::Time time) {
   }
   if (at < time) predict((time - at).seconds(), last_m_s2);
   // One error for the whole stretch: accelerometer noise is white, what hurts is a wrong horizon and a wrong bias.
-  const Eigen::Vector2d effect(0.5 * whole_s * whole_s, whole_s);
-  covariance_ += acceleration_noise_m_s2_ * acceleration_noise_m_s2_ * effect * effect.transpose();
+  const Eigen::Vector3d effect(0.5 * whole_s * whole_s, whole_s, 0.0);
+  for (Belief* belief : {&now_, &before_, &long_before_}) {
+    belief->covariance += acceleration_noise_m_s2_ * acceleration_noise_m_s2_ * effect * effect.transpose();
+    belief->covariance(2, 2) += kBiasWalk_m_s2 * kBiasWalk_m_s2 * whole_s;
+  }
   stamp_ = time;
 }
 
 void HeightFilter::predict(double dt_s, double acceleration_up_m_s2) {
-  Eigen::Matrix2d a;
-  a << 1.0, dt_s, 0.0, 1.0;
-  state_ = a * state_ + Eigen::Vector2d(0.5 * dt_s * dt_s, dt_s) * acceleration_up_m_s2;
-  covariance_ = a * covariance_ * a.transpose();
+  Eigen::Matrix3d a;
+  a << 1.0, dt_s, -0.5 * dt_s * dt_s, 0.0, 1.0, -dt_s, 0.0, 0.0, 1.0;
+  for (Belief* belief : {&now_, &before_, &long_before_}) {
+    belief->state = a * belief->state + Eigen::Vector3d(0.5 * dt_s * dt_s, dt_s, 0.0) * acceleration_up_m_s2;
+    belief->covariance = a * belief->covariance * a.transpose();
+  }
+}
+
+void HeightFilter::assume(common::Time time, double height_m, double velocity_m_s, const Eigen::Matrix2d& covariance) {
+  stamp_ = now_.updated = time;
+  now_.state << height_m, velocity_m_s, 0.0;
+  now_.covariance.setZero();
+  now_.covariance.topLeftCorner<2, 2>() = covariance;
+  // The error of the reference stands beside it.
+  now_.covariance(0, 0) = std::max(covariance(0, 0) - reference_variance_m2_, 0.0);
+  before_ = long_before_ = now_;
 }
 
 double HeightFilter::update(double height_m, double variance_m2) {
-  const double innovation_variance = covariance_(0, 0) + variance_m2;
-  const Eigen::Vector2d gain = covariance_.col(0) / innovation_variance;
-  state_ += gain * (height_m - state_[0]);
-  covariance_ -= innovation_variance * gain * gain.transpose();
+  if ((stamp_ - before_.updated).seconds() >= kRecall_s) {
+    long_before_ = before_;
+    before_ = now_;
+  }
+  const double innovation_variance = now_.covariance(0, 0) + variance_m2;
+  const Eigen::Vector3d gain = now_.covariance.col(0) / innovation_variance;
+  now_.updated = stamp_;
+  now_.state += gain * (height_m - now_.state[0]);
+  now_.covariance -= innovation_variance * gain * gain.transpose();
   return innovation_variance;
 }
 
-void HeightFilter::keepVarianceAbove(double variance_m2) {
-  covariance_(0, 0) = std::max(covariance_(0, 0), variance_m2);
+void HeightFilter::recall() { now_ = before_ = long_before_; }
+
+Eigen::Matrix2d HeightFilter::covariance() const {
+  Eigen::Matrix2d sum = now_.covariance.topLeftCorner<2, 2>();
+  sum(0, 0) += reference_variance_m2_;
+  return sum;
 }
 
 }  // namespace swiftlet::perception::altitude

@@ -25,6 +25,10 @@ struct LevelEstimate {
   std::vector<common::CellIndex> cells;  ///< Sorted.
   bool seen = false;
   LevelSight last;
+  // Since it was entered: whether what is measured here behaves as something flat would.
+  double innovation_sum_m = 0.0;
+  double innovation_variance_m2 = 0.0;
+  common::Time doubted_until;
 };
 
 class LevelStore {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include "common/validation.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr double kFarthest_m = 60.0;
 constexpr int kNone = -1;
+constexpr int kFloor = 0;
 
 double square(double x) { return x * x; }
 
@@ -37,18 +39,30 @@ struct Group {
   double distance_below_m = 0.0;  ///< Mean.
   double height_m = 0.0;          ///< Of the level, and its variance, as they were before this scan.
   double variance_m2 = 0.0;
-  bool entered = false;
 };
 
-/// A surface that no level explains, until enough scans have seen it.
+/// A surface that is new below, until it was seen for long enough: then it is a level entered, or a new one.
 struct Candidate {
-  double height_sum_m = 0.0;
+  Time first;
+  // Sums over the scans, of the time since the first and the height of the surface.
+  double t_s = 0.0, tt_s2 = 0.0, h_m = 0.0, th_m_s = 0.0;
   int scans = 0;
   int beams = 0;
   bool seen = false;
   std::vector<CellIndex> cells;
   LevelSight last;
-  double height_m() const { return height_sum_m / scans; }
+
+  void add(double time_s, double surface_m) {
+    ++scans;
+    t_s += time_s;
+    tt_s2 += time_s * time_s;
+    h_m += surface_m;
+    th_m_s += time_s * surface_m;
+  }
+  double height_m() const { return h_m / scans; }
+  /// The squared length of the time axis; the variance of the rate is that of one height over this.
+  double spread_s2() const { return tt_s2 - t_s * t_s / scans; }
+  double rate_m_s() const { return spread_s2() > 0.0 ? (th_m_s - t_s * h_m / scans) / spread_s2() : 0.0; }
 };
 
 }  // namespace
@@ -60,6 +74,11 @@ struct MultilevelFilter::Impl {
   // Algorithm 1, in its order.
   void readBeams(const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points);
   void matchBeams();
+  void groupBeams();
+  bool leftALevel() const;
+  void forgetTheLast();
+  std::optional<VirtualHeight> settled();
+  void doubtSlopes();
   std::optional<VirtualHeight> updateHeight();
   void clusterRest(AltitudeUpdate& outcome);
   void addNewLevels(AltitudeUpdate& outcome);
@@ -67,10 +86,15 @@ struct MultilevelFilter::Impl {
   void extendLevels();
   void searchForLoopClosures(AltitudeUpdate& outcome);
 
+  bool ripe(const Candidate& candidate) const;
+  bool confirmed(const Candidate& candidate) const;
+  std::size_t endOfSurface(std::size_t begin) const;
+  bool isBelow(const LevelEstimate& level) const;
+  int likeliestLevel(double distance_below_m, int averaged, bool known_below) const;
   double beamVariance(int averaged) const {
     return square(config.beam_noise_m) / averaged + square(config.surface_noise_m);
   }
-  void enter(const Group& group);
+  void enter(int id, const Candidate& seen);
   void learn(LevelEstimate& level, double height_m, double variance_m2);
   std::optional<double> heightAboveGround();
   void publish();
@@ -79,6 +103,7 @@ struct MultilevelFilter::Impl {
   HeightFilter height;
   LevelStore store;
   std::vector<Candidate> candidates;
+  std::deque<VirtualHeight> settling;
   HeightState state;
   bool initialized = false;
   std::uint64_t version = 0;
@@ -104,30 +129,105 @@ void MultilevelFilter::Impl::readBeams(const Eigen::Vector2d& position_map_m, st
     beams.push_back({store.cellAt(point.position_map_m), point.distance_below_m, kNone});
     sum_m += point.position_map_m;
   }
+  std::sort(beams.begin(), beams.end(), [](const Beam& a, const Beam& b) {
+    return std::pair(a.distance_below_m, a.cell) < std::pair(b.distance_below_m, b.cell);
+  });
   // The neighbourhood of what is measured; tilted, that is not below the vehicle.
   center = store.cellAt(beams.empty() ? position_map_m : Eigen::Vector2d(sum_m / static_cast<double>(beams.size())));
 }
 
-/// Line 5: the levels nearby that could have generated a beam; each beam takes the likeliest.
+/// One past the last beam of the surface that begins with this one: beams in order, without a gap between them.
+std::size_t MultilevelFilter::Impl::endOfSurface(std::size_t begin) const {
+  std::size_t end = begin + 1;
+  while (end < beams.size() && beams[end].distance_below_m - beams[end - 1].distance_below_m <= config.cluster_gap_m)
+    ++end;
+  return end;
+}
+
+bool MultilevelFilter::Impl::isBelow(const LevelEstimate& level) const {
+  return level.seen && (now - level.last.stamp).seconds() <= config.enter_after_s && now >= level.doubted_until;
+}
+
+/// The likeliest of the levels nearby that could be what `averaged` beams met at this distance.
+int MultilevelFilter::Impl::likeliestLevel(double distance_below_m, int averaged, bool known_below) const {
+  int likeliest = kNone;
+  double best = square(config.gate_sigma);
+  for (const int id : near) {
+    const LevelEstimate& level = store.at(id);
+    if (known_below && !isBelow(level)) continue;
+    const double residual_m = height.height_m() - level.height_m - distance_below_m;
+    // The error of a level that the height is already measured against is in both.
+    const double level_m2 = known_below ? std::max(0.0, level.variance_m2 - height.referenceVariance_m2())
+                                        : level.variance_m2 + height.referenceVariance_m2();
+    const double variance_m2 = height.ownVariance_m2() + level_m2 + beamVariance(averaged);
+    // Nothing lies just below the take-off floor: what seems to is the floor, and the height is wrong.
+    const bool sunk_floor =
+        !known_below && config.one_floor && id == kFloor && residual_m < 0.0 && residual_m > -config.least_step_down_m;
+    if (square(residual_m) > best * variance_m2 && !(sunk_floor && likeliest == kNone)) continue;
+    best = std::min(best, square(residual_m) / variance_m2);
+    likeliest = id;
+  }
+  return likeliest;
+}
+
+/// Line 5: the levels below that could have generated a beam; each beam takes the likeliest. A surface whose middle is
+/// on no level is not on one with its edge either: over a slope, that edge would take the height along.
 void MultilevelFilter::Impl::matchBeams() {
   store.near(center, config.neighbourhood_m, near);
+  if (config.one_floor && (near.empty() || near.front() != kFloor)) near.insert(near.begin(), kFloor);
+  for (Beam& beam : beams) beam.level = kNone;
+  for (std::size_t begin = 0, end = 0; begin < beams.size(); begin = end) {
+    end = endOfSurface(begin);
+    const int count = static_cast<int>(end - begin);
+    if (likeliestLevel(beams[begin + (end - begin) / 2].distance_below_m, count, true) == kNone) continue;
+    for (std::size_t i = begin; i < end; ++i) beams[i].level = likeliestLevel(beams[i].distance_below_m, 1, true);
+  }
+  groupBeams();
+}
+
+bool MultilevelFilter::Impl::leftALevel() const {
+  return std::any_of(present_before.begin(), present_before.end(), [this](int id) {
+    return std::none_of(groups.begin(), groups.end(), [id](const Group& g) { return g.level == id; });
+  });
+}
+
+void MultilevelFilter::Impl::forgetTheLast() {
+  height.recall();
+  settling.clear();
+}
+
+std::optional<VirtualHeight> MultilevelFilter::Impl::settled() {
+  if (settling.empty() || (now - settling.front().stamp).seconds() < config.settle_s) return std::nullopt;
+  const VirtualHeight oldest = settling.front();
+  settling.pop_front();
+  return oldest;
+}
+
+/// Over a level the innovations are noise. Over a slope they lean to one side, each within its gate, and the height
+/// would follow them: a level whose innovations add up to more than noise does is left alone for a while.
+void MultilevelFilter::Impl::doubtSlopes() {
+  std::erase_if(groups, [this](const Group& g) {
+    LevelEstimate& level = store.at(g.level);
+    level.innovation_sum_m += g.height_m + g.distance_below_m - height.height_m();
+    level.innovation_variance_m2 += height.ownVariance_m2() + beamVariance(g.beams);
+    if (square(level.innovation_sum_m) <= square(config.slope_sigma) * level.innovation_variance_m2) return false;
+    level.innovation_sum_m = level.innovation_variance_m2 = 0.0;
+    forgetTheLast();
+    level.doubted_until = now + common::Duration::fromSeconds(config.doubt_s);
+    for (Beam& beam : beams)
+      if (beam.level == g.level) beam.level = kNone;
+    return true;
+  });
+}
+
+void MultilevelFilter::Impl::groupBeams() {
   groups.clear();
-  for (Beam& beam : beams) {
-    double best = square(config.gate_sigma);
-    for (const int id : near) {
-      const LevelEstimate& level = store.at(id);
-      const double residual_m = height.height_m() - level.height_m - beam.distance_below_m;
-      const double distance2 = square(residual_m) / (height.covariance()(0, 0) + level.variance_m2 + beamVariance(1));
-      if (distance2 > best) continue;
-      best = distance2;
-      beam.level = id;
-    }
+  for (const Beam& beam : beams) {
     if (beam.level == kNone) continue;
     auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.level == beam.level; });
     if (group == groups.end()) {
       const LevelEstimate& level = store.at(beam.level);
-      const bool seen_lately = level.seen && (now - level.last.stamp).seconds() <= config.enter_after_s;
-      groups.push_back({beam.level, 0, 0.0, level.height_m, level.variance_m2, !seen_lately});
+      groups.push_back({beam.level, 0, 0.0, level.height_m, level.variance_m2});
       group = groups.end() - 1;
     }
     ++group->beams;
@@ -136,42 +236,32 @@ void MultilevelFilter::Impl::matchBeams() {
   std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.level < b.level; });
 }
 
-/// Lines 6 to 11: one virtual measurement of all levels the vehicle is over; a level just entered learns and teaches at
-/// once.
+/// Lines 6 to 11: one virtual measurement of all levels the vehicle is over.
 std::optional<VirtualHeight> MultilevelFilter::Impl::updateHeight() {
-  double weights = 0.0, weighted_m = 0.0, white_weights = 0.0;
-  double all_weights = 0.0, all_weighted_m = 0.0, surest_m2 = -1.0;
+  if (groups.empty()) return std::nullopt;
+  double weights = 0.0, weighted_m = 0.0, white_weights = 0.0, surest_m2 = groups.front().variance_m2;
   int used = 0;
   for (const Group& g : groups) {
     const double white_m2 = beamVariance(g.beams), variance_m2 = white_m2 + g.variance_m2;
-    const double virtual_m = g.height_m + g.distance_below_m;
-    if (!g.entered) {
-      weights += 1.0 / variance_m2;
-      weighted_m += virtual_m / variance_m2;
-    }
-    all_weights += 1.0 / variance_m2;
-    all_weighted_m += virtual_m / variance_m2;
+    weights += 1.0 / variance_m2;
+    weighted_m += (g.height_m + g.distance_below_m) / variance_m2;
     white_weights += 1.0 / white_m2;
     used += g.beams;
-    if (surest_m2 < 0.0 || g.variance_m2 < surest_m2) surest_m2 = g.variance_m2;
+    surest_m2 = std::min(surest_m2, g.variance_m2);
   }
-  if (weights > 0.0) height.update(weighted_m / weights, 1.0 / weights);
-  for (const Group& g : groups)
-    if (g.entered) enter(g);
-  if (groups.empty()) return std::nullopt;
-  // The error of a level is the same from scan to scan: averaging scans does not make it smaller.
-  height.keepVarianceAbove(surest_m2 + square(config.surface_noise_m));
   const double white_m2 = 1.0 / white_weights;
-  return VirtualHeight{now, all_weighted_m / all_weights, white_m2, std::max(0.0, 1.0 / all_weights - white_m2), used};
+  height.update(weighted_m / weights, white_m2);
+  height.setReferenceVariance(surest_m2 + square(config.surface_noise_m));
+  return VirtualHeight{now, weighted_m / weights, white_m2, std::max(0.0, 1.0 / weights - white_m2), used};
 }
 
 /// One innovation, d - (z - h), corrects height and level, each by its own variance.
-void MultilevelFilter::Impl::enter(const Group& g) {
-  if (g.beams < config.min_cluster_beams && g.beams < static_cast<int>(beams.size())) return;
-  LevelEstimate& level = store.at(g.level);
-  const double own_m = height.height_m() - g.distance_below_m;
-  const double own_variance_m2 = height.covariance()(0, 0) + beamVariance(g.beams);
-  height.update(g.height_m + g.distance_below_m, g.variance_m2 + beamVariance(g.beams));
+void MultilevelFilter::Impl::enter(int id, const Candidate& seen) {
+  LevelEstimate& level = store.at(id);
+  const double noise_m2 = beamVariance(seen.last.beams);
+  const double own_m = height.height_m() - seen.last.distance_below_m;
+  const double own_variance_m2 = height.covariance()(0, 0) + noise_m2;
+  height.update(level.height_m + seen.last.distance_below_m, level.variance_m2 + noise_m2);
   learn(level, own_m, own_variance_m2);
 }
 
@@ -188,9 +278,6 @@ void MultilevelFilter::Impl::learn(LevelEstimate& level, double height_m, double
 /// Line 13: the beams that no level explains, in sets of neighbouring distance.
 void MultilevelFilter::Impl::clusterRest(AltitudeUpdate& outcome) {
   for (Candidate& candidate : candidates) candidate.seen = false;
-  std::sort(beams.begin(), beams.end(), [](const Beam& a, const Beam& b) {
-    return std::pair(a.distance_below_m, a.cell) < std::pair(b.distance_below_m, b.cell);
-  });
   std::size_t begin = 0;
   while (begin < beams.size()) {
     if (beams[begin].level != kNone) {
@@ -211,11 +298,12 @@ void MultilevelFilter::Impl::clusterRest(AltitudeUpdate& outcome) {
     if (enough) {
       const double mean_m = sum_m / count, surface_m = height.height_m() - mean_m;
       auto match = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-        return !c.seen && std::abs(c.height_m() - surface_m) <= config.cluster_gap_m;
+        // A surface that is flat is met at one height; a slope is not.
+        return !c.seen && square(c.height_m() - surface_m) <= 2.0 * square(config.gate_sigma) * beamVariance(count);
       });
       if (match == candidates.end()) match = candidates.insert(candidates.end(), Candidate{});
-      match->height_sum_m += surface_m;
-      ++match->scans;
+      if (match->scans == 0) match->first = now;
+      match->add((now - match->first).seconds(), surface_m);
       match->beams += count;
       match->seen = true;
       match->last = {now, mean_m, count};
@@ -229,22 +317,37 @@ void MultilevelFilter::Impl::clusterRest(AltitudeUpdate& outcome) {
   std::erase_if(candidates, [](const Candidate& c) { return !c.seen; });
 }
 
+bool MultilevelFilter::Impl::ripe(const Candidate& c) const {
+  return c.scans >= config.confirm_scans && (now - c.first).seconds() >= config.confirm_s;
+}
+
+bool MultilevelFilter::Impl::confirmed(const Candidate& c) const {
+  const double variance_m2_s2 = beamVariance(std::max(1, c.beams / c.scans)) / std::max(c.spread_s2(), 1e-9);
+  return ripe(c) && square(c.rate_m_s()) <= square(config.slope_sigma) * (variance_m2_s2 + height.covariance()(1, 1));
+}
+
 /// Line 14.
 void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
   for (Candidate& candidate : candidates) {
-    if (candidate.scans < config.confirm_scans) continue;
-    const double variance_m2 = height.covariance()(0, 0) + beamVariance(candidate.beams);
-    const int id = store.add(candidate.height_m(), variance_m2);
+    if (!confirmed(candidate)) continue;
+    int id = likeliestLevel(candidate.last.distance_below_m, candidate.last.beams, false);
+    if (id != kNone) {
+      enter(id, candidate);
+    } else {
+      id = store.add(candidate.height_m(), height.covariance()(0, 0) + beamVariance(candidate.beams));
+      near.push_back(id);
+      ++outcome.levels_added;
+    }
     for (const CellIndex& cell : candidate.cells) store.extend(id, cell);
     LevelEstimate& level = store.at(id);
     level.seen = true;
     level.last = candidate.last;
+    level.innovation_sum_m = level.innovation_variance_m2 = 0.0;
     present.push_back(id);
-    near.push_back(id);
     changed = true;
-    ++outcome.levels_added;
   }
-  std::erase_if(candidates, [this](const Candidate& c) { return c.scans >= config.confirm_scans; });
+  // One that rises or falls is not a level; it may flatten out later.
+  std::erase_if(candidates, [this](const Candidate& c) { return ripe(c); });
 }
 
 /// Line 15, the leaving half: what was below in the last scan and is not any more is measured once more, against what
@@ -332,12 +435,15 @@ void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map
   f.height.start(time, height_m, square(height_sigma_m));
   f.store.clear();
   f.candidates.clear();
+  f.settling.clear();
   f.present.clear();
   const int floor = f.store.add(0.0, 0.0);
   const CellIndex here = f.store.cellAt(position_map_m);
   const int around = static_cast<int>(std::lround(f.config.join_distance_m / f.config.resolution_m));
   for (int y = -around; y <= around; ++y)
     for (int x = -around; x <= around; ++x) f.store.extend(floor, {here.x + x, here.y + y});
+  f.store.at(floor).seen = true;
+  f.store.at(floor).last = {time, height_m, f.config.min_cluster_beams};
   f.initialized = true;
   f.changed = true;
   f.publish();
@@ -350,7 +456,7 @@ void MultilevelFilter::addAcceleration(Time time, double acceleration_up_m_s2) {
 }
 
 AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& position_map_m,
-                                        std::span<const GroundPoint> points) {
+                                        std::span<const GroundPoint> points, const std::optional<HeightState>& prior) {
   Impl& f = *impl_;
   AltitudeUpdate outcome;
   if (!f.initialized || time <= f.height.stamp() || !position_map_m.allFinite()) return outcome;
@@ -360,10 +466,20 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
   f.present.clear();
 
   // 1st stage: update height estimate.
-  f.height.predictTo(time);
+  if (prior)
+    f.height.assume(time, prior->height_m, prior->velocity_m_s, prior->covariance);
+  else
+    f.height.predictTo(time);
   f.readBeams(position_map_m, points);
   f.matchBeams();
-  outcome.measurement = f.updateHeight();
+  if (f.leftALevel()) {
+    // The last that was seen of it may have been the beginning of a slope.
+    f.forgetTheLast();
+    f.matchBeams();
+  }
+  f.doubtSlopes();
+  if (const auto measured = f.updateHeight()) f.settling.push_back(*measured);
+  outcome.measurement = f.settled();
 
   // 2nd stage: update map.
   for (const Group& g : f.groups) f.present.push_back(g.level);
@@ -398,7 +514,13 @@ void MultilevelFilter::Config::describe(common::config::Fields& fields) {
   fields("cluster_gap_m", cluster_gap_m, "A wider gap between distances separates two surfaces.");
   fields("min_cluster_beams", min_cluster_beams, "Fewer unexplained beams are outliers.");
   fields("confirm_scans", confirm_scans, "Scans in a row that must see a new surface.");
+  fields("confirm_s", confirm_s, "How long it must be seen for, at one height.");
+  fields("slope_sigma", slope_sigma, "What rises or falls by more than this many standard deviations is a slope.");
+  fields("doubt_s", doubt_s, "How long a level is left alone after it behaved like a slope.");
   fields("enter_after_s", enter_after_s, "A level not seen for this long is entered anew.");
+  fields("one_floor", one_floor, "The take-off floor may be met again anywhere, not only near where it was seen.");
+  fields("least_step_down_m", least_step_down_m, "Nothing is less than this below the take-off floor.");
+  fields("settle_s", settle_s, "A measurement that was not doubted for this long is given out.");
   fields("max_prediction_s", max_prediction_s, "Longer gaps between scans are predicted as if this long.");
 }
 
@@ -414,7 +536,12 @@ std::vector<std::string> MultilevelFilter::Config::validate() const {
       .within("cluster_gap_m", cluster_gap_m, 0.005, 1)
       .within("min_cluster_beams", min_cluster_beams, 1, 1000)
       .within("confirm_scans", confirm_scans, 1, 1000)
+      .within("confirm_s", confirm_s, 0, 10)
+      .within("slope_sigma", slope_sigma, 1, 100)
+      .within("doubt_s", doubt_s, 0, 10)
       .within("enter_after_s", enter_after_s, 0, 10)
+      .within("least_step_down_m", least_step_down_m, 0, 10)
+      .within("settle_s", settle_s, 0, 1)
       .within("max_prediction_s", max_prediction_s, 0.01, 10)
       .problems();
 }

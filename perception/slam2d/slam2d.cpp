@@ -42,10 +42,7 @@ bool isLevel(const ProjectedScan& scan, double tilt_deg) {
 }  // namespace
 
 struct Slam2d::Impl {
-  explicit Impl(const Slam2dConfig& config_in)
-      : config(config_in),
-        reference(config_in.matcher),
-        map(config_in.grid) {}
+  explicit Impl(const Slam2dConfig& config_in) : config(config_in), reference(config_in.matcher), map(config_in.grid) {}
 
   Pose2 T_map_body() const { return poseOf(anchor) * T_anchor_body; }
   const Pose2& poseOf(int key) const { return graph.keys[static_cast<std::size_t>(key)].T_map_body; }

@@ -15,7 +15,8 @@ void GridDrawingConfig::describe(common::config::Fields& fields) {
   fields("max_height_above_m", max_height_above_m, "What is higher over the body does not touch the hull.");
   fields("max_height_below_m", max_height_below_m, "What is deeper below the body does not touch the hull.");
   fields("slice_height_m", slice_height_m, "The map is kept in horizontal slices of this height.");
-  fields("fade_steps", fade_steps, "Log-odds steps a slice loses where the next one is seen free.");
+  fields("fade_steps", fade_steps, "Log-odds steps a slice loses where one near is seen free.");
+  fields("fade_height_m", fade_height_m, "How far above or below that one may be.");
 }
 
 std::vector<std::string> GridDrawingConfig::validate() const {
@@ -30,6 +31,7 @@ std::vector<std::string> GridDrawingConfig::validate() const {
       .within("max_height_below_m", max_height_below_m, 0, 100)
       .within("slice_height_m", slice_height_m, 0.05, 10)
       .within("fade_steps", fade_steps, 0, max_steps)
+      .within("fade_height_m", fade_height_m, 0, 10)
       .problems();
 }
 

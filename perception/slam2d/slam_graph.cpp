@@ -93,8 +93,7 @@ SlicedMap drawMap(const SlamGraph& graph, const GridDrawingConfig& config) {
   std::stable_sort(items.begin(), items.end(),
                    [](const Item& a, const Item& b) { return a.attached->scan->stamp < b.attached->scan->stamp; });
   SlicedMap map(config);
-  for (const Item& item : items)
-    map.draw(*item.attached->scan, item.key->T_map_body * item.attached->T_key_body);
+  for (const Item& item : items) map.draw(*item.attached->scan, item.key->T_map_body * item.attached->T_key_body);
   return map;
 }
 

@@ -22,7 +22,7 @@ struct SlamResult::Data {
   std::uint64_t id = 0;
   std::vector<common::Pose2> T_map_key;  ///< Of every key scan of the task; empty when nothing was found.
   std::vector<SlamEdge> closures;
-  std::optional<SlicedMap> map;    ///< Drawn anew, when the poses moved by enough to be seen.
+  std::optional<SlicedMap> map;  ///< Drawn anew, when the poses moved by enough to be seen.
 };
 
 }  // namespace swiftlet::perception

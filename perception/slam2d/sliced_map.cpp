@@ -177,10 +177,7 @@ void SlicedMap::apply(int slice) {
       const Cell old = grid.at(cell);
       const int sum = (occupancy::isUnknown(old) ? 0 : old) + (ended > 0 ? config_.hit_steps : -config_.free_steps);
       const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
-      if (ended == 0) {
-        fade(slice - 1, cell);
-        fade(slice + 1, cell);
-      }
+      if (ended == 0) fadeAround(slice, cell);
       // Not writing what does not change leaves the tile shared with the snapshots.
       if (value != old) {
         grid.set(cell, value);
@@ -192,12 +189,15 @@ void SlicedMap::apply(int slice) {
 
 /// Most things are upright: what is free says a little about what is above and below, so that a trace of somebody who
 /// passed goes in the end.
-void SlicedMap::fade(int slice, CellIndex cell) {
-  const auto found = slices_.find(slice);
-  if (found == slices_.end()) return;
-  const Cell old = found->second.at(cell);
-  if (!occupancy::isOccupied(old)) return;
-  found->second.set(cell, static_cast<Cell>(std::max(old - config_.fade_steps, 0)));
+void SlicedMap::fadeAround(int slice, CellIndex cell) {
+  // What is not in the hull's way need not fade, and where nothing is in its way nothing is there to fade.
+  if (!occupancy::isOccupied(combined_.at(cell))) return;
+  const int reach = static_cast<int>(config_.fade_height_m / config_.slice_height_m);
+  for (auto near = slices_.lower_bound(slice - reach); near != slices_.end() && near->first <= slice + reach; ++near) {
+    const Cell old = near->second.at(cell);
+    if (near->first == slice || !occupancy::isOccupied(old)) continue;
+    near->second.set(cell, static_cast<Cell>(std::max(old - config_.fade_steps, 0)));
+  }
   combine(cell);
 }
 

@@ -34,8 +34,8 @@ class SlicedMap {
 
   void draw(const DrawnScan& scan, const common::Pose2& T_map_body);
 
-  /// The height over the take-off floor that the hull's middle is at or will be at; at first that of the first scan. True
-  /// when the map is another one now.
+  /// The height over the take-off floor that the hull's middle is at or will be at; at first that of the first scan.
+  /// True when the map is another one now.
   bool setFlightHeight(double height_m);
   /// What may touch the hull at flight height: occupied where any of the slices there is, free where any was seen free
   /// and none is occupied.
@@ -55,7 +55,7 @@ class SlicedMap {
   void drawSlice(int slice, const std::vector<Ray>& rays);
   void markRay(const Ray& ray);
   void apply(int slice);
-  void fade(int slice, common::CellIndex cell);
+  void fadeAround(int slice, common::CellIndex cell);
   void combine(common::CellIndex cell);
   common::OccupancyGrid& sliceGrid(int slice);
   std::uint32_t& markAt(common::CellIndex c) {

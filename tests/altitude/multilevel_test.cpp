@@ -22,7 +22,7 @@ TEST(MultilevelFilter, tracksClimbAndHoverOverAFlatFloor) {
   flight.flyTo({5.0, 0.0}, 1.0);
   EXPECT_EQ(flight.filter.levels().levels.size(), 1u);
   EXPECT_EQ(flight.filter.levels().levels[0].height_m, 0.0);
-  EXPECT_EQ(flight.without_measurement, 0);
+  EXPECT_LE(flight.without_measurement, 7);  // Until the first has settled.
   EXPECT_LT(flight.rms_m(), 0.012);
   EXPECT_NEAR(flight.filter.state().velocity_m_s, flight.vz_m_s, 0.05);
   ASSERT_TRUE(flight.last.height_above_ground_m);
@@ -129,7 +129,7 @@ TEST(MultilevelFilter, manyCrossingsDoNotDrift) {
     flight.flyTo({0.0, 0.1 * (crossing % 5)}, 1.0);
   }
   const auto map = flight.filter.levels();
-  EXPECT_LT(flight.worst_error_m, 0.06);
+  EXPECT_LT(flight.worst_error_m, 0.08);  // Up to two seconds by the accelerations alone.
   EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.02);
   EXPECT_NEAR(levelNear(map, 0.48)->height_m, 0.48, 0.015);
   EXPECT_NEAR(levelNear(map, 0.77)->height_m, 0.77, 0.015);
@@ -139,8 +139,26 @@ TEST(MultilevelFilter, manyCrossingsDoNotDrift) {
               100 * flight.rms_m(), map.levels.size());
 }
 
+/// Only levels near by may explain a beam, as in the paper.
+MultilevelFilter onlyNear() {
+  MultilevelFilter::Config config;
+  config.one_floor = false;
+  return MultilevelFilter(config);
+}
+
+TEST(MultilevelFilter, theFloorBehindAWideTableIsKnownAtOnce) {
+  Overflight flight;
+  flight.boxes = {{1.0, 4.0, -1.5, 1.5, 0.77}};
+  flight.start();
+  flight.climbTo(1.5);
+  flight.flyTo({6.0, 0.0});
+  EXPECT_EQ(flight.filter.levels().levels.size(), 2u);
+  EXPECT_LT(flight.worst_error_m, 0.04);
+}
+
 TEST(MultilevelFilter, theFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
   Overflight flight;
+  flight.filter = onlyNear();
   flight.boxes = {{1.0, 4.0, -1.5, 1.5, 0.77}};
   flight.start();
   flight.climbTo(1.5);
@@ -151,6 +169,28 @@ TEST(MultilevelFilter, theFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
   flight.flyTo({0.0, 0.0});
   EXPECT_EQ(flight.filter.levels().levels.size(), 2u);
   EXPECT_EQ(flight.filter.levels().levels[0].height_m, 0.0);
+}
+
+/// The back and the seat of a sofa, in many steepnesses: what is not flat says nothing about the height, and must not
+/// take it along.
+TEST(MultilevelFilter, slopesDoNotCarryTheHeightAway) {
+  for (const double speed_m_s : {0.3, 0.6, 0.9}) {
+    for (const double length_m : {0.15, 0.3, 0.6}) {
+      SCOPED_TRACE(testing::Message() << speed_m_s << " m/s over a slope of " << length_m << " m");
+      Overflight flight;
+      const double end_m = 1.0 + length_m;
+      flight.boxes = {
+          {0.7, 1.0, -1.0, 1.0, 1.04}, {1.0, end_m, -1.0, 1.0, 1.04, 0.45}, {end_m, end_m + 0.5, -1, 1, 0.45}};
+      flight.start();
+      flight.climbTo(1.4);
+      for (int i = 0; i < 3; ++i) {
+        flight.flyTo({end_m + 1.5, 0.0}, speed_m_s);
+        flight.flyTo({0.0, 0.0}, speed_m_s);
+      }
+      EXPECT_LT(flight.worst_error_m, 0.08);  // Up to two seconds by the accelerations alone.
+      EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.02);
+    }
+  }
 }
 
 TEST(MultilevelFilter, outliersAndDropoutsMakeNoLevels) {
@@ -241,6 +281,7 @@ TEST(MultilevelFilter, theSameFlightGivesTheSameBits) {
 TEST(MultilevelFilter, joinIsTheFormulaOfThePaper) {
   // h = (s_j^2 h_i + s_i^2 h_j) / (s_i^2 + s_j^2): twice the same information halves the variance.
   Overflight flight;
+  flight.filter = onlyNear();
   flight.boxes = {{1.0, 4.0, -1.5, 1.5, 0.77}};
   flight.start();
   flight.climbTo(1.5);
@@ -252,7 +293,9 @@ TEST(MultilevelFilter, joinIsTheFormulaOfThePaper) {
 }
 
 TEST(MultilevelFilter, garbageInNothingOut) {
-  MultilevelFilter filter({});
+  MultilevelFilter::Config config;
+  config.settle_s = 0.0;
+  MultilevelFilter filter(config);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<GroundPoint> points(10, GroundPoint{{0, 0}, 1.0});
   EXPECT_FALSE(filter.update(common::Time::fromSeconds(1.0), {0, 0}, points).measurement);

@@ -12,6 +12,10 @@ namespace swiftlet::perception {
 
 struct Box {
   double x0, x1, y0, y1, height_m;
+  double height_at_x1_m = -1.0;  ///< Where it differs, the top is a slope.
+  double heightAt(double x) const {
+    return height_at_x1_m < 0.0 ? height_m : height_m + (height_at_x1_m - height_m) * (x - x0) / (x1 - x0);
+  }
 };
 
 struct Overflight {
@@ -39,7 +43,7 @@ struct Overflight {
     double height_m = 0.0;
     for (const Box& box : boxes)
       if (at.x() >= box.x0 && at.x() < box.x1 && at.y() >= box.y0 && at.y() < box.y1)
-        height_m = std::max(height_m, box.height_m);
+        height_m = std::max(height_m, box.heightAt(at.x()));
     return height_m;
   }
 

@@ -84,7 +84,7 @@ struct Loop {
       ground.push_back({here * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
     const auto update = altitude.update(projected.stamp, here.position_m(), ground);
     if (update.measurement)
-      (void)fusion.addHeight(projected.stamp, update.measurement->height_m, update.measurement->variance_m2,
+      (void)fusion.addHeight(update.measurement->stamp, update.measurement->height_m, update.measurement->variance_m2,
                              update.measurement->level_variance_m2);
     if (update.height_above_ground_m) {
       over_ground_m = *update.height_above_ground_m;
