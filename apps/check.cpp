@@ -34,7 +34,8 @@ int check(const CheckOptions& options) {
     }
   }
   if (options.json) {
-    fmt::print("{}\n", nlohmann::json{{"problems", report}}.dump(2));
+    fmt::print("{}\n",
+               nlohmann::json{{"problems", report}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else if (count == 0) {
     fmt::print("{} mission{} sound\n", options.missions.size(), options.missions.size() == 1 ? " is" : "s are");
   }

@@ -1,6 +1,9 @@
 // swiftlet fly: one mission in the simulator, with the page.
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <memory>
 
 #include <fmt/color.h>
@@ -11,6 +14,7 @@
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
+#include "apps/numbers.hpp"
 #include "apps/speed.hpp"
 #include "apps/stop_signals.hpp"
 #include "apps/web_link.hpp"
@@ -59,6 +63,12 @@ std::string progressLine(const FlightProgress& progress) {
                      progress.wall_s > 0 ? progress.simulated_s / progress.wall_s : 0.0);
 }
 
+/// Unlike fmt::print, goes on when nobody reads any more: `swiftlet fly ... | head -1` is flown to its end.
+void show(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  if (std::fflush(stdout) != 0 && errno == EPIPE) std::clearerr(stdout);
+}
+
 /// One line that is rewritten on a terminal; a line every few seconds elsewhere.
 class Terminal {
  public:
@@ -67,13 +77,11 @@ class Terminal {
   void progress(const FlightProgress& progress) {
     if (quiet_) return;
     if (interactive_) {
-      fmt::print("\r\033[K{}", progressLine(progress));
-      std::fflush(stdout);
+      show("\r\033[K" + progressLine(progress));
       line_open_ = true;
     } else if (progress.wall_s - last_s_ >= 2.0) {
       last_s_ = progress.wall_s;
-      fmt::print("{}\n", progressLine(progress));
-      std::fflush(stdout);
+      show(progressLine(progress) + "\n");
     }
   }
 
@@ -83,14 +91,15 @@ class Terminal {
     const std::string text = fmt::format("{:6.1f} s  {}: {}{}", event.stamp.seconds(), event.source, event.text,
                                          event.reason.empty() ? "" : " (" + event.reason + ")");
     if (interactive_ && event.severity != common::Severity::kInfo) {
-      fmt::print(fg(event.severity == common::Severity::kError ? fmt::color::red : fmt::color::orange), "{}\n", text);
+      show(fmt::format(fg(event.severity == common::Severity::kError ? fmt::color::red : fmt::color::orange), "{}\n",
+                       text));
     } else {
-      fmt::print("{}\n", text);
+      show(text + "\n");
     }
   }
 
   void closeLine() {
-    if (line_open_) fmt::print("\r\033[K");
+    if (line_open_) show("\r\033[K");
     line_open_ = false;
   }
 
@@ -104,33 +113,36 @@ class Terminal {
 void printEnd(const FlightResult& result, bool json) {
   const interfaces::FlightSummary& summary = result.summary;
   if (json) {
-    fmt::print("{}\n", nlohmann::json{{"outcome", toString(summary.outcome)},
-                                      {"reason", summary.reason},
-                                      {"mission_time_s", summary.mission_time.seconds()},
-                                      {"distance_m", summary.distance_m},
-                                      {"explored_area_m2", summary.explored_area_m2},
-                                      {"realtime_factor", summary.realtime_factor.value_or(0.0)},
-                                      {"run", result.folder.string()},
-                                      {"report", (result.folder / "report.html").string()}}
-                           .dump(2));
+    show(nlohmann::json{{"outcome", toString(summary.outcome)},
+                        {"reason", summary.reason},
+                        {"mission_time_s", summary.mission_time.seconds()},
+                        {"distance_m", summary.distance_m},
+                        {"explored_area_m2", summary.explored_area_m2},
+                        {"realtime_factor", summary.realtime_factor.value_or(0.0)},
+                        {"run", result.folder.string()},
+                        {"report", (result.folder / "report.html").string()}}
+             .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+         "\n");
     return;
   }
-  fmt::print("\n{}{} after {:.1f} s and {:.1f} m, {:.1f} m2 explored, {:.1f} x real time\n", toString(summary.outcome),
-             summary.reason.empty() ? "" : " (" + summary.reason + ")", summary.mission_time.seconds(),
-             summary.distance_m, summary.explored_area_m2, summary.realtime_factor.value_or(0.0));
-  fmt::print("run     {}\nreport  {}\n", result.folder.string(), (result.folder / "report.html").string());
+  show(fmt::format("\n{}{} after {:.1f} s and {:.1f} m, {:.1f} m2 explored, {:.1f} x real time\n",
+                   toString(summary.outcome), summary.reason.empty() ? "" : " (" + summary.reason + ")",
+                   summary.mission_time.seconds(), summary.distance_m, summary.explored_area_m2,
+                   summary.realtime_factor.value_or(0.0)));
+  show(fmt::format("run     {}\nreport  {}\n", result.folder.string(), (result.folder / "report.html").string()));
 }
 
 int fly(const FlyOptions& options) {
   const FlightSetup setup = setupOf(options);
   const std::atomic<bool>& stop = stopOnSignals();
+  std::signal(SIGPIPE, SIG_IGN);  // Nobody reads the terminal's lines any more: no reason to fall.
+
   std::unique_ptr<WebLink> web;
   if (!options.headless) {
     const auto title = fmt::format("{} in {}", std::filesystem::path(options.mission).stem().string(),
                                    std::filesystem::path(options.world).stem().string());
     web = std::make_unique<WebLink>(options.listen, options.port, title, setup.system.vehicle.hull_diameter_m);
-    if (!options.json) fmt::print("page    {}\n\n", web->operatorUrl());
-    std::fflush(stdout);
+    if (!options.json) show(fmt::format("page    {}\n\n", web->operatorUrl()));
   }
   Terminal terminal(options.json);
   FlightHooks hooks;
@@ -157,17 +169,19 @@ void addFly(CLI::App& program, Run& run) {
   command->add_option("mission", options->mission, "Mission file (XML).")->required();
   command->add_option("--world", options->world, "World to fly in (SDF).")->capture_default_str();
   command->add_option("--system", options->system, "A profile of config/systems, or a file.")->capture_default_str();
-  command->add_option("--seed", options->seed, "Of all that is random.")->capture_default_str();
+  command->add_option("--seed", options->seed, "Of all that is random.")
+      ->capture_default_str()
+      ->check(numberWithin(0, kGreatestSeed));
   command->add_option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");
   command->add_flag("--headless", options->headless, "Without the page.");
   command->add_option("--listen", options->listen, "Address the page listens on.")->capture_default_str();
   command->add_option("--port", options->port, "Port of the page, 0 for any.")
       ->capture_default_str()
-      ->check(CLI::Range(0, 65535));
+      ->check(numberWithin(0, 65535));
   command->add_option("--out", options->out, "Folder of the run; default runs/<time>-<mission>.");
   command->add_option("--time-limit", options->time_limit_s, "Simulated seconds after which the flight is stopped.")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(numberWithin(0.01, 1e6));
   command->add_flag("--json", options->json, "Print the outcome as JSON, nothing else.");
   command->footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
   command->callback([&run, options] { run = [options] { return fly(*options); }; });

@@ -1,4 +1,7 @@
 // swiftlet: the only main(). Each subcommand is one file beside this one.
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 
 #include <fmt/core.h>
@@ -6,6 +9,18 @@
 
 #include "apps/command.hpp"
 #include "common/error.hpp"
+
+namespace {
+
+/// What was printed may have been lost: a full disk is told, a reader that has gone is not.
+int withOutput(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  if (errno == EPIPE) return code;
+  fmt::print(stderr, "the output could not be written: {}\n", std::strerror(errno));
+  return swiftlet::apps::kBadInput;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace swiftlet;
@@ -25,7 +40,7 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
     if (program.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
-    return run();
+    return withOutput(run());
   } catch (const CLI::ParseError& e) {
     return program.exit(e) == 0 ? apps::kDone : apps::kBadInput;
   } catch (const common::InputError& e) {

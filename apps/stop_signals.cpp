@@ -11,8 +11,7 @@ extern "C" void requestStop(int) { stop_requested = true; }
 }  // namespace
 
 const std::atomic<bool>& stopOnSignals() {
-  std::signal(SIGINT, requestStop);
-  std::signal(SIGTERM, requestStop);
+  for (const int stops : {SIGINT, SIGTERM, SIGHUP}) std::signal(stops, requestStop);
   return stop_requested;
 }
 

@@ -12,6 +12,7 @@
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
+#include "apps/numbers.hpp"
 #include "apps/stop_signals.hpp"
 #include "common/data_paths.hpp"
 #include "common/table.hpp"
@@ -90,7 +91,9 @@ evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::pat
     end.coverage = score.coverage;
     for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
   };
-  score.folder = flySimulated(setupOf(trial, seed, out), hooks).folder.filename().string();
+  const FlightResult result = flySimulated(setupOf(trial, seed, out), hooks);
+  if (result.write_failure) throw common::InputError(common::Problem{{}, "", *result.write_failure, ""});
+  score.folder = result.folder.filename().string();
   return score;
 }
 
@@ -161,8 +164,9 @@ void writeResults(const TrialResults& results, const fs::path& out) {
   }
 }
 
-/// What is to be flown, its missions sound for the systems that fly them; nothing flies before all are.
-std::vector<TrialConfig> trialsOf(const TrialOptions& options) {
+/// What is to be flown, read and found, its missions sound for the systems that fly them: a mistake in the last trial
+/// is told before the first flight.
+std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   auto trials = evaluation::readTrials(common::findData(options.trials));
   std::vector<common::Problem> problems;
   for (TrialConfig& trial : trials) {
@@ -171,19 +175,26 @@ std::vector<TrialConfig> trialsOf(const TrialOptions& options) {
       problems.push_back(std::move(problem));
   }
   if (!problems.empty()) throw common::InputError(std::move(problems));
+  for (TrialConfig& trial : trials) findWorld(trial);
   return trials;
 }
 
-int trial(const TrialOptions& options) {
-  std::vector<TrialConfig> trials = trialsOf(options);
-  const fs::path out =
+fs::path madeFolder(const TrialOptions& options) {
+  fs::path out =
       options.out.empty() ? interfaces::freshRunFolder("runs", startedNow(), "trial") : fs::path(options.out);
-  fs::create_directories(out);
+  std::error_code failure;
+  fs::create_directories(out, failure);
+  if (failure) throw common::InputError(common::Problem{{out.string()}, "--out", failure.message(), ""});
+  return out;
+}
 
+int trial(const TrialOptions& options) {
   const std::atomic<bool>& stop = stopOnSignals();
+  const std::vector<TrialConfig> trials = preparedTrials(options);
+  const fs::path out = madeFolder(options);
   TrialResults results;
-  for (TrialConfig& trial : trials) {
-    findWorld(trial);
+  for (const TrialConfig& trial : trials) {
+    if (stop) break;
     results.trials.push_back(flyAll(trial, options, out, stop));
     writeResults(results, out);
   }
@@ -195,7 +206,7 @@ int trial(const TrialOptions& options) {
       for (const std::string& failure : trial.missed()) fmt::print("{}, all flights: {}\n", trial.name, failure);
     fmt::print("results {}\nreport  {}\n", (out / "results.json").string(), (out / "report.html").string());
   }
-  return results.passed() ? kDone : kFailed;
+  return results.passed() && !stop ? kDone : kFailed;
 }
 
 }  // namespace
@@ -205,11 +216,13 @@ void addTrial(CLI::App& program, Run& run) {
   auto* command = program.add_subcommand("trial", "Fly scripted trials and score them against the truth.");
   command->add_option("trial", options->trials, "Trial file (YAML), or a folder of them.")->required();
   command->add_option("--repeat", options->repeat, "Flights of each trial, seeds S, S+1, ...; default: what it says.")
-      ->check(CLI::PositiveNumber);
+      ->check(numberWithin(1, 10'000));
   command->add_option("--jobs", options->jobs, "Flights at the same time.")
       ->capture_default_str()
-      ->check(CLI::Range(1, 64));
-  command->add_option("--seed", options->seed, "The first seed S.")->capture_default_str();
+      ->check(numberWithin(1, 64));
+  command->add_option("--seed", options->seed, "The first seed S.")
+      ->capture_default_str()
+      ->check(numberWithin(0, kGreatestSeed));
   command->add_option("--system", options->system, "Profile to fly them all with, instead of their own.");
   command->add_option("--out", options->out, "Folder of the results; default runs/<time>-trial.");
   command->add_flag("--json", options->json, "Print the results as JSON, nothing else.");

@@ -1,15 +1,15 @@
 #include "common/config.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include "common/error.hpp"
+#include "common/read_bytes.hpp"
 
 namespace swiftlet::common::config {
 namespace {
@@ -26,7 +26,7 @@ std::string number(double value) {
   return fmt::format("{}", value);
 }
 
-std::string quoted(const std::string& value) {
+std::string doubleQuoted(const std::string& value) {
   YAML::Emitter emitter;
   emitter << YAML::DoubleQuoted << value;
   return emitter.c_str();
@@ -138,11 +138,8 @@ YamlReader::~YamlReader() = default;
 YamlReader::YamlReader(YamlReader&&) noexcept = default;
 
 YamlReader YamlReader::fromFile(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(Problem{{file}, "", "cannot be opened", ""});
-  std::stringstream text;
-  text << stream.rdbuf();
-  return fromText(text.str(), file);
+  constexpr std::size_t kMostBytes = std::size_t{8} << 20;
+  return fromText(readBytes(file, kMostBytes), file);
 }
 
 YamlReader YamlReader::fromText(const std::string& text, const std::string& name) {
@@ -246,7 +243,7 @@ void YamlPrinter::operator()(std::string_view name, bool& value, std::string_vie
   line(name, value ? "true" : "false", sentence);
 }
 void YamlPrinter::operator()(std::string_view name, std::string& value, std::string_view sentence) {
-  line(name, quoted(value), sentence);
+  line(name, doubleQuoted(value), sentence);
 }
 
 void YamlPrinter::operator()(std::string_view name, std::vector<double>& value, std::string_view sentence) {
@@ -257,7 +254,7 @@ void YamlPrinter::operator()(std::string_view name, std::vector<double>& value, 
 
 void YamlPrinter::operator()(std::string_view name, std::vector<std::string>& value, std::string_view sentence) {
   std::vector<std::string> words;
-  for (const std::string& v : value) words.push_back(quoted(v));
+  for (const std::string& v : value) words.push_back(doubleQuoted(v));
   line(name, "[" + listed(words) + "]", sentence);
 }
 

@@ -56,7 +56,7 @@ std::vector<std::string> LaserConfig::validate() const {
       .within("range_noise_m", range_noise_m, 0, 1)
       .within("dropout_rate", dropout_rate, 0, 1)
       .within("mirror_first_beam", mirror_first_beam, 0, beams)
-      .within("mirror_beams", mirror_beams, 0, beams - mirror_first_beam)
+      .within("mirror_beams", mirror_beams, 0, static_cast<double>(beams) - mirror_first_beam)
       .within("mirror_spread_deg", mirror_spread_deg, 0, 90)
       .problems();
 }

@@ -52,6 +52,7 @@ void TrialConfig::describe(common::config::Fields& fields) {
 
 std::vector<std::string> TrialConfig::validate() const {
   return common::Validation()
+      .require(name.find('/') == std::string::npos, "name", "holds a `/`, but names folders")
       .require(!mission.empty(), "mission", "is missing")
       .require(!system.empty(), "system", "is missing")
       .require(!scenario.world.empty(), "scenario", "names no `world`")

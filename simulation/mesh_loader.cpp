@@ -17,6 +17,7 @@ struct Collected {
 
 Color diffuseOf(const aiScene& scene, const aiMesh& part) {
   aiColor4D diffuse;
+  if (part.mMaterialIndex >= scene.mNumMaterials) return Color::Constant(0.7F);
   if (scene.mMaterials[part.mMaterialIndex]->Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) != aiReturn_SUCCESS)
     return Color::Constant(0.7F);
   return Color(diffuse.r, diffuse.g, diffuse.b).cwiseMax(0.0F).cwiseMin(1.0F);

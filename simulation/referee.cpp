@@ -39,7 +39,6 @@ Referee::Referee(const WorldModel& world, const RayCaster& rays, const Scenario&
     : world_(world),
       rays_(rays),
       hull_{scenario.vehicle.hullRadius_m(), 0.5 * scenario.vehicle.hull_height_m},
-      gear_height_m_(scenario.quadrotor.gear_height_m),
       gear_radius_m_(scenario.quadrotor.gear_radius_m),
       lowest_world_m_(world.bounds_world_m().min().z()),
       floor_world_m_(-std::numeric_limits<double>::infinity()) {}

@@ -42,7 +42,6 @@ class Referee {
   const WorldModel& world_;
   const RayCaster& rays_;
   Hull hull_;
-  double gear_height_m_;
   double gear_radius_m_;
   double lowest_world_m_;
   double floor_world_m_;

@@ -1,15 +1,12 @@
 #include "simulation/sdf_reader.hpp"
 
-#include <expat.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
-#include <fstream>
+#include <functional>
 #include <iostream>
-#include <iterator>
-#include <memory>
+#include <optional>
+#include <regex>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -18,6 +15,8 @@
 #include <sdf/ParserConfig.hh>
 
 #include "common/error.hpp"
+#include "common/read_bytes.hpp"
+#include "simulation/sdf_preflight.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -25,44 +24,14 @@ namespace {
 using common::InputError;
 using common::Problem;
 
-std::string readText(const std::string& file) {
-  std::error_code ignored;
-  const bool regular = std::filesystem::is_regular_file(file, ignored);  // A folder opens as a stream, too.
-  std::ifstream stream(file, std::ios::binary);
-  if (!regular || !stream)
-    throw InputError(Problem{{file}, "", "cannot be read", "give the path of an SDF world (.sdf or .world)"});
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// Malformed XML is told by expat, which knows line and column; libsdformat tells it to the terminal only, and then
-/// takes the file for URDF.
-void requireSdf(const std::string& file, const std::string& text) {
-  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr), &XML_ParserFree);
-  std::string root;
-  XML_SetUserData(parser.get(), &root);
-  XML_SetStartElementHandler(parser.get(), [](void* data, const XML_Char* name, const XML_Char**) {
-    auto& first = *static_cast<std::string*>(data);
-    if (first.empty()) first = name;
-  });
-  if (XML_Parse(parser.get(), text.data(), static_cast<int>(text.size()), XML_TRUE) != XML_STATUS_OK) {
-    const auto line = static_cast<int>(XML_GetCurrentLineNumber(parser.get()));
-    const auto column = static_cast<int>(XML_GetCurrentColumnNumber(parser.get())) + 1;
-    throw InputError(Problem{{file, line, column},
-                             "",
-                             fmt::format("malformed XML: {}", XML_ErrorString(XML_GetErrorCode(parser.get()))),
-                             ""});
-  }
-  if (root != "sdf") throw InputError(Problem{{file, 1}, root, "the root element of a world is <sdf>", ""});
-}
-
 /// Takes what libsdformat prints for as long as it lives. What fails as SDF it also tries as URDF, whose parser
-/// complains on std::cerr; that is dropped.
+/// complains on std::cerr, where errors of included files go as well.
 class ConsoleCapture {
  public:
   ConsoleCapture()
       : stream_(sdf::Console::Instance()->GetMsgStream()),
         before_(stream_.GetStream()),
-        cerr_before_(std::cerr.rdbuf(dropped_.rdbuf())) {
+        cerr_before_(std::cerr.rdbuf(errors_.rdbuf())) {
     stream_.SetStream(&text_);
   }
   ~ConsoleCapture() {
@@ -73,9 +42,13 @@ class ConsoleCapture {
   ConsoleCapture& operator=(const ConsoleCapture&) = delete;
 
   /// Its lines without colours and without the place in libsdformat's own source.
-  std::vector<std::string> lines() const {
+  std::vector<std::string> lines() const { return linesOf(text_); }
+  std::vector<std::string> errorLines() const { return linesOf(errors_); }
+
+ private:
+  static std::vector<std::string> linesOf(const std::ostringstream& text) {
     std::vector<std::string> lines;
-    std::istringstream stream(text_.str());
+    std::istringstream stream(text.str());
     for (std::string line; std::getline(stream, line);) {
       const auto prefix_end = line.find("\033[0m ");
       if (prefix_end != std::string::npos) line.erase(0, prefix_end + 5);
@@ -84,12 +57,27 @@ class ConsoleCapture {
     return lines;
   }
 
- private:
   sdf::Console::ConsoleStream& stream_;
   std::ostream* before_;
-  std::ostringstream dropped_;
+  std::ostringstream errors_;
   std::streambuf* cerr_before_;
   std::ostringstream text_;
+};
+
+/// libsdformat 12 reads what included files include with its global configuration (gazebosim/sdformat#881).
+class GlobalFindCallback {
+ public:
+  explicit GlobalFindCallback(std::function<std::string(const std::string&)> find)
+      : before_(global().FindFileCallback()) {
+    global().SetFindCallback(std::move(find));
+  }
+  ~GlobalFindCallback() { global().SetFindCallback(before_); }
+  GlobalFindCallback(const GlobalFindCallback&) = delete;
+  GlobalFindCallback& operator=(const GlobalFindCallback&) = delete;
+
+ private:
+  static sdf::ParserConfig& global() { return sdf::ParserConfig::GlobalConfig(); }
+  std::function<std::string(const std::string&)> before_;
 };
 
 bool mentions(std::string text, std::string_view word) {
@@ -188,6 +176,27 @@ Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& con
   return sorted;
 }
 
+/// For the same reason a model that an included file includes and that is missing is only printed, as
+/// "Error Code 13: [/sdf/model...:FILE:L12]: Msg: Unable to find uri[model://x]". Without it obstacles would be
+/// missing.
+void addPrinted(const std::vector<std::string>& lines, Sorted& sorted) {
+  static const std::regex kMissing(R"(:([^:\]]+):L([0-9]{1,7})\]: Msg: (Unable to find uri\[.*))");
+  for (const std::string& line : lines) {
+    std::smatch match;
+    if (line.size() > 4096 || !std::regex_search(line, match, kMissing)) continue;
+    const Problem problem{{match[1], std::stoi(match[2])},
+                          "",
+                          match[3],
+                          "give the folder that holds the model as a model path or in SDF_PATH"};
+    const bool floor = mentions(problem.message, "ground plane");
+    sorted.wants_ground_plane = sorted.wants_ground_plane || floor;
+    if (floor || mentions(problem.message, "/sun]"))
+      sorted.warnings.push_back(toString(problem));
+    else
+      sorted.problems.push_back(problem);
+  }
+}
+
 /// libsdformat also throws, of several kinds.
 sdf::Errors loadOrExplain(sdf::Root& root, const std::string& file, const sdf::ParserConfig& config) {
   try {
@@ -200,11 +209,13 @@ sdf::Errors loadOrExplain(sdf::Root& root, const std::string& file, const sdf::P
 }  // namespace
 
 SdfFile readSdf(const std::string& file, const UriResolver& resolver) {
-  const std::string text = readText(file);
-  requireSdf(file, text);
+  const std::string text = common::readBytes(file);
+  checkBeforeSdf(file, text, resolver);
 
+  const auto find = [&resolver](const std::string& uri) { return resolver.findInclude(uri); };
+  const GlobalFindCallback nested_includes(find);
   sdf::ParserConfig config;
-  config.SetFindCallback([&resolver](const std::string& uri) { return resolver.findInclude(uri); });
+  config.SetFindCallback(find);
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::ERR);
@@ -213,6 +224,7 @@ SdfFile readSdf(const std::string& file, const UriResolver& resolver) {
   const ConsoleCapture console;
   const sdf::Errors errors = loadOrExplain(result.root, file, config);
   Sorted sorted = sortErrors(errors, console.lines(), file, text);
+  addPrinted(console.errorLines(), sorted);
   if (sorted.problems.empty() && result.root.WorldCount() == 0 && result.root.Model() == nullptr)
     sorted.problems.push_back({{file}, "sdf", "it has neither a <world> nor a <model>", ""});
   if (!sorted.problems.empty()) throw InputError(sorted.problems);

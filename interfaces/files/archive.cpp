@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 #include "common/error.hpp"
+#include "common/read_bytes.hpp"
 #include "interfaces/files/atomic_file.hpp"
-#include "interfaces/files/text_file.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -131,7 +131,7 @@ class Unpacking {
 }  // namespace
 
 fs::path unpackInto(const fs::path& cache, const fs::path& archive) {
-  const std::string bytes = readBytes(archive);
+  const std::string bytes = common::readBytes(archive, std::size_t{4} << 30);
   const std::string stem = archive.filename().string().substr(0, archive.filename().string().find('.'));
   const fs::path folder = cache / fmt::format("{}-{:016x}", stem, hashOf(bytes));
   if (fs::is_directory(folder)) return folder;

@@ -1,19 +1,26 @@
 #include "interfaces/files/json_lines.hpp"
 
+#include <cmath>
+#include <stdexcept>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "common/error.hpp"
-#include "interfaces/files/text_file.hpp"
+#include "common/read_bytes.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
 using nlohmann::ordered_json;
 
+constexpr double kMostSeconds = 9e9;  ///< Fits the nanoseconds of common::Time.
+
 common::Event eventOf(const ordered_json& object) {
   common::Event event;
-  event.stamp = common::Time::fromSeconds(object.at("t_s").get<double>());
+  const double t_s = object.at("t_s").get<double>();
+  if (!(std::abs(t_s) <= kMostSeconds)) throw std::invalid_argument(fmt::format("t_s {} is no time of a flight", t_s));
+  event.stamp = common::Time::fromSeconds(t_s);
   const std::string severity = object.at("severity").get<std::string>();
   bool known = false;
   for (const common::Severity s : {common::Severity::kInfo, common::Severity::kWarning, common::Severity::kError}) {
@@ -46,7 +53,7 @@ tl::expected<EventWriter, FileError> EventWriter::create(const std::filesystem::
 Written EventWriter::write(const common::Event& event) { return file_.append(toJson(event) + "\n"); }
 
 std::vector<common::Event> readEvents(const std::filesystem::path& file) {
-  const std::string bytes = readBytes(file);
+  const std::string bytes = common::readBytes(file);
   std::vector<common::Event> events;
   int line_number = 0;
   for (std::size_t begin = 0, end = 0; (end = bytes.find('\n', begin)) != std::string::npos; begin = end + 1) {

@@ -10,8 +10,8 @@
 
 #include "common/config.hpp"
 #include "common/error.hpp"
+#include "common/read_bytes.hpp"
 #include "common/validation.hpp"
-#include "interfaces/files/text_file.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -36,6 +36,9 @@ char pixelOf(occupancy::Cell cell) {
   if (occupancy::isUnknown(cell)) return kUnknownPixel;
   return occupancy::isOccupied(cell) ? kOccupiedPixel : kFreePixel;
 }
+
+/// With the least resolution every cell still has an index.
+constexpr double kMostOrigin_m = 1e6;
 
 enum class Mode { kTrinary, kScale, kRaw };
 
@@ -64,9 +67,13 @@ struct MapYaml {
         .require(image.empty() || image.ends_with(".pgm"), "image",
                  fmt::format("`{}` is not a .pgm picture; convert it, for instance by ImageMagick's `convert`", image))
         .require(resolution_m > 0, "resolution", "is missing or not positive")
+        .require(!(resolution_m > 0) || (resolution_m >= 1e-3 && resolution_m <= 100), "resolution",
+                 "is not within 0.001 and 100")
         .require(
             origin.size() == 3 && std::all_of(origin.begin(), origin.end(), [](double v) { return std::isfinite(v); }),
             "origin", "is not a list of three finite numbers: x, y, yaw")
+        .require(std::all_of(origin.begin(), origin.end(), [](double v) { return !(std::abs(v) > kMostOrigin_m); }),
+                 "origin", fmt::format("is further than {} m away", kMostOrigin_m))
         .require(negate == 0 || negate == 1, "negate", "is neither 0 nor 1")
         .within("occupied_thresh", occupied_thresh, 0, 1)
         .within("free_thresh", free_thresh, 0, 1)
@@ -195,7 +202,7 @@ Written writeMap(const std::filesystem::path& folder, const std::string& name, c
 StoredMap readMap(const std::filesystem::path& yaml_file) {
   const auto yaml = common::config::readFile<MapYaml>(yaml_file.string());
   const std::filesystem::path image_file = yaml_file.parent_path() / yaml.image;
-  return place(parsePgm(readBytes(image_file), image_file.string()), yaml);
+  return place(parsePgm(common::readBytes(image_file), image_file.string()), yaml);
 }
 
 GreyImage parsePgm(std::string_view bytes, const std::string& name) {

@@ -1,27 +1,10 @@
 #include "interfaces/files/text_file.hpp"
 
-#include <cerrno>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <sstream>
-
-#include "common/error.hpp"
 
 namespace swiftlet::interfaces {
-
-std::string readBytes(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file))
-    throw common::InputError(common::Problem{{file.string()}, "", "is a folder, a file was expected", ""});
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw common::InputError(
-        common::Problem{{file.string()}, "", std::string("cannot be opened: ") + std::strerror(errno), ""});
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return std::move(bytes).str();
-}
 
 std::vector<Word> wordsOf(std::string_view line) {
   constexpr std::string_view kBlank = " \t\r";

@@ -1,15 +1,10 @@
-// Whole text files, and numbers read with their place, for the readers beside this.
+// Words and numbers of text files, for the readers beside this.
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <string_view>
 #include <vector>
 
 namespace swiftlet::interfaces {
-
-/// The bytes of a file. Throws InputError when it cannot be read.
-std::string readBytes(const std::filesystem::path& file);
 
 /// A word of a line and the column it starts at, counted from 1.
 struct Word {

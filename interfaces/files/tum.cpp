@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/read_bytes.hpp"
 #include "interfaces/files/text_file.hpp"
 
 namespace swiftlet::interfaces {
@@ -88,7 +89,9 @@ Written TumWriter::write(const common::StampedPose& pose) {
   return file_.append(toTumLine(pose));
 }
 
-common::Trajectory readTum(const std::filesystem::path& file) { return parseTum(readBytes(file), file.string()); }
+common::Trajectory readTum(const std::filesystem::path& file) {
+  return parseTum(common::readBytes(file), file.string());
+}
 
 common::Trajectory parseTum(std::string_view text, const std::string& name) {
   common::Trajectory trajectory;

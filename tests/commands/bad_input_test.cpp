@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -156,6 +157,15 @@ TEST_F(BadInput, WorldWithoutAFloor) {
   expectWorldRefused(worldWith(box("wall", "3 0 1 0 0 0", "0.2 4 2")), "broken\\.sdf.*floor");
 }
 
+TEST_F(BadInput, WorldThatIsAPipe) {
+  ASSERT_EQ(mkfifo(path("pipe.sdf").c_str(), 0600), 0);
+  expectRefused(fly({"--headless", hop(), "--world", path("pipe.sdf")}), "pipe\\.sdf: is a pipe");
+}
+
+TEST_F(BadInput, WorldsThatIncludeEachOther) {
+  expectWorldRefused(worldWith("<include><uri>broken.sdf</uri></include>\n"), "broken\\.sdf:4:[0-9]+: .*each other");
+}
+
 TEST_F(BadInput, StartInsideAWall) {
   expectWorldRefused(worldWith(floorBox() + box("pillar", "0.1 0 1 0 0 0", "0.3 0.3 2")),
                      "broken\\.sdf.*start.*`?pillar");
@@ -213,6 +223,35 @@ TEST_F(BadInput, OutIsSomebodyElsesFolder) {
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.err, HasSubstr("thesis"));
   EXPECT_EQ(readText(path("thesis/chapter1.tex")), "years of work");
+}
+
+TEST_F(BadInput, LastTrialOfAFolderIsToldBeforeTheFirstIsFlown) {
+  const std::string sound = "mission: missions/explore_and_return.xml\nscenario: {world: worlds/unb_case1.sdf}\n";
+  fs::create_directories(path("trials"));
+  write("trials/a.yaml", sound);
+  for (const auto& [text, pattern] :
+       {std::pair{sound + "system: swiftled\n", "did you mean `(config/systems/)?swiftlet"},
+        {sound + "name: ../b\n", "b\\.yaml:3:7: name: holds a `/`"},
+        {sound + "repeat: 0\n", "b\\.yaml:3:9: repeat: 0 is not within"}}) {
+    write("trials/b.yaml", text);
+    expectRefused(runSwiftlet({"trial", path("trials"), "--out", path("run")}), pattern);
+  }
+}
+
+TEST_F(BadInput, NamesThatAreNoTextAreStillJson) {
+  const ProgramEnd end = runSwiftlet({"check", "--json", write("odd\xff.xml", "<root>")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_TRUE(nlohmann::json::accept(end.out)) << describe(end);
+}
+
+// The flight is what was asked for; its lines on the terminal are not.
+TEST_F(BadInput, NobodyReadsTheLinesOfAFlight) {
+  ProgramOptions options;
+  options.hang_up_after_bytes = 1;
+  const ProgramEnd end =
+      fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--time-limit", "60"}, options);
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), "done");
 }
 
 class FullDisk : public BadInput, public testing::WithParamInterface<std::size_t> {};
@@ -275,6 +314,13 @@ INSTANTIATE_TEST_SUITE_P(
         Usage{"bad_speed", {"fly", "missions/explore_and_return.xml", "--headless", "--speed", "fast"}, "fast"},
         Usage{"negative_speed", {"fly", "missions/explore_and_return.xml", "--headless", "--speed", "-1"}, "-1"},
         Usage{"bad_port", {"fly", "missions/explore_and_return.xml", "--port", "70000"}, "70000"},
+        Usage{"endless_flight", {"fly", "missions/explore_and_return.xml", "--time-limit", "nan"}, "`nan`"},
+        Usage{"huge_time", {"fly", "missions/explore_and_return.xml", "--time-limit", "1e400"}, "0.01 to 1000000"},
+        Usage{"negative_seed", {"fly", "missions/explore_and_return.xml", "--seed", "-1"}, "`-1`"},
+        Usage{"seed_out_of_range", {"trial", "trials", "--seed", "2147483647"}, "2147483647"},
+        Usage{"no_repeat", {"trial", "trials", "--repeat", "0"}, "1 to 10000"},
+        Usage{"no_jobs", {"trial", "trials", "--jobs", "0"}, "1 to 64"},
+        Usage{"trials_into_a_file", {"trial", "trials", "--out", "/dev/null"}, "/dev/null: --out"},
         Usage{"bad_seed", {"fly", "missions/explore_and_return.xml", "--seed", "lucky"}, "lucky"},
         Usage{"missing_trial", {"trial", "trials/none.yaml"}, "trials/none.yaml"},
         Usage{"check_nothing", {"check"}, "missions"}),

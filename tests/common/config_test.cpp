@@ -42,6 +42,12 @@ TEST(Config, WrongTypeAndRangeAreReportedTogether) {
   EXPECT_THAT(text, HasSubstr("test.yaml:3:9: mount: unknown key `roll`, did you mean `roll_deg`?"));
 }
 
+TEST(Config, NumbersAtTheEndOfTheirRange) {
+  EXPECT_THAT(problemsOf<LaserConfig>("beams: -2147483648\nmirror_first_beam: 1\n"), HasSubstr("beams: -2147483648"));
+  EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: 1e400\n"), HasSubstr("`1e400` is not a number"));
+  EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: .nan\n"), HasSubstr("mass_kg: nan is not within"));
+}
+
 TEST(Config, NotYamlAndMissingFile) {
   EXPECT_THAT(problemsOf<LaserConfig>("a: [1, 2"), HasSubstr("test.yaml:"));
   EXPECT_THROW(config::YamlReader::fromFile("/nowhere/x.yaml"), InputError);

@@ -158,6 +158,20 @@ TEST_F(CutShort, AnInterruptEndsTheRunInOrder) {
   EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), "stopped");
 }
 
+TEST_F(CutShort, TerminationOfTrialsKeepsWhatWasFlown) {
+  ProgramOptions options;
+  options.while_running = [&](pid_t process, const std::string& out) {
+    if (out.find('\n') != std::string::npos) kill(process, SIGTERM);  // After the first flight's line.
+  };
+  const std::string trial =
+      write("short.yaml", "mission: " + kMission + "\ntime_limit_s: 5\nscenario: {world: worlds/unb_case1.sdf}\n");
+  const ProgramEnd end = runSwiftlet({"trial", trial, "--repeat", "1000", "--out", path("out")}, options);
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  const auto flights = nlohmann::json::parse(readText(path("out/results.json"))).at("trials").at(0).at("flights");
+  EXPECT_GE(flights.size(), 1u);
+  EXPECT_LT(flights.size(), 1000u);
+}
+
 TEST_F(CutShort, AnOlderRunIsReplacedAsAWhole) {
   const std::vector<std::string> fly = {"fly",          kMission, "--headless", "--speed",  "max",
                                         "--time-limit", "8",      "--out",      path("run")};

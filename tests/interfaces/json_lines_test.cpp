@@ -50,6 +50,7 @@ TEST(Events, MistakesSayWhere) {
   };
   EXPECT_THAT(problem("not json"), HasSubstr("e.jsonl:2: event: "));
   EXPECT_THAT(problem(R"({"t_s": 1})"), HasSubstr("e.jsonl:2: event: "));
+  EXPECT_THAT(problem(R"({"t_s":1e300,"severity":"info","source":"a","text":"b"})"), HasSubstr("no time of a flight"));
   EXPECT_THAT(problem(R"({"t_s":1,"severity":"loud","source":"a","text":"b"})"), HasSubstr("unknown severity `loud`"));
 }
 

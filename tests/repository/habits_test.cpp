@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "tests/repository/source_tree.hpp"
 
@@ -125,6 +126,20 @@ TEST(Scripts, RefuseWhatTheyDoNotKnow) {
     const Answer answer = run("scripts/" + script + " --frobnicate");
     EXPECT_EQ(answer.exit_code, 2) << script << ": " << answer.text;
     EXPECT_THAT(answer.text, HasSubstr("--frobnicate")) << script;
+  }
+}
+
+TEST(Scripts, FuzzNamesFuzzersThatExistAndEachHasSeeds) {
+  std::istringstream example(run("scripts/fuzz --help").text);
+  std::set<std::string> fuzzers;
+  for (std::string word; example >> word;)
+    if (word.starts_with("fuzz_")) fuzzers.insert(word);
+  EXPECT_FALSE(fuzzers.empty());
+  for (const std::string& name : fuzzers) EXPECT_TRUE(trackedFiles().contains("fuzz/" + name + ".cpp")) << name;
+  for (const auto& [path, text] : trackedFiles()) {
+    if (!path.starts_with("fuzz/fuzz_") || !path.ends_with(".cpp")) continue;
+    const auto seeds = std::filesystem::path(SWIFTLET_SOURCE_DIR) / "fuzz/seeds" / std::filesystem::path(path).stem();
+    EXPECT_TRUE(std::filesystem::is_directory(seeds) && !std::filesystem::is_empty(seeds)) << seeds;
   }
 }
 

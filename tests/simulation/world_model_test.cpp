@@ -134,6 +134,30 @@ TEST_F(WorldFile, FindsIncludedModelsAndMeshesOnThePaths) {
               AllOf(HasSubstr("w.sdf:4: "), HasSubstr("model://crate"), HasSubstr("model path")));
 }
 
+TEST_F(WorldFile, FindsWhatIncludedModelsInclude) {
+  const auto sdf = [](const std::string& name, const std::string& inside) {
+    return "<sdf version='1.9'>\n<model name='" + name + "'><static>1</static>" + inside + "</model></sdf>";
+  };
+  folder_.write("models/outer/model.config",
+                "<model><name>outer</name><version>1</version><sdf version='1.9'>model.sdf</sdf></model>");
+  folder_.write("models/outer/model.sdf", sdf("outer", "<include><uri>model://inner.sdf</uri></include>"));
+  const std::string inside = "<include><uri>model://outer</uri></include>\n" + model("box", kBox);
+  EXPECT_THAT(problemOf(inside), AllOf(HasSubstr("outer/model.sdf:2: "), HasSubstr("model://inner.sdf")))
+      << "an obstacle would be missing in the world";
+  folder_.write("models/inner.sdf", sdf("inner", "<link name='l'><collision name='c'><geometry>" + kBox +
+                                                     "</geometry></collision></link>"));
+  EXPECT_THAT(load(inside).modelNames(), ElementsAre("outer", "box"));
+}
+
+TEST_F(WorldFile, RefusesFilesThatIncludeEachOther) {
+  EXPECT_THAT(problemOf("<include><uri>w.sdf</uri></include>"),
+              AllOf(HasSubstr("w.sdf:4:10: include: "), HasSubstr("include each other")));
+  folder_.write("models/ring/model.sdf",
+                "<sdf version='1.9'><model name='ring'>\n<include><uri>model://ring</uri></include></model></sdf>");
+  EXPECT_THAT(problemOf("<include><uri> model://ring </uri></include>"),
+              AllOf(HasSubstr("ring/model.sdf:2:"), HasSubstr("include each other")));
+}
+
 TEST_F(WorldFile, PutsAFloorWhereTheWellKnownGroundPlaneIsMissing) {
   const WorldModel w = load(
       "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane</uri></include>\n"
@@ -158,13 +182,16 @@ TEST_F(WorldFile, TakesABareModelAsAWorld) {
 
 TEST_F(WorldFile, SaysWhereABadWorldIsBad) {
   EXPECT_THAT(problem([&] { loadWorld((folder_.path() / "none.sdf").string()); }),
-              AllOf(HasSubstr("none.sdf"), HasSubstr("cannot be read")));
-  EXPECT_THAT(problem([&] { loadWorld(folder_.path().string()); }), HasSubstr("cannot be read"));
+              AllOf(HasSubstr("none.sdf"), HasSubstr("cannot be opened")));
+  EXPECT_THAT(problem([&] { loadWorld(folder_.path().string()); }), HasSubstr("is a folder"));
   EXPECT_THAT(problemOf("<model name=\"a\">"),
               AllOf(HasSubstr("w.sdf:5:"), HasSubstr("malformed XML: mismatched tag")));
   EXPECT_THAT(problem([&] { loadWorld(folder_.write("w.sdf", "")); }), HasSubstr("malformed XML"));
   EXPECT_THAT(problem([&] { loadWorld(folder_.write("w.sdf", "<robot name='r'/>")); }),
               AllOf(HasSubstr("w.sdf:1: robot"), HasSubstr("<sdf>")));
+  for (const std::string version : {"<sdf>", "<sdf version='junk'>", "<sdf version=''>"})
+    EXPECT_THAT(problem([&] { loadWorld(folder_.write("w.sdf", version + "</sdf>")); }),
+                HasSubstr("w.sdf:1: sdf: the version"));
   EXPECT_THAT(problem([&] { loadWorld(folder_.write("w.sdf", "<sdf version='1.9'>\n</sdf>")); }),
               HasSubstr("neither a <world> nor a <model>"));
   EXPECT_THAT(problemOf(model("a", "<box><size>a b 1</size></box>")), AllOf(HasSubstr("w.sdf:4"), HasSubstr("a b 1")));

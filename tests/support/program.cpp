@@ -18,8 +18,12 @@ struct Pipe {
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   }
   ~Pipe() {
-    close(ends[0]);
+    closeReader();
     closeWriter();
+  }
+  void closeReader() {
+    if (ends[0] >= 0) close(ends[0]);
+    ends[0] = -1;
   }
   void closeWriter() {
     if (ends[1] >= 0) close(ends[1]);
@@ -76,6 +80,10 @@ ProgramEnd runSwiftlet(const std::vector<std::string>& arguments, const ProgramO
     poll(waiting.data(), waiting.size(), 20);
     if (waiting[0].revents != 0) out_open = drain(out.ends[0], end.out);
     if (waiting[1].revents != 0) err_open = drain(err.ends[0], end.err);
+    if (out_open && options.hang_up_after_bytes && end.out.size() >= *options.hang_up_after_bytes) {
+      out_open = false;
+      out.closeReader();
+    }
     if (options.while_running) options.while_running(process, end.out);
     if (!end.out_of_patience && std::chrono::steady_clock::now() > deadline) {
       end.out_of_patience = true;

@@ -12,9 +12,10 @@
 namespace swiftlet::test_support {
 
 struct ProgramOptions {
-  std::chrono::seconds patience{240};             ///< Killed after this; that fails the test.
-  std::optional<std::size_t> largest_file_bytes;  ///< Writing beyond fails, as it would on a full disk.
-  std::string working_folder;                     ///< The source tree when empty.
+  std::chrono::seconds patience{240};              ///< Killed after this; that fails the test.
+  std::optional<std::size_t> largest_file_bytes;   ///< Writing beyond fails, as it would on a full disk.
+  std::optional<std::size_t> hang_up_after_bytes;  ///< Then nobody reads what it prints, as in `| head -1`.
+  std::string working_folder;                      ///< The source tree when empty.
   /// Called about every 20 ms while it runs, with its process and what it has printed.
   std::function<void(pid_t, const std::string& out)> while_running;
 };

@@ -1,0 +1,14 @@
+// Whole files, for every reader of input.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace swiftlet::common {
+
+/// The bytes of a file. Throws InputError when it is no regular file (a pipe or a device could make the reader wait for
+/// ever), cannot be read, or is larger than `most_bytes`.
+std::string readBytes(const std::filesystem::path& file, std::size_t most_bytes = std::size_t{1} << 30);
+
+}  // namespace swiftlet::common

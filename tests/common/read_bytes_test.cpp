@@ -1,0 +1,56 @@
+// Whole files: what is none is refused and never waited for.
+#include "common/read_bytes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "common/error.hpp"
+
+namespace swiftlet::common {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class ReadBytes : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  static std::string problemOf(const fs::path& file, std::size_t most_bytes = 1000) {
+    try {
+      readBytes(file, most_bytes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  fs::path folder_ = fs::temp_directory_path() / ("swiftlet-read-bytes-" + std::to_string(::getpid()));
+};
+
+TEST_F(ReadBytes, GivesEveryByte) {
+  const std::string bytes("a\0\r\n\xff", 5);
+  std::ofstream(folder_ / "f", std::ios::binary) << bytes;
+  EXPECT_EQ(readBytes(folder_ / "f"), bytes);
+  EXPECT_EQ(readBytes(folder_ / "f", 5), bytes);
+  EXPECT_THAT(problemOf(folder_ / "f", 4), HasSubstr("f: is larger than 4 bytes"));
+}
+
+TEST_F(ReadBytes, RefusesWhatIsNoFile) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(problemOf(folder_ / "pipe"), HasSubstr("pipe: is a pipe or a device"));
+  EXPECT_THAT(problemOf("/dev/zero"), HasSubstr("is a pipe or a device"));
+  EXPECT_THAT(problemOf(folder_), HasSubstr("is a folder"));
+  EXPECT_THAT(problemOf(folder_ / "none"), HasSubstr("none: cannot be opened: No such file"));
+  EXPECT_THAT(problemOf(folder_ / std::string(300, 'x')), HasSubstr("cannot be opened: File name too long"));
+}
+
+TEST_F(ReadBytes, KeepsToTheLimitWhateverTheSizeIsSaidToBe) {
+  EXPECT_THAT(problemOf("/proc/self/maps", 100), HasSubstr("is larger than 100 bytes"));
+}
+
+}  // namespace
+}  // namespace swiftlet::common
