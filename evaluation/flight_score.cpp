@@ -134,6 +134,7 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   score.mission_time_s = record.mission_time_s;
   score.flight_time_s = record.flight_time_s;
   score.distance_m = record.true_distance_m;
+  score.speed_max_m_s = record.true_speed_max_m_s;
   score.explored_area_m2 = record.explored_area_m2;
   score.interruptions = record.interruptions;
   score.resumed = record.resumed;

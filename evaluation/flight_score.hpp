@@ -67,6 +67,7 @@ struct FlightScore {
   double mission_time_s = 0.0;
   double flight_time_s = 0.0;  ///< Simulated.
   double distance_m = 0.0;     ///< True.
+  double speed_max_m_s = 0.0;  ///< True, horizontal.
   double explored_area_m2 = 0.0;
   double reachable_area_m2 = 0.0;  ///< What `coverage` is a share of.
   int interruptions = 0;

@@ -57,6 +57,7 @@ ordered_json flightJson(const FlightScore& flight) {
           {"mission_time_s", flight.mission_time_s},
           {"flight_time_s", flight.flight_time_s},
           {"distance_m", flight.distance_m},
+          {"speed_max_m_s", flight.speed_max_m_s},
           {"explored_area_m2", flight.explored_area_m2},
           {"reachable_area_m2", flight.reachable_area_m2},
           {"estimate_rms_m", orNull(flight.estimate_rms_m)},
