@@ -73,7 +73,6 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
 void Estimator::addImu(const common::ImuSample& sample) {
   filter_.predict(sample);
   last_imu_ = sample;
-  if (filter_.initialized()) altitude_.addAcceleration(sample.stamps.measured, filter_.accelerationOdom_m_s2().z());
 }
 
 std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Time now) {
@@ -185,7 +184,13 @@ void Estimator::fuseHeight(const perception::ProjectedScan& scan, const Pose2& T
   for (const auto& point : scan.mirror)
     ground.push_back({T_map_body * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
 
-  const auto update = altitude_.update(scan.stamp, T_map_body.position_m(), ground);
+  const common::VehicleState state = filter_.state();
+  perception::HeightState prior;
+  prior.height_m = filter_.poseAt(scan.stamp).value_or(state.T_odom_body).position_m.z();
+  prior.velocity_m_s = state.velocity_odom_m_s.z();
+  prior.covariance =
+      Eigen::Vector2d(state.position_covariance_m2(2, 2), state.velocity_covariance_m2_s2(2, 2)).asDiagonal();
+  const auto update = altitude_.update(scan.stamp, T_map_body.position_m(), ground, prior);
   if (update.height_above_ground_m) height_above_ground_m_ = *update.height_above_ground_m;
   if (update.measurement) {
     (void)filter_.addHeight(update.measurement->stamp, update.measurement->height_m, update.measurement->variance_m2,

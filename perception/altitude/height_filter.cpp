@@ -69,6 +69,16 @@ void HeightFilter::predict(double dt_s, double acceleration_up_m_s2) {
   }
 }
 
+void HeightFilter::assume(common::Time time, double height_m, double velocity_m_s, const Eigen::Matrix2d& covariance) {
+  stamp_ = now_.updated = time;
+  now_.state << height_m, velocity_m_s, 0.0;
+  now_.covariance.setZero();
+  now_.covariance.topLeftCorner<2, 2>() = covariance;
+  // The error of the reference stands beside it.
+  now_.covariance(0, 0) = std::max(covariance(0, 0) - reference_variance_m2_, 0.0);
+  before_ = long_before_ = now_;
+}
+
 double HeightFilter::update(double height_m, double variance_m2) {
   if ((stamp_ - before_.updated).seconds() >= kRecall_s) {
     long_before_ = before_;

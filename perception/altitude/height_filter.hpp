@@ -17,6 +17,8 @@ class HeightFilter {
 
   void start(common::Time time, double height_m, double height_variance_m2);
   void addAcceleration(common::Time time, double acceleration_up_m_s2);
+  /// In place of predictTo(): what somebody who knows more believes at `time`.
+  void assume(common::Time time, double height_m, double velocity_m_s, const Eigen::Matrix2d& covariance);
   /// The acceleration between two samples is that of the later one; without samples it is zero.
   void predictTo(common::Time time);
   /// Returns the innovation's variance.

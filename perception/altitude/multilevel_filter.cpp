@@ -160,8 +160,11 @@ int MultilevelFilter::Impl::likeliestLevel(double distance_below_m, int averaged
     const double level_m2 = known_below ? std::max(0.0, level.variance_m2 - height.referenceVariance_m2())
                                         : level.variance_m2 + height.referenceVariance_m2();
     const double variance_m2 = height.ownVariance_m2() + level_m2 + beamVariance(averaged);
-    if (square(residual_m) > best * variance_m2) continue;
-    best = square(residual_m) / variance_m2;
+    // Nothing lies just below the take-off floor: what seems to is the floor, and the height is wrong.
+    const bool sunk_floor =
+        !known_below && config.one_floor && id == kFloor && residual_m < 0.0 && residual_m > -config.least_step_down_m;
+    if (square(residual_m) > best * variance_m2 && !(sunk_floor && likeliest == kNone)) continue;
+    best = std::min(best, square(residual_m) / variance_m2);
     likeliest = id;
   }
   return likeliest;
@@ -453,7 +456,7 @@ void MultilevelFilter::addAcceleration(Time time, double acceleration_up_m_s2) {
 }
 
 AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& position_map_m,
-                                        std::span<const GroundPoint> points) {
+                                        std::span<const GroundPoint> points, const std::optional<HeightState>& prior) {
   Impl& f = *impl_;
   AltitudeUpdate outcome;
   if (!f.initialized || time <= f.height.stamp() || !position_map_m.allFinite()) return outcome;
@@ -463,7 +466,10 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
   f.present.clear();
 
   // 1st stage: update height estimate.
-  f.height.predictTo(time);
+  if (prior)
+    f.height.assume(time, prior->height_m, prior->velocity_m_s, prior->covariance);
+  else
+    f.height.predictTo(time);
   f.readBeams(position_map_m, points);
   f.matchBeams();
   if (f.leftALevel()) {
@@ -513,6 +519,7 @@ void MultilevelFilter::Config::describe(common::config::Fields& fields) {
   fields("doubt_s", doubt_s, "How long a level is left alone after it behaved like a slope.");
   fields("enter_after_s", enter_after_s, "A level not seen for this long is entered anew.");
   fields("one_floor", one_floor, "The take-off floor may be met again anywhere, not only near where it was seen.");
+  fields("least_step_down_m", least_step_down_m, "Nothing is less than this below the take-off floor.");
   fields("settle_s", settle_s, "A measurement that was not doubted for this long is given out.");
   fields("max_prediction_s", max_prediction_s, "Longer gaps between scans are predicted as if this long.");
 }
@@ -533,6 +540,7 @@ std::vector<std::string> MultilevelFilter::Config::validate() const {
       .within("slope_sigma", slope_sigma, 1, 100)
       .within("doubt_s", doubt_s, 0, 10)
       .within("enter_after_s", enter_after_s, 0, 10)
+      .within("least_step_down_m", least_step_down_m, 0, 10)
       .within("settle_s", settle_s, 0, 1)
       .within("max_prediction_s", max_prediction_s, 0.01, 10)
       .problems();

@@ -12,9 +12,13 @@
 // height learn from one innovation, each by its prior; while it is over a level the height is never surer than the
 // level.
 //
+// Not every surface is flat. Over a slope (the back of a sofa) each measurement lies within its gate and all lean to
+// one side. So a surface is believed when it was at one height for a while, a level is left alone when its innovations
+// add up, and a measurement is given out only when that did not happen soon after.
+//
 // Heights are of the body origin over the take-off floor, which is level 0 at height 0 without error. The filter lives
 // at the time of the last scan; the vehicle's present height comes from the fusion filter, which takes the virtual
-// measurement as one of its measurements.
+// measurement as one of its measurements, and may stand in for stage 1.
 // One thread. Deterministic: the order of the points given is the only order there is. No heap use in the steady state.
 #pragma once
 
@@ -75,18 +79,19 @@ class MultilevelFilter {
     double join_distance_m = 0.20;          ///< Two levels whose cells come this close meet.
     double beam_noise_m = 0.015;            ///< Standard deviation of one distance, attitude error included.
     double surface_noise_m = 0.005;         ///< How far a real surface is from flat; shared by all beams of a scan.
-    double acceleration_noise_m_s2 = 0.10;  ///< Error of the vertical acceleration over one scan period.
+    double acceleration_noise_m_s2 = 0.04;  ///< Error of the vertical acceleration over one scan period.
     double gate_sigma = 3.5;                ///< Half width of all confidence regions, in standard deviations.
     double cluster_gap_m = 0.06;            ///< Beams sorted by distance: a gap wider than this separates two surfaces.
     int min_cluster_beams = 2;              ///< Fewer unexplained beams are outliers.
     int confirm_scans = 3;                  ///< Scans in a row that must see a new surface before it becomes a level,
     double confirm_s = 0.3;                 ///< and for how long.
-    double slope_sigma = 4.5;       ///< What rises or falls by more, in standard deviations, is a slope and no level.
-    double doubt_s = 0.3;           ///< How long a level is left alone after it behaved like a slope.
-    double enter_after_s = 0.3;     ///< A level not seen for this long is entered anew when it is seen again.
-    bool one_floor = true;          ///< The take-off floor is looked for everywhere, not only in the neighbourhood.
-    double settle_s = 0.15;         ///< A measurement that was not doubted for this long is given out.
-    double max_prediction_s = 0.5;  ///< Longer gaps between scans are predicted as if this long, with the noise.
+    double slope_sigma = 4.0;         ///< What rises or falls by more, in standard deviations, is a slope and no level.
+    double doubt_s = 0.3;             ///< How long a level is left alone after it behaved like a slope.
+    double enter_after_s = 0.3;       ///< A level not seen for this long is entered anew when it is seen again.
+    bool one_floor = true;            ///< The take-off floor is looked for everywhere, not only in the neighbourhood.
+    double least_step_down_m = 0.25;  ///< Nothing is less than this below the take-off floor.
+    double settle_s = 0.15;           ///< A measurement that was not doubted for this long is given out.
+    double max_prediction_s = 0.5;    ///< Longer gaps between scans are predicted as if this long, with the noise.
 
     void describe(common::config::Fields& fields);
     std::vector<std::string> validate() const;
@@ -109,7 +114,10 @@ class MultilevelFilter {
 
   /// Algorithm 1 for one scan at `time`, the vehicle over `position_map_m`. Scans must come in order of time; an
   /// earlier one is ignored. Without accelerations since the last scan the velocity is predicted constant.
-  AltitudeUpdate update(common::Time time, const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points);
+  /// `prior`, where given, is the height and vertical speed at `time` by a filter that knows more, the fusion filter
+  /// that is given the measurements: it takes the place of the prediction by accelerations.
+  AltitudeUpdate update(common::Time time, const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points,
+                        const std::optional<HeightState>& prior = std::nullopt);
 
   const HeightState& state() const;
   /// Copies of all levels with their cells.

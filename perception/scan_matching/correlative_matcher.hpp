@@ -41,7 +41,7 @@ struct CorrelativeMatcherConfig {
   double attitude_error_deg = 1.0;  ///< Of roll and pitch: moves each end point by its height over the body times this.
   double unobservable_sigma_m =
       0.1;                          ///< A direction less certain than this is not seen: the pose keeps the guess there.
-  double min_normal_spread = 0.02;  ///< Nor is one that a smaller share of the contour faces: a corridor's axis.
+  double min_normal_spread = 0.01;  ///< Nor is one that a smaller share of the contour faces: a corridor's axis.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

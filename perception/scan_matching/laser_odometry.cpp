@@ -21,6 +21,7 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields("max_acceleration_m_s2", max_acceleration_m_s2, "Widens the search with the time since the last match.");
   fields("max_angular_acceleration_rad_s2", max_angular_acceleration_rad_s2, "The same for the rotation.");
   fields("guess_error_m", guess_error_m, "Half the least search window.");
+  fields("unseen_drift_m_s", unseen_drift_m_s, "Widens the search with the time since all directions were seen.");
   fields("guess_error_deg", guess_error_deg, "The same for the rotation.");
   fields("max_window_m", max_window_m, "Half the greatest search window.");
   fields("max_window_deg", max_window_deg, "The same for the rotation.");
@@ -37,6 +38,7 @@ std::vector<std::string> LaserOdometryConfig::validate() const {
   return common::Validation()
       .within("max_acceleration_m_s2", max_acceleration_m_s2, 0, 100)
       .within("max_angular_acceleration_rad_s2", max_angular_acceleration_rad_s2, 0, 1000)
+      .within("unseen_drift_m_s", unseen_drift_m_s, 0, 10)
       .within("guess_error_m", guess_error_m, 0.001, max_window_m)
       .within("guess_error_deg", guess_error_deg, 0.01, max_window_deg)
       .within("max_window_m", max_window_m, 0.01, 5)
@@ -73,8 +75,9 @@ struct LaserOdometry::Impl {
   LaserOdometryCounts counts;
   std::deque<KeyScan> key_scans;  ///< The last one is the reference.
   common::Time last_stamp, last_match;
-  Pose2 last_T_odom_body;   ///< As predicted, at the last match.
-  Pose2 last_T_local_body;  ///< As matched.
+  common::Time last_seen_whole;  ///< The last match that saw all directions.
+  Pose2 last_T_odom_body;        ///< As predicted, at the last match.
+  Pose2 last_T_local_body;       ///< As matched.
   int failures = 0;
 };
 
@@ -102,7 +105,7 @@ std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan
   key_scans.clear();
   matcher.clearReference();
   addKeyScan(scan, Pose2{}, Eigen::Matrix3d::Zero());
-  last_match = scan.stamp;
+  last_match = last_seen_whole = scan.stamp;
   last_T_odom_body = common::planar(scan.T_odom_body);
   last_T_local_body = Pose2{};
   failures = 0;
@@ -116,9 +119,11 @@ std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan
 MatchResult LaserOdometry::Impl::matchWidening(const ProjectedScan& scan, const Pose2& guess) {
   const double elapsed_s = (scan.stamp - last_match).seconds();
   const double half_dt2 = 0.5 * elapsed_s * elapsed_s;
+  // Along what was not seen, the guess has drifted since; seen again, the truth may be as far away.
+  const double unseen_m = config.unseen_drift_m_s * (scan.stamp - last_seen_whole).seconds();
   SearchWindow window;
   window.half_translation_m =
-      std::min(config.max_window_m, config.guess_error_m + config.max_acceleration_m_s2 * half_dt2);
+      std::min(config.max_window_m, config.guess_error_m + config.max_acceleration_m_s2 * half_dt2 + unseen_m);
   window.half_rotation_rad =
       std::min(config.max_window_deg * kRadPerDeg,
                config.guess_error_deg * kRadPerDeg + config.max_angular_acceleration_rad_s2 * half_dt2);
@@ -203,6 +208,7 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   }
   self.failures = 0;
   self.last_match = scan.stamp;
+  if (!match.unobservable_direction) self.last_seen_whole = scan.stamp;
   self.last_T_odom_body = T_odom_body;
   self.last_T_local_body = match.T_reference_body;
 

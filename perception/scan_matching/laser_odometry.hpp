@@ -35,7 +35,8 @@ struct LaserOdometryConfig {
   CorrelativeMatcherConfig matcher;
   double max_acceleration_m_s2 = 5.0;  ///< Widens the search with the time since the last match (Bachrach 2009, 5.1).
   double max_angular_acceleration_rad_s2 = 20.0;
-  double guess_error_m = 0.04;  ///< Half the least search window.
+  double unseen_drift_m_s = 0.5;  ///< Widens it with the time since all directions were seen: by then the guess drifts.
+  double guess_error_m = 0.04;    ///< Half the least search window.
   double guess_error_deg = 1.5;
   double max_window_m = 0.5;
   double max_window_deg = 15.0;
