@@ -103,7 +103,7 @@ std::vector<TrialConfig> readTrials(const fs::path& file_or_folder) {
 fs::path findArchive(const std::string& archive, const fs::path& default_folder) {
   const char* variable = std::getenv("SWIFTLET_DATASETS");
   const fs::path folder = variable != nullptr && *variable != '\0' ? fs::path(variable) : default_folder;
-  const fs::path file = folder / archive;
+  fs::path file = folder / archive;
   if (fs::is_regular_file(file)) return file;
   throw InputError(Problem{{file.string()},
                            "archive",
