@@ -132,7 +132,6 @@ struct ToText {
 const char* toString(PortType type) {
   switch (type) {
     case PortType::kAny:
-      return "text";
     case PortType::kString:
       return "text";
     case PortType::kDouble:

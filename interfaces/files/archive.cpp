@@ -93,7 +93,7 @@ class Unpacking {
   }
 
   fs::path checkedName(const std::string& name) const {
-    const fs::path path(name);
+    fs::path path(name);
     if (name.empty() || path.is_absolute()) throw fail(name, "has no relative name");
     for (const fs::path& part : path)
       if (part == "..") throw fail(name, "leads out of the folder");
@@ -133,7 +133,7 @@ class Unpacking {
 fs::path unpackInto(const fs::path& cache, const fs::path& archive) {
   const std::string bytes = common::readBytes(archive, std::size_t{4} << 30);
   const std::string stem = archive.filename().string().substr(0, archive.filename().string().find('.'));
-  const fs::path folder = cache / fmt::format("{}-{:016x}", stem, hashOf(bytes));
+  fs::path folder = cache / fmt::format("{}-{:016x}", stem, hashOf(bytes));
   if (fs::is_directory(folder)) return folder;
   try {
     const TemporaryFolder temporary(cache / fmt::format(".{}.{}.part", folder.filename().string(), ::getpid()));

@@ -21,9 +21,9 @@ SetBlackboard::SetBlackboard(const NodeSetup& setup)
     : Leaf(setup), value_(setup.port("value")), output_key_(setup, "output_key") {}
 
 Status SetBlackboard::act(TickContext& context) {
-  const std::optional<Value>& value = value_.slot != nullptr ? value_.slot->value : value_.literal;
-  if (!value) return fail(context, "port value: the entry {" + value_.slot->name + "} is not set");
-  output_key_.set(*value);
+  const Slot* entry = value_.slot;
+  if (entry != nullptr && !entry->value) return fail(context, "port value: the entry {" + entry->name + "} is not set");
+  output_key_.set(entry != nullptr ? *entry->value : *value_.literal);
   return Status::kSuccess;
 }
 
