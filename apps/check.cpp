@@ -6,10 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
-#include "apps/system.hpp"
-#include "behaviors/mission.hpp"
-#include "common/data_paths.hpp"
-#include "common/error.hpp"
+#include "apps/mission_limits.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -20,20 +17,12 @@ struct CheckOptions {
   bool json = false;
 };
 
-std::vector<common::Problem> problemsOf(const std::string& mission) {
-  try {
-    return behaviors::checkMission(common::findData(mission).string());
-  } catch (const common::InputError& missing) {
-    return missing.problems();
-  }
-}
-
 int check(const CheckOptions& options) {
-  (void)loadSystem(options.system);
+  const System system = loadSystem(options.system);
   auto report = nlohmann::json::array();
   std::size_t count = 0;
   for (const std::string& mission : options.missions) {
-    for (const common::Problem& problem : problemsOf(mission)) {
+    for (const common::Problem& problem : missionProblems(mission, system)) {
       ++count;
       report.push_back({{"file", problem.location.file},
                         {"line", problem.location.line},

@@ -142,7 +142,7 @@ class Flight {
 
   void showPictures() {
     last_picture_ = now_;
-    folder_.show(reportPictures(*autonomy_.world(), folder_.summary(), recorder_.finish().truth_map,
+    folder_.show(reportPictures(*autonomy_.world(), folder_.summary(), recorder_.record().truth_map,
                                 setup_.system.vehicle.hull_diameter_m));
   }
 
@@ -166,11 +166,10 @@ class Flight {
     end.outcome = outcome_;
     end.reason = reason_;
     end.wall_time_s = wall_s;
+    if (hooks_.score) hooks_.score(recorder_.finish(), *vehicle_, end);
     folder_.finish(end);
     FlightResult result;
     result.summary = folder_.summary();
-    result.record = recorder_.finish();
-    result.vehicle = std::move(vehicle_);
     result.folder = folder_.path();
     result.write_failure = folder_.failure();
     return result;

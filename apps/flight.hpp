@@ -41,12 +41,13 @@ struct FlightHooks {
   std::function<void(const common::Event&)> event;
   WebLink* web = nullptr;
   const std::atomic<bool>* stop = nullptr;  ///< Ends the flight from outside.
+  /// At the end, before the run's last files are written: adds to them what a scorer finds.
+  std::function<void(const evaluation::FlightRecord&, const simulation::SimulatedVehicle&, interfaces::FlightEnd&)>
+      score;
 };
 
 struct FlightResult {
   interfaces::FlightSummary summary;
-  evaluation::FlightRecord record;
-  std::unique_ptr<simulation::SimulatedVehicle> vehicle;  ///< As it was at the end; for the scorer.
   std::filesystem::path folder;
   std::optional<std::string> write_failure;
 };

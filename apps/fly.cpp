@@ -1,7 +1,6 @@
 // swiftlet fly: one mission in the simulator, with the page.
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -14,17 +13,15 @@
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
+#include "apps/mission_limits.hpp"
 #include "apps/numbers.hpp"
 #include "apps/speed.hpp"
+#include "apps/stop_signals.hpp"
 #include "apps/web_link.hpp"
-#include "behaviors/mission.hpp"
 #include "common/data_paths.hpp"
 
 namespace swiftlet::apps {
 namespace {
-
-std::atomic<bool> stop_requested{false};
-extern "C" void requestStop(int) { stop_requested = true; }
 
 struct FlyOptions {
   std::string mission;
@@ -44,6 +41,7 @@ FlightSetup setupOf(const FlyOptions& options) {
   FlightSetup setup;
   setup.system = loadSystem(options.system);
   setup.mission_file = common::findData(options.mission).string();
+  requireSound(setup.mission_file, setup.system);
   setup.scenario.seed = options.seed;
   setup.scenario.world = common::findData(options.world).string();
   setup.started = startedNow();
@@ -136,7 +134,7 @@ void printEnd(const FlightResult& result, bool json) {
 
 int fly(const FlyOptions& options) {
   const FlightSetup setup = setupOf(options);
-  for (const int stops : {SIGINT, SIGTERM, SIGHUP}) std::signal(stops, requestStop);
+  const std::atomic<bool>& stop = stopOnSignals();
   std::signal(SIGPIPE, SIG_IGN);  // Nobody reads the terminal's lines any more: no reason to fall.
 
   std::unique_ptr<WebLink> web;
@@ -151,7 +149,7 @@ int fly(const FlyOptions& options) {
   hooks.progress = [&](const FlightProgress& progress) { terminal.progress(progress); };
   hooks.event = [&](const common::Event& event) { terminal.event(event); };
   hooks.web = web.get();
-  hooks.stop = &stop_requested;
+  hooks.stop = &stop;
 
   const FlightResult result = flySimulated(setup, hooks);
   terminal.closeLine();

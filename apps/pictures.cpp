@@ -1,5 +1,7 @@
 #include "apps/pictures.hpp"
 
+#include <limits>
+
 #include "rendering/encode.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/map_svg.hpp"
@@ -36,6 +38,9 @@ interfaces::ReportPlot plotOf(const std::string& title, const std::string& y_lab
   return {"", rendering::plotSvg(plot)};
 }
 
+/// Zero is what stands there before the first measurement; the curve begins with that.
+double measured(double value) { return value > 0.0 ? value : std::numeric_limits<double>::quiet_NaN(); }
+
 std::vector<interfaces::ReportPlot> plotsOf(const interfaces::FlightSummary& summary) {
   const auto& samples = summary.samples;
   const auto spans = spansOf(summary.phases);
@@ -47,10 +52,11 @@ std::vector<interfaces::ReportPlot> plotsOf(const interfaces::FlightSummary& sum
       plotOf("Speed", "m/s", {seriesOf("horizontal", samples, [](const FlightSample& s) { return s.speed_m_s; })},
              spans),
       plotOf("Nearest return", "m from the hull",
-             {seriesOf("nearest", samples, [](const FlightSample& s) { return s.nearest_m; })}, spans),
-      plotOf("Explored", "m2",
+             {seriesOf("nearest", samples, [](const FlightSample& s) { return measured(s.nearest_m); })}, spans),
+      plotOf("Explored", "m²",
              {seriesOf("free area known", samples, [](const FlightSample& s) { return s.explored_area_m2; })}, spans),
-      plotOf("Battery", "V", {seriesOf("voltage", samples, [](const FlightSample& s) { return s.battery_v; })}, spans),
+      plotOf("Battery", "V",
+             {seriesOf("voltage", samples, [](const FlightSample& s) { return measured(s.battery_v); })}, spans),
   };
 }
 

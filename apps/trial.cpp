@@ -1,7 +1,6 @@
 // swiftlet trial: scripted flights with pass criteria.
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -12,8 +11,9 @@
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
+#include "apps/mission_limits.hpp"
 #include "apps/numbers.hpp"
-#include "behaviors/mission.hpp"
+#include "apps/stop_signals.hpp"
 #include "common/data_paths.hpp"
 #include "common/table.hpp"
 #include "evaluation/flight_score.hpp"
@@ -30,9 +30,6 @@ namespace fs = std::filesystem;
 using evaluation::TrialConfig;
 using evaluation::TrialResult;
 using evaluation::TrialResults;
-
-std::atomic<bool> stop_requested{false};
-extern "C" void requestTrialStop(int) { stop_requested = true; }
 
 struct TrialOptions {
   std::string trials;
@@ -73,43 +70,57 @@ FlightSetup setupOf(const TrialConfig& trial, int seed, const fs::path& out) {
   return setup;
 }
 
-evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::path& out) {
+evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evaluation::FlightRecord& record,
+                                const simulation::SimulatedVehicle& vehicle, double wall_time_s) {
+  evaluation::TrueWorld truth;
+  truth.rays = &vehicle.rays();
+  truth.vehicle = vehicle.scenario().vehicle;
+  truth.laser = vehicle.scenario().laser;
+  truth.clearance_m = trial.clearance_m;
+  truth.reachable_area_max_m2 = trial.reachable_area_max_m2;
+  return evaluation::scoreOf(record, truth, trial.criteria, seed, wall_time_s);
+}
+
+/// The score is in the flight's own files too.
+evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::path& out, const std::atomic<bool>& stop) {
+  evaluation::FlightScore score;
   FlightHooks hooks;
-  hooks.stop = &stop_requested;
+  hooks.stop = &stop;
+  hooks.score = [&](const auto& record, const auto& vehicle, interfaces::FlightEnd& end) {
+    score = scoreOf(trial, seed, record, vehicle, end.wall_time_s.value_or(0.0));
+    end.coverage = score.coverage;
+    for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
+  };
   const FlightResult result = flySimulated(setupOf(trial, seed, out), hooks);
   if (result.write_failure) throw common::InputError(common::Problem{{}, "", *result.write_failure, ""});
-  evaluation::TrueWorld truth;
-  truth.rays = &result.vehicle->rays();
-  truth.vehicle = result.vehicle->scenario().vehicle;
-  truth.laser = result.vehicle->scenario().laser;
-  truth.clearance_m = trial.clearance_m;
-  auto score =
-      evaluation::scoreOf(result.record, truth, trial.criteria, seed, result.summary.wall_time_s.value_or(0.0));
   score.folder = result.folder.filename().string();
   return score;
 }
 
-std::string flightLine(const std::string& trial, const evaluation::FlightScore& score) {
-  std::string line = fmt::format("{:<24} seed {:<4} {:<8} {:6.1f} s {:5.1f} x", trial, score.seed,
+std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& score) {
+  std::string line = fmt::format("{:<24} seed {:<4} {:<8} {:6.1f} s {:5.1f} x", trial.name, score.seed,
                                  score.passed() ? "passed" : "FAILED", score.mission_time_s, score.realtime_factor);
   for (const std::string& failure : score.failures) line += "\n    " + failure;
+  if (!score.coverage_problem.empty() && trial.criteria.coverage_min <= 0)
+    line += "\n    no coverage: " + score.coverage_problem;
   return line;
 }
 
 /// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds.
-TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out) {
+TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out,
+                   const std::atomic<bool>& stop) {
   const int count = options.repeat > 0 ? options.repeat : trial.repeat;
-  TrialResult result{trial.name, trial.description, trial.system, trial.paper, {}};
+  TrialResult result{trial.name, trial.description, trial.system, trial.paper, {}, trial.criteria};
   std::vector<std::optional<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
   std::mutex mutex;
   std::exception_ptr failure;
   const auto work = [&] {
-    for (int i = next++; i < count && !stop_requested; i = next++) {
+    for (int i = next++; i < count && !stop; i = next++) {
       try {
-        auto score = flyOne(trial, options.seed + i, out);
+        auto score = flyOne(trial, options.seed + i, out, stop);
         const std::scoped_lock lock(mutex);
-        if (!options.json) fmt::print("{}\n", flightLine(trial.name, score));
+        if (!options.json) fmt::print("{}\n", flightLine(trial, score));
         std::fflush(stdout);
         scores[static_cast<std::size_t>(i)] = std::move(score);
       } catch (...) {
@@ -153,15 +164,18 @@ void writeResults(const TrialResults& results, const fs::path& out) {
   }
 }
 
-/// Everything that is flown, read and found before the first flight: a mistake in the last trial is told at once.
+/// What is to be flown, read and found, its missions sound for the systems that fly them: a mistake in the last trial
+/// is told before the first flight.
 std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
-  std::vector<TrialConfig> trials = evaluation::readTrials(common::findData(options.trials));
+  auto trials = evaluation::readTrials(common::findData(options.trials));
+  std::vector<common::Problem> problems;
   for (TrialConfig& trial : trials) {
     if (!options.system.empty()) trial.system = options.system;
-    (void)loadSystem(trial.system);
-    (void)behaviors::Mission::fromFile(common::findData(trial.mission).string());
-    findWorld(trial);
+    for (auto& problem : missionProblems(trial.mission, loadSystem(trial.system)))
+      problems.push_back(std::move(problem));
   }
+  if (!problems.empty()) throw common::InputError(std::move(problems));
+  for (TrialConfig& trial : trials) findWorld(trial);
   return trials;
 }
 
@@ -175,23 +189,24 @@ fs::path madeFolder(const TrialOptions& options) {
 }
 
 int trial(const TrialOptions& options) {
-  for (const int stops : {SIGINT, SIGTERM, SIGHUP}) std::signal(stops, requestTrialStop);
+  const std::atomic<bool>& stop = stopOnSignals();
   const std::vector<TrialConfig> trials = preparedTrials(options);
   const fs::path out = madeFolder(options);
-
   TrialResults results;
   for (const TrialConfig& trial : trials) {
-    if (stop_requested) break;
-    results.trials.push_back(flyAll(trial, options, out));
+    if (stop) break;
+    results.trials.push_back(flyAll(trial, options, out, stop));
     writeResults(results, out);
   }
   if (options.json) {
     fmt::print("{}\n", toJson(results));
   } else {
-    fmt::print("\n{}\nresults {}\nreport  {}\n", toText(summaryTable(results)), (out / "results.json").string(),
-               (out / "report.html").string());
+    fmt::print("\n{}\n", toText(summaryTable(results)));
+    for (const TrialResult& trial : results.trials)
+      for (const std::string& failure : trial.missed()) fmt::print("{}, all flights: {}\n", trial.name, failure);
+    fmt::print("results {}\nreport  {}\n", (out / "results.json").string(), (out / "report.html").string());
   }
-  return results.passed() && !stop_requested ? kDone : kFailed;
+  return results.passed() && !stop ? kDone : kFailed;
 }
 
 }  // namespace

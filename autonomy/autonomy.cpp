@@ -26,13 +26,18 @@ void AutonomyConfig::describe(common::config::Fields& fields) {
   fields.section("supervisor", supervisor, "What stands above the mission.");
   fields("behavior_rate_hz", behavior_rate_hz, "Ticks of the mission's tree a second.");
   fields("scan_latency_s", scan_latency_s, "Declared for projecting and matching one scan.");
+  fields("max_height_m", max_height_m, "Above the take-off floor; a mission that asks for more is refused.");
 }
 
 std::vector<std::string> AutonomyConfig::validate() const {
-  return common::Validation()
-      .within("behavior_rate_hz", behavior_rate_hz, 1, 100)
-      .within("scan_latency_s", scan_latency_s, 0, 0.2)
-      .problems();
+  auto problems = common::Validation()
+                      .within("behavior_rate_hz", behavior_rate_hz, 1, 100)
+                      .within("scan_latency_s", scan_latency_s, 0, 0.2)
+                      .within("max_height_m", max_height_m, 0.2, 100)
+                      .problems();
+  for (const std::string& problem : reactive.problemsWith(execution.clearance_m))
+    problems.push_back("reactive: avoidance." + problem);
+  return problems;
 }
 
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
@@ -47,6 +52,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       mission_(std::move(mission)),
       jobs_(std::move(jobs)),
       trail_(std::make_shared<std::vector<Eigen::Vector2d>>()) {
+  context_.hull_radius_m = vehicle.hullRadius_m();
   takeSnapshot(Time{});
 }
 

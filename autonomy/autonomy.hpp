@@ -33,6 +33,7 @@ struct AutonomyConfig {
   SupervisorConfig supervisor;
   double behavior_rate_hz = 20.0;
   double scan_latency_s = 0.004;  ///< Declared for projecting and matching one scan.
+  double max_height_m = 10.0;     ///< Above the take-off floor; a mission that asks for more is refused.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

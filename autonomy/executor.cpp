@@ -232,7 +232,7 @@ bool Executor::makesRoom(const ExecutorInput& input) {
   return true;
 }
 
-void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&) {
+void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent& explore) {
   if (controller_.state() != FlightState::kFlying)
     return fail(fmt::format("cannot explore while {}", toString(controller_.state())));
   if (retreating_) return;
@@ -254,7 +254,10 @@ void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&
                    (replan && !keeper_.plan());
   if (!due || !jobs_.idle("planning")) return;
   PlanningRequest request;
-  request.question = ExploreRequest{viewpoint_, memory_.attempts()};
+  ExploreRequest question{viewpoint_, memory_.attempts(), std::nullopt};
+  if (explore.bounds)
+    question.bounds = planning::ExplorationBounds{explore.bounds->min_map_m, explore.bounds->max_map_m};
+  request.question = std::move(question);
   last_exploration_ = now_;
   requestPlan(input, std::move(request));
 }

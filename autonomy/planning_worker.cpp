@@ -26,6 +26,7 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
     input.pose_map = request.T_map_body;
     input.current = explore_request->current;
     input.attempts = explore_request->attempts;
+    input.bounds = explore_request->bounds;
     answer.exploration = planning::explore(input, exploration_);
   }
   return answer;

@@ -25,6 +25,7 @@ struct GoalRequest {
 struct ExploreRequest {
   std::optional<planning::Viewpoint> current;
   std::vector<planning::ExplorationAttempt> attempts;
+  std::optional<planning::ExplorationBounds> bounds;
 };
 /// Where to wait when somebody stands in the only way: far along free ground and wide, so that others can come past.
 struct MakeRoomRequest {};

@@ -17,6 +17,10 @@ void ReactiveConfig::describe(common::config::Fields& fields) {
 
 std::vector<std::string> ReactiveConfig::validate() const { return {}; }
 
+std::vector<std::string> ReactiveConfig::problemsWith(double clearance_m) const {
+  return avoidance.validateAgainst(clearance_m, dynamic_obstacles.keep_out_m);
+}
+
 Reactive::Reactive(const ReactiveConfig& config, double hull_radius_m)
     : avoidance_(config.avoidance, hull_radius_m),
       background_(common::Duration::fromSeconds(config.dynamic_obstacles.background_age_s)),

@@ -7,14 +7,24 @@ namespace swiftlet::behaviors {
 tree::NodeManifest Explore::manifest() {
   return {.id = "Explore",
           .kind = tree::NodeKind::kAction,
-          .ports = {clearancePort()},
+          .ports = {clearancePort(),
+                    {.name = "bounds",
+                     .type = tree::PortType::kRectangle,
+                     .description = "In the map frame, whose origin is the take-off pose; what lies outside is left "
+                                    "unexplored. Not given: no bounds."}},
           .description = "Flies to frontiers of the map until nothing is left to explore."};
 }
 
 IntentLeaf::Wish Explore::makeWish(const FlightTick&) {
   const auto clearance_m = clearance_m_.get();
   if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
-  return {common::ExploreIntent{*clearance_m}, {}};
+  common::ExploreIntent wish{*clearance_m, std::nullopt};
+  if (bounds_.given()) {
+    const auto bounds = bounds_.get();
+    if (!bounds) return {std::nullopt, bounds_.problem()};
+    wish.bounds = common::MapBounds{{bounds->x_min, bounds->y_min}, {bounds->x_max, bounds->y_max}};
+  }
+  return {wish, {}};
 }
 
 }  // namespace swiftlet::behaviors

@@ -1,4 +1,4 @@
-// Explore: SUCCESS when every frontier that is left has a reason why it is left.
+// Explore: SUCCESS when every frontier that is left has a reason why it is left; one outside `bounds` has.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"
@@ -8,12 +8,14 @@ namespace swiftlet::behaviors {
 
 class Explore final : public IntentLeaf {
  public:
-  explicit Explore(const tree::NodeSetup& setup) : IntentLeaf(setup), clearance_m_(setup, "clearance_m") {}
+  explicit Explore(const tree::NodeSetup& setup)
+      : IntentLeaf(setup), clearance_m_(setup, "clearance_m"), bounds_(setup, "bounds") {}
   static tree::NodeManifest manifest();
 
  private:
   Wish makeWish(const FlightTick& tick) override;
   tree::Input<double> clearance_m_;
+  tree::Input<tree::Rectangle> bounds_;
 };
 
 }  // namespace swiftlet::behaviors

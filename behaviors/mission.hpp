@@ -2,6 +2,7 @@
 // acts.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,8 +16,9 @@ namespace swiftlet::behaviors {
 
 /// What the rest of the system allows a mission to ask for.
 struct MissionLimits {
-  /// The reactive layer retreats from anything nearer to the hull than this; a smaller clearance could never be flown.
-  double retreat_distance_m = 0.0;
+  /// Why the reactive layer would not let the vehicle fly with a clearance (m, between hull and obstacle); empty when
+  /// it would. No function: every clearance can be flown.
+  std::function<std::vector<std::string>(double clearance_m)> clearance_problems = {};
   /// Above the take-off floor.
   double max_height_m = 10.0;
 };
@@ -58,7 +60,7 @@ class Mission {
 };
 
 /// Every problem of a mission file, without flying it: those of the XML, and what could not work in flight (flies
-/// before it takes off, a clearance below the retreat distance, a branch that never gets the vehicle). Empty: it is
+/// before it takes off, a clearance the reactive layer forbids, a branch that never gets the vehicle). Empty: it is
 /// sound.
 std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits = {});
 std::vector<common::Problem> checkMissionText(const std::string& text, const std::string& name,

@@ -148,12 +148,11 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
     if (record.manifest == nullptr) continue;
     const int id = record.node->id();
     for (const tree::Value& value : tree.knownValues(id, "clearance_m"))
-      if (const auto* clearance_m = std::get_if<double>(&value);
-          clearance_m != nullptr && *clearance_m < limits.retreat_distance_m)
-        report(*record.node, *record.manifest, "clearance_m",
-               metres(*clearance_m) + " is nearer than the " + metres(limits.retreat_distance_m) +
-                   " at which the reactive layer retreats",
-               "raise it, or lower the retreat distance in the system profile");
+      if (const auto* clearance_m = std::get_if<double>(&value); clearance_m != nullptr && limits.clearance_problems)
+        for (const std::string& problem : limits.clearance_problems(*clearance_m))
+          report(*record.node, *record.manifest, "clearance_m",
+                 metres(*clearance_m) + " cannot be flown with this system: " + problem,
+                 "raise it, or change that distance in the system profile");
     const auto checkHeight = [&](const char* port, double height_m) {
       if (height_m > limits.max_height_m)
         report(*record.node, *record.manifest, port,

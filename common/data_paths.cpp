@@ -44,7 +44,7 @@ fs::path findData(const fs::path& name) {
   std::string places;
   for (const fs::path& folder : folders) {
     std::error_code error;
-    const fs::path path = folder == "." ? name : folder / name;
+    fs::path path = folder == "." ? name : folder / name;
     if (!name.empty() && fs::exists(path, error)) return path;
     places += (places.empty() ? "" : ", ") + folder.string();
   }

@@ -19,8 +19,14 @@ struct TakeOffIntent {
 struct LandIntent {};
 /// Stop and stay.
 struct HoldIntent {};
+/// A rectangle in the `map` frame.
+struct MapBounds {
+  Eigen::Vector2d min_map_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d max_map_m = Eigen::Vector2d::Zero();
+};
 struct ExploreIntent {
-  double clearance_m = 0.10;  ///< Between hull and obstacle.
+  double clearance_m = 0.10;        ///< Between hull and obstacle.
+  std::optional<MapBounds> bounds;  ///< What lies outside is left unexplored; none: the whole world.
 };
 struct GoToIntent {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();

@@ -108,8 +108,10 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
   const Eigen::Vector2d position_error = (reference.position_odom_m - state.T_odom_body.position_m).head<2>();
   const Eigen::Vector2d position_error_then =
       position_error + lead_s * velocity_error + 0.5 * lead_s * lead_s * acceleration_error;
-  missing_m_s.head<2>() = velocity_error + lead_s * acceleration_error +
-                          limited(config_.horizontal_p_1_s * position_error_then, config_.max_correction_m_s);
+  const Eigen::Vector2d correction =
+      limited(config_.horizontal_p_1_s * position_error_then, config_.max_correction_m_s);
+  const Eigen::Vector2d asked = limited(reference.velocity_odom_m_s.head<2>() + correction, config_.max_speed_m_s);
+  missing_m_s.head<2>() = asked - state.velocity_odom_m_s.head<2>() + lead_s * acceleration_error;
   return missing_m_s;
 }
 
@@ -134,6 +136,7 @@ void PositionController::Config::describe(common::config::Fields& fields) {
   fields("vertical_i_1_s2", vertical_i_1_s2, "Integral of the climb speed error to acceleration.");
   fields("yaw_p_1_s", yaw_p_1_s, "Yaw error to yaw rate.");
   fields("max_correction_m_s", max_correction_m_s, "Velocity that a position error may ask for.");
+  fields("max_speed_m_s", max_speed_m_s, "Horizontal speed that reference and correction may ask for together.");
   fields("max_climb_m_s", max_climb_m_s, "Climb speed that a height error may ask for.");
   fields("max_acceleration_up_m_s2", max_acceleration_up_m_s2, "Greatest vertical acceleration asked for.");
   fields("max_integral_m_s2", max_integral_m_s2, "Greatest integral part.");
@@ -153,6 +156,7 @@ std::vector<std::string> PositionController::Config::validate() const {
       .within("vertical_i_1_s2", vertical_i_1_s2, 0, 20)
       .within("yaw_p_1_s", yaw_p_1_s, 0, 10)
       .positive("max_correction_m_s", max_correction_m_s)
+      .positive("max_speed_m_s", max_speed_m_s)
       .positive("max_climb_m_s", max_climb_m_s)
       .within("max_acceleration_up_m_s2", max_acceleration_up_m_s2, 0.1, 9)
       .within("max_integral_m_s2", max_integral_m_s2, 0, 9)

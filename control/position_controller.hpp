@@ -28,7 +28,8 @@ class PositionController {
     double vertical_v_1_s = 4.5;
     double vertical_i_1_s2 = 2.0;
     double yaw_p_1_s = 2.0;
-    double max_correction_m_s = 1.0;  ///< Velocity that a position error may ask for on top of the reference's.
+    double max_correction_m_s = 1.0;  ///< Velocity that a position error may ask for on top of the reference's,
+    double max_speed_m_s = 1.5;       ///< and the speed that both may ask for together.
     double max_climb_m_s = 1.0;       ///< Likewise, vertically.
     double max_acceleration_up_m_s2 = 4.0;
     double max_integral_m_s2 = 2.0;

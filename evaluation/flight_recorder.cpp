@@ -35,6 +35,8 @@ void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleS
   if (!history_.empty() && truth.airborne)
     record_.true_distance_m +=
         (truth.T_world_body.position_m - history_.back().T_world_body.position_m).head<2>().norm();
+  if (truth.airborne)
+    record_.true_speed_max_m_s = std::max(record_.true_speed_max_m_s, truth.velocity_world_m_s.head<2>().norm());
   if (truth.airborne) heights_world_m_.push_back(truth.T_world_body.position_m.z());
   history_.push_back(truth);
   while (truth.stamp - history_.front().stamp > kHistory) history_.pop_front();

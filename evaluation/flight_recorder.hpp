@@ -36,7 +36,8 @@ struct FlightRecord {
   std::vector<double> horizontal_errors_m;
   std::vector<double> spatial_errors_m;
   std::vector<double> yaw_errors_rad;
-  double true_distance_m = 0.0;        ///< Horizontal path, airborne.
+  double true_distance_m = 0.0;        ///< Horizontal path, airborne,
+  double true_speed_max_m_s = 0.0;     ///< and the greatest speed along it.
   double cruise_height_world_m = 0.0;  ///< Median height of the body while airborne.
   common::MissionState mission = common::MissionState::kReady;
   std::string mission_reason;

@@ -15,7 +15,8 @@
 
 namespace swiftlet::evaluation {
 
-/// What a flight must reach to pass. What is left at its default is not asked for, but for the first two.
+/// What a flight, and all flights of a trial together, must reach to pass. What is left at its default is not asked
+/// for, but for the first two.
 struct Criteria {
   static constexpr double kAny = std::numeric_limits<double>::infinity();
 
@@ -29,6 +30,12 @@ struct Criteria {
   double estimate_rms_max_m = kAny;
   double map_wall_error_max_m = kAny;  ///< Of the median.
   bool all_resumed = true;             ///< Everything that was interrupted went on.
+  // Over all flights of a trial; one flight alone is not held against them.
+  double goal_error_median_max_m = kAny;
+  double home_error_median_max_m = kAny;
+  double mission_time_median_max_s = kAny;  ///< Of the missions that ended well.
+  double estimate_rms_median_max_m = kAny;
+  double map_wall_error_median_max_m = kAny;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -42,6 +49,7 @@ struct FlightScore {
   bool mission_done = false;
 
   std::optional<double> coverage;      ///< Of the free space the hull can cover, at the mission's clearance.
+  std::string coverage_problem;        ///< Why there is none: the world is not closed.
   std::optional<double> goal_error_m;  ///< The worst of the mission's goals.
   std::optional<double> home_error_m;
   std::optional<double> estimate_rms_m;  ///< Horizontal, against the truth in the true map frame: no alignment.
@@ -59,6 +67,7 @@ struct FlightScore {
   double mission_time_s = 0.0;
   double flight_time_s = 0.0;  ///< Simulated.
   double distance_m = 0.0;     ///< True.
+  double speed_max_m_s = 0.0;  ///< True, horizontal.
   double explored_area_m2 = 0.0;
   double reachable_area_m2 = 0.0;  ///< What `coverage` is a share of.
   int interruptions = 0;
@@ -75,16 +84,18 @@ struct TrueWorld {
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
   double clearance_m = 0.10;  ///< The mission's: where hull and clearance do not fit, nobody expects it to go.
+  double reachable_area_max_m2 = 2000.0;  ///< A world where it gets to more than this is taken for open.
 };
 
 /// `wall_time_s` is how long the machine took; 0: not known.
 FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
                     double wall_time_s);
 
-/// The measured figures by the names of results.json, for the report of the flight.
+/// The measured figures by the names of results.json, for the report of the flight; coverage has a place of its own
+/// there.
 std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score);
 
-/// The criteria alone: fills `failures` from the figures.
+/// The criteria of one flight that it misses; those over all flights are TrialResult::missed().
 std::vector<std::string> missed(const FlightScore& score, const Criteria& criteria);
 
 }  // namespace swiftlet::evaluation

@@ -43,7 +43,9 @@ void TrialConfig::describe(common::config::Fields& fields) {
   fields("time_limit_s", time_limit_s, "Simulated time after which a flight is ended.");
   fields("clearance_m", clearance_m,
          "The mission's, between hull and obstacle: where it does not fit is not reachable.");
-  fields.section("criteria", criteria, "What a flight must reach to pass.");
+  fields("reachable_area_max_m2", reachable_area_max_m2,
+         "A world in which the vehicle can reach more is taken for open: no coverage is measured.");
+  fields.section("criteria", criteria, "What each flight, and all of them together, must reach to pass.");
   fields.list("paper", paper, "Figures of the paper that is flown again.");
   fields.section("scenario", scenario, "World, start, weather, people, faults, and what the seed varies.");
 }
@@ -57,6 +59,7 @@ std::vector<std::string> TrialConfig::validate() const {
       .within("repeat", repeat, 1, 10'000)
       .within("time_limit_s", time_limit_s, 1, 100'000)
       .within("clearance_m", clearance_m, 0, 5)
+      .within("reachable_area_max_m2", reachable_area_max_m2, 1, 20'000)
       .problems();
 }
 
@@ -100,7 +103,7 @@ std::vector<TrialConfig> readTrials(const fs::path& file_or_folder) {
 fs::path findArchive(const std::string& archive, const fs::path& default_folder) {
   const char* variable = std::getenv("SWIFTLET_DATASETS");
   const fs::path folder = variable != nullptr && *variable != '\0' ? fs::path(variable) : default_folder;
-  const fs::path file = folder / archive;
+  fs::path file = folder / archive;
   if (fs::is_regular_file(file)) return file;
   throw InputError(Problem{{file.string()},
                            "archive",

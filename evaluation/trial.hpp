@@ -31,6 +31,8 @@ struct TrialConfig {
   int repeat = 1;               ///< Flights, unless the user says otherwise.
   double time_limit_s = 600.0;  ///< Simulated; the flight is ended then.
   double clearance_m = 0.10;    ///< The mission's, for what counts as reachable.
+  /// A world in which the vehicle can reach more than this is taken for open: it has no coverage.
+  double reachable_area_max_m2 = 2000.0;
   Criteria criteria;
   std::vector<PaperFigure> paper;
   simulation::Scenario scenario;

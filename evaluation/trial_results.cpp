@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "evaluation/judge.hpp"
 #include "evaluation/statistics.hpp"
 
 namespace swiftlet::evaluation {
@@ -50,11 +51,13 @@ ordered_json flightJson(const FlightScore& flight) {
           {"avoidable_collisions", flight.avoidable_collisions},
           {"collision", flight.collision},
           {"coverage", orNull(flight.coverage)},
+          {"coverage_problem", flight.coverage_problem},
           {"goal_error_m", orNull(flight.goal_error_m)},
           {"home_error_m", orNull(flight.home_error_m)},
           {"mission_time_s", flight.mission_time_s},
           {"flight_time_s", flight.flight_time_s},
           {"distance_m", flight.distance_m},
+          {"speed_max_m_s", flight.speed_max_m_s},
           {"explored_area_m2", flight.explored_area_m2},
           {"reachable_area_m2", flight.reachable_area_m2},
           {"estimate_rms_m", orNull(flight.estimate_rms_m)},
@@ -77,6 +80,8 @@ ordered_json trialJson(const TrialResult& trial) {
           {"system", trial.system},
           {"runs", trial.flights.size()},
           {"passed", trial.passed()},
+          {"met", trial.met()},
+          {"failures", trial.missed()},
           {"collisions", trial.collisions()},
           {"coverage_min", orNull(trial.coverageMin())},
           {"goal_error_max_m", orNull(trial.goalErrorMax_m())},
@@ -107,6 +112,8 @@ struct SummaryColumn {
   const char* figure;
   std::string (*show)(const std::optional<double>&);
   std::optional<double> (TrialResult::*value)() const;
+  /// Of the criterion on it, a lower one for coverage and an upper one otherwise; null: there is none.
+  double Criteria::*bound;
 };
 
 template <int kDecimals>
@@ -116,40 +123,95 @@ std::string decimals(const std::optional<double>& value) {
 
 const std::vector<SummaryColumn>& summaryColumns() {
   static const std::vector<SummaryColumn> columns = {
-      {"coverage min", "coverage_min", percent, &TrialResult::coverageMin},
-      {"goal err max m", "goal_error_max_m", decimals<3>, &TrialResult::goalErrorMax_m},
-      {"median m", "goal_error_median_m", decimals<3>, &TrialResult::goalErrorMedian_m},
-      {"home err max m", "home_error_max_m", decimals<3>, &TrialResult::homeErrorMax_m},
-      {"time median s", "mission_time_median_s", decimals<1>, &TrialResult::missionTimeMedian_s},
-      {"estimate RMS m", "estimate_rms_median_m", decimals<3>, &TrialResult::estimateRmsMedian_m},
-      {"wall err m", "map_wall_error_median_m", decimals<3>, &TrialResult::mapWallErrorMedian_m},
-      {"x real time", "realtime_factor_median", decimals<1>, &TrialResult::realtimeFactorMedian},
+      {"coverage min", "coverage_min", percent, &TrialResult::coverageMin, &Criteria::coverage_min},
+      {"goal err max (m)", "goal_error_max_m", decimals<3>, &TrialResult::goalErrorMax_m, &Criteria::goal_error_max_m},
+      {"median (m)", "goal_error_median_m", decimals<3>, &TrialResult::goalErrorMedian_m,
+       &Criteria::goal_error_median_max_m},
+      {"home err max (m)", "home_error_max_m", decimals<3>, &TrialResult::homeErrorMax_m, &Criteria::home_error_max_m},
+      {"median (m)", "home_error_median_m", decimals<3>, &TrialResult::homeErrorMedian_m,
+       &Criteria::home_error_median_max_m},
+      {"time median (s)", "mission_time_median_s", decimals<1>, &TrialResult::missionTimeMedian_s,
+       &Criteria::mission_time_median_max_s},
+      {"RMS median (m)", "estimate_rms_median_m", decimals<3>, &TrialResult::estimateRmsMedian_m,
+       &Criteria::estimate_rms_median_max_m},
+      {"wall err median (m)", "map_wall_error_median_m", decimals<3>, &TrialResult::mapWallErrorMedian_m,
+       &Criteria::map_wall_error_median_max_m},
+      {"x real time", "realtime_factor_median", decimals<1>, &TrialResult::realtimeFactorMedian, nullptr},
   };
   return columns;
+}
+
+/// None where nothing is asked for.
+std::optional<double> boundOf(const SummaryColumn& column, const Criteria& criteria) {
+  if (column.bound == nullptr) return std::nullopt;
+  const double bound = criteria.*column.bound;
+  if (std::isinf(bound) || bound <= 0) return std::nullopt;
+  return bound;
+}
+
+Mark markOf(const SummaryColumn& column, const TrialResult& trial) {
+  const auto bound = boundOf(column, trial.criteria), value = (trial.*column.value)();
+  if (!bound) return Mark::kNone;
+  if (!value) return Mark::kBad;
+  return (column.bound == &Criteria::coverage_min ? *value >= *bound : *value <= *bound) ? Mark::kGood : Mark::kBad;
 }
 
 std::vector<TableCell> summaryRow(const TrialResult& trial) {
   const int runs = static_cast<int>(trial.flights.size());
   std::vector<TableCell> row = {{trial.name}, counted(trial.passed(), runs)};
   row.push_back({fmt::format("{}", trial.collisions()), trial.collisions() == 0 ? Mark::kGood : Mark::kBad});
-  for (const SummaryColumn& column : summaryColumns()) row.push_back({column.show((trial.*column.value)())});
+  for (const SummaryColumn& column : summaryColumns())
+    row.push_back({column.show((trial.*column.value)()), markOf(column, trial)});
   return row;
 }
 
-std::vector<TableCell> paperRow(const TrialResult& trial) {
-  std::vector<TableCell> row = {{"  the paper"}, {""}, {""}};
+/// A row under a trial's own with a figure for some of the columns.
+template <typename FigureOf>
+std::vector<TableCell> rowBelow(const char* title, FigureOf figureOf) {
+  std::vector<TableCell> row = {{title}, {""}, {""}};
   for (const SummaryColumn& column : summaryColumns()) {
-    const auto found = std::find_if(trial.paper.begin(), trial.paper.end(),
-                                    [&](const PaperFigure& figure) { return figure.figure == column.figure; });
-    row.push_back({found == trial.paper.end() ? "" : column.show(found->value)});
+    const std::optional<double> figure = figureOf(column);
+    row.push_back({figure ? column.show(figure) : ""});
   }
   return row;
+}
+
+bool asksForAny(const Criteria& criteria) {
+  return std::any_of(summaryColumns().begin(), summaryColumns().end(),
+                     [&](const SummaryColumn& column) { return boundOf(column, criteria).has_value(); });
+}
+
+std::vector<TableCell> askedRow(const TrialResult& trial) {
+  return rowBelow("  asked for", [&](const SummaryColumn& column) { return boundOf(column, trial.criteria); });
+}
+
+std::vector<TableCell> paperRow(const TrialResult& trial) {
+  return rowBelow("  the paper", [&](const SummaryColumn& column) -> std::optional<double> {
+    const auto found = std::find_if(trial.paper.begin(), trial.paper.end(),
+                                    [&](const PaperFigure& figure) { return figure.figure == column.figure; });
+    if (found == trial.paper.end()) return std::nullopt;
+    return found->value;
+  });
 }
 
 }  // namespace
 
 int TrialResult::passed() const {
   return static_cast<int>(std::count_if(flights.begin(), flights.end(), [](const auto& f) { return f.passed(); }));
+}
+
+std::vector<std::string> TrialResult::missed() const {
+  Judge judge;
+  judge.atMost("goal error median, m", goalErrorMedian_m(), criteria.goal_error_median_max_m);
+  judge.atMost("home error median, m", homeErrorMedian_m(), criteria.home_error_median_max_m);
+  judge.atMost("mission time median, s", missionTimeMedian_s(), criteria.mission_time_median_max_s);
+  judge.atMost("estimate RMS median, m", estimateRmsMedian_m(), criteria.estimate_rms_median_max_m);
+  judge.atMost("map wall error median, m", mapWallErrorMedian_m(), criteria.map_wall_error_median_max_m);
+  return judge.failures;
+}
+
+bool TrialResult::met() const {
+  return !flights.empty() && passed() == static_cast<int>(flights.size()) && missed().empty();
 }
 
 int TrialResult::collisions() const {
@@ -187,9 +249,7 @@ std::optional<double> TrialResult::realtimeFactorMedian() const {
 }
 
 bool TrialResults::passed() const {
-  return !trials.empty() && std::all_of(trials.begin(), trials.end(), [](const TrialResult& trial) {
-    return !trial.flights.empty() && trial.passed() == static_cast<int>(trial.flights.size());
-  });
+  return !trials.empty() && std::all_of(trials.begin(), trials.end(), [](const auto& trial) { return trial.met(); });
 }
 
 std::string toJson(const TrialResults& results) {
@@ -203,6 +263,7 @@ Table summaryTable(const TrialResults& results) {
   for (const SummaryColumn& column : summaryColumns()) table.columns.emplace_back(column.title);
   for (const TrialResult& trial : results.trials) {
     table.rows.push_back(summaryRow(trial));
+    if (asksForAny(trial.criteria)) table.rows.push_back(askedRow(trial));
     if (!trial.paper.empty()) table.rows.push_back(paperRow(trial));
   }
   return table;
@@ -210,15 +271,15 @@ Table summaryTable(const TrialResults& results) {
 
 Table flightTable(const TrialResult& trial) {
   Table table{"Flights of " + trial.name,
-              {"seed", "passed", "outcome", "coverage", "goal err m", "home err m", "time s", "distance m",
-               "estimate RMS m", "wall err m", "clearance m", "interrupted", "resumed", "x real time"},
+              {"seed", "passed", "outcome", "coverage", "goal err (m)", "home err (m)", "time (s)", "distance (m)",
+               "estimate RMS (m)", "wall err (m)", "clearance (m)", "interrupted", "resumed", "x real time"},
               {}};
   for (const FlightScore& flight : trial.flights) {
     const std::string link = flight.folder.empty() ? "" : flight.folder + "/report.html";
     table.rows.push_back({{fmt::format("{}", flight.seed), Mark::kNone, link},
                           {flight.passed() ? "yes" : "no", flight.passed() ? Mark::kGood : Mark::kBad},
                           {flight.outcome},
-                          {percent(flight.coverage)},
+                          {flight.coverage_problem.empty() ? percent(flight.coverage) : "open world"},
                           {shown(flight.goal_error_m, 3)},
                           {shown(flight.home_error_m, 3)},
                           {shown(flight.mission_time_s, 1)},
@@ -235,10 +296,13 @@ Table flightTable(const TrialResult& trial) {
 
 Table failureTable(const TrialResults& results) {
   Table table{"What was missed", {"trial", "seed", "criterion"}, {}};
-  for (const TrialResult& trial : results.trials)
+  for (const TrialResult& trial : results.trials) {
     for (const FlightScore& flight : trial.flights)
       for (const std::string& failure : flight.failures)
         table.rows.push_back({{trial.name}, {fmt::format("{}", flight.seed)}, {failure, Mark::kBad}});
+    for (const std::string& failure : trial.missed())
+      table.rows.push_back({{trial.name}, {"all"}, {failure, Mark::kBad}});
+  }
   return table;
 }
 

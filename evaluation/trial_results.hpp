@@ -18,8 +18,13 @@ struct TrialResult {
   std::string system;
   std::vector<PaperFigure> paper;
   std::vector<FlightScore> flights;
+  Criteria criteria = {};
 
   int passed() const;
+  /// The criteria over all flights that are missed.
+  std::vector<std::string> missed() const;
+  /// Every flight passed, at least one flew, and nothing over all of them is missed.
+  bool met() const;
   int collisions() const;
   /// Over the flights that have the figure; none when none has.
   std::optional<double> coverageMin() const;
@@ -36,20 +41,20 @@ struct TrialResult {
 struct TrialResults {
   std::vector<TrialResult> trials;
 
-  /// Every flight of every trial, and at least one.
+  /// Every trial is met, and there is at least one.
   bool passed() const;
 };
 
 /// results.json; what could not be measured is null.
 std::string toJson(const TrialResults& results);
 
-/// One row a trial, under it one with the paper's figures where there are some.
+/// One row a trial; under it one with what was asked for and one with the paper's figures, where there are some.
 common::Table summaryTable(const TrialResults& results);
 
 /// One row a flight, linked to the report in its folder.
 common::Table flightTable(const TrialResult& trial);
 
-/// Every criterion that was missed, by trial and seed; no rows when all passed.
+/// Every criterion that was missed, by trial and seed ("all": over all flights); no rows when all passed.
 common::Table failureTable(const TrialResults& results);
 
 }  // namespace swiftlet::evaluation

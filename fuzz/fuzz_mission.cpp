@@ -60,7 +60,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   SWIFTLET_CHECK(parsed.tree.has_value() == parsed.problems.empty());
   for (const tree::Problem& problem : parsed.problems) SWIFTLET_CHECK(!toString(problem).empty());
   if (!parsed.tree) return 0;
-  behaviors::semanticProblems(*parsed.tree, {.retreat_distance_m = 0.1});
+  behaviors::semanticProblems(*parsed.tree, {});
   // Only without includes can the same text be read without the reader above.
   if (text.find("<include") == std::string::npos) fly(behaviors::Mission::fromText(text, "fuzz.xml"), data, size);
   return 0;

@@ -19,6 +19,30 @@ int heightFor(const common::World& world, int width_px) {
   return static_cast<int>(std::lround(width_px * std::clamp(aspect, 0.4, 1.4)));
 }
 
+/// Below the map, for scale bar, names and axes, so that they hide nothing of it.
+constexpr int kLegendHeight_px = 56;
+
+/// All that is known in the upper part of the picture, the legend's strip below it.
+Viewport viewportOf(const common::World& world, const MapView& view, int strip_px) {
+  Viewport viewport = fitViewport(world, view.width_px, view.height_px - strip_px);
+  viewport.height_px = view.height_px;
+  viewport.center_map_m.y() -= 0.5 * strip_px / viewport.px_per_m;
+  return viewport;
+}
+
+/// One beside the other in the strip, between the scale bar and the axes.
+void drawNames(const std::vector<MapLine>& lines, int height_px, std::back_insert_iterator<std::string> out) {
+  constexpr double kCharacter_px = 6.6;
+  double x = 200.0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    fmt::format_to(out,
+                   R"(<path class="s s{}{}" d="M{:.1f} {:.1f}h22"/><text class="name" x="{:.1f}" y="{:.1f}">{}</text>)",
+                   i % 6 + 1, lines[i].dashed ? " dash" : "", x, height_px - 18.0, x + 29.0, height_px - 14.0,
+                   svg::escaped(lines[i].name));
+    x += 58.0 + kCharacter_px * static_cast<double>(lines[i].name.size());
+  }
+}
+
 }  // namespace
 
 std::string mapSvg(const common::World& world, const std::vector<MapLine>& lines, const std::vector<MapMark>& marks,
@@ -26,10 +50,10 @@ std::string mapSvg(const common::World& world, const std::vector<MapLine>& lines
   MapView view;
   // The PNG has twice the pixels, for screens that show them.
   view.width_px = 2 * width_px;
-  view.height_px = 2 * heightFor(world, width_px);
+  view.height_px = 2 * (heightFor(world, width_px) + kLegendHeight_px);
   view.layers.trail = view.layers.plan = view.layers.laser = view.layers.vehicle = false;
   view.layers.home = view.layers.goal = false;
-  view.viewport = fitViewport(world, view.width_px, view.height_px);
+  view.viewport = viewportOf(world, view, 2 * kLegendHeight_px);
   const auto toPixel = [&](const Eigen::Vector2d& p) { return Eigen::Vector2d(0.5 * view.viewport->toPixel(p)); };
 
   const int height_px = view.height_px / 2;
@@ -43,24 +67,21 @@ std::string mapSvg(const common::World& world, const std::vector<MapLine>& lines
                  base64(encodePng(renderMap(world, view))));
   // The picture below is always light, so its lines are too.
   text += R"(<g style="--c1:#1f6fe0;--c2:#d9480f;--c3:#0a8f6c;--c4:#9c36b5;--c5:#b7791f;--c6:#c2255c;--ink:#2b3947">)";
-  double name_y = 20.0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     std::vector<Eigen::Vector2d> pixels;
     for (const Eigen::Vector2d& p : lines[i].points_map_m) pixels.push_back(toPixel(p));
     const std::string classes = fmt::format("s s{}{}", i % 6 + 1, lines[i].dashed ? " dash" : "");
     for (const std::string& list : svg::pointLists(pixels))
       fmt::format_to(out, R"(<polyline class="{}" points="{}"/>)", classes, list);
-    fmt::format_to(out, R"(<path class="{}" d="M14 {:.1f}h18"/><text class="name" x="38" y="{:.1f}">{}</text>)",
-                   classes, name_y - 4.0, name_y, svg::escaped(lines[i].name));
-    name_y += 17.0;
   }
+  drawNames(lines, height_px, out);
   for (const MapMark& mark : marks) {
     const Eigen::Vector2d p = toPixel(mark.point_map_m);
     if (!p.allFinite()) continue;
     fmt::format_to(out,
                    R"(<circle cx="{0:.1f}" cy="{1:.1f}" r="4.5" fill="#fff" stroke="#c2255c" stroke-width="2"/>)"
-                   R"(<text class="name" x="{2:.1f}" y="{3:.1f}">{4}</text>)",
-                   p.x(), p.y(), p.x() + 8.0, p.y() + 4.0, svg::escaped(mark.name));
+                   R"(<text class="name halo" x="{2:.1f}" y="{3:.1f}">{4}</text>)",
+                   p.x(), p.y(), p.x() + 9.0, p.y() + 4.0, svg::escaped(mark.name));
   }
   text += "</g></svg>\n";
   return text;

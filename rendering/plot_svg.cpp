@@ -127,13 +127,15 @@ void drawAxes(const Plot& plot, const Frame& f, std::back_insert_iterator<std::s
 }
 
 void drawSpans(const Plot& plot, const Frame& f, std::back_insert_iterator<std::string> out) {
+  bool odd = true;  // Every other one is darker, so that each shows where it begins.
   for (const Span& span : plot.spans) {
+    odd = !odd;
     const double x0 = f.toPixel({std::clamp(span.begin, f.x.low, f.x.high), 0.0}).x();
     const double x1 = f.toPixel({std::clamp(span.end, f.x.low, f.x.high), 0.0}).x();
     if (!(x1 > x0)) continue;
     fmt::format_to(
-        out, R"(<rect class="span" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"><title>{}</title></rect>)", x0,
-        f.top, x1 - x0, f.height, svg::escaped(span.name));
+        out, R"(<rect class="span{}" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"><title>{}</title></rect>)",
+        odd ? " odd" : "", x0, f.top, x1 - x0, f.height, svg::escaped(span.name));
     if (x1 - x0 > 7.0 * static_cast<double>(span.name.size()))
       fmt::format_to(out, R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)", 0.5 * (x0 + x1),
                      f.top + 14.0, svg::escaped(span.name));
@@ -144,7 +146,7 @@ void drawSpans(const Plot& plot, const Frame& f, std::back_insert_iterator<std::
 void drawNames(const Plot& plot, const Frame& f, std::back_insert_iterator<std::string> out) {
   double right = f.left + f.width;
   for (std::size_t i = plot.series.size(); i-- > 0;) {
-    const double width = 7.0 * static_cast<double>(plot.series[i].name.size());
+    const double width = 6.4 * static_cast<double>(plot.series[i].name.size());
     fmt::format_to(out, R"(<text class="name" x="{:.1f}" y="20" text-anchor="end">{}</text>)", right,
                    svg::escaped(plot.series[i].name));
     fmt::format_to(out, R"(<path class="s s{}{}" d="M{:.1f} 16h16"/>)", i % 6 + 1, plot.series[i].dashed ? " dash" : "",

@@ -30,8 +30,8 @@ struct Plot {
   std::vector<Span> spans;
   std::optional<double> y_min;  ///< None: from the data.
   std::optional<double> y_max;
-  int width_px = 720;
-  int height_px = 260;
+  int width_px = 560;
+  int height_px = 250;
 };
 
 /// One <svg> element with its own style. Long series are thinned to what a pixel column can show (its first, lowest,

@@ -51,8 +51,9 @@ std::string_view style() {
 @media (prefers-color-scheme:dark){.sw{--ink:#d5dee8;--soft:#8fa1b3;--line:#334252;--paper:#1a222b;
 --c1:#6ea2ff;--c2:#ff922b;--c3:#3ddbab;--c4:#da77f2;--c5:#f0b44c;--c6:#ff6b9d}}
 .sw text{fill:var(--soft)}.sw .title{fill:var(--ink);font-size:14px;font-weight:600}.sw .name{fill:var(--ink)}
+.sw .halo{paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}
 .sw .tick{font-variant-numeric:tabular-nums}.sw .frame{fill:var(--paper)}.sw .axis{stroke:var(--soft);fill:none}
-.sw .rule{stroke:var(--line);fill:none}.sw .span{fill:var(--soft);opacity:.1}
+.sw .rule{stroke:var(--line);fill:none}.sw .span{fill:var(--soft);opacity:.16}.sw .odd{opacity:.05}
 .sw .s{fill:none;stroke-width:1.6;stroke-linejoin:round;stroke-linecap:round}.sw .dash{stroke-dasharray:5 4}
 .sw .s1{stroke:var(--c1)}.sw .s2{stroke:var(--c2)}.sw .s3{stroke:var(--c3)}
 .sw .s4{stroke:var(--c4)}.sw .s5{stroke:var(--c5)}.sw .s6{stroke:var(--c6)}

@@ -33,6 +33,7 @@ const char* editorType(PortType type) {
       return "AnyTypeAllowed";
     case PortType::kString:
     case PortType::kPoint:
+    case PortType::kRectangle:
       return "std::string";
   }
   return "?";

@@ -57,6 +57,8 @@ std::string expectedOf(const PortManifest& port) {
       return "true or false";
     case PortType::kPoint:
       return "a point `x;y` or `x;y;z` in metres";
+    case PortType::kRectangle:
+      return "a rectangle `x_min;y_min;x_max;y_max` in metres, each minimum below its maximum";
     case PortType::kDuration:
       text = "a time";
       break;
@@ -116,6 +118,7 @@ template class Input<double>;
 template class Input<std::int64_t>;
 template class Input<bool>;
 template class Input<Point>;
+template class Input<Rectangle>;
 template class Input<Duration>;
 
 }  // namespace swiftlet::tree

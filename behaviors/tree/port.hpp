@@ -56,7 +56,8 @@ struct NodeSetup {
   const PortBinding& port(std::string_view port_name) const;
 };
 
-/// A port read as T (std::string, double, std::int64_t, bool, Point or Duration). A text entry is read when asked for.
+/// A port read as T (std::string, double, std::int64_t, bool, Point, Rectangle or Duration). A text entry is read when
+/// asked for.
 template <typename T>
 class Input {
  public:

@@ -53,6 +53,11 @@ constexpr const char* kHead = R"(<?xml version="1.0" encoding="UTF-8"?>
       <xs:pattern value=" *-?[0-9.]+([eE][+\-]?[0-9]+)? *(; *-?[0-9.]+([eE][+\-]?[0-9]+)? *){1,2}"/>
     </xs:restriction>
   </xs:simpleType>
+  <xs:simpleType name="rectangle">
+    <xs:restriction base="xs:string">
+      <xs:pattern value=" *-?[0-9.]+([eE][+\-]?[0-9]+)? *(; *-?[0-9.]+([eE][+\-]?[0-9]+)? *){3}"/>
+    </xs:restriction>
+  </xs:simpleType>
 )";
 
 constexpr const char* kExplicit = R"(
@@ -88,6 +93,8 @@ std::string typeOf(const PortManifest& port) {
       return withEntry("boolean entry", {});
     case PortType::kPoint:
       return withEntry("point entry", {});
+    case PortType::kRectangle:
+      return withEntry("rectangle entry", {});
     case PortType::kDouble:
     case PortType::kDuration:
       return withEntry("entry", numberType(port, "xs:double"));

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace swiftlet::tree {
 namespace {
@@ -67,19 +68,31 @@ std::optional<Value> parseBool(std::string_view text) {
   return std::nullopt;
 }
 
-std::optional<Value> parsePoint(std::string_view text) {
-  std::array<double, 3> numbers{};
-  std::size_t count = 0;
+/// Numbers between semicolons, no more than `most`; nothing when one of them is no number.
+std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size_t most) {
+  std::vector<double> numbers;
   while (true) {
     const std::size_t end = text.find(';');
     const auto number = parseNumber<double>(text.substr(0, end));
-    if (!number || count == numbers.size()) return std::nullopt;
-    numbers[count++] = *number;
-    if (end == std::string_view::npos) break;
+    if (!number || numbers.size() == most) return std::nullopt;
+    numbers.push_back(*number);
+    if (end == std::string_view::npos) return numbers;
     text.remove_prefix(end + 1);
   }
-  if (count < 2) return std::nullopt;
-  return Point{numbers[0], numbers[1], count == 3 ? std::optional(numbers[2]) : std::nullopt};
+}
+
+std::optional<Value> parsePoint(std::string_view text) {
+  const auto numbers = parseNumbers(text, 3);
+  if (!numbers || numbers->size() < 2) return std::nullopt;
+  return Point{(*numbers)[0], (*numbers)[1], numbers->size() == 3 ? std::optional((*numbers)[2]) : std::nullopt};
+}
+
+std::optional<Value> parseRectangle(std::string_view text) {
+  const auto numbers = parseNumbers(text, 4);
+  if (!numbers || numbers->size() != 4) return std::nullopt;
+  const Rectangle rectangle{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
+  if (rectangle.x_min >= rectangle.x_max || rectangle.y_min >= rectangle.y_max) return std::nullopt;
+  return rectangle;
 }
 
 std::optional<Value> parseDuration(std::string_view text, std::string_view unit) {
@@ -106,6 +119,9 @@ struct ToText {
   std::string operator()(const Point& point) const {
     return numberText(point.x) + ";" + numberText(point.y) + (point.z ? ";" + numberText(*point.z) : std::string());
   }
+  std::string operator()(const Rectangle& r) const {
+    return numberText(r.x_min) + ";" + numberText(r.y_min) + ";" + numberText(r.x_max) + ";" + numberText(r.y_max);
+  }
   std::string operator()(const Duration& duration) const {
     return numberText(static_cast<double>(duration.nanoseconds) * 1e-9) + " s";
   }
@@ -127,6 +143,8 @@ const char* toString(PortType type) {
       return "true or false";
     case PortType::kPoint:
       return "point";
+    case PortType::kRectangle:
+      return "rectangle";
     case PortType::kDuration:
       return "duration";
   }
@@ -165,6 +183,8 @@ std::optional<Value> parseValue(std::string_view text, PortType type, std::strin
       return parseBool(text);
     case PortType::kPoint:
       return parsePoint(text);
+    case PortType::kRectangle:
+      return parseRectangle(text);
     case PortType::kDuration:
       return parseDuration(text, unit);
   }

@@ -17,6 +17,15 @@ struct Point {
   bool operator==(const Point&) const = default;
 };
 
+/// "x_min;y_min;x_max;y_max", each minimum below its maximum.
+struct Rectangle {
+  double x_min = 0.0;
+  double y_min = 0.0;
+  double x_max = 0.0;
+  double y_max = 0.0;
+  bool operator==(const Rectangle&) const = default;
+};
+
 /// A span of time; in text a number whose unit is the ending of the port's name (`msec`, `_ms`, `_s`, `_min`).
 struct Duration {
   std::int64_t nanoseconds = 0;
@@ -24,9 +33,9 @@ struct Duration {
 };
 
 /// Text that came through SetBlackboard or a literal stays text until a typed port reads it.
-using Value = std::variant<std::string, double, std::int64_t, bool, Point, Duration>;
+using Value = std::variant<std::string, double, std::int64_t, bool, Point, Rectangle, Duration>;
 
-enum class PortType : unsigned char { kAny, kString, kDouble, kInt, kBool, kPoint, kDuration };
+enum class PortType : unsigned char { kAny, kString, kDouble, kInt, kBool, kPoint, kRectangle, kDuration };
 
 /// "number", "whole number", "point" ...: for messages.
 const char* toString(PortType type);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -25,9 +26,27 @@ std::string minutes(double seconds) {
   return whole < 60 ? fmt::format("{:.1f} s", seconds) : fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 
-std::string shown(const Figure& figure) {
-  if (!std::isfinite(figure.value)) return "not known";
-  return fmt::format("{:.4g}", figure.value);
+/// Endings of names, the longest first, and what a reader knows them by.
+constexpr std::array<std::pair<std::string_view, const char*>, 8> kUnits = {{{"_m_s2", "m/s²"},
+                                                                             {"_m_s", "m/s"},
+                                                                             {"_rad", "rad"},
+                                                                             {"_deg", "°"},
+                                                                             {"_m2", "m²"},
+                                                                             {"_hz", "Hz"},
+                                                                             {"_m", "m"},
+                                                                             {"_s", "s"}}};
+
+/// "goal_error_m", 0.0213 -> {"goal error", "0.0213 m"}.
+std::pair<std::string, std::string> shown(const Figure& figure) {
+  std::string name = figure.name, unit;
+  for (const auto& [ending, words] : kUnits) {
+    if (!name.ends_with(ending)) continue;
+    name.resize(name.size() - ending.size());
+    unit = std::string(" ") + words;
+    break;
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return {name, std::isfinite(figure.value) ? fmt::format("{:.4g}{}", figure.value, unit) : "not known"};
 }
 
 std::pair<std::string, Mark> verdictOf(const FlightSummary& summary) {
@@ -55,7 +74,7 @@ std::string header(const FlightSummary& summary) {
   text += fmt::format("<p>{} in {}, system {}, seed {}, version {}{}</p>", escape(summary.info.mission_file),
                       escape(summary.info.world), escape(summary.info.system), summary.info.seed,
                       escape(summary.info.version),
-                      summary.info.started.empty() ? "" : ", started " + escape(summary.info.started));
+                      summary.info.started.empty() ? "" : ", started " + escape(html::moment(summary.info.started)));
   return text;
 }
 
@@ -74,12 +93,16 @@ std::string summarySection(const FlightSummary& summary) {
 std::string figuresSection(const std::vector<Figure>& figures) {
   if (figures.empty()) return "";
   common::Table table{"", {"figure", "value"}, {}};
-  for (const Figure& figure : figures) table.rows.push_back({{figure.name}, {shown(figure)}});
+  for (const Figure& figure : figures) {
+    auto [name, value] = shown(figure);
+    table.rows.push_back({{std::move(name)}, {std::move(value)}});
+  }
   return html::section("Figures", html::table(table));
 }
 
 std::string mapSection(const ReportPictures& pictures) {
-  if (!pictures.map_svg.empty()) return html::section("Map", fmt::format("<figure>{}</figure>", pictures.map_svg));
+  if (!pictures.map_svg.empty())
+    return html::section("Map", fmt::format("<figure class=\"map\">{}</figure>", pictures.map_svg));
   if (pictures.map_png.empty()) return "";
   return html::section("Map", fmt::format("<figure><img src=\"{}\" alt=\"The map of the flight\"></figure>",
                                           html::pngUrl(pictures.map_png)));
@@ -119,6 +142,12 @@ std::string phasesSection(const std::vector<Phase>& phases) {
                            rows + "</tbody></table></div>");
 }
 
+/// The explanation without the reason it begins with, which stands in a column of its own.
+std::string detailOf(const common::Frontier& frontier) {
+  const std::string reason = std::string(common::toString(frontier.reason)) + ": ";
+  return frontier.explanation.starts_with(reason) ? frontier.explanation.substr(reason.size()) : frontier.explanation;
+}
+
 std::string frontiersSection(const std::vector<common::Frontier>& frontiers) {
   if (frontiers.empty())
     return html::section("Frontiers left", "<p class=\"empty\">None: nothing was left to explore.</p>");
@@ -126,11 +155,12 @@ std::string frontiersSection(const std::vector<common::Frontier>& frontiers) {
   for (const common::Frontier& frontier : frontiers)
     rows += fmt::format("<tr><td>({:.2f}, {:.2f})</td><td>{:.2f} m</td><td>{}</td><td class=\"quiet\">{}</td></tr>\n",
                         frontier.centroid_map_m.x(), frontier.centroid_map_m.y(), frontier.length_m,
-                        common::toString(frontier.reason), escape(frontier.explanation));
-  return html::section("Frontiers left",
-                       "<div class=\"wide\"><table><thead><tr><th>at, in the map</th><th>length</th><th>reason</th>"
-                       "<th></th></tr></thead>\n<tbody>\n" +
-                           rows + "</tbody></table></div>");
+                        common::toString(frontier.reason), escape(detailOf(frontier)));
+  return html::section(
+      "Frontiers left",
+      "<div class=\"wide\"><table><thead><tr><th>at x, y in the map (m)</th><th>length</th><th>reason</th>"
+      "<th>detail</th></tr></thead>\n<tbody>\n" +
+          rows + "</tbody></table></div>");
 }
 
 std::string eventsSection(const std::vector<common::Event>& events) {
@@ -148,7 +178,8 @@ std::string eventsSection(const std::vector<common::Event>& events) {
   }
   std::string body =
       "<div "
-      "class=\"wide\"><table><thead><tr><th>s</th><th>by</th><th>event</th><th>reason</th></tr></thead>\n<tbody>\n" +
+      "class=\"wide\"><table><thead><tr><th>time "
+      "(s)</th><th>by</th><th>event</th><th>reason</th></tr></thead>\n<tbody>\n" +
       rows + "</tbody></table></div>";
   if (events.size() > count)
     body += fmt::format("\n<p class=\"empty\">{} more are in events.jsonl.</p>", events.size() - count);

@@ -1,5 +1,6 @@
 #include "interfaces/report/html.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -89,6 +90,17 @@ std::string relativeUrl(std::string_view path) {
     url += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<std::uint8_t>(c));
   }
   return url;
+}
+
+std::string moment(std::string started) {
+  constexpr std::string_view kForm = "####-##-##_##-##-##";
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (!std::equal(started.begin(), started.end(), kForm.begin(), kForm.end(),
+                  [&](char c, char form) { return form == '#' ? digit(c) : c == form; }))
+    return started;
+  started[10] = ' ';
+  started[13] = started[16] = ':';
+  return started;
 }
 
 std::string pill(const std::string& text, common::Mark mark) {

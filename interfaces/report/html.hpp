@@ -19,6 +19,9 @@ std::string pngUrl(std::string_view png);
 /// A link that stays inside the folder of the report: a relative path with special characters encoded.
 std::string relativeUrl(std::string_view path);
 
+/// "2026-11-21_14-03-55", as folders are named, as people write it: "2026-11-21 14:03:55"; anything else as it is.
+std::string moment(std::string started);
+
 /// A word on a coloured ground.
 std::string pill(const std::string& text, common::Mark mark);
 

@@ -38,6 +38,7 @@ a { color: var(--accent); }
 img, svg { max-width: 100%; height: auto; }
 img { border-radius: 6px; border: 1px solid var(--line); display: block; }
 figure { margin: 0; } figcaption { color: var(--quiet); font-size: 13px; padding-top: 6px; }
+.map svg { width: 100%; max-height: 860px; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(230px, 1fr)); gap: 18px; }
 .pictures img { width: 100%; }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 460px), 1fr)); gap: 22px; }

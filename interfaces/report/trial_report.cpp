@@ -22,7 +22,7 @@ std::string pictureOf(const TrialPicture& picture) {
 std::string trialReport(const TrialReport& report) {
   const std::string verdict = report.passed ? html::pill("passed", Mark::kGood) : html::pill("not passed", Mark::kBad);
   const std::string header =
-      fmt::format("<h1>{} {}</h1>\n<p>{}</p>", escape(report.title), verdict, escape(report.subtitle));
+      fmt::format("<h1>{} {}</h1>\n<p>{}</p>", escape(report.title), verdict, escape(html::moment(report.subtitle)));
   std::string body;
   for (const common::Table& table : report.tables) body += html::section(table.title, html::table(table));
   if (!report.pictures.empty()) {

@@ -234,11 +234,12 @@ void ErrorStateFilter::Impl::updateByAhrs(FilterState& state, const Eigen::Vecto
   const double variance = square(config.ahrs_sigma_deg * kRadPerDeg);
   Linearized<2> m = upDirection(state, up_body, variance);
   if (mahalanobis2(state, m) > square(kAhrsGate)) {
-    // The AHRS does not err that far: the filter's own horizon has slipped, and with it what it takes for bias.
+    // The AHRS does not err that far: the filter's own horizon has slipped, and with it what it takes for bias: a wrong
+    // horizon moves gravity into the horizontal axes, and takes next to nothing from the vertical one.
     const double slipped2 = m.residual.squaredNorm();
     auto diagonal = state.covariance.diagonal();
     diagonal.segment<2>(kAttitude).array() += slipped2;
-    diagonal.segment<3>(kAccelerometerBias).array() += square(config.gravity_m_s2) * slipped2;
+    diagonal.segment<2>(kAccelerometerBias).array() += square(config.gravity_m_s2) * slipped2;
   } else {
     // N samples of an error that keeps for tau are worth as much as white ones of this variance (integral of the
     // autocorrelation).

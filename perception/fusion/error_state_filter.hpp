@@ -96,7 +96,7 @@ class ErrorStateFilter {
     double recovery_window_s = 5.0;
     double max_speed_m_s = 8.0;              ///< A faster estimate is a divergence.
     double horizontal_timeout_s = 0.5;       ///< Without a relative pose: degraded.
-    double vertical_timeout_s = 3.0;         ///< Without a height: degraded. Over slopes there is none.
+    double vertical_timeout_s = 6.0;         ///< Without a height: degraded. Over slopes there is none.
     double valid_velocity_sigma_m_s = 0.35;  ///< Up to here the velocity may be used for control.
     double valid_height_sigma_m = 0.25;
     double diverged_velocity_sigma_m_s = 3.0;

@@ -43,6 +43,18 @@ TEST(Explore, HandsDownItsClearance) {
   EXPECT_DOUBLE_EQ(std::get<common::ExploreIntent>(flight.context.intent->kind).clearance_m, 0.25);
 }
 
+TEST(Explore, HandsDownItsBoundsIfItHasSome) {
+  Flight free("<Explore/>");
+  free.tick();
+  EXPECT_FALSE(std::get<common::ExploreIntent>(free.context.intent->kind).bounds);
+  Flight flight(R"(<Explore bounds="-2; -1.5;4;5"/>)");
+  flight.tick();
+  const auto bounds = std::get<common::ExploreIntent>(flight.context.intent->kind).bounds;
+  ASSERT_TRUE(bounds);
+  EXPECT_EQ(bounds->min_map_m, Eigen::Vector2d(-2, -1.5));
+  EXPECT_EQ(bounds->max_map_m, Eigen::Vector2d(4, 5));
+}
+
 TEST(MoveToGoal, HandsDownGoalHeightAndTolerance) {
   Flight flight(R"(<MoveToGoal goal="3.0;-1.5;1.2" tolerance_m="0.2" clearance_m="0.3"/>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 go to (3.00, -1.50)");

@@ -22,13 +22,19 @@ std::vector<std::string> problemsOf(const std::string& inside, const MissionLimi
   return lines;
 }
 
+std::function<std::vector<std::string>(double)> notBelow(double least_m) {
+  return [least_m](double clearance_m) {
+    return clearance_m < least_m ? std::vector<std::string>{"it retreats"} : std::vector<std::string>{};
+  };
+}
+
 TEST(ShippedMissions, AreSound) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kMissions)) {
     if (entry.path().extension() != ".xml") continue;
     ++count;
     for (const common::Problem& problem :
-         checkMission(entry.path().string(), {.retreat_distance_m = 0.10, .max_height_m = 3.0}))
+         checkMission(entry.path().string(), {.clearance_problems = notBelow(0.10), .max_height_m = 3.0}))
       ADD_FAILURE() << toString(problem);
   }
   EXPECT_GE(count, 2);
@@ -96,21 +102,33 @@ TEST(Check, FollowsWhereTheVehicleMayBe) {
   EXPECT_EQ(problemsOf("<Sequence><Inverter><TakeOff/></Inverter><Land/></Sequence>").size(), 0U);
 }
 
-TEST(Check, ClearanceBelowTheRetreatDistance) {
-  const MissionLimits limits{.retreat_distance_m = 0.2, .max_height_m = 3.0};
+TEST(Check, ClearanceThatTheReactiveLayerForbids) {
+  const MissionLimits limits{.clearance_problems = notBelow(0.2), .max_height_m = 3.0};
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/>\n<Explore clearance_m=\"0.15\"/></Sequence>", limits),
-              ElementsAre("m.xml:4:10: Explore.clearance_m: 0.15 m is nearer than the 0.2 m at which the reactive "
-                          "layer retreats, raise it, "
-                          "or lower the retreat distance in the system profile"));
+              ElementsAre("m.xml:4:10: Explore.clearance_m: 0.15 m cannot be flown with this system: it retreats, "
+                          "raise it, or change that distance in the system profile"));
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/>\n<Explore/></Sequence>", limits),
-              ElementsAre(HasSubstr("m.xml:4:1: Explore.clearance_m: 0.1 m is nearer")))
+              ElementsAre(HasSubstr("m.xml:4:1: Explore.clearance_m: 0.1 m cannot be flown")))
       << "defaults count";
   EXPECT_THAT(problemsOf("<Sequence><SetBlackboard value=\"0.05\" output_key=\"c\"/><TakeOff/><Explore "
                          "clearance_m=\"{c}\"/></Sequence>",
                          limits),
-              ElementsAre(HasSubstr("0.05 m is nearer")))
+              ElementsAre(HasSubstr("0.05 m cannot be flown")))
       << "entries count";
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/><Explore clearance_m=\"0.2\"/></Sequence>", limits), ElementsAre());
+}
+
+TEST(Check, BoundsThatAreNoRectangle) {
+  EXPECT_THAT(problemsOf("<Sequence><TakeOff/>\n<Explore bounds=\"4;0;-2;3\"/></Sequence>"),
+              ElementsAre("m.xml:4:10: Explore.bounds: `4;0;-2;3` is not a rectangle `x_min;y_min;x_max;y_max` in "
+                          "metres, each minimum below its maximum"));
+  EXPECT_EQ(problemsOf("<Sequence><TakeOff/><Explore bounds=\"0;0;3\"/></Sequence>").size(), 1U);
+  EXPECT_EQ(problemsOf("<Sequence><TakeOff/><Explore bound=\"0;0;3;3\"/></Sequence>").size(), 1U);
+  EXPECT_THAT(problemsOf("<Sequence><TakeOff/><Explore bounds=\"-2;0;4;3\"/></Sequence>"), ElementsAre());
+  EXPECT_THAT(problemsOf("<Sequence><SetBlackboard value=\"1;2\" output_key=\"room\"/><TakeOff/><Explore "
+                         "bounds=\"{room}\"/></Sequence>"),
+              ElementsAre(HasSubstr("(read by Explore.bounds from {room})")))
+      << "entries count";
 }
 
 TEST(Check, TooHigh) {

@@ -64,13 +64,14 @@ TEST(Schema, AgreesWithTheParser) {
   }
   for (const char* good :
        {"<Sequence><TakeOff height_m='{h}'/><MoveToGoal goal='1;-2.5;3' clearance_m=' 0.1 '/><Land/></Sequence>",
-        "<Timeout msec='1500'><Explore name='look round'/></Timeout>", "<Action ID='TakeOff' height_m='1'/>",
-        "<SubTree ID='X' goal='{g}' _autoremap='true'/>", "<SetBlackboard value='1;2' output_key='{goal}'/>"})
+        "<Timeout msec='1500'><Explore name='look round' bounds=' -2;-1.5; 4;5'/></Timeout>", "<Explore bounds='{b}'/>",
+        "<Action ID='TakeOff' height_m='1'/>", "<SubTree ID='X' goal='{g}' _autoremap='true'/>",
+        "<SetBlackboard value='1;2' output_key='{goal}'/>"})
     EXPECT_EQ(xmllint(mission(good)), 0) << good;
-  for (const char* bad :
-       {"<TakeOff hight_m='1'/>", "<TakeOff height_m='1 m'/>", "<TakeOff height_m='1000'/>", "<MoveToGoal/>",
-        "<MoveToGoal goal='1'/>", "<Sequence/>", "<Inverter><Land/><Land/></Inverter>", "<Land><Land/></Land>",
-        "<Tumble/>", "<Repeat num_cycles='1.5'><Land/></Repeat>", "<SubTree/>", "<Land/><Land/>"}) {
+  for (const char* bad : {"<TakeOff hight_m='1'/>", "<TakeOff height_m='1 m'/>", "<TakeOff height_m='1000'/>",
+                          "<MoveToGoal/>", "<MoveToGoal goal='1'/>", "<Explore bounds='1;2;3'/>", "<Sequence/>",
+                          "<Inverter><Land/><Land/></Inverter>", "<Land><Land/></Land>", "<Tumble/>",
+                          "<Repeat num_cycles='1.5'><Land/></Repeat>", "<SubTree/>", "<Land/><Land/>"}) {
     EXPECT_NE(xmllint(mission(bad)), 0) << bad;
     EXPECT_FALSE(checkMissionText(mission(bad), "m.xml").empty()) << bad;
   }

@@ -99,6 +99,39 @@ TEST_F(BadInput, GoalThatIsNoPoint) {
   expectMissionRefused("      <MoveToGoal goal=\"3.0;north\"/>\n", "broken\\.xml:4:[0-9]+: .*goal.*3\\.0;north");
 }
 
+TEST_F(BadInput, ClearanceThatTheReactiveLayerForbids) {
+  expectMissionRefused("      <TakeOff/>\n      <Explore clearance_m=\"0.04\"/>\n      <Land/>\n",
+                       "broken\\.xml:5:16: Explore\\.clearance_m: 0\\.04 m cannot be flown with this system: "
+                       "margin_m: 0\\.05 m forbids the clearance");
+}
+
+TEST_F(BadInput, BoundsThatAreNoRectangle) {
+  expectMissionRefused("      <TakeOff/>\n      <Explore bounds=\"3;0;-2;1\"/>\n      <Land/>\n",
+                       "broken\\.xml:5:16: Explore\\.bounds: `3;0;-2;1` is not a rectangle");
+}
+
+TEST_F(BadInput, MissionThatNeverTakesOff) {
+  expectMissionRefused("      <Hold/>\n", "broken\\.xml:3:5: Main: the mission never takes off");
+}
+
+TEST_F(BadInput, MissionThatTheSystemCannotFly) {
+  const std::string system = write("low.yaml", "autonomy:\n  max_height_m: 0.8\n");
+  const std::string says = "hop\\.xml:4:16: TakeOff\\.height_m: 1 m is above the greatest height, 0\\.8 m";
+  expectRefused(runSwiftlet({"check", hop(), "--system", system}), says);
+  expectRefused(fly({"--headless", hop(), "--system", system}), says);
+  EXPECT_EQ(runSwiftlet({"check", hop()}).exit_code, 0) << "the default profile flies it";
+  const std::string trial =
+      write("high.yaml", "mission: " + hop() + "\nsystem: " + system + "\nscenario: {world: worlds/unb_case1.sdf}\n");
+  expectRefused(runSwiftlet({"trial", trial, "--out", path("run")}), says);
+}
+
+TEST_F(BadInput, ProfileWhoseDistancesForbidItsOwnClearance) {
+  const std::string system =
+      write("shy.yaml", "autonomy:\n  reactive:\n    avoidance:\n      retreat_distance_m: 0.45\n");
+  expectRefused(runSwiftlet({"check", hop(), "--system", system}),
+                "shy\\.yaml:3:5: autonomy: reactive: avoidance\\.retreat_distance_m: 0\\.45 m .*forbids passing");
+}
+
 TEST_F(BadInput, EveryMistakeIsNamedNotOnlyTheFirst) {
   const std::string mission =
       write("broken.xml", missionWith("      <Explor/>\n      <TakeOff height_m=\"high\"/>\n      <Lend/>\n"));

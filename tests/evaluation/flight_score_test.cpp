@@ -85,6 +85,23 @@ TEST_F(FlightScoring, EveryMissIsNamed) {
                           "estimate RMS, m: 0.030, at most 0.02 was asked for", "interruptions: 1 of 2 went on"));
 }
 
+// Without the wall in the north the flood runs out into the open.
+TEST_F(FlightScoring, AnOpenWorldHasNoCoverageAndSaysSo) {
+  simulation::WorldModel open = smallWorld(1.0F);
+  std::erase_if(open.shapes, [](const simulation::Shape& shape) { return shape.model == "north"; });
+  const simulation::RayCaster rays(open);
+  TrueWorld world;
+  world.rays = &rays;
+  Criteria criteria;
+  criteria.coverage_min = 0.99;
+  const FlightScore result = scoreOf(goodRecord(), world, criteria, 7, 3.0);
+  EXPECT_FALSE(result.coverage);
+  EXPECT_EQ(result.coverage_problem, "the world is not closed: the hull gets from the start to more than 2000 m2");
+  EXPECT_THAT(result.failures, ElementsAre("coverage: not measured: the world is not closed: the hull gets from the "
+                                           "start to more than 2000 m2, at least 0.99 was asked for"));
+  EXPECT_THAT(scoreOf(goodRecord(), world, {}, 7, 3.0).failures, IsEmpty()) << "where nobody asks, nothing is missed";
+}
+
 TEST_F(FlightScoring, TheWorstGoalCounts) {
   FlightRecord record = goodRecord();
   record.goals.push_back({common::Time::fromSeconds(70), false, {0, 1}, 0.2});

@@ -185,6 +185,62 @@ TEST(TrialResults, PassWhenEveryFlightDoes) {
   EXPECT_FALSE(TrialResults{}.passed()) << "no flight proves nothing";
 }
 
+/// The four flights that passed: goal errors 0.02 to 0.05, home errors twice that, 60 to 90 s.
+TrialResults fourWith(const Criteria& criteria) {
+  TrialResults all = results();
+  all.trials[0].flights.pop_back();
+  all.trials[0].criteria = criteria;
+  return all;
+}
+
+TEST(CriteriaOverAllFlights, AreEnforced) {
+  Criteria criteria;
+  criteria.goal_error_median_max_m = 0.035;
+  criteria.mission_time_median_max_s = 75;
+  EXPECT_TRUE(fourWith(criteria).passed()) << "bounds are inclusive";
+  criteria.home_error_median_max_m = 0.06;
+  criteria.mission_time_median_max_s = 70;
+  const TrialResults all = fourWith(criteria);
+  EXPECT_FALSE(all.passed());
+  EXPECT_EQ(all.trials[0].passed(), 4) << "each flight alone is well";
+  EXPECT_THAT(all.trials[0].missed(), testing::ElementsAre("home error median, m: 0.070, at most 0.06 was asked for",
+                                                           "mission time median, s: 75.000, at most 70 was asked for"));
+}
+
+TEST(CriteriaOverAllFlights, WhatWasNotMeasuredIsMissed) {
+  Criteria criteria;
+  criteria.map_wall_error_median_max_m = 0.05;
+  EXPECT_EQ(fourWith(criteria).trials[0].missed().size(), 1u);
+}
+
+TEST(CriteriaOverAllFlights, AreInTheTablesAndTheJson) {
+  Criteria criteria;
+  criteria.coverage_min = 0.98;
+  criteria.mission_time_median_max_s = 70;
+  const TrialResults all = fourWith(criteria);
+  const common::Table summary = summaryTable(all);
+  ASSERT_EQ(summary.rows.size(), 3u);
+  EXPECT_THAT(toText(summary), testing::ContainsRegex("asked for +98.0 % +70.0"));
+  const auto time =
+      std::find(summary.columns.begin(), summary.columns.end(), "time median (s)") - summary.columns.begin();
+  EXPECT_EQ(summary.rows[0][static_cast<std::size_t>(time)].mark, common::Mark::kBad);
+  EXPECT_EQ(summary.rows[0][3].mark, common::Mark::kGood);
+  const common::Table failures = failureTable(all);
+  ASSERT_EQ(failures.rows.size(), 1u);
+  EXPECT_EQ(failures.rows[0][1].text, "all");
+  const json trial = json::parse(toJson(all))["trials"][0];
+  EXPECT_EQ(trial["met"], false);
+  EXPECT_EQ(trial["failures"][0], "mission time median, s: 75.000, at most 70 was asked for");
+}
+
+TEST(CriteriaOverAllFlights, OfTheShippedTrial) {
+  const Criteria criteria = readTrial(fs::path(SWIFTLET_SOURCE_DIR) / "trials/papers/unb_case1.yaml").criteria;
+  EXPECT_EQ(criteria.mission_time_median_max_s, 90);
+  EXPECT_EQ(criteria.goal_error_median_max_m, 0.08);
+  EXPECT_EQ(criteria.home_error_median_max_m, 0.08);
+  EXPECT_EQ(criteria.estimate_rms_median_max_m, 0.05);
+}
+
 TEST(TrialResults, Tables) {
   const std::string summary = toText(summaryTable(results()));
   EXPECT_THAT(summary, HasSubstr("unb"));

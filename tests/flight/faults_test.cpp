@@ -40,6 +40,16 @@ class LaserFault : public test_support::Scratch {
 TEST_F(LaserFault, NotANumberInScansDoesNotStopTheFlight) {
   const auto flight = flyWith("{sensor: laser, kind: nan, from_s: 10.0, to_s: 10.2}");
   EXPECT_TRUE(flight.at("passed").get<bool>()) << flight.dump(2);
+
+  // What the scorer found is in the flight's own files too.
+  const auto mission = nlohmann::json::parse(readText(path("out/fault-001/mission.json")));
+  EXPECT_EQ(mission.at("coverage"), flight.at("coverage"));
+  for (const std::string figure :
+       {"goal_error_m", "home_error_m", "estimate_rms_m", "map_wall_error_median_m", "collisions"})
+    EXPECT_EQ(mission.at("figures").at(figure), flight.at(figure)) << figure;
+  const std::string report = readText(path("out/fault-001/report.html"));
+  for (const std::string words : {"Coverage", "goal error", "home error", "estimate rms", "map wall error median"})
+    EXPECT_THAT(report, HasSubstr(words));
 }
 
 TEST_F(LaserFault, ShortSilenceHoldsAndGoesOn) {

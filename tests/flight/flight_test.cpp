@@ -61,6 +61,29 @@ TEST_P(ShippedMission, FliesAndLeavesItsRun) {
 INSTANTIATE_TEST_SUITE_P(Each, ShippedMission, testing::ValuesIn(shippedMissions()),
                          [](const auto& mission) { return mission.param; });
 
+class Bounds : public test_support::Scratch {};
+
+// The first room alone: what is seen of the second through its door is left, and said to be out of bounds.
+TEST_F(Bounds, WhatLiesOutsideIsLeftAndSaidToBe) {
+  constexpr double kEast_m = 6.0;
+  const std::string mission = write("room.xml",
+                                    "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Room\"><Sequence>\n"
+                                    "<TakeOff/><Explore bounds=\"-3;-8;6;4\"/><GoHome/><Land/>\n"
+                                    "</Sequence></BehaviorTree></root>\n");
+  const ProgramEnd end = runSwiftlet({"fly", mission, "--headless", "--speed", "max", "--seed", "3", "--json", "--out",
+                                      path("run"), "--time-limit", "300"});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  int out_of_bounds = 0;
+  const auto mission_json = nlohmann::json::parse(readText(path("run/mission.json")));
+  for (const auto& frontier : mission_json.at("frontiers")) {
+    EXPECT_NE(frontier.at("reason"), "open") << frontier;
+    if (frontier.at("reason") != "out of bounds") continue;
+    ++out_of_bounds;
+    EXPECT_GT(frontier.at("x_m").get<double>(), kEast_m) << frontier;
+  }
+  EXPECT_GE(out_of_bounds, 1);
+}
+
 class Determinism : public test_support::Scratch {
  protected:
   ProgramEnd fly(const std::string& run, const std::string& seed, std::vector<std::string> more,

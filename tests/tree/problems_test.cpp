@@ -312,6 +312,10 @@ TEST(Values, ReadAsTyped) {
   EXPECT_EQ(parseValue("1e30", PortType::kDuration, "s"), std::nullopt);
   EXPECT_EQ(parseValue("1", PortType::kDuration, ""), std::nullopt);
   EXPECT_EQ(parseValue(" -1.5;2 ; 3e0", PortType::kPoint, ""), Value(Point{-1.5, 2.0, 3.0}));
+  EXPECT_EQ(parseValue("-2; 0;3 ;1.5", PortType::kRectangle, ""), Value(Rectangle{-2.0, 0.0, 3.0, 1.5}));
+  for (const char* wrong : {"", "1;2;3", "0;0;1;1;1", "0;0;1;", "3;0;-2;1", "0;1;1;1", "0;0;inf;1", "0,0,1,1"})
+    EXPECT_EQ(parseValue(wrong, PortType::kRectangle, ""), std::nullopt) << wrong;
+  EXPECT_EQ(toString(Value(Rectangle{-2.0, 0.0, 3.0, 1.5})), "-2;0;3;1.5");
   EXPECT_EQ(parseValue("99999999999999999999", PortType::kInt, ""), std::nullopt);
   EXPECT_EQ(toString(Value(Point{1.0, -2.5, std::nullopt})), "1;-2.5");
 }

@@ -9,6 +9,7 @@
 #include "tests/rendering/example_flight.hpp"
 #include "web/server/command_desk.hpp"
 #include "web/server/state_json.hpp"
+#include "web/server/telemetry.hpp"
 #include "web/server/tile_codec.hpp"
 #include "web/server/tile_feed.hpp"
 
@@ -178,6 +179,40 @@ TEST(StateJsonTest, HasEverythingAndIsValidJson) {
   EXPECT_EQ(json["levels"][0]["height_m"], 0.76);
   EXPECT_EQ(json["mission"]["tree"][1]["name"], "AvoidObstacle");
   EXPECT_EQ(json["events"][0]["number"], 7);
+}
+
+/// A flight at some speed, looked at when a test says so.
+class RealtimeFactor : public ::testing::Test {
+ protected:
+  /// What the state says after `unix_s` more, at `speed` times real time.
+  nlohmann::json after(double unix_s, double speed) {
+    unix_time_ = unix_time_ + common::Duration::fromSeconds(unix_s);
+    world_.post(flight_.advance(speed * unix_s));
+    telemetry_.look();
+    return nlohmann::json::parse(stateJson(*telemetry_.world().value, telemetry_.observe()))["realtime_factor"];
+  }
+  testing::ExampleFlight flight_;
+  common::LatestValue<common::World> world_;
+  common::LatestValue<common::CameraFrame> camera_;
+  common::LosslessQueue<common::OperatorCommand> commands_;
+  common::LosslessQueue<common::CommandResult> results_;
+  common::Time unix_time_ = common::Time::fromSeconds(1.8e9);
+  Telemetry telemetry_{{world_, camera_, commands_, results_}, [this] { return unix_time_; }};
+};
+
+TEST_F(RealtimeFactor, IsNoneAtFirstAndThenThatOfTheLastSeconds) {
+  EXPECT_TRUE(after(0.1, 4.0).is_null());
+  for (int i = 0; i < 20; ++i) after(0.1, 4.0);
+  EXPECT_NEAR(after(0.1, 4.0).get<double>(), 4.0, 0.01);
+  for (int i = 0; i < 40; ++i) after(0.1, 0.5);
+  EXPECT_NEAR(after(0.1, 0.5).get<double>(), 0.5, 0.01);
+}
+
+TEST_F(RealtimeFactor, IsThereRightAfterAPauseInLooking) {
+  for (int i = 0; i < 20; ++i) after(0.1, 2.0);
+  EXPECT_NEAR(after(10.0, 2.0).get<double>(), 2.0, 0.01);
+  EXPECT_NEAR(after(0.1, 2.0).get<double>(), 2.0, 0.01);
+  EXPECT_NEAR(after(0.02, 2.0).get<double>(), 2.0, 0.01);
 }
 
 TEST(StateJsonTest, SurvivesNumbersAndTextThatAreNone) {

@@ -58,6 +58,12 @@ TEST(ServerTest, AnswersStateAndMap) {
   EXPECT_EQ(map.body.substr(1, 3), "PNG");
 }
 
+TEST(ServerTest, TheFirstWhoAsksIsToldHowFastTimePasses) {
+  FakeBackend backend({});
+  std::this_thread::sleep_for(1500ms);
+  EXPECT_TRUE(jsonOf(request(backend.port(), "GET", "/api/state"))["realtime_factor"].is_number());
+}
+
 TEST(ServerTest, SaysSoBeforeTheFirstWorld) {
   FakeBackend::Setup setup;
   setup.flies = false;

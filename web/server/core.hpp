@@ -18,6 +18,8 @@
 namespace swiftlet::web {
 
 inline constexpr int kTicksPerSecond = 100;
+/// While nobody watches and nothing waits for an answer.
+inline constexpr int kIdleTicksPerSecond = 4;
 
 /// A connection that can be closed from above and may want the tick.
 class Connection {
@@ -36,7 +38,7 @@ class Core : public std::enable_shared_from_this<Core> {
   void add(const std::shared_ptr<Connection>& connection);
   /// The connection gets the tick as long as it lives.
   void watch(const std::shared_ptr<Connection>& connection);
-  /// Starts the tick if it stands still; needed after a command was given.
+  /// Ticks at once if it idles; needed at the start and after a command was given.
   void wake();
   bool full() const;
   void close();

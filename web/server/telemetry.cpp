@@ -41,7 +41,8 @@ void Telemetry::look() {
   // A world from before the last one is another flight.
   if (!clock_.empty() && world_.value->stamp.seconds() < clock_.back().second) clock_.clear();
   if (clock_.empty() || unix_s - clock_.back().first > 0.05) clock_.emplace_back(unix_s, world_.value->stamp.seconds());
-  while (clock_.size() > 2 && unix_s - clock_.front().first > kClockWindow_s) clock_.pop_front();
+  // The first one left is at least the window old: after a pause in looking there is something to compare with too.
+  while (clock_.size() > 2 && unix_s - clock_[1].first > kClockWindow_s) clock_.pop_front();
 }
 
 Observation Telemetry::observe() const {

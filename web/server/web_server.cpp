@@ -132,6 +132,7 @@ WebServer::WebServer(IoContext& io, Options options, Sources sources) {
   impl_->listen(endpoint);
   impl_->port = impl_->acceptor.local_endpoint().port();
   impl_->accept();
+  impl_->core->wake();
 }
 
 WebServer::~WebServer() { stop(); }

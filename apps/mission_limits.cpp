@@ -1,0 +1,29 @@
+#include "apps/mission_limits.hpp"
+
+#include "common/data_paths.hpp"
+
+namespace swiftlet::apps {
+
+behaviors::MissionLimits missionLimits(const System& system) {
+  behaviors::MissionLimits limits;
+  limits.max_height_m = system.config.autonomy.max_height_m;
+  limits.clearance_problems = [reactive = system.config.autonomy.reactive](double clearance_m) {
+    return reactive.problemsWith(clearance_m);
+  };
+  return limits;
+}
+
+std::vector<common::Problem> missionProblems(const std::string& mission, const System& system) {
+  try {
+    return behaviors::checkMission(common::findData(mission).string(), missionLimits(system));
+  } catch (const common::InputError& missing) {
+    return missing.problems();
+  }
+}
+
+void requireSound(const std::string& mission, const System& system) {
+  if (auto problems = missionProblems(mission, system); !problems.empty())
+    throw common::InputError(std::move(problems));
+}
+
+}  // namespace swiftlet::apps
