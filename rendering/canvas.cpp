@@ -45,6 +45,7 @@ void Canvas::touch(const Box& box) {
 void Canvas::cover(int x, int y, double coverage) {
   if (coverage <= 0.0) return;
   std::uint8_t& cell = cover_[static_cast<std::size_t>(y) * image_.width_px + x];
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative, and done for every pixel.
   cell = std::max(cell, static_cast<std::uint8_t>(std::min(1.0, coverage) * 255.0 + 0.5));
 }
 
@@ -99,6 +100,7 @@ void Canvas::fillRect(double x0, double y0, double x1, double y1, Color color) {
     for (int x = box.x0; x < box.x1; ++x) {
       const double coverage = rows * overlap(x, x0, x1);
       const std::size_t i = static_cast<std::size_t>(y) * image_.width_px + x;
+      // NOLINTNEXTLINE(bugprone-incorrect-roundings)
       if (coverage > 0.0) blend(&image_.rgb[3 * i], color, static_cast<int>(coverage * color.alpha + 0.5));
     }
   }

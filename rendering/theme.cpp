@@ -47,7 +47,7 @@ Color frontierColor(common::FrontierReason reason, Scheme scheme) {
     case common::FrontierReason::kOpen:
       return light ? rgb(0x0b8fc4) : rgb(0x4cc9f0);
     case common::FrontierReason::kTooSmall:
-      return light ? rgb(0x8795a1) : rgb(0x8795a1);
+      return rgb(0x8795a1);
     case common::FrontierReason::kUnreachable:
       return light ? rgb(0xe8590c) : rgb(0xff922b);
     case common::FrontierReason::kOutOfBounds:

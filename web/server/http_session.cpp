@@ -22,7 +22,7 @@ using boost::system::error_code;
 using Response = http::response<http::string_body>;
 
 constexpr std::uint32_t kMostHeaderBytes = 8 * 1024;
-constexpr std::uint64_t kMostBodyBytes = 4 * 1024;
+constexpr std::uint64_t kMostBodyBytes = std::uint64_t{4} * 1024;
 constexpr auto kRequestTimeout = std::chrono::seconds(15);
 
 /// Nothing from elsewhere is loaded, no other page may frame this one (a click on Land must be meant), and the token in

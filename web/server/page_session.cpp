@@ -15,14 +15,14 @@ using boost::system::error_code;
 
 constexpr double kStatesPerSecond = 10.0;
 constexpr double kMapsPerSecond = 4.0;
-constexpr std::size_t kMostTileBytes = 64 * 1024;
+constexpr std::size_t kMostTileBytes = std::size_t{64} * 1024;
 
 class PageSession : public Connection, public std::enable_shared_from_this<PageSession> {
  public:
   PageSession(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket)
       : core_(std::move(core)), stream_(std::move(socket)) {}
 
-  void start(beast::http::request<beast::http::string_body> upgrade) {
+  void start(const beast::http::request<beast::http::string_body>& upgrade) {
     error_code ignored;
     tcp().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
     tcp().set_option(boost::asio::socket_base::send_buffer_size(kSendBufferBytes), ignored);

@@ -43,7 +43,7 @@ void checkOptions(const WebServer::Options& options) {
 
 boost::asio::ip::address addressOf(const std::string& text) {
   error_code error;
-  const auto address = boost::asio::ip::make_address(text == "localhost" ? "127.0.0.1" : text, error);
+  auto address = boost::asio::ip::make_address(text == "localhost" ? "127.0.0.1" : text, error);
   if (error)
     fail("address", fmt::format("`{}` is not an IPv4 or IPv6 address", text),
          "127.0.0.1 serves this machine, 0.0.0.0 every network");
@@ -125,7 +125,7 @@ struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
   int port = 0;
 };
 
-WebServer::WebServer(IoContext& io, Options options, Sources sources) {
+WebServer::WebServer(IoContext& io, const Options& options, const Sources& sources) {
   checkOptions(options);
   const tcp::endpoint endpoint(addressOf(options.address), static_cast<unsigned short>(options.port));
   impl_ = std::make_shared<Impl>(io.get(), options, sources);

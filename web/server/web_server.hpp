@@ -55,7 +55,7 @@ class WebServer {
   };
 
   /// Listens at once. Throws common::InputError when the address cannot be used or the port is taken.
-  WebServer(IoContext& io, Options options, Sources sources);
+  WebServer(IoContext& io, const Options& options, const Sources& sources);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
