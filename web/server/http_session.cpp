@@ -130,7 +130,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     send(std::move(response));
   }
 
-  void perform(const OpenSocket&) { startPage(core_, stream_.release_socket(), std::move(request_)); }
+  void perform(const OpenSocket&) { startPage(core_, stream_.release_socket(), request_); }
 
   void perform(const GiveCommand& command) {
     const bool given = core_->desk.give(

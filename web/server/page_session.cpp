@@ -146,8 +146,8 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
 }  // namespace
 
 void startPage(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket,
-               beast::http::request<beast::http::string_body> upgrade) {
-  std::make_shared<PageSession>(std::move(core), std::move(socket))->start(std::move(upgrade));
+               const beast::http::request<beast::http::string_body>& upgrade) {
+  std::make_shared<PageSession>(std::move(core), std::move(socket))->start(upgrade);
 }
 
 }  // namespace swiftlet::web

@@ -15,6 +15,6 @@
 namespace swiftlet::web {
 
 void startPage(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket,
-               boost::beast::http::request<boost::beast::http::string_body> upgrade);
+               const boost::beast::http::request<boost::beast::http::string_body>& upgrade);
 
 }  // namespace swiftlet::web
