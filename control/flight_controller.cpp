@@ -94,7 +94,9 @@ tl::expected<void, std::string> FlightController::follow(const FlightPath& path)
   return {};
 }
 
-void FlightController::hold() { follower_.stop(); }
+void FlightController::hold(std::optional<double> yaw_map_rad) {
+  follower_.stop(yaw_map_rad ? std::optional(common::wrapAngle(*yaw_map_rad - T_map_odom_.yaw_rad)) : std::nullopt);
+}
 
 void FlightController::setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
 

@@ -85,8 +85,8 @@ class FlightController {
   tl::expected<void, std::string> command(const FlightCommand& command);
   /// Only while flying (Table 1). An empty path stops.
   tl::expected<void, std::string> follow(const FlightPath& path);
-  /// Stops as fast as the flight mode allows and holds.
-  void hold();
+  /// Stops as fast as the flight mode allows and holds, turned to that yaw when one is given.
+  void hold(std::optional<double> yaw_map_rad = std::nullopt);
   /// From the reactive layer; infinity lifts it.
   void setSpeedLimit(double speed_m_s);
 

@@ -122,7 +122,7 @@ std::vector<Eigen::Vector3d> PathFollower::joined(const std::vector<Eigen::Vecto
   return out;
 }
 
-void PathFollower::stop() {
+void PathFollower::stop(std::optional<double> yaw_odom_rad) {
   const Eigen::Vector3d& velocity = reference_.velocity_odom_m_s;
   const double speed = velocity.norm();
   std::vector<Eigen::Vector3d> points{reference_.position_odom_m};
@@ -130,7 +130,7 @@ void PathFollower::stop() {
     points.push_back(reference_.position_odom_m + velocity * (0.5 * speed / limits_.acceleration_m_s2));
   lay(std::move(points));
   carrot_speed_m_s_ = points_.size() > 1 ? speed : 0.0;
-  goal_yaw_odom_rad_.reset();
+  goal_yaw_odom_rad_ = yaw_odom_rad;
   faces_travel_ = false;
   hold_yaw_odom_rad_ = reference_.yaw_odom_rad;
 }

@@ -60,8 +60,8 @@ class PathFollower {
   /// off the first line it joins the nearest point of the first lines. `goal_yaw_odom_rad` is turned to near the goal.
   void setPath(std::vector<Eigen::Vector3d> points_odom_m, FlightMode mode,
                std::optional<double> goal_yaw_odom_rad = std::nullopt);
-  /// Stops as fast as the mode's limits allow and holds there.
-  void stop();
+  /// Stops as fast as the mode's limits allow and holds there, turned to that yaw when one is given.
+  void stop(std::optional<double> yaw_odom_rad = std::nullopt);
   /// From the reactive layer; 0 halts on the path, infinity lifts the limit. Holds until changed.
   void setSpeedLimit(double speed_m_s);
   /// odom was re-expressed: the path moves by T_new_old, the reference does not.

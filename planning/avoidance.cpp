@@ -81,6 +81,7 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   if (retreating_) {
     last_retreat_level_ = retreat(input, points, around);
     decision.retreat_velocity_level_m_s = last_retreat_level_;
+    decision.turn_rad = turnToSee(around);
   }
 
   common::AvoidanceStatus& status = decision.status;
@@ -243,6 +244,19 @@ Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, cons
     best = direction;
   }
   return best * std::min(config_.retreat_speed_m_s, stoppingSpeed(best_free_m));
+}
+
+/// The laser does not see all around: who walks where it does not look is forgotten after a while, and comes back as a
+/// surprise.
+double Avoidance::turnToSee(const std::vector<Threat>& threats) const {
+  double nearest_m = kInfinity, bearing_rad = 0.0;
+  for (const Threat& threat : threats) {
+    if ((!threat.dangerous && threat.velocity_m_s.isZero()) || threat.center_m.norm() >= nearest_m) continue;
+    nearest_m = threat.center_m.norm();
+    bearing_rad = std::atan2(threat.center_m.y(), threat.center_m.x());
+  }
+  const double seen_rad = (0.5 * config_.field_of_view_deg - config_.view_margin_deg) * std::numbers::pi / 180.0;
+  return bearing_rad - std::clamp(bearing_rad, -seen_rad, seen_rad);
 }
 
 }  // namespace swiftlet::planning

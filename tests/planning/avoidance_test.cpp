@@ -299,6 +299,39 @@ TEST(Avoidance, AFollowerWasSeenAndIsNotForgotten) {
   EXPECT_GT(story.least_gap_m, 0.05);
 }
 
+TEST(Avoidance, TurnsUntilItSeesWhatItRetreatsFrom) {
+  // Somebody comes from where the laser hardly looks.
+  Story story;
+  const double bearing_rad = 125.0 * std::numbers::pi / 180.0;
+  const Point from(std::cos(bearing_rad), std::sin(bearing_rad));
+  story.people.push_back({story.pose.position_m() + 2.5 * from, -0.8 * from});
+  bool turned = false;
+  for (int i = 0; i < 120; ++i) {
+    const AvoidanceDecision d = story.tick({0, 0});
+    if (!turned && d.status.retreating) {
+      EXPECT_NEAR(d.turn_rad, 35.0 * std::numbers::pi / 180.0, 0.1);
+    }
+    turned |= d.status.retreating;
+    story.pose.yaw_rad += std::clamp(d.turn_rad, -kTick_s, kTick_s);
+  }
+  ASSERT_TRUE(turned);
+  const Point to = story.pose.inverse() * story.people[0].place_map_m;
+  EXPECT_LT(std::abs(std::atan2(to.y(), to.x())), 100.0 * std::numbers::pi / 180.0);
+  EXPECT_GT(story.least_gap_m, 0.05);
+}
+
+TEST(Avoidance, DoesNotTurnForWhatItSeesWell) {
+  Story story;
+  story.people.push_back({{6.8, 4.2}, {-0.8, 0}});
+  int retreated = 0;
+  for (int i = 0; i < 120; ++i) {
+    const AvoidanceDecision d = story.tick({0, 0});
+    retreated += d.status.retreating;
+    ASSERT_EQ(d.turn_rad, 0.0) << i;
+  }
+  EXPECT_GT(retreated, 10);
+}
+
 TEST(Avoidance, WhatTheMapHoldsDoesNotMakeItRetreat) {
   Story story(60, 30);  // 3 m by 1.5 m
   for (double y = kHull_m + 0.10; y <= 1.5 - kHull_m - 0.10; y += 0.1) {
