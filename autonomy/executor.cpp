@@ -10,6 +10,18 @@
 #include "common/validation.hpp"
 
 namespace swiftlet::autonomy {
+namespace {
+
+/// A map that does not reach the goal may just be about to grow.
+constexpr double kGrowing_s = 2.0;
+
+/// Whoever stands in the way may go; a goal in space never seen is not seen by waiting.
+bool mayPass(const planning::PlanFailure& failure) {
+  using Reason = planning::PlanFailure::Reason;
+  return failure.reason != Reason::kGoalUnseen && failure.reason != Reason::kOutsideMap;
+}
+
+}  // namespace
 
 using common::FlightState;
 using common::IntentState;
@@ -202,7 +214,8 @@ void Executor::carryOut(const ExecutorInput& input, const common::GoToIntent& go
   }
   const bool replan = keepPlan(input);
   if (makesRoom(input)) return;
-  if (no_way_since_ && (now_ - *no_way_since_).seconds() > config_.give_up_s) return fail(no_way_);
+  const double patience_s = mayPass(no_way_) ? config_.give_up_s : kGrowing_s;
+  if (no_way_since_ && (now_ - *no_way_since_).seconds() > patience_s) return fail(no_way_.text);
   if (replan && jobs_.idle("planning")) {
     PlanningRequest request;
     request.question = GoalRequest{go_to.goal_map_m, go_to.tolerance_m};
@@ -221,10 +234,10 @@ bool Executor::makesRoom(const ExecutorInput& input) {
     keeper_.clear();
     return false;
   }
-  if (!no_way_since_ || keeper_.plan() || !jobs_.idle("planning")) return false;
+  if (!no_way_since_ || !mayPass(no_way_) || keeper_.plan() || !jobs_.idle("planning")) return false;
   const Time since = std::max(*no_way_since_, made_room_.value_or(*no_way_since_));
   if ((now_ - since).seconds() < config_.make_room_s) return false;
-  say(Severity::kInfo, "goes aside to make room", no_way_);
+  say(Severity::kInfo, "goes aside to make room", no_way_.text);
   made_room_ = now_;
   PlanningRequest request;
   request.question = MakeRoomRequest{};
@@ -305,8 +318,8 @@ void Executor::receivePath(const tl::expected<planning::Path, planning::PlanFail
     no_way_since_ = now_;
     say(Severity::kWarning, "no way to the goal at present", path.error().text);
   }
-  no_way_ = path.error().text;
-  status_.reason = "waiting: " + no_way_;
+  no_way_ = path.error();
+  status_.reason = "waiting: " + no_way_.text;
 }
 
 void Executor::receiveExploration(const planning::ExplorationResult& result) {

@@ -126,7 +126,7 @@ class Executor {
   int done_answers_ = 0;  ///< Explorations in a row that found nothing open.
   std::optional<common::Time> within_since_;
   std::optional<common::Time> no_way_since_;
-  std::string no_way_;
+  planning::PlanFailure no_way_;
   std::optional<common::Time> made_room_;  ///< When it last went aside.
   bool making_room_ = false;
   bool retreating_ = false;

@@ -42,6 +42,8 @@ const char* toString(PlanFailure::Reason reason) {
       return "start blocked";
     case PlanFailure::Reason::kGoalBlocked:
       return "goal blocked";
+    case PlanFailure::Reason::kGoalUnseen:
+      return "goal never seen";
     case PlanFailure::Reason::kUnreachable:
       return "unreachable";
     case PlanFailure::Reason::kOutsideMap:
@@ -135,7 +137,7 @@ tl::expected<CellPath, PlanFailure> admit(const CostMap& map, const Point& start
                                                                  : "is too close to an obstacle or to unknown space";
     const std::optional<Point> nearest = nearestFree(map, goal_map_m);
     return refuse(
-        Reason::kGoalBlocked,
+        map.stateAt(goal) == CellState::kUnknown ? Reason::kGoalUnseen : Reason::kGoalBlocked,
         fmt::format("goal {} {} at clearance {:.2f} m{}", inWords(goal_map_m), why, map.footprint().clearance_m,
                     nearest ? ", the nearest free place is " + inWords(*nearest) : std::string()),
         nearest);

@@ -21,7 +21,7 @@ struct Path {
 };
 
 struct PlanFailure {
-  enum class Reason { kStartBlocked, kGoalBlocked, kUnreachable, kOutsideMap };
+  enum class Reason { kStartBlocked, kGoalBlocked, kGoalUnseen, kUnreachable, kOutsideMap };
   Reason reason = Reason::kUnreachable;
   std::string text;  ///< For people, with values.
   /// Where the centre may be, nearest to a blocked goal; none when there is no such place within 3 m.

@@ -23,6 +23,7 @@ namespace {
 constexpr double kFarthest_m = 60.0;
 constexpr int kNone = -1;
 constexpr int kFloor = 0;
+constexpr double kLineAfter_s = 0.15;  // A candidate seen for less is taken to stay where it is.
 
 double square(double x) { return x * x; }
 
@@ -63,6 +64,15 @@ struct Candidate {
   /// The squared length of the time axis; the variance of the rate is that of one height over this.
   double spread_s2() const { return tt_s2 - t_s * t_s / scans; }
   double rate_m_s() const { return spread_s2() > 0.0 ? (th_m_s - t_s * h_m / scans) / spread_s2() : 0.0; }
+  double heightAt_m(Time time) const { return height_m() + rate_m_s() * ((time - first).seconds() - t_s / scans); }
+};
+
+/// What a level just entered says of the vehicle, until the one who gives the prior has heard of it.
+struct Claim {
+  Time since;
+  double height_m = 0.0;  ///< To be added to the prior.
+  double velocity_m_s = 0.0;
+  double variance_m2 = 0.0;  ///< Of the height, once corrected.
 };
 
 }  // namespace
@@ -76,6 +86,7 @@ struct MultilevelFilter::Impl {
   void matchBeams();
   void groupBeams();
   bool leftALevel() const;
+  void assume(const HeightState& prior);
   void forgetTheLast();
   std::optional<VirtualHeight> settled();
   void doubtSlopes();
@@ -86,14 +97,17 @@ struct MultilevelFilter::Impl {
   void extendLevels();
   void searchForLoopClosures(AltitudeUpdate& outcome);
 
-  bool ripe(const Candidate& candidate) const;
-  bool confirmed(const Candidate& candidate) const;
+  double seenFor_s(const Candidate& candidate) const { return (now - candidate.first).seconds(); }
+  bool isFlat(const Candidate& candidate) const;
+  bool isFlatSeenFromAMovingPlace(const Candidate& candidate) const;
   std::size_t endOfSurface(std::size_t begin) const;
   bool isBelow(const LevelEstimate& level) const;
   int likeliestLevel(double distance_below_m, int averaged, bool known_below) const;
   double beamVariance(int averaged) const {
     return square(config.beam_noise_m) / averaged + square(config.surface_noise_m);
   }
+  double rateVariance_m2_s2(const Candidate& candidate) const;
+  void claim(const Candidate& seen, double height_before_m);
   void enter(int id, const Candidate& seen);
   void learn(LevelEstimate& level, double height_m, double variance_m2);
   std::optional<double> heightAboveGround();
@@ -104,6 +118,7 @@ struct MultilevelFilter::Impl {
   LevelStore store;
   std::vector<Candidate> candidates;
   std::deque<VirtualHeight> settling;
+  std::optional<Claim> claimed;
   HeightState state;
   bool initialized = false;
   std::uint64_t version = 0;
@@ -194,12 +209,24 @@ bool MultilevelFilter::Impl::leftALevel() const {
 void MultilevelFilter::Impl::forgetTheLast() {
   height.recall();
   settling.clear();
+  claimed.reset();
+}
+
+void MultilevelFilter::Impl::assume(const HeightState& prior) {
+  if (!claimed) return height.assume(now, prior.height_m, prior.velocity_m_s, prior.covariance);
+  const double since_s = (now - claimed->since).seconds();
+  Eigen::Matrix2d covariance = prior.covariance;
+  covariance(0, 0) = claimed->variance_m2 + covariance(1, 1) * square(since_s);
+  covariance(0, 1) = covariance(1, 0) = 0.0;
+  height.assume(now, prior.height_m + claimed->height_m + claimed->velocity_m_s * since_s,
+                prior.velocity_m_s + claimed->velocity_m_s, covariance);
 }
 
 std::optional<VirtualHeight> MultilevelFilter::Impl::settled() {
   if (settling.empty() || (now - settling.front().stamp).seconds() < config.settle_s) return std::nullopt;
   const VirtualHeight oldest = settling.front();
   settling.pop_front();
+  if (claimed && oldest.stamp > claimed->since) claimed.reset();
   return oldest;
 }
 
@@ -298,8 +325,8 @@ void MultilevelFilter::Impl::clusterRest(AltitudeUpdate& outcome) {
     if (enough) {
       const double mean_m = sum_m / count, surface_m = height.height_m() - mean_m;
       auto match = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-        // A surface that is flat is met at one height; a slope is not.
-        return !c.seen && square(c.height_m() - surface_m) <= 2.0 * square(config.gate_sigma) * beamVariance(count);
+        const double expected_m = seenFor_s(c) < kLineAfter_s ? c.height_m() : c.heightAt_m(now);
+        return !c.seen && square(expected_m - surface_m) <= 2.0 * square(config.gate_sigma) * beamVariance(count);
       });
       if (match == candidates.end()) match = candidates.insert(candidates.end(), Candidate{});
       if (match->scans == 0) match->first = now;
@@ -317,27 +344,45 @@ void MultilevelFilter::Impl::clusterRest(AltitudeUpdate& outcome) {
   std::erase_if(candidates, [](const Candidate& c) { return !c.seen; });
 }
 
-bool MultilevelFilter::Impl::ripe(const Candidate& c) const {
-  return c.scans >= config.confirm_scans && (now - c.first).seconds() >= config.confirm_s;
+double MultilevelFilter::Impl::rateVariance_m2_s2(const Candidate& c) const {
+  return beamVariance(std::max(1, c.beams / c.scans)) / std::max(c.spread_s2(), 1e-9);
 }
 
-bool MultilevelFilter::Impl::confirmed(const Candidate& c) const {
-  const double variance_m2_s2 = beamVariance(std::max(1, c.beams / c.scans)) / std::max(c.spread_s2(), 1e-9);
-  return ripe(c) && square(c.rate_m_s()) <= square(config.slope_sigma) * (variance_m2_s2 + height.covariance()(1, 1));
+/// A surface that is flat is met at one height; a slope is not.
+bool MultilevelFilter::Impl::isFlat(const Candidate& c) const {
+  return c.scans >= config.confirm_scans && seenFor_s(c) >= config.confirm_s &&
+         square(c.rate_m_s()) <= square(config.slope_sigma) * rateVariance_m2_s2(c);
+}
+
+/// One that rises or falls evenly may be a slope, or flat and the vertical speed is wrong. Slopes in rooms are short.
+bool MultilevelFilter::Impl::isFlatSeenFromAMovingPlace(const Candidate& c) const {
+  const double variance_m2_s2 = rateVariance_m2_s2(c) + height.covariance()(1, 1);
+  return c.scans >= config.confirm_scans && seenFor_s(c) >= config.confirm_moving_s &&
+         square(c.rate_m_s()) <= square(config.slope_sigma) * variance_m2_s2;
+}
+
+void MultilevelFilter::Impl::claim(const Candidate& seen, double height_before_m) {
+  const double rate_variance = rateVariance_m2_s2(seen);
+  const double gain = height.covariance()(1, 1) / (height.covariance()(1, 1) + rate_variance);
+  claimed = Claim{now, height.height_m() - height_before_m, -gain * seen.rate_m_s(), height.covariance()(0, 0)};
 }
 
 /// Line 14.
 void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
   for (Candidate& candidate : candidates) {
-    if (!confirmed(candidate)) continue;
+    const bool flat = isFlat(candidate);
+    if (!flat && !isFlatSeenFromAMovingPlace(candidate)) continue;
+    const double height_before_m = height.height_m();
     int id = likeliestLevel(candidate.last.distance_below_m, candidate.last.beams, false);
     if (id != kNone) {
       enter(id, candidate);
     } else {
-      id = store.add(candidate.height_m(), height.covariance()(0, 0) + beamVariance(candidate.beams));
+      id = store.add(flat ? candidate.height_m() : candidate.heightAt_m(now),
+                     height.covariance()(0, 0) + beamVariance(candidate.beams));
       near.push_back(id);
       ++outcome.levels_added;
     }
+    if (groups.empty()) claim(candidate, height_before_m);
     for (const CellIndex& cell : candidate.cells) store.extend(id, cell);
     LevelEstimate& level = store.at(id);
     level.seen = true;
@@ -345,9 +390,10 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
     level.innovation_sum_m = level.innovation_variance_m2 = 0.0;
     present.push_back(id);
     changed = true;
+    candidate.seen = false;
   }
   // One that rises or falls is not a level; it may flatten out later.
-  std::erase_if(candidates, [this](const Candidate& c) { return ripe(c); });
+  std::erase_if(candidates, [this](const Candidate& c) { return !c.seen || seenFor_s(c) >= config.confirm_moving_s; });
 }
 
 /// Line 15, the leaving half: what was below in the last scan and is not any more is measured once more, against what
@@ -436,6 +482,7 @@ void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map
   f.store.clear();
   f.candidates.clear();
   f.settling.clear();
+  f.claimed.reset();
   f.present.clear();
   const int floor = f.store.add(0.0, 0.0);
   const CellIndex here = f.store.cellAt(position_map_m);
@@ -467,7 +514,7 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
 
   // 1st stage: update height estimate.
   if (prior)
-    f.height.assume(time, prior->height_m, prior->velocity_m_s, prior->covariance);
+    f.assume(*prior);
   else
     f.height.predictTo(time);
   f.readBeams(position_map_m, points);
@@ -515,6 +562,8 @@ void MultilevelFilter::Config::describe(common::config::Fields& fields) {
   fields("min_cluster_beams", min_cluster_beams, "Fewer unexplained beams are outliers.");
   fields("confirm_scans", confirm_scans, "Scans in a row that must see a new surface.");
   fields("confirm_s", confirm_s, "How long it must be seen for, at one height.");
+  fields("confirm_moving_s", confirm_moving_s,
+         "How long, when it rises or falls no faster than the error of the vertical speed.");
   fields("slope_sigma", slope_sigma, "What rises or falls by more than this many standard deviations is a slope.");
   fields("doubt_s", doubt_s, "How long a level is left alone after it behaved like a slope.");
   fields("enter_after_s", enter_after_s, "A level not seen for this long is entered anew.");
@@ -537,6 +586,7 @@ std::vector<std::string> MultilevelFilter::Config::validate() const {
       .within("min_cluster_beams", min_cluster_beams, 1, 1000)
       .within("confirm_scans", confirm_scans, 1, 1000)
       .within("confirm_s", confirm_s, 0, 10)
+      .within("confirm_moving_s", confirm_moving_s, confirm_s, 10)
       .within("slope_sigma", slope_sigma, 1, 100)
       .within("doubt_s", doubt_s, 0, 10)
       .within("enter_after_s", enter_after_s, 0, 10)

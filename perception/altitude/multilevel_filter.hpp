@@ -84,7 +84,8 @@ class MultilevelFilter {
     double cluster_gap_m = 0.06;            ///< Beams sorted by distance: a gap wider than this separates two surfaces.
     int min_cluster_beams = 2;              ///< Fewer unexplained beams are outliers.
     int confirm_scans = 3;                  ///< Scans in a row that must see a new surface before it becomes a level,
-    double confirm_s = 0.3;                 ///< and for how long.
+    double confirm_s = 0.3;                 ///< and for how long;
+    double confirm_moving_s = 1.0;    ///< how long one that seems to rise or fall, as the vertical speed is not sure.
     double slope_sigma = 4.0;         ///< What rises or falls by more, in standard deviations, is a slope and no level.
     double doubt_s = 0.3;             ///< How long a level is left alone after it behaved like a slope.
     double enter_after_s = 0.3;       ///< A level not seen for this long is entered anew when it is seen again.

@@ -84,6 +84,23 @@ TEST_F(Bounds, WhatLiesOutsideIsLeftAndSaidToBe) {
   EXPECT_GE(out_of_bounds, 1);
 }
 
+class UnseenGoal : public test_support::Scratch {};
+
+// Nobody stands in the way who might go: it does not hang about for a minute.
+TEST_F(UnseenGoal, IsGivenUpAtOnce) {
+  const std::string mission = write("far.xml",
+                                    "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Far\"><Sequence>\n"
+                                    "<TakeOff/><MoveToGoal goal=\"40.0;40.0;1.0\"/><Land/>\n"
+                                    "</Sequence></BehaviorTree></root>\n");
+  const ProgramEnd end = runSwiftlet({"fly", mission, "--headless", "--speed", "max", "--seed", "1", "--json", "--out",
+                                      path("run"), "--time-limit", "60"});
+  ASSERT_EQ(end.exit_code, 1) << describe(end);
+  const auto events = readText(path("run/events.jsonl"));
+  EXPECT_NE(events.find("is outside the map"), std::string::npos) << events;
+  EXPECT_EQ(events.find("goes aside"), std::string::npos) << events;
+  EXPECT_LT(nlohmann::json::parse(readText(path("run/mission.json"))).at("mission_time_s").get<double>(), 15.0);
+}
+
 class Determinism : public test_support::Scratch {
  protected:
   ProgramEnd fly(const std::string& run, const std::string& seed, std::vector<std::string> more,

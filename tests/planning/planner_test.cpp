@@ -149,7 +149,7 @@ TEST(Planner, RefusalsSayWhy) {
   EXPECT_EQ(planner.plan(map, {1, 1}, {400, 4}).error().reason, PlanFailure::Reason::kOutsideMap);
   EXPECT_EQ(planner.plan(map, {-300, 1}, {1, 1}).error().reason, PlanFailure::Reason::kOutsideMap);
   EXPECT_EQ(planner.plan(map, {1, 1}, {NAN, 1}).error().reason, PlanFailure::Reason::kOutsideMap);
-  EXPECT_EQ(planner.plan(map, {1, 1}, {-1.5, 3}).error().reason, PlanFailure::Reason::kGoalBlocked);
+  EXPECT_EQ(planner.plan(map, {1, 1}, {-1.5, 3}).error().reason, PlanFailure::Reason::kGoalUnseen);
 
   const CostMap nothing({}, 0.05);
   EXPECT_EQ(planner.plan(nothing, {0, 0}, {1, 1}).error().reason, PlanFailure::Reason::kOutsideMap);
