@@ -184,17 +184,18 @@ void Estimator::fuseHeight(const perception::ProjectedScan& scan, const Pose2& T
   for (const auto& point : scan.mirror)
     ground.push_back({T_map_body * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
 
-  const common::VehicleState state = filter_.state();
-  perception::HeightState prior;
-  prior.height_m = filter_.poseAt(scan.stamp).value_or(state.T_odom_body).position_m.z();
-  prior.velocity_m_s = state.velocity_odom_m_s.z();
-  prior.covariance =
-      Eigen::Vector2d(state.position_covariance_m2(2, 2), state.velocity_covariance_m2_s2(2, 2)).asDiagonal();
+  const auto vertical = filter_.verticalAt(scan.stamp);
+  if (!vertical) return;
+  const perception::HeightState prior{scan.stamp, vertical->height_m, vertical->velocity_m_s, vertical->covariance};
   const auto update = altitude_.update(scan.stamp, T_map_body.position_m(), ground, prior);
   if (update.height_above_ground_m) height_above_ground_m_ = *update.height_above_ground_m;
   if (update.measurement) {
     (void)filter_.addHeight(update.measurement->stamp, update.measurement->height_m, update.measurement->variance_m2,
                             update.measurement->level_variance_m2);
+    if (update.measurement->velocity_m_s) {
+      (void)filter_.addVerticalSpeed(update.measurement->stamp, *update.measurement->velocity_m_s,
+                                     update.measurement->velocity_variance_m2_s2);
+    }
   }
   if (update.levels_joined > 0)
     say(scan.stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", update.levels_joined));

@@ -74,22 +74,32 @@ void HeightFilter::assume(common::Time time, double height_m, double velocity_m_
   now_.state << height_m, velocity_m_s, 0.0;
   now_.covariance.setZero();
   now_.covariance.topLeftCorner<2, 2>() = covariance;
-  // The error of the reference stands beside it.
-  now_.covariance(0, 0) = std::max(covariance(0, 0) - reference_variance_m2_, 0.0);
+  // The error of the reference stands beside it. What is left must not be less than the velocity's error explains.
+  const double explained_m2 = covariance(1, 1) > 0.0 ? covariance(0, 1) * covariance(0, 1) / covariance(1, 1) : 0.0;
+  now_.covariance(0, 0) = std::max(covariance(0, 0) - reference_variance_m2_, explained_m2);
   before_ = long_before_ = now_;
 }
 
-double HeightFilter::update(double height_m, double variance_m2) {
+void HeightFilter::update(double height_m, double variance_m2) { correct(0, height_m, variance_m2); }
+void HeightFilter::updateVelocity(double velocity_m_s, double variance_m2_s2) {
+  correct(1, velocity_m_s, variance_m2_s2);
+}
+
+void HeightFilter::correct(int component, double value, double variance) {
   if ((stamp_ - before_.updated).seconds() >= kRecall_s) {
     long_before_ = before_;
     before_ = now_;
   }
-  const double innovation_variance = now_.covariance(0, 0) + variance_m2;
-  const Eigen::Vector3d gain = now_.covariance.col(0) / innovation_variance;
+  const double innovation_variance = now_.covariance(component, component) + variance;
+  const Eigen::Vector3d gain = now_.covariance.col(component) / innovation_variance;
   now_.updated = stamp_;
-  now_.state += gain * (height_m - now_.state[0]);
+  now_.state += gain * (value - now_.state[component]);
   now_.covariance -= innovation_variance * gain * gain.transpose();
-  return innovation_variance;
+}
+
+void HeightFilter::dropReference() {
+  now_.covariance(0, 0) += reference_variance_m2_;
+  reference_variance_m2_ = 0.0;
 }
 
 void HeightFilter::recall() { now_ = before_ = long_before_; }

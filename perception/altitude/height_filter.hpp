@@ -21,14 +21,17 @@ class HeightFilter {
   void assume(common::Time time, double height_m, double velocity_m_s, const Eigen::Matrix2d& covariance);
   /// The acceleration between two samples is that of the later one; without samples it is zero.
   void predictTo(common::Time time);
-  /// Returns the innovation's variance.
-  double update(double height_m, double variance_m2);
+  void update(double height_m, double variance_m2);
+  void updateVelocity(double velocity_m_s, double variance_m2_s2);
   /// Back to what was believed some tenths of a second ago, moved on by the accelerations alone: for when the last
   /// updates turn out to have been of something else.
   void recall();
   /// The error of what the height is measured against: the same from update to update, so that averaging does not make
   /// it smaller. It stands beside the filter's own covariance and does not make the filter follow.
   void setReferenceVariance(double variance_m2) { reference_variance_m2_ = variance_m2; }
+
+  /// Nothing is measured against it any more: its error is the filter's own.
+  void dropReference();
 
   common::Time stamp() const { return stamp_; }
   double height_m() const { return now_.state[0]; }
@@ -49,6 +52,7 @@ class HeightFilter {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   };
   void predict(double dt_s, double acceleration_up_m_s2);
+  void correct(int component, double value, double variance);
 
   double acceleration_noise_m_s2_, max_prediction_s_;
   common::Time stamp_;

@@ -26,9 +26,15 @@ struct LevelEstimate {
   bool seen = false;
   LevelSight last;
   // Since it was entered: whether what is measured here behaves as something flat would.
+  int innovations = 0;
   double innovation_sum_m = 0.0;
   double innovation_variance_m2 = 0.0;
   common::Time doubted_until;
+
+  void forgetInnovations() {
+    innovations = 0;
+    innovation_sum_m = innovation_variance_m2 = 0.0;
+  }
 };
 
 class LevelStore {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numbers>
 #include <utility>
 
 #include "common/validation.hpp"
@@ -23,6 +24,8 @@ namespace {
 constexpr double kFarthest_m = 60.0;
 constexpr int kNone = -1;
 constexpr int kFloor = 0;
+constexpr double kFarBelow_sigma =
+    8.0;  // When the height is that unsure, a step down is less likely than a wrong height.
 constexpr double kLineAfter_s = 0.15;  // A candidate seen for less is taken to stay where it is.
 
 double square(double x) { return x * x; }
@@ -69,10 +72,11 @@ struct Candidate {
 
 /// What a level just entered says of the vehicle, until the one who gives the prior has heard of it.
 struct Claim {
+  int level = kNone;
   Time since;
   double height_m = 0.0;  ///< To be added to the prior.
   double velocity_m_s = 0.0;
-  double variance_m2 = 0.0;  ///< Of the height, once corrected.
+  Eigen::Matrix2d covariance;  ///< Of the two, once corrected.
 };
 
 }  // namespace
@@ -101,14 +105,15 @@ struct MultilevelFilter::Impl {
   bool isFlat(const Candidate& candidate) const;
   bool isFlatSeenFromAMovingPlace(const Candidate& candidate) const;
   std::size_t endOfSurface(std::size_t begin) const;
+  bool likelierThanUnknown(int id, double residual_m, double variance_m2) const;
   bool isBelow(const LevelEstimate& level) const;
   int likeliestLevel(double distance_below_m, int averaged, bool known_below) const;
   double beamVariance(int averaged) const {
     return square(config.beam_noise_m) / averaged + square(config.surface_noise_m);
   }
   double rateVariance_m2_s2(const Candidate& candidate) const;
-  void claim(const Candidate& seen, double height_before_m);
-  void enter(int id, const Candidate& seen);
+  void learnSpeed(const Candidate& seen);
+  void enter(int id, double distance_below_m, double variance_m2);
   void learn(LevelEstimate& level, double height_m, double variance_m2);
   std::optional<double> heightAboveGround();
   void publish();
@@ -163,6 +168,13 @@ bool MultilevelFilter::Impl::isBelow(const LevelEstimate& level) const {
   return level.seen && (now - level.last.stamp).seconds() <= config.enter_after_s && now >= level.doubted_until;
 }
 
+/// The less sure the height is, the likelier is what lies within its gate something else.
+bool MultilevelFilter::Impl::likelierThanUnknown(int id, double residual_m, double variance_m2) const {
+  const double density_per_m =
+      std::exp(-0.5 * square(residual_m) / variance_m2) / std::sqrt(2.0 * std::numbers::pi * variance_m2);
+  return (id == kFloor ? config.floor_weight : 1.0) * density_per_m > config.unknown_per_m;
+}
+
 /// The likeliest of the levels nearby that could be what `averaged` beams met at this distance.
 int MultilevelFilter::Impl::likeliestLevel(double distance_below_m, int averaged, bool known_below) const {
   int likeliest = kNone;
@@ -176,9 +188,10 @@ int MultilevelFilter::Impl::likeliestLevel(double distance_below_m, int averaged
                                         : level.variance_m2 + height.referenceVariance_m2();
     const double variance_m2 = height.ownVariance_m2() + level_m2 + beamVariance(averaged);
     // Nothing lies just below the take-off floor: what seems to is the floor, and the height is wrong.
-    const bool sunk_floor =
-        !known_below && config.one_floor && id == kFloor && residual_m < 0.0 && residual_m > -config.least_step_down_m;
+    const bool sunk_floor = !known_below && config.one_floor && id == kFloor && residual_m < 0.0 &&
+                            residual_m > -std::max(config.least_step_down_m, kFarBelow_sigma * std::sqrt(variance_m2));
     if (square(residual_m) > best * variance_m2 && !(sunk_floor && likeliest == kNone)) continue;
+    if (!known_below && !sunk_floor && !likelierThanUnknown(id, residual_m, variance_m2)) continue;
     best = std::min(best, square(residual_m) / variance_m2);
     likeliest = id;
   }
@@ -209,17 +222,17 @@ bool MultilevelFilter::Impl::leftALevel() const {
 void MultilevelFilter::Impl::forgetTheLast() {
   height.recall();
   settling.clear();
+  if (claimed) store.at(claimed->level).seen = false;  // To be entered anew.
   claimed.reset();
 }
 
 void MultilevelFilter::Impl::assume(const HeightState& prior) {
   if (!claimed) return height.assume(now, prior.height_m, prior.velocity_m_s, prior.covariance);
   const double since_s = (now - claimed->since).seconds();
-  Eigen::Matrix2d covariance = prior.covariance;
-  covariance(0, 0) = claimed->variance_m2 + covariance(1, 1) * square(since_s);
-  covariance(0, 1) = covariance(1, 0) = 0.0;
+  Eigen::Matrix2d moved;
+  moved << 1.0, since_s, 0.0, 1.0;
   height.assume(now, prior.height_m + claimed->height_m + claimed->velocity_m_s * since_s,
-                prior.velocity_m_s + claimed->velocity_m_s, covariance);
+                prior.velocity_m_s + claimed->velocity_m_s, moved * claimed->covariance * moved.transpose());
 }
 
 std::optional<VirtualHeight> MultilevelFilter::Impl::settled() {
@@ -235,10 +248,13 @@ std::optional<VirtualHeight> MultilevelFilter::Impl::settled() {
 void MultilevelFilter::Impl::doubtSlopes() {
   std::erase_if(groups, [this](const Group& g) {
     LevelEstimate& level = store.at(g.level);
+    // The error of a claim is one and the same; that of a height that follows its measurements is not.
+    const double same = claimed ? 2.0 * level.innovations + 1.0 : 1.0;
+    ++level.innovations;
     level.innovation_sum_m += g.height_m + g.distance_below_m - height.height_m();
-    level.innovation_variance_m2 += height.ownVariance_m2() + beamVariance(g.beams);
+    level.innovation_variance_m2 += same * height.ownVariance_m2() + beamVariance(g.beams);
     if (square(level.innovation_sum_m) <= square(config.slope_sigma) * level.innovation_variance_m2) return false;
-    level.innovation_sum_m = level.innovation_variance_m2 = 0.0;
+    level.forgetInnovations();
     forgetTheLast();
     level.doubted_until = now + common::Duration::fromSeconds(config.doubt_s);
     for (Beam& beam : beams)
@@ -279,16 +295,20 @@ std::optional<VirtualHeight> MultilevelFilter::Impl::updateHeight() {
   const double white_m2 = 1.0 / white_weights;
   height.update(weighted_m / weights, white_m2);
   height.setReferenceVariance(surest_m2 + square(config.surface_noise_m));
-  return VirtualHeight{now, weighted_m / weights, white_m2, std::max(0.0, 1.0 / weights - white_m2), used};
+  VirtualHeight measured{now, weighted_m / weights, white_m2, std::max(0.0, 1.0 / weights - white_m2), used, {}, 0.0};
+  if (claimed && settling.empty()) {
+    measured.velocity_m_s = height.velocity_m_s();
+    measured.velocity_variance_m2_s2 = claimed->covariance(1, 1);
+  }
+  return measured;
 }
 
 /// One innovation, d - (z - h), corrects height and level, each by its own variance.
-void MultilevelFilter::Impl::enter(int id, const Candidate& seen) {
+void MultilevelFilter::Impl::enter(int id, double distance_below_m, double variance_m2) {
   LevelEstimate& level = store.at(id);
-  const double noise_m2 = beamVariance(seen.last.beams);
-  const double own_m = height.height_m() - seen.last.distance_below_m;
-  const double own_variance_m2 = height.covariance()(0, 0) + noise_m2;
-  height.update(level.height_m + seen.last.distance_below_m, level.variance_m2 + noise_m2);
+  const double own_m = height.height_m() - distance_below_m;
+  const double own_variance_m2 = height.covariance()(0, 0) + variance_m2;
+  height.update(level.height_m + distance_below_m, level.variance_m2 + variance_m2);
   learn(level, own_m, own_variance_m2);
 }
 
@@ -361,33 +381,46 @@ bool MultilevelFilter::Impl::isFlatSeenFromAMovingPlace(const Candidate& c) cons
          square(c.rate_m_s()) <= square(config.slope_sigma) * variance_m2_s2;
 }
 
-void MultilevelFilter::Impl::claim(const Candidate& seen, double height_before_m) {
-  const double rate_variance = rateVariance_m2_s2(seen);
-  const double gain = height.covariance()(1, 1) / (height.covariance()(1, 1) + rate_variance);
-  claimed = Claim{now, height.height_m() - height_before_m, -gain * seen.rate_m_s(), height.covariance()(0, 0)};
+/// What is flat and seems to rise says that the vehicle sinks.
+void MultilevelFilter::Impl::learnSpeed(const Candidate& seen) {
+  // It is the mean of the time it was seen for: the speed's error changed since by what the acceleration is wrong.
+  const double variance_m2_s2 = rateVariance_m2_s2(seen) + square(config.surface_noise_m / seenFor_s(seen)) +
+                                square(0.5 * config.acceleration_noise_m_s2 * seenFor_s(seen));
+  height.updateVelocity(height.velocity_m_s() - seen.rate_m_s(), variance_m2_s2);
 }
 
 /// Line 14.
 void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
+  const bool alone = groups.empty();
+  const double height_before_m = height.height_m(), velocity_before_m_s = height.velocity_m_s();
   for (Candidate& candidate : candidates) {
-    const bool flat = isFlat(candidate);
-    if (!flat && !isFlatSeenFromAMovingPlace(candidate)) continue;
-    const double height_before_m = height.height_m();
-    int id = likeliestLevel(candidate.last.distance_below_m, candidate.last.beams, false);
+    if (!isFlat(candidate) && !isFlatSeenFromAMovingPlace(candidate)) continue;
+    // The end of the line through all that was seen of it; at its ends a line is as sure as a quarter of its points.
+    const double below_m = height_before_m - candidate.heightAt_m(now);
+    const double below_variance_m2 =
+        4.0 * square(config.beam_noise_m) / candidate.beams + square(config.surface_noise_m);
+    const bool first = alone && !claimed;
+    if (first) {
+      height.dropReference();
+      learnSpeed(candidate);
+    }
+    int id = likeliestLevel(below_m, candidate.last.beams, false);
     if (id != kNone) {
-      enter(id, candidate);
+      enter(id, below_m, below_variance_m2);
     } else {
-      id = store.add(flat ? candidate.height_m() : candidate.heightAt_m(now),
-                     height.covariance()(0, 0) + beamVariance(candidate.beams));
+      id = store.add(height.height_m() - below_m, height.covariance()(0, 0) + below_variance_m2);
       near.push_back(id);
       ++outcome.levels_added;
     }
-    if (groups.empty()) claim(candidate, height_before_m);
+    if (first) {
+      claimed = Claim{id, now, height.height_m() - height_before_m, height.velocity_m_s() - velocity_before_m_s,
+                      height.covariance()};
+    }
     for (const CellIndex& cell : candidate.cells) store.extend(id, cell);
     LevelEstimate& level = store.at(id);
     level.seen = true;
     level.last = candidate.last;
-    level.innovation_sum_m = level.innovation_variance_m2 = 0.0;
+    level.forgetInnovations();
     present.push_back(id);
     changed = true;
     candidate.seen = false;
@@ -429,7 +462,8 @@ void MultilevelFilter::Impl::searchForLoopClosures(AltitudeUpdate& outcome) {
       const LevelEstimate& a = store.at(near[i]);
       const LevelEstimate& b = store.at(near[j]);
       const double sigma2 = a.variance_m2 + b.variance_m2 + 2.0 * square(config.surface_noise_m);
-      const bool agree = square(a.height_m - b.height_m) <= square(config.gate_sigma) * sigma2;
+      const bool agree = square(a.height_m - b.height_m) <= square(config.gate_sigma) * sigma2 &&
+                         likelierThanUnknown(near[i], a.height_m - b.height_m, sigma2);
       if (!agree || !store.meet(near[i], near[j], center, config.neighbourhood_m, config.join_distance_m)) {
         ++j;
         continue;
@@ -567,6 +601,9 @@ void MultilevelFilter::Config::describe(common::config::Fields& fields) {
   fields("slope_sigma", slope_sigma, "What rises or falls by more than this many standard deviations is a slope.");
   fields("doubt_s", doubt_s, "How long a level is left alone after it behaved like a slope.");
   fields("enter_after_s", enter_after_s, "A level not seen for this long is entered anew.");
+  fields("unknown_per_m", unknown_per_m,
+         "Surfaces not known yet that may be met, a metre of height, for each known one.");
+  fields("floor_weight", floor_weight, "The take-off floor is so much likelier to be met than another level.");
   fields("one_floor", one_floor, "The take-off floor may be met again anywhere, not only near where it was seen.");
   fields("least_step_down_m", least_step_down_m, "Nothing is less than this below the take-off floor.");
   fields("settle_s", settle_s, "A measurement that was not doubted for this long is given out.");
@@ -590,6 +627,8 @@ std::vector<std::string> MultilevelFilter::Config::validate() const {
       .within("slope_sigma", slope_sigma, 1, 100)
       .within("doubt_s", doubt_s, 0, 10)
       .within("enter_after_s", enter_after_s, 0, 10)
+      .within("unknown_per_m", unknown_per_m, 0, 100)
+      .within("floor_weight", floor_weight, 0, 1000)
       .within("least_step_down_m", least_step_down_m, 0, 10)
       .within("settle_s", settle_s, 0, 1)
       .within("max_prediction_s", max_prediction_s, 0.01, 10)

@@ -201,7 +201,10 @@ void ErrorStateFilter::Impl::apply(FilterState& state, const Measurement& m) con
       return;
     case MeasurementKind::kHeight:
       state.height_common_variance_m2 = m.common_variance_m2;
-      gatedUpdate(state, state.height_gate, height(state, m.height_m, m.covariance(0, 0)));
+      gatedUpdate(state, state.height_gate, height(state, m.value, m.covariance(0, 0)));
+      return;
+    case MeasurementKind::kVerticalSpeed:
+      update(state, verticalSpeed(state, m.value, m.covariance(0, 0)));
       return;
     case MeasurementKind::kAbsolutePose:
       update(state, absolutePose(state, m.pose, m.covariance));
@@ -400,9 +403,22 @@ Insertion ErrorStateFilter::addHeight(Time time, double height_m, double varianc
   Measurement m;
   m.stamp = time;
   m.kind = MeasurementKind::kHeight;
-  m.height_m = height_m;
+  m.value = height_m;
   m.covariance(0, 0) = variance_m2;
   m.common_variance_m2 = common_variance_m2;
+  return impl_->insert(m);
+}
+
+Insertion ErrorStateFilter::addVerticalSpeed(Time time, double speed_m_s, double variance_m2_s2) {
+  if (!std::isfinite(speed_m_s) || !std::isfinite(variance_m2_s2) || variance_m2_s2 <= 0.0) {
+    ++impl_->counters.refused;
+    return Insertion::kInvalid;
+  }
+  Measurement m;
+  m.stamp = time;
+  m.kind = MeasurementKind::kVerticalSpeed;
+  m.value = speed_m_s;
+  m.covariance(0, 0) = variance_m2_s2;
   return impl_->insert(m);
 }
 
@@ -512,6 +528,20 @@ std::optional<common::Pose3> ErrorStateFilter::poseAt(Time time) const {
   const FilterState& b = f.slot(high).state;
   return interpolate({a.rotation_odom_body, a.position_odom_m}, {b.rotation_odom_body, b.position_odom_m},
                      (time - a.stamp).seconds() / (b.stamp - a.stamp).seconds());
+}
+
+std::optional<VerticalState> ErrorStateFilter::verticalAt(Time time) const {
+  Impl& f = *impl_;
+  const auto pose = poseAt(time);
+  if (!pose) return std::nullopt;
+  std::size_t at = f.count - 1;
+  while (at > 0 && f.slot(at).imu.stamp > time) --at;
+  const FilterState& state = f.slot(at).state;
+  constexpr int kZ = kPosition + 2, kVz = kVelocity + 2;
+  VerticalState vertical{pose->position_m.z(), state.velocity_odom_m_s.z(), Eigen::Matrix2d::Zero()};
+  vertical.covariance << state.covariance(kZ, kZ) + state.height_common_variance_m2, state.covariance(kZ, kVz),
+      state.covariance(kVz, kZ), state.covariance(kVz, kVz);
+  return vertical;
 }
 
 PoseHistory ErrorStateFilter::poses(Time from, Time to) const {

@@ -64,6 +64,12 @@ struct FusionCounts {
   std::uint64_t recoveries = 0;
 };
 
+struct VerticalState {
+  double height_m = 0.0;
+  double velocity_m_s = 0.0;
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< Of (height_m, velocity_m_s).
+};
+
 class ErrorStateFilter {
  public:
   struct Config {
@@ -132,6 +138,8 @@ class ErrorStateFilter {
   /// Height of the body origin over the take-off floor. `common_variance_m2` is the part of the error that does not
   /// change from one measurement to the next (of the level below); it is not averaged away.
   Insertion addHeight(common::Time time, double height_m, double variance_m2, double common_variance_m2 = 0.0);
+  /// Speed of the body origin along z of odom.
+  Insertion addVerticalSpeed(common::Time time, double speed_m_s, double variance_m2_s2);
   /// A landmark of known place, or a correction that shall move odom itself. SLAM's corrections stay outside, in
   /// T_map_odom.
   Insertion addAbsolutePose2(common::Time time, const common::Pose2& T_odom_body, const Eigen::Matrix3d& covariance);
@@ -151,6 +159,8 @@ class ErrorStateFilter {
 
   /// Interpolated in the history; up to 20 ms after the newest sample extrapolated. None outside.
   std::optional<common::Pose3> poseAt(common::Time time) const;
+  /// Of the body origin along z of odom, with the covariance of both; where poseAt() knows a pose.
+  std::optional<VerticalState> verticalAt(common::Time time) const;
   /// The poses that cover [from, to] as far as the history goes; for many questions, as when a scan is deskewed.
   PoseHistory poses(common::Time from, common::Time to) const;
 

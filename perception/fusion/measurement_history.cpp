@@ -8,7 +8,7 @@ namespace {
 
 bool before(const Measurement& a, const Measurement& b) {
   const auto key = [](const Measurement& m) {
-    return std::tuple(m.stamp, m.kind, m.from, m.pose.x_m, m.pose.y_m, m.pose.yaw_rad, m.height_m, m.covariance(0, 0));
+    return std::tuple(m.stamp, m.kind, m.from, m.pose.x_m, m.pose.y_m, m.pose.yaw_rad, m.value, m.covariance(0, 0));
   };
   return key(a) < key(b);
 }

@@ -13,16 +13,16 @@
 namespace swiftlet::perception::fusion {
 
 /// The order at equal times is that of the kinds: a pose is cloned after everything known about it.
-enum class MeasurementKind : std::uint8_t { kHeight, kRelativePose, kAbsolutePose, kClone };
+enum class MeasurementKind : std::uint8_t { kHeight, kVerticalSpeed, kRelativePose, kAbsolutePose, kClone };
 
 struct Measurement {
   common::Time stamp;
   MeasurementKind kind = MeasurementKind::kClone;
-  common::Time from;    ///< kRelativePose: when the reference was cloned.
-  common::Pose2 pose;   ///< kRelativePose, kAbsolutePose.
-  double height_m = 0;  ///< kHeight.
+  common::Time from;   ///< kRelativePose: when the reference was cloned.
+  common::Pose2 pose;  ///< kRelativePose, kAbsolutePose.
+  double value = 0;    ///< kHeight: m; kVerticalSpeed: m/s.
   double common_variance_m2 = 0.0;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< kHeight: only (0, 0).
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< kHeight, kVerticalSpeed: only (0, 0).
 };
 
 /// Two measurements of one kind and time are put in the order of their values, so that not even they depend on arrival.

@@ -65,6 +65,14 @@ Linearized<1> height(const FilterState& state, double height_m, double variance_
   return m;
 }
 
+Linearized<1> verticalSpeed(const FilterState& state, double speed_m_s, double variance_m2_s2) {
+  Linearized<1> m;
+  m.residual(0) = speed_m_s - state.velocity_odom_m_s.z();
+  m.jacobian(0, kVelocity + 2) = 1.0;
+  m.noise(0, 0) = variance_m2_s2;
+  return m;
+}
+
 Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom_body,
                            const Eigen::Matrix3d& covariance) {
   Linearized<3> m;

@@ -20,6 +20,7 @@ struct Linearized {
 Linearized<3> relativePose(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                            const Eigen::Matrix3d& covariance);
 Linearized<1> height(const FilterState& state, double height_m, double variance_m2);
+Linearized<1> verticalSpeed(const FilterState& state, double speed_m_s, double variance_m2_s2);
 Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom_body,
                            const Eigen::Matrix3d& covariance);
 /// Roll and pitch from the direction of "up" in the body frame; says nothing on yaw.

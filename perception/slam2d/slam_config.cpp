@@ -29,7 +29,7 @@ std::vector<std::string> GridDrawingConfig::validate() const {
       .within("max_free_range_m", max_free_range_m, 0, 100)
       .within("max_height_above_m", max_height_above_m, 0, 100)
       .within("max_height_below_m", max_height_below_m, 0, 100)
-      .within("slice_height_m", slice_height_m, 0.05, 10)
+      .within("slice_height_m", slice_height_m, 0.01, 10)
       .within("fade_steps", fade_steps, 0, max_steps)
       .within("fade_height_m", fade_height_m, 0, 10)
       .problems();

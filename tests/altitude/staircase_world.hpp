@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "common/random.hpp"
@@ -18,6 +19,62 @@ struct Box {
   }
 };
 
+/// What the fusion filter is to the multilevel filter in flight: a Kalman filter over height, vertical speed and the
+/// error of the acceleration that takes measurements late, here by replaying all scans since.
+class LateFilter {
+ public:
+  void start(common::Time time, double height_m) {
+    steps_ = {{time, {height_m, 0.0, 0.0}, Eigen::Vector3d(4e-4, 1e-4, 4e-3).asDiagonal(), 0.0}};
+  }
+  HeightState predict(common::Time time, double acceleration_m_s2) {
+    Step next = steps_.back();
+    advance(next, time, acceleration_m_s2);
+    steps_.push_back(next);
+    return {time, next.state[0], next.state[1], next.covariance.topLeftCorner<2, 2>()};
+  }
+  void add(const VirtualHeight& measured) {
+    std::size_t i = 0;
+    while (i + 1 < steps_.size() && steps_[i].stamp < measured.stamp) ++i;
+    update(steps_[i], {1.0, 0.0, 0.0}, measured.height_m, measured.variance_m2);
+    if (measured.velocity_m_s)
+      update(steps_[i], {0.0, 1.0, 0.0}, *measured.velocity_m_s, measured.velocity_variance_m2_s2);
+    for (++i; i < steps_.size(); ++i) {
+      Step again = steps_[i - 1];
+      advance(again, steps_[i].stamp, steps_[i].acceleration_m_s2);
+      steps_[i] = again;
+    }
+    steps_.erase(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(steps_.size() > 40 ? 1 : 0));
+  }
+
+ private:
+  struct Step {
+    common::Time stamp;
+    Eigen::Vector3d state;
+    Eigen::Matrix3d covariance;
+    double acceleration_m_s2;  ///< That led here.
+  };
+  static void advance(Step& step, common::Time time, double acceleration_m_s2) {
+    constexpr double kNoise_m_s2_rthz = 0.03, kWalk_m_s3_rthz = 0.01;
+    const double dt_s = (time - step.stamp).seconds();
+    Eigen::Matrix3d a;
+    a << 1.0, dt_s, -0.5 * dt_s * dt_s, 0.0, 1.0, -dt_s, 0.0, 0.0, 1.0;
+    const Eigen::Vector3d effect(0.5 * dt_s * dt_s, dt_s, 0.0);
+    step.stamp = time;
+    step.state = a * step.state + effect * acceleration_m_s2;
+    step.covariance =
+        a * step.covariance * a.transpose() + kNoise_m_s2_rthz * kNoise_m_s2_rthz / dt_s * effect * effect.transpose();
+    step.covariance(2, 2) += kWalk_m_s3_rthz * kWalk_m_s3_rthz * dt_s;
+    step.acceleration_m_s2 = acceleration_m_s2;
+  }
+  static void update(Step& step, const Eigen::RowVector3d& row, double value, double variance) {
+    const Eigen::Vector3d cross = step.covariance * row.transpose();
+    const double innovation_variance = row * cross + variance;
+    step.state += cross / innovation_variance * (value - row * step.state);
+    step.covariance -= cross * cross.transpose() / innovation_variance;
+  }
+  std::vector<Step> steps_;
+};
+
 struct Overflight {
   std::vector<Box> boxes;
   MultilevelFilter filter{MultilevelFilter::Config{}};
@@ -31,6 +88,8 @@ struct Overflight {
   double acceleration_bias_m_s2 = 0.0;
   double outlier_rate = 0.0, dropout_rate = 0.0;
   double height_offset_m = 0.0;  ///< Of all beams: a wrong mirror mount.
+  bool fused = false;            ///< The prior comes from outside, as in flight.
+  LateFilter fusion;
 
   common::Time now;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
@@ -47,18 +106,25 @@ struct Overflight {
     return height_m;
   }
 
-  void start() { filter.initialize(now, position_m, z_m); }
+  void start() {
+    filter.initialize(now, position_m, z_m);
+    fusion.start(now, z_m);
+  }
 
   /// One scan after 1 / scan_hz of constant acceleration.
   void scan(double acceleration_m_s2) {
     const int steps = static_cast<int>(std::lround(200.0 / scan_hz));
+    double felt_m_s2 = 0.0;
     for (int i = 0; i < steps; ++i) {
       now += common::Duration::fromMilliseconds(5);
       z_m += vz_m_s * 0.005 + 0.5 * acceleration_m_s2 * 0.005 * 0.005;
       vz_m_s += acceleration_m_s2 * 0.005;
-      filter.addAcceleration(now,
-                             acceleration_m_s2 + acceleration_bias_m_s2 + random.gaussian(acceleration_sigma_m_s2));
+      const double one_m_s2 = acceleration_m_s2 + acceleration_bias_m_s2 + random.gaussian(acceleration_sigma_m_s2);
+      felt_m_s2 += one_m_s2 / steps;
+      filter.addAcceleration(now, one_m_s2);
     }
+    const std::optional<HeightState> prior =
+        fused ? std::optional(fusion.predict(now, felt_m_s2)) : std::optional<HeightState>();
     std::vector<GroundPoint> points;
     for (int i = 0; i < beams; ++i) {
       const double angle = beams > 1 ? spread_rad * (static_cast<double>(i) / (beams - 1) - 0.5) : 0.0;
@@ -68,11 +134,12 @@ struct Overflight {
       if (random.chance(outlier_rate)) below_m = random.uniform(0.1, 6.0);
       points.push_back({at, below_m});
     }
-    last = filter.update(now, position_m, points);
+    last = filter.update(now, position_m, points, prior);
+    if (last.measurement) fusion.add(*last.measurement);
     added += last.levels_added;
     joined += last.levels_joined;
     without_measurement += last.measurement ? 0 : 1;
-    const double error_m = filter.state().height_m - z_m;
+    const double error_m = (prior ? prior->height_m : filter.state().height_m) - z_m;
     worst_error_m = std::max(worst_error_m, std::abs(error_m));
     squares_m2 += error_m * error_m;
     ++scans;

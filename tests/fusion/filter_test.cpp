@@ -238,6 +238,31 @@ TEST(ErrorStateFilter, aSilentLaserDegradesAndComesBack) {
   EXPECT_TRUE(filter.state().horizontal_valid);
 }
 
+/// Half a second without a height, on an acceleration that is wrong: a measured speed, late, takes the height along.
+TEST(ErrorStateFilter, aVerticalSpeedCorrectsTheHeightAsWell) {
+  SyntheticFlight flight(13, 6.0);
+  const auto imu = flight.imuSamples();
+  auto deliveries = flight.deliveries();
+  const auto silent = Time::fromSeconds(4.0);
+  std::erase_if(deliveries, [&](const Delivery& d) { return d.arrives > silent; });
+  ErrorStateFilter alone({}), told({});
+  feed(alone, imu, deliveries, flight.restUntil());
+  const Time at = Time::fromSeconds(5.8);
+  const auto before = alone.verticalAt(at);
+  ASSERT_TRUE(before);
+  EXPECT_GT(before->covariance(0, 1), 0.0);
+  const double higher_m_s = before->velocity_m_s + 0.05;
+  deliveries.push_back(
+      {Time::fromSeconds(5.95), 5, [=](ErrorStateFilter& f) { (void)f.addVerticalSpeed(at, higher_m_s, 1e-6); }});
+  feed(told, imu, deliveries, flight.restUntil());
+  const auto after = told.verticalAt(at);
+  ASSERT_TRUE(after);
+  EXPECT_NEAR(after->velocity_m_s, higher_m_s, 0.005);
+  EXPECT_NEAR(after->height_m - before->height_m, 0.05 * before->covariance(0, 1) / before->covariance(1, 1), 0.005);
+  EXPECT_LT(after->covariance(0, 0), before->covariance(0, 0));
+  EXPECT_FALSE(told.verticalAt(at + Duration::fromSeconds(2.0)));
+}
+
 TEST(ErrorStateFilter, garbageIsCountedAndLeftOut) {
   SyntheticFlight flight(11, 6.0);
   const auto imu = flight.imuSamples();
@@ -260,6 +285,8 @@ TEST(ErrorStateFilter, garbageIsCountedAndLeftOut) {
     const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
     EXPECT_EQ(dirty.addHeight(now, nan, 1.0), Insertion::kInvalid);
     EXPECT_EQ(dirty.addHeight(now, 1.0, -1.0), Insertion::kInvalid);
+    EXPECT_EQ(dirty.addVerticalSpeed(now, nan, 1.0), Insertion::kInvalid);
+    EXPECT_EQ(dirty.addVerticalSpeed(now, 0.0, 0.0), Insertion::kInvalid);
     EXPECT_EQ(dirty.addRelativePose(now, now, {}, identity), Insertion::kInvalid);
     EXPECT_EQ(dirty.addRelativePose(now - Duration::fromMilliseconds(7), now, {}, identity),
               Insertion::kUnknownReference);
@@ -268,7 +295,7 @@ TEST(ErrorStateFilter, garbageIsCountedAndLeftOut) {
     EXPECT_EQ(dirty.addAbsolutePose2(now, {}, -identity), Insertion::kInvalid);
     EXPECT_EQ(dirty.addHeight(now - Duration::fromSeconds(2.0), 1.0, 1.0), Insertion::kTooOld);
     EXPECT_EQ(dirty.addHeight(now + Duration::fromSeconds(2.0), 1.0, 1.0), Insertion::kTooNew);
-    refused += 8;
+    refused += 10;
   });
   EXPECT_EQ(dirty.counts().refused, refused);
   EXPECT_GT(dirty.counts().imu_dropped, 30u);
