@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "common/validation.hpp"
 #include "perception/altitude/height_filter.hpp"
 #include "perception/altitude/level_store.hpp"
+#include "perception/altitude/new_surface.hpp"
 
 namespace swiftlet::perception {
 
@@ -16,6 +16,7 @@ using altitude::HeightFilter;
 using altitude::LevelEstimate;
 using altitude::LevelSight;
 using altitude::LevelStore;
+using altitude::NewSurface;
 using common::CellIndex;
 using common::Time;
 
@@ -26,7 +27,7 @@ constexpr int kNone = -1;
 constexpr int kFloor = 0;
 constexpr double kFarBelow_sigma =
     8.0;  // When the height is that unsure, a step down is less likely than a wrong height.
-constexpr double kLineAfter_s = 0.15;  // A candidate seen for less is taken to stay where it is.
+constexpr double kLineAfter_s = 0.15;  // A surface seen for less is taken to stay where it is.
 
 double square(double x) { return x * x; }
 
@@ -43,31 +44,6 @@ struct Group {
   double distance_below_m = 0.0;  ///< Mean.
   double height_m = 0.0;          ///< Of the level, and its variance, as they were before this scan.
   double variance_m2 = 0.0;
-};
-
-/// A surface that is new below, until it was seen for long enough: then it is a level entered, or a new one.
-struct Candidate {
-  Time first;
-  // Sums over the scans, of the time since the first and the height of the surface.
-  double t_s = 0.0, tt_s2 = 0.0, h_m = 0.0, th_m_s = 0.0;
-  int scans = 0;
-  int beams = 0;
-  bool seen = false;
-  std::vector<CellIndex> cells;
-  LevelSight last;
-
-  void add(double time_s, double surface_m) {
-    ++scans;
-    t_s += time_s;
-    tt_s2 += time_s * time_s;
-    h_m += surface_m;
-    th_m_s += time_s * surface_m;
-  }
-  double height_m() const { return h_m / scans; }
-  /// The squared length of the time axis; the variance of the rate is that of one height over this.
-  double spread_s2() const { return tt_s2 - t_s * t_s / scans; }
-  double rate_m_s() const { return spread_s2() > 0.0 ? (th_m_s - t_s * h_m / scans) / spread_s2() : 0.0; }
-  double heightAt_m(Time time) const { return height_m() + rate_m_s() * ((time - first).seconds() - t_s / scans); }
 };
 
 /// What a level just entered says of the vehicle, until the one who gives the prior has heard of it.
@@ -101,9 +77,8 @@ struct MultilevelFilter::Impl {
   void extendLevels();
   void searchForLoopClosures(AltitudeUpdate& outcome);
 
-  double seenFor_s(const Candidate& candidate) const { return (now - candidate.first).seconds(); }
-  bool isFlat(const Candidate& candidate) const;
-  bool isFlatSeenFromAMovingPlace(const Candidate& candidate) const;
+  bool isFlat(const NewSurface& surface) const;
+  bool isFlatSeenFromAMovingPlace(const NewSurface& surface) const;
   std::size_t endOfSurface(std::size_t begin) const;
   bool likelierThanUnknown(int id, double residual_m, double variance_m2) const;
   bool isBelow(const LevelEstimate& level) const;
@@ -111,8 +86,8 @@ struct MultilevelFilter::Impl {
   double beamVariance(int averaged) const {
     return square(config.beam_noise_m) / averaged + square(config.surface_noise_m);
   }
-  double rateVariance_m2_s2(const Candidate& candidate) const;
-  void learnSpeed(const Candidate& seen);
+  double rateVariance_m2_s2(const NewSurface& surface) const;
+  void learnSpeed(const NewSurface& seen);
   void enter(int id, double distance_below_m, double variance_m2);
   void learn(LevelEstimate& level, double height_m, double variance_m2);
   std::optional<double> heightAboveGround();
@@ -121,7 +96,7 @@ struct MultilevelFilter::Impl {
   Config config;
   HeightFilter height;
   LevelStore store;
-  std::vector<Candidate> candidates;
+  std::vector<NewSurface> new_surfaces;
   std::deque<VirtualHeight> settling;
   std::optional<Claim> claimed;
   HeightState state;
@@ -324,7 +299,7 @@ void MultilevelFilter::Impl::learn(LevelEstimate& level, double height_m, double
 
 /// Line 13: the beams that no level explains, in sets of neighbouring distance.
 void MultilevelFilter::Impl::clusterRest(AltitudeUpdate& outcome) {
-  for (Candidate& candidate : candidates) candidate.seen = false;
+  for (NewSurface& surface : new_surfaces) surface.seen = false;
   std::size_t begin = 0;
   while (begin < beams.size()) {
     if (beams[begin].level != kNone) {
@@ -344,16 +319,13 @@ void MultilevelFilter::Impl::clusterRest(AltitudeUpdate& outcome) {
     const bool enough = count >= std::min<int>(config.min_cluster_beams, static_cast<int>(beams.size()));
     if (enough) {
       const double mean_m = sum_m / count, surface_m = height.height_m() - mean_m;
-      auto match = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-        const double expected_m = seenFor_s(c) < kLineAfter_s ? c.height_m() : c.heightAt_m(now);
+      auto match = std::find_if(new_surfaces.begin(), new_surfaces.end(), [&](const NewSurface& c) {
+        const double expected_m = c.seenFor_s(now) < kLineAfter_s ? c.height_m() : c.heightAt_m(now);
         return !c.seen && square(expected_m - surface_m) <= 2.0 * square(config.gate_sigma) * beamVariance(count);
       });
-      if (match == candidates.end()) match = candidates.insert(candidates.end(), Candidate{});
-      if (match->scans == 0) match->first = now;
-      match->add((now - match->first).seconds(), surface_m);
-      match->beams += count;
+      if (match == new_surfaces.end()) match = new_surfaces.insert(new_surfaces.end(), NewSurface(now));
+      match->add({now, mean_m, count}, surface_m);
       match->seen = true;
-      match->last = {now, mean_m, count};
       for (std::size_t i = begin; i <= last; ++i)
         if (beams[i].level == kNone) match->cells.push_back(beams[i].cell);
     } else {
@@ -361,31 +333,31 @@ void MultilevelFilter::Impl::clusterRest(AltitudeUpdate& outcome) {
     }
     begin = last + 1;
   }
-  std::erase_if(candidates, [](const Candidate& c) { return !c.seen; });
+  std::erase_if(new_surfaces, [](const NewSurface& c) { return !c.seen; });
 }
 
-double MultilevelFilter::Impl::rateVariance_m2_s2(const Candidate& c) const {
+double MultilevelFilter::Impl::rateVariance_m2_s2(const NewSurface& c) const {
   return beamVariance(std::max(1, c.beams / c.scans)) / std::max(c.spread_s2(), 1e-9);
 }
 
 /// A surface that is flat is met at one height; a slope is not.
-bool MultilevelFilter::Impl::isFlat(const Candidate& c) const {
-  return c.scans >= config.confirm_scans && seenFor_s(c) >= config.confirm_s &&
+bool MultilevelFilter::Impl::isFlat(const NewSurface& c) const {
+  return c.scans >= config.confirm_scans && c.seenFor_s(now) >= config.confirm_s &&
          square(c.rate_m_s()) <= square(config.slope_sigma) * rateVariance_m2_s2(c);
 }
 
 /// One that rises or falls evenly may be a slope, or flat and the vertical speed is wrong. Slopes in rooms are short.
-bool MultilevelFilter::Impl::isFlatSeenFromAMovingPlace(const Candidate& c) const {
+bool MultilevelFilter::Impl::isFlatSeenFromAMovingPlace(const NewSurface& c) const {
   const double variance_m2_s2 = rateVariance_m2_s2(c) + height.covariance()(1, 1);
-  return c.scans >= config.confirm_scans && seenFor_s(c) >= config.confirm_moving_s &&
+  return c.scans >= config.confirm_scans && c.seenFor_s(now) >= config.confirm_moving_s &&
          square(c.rate_m_s()) <= square(config.slope_sigma) * variance_m2_s2;
 }
 
 /// What is flat and seems to rise says that the vehicle sinks.
-void MultilevelFilter::Impl::learnSpeed(const Candidate& seen) {
+void MultilevelFilter::Impl::learnSpeed(const NewSurface& seen) {
   // It is the mean of the time it was seen for: the speed's error changed since by what the acceleration is wrong.
-  const double variance_m2_s2 = rateVariance_m2_s2(seen) + square(config.surface_noise_m / seenFor_s(seen)) +
-                                square(0.5 * config.acceleration_noise_m_s2 * seenFor_s(seen));
+  const double variance_m2_s2 = rateVariance_m2_s2(seen) + square(config.surface_noise_m / seen.seenFor_s(now)) +
+                                square(0.5 * config.acceleration_noise_m_s2 * seen.seenFor_s(now));
   height.updateVelocity(height.velocity_m_s() - seen.rate_m_s(), variance_m2_s2);
 }
 
@@ -393,18 +365,17 @@ void MultilevelFilter::Impl::learnSpeed(const Candidate& seen) {
 void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
   const bool alone = groups.empty();
   const double height_before_m = height.height_m(), velocity_before_m_s = height.velocity_m_s();
-  for (Candidate& candidate : candidates) {
-    if (!isFlat(candidate) && !isFlatSeenFromAMovingPlace(candidate)) continue;
+  for (NewSurface& surface : new_surfaces) {
+    if (!isFlat(surface) && !isFlatSeenFromAMovingPlace(surface)) continue;
     // The end of the line through all that was seen of it; at its ends a line is as sure as a quarter of its points.
-    const double below_m = height_before_m - candidate.heightAt_m(now);
-    const double below_variance_m2 =
-        4.0 * square(config.beam_noise_m) / candidate.beams + square(config.surface_noise_m);
+    const double below_m = height_before_m - surface.heightAt_m(now);
+    const double below_variance_m2 = 4.0 * square(config.beam_noise_m) / surface.beams + square(config.surface_noise_m);
     const bool first = alone && !claimed;
     if (first) {
       height.dropReference();
-      learnSpeed(candidate);
+      learnSpeed(surface);
     }
-    int id = likeliestLevel(below_m, candidate.last.beams, false);
+    int id = likeliestLevel(below_m, surface.last.beams, false);
     if (id != kNone) {
       enter(id, below_m, below_variance_m2);
     } else {
@@ -416,17 +387,18 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
       claimed = Claim{id, now, height.height_m() - height_before_m, height.velocity_m_s() - velocity_before_m_s,
                       height.covariance()};
     }
-    for (const CellIndex& cell : candidate.cells) store.extend(id, cell);
+    for (const CellIndex& cell : surface.cells) store.extend(id, cell);
     LevelEstimate& level = store.at(id);
     level.seen = true;
-    level.last = candidate.last;
+    level.last = surface.last;
     level.forgetInnovations();
     present.push_back(id);
     changed = true;
-    candidate.seen = false;
+    surface.seen = false;
   }
   // One that rises or falls is not a level; it may flatten out later.
-  std::erase_if(candidates, [this](const Candidate& c) { return !c.seen || seenFor_s(c) >= config.confirm_moving_s; });
+  std::erase_if(new_surfaces,
+                [this](const NewSurface& c) { return !c.seen || c.seenFor_s(now) >= config.confirm_moving_s; });
 }
 
 /// Line 15, the leaving half: what was below in the last scan and is not any more is measured once more, against what
@@ -514,7 +486,7 @@ void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map
   Impl& f = *impl_;
   f.height.start(time, height_m, square(height_sigma_m));
   f.store.clear();
-  f.candidates.clear();
+  f.new_surfaces.clear();
   f.settling.clear();
   f.claimed.reset();
   f.present.clear();
@@ -583,56 +555,5 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
 const HeightState& MultilevelFilter::state() const { return impl_->state; }
 common::LevelMap MultilevelFilter::levels() const { return impl_->store.snapshot(); }
 std::uint64_t MultilevelFilter::levelsVersion() const { return impl_->version; }
-
-void MultilevelFilter::Config::describe(common::config::Fields& fields) {
-  fields("resolution_m", resolution_m, "Cells of the level map.");
-  fields("neighbourhood_m", neighbourhood_m, "A level known within this distance may explain a beam.");
-  fields("join_distance_m", join_distance_m, "Two levels whose cells come this close meet.");
-  fields("beam_noise_m", beam_noise_m, "Standard deviation of one distance, attitude error included.");
-  fields("surface_noise_m", surface_noise_m, "How far a real surface is from flat.");
-  fields("acceleration_noise_m_s2", acceleration_noise_m_s2, "Error of the vertical acceleration.");
-  fields("gate_sigma", gate_sigma, "Half width of all confidence regions.");
-  fields("cluster_gap_m", cluster_gap_m, "A wider gap between distances separates two surfaces.");
-  fields("min_cluster_beams", min_cluster_beams, "Fewer unexplained beams are outliers.");
-  fields("confirm_scans", confirm_scans, "Scans in a row that must see a new surface.");
-  fields("confirm_s", confirm_s, "How long it must be seen for, at one height.");
-  fields("confirm_moving_s", confirm_moving_s,
-         "How long, when it rises or falls no faster than the error of the vertical speed.");
-  fields("slope_sigma", slope_sigma, "What rises or falls by more than this many standard deviations is a slope.");
-  fields("doubt_s", doubt_s, "How long a level is left alone after it behaved like a slope.");
-  fields("enter_after_s", enter_after_s, "A level not seen for this long is entered anew.");
-  fields("unknown_per_m", unknown_per_m,
-         "Surfaces not known yet that may be met, a metre of height, for each known one.");
-  fields("floor_weight", floor_weight, "The take-off floor is so much likelier to be met than another level.");
-  fields("one_floor", one_floor, "The take-off floor may be met again anywhere, not only near where it was seen.");
-  fields("least_step_down_m", least_step_down_m, "Nothing is less than this below the take-off floor.");
-  fields("settle_s", settle_s, "A measurement that was not doubted for this long is given out.");
-  fields("max_prediction_s", max_prediction_s, "Longer gaps between scans are predicted as if this long.");
-}
-
-std::vector<std::string> MultilevelFilter::Config::validate() const {
-  return common::Validation()
-      .within("resolution_m", resolution_m, 0.02, 1)
-      .within("neighbourhood_m", neighbourhood_m, 0, 5)
-      .within("join_distance_m", join_distance_m, 0, neighbourhood_m)
-      .within("beam_noise_m", beam_noise_m, 0.001, 0.5)
-      .within("surface_noise_m", surface_noise_m, 0.001, 0.5)
-      .within("acceleration_noise_m_s2", acceleration_noise_m_s2, 0.01, 20)
-      .within("gate_sigma", gate_sigma, 1, 10)
-      .within("cluster_gap_m", cluster_gap_m, 0.005, 1)
-      .within("min_cluster_beams", min_cluster_beams, 1, 1000)
-      .within("confirm_scans", confirm_scans, 1, 1000)
-      .within("confirm_s", confirm_s, 0, 10)
-      .within("confirm_moving_s", confirm_moving_s, confirm_s, 10)
-      .within("slope_sigma", slope_sigma, 1, 100)
-      .within("doubt_s", doubt_s, 0, 10)
-      .within("enter_after_s", enter_after_s, 0, 10)
-      .within("unknown_per_m", unknown_per_m, 0, 100)
-      .within("floor_weight", floor_weight, 0, 1000)
-      .within("least_step_down_m", least_step_down_m, 0, 10)
-      .within("settle_s", settle_s, 0, 1)
-      .within("max_prediction_s", max_prediction_s, 0.01, 10)
-      .problems();
-}
 
 }  // namespace swiftlet::perception
