@@ -95,7 +95,7 @@ void Executor::react(const planning::AvoidanceDecision& decision, const common::
   controller_.setSpeedLimit(decision.speed_limit_m_s);
   if (controller_.state() != FlightState::kFlying) return;
   const common::Pose2 T_map_body = state.T_map_body_planar();
-  const double yaw_map_rad = T_map_body.yaw_rad + decision.turn_rad;
+  if (!retreating_ || decision.turn_rad != 0.0) retreat_yaw_map_rad_ = T_map_body.yaw_rad + decision.turn_rad;
   if (decision.retreat_velocity_level_m_s && decision.retreat_velocity_level_m_s->norm() > 1e-3) {
     const Eigen::Vector2d velocity_map_m_s =
         Eigen::Rotation2Dd(T_map_body.yaw_rad) * *decision.retreat_velocity_level_m_s;
@@ -106,12 +106,13 @@ void Executor::react(const planning::AvoidanceDecision& decision, const common::
     const double length_m = speed_m_s * speed_m_s / (2.0 * config_.retreat_deceleration_m_s2);
     const Eigen::Vector2d to = T_map_body.position_m() + length_m / speed_m_s * velocity_map_m_s;
     const double z_m = cruise_height_m_;
-    (void)controller_.follow(
-        {{{T_map_body.x_m, T_map_body.y_m, z_m}, {to.x(), to.y(), z_m}}, control::FlightMode::kFast, yaw_map_rad});
+    (void)controller_.follow({{{T_map_body.x_m, T_map_body.y_m, z_m}, {to.x(), to.y(), z_m}},
+                              control::FlightMode::kFast,
+                              retreat_yaw_map_rad_});
     keeper_.clear();
     retreating_ = true;
   } else if (decision.status.retreating) {
-    controller_.hold(decision.turn_rad != 0.0 ? std::optional(yaw_map_rad) : std::nullopt);
+    controller_.hold(retreat_yaw_map_rad_);
     keeper_.clear();
     retreating_ = true;
   } else if (retreating_) {

@@ -130,6 +130,7 @@ class Executor {
   std::optional<common::Time> made_room_;  ///< When it last went aside.
   bool making_room_ = false;
   bool retreating_ = false;
+  double retreat_yaw_map_rad_ = 0.0;
   std::vector<common::Event> events_;
 };
 

@@ -81,7 +81,7 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   if (retreating_) {
     last_retreat_level_ = retreat(input, points, around);
     decision.retreat_velocity_level_m_s = last_retreat_level_;
-    decision.turn_rad = turnToSee(around);
+    decision.turn_rad = turnToSee(around, last_retreat_level_);
   }
 
   common::AvoidanceStatus& status = decision.status;
@@ -247,16 +247,31 @@ Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, cons
 }
 
 /// The laser does not see all around: who walks where it does not look is forgotten after a while, and comes back as a
-/// surprise.
-double Avoidance::turnToSee(const std::vector<Threat>& threats) const {
-  double nearest_m = kInfinity, bearing_rad = 0.0;
+/// surprise; and who flies backwards meets somebody else there.
+double Avoidance::turnToSee(const std::vector<Threat>& threats, const Point& retreat_level_m_s) const {
+  constexpr double kStep_rad = std::numbers::pi / 36.0, kDanger = 4.0, kWayOut = 2.0, kLeast_m_s = 0.1;
+  const Threat* nearest = nullptr;
   for (const Threat& threat : threats) {
-    if ((!threat.dangerous && threat.velocity_m_s.isZero()) || threat.center_m.norm() >= nearest_m) continue;
-    nearest_m = threat.center_m.norm();
-    bearing_rad = std::atan2(threat.center_m.y(), threat.center_m.x());
+    if (!threat.dangerous && threat.velocity_m_s.isZero()) continue;
+    if (nearest == nullptr || threat.center_m.norm() < nearest->center_m.norm()) nearest = &threat;
   }
+  if (nearest == nullptr) return 0.0;
   const double seen_rad = (0.5 * config_.field_of_view_deg - config_.view_margin_deg) * std::numbers::pi / 180.0;
-  return bearing_rad - std::clamp(bearing_rad, -seen_rad, seen_rad);
+  const auto outside_rad = [&](const Point& direction, double turn_rad) {
+    const double bearing_rad = common::wrapAngle(std::atan2(direction.y(), direction.x()) - turn_rad);
+    return std::max(0.0, std::abs(bearing_rad) - seen_rad);
+  };
+  double best_rad = 0.0, least_cost = kInfinity;
+  for (int i = 0; i <= 36; ++i) {
+    for (const double turn_rad : {i * kStep_rad, -i * kStep_rad}) {
+      double cost = std::abs(turn_rad) + kDanger * outside_rad(nearest->center_m, turn_rad);
+      if (retreat_level_m_s.norm() > kLeast_m_s) cost += kWayOut * outside_rad(retreat_level_m_s, turn_rad);
+      if (cost >= least_cost - 1e-9) continue;
+      least_cost = cost;
+      best_rad = turn_rad;
+    }
+  }
+  return best_rad;
 }
 
 }  // namespace swiftlet::planning

@@ -32,7 +32,7 @@ struct AvoidanceInput {
 struct AvoidanceDecision {
   double speed_limit_m_s = 0.0;                               ///< Along the wish, or the velocity when that is zero.
   std::optional<Eigen::Vector2d> retreat_velocity_level_m_s;  ///< When set it replaces what the intent wants.
-  double turn_rad = 0.0;  ///< While retreating: by so much it must turn to see what it retreats from.
+  double turn_rad = 0.0;  ///< While retreating: by so much it must turn to see what it retreats from, and where to.
   common::AvoidanceStatus status;
 };
 
@@ -74,7 +74,7 @@ class Avoidance {
     double retreat_speed_m_s = 0.8;
     double retreat_margin_m = 0.15;
     double look_ahead_m = 1.0;
-    double view_margin_deg = 45.0;
+    double view_margin_deg = 30.0;
     double release_factor = 1.3;
     double calm_s = 0.6;
     double self_radius_m = 0.10;
@@ -114,7 +114,7 @@ class Avoidance {
                        const std::vector<Threat>& threats) const;
   double freeLength(const Eigen::Vector2d& direction, const AvoidanceInput& input, const Points& points) const;
   Eigen::Vector2d retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const;
-  double turnToSee(const std::vector<Threat>& threats) const;
+  double turnToSee(const std::vector<Threat>& threats, const Eigen::Vector2d& retreat_level_m_s) const;
   bool isMapped(const AvoidanceInput& input, const Eigen::Vector2d& point_level_m) const;
 
   Config config_;

@@ -62,7 +62,7 @@ void Avoidance::Config::describe(common::config::Fields& fields) {
   fields("retreat_margin_m", retreat_margin_m, "Between hull and obstacle when a retreat has ended.");
   fields("look_ahead_m", look_ahead_m, "How far the way of a retreat is looked at.");
   fields("view_margin_deg", view_margin_deg,
-         "While retreating it turns until the danger is this far within the field of view.");
+         "While retreating it turns until the danger and the way out are this far within the field of view.");
   fields("release_factor", release_factor, "While retreating, distances and times are longer by this.");
   fields("calm_s", calm_s, "A retreat ends this long after the danger.");
   fields("self_radius_m", self_radius_m, "Returns nearer to the origin are the vehicle itself.");

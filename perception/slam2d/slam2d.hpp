@@ -41,7 +41,9 @@ struct GridDrawingConfig {
   double max_height_below_m = 0.25;  ///< nor what is deeper than this below it.
   double slice_height_m = 0.05;      ///< The map is kept in slices of this height.
   int fade_steps = 1;                ///< What a slice loses where another one is seen free,
-  double fade_height_m = 0.25;       ///< above or below by up to this.
+  double fade_height_m = 0.10;       ///< above or below by up to this,
+  double slow_fade_height_m = 0.25;  ///< or by up to this,
+  int slow_fade_scans = 4;           ///< then only with each so-many-th scan.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

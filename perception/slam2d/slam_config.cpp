@@ -17,6 +17,8 @@ void GridDrawingConfig::describe(common::config::Fields& fields) {
   fields("slice_height_m", slice_height_m, "The map is kept in horizontal slices of this height.");
   fields("fade_steps", fade_steps, "Log-odds steps a slice loses where one near is seen free.");
   fields("fade_height_m", fade_height_m, "How far above or below that one may be.");
+  fields("slow_fade_height_m", slow_fade_height_m, "How far above or below it may be to make it fade slowly.");
+  fields("slow_fade_scans", slow_fade_scans, "A slow fade is done once in so many scans.");
 }
 
 std::vector<std::string> GridDrawingConfig::validate() const {
@@ -32,6 +34,8 @@ std::vector<std::string> GridDrawingConfig::validate() const {
       .within("slice_height_m", slice_height_m, 0.01, 10)
       .within("fade_steps", fade_steps, 0, max_steps)
       .within("fade_height_m", fade_height_m, 0, 10)
+      .within("slow_fade_height_m", slow_fade_height_m, fade_height_m, 10)
+      .within("slow_fade_scans", slow_fade_scans, 1, 1000)
       .problems();
 }
 

@@ -68,6 +68,7 @@ SlicedMap SlicedMap::snapshot() {
 
 void SlicedMap::draw(const DrawnScan& scan, const common::Pose2& T_map_body) {
   if (highest_ < lowest_) (void)setFlightHeight(scan.body_height_m);
+  ++drawn_;
   split(scan, T_map_body);
   for (const auto& [slice, rays] : rays_)
     if (!rays.empty()) drawSlice(slice, rays);
@@ -192,7 +193,9 @@ void SlicedMap::apply(int slice) {
 void SlicedMap::fadeAround(int slice, CellIndex cell) {
   // What is not in the hull's way need not fade, and where nothing is in its way nothing is there to fade.
   if (!occupancy::isOccupied(combined_.at(cell))) return;
-  const int reach = static_cast<int>(config_.fade_height_m / config_.slice_height_m);
+  const bool slow = drawn_ % config_.slow_fade_scans == 0;
+  const double height_m = slow ? config_.slow_fade_height_m : config_.fade_height_m;
+  const int reach = static_cast<int>(std::lround(height_m / config_.slice_height_m));
   for (auto near = slices_.lower_bound(slice - reach); near != slices_.end() && near->first <= slice + reach; ++near) {
     const Cell old = near->second.at(cell);
     if (near->first == slice || !occupancy::isOccupied(old)) continue;

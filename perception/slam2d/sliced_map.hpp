@@ -69,6 +69,7 @@ class SlicedMap {
   double flight_height_m_ = 0.0;
   int lowest_ = 0;  ///< The slices that are combined.
   int highest_ = -1;
+  int drawn_ = 0;  ///< Scans.
   // Of the scan being drawn.
   std::map<int, std::vector<Ray>> rays_;
   common::CellRect rect_;

@@ -345,10 +345,15 @@ TEST(GridDrawing, LevelBeamsDoNotEraseWhatIsLower) {
   EXPECT_TRUE(common::occupancy::isFree(where()));
   map.draw(over(0.15, 1.0), {});  // A nod, one scan long.
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
-  for (int i = 0; i < 10; ++i) map.draw(over(0.0, 1.0), {});
+  // Long enough to be met again on the way there; a trace that never is goes in the end.
+  for (int i = 0; i < 50; ++i) map.draw(over(0.0, 1.0), {});
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
-  // A trace that is never met again goes in the end.
-  for (int i = 0; i < 60; ++i) map.draw(over(0.0, 1.0), {});
+  for (int i = 0; i < 50; ++i) map.draw(over(0.0, 1.0), {});
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+  // Just below the level beams it goes sooner: they dip there now and then.
+  map.draw(over(0.06, 1.0), {});
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  for (int i = 0; i < 25; ++i) map.draw(over(0.0, 1.0), {});
   EXPECT_TRUE(common::occupancy::isFree(where()));
 }
 
