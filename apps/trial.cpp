@@ -50,11 +50,10 @@ fs::path cacheFolder() {
 /// The world's files are with the software, or in an archive of the data sets that is unpacked once.
 void findWorld(TrialConfig& trial) {
   const fs::path root = common::findData("worlds").parent_path();
-  const fs::path unpacked =
-      trial.archive.empty()
-          ? root
-          : interfaces::unpackInto(cacheFolder(),
-                                   evaluation::findArchive(trial.archive, root / ".." / "shared" / "datasets"));
+  fs::path unpacked = root;
+  if (!trial.archive.empty())
+    unpacked =
+        interfaces::unpackInto(cacheFolder(), evaluation::findArchive(trial.archive, evaluation::dataSetsFolder(root)));
   trial.resolvePaths(unpacked, root);
 }
 

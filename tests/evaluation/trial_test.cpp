@@ -100,6 +100,7 @@ TEST_F(Trials, PathsAreInTheArchiveOrWithTheSoftware) {
 TEST_F(Trials, ArchivesAreFoundOrAskedFor) {
   put("papers/w.tar.xz", "");
   ::unsetenv("SWIFTLET_DATASETS");
+  EXPECT_EQ(dataSetsFolder("/software"), "/software/../shared/datasets");
   EXPECT_EQ(findArchive("papers/w.tar.xz", folder_), folder_ / "papers/w.tar.xz");
   try {
     findArchive("none.tar.xz", folder_);
@@ -108,7 +109,7 @@ TEST_F(Trials, ArchivesAreFoundOrAskedFor) {
     EXPECT_THAT(e.what(), HasSubstr("none.tar.xz: archive: there is no such file, set SWIFTLET_DATASETS"));
   }
   ::setenv("SWIFTLET_DATASETS", (folder_ / "papers").c_str(), 1);
-  EXPECT_EQ(findArchive("w.tar.xz", "/nowhere"), folder_ / "papers/w.tar.xz");
+  EXPECT_EQ(findArchive("w.tar.xz", dataSetsFolder("/nowhere")), folder_ / "papers/w.tar.xz");
   ::unsetenv("SWIFTLET_DATASETS");
 }
 
