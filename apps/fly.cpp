@@ -19,6 +19,7 @@
 #include "apps/stop_signals.hpp"
 #include "apps/web_link.hpp"
 #include "common/data_paths.hpp"
+#include "common/rounding.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -56,10 +57,11 @@ FlightSetup setupOf(const FlyOptions& options) {
 
 std::string progressLine(const FlightProgress& progress) {
   const common::World& world = *progress.world;
-  return fmt::format("{:6.1f} s  {:<24.24} {:6.1f} m2  {:6.1f} m  battery {:3.0f} %  {:5.1f} x real time",
-                     progress.simulated_s,
-                     world.mission.phase.empty() ? toString(world.status.flight_state) : world.mission.phase,
-                     world.explored_area_m2, world.status.distance_flown_m, 100.0 * world.status.battery_remaining,
+  const std::string explored =
+      world.explored_area_m2 > 0 ? fmt::format("{:6.1f} m2", world.explored_area_m2) : std::string(9, ' ');
+  return fmt::format("{:6.1f} s  {:<24.24} {}  {:6.1f} m  battery {:3.0f} %  {:5.1f} x real time", progress.simulated_s,
+                     world.mission.phase.empty() ? toString(world.status.flight_state) : world.mission.phase, explored,
+                     world.status.distance_flown_m, 100.0 * world.status.battery_remaining,
                      progress.wall_s > 0 ? progress.simulated_s / progress.wall_s : 0.0);
 }
 
@@ -112,22 +114,24 @@ class Terminal {
 
 void printEnd(const FlightResult& result, bool json) {
   const interfaces::FlightSummary& summary = result.summary;
+  const std::optional<double>& explored_m2 = summary.explored_area_m2;
   if (json) {
-    show(nlohmann::json{{"outcome", toString(summary.outcome)},
-                        {"reason", summary.reason},
-                        {"mission_time_s", summary.mission_time.seconds()},
-                        {"distance_m", summary.distance_m},
-                        {"explored_area_m2", summary.explored_area_m2},
-                        {"realtime_factor", summary.realtime_factor.value_or(0.0)},
-                        {"run", result.folder.string()},
-                        {"report", (result.folder / "report.html").string()}}
+    show(nlohmann::json{
+             {"outcome", toString(summary.outcome)},
+             {"reason", summary.reason},
+             {"mission_time_s", common::rounded(summary.mission_time.seconds())},
+             {"distance_m", common::rounded(summary.distance_m)},
+             {"explored_area_m2", explored_m2 ? nlohmann::json(common::rounded(*explored_m2)) : nlohmann::json()},
+             {"realtime_factor", common::rounded(summary.realtime_factor.value_or(0.0))},
+             {"run", result.folder.string()},
+             {"report", (result.folder / "report.html").string()}}
              .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
          "\n");
     return;
   }
-  show(fmt::format("\n{}{} after {:.1f} s and {:.1f} m, {:.1f} m2 explored, {:.1f} x real time\n",
-                   toString(summary.outcome), summary.reason.empty() ? "" : " (" + summary.reason + ")",
-                   summary.mission_time.seconds(), summary.distance_m, summary.explored_area_m2,
+  show(fmt::format("\n{}{} after {:.1f} s and {:.1f} m{}, {:.1f} x real time\n", toString(summary.outcome),
+                   summary.reason.empty() ? "" : " (" + summary.reason + ")", summary.mission_time.seconds(),
+                   summary.distance_m, explored_m2 ? fmt::format(", {:.1f} m2 explored", *explored_m2) : "",
                    summary.realtime_factor.value_or(0.0)));
   show(fmt::format("run     {}\nreport  {}\n", result.folder.string(), (result.folder / "report.html").string()));
 }
@@ -142,7 +146,11 @@ int fly(const FlyOptions& options) {
     const auto title = fmt::format("{} in {}", std::filesystem::path(options.mission).stem().string(),
                                    std::filesystem::path(options.world).stem().string());
     web = std::make_unique<WebLink>(options.listen, options.port, title, setup.system.vehicle.hull_diameter_m);
-    if (!options.json) show(fmt::format("page    {}\n\n", web->operatorUrl()));
+    const std::string page = fmt::format("page    {}\n\n", web->operatorUrl());
+    if (options.json)
+      fmt::print(stderr, "{}", page);  // The token is in it, and standard output is the outcome alone.
+    else
+      show(page);
   }
   Terminal terminal(options.json);
   FlightHooks hooks;
@@ -174,7 +182,8 @@ void addFly(CLI::App& program, Run& run) {
       ->check(numberWithin(0, kGreatestSeed));
   command->add_option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");
   command->add_flag("--headless", options->headless, "Without the page.");
-  command->add_option("--listen", options->listen, "Address the page listens on.")->capture_default_str();
+  command->add_option("--listen", options->listen, "Address the page listens on; 0.0.0.0: of every network.")
+      ->capture_default_str();
   command->add_option("--port", options->port, "Port of the page, 0 for any.")
       ->capture_default_str()
       ->check(numberWithin(0, 65535));

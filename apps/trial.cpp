@@ -149,7 +149,7 @@ interfaces::TrialReport reportOf(const TrialResults& results) {
   for (const TrialResult& trial : results.trials) {
     report.tables.push_back(flightTable(trial));
     for (const auto& flight : trial.flights)
-      report.pictures.push_back({fmt::format("{} seed {}", trial.name, flight.seed), flight.folder + "/map.png", "",
+      report.pictures.push_back({fmt::format("{} seed {}", trial.name, flight.seed), flight.folder + "/map.png",
                                  flight.folder + "/report.html", flight.passed()});
   }
   return report;

@@ -171,6 +171,18 @@ TEST(TrialResultsJson, HasTheFiguresOfAllFlights) {
   EXPECT_EQ(trial["flights"][4]["failures"][0], "collision: touched `box`");
 }
 
+TEST(TrialResultsJson, FiguresAreShortAndWhatWasNotExploredIsNull) {
+  TrialResults all = results();
+  FlightScore& first = all.trials[0].flights[0];
+  first.goal_error_m = 0.1 + 0.2;
+  first.speed_max_m_s = 2.0 / 3.0;
+  first.explored_area_m2 = 89.230000000000004;
+  const std::string text = toJson(all);
+  for (const char* part : {"\"goal_error_m\": 0.3,", "\"speed_max_m_s\": 0.6667,", "\"explored_area_m2\": 89.23,",
+                           "\"explored_area_m2\": null,"})
+    EXPECT_THAT(text, HasSubstr(part));
+}
+
 TEST(TrialResultsJson, WithoutFlightsAllIsNull) {
   const json trial = json::parse(toJson(TrialResults{{{"empty", "", "swiftlet", {}, {}}}}))["trials"][0];
   EXPECT_EQ(trial["runs"], 0);
