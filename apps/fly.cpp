@@ -1,10 +1,8 @@
 // swiftlet fly: one mission in the simulator, with the page.
 #include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <fmt/color.h>
 #include <fmt/core.h>
@@ -15,6 +13,7 @@
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/numbers.hpp"
+#include "apps/show.hpp"
 #include "apps/speed.hpp"
 #include "apps/stop_signals.hpp"
 #include "apps/web_link.hpp"
@@ -63,12 +62,6 @@ std::string progressLine(const FlightProgress& progress) {
                      world.mission.phase.empty() ? toString(world.status.flight_state) : world.mission.phase, explored,
                      world.status.distance_flown_m, 100.0 * world.status.battery_remaining,
                      progress.wall_s > 0 ? progress.simulated_s / progress.wall_s : 0.0);
-}
-
-/// Unlike fmt::print, goes on when nobody reads any more: `swiftlet fly ... | head -1` is flown to its end.
-void show(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  if (std::fflush(stdout) != 0 && errno == EPIPE) std::clearerr(stdout);
 }
 
 /// One line that is rewritten on a terminal; a line every few seconds elsewhere.
@@ -139,7 +132,7 @@ void printEnd(const FlightResult& result, bool json) {
 int fly(const FlyOptions& options) {
   const FlightSetup setup = setupOf(options);
   const std::atomic<bool>& stop = stopOnSignals();
-  std::signal(SIGPIPE, SIG_IGN);  // Nobody reads the terminal's lines any more: no reason to fall.
+  outliveReaders();
 
   std::unique_ptr<WebLink> web;
   if (!options.headless) {

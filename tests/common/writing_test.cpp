@@ -1,4 +1,5 @@
 // How figures and text go into files.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,14 +16,14 @@ namespace {
 TEST(Rounding, LeavesNoMoreDecimalsThanAsked) {
   EXPECT_EQ(fmt::format("{}", rounded(30.563146064540703)), "30.5631");
   EXPECT_EQ(fmt::format("{}", rounded(0.1 + 0.2, 3)), "0.3");
-  EXPECT_EQ(fmt::format("{}", rounded(-0.00001)), "0.0") << "no negative zero";
+  EXPECT_FALSE(std::signbit(rounded(-0.00001))) << "no negative zero";
   EXPECT_TRUE(rc::check([] {
     const double value = *rc::gen::inRange(-1'000'000'000, 1'000'000'000) * 1.234567e-4;
     const int decimals = *rc::gen::inRange(0, 6);
     const std::string text = fmt::format("{}", rounded(value, decimals));
     const std::size_t dot = text.find('.');
     RC_ASSERT(dot == std::string::npos || text.size() - dot - 1 <= static_cast<std::size_t>(std::max(1, decimals)));
-    RC_ASSERT(std::abs(rounded(value, decimals) - value) <= 0.5000001 * std::pow(10.0, -decimals));
+    RC_ASSERT(std::abs(rounded(value, decimals) - value) <= 0.5 * std::pow(10.0, -decimals) + 1e-9);
   }));
 }
 
