@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <thread>
 
@@ -14,6 +13,7 @@
 #include "apps/system.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "evaluation/trial.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -66,11 +66,14 @@ Finding diskFinding() {
 }
 
 Finding dataSetsFinding() {
-  const char* variable = std::getenv("SWIFTLET_DATASETS");
-  const std::filesystem::path folder = variable ? variable : "../shared/datasets";
-  const bool there = std::filesystem::is_directory(folder);
-  return {"data sets", true, there ? folder.string() : "none (only trials in worlds by others need them)",
-          "set SWIFTLET_DATASETS"};
+  std::string found = "none (only trials in worlds by others need them; SWIFTLET_DATASETS names their folder)";
+  try {
+    const auto folder = evaluation::dataSetsFolder(common::findData("worlds").parent_path());
+    if (std::filesystem::is_directory(folder)) found = folder.lexically_normal().string();
+  } catch (const common::InputError&) {
+    // That there are no worlds is a finding of its own.
+  }
+  return {"data sets", true, found, ""};
 }
 
 int doctor(bool json) {

@@ -52,7 +52,8 @@ struct FlightResult {
   std::optional<std::string> write_failure;
 };
 
-/// Throws common::InputError for a mission, world or folder that cannot be used, before anything moves.
+/// Flies it to its end. Throws common::InputError for a mission, world or folder that cannot be used, before anything
+/// moves. Flights may run in several threads at once, each with a folder of its own.
 FlightResult flySimulated(const FlightSetup& setup, const FlightHooks& hooks);
 
 /// "2026-11-21_14-03-55", local time.

@@ -1,10 +1,8 @@
 // swiftlet fly: one mission in the simulator, with the page.
 #include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <fmt/color.h>
 #include <fmt/core.h>
@@ -15,10 +13,12 @@
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/numbers.hpp"
+#include "apps/show.hpp"
 #include "apps/speed.hpp"
 #include "apps/stop_signals.hpp"
 #include "apps/web_link.hpp"
 #include "common/data_paths.hpp"
+#include "common/rounding.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -56,17 +56,12 @@ FlightSetup setupOf(const FlyOptions& options) {
 
 std::string progressLine(const FlightProgress& progress) {
   const common::World& world = *progress.world;
-  return fmt::format("{:6.1f} s  {:<24.24} {:6.1f} m2  {:6.1f} m  battery {:3.0f} %  {:5.1f} x real time",
-                     progress.simulated_s,
-                     world.mission.phase.empty() ? toString(world.status.flight_state) : world.mission.phase,
-                     world.explored_area_m2, world.status.distance_flown_m, 100.0 * world.status.battery_remaining,
+  const std::string explored =
+      world.explored_area_m2 > 0 ? fmt::format("{:6.1f} m2", world.explored_area_m2) : std::string(9, ' ');
+  return fmt::format("{:6.1f} s  {:<24.24} {}  {:6.1f} m  battery {:3.0f} %  {:5.1f} x real time", progress.simulated_s,
+                     world.mission.phase.empty() ? toString(world.status.flight_state) : world.mission.phase, explored,
+                     world.status.distance_flown_m, 100.0 * world.status.battery_remaining,
                      progress.wall_s > 0 ? progress.simulated_s / progress.wall_s : 0.0);
-}
-
-/// Unlike fmt::print, goes on when nobody reads any more: `swiftlet fly ... | head -1` is flown to its end.
-void show(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  if (std::fflush(stdout) != 0 && errno == EPIPE) std::clearerr(stdout);
 }
 
 /// One line that is rewritten on a terminal; a line every few seconds elsewhere.
@@ -112,22 +107,24 @@ class Terminal {
 
 void printEnd(const FlightResult& result, bool json) {
   const interfaces::FlightSummary& summary = result.summary;
+  const std::optional<double>& explored_m2 = summary.explored_area_m2;
   if (json) {
-    show(nlohmann::json{{"outcome", toString(summary.outcome)},
-                        {"reason", summary.reason},
-                        {"mission_time_s", summary.mission_time.seconds()},
-                        {"distance_m", summary.distance_m},
-                        {"explored_area_m2", summary.explored_area_m2},
-                        {"realtime_factor", summary.realtime_factor.value_or(0.0)},
-                        {"run", result.folder.string()},
-                        {"report", (result.folder / "report.html").string()}}
+    show(nlohmann::json{
+             {"outcome", toString(summary.outcome)},
+             {"reason", summary.reason},
+             {"mission_time_s", common::rounded(summary.mission_time.seconds())},
+             {"distance_m", common::rounded(summary.distance_m)},
+             {"explored_area_m2", explored_m2 ? nlohmann::json(common::rounded(*explored_m2)) : nlohmann::json()},
+             {"realtime_factor", common::rounded(summary.realtime_factor.value_or(0.0))},
+             {"run", result.folder.string()},
+             {"report", (result.folder / "report.html").string()}}
              .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
          "\n");
     return;
   }
-  show(fmt::format("\n{}{} after {:.1f} s and {:.1f} m, {:.1f} m2 explored, {:.1f} x real time\n",
-                   toString(summary.outcome), summary.reason.empty() ? "" : " (" + summary.reason + ")",
-                   summary.mission_time.seconds(), summary.distance_m, summary.explored_area_m2,
+  show(fmt::format("\n{}{} after {:.1f} s and {:.1f} m{}, {:.1f} x real time\n", toString(summary.outcome),
+                   summary.reason.empty() ? "" : " (" + summary.reason + ")", summary.mission_time.seconds(),
+                   summary.distance_m, explored_m2 ? fmt::format(", {:.1f} m2 explored", *explored_m2) : "",
                    summary.realtime_factor.value_or(0.0)));
   show(fmt::format("run     {}\nreport  {}\n", result.folder.string(), (result.folder / "report.html").string()));
 }
@@ -135,14 +132,18 @@ void printEnd(const FlightResult& result, bool json) {
 int fly(const FlyOptions& options) {
   const FlightSetup setup = setupOf(options);
   const std::atomic<bool>& stop = stopOnSignals();
-  std::signal(SIGPIPE, SIG_IGN);  // Nobody reads the terminal's lines any more: no reason to fall.
+  outliveReaders();
 
   std::unique_ptr<WebLink> web;
   if (!options.headless) {
     const auto title = fmt::format("{} in {}", std::filesystem::path(options.mission).stem().string(),
                                    std::filesystem::path(options.world).stem().string());
     web = std::make_unique<WebLink>(options.listen, options.port, title, setup.system.vehicle.hull_diameter_m);
-    if (!options.json) show(fmt::format("page    {}\n\n", web->operatorUrl()));
+    const std::string page = fmt::format("page    {}\n\n", web->operatorUrl());
+    if (options.json)
+      fmt::print(stderr, "{}", page);  // The token is in it, and standard output is the outcome alone.
+    else
+      show(page);
   }
   Terminal terminal(options.json);
   FlightHooks hooks;
@@ -174,7 +175,8 @@ void addFly(CLI::App& program, Run& run) {
       ->check(numberWithin(0, kGreatestSeed));
   command->add_option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");
   command->add_flag("--headless", options->headless, "Without the page.");
-  command->add_option("--listen", options->listen, "Address the page listens on.")->capture_default_str();
+  command->add_option("--listen", options->listen, "Address the page listens on; 0.0.0.0: of every network.")
+      ->capture_default_str();
   command->add_option("--port", options->port, "Port of the page, 0 for any.")
       ->capture_default_str()
       ->check(numberWithin(0, 65535));

@@ -1,6 +1,8 @@
 #include "apps/pictures.hpp"
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "rendering/encode.hpp"
 #include "rendering/map_renderer.hpp"
@@ -27,24 +29,24 @@ std::vector<rendering::Span> spansOf(const std::vector<interfaces::Phase>& phase
   return spans;
 }
 
-interfaces::ReportPlot plotOf(const std::string& title, const std::string& y_label,
-                              std::vector<rendering::Series> series, std::vector<rendering::Span> spans) {
+std::string plotOf(const std::string& title, const std::string& y_label, std::vector<rendering::Series> series,
+                   std::vector<rendering::Span> spans) {
   rendering::Plot plot;
   plot.title = title;
   plot.x_label = "time (s)";
   plot.y_label = y_label;
   plot.series = std::move(series);
   plot.spans = std::move(spans);
-  return {"", rendering::plotSvg(plot)};
+  return rendering::plotSvg(plot);
 }
 
 /// Zero is what stands there before the first measurement; the curve begins with that.
 double measured(double value) { return value > 0.0 ? value : std::numeric_limits<double>::quiet_NaN(); }
 
-std::vector<interfaces::ReportPlot> plotsOf(const interfaces::FlightSummary& summary) {
+std::vector<std::string> plotsOf(const interfaces::FlightSummary& summary) {
   const auto& samples = summary.samples;
   const auto spans = spansOf(summary.phases);
-  return {
+  std::vector<std::string> plots{
       plotOf("Height", "m",
              {seriesOf("over the take-off floor", samples, [](const FlightSample& s) { return s.position_map_m.z(); }),
               seriesOf("over what is below", samples, [](const FlightSample& s) { return s.height_above_ground_m; })},
@@ -53,11 +55,14 @@ std::vector<interfaces::ReportPlot> plotsOf(const interfaces::FlightSummary& sum
              spans),
       plotOf("Nearest return", "m from the hull",
              {seriesOf("nearest", samples, [](const FlightSample& s) { return measured(s.nearest_m); })}, spans),
-      plotOf("Explored", "m²",
-             {seriesOf("free area known", samples, [](const FlightSample& s) { return s.explored_area_m2; })}, spans),
       plotOf("Battery", "V",
              {seriesOf("voltage", samples, [](const FlightSample& s) { return measured(s.battery_v); })}, spans),
   };
+  if (summary.explored_area_m2)
+    plots.push_back(plotOf(
+        "Explored", "m²",
+        {seriesOf("free area known", samples, [](const FlightSample& s) { return s.explored_area_m2; })}, spans));
+  return plots;
 }
 
 std::vector<Eigen::Vector2d> planarPoints(const common::Trajectory& trajectory) {
@@ -84,7 +89,7 @@ interfaces::ReportPictures reportPictures(const common::World& world, const inte
   interfaces::ReportPictures pictures;
   pictures.map_png.assign(png.begin(), png.end());
   pictures.map_svg = rendering::mapSvg(world, lines, marks);
-  pictures.plots = plotsOf(summary);
+  pictures.plots_svg = plotsOf(summary);
   return pictures;
 }
 

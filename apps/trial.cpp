@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include <fmt/core.h>
@@ -13,6 +14,7 @@
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/numbers.hpp"
+#include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
 #include "common/data_paths.hpp"
 #include "common/table.hpp"
@@ -50,12 +52,12 @@ fs::path cacheFolder() {
 /// The world's files are with the software, or in an archive of the data sets that is unpacked once.
 void findWorld(TrialConfig& trial) {
   const fs::path root = common::findData("worlds").parent_path();
-  const fs::path unpacked =
-      trial.archive.empty()
-          ? root
-          : interfaces::unpackInto(cacheFolder(),
-                                   evaluation::findArchive(trial.archive, root / ".." / "shared" / "datasets"));
+  fs::path unpacked = root;
+  if (!trial.archive.empty())
+    unpacked =
+        interfaces::unpackInto(cacheFolder(), evaluation::findArchive(trial.archive, evaluation::dataSetsFolder(root)));
   trial.resolvePaths(unpacked, root);
+  trial.scenario.world = common::findData(trial.scenario.world).string();
 }
 
 FlightSetup setupOf(const TrialConfig& trial, int seed, const fs::path& out) {
@@ -120,8 +122,7 @@ TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const 
       try {
         auto score = flyOne(trial, options.seed + i, out, stop);
         const std::scoped_lock lock(mutex);
-        if (!options.json) fmt::print("{}\n", flightLine(trial, score));
-        std::fflush(stdout);
+        if (!options.json) show(flightLine(trial, score) + "\n");
         scores[static_cast<std::size_t>(i)] = std::move(score);
       } catch (...) {
         const std::scoped_lock lock(mutex);
@@ -150,7 +151,7 @@ interfaces::TrialReport reportOf(const TrialResults& results) {
   for (const TrialResult& trial : results.trials) {
     report.tables.push_back(flightTable(trial));
     for (const auto& flight : trial.flights)
-      report.pictures.push_back({fmt::format("{} seed {}", trial.name, flight.seed), flight.folder + "/map.png", "",
+      report.pictures.push_back({fmt::format("{} seed {}", trial.name, flight.seed), flight.folder + "/map.png",
                                  flight.folder + "/report.html", flight.passed()});
   }
   return report;
@@ -190,6 +191,7 @@ fs::path madeFolder(const TrialOptions& options) {
 
 int trial(const TrialOptions& options) {
   const std::atomic<bool>& stop = stopOnSignals();
+  outliveReaders();
   const std::vector<TrialConfig> trials = preparedTrials(options);
   const fs::path out = madeFolder(options);
   TrialResults results;
@@ -199,12 +201,12 @@ int trial(const TrialOptions& options) {
     writeResults(results, out);
   }
   if (options.json) {
-    fmt::print("{}\n", toJson(results));
+    show(toJson(results));
   } else {
-    fmt::print("\n{}\n", toText(summaryTable(results)));
+    show(fmt::format("\n{}\n", toText(summaryTable(results))));
     for (const TrialResult& trial : results.trials)
-      for (const std::string& failure : trial.missed()) fmt::print("{}, all flights: {}\n", trial.name, failure);
-    fmt::print("results {}\nreport  {}\n", (out / "results.json").string(), (out / "report.html").string());
+      for (const std::string& failure : trial.missed()) show(fmt::format("{}, all flights: {}\n", trial.name, failure));
+    show(fmt::format("results {}\nreport  {}\n", (out / "results.json").string(), (out / "report.html").string()));
   }
   return results.passed() && !stop ? kDone : kFailed;
 }

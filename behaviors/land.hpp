@@ -1,4 +1,4 @@
-// Land: SUCCESS when the vehicle stands on the floor with its motors off.
+// Land: SUCCESS when the vehicle stands on the floor.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"

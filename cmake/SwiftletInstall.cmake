@@ -6,24 +6,18 @@ include(CMakePackageConfigHelpers)
 # How a consumer finds each library from outside that ours link: a target, and the arguments of find_package, or
 # "pkg-config PREFIX MODULE" for what only pkg-config knows.
 set(SWIFTLET_FOUND_BY
-  "Boost::boost|Boost"
   "Boost::headers|Boost"
-  "CLI11::CLI11|CLI11"
   "Ceres::ceres|Ceres"
   "EXPAT::EXPAT|EXPAT"
   "Eigen3::Eigen|Eigen3 NO_MODULE"
-  "JPEG::JPEG|JPEG"
   "LibArchive::LibArchive|LibArchive"
   "PNG::PNG|PNG"
   "Threads::Threads|Threads"
-  "ZLIB::ZLIB|ZLIB"
   "assimp::assimp|assimp"
   "embree|embree 3"
   "fmt::fmt|fmt"
   "nlohmann_json::nlohmann_json|nlohmann_json"
   "sdformat12::sdformat12|sdformat12"
-  "spdlog::spdlog|spdlog"
-  "tl::expected|tl-expected"
   "yaml-cpp|yaml-cpp"
   "PkgConfig::TURBOJPEG|pkg-config TURBOJPEG libturbojpeg")
 

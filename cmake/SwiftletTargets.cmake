@@ -1,4 +1,4 @@
-# swiftlet_library(NAME [FOLDER dir] DEPENDS targets... [PRIVATE targets...] [EXCLUDE regex])
+# swiftlet_library(NAME [DEPENDS targets...] [PRIVATE targets...] [EXCLUDE regex])
 #   A static library of every .cpp below its folder: target swiftlet_NAME, alias swiftlet::NAME. DEPENDS are public (they
 #   stand in headers), PRIVATE stay in the sources. Libraries from outside are included as system headers.
 function(swiftlet_library name)
@@ -17,7 +17,7 @@ function(swiftlet_library name)
   set_property(GLOBAL APPEND PROPERTY SWIFTLET_LIBRARIES swiftlet_${name})
 endfunction()
 
-# swiftlet_tests(NAME [DEPENDS targets...] [LABELS labels...])
+# swiftlet_tests(NAME [DEPENDS targets...] [LABELS labels...] [TIMEOUT seconds])
 #   One GoogleTest program test_NAME of every *_test.cpp in tests/NAME; each test of it is a ctest test.
 function(swiftlet_tests name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "DEPENDS;LABELS" ${ARGN})

@@ -20,7 +20,14 @@ void MountConfig::describe(config::Fields& fields) {
 }
 
 std::vector<std::string> MountConfig::validate() const {
-  return Validation().within("x_m", x_m, -2, 2).within("y_m", y_m, -2, 2).within("z_m", z_m, -2, 2).problems();
+  return Validation()
+      .within("x_m", x_m, -2, 2)
+      .within("y_m", y_m, -2, 2)
+      .within("z_m", z_m, -2, 2)
+      .within("roll_deg", roll_deg, -360, 360)
+      .within("pitch_deg", pitch_deg, -360, 360)
+      .within("yaw_deg", yaw_deg, -360, 360)
+      .problems();
 }
 
 Pose3 MountConfig::pose() const {

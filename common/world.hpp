@@ -88,7 +88,7 @@ struct World {
   std::shared_ptr<const std::vector<Eigen::Vector2d>> trail_map_m;  ///< Never null; where it has been, thinned.
   std::optional<Eigen::Vector2d> goal_map_m;
   Pose2 home_map;
-  double explored_area_m2 = 0.0;
+  double explored_area_m2 = 0.0;  ///< Of known free cells, when Explore looked last; 0: it never did.
   IntentStatus intent;
   MissionStatus mission;
   std::shared_ptr<const LaserPoints> laser;  ///< May be null: the last projected scan.

@@ -70,7 +70,6 @@ void FlightRecorder::compare(const common::VehicleState& estimate, const Pose3& 
       std::abs(common::wrapAngle(common::yawOf(T_map_body.rotation) - common::yawOf(T_map_truth.rotation))));
   if (next_trajectory_ && estimate.stamp < *next_trajectory_) return;
   next_trajectory_ = estimate.stamp + kTrajectoryPeriod;
-  record_.estimate_map.push_back({estimate.stamp, T_map_body});
   record_.truth_map.push_back({estimate.stamp, T_map_truth});
 }
 

@@ -41,15 +41,14 @@ struct FlightRecord {
   double cruise_height_world_m = 0.0;  ///< Median height of the body while airborne.
   common::MissionState mission = common::MissionState::kReady;
   std::string mission_reason;
-  double mission_time_s = 0.0;  ///< From the first tick of the mission to its end, or to the end of the flight.
-  double flight_time_s = 0.0;   ///< Simulated, from the first tick to the last.
-  double explored_area_m2 = 0.0;
-  int interruptions = 0;  ///< How often something the mission was doing was suspended.
-  int resumed = 0;        ///< How many of those went on later.
+  double mission_time_s = 0.0;    ///< From the first tick of the mission to its end, or to the end of the flight.
+  double flight_time_s = 0.0;     ///< Simulated, from the first tick to the last.
+  double explored_area_m2 = 0.0;  ///< 0: nothing was explored.
+  int interruptions = 0;          ///< How often something the mission was doing was suspended.
+  int resumed = 0;                ///< How many of those went on later.
   simulation::Truth last_truth;
   std::shared_ptr<const common::OccupancyGrid> map;  ///< The last one; null when there was none.
   common::Trajectory truth_map;                      ///< In the `map` frame, 20 Hz while airborne, for pictures.
-  common::Trajectory estimate_map;                   ///< At the same times.
 };
 
 /// Fed by the loop that flies; cheap enough for every tick. Calls come in the order of time.

@@ -63,7 +63,6 @@ void scoreMap(const FlightRecord& record, const TrueWorld& world, FlightScore& s
   query.bottom_m = cruise_m - half_height_m;
   query.top_m = cruise_m + half_height_m;
   query.resolution_m = record.map->resolution_m();
-  query.range_max_m = world.laser.range_max_m;
   query.max_area_m2 = world.reachable_area_max_m2;
   if (isOpen(*world.rays, query)) {
     score.coverage_problem = fmt::format("the world is not closed: the hull gets from the start to more than {:g} m2",
@@ -135,7 +134,7 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   score.flight_time_s = record.flight_time_s;
   score.distance_m = record.true_distance_m;
   score.speed_max_m_s = record.true_speed_max_m_s;
-  score.explored_area_m2 = record.explored_area_m2;
+  if (record.explored_area_m2 > 0) score.explored_area_m2 = record.explored_area_m2;
   score.interruptions = record.interruptions;
   score.resumed = record.resumed;
   if (wall_time_s > 0) score.realtime_factor = record.flight_time_s / wall_time_s;

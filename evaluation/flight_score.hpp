@@ -65,11 +65,11 @@ struct FlightScore {
   double min_walker_clearance_m = 0.0;
 
   double mission_time_s = 0.0;
-  double flight_time_s = 0.0;  ///< Simulated.
-  double distance_m = 0.0;     ///< True.
-  double speed_max_m_s = 0.0;  ///< True, horizontal.
-  double explored_area_m2 = 0.0;
-  double reachable_area_m2 = 0.0;  ///< What `coverage` is a share of.
+  double flight_time_s = 0.0;              ///< Simulated.
+  double distance_m = 0.0;                 ///< True.
+  double speed_max_m_s = 0.0;              ///< True, horizontal.
+  std::optional<double> explored_area_m2;  ///< None: the mission did not explore.
+  double reachable_area_m2 = 0.0;          ///< What `coverage` is a share of.
   int interruptions = 0;
   int resumed = 0;
   double realtime_factor = 0.0;

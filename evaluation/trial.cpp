@@ -100,10 +100,13 @@ std::vector<TrialConfig> readTrials(const fs::path& file_or_folder) {
   return trials;
 }
 
-fs::path findArchive(const std::string& archive, const fs::path& default_folder) {
+fs::path dataSetsFolder(const fs::path& root) {
   const char* variable = std::getenv("SWIFTLET_DATASETS");
-  const fs::path folder = variable != nullptr && *variable != '\0' ? fs::path(variable) : default_folder;
-  fs::path file = folder / archive;
+  return variable != nullptr && *variable != '\0' ? fs::path(variable) : root / "../shared/datasets";
+}
+
+fs::path findArchive(const std::string& archive, const fs::path& data_sets) {
+  fs::path file = data_sets / archive;
   if (fs::is_regular_file(file)) return file;
   throw InputError(Problem{{file.string()},
                            "archive",

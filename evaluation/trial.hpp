@@ -52,8 +52,11 @@ TrialConfig readTrial(const std::filesystem::path& file);
 /// the problems of all files.
 std::vector<TrialConfig> readTrials(const std::filesystem::path& file_or_folder);
 
-/// Where an archive is: below the folder of the environment's SWIFTLET_DATASETS if it is set, below `default_folder`
-/// otherwise. Throws common::InputError that says how to get it.
-std::filesystem::path findArchive(const std::string& archive, const std::filesystem::path& default_folder);
+/// The folder of data sets: the environment's SWIFTLET_DATASETS if it is set, ../shared/datasets beside `root`, where
+/// the software is, otherwise. It need not exist.
+std::filesystem::path dataSetsFolder(const std::filesystem::path& root);
+
+/// An archive below the folder of data sets. Throws common::InputError that says how to get it.
+std::filesystem::path findArchive(const std::string& archive, const std::filesystem::path& data_sets);
 
 }  // namespace swiftlet::evaluation

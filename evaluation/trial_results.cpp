@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/rounding.hpp"
 #include "evaluation/judge.hpp"
 #include "evaluation/statistics.hpp"
 
@@ -37,7 +38,7 @@ std::optional<double> atQuantile(const std::vector<FlightScore>& flights, Member
 constexpr double kMin = 0.0, kMedian = 0.5, kMax = 1.0;
 
 ordered_json orNull(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
+  return value && std::isfinite(*value) ? ordered_json(common::rounded(*value)) : ordered_json(nullptr);
 }
 
 ordered_json flightJson(const FlightScore& flight) {
@@ -54,22 +55,22 @@ ordered_json flightJson(const FlightScore& flight) {
           {"coverage_problem", flight.coverage_problem},
           {"goal_error_m", orNull(flight.goal_error_m)},
           {"home_error_m", orNull(flight.home_error_m)},
-          {"mission_time_s", flight.mission_time_s},
-          {"flight_time_s", flight.flight_time_s},
-          {"distance_m", flight.distance_m},
-          {"speed_max_m_s", flight.speed_max_m_s},
-          {"explored_area_m2", flight.explored_area_m2},
-          {"reachable_area_m2", flight.reachable_area_m2},
+          {"mission_time_s", orNull(flight.mission_time_s)},
+          {"flight_time_s", orNull(flight.flight_time_s)},
+          {"distance_m", orNull(flight.distance_m)},
+          {"speed_max_m_s", orNull(flight.speed_max_m_s)},
+          {"explored_area_m2", orNull(flight.explored_area_m2)},
+          {"reachable_area_m2", orNull(flight.reachable_area_m2)},
           {"estimate_rms_m", orNull(flight.estimate_rms_m)},
           {"estimate_spatial_rms_m", orNull(flight.estimate_spatial_rms_m)},
           {"estimate_yaw_rms_rad", orNull(flight.estimate_yaw_rms_rad)},
           {"map_wall_error_median_m", orNull(flight.map_wall_error_median_m)},
           {"map_wall_error_p95_m", orNull(flight.map_wall_error_p95_m)},
-          {"min_clearance_m", flight.min_clearance_m},
-          {"min_walker_clearance_m", flight.min_walker_clearance_m},
+          {"min_clearance_m", orNull(flight.min_clearance_m)},
+          {"min_walker_clearance_m", orNull(flight.min_walker_clearance_m)},
           {"interruptions", flight.interruptions},
           {"resumed", flight.resumed},
-          {"realtime_factor", flight.realtime_factor}};
+          {"realtime_factor", orNull(flight.realtime_factor)}};
 }
 
 ordered_json trialJson(const TrialResult& trial) {

@@ -45,7 +45,7 @@ struct TrialResults {
   bool passed() const;
 };
 
-/// results.json; what could not be measured is null.
+/// results.json; figures have at most four decimals, what could not be measured is null.
 std::string toJson(const TrialResults& results);
 
 /// One row a trial; under it one with what was asked for and one with the paper's figures, where there are some.

@@ -5,25 +5,29 @@
 #include <nlohmann/json.hpp>
 
 #include "common/check.hpp"
+#include "common/rounding.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
+using common::rounded;
 using nlohmann::ordered_json;
 
-ordered_json orNull(const std::optional<double>& value) { return value ? ordered_json(*value) : ordered_json(nullptr); }
+ordered_json orNull(const std::optional<double>& value) {
+  return value ? ordered_json(rounded(*value)) : ordered_json(nullptr);
+}
 
 ordered_json phaseJson(const Phase& phase) {
   return {{"name", phase.name},
-          {"begin_s", phase.begin.seconds()},
-          {"end_s", phase.end.seconds()},
-          {"duration_s", (phase.end - phase.begin).seconds()}};
+          {"begin_s", rounded(phase.begin.seconds())},
+          {"end_s", rounded(phase.end.seconds())},
+          {"duration_s", rounded((phase.end - phase.begin).seconds())}};
 }
 
 ordered_json frontierJson(const common::Frontier& frontier) {
-  return {{"x_m", frontier.centroid_map_m.x()},  {"y_m", frontier.centroid_map_m.y()},
-          {"length_m", frontier.length_m},       {"reason", common::toString(frontier.reason)},
-          {"explanation", frontier.explanation}, {"attempts", frontier.attempts}};
+  return {{"x_m", rounded(frontier.centroid_map_m.x())}, {"y_m", rounded(frontier.centroid_map_m.y())},
+          {"length_m", rounded(frontier.length_m)},      {"reason", common::toString(frontier.reason)},
+          {"explanation", frontier.explanation},         {"attempts", frontier.attempts}};
 }
 
 }  // namespace
@@ -48,7 +52,7 @@ std::string toJson(const FlightSummary& summary) {
   ordered_json phases = ordered_json::array(), frontiers = ordered_json::array(), figures = ordered_json::object();
   for (const Phase& phase : summary.phases) phases.push_back(phaseJson(phase));
   for (const common::Frontier& frontier : summary.frontiers) frontiers.push_back(frontierJson(frontier));
-  for (const Figure& figure : summary.figures) figures[figure.name] = figure.value;
+  for (const Figure& figure : summary.figures) figures[figure.name] = rounded(figure.value);
   const ordered_json json = {
       {"format", "swiftlet mission 1"},
       {"mission", summary.info.mission},
@@ -59,11 +63,11 @@ std::string toJson(const FlightSummary& summary) {
       {"version", summary.info.version},
       {"outcome", toString(summary.outcome)},
       {"reason", summary.reason},
-      {"mission_time_s", summary.mission_time.seconds()},
-      {"distance_m", summary.distance_m},
-      {"explored_area_m2", summary.explored_area_m2},
+      {"mission_time_s", rounded(summary.mission_time.seconds())},
+      {"distance_m", rounded(summary.distance_m)},
+      {"explored_area_m2", orNull(summary.explored_area_m2)},
       {"coverage", orNull(summary.coverage)},
-      {"battery_remaining", summary.battery_remaining},
+      {"battery_remaining", rounded(summary.battery_remaining)},
       {"phases", phases},
       {"frontiers", frontiers},
       {"figures", figures},

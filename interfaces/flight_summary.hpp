@@ -51,7 +51,7 @@ struct FlightSample {
   double speed_m_s = 0.0;  ///< Horizontal.
   double height_above_ground_m = 0.0;
   double battery_v = 0.0;
-  double explored_area_m2 = 0.0;
+  double explored_area_m2 = 0.0;      ///< 0 until the first Explore.
   double nearest_m = 0.0;             ///< From the hull to the nearest return; may be infinite.
   double position_deviation_m = 0.0;  ///< Horizontal standard deviation, as the filter believes.
 };
@@ -60,20 +60,20 @@ struct FlightSummary {
   RunInfo info;
   Outcome outcome = Outcome::kFlying;
   std::string reason;
-  common::Duration mission_time;  ///< From the first tick of the mission to its end.
-  double distance_m = 0.0;        ///< By the estimate.
-  double explored_area_m2 = 0.0;
+  common::Duration mission_time;           ///< From the first tick of the mission to its end.
+  double distance_m = 0.0;                 ///< By the estimate.
+  std::optional<double> explored_area_m2;  ///< None: the mission did not explore.
   double battery_remaining = 1.0;
   std::optional<double> coverage;  ///< Of the reachable free space, where the truth is known; in [0, 1].
   std::vector<Phase> phases;
   std::vector<common::Frontier> frontiers;  ///< Those that remained, each with its reason.
   std::vector<Figure> figures;
   std::vector<FlightSample> samples;
-  std::optional<double> wall_time_s;  ///< How long the machine took.
-  std::optional<double> realtime_factor;
+  std::optional<double> wall_time_s;      ///< How long the machine took.
+  std::optional<double> realtime_factor;  ///< mission_time over wall_time_s.
 };
 
-/// mission.json, indented. Figures that are not finite are null.
+/// mission.json, indented. Figures have at most four decimals; those that are not finite, or not known, are null.
 std::string toJson(const FlightSummary& summary);
 
 }  // namespace swiftlet::interfaces

@@ -25,9 +25,8 @@ using common::Problem;
 using common::Time;
 
 /// Every file a run may leave; only these are ever removed.
-constexpr std::array<const char*, 11> kFiles = {"mission.json", "events.jsonl", "trajectory.tum", "map.pgm",
-                                                "map.yaml",     "map.png",      "report.html",    "config.yaml",
-                                                "map.bt",       "cloud.ply",    "log.mcap"};
+constexpr std::array<const char*, 8> kFiles = {"mission.json", "events.jsonl", "trajectory.tum", "map.pgm",
+                                               "map.yaml",     "map.png",      "report.html",    "config.yaml"};
 
 bool isRunFile(const std::string& name) {
   // A `.part` is what a killed process left of a file of ours.
@@ -165,7 +164,7 @@ struct RunFolder::Impl {
 /// The summary follows the flight: its figures, and the phases by the mission's own words for them.
 void RunFolder::Impl::track(const common::World& world) {
   summary.distance_m = world.status.distance_flown_m;
-  summary.explored_area_m2 = world.explored_area_m2;
+  if (world.explored_area_m2 > 0) summary.explored_area_m2 = world.explored_area_m2;
   summary.battery_remaining = world.status.battery_remaining;
   if (world.frontiers) summary.frontiers = *world.frontiers;
   grid = world.grid;

@@ -195,8 +195,7 @@ void Canvas::polygon(std::span<const Point> corners, Color color) {
 
 void Canvas::text(std::string_view text, const Point& baseline, double height_px, Color color, Align align,
                   Color halo) {
-  const double width_px = textWidth(text) * height_px;
-  const double shift = align == Align::kLeft ? 0.0 : align == Align::kCenter ? 0.5 * width_px : width_px;
+  const double shift = align == Align::kCenter ? 0.5 * textWidth(text) * height_px : 0.0;
   const Point origin(baseline.x() - shift, baseline.y());
   const auto strokes = textStrokes(text);
   const double radius_px = std::max(0.45, 0.065 * height_px);

@@ -15,7 +15,7 @@
 
 namespace swiftlet::rendering {
 
-enum class Align { kLeft, kCenter, kRight };
+enum class Align { kLeft, kCenter };
 
 class Canvas {
  public:
@@ -36,7 +36,7 @@ class Canvas {
   void ring(const Point& center, double radius_px, double width_px, Color color);
   /// Even-odd rule.
   void polygon(std::span<const Point> corners, Color color);
-  /// `baseline` is where the text starts, is centred or ends. `halo` is painted around it first if it is visible.
+  /// `baseline` is where the text starts or is centred. `halo` is painted around it first if it is visible.
   void text(std::string_view text, const Point& baseline, double height_px, Color color, Align align = Align::kLeft,
             Color halo = {0, 0, 0, 0});
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 namespace swiftlet::rendering {
 
@@ -29,8 +28,5 @@ constexpr Color mix(Color a, Color b, int weight) {
   };
   return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue), a.alpha};
 }
-
-/// "#rrggbb", for SVG and CSS.
-std::string toHex(Color color);
 
 }  // namespace swiftlet::rendering

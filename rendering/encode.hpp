@@ -31,9 +31,6 @@ class JpegEncoder {
 
 Bytes encodePng(const common::Image& image);
 
-/// An 8-bit grey picture, row by row from the top left; `pixels` holds width_px * height_px bytes.
-Bytes encodeGreyPng(int width_px, int height_px, const Bytes& pixels);
-
 /// For pictures inside HTML and SVG.
 std::string base64(const Bytes& bytes);
 

@@ -16,35 +16,26 @@ void append(png_structp png, png_bytep data, png_size_t size) {
   common::checkFailed("libpng", __FILE__, __LINE__, std::string(" ") + message);
 }
 
-Bytes encode(int width_px, int height_px, int color_type, int channels, const std::uint8_t* pixels) {
-  Bytes bytes;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, nullptr);
-  png_infop info = png_create_info_struct(png);
-  png_set_write_fn(png, &bytes, append, nullptr);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width_px), static_cast<png_uint_32>(height_px), 8, color_type,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  // Maps are large even areas: no filter compresses them best, and fast.
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-  png_set_compression_level(png, 6);
-  png_write_info(png, info);
-  for (int y = 0; y < height_px; ++y) png_write_row(png, pixels + static_cast<std::size_t>(y) * width_px * channels);
-  png_write_end(png, nullptr);
-  png_destroy_write_struct(&png, &info);
-  return bytes;
-}
-
 }  // namespace
 
 Bytes encodePng(const common::Image& image) {
   SWIFTLET_CHECK(image.width_px > 0 && image.height_px > 0, image.width_px, image.height_px);
   SWIFTLET_CHECK(image.rgb.size() == 3 * static_cast<std::size_t>(image.width_px) * image.height_px);
-  return encode(image.width_px, image.height_px, PNG_COLOR_TYPE_RGB, 3, image.rgb.data());
-}
-
-Bytes encodeGreyPng(int width_px, int height_px, const Bytes& pixels) {
-  SWIFTLET_CHECK(width_px > 0 && height_px > 0, width_px, height_px);
-  SWIFTLET_CHECK(pixels.size() == static_cast<std::size_t>(width_px) * height_px, pixels.size());
-  return encode(width_px, height_px, PNG_COLOR_TYPE_GRAY, 1, pixels.data());
+  Bytes bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(png, &bytes, append, nullptr);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px), static_cast<png_uint_32>(image.height_px), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  // Maps are large even areas: no filter compresses them best, and fast.
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  png_set_compression_level(png, 6);
+  png_write_info(png, info);
+  for (int y = 0; y < image.height_px; ++y)
+    png_write_row(png, &image.rgb[3 * static_cast<std::size_t>(y) * image.width_px]);
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &info);
+  return bytes;
 }
 
 std::string base64(const Bytes& bytes) {

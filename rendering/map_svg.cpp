@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/markup.hpp"
 #include "rendering/encode.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/svg.hpp"
@@ -38,7 +39,7 @@ void drawNames(const std::vector<MapLine>& lines, int height_px, std::back_inser
     fmt::format_to(out,
                    R"(<path class="s s{}{}" d="M{:.1f} {:.1f}h22"/><text class="name" x="{:.1f}" y="{:.1f}">{}</text>)",
                    i % 6 + 1, lines[i].dashed ? " dash" : "", x, height_px - 18.0, x + 29.0, height_px - 14.0,
-                   svg::escaped(lines[i].name));
+                   common::escaped(lines[i].name));
     x += 58.0 + kCharacter_px * static_cast<double>(lines[i].name.size());
   }
 }
@@ -81,7 +82,7 @@ std::string mapSvg(const common::World& world, const std::vector<MapLine>& lines
     fmt::format_to(out,
                    R"(<circle cx="{0:.1f}" cy="{1:.1f}" r="4.5" fill="#fff" stroke="#c2255c" stroke-width="2"/>)"
                    R"(<text class="name halo" x="{2:.1f}" y="{3:.1f}">{4}</text>)",
-                   p.x(), p.y(), p.x() + 9.0, p.y() + 4.0, svg::escaped(mark.name));
+                   p.x(), p.y(), p.x() + 9.0, p.y() + 4.0, common::escaped(mark.name));
   }
   text += "</g></svg>\n";
   return text;

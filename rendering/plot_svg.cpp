@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "common/markup.hpp"
 #include "rendering/svg.hpp"
 
 namespace swiftlet::rendering {
@@ -121,9 +122,9 @@ void drawAxes(const Plot& plot, const Frame& f, std::back_insert_iterator<std::s
   }
   fmt::format_to(out, R"(<path class="axis" d="M{:.1f} {:.1f}H{:.1f}"/>)", f.left, bottom, right);
   fmt::format_to(out, R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)", f.left + 0.5 * f.width,
-                 bottom + 36.0, svg::escaped(plot.x_label));
+                 bottom + 36.0, common::escaped(plot.x_label));
   fmt::format_to(out, R"x(<text transform="translate(14 {:.1f}) rotate(-90)" text-anchor="middle">{}</text>)x",
-                 f.top + 0.5 * f.height, svg::escaped(plot.y_label));
+                 f.top + 0.5 * f.height, common::escaped(plot.y_label));
 }
 
 void drawSpans(const Plot& plot, const Frame& f, std::back_insert_iterator<std::string> out) {
@@ -135,10 +136,10 @@ void drawSpans(const Plot& plot, const Frame& f, std::back_insert_iterator<std::
     if (!(x1 > x0)) continue;
     fmt::format_to(
         out, R"(<rect class="span{}" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"><title>{}</title></rect>)",
-        odd ? " odd" : "", x0, f.top, x1 - x0, f.height, svg::escaped(span.name));
+        odd ? " odd" : "", x0, f.top, x1 - x0, f.height, common::escaped(span.name));
     if (x1 - x0 > 7.0 * static_cast<double>(span.name.size()))
       fmt::format_to(out, R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)", 0.5 * (x0 + x1),
-                     f.top + 14.0, svg::escaped(span.name));
+                     f.top + 14.0, common::escaped(span.name));
   }
 }
 
@@ -148,7 +149,7 @@ void drawNames(const Plot& plot, const Frame& f, std::back_insert_iterator<std::
   for (std::size_t i = plot.series.size(); i-- > 0;) {
     const double width = 6.4 * static_cast<double>(plot.series[i].name.size());
     fmt::format_to(out, R"(<text class="name" x="{:.1f}" y="20" text-anchor="end">{}</text>)", right,
-                   svg::escaped(plot.series[i].name));
+                   common::escaped(plot.series[i].name));
     fmt::format_to(out, R"(<path class="s s{}{}" d="M{:.1f} 16h16"/>)", i % 6 + 1, plot.series[i].dashed ? " dash" : "",
                    right - width - 20.0);
     right -= width + 34.0;
@@ -164,9 +165,9 @@ std::string plotSvg(const Plot& plot) {
   fmt::format_to(out,
                  R"(<svg class="sw" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" )"
                  R"(style="max-width:100%;height:auto" role="img" aria-label="{2}">{3})",
-                 plot.width_px, plot.height_px, svg::escaped(plot.title), svg::style());
+                 plot.width_px, plot.height_px, common::escaped(plot.title), svg::style());
   fmt::format_to(out, R"(<rect class="frame" width="{}" height="{}" rx="8"/>)", plot.width_px, plot.height_px);
-  fmt::format_to(out, R"(<text class="title" x="{:.1f}" y="21">{}</text>)", 14.0, svg::escaped(plot.title));
+  fmt::format_to(out, R"(<text class="title" x="{:.1f}" y="21">{}</text>)", 14.0, common::escaped(plot.title));
   drawSpans(plot, frame, out);
   drawAxes(plot, frame, out);
   for (std::size_t i = 0; i < plot.series.size(); ++i) {

@@ -6,29 +6,6 @@
 
 namespace swiftlet::rendering::svg {
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-    }
-  }
-  return result;
-}
-
 std::vector<std::string> pointLists(const std::vector<Eigen::Vector2d>& pixels) {
   std::vector<std::string> lists;
   bool open = false;

@@ -9,9 +9,6 @@
 
 namespace swiftlet::rendering::svg {
 
-/// For element content and attribute values.
-std::string escaped(std::string_view text);
-
 /// "x,y x,y ..." with one decimal; breaks at a point that is not finite: one string for each piece.
 std::vector<std::string> pointLists(const std::vector<Eigen::Vector2d>& pixels);
 

@@ -84,8 +84,7 @@ void Autopilot::integrate(const Vector3d& rate_error, double thrust, double step
 
 std::array<double, 4> Autopilot::tick(common::Time now, const AttitudeMeasurement& measured, double step_s) {
   const common::Setpoint setpoint = effective(now, measured);
-  motors_on_ = setpoint.motors_on;
-  if (!motors_on_) {
+  if (!setpoint.motors_on) {
     rate_integral_rad_.setZero();
     return {};
   }

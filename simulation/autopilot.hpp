@@ -42,7 +42,6 @@ class Autopilot {
   std::array<double, 4> tick(common::Time now, const AttitudeMeasurement& measured, double step_s);
 
   bool linkLost(common::Time now) const;
-  bool motorsOn() const { return motors_on_; }
 
  private:
   void integrate(const Eigen::Vector3d& rate_error, double thrust, double step_s);
@@ -54,7 +53,6 @@ class Autopilot {
   common::Setpoint setpoint_;
   common::Time received_;
   Eigen::Vector3d rate_integral_rad_ = Eigen::Vector3d::Zero();
-  bool motors_on_ = false;
 };
 
 }  // namespace swiftlet::simulation

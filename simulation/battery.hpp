@@ -32,7 +32,6 @@ class Battery {
   double openCircuit_v() const;
   /// Share of the charge, in [0, 1].
   double remaining() const { return remaining_; }
-  double fullVoltage_v() const { return full_v_; }
   /// (voltage / full voltage)^2, what the thrust falls with.
   double thrustShare() const;
 

@@ -4,18 +4,12 @@
 #include <array>
 #include <cmath>
 #include <deque>
-#include <limits>
-#include <numbers>
-#include <vector>
 
 namespace swiftlet::simulation {
 namespace {
 
 using common::CellIndex;
 using Grid = common::TiledGrid<std::uint8_t>;
-
-constexpr double kViewSpacing_m = 0.4;
-constexpr int kViewRays = 720;
 
 Hull bandHull(const FreeSpaceQuery& query) { return {query.hull_radius_m, 0.5 * (query.top_m - query.bottom_m)}; }
 double bandMiddle_m(const FreeSpaceQuery& query) { return 0.5 * (query.bottom_m + query.top_m); }
@@ -52,39 +46,6 @@ Grid dilated(const Grid& grid, double radius_m) {
   return covered;
 }
 
-/// Marks every cell a ray passes before it meets something.
-void markRay(Grid& seen, const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double length_m) {
-  const double step_m = seen.resolution_m();
-  for (double along_m = 0.0; along_m < length_m; along_m += step_m) {
-    const Eigen::Vector2d point = from + along_m * direction;
-    const CellIndex cell = seen.cellAt(point);
-    if (seen.at(cell) == 0) seen.set(cell, 1);
-  }
-}
-
-Grid seenFrom(const RayCaster& rays, const FreeSpaceQuery& query, const Grid& reachable) {
-  Grid seen(query.resolution_m);
-  const int stride = std::max(1, static_cast<int>(std::lround(kViewSpacing_m / query.resolution_m)));
-  const auto height_m = static_cast<float>(bandMiddle_m(query));
-  std::vector<Ray> fan(kViewRays);
-  std::vector<float> distances_m(kViewRays);
-  reachable.forEachCell([&](CellIndex c, std::uint8_t cell) {
-    if (cell == 0 || c.x % stride != 0 || c.y % stride != 0) return;
-    const Eigen::Vector2d from = reachable.centerOf(c);
-    for (int i = 0; i < kViewRays; ++i) {
-      const double angle_rad = 2.0 * std::numbers::pi * i / kViewRays;
-      fan[static_cast<std::size_t>(i)] = {
-          {static_cast<float>(from.x()), static_cast<float>(from.y()), height_m},
-          {static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad)), 0.0F}};
-    }
-    rays.castAll(fan, query.range_max_m, {}, distances_m);
-    for (std::size_t i = 0; i < fan.size(); ++i)
-      markRay(seen, from, fan[i].direction_world.head<2>().cast<double>(),
-              std::min<double>(distances_m[i], query.range_max_m));
-  });
-  return seen;
-}
-
 }  // namespace
 
 common::TiledGrid<std::uint8_t> reachableSpace(const RayCaster& rays, const FreeSpaceQuery& query) {
@@ -111,13 +72,11 @@ common::TiledGrid<std::uint8_t> reachableSpace(const RayCaster& rays, const Free
 }
 
 FreeSpace freeSpace(const RayCaster& rays, const FreeSpaceQuery& query) {
-  FreeSpace space{reachableSpace(rays, query), Grid(query.resolution_m), Grid(query.resolution_m)};
+  FreeSpace space{reachableSpace(rays, query), Grid(query.resolution_m)};
   space.covered = dilated(space.reachable, query.hull_radius_m);
-  space.visible = seenFrom(rays, query, space.reachable);
   const double cell_m2 = query.resolution_m * query.resolution_m;
   space.reachable_area_m2 = cell_m2 * static_cast<double>(count(space.reachable));
   space.covered_area_m2 = cell_m2 * static_cast<double>(count(space.covered));
-  space.visible_area_m2 = cell_m2 * static_cast<double>(count(space.visible));
   return space;
 }
 

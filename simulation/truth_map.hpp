@@ -1,5 +1,5 @@
-// The free space a vehicle can reach and see, computed from the true world: what coverage and map accuracy are measured
-// against. For evaluation only.
+// The free space a vehicle can reach, computed from the true world: what coverage is measured against. For evaluation
+// only.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,6 @@ struct FreeSpaceQuery {
   double bottom_m = 0.85;  ///< Height band of the hull in flight, in the world's frame.
   double top_m = 1.15;
   double resolution_m = 0.05;
-  double range_max_m = 30.0;      ///< How far the laser sees.
   double max_area_m2 = 10'000.0;  ///< Where the flood stops when the world has no walls.
 };
 
@@ -26,10 +25,8 @@ struct FreeSpace {
   common::TiledGrid<std::uint8_t> reachable;  ///< The centre of the hull can get there from the start.
   /// What the hull can cover: every cell within the hull's radius of a reachable one.
   common::TiledGrid<std::uint8_t> covered;
-  common::TiledGrid<std::uint8_t> visible;  ///< Seen at mid height from somewhere reachable.
   double reachable_area_m2 = 0.0;
   double covered_area_m2 = 0.0;
-  double visible_area_m2 = 0.0;
 };
 
 /// Where the centre of the hull can get to from the start, by a flood over cells: all of it nothing when the start does

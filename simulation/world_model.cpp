@@ -24,12 +24,6 @@ void WorldModel::moveModel(const std::string& model, const Eigen::Vector2d& shif
       for (Eigen::Vector3f& vertex : shape.vertices_world_m) vertex += shift;
 }
 
-std::size_t WorldModel::triangleCount() const {
-  std::size_t count = 0;
-  for (const Shape& shape : shapes) count += shape.triangles.size();
-  return count;
-}
-
 Eigen::AlignedBox3f WorldModel::bounds_world_m() const {
   Eigen::AlignedBox3f bounds;
   for (const Shape& shape : shapes)

@@ -48,7 +48,6 @@ struct WorldModel {
   bool hasModel(const std::string& model) const;
   /// Shifts every shape of a model horizontally.
   void moveModel(const std::string& model, const Eigen::Vector2d& shift_world_m);
-  std::size_t triangleCount() const;
   /// Smallest box around all shapes.
   Eigen::AlignedBox3f bounds_world_m() const;
 };

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <system_error>
 
 #include <archive.h>
@@ -12,6 +11,7 @@
 #include <unistd.h>
 
 #include "common/error.hpp"
+#include "common/hash.hpp"
 #include "common/read_bytes.hpp"
 #include "interfaces/files/atomic_file.hpp"
 
@@ -28,13 +28,6 @@ struct ReaderDeleter {
   void operator()(struct archive* reader) const { archive_read_free(reader); }
 };
 using Reader = std::unique_ptr<struct archive, ReaderDeleter>;
-
-/// FNV-1a: tells two versions of an archive apart, which is all it is for.
-std::uint64_t hashOf(std::string_view bytes) {
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const char c : bytes) hash = (hash ^ static_cast<std::uint8_t>(c)) * 1099511628211ull;
-  return hash;
-}
 
 /// Removes what was unpacked so far unless it is handed over.
 class TemporaryFolder {
@@ -133,7 +126,7 @@ class Unpacking {
 fs::path unpackInto(const fs::path& cache, const fs::path& archive) {
   const std::string bytes = common::readBytes(archive, std::size_t{4} << 30);
   const std::string stem = archive.filename().string().substr(0, archive.filename().string().find('.'));
-  fs::path folder = cache / fmt::format("{}-{:016x}", stem, hashOf(bytes));
+  fs::path folder = cache / fmt::format("{}-{:016x}", stem, common::fnv1a(bytes));
   if (fs::is_directory(folder)) return folder;
   try {
     const TemporaryFolder temporary(cache / fmt::format(".{}.{}.part", folder.filename().string(), ::getpid()));

@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
+#include "common/rounding.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -38,7 +39,8 @@ common::Event eventOf(const ordered_json& object) {
 }  // namespace
 
 std::string toJson(const common::Event& event) {
-  const ordered_json object = {{"t_s", event.stamp.seconds()},
+  constexpr int kNanoseconds = 9;
+  const ordered_json object = {{"t_s", common::rounded(event.stamp.seconds(), kNanoseconds)},
                                {"severity", common::toString(event.severity)},
                                {"source", event.source},
                                {"text", event.text},

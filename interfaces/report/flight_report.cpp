@@ -5,14 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "common/markup.hpp"
 #include "interfaces/report/html.hpp"
 #include "interfaces/report/report.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
+using common::escaped;
 using common::Mark;
-using html::escape;
 
 /// More events than this are left to events.jsonl.
 constexpr std::size_t kMaxEvents = 2000;
@@ -67,24 +68,25 @@ std::pair<std::string, Mark> verdictOf(const FlightSummary& summary) {
 
 std::string header(const FlightSummary& summary) {
   const auto [verdict, mark] = verdictOf(summary);
-  std::string text = fmt::format("<h1>{} {}</h1>\n", escape(summary.info.mission), html::pill(verdict, mark));
-  if (!summary.reason.empty()) text += fmt::format("<p>{}</p>\n", escape(summary.reason));
+  std::string text = fmt::format("<h1>{} {}</h1>\n", escaped(summary.info.mission), html::pill(verdict, mark));
+  if (!summary.reason.empty()) text += fmt::format("<p>{}</p>\n", escaped(summary.reason));
   if (summary.outcome == Outcome::kFlying)
     text += "<p>The flight goes on, or its program was ended before it could say how the flight ended.</p>\n";
-  text += fmt::format("<p>{} in {}, system {}, seed {}, version {}{}</p>", escape(summary.info.mission_file),
-                      escape(summary.info.world), escape(summary.info.system), summary.info.seed,
-                      escape(summary.info.version),
-                      summary.info.started.empty() ? "" : ", started " + escape(html::moment(summary.info.started)));
+  text += fmt::format("<p>{} in {}, system {}, seed {}, version {}{}</p>", escaped(summary.info.mission_file),
+                      escaped(summary.info.world), escaped(summary.info.system), summary.info.seed,
+                      escaped(summary.info.version),
+                      summary.info.started.empty() ? "" : ", started " + escaped(html::moment(summary.info.started)));
   return text;
 }
 
 std::string summarySection(const FlightSummary& summary) {
   std::vector<std::pair<std::string, std::string>> facts = {
       {"Mission time", minutes(summary.mission_time.seconds())},
-      {"Distance flown", fmt::format("{:.1f} m", summary.distance_m)},
-      {"Area explored", fmt::format("{:.1f} m²", summary.explored_area_m2)}};
+      {"Distance flown", fmt::format("{:.1f} m", summary.distance_m)}};
+  if (summary.explored_area_m2)
+    facts.emplace_back("Area explored", fmt::format("{:.1f} m²", *summary.explored_area_m2));
   if (summary.coverage) facts.emplace_back("Coverage", fmt::format("{:.1f} %", 100 * *summary.coverage));
-  facts.emplace_back("Frontiers left", fmt::format("{}", summary.frontiers.size()));
+  if (summary.explored_area_m2) facts.emplace_back("Frontiers left", fmt::format("{}", summary.frontiers.size()));
   facts.emplace_back("Battery left", fmt::format("{:.0f} %", 100 * summary.battery_remaining));
   if (summary.realtime_factor) facts.emplace_back("Real time", fmt::format("× {:.1f}", *summary.realtime_factor));
   return html::section("Summary", html::facts(facts));
@@ -100,22 +102,15 @@ std::string figuresSection(const std::vector<Figure>& figures) {
   return html::section("Figures", html::table(table));
 }
 
-std::string mapSection(const ReportPictures& pictures) {
-  if (!pictures.map_svg.empty())
-    return html::section("Map", fmt::format("<figure class=\"map\">{}</figure>", pictures.map_svg));
-  if (pictures.map_png.empty()) return "";
-  return html::section("Map", fmt::format("<figure><img src=\"{}\" alt=\"The map of the flight\"></figure>",
-                                          html::pngUrl(pictures.map_png)));
+std::string mapSection(const std::string& map_svg) {
+  if (map_svg.empty()) return "";
+  return html::section("Map", fmt::format("<figure class=\"map\">{}</figure>", map_svg));
 }
 
-std::string plotsSection(const std::vector<ReportPlot>& plots) {
-  if (plots.empty()) return "";
+std::string plotsSection(const std::vector<std::string>& plots_svg) {
+  if (plots_svg.empty()) return "";
   std::string body = "<div class=\"plots\">\n";
-  for (const ReportPlot& plot : plots) {
-    body += "<figure>" + plot.svg;
-    if (!plot.title.empty()) body += fmt::format("<figcaption>{}</figcaption>", escape(plot.title));
-    body += "</figure>\n";
-  }
+  for (const std::string& svg : plots_svg) body += fmt::format("<figure>{}</figure>\n", svg);
   return html::section("Plots", body + "</div>");
 }
 
@@ -127,7 +122,7 @@ std::string phasesSection(const std::vector<Phase>& phases) {
     const double duration_s = (phase.end - phase.begin).seconds();
     const auto first = std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.name == phase.name; });
     const char* color = kPhaseColors[static_cast<std::size_t>(first - phases.begin()) % kPhaseColors.size()];
-    const std::string name = escape(phase.name);
+    const std::string name = escaped(phase.name);
     bar += fmt::format("<span style=\"flex:{:.3f};background:{}\" title=\"{}, {:.1f} s\"></span>",
                        std::max(duration_s, 1e-3), color, name, duration_s);
     rows += fmt::format(
@@ -148,14 +143,16 @@ std::string detailOf(const common::Frontier& frontier) {
   return frontier.explanation.starts_with(reason) ? frontier.explanation.substr(reason.size()) : frontier.explanation;
 }
 
-std::string frontiersSection(const std::vector<common::Frontier>& frontiers) {
+std::string frontiersSection(const FlightSummary& summary) {
+  const std::vector<common::Frontier>& frontiers = summary.frontiers;
+  if (!summary.explored_area_m2) return "";
   if (frontiers.empty())
     return html::section("Frontiers left", "<p class=\"empty\">None: nothing was left to explore.</p>");
   std::string rows;
   for (const common::Frontier& frontier : frontiers)
     rows += fmt::format("<tr><td>({:.2f}, {:.2f})</td><td>{:.2f} m</td><td>{}</td><td class=\"quiet\">{}</td></tr>\n",
                         frontier.centroid_map_m.x(), frontier.centroid_map_m.y(), frontier.length_m,
-                        common::toString(frontier.reason), escape(detailOf(frontier)));
+                        common::toString(frontier.reason), escaped(detailOf(frontier)));
   return html::section(
       "Frontiers left",
       "<div class=\"wide\"><table><thead><tr><th>at x, y in the map (m)</th><th>length</th><th>reason</th>"
@@ -174,7 +171,7 @@ std::string eventsSection(const std::vector<common::Event>& events) {
     rows += fmt::format(
         "<tr><td class=\"quiet\">{:.2f}</td><td class=\"quiet\">{}</td><td class=\"{}\">{}</td><td "
         "class=\"quiet\">{}</td></tr>\n",
-        event.stamp.seconds(), escape(event.source), style, escape(event.text), escape(event.reason));
+        event.stamp.seconds(), escaped(event.source), style, escaped(event.text), escaped(event.reason));
   }
   std::string body =
       "<div "
@@ -189,16 +186,16 @@ std::string eventsSection(const std::vector<common::Event>& events) {
 std::string settingsSection(const std::string& config_yaml) {
   if (config_yaml.empty()) return "";
   return fmt::format("<section>\n<details><summary>Settings</summary>\n<pre>{}</pre></details>\n</section>\n",
-                     escape(config_yaml));
+                     escaped(config_yaml));
 }
 
 }  // namespace
 
 std::string flightReport(const FlightSummary& summary, const std::vector<common::Event>& events,
                          const ReportPictures& pictures, const std::string& config_yaml) {
-  const std::string body = summarySection(summary) + mapSection(pictures) + phasesSection(summary.phases) +
-                           plotsSection(pictures.plots) + figuresSection(summary.figures) +
-                           frontiersSection(summary.frontiers) + eventsSection(events) + settingsSection(config_yaml);
+  const std::string body = summarySection(summary) + mapSection(pictures.map_svg) + phasesSection(summary.phases) +
+                           plotsSection(pictures.plots_svg) + figuresSection(summary.figures) +
+                           frontiersSection(summary) + eventsSection(events) + settingsSection(config_yaml);
   return html::page(summary.info.mission + ": " + toString(summary.outcome), header(summary), body);
 }
 

@@ -6,10 +6,13 @@
 #include <fmt/format.h>
 
 #include "common/check.hpp"
+#include "common/markup.hpp"
 #include "interfaces/report/style.hpp"
 
 namespace swiftlet::interfaces::html {
 namespace {
+
+using common::escaped;
 
 const char* classOf(common::Mark mark) {
   switch (mark) {
@@ -23,64 +26,13 @@ const char* classOf(common::Mark mark) {
   SWIFTLET_CHECK(false, static_cast<int>(mark));
 }
 
-/// The bytes of the UTF-8 character at the front of `text`; 0 when they are none.
-std::size_t characterLength(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
-  const std::uint8_t first = byte(0);
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xC2 && first < 0xE0 ? 2
-                             : first >= 0xE0 && first < 0xF0 ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  if (length == 0 || length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  return length;
-}
-
 std::string cell(const common::TableCell& cell, bool numeric) {
-  std::string text = escape(cell.text);
+  std::string text = escaped(cell.text);
   if (!cell.link.empty()) text = fmt::format("<a href=\"{}\">{}</a>", relativeUrl(cell.link), text);
   return fmt::format("<td class=\"{}{}\">{}</td>", numeric ? "number " : "", classOf(cell.mark), text);
 }
 
 }  // namespace
-
-std::string escape(std::string_view text) {
-  std::string escaped;
-  while (!text.empty()) {
-    const std::size_t length = characterLength(text);
-    const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
-    if (length == 0)
-      escaped += "\xEF\xBF\xBD";
-    else if (character == "&")
-      escaped += "&amp;";
-    else if (character == "<")
-      escaped += "&lt;";
-    else if (character == ">")
-      escaped += "&gt;";
-    else if (character == "\"")
-      escaped += "&quot;";
-    else if (character == "'")
-      escaped += "&#39;";
-    else
-      escaped += character;
-    text.remove_prefix(character.size());
-  }
-  return escaped;
-}
-
-std::string pngUrl(std::string_view png) {
-  constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string url = "data:image/png;base64,";
-  for (std::size_t i = 0; i < png.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, png.size() - i);
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (k < count ? static_cast<std::uint8_t>(png[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) url += k <= count ? kAlphabet[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return url;
-}
 
 std::string relativeUrl(std::string_view path) {
   std::string url = "./";
@@ -104,17 +56,17 @@ std::string moment(std::string started) {
 }
 
 std::string pill(const std::string& text, common::Mark mark) {
-  return fmt::format("<span class=\"pill {}\">{}</span>", classOf(mark), escape(text));
+  return fmt::format("<span class=\"pill {}\">{}</span>", classOf(mark), escaped(text));
 }
 
 std::string section(const std::string& title, const std::string& body) {
-  return fmt::format("<section>\n<h2>{}</h2>\n{}\n</section>\n", escape(title), body);
+  return fmt::format("<section>\n<h2>{}</h2>\n{}\n</section>\n", escaped(title), body);
 }
 
 std::string facts(const std::vector<std::pair<std::string, std::string>>& facts) {
   std::string body = "<dl class=\"facts\">\n";
   for (const auto& [label, value] : facts)
-    body += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escape(label), escape(value));
+    body += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped(label), escaped(value));
   return body + "</dl>";
 }
 
@@ -124,7 +76,7 @@ std::string table(const common::Table& table) {
   std::string body = "<div class=\"wide\"><table>\n<thead><tr>";
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     numeric.push_back(common::isNumeric(table, i));
-    body += fmt::format("<th class=\"{}\">{}</th>", numeric[i] ? "number" : "", escape(table.columns[i]));
+    body += fmt::format("<th class=\"{}\">{}</th>", numeric[i] ? "number" : "", escaped(table.columns[i]));
   }
   body += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
@@ -140,7 +92,7 @@ std::string page(const std::string& title, const std::string& header, const std:
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n"
       "</head>\n<body>\n<header>\n{}\n</header>\n<main>\n{}</main>\n<footer>Swiftlet</footer>\n</body>\n</html>\n",
-      escape(title), kStyle, header, body);
+      escaped(title), kStyle, header, body);
 }
 
 }  // namespace swiftlet::interfaces::html

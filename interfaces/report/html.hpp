@@ -10,12 +10,6 @@
 
 namespace swiftlet::interfaces::html {
 
-/// Text as it may stand between tags and in quoted attributes. Bytes that are not UTF-8 become U+FFFD.
-std::string escape(std::string_view text);
-
-/// "data:image/png;base64,..."
-std::string pngUrl(std::string_view png);
-
 /// A link that stays inside the folder of the report: a relative path with special characters encoded.
 std::string relativeUrl(std::string_view path);
 

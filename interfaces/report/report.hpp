@@ -11,16 +11,11 @@
 
 namespace swiftlet::interfaces {
 
-struct ReportPlot {
-  std::string title;  ///< May be empty, where the plot carries its own.
-  std::string svg;    ///< One <svg> element; put into the page as it is.
-};
-
-/// What the report of a flight shows beside its figures; each may be empty.
+/// What a flight shows beside its figures; each may be empty. An SVG is one <svg> element, put into the page as it is.
 struct ReportPictures {
-  std::string map_png;  ///< The bytes of a PNG; becomes map.png too.
-  std::string map_svg;  ///< Shown instead of the PNG where there is one.
-  std::vector<ReportPlot> plots;
+  std::string map_png;  ///< The bytes of a PNG: map.png of the run.
+  std::string map_svg;  ///< The map of the report.
+  std::vector<std::string> plots_svg;
 };
 
 /// `config_yaml` are the settings the flight used.
@@ -30,8 +25,7 @@ std::string flightReport(const FlightSummary& summary, const std::vector<common:
 /// A picture of one flight of a trial.
 struct TrialPicture {
   std::string caption;
-  std::string file;  ///< Relative to the report: map.png of the flight's folder. Embedded if `png` is there.
-  std::string png;
+  std::string file;  ///< Relative to the report: map.png of the flight's folder.
   std::string link;  ///< The flight's own report, relative.
   bool passed = true;
 };

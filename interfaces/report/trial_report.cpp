@@ -1,19 +1,20 @@
 #include <fmt/format.h>
 
+#include "common/markup.hpp"
 #include "interfaces/report/html.hpp"
 #include "interfaces/report/report.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
+using common::escaped;
 using common::Mark;
-using html::escape;
 
 std::string pictureOf(const TrialPicture& picture) {
-  const std::string source = picture.png.empty() ? html::relativeUrl(picture.file) : html::pngUrl(picture.png);
-  std::string image = fmt::format("<img loading=\"lazy\" src=\"{}\" alt=\"{}\">", source, escape(picture.caption));
+  std::string image = fmt::format("<img loading=\"lazy\" src=\"{}\" alt=\"{}\">", html::relativeUrl(picture.file),
+                                  escaped(picture.caption));
   if (!picture.link.empty()) image = fmt::format("<a href=\"{}\">{}</a>", html::relativeUrl(picture.link), image);
-  return fmt::format("<figure>{}<figcaption>{} {}</figcaption></figure>\n", image, escape(picture.caption),
+  return fmt::format("<figure>{}<figcaption>{} {}</figcaption></figure>\n", image, escaped(picture.caption),
                      picture.passed ? "" : html::pill("failed", Mark::kBad));
 }
 
@@ -22,7 +23,7 @@ std::string pictureOf(const TrialPicture& picture) {
 std::string trialReport(const TrialReport& report) {
   const std::string verdict = report.passed ? html::pill("passed", Mark::kGood) : html::pill("not passed", Mark::kBad);
   const std::string header =
-      fmt::format("<h1>{} {}</h1>\n<p>{}</p>", escape(report.title), verdict, escape(html::moment(report.subtitle)));
+      fmt::format("<h1>{} {}</h1>\n<p>{}</p>", escaped(report.title), verdict, escaped(html::moment(report.subtitle)));
   std::string body;
   for (const common::Table& table : report.tables) body += html::section(table.title, html::table(table));
   if (!report.pictures.empty()) {

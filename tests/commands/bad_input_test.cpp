@@ -232,7 +232,9 @@ TEST_F(BadInput, LastTrialOfAFolderIsToldBeforeTheFirstIsFlown) {
   for (const auto& [text, pattern] :
        {std::pair{sound + "system: swiftled\n", "did you mean `(config/systems/)?swiftlet"},
         {sound + "name: ../b\n", "b\\.yaml:3:7: name: holds a `/`"},
-        {sound + "repeat: 0\n", "b\\.yaml:3:9: repeat: 0 is not within"}}) {
+        {sound + "repeat: 0\n", "b\\.yaml:3:9: repeat: 0 is not within"},
+        {"mission: missions/explore_and_return.xml\nscenario: {world: worlds/none.sdf}\n",
+         "worlds/none\\.sdf: no such file"}}) {
     write("trials/b.yaml", text);
     expectRefused(runSwiftlet({"trial", path("trials"), "--out", path("run")}), pattern);
   }
@@ -252,6 +254,17 @@ TEST_F(BadInput, NobodyReadsTheLinesOfAFlight) {
       fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--time-limit", "60"}, options);
   EXPECT_EQ(end.exit_code, 0) << describe(end);
   EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), "done");
+}
+
+TEST_F(BadInput, NobodyReadsTheLinesOfATrial) {
+  const std::string trial =
+      write("t.yaml", "mission: " + hop() + "\nscenario: {world: " + write("room.sdf", worldWith(room())) +
+                          "}\ntime_limit_s: 60\n");
+  ProgramOptions options;
+  options.hang_up_after_bytes = 1;
+  const ProgramEnd end = runSwiftlet({"trial", trial, "--repeat", "2", "--out", path("run")}, options);
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_EQ(nlohmann::json::parse(readText(path("run/results.json"))).at("trials")[0].at("passed"), 2);
 }
 
 class FullDisk : public BadInput, public testing::WithParamInterface<std::size_t> {};

@@ -46,6 +46,7 @@ TEST(Config, NumbersAtTheEndOfTheirRange) {
   EXPECT_THAT(problemsOf<LaserConfig>("beams: -2147483648\nmirror_first_beam: 1\n"), HasSubstr("beams: -2147483648"));
   EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: 1e400\n"), HasSubstr("`1e400` is not a number"));
   EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: .nan\n"), HasSubstr("mass_kg: nan is not within"));
+  EXPECT_THAT(problemsOf<LaserConfig>("mount: {roll_deg: .nan}\n"), HasSubstr("roll_deg: nan is not within"));
 }
 
 TEST(Config, NotYamlAndMissingFile) {

@@ -17,6 +17,7 @@ common::Time unixTime() {
 
 FakeBackend::FakeBackend(Setup setup) : setup_(std::move(setup)) {
   web::WebServer::Options options;
+  options.address = setup_.address;
   options.port = setup_.port;
   options.token = setup_.token;
   options.title = "explore_and_return in example flat";

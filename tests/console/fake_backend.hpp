@@ -19,6 +19,7 @@ common::Time unixTime();
 class FakeBackend {
  public:
   struct Setup {
+    std::string address = "127.0.0.1";
     int port = 0;
     std::string token = "operator-token";
     double worlds_per_second = 20.0;

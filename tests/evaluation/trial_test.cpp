@@ -100,6 +100,7 @@ TEST_F(Trials, PathsAreInTheArchiveOrWithTheSoftware) {
 TEST_F(Trials, ArchivesAreFoundOrAskedFor) {
   put("papers/w.tar.xz", "");
   ::unsetenv("SWIFTLET_DATASETS");
+  EXPECT_EQ(dataSetsFolder("/software"), "/software/../shared/datasets");
   EXPECT_EQ(findArchive("papers/w.tar.xz", folder_), folder_ / "papers/w.tar.xz");
   try {
     findArchive("none.tar.xz", folder_);
@@ -108,7 +109,7 @@ TEST_F(Trials, ArchivesAreFoundOrAskedFor) {
     EXPECT_THAT(e.what(), HasSubstr("none.tar.xz: archive: there is no such file, set SWIFTLET_DATASETS"));
   }
   ::setenv("SWIFTLET_DATASETS", (folder_ / "papers").c_str(), 1);
-  EXPECT_EQ(findArchive("w.tar.xz", "/nowhere"), folder_ / "papers/w.tar.xz");
+  EXPECT_EQ(findArchive("w.tar.xz", dataSetsFolder("/nowhere")), folder_ / "papers/w.tar.xz");
   ::unsetenv("SWIFTLET_DATASETS");
 }
 
@@ -168,6 +169,18 @@ TEST(TrialResultsJson, HasTheFiguresOfAllFlights) {
   ASSERT_EQ(trial["flights"].size(), 5u);
   EXPECT_TRUE(trial["flights"][4]["goal_error_m"].is_null());
   EXPECT_EQ(trial["flights"][4]["failures"][0], "collision: touched `box`");
+}
+
+TEST(TrialResultsJson, FiguresAreShortAndWhatWasNotExploredIsNull) {
+  TrialResults all = results();
+  FlightScore& first = all.trials[0].flights[0];
+  first.goal_error_m = 0.1 + 0.2;
+  first.speed_max_m_s = 2.0 / 3.0;
+  first.explored_area_m2 = 89.230000000000004;
+  const std::string text = toJson(all);
+  for (const char* part : {"\"goal_error_m\": 0.3,", "\"speed_max_m_s\": 0.6667,", "\"explored_area_m2\": 89.23,",
+                           "\"explored_area_m2\": null,"})
+    EXPECT_THAT(text, HasSubstr(part));
 }
 
 TEST(TrialResultsJson, WithoutFlightsAllIsNull) {

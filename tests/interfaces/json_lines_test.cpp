@@ -17,6 +17,9 @@ using testing::HasSubstr;
 TEST(Events, OneLineOfJson) {
   EXPECT_EQ(toJson({Time::fromSeconds(12.5), Severity::kWarning, "flight", "held", "laser silent"}),
             R"({"t_s":12.5,"severity":"warning","source":"flight","text":"held","reason":"laser silent"})");
+  for (int ms = 1; ms < 100'000; ms += 7)
+    EXPECT_LE(toJson({Time::fromNanoseconds(std::int64_t{1'000'000} * ms), Severity::kInfo, "", "", ""}).find(','), 14u)
+        << ms << " ms";
 }
 
 TEST(Events, AnyTextStaysOnItsLine) {

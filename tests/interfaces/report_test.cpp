@@ -25,6 +25,7 @@ FlightSummary summaryOf(const std::string& text) {
   summary.reason = text;
   summary.mission_time = common::Duration::fromSeconds(83.4);
   summary.coverage = 0.9931;
+  summary.explored_area_m2 = 89.23;
   summary.phases = {{text, Time::fromSeconds(0), Time::fromSeconds(3)},
                     {"explore", Time::fromSeconds(3), Time::fromSeconds(9)}};
   common::Frontier frontier;
@@ -62,9 +63,9 @@ void expectBalanced(const std::string& page) {
 
 TEST(FlightReport, ShowsTheFlight) {
   const std::string page = flightReport(summaryOf("house"), eventsOf("goal refused", 1),
-                                        {"PNG", "", {{"Height", "<svg id=\"plot\"></svg>"}}}, "speed: 1\n");
+                                        {"PNG", "<svg id=\"map\"></svg>", {"<svg id=\"plot\"></svg>"}}, "speed: 1\n");
   for (const char* part : {"failed", "1 min 23 s", "99.3 %", "too small", "goal refused", "<svg id=\"plot\">",
-                           "speed: 1", "not known", "data:image/png;base64,UE5H"})
+                           "speed: 1", "not known", "<svg id=\"map\">", "89.2 m²"})
     EXPECT_THAT(page, HasSubstr(part));
   expectBalanced(page);
 }
@@ -74,10 +75,15 @@ TEST(FlightReport, ShowsNothingThatIsNotThere) {
   summary.info.mission = "hold";
   const std::string page = flightReport(summary, {}, {}, "");
   EXPECT_THAT(page, HasSubstr("not finished"));
-  EXPECT_THAT(page, HasSubstr("nothing was left to explore"));
-  EXPECT_THAT(page, Not(HasSubstr("Coverage")));
+  for (const char* part : {"Coverage", "Area explored", "Frontiers left"}) EXPECT_THAT(page, Not(HasSubstr(part)));
   EXPECT_THAT(page, Not(HasSubstr("<img")));
   expectBalanced(page);
+}
+
+TEST(FlightReport, NothingLeftIsSaidOnlyOfAFlightThatExplored) {
+  FlightSummary summary;
+  summary.explored_area_m2 = 12.5;
+  EXPECT_THAT(flightReport(summary, {}, {}, ""), HasSubstr("nothing was left to explore"));
 }
 
 TEST(FlightReport, TextStaysText) {
@@ -90,7 +96,7 @@ TEST(FlightReport, TextStaysText) {
 }
 
 TEST(FlightReport, LoadsNothingFromElsewhere) {
-  const std::string page = flightReport(summaryOf("house"), eventsOf("x", 3), {"PNG", "", {}}, "a: 1");
+  const std::string page = flightReport(summaryOf("house"), eventsOf("x", 3), {"PNG", "<svg></svg>", {}}, "a: 1");
   EXPECT_THAT(page, Not(testing::ContainsRegex("(src|href)=\"(https?:)?//")));
   EXPECT_THAT(page, Not(HasSubstr("@import")));
   EXPECT_THAT(page, Not(HasSubstr("url(")));
@@ -105,7 +111,7 @@ TEST(TrialReport, TablesLinksAndPictures) {
   TrialReport report{"unb_case1", "20 flights", false, {}, {}};
   report.tables.push_back(
       {"Flights", {"seed", "passed"}, {{{"7", Mark::kNone, "flights/a b-7/report.html"}, {"no", Mark::kBad}}}});
-  report.pictures.push_back({"seed 7", "flights/a b-7/map.png", "", "flights/a b-7/report.html", false});
+  report.pictures.push_back({"seed 7", "flights/a b-7/map.png", "flights/a b-7/report.html", false});
   const std::string page = trialReport(report);
   for (const char* part : {"not passed", "<td class=\"bad\">no</td>", "href=\"./flights/a%20b-7/report.html\"",
                            "src=\"./flights/a%20b-7/map.png\"", "seed 7"})
@@ -119,20 +125,6 @@ TEST(Table, NumbersStandToTheRightAndWordsToTheLeft) {
   EXPECT_FALSE(common::isNumeric(table, 0));
   EXPECT_EQ(toText(table), "T\nname        x\n-------------\né       -1.50\nlonger\nz          12\n");
   EXPECT_THAT(html::table(table), HasSubstr("<td class=\"number \">12</td>"));
-}
-
-TEST(Html, EscapesAndMendsText) {
-  EXPECT_EQ(html::escape("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
-  EXPECT_EQ(html::escape("é \xE2\x82\xAC"), "é \xE2\x82\xAC");
-  EXPECT_EQ(html::escape("x\xff\xC3"), "x\xEF\xBF\xBD\xEF\xBF\xBD");
-}
-
-TEST(Html, Base64IsThatOfOthers) {
-  EXPECT_EQ(html::pngUrl(""), "data:image/png;base64,");
-  EXPECT_EQ(html::pngUrl("f"), "data:image/png;base64,Zg==");
-  EXPECT_EQ(html::pngUrl("fo"), "data:image/png;base64,Zm8=");
-  EXPECT_EQ(html::pngUrl("foobar"), "data:image/png;base64,Zm9vYmFy");
-  EXPECT_EQ(html::pngUrl(std::string("\xff\x00\xfe", 3)), "data:image/png;base64,/wD+");
 }
 
 }  // namespace

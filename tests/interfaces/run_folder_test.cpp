@@ -84,7 +84,7 @@ TEST(RunFolder, LeavesEveryFile) {
   run.event({Time::fromSeconds(0.5), Severity::kInfo, "mission", "ready", ""});
   Flight flight;
   flight.flyInto(run);
-  run.show({kPng, "", {{"Height", "<svg></svg>"}}});
+  run.show({kPng, "", {"<svg></svg>"}});
   FlightEnd end{Outcome::kDone, "", 0.995, {{"goal_error_m", 0.05}}, 0.5};
   run.finish(end);
   ASSERT_EQ(run.failure(), std::nullopt);
@@ -96,6 +96,7 @@ TEST(RunFolder, LeavesEveryFile) {
   EXPECT_NEAR(mission["machine"]["realtime_factor"].get<double>(), 18.0, 1e-9);
   EXPECT_EQ(mission["coverage"], 0.995);
   EXPECT_EQ(mission["figures"]["goal_error_m"], 0.05);
+  EXPECT_EQ(mission["explored_area_m2"], 12.5);
   ASSERT_EQ(mission["phases"].size(), 2u);
   EXPECT_EQ(mission["phases"][0]["name"], "take off");
   EXPECT_NEAR(mission["phases"][0]["duration_s"].get<double>(), 3.0, 1e-9);
@@ -205,6 +206,19 @@ TEST(RunFolder, FreshNames) {
   EXPECT_EQ(first.parent_path(), folder.path());
   fs::create_directories(first);
   EXPECT_EQ(fresh().filename(), "2025-01-31T14-05-09-explore-and-return-2");
+}
+
+TEST(RunFolder, FiguresAreShortAndWhatWasNotExploredIsNull) {
+  const ScratchFolder folder;
+  RunFolder run({}, folder / "run", kInfo, "");
+  Flight flight;
+  common::World world = flight.world(MissionState::kRunning, "go to");
+  world.explored_area_m2 = 0.0;
+  world.status.distance_flown_m = 30.563146064540703;
+  run.world(world);
+  run.finish({});
+  EXPECT_TRUE(json::parse(bytesOf(folder / "run/mission.json"))["explored_area_m2"].is_null());
+  EXPECT_THAT(bytesOf(folder / "run/mission.json"), HasSubstr("\"distance_m\": 30.5631,"));
 }
 
 TEST(RunFolder, NotFiniteEstimatesAreLeftOut) {

@@ -13,6 +13,7 @@
 #include "common/error.hpp"
 #include "tests/console/fake_backend.hpp"
 #include "tests/web/http_client.hpp"
+#include "web/server/reachable_address.hpp"
 
 namespace swiftlet::testing {
 namespace {
@@ -239,6 +240,20 @@ TEST(WebServerTest, BadOptionsAreClearErrors) {
   EXPECT_THROW(make("127.0.0.1", 0, "with blanks in it"), common::InputError);
   EXPECT_NO_THROW(make("::1", 0, web::makeToken()));
   EXPECT_NE(web::makeToken(), web::makeToken());
+}
+
+TEST(WebServerTest, TheLinkOfAServerOnEveryInterfaceNamesAnAddressOfThisMachine) {
+  using boost::asio::ip::make_address;
+  EXPECT_EQ(web::reachableAddress(make_address("192.0.2.7")), make_address("192.0.2.7"));
+  EXPECT_FALSE(web::reachableAddress(make_address("::")).is_unspecified());
+  const auto address = web::reachableAddress(make_address("0.0.0.0"));
+  EXPECT_FALSE(address.is_unspecified());
+  boost::asio::io_context io;
+  EXPECT_NO_THROW(boost::asio::ip::tcp::acceptor(io, {address, 0})) << address << " is not ours";
+
+  FakeBackend backend({.address = "0.0.0.0"});
+  EXPECT_EQ(backend.server().operatorUrl(),
+            "http://" + address.to_string() + ":" + std::to_string(backend.port()) + "/?token=operator-token");
 }
 
 TEST(WebServerTest, StopsWithClientsConnected) {

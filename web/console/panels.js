@@ -76,7 +76,7 @@ export function showFrontiers(frontiers) {
   const rows = frontiers.map(({ reason, explanation, centroid_m: [x, y], length_m }) =>
     make('li', {}, make('i', { className: `dot ${reason.replaceAll(' ', '-')}`, title: reason }),
       make('span', { textContent: `${explanation || reason} · ${length_m.toFixed(1)} m at (${x.toFixed(1)}, ${y.toFixed(1)})` })));
-  element('frontiers').replaceChildren(...(rows.length ? rows : [make('li', { className: 'empty', textContent: 'Nothing left to explore.' })]));
+  element('frontiers').replaceChildren(...(rows.length ? rows : [make('li', { className: 'empty', textContent: 'None.' })]));
 }
 
 let lastEvent = 0;

@@ -39,8 +39,9 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
       : core_(std::move(core)), stream_(std::move(socket)), buffer_(kMostHeaderBytes + kMostBodyBytes) {}
 
   void start() {
+    const bool full = core_->full();
     core_->add(shared_from_this());
-    if (core_->full()) return sendError(503, "too many connections; close some pages");
+    if (full) return sendError(503, "too many connections; close some pages");
     read();
   }
 

@@ -46,8 +46,7 @@ void checkHost(const Request& request, const Policy& policy) {
   if (name && (*name == "localhost" || isAddressLiteral(*name) ||
                std::find(policy.hosts.begin(), policy.hosts.end(), *name) != policy.hosts.end()))
     return;
-  refuse(403, fmt::format("the host {} is not this server: open the page by its address, or allow the name at start",
-                          shown(request.host)));
+  refuse(403, fmt::format("the host {} is not this server: open the page by its address", shown(request.host)));
 }
 
 void checkMethod(const Request& request, const std::string& wanted) {

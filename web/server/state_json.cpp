@@ -1,8 +1,11 @@
 #include "web/server/state_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
+
+#include "common/rounding.hpp"
 
 namespace swiftlet::web {
 namespace {
@@ -10,16 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// nlohmann::json writes what is not finite as null.
-double rounded(double value, double unit = 1e-3) {
-  return std::isfinite(value) ? std::round(value / unit) * unit : value;
-}
-
-/// Doubles like 0.1 + 0.2 would be written with 17 digits; through an integer they are short.
-Json number(double value, int decimals = 3) {
-  const double power = std::pow(10.0, decimals);
-  if (!std::isfinite(value) || std::abs(value) * power > 9e15) return rounded(value);
-  return std::round(value * power) / power;
-}
+Json number(double value, int decimals = 3) { return common::rounded(value, decimals); }
 
 Json point(const Eigen::Vector2d& p) { return Json::array({number(p.x()), number(p.y())}); }
 
@@ -94,7 +88,7 @@ Json stateOf(const common::World& world, const Observation& seen) {
        {{"voltage_v", number(world.status.battery_voltage_v, 2)},
         {"remaining", number(world.status.battery_remaining)}}},
       {"distance_flown_m", number(world.status.distance_flown_m, 2)},
-      {"explored_area_m2", number(world.explored_area_m2, 2)},
+      {"explored_area_m2", world.explored_area_m2 > 0 ? number(world.explored_area_m2, 2) : Json(nullptr)},
       {"avoidance",
        {{"braking", world.avoidance.braking},
         {"retreating", world.avoidance.retreating},
@@ -135,8 +129,8 @@ Json levelsOf(const common::LevelMap& levels) {
 
 Json eventsOf(std::span<const NumberedEvent> events) {
   Json list = Json::array();
-  for (const auto& [sequence, event] : events)
-    list.push_back({{"number", sequence},
+  for (const auto& [number_in_flight, event] : events)
+    list.push_back({{"number", number_in_flight},
                     {"stamp_s", number(event.stamp.seconds())},
                     {"severity", common::toString(event.severity)},
                     {"source", event.source},

@@ -25,7 +25,8 @@ struct NumberedEvent {
   common::Event event;
 };
 
-/// Lengths in metres to the millimetre, angles in radians; what is not finite becomes null.
+/// Lengths in metres to the millimetre, angles in radians; what is not finite becomes null, and so does the explored
+/// area while nothing was explored.
 std::string stateJson(const common::World& world, const Observation& observation);
 std::string frontiersJson(const std::vector<common::Frontier>& frontiers, double resolution_m);
 std::string levelsJson(const common::LevelMap& levels);

@@ -18,6 +18,7 @@
 #include "web/server/assets.hpp"
 #include "web/server/core.hpp"
 #include "web/server/http_session.hpp"
+#include "web/server/reachable_address.hpp"
 
 namespace swiftlet::web {
 namespace {
@@ -36,7 +37,7 @@ void checkOptions(const WebServer::Options& options) {
   const auto sound = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
   if (options.token.size() < kLeastTokenLength || !std::all_of(options.token.begin(), options.token.end(), sound))
     fail("token", fmt::format("`{}` is not at least {} letters, digits, `-` or `_`", options.token, kLeastTokenLength),
-         "leave it out to have one made");
+         "");
   if (options.port < 0 || options.port > 65535)
     fail("port", fmt::format("{} is not in 0 to 65535", options.port), "0 picks a free one");
 }
@@ -59,7 +60,6 @@ std::string lower(std::string text) {
 Policy policyOf(const WebServer::Options& options) {
   Policy policy;
   policy.token = options.token;
-  for (const std::string& host : options.allowed_hosts) policy.hosts.push_back(lower(host));
   std::array<char, 256> name{};
   if (gethostname(name.data(), name.size() - 1) == 0 && name[0] != '\0') {
     policy.hosts.push_back(lower(name.data()));
@@ -141,10 +141,8 @@ int WebServer::port() const { return impl_->port; }
 
 std::string WebServer::operatorUrl() const {
   const Options& options = impl_->core->options;
-  const auto address = addressOf(options.address);
-  std::string host = address.to_string();
-  if (address.is_unspecified()) host = address.is_v6() ? "::1" : "127.0.0.1";
-  if (address.is_v6()) host = "[" + host + "]";
+  const auto address = reachableAddress(addressOf(options.address));
+  const std::string host = address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
   return fmt::format("http://{}:{}/?token={}", host, impl_->port, options.token);
 }
 

@@ -11,14 +11,14 @@
 //
 // Streams: a picture is encoded once for all clients that asked for the same; each client has at most one frame under
 // way and gets the newest when it is ready again, so that a slow client costs and delays nobody, and its own picture
-// is never older than one frame. Requests with a foreign Host or Origin are refused (no DNS rebinding, no CSRF).
+// is never older than one frame. Requests whose Host is neither an address nor a name of this machine, or whose Origin
+// is foreign, are refused (no DNS rebinding, no CSRF).
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "common/command.hpp"
 #include "common/event.hpp"
@@ -32,11 +32,10 @@ namespace swiftlet::web {
 class WebServer {
  public:
   struct Options {
-    std::string address = "127.0.0.1";       ///< IPv4 or IPv6 to listen on; "0.0.0.0" is every interface.
-    int port = 8080;                         ///< 0: any free one.
-    std::string token;                       ///< What an operator must show; at least 8 characters of [A-Za-z0-9_-].
-    std::string title;                       ///< Shown on the page: "explore_and_return in unb_case1".
-    std::vector<std::string> allowed_hosts;  ///< Host names besides IP addresses, localhost and this machine's name.
+    std::string address = "127.0.0.1";  ///< IPv4 or IPv6 to listen on; "0.0.0.0" is every interface.
+    int port = 8080;                    ///< 0: any free one.
+    std::string token;                  ///< What an operator must show; at least 8 characters of [A-Za-z0-9_-].
+    std::string title;                  ///< Shown on the page: "explore_and_return in unb_case1".
     double hull_diameter_m = 0.55;
     double command_timeout_s = 2.0;  ///< How long an answer waits for the CommandResult.
     double stall_timeout_s = 10.0;   ///< A stream's client that takes nothing for so long is dropped.
@@ -62,7 +61,8 @@ class WebServer {
 
   /// The port it listens on.
   int port() const;
-  /// "http://127.0.0.1:8080/?token=...": what to open. For "0.0.0.0" and "::" the loopback address stands in.
+  /// "http://127.0.0.1:8080/?token=...": what to open. For "0.0.0.0" and "::" with an address of this machine that
+  /// others can open, where it has one.
   std::string operatorUrl() const;
 
   /// Someone watches the camera, so that it is worth rendering. Any thread.

@@ -1,5 +1,7 @@
 #include "behaviors/tree/nodes/force_failure.hpp"
 
+#include "behaviors/tree/nodes/ended_as.hpp"
+
 namespace swiftlet::tree {
 
 NodeManifest ForceFailure::manifest() {
@@ -10,17 +12,7 @@ NodeManifest ForceFailure::manifest() {
 }
 
 Status ForceFailure::run(TickContext& context) {
-  switch (const Status status = child().tick(context)) {
-    case Status::kSuccess:
-    case Status::kFailure:
-      return Status::kFailure;
-    case Status::kRunning:
-    case Status::kSkipped:
-    case Status::kIdle:
-    case Status::kSuspended:
-      return status;
-  }
-  return Status::kFailure;
+  return endedAs(child().tick(context), Status::kFailure, Status::kFailure);
 }
 
 }  // namespace swiftlet::tree

@@ -1,5 +1,7 @@
 #include "behaviors/tree/nodes/force_success.hpp"
 
+#include "behaviors/tree/nodes/ended_as.hpp"
+
 namespace swiftlet::tree {
 
 NodeManifest ForceSuccess::manifest() {
@@ -10,17 +12,7 @@ NodeManifest ForceSuccess::manifest() {
 }
 
 Status ForceSuccess::run(TickContext& context) {
-  switch (const Status status = child().tick(context)) {
-    case Status::kSuccess:
-    case Status::kFailure:
-      return Status::kSuccess;
-    case Status::kRunning:
-    case Status::kSkipped:
-    case Status::kIdle:
-    case Status::kSuspended:
-      return status;
-  }
-  return Status::kFailure;
+  return endedAs(child().tick(context), Status::kSuccess, Status::kSuccess);
 }
 
 }  // namespace swiftlet::tree

@@ -1,5 +1,7 @@
 #include "behaviors/tree/nodes/inverter.hpp"
 
+#include "behaviors/tree/nodes/ended_as.hpp"
+
 namespace swiftlet::tree {
 
 NodeManifest Inverter::manifest() {
@@ -10,18 +12,7 @@ NodeManifest Inverter::manifest() {
 }
 
 Status Inverter::run(TickContext& context) {
-  switch (const Status status = child().tick(context)) {
-    case Status::kSuccess:
-      return Status::kFailure;
-    case Status::kFailure:
-      return Status::kSuccess;
-    case Status::kRunning:
-    case Status::kSkipped:
-    case Status::kIdle:
-    case Status::kSuspended:
-      return status;
-  }
-  return Status::kFailure;
+  return endedAs(child().tick(context), Status::kFailure, Status::kSuccess);
 }
 
 }  // namespace swiftlet::tree

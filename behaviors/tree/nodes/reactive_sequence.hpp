@@ -7,22 +7,15 @@
 // While a halted child lets go (it may take several ticks) the node is RUNNING and ticks nobody; a FAILURE stands.
 #pragma once
 
-#include "behaviors/tree/composite.hpp"
+#include "behaviors/tree/nodes/reactive.hpp"
 #include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::tree {
 
-class ReactiveSequence final : public Composite {
+class ReactiveSequence final : public Reactive {
  public:
-  using Composite::Composite;
+  explicit ReactiveSequence(const NodeSetup& setup) : Reactive(setup, Status::kSuccess, Status::kFailure) {}
   static NodeManifest manifest();
-
- private:
-  Status run(TickContext& context) override;
-  void clear(TickContext&) override { running_ = kNobody; }
-
-  static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
-  std::size_t running_ = kNobody;  ///< The child that answered RUNNING last.
 };
 
 }  // namespace swiftlet::tree

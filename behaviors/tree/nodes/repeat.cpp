@@ -13,33 +13,4 @@ NodeManifest Repeat::manifest() {
           .description = "The child again and again, until it fails."};
 }
 
-Repeat::Repeat(const NodeSetup& setup) : Composite(setup), num_cycles_(setup, "num_cycles") {}
-
-bool Repeat::onAsked(const TickContext& context) const {
-  const auto cycles = num_cycles_.get();
-  return !cycles || *cycles == 0 || Composite::onAsked(context);
-}
-
-Status Repeat::run(TickContext& context) {
-  const auto cycles = num_cycles_.get();
-  if (!cycles) return endWith(context, fail(context, num_cycles_.problem()));
-
-  while (*cycles == -1 || done_ < *cycles) {
-    const bool starts_now = !isActive(child().status());
-    switch (const Status status = child().tick(context)) {
-      case Status::kSuccess:
-        ++done_;
-        if (starts_now && (*cycles == -1 || done_ < *cycles)) return Status::kRunning;
-        break;
-      case Status::kRunning:
-      case Status::kFailure:
-      case Status::kSkipped:
-      case Status::kIdle:
-      case Status::kSuspended:
-        return status;
-    }
-  }
-  return endWith(context, Status::kSuccess);
-}
-
 }  // namespace swiftlet::tree

@@ -6,23 +6,15 @@
 // A cycle that started in this tick and ended in it ends the tick (RUNNING), so that no tick is endless.
 #pragma once
 
-#include "behaviors/tree/composite.hpp"
+#include "behaviors/tree/nodes/again.hpp"
 #include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::tree {
 
-class Repeat final : public Composite {
+class Repeat final : public Again {
  public:
-  explicit Repeat(const NodeSetup& setup);
+  explicit Repeat(const NodeSetup& setup) : Again(setup, "num_cycles", Status::kSuccess) {}
   static NodeManifest manifest();
-
- private:
-  Status run(TickContext& context) override;
-  void clear(TickContext&) override { done_ = 0; }
-  bool onAsked(const TickContext& context) const override;
-
-  Input<std::int64_t> num_cycles_;
-  std::int64_t done_ = 0;
 };
 
 }  // namespace swiftlet::tree

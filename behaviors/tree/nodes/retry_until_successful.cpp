@@ -13,34 +13,4 @@ NodeManifest RetryUntilSuccessful::manifest() {
           .description = "The child again after each failure, until it succeeds."};
 }
 
-RetryUntilSuccessful::RetryUntilSuccessful(const NodeSetup& setup)
-    : Composite(setup), num_attempts_(setup, "num_attempts") {}
-
-bool RetryUntilSuccessful::onAsked(const TickContext& context) const {
-  const auto attempts = num_attempts_.get();
-  return !attempts || *attempts == 0 || Composite::onAsked(context);
-}
-
-Status RetryUntilSuccessful::run(TickContext& context) {
-  const auto attempts = num_attempts_.get();
-  if (!attempts) return endWith(context, fail(context, num_attempts_.problem()));
-
-  while (*attempts == -1 || done_ < *attempts) {
-    const bool starts_now = !isActive(child().status());
-    switch (const Status status = child().tick(context)) {
-      case Status::kFailure:
-        ++done_;
-        if (starts_now && (*attempts == -1 || done_ < *attempts)) return Status::kRunning;
-        break;
-      case Status::kRunning:
-      case Status::kSuccess:
-      case Status::kSkipped:
-      case Status::kIdle:
-      case Status::kSuspended:
-        return status;
-    }
-  }
-  return endWith(context, Status::kFailure);
-}
-
 }  // namespace swiftlet::tree

@@ -7,23 +7,15 @@
 // An attempt that started in this tick and ended in it ends the tick (RUNNING), so that no tick is endless.
 #pragma once
 
-#include "behaviors/tree/composite.hpp"
+#include "behaviors/tree/nodes/again.hpp"
 #include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::tree {
 
-class RetryUntilSuccessful final : public Composite {
+class RetryUntilSuccessful final : public Again {
  public:
-  explicit RetryUntilSuccessful(const NodeSetup& setup);
+  explicit RetryUntilSuccessful(const NodeSetup& setup) : Again(setup, "num_attempts", Status::kFailure) {}
   static NodeManifest manifest();
-
- private:
-  Status run(TickContext& context) override;
-  void clear(TickContext&) override { done_ = 0; }
-  bool onAsked(const TickContext& context) const override;
-
-  Input<std::int64_t> num_attempts_;
-  std::int64_t done_ = 0;
 };
 
 }  // namespace swiftlet::tree

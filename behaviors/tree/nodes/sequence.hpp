@@ -6,22 +6,15 @@
 //   after the last: SUCCESS, or SKIPPED when all were skipped.
 #pragma once
 
-#include "behaviors/tree/composite.hpp"
+#include "behaviors/tree/nodes/chain.hpp"
 #include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::tree {
 
-class Sequence final : public Composite {
+class Sequence final : public Chain {
  public:
-  using Composite::Composite;
+  explicit Sequence(const NodeSetup& setup) : Chain(setup, Status::kSuccess) {}
   static NodeManifest manifest();
-
- private:
-  Status run(TickContext& context) override;
-  void clear(TickContext&) override { current_ = skipped_ = 0; }
-
-  std::size_t current_ = 0;
-  std::size_t skipped_ = 0;
 };
 
 }  // namespace swiftlet::tree

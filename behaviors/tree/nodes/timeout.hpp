@@ -1,8 +1,8 @@
 // Timeout: the child, for no longer than msec; 0: no limit.
 //   child ends or is SKIPPED in time -> the same
 //   child RUNNING, time left         -> RUNNING
-//   no time left at a tick           -> the child is halted without another tick (RUNNING while it lets go), then
-//   FAILURE
+//   no time left at a tick           -> the child is halted without another tick (RUNNING while it lets go),
+//                                       then FAILURE
 // The clock starts at the first tick and stands still from the tick that suspends this node to the one that resumes it.
 #pragma once
 

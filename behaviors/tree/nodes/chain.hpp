@@ -1,0 +1,22 @@
+// What Sequence and Fallback share: the children one after the other; a child that ended is not asked again.
+#pragma once
+
+#include "behaviors/tree/composite.hpp"
+
+namespace swiftlet::tree {
+
+class Chain : public Composite {
+ protected:
+  /// `goes_on` is the end of a child after which the next is asked (SKIPPED is another), and that of the whole chain.
+  Chain(const NodeSetup& setup, Status goes_on) : Composite(setup), goes_on_(goes_on) {}
+
+ private:
+  Status run(TickContext& context) final;
+  void clear(TickContext&) final { current_ = skipped_ = 0; }
+
+  Status goes_on_;
+  std::size_t current_ = 0;
+  std::size_t skipped_ = 0;
+};
+
+}  // namespace swiftlet::tree

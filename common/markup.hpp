@@ -1,0 +1,12 @@
+// Text inside HTML, SVG and XML.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace swiftlet::common {
+
+/// Text as it may stand between tags and in quoted attributes. Bytes that are not UTF-8 become U+FFFD.
+std::string escaped(std::string_view text);
+
+}  // namespace swiftlet::common
