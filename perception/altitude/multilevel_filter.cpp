@@ -25,9 +25,8 @@ namespace {
 constexpr double kFarthest_m = 60.0;
 constexpr int kNone = -1;
 constexpr int kFloor = 0;
-constexpr double kFarBelow_sigma =
-    8.0;  // When the height is that unsure, a step down is less likely than a wrong height.
-constexpr double kLineAfter_s = 0.15;  // A surface seen for less is taken to stay where it is.
+constexpr double kFarBelow_sigma = 8.0;  // An unsure height is likelier than a step down from the floor.
+constexpr double kLineAfter_s = 0.15;    // A surface seen for less is taken to stay where it is.
 
 double square(double x) { return x * x; }
 

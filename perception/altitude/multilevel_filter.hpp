@@ -14,7 +14,9 @@
 //
 // Not every surface is flat. Over a slope (the back of a sofa) each measurement lies within its gate and all lean to
 // one side. So a surface is believed when it was at one height for a while, a level is left alone when its innovations
-// add up, and a measurement is given out only when that did not happen soon after.
+// add up, and a measurement is given out only when that did not happen soon after. What rises or falls evenly for
+// longer is flat, and the vertical speed was wrong: that is measured, too. Where the height has become unsure, a known
+// level is entered only if it is likelier than a surface not known yet (docs/decisions/008).
 //
 // Heights are of the body origin over the take-off floor, which is level 0 at height 0 without error. The filter lives
 // at the time of the last scan; the vehicle's present height comes from the fusion filter, which takes the virtual
