@@ -17,7 +17,7 @@ function(swiftlet_library name)
   set_property(GLOBAL APPEND PROPERTY SWIFTLET_LIBRARIES swiftlet_${name})
 endfunction()
 
-# swiftlet_tests(NAME [DEPENDS targets...] [LABELS labels...])
+# swiftlet_tests(NAME [TIMEOUT seconds] [DEPENDS targets...] [LABELS labels...])
 #   One GoogleTest program test_NAME of every *_test.cpp in tests/NAME; each test of it is a ctest test.
 function(swiftlet_tests name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "DEPENDS;LABELS" ${ARGN})
@@ -29,6 +29,7 @@ function(swiftlet_tests name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
-                       PROPERTIES LABELS "${name};${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+  math(EXPR timeout "${ARG_TIMEOUT} * ${SWIFTLET_TEST_PATIENCE}")
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+                       PROPERTIES LABELS "${name};${ARG_LABELS}" TIMEOUT ${timeout})
 endfunction()
