@@ -255,5 +255,31 @@ TEST(WebServerTest, StopsWithClientsConnected) {
   EXPECT_TRUE(idle.closed());
 }
 
+TEST(WebServerTest, StopsWhileACommandWaitsAndKeepsNothing) {
+  common::LatestValue<common::World> world;
+  common::LatestValue<common::CameraFrame> camera;
+  common::LosslessQueue<common::OperatorCommand> commands;
+  common::LosslessQueue<common::CommandResult> results;
+  auto held = std::make_shared<int>();  // By all that the server shares, through the clock it is given.
+  const std::weak_ptr<int> still_held = held;
+  {
+    web::WebServer::Options options;
+    options.port = 0;
+    options.token = "operator-token";
+    options.command_timeout_s = 60.0;
+    options.unix_time = [held = std::move(held)] { return unixTime(); };
+    web::IoContext io;
+    web::WebServer server(io, options, {world, camera, commands, results});
+    options = {};
+    std::jthread thread([&] { io.run(); });
+    RawClient client(server.port());
+    client.send("POST /api/hold HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n" + bearer() + "\r\n");
+    EXPECT_TRUE(eventually([&] { return !commands.takeAll().empty(); }));
+    server.stop();
+    EXPECT_TRUE(client.closed());
+  }
+  EXPECT_TRUE(still_held.expired());
+}
+
 }  // namespace
 }  // namespace swiftlet::testing
