@@ -7,6 +7,9 @@ import { fileURLToPath } from 'node:url';
 
 const kHere = dirname(fileURLToPath(import.meta.url));
 
+/** How many times slower than a release build this one may be; ctest says it. */
+export const kPatience = Number(process.env.SWIFTLET_TEST_PATIENCE ?? 1);
+
 function skip(why) {
   console.log(`skipped: ${why}`);
   process.exit(77);

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { createInterface } from 'node:readline';
 
-import { launch } from './browser.mjs';
+import { kPatience, launch } from './browser.mjs';
 
 const [fixture, folder] = process.argv.slice(2);
 
@@ -17,8 +17,8 @@ async function serve(port = 0) {
   });
   return {
     url: new URL(url),
-    stop: () => new Promise((resolve) => {
-      process.once('exit', resolve);
+    stop: () => new Promise((resolve, reject) => {
+      process.once('exit', (code) => (code === 0 ? resolve() : reject(new Error(`the fixture ended with ${code}`))));
       process.stdin.end();
     }),
   };
@@ -31,6 +31,7 @@ const { origin } = server.url;
 async function open(url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true, ...options });
   const page = await context.newPage();
+  page.setDefaultTimeout(30_000 * kPatience);
   page.problems = [];
   page.on('pageerror', (error) => page.problems.push(error.message));
   page.on('request', (request) => {
@@ -54,12 +55,12 @@ async function onScreen(page, x_m, y_m) {
 const state = async () => (await fetch(`${origin}/api/state`)).json();
 
 async function eventually(what, holds, timeout_s = 10) {
-  const end = Date.now() + 1000 * timeout_s;
+  const end = Date.now() + 1000 * kPatience * timeout_s;
   while (Date.now() < end) {
     if (await holds()) return;
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
-  assert.fail(`${what} did not happen within ${timeout_s} s`);
+  assert.fail(`${what} did not happen within ${kPatience * timeout_s} s`);
 }
 
 async function tapGoal(page, x_m, y_m) {

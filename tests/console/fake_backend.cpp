@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "tests/support/patience.hpp"
+
 namespace swiftlet::testing {
 
 common::Time unixTime() {
@@ -21,7 +23,7 @@ FakeBackend::FakeBackend(Setup setup) : setup_(std::move(setup)) {
   options.port = setup_.port;
   options.token = setup_.token;
   options.title = "explore_and_return in example flat";
-  options.command_timeout_s = 0.5;
+  options.command_timeout_s = 0.5 * test_support::patience();
   options.stall_timeout_s = setup_.stall_timeout_s;
   options.max_connections = setup_.max_connections;
   options.unix_time = unixTime;

@@ -5,7 +5,7 @@ import { spawn } from 'node:child_process';
 import { createInterface } from 'node:readline';
 import { once } from 'node:events';
 
-import { launch } from './browser.mjs';
+import { kPatience, launch } from './browser.mjs';
 
 const [swiftlet, folder] = process.argv.slice(2);
 const browser = await launch(folder);
@@ -21,17 +21,18 @@ const url = await new Promise((resolve, reject) => {
 const state = async () => (await fetch(`${url.origin}/api/state`)).json();
 
 async function eventually(what, holds, timeout_s) {
-  const end = Date.now() + 1000 * timeout_s;
+  const end = Date.now() + 1000 * kPatience * timeout_s;
   while (Date.now() < end) {
     if (await holds()) return;
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
-  assert.fail(`${what} did not happen within ${timeout_s} s: ${JSON.stringify(await state()).slice(0, 600)}`);
+  assert.fail(`${what} did not happen within ${kPatience * timeout_s} s: ${JSON.stringify(await state()).slice(0, 600)}`);
 }
 
 try {
   const context = await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true });
   const page = await context.newPage();
+  page.setDefaultTimeout(30_000 * kPatience);
   await page.goto(String(url));
   await page.locator('#flight-state, #mission-state').first().waitFor();
   await eventually('the take-off', async () => (await state()).flight_state === 'flying', 60);
@@ -60,7 +61,8 @@ try {
   await page.screenshot({ path: `${folder}/operator.png` });
   await page.getByRole('button', { name: 'Land' }).tap();
   await eventually('the landing', async () => flight.exitCode !== null || (await state()).flight_state === 'landed', 60);
-  await ended;
+  const [code] = await ended;
+  assert.ok(code === 0 || code === 1, `the program ended with ${code}`);
   console.log('1 passed, 0 failed');
 } finally {
   flight.kill('SIGTERM');

@@ -10,6 +10,8 @@
 #include <csignal>
 #include <stdexcept>
 
+#include "tests/support/patience.hpp"
+
 namespace swiftlet::test_support {
 namespace {
 
@@ -72,7 +74,7 @@ ProgramEnd runSwiftlet(const std::vector<std::string>& arguments, const ProgramO
   err.closeWriter();
 
   ProgramEnd end;
-  const auto deadline = std::chrono::steady_clock::now() + options.patience;
+  const auto deadline = std::chrono::steady_clock::now() + options.patience * patience();
   bool out_open = true, err_open = true;
   while (out_open || err_open) {
     std::array<pollfd, 2> waiting = {pollfd{out_open ? out.ends[0] : -1, POLLIN, 0},

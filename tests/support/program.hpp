@@ -12,7 +12,7 @@
 namespace swiftlet::test_support {
 
 struct ProgramOptions {
-  std::chrono::seconds patience{240};              ///< Killed after this; that fails the test.
+  std::chrono::seconds patience{240};              ///< In a release build; killed after it, which fails the test.
   std::optional<std::size_t> largest_file_bytes;   ///< Writing beyond fails, as it would on a full disk.
   std::optional<std::size_t> hang_up_after_bytes;  ///< Then nobody reads what it prints, as in `| head -1`.
   std::string working_folder;                      ///< The source tree when empty.

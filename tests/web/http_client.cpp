@@ -9,10 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "tests/support/patience.hpp"
+
 namespace swiftlet::testing {
 
 RawClient::RawClient(int port, double timeout_s) : socket_(io_) {
   socket_.connect({boost::asio::ip::address_v4::loopback(), static_cast<unsigned short>(port)});
+  timeout_s *= test_support::patience();
   const auto whole = static_cast<long>(timeout_s);
   const timeval timeout{whole, std::lround((timeout_s - static_cast<double>(whole)) * 1e6)};
   setsockopt(nativeSocket(), SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);

@@ -15,7 +15,8 @@ struct Reply {
   std::string body;
 };
 
-/// A raw TCP connection to the server; every read gives up after `timeout_s` and returns what it has.
+/// A raw TCP connection to the server; every read gives up after `timeout_s` of a release build and returns what
+/// it has.
 class RawClient {
  public:
   explicit RawClient(int port, double timeout_s = 5.0);

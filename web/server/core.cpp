@@ -70,6 +70,8 @@ void Core::close() {
   for (const std::weak_ptr<Connection>& weak : std::exchange(connections_, {}))
     if (const auto connection = weak.lock()) connection->close();
   watchers_.clear();
+  // Who waits for an answer is held by the desk and holds this: told that none comes, they let each other go.
+  while (desk.waiting()) desk.tick();
 }
 
 int unsentBytes(int native_socket) {
