@@ -5,9 +5,17 @@
 #include "planning/wavefront.hpp"
 
 namespace swiftlet::autonomy {
+namespace {
+
+constexpr double kFlownSpacing_m = 0.1;
+
+}  // namespace
 
 PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
+  const Eigen::Vector2d here = request.T_map_body.position_m();
+  if (flown_map_m_.empty() || (here - flown_map_m_.back()).norm() > kFlownSpacing_m) flown_map_m_.push_back(here);
   planning::CostLayers layers;
+  layers.flown_map_m = flown_map_m_;
   layers.discs = request.discs;
   layers.levels = request.levels.get();
   map_.update(*request.grid, request.footprint, layers);

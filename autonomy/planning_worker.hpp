@@ -65,6 +65,7 @@ class PlanningWorker {
 
   planning::ExplorationConfig exploration_;
   planning::CostMap map_;
+  std::vector<Eigen::Vector2d> flown_map_m_;  ///< Where the vehicle was at the requests.
   planning::DStarLite planner_;
 };
 

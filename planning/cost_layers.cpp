@@ -13,6 +13,8 @@ constexpr double kMaxStep_m = 5.0;
 
 void CostMap::applyLayers(const CostLayers& layers) {
   cost_ = static_cost_;
+  for (std::size_t i = 1; i < layers.flown_map_m.size(); ++i)
+    applyFlown(layers.flown_map_m[i - 1], layers.flown_map_m[i]);
   applyLocalizability(layers.localizability);
   for (const Disc& disc : layers.discs) applyDisc(disc);
   applyHeights(layers.levels);
@@ -29,6 +31,26 @@ void CostMap::applyLayers(const CostLayers& layers) {
       kOpenCost * (1.0 + config_.comfort_weight + (layers.localizability ? config_.localizability_weight : 0.0)) + 1.0;
   max_edge_cost_ = static_cast<std::int32_t>(2 * kDiagonalEdge * greatest_cell) +
                    (height_cm_.empty() ? 0 : height_edge_ * static_cast<int>(kMaxStep_m * 100.0));
+}
+
+void CostMap::applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
+  constexpr double kWithin_m = 0.075, kJump_m = 1.0;
+  const Eigen::Vector2d way = to_map_m - from_map_m;
+  if (!way.allFinite() || way.norm() > kJump_m) return;
+  const double least_m = footprint_.hull_radius_m + 0.5 * footprint_.clearance_m;
+  const Eigen::Vector2d within = Eigen::Vector2d::Constant(kWithin_m);
+  const common::CellIndex low = cellAt(from_map_m.cwiseMin(to_map_m) - within);
+  const common::CellIndex high = cellAt(from_map_m.cwiseMax(to_map_m) + within);
+  for (int y = std::max(low.y, rect_.begin.y); y <= std::min(high.y, rect_.end.y - 1); ++y) {
+    for (int x = std::max(low.x, rect_.begin.x); x <= std::min(high.x, rect_.end.x - 1); ++x) {
+      const Eigen::Vector2d to_cell = centerOf({x, y}) - from_map_m;
+      const double along = way.isZero() ? 0.0 : std::clamp(to_cell.dot(way) / way.squaredNorm(), 0.0, 1.0);
+      if ((to_cell - along * way).norm() > kWithin_m) continue;
+      Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
+      if (cost == kLethal && stateAt({x, y}) == CellState::kFree && obstacleDistance_m({x, y}) >= least_m)
+        cost = costOfMargin(0.0);
+    }
+  }
 }
 
 void CostMap::applyDisc(const Disc& disc) {

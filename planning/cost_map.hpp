@@ -39,6 +39,9 @@ struct CostLayers {
   std::span<const Disc> discs;
   const common::LevelMap* levels = nullptr;
   const LocalizabilityGrid* localizability = nullptr;
+  /// Where the vehicle has flown, in order, in the `map` frame: half the clearance will do there. A door that was flown
+  /// through does not close behind the vehicle because the map of its frame grew by a cell.
+  std::span<const Eigen::Vector2d> flown_map_m = {};
 };
 
 /// What a cell is, after unknown slivers between beams were closed.
@@ -137,6 +140,7 @@ class CostMap {
   void updateDistances(const Changes& changes, bool all);
   void costTile(int x0, int y0);
   void applyLayers(const CostLayers& layers);
+  void applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m);
   void applyDisc(const Disc& disc);
   void applyHeights(const common::LevelMap* levels);
   void applyLocalizability(const LocalizabilityGrid* layer);

@@ -24,10 +24,17 @@ struct Worker : testing::Test {
     PlanningRequest request;
     request.grid = std::make_shared<const common::OccupancyGrid>(grid->snapshot());
     request.footprint = {0.275, 0.10};
-    request.T_map_body = {2.0, 2.0, 0.0};
+    request.T_map_body = pose;
     request.question = std::move(question);
     return worker.answer(request);
   }
+  /// A wall at x = 4 m with a door so many cells wide about y = 2 m.
+  void build(int door_cells) {
+    for (int y = 0; y < 80; ++y)
+      if (y < 40 - door_cells / 2 || y >= 40 - door_cells / 2 + door_cells)
+        grid->set({80, y}, common::occupancy::kMaxSteps);
+  }
+  common::Pose2 pose{2.0, 2.0, 0.0};
   std::shared_ptr<common::OccupancyGrid> grid = room();
   PlanningWorker worker{planning::CostMap::Config{}, planning::ExplorationConfig{}, 0.05};
 };
@@ -47,6 +54,25 @@ TEST_F(Worker, AGoalJustTooCloseToTheWallIsReachedWithinItsTolerance) {
   ASSERT_TRUE(tolerant.path && *tolerant.path);
   EXPECT_LT(((*tolerant.path)->points_map_m.back() - goal).norm(), 0.8 * 0.15);
   EXPECT_FALSE(ask(GoalRequest{{6.0, 0.1}, 0.15}).path->has_value());
+}
+
+TEST_F(Worker, ADoorThatWasFlownThroughDoesNotCloseBehindTheVehicle) {
+  build(16);
+  for (; pose.x_m < 6.0; pose.x_m += 0.2) {
+    const auto answer = ask(GoalRequest{{6.0, 2.0}, 0.05});
+    ASSERT_TRUE(answer.path && *answer.path);
+  }
+  build(14);  // Its frame has grown by a cell on each side.
+  const auto back = ask(GoalRequest{{2.0, 2.0}, 0.05});
+  ASSERT_TRUE(back.path && *back.path);
+  worker = PlanningWorker{planning::CostMap::Config{}, planning::ExplorationConfig{}, 0.05};
+  EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value()) << "who has not flown there knows no better";
+}
+
+TEST_F(Worker, WhatStandsInTheFlownWayBlocksIt) {
+  for (; pose.x_m < 6.0; pose.x_m += 0.2) (void)ask(GoalRequest{{6.0, 2.0}, 0.05});
+  build(11);  // Somebody put something there: less than half the clearance is left.
+  EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value());
 }
 
 TEST_F(Worker, MakesRoomFarFromANarrowPlace) {
