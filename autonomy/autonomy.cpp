@@ -66,8 +66,11 @@ void Autonomy::process(const common::SensorEvent& event) {
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
     scans_.push_back({*scan, arrived + common::Duration::fromSeconds(config_.scan_latency_s)});
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
+    if (!supervisor_.batteryArrived(arrived, *battery)) return;
     status_.battery_voltage_v = battery->voltage_v;
     status_.battery_remaining = battery->remaining;
+  } else if (const auto* pilot = std::get_if<common::PilotSample>(&event)) {
+    supervisor_.pilotArrived(arrived, pilot->takes_over);
   }
 }
 
@@ -100,6 +103,7 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.state = estimator_.state();
   flight.raw_height = std::exchange(raw_height_, std::nullopt);
   flight.battery_v = status_.battery_voltage_v;
+  flight.pilot_flies = supervisor_.pilotFlies();
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
   const common::Setpoint setpoint = controller_.tick(flight);
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
@@ -187,6 +191,10 @@ common::Intent Autonomy::wishOf(Time now) {
   context_.hold_reason = supervision.hold_reason;
 
   if (supervision.land) {
+    if (!mission_over_) {
+      (void)mission_.letGo(context_);
+      collect(std::exchange(context_.events, {}));
+    }
     mission_status_.state = MissionState::kFailed;
     mission_status_.reason = "landed: " + supervision.land_reason;
     mission_status_.phase = "land";

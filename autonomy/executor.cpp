@@ -250,6 +250,7 @@ void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&
   if (controller_.state() != FlightState::kFlying)
     return fail(fmt::format("cannot explore while {}", toString(controller_.state())));
   if (retreating_) return;
+  if (no_way_since_ && (now_ - *no_way_since_).seconds() > config_.give_up_s) return fail(status_.reason);
   const bool replan = keepPlan(input);
   bool reached = false;
   if (viewpoint_) {
@@ -325,6 +326,7 @@ void Executor::receivePath(const tl::expected<planning::Path, planning::PlanFail
 
 void Executor::receiveExploration(const planning::ExplorationResult& result) {
   status_.reason = result.reason;
+  if (result.next || result.done) no_way_since_.reset();
   if (result.next) {
     done_answers_ = 0;
     if (!result.kept_current) {
@@ -338,7 +340,10 @@ void Executor::receiveExploration(const planning::ExplorationResult& result) {
   viewpoint_.reset();
   keeper_.clear();
   controller_.hold();
-  if (!result.done) return;
+  if (!result.done) {
+    if (!no_way_since_) no_way_since_ = now_;
+    return;
+  }
   // The last scans may still be on their way into the map: done is believed when it is said twice, standing still.
   if (controller_.stopped() && ++done_answers_ >= 2) {
     for (const common::Frontier& frontier : result.frontiers)

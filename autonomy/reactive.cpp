@@ -7,6 +7,9 @@ namespace swiftlet::autonomy {
 namespace {
 
 constexpr float kInTheWay_m = 0.25F;
+/// Local corrections are millimetres, loop closures are not.
+constexpr double kCorrected_m = 0.05;
+constexpr double kCorrected_rad = 0.01;
 
 }  // namespace
 
@@ -33,6 +36,10 @@ const planning::AvoidanceDecision& Reactive::update(const perception::ProjectedS
                                                     const Eigen::Vector2d& wish_map_m_s,
                                                     const std::shared_ptr<const common::OccupancyGrid>& grid,
                                                     const planning::CostMap* cost_map) {
+  // A corrected map explains nothing that was seen against the old one.
+  const common::Pose2 jump = T_map_odom_.inverse() * state.T_map_odom;
+  if (jump.position_m().norm() > kCorrected_m || std::abs(jump.yaw_rad) > kCorrected_rad) background_.restart();
+  T_map_odom_ = state.T_map_odom;
   background_.add(scan.stamp, grid);
   std::vector<Eigen::Vector2f> points_map_m;
   points_map_m.reserve(scan.points_level_m.size());

@@ -42,6 +42,7 @@ class Reactive {
  private:
   planning::Avoidance avoidance_;
   planning::BackgroundMap background_;
+  common::Pose2 T_map_odom_;
   planning::DynamicObstacles obstacles_;
   planning::AvoidanceDecision decision_;
 };

@@ -1,5 +1,6 @@
 #include "autonomy/supervisor.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -45,6 +46,23 @@ std::optional<common::CommandResult> Supervisor::take(const common::OperatorComm
   return std::nullopt;
 }
 
+void Supervisor::pilotArrived(Time now, bool takes_over) {
+  if (takes_over == pilot_flies_) return;
+  pilot_flies_ = takes_over;
+  say(now, Severity::kWarning, takes_over ? "hold" : "goes on",
+      takes_over ? "the pilot took over" : "the pilot gave back");
+}
+
+bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
+  const bool believed = std::isfinite(sample.voltage_v) && std::isfinite(sample.remaining);
+  if (believed != battery_believed_)
+    say(now, believed ? Severity::kInfo : Severity::kWarning,
+        believed ? "the battery is measured again" : "the battery's last good values are kept",
+        believed ? "" : "it says something that is not a number");
+  battery_believed_ = believed;
+  return believed;
+}
+
 const Supervision& Supervisor::tick(Time now, bool airborne, const common::VehicleStatus& status) {
   const double silent_s = last_scan_ ? (now - *last_scan_).seconds() : 0.0;
   if (airborne && silent_s > config_.laser_land_s) land(now, fmt::format("no scan for {:.1f} s", silent_s));
@@ -57,8 +75,11 @@ const Supervision& Supervisor::tick(Time now, bool airborne, const common::Vehic
   if (airborne && status.battery_remaining < config_.battery_land_share)
     land(now, fmt::format("{:.0f} % of the battery left", 100.0 * status.battery_remaining));
 
-  supervision_.hold = operator_holds_ || laser_holds_;
-  supervision_.hold_reason = laser_holds_ ? "the laser is silent" : operator_holds_ ? "the operator holds" : "";
+  supervision_.hold = operator_holds_ || laser_holds_ || pilot_flies_;
+  supervision_.hold_reason = pilot_flies_      ? "the pilot flies"
+                             : laser_holds_    ? "the laser is silent"
+                             : operator_holds_ ? "the operator holds"
+                                               : "";
   return supervision_;
 }
 

@@ -9,6 +9,7 @@
 #include "common/command.hpp"
 #include "common/config.hpp"
 #include "common/event.hpp"
+#include "common/sensor_event.hpp"
 #include "common/time.hpp"
 #include "common/vehicle_config.hpp"
 #include "common/vehicle_state.hpp"
@@ -36,10 +37,10 @@ struct Supervision {
 
 /// One thread.
 ///
-///             hold command, or no scan for laser_hold_s
-///   watching ------------------------------------------> holding
-///      ^  resume command, scans are back                    |
-///      +----------------------------------------------------+
+///             hold command, no scan for laser_hold_s, the pilot takes over
+///   watching --------------------------------------------------------------> holding
+///      ^  resume command, scans are back, the pilot gives back                  |
+///      +------------------------------------------------------------------------+
 ///   any -- land command, no scan for laser_land_s, battery low --> landing (stays)
 class Supervisor {
  public:
@@ -48,6 +49,10 @@ class Supervisor {
   /// Hold, resume and land are taken here and answered; everything else is for the mission.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command, common::Time now);
   void scanArrived(common::Time now) { last_scan_ = now; }
+  void pilotArrived(common::Time now, bool takes_over);
+  /// False when it is not to be believed.
+  bool batteryArrived(common::Time now, const common::BatterySample& sample);
+  bool pilotFlies() const { return pilot_flies_; }
 
   /// `airborne`: a fault on the ground is no reason to land.
   const Supervision& tick(common::Time now, bool airborne, const common::VehicleStatus& status);
@@ -64,6 +69,8 @@ class Supervisor {
   bool operator_holds_ = false;
   bool landed_by_operator_ = false;
   bool laser_holds_ = false;
+  bool pilot_flies_ = false;
+  bool battery_believed_ = true;
   Supervision supervision_;
   std::vector<common::Event> events_;
 };

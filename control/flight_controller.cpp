@@ -171,7 +171,13 @@ common::Setpoint FlightController::takeOff(const FlightTick& tick) {
   return setpoint;
 }
 
-common::Setpoint FlightController::fly(const FlightTick& tick) { return track(tick, follower_.advance(dt_s_)); }
+common::Setpoint FlightController::fly(const FlightTick& tick) {
+  if (tick.pilot_flies) {
+    follower_.reset(last_state_.T_odom_body.position_m, common::yawOf(last_state_.T_odom_body.rotation));
+    position_.reset();
+  }
+  return track(tick, follower_.advance(dt_s_));
+}
 
 common::Setpoint FlightController::descend(const FlightTick& tick) {
   const double height_m = last_state_.T_odom_body.position_m.z();

@@ -50,6 +50,7 @@ struct FlightTick {
   std::optional<RawHeight> raw_height;  ///< A new one since the last tick, else none.
   double battery_v = 0.0;               ///< Latest; 0 while unknown.
   bool fusion_diverged = false;
+  bool pilot_flies = false;  ///< What is commanded has no effect: the references follow the vehicle.
 };
 
 /// One thread. Never throws; refused commands say why.

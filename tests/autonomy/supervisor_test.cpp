@@ -1,6 +1,8 @@
 // What stands above the mission, tick by tick.
 #include "autonomy/supervisor.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,6 +31,27 @@ TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
   EXPECT_TRUE(at(60.0).hold);
   ASSERT_TRUE(supervisor_.take({2, common::ResumeCommand{}}, Time::fromSeconds(61)));
   EXPECT_FALSE(at(61.0).hold);
+}
+
+TEST_F(SupervisorStory, ThePilotHoldsTheMissionWhileHeFlies) {
+  EXPECT_FALSE(at(0.0).hold);
+  supervisor_.pilotArrived(Time::fromSeconds(1), true);
+  supervisor_.pilotArrived(Time::fromSeconds(1.02), true);
+  EXPECT_TRUE(at(1.1).hold);
+  EXPECT_EQ(at(1.1).hold_reason, "the pilot flies");
+  EXPECT_TRUE(supervisor_.pilotFlies());
+  supervisor_.pilotArrived(Time::fromSeconds(9), false);
+  EXPECT_FALSE(at(9.1).hold);
+  EXPECT_EQ(supervisor_.takeEvents().size(), 2u);
+}
+
+TEST_F(SupervisorStory, ABatteryThatSaysNothingSensibleIsSaidOnce) {
+  const auto sample = [](double remaining) { return common::BatterySample{{}, 11.1, remaining}; };
+  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(1), sample(0.5)));
+  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(2), sample(std::nan(""))));
+  EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(3), sample(std::nan(""))));
+  EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(4), sample(0.4)));
+  EXPECT_EQ(supervisor_.takeEvents().size(), 2u);
 }
 
 TEST_F(SupervisorStory, GoalsAreForTheMission) {

@@ -18,26 +18,25 @@ using test_support::readText;
 using test_support::runSwiftlet;
 using testing::HasSubstr;
 
-class LaserFault : public test_support::Scratch {
+class SensorFault : public test_support::Scratch {
  protected:
-  /// Flies the shipped mission with one fault; the only flight of the results.
-  nlohmann::json flyWith(const std::string& fault) {
+  /// Flies the shipped mission with these lines in its scenario; the only flight of the results.
+  nlohmann::json flyIn(const std::string& scenario) {
     std::ofstream(path("fault.yaml")) << "name: fault\n"
                                          "mission: missions/explore_and_return.xml\n"
                                          "time_limit_s: 200\n"
                                          "scenario:\n"
                                          "  world: worlds/unb_case1.sdf\n"
-                                         "  faults:\n"
-                                         "    - "
-                                      << fault << "\n";
+                                      << scenario;
     const ProgramEnd end = runSwiftlet({"trial", path("fault.yaml"), "--repeat", "1", "--out", path("out"), "--json"});
     EXPECT_LE(end.exit_code, 1) << describe(end);
     return nlohmann::json::parse(readText(path("out/results.json"))).at("trials").at(0).at("flights").at(0);
   }
+  nlohmann::json flyWith(const std::string& fault) { return flyIn("  faults:\n    - " + fault + "\n"); }
   std::string events() const { return readText(path("out/fault-001/events.jsonl")); }
 };
 
-TEST_F(LaserFault, NotANumberInScansDoesNotStopTheFlight) {
+TEST_F(SensorFault, NotANumberInScansDoesNotStopTheFlight) {
   const auto flight = flyWith("{sensor: laser, kind: nan, from_s: 10.0, to_s: 10.2}");
   EXPECT_TRUE(flight.at("passed").get<bool>()) << flight.dump(2);
 
@@ -52,7 +51,25 @@ TEST_F(LaserFault, NotANumberInScansDoesNotStopTheFlight) {
     EXPECT_THAT(report, HasSubstr(words));
 }
 
-TEST_F(LaserFault, ShortSilenceHoldsAndGoesOn) {
+TEST_F(SensorFault, ABatteryThatIsNotANumberDoesNotStopTheFlight) {
+  const auto flight = flyWith("{sensor: battery, kind: nan, from_s: 5.0, to_s: 20.0}");
+  EXPECT_TRUE(flight.at("passed").get<bool>()) << flight.dump(2);
+  EXPECT_THAT(events(), HasSubstr("the battery's last good values are kept"));
+  EXPECT_THAT(events(), HasSubstr("the battery is measured again"));
+}
+
+TEST_F(SensorFault, ThePilotTakesOverAndGivesBack) {
+  const auto flight = flyIn(
+      "  pilot:\n"
+      "    - {time_s: 0.0}\n"
+      "    - {time_s: 12.0, thrust: 0.55, takes_over: true}\n"
+      "    - {time_s: 13.0}\n");
+  EXPECT_TRUE(flight.at("passed").get<bool>()) << flight.dump(2);
+  EXPECT_THAT(events(), HasSubstr("the pilot took over"));
+  EXPECT_THAT(events(), HasSubstr("the pilot gave back"));
+}
+
+TEST_F(SensorFault, ShortSilenceHoldsAndGoesOn) {
   const auto flight = flyWith("{sensor: laser, kind: silent, from_s: 12.0, to_s: 12.6}");
   EXPECT_EQ(flight.at("collisions"), 0);
   EXPECT_TRUE(flight.at("mission_done").get<bool>()) << flight.dump(2);
@@ -60,7 +77,7 @@ TEST_F(LaserFault, ShortSilenceHoldsAndGoesOn) {
   EXPECT_THAT(events(), HasSubstr("scans are back"));
 }
 
-TEST_F(LaserFault, LongSilenceHoldsThenLandsAndIsReported) {
+TEST_F(SensorFault, LongSilenceHoldsThenLandsAndIsReported) {
   const auto flight = flyWith("{sensor: laser, kind: silent, from_s: 12.0, to_s: 1000}");
   EXPECT_FALSE(flight.at("mission_done").get<bool>());
   EXPECT_EQ(flight.at("collisions"), 0) << flight.dump(2);

@@ -101,6 +101,21 @@ TEST_F(UnseenGoal, IsGivenUpAtOnce) {
   EXPECT_LT(nlohmann::json::parse(readText(path("run/mission.json"))).at("mission_time_s").get<double>(), 15.0);
 }
 
+class ShutIn : public test_support::Scratch {};
+
+TEST_F(ShutIn, ExploringIsGivenUpWhereThereIsNoRoomToMove) {
+  const std::string mission = write("wide.xml",
+                                    "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Wide\"><Sequence>\n"
+                                    "<TakeOff/><Explore clearance_m=\"1.9\"/><Land/>\n"
+                                    "</Sequence></BehaviorTree></root>\n");
+  const ProgramEnd end = runSwiftlet({"fly", mission, "--headless", "--speed", "max", "--seed", "1", "--json", "--out",
+                                      path("run"), "--time-limit", "120"});
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  const auto mission_json = nlohmann::json::parse(readText(path("run/mission.json")));
+  EXPECT_EQ(mission_json.at("outcome"), "failed") << mission_json.dump(2);
+  EXPECT_THAT(mission_json.at("reason").get<std::string>(), testing::HasSubstr("shut in"));
+}
+
 class Determinism : public test_support::Scratch {
  protected:
   ProgramEnd fly(const std::string& run, const std::string& seed, std::vector<std::string> more,
