@@ -202,14 +202,14 @@ common::Intent Autonomy::wishOf(Time now) {
     return {kSupervisorLand, common::LandIntent{}};
   }
   if (mission_over_) return {kSupervisorLand, common::LandIntent{}};
-  tickMission(now);
+  tickMission();
   if (mission_over_ && airborne) return {kSupervisorLand, common::LandIntent{}};
   if (supervision.hold && mission_status_.state != MissionState::kHeld && airborne)
     return {kSupervisorHold, common::HoldIntent{}};
   return context_.intent.value_or(common::Intent{});
 }
 
-void Autonomy::tickMission(Time) {
+void Autonomy::tickMission() {
   context_.intent.reset();
   const behaviors::TickResult result = mission_.tick(context_);
   collect(std::exchange(context_.events, {}));

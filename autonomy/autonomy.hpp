@@ -66,15 +66,13 @@ class Autonomy {
   std::vector<common::Event> takeEvents();
   std::vector<common::CommandResult> takeResults();
 
-  const Estimator& estimator() const { return estimator_; }
-
  private:
   void processDueScans(common::Time now);
   void processScan(const common::LaserScan& scan, common::Time now);
   void prepare();
   void tickBehaviors(common::Time now);
   common::Intent wishOf(common::Time now);
-  void tickMission(common::Time now);
+  void tickMission();
   void takeSnapshot(common::Time now);
   void collect(std::vector<common::Event> events);
 
@@ -103,7 +101,6 @@ class Autonomy {
   common::MissionStatus mission_status_;
   bool mission_over_ = false;
   bool prepared_ = false;
-  bool landing_for_good_ = false;
   std::optional<common::Time> last_behaviors_;
 
   std::shared_ptr<std::vector<Eigen::Vector2d>> trail_;

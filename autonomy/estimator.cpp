@@ -206,7 +206,6 @@ void Estimator::addToMap(ScanOutcome& outcome, Time now) {
   const auto update = slam_.addScan(outcome.scan, planar(T_odom_body), covariance_since_map_);
   covariance_since_map_.setZero();
   outcome.T_map_body = update.T_map_body;
-  outcome.map_changed = update.drawn || update.T_map_odom_changed;
   if (update.drawn) ++grid_version_;
   submitSlamTask(now);
 }

@@ -50,7 +50,6 @@ struct EstimatorConfig {
 struct ScanOutcome {
   perception::ProjectedScan scan;
   bool matched = false;
-  bool map_changed = false;
   common::Pose2 T_map_body;  ///< At the scan's stamp.
   std::optional<control::RawHeight> raw_height;
 };
@@ -75,15 +74,10 @@ class Estimator {
   common::VehicleState state() const;
   perception::FusionHealth health() const { return filter_.health(); }
 
-  /// Changes whenever the grid does.
-  std::uint64_t gridVersion() const { return grid_version_; }
   std::shared_ptr<const common::OccupancyGrid> grid();
   std::shared_ptr<const common::LevelMap> levels();
 
   std::vector<common::Event> takeEvents();
-  const perception::SlamCounts& slamCounts() const { return slam_.counts(); }
-  const perception::LaserOdometryCounts& odometryCounts() const { return odometry_.counts(); }
-  perception::FusionCounts fusionCounts() const { return filter_.counts(); }
 
  private:
   void initialize(const common::LaserScan& scan);

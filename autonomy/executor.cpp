@@ -82,7 +82,7 @@ void Executor::want(const common::Intent& intent) {
 void Executor::tick(const ExecutorInput& input) {
   now_ = input.now;
   state_ = input.state;
-  if (!started_) start(input);
+  if (!started_) start();
   if (status_.state == IntentState::kRunning)
     std::visit([&](const auto& kind) { carryOut(input, kind); }, intent_.kind);
   const bool due = !last_request_ || (now_ - *last_request_).seconds() >= config_.planning_period_s;
@@ -161,7 +161,7 @@ std::vector<common::Event> Executor::takeEvents() { return std::exchange(events_
 
 // ------------------------------------------------------------------------------------------------------ the intents
 
-void Executor::start(const ExecutorInput& input) {
+void Executor::start() {
   started_ = true;
   keeper_.clear();
   viewpoint_.reset();
@@ -186,7 +186,6 @@ void Executor::start(const ExecutorInput& input) {
     const auto commanded = controller_.command(control::Land{});
     if (!commanded) fail(commanded.error());
   }
-  (void)input;
 }
 
 void Executor::carryOut(const ExecutorInput&, const common::HoldIntent&) { status_.reason = "holding"; }

@@ -52,7 +52,7 @@ struct ExecutorInput {
   const planning::AvoidanceDecision& avoidance;
 };
 
-/// One thread. tick() at the behaviours' rate; retreat() at the laser rate.
+/// One thread. tick() at the behaviours' rate; react() at the laser rate.
 class Executor {
  public:
   Executor(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
@@ -79,7 +79,7 @@ class Executor {
   std::vector<common::Event> takeEvents();
 
  private:
-  void start(const ExecutorInput& input);
+  void start();
   void carryOut(const ExecutorInput& input, const common::HoldIntent&);
   void carryOut(const ExecutorInput& input, const common::AvoidIntent&);
   void carryOut(const ExecutorInput& input, const common::TakeOffIntent& take_off);

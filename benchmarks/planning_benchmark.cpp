@@ -246,7 +246,7 @@ void AvoidanceTick(benchmark::State& state) {
     points.push_back({static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a))});
   }
   planning::Avoidance avoidance({}, 0.275);
-  const std::vector<planning::DynamicObstacle> people{{1, {6.5, 4.0}, 0.25, {-1.0, 0.0}, true, {}, {}, {}, {}}};
+  const std::vector<planning::DynamicObstacle> people{{1, {6.5, 4.0}, 0.25, {-1.0, 0.0}, true, {}, {}, {}}};
   for (auto _ : state)
     benchmark::DoNotOptimize(avoidance.update({{}, points, {0.5, 0}, {0.5, 0}, {5.0, 4.0, 0.0}, &map, people}));
 }

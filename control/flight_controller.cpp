@@ -113,7 +113,6 @@ common::Setpoint FlightController::tick(const FlightTick& tick) {
   watch(tick);
   common::Setpoint setpoint = setpointFor(tick);
   setpoint.stamp = now_;
-  last_thrust_ = setpoint.thrust;
   return setpoint;
 }
 

@@ -142,7 +142,6 @@ class FlightController {
   std::optional<common::Time> condition_since_;  ///< Hover reached, or touched down.
   std::optional<common::Time> horizontal_lost_;
   std::optional<common::Time> vertical_lost_;
-  double last_thrust_ = 0.0;
 };
 
 }  // namespace swiftlet::control

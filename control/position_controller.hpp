@@ -60,7 +60,6 @@ class PositionController {
   ThrustModel& thrust() { return thrust_; }
   const ThrustModel& thrust() const { return thrust_; }
   /// Level frame of odom axes; what wind, trim and a wrong horizon ask for.
-  const Eigen::Vector3d& integral_m_s2() const { return integral_m_s2_; }
 
  private:
   /// Velocity still missing, horizontally and vertically: what P, I and the lead act on.

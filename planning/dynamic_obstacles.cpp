@@ -139,7 +139,7 @@ void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2
     }
     if (!nearest) {
       obstacles_.push_back(
-          {next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, seen.center_map_m, stamp, stamp, stamp});
+          {next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, seen.center_map_m, stamp, stamp});
       continue;
     }
     taken[*nearest] = true;

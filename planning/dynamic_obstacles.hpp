@@ -47,7 +47,6 @@ struct DynamicObstacle {
   bool moving = false;
   Eigen::Vector2d anchor_map_m = Eigen::Vector2d::Zero();  ///< That place,
   common::Time anchor_stamp;                               ///< and when it was seen there.
-  common::Time first_seen;
   common::Time last_seen;
 };
 
