@@ -33,7 +33,7 @@ namespace swiftlet::perception {
 struct GridDrawingConfig {
   double resolution_m = 0.05;
   int hit_steps = 18;  ///< Log-odds steps (common::occupancy) a cell gains when a beam ends in it,
-  int free_steps = 9;  ///< and loses when beams only pass. Each cell changes at most once a scan; a hit wins.
+  int free_steps = 6;  ///< and loses when beams only pass. Each cell changes at most once a scan; a hit wins.
   int max_steps = 70;  ///< Confidence is capped at this (Bachrach 2009, section 5.3).
   double max_hit_range_m = 20.0;     ///< End points farther than this are not drawn; the view to there still clears.
   double max_free_range_m = 10.0;    ///< Beams without return clear up to here.

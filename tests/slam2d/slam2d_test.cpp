@@ -314,7 +314,7 @@ TEST(GridDrawing, AWalkerIsClearedAgain) {
   EXPECT_EQ(where(), config.max_steps);  // Capped, however long they stood there.
   int scans = 0;
   for (; common::occupancy::isOccupied(where()) && scans < 100; ++scans) map.draw(around(3.0, 720), {});
-  EXPECT_LE(scans, 8);
+  EXPECT_LE(scans, 12);
 }
 
 TEST(GridDrawing, WhatDoesNotChangeStaysShared) {
