@@ -154,7 +154,14 @@ double Avoidance::gapAfter(const Threat& threat, const Point& moved_m, double ti
 double Avoidance::speedLimit(const Point& direction, const Points& points) const {
   double gap_m = kInfinity;
   for (const Point& p : points) gap_m = std::min(gap_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
-  return gap_m < kInfinity ? std::min(config_.max_speed_m_s, stoppingSpeed(gap_m)) : config_.max_speed_m_s;
+  // Where the laser does not look the map knows the walls, and nobody knows who walks there.
+  const double most_m_s = isSeen(direction) ? config_.max_speed_m_s : config_.blind_speed_m_s;
+  return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed(gap_m)) : most_m_s;
+}
+
+bool Avoidance::isSeen(const Point& direction) const {
+  return std::abs(std::atan2(direction.y(), direction.x())) <=
+         0.5 * config_.field_of_view_deg * std::numbers::pi / 180.0;
 }
 
 double Avoidance::stoppingSpeed(double gap_m) const {

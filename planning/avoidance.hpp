@@ -64,6 +64,7 @@ class Avoidance {
     int smoothing_window = 5;
     double max_speed_m_s = 1.5;
     double deceleration_m_s2 = 1.0;
+    double blind_speed_m_s = 0.3;
     double latency_s = 0.15;
     double margin_m = 0.05;
     double retreat_distance_m = 0.25;
@@ -109,6 +110,7 @@ class Avoidance {
   std::vector<Threat> threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
   double gapAfter(const Threat& threat, const Eigen::Vector2d& moved_m, double time_s) const;
   double speedLimit(const Eigen::Vector2d& direction, const Points& points) const;
+  bool isSeen(const Eigen::Vector2d& direction) const;
   double stoppingSpeed(double gap_m) const;
   double yieldingSpeed(const Eigen::Vector2d& direction, double speed_m_s, double intended_m_s,
                        const std::vector<Threat>& threats) const;

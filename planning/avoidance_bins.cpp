@@ -51,6 +51,7 @@ void Avoidance::Config::describe(common::config::Fields& fields) {
   fields("smoothing_window", smoothing_window, "Beams of the sliding mean; for `mean` only.");
   fields("max_speed_m_s", max_speed_m_s, "The limit where nothing is near.");
   fields("deceleration_m_s2", deceleration_m_s2, "Braking that can be counted on.");
+  fields("blind_speed_m_s", blind_speed_m_s, "The limit on a course that the laser does not see.");
   fields("latency_s", latency_s, "From a return to the first effect on the speed.");
   fields("margin_m", margin_m, "Between hull and obstacle when it has stopped.");
   fields("retreat_distance_m", retreat_distance_m, "Something unmapped nearer to the hull makes it retreat.");
@@ -75,6 +76,7 @@ std::vector<std::string> Avoidance::Config::validate() const {
       .within("smoothing_window", smoothing_window, 1, 101)
       .within("max_speed_m_s", max_speed_m_s, 0.05, 20)
       .within("deceleration_m_s2", deceleration_m_s2, 0.1, 20)
+      .within("blind_speed_m_s", blind_speed_m_s, 0.05, 20)
       .within("latency_s", latency_s, 0, 2)
       .within("margin_m", margin_m, 0, 2)
       .within("retreat_distance_m", retreat_distance_m, 0, 5)

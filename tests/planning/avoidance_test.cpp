@@ -170,6 +170,14 @@ TEST(Avoidance, NothingNearNothingLimited) {
   EXPECT_NEAR(std::abs(d.status.nearest_bearing_body_rad), std::numbers::pi / 2, 0.05);
 }
 
+TEST(Avoidance, FliesSlowlyWhereItDoesNotLook) {
+  Story story;
+  const Avoidance::Config config;
+  EXPECT_EQ(story.sense({0.8, 0.0}).speed_limit_m_s, config.max_speed_m_s);
+  EXPECT_EQ(story.sense({-0.1, 0.8}).speed_limit_m_s, config.max_speed_m_s) << "the side is seen";
+  EXPECT_EQ(story.sense({-0.8, 0.1}).speed_limit_m_s, config.blind_speed_m_s);
+}
+
 TEST(Avoidance, FullSpeedAtAWallStopsBeforeIt) {
   Story story;
   for (int i = 0; i < 600; ++i) story.tick({1.5, 0});
