@@ -14,6 +14,8 @@ namespace {
 
 /// A map that does not reach the goal may just be about to grow.
 constexpr double kGrowing_s = 2.0;
+/// Who was about so lately may stand in the way of what could not be reached; he is waited for, but not for ever.
+constexpr double kLately_s = 3.0, kWaitForPeople_s = 20.0;
 
 /// Whoever stands in the way may go; a goal in space never seen is not seen by waiting.
 bool mayPass(const planning::PlanFailure& failure) {
@@ -82,6 +84,7 @@ void Executor::want(const common::Intent& intent) {
 void Executor::tick(const ExecutorInput& input) {
   now_ = input.now;
   state_ = input.state;
+  if (!input.discs.empty()) last_people_ = now_;
   if (!started_) start();
   if (status_.state == IntentState::kRunning)
     std::visit([&](const auto& kind) { carryOut(input, kind); }, intent_.kind);
@@ -172,6 +175,7 @@ void Executor::start() {
   goal_yaw_map_rad_.reset();
   last_exploration_.reset();
   done_answers_ = 0;
+  done_since_.reset();
   if (controller_.state() == FlightState::kFlying && !retreating_) controller_.hold();
   if (const auto* go_to = std::get_if<common::GoToIntent>(&intent_.kind)) {
     if (go_to->height_m) cruise_height_m_ = *go_to->height_m;
@@ -328,6 +332,7 @@ void Executor::receiveExploration(const planning::ExplorationResult& result) {
   if (result.next || result.done) no_way_since_.reset();
   if (result.next) {
     done_answers_ = 0;
+    done_since_.reset();
     if (!result.kept_current) {
       viewpoint_ = result.next;
       goal_yaw_map_rad_ = result.next->pose_map.yaw_rad;
@@ -341,6 +346,15 @@ void Executor::receiveExploration(const planning::ExplorationResult& result) {
   controller_.hold();
   if (!result.done) {
     if (!no_way_since_) no_way_since_ = now_;
+    return;
+  }
+  if (!done_since_) done_since_ = now_;
+  const bool blocked = std::any_of(result.frontiers.begin(), result.frontiers.end(), [](const common::Frontier& f) {
+    return f.reason == common::FrontierReason::kUnreachable;
+  });
+  const bool people = last_people_ && (now_ - *last_people_).seconds() < kLately_s;
+  if (blocked && people && (now_ - *done_since_).seconds() < kWaitForPeople_s) {
+    status_.reason = "waiting: somebody may stand in the way";
     return;
   }
   // The last scans may still be on their way into the map: done is believed when it is said twice, standing still.

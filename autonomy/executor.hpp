@@ -124,6 +124,7 @@ class Executor {
   std::optional<common::Time> last_exploration_;
   std::optional<planning::Viewpoint> viewpoint_;
   int done_answers_ = 0;  ///< Explorations in a row that found nothing open.
+  std::optional<common::Time> done_since_, last_people_;
   std::optional<common::Time> within_since_;
   std::optional<common::Time> no_way_since_;
   planning::PlanFailure no_way_;
