@@ -89,6 +89,7 @@ struct ErrorStateFilter::Impl {
   const Slot& newest() { return slot(count - 1); }
   void push(const common::ImuSample& sample);
   Insertion insert(const Measurement& measurement);
+  Insertion insertVertical(MeasurementKind kind, Time time, double value, double variance, double common_variance_m2);
   void replay();
   void step(const Slot& before, Slot& now);
 
@@ -393,33 +394,29 @@ Insertion ErrorStateFilter::addRelativePose(Time from, Time to, const common::Po
   return impl_->insert(m);
 }
 
-Insertion ErrorStateFilter::addHeight(Time time, double height_m, double variance_m2, double common_variance_m2) {
-  const bool valid = std::isfinite(height_m) && std::isfinite(variance_m2) && variance_m2 > 0.0 &&
+Insertion ErrorStateFilter::Impl::insertVertical(MeasurementKind kind, Time time, double value, double variance,
+                                                 double common_variance_m2) {
+  const bool valid = std::isfinite(value) && std::isfinite(variance) && variance > 0.0 &&
                      std::isfinite(common_variance_m2) && common_variance_m2 >= 0.0;
   if (!valid) {
-    ++impl_->counters.refused;
+    ++counters.refused;
     return Insertion::kInvalid;
   }
   Measurement m;
   m.stamp = time;
-  m.kind = MeasurementKind::kHeight;
-  m.value = height_m;
-  m.covariance(0, 0) = variance_m2;
+  m.kind = kind;
+  m.value = value;
+  m.covariance(0, 0) = variance;
   m.common_variance_m2 = common_variance_m2;
-  return impl_->insert(m);
+  return insert(m);
+}
+
+Insertion ErrorStateFilter::addHeight(Time time, double height_m, double variance_m2, double common_variance_m2) {
+  return impl_->insertVertical(MeasurementKind::kHeight, time, height_m, variance_m2, common_variance_m2);
 }
 
 Insertion ErrorStateFilter::addVerticalSpeed(Time time, double speed_m_s, double variance_m2_s2) {
-  if (!std::isfinite(speed_m_s) || !std::isfinite(variance_m2_s2) || variance_m2_s2 <= 0.0) {
-    ++impl_->counters.refused;
-    return Insertion::kInvalid;
-  }
-  Measurement m;
-  m.stamp = time;
-  m.kind = MeasurementKind::kVerticalSpeed;
-  m.value = speed_m_s;
-  m.covariance(0, 0) = variance_m2_s2;
-  return impl_->insert(m);
+  return impl_->insertVertical(MeasurementKind::kVerticalSpeed, time, speed_m_s, variance_m2_s2, 0.0);
 }
 
 Insertion ErrorStateFilter::addAbsolutePose2(Time time, const common::Pose2& T_odom_body,

@@ -26,6 +26,15 @@ Eigen::Matrix<double, K, K> innovationCovariance(const Linearized<K>& measuremen
   return innovation;
 }
 
+/// One component of the state, measured as it is.
+Linearized<1> direct(int component, double residual, double variance) {
+  Linearized<1> m;
+  m.residual(0) = residual;
+  m.jacobian(0, component) = 1.0;
+  m.noise(0, 0) = variance;
+  return m;
+}
+
 }  // namespace
 
 Eigen::RowVector3d yawJacobian(const Eigen::Quaterniond& rotation) {
@@ -58,19 +67,11 @@ Linearized<3> relativePose(const FilterState& state, int clone, const common::Po
 }
 
 Linearized<1> height(const FilterState& state, double height_m, double variance_m2) {
-  Linearized<1> m;
-  m.residual(0) = height_m - state.position_odom_m.z();
-  m.jacobian(0, kPosition + 2) = 1.0;
-  m.noise(0, 0) = variance_m2;
-  return m;
+  return direct(kPosition + 2, height_m - state.position_odom_m.z(), variance_m2);
 }
 
 Linearized<1> verticalSpeed(const FilterState& state, double speed_m_s, double variance_m2_s2) {
-  Linearized<1> m;
-  m.residual(0) = speed_m_s - state.velocity_odom_m_s.z();
-  m.jacobian(0, kVelocity + 2) = 1.0;
-  m.noise(0, 0) = variance_m2_s2;
-  return m;
+  return direct(kVelocity + 2, speed_m_s - state.velocity_odom_m_s.z(), variance_m2_s2);
 }
 
 Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom_body,

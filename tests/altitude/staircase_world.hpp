@@ -43,7 +43,7 @@ class LateFilter {
       advance(again, steps_[i].stamp, steps_[i].acceleration_m_s2);
       steps_[i] = again;
     }
-    steps_.erase(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(steps_.size() > 40 ? 1 : 0));
+    if (steps_.size() > 40) steps_.erase(steps_.begin());
   }
 
  private:

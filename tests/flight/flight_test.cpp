@@ -61,20 +61,26 @@ TEST_P(ShippedMission, FliesAndLeavesItsRun) {
 INSTANTIATE_TEST_SUITE_P(Each, ShippedMission, testing::ValuesIn(shippedMissions()),
                          [](const auto& mission) { return mission.param; });
 
-class Bounds : public test_support::Scratch {};
+/// A mission of a few leaves in the first world, with one seed.
+class ShortMission : public test_support::Scratch {
+ protected:
+  ProgramEnd fly(const std::string& leaves, const std::string& time_limit_s) {
+    const std::string mission =
+        write("mission.xml", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Short\"><Sequence>\n" + leaves +
+                                 "\n</Sequence></BehaviorTree></root>\n");
+    return runSwiftlet({"fly", mission, "--headless", "--speed", "max", "--seed", "1", "--json", "--out", path("run"),
+                        "--time-limit", time_limit_s});
+  }
+  nlohmann::json missionJson() const { return nlohmann::json::parse(readText(path("run/mission.json"))); }
+};
 
 // A part of the first room: what is seen beyond it, whatever the seed, is left and said to be out of bounds.
-TEST_F(Bounds, WhatLiesOutsideIsLeftAndSaidToBe) {
+TEST_F(ShortMission, WhatLiesOutsideItsBoundsIsLeftAndSaidToBe) {
   constexpr double kEast_m = 3.0, kSouth_m = -3.0;
-  const std::string mission = write("room.xml",
-                                    "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Room\"><Sequence>\n"
-                                    "<TakeOff/><Explore bounds=\"-3;-3;3;4\"/><GoHome/><Land/>\n"
-                                    "</Sequence></BehaviorTree></root>\n");
-  const ProgramEnd end = runSwiftlet({"fly", mission, "--headless", "--speed", "max", "--seed", "1", "--json", "--out",
-                                      path("run"), "--time-limit", "300"});
+  const ProgramEnd end = fly("<TakeOff/><Explore bounds=\"-3;-3;3;4\"/><GoHome/><Land/>", "300");
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   int out_of_bounds = 0;
-  const auto mission_json = nlohmann::json::parse(readText(path("run/mission.json")));
+  const auto mission_json = missionJson();
   for (const auto& frontier : mission_json.at("frontiers")) {
     EXPECT_NE(frontier.at("reason"), "open") << frontier;
     if (frontier.at("reason") != "out of bounds") continue;
@@ -84,34 +90,20 @@ TEST_F(Bounds, WhatLiesOutsideIsLeftAndSaidToBe) {
   EXPECT_GE(out_of_bounds, 1);
 }
 
-class UnseenGoal : public test_support::Scratch {};
-
 // Nobody stands in the way who might go: it does not hang about for a minute.
-TEST_F(UnseenGoal, IsGivenUpAtOnce) {
-  const std::string mission = write("far.xml",
-                                    "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Far\"><Sequence>\n"
-                                    "<TakeOff/><MoveToGoal goal=\"40.0;40.0;1.0\"/><Land/>\n"
-                                    "</Sequence></BehaviorTree></root>\n");
-  const ProgramEnd end = runSwiftlet({"fly", mission, "--headless", "--speed", "max", "--seed", "1", "--json", "--out",
-                                      path("run"), "--time-limit", "60"});
+TEST_F(ShortMission, AGoalNeverSeenIsGivenUpAtOnce) {
+  const ProgramEnd end = fly("<TakeOff/><MoveToGoal goal=\"40.0;40.0;1.0\"/><Land/>", "60");
   ASSERT_EQ(end.exit_code, 1) << describe(end);
   const auto events = readText(path("run/events.jsonl"));
   EXPECT_NE(events.find("is outside the map"), std::string::npos) << events;
   EXPECT_EQ(events.find("goes aside"), std::string::npos) << events;
-  EXPECT_LT(nlohmann::json::parse(readText(path("run/mission.json"))).at("mission_time_s").get<double>(), 15.0);
+  EXPECT_LT(missionJson().at("mission_time_s").get<double>(), 15.0);
 }
 
-class ShutIn : public test_support::Scratch {};
-
-TEST_F(ShutIn, ExploringIsGivenUpWhereThereIsNoRoomToMove) {
-  const std::string mission = write("wide.xml",
-                                    "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Wide\"><Sequence>\n"
-                                    "<TakeOff/><Explore clearance_m=\"1.9\"/><Land/>\n"
-                                    "</Sequence></BehaviorTree></root>\n");
-  const ProgramEnd end = runSwiftlet({"fly", mission, "--headless", "--speed", "max", "--seed", "1", "--json", "--out",
-                                      path("run"), "--time-limit", "120"});
+TEST_F(ShortMission, ExploringIsGivenUpWhereThereIsNoRoomToMove) {
+  const ProgramEnd end = fly("<TakeOff/><Explore clearance_m=\"1.9\"/><Land/>", "120");
   EXPECT_EQ(end.exit_code, 1) << describe(end);
-  const auto mission_json = nlohmann::json::parse(readText(path("run/mission.json")));
+  const auto mission_json = missionJson();
   EXPECT_EQ(mission_json.at("outcome"), "failed") << mission_json.dump(2);
   EXPECT_THAT(mission_json.at("reason").get<std::string>(), testing::HasSubstr("shut in"));
 }
