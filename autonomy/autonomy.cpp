@@ -142,7 +142,7 @@ void Autonomy::processDueScans(Time now) {
 }
 
 void Autonomy::processScan(const common::LaserScan& scan, Time now) {
-  auto outcome = estimator_.addScan(scan, now);
+  auto outcome = estimator_.addScan(scan, now, reactive_.people(scan.stamps.measured));
   if (!outcome) return;
   const int hits = outcome->scan.counts.hits + outcome->scan.counts.no_returns;
   if (hits > 0) supervisor_.scanArrived(now);

@@ -75,14 +75,15 @@ void Estimator::addImu(const common::ImuSample& sample) {
   last_imu_ = sample;
 }
 
-std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Time now) {
+std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Time now,
+                                              std::span<const planning::Disc> people) {
   if (!filter_.initialized()) {
     initialize(scan);
     return std::nullopt;
   }
   ScanOutcome outcome;
   outcome.scan = projectScan(scan);
-  outcome.matched = fuseOdometry(outcome.scan);
+  outcome.matched = fuseOdometry(people.empty() ? outcome.scan : without(people, outcome.scan));
 
   const Pose3 T_odom_body = filter_.poseAt(outcome.scan.stamp).value_or(outcome.scan.T_odom_body);
   outcome.T_map_body = slam_.T_map_odom() * planar(T_odom_body);
@@ -146,6 +147,29 @@ perception::ProjectedScan Estimator::projectScan(const common::LaserScan& scan) 
   const Pose3 newest = filter_.state().T_odom_body;
   return project(
       scan, laser_, [&](Time t) { return history.at(t).value_or(newest); }, config_.projection);
+}
+
+/// Who walks beside the vehicle takes the match along. Where he leaves too little to match, he has to do.
+perception::ProjectedScan Estimator::without(std::span<const planning::Disc> people,
+                                             perception::ProjectedScan scan) const {
+  constexpr double kLeastShare = 0.4;
+  const Pose2 T_map_body = slam_.T_map_odom() * planar(scan.T_odom_body);
+  std::vector<Eigen::Vector2f> points_level_m;
+  std::vector<float> heights_level_m;
+  for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
+    const Eigen::Vector2d point_map_m = T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>());
+    if (std::any_of(people.begin(), people.end(), [&](const planning::Disc& disc) {
+          return (point_map_m - disc.center_map_m).squaredNorm() <= disc.radius_m * disc.radius_m;
+        }))
+      continue;
+    points_level_m.push_back(scan.points_level_m[i]);
+    heights_level_m.push_back(scan.heights_level_m[i]);
+  }
+  if (static_cast<double>(points_level_m.size()) < kLeastShare * static_cast<double>(scan.points_level_m.size()))
+    return scan;
+  scan.points_level_m = std::move(points_level_m);
+  scan.heights_level_m = std::move(heights_level_m);
+  return scan;
 }
 
 bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {

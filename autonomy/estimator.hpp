@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@
 #include "perception/projection/scan_projection.hpp"
 #include "perception/scan_matching/laser_odometry.hpp"
 #include "perception/slam2d/slam2d.hpp"
+#include "planning/cost_map.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -61,8 +63,10 @@ class Estimator {
             common::JobRunner& jobs);
 
   void addImu(const common::ImuSample& sample);
-  /// Before the filter is initialized a scan initializes it (the vehicle stands still) and gives nothing.
-  std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
+  /// Before the filter is initialized a scan initializes it (the vehicle stands still) and gives nothing. What lies
+  /// within `people` (in `map`, at the scan's time) is not matched.
+  std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now,
+                                     std::span<const planning::Disc> people = {});
 
   bool ready() const { return filter_.initialized(); }
   /// The height over the take-off floor that the map is to be of.
@@ -82,6 +86,7 @@ class Estimator {
  private:
   void initialize(const common::LaserScan& scan);
   perception::ProjectedScan projectScan(const common::LaserScan& scan);
+  perception::ProjectedScan without(std::span<const planning::Disc> people, perception::ProjectedScan scan) const;
   bool fuseOdometry(const perception::ProjectedScan& scan);
   Eigen::Matrix3d tiltCovariance(const perception::ProjectedScan& scan) const;
   void fuseHeight(const perception::ProjectedScan& scan, const common::Pose2& T_map_body);

@@ -14,8 +14,11 @@ namespace {
 
 /// A map that does not reach the goal may just be about to grow.
 constexpr double kGrowing_s = 2.0;
-/// Who was about so lately may stand in the way of what could not be reached; he is waited for, but not for ever.
-constexpr double kLately_s = 3.0, kWaitForPeople_s = 20.0;
+/// How often the way is asked for on a detour.
+constexpr double kAskAgain_s = 1.0;
+/// Who was about so lately may stand in the way of what could not be reached, or have stood there when it was mapped;
+/// that is looked into, but not for ever.
+constexpr double kLately_s = 30.0, kLookInto_s = 30.0;
 
 /// Whoever stands in the way may go; a goal in space never seen is not seen by waiting.
 bool mayPass(const planning::PlanFailure& failure) {
@@ -42,9 +45,10 @@ void ExecutorConfig::describe(common::config::Fields& fields) {
   fields("arrival_s", arrival_s, "A goal is reached when within its tolerance for this long.");
   fields("viewpoint_tolerance_m", viewpoint_tolerance_m, "How near a viewpoint counts as reached.");
   fields("viewpoint_tolerance_deg", viewpoint_tolerance_deg, "How well it must be turned to.");
-  fields("make_room_s", make_room_s, "Without a way for this long it goes aside, so that others can pass.");
+  fields("detour_after_s", detour_after_s,
+         "Without a way for this long it goes nearer to look, or aside to make room.");
+  fields("detour_s", detour_s, "The longest that may take.");
   fields("give_up_s", give_up_s, "Without a way to the goal for this long the intent fails.");
-  fields("retreat_deceleration_m_s2", retreat_deceleration_m_s2, "How hard a retreat may brake: it ends within reach.");
 }
 
 std::vector<std::string> ExecutorConfig::validate() const {
@@ -58,8 +62,8 @@ std::vector<std::string> ExecutorConfig::validate() const {
       .positive("viewpoint_tolerance_m", viewpoint_tolerance_m)
       .positive("viewpoint_tolerance_deg", viewpoint_tolerance_deg)
       .positive("give_up_s", give_up_s)
-      .positive("make_room_s", make_room_s)
-      .within("retreat_deceleration_m_s2", retreat_deceleration_m_s2, 0.1, 10.0)
+      .positive("detour_after_s", detour_after_s)
+      .positive("detour_s", detour_s)
       .problems();
 }
 
@@ -99,23 +103,9 @@ void Executor::react(const planning::AvoidanceDecision& decision, const common::
   if (controller_.state() != FlightState::kFlying) return;
   const common::Pose2 T_map_body = state.T_map_body_planar();
   if (!retreating_ || decision.turn_rad != 0.0) retreat_yaw_map_rad_ = T_map_body.yaw_rad + decision.turn_rad;
-  if (decision.retreat_velocity_level_m_s && decision.retreat_velocity_level_m_s->norm() > 1e-3) {
-    const Eigen::Vector2d velocity_map_m_s =
-        Eigen::Rotation2Dd(T_map_body.yaw_rad) * *decision.retreat_velocity_level_m_s;
-    const double speed_m_s = velocity_map_m_s.norm();
-    // The other limit is for the way the vehicle was going, not for the way out.
-    controller_.setSpeedLimit(speed_m_s);
-    // The path is as long as that speed needs to stop: the reactive layer made sure that so much is free.
-    const double length_m = speed_m_s * speed_m_s / (2.0 * config_.retreat_deceleration_m_s2);
-    const Eigen::Vector2d to = T_map_body.position_m() + length_m / speed_m_s * velocity_map_m_s;
-    const double z_m = cruise_height_m_;
-    (void)controller_.follow({{{T_map_body.x_m, T_map_body.y_m, z_m}, {to.x(), to.y(), z_m}},
-                              control::FlightMode::kFast,
-                              retreat_yaw_map_rad_});
-    keeper_.clear();
-    retreating_ = true;
-  } else if (decision.status.retreating) {
-    controller_.hold(retreat_yaw_map_rad_);
+  if (decision.retreat_velocity_level_m_s) {
+    (void)controller_.followVelocity(Eigen::Rotation2Dd(T_map_body.yaw_rad) * *decision.retreat_velocity_level_m_s,
+                                     decision.retreat_acceleration_m_s2, retreat_yaw_map_rad_);
     keeper_.clear();
     retreating_ = true;
   } else if (retreating_) {
@@ -170,12 +160,13 @@ void Executor::start() {
   viewpoint_.reset();
   within_since_.reset();
   no_way_since_.reset();
-  made_room_.reset();
-  making_room_ = false;
+  detour_since_.reset();
+  on_detour_ = false;
   goal_yaw_map_rad_.reset();
   last_exploration_.reset();
   done_answers_ = 0;
   done_since_.reset();
+  blocked_frontier_map_m_.reset();
   if (controller_.state() == FlightState::kFlying && !retreating_) controller_.hold();
   if (const auto* go_to = std::get_if<common::GoToIntent>(&intent_.kind)) {
     if (go_to->height_m) cruise_height_m_ = *go_to->height_m;
@@ -217,36 +208,38 @@ void Executor::carryOut(const ExecutorInput& input, const common::GoToIntent& go
     return succeed(fmt::format("reached ({:.2f}, {:.2f})", go_to.goal_map_m.x(), go_to.goal_map_m.y()));
   }
   const bool replan = keepPlan(input);
-  if (makesRoom(input)) return;
   const double patience_s = mayPass(no_way_) ? config_.give_up_s : kGrowing_s;
   if (no_way_since_ && (now_ - *no_way_since_).seconds() > patience_s) return fail(no_way_.text);
-  if (replan && jobs_.idle("planning")) {
-    PlanningRequest request;
-    request.question = GoalRequest{go_to.goal_map_m, go_to.tolerance_m};
-    requestPlan(input, std::move(request));
-  }
+  endDetourWhenOver(input);
+  if (!jobs_.idle("planning")) return;
+  if (mayPass(no_way_) && detourIsDue(no_way_since_)) return takeDetour(input, go_to.goal_map_m);
+  if (on_detour_ ? (now_ - *asked_for_way_).seconds() < kAskAgain_s : !replan) return;
+  asked_for_way_ = now_;
+  PlanningRequest request;
+  request.question = GoalRequest{go_to.goal_map_m, go_to.tolerance_m};
+  requestPlan(input, std::move(request));
 }
 
-/// True while it goes aside, or asks for a place to go.
-bool Executor::makesRoom(const ExecutorInput& input) {
-  if (making_room_) {
-    if (keeper_.plan() && (now_ - *made_room_).seconds() < config_.give_up_s / 4.0 &&
-        (keeper_.plan()->points_map_m.back() - input.state.T_map_body_planar().position_m()).norm() >
-            config_.viewpoint_tolerance_m)
-      return true;
-    making_room_ = false;
-    keeper_.clear();
-    return false;
+void Executor::endDetourWhenOver(const ExecutorInput& input) {
+  if (!on_detour_) return;
+  if (keeper_.plan() && (now_ - *detour_since_).seconds() <= config_.detour_s) {
+    const Eigen::Vector2d left = keeper_.plan()->points_map_m.back() - input.state.T_map_body_planar().position_m();
+    if (left.norm() > config_.viewpoint_tolerance_m) return;
   }
-  if (!no_way_since_ || !mayPass(no_way_) || keeper_.plan() || !jobs_.idle("planning")) return false;
-  const Time since = std::max(*no_way_since_, made_room_.value_or(*no_way_since_));
-  if ((now_ - since).seconds() < config_.make_room_s) return false;
-  say(Severity::kInfo, "goes aside to make room", no_way_.text);
-  made_room_ = now_;
+  on_detour_ = false;
+  keeper_.clear();
+}
+
+bool Executor::detourIsDue(std::optional<Time> stuck_since) const {
+  if (!stuck_since || keeper_.plan()) return false;
+  return (now_ - std::max(*stuck_since, detour_since_.value_or(*stuck_since))).seconds() >= config_.detour_after_s;
+}
+
+void Executor::takeDetour(const ExecutorInput& input, const Eigen::Vector2d& goal_map_m) {
+  detour_since_ = now_;
   PlanningRequest request;
-  request.question = MakeRoomRequest{};
+  request.question = DetourRequest{goal_map_m};
   requestPlan(input, std::move(request));
-  return true;
 }
 
 void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent& explore) {
@@ -268,9 +261,12 @@ void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&
       reached = true;
     }
   }
-  const bool due = !last_exploration_ || (now_ - *last_exploration_).seconds() >= config_.explore_period_s || reached ||
-                   (replan && !keeper_.plan());
+  endDetourWhenOver(input);
+  const double period_s = on_detour_ ? kAskAgain_s : config_.explore_period_s;
+  const bool due =
+      !last_exploration_ || (now_ - *last_exploration_).seconds() >= period_s || reached || (replan && !keeper_.plan());
   if (!due || !jobs_.idle("planning")) return;
+  if (blocked_frontier_map_m_ && detourIsDue(done_since_)) return takeDetour(input, *blocked_frontier_map_m_);
   PlanningRequest request;
   ExploreRequest question{viewpoint_, memory_.attempts(), std::nullopt};
   if (explore.bounds)
@@ -304,18 +300,15 @@ void Executor::receive(const PlanningAnswer& answer, Time now) {
     explored_area_m2_ = answer.exploration->explored_area_m2;
   }
   if (answer.intent_id != intent_.id || status_.state != IntentState::kRunning || retreating_) return;
-  if (answer.path && answer.makes_room) {
-    making_room_ = answer.path->has_value();
-    if (making_room_) offer(**answer.path);
-  } else if (answer.path) {
-    receivePath(*answer.path);
-  }
+  if (answer.detour) receiveDetour(*answer.detour);
+  if (answer.path) receivePath(*answer.path);
   if (answer.exploration) receiveExploration(*answer.exploration);
 }
 
 void Executor::receivePath(const tl::expected<planning::Path, planning::PlanFailure>& path) {
   if (path) {
     no_way_since_.reset();
+    if (std::exchange(on_detour_, false)) keeper_.clear();
     offer(*path);
     return;
   }
@@ -327,12 +320,28 @@ void Executor::receivePath(const tl::expected<planning::Path, planning::PlanFail
   status_.reason = "waiting: " + no_way_.text;
 }
 
+void Executor::receiveDetour(const Detour& detour) {
+  on_detour_ = true;
+  say(Severity::kInfo, detour.makes_room ? "goes aside to make room" : "goes nearer to look", status_.reason);
+  offer(detour.path);
+}
+
+/// The longest of those that could not be reached.
+std::optional<Eigen::Vector2d> Executor::blockedFrontier(const std::vector<common::Frontier>& frontiers) {
+  const common::Frontier* longest = nullptr;
+  for (const common::Frontier& f : frontiers)
+    if (f.reason == common::FrontierReason::kUnreachable && (!longest || f.length_m > longest->length_m)) longest = &f;
+  return longest ? std::optional(longest->centroid_map_m) : std::nullopt;
+}
+
 void Executor::receiveExploration(const planning::ExplorationResult& result) {
   status_.reason = result.reason;
   if (result.next || result.done) no_way_since_.reset();
   if (result.next) {
     done_answers_ = 0;
     done_since_.reset();
+    blocked_frontier_map_m_.reset();
+    if (std::exchange(on_detour_, false)) keeper_.clear();
     if (!result.kept_current) {
       viewpoint_ = result.next;
       goal_yaw_map_rad_ = result.next->pose_map.yaw_rad;
@@ -341,6 +350,7 @@ void Executor::receiveExploration(const planning::ExplorationResult& result) {
     offer(result.next->path);
     return;
   }
+  if (on_detour_) return;
   viewpoint_.reset();
   keeper_.clear();
   controller_.hold();
@@ -349,12 +359,12 @@ void Executor::receiveExploration(const planning::ExplorationResult& result) {
     return;
   }
   if (!done_since_) done_since_ = now_;
-  const bool blocked = std::any_of(result.frontiers.begin(), result.frontiers.end(), [](const common::Frontier& f) {
-    return f.reason == common::FrontierReason::kUnreachable;
-  });
+  blocked_frontier_map_m_.reset();
   const bool people = last_people_ && (now_ - *last_people_).seconds() < kLately_s;
-  if (blocked && people && (now_ - *done_since_).seconds() < kWaitForPeople_s) {
-    status_.reason = "waiting: somebody may stand in the way";
+  if (people && (now_ - *done_since_).seconds() < kLookInto_s)
+    blocked_frontier_map_m_ = blockedFrontier(result.frontiers);
+  if (blocked_frontier_map_m_) {
+    status_.reason = "somebody may stand in the way";
     return;
   }
   // The last scans may still be on their way into the map: done is believed when it is said twice, standing still.

@@ -34,9 +34,10 @@ struct ExecutorConfig {
   double arrival_s = 0.25;           ///< and within the tolerance for this long.
   double viewpoint_tolerance_m = 0.15;
   double viewpoint_tolerance_deg = 12.0;
-  double give_up_s = 60.0;   ///< No way to the goal for this long: the intent fails.
-  double make_room_s = 4.0;  ///< No way for this long: it goes aside, so that who stands in the way can pass.
-  double retreat_deceleration_m_s2 = 1.0;  ///< How hard a retreat may brake: it ends within reach.
+  double give_up_s = 60.0;  ///< No way to the goal for this long: the intent fails.
+  /// No way for this long: it goes nearer to see what stands there, or aside, so that who stands in the way can pass.
+  double detour_after_s = 2.5;
+  double detour_s = 15.0;  ///< At most; the way is asked for meanwhile.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -91,8 +92,12 @@ class Executor {
   void receive(const PlanningAnswer& answer, common::Time now);
   void receivePath(const tl::expected<planning::Path, planning::PlanFailure>& path);
   void receiveExploration(const planning::ExplorationResult& result);
+  static std::optional<Eigen::Vector2d> blockedFrontier(const std::vector<common::Frontier>& frontiers);
   bool keepPlan(const ExecutorInput& input);
-  bool makesRoom(const ExecutorInput& input);
+  void endDetourWhenOver(const ExecutorInput& input);
+  bool detourIsDue(std::optional<common::Time> stuck_since) const;
+  void takeDetour(const ExecutorInput& input, const Eigen::Vector2d& goal_map_m);
+  void receiveDetour(const Detour& detour);
   void offer(const planning::Path& path);
   void fly();
   bool arrived(const ExecutorInput& input, const Eigen::Vector2d& goal_map_m, double tolerance_m);
@@ -125,11 +130,13 @@ class Executor {
   std::optional<planning::Viewpoint> viewpoint_;
   int done_answers_ = 0;  ///< Explorations in a row that found nothing open.
   std::optional<common::Time> done_since_, last_people_;
+  std::optional<Eigen::Vector2d> blocked_frontier_map_m_;  ///< Explored but for this, which somebody may hide.
   std::optional<common::Time> within_since_;
   std::optional<common::Time> no_way_since_;
   planning::PlanFailure no_way_;
-  std::optional<common::Time> made_room_;  ///< When it last went aside.
-  bool making_room_ = false;
+  std::optional<common::Time> asked_for_way_;
+  std::optional<common::Time> detour_since_;  ///< The last one.
+  bool on_detour_ = false;
   bool retreating_ = false;
   double retreat_yaw_map_rad_ = 0.0;
   std::vector<common::Event> events_;

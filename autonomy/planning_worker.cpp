@@ -25,9 +25,8 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   answer.cost_map = std::make_shared<const planning::CostMap>(map_);
   if (const auto* goal = std::get_if<GoalRequest>(&request.question)) {
     answer.path = goTo(*goal, request.T_map_body.position_m());
-  } else if (std::holds_alternative<MakeRoomRequest>(request.question)) {
-    answer.path = makeRoom(request.T_map_body.position_m());
-    answer.makes_room = true;
+  } else if (const auto* blocked = std::get_if<DetourRequest>(&request.question)) {
+    answer.detour = detour(*blocked, request.discs, request.T_map_body.position_m());
   } else if (const auto* explore_request = std::get_if<ExploreRequest>(&request.question)) {
     planning::ExplorationInput input;
     input.cost_map = answer.cost_map;
@@ -51,15 +50,36 @@ tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const G
   return planner_.plan(map_, position_map_m, nearest);
 }
 
+std::optional<Detour> PlanningWorker::detour(const DetourRequest& request, const std::vector<planning::Disc>& people,
+                                             const Eigen::Vector2d& position_map_m) {
+  constexpr double kWorth_m = 1.5;
+  const auto blocked = planning::blockedWay(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
+  const bool somebody = blocked && std::any_of(people.begin(), people.end(), [&](const planning::Disc& disc) {
+                          const double off_m = (map_.centerOf(blocked->first_lethal) - disc.center_map_m).norm();
+                          return off_m <= disc.radius_m + map_.footprint().radius_m() + map_.resolution_m();
+                        });
+  Detour result;
+  std::optional<Eigen::Vector2d> place;
+  if (blocked && !somebody) place = map_.centerOf(blocked->last_free);
+  if (!place || (*place - position_map_m).norm() < kWorth_m) {
+    place = roomyPlace(position_map_m);
+    result.makes_room = true;
+  }
+  if (!place) return std::nullopt;
+  auto path = planner_.plan(map_, position_map_m, *place);
+  if (!path) return std::nullopt;
+  result.path = *std::move(path);
+  return result;
+}
+
 /// The cheapest-to-reach field decides what is near; of what is within reach the widest and farthest place wins.
-tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::makeRoom(const Eigen::Vector2d& position_map_m) {
+std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m) const {
   constexpr double kReach_m = 6.0, kPerMetreOfWidth = 3.0;
-  const common::CellIndex here = map_.cellAt(position_map_m);
-  if (map_.costAt(here) == planning::CostMap::kLethal)
-    return tl::unexpected(planning::PlanFailure{planning::PlanFailure::Reason::kStartBlocked, "no room to move", {}});
+  const auto escape = planning::escapeFrom(map_, map_.cellAt(position_map_m));
+  if (!escape) return std::nullopt;
   planning::CostField field;
-  field.spread(map_, here);
-  int best = map_.indexOf(here);
+  field.spread(map_, escape->back());
+  int best = map_.indexOf(escape->back());
   double best_score = 0.0;
   for (int i = 0; i < static_cast<int>(map_.size()); ++i) {
     if (!field.reached(i)) continue;
@@ -70,7 +90,7 @@ tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::makeRoom(con
       best = i;
     }
   }
-  return planner_.plan(map_, position_map_m, map_.centerOf(map_.cellOf(best)));
+  return map_.centerOf(map_.cellOf(best));
 }
 
 }  // namespace swiftlet::autonomy

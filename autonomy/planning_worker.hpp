@@ -27,8 +27,11 @@ struct ExploreRequest {
   std::vector<planning::ExplorationAttempt> attempts;
   std::optional<planning::ExplorationBounds> bounds;
 };
-/// Where to wait when somebody stands in the only way: far along free ground and wide, so that others can come past.
-struct MakeRoomRequest {};
+/// Where to go while there is no way to a goal. When somebody stands in it: far along free ground and wide, so that he
+/// can come past. Otherwise as far towards the goal as it is free, to see whether what the map holds is still there.
+struct DetourRequest {
+  Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
+};
 
 struct PlanningRequest {
   std::uint64_t intent_id = 0;
@@ -37,16 +40,21 @@ struct PlanningRequest {
   std::vector<planning::Disc> discs;
   planning::Footprint footprint;
   common::Pose2 T_map_body;
-  std::variant<std::monostate, GoalRequest, MakeRoomRequest, ExploreRequest>
-      question;  ///< Nothing: only the cost map is wanted.
+  /// Nothing: only the cost map is wanted.
+  std::variant<std::monostate, GoalRequest, DetourRequest, ExploreRequest> question;
+};
+
+struct Detour {
+  planning::Path path;
+  bool makes_room = false;
 };
 
 struct PlanningAnswer {
   std::uint64_t intent_id = 0;
   std::shared_ptr<const planning::CostMap> cost_map;
-  std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;  ///< For a goal or for room.
-  bool makes_room = false;                                                  ///< `path` answers a MakeRoomRequest.
-  std::optional<planning::ExplorationResult> exploration;                   ///< For an ExploreRequest.
+  std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;  ///< For a GoalRequest.
+  std::optional<Detour> detour;                            ///< For a DetourRequest, when there is anywhere to go.
+  std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest.
 };
 
 /// One job at a time; a pure function of the requests so far.
@@ -61,7 +69,9 @@ class PlanningWorker {
  private:
   tl::expected<planning::Path, planning::PlanFailure> goTo(const GoalRequest& goal,
                                                            const Eigen::Vector2d& position_map_m);
-  tl::expected<planning::Path, planning::PlanFailure> makeRoom(const Eigen::Vector2d& position_map_m);
+  std::optional<Detour> detour(const DetourRequest& request, const std::vector<planning::Disc>& people,
+                               const Eigen::Vector2d& position_map_m);
+  std::optional<Eigen::Vector2d> roomyPlace(const Eigen::Vector2d& position_map_m) const;
 
   planning::ExplorationConfig exploration_;
   planning::CostMap map_;

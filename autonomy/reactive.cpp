@@ -11,6 +11,10 @@ constexpr float kInTheWay_m = 0.25F;
 constexpr double kCorrected_m = 0.05;
 constexpr double kCorrected_rad = 0.01;
 
+constexpr double kJustSeen_s = 0.15;
+/// A body's outline beyond what was seen of it.
+constexpr double kAround_m = 0.20;
+
 }  // namespace
 
 void ReactiveConfig::describe(common::config::Fields& fields) {
@@ -66,6 +70,16 @@ const planning::AvoidanceDecision& Reactive::update(const perception::ProjectedS
   input.obstacles = obstacles_.obstacles();
   decision_ = avoidance_.update(input);
   return decision_;
+}
+
+std::vector<planning::Disc> Reactive::people(common::Time stamp) const {
+  std::vector<planning::Disc> result;
+  for (const planning::DynamicObstacle& o : obstacles_.obstacles()) {
+    const double age_s = (stamp - o.last_seen).seconds();
+    if (age_s > kJustSeen_s) continue;
+    result.push_back({o.center_map_m + o.velocity_map_m_s * age_s, o.radius_m + kAround_m});
+  }
+  return result;
 }
 
 }  // namespace swiftlet::autonomy

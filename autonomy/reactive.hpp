@@ -36,6 +36,8 @@ class Reactive {
                                             const planning::CostMap* cost_map);
 
   const planning::AvoidanceDecision& decision() const { return decision_; }
+  /// Where those are, in `map`, who were seen just before `stamp`.
+  std::vector<planning::Disc> people(common::Time stamp) const;
   /// Where people are and will soon be, for the cost map.
   std::vector<planning::Disc> discs(common::Time now) const { return obstacles_.discs(now); }
 

@@ -94,6 +94,18 @@ tl::expected<void, std::string> FlightController::follow(const FlightPath& path)
   return {};
 }
 
+tl::expected<void, std::string> FlightController::followVelocity(const Eigen::Vector2d& velocity_map_m_s,
+                                                                 double acceleration_m_s2, double yaw_map_rad) {
+  if (!machine_.activation().waypoints)
+    return tl::unexpected(fmt::format("no velocities while {}", common::toString(state())));
+  if (!velocity_map_m_s.allFinite() || !std::isfinite(yaw_map_rad) || !(acceleration_m_s2 > 0.0))
+    return tl::unexpected(std::string("the velocity is not finite"));
+  Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
+  velocity_odom_m_s.head<2>() = Eigen::Rotation2Dd(-T_map_odom_.yaw_rad) * velocity_map_m_s;
+  follower_.setVelocity(velocity_odom_m_s, acceleration_m_s2, common::wrapAngle(yaw_map_rad - T_map_odom_.yaw_rad));
+  return {};
+}
+
 void FlightController::hold(std::optional<double> yaw_map_rad) {
   follower_.stop(yaw_map_rad ? std::optional(common::wrapAngle(*yaw_map_rad - T_map_odom_.yaw_rad)) : std::nullopt);
 }

@@ -86,6 +86,9 @@ class FlightController {
   tl::expected<void, std::string> command(const FlightCommand& command);
   /// Only while flying (Table 1). An empty path stops.
   tl::expected<void, std::string> follow(const FlightPath& path);
+  /// Leaves the path for that velocity until told otherwise; see PathFollower::setVelocity. Only while flying.
+  tl::expected<void, std::string> followVelocity(const Eigen::Vector2d& velocity_map_m_s, double acceleration_m_s2,
+                                                 double yaw_map_rad);
   /// Stops as fast as the flight mode allows and holds, turned to that yaw when one is given.
   void hold(std::optional<double> yaw_map_rad = std::nullopt);
   /// From the reactive layer; infinity lifts it.

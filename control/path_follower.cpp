@@ -52,7 +52,7 @@ void PathFollower::reset(const Eigen::Vector3d& position_odom_m, double yaw_odom
   goal_yaw_odom_rad_.reset();
   faces_travel_ = false;
   lay({position_odom_m});
-  carrot_speed_m_s_ = carrot_acceleration_m_s2_ = 0.0;
+  carrot_speed_m_s_ = 0.0;
 }
 
 void PathFollower::lay(std::vector<Eigen::Vector3d> points) {
@@ -61,6 +61,7 @@ void PathFollower::lay(std::vector<Eigen::Vector3d> points) {
   speeds_m_s_ =
       speedsAlong(points_, {limits_.speed_m_s, limits_.acceleration_m_s2, config_.climb_speed_m_s, kKink_m_s});
   carrot_m_ = 0.0;
+  velocity_target_.reset();
 }
 
 void PathFollower::setPath(std::vector<Eigen::Vector3d> points, FlightMode mode,
@@ -122,6 +123,20 @@ std::vector<Eigen::Vector3d> PathFollower::joined(const std::vector<Eigen::Vecto
   return out;
 }
 
+void PathFollower::setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double acceleration_m_s2,
+                               double yaw_odom_rad) {
+  if (!velocity_target_) {
+    lay({reference_.position_odom_m});
+    carrot_speed_m_s_ = 0.0;
+    velocity_target_.emplace();
+    velocity_target_->carrot = {reference_.position_odom_m, reference_.velocity_odom_m_s, Eigen::Vector3d::Zero()};
+  }
+  velocity_target_->velocity_odom_m_s = velocity_odom_m_s;
+  velocity_target_->acceleration_m_s2 = acceleration_m_s2;
+  goal_yaw_odom_rad_ = yaw_odom_rad;
+  faces_travel_ = false;
+}
+
 void PathFollower::stop(std::optional<double> yaw_odom_rad) {
   const Eigen::Vector3d& velocity = reference_.velocity_odom_m_s;
   const double speed = velocity.norm();
@@ -142,17 +157,32 @@ void PathFollower::setSpeedLimit(double speed_m_s) {
 void PathFollower::movePath(const common::Pose2& T_new_old) {
   for (Eigen::Vector3d& point : points_) point.head<2>() = T_new_old * Eigen::Vector2d(point.head<2>());
   if (goal_yaw_odom_rad_) *goal_yaw_odom_rad_ += T_new_old.yaw_rad;
+  if (velocity_target_) {
+    const Eigen::Rotation2Dd turn(T_new_old.yaw_rad);
+    velocity_target_->velocity_odom_m_s.head<2>() =
+        turn * Eigen::Vector2d(velocity_target_->velocity_odom_m_s.head<2>());
+  }
 }
 
 const Reference& PathFollower::advance(double dt_s) {
-  advanceCarrot(dt_s);
-  pullReference(dt_s);
+  pullReference(velocity_target_ ? advanceToVelocity(*velocity_target_, dt_s) : advanceAlongPath(dt_s), dt_s);
   advanceYaw(dt_s);
   return reference_;
 }
 
-void PathFollower::advanceCarrot(double dt_s) {
-  const double before = carrot_speed_m_s_;
+PathFollower::Carrot PathFollower::advanceToVelocity(VelocityTarget& target, double dt_s) {
+  Carrot& carrot = target.carrot;
+  const Eigen::Vector3d before = carrot.velocity_odom_m_s;
+  const Eigen::Vector3d change = target.velocity_odom_m_s - before;
+  const double most = target.acceleration_m_s2 * dt_s;
+  carrot.velocity_odom_m_s += change.norm() > most ? Eigen::Vector3d(change.normalized() * most) : change;
+  carrot.position_odom_m += 0.5 * (before + carrot.velocity_odom_m_s) * dt_s;
+  carrot.acceleration_odom_m_s2 = (carrot.velocity_odom_m_s - before) / dt_s;
+  return carrot;
+}
+
+PathFollower::Carrot PathFollower::advanceAlongPath(double dt_s) {
+  const double before = carrot_speed_m_s_, most = 1.2 * limits_.acceleration_m_s2;
   const double step = limits_.acceleration_m_s2 * dt_s;
   // Curves are sampled: braking for them may be a little firmer than planned.
   carrot_speed_m_s_ = std::clamp(allowedSpeed(dt_s), std::max(0.0, before - 1.2 * step), before + step);
@@ -162,8 +192,13 @@ void PathFollower::advanceCarrot(double dt_s) {
     carrot_m_ = end_m;
     carrot_speed_m_s_ = 0.0;
   }
-  carrot_acceleration_m_s2_ =
-      std::clamp((carrot_speed_m_s_ - before) / dt_s, -1.2 * limits_.acceleration_m_s2, limits_.acceleration_m_s2);
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  if (points_.size() > 1) {
+    const std::size_t segment = segmentAt(carrot_m_);
+    direction = (points_[segment + 1] - points_[segment]).normalized();
+  }
+  return {pointOn(points_, distances_m_, carrot_m_), carrot_speed_m_s_ * direction,
+          std::clamp((carrot_speed_m_s_ - before) / dt_s, -most, most) * direction};
 }
 
 double PathFollower::allowedSpeed(double dt_s) const {
@@ -189,30 +224,22 @@ double PathFollower::allowedSpeed(double dt_s) const {
   return speed;
 }
 
-void PathFollower::pullReference(double dt_s) {
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  if (points_.size() > 1) {
-    const std::size_t segment = segmentAt(carrot_m_);
-    direction = (points_[segment + 1] - points_[segment]).normalized();
-  }
-  const Eigen::Vector3d carrot_velocity = carrot_speed_m_s_ * direction;
+void PathFollower::pullReference(const Carrot& carrot, double dt_s) {
   const double w = config_.filter_rad_s;
   // x'' = c'' + 2 w (c' - x') + w^2 (c - x): critically damped, without lag behind a carrot on a straight line. Exact
   // for the error, which decays as (e0 + (e0' + w e0) t) exp(-w t).
-  const Eigen::Vector3d carrot = pointOn(points_, distances_m_, carrot_m_);
   const Eigen::Vector3d carrot_before =
-      carrot - carrot_velocity * dt_s + 0.5 * carrot_acceleration_m_s2_ * dt_s * dt_s * direction;
-  const Eigen::Vector3d velocity_before = carrot_velocity - carrot_acceleration_m_s2_ * dt_s * direction;
+      carrot.position_odom_m - carrot.velocity_odom_m_s * dt_s + 0.5 * dt_s * dt_s * carrot.acceleration_odom_m_s2;
+  const Eigen::Vector3d velocity_before = carrot.velocity_odom_m_s - carrot.acceleration_odom_m_s2 * dt_s;
   const Eigen::Vector3d error = reference_.position_odom_m - carrot_before;
   const Eigen::Vector3d error_rate = reference_.velocity_odom_m_s - velocity_before;
   const Eigen::Vector3d slope = error_rate + w * error;
   const double decay = std::exp(-w * dt_s);
   const Eigen::Vector3d error_now = decay * (error + dt_s * slope);
   const Eigen::Vector3d error_rate_now = decay * (slope - w * (error + dt_s * slope));
-  reference_.position_odom_m = carrot + error_now;
-  reference_.velocity_odom_m_s = carrot_velocity + error_rate_now;
-  reference_.acceleration_odom_m_s2 =
-      carrot_acceleration_m_s2_ * direction - 2.0 * w * error_rate_now - w * w * error_now;
+  reference_.position_odom_m = carrot.position_odom_m + error_now;
+  reference_.velocity_odom_m_s = carrot.velocity_odom_m_s + error_rate_now;
+  reference_.acceleration_odom_m_s2 = carrot.acceleration_odom_m_s2 - 2.0 * w * error_rate_now - w * w * error_now;
 }
 
 void PathFollower::advanceYaw(double dt_s) {
@@ -239,7 +266,8 @@ void PathFollower::advanceYaw(double dt_s) {
 double PathFollower::remaining_m() const { return distances_m_.back() - carrot_m_; }
 
 bool PathFollower::finished() const {
-  const bool there = remaining_m() <= 0.0 && (reference_.position_odom_m - points_.back()).norm() <= kAtGoal_m &&
+  const bool there = !velocity_target_ && remaining_m() <= 0.0 &&
+                     (reference_.position_odom_m - points_.back()).norm() <= kAtGoal_m &&
                      reference_.velocity_odom_m_s.norm() <= kAtRest_m_s;
   return there && (!goal_yaw_odom_rad_ ||
                    std::abs(common::wrapAngle(*goal_yaw_odom_rad_ - reference_.yaw_odom_rad)) <= kYawReached_rad);

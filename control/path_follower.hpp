@@ -60,11 +60,14 @@ class PathFollower {
   /// off the first line it joins the nearest point of the first lines. `goal_yaw_odom_rad` is turned to near the goal.
   void setPath(std::vector<Eigen::Vector3d> points_odom_m, FlightMode mode,
                std::optional<double> goal_yaw_odom_rad = std::nullopt);
+  /// Leaves the path and flies at that velocity until told otherwise, turned to that yaw. From now to then the velocity
+  /// changes along a straight line by `acceleration_m_s2`: it may turn back at once.
+  void setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double acceleration_m_s2, double yaw_odom_rad);
   /// Stops as fast as the mode's limits allow and holds there, turned to that yaw when one is given.
   void stop(std::optional<double> yaw_odom_rad = std::nullopt);
   /// From the reactive layer; 0 halts on the path, infinity lifts the limit. Holds until changed.
   void setSpeedLimit(double speed_m_s);
-  /// odom was re-expressed: the path moves by T_new_old, the reference does not.
+  /// odom was re-expressed: the path (or the velocity) moves by T_new_old, the reference does not.
   void movePath(const common::Pose2& T_new_old);
 
   /// Advances by dt and returns the reference there.
@@ -77,11 +80,25 @@ class PathFollower {
   const std::vector<Eigen::Vector3d>& points_odom_m() const { return points_; }
 
  private:
+  /// What the reference is pulled after.
+  struct Carrot {
+    Eigen::Vector3d position_odom_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
+    Eigen::Vector3d acceleration_odom_m_s2 = Eigen::Vector3d::Zero();
+  };
+  /// Instead of a path.
+  struct VelocityTarget {
+    Eigen::Vector3d velocity_odom_m_s;
+    double acceleration_m_s2;
+    Carrot carrot;
+  };
+
   void lay(std::vector<Eigen::Vector3d> points);
   /// The path from where the reference is and as it moves; `turns`: its first corner is a turn at speed.
   std::vector<Eigen::Vector3d> joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const;
-  void advanceCarrot(double dt_s);
-  void pullReference(double dt_s);
+  Carrot advanceAlongPath(double dt_s);
+  static Carrot advanceToVelocity(VelocityTarget& target, double dt_s);
+  void pullReference(const Carrot& carrot, double dt_s);
   void advanceYaw(double dt_s);
   double allowedSpeed(double dt_s) const;
   std::size_t segmentAt(double distance_m) const;
@@ -95,7 +112,7 @@ class PathFollower {
   std::optional<double> goal_yaw_odom_rad_;
   double carrot_m_ = 0.0;
   double carrot_speed_m_s_ = 0.0;
-  double carrot_acceleration_m_s2_ = 0.0;
+  std::optional<VelocityTarget> velocity_target_;
   double hold_yaw_odom_rad_ = 0.0;
   bool faces_travel_ = false;
   Reference reference_;

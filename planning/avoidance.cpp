@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "planning/retreat.hpp"
+
 namespace swiftlet::planning {
 namespace {
 
@@ -16,7 +18,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTimeStep_s = 0.1;
 constexpr double kStill_m_s = 1e-3;
 constexpr double kSameBody_m = 0.3;
-constexpr int kDirections = 36;
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -30,11 +31,6 @@ double gapAlong(const Point& direction, const Point& point_m, double radius_m) {
     return ahead_m > kSlide * point_m.norm() ? 0.0 : kInfinity;
   }
   return ahead_m - std::sqrt(radius_m * radius_m - aside_m * aside_m);
-}
-
-Point directionAt(int i) {
-  const double angle_rad = 2.0 * std::numbers::pi * i / kDirections;
-  return {std::cos(angle_rad), std::sin(angle_rad)};
 }
 
 std::string bearingInWords(const Point& p) {
@@ -81,6 +77,7 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   if (retreating_) {
     last_retreat_level_ = retreat(input, points, around);
     decision.retreat_velocity_level_m_s = last_retreat_level_;
+    decision.retreat_acceleration_m_s2 = config_.deceleration_m_s2;
     decision.turn_rad = turnToSee(around, last_retreat_level_);
   }
 
@@ -108,7 +105,7 @@ bool Avoidance::isMapped(const AvoidanceInput& input, const Point& point_level_m
          input.cost_map->obstacleDistance_m(cell) <= config_.mapped_within_m;
 }
 
-std::vector<Avoidance::Threat> Avoidance::threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const {
+std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const {
   const double slack = retreating_ ? config_.release_factor : 1.0;
   std::vector<Threat> result;
   const common::Pose2 T_level_map = input.T_map_level.inverse();
@@ -119,11 +116,11 @@ std::vector<Avoidance::Threat> Avoidance::threats(const AvoidanceInput& input, c
     const Point velocity_map_m_s = moving ? o.velocity_map_m_s : Point::Zero();
     Threat threat{T_level_map * Point(o.center_map_m + velocity_map_m_s * age_s), o.radius_m,
                   to_level * velocity_map_m_s, false, ""};
-    const double gap_m = gapAfter(threat, Point::Zero(), 0.0);
+    const double gap_m = threat.gapTo(hull_radius_m_, Point::Zero(), 0.0);
     const bool leaving = moving && threat.velocity_m_s.dot(threat.center_m) > 0.0;
     double least_m = gap_m;
     for (double t = kTimeStep_s; t <= config_.contact_time_s * slack; t += kTimeStep_s)
-      least_m = std::min(least_m, gapAfter(threat, Point::Zero(), t));
+      least_m = std::min(least_m, threat.gapTo(hull_radius_m_, Point::Zero(), t));
     const bool near = gap_m < config_.retreat_distance_m * slack;
     const bool closing = moving && least_m < config_.contact_gap_m * slack;
     threat.dangerous = (near || closing) && !leaving;
@@ -145,10 +142,6 @@ std::vector<Avoidance::Threat> Avoidance::threats(const AvoidanceInput& input, c
          fmt::format("something unmapped {:.2f} m off the hull at {}", gap_m, bearingInWords(bin.nearest_level_m))});
   }
   return result;
-}
-
-double Avoidance::gapAfter(const Threat& threat, const Point& moved_m, double time_s) const {
-  return (threat.center_m + threat.velocity_m_s * time_s - moved_m).norm() - threat.radius_m - hull_radius_m_;
 }
 
 double Avoidance::speedLimit(const Point& direction, const Points& points) const {
@@ -177,7 +170,7 @@ double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double
   const auto leastGap = [&](const Threat& threat, double v) {
     double moved_m = 0.0, now_m_s = speed_m_s, least_m = kInfinity;
     for (double time_s = 0.0; time_s <= kHorizon_s; time_s += kTimeStep_s) {
-      least_m = std::min(least_m, gapAfter(threat, moved_m * direction, time_s));
+      least_m = std::min(least_m, threat.gapTo(hull_radius_m_, moved_m * direction, time_s));
       if (time_s >= config_.latency_s) now_m_s += std::clamp(v - now_m_s, -a * kTimeStep_s, a * kTimeStep_s);
       moved_m += now_m_s * kTimeStep_s;
     }
@@ -193,64 +186,12 @@ double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double
   return std::max(0.0, result_m_s);
 }
 
-double Avoidance::freeLength(const Point& direction, const AvoidanceInput& input, const Points& points) const {
-  // More than when flying a plan: a retreat is flown backwards in a hurry, often along what is not seen.
-  const double radius_m = hull_radius_m_ + config_.retreat_margin_m;
-  double free_m = config_.look_ahead_m;
-  for (const Point& p : points) free_m = std::min(free_m, gapAlong(direction, p, radius_m));
-  if (input.cost_map == nullptr) return free_m;
-  // The map answers for what the laser does not see. From a place that is already too close one may go along, but not
-  // closer.
-  const CostMap& map = *input.cost_map;
-  const auto room = [&](double along_m) {
-    const common::CellIndex cell = map.cellAt(input.T_map_level * Point(direction * along_m));
-    return map.stateAt(cell) == CellState::kFree ? map.obstacleDistance_m(cell) : 0.0;
-  };
-  const double step_m = 0.5 * map.resolution_m();
-  const double least_m = std::min(room(0.0), radius_m) - step_m;
-  for (double along_m = step_m; along_m < free_m; along_m += step_m)
-    if (room(along_m) < least_m) return along_m - step_m;
-  return free_m;
-}
-
 Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const {
   // The danger may just have passed: then it stands until it is over for good.
   if (std::none_of(threats.begin(), threats.end(), [](const Threat& t) { return t.dangerous; })) return Point::Zero();
-  constexpr double kHorizon_s = 1.5, kLeastFree_m = 0.10;
-  constexpr double kAway = 0.06, kSame = 0.05, kFreest = 0.03;
-  const double a = config_.deceleration_m_s2;
-  const double enough_m = config_.release_factor * std::max(config_.retreat_distance_m, config_.contact_gap_m);
-  Point away = Point::Zero();
-  for (const Threat& threat : threats)
-    if (threat.dangerous) away -= threat.center_m.normalized();
-  if (away.norm() > 1e-6) away.normalize();
-
-  const auto leastGap = [&](const Point& direction, double free_m) {
-    double least_m = kInfinity;
-    for (double t = 0.3; t <= kHorizon_s; t += kTimeStep_s) {
-      const double moved_m = std::min({0.5 * a * t * t, config_.retreat_speed_m_s * t, free_m});
-      for (const Threat& threat : threats) least_m = std::min(least_m, gapAfter(threat, moved_m * direction, t));
-    }
-    return std::min(least_m, enough_m);
-  };
-  const double standing_m = leastGap(Point::Zero(), 0.0);
-  double best_score = standing_m + 0.02, best_free_m = 0.0;
-  Point best = Point::Zero();
-  for (int i = 0; i < kDirections; ++i) {
-    const Point direction = directionAt(i);
-    const double free_m = freeLength(direction, input, points);
-    if (free_m < kLeastFree_m) continue;
-    const double moving_m = leastGap(direction, free_m);
-    if (moving_m < standing_m) continue;
-    const double score = moving_m + kAway * direction.dot(away) +
-                         kSame * direction.dot(last_retreat_level_) / config_.retreat_speed_m_s +
-                         kFreest * free_m / config_.look_ahead_m;
-    if (score <= best_score) continue;
-    best_score = score;
-    best_free_m = free_m;
-    best = direction;
-  }
-  return best * std::min(config_.retreat_speed_m_s, stoppingSpeed(best_free_m));
+  return retreatVelocity(
+      config_, hull_radius_m_,
+      {input.velocity_level_m_s, points, threats, last_retreat_level_, input.T_map_level, input.cost_map});
 }
 
 /// The laser does not see all around: who walks where it does not look is forgotten after a while, and comes back as a

@@ -18,6 +18,8 @@
 
 namespace swiftlet::planning {
 
+struct Threat;
+
 /// One scan and what is known beside it. The level frame is the body frame without roll and pitch.
 struct AvoidanceInput {
   common::Time stamp;
@@ -30,8 +32,10 @@ struct AvoidanceInput {
 };
 
 struct AvoidanceDecision {
-  double speed_limit_m_s = 0.0;                               ///< Along the wish, or the velocity when that is zero.
-  std::optional<Eigen::Vector2d> retreat_velocity_level_m_s;  ///< When set it replaces what the intent wants.
+  double speed_limit_m_s = 0.0;  ///< Along the wish, or the velocity when that is zero.
+  /// When set it replaces what the intent wants; to be flown with `retreat_acceleration_m_s2`.
+  std::optional<Eigen::Vector2d> retreat_velocity_level_m_s;
+  double retreat_acceleration_m_s2 = 0.0;
   double turn_rad = 0.0;  ///< While retreating: by so much it must turn to see what it retreats from, and where to.
   common::AvoidanceStatus status;
 };
@@ -74,7 +78,6 @@ class Avoidance {
     double mapped_within_m = 0.15;
     double retreat_speed_m_s = 0.8;
     double retreat_margin_m = 0.15;
-    double look_ahead_m = 1.0;
     double view_margin_deg = 30.0;
     double release_factor = 1.3;
     double calm_s = 0.6;
@@ -97,24 +100,14 @@ class Avoidance {
   static std::vector<Bin> bins(const Config& config, const std::vector<Eigen::Vector2d>& smoothed_level_m);
 
  private:
-  /// Something unmapped or moving, in the level frame.
-  struct Threat {
-    Eigen::Vector2d center_m;
-    double radius_m;
-    Eigen::Vector2d velocity_m_s;
-    bool dangerous;
-    std::string why;
-  };
   using Points = std::vector<Eigen::Vector2d>;
 
   std::vector<Threat> threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
-  double gapAfter(const Threat& threat, const Eigen::Vector2d& moved_m, double time_s) const;
   double speedLimit(const Eigen::Vector2d& direction, const Points& points) const;
   bool isSeen(const Eigen::Vector2d& direction) const;
   double stoppingSpeed(double gap_m) const;
   double yieldingSpeed(const Eigen::Vector2d& direction, double speed_m_s, double intended_m_s,
                        const std::vector<Threat>& threats) const;
-  double freeLength(const Eigen::Vector2d& direction, const AvoidanceInput& input, const Points& points) const;
   Eigen::Vector2d retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const;
   double turnToSee(const std::vector<Threat>& threats, const Eigen::Vector2d& retreat_level_m_s) const;
   bool isMapped(const AvoidanceInput& input, const Eigen::Vector2d& point_level_m) const;

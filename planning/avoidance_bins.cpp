@@ -61,7 +61,6 @@ void Avoidance::Config::describe(common::config::Fields& fields) {
   fields("mapped_within_m", mapped_within_m, "A return this near to something mapped or unknown is that.");
   fields("retreat_speed_m_s", retreat_speed_m_s, "Greatest speed of a retreat.");
   fields("retreat_margin_m", retreat_margin_m, "Between hull and obstacle when a retreat has ended.");
-  fields("look_ahead_m", look_ahead_m, "How far the way of a retreat is looked at.");
   fields("view_margin_deg", view_margin_deg,
          "While retreating it turns until the danger and the way out are this far within the field of view.");
   fields("release_factor", release_factor, "While retreating, distances and times are longer by this.");
@@ -86,7 +85,6 @@ std::vector<std::string> Avoidance::Config::validate() const {
       .within("mapped_within_m", mapped_within_m, 0, 1)
       .within("retreat_speed_m_s", retreat_speed_m_s, 0.05, 10)
       .within("retreat_margin_m", retreat_margin_m, 0, 2)
-      .within("look_ahead_m", look_ahead_m, 0.1, 10)
       .within("view_margin_deg", view_margin_deg, 0, 180)
       .within("release_factor", release_factor, 1, 5)
       .within("calm_s", calm_s, 0, 10)

@@ -45,6 +45,13 @@ using CellPath = std::vector<common::CellIndex>;
 /// avoids what is occupied, within `reach_m`; the start alone when it is not lethal; none when it is shut in.
 std::optional<CellPath> escapeFrom(const CostMap& map, common::CellIndex start, double reach_m = 1.0);
 
+/// The way that would be taken if what blocks it were gone: its last cell before the first lethal one, and that one.
+/// None when the start is shut in, when nothing blocks the way, or when there would be none even then.
+struct BlockedWay {
+  common::CellIndex last_free, first_lethal;
+};
+std::optional<BlockedWay> blockedWay(const CostMap& map, common::CellIndex start, common::CellIndex goal);
+
 /// The place nearest to a point where the centre may be, within `reach_m`.
 std::optional<Eigen::Vector2d> nearestFree(const CostMap& map, const Eigen::Vector2d& point_map_m,
                                            double reach_m = 3.0);

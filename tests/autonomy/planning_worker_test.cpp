@@ -20,8 +20,9 @@ std::shared_ptr<common::OccupancyGrid> room() {
 }
 
 struct Worker : testing::Test {
-  PlanningAnswer ask(decltype(PlanningRequest::question) question) {
+  PlanningAnswer ask(decltype(PlanningRequest::question) question, std::vector<planning::Disc> people = {}) {
     PlanningRequest request;
+    request.discs = std::move(people);
     request.grid = std::make_shared<const common::OccupancyGrid>(grid->snapshot());
     request.footprint = {0.275, 0.10};
     request.T_map_body = pose;
@@ -75,12 +76,42 @@ TEST_F(Worker, WhatStandsInTheFlownWayBlocksIt) {
   EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value());
 }
 
-TEST_F(Worker, MakesRoomFarFromANarrowPlace) {
-  for (int y = 0; y < 80; ++y)
-    if (y < 30 || y > 50) grid->set({50, y}, common::occupancy::kMaxSteps);  // A door of 1 m at x = 2.5 m.
-  const auto answer = ask(MakeRoomRequest{});
-  ASSERT_TRUE(answer.path && *answer.path && answer.makes_room);
-  EXPECT_GT(((*answer.path)->points_map_m.back() - Eigen::Vector2d(2.5, 2.0)).norm(), 1.0);
+TEST_F(Worker, MakesRoomForWhoStandsInTheDoor) {
+  build(20);
+  const Eigen::Vector2d door(4.0, 2.0);
+  pose.x_m = 3.0;
+  const auto answer = ask(DetourRequest{{6.0, 2.0}}, {{door, 0.5}});
+  ASSERT_TRUE(answer.detour);
+  EXPECT_TRUE(answer.detour->makes_room);
+  EXPECT_GT((answer.detour->path.points_map_m.back() - door).norm(), 1.5);
+}
+
+TEST_F(Worker, GoesToSeeWhetherTheDoorIsStillShut) {
+  build(0);
+  for (int y = 30; y <= 50; ++y) grid->set({80, y}, -common::occupancy::kMaxSteps);
+  grid->set({80, 40}, common::occupancy::kMaxSteps);  // A door of 1 m at y = 2 m with something in its middle.
+  pose.y_m = 3.2;
+  const auto answer = ask(DetourRequest{{6.0, 3.2}});
+  ASSERT_TRUE(answer.detour);
+  EXPECT_FALSE(answer.detour->makes_room);
+  EXPECT_LT((answer.detour->path.points_map_m.back() - Eigen::Vector2d(4.0, 2.0)).norm(), 0.8);
+}
+
+TEST_F(Worker, ComesAsNearToABlockedGoalAsItMayAndThenMakesRoom) {
+  const Eigen::Vector2d goal(6.0, 2.0);
+  for (int y = 35; y <= 45; ++y)
+    for (int x = 115; x <= 125; ++x) grid->set({x, y}, common::occupancy::kMaxSteps);
+  ASSERT_FALSE(ask(GoalRequest{goal, 0.05}).path->has_value());
+  const auto answer = ask(DetourRequest{goal});
+  ASSERT_TRUE(answer.detour);
+  EXPECT_FALSE(answer.detour->makes_room);
+  const Eigen::Vector2d place = answer.detour->path.points_map_m.back();
+  EXPECT_NEAR((place - goal).norm(), 0.275 + 0.275 + 0.1, 0.1);
+  pose.x_m = place.x();
+  pose.y_m = place.y();
+  const auto next = ask(DetourRequest{goal});
+  ASSERT_TRUE(next.detour);
+  EXPECT_TRUE(next.detour->makes_room);
 }
 
 }  // namespace
