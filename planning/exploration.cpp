@@ -118,10 +118,26 @@ class Explorer {
         frontiers_[i].score = best->utility;
         options_.push_back(*best);
       } else {
-        leave(frontiers_[i], FrontierReason::kTooSmall, fmt::format("{:.2f} m2 to be seen", greatest_gain_m2));
+        leaveUnseen(i, scout.view(middleOf(i), 0.0).gain_m2, greatest_gain_m2);
       }
     }
     if (input_.current) reviewCurrent(scout);
+  }
+
+  CellIndex middleOf(std::size_t frontier) const {
+    const std::vector<CellIndex>& cells = runs_[frontier].cells;
+    return cells[cells.size() / 2];
+  }
+
+  /// None of the places that can be reached sees enough of it.
+  void leaveUnseen(std::size_t frontier, double at_it_m2, double greatest_gain_m2) {
+    if (at_it_m2 < config_.min_gain_m2) {
+      leave(frontiers_[frontier], FrontierReason::kTooSmall, fmt::format("{:.2f} m2 to be seen", greatest_gain_m2));
+    } else {
+      leave(frontiers_[frontier], FrontierReason::kUnreachable,
+            fmt::format("from where one can be at clearance {:.2f} m only {:.2f} of {:.2f} m2 are seen",
+                        map_.footprint().clearance_m, greatest_gain_m2, at_it_m2));
+    }
   }
 
   Option optionAt(const Scout& scout, std::size_t frontier, const Lookout& lookout) const {

@@ -20,8 +20,8 @@ constexpr double kForesight_s = 1.5, kTooSoon_s = 0.3;
 constexpr int kDirections = 36;
 constexpr std::array<double, 3> kShareOfSpeed{0.25, 0.5, 1.0};
 constexpr std::array<double, 3> kGoing_s{0.2, 0.5, 0.9};
-/// What else counts than the gap, in metres of it: to go straight away, to go on in the same direction, to go slowly, and
-/// to be worth it at all.
+/// What else counts than the gap, in metres of it: to go straight away, to go on in the same direction, to go slowly,
+/// and to be worth it at all.
 constexpr double kAway_m = 0.06, kSame_m = 0.05, kHaste_m = 0.06, kWorth_m = 0.02;
 constexpr double kThinned_m = 0.05;
 
@@ -32,27 +32,28 @@ struct Prospect {
   double seen_m;    ///< Least distance from the centre to a return,
   double mapped_m;  ///< and to what the map holds.
   double gap_m;     ///< Least gap to anybody.
+  double room_m;    ///< From the centre to whatever stands, where it ends; no more than the margin asks for.
 };
 
 class Retreat {
  public:
   Retreat(const Avoidance::Config& config, double hull_radius_m, const RetreatInput& input)
       : config_(config), hull_radius_m_(hull_radius_m), input_(input) {
-    const double reach_m = input.velocity_level_m_s.norm() * config.latency_s + config.retreat_speed_m_s * kSteps * kStep_s;
+    const double reach_m =
+        input.velocity_level_m_s.norm() * config.latency_s + config.retreat_speed_m_s * kSteps * kStep_s;
     for (const Point& p : input.points_level_m) {
       const bool far = p.norm() > reach_m + safe_m();
       if (!far && (near_.empty() || (p - near_.back()).norm() > kThinned_m)) near_.push_back(p);
     }
     for (const Threat& threat : input.threats)
-      if (threat.dangerous) away_ -= threat.center_m.normalized();
+      if (threat.dangerous) away_ += awayFrom(threat);
     if (away_.norm() > 1e-6) away_.normalize();
     if (input.last_level_m_s.norm() > 1e-6) last_ = input.last_level_m_s.normalized();
   }
 
   Point best() const {
     const Prospect stop = prospectOf(courseAt(Point::Zero(), 0.0));
-    const double half_cell_m = input_.cost_map ? 0.5 * input_.cost_map->resolution_m() : 0.0;
-    double best_score = stop.gap_m + kWorth_m;
+    double best_score = stop.gap_m + stop.room_m + kWorth_m;
     Point best = Point::Zero();
     for (int i = 0; i < kDirections; ++i) {
       const double angle_rad = 2.0 * std::numbers::pi * i / kDirections;
@@ -62,11 +63,11 @@ class Retreat {
         for (const double going_s : kGoing_s) {
           const Course course = courseAt(velocity, going_s);
           const Prospect prospect = prospectOf(course);
-          const bool clear = prospect.seen_m >= std::min(stop.seen_m, safe_m()) - 0.005 &&
-                             prospect.mapped_m >= std::min(stop.mapped_m, safe_m()) - half_cell_m;
+          const bool clear = prospect.seen_m >= std::min(stop.seen_m, safe_m()) &&
+                             prospect.mapped_m >= std::min(stop.mapped_m, safe_m());
           if (!clear || prospect.gap_m < stop.gap_m) continue;
-          const double score = prospect.gap_m + kAway_m * direction.dot(away_) + kSame_m * direction.dot(last_) -
-                               kHaste_m * share;
+          const double score = prospect.gap_m + prospect.room_m + kAway_m * direction.dot(away_) +
+                               kSame_m * direction.dot(last_) - kHaste_m * share;
           if (score <= best_score) continue;
           best_score = score;
           best = velocity;
@@ -77,6 +78,17 @@ class Retreat {
   }
 
  private:
+  /// Out of the way of who passes, rather than along it before him; straight away from who comes straight on.
+  static Point awayFrom(const Threat& threat) {
+    constexpr double kPasses_m = 0.5;
+    const Point straight = -threat.center_m.normalized();
+    if (threat.velocity_m_s.isZero()) return straight;
+    const Point along = threat.velocity_m_s.normalized();
+    const Point aside = -threat.center_m + threat.center_m.dot(along) * along;
+    const double passing = std::min(1.0, aside.norm() / kPasses_m);
+    return passing * aside.normalized() + (1.0 - passing) * straight;
+  }
+
   double safe_m() const { return hull_radius_m_ + config_.retreat_margin_m; }
 
   /// Towards that velocity for so long, then to rest.
@@ -98,17 +110,24 @@ class Retreat {
 
   Prospect prospectOf(const Course& course) const {
     const double enough_m = config_.release_factor * std::max(config_.retreat_distance_m, config_.contact_gap_m);
-    double seen2 = kInfinity, mapped_m = kInfinity, gap_m = enough_m;
-    double time_s = 0.0;
+    double seen_m = kInfinity, mapped_m = kInfinity, gap_m = enough_m, room_m = 0.0, time_s = 0.0;
     for (const Point& place : course) {
-      for (const Point& p : near_) seen2 = std::min(seen2, (p - place).squaredNorm());
-      mapped_m = std::min(mapped_m, toMapped_m(place));
+      const double to_seen_m = toSeen_m(place), to_mapped_m = toMapped_m(place);
+      seen_m = std::min(seen_m, to_seen_m);
+      mapped_m = std::min(mapped_m, to_mapped_m);
+      room_m = std::min({to_seen_m, to_mapped_m, safe_m()});
       if (time_s >= kTooSoon_s && time_s <= kForesight_s)
         for (const Threat& threat : input_.threats)
           gap_m = std::min(gap_m, threat.gapTo(hull_radius_m_, place, time_s));
       time_s += kStep_s;
     }
-    return {std::sqrt(seen2), mapped_m, gap_m};
+    return {seen_m, mapped_m, gap_m, room_m};
+  }
+
+  double toSeen_m(const Point& place) const {
+    double squared = kInfinity;
+    for (const Point& p : near_) squared = std::min(squared, (p - place).squaredNorm());
+    return std::sqrt(squared);
   }
 
   double toMapped_m(const Point& place) const {

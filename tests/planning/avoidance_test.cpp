@@ -241,8 +241,8 @@ TEST(Avoidance, SomethingUnmappedCloseMakesItRetreatStraightAway) {
   AvoidanceDecision d;
   for (int i = 0; i < 5; ++i) d = story.tick({0, 0});
   ASSERT_TRUE(d.retreat_velocity_level_m_s);
-  EXPECT_LT(d.retreat_velocity_level_m_s->x(), -0.3);
-  EXPECT_LT(std::abs(d.retreat_velocity_level_m_s->y()), 0.25);
+  EXPECT_LT(d.retreat_velocity_level_m_s->x(), -0.15);
+  EXPECT_LT(std::abs(d.retreat_velocity_level_m_s->y()), 0.1);
   EXPECT_THAT(d.status.reason, HasSubstr("unmapped"));
   for (int i = 0; i < 200; ++i) d = story.tick({0, 0});
   EXPECT_FALSE(d.status.retreating);
