@@ -35,7 +35,7 @@ class PositionController {
     double max_integral_m_s2 = 2.0;
     double max_yaw_rate_deg_s = 90.0;
     double latency_s = 0.03;       ///< From measurement to command; the state is carried forward by it ...
-    double attitude_lag_s = 0.08;  ///< ... and, horizontally, by what the attitude takes to follow.
+    double attitude_lag_s = 0.12;  ///< ... and, horizontally, by what the attitude takes to follow.
     ThrustModel::Config thrust;
 
     void describe(common::config::Fields& fields);
