@@ -34,6 +34,7 @@ const char* toString(PlanFailure::Reason reason) {
 }
 
 std::optional<Point> nearestFree(const CostMap& map, const Point& point_map_m, double reach_m) {
+  constexpr double kWithinCell = 0.4;  // From its centre, on either side.
   const CellIndex center = map.cellAt(point_map_m);
   const int reach = static_cast<int>(std::ceil(reach_m / map.resolution_m()));
   std::optional<Point> best;
@@ -45,10 +46,12 @@ std::optional<Point> nearestFree(const CostMap& map, const Point& point_map_m, d
       for (int dx = -ring; dx <= ring; dx += step) {
         const CellIndex cell{center.x + dx, center.y + dy};
         if (map.costAt(cell) == CostMap::kLethal) continue;
-        const double distance_m = (map.centerOf(cell) - point_map_m).norm();
+        const Point center_m = map.centerOf(cell), within = Point::Constant(kWithinCell * map.resolution_m());
+        const Point place_m = point_map_m.cwiseMax(center_m - within).cwiseMin(center_m + within);
+        const double distance_m = (place_m - point_map_m).norm();
         if (distance_m >= best_m) continue;
         best_m = distance_m;
-        best = map.centerOf(cell);
+        best = place_m;
       }
     }
   }

@@ -29,10 +29,13 @@ constexpr double kThinned_m = 0.05;
 using Course = std::array<Point, kSteps + 1>;
 
 struct Prospect {
-  double seen_m;    ///< Least distance from the centre to a return,
-  double mapped_m;  ///< and to what the map holds.
-  double gap_m;     ///< Least gap to anybody.
-  double room_m;    ///< From the centre to whatever stands, where it ends; no more than the margin asks for.
+  double seen_m;     ///< Least distance from the centre to a return,
+  double mapped_m;   ///< and to what the map holds.
+  double gap_m;      ///< Least gap to anybody,
+  double end_gap_m;  ///< and at the end of what is foreseen.
+  double room_m;     ///< From the centre to whatever stands, where it ends; no more than the margin asks for.
+
+  double worth_m() const { return gap_m + 0.5 * end_gap_m + room_m; }
 };
 
 class Retreat {
@@ -53,7 +56,7 @@ class Retreat {
 
   Point best() const {
     const Prospect stop = prospectOf(courseAt(Point::Zero(), 0.0));
-    double best_score = stop.gap_m + stop.room_m + kWorth_m;
+    double best_score = -kInfinity;
     Point best = Point::Zero();
     for (int i = 0; i < kDirections; ++i) {
       const double angle_rad = 2.0 * std::numbers::pi * i / kDirections;
@@ -66,8 +69,9 @@ class Retreat {
           const bool clear = prospect.seen_m >= std::min(stop.seen_m, safe_m()) &&
                              prospect.mapped_m >= std::min(stop.mapped_m, safe_m());
           if (!clear || prospect.gap_m < stop.gap_m) continue;
-          const double score = prospect.gap_m + prospect.room_m + kAway_m * direction.dot(away_) +
-                               kSame_m * direction.dot(last_) - kHaste_m * share;
+          if (prospect.worth_m() < stop.worth_m() + kWorth_m) continue;
+          const double score =
+              prospect.worth_m() + kAway_m * direction.dot(away_) + kSame_m * direction.dot(last_) - kHaste_m * share;
           if (score <= best_score) continue;
           best_score = score;
           best = velocity;
@@ -110,18 +114,22 @@ class Retreat {
 
   Prospect prospectOf(const Course& course) const {
     const double enough_m = config_.release_factor * std::max(config_.retreat_distance_m, config_.contact_gap_m);
-    double seen_m = kInfinity, mapped_m = kInfinity, gap_m = enough_m, room_m = 0.0, time_s = 0.0;
+    double seen_m = kInfinity, mapped_m = kInfinity, gap_m = enough_m, end_gap_m = enough_m, room_m = 0.0;
+    double time_s = 0.0;
     for (const Point& place : course) {
       const double to_seen_m = toSeen_m(place), to_mapped_m = toMapped_m(place);
       seen_m = std::min(seen_m, to_seen_m);
       mapped_m = std::min(mapped_m, to_mapped_m);
       room_m = std::min({to_seen_m, to_mapped_m, safe_m()});
-      if (time_s >= kTooSoon_s && time_s <= kForesight_s)
+      if (time_s >= kTooSoon_s && time_s <= kForesight_s) {
+        end_gap_m = enough_m;
         for (const Threat& threat : input_.threats)
-          gap_m = std::min(gap_m, threat.gapTo(hull_radius_m_, place, time_s));
+          end_gap_m = std::min(end_gap_m, threat.gapTo(hull_radius_m_, place, time_s));
+        gap_m = std::min(gap_m, end_gap_m);
+      }
       time_s += kStep_s;
     }
-    return {seen_m, mapped_m, gap_m, room_m};
+    return {seen_m, mapped_m, gap_m, end_gap_m, room_m};
   }
 
   double toSeen_m(const Point& place) const {

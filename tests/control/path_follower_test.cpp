@@ -239,5 +239,42 @@ TEST(PathShape, noPointIsPassedFasterThanWhatComesAllows) {
   EXPECT_EQ(speeds.back(), 0.0);
 }
 
+TEST(PathFollower, aVelocityIsReachedAlongAStraightLineAndTurnedBackAtOnce) {
+  Watch watch({1, 2, 1});
+  watch.follower.setVelocity({0.6, 0.0, 0.0}, 1.0, 0.4);
+  for (int i = 0; i < 80; ++i) watch.step();
+  EXPECT_NEAR((watch.follower.reference().velocity_odom_m_s - Eigen::Vector3d(0.6, 0, 0)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 0.4, 0.15);
+  const double x_m = watch.follower.reference().position_odom_m.x();
+  watch.follower.setVelocity({-0.6, 0.0, 0.0}, 1.0, 0.4);
+  for (int i = 0; i < 120; ++i) watch.step();
+  EXPECT_NEAR(watch.follower.reference().velocity_odom_m_s.x(), -0.6, 1e-6);
+  EXPECT_NEAR(watch.follower.reference().position_odom_m.x(), x_m, 1e-6) << "0.18 m on and back";
+  EXPECT_NEAR(watch.follower.reference().position_odom_m.y(), 2.0, 1e-9);
+  EXPECT_LE(watch.worst_acceleration_m_s2, 1.0 + 1e-6);
+  EXPECT_LE(watch.worst_jump_m, 1e-6);
+}
+
+TEST(PathFollower, fromAPathToAVelocityAndBackItIsSmooth) {
+  Watch watch({0, 0, 1});
+  watch.follower.setPath({{0, 0, 1}, {5, 0, 1}}, FlightMode::kFast);
+  for (int i = 0; i < 150; ++i) watch.step();
+  watch.follower.setVelocity({0.0, 0.7, 0.0}, 1.0, 0.0);
+  for (int i = 0; i < 150; ++i) watch.step();
+  EXPECT_FALSE(watch.follower.finished());
+  watch.follower.movePath({0.3, -0.2, 0.5});
+  for (int i = 0; i < 100; ++i) watch.step();
+  const Eigen::Vector3d& velocity = watch.follower.reference().velocity_odom_m_s;
+  EXPECT_NEAR(std::atan2(velocity.y(), velocity.x()), 0.5 * std::numbers::pi + 0.5, 1e-3) << "turned with the frame";
+  watch.follower.setPath({watch.follower.reference().position_odom_m, {8, 3, 1}}, FlightMode::kFast);
+  ASSERT_TRUE(watch.finish());
+  watch.follower.setVelocity({0.5, 0.0, 0.0}, 1.0, 0.0);
+  for (int i = 0; i < 60; ++i) watch.step();
+  watch.follower.stop();
+  ASSERT_TRUE(watch.finish());
+  EXPECT_LE(watch.worst_jump_m, 1e-4);
+  EXPECT_LE(watch.worst_acceleration_m_s2, 3.5);
+}
+
 }  // namespace
 }  // namespace swiftlet::control
