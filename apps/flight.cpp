@@ -34,11 +34,11 @@ class Flight {
         recorder_(vehicle_->T_world_map()),
         autonomy_(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser,
                   behaviors::Mission::fromFile(setup.mission_file), common::makeLockstepJobs(1)),
-        folder_({}, setup.out, runInfo(setup), setup.system.toYaml(true)) {}
+        folder_({}, folderOf(setup), runInfo(setup), setup.system.toYaml(true)) {}
 
   FlightResult fly() {
     for (const std::string& warning : vehicle_->world().warnings)
-      tell({now_, common::Severity::kWarning, "world", warning, ""}, true);
+      tell({now_, common::Severity::kWarning, "world", warning, ""});
     while (!over()) {
       now_ += kTick;
       step();
@@ -58,6 +58,11 @@ class Flight {
                                                           scenario);
   }
 
+  static std::filesystem::path folderOf(const FlightSetup& setup) {
+    if (!setup.out.empty()) return setup.out;
+    return interfaces::freshRunFolder("runs", setup.started, std::filesystem::path(setup.mission_file).stem().string());
+  }
+
   static interfaces::RunInfo runInfo(const FlightSetup& setup) {
     interfaces::RunInfo info;
     info.mission = std::filesystem::path(setup.mission_file).stem().string();
@@ -71,7 +76,7 @@ class Flight {
   }
 
   bool over() {
-    if (ended_) return (now_ - *ended_).seconds() >= setup_.linger_s || outcome_ == Outcome::kCrashed;
+    if (outcome_ != Outcome::kFlying) return true;
     if (hooks_.stop && *hooks_.stop) return end(Outcome::kStopped, "stopped from outside");
     if (now_.seconds() >= setup_.time_limit_s) return end(Outcome::kStopped, "the time limit is over");
     if (folder_.failure()) return end(Outcome::kStopped, *folder_.failure());
@@ -89,8 +94,7 @@ class Flight {
   bool end(Outcome outcome, std::string reason) {
     outcome_ = outcome;
     reason_ = std::move(reason);
-    ended_ = now_;
-    return setup_.linger_s <= 0.0;
+    return true;
   }
 
   void step() {
@@ -109,33 +113,30 @@ class Flight {
       for (const common::OperatorCommand& command : hooks_.web->takeCommands()) autonomy_.process(command, now_);
     vehicle_->apply(autonomy_.tick(now_));
     publish();
-    if (!alive && !ended_) end(Outcome::kCrashed, vehicle_->stopReason());
+    if (alive) return;
+    tell({now_, common::Severity::kError, "vehicle", "the flight has ended", vehicle_->stopReason()});
+    end(Outcome::kCrashed, vehicle_->stopReason());
   }
 
   void publish() {
-    const bool recorded = !ended_;  // The page sees what comes after the end; the run is the same without a page.
-    if (recorded) {
-      const common::VehicleState state = autonomy_.state();
-      folder_.state(state);
-      recorder_.tick(vehicle_->truth(), state);
-      recorder_.intent(now_, autonomy_.intent(), autonomy_.intentStatus());
-    }
+    const common::VehicleState state = autonomy_.state();
+    folder_.state(state);
+    recorder_.tick(vehicle_->truth(), state);
+    recorder_.intent(now_, autonomy_.intent(), autonomy_.intentStatus());
     if (const auto world = autonomy_.world(); world != last_world_) {
       last_world_ = world;
       if (hooks_.web) hooks_.web->world().post(world);
-      if (recorded) {
-        recorder_.world(*world);
-        folder_.world(*world);
-      }
-      if (recorded && (now_ - last_picture_).seconds() >= kPicturePeriod_s) showPictures();
+      recorder_.world(*world);
+      folder_.world(*world);
+      if ((now_ - last_picture_).seconds() >= kPicturePeriod_s) showPictures();
     }
-    for (const common::Event& event : autonomy_.takeEvents()) tell(event, recorded);
+    for (const common::Event& event : autonomy_.takeEvents()) tell(event);
     for (common::CommandResult& result : autonomy_.takeResults())
       if (hooks_.web) hooks_.web->postResult(std::move(result));
   }
 
-  void tell(const common::Event& event, bool recorded) {
-    if (recorded) folder_.event(event);
+  void tell(const common::Event& event) {
+    folder_.event(event);
     if (hooks_.event) hooks_.event(event);
     if (hooks_.web) hooks_.web->postEvent(event);
   }
@@ -172,7 +173,15 @@ class Flight {
     result.summary = folder_.summary();
     result.folder = folder_.path();
     result.write_failure = folder_.failure();
+    linger();
     return result;
+  }
+
+  /// So that the pages see how it ended.
+  void linger() const {
+    const Clock::time_point begin = Clock::now();
+    while (secondsSince(begin) < setup_.linger_s && !(hooks_.stop && *hooks_.stop))
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 
   const FlightSetup& setup_;
@@ -186,7 +195,6 @@ class Flight {
   std::vector<common::SensorEvent> sensor_events_;
   std::shared_ptr<const common::World> last_world_;
   common::Time last_picture_;
-  std::optional<common::Time> ended_;
   Outcome outcome_ = Outcome::kFlying;
   std::string reason_;
   Clock::time_point begin_ = Clock::now();

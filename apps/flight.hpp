@@ -27,7 +27,7 @@ struct FlightSetup {
   std::string started;           ///< For the run's records.
   double speed = 0.0;            ///< Times real time; 0: as fast as the machine can.
   double time_limit_s = 1800.0;  ///< Of simulated time.
-  double linger_s = 0.0;         ///< Simulated time to go on after the end, so that a page sees it.
+  double linger_s = 0.0;         ///< Time on the wall clock to wait after the end, so that a page sees it.
 };
 
 struct FlightProgress {

@@ -48,9 +48,7 @@ FlightSetup setupOf(const FlyOptions& options) {
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
   setup.linger_s = options.headless ? 0.0 : 2.0;
-  setup.out = options.out.empty() ? interfaces::freshRunFolder("runs", setup.started,
-                                                               std::filesystem::path(options.mission).stem().string())
-                                  : std::filesystem::path(options.out);
+  setup.out = options.out;
   return setup;
 }
 

@@ -12,9 +12,9 @@ double parseSpeed(const std::string& text) {
   if (text == "max") return 0.0;
   double speed = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
-  if (error != std::errc{} || end != text.data() + text.size() || !(speed > 0.0 && speed <= 1000.0))
-    throw common::InputError(common::Problem{
-        {}, "--speed", fmt::format("`{}` is neither max nor a number above 0 and up to 1000", text), ""});
+  if (error != std::errc{} || end != text.data() + text.size() || !(speed >= 0.01 && speed <= 1000.0))
+    throw common::InputError(
+        common::Problem{{}, "--speed", fmt::format("`{}` is neither max nor a number from 0.01 to 1000", text), ""});
   return speed;
 }
 

@@ -108,11 +108,11 @@ std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& 
   return line;
 }
 
-/// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds.
-TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out,
-                   const std::atomic<bool>& stop) {
+/// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds. What stops a flight from
+/// being flown at all ends the trial, and is thrown once `result` has the others.
+void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out, const std::atomic<bool>& stop,
+            TrialResult& result) {
   const int count = options.repeat > 0 ? options.repeat : trial.repeat;
-  TrialResult result{trial.name, trial.description, trial.system, trial.paper, {}, trial.criteria};
   std::vector<std::optional<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
   std::mutex mutex;
@@ -135,10 +135,9 @@ TrialResult flyAll(const TrialConfig& trial, const TrialOptions& options, const 
   for (int i = 1; i < std::min(options.jobs, count); ++i) threads.emplace_back(work);
   work();
   for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
   for (auto& score : scores)
     if (score) result.flights.push_back(std::move(*score));
-  return result;
+  if (failure) std::rethrow_exception(failure);
 }
 
 interfaces::TrialReport reportOf(const TrialResults& results) {
@@ -197,7 +196,13 @@ int trial(const TrialOptions& options) {
   TrialResults results;
   for (const TrialConfig& trial : trials) {
     if (stop) break;
-    results.trials.push_back(flyAll(trial, options, out, stop));
+    results.trials.push_back({trial.name, trial.description, trial.system, trial.paper, {}, trial.criteria});
+    try {
+      flyAll(trial, options, out, stop, results.trials.back());
+    } catch (...) {
+      writeResults(results, out);
+      throw;
+    }
     writeResults(results, out);
   }
   if (options.json) {

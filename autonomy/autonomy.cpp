@@ -16,6 +16,17 @@ namespace {
 constexpr std::uint64_t kSupervisorHold = 1ULL << 62;
 constexpr std::uint64_t kSupervisorLand = kSupervisorHold + 1;
 constexpr double kTrailStep_m = 0.05;
+
+/// Nobody counts on seeing more than the laser sees.
+AutonomyConfig seeing(AutonomyConfig config, const common::LaserConfig& laser) {
+  double& avoidance_deg = config.reactive.avoidance.field_of_view_deg;
+  planning::ExplorationConfig& exploration = config.execution.exploration;
+  avoidance_deg = std::min(avoidance_deg, laser.field_of_view_deg);
+  exploration.laser_field_of_view_deg = std::min(exploration.laser_field_of_view_deg, laser.field_of_view_deg);
+  exploration.laser_range_m = std::min(exploration.laser_range_m, laser.range_max_m);
+  return config;
+}
+
 }  // namespace
 
 void AutonomyConfig::describe(common::config::Fields& fields) {
@@ -42,12 +53,12 @@ std::vector<std::string> AutonomyConfig::validate() const {
 
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
                    behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs)
-    : config_(config),
+    : config_(seeing(config, laser)),
       vehicle_(vehicle),
       estimator_(config.estimator, laser, vehicle, *jobs),
-      reactive_(config.reactive, vehicle.hullRadius_m()),
+      reactive_(config_.reactive, vehicle.hullRadius_m()),
       controller_(config.control, vehicle),
-      executor_(config.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
+      executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
       supervisor_(config.supervisor),
       mission_(std::move(mission)),
       jobs_(std::move(jobs)),
@@ -79,6 +90,10 @@ void Autonomy::process(const common::OperatorCommand& command, Time now) {
     results_.push_back(std::move(*result));
     return;
   }
+  if (mission_over_) {
+    results_.push_back({command.id, false, "the mission has ended"});
+    return;
+  }
   if (const auto* goal = std::get_if<common::GoalCommand>(&command.kind); goal && mission_.acceptsGoals()) {
     if (auto refusal = executor_.refusalOfGoal(goal->goal_map_m)) {
       results_.push_back({command.id, false, std::move(*refusal)});
@@ -96,6 +111,8 @@ common::Setpoint Autonomy::tick(Time now) {
   if (!last_behaviors_ || (now - *last_behaviors_).seconds() >= period_s - 1e-6) {
     last_behaviors_ = now;
     tickBehaviors(now);
+    if (mission_over_ && controller_.state() == FlightState::kLanded)
+      (void)controller_.command(control::DisengageMotors{});
   }
 
   control::FlightTick flight;
@@ -116,8 +133,7 @@ common::Setpoint Autonomy::tick(Time now) {
 
 bool Autonomy::finished() const {
   return mission_over_ &&
-         (controller_.state() == FlightState::kLanded || controller_.state() == FlightState::kPoweredOff ||
-          controller_.state() == FlightState::kPreparation);
+         (controller_.state() == FlightState::kPoweredOff || controller_.state() == FlightState::kPreparation);
 }
 
 std::vector<common::Event> Autonomy::takeEvents() {
@@ -194,11 +210,11 @@ common::Intent Autonomy::wishOf(Time now) {
     if (!mission_over_) {
       (void)mission_.letGo(context_);
       collect(std::exchange(context_.events, {}));
+      mission_status_.state = MissionState::kFailed;
+      mission_status_.reason = "landed: " + supervision.land_reason;
+      mission_status_.phase = "land";
+      mission_over_ = true;
     }
-    mission_status_.state = MissionState::kFailed;
-    mission_status_.reason = "landed: " + supervision.land_reason;
-    mission_status_.phase = "land";
-    mission_over_ = true;
     return {kSupervisorLand, common::LandIntent{}};
   }
   if (mission_over_) return {kSupervisorLand, common::LandIntent{}};

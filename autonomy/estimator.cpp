@@ -180,6 +180,12 @@ bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
   if (!relative) return false;
   if (relative->from == relative->to) {
     (void)filter_.addClone(relative->from);
+    // Started anew: nothing ties it to the scans before but what it would have searched for a match.
+    if (last_match) {
+      const double off_m = config_.odometry.max_window_m;
+      const double off_rad = config_.odometry.max_window_deg * std::numbers::pi / 180.0;
+      covariance_since_map_ += Eigen::Vector3d(off_m * off_m, off_m * off_m, off_rad * off_rad).asDiagonal();
+    }
     return true;
   }
   if (!filter_.hasClone(relative->from)) (void)filter_.addClone(relative->from);
@@ -188,7 +194,10 @@ bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
   if (relative->reference_changed) {
     (void)filter_.addClone(relative->to);
     // Within one reference the error does not grow; it accumulates from reference to reference.
-    covariance_since_map_ += covariance;
+    const Eigen::Rotation2Dd to_body(-relative->T_from_to.yaw_rad);
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    rotation.topLeftCorner<2, 2>() = to_body.toRotationMatrix();
+    covariance_since_map_ += rotation * covariance * rotation.transpose();
   }
   return inserted == perception::Insertion::kTaken;
 }

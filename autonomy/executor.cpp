@@ -118,7 +118,7 @@ Eigen::Vector2d Executor::wishedVelocity_map_m_s() const {
   const auto points = keeper_.remaining();
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Eigen::Vector2d step = points[i] - points.front();
-    if (step.norm() > 0.05) return config_.exploration.speed_m_s * step.normalized();
+    if (step.norm() > 0.05) return controller_.speed_m_s(control::FlightMode::kFast) * step.normalized();
   }
   return Eigen::Vector2d::Zero();
 }
@@ -227,7 +227,9 @@ void Executor::endDetourWhenOver(const ExecutorInput& input) {
     if (left.norm() > config_.viewpoint_tolerance_m) return;
   }
   on_detour_ = false;
+  detour_since_ = now_;
   keeper_.clear();
+  controller_.hold();
 }
 
 bool Executor::detourIsDue(std::optional<Time> stuck_since) const {
@@ -382,6 +384,7 @@ void Executor::receiveExploration(const planning::ExplorationResult& result) {
 /// Stops when the plan has become invalid; true when a new plan is wanted.
 bool Executor::keepPlan(const ExecutorInput& input) {
   if (!cost_map_) return true;
+  if (!controller_.followsPath()) keeper_.clear();  // A lost estimate or the pilot ended it.
   if (!keeper_.plan()) return true;
   const auto check = keeper_.check(now_, *cost_map_, input.state.T_map_body_planar().position_m());
   if (!check.valid) {

@@ -135,7 +135,7 @@ class Executor {
   std::optional<common::Time> no_way_since_;
   planning::PlanFailure no_way_;
   std::optional<common::Time> asked_for_way_;
-  std::optional<common::Time> detour_since_;  ///< The last one.
+  std::optional<common::Time> detour_since_;  ///< The last one began, or ended.
   bool on_detour_ = false;
   bool retreating_ = false;
   double retreat_yaw_map_rad_ = 0.0;

@@ -77,7 +77,7 @@ std::vector<planning::Disc> Reactive::people(common::Time stamp) const {
   for (const planning::DynamicObstacle& o : obstacles_.obstacles()) {
     const double age_s = (stamp - o.last_seen).seconds();
     if (age_s > kJustSeen_s) continue;
-    result.push_back({o.center_map_m + o.velocity_map_m_s * age_s, o.radius_m + kAround_m});
+    result.push_back({o.center_map_m + o.believedVelocity_map_m_s() * age_s, o.radius_m + kAround_m});
   }
   return result;
 }

@@ -39,7 +39,7 @@ std::optional<common::CommandResult> Supervisor::take(const common::OperatorComm
     return accepted;
   }
   if (std::holds_alternative<common::LandCommand>(command.kind)) {
-    landed_by_operator_ = !supervision_.land;
+    if (!supervision_.land) landed_by_operator_ = true;
     land(now, "the operator asked for it");
     return accepted;
   }

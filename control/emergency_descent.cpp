@@ -47,7 +47,7 @@ EmergencyDescent::EmergencyDescent(const Config& config)
     : config_(config), filter_(config.alpha, config.beta, config.jump_m) {}
 
 void EmergencyDescent::start(common::Time now, double standing_height_m) {
-  started_ = last_moving_ = now;
+  last_seen_ = last_moving_ = now;
   standing_height_m_ = standing_height_m;
   integral_m_s2_ = 0.0;
   touched_down_ = false;
@@ -62,9 +62,10 @@ common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const Thr
   const bool sees = filter_.ready() && (now - filter_.stamp()).seconds() <= config_.blind_after_s;
   if (!sees) {
     setpoint.thrust = config_.blind_thrust * thrust.hoverCommand();
-    touched_down_ = (now - started_).seconds() > config_.blind_rest_s;
+    touched_down_ = (now - last_seen_).seconds() > config_.blind_rest_s;
     return setpoint;
   }
+  last_seen_ = now;
   const bool low = filter_.height_m() < standing_height_m_ + config_.touchdown_height_m;
   const double wanted_m_s = low ? -config_.touchdown_descent_m_s : -config_.descent_m_s;
   const double error_m_s = wanted_m_s - filter_.velocity_m_s();

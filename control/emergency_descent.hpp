@@ -75,7 +75,7 @@ class EmergencyDescent {
  private:
   Config config_;
   AlphaBetaFilter filter_;
-  common::Time started_;
+  common::Time last_seen_;  ///< The ground, or the start.
   common::Time last_moving_;
   double standing_height_m_ = 0.0;
   double integral_m_s2_ = 0.0;

@@ -90,6 +90,7 @@ tl::expected<void, std::string> FlightController::follow(const FlightPath& path)
   for (const Eigen::Vector3d& point : path.points_map_m) points_odom_m.push_back(inFrame(T_odom_map, point));
   std::optional<double> yaw_odom_rad;
   if (path.goal_yaw_map_rad) yaw_odom_rad = common::wrapAngle(*path.goal_yaw_map_rad + T_odom_map.yaw_rad);
+  follows_path_ = !points_odom_m.empty();
   follower_.setPath(std::move(points_odom_m), path.mode, yaw_odom_rad);
   return {};
 }
@@ -102,11 +103,13 @@ tl::expected<void, std::string> FlightController::followVelocity(const Eigen::Ve
     return tl::unexpected(std::string("the velocity is not finite"));
   Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
   velocity_odom_m_s.head<2>() = Eigen::Rotation2Dd(-T_map_odom_.yaw_rad) * velocity_map_m_s;
+  follows_path_ = false;
   follower_.setVelocity(velocity_odom_m_s, acceleration_m_s2, common::wrapAngle(yaw_map_rad - T_map_odom_.yaw_rad));
   return {};
 }
 
 void FlightController::hold(std::optional<double> yaw_map_rad) {
+  follows_path_ = false;
   follower_.stop(yaw_map_rad ? std::optional(common::wrapAngle(*yaw_map_rad - T_map_odom_.yaw_rad)) : std::nullopt);
 }
 
@@ -172,18 +175,20 @@ common::Setpoint FlightController::takeOff(const FlightTick& tick) {
   moveVertically(take_off_height_m_, config_.climb_m_s, height_m);
   const common::Setpoint setpoint = track(tick, follower_.advance(dt_s_), !lifted_);
 
+  const double timeout_s = config_.take_off_timeout_s + take_off_height_m_ / config_.climb_m_s;
   const bool hovers = std::abs(height_m - take_off_height_m_) <= config_.hover_tolerance_m &&
                       last_state_.velocity_odom_m_s.norm() <= config_.hover_speed_m_s;
   if (heldFor(hovers, config_.hover_s)) {
     transition(FlightInput::kHoverReached, fmt::format("hovers at {:.2f} m", height_m));
-  } else if ((now_ - state_since_).seconds() > config_.take_off_timeout_s) {
-    transition(FlightInput::kLand, fmt::format("not hovering after {:.0f} s", config_.take_off_timeout_s));
+  } else if ((now_ - state_since_).seconds() > timeout_s) {
+    transition(FlightInput::kLand, fmt::format("not hovering after {:.0f} s", timeout_s));
   }
   return setpoint;
 }
 
 common::Setpoint FlightController::fly(const FlightTick& tick) {
   if (tick.pilot_flies) {
+    follows_path_ = false;
     follower_.reset(last_state_.T_odom_body.position_m, common::yawOf(last_state_.T_odom_body.rotation));
     position_.reset();
   }
@@ -278,6 +283,7 @@ void FlightController::watchHorizontal(const FlightTick& tick) {
   }
   if (!horizontal_lost_) {
     horizontal_lost_ = now_;
+    follows_path_ = false;
     follower_.stop();
     say(Severity::kWarning, "horizontal estimate lost", "holding the velocity");
   }
@@ -364,7 +370,8 @@ void FlightController::Config::describe(common::config::Fields& fields) {
   fields("descent_m_s", descent_m_s, "Descent speed when landing.");
   fields("touchdown_descent_m_s", touchdown_descent_m_s, "Descent speed near the ground.");
   fields("touchdown_height_m", touchdown_height_m, "Near the ground begins this far above standing.");
-  fields("take_off_timeout_s", take_off_timeout_s, "Not hovering after this long: land again.");
+  fields("take_off_timeout_s", take_off_timeout_s,
+         "Not hovering so long after it could have climbed that high: land again.");
   fields("climb_acceleration_m_s2", climb_acceleration_m_s2, "Vertical acceleration of taking off and landing.");
   fields("hover_tolerance_m", hover_tolerance_m, "Taking off ends this close to the height.");
   fields("hover_speed_m_s", hover_speed_m_s, "And this slow.");

@@ -63,7 +63,7 @@ class FlightController {
     double descent_m_s = 0.4;
     double touchdown_descent_m_s = 0.2;
     double touchdown_height_m = 0.4;   ///< Over what is below: slower from here on.
-    double take_off_timeout_s = 15.0;  ///< Not hovering after this long: land again.
+    double take_off_timeout_s = 15.0;  ///< Not hovering so long after it could have climbed that high: land again.
     double climb_acceleration_m_s2 = 0.8;
     double hover_tolerance_m = 0.10;  ///< Taking off ends this close to the height ...
     double hover_speed_m_s = 0.15;    ///< ... and this slow ...
@@ -99,6 +99,9 @@ class FlightController {
   common::FlightState state() const { return machine_.state(); }
   /// On the ground, or flying with the reference at rest and the vehicle slow.
   bool stopped() const;
+  /// The last path is still what is flown: no hold, no lost estimate and no pilot has come in between.
+  bool followsPath() const { return follows_path_; }
+  double speed_m_s(FlightMode mode) const { return config_.path.limits(mode).speed_m_s; }
   /// The goal of the last path is reached by the reference.
   bool pathFinished() const;
   double remaining_m() const { return follower_.remaining_m(); }
@@ -132,6 +135,7 @@ class FlightController {
 
   common::Time now_;
   bool ticked_ = false;
+  bool follows_path_ = false;
   double dt_s_;
   common::VehicleState last_state_;
   common::Pose2 T_map_odom_;

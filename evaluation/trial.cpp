@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -89,9 +90,16 @@ std::vector<TrialConfig> readTrials(const fs::path& file_or_folder) {
 
   std::vector<TrialConfig> trials;
   std::vector<Problem> problems;
+  std::map<std::string, fs::path> named;
   for (const fs::path& file : files) {
     try {
       trials.push_back(readTrial(file));
+      const auto [other, isNew] = named.emplace(trials.back().name, file);
+      if (!isNew)
+        problems.push_back({{file.string()},
+                            "name",
+                            fmt::format("`{}` is the name of {} too", trials.back().name, other->second.string()),
+                            "their flights would lie in the same folders"});
     } catch (const InputError& e) {
       problems.insert(problems.end(), e.problems().begin(), e.problems().end());
     }

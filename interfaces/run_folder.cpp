@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -35,6 +36,14 @@ bool isRunFile(const std::string& name) {
   });
 }
 
+/// Whether its mission.json is that of a run; a profile or a map of others may have the name of a run's file.
+bool holdsRun(const fs::path& folder) {
+  std::ifstream file(folder / "mission.json");
+  std::string text(200, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  return text.find("swiftlet mission") != std::string::npos;
+}
+
 /// The folder, made or cleared of an older run.
 fs::path prepared(fs::path path) {
   const auto fail = [&](const std::string& message, const std::string& hint) {
@@ -50,6 +59,8 @@ fs::path prepared(fs::path path) {
                    "give an empty or new folder");
       old.push_back(entry.path());
     }
+    if (!old.empty() && !holdsRun(path))
+      throw fail("holds no run, and what it holds would be lost", "give an empty or new folder");
     for (const fs::path& file : old) fs::remove(file);
   } catch (const fs::filesystem_error& e) {
     throw fail(fmt::format("cannot be used: {}", e.code().message()), "");
@@ -102,7 +113,12 @@ fs::path freshRunFolder(const fs::path& parent, const std::string& started, cons
     if (!good) c = '-';
   }
   fs::path path = parent / name;
-  for (int number = 2; fs::exists(path); ++number) path = parent / fmt::format("{}-{}", name, number);
+  try {
+    fs::create_directories(parent);
+    for (int number = 2; !fs::create_directory(path); ++number) path = parent / fmt::format("{}-{}", name, number);
+  } catch (const fs::filesystem_error& e) {
+    throw InputError(Problem{{path.string()}, "", fmt::format("cannot be made: {}", e.code().message()), ""});
+  }
   return path;
 }
 

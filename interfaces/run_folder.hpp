@@ -23,8 +23,8 @@
 
 namespace swiftlet::interfaces {
 
-/// A folder below `parent` that does not exist yet: STARTED-MISSION, with a number where that is taken. Characters that
-/// are no good in file names become `-`.
+/// Makes a folder of its own below `parent`: STARTED-MISSION, with a number where that is taken, also by a flight that
+/// starts at the same moment. Characters that are no good in file names become `-`. Throws common::InputError.
 std::filesystem::path freshRunFolder(const std::filesystem::path& parent, const std::string& started,
                                      const std::string& mission);
 

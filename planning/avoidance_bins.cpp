@@ -46,7 +46,7 @@ std::vector<Point> medianOfThree(const std::vector<Point>& points) {
 
 void Avoidance::Config::describe(common::config::Fields& fields) {
   fields("bins", bins, "Sectors of the field of view.");
-  fields("field_of_view_deg", field_of_view_deg, "Of the laser, centred on the nose.");
+  fields("field_of_view_deg", field_of_view_deg, "Centred on the nose; the laser's where that is less.");
   fields.choice("bin_range", bin_range, {"mean", "robust_minimum"}, "What stands for the beams of a bin.");
   fields("smoothing_window", smoothing_window, "Beams of the sliding mean; for `mean` only.");
   fields("max_speed_m_s", max_speed_m_s, "The limit where nothing is near.");

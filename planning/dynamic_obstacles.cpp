@@ -180,10 +180,11 @@ std::vector<Disc> DynamicObstacles::discs(common::Time now, double horizon_s) co
   for (const DynamicObstacle& o : obstacles_) {
     const double age_s = (now - o.last_seen).seconds();
     if (age_s > config_.time_to_live_s) continue;
-    const double step_s = std::max(0.1, o.radius_m / std::max(0.1, o.velocity_map_m_s.norm()));
+    const Point velocity_map_m_s = o.believedVelocity_map_m_s();
+    const double step_s = std::max(0.1, o.radius_m / std::max(0.1, velocity_map_m_s.norm()));
     for (double t = 0.0; t <= horizon_s; t += step_s)
       result.push_back(
-          {o.center_map_m + o.velocity_map_m_s * (std::min(age_s, 1.0) + t), o.radius_m + config_.keep_out_m});
+          {o.center_map_m + velocity_map_m_s * (std::min(age_s, 1.0) + t), o.radius_m + config_.keep_out_m});
   }
   return result;
 }

@@ -48,6 +48,8 @@ struct DynamicObstacle {
   Eigen::Vector2d anchor_map_m = Eigen::Vector2d::Zero();  ///< That place,
   common::Time anchor_stamp;                               ///< and when it was seen there.
   common::Time last_seen;
+
+  Eigen::Vector2d believedVelocity_map_m_s() const { return moving ? velocity_map_m_s : Eigen::Vector2d::Zero(); }
 };
 
 /// Finds and follows them. One thread.

@@ -7,8 +7,8 @@ void ExplorationConfig::describe(common::config::Fields& fields) {
   fields.choice("strategy", strategy, {"nearest", "utility"}, "How the next viewpoint is chosen.");
   fields("min_frontier_m", min_frontier_m, "Shorter frontiers are left as too small.");
   fields("segment_m", segment_m, "Longer frontiers are cut into pieces of at most this length.");
-  fields("laser_range_m", laser_range_m, "How far a viewpoint counts on seeing.");
-  fields("laser_field_of_view_deg", laser_field_of_view_deg, "Centred on the heading.");
+  fields("laser_range_m", laser_range_m, "How far a viewpoint counts on seeing, where the laser does.");
+  fields("laser_field_of_view_deg", laser_field_of_view_deg, "Centred on the heading; the laser's where that is less.");
   fields("gain_depth_m", gain_depth_m, "How far into the unknown a beam is expected to see.");
   fields("gain_exponent", gain_exponent, "Utility grows with the gain to this power; 0: the nearest first.");
   fields("min_gain_m2", min_gain_m2, "A frontier behind which less is expected is left as too small.");

@@ -89,8 +89,8 @@ bool PlanKeeper::offer(const Path& path, common::Time now, const CostMap& map, c
   if (path_ && valid_ && path.points_map_m.back() == path_->points_map_m.back()) {
     advanceTo(position_map_m);
     stamp_ = now;
-    const double old_m = costOf(map, remaining()).cost_m;
-    if (path.cost_m >= old_m * (1.0 - config_.better_by)) return false;
+    const Rest old = costOf(map, remaining());
+    if (!old.blocked_map_m && path.cost_m >= old.cost_m * (1.0 - config_.better_by)) return false;
   }
   path_ = path;
   stamp_ = now;

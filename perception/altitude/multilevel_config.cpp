@@ -42,7 +42,7 @@ std::vector<std::string> MultilevelFilter::Config::validate() const {
       .within("cluster_gap_m", cluster_gap_m, 0.005, 1)
       .within("min_cluster_beams", min_cluster_beams, 1, 1000)
       .within("confirm_scans", confirm_scans, 1, 1000)
-      .within("confirm_s", confirm_s, 0, 10)
+      .within("confirm_s", confirm_s, 0.01, 10)
       .within("confirm_moving_s", confirm_moving_s, confirm_s, 10)
       .within("slope_sigma", slope_sigma, 1, 100)
       .within("doubt_s", doubt_s, 0, 10)

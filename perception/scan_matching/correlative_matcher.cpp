@@ -96,7 +96,7 @@ std::vector<std::string> CorrelativeMatcherConfig::validate() const {
       .within("covariance_scale", covariance_scale, 0.01, 1000)
       .within("attitude_error_deg", attitude_error_deg, 0, 20)
       .within("min_normal_spread", min_normal_spread, 0, 0.5)
-      .within("unobservable_sigma_m", unobservable_sigma_m, 0.001, 10)
+      .within("unobservable_sigma_m", unobservable_sigma_m, 0.001, 0.9)
       .problems();
 }
 

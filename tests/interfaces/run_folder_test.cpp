@@ -193,6 +193,9 @@ TEST(RunFolder, RefusesFoldersOfOthers) {
   EXPECT_EQ(bytesOf(folder / "home/map.pgm"), "a map") << "nothing is touched";
   fs::create_directories(folder / "nested/map.pgm");
   EXPECT_THAT(problem(folder / "nested"), HasSubstr("holds `map.pgm`"));
+  put(folder / "mine/config.yaml", "laser: urg_04lx");
+  EXPECT_THAT(problem(folder / "mine"), HasSubstr("holds no run"));
+  EXPECT_EQ(bytesOf(folder / "mine/config.yaml"), "laser: urg_04lx") << "a name of ours makes it no file of ours";
   put(folder / "file", "");
   EXPECT_THAT(problem(folder / "file"), HasSubstr("file: is not a folder"));
   EXPECT_THAT(problem(folder / "file/below"), HasSubstr("cannot be used: Not a directory"));
@@ -204,7 +207,7 @@ TEST(RunFolder, FreshNames) {
   const fs::path first = fresh();
   EXPECT_EQ(first.filename(), "2025-01-31T14-05-09-explore-and-return");
   EXPECT_EQ(first.parent_path(), folder.path());
-  fs::create_directories(first);
+  EXPECT_TRUE(fs::is_directory(first));
   EXPECT_EQ(fresh().filename(), "2025-01-31T14-05-09-explore-and-return-2");
 }
 

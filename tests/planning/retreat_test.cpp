@@ -28,8 +28,8 @@ struct Flyer {
     for (const Point& p : walls_m) seen.push_back(p - place_m);
     std::vector<Threat> around = threats;
     for (Threat& threat : around) threat.center_m -= place_m;
-    answer_m_s = retreatVelocity(
-        config, kHull_m, {velocity_m_s, seen, around, answer_m_s, {place_m.x(), place_m.y(), 0.0}, map});
+    answer_m_s = retreatVelocity(config, kHull_m,
+                                 {velocity_m_s, seen, around, answer_m_s, {place_m.x(), place_m.y(), 0.0}, map});
     fastest_m_s = std::max(fastest_m_s, answer_m_s.norm());
     late.push_back(answer_m_s);
     const Point wanted = late.size() > 4 ? late.front() : velocity_m_s;
@@ -40,8 +40,7 @@ struct Flyer {
     place_m += velocity_m_s * kTick_s;
     for (Threat& threat : threats) threat.center_m += threat.velocity_m_s * kTick_s;
     for (const Point& p : walls_m) least_wall_m = std::min(least_wall_m, (p - place_m).norm());
-    for (const Threat& threat : threats)
-      least_gap_m = std::min(least_gap_m, threat.gapTo(kHull_m, place_m, 0.0));
+    for (const Threat& threat : threats) least_gap_m = std::min(least_gap_m, threat.gapTo(kHull_m, place_m, 0.0));
   }
   void fly(double seconds) {
     for (double t = 0.0; t < seconds; t += kTick_s) tick();
