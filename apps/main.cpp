@@ -1,4 +1,6 @@
 // swiftlet: the only main(). Each subcommand is one file beside this one.
+#include <fcntl.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -12,11 +14,20 @@
 
 namespace {
 
+/// Where nobody can be told, the exit code says it.
+void complain(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
+/// A file of the run that was opened as descriptor 1 would get the progress lines.
+void openStandardStreams() {
+  for (int descriptor = 0; descriptor <= 2; ++descriptor)
+    if (::fcntl(descriptor, F_GETFD) < 0) (void)::open("/dev/null", descriptor == 0 ? O_RDONLY : O_WRONLY);
+}
+
 /// What was printed may have been lost: a full disk is told, a reader that has gone is not.
 int withOutput(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   if (errno == EPIPE) return code;
-  fmt::print(stderr, "the output could not be written: {}\n", std::strerror(errno));
+  complain(fmt::format("the output could not be written: {}\n", std::strerror(errno)));
   return swiftlet::apps::kBadInput;
 }
 
@@ -24,6 +35,7 @@ int withOutput(int code) {
 
 int main(int argc, char** argv) {
   using namespace swiftlet;
+  openStandardStreams();
 
   CLI::App program{"Explore, map and fly home indoors: autonomy for small quadrotors.", "swiftlet"};
   program.require_subcommand(0, 1);  // At least one is required below, so that an unknown one is named first.
@@ -44,10 +56,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return program.exit(e) == 0 ? apps::kDone : apps::kBadInput;
   } catch (const common::InputError& e) {
-    fmt::print(stderr, "{}\n", e.what());
+    complain(fmt::format("{}\n", e.what()));
     return apps::kBadInput;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "swiftlet: {}\n", e.what());
+    complain(fmt::format("swiftlet: {}\n", e.what()));
     return apps::kBadInput;
   }
 }

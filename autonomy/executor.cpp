@@ -172,7 +172,7 @@ void Executor::start() {
     if (go_to->height_m) cruise_height_m_ = *go_to->height_m;
     goal_yaw_map_rad_ = go_to->yaw_map_rad;
   } else if (const auto* take_off = std::get_if<common::TakeOffIntent>(&intent_.kind)) {
-    if (controller_.state() == FlightState::kFlying) return;
+    if (controller_.state() == FlightState::kFlying || controller_.state() == FlightState::kTakingOff) return;
     cruise_height_m_ = take_off->height_m;
     const auto commanded = controller_.command(control::TakeOff{take_off->height_m});
     if (!commanded) fail(commanded.error());

@@ -113,8 +113,10 @@ struct YamlReader::Impl {
   void closeLevel(std::vector<std::string> failed) {
     const Level level = levels.back();
     if (level.node.IsMap()) {
+      std::set<std::string> met;
       for (const auto& entry : level.node) {
         const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
+        if (!met.insert(key).second) report(entry.first, "", fmt::format("key `{}` is given twice", key), "");
         const auto& known = level.known_keys;
         if (std::find(known.begin(), known.end(), key) == known.end())
           report(entry.first, "", fmt::format("unknown key `{}`", key),

@@ -19,6 +19,12 @@ using common::Problem;
 
 bool isTrialFile(const fs::path& path) { return path.extension() == ".yaml" || path.extension() == ".yml"; }
 
+/// No control characters; and no longer than a folder's name may be.
+bool canBeSeen(const std::string& name) {
+  return name.size() <= 100 &&
+         std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 127; });
+}
+
 }  // namespace
 
 void PaperFigure::describe(common::config::Fields& fields) {
@@ -54,6 +60,7 @@ void TrialConfig::describe(common::config::Fields& fields) {
 std::vector<std::string> TrialConfig::validate() const {
   return common::Validation()
       .require(name.find('/') == std::string::npos, "name", "holds a `/`, but names folders")
+      .require(canBeSeen(name), "name", "is longer than 100 characters or holds some that cannot be seen")
       .require(!mission.empty(), "mission", "is missing")
       .require(!system.empty(), "system", "is missing")
       .require(!scenario.world.empty(), "scenario", "names no `world`")

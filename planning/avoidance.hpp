@@ -76,7 +76,7 @@ class Avoidance {
     double contact_gap_m = 0.20;
     double closing_speed_m_s = 0.15;
     double mapped_within_m = 0.15;
-    double retreat_speed_m_s = 0.75;
+    double retreat_speed_m_s = 0.7;
     double retreat_margin_m = 0.15;
     double view_margin_deg = 30.0;
     double release_factor = 1.3;

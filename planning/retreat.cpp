@@ -113,7 +113,9 @@ class Retreat {
   }
 
   Prospect prospectOf(const Course& course) const {
-    const double enough_m = config_.release_factor * std::max(config_.retreat_distance_m, config_.contact_gap_m);
+    // Beyond what releases a retreat by more than is not worth moving for.
+    const double enough_m =
+        config_.release_factor * std::max(config_.retreat_distance_m, config_.contact_gap_m) + 2.0 * kWorth_m;
     double seen_m = kInfinity, mapped_m = kInfinity, gap_m = enough_m, end_gap_m = enough_m, room_m = 0.0;
     double time_s = 0.0;
     for (const Point& place : course) {

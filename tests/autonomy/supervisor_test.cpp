@@ -92,6 +92,13 @@ TEST_F(SupervisorStory, EmptyBatteryLands) {
   EXPECT_FALSE(supervisor_.landedByOperator());
 }
 
+TEST_F(SupervisorStory, LandPressedTwiceIsStillTheOperators) {
+  (void)supervisor_.take({1, common::LandCommand{}}, Time::fromSeconds(1.0));
+  EXPECT_TRUE(at(1.1).land);
+  (void)supervisor_.take({2, common::LandCommand{}}, Time::fromSeconds(1.2));
+  EXPECT_TRUE(supervisor_.landedByOperator());
+}
+
 TEST_F(SupervisorStory, EachChangeIsAnEventWithItsReason) {
   scanAt(1.0);
   at(1.4);

@@ -35,6 +35,11 @@ TEST(Config, UnknownKeySaysWhereAndWhatWasMeant) {
             "test.yaml:2:1: unknown key `hull_diametre_m`, did you mean `hull_diameter_m`?");
 }
 
+TEST(Config, AKeyGivenTwiceIsSaid) {
+  EXPECT_EQ(problemsOf<VehicleConfig>("mass_kg: 1.2\nhull_diameter_m: 0.5\nmass_kg: 1.6\n"),
+            "test.yaml:3:1: key `mass_kg` is given twice");
+}
+
 TEST(Config, WrongTypeAndRangeAreReportedTogether) {
   const std::string text = problemsOf<LaserConfig>("beams: many\nrange_max_m: -3\nmount: {roll: 3}\n");
   EXPECT_THAT(text, HasSubstr("test.yaml:1:8: beams: `many` is not a whole number"));

@@ -68,6 +68,17 @@ TEST_F(Trials, ReadAFolderInOrder) {
   EXPECT_EQ(trials[2].name, "c");
 }
 
+TEST_F(Trials, TwoOfOneNameAreRefused) {
+  put("lab.yaml", kSmallest);
+  put("papers/lab.yaml", kSmallest);
+  EXPECT_THAT(problemOf(folder_), HasSubstr("name: `lab` is the name of "));
+}
+
+TEST_F(Trials, ANameThatNamesNoFolderIsRefused) {
+  put("a.yaml", std::string(kSmallest) + "name: \"a\\0b\"\n");
+  EXPECT_THAT(problemOf(folder_), HasSubstr("cannot be seen"));
+}
+
 TEST_F(Trials, MistakesOfAllFilesAreSaidAtOnce) {
   put("a.yaml", "mission: m.xml\nscenario: {wrold: w.sdf}\n");
   put("b.yaml", "scenario: {world: w.sdf}\ncriteria: {coverage_min: 99}\n");

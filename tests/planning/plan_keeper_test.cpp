@@ -71,6 +71,16 @@ TEST_F(Keeping, APersonOnItMakesItInvalid) {
   EXPECT_TRUE(keeper.check(at(0.2), map, {2.1, 4}).valid);
 }
 
+TEST_F(Keeping, AWayRoundIsTakenAtOnceWhenTheOldOneIsBlocked) {
+  keeper.offer(straight, at(0), map, {2, 4});
+  const std::vector<Disc> discs{{{3, 4}, 0.25}};
+  CostLayers layers;
+  layers.discs = discs;
+  map.update(grid.snapshot(), {}, layers);
+  const Path round = pathOf(map, {{2, 4}, {3, 5.5}, {10, 4}});
+  EXPECT_TRUE(keeper.offer(round, at(0.1), map, {2, 4})) << "what is left before the block is short, but leads nowhere";
+}
+
 TEST_F(Keeping, WhatLiesBehindDoesNotMatter) {
   keeper.offer(straight, at(0), map, {2, 4});
   ASSERT_TRUE(keeper.check(at(0.1), map, {6, 4}).valid);

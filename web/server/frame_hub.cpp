@@ -48,11 +48,25 @@ std::shared_ptr<const StreamFrame> FrameHub::frame(View& view, const std::shared
   const std::uint64_t newest =
       view.asked_.source == PictureView::Source::kMap ? telemetry_.world().sequence : telemetry_.camera().sequence;
   // A watcher that comes between the ticks of the others takes their picture unless it is older than its own period.
-  if (!view.frame_ || (view.frame_->source_sequence != newest &&
-                       (view.frame_ == last || now - view.frame_->encoded_unix_time > period)))
+  const bool due = view.frame_ && now - view.frame_->encoded_unix_time >= least_period_ &&
+                   view.frame_->source_sequence != newest &&
+                   (view.frame_ == last || now - view.frame_->encoded_unix_time > period);
+  if (!view.frame_ || due) {
     view.frame_ = encode(view, now);
+    view.cost_s_ = (telemetry_.now() - now).seconds();
+    shareTime();
+  }
   if (view.frame_ != last || now - sent > common::Duration::fromMilliseconds(1000)) return view.frame_;
   return nullptr;
+}
+
+/// Hold and Land never wait behind pictures: many views of different sizes are drawn less often.
+void FrameHub::shareTime() {
+  constexpr double kShareOfThread = 0.5;
+  double total_s = 0.0;
+  for (const auto& [asked, known] : views_)
+    if (const auto view = known.lock()) total_s += view->cost_s_;
+  least_period_ = common::Duration::fromSeconds(total_s / kShareOfThread);
 }
 
 std::shared_ptr<const StreamFrame> FrameHub::encode(View& view, common::Time now) {

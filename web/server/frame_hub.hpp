@@ -41,11 +41,13 @@ class FrameHub {
 
  private:
   std::shared_ptr<const StreamFrame> encode(View& view, common::Time now);
+  void shareTime();
 
   Telemetry& telemetry_;
   double hull_diameter_m_;
   rendering::JpegEncoder jpeg_;
   std::map<PictureView, std::weak_ptr<View>> views_;
+  common::Duration least_period_;  ///< Between two pictures of a view, so that all together take their share only.
 };
 
 class FrameHub::View {
@@ -57,6 +59,7 @@ class FrameHub::View {
   PictureView asked_;
   rendering::MapRenderer renderer_;
   std::shared_ptr<const StreamFrame> frame_;
+  double cost_s_ = 0.0;  ///< Of its last picture.
 };
 
 }  // namespace swiftlet::web
