@@ -1,5 +1,7 @@
 #include "web/server/frame_hub.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "rendering/canvas.hpp"
@@ -53,7 +55,7 @@ std::shared_ptr<const StreamFrame> FrameHub::frame(View& view, const std::shared
                    (view.frame_ == last || now - view.frame_->encoded_unix_time > period);
   if (!view.frame_ || due) {
     view.frame_ = encode(view, now);
-    view.cost_s_ = (telemetry_.now() - now).seconds();
+    view.cost_s_ = std::clamp((telemetry_.now() - now).seconds(), 0.0, 1.0);  // The clock may have been set.
     shareTime();
   }
   if (view.frame_ != last || now - sent > common::Duration::fromMilliseconds(1000)) return view.frame_;
