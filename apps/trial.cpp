@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -179,12 +180,26 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   return trials;
 }
 
+/// What another trial left there would look like this one's until its last flight; what is not a trial's is kept.
+void clearOfOlderResults(const fs::path& out) {
+  const fs::path results = out / "results.json", report = out / "report.html";
+  if (!fs::exists(results) && !fs::exists(report)) return;
+  std::string begin(16, '\0');
+  std::ifstream(results).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (!fs::is_regular_file(results) || begin.find("\"trials\"") == std::string::npos)
+    throw common::InputError(common::Problem{
+        {out.string()}, "--out", "holds a report or results of something else", "give an empty or new folder"});
+  fs::remove(results);
+  fs::remove(report);
+}
+
 fs::path madeFolder(const TrialOptions& options) {
   fs::path out =
       options.out.empty() ? interfaces::freshRunFolder("runs", startedNow(), "trial") : fs::path(options.out);
   std::error_code failure;
   fs::create_directories(out, failure);
   if (failure) throw common::InputError(common::Problem{{out.string()}, "--out", failure.message(), ""});
+  clearOfOlderResults(out);
   return out;
 }
 

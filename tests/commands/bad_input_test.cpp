@@ -240,6 +240,14 @@ TEST_F(BadInput, LastTrialOfAFolderIsToldBeforeTheFirstIsFlown) {
   }
 }
 
+TEST_F(BadInput, ResultsOfOthersAreNotReplacedByATrials) {
+  fs::create_directories(path("run"));
+  write("run/report.html", "a thesis");
+  const std::string trial = write("t.yaml", "mission: " + hop() + "\nscenario: {world: worlds/unb_case1.sdf}\n");
+  expectRefused(runSwiftlet({"trial", trial, "--out", path("run")}), "run: --out: holds a report or results");
+  EXPECT_EQ(readText(path("run/report.html")), "a thesis");
+}
+
 TEST_F(BadInput, NamesThatAreNoTextAreStillJson) {
   const ProgramEnd end = runSwiftlet({"check", "--json", write("odd\xff.xml", "<root>")});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
