@@ -241,11 +241,11 @@ TEST_F(BadInput, LastTrialOfAFolderIsToldBeforeTheFirstIsFlown) {
 }
 
 TEST_F(BadInput, ResultsOfOthersAreNotReplacedByATrials) {
-  fs::create_directories(path("run"));
-  write("run/report.html", "a thesis");
+  fs::create_directories(path("thesis"));
+  write("thesis/report.html", "a thesis");
   const std::string trial = write("t.yaml", "mission: " + hop() + "\nscenario: {world: worlds/unb_case1.sdf}\n");
-  expectRefused(runSwiftlet({"trial", trial, "--out", path("run")}), "run: --out: holds a report or results");
-  EXPECT_EQ(readText(path("run/report.html")), "a thesis");
+  expectRefused(runSwiftlet({"trial", trial, "--out", path("thesis")}), "thesis: --out: holds a report or results");
+  EXPECT_EQ(readText(path("thesis/report.html")), "a thesis");
 }
 
 TEST_F(BadInput, NamesThatAreNoTextAreStillJson) {
