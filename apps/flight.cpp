@@ -60,7 +60,7 @@ class Flight {
 
   static std::filesystem::path folderOf(const FlightSetup& setup) {
     if (!setup.out.empty()) return setup.out;
-    return interfaces::freshRunFolder("runs", setup.started, std::filesystem::path(setup.mission_file).stem().string());
+    return interfaces::freshRunFolder("runs", setup.started, runInfo(setup).mission);
   }
 
   static interfaces::RunInfo runInfo(const FlightSetup& setup) {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -24,6 +23,7 @@
 #include "evaluation/trial_results.hpp"
 #include "interfaces/files/archive.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/text_file.hpp"
 #include "interfaces/report/report.hpp"
 
 namespace swiftlet::apps {
@@ -184,9 +184,7 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
 void clearOfOlderResults(const fs::path& out) {
   const fs::path results = out / "results.json", report = out / "report.html";
   if (!fs::exists(results) && !fs::exists(report)) return;
-  std::string begin(16, '\0');
-  std::ifstream(results).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  if (!fs::is_regular_file(results) || begin.find("\"trials\"") == std::string::npos)
+  if (!interfaces::saysAtStart(results, "\"trials\"", 16))
     throw common::InputError(common::Problem{
         {out.string()}, "--out", "holds a report or results of something else", "give an empty or new folder"});
   fs::remove(results);

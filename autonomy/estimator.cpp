@@ -194,10 +194,7 @@ bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
   if (relative->reference_changed) {
     (void)filter_.addClone(relative->to);
     // Within one reference the error does not grow; it accumulates from reference to reference.
-    const Eigen::Rotation2Dd to_body(-relative->T_from_to.yaw_rad);
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-    rotation.topLeftCorner<2, 2>() = to_body.toRotationMatrix();
-    covariance_since_map_ += rotation * covariance * rotation.transpose();
+    covariance_since_map_ += common::turned(covariance, -relative->T_from_to.yaw_rad);
   }
   return inserted == perception::Insertion::kTaken;
 }

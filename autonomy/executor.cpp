@@ -228,8 +228,7 @@ void Executor::endDetourWhenOver(const ExecutorInput& input) {
   }
   on_detour_ = false;
   detour_since_ = now_;
-  keeper_.clear();
-  controller_.hold();
+  abandonPlan();
 }
 
 bool Executor::detourIsDue(std::optional<Time> stuck_since) const {
@@ -354,8 +353,7 @@ void Executor::receiveExploration(const planning::ExplorationResult& result) {
   }
   if (on_detour_) return;
   viewpoint_.reset();
-  keeper_.clear();
-  controller_.hold();
+  abandonPlan();
   if (!result.done) {
     if (!no_way_since_) no_way_since_ = now_;
     return;
@@ -381,6 +379,11 @@ void Executor::receiveExploration(const planning::ExplorationResult& result) {
   }
 }
 
+void Executor::abandonPlan() {
+  controller_.hold();
+  keeper_.clear();
+}
+
 /// Stops when the plan has become invalid; true when a new plan is wanted.
 bool Executor::keepPlan(const ExecutorInput& input) {
   if (!cost_map_) return true;
@@ -389,8 +392,7 @@ bool Executor::keepPlan(const ExecutorInput& input) {
   const auto check = keeper_.check(now_, *cost_map_, input.state.T_map_body_planar().position_m());
   if (!check.valid) {
     say(Severity::kInfo, "plan given up", check.reason);
-    controller_.hold();
-    keeper_.clear();
+    abandonPlan();
   }
   return check.replan;
 }

@@ -94,6 +94,7 @@ class Executor {
   void receiveExploration(const planning::ExplorationResult& result);
   static std::optional<Eigen::Vector2d> blockedFrontier(const std::vector<common::Frontier>& frontiers);
   bool keepPlan(const ExecutorInput& input);
+  void abandonPlan();
   void endDetourWhenOver(const ExecutorInput& input);
   bool detourIsDue(std::optional<common::Time> stuck_since) const;
   void takeDetour(const ExecutorInput& input, const Eigen::Vector2d& goal_map_m);

@@ -61,6 +61,12 @@ Pose3 lifted(const Pose2& pose, double z_m) {
   return {quaternionFrom({0.0, 0.0, pose.yaw_rad}), {pose.x_m, pose.y_m, z_m}};
 }
 
+Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
+  return rotation * covariance * rotation.transpose();
+}
+
 Eigen::Quaterniond expSO3(const Eigen::Vector3d& rotation_rad) {
   const double angle = rotation_rad.norm();
   const double half = 0.5 * angle;

@@ -48,6 +48,9 @@ Pose2 planar(const Pose3& pose);
 /// The planar pose lifted to height z, without roll and pitch.
 Pose3 lifted(const Pose2& pose, double z_m);
 
+/// The covariance of an error (x_m, y_m, yaw_rad), given in frame b, in frame a; `yaw_rad` turns b into a.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad);
+
 /// The rotation vector v becomes a unit quaternion and back; small angles are exact to second order.
 Eigen::Quaterniond expSO3(const Eigen::Vector3d& rotation_rad);
 Eigen::Vector3d logSO3(const Eigen::Quaterniond& rotation);

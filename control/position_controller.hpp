@@ -59,7 +59,6 @@ class PositionController {
 
   ThrustModel& thrust() { return thrust_; }
   const ThrustModel& thrust() const { return thrust_; }
-  /// Level frame of odom axes; what wind, trim and a wrong horizon ask for.
 
  private:
   /// Velocity still missing, horizontally and vertically: what P, I and the lead act on.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "common/validation.hpp"
 #include "interfaces/files/json_lines.hpp"
 #include "interfaces/files/map_server.hpp"
+#include "interfaces/files/text_file.hpp"
 #include "interfaces/files/tum.hpp"
 
 namespace swiftlet::interfaces {
@@ -37,12 +37,7 @@ bool isRunFile(const std::string& name) {
 }
 
 /// Whether its mission.json is that of a run; a profile or a map of others may have the name of a run's file.
-bool holdsRun(const fs::path& folder) {
-  std::ifstream file(folder / "mission.json");
-  std::string text(200, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  return text.find("swiftlet mission") != std::string::npos;
-}
+bool holdsRun(const fs::path& folder) { return saysAtStart(folder / "mission.json", "swiftlet mission", 200); }
 
 /// The folder, made or cleared of an older run.
 fs::path prepared(fs::path path) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <string>
+#include <system_error>
 
 namespace swiftlet::interfaces {
 
@@ -15,6 +18,14 @@ std::vector<Word> wordsOf(std::string_view line) {
     begin = line.find_first_not_of(kBlank, end);
   }
   return words;
+}
+
+bool saysAtStart(const std::filesystem::path& file, std::string_view text, std::size_t within_bytes) {
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(file, failure)) return false;  // A pipe would make us wait.
+  std::string begin(within_bytes, '\0');
+  std::ifstream(file).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin.find(text) != std::string::npos;
 }
 
 bool parseNumber(std::string_view word, double& value) {

@@ -150,10 +150,8 @@ RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const Pro
   Eigen::Matrix3d swing = Eigen::Matrix3d::Identity();
   swing(0, 2) = -(match.T_reference_body.y_m - reference.T_local_body.y_m);
   swing(1, 2) = match.T_reference_body.x_m - reference.T_local_body.x_m;
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() = to_reference;
-  relative.covariance =
-      rotation * (match.covariance + swing * reference.covariance_local * swing.transpose()) * rotation.transpose();
+  relative.covariance = common::turned(match.covariance + swing * reference.covariance_local * swing.transpose(),
+                                       -reference.T_local_body.yaw_rad);
   if (match.unobservable_direction) relative.unobservable_direction = to_reference * *match.unobservable_direction;
   return relative;
 }

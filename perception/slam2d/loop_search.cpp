@@ -160,7 +160,7 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
   found.edge.from = candidate.key;
   found.edge.to = query;
   found.edge.T_from_to = between(T_map_candidate, match.T_reference_body);
-  found.edge.covariance = edgeCovariance(turned(match.covariance, -T_map_candidate.yaw_rad), config);
+  found.edge.covariance = edgeCovariance(common::turned(match.covariance, -T_map_candidate.yaw_rad), config);
   found.edge.loop = true;
   found.quality = match.quality;
   found.shift_m = distance(believed, match.T_reference_body);

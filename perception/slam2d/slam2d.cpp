@@ -87,7 +87,7 @@ void Slam2d::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& c
   const Eigen::Matrix3d step_covariance =
       covariance_since_last.allFinite() ? covariance_since_last : Eigen::Matrix3d::Zero();
   covariance_anchor =
-      propagated(covariance_anchor, T_anchor_body, moved, turned(step_covariance, T_anchor_body.yaw_rad));
+      propagated(covariance_anchor, T_anchor_body, moved, common::turned(step_covariance, T_anchor_body.yaw_rad));
   T_anchor_body = moved;
   T_odom_body = T_odom_body_now;
   way_since_search_m += step.position_m().norm();
@@ -129,7 +129,7 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const std::vector<int>&
                                           [&](int a, int b) { return distance_m(a) < distance_m(b); });
     for (const int other : {matched_keys.front(), nearest}) {
       graph.add({other, key, between(poseOf(other), pose),
-                 edgeCovariance(2.0 * turned(match->covariance, -poseOf(other).yaw_rad), config), false});
+                 edgeCovariance(2.0 * common::turned(match->covariance, -poseOf(other).yaw_rad), config), false});
       if (matched_keys.front() == nearest) break;
     }
   }
@@ -157,7 +157,7 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   T_anchor_body = between(poseOf(anchor), match.T_reference_body);
   if (const std::optional<int> near = keyNear(keys)) {
     standOn(*near, between(poseOf(*near), match.T_reference_body),
-            edgeCovariance(turned(match.covariance, -poseOf(*near).yaw_rad), config));
+            edgeCovariance(common::turned(match.covariance, -poseOf(*near).yaw_rad), config));
     return true;
   }
   T_anchor_body = before;  // The edge of the motion says what was measured before the match.

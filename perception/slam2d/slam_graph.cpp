@@ -35,12 +35,6 @@ Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const Pose2& from,
   return F * covariance * F.transpose() + step_covariance;
 }
 
-Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
-  return rotation * covariance * rotation.transpose();
-}
-
 Pose2 between(const Pose2& T_map_a, const Pose2& T_map_b) { return T_map_a.inverse() * T_map_b; }
 
 std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m) {
@@ -69,7 +63,7 @@ std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int
       const Pose2& there = graph.keys[static_cast<std::size_t>(other)].T_map_body;
       const double edge_yaw_rad = graph.keys[static_cast<std::size_t>(edge.from)].T_map_body.yaw_rad;
       // Walked backwards, the edge's own heading error swings the step as well.
-      Eigen::Matrix3d own = turned(edge.covariance, edge_yaw_rad);
+      Eigen::Matrix3d own = common::turned(edge.covariance, edge_yaw_rad);
       if (edge.to == key) own = propagated(own, here, there, Eigen::Matrix3d::Zero());
       const Eigen::Matrix3d covariance =
           propagated(best[static_cast<std::size_t>(key)].covariance_map, here, there, own);

@@ -59,9 +59,6 @@ std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int
 Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const common::Pose2& from, const common::Pose2& to,
                            const Eigen::Matrix3d& step_covariance);
 
-/// A covariance of (x_m, y_m, yaw_rad) given along the axes of a frame that is turned by `yaw_rad`, along ours.
-Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad);
-
 /// The pose of b in a.
 common::Pose2 between(const common::Pose2& T_map_a, const common::Pose2& T_map_b);
 
