@@ -22,6 +22,7 @@ using interfaces::Outcome;
 
 constexpr auto kTick = common::Duration::fromMilliseconds(10);
 constexpr double kPicturePeriod_s = 5.0;
+constexpr auto kPictureLatency = common::Duration::fromMilliseconds(1000);
 
 double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -119,6 +120,7 @@ class Flight {
   }
 
   void publish() {
+    jobs_->deliverDue(now_);
     const common::VehicleState state = autonomy_.state();
     folder_.state(state);
     recorder_.tick(vehicle_->truth(), state);
@@ -128,7 +130,7 @@ class Flight {
       if (hooks_.web) hooks_.web->world().post(world);
       recorder_.world(*world);
       folder_.world(*world);
-      if ((now_ - last_picture_).seconds() >= kPicturePeriod_s) showPictures();
+      if ((now_ - last_picture_).seconds() >= kPicturePeriod_s) submitPictures();
     }
     for (const common::Event& event : autonomy_.takeEvents()) tell(event);
     for (common::CommandResult& result : autonomy_.takeResults())
@@ -141,10 +143,16 @@ class Flight {
     if (hooks_.web) hooks_.web->postEvent(event);
   }
 
-  void showPictures() {
+  /// Drawn beside the flight; they take about as long as half a second of it.
+  void submitPictures() {
+    if (!jobs_->idle("pictures")) return;
     last_picture_ = now_;
-    folder_.show(reportPictures(*autonomy_.world(), folder_.summary(), recorder_.record().truth_map,
-                                setup_.system.vehicle.hull_diameter_m));
+    jobs_->submit("pictures", now_, kPictureLatency,
+                  [this, world = last_world_, summary = folder_.summary(), truth = recorder_.record().truth_map,
+                   hull_m = setup_.system.vehicle.hull_diameter_m]() -> common::JobRunner::Deliver {
+                    auto pictures = reportPictures(*world, summary, truth, hull_m);
+                    return [this, pictures = std::move(pictures)](common::Time) { folder_.show(pictures); };
+                  });
   }
 
   void pace() {
@@ -162,7 +170,8 @@ class Flight {
   FlightResult finish() {
     const double wall_s = secondsSince(begin_);
     if (hooks_.progress) hooks_.progress({autonomy_.world(), now_.seconds(), wall_s});
-    showPictures();
+    folder_.show(reportPictures(*autonomy_.world(), folder_.summary(), recorder_.record().truth_map,
+                                setup_.system.vehicle.hull_diameter_m));
     interfaces::FlightEnd end;
     end.outcome = outcome_;
     end.reason = reason_;
@@ -199,6 +208,7 @@ class Flight {
   std::string reason_;
   Clock::time_point begin_ = Clock::now();
   double last_progress_s_ = 0.0;
+  std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(1);  ///< Last: its jobs use what is above.
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace {
 constexpr double kGrowing_s = 2.0;
 /// How often the way is asked for on a detour.
 constexpr double kAskAgain_s = 1.0;
+constexpr double kLook_s = 0.5;  // At a viewpoint, until its scans are in the map and were thought over.
 /// Who was about so lately may stand in the way of what could not be reached, or have stood there when it was mapped;
 /// that is looked into, but not for ever.
 constexpr double kLately_s = 30.0, kLookInto_s = 30.0;
@@ -75,7 +76,6 @@ Executor::Executor(const ExecutorConfig& config, const common::VehicleConfig& ve
       jobs_(jobs),
       worker_(std::make_shared<PlanningWorker>(config.cost_map, config.exploration, grid_resolution_m)),
       keeper_(config.plan_keeper),
-      memory_(config.exploration.attempt_radius_m),
       frontiers_(std::make_shared<std::vector<common::Frontier>>()) {}
 
 void Executor::want(const common::Intent& intent) {
@@ -158,6 +158,7 @@ void Executor::start() {
   started_ = true;
   keeper_.clear();
   viewpoint_.reset();
+  looks_since_.reset();
   within_since_.reset();
   no_way_since_.reset();
   detour_since_.reset();
@@ -255,9 +256,14 @@ void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&
     const double turn_rad = std::abs(common::wrapAngle(pose.yaw_rad - viewpoint_->pose_map.yaw_rad));
     const bool near = (pose.position_m() - viewpoint_->pose_map.position_m()).norm() < config_.viewpoint_tolerance_m;
     const bool turned = turn_rad < config_.viewpoint_tolerance_deg * std::numbers::pi / 180.0;
-    if (near && turned) {
-      memory_.tried(*viewpoint_);
+    if (!near || !turned) {
+      looks_since_.reset();
+    } else if (!looks_since_) {
+      looks_since_ = now_;
+    } else if ((now_ - *looks_since_).seconds() >= kLook_s) {
+      attempts_.push_back(planning::attemptFrom(*viewpoint_));
       viewpoint_.reset();
+      looks_since_.reset();
       keeper_.clear();
       reached = true;
     }
@@ -269,7 +275,7 @@ void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&
   if (!due || !jobs_.idle("planning")) return;
   if (blocked_frontier_map_m_ && detourIsDue(done_since_)) return takeDetour(input, *blocked_frontier_map_m_);
   PlanningRequest request;
-  ExploreRequest question{viewpoint_, memory_.attempts(), std::nullopt};
+  ExploreRequest question{viewpoint_, attempts_, std::nullopt};
   if (explore.bounds)
     question.bounds = planning::ExplorationBounds{explore.bounds->min_map_m, explore.bounds->max_map_m};
   request.question = std::move(question);
@@ -345,6 +351,7 @@ void Executor::receiveExploration(const planning::ExplorationResult& result) {
     if (std::exchange(on_detour_, false)) keeper_.clear();
     if (!result.kept_current) {
       viewpoint_ = result.next;
+      looks_since_.reset();
       goal_yaw_map_rad_ = result.next->pose_map.yaw_rad;
       keeper_.clear();
     }

@@ -113,7 +113,7 @@ class Executor {
   common::JobRunner& jobs_;
   std::shared_ptr<PlanningWorker> worker_;
   planning::PlanKeeper keeper_;
-  planning::ExplorationMemory memory_;
+  std::vector<planning::ExplorationAttempt> attempts_;
 
   common::Intent intent_;
   bool started_ = false;  ///< The present intent has had its first tick.
@@ -129,7 +129,8 @@ class Executor {
   std::optional<common::Time> last_request_;
   std::optional<common::Time> last_exploration_;
   std::optional<planning::Viewpoint> viewpoint_;
-  int done_answers_ = 0;  ///< Explorations in a row that found nothing open.
+  std::optional<common::Time> looks_since_;  ///< At the viewpoint, turned as it asks.
+  int done_answers_ = 0;                     ///< Explorations in a row that found nothing open.
   std::optional<common::Time> done_since_, last_people_;
   std::optional<Eigen::Vector2d> blocked_frontier_map_m_;  ///< Explored but for this, which somebody may hide.
   std::optional<common::Time> within_since_;

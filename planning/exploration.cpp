@@ -68,9 +68,7 @@ class Explorer {
       const Point center_m = map_.centerOf(cell);
       frontier.centroid_map_m += center_m / static_cast<double>(run.cells.size());
       inside |= !input_.bounds || input_.bounds->contains(center_m);
-      for (const ExplorationAttempt& attempt : input_.attempts)
-        if ((attempt.target_map_m - center_m).norm() <= config_.attempt_radius_m)
-          frontier.attempts = std::max(frontier.attempts, attempt.count);
+      frontier.attempts = std::max(frontier.attempts, attemptsAt(center_m));
     }
     if (run.run_length_m < config_.min_frontier_m) {
       leave(frontier, FrontierReason::kTooSmall, fmt::format("{:.2f} m long", run.run_length_m));
@@ -80,6 +78,23 @@ class Explorer {
       leave(frontier, FrontierReason::kBlacklisted, fmt::format("looked at {} times", frontier.attempts));
     }
     return frontier;
+  }
+
+  int attemptsAt(const Point& target_m) const {
+    return static_cast<int>(
+        std::count_if(input_.attempts.begin(), input_.attempts.end(), [&](const ExplorationAttempt& attempt) {
+          return (attempt.target_map_m - target_m).norm() <= config_.attempt_radius_m;
+        }));
+  }
+
+  /// Whether one looked from about there already: another look promises more from elsewhere.
+  bool lookedFrom(const Lookout& lookout) const {
+    const Point target_m = map_.centerOf(lookout.target), place_m = map_.centerOf(lookout.place);
+    const double as_near_m = std::max(config_.attempt_radius_m, 0.5 * (target_m - place_m).norm());
+    return std::any_of(input_.attempts.begin(), input_.attempts.end(), [&](const ExplorationAttempt& attempt) {
+      return (attempt.target_map_m - target_m).norm() <= config_.attempt_radius_m &&
+             (attempt.place_map_m - place_m).norm() <= as_near_m;
+    });
   }
 
   static void leave(Frontier& frontier, FrontierReason reason, const std::string& detail) {
@@ -108,11 +123,16 @@ class Explorer {
     for (const auto& [path_m, i] : order) {
       if (static_cast<int>(options_.size()) >= config_.max_evaluated) break;
       std::optional<Option> best;
+      bool best_is_new = false;
       double greatest_gain_m2 = 0.0;
       for (const Lookout& lookout : lookouts[i]) {
         const Option option = optionAt(scout, i, lookout);
         greatest_gain_m2 = std::max(greatest_gain_m2, option.view.gain_m2);
-        if (option.view.gain_m2 >= config_.min_gain_m2 && (!best || option.utility > best->utility)) best = option;
+        if (option.view.gain_m2 < config_.min_gain_m2) continue;
+        const bool is_new = !lookedFrom(lookout);
+        if (best && (is_new != best_is_new ? best_is_new : option.utility <= best->utility)) continue;
+        best = option;
+        best_is_new = is_new;
       }
       if (best) {
         frontiers_[i].score = best->utility;
@@ -239,15 +259,6 @@ class Explorer {
 ExplorationResult explore(const ExplorationInput& input, const ExplorationConfig& config) {
   SWIFTLET_CHECK(input.cost_map != nullptr);
   return Explorer(input, config).run();
-}
-
-void ExplorationMemory::tried(const Viewpoint& viewpoint) {
-  for (ExplorationAttempt& attempt : attempts_) {
-    if ((attempt.target_map_m - viewpoint.target_map_m).norm() > radius_m_) continue;
-    ++attempt.count;
-    return;
-  }
-  attempts_.push_back({viewpoint.target_map_m, 1});
 }
 
 }  // namespace swiftlet::planning

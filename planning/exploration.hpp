@@ -28,10 +28,10 @@ struct Viewpoint {
   double utility = 0.0;
 };
 
-/// A place that was looked at from a viewpoint and stayed unknown, or whose viewpoint could not be reached.
+/// A look at an unknown place that stayed unknown, and from where.
 struct ExplorationAttempt {
   Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();
-  int count = 0;
+  Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
 };
 
 /// A rectangle in the `map` frame that the vehicle's exploration stays in.
@@ -88,18 +88,9 @@ struct ExplorationConfig {
 /// A pure function of its arguments; run it as a job.
 [[nodiscard]] ExplorationResult explore(const ExplorationInput& input, const ExplorationConfig& config);
 
-/// Counts attempts between calls of explore(). One thread.
-class ExplorationMemory {
- public:
-  explicit ExplorationMemory(double radius_m) : radius_m_(radius_m) {}
-  /// The viewpoint was reached and its scan is in the map, or it cannot be reached: one more attempt at its target.
-  void tried(const Viewpoint& viewpoint);
-  void clear() { attempts_.clear(); }
-  const std::vector<ExplorationAttempt>& attempts() const { return attempts_; }
-
- private:
-  double radius_m_;
-  std::vector<ExplorationAttempt> attempts_;
-};
+/// The viewpoint was reached and what is seen from it is in the map.
+inline ExplorationAttempt attemptFrom(const Viewpoint& viewpoint) {
+  return {viewpoint.target_map_m, viewpoint.pose_map.position_m()};
+}
 
 }  // namespace swiftlet::planning

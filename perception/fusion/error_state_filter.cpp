@@ -90,7 +90,10 @@ struct ErrorStateFilter::Impl {
   void push(const common::ImuSample& sample);
   Insertion insert(const Measurement& measurement);
   Insertion insertVertical(MeasurementKind kind, Time time, double value, double variance, double common_variance_m2);
-  void replay();
+  void replay() { replay(count); }
+  /// Brings the first `until` slots up to date. Measurements of one scan come one after the other, at one instant: what
+  /// is later is computed once, after the last of them.
+  void replay(std::size_t until);
   void step(const Slot& before, Slot& now);
 
   // One state.
@@ -165,13 +168,13 @@ Insertion ErrorStateFilter::Impl::insert(const Measurement& measurement) {
   return Insertion::kTaken;
 }
 
-void ErrorStateFilter::Impl::replay() {
-  if (dirty_from >= count) return;
-  SWIFTLET_CHECK(dirty_from > 0, count);
-  counters.replays += count - dirty_from - 1;
-  for (std::size_t i = dirty_from; i < count; ++i) step(slot(i - 1), slot(i));
-  dirty_from = count;
-  diverged = diverged || newest().state.diverged;
+void ErrorStateFilter::Impl::replay(std::size_t until) {
+  if (dirty_from >= until) return;
+  SWIFTLET_CHECK(dirty_from > 0, until);
+  counters.replays += std::min(until, count - 1) - dirty_from;
+  for (std::size_t i = dirty_from; i < until; ++i) step(slot(i - 1), slot(i));
+  dirty_from = until;
+  diverged = diverged || slot(until - 1).state.diverged;
 }
 
 void ErrorStateFilter::Impl::step(const Slot& before, Slot& now) {
@@ -504,11 +507,10 @@ Eigen::Matrix<double, 15, 15> ErrorStateFilter::covariance() const {
 
 std::optional<common::Pose3> ErrorStateFilter::poseAt(Time time) const {
   Impl& f = *impl_;
-  if (f.count == 0) return std::nullopt;
-  f.replay();
-  const FilterState& last = f.newest().state;
-  if (time < f.slot(0).imu.stamp) return std::nullopt;
-  if (time >= last.stamp) {
+  if (f.count == 0 || time < f.slot(0).imu.stamp) return std::nullopt;
+  if (time >= f.newest().imu.stamp) {
+    f.replay();
+    const FilterState& last = f.newest().state;
     const double ahead_s = (time - last.stamp).seconds();
     if (ahead_s > kMaxExtrapolation_s) return std::nullopt;
     const Eigen::Vector3d turn_body_rad =
@@ -521,6 +523,7 @@ std::optional<common::Pose3> ErrorStateFilter::poseAt(Time time) const {
     const std::size_t middle = (low + high) / 2;
     (f.slot(middle).imu.stamp <= time ? low : high) = middle;
   }
+  f.replay(high + 1);
   const FilterState& a = f.slot(low).state;
   const FilterState& b = f.slot(high).state;
   return interpolate({a.rotation_odom_body, a.position_odom_m}, {b.rotation_odom_body, b.position_odom_m},

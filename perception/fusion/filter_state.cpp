@@ -1,5 +1,7 @@
 #include "perception/fusion/filter_state.hpp"
 
+#include <cmath>
+
 #include "common/check.hpp"
 
 namespace swiftlet::perception::fusion {
@@ -65,7 +67,8 @@ void FilterState::inject(const ErrorVector& error) {
 
 bool FilterState::finite() const {
   return position_odom_m.allFinite() && velocity_odom_m_s.allFinite() && rotation_odom_body.coeffs().allFinite() &&
-         accelerometer_bias_m_s2.allFinite() && gyroscope_bias_rad_s.allFinite() && covariance.allFinite();
+         accelerometer_bias_m_s2.allFinite() && gyroscope_bias_rad_s.allFinite() &&
+         std::isfinite(covariance.sum());  // Vectorized, which allFinite() is not.
 }
 
 }  // namespace swiftlet::perception::fusion

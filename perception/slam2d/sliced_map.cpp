@@ -21,6 +21,12 @@ CellIndex cellOf(const Eigen::Vector2d& p) {
   return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
 }
 
+/// Of two slices: occupied where one is, free where none is and one was seen free.
+Cell merged(Cell a, Cell b) {
+  if (occupancy::isUnknown(a) || occupancy::isUnknown(b)) return std::max(a, b);
+  return occupancy::isFree(a) && occupancy::isFree(b) ? std::min(a, b) : std::max(a, b);
+}
+
 /// The part of the view that is within `share` of its length.
 Eigen::Vector3f shortened(const Eigen::Vector3f& end, float share) { return share < 1.0F ? end * share : end; }
 
@@ -92,7 +98,7 @@ bool SlicedMap::setFlightHeight(double height_m) {
   if (lowest == lowest_ && highest == highest_) return false;
   lowest_ = lowest;
   highest_ = highest;
-  for (const auto& [slice, grid] : slices_) grid.forEachCell([&](CellIndex c, Cell) { combine(c); });
+  combineAll();
   return true;
 }
 
@@ -180,10 +186,9 @@ void SlicedMap::apply(int slice) {
       const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
       if (ended == 0) fadeAround(slice, cell);
       // Not writing what does not change leaves the tile shared with the snapshots.
-      if (value != old) {
-        grid.set(cell, value);
-        combine(cell);
-      }
+      if (value == old) continue;
+      grid.set(cell, value);
+      if (slice >= lowest_ && slice <= highest_) combine(cell, old, value);
     }
   }
 }
@@ -196,23 +201,49 @@ void SlicedMap::fadeAround(int slice, CellIndex cell) {
   const bool slow = drawn_ % config_.slow_fade_scans == 0;
   const double height_m = slow ? config_.slow_fade_height_m : config_.fade_height_m;
   const int reach = static_cast<int>(std::lround(height_m / config_.slice_height_m));
+  bool faded = false;
   for (auto near = slices_.lower_bound(slice - reach); near != slices_.end() && near->first <= slice + reach; ++near) {
     const Cell old = near->second.at(cell);
     if (near->first == slice || !occupancy::isOccupied(old)) continue;
     near->second.set(cell, static_cast<Cell>(std::max(old - config_.fade_steps, 0)));
+    faded = true;
   }
-  combine(cell);
+  if (faded) combine(cell);
+}
+
+/// After a cell of one slice changed from `before` to `now`. Only what has lost weight asks what the others say.
+void SlicedMap::combine(CellIndex cell, Cell before, Cell now) {
+  const bool lost_weight = occupancy::isOccupied(before)
+                               ? now < before
+                               : occupancy::isFree(before) && occupancy::isFree(now) && now > before;
+  if (lost_weight) return combine(cell);
+  const Cell old = combined_.at(cell), value = merged(old, now);
+  if (value != old) combined_.set(cell, value);
 }
 
 void SlicedMap::combine(CellIndex cell) {
   Cell value = occupancy::kUnknown;
-  for (auto slice = slices_.lower_bound(lowest_); slice != slices_.end() && slice->first <= highest_; ++slice) {
-    const Cell here = slice->second.at(cell);
-    if (occupancy::isUnknown(here)) continue;
-    const bool both_free = occupancy::isFree(value) && occupancy::isFree(here);
-    value = both_free ? std::min(value, here) : std::max(value, here);
-  }
+  for (auto slice = slices_.lower_bound(lowest_); slice != slices_.end() && slice->first <= highest_; ++slice)
+    value = merged(value, slice->second.at(cell));
   if (value != combined_.at(cell)) combined_.set(cell, value);
+}
+
+void SlicedMap::combineAll() {
+  common::OccupancyGrid fresh = common::makeOccupancyGrid(config_.resolution_m);
+  for (auto slice = slices_.lower_bound(lowest_); slice != slices_.end() && slice->first <= highest_; ++slice) {
+    slice->second.forEachCell([&](CellIndex c, Cell here) {
+      if (occupancy::isUnknown(here)) return;
+      Cell& value = fresh.mutableAt(c);
+      value = merged(value, here);
+    });
+  }
+  std::vector<CellIndex> changed;
+  const auto compare = [&](CellIndex c, Cell) {
+    if (fresh.at(c) != combined_.at(c)) changed.push_back(c);
+  };
+  fresh.forEachCell(compare);
+  combined_.forEachCell(compare);  // What is out of the slices now.
+  for (const CellIndex& c : changed) combined_.set(c, fresh.at(c));
 }
 
 }  // namespace swiftlet::perception

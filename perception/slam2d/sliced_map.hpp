@@ -57,6 +57,8 @@ class SlicedMap {
   void apply(int slice);
   void fadeAround(int slice, common::CellIndex cell);
   void combine(common::CellIndex cell);
+  void combineAll();
+  void combine(common::CellIndex cell, common::occupancy::Cell before, common::occupancy::Cell now);
   common::OccupancyGrid& sliceGrid(int slice);
   std::uint32_t& markAt(common::CellIndex c) {
     return marks_[static_cast<std::size_t>(c.y - rect_.begin.y) * static_cast<std::size_t>(rect_.width()) +

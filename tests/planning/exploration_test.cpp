@@ -123,18 +123,15 @@ TEST_F(TwoRooms, OutOfBounds) {
 }
 
 TEST_F(TwoRooms, BlacklistedAfterEnoughLooks) {
-  ExplorationMemory memory(0.35);
-  ExplorationConfig config;
-  for (int i = 0; i < config.max_attempts; ++i) {
-    ExplorationInput input;
-    input.attempts = memory.attempts();
+  ExplorationInput input;
+  for (int i = 0; i < ExplorationConfig{}.max_attempts; ++i) {
     const ExplorationResult result = look(24, input);
     ASSERT_TRUE(result.next) << i;
     EXPECT_EQ(result.frontiers[0].attempts, i);
-    memory.tried(*result.next);
+    for (const ExplorationAttempt& other : input.attempts)
+      EXPECT_GT((result.next->pose_map.position_m() - other.place_map_m).norm(), 0.35) << "from elsewhere each time";
+    input.attempts.push_back(attemptFrom(*result.next));
   }
-  ExplorationInput input;
-  input.attempts = memory.attempts();
   const ExplorationResult result = look(24, input);
   EXPECT_TRUE(result.done);
   EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kBlacklisted);

@@ -201,7 +201,7 @@ FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_
   FlightReport report;
   common::RandomStream random(seed, "flight");
   CostMap map(config.cost_map, kRes);
-  ExplorationMemory memory(config.exploration.attempt_radius_m);
+  std::vector<ExplorationAttempt> attempts;
   Flyer flyer;
   std::optional<Viewpoint> current;
   common::OccupancyGrid& grid = report.grid;
@@ -214,15 +214,15 @@ FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_
     scan(world, flyer.pose, config, random, grid);
     const bool arrived = current && flyer.arrived(*current);
     if (arrived) {
-      memory.tried(*current);
+      attempts.push_back(attemptFrom(*current));
       current.reset();
     }
     if (arrived || tick % kTicksPerCall == 0) {
       map.update(grid.snapshot(), config.footprint);
       const Point before = current ? current->target_map_m : Point::Zero();
       const bool flying = current.has_value();
-      report.last = explore({std::make_shared<CostMap>(map), flyer.pose, current, memory.attempts(), std::nullopt},
-                            config.exploration);
+      report.last =
+          explore({std::make_shared<CostMap>(map), flyer.pose, current, attempts, std::nullopt}, config.exploration);
       ++report.calls;
       report.done = report.last.done;
       if (report.done || !report.last.next) break;

@@ -357,6 +357,30 @@ TEST(GridDrawing, LevelBeamsDoNotEraseWhatIsLower) {
   EXPECT_TRUE(common::occupancy::isFree(where()));
 }
 
+/// What was kept up cell by cell while drawing is what all slices give when they are combined anew.
+TEST(GridDrawing, TheMapAtFlightHeightIsThatOfItsSlices) {
+  common::RandomStream random(1, "slices");
+  SlicedMap map{GridDrawingConfig{}};
+  for (int i = 0; i < 300; ++i) {
+    DrawnScan scan = around(random.uniform(1.0, 3.0), 360);
+    scan.body_height_m = random.uniform(0.7, 1.3);
+    for (Eigen::Vector3f& p : scan.hits_level_m) p.z() = static_cast<float>(random.uniform(-0.4, 0.4));
+    map.draw(scan, {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-3.0, 3.0)});
+    if (i % 20 != 0) continue;
+    const common::OccupancyGrid kept_up = map.atFlightHeight();
+    ASSERT_TRUE(map.setFlightHeight(5.0));
+    ASSERT_TRUE(map.setFlightHeight(1.0));
+    const common::OccupancyGrid anew = map.atFlightHeight();
+    int known = 0, different = 0;
+    anew.forEachCell([&](CellIndex c, common::occupancy::Cell value) {
+      known += common::occupancy::isUnknown(value) ? 0 : 1;
+      if (i > 0) different += value == kept_up.at(c) ? 0 : 1;  // The first flight height is that of the first scan.
+    });
+    EXPECT_GT(known, 500);
+    EXPECT_EQ(different, 0) << "after " << i + 1 << " scans";
+  }
+}
+
 TEST(GridDrawing, WhatIsFarBelowTheHullIsNotInItsWayUntilItSinks) {
   SlicedMap map{GridDrawingConfig{}};
   const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
