@@ -192,8 +192,8 @@ void Autonomy::tickBehaviors(Time now) {
   if (prepared_) wish_ = wishOf(now);
   if (mission_over_) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
   executor_.want(wish_);
-  executor_.tick(
-      {now, estimator_.state(), estimator_.grid(), estimator_.levels(), reactive_.discs(now), reactive_.decision()});
+  executor_.tick({now, estimator_.state(), estimator_.grid(), estimator_.levels(), reactive_.discs(now),
+                  reactive_.anybodyWalks(), reactive_.decision()});
 }
 
 /// The supervisor's wish before the mission's.

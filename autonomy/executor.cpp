@@ -88,7 +88,7 @@ void Executor::want(const common::Intent& intent) {
 void Executor::tick(const ExecutorInput& input) {
   now_ = input.now;
   state_ = input.state;
-  if (!input.discs.empty()) last_people_ = now_;
+  if (input.anybody_walks) last_people_ = now_;
   if (!started_) start();
   if (status_.state == IntentState::kRunning)
     std::visit([&](const auto& kind) { carryOut(input, kind); }, intent_.kind);

@@ -50,6 +50,7 @@ struct ExecutorInput {
   std::shared_ptr<const common::OccupancyGrid> grid;
   std::shared_ptr<const common::LevelMap> levels;
   std::vector<planning::Disc> discs;
+  bool anybody_walks = false;
   const planning::AvoidanceDecision& avoidance;
 };
 

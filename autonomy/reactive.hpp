@@ -38,6 +38,7 @@ class Reactive {
   const planning::AvoidanceDecision& decision() const { return decision_; }
   /// Where those are, in `map`, who were seen just before `stamp`.
   std::vector<planning::Disc> people(common::Time stamp) const;
+  bool anybodyWalks() const { return obstacles_.anyMoves(); }
   /// Where people are and will soon be, for the cost map.
   std::vector<planning::Disc> discs(common::Time now) const { return obstacles_.discs(now); }
 

@@ -246,7 +246,12 @@ void AvoidanceTick(benchmark::State& state) {
     points.push_back({static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a))});
   }
   planning::Avoidance avoidance({}, 0.275);
-  const std::vector<planning::DynamicObstacle> people{{1, {6.5, 4.0}, 0.25, {-1.0, 0.0}, true, {}, {}, {}}};
+  planning::DynamicObstacle person;
+  person.center_map_m = {6.5, 4.0};
+  person.radius_m = 0.25;
+  person.velocity_map_m_s = {-1.0, 0.0};
+  person.moving = true;
+  const std::vector people{person};
   for (auto _ : state)
     benchmark::DoNotOptimize(avoidance.update({{}, points, {0.5, 0}, {0.5, 0}, {5.0, 4.0, 0.0}, &map, people}));
 }

@@ -63,6 +63,9 @@ void DynamicObstacles::Config::describe(common::config::Fields& fields) {
   fields("max_speed_m_s", max_speed_m_s, "Nothing is thought to move faster.");
   fields("moved_m", moved_m, "What has come this far is moving.");
   fields("moved_within_s", moved_within_s, "What has not come that far in this time is standing.");
+  fields("followed_s", followed_s, "What was followed for a shorter time is not said to move,");
+  fields("followed_share", followed_share,
+         "nor what was seen in a lesser share of the scans: where a nodding laser meets furniture comes and goes.");
   fields("smoothing_s", smoothing_s, "Time constant of the filter on place and velocity.");
   fields("keep_out_m", keep_out_m,
          "Added to the radius for the planner, so that it does not plan what makes the vehicle retreat.");
@@ -82,6 +85,8 @@ std::vector<std::string> DynamicObstacles::Config::validate() const {
       .within("max_speed_m_s", max_speed_m_s, 0.1, 20)
       .within("moved_m", moved_m, 0.01, 5)
       .within("moved_within_s", moved_within_s, 0.1, 60)
+      .within("followed_s", followed_s, 0, 5)
+      .within("followed_share", followed_share, 0, 1)
       .within("smoothing_s", smoothing_s, 0.01, 5)
       .within("keep_out_m", keep_out_m, 0, 2)
       .within("max_range_m", max_range_m, 0.5, 100)
@@ -123,6 +128,7 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const
 
 void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2f> points_map_m,
                               const Point& sensor_map_m, const common::OccupancyGrid& background) {
+  for (DynamicObstacle& o : obstacles_) ++o.scans;
   std::vector<bool> taken(obstacles_.size(), false);
   const std::size_t known = obstacles_.size();
   for (const Cluster& seen : cluster(points_map_m, sensor_map_m, background)) {
@@ -139,7 +145,7 @@ void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2
     }
     if (!nearest) {
       obstacles_.push_back(
-          {next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, seen.center_map_m, stamp, stamp});
+          {next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, seen.center_map_m, stamp, 0, 0, stamp});
       continue;
     }
     taken[*nearest] = true;
@@ -155,6 +161,7 @@ void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2
     if (speed_m_s > config_.max_speed_m_s) o.velocity_map_m_s *= config_.max_speed_m_s / speed_m_s;
     o.radius_m = std::max(seen.radius_m, 0.9 * o.radius_m);
     o.last_seen = stamp;
+    ++o.sightings;
     judgeMotion(o);
   }
   std::erase_if(obstacles_, [&](const DynamicObstacle& o) {
@@ -166,13 +173,18 @@ void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2
 
 /// What comes into view bit by bit seems to move for a moment, but soon stays where it is.
 void DynamicObstacles::judgeMotion(DynamicObstacle& o) const {
+  const double since_s = (o.last_seen - o.anchor_stamp).seconds();
   const bool moved = (o.center_map_m - o.anchor_map_m).norm() >= config_.moved_m;
-  const bool waited = (o.last_seen - o.anchor_stamp).seconds() >= config_.moved_within_s;
-  if (moved || waited) {
-    o.moving = moved;
-    o.anchor_map_m = o.center_map_m;
-    o.anchor_stamp = o.last_seen;
-  }
+  const bool followed = since_s >= config_.followed_s && o.sightings >= config_.followed_share * o.scans;
+  if (!(moved && followed) && since_s < config_.moved_within_s) return;
+  o.moving = moved && (followed || o.moving);  // Who was followed before may have been hidden meanwhile.
+  o.anchor_map_m = o.center_map_m;
+  o.anchor_stamp = o.last_seen;
+  o.scans = o.sightings = 0;
+}
+
+bool DynamicObstacles::anyMoves() const {
+  return std::any_of(obstacles_.begin(), obstacles_.end(), [](const DynamicObstacle& o) { return o.moving; });
 }
 
 std::vector<Disc> DynamicObstacles::discs(common::Time now, double horizon_s) const {

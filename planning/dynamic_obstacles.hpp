@@ -47,6 +47,8 @@ struct DynamicObstacle {
   bool moving = false;
   Eigen::Vector2d anchor_map_m = Eigen::Vector2d::Zero();  ///< That place,
   common::Time anchor_stamp;                               ///< and when it was seen there.
+  int scans = 0;                                           ///< Since then,
+  int sightings = 0;                                       ///< and in how many of them it was seen.
   common::Time last_seen;
 
   Eigen::Vector2d believedVelocity_map_m_s() const { return moving ? velocity_map_m_s : Eigen::Vector2d::Zero(); }
@@ -66,6 +68,8 @@ class DynamicObstacles {
     double max_speed_m_s = 2.5;
     double moved_m = 0.25;
     double moved_within_s = 1.0;
+    double followed_s = 0.15;
+    double followed_share = 0.5;
     double smoothing_s = 0.15;
     double keep_out_m = 0.25;
     double max_range_m = 6.0;
@@ -86,6 +90,8 @@ class DynamicObstacles {
 
   /// Those still believed in, by id.
   const std::vector<DynamicObstacle>& obstacles() const { return obstacles_; }
+  /// Whether any of them is on its way somewhere.
+  bool anyMoves() const;
   /// For the cost map: where each is, and where it will be within `horizon_s` as it moves now.
   std::vector<Disc> discs(common::Time now, double horizon_s = 0.5) const;
 

@@ -55,6 +55,32 @@ TEST_F(Moving, APersonIsOneDiscWithAVelocity) {
   EXPECT_NEAR(person.radius_m, 0.2, 0.1);
 }
 
+TEST_F(Moving, WhoWalksIsKnownWithinHalfASecondAlsoWhenHiddenForAWhile) {
+  const auto walk = [&](double from_s, double to_s) {
+    double known_s = to_s;
+    for (double t = from_s; t < to_s; t += 0.025) {
+      tracker.update(at(t), front({7.5, 2.5 + t}, 0.25, sensor), sensor, grid);
+      if (tracker.anyMoves()) known_s = std::min(known_s, t);
+    }
+    return known_s;
+  };
+  EXPECT_LT(walk(0.0, 1.0), 0.5);
+  for (double t = 1.0; t < 1.5; t += 0.025) tracker.update(at(t), {}, sensor, grid);
+  (void)walk(1.5, 2.5);
+  EXPECT_TRUE(tracker.anyMoves());
+}
+
+/// Where a laser that nods meets something lower: seen in one scan of four, each time elsewhere.
+TEST_F(Moving, WhatComesAndGoesDoesNotWalk) {
+  for (int i = 0; i < 120; ++i) {
+    const double t = i * 0.025;
+    const std::vector<Eigen::Vector2f> met = front({7.5, 3.6 + 0.2 * (i / 4 % 4)}, 0.25, sensor);
+    tracker.update(at(t), i % 4 == 0 ? met : std::vector<Eigen::Vector2f>{}, sensor, grid);
+    EXPECT_FALSE(tracker.anyMoves()) << t;
+  }
+  EXPECT_FALSE(tracker.obstacles().empty()) << "it is there all the same";
+}
+
 TEST_F(Moving, DiscsRunAheadAndExpire) {
   for (int i = 0; i <= 40; ++i) {
     const double t = i * 0.025;
