@@ -44,7 +44,7 @@ struct VehicleStatus {
 
 /// The reactive layer, which acts at the laser rate below every intent.
 struct AvoidanceStatus {
-  bool braking = false;     ///< It limits the speed.
+  bool braking = false;     ///< It asks for less than the speed that is flown or wanted.
   bool retreating = false;  ///< It moves the vehicle away from something unmapped or closing.
   std::string reason;
   double nearest_m = 0.0;  ///< From the hull to the nearest return; infinity when there is none.

@@ -70,7 +70,7 @@ struct FlightSummary {
   std::vector<Figure> figures;
   std::vector<FlightSample> samples;
   std::optional<double> wall_time_s;      ///< How long the machine took.
-  std::optional<double> realtime_factor;  ///< mission_time over wall_time_s.
+  std::optional<double> realtime_factor;  ///< Flown over wall_time_s, from start to end.
 };
 
 /// mission.json, indented. Figures have at most four decimals; those that are not finite, or not known, are null.

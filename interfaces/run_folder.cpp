@@ -10,6 +10,7 @@
 #include "common/check.hpp"
 #include "common/error.hpp"
 #include "common/validation.hpp"
+#include "interfaces/files/folder_lock.hpp"
 #include "interfaces/files/json_lines.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/text_file.hpp"
@@ -39,26 +40,39 @@ bool isRunFile(const std::string& name) {
 /// Whether its mission.json is that of a run; a profile or a map of others may have the name of a run's file.
 bool holdsRun(const fs::path& folder) { return saysAtStart(folder / "mission.json", "swiftlet mission", 200); }
 
-/// The folder, made or cleared of an older run.
-fs::path prepared(fs::path path) {
-  const auto fail = [&](const std::string& message, const std::string& hint) {
-    return InputError(Problem{{path.string()}, "", message, hint});
-  };
+constexpr const char* kAskForAnother = "give an empty or new folder";
+
+InputError unusable(const fs::path& path, const std::string& message, const std::string& hint = kAskForAnother) {
+  return InputError(Problem{{path.string()}, "", message, hint});
+}
+
+/// Makes the folder where there is none.
+FolderLock claimed(const fs::path& path) {
   try {
-    if (fs::exists(path) && !fs::is_directory(path)) throw fail("is not a folder", "give a folder for the run");
+    if (fs::exists(path) && !fs::is_directory(path))
+      throw unusable(path, "is not a folder", "give a folder for the run");
     fs::create_directories(path);
+  } catch (const fs::filesystem_error& e) {
+    throw unusable(path, fmt::format("cannot be used: {}", e.code().message()), "");
+  }
+  FolderLock lock(path);
+  if (lock.refused()) throw unusable(path, "is being written by another flight");
+  return lock;
+}
+
+/// Without the files of an older run.
+const fs::path& cleared(const fs::path& path) {
+  try {
     std::vector<fs::path> old;
     for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
       if (!entry.is_regular_file() || !isRunFile(entry.path().filename().string()))
-        throw fail(fmt::format("holds `{}`, which is no file of a run", entry.path().filename().string()),
-                   "give an empty or new folder");
+        throw unusable(path, fmt::format("holds `{}`, which is no file of a run", entry.path().filename().string()));
       old.push_back(entry.path());
     }
-    if (!old.empty() && !holdsRun(path))
-      throw fail("holds no run, and what it holds would be lost", "give an empty or new folder");
+    if (!old.empty() && !holdsRun(path)) throw unusable(path, "holds no run, and what it holds would be lost");
     for (const fs::path& file : old) fs::remove(file);
   } catch (const fs::filesystem_error& e) {
-    throw fail(fmt::format("cannot be used: {}", e.code().message()), "");
+    throw unusable(path, fmt::format("cannot be used: {}", e.code().message()), "");
   }
   return path;
 }
@@ -133,9 +147,10 @@ std::vector<std::string> RunFolder::Config::validate() const {
 
 struct RunFolder::Impl {
   Impl(const Config& config, fs::path folder, RunInfo info, std::string yaml)
-      : path(prepared(std::move(folder))),
+      : path(std::move(folder)),
+        lock(claimed(path)),
         config_yaml(std::move(yaml)),
-        events_file(opened(EventWriter::create(path / "events.jsonl"))),
+        events_file(opened(EventWriter::create(cleared(path) / "events.jsonl"))),
         trajectory_file(opened(TumWriter::create(path / "trajectory.tum"))),
         trajectory_due(config.trajectory_period_s),
         sample_due(config.sample_period_s),
@@ -159,6 +174,7 @@ struct RunFolder::Impl {
   void track(const common::World& world);
 
   fs::path path;
+  FolderLock lock;
   std::string config_yaml;
   EventWriter events_file;
   TumWriter trajectory_file;
@@ -169,6 +185,7 @@ struct RunFolder::Impl {
   std::shared_ptr<const common::OccupancyGrid> grid;
   std::optional<Time> mission_begin;
   bool mission_over = false;
+  Time last_snapshot;
   std::optional<std::string> failure;
 };
 
@@ -213,6 +230,7 @@ void RunFolder::event(const common::Event& event) {
 
 void RunFolder::world(const common::World& world) {
   impl_->track(world);
+  impl_->last_snapshot = world.stamp;
   if (impl_->sample_due.due(world.stamp)) impl_->summary.samples.push_back(sampleOf(world));
   if (impl_->failure || !impl_->map_due.due(world.stamp)) return;
   impl_->keep(writeMap(impl_->path, "map", *impl_->grid));
@@ -232,7 +250,7 @@ void RunFolder::finish(const FlightEnd& end) {
   run.summary.figures = end.figures;
   run.summary.wall_time_s = end.wall_time_s;
   if (end.wall_time_s && *end.wall_time_s > 0)
-    run.summary.realtime_factor = run.summary.mission_time.seconds() / *end.wall_time_s;
+    run.summary.realtime_factor = run.last_snapshot.seconds() / *end.wall_time_s;
   if (run.grid) run.keep(writeMap(run.path, "map", *run.grid, Durability::kPower));
   if (!run.pictures.map_png.empty()) run.write("map.png", run.pictures.map_png, Durability::kPower);
   run.writeSummary(Durability::kPower);

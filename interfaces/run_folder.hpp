@@ -51,7 +51,7 @@ class RunFolder {
   };
 
   /// Makes the folder. One that is there must be empty or an older run, whose files are removed first; anything else
-  /// is refused. Throws common::InputError that says why.
+  /// is refused, also a folder that another flight writes. Throws common::InputError that says why.
   RunFolder(const Config& config, std::filesystem::path path, RunInfo info, std::string config_yaml);
   ~RunFolder();
   RunFolder(RunFolder&&) noexcept;

@@ -89,7 +89,8 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
     status.nearest_m = gap_m;
     status.nearest_bearing_body_rad = std::atan2(p.y(), p.x());
   }
-  status.braking = decision.speed_limit_m_s < config_.max_speed_m_s;
+  const double wanted_m_s = std::max(input.wish_level_m_s.norm(), speed_m_s);
+  status.braking = wanted_m_s > kStill_m_s && decision.speed_limit_m_s < wanted_m_s;
   status.retreating = retreating_;
   if (retreating_)
     status.reason = danger_;

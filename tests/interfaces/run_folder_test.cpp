@@ -93,7 +93,7 @@ TEST(RunFolder, LeavesEveryFile) {
   EXPECT_EQ(mission["outcome"], "done");
   EXPECT_EQ(mission["seed"], 7);
   EXPECT_NEAR(mission["mission_time_s"].get<double>(), 9.0, 1e-9);
-  EXPECT_NEAR(mission["machine"]["realtime_factor"].get<double>(), 18.0, 1e-9);
+  EXPECT_NEAR(mission["machine"]["realtime_factor"].get<double>(), 20.0, 1e-9);
   EXPECT_EQ(mission["coverage"], 0.995);
   EXPECT_EQ(mission["figures"]["goal_error_m"], 0.05);
   EXPECT_EQ(mission["explored_area_m2"], 12.5);
@@ -199,6 +199,16 @@ TEST(RunFolder, RefusesFoldersOfOthers) {
   put(folder / "file", "");
   EXPECT_THAT(problem(folder / "file"), HasSubstr("file: is not a folder"));
   EXPECT_THAT(problem(folder / "file/below"), HasSubstr("cannot be used: Not a directory"));
+}
+
+TEST(RunFolder, AFolderIsWrittenByOneFlightAtATime) {
+  const ScratchFolder folder;
+  {
+    const RunFolder first({}, folder / "run", kInfo, "");
+    EXPECT_THROW(RunFolder({}, folder / "run", kInfo, ""), common::InputError);
+    EXPECT_TRUE(fs::exists(folder / "run/mission.json"));
+  }
+  EXPECT_NO_THROW(RunFolder({}, folder / "run", kInfo, ""));
 }
 
 TEST(RunFolder, FreshNames) {

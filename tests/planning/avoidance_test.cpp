@@ -225,6 +225,14 @@ TEST(Avoidance, TheMeanHidesAThinPoleTheRobustMinimumDoesNot) {
   }
 }
 
+TEST(Avoidance, BrakesWhoWouldBeFasterThanTheLimit) {
+  Story story;
+  story.pose = {5.0, 7.4, 0.0};  // 0.6 m from the wall.
+  EXPECT_TRUE(story.sense({0, 1.0}).status.braking);
+  EXPECT_FALSE(story.sense({0, 0}).status.braking) << "a hover beside it";
+  EXPECT_FALSE(story.sense({0.3, 0}).status.braking) << "slowly along it";
+}
+
 TEST(Avoidance, OneStrayReturnDoesNotBrake) {
   Story story;
   auto points = story.scan();
