@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
+#include <system_error>
+
+#include <fmt/format.h>
 
 #include "common/data_paths.hpp"
+#include "common/error.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -14,6 +18,23 @@ std::string fileFor(const std::string& name, const std::string& folder) {
   if (name.find('/') != std::string::npos || name.find('.') != std::string::npos)
     return common::findData(name).string();
   return common::findData(std::filesystem::path("config") / folder / (name + ".yaml")).string();
+}
+
+/// A data sheet that a profile names; a file of the user's is looked for beside the profile first.
+std::string sheetFor(const std::string& name, const std::string& folder, const std::string& key,
+                     const std::filesystem::path& profile) {
+  const std::filesystem::path beside = profile.parent_path() / name;
+  std::error_code error;
+  if (std::filesystem::is_regular_file(beside, error)) return beside.string();
+  try {
+    return fileFor(name, folder);
+  } catch (const common::InputError& e) {
+    common::Problem problem = e.problems().front();
+    problem.message = fmt::format("{}: {}", name, problem.message);
+    problem.element = key;
+    problem.location = {profile.string()};
+    throw common::InputError(problem);
+  }
 }
 
 /// Every line behind "# ".
@@ -45,9 +66,13 @@ std::string System::toYaml(bool comments) const {
 System loadSystem(const std::string& name) {
   System system;
   system.name = name;
-  system.config = common::config::readFile<SystemConfig>(fileFor(name, "systems"));
-  system.vehicle = common::config::readFile<common::VehicleConfig>(fileFor(system.config.vehicle, "vehicles"));
-  system.laser = common::config::readFile<common::LaserConfig>(fileFor(system.config.laser, "sensors"));
+  const std::string profile = fileFor(name, "systems");
+  system.config = common::config::readFile<SystemConfig>(profile);
+  const auto sheet = [&](const std::string& named, const char* folder, const char* key) {
+    return sheetFor(named, folder, key, profile);
+  };
+  system.vehicle = common::config::readFile<common::VehicleConfig>(sheet(system.config.vehicle, "vehicles", "vehicle"));
+  system.laser = common::config::readFile<common::LaserConfig>(sheet(system.config.laser, "sensors", "laser"));
   return system;
 }
 

@@ -186,6 +186,15 @@ TEST_F(BadInput, UnknownSystem) {
   expectRefused(fly({"--headless", hop(), "--system", "swiftled"}), "did you mean `(config/systems/)?swiftlet");
 }
 
+TEST_F(BadInput, DataSheetsAreFoundBesideTheProfileThatNamesThem) {
+  const std::string system = write("mine.yaml", "vehicle: nimble.yaml\nlaser: utm_30lx\n");
+  expectRefused(runSwiftlet({"config", "--system", system}), "mine\\.yaml: vehicle: nimble\\.yaml: no such file");
+  (void)write("nimble.yaml", "name: nimble\nmass_kg: 1.2\n");
+  const ProgramEnd found = runSwiftlet({"config", "--system", system});
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_NE(found.out.find("mass_kg: 1.2"), std::string::npos);
+}
+
 TEST_F(BadInput, PortInUse) {
   const int socket_in_use = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
