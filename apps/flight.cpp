@@ -178,6 +178,11 @@ class Flight {
     end.wall_time_s = wall_s;
     if (hooks_.score) hooks_.score(recorder_.finish(), *vehicle_, end);
     folder_.finish(end);
+    if (hooks_.web) {
+      auto last = std::make_shared<common::World>(*autonomy_.world());
+      last->ending = {std::string(interfaces::toString(outcome_)), reason_};
+      hooks_.web->world().post(std::move(last));
+    }
     FlightResult result;
     result.summary = folder_.summary();
     result.folder = folder_.path();

@@ -64,6 +64,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       jobs_(std::move(jobs)),
       trail_(std::make_shared<std::vector<Eigen::Vector2d>>()) {
   context_.hull_radius_m = vehicle.hullRadius_m();
+  mission_status_.accepts_goals = mission_.acceptsGoals();
   takeSnapshot(Time{});
 }
 
@@ -208,13 +209,13 @@ common::Intent Autonomy::wishOf(Time now) {
 
   if (supervision.land) {
     if (!mission_over_) {
-      (void)mission_.letGo(context_);
-      collect(std::exchange(context_.events, {}));
-      mission_status_.state = MissionState::kFailed;
+      mission_status_.state = supervisor_.landedByOperator() ? MissionState::kStopped : MissionState::kFailed;
       mission_status_.reason = "landed: " + supervision.land_reason;
       mission_status_.phase = "land";
-      mission_over_ = true;
+      mission_over_ = lets_go_ = true;
     }
+    if (lets_go_) lets_go_ = !mission_.letGo(context_);
+    collect(std::exchange(context_.events, {}));
     return {kSupervisorLand, common::LandIntent{}};
   }
   if (mission_over_) return {kSupervisorLand, common::LandIntent{}};
@@ -233,7 +234,7 @@ void Autonomy::tickMission() {
   mission_status_.state = result.state;
   mission_status_.phase = result.phase;
   mission_status_.reason = result.reason;
-  mission_over_ = result.state == MissionState::kDone || result.state == MissionState::kFailed;
+  mission_over_ = common::isOver(result.state);
 }
 
 void Autonomy::takeSnapshot(Time now) {

@@ -100,6 +100,7 @@ class Autonomy {
   common::Intent wish_;
   common::MissionStatus mission_status_;
   bool mission_over_ = false;
+  bool lets_go_ = false;  ///< It was landed from above, and has not stopped yet.
   bool prepared_ = false;
   std::optional<common::Time> last_behaviors_;
 

@@ -100,7 +100,10 @@ void Executor::tick(const ExecutorInput& input) {
 void Executor::react(const planning::AvoidanceDecision& decision, const common::VehicleState& state) {
   state_ = state;
   controller_.setSpeedLimit(decision.speed_limit_m_s);
-  if (controller_.state() != FlightState::kFlying) return;
+  if (controller_.state() != FlightState::kFlying) {
+    retreating_ = false;
+    return;
+  }
   const common::Pose2 T_map_body = state.T_map_body_planar();
   if (!retreating_ || decision.turn_rad != 0.0) retreat_yaw_map_rad_ = T_map_body.yaw_rad + decision.turn_rad;
   if (decision.retreat_velocity_level_m_s) {
@@ -381,6 +384,7 @@ void Executor::receiveExploration(const planning::ExplorationResult& result) {
           fmt::format("frontier of {:.2f} m at ({:.2f}, {:.2f}) left: {}", frontier.length_m,
                       frontier.centroid_map_m.x(), frontier.centroid_map_m.y(), toString(frontier.reason)),
           frontier.explanation);
+    attempts_.clear();
     succeed(fmt::format("explored {:.1f} m2, {} frontiers left, each with a reason", result.explored_area_m2,
                         result.frontiers.size()));
   }

@@ -52,8 +52,14 @@ const char* toString(MissionState state) {
       return "done";
     case MissionState::kFailed:
       return "failed";
+    case MissionState::kStopped:
+      return "stopped";
   }
   SWIFTLET_CHECK(false, static_cast<int>(state));
+}
+
+bool isOver(MissionState state) {
+  return state == MissionState::kDone || state == MissionState::kFailed || state == MissionState::kStopped;
 }
 
 }  // namespace swiftlet::common

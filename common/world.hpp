@@ -60,14 +60,23 @@ struct TreeNodeView {
 };
 using TreeView = std::vector<TreeNodeView>;
 
-enum class MissionState { kReady, kRunning, kHeld, kDone, kFailed };
+/// kStopped: landed by the operator before its end.
+enum class MissionState { kReady, kRunning, kHeld, kDone, kFailed, kStopped };
 const char* toString(MissionState state);
+bool isOver(MissionState state);
 
 struct MissionStatus {
   MissionState state = MissionState::kReady;
   std::string phase;   ///< The intent in words.
   std::string reason;  ///< Why it failed or holds.
+  bool accepts_goals = true;
   TreeView tree;
+};
+
+/// How a flight ended, in words: "done".
+struct FlightEnding {
+  std::string outcome;
+  std::string reason;
 };
 
 /// The end points of the last scan.
@@ -92,6 +101,7 @@ struct World {
   IntentStatus intent;
   MissionStatus mission;
   std::shared_ptr<const LaserPoints> laser;  ///< May be null: the last projected scan.
+  std::optional<FlightEnding> ending;        ///< Of the last one.
 };
 
 }  // namespace swiftlet::common

@@ -276,6 +276,7 @@ void FlightController::watchHorizontal(const FlightTick& tick) {
       Eigen::Vector3d here = last_state_.T_odom_body.position_m;
       here.z() = follower_.reference().position_odom_m.z();
       follower_.reset(here, common::yawOf(last_state_.T_odom_body.rotation));
+      follows_path_ = false;
       say(Severity::kInfo, "horizontal estimate is back");
     }
     horizontal_lost_.reset();

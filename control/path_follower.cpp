@@ -128,8 +128,8 @@ void PathFollower::setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double 
   if (!velocity_target_) {
     lay({reference_.position_odom_m});
     carrot_speed_m_s_ = 0.0;
-    velocity_target_ = VelocityTarget{
-        {}, 0.0, {reference_.position_odom_m, reference_.velocity_odom_m_s, Eigen::Vector3d::Zero()}};
+    velocity_target_ =
+        VelocityTarget{{}, 0.0, {reference_.position_odom_m, reference_.velocity_odom_m_s, Eigen::Vector3d::Zero()}};
   }
   velocity_target_->velocity_odom_m_s = velocity_odom_m_s;
   velocity_target_->acceleration_m_s2 = acceleration_m_s2;

@@ -95,7 +95,7 @@ void FlightRecorder::world(const common::World& world) {
   record_.mission_reason = world.mission.reason;
   record_.mission_time_s = (world.stamp - *mission_begin_).seconds();
   followTree(world.mission.tree);
-  mission_over_ = world.mission.state == MissionState::kDone || world.mission.state == MissionState::kFailed;
+  mission_over_ = common::isOver(world.mission.state);
 }
 
 void FlightRecorder::followTree(const common::TreeView& tree) {

@@ -32,6 +32,7 @@ std::string outcomeOf(const FlightRecord& record) {
   if (record.last_truth.crashed) return record.last_truth.crash_reason;
   if (record.mission == MissionState::kDone) return "done";
   if (record.mission == MissionState::kFailed) return "mission failed: " + record.mission_reason;
+  if (record.mission == MissionState::kStopped) return "mission stopped: " + record.mission_reason;
   return fmt::format("not finished after {:.0f} s", record.flight_time_s);
 }
 

@@ -200,7 +200,7 @@ void RunFolder::Impl::track(const common::World& world) {
 
   if (!mission_begin) mission_begin = world.stamp;
   summary.mission_time = world.stamp - *mission_begin;
-  mission_over = world.mission.state == MissionState::kDone || world.mission.state == MissionState::kFailed;
+  mission_over = common::isOver(world.mission.state);
   if (!summary.phases.empty()) summary.phases.back().end = world.stamp;
   if (mission_over || world.mission.phase.empty()) return;
   if (summary.phases.empty() || summary.phases.back().name != world.mission.phase)

@@ -1,6 +1,7 @@
 // The operator's page in Chromium against a made-up flight: node console_test.mjs WEB_FIXTURE WORK_FOLDER
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
+import { readFileSync } from 'node:fs';
 import { createInterface } from 'node:readline';
 
 import { kPatience, launch } from './browser.mjs';
@@ -28,8 +29,8 @@ const browser = await launch(folder);
 let server = await serve();
 const { origin } = server.url;
 
-async function open(url, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true, ...options });
+async function open(url, { context, ...options } = {}) {
+  context ??= await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true, ...options });
   const page = await context.newPage();
   page.setDefaultTimeout(30_000 * kPatience);
   page.problems = [];
@@ -61,6 +62,20 @@ async function eventually(what, holds, timeout_s = 10) {
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
   assert.fail(`${what} did not happen within ${kPatience * timeout_s} s`);
+}
+
+/** What the page is told as its state goes through `change` first. */
+async function openWith(change) {
+  const context = await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true });
+  await context.routeWebSocket('**/api/ws', (page) => {
+    const vehicle = page.connectToServer();
+    vehicle.onMessage((message) => {
+      const state = typeof message === 'string' && message.includes('"type":"state"') ? JSON.parse(message) : null;
+      if (state) change(state);
+      page.send(state ? JSON.stringify(state) : message);
+    });
+  });
+  return open(server.url, { context });
 }
 
 async function tapGoal(page, x_m, y_m) {
@@ -201,6 +216,73 @@ const tests = {
     assert.ok((await brightness(dark)) < 120);
     await light.context().close();
     return dark;
+  },
+
+  async 'a flight that has ended is no lost link'() {
+    let ending = null;
+    const page = await openWith((state) => {
+      state.ending = ending;
+      if (ending !== null) Object.assign(state.avoidance, { braking: true, reason: 'at most 0.10 m/s' });
+    });
+    ending = { outcome: 'done', reason: '' };
+    await page.getByText('The flight has ended: done.').waitFor();
+    assert.equal(await page.locator('#link').innerText(), 'Ended');
+    assert.equal(await page.locator('#avoidance').isVisible(), false);
+    for (const name of ['Hold', 'Resume', 'Home', 'Land'])
+      assert.equal(await page.getByRole('button', { name }).isDisabled(), true);
+    ending = { outcome: 'stopped', reason: 'landed: the operator asked for it' };
+    await page.getByText('The flight has ended: stopped (landed: the operator asked for it).').waitFor();
+    ending = null;
+    await page.locator('#link[data-level=good]').waitFor();
+    assert.equal(await page.getByRole('button', { name: 'Land' }).isDisabled(), false);
+    assert.equal(await page.locator('#banner').isVisible(), false);
+    return page;
+  },
+
+  async 'what is avoided hides neither the mission’s reason nor the intent’s'() {
+    let mission = '', braking = false;
+    const page = await openWith((state) => {
+      state.mission.phase = 'explore';
+      state.mission.reason = mission;
+      state.intent.reason = 'waiting: no way';
+      state.avoidance = { ...state.avoidance, braking, retreating: false, reason: 'at most 0.10 m/s' };
+    });
+    await page.locator('#intent').getByText(/^waiting: no way$/).waitFor();
+    braking = true;
+    await page.locator('#intent').getByText(/^waiting: no way · at most 0.10 m\/s$/).waitFor();
+    mission = 'the operator holds';
+    await page.locator('#intent').getByText(/^the operator holds · at most 0.10 m\/s$/).waitFor();
+    return page;
+  },
+
+  async 'a mission that flies its own goals is sent none'() {
+    const page = await openWith((state) => { state.mission.accepts_goals = false; });
+    let posts = 0;
+    page.on('request', (request) => { posts += request.method() === 'POST'; });
+    await page.locator('[data-command=home]:disabled').waitFor();
+    assert.equal(await page.getByRole('button', { name: 'Hold' }).isDisabled(), false);
+    await page.locator('#map').tap({ position: await onScreen(page, 1.2, 0.6) });
+    await page.getByText('This mission flies its own goals.').waitFor();
+    assert.equal(posts, 0);
+    return page;
+  },
+
+  async 'in portrait the buttons cover nothing at first, and stay in sight'() {
+    const page = await open(server.url, { viewport: { width: 800, height: 1280 } });
+    const bar = () => page.locator('.commands').boundingBox();
+    const { y, height } = await bar();
+    for (const card of await page.locator('.card').all()) assert.ok((await card.boundingBox()).y >= y + height - 8);
+    await page.locator('.events').evaluate((list) => { list.style.paddingBottom = '1500px'; });
+    await page.evaluate(() => scrollTo(0, 900));
+    await eventually('the bar at the top', async () => Math.abs((await bar()).y) < 2);
+    return page;
+  },
+
+  async 'docs/state.md names every key of the state'() {
+    const page = await open(server.url);
+    const words = readFileSync(new URL('../../docs/state.md', import.meta.url), 'utf8');
+    for (const key of Object.keys(await state())) assert.ok(words.includes(`\`${key}\``), `${key} is missing`);
+    return page;
   },
 
   async 'a lost link is shown and heals by itself'() {

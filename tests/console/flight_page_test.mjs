@@ -63,6 +63,10 @@ try {
   await eventually('the landing', async () => flight.exitCode !== null || (await state()).flight_state === 'landed', 60);
   const [code] = await ended;
   assert.ok(code === 0 || code === 1, `the program ended with ${code}`);
+  await page.getByText('The flight has ended: stopped').waitFor();
+  await page.waitForTimeout(3000); // The program is gone by now.
+  assert.equal(await page.locator('#link').innerText(), 'Ended');
+  assert.equal(await page.getByText('Link lost').isVisible(), false);
   console.log('1 passed, 0 failed');
 } finally {
   flight.kill('SIGTERM');

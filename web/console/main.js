@@ -3,6 +3,7 @@ import { Commands } from './commands.js';
 import { Link } from './link.js';
 import { MapStore } from './map_store.js';
 import { MapView } from './map_view.js';
+import { endText, fliesItsOwnGoals, hasEnded } from './mission.js';
 import { forgetEvents, showEvents, showFrontiers, showState, toast } from './panels.js';
 
 const element = (id) => document.getElementById(id);
@@ -30,6 +31,7 @@ const link = new Link((message) => {
     const held = message.mission.state === 'held';
     document.querySelector('[data-command=hold]').setAttribute('aria-pressed', String(held));
   }
+  if (message.type === 'hello' || message.type === 'state') showAccess();
   if (message.type === 'frontiers') showFrontiers(message.frontiers);
   if (message.type === 'events') showEvents(message.events);
   view.draw();
@@ -37,17 +39,38 @@ const link = new Link((message) => {
 
 // --- commands -----------------------------------------------------------------------------------------------------
 
-function showAccess() {
-  element('access').hidden = commands.allowed;
-  for (const button of [...buttons, ...element('goal-form').elements]) button.disabled = !commands.allowed;
+const ended = () => store.state !== null && hasEnded(store.state);
+const takesGoals = () => store.state === null || !fliesItsOwnGoals(store.state);
+
+function disable(control, disabled, why) {
+  if (control.disabled !== disabled) control.disabled = disabled;
+  if (control.title !== why) control.title = why;
 }
 
+function showAccess() {
+  element('access').hidden = commands.allowed;
+  const nothing = !commands.allowed || ended();
+  const noGoals = nothing || !takesGoals();
+  const why = takesGoals() ? '' : kOwnGoals;
+  for (const button of buttons)
+    if (button.dataset.command === 'home') disable(button, noGoals, why);
+    else disable(button, nothing, '');
+  for (const control of element('goal-form').elements) disable(control, noGoals, why);
+  view.canvas.classList.toggle('no-goals', noGoals);
+}
+
+const kOwnGoals = 'This mission flies its own goals.';
 const kTitles = { hold: 'Holding', resume: 'Resumed', home: 'Flying home', land: 'Landing' };
 
 async function sendGoal(goal) {
   const where = `(${goal.x_m.toFixed(2)}, ${goal.y_m.toFixed(2)})`;
   if (!commands.allowed) {
     toast('View only', 'Open the operator’s link, printed when the flight starts, to send goals.', false);
+    return;
+  }
+  if (ended()) return;
+  if (!takesGoals()) {
+    toast('No goal sent', kOwnGoals, false);
     return;
   }
   view.showMarker({ ...goal, state: 'asked' });
@@ -101,26 +124,30 @@ element('camera-toggle').addEventListener('click', ({ currentTarget: button }) =
 
 // --- how old is what is shown -------------------------------------------------------------------------------------
 
-function showLink() {
+/** {level, text} of the pill, and {banner} over the map. */
+function linkNow() {
+  if (ended()) return { level: 'wait', text: 'Ended', banner: endText(store.state) };
   const silence = link.silence_s();
-  const age = silence === null || !store.state ? null : store.state.age_s + (performance.now() - store.stateReceived_ms) / 1000;
-  let level = 'good', text = 'Live', lost = '';
-  if (silence === null) {
-    [level, text] = ['wait', 'Connecting'];
-  } else if (silence > 1.5) {
-    [level, text] = ['bad', `No link for ${silence.toFixed(0)} s`];
-    lost = `Link lost ${silence.toFixed(0)} s ago. The map shows the last known state.`;
-  } else if (age === null) {
-    [level, text] = ['wait', 'Waiting for the vehicle'];
-  } else if (age > 1.5) {
-    [level, text] = ['warn', `No data for ${age.toFixed(0)} s`];
+  if (silence === null) return { level: 'wait', text: 'Connecting' };
+  if (silence > 1.5) {
+    const seconds = `${silence.toFixed(0)} s`;
+    return { level: 'bad', text: `No link for ${seconds}`,
+      banner: `Link lost ${seconds} ago. The map shows the last known state.` };
   }
-  const pill = element('link');
+  if (!store.state) return { level: 'wait', text: 'Waiting for the vehicle' };
+  const age = store.state.age_s + (performance.now() - store.stateReceived_ms) / 1000;
+  return age > 1.5 ? { level: 'warn', text: `No data for ${age.toFixed(0)} s` } : { level: 'good', text: 'Live' };
+}
+
+function showLink() {
+  const { level, text, banner = '' } = linkNow();
+  const pill = element('link'), over = element('banner');
   if (pill.dataset.level !== level) pill.dataset.level = level;
   if (pill.textContent !== text) pill.textContent = text;
-  element('lost').hidden = !lost;
-  if (element('lost').textContent !== lost) element('lost').textContent = lost;
-  document.body.classList.toggle('lost-link', Boolean(lost));
+  over.hidden = !banner;
+  if (over.dataset.level !== level) over.dataset.level = level;
+  if (over.textContent !== banner) over.textContent = banner;
+  document.body.classList.toggle('lost-link', level === 'bad');
 }
 
 showAccess();

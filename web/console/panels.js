@@ -1,4 +1,5 @@
 // The figures and lists beside the map.
+import { hasEnded, reasonText } from './mission.js';
 
 const element = (id) => document.getElementById(id);
 
@@ -27,11 +28,11 @@ export function showState(state) {
   setText('mission-state', mission.state);
   element('mission-state').className =
     { failed: 'chip bad', held: 'chip warn', done: 'chip' }[mission.state] ?? 'chip soft';
-  const reacts = avoidance.retreating ? 'retreating' : avoidance.braking ? 'braking' : '';
+  const reacts = hasEnded(state) ? '' : avoidance.retreating ? 'retreating' : avoidance.braking ? 'braking' : '';
   setText('avoidance', reacts);
   element('avoidance').hidden = !reacts;
   setText('phase', mission.phase || '–');
-  setText('intent', mission.reason || (reacts && avoidance.reason) || state.intent.reason);
+  setText('intent', reasonText(state, reacts));
 
   const { remaining, voltage_v } = state.battery;
   setText('battery', remaining === null ? '–' : `${Math.round(100 * remaining)} % · ${withUnit(voltage_v, 1, 'V')}`);

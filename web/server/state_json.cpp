@@ -61,8 +61,11 @@ Json missionOf(const common::MissionStatus& mission) {
   Json tree = Json::array();
   for (const common::TreeNodeView& node : mission.tree)
     tree.push_back({{"id", node.id}, {"parent", node.parent}, {"name", node.name}, {"status", node.status}});
-  return {
-      {"state", common::toString(mission.state)}, {"phase", mission.phase}, {"reason", mission.reason}, {"tree", tree}};
+  return {{"state", common::toString(mission.state)},
+          {"phase", mission.phase},
+          {"reason", mission.reason},
+          {"accepts_goals", mission.accepts_goals},
+          {"tree", tree}};
 }
 
 Json stateOf(const common::World& world, const Observation& seen) {
@@ -96,6 +99,8 @@ Json stateOf(const common::World& world, const Observation& seen) {
         {"nearest_m", number(world.avoidance.nearest_m, 2)}}},
       {"intent", {{"state", word(world.intent.state)}, {"reason", world.intent.reason}}},
       {"mission", missionOf(world.mission)},
+      {"ending",
+       world.ending ? Json{{"outcome", world.ending->outcome}, {"reason", world.ending->reason}} : Json(nullptr)},
       {"home", {{"x_m", number(world.home_map.x_m)}, {"y_m", number(world.home_map.y_m)}}},
       {"goal", world.goal_map_m ? Json{{"x_m", number(world.goal_map_m->x())}, {"y_m", number(world.goal_map_m->y())}}
                                 : Json(nullptr)},

@@ -1,0 +1,152 @@
+// The executor's stories of exploration: viewpoints, looks, what is left, and who stands in the way.
+#include <algorithm>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/autonomy/executor_story.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using planning::test::fill;
+using planning::test::kFreeCell;
+using planning::test::kWallCell;
+
+class ExecutorExploring : public ExecutorInFlight {
+ protected:
+  /// It takes off with its back to what there is to see.
+  void SetUp() override {
+    place(1.5, 2.0, std::numbers::pi);
+    ExecutorInFlight::SetUp();
+  }
+  /// A room of 5 m by 4 m whose door, when it has one, nobody has looked through yet.
+  void build(bool door) {
+    grid_ = planning::test::room(100, 80);
+    if (door) fill(grid_, {{100, 28}, {101, 52}}, kFreeCell);
+  }
+  /// The same with a passage that turns: its end shows from inside only, and a person in it shuts it.
+  void buildPassage() {
+    build(false);
+    fill(grid_, {{100, 27}, {132, 49}}, kWallCell);
+    fill(grid_, {{109, 49}, {132, 90}}, kWallCell);
+    fill(grid_, {{100, 28}, {131, 48}}, kFreeCell);
+    fill(grid_, {{110, 48}, {131, 89}}, kFreeCell);
+    fill(grid_, {{109, 70}, {110, 89}}, common::occupancy::kUnknown);
+  }
+  planning::Disc personInThePassage() const { return {{5.4, 1.9}, 0.5}; }
+  int looks() const {
+    int most = 0;
+    for (const common::Frontier& frontier : *executor_.frontiers()) most = std::max(most, frontier.attempts);
+    return most;
+  }
+};
+
+TEST_F(ExecutorExploring, AViewpointIsFlownToAndCountsAfterALookOfHalfASecond) {
+  build(true);
+  want(common::ExploreIntent{});
+  runUntil([this] { return looks() == 1 && executor_.goal_map_m(); }, 5.0);  // The door shows from the take-off place.
+  follows_ = false;  // The reference flies on alone; the vehicle stays where the test puts it.
+  ASSERT_GT(distanceTo_m(*executor_.goal_map_m()), 1.0);
+  run(0.1);
+  EXPECT_TRUE(controller_.followsPath());
+  runUntil([this] { return controller_.pathFinished(); }, 15.0);
+  const common::Pose2 there = reference();
+  EXPECT_LT((there.position_m() - *executor_.goal_map_m()).norm(), 0.01);
+  run(1.0);
+  EXPECT_EQ(looks(), 1) << "the vehicle is not there";
+  place(there.x_m, there.y_m, there.yaw_rad);
+  run(0.4);
+  place(there.x_m, there.y_m, there.yaw_rad + 0.4);
+  run(0.4);
+  place(there.x_m, there.y_m, there.yaw_rad);
+  run(0.45);
+  EXPECT_EQ(looks(), 1) << "it turned away in between";
+  run(0.25);
+  EXPECT_EQ(looks(), 2);
+}
+
+TEST_F(ExecutorExploring, WhatStaysUnknownIsLeftAfterThreeLooksAndSaid) {
+  build(true);
+  fill(grid_, {{20, 80}, {23, 81}}, kFreeCell);  // A crack.
+  want(common::ExploreIntent{});
+  ASSERT_EQ(runToTheEnd(60.0), IntentState::kSucceeded) << executor_.status().reason;
+  EXPECT_EQ(looks(), 3);
+  EXPECT_EQ(executor_.status().reason, "explored 20.1 m2, 2 frontiers left, each with a reason");
+  EXPECT_EQ(reasonOf("frontier of 1.20 m"), "blacklisted: looked at 3 times");
+  EXPECT_EQ(reasonOf("frontier of 0.15 m"), "too small: 0.15 m long");
+}
+
+TEST_F(ExecutorExploring, DoneIsBelievedWhenItIsSaidTwiceStandingStill) {
+  build(false);
+  want(common::ExploreIntent{});
+  runUntil([this] { return executor_.exploredArea_m2() > 0.0; }, 1.0);
+  EXPECT_EQ(executor_.status().state, IntentState::kRunning) << "said once";
+  EXPECT_EQ(runToTheEnd(2.0), IntentState::kSucceeded);
+  follows_ = false;
+  state_.velocity_odom_m_s = {0.2, 0.0, 0.0};
+  want(common::ExploreIntent{});
+  run(3.0);
+  EXPECT_EQ(executor_.status().state, IntentState::kRunning) << "it moves";
+  state_.velocity_odom_m_s.setZero();
+  EXPECT_EQ(runToTheEnd(2.0), IntentState::kSucceeded);
+}
+
+TEST_F(ExecutorExploring, WhoWalkedLatelyAndStandsInTheWayIsGivenRoom) {
+  buildPassage();
+  anybody_walks_ = true;
+  discs_ = {personInThePassage()};
+  want(common::ExploreIntent{});
+  run(2.0);
+  EXPECT_EQ(executor_.status().reason, "somebody may stand in the way");
+  EXPECT_EQ(timesSaid("goes aside to make room"), 0);
+  run(1.5);
+  EXPECT_EQ(timesSaid("goes aside to make room"), 1);
+  EXPECT_EQ(executor_.status().state, IntentState::kRunning);
+  discs_.clear();
+  runUntil([this] { return distanceTo_m({6.0, 2.0}) < 0.6; }, 20.0);
+  EXPECT_LT(distanceTo_m({6.0, 2.0}), 0.6) << "the way is free: " << executor_.status().reason;
+}
+
+TEST_F(ExecutorExploring, WhoStaysInTheWayIsNotWaitedForForEver) {
+  buildPassage();
+  anybody_walks_ = true;
+  discs_ = {personInThePassage()};
+  want(common::ExploreIntent{});
+  run(29.0);
+  EXPECT_EQ(executor_.status().state, IntentState::kRunning);
+  EXPECT_EQ(runToTheEnd(30.0), IntentState::kSucceeded);
+}
+
+TEST_F(ExecutorExploring, WhereNobodyWalkedLatelyNobodyIsGivenRoom) {
+  buildPassage();
+  discs_ = {personInThePassage()};
+  anybody_walks_ = true;
+  run(1.0);
+  anybody_walks_ = false;
+  run(30.1);
+  want(common::ExploreIntent{});
+  EXPECT_LT(runUntil([this] { return ended(); }, 20.0), 2.0);
+  EXPECT_EQ(executor_.status().state, IntentState::kSucceeded);
+  EXPECT_EQ(timesSaid("goes aside to make room"), 0);
+}
+
+TEST_F(ExecutorExploring, GoesOnAfterARetreat) {
+  build(true);
+  want(common::ExploreIntent{});
+  runUntil([this] { return looks() == 1 && executor_.goal_map_m(); }, 5.0);
+  const Eigen::Vector2d viewpoint_m = *executor_.goal_map_m();
+  decision_.retreat_velocity_level_m_s = Eigen::Vector2d(-0.3, 0.0);
+  decision_.retreat_acceleration_m_s2 = 2.0;
+  executor_.react(decision_, state_);
+  run(2.0);
+  EXPECT_GT(distanceTo_m({1.5, 2.0}), 0.4);
+  decision_ = {};
+  decision_.speed_limit_m_s = 1.0;
+  executor_.react(decision_, state_);
+  runUntil([&] { return distanceTo_m(viewpoint_m) < 0.15; }, 10.0);
+  EXPECT_LT(distanceTo_m(viewpoint_m), 0.15) << executor_.status().reason;
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,159 @@
+// What the stories of the executor are told with: a real flight controller and real planning jobs, a map drawn by hand,
+// and a vehicle that is where the controller's reference is, or where the test puts it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "autonomy/executor.hpp"
+#include "common/jobs.hpp"
+#include "tests/planning/grid_builder.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::FlightState;
+using common::IntentState;
+
+inline constexpr double kStanding_m = 0.15, kHeight_m = 1.0;
+/// `map` and `odom` differ, so that a frame mistake shows.
+inline const common::Pose2 kT_map_odom{0.4, -0.3, 0.5};
+
+class ExecutorStory : public testing::Test {
+ protected:
+  ExecutorStory() {
+    state_.T_map_odom = kT_map_odom;
+    state_.horizontal_valid = state_.vertical_valid = true;
+    state_.T_odom_body.position_m.z() = kStanding_m;
+    place(1.5, 2.0);
+  }
+
+  void SetUp() override {
+    run(0.01);
+    ASSERT_TRUE(controller_.command(control::Prepared{}));
+  }
+
+  /// The vehicle is there, at rest.
+  void place(double x_m, double y_m, double yaw_rad = 0.0) {
+    const double z_m = state_.T_odom_body.position_m.z();
+    state_.T_odom_body = common::lifted(kT_map_odom.inverse() * common::Pose2{x_m, y_m, yaw_rad}, z_m);
+    state_.velocity_odom_m_s.setZero();
+  }
+  Eigen::Vector2d position_m() const { return state_.T_map_body_planar().position_m(); }
+  double distanceTo_m(const Eigen::Vector2d& place_map_m) const { return (place_map_m - position_m()).norm(); }
+  /// Where the path leads: the vehicle itself may be held elsewhere by the test.
+  common::Pose2 reference() const {
+    const control::Reference& r = controller_.reference();
+    return kT_map_odom * common::Pose2{r.position_odom_m.x(), r.position_odom_m.y(), r.yaw_odom_rad};
+  }
+
+  void want(const common::IntentKind& kind) { intent_ = {intent_.id + 1, kind}; }
+  static common::GoToIntent to(double x_m, double y_m) {
+    common::GoToIntent intent;
+    intent.goal_map_m = {x_m, y_m};
+    return intent;
+  }
+
+  void run(double seconds) {
+    for (int i = 0; i < std::lround(seconds * 100.0); ++i) step();
+  }
+  /// The time it took, or the limit.
+  template <typename Condition>
+  double runUntil(Condition condition, double limit_s) {
+    const common::Time from = now_;
+    while (!condition() && (now_ - from).seconds() < limit_s) step();
+    return (now_ - from).seconds();
+  }
+  IntentState runToTheEnd(double limit_s) {
+    runUntil([this] { return ended(); }, limit_s);
+    return executor_.status().state;
+  }
+  bool ended() const {
+    return executor_.status().id == intent_.id && executor_.status().state != IntentState::kRunning;
+  }
+
+  // Of events by how their text begins.
+  long timesSaid(const std::string& text) const {
+    return std::count_if(events_.begin(), events_.end(),
+                         [&](const auto& event) { return event.text.starts_with(text); });
+  }
+  std::string reasonOf(const std::string& text) const {
+    const auto at =
+        std::find_if(events_.begin(), events_.end(), [&](const auto& event) { return event.text.starts_with(text); });
+    return at == events_.end() ? "never said: " + text : at->reason;
+  }
+
+  control::FlightController controller_{{}, {}};
+  common::VehicleState state_;
+  common::OccupancyGrid grid_ = planning::test::room(160, 80);  ///< 8 m by 4 m.
+  std::vector<planning::Disc> discs_;
+  planning::AvoidanceDecision decision_;
+  bool anybody_walks_ = false;
+  bool follows_ = true;           ///< The vehicle is where the reference is; otherwise the test says where.
+  double ceiling_m_ = kHeight_m;  ///< Where taking off ends.
+  std::vector<common::Event> events_;
+  std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(0);
+  Executor executor_{config(), {}, 0.05, controller_, *jobs_};
+
+ private:
+  static ExecutorConfig config() {
+    ExecutorConfig config;
+    config.give_up_s = 12.0;
+    return config;
+  }
+
+  /// 10 ms as the autonomy ticks: what is due is delivered, the executor at 20 Hz, then the controller.
+  void step() {
+    now_ += common::Duration::fromMilliseconds(10);
+    state_.stamp = now_;
+    jobs_->deliverDue(now_);
+    if (ticks_++ % 5 == 0) {
+      executor_.want(intent_);
+      executor_.tick({now_, state_, std::make_shared<const common::OccupancyGrid>(grid_.snapshot()), nullptr, discs_,
+                      anybody_walks_, decision_});
+    }
+    for (common::Event& event : executor_.takeEvents()) events_.push_back(std::move(event));
+    control::FlightTick tick;
+    tick.now = now_;
+    tick.state = state_;
+    tick.battery_v = 12.4;
+    (void)controller_.tick(tick);
+    move();
+  }
+
+  void move() {
+    const double z_m = state_.T_odom_body.position_m.z();
+    double climb_m_s = 0.0;
+    if (controller_.state() == FlightState::kTakingOff && z_m < ceiling_m_) climb_m_s = 0.5;
+    if (controller_.state() == FlightState::kLanding && z_m > kStanding_m) climb_m_s = -0.4;
+    if (controller_.state() == FlightState::kFlying && follows_) {
+      const control::Reference& r = controller_.reference();
+      state_.T_odom_body = {common::quaternionFrom({0.0, 0.0, r.yaw_odom_rad}), r.position_odom_m};
+      state_.velocity_odom_m_s = r.velocity_odom_m_s;
+    } else if (controller_.state() != FlightState::kFlying) {
+      state_.velocity_odom_m_s = {0.0, 0.0, climb_m_s};
+      state_.T_odom_body.position_m.z() = std::max(z_m + 0.01 * climb_m_s, kStanding_m);
+    }
+    state_.height_above_ground_m = state_.T_odom_body.position_m.z();
+  }
+
+  common::Time now_;
+  long ticks_ = 0;
+  common::Intent intent_;
+};
+
+class ExecutorInFlight : public ExecutorStory {
+ protected:
+  void SetUp() override {
+    ExecutorStory::SetUp();
+    want(common::TakeOffIntent{kHeight_m});
+    ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+  }
+};
+
+}  // namespace swiftlet::autonomy
