@@ -1,4 +1,4 @@
-// What lies over the grid in a cost map: discs, heights, localizability.
+// What lies over the grid in a cost map: flown ways, discs, heights.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,6 @@ void CostMap::applyLayers(const CostLayers& layers) {
   cost_ = static_cost_;
   for (std::size_t i = 1; i < layers.flown_map_m.size(); ++i)
     applyFlown(layers.flown_map_m[i - 1], layers.flown_map_m[i]);
-  applyLocalizability(layers.localizability);
   for (const Disc& disc : layers.discs) applyDisc(disc);
   applyHeights(layers.levels);
 
@@ -27,8 +26,7 @@ void CostMap::applyLayers(const CostLayers& layers) {
     cost_[static_cast<std::size_t>(y) * width] = kLethal;
     cost_[static_cast<std::size_t>(y) * width + width - 1] = kLethal;
   }
-  const double greatest_cell =
-      kOpenCost * (1.0 + config_.comfort_weight + (layers.localizability ? config_.localizability_weight : 0.0)) + 1.0;
+  const double greatest_cell = kOpenCost * (1.0 + config_.comfort_weight) + 1.0;
   max_edge_cost_ = static_cast<std::int32_t>(2 * kDiagonalEdge * greatest_cell) +
                    (height_cm_.empty() ? 0 : height_edge_ * static_cast<int>(kMaxStep_m * 100.0));
 }
@@ -64,18 +62,6 @@ void CostMap::applyDisc(const Disc& disc) {
       const double margin_m = (centerOf({x, y}) - disc.center_map_m).norm() - lethal_m;
       Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
       cost = std::max(cost, costOfMargin(margin_m));
-    }
-  }
-}
-
-void CostMap::applyLocalizability(const LocalizabilityGrid* layer) {
-  if (layer == nullptr || config_.localizability_weight <= 0.0) return;
-  for (int y = rect_.begin.y; y < rect_.end.y; ++y) {
-    for (int x = rect_.begin.x; x < rect_.end.x; ++x) {
-      Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
-      if (cost == kLethal) continue;
-      const double blindness = 1.0 - layer->at(layer->cellAt(centerOf({x, y}))) / 255.0;
-      cost = static_cast<Cost>(cost + std::lround(kOpenCost * config_.localizability_weight * blindness));
     }
   }
 }

@@ -57,7 +57,7 @@ std::string firstDifference(std::uint64_t seed, bool plant_bug) {
     std::vector<Disc> discs;
     if (random.chance(0.5))
       discs.push_back({{random.uniform(0, 5.5), random.uniform(0, 4)}, random.uniform(0.05, 0.4)});
-    CostLayers layers{discs, with_levels ? &levels : nullptr, nullptr};
+    CostLayers layers{discs, with_levels ? &levels : nullptr};
     map.update(grid.snapshot(), kSmall, layers);
     if (!start || random.chance(0.6)) start = randomFree(map, random);
     if (!goal || random.chance(0.1)) goal = randomFree(map, random);
@@ -67,7 +67,7 @@ std::string firstDifference(std::uint64_t seed, bool plant_bug) {
     CostMap seen = map;
     if (plant_bug) {
       // The planner is not told of the discs: a plan that was not repaired.
-      seen.update(grid.snapshot(), kSmall, {{}, layers.levels, nullptr});
+      seen.update(grid.snapshot(), kSmall, {{}, layers.levels});
     }
     const auto a = dstar.plan(seen, map.centerOf(*start), map.centerOf(*goal));
     const auto b = wavefront.plan(seen, map.centerOf(*start), map.centerOf(*goal));
@@ -203,8 +203,8 @@ TEST(Planner, AStepOfTheFloorIsWorthADetour) {
   CostMap::Config dear, cheap;
   dear.height_step_weight = 4.0;  // up and down 1.5 m: worth a detour of 6 m
   cheap.height_step_weight = 0.2;
-  EXPECT_EQ(greatestHeight(test::mapOf(grid, {}, dear, {{}, &levels, nullptr})), 0);
-  EXPECT_EQ(greatestHeight(test::mapOf(grid, {}, cheap, {{}, &levels, nullptr})), 75);
+  EXPECT_EQ(greatestHeight(test::mapOf(grid, {}, dear, {{}, &levels})), 0);
+  EXPECT_EQ(greatestHeight(test::mapOf(grid, {}, cheap, {{}, &levels})), 75);
 }
 
 RC_GTEST_PROP(Planner, ShortcutsNeverRaiseTheRisk, (std::uint64_t seed)) {
