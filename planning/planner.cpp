@@ -17,22 +17,6 @@ std::string inWords(const Point& point_m) { return fmt::format("({:.2f}, {:.2f})
 
 }  // namespace
 
-const char* toString(PlanFailure::Reason reason) {
-  switch (reason) {
-    case PlanFailure::Reason::kStartBlocked:
-      return "start blocked";
-    case PlanFailure::Reason::kGoalBlocked:
-      return "goal blocked";
-    case PlanFailure::Reason::kGoalUnseen:
-      return "goal never seen";
-    case PlanFailure::Reason::kUnreachable:
-      return "unreachable";
-    case PlanFailure::Reason::kOutsideMap:
-      return "outside the map";
-  }
-  SWIFTLET_CHECK(false, static_cast<int>(reason));
-}
-
 std::optional<Point> nearestFree(const CostMap& map, const Point& point_map_m, double reach_m) {
   constexpr double kWithinCell = 0.4;  // From its centre, on either side.
   const CellIndex center = map.cellAt(point_map_m);

@@ -27,7 +27,6 @@ struct PlanFailure {
   /// Where the centre may be, nearest to a blocked goal; none when there is no such place within 3 m.
   std::optional<Eigen::Vector2d> nearest_free_map_m;
 };
-const char* toString(PlanFailure::Reason reason);
 
 /// Plans are functions of their arguments; a planner may keep its last search to answer the next call faster.
 /// One thread at a time.

@@ -118,7 +118,7 @@ TEST_F(TwoRooms, ACrackIsTooSmall) {
 
 TEST_F(TwoRooms, OutOfBounds) {
   ExplorationInput input;
-  input.bounds = ExplorationBounds{{0, 0}, {4.5, 5}};
+  input.bounds = common::MapBounds{{0, 0}, {4.5, 5}};
   EXPECT_EQ(look(24, input).frontiers[0].reason, FrontierReason::kOutOfBounds);
 }
 
