@@ -93,7 +93,9 @@ int doctor(bool json) {
     fmt::print("{:<8}{:<18}{}\n", finding.ok ? "ok" : "missing", finding.what, finding.detail);
     if (!finding.ok) fmt::print("{:<26}-> {}\n", "", finding.remedy);
   }
-  if (json) fmt::print("{}\n", nlohmann::json{{"well", well}, {"findings", report}}.dump(2));
+  if (json)
+    fmt::print("{}\n", nlohmann::json{{"well", well}, {"findings", report}}.dump(
+                           2, ' ', false, nlohmann::json::error_handler_t::replace));
   return well ? kDone : kFailed;
 }
 

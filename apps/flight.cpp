@@ -20,7 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using interfaces::Outcome;
 
-constexpr auto kTick = common::Duration::fromMilliseconds(10);
 constexpr double kPicturePeriod_s = 5.0;
 constexpr auto kPictureLatency = common::Duration::fromMilliseconds(1000);
 
@@ -35,13 +34,13 @@ class Flight {
         recorder_(vehicle_->T_world_map()),
         autonomy_(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser,
                   behaviors::Mission::fromFile(setup.mission_file), common::makeLockstepJobs(1)),
-        folder_({}, folderOf(setup), runInfo(setup), setup.system.toYaml(true)) {}
+        folder_(folderOf(setup), runInfo(setup), setup.system.toYaml(true)) {}
 
   FlightResult fly() {
     for (const std::string& warning : vehicle_->world().warnings)
       tell({now_, common::Severity::kWarning, "world", warning, ""});
     while (!over()) {
-      now_ += kTick;
+      now_ += common::kControlPeriod;
       step();
       pace();
     }

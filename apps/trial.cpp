@@ -209,7 +209,7 @@ int trial(const TrialOptions& options) {
   TrialResults results;
   for (const TrialConfig& trial : trials) {
     if (stop) break;
-    results.trials.push_back({trial.name, trial.description, trial.system, trial.paper, {}, trial.criteria});
+    results.trials.push_back({trial.name, trial.system, trial.paper, {}, trial.criteria});
     try {
       flyAll(trial, options, out, stop, results.trials.back());
     } catch (...) {

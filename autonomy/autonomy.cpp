@@ -56,7 +56,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
     : config_(seeing(config, laser)),
       vehicle_(vehicle),
       estimator_(config.estimator, laser, vehicle, *jobs),
-      reactive_(config_.reactive, vehicle.hullRadius_m()),
+      reactive_(config_.reactive, vehicle.hullRadius_m(), config.estimator.slam.grid),
       controller_(config.control, vehicle),
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
       supervisor_(config.supervisor),
@@ -172,7 +172,6 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   executor_.react(decision, state);
 
   auto points = std::make_shared<common::LaserPoints>();
-  points->stamp = outcome->scan.stamp;
   for (const Eigen::Vector2f& point : outcome->scan.points_level_m)
     points->points_map_m.push_back((outcome->T_map_body * Eigen::Vector2d(point.cast<double>())).cast<float>());
   laser_points_ = std::move(points);

@@ -200,8 +200,7 @@ bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
 }
 
 Eigen::Matrix3d Estimator::tiltCovariance(const perception::ProjectedScan& scan) const {
-  const double cos_tilt = (scan.T_odom_body.rotation * Eigen::Vector3d::UnitZ()).z();
-  const double tilt_rad = std::acos(std::clamp(cos_tilt, -1.0, 1.0));
+  const double tilt_rad = std::acos(std::clamp(common::cosTilt(scan.T_odom_body.rotation), -1.0, 1.0));
   const double position_m = config_.match_floor_m + config_.match_per_tilt_m_rad * tilt_rad;
   const double yaw_rad =
       (config_.match_floor_deg + config_.match_per_tilt_deg_rad * tilt_rad) * std::numbers::pi / 180.0;

@@ -278,10 +278,7 @@ void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&
   if (!due || !jobs_.idle("planning")) return;
   if (blocked_frontier_map_m_ && detourIsDue(done_since_)) return takeDetour(input, *blocked_frontier_map_m_);
   PlanningRequest request;
-  ExploreRequest question{viewpoint_, attempts_, std::nullopt};
-  if (explore.bounds)
-    question.bounds = planning::ExplorationBounds{explore.bounds->min_map_m, explore.bounds->max_map_m};
-  request.question = std::move(question);
+  request.question = ExploreRequest{viewpoint_, attempts_, explore.bounds};
   last_exploration_ = now_;
   requestPlan(input, std::move(request));
 }

@@ -25,7 +25,7 @@ struct GoalRequest {
 struct ExploreRequest {
   std::optional<planning::Viewpoint> current;
   std::vector<planning::ExplorationAttempt> attempts;
-  std::optional<planning::ExplorationBounds> bounds;
+  std::optional<common::MapBounds> bounds;
 };
 /// Where to go while there is no way to a goal. When somebody stands in it: far along free ground and wide, so that he
 /// can come past. Otherwise as far towards the goal as it is free, to see whether what the map holds is still there.

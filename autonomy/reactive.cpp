@@ -6,7 +6,6 @@
 namespace swiftlet::autonomy {
 namespace {
 
-constexpr float kInTheWay_m = 0.25F;
 /// Local corrections are millimetres, loop closures are not.
 constexpr double kCorrected_m = 0.05;
 constexpr double kCorrected_rad = 0.01;
@@ -28,8 +27,10 @@ std::vector<std::string> ReactiveConfig::problemsWith(double clearance_m) const 
   return avoidance.validateAgainst(clearance_m, dynamic_obstacles.keep_out_m);
 }
 
-Reactive::Reactive(const ReactiveConfig& config, double hull_radius_m)
-    : avoidance_(config.avoidance, hull_radius_m),
+Reactive::Reactive(const ReactiveConfig& config, double hull_radius_m, const perception::GridDrawingConfig& drawing)
+    : above_m_(static_cast<float>(drawing.max_height_above_m)),
+      below_m_(static_cast<float>(drawing.max_height_below_m)),
+      avoidance_(config.avoidance, hull_radius_m),
       background_(common::Duration::fromSeconds(config.dynamic_obstacles.background_age_s)),
       obstacles_(config.dynamic_obstacles) {
   decision_.speed_limit_m_s = std::numeric_limits<double>::infinity();
@@ -50,7 +51,7 @@ const planning::AvoidanceDecision& Reactive::update(const perception::ProjectedS
   constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
   for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
     // What is above or below the hull's way is not in the background.
-    const bool in_the_way = std::abs(scan.heights_level_m[i]) <= kInTheWay_m;
+    const bool in_the_way = scan.heights_level_m[i] <= above_m_ && scan.heights_level_m[i] >= -below_m_;
     points_map_m.push_back(
         in_the_way
             ? Eigen::Vector2f((T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>())).cast<float>())

@@ -9,6 +9,7 @@
 #include "common/occupancy_grid.hpp"
 #include "common/vehicle_state.hpp"
 #include "perception/projection/scan_projection.hpp"
+#include "perception/slam2d/slam2d.hpp"
 #include "planning/avoidance.hpp"
 #include "planning/dynamic_obstacles.hpp"
 
@@ -27,7 +28,8 @@ struct ReactiveConfig {
 /// One thread; update() once a scan.
 class Reactive {
  public:
-  Reactive(const ReactiveConfig& config, double hull_radius_m);
+  /// `drawing`: of the grid, which knows only what it says is in the way of the hull.
+  Reactive(const ReactiveConfig& config, double hull_radius_m, const perception::GridDrawingConfig& drawing);
 
   /// `cost_map` may be null before the first plan. `wish_map_m_s` is the velocity the intent wants, zero when it holds.
   const planning::AvoidanceDecision& update(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
@@ -43,6 +45,7 @@ class Reactive {
   std::vector<planning::Disc> discs(common::Time now) const { return obstacles_.discs(now); }
 
  private:
+  float above_m_, below_m_;  ///< Of the body: the way of the hull.
   planning::Avoidance avoidance_;
   planning::BackgroundMap background_;
   common::Pose2 T_map_odom_;

@@ -1,5 +1,5 @@
 // Stands above the mission: what must work whatever the mission says. Hold and land from the operator, and the answers
-// to a silent laser, an empty battery and a lost estimate.
+// to a silent laser and an empty battery.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,7 @@
 #include "common/event.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
-#include "common/vehicle_config.hpp"
-#include "common/vehicle_state.hpp"
 #include "common/world.hpp"
-#include "perception/fusion/error_state_filter.hpp"
 
 namespace swiftlet::autonomy {
 

@@ -44,7 +44,8 @@ class Mission {
   TickResult tick(Context& context);
 
   /// For whoever stands above the mission and wants the vehicle for good (land, shut down): called instead of tick
-  /// until it returns true. Emits hold until the vehicle has stopped. The mission then stands at its beginning.
+  /// until it returns true, or once, when its wishes are not flown any more. Emits hold until the vehicle has stopped.
+  /// The mission then stands at its beginning.
   bool letGo(Context& context);
 
   common::TreeView view() const;

@@ -137,7 +137,7 @@ void DStarRepair(benchmark::State& state) {
   }
   CostMap blocked = s.map;
   const std::vector<planning::Disc> discs{{ahead, 0.2}};
-  blocked.update(s.grid.snapshot(), {}, {discs, nullptr, nullptr});
+  blocked.update(s.grid.snapshot(), {}, {discs, nullptr});
   for (auto _ : state) {
     auto path = planner.plan(blocked, s.task.start, s.task.goal);
     if (!path) state.SkipWithError(path.error().text.c_str());

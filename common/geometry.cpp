@@ -55,6 +55,14 @@ double yawOf(const Eigen::Quaterniond& q) {
   return std::atan2(2.0 * (q.w() * q.z() + q.x() * q.y()), 1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()));
 }
 
+double cosTilt(const Eigen::Quaterniond& q) { return (q * Eigen::Vector3d::UnitZ()).z(); }
+
+bool isFinite(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
+}
+
+bool isFinite(const Pose3& pose) { return pose.position_m.allFinite() && pose.rotation.coeffs().allFinite(); }
+
 Pose2 planar(const Pose3& pose) { return {pose.position_m.x(), pose.position_m.y(), yawOf(pose.rotation)}; }
 
 Pose3 lifted(const Pose2& pose, double z_m) {
@@ -65,6 +73,16 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
   return rotation * covariance * rotation.transpose();
+}
+
+Pose2 between(const Pose2& T_map_a, const Pose2& T_map_b) { return T_map_a.inverse() * T_map_b; }
+
+Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const Pose2& from, const Pose2& to,
+                           const Eigen::Matrix3d& step_covariance) {
+  Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
+  F(0, 2) = -(to.y_m - from.y_m);
+  F(1, 2) = to.x_m - from.x_m;
+  return F * covariance * F.transpose() + step_covariance;
 }
 
 Eigen::Quaterniond expSO3(const Eigen::Vector3d& rotation_rad) {

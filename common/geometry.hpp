@@ -2,10 +2,14 @@
 // T_a_b takes coordinates in b to a: point_a = T_a_b * point_b; T_a_c = T_a_b * T_b_c.
 #pragma once
 
+#include <numbers>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 namespace swiftlet::common {
+
+inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 /// The angle in (-pi, pi]. NaN and infinity stay as they are (NaN).
 double wrapAngle(double angle_rad);
@@ -42,6 +46,11 @@ struct RollPitchYaw {
 RollPitchYaw rollPitchYaw(const Eigen::Quaterniond& rotation);
 Eigen::Quaterniond quaternionFrom(const RollPitchYaw& angles);
 double yawOf(const Eigen::Quaterniond& rotation);
+/// Of the angle between the body's z axis and the vertical; rounding may take it just beyond 1.
+double cosTilt(const Eigen::Quaterniond& rotation);
+
+bool isFinite(const Pose2& pose);
+bool isFinite(const Pose3& pose);
 
 /// The projection on the plane: x, y and yaw.
 Pose2 planar(const Pose3& pose);
@@ -50,6 +59,13 @@ Pose3 lifted(const Pose2& pose, double z_m);
 
 /// The covariance of an error (x_m, y_m, yaw_rad), given in frame b, in frame a; `yaw_rad` turns b into a.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad);
+
+/// The pose of b in a.
+Pose2 between(const Pose2& T_map_a, const Pose2& T_map_b);
+/// The uncertainty after one more step from pose `from` to pose `to`: what was uncertain before swings about the step's
+/// beginning, and the step adds its own. All of (x_m, y_m, yaw_rad) with the axes of the frame of the two poses.
+Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const Pose2& from, const Pose2& to,
+                           const Eigen::Matrix3d& step_covariance);
 
 /// The rotation vector v becomes a unit quaternion and back; small angles are exact to second order.
 Eigen::Quaterniond expSO3(const Eigen::Vector3d& rotation_rad);

@@ -9,8 +9,6 @@
 
 #include <Eigen/Core>
 
-#include "common/geometry.hpp"
-
 namespace swiftlet::common {
 
 struct TakeOffIntent {
@@ -23,6 +21,9 @@ struct HoldIntent {};
 struct MapBounds {
   Eigen::Vector2d min_map_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d max_map_m = Eigen::Vector2d::Zero();
+  bool contains(const Eigen::Vector2d& p) const {
+    return (p.array() >= min_map_m.array()).all() && (p.array() <= max_map_m.array()).all();
+  }
 };
 struct ExploreIntent {
   double clearance_m = 0.10;        ///< Between hull and obstacle.
@@ -32,8 +33,8 @@ struct GoToIntent {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
   std::optional<double> height_m;  ///< Above the take-off floor; none: stay at the present height.
   std::optional<double> yaw_map_rad;
-  double tolerance_m = 0.05;
-  double clearance_m = 0.10;
+  double tolerance_m = 0.05;  ///< Horizontal; arrived when nearer than this.
+  double clearance_m = 0.10;  ///< Between hull and obstacle.
 };
 /// Give the vehicle to the reactive layer until the danger is over.
 struct AvoidIntent {};

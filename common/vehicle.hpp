@@ -9,7 +9,10 @@
 
 namespace swiftlet::common {
 
-/// What the autonomy asks of the autopilot's inner loop, 100 times a second.
+/// Between two ticks of the autonomy, and two setpoints.
+inline constexpr Duration kControlPeriod = Duration::fromMilliseconds(10);
+
+/// What the autonomy asks of the autopilot's inner loop, once each kControlPeriod.
 struct Setpoint {
   Time stamp;
   bool motors_on = false;

@@ -1,14 +1,10 @@
 #include "common/vehicle_config.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "common/validation.hpp"
 
 namespace swiftlet::common {
-namespace {
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-}
 
 void MountConfig::describe(config::Fields& fields) {
   fields("x_m", x_m, "Forward of the body origin.");

@@ -1,5 +1,6 @@
 // What the autonomy and the simulator both know of a vehicle and its sensors: the data sheet. Loaded from
-// config/vehicles and config/sensors; what only nature knows (noise, drag, lag) is in simulation/.
+// config/vehicles and config/sensors; what only nature knows (drag, lag, bias) is in simulation/; the laser's noise is
+// on its data sheet.
 #pragma once
 
 #include <string>

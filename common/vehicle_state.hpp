@@ -8,6 +8,9 @@
 
 namespace swiftlet::common {
 
+/// How well the height of the body origin is known while the vehicle stands on the take-off floor.
+inline constexpr double kStandingHeightSigma_m = 0.02;
+
 /// The estimate at one time. `T_odom_body` is continuous; `T_map_odom` may jump when the SLAM corrects.
 /// The origin of both frames is the take-off pose; z is the height above the take-off floor.
 struct VehicleState {
@@ -17,9 +20,8 @@ struct VehicleState {
   Eigen::Vector3d angular_velocity_body_rad_s = Eigen::Vector3d::Zero();
   Pose2 T_map_odom;
 
-  Eigen::Matrix3d position_covariance_m2 = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d velocity_covariance_m2_s2 = Eigen::Matrix3d::Zero();
-  double yaw_variance_rad2 = 0.0;
+  Eigen::Matrix3d position_covariance_m2 = Eigen::Matrix3d::Zero();     ///< In odom.
+  Eigen::Matrix3d velocity_covariance_m2_s2 = Eigen::Matrix3d::Zero();  ///< In odom.
 
   double height_above_ground_m = 0.0;  ///< Over what is below right now (table, floor).
   bool horizontal_valid = false;       ///< x, y, yaw and their velocities may be used for control.

@@ -48,7 +48,6 @@ struct AvoidanceStatus {
   bool retreating = false;  ///< It moves the vehicle away from something unmapped or closing.
   std::string reason;
   double nearest_m = 0.0;  ///< From the hull to the nearest return; infinity when there is none.
-  double nearest_bearing_body_rad = 0.0;
 };
 
 /// One node of the mission tree, for the page.
@@ -81,7 +80,6 @@ struct FlightEnding {
 
 /// The end points of the last scan.
 struct LaserPoints {
-  Time stamp;
   std::vector<Eigen::Vector2f> points_map_m;
 };
 
@@ -96,7 +94,7 @@ struct World {
   std::vector<Eigen::Vector2d> plan_map_m;                          ///< What is left of the path being flown.
   std::shared_ptr<const std::vector<Eigen::Vector2d>> trail_map_m;  ///< Never null; where it has been, thinned.
   std::optional<Eigen::Vector2d> goal_map_m;
-  Pose2 home_map;
+  Pose2 home_map;                 ///< The take-off pose; the identity, as that is where `map` begins.
   double explored_area_m2 = 0.0;  ///< Of known free cells, when Explore looked last; 0: it never did.
   IntentStatus intent;
   MissionStatus mission;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include <fmt/core.h>
@@ -26,8 +25,8 @@ constexpr double kTouchdownMargin_m = 0.20;
 constexpr double kDampedVelocitySigma_m_s = 0.6;
 
 bool isFinite(const common::VehicleState& state) {
-  return state.T_odom_body.position_m.allFinite() && state.T_odom_body.rotation.coeffs().allFinite() &&
-         state.velocity_odom_m_s.allFinite() && state.velocity_covariance_m2_s2.allFinite();
+  return common::isFinite(state.T_odom_body) && state.velocity_odom_m_s.allFinite() &&
+         state.velocity_covariance_m2_s2.allFinite();
 }
 
 Eigen::Vector3d inFrame(const common::Pose2& T, const Eigen::Vector3d& point_m) {
@@ -42,7 +41,7 @@ FlightController::FlightController(const Config& config, const common::VehicleCo
       follower_(config.path),
       position_(config.position, vehicle),
       emergency_(config.emergency),
-      dt_s_(1.0 / config.rate_hz) {}
+      dt_s_(common::kControlPeriod.seconds()) {}
 
 tl::expected<void, std::string> FlightController::command(const FlightCommand& command) {
   const auto apply = [this](FlightInput input, const std::string& reason) -> tl::expected<void, std::string> {
@@ -59,10 +58,6 @@ tl::expected<void, std::string> FlightController::command(const FlightCommand& c
     return apply(FlightInput::kLand, "commanded");
   }
   if (std::holds_alternative<DisengageMotors>(command)) return apply(FlightInput::kDisengageMotors, "commanded");
-  if (const auto* emergency = std::get_if<Emergency>(&command)) {
-    if (state() == FlightState::kEmergencyLanding) return {};
-    return apply(FlightInput::kEmergency, emergency->reason);
-  }
   const double height_m = std::get<TakeOff>(command).height_m;
   const double least_m = last_state_.T_odom_body.position_m.z() + config_.hover_tolerance_m;
   if (!std::isfinite(height_m) || height_m < least_m)
@@ -117,7 +112,8 @@ void FlightController::setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit
 
 common::Setpoint FlightController::tick(const FlightTick& tick) {
   // The first ticks after a pause must not integrate over it.
-  dt_s_ = ticked_ ? std::clamp((tick.now - now_).seconds(), 1e-3, 5.0 / config_.rate_hz) : 1.0 / config_.rate_hz;
+  constexpr double kPeriod_s = common::kControlPeriod.seconds();
+  dt_s_ = ticked_ ? std::clamp((tick.now - now_).seconds(), 1e-3, 5.0 * kPeriod_s) : kPeriod_s;
   ticked_ = true;
   now_ = tick.now;
   if (tick.raw_height) emergency_.observe(*tick.raw_height);
@@ -365,7 +361,6 @@ void FlightController::say(Severity severity, std::string text, std::string reas
 }
 
 void FlightController::Config::describe(common::config::Fields& fields) {
-  fields("rate_hz", rate_hz, "Ticks a second.");
   fields("spool_up_s", spool_up_s, "From engaging the motors to lifting.");
   fields("climb_m_s", climb_m_s, "Climb speed when taking off.");
   fields("descent_m_s", descent_m_s, "Descent speed when landing.");
@@ -389,7 +384,6 @@ void FlightController::Config::describe(common::config::Fields& fields) {
 
 std::vector<std::string> FlightController::Config::validate() const {
   return common::Validation()
-      .within("rate_hz", rate_hz, 20, 1000)
       .within("spool_up_s", spool_up_s, 0.05, 10)
       .within("climb_m_s", climb_m_s, 0.05, 3)
       .within("descent_m_s", descent_m_s, 0.05, 3)

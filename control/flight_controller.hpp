@@ -1,5 +1,5 @@
 // The action layer in one object: state machine, path follower, position controller and emergency descent (Tomic 2012,
-// "Action"). Ticked at 100 Hz; returns the setpoint for the autopilot.
+// "Action"). Ticked each kControlPeriod; returns the setpoint for the autopilot.
 #pragma once
 
 #include <optional>
@@ -31,10 +31,7 @@ struct TakeOff {
 };
 struct Land {};
 struct DisengageMotors {};
-struct Emergency {
-  std::string reason;
-};
-using FlightCommand = std::variant<Prepared, TakeOff, Land, DisengageMotors, Emergency>;
+using FlightCommand = std::variant<Prepared, TakeOff, Land, DisengageMotors>;
 
 /// A path in `map`; it follows the map when SLAM corrects T_map_odom.
 struct FlightPath {
@@ -57,7 +54,6 @@ struct FlightTick {
 class FlightController {
  public:
   struct Config {
-    double rate_hz = 100.0;
     double spool_up_s = 0.8;  ///< From engaging the motors to lifting.
     double climb_m_s = 0.5;
     double descent_m_s = 0.4;
@@ -104,7 +100,6 @@ class FlightController {
   double speed_m_s(FlightMode mode) const { return config_.path.limits(mode).speed_m_s; }
   /// The goal of the last path is reached by the reference.
   bool pathFinished() const;
-  double remaining_m() const { return follower_.remaining_m(); }
   const Reference& reference() const { return follower_.reference(); }
   /// What happened since the last call.
   std::vector<common::Event> takeEvents();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "common/check.hpp"
@@ -13,7 +12,6 @@
 namespace swiftlet::control {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 /// Sudden change of the velocity vector that the reference filter may be asked to smooth.
 constexpr double kKink_m_s = 0.12;
 /// How far the reference may lie off a new path before a line is drawn that leads it there.
@@ -218,7 +216,7 @@ double PathFollower::allowedSpeed(double dt_s) const {
   const double planar_m = along.head<2>().norm();
   if (faces_travel_ && planar_m > 0.5 * length_m) {
     const double off_nose = common::wrapAngle(std::atan2(along.y(), along.x()) - reference_.yaw_odom_rad);
-    if (std::abs(off_nose) > config_.turn_first_angle_deg * kRadPerDeg)
+    if (std::abs(off_nose) > config_.turn_first_angle_deg * common::kRadPerDeg)
       speed = std::min(speed, config_.turn_first_speed_m_s);
   }
   return speed;
@@ -253,9 +251,9 @@ void PathFollower::advanceYaw(double dt_s) {
     hold_yaw_odom_rad_ = wanted_rad = *goal_yaw_odom_rad_;
   }
   const double error = common::wrapAngle(wanted_rad - reference_.yaw_odom_rad);
-  const double most_rad_s = config_.yaw_rate_deg_s * kRadPerDeg;
-  const double step = config_.yaw_acceleration_deg_s2 * kRadPerDeg * dt_s;
-  const double stoppable = std::sqrt(2.0 * config_.yaw_acceleration_deg_s2 * kRadPerDeg * std::abs(error));
+  const double most_rad_s = config_.yaw_rate_deg_s * common::kRadPerDeg;
+  const double step = config_.yaw_acceleration_deg_s2 * common::kRadPerDeg * dt_s;
+  const double stoppable = std::sqrt(2.0 * config_.yaw_acceleration_deg_s2 * common::kRadPerDeg * std::abs(error));
   // The last step lands on the goal instead of hunting about it.
   const double rate = std::min({most_rad_s, stoppable, std::abs(error) / dt_s});
   reference_.yaw_rate_rad_s = std::clamp(std::copysign(rate, error), reference_.yaw_rate_rad_s - 1.2 * step,

@@ -77,7 +77,6 @@ class PathFollower {
   double remaining_m() const;
   /// The carrot is at the goal and the reference rests there (1 mm, 1 mm/s).
   bool finished() const;
-  const std::vector<Eigen::Vector3d>& points_odom_m() const { return points_; }
 
  private:
   /// What the reference is pulled after.

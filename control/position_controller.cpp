@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/validation.hpp"
 
@@ -10,11 +9,9 @@ namespace swiftlet::control {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 bool finite(const common::VehicleState& state) {
-  return state.T_odom_body.position_m.allFinite() && state.T_odom_body.rotation.coeffs().allFinite() &&
-         state.velocity_odom_m_s.allFinite();
+  return common::isFinite(state.T_odom_body) && state.velocity_odom_m_s.allFinite();
 }
 
 Eigen::Vector2d limited(const Eigen::Vector2d& v, double most) {
@@ -66,8 +63,8 @@ common::Setpoint PositionController::tick(common::Time now, double dt_s, const c
 
   Eigen::Vector3d given_m_s2 = wanted_m_s2;
   given_m_s2.z() = std::clamp(wanted_m_s2.z(), -config_.max_acceleration_up_m_s2, config_.max_acceleration_up_m_s2);
-  given_m_s2.head<2>() =
-      limited(wanted_m_s2.head<2>(), std::tan(vehicle_.max_tilt_deg * kRadPerDeg) * (kGravity_m_s2 + given_m_s2.z()));
+  given_m_s2.head<2>() = limited(
+      wanted_m_s2.head<2>(), std::tan(vehicle_.max_tilt_deg * common::kRadPerDeg) * (kGravity_m_s2 + given_m_s2.z()));
   if (on_ground) given_m_s2.head<2>().setZero();
 
   const double yaw_rad = common::yawOf(state.T_odom_body.rotation);
@@ -75,7 +72,7 @@ common::Setpoint PositionController::tick(common::Time now, double dt_s, const c
   const double cos_tilt = std::cos(setpoint.roll_rad) * std::cos(setpoint.pitch_rad);
   setpoint.thrust = thrust_.commandFor(given_m_s2.z(), cos_tilt);
   if (horizontal == Horizontal::kPosition) {
-    const double most_rad_s = config_.max_yaw_rate_deg_s * kRadPerDeg;
+    const double most_rad_s = config_.max_yaw_rate_deg_s * common::kRadPerDeg;
     setpoint.yaw_rate_rad_s =
         std::clamp(reference.yaw_rate_rad_s + config_.yaw_p_1_s * common::wrapAngle(reference.yaw_odom_rad - yaw_rad),
                    -most_rad_s, most_rad_s);

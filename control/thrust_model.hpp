@@ -38,7 +38,6 @@ class ThrustModel {
   /// C(U) now.
   double hoverCommand() const;
   double correction() const { return correction_; }
-  const Config& config() const { return config_; }
 
  private:
   Config config_;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "common/config.hpp"
+#include "common/vehicle_config.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "simulation/ray_caster.hpp"
-#include "simulation/scenario.hpp"
 
 namespace swiftlet::evaluation {
 
@@ -69,7 +69,7 @@ struct FlightScore {
   double distance_m = 0.0;                 ///< True.
   double speed_max_m_s = 0.0;              ///< True, horizontal.
   std::optional<double> explored_area_m2;  ///< None: the mission did not explore.
-  double reachable_area_m2 = 0.0;          ///< What `coverage` is a share of.
+  double reachable_area_m2 = 0.0;          ///< That the hull can cover; `coverage` is a share of it.
   int interruptions = 0;
   int resumed = 0;
   double realtime_factor = 0.0;
@@ -78,13 +78,17 @@ struct FlightScore {
   bool passed() const { return failures.empty(); }
 };
 
+/// Where a trial says nothing else.
+inline constexpr double kClearance_m = 0.10;
+inline constexpr double kReachableAreaMax_m2 = 2000.0;
+
 /// What the scorer needs to know of the world as it was for this flight, after the seed's variation.
 struct TrueWorld {
   const simulation::RayCaster* rays = nullptr;
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
-  double clearance_m = 0.10;  ///< The mission's: where hull and clearance do not fit, nobody expects it to go.
-  double reachable_area_max_m2 = 2000.0;  ///< A world where it gets to more than this is taken for open.
+  double clearance_m = kClearance_m;  ///< The mission's: where hull and clearance do not fit, nobody expects it to go.
+  double reachable_area_max_m2 = kReachableAreaMax_m2;  ///< A world where it gets to more than this is taken for open.
 };
 
 /// `wall_time_s` is how long the machine took; 0: not known.

@@ -28,11 +28,11 @@ struct TrialConfig {
   /// The world, or the models it is made of, come in this archive, relative to the folder of data sets; empty: all is
   /// with the software.
   std::string archive;
-  int repeat = 1;               ///< Flights, unless the user says otherwise.
-  double time_limit_s = 600.0;  ///< Simulated; the flight is ended then.
-  double clearance_m = 0.10;    ///< The mission's, for what counts as reachable.
+  int repeat = 1;                     ///< Flights, unless the user says otherwise.
+  double time_limit_s = 600.0;        ///< Simulated; the flight is ended then.
+  double clearance_m = kClearance_m;  ///< The mission's, for what counts as reachable.
   /// A world in which the vehicle can reach more than this is taken for open: it has no coverage.
-  double reachable_area_max_m2 = 2000.0;
+  double reachable_area_max_m2 = kReachableAreaMax_m2;
   Criteria criteria;
   std::vector<PaperFigure> paper;
   simulation::Scenario scenario;

@@ -14,7 +14,6 @@ namespace swiftlet::evaluation {
 /// The flights of one trial, in the order of their seeds.
 struct TrialResult {
   std::string name;
-  std::string description;
   std::string system;
   std::vector<PaperFigure> paper;
   std::vector<FlightScore> flights;

@@ -51,9 +51,8 @@ struct FlightSample {
   double speed_m_s = 0.0;  ///< Horizontal.
   double height_above_ground_m = 0.0;
   double battery_v = 0.0;
-  double explored_area_m2 = 0.0;      ///< 0 until the first Explore.
-  double nearest_m = 0.0;             ///< From the hull to the nearest return; may be infinite.
-  double position_deviation_m = 0.0;  ///< Horizontal standard deviation, as the filter believes.
+  double explored_area_m2 = 0.0;  ///< 0 until the first Explore.
+  double nearest_m = 0.0;         ///< From the hull to the nearest return; may be infinite.
 };
 
 struct FlightSummary {

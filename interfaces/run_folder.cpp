@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "common/check.hpp"
 #include "common/error.hpp"
-#include "common/validation.hpp"
 #include "interfaces/files/folder_lock.hpp"
 #include "interfaces/files/json_lines.hpp"
 #include "interfaces/files/map_server.hpp"
@@ -25,6 +22,10 @@ using common::InputError;
 using common::MissionState;
 using common::Problem;
 using common::Time;
+
+constexpr Duration kMapPeriod = Duration::fromMilliseconds(3000);       ///< Of map, mission.json and report.
+constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(40);  ///< Between two poses of trajectory.tum.
+constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Between two samples for plots.
 
 /// Every file a run may leave; only these are ever removed.
 constexpr std::array<const char*, 8> kFiles = {"mission.json", "events.jsonl", "trajectory.tum", "map.pgm",
@@ -86,7 +87,7 @@ Writer opened(tl::expected<Writer, FileError> writer) {
 /// True for the first call and then once a period; keeps to the lattice of periods, so that late calls do not add up.
 class Every {
  public:
-  explicit Every(double period_s) : period_(Duration::fromSeconds(period_s)) {}
+  explicit Every(Duration period) : period_(period) {}
   bool due(Time now) {
     if (next_ && now < *next_) return false;
     next_ = next_ && now - *next_ < period_ ? *next_ + period_ : now + period_;
@@ -108,7 +109,6 @@ FlightSample sampleOf(const common::World& world) {
   sample.battery_v = world.status.battery_voltage_v;
   sample.explored_area_m2 = world.explored_area_m2;
   sample.nearest_m = world.avoidance.nearest_m;
-  sample.position_deviation_m = std::sqrt(std::max(0.0, state.position_covariance_m2.topLeftCorner<2, 2>().trace()));
   return sample;
 }
 
@@ -131,30 +131,16 @@ fs::path freshRunFolder(const fs::path& parent, const std::string& started, cons
   return path;
 }
 
-void RunFolder::Config::describe(common::config::Fields& fields) {
-  fields("map_period_s", map_period_s, "Between two writings of map, mission.json and report.");
-  fields("trajectory_period_s", trajectory_period_s, "Between two poses of trajectory.tum.");
-  fields("sample_period_s", sample_period_s, "Between two samples for the report's plots.");
-}
-
-std::vector<std::string> RunFolder::Config::validate() const {
-  return common::Validation()
-      .within("map_period_s", map_period_s, 0.5, 60)
-      .within("trajectory_period_s", trajectory_period_s, 0.001, 0.05)
-      .within("sample_period_s", sample_period_s, 0.01, 10)
-      .problems();
-}
-
 struct RunFolder::Impl {
-  Impl(const Config& config, fs::path folder, RunInfo info, std::string yaml)
+  Impl(fs::path folder, RunInfo info, std::string yaml)
       : path(std::move(folder)),
         lock(claimed(path)),
         config_yaml(std::move(yaml)),
         events_file(opened(EventWriter::create(cleared(path) / "events.jsonl"))),
         trajectory_file(opened(TumWriter::create(path / "trajectory.tum"))),
-        trajectory_due(config.trajectory_period_s),
-        sample_due(config.sample_period_s),
-        map_due(config.map_period_s) {
+        trajectory_due(kTrajectoryPeriod),
+        sample_due(kSamplePeriod),
+        map_due(kMapPeriod) {
     summary.info = std::move(info);
   }
 
@@ -207,8 +193,8 @@ void RunFolder::Impl::track(const common::World& world) {
     summary.phases.push_back({world.mission.phase, world.stamp, world.stamp});
 }
 
-RunFolder::RunFolder(const Config& config, fs::path path, RunInfo info, std::string config_yaml)
-    : impl_(std::make_unique<Impl>(config, std::move(path), std::move(info), std::move(config_yaml))) {
+RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)
+    : impl_(std::make_unique<Impl>(std::move(path), std::move(info), std::move(config_yaml))) {
   impl_->write("config.yaml", impl_->config_yaml);
   impl_->writeSummary();
   if (impl_->failure) throw InputError(Problem{{}, "", *impl_->failure, ""});

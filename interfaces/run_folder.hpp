@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
 #include "common/event.hpp"
 #include "common/vehicle_state.hpp"
 #include "common/world.hpp"
@@ -41,18 +40,9 @@ struct FlightEnd {
 /// writing stops, and the caller decides; no file is left half written.
 class RunFolder {
  public:
-  struct Config {
-    double map_period_s = 3.0;          ///< Between two writings of map, mission.json and report.
-    double trajectory_period_s = 0.04;  ///< Between two poses of trajectory.tum; at most 0.05 (20 Hz).
-    double sample_period_s = 0.2;       ///< Between two samples for plots.
-
-    void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
-  };
-
   /// Makes the folder. One that is there must be empty or an older run, whose files are removed first; anything else
   /// is refused, also a folder that another flight writes. Throws common::InputError that says why.
-  RunFolder(const Config& config, std::filesystem::path path, RunInfo info, std::string config_yaml);
+  RunFolder(std::filesystem::path path, RunInfo info, std::string config_yaml);
   ~RunFolder();
   RunFolder(RunFolder&&) noexcept;
   RunFolder& operator=(RunFolder&&) noexcept;

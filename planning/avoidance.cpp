@@ -83,12 +83,7 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
 
   common::AvoidanceStatus& status = decision.status;
   status.nearest_m = kInfinity;
-  for (const Point& p : points) {
-    const double gap_m = p.norm() - hull_radius_m_;
-    if (gap_m >= status.nearest_m) continue;
-    status.nearest_m = gap_m;
-    status.nearest_bearing_body_rad = std::atan2(p.y(), p.x());
-  }
+  for (const Point& p : points) status.nearest_m = std::min(status.nearest_m, p.norm() - hull_radius_m_);
   const double wanted_m_s = std::max(input.wish_level_m_s.norm(), speed_m_s);
   status.braking = wanted_m_s > kStill_m_s && decision.speed_limit_m_s < wanted_m_s;
   status.retreating = retreating_;

@@ -88,7 +88,7 @@ class Avoidance {
     /// Problems of these distances with a clearance the planner may use and with what it keeps from unmapped things
     /// beyond that (DynamicObstacles::Config::keep_out_m): what would stop the vehicle, or make it retreat, on a path
     /// that the planner may take is refused. Empty when they fit.
-    std::vector<std::string> validateAgainst(double clearance_m, double keep_out_m = 0.25) const;
+    std::vector<std::string> validateAgainst(double clearance_m, double keep_out_m) const;
   };
 
   Avoidance(const Config& config, double hull_radius_m);

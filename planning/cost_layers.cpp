@@ -1,6 +1,7 @@
-// What lies over the grid in a cost map: discs, heights, localizability.
+// What lies over the grid in a cost map: flown ways, discs, heights.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planning/cost_map.hpp"
 
@@ -15,7 +16,6 @@ void CostMap::applyLayers(const CostLayers& layers) {
   cost_ = static_cost_;
   for (std::size_t i = 1; i < layers.flown_map_m.size(); ++i)
     applyFlown(layers.flown_map_m[i - 1], layers.flown_map_m[i]);
-  applyLocalizability(layers.localizability);
   for (const Disc& disc : layers.discs) applyDisc(disc);
   applyHeights(layers.levels);
 
@@ -27,8 +27,7 @@ void CostMap::applyLayers(const CostLayers& layers) {
     cost_[static_cast<std::size_t>(y) * width] = kLethal;
     cost_[static_cast<std::size_t>(y) * width + width - 1] = kLethal;
   }
-  const double greatest_cell =
-      kOpenCost * (1.0 + config_.comfort_weight + (layers.localizability ? config_.localizability_weight : 0.0)) + 1.0;
+  const double greatest_cell = kOpenCost * (1.0 + config_.comfort_weight) + 1.0;
   max_edge_cost_ = static_cast<std::int32_t>(2 * kDiagonalEdge * greatest_cell) +
                    (height_cm_.empty() ? 0 : height_edge_ * static_cast<int>(kMaxStep_m * 100.0));
 }
@@ -68,18 +67,6 @@ void CostMap::applyDisc(const Disc& disc) {
   }
 }
 
-void CostMap::applyLocalizability(const LocalizabilityGrid* layer) {
-  if (layer == nullptr || config_.localizability_weight <= 0.0) return;
-  for (int y = rect_.begin.y; y < rect_.end.y; ++y) {
-    for (int x = rect_.begin.x; x < rect_.end.x; ++x) {
-      Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
-      if (cost == kLethal) continue;
-      const double blindness = 1.0 - layer->at(layer->cellAt(centerOf({x, y}))) / 255.0;
-      cost = static_cast<Cost>(cost + std::lround(kOpenCost * config_.localizability_weight * blindness));
-    }
-  }
-}
-
 void CostMap::applyHeights(const common::LevelMap* levels) {
   height_cm_.clear();
   const bool flat = levels == nullptr || config_.height_step_weight <= 0.0 ||
@@ -88,7 +75,8 @@ void CostMap::applyHeights(const common::LevelMap* levels) {
   if (flat) return;
   height_edge_ =
       static_cast<std::int32_t>(std::lround(config_.height_step_weight * 0.01 / resolution_m() * kStraightMin));
-  height_cm_.assign(size(), 0);
+  constexpr std::int16_t kNoLevel = std::numeric_limits<std::int16_t>::min();
+  height_cm_.assign(size(), kNoLevel);
   const double half_m = 0.5 * levels->resolution_m;
   for (const common::Level& level : levels->levels) {
     const auto height_cm =
@@ -106,6 +94,7 @@ void CostMap::applyHeights(const common::LevelMap* levels) {
       }
     }
   }
+  std::replace(height_cm_.begin(), height_cm_.end(), kNoLevel, std::int16_t{0});  // The take-off floor.
 }
 
 }  // namespace swiftlet::planning

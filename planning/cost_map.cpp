@@ -61,7 +61,6 @@ void CostMap::Config::describe(common::config::Fields& fields) {
   fields("pass_unknown", pass_unknown, "Plan through space that was never seen.");
   fields("unknown_gap_m", unknown_gap_m, "Unknown slivers up to this width between free cells count as free.");
   fields("height_step_weight", height_step_weight, "Metres of detour that one metre of step of the surface is worth.");
-  fields("localizability_weight", localizability_weight, "How much dearer a metre is where the laser fixes nothing.");
 }
 
 std::vector<std::string> CostMap::Config::validate() const {
@@ -70,7 +69,6 @@ std::vector<std::string> CostMap::Config::validate() const {
       .within("comfort_weight", comfort_weight, 0, 50)
       .within("unknown_gap_m", unknown_gap_m, 0, 0.5)
       .within("height_step_weight", height_step_weight, 0, 50)
-      .within("localizability_weight", localizability_weight, 0, 50)
       .problems();
 }
 

@@ -31,14 +31,10 @@ struct Disc {
   double radius_m = 0.0;
 };
 
-/// How good the laser fixes the pose at a place, 0 (not at all) to 255; see localizability.hpp.
-using LocalizabilityGrid = common::TiledGrid<std::uint8_t>;
-
 /// What lies over the grid. Pointers may be null and are read during the call only.
 struct CostLayers {
   std::span<const Disc> discs;
   const common::LevelMap* levels = nullptr;
-  const LocalizabilityGrid* localizability = nullptr;
   /// Where the vehicle has flown, in order, in the `map` frame: half the clearance will do there. A door that was flown
   /// through does not close behind the vehicle because the map of its frame grew by a cell.
   std::span<const Eigen::Vector2d> flown_map_m = {};
@@ -58,7 +54,6 @@ class CostMap {
     bool pass_unknown = false;
     double unknown_gap_m = 0.10;
     double height_step_weight = 2.0;
-    double localizability_weight = 0.0;
 
     void describe(common::config::Fields& fields);
     std::vector<std::string> validate() const;
@@ -81,7 +76,6 @@ class CostMap {
   /// a copy of it (shared tiles) is held. Radius plus comfort distance beyond kMaxReachCells cells is cut there.
   void update(const common::OccupancyGrid& grid, const Footprint& footprint, const CostLayers& layers = {});
 
-  const Config& config() const { return config_; }
   const Footprint& footprint() const { return footprint_; }
   double resolution_m() const { return grid_.resolution_m(); }
 
@@ -143,7 +137,6 @@ class CostMap {
   void applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m);
   void applyDisc(const Disc& disc);
   void applyHeights(const common::LevelMap* levels);
-  void applyLocalizability(const LocalizabilityGrid* layer);
   Cost costOfMargin(double margin_m) const;
 
   Config config_;

@@ -86,7 +86,6 @@ class DynamicObstacles {
   /// near; what lies in unknown space is new, not dynamic.
   void update(common::Time stamp, std::span<const Eigen::Vector2f> points_map_m, const Eigen::Vector2d& sensor_map_m,
               const common::OccupancyGrid& background);
-  void clear() { obstacles_.clear(); }
 
   /// Those still believed in, by id.
   const std::vector<DynamicObstacle>& obstacles() const { return obstacles_; }

@@ -217,7 +217,6 @@ class Explorer {
                             std::move(path),
                             target_m,
                             best->view.gain_m2,
-                            best->view.localizability,
                             best->utility};
   }
 

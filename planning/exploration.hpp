@@ -12,6 +12,7 @@
 
 #include "common/config.hpp"
 #include "common/geometry.hpp"
+#include "common/intent.hpp"
 #include "common/world.hpp"
 #include "planning/cost_map.hpp"
 #include "planning/planner.hpp"
@@ -24,7 +25,6 @@ struct Viewpoint {
   Path path;                                               ///< From the present pose.
   Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();  ///< The unknown place it is for.
   double gain_m2 = 0.0;                                    ///< Unknown area expected to be seen.
-  double localizability = 0.0;                             ///< 0 to 1, see localizability.hpp.
   double utility = 0.0;
 };
 
@@ -32,15 +32,6 @@ struct Viewpoint {
 struct ExplorationAttempt {
   Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
-};
-
-/// A rectangle in the `map` frame that the vehicle's exploration stays in.
-struct ExplorationBounds {
-  Eigen::Vector2d min_map_m = Eigen::Vector2d::Zero();
-  Eigen::Vector2d max_map_m = Eigen::Vector2d::Zero();
-  bool contains(const Eigen::Vector2d& p) const {
-    return (p.array() >= min_map_m.array()).all() && (p.array() <= max_map_m.array()).all();
-  }
 };
 
 /// How the next viewpoint is chosen among the best of each frontier.
@@ -51,7 +42,7 @@ struct ExplorationInput {
   common::Pose2 pose_map;
   std::optional<Viewpoint> current;  ///< The one being flown to; kept unless another is clearly better.
   std::vector<ExplorationAttempt> attempts;
-  std::optional<ExplorationBounds> bounds;
+  std::optional<common::MapBounds> bounds;  ///< What lies outside is left.
 };
 
 struct ExplorationResult {

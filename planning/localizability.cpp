@@ -70,18 +70,4 @@ double localizabilityAt(const CostMap& map, common::CellIndex place, double rang
   return localizability(returns, beams);
 }
 
-LocalizabilityGrid localizabilityGrid(const CostMap& map, double spacing_m, double range_m) {
-  LocalizabilityGrid grid(spacing_m, 255);
-  const common::CellRect& rect = map.rect();
-  const common::CellIndex low = grid.cellAt(map.centerOf(rect.begin)), high = grid.cellAt(map.centerOf(rect.end));
-  for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x) {
-      const common::CellIndex place = map.cellAt(grid.centerOf({x, y}));
-      if (map.stateAt(place) != CellState::kFree) continue;
-      grid.set({x, y}, static_cast<std::uint8_t>(std::lround(255.0 * localizabilityAt(map, place, range_m))));
-    }
-  }
-  return grid;
-}
-
 }  // namespace swiftlet::planning

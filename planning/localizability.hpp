@@ -26,7 +26,4 @@ double localizability(const std::vector<WallReturn>& returns, int beams);
 /// The same for a place, by casting `beams` rays up to `range_m`.
 double localizabilityAt(const CostMap& map, common::CellIndex place, double range_m, int beams = 90);
 
-/// A coarse layer for the cost map: one value for each square of `spacing_m` with a free cell at its centre.
-LocalizabilityGrid localizabilityGrid(const CostMap& map, double spacing_m, double range_m);
-
 }  // namespace swiftlet::planning

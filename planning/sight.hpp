@@ -18,14 +18,13 @@ class Directions {
     for (int i = 0; i < count; ++i) {
       const double angle_rad = 2.0 * std::numbers::pi * i / count;
       const double x = std::cos(angle_rad), y = std::sin(angle_rad), greater = std::max(std::abs(x), std::abs(y));
-      rays_.push_back({angle_rad, static_cast<std::int32_t>(std::lround(kOne * x / greater)),
+      rays_.push_back({static_cast<std::int32_t>(std::lround(kOne * x / greater)),
                        static_cast<std::int32_t>(std::lround(kOne * y / greater)), 1.0 / greater});
     }
   }
 
   static constexpr std::int32_t kOne = 1 << 16;
   struct Ray {
-    double angle_rad;
     std::int32_t dx, dy;  ///< In 1 / kOne of a cell.
     double step_cells;    ///< The length of one step.
   };

@@ -111,9 +111,7 @@ void Flight::updateTruth() {
   truth_.stamp = stepped_;
   truth_.T_world_body = state.T_world_body;
   truth_.velocity_world_m_s = state.velocity_world_m_s;
-  truth_.angular_velocity_body_rad_s = state.angular_velocity_body_rad_s;
   truth_.airborne = !state.standing;
-  truth_.battery_remaining = quadrotor_.battery().remaining();
 }
 
 }  // namespace swiftlet::simulation

@@ -20,13 +20,12 @@ constexpr double kTipOver_m = 0.05;     // One foot so much lower than another.
 constexpr double kStill_m_s = 0.1;
 constexpr double kDeepest_m = 1000.0;
 
-void crash(Truth& truth, common::Time now, const std::string& name, const std::string& reason, const Vector3d& point) {
+void crash(Truth& truth, common::Time now, const std::string& name, const std::string& reason) {
   if (truth.crashed) return;
   truth.crashed = true;
   truth.touched = name;
   truth.crash_reason = reason;
   truth.contact_time = now;
-  truth.contact_world_m = point;
 }
 
 std::string touchedAt(const std::string& name, const Vector3d& point) {
@@ -66,21 +65,21 @@ void Referee::lookDown(const QuadrotorState& state) {
 void Referee::judgeTouchDown(common::Time now, const QuadrotorState& before, const QuadrotorState& after,
                              Truth& truth) const {
   const Vector3d& position = after.T_world_body.position_m;
-  if (position.z() < lowest_world_m_ - 2.0) crash(truth, now, "", "fell out of the world", position);
+  if (position.z() < lowest_world_m_ - 2.0) crash(truth, now, "", "fell out of the world");
   if (!after.standing || floor_shape_ == Hit::kNothing) return;
   const std::string& name = nameOf(world_.shapes[static_cast<std::size_t>(floor_shape_)]);
   const Vector3d point(position.x(), position.y(), floor_world_m_);
-  if (feet_apart_m_ > kTipOver_m) crash(truth, now, name, "tipped over: " + touchedAt(name, point), point);
+  if (feet_apart_m_ > kTipOver_m) crash(truth, now, name, "tipped over: " + touchedAt(name, point));
   if (before.standing) return;
   const double sink_m_s = -before.velocity_world_m_s.z();
   const double skid_m_s = before.velocity_world_m_s.head<2>().norm();
-  const double tilt_rad = std::acos(std::clamp((before.T_world_body.rotation * Vector3d::UnitZ()).z(), -1.0, 1.0));
+  const double tilt_rad = std::acos(std::clamp(common::cosTilt(before.T_world_body.rotation), -1.0, 1.0));
   const char* how = sink_m_s > kLandingSpeed_m_s  ? "too fast"
                     : skid_m_s > kSkidSpeed_m_s   ? "skidding"
                     : tilt_rad > kLandingTilt_rad ? "tilted"
                                                   : nullptr;
   if (how != nullptr)
-    crash(truth, now, name, fmt::format("{} {}, sinking {:.2f} m/s", touchedAt(name, point), how, sink_m_s), point);
+    crash(truth, now, name, fmt::format("{} {}, sinking {:.2f} m/s", touchedAt(name, point), how, sink_m_s));
 }
 
 void Referee::judgeContacts(common::Time now, const QuadrotorState& state, std::span<const Walker> walkers,
@@ -96,11 +95,10 @@ void Referee::judgeContacts(common::Time now, const QuadrotorState& state, std::
 void Referee::judgeWorld(common::Time now, const QuadrotorState& state, Truth& truth) const {
   const Clearance clearance =
       rays_.sweep(hull_, last_position_world_m_, state.T_world_body.position_m, Truth::kClearanceLimit_m);
-  truth.clearance_m = clearance.distance_m;
   if (!state.standing) truth.min_clearance_m = std::min(truth.min_clearance_m, clearance.distance_m);
   if (clearance.shape == Hit::kNothing || clearance.distance_m > 0.0) return;
   const std::string name = nameOf(world_.shapes[static_cast<std::size_t>(clearance.shape)]);
-  crash(truth, now, name, touchedAt(name, clearance.point_world_m), clearance.point_world_m);
+  crash(truth, now, name, touchedAt(name, clearance.point_world_m));
 }
 
 void Referee::judgeWalker(common::Time now, const QuadrotorState& state, const Actor& walker, const std::string& name,
@@ -116,7 +114,7 @@ void Referee::judgeWalker(common::Time now, const QuadrotorState& state, const A
   truth.yielding = velocity.norm() < kStill_m_s || velocity.dot(to_walker) < 0.0;
   const Vector2d touch = position.head<2>() + hull_.radius_m * to_walker.normalized();
   const Vector3d point(touch.x(), touch.y(), position.z());
-  crash(truth, now, name, touchedAt(name, point), point);
+  crash(truth, now, name, touchedAt(name, point));
 }
 
 }  // namespace swiftlet::simulation

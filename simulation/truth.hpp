@@ -14,22 +14,18 @@ struct Truth {
   common::Time stamp;
   common::Pose3 T_world_body;
   Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();
-  Eigen::Vector3d angular_velocity_body_rad_s = Eigen::Vector3d::Zero();
   bool airborne = false;
-  double battery_remaining = 1.0;
 
-  /// Smallest horizontal distance from the hull to the static world, and to a walker, while airborne. They are capped
-  /// at kClearanceLimit_m.
+  /// Smallest horizontal distance so far from the hull to the static world, and to a walker, while airborne. They are
+  /// capped at kClearanceLimit_m.
   static constexpr double kClearanceLimit_m = 1.0;
-  double clearance_m = kClearanceLimit_m;      ///< Now.
-  double min_clearance_m = kClearanceLimit_m;  ///< So far.
+  double min_clearance_m = kClearanceLimit_m;
   double min_walker_clearance_m = kClearanceLimit_m;
 
   bool crashed = false;
   std::string crash_reason;  ///< "touched `north_wall` at (1.20, 3.40, 1.05)"
   std::string touched;       ///< Name of the model or walker.
   common::Time contact_time;
-  Eigen::Vector3d contact_world_m = Eigen::Vector3d::Zero();
   bool by_walker = false;  ///< A walker was touched.
   /// The vehicle stood still (below 0.1 m/s) or moved away when the walker ran into it.
   bool yielding = false;

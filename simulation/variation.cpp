@@ -15,9 +15,9 @@ namespace swiftlet::simulation {
 namespace {
 
 using common::InputError;
+using common::kRadPerDeg;
 using common::Problem;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kSearchFloorFrom_m = 0.5;  // Above the start.
 constexpr double kSearchFloorDown_m = 20.0;
 constexpr double kUnevenFloor_m = 0.03;

@@ -104,7 +104,6 @@ class Loader {
       addWorld(*world);
     } else {
       const sdf::Model& model = *file.root.Model();
-      world_.name = model.Name();
       addModel(model, common::Pose3{}, model.Name(), "");
       readStart(model, toPose(model.RawPose()));
     }
@@ -119,7 +118,6 @@ class Loader {
 
  private:
   void addWorld(const sdf::World& world) {
-    world_.name = world.Name();
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
       addModel(model, common::Pose3{}, model.Name(), "");

@@ -34,7 +34,6 @@ std::string nameOf(const Shape& shape);
 
 struct WorldModel {
   std::string file;
-  std::string name;
   std::vector<Shape> shapes;
   /// The pose of `<frame name="start">`, if the world has one.
   std::optional<common::Pose3> T_world_start;

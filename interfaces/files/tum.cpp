@@ -82,10 +82,7 @@ tl::expected<TumWriter, FileError> TumWriter::create(const std::filesystem::path
 }
 
 Written TumWriter::write(const common::StampedPose& pose) {
-  if (!pose.pose.position_m.allFinite() || !pose.pose.rotation.coeffs().allFinite()) {
-    ++skipped_;
-    return {};
-  }
+  if (!isFinite(pose.pose)) return {};
   return file_.append(toTumLine(pose));
 }
 

@@ -14,17 +14,15 @@ namespace swiftlet::interfaces {
 /// One line with its newline; nine decimals. The stamp is written from its nanoseconds, so that it reads back exactly.
 std::string toTumLine(const common::StampedPose& pose);
 
-/// Writes as it goes. A pose that is not finite is left out and counted.
+/// Writes as it goes. A pose that is not finite is left out.
 class TumWriter {
  public:
   [[nodiscard]] static tl::expected<TumWriter, FileError> create(const std::filesystem::path& file);
   [[nodiscard]] Written write(const common::StampedPose& pose);
-  int skipped() const { return skipped_; }
 
  private:
   explicit TumWriter(AppendFile file) : file_(std::move(file)) {}
   AppendFile file_;
-  int skipped_ = 0;
 };
 
 /// Throws InputError with file, line and column for anything that is not a pose, a rotation of length zero, or a stamp

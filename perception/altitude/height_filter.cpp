@@ -5,14 +5,15 @@
 
 namespace swiftlet::perception::altitude {
 namespace {
-constexpr double kBias_m_s2 = 0.08;      ///< Before anything is learned; what a wrong horizon leaves of gravity.
-constexpr double kBiasWalk_m_s2 = 0.01;  ///< Per square root of a second.
-constexpr double kRecall_s = 0.15;       ///< A belief that is recalled is once to twice this old.
-constexpr std::size_t kRing = 512;       ///< 2.5 s at 200 Hz: later scans find a shorter stretch.
+constexpr double kBias_m_s2 = 0.08;       ///< Before anything is learned; what a wrong horizon leaves of gravity.
+constexpr double kBiasWalk_m_s2 = 0.01;   ///< Per square root of a second.
+constexpr double kRecall_s = 0.15;        ///< A belief that is recalled is once to twice this old.
+constexpr std::size_t kRing = 512;        ///< 2.5 s at 200 Hz: later scans find a shorter stretch.
+constexpr double kMaxPrediction_s = 0.5;  ///< Longer gaps between scans are predicted as if this long, with the noise.
 }  // namespace
 
-HeightFilter::HeightFilter(double acceleration_noise_m_s2, double max_prediction_s)
-    : acceleration_noise_m_s2_(acceleration_noise_m_s2), max_prediction_s_(max_prediction_s), ring_(kRing) {}
+HeightFilter::HeightFilter(double acceleration_noise_m_s2)
+    : acceleration_noise_m_s2_(acceleration_noise_m_s2), ring_(kRing) {}
 
 void HeightFilter::start(common::Time time, double height_m, double height_variance_m2) {
   stamp_ = time;
@@ -36,7 +37,7 @@ void HeightFilter::addAcceleration(common::Time time, double acceleration_up_m_s
 
 void HeightFilter::predictTo(common::Time time) {
   const double whole_s = (time - stamp_).seconds();
-  const double considered_s = std::min(whole_s, max_prediction_s_);
+  const double considered_s = std::min(whole_s, kMaxPrediction_s);
   common::Time at = time - common::Duration::fromSeconds(considered_s);
   double last_m_s2 = 0.0;
   while (count_ > 0) {

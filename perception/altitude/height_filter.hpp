@@ -13,7 +13,7 @@ namespace swiftlet::perception::altitude {
 
 class HeightFilter {
  public:
-  HeightFilter(double acceleration_noise_m_s2, double max_prediction_s);
+  explicit HeightFilter(double acceleration_noise_m_s2);
 
   void start(common::Time time, double height_m, double height_variance_m2);
   void addAcceleration(common::Time time, double acceleration_up_m_s2);
@@ -54,7 +54,7 @@ class HeightFilter {
   void predict(double dt_s, double acceleration_up_m_s2);
   void correct(int component, double value, double variance);
 
-  double acceleration_noise_m_s2_, max_prediction_s_;
+  double acceleration_noise_m_s2_;
   common::Time stamp_;
   Belief now_, before_, long_before_;
   double reference_variance_m2_ = 0.0;

@@ -27,7 +27,6 @@ void MultilevelFilter::Config::describe(common::config::Fields& fields) {
   fields("one_floor", one_floor, "The take-off floor may be met again anywhere, not only near where it was seen.");
   fields("least_step_down_m", least_step_down_m, "Nothing is less than this below the take-off floor.");
   fields("settle_s", settle_s, "A measurement that was not doubted for this long is given out.");
-  fields("max_prediction_s", max_prediction_s, "Longer gaps between scans are predicted as if this long.");
 }
 
 std::vector<std::string> MultilevelFilter::Config::validate() const {
@@ -51,7 +50,6 @@ std::vector<std::string> MultilevelFilter::Config::validate() const {
       .within("floor_weight", floor_weight, 0, 1000)
       .within("least_step_down_m", least_step_down_m, 0, 10)
       .within("settle_s", settle_s, 0, 1)
-      .within("max_prediction_s", max_prediction_s, 0.01, 10)
       .problems();
 }
 

@@ -57,8 +57,7 @@ struct Claim {
 }  // namespace
 
 struct MultilevelFilter::Impl {
-  explicit Impl(const Config& c)
-      : config(c), height(c.acceleration_noise_m_s2, c.max_prediction_s), store(c.resolution_m) {}
+  explicit Impl(const Config& c) : config(c), height(c.acceleration_noise_m_s2), store(c.resolution_m) {}
 
   // Algorithm 1, in its order.
   void readBeams(const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points);
@@ -70,7 +69,7 @@ struct MultilevelFilter::Impl {
   std::optional<VirtualHeight> settled();
   void doubtSlopes();
   std::optional<VirtualHeight> updateHeight();
-  void clusterRest(AltitudeUpdate& outcome);
+  void clusterRest();
   void addNewLevels(AltitudeUpdate& outcome);
   void updateLeftLevels();
   void extendLevels();
@@ -297,7 +296,7 @@ void MultilevelFilter::Impl::learn(LevelEstimate& level, double height_m, double
 }
 
 /// Line 13: the beams that no level explains, in sets of neighbouring distance.
-void MultilevelFilter::Impl::clusterRest(AltitudeUpdate& outcome) {
+void MultilevelFilter::Impl::clusterRest() {
   for (NewSurface& surface : new_surfaces) surface.seen = false;
   std::size_t begin = 0;
   while (begin < beams.size()) {
@@ -327,8 +326,6 @@ void MultilevelFilter::Impl::clusterRest(AltitudeUpdate& outcome) {
       match->seen = true;
       for (std::size_t i = begin; i <= last; ++i)
         if (beams[i].level == kNone) match->cells.push_back(beams[i].cell);
-    } else {
-      outcome.beams_rejected += count;
     }
     begin = last + 1;
   }
@@ -535,7 +532,7 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
 
   // 2nd stage: update map.
   for (const Group& g : f.groups) f.present.push_back(g.level);
-  f.clusterRest(outcome);
+  f.clusterRest();
   f.addNewLevels(outcome);
   f.updateLeftLevels();
   f.extendLevels();

@@ -35,6 +35,7 @@
 #include "common/config.hpp"
 #include "common/level_map.hpp"
 #include "common/time.hpp"
+#include "common/vehicle_state.hpp"
 
 namespace swiftlet::perception {
 
@@ -73,7 +74,6 @@ struct AltitudeUpdate {
   std::optional<double> height_above_ground_m;  ///< Over the highest surface below that two beams agree on.
   int levels_added = 0;
   int levels_joined = 0;
-  int beams_rejected = 0;  ///< Valid beams that belong to no level and to no cluster: outliers, edges.
 };
 
 class MultilevelFilter {
@@ -99,7 +99,6 @@ class MultilevelFilter {
     bool one_floor = true;          ///< The take-off floor is looked for everywhere, not only in the neighbourhood.
     double least_step_down_m = 0.25;  ///< Nothing is less than this below the take-off floor.
     double settle_s = 0.15;           ///< A measurement that was not doubted for this long is given out.
-    double max_prediction_s = 0.5;    ///< Longer gaps between scans are predicted as if this long, with the noise.
 
     void describe(common::config::Fields& fields);
     std::vector<std::string> validate() const;
@@ -113,7 +112,7 @@ class MultilevelFilter {
   /// Starts anew, standing on the take-off floor: level 0 at the cells about `position_map_m`.
   /// `height_m` is that of the body origin while standing (measured by the mirror, or known from the airframe).
   void initialize(common::Time time, const Eigen::Vector2d& position_map_m, double height_m,
-                  double height_sigma_m = 0.02);
+                  double height_sigma_m = common::kStandingHeightSigma_m);
   bool initialized() const;
 
   /// The vertical acceleration over ENU (gravity and bias removed), at the IMU's rate. Kept until the scan that needs

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/core.h>
 #include <Eigen/Eigenvalues>
@@ -20,11 +19,11 @@ namespace swiftlet::perception {
 
 using namespace fusion;
 using common::Duration;
+using common::kRadPerDeg;
 using common::Time;
 
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kMaxExtrapolation_s = 0.02;
 constexpr double kMaxAhead_s = 0.5;
 /// IMU samples a second that the history has room for; a faster IMU shortens it.
@@ -61,22 +60,6 @@ const char* toString(FusionStatus status) {
       return "degraded";
     case FusionStatus::kDiverged:
       return "diverged";
-  }
-  return "";
-}
-
-const char* toString(Insertion insertion) {
-  switch (insertion) {
-    case Insertion::kTaken:
-      return "taken";
-    case Insertion::kInvalid:
-      return "invalid";
-    case Insertion::kTooOld:
-      return "too old";
-    case Insertion::kTooNew:
-      return "too new";
-    case Insertion::kUnknownReference:
-      return "unknown reference";
   }
   return "";
 }
@@ -320,7 +303,6 @@ void ErrorStateFilter::predict(const common::ImuSample& sample) {
     ++f.counters.imu_dropped;
     return;
   }
-  ++f.counters.imu_samples;
   f.newest_seen = now;
   f.any_seen = true;
   f.rest.add(sample);
@@ -379,8 +361,7 @@ Insertion ErrorStateFilter::addClone(Time time) {
 
 Insertion ErrorStateFilter::addRelativePose(Time from, Time to, const common::Pose2& T_from_to,
                                             const Eigen::Matrix3d& covariance) {
-  const bool finite = std::isfinite(T_from_to.x_m) && std::isfinite(T_from_to.y_m) && std::isfinite(T_from_to.yaw_rad);
-  if (!finite || to <= from || !isCovariance(covariance)) {
+  if (!isFinite(T_from_to) || to <= from || !isCovariance(covariance)) {
     ++impl_->counters.refused;
     return Insertion::kInvalid;
   }
@@ -424,9 +405,7 @@ Insertion ErrorStateFilter::addVerticalSpeed(Time time, double speed_m_s, double
 
 Insertion ErrorStateFilter::addAbsolutePose2(Time time, const common::Pose2& T_odom_body,
                                              const Eigen::Matrix3d& covariance) {
-  const bool finite =
-      std::isfinite(T_odom_body.x_m) && std::isfinite(T_odom_body.y_m) && std::isfinite(T_odom_body.yaw_rad);
-  if (!finite || !isCovariance(covariance)) {
+  if (!isFinite(T_odom_body) || !isCovariance(covariance)) {
     ++impl_->counters.refused;
     return Insertion::kInvalid;
   }
@@ -462,7 +441,6 @@ common::VehicleState ErrorStateFilter::state() const {
   out.position_covariance_m2 = s.covariance.block<3, 3>(kPosition, kPosition);
   out.position_covariance_m2(2, 2) += s.height_common_variance_m2;
   out.velocity_covariance_m2_s2 = s.covariance.block<3, 3>(kVelocity, kVelocity);
-  out.yaw_variance_rad2 = s.covariance(kAttitude + 2, kAttitude + 2);
   out.height_above_ground_m = s.position_odom_m.z();
 
   const auto velocity_sigma = out.velocity_covariance_m2_s2.diagonal().cwiseMax(0.0).cwiseSqrt().eval();
@@ -546,7 +524,7 @@ std::optional<VerticalState> ErrorStateFilter::verticalAt(Time time) const {
 
 PoseHistory ErrorStateFilter::poses(Time from, Time to) const {
   Impl& f = *impl_;
-  std::vector<StampedPose> poses;
+  std::vector<common::StampedPose> poses;
   if (f.count == 0) return {};
   f.replay();
   for (std::size_t i = 0; i < f.count; ++i) {

@@ -14,8 +14,8 @@
 // covariance widened by what the measurement says; doing so too often is a divergence. A divergence stays until
 // initialize().
 //
-// One thread. No heap use after construction, except in poses(). Non-finite or impossible input is counted and left
-// out.
+// One thread. No heap use after construction, except in poses(), in health() when it is not ok, and in initialize()
+// when it refuses. Non-finite or impossible input is counted and left out.
 #pragma once
 
 #include <cstdint>
@@ -50,10 +50,8 @@ enum class Insertion {
   kTooNew,            ///< So far ahead of the IMU that clocks must be wrong.
   kUnknownReference,  ///< The reference was never cloned, or was dropped for newer ones.
 };
-const char* toString(Insertion insertion);
 
 struct FusionCounts {
-  std::uint64_t imu_samples = 0;
   std::uint64_t imu_dropped = 0;  ///< Non-finite, repeated or out of order.
   std::uint64_t measurements = 0;
   std::uint64_t refused = 0;  ///< Not kTaken.
@@ -88,7 +86,7 @@ class ErrorStateFilter {
     // Gravity vector as pseudo-measurement of roll and pitch (for vehicles without an AHRS).
     bool use_gravity = false;
     double gravity_sigma_m_s2 = 1.0;  ///< What the vehicle's own acceleration adds.
-    double attitude_rate_hz = 10.0;   ///< Of either of them.
+    double attitude_rate_hz = 10.0;   ///< Of either of them, and of what is known at rest.
     // At rest on the ground.
     double rest_s = 0.5;                       ///< IMU stretch that initialize() averages.
     double rest_gyroscope_sigma_rad_s = 0.05;  ///< More spread than this: it is moving.
@@ -122,10 +120,11 @@ class ErrorStateFilter {
   /// Starts at the newest IMU sample, at x = y = yaw = 0 and the given height: roll, pitch and the gyroscope bias from
   /// the last `rest_s` of samples. Fails, with the reason, when there are too few or when the vehicle moved. Forgets
   /// all.
-  tl::expected<void, std::string> initialize(double height_m, double height_sigma_m = 0.02);
+  tl::expected<void, std::string> initialize(double height_m, double height_sigma_m = common::kStandingHeightSigma_m);
   bool initialized() const;
 
-  /// While true, the vehicle is known to stand still: zero velocity and rotation are measured from the next sample on.
+  /// While true, the vehicle is known to stand still: zero velocity and rotation are measured from the next
+  /// attitude update on.
   void setAtRest(bool at_rest);
 
   /// Clones the pose at `time` (usually of a scan that becomes the reference). Up to four clones are kept; then the one

@@ -18,7 +18,7 @@ common::Pose3 interpolate(const common::Pose3& first, const common::Pose3& secon
   return pose;
 }
 
-PoseHistory::PoseHistory(std::vector<StampedPose> poses) : poses_(std::move(poses)) {
+PoseHistory::PoseHistory(std::vector<common::StampedPose> poses) : poses_(std::move(poses)) {
   for (std::size_t i = 1; i < poses_.size(); ++i)
     SWIFTLET_CHECK(poses_[i - 1].stamp < poses_[i].stamp, i, poses_[i].stamp.nanoseconds());
 }
@@ -29,22 +29,23 @@ bool PoseHistory::covers(common::Time time) const {
 
 std::optional<common::Pose3> PoseHistory::at(common::Time time) const {
   if (!covers(time)) return std::nullopt;
-  if (poses_.size() == 1) return poses_.front().T_odom_body;
+  if (poses_.size() == 1) return poses_.front().pose;
   const auto holds = [&](std::size_t i) { return poses_[i].stamp <= time && time <= poses_[i + 1].stamp; };
   if (!holds(segment_)) {
     const bool next = segment_ + 2 < poses_.size() && holds(segment_ + 1);
     if (next) {
       ++segment_;
     } else {
-      const auto after = std::upper_bound(poses_.begin() + 1, poses_.end() - 1, time,
-                                          [](common::Time t, const StampedPose& pose) { return t < pose.stamp; });
+      const auto after =
+          std::upper_bound(poses_.begin() + 1, poses_.end() - 1, time,
+                           [](common::Time t, const common::StampedPose& pose) { return t < pose.stamp; });
       segment_ = static_cast<std::size_t>(after - poses_.begin()) - 1;
     }
   }
-  const StampedPose& before = poses_[segment_];
-  const StampedPose& after = poses_[segment_ + 1];
+  const common::StampedPose& before = poses_[segment_];
+  const common::StampedPose& after = poses_[segment_ + 1];
   const double share = (time - before.stamp).seconds() / (after.stamp - before.stamp).seconds();
-  return interpolate(before.T_odom_body, after.T_odom_body, share);
+  return interpolate(before.pose, after.pose, share);
 }
 
 }  // namespace swiftlet::perception

@@ -7,29 +7,25 @@
 
 #include "common/geometry.hpp"
 #include "common/time.hpp"
+#include "common/trajectory.hpp"
 
 namespace swiftlet::perception {
 
-struct StampedPose {
-  common::Time stamp;
-  common::Pose3 T_odom_body;
-};
-
+/// One thread: at() remembers where it looked.
 class PoseHistory {
  public:
   PoseHistory() = default;
   /// `poses` in strictly rising order of time.
-  explicit PoseHistory(std::vector<StampedPose> poses);
+  explicit PoseHistory(std::vector<common::StampedPose> poses);
 
-  bool empty() const { return poses_.empty(); }
-  const std::vector<StampedPose>& poses() const { return poses_; }
+  const std::vector<common::StampedPose>& poses() const { return poses_; }
   bool covers(common::Time time) const;
 
   /// None outside of the stretch. About 30 ns when asked in order.
   std::optional<common::Pose3> at(common::Time time) const;
 
  private:
-  std::vector<StampedPose> poses_;
+  std::vector<common::StampedPose> poses_;
   mutable std::size_t segment_ = 0;  ///< Where the last question fell; only speeds up the next one.
 };
 

@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "common/geometry.hpp"
+
 namespace swiftlet::perception::fusion {
 namespace {
 

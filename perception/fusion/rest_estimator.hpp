@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 #include <tl/expected.hpp>
 
-#include "common/geometry.hpp"
 #include "common/sensor_event.hpp"
 
 namespace swiftlet::perception::fusion {

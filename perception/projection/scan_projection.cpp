@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/validation.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
+using common::kRadPerDeg;
 using common::Pose3;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr int kIntervals = 8;
-
-bool isFinite(const Pose3& pose) { return pose.position_m.allFinite() && pose.rotation.coeffs().allFinite(); }
 
 struct Affine {
   Eigen::Matrix3d rotation;
@@ -129,8 +126,9 @@ ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& 
                                    result.T_odom_body.position_m}
                                  .inverse();
   const std::vector<Pose3> T_level_body = bodyDuringSweep(scan, pose_at, T_level_odom, beams);
-  if (beams < 2 || !isFinite(result.T_odom_body) || !std::all_of(T_level_body.begin(), T_level_body.end(), isFinite) ||
-      !std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_increment_rad)) {
+  const bool known = isFinite(result.T_odom_body) && std::all_of(T_level_body.begin(), T_level_body.end(),
+                                                                 [](const Pose3& pose) { return isFinite(pose); });
+  if (beams < 2 || !known || !std::isfinite(scan.angle_min_rad) || !std::isfinite(scan.angle_increment_rad)) {
     result.counts.invalid = beams;
     return result;
   }

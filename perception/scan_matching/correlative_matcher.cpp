@@ -16,14 +16,10 @@
 namespace swiftlet::perception {
 namespace {
 
+using common::kRadPerDeg;
 using common::Pose2;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kTopValue = LikelihoodField::kTopValue;
-bool isFinite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
-}
-
 /// Points in the two arrays that the transformation wants.
 struct SplitPoints {
   std::vector<float> x_m, y_m;

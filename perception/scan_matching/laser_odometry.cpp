@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <numbers>
 
 #include "common/validation.hpp"
 
 namespace swiftlet::perception {
-namespace {
 
+using common::kRadPerDeg;
 using common::Pose2;
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
-}  // namespace
 
 void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields.section("matcher", matcher, "Matching of a scan to the local map.");
@@ -144,15 +139,10 @@ RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const Pro
   RelativePose relative;
   relative.from = reference.stamp;
   relative.to = scan.stamp;
-  relative.T_from_to = reference.T_local_body.inverse() * match.T_reference_body;
-  relative.quality = match.quality;
-  const Eigen::Matrix2d to_reference = Eigen::Rotation2Dd(-reference.T_local_body.yaw_rad).toRotationMatrix();
-  Eigen::Matrix3d swing = Eigen::Matrix3d::Identity();
-  swing(0, 2) = -(match.T_reference_body.y_m - reference.T_local_body.y_m);
-  swing(1, 2) = match.T_reference_body.x_m - reference.T_local_body.x_m;
-  relative.covariance = common::turned(match.covariance + swing * reference.covariance_local * swing.transpose(),
-                                       -reference.T_local_body.yaw_rad);
-  if (match.unobservable_direction) relative.unobservable_direction = to_reference * *match.unobservable_direction;
+  relative.T_from_to = between(reference.T_local_body, match.T_reference_body);
+  relative.covariance = common::turned(
+      propagated(reference.covariance_local, reference.T_local_body, match.T_reference_body, match.covariance),
+      -reference.T_local_body.yaw_rad);
   return relative;
 }
 
@@ -162,8 +152,7 @@ bool LaserOdometry::Impl::shouldJoin(const RelativePose& relative, const Project
   const bool far = relative.T_from_to.position_m().norm() > config.max_reference_distance_m ||
                    std::abs(relative.T_from_to.yaw_rad) > config.max_reference_rotation_deg * kRadPerDeg;
   if (!far && match.overlap >= config.min_overlap) return false;
-  const double cos_tilt = (scan.T_odom_body.rotation * Eigen::Vector3d::UnitZ()).z();
-  const bool tilted = cos_tilt < std::cos(config.level_tilt_deg * kRadPerDeg);
+  const bool tilted = common::cosTilt(scan.T_odom_body.rotation) < std::cos(config.level_tilt_deg * kRadPerDeg);
   return !tilted || match.overlap < config.min_overlap - config.tilted_overlap_margin;
 }
 
@@ -182,7 +171,7 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   Impl& self = *impl_;
   ++self.counts.scans;
   const Pose2 T_odom_body = common::planar(scan.T_odom_body);
-  if (!std::isfinite(T_odom_body.x_m) || !std::isfinite(T_odom_body.y_m) || !std::isfinite(T_odom_body.yaw_rad)) {
+  if (!isFinite(T_odom_body)) {
     ++self.counts.failures;
     return std::nullopt;
   }

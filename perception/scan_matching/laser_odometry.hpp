@@ -26,9 +26,7 @@ struct RelativePose {
   common::Time to;
   common::Pose2 T_from_to;                               ///< Between the level frames of the two scans.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x_m, y_m, yaw_rad) in the frame at `from`.
-  double quality = 0.0;
   bool reference_changed = false;
-  std::optional<Eigen::Vector2d> unobservable_direction;  ///< In the frame at `from`.
 };
 
 struct LaserOdometryConfig {

@@ -6,8 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "common/geometry.hpp"
-
 namespace swiftlet::perception {
 
 /// A piece of a contour, in whatever frame its points were given; begin == end for a lone point.

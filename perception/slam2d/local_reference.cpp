@@ -13,8 +13,6 @@ using common::Pose2;
 constexpr double kSameView_m = 0.7;
 constexpr double kSameView_rad = 40.0 * std::numbers::pi / 180.0;
 
-double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
-
 bool isSameView(const Pose2& a, const Pose2& b) {
   return distance(a, b) < kSameView_m && std::abs(common::wrapAngle(a.yaw_rad - b.yaw_rad)) < kSameView_rad;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "perception/scan_matching/branch_and_bound.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
@@ -10,17 +9,15 @@
 namespace swiftlet::perception {
 namespace {
 
+using common::kRadPerDeg;
 using common::Pose2;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 /// The ellipse of the projected uncertainty that is searched, in sigmas.
 constexpr double kSigmas = 3.0;
 /// Within this distance two views overlap even without any uncertainty.
 constexpr double kViewDistance_m = 2.0;
 /// The wide search's spread, in its cells.
 constexpr double kWideSigmaCells = 2.0;
-
-double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
 /// The newest scans up to the query that are firmly tied to it, as one scan in its frame.
 ProjectedScan joinedQuery(const SlamGraph& graph, int query, int count) {

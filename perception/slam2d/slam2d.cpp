@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/check.hpp"
 #include "perception/slam2d/local_reference.hpp"
@@ -11,14 +10,9 @@
 namespace swiftlet::perception {
 namespace {
 
+using common::kRadPerDeg;
 using common::Pose2;
 using common::Time;
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
-bool isFinite(const Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
-}
 
 /// Since when the vehicle moved how far.
 struct Progress {
@@ -36,7 +30,7 @@ struct Progress {
 constexpr double kPatience = 1.5;
 
 bool isLevel(const ProjectedScan& scan, double tilt_deg) {
-  return (scan.T_odom_body.rotation * Eigen::Vector3d::UnitZ()).z() >= std::cos(tilt_deg * kRadPerDeg);
+  return common::cosTilt(scan.T_odom_body.rotation) >= std::cos(tilt_deg * kRadPerDeg);
 }
 
 }  // namespace
@@ -143,8 +137,6 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   const std::vector<int> keys = localReferenceKeys(graph, anchor, T_map_body(), config);
   const MatchResult match =
       reference.match(graph, keys, scan, T_map_body(), {config.local_window_m, config.local_window_deg * kRadPerDeg});
-  update.quality = match.quality;
-  update.local_match = !match.failed;
   if (match.failed) {
     ++counts.local_failures;
     if (match.points_used == 0 || T_anchor_body.position_m().norm() < config.reuse_distance_m) return false;
@@ -152,7 +144,6 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
     update.key_scan = true;
     return true;
   }
-  ++counts.local_matches;
   const Pose2 before = T_anchor_body;
   T_anchor_body = between(poseOf(anchor), match.T_reference_body);
   if (const std::optional<int> near = keyNear(keys)) {
@@ -216,10 +207,7 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
     update.drawn = true;
   }
   update.T_map_body = self.T_map_body();
-  if (learned && !first) {
-    self.T_map_odom = update.T_map_body * T_odom_body.inverse();
-    update.T_map_odom_changed = update.local_match;
-  }
+  if (learned && !first) self.T_map_odom = update.T_map_body * T_odom_body.inverse();
   return update;
 }
 
@@ -267,7 +255,6 @@ bool Slam2d::apply(const SlamResult& result) {
   SWIFTLET_CHECK(self.task_outstanding && result.data != nullptr && result.data->id == self.tasks, self.tasks);
   self.task_outstanding = false;
   self.counts.loops_closed += result.accepted.size();
-  self.counts.loops_rejected += static_cast<std::uint64_t>(result.rejected);
   const std::vector<Pose2>& poses = result.data->T_map_key;
   if (poses.empty()) return false;
 

@@ -100,11 +100,8 @@ struct Slam2dConfig {
 
 /// What adding a scan did.
 struct SlamUpdate {
-  bool key_scan = false;  ///< It became a node of the graph.
-  bool drawn = false;     ///< The grid changed.
-  bool T_map_odom_changed = false;
-  bool local_match = false;  ///< It was matched to older key scans.
-  double quality = 0.0;      ///< Of that match.
+  bool key_scan = false;     ///< It became a node of the graph.
+  bool drawn = false;        ///< The grid changed.
   common::Pose2 T_map_body;  ///< Of the scan, corrected.
 };
 
@@ -126,8 +123,6 @@ struct SlamResult {
   struct Data;
   std::shared_ptr<const Data> data;
   std::vector<LoopClosure> accepted;  ///< Loops closed, for the record.
-  int candidates = 0;                 ///< Places searched.
-  int rejected = 0;                   ///< Matches not believed.
 };
 
 /// Pure function of the task; safe on any thread.
@@ -137,11 +132,9 @@ struct SlamCounts {
   std::uint64_t scans = 0;
   std::uint64_t ignored_scans = 0;  ///< Out of order, or without a finite pose.
   std::uint64_t key_scans = 0;
-  std::uint64_t local_matches = 0;
   std::uint64_t local_failures = 0;  ///< Scans that should have matched older ones, but did not.
   std::uint64_t loop_candidates = 0;
   std::uint64_t loops_closed = 0;
-  std::uint64_t loops_rejected = 0;
 };
 
 /// Single-threaded; the values it hands out are safe anywhere.

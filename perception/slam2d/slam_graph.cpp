@@ -27,15 +27,7 @@ void SlamGraph::add(SlamEdge edge) {
   edges.push_back(std::move(edge));
 }
 
-Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const Pose2& from, const Pose2& to,
-                           const Eigen::Matrix3d& step_covariance) {
-  Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
-  F(0, 2) = -(to.y_m - from.y_m);
-  F(1, 2) = to.x_m - from.x_m;
-  return F * covariance * F.transpose() + step_covariance;
-}
-
-Pose2 between(const Pose2& T_map_a, const Pose2& T_map_b) { return T_map_a.inverse() * T_map_b; }
+double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
 std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m) {
   const std::size_t size = graph.keys.size();

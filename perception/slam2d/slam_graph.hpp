@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
-#include "common/time.hpp"
 #include "optimization/pose_graph_2d.hpp"
 #include "perception/projection/scan_projection.hpp"
 #include "perception/slam2d/sliced_map.hpp"
@@ -54,13 +53,8 @@ struct ProjectedUncertainty {
 /// to `max_sigma_m`.
 std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m);
 
-/// The uncertainty after one more step from pose `from` to pose `to`: what was uncertain before swings about the step's
-/// beginning, and the step adds its own. All with the axes of the frame of the two poses.
-Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const common::Pose2& from, const common::Pose2& to,
-                           const Eigen::Matrix3d& step_covariance);
-
-/// The pose of b in a.
-common::Pose2 between(const common::Pose2& T_map_a, const common::Pose2& T_map_b);
+/// Between the places of two poses, in metres.
+double distance(const common::Pose2& a, const common::Pose2& b);
 
 /// Draws all attached scans at their key scans' poses, oldest first.
 SlicedMap drawMap(const SlamGraph& graph, const GridDrawingConfig& config);

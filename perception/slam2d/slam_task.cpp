@@ -47,12 +47,9 @@ SlamResult run(const SlamTask& task) {
   out->id = in.id;
   SlamResult result;
   std::vector<FoundLoop> loops;
-  for (const LoopCandidate& candidate : in.candidates) {
-    ++result.candidates;
+  for (const LoopCandidate& candidate : in.candidates)
     if (const auto found = searchLoop(in.graph, in.query, candidate, in.config)) loops.push_back(*found);
-  }
   out->T_map_key = optimized(in.graph, loops, in.config);
-  result.rejected = result.candidates - static_cast<int>(loops.size());
   for (const FoundLoop& loop : loops) {
     out->closures.push_back(loop.edge);
     result.accepted.push_back({loop.edge.from, loop.edge.to, loop.edge.T_from_to, loop.quality, loop.shift_m});

@@ -8,10 +8,10 @@
 namespace swiftlet::simulation {
 namespace {
 
+using common::kRadPerDeg;
 using common::RandomStream;
 using Eigen::Vector3d;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kGreatestFelt_m_s2 = 157.0;  // 16 g.
 
 Vector3d gaussians(RandomStream& random, double standard_deviation) {

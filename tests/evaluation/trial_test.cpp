@@ -150,7 +150,7 @@ FlightScore flight(std::int64_t seed, double goal_error_m, double time_s) {
 }
 
 TrialResults results() {
-  TrialResult trial{"unb", "", "swiftlet", {{"goal_error_max_m", 0.16}}, {}};
+  TrialResult trial{"unb", "swiftlet", {{"goal_error_max_m", 0.16}}, {}};
   trial.flights = {flight(1, 0.02, 80), flight(2, 0.05, 90), flight(3, 0.04, 70), flight(4, 0.03, 60)};
   FlightScore crashed;
   crashed.seed = 5;
@@ -195,7 +195,7 @@ TEST(TrialResultsJson, FiguresAreShortAndWhatWasNotExploredIsNull) {
 }
 
 TEST(TrialResultsJson, WithoutFlightsAllIsNull) {
-  const json trial = json::parse(toJson(TrialResults{{{"empty", "", "swiftlet", {}, {}}}}))["trials"][0];
+  const json trial = json::parse(toJson(TrialResults{{{"empty", "swiftlet", {}, {}}}}))["trials"][0];
   EXPECT_EQ(trial["runs"], 0);
   EXPECT_TRUE(trial["coverage_min"].is_null());
   EXPECT_TRUE(trial["flights"].is_array());

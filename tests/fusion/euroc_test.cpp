@@ -52,7 +52,7 @@ std::vector<std::vector<double>> readNumbers(const fs::path& file) {
 
 struct Recording {
   std::vector<common::ImuSample> imu;
-  std::vector<StampedPose> truth;  ///< Body FLU in a frame that starts at its first pose's position and yaw.
+  std::vector<common::StampedPose> truth;  ///< Body FLU in a frame that starts at its first pose's position and yaw.
 };
 
 Recording read(const fs::path& folder) {

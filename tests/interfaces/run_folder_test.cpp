@@ -80,7 +80,7 @@ struct Flight {
 TEST(RunFolder, LeavesEveryFile) {
   const ScratchFolder folder;
   const fs::path path = folder / "deep/run";
-  RunFolder run({}, path, kInfo, "speed: 1\n");
+  RunFolder run(path, kInfo, "speed: 1\n");
   run.event({Time::fromSeconds(0.5), Severity::kInfo, "mission", "ready", ""});
   Flight flight;
   flight.flyInto(run);
@@ -120,7 +120,7 @@ TEST(RunFolder, LeavesEveryFile) {
 TEST(RunFolder, SameFlightSameBytes) {
   const ScratchFolder folder;
   for (const char* name : {"a", "b"}) {
-    RunFolder run({}, folder / name, kInfo, "");
+    RunFolder run(folder / name, kInfo, "");
     Flight flight;
     flight.flyInto(run);
     run.finish({});
@@ -135,7 +135,7 @@ TEST(RunFolder, IsReadableAfterTheProcessWasKilled) {
   ASSERT_EQ(::pipe(ready), 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    RunFolder run({}, folder / "run", kInfo, "speed: 1\n");
+    RunFolder run(folder / "run", kInfo, "speed: 1\n");
     Flight flight;
     for (int tick = 0;; ++tick) {
       flight.time_s = 0.01 * tick;
@@ -163,7 +163,7 @@ TEST(RunFolder, IsReadableAfterTheProcessWasKilled) {
   EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("not finished"));
 
   // The next run may have the folder.
-  RunFolder({}, folder / "run", kInfo, "");
+  RunFolder(folder / "run", kInfo, "");
   EXPECT_EQ(bytesOf(folder / "run/events.jsonl"), "");
   EXPECT_FALSE(fs::exists(folder / "run/map.pgm")) << "no map of another flight";
 }
@@ -171,7 +171,7 @@ TEST(RunFolder, IsReadableAfterTheProcessWasKilled) {
 TEST(RunFolder, FullDiskIsSaidAndNothingIsHalfWritten) {
   const ScratchFolder folder;
   EXPECT_TRUE(withFullDisk(15'000, [&] {
-    RunFolder run({}, folder / "run", kInfo, "");
+    RunFolder run(folder / "run", kInfo, "");
     Flight flight;
     flight.flyInto(run);
     const bool said = run.failure() && run.failure()->find("trajectory.tum: File too large") != std::string::npos;
@@ -186,7 +186,7 @@ TEST(RunFolder, FullDiskIsSaidAndNothingIsHalfWritten) {
 
 TEST(RunFolder, RefusesFoldersOfOthers) {
   const ScratchFolder folder;
-  const auto problem = [&](const fs::path& path) { return problemOf([&] { RunFolder({}, path, kInfo, ""); }); };
+  const auto problem = [&](const fs::path& path) { return problemOf([&] { RunFolder(path, kInfo, ""); }); };
   put(folder / "home/thesis.tex", "years of work");
   put(folder / "home/map.pgm", "a map");
   EXPECT_THAT(problem(folder / "home"), HasSubstr("holds `thesis.tex`, which is no file of a run, give an empty"));
@@ -204,11 +204,11 @@ TEST(RunFolder, RefusesFoldersOfOthers) {
 TEST(RunFolder, AFolderIsWrittenByOneFlightAtATime) {
   const ScratchFolder folder;
   {
-    const RunFolder first({}, folder / "run", kInfo, "");
-    EXPECT_THROW(RunFolder({}, folder / "run", kInfo, ""), common::InputError);
+    const RunFolder first(folder / "run", kInfo, "");
+    EXPECT_THROW(RunFolder(folder / "run", kInfo, ""), common::InputError);
     EXPECT_TRUE(fs::exists(folder / "run/mission.json"));
   }
-  EXPECT_NO_THROW(RunFolder({}, folder / "run", kInfo, ""));
+  EXPECT_NO_THROW(RunFolder(folder / "run", kInfo, ""));
 }
 
 TEST(RunFolder, FreshNames) {
@@ -223,7 +223,7 @@ TEST(RunFolder, FreshNames) {
 
 TEST(RunFolder, FiguresAreShortAndWhatWasNotExploredIsNull) {
   const ScratchFolder folder;
-  RunFolder run({}, folder / "run", kInfo, "");
+  RunFolder run(folder / "run", kInfo, "");
   Flight flight;
   common::World world = flight.world(MissionState::kRunning, "go to");
   world.explored_area_m2 = 0.0;
@@ -236,7 +236,7 @@ TEST(RunFolder, FiguresAreShortAndWhatWasNotExploredIsNull) {
 
 TEST(RunFolder, NotFiniteEstimatesAreLeftOut) {
   const ScratchFolder folder;
-  RunFolder run({}, folder / "run", kInfo, "");
+  RunFolder run(folder / "run", kInfo, "");
   Flight flight;
   common::VehicleState broken = flight.state();
   broken.T_odom_body.position_m.x() = std::nan("");
@@ -249,14 +249,6 @@ TEST(RunFolder, NotFiniteEstimatesAreLeftOut) {
   EXPECT_EQ(run.failure(), std::nullopt);
   EXPECT_TRUE(readTum(folder / "run/trajectory.tum").empty());
   EXPECT_TRUE(json::parse(bytesOf(folder / "run/mission.json"))["distance_m"].is_null());
-}
-
-TEST(RunFolder, ConfigIsChecked) {
-  RunFolder::Config config;
-  EXPECT_TRUE(config.validate().empty());
-  config.trajectory_period_s = 0.1;  // 10 Hz; a run has at least 20.
-  config.map_period_s = -1;
-  EXPECT_EQ(config.validate().size(), 2u);
 }
 
 }  // namespace

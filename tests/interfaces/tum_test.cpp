@@ -79,7 +79,6 @@ TEST(Tum, WriterLeavesOutWhatIsNotFinite) {
   ASSERT_TRUE(writer->write(pose(1, std::nan(""), 0, 0, Eigen::Quaterniond::Identity())));
   ASSERT_TRUE(writer->write(pose(2, 0, std::numeric_limits<double>::infinity(), 0, Eigen::Quaterniond::Identity())));
   ASSERT_TRUE(writer->write(pose(3, 0, 0, 0, Eigen::Quaterniond::Identity())));
-  EXPECT_EQ(writer->skipped(), 2);
   EXPECT_EQ(readTum(folder / "t.tum").size(), 1u);
 }
 

@@ -48,9 +48,9 @@ RC_GTEST_PROP(CostMap, RepairedEqualsFresh, (std::uint64_t seed)) {
     std::vector<Disc> discs;
     for (int i = 0; i < step % 3; ++i) discs.push_back({{random.uniform(0, 7), random.uniform(0, 5)}, 0.25});
     const Footprint footprint{0.275, step < 4 ? 0.10 : 0.20};
-    map.update(grid.snapshot(), footprint, {discs, nullptr, nullptr});
+    map.update(grid.snapshot(), footprint, {discs, nullptr});
     CostMap fresh({}, grid.resolution_m());
-    fresh.update(grid.snapshot(), footprint, {discs, nullptr, nullptr});
+    fresh.update(grid.snapshot(), footprint, {discs, nullptr});
     RC_ASSERT(map.rect() == fresh.rect());
     RC_ASSERT(map.costs() == fresh.costs());
     RC_ASSERT(map.states() == fresh.states());
@@ -98,23 +98,12 @@ TEST(CostMap, DiscsAreKeptClearOfAndLeaveNoTrace) {
   CostMap map = test::mapOf(grid);
   const auto before = map.costs();
   const std::vector<Disc> discs{{{2.5, 2.5}, 0.25}, {{NAN, 1.0}, 0.2}};
-  map.update(grid.snapshot(), {}, {discs, nullptr, nullptr});
+  map.update(grid.snapshot(), {}, {discs, nullptr});
   EXPECT_EQ(map.costAt(map.cellAt({2.5 + 0.57, 2.5})), CostMap::kLethal);
   EXPECT_NE(map.costAt(map.cellAt({2.5 + 0.7, 2.5})), CostMap::kLethal);
   EXPECT_GT(map.costAt(map.cellAt({2.5 + 0.7, 2.5})), CostMap::kOpenCost);
   map.update(grid.snapshot(), {});
   EXPECT_EQ(map.costs(), before);
-}
-
-TEST(CostMap, BlindPlacesCostMore) {
-  common::OccupancyGrid grid = test::room(100, 100);
-  CostMap::Config config;
-  config.localizability_weight = 1.0;
-  LocalizabilityGrid layer(0.5, 255);
-  layer.set({5, 5}, 0);
-  const CostMap map = test::mapOf(grid, {}, config, {{}, nullptr, &layer});
-  EXPECT_EQ(map.costAt(map.cellAt({2.7, 2.7})), 2 * CostMap::kOpenCost);
-  EXPECT_EQ(map.costAt(map.cellAt({3.2, 2.7})), CostMap::kOpenCost);
 }
 
 TEST(CostMap, ConfigProblemsAreNamed) {

@@ -118,7 +118,7 @@ TEST_F(TwoRooms, ACrackIsTooSmall) {
 
 TEST_F(TwoRooms, OutOfBounds) {
   ExplorationInput input;
-  input.bounds = ExplorationBounds{{0, 0}, {4.5, 5}};
+  input.bounds = common::MapBounds{{0, 0}, {4.5, 5}};
   EXPECT_EQ(look(24, input).frontiers[0].reason, FrontierReason::kOutOfBounds);
 }
 
@@ -209,9 +209,6 @@ TEST(Localizability, RoomsFixThePoseCorridorsDoNot) {
   EXPECT_GT(at_its_end, 0.1);
   EXPECT_LE(in_room, 1.0);
   EXPECT_EQ(localizability({}, 90), 0.0);
-  const LocalizabilityGrid layer = localizabilityGrid(test::mapOf(corridor), 1.0, 12.0);
-  EXPECT_LT(layer.at({30, 1}), 20);
-  EXPECT_EQ(layer.at({30, 50}), 255);  // nothing known there
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST_F(Keeping, AClearlyBetterPlanIsTaken) {
 TEST_F(Keeping, APersonOnItMakesItInvalid) {
   keeper.offer(straight, at(0), map, {2, 4});
   const std::vector<Disc> discs{{{6, 4.2}, 0.25}};
-  map.update(grid.snapshot(), {}, {discs, nullptr, nullptr});
+  map.update(grid.snapshot(), {}, {discs, nullptr});
   const PlanKeeper::Check check = keeper.check(at(0.1), map, {2.1, 4});
   EXPECT_FALSE(check.valid);
   EXPECT_TRUE(check.replan);
@@ -85,7 +85,7 @@ TEST_F(Keeping, WhatLiesBehindDoesNotMatter) {
   keeper.offer(straight, at(0), map, {2, 4});
   ASSERT_TRUE(keeper.check(at(0.1), map, {6, 4}).valid);
   const std::vector<Disc> discs{{{4, 4}, 0.25}};
-  map.update(grid.snapshot(), {}, {discs, nullptr, nullptr});
+  map.update(grid.snapshot(), {}, {discs, nullptr});
   EXPECT_TRUE(keeper.check(at(0.2), map, {6, 4.05}).valid);
   EXPECT_NEAR(keeper.remaining().front().x(), 6.0, 1e-9);
 }

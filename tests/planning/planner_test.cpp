@@ -57,7 +57,7 @@ std::string firstDifference(std::uint64_t seed, bool plant_bug) {
     std::vector<Disc> discs;
     if (random.chance(0.5))
       discs.push_back({{random.uniform(0, 5.5), random.uniform(0, 4)}, random.uniform(0.05, 0.4)});
-    CostLayers layers{discs, with_levels ? &levels : nullptr, nullptr};
+    CostLayers layers{discs, with_levels ? &levels : nullptr};
     map.update(grid.snapshot(), kSmall, layers);
     if (!start || random.chance(0.6)) start = randomFree(map, random);
     if (!goal || random.chance(0.1)) goal = randomFree(map, random);
@@ -67,7 +67,7 @@ std::string firstDifference(std::uint64_t seed, bool plant_bug) {
     CostMap seen = map;
     if (plant_bug) {
       // The planner is not told of the discs: a plan that was not repaired.
-      seen.update(grid.snapshot(), kSmall, {{}, layers.levels, nullptr});
+      seen.update(grid.snapshot(), kSmall, {{}, layers.levels});
     }
     const auto a = dstar.plan(seen, map.centerOf(*start), map.centerOf(*goal));
     const auto b = wavefront.plan(seen, map.centerOf(*start), map.centerOf(*goal));
@@ -182,12 +182,15 @@ TEST(Planner, AVehiclePushedToTheWallLeavesIt) {
   EXPECT_FALSE(escapeFrom(shut, {30, 30}));
 }
 
-TEST(Planner, AStepOfTheFloorIsWorthADetour) {
+struct PlannerOverSteps : testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(UpAndDown, PlannerOverSteps, testing::Values(0.75, -0.75));
+
+TEST_P(PlannerOverSteps, AStepOfTheFloorIsWorthADetour) {
   common::OccupancyGrid grid = test::room(160, 160);
   common::LevelMap levels;
-  levels.levels.push_back({1, 0.75, 0.001, {}});
+  levels.levels.push_back({1, GetParam(), 0.001, {}});
   for (int x = 35; x < 45; ++x)
-    for (int y = 20; y < 60; ++y) levels.levels[0].cells.push_back({x, y});  // a table 1 m by 4 m
+    for (int y = 20; y < 60; ++y) levels.levels[0].cells.push_back({x, y});  // a table, or a pit, 1 m by 4 m
   DStarLite planner;
   const auto greatestHeight = [&](const CostMap& map) {
     const auto path = planner.plan(map, {2, 4}, {6, 4});
@@ -196,15 +199,16 @@ TEST(Planner, AStepOfTheFloorIsWorthADetour) {
     for (std::size_t i = 1; i < path->points_map_m.size(); ++i)
       for (double t = 0; t <= 1.0; t += 0.01) {
         const Eigen::Vector2d p = path->points_map_m[i - 1] * (1 - t) + path->points_map_m[i] * t;
-        height_cm = std::max<int>(height_cm, map.heights_cm()[static_cast<std::size_t>(map.indexOf(map.cellAt(p)))]);
+        height_cm =
+            std::max(height_cm, std::abs(map.heights_cm()[static_cast<std::size_t>(map.indexOf(map.cellAt(p)))]));
       }
     return height_cm;
   };
   CostMap::Config dear, cheap;
   dear.height_step_weight = 4.0;  // up and down 1.5 m: worth a detour of 6 m
   cheap.height_step_weight = 0.2;
-  EXPECT_EQ(greatestHeight(test::mapOf(grid, {}, dear, {{}, &levels, nullptr})), 0);
-  EXPECT_EQ(greatestHeight(test::mapOf(grid, {}, cheap, {{}, &levels, nullptr})), 75);
+  EXPECT_EQ(greatestHeight(test::mapOf(grid, {}, dear, {{}, &levels})), 0);
+  EXPECT_EQ(greatestHeight(test::mapOf(grid, {}, cheap, {{}, &levels})), 75);
 }
 
 RC_GTEST_PROP(Planner, ShortcutsNeverRaiseTheRisk, (std::uint64_t seed)) {

@@ -10,10 +10,9 @@
 namespace swiftlet::perception {
 namespace {
 
+using common::kRadPerDeg;
 using common::Pose3;
 using common::Time;
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 common::LaserConfig noiseless() {
   common::LaserConfig laser;

@@ -62,7 +62,6 @@ bool ExampleFlight::isWall(const Vector2d& p) const {
 
 void ExampleFlight::look() {
   auto laser = std::make_shared<common::LaserPoints>();
-  laser->stamp = common::Time::fromSeconds(time_s_);
   for (int beam = 0; beam < 540; ++beam) {
     const double angle = pose_.yaw_rad + (beam - 270) * 0.5 * M_PI / 180.0;
     const Vector2d direction(std::cos(angle), std::sin(angle));

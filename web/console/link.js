@@ -1,9 +1,10 @@
 // The live connection: parses what the server sends, reconnects by itself, and says how old the data is.
 
-const kTileSize = 64;
+/** Cells along a side of a tile. */
+export const kTileSize = 64;
 
-/** Run-length coded shades of a tile to 64 * 64 numbers, row by row from the bottom. */
-export function decodeTile(bytes) {
+/** Run-length coded shades of a tile to kTileSize * kTileSize numbers, row by row from the bottom. */
+function decodeTile(bytes) {
   const shades = new Uint8Array(kTileSize * kTileSize);
   let at = 0;
   for (let i = 0; i < bytes.length; ++i) {

@@ -1,6 +1,6 @@
 // What the page knows of the world, fed by the link's messages.
+import { kTileSize } from './link.js';
 
-const kTileSize = 64;
 const kFarthest_m = 100;
 
 /** The known cells of a tile as a rectangle in cells within the tile, or null. */

@@ -1,9 +1,9 @@
 // The map on a canvas: which part of it is shown, and its layers from the tiles up.
+import { kTileSize } from './link.js';
 import { readColors } from './map_colors.js';
 import { listenToGestures } from './map_gestures.js';
 import { paintGoal, paintHome, paintScale, paintVehicle } from './map_symbols.js';
 
-const kTileSize = 64;
 /** What lies over the map: the tools at the right, scale and legend at the bottom. */
 const kInsets_px = { left: 20, right: 68, top: 20, bottom: 52 };
 

@@ -16,7 +16,7 @@ function make(tag, properties = {}, ...children) {
 
 const withUnit = (value, decimals, unit) => (value === null || value === undefined ? '–' : `${value.toFixed(decimals)} ${unit}`);
 
-export function clockText(seconds) {
+function clockText(seconds) {
   const whole = Math.max(0, Math.floor(seconds));
   return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
 }
