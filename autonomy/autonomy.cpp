@@ -91,7 +91,7 @@ void Autonomy::process(const common::OperatorCommand& command, Time now) {
     results_.push_back(std::move(*result));
     return;
   }
-  if (mission_over_) {
+  if (missionOver()) {
     results_.push_back({command.id, false, "the mission has ended"});
     return;
   }
@@ -112,7 +112,7 @@ common::Setpoint Autonomy::tick(Time now) {
   if (!last_behaviors_ || (now - *last_behaviors_).seconds() >= period_s - 1e-6) {
     last_behaviors_ = now;
     tickBehaviors(now);
-    if (mission_over_ && controller_.state() == FlightState::kLanded)
+    if (missionOver() && controller_.state() == FlightState::kLanded)
       (void)controller_.command(control::DisengageMotors{});
   }
 
@@ -133,7 +133,7 @@ common::Setpoint Autonomy::tick(Time now) {
 }
 
 bool Autonomy::finished() const {
-  return mission_over_ &&
+  return missionOver() &&
          (controller_.state() == FlightState::kPoweredOff || controller_.state() == FlightState::kPreparation);
 }
 
@@ -190,7 +190,7 @@ void Autonomy::tickBehaviors(Time now) {
   status_.flight_state = controller_.state();
   takeSnapshot(now);
   if (prepared_) wish_ = wishOf(now);
-  if (mission_over_) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
+  if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
   executor_.want(wish_);
   executor_.tick({now, estimator_.state(), estimator_.grid(), estimator_.levels(), reactive_.discs(now),
                   reactive_.anybodyWalks(), reactive_.decision()});
@@ -207,19 +207,19 @@ common::Intent Autonomy::wishOf(Time now) {
   context_.hold_reason = supervision.hold_reason;
 
   if (supervision.land) {
-    if (!mission_over_) {
+    if (!missionOver()) {
       mission_status_.state = supervisor_.landedByOperator() ? MissionState::kStopped : MissionState::kFailed;
       mission_status_.reason = "landed: " + supervision.land_reason;
       mission_status_.phase = "land";
-      mission_over_ = lets_go_ = true;
+      lets_go_ = true;
     }
     if (lets_go_) lets_go_ = !mission_.letGo(context_);
     collect(std::exchange(context_.events, {}));
     return {kSupervisorLand, common::LandIntent{}};
   }
-  if (mission_over_) return {kSupervisorLand, common::LandIntent{}};
+  if (missionOver()) return {kSupervisorLand, common::LandIntent{}};
   tickMission();
-  if (mission_over_ && airborne) return {kSupervisorLand, common::LandIntent{}};
+  if (missionOver() && airborne) return {kSupervisorLand, common::LandIntent{}};
   if (supervision.hold && mission_status_.state != MissionState::kHeld && airborne)
     return {kSupervisorHold, common::HoldIntent{}};
   return context_.intent.value_or(common::Intent{});
@@ -233,7 +233,6 @@ void Autonomy::tickMission() {
   mission_status_.state = result.state;
   mission_status_.phase = result.phase;
   mission_status_.reason = result.reason;
-  mission_over_ = common::isOver(result.state);
 }
 
 void Autonomy::takeSnapshot(Time now) {

@@ -72,6 +72,7 @@ class Autonomy {
   void prepare();
   void tickBehaviors(common::Time now);
   common::Intent wishOf(common::Time now);
+  bool missionOver() const { return common::isOver(mission_status_.state); }
   void tickMission();
   void takeSnapshot(common::Time now);
   void collect(std::vector<common::Event> events);
@@ -99,7 +100,6 @@ class Autonomy {
   behaviors::Context context_;
   common::Intent wish_;
   common::MissionStatus mission_status_;
-  bool mission_over_ = false;
   bool lets_go_ = false;  ///< It was landed from above, and has not stopped yet.
   bool prepared_ = false;
   std::optional<common::Time> last_behaviors_;

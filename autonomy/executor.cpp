@@ -161,7 +161,6 @@ void Executor::start() {
   started_ = true;
   keeper_.clear();
   viewpoint_.reset();
-  looks_since_.reset();
   within_since_.reset();
   no_way_since_.reset();
   detour_since_.reset();
@@ -266,7 +265,6 @@ void Executor::carryOut(const ExecutorInput& input, const common::ExploreIntent&
     } else if ((now_ - *looks_since_).seconds() >= kLook_s) {
       attempts_.push_back(planning::attemptFrom(*viewpoint_));
       viewpoint_.reset();
-      looks_since_.reset();
       keeper_.clear();
       reached = true;
     }

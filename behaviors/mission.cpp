@@ -64,7 +64,7 @@ TickResult Mission::tick(Context& context) {
   Impl& self = *impl_;
   context.intent.reset();
   self.answerCommands(context);
-  if (self.result.state == MissionState::kDone || self.result.state == MissionState::kFailed) return self.result;
+  if (common::isOver(self.result.state)) return self.result;
 
   FlightTick tick(context, self.last_intent_id, self.pending_command);
   tick.observer = &self.narrator;
@@ -117,7 +117,7 @@ std::string Mission::Impl::refusal(const Context& context, const common::Operato
   if (goal == nullptr && !std::holds_alternative<common::HomeCommand>(command.kind))
     return "not a command for the mission";
   if (!accepts_goals) return "the mission " + tree.name() + " has no OperatorCommand: it flies its own goals";
-  if (result.state == MissionState::kDone || result.state == MissionState::kFailed) return "the mission has ended";
+  if (common::isOver(result.state)) return "the mission has ended";
   return goal == nullptr ? std::string() : goalProblem(*context.world->grid, goal->goal_map_m, context.hull_radius_m);
 }
 

@@ -85,7 +85,6 @@ tl::expected<void, std::string> FlightController::follow(const FlightPath& path)
   for (const Eigen::Vector3d& point : path.points_map_m) points_odom_m.push_back(inFrame(T_odom_map, point));
   std::optional<double> yaw_odom_rad;
   if (path.goal_yaw_map_rad) yaw_odom_rad = common::wrapAngle(*path.goal_yaw_map_rad + T_odom_map.yaw_rad);
-  follows_path_ = !points_odom_m.empty();
   follower_.setPath(std::move(points_odom_m), path.mode, yaw_odom_rad);
   return {};
 }
@@ -98,13 +97,11 @@ tl::expected<void, std::string> FlightController::followVelocity(const Eigen::Ve
     return tl::unexpected(std::string("the velocity is not finite"));
   Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
   velocity_odom_m_s.head<2>() = Eigen::Rotation2Dd(-T_map_odom_.yaw_rad) * velocity_map_m_s;
-  follows_path_ = false;
   follower_.setVelocity(velocity_odom_m_s, acceleration_m_s2, common::wrapAngle(yaw_map_rad - T_map_odom_.yaw_rad));
   return {};
 }
 
 void FlightController::hold(std::optional<double> yaw_map_rad) {
-  follows_path_ = false;
   follower_.stop(yaw_map_rad ? std::optional(common::wrapAngle(*yaw_map_rad - T_map_odom_.yaw_rad)) : std::nullopt);
 }
 
@@ -184,7 +181,6 @@ common::Setpoint FlightController::takeOff(const FlightTick& tick) {
 
 common::Setpoint FlightController::fly(const FlightTick& tick) {
   if (tick.pilot_flies) {
-    follows_path_ = false;
     follower_.reset(last_state_.T_odom_body.position_m, common::yawOf(last_state_.T_odom_body.rotation));
     position_.reset();
   }
@@ -272,7 +268,6 @@ void FlightController::watchHorizontal(const FlightTick& tick) {
       Eigen::Vector3d here = last_state_.T_odom_body.position_m;
       here.z() = follower_.reference().position_odom_m.z();
       follower_.reset(here, common::yawOf(last_state_.T_odom_body.rotation));
-      follows_path_ = false;
       say(Severity::kInfo, "horizontal estimate is back");
     }
     horizontal_lost_.reset();
@@ -280,7 +275,6 @@ void FlightController::watchHorizontal(const FlightTick& tick) {
   }
   if (!horizontal_lost_) {
     horizontal_lost_ = now_;
-    follows_path_ = false;
     follower_.stop();
     say(Severity::kWarning, "horizontal estimate lost", "holding the velocity");
   }

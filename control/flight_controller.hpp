@@ -96,7 +96,7 @@ class FlightController {
   /// On the ground, or flying with the reference at rest and the vehicle slow.
   bool stopped() const;
   /// The last path is still what is flown: no hold, no lost estimate and no pilot has come in between.
-  bool followsPath() const { return follows_path_; }
+  bool followsPath() const { return follower_.followsPath(); }
   double speed_m_s(FlightMode mode) const { return config_.path.limits(mode).speed_m_s; }
   /// The goal of the last path is reached by the reference.
   bool pathFinished() const;
@@ -130,7 +130,6 @@ class FlightController {
 
   common::Time now_;
   bool ticked_ = false;
-  bool follows_path_ = false;
   double dt_s_;
   common::VehicleState last_state_;
   common::Pose2 T_map_odom_;

@@ -59,6 +59,7 @@ void PathFollower::lay(std::vector<Eigen::Vector3d> points) {
   speeds_m_s_ =
       speedsAlong(points_, {limits_.speed_m_s, limits_.acceleration_m_s2, config_.climb_speed_m_s, kKink_m_s});
   carrot_m_ = 0.0;
+  follows_path_ = false;
   velocity_target_.reset();
 }
 
@@ -73,6 +74,7 @@ void PathFollower::setPath(std::vector<Eigen::Vector3d> points, FlightMode mode,
   bool turns = false;
   points = joined(points, turns);
   lay(rounded(points, limits_.corner_deviation_m, turns));
+  follows_path_ = true;
   carrot_speed_m_s_ = 0.0;
   if (points_.size() > 1) {
     const Eigen::Vector3d direction = (points_[1] - points_[0]).normalized();

@@ -74,6 +74,8 @@ class PathFollower {
   const Reference& advance(double dt_s);
   const Reference& reference() const { return reference_; }
 
+  /// The last path is still what is followed: no stop, no velocity and no reset has come in between.
+  bool followsPath() const { return follows_path_; }
   double remaining_m() const;
   /// The carrot is at the goal and the reference rests there (1 mm, 1 mm/s).
   bool finished() const;
@@ -111,6 +113,7 @@ class PathFollower {
   std::optional<double> goal_yaw_odom_rad_;
   double carrot_m_ = 0.0;
   double carrot_speed_m_s_ = 0.0;
+  bool follows_path_ = false;  ///< What was laid is a path, not the way to a stop.
   std::optional<VelocityTarget> velocity_target_;
   double hold_yaw_odom_rad_ = 0.0;
   bool faces_travel_ = false;

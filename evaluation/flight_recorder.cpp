@@ -89,13 +89,12 @@ void FlightRecorder::world(const common::World& world) {
   home_map_m_ = world.home_map.position_m();
   record_.map = world.grid;
   record_.explored_area_m2 = world.explored_area_m2;
-  if (mission_over_ || world.mission.state == MissionState::kReady) return;
+  if (common::isOver(record_.mission) || world.mission.state == MissionState::kReady) return;
   if (!mission_begin_) mission_begin_ = world.stamp;
   record_.mission = world.mission.state;
   record_.mission_reason = world.mission.reason;
   record_.mission_time_s = (world.stamp - *mission_begin_).seconds();
   followTree(world.mission.tree);
-  mission_over_ = common::isOver(world.mission.state);
 }
 
 void FlightRecorder::followTree(const common::TreeView& tree) {

@@ -82,7 +82,6 @@ class FlightRecorder {
   Eigen::Vector2d home_map_m_ = Eigen::Vector2d::Zero();
   std::uint64_t counted_intent_ = 0;
   std::set<int> suspended_;  ///< Nodes of the tree that are suspended while their parent is not.
-  bool mission_over_ = false;
 };
 
 }  // namespace swiftlet::evaluation

@@ -80,20 +80,21 @@ class Explorer {
     return frontier;
   }
 
+  bool isAt(const ExplorationAttempt& attempt, const Point& target_m) const {
+    return (attempt.target_map_m - target_m).norm() <= config_.attempt_radius_m;
+  }
+
   int attemptsAt(const Point& target_m) const {
-    return static_cast<int>(
-        std::count_if(input_.attempts.begin(), input_.attempts.end(), [&](const ExplorationAttempt& attempt) {
-          return (attempt.target_map_m - target_m).norm() <= config_.attempt_radius_m;
-        }));
+    return static_cast<int>(std::count_if(input_.attempts.begin(), input_.attempts.end(),
+                                          [&](const auto& attempt) { return isAt(attempt, target_m); }));
   }
 
   /// Whether one looked from about there already: another look promises more from elsewhere.
   bool lookedFrom(const Lookout& lookout) const {
     const Point target_m = map_.centerOf(lookout.target), place_m = map_.centerOf(lookout.place);
     const double as_near_m = std::max(config_.attempt_radius_m, 0.5 * (target_m - place_m).norm());
-    return std::any_of(input_.attempts.begin(), input_.attempts.end(), [&](const ExplorationAttempt& attempt) {
-      return (attempt.target_map_m - target_m).norm() <= config_.attempt_radius_m &&
-             (attempt.place_map_m - place_m).norm() <= as_near_m;
+    return std::any_of(input_.attempts.begin(), input_.attempts.end(), [&](const auto& attempt) {
+      return isAt(attempt, target_m) && (attempt.place_map_m - place_m).norm() <= as_near_m;
     });
   }
 

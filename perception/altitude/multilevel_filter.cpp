@@ -477,10 +477,9 @@ MultilevelFilter::~MultilevelFilter() = default;
 MultilevelFilter::MultilevelFilter(MultilevelFilter&&) noexcept = default;
 MultilevelFilter& MultilevelFilter::operator=(MultilevelFilter&&) noexcept = default;
 
-void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map_m, double height_m,
-                                  double height_sigma_m) {
+void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map_m, double height_m) {
   Impl& f = *impl_;
-  f.height.start(time, height_m, square(height_sigma_m));
+  f.height.start(time, height_m, square(common::kStandingHeightSigma_m));
   f.store.clear();
   f.new_surfaces.clear();
   f.settling.clear();

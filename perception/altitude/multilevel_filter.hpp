@@ -111,8 +111,7 @@ class MultilevelFilter {
 
   /// Starts anew, standing on the take-off floor: level 0 at the cells about `position_map_m`.
   /// `height_m` is that of the body origin while standing (measured by the mirror, or known from the airframe).
-  void initialize(common::Time time, const Eigen::Vector2d& position_map_m, double height_m,
-                  double height_sigma_m = common::kStandingHeightSigma_m);
+  void initialize(common::Time time, const Eigen::Vector2d& position_map_m, double height_m);
   bool initialized() const;
 
   /// The vertical acceleration over ENU (gravity and bias removed), at the IMU's rate. Kept until the scan that needs

@@ -312,7 +312,7 @@ void ErrorStateFilter::predict(const common::ImuSample& sample) {
   f.replay();
 }
 
-tl::expected<void, std::string> ErrorStateFilter::initialize(double height_m, double height_sigma_m) {
+tl::expected<void, std::string> ErrorStateFilter::initialize(double height_m) {
   Impl& f = *impl_;
   if (!std::isfinite(height_m)) return tl::unexpected(std::string("the height at rest is not known"));
   const auto rest = f.rest.estimate();
@@ -330,7 +330,7 @@ tl::expected<void, std::string> ErrorStateFilter::initialize(double height_m, do
   // Position and yaw are the origin by definition. Tilt and accelerometer bias share what gravity shows: start wide and
   // let one gravity measurement correlate them.
   auto diagonal = state.covariance.diagonal();
-  diagonal.segment<3>(kPosition) << 1e-8, 1e-8, square(height_sigma_m);
+  diagonal.segment<3>(kPosition) << 1e-8, 1e-8, square(common::kStandingHeightSigma_m);
   diagonal.segment<3>(kVelocity).setConstant(square(f.config.zero_velocity_sigma_m_s));
   diagonal.segment<3>(kAttitude) << square(0.2), square(0.2), 1e-8;
   diagonal.segment<3>(kAccelerometerBias).setConstant(square(f.config.accelerometer_bias_sigma_m_s2));

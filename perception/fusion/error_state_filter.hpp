@@ -120,7 +120,7 @@ class ErrorStateFilter {
   /// Starts at the newest IMU sample, at x = y = yaw = 0 and the given height: roll, pitch and the gyroscope bias from
   /// the last `rest_s` of samples. Fails, with the reason, when there are too few or when the vehicle moved. Forgets
   /// all.
-  tl::expected<void, std::string> initialize(double height_m, double height_sigma_m = common::kStandingHeightSigma_m);
+  tl::expected<void, std::string> initialize(double height_m);
   bool initialized() const;
 
   /// While true, the vehicle is known to stand still: zero velocity and rotation are measured from the next
