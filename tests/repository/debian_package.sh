@@ -18,6 +18,10 @@ dpkg-deb -c "$develop" >"$scratch/develop.txt"
 grep -q '/usr/include/swiftlet/common/time.hpp' "$scratch/develop.txt" || fail 'swiftlet-dev has no headers'
 grep -q '/libswiftlet_common.a' "$scratch/develop.txt" || fail 'swiftlet-dev has no libraries'
 
+for package in libeigen3-dev libceres-dev nlohmann-json3-dev; do
+  [[ $(dpkg-deb -f "$develop" Depends) == *$package* ]] || fail "swiftlet-dev does not depend on $package"
+done
+
 program=$(echo "$scratch"/swiftlet_*.deb)
 [ "$(dpkg-deb -f "$program" Package)" = swiftlet ] || fail "no swiftlet in $scratch"
 dpkg-deb -c "$program" >"$scratch/program.txt"
