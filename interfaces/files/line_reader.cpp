@@ -68,6 +68,7 @@ bool LineReader::next(std::string_view& line) {
   const bool ended = end != std::string::npos;
   if (!ended && at_end_ && taken_ == buffer_.size()) return false;
   ++line_number_;
+  line_ended_ = ended;
   line = std::string_view(buffer_).substr(taken_, ended ? end - taken_ : std::string::npos);
   if (line.size() > limits_.line_bytes)
     throw problemAt(0, "", fmt::format("a line of more than {} bytes", limits_.line_bytes));

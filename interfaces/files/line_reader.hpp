@@ -39,6 +39,8 @@ class LineReader {
 
   /// Of the line returned last, counted from 1; 0 before the first.
   int lineNumber() const { return line_number_; }
+  /// Whether the line returned last had its newline; the last one of a killed writer may not.
+  bool lineEnded() const { return line_ended_; }
   const std::string& name() const { return name_; }
 
   /// A problem in the line returned last, to be thrown; columns count from 1, 0 for the whole line.
@@ -61,6 +63,7 @@ class LineReader {
   std::size_t taken_ = 0;  ///< Of the buffer's bytes, those that were returned.
   std::int64_t unpacked_bytes_ = 0;
   bool at_end_ = false;
+  bool line_ended_ = true;
   int line_number_ = 0;
 };
 
