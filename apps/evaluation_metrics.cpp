@@ -1,6 +1,7 @@
 #include "apps/evaluation_metrics.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -81,6 +82,17 @@ Compared compare(const EvaluateOptions& options) {
   return compared;
 }
 
+void requireAlignable(const EvaluateOptions& options, const Compared& compared) {
+  const Alignment alignment = kAlignments.at(options.align);
+  if (evaluation::align(compared.pairs, alignment)) return;
+  throw InputError(
+      Problem{{options.estimate},
+              "--align",
+              fmt::format("the {} pairs do not determine the {} alignment: too few, or on one {}",
+                          compared.pairs.size(), options.align, alignment == Alignment::kSpatial ? "line" : "spot"),
+              "see `--align first` and `--align none`"});
+}
+
 void tell(const EvaluateOptions& options, const Compared& compared, nlohmann::json json, const std::string& title,
           const std::vector<ErrorFigures>& figures) {
   if (options.json) {
@@ -134,23 +146,17 @@ int evaluateAte(const EvaluateOptions& options) {
   const Alignment alignment = kAlignments.at(options.align);
   if (options.scale && alignment != Alignment::kPlanar && alignment != Alignment::kSpatial)
     throw InputError(Problem{{}, "--scale", "is fitted with the alignment", "use --align planar or spatial"});
-  const Compared compared = compare(options);
-  const auto undetermined = [&] {
-    return InputError(
-        Problem{{options.estimate},
-                "--align",
-                fmt::format("the {} pairs do not determine the {} alignment: too few, or on one {}",
-                            compared.pairs.size(), options.align, alignment == Alignment::kSpatial ? "line" : "spot"),
-                "see `--align first` and `--align none`"});
-  };
+  Compared compared = compare(options);
+  requireAlignable(options, compared);
   double scale = 1.0;
   if (options.scale) {
     const auto best = evaluation::bestScale(compared.pairs, alignment);
-    if (!best) throw undetermined();
+    if (!best) throw InputError(Problem{{options.estimate}, "--scale", "no scale above zero fits", ""});
     scale = *best;
+    compared.pairs = evaluation::scaled(std::move(compared.pairs), scale);
   }
-  const auto error = evaluation::absoluteTrajectoryError(evaluation::scaled(compared.pairs, scale), alignment);
-  if (!error) throw undetermined();
+  const auto error = evaluation::absoluteTrajectoryError(compared.pairs, alignment);
+  if (!error) throw InputError(Problem{{options.estimate}, "--scale", "shrinks the estimate to nothing", ""});
   std::string title = "Absolute trajectory error, aligned: " + options.align;
   if (options.scale) title += fmt::format(", estimate scaled by {:.6f}", scale);
   tell(options, compared, {{"align", options.align}, {"scale", common::rounded(scale, 9)}}, title,

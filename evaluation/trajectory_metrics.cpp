@@ -145,6 +145,7 @@ std::optional<double> bestScale(const std::vector<PosePair>& pairs, Alignment al
     product_m2 += turned.dot(pair.truth.position_m - means.truth);
     spread_m2 += turned.squaredNorm();
   }
+  if (product_m2 <= 0) return std::nullopt;
   return product_m2 / spread_m2;
 }
 

@@ -36,7 +36,8 @@ enum class Alignment {
 std::optional<common::Pose3> align(const std::vector<PosePair>& pairs, Alignment alignment);
 
 /// By what the estimate is multiplied to fit best when it is also aligned so (planar or spatial; Umeyama 1991, eq. 42):
-/// for estimates that do not know how large the world is, as those of one camera. None where `align` gives none.
+/// for estimates that do not know how large the world is, as those of one camera. None where `align` gives none, or
+/// where no positive scale fits: heights that are upside down can outweigh the rest of a planar alignment.
 std::optional<double> bestScale(const std::vector<PosePair>& pairs, Alignment alignment);
 /// The pairs with the estimate's positions multiplied.
 std::vector<PosePair> scaled(std::vector<PosePair> pairs, double scale);

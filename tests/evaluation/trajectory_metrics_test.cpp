@@ -245,8 +245,10 @@ TEST(Scale, ByHand) {
     EXPECT_NEAR(absoluteTrajectoryError(scaled(pairs, 2.0), alignment)->translation_m.max, 0.0, 1e-9);
     EXPECT_NEAR(absoluteTrajectoryError(pairs, alignment)->translation_m.rmse, 1.0, 1e-9);
   }
-  const std::vector<Pose3> spot(3, at(1, 1, 1));
+  const std::vector<Pose3> spot(3, at(1, 1, 1)), up = {at(0, 0, 0), at(0.1, 0, 5)},
+                                                 down = {at(0, 0, 0), at(0.1, 0, -5)};
   EXPECT_FALSE(bestScale(pairsOf(spot, spot), Alignment::kPlanar));
+  EXPECT_FALSE(bestScale(pairsOf(up, down), Alignment::kPlanar)) << "only a negative one would fit";
 }
 
 RC_GTEST_PROP(Scale, NoOtherFitsBetter, ()) {
