@@ -24,5 +24,6 @@ void addTrial(CLI::App& program, Run& run);
 void addConfig(CLI::App& program, Run& run);
 void addDoctor(CLI::App& program, Run& run);
 void addVersion(CLI::App& program, Run& run);
+void addEvaluate(CLI::App& program, Run& run);
 
 }  // namespace swiftlet::apps
