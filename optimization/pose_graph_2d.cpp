@@ -127,6 +127,8 @@ PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraph2DConfig& 
                              values[static_cast<std::size_t>(edge.to)].data());
   }
   problem.SetParameterBlockConstant(values[static_cast<std::size_t>(graph.fixed)].data());
+  for (const int index : graph.also_fixed)
+    problem.SetParameterBlockConstant(values[static_cast<std::size_t>(index)].data());
 
   ceres::Solver::Summary summary;
   ceres::Solve(solverOptions(config), &problem, &summary);

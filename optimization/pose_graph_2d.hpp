@@ -25,7 +25,8 @@ struct PoseEdge2D {
 struct PoseGraph2D {
   std::vector<common::Pose2> poses;  ///< The initial guess.
   std::vector<PoseEdge2D> edges;
-  int fixed = 0;  ///< This pose does not move.
+  int fixed = 0;                     ///< This pose does not move.
+  std::vector<int> also_fixed = {};  ///< Nor do these.
 };
 
 struct PoseGraph2DConfig {
