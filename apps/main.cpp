@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   apps::addConfig(program, run);
   apps::addDoctor(program, run);
   apps::addVersion(program, run);
+  apps::addOptimize(program, run);
 
   try {
     program.parse(argc, argv);

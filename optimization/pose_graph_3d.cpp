@@ -65,6 +65,7 @@ ceres::Solver::Options solverOptions(const PoseGraph3DConfig& config) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = config.max_iterations;
+  options.initial_trust_region_radius = config.trust_radius;
   options.function_tolerance = config.relative_decrease;
   options.num_threads = 1;
   options.max_solver_time_in_seconds = 1e9;
