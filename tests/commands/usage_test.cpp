@@ -22,7 +22,8 @@ TEST_P(Help, SaysWhatItDoesWithAnExample) {
   EXPECT_THAT(end.out, HasSubstr("Example: swiftlet " + GetParam()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Commands, Help, testing::Values("fly", "check", "trial", "config", "doctor", "version", "optimize"),
+INSTANTIATE_TEST_SUITE_P(Commands, Help,
+                         testing::Values("fly", "check", "trial", "config", "doctor", "version", "optimize"),
                          [](const auto& command) { return command.param; });
 
 TEST(Usage, HelpOfAllNamesEachCommand) {
