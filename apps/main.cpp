@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   apps::addDoctor(program, run);
   apps::addVersion(program, run);
   apps::addEvaluate(program, run);
+  apps::addOptimize(program, run);
 
   try {
     program.parse(argc, argv);

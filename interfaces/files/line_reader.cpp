@@ -98,4 +98,6 @@ InputError LineReader::problemAt(int column, std::string element, std::string me
   return InputError(Problem{{name_, line_number_, column}, std::move(element), std::move(message), std::move(hint)});
 }
 
+std::int64_t LineReader::packedBytesRead() const { return archive_filter_bytes(archive_.get(), -1); }
+
 }  // namespace swiftlet::interfaces

@@ -42,6 +42,8 @@ class LineReader {
   /// Whether the line returned last had its newline; the last one of a killed writer may not.
   bool lineEnded() const { return line_ended_; }
   const std::string& name() const { return name_; }
+  /// Of the file as it lies on the disk, for a progress bar.
+  std::int64_t packedBytesRead() const;
 
   /// A problem in the line returned last, to be thrown; columns count from 1, 0 for the whole line.
   common::InputError problemAt(int column, std::string element, std::string message, std::string hint = "") const;
