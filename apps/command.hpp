@@ -21,6 +21,7 @@ using Run = std::function<int()>;
 void addFly(CLI::App& program, Run& run);
 void addCheck(CLI::App& program, Run& run);
 void addTrial(CLI::App& program, Run& run);
+void addMap(CLI::App& program, Run& run);
 void addConfig(CLI::App& program, Run& run);
 void addDoctor(CLI::App& program, Run& run);
 void addVersion(CLI::App& program, Run& run);

@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   apps::addFly(program, run);
   apps::addCheck(program, run);
   apps::addTrial(program, run);
+  apps::addMap(program, run);
   apps::addConfig(program, run);
   apps::addDoctor(program, run);
   apps::addVersion(program, run);

@@ -19,6 +19,8 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose2;
 
+/// Shapes whose least held direction is faced by a greater share of the contour hold it well enough.
+constexpr double kProfiledSpread = 0.25;
 constexpr double kTopValue = LikelihoodField::kTopValue;
 /// Points in the two arrays that the transformation wants.
 struct SplitPoints {
@@ -69,6 +71,8 @@ void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
   fields("min_points", min_points, "With fewer points the match failed.");
   fields("covariance_scale", covariance_scale, "Factor on the covariance of independent points.");
   fields("attitude_error_deg", attitude_error_deg, "Error of roll and pitch, which the covariance allows for.");
+  fields("profile_half_m", profile_half_m, "How far along the least held direction the score is looked at.");
+  fields("profile_temperature", profile_temperature, "Difference in quality that makes a pose e times less likely.");
   fields("min_normal_spread", min_normal_spread,
          "A direction with a smaller share of the contour facing it is not seen.");
   fields("unobservable_sigma_m", unobservable_sigma_m, "A direction less certain than this is not seen.");
@@ -91,6 +95,8 @@ std::vector<std::string> CorrelativeMatcherConfig::validate() const {
       .within("min_points", min_points, 3, 256)
       .within("covariance_scale", covariance_scale, 0.01, 1000)
       .within("attitude_error_deg", attitude_error_deg, 0, 20)
+      .within("profile_half_m", profile_half_m, 0, 5)
+      .within("profile_temperature", profile_temperature, 0.0001, 1)
       .within("min_normal_spread", min_normal_spread, 0, 0.5)
       .within("unobservable_sigma_m", unobservable_sigma_m, 0.001, 0.9)
       .problems();
@@ -132,6 +138,7 @@ struct CorrelativeMatcher::Impl {
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
   Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad,
                                      const SurfacePeak& peak);
+  double profileVariance(const SplitPoints& points, const Pose2& center, const Eigen::Vector2d& axis);
   Eigen::Vector3d weightedMean(const SplitPoints& points, const PoseGrid& grid, const BestPose& best);
   void addWindows(const SplitPoints& points, const Pose2& center, double yaw_rad, int half, int rows,
                   std::vector<std::uint32_t>& sums);
@@ -249,6 +256,30 @@ Eigen::Vector3d CorrelativeMatcher::Impl::weightedMean(const SplitPoints& points
   return (sum / weights).cwiseProduct(Eigen::Vector3d(config.resolution_m, config.resolution_m, grid.step_yaw_rad));
 }
 
+/// The spread (m^2) about `center` of the places along `axis` that score about as well: a likelihood tempered so that a
+/// few points, which may be of something that moved or was seen from one side only, do not decide.
+double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, const Pose2& center,
+                                                 const Eigen::Vector2d& axis) {
+  const double step_m = 2.0 * config.resolution_m;
+  const int half = static_cast<int>(config.profile_half_m / step_m);
+  std::vector<double> qualities;
+  for (int k = -half; k <= half; ++k) {
+    const Eigen::Vector2d at = center.position_m() + k * step_m * axis;
+    BranchAndBound::cellsAt(field, points.x_m, points.y_m, center.yaw_rad, at.x(), at.y(), 1, x_cells, y_cells);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < x_cells.size(); ++i) sum += field.at(x_cells[i], y_cells[i]);
+    qualities.push_back(sum / (kTopValue * static_cast<double>(points.x_m.size())));
+  }
+  const double best = *std::max_element(qualities.begin(), qualities.end());
+  double weights = 0.0, sum2 = 0.0;
+  for (int k = -half; k <= half; ++k) {
+    const double weight = std::exp((qualities[static_cast<std::size_t>(k + half)] - best) / config.profile_temperature);
+    weights += weight;
+    sum2 += weight * k * k * step_m * step_m;
+  }
+  return sum2 / weights;
+}
+
 MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points,
                                                const Pose2& guess, const PoseGrid& grid, const BestPose& best) {
   MatchResult result;
@@ -284,6 +315,12 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   if (normals.eigenvalues()(0) < config.min_normal_spread)
     holdAlong(Eigen::Rotation2Dd(result.finest_T_reference_body.yaw_rad) * normals.eigenvectors().col(0), guess_offset,
               peak);
+  if (config.profile_half_m > 0.0 && normals.eigenvalues()(0) < kProfiledSpread) {
+    const Eigen::Vector2d axis =
+        Eigen::Rotation2Dd(result.finest_T_reference_body.yaw_rad) * normals.eigenvectors().col(0);
+    peak.covariance.topLeftCorner<2, 2>() +=
+        profileVariance(surface_points, result.finest_T_reference_body, axis) * axis * axis.transpose();
+  }
   const Eigen::Vector3d& offset = peak.offset;
   result.covariance = peak.covariance;
   result.unobservable_direction = peak.unobservable_direction;
