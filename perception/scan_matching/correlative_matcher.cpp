@@ -177,8 +177,7 @@ ScoreSurface CorrelativeMatcher::Impl::surfaceAround(const SplitPoints& points, 
   for (int k = -kHalf; k <= kHalf; ++k) {
     addWindows(points, center, center.yaw_rad + k * step_rad, kHalf, ScoreSurface::kSize, sums);
     for (int y = -kHalf; y <= kHalf; ++y)
-      for (int x = -kHalf; x <= kHalf; ++x)
-        surface.at(x, y, k) = sums[static_cast<std::size_t>((y + kHalf) * kWindowColumns + x + kHalf)];
+      for (int x = -kHalf; x <= kHalf; ++x) surface.at(x, y, k) = sums[windowIndex(x + kHalf, y + kHalf)];
   }
   return surface;
 }
@@ -218,10 +217,10 @@ Eigen::Vector3d CorrelativeMatcher::Impl::weightedMean(const SplitPoints& points
   constexpr int kHalf = 7;
   constexpr int kRotations = 4;
   const Pose2 finest = poseAt(grid, best);
-  std::array<std::vector<std::uint32_t>, 2 * kRotations + 1> scores;
+  std::array<std::vector<std::uint32_t>, 2 * kRotations + 1> windows;
+  const auto scores = windows.begin() + kRotations;  // From -kRotations to +kRotations.
   for (int k = -kRotations; k <= kRotations; ++k)
-    addWindows(points, finest, finest.yaw_rad + k * grid.step_yaw_rad, kHalf, 2 * kHalf + 1,
-               scores[static_cast<std::size_t>(k + kRotations)]);
+    addWindows(points, finest, finest.yaw_rad + k * grid.step_yaw_rad, kHalf, 2 * kHalf + 1, scores[k]);
 
   // Wider, the coarse levels' own quantization outweighs what their averaging gains.
   const double spread_m = 0.5 * config.resolution_m;
@@ -233,15 +232,14 @@ Eigen::Vector3d CorrelativeMatcher::Impl::weightedMean(const SplitPoints& points
     Eigen::Vector3d estimate = Eigen::Vector3d::Zero();  // From the finest pose, in cells and rotation steps.
     for (int k = -kRotations; k <= kRotations; ++k) {
       if ((best.rotation + k) % block != 0) continue;
+      const std::vector<std::uint32_t>& window = scores[k];
       for (int y0 = -kHalf; y0 + block - 1 <= kHalf; ++y0) {
         if ((best.y + y0) % block != 0) continue;
         for (int x0 = -kHalf; x0 + block - 1 <= kHalf; ++x0) {
           if ((best.x + x0) % block != 0) continue;
           std::uint64_t score = 0;
           for (int y = y0; y < y0 + block; ++y)
-            for (int x = x0; x < x0 + block; ++x)
-              score += scores[static_cast<std::size_t>(k + kRotations)]
-                             [static_cast<std::size_t>((y + kHalf) * kWindowColumns + x + kHalf)];
+            for (int x = x0; x < x0 + block; ++x) score += window[windowIndex(x + kHalf, y + kHalf)];
           if (score <= top) continue;
           top = score;
           estimate = Eigen::Vector3d(x0 + 0.5 * (block - 1), y0 + 0.5 * (block - 1), k);
@@ -262,20 +260,22 @@ double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, cons
                                                  const Eigen::Vector2d& axis) {
   const double step_m = 2.0 * config.resolution_m;
   const int half = static_cast<int>(config.profile_half_m / step_m);
-  std::vector<double> qualities;
+  std::vector<double> distances_m, qualities;
   for (int k = -half; k <= half; ++k) {
-    const Eigen::Vector2d at = center.position_m() + k * step_m * axis;
+    const double distance_m = k * step_m;
+    const Eigen::Vector2d at = center.position_m() + distance_m * axis;
     BranchAndBound::cellsAt(field, points.x_m, points.y_m, center.yaw_rad, at.x(), at.y(), 1, x_cells, y_cells);
     double sum = 0.0;
     for (std::size_t i = 0; i < x_cells.size(); ++i) sum += field.at(x_cells[i], y_cells[i]);
+    distances_m.push_back(distance_m);
     qualities.push_back(sum / (kTopValue * static_cast<double>(points.x_m.size())));
   }
   const double best = *std::max_element(qualities.begin(), qualities.end());
   double weights = 0.0, sum2 = 0.0;
-  for (int k = -half; k <= half; ++k) {
-    const double weight = std::exp((qualities[static_cast<std::size_t>(k + half)] - best) / config.profile_temperature);
+  for (std::size_t i = 0; i < qualities.size(); ++i) {
+    const double weight = std::exp((qualities[i] - best) / config.profile_temperature);
     weights += weight;
-    sum2 += weight * k * k * step_m * step_m;
+    sum2 += weight * distances_m[i] * distances_m[i];
   }
   return sum2 / weights;
 }

@@ -101,7 +101,7 @@ void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_l
     return;
   }
   // Half of the map is forgotten at once, so that drawing it anew is rare.
-  const auto kept = static_cast<std::size_t>(config.local_map_scans / 2 + 1);
+  const auto kept = static_cast<std::size_t>(config.local_map_scans) / 2 + 1;
   while (key_scans.size() > kept) key_scans.pop_front();
   drawLocalMap();
 }

@@ -88,7 +88,7 @@ Eigen::Matrix3d LaserSlam::Impl::follow(const std::optional<RelativePose>& relat
     motion.correct(relative->T_from_to, relative->covariance, relative->unseen_direction);
   const Pose2 now = motion.T_reference_robot();
   const Eigen::Matrix3d carried = propagated(covariance_before, before, now, Eigen::Matrix3d::Zero());
-  const Eigen::Matrix3d grown = common::turned(positivePart(motion.covariance() - carried), -before.yaw_rad);
+  Eigen::Matrix3d grown = common::turned(positivePart(motion.covariance() - carried), -before.yaw_rad);
   T_odom_robot = T_odom_reference * now;
   if (!relative) return grown;
   if (relative->reference_changed) {
