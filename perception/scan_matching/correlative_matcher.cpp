@@ -130,8 +130,7 @@ struct CorrelativeMatcher::Impl {
                        const PoseGrid& grid, const BestPose& best);
   double support(const SplitPoints& points, const Pose2& pose);
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
-  Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad,
-                                     const SurfacePeak& peak);
+  Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad, const Peak& peak);
   Eigen::Vector3d weightedMean(const SplitPoints& points, const PoseGrid& grid, const BestPose& best);
   void addWindows(const SplitPoints& points, const Pose2& center, double yaw_rad, int half, int rows,
                   std::vector<std::uint32_t>& sums);
@@ -186,7 +185,7 @@ double CorrelativeMatcher::Impl::support(const SplitPoints& points, const Pose2&
 /// A wrong attitude moves an end point sideways by its height over the body. All points move together, so that more of
 /// them do not help; how far the peak follows is tried out for an error about each axis.
 Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& points, const Pose2& center,
-                                                             double step_rad, const SurfacePeak& peak) {
+                                                             double step_rad, const Peak& peak) {
   constexpr float kLeastShift_m = 0.0005F;
   const auto error_rad = static_cast<float>(config.attitude_error_deg * kRadPerDeg);
   float greatest_m = 0.0F;
@@ -275,8 +274,8 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   const Eigen::Vector3d guess_offset(guess.x_m - result.finest_T_reference_body.x_m,
                                      guess.y_m - result.finest_T_reference_body.y_m,
                                      common::wrapAngle(guess.yaw_rad - result.finest_T_reference_body.yaw_rad));
-  SurfacePeak peak = findPeak(
-      surface, {supported, field.reach_m(), config.covariance_scale, config.unobservable_sigma_m}, guess_offset);
+  Peak peak = findPeak(surface, {supported, field.reach_m(), config.covariance_scale, config.unobservable_sigma_m},
+                       guess_offset);
   peak.covariance += attitudeCovariance(surface_points, result.finest_T_reference_body, step_rad, peak);
   if (config.estimate == PoseEstimate::kFinest) peak.offset.setZero();
   if (config.estimate == PoseEstimate::kWeightedMean) peak.offset = weightedMean(surface_points, grid, best);
