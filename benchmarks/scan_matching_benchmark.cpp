@@ -3,6 +3,8 @@
 
 #include "perception/projection/scan_projection.hpp"
 #include "perception/scan_matching/correlative_matcher.hpp"
+#include "perception/scan_matching/gauss_newton_matcher.hpp"
+#include "perception/scan_matching/scan_contour.hpp"
 #include "tests/scan_matching/planar_world.hpp"
 
 namespace {
@@ -26,7 +28,38 @@ test::PlanarWorld corridor() {
   return world;
 }
 
-/// A 1,081-beam scan, covariance included; the argument chooses the instructions.
+/// 32 scans of 1,081 beams within half a metre of the reference, each with a guess some centimetres off.
+struct Scans {
+  Pose2 reference{0.3, 0.1, 0.4};
+  perception::ProjectedScan first;
+  std::vector<perception::ProjectedScan> scans;
+  std::vector<Pose2> guesses;
+
+  explicit Scans(const test::PlanarWorld& world) : first(scanAt(world, reference, 0)) {
+    common::RandomStream random(1, "guess");
+    for (std::uint64_t i = 0; i < 32; ++i) {
+      const Pose2 step{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.2, 0.2)};
+      scans.push_back(scanAt(world, reference * step, i + 1));
+      guesses.push_back(reference * step *
+                        Pose2{random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), random.uniform(-0.01, 0.01)});
+    }
+  }
+};
+
+/// One scan after the other, covariance included.
+void matchAll(benchmark::State& state, perception::ScanMatcher& matcher, const Scans& scans,
+              const perception::SearchWindow& window) {
+  matcher.addReference(scans.first, scans.reference);
+  std::size_t i = 0, failed = 0;
+  for (auto _ : state) {
+    const perception::MatchResult result = matcher.match(scans.scans[i % 32], scans.guesses[i % 32], window);
+    failed += result.failed ? 1 : 0;
+    ++i;
+  }
+  state.counters["failed"] = static_cast<double>(failed);
+}
+
+/// The argument chooses the instructions.
 void match(benchmark::State& state, const test::PlanarWorld& world, const perception::SearchWindow& window) {
   const auto instructions = static_cast<perception::Instructions>(state.range(0));
   if (!perception::isAvailable(instructions)) {
@@ -35,22 +68,7 @@ void match(benchmark::State& state, const test::PlanarWorld& world, const percep
   }
   state.SetLabel(toString(instructions));
   perception::CorrelativeMatcher matcher({}, instructions);
-  const Pose2 reference{0.3, 0.1, 0.4};
-  matcher.addReference(scanAt(world, reference, 0), reference);
-  std::vector<perception::ProjectedScan> scans;
-  std::vector<Pose2> guesses;
-  common::RandomStream random(1, "guess");
-  for (std::uint64_t i = 0; i < 32; ++i) {
-    const Pose2 step{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.2, 0.2)};
-    scans.push_back(scanAt(world, reference * step, i + 1));
-    guesses.push_back(reference * step *
-                      Pose2{random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), random.uniform(-0.01, 0.01)});
-  }
-  std::size_t i = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(matcher.match(scans[i % 32], guesses[i % 32], window));
-    ++i;
-  }
+  matchAll(state, matcher, Scans(world), window);
 }
 
 const perception::SearchWindow kFlight{0.04, 0.026};
@@ -59,18 +77,31 @@ BENCHMARK_CAPTURE(match, flat_4cm_1p5deg, test::flat(), kFlight)->DenseRange(0, 
 BENCHMARK_CAPTURE(match, flat_10cm_3deg, test::flat(), kWide)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(match, corridor_4cm_1p5deg, corridor(), kFlight)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 
+template <typename Matcher>
+void matchBySlope(benchmark::State& state, const test::PlanarWorld& world, const perception::SearchWindow& window) {
+  Matcher matcher{{}};
+  matchAll(state, matcher, Scans(world), window);
+}
+constexpr auto gaussNewton = matchBySlope<perception::GaussNewtonMatcher>;
+BENCHMARK_CAPTURE(gaussNewton, flat_4cm_1p5deg, test::flat(), kFlight)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(gaussNewton, flat_10cm_3deg, test::flat(), kWide)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(gaussNewton, corridor_4cm_1p5deg, corridor(), kFlight)->Unit(benchmark::kMicrosecond);
+
+/// What a scan that joins the reference costs, what the next match has to prepare included.
+template <typename Matcher>
 void addReference(benchmark::State& state) {
   const test::PlanarWorld world = test::flat();
   const Pose2 reference{0.3, 0.1, 0.4};
   const auto scan = scanAt(world, reference, 0);
-  perception::CorrelativeMatcher matcher{{}};
+  Matcher matcher{{}};
   for (auto _ : state) {
     matcher.clearReference();
     matcher.addReference(scan, reference);
     benchmark::DoNotOptimize(matcher.match(scan, reference, {0.0, 0.0}));
   }
 }
-BENCHMARK(addReference)->Unit(benchmark::kMicrosecond);
+BENCHMARK(addReference<perception::CorrelativeMatcher>)->Unit(benchmark::kMicrosecond);
+BENCHMARK(addReference<perception::GaussNewtonMatcher>)->Unit(benchmark::kMicrosecond);
 
 void projectScan(benchmark::State& state) {
   const test::PlanarWorld world = test::flat();

@@ -303,15 +303,8 @@ void CorrelativeMatcher::clearReference() { impl_->field.clear(); }
 
 void CorrelativeMatcher::addReference(const ProjectedScan& scan, const Pose2& T_reference_body) {
   if (!isFinite(T_reference_body)) return;
-  std::vector<ContourSegment> contour =
-      contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m);
-  const Eigen::Rotation2Dd rotation(T_reference_body.yaw_rad);
-  const Eigen::Matrix2d R = rotation.toRotationMatrix();
-  for (ContourSegment& segment : contour) {
-    segment.begin_m = R * segment.begin_m + T_reference_body.position_m();
-    segment.end_m = R * segment.end_m + T_reference_body.position_m();
-  }
-  impl_->field.draw(contour);
+  impl_->field.draw(
+      contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m, T_reference_body));
 }
 
 MatchResult CorrelativeMatcher::match(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window) {

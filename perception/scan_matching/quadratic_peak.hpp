@@ -1,6 +1,6 @@
-// The peak of a quadratic in the pose, whatever it was taken from: scores about the best pose of a search, or the normal
-// equations of a least-squares match. Where the scene does not hold the pose, the guess stands, and the covariance says
-// so (Bachrach 2009, section 5.1.3).
+// The peak of a quadratic in the pose, whatever it was taken from: scores about the best pose of a search, or the
+// normal equations of a least-squares match. Where the scene does not hold the pose, the guess stands, and the
+// covariance says so (Bachrach 2009, section 5.1.3).
 #pragma once
 
 #include <optional>
