@@ -4,6 +4,7 @@
 #include "perception/projection/scan_projection.hpp"
 #include "perception/scan_matching/correlative_matcher.hpp"
 #include "perception/scan_matching/gauss_newton_matcher.hpp"
+#include "perception/scan_matching/point_to_line_matcher.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 #include "tests/scan_matching/planar_world.hpp"
 
@@ -87,6 +88,11 @@ BENCHMARK_CAPTURE(gaussNewton, flat_4cm_1p5deg, test::flat(), kFlight)->Unit(ben
 BENCHMARK_CAPTURE(gaussNewton, flat_10cm_3deg, test::flat(), kWide)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(gaussNewton, corridor_4cm_1p5deg, corridor(), kFlight)->Unit(benchmark::kMicrosecond);
 
+constexpr auto pointToLine = matchBySlope<perception::PointToLineMatcher>;
+BENCHMARK_CAPTURE(pointToLine, flat_4cm_1p5deg, test::flat(), kFlight)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(pointToLine, flat_10cm_3deg, test::flat(), kWide)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(pointToLine, corridor_4cm_1p5deg, corridor(), kFlight)->Unit(benchmark::kMicrosecond);
+
 /// What a scan that joins the reference costs, what the next match has to prepare included.
 template <typename Matcher>
 void addReference(benchmark::State& state) {
@@ -102,6 +108,7 @@ void addReference(benchmark::State& state) {
 }
 BENCHMARK(addReference<perception::CorrelativeMatcher>)->Unit(benchmark::kMicrosecond);
 BENCHMARK(addReference<perception::GaussNewtonMatcher>)->Unit(benchmark::kMicrosecond);
+BENCHMARK(addReference<perception::PointToLineMatcher>)->Unit(benchmark::kMicrosecond);
 
 void projectScan(benchmark::State& state) {
   const test::PlanarWorld world = test::flat();

@@ -33,8 +33,12 @@ std::vector<Moments> runningMoments(const std::vector<Eigen::Vector2f>& points) 
   return sums;
 }
 
-/// The normal of the line through the points first .. last, if they lie on one.
-std::optional<Eigen::Vector2f> normalOf(const std::vector<Moments>& sums, std::size_t first, std::size_t last) {
+struct Line {
+  Eigen::Vector2f middle_m, normal;
+};
+
+/// The line through the points first .. last, if they lie on one.
+std::optional<Line> lineThrough(const std::vector<Moments>& sums, std::size_t first, std::size_t last) {
   const Moments &a = sums[first], &b = sums[last + 1];
   const auto n = static_cast<double>(last + 1 - first);
   const double mean_x = (b.x - a.x) / n, mean_y = (b.y - a.y) / n;
@@ -48,7 +52,8 @@ std::optional<Eigen::Vector2f> normalOf(const std::vector<Moments>& sums, std::s
       half_difference > 0.0 ? Eigen::Vector2d(half_difference + root, xy) : Eigen::Vector2d(xy, root - half_difference);
   const double length = along.norm();
   if (!(length > 0.0)) return std::nullopt;
-  return Eigen::Vector2d(-along.y() / length, along.x() / length).cast<float>();
+  return Line{Eigen::Vector2d(mean_x, mean_y).cast<float>(),
+              Eigen::Vector2d(-along.y() / length, along.x() / length).cast<float>()};
 }
 
 /// The stretch of the contour around a point that its line is laid through; both ends only ever move on.
@@ -97,15 +102,18 @@ std::vector<OrientedPoint> orientedPoints(const ProjectedScan& scan, int count, 
   const int all = static_cast<int>(points.size());
   const std::vector<Moments> sums = runningMoments(points);
   Stretch stretch(points, joinsOf(points, max_gap_m));
+  const std::vector<int> chosen = spreadIndices(points, count == 0 ? all : count, max_range_m);
   std::vector<OrientedPoint> result;
-  for (const int index : spreadIndices(points, count == 0 ? all : count, max_range_m)) {
+  result.reserve(chosen.size());
+  for (const int index : chosen) {
     const auto i = static_cast<std::size_t>(index);
     stretch.moveTo(i);
     if (!stretch.isLong()) continue;
-    std::optional<Eigen::Vector2f> normal = normalOf(sums, stretch.first, stretch.last);
-    if (!normal) continue;
-    if (normal->dot(points[i]) > 0.0F) *normal = -*normal;
-    result.push_back({points[i], *normal, heights[i]});
+    const std::optional<Line> line = lineThrough(sums, stretch.first, stretch.last);
+    if (!line) continue;
+    const Eigen::Vector2f foot_m = points[i] + line->normal * line->normal.dot(line->middle_m - points[i]);
+    const bool away = line->normal.dot(points[i]) > 0.0F;
+    result.push_back({points[i], away ? Eigen::Vector2f(-line->normal) : line->normal, foot_m, heights[i]});
   }
   return result;
 }

@@ -13,6 +13,7 @@ namespace swiftlet::perception {
 struct OrientedPoint {
   Eigen::Vector2f point_m;
   Eigen::Vector2f normal;  ///< Unit vector towards the side the surface was seen from.
+  Eigen::Vector2f foot_m;  ///< The point moved along the normal to the line: with the noise of many beams, not of one.
   float height_m = 0.0F;   ///< Over the body; 0 when the scan does not say.
 };
 

@@ -12,6 +12,8 @@ namespace {
 using common::Pose2;
 
 constexpr int kLevelRatio = 4;
+/// Coarse levels only have to come near; every so many points do.
+constexpr std::size_t kCoarseStride = 4;
 /// Steps smaller than this share of a cell end a level; larger than this share of one at the end did not converge.
 constexpr double kSmallStep_cells = 0.05;
 constexpr double kConverged_cells = 0.5;
@@ -62,25 +64,32 @@ struct Linearized {
   double quality_sum = 0.0;
 };
 
-Linearized linearize(const LeastSquaresMatch& match, const LikelihoodField& field, const Pose2& pose) {
-  const double cosine = std::cos(pose.yaw_rad), sine = std::sin(pose.yaw_rad),
-               reach2 = field.reach_m() * field.reach_m();
-  Linearized result;
-  for (const OrientedPoint& p : match.points()) {
-    const auto turned = [&](const Eigen::Vector2f& v) {
-      const double x = static_cast<double>(v.x()), y = static_cast<double>(v.y());
-      return Eigen::Vector2d(cosine * x - sine * y, sine * x + cosine * y);
-    };
-    const Eigen::Vector2d arm_m = turned(p.point_m);
+enum class Purpose { kStep, kVerdict };
+
+/// At a pose; for a step at a coarse level from every `stride`th point.
+Linearized linearize(Purpose purpose, const LeastSquaresMatch& match, const LikelihoodField& field, const Pose2& pose,
+                     std::size_t stride = 1) {
+  const double cosine = std::cos(pose.yaw_rad), sine = std::sin(pose.yaw_rad);
+  const double reach2 = field.reach_m() * field.reach_m(), inverse_lever = match.inverseLever();
+  const auto turned = [&](const Eigen::Vector2f& v) {
+    const double x = static_cast<double>(v.x()), y = static_cast<double>(v.y());
+    return Eigen::Vector2d(cosine * x - sine * y, sine * x + cosine * y);
+  };
+  NormalEquations equations;
+  double quality_sum = 0.0;
+  for (std::size_t i = 0; i < match.points().size(); i += stride) {
+    const OrientedPoint& p = match.points()[i];
+    const Eigen::Vector2d arm_m = turned(p.point_m), normal = turned(p.normal);
     const std::optional<FieldSample> sample = sampleField(field, arm_m + pose.position_m());
     if (!sample) continue;
     // 1 - value is (d / reach)^2; half its slope times reach^2 is the vector from the contour to the point.
-    result.equations.add(arm_m, turned(p.normal), -0.5 * reach2 * sample->slope_1_m, static_cast<double>(p.height_m),
-                         match.inverseLever());
-    result.quality_sum += sample->value;
+    equations.add(arm_m, normal, -0.5 * reach2 * sample->slope_1_m, inverse_lever);
+    quality_sum += sample->value;
+    if (purpose == Purpose::kVerdict) equations.addTilt(arm_m, normal, static_cast<double>(p.height_m), inverse_lever);
   }
-  result.equations.squares_m2 = reach2 * (result.equations.count - result.quality_sum);
-  return result;
+  // Not from the slopes: between the cells that of a contour is less than its distance says.
+  equations.squares_m2 = reach2 * (equations.count - quality_sum);
+  return {equations, quality_sum};
 }
 
 }  // namespace
@@ -97,12 +106,13 @@ MatchResult GaussNewtonMatcher::Impl::descend(const LeastSquaresMatch& match, Po
   for (std::size_t level = coarsestNeeded(match) + 1; level-- > 0;) {
     const LikelihoodField& field = fields[level];
     const int most = level == 0 ? config.finest_iterations : config.iterations;
+    const std::size_t stride = level == 0 ? 1 : kCoarseStride;
     for (int i = 0; i < most; ++i) {
-      moved_m = match.step(linearize(match, field, pose).equations, field.reach_m(), pose);
+      moved_m = match.step(linearize(Purpose::kStep, match, field, pose, stride).equations, field.reach_m(), pose);
       if (!(moved_m > kSmallStep_cells * field.resolution_m())) break;
     }
   }
-  const Linearized at_end = linearize(match, fields.front(), pose);
+  const Linearized at_end = linearize(Purpose::kVerdict, match, fields.front(), pose);
   return match.finish(at_end.equations, at_end.quality_sum, moved_m < kConverged_cells * config.resolution_m, pose);
 }
 

@@ -55,16 +55,10 @@ std::vector<std::string> LeastSquaresMatcherConfig::validate() const {
       .problems();
 }
 
-void NormalEquations::add(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, const Eigen::Vector2d& pull_m,
-                          double height_m, double inverse_lever) {
-  // The point moves by (1, 0), (0, 1) and, turned by 1 / lever, by (-arm_y, arm_x) / lever.
-  const double turn_x = -arm_m.y() * inverse_lever, turn_y = arm_m.x() * inverse_lever;
-  const Eigen::Vector3d J(normal.x(), normal.y(), normal.x() * turn_x + normal.y() * turn_y);
-  curvature += J * J.transpose();
-  slope += Eigen::Vector3d(pull_m.x(), pull_m.y(), pull_m.x() * turn_x + pull_m.y() * turn_y);
-  tilt += J * (height_m * normal.transpose());
-  squares_m2 += pull_m.squaredNorm();
-  ++count;
+void NormalEquations::addTilt(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, double height_m,
+                              double inverse_lever) {
+  const double turn = (arm_m.x() * normal.y() - arm_m.y() * normal.x()) * inverse_lever;
+  tilt += Eigen::Vector3d(normal.x(), normal.y(), turn) * (height_m * normal.transpose());
 }
 
 LeastSquaresMatch::LeastSquaresMatch(const LeastSquaresMatcherConfig& config, std::vector<OrientedPoint> points,
@@ -96,9 +90,12 @@ Quadratic LeastSquaresMatch::quadraticAt(const NormalEquations& equations,
                                          const std::optional<Eigen::Vector2d>& held) const {
   Eigen::Matrix3d kept = Eigen::Matrix3d::Identity();
   if (held) kept.topLeftCorner<2, 2>() -= *held * held->transpose();
+  const NormalEquations& e = equations;
+  Eigen::Matrix3d curvature;
+  curvature << e.xx, e.xy, e.xt, e.xy, e.yy, e.yt, e.xt, e.yt, e.tt;
   Quadratic quadratic;
-  quadratic.gradient = -kept * equations.slope;
-  quadratic.hessian = -kept * equations.curvature * kept;
+  quadratic.gradient = -kept * Eigen::Vector3d(e.x, e.y, e.t);
+  quadratic.hessian = -kept * curvature * kept;
   return quadratic;
 }
 

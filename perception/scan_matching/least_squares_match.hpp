@@ -34,18 +34,37 @@ struct LeastSquaresMatcherConfig {
 };
 
 /// Sums over the matched points at one pose. The unknown is (x, y, turn), each in metres of displacement of the points:
-/// `turn` is the rotation times `lever_m`.
+/// `turn` is the rotation times a lever.
 struct NormalEquations {
-  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  ///< Sum of J'J, J how the distance of a point changes.
-  Eigen::Vector3d slope = Eigen::Vector3d::Zero();      ///< Sum of J'd.
-  Eigen::Matrix<double, 3, 2> tilt = Eigen::Matrix<double, 3, 2>::Zero();  ///< Change of slope per radian of attitude.
-  double squares_m2 = 0.0;                                                 ///< Sum of d^2.
+  double xx = 0.0, xy = 0.0, yy = 0.0, xt = 0.0, yt = 0.0,
+         tt = 0.0;                   ///< Of J'J, J how the distance of a point changes.
+  double x = 0.0, y = 0.0, t = 0.0;  ///< Of J'd.
+  double squares_m2 = 0.0;           ///< Of d^2.
   int count = 0;
+  /// How J'd changes per radian of roll and pitch; only needed where the match ends.
+  Eigen::Matrix<double, 3, 2> tilt = Eigen::Matrix<double, 3, 2>::Zero();
 
   /// `arm_m` is the point relative to the body and `normal` that of its contour, along the reference axes; `pull_m` is
-  /// the vector from the contour to the point.
-  void add(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, const Eigen::Vector2d& pull_m, double height_m,
-           double inverse_lever);
+  /// the vector from the contour to the point. In the header, as it is the inner loop.
+  void add(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, const Eigen::Vector2d& pull_m,
+           double inverse_lever) {
+    // The point moves by (1, 0), (0, 1) and, turned by 1 / lever, by (-arm_y, arm_x) / lever.
+    const double turn_x = -arm_m.y() * inverse_lever, turn_y = arm_m.x() * inverse_lever;
+    const double turn = normal.x() * turn_x + normal.y() * turn_y;
+    xx += normal.x() * normal.x();
+    xy += normal.x() * normal.y();
+    yy += normal.y() * normal.y();
+    xt += normal.x() * turn;
+    yt += normal.y() * turn;
+    tt += turn * turn;
+    x += pull_m.x();
+    y += pull_m.y();
+    t += pull_m.x() * turn_x + pull_m.y() * turn_y;
+    squares_m2 += pull_m.squaredNorm();
+    ++count;
+  }
+  /// A wrong attitude moves a point by its height times the error.
+  void addTilt(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, double height_m, double inverse_lever);
 };
 
 /// The scan to be matched, the guess, and what holds for every step.

@@ -105,7 +105,8 @@ std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int co
   for (std::size_t i = 0; i < usable_points.size() && chosen.size() < static_cast<std::size_t>(count); ++i) {
     along += step[i];
     if (along < spacing) continue;
-    along = std::fmod(along, spacing);
+    // The difference is exact here, and a division less.
+    along = along < 2.0F * spacing ? along - spacing : std::fmod(along, spacing);
     chosen.push_back(usable_points[i]);
   }
   return chosen;

@@ -6,6 +6,7 @@
 
 #include "perception/scan_matching/correlative_matcher.hpp"
 #include "perception/scan_matching/gauss_newton_matcher.hpp"
+#include "perception/scan_matching/point_to_line_matcher.hpp"
 #include "tests/scan_matching/scenes.hpp"
 
 namespace swiftlet::perception {
@@ -25,7 +26,11 @@ struct GaussNewton {
   using Matcher = GaussNewtonMatcher;
   using Config = GaussNewtonMatcherConfig;
 };
-using Kinds = testing::Types<GaussNewton>;
+struct PointToLine {
+  using Matcher = PointToLineMatcher;
+  using Config = PointToLineMatcherConfig;
+};
+using Kinds = testing::Types<GaussNewton, PointToLine>;
 TYPED_TEST_SUITE(LeastSquaresMatchers, Kinds);
 
 Pose2 randomStep(common::RandomStream& random, double distance_m, double turn_rad) {
@@ -71,6 +76,7 @@ Accuracy measureAccuracy(int trials, double distance_m, double turn_rad) {
 
 TYPED_TEST(LeastSquaresMatchers, AreAccurateToAMillimetreOrTwoAndSaySo) {
   const Accuracy accuracy = measureAccuracy<TypeParam>(300, 0.08, 0.015);
+  printf("near: %.2f mm %.4f deg nees %.2f failed %d\n", 1e3*accuracy.translation_rms_m, accuracy.rotation_rms_rad/kDeg, accuracy.nees, accuracy.failed);
   EXPECT_EQ(accuracy.failed, 0);
   EXPECT_LT(accuracy.translation_rms_m, 0.002);
   EXPECT_LT(accuracy.rotation_rms_rad, 0.05 * kDeg);
