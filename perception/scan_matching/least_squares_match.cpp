@@ -32,6 +32,8 @@ void LeastSquaresMatcherConfig::describe(common::config::Fields& fields) {
   fields("max_gap_m", max_gap_m, "Neighbouring end points nearer than this are joined to a contour.");
   fields("support_m", support_m, "A point farther than this from the reference has no support.");
   fields("min_quality", min_quality, "Below this mean score the match failed.");
+  fields("min_direction_support", min_direction_support,
+         "When less of the contour facing some direction has support, the match failed.");
   fields("min_points", min_points, "With fewer points the match failed.");
   fields("covariance_scale", covariance_scale, "Factor on the covariance of independent points.");
   fields("attitude_error_deg", attitude_error_deg, "Error of roll and pitch, which the covariance allows for.");
@@ -47,6 +49,7 @@ std::vector<std::string> LeastSquaresMatcherConfig::validate() const {
       .within("max_gap_m", max_gap_m, 0, 10)
       .within("support_m", support_m, 0.005, 1)
       .within("min_quality", min_quality, 0, 1)
+      .within("min_direction_support", min_direction_support, 0, 1)
       .within("min_points", min_points, 3, 256)
       .within("covariance_scale", covariance_scale, 0.01, 1000)
       .within("attitude_error_deg", attitude_error_deg, 0, 20)
@@ -123,6 +126,24 @@ void LeastSquaresMatch::judgeWindow(MatchResult& result) const {
   if (!is_inside) result.failed = true;
 }
 
+/// Of all directions that the scan holds the pose in, the least share of the contour facing it that has support.
+double LeastSquaresMatch::leastSupport(const NormalEquations& equations, double yaw_rad) const {
+  Eigen::Matrix2d facing = Eigen::Matrix2d::Zero(), supported;
+  for (const OrientedPoint& p : points_) {
+    const Eigen::Vector2d normal = p.normal.cast<double>();
+    facing += normal * normal.transpose();
+  }
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
+  supported << equations.xx, equations.xy, equations.xy, equations.yy;
+  supported = R.transpose() * supported * R;
+  if (held_level_) {
+    const Eigen::Vector2d seen = held_level_->unitOrthogonal();
+    return seen.dot(supported * seen) / seen.dot(facing * seen);
+  }
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(supported, facing, Eigen::EigenvaluesOnly)
+      .eigenvalues()(0);
+}
+
 MatchResult LeastSquaresMatch::finish(const NormalEquations& equations, double quality_sum, bool converged,
                                       const Pose2& pose) const {
   MatchResult result;
@@ -154,7 +175,8 @@ MatchResult LeastSquaresMatch::finish(const NormalEquations& equations, double q
   result.T_reference_body.x_m += peak.offset.x();
   result.T_reference_body.y_m += peak.offset.y();
   result.T_reference_body.yaw_rad = common::wrapAngle(pose.yaw_rad + peak.offset.z());
-  result.failed = !converged || result.quality < config_.min_quality || result.points_used < config_.min_points;
+  result.failed = !converged || result.quality < config_.min_quality || result.points_used < config_.min_points ||
+                  !(leastSupport(equations, pose.yaw_rad) > config_.min_direction_support);
   judgeWindow(result);
   return result;
 }

@@ -17,12 +17,14 @@
 namespace swiftlet::perception {
 
 struct LeastSquaresMatcherConfig {
-  int points = 400;                 ///< Of a scan that are matched, spread evenly along its contour.
-  double max_range_m = 20.0;        ///< Points farther than this are not used.
-  double max_gap_m = 0.3;           ///< Neighbouring end points nearer than this are joined to a contour.
-  double support_m = 0.06;          ///< A point farther than this from the reference has no support.
-  double min_quality = 0.35;        ///< Below this the match failed.
-  int min_points = 30;              ///< With fewer points the match failed.
+  int points = 400;                     ///< Of a scan that are matched, spread evenly along its contour.
+  double max_range_m = 20.0;            ///< Points farther than this are not used.
+  double max_gap_m = 0.3;               ///< Neighbouring end points nearer than this are joined to a contour.
+  double support_m = 0.06;              ///< A point farther than this from the reference has no support.
+  double min_quality = 0.35;            ///< Below this the match failed.
+  double min_direction_support = 0.25;  ///< So it did when less of the contour facing some direction has support: the
+                                        ///< other walls fit, and these were taken for outliers.
+  int min_points = 30;                  ///< With fewer points the match failed.
   double covariance_scale = 2.0;    ///< On the covariance of independent points; calibrated, see the tests of honesty.
   double attitude_error_deg = 1.0;  ///< Of roll and pitch: moves each end point by its height over the body times this.
   double unobservable_sigma_m =
@@ -93,6 +95,7 @@ class LeastSquaresMatch {
   Quadratic quadraticAt(const NormalEquations& equations, const std::optional<Eigen::Vector2d>& held) const;
   /// The direction no contour faces, along the reference axes.
   std::optional<Eigen::Vector2d> heldDirection(double yaw_rad) const;
+  double leastSupport(const NormalEquations& equations, double yaw_rad) const;
   void judgeWindow(MatchResult& result) const;
 
   const LeastSquaresMatcherConfig& config_;

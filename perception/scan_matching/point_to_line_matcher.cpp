@@ -16,6 +16,9 @@ constexpr double kSigmaOfMedian = 1.4826;
 /// Steps smaller than this end the search; if the last is larger than `kConverged_m`, it did not converge.
 constexpr double kSmallStep_m = 0.0002;
 constexpr double kConverged_m = 0.005;
+/// The reach shrinks by no more than this at once. Where most walls fit already, those that face another way are far
+/// off and would be taken for outliers before they have pulled.
+constexpr double kSlowest = 0.6;
 
 /// A point of the scan and the line it is pulled to, at one pose.
 struct Pair {
@@ -126,17 +129,15 @@ MatchResult PointToLineMatcher::match(const ProjectedScan& scan, const Pose2& gu
   self.reference.sort();
 
   Pose2 pose = guess;
-  double radius_m = std::clamp(match.windowReach_m(), config.support_m, config.max_distance_m), moved_m = INFINITY;
-  for (int i = 0; i < config.iterations && moved_m > kSmallStep_m; ++i) {
-    self.makePairs(match, pose, radius_m);
-    const double trim_m = self.trimAt();
+  double reach_m = std::clamp(match.windowReach_m(), config.support_m, config.max_distance_m), moved_m = INFINITY;
+  for (int i = 0; i < config.iterations && (moved_m > kSmallStep_m || reach_m > config.support_m); ++i) {
+    self.makePairs(match, pose, reach_m);
+    reach_m = std::clamp(self.trimAt(), std::max(config.support_m, kSlowest * reach_m), reach_m);
     NormalEquations equations;
     for (const Pair& pair : self.pairs)
-      if (std::abs(pair.distance_m) <= trim_m)
+      if (std::abs(pair.distance_m) <= reach_m)
         equations.add(pair.arm_m, pair.normal, pair.distance_m * pair.normal, match.inverseLever());
-    moved_m = match.step(equations, radius_m, pose);
-    // What is left to go is not much more than what was gone, and than the pairs are apart.
-    radius_m = std::clamp(std::max(trim_m, 2.0 * moved_m), config.support_m, radius_m);
+    moved_m = match.step(equations, reach_m, pose);
   }
   return self.verdict(match, pose, moved_m);
 }
