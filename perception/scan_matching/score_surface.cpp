@@ -48,14 +48,17 @@ Quadratic fitQuadratic(const ScoreSurface& surface) {
   return q;
 }
 
-Peak findPeak(const ScoreSurface& surface, const SurfaceScale& scale, const Eigen::Vector3d& guess_offset) {
-  const double step2 = surface.step_m * surface.step_m, reach2 = scale.reach_m * scale.reach_m;
+double logPerScore(const ScoreSurface& surface, const SurfaceScale& scale) {
+  const double reach2 = scale.reach_m * scale.reach_m;
   const double height = surface.at(0, 0, 0) / (LikelihoodField::kTopValue * std::max(scale.supported, 1.0));
   const double residual2 = std::max(reach2 * (1.0 - height), kMinResidual_m * kMinResidual_m);
+  return reach2 / (2.0 * LikelihoodField::kTopValue * residual2 * scale.covariance_scale);
+}
+
+Peak findPeak(const ScoreSurface& surface, const SurfaceScale& scale, const Eigen::Vector3d& guess_offset) {
   PeakScale peak_scale;
   peak_scale.step = {surface.step_m, surface.step_m, surface.step_rad};
-  peak_scale.information_per_curvature =
-      reach2 / (2.0 * LikelihoodField::kTopValue * residual2 * scale.covariance_scale) / step2;
+  peak_scale.information_per_curvature = logPerScore(surface, scale) / (surface.step_m * surface.step_m);
   peak_scale.unobservable_sigma_m = scale.unobservable_sigma_m;
   peak_scale.reach_steps = ScoreSurface::kHalf;
   return findPeak(fitQuadratic(surface), peak_scale, guess_offset);

@@ -39,6 +39,9 @@ struct SurfaceScale {
   double unobservable_sigma_m = 0.0;  ///< A direction less certain is not seen.
 };
 
+/// How much the logarithm of the likelihood of the middle pose grows with its score, by the same reasoning.
+double logPerScore(const ScoreSurface& surface, const SurfaceScale& scale);
+
 /// Each supported point adds -(d / reach)^2 to the score, with d along the normal of its contour; the curvature is
 /// therefore the sum of n n', and with the spread of d, read off the height of the peak, the covariance follows as that
 /// of least squares. Along what is not seen, the peak is where the guess is.

@@ -1,0 +1,85 @@
+// The three matchers on real scans: consecutive ones of two logs of wheeled robots, with the wheels as the guess.
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "perception/scan_matching/correlative_matcher.hpp"
+#include "perception/scan_matching/gauss_newton_matcher.hpp"
+#include "perception/scan_matching/point_to_line_matcher.hpp"
+#include "tests/scan_matching/scenes.hpp"
+#include "tests/slam2d/recorded_log.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+/// How often a matcher answers, and how far from the one that looks everywhere when both answer.
+struct Agreement {
+  int answered = 0, compared = 0, seen_whole = 0;
+  double off2_m2 = 0.0;
+  int far_off = 0;
+  double rms_m() const { return std::sqrt(off2_m2 / std::max(seen_whole, 1)); }
+};
+
+ProjectedScan projectedFrom(const test::RecordedScan& recorded) {
+  common::LaserConfig laser;
+  laser.mirror_beams = 0;
+  return project(recorded.scan, laser, [&](common::Time) { return common::lifted(recorded.T_odom_laser, 1.0); }, {});
+}
+
+std::array<Agreement, 3> compareOn(const std::vector<test::RecordedScan>& log, std::size_t stride) {
+  const SearchWindow window{0.25, 0.15};
+  std::array<Agreement, 3> agreements;
+  for (std::size_t i = 0; i + 1 < log.size(); i += stride) {
+    const ProjectedScan first = projectedFrom(log[i]), second = projectedFrom(log[i + 1]);
+    const Pose2 guess = log[i].T_odom_laser.inverse() * log[i + 1].T_odom_laser;
+    CorrelativeMatcher correlative{{}};
+    GaussNewtonMatcher gauss_newton{{}};
+    PointToLineMatcher point_to_line{{}};
+    const std::array<ScanMatcher*, 3> matchers{&correlative, &gauss_newton, &point_to_line};
+    MatchResult everywhere;
+    for (std::size_t k = 0; k < matchers.size(); ++k) {
+      matchers[k]->addReference(first, {});
+      const MatchResult match = matchers[k]->match(second, guess, window);
+      if (k == 0) everywhere = match;
+      Agreement& agreement = agreements[k];
+      if (match.failed) continue;
+      ++agreement.answered;
+      if (everywhere.failed || everywhere.at_window_edge) continue;
+      ++agreement.compared;
+      if (match.unobservable_direction || everywhere.unobservable_direction) continue;
+      ++agreement.seen_whole;
+      const double off_m = test::errorOf(match.T_reference_body, everywhere.T_reference_body).head<2>().norm();
+      if (off_m > 0.05)
+        ++agreement.far_off;
+      else
+        agreement.off2_m2 += off_m * off_m;
+    }
+  }
+  return agreements;
+}
+
+void expectAgreement(const std::string& file, std::size_t stride) {
+  const auto log = test::readScans(test::datasets() / "01-laser-slam" / file);
+  if (log.empty()) GTEST_SKIP() << "no " << file << "; SWIFTLET_DATASETS names the folder";
+  const std::array<Agreement, 3> agreements = compareOn(log, stride);
+  for (std::size_t k = 1; k < agreements.size(); ++k) {
+    const Agreement& a = agreements[k];
+    SCOPED_TRACE(testing::Message() << "matcher " << k << " of " << agreements[0].answered << ": answered "
+                                    << a.answered << ", seen whole " << a.seen_whole << ", far off " << a.far_off
+                                    << ", rms " << 1e3 * a.rms_m() << " mm");
+    RecordProperty("rms_mm_" + std::to_string(k), std::to_string(1e3 * a.rms_m()));
+    EXPECT_GT(a.answered, agreements[0].answered * 95 / 100);
+    EXPECT_GT(a.seen_whole, agreements[0].answered / 2);
+    EXPECT_LE(a.far_off, a.seen_whole / 50);
+    EXPECT_LT(a.rms_m(), 0.012);
+  }
+}
+
+TEST(RecordedScans, AllMatchersAgreeOnIntel) { expectAgreement("intel/intel.clf.bz2", 10); }
+TEST(RecordedScans, AllMatchersAgreeOnFreiburg) { expectAgreement("fr079/fr079.clf.bz2", 4); }
+
+}  // namespace
+}  // namespace swiftlet::perception
