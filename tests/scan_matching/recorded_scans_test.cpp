@@ -70,7 +70,7 @@ void expectAgreement(const std::string& file, std::size_t stride) {
     SCOPED_TRACE(testing::Message() << "matcher " << k << " of " << agreements[0].answered << ": answered "
                                     << a.answered << ", seen whole " << a.seen_whole << ", far off " << a.far_off
                                     << ", rms " << 1e3 * a.rms_m() << " mm");
-    RecordProperty("rms_mm_" + std::to_string(k), std::to_string(1e3 * a.rms_m()));
+    testing::Test::RecordProperty("rms_mm_" + std::to_string(k), std::to_string(1e3 * a.rms_m()));
     EXPECT_GT(a.answered, agreements[0].answered * 95 / 100);
     EXPECT_GT(a.seen_whole, agreements[0].answered / 2);
     EXPECT_LE(a.far_off, a.seen_whole / 50);
