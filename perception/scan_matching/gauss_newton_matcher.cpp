@@ -17,6 +17,7 @@ constexpr std::size_t kCoarseStride = 4;
 /// Steps smaller than this share of a cell end a level; larger than this share of one at the end did not converge.
 constexpr double kSmallStep_cells = 0.05;
 constexpr double kConverged_cells = 0.5;
+constexpr int kHalvings = 3;
 
 }  // namespace
 
@@ -51,6 +52,7 @@ struct GaussNewtonMatcher::Impl {
   }
 
   std::size_t coarsestNeeded(const LeastSquaresMatch& match) const;
+  double climb(const LeastSquaresMatch& match, std::size_t level, Pose2& pose) const;
   MatchResult descend(const LeastSquaresMatch& match, Pose2 pose) const;
 
   GaussNewtonMatcherConfig config;
@@ -63,6 +65,11 @@ struct Linearized {
   NormalEquations equations;
   double quality_sum = 0.0;
 };
+
+Pose2 halfway(const Pose2& a, const Pose2& b) {
+  return {0.5 * (a.x_m + b.x_m), 0.5 * (a.y_m + b.y_m),
+          common::wrapAngle(a.yaw_rad + 0.5 * common::wrapAngle(b.yaw_rad - a.yaw_rad))};
+}
 
 enum class Purpose { kStep, kVerdict };
 
@@ -101,17 +108,34 @@ std::size_t GaussNewtonMatcher::Impl::coarsestNeeded(const LeastSquaresMatch& ma
   return level;
 }
 
+/// Follows the slope of one map; how long the last step was. Between cells the slope is rough: where a step leads down,
+/// half of it is tried, so that it does not swing about the place for ever.
+double GaussNewtonMatcher::Impl::climb(const LeastSquaresMatch& match, std::size_t level, Pose2& pose) const {
+  const LikelihoodField& field = fields[level];
+  const std::size_t stride = level == 0 ? 1 : kCoarseStride;
+  const int most = level == 0 ? config.finest_iterations : config.iterations;
+  Linearized here = linearize(Purpose::kStep, match, field, pose, stride);
+  double moved_m = 0.0;
+  for (int i = 0; i < most; ++i) {
+    Pose2 next = pose;
+    moved_m = match.step(here.equations, field.reach_m(), next);
+    Linearized there = linearize(Purpose::kStep, match, field, next, stride);
+    for (int halving = 0; halving < kHalvings && there.quality_sum < here.quality_sum; ++halving) {
+      next = halfway(pose, next);
+      moved_m *= 0.5;
+      there = linearize(Purpose::kStep, match, field, next, stride);
+    }
+    if (there.quality_sum < here.quality_sum) break;
+    pose = next;
+    here = there;
+    if (!(moved_m > kSmallStep_cells * field.resolution_m())) break;
+  }
+  return moved_m;
+}
+
 MatchResult GaussNewtonMatcher::Impl::descend(const LeastSquaresMatch& match, Pose2 pose) const {
   double moved_m = 0.0;
-  for (std::size_t level = coarsestNeeded(match) + 1; level-- > 0;) {
-    const LikelihoodField& field = fields[level];
-    const int most = level == 0 ? config.finest_iterations : config.iterations;
-    const std::size_t stride = level == 0 ? 1 : kCoarseStride;
-    for (int i = 0; i < most; ++i) {
-      moved_m = match.step(linearize(Purpose::kStep, match, field, pose, stride).equations, field.reach_m(), pose);
-      if (!(moved_m > kSmallStep_cells * field.resolution_m())) break;
-    }
-  }
+  for (std::size_t level = coarsestNeeded(match) + 1; level-- > 0;) moved_m = climb(match, level, pose);
   const Linearized at_end = linearize(Purpose::kVerdict, match, fields.front(), pose);
   return match.finish(at_end.equations, at_end.quality_sum, moved_m < kConverged_cells * config.resolution_m, pose);
 }

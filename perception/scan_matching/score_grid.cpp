@@ -53,18 +53,22 @@ void ScoreGrid::scoreRotation(const LikelihoodField& field, std::uint32_t* out) 
   }
 }
 
+template <typename Visit>
+void ScoreGrid::forEachRow(const Visit& visit) const {
+  for (int k = 0; k < window_.rotations; ++k)
+    for (int y = 0; y < window_.translations; ++y) visit(&scores_[indexOf(0, y, k)], y, k);
+}
+
 BestPose ScoreGrid::best(const GuessPenalty& penalty) const {
   BestPose best;
-  for (int k = 0; k < window_.rotations; ++k) {
-    for (int y = 0; y < window_.translations; ++y) {
-      for (int x = 0; x < window_.translations; ++x) {
-        int score = static_cast<int>(at(x, y, k));
-        if (score <= best.score) continue;
-        score -= BranchAndBound::leastPenalty(penalty, window_, x, y, k, 0);
-        if (score > best.score) best = {score, x, y, k};
-      }
+  forEachRow([&](const std::uint32_t* row, int y, int k) {
+    for (int x = 0; x < window_.translations; ++x) {
+      const int score = static_cast<int>(row[x]);
+      if (score <= best.score) continue;
+      const int less_penalty = score - BranchAndBound::leastPenalty(penalty, window_, x, y, k, 0);
+      if (less_penalty > best.score) best = {less_penalty, x, y, k};
     }
-  }
+  });
   return best;
 }
 
@@ -78,24 +82,24 @@ ScoreSurface ScoreGrid::surfaceAround(const BestPose& pose) const {
 }
 
 Eigen::Matrix3d ScoreGrid::spreadElsewhere(const BestPose& pose, double log_per_score) const {
-  const double top = *std::max_element(scores_.begin(), scores_.end());
-  const double floor = top - kNegligible_log / log_per_score;
+  std::uint32_t top = 0;
+  forEachRow([&](const std::uint32_t* row, int, int) {
+    for (int x = 0; x < window_.translations; ++x) top = std::max(top, row[x]);
+  });
+  const auto floor = static_cast<std::uint32_t>(std::max(0.0, top - kNegligible_log / log_per_score));
   double all = 0.0;
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (int k = 0; k < window_.rotations; ++k) {
-    for (int y = 0; y < window_.translations; ++y) {
-      for (int x = 0; x < window_.translations; ++x) {
-        const double score = at(x, y, k);
-        if (score < floor) continue;
-        const double likelihood = std::exp((score - top) * log_per_score);
-        all += likelihood;
-        const int dx = x - pose.x, dy = y - pose.y, dk = k - pose.rotation;
-        if (std::max({std::abs(dx), std::abs(dy), std::abs(dk)}) <= ScoreSurface::kHalf) continue;
-        const Eigen::Vector3d away(dx, dy, dk);
-        moments += likelihood * away * away.transpose();
-      }
+  forEachRow([&](const std::uint32_t* row, int y, int k) {
+    for (int x = 0; x < window_.translations; ++x) {
+      if (row[x] < floor) continue;
+      const double likelihood = std::exp(-log_per_score * (top - row[x]));
+      all += likelihood;
+      const int dx = x - pose.x, dy = y - pose.y, dk = k - pose.rotation;
+      if (std::max({std::abs(dx), std::abs(dy), std::abs(dk)}) <= ScoreSurface::kHalf) continue;
+      const Eigen::Vector3d away(dx, dy, dk);
+      moments += likelihood * away * away.transpose();
     }
-  }
+  });
   return all > 0.0 ? Eigen::Matrix3d(moments / all) : moments;
 }
 

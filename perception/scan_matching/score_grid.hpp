@@ -31,11 +31,7 @@ class ScoreGrid {
   void score(LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m, const PoseGrid& window);
 
   /// The sum at a pose; each index from -kMargin to kMargin beyond the last.
-  std::uint32_t at(int x, int y, int rotation) const {
-    const auto row = static_cast<std::size_t>(rotation + kMargin) * static_cast<std::size_t>(side_) +
-                     static_cast<std::size_t>(y + kMargin);
-    return scores_[row * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x + kMargin)];
-  }
+  std::uint32_t at(int x, int y, int rotation) const { return scores_[indexOf(x, y, rotation)]; }
   /// The highest sum less penalty; of equal ones the first by rotation, y and x.
   BestPose best(const GuessPenalty& penalty) const;
   ScoreSurface surfaceAround(const BestPose& pose) const;
@@ -45,6 +41,14 @@ class ScoreGrid {
   Eigen::Matrix3d spreadElsewhere(const BestPose& pose, double log_per_score) const;
 
  private:
+  std::size_t indexOf(int x, int y, int rotation) const {
+    const auto row = static_cast<std::size_t>(rotation + kMargin) * static_cast<std::size_t>(side_) +
+                     static_cast<std::size_t>(y + kMargin);
+    return row * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x + kMargin);
+  }
+  /// visit(row, y, rotation) with the scores of x = 0 .. translations - 1, for each row of the window.
+  template <typename Visit>
+  void forEachRow(const Visit& visit) const;
   void scoreRotation(const LikelihoodField& field, std::uint32_t* out);
 
   Instructions instructions_;
