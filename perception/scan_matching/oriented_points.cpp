@@ -65,7 +65,7 @@ void OrientedPoints::sort() {
   // Counting sort, stable.
   const auto cellOf = [&](const Entry& p) {
     const Eigen::Vector2d cell = (p.point_m - begin_m_) / cell_m_;
-    return static_cast<std::size_t>(static_cast<int>(cell.y()) * columns_ + static_cast<int>(cell.x()));
+    return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(cell.x());
   };
   first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   for (const Entry& p : points_) ++first_[cellOf(p) + 1];

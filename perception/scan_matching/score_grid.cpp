@@ -48,7 +48,8 @@ void ScoreGrid::scoreRotation(const LikelihoodField& field, std::uint32_t* out) 
                  part_.data());
       for (int y = 0; y < side_; ++y)
         for (int x = 0; x < kWindowColumns; ++x)
-          out[y * stride_ + strip + x] += part_[static_cast<std::size_t>(y * kWindowColumns + x)];
+          out[y * stride_ + strip + x] +=
+              part_[static_cast<std::size_t>(y) * kWindowColumns + static_cast<std::size_t>(x)];
     }
   }
 }

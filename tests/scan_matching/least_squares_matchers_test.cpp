@@ -53,7 +53,7 @@ Accuracy measureAccuracy(int trials, double distance_m, double turn_rad) {
   for (int trial = 0; trial < trials; ++trial) {
     typename Kind::Matcher matcher{{}};
     const Pose2 reference = poseInFlat(random);
-    const auto frame = static_cast<std::uint64_t>(2 * trial);
+    const auto frame = 2 * static_cast<std::uint64_t>(trial);
     matcher.addReference(scanAt(world, reference, frame), reference);
     const Pose2 truth = reference * randomStep(random, distance_m, turn_rad);
     const MatchResult match =
@@ -231,7 +231,7 @@ TYPED_TEST(LeastSquaresMatchers, AgreeWithTheOneThatLooksEverywhere) {
   common::RandomStream random(11, "agree");
   for (int trial = 0; trial < 40; ++trial) {
     const Pose2 reference = poseInFlat(random), truth = reference * randomStep(random, 0.08, 0.015);
-    const auto frame = static_cast<std::uint64_t>(2 * trial);
+    const auto frame = 2 * static_cast<std::uint64_t>(trial);
     const ProjectedScan first = scanAt(world, reference, frame), second = scanAt(world, truth, frame + 1);
     typename TypeParam::Matcher matcher{{}};
     CorrelativeMatcher correlative{{}};
