@@ -12,7 +12,7 @@ namespace swiftlet::apps {
 /// Exit codes of the program.
 enum ExitCode : int {
   kDone = 0,
-  kFailed = 1,    ///< A flight did not pass, or something is missing.
+  kFailed = 1,    ///< A flight did not pass, something is missing, or a graph did not converge.
   kBadInput = 2,  ///< Wrong usage or input that cannot be used, a mission that is not sound too.
 };
 
@@ -21,8 +21,11 @@ using Run = std::function<int()>;
 void addFly(CLI::App& program, Run& run);
 void addCheck(CLI::App& program, Run& run);
 void addTrial(CLI::App& program, Run& run);
+void addMap(CLI::App& program, Run& run);
 void addConfig(CLI::App& program, Run& run);
 void addDoctor(CLI::App& program, Run& run);
 void addVersion(CLI::App& program, Run& run);
+void addEvaluate(CLI::App& program, Run& run);
+void addOptimize(CLI::App& program, Run& run);
 
 }  // namespace swiftlet::apps

@@ -1,6 +1,4 @@
 // swiftlet fly: one mission in the simulator, with the page.
-#include <unistd.h>
-
 #include <memory>
 #include <optional>
 
@@ -13,6 +11,7 @@
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/numbers.hpp"
+#include "apps/progress_line.hpp"
 #include "apps/show.hpp"
 #include "apps/speed.hpp"
 #include "apps/stop_signals.hpp"
@@ -62,28 +61,18 @@ std::string progressLine(const FlightProgress& progress) {
                      progress.wall_s > 0 ? progress.simulated_s / progress.wall_s : 0.0);
 }
 
-/// One line that is rewritten on a terminal; a line every few seconds elsewhere.
 class Terminal {
  public:
-  explicit Terminal(bool quiet) : quiet_(quiet), interactive_(isatty(STDOUT_FILENO) != 0) {}
+  explicit Terminal(bool quiet) : quiet_(quiet), line_(quiet) {}
 
-  void progress(const FlightProgress& progress) {
-    if (quiet_) return;
-    if (interactive_) {
-      show("\r\033[K" + progressLine(progress));
-      line_open_ = true;
-    } else if (progress.wall_s - last_s_ >= 2.0) {
-      last_s_ = progress.wall_s;
-      show(progressLine(progress) + "\n");
-    }
-  }
+  void progress(const FlightProgress& progress) { line_.update(progressLine(progress), progress.wall_s); }
 
   void event(const common::Event& event) {
     if (quiet_) return;
-    closeLine();
+    line_.close();
     const std::string text = fmt::format("{:6.1f} s  {}: {}{}", event.stamp.seconds(), event.source, event.text,
                                          event.reason.empty() ? "" : " (" + event.reason + ")");
-    if (interactive_ && event.severity != common::Severity::kInfo) {
+    if (line_.interactive() && event.severity != common::Severity::kInfo) {
       show(fmt::format(fg(event.severity == common::Severity::kError ? fmt::color::red : fmt::color::orange), "{}\n",
                        text));
     } else {
@@ -91,16 +80,11 @@ class Terminal {
     }
   }
 
-  void closeLine() {
-    if (line_open_) show("\r\033[K");
-    line_open_ = false;
-  }
+  void closeLine() { line_.close(); }
 
  private:
   bool quiet_;
-  bool interactive_;
-  bool line_open_ = false;
-  double last_s_ = -10.0;
+  ProgressLine line_;
 };
 
 void printEnd(const FlightResult& result, bool json) {

@@ -45,9 +45,12 @@ int main(int argc, char** argv) {
   apps::addFly(program, run);
   apps::addCheck(program, run);
   apps::addTrial(program, run);
+  apps::addMap(program, run);
   apps::addConfig(program, run);
   apps::addDoctor(program, run);
   apps::addVersion(program, run);
+  apps::addEvaluate(program, run);
+  apps::addOptimize(program, run);
 
   try {
     program.parse(argc, argv);

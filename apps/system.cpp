@@ -76,6 +76,10 @@ System loadSystem(const std::string& name) {
   return system;
 }
 
+common::LaserConfig loadLaser(const std::string& name) {
+  return common::config::readFile<common::LaserConfig>(fileFor(name, "sensors"));
+}
+
 std::vector<std::string> systemNames() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(common::findData("config/systems")))

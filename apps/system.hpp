@@ -32,6 +32,9 @@ struct System {
 /// `name` is a profile of config/systems or a file. Throws common::InputError.
 System loadSystem(const std::string& name);
 
+/// `name` is a data sheet of config/sensors or a file. Throws common::InputError.
+common::LaserConfig loadLaser(const std::string& name);
+
 /// The names of the profiles that come along.
 std::vector<std::string> systemNames();
 

@@ -124,7 +124,7 @@ std::vector<common::Event> Estimator::takeEvents() { return std::exchange(events
 void Estimator::initialize(const common::LaserScan& scan) {
   if (!last_imu_) return;
   const common::RollPitchYaw tilt = common::rollPitchYaw(last_imu_->rotation_ahrs_body);
-  const Pose3 T_level_body{common::quaternionFrom({tilt.roll_rad, tilt.pitch_rad, 0.0}), Eigen::Vector3d::Zero()};
+  Pose3 T_level_body{common::quaternionFrom({tilt.roll_rad, tilt.pitch_rad, 0.0}), Eigen::Vector3d::Zero()};
   const auto standing = project(
       scan, laser_, [&](Time) { return T_level_body; }, config_.projection);
   const double height_m = medianBelow_m(standing).value_or(0.5 * vehicle_.hull_height_m);

@@ -7,8 +7,10 @@
 
 namespace swiftlet::common {
 
-/// The bytes of a file. Throws InputError when it is no regular file (a pipe or a device could make the reader wait for
-/// ever), cannot be read, or is larger than `most_bytes`.
+/// Throws InputError for a folder, a pipe or a device; the latter two could make a reader wait for ever.
+void requireFile(const std::filesystem::path& file);
+
+/// The bytes of a file. Throws InputError when it is no regular file, cannot be read, or is larger than `most_bytes`.
 std::string readBytes(const std::filesystem::path& file, std::size_t most_bytes = std::size_t{1} << 30);
 
 }  // namespace swiftlet::common

@@ -63,7 +63,7 @@ std::optional<Pose3> alignPlanar(const std::vector<PosePair>& pairs) {
   return about(means, common::quaternionFrom({0.0, 0.0, std::atan2(cross_m2, dot_m2)}));
 }
 
-/// Umeyama 1991, eq. 40-43, without scale.
+/// Umeyama 1991, eq. 40-43, without scale, which changes nothing about the rotation.
 std::optional<Pose3> alignSpatial(const std::vector<PosePair>& pairs) {
   const Means means = meansOf(pairs);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -134,6 +134,26 @@ std::optional<Pose3> align(const std::vector<PosePair>& pairs, Alignment alignme
   SWIFTLET_CHECK(false, static_cast<int>(alignment));
 }
 
+std::optional<double> bestScale(const std::vector<PosePair>& pairs, Alignment alignment) {
+  SWIFTLET_CHECK(alignment == Alignment::kPlanar || alignment == Alignment::kSpatial, static_cast<int>(alignment));
+  const std::optional<Pose3> T_truth_estimate = align(pairs, alignment);
+  if (!T_truth_estimate) return std::nullopt;
+  const Means means = meansOf(pairs);
+  double product_m2 = 0, spread_m2 = 0;
+  for (const PosePair& pair : pairs) {
+    const Eigen::Vector3d turned = T_truth_estimate->rotation * (pair.estimate.position_m - means.estimate);
+    product_m2 += turned.dot(pair.truth.position_m - means.truth);
+    spread_m2 += turned.squaredNorm();
+  }
+  if (product_m2 <= 0) return std::nullopt;
+  return product_m2 / spread_m2;
+}
+
+std::vector<PosePair> scaled(std::vector<PosePair> pairs, double scale) {
+  for (PosePair& pair : pairs) pair.estimate.position_m *= scale;
+  return pairs;
+}
+
 std::optional<AbsoluteError> absoluteTrajectoryError(const std::vector<PosePair>& pairs, Alignment alignment) {
   const std::optional<Pose3> T_truth_estimate = align(pairs, alignment);
   if (!T_truth_estimate) return std::nullopt;
@@ -147,10 +167,12 @@ std::optional<AbsoluteError> absoluteTrajectoryError(const std::vector<PosePair>
 }
 
 RelativeError relativePoseError(const std::vector<PosePair>& pairs, const Stretch& stretch) {
+  constexpr double kRounding = 1e-9;
   const std::vector<double> at = measure(pairs, stretch.unit);
   std::vector<double> translations_m, rotations_rad;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto end = std::lower_bound(at.begin() + static_cast<std::ptrdiff_t>(i), at.end(), at[i] + stretch.length);
+    const auto end =
+        std::lower_bound(at.begin() + static_cast<std::ptrdiff_t>(i), at.end(), at[i] + stretch.length - kRounding);
     if (end == at.end()) break;
     const PosePair& to = pairs[static_cast<std::size_t>(end - at.begin())];
     const Pose3 moved_estimate = pairs[i].estimate.inverse() * to.estimate;

@@ -35,6 +35,13 @@ enum class Alignment {
 /// one point (planar) or on one line (spatial).
 std::optional<common::Pose3> align(const std::vector<PosePair>& pairs, Alignment alignment);
 
+/// By what the estimate is multiplied to fit best when it is also aligned so (planar or spatial; Umeyama 1991, eq. 42):
+/// for estimates that do not know how large the world is, as those of one camera. None where `align` gives none, or
+/// where no positive scale fits: heights that are upside down can outweigh the rest of a planar alignment.
+std::optional<double> bestScale(const std::vector<PosePair>& pairs, Alignment alignment);
+/// The pairs with the estimate's positions multiplied.
+std::vector<PosePair> scaled(std::vector<PosePair> pairs, double scale);
+
 /// The errors of the positions after alignment, in metres; none where `align` gives none.
 struct AbsoluteError {
   common::Pose3 T_truth_estimate;
@@ -43,7 +50,8 @@ struct AbsoluteError {
 };
 std::optional<AbsoluteError> absoluteTrajectoryError(const std::vector<PosePair>& pairs, Alignment alignment);
 
-/// Over which stretch a relative error is taken: from each pose to the first one at least this far on.
+/// Over which stretch a relative error is taken: from each pose to the first one at least this far on, but for what
+/// rounding may take away.
 struct Stretch {
   enum class Unit { kFrames, kSeconds, kMetres };  ///< Metres along the true path.
   Unit unit = Unit::kFrames;

@@ -59,6 +59,7 @@ ceres::Solver::Options solverOptions(const PoseGraph2DConfig& config) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = config.max_iterations;
+  options.initial_trust_region_radius = config.trust_radius;
   options.function_tolerance = config.relative_decrease;
   options.num_threads = 1;
   options.max_solver_time_in_seconds = 1e9;
@@ -127,6 +128,8 @@ PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraph2DConfig& 
                              values[static_cast<std::size_t>(edge.to)].data());
   }
   problem.SetParameterBlockConstant(values[static_cast<std::size_t>(graph.fixed)].data());
+  for (const int index : graph.also_fixed)
+    problem.SetParameterBlockConstant(values[static_cast<std::size_t>(index)].data());
 
   ceres::Solver::Summary summary;
   ceres::Solve(solverOptions(config), &problem, &summary);

@@ -25,13 +25,17 @@ struct PoseEdge2D {
 struct PoseGraph2D {
   std::vector<common::Pose2> poses;  ///< The initial guess.
   std::vector<PoseEdge2D> edges;
-  int fixed = 0;  ///< This pose does not move.
+  int fixed = 0;                     ///< This pose does not move.
+  std::vector<int> also_fixed = {};  ///< Nor do these.
 };
 
 struct PoseGraph2DConfig {
   int max_iterations = 30;
   double robust_width = 3.0;        ///< Normalized error (sigmas) beyond which a robust edge loses influence (Cauchy).
   double relative_decrease = 1e-6;  ///< Converged when the cost changes by less than this share.
+  /// The trust region's first radius: how far the first step may go, 1e16 for that of Gauss-Newton. Not read from
+  /// files.
+  double trust_radius = 1e4;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

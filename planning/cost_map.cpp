@@ -36,8 +36,8 @@ struct BoundingBox {
 };
 
 /// Unknown cells in a row, at most `gap` long in one of four directions, with free cells at both ends.
-bool isSliver(const CellState* cell, int stride, int gap) {
-  for (const int step : {1, stride, stride + 1, stride - 1}) {
+bool isSliver(const CellState* cell, std::ptrdiff_t stride, int gap) {
+  for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, stride, stride + 1, stride - 1}) {
     int ahead = 1;
     while (ahead <= gap && cell[ahead * step] == CellState::kUnknown) ++ahead;
     if (ahead > gap || cell[ahead * step] != CellState::kFree) continue;

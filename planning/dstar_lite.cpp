@@ -8,8 +8,6 @@
 
 namespace swiftlet::planning {
 
-using common::CellIndex;
-
 tl::expected<Path, PlanFailure> DStarLite::plan(const CostMap& map, const Eigen::Vector2d& start_map_m,
                                                 const Eigen::Vector2d& goal_map_m) {
   expansions_ = 0;

@@ -1,5 +1,6 @@
 #include "simulation/flight.hpp"
 
+#include <cmath>
 #include <numbers>
 
 namespace swiftlet::simulation {
@@ -91,7 +92,7 @@ void Flight::stepAutopilot() {
 
 void Flight::push() {
   for (const PushConfig& push : realization_.scenario.pushes)
-    if (stepped_ == Time() + kStep * static_cast<std::int64_t>(push.time_s / kStep_s + 0.5))
+    if (stepped_ == Time() + kStep * std::llround(push.time_s / kStep_s))
       quadrotor_.push({push.x_n_s, push.y_n_s, push.z_n_s});
 }
 

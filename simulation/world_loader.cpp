@@ -169,7 +169,7 @@ class Loader {
 
   template <typename Item>
   void addGeometry(const Item& item, const common::Pose3& T_world_link, const std::string& top, const std::string& part,
-                   std::optional<Color> color, double least_plane_m) {
+                   const std::optional<Color>& color, double least_plane_m) {
     const auto T_link_item = resolve(item.SemanticPose(), item.Element());
     if (!T_link_item || item.Geom() == nullptr) return;
     const common::Pose3 T_world_item = T_world_link * *T_link_item;
@@ -201,7 +201,7 @@ class Loader {
   }
 
   void addMesh(const sdf::Mesh& sdf_mesh, const common::Pose3& T_world_item, const std::string& top,
-               const std::string& part, std::optional<Color> color) {
+               const std::string& part, const std::optional<Color>& color) {
     const auto location = locationOf(sdf_mesh.Element(), world_.file);
     const auto path = resolver_.find(sdf_mesh.Uri(), sdf_mesh.FilePath());
     if (!path) {

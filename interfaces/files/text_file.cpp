@@ -7,6 +7,8 @@
 #include <string>
 #include <system_error>
 
+#include <fmt/format.h>
+
 namespace swiftlet::interfaces {
 
 std::vector<Word> wordsOf(std::string_view line) {
@@ -32,6 +34,25 @@ bool parseNumber(std::string_view word, double& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+}
+
+std::optional<common::Time> parseStamp(std::string_view word) {
+  double seconds = 0;
+  if (!parseNumber(word, seconds) || std::abs(seconds) > 9e9) return std::nullopt;
+  const std::size_t dot = word.find('.');
+  const std::string_view fraction = dot == std::string_view::npos ? "" : word.substr(dot + 1);
+  const bool plain = word.find_first_not_of("0123456789.") == std::string_view::npos && dot != 0;
+  if (!plain || fraction.size() > 9) return common::Time::fromSeconds(seconds);
+  std::int64_t whole = 0, part = 0;
+  const std::string padded = std::string(fraction) + std::string(9 - fraction.size(), '0');
+  std::from_chars(word.data(), word.data() + std::min(dot, word.size()), whole);
+  std::from_chars(padded.data(), padded.data() + padded.size(), part);
+  return common::Time::fromNanoseconds(whole * 1'000'000'000 + part);
+}
+
+std::string stampText(common::Time stamp) {
+  const std::int64_t ns = stamp.nanoseconds(), magnitude = ns < 0 ? -ns : ns;
+  return fmt::format("{}{}.{:09}", ns < 0 ? "-" : "", magnitude / 1'000'000'000, magnitude % 1'000'000'000);
 }
 
 }  // namespace swiftlet::interfaces

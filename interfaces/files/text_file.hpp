@@ -3,8 +3,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "common/time.hpp"
 
 namespace swiftlet::interfaces {
 
@@ -22,5 +26,10 @@ bool saysAtStart(const std::filesystem::path& file, std::string_view text, std::
 
 /// The whole word as a finite number; false when it is anything else.
 bool parseNumber(std::string_view word, double& value);
+
+/// Seconds; exact for plain decimals, which a double of seconds since 1970 is not. None for anything else.
+std::optional<common::Time> parseStamp(std::string_view word);
+/// Seconds with nine decimals, from the nanoseconds: it reads back exactly.
+std::string stampText(common::Time stamp);
 
 }  // namespace swiftlet::interfaces

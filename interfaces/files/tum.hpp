@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/trajectory.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/line_fields.hpp"
 
 namespace swiftlet::interfaces {
 
@@ -25,11 +27,21 @@ class TumWriter {
   AppendFile file_;
 };
 
-/// Throws InputError with file, line and column for anything that is not a pose, a rotation of length zero, or a stamp
-/// that does not come after the one before. Rotations are normalized. A last line without its newline that is not
-/// whole is left out: its writer was killed.
-common::Trajectory readTum(const std::filesystem::path& file);
+/// `t x y z qx qy qz qw`.
+const LineFormat& tumFormat();
+
+/// What is asked of the stamps of a file.
+enum class StampOrder {
+  kGrowing,  ///< Each comes after the one before: what is read is a common::Trajectory.
+  kAny,      ///< They may repeat and go back, as those of recorded logs do; common::ordered makes a trajectory of them.
+};
+
+/// The poses in the order of the file, plain or compressed. Throws InputError with file, line and column for anything
+/// that is not a pose, a rotation of length zero, or a stamp that is not in the order asked for. Rotations are
+/// normalized. A last line without its newline that is not whole is left out: its writer was killed.
+std::vector<common::StampedPose> readTum(const std::filesystem::path& file, StampOrder order = StampOrder::kGrowing);
 /// `name` stands for the file in messages.
-common::Trajectory parseTum(std::string_view text, const std::string& name);
+std::vector<common::StampedPose> parseTum(std::string_view text, const std::string& name,
+                                          StampOrder order = StampOrder::kGrowing);
 
 }  // namespace swiftlet::interfaces

@@ -108,10 +108,7 @@ std::string mapSection(const std::string& map_svg) {
 }
 
 std::string plotsSection(const std::vector<std::string>& plots_svg) {
-  if (plots_svg.empty()) return "";
-  std::string body = "<div class=\"plots\">\n";
-  for (const std::string& svg : plots_svg) body += fmt::format("<figure>{}</figure>\n", svg);
-  return html::section("Plots", body + "</div>");
+  return plots_svg.empty() ? "" : html::section("Plots", html::plots(plots_svg));
 }
 
 std::string phasesSection(const std::vector<Phase>& phases) {

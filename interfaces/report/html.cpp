@@ -70,6 +70,12 @@ std::string facts(const std::vector<std::pair<std::string, std::string>>& facts)
   return body + "</dl>";
 }
 
+std::string plots(const std::vector<std::string>& svg) {
+  std::string body = "<div class=\"plots\">\n";
+  for (const std::string& plot : svg) body += fmt::format("<figure>{}</figure>\n", plot);
+  return body + "</div>";
+}
+
 std::string table(const common::Table& table) {
   if (table.rows.empty()) return "<p class=\"empty\">None.</p>";
   std::vector<bool> numeric;

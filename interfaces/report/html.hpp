@@ -24,6 +24,9 @@ std::string section(const std::string& title, const std::string& body);
 /// Small facts side by side: label and value.
 std::string facts(const std::vector<std::pair<std::string, std::string>>& facts);
 
+/// Plots, as many beside each other as fit.
+std::string plots(const std::vector<std::string>& svg);
+
 /// Scrolls sideways where the screen is narrow.
 std::string table(const common::Table& table);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/event.hpp"
@@ -38,5 +39,16 @@ struct TrialReport {
   std::vector<TrialPicture> pictures;
 };
 std::string trialReport(const TrialReport& report);
+
+/// A map that was made of a recorded log.
+struct MapReport {
+  std::string title;
+  std::string subtitle;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< Label and value.
+  std::vector<std::string> warnings;                       ///< What was doubtful about the log.
+  std::string map_svg;
+  std::vector<std::string> plots_svg;
+};
+std::string mapReport(const MapReport& report);
 
 }  // namespace swiftlet::interfaces

@@ -14,7 +14,6 @@ namespace swiftlet::perception {
 
 using altitude::HeightFilter;
 using altitude::LevelEstimate;
-using altitude::LevelSight;
 using altitude::LevelStore;
 using altitude::NewSurface;
 using common::CellIndex;

@@ -1,5 +1,6 @@
 #include "perception/fusion/filter_state.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/check.hpp"
@@ -46,8 +47,8 @@ void FilterState::dropClone(int index) {
   covariance.block(at, 0, after, at) = old.block(at + kCloneSize, 0, after, at);
   covariance.block(0, at, at, after) = old.block(0, at + kCloneSize, at, after);
   covariance.block(at, at, after, after) = old.block(at + kCloneSize, at + kCloneSize, after, after);
-  for (int i = index; i + 1 < clone_count; ++i)
-    clones[static_cast<std::size_t>(i)] = clones[static_cast<std::size_t>(i + 1)];
+  const auto dropped = clones.begin() + index;
+  std::copy(dropped + 1, clones.begin() + clone_count, dropped);
   --clone_count;
 }
 

@@ -20,6 +20,8 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose2;
 
+/// Shapes whose least held direction is faced by a greater share of the contour hold it well enough.
+constexpr double kProfiledSpread = 0.25;
 constexpr double kTopValue = LikelihoodField::kTopValue;
 /// A window with more poses is searched with bounds, whatever the estimate: so many scores are 80 MB.
 constexpr double kMostScores = 2e7;
@@ -74,6 +76,8 @@ void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
   fields("min_points", min_points, "With fewer points the match failed.");
   fields("covariance_scale", covariance_scale, "Factor on the covariance of independent points.");
   fields("attitude_error_deg", attitude_error_deg, "Error of roll and pitch, which the covariance allows for.");
+  fields("profile_half_m", profile_half_m, "How far along the least held direction the score is looked at.");
+  fields("profile_temperature", profile_temperature, "Difference in quality that makes a pose e times less likely.");
   fields("min_normal_spread", min_normal_spread,
          "A direction with a smaller share of the contour facing it is not seen.");
   fields("unobservable_sigma_m", unobservable_sigma_m, "A direction less certain than this is not seen.");
@@ -96,6 +100,8 @@ std::vector<std::string> CorrelativeMatcherConfig::validate() const {
       .within("min_points", min_points, 3, 256)
       .within("covariance_scale", covariance_scale, 0.01, 1000)
       .within("attitude_error_deg", attitude_error_deg, 0, 20)
+      .within("profile_half_m", profile_half_m, 0, 5)
+      .within("profile_temperature", profile_temperature, 0.0001, 1)
       .within("min_normal_spread", min_normal_spread, 0, 0.5)
       .within("unobservable_sigma_m", unobservable_sigma_m, 0.001, 0.9)
       .problems();
@@ -149,6 +155,7 @@ struct CorrelativeMatcher::Impl {
   double support(const SplitPoints& points, const Pose2& pose);
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
   Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad, const Peak& peak);
+  double profileVariance(const SplitPoints& points, const Pose2& center, const Eigen::Vector2d& axis);
   Eigen::Vector3d weightedMean(const SplitPoints& points, const PoseGrid& grid, const BestPose& best);
   void addWindows(const SplitPoints& points, const Pose2& center, double yaw_rad, int half, int rows,
                   std::vector<std::uint32_t>& sums);
@@ -188,8 +195,7 @@ ScoreSurface CorrelativeMatcher::Impl::surfaceAround(const SplitPoints& points, 
   for (int k = -kHalf; k <= kHalf; ++k) {
     addWindows(points, center, center.yaw_rad + k * step_rad, kHalf, ScoreSurface::kSize, sums);
     for (int y = -kHalf; y <= kHalf; ++y)
-      for (int x = -kHalf; x <= kHalf; ++x)
-        surface.at(x, y, k) = sums[static_cast<std::size_t>((y + kHalf) * kWindowColumns + x + kHalf)];
+      for (int x = -kHalf; x <= kHalf; ++x) surface.at(x, y, k) = sums[windowIndex(x + kHalf, y + kHalf)];
   }
   return surface;
 }
@@ -229,10 +235,10 @@ Eigen::Vector3d CorrelativeMatcher::Impl::weightedMean(const SplitPoints& points
   constexpr int kHalf = 7;
   constexpr int kRotations = 4;
   const Pose2 finest = poseAt(grid, best);
-  std::array<std::vector<std::uint32_t>, 2 * kRotations + 1> scores;
+  std::array<std::vector<std::uint32_t>, 2 * kRotations + 1> windows;
+  const auto scores = windows.begin() + kRotations;  // From -kRotations to +kRotations.
   for (int k = -kRotations; k <= kRotations; ++k)
-    addWindows(points, finest, finest.yaw_rad + k * grid.step_yaw_rad, kHalf, 2 * kHalf + 1,
-               scores[static_cast<std::size_t>(k + kRotations)]);
+    addWindows(points, finest, finest.yaw_rad + k * grid.step_yaw_rad, kHalf, 2 * kHalf + 1, scores[k]);
 
   // Wider, the coarse levels' own quantization outweighs what their averaging gains.
   const double spread_m = 0.5 * config.resolution_m;
@@ -244,15 +250,14 @@ Eigen::Vector3d CorrelativeMatcher::Impl::weightedMean(const SplitPoints& points
     Eigen::Vector3d estimate = Eigen::Vector3d::Zero();  // From the finest pose, in cells and rotation steps.
     for (int k = -kRotations; k <= kRotations; ++k) {
       if ((best.rotation + k) % block != 0) continue;
+      const std::vector<std::uint32_t>& window = scores[k];
       for (int y0 = -kHalf; y0 + block - 1 <= kHalf; ++y0) {
         if ((best.y + y0) % block != 0) continue;
         for (int x0 = -kHalf; x0 + block - 1 <= kHalf; ++x0) {
           if ((best.x + x0) % block != 0) continue;
           std::uint64_t score = 0;
           for (int y = y0; y < y0 + block; ++y)
-            for (int x = x0; x < x0 + block; ++x)
-              score += scores[static_cast<std::size_t>(k + kRotations)]
-                             [static_cast<std::size_t>((y + kHalf) * kWindowColumns + x + kHalf)];
+            for (int x = x0; x < x0 + block; ++x) score += window[windowIndex(x + kHalf, y + kHalf)];
           if (score <= top) continue;
           top = score;
           estimate = Eigen::Vector3d(x0 + 0.5 * (block - 1), y0 + 0.5 * (block - 1), k);
@@ -284,6 +289,32 @@ void CorrelativeMatcher::Impl::addSpreadElsewhere(const BestPose& best, double l
   const double unseen_m = config.unobservable_sigma_m;
   if (!peak.unobservable_direction && spread.eigenvalues()(1) > unseen_m * unseen_m)
     holdAlong(spread.eigenvectors().col(1), guess_offset, peak);
+}
+
+/// The spread (m^2) about `center` of the places along `axis` that score about as well: a likelihood tempered so that a
+/// few points, which may be of something that moved or was seen from one side only, do not decide.
+double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, const Pose2& center,
+                                                 const Eigen::Vector2d& axis) {
+  const double step_m = 2.0 * config.resolution_m;
+  const int half = static_cast<int>(config.profile_half_m / step_m);
+  std::vector<double> distances_m, qualities;
+  for (int k = -half; k <= half; ++k) {
+    const double distance_m = k * step_m;
+    const Eigen::Vector2d at = center.position_m() + distance_m * axis;
+    BranchAndBound::cellsAt(field, points.x_m, points.y_m, center.yaw_rad, at.x(), at.y(), 1, x_cells, y_cells);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < x_cells.size(); ++i) sum += field.at(x_cells[i], y_cells[i]);
+    distances_m.push_back(distance_m);
+    qualities.push_back(sum / (kTopValue * static_cast<double>(points.x_m.size())));
+  }
+  const double best = *std::max_element(qualities.begin(), qualities.end());
+  double weights = 0.0, sum2 = 0.0;
+  for (std::size_t i = 0; i < qualities.size(); ++i) {
+    const double weight = std::exp((qualities[i] - best) / config.profile_temperature);
+    weights += weight;
+    sum2 += weight * distances_m[i] * distances_m[i];
+  }
+  return sum2 / weights;
 }
 
 MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points,
@@ -329,6 +360,12 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   if (normals.eigenvalues()(0) < config.min_normal_spread)
     holdAlong(Eigen::Rotation2Dd(result.finest_T_reference_body.yaw_rad) * normals.eigenvectors().col(0), guess_offset,
               peak);
+  if (config.profile_half_m > 0.0 && normals.eigenvalues()(0) < kProfiledSpread) {
+    const Eigen::Vector2d axis =
+        Eigen::Rotation2Dd(result.finest_T_reference_body.yaw_rad) * normals.eigenvectors().col(0);
+    peak.covariance.topLeftCorner<2, 2>() +=
+        profileVariance(surface_points, result.finest_T_reference_body, axis) * axis * axis.transpose();
+  }
   const Eigen::Vector3d& offset = peak.offset;
   result.covariance = peak.covariance;
   result.unobservable_direction = peak.unobservable_direction;

@@ -42,8 +42,11 @@ struct CorrelativeMatcherConfig {
   double covariance_scale = 1.5;    ///< On the covariance of independent points; calibrated, see the test of honesty.
   double attitude_error_deg = 1.0;  ///< Of roll and pitch: moves each end point by its height over the body times this.
   double unobservable_sigma_m =
-      0.1;                          ///< A direction less certain than this is not seen: the pose keeps the guess there.
-  double min_normal_spread = 0.01;  ///< Nor is one that a smaller share of the contour faces: a corridor's axis.
+      0.1;                      ///< A direction less certain than this is not seen: the pose keeps the guess there.
+  double profile_half_m = 0.0;  ///< How far along the direction that is held least the score is looked at: what scores
+                                ///< nearly as much there is believed nearly as much. 0: not at all.
+  double profile_temperature = 0.010;  ///< A difference in quality of this makes a pose e times less likely.
+  double min_normal_spread = 0.01;     ///< Nor is one that a smaller share of the contour faces: a corridor's axis.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <deque>
 
+#include <Eigen/Eigenvalues>
+
 #include "common/validation.hpp"
 
 namespace swiftlet::perception {
@@ -20,7 +22,11 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields("guess_error_deg", guess_error_deg, "The same for the rotation.");
   fields("max_window_m", max_window_m, "Half the greatest search window.");
   fields("max_window_deg", max_window_deg, "The same for the rotation.");
+  fields("min_widened_quality", min_widened_quality, "A match found only in a widened window needs this quality.");
   fields("min_overlap", min_overlap, "A scan with a smaller share of supported points joins the local map.");
+  fields("min_fit", min_fit, "A scan that fits worse than this joins the local map.");
+  fields("min_weak_overlap", min_weak_overlap, "The same where the position is held weakly in one direction.");
+  fields("weak_sigma_m", weak_sigma_m, "A position less certain than this is held weakly.");
   fields("max_reference_distance_m", max_reference_distance_m, "A scan this far from the reference joins too.");
   fields("max_reference_rotation_deg", max_reference_rotation_deg, "Or turned this much.");
   fields("level_tilt_deg", level_tilt_deg, "A scan tilted more than this is joined only when it must be.");
@@ -38,7 +44,11 @@ std::vector<std::string> LaserOdometryConfig::validate() const {
       .within("guess_error_deg", guess_error_deg, 0.01, max_window_deg)
       .within("max_window_m", max_window_m, 0.01, 5)
       .within("max_window_deg", max_window_deg, 0.1, 180)
+      .within("min_widened_quality", min_widened_quality, 0, 1)
       .within("min_overlap", min_overlap, 0, 1)
+      .within("min_fit", min_fit, 0, 1)
+      .within("min_weak_overlap", min_weak_overlap, 0, 1)
+      .within("weak_sigma_m", weak_sigma_m, 0.001, 10)
       .within("max_reference_distance_m", max_reference_distance_m, 0.05, 100)
       .within("max_reference_rotation_deg", max_reference_rotation_deg, 1, 360)
       .within("level_tilt_deg", level_tilt_deg, 0, 90)
@@ -59,7 +69,8 @@ struct LaserOdometry::Impl {
   explicit Impl(const LaserOdometryConfig& config_in) : config(config_in), matcher(config_in.matcher) {}
 
   std::optional<RelativePose> start(const ProjectedScan& scan);
-  MatchResult matchWidening(const ProjectedScan& scan, const Pose2& guess);
+  SearchWindow usualWindow(common::Time now) const;
+  MatchResult matchWidening(const ProjectedScan& scan, const Pose2& guess, SearchWindow window);
   void addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body, const Eigen::Matrix3d& covariance_local);
   RelativePose relativeTo(const KeyScan& reference, const ProjectedScan& scan, const MatchResult& match) const;
   bool shouldJoin(const RelativePose& relative, const ProjectedScan& scan, const MatchResult& match) const;
@@ -90,7 +101,7 @@ void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_l
     return;
   }
   // Half of the map is forgotten at once, so that drawing it anew is rare.
-  const auto kept = static_cast<std::size_t>(config.local_map_scans / 2 + 1);
+  const auto kept = static_cast<std::size_t>(config.local_map_scans) / 2 + 1;
   while (key_scans.size() > kept) key_scans.pop_front();
   drawLocalMap();
 }
@@ -110,18 +121,20 @@ std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan
   return first;
 }
 
-/// The window covers what the vehicle can have done against the prediction; a best pose at its edge asks for more.
-MatchResult LaserOdometry::Impl::matchWidening(const ProjectedScan& scan, const Pose2& guess) {
-  const double elapsed_s = (scan.stamp - last_match).seconds();
+/// Covers what the vehicle can have done against the prediction.
+SearchWindow LaserOdometry::Impl::usualWindow(common::Time now) const {
+  const double elapsed_s = (now - last_match).seconds();
   const double half_dt2 = 0.5 * elapsed_s * elapsed_s;
   // Along what was not seen, the guess has drifted since; seen again, the truth may be as far away.
-  const double unseen_m = config.unseen_drift_m_s * (scan.stamp - last_seen_whole).seconds();
-  SearchWindow window;
-  window.half_translation_m =
-      std::min(config.max_window_m, config.guess_error_m + config.max_acceleration_m_s2 * half_dt2 + unseen_m);
-  window.half_rotation_rad =
-      std::min(config.max_window_deg * kRadPerDeg,
-               config.guess_error_deg * kRadPerDeg + config.max_angular_acceleration_rad_s2 * half_dt2);
+  const double unseen_m = config.unseen_drift_m_s * (now - last_seen_whole).seconds();
+  return {config.guess_error_m + config.max_acceleration_m_s2 * half_dt2 + unseen_m,
+          config.guess_error_deg * kRadPerDeg + config.max_angular_acceleration_rad_s2 * half_dt2};
+}
+
+/// A best pose at the window's edge asks for more, and so does a match that failed.
+MatchResult LaserOdometry::Impl::matchWidening(const ProjectedScan& scan, const Pose2& guess, SearchWindow window) {
+  window.half_translation_m = std::min(config.max_window_m, window.half_translation_m);
+  window.half_rotation_rad = std::min(config.max_window_deg * kRadPerDeg, window.half_rotation_rad);
   MatchResult result = matcher.match(scan, guess, window);
   while ((result.at_window_edge || result.failed) && result.points_used > 0 &&
          (window.half_translation_m < config.max_window_m ||
@@ -129,6 +142,7 @@ MatchResult LaserOdometry::Impl::matchWidening(const ProjectedScan& scan, const 
     window.half_translation_m = std::min(config.max_window_m, 3.0 * window.half_translation_m);
     window.half_rotation_rad = std::min(config.max_window_deg * kRadPerDeg, 3.0 * window.half_rotation_rad);
     result = matcher.match(scan, guess, window);
+    result.failed |= result.quality < config.min_widened_quality;
   }
   return result;
 }
@@ -143,6 +157,8 @@ RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const Pro
   relative.covariance = common::turned(
       propagated(reference.covariance_local, reference.T_local_body, match.T_reference_body, match.covariance),
       -reference.T_local_body.yaw_rad);
+  if (match.unobservable_direction)
+    relative.unseen_direction = Eigen::Rotation2Dd(-match.T_reference_body.yaw_rad) * *match.unobservable_direction;
   return relative;
 }
 
@@ -151,7 +167,11 @@ bool LaserOdometry::Impl::shouldJoin(const RelativePose& relative, const Project
                                      const MatchResult& match) const {
   const bool far = relative.T_from_to.position_m().norm() > config.max_reference_distance_m ||
                    std::abs(relative.T_from_to.yaw_rad) > config.max_reference_rotation_deg * kRadPerDeg;
-  if (!far && match.overlap >= config.min_overlap) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> position(match.covariance.topLeftCorner<2, 2>().eval(),
+                                                                Eigen::EigenvaluesOnly);
+  const bool weak = position.eigenvalues()(1) > config.weak_sigma_m * config.weak_sigma_m;
+  if (!far && match.quality >= config.min_fit && match.overlap >= (weak ? config.min_weak_overlap : config.min_overlap))
+    return false;
   const bool tilted = common::cosTilt(scan.T_odom_body.rotation) < std::cos(config.level_tilt_deg * kRadPerDeg);
   return !tilted || match.overlap < config.min_overlap - config.tilted_overlap_margin;
 }
@@ -167,7 +187,8 @@ std::optional<common::Time> LaserOdometry::lastMatch() const {
   return impl_->key_scans.empty() ? std::nullopt : std::optional(impl_->last_match);
 }
 
-std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const std::optional<Pose2>& T_odom_last) {
+std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const std::optional<Pose2>& T_odom_last,
+                                               const std::optional<SearchWindow>& first_window) {
   Impl& self = *impl_;
   ++self.counts.scans;
   const Pose2 T_odom_body = common::planar(scan.T_odom_body);
@@ -186,7 +207,7 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   self.last_stamp = scan.stamp;
 
   const Pose2 guess = self.last_T_local_body * (T_odom_last.value_or(self.last_T_odom_body).inverse() * T_odom_body);
-  const MatchResult match = self.matchWidening(scan, guess);
+  const MatchResult match = self.matchWidening(scan, guess, first_window.value_or(self.usualWindow(scan.stamp)));
   if (match.failed) {
     ++self.counts.failures;
     if (++self.failures < self.config.max_failures) return std::nullopt;

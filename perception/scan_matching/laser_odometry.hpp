@@ -27,6 +27,8 @@ struct RelativePose {
   common::Pose2 T_from_to;                               ///< Between the level frames of the two scans.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x_m, y_m, yaw_rad) in the frame at `from`.
   bool reference_changed = false;
+  /// Unit vector in the frame at `to` along which the scene did not hold the position: it is that of the guess.
+  std::optional<Eigen::Vector2d> unseen_direction;
 };
 
 struct LaserOdometryConfig {
@@ -38,7 +40,12 @@ struct LaserOdometryConfig {
   double guess_error_deg = 1.5;
   double max_window_m = 0.5;
   double max_window_deg = 15.0;
-  double min_overlap = 0.75;                 ///< A scan with a smaller share of supported points joins the local map.
+  double min_widened_quality = 0.35;  ///< A match found only in a widened window needs this quality: chance is greater.
+  double min_overlap = 0.75;          ///< A scan with a smaller share of supported points joins the local map.
+  double min_fit = 0.35;              ///< So does one that fits worse than this (MatchResult::quality): the map
+                                      ///< has become wrong about the place.
+  double min_weak_overlap = 0.75;     ///< The same where the position is held weakly in one direction:
+  double weak_sigma_m = 0.05;         ///< less certain than this. What comes into view must not be missed then.
   double max_reference_distance_m = 2.0;     ///< So does one farther than this from the reference,
   double max_reference_rotation_deg = 60.0;  ///< or turned more than this against it.
   double level_tilt_deg = 2.0;  ///< A scan tilted more than this is drawn with the error of its attitude; it waits
@@ -69,9 +76,11 @@ class LaserOdometry {
   /// Nothing is returned when the scan does not match. The guess is the last match moved by the change of T_odom_body
   /// since then. `T_odom_last` is where the estimate that predicted this scan has the body at `lastMatch()`; a filter
   /// that took in that match must give it, or its correction counts twice. Without it, the prediction of that scan
-  /// stands (wheels, a simulator: an odometry that nobody corrects).
+  /// stands (wheels, a simulator: an odometry that nobody corrects). `first_window` replaces the least search
+  /// window where the caller knows how good its prediction is; a search that fails in it is widened all the same.
   [[nodiscard]] std::optional<RelativePose> add(const ProjectedScan& scan,
-                                                const std::optional<common::Pose2>& T_odom_last = std::nullopt);
+                                                const std::optional<common::Pose2>& T_odom_last = std::nullopt,
+                                                const std::optional<SearchWindow>& first_window = std::nullopt);
 
   /// The stamp of the last scan that matched.
   std::optional<common::Time> lastMatch() const;

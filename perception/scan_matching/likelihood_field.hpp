@@ -69,7 +69,8 @@ class LikelihoodField {
 
   double resolution_m_;
   double sigma_m_;
-  std::array<std::array<std::uint8_t, kKernelSize * kKernelSize>, kSubcells * kSubcells> kernels_{};
+  std::array<std::array<std::uint8_t, std::size_t{kKernelSize} * kKernelSize>, std::size_t{kSubcells} * kSubcells>
+      kernels_{};
 
   int begin_x_ = 0, begin_y_ = 0;  // Multiples of kTile.
   int width_ = 0, height_ = 0;

@@ -18,13 +18,15 @@ struct ScoreSurface {
 
   double step_m = 0.0;
   double step_rad = 0.0;
-  std::array<std::uint32_t, kSize * kSize * kSize> scores{};  ///< [rotation][y][x]
+  std::array<std::uint32_t, std::size_t{kSize} * kSize * kSize> scores{};  ///< [rotation][y][x]
 
-  std::uint32_t& at(int x, int y, int rotation) {
-    return scores[static_cast<std::size_t>(((rotation + kHalf) * kSize + y + kHalf) * kSize + x + kHalf)];
-  }
-  std::uint32_t at(int x, int y, int rotation) const {
-    return scores[static_cast<std::size_t>(((rotation + kHalf) * kSize + y + kHalf) * kSize + x + kHalf)];
+  std::uint32_t& at(int x, int y, int rotation) { return scores[index(x, y, rotation)]; }
+  std::uint32_t at(int x, int y, int rotation) const { return scores[index(x, y, rotation)]; }
+
+  static constexpr std::size_t index(int x, int y, int rotation) {
+    constexpr auto size = static_cast<std::size_t>(kSize);
+    return (static_cast<std::size_t>(rotation + kHalf) * size + static_cast<std::size_t>(y + kHalf)) * size +
+           static_cast<std::size_t>(x + kHalf);
   }
 };
 

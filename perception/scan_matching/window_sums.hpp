@@ -15,6 +15,11 @@ bool isAvailable(Instructions instructions);
 const char* toString(Instructions instructions);
 
 inline constexpr int kWindowColumns = 16;
+
+/// Where the sum of the window that begins at (x, y) lies among the sums.
+constexpr std::size_t windowIndex(int x, int y) {
+  return static_cast<std::size_t>(y) * kWindowColumns + static_cast<std::size_t>(x);
+}
 /// So many bytes add up to 16 bits.
 inline constexpr int kMaxWindowPoints = 257;
 

@@ -47,6 +47,7 @@ struct Slam2d::Impl {
   void standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
   std::optional<int> keyNear(const std::vector<int>& keys) const;
   void draw(const ProjectedScan& scan);
+  SlamTask makeTask(std::vector<LoopCandidate> candidates, bool is_last);
 
   Slam2dConfig config;
   SlamGraph graph;
@@ -213,6 +214,9 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
 
 Pose2 Slam2d::T_map_odom() const { return impl_->T_map_odom; }
 
+int Slam2d::anchor() const { return impl_->anchor; }
+Pose2 Slam2d::T_anchor_body() const { return impl_->T_anchor_body; }
+
 bool Slam2d::setFlightHeight(double height_m) {
   impl_->flight_height_m = height_m;
   return impl_->map.setFlightHeight(height_m);
@@ -228,25 +232,38 @@ std::vector<Slam2d::KeyPose> Slam2d::keyPoses() const {
   return poses;
 }
 
+const std::vector<SlamEdge>& Slam2d::edges() const { return impl_->graph.edges; }
+
 std::optional<SlamTask> Slam2d::takeTask() {
   Impl& self = *impl_;
   if (self.task_outstanding || !self.search_due) return std::nullopt;
   self.search_due = false;
-  const int query = static_cast<int>(self.graph.keys.size()) - 1;
-  std::vector<LoopCandidate> candidates = loopCandidates(self.graph, query, self.config);
+  std::vector<LoopCandidate> candidates =
+      loopCandidates(self.graph, static_cast<int>(self.graph.keys.size()) - 1, self.config);
   if (candidates.empty()) return std::nullopt;
   self.way_since_search_m = 0.0;
-  self.counts.loop_candidates += candidates.size();
-  self.task_outstanding = true;
-  self.task_keys = self.graph.keys.size();
-  self.task_query = query;
-  self.drawn_since_task.clear();
+  return self.makeTask(std::move(candidates), false);
+}
+
+std::optional<SlamTask> Slam2d::takeLastTask() {
+  SWIFTLET_CHECK(!impl_->task_outstanding);
+  if (impl_->graph.keys.empty()) return std::nullopt;
+  return impl_->makeTask({}, true);
+}
+
+SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, bool is_last) {
+  counts.loop_candidates += candidates.size();
+  task_outstanding = true;
+  task_keys = graph.keys.size();
+  task_query = static_cast<int>(graph.keys.size()) - 1;
+  drawn_since_task.clear();
   auto data = std::make_shared<SlamTask::Data>();
-  data->id = ++self.tasks;
-  data->graph = self.graph;
-  data->query = query;
+  data->id = ++tasks;
+  data->graph = graph;
+  data->query = task_query;
   data->candidates = std::move(candidates);
-  data->config = self.config;
+  data->is_last = is_last;
+  data->config = config;
   return SlamTask{std::move(data)};
 }
 

@@ -105,6 +105,15 @@ struct SlamUpdate {
   common::Pose2 T_map_body;  ///< Of the scan, corrected.
 };
 
+/// What ties two key scans: a match, or the motion between them.
+struct SlamEdge {
+  int from = 0;
+  int to = 0;
+  common::Pose2 T_from_to;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< Of (x_m, y_m, yaw_rad) in the frame of `from`.
+  bool loop = false;
+};
+
 struct LoopClosure {
   int from = 0;  ///< Key scans.
   int to = 0;
@@ -152,6 +161,9 @@ class Slam2d {
 
   /// Takes odom to map.
   common::Pose2 T_map_odom() const;
+  /// The key scan (of keyPoses()) that the last scan is known by, and where it stands relative to it.
+  int anchor() const;
+  common::Pose2 T_anchor_body() const;
   /// The height over the take-off floor that the map shall be of; at first that of the body in the first scan.
   /// True when the map is another one now.
   bool setFlightHeight(double height_m);
@@ -160,6 +172,8 @@ class Slam2d {
 
   /// Heavy work, when there is any and none is outstanding.
   [[nodiscard]] std::optional<SlamTask> takeTask();
+  /// The last work, when no more scans come: the graph as a whole. None may be outstanding.
+  [[nodiscard]] std::optional<SlamTask> takeLastTask();
   /// Takes the result of the outstanding task; true when T_map_odom or the grid changed.
   bool apply(const SlamResult& result);
 
@@ -170,6 +184,8 @@ class Slam2d {
   };
   /// Every key scan at its best pose so far.
   std::vector<KeyPose> keyPoses() const;
+  /// What they are tied by, as indices into keyPoses().
+  const std::vector<SlamEdge>& edges() const;
 
  private:
   struct Impl;

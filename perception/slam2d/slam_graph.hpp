@@ -27,14 +27,6 @@ struct KeyScan {
   std::vector<int> edges;          ///< Of the graph, that begin or end here.
 };
 
-struct SlamEdge {
-  int from = 0;
-  int to = 0;
-  common::Pose2 T_from_to;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< Of (x_m, y_m, yaw_rad) in the frame of `from`.
-  bool loop = false;
-};
-
 struct SlamGraph {
   std::vector<KeyScan> keys;
   std::vector<SlamEdge> edges;

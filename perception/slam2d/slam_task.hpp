@@ -15,6 +15,7 @@ struct SlamTask::Data {
   SlamGraph graph;  ///< A copy; its scans are shared and immutable.
   int query = 0;
   std::vector<LoopCandidate> candidates;
+  bool is_last = false;  ///< No more scans come: everything is matched once more.
   Slam2dConfig config;
 };
 

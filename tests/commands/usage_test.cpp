@@ -22,13 +22,16 @@ TEST_P(Help, SaysWhatItDoesWithAnExample) {
   EXPECT_THAT(end.out, HasSubstr("Example: swiftlet " + GetParam()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Commands, Help, testing::Values("fly", "check", "trial", "config", "doctor", "version"),
+INSTANTIATE_TEST_SUITE_P(Commands, Help,
+                         testing::Values("fly", "check", "trial", "config", "doctor", "version", "optimize", "map",
+                                         "evaluate"),
                          [](const auto& command) { return command.param; });
 
 TEST(Usage, HelpOfAllNamesEachCommand) {
   const ProgramEnd end = runSwiftlet({"--help"});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
-  for (const std::string command : {"fly", "check", "trial", "config", "doctor", "version"})
+  for (const std::string command :
+       {"fly", "check", "trial", "config", "doctor", "version", "optimize", "map", "evaluate"})
     EXPECT_THAT(end.out, HasSubstr("\n  " + command));
 }
 

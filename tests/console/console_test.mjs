@@ -32,7 +32,7 @@ const { origin } = server.url;
 async function open(url, { context, ...options } = {}) {
   context ??= await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true, ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(30_000 * kPatience);
+  page.setDefaultTimeout(120_000 * kPatience);  // A machine with other work shows a page in its own time.
   page.problems = [];
   page.on('pageerror', (error) => page.problems.push(error.message));
   page.on('request', (request) => {

@@ -59,6 +59,19 @@ TEST(Tum, SkipsCommentsAndBlankLinesAndTakesExponents) {
 
 TEST(Tum, LastLineOfAKilledWriterIsLeftOut) { EXPECT_EQ(parseTum("1 0 0 0 0 0 0 1\n2 0 0", "t").size(), 1u); }
 
+TEST(Tum, StampsInAnyOrderWhereThatIsAskedFor) {
+  const auto poses = parseTum("2 1 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 3 0 0 0 0 0 1\n", "t", StampOrder::kAny);
+  ASSERT_EQ(poses.size(), 3u) << "as they stand in the file";
+  EXPECT_EQ(poses[1].stamp, Time::fromSeconds(1));
+  EXPECT_EQ(poses[2].pose.position_m.x(), 3);
+}
+
+TEST(Tum, MayBeCompressed) {
+  const auto file = dataset("03-rgbd/tum-trajectories/freiburg1_xyz-groundtruth.txt.gz");
+  if (!file) GTEST_SKIP() << "no TUM trajectories";
+  EXPECT_EQ(readTum(*file).size(), 3000u);
+}
+
 TEST(Tum, MistakesSayWhere) {
   const auto problem = [](const std::string& text) { return problemOf([&] { parseTum(text, "x.tum"); }); };
   const std::string good = "1 0 0 0 0 0 0 1\n";

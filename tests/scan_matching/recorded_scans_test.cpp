@@ -1,19 +1,31 @@
 // The three matchers on real scans: consecutive ones of two logs of wheeled robots, with the wheels as the guess.
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "interfaces/laser_log/laser_log.hpp"
 #include "perception/scan_matching/correlative_matcher.hpp"
 #include "perception/scan_matching/gauss_newton_matcher.hpp"
 #include "perception/scan_matching/point_to_line_matcher.hpp"
 #include "tests/scan_matching/scenes.hpp"
-#include "tests/slam2d/recorded_log.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
+namespace fs = std::filesystem;
+
 using common::Pose2;
+
+fs::path datasets() {
+  if (const char* folder = std::getenv("SWIFTLET_DATASETS")) return folder;
+  return fs::path(SWIFTLET_SOURCE_DIR) / ".." / "shared" / "datasets";
+}
 
 /// How often a matcher answers, and how far from the one that looks everywhere when both answer.
 struct Agreement {
@@ -23,18 +35,28 @@ struct Agreement {
   double rms_m() const { return std::sqrt(off2_m2 / std::max(seen_whole, 1)); }
 };
 
-ProjectedScan projectedFrom(const test::RecordedScan& recorded) {
+Pose2 odometryOf(const interfaces::LoggedScan& logged) { return logged.T_odom_robot.value_or(Pose2{}); }
+
+ProjectedScan projectedFrom(const interfaces::LoggedScan& logged) {
   common::LaserConfig laser;
   laser.mirror_beams = 0;
-  return project(recorded.scan, laser, [&](common::Time) { return common::lifted(recorded.T_odom_laser, 1.0); }, {});
+  laser.mount = {};
+  laser.mount.x_m = logged.T_robot_laser.x_m;
+  laser.mount.y_m = logged.T_robot_laser.y_m;
+  laser.mount.yaw_deg = logged.T_robot_laser.yaw_rad / common::kRadPerDeg;
+  return project(logged.scan, laser, [&](common::Time) { return common::lifted(odometryOf(logged), 1.0); }, {});
 }
 
-std::array<Agreement, 3> compareOn(const std::vector<test::RecordedScan>& log, std::size_t stride) {
+/// Each `stride`th scan is matched against the one before.
+std::array<Agreement, 3> compareOn(interfaces::LaserLog& log, int stride) {
   const SearchWindow window{0.25, 0.15};
   std::array<Agreement, 3> agreements;
-  for (std::size_t i = 0; i + 1 < log.size(); i += stride) {
-    const ProjectedScan first = projectedFrom(log[i]), second = projectedFrom(log[i + 1]);
-    const Pose2 guess = log[i].T_odom_laser.inverse() * log[i + 1].T_odom_laser;
+  std::optional<interfaces::LoggedScan> before = log.next();
+  for (int i = 1; const auto logged = log.next(); ++i) {
+    const interfaces::LoggedScan reference = std::exchange(*before, *logged);
+    if (i % stride != 0) continue;
+    const ProjectedScan first = projectedFrom(reference), second = projectedFrom(*logged);
+    const Pose2 guess = odometryOf(reference).inverse() * odometryOf(*logged);
     CorrelativeMatcher correlative{{}};
     GaussNewtonMatcher gauss_newton{{}};
     PointToLineMatcher point_to_line{{}};
@@ -61,10 +83,11 @@ std::array<Agreement, 3> compareOn(const std::vector<test::RecordedScan>& log, s
   return agreements;
 }
 
-void expectAgreement(const std::string& file, std::size_t stride) {
-  const auto log = test::readScans(test::datasets() / "01-laser-slam" / file);
-  if (log.empty()) GTEST_SKIP() << "no " << file << "; SWIFTLET_DATASETS names the folder";
-  const std::array<Agreement, 3> agreements = compareOn(log, stride);
+void expectAgreement(const std::string& name, int stride) {
+  const fs::path file = datasets() / "01-laser-slam" / name;
+  if (!fs::exists(file)) GTEST_SKIP() << "skipped: no data set " << file << "; set SWIFTLET_DATASETS";
+  const auto log = interfaces::openLaserLog(file);
+  const std::array<Agreement, 3> agreements = compareOn(*log, stride);
   for (std::size_t k = 1; k < agreements.size(); ++k) {
     const Agreement& a = agreements[k];
     SCOPED_TRACE(testing::Message() << "matcher " << k << " of " << agreements[0].answered << ": answered "

@@ -1,0 +1,188 @@
+#include "apps/evaluation_metrics.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "apps/command.hpp"
+#include "apps/error_figures.hpp"
+#include "common/error.hpp"
+#include "common/rounding.hpp"
+#include "evaluation/relations.hpp"
+#include "interfaces/files/relations.hpp"
+#include "interfaces/files/text_file.hpp"
+#include "interfaces/files/trajectory_file.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+using common::InputError;
+using common::Ordered;
+using common::Problem;
+using evaluation::Alignment;
+using evaluation::PosePair;
+using evaluation::Stretch;
+
+constexpr double kDegPerRad = 1.0 / common::kRadPerDeg;
+
+void print(const nlohmann::json& json) {
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+/// To the microsecond, as logs and relations write it.
+std::string textOf(common::Time stamp) {
+  const std::string text = interfaces::stampText(stamp);
+  return text.substr(0, text.size() - 3);
+}
+
+Ordered read(const std::string& file) { return common::ordered(interfaces::readPoses(file)); }
+
+/// What a reader of the figures should know about the stamps of a file.
+void tellStamps(const std::string& file, const Ordered& poses) {
+  if (poses.went_back > 0)
+    fmt::print("{}: {} stamps go back in time; the poses are taken in the order of their stamps\n", file,
+               poses.went_back);
+  if (poses.repeated > 0)
+    fmt::print("{}: {} stamps occur again; the last pose of each is taken\n", file, poses.repeated);
+}
+
+void addStamps(nlohmann::json& json, const std::string& whose, const Ordered& poses) {
+  json[whose + "_poses"] = poses.trajectory.size();
+  json[whose + "_stamps_back"] = poses.went_back;
+  json[whose + "_stamps_repeated"] = poses.repeated;
+}
+
+std::vector<ErrorFigures> figuresOf(const evaluation::RelationErrors& errors) {
+  return {{"translation", "translational_", "m", errors.translation_m},
+          {"rotation", "rotational_", "deg", inUnit(errors.rotation_rad, kDegPerRad)},
+          {"translation squared", "translational_squared_", "m2", errors.translation_squared_m2},
+          {"rotation squared", "rotational_squared_", "deg2",
+           inUnit(errors.rotation_squared_rad2, kDegPerRad * kDegPerRad)}};
+}
+
+/// An estimate beside its reference.
+struct Compared {
+  Ordered estimate, reference;
+  std::vector<PosePair> pairs;  ///< Not empty.
+};
+
+Compared compare(const EvaluateOptions& options) {
+  Compared compared{read(options.estimate), read(options.against), {}};
+  const common::Trajectory &estimate = compared.estimate.trajectory, &reference = compared.reference.trajectory;
+  compared.pairs = evaluation::associate(estimate, reference, common::Duration::fromSeconds(options.max_difference_s));
+  if (compared.pairs.empty())
+    throw InputError(
+        Problem{{options.estimate},
+                "",
+                fmt::format("no pose is within {} s of one of {}: {} to {} against {} to {}", options.max_difference_s,
+                            options.against, textOf(estimate.front().stamp), textOf(estimate.back().stamp),
+                            textOf(reference.front().stamp), textOf(reference.back().stamp)),
+                "see --max-difference"});
+  return compared;
+}
+
+void requireAlignable(const EvaluateOptions& options, const Compared& compared) {
+  const Alignment alignment = kAlignments.at(options.align);
+  if (evaluation::align(compared.pairs, alignment)) return;
+  throw InputError(
+      Problem{{options.estimate},
+              "--align",
+              fmt::format("the {} pairs do not determine the {} alignment: too few, or on one {}",
+                          compared.pairs.size(), options.align, alignment == Alignment::kSpatial ? "line" : "spot"),
+              "see `--align first` and `--align none`"});
+}
+
+void tell(const EvaluateOptions& options, const Compared& compared, nlohmann::json json, const std::string& title,
+          const std::vector<ErrorFigures>& figures) {
+  if (options.json) {
+    for (const ErrorFigures& figure : figures) addTo(json, figure);
+    json["pairs"] = compared.pairs.size();
+    addStamps(json, "estimate", compared.estimate);
+    addStamps(json, "reference", compared.reference);
+    print(json);
+    return;
+  }
+  fmt::print("{}", toText(tableOf(title, figures)));
+  fmt::print("{} pairs of {} estimated and {} reference poses\n", compared.pairs.size(),
+             compared.estimate.trajectory.size(), compared.reference.trajectory.size());
+  tellStamps(options.estimate, compared.estimate);
+  tellStamps(options.against, compared.reference);
+}
+
+}  // namespace
+
+int evaluateRelations(const EvaluateOptions& options) {
+  const std::vector<common::Relation> relations = interfaces::readRelations(options.against);
+  if (relations.empty()) throw InputError(Problem{{options.against}, "", "holds no relations", ""});
+  const Ordered estimate = read(options.estimate);
+  const evaluation::RelationErrors errors = evaluation::relationErrors(estimate.trajectory, relations);
+  const std::size_t missing = errors.missing.size(), compared = relations.size() - missing;
+  if (compared == 0)
+    throw InputError(Problem{{options.estimate},
+                             "",
+                             fmt::format("has no pose at the stamps of any relation, such as {} and {}",
+                                         textOf(relations[0].from), textOf(relations[0].to)),
+                             "stamps are those of the log, to the microsecond"});
+
+  const std::vector<ErrorFigures> figures = figuresOf(errors);
+  if (options.json) {
+    nlohmann::json json{{"relations", compared}, {"missing", missing}};
+    for (const ErrorFigures& figure : figures) addTo(json, figure);
+    addStamps(json, "estimate", estimate);
+    print(json);
+  } else {
+    fmt::print("{}", toText(tableOf(fmt::format("{} relations", compared), figures)));
+    tellStamps(options.estimate, estimate);
+  }
+  if (missing > 0)
+    fmt::print(stderr, "{} of {} relations are missing: no pose has their stamps; the first is from {} to {}\n",
+               missing, relations.size(), textOf(relations[errors.missing[0]].from),
+               textOf(relations[errors.missing[0]].to));
+  return missing == 0 || options.allow_missing ? kDone : kFailed;
+}
+
+int evaluateAte(const EvaluateOptions& options) {
+  const Alignment alignment = kAlignments.at(options.align);
+  if (options.scale && alignment != Alignment::kPlanar && alignment != Alignment::kSpatial)
+    throw InputError(Problem{{}, "--scale", "is fitted with the alignment", "use --align planar or spatial"});
+  Compared compared = compare(options);
+  requireAlignable(options, compared);
+  double scale = 1.0;
+  if (options.scale) {
+    const auto best = evaluation::bestScale(compared.pairs, alignment);
+    if (!best) throw InputError(Problem{{options.estimate}, "--scale", "no scale above zero fits", ""});
+    scale = *best;
+    compared.pairs = evaluation::scaled(std::move(compared.pairs), scale);
+  }
+  const auto error = evaluation::absoluteTrajectoryError(compared.pairs, alignment);
+  if (!error) throw InputError(Problem{{options.estimate}, "--scale", "shrinks the estimate to nothing", ""});
+  std::string title = "Absolute trajectory error, aligned: " + options.align;
+  if (options.scale) title += fmt::format(", estimate scaled by {:.6f}", scale);
+  tell(options, compared, {{"align", options.align}, {"scale", common::rounded(scale, 9)}}, title,
+       {{"translation", "ate_", "m", error->translation_m},
+        {"rotation", "ate_rotational_", "deg", inUnit(error->rotation_rad, kDegPerRad)}});
+  return kDone;
+}
+
+int evaluateRpe(const EvaluateOptions& options) {
+  const Stretch stretch{kUnits.at(options.unit), options.delta};
+  if (stretch.unit == Stretch::Unit::kFrames && std::floor(options.delta) != options.delta)
+    throw InputError(Problem{{}, "--delta", fmt::format("{} is no number of frames", options.delta), ""});
+  const Compared compared = compare(options);
+  const evaluation::RelativeError error = evaluation::relativePoseError(compared.pairs, stretch);
+  const std::size_t stretches = error.translation_m.count;
+  if (stretches == 0)
+    throw InputError(Problem{
+        {options.estimate},
+        "--delta",
+        fmt::format("no stretch of {} {} lies within the {} pairs", options.delta, options.unit, compared.pairs.size()),
+        "give a shorter one"});
+  tell(options, compared, {{"delta", options.delta}, {"unit", options.unit}, {"stretches", stretches}},
+       fmt::format("Relative pose error over {} {}, {} stretches", options.delta, options.unit, stretches),
+       {{"translation", "rpe_translational_", "m", error.translation_m},
+        {"rotation", "rpe_rotational_", "deg", inUnit(error.rotation_rad, kDegPerRad)}});
+  return kDone;
+}
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,166 @@
+#include "apps/map_outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+
+#include "common/error.hpp"
+#include "common/world.hpp"
+#include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/g2o.hpp"
+#include "interfaces/files/map_server.hpp"
+#include "interfaces/files/tum.hpp"
+#include "interfaces/report/report.hpp"
+#include "rendering/encode.hpp"
+#include "rendering/map_renderer.hpp"
+#include "rendering/map_svg.hpp"
+#include "rendering/plot_svg.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using common::Pose2;
+
+constexpr std::size_t kCurvePoints = 2000;
+/// Points of a trajectory nearer than this to the one before are not drawn.
+constexpr double kDrawnStep_m = 0.05;
+
+struct SpooledScan {
+  std::int64_t stamp_ns = 0;
+  std::int32_t key = 0;
+  std::int32_t matched = 0;
+  double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
+};
+
+void require(const interfaces::Written& written) {
+  if (!written) throw common::InputError(common::Problem{{}, "", written.error().message, ""});
+}
+
+using PoseOf = std::function<Pose2(const perception::TrackedScan&)>;
+
+void writeTrajectory(const fs::path& file, const TrackSpool& track, const PoseOf& poseOf) {
+  auto writer = interfaces::TumWriter::create(file);
+  if (!writer) throw common::InputError(common::Problem{{}, "", writer.error().message, ""});
+  track.forEach([&](common::Time stamp, const perception::TrackedScan& scan) {
+    require(writer->write({stamp, common::lifted(poseOf(scan), 0.0)}));
+  });
+}
+
+interfaces::G2oGraph2D graphOf(const std::vector<Pose2>& keys, const std::vector<perception::SlamEdge>& edges) {
+  interfaces::G2oGraph2D graph;
+  for (std::size_t i = 0; i < keys.size(); ++i) graph.ids.push_back(static_cast<std::int64_t>(i));
+  graph.poses = keys;
+  graph.fixed = {0};
+  for (const perception::SlamEdge& edge : edges) {
+    // g2o's error has the axes of the measured pose of `to`, ours those of `from`.
+    const Eigen::Matrix3d covariance = common::turned(edge.covariance, -edge.T_from_to.yaw_rad);
+    Eigen::Matrix3d information = covariance.inverse();
+    information = 0.5 * (information + information.transpose()).eval();
+    graph.edges.push_back({edge.from, edge.to, edge.T_from_to, information});
+  }
+  return graph;
+}
+
+std::vector<Eigen::Vector2d> lineOf(const TrackSpool& track, const PoseOf& poseOf) {
+  std::vector<Eigen::Vector2d> line;
+  track.forEach([&](common::Time, const perception::TrackedScan& scan) {
+    const Eigen::Vector2d at = poseOf(scan).position_m();
+    if (line.empty() || (at - line.back()).norm() >= kDrawnStep_m) line.push_back(at);
+  });
+  return line;
+}
+
+std::string mapPicture(const common::World& world) {
+  rendering::MapView view;
+  view.width_px = 1280;
+  view.height_px = 960;
+  view.layers.laser = view.layers.plan = view.layers.vehicle = view.layers.home = view.layers.goal = false;
+  const rendering::Bytes png = rendering::encodePng(rendering::renderMap(world, view));
+  return {png.begin(), png.end()};
+}
+
+std::string timePlot(const MapFigures& figures) {
+  rendering::Plot plot;
+  plot.title = "Time per scan";
+  plot.x_label = "scan";
+  plot.y_label = "ms";
+  plot.series = {{"greatest of its neighbours", figures.milliseconds.points(), false}};
+  plot.y_min = 0.0;
+  return rendering::plotSvg(plot);
+}
+
+}  // namespace
+
+TrackSpool::TrackSpool() : file_(std::tmpfile()) {
+  if (!file_) throw common::InputError(common::Problem{{}, "", "no temporary file can be made", "is the disk full?"});
+}
+
+void TrackSpool::add(common::Time stamp, const perception::TrackedScan& scan) {
+  const SpooledScan spooled{stamp.nanoseconds(),  scan.key,
+                            scan.matched ? 1 : 0, scan.T_key_robot.x_m,
+                            scan.T_key_robot.y_m, scan.T_key_robot.yaw_rad};
+  if (std::fwrite(&spooled, sizeof spooled, 1, file_.get()) != 1)
+    throw common::InputError(
+        common::Problem{{}, "", "the temporary file of the trajectory cannot be written", "is the disk full?"});
+}
+
+void TrackSpool::forEach(const std::function<void(common::Time, const perception::TrackedScan&)>& use) const {
+  std::rewind(file_.get());
+  for (SpooledScan spooled; std::fread(&spooled, sizeof spooled, 1, file_.get()) == 1;)
+    use(common::Time::fromNanoseconds(spooled.stamp_ns),
+        {spooled.key, {spooled.x_m, spooled.y_m, spooled.yaw_rad}, spooled.matched != 0});
+}
+
+void ThinnedCurve::add(double x, double y) {
+  if (pending_ == 0)
+    points_.emplace_back(x, y);
+  else
+    points_.back().y() = std::max(points_.back().y(), y);
+  pending_ = (pending_ + 1) % stride_;
+  if (points_.size() <= kCurvePoints) return;
+  for (std::size_t i = 0; 2 * i + 1 < points_.size(); ++i)
+    points_[i] = {points_[2 * i].x(), std::max(points_[2 * i].y(), points_[2 * i + 1].y())};
+  points_.resize(points_.size() / 2);
+  stride_ *= 2;
+  pending_ = 0;
+}
+
+void writeMapOutputs(const fs::path& out, perception::LaserSlam& slam, const TrackSpool& track,
+                     const MapFigures& figures) {
+  const std::vector<Pose2> keys = slam.keyPoses();
+  const PoseOf poseOf = [&](const perception::TrackedScan& scan) {
+    return keys[static_cast<std::size_t>(scan.key)] * scan.T_key_robot;
+  };
+  common::World world;
+  world.grid = std::make_shared<const common::OccupancyGrid>(slam.map());
+  const std::vector<Eigen::Vector2d> line = lineOf(track, poseOf);
+  world.levels = std::make_shared<const common::LevelMap>();
+  world.frontiers = std::make_shared<const std::vector<common::Frontier>>();
+  world.trail_map_m = std::make_shared<const std::vector<Eigen::Vector2d>>(line);
+
+  std::vector<rendering::MapLine> lines{{"trajectory", line, false}};
+  for (const perception::SlamEdge& edge : slam.slam().edges())
+    if (edge.loop)
+      lines.push_back({"",
+                       {keys[static_cast<std::size_t>(edge.from)].position_m(),
+                        keys[static_cast<std::size_t>(edge.to)].position_m()},
+                       true});
+
+  interfaces::MapReport report;
+  report.title = "Map of " + figures.log;
+  report.facts = figures.facts;
+  report.warnings = figures.warnings;
+  report.map_svg = rendering::mapSvg(world, lines, {{"begin", keys.front().position_m()}});
+  report.plots_svg = {timePlot(figures)};
+
+  writeTrajectory(out / "trajectory.tum", track, poseOf);
+  require(interfaces::writeMap(out, "map", *world.grid));
+  require(interfaces::writeAtomically(out / "map.png", mapPicture(world)));
+  require(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
+  require(interfaces::writeAtomically(out / "report.html", interfaces::mapReport(report)));
+}
+
+}  // namespace swiftlet::apps

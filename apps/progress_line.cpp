@@ -1,0 +1,32 @@
+#include "apps/progress_line.hpp"
+
+#include <unistd.h>
+
+#include "apps/show.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+constexpr double kElsewhere_s = 2.0;
+
+}  // namespace
+
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), interactive_(isatty(STDOUT_FILENO) != 0) {}
+
+void ProgressLine::update(const std::string& text, double wall_s) {
+  if (quiet_) return;
+  if (interactive_) {
+    show("\r\033[K" + text);
+    open_ = true;
+  } else if (wall_s - last_s_ >= kElsewhere_s) {
+    last_s_ = wall_s;
+    show(text + "\n");
+  }
+}
+
+void ProgressLine::close() {
+  if (open_) show("\r\033[K");
+  open_ = false;
+}
+
+}  // namespace swiftlet::apps

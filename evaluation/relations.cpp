@@ -1,0 +1,53 @@
+#include "evaluation/relations.hpp"
+
+#include <algorithm>
+
+namespace swiftlet::evaluation {
+namespace {
+
+using common::Duration;
+using common::Pose3;
+using common::StampedPose;
+
+constexpr Duration kSameStamp = Duration::fromNanoseconds(500);
+
+/// Null when there is none.
+const Pose3* poseAt(const common::Trajectory& trajectory, common::Time stamp) {
+  const auto distance = [&](const StampedPose& pose) { return std::max(pose.stamp - stamp, stamp - pose.stamp); };
+  auto nearest = std::lower_bound(trajectory.begin(), trajectory.end(), stamp,
+                                  [](const StampedPose& pose, common::Time t) { return pose.stamp < t; });
+  if (nearest == trajectory.end() || (nearest != trajectory.begin() && distance(nearest[-1]) < distance(*nearest)))
+    --nearest;
+  return distance(*nearest) <= kSameStamp ? &nearest->pose : nullptr;
+}
+
+Statistics statisticsOfSquares(std::vector<double> values) {
+  for (double& value : values) value *= value;
+  return statisticsOf(values);
+}
+
+}  // namespace
+
+RelationErrors relationErrors(const common::Trajectory& estimate, const std::vector<common::Relation>& relations) {
+  RelationErrors errors;
+  std::vector<double> translations_m, rotations_rad;
+  for (std::size_t i = 0; i < relations.size(); ++i) {
+    const common::Relation& relation = relations[i];
+    const Pose3* from = estimate.empty() ? nullptr : poseAt(estimate, relation.from);
+    const Pose3* to = estimate.empty() ? nullptr : poseAt(estimate, relation.to);
+    if (from == nullptr || to == nullptr) {
+      errors.missing.push_back(i);
+      continue;
+    }
+    const Pose3 error = relation.T_from_to.inverse() * (from->inverse() * *to);
+    translations_m.push_back(error.position_m.norm());
+    rotations_rad.push_back(common::logSO3(error.rotation).norm());
+  }
+  errors.translation_m = statisticsOf(translations_m);
+  errors.rotation_rad = statisticsOf(rotations_rad);
+  errors.translation_squared_m2 = statisticsOfSquares(std::move(translations_m));
+  errors.rotation_squared_rad2 = statisticsOfSquares(std::move(rotations_rad));
+  return errors;
+}
+
+}  // namespace swiftlet::evaluation

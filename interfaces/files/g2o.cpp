@@ -1,0 +1,120 @@
+#include "interfaces/files/g2o.hpp"
+
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "interfaces/files/g2o_collector.hpp"
+#include "interfaces/files/g2o_fields.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+/// Other elements of g2o: landmarks, priors, calibration and raw data. They are left out, and said to be.
+const std::set<std::string, std::less<>> kUnusedTags = {"VERTEX_XY",
+                                                        "EDGE_SE2_XY",
+                                                        "EDGE_BEARING_SE2_XY",
+                                                        "EDGE_PRIOR_SE2",
+                                                        "EDGE_PRIOR_SE2_XY",
+                                                        "EDGE_SE2_PRIOR",
+                                                        "EDGE_SE2_OFFSET",
+                                                        "VERTEX_TRACKXYZ",
+                                                        "EDGE_SE3_TRACKXYZ",
+                                                        "EDGE_SE3_PRIOR",
+                                                        "EDGE_SE3_OFFSET",
+                                                        "PARAMS_SE2OFFSET",
+                                                        "PARAMS_SE3OFFSET",
+                                                        "PARAMS_CAMERACALIB",
+                                                        "EDGE_PROJECT_DISPARITY",
+                                                        "ROBOTLASER1",
+                                                        "VERTEX_ODOM_DIFFERENTIAL",
+                                                        "EDGE_PROJECT_DEPTH",
+                                                        "DATA_END",
+                                                        "VERTEX_TAG"};
+const std::vector<std::string> kUsedTags = {"VERTEX_SE2", "EDGE_SE2", "VERTEX_SE3:QUAT", "EDGE_SE3:QUAT", "FIX"};
+
+class Reading {
+ public:
+  explicit Reading(LineReader lines) : lines_(std::move(lines)) {}
+
+  G2oFile run() {
+    for (std::string_view line; lines_.next(line);) {
+      auto words = wordsOf(line.substr(0, line.find('#')));
+      if (!words.empty()) add(G2oFields(lines_, std::move(words)));
+    }
+    G2oFile file;
+    if (!plane_.empty()) {
+      file.graph = plane_.finish(lines_.name(), fixed_);
+    } else if (!space_.empty()) {
+      file.graph = space_.finish(lines_.name(), fixed_);
+    } else {
+      throw common::InputError(
+          common::Problem{{lines_.name()},
+                          "",
+                          "holds no pose graph, expected VERTEX_SE2, EDGE_SE2, VERTEX_SE3:QUAT or EDGE_SE3:QUAT",
+                          ""});
+    }
+    for (const auto& [tag, left_out] : left_out_) file.warnings.push_back(warningOf(tag, left_out));
+    return file;
+  }
+
+ private:
+  struct LeftOut {
+    int first_line = 0;
+    int lines = 0;
+  };
+
+  void add(G2oFields fields) {
+    const int line = lines_.lineNumber();
+    const std::string tag = fields.tag();
+    if (tag == "VERTEX_SE2") {
+      of(plane_, space_.empty(), fields).addVertex(fields, line);
+    } else if (tag == "EDGE_SE2") {
+      of(plane_, space_.empty(), fields).addEdge(fields, line);
+    } else if (tag == "VERTEX_SE3:QUAT") {
+      of(space_, plane_.empty(), fields).addVertex(fields, line);
+    } else if (tag == "EDGE_SE3:QUAT") {
+      of(space_, plane_.empty(), fields).addEdge(fields, line);
+    } else if (tag == "FIX") {
+      if (fields.left() == 0) throw fields.problem(1, "expected the ids of the vertices that do not move");
+      while (fields.left() > 0) {
+        const int column = fields.column();
+        fixed_.emplace(fields.id(), common::SourceLocation{lines_.name(), line, column});
+      }
+    } else {
+      LeftOut& left_out = left_out_[tag];
+      if (left_out.lines++ == 0) left_out.first_line = line;
+    }
+  }
+
+  template <typename Graph>
+  static G2oCollector<Graph>& of(G2oCollector<Graph>& collector, bool other_is_empty, const G2oFields& fields) {
+    if (!other_is_empty) throw fields.problem(1, "the file mixes elements of the plane (SE2) and of space (SE3)");
+    return collector;
+  }
+
+  std::string warningOf(const std::string& tag, const LeftOut& left_out) const {
+    const std::string count = fmt::format("{} line{}", left_out.lines, left_out.lines == 1 ? " is" : "s are");
+    common::Problem warning{{lines_.name(), left_out.first_line}, tag, fmt::format("not used, {} left out", count), ""};
+    if (!kUnusedTags.contains(tag)) {
+      warning.message = fmt::format("unknown tag, {} left out", count);
+      warning.hint = common::didYouMean(tag, kUsedTags);
+    }
+    return toString(warning);
+  }
+
+  LineReader lines_;
+  G2oCollector<G2oGraph2D> plane_;
+  G2oCollector<G2oGraph3D> space_;
+  std::map<std::int64_t, common::SourceLocation> fixed_;
+  std::map<std::string, LeftOut> left_out_;
+};
+
+}  // namespace
+
+G2oFile readG2o(const std::filesystem::path& file) { return readG2o(LineReader(file)); }
+
+G2oFile readG2o(LineReader lines) { return Reading(std::move(lines)).run(); }
+
+}  // namespace swiftlet::interfaces

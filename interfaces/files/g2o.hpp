@@ -1,0 +1,63 @@
+// Pose graphs as g2o writes them, one element a line, `#` begins a comment; metres and radians, quaternions x y z w:
+//   VERTEX_SE2 id x y yaw                     EDGE_SE2 from to x y yaw (6 numbers of the information)
+//   VERTEX_SE3:QUAT id x y z qx qy qz qw      EDGE_SE3:QUAT from to x y z qx qy qz qw (21 numbers of the information)
+//   FIX id [id ...]
+// The information is the upper triangle, row by row, of the inverse covariance of the error, which is the measurement's
+// inverse times the relative pose of the estimate: in the plane (x, y, yaw), in space (x, y, z and the vector part of
+// the unit quaternion whose w is not negative, which for small angles is half the rotation vector).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+#include "interfaces/files/line_reader.hpp"
+
+namespace swiftlet::interfaces {
+
+template <typename Pose_, int kErrors_>
+struct G2oGraph {
+  using Pose = Pose_;
+  static constexpr int kErrors = kErrors_;
+  using Information = Eigen::Matrix<double, kErrors, kErrors>;
+
+  /// "Seen from the vertex `from`, the vertex `to` stands at T_from_to."
+  struct Edge {
+    int from = 0;  ///< Indices of `ids`, not ids.
+    int to = 0;
+    Pose T_from_to;
+    Information information = Information::Identity();
+  };
+
+  std::vector<std::int64_t> ids;  ///< Of each vertex; in the file's order, or ascending when it has only edges.
+  std::vector<Pose> poses;        ///< Of each vertex; empty when the file has only edges.
+  std::vector<Edge> edges;
+  std::vector<int> fixed;  ///< Indices of `ids`, ascending.
+};
+
+using G2oGraph2D = G2oGraph<common::Pose2, 3>;
+using G2oGraph3D = G2oGraph<common::Pose3, 6>;
+
+struct G2oFile {
+  std::variant<G2oGraph2D, G2oGraph3D> graph;
+  std::vector<std::string> warnings;  ///< What was left out, one sentence a tag, with its first line.
+};
+
+/// Files compressed by gzip, bzip2 or xz are read as they are. Throws InputError with line and column for a line that
+/// is not what its tag says, numbers that are not finite, a vertex that stands twice, an edge of a vertex to itself or
+/// to one that is missing (a file without any vertex is sound: it has only edges), an information that is not positive
+/// definite, elements of the plane and of space in one file, and a file without edges. Rotations are normalized.
+G2oFile readG2o(const std::filesystem::path& file);
+G2oFile readG2o(LineReader lines);
+
+/// Equal graphs give equal bytes; numbers read back to the same bits, but for quaternions, which read back as they were
+/// within rounding and are written with w >= 0. A graph with edges only is written so.
+std::string toG2o(const G2oGraph2D& graph);
+std::string toG2o(const G2oGraph3D& graph);
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,109 @@
+// What a g2o file holds of one dimension, for its reader: elements as they come, then a graph.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "interfaces/files/g2o.hpp"
+#include "interfaces/files/g2o_fields.hpp"
+
+namespace swiftlet::interfaces {
+
+/// Throws InputError for elements that are wrong in themselves at once, for those that others are missing to at the
+/// end.
+template <typename Graph>
+class G2oCollector {
+ public:
+  using Pose = typename Graph::Pose;
+  static constexpr std::size_t kPoseNumbers = Graph::kErrors == 3 ? 3 : 7;
+  static constexpr std::size_t kInformationNumbers = Graph::kErrors * (Graph::kErrors + 1) / 2;
+
+  void addVertex(G2oFields& fields, int line) {
+    fields.expectNumbers(1 + kPoseNumbers);
+    const int column = fields.column();
+    const std::int64_t id = fields.id();
+    const auto [it, is_new] = vertices_.try_emplace(id, Vertex{static_cast<int>(graph_.ids.size()), line});
+    if (!is_new) throw fields.problem(column, fmt::format("vertex {} stands in line {} already", id, it->second.line));
+    graph_.ids.push_back(id);
+    graph_.poses.push_back(poseIn(fields));
+  }
+
+  void addEdge(G2oFields& fields, int line) {
+    fields.expectNumbers(2 + kPoseNumbers + kInformationNumbers);
+    const int column = fields.column();
+    const std::int64_t from = fields.id(), to = fields.id();
+    if (from == to) throw fields.problem(column, fmt::format("the edge leads from vertex {} to itself", from));
+    typename Graph::Edge edge;
+    edge.T_from_to = poseIn(fields);
+    edge.information = fields.template information<typename Graph::Information>();
+    graph_.edges.push_back(edge);
+    ends_.push_back({from, to, line, column});
+  }
+
+  bool empty() const { return graph_.ids.empty() && graph_.edges.empty(); }
+
+  Graph finish(const std::string& file, const std::map<std::int64_t, common::SourceLocation>& fixed) {
+    if (graph_.edges.empty())
+      throw common::InputError(common::Problem{{file}, "", "holds vertices but no edges, nothing ties them", ""});
+    if (graph_.ids.empty()) takeVerticesFromEdges();
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      const Ends& ends = ends_[i];
+      graph_.edges[i].from = indexOf(ends.from, "edge", {file, ends.line, ends.column});
+      graph_.edges[i].to = indexOf(ends.to, "edge", {file, ends.line, ends.column});
+    }
+    for (const auto& [id, location] : fixed) graph_.fixed.push_back(indexOf(id, "FIX", location));
+    std::sort(graph_.fixed.begin(), graph_.fixed.end());
+    return std::move(graph_);
+  }
+
+ private:
+  static Pose poseIn(G2oFields& fields) {
+    if constexpr (Graph::kErrors == 3) {
+      return fields.pose2();
+    } else {
+      return fields.pose3();
+    }
+  }
+
+  struct Vertex {
+    int index = 0;
+    int line = 0;
+  };
+  struct Ends {
+    std::int64_t from = 0;
+    std::int64_t to = 0;
+    int line = 0;
+    int column = 0;
+  };
+
+  void takeVerticesFromEdges() {
+    std::set<std::int64_t> ids;
+    for (const Ends& ends : ends_) ids.insert({ends.from, ends.to});
+    for (const std::int64_t id : ids) {
+      vertices_.emplace(id, Vertex{static_cast<int>(graph_.ids.size()), 0});
+      graph_.ids.push_back(id);
+    }
+  }
+
+  int indexOf(std::int64_t id, const char* element, const common::SourceLocation& location) const {
+    const auto found = vertices_.find(id);
+    if (found != vertices_.end()) return found->second.index;
+    throw common::InputError(
+        common::Problem{location, element, fmt::format("there is no vertex {}", id), "every vertex needs a line"});
+  }
+
+  Graph graph_;
+  std::unordered_map<std::int64_t, Vertex> vertices_;
+  std::vector<Ends> ends_;
+};
+
+}  // namespace swiftlet::interfaces

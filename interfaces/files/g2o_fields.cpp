@@ -1,0 +1,47 @@
+#include "interfaces/files/g2o_fields.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace swiftlet::interfaces {
+
+void G2oFields::expectNumbers(std::size_t count) const {
+  if (left() != count) throw problem(words_.back().column, fmt::format("{} numbers instead of {}", left(), count));
+}
+
+std::int64_t G2oFields::id() {
+  const Word& word = words_[next_++];
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(word.text.data(), word.text.data() + word.text.size(), value);
+  if (error != std::errc() || end != word.text.data() + word.text.size() || value < 0)
+    throw problem(word.column, fmt::format("`{}` is not an id, expected 0, 1, 2 ...", word.text));
+  return value;
+}
+
+double G2oFields::number(const char* name) {
+  const Word& word = words_[next_++];
+  double value = 0.0;
+  if (!parseNumber(word.text, value))
+    throw problem(word.column, fmt::format("{}: `{}` is not a finite number", name, word.text));
+  return value;
+}
+
+common::Pose2 G2oFields::pose2() {
+  const double x_m = number("x"), y_m = number("y"), yaw_rad = number("yaw");
+  return {x_m, y_m, common::wrapAngle(yaw_rad)};
+}
+
+common::Pose3 G2oFields::pose3() {
+  const double x_m = number("x"), y_m = number("y"), z_m = number("z");
+  const int begin = column();
+  const double x = number("qx"), y = number("qy"), z = number("qz"), w = number("qw");
+  const Eigen::Quaterniond rotation(w, x, y, z);
+  if (!(rotation.norm() > 1e-6) || !std::isfinite(rotation.norm()))
+    throw problem(begin, fmt::format("a rotation of length {}", rotation.norm()));
+  return {rotation.normalized(), {x_m, y_m, z_m}};
+}
+
+}  // namespace swiftlet::interfaces

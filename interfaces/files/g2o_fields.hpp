@@ -1,0 +1,63 @@
+// The words of a line of a g2o file, for its reader.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "common/error.hpp"
+#include "common/geometry.hpp"
+#include "interfaces/files/line_reader.hpp"
+#include "interfaces/files/text_file.hpp"
+
+namespace swiftlet::interfaces {
+
+/// Read from the left, after the tag; throws InputError where a word is not what is asked for. Words must be left where
+/// one is asked for: see expectNumbers.
+class G2oFields {
+ public:
+  /// At least one word, the tag. `lines` and the line must outlive it.
+  G2oFields(const LineReader& lines, std::vector<Word> words) : lines_(lines), words_(std::move(words)) {}
+
+  std::string tag() const { return std::string(words_[0].text); }
+  std::size_t left() const { return words_.size() - next_; }
+  /// Of the next word, or of the last where none is left.
+  int column() const { return words_[std::min(next_, words_.size() - 1)].column; }
+
+  void expectNumbers(std::size_t count) const;
+  std::int64_t id();
+  double number(const char* name);
+  common::Pose2 pose2();
+  common::Pose3 pose3();
+  /// The upper triangle, row by row; positive definite.
+  template <typename Matrix>
+  Matrix information();
+
+  common::InputError problem(int column, const std::string& message) const {
+    return lines_.problemAt(column, tag(), message);
+  }
+
+ private:
+  const LineReader& lines_;
+  std::vector<Word> words_;
+  std::size_t next_ = 1;
+};
+
+template <typename Matrix>
+Matrix G2oFields::information() {
+  const int begin = column();
+  Matrix matrix;
+  for (int row = 0; row < Matrix::RowsAtCompileTime; ++row)
+    for (int col = row; col < Matrix::ColsAtCompileTime; ++col)
+      matrix(row, col) = matrix(col, row) = number("information");
+  if (const Eigen::LLT<Matrix> llt(matrix); llt.info() != Eigen::Success || !llt.matrixLLT().allFinite())
+    throw problem(begin, "the information is not positive definite");
+  return matrix;
+}
+
+}  // namespace swiftlet::interfaces

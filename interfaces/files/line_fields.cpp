@@ -1,0 +1,47 @@
+#include "interfaces/files/line_fields.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace swiftlet::interfaces {
+
+std::string toString(const LineFormat& format) { return fmt::format("`{}`", fmt::join(format.fields, " ")); }
+
+bool nextWords(LineReader& reader, std::vector<Word>& words) {
+  std::string_view line;
+  while (reader.next(line)) {
+    words = wordsOf(line);
+    if (!words.empty() && !words[0].text.starts_with('#')) return true;
+  }
+  return false;
+}
+
+LineFields::LineFields(const LineReader& reader, const std::vector<Word>& words, const LineFormat& format)
+    : reader_(reader), words_(words), format_(format) {
+  if (words.size() != format.fields.size())
+    throw problemAt(words.size() - 1, std::string(format.element),
+                    fmt::format("{} numbers instead of {}", words.size(), format.fields.size()),
+                    "expected " + toString(format));
+}
+
+common::Time LineFields::stamp(std::size_t field) const {
+  if (const auto stamp = parseStamp(words_[field].text)) return *stamp;
+  throw problemAt(field, std::string(format_.fields[field]),
+                  fmt::format("`{}` is not a time in seconds", words_[field].text), "expected " + toString(format_));
+}
+
+double LineFields::number(std::size_t field) const {
+  double value = 0.0;
+  if (parseNumber(words_[field].text, value)) return value;
+  throw problemAt(field, std::string(format_.fields[field]),
+                  fmt::format("`{}` is not a finite number", words_[field].text), "expected " + toString(format_));
+}
+
+common::InputError LineFields::problemAt(std::size_t field, std::string element, std::string message,
+                                         std::string hint) const {
+  return reader_.problemAt(words_[field].column, std::move(element), std::move(message), std::move(hint));
+}
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,71 @@
+// Pose graphs in space: the poses that best satisfy relative measurements, by sparse Levenberg-Marquardt (Ceres) on
+// unit quaternions. Deterministic: one thread, bounded by iterations, never by time. Pure function, safe from any
+// thread.
+//
+// chi2 is the sum over the edges of e' * information * e with the error of g2o (Kuemmerle 2011): of the measurement's
+// inverse times the relative pose of the estimate, the translation and the vector part of the unit quaternion whose w
+// is not negative, which for small angles is half the rotation vector. No factor 1/2, no factor 2.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+
+namespace swiftlet::optimization {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// "Seen from pose `from`, pose `to` stands at T_from_to."
+struct PoseEdge3D {
+  int from = 0;
+  int to = 0;
+  common::Pose3 T_from_to;
+  /// Inverse covariance of the error (x_m, y_m, z_m, qx, qy, qz), see above; symmetric positive definite.
+  Matrix6d information = Matrix6d::Identity();
+  bool robust = false;  ///< May be wrong (a loop closure): its pull is bounded by the robust kernel.
+};
+
+struct PoseGraph3D {
+  std::vector<common::Pose3> poses;  ///< The initial guess; unit quaternions.
+  std::vector<PoseEdge3D> edges;
+  std::vector<int> fixed = {0};  ///< These poses do not move.
+};
+
+struct PoseGraph3DConfig {
+  int max_iterations = 100;
+  double robust_width = 3.0;        ///< Normalized error (sigmas) beyond which a robust edge loses influence (Cauchy).
+  double relative_decrease = 1e-9;  ///< Converged when the cost changes by less than this share.
+  /// The trust region's first radius: how far the first step may go, 1e16 for that of Gauss-Newton. Not read from
+  /// files.
+  double trust_radius = 1e4;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct PoseGraph3DSolution {
+  std::vector<common::Pose3> poses;
+  std::vector<double> squared_errors;  ///< Of each edge at the solution: e' * information * e, 6 degrees of freedom.
+  int iterations = 0;                  ///< Steps tried.
+  bool converged = false;  ///< False: stopped by max_iterations or not solvable; `poses` are the best found.
+};
+
+/// Of several poses that no edge ties to a fixed one, the first stays where it is and the others find their place to
+/// it. Indices must be valid.
+PoseGraph3DSolution optimize(const PoseGraph3D& graph, const PoseGraph3DConfig& config);
+
+/// The error of an edge and its Jacobians with respect to (x, y, z, qx, qy, qz, qw) of each pose, for steps that keep
+/// the quaternion's length of 1.
+struct EdgeError3D {
+  Vector6d error;
+  Eigen::Matrix<double, 6, 7> jacobian_from;
+  Eigen::Matrix<double, 6, 7> jacobian_to;
+};
+EdgeError3D edgeError(const common::Pose3& from, const common::Pose3& to, const common::Pose3& T_from_to);
+
+}  // namespace swiftlet::optimization

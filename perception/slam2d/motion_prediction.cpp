@@ -1,0 +1,151 @@
+#include "perception/slam2d/motion_prediction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::kRadPerDeg;
+using common::Pose2;
+
+double square(double value) { return value * value; }
+/// Errors of position and heading are compared as they move what is seen at this distance.
+constexpr double kLever_m = 3.0;
+/// A single error counts as no more than this many sigmas, so that one slip is not remembered for long.
+constexpr double kMaxSurprise = 4.0;
+
+}  // namespace
+
+void MotionPredictionConfig::describe(common::config::Fields& fields) {
+  fields("memory_steps", memory_steps, "Steps over which the error of a prediction is averaged.");
+  fields("first_error_m", first_error_m, "The error expected at first.");
+  fields("first_error_deg", first_error_deg, "The same for the heading.");
+  fields("least_error_m", least_error_m, "No prediction is taken for better than this.");
+  fields("least_error_deg", least_error_deg, "The same for the heading.");
+  fields("acceleration_m_s2", acceleration_m_s2, "Of a robot that starts or stops.");
+  fields("max_speed_m_s", max_speed_m_s, "Odometry that claims more is not believed in that step.");
+}
+
+std::vector<std::string> MotionPredictionConfig::validate() const {
+  return common::Validation()
+      .within("memory_steps", memory_steps, 1, 10'000)
+      .within("first_error_m", first_error_m, least_error_m, 10)
+      .within("first_error_deg", first_error_deg, least_error_deg, 180)
+      .within("least_error_m", least_error_m, 0.0001, 1)
+      .within("least_error_deg", least_error_deg, 0.001, 90)
+      .within("acceleration_m_s2", acceleration_m_s2, 0, 100)
+      .within("max_speed_m_s", max_speed_m_s, 0.1, 100)
+      .problems();
+}
+
+MotionPrediction::MotionPrediction(const MotionPredictionConfig& config) : config_(config) {
+  for (Source* source : {&wheels_, &inertia_}) {
+    source->variance_m2 = square(config.first_error_m);
+    source->variance_rad2 = square(config.first_error_deg * kRadPerDeg);
+  }
+}
+
+const MotionPrediction::Source& MotionPrediction::best() const {
+  const auto cost = [](const Source& s) { return s.variance_m2 + square(kLever_m) * s.variance_rad2; };
+  return wheels_.step && cost(wheels_) <= cost(inertia_) ? wheels_ : inertia_;
+}
+
+double MotionPrediction::stepSigma_m() const { return std::max(std::sqrt(best().variance_m2), config_.least_error_m); }
+double MotionPrediction::stepSigma_rad() const {
+  return std::max(std::sqrt(best().variance_rad2), config_.least_error_deg * kRadPerDeg);
+}
+
+void MotionPrediction::predict(const std::optional<Pose2>& T_odom_robot, double elapsed_s) {
+  elapsed_s_ = std::max(elapsed_s, 1e-3);
+  const std::optional<Pose2> last_odom = std::exchange(T_odom_robot_, T_odom_robot);
+  wheels_.step.reset();
+  if (last_odom && T_odom_robot) {
+    wheels_.step = between(*last_odom, *T_odom_robot);
+    if (!(wheels_.step->position_m().norm() <= config_.max_speed_m_s * elapsed_s_)) {
+      ++doubtful_steps_;
+      wheels_.step.reset();
+    }
+  }
+  const double dt = elapsed_s_;
+  inertia_.step = Pose2{velocity_.x() * dt, velocity_.y() * dt, velocity_.z() * dt};
+
+  const Source& source = best();
+  const Pose2& step = *source.step;
+  before_ = pose_;
+  pose_ = before_ * step;
+  Matrix6d move = Matrix6d::Identity();
+  const Eigen::Vector2d way = pose_.position_m() - before_.position_m();
+  move.block<2, 1>(0, 2) = Eigen::Vector2d(-way.y(), way.x());
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(before_.yaw_rad).toRotationMatrix();
+  Eigen::Matrix<double, 6, 3> by_step;  // How an error of the step enters.
+  by_step << turn, Eigen::Matrix3d::Identity() / dt;
+  if (&source == &wheels_) {
+    velocity_ = Eigen::Vector3d(step.x_m, step.y_m, step.yaw_rad) / dt;
+    move.bottomRightCorner<3, 3>().setZero();
+  } else {
+    move.topRightCorner<3, 3>() = turn * dt;
+  }
+  const double sigma_m =
+      &source == &wheels_ ? stepSigma_m() : std::max(stepSigma_m(), config_.acceleration_m_s2 * dt * dt);
+  const Eigen::Vector3d variances(square(sigma_m), square(sigma_m), square(stepSigma_rad()));
+  covariance_ = move * covariance_ * move.transpose() + by_step * variances.asDiagonal() * by_step.transpose();
+}
+
+void MotionPrediction::correct(const Pose2& matched, const Eigen::Matrix3d& covariance,
+                               const std::optional<Eigen::Vector2d>& unseen_direction) {
+  const Eigen::Matrix<double, 6, 3> gain =
+      covariance_.leftCols<3>() * (covariance_.topLeftCorner<3, 3>() + covariance).inverse();
+  const Eigen::Vector3d off(matched.x_m - pose_.x_m, matched.y_m - pose_.y_m,
+                            common::wrapAngle(matched.yaw_rad - pose_.yaw_rad));
+  const Eigen::Matrix<double, 6, 1> change = gain * off;
+  pose_ = {pose_.x_m + change(0), pose_.y_m + change(1), common::wrapAngle(pose_.yaw_rad + change(2))};
+  velocity_ += change.tail<3>();
+  covariance_ -= gain * covariance_.topRows<3>();
+  covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
+
+  std::optional<Eigen::Vector2d> unseen_before;
+  if (unseen_direction) unseen_before = Eigen::Rotation2Dd(-before_.yaw_rad) * *unseen_direction;
+  const Pose2 step = between(before_, matched);
+  learn(wheels_, step, unseen_before);
+  learn(inertia_, step, unseen_before);
+}
+
+void MotionPrediction::learn(Source& source, const Pose2& step, const std::optional<Eigen::Vector2d>& unseen) const {
+  if (!source.step) return;
+  Eigen::Vector2d error_m = step.position_m() - source.step->position_m();
+  double seen_axes = 2.0;
+  if (unseen) {
+    error_m -= *unseen * unseen->dot(error_m);
+    seen_axes = 1.0;
+  }
+  const double share = 1.0 / config_.memory_steps;
+  const auto average = [&](double& variance, double error2, double least) {
+    const double bounded = std::min(error2, square(kMaxSurprise) * std::max(variance, square(least)));
+    variance += share * (bounded - variance);
+  };
+  average(source.variance_m2, error_m.squaredNorm() / seen_axes, config_.least_error_m);
+  average(source.variance_rad2, square(common::wrapAngle(step.yaw_rad - source.step->yaw_rad)),
+          config_.least_error_deg * kRadPerDeg);
+}
+
+void MotionPrediction::lose() {
+  velocity_ *= 0.5;
+  for (int i = 0; i < 2; ++i) covariance_(3 + i, 3 + i) += square(stepSigma_m() / elapsed_s_);
+  covariance_(5, 5) += square(stepSigma_rad() / elapsed_s_);
+}
+
+void MotionPrediction::rebase() {
+  pose_ = Pose2{};
+  covariance_.topRows<3>().setZero();
+  covariance_.leftCols<3>().setZero();
+}
+
+}  // namespace swiftlet::perception

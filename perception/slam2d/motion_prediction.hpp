@@ -1,0 +1,74 @@
+// What the next step of a robot will be, before its scan is matched: that of its own odometry, or the last step once
+// more, whichever foretold the last steps better. How far it was off tells how wide to search.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+
+namespace swiftlet::perception {
+
+struct MotionPredictionConfig {
+  double memory_steps = 30;        ///< Over about so many steps the error of a prediction is averaged.
+  double first_error_m = 0.10;     ///< The error expected at first,
+  double first_error_deg = 5.0;    ///< in position and heading.
+  double least_error_m = 0.01;     ///< No prediction is taken for better,
+  double least_error_deg = 0.5;    ///< however good it was.
+  double acceleration_m_s2 = 1.0;  ///< Of a robot that starts or stops: no speed is more certain than this lets it be.
+  double max_speed_m_s = 10.0;     ///< Odometry that claims more is not believed in that step.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// A filter of pose and velocity, relative to a scan that others are matched to. Not thread-safe.
+class MotionPrediction {
+ public:
+  explicit MotionPrediction(const MotionPredictionConfig& config);
+
+  /// Moves on to a scan `elapsed_s` after the last one. `T_odom_robot` is that of the robot's own odometry at the scan.
+  void predict(const std::optional<common::Pose2>& T_odom_robot, double elapsed_s);
+  /// The scan's pose as it was matched, with the covariance of its errors.
+  void correct(const common::Pose2& T_reference_robot, const Eigen::Matrix3d& covariance,
+               const std::optional<Eigen::Vector2d>& unseen_direction_reference);
+  /// It was not matched: nothing is known of the speed any more.
+  void lose();
+  /// From now on, all is relative to where the robot is now.
+  void rebase();
+
+  const common::Pose2& T_reference_robot() const { return pose_; }
+  /// Of its errors (x_m, y_m, yaw_rad), along the reference's axes.
+  Eigen::Matrix3d covariance() const { return covariance_.topLeftCorner<3, 3>(); }
+  /// By how much the last prediction may be wrong in each direction, as experience has it.
+  double stepSigma_m() const;
+  double stepSigma_rad() const;
+  /// Steps of the odometry that no robot makes.
+  std::uint64_t doubtfulSteps() const { return doubtful_steps_; }
+
+ private:
+  using Matrix6d = Eigen::Matrix<double, 6, 6>;
+  struct Source {
+    std::optional<common::Pose2> step;  ///< What it says of the step, T_before_now.
+    double variance_m2 = 0.0, variance_rad2 = 0.0;
+  };
+  const Source& best() const;
+  void learn(Source& source, const common::Pose2& step, const std::optional<Eigen::Vector2d>& unseen_direction) const;
+
+  MotionPredictionConfig config_;
+  Source wheels_, inertia_;
+  std::optional<common::Pose2> T_odom_robot_;
+  std::uint64_t doubtful_steps_ = 0;
+  double elapsed_s_ = 0.0;
+  common::Pose2 before_;  ///< The pose at the last scan.
+
+  common::Pose2 pose_;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< (m/s, m/s, rad/s) with the axes of the robot.
+  Matrix6d covariance_ = Matrix6d::Zero();              ///< Of pose and velocity.
+};
+
+}  // namespace swiftlet::perception

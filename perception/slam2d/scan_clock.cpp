@@ -1,0 +1,41 @@
+#include "perception/slam2d/scan_clock.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Duration;
+
+/// So many stamps that went back make the others doubtful too.
+constexpr std::uint64_t kDoubts = 3;
+constexpr Duration kLeastInterval = Duration::fromMilliseconds(1);
+
+}  // namespace
+
+common::Time ScanClock::tick(common::Time stamp) {
+  if (ticks_ == 0) {
+    now_ = stamp;
+  } else {
+    const Duration interval = stamp - last_stamp_;
+    intervals_[(ticks_ - 1) % kRemembered] = interval;
+    const bool grows = interval > Duration();
+    if (!grows) ++doubtful_;
+    now_ += std::max(grows && doubtful_ < kDoubts ? interval : usualInterval(), kLeastInterval);
+  }
+  last_stamp_ = stamp;
+  ++ticks_;
+  return now_;
+}
+
+/// The mean of the middle ones: late stamps and early ones make up for each other, a wrong one does not count.
+Duration ScanClock::usualInterval() const {
+  std::array<Duration, kRemembered> sorted = intervals_;
+  const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(ticks_, kRemembered));
+  std::sort(sorted.begin(), end);
+  const std::ptrdiff_t cut = (end - sorted.begin()) / 20, kept = end - sorted.begin() - 2 * cut;
+  return std::accumulate(sorted.begin() + cut, end - cut, Duration()) / kept;
+}
+
+}  // namespace swiftlet::perception

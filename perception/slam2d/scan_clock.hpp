@@ -1,0 +1,29 @@
+// A time that grows with every scan, of stamps that may not: those of old logs were taken when a message had come
+// through the network. Where stamps go back they are no measure of an interval, and the mean one is taken for each.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "common/time.hpp"
+
+namespace swiftlet::perception {
+
+class ScanClock {
+ public:
+  /// The time of a scan with that stamp; after all before.
+  common::Time tick(common::Time stamp);
+  /// Stamps that did not come after the one before.
+  std::uint64_t doubtful() const { return doubtful_; }
+
+ private:
+  common::Duration usualInterval() const;
+
+  static constexpr std::size_t kRemembered = 128;
+  std::array<common::Duration, kRemembered> intervals_;  ///< The last ones, as stamped, in no order.
+  std::uint64_t ticks_ = 0, doubtful_ = 0;
+  common::Time last_stamp_, now_;
+};
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,117 @@
+#include "interfaces/laser_log/laser_log.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "interfaces/laser_log/carmen.hpp"
+#include "tests/interfaces/support.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+std::string oldScan(int beams, const std::string& range = "2.5", const std::string& stamp = "976052857.337530") {
+  std::string line = "FLASER " + std::to_string(beams);
+  for (int i = 0; i < beams; ++i) line += " " + range;
+  return line + " 0.96 2.0 0.0 1.0 2.0 0.0 " + stamp + " host 1.0";
+}
+
+LoggedScan read(const std::string& line) {
+  auto scan = parseCarmenLine(line, {});
+  EXPECT_TRUE(scan && *scan) << line;
+  return **scan;
+}
+
+TEST(Carmen, AnOldScanIsAHalfTurnOfBeams) {
+  for (const auto& [beams, step_deg] : {std::pair{180, 1.0}, {181, 1.0}, {360, 0.5}, {361, 0.5}}) {
+    const LoggedScan logged = read(oldScan(beams));
+    EXPECT_EQ(logged.scan.ranges_m.size(), static_cast<std::size_t>(beams));
+    EXPECT_DOUBLE_EQ(logged.scan.angle_min_rad, -0.5 * kPi);
+    EXPECT_NEAR(logged.scan.angle_increment_rad, step_deg * kPi / 180.0, 1e-12);
+  }
+}
+
+TEST(Carmen, SaysWhereTheLaserIsAndWhatTheRobotThinks) {
+  const LoggedScan logged = read(oldScan(180));
+  EXPECT_NEAR(logged.T_robot_laser.x_m, -0.04, 1e-12);
+  EXPECT_DOUBLE_EQ(logged.T_odom_robot->x_m, 1.0);
+  EXPECT_EQ(logged.scan.stamps.measured.nanoseconds(), 976052857'337530000);
+}
+
+TEST(Carmen, ANewScanSaysWhatItsLaserIs) {
+  const LoggedScan logged =
+      read("ROBOTLASER1 0 -1.0 2.0 0.5 50.0 0.1 0 3 1.0 50.0 2.0 1 7.0 1 2 0 1 2 0 0.1 0.2 0 0 0 12.5 host 1.0");
+  EXPECT_DOUBLE_EQ(logged.scan.angle_min_rad, -1.0);
+  EXPECT_DOUBLE_EQ(logged.scan.angle_increment_rad, 0.5);
+  EXPECT_THAT(logged.scan.ranges_m, testing::ElementsAre(1.0F, INFINITY, 2.0F));
+  EXPECT_DOUBLE_EQ(logged.scan.stamps.measured.seconds(), 12.5);
+}
+
+TEST(Carmen, WhatIsNoReturnIsInfiniteAndWhatIsWrongIsNotANumber) {
+  for (const char* no_return : {"81.91", "81.83", "51.2", "50.00", "inf"})
+    EXPECT_TRUE(std::isinf(read(oldScan(3, no_return)).scan.ranges_m[1])) << no_return;
+  for (const char* wrong : {"nan", "-1.0"}) EXPECT_TRUE(std::isnan(read(oldScan(3, wrong)).scan.ranges_m[1])) << wrong;
+}
+
+TEST(Carmen, OtherLinesAreNoScans) {
+  for (const char* line :
+       {"", "# FLASER", "ODOM 1 2 3 0 0 0 1.0 host 1.0", "PARAM robot_width 0.4 1 host 1", "FLASERS 1"}) {
+    const auto scan = parseCarmenLine(line, {});
+    ASSERT_TRUE(scan) << line;
+    EXPECT_FALSE(*scan) << line;
+  }
+}
+
+TEST(Carmen, ALineThatIsNotWholeSaysWhere) {
+  const auto cut = parseCarmenLine("FLASER 3 1.0 2.0", {});
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().element, "range");
+  const auto word = parseCarmenLine("FLASER 3 1.0 two 2.0 0 0 0 0 0 0 1.0 host 1.0", {});
+  ASSERT_FALSE(word);
+  EXPECT_EQ(word.error().column, 14);
+  EXPECT_THAT(word.error().message, testing::HasSubstr("`two`"));
+  EXPECT_FALSE(parseCarmenLine("FLASER -3 1.0", {}));
+  EXPECT_FALSE(parseCarmenLine("FLASER 1e9 1.0", {}));
+  EXPECT_FALSE(parseCarmenLine("FLASER 1 1.0 nan 0 0 0 0 0 1.0 host 1.0", {}));
+}
+
+TEST(Carmen, ASensorOverridesTheGeometry) {
+  common::LaserConfig sensor;
+  sensor.field_of_view_deg = 240.0;
+  sensor.range_max_m = 5.6;
+  const auto scan = parseCarmenLine(oldScan(3, "5.7"), {sensor});
+  EXPECT_NEAR((*scan)->scan.angle_increment_rad, 120.0 * common::kRadPerDeg, 1e-12);
+  EXPECT_TRUE(std::isinf((*scan)->scan.ranges_m[0]));
+}
+
+TEST(LaserLog, BadRecordsAreSkippedAndCountedWithTheirPlace) {
+  const ScratchFolder folder;
+  put(folder / "a.log", "# message\n" + oldScan(3) + "\nFLASER 3 1.0\n" + oldScan(4, "nan") + "\n");
+  const auto log = openLaserLog(folder / "a.log");
+  EXPECT_EQ(log->next()->scan.ranges_m.size(), 3U);
+  EXPECT_EQ(log->next()->scan.ranges_m.size(), 4U);
+  EXPECT_FALSE(log->next());
+  EXPECT_EQ(log->counts().scans, 2U);
+  EXPECT_EQ(log->counts().skipped_records, 1U);
+  EXPECT_EQ(log->counts().invalid_ranges, 4U);
+  ASSERT_EQ(log->counts().first_problems.size(), 1U);
+  EXPECT_EQ(log->counts().first_problems[0].location.line, 3);
+  EXPECT_DOUBLE_EQ(log->progress(), 1.0);
+}
+
+TEST(LaserLog, WhatIsNoLogIsRefused) {
+  const ScratchFolder folder;
+  EXPECT_THROW((void)openLaserLog(folder / "missing.log"), common::InputError);
+  for (const char* text : {"", "no log\nat all\n"}) {
+    put(folder / "b.log", text);
+    EXPECT_THROW((void)openLaserLog(folder / "b.log"), common::InputError);
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::interfaces

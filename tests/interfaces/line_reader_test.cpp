@@ -1,0 +1,149 @@
+// Lines of plain and compressed files: the same lines, with their numbers, in bounded memory.
+#include "interfaces/files/line_reader.hpp"
+
+#include <sys/stat.h>
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include "support.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using testing::ContainsRegex;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> linesOf(LineReader reader) {
+  std::vector<std::string> lines;
+  for (std::string_view line; reader.next(line);) {
+    lines.emplace_back(line);
+    EXPECT_EQ(reader.lineNumber(), static_cast<int>(lines.size()));
+  }
+  std::string_view more;
+  EXPECT_FALSE(reader.next(more)) << "the end stays the end";
+  return lines;
+}
+
+std::vector<std::string> linesOfText(std::string_view text) { return linesOf(LineReader::fromBytes(text, "text")); }
+
+/// Cut by hand, for comparison.
+std::vector<std::string> cutByHand(std::string text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    lines.push_back(text.substr(0, end));
+    if (lines.back().ends_with('\r')) lines.back().pop_back();
+    text.erase(0, end == std::string::npos ? text.size() : end + 1);
+  }
+  return lines;
+}
+
+/// Numbers that do not compress too well.
+std::string longText() {
+  std::string text;
+  std::uint64_t state = 1;
+  for (int i = 0; i < 50'000; ++i) text += std::to_string(state = state * 6364136223846793005ULL + 1) + "\n";
+  return text;
+}
+
+TEST(LineReader, LinesEndAsUnixAndAsWindowsEndThem) {
+  EXPECT_THAT(linesOfText("one\ntwo\r\n\nlast"), ElementsAre("one", "two", "", "last"));
+  EXPECT_THAT(linesOfText("one\n"), ElementsAre("one"));
+  EXPECT_THAT(linesOfText("\n\n"), ElementsAre("", ""));
+  EXPECT_THAT(linesOfText(""), ElementsAre());
+}
+
+RC_GTEST_PROP(LineReader, AnyTextIsCutAsByHand, ()) {
+  const auto text = *rc::gen::container<std::string>(rc::gen::element('\n', '\r', 'a', '\0', '#'));
+  RC_ASSERT(linesOfText(text) == cutByHand(text));
+}
+
+TEST(LineReader, CompressedFilesHaveTheSameLines) {
+  const ScratchFolder folder;
+  const std::string text = longText();
+  put(folder / "plain", text);
+  const auto expected = cutByHand(text);
+  EXPECT_EQ(linesOf(LineReader(folder / "plain")), expected);
+  for (const char* tool : {"gzip", "bzip2", "xz"}) {
+    const fs::path packed = folder / (std::string(tool) + ".any-name");
+    if (!outputOf(std::string(tool) + " -c " + (folder / "plain").string() + " > " + packed.string()))
+      GTEST_SKIP() << "NOT TESTED: there is no " << tool;
+    EXPECT_EQ(linesOf(LineReader(packed)), expected) << tool;
+  }
+}
+
+/// Reads to the end or to a problem, which it returns; `lines` counts those that were returned before.
+std::string readUntilProblem(const fs::path& file, int& lines) {
+  lines = 0;
+  return problemOf([&] {
+    LineReader reader(file);
+    for (std::string_view line; reader.next(line);) lines = reader.lineNumber();
+  });
+}
+
+TEST(LineReader, CutAndDamagedFilesAreSaid) {
+  const ScratchFolder folder;
+  put(folder / "plain", longText());
+  int lines = 0;
+  for (const char* tool : {"gzip", "bzip2", "xz"}) {
+    const auto packed = outputOf(std::string(tool) + " -c " + (folder / "plain").string());
+    if (!packed) GTEST_SKIP() << "NOT TESTED: there is no " << tool;
+    for (const std::size_t missing : {std::size_t{1}, packed->size() / 4, packed->size() - 20}) {
+      put(folder / "cut", packed->substr(0, packed->size() - missing));
+      EXPECT_THAT(readUntilProblem(folder / "cut", lines), ContainsRegex("cut(:[0-9]+)?: is cut or damaged"))
+          << tool << " without its last " << missing << " bytes";
+    }
+    if (std::string_view(tool) == "gzip") continue;  // Its checksum is not verified.
+    std::string damaged = *packed;
+    damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 0x55);
+    put(folder / "damaged", damaged);
+    EXPECT_THAT(readUntilProblem(folder / "damaged", lines), HasSubstr("is cut or damaged")) << tool;
+  }
+}
+
+TEST(LineReader, LinesBeforeTheCutAreReturned) {
+  const ScratchFolder folder;
+  put(folder / "plain", longText());
+  const auto packed = outputOf("gzip -c " + (folder / "plain").string());
+  if (!packed) GTEST_SKIP() << "NOT TESTED: there is no gzip";
+  put(folder / "cut", packed->substr(0, packed->size() - packed->size() / 4));
+  int lines = 0;
+  const std::string problem = readUntilProblem(folder / "cut", lines);
+  EXPECT_THAT(problem, HasSubstr("cut:" + std::to_string(lines) + ": is cut"));
+  EXPECT_GT(lines, 30'000);
+}
+
+TEST(LineReader, LongLinesAndLongFilesAreRefused) {
+  const std::string text = "short\n" + std::string(100, 'x') + "\n" + std::string(101, 'y') + "\nnever";
+  const auto read = [&](LineLimits limits) {
+    return problemOf([&] { linesOf(LineReader::fromBytes(text, "file", limits)); });
+  };
+  EXPECT_EQ(read({101}), "");
+  EXPECT_THAT(read({100}), HasSubstr("file:3: a line of more than 100 bytes"));
+  EXPECT_THAT(read({1000, 64}), HasSubstr("the file holds more than 64 bytes"));
+  std::string endless;
+  endless.resize(10'000'000, 'z');
+  EXPECT_THAT(problemOf([&] { linesOf(LineReader::fromBytes(endless, "file")); }), HasSubstr("file:1: a line of more"));
+}
+
+TEST(LineReader, WhatIsNoFileIsRefused) {
+  const ScratchFolder folder;
+  EXPECT_THAT(problemOf([&] { LineReader reader(folder / "none"); }),
+              HasSubstr("none: cannot be opened: No such file"));
+  EXPECT_THAT(problemOf([&] { LineReader reader(folder.path()); }), HasSubstr("is a folder"));
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(problemOf([&] { LineReader reader(folder / "pipe"); }), HasSubstr("is a pipe"));
+}
+
+TEST(LineReader, ProblemsSayWhere) {
+  LineReader reader = LineReader::fromBytes("a\nb c\n", "x.txt");
+  std::string_view line;
+  reader.next(line);
+  reader.next(line);
+  EXPECT_STREQ(reader.problemAt(3, "word", "is wrong", "hint").what(), "x.txt:2:3: word: is wrong, hint");
+}
+
+}  // namespace
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,85 @@
+// Relations and reference poses: read exactly, and refused with line and column when they are none.
+#include "interfaces/files/relations.hpp"
+
+#include <gmock/gmock.h>
+
+#include "interfaces/files/trajectory_file.hpp"
+#include "support.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::Time;
+using testing::HasSubstr;
+
+const std::string kRelation = "976052905.167303 976052911.885496 -0.056990 -0.128430 0.5 0.1 -0.2 -1.682210\n";
+
+TEST(Relations, AreReadToTheMicrosecond) {
+  const auto relations = parseRelations("# a comment\n\n" + kRelation + "1 2 0 0 0 0 0 0", "r");
+  ASSERT_EQ(relations.size(), 2u);
+  EXPECT_EQ(relations[0].from, Time::fromNanoseconds(976'052'905'167'303'000));
+  EXPECT_EQ(relations[0].to, Time::fromNanoseconds(976'052'911'885'496'000));
+  EXPECT_EQ(relations[0].T_from_to.position_m, Eigen::Vector3d(-0.056990, -0.128430, 0.5));
+  const common::RollPitchYaw angles = common::rollPitchYaw(relations[0].T_from_to.rotation);
+  EXPECT_NEAR(angles.roll_rad, 0.1, 1e-12);
+  EXPECT_NEAR(angles.pitch_rad, -0.2, 1e-12);
+  EXPECT_NEAR(angles.yaw_rad, -1.682210, 1e-12);
+  EXPECT_TRUE(parseRelations("", "r").empty());
+}
+
+TEST(Relations, MistakesSayWhere) {
+  const auto problem = [](const std::string& text) { return problemOf([&] { parseRelations(text, "x.relations"); }); };
+  EXPECT_THAT(problem(kRelation + "1 2 0 0 0\n"),
+              HasSubstr("x.relations:2:9: relation: 5 numbers instead of 8, expected `t1 t2 x y z roll pitch yaw`"));
+  EXPECT_THAT(problem("1 2 0 0 0 0 0 0 9\n"), HasSubstr("x.relations:1:17: relation: 9 numbers instead of 8"));
+  EXPECT_THAT(problem("1 later 0 0 0 0 0 0\n"), HasSubstr("x.relations:1:3: t2: `later` is not a time in seconds"));
+  EXPECT_THAT(problem(" 1 2 0 inf 0 0 0 0\n"), HasSubstr("x.relations:1:8: y: `inf` is not a finite number"));
+  EXPECT_THAT(problem("1 2 0 0 0 0 0 0x1\n"), HasSubstr("x.relations:1:15: yaw: `0x1`"));
+  EXPECT_THAT(problem(kRelation + "1 2 0"), HasSubstr("x.relations:2:5: relation: 3 numbers"));
+}
+
+TEST(Relations, MissingFileIsNamed) {
+  EXPECT_THAT(problemOf([] { readRelations("none.relations.gz"); }), HasSubstr("none.relations.gz: "));
+}
+
+TEST(Relations, OfTheBenchmark) {
+  const auto intel = dataset("01-laser-slam/intel/intel.relations.gz");
+  const auto fr079 = dataset("01-laser-slam/fr079/fr079.relations.gz");
+  if (!intel || !fr079) GTEST_SKIP() << "no relations";
+  EXPECT_EQ(readRelations(*intel).size(), 2984u);
+  EXPECT_EQ(readRelations(*fr079).size(), 1685u);
+}
+
+TEST(Poses, AreToldByTheNumberOfWords) {
+  const ScratchFolder folder;
+  put(folder / "tum", "# t x y z qx qy qz qw\n2.5 1 2 3 0 0 0 1\n1.5 4 5 6 0 0 0 1\n");
+  const auto tum = readPoses(folder / "tum");
+  ASSERT_EQ(tum.size(), 2u) << "stamps may go back here";
+  EXPECT_EQ(tum[1].stamp, Time::fromNanoseconds(1'500'000'000));
+  EXPECT_EQ(tum[1].pose.position_m, Eigen::Vector3d(4, 5, 6));
+
+  put(folder / "reference", "# ipc_timestamp scan_index x y theta\n976052890.244111 169 0.5 -0.25 -0.354665\n");
+  const auto reference = readPoses(folder / "reference");
+  ASSERT_EQ(reference.size(), 1u);
+  EXPECT_EQ(reference[0].stamp, Time::fromNanoseconds(976'052'890'244'111'000));
+  EXPECT_EQ(reference[0].pose.position_m, Eigen::Vector3d(0.5, -0.25, 0));
+  EXPECT_NEAR(common::yawOf(reference[0].pose.rotation), -0.354665, 1e-12);
+}
+
+TEST(Poses, OfNeitherFormatAreRefused) {
+  const ScratchFolder folder;
+  const auto problem = [&](const std::string& text) {
+    put(folder / "x", text);
+    return problemOf([&] { readPoses(folder / "x"); });
+  };
+  EXPECT_THAT(problem("# t x y theta\n1 2 3 4\n"),
+              HasSubstr("x:2:7: pose: 4 numbers, expected `t x y z qx qy qz qw` or `ipc_timestamp scan_index x y "
+                        "theta`"));
+  EXPECT_THAT(problem("# only a comment\n"), HasSubstr("holds no poses"));
+  EXPECT_THAT(problem(""), HasSubstr("holds no poses"));
+  EXPECT_THAT(problem("1 0 0 0 x\n"), HasSubstr("x:1:9: theta: `x` is not a finite number"));
+  EXPECT_THAT(problem("1 0 0 0 0\n2 0 0 0 0 0 0 1\n"), HasSubstr("x:2:15: pose: 8 numbers instead of 5"));
+}
+
+}  // namespace
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,44 @@
+#include "perception/slam2d/scan_clock.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Time;
+
+TEST(ScanClock, KeepsStampsThatGrow) {
+  ScanClock clock;
+  for (const double stamp_s : {100.0, 100.2, 100.5, 107.0})
+    EXPECT_EQ(clock.tick(Time::fromSeconds(stamp_s)), Time::fromSeconds(stamp_s));
+  EXPECT_EQ(clock.doubtful(), 0U);
+}
+
+TEST(ScanClock, ALateStampIsMadeUpForWithTheUsualInterval) {
+  ScanClock clock;
+  for (int i = 0; i < 50; ++i) (void)clock.tick(Time::fromSeconds(0.2 * i));
+  const Time repeated = clock.tick(Time::fromSeconds(0.2 * 49));
+  EXPECT_EQ(clock.doubtful(), 1U);
+  EXPECT_NEAR(repeated.seconds(), 0.2 * 50, 0.01);
+}
+
+/// Scans every 0.2 s, stamped up to half a second late, so that one in three stamps goes back.
+TEST(ScanClock, OfStampsThatGoBackTheMeanIntervalIsKept) {
+  ScanClock clock;
+  Time last;
+  for (int i = 0; i < 2000; ++i) {
+    const double late_s = 0.25 + 0.25 * std::sin(2.4 * i);
+    const Time now = clock.tick(Time::fromSeconds(0.2 * i + late_s));
+    if (i > 0) {
+      EXPECT_GT(now, last);
+    }
+    last = now;
+  }
+  EXPECT_GT(clock.doubtful(), 300U);
+  EXPECT_NEAR(last.seconds(), 0.2 * 2000, 0.05 * 400);
+}
+
+}  // namespace
+}  // namespace swiftlet::perception
