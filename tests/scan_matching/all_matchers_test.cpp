@@ -27,7 +27,7 @@ using test::scanAt;
 
 /// The greatest errors that are let pass.
 struct Tolerance {
-  double median_m = 0.002, most_m = 0.005;      ///< `most`: of 95 %.
+  double median_m = 0.002, most_m = 0.005;  ///< `most`: of 95 %.
   double median_deg = 0.05, most_deg = 0.15;
 };
 /// What averages poses of a grid of 1 cm and 0.1 degrees knows no better than half a cell; 95 % are within two.
@@ -110,8 +110,8 @@ TEST_P(AllMatchers, AreAccurateInTheSameScenes) {
                        random.uniform(-far.yaw_rad, far.yaw_rad)};
       const Pose2 truth = reference * step;
       const auto matcher = matcherAt(scanAt(scene.world, reference, 2 * trial), reference);
-      const MatchResult match = matcher->match(scanAt(scene.world, truth, 2 * trial + 1), reference,
-                                               {1.5 * far.x_m, 1.2 * far.yaw_rad});
+      const MatchResult match =
+          matcher->match(scanAt(scene.world, truth, 2 * trial + 1), reference, {1.5 * far.x_m, 1.2 * far.yaw_rad});
       failed += match.failed ? 1 : 0;
       hidden += match.unobservable_direction ? 1 : 0;
       const Eigen::Vector3d error = errorOf(match.T_reference_body, truth);
@@ -178,8 +178,8 @@ TEST_P(AllMatchers, AWrongGuessIsRarelyBelieved) {
     // Farther off than the window is wide, to any side, and turned.
     const double distance_m = random.uniform(0.4, 1.5), bearing_rad = random.uniform(-3.1, 3.1);
     const double turn_rad = std::copysign(random.uniform(0.2, 0.6), random.uniform(-1.0, 1.0));
-    const Pose2 guess = reference * Pose2{distance_m * std::cos(bearing_rad), distance_m * std::sin(bearing_rad),
-                                          turn_rad};
+    const Pose2 guess =
+        reference * Pose2{distance_m * std::cos(bearing_rad), distance_m * std::sin(bearing_rad), turn_rad};
     const MatchResult match = matcher->match(scanAt(world, reference, 2 * trial + 1), guess, {0.1, 0.05});
     // A pose at the edge is not believed either: it asks for a wider window.
     if (!match.failed && !match.at_window_edge) ++believed;
