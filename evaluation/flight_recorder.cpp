@@ -45,9 +45,12 @@ void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleS
 
   if (!last_estimate_ || estimate.stamp > *last_estimate_) pending_.push_back(estimate);
   last_estimate_ = std::max(estimate.stamp, last_estimate_.value_or(estimate.stamp));
-  for (; !pending_.empty() && pending_.front().stamp <= truth.stamp; pending_.pop_front())
-    if (const auto T_world_body = truthAt(pending_.front().stamp); T_world_body && truth.airborne)
-      compare(pending_.front(), *T_world_body);
+  for (; !pending_.empty() && pending_.front().stamp <= truth.stamp; pending_.pop_front()) {
+    const auto T_world_body = truthAt(pending_.front().stamp);
+    if (!T_world_body) continue;
+    newest_ = compared(pending_.front(), *T_world_body);
+    if (truth.airborne) compare(pending_.front(), *T_world_body);
+  }
 }
 
 /// The truth of a time in the history; none before it and after it.
@@ -73,6 +76,11 @@ void FlightRecorder::compare(const common::VehicleState& estimate, const Pose3& 
   record_.truth_map.push_back({estimate.stamp, T_map_truth});
 }
 
+ComparedEstimate FlightRecorder::compared(const common::VehicleState& estimate, const Pose3& T_world_body) const {
+  return {common::planar(estimate.T_map_body()), common::planar(estimate.T_odom_body),
+          common::planar(record_.T_world_map.inverse() * T_world_body)};
+}
+
 void FlightRecorder::intent(Time now, const common::Intent& intent, const common::IntentStatus& status) {
   const auto* go_to = std::get_if<common::GoToIntent>(&intent.kind);
   if (go_to == nullptr || status.id != intent.id || status.state != common::IntentState::kSucceeded) return;
@@ -82,7 +90,7 @@ void FlightRecorder::intent(Time now, const common::Intent& intent, const common
   counted_intent_ = intent.id;
   const Eigen::Vector2d truth_map_m = (record_.T_world_map.inverse() * T_world_body->position_m).head<2>();
   const bool home = (go_to->goal_map_m - home_map_m_).norm() < kSamePlace_m;
-  record_.goals.push_back({now, home, go_to->goal_map_m, (truth_map_m - go_to->goal_map_m).norm()});
+  record_.goals.push_back({now, home, go_to->goal_map_m, (truth_map_m - go_to->goal_map_m).norm(), newest_});
 }
 
 void FlightRecorder::world(const common::World& world) {

@@ -20,12 +20,20 @@
 
 namespace swiftlet::evaluation {
 
+/// An estimate beside the truth of its own stamp, seen from above.
+struct ComparedEstimate {
+  common::Pose2 T_map_body;   ///< As believed,
+  common::Pose2 T_odom_body;  ///< and before the map corrected it.
+  common::Pose2 T_map_truth;  ///< Where the vehicle really was, in the true `map` frame.
+};
+
 /// A goal the mission reported as reached, with the truth of that tick.
 struct ReachedGoal {
   common::Time stamp;
   bool home = false;
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
   double error_m = 0.0;  ///< Horizontal, from the goal to where the vehicle really was.
+  ComparedEstimate estimate;  ///< The newest of that tick.
 };
 
 /// A whole flight.
@@ -72,11 +80,13 @@ class FlightRecorder {
  private:
   std::optional<common::Pose3> truthAt(common::Time stamp) const;
   void compare(const common::VehicleState& estimate, const common::Pose3& T_world_body);
+  ComparedEstimate compared(const common::VehicleState& estimate, const common::Pose3& T_world_body) const;
   void followTree(const common::TreeView& tree);
 
   FlightRecord record_;
   std::deque<simulation::Truth> history_;
   std::deque<common::VehicleState> pending_;  ///< Estimates of times the truth has not come to.
+  ComparedEstimate newest_;
   std::optional<common::Time> first_tick_, last_estimate_, mission_begin_, next_trajectory_;
   std::vector<double> heights_world_m_;
   Eigen::Vector2d home_map_m_ = Eigen::Vector2d::Zero();

@@ -88,6 +88,9 @@ void Criteria::describe(common::config::Fields& fields) {
   fields("coverage_min", coverage_min, "Share of the reachable free space that is in the map.");
   fields("goal_error_max_m", goal_error_max_m, "From each goal to the true place when it is reported as reached.");
   fields("home_error_max_m", home_error_max_m, "The same for home.");
+  fields("marker_error_max_m", marker_error_max_m, "Of the estimate, whenever a goal or home is reported as reached.");
+  fields("relocalization_error_max_m", relocalization_error_max_m,
+         "Between what the estimate's errors were at the same goal at different times.");
   fields("mission_time_max_s", mission_time_max_s, "Simulated time of the mission.");
   fields("estimate_rms_max_m", estimate_rms_max_m, "Horizontal error of the estimate.");
   fields("map_wall_error_max_m", map_wall_error_max_m, "Median distance of mapped walls to true ones.");
@@ -107,6 +110,8 @@ std::vector<std::string> Criteria::validate() const {
       .within("coverage_min", coverage_min, 0, 1)
       .positive("goal_error_max_m", goal_error_max_m)
       .positive("home_error_max_m", home_error_max_m)
+      .positive("marker_error_max_m", marker_error_max_m)
+      .positive("relocalization_error_max_m", relocalization_error_max_m)
       .positive("mission_time_max_s", mission_time_max_s)
       .positive("estimate_rms_max_m", estimate_rms_max_m)
       .positive("map_wall_error_max_m", map_wall_error_max_m)
@@ -126,6 +131,10 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   score.mission_done = record.mission == MissionState::kDone && !record.last_truth.crashed;
   score.goal_error_m = worstOf(record.goals, false);
   score.home_error_m = worstOf(record.goals, true);
+  score.visits = markerVisits(record.goals);
+  score.marker_error_m = markerError_m(score.visits);
+  score.relocalization_error_m = relocalizationError_m(score.visits);
+  score.open_loop_error_m = openLoopError_m(score.visits);
   score.estimate_rms_m = rmsOf(record.horizontal_errors_m);
   score.estimate_spatial_rms_m = rmsOf(record.spatial_errors_m);
   score.estimate_yaw_rms_rad = rmsOf(record.yaw_errors_rad);
@@ -150,6 +159,9 @@ std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) 
   };
   add("goal_error_m", score.goal_error_m);
   add("home_error_m", score.home_error_m);
+  add("marker_error_m", score.marker_error_m);
+  add("relocalization_error_m", score.relocalization_error_m);
+  add("open_loop_error_m", score.open_loop_error_m);
   add("estimate_rms_m", score.estimate_rms_m);
   add("estimate_spatial_rms_m", score.estimate_spatial_rms_m);
   add("estimate_yaw_rms_rad", score.estimate_yaw_rms_rad);
@@ -170,6 +182,8 @@ std::vector<std::string> missed(const FlightScore& score, const Criteria& criter
   judge.atLeast("coverage", score.coverage, criteria.coverage_min, score.coverage_problem);
   judge.atMost("goal error, m", score.goal_error_m, criteria.goal_error_max_m);
   judge.atMost("home error, m", score.home_error_m, criteria.home_error_max_m);
+  judge.atMost("marker error, m", score.marker_error_m, criteria.marker_error_max_m);
+  judge.atMost("relocalization error, m", score.relocalization_error_m, criteria.relocalization_error_max_m);
   judge.atMost("mission time, s", score.mission_time_s, criteria.mission_time_max_s);
   judge.atMost("estimate RMS, m", score.estimate_rms_m, criteria.estimate_rms_max_m);
   judge.atMost("map wall error, m", score.map_wall_error_median_m, criteria.map_wall_error_max_m);

@@ -11,6 +11,7 @@
 #include "common/config.hpp"
 #include "common/vehicle_config.hpp"
 #include "evaluation/flight_recorder.hpp"
+#include "evaluation/marker_errors.hpp"
 #include "simulation/ray_caster.hpp"
 
 namespace swiftlet::evaluation {
@@ -26,6 +27,8 @@ struct Criteria {
   double coverage_min = 0.0;
   double goal_error_max_m = kAny;
   double home_error_max_m = kAny;
+  double marker_error_max_m = kAny;
+  double relocalization_error_max_m = kAny;
   double mission_time_max_s = kAny;
   double estimate_rms_max_m = kAny;
   double map_wall_error_max_m = kAny;  ///< Of the median.
@@ -52,6 +55,10 @@ struct FlightScore {
   std::string coverage_problem;        ///< Why there is none: the world is not closed.
   std::optional<double> goal_error_m;  ///< The worst of the mission's goals.
   std::optional<double> home_error_m;
+  std::vector<MarkerVisit> visits;               ///< Every goal reached; the worst of the flight's follow.
+  std::optional<double> marker_error_m;          ///< Of the estimate, at a goal.
+  std::optional<double> relocalization_error_m;  ///< Between visits of the same goal.
+  std::optional<double> open_loop_error_m;       ///< Of the odometry, from one visit to the next of the same goal.
   std::optional<double> estimate_rms_m;  ///< Horizontal, against the truth in the true map frame: no alignment.
   std::optional<double> estimate_spatial_rms_m;
   std::optional<double> estimate_yaw_rms_rad;

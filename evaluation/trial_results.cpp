@@ -41,7 +41,17 @@ ordered_json orNull(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? ordered_json(common::rounded(*value)) : ordered_json(nullptr);
 }
 
+ordered_json visitJson(const MarkerVisit& visit) {
+  const auto pair = [](const Eigen::Vector2d& v) { return ordered_json{orNull(v.x()), orNull(v.y())}; };
+  return {{"time_s", orNull(visit.stamp.seconds())},
+          {"marker_map_m", pair(visit.marker_map_m)},
+          {"estimate_error_m", pair(visit.estimate_error_m)},
+          {"open_loop_error_m", visit.open_loop_error_m ? pair(*visit.open_loop_error_m) : ordered_json(nullptr)}};
+}
+
 ordered_json flightJson(const FlightScore& flight) {
+  ordered_json visits = ordered_json::array();
+  for (const MarkerVisit& visit : flight.visits) visits.push_back(visitJson(visit));
   return {{"seed", flight.seed},
           {"passed", flight.passed()},
           {"outcome", flight.outcome},
@@ -55,6 +65,10 @@ ordered_json flightJson(const FlightScore& flight) {
           {"coverage_problem", flight.coverage_problem},
           {"goal_error_m", orNull(flight.goal_error_m)},
           {"home_error_m", orNull(flight.home_error_m)},
+          {"marker_error_m", orNull(flight.marker_error_m)},
+          {"relocalization_error_m", orNull(flight.relocalization_error_m)},
+          {"open_loop_error_m", orNull(flight.open_loop_error_m)},
+          {"visits", visits},
           {"mission_time_s", orNull(flight.mission_time_s)},
           {"flight_time_s", orNull(flight.flight_time_s)},
           {"distance_m", orNull(flight.distance_m)},
@@ -89,6 +103,10 @@ ordered_json trialJson(const TrialResult& trial) {
           {"goal_error_median_m", orNull(trial.goalErrorMedian_m())},
           {"home_error_max_m", orNull(trial.homeErrorMax_m())},
           {"home_error_median_m", orNull(trial.homeErrorMedian_m())},
+          {"marker_error_max_m", orNull(trial.markerErrorMax_m())},
+          {"marker_error_median_m", orNull(trial.markerErrorMedian_m())},
+          {"relocalization_error_max_m", orNull(trial.relocalizationErrorMax_m())},
+          {"relocalization_error_median_m", orNull(trial.relocalizationErrorMedian_m())},
           {"mission_time_median_s", orNull(trial.missionTimeMedian_s())},
           {"estimate_rms_median_m", orNull(trial.estimateRmsMedian_m())},
           {"map_wall_error_median_m", orNull(trial.mapWallErrorMedian_m())},
@@ -115,6 +133,7 @@ struct SummaryColumn {
   std::optional<double> (TrialResult::*value)() const;
   /// Of the criterion on it, a lower one for coverage and an upper one otherwise; null: there is none.
   double Criteria::*bound;
+  bool where_asked = false;  ///< Shown only where a trial asks for it, or its paper has a figure.
 };
 
 template <int kDecimals>
@@ -122,7 +141,7 @@ std::string decimals(const std::optional<double>& value) {
   return shown(value, kDecimals);
 }
 
-const std::vector<SummaryColumn>& summaryColumns() {
+const std::vector<SummaryColumn>& allColumns() {
   static const std::vector<SummaryColumn> columns = {
       {"coverage min", "coverage_min", percent, &TrialResult::coverageMin, &Criteria::coverage_min},
       {"goal err max (m)", "goal_error_max_m", decimals<3>, &TrialResult::goalErrorMax_m, &Criteria::goal_error_max_m},
@@ -131,6 +150,10 @@ const std::vector<SummaryColumn>& summaryColumns() {
       {"home err max (m)", "home_error_max_m", decimals<3>, &TrialResult::homeErrorMax_m, &Criteria::home_error_max_m},
       {"median (m)", "home_error_median_m", decimals<3>, &TrialResult::homeErrorMedian_m,
        &Criteria::home_error_median_max_m},
+      {"marker err max (m)", "marker_error_max_m", decimals<3>, &TrialResult::markerErrorMax_m,
+       &Criteria::marker_error_max_m, true},
+      {"relocalization max (m)", "relocalization_error_max_m", decimals<3>, &TrialResult::relocalizationErrorMax_m,
+       &Criteria::relocalization_error_max_m, true},
       {"time median (s)", "mission_time_median_s", decimals<1>, &TrialResult::missionTimeMedian_s,
        &Criteria::mission_time_median_max_s},
       {"RMS median (m)", "estimate_rms_median_m", decimals<3>, &TrialResult::estimateRmsMedian_m,
@@ -140,6 +163,12 @@ const std::vector<SummaryColumn>& summaryColumns() {
       {"x real time", "realtime_factor_median", decimals<1>, &TrialResult::realtimeFactorMedian, nullptr},
   };
   return columns;
+}
+
+const PaperFigure* paperFigure(const SummaryColumn& column, const TrialResult& trial) {
+  const auto found = std::find_if(trial.paper.begin(), trial.paper.end(),
+                                  [&](const PaperFigure& figure) { return figure.figure == column.figure; });
+  return found == trial.paper.end() ? nullptr : &*found;
 }
 
 /// None where nothing is asked for.
@@ -157,20 +186,30 @@ Mark markOf(const SummaryColumn& column, const TrialResult& trial) {
   return (column.bound == &Criteria::coverage_min ? *value >= *bound : *value <= *bound) ? Mark::kGood : Mark::kBad;
 }
 
-std::vector<TableCell> summaryRow(const TrialResult& trial) {
+std::vector<SummaryColumn> columnsFor(const std::vector<TrialResult>& trials) {
+  std::vector<SummaryColumn> columns;
+  std::copy_if(allColumns().begin(), allColumns().end(), std::back_inserter(columns), [&](const SummaryColumn& column) {
+    return !column.where_asked || std::any_of(trials.begin(), trials.end(), [&](const TrialResult& trial) {
+      return boundOf(column, trial.criteria) || paperFigure(column, trial) != nullptr;
+    });
+  });
+  return columns;
+}
+
+std::vector<TableCell> summaryRow(const TrialResult& trial, const std::vector<SummaryColumn>& columns) {
   const int runs = static_cast<int>(trial.flights.size());
   std::vector<TableCell> row = {{trial.name}, counted(trial.passed(), runs)};
   row.push_back({fmt::format("{}", trial.collisions()), trial.collisions() == 0 ? Mark::kGood : Mark::kBad});
-  for (const SummaryColumn& column : summaryColumns())
+  for (const SummaryColumn& column : columns)
     row.push_back({column.show((trial.*column.value)()), markOf(column, trial)});
   return row;
 }
 
 /// A row under a trial's own with a figure for some of the columns.
 template <typename FigureOf>
-std::vector<TableCell> rowBelow(const char* title, FigureOf figureOf) {
+std::vector<TableCell> rowBelow(const char* title, const std::vector<SummaryColumn>& columns, FigureOf figureOf) {
   std::vector<TableCell> row = {{title}, {""}, {""}};
-  for (const SummaryColumn& column : summaryColumns()) {
+  for (const SummaryColumn& column : columns) {
     const std::optional<double> figure = figureOf(column);
     row.push_back({figure ? column.show(figure) : ""});
   }
@@ -178,20 +217,19 @@ std::vector<TableCell> rowBelow(const char* title, FigureOf figureOf) {
 }
 
 bool asksForAny(const Criteria& criteria) {
-  return std::any_of(summaryColumns().begin(), summaryColumns().end(),
+  return std::any_of(allColumns().begin(), allColumns().end(),
                      [&](const SummaryColumn& column) { return boundOf(column, criteria).has_value(); });
 }
 
-std::vector<TableCell> askedRow(const TrialResult& trial) {
-  return rowBelow("  asked for", [&](const SummaryColumn& column) { return boundOf(column, trial.criteria); });
+std::vector<TableCell> askedRow(const TrialResult& trial, const std::vector<SummaryColumn>& columns) {
+  return rowBelow("  asked for", columns, [&](const SummaryColumn& column) { return boundOf(column, trial.criteria); });
 }
 
-std::vector<TableCell> paperRow(const TrialResult& trial) {
-  return rowBelow("  the paper", [&](const SummaryColumn& column) -> std::optional<double> {
-    const auto found = std::find_if(trial.paper.begin(), trial.paper.end(),
-                                    [&](const PaperFigure& figure) { return figure.figure == column.figure; });
-    if (found == trial.paper.end()) return std::nullopt;
-    return found->value;
+std::vector<TableCell> paperRow(const TrialResult& trial, const std::vector<SummaryColumn>& columns) {
+  return rowBelow("  the paper", columns, [&](const SummaryColumn& column) -> std::optional<double> {
+    const PaperFigure* figure = paperFigure(column, trial);
+    if (figure == nullptr) return std::nullopt;
+    return figure->value;
   });
 }
 
@@ -234,6 +272,18 @@ std::optional<double> TrialResult::homeErrorMax_m() const {
 std::optional<double> TrialResult::homeErrorMedian_m() const {
   return atQuantile(flights, &FlightScore::home_error_m, kMedian);
 }
+std::optional<double> TrialResult::markerErrorMax_m() const {
+  return atQuantile(flights, &FlightScore::marker_error_m, kMax);
+}
+std::optional<double> TrialResult::markerErrorMedian_m() const {
+  return atQuantile(flights, &FlightScore::marker_error_m, kMedian);
+}
+std::optional<double> TrialResult::relocalizationErrorMax_m() const {
+  return atQuantile(flights, &FlightScore::relocalization_error_m, kMax);
+}
+std::optional<double> TrialResult::relocalizationErrorMedian_m() const {
+  return atQuantile(flights, &FlightScore::relocalization_error_m, kMedian);
+}
 std::optional<double> TrialResult::missionTimeMedian_s() const {
   std::vector<FlightScore> done;
   std::copy_if(flights.begin(), flights.end(), std::back_inserter(done), [](const auto& f) { return f.mission_done; });
@@ -260,12 +310,13 @@ std::string toJson(const TrialResults& results) {
 }
 
 Table summaryTable(const TrialResults& results) {
+  const std::vector<SummaryColumn> columns = columnsFor(results.trials);
   Table table{"Trials", {"trial", "passed", "collisions"}, {}};
-  for (const SummaryColumn& column : summaryColumns()) table.columns.emplace_back(column.title);
+  for (const SummaryColumn& column : columns) table.columns.emplace_back(column.title);
   for (const TrialResult& trial : results.trials) {
-    table.rows.push_back(summaryRow(trial));
-    if (asksForAny(trial.criteria)) table.rows.push_back(askedRow(trial));
-    if (!trial.paper.empty()) table.rows.push_back(paperRow(trial));
+    table.rows.push_back(summaryRow(trial, columns));
+    if (asksForAny(trial.criteria)) table.rows.push_back(askedRow(trial, columns));
+    if (!trial.paper.empty()) table.rows.push_back(paperRow(trial, columns));
   }
   return table;
 }

@@ -31,6 +31,10 @@ struct TrialResult {
   std::optional<double> goalErrorMedian_m() const;
   std::optional<double> homeErrorMax_m() const;
   std::optional<double> homeErrorMedian_m() const;
+  std::optional<double> markerErrorMax_m() const;
+  std::optional<double> markerErrorMedian_m() const;
+  std::optional<double> relocalizationErrorMax_m() const;
+  std::optional<double> relocalizationErrorMedian_m() const;
   std::optional<double> missionTimeMedian_s() const;  ///< Of the missions that ended well.
   std::optional<double> estimateRmsMedian_m() const;
   std::optional<double> mapWallErrorMedian_m() const;

@@ -122,6 +122,21 @@ TEST(FlightRecorder, AGoalIsMeasuredWhenItsSuccessIsReported) {
   EXPECT_NEAR(record.goals[1].error_m, 0.05, 1e-12);
 }
 
+TEST(FlightRecorder, AReachedGoalHasTheEstimateBesideTheTruthOfItsOwnTime) {
+  FlightRecorder recorder(kTakeOff);
+  common::VehicleState state = estimateAt(0.96, {2.0, 1.0, 1});  // Late by 40 ms, at 1 m/s.
+  state.T_map_odom = {0.97, 0.0, 0.0};
+  recorder.tick(truthAt(0.9, {2.9, 1.0, 1}), estimateAt(0.9, {2.9, 1.0, 1}));
+  recorder.tick(truthAt(1.0, {3.0, 1.0, 1}), state);
+  recorder.intent(Time::fromSeconds(1), {7, common::GoToIntent{{3, 1}, {}, {}, 0.05, 0.1}},
+                  {7, common::IntentState::kSucceeded, "", true});
+  ASSERT_EQ(recorder.finish().goals.size(), 1u);
+  const ComparedEstimate estimate = recorder.finish().goals[0].estimate;
+  EXPECT_NEAR(estimate.T_map_truth.x_m, 2.96, 1e-9);
+  EXPECT_NEAR(estimate.T_map_body.x_m, 2.97, 1e-9);
+  EXPECT_NEAR(estimate.T_odom_body.x_m, 2.0, 1e-9);
+}
+
 TEST(FlightRecorder, AFailedGoalIsNoGoal) {
   FlightRecorder recorder(kTakeOff);
   recorder.tick(truthAt(1.0, {0, 0, 1}), estimateAt(1.0, {0, 0, 1}));

@@ -18,8 +18,8 @@ using testing::IsEmpty;
 FlightRecord goodRecord() {
   FlightRecord record;
   record.T_world_map.position_m = {1.0, 1.0, 0.0};
-  record.goals = {{common::Time::fromSeconds(60), false, {1.0, 0.5}, 0.06},
-                  {common::Time::fromSeconds(80), true, {0, 0}, 0.04}};
+  record.goals = {{common::Time::fromSeconds(60), false, {1.0, 0.5}, 0.06, {}},
+                  {common::Time::fromSeconds(80), true, {0, 0}, 0.04, {}}};
   record.horizontal_errors_m = {0.03, 0.03};
   record.spatial_errors_m = {0.04, 0.04};
   record.yaw_errors_rad = {0.01, 0.01};
@@ -104,8 +104,25 @@ TEST_F(FlightScoring, AnOpenWorldHasNoCoverageAndSaysSo) {
 
 TEST_F(FlightScoring, TheWorstGoalCounts) {
   FlightRecord record = goodRecord();
-  record.goals.push_back({common::Time::fromSeconds(70), false, {0, 1}, 0.2});
+  record.goals.push_back({common::Time::fromSeconds(70), false, {0, 1}, 0.2, {}});
   EXPECT_EQ(score(record).goal_error_m, 0.2);
+}
+
+TEST_F(FlightScoring, MarkersAreHeldAgainstTheirBounds) {
+  FlightRecord record = goodRecord();
+  record.goals[0].estimate.T_map_body = {0.008, 0.0, 0.0};
+  record.goals.push_back(record.goals[0]);
+  record.goals.back().estimate.T_map_body = {-0.012, 0.0, 0.0};
+  Criteria criteria;
+  criteria.marker_error_max_m = criteria.relocalization_error_max_m = 0.01;
+  const FlightScore result = score(record, criteria);
+  EXPECT_EQ(result.visits.size(), 3u);
+  EXPECT_THAT(result.failures, ElementsAre("marker error, m: 0.012, at most 0.01 was asked for",
+                                           "relocalization error, m: 0.020, at most 0.01 was asked for"));
+  criteria.marker_error_max_m = criteria.relocalization_error_max_m = 0.021;
+  EXPECT_THAT(score(record, criteria).failures, IsEmpty());
+  record.goals.clear();
+  EXPECT_EQ(score(record, criteria).failures.size(), 2u) << "what was not measured is missed";
 }
 
 TEST_F(FlightScoring, ACollisionThatCouldBeAvoided) {

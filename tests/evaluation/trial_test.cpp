@@ -194,6 +194,31 @@ TEST(TrialResultsJson, FiguresAreShortAndWhatWasNotExploredIsNull) {
     EXPECT_THAT(text, HasSubstr(part));
 }
 
+TEST(TrialResultsJson, HasEachVisitOfAMarker) {
+  TrialResults all = results();
+  FlightScore& first = all.trials[0].flights[0];
+  first.visits = {{common::Time::fromSeconds(61.5), {3.0, -1.5}, {0.004, -0.003}, {}},
+                  {common::Time::fromSeconds(90.0), {0.0, 0.0}, {0.0, 0.001}, Eigen::Vector2d(0.2, -0.1)}};
+  const json visits = json::parse(toJson(all))["trials"][0]["flights"][0]["visits"];
+  ASSERT_EQ(visits.size(), 2u);
+  EXPECT_EQ(visits[0]["time_s"], 61.5);
+  EXPECT_EQ(visits[0]["marker_map_m"], json({3.0, -1.5}));
+  EXPECT_EQ(visits[0]["estimate_error_m"], json({0.004, -0.003}));
+  EXPECT_TRUE(visits[0]["open_loop_error_m"].is_null());
+  EXPECT_EQ(visits[1]["open_loop_error_m"], json({0.2, -0.1}));
+}
+
+TEST(TrialResults, MarkersAreInTheTableWhereTheyAreAskedFor) {
+  TrialResults all = results();
+  EXPECT_THAT(toText(summaryTable(all)), testing::Not(HasSubstr("marker")));
+  all.trials[0].criteria.marker_error_max_m = 0.01;
+  all.trials[0].flights[0].marker_error_m = 0.008;
+  all.trials[0].flights[1].marker_error_m = 0.012;
+  EXPECT_THAT(toText(summaryTable(all)), testing::ContainsRegex("marker err max \\(m\\)"));
+  EXPECT_THAT(toText(summaryTable(all)), HasSubstr("0.012"));
+  EXPECT_EQ(json::parse(toJson(all))["trials"][0]["marker_error_median_m"], 0.01);
+}
+
 TEST(TrialResultsJson, WithoutFlightsAllIsNull) {
   const json trial = json::parse(toJson(TrialResults{{{"empty", "swiftlet", {}, {}}}}))["trials"][0];
   EXPECT_EQ(trial["runs"], 0);
