@@ -32,7 +32,7 @@ struct ReachedGoal {
   common::Time stamp;
   bool home = false;
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
-  double error_m = 0.0;  ///< Horizontal, from the goal to where the vehicle really was.
+  double error_m = 0.0;       ///< Horizontal, from the goal to where the vehicle really was.
   ComparedEstimate estimate;  ///< The newest of that tick.
 };
 

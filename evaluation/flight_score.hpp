@@ -59,7 +59,7 @@ struct FlightScore {
   std::optional<double> marker_error_m;          ///< Of the estimate, at a goal.
   std::optional<double> relocalization_error_m;  ///< Between visits of the same goal.
   std::optional<double> open_loop_error_m;       ///< Of the odometry, from one visit to the next of the same goal.
-  std::optional<double> estimate_rms_m;  ///< Horizontal, against the truth in the true map frame: no alignment.
+  std::optional<double> estimate_rms_m;          ///< Horizontal, against the truth in the true map frame: no alignment.
   std::optional<double> estimate_spatial_rms_m;
   std::optional<double> estimate_yaw_rms_rad;
   std::optional<double> map_wall_error_median_m;

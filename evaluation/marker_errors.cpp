@@ -37,10 +37,8 @@ std::vector<MarkerVisit> markerVisits(const std::vector<ReachedGoal>& goals) {
   std::vector<MarkerVisit> visits;
   for (std::size_t i = 0; i < goals.size(); ++i) {
     const ComparedEstimate& estimate = goals[i].estimate;
-    MarkerVisit visit{goals[i].stamp,
-                      goals[i].goal_map_m,
-                      estimate.T_map_body.position_m() - estimate.T_map_truth.position_m(),
-                      {}};
+    MarkerVisit visit{
+        goals[i].stamp, goals[i].goal_map_m, estimate.T_map_body.position_m() - estimate.T_map_truth.position_m(), {}};
     if (const auto before = visitBefore(goals, i)) visit.open_loop_error_m = openLoopError(*before, estimate);
     visits.push_back(visit);
   }
@@ -57,7 +55,8 @@ std::optional<double> relocalizationError_m(const std::vector<MarkerVisit>& visi
   std::optional<double> worst;
   for (auto a = visits.begin(); a != visits.end(); ++a)
     for (auto b = std::next(a); b != visits.end(); ++b)
-      if (sameMarker(a->marker_map_m, b->marker_map_m)) raise(worst, (a->estimate_error_m - b->estimate_error_m).norm());
+      if (sameMarker(a->marker_map_m, b->marker_map_m))
+        raise(worst, (a->estimate_error_m - b->estimate_error_m).norm());
   return worst;
 }
 

@@ -1,5 +1,5 @@
-// How well a vehicle that flies round and round knows where it is: the three errors of Grzonka et al. 2012, section V-B,
-// at the goals of a mission, there markers on the floor.
+// How well a vehicle that flies round and round knows where it is: the three errors of Grzonka et al. 2012, section
+// V-B, at the goals of a mission, there markers on the floor.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace swiftlet::evaluation {
 
-/// A marker that was reached. Errors are horizontal, the estimate less the truth, with the axes of the true `map` frame.
+/// A marker that was reached. Errors are horizontal, the estimate less the truth, with the axes of the true `map`.
 struct MarkerVisit {
   common::Time stamp;
   Eigen::Vector2d marker_map_m = Eigen::Vector2d::Zero();  ///< As the mission has it.

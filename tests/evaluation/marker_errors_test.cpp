@@ -62,8 +62,8 @@ TEST(MarkerErrors, TheFirstLoopBeginsAtTakeOff) {
 TEST(MarkerErrors, EachLoopIsOpenedAlone) {
   const Pose2 drift{0.4, -0.2, 0.05}, truth_1{0.02, 0.01, -1.2}, truth_2{-0.03, 0.02, -1.1};
   const Pose2 added{truth_2.x_m + 0.07, truth_2.y_m - 0.02, truth_2.yaw_rad};
-  const auto visits = markerVisits({reached(60, {0, 0}, truth_1, truth_1, drift * truth_1),
-                                    reached(120, {0, 0}, truth_2, truth_2, drift * added)});
+  const auto visits = markerVisits(
+      {reached(60, {0, 0}, truth_1, truth_1, drift * truth_1), reached(120, {0, 0}, truth_2, truth_2, drift * added)});
   ASSERT_TRUE(visits[1].open_loop_error_m);
   EXPECT_NEAR(visits[1].open_loop_error_m->x(), 0.07, 1e-12);
   EXPECT_NEAR(visits[1].open_loop_error_m->y(), -0.02, 1e-12);
