@@ -1,6 +1,7 @@
 #include "perception/slam2d/scan_clock.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace swiftlet::perception {
@@ -11,6 +12,15 @@ using common::Duration;
 /// So many stamps that went back make the others doubtful too.
 constexpr std::uint64_t kDoubts = 3;
 constexpr Duration kLeastInterval = Duration::fromMilliseconds(1);
+/// In a longer pause, or with stamps out of all bounds, a robot may have gone anywhere as well.
+constexpr double kLongestInterval_s = 3600.0;
+
+/// The difference of any two stamps, also of some that are too far apart to be subtracted.
+Duration boundedInterval(common::Time from, common::Time to) {
+  const double seconds = to.seconds() - from.seconds();
+  if (std::abs(seconds) < kLongestInterval_s) return to - from;
+  return Duration::fromSeconds(std::copysign(kLongestInterval_s, seconds));
+}
 
 }  // namespace
 
@@ -18,7 +28,7 @@ common::Time ScanClock::tick(common::Time stamp) {
   if (ticks_ == 0) {
     now_ = stamp;
   } else {
-    const Duration interval = stamp - last_stamp_;
+    const Duration interval = boundedInterval(last_stamp_, stamp);
     intervals_[(ticks_ - 1) % kRemembered] = interval;
     const bool grows = interval > Duration();
     if (!grows) ++doubtful_;
