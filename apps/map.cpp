@@ -168,7 +168,9 @@ int map(const MapOptions& options) {
 void addMap(CLI::App& program, Run& run) {
   auto options = std::make_shared<MapOptions>();
   auto* command = program.add_subcommand("map", "Make the map of a recorded laser log; no odometry is needed.");
-  command->add_option("log", options->log, "CARMEN, BreezySLAM .dat or rosbag 1; plain, or packed by gzip, bzip2 or xz.")->required();
+  command
+      ->add_option("log", options->log, "CARMEN, BreezySLAM .dat or rosbag 1; plain, or packed by gzip, bzip2 or xz.")
+      ->required();
   command->add_option("--sensor", options->sensor,
                       "A data sheet of config/sensors or a file, where the log does not say what its laser is.");
   command

@@ -70,8 +70,8 @@ class BagLog final : public CountedLog {
     std::size_t told = 0;
     for (const auto& [id, connection] : reader_.connections()) {
       if (told++ == kTopicsTold) break;
-      topics += fmt::format("{}{} ({})", topics.empty() ? "it has " : ", ", shown(connection.topic),
-                            shown(connection.type));
+      topics +=
+          fmt::format("{}{} ({})", topics.empty() ? "it has " : ", ", shown(connection.topic), shown(connection.type));
     }
     return common::InputError(
         common::Problem{{reader_.name()}, "", "has no messages of type sensor_msgs/LaserScan", topics});

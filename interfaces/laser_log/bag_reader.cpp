@@ -59,8 +59,8 @@ struct BagReader::Chunk {
           return unpacked ? unpacked->read(to, count) : takeFromFile(to, count);
         }) {
     if (packed)
-      unpacked = UnpackedStream::fromSource([this](char* to, std::size_t count) { return takeFromFile(to, count); },
-                                            "chunk");
+      unpacked =
+          UnpackedStream::fromSource([this](char* to, std::size_t count) { return takeFromFile(to, count); }, "chunk");
   }
 
   BytesRead takeFromFile(char* to, std::size_t count) {
@@ -71,13 +71,12 @@ struct BagReader::Chunk {
 };
 
 BagReader::BagReader(UnpackedStream stream, Options options)
-    : stream_(std::move(stream)), options_(std::move(options)), file_([this](char* to, std::size_t count) {
-        return stream_.read(to, count);
-      }) {
+    : stream_(std::move(stream)),
+      options_(std::move(options)),
+      file_([this](char* to, std::size_t count) { return stream_.read(to, count); }) {
   try {
     if (file_.bytes(kMagic.size()) == kMagic) return;
-  } catch (const StreamFailure&) {
-  }
+  } catch (const StreamFailure&) {}
   throw common::InputError(
       common::Problem{{name()}, "", "is no bag of version 2.0", "`rosbag migrate` brings older ones up to it"});
 }

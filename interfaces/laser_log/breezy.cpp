@@ -20,8 +20,8 @@ constexpr double kWheelRadius_m = 0.077;
 constexpr double kHalfAxle_m = 0.165;
 constexpr double kLaserAhead_m = 0.145;
 
-// The laser: 1,024 steps a turn, 10 turns a second, the fan spread evenly to both sides of straight ahead. Readings below
-// 20 mm are error codes.
+// The laser: 1,024 steps a turn, 10 turns a second, the fan spread evenly to both sides of straight ahead. Readings
+// below 20 mm are error codes.
 constexpr double kStep_rad = 2.0 * kPi / 1024.0;
 constexpr common::Duration kStepTime = common::Duration::fromNanoseconds(100'000'000 / 1024);
 constexpr double kRangeMin_m = 0.02;

@@ -68,9 +68,9 @@ LaserMount surveyedMount(const std::filesystem::path& file) {
     LineReader reader(file, kLogLimits);
     std::string_view line;
     for (int i = 0; i < kSurveyedLines && !survey.decided() && reader.next(line); ++i)
-      if (const auto scan = parseCarmenLine(line); scan && *scan) survey.add((*scan)->T_odom_laser, (*scan)->T_odom_robot);
-  } catch (const common::InputError&) {
-  }
+      if (const auto scan = parseCarmenLine(line); scan && *scan)
+        survey.add((*scan)->T_odom_laser, (*scan)->T_odom_robot);
+  } catch (const common::InputError&) {}
   return survey.result();
 }
 
@@ -100,9 +100,10 @@ class CarmenFormat final : public LogFormat {
           "the poses of laser and robot keep no distance: the laser is taken to be in the robot's centre");
     if (mount_.robot_stands) notes.emplace_back("the robot's pose never changes: that of the laser is the odometry");
     if (elsewhere_ > 0)
-      notes.push_back(fmt::format("{} of the records have the laser elsewhere on the robot than the first ones have: "
-                                  "not believed",
-                                  elsewhere_));
+      notes.push_back(
+          fmt::format("{} of the records have the laser elsewhere on the robot than the first ones have: "
+                      "not believed",
+                      elsewhere_));
     return notes;
   }
 

@@ -18,8 +18,8 @@ struct CarmenScan {
   common::Pose2 T_odom_laser, T_odom_robot;
 };
 
-/// The scan of a FLASER or ROBOTLASER1 line; nothing for any other line. An old line does not say what its laser is: 180
-/// degrees spread over its beams, as SICK lasers have them, and no return at 49.9 m or beyond.
+/// The scan of a FLASER or ROBOTLASER1 line; nothing for any other line. An old line does not say what its laser is:
+/// 180 degrees spread over its beams, as SICK lasers have them, and no return at 49.9 m or beyond.
 tl::expected<std::optional<CarmenScan>, RecordProblem> parseCarmenLine(std::string_view line);
 
 /// Whether a line looks like one of CARMEN's.

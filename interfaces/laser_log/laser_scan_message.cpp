@@ -49,7 +49,8 @@ tl::expected<LoggedScan, RecordProblem> parseLaserScan(const BagMessage& message
   scan.range_max_m = cursor.f32();
   const std::uint32_t beams = cursor.u32();
   if (beams > cursor.left() / sizeof(float))
-    return tl::unexpected(RecordProblem{0, "", fmt::format("{} beams do not fit into its {} bytes", beams, message.bytes)});
+    return tl::unexpected(
+        RecordProblem{0, "", fmt::format("{} beams do not fit into its {} bytes", beams, message.bytes)});
   scan.ranges_m.reserve(beams);
   for (std::uint32_t i = 0; i < beams; ++i) scan.ranges_m.push_back(cursor.f32());
   if (!cursor.whole()) return tl::unexpected(RecordProblem{0, "", "is cut"});

@@ -17,8 +17,8 @@ constexpr std::size_t kMostScanBytes = std::size_t{8} * kMaxBeams + 4096;
 
 bool isLaserScan(const BagConnection& connection);
 
-/// Stamped as its header says, or as it was recorded where that says nothing. A fan that runs clockwise is turned round.
-/// The mount is not known to it.
+/// Stamped as its header says, or as it was recorded where that says nothing. A fan that runs clockwise is turned
+/// round. The mount is not known to it.
 tl::expected<LoggedScan, RecordProblem> parseLaserScan(const BagMessage& message);
 
 }  // namespace swiftlet::interfaces

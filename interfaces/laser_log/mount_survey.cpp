@@ -53,13 +53,13 @@ LaserMount MountSurvey::result() const {
   LaserMount mount;
   if (mounts_.empty()) return mount;
   const double about_rad = mounts_.front().yaw_rad;
-  mount.T_robot_laser = {
-      median(mounts_, [](const Pose2& pose) { return pose.x_m; }),
-      median(mounts_, [](const Pose2& pose) { return pose.y_m; }),
-      common::wrapAngle(
-          about_rad +
-          median(mounts_, [&](const Pose2& pose) { return common::wrapAngle(pose.yaw_rad - about_rad); }))};
-  const auto same = std::count_if(mounts_.begin(), mounts_.end(), [&](const Pose2& pose) { return agrees(pose, mount); });
+  mount.T_robot_laser = {median(mounts_, [](const Pose2& pose) { return pose.x_m; }),
+                         median(mounts_, [](const Pose2& pose) { return pose.y_m; }),
+                         common::wrapAngle(about_rad + median(mounts_, [&](const Pose2& pose) {
+                                             return common::wrapAngle(pose.yaw_rad - about_rad);
+                                           }))};
+  const auto same =
+      std::count_if(mounts_.begin(), mounts_.end(), [&](const Pose2& pose) { return agrees(pose, mount); });
   mount.rigid = static_cast<double>(same) >= kMostRecords * static_cast<double>(mounts_.size());
   if (mount.rigid) return mount;
   mount.T_robot_laser = {};

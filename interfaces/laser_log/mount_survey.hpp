@@ -1,8 +1,8 @@
 // Where the laser sits on the robot, and which of the two the odometry is of, from records that give a pose of each.
 //
-// A mount is rigid, so both poses keep one distance; where they do, that is the mount. They do not where one of them was
-// corrected and the other left as it was, or never filled in: then the laser is taken to be in the robot's centre, for
-// no distance between them means anything.
+// A mount is rigid, so both poses keep one distance; where they do, that is the mount. They do not where one of them
+// was corrected and the other left as it was, or never filled in: then the laser is taken to be in the robot's centre,
+// for no distance between them means anything.
 #pragma once
 
 #include <cstddef>

@@ -28,7 +28,8 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
-const std::vector<std::string> kOutputs = {"map.pgm", "map.yaml", "map.png", "trajectory.tum", "graph.g2o", "report.html"};
+const std::vector<std::string> kOutputs = {"map.pgm",        "map.yaml",  "map.png",
+                                           "trajectory.tum", "graph.g2o", "report.html"};
 
 /// To the walls of a room of 8 m by 6 m with a niche, seen from (x, 0) at that angle.
 double range_m(double x_m, double angle_rad) {
@@ -91,9 +92,9 @@ TEST_F(Map, ALogBecomesAMapATrajectoryAGraphAndAReport) {
   for (const std::string& name : kOutputs) EXPECT_GT(fs::file_size(folder_ / "out" / name), 100U) << name;
 
   const std::string trajectory = readText(path("out/trajectory.tum"));
-  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n') -
-                std::count(trajectory.begin(), trajectory.end(), '#'),
-            100);
+  EXPECT_EQ(
+      std::count(trajectory.begin(), trajectory.end(), '\n') - std::count(trajectory.begin(), trajectory.end(), '#'),
+      100);
   EXPECT_THAT(trajectory, HasSubstr("\n100.100000000 ")) << "stamped with the log's own time";
   // The last pose of the walk, 2.97 m from the first.
   const std::size_t last = trajectory.rfind('\n', trajectory.size() - 2) + 1;
@@ -131,9 +132,12 @@ TEST_F(Map, WhatIsNoLogIsRefused) {
   refused(folder_.string(), "is a folder");
   refused(write("empty.log", ""), "empty\\.log: is empty, expected CARMEN");
   refused(write("text.log", "no log\nat all\n"), "text\\.log: not a laser log known here, expected CARMEN");
-  refused(write("binary.log", std::string(100'000, '\0') + "\x7f" "ELF"), "not a laser log known here");
+  refused(write("binary.log", std::string(100'000, '\0') + "\x7f"
+                                                           "ELF"),
+          "not a laser log known here");
   refused(write("line.log", std::string(5'000'000, 'x')), "not a laser log known here");
-  refused(write("cut.gz", std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\x01", 11)), "cut\\.gz: is cut or damaged");
+  refused(write("cut.gz", std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\x01", 11)),
+          "cut\\.gz: is cut or damaged");
   refused(write("old.bag", "#ROSBAG V1.2\n"), "old\\.bag: is no bag of version 2\\.0");
 }
 
@@ -234,8 +238,7 @@ TEST_F(Map, AnOlderMapIsReplacedAndNothingElse) {
 TEST_F(Map, AFullDiskIsTold) {
   test_support::ProgramOptions full_disk;
   full_disk.largest_file_bytes = 3000;
-  const ProgramEnd end =
-      runSwiftlet({"map", write("a.log", walk(100)), "--out", path("out"), "--json"}, full_disk);
+  const ProgramEnd end = runSwiftlet({"map", write("a.log", walk(100)), "--out", path("out"), "--json"}, full_disk);
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.err, testing::AnyOf(HasSubstr("too large"), HasSubstr("disk full")));
 }

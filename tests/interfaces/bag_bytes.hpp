@@ -34,8 +34,9 @@ inline std::string record(char op, std::vector<Field> header, const std::string&
 }
 
 inline std::string begin() {
-  return "#ROSBAG V2.0\n" + record(3, {{"index_pos", std::string(8, '\0')}, {"conn_count", u32(1)}, {"chunk_count", u32(1)}},
-                                   std::string(64, ' '));
+  return "#ROSBAG V2.0\n" +
+         record(3, {{"index_pos", std::string(8, '\0')}, {"conn_count", u32(1)}, {"chunk_count", u32(1)}},
+                std::string(64, ' '));
 }
 
 inline std::string connection(std::uint32_t id, const std::string& topic, const std::string& type,
@@ -84,7 +85,8 @@ inline std::string packed(const std::string& plain, const std::string& by) {
 }
 
 inline std::string chunk(const std::string& records, const std::string& by = "none") {
-  return record(5, {{"compression", by}, {"size", u32(static_cast<std::uint32_t>(records.size()))}}, packed(records, by));
+  return record(5, {{"compression", by}, {"size", u32(static_cast<std::uint32_t>(records.size()))}},
+                packed(records, by));
 }
 
 }  // namespace swiftlet::interfaces::bag_bytes

@@ -55,13 +55,13 @@ TEST_F(Bag, AScanIsReadFromChunksOfEveryPacking) {
 
 TEST_F(Bag, TheFirstTopicWithScansIsReadAndTheOthersAreNamed) {
   const std::string one = bag_bytes::scan({1.0F, 2.0F});
-  const auto log = open(bag_bytes::begin() +
-                        bag_bytes::chunk(bag_bytes::connection(0, "/imu", "sensor_msgs/Imu") +
-                                         bag_bytes::connection(1, "/rear", kLaserScan) +
-                                         bag_bytes::connection(2, "/front", kLaserScan) +
-                                         bag_bytes::message(0, 1, "anything") + bag_bytes::message(2, 2, one) +
-                                         bag_bytes::message(1, 3, one)) +
-                        bag_bytes::chunk(bag_bytes::message(2, 4, one), "bz2"));
+  const auto log =
+      open(bag_bytes::begin() +
+           bag_bytes::chunk(bag_bytes::connection(0, "/imu", "sensor_msgs/Imu") +
+                            bag_bytes::connection(1, "/rear", kLaserScan) +
+                            bag_bytes::connection(2, "/front", kLaserScan) + bag_bytes::message(0, 1, "anything") +
+                            bag_bytes::message(2, 2, one) + bag_bytes::message(1, 3, one)) +
+           bag_bytes::chunk(bag_bytes::message(2, 4, one), "bz2"));
   EXPECT_EQ(scansOf(*log), 2);
   EXPECT_EQ(log->format(), "rosbag, /front");
   EXPECT_THAT(log->notes(), ElementsAre("1 scans of /rear are left out, /front came first"));
@@ -71,9 +71,9 @@ TEST_F(Bag, AFanThatRunsClockwiseIsTurnedRound) {
   bag_bytes::Fan fan;
   fan.first_rad = 1.0F;
   fan.step_rad = -0.5F;
-  const auto log = open(bag_bytes::begin() +
-                        bag_bytes::chunk(bag_bytes::connection(0, "/scan", kLaserScan) +
-                                         bag_bytes::message(0, 1, bag_bytes::scan({1.0F, 2.0F, 3.0F}, fan))));
+  const auto log =
+      open(bag_bytes::begin() + bag_bytes::chunk(bag_bytes::connection(0, "/scan", kLaserScan) +
+                                                 bag_bytes::message(0, 1, bag_bytes::scan({1.0F, 2.0F, 3.0F}, fan))));
   const auto logged = log->next();
   ASSERT_TRUE(logged);
   EXPECT_DOUBLE_EQ(logged->scan.angle_min_rad, 0.0);
@@ -88,10 +88,10 @@ TEST_F(Bag, ScansThatCannotBeUsedAreSkippedAndCounted) {
   nowhere.first_rad = NAN;
   const std::string cut = bag_bytes::scan({1.0F, 2.0F}).substr(0, 50), good = bag_bytes::scan({1.0F, 2.0F});
   std::string records = bag_bytes::connection(0, "/scan", kLaserScan);
-  for (const std::string& data : {cut, bag_bytes::scan({1.0F, 2.0F, 3.0F}, wide),
-                                  bag_bytes::scan({1.0F, 2.0F, 3.0F}, endless),
-                                  bag_bytes::scan({1.0F, 2.0F, 3.0F}, nowhere),
-                                  bag_bytes::scan(std::vector<float>(100'000, 1.0F)), std::string(), good})
+  for (const std::string& data :
+       {cut, bag_bytes::scan({1.0F, 2.0F, 3.0F}, wide), bag_bytes::scan({1.0F, 2.0F, 3.0F}, endless),
+        bag_bytes::scan({1.0F, 2.0F, 3.0F}, nowhere), bag_bytes::scan(std::vector<float>(100'000, 1.0F)), std::string(),
+        good})
     records += bag_bytes::message(0, 1, data);
   const auto log = open(bag_bytes::begin() + bag_bytes::chunk(records));
   EXPECT_EQ(scansOf(*log), 1);
@@ -100,7 +100,8 @@ TEST_F(Bag, ScansThatCannotBeUsedAreSkippedAndCounted) {
               ContainsRegex("a\\.bag: /scan, message 2: no laser has 3 beams, 4 rad apart, .*--sensor, skipped"));
   LaserLogOptions options;
   options.sensor = common::LaserConfig();
-  EXPECT_EQ(scansOf(*open(bag_bytes::begin() + bag_bytes::chunk(records), options)), 4) << "--sensor mends the geometry";
+  EXPECT_EQ(scansOf(*open(bag_bytes::begin() + bag_bytes::chunk(records), options)), 4)
+      << "--sensor mends the geometry";
 }
 
 TEST_F(Bag, WhatIsDamagedWithinAChunkDoesNotConcernTheNext) {

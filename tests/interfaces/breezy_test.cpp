@@ -15,8 +15,8 @@ using testing::HasSubstr;
 constexpr double kPi = std::numbers::pi;
 
 std::string line(double time_us, int left, int right, const std::string& ranges) {
-  std::string text = std::to_string(static_cast<long long>(time_us)) + " 14710 " + std::to_string(left) + " " +
-                     std::to_string(right);
+  std::string text =
+      std::to_string(static_cast<long long>(time_us)) + " 14710 " + std::to_string(left) + " " + std::to_string(right);
   for (int i = 0; i < 20; ++i) text += i == 3 ? " 170.1" : " 0";
   return text + "  " + ranges + " \n";
 }
@@ -33,7 +33,8 @@ TEST(Breezy, ARecordIsAScanAndThePlaceByTheWheels) {
   EXPECT_EQ(log->format(), "BreezySLAM .dat");
   EXPECT_DOUBLE_EQ(first->scan.stamps.measured.seconds(), 2.0);
   EXPECT_NEAR(first->scan.angle_increment_rad, 2.0 * kPi / 1024.0, 1e-12);
-  EXPECT_NEAR(first->scan.angle_min_rad, -2.0 * first->scan.angle_increment_rad, 1e-12) << "straight ahead is the middle";
+  EXPECT_NEAR(first->scan.angle_min_rad, -2.0 * first->scan.angle_increment_rad, 1e-12)
+      << "straight ahead is the middle";
   EXPECT_FLOAT_EQ(first->scan.ranges_m[2], 1.5F);
   EXPECT_LT(first->scan.ranges_m[1], first->scan.range_min_m) << "an error code is no range";
   EXPECT_TRUE(std::isinf(first->scan.ranges_m[3]));

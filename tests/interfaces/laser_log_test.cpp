@@ -131,7 +131,8 @@ TEST(LaserLog, WhatNoLaserHasIsSkipped) {
   EXPECT_DOUBLE_EQ(log->next()->scan.angle_increment_rad, 1.0) << "of the field of view";
   EXPECT_FALSE(log->next());
   EXPECT_EQ(log->counts().skipped_records, 3U);
-  EXPECT_THAT(toString(log->counts().first_problems.at(1)), testing::HasSubstr("a.log:2:1: no laser has 3 beams, 4 rad"));
+  EXPECT_THAT(toString(log->counts().first_problems.at(1)),
+              testing::HasSubstr("a.log:2:1: no laser has 3 beams, 4 rad"));
 }
 
 TEST(LaserLog, WhatIsNoLogIsRefused) {

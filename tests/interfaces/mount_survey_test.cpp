@@ -28,7 +28,8 @@ TEST(MountSurvey, ARigidMountIsTheOneMostRecordsHave) {
   EXPECT_TRUE(mount.rigid);
   EXPECT_NEAR(mount.T_robot_laser.x_m, kMount.x_m, 0.006);
   EXPECT_NEAR(mount.T_robot_laser.y_m, kMount.y_m, 0.006);
-  EXPECT_NEAR(common::wrapAngle(mount.T_robot_laser.yaw_rad - kMount.yaw_rad), 0.005, 1e-9) << "beyond half a turn, too";
+  EXPECT_NEAR(common::wrapAngle(mount.T_robot_laser.yaw_rad - kMount.yaw_rad), 0.005, 1e-9)
+      << "beyond half a turn, too";
   EXPECT_FALSE(agrees({9, 9, 9}, mount));
 }
 
@@ -99,18 +100,16 @@ struct Known {
 
 // In all logs there are, corrected ones too, the mount is one.
 TEST(CarmenMount, OfRecordedLogsIsRigid) {
-  for (const Known& known : {Known{"acapulco/acapulco-corrected.log.gz", 861, 181, 0.0},
-                             Known{"edmonton/edmonton-corrected.log.gz", 340, 180, 0.0},
-                             Known{"fhw-museum/fhw-corrected.log.gz", 488, 180, 0.0},
-                             Known{"fr-campus/freiburg-campus-corrected.log.gz", 2008, 360, 0.0},
-                             Known{"fr079/flirtlib-fr079.log.gz", 1464, 360, -0.04},
-                             Known{"fr079/fr079.clf.bz2", 4934, 360, -0.04},
-                             Known{"fr079/freiburg-079-corrected.log.gz", 4791, 360, 0.0},
-                             Known{"intel/flirtlib-intel-lab.log.gz", 2672, 180, 0.0},
-                             Known{"intel/intel.clf.bz2", 13631, 180, 0.0},
-                             Known{"mit-csail/flirtlib-mit-cscail.log.gz", 1051, 361, 0.0},
-                             Known{"mit-csail/mit-csail.clf.bz2", 1988, 361, 0.0},
-                             Known{"orebro/orebro-corrected.log.gz", 237, 181, 0.0}}) {
+  for (const Known& known :
+       {Known{"acapulco/acapulco-corrected.log.gz", 861, 181, 0.0},
+        Known{"edmonton/edmonton-corrected.log.gz", 340, 180, 0.0},
+        Known{"fhw-museum/fhw-corrected.log.gz", 488, 180, 0.0},
+        Known{"fr-campus/freiburg-campus-corrected.log.gz", 2008, 360, 0.0},
+        Known{"fr079/flirtlib-fr079.log.gz", 1464, 360, -0.04}, Known{"fr079/fr079.clf.bz2", 4934, 360, -0.04},
+        Known{"fr079/freiburg-079-corrected.log.gz", 4791, 360, 0.0},
+        Known{"intel/flirtlib-intel-lab.log.gz", 2672, 180, 0.0}, Known{"intel/intel.clf.bz2", 13631, 180, 0.0},
+        Known{"mit-csail/flirtlib-mit-cscail.log.gz", 1051, 361, 0.0},
+        Known{"mit-csail/mit-csail.clf.bz2", 1988, 361, 0.0}, Known{"orebro/orebro-corrected.log.gz", 237, 181, 0.0}}) {
     const auto file = dataset(std::string("01-laser-slam/") + known.file);
     if (!file) GTEST_SKIP() << "NOT TESTED: no data set";
     const auto log = openLaserLog(*file);
