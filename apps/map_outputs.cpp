@@ -27,6 +27,7 @@ using common::Pose2;
 constexpr std::size_t kCurvePoints = 2000;
 /// Points of a trajectory nearer than this to the one before are not drawn.
 constexpr double kDrawnStep_m = 0.05;
+constexpr std::size_t kDrawnPoints = 50'000;
 
 struct SpooledScan {
   std::int64_t stamp_ns = 0;
@@ -64,11 +65,17 @@ interfaces::G2oGraph2D graphOf(const std::vector<Pose2>& keys, const std::vector
   return graph;
 }
 
+/// Of bounded length: the longer the way, the coarser it is drawn.
 std::vector<Eigen::Vector2d> lineOf(const TrackSpool& track, const PoseOf& poseOf) {
   std::vector<Eigen::Vector2d> line;
+  double step_m = kDrawnStep_m;
   track.forEach([&](common::Time, const perception::TrackedScan& scan) {
     const Eigen::Vector2d at = poseOf(scan).position_m();
-    if (line.empty() || (at - line.back()).norm() >= kDrawnStep_m) line.push_back(at);
+    if (line.empty() || (at - line.back()).norm() >= step_m) line.push_back(at);
+    if (line.size() <= kDrawnPoints) return;
+    for (std::size_t i = 0; 2 * i < line.size(); ++i) line[i] = line[2 * i];
+    line.resize((line.size() + 1) / 2);
+    step_m *= 2.0;
   });
   return line;
 }
