@@ -45,6 +45,7 @@ void ParticleSlamConfig::describe(common::config::Fields& fields) {
   fields("update_time_s", update_time_s, "Or after this time.");
   fields("motion_sigma_m", motion_sigma_m, "No motion between two of them is more certain than this.");
   fields("motion_sigma_deg", motion_sigma_deg, "The same for the rotation.");
+  fields("news_share", news_share, "Of what a scan says of a map: the scans before it said the rest already.");
   fields("min_effective_share", min_effective_share, "Resampled when fewer of the particles are effective.");
   fields("min_points", min_points, "A scan with fewer points is not the first.");
 }
@@ -58,6 +59,7 @@ std::vector<std::string> ParticleSlamConfig::validate() const {
       .within("update_time_s", update_time_s, 0.001, 1e6)
       .within("motion_sigma_m", motion_sigma_m, 1e-5, 1)
       .within("motion_sigma_deg", motion_sigma_deg, 1e-4, 10)
+      .within("news_share", news_share, 0, 1)
       .within("min_effective_share", min_effective_share, 0, 1)
       .within("min_points", min_points, 3, 100'000)
       .problems();
@@ -141,8 +143,9 @@ void ParticleSlam::Impl::update(const ProjectedScan& scan) {
 
 void ParticleSlam::Impl::moveOn(Particle& particle, const MapMatch& match, RandomStream& random) {
   particle.T_map_body = sample(match.T_map_body, match.covariance, random);
-  particle.log_weight += match.log_likelihood;
-  particle.log_likelihood += match.log_likelihood;
+  const double news = config.news_share * match.log_likelihood;
+  particle.log_weight += news;
+  particle.log_likelihood += news;
   const int before = particle.node;
   particle.node = ancestry.add(before, particle.T_map_body);
   ancestry.release(before);

@@ -184,8 +184,8 @@ MapMatch Matching::verdict(const Pose2& pose) const {
   match.T_map_body = pose;
   match.covariance = (scanInformation(e, residual2_m2) + motionTrust(pose) * information_).inverse();
   match.support = e.count / count;
-  match.log_likelihood = config_.independent_beams * view.log_sum / count -
-                         0.5 * (freedom + kDimensions) * std::log1p(off.dot(information_ * off) / freedom);
+  match.log_likelihood = config_.independent_beams * view.log_sum / count;
+  match.log_motion = -0.5 * (freedom + kDimensions) * std::log1p(off.dot(information_ * off) / freedom);
   return match;
 }
 
@@ -194,7 +194,7 @@ MapMatch Matching::run() const {
   const MapMatch near = verdict(settle(config_.support_m));
   if (near.support > config_.enough_support) return near;
   const MapMatch far = verdict(settle(config_.reach_m));
-  return far.log_likelihood > near.log_likelihood ? far : near;
+  return far.log_likelihood + far.log_motion > near.log_likelihood + near.log_motion ? far : near;
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ struct MotionPrior {
 struct MapMatch {
   common::Pose2 T_map_body;                                  ///< The most likely one.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< About it, of motion and scan together; axes of map.
-  double log_likelihood = 0.0;  ///< Of the scan in the map and the motion that led to it, up to a constant.
+  double log_likelihood = 0.0;  ///< Of the scan in the map there, up to a constant.
+  double log_motion = 0.0;      ///< Of the motion that led there; 0: just as expected.
   double support = 0.0;         ///< Share of the points on a surface of the map.
 };
 
