@@ -26,6 +26,14 @@ constexpr double kTopValue = LikelihoodField::kTopValue;
 /// A window with more poses is searched with bounds, whatever the estimate: so many scores are 80 MB.
 constexpr double kMostScores = 2e7;
 
+/// Half a window is cut to so many steps.
+constexpr double kMostSteps = 4000.0;
+
+/// How many steps cover a half width; none for what is not a width, NaN too.
+int stepsIn(double half, double step, double most) {
+  return half > 0.0 ? static_cast<int>(std::min(std::ceil(half / step), most)) : 0;
+}
+
 /// Points in the two arrays that the transformation wants.
 struct SplitPoints {
   std::vector<float> x_m, y_m;
@@ -116,10 +124,9 @@ struct CorrelativeMatcher::Impl {
         all_scores(instructions_in) {}
 
   PoseGrid gridAround(const Pose2& guess, const SearchWindow& window) const {
-    const int half = std::clamp(static_cast<int>(std::ceil(window.half_translation_m / config.resolution_m)), 0, 4000);
     const double step_rad = config.angular_resolution_deg * kRadPerDeg;
-    const int half_turn = std::clamp(static_cast<int>(std::ceil(window.half_rotation_rad / step_rad)), 0,
-                                     static_cast<int>(std::floor(std::numbers::pi / step_rad)));
+    const int half = stepsIn(window.half_translation_m, config.resolution_m, kMostSteps);
+    const int half_turn = stepsIn(window.half_rotation_rad, step_rad, std::floor(std::numbers::pi / step_rad));
     return {guess.x_m - half * config.resolution_m,
             guess.y_m - half * config.resolution_m,
             guess.yaw_rad - half_turn * step_rad,

@@ -26,6 +26,7 @@ LaserFrontEndConfig::LaserFrontEndConfig() {
   odometry.max_window_m = 1.0;
   odometry.max_window_deg = 60.0;
   odometry.min_widened_quality = 0.45;
+  odometry.widened_must_hold = true;
   odometry.max_failures = 4;
   odometry.min_fit = 0.55;
   odometry.min_weak_overlap = 0.93;
@@ -41,12 +42,14 @@ void LaserFrontEndConfig::describe(common::config::Fields& fields) {
 std::vector<std::string> LaserFrontEndConfig::validate() const { return {}; }
 
 struct LaserFrontEnd::Impl {
-  explicit Impl(const LaserFrontEndConfig& config) : motion(config.motion), odometry(config.odometry) {}
+  explicit Impl(const LaserFrontEndConfig& config_in)
+      : config(config_in), motion(config_in.motion), odometry(config_in.odometry) {}
 
   ProjectedScan levelScan(const LaserSlamInput& input, common::Time now, const Pose2& T_odom_robot) const;
   Eigen::Matrix3d follow(const std::optional<RelativePose>& relative, const Pose2& before,
                          const Eigen::Matrix3d& covariance_before);
 
+  LaserFrontEndConfig config;
   MotionPrediction motion;
   LaserOdometry odometry;
   ScanClock clock;
@@ -75,9 +78,10 @@ ProjectedScan LaserFrontEnd::Impl::levelScan(const LaserSlamInput& input, common
 /// the uncertainty has grown by counts.
 Eigen::Matrix3d LaserFrontEnd::Impl::follow(const std::optional<RelativePose>& relative, const Pose2& before,
                                             const Eigen::Matrix3d& covariance_before) {
-  if (!relative)
-    motion.lose();
-  else if (relative->from != relative->to)
+  const bool restarted = relative && relative->from == relative->to;
+  if (!relative || (begun && restarted))
+    motion.lose(config.odometry.max_window_m, config.odometry.max_window_deg * common::kRadPerDeg);
+  else if (!restarted)
     motion.correct(relative->T_from_to, relative->covariance, relative->unseen_direction);
   const Pose2 now = motion.T_reference_robot();
   const Eigen::Matrix3d carried = propagated(covariance_before, before, now, Eigen::Matrix3d::Zero());
@@ -102,7 +106,10 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input) {
   self.last_time = now;
   const Pose2 before = self.motion.T_reference_robot();
   const Eigen::Matrix3d covariance_before = self.motion.covariance();
-  if (self.begun) self.motion.predict(input.T_odom_robot, elapsed_s);
+  if (!self.begun)
+    self.motion.begin(input.T_odom_robot);
+  else
+    self.motion.predict(input.T_odom_robot, elapsed_s);
   ProjectedScan scan = self.levelScan(input, now, self.T_odom_reference * self.motion.T_reference_robot());
   const auto relative = self.odometry.add(
       scan, self.T_odom_matched,
@@ -111,8 +118,8 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input) {
     ++self.empty_scans;
     return std::nullopt;
   }
-  self.begun = true;
   const Eigen::Matrix3d covariance = self.follow(relative, before, covariance_before);
+  self.begun = true;
   return FollowedScan{std::move(scan), self.T_odom_robot, covariance, relative.has_value()};
 }
 

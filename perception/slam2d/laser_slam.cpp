@@ -4,7 +4,18 @@ namespace swiftlet::perception {
 
 using common::Pose2;
 
-LaserSlamConfig::LaserSlamConfig() { slam.matcher.profile_half_m = front_end.odometry.matcher.profile_half_m; }
+LaserSlamConfig::LaserSlamConfig() {
+  slam.matcher.profile_half_m = front_end.odometry.matcher.profile_half_m;
+  // Read off the drift of intel, fr079 and csail without loops: a window must hold the truth.
+  slam.edge_sigma_m = 0.01;
+  slam.edge_sigma_deg = 0.15;
+  slam.loops.min_window_m = 1.5;
+  slam.loops.min_window_deg = 15.0;
+  slam.loops.max_sigma_m = 10.0;
+  slam.loops.max_window_deg = 180.0;
+  slam.loops.min_fine_quality = 0.45;  // The query's own scans are tied less well than those of a flight.
+  slam.live_map = false;               // Nobody flies by it.
+}
 
 void LaserSlamConfig::describe(common::config::Fields& fields) {
   fields.choice("method", method, {"graph", "particles"}, "What holds the map together.");

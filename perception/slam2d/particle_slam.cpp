@@ -170,9 +170,8 @@ void ParticleSlam::Impl::resample() {
 }
 
 const Particle& ParticleSlam::Impl::best() const {
-  return *std::max_element(particles.begin(), particles.end(), [](const Particle& a, const Particle& b) {
-    return a.log_likelihood < b.log_likelihood;
-  });
+  return *std::max_element(particles.begin(), particles.end(),
+                           [](const Particle& a, const Particle& b) { return a.log_likelihood < b.log_likelihood; });
 }
 
 ParticleSlam::ParticleSlam(const ParticleSlamConfig& config) : impl_(std::make_unique<Impl>(config)) {}

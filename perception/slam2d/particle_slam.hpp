@@ -32,15 +32,15 @@ struct ParticleSlamConfig {
   ParticleMapConfig map;
   MapMatchConfig match;
   int particles = 30;
-  int seed = 1;                         ///< Of the random numbers.
-  double update_distance_m = 0.3;       ///< A scan is taken in after this distance,
-  double update_rotation_deg = 15.0;    ///< this rotation,
-  double update_time_s = 2.0;           ///< or this time.
-  double motion_sigma_m = 0.004;        ///< No motion between two of them is more certain than this: what the matcher
-  double motion_sigma_deg = 0.06;       ///< cannot know (tilt, clutter).
-  double news_share = 0.25;  ///< Of what a scan says of a map: the scans before it said the rest already.
-  double min_effective_share = 0.5;     ///< Resampled when the effective particles are a smaller share of all.
-  int min_points = 30;                  ///< A scan with fewer points is not the first.
+  int seed = 1;                       ///< Of the random numbers.
+  double update_distance_m = 0.3;     ///< A scan is taken in after this distance,
+  double update_rotation_deg = 15.0;  ///< this rotation,
+  double update_time_s = 2.0;         ///< or this time.
+  double motion_sigma_m = 0.004;      ///< No motion between two of them is more certain than this: what the matcher
+  double motion_sigma_deg = 0.06;     ///< cannot know (tilt, clutter).
+  double news_share = 0.25;           ///< Of what a scan says of a map: the scans before it said the rest already.
+  double min_effective_share = 0.5;   ///< Resampled when the effective particles are a smaller share of all.
+  int min_points = 30;                ///< A scan with fewer points is not the first.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include "perception/slam2d/particle/ancestry_tree.hpp"
 #include "perception/slam2d/particle/map_match.hpp"

@@ -36,7 +36,8 @@ class Matching {
       : map_(map), points_(points), prior_(prior), config_(config), information_(prior.covariance.inverse()) {
     double lever2 = 0.0;
     for (const OrientedPoint& p : points) lever2 += static_cast<double>(p.point_m.squaredNorm());
-    lever_m_ = std::max(kLeastLever_m, std::sqrt(lever2 / static_cast<double>(std::max<std::size_t>(points.size(), 1))));
+    lever_m_ =
+        std::max(kLeastLever_m, std::sqrt(lever2 / static_cast<double>(std::max<std::size_t>(points.size(), 1))));
   }
 
   MapMatch run() const;
@@ -161,8 +162,8 @@ Pose2 Matching::settle(double reach_m) const {
     const bool fine = reach_m <= config_.support_m;
     const View view = viewFrom(pose, reach_m);
     const NormalEquations& e = view.equations;
-    const Eigen::Vector3d pull = view.beams_per_point / (residual2_m2 * config_.covariance_scale) *
-                                 Eigen::Vector3d(e.x, e.y, lever_m_ * e.t);
+    const Eigen::Vector3d pull =
+        view.beams_per_point / (residual2_m2 * config_.covariance_scale) * Eigen::Vector3d(e.x, e.y, lever_m_ * e.t);
     const Eigen::Matrix3d motion = motionTrust(pose) * information_;
     const Eigen::Matrix3d H = view.beams_per_point * scanInformation(e, residual2_m2) + motion;
     const Eigen::Vector3d step = -H.ldlt().solve(pull + motion * offset(pose));

@@ -19,14 +19,14 @@
 namespace swiftlet::perception {
 
 struct ParticleMapConfig {
-  double resolution_m = 0.05;        ///< Side of a cell.
-  int hit_steps = 18;                ///< Log-odds steps (common::occupancy) a cell gains when a beam ends in it,
-  int free_steps = 6;                ///< and loses when beams only pass. Once a scan; a hit wins.
-  int max_steps = 70;                ///< Confidence is capped at this.
-  int max_hits = 10;                 ///< The surface in a cell is the mean of about so many of its last hits.
-  double max_hit_range_m = 20.0;     ///< End points farther than this are not drawn; the view to there still clears.
-  double max_free_range_m = 10.0;    ///< Beams without return clear up to here.
-  double max_gap_m = 0.3;            ///< Neighbouring end points nearer than this are of one surface.
+  double resolution_m = 0.05;      ///< Side of a cell.
+  int hit_steps = 18;              ///< Log-odds steps (common::occupancy) a cell gains when a beam ends in it,
+  int free_steps = 6;              ///< and loses when beams only pass. Once a scan; a hit wins.
+  int max_steps = 70;              ///< Confidence is capped at this.
+  int max_hits = 10;               ///< The surface in a cell is the mean of about so many of its last hits.
+  double max_hit_range_m = 20.0;   ///< End points farther than this are not drawn; the view to there still clears.
+  double max_free_range_m = 10.0;  ///< Beams without return clear up to here.
+  double max_gap_m = 0.3;          ///< Neighbouring end points nearer than this are of one surface.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -46,7 +46,7 @@ ParticleScan toDraw(const ProjectedScan& scan, const ParticleMapConfig& config);
 /// 6 bytes, of which there are many.
 struct ParticleCell {
   common::occupancy::Cell log_odds = common::occupancy::kUnknown;
-  std::uint8_t hits = 0;  ///< That the surface is the mean of; capped.
+  std::uint8_t hits = 0;                   ///< That the surface is the mean of; capped.
   std::int8_t offset_x = 0, offset_y = 0;  ///< From the middle of the cell to the surface, in 1/254 of its side.
   std::int8_t normal_x = 0, normal_y = 0;  ///< In 1/127; short where surfaces of many directions meet.
   bool operator==(const ParticleCell&) const = default;
