@@ -1,5 +1,7 @@
 #include "perception/slam2d/laser_front_end.hpp"
 
+#include <utility>
+
 #include <Eigen/Eigenvalues>
 
 #include "perception/slam2d/scan_clock.hpp"

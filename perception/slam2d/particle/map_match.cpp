@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "common/validation.hpp"
 #include "perception/scan_matching/least_squares_match.hpp"
