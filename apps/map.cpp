@@ -24,6 +24,7 @@ struct MapOptions {
   std::string log;
   std::string sensor;
   std::string odometry = "auto";
+  std::string slam = "graph";
   std::string out;
   bool json = false;
 };
@@ -37,8 +38,16 @@ fs::path folderFor(const MapOptions& options) {
   return name.substr(0, name.find('.')) + "-map";
 }
 
+perception::LaserSlamConfig configOf(const MapOptions& options) {
+  perception::LaserSlamConfig config;
+  if (options.slam == "particles") config.method = perception::SlamMethod::kParticles;
+  return config;
+}
+
 struct MapRun {
-  perception::LaserSlam slam{perception::LaserSlamConfig{}};
+  explicit MapRun(const MapOptions& options) : slam(configOf(options)) {}
+
+  perception::LaserSlam slam;
   TrackSpool track;
   ThinnedCurve milliseconds;
   std::uint64_t scans = 0, unmatched = 0;
@@ -72,7 +81,7 @@ void mapLog(interfaces::LaserLog& log, const MapOptions& options, MapRun& run) {
     run.track.add(logged->scan.stamps.measured, *tracked);
     if (run.scans % 50 == 0)
       line.update(fmt::format("{:3.0f} %  {} scans, {} key scans, {} loops", 100.0 * log.progress(), run.scans,
-                              run.slam.slam().counts().key_scans, run.slam.slam().counts().loops_closed),
+                              run.slam.keyScans(), run.slam.slam().counts().loops_closed),
                   secondsSince(begin));
   }
   run.slam.finish();
@@ -118,7 +127,7 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const interfaces::La
           {"doubtful_odometry_steps", run.slam.counts().doubtful_odometry},
           {"unmatched_scans", run.unmatched},
           {"restarts", run.slam.odometryCounts().restarts},
-          {"key_scans", slam.key_scans},
+          {"key_scans", run.slam.keyScans()},
           {"loops_closed", slam.loops_closed},
           {"seconds", run.wall_s},
           {"scans_per_s", static_cast<double>(run.scans) / run.wall_s},
@@ -131,7 +140,7 @@ int map(const MapOptions& options) {
   const auto log = interfaces::openLaserLog(options.log, log_options);
   const MapFolder folder(folderFor(options));
   const fs::path& out = folder.path();
-  MapRun run;
+  MapRun run(options);
   mapLog(*log, options, run);
   if (run.slam.keyPoses().empty())
     throw common::InputError(common::Problem{{options.log},
@@ -148,7 +157,7 @@ int map(const MapOptions& options) {
   shown.facts = {{"log", log->format()},
                  {"scans", fmt::format("{}", run.scans)},
                  {"not matched", fmt::format("{}", run.unmatched)},
-                 {"key scans", fmt::format("{}", slam.key_scans)},
+                 {"key scans", fmt::format("{}", run.slam.keyScans())},
                  {"loops closed", fmt::format("{}", slam.loops_closed)},
                  {"time", fmt::format("{:.1f} s", run.wall_s)},
                  {"scans a second", fmt::format("{:.0f}", static_cast<double>(run.scans) / run.wall_s)}};
@@ -177,6 +186,11 @@ void addMap(CLI::App& program, Run& run) {
       ->add_option("--odometry", options->odometry,
                    "auto: the log's, as far as it proves right. none: as if it had none.")
       ->check(CLI::IsMember({"auto", "none"}))
+      ->capture_default_str();
+  command
+      ->add_option("--slam", options->slam,
+                   "graph: key scans tied by matches and loop closures. particles: trajectories with a map each.")
+      ->check(CLI::IsMember({"graph", "particles"}))
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder for the results; LOG-map when not given.");
   command->add_flag("--json", options->json, "Print the figures as JSON.");

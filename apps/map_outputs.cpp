@@ -166,7 +166,8 @@ void writeMapOutputs(const fs::path& out, perception::LaserSlam& slam, const Tra
   writeTrajectory(out / "trajectory.tum", track, poseOf);
   require(interfaces::writeMap(out, "map", *world.grid));
   require(interfaces::writeAtomically(out / "map.png", mapPicture(world)));
-  require(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
+  if (!slam.particles())
+    require(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
   require(interfaces::writeAtomically(out / "report.html", interfaces::mapReport(report)));
 }
 
