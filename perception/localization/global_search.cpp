@@ -170,7 +170,8 @@ GlobalSearchResult GlobalSearch::search(const std::vector<Eigen::Vector2f>& poin
   blocks_ = 0;
   complete_ = true;
   boundTopBlocks(least_);
-  for (const Node& node : nodes_) {
+  for (const std::uint64_t next : order_) {
+    const Node& node = nodes_[next & UINT32_MAX];
     if (node.bound <= floor()) break;
     if (blocks_ > config_.max_blocks) {
       complete_ = false;
@@ -202,11 +203,10 @@ void GlobalSearch::boundTopBlocks(std::int32_t floor) {
         }
     }
   }
-  std::sort(nodes_.begin(), nodes_.end(), [](const Node& a, const Node& b) {
-    if (a.bound != b.bound) return a.bound > b.bound;
-    if (a.direction != b.direction) return a.direction < b.direction;
-    return a.y != b.y ? a.y < b.y : a.x < b.x;
-  });
+  order_.resize(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    order_[i] = static_cast<std::uint64_t>(UINT32_MAX - static_cast<std::uint32_t>(nodes_[i].bound)) << 32 | i;
+  std::sort(order_.begin(), order_.end());
 }
 
 int GlobalSearch::apart(int a, int b) const {

@@ -28,7 +28,8 @@ struct GlobalSearchConfig {
   double random_share = 0.10;   ///< As in MapFieldConfig.
   double unknown_value = 0.20;  ///< As in MapFieldConfig.
   double lever_m = 8.0;         ///< From one direction to the next, points at this distance move by 2 sigma.
-  double least_fit = 0.45;      ///< Mean value, of that on a wall, below which a place does not fit.
+  double least_fit = 0.55;      ///< Mean value, of that on a wall, below which a place does not fit: where two thirds
+                                ///< of the points lie within sigma of a wall, and the others anywhere.
   double distinct_m = 0.5;      ///< Places nearer than this
   double distinct_deg = 15.0;   ///< and less turned than this are one.
   int max_places = 48;          ///< More than so many are not told apart: the pose is ambiguous anyway.
@@ -98,7 +99,8 @@ class GlobalSearch {
   // During a search.
   std::vector<Direction> directions_;
   std::vector<Node> nodes_;
-  std::vector<Place> places_;  // The best first.
+  std::vector<std::uint64_t> order_;  // Of the nodes: the highest bound first, then as they come.
+  std::vector<Place> places_;         // The best first.
   std::int32_t least_ = 0, margin_ = 0;
   int distinct_cells_ = 0, distinct_directions_ = 0, blocks_ = 0;
   bool complete_ = true;

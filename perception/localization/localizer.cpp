@@ -111,6 +111,7 @@ struct Localizer::Impl {
   void step(const LocalizationInput& input);
   bool generationDue(const Pose2& T_odom_body) const;
   void follow(const LocalizationInput& input);
+  Eigen::Matrix3d covarianceNow() const;
   void generate(const ProjectedScan& scan);
   void doubt(const LocalizationInput& input);
   void lookElsewhere();
@@ -211,9 +212,18 @@ bool Localizer::Impl::generationDue(const Pose2& next_T_odom_body) const {
 
 void Localizer::Impl::follow(const LocalizationInput& input) {
   if (input.fresh && generationDue(input.T_odom_body)) generate(input.scan);
+  if (generation_forced) return;  // The pose that was given is only roughly right.
   doubt(input);
-  if (state == LocalizationState::kLocalized && sigma_m(covariance) > config.max_sigma_m)
-    lose(fmt::format("the pose is uncertain by {:.1f} m", sigma_m(covariance)));
+  const double uncertain_m = sigma_m(covarianceNow());
+  if (state == LocalizationState::kLocalized && uncertain_m > config.max_sigma_m)
+    lose(fmt::format("the pose is uncertain by {:.1f} m", uncertain_m));
+}
+
+/// Of the pose that the odometry has led to since the particles were drawn; axes of the grid.
+Eigen::Matrix3d Localizer::Impl::covarianceNow() const {
+  const Pose2 T_grid_generation = T_grid_odom * T_odom_generation;
+  return propagated(covariance, T_grid_generation, T_grid_odom * T_odom_body,
+                    common::turned(step_covariance, T_grid_generation.yaw_rad));
 }
 
 /// Predict, weigh, draw anew, take the mean.
@@ -294,7 +304,7 @@ std::vector<LikelyPlace> Localizer::Impl::placesOf(const LocalMap::Whole& whole,
 
 /// The local map grows; the particles are all the places where it fits.
 void Localizer::Impl::find(const LocalizationInput& input) {
-  if (!input.fresh || !(local_map.empty() || generationDue(input.T_odom_body))) return;
+  if (!local_map.empty() && !generationDue(input.T_odom_body)) return;
   local_map.add(T_odom_body, input.scan.points_level_m);
   generation_way_m = way_m;
   generation_turned_rad = turned_rad;
@@ -406,9 +416,7 @@ void Localizer::startAt(const Pose2& T_map_body, const Eigen::Matrix3d& covarian
 
 bool Localizer::wantsFreshScan(const Pose2& T_odom_body) const {
   const Impl& self = *impl_;
-  if (!self.begun) return true;
-  if (self.state != LocalizationState::kLocalized && self.local_map.empty()) return true;
-  return self.generationDue(T_odom_body);
+  return self.state == LocalizationState::kLocalized && self.begun && self.generationDue(T_odom_body);
 }
 
 LocalizationEstimate Localizer::add(const LocalizationInput& input) {
@@ -433,11 +441,7 @@ LocalizationEstimate Localizer::add(const LocalizationInput& input) {
   estimate.places = 1;
   estimate.T_map_odom = self.T_map_grid * self.T_grid_odom;
   estimate.T_map_body = estimate.T_map_odom * self.T_odom_body;
-  const Pose2 T_grid_generation = self.T_grid_odom * self.T_odom_generation;
-  estimate.covariance =
-      common::turned(propagated(self.covariance, T_grid_generation, self.T_grid_odom * self.T_odom_body,
-                                common::turned(self.step_covariance, T_grid_generation.yaw_rad)),
-                     self.T_map_grid.yaw_rad);
+  estimate.covariance = common::turned(self.covarianceNow(), self.T_map_grid.yaw_rad);
   return estimate;
 }
 

@@ -113,7 +113,8 @@ class Localizer {
   /// It is believed to be there, until what is seen says otherwise.
   void startAt(const common::Pose2& T_map_body, const Eigen::Matrix3d& covariance);
 
-  /// Whether a scan taken at that pose should be kept from the odometry, to weigh particles.
+  /// Whether a scan taken at that pose should be kept from the odometry, to weigh particles. The local map is made of
+  /// any scans: it is compared with the given map, not with the odometry.
   bool wantsFreshScan(const common::Pose2& T_odom_body) const;
 
   LocalizationEstimate add(const LocalizationInput& input);

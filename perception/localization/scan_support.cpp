@@ -49,7 +49,7 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
 void LostTestConfig::describe(common::config::Fields& fields) {
   fields("at_none", at_none, "Log-odds of being lost when nothing of a scan is explained.");
   fields("by_explained", by_explained, "What it changes by with the share explained.");
-  fields("by_contradicted", by_contradicted, "What it changes by with the share contradicted.");
+  fields("doubt_explained", doubt_explained, "While the map explains less, the pose is looked for elsewhere.");
   fields("most", most, "No scan says more than this.");
   fields("scans_per_s", scans_per_s, "Scans that are independent.");
   fields("threshold", threshold, "Log-odds that are believed.");
@@ -60,7 +60,7 @@ std::vector<std::string> LostTestConfig::validate() const {
   return common::Validation()
       .within("at_none", at_none, -100, 100)
       .within("by_explained", by_explained, -100, 0)
-      .within("by_contradicted", by_contradicted, 0, 100)
+      .within("doubt_explained", doubt_explained, 0, 1)
       .within("most", most, 0.1, 100)
       .within("scans_per_s", scans_per_s, 0.1, 100)
       .within("threshold", threshold, 0.1, 100)
@@ -69,14 +69,13 @@ std::vector<std::string> LostTestConfig::validate() const {
 }
 
 void LostTest::reset() {
-  sum_ = doubtful_s_ = 0.0;
+  sum_ = 0.0;
   explained_ = 1.0;
 }
 
 double LostTest::logOdds(const ScanSupport& support) const {
   if (support.evidence < config_.least_evidence) return 0.0;
-  const double odds =
-      config_.at_none + config_.by_explained * support.explained + config_.by_contradicted * support.contradicted;
+  const double odds = config_.at_none + config_.by_explained * support.explained;
   return std::clamp(odds, -config_.most, config_.most);
 }
 
@@ -85,7 +84,6 @@ void LostTest::add(const ScanSupport& support, double elapsed_s) {
   const double share = std::clamp(elapsed_s * config_.scans_per_s, 0.0, 1.0);
   explained_ += share * (support.explained - explained_);
   sum_ = std::max(0.0, sum_ + share * logOdds(support));
-  doubtful_s_ = sum_ > 0.0 ? doubtful_s_ + elapsed_s : 0.0;
 }
 
 }  // namespace swiftlet::perception

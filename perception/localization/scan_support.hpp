@@ -34,14 +34,14 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
                       const common::Pose2& T_grid_body, const ScanSupportConfig& config);
 
 struct LostTestConfig {
-  // The log-odds of being lost, of one scan: a logistic regression on simulated flights, see docs/localization.md.
-  double at_none = 7.0;          ///< Of a scan of which nothing is explained,
-  double by_explained = -12.0;   ///< and what it changes by with the share explained,
-  double by_contradicted = 2.0;  ///< and contradicted.
-  double most = 3.0;             ///< No scan says more than this, for or against.
-  double scans_per_s = 4.0;      ///< Scans nearer in time than this see the same, and are wrong together.
-  double threshold = 5.0;        ///< Log-odds that are believed.
-  int least_evidence = 15;       ///< Beams of a scan that say something; with fewer it is left out.
+  // The log-odds of being lost, of one scan: a logistic regression on simulated walks, see docs/localization.md.
+  double at_none = 9.4;           ///< Of a scan of which nothing is explained,
+  double by_explained = -17.6;    ///< and what it changes by with the share explained.
+  double most = 3.0;              ///< No scan says more than this, for or against.
+  double scans_per_s = 2.0;       ///< Scans nearer in time than this see the same: who stands in the way still does.
+  double doubt_explained = 0.75;  ///< Nor is all well while the map explains less than this: time to look elsewhere.
+  double threshold = 5.0;         ///< Log-odds that are believed.
+  int least_evidence = 15;        ///< Beams of a scan that say something; with fewer it is left out.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -59,16 +59,15 @@ class LostTest {
   double logOdds(const ScanSupport& support) const;
 
   bool lost() const { return sum_ >= config_.threshold; }
-  /// In doubt since the sum has last been zero.
-  bool doubtful() const { return sum_ > 0.0; }
+  /// Something speaks against the pose.
+  bool doubtful() const { return sum_ > 0.0 || explained_ < config_.doubt_explained; }
   double sum() const { return sum_; }
-  double doubtful_s() const { return doubtful_s_; }
-  /// Mean share explained since the doubt began, or lately.
+  /// Mean share explained, lately.
   double explained() const { return explained_; }
 
  private:
   LostTestConfig config_;
-  double sum_ = 0.0, doubtful_s_ = 0.0, explained_ = 1.0;
+  double sum_ = 0.0, explained_ = 1.0;
 };
 
 }  // namespace swiftlet::perception

@@ -103,6 +103,9 @@ inline Building hall(std::uint64_t seed) {
   addWall(building.world, {0.0, depth}, {width, depth}, doors);
   building.world.addPolyline({{0.0, depth}, {0.0, depth + room_depth}, {width, depth + room_depth}, {width, depth}},
                              false);
+  // No column is so thick that its inside is farther than this from its faces.
+  while (building.world.distanceToWall(building.inside_m) < 0.5)
+    building.inside_m = {random.uniform(1.0, width - 1.0), random.uniform(1.0, depth - 1.0)};
   return building;
 }
 

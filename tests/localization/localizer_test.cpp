@@ -1,5 +1,6 @@
 // Stories of a robot that does not know where it is, scan by scan. Truth is seen by the scoring alone.
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "perception/localization/localizer.hpp"
 #include "tests/localization/lost_cases.hpp"
@@ -23,6 +24,7 @@ struct Story {
   LocalizationEstimate step(bool fresh = true) {
     const auto scan = test::levelScan(building.world, walker.pose(), Time::fromSeconds(time_s), noise);
     truth = walker.pose();
+    odometry_at_scan = odometry.pose();
     const auto estimate = localizer.add({scan, odometry.pose(), Eigen::Matrix3d::Zero(), fresh, false});
     walker.advance(0.1);
     const Pose2 moved = between(truth, walker.pose());
@@ -38,7 +40,7 @@ struct Story {
   test::DriftingOdometry odometry;
   common::RandomStream noise;
   Localizer localizer;
-  Pose2 truth;
+  Pose2 truth, odometry_at_scan;
   double time_s = 0.0, way_m = 0.0;
 };
 
@@ -99,17 +101,36 @@ TEST(Localizer, TellsOfTwinPlacesThatItIsAmbiguous) {
 
 TEST(Localizer, WeighsOnlyWithScansTheOdometryWasNotMadeOf) {
   Story story(test::offices(5), 5);
-  for (int i = 0; i < 60; ++i) EXPECT_NE(story.step(false).state, LocalizationState::kLocalized);
-  EXPECT_EQ(story.localizer.state(), LocalizationState::kGlobal);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+  EXPECT_FALSE(story.localizer.wantsFreshScan(story.odometry.pose())) << "nothing is known of the odometry yet";
+  const auto first = story.step(false);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_TRUE(story.localizer.wantsFreshScan(story.odometry.pose()));
+    const auto estimate = story.step(false);
+    EXPECT_EQ(estimate.T_map_odom.x_m, first.T_map_odom.x_m) << "moved by a scan of the odometry";
+  }
+  // One scan of its own moves the particles; where it stands still nothing new is seen, and none is due.
+  EXPECT_NE(story.step(true).T_map_odom.x_m, first.T_map_odom.x_m);
+  const Pose2 here = story.odometry_at_scan;
+  EXPECT_FALSE(story.localizer.wantsFreshScan(here));
+  EXPECT_TRUE(story.localizer.wantsFreshScan(here * Pose2{0.3, 0.0, 0.0}));
+  EXPECT_TRUE(story.localizer.wantsFreshScan(here * Pose2{0.0, 0.0, 0.4}));
+}
 
-  // Where it stands still nothing new is seen: no generation is due.
-  Story told(test::offices(5), 5);
-  told.localizer.startAt(told.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
-  EXPECT_TRUE(told.localizer.wantsFreshScan(told.odometry.pose()));
-  told.step();
-  const Pose2 here = told.odometry.pose();
-  EXPECT_FALSE(told.localizer.wantsFreshScan(here));
-  EXPECT_TRUE(told.localizer.wantsFreshScan(here * Pose2{0.3, 0.0, 0.0}));
+/// Without scans of its own the pose is known worse and worse, until it is no longer known.
+TEST(Localizer, GivesUpAPoseThatTheOdometryAloneLedTo) {
+  LocalizerConfig config;
+  config.odometry_share = 0.2;
+  config.max_sigma_m = 0.3;
+  Story story(test::offices(5), 5, config);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.0001).asDiagonal());
+  story.step(true);
+  LocalizationEstimate estimate;
+  for (int i = 0; i < 300 && story.localizer.state() == LocalizationState::kLocalized; ++i)
+    estimate = story.step(false);
+  ASSERT_TRUE(estimate.event);
+  EXPECT_EQ(estimate.state, LocalizationState::kLost);
+  EXPECT_NE(estimate.event->reason.find("uncertain by"), std::string::npos) << estimate.event->reason;
 }
 
 TEST(Localizer, TheSameSeedGivesTheSameBytes) {

@@ -56,20 +56,30 @@ inline PlanarWorld changedFurniture(const Building& building, double share, std:
     const Eigen::Vector2d at = walks.somewhere(random);
     views.push_back({at.x(), at.y(), random.uniform(-3.1, 3.1)});
   }
-  PlanarWorld world = building.world;
-  const auto disturbed = [&] {
-    int changed = 0, all = 0;
-    for (const common::Pose2& view : views)
-      for (int k = 0; k < 90; ++k) {
-        const Eigen::Vector3d from(view.x_m, view.y_m, 1.0), to(std::cos(0.0698 * k), std::sin(0.0698 * k), 0.0);
-        ++all;
-        changed += std::abs(world.cast(from, to) - building.world.cast(from, to)) > 0.3 ? 1 : 0;
-      }
-    return static_cast<double>(changed) / all;
+  struct Beam {
+    Eigen::Vector3d from_m, direction;
+    double before_m, now_m;
   };
-  for (int i = 0; i < 500 && disturbed() < share; ++i) {
+  std::vector<Beam> beams;
+  for (const common::Pose2& view : views)
+    for (int k = 0; k < 90; ++k) {
+      const Eigen::Vector3d from(view.x_m, view.y_m, 1.0), to(std::cos(0.0698 * k), std::sin(0.0698 * k), 0.0);
+      const double range_m = building.world.cast(from, to);
+      beams.push_back({from, to, range_m, range_m});
+    }
+  PlanarWorld world = building.world;
+  double disturbed = 0.0;
+  for (int i = 0; i < 200 && disturbed < share; ++i) {
     const auto which = static_cast<std::size_t>(random.uniform() * static_cast<double>(building.rooms.size()));
-    addFurniture(world, building.rooms[which], 1, random);
+    PlanarWorld box;
+    addFurniture(box, building.rooms[which], 1, random);
+    world.walls.insert(world.walls.end(), box.walls.begin(), box.walls.end());
+    int changed = 0;
+    for (Beam& beam : beams) {
+      beam.now_m = std::min(beam.now_m, box.cast(beam.from_m, beam.direction));
+      changed += beam.before_m - beam.now_m > 0.3 ? 1 : 0;
+    }
+    disturbed = static_cast<double>(changed) / static_cast<double>(beams.size());
   }
   return world;
 }

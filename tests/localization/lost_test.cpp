@@ -11,7 +11,7 @@
 namespace swiftlet::test {
 namespace {
 
-/// The log-odds were fitted on seeds 1 to 40: other buildings, other walks.
+/// The log-odds were fitted on seeds 1 to 20: other buildings, other walks.
 constexpr std::uint64_t kFirstSeed = 1001;
 
 int casesOfEach() {

@@ -300,7 +300,7 @@ TEST(LostTest, NoticesAChangeHoweverLongAllWasWell) {
     test.add(bad, 0.1);
     ++scans;
   }
-  EXPECT_LE(scans, 10);
+  EXPECT_LE(scans, 10) << "a second";
   test.reset();
   EXPECT_FALSE(test.lost());
 }
