@@ -105,7 +105,8 @@ common::InputError problem(const fs::path& file, const std::string& message, con
 
 /// The file to be written, its folder made; before the work, so that a mistake is told at once.
 fs::path madeTarget(const OptimizeOptions& options) {
-  const fs::path folder = options.out, target = folder / "graph.g2o";
+  const fs::path folder = options.out;
+  fs::path target = folder / "graph.g2o";
   std::error_code failure;
   if (fs::equivalent(target, options.graph, failure))
     throw problem(target, "is the graph to be optimized itself", "give another folder");

@@ -64,10 +64,12 @@ const std::vector<std::int32_t>& BranchAndBound::offsetsAt(const LikelihoodField
 }
 
 BestPose BranchAndBound::search(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m,
-                                const PoseGrid& grid, const GuessPenalty& penalty) {
+                                const PoseGrid& grid, const GuessPenalty& penalty, int floor) {
   excluded_ = nullptr;
   penalty_ = penalty;
-  return searchFrom(field, points_m, grid, BestPose{});
+  BestPose least;
+  least.score = floor;
+  return searchFrom(field, points_m, grid, least);
 }
 
 BestPose BranchAndBound::searchElsewhere(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m,

@@ -59,9 +59,10 @@ class BranchAndBound {
 
   /// The highest score of the grid, exactly; of equal ones any, but always the same. At most kMaxWindowPoints points,
   /// in the level frame of the scan.
+  /// If none scores more than `floor`, the score is `floor` and found the sooner.
   BestPose search(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
-                  const GuessPenalty& penalty = {});
-  /// The same among the poses that are not excluded, if one scores more than `floor`; else the score is `floor`.
+                  const GuessPenalty& penalty = {}, int floor = -1);
+  /// The same among the poses that are not excluded.
   BestPose searchElsewhere(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
                            const ExcludedPoses& excluded, int floor);
 

@@ -11,6 +11,7 @@
 #include "perception/scan_matching/branch_and_bound.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
+#include "perception/scan_matching/score_grid.hpp"
 #include "perception/scan_matching/score_surface.hpp"
 
 namespace swiftlet::perception {
@@ -22,6 +23,17 @@ using common::Pose2;
 /// Shapes whose least held direction is faced by a greater share of the contour hold it well enough.
 constexpr double kProfiledSpread = 0.25;
 constexpr double kTopValue = LikelihoodField::kTopValue;
+/// A window with more poses is searched with bounds, whatever the estimate: so many scores are 80 MB.
+constexpr double kMostScores = 2e7;
+
+/// Half a window is cut to so many steps.
+constexpr double kMostSteps = 4000.0;
+
+/// How many steps cover a half width; none for what is not a width, NaN too.
+int stepsIn(double half, double step, double most) {
+  return half > 0.0 ? static_cast<int>(std::min(std::ceil(half / step), most)) : 0;
+}
+
 /// Points in the two arrays that the transformation wants.
 struct SplitPoints {
   std::vector<float> x_m, y_m;
@@ -58,7 +70,8 @@ void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
   fields("resolution_m", resolution_m, "Of the finest level.");
   fields("angular_resolution_deg", angular_resolution_deg, "Of the finest level.");
   fields("levels", levels, "Resolutions in the weighted mean, each twice as coarse as the one before.");
-  fields.choice("estimate", estimate, {"finest", "weighted_mean", "surface"}, "How the pose is taken from the scores.");
+  fields.choice("estimate", estimate, {"finest", "weighted_mean", "surface", "score_grid"},
+                "How the pose is taken from the scores.");
   fields("sigma_m", sigma_m, "Spread of the end points about the contour of the reference.");
   fields("search_points", search_points, "Points of a scan that are searched with.");
   fields("surface_points", surface_points, "Points from which pose and covariance are taken around the best.");
@@ -107,13 +120,13 @@ struct CorrelativeMatcher::Impl {
       : config(config_in),
         instructions(instructions_in),
         field(config_in.resolution_m, config_in.sigma_m),
-        search(instructions_in) {}
+        search(instructions_in),
+        all_scores(instructions_in) {}
 
   PoseGrid gridAround(const Pose2& guess, const SearchWindow& window) const {
-    const int half = std::clamp(static_cast<int>(std::ceil(window.half_translation_m / config.resolution_m)), 0, 4000);
     const double step_rad = config.angular_resolution_deg * kRadPerDeg;
-    const int half_turn = std::clamp(static_cast<int>(std::ceil(window.half_rotation_rad / step_rad)), 0,
-                                     static_cast<int>(std::floor(std::numbers::pi / step_rad)));
+    const int half = stepsIn(window.half_translation_m, config.resolution_m, kMostSteps);
+    const int half_turn = stepsIn(window.half_rotation_rad, step_rad, std::floor(std::numbers::pi / step_rad));
     return {guess.x_m - half * config.resolution_m,
             guess.y_m - half * config.resolution_m,
             guess.yaw_rad - half_turn * step_rad,
@@ -132,12 +145,23 @@ struct CorrelativeMatcher::Impl {
             common::wrapAngle(grid.first_yaw_rad + best.rotation * grid.step_yaw_rad)};
   }
 
+  bool scoresAll(const PoseGrid& grid) const {
+    return config.estimate == PoseEstimate::kScoreGrid && ScoreGrid::poses(grid) <= kMostScores;
+  }
+  /// Those that decide which pose of the grid is best.
+  std::vector<Eigen::Vector2f> searchPoints(const ProjectedScan& scan, const PoseGrid& grid) const {
+    return spreadPoints(scan.points_level_m, scoresAll(grid) ? config.surface_points : config.search_points,
+                        config.max_range_m);
+  }
+
+  BestPose searchGrid(const std::vector<Eigen::Vector2f>& points, const PoseGrid& grid);
+  void addSpreadElsewhere(const BestPose& best, double log_per_score, const Eigen::Vector3d& step,
+                          const Eigen::Vector3d& guess_offset, Peak& peak) const;
   MatchResult evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points, const Pose2& guess,
-                       const PoseGrid& grid, const BestPose& best);
+                       const PoseGrid& grid, const BestPose& best, bool scored);
   double support(const SplitPoints& points, const Pose2& pose);
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
-  Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad,
-                                     const SurfacePeak& peak);
+  Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad, const Peak& peak);
   double profileVariance(const SplitPoints& points, const Pose2& center, const Eigen::Vector2d& axis);
   Eigen::Vector3d weightedMean(const SplitPoints& points, const PoseGrid& grid, const BestPose& best);
   void addWindows(const SplitPoints& points, const Pose2& center, double yaw_rad, int half, int rows,
@@ -147,6 +171,7 @@ struct CorrelativeMatcher::Impl {
   Instructions instructions;
   LikelihoodField field;
   BranchAndBound search;
+  ScoreGrid all_scores;  ///< Of the last match, when all poses were scored.
   std::vector<std::int32_t> x_cells, y_cells, offsets;
 };
 
@@ -192,7 +217,7 @@ double CorrelativeMatcher::Impl::support(const SplitPoints& points, const Pose2&
 /// A wrong attitude moves an end point sideways by its height over the body. All points move together, so that more of
 /// them do not help; how far the peak follows is tried out for an error about each axis.
 Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& points, const Pose2& center,
-                                                             double step_rad, const SurfacePeak& peak) {
+                                                             double step_rad, const Peak& peak) {
   constexpr float kLeastShift_m = 0.0005F;
   const auto error_rad = static_cast<float>(config.attitude_error_deg * kRadPerDeg);
   float greatest_m = 0.0F;
@@ -254,6 +279,25 @@ Eigen::Vector3d CorrelativeMatcher::Impl::weightedMean(const SplitPoints& points
   return (sum / weights).cwiseProduct(Eigen::Vector3d(config.resolution_m, config.resolution_m, grid.step_yaw_rad));
 }
 
+BestPose CorrelativeMatcher::Impl::searchGrid(const std::vector<Eigen::Vector2f>& points, const PoseGrid& grid) {
+  if (!scoresAll(grid)) return search.search(field, points, grid, penaltyFor(points.size()));
+  const SplitPoints split(points);
+  all_scores.score(field, split.x_m, split.y_m, grid);
+  return all_scores.best(penaltyFor(points.size()));
+}
+
+/// Likely poses elsewhere in the window make the covariance as wide as they lie; wider than what counts as seen, the
+/// guess stands.
+void CorrelativeMatcher::Impl::addSpreadElsewhere(const BestPose& best, double log_per_score,
+                                                  const Eigen::Vector3d& step, const Eigen::Vector3d& guess_offset,
+                                                  Peak& peak) const {
+  peak.covariance += step.asDiagonal() * all_scores.spreadElsewhere(best, log_per_score) * step.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(peak.covariance.topLeftCorner<2, 2>().eval());
+  const double unseen_m = config.unobservable_sigma_m;
+  if (!peak.unobservable_direction && spread.eigenvalues()(1) > unseen_m * unseen_m)
+    holdAlong(spread.eigenvectors().col(1), guess_offset, peak);
+}
+
 /// The spread (m^2) about `center` of the places along `axis` that score about as well: a likelihood tempered so that a
 /// few points, which may be of something that moved or was seen from one side only, do not decide.
 double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, const Pose2& center,
@@ -281,7 +325,8 @@ double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, cons
 }
 
 MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points,
-                                               const Pose2& guess, const PoseGrid& grid, const BestPose& best) {
+                                               const Pose2& guess, const PoseGrid& grid, const BestPose& best,
+                                               bool scored) {
   MatchResult result;
   result.points_used = static_cast<int>(points.size());
   result.finest_score = best.score;
@@ -301,16 +346,23 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   field.prepare(0, 2 * kWindowColumns + 2 * ScoreSurface::kSize);
   const double supported = support(surface_points, result.finest_T_reference_body);
   result.overlap = supported / static_cast<double>(surface_points.x_m.size());
-  const double step_rad = config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
-  const ScoreSurface surface = surfaceAround(surface_points, result.finest_T_reference_body, step_rad);
+  const double step_rad =
+      scored ? grid.step_yaw_rad : config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
+  ScoreSurface surface =
+      scored ? all_scores.surfaceAround(best) : surfaceAround(surface_points, result.finest_T_reference_body, step_rad);
+  surface.step_m = config.resolution_m;
+  surface.step_rad = step_rad;
   const Eigen::Vector3d guess_offset(guess.x_m - result.finest_T_reference_body.x_m,
                                      guess.y_m - result.finest_T_reference_body.y_m,
                                      common::wrapAngle(guess.yaw_rad - result.finest_T_reference_body.yaw_rad));
-  SurfacePeak peak = findPeak(
-      surface, {supported, field.reach_m(), config.covariance_scale, config.unobservable_sigma_m}, guess_offset);
+  const SurfaceScale scale{supported, field.reach_m(), config.covariance_scale, config.unobservable_sigma_m};
+  Peak peak = findPeak(surface, scale, guess_offset);
   peak.covariance += attitudeCovariance(surface_points, result.finest_T_reference_body, step_rad, peak);
   if (config.estimate == PoseEstimate::kFinest) peak.offset.setZero();
   if (config.estimate == PoseEstimate::kWeightedMean) peak.offset = weightedMean(surface_points, grid, best);
+  if (scored)
+    addSpreadElsewhere(best, logPerScore(surface, scale), {surface.step_m, surface.step_m, step_rad}, guess_offset,
+                       peak);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(normalSpread(surface_points.x_m, surface_points.y_m));
   if (normals.eigenvalues()(0) < config.min_normal_spread)
     holdAlong(Eigen::Rotation2Dd(result.finest_T_reference_body.yaw_rad) * normals.eigenvectors().col(0), guess_offset,
@@ -341,34 +393,25 @@ void CorrelativeMatcher::clearReference() { impl_->field.clear(); }
 
 void CorrelativeMatcher::addReference(const ProjectedScan& scan, const Pose2& T_reference_body) {
   if (!isFinite(T_reference_body)) return;
-  std::vector<ContourSegment> contour =
-      contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m);
-  const Eigen::Rotation2Dd rotation(T_reference_body.yaw_rad);
-  const Eigen::Matrix2d R = rotation.toRotationMatrix();
-  for (ContourSegment& segment : contour) {
-    segment.begin_m = R * segment.begin_m + T_reference_body.position_m();
-    segment.end_m = R * segment.end_m + T_reference_body.position_m();
-  }
-  impl_->field.draw(contour);
+  impl_->field.draw(
+      contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m, T_reference_body));
 }
 
 MatchResult CorrelativeMatcher::match(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window) {
   if (!isFinite(guess) || impl_->field.empty()) return {};
-  const std::vector<Eigen::Vector2f> points =
-      spreadPoints(scan.points_level_m, impl_->config.search_points, impl_->config.max_range_m);
-  if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
   const PoseGrid grid = impl_->gridAround(guess, window);
-  const BestPose best = impl_->search.search(impl_->field, points, grid, impl_->penaltyFor(points.size()));
-  return impl_->evaluate(scan, points, guess, grid, best);
+  const std::vector<Eigen::Vector2f> points = impl_->searchPoints(scan, grid);
+  if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
+  const BestPose best = impl_->searchGrid(points, grid);
+  return impl_->evaluate(scan, points, guess, grid, best, impl_->scoresAll(grid));
 }
 
 MatchResult CorrelativeMatcher::matchExhaustively(const ProjectedScan& scan, const Pose2& guess,
                                                   const SearchWindow& window) {
   if (!isFinite(guess) || impl_->field.empty()) return {};
-  const std::vector<Eigen::Vector2f> points =
-      spreadPoints(scan.points_level_m, impl_->config.search_points, impl_->config.max_range_m);
-  if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
   const PoseGrid grid = impl_->gridAround(guess, window);
+  const std::vector<Eigen::Vector2f> points = impl_->searchPoints(scan, grid);
+  if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
   const SplitPoints split(points);
   BestPose best;
   std::vector<std::int32_t> x_cells, y_cells;
@@ -388,7 +431,7 @@ MatchResult CorrelativeMatcher::matchExhaustively(const ProjectedScan& scan, con
       }
     }
   }
-  return impl_->evaluate(scan, points, guess, grid, best);
+  return impl_->evaluate(scan, points, guess, grid, best, false);
 }
 
 }  // namespace swiftlet::perception

@@ -20,6 +20,8 @@ enum class PoseEstimate {
   kWeightedMean,  ///< Mean of the best poses of all levels, weighted by a Gaussian about the finest (Grzonka 2012,
                   ///< IV-A).
   kSurface,       ///< The peak of a quadratic through the scores around the finest.
+  kScoreGrid,     ///< The same, and every pose of the window is scored: what is likely elsewhere in it adds to the
+                  ///< covariance (Bachrach 2009, 5.1.2 and 5.1.3). Scores all `surface_points`. For narrow windows.
 };
 
 struct CorrelativeMatcherConfig {
@@ -62,7 +64,8 @@ class CorrelativeMatcher final : public ScanMatcher {
   [[nodiscard]] MatchResult match(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,
                                   const SearchWindow& window) override;
 
-  /// The oracle: every pose of the window at the finest resolution, one by one. Slow; `finest_*` are those of `match`.
+  /// The oracle of every estimate: every pose of the window at the finest resolution, one by one. Slow; `finest_*` are
+  /// those of `match`.
   [[nodiscard]] MatchResult matchExhaustively(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,
                                               const SearchWindow& window);
 

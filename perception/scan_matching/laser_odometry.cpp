@@ -23,6 +23,7 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields("max_window_m", max_window_m, "Half the greatest search window.");
   fields("max_window_deg", max_window_deg, "The same for the rotation.");
   fields("min_widened_quality", min_widened_quality, "A match found only in a widened window needs this quality.");
+  fields("widened_must_hold", widened_must_hold, "And must hold the position in all directions.");
   fields("min_overlap", min_overlap, "A scan with a smaller share of supported points joins the local map.");
   fields("min_fit", min_fit, "A scan that fits worse than this joins the local map.");
   fields("min_weak_overlap", min_weak_overlap, "The same where the position is held weakly in one direction.");
@@ -142,7 +143,8 @@ MatchResult LaserOdometry::Impl::matchWidening(const ProjectedScan& scan, const 
     window.half_translation_m = std::min(config.max_window_m, 3.0 * window.half_translation_m);
     window.half_rotation_rad = std::min(config.max_window_deg * kRadPerDeg, 3.0 * window.half_rotation_rad);
     result = matcher.match(scan, guess, window);
-    result.failed |= result.quality < config.min_widened_quality;
+    result.failed |=
+        result.quality < config.min_widened_quality || (config.widened_must_hold && result.unobservable_direction);
   }
   return result;
 }

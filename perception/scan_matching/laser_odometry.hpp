@@ -41,6 +41,7 @@ struct LaserOdometryConfig {
   double max_window_m = 0.5;
   double max_window_deg = 15.0;
   double min_widened_quality = 0.35;  ///< A match found only in a widened window needs this quality: chance is greater.
+  bool widened_must_hold = false;     ///< And must hold the position in all directions: the guess no longer does.
   double min_overlap = 0.75;          ///< A scan with a smaller share of supported points joins the local map.
   double min_fit = 0.35;              ///< So does one that fits worse than this (MatchResult::quality): the map
                                       ///< has become wrong about the place.

@@ -26,7 +26,7 @@ std::vector<Eigen::Vector2f> usable(std::span<const Eigen::Vector2f> points_m, d
 }
 
 /// Whether the step from point i to the next goes on as the one before and the one after.
-bool isStraight(const std::vector<Eigen::Vector2f>& points, std::size_t i) {
+bool isStraight(std::span<const Eigen::Vector2f> points, std::size_t i) {
   if (i == 0 || i + 2 >= points.size()) return false;
   const Eigen::Vector2f before = points[i] - points[i - 1], step = points[i + 1] - points[i],
                         after = points[i + 2] - points[i + 1];
@@ -36,32 +36,47 @@ bool isStraight(const std::vector<Eigen::Vector2f>& points, std::size_t i) {
 
 }  // namespace
 
-std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m, double max_gap_m, double max_range_m) {
-  const std::vector<Eigen::Vector2f> points = usable(points_m, max_range_m);
-  std::vector<ContourSegment> segments;
-  if (points.empty()) return segments;
-  segments.reserve(points.size());
-
+std::vector<bool> joinsOf(std::span<const Eigen::Vector2f> points, double max_gap_m) {
+  std::vector<bool> joins(points.size(), false);
+  if (points.size() < 2) return joins;
   const std::size_t gaps = points.size() - 1;
   std::vector<float> gap(gaps);
   for (std::size_t i = 0; i < gaps; ++i) gap[i] = (points[i + 1] - points[i]).norm();
+  for (std::size_t i = 0; i < gaps; ++i) {
+    if (gap[i] >= static_cast<float>(max_gap_m)) continue;
+    const float before = i > 0 ? gap[i - 1] : gap[i];
+    const float after = i + 1 < gaps ? gap[i + 1] : gap[i];
+    joins[i] = gap[i] <= kMaxStretch * std::min(before, after) + kGapNoise_m &&
+               (gap[i] <= kShortGap_m || isStraight(points, i));
+  }
+  return joins;
+}
 
+std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m, double max_gap_m, double max_range_m) {
+  const std::vector<Eigen::Vector2f> points = usable(points_m, max_range_m);
+  const std::vector<bool> joins = joinsOf(points, max_gap_m);
+  std::vector<ContourSegment> segments;
+  segments.reserve(points.size());
   bool joined_before = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    bool joined = false;
-    if (i < gaps && gap[i] < static_cast<float>(max_gap_m)) {
-      const float before = i > 0 ? gap[i - 1] : gap[i];
-      const float after = i + 1 < gaps ? gap[i + 1] : gap[i];
-      joined = gap[i] <= kMaxStretch * std::min(before, after) + kGapNoise_m &&
-               (gap[i] <= kShortGap_m || isStraight(points, i));
-    }
-    if (joined)
+    if (joins[i])
       segments.push_back({points[i].cast<double>(), points[i + 1].cast<double>()});
     else if (!joined_before)
       segments.push_back({points[i].cast<double>(), points[i].cast<double>()});
-    joined_before = joined;
+    joined_before = joins[i];
   }
   return segments;
+}
+
+std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m, double max_gap_m, double max_range_m,
+                                      const common::Pose2& T_reference_body) {
+  std::vector<ContourSegment> contour = contourOf(points_m, max_gap_m, max_range_m);
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(T_reference_body.yaw_rad).toRotationMatrix();
+  for (ContourSegment& segment : contour) {
+    segment.begin_m = R * segment.begin_m + T_reference_body.position_m();
+    segment.end_m = R * segment.end_m + T_reference_body.position_m();
+  }
+  return contour;
 }
 
 std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m) {
@@ -90,7 +105,8 @@ std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int co
   for (std::size_t i = 0; i < usable_points.size() && chosen.size() < static_cast<std::size_t>(count); ++i) {
     along += step[i];
     if (along < spacing) continue;
-    along = std::fmod(along, spacing);
+    // The difference is exact here, and a division less.
+    along = along < 2.0F * spacing ? along - spacing : std::fmod(along, spacing);
     chosen.push_back(usable_points[i]);
   }
   return chosen;

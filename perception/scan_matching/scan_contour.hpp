@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "common/geometry.hpp"
+
 namespace swiftlet::perception {
 
 /// A piece of a contour, in whatever frame its points were given; begin == end for a lone point.
@@ -14,10 +16,16 @@ struct ContourSegment {
   Eigen::Vector2d end_m;
 };
 
-/// Joins neighbouring points that are likely of one surface: nearer than `max_gap_m` and not much farther apart than
-/// those before and after (an occlusion edge leaps, a wall seen at a grazing angle only stretches). Points beyond
-/// `max_range_m` and points that are not finite are left out (Bachrach 2009, section 5.1.1).
+/// For each point whether it is joined to the next: points that are likely of one surface, nearer than `max_gap_m` and
+/// not much farther apart than those before and after (an occlusion edge leaps, a wall seen at a grazing angle only
+/// stretches). Finite points in beam order (Bachrach 2009, section 5.1.1).
+std::vector<bool> joinsOf(std::span<const Eigen::Vector2f> points_m, double max_gap_m);
+
+/// The points joined to contours. Points beyond `max_range_m` and points that are not finite are left out.
 std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m, double max_gap_m, double max_range_m);
+/// The same seen from a pose, in the reference frame.
+std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m, double max_gap_m, double max_range_m,
+                                      const common::Pose2& T_reference_body);
 
 /// Indices of at most `count` of the points, evenly spread along the contour, so that a near wall, dense with beams,
 /// does not outweigh a far one. Finite points within `max_range_m` only; ascending.

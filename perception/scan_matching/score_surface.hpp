@@ -1,12 +1,13 @@
-// The scores around the best pose of the search, and what follows from their shape: the pose between the cells, its
-// covariance, and the direction that the scene does not hold (Bachrach 2009, section 5.1.3).
+// The scores around the best pose of the search. Their shape says where between the cells the pose lies and how
+// certain it is (Bachrach 2009, section 5.1.3).
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
 #include <Eigen/Core>
+
+#include "perception/scan_matching/quadratic_peak.hpp"
 
 namespace swiftlet::perception {
 
@@ -29,12 +30,7 @@ struct ScoreSurface {
   }
 };
 
-/// A quadratic c + g'u + u'Hu/2 through the surface by least squares, u in steps.
-struct Quadratic {
-  double constant = 0.0;
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-};
+/// A quadratic through the surface by least squares.
 Quadratic fitQuadratic(const ScoreSurface& surface);
 
 /// What turns curvature into covariance.
@@ -45,21 +41,12 @@ struct SurfaceScale {
   double unobservable_sigma_m = 0.0;  ///< A direction less certain is not seen.
 };
 
-/// The peak relative to the middle of the surface; axes of the reference frame.
-struct SurfacePeak {
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad)
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  std::optional<Eigen::Vector2d> unobservable_direction;
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();          ///< Of the fitted quadratic, per step,
-  Eigen::Matrix3d peak_of_gradient = Eigen::Matrix3d::Zero();  ///< and how the peak (m, m, rad) follows it.
-};
+/// How much the logarithm of the likelihood of the middle pose grows with its score, by the same reasoning.
+double logPerScore(const ScoreSurface& surface, const SurfaceScale& scale);
 
 /// Each supported point adds -(d / reach)^2 to the score, with d along the normal of its contour; the curvature is
 /// therefore the sum of n n', and with the spread of d, read off the height of the peak, the covariance follows as that
 /// of least squares. Along what is not seen, the peak is where the guess is.
-SurfacePeak findPeak(const ScoreSurface& surface, const SurfaceScale& scale, const Eigen::Vector3d& guess_offset);
-
-/// Marks a direction as not seen: the peak keeps the guess along it, and the covariance says so.
-void holdAlong(const Eigen::Vector2d& direction, const Eigen::Vector3d& guess_offset, SurfacePeak& peak);
+Peak findPeak(const ScoreSurface& surface, const SurfaceScale& scale, const Eigen::Vector3d& guess_offset);
 
 }  // namespace swiftlet::perception

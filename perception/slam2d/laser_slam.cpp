@@ -29,11 +29,21 @@ LaserSlamConfig::LaserSlamConfig() {
   odometry.max_window_m = 1.0;
   odometry.max_window_deg = 60.0;
   odometry.min_widened_quality = 0.45;
+  odometry.widened_must_hold = true;
   odometry.max_failures = 4;
   odometry.min_fit = 0.55;
   odometry.min_weak_overlap = 0.93;
   odometry.matcher.guess_weight = 0.01;  // The prediction has its say in the filter.
   for (CorrelativeMatcherConfig* matcher : {&odometry.matcher, &slam.matcher}) matcher->profile_half_m = 1.0;
+  // Read off the drift of intel, fr079 and csail without loops: a window must hold the truth.
+  slam.edge_sigma_m = 0.01;
+  slam.edge_sigma_deg = 0.15;
+  slam.loops.min_window_m = 1.5;
+  slam.loops.min_window_deg = 15.0;
+  slam.loops.max_sigma_m = 10.0;
+  slam.loops.max_window_deg = 180.0;
+  slam.loops.min_fine_quality = 0.45;  // The query's own scans are tied less well than those of a flight.
+  slam.live_map = false;               // Nobody flies by it.
 }
 
 void LaserSlamConfig::describe(common::config::Fields& fields) {
@@ -82,9 +92,10 @@ ProjectedScan LaserSlam::Impl::levelScan(const LaserSlamInput& input, common::Ti
 /// the uncertainty has grown by counts.
 Eigen::Matrix3d LaserSlam::Impl::follow(const std::optional<RelativePose>& relative, const Pose2& before,
                                         const Eigen::Matrix3d& covariance_before) {
-  if (!relative)
-    motion.lose();
-  else if (relative->from != relative->to)
+  const bool restarted = relative && relative->from == relative->to;
+  if (!relative || (begun && restarted))
+    motion.lose(config.odometry.max_window_m, config.odometry.max_window_deg * common::kRadPerDeg);
+  else if (!restarted)
     motion.correct(relative->T_from_to, relative->covariance, relative->unseen_direction);
   const Pose2 now = motion.T_reference_robot();
   const Eigen::Matrix3d carried = propagated(covariance_before, before, now, Eigen::Matrix3d::Zero());
@@ -110,7 +121,10 @@ std::optional<TrackedScan> LaserSlam::add(const LaserSlamInput& input) {
   self.last_time = now;
   const Pose2 before = self.motion.T_reference_robot();
   const Eigen::Matrix3d covariance_before = self.motion.covariance();
-  if (self.begun) self.motion.predict(input.T_odom_robot, elapsed_s);
+  if (!self.begun)
+    self.motion.begin(input.T_odom_robot);
+  else
+    self.motion.predict(input.T_odom_robot, elapsed_s);
   const ProjectedScan scan = self.levelScan(input, now, self.T_odom_reference * self.motion.T_reference_robot());
   const auto relative = self.odometry.add(
       scan, self.T_odom_matched,
@@ -119,8 +133,8 @@ std::optional<TrackedScan> LaserSlam::add(const LaserSlamInput& input) {
     ++self.counts.empty_scans;
     return std::nullopt;
   }
-  self.begun = true;
   const Eigen::Matrix3d covariance = self.follow(relative, before, covariance_before);
+  self.begun = true;
   self.slam.addScan(scan, self.T_odom_robot, covariance);
   if (const auto task = self.slam.takeTask()) self.slam.apply(run(*task));
   return TrackedScan{self.slam.anchor(), self.slam.T_anchor_body(), relative.has_value()};

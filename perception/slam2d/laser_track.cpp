@@ -25,7 +25,10 @@ const Pose2& LaserTrack::predict(const common::Stamps& stamps, const std::option
   now_ = clock_.tick(stamps.measured);
   before_ = motion_.T_reference_robot();
   covariance_before_ = motion_.covariance();
-  if (begun_) motion_.predict(T_odom_robot, (now_ - last).seconds());
+  if (begun_)
+    motion_.predict(T_odom_robot, (now_ - last).seconds());
+  else
+    motion_.begin(T_odom_robot);
   predicted_T_odom_robot_ = T_odom_reference_ * motion_.T_reference_robot();
   return predicted_T_odom_robot_;
 }
@@ -43,8 +46,10 @@ ProjectedScan LaserTrack::levelScan(const common::LaserScan& raw, const Pose2& T
 
 /// A match is relative to the odometry's reference: what it is uncertain of does not add up from scan to scan, only
 /// what the uncertainty has grown by counts.
-Eigen::Matrix3d LaserTrack::follow(const std::optional<RelativePose>& relative) {
-  if (relative && relative->from != relative->to)
+Eigen::Matrix3d LaserTrack::follow(const std::optional<RelativePose>& relative, bool lost) {
+  if (lost)
+    motion_.lose(config_.max_window_m, config_.max_window_deg * common::kRadPerDeg);
+  else if (relative && relative->from != relative->to)
     motion_.correct(relative->T_from_to, relative->covariance, relative->unseen_direction);
   const Pose2 now = motion_.T_reference_robot();
   const Eigen::Matrix3d carried = propagated(covariance_before_, before_, now, Eigen::Matrix3d::Zero());
@@ -69,12 +74,11 @@ std::optional<LaserTrackStep> LaserTrack::add(const common::LaserScan& raw, cons
         odometry_.add(step.scan, T_odom_matched_,
                       SearchWindow{kWindowSigmas * motion_.stepSigma_m(), kWindowSigmas * motion_.stepSigma_rad()});
     if (!begun_ && !relative) return std::nullopt;
-    if (!relative) motion_.lose();
   }
   step.broken = begun_ && relative && relative->from == relative->to;
   step.matched = relative.has_value();
   begun_ = true;
-  step.covariance = follow(relative);
+  step.covariance = follow(relative, step.broken || (offered && !relative));
   step.T_odom_robot = T_odom_robot_;
   step.scan.T_odom_body = common::lifted(T_odom_robot_, 1.0);
   return step;

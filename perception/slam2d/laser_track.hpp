@@ -29,7 +29,7 @@ struct LaserTrackStep {
 class LaserTrack {
  public:
   LaserTrack(const LaserOdometryConfig& odometry, const MotionPredictionConfig& motion)
-      : motion_(motion), odometry_(odometry) {}
+      : config_(odometry), motion_(motion), odometry_(odometry) {}
 
   /// Where the robot is expected at the next scan, before it is matched. To be called once before `add`.
   const common::Pose2& predict(const common::Stamps& stamps, const std::optional<common::Pose2>& T_odom_robot);
@@ -44,8 +44,9 @@ class LaserTrack {
 
  private:
   ProjectedScan levelScan(const common::LaserScan& scan, const common::Pose2& T_robot_laser) const;
-  Eigen::Matrix3d follow(const std::optional<RelativePose>& relative);
+  Eigen::Matrix3d follow(const std::optional<RelativePose>& relative, bool lost);
 
+  LaserOdometryConfig config_;
   MotionPrediction motion_;
   LaserOdometry odometry_;
   ScanClock clock_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "perception/scan_matching/branch_and_bound.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
@@ -135,8 +136,15 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
                       2 * half_turn + 1,
                       2 * half + 1};
   BranchAndBound wide(bestInstructions());
-  const BestPose best = wide.search(field, points, grid);
-  if (best.score < loops.min_quality * 255.0 * static_cast<double>(points.size())) return std::nullopt;
+  const int poor =
+      static_cast<int>(loops.min_quality * LikelihoodField::kTopValue * static_cast<double>(points.size()));
+  const BestPose best = wide.search(field, points, grid, {}, poor);
+  if (best.score <= poor) return std::nullopt;
+  const auto atEdge = [](int i, int size) { return i == 0 || i == size - 1; };
+  const bool whole_turn = 2.0 * half_rad >= 2.0 * std::numbers::pi;
+  if (atEdge(best.x, grid.translations) || atEdge(best.y, grid.translations) ||
+      (atEdge(best.rotation, grid.rotations) && !whole_turn))
+    return std::nullopt;  // The best is beyond.
 
   const ExcludedPoses same_place{best, static_cast<int>(loops.distinct_m / loops.resolution_m),
                                  static_cast<int>(loops.distinct_deg * kRadPerDeg / step_rad)};
@@ -150,7 +158,7 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
   const Pose2 coarse{grid.first_x_m + best.x * loops.resolution_m, grid.first_y_m + best.y * loops.resolution_m,
                      grid.first_yaw_rad + best.rotation * step_rad};
   const MatchResult match = fine.match(joined, coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
-  if (match.failed || match.quality < loops.min_quality || match.unobservable_direction) return std::nullopt;
+  if (match.failed || match.quality < loops.min_fine_quality || match.unobservable_direction) return std::nullopt;
 
   const Pose2& T_map_candidate = graph.keys[static_cast<std::size_t>(candidate.key)].T_map_body;
   FoundLoop found;

@@ -136,8 +136,10 @@ void MotionPrediction::learn(Source& source, const Pose2& step, const std::optio
           config_.least_error_deg * kRadPerDeg);
 }
 
-void MotionPrediction::lose() {
+void MotionPrediction::lose(double sought_m, double sought_rad) {
   velocity_ *= 0.5;
+  if (&best() == &inertia_)
+    covariance_.diagonal().head<3>() += Eigen::Vector3d(square(sought_m), square(sought_m), square(sought_rad));
   for (int i = 0; i < 2; ++i) covariance_(3 + i, 3 + i) += square(stepSigma_m() / elapsed_s_);
   covariance_(5, 5) += square(stepSigma_rad() / elapsed_s_);
 }

@@ -31,13 +31,16 @@ class MotionPrediction {
  public:
   explicit MotionPrediction(const MotionPredictionConfig& config);
 
+  /// At a scan before the first step.
+  void begin(const std::optional<common::Pose2>& T_odom_robot) { T_odom_robot_ = T_odom_robot; }
   /// Moves on to a scan `elapsed_s` after the last one. `T_odom_robot` is that of the robot's own odometry at the scan.
   void predict(const std::optional<common::Pose2>& T_odom_robot, double elapsed_s);
   /// The scan's pose as it was matched, with the covariance of its errors.
   void correct(const common::Pose2& T_reference_robot, const Eigen::Matrix3d& covariance,
                const std::optional<Eigen::Vector2d>& unseen_direction_reference);
-  /// It was not matched: nothing is known of the speed any more.
-  void lose();
+  /// It was not matched, though sought so far around: nothing is known of the speed any more, and of the step only what
+  /// the wheels say, where they are the better source.
+  void lose(double sought_m, double sought_rad);
   /// From now on, all is relative to where the robot is now.
   void rebase();
 

@@ -11,6 +11,8 @@ using common::Duration;
 /// So many stamps that went back make the others doubtful too.
 constexpr std::uint64_t kDoubts = 3;
 constexpr Duration kLeastInterval = Duration::fromMilliseconds(1);
+/// Between scans whose stamps are all the same: so long that no step of a robot is too far for it.
+constexpr Duration kUnknownInterval = Duration::fromMilliseconds(1000);
 
 }  // namespace
 
@@ -35,7 +37,8 @@ Duration ScanClock::usualInterval() const {
   const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(ticks_, kRemembered));
   std::sort(sorted.begin(), end);
   const std::ptrdiff_t cut = (end - sorted.begin()) / 20, kept = end - sorted.begin() - 2 * cut;
-  return std::accumulate(sorted.begin() + cut, end - cut, Duration()) / kept;
+  const Duration mean = std::accumulate(sorted.begin() + cut, end - cut, Duration()) / kept;
+  return mean > Duration() ? mean : kUnknownInterval;
 }
 
 }  // namespace swiftlet::perception

@@ -1,5 +1,6 @@
 // A time that grows with every scan, of stamps that may not: those of old logs were taken when a message had come
-// through the network. Where stamps go back they are no measure of an interval, and the mean one is taken for each.
+// through the network, or not kept at all. Where stamps go back they are no measure of an interval, and the mean one is
+// taken for each.
 #pragma once
 
 #include <array>

@@ -160,7 +160,7 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
 
 void Slam2d::Impl::draw(const ProjectedScan& scan) {
   const AttachedScan attached{std::make_shared<const DrawnScan>(thinForDrawing(scan, config.grid)), T_anchor_body};
-  map.draw(*attached.scan, T_map_body());
+  if (config.live_map) map.draw(*attached.scan, T_map_body());
   std::deque<AttachedScan>& drawn = graph.keys[static_cast<std::size_t>(anchor)].drawn;
   drawn.push_back(attached);
   if (static_cast<int>(drawn.size()) > config.scans_per_key) drawn.pop_front();
@@ -222,7 +222,14 @@ bool Slam2d::setFlightHeight(double height_m) {
   return impl_->map.setFlightHeight(height_m);
 }
 
-common::OccupancyGrid Slam2d::snapshot() { return impl_->map.atFlightHeight(); }
+common::OccupancyGrid Slam2d::snapshot() {
+  Impl& self = *impl_;
+  if (!self.config.live_map) {
+    self.map = drawMap(self.graph, self.config.grid);
+    if (self.flight_height_m) (void)self.map.setFlightHeight(*self.flight_height_m);
+  }
+  return self.map.atFlightHeight();
+}
 
 const SlamCounts& Slam2d::counts() const { return impl_->counts; }
 
@@ -272,6 +279,7 @@ bool Slam2d::apply(const SlamResult& result) {
   SWIFTLET_CHECK(self.task_outstanding && result.data != nullptr && result.data->id == self.tasks, self.tasks);
   self.task_outstanding = false;
   self.counts.loops_closed += result.accepted.size();
+  self.counts.loops_taken_back += result.data->taken_back.size();
   const std::vector<Pose2>& poses = result.data->T_map_key;
   if (poses.empty()) return false;
 
@@ -279,6 +287,8 @@ bool Slam2d::apply(const SlamResult& result) {
   const Pose2 correction = poses[static_cast<std::size_t>(self.task_query)] * self.poseOf(self.task_query).inverse();
   for (std::size_t i = 0; i < self.graph.keys.size(); ++i)
     self.graph.keys[i].T_map_body = i < self.task_keys ? poses[i] : correction * self.graph.keys[i].T_map_body;
+  for (auto edge = result.data->taken_back.rbegin(); edge != result.data->taken_back.rend(); ++edge)
+    self.graph.remove(*edge);
   for (const SlamEdge& closure : result.data->closures) self.graph.add(closure);
   self.reference.invalidate();
   if (result.data->map) {

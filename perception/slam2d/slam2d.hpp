@@ -61,7 +61,8 @@ struct LoopClosureConfig {
   int max_candidates = 4;               ///< Places searched per task.
   double resolution_m = 0.04;           ///< Of the wide search,
   double angular_resolution_deg = 0.5;  ///< which a fine match follows.
-  double min_quality = 0.60;            ///< Of the fine match.
+  double min_quality = 0.60;            ///< Of the wide match, on its coarse cells,
+  double min_fine_quality = 0.60;       ///< and of the fine one.
   double max_ambiguity = 0.90;          ///< A second, distinct place must score less than this share of the best.
   double distinct_m = 0.4;              ///< What counts as distinct.
   double distinct_deg = 12.0;
@@ -85,6 +86,7 @@ struct Slam2dConfig {
   double draw_distance_m = 0.10;     ///< Between key scans, a scan is drawn after this distance,
   double draw_rotation_deg = 6.0;    ///< this rotation,
   double draw_time_s = 0.25;         ///< or this time.
+  bool live_map = true;              ///< The map is kept up to date with each scan; if not, it is drawn when asked for.
   int scans_per_key = 16;            ///< Drawn scans kept with a key scan for drawing the grid anew; the newest stay.
   double local_radius_m = 4.0;       ///< Key scans within this are the reference of the local match,
   double local_sigma_m = 0.10;  ///< as long as their projected uncertainty is below this; beyond it is a loop's work.
@@ -144,6 +146,7 @@ struct SlamCounts {
   std::uint64_t local_failures = 0;  ///< Scans that should have matched older ones, but did not.
   std::uint64_t loop_candidates = 0;
   std::uint64_t loops_closed = 0;
+  std::uint64_t loops_taken_back = 0;  ///< Of those, closures that later ones contradicted.
 };
 
 /// Single-threaded; the values it hands out are safe anywhere.

@@ -50,7 +50,8 @@ void LoopClosureConfig::describe(common::config::Fields& fields) {
   fields("max_candidates", max_candidates, "Places searched per task.");
   fields("resolution_m", resolution_m, "Of the wide search.");
   fields("angular_resolution_deg", angular_resolution_deg, "Of the wide search.");
-  fields("min_quality", min_quality, "Of the fine match; less is no closure.");
+  fields("min_quality", min_quality, "Of the wide match; less is no closure.");
+  fields("min_fine_quality", min_fine_quality, "Of the fine match; less is no closure.");
   fields("max_ambiguity", max_ambiguity, "A second, distinct place must score less than this share of the best.");
   fields("distinct_m", distinct_m, "Distance from which a place is distinct.");
   fields("distinct_deg", distinct_deg, "Rotation from which it is.");
@@ -70,6 +71,7 @@ std::vector<std::string> LoopClosureConfig::validate() const {
       .within("resolution_m", resolution_m, 0.01, 0.5)
       .within("angular_resolution_deg", angular_resolution_deg, 0.05, 10)
       .within("min_quality", min_quality, 0, 1)
+      .within("min_fine_quality", min_fine_quality, 0, 1)
       .within("max_ambiguity", max_ambiguity, 0, 1)
       .within("distinct_m", distinct_m, 0, 10)
       .within("distinct_deg", distinct_deg, 0, 180)
@@ -91,6 +93,7 @@ void Slam2dConfig::describe(common::config::Fields& fields) {
   fields("draw_distance_m", draw_distance_m, "A scan is drawn after this distance.");
   fields("draw_rotation_deg", draw_rotation_deg, "Or after this rotation.");
   fields("draw_time_s", draw_time_s, "Or after this time.");
+  fields("live_map", live_map, "The map is kept up to date with each scan; if not, it is drawn when asked for.");
   fields("scans_per_key", scans_per_key, "Drawn scans kept with a key scan for drawing the grid anew.");
   fields("local_radius_m", local_radius_m, "Key scans within this are the reference of the local match.");
   fields("local_sigma_m", local_sigma_m, "As long as their projected uncertainty is below this.");

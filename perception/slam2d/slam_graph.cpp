@@ -27,6 +27,15 @@ void SlamGraph::add(SlamEdge edge) {
   edges.push_back(std::move(edge));
 }
 
+void SlamGraph::remove(int edge) {
+  edges.erase(edges.begin() + edge);
+  for (KeyScan& key : keys) {
+    std::erase(key.edges, edge);
+    for (int& index : key.edges)
+      if (index > edge) --index;
+  }
+}
+
 double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
 std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m) {
@@ -83,11 +92,14 @@ SlicedMap drawMap(const SlamGraph& graph, const GridDrawingConfig& config) {
   return map;
 }
 
+optimization::PoseEdge2D toPoseEdge(const SlamEdge& edge) {
+  return {edge.from, edge.to, edge.T_from_to, edge.covariance.inverse(), edge.loop};
+}
+
 optimization::PoseGraph2D toPoseGraph(const SlamGraph& graph) {
   optimization::PoseGraph2D result;
   for (const KeyScan& key : graph.keys) result.poses.push_back(key.T_map_body);
-  for (const SlamEdge& edge : graph.edges)
-    result.edges.push_back({edge.from, edge.to, edge.T_from_to, edge.covariance.inverse(), edge.loop});
+  for (const SlamEdge& edge : graph.edges) result.edges.push_back(toPoseEdge(edge));
   return result;
 }
 

@@ -32,6 +32,8 @@ struct SlamGraph {
   std::vector<SlamEdge> edges;
 
   void add(SlamEdge edge);
+  /// The edges after it move up by one.
+  void remove(int edge);
 };
 
 /// The uncertainty of a key scan's pose as seen from another, along the most certain path.
@@ -51,6 +53,7 @@ double distance(const common::Pose2& a, const common::Pose2& b);
 /// Draws all attached scans at their key scans' poses, oldest first.
 SlicedMap drawMap(const SlamGraph& graph, const GridDrawingConfig& config);
 
+optimization::PoseEdge2D toPoseEdge(const SlamEdge& edge);
 optimization::PoseGraph2D toPoseGraph(const SlamGraph& graph);
 
 }  // namespace swiftlet::perception

@@ -24,6 +24,19 @@ TEST(ScanClock, ALateStampIsMadeUpForWithTheUsualInterval) {
   EXPECT_NEAR(repeated.seconds(), 0.2 * 50, 0.01);
 }
 
+TEST(ScanClock, StampsThatAreAllTheSameLeaveTimeForAnyStep) {
+  ScanClock clock;
+  Time last;
+  for (int i = 0; i < 200; ++i) {
+    const Time now = clock.tick(Time());
+    if (i > 0) {
+      EXPECT_NEAR((now - last).seconds(), 1.0, 1e-9);
+    }
+    last = now;
+  }
+  EXPECT_EQ(clock.doubtful(), 199U);
+}
+
 /// Scans every 0.2 s, stamped up to half a second late, so that one in three stamps goes back.
 TEST(ScanClock, OfStampsThatGoBackTheMeanIntervalIsKept) {
   ScanClock clock;

@@ -15,6 +15,11 @@ shopt -s extglob
 page=$1 build=$2 scratch=$3
 source_dir=$(cd "$(dirname "$0")/../.." && pwd)
 command -v curl >/dev/null || { echo 'curl is not installed'; exit 77; }
+export SWIFTLET_DATASETS=${SWIFTLET_DATASETS:-$source_dir/../shared/datasets}
+if grep -q SWIFTLET_DATASETS "$page" && [ ! -d "$SWIFTLET_DATASETS" ]; then
+  echo "skipped: no data set $SWIFTLET_DATASETS; set SWIFTLET_DATASETS"
+  exit 77
+fi
 
 rm -rf "$scratch"
 mkdir -p "$scratch/build" "$scratch.blocks"

@@ -1,0 +1,169 @@
+#include "perception/scan_matching/gauss_newton_matcher.hpp"
+
+#include <cmath>
+
+#include "common/validation.hpp"
+#include "perception/scan_matching/interpolated_field.hpp"
+#include "perception/scan_matching/scan_contour.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+constexpr int kLevelRatio = 4;
+/// Coarse levels only have to come near; every so many points do.
+constexpr std::size_t kCoarseStride = 4;
+/// Steps smaller than this share of a cell end a level; larger than this share of one at the end did not converge.
+constexpr double kSmallStep_cells = 0.05;
+constexpr double kConverged_cells = 0.5;
+constexpr int kHalvings = 3;
+
+}  // namespace
+
+void GaussNewtonMatcherConfig::describe(common::config::Fields& fields) {
+  LeastSquaresMatcherConfig::describe(fields);
+  fields("resolution_m", resolution_m, "Of the finest map.");
+  fields("levels", levels, "Maps, each four times as coarse as the one before.");
+  fields("iterations", iterations, "Most steps at each level but the finest.");
+  fields("finest_iterations", finest_iterations, "Most steps at the finest level.");
+}
+
+std::vector<std::string> GaussNewtonMatcherConfig::validate() const {
+  std::vector<std::string> problems = LeastSquaresMatcherConfig::validate();
+  for (std::string& problem : common::Validation()
+                                  .within("resolution_m", resolution_m, 0.001, 1)
+                                  .require(support_m >= 2.0 * resolution_m &&
+                                               support_m <= LikelihoodField::kMaxKernelCells * resolution_m + 1e-9,
+                                           "support_m", "is not two to seven times resolution_m")
+                                  .within("levels", levels, 1, 4)
+                                  .within("iterations", iterations, 1, 100)
+                                  .within("finest_iterations", finest_iterations, 1, 100)
+                                  .problems())
+    problems.push_back(std::move(problem));
+  return problems;
+}
+
+struct GaussNewtonMatcher::Impl {
+  explicit Impl(const GaussNewtonMatcherConfig& config_in) : config(config_in) {
+    double scale = 1.0;
+    for (int k = 0; k < config.levels; ++k, scale *= kLevelRatio)
+      fields.emplace_back(scale * config.resolution_m, scale * config.support_m / 3.0);
+  }
+
+  std::size_t coarsestNeeded(const LeastSquaresMatch& match) const;
+  double climb(const LeastSquaresMatch& match, std::size_t level, Pose2& pose) const;
+  MatchResult descend(const LeastSquaresMatch& match, Pose2 pose) const;
+
+  GaussNewtonMatcherConfig config;
+  std::vector<LikelihoodField> fields;  ///< The finest first.
+};
+
+namespace {
+
+struct Linearized {
+  NormalEquations equations;
+  double quality_sum = 0.0;
+};
+
+Pose2 halfway(const Pose2& a, const Pose2& b) {
+  return {0.5 * (a.x_m + b.x_m), 0.5 * (a.y_m + b.y_m),
+          common::wrapAngle(a.yaw_rad + 0.5 * common::wrapAngle(b.yaw_rad - a.yaw_rad))};
+}
+
+enum class Purpose { kStep, kVerdict };
+
+/// At a pose; for a step at a coarse level from every `stride`th point.
+Linearized linearize(Purpose purpose, const LeastSquaresMatch& match, const LikelihoodField& field, const Pose2& pose,
+                     std::size_t stride = 1) {
+  const double cosine = std::cos(pose.yaw_rad), sine = std::sin(pose.yaw_rad);
+  const double reach2 = field.reach_m() * field.reach_m(), inverse_lever = match.inverseLever();
+  const auto turned = [&](const Eigen::Vector2f& v) {
+    const double x = static_cast<double>(v.x()), y = static_cast<double>(v.y());
+    return Eigen::Vector2d(cosine * x - sine * y, sine * x + cosine * y);
+  };
+  NormalEquations equations;
+  double quality_sum = 0.0;
+  for (std::size_t i = 0; i < match.points().size(); i += stride) {
+    const OrientedPoint& p = match.points()[i];
+    const Eigen::Vector2d arm_m = turned(p.point_m), normal = turned(p.normal);
+    const std::optional<FieldSample> sample = sampleField(field, arm_m + pose.position_m());
+    if (!sample) continue;
+    // 1 - value is (d / reach)^2; half its slope times reach^2 is the vector from the contour to the point.
+    equations.add(arm_m, normal, -0.5 * reach2 * sample->slope_1_m, inverse_lever);
+    quality_sum += sample->value;
+    if (purpose == Purpose::kVerdict) equations.addTilt(arm_m, normal, static_cast<double>(p.height_m), inverse_lever);
+  }
+  // Not from the slopes: between the cells that of a contour is less than its distance says.
+  equations.squares_m2 = reach2 * (equations.count - quality_sum);
+  return {equations, quality_sum};
+}
+
+}  // namespace
+
+/// The finest level in which a point has support wherever in the window the truth is.
+std::size_t GaussNewtonMatcher::Impl::coarsestNeeded(const LeastSquaresMatch& match) const {
+  std::size_t level = 0;
+  while (level + 1 < fields.size() && fields[level].reach_m() < match.windowReach_m()) ++level;
+  return level;
+}
+
+/// Follows the slope of one map; how long the last step was. Between cells the slope is rough: where a step leads down,
+/// half of it is tried, so that it does not swing about the place for ever.
+double GaussNewtonMatcher::Impl::climb(const LeastSquaresMatch& match, std::size_t level, Pose2& pose) const {
+  const LikelihoodField& field = fields[level];
+  const std::size_t stride = level == 0 ? 1 : kCoarseStride;
+  const int most = level == 0 ? config.finest_iterations : config.iterations;
+  Linearized here = linearize(Purpose::kStep, match, field, pose, stride);
+  double moved_m = 0.0;
+  for (int i = 0; i < most; ++i) {
+    Pose2 next = pose;
+    moved_m = match.step(here.equations, field.reach_m(), next);
+    Linearized there = linearize(Purpose::kStep, match, field, next, stride);
+    for (int halving = 0; halving < kHalvings && there.quality_sum < here.quality_sum; ++halving) {
+      next = halfway(pose, next);
+      moved_m *= 0.5;
+      there = linearize(Purpose::kStep, match, field, next, stride);
+    }
+    if (there.quality_sum < here.quality_sum) break;
+    pose = next;
+    here = there;
+    if (!(moved_m > kSmallStep_cells * field.resolution_m())) break;
+  }
+  return moved_m;
+}
+
+MatchResult GaussNewtonMatcher::Impl::descend(const LeastSquaresMatch& match, Pose2 pose) const {
+  double moved_m = 0.0;
+  for (std::size_t level = coarsestNeeded(match) + 1; level-- > 0;) moved_m = climb(match, level, pose);
+  const Linearized at_end = linearize(Purpose::kVerdict, match, fields.front(), pose);
+  return match.finish(at_end.equations, at_end.quality_sum, moved_m < kConverged_cells * config.resolution_m, pose);
+}
+
+GaussNewtonMatcher::GaussNewtonMatcher(const GaussNewtonMatcherConfig& config)
+    : impl_(std::make_unique<Impl>(config)) {}
+GaussNewtonMatcher::~GaussNewtonMatcher() = default;
+GaussNewtonMatcher::GaussNewtonMatcher(GaussNewtonMatcher&&) noexcept = default;
+GaussNewtonMatcher& GaussNewtonMatcher::operator=(GaussNewtonMatcher&&) noexcept = default;
+
+void GaussNewtonMatcher::clearReference() {
+  for (LikelihoodField& field : impl_->fields) field.clear();
+}
+
+void GaussNewtonMatcher::addReference(const ProjectedScan& scan, const Pose2& T_reference_body) {
+  if (!isFinite(T_reference_body)) return;
+  const std::vector<ContourSegment> contour =
+      contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m, T_reference_body);
+  for (LikelihoodField& field : impl_->fields) field.draw(contour);
+}
+
+MatchResult GaussNewtonMatcher::match(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window) {
+  if (!isFinite(guess) || impl_->fields.front().empty()) return {};
+  const GaussNewtonMatcherConfig& config = impl_->config;
+  const LeastSquaresMatch match(config, orientedPoints(scan, config.points, config.max_gap_m, config.max_range_m),
+                                guess, window);
+  if (!match.hasEnoughPoints()) return {};
+  return impl_->descend(match, guess);
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,184 @@
+#include "perception/scan_matching/least_squares_match.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "common/validation.hpp"
+#include "perception/scan_matching/scan_contour.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::kRadPerDeg;
+using common::Pose2;
+
+/// Least spread of the end points that is believed.
+constexpr double kMinResidual_m = 0.004;
+/// While under way the spread of the points is that of the misplaced scan; a direction is judged by this one instead.
+constexpr double kUnderwayResidual_m = 0.02;
+constexpr double kLeastLever_m = 0.1;
+/// A pose this near to the edge of the window, on either side, is at the edge; farther out it failed.
+constexpr double kEdge_m = 0.01;
+constexpr double kEdge_rad = 0.1 * kRadPerDeg;
+constexpr double kScorePerPoint = 255.0;
+
+}  // namespace
+
+void LeastSquaresMatcherConfig::describe(common::config::Fields& fields) {
+  fields("points", points, "Points of a scan that are matched.");
+  fields("max_range_m", max_range_m, "Points farther than this are not used.");
+  fields("max_gap_m", max_gap_m, "Neighbouring end points nearer than this are joined to a contour.");
+  fields("support_m", support_m, "A point farther than this from the reference has no support.");
+  fields("min_quality", min_quality, "Below this mean score the match failed.");
+  fields("min_direction_support", min_direction_support,
+         "When less of the contour facing some direction has support, the match failed.");
+  fields("min_points", min_points, "With fewer points the match failed.");
+  fields("covariance_scale", covariance_scale, "Factor on the covariance of independent points.");
+  fields("attitude_error_deg", attitude_error_deg, "Error of roll and pitch, which the covariance allows for.");
+  fields("unobservable_sigma_m", unobservable_sigma_m, "A direction less certain than this is not seen.");
+  fields("min_normal_spread", min_normal_spread,
+         "A direction with a smaller share of the contour facing it is not seen.");
+}
+
+std::vector<std::string> LeastSquaresMatcherConfig::validate() const {
+  return common::Validation()
+      .within("points", points, 10, 100'000)
+      .within("max_range_m", max_range_m, 0.5, 100)
+      .within("max_gap_m", max_gap_m, 0, 10)
+      .within("support_m", support_m, 0.005, 1)
+      .within("min_quality", min_quality, 0, 1)
+      .within("min_direction_support", min_direction_support, 0, 1)
+      .within("min_points", min_points, 3, 256)
+      .within("covariance_scale", covariance_scale, 0.01, 1000)
+      .within("attitude_error_deg", attitude_error_deg, 0, 20)
+      .within("unobservable_sigma_m", unobservable_sigma_m, 0.001, 0.9)
+      .within("min_normal_spread", min_normal_spread, 0, 0.5)
+      .problems();
+}
+
+void NormalEquations::addTilt(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, double height_m,
+                              double inverse_lever) {
+  const double turn = (arm_m.x() * normal.y() - arm_m.y() * normal.x()) * inverse_lever;
+  tilt += Eigen::Vector3d(normal.x(), normal.y(), turn) * (height_m * normal.transpose());
+}
+
+LeastSquaresMatch::LeastSquaresMatch(const LeastSquaresMatcherConfig& config, std::vector<OrientedPoint> points,
+                                     const Pose2& guess, const SearchWindow& window)
+    : config_(config), points_(std::move(points)), guess_(guess), window_(window) {
+  if (points_.empty()) return;
+  double lever2 = 0.0;
+  std::vector<float> x_m, y_m;
+  for (const OrientedPoint& p : points_) {
+    lever2 += p.point_m.squaredNorm();
+    x_m.push_back(p.point_m.x());
+    y_m.push_back(p.point_m.y());
+  }
+  lever_m_ = std::max(kLeastLever_m, std::sqrt(lever2 / static_cast<double>(points_.size())));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(normalSpread(x_m, y_m));
+  if (normals.eigenvalues()(0) < config_.min_normal_spread) held_level_ = normals.eigenvectors().col(0);
+}
+
+std::optional<Eigen::Vector2d> LeastSquaresMatch::heldDirection(double yaw_rad) const {
+  if (!held_level_) return std::nullopt;
+  return Eigen::Rotation2Dd(yaw_rad) * *held_level_;
+}
+
+Eigen::Vector3d LeastSquaresMatch::guessOffset(const Pose2& pose) const {
+  return {guess_.x_m - pose.x_m, guess_.y_m - pose.y_m, common::wrapAngle(guess_.yaw_rad - pose.yaw_rad)};
+}
+
+Quadratic LeastSquaresMatch::quadraticAt(const NormalEquations& equations,
+                                         const std::optional<Eigen::Vector2d>& held) const {
+  Eigen::Matrix3d kept = Eigen::Matrix3d::Identity();
+  if (held) kept.topLeftCorner<2, 2>() -= *held * held->transpose();
+  const NormalEquations& e = equations;
+  Eigen::Matrix3d curvature;
+  curvature << e.xx, e.xy, e.xt, e.xy, e.yy, e.yt, e.xt, e.yt, e.tt;
+  Quadratic quadratic;
+  quadratic.gradient = -kept * Eigen::Vector3d(e.x, e.y, e.t);
+  quadratic.hessian = -kept * curvature * kept;
+  return quadratic;
+}
+
+double LeastSquaresMatch::step(const NormalEquations& equations, double reach_m, Pose2& pose) const {
+  PeakScale scale;
+  scale.step = {1.0, 1.0, inverseLever()};
+  scale.information_per_curvature = 1.0 / (kUnderwayResidual_m * kUnderwayResidual_m * config_.covariance_scale);
+  scale.unobservable_sigma_m = config_.unobservable_sigma_m;
+  scale.reach_steps = reach_m;
+  const Quadratic quadratic = quadraticAt(equations, heldDirection(pose.yaw_rad));
+  const Eigen::Vector3d offset = findPeak(quadratic, scale, guessOffset(pose)).offset;
+  pose.x_m += offset.x();
+  pose.y_m += offset.y();
+  pose.yaw_rad = common::wrapAngle(pose.yaw_rad + offset.z());
+  return offset.cwiseQuotient(scale.step).norm();
+}
+
+void LeastSquaresMatch::judgeWindow(MatchResult& result) const {
+  const Eigen::Vector3d away = guessOffset(result.T_reference_body).cwiseAbs();
+  const double half_m = window_.half_translation_m, half_rad = window_.half_rotation_rad;
+  const double farthest_m = away.head<2>().maxCoeff();
+  result.at_window_edge = farthest_m > half_m - std::min(kEdge_m, 0.5 * half_m) ||
+                          away.z() > half_rad - std::min(kEdge_rad, 0.5 * half_rad);
+  const bool is_inside = farthest_m <= half_m + kEdge_m && away.z() <= half_rad + kEdge_rad;
+  if (!is_inside) result.failed = true;
+}
+
+/// Of all directions that the scan holds the pose in, the least share of the contour facing it that has support.
+double LeastSquaresMatch::leastSupport(const NormalEquations& equations, double yaw_rad) const {
+  Eigen::Matrix2d facing = Eigen::Matrix2d::Zero(), supported;
+  for (const OrientedPoint& p : points_) {
+    const Eigen::Vector2d normal = p.normal.cast<double>();
+    facing += normal * normal.transpose();
+  }
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(yaw_rad).toRotationMatrix();
+  supported << equations.xx, equations.xy, equations.xy, equations.yy;
+  supported = R.transpose() * supported * R;
+  if (held_level_) {
+    const Eigen::Vector2d seen = held_level_->unitOrthogonal();
+    return seen.dot(supported * seen) / seen.dot(facing * seen);
+  }
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(supported, facing, Eigen::EigenvaluesOnly)
+      .eigenvalues()(0);
+}
+
+MatchResult LeastSquaresMatch::finish(const NormalEquations& equations, double quality_sum, bool converged,
+                                      const Pose2& pose) const {
+  MatchResult result;
+  result.points_used = static_cast<int>(points_.size());
+  result.finest_T_reference_body = result.T_reference_body = pose;
+  result.finest_score = static_cast<int>(quality_sum * kScorePerPoint);
+  result.quality = quality_sum / static_cast<double>(points_.size());
+  result.overlap = static_cast<double>(equations.count) / static_cast<double>(points_.size());
+  if (!isFinite(pose)) {
+    result.T_reference_body = result.finest_T_reference_body = guess_;
+    return result;
+  }
+
+  const double residual2 = equations.squares_m2 / std::max(equations.count, 1);
+  PeakScale scale;
+  scale.step = {1.0, 1.0, inverseLever()};
+  scale.information_per_curvature =
+      1.0 / (std::max(residual2, kMinResidual_m * kMinResidual_m) * config_.covariance_scale);
+  scale.unobservable_sigma_m = config_.unobservable_sigma_m;
+  scale.reach_steps = config_.support_m;
+  const std::optional<Eigen::Vector2d> held = heldDirection(pose.yaw_rad);
+  const Peak peak = findPeak(quadraticAt(equations, held), scale, guessOffset(pose));
+  // A wrong attitude moves all points together, so that more of them do not help.
+  const Eigen::Matrix<double, 3, 2> shift =
+      peak.peak_of_gradient * equations.tilt * (config_.attitude_error_deg * kRadPerDeg);
+  result.covariance = peak.covariance + shift * shift.transpose();
+  result.unobservable_direction = peak.unobservable_direction;
+  if (held) result.unobservable_direction = held;
+  result.T_reference_body.x_m += peak.offset.x();
+  result.T_reference_body.y_m += peak.offset.y();
+  result.T_reference_body.yaw_rad = common::wrapAngle(pose.yaw_rad + peak.offset.z());
+  result.failed = !converged || result.quality < config_.min_quality || result.points_used < config_.min_points ||
+                  !(leastSupport(equations, pose.yaw_rad) > config_.min_direction_support);
+  judgeWindow(result);
+  return result;
+}
+
+}  // namespace swiftlet::perception

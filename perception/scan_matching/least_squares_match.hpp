@@ -1,0 +1,109 @@
+// What matchers have in common that move a scan by solving least squares of distances along normals: the normal
+// equations, the step they ask for, and the verdict on where the last step ended.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "perception/scan_matching/contour_normals.hpp"
+#include "perception/scan_matching/quadratic_peak.hpp"
+#include "perception/scan_matching/scan_matcher.hpp"
+
+namespace swiftlet::perception {
+
+struct LeastSquaresMatcherConfig {
+  int points = 400;                     ///< Of a scan that are matched, spread evenly along its contour.
+  double max_range_m = 20.0;            ///< Points farther than this are not used.
+  double max_gap_m = 0.3;               ///< Neighbouring end points nearer than this are joined to a contour.
+  double support_m = 0.06;              ///< A point farther than this from the reference has no support.
+  double min_quality = 0.35;            ///< Below this the match failed.
+  double min_direction_support = 0.25;  ///< So it did when less of the contour facing some direction has support: the
+                                        ///< other walls fit, and these were taken for outliers.
+  int min_points = 30;                  ///< With fewer points the match failed.
+  double covariance_scale = 2.0;    ///< On the covariance of independent points; calibrated, see the tests of honesty.
+  double attitude_error_deg = 1.0;  ///< Of roll and pitch: moves each end point by its height over the body times this.
+  double unobservable_sigma_m =
+      0.1;                          ///< A direction less certain than this is not seen: the pose keeps the guess there.
+  double min_normal_spread = 0.01;  ///< Nor is one that a smaller share of the contour faces: a corridor's axis.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// Sums over the matched points at one pose. The unknown is (x, y, turn), each in metres of displacement of the points:
+/// `turn` is the rotation times a lever.
+struct NormalEquations {
+  double xx = 0.0, xy = 0.0, yy = 0.0, xt = 0.0, yt = 0.0,
+         tt = 0.0;                   ///< Of J'J, J how the distance of a point changes.
+  double x = 0.0, y = 0.0, t = 0.0;  ///< Of J'd.
+  double squares_m2 = 0.0;           ///< Of d^2.
+  int count = 0;
+  /// How J'd changes per radian of roll and pitch; only needed where the match ends.
+  Eigen::Matrix<double, 3, 2> tilt = Eigen::Matrix<double, 3, 2>::Zero();
+
+  /// `arm_m` is the point relative to the body and `normal` that of its contour, along the reference axes; `pull_m` is
+  /// the vector from the contour to the point. In the header, as it is the inner loop.
+  void add(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, const Eigen::Vector2d& pull_m,
+           double inverse_lever) {
+    // The point moves by (1, 0), (0, 1) and, turned by 1 / lever, by (-arm_y, arm_x) / lever.
+    const double turn_x = -arm_m.y() * inverse_lever, turn_y = arm_m.x() * inverse_lever;
+    const double turn = normal.x() * turn_x + normal.y() * turn_y;
+    xx += normal.x() * normal.x();
+    xy += normal.x() * normal.y();
+    yy += normal.y() * normal.y();
+    xt += normal.x() * turn;
+    yt += normal.y() * turn;
+    tt += turn * turn;
+    x += pull_m.x();
+    y += pull_m.y();
+    t += pull_m.x() * turn_x + pull_m.y() * turn_y;
+    squares_m2 += pull_m.squaredNorm();
+    ++count;
+  }
+  /// A wrong attitude moves a point by its height times the error.
+  void addTilt(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, double height_m, double inverse_lever);
+};
+
+/// The scan to be matched, the guess, and what holds for every step.
+class LeastSquaresMatch {
+ public:
+  LeastSquaresMatch(const LeastSquaresMatcherConfig& config, std::vector<OrientedPoint> points,
+                    const common::Pose2& guess, const SearchWindow& window);
+
+  const std::vector<OrientedPoint>& points() const { return points_; }
+  bool hasEnoughPoints() const { return static_cast<int>(points_.size()) >= config_.min_points; }
+  /// The farthest a point of the scan can have moved within the window, about.
+  double windowReach_m() const { return window_.half_translation_m + window_.half_rotation_rad * lever_m_; }
+  double inverseLever() const { return 1.0 / lever_m_; }
+
+  /// Moves the pose to the minimum, at most by `reach_m`, but not along what the scan does not hold, where it goes back
+  /// to the guess. How far the points moved; NaN when the equations cannot be solved.
+  double step(const NormalEquations& equations, double reach_m, common::Pose2& pose) const;
+
+  /// The result at the pose of the last step. `quality_sum` is the sum of the scores of all points, each in [0, 1];
+  /// `converged`: the last step was small.
+  MatchResult finish(const NormalEquations& equations, double quality_sum, bool converged,
+                     const common::Pose2& pose) const;
+
+ private:
+  Eigen::Vector3d guessOffset(const common::Pose2& pose) const;
+  Quadratic quadraticAt(const NormalEquations& equations, const std::optional<Eigen::Vector2d>& held) const;
+  /// The direction no contour faces, along the reference axes.
+  std::optional<Eigen::Vector2d> heldDirection(double yaw_rad) const;
+  double leastSupport(const NormalEquations& equations, double yaw_rad) const;
+  void judgeWindow(MatchResult& result) const;
+
+  const LeastSquaresMatcherConfig& config_;
+  std::vector<OrientedPoint> points_;
+  common::Pose2 guess_;
+  SearchWindow window_;
+  double lever_m_ = 1.0;
+  std::optional<Eigen::Vector2d> held_level_;
+};
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,145 @@
+#include "perception/scan_matching/point_to_line_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/validation.hpp"
+#include "perception/scan_matching/oriented_points.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+/// Of a Gaussian, the standard deviation over the median of the absolute value.
+constexpr double kSigmaOfMedian = 1.4826;
+/// Steps smaller than this end the search; if the last is larger than `kConverged_m`, it did not converge.
+constexpr double kSmallStep_m = 0.0002;
+constexpr double kConverged_m = 0.005;
+/// The reach shrinks by no more than this at once. Where most walls fit already, those that face another way are far
+/// off and would be taken for outliers before they have pulled.
+constexpr double kSlowest = 0.6;
+
+/// A point of the scan and the line it is pulled to, at one pose.
+struct Pair {
+  Eigen::Vector2d arm_m, normal;
+  double distance_m = 0.0;
+  double height_m = 0.0;
+};
+
+}  // namespace
+
+void PointToLineMatcherConfig::describe(common::config::Fields& fields) {
+  LeastSquaresMatcherConfig::describe(fields);
+  fields("max_distance_m", max_distance_m, "Points are paired no farther than this.");
+  fields("trim_sigmas", trim_sigmas, "Pairs with more than this many times the usual distance are left out.");
+  fields("iterations", iterations, "Most times pairs are made.");
+}
+
+std::vector<std::string> PointToLineMatcherConfig::validate() const {
+  std::vector<std::string> problems = LeastSquaresMatcherConfig::validate();
+  for (std::string& problem : common::Validation()
+                                  .within("max_distance_m", max_distance_m, support_m, 5)
+                                  .within("trim_sigmas", trim_sigmas, 1, 100)
+                                  .within("iterations", iterations, 1, 1000)
+                                  .problems())
+    problems.push_back(std::move(problem));
+  return problems;
+}
+
+struct PointToLineMatcher::Impl {
+  explicit Impl(const PointToLineMatcherConfig& config_in) : config(config_in) {}
+
+  void makePairs(const LeastSquaresMatch& match, const Pose2& pose, double radius_m);
+  double trimAt();
+  MatchResult verdict(const LeastSquaresMatch& match, const Pose2& pose, double moved_m);
+
+  PointToLineMatcherConfig config;
+  OrientedPoints reference;
+  std::vector<Pair> pairs;
+  std::vector<double> distances;
+};
+
+void PointToLineMatcher::Impl::makePairs(const LeastSquaresMatch& match, const Pose2& pose, double radius_m) {
+  const double cosine = std::cos(pose.yaw_rad), sine = std::sin(pose.yaw_rad);
+  const auto turned = [&](const Eigen::Vector2f& v) {
+    const double x = static_cast<double>(v.x()), y = static_cast<double>(v.y());
+    return Eigen::Vector2d(cosine * x - sine * y, sine * x + cosine * y);
+  };
+  pairs.clear();
+  for (const OrientedPoint& p : match.points()) {
+    const Eigen::Vector2d arm_m = turned(p.point_m), at_m = arm_m + pose.position_m();
+    const int nearest = reference.nearest(at_m, turned(p.normal), radius_m);
+    if (nearest == OrientedPoints::kNone) continue;
+    const Eigen::Vector2d& normal = reference.normal(nearest);
+    pairs.push_back({arm_m, normal, normal.dot(at_m - reference.point_m(nearest)), static_cast<double>(p.height_m)});
+  }
+}
+
+/// The distance beyond which a pair is not believed: so many times the usual one.
+double PointToLineMatcher::Impl::trimAt() {
+  if (pairs.empty()) return 0.0;
+  distances.clear();
+  for (const Pair& pair : pairs) distances.push_back(std::abs(pair.distance_m));
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return config.trim_sigmas * kSigmaOfMedian * *middle;
+}
+
+MatchResult PointToLineMatcher::Impl::verdict(const LeastSquaresMatch& match, const Pose2& pose, double moved_m) {
+  makePairs(match, pose, config.support_m);
+  const double trim_m = trimAt();
+  NormalEquations equations;
+  double quality_sum = 0.0, supported = 0.0;
+  for (const Pair& pair : pairs) {
+    const double share = pair.distance_m / config.support_m;
+    quality_sum += 1.0 - share * share;
+    supported += 1.0;
+    if (std::abs(pair.distance_m) > trim_m) continue;
+    equations.add(pair.arm_m, pair.normal, pair.distance_m * pair.normal, match.inverseLever());
+    equations.addTilt(pair.arm_m, pair.normal, pair.height_m, match.inverseLever());
+  }
+  MatchResult result = match.finish(equations, quality_sum, moved_m < kConverged_m, pose);
+  result.overlap = supported / static_cast<double>(match.points().size());
+  return result;
+}
+
+PointToLineMatcher::PointToLineMatcher(const PointToLineMatcherConfig& config)
+    : impl_(std::make_unique<Impl>(config)) {}
+PointToLineMatcher::~PointToLineMatcher() = default;
+PointToLineMatcher::PointToLineMatcher(PointToLineMatcher&&) noexcept = default;
+PointToLineMatcher& PointToLineMatcher::operator=(PointToLineMatcher&&) noexcept = default;
+
+void PointToLineMatcher::clearReference() { impl_->reference.clear(); }
+
+void PointToLineMatcher::addReference(const ProjectedScan& scan, const Pose2& T_reference_body) {
+  if (!isFinite(T_reference_body)) return;
+  const PointToLineMatcherConfig& config = impl_->config;
+  impl_->reference.add(orientedPoints(scan, 0, config.max_gap_m, config.max_range_m), T_reference_body,
+                       config.max_gap_m);
+}
+
+MatchResult PointToLineMatcher::match(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window) {
+  Impl& self = *impl_;
+  const PointToLineMatcherConfig& config = self.config;
+  if (!isFinite(guess) || self.reference.empty()) return {};
+  const LeastSquaresMatch match(config, orientedPoints(scan, config.points, config.max_gap_m, config.max_range_m),
+                                guess, window);
+  if (!match.hasEnoughPoints()) return {};
+  self.reference.sort();
+
+  Pose2 pose = guess;
+  double reach_m = std::clamp(match.windowReach_m(), config.support_m, config.max_distance_m), moved_m = INFINITY;
+  for (int i = 0; i < config.iterations && (moved_m > kSmallStep_m || reach_m > config.support_m); ++i) {
+    self.makePairs(match, pose, reach_m);
+    reach_m = std::clamp(self.trimAt(), std::max(config.support_m, kSlowest * reach_m), reach_m);
+    NormalEquations equations;
+    for (const Pair& pair : self.pairs)
+      if (std::abs(pair.distance_m) <= reach_m)
+        equations.add(pair.arm_m, pair.normal, pair.distance_m * pair.normal, match.inverseLever());
+    moved_m = match.step(equations, reach_m, pose);
+  }
+  return self.verdict(match, pose, moved_m);
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,45 @@
+// Iterative closest point with the distance to a line (Censi 2008, the laser odometry of Tomic 2012): each point of the
+// scan is pulled to the line through the nearest points of the reference, the worst pairs are left out, and the pose
+// that is best for all pairs is found in closed form; again until it stays. It needs no map: a reference costs little,
+// and there is no grid in the answer.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "perception/scan_matching/least_squares_match.hpp"
+#include "perception/scan_matching/scan_matcher.hpp"
+
+namespace swiftlet::perception {
+
+struct PointToLineMatcherConfig : LeastSquaresMatcherConfig {
+  double max_distance_m = 0.5;  ///< Points are paired no farther than this; less when the window is small.
+  double trim_sigmas = 3.0;     ///< Pairs with more than this many times the usual distance are left out.
+  int iterations = 20;          ///< Most times pairs are made.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// The result is `failed` also when the steps did not become small, or led more than a centimetre or a tenth of a
+/// degree out of the window.
+class PointToLineMatcher final : public ScanMatcher {
+ public:
+  explicit PointToLineMatcher(const PointToLineMatcherConfig& config);
+  ~PointToLineMatcher() override;
+  PointToLineMatcher(PointToLineMatcher&&) noexcept;
+  PointToLineMatcher& operator=(PointToLineMatcher&&) noexcept;
+
+  void clearReference() override;
+  void addReference(const ProjectedScan& scan, const common::Pose2& T_reference_body) override;
+  [[nodiscard]] MatchResult match(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,
+                                  const SearchWindow& window) override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,62 @@
+#include "perception/scan_matching/quadratic_peak.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Eigenvalues>
+
+namespace swiftlet::perception {
+namespace {
+
+/// No pose is better than this, whatever the number of points.
+constexpr double kFloorSigma_m = 0.0005;
+constexpr double kFloorSigma_rad = 0.0001;
+/// The uncertainty given along what is not seen.
+constexpr double kUnseenSigma_m = 1.0;
+
+}  // namespace
+
+Peak findPeak(const Quadratic& q, const PeakScale& scale, const Eigen::Vector3d& guess_offset) {
+  const Eigen::Vector3d& step = scale.step;
+  const double step2 = step.x() * step.x();
+  const double unseen_information = 1.0 / (kUnseenSigma_m * kUnseenSigma_m);
+
+  // In units of one step, where all three axes move the points by about as much.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(-q.hessian);
+  const Eigen::Vector3d guess_steps = guess_offset.cwiseQuotient(step);
+  Eigen::Vector3d peak_steps = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_steps = Eigen::Matrix3d::Zero(), peak_of_gradient = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = eigen.eigenvectors().col(i);
+    const double curvature = eigen.eigenvalues()(i);
+    const double information = std::max(curvature * scale.information_per_curvature, unseen_information);  // 1 / m^2
+    covariance_steps += axis * axis.transpose() / (information * step2);
+    if (information * scale.unobservable_sigma_m * scale.unobservable_sigma_m > 1.0) {
+      const double along = axis.dot(q.gradient) / curvature;
+      peak_steps += axis * std::clamp(along, -scale.reach_steps, scale.reach_steps);
+      peak_of_gradient += axis * axis.transpose() / curvature;
+    } else {
+      peak_steps += axis * axis.dot(guess_steps);
+    }
+  }
+
+  Peak peak;
+  peak.gradient = q.gradient;
+  peak.peak_of_gradient = step.asDiagonal() * peak_of_gradient;
+  peak.offset = peak_steps.cwiseProduct(step);
+  peak.covariance = step.asDiagonal() * covariance_steps * step.asDiagonal();
+  peak.covariance.diagonal() +=
+      Eigen::Vector3d(kFloorSigma_m * kFloorSigma_m, kFloorSigma_m * kFloorSigma_m, kFloorSigma_rad * kFloorSigma_rad);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> translation(peak.covariance.topLeftCorner<2, 2>().eval());
+  if (translation.eigenvalues()(1) > scale.unobservable_sigma_m * scale.unobservable_sigma_m)
+    peak.unobservable_direction = translation.eigenvectors().col(1);
+  return peak;
+}
+
+void holdAlong(const Eigen::Vector2d& direction, const Eigen::Vector3d& guess_offset, Peak& peak) {
+  const Eigen::Vector2d axis = direction.normalized();
+  peak.offset.head<2>() += axis * axis.dot(guess_offset.head<2>() - peak.offset.head<2>());
+  peak.covariance.topLeftCorner<2, 2>() += kUnseenSigma_m * kUnseenSigma_m * axis * axis.transpose();
+  peak.unobservable_direction = axis;
+}
+
+}  // namespace swiftlet::perception

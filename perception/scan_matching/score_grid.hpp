@@ -1,0 +1,63 @@
+// The score of every pose of a window. With the rotation held, the scores of all translations are sums of one window of
+// the likelihood field per point (Bachrach 2009, section 5.1.2); knowing all of them, one also knows how likely the
+// pose is somewhere else (section 5.1.3).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "perception/scan_matching/branch_and_bound.hpp"
+#include "perception/scan_matching/likelihood_field.hpp"
+#include "perception/scan_matching/score_surface.hpp"
+#include "perception/scan_matching/window_sums.hpp"
+
+namespace swiftlet::perception {
+
+/// Keeps its buffers. Not thread-safe.
+class ScoreGrid {
+ public:
+  /// Poses scored beyond each side of the window, so that there is a surface around each pose in it.
+  static constexpr int kMargin = ScoreSurface::kHalf;
+
+  explicit ScoreGrid(Instructions instructions) : instructions_(instructions) {}
+
+  /// How many poses a window has with its margin.
+  static double poses(const PoseGrid& window);
+
+  /// Any number of points, in the level frame of the scan.
+  void score(LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m, const PoseGrid& window);
+
+  /// The sum at a pose; each index from -kMargin to kMargin beyond the last.
+  std::uint32_t at(int x, int y, int rotation) const { return scores_[indexOf(x, y, rotation)]; }
+  /// The highest sum less penalty; of equal ones the first by rotation, y and x.
+  BestPose best(const GuessPenalty& penalty) const;
+  ScoreSurface surfaceAround(const BestPose& pose) const;
+
+  /// The second moments about a pose, in steps, of the likelihood of all poses of the window that are not on the
+  /// surface around it; `log_per_score` is by how much the logarithm of the likelihood grows with the score.
+  Eigen::Matrix3d spreadElsewhere(const BestPose& pose, double log_per_score) const;
+
+ private:
+  std::size_t indexOf(int x, int y, int rotation) const {
+    const auto row = static_cast<std::size_t>(rotation + kMargin) * static_cast<std::size_t>(side_) +
+                     static_cast<std::size_t>(y + kMargin);
+    return row * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x + kMargin);
+  }
+  /// visit(row, y, rotation) with the scores of x = 0 .. translations - 1, for each row of the window.
+  template <typename Visit>
+  void forEachRow(const Visit& visit) const;
+  void scoreRotation(const LikelihoodField& field, std::uint32_t* out);
+
+  Instructions instructions_;
+  PoseGrid window_;
+  int side_ = 0;    ///< Translations with the margin.
+  int stride_ = 0;  ///< The same in whole strips of kWindowColumns.
+  std::vector<std::uint32_t> scores_;
+  std::vector<std::int32_t> x_cells_, y_cells_, offsets_;
+  std::vector<std::uint16_t> part_;
+};
+
+}  // namespace swiftlet::perception

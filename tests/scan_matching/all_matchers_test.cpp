@@ -1,0 +1,192 @@
+// All matchers in the same scenes: how far off they are, and whether they say so when they fail or cannot see.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "perception/scan_matching/correlative_matcher.hpp"
+#include "perception/scan_matching/gauss_newton_matcher.hpp"
+#include "perception/scan_matching/point_to_line_matcher.hpp"
+#include "tests/scan_matching/scenes.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::kRadPerDeg;
+using common::Pose2;
+using test::errorOf;
+using test::poseInFlat;
+using test::scanAt;
+
+/// The greatest errors that are let pass.
+struct Tolerance {
+  double median_m = 0.002, most_m = 0.005;  ///< `most`: of 95 %.
+  double median_deg = 0.05, most_deg = 0.15;
+};
+/// What averages poses of a grid of 1 cm and 0.1 degrees knows no better than half a cell; 95 % are within two.
+constexpr Tolerance kOfTheGrid{0.005, 0.02, 0.05, 0.2};
+
+struct Kind {
+  std::string name;
+  std::function<std::unique_ptr<ScanMatcher>()> make;
+  Tolerance tolerance;
+
+  friend void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+};
+
+Kind correlative(const std::string& name, PoseEstimate estimate, const Tolerance& tolerance = {}) {
+  const auto make = [estimate]() -> std::unique_ptr<ScanMatcher> {
+    CorrelativeMatcherConfig config;
+    config.estimate = estimate;
+    return std::make_unique<CorrelativeMatcher>(config);
+  };
+  return {name, make, tolerance};
+}
+
+template <typename Matcher, typename Config>
+Kind leastSquares(const std::string& name) {
+  return {name, []() -> std::unique_ptr<ScanMatcher> { return std::make_unique<Matcher>(Config{}); }, {}};
+}
+
+class AllMatchers : public testing::TestWithParam<Kind> {
+ protected:
+  std::unique_ptr<ScanMatcher> matcherAt(const ProjectedScan& scan, const Pose2& pose) const {
+    std::unique_ptr<ScanMatcher> matcher = GetParam().make();
+    matcher->addReference(scan, pose);
+    return matcher;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, AllMatchers,
+                         testing::Values(correlative("Correlative", PoseEstimate::kSurface),
+                                         correlative("WeightedMean", PoseEstimate::kWeightedMean, kOfTheGrid),
+                                         correlative("ScoreGrid", PoseEstimate::kScoreGrid),
+                                         leastSquares<GaussNewtonMatcher, GaussNewtonMatcherConfig>("GaussNewton"),
+                                         leastSquares<PointToLineMatcher, PointToLineMatcherConfig>("PointToLine")),
+                         [](const auto& kind) { return kind.param.name; });
+
+/// Where the reference was seen from, and by how much at most the guess is off.
+struct Scene {
+  const char* name;
+  test::PlanarWorld world;
+  std::function<Pose2(common::RandomStream&)> somewhere;
+  Pose2 farthest;  ///< Of the truth from the reference; the guess is the reference.
+  bool hides_x = false;
+};
+
+Pose2 poseInCorridor(common::RandomStream& random) {
+  return {random.uniform(-2.0, 2.0), random.uniform(-0.4, 0.4), random.uniform(-3.1, 3.1)};
+}
+
+std::vector<Scene> scenes() {
+  return {{"flat, 8 cm, 0.9 deg", test::flat(), poseInFlat, {0.08, 0.08, 0.9 * kRadPerDeg}},
+          {"flat, 25 cm, 5 deg", test::flat(), poseInFlat, {0.25, 0.25, 5.0 * kRadPerDeg}},
+          {"corridor, 8 cm, 0.9 deg", test::corridor(), poseInCorridor, {0.08, 0.08, 0.9 * kRadPerDeg}, true}};
+}
+
+/// The value that so large a share of them does not exceed.
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+TEST_P(AllMatchers, AreAccurateInTheSameScenes) {
+  constexpr int kTrials = 200;
+  for (const Scene& scene : scenes()) {
+    SCOPED_TRACE(scene.name);
+    common::RandomStream random(17, "same_scenes");
+    std::vector<double> off_m, off_deg;
+    int failed = 0, hidden = 0;
+    for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+      const Pose2 reference = scene.somewhere(random), &far = scene.farthest;
+      const Pose2 step{random.uniform(-far.x_m, far.x_m), random.uniform(-far.y_m, far.y_m),
+                       random.uniform(-far.yaw_rad, far.yaw_rad)};
+      const Pose2 truth = reference * step;
+      const auto matcher = matcherAt(scanAt(scene.world, reference, 2 * trial), reference);
+      const MatchResult match =
+          matcher->match(scanAt(scene.world, truth, 2 * trial + 1), reference, {1.5 * far.x_m, 1.2 * far.yaw_rad});
+      failed += match.failed ? 1 : 0;
+      hidden += match.unobservable_direction ? 1 : 0;
+      const Eigen::Vector3d error = errorOf(match.T_reference_body, truth);
+      off_m.push_back(scene.hides_x ? std::abs(error.y()) : error.head<2>().norm());
+      off_deg.push_back(std::abs(error.z()) / kRadPerDeg);
+      if (!scene.hides_x || !match.unobservable_direction) continue;
+      EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.98);
+      EXPECT_GT(match.covariance(0, 0), 0.09);
+      EXPECT_NEAR(match.T_reference_body.x_m, reference.x_m, 0.01);  // The guess stands.
+    }
+    std::printf("  %-13s %-24s median %.2f mm %.3f deg, 95 %% %.2f mm %.3f deg, failed %d, hidden %d of %d\n",
+                GetParam().name.c_str(), scene.name, 1e3 * quantile(off_m, 0.5), quantile(off_deg, 0.5),
+                1e3 * quantile(off_m, 0.95), quantile(off_deg, 0.95), failed, hidden, kTrials);
+    EXPECT_EQ(failed, 0);
+    EXPECT_EQ(hidden, scene.hides_x ? kTrials : 0);
+    const Tolerance& tolerance = GetParam().tolerance;
+    EXPECT_LT(quantile(off_m, 0.5), tolerance.median_m);
+    EXPECT_LT(quantile(off_m, 0.95), tolerance.most_m);
+    EXPECT_LT(quantile(off_deg, 0.5), tolerance.median_deg);
+    EXPECT_LT(quantile(off_deg, 0.95), tolerance.most_deg);
+  }
+}
+
+void expectRefused(const MatchResult& match) {
+  EXPECT_TRUE(match.failed);
+  EXPECT_TRUE(isFinite(match.T_reference_body));
+  EXPECT_TRUE(match.covariance.allFinite());
+}
+
+TEST_P(AllMatchers, RefuseWhatTheyCannotMatch) {
+  const ProjectedScan scan = scanAt(test::flat(), {}, 0);
+  const SearchWindow window{0.1, 0.03};
+  const auto empty = GetParam().make();
+  expectRefused(empty->match(scan, {}, window));
+  empty->addReference({}, {});  // A scan that saw nothing is no reference.
+  expectRefused(empty->match(scan, {}, window));
+
+  const auto matcher = matcherAt(scan, {});
+  expectRefused(matcher->match({}, {}, window));
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const double no_number : {nan, inf, -inf}) {
+    expectRefused(matcher->match(scan, {no_number, 0.0, 0.0}, window));
+    expectRefused(matcher->match(scan, {0.0, no_number, 0.0}, window));
+    expectRefused(matcher->match(scan, {0.0, 0.0, no_number}, window));
+  }
+  for (const double far_m : {-40.0, 40.0, 1e6}) expectRefused(matcher->match(scan, {far_m, 0.0, 0.0}, window));
+  // With a window that is none they may match or not; what they say is finite.
+  for (const double no_width : {nan, -1.0}) {
+    const MatchResult match = matcher->match(scan, {}, {no_width, no_width});
+    EXPECT_TRUE(isFinite(match.T_reference_body));
+    EXPECT_TRUE(match.covariance.allFinite());
+  }
+  EXPECT_FALSE(matcher->match(scan, {}, window).failed);  // None of this has left a trace.
+}
+
+TEST_P(AllMatchers, AWrongGuessIsRarelyBelieved) {
+  const test::PlanarWorld world = test::flat();
+  common::RandomStream random(23, "wrong_guess");
+  constexpr int kTrials = 200;
+  int believed = 0;
+  for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+    const Pose2 reference = poseInFlat(random);
+    const auto matcher = matcherAt(scanAt(world, reference, 2 * trial), reference);
+    // Farther off than the window is wide, to any side, and turned.
+    const double distance_m = random.uniform(0.4, 1.5), bearing_rad = random.uniform(-3.1, 3.1);
+    const double turn_rad = std::copysign(random.uniform(0.2, 0.6), random.uniform(-1.0, 1.0));
+    const Pose2 guess =
+        reference * Pose2{distance_m * std::cos(bearing_rad), distance_m * std::sin(bearing_rad), turn_rad};
+    const MatchResult match = matcher->match(scanAt(world, reference, 2 * trial + 1), guess, {0.1, 0.05});
+    // A pose at the edge is not believed either: it asks for a wider window.
+    if (!match.failed && !match.at_window_edge) ++believed;
+  }
+  std::printf("  %-13s believed %d of %d wrong guesses\n", GetParam().name.c_str(), believed, kTrials);
+  EXPECT_LE(believed, kTrials / 100);
+}
+
+}  // namespace
+}  // namespace swiftlet::perception

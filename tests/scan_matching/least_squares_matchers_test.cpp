@@ -1,0 +1,248 @@
+// The matchers that follow the slope, held to the same laws as the one that looks everywhere.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "perception/scan_matching/correlative_matcher.hpp"
+#include "perception/scan_matching/gauss_newton_matcher.hpp"
+#include "perception/scan_matching/point_to_line_matcher.hpp"
+#include "tests/scan_matching/scenes.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+using test::errorOf;
+using test::poseInFlat;
+using test::scanAt;
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+
+template <typename Type>
+class LeastSquaresMatchers : public testing::Test {};
+
+struct GaussNewton {
+  using Matcher = GaussNewtonMatcher;
+  using Config = GaussNewtonMatcherConfig;
+};
+struct PointToLine {
+  using Matcher = PointToLineMatcher;
+  using Config = PointToLineMatcherConfig;
+};
+using Kinds = testing::Types<GaussNewton, PointToLine>;
+TYPED_TEST_SUITE(LeastSquaresMatchers, Kinds);
+
+Pose2 randomStep(common::RandomStream& random, double distance_m, double turn_rad) {
+  return {random.uniform(-distance_m, distance_m), random.uniform(-distance_m, distance_m),
+          random.uniform(-turn_rad, turn_rad)};
+}
+
+struct Accuracy {
+  double translation_rms_m = 0.0, rotation_rms_rad = 0.0;
+  double nees = 0.0;  ///< Mean of the normalized squared error; 3 when the covariance is honest.
+  int failed = 0;
+};
+
+/// Each trial is a room seen from somewhere, then from a step away; the guess does not know the step.
+template <typename Kind>
+Accuracy measureAccuracy(int trials, double distance_m, double turn_rad) {
+  const test::PlanarWorld world = test::flat();
+  common::RandomStream random(5, "accuracy");
+  Accuracy accuracy;
+  for (int trial = 0; trial < trials; ++trial) {
+    typename Kind::Matcher matcher{{}};
+    const Pose2 reference = poseInFlat(random);
+    const auto frame = 2 * static_cast<std::uint64_t>(trial);
+    matcher.addReference(scanAt(world, reference, frame), reference);
+    const Pose2 truth = reference * randomStep(random, distance_m, turn_rad);
+    const MatchResult match =
+        matcher.match(scanAt(world, truth, frame + 1), reference, {1.5 * distance_m, 1.2 * turn_rad});
+    if (match.failed) {
+      ++accuracy.failed;
+      continue;
+    }
+    const Eigen::Vector3d e = errorOf(match.T_reference_body, truth);
+    accuracy.translation_rms_m += e.head<2>().squaredNorm();
+    accuracy.rotation_rms_rad += e.z() * e.z();
+    accuracy.nees += e.dot(match.covariance.ldlt().solve(e));
+  }
+  const double matched = trials - accuracy.failed;
+  accuracy.translation_rms_m = std::sqrt(accuracy.translation_rms_m / matched);
+  accuracy.rotation_rms_rad = std::sqrt(accuracy.rotation_rms_rad / matched);
+  accuracy.nees /= matched;
+  return accuracy;
+}
+
+TYPED_TEST(LeastSquaresMatchers, AreAccurateToAMillimetreOrTwoAndSaySo) {
+  const Accuracy accuracy = measureAccuracy<TypeParam>(300, 0.08, 0.015);
+  EXPECT_EQ(accuracy.failed, 0);
+  EXPECT_LT(accuracy.translation_rms_m, 0.002);
+  EXPECT_LT(accuracy.rotation_rms_rad, 0.05 * kDeg);
+  EXPECT_GT(accuracy.nees, 1.0);
+  EXPECT_LT(accuracy.nees, 4.5);
+}
+
+TYPED_TEST(LeastSquaresMatchers, ComeFromAfar) {
+  const Accuracy accuracy = measureAccuracy<TypeParam>(100, 0.3, 0.15);
+  EXPECT_EQ(accuracy.failed, 0);
+  EXPECT_LT(accuracy.translation_rms_m, 0.003);
+  EXPECT_LT(accuracy.nees, 4.5);
+}
+
+TYPED_TEST(LeastSquaresMatchers, SayWhenTheyDidNotArrive) {
+  // So far that the walls that face one way may fit while the others are out of reach.
+  const Accuracy accuracy = measureAccuracy<TypeParam>(150, 0.8, 0.4);
+  EXPECT_LT(accuracy.failed, 15);
+  EXPECT_LT(accuracy.translation_rms_m, 0.003);
+  EXPECT_LT(accuracy.nees, 4.5);
+}
+
+TYPED_TEST(LeastSquaresMatchers, ForwardIsTheInverseOfBackward) {
+  const test::PlanarWorld world = test::flat();
+  common::RandomStream random(9, "inverse");
+  for (int trial = 0; trial < 20; ++trial) {
+    const Pose2 a = poseInFlat(random), b = a * randomStep(random, 0.08, 0.015);
+    const ProjectedScan scan_a = scanAt(world, a, 10), scan_b = scanAt(world, b, 11);
+    typename TypeParam::Matcher from_a{{}}, from_b{{}};
+    from_a.addReference(scan_a, {});
+    from_b.addReference(scan_b, {});
+    const Pose2 forth = from_a.match(scan_b, {}, {0.12, 0.03}).T_reference_body;
+    const Pose2 back = from_b.match(scan_a, {}, {0.12, 0.03}).T_reference_body;
+    const Pose2 loop = forth * back;
+    EXPECT_LT(loop.position_m().norm(), 0.006);
+    EXPECT_LT(std::abs(loop.yaw_rad), 0.15 * kDeg);
+  }
+}
+
+TYPED_TEST(LeastSquaresMatchers, SayWhichWayACorridorHides) {
+  const test::PlanarWorld world = test::corridor();
+  for (const double yaw : {0.0, 0.7, -2.0}) {
+    typename TypeParam::Matcher matcher{{}};
+    const Pose2 reference{0.0, 0.1, yaw};
+    matcher.addReference(scanAt(world, reference, 0), reference);
+    const Pose2 truth{0.06, 0.13, yaw + 0.01}, guess{0.03, 0.10, yaw};
+    const MatchResult match = matcher.match(scanAt(world, truth, 1), guess, {0.1, 0.03});
+    ASSERT_FALSE(match.failed);
+    ASSERT_TRUE(match.unobservable_direction);
+    EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
+    EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess stands.
+    EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
+    EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * kDeg);
+    EXPECT_GT(match.covariance(0, 0), 0.09);
+    EXPECT_LT(match.covariance(1, 1), 1e-4);
+  }
+}
+
+TYPED_TEST(LeastSquaresMatchers, ARoomHidesNothing) {
+  common::RandomStream random(10, "room");
+  const test::PlanarWorld world = test::flat();
+  for (int trial = 0; trial < 30; ++trial) {
+    typename TypeParam::Matcher matcher{{}};
+    const Pose2 reference = poseInFlat(random);
+    matcher.addReference(scanAt(world, reference, 0), reference);
+    EXPECT_FALSE(matcher.match(scanAt(world, reference, 1), reference, {0.05, 0.02}).unobservable_direction);
+  }
+}
+
+TYPED_TEST(LeastSquaresMatchers, TellAFailedMatch) {
+  typename TypeParam::Matcher matcher{{}};
+  const test::PlanarWorld world = test::flat();
+  const ProjectedScan here = scanAt(world, {}, 0);
+  EXPECT_TRUE(matcher.match(here, {}, {0.1, 0.03}).failed);  // No reference.
+  matcher.addReference(here, {});
+  // Another room, turned.
+  EXPECT_TRUE(matcher.match(scanAt(world, {6.5, 2.0, 0.8}, 1), {}, {0.1, 0.03}).failed);
+  EXPECT_FALSE(matcher.match(scanAt(world, {}, 2), {}, {0.1, 0.03}).failed);
+  // The right place, but outside the window that was asked for.
+  const MatchResult outside = matcher.match(scanAt(world, {0.08, 0.0, 0.0}, 3), {}, {0.03, 0.03});
+  EXPECT_TRUE(outside.failed);
+  EXPECT_TRUE(outside.at_window_edge);
+  // Too few points, no points, no pose, a pose far off the map.
+  ProjectedScan few = here;
+  few.points_level_m.resize(10);
+  EXPECT_TRUE(matcher.match(few, {}, {0.1, 0.03}).failed);
+  few.points_level_m.resize(1);
+  EXPECT_TRUE(matcher.match(few, {}, {0.1, 0.03}).failed);
+  EXPECT_TRUE(matcher.match({}, {}, {0.1, 0.03}).failed);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(matcher.match(here, {nan, 0.0, 0.0}, {0.1, 0.03}).failed);
+  for (const double far_m : {40.0, 1e6, 1e300}) {
+    const MatchResult away = matcher.match(here, {far_m, 0.0, 0.0}, {0.1, 0.03});
+    EXPECT_TRUE(away.failed);
+    EXPECT_TRUE(isFinite(away.T_reference_body));
+    EXPECT_TRUE(away.covariance.allFinite());
+  }
+  matcher.addReference(here, {0.0, nan, 0.0});
+  matcher.clearReference();
+  EXPECT_TRUE(matcher.match(here, {}, {0.1, 0.03}).failed);
+}
+
+TYPED_TEST(LeastSquaresMatchers, PointsThatAreNotFiniteAreNotUsed) {
+  const test::PlanarWorld world = test::flat();
+  typename TypeParam::Matcher clean{{}}, dirty{{}};
+  ProjectedScan reference = scanAt(world, {}, 0), scan = scanAt(world, {0.02, 0.01, 0.0}, 1);
+  clean.addReference(reference, {});
+  const auto garbage = [](ProjectedScan& s) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    s.points_level_m.push_back({nan, 1.0F});
+    s.points_level_m.push_back({std::numeric_limits<float>::infinity(), nan});
+    s.heights_level_m.resize(s.points_level_m.size(), 0.0F);
+  };
+  const MatchResult expected = clean.match(scan, {}, {0.05, 0.02});
+  garbage(reference);
+  garbage(scan);
+  dirty.addReference(reference, {});
+  const MatchResult match = dirty.match(scan, {}, {0.05, 0.02});
+  EXPECT_EQ(match.T_reference_body.x_m, expected.T_reference_body.x_m);
+  EXPECT_EQ(match.covariance, expected.covariance);
+}
+
+TYPED_TEST(LeastSquaresMatchers, AReferenceCanBeForgotten) {
+  const test::PlanarWorld world = test::flat();
+  typename TypeParam::Matcher used{{}}, fresh{{}};
+  used.addReference(scanAt(world, {6.5, 2.0, 0.8}, 0), {6.5, 2.0, 0.8});
+  static_cast<void>(used.match(scanAt(world, {6.5, 2.0, 0.8}, 1), {6.5, 2.0, 0.8}, {0.5, 0.1}));
+  used.clearReference();
+  for (auto* matcher : {&used, &fresh}) matcher->addReference(scanAt(world, {}, 2), {});
+  const ProjectedScan scan = scanAt(world, {0.03, -0.02, 0.01}, 3);
+  const MatchResult a = used.match(scan, {}, {0.2, 0.1}), b = fresh.match(scan, {}, {0.2, 0.1});
+  EXPECT_FALSE(a.failed);
+  EXPECT_LT((errorOf(a.T_reference_body, b.T_reference_body)).norm(), 1e-9);
+}
+
+TYPED_TEST(LeastSquaresMatchers, SeveralScansAreOneReference) {
+  const test::PlanarWorld world = test::flat();
+  // Neither scan sees all that the one between them sees.
+  const Pose2 west{0.5, 0.9, 3.1}, east{6.0, 0.9, 0.0}, truth{3.4, 0.95, 0.02};
+  typename TypeParam::Matcher matcher{{}};
+  matcher.addReference(scanAt(world, west, 0), west);
+  const ProjectedScan scan = scanAt(world, truth, 2);
+  const double overlap = matcher.match(scan, {3.38, 0.92, 0.0}, {0.1, 0.05}).overlap;
+  matcher.addReference(scanAt(world, east, 1), east);
+  const MatchResult match = matcher.match(scan, {3.38, 0.92, 0.0}, {0.1, 0.05});
+  ASSERT_FALSE(match.failed);
+  EXPECT_GT(match.overlap, overlap + 0.1);
+  EXPECT_LT(errorOf(match.T_reference_body, truth).norm(), 0.006);
+}
+
+TYPED_TEST(LeastSquaresMatchers, AgreeWithTheOneThatLooksEverywhere) {
+  const test::PlanarWorld world = test::flat();
+  common::RandomStream random(11, "agree");
+  for (int trial = 0; trial < 40; ++trial) {
+    const Pose2 reference = poseInFlat(random), truth = reference * randomStep(random, 0.08, 0.015);
+    const auto frame = 2 * static_cast<std::uint64_t>(trial);
+    const ProjectedScan first = scanAt(world, reference, frame), second = scanAt(world, truth, frame + 1);
+    typename TypeParam::Matcher matcher{{}};
+    CorrelativeMatcher correlative{{}};
+    matcher.addReference(first, reference);
+    correlative.addReference(first, reference);
+    const MatchResult a = matcher.match(second, reference, {0.12, 0.03});
+    const MatchResult b = correlative.match(second, reference, {0.12, 0.03});
+    EXPECT_LT(errorOf(a.T_reference_body, b.T_reference_body).head<2>().norm(), 0.005) << trial;
+    EXPECT_NEAR(a.quality, b.quality, 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::perception

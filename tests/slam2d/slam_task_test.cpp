@@ -1,0 +1,74 @@
+#include "perception/slam2d/slam_task.hpp"
+
+#include <gtest/gtest.h>
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+Eigen::Matrix3d covarianceOf(double sigma_m, double sigma_rad) {
+  return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+}
+
+/// Key scans along a line, a metre apart, tied one to the next.
+SlamGraph line(int keys) {
+  SlamGraph graph;
+  for (int i = 0; i < keys; ++i) graph.keys.push_back({nullptr, Pose2{1.0 * i, 0.0, 0.0}, {}, {}});
+  for (int i = 1; i < keys; ++i) graph.add({i - 1, i, Pose2{1.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), false});
+  return graph;
+}
+
+SlamTask lastTaskOf(const SlamGraph& graph) {
+  auto data = std::make_shared<SlamTask::Data>();
+  data->graph = graph;
+  data->query = static_cast<int>(graph.keys.size()) - 1;
+  data->is_last = true;
+  data->config.live_map = false;
+  return SlamTask{std::move(data)};
+}
+
+TEST(SlamTask, AClosureThatTheOthersContradictIsTakenBack) {
+  SlamGraph graph = line(12);
+  graph.add({0, 11, Pose2{11.0, 0.05, 0.0}, covarianceOf(0.02, 0.005), true});
+  graph.add({1, 10, Pose2{6.0, 2.0, 0.3}, covarianceOf(0.02, 0.005), true});  // Of another corridor.
+  graph.add({2, 9, Pose2{7.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), true});
+  const SlamResult result = run(lastTaskOf(graph));
+  ASSERT_EQ(result.data->taken_back, std::vector<int>{12});
+  ASSERT_EQ(result.data->T_map_key.size(), 12U);
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_NEAR(result.data->T_map_key[static_cast<std::size_t>(i)].x_m, i, 0.03);
+    EXPECT_NEAR(result.data->T_map_key[static_cast<std::size_t>(i)].y_m, 0.0, 0.06);
+  }
+}
+
+TEST(SlamTask, ClosuresThatAgreeStay) {
+  SlamGraph graph = line(12);
+  graph.add({0, 11, Pose2{11.03, 0.05, 0.0}, covarianceOf(0.02, 0.005), true});
+  graph.add({2, 9, Pose2{7.01, 0.01, 0.002}, covarianceOf(0.02, 0.005), true});
+  EXPECT_TRUE(run(lastTaskOf(graph)).data->taken_back.empty());
+}
+
+TEST(SlamGraph, AnEdgeRemovedIsNoWayAnyMore) {
+  SlamGraph graph = line(6);
+  graph.add({0, 5, Pose2{5.0, 0.0, 0.0}, covarianceOf(0.001, 0.0001), true});
+  graph.add({1, 4, Pose2{3.0, 0.0, 0.0}, covarianceOf(0.001, 0.0001), true});
+  const auto sigmaOf = [&](int key) {
+    for (const ProjectedUncertainty& u : projectUncertainty(graph, 0, 100.0))
+      if (u.key == key) return u.sigma_m;
+    return -1.0;
+  };
+  const double closed_m = sigmaOf(5);
+  graph.remove(5);
+  ASSERT_EQ(graph.edges.size(), 6U);
+  EXPECT_EQ(graph.edges.back().from, 1);
+  EXPECT_GT(sigmaOf(5), 5.0 * closed_m);
+  for (std::size_t key = 0; key < graph.keys.size(); ++key)
+    for (const int edge : graph.keys[key].edges) {
+      const SlamEdge& e = graph.edges.at(static_cast<std::size_t>(edge));
+      EXPECT_TRUE(e.from == static_cast<int>(key) || e.to == static_cast<int>(key));
+    }
+}
+
+}  // namespace
+}  // namespace swiftlet::perception
