@@ -120,8 +120,8 @@ TEST(Localizer, WeighsOnlyWithScansTheOdometryWasNotMadeOf) {
 /// Without scans of its own the pose is known worse and worse, until it is no longer known.
 TEST(Localizer, GivesUpAPoseThatTheOdometryAloneLedTo) {
   LocalizerConfig config;
-  config.odometry_share = 0.2;
-  config.max_sigma_m = 0.3;
+  config.odometry_share = 0.5;
+  config.max_sigma_m = 0.15;
   Story story(test::offices(5), 5, config);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.0001).asDiagonal());
   story.step(true);

@@ -186,28 +186,41 @@ TEST(ParticleFilter, TheSameSeedGivesTheSameParticlesOnEveryInstructionSet) {
   }
 }
 
-/// Every pose of the search's own grid, one by one.
+/// Every pose of the search's own grid, one by one. Points lie within 12 m.
 FittingPlace exhaustively(const MapField& map, const GlobalSearchConfig& config,
                           const std::vector<Eigen::Vector2f>& points) {
+  const auto columns = static_cast<int>(std::ceil((map.high_m() - map.low_m()).x() / config.cell_m));
+  const auto rows = static_cast<int>(std::ceil((map.high_m() - map.low_m()).y() / config.cell_m));
+  const int border = static_cast<int>(13.0 / config.cell_m), width = columns + 2 * border;
+  const auto centerOf = [&](int column, int row) -> Eigen::Vector2d {
+    return map.low_m() + Eigen::Vector2d(column + 0.5, row + 0.5) * config.cell_m;
+  };
+  std::vector<int> values;
+  for (int row = -border; row < rows + border; ++row)
+    for (int column = -border; column < columns + border; ++column) {
+      const MapField::Place place = map.at(centerOf(column, row));
+      const double value = beamValue(place.wall_distance_m, config.sigma_m, config.random_share);
+      values.push_back(
+          static_cast<int>(std::lround(255.0 * (place.known ? value : std::max(value, config.unknown_value)))));
+    }
   FittingPlace best;
   const int directions = static_cast<int>(std::ceil(std::numbers::pi * config.lever_m / config.sigma_m));
-  const Eigen::Vector2d size = map.high_m() - map.low_m();
   for (int k = 0; k < directions; ++k) {
     const double yaw = 2.0 * std::numbers::pi * k / directions;
-    for (int row = 0; row * config.cell_m < size.y(); ++row)
-      for (int column = 0; column * config.cell_m < size.x(); ++column) {
-        const Eigen::Vector2d at = map.low_m() + Eigen::Vector2d(column + 0.5, row + 0.5) * config.cell_m;
-        if (!map.at(at).free) continue;
-        const Pose2 pose{at.x(), at.y(), yaw};
-        double sum = 0.0;
-        for (const Eigen::Vector2f& p : points) {
-          const Eigen::Vector2d cell = ((pose * p.cast<double>() - map.low_m()) / config.cell_m).array().floor();
-          const MapField::Place place = map.at(map.low_m() + (cell + Eigen::Vector2d(0.5, 0.5)) * config.cell_m);
-          const double value = beamValue(place.wall_distance_m, config.sigma_m, config.random_share);
-          sum += std::round(255.0 * (place.known ? value : std::max(value, config.unknown_value)));
-        }
+    std::vector<int> offsets;
+    for (const Eigen::Vector2f& point : points) {
+      const Eigen::Vector2d moved = Pose2{0.0, 0.0, yaw} * point.cast<double>() / config.cell_m;
+      offsets.push_back(static_cast<int>(std::floor(moved.y() + 0.5)) * width +
+                        static_cast<int>(std::floor(moved.x() + 0.5)));
+    }
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < columns; ++column) {
+        if (!map.at(centerOf(column, row)).free) continue;
+        int sum = 0;
+        for (const int offset : offsets)
+          sum += values[static_cast<std::size_t>((row + border) * width + column + border + offset)];
         const double fit = sum / (255.0 * static_cast<double>(points.size()));
-        if (fit > best.fit) best = {pose, fit};
+        if (fit > best.fit) best = {{centerOf(column, row).x(), centerOf(column, row).y(), yaw}, fit};
       }
   }
   return best;
