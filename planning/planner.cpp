@@ -60,7 +60,7 @@ std::optional<Point> nearestFree(const CostMap& map, const Point& point_map_m, d
 
 tl::expected<CellPath, PlanFailure> admit(const CostMap& map, const Point& start_map_m, const Point& goal_map_m) {
   using Reason = PlanFailure::Reason;
-  const auto refuse = [](Reason reason, std::string text, std::optional<Point> nearest = std::nullopt) {
+  const auto refuse = [](Reason reason, std::string text, const std::optional<Point>& nearest = std::nullopt) {
     return tl::make_unexpected(PlanFailure{reason, std::move(text), nearest});
   };
   if (!start_map_m.allFinite() || !goal_map_m.allFinite())

@@ -85,7 +85,7 @@ class Retreat {
   /// Out of the way of who passes, rather than along it before him; straight away from who comes straight on.
   static Point awayFrom(const Threat& threat) {
     constexpr double kPasses_m = 0.5;
-    const Point straight = -threat.center_m.normalized();
+    Point straight = -threat.center_m.normalized();
     if (threat.velocity_m_s.isZero()) return straight;
     const Point along = threat.velocity_m_s.normalized();
     const Point aside = -threat.center_m + threat.center_m.dot(along) * along;

@@ -83,8 +83,12 @@ Eigen::Matrix3d edgeCovariance(const Eigen::Matrix3d& covariance, const Slam2dCo
 
 std::vector<LoopCandidate> loopCandidates(const SlamGraph& graph, int query, const Slam2dConfig& config) {
   const Pose2& here = graph.keys[static_cast<std::size_t>(query)].T_map_body;
+  std::vector<int> reachable;  // Most of a large map is not, and need not be walked to.
+  const double farthest_m = std::max(kViewDistance_m, kSigmas * config.loops.max_sigma_m);
+  for (int key = 0; key < static_cast<int>(graph.keys.size()); ++key)
+    if (distance(here, graph.keys[static_cast<std::size_t>(key)].T_map_body) <= farthest_m) reachable.push_back(key);
   std::vector<LoopCandidate> near;
-  for (const ProjectedUncertainty& u : projectUncertainty(graph, query, INFINITY)) {
+  for (const ProjectedUncertainty& u : projectUncertainty(graph, query, INFINITY, reachable)) {
     if (u.sigma_m <= config.local_sigma_m) continue;
     const double reach_m = std::max(kViewDistance_m, kSigmas * std::min(u.sigma_m, config.loops.max_sigma_m));
     if (distance(here, graph.keys[static_cast<std::size_t>(u.key)].T_map_body) <= reach_m)

@@ -38,10 +38,13 @@ void SlamGraph::remove(int edge) {
 
 double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 
-std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m) {
+std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m,
+                                                     std::span<const int> wanted) {
   const std::size_t size = graph.keys.size();
   std::vector<ProjectedUncertainty> best(size);
-  std::vector<char> done(size, 0);
+  std::vector<char> done(size, 0), is_wanted(size, 0);
+  for (const int key : wanted) is_wanted[static_cast<std::size_t>(key)] = 1;
+  auto missing = std::count(is_wanted.begin(), is_wanted.end(), 1);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   for (std::size_t i = 0; i < size; ++i) best[i] = {static_cast<int>(i), Eigen::Matrix3d::Zero(), INFINITY};
@@ -56,6 +59,7 @@ std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int
     if (sigma > max_sigma_m) break;
     done[static_cast<std::size_t>(key)] = 1;
     result.push_back(best[static_cast<std::size_t>(key)]);
+    if (is_wanted[static_cast<std::size_t>(key)] != 0 && --missing == 0) break;
     for (const int index : graph.keys[static_cast<std::size_t>(key)].edges) {
       const SlamEdge& edge = graph.edges[static_cast<std::size_t>(index)];
       const int other = edge.from == key ? edge.to : edge.from;

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -44,8 +45,9 @@ struct ProjectedUncertainty {
 };
 
 /// Dijkstra projection of the covariances from `start` (Grzonka 2009, section III.D), in order of growing sigma_m, up
-/// to `max_sigma_m`.
-std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m);
+/// to `max_sigma_m`, or, where `wanted` keys are given, until all of those are reached.
+std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m,
+                                                     std::span<const int> wanted = {});
 
 /// Between the places of two poses, in metres.
 double distance(const common::Pose2& a, const common::Pose2& b);

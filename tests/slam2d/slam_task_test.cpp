@@ -1,5 +1,7 @@
 #include "perception/slam2d/slam_task.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace swiftlet::perception {
@@ -47,6 +49,22 @@ TEST(SlamTask, ClosuresThatAgreeStay) {
   graph.add({0, 11, Pose2{11.03, 0.05, 0.0}, covarianceOf(0.02, 0.005), true});
   graph.add({2, 9, Pose2{7.01, 0.01, 0.002}, covarianceOf(0.02, 0.005), true});
   EXPECT_TRUE(run(lastTaskOf(graph)).data->taken_back.empty());
+}
+
+TEST(SlamGraph, WhatIsWantedIsReachedAsIfAllWereWalked) {
+  SlamGraph graph = line(40);
+  graph.add({3, 30, Pose2{27.0, 0.0, 0.0}, covarianceOf(0.03, 0.01), true});
+  const std::vector<int> wanted{2, 5, 30};
+  const auto all = projectUncertainty(graph, 0, 100.0), some = projectUncertainty(graph, 0, 100.0, wanted);
+  ASSERT_EQ(all.size(), 40U);
+  ASSERT_LT(some.size(), 30U);
+  for (const int key : wanted) {
+    const auto of = [&](const std::vector<ProjectedUncertainty>& in) {
+      return std::find_if(in.begin(), in.end(), [&](const ProjectedUncertainty& u) { return u.key == key; });
+    };
+    ASSERT_NE(of(some), some.end()) << key;
+    EXPECT_EQ(of(some)->sigma_m, of(all)->sigma_m);
+  }
 }
 
 TEST(SlamGraph, AnEdgeRemovedIsNoWayAnyMore) {
