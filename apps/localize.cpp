@@ -70,11 +70,11 @@ struct LocalizeRun {
   double wall_s = 0.0;
 };
 
-/// The event, stamped as the log is.
+/// The event, stamped as the log is; `run.state` is that before it.
 void note(const perception::LocalizationEvent& event, common::Time stamp, LocalizeRun& run) {
   run.times_localized += event.state == LocalizationState::kLocalized ? 1 : 0;
-  run.times_lost += event.state == LocalizationState::kLost ? 1 : 0;
   const bool lost = event.state == LocalizationState::kLost;
+  run.times_lost += lost && run.state == LocalizationState::kLocalized ? 1 : 0;
   run.shown.events.push_back({stamp, lost ? common::Severity::kWarning : common::Severity::kInfo, "localization",
                               toString(event.state), event.reason});
 }
@@ -92,9 +92,9 @@ void localizeLog(interfaces::LaserLog& log, const LocalizeOptions& options, perc
     run.shown.milliseconds.add(index, 1e3 * secondsSince(scan_begin));
     if (!estimate) continue;
     const common::Time stamp = logged->scan.stamps.measured;
-    run.state = estimate->state;
     run.shown.ways.add(*estimate);
     if (estimate->event) note(*estimate->event, stamp, run);
+    run.state = estimate->state;
     if (estimate->state == LocalizationState::kLocalized) {
       ++run.localized;
       run.shown.unexplained.add(index, 100.0 * (1.0 - estimate->explained));

@@ -232,7 +232,7 @@ void GlobalSearch::descend(const Node& node, int level) {
   }
   if (++blocks_ > config_.max_blocks) return;
   const int finer = level - 1, stride = width_ >> finer;
-  std::array<std::uint16_t, 2 * kWindowColumns> sums;
+  std::array<std::uint16_t, std::size_t{2} * kWindowColumns> sums;
   sumWindows(instructions_, fields_[static_cast<std::size_t>(finer)].data() + indexOf(2 * node.x, 2 * node.y, stride),
              stride, offsetsAt(node.direction, finer), 2, sums.data());
   std::array<Node, 4> children;

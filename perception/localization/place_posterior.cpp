@@ -110,7 +110,9 @@ double explainedShare(const MapField& map, const std::vector<Eigen::Vector2f>& p
     known += place.known || on_wall ? 1 : 0;
     explained += on_wall ? 1 : 0;
   }
-  return known > 0 ? static_cast<double>(explained) / known : 0.0;
+  // A few points on known ground do not speak for a place of which the map knows nothing.
+  const double asked = std::max<double>(known, 0.5 * static_cast<double>(points_m.size()));
+  return asked > 0.0 ? explained / asked : 0.0;
 }
 
 std::vector<LikelyPlace> likelyPlaces(Instructions instructions, const MapField& map,
