@@ -12,7 +12,8 @@ namespace swiftlet::apps {
 /// Exit codes of the program.
 enum ExitCode : int {
   kDone = 0,
-  kFailed = 1,    ///< A flight did not pass, something is missing, or a graph did not converge.
+  kFailed = 1,    ///< A flight did not pass, a log was never localized, something is missing, or a graph did not
+                  ///< converge.
   kBadInput = 2,  ///< Wrong usage or input that cannot be used, a mission that is not sound too.
 };
 
@@ -22,6 +23,7 @@ void addFly(CLI::App& program, Run& run);
 void addCheck(CLI::App& program, Run& run);
 void addTrial(CLI::App& program, Run& run);
 void addMap(CLI::App& program, Run& run);
+void addLocalize(CLI::App& program, Run& run);
 void addConfig(CLI::App& program, Run& run);
 void addDoctor(CLI::App& program, Run& run);
 void addVersion(CLI::App& program, Run& run);

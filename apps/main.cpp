@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
   apps::addCheck(program, run);
   apps::addTrial(program, run);
   apps::addMap(program, run);
+  apps::addLocalize(program, run);
   apps::addConfig(program, run);
   apps::addDoctor(program, run);
   apps::addVersion(program, run);

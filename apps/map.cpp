@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/map_folder.hpp"
 #include "apps/map_outputs.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/show.hpp"
@@ -23,6 +24,7 @@ struct MapOptions {
   std::string log;
   std::string sensor;
   std::string odometry = "auto";
+  std::string slam = "graph";
   std::string out;
   bool json = false;
 };
@@ -36,18 +38,38 @@ fs::path folderFor(const MapOptions& options) {
   return name.substr(0, name.find('.')) + "-map";
 }
 
+perception::LaserSlamConfig configOf(const MapOptions& options) {
+  perception::LaserSlamConfig config;
+  if (options.slam == "particles") config.method = perception::SlamMethod::kParticles;
+  return config;
+}
+
 struct MapRun {
-  perception::LaserSlam slam{perception::LaserSlamConfig{}};
+  explicit MapRun(const MapOptions& options) : slam(configOf(options)) {}
+
+  perception::LaserSlam slam;
   TrackSpool track;
   ThinnedCurve milliseconds;
   std::uint64_t scans = 0, unmatched = 0;
   double wall_s = 0.0;
+  std::string damage;  ///< Why the log could not be read to its end.
 };
+
+/// None at the end, also at one that a damage makes: what came before it is mapped all the same.
+std::optional<interfaces::LoggedScan> nextOf(interfaces::LaserLog& log, MapRun& run) {
+  try {
+    return log.next();
+  } catch (const common::InputError& e) {
+    if (run.scans == 0) throw;
+    run.damage = e.what();
+    return std::nullopt;
+  }
+}
 
 void mapLog(interfaces::LaserLog& log, const MapOptions& options, MapRun& run) {
   const auto begin = Clock::now();
   ProgressLine line(options.json);
-  while (const auto logged = log.next()) {
+  while (const auto logged = nextOf(log, run)) {
     perception::LaserSlamInput input{logged->scan, logged->T_robot_laser, logged->T_odom_robot};
     if (options.odometry == "none") input.T_odom_robot.reset();
     const auto scan_begin = Clock::now();
@@ -59,7 +81,7 @@ void mapLog(interfaces::LaserLog& log, const MapOptions& options, MapRun& run) {
     run.track.add(logged->scan.stamps.measured, *tracked);
     if (run.scans % 50 == 0)
       line.update(fmt::format("{:3.0f} %  {} scans, {} key scans, {} loops", 100.0 * log.progress(), run.scans,
-                              run.slam.slam().counts().key_scans, run.slam.slam().counts().loops_closed),
+                              run.slam.keyScans(), run.slam.slam().counts().loops_closed),
                   secondsSince(begin));
   }
   run.slam.finish();
@@ -72,7 +94,8 @@ std::string plural(std::uint64_t count, const std::string& one, const std::strin
 }
 
 std::vector<std::string> warningsOf(const interfaces::LaserLog& log, const MapRun& run) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = log.notes();
+  if (!run.damage.empty()) warnings.push_back("the map is of what came before: " + run.damage);
   if (const auto n = log.counts().skipped_records; n > 0) {
     warnings.push_back(plural(n, "record could not be read and was", "records could not be read and were") +
                        " skipped");
@@ -94,7 +117,9 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const interfaces::La
                                  const fs::path& out) {
   const perception::SlamCounts& slam = run.slam.slam().counts();
   return {{"log", options.log},
+          {"format", log.format()},
           {"out", out.string()},
+          {"complete", run.damage.empty()},
           {"scans", run.scans},
           {"skipped_records", log.counts().skipped_records},
           {"invalid_ranges", log.counts().invalid_ranges},
@@ -102,18 +127,20 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const interfaces::La
           {"doubtful_odometry_steps", run.slam.counts().doubtful_odometry},
           {"unmatched_scans", run.unmatched},
           {"restarts", run.slam.odometryCounts().restarts},
-          {"key_scans", slam.key_scans},
+          {"key_scans", run.slam.keyScans()},
           {"loops_closed", slam.loops_closed},
           {"seconds", run.wall_s},
-          {"scans_per_s", static_cast<double>(run.scans) / run.wall_s}};
+          {"scans_per_s", static_cast<double>(run.scans) / run.wall_s},
+          {"notes", warningsOf(log, run)}};
 }
 
 int map(const MapOptions& options) {
   interfaces::LaserLogOptions log_options;
   if (!options.sensor.empty()) log_options.sensor = loadLaser(options.sensor);
   const auto log = interfaces::openLaserLog(options.log, log_options);
-  const fs::path out = folderFor(options);
-  MapRun run;
+  const MapFolder folder(folderFor(options));
+  const fs::path& out = folder.path();
+  MapRun run(options);
   mapLog(*log, options, run);
   if (run.slam.keyPoses().empty())
     throw common::InputError(common::Problem{{options.log},
@@ -123,26 +150,26 @@ int map(const MapOptions& options) {
                                                  ? ""
                                                  : "first problem: " + toString(log->counts().first_problems.front())});
 
+  if (!run.damage.empty()) fmt::print(stderr, "{}\n", run.damage);
   const nlohmann::ordered_json figures = figuresOf(options, *log, run, out);
   MapFigures shown{options.log, {}, warningsOf(*log, run), run.milliseconds};
   const perception::SlamCounts& slam = run.slam.slam().counts();
-  shown.facts = {{"scans", fmt::format("{}", run.scans)},
+  shown.facts = {{"log", log->format()},
+                 {"scans", fmt::format("{}", run.scans)},
                  {"not matched", fmt::format("{}", run.unmatched)},
-                 {"key scans", fmt::format("{}", slam.key_scans)},
+                 {"key scans", fmt::format("{}", run.slam.keyScans())},
                  {"loops closed", fmt::format("{}", slam.loops_closed)},
                  {"time", fmt::format("{:.1f} s", run.wall_s)},
                  {"scans a second", fmt::format("{:.0f}", static_cast<double>(run.scans) / run.wall_s)}};
-  std::error_code failure;
-  fs::create_directories(out, failure);
   writeMapOutputs(out, run.slam, run.track, shown);
   if (options.json) {
-    show(figures.dump(2) + "\n");
-    return kDone;
+    show(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    return run.damage.empty() ? kDone : kFailed;
   }
   for (const std::string& warning : shown.warnings) show("note: " + warning + "\n");
   for (const auto& [label, value] : shown.facts) show(fmt::format("{:<14} {}\n", label, value));
   show(fmt::format("{}\n", (out / "report.html").string()));
-  return kDone;
+  return run.damage.empty() ? kDone : kFailed;
 }
 
 }  // namespace
@@ -150,13 +177,20 @@ int map(const MapOptions& options) {
 void addMap(CLI::App& program, Run& run) {
   auto options = std::make_shared<MapOptions>();
   auto* command = program.add_subcommand("map", "Make the map of a recorded laser log; no odometry is needed.");
-  command->add_option("log", options->log, "CARMEN log; plain, .gz, .bz2 or .xz.")->required();
+  command
+      ->add_option("log", options->log, "CARMEN, BreezySLAM .dat or rosbag 1; plain, or packed by gzip, bzip2 or xz.")
+      ->required();
   command->add_option("--sensor", options->sensor,
                       "A data sheet of config/sensors or a file, where the log does not say what its laser is.");
   command
       ->add_option("--odometry", options->odometry,
                    "auto: the log's, as far as it proves right. none: as if it had none.")
       ->check(CLI::IsMember({"auto", "none"}))
+      ->capture_default_str();
+  command
+      ->add_option("--slam", options->slam,
+                   "graph: key scans tied by matches and loop closures. particles: trajectories with a map each.")
+      ->check(CLI::IsMember({"graph", "particles"}))
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder for the results; LOG-map when not given.");
   command->add_flag("--json", options->json, "Print the figures as JSON.");

@@ -27,6 +27,7 @@ using common::Pose2;
 constexpr std::size_t kCurvePoints = 2000;
 /// Points of a trajectory nearer than this to the one before are not drawn.
 constexpr double kDrawnStep_m = 0.05;
+constexpr std::size_t kDrawnPoints = 50'000;
 
 struct SpooledScan {
   std::int64_t stamp_ns = 0;
@@ -64,11 +65,17 @@ interfaces::G2oGraph2D graphOf(const std::vector<Pose2>& keys, const std::vector
   return graph;
 }
 
+/// Of bounded length: the longer the way, the coarser it is drawn.
 std::vector<Eigen::Vector2d> lineOf(const TrackSpool& track, const PoseOf& poseOf) {
   std::vector<Eigen::Vector2d> line;
+  double step_m = kDrawnStep_m;
   track.forEach([&](common::Time, const perception::TrackedScan& scan) {
     const Eigen::Vector2d at = poseOf(scan).position_m();
-    if (line.empty() || (at - line.back()).norm() >= kDrawnStep_m) line.push_back(at);
+    if (line.empty() || (at - line.back()).norm() >= step_m) line.push_back(at);
+    if (line.size() <= kDrawnPoints) return;
+    for (std::size_t i = 0; 2 * i < line.size(); ++i) line[i] = line[2 * i];
+    line.resize((line.size() + 1) / 2);
+    step_m *= 2.0;
   });
   return line;
 }
@@ -159,7 +166,8 @@ void writeMapOutputs(const fs::path& out, perception::LaserSlam& slam, const Tra
   writeTrajectory(out / "trajectory.tum", track, poseOf);
   require(interfaces::writeMap(out, "map", *world.grid));
   require(interfaces::writeAtomically(out / "map.png", mapPicture(world)));
-  require(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
+  if (!slam.particles())
+    require(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
   require(interfaces::writeAtomically(out / "report.html", interfaces::mapReport(report)));
 }
 

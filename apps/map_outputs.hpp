@@ -1,4 +1,5 @@
-// What `swiftlet map` leaves: map.pgm, map.yaml, map.png, trajectory.tum, graph.g2o and report.html.
+// What `swiftlet map` leaves: map.pgm, map.yaml, map.png, trajectory.tum, report.html and, where there is a graph,
+// graph.g2o.
 #pragma once
 
 #include <cstdint>

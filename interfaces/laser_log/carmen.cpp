@@ -1,13 +1,13 @@
 #include "interfaces/laser_log/carmen.hpp"
 
-#include <charconv>
-#include <cmath>
-#include <limits>
+#include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "interfaces/files/text_file.hpp"
+#include "interfaces/laser_log/mount_survey.hpp"
+#include "interfaces/laser_log/scan_geometry.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -15,105 +15,30 @@ namespace {
 using common::Pose2;
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kMaxBeams = 20'000;
 /// Old lines do not say how far their laser sees: SICK and others write 50, 51.x, 81.8 or 81.9 for "nothing".
 constexpr double kOldRangeMax_m = 49.9;
 constexpr double kOldRangeMin_m = 0.05;
-
-/// The words of a line one after the other; once one is not what it should be, that is the line's problem.
-class Fields {
- public:
-  explicit Fields(std::string_view line) : begin_(line.data()), at_(begin_), end_(begin_ + line.size()) {}
-
-  std::string_view word(const char* name) {
-    while (at_ != end_ && isBlank(*at_)) ++at_;
-    const char* first = at_;
-    while (at_ != end_ && !isBlank(*at_)) ++at_;
-    if (first == at_) fail(first, name, "the line ends before it");
-    return {first, static_cast<std::size_t>(at_ - first)};
-  }
-
-  double number(const char* name) {
-    const std::string_view text = word(name);
-    double value = 0.0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || rest != text.data() + text.size())
-      fail(text.data(), name, fmt::format("`{}` is not a number", text));
-    return value;
-  }
-
-  double finite(const char* name) {
-    const char* before = at_;
-    const double value = number(name);
-    if (!std::isfinite(value)) fail(before, name, "is not finite");
-    return value;
-  }
-
-  int count(const char* name) {
-    const char* before = at_;
-    const double value = number(name);
-    if (value >= 0 && value <= kMaxBeams && value == std::floor(value)) return static_cast<int>(value);
-    fail(before, name, fmt::format("{} is not a number of readings", value));
-    return 0;
-  }
-
-  Pose2 pose(const char* name) {
-    Pose2 pose;
-    pose.x_m = finite(name);
-    pose.y_m = finite(name);
-    pose.yaw_rad = common::wrapAngle(finite(name));
-    return pose;
-  }
-
-  common::Time stamp(const char* name) {
-    const std::string_view text = word(name);
-    const auto stamp = parseStamp(text);
-    if (!stamp) fail(text.data(), name, fmt::format("`{}` is not a time in seconds", text));
-    return stamp.value_or(common::Time());
-  }
-
-  const std::optional<LineProblem>& problem() const { return problem_; }
-
- private:
-  static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-  void fail(const char* where, const char* name, std::string message) {
-    if (!problem_) problem_ = LineProblem{static_cast<int>(where - begin_) + 1, name, std::move(message)};
-    at_ = end_;
-  }
-
-  const char* begin_;
-  const char* at_;
-  const char* end_;
-  std::optional<LineProblem> problem_;
-};
-
-void readRanges(Fields& fields, int count, common::LaserScan& scan) {
-  scan.ranges_m.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count && !fields.problem(); ++i) {
-    const double range_m = fields.number("range");
-    scan.ranges_m.push_back(range_m >= 0.0 ? static_cast<float>(range_m) : std::numeric_limits<float>::quiet_NaN());
-  }
-}
+/// Within which the first records are looked for.
+constexpr int kSurveyedLines = 100'000;
 
 /// FLASER n ranges.. laser pose, robot pose, stamp, host, logger's stamp
-void readOldScan(Fields& fields, LoggedScan& logged) {
+void readOldScan(LogFields& fields, CarmenScan& logged) {
   common::LaserScan& scan = logged.scan;
   const int beams = fields.count("number of readings");
-  readRanges(fields, beams, scan);
+  fields.ranges(beams, 1.0, scan);
   // 180 or 360 beams leave out the last of the half turn, 181 or 361 do not.
   scan.angle_min_rad = -0.5 * kPi;
   scan.angle_increment_rad = beams > 1 ? kPi / (beams % 2 == 0 ? beams : beams - 1) : 0.0;
   scan.range_min_m = kOldRangeMin_m;
   scan.range_max_m = kOldRangeMax_m;
-  const Pose2 T_odom_laser = fields.pose("laser pose");
+  logged.T_odom_laser = fields.pose("laser pose");
   logged.T_odom_robot = fields.pose("robot pose");
-  logged.T_robot_laser = logged.T_odom_robot->inverse() * T_odom_laser;
   scan.stamps.measured = fields.stamp("ipc_timestamp");
 }
 
 /// ROBOTLASER1 type start fov resolution max accuracy remission_mode n ranges.. m remissions.. laser pose, robot pose,
 /// tv rv forward_safety side_safety turn_axis, stamp, host, logger's stamp
-void readNewScan(Fields& fields, LoggedScan& logged) {
+void readNewScan(LogFields& fields, CarmenScan& logged) {
   common::LaserScan& scan = logged.scan;
   (void)fields.number("laser_type");
   scan.angle_min_rad = fields.finite("start_angle");
@@ -121,37 +46,72 @@ void readNewScan(Fields& fields, LoggedScan& logged) {
   scan.angle_increment_rad = fields.finite("angular_resolution");
   scan.range_min_m = kOldRangeMin_m;
   scan.range_max_m = fields.finite("maximum_range");
-  if (scan.range_max_m < kOldRangeMin_m) scan.range_max_m = kOldRangeMax_m;  // Not filled in.
+  if (scan.range_max_m <= kOldRangeMin_m) scan.range_max_m = kOldRangeMax_m;  // Not filled in.
   (void)fields.number("accuracy");
   (void)fields.number("remission_mode");
   const int beams = fields.count("number of readings");
-  readRanges(fields, beams, scan);
+  fields.ranges(beams, 1.0, scan);
   if (scan.angle_increment_rad <= 0.0 && beams > 1) scan.angle_increment_rad = field_of_view_rad / (beams - 1);
   const int remissions = fields.count("number of remissions");
   for (int i = 0; i < remissions && !fields.problem(); ++i) (void)fields.number("remission");
-  const Pose2 T_odom_laser = fields.pose("laser pose");
+  logged.T_odom_laser = fields.pose("laser pose");
   logged.T_odom_robot = fields.pose("robot pose");
-  logged.T_robot_laser = logged.T_odom_robot->inverse() * T_odom_laser;
   for (const char* name : {"tv", "rv", "forward_safety_dist", "side_safety_dist", "turn_axis"})
     (void)fields.number(name);
   scan.stamps.measured = fields.stamp("ipc_timestamp");
 }
 
-void useSensor(const common::LaserConfig& sensor, LoggedScan& logged) {
-  common::LaserScan& scan = logged.scan;
-  scan.angle_min_rad = sensor.angleMin_rad();
-  scan.angle_increment_rad =
-      -2.0 * scan.angle_min_rad / std::max<double>(1.0, static_cast<double>(scan.ranges_m.size()) - 1.0);
-  scan.range_min_m = sensor.range_min_m;
-  scan.range_max_m = sensor.range_max_m;
-  logged.T_robot_laser = common::planar(sensor.mount.pose());
+/// Of the first records; what cannot be read is met again, and told, when the log is read.
+LaserMount surveyedMount(const std::filesystem::path& file) {
+  MountSurvey survey;
+  try {
+    LineReader reader(file, kLogLimits);
+    std::string_view line;
+    for (int i = 0; i < kSurveyedLines && !survey.decided() && reader.next(line); ++i)
+      if (const auto scan = parseCarmenLine(line); scan && *scan)
+        survey.add((*scan)->T_odom_laser, (*scan)->T_odom_robot);
+  } catch (const common::InputError&) {}
+  return survey.result();
 }
 
-/// What is as far as the laser sees or farther is no return.
-void markNoReturns(common::LaserScan& scan) {
-  for (float& range : scan.ranges_m)
-    if (range >= static_cast<float>(scan.range_max_m)) range = std::numeric_limits<float>::infinity();
-}
+class CarmenFormat final : public LogFormat {
+ public:
+  CarmenFormat(LaserMount mount, const LaserLogOptions& options) : mount_(mount), options_(options) {}
+
+  tl::expected<std::optional<LoggedScan>, RecordProblem> parse(std::string_view line) override {
+    auto read = parseCarmenLine(line);
+    if (!read) return tl::unexpected(std::move(read.error()));
+    if (!*read) return std::nullopt;
+    const Pose2 T_odom_laser = (*read)->T_odom_laser, T_odom_robot = (*read)->T_odom_robot;
+    if (mount_.rigid && !agrees(T_odom_robot.inverse() * T_odom_laser, mount_)) ++elsewhere_;
+    LoggedScan logged{std::move((*read)->scan), mount_.T_robot_laser,
+                      mount_.robot_stands ? T_odom_laser : T_odom_robot};
+    if (auto problem = completeScan(options_.sensor, logged)) return tl::unexpected(RecordProblem{1, "", *problem});
+    return logged;
+  }
+
+  std::string name() const override { return "CARMEN"; }
+
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> notes;
+    if (options_.sensor) return notes;
+    if (!mount_.rigid)
+      notes.emplace_back(
+          "the poses of laser and robot keep no distance: the laser is taken to be in the robot's centre");
+    if (mount_.robot_stands) notes.emplace_back("the robot's pose never changes: that of the laser is the odometry");
+    if (elsewhere_ > 0)
+      notes.push_back(
+          fmt::format("{} of the records have the laser elsewhere on the robot than the first ones have: "
+                      "not believed",
+                      elsewhere_));
+    return notes;
+  }
+
+ private:
+  LaserMount mount_;
+  LaserLogOptions options_;
+  std::uint64_t elsewhere_ = 0;
+};
 
 }  // namespace
 
@@ -162,19 +122,20 @@ bool isCarmenLine(std::string_view line) {
   return false;
 }
 
-tl::expected<std::optional<LoggedScan>, LineProblem> parseCarmenLine(std::string_view line,
-                                                                     const LaserLogOptions& options) {
+tl::expected<std::optional<CarmenScan>, RecordProblem> parseCarmenLine(std::string_view line) {
   const bool old_form = line.starts_with("FLASER ");
   if (!old_form && !line.starts_with("ROBOTLASER1 ")) return std::nullopt;
-  Fields fields(line);
+  LogFields fields(line);
   (void)fields.word("message");
-  LoggedScan logged;
+  CarmenScan logged;
   old_form ? readOldScan(fields, logged) : readNewScan(fields, logged);
   if (fields.problem()) return tl::unexpected(*fields.problem());
   logged.scan.stamps.arrived = logged.scan.stamps.measured;
-  if (options.sensor) useSensor(*options.sensor, logged);
-  markNoReturns(logged.scan);
   return logged;
+}
+
+std::unique_ptr<LogFormat> carmenFormat(const std::filesystem::path& file, const LaserLogOptions& options) {
+  return std::make_unique<CarmenFormat>(surveyedMount(file), options);
 }
 
 }  // namespace swiftlet::interfaces

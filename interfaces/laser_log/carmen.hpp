@@ -2,29 +2,30 @@
 // radians. Source: CARMEN's message definitions, conventions in docs/conventions.md.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string_view>
 
 #include <tl/expected.hpp>
 
-#include "interfaces/laser_log/laser_log.hpp"
+#include "interfaces/laser_log/text_log.hpp"
 
 namespace swiftlet::interfaces {
 
-/// Why a line could not be read, and where in it.
-struct LineProblem {
-  int column = 0;
-  std::string element;
-  std::string message;
+/// As the line has it.
+struct CarmenScan {
+  common::LaserScan scan;
+  common::Pose2 T_odom_laser, T_odom_robot;
 };
 
-/// The scan of a FLASER or ROBOTLASER1 line; nothing for any other line. Ranges that are NaN or negative are NaN;
-/// those at the laser's "no return" value are infinite. An old line does not say what its laser is: 180 degrees spread
-/// over its beams, as SICK lasers have them, and no return at 49.9 m or beyond.
-tl::expected<std::optional<LoggedScan>, LineProblem> parseCarmenLine(std::string_view line,
-                                                                     const LaserLogOptions& options);
+/// The scan of a FLASER or ROBOTLASER1 line; nothing for any other line. An old line does not say what its laser is:
+/// 180 degrees spread over its beams, as SICK lasers have them, and no return at 49.9 m or beyond.
+tl::expected<std::optional<CarmenScan>, RecordProblem> parseCarmenLine(std::string_view line);
 
 /// Whether a line looks like one of CARMEN's.
 bool isCarmenLine(std::string_view line);
+
+/// Reads the file's first records to see how the laser is mounted.
+std::unique_ptr<LogFormat> carmenFormat(const std::filesystem::path& file, const LaserLogOptions& options);
 
 }  // namespace swiftlet::interfaces

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/error.hpp"
@@ -48,10 +49,14 @@ class LaserLog {
   virtual const LaserLogCounts& counts() const = 0;
   /// Share of the file that has been read, in [0, 1].
   virtual double progress() const = 0;
+  /// What was recognized, for people: "rosbag, /scan".
+  virtual std::string format() const = 0;
+  /// What is odd about the log as far as it was read, and how it was taken, for people.
+  virtual std::vector<std::string> notes() const = 0;
 };
 
 /// Opens a log by what is in it; plain, or compressed by gzip, bzip2 or xz. Throws InputError when there is no such
-/// file, or it is no log of a format known here.
+/// file, or it is no log of a format known here. Of a bag, the first topic with laser scans is read.
 std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& file, const LaserLogOptions& options = {});
 
 }  // namespace swiftlet::interfaces

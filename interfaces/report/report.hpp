@@ -51,4 +51,15 @@ struct MapReport {
 };
 std::string mapReport(const MapReport& report);
 
+/// A recorded log followed in a given map.
+struct LocalizationReport {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< Label and value.
+  std::vector<std::string> warnings;                       ///< What was doubtful about the log.
+  common::Table events;                                    ///< What it said of itself, and when.
+  std::string map_svg;
+  std::vector<std::string> plots_svg;
+};
+std::string localizationReport(const LocalizationReport& report);
+
 }  // namespace swiftlet::interfaces

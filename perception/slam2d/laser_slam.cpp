@@ -1,40 +1,11 @@
 #include "perception/slam2d/laser_slam.hpp"
 
-#include <cmath>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
-#include "perception/slam2d/scan_clock.hpp"
-
 namespace swiftlet::perception {
-namespace {
 
 using common::Pose2;
 
-/// How wide to search, in sigmas of the prediction.
-constexpr double kWindowSigmas = 4.0;
-
-/// The part of a symmetric matrix that is positive.
-Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
-}
-
-}  // namespace
-
-/// Unlike a vehicle with inertial sensors, nothing else tells where a robot in a corridor is: its motion is known
-/// worse, and how well each scan holds it must be known better.
 LaserSlamConfig::LaserSlamConfig() {
-  odometry.max_window_m = 1.0;
-  odometry.max_window_deg = 60.0;
-  odometry.min_widened_quality = 0.45;
-  odometry.widened_must_hold = true;
-  odometry.max_failures = 4;
-  odometry.min_fit = 0.55;
-  odometry.min_weak_overlap = 0.93;
-  odometry.matcher.guess_weight = 0.01;  // The prediction has its say in the filter.
-  for (CorrelativeMatcherConfig* matcher : {&odometry.matcher, &slam.matcher}) matcher->profile_half_m = 1.0;
+  slam.matcher.profile_half_m = front_end.odometry.matcher.profile_half_m;
   // Read off the drift of intel, fr079 and csail without loops: a window must hold the truth.
   slam.edge_sigma_m = 0.01;
   slam.edge_sigma_deg = 0.15;
@@ -47,112 +18,63 @@ LaserSlamConfig::LaserSlamConfig() {
 }
 
 void LaserSlamConfig::describe(common::config::Fields& fields) {
-  fields.section("odometry", odometry, "Matching of each scan to those just before.");
-  fields.section("slam", slam, "Key scans, loops and the map.");
-  fields.section("motion", motion, "Prediction of the next step.");
+  fields.choice("method", method, {"graph", "particles"}, "What holds the map together.");
+  fields.section("front_end", front_end, "From scan to scan.");
+  fields.section("slam", slam, "Key scans, loops and the map of the graph.");
+  fields.section("particles", particles, "The particles and their maps.");
 }
 
 std::vector<std::string> LaserSlamConfig::validate() const { return {}; }
 
 struct LaserSlam::Impl {
-  explicit Impl(const LaserSlamConfig& config_in)
-      : config(config_in), motion(config_in.motion), odometry(config_in.odometry), slam(config_in.slam) {}
-
-  ProjectedScan levelScan(const LaserSlamInput& input, common::Time now, const Pose2& T_odom_robot) const;
-  Eigen::Matrix3d follow(const std::optional<RelativePose>& relative, const Pose2& before,
-                         const Eigen::Matrix3d& covariance_before);
-
-  LaserSlamConfig config;
-  MotionPrediction motion;
-  LaserOdometry odometry;
-  Slam2d slam;
-  ScanClock clock;
-  LaserSlamCounts counts;
-
-  bool begun = false;
-  common::Time last_time;
-  Pose2 T_odom_robot;                   ///< odom: the frame of the laser odometry; continuous.
-  Pose2 T_odom_reference;               ///< Of the scan that the odometry measures from.
-  std::optional<Pose2> T_odom_matched;  ///< At the last match.
-};
-
-ProjectedScan LaserSlam::Impl::levelScan(const LaserSlamInput& input, common::Time now, const Pose2& pose) const {
-  common::LaserConfig laser;
-  laser.mirror_beams = 0;
-  laser.mount.x_m = input.T_robot_laser.x_m;
-  laser.mount.y_m = input.T_robot_laser.y_m;
-  laser.mount.yaw_deg = input.T_robot_laser.yaw_rad / common::kRadPerDeg;
-  common::LaserScan scan = input.scan;
-  scan.stamps = {now, now};
-  return project(scan, laser, [&](common::Time) { return common::lifted(pose, 1.0); }, {});
-}
-
-/// Takes the match in and says how uncertain the step from the scan before is, with the axes of the robot there. A
-/// match is relative to the odometry's reference: what it is uncertain of does not add up from scan to scan, only what
-/// the uncertainty has grown by counts.
-Eigen::Matrix3d LaserSlam::Impl::follow(const std::optional<RelativePose>& relative, const Pose2& before,
-                                        const Eigen::Matrix3d& covariance_before) {
-  const bool restarted = relative && relative->from == relative->to;
-  if (!relative || (begun && restarted))
-    motion.lose(config.odometry.max_window_m, config.odometry.max_window_deg * common::kRadPerDeg);
-  else if (!restarted)
-    motion.correct(relative->T_from_to, relative->covariance, relative->unseen_direction);
-  const Pose2 now = motion.T_reference_robot();
-  const Eigen::Matrix3d carried = propagated(covariance_before, before, now, Eigen::Matrix3d::Zero());
-  Eigen::Matrix3d grown = common::turned(positivePart(motion.covariance() - carried), -before.yaw_rad);
-  T_odom_robot = T_odom_reference * now;
-  if (!relative) return grown;
-  if (relative->reference_changed) {
-    T_odom_reference = T_odom_robot;
-    motion.rebase();
+  explicit Impl(const LaserSlamConfig& config) : front_end(config.front_end), graph(config.slam) {
+    if (config.method == SlamMethod::kParticles) particles.emplace(config.particles);
   }
-  T_odom_matched = T_odom_robot;
-  return grown;
-}
+
+  LaserFrontEnd front_end;
+  Slam2d graph;
+  std::optional<ParticleSlam> particles;
+};
 
 LaserSlam::LaserSlam(const LaserSlamConfig& config) : impl_(std::make_unique<Impl>(config)) {}
 LaserSlam::~LaserSlam() = default;
 
 std::optional<TrackedScan> LaserSlam::add(const LaserSlamInput& input) {
-  Impl& self = *impl_;
-  const common::Time now = self.clock.tick(input.scan.stamps.measured);
-  self.counts.doubtful_stamps = self.clock.doubtful();
-  const double elapsed_s = self.begun ? (now - self.last_time).seconds() : 0.0;
-  self.last_time = now;
-  const Pose2 before = self.motion.T_reference_robot();
-  const Eigen::Matrix3d covariance_before = self.motion.covariance();
-  if (!self.begun)
-    self.motion.begin(input.T_odom_robot);
-  else
-    self.motion.predict(input.T_odom_robot, elapsed_s);
-  const ProjectedScan scan = self.levelScan(input, now, self.T_odom_reference * self.motion.T_reference_robot());
-  const auto relative = self.odometry.add(
-      scan, self.T_odom_matched,
-      SearchWindow{kWindowSigmas * self.motion.stepSigma_m(), kWindowSigmas * self.motion.stepSigma_rad()});
-  if (!self.begun && !relative) {
-    ++self.counts.empty_scans;
-    return std::nullopt;
+  const auto followed = impl_->front_end.add(input);
+  if (!followed) return std::nullopt;
+  if (impl_->particles) {
+    ParticleSlam& particles = *impl_->particles;
+    particles.addScan(followed->scan, followed->T_odom_robot, followed->covariance_since_last);
+    if (particles.anchor() < 0) return std::nullopt;
+    return TrackedScan{particles.anchor(), particles.T_anchor_body(), followed->matched};
   }
-  const Eigen::Matrix3d covariance = self.follow(relative, before, covariance_before);
-  self.begun = true;
-  self.slam.addScan(scan, self.T_odom_robot, covariance);
-  if (const auto task = self.slam.takeTask()) self.slam.apply(run(*task));
-  return TrackedScan{self.slam.anchor(), self.slam.T_anchor_body(), relative.has_value()};
+  Slam2d& graph = impl_->graph;
+  graph.addScan(followed->scan, followed->T_odom_robot, followed->covariance_since_last);
+  if (const auto task = graph.takeTask()) graph.apply(run(*task));
+  return TrackedScan{graph.anchor(), graph.T_anchor_body(), followed->matched};
 }
 
 void LaserSlam::finish() {
-  if (const auto task = impl_->slam.takeLastTask()) impl_->slam.apply(run(*task));
+  if (impl_->particles) return;  // They know all along.
+  if (const auto task = impl_->graph.takeLastTask()) impl_->graph.apply(run(*task));
 }
 
 std::vector<Pose2> LaserSlam::keyPoses() const {
+  std::vector<Slam2d::KeyPose> keys = impl_->particles ? impl_->particles->keyPoses() : impl_->graph.keyPoses();
   std::vector<Pose2> poses;
-  for (const Slam2d::KeyPose& key : impl_->slam.keyPoses()) poses.push_back(key.T_map_body);
+  poses.reserve(keys.size());
+  for (const Slam2d::KeyPose& key : keys) poses.push_back(key.T_map_body);
   return poses;
 }
 
-common::OccupancyGrid LaserSlam::map() { return impl_->slam.snapshot(); }
-const Slam2d& LaserSlam::slam() const { return impl_->slam; }
-const LaserOdometryCounts& LaserSlam::odometryCounts() const { return impl_->odometry.counts(); }
-const LaserSlamCounts& LaserSlam::counts() const { return impl_->counts; }
+std::uint64_t LaserSlam::keyScans() const {
+  return impl_->particles ? impl_->particles->counts().updates : impl_->graph.counts().key_scans;
+}
+
+common::OccupancyGrid LaserSlam::map() { return impl_->particles ? impl_->particles->map() : impl_->graph.snapshot(); }
+const Slam2d& LaserSlam::slam() const { return impl_->graph; }
+const ParticleSlam* LaserSlam::particles() const { return impl_->particles ? &*impl_->particles : nullptr; }
+const LaserOdometryCounts& LaserSlam::odometryCounts() const { return impl_->front_end.odometryCounts(); }
+LaserSlamCounts LaserSlam::counts() const { return impl_->front_end.counts(); }
 
 }  // namespace swiftlet::perception

@@ -1,6 +1,7 @@
 #include "perception/slam2d/scan_clock.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace swiftlet::perception {
@@ -13,6 +14,15 @@ constexpr std::uint64_t kDoubts = 3;
 constexpr Duration kLeastInterval = Duration::fromMilliseconds(1);
 /// Between scans whose stamps are all the same: so long that no step of a robot is too far for it.
 constexpr Duration kUnknownInterval = Duration::fromMilliseconds(1000);
+/// In a longer pause, or with stamps out of all bounds, a robot may have gone anywhere as well.
+constexpr double kLongestInterval_s = 3600.0;
+
+/// The difference of any two stamps, also of some that are too far apart to be subtracted.
+Duration boundedInterval(common::Time from, common::Time to) {
+  const double seconds = to.seconds() - from.seconds();
+  if (std::abs(seconds) < kLongestInterval_s) return to - from;
+  return Duration::fromSeconds(std::copysign(kLongestInterval_s, seconds));
+}
 
 }  // namespace
 
@@ -20,7 +30,7 @@ common::Time ScanClock::tick(common::Time stamp) {
   if (ticks_ == 0) {
     now_ = stamp;
   } else {
-    const Duration interval = stamp - last_stamp_;
+    const Duration interval = boundedInterval(last_stamp_, stamp);
     intervals_[(ticks_ - 1) % kRemembered] = interval;
     const bool grows = interval > Duration();
     if (!grows) ++doubtful_;

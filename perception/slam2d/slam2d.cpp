@@ -70,6 +70,7 @@ struct Slam2d::Impl {
 
   std::uint64_t tasks = 0;
   bool task_outstanding = false;
+  std::vector<FoundLoop> doubted;  ///< Closures that were refused.
   std::size_t task_keys = 0;
   int task_query = 0;
   std::vector<std::pair<int, AttachedScan>> drawn_since_task;
@@ -269,6 +270,7 @@ SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, bool is_l
   data->graph = graph;
   data->query = task_query;
   data->candidates = std::move(candidates);
+  data->doubted = doubted;
   data->is_last = is_last;
   data->config = config;
   return SlamTask{std::move(data)};
@@ -278,6 +280,7 @@ bool Slam2d::apply(const SlamResult& result) {
   Impl& self = *impl_;
   SWIFTLET_CHECK(self.task_outstanding && result.data != nullptr && result.data->id == self.tasks, self.tasks);
   self.task_outstanding = false;
+  self.doubted = result.data->doubted;
   self.counts.loops_closed += result.accepted.size();
   self.counts.loops_taken_back += result.data->taken_back.size();
   const std::vector<Pose2>& poses = result.data->T_map_key;

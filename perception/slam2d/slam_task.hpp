@@ -15,7 +15,8 @@ struct SlamTask::Data {
   SlamGraph graph;  ///< A copy; its scans are shared and immutable.
   int query = 0;
   std::vector<LoopCandidate> candidates;
-  bool is_last = false;  ///< No more scans come: the graph is to be at its best.
+  std::vector<FoundLoop> doubted;  ///< Closures that the graph refused before.
+  bool is_last = false;            ///< No more scans come: the graph is to be at its best.
   Slam2dConfig config;
 };
 
@@ -23,8 +24,9 @@ struct SlamResult::Data {
   std::uint64_t id = 0;
   std::vector<common::Pose2> T_map_key;  ///< Of every key scan of the task; empty when nothing was found.
   std::vector<SlamEdge> closures;
-  std::vector<int> taken_back;   ///< Edges of the task's graph, ascending.
-  std::optional<SlicedMap> map;  ///< Drawn anew, when the poses moved by enough to be seen.
+  std::vector<FoundLoop> doubted;  ///< Closures refused, now and before.
+  std::vector<int> taken_back;     ///< Edges of the task's graph, ascending.
+  std::optional<SlicedMap> map;    ///< Drawn anew, when the poses moved by enough to be seen.
 };
 
 }  // namespace swiftlet::perception

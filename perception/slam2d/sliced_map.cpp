@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+
+#include "perception/slam2d/grid_ray.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -16,10 +17,6 @@ constexpr std::uint32_t kCrossed = 1;
 constexpr std::uint32_t kEnded = 1 << 16;
 /// A flight height that differs by less is the same.
 constexpr double kHeightHysteresis_m = 0.10;
-
-CellIndex cellOf(const Eigen::Vector2d& p) {
-  return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
-}
 
 /// Of two slices: occupied where one is, free where none is and one was seen free.
 Cell merged(Cell a, Cell b) {
@@ -137,37 +134,11 @@ void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays) {
   }
   marks_.assign(static_cast<std::size_t>(rect_.width()) * static_cast<std::size_t>(rect_.height()), 0);
   for (const Ray& ray : rays) {
-    markRay(ray);
+    touchCrossed(ray.from, ray.to, &markAt(cellOf(ray.from)), rect_.width(),
+                 [](std::uint32_t& mark) { mark += kCrossed; });
     markAt(cellOf(ray.to)) += ray.ended ? kEnded : kCrossed;
   }
   apply(slice);
-}
-
-/// Every cell the line touches, up to, but without, that of its end (Amanatides and Woo 1987). Lines through cell
-/// centres only would leave pinholes between the rays, and each would be a frontier.
-void SlicedMap::markRay(const Ray& ray) {
-  const Eigen::Vector2d& from = ray.from;
-  const CellIndex begin = cellOf(from), end = cellOf(ray.to);
-  const Eigen::Vector2d way = ray.to - from;
-  int left_x = std::abs(end.x - begin.x), left_y = std::abs(end.y - begin.y);
-  const double per_x = 1.0 / std::max(std::abs(way.x()), 1e-12), per_y = 1.0 / std::max(std::abs(way.y()), 1e-12);
-  double next_x = per_x * (way.x() >= 0.0 ? begin.x + 1 - from.x() : from.x() - begin.x);
-  double next_y = per_y * (way.y() >= 0.0 ? begin.y + 1 - from.y() : from.y() - begin.y);
-  const std::ptrdiff_t step_x = way.x() >= 0.0 ? 1 : -1;
-  const std::ptrdiff_t step_y = way.y() >= 0.0 ? rect_.width() : -static_cast<std::ptrdiff_t>(rect_.width());
-  std::uint32_t* mark = &markAt(begin);
-  while (left_x + left_y > 0) {
-    *mark += kCrossed;
-    if (left_y == 0 || (left_x > 0 && next_x < next_y)) {
-      mark += step_x;
-      next_x += per_x;
-      --left_x;
-    } else {
-      mark += step_y;
-      next_y += per_y;
-      --left_y;
-    }
-  }
 }
 
 /// Where beams end and others pass, most decide: noise that puts some ends before or behind the wall does not thicken

@@ -53,7 +53,6 @@ class SlicedMap {
   int sliceAt(double height_m) const;
   void split(const DrawnScan& scan, const common::Pose2& T_map_body);
   void drawSlice(int slice, const std::vector<Ray>& rays);
-  void markRay(const Ray& ray);
   void apply(int slice);
   void fadeAround(int slice, common::CellIndex cell);
   void combine(common::CellIndex cell);

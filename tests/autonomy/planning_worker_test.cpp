@@ -6,8 +6,6 @@
 namespace swiftlet::autonomy {
 namespace {
 
-using common::CellIndex;
-
 /// A room of 8 m by 4 m from the origin on, walls included.
 std::shared_ptr<common::OccupancyGrid> room() {
   auto grid = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.05));

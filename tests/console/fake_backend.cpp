@@ -1,9 +1,9 @@
 #include "tests/console/fake_backend.hpp"
 
 #include <pthread.h>
-#include <time.h>
 
 #include <chrono>
+#include <ctime>
 
 #include <fmt/format.h>
 

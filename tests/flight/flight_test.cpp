@@ -1,9 +1,9 @@
 // The program flies. Worlds and missions are the shipped ones; what is checked are the files a run leaves.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 
 #include <algorithm>
+#include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -21,7 +21,6 @@ using test_support::ProgramEnd;
 using test_support::ProgramOptions;
 using test_support::readText;
 using test_support::runSwiftlet;
-using testing::HasSubstr;
 
 const std::string kMission = "missions/explore_and_return.xml";
 
@@ -161,7 +160,7 @@ class CutShort : public test_support::Scratch {
       sent = true;
       kill(process, signal);
     };
-    const ProgramEnd end =
+    ProgramEnd end =
         runSwiftlet({"fly", kMission, "--headless", "--speed", "4", "--seed", "5", "--out", path("run")}, options);
     EXPECT_TRUE(sent) << "the flight was over before it could be cut short: " << describe(end);
     return end;

@@ -348,7 +348,7 @@ TEST(ErrorStateFilter, posesInterpolateTheHistory) {
   const PoseHistory history = filter.poses(from, newest);
   EXPECT_LE(history.poses().size(), 10u);
   for (int i = 0; i <= 1080; ++i) {
-    const Time t = from + Duration::fromMicroseconds(i * 37);
+    const Time t = from + Duration::fromMicroseconds(std::int64_t{37} * i);
     if (t > newest) break;
     const auto a = history.at(t), b = filter.poseAt(t);
     ASSERT_TRUE(a && b);

@@ -9,7 +9,6 @@
 namespace swiftlet::interfaces {
 namespace {
 
-using common::Event;
 using common::Severity;
 using common::Time;
 using testing::HasSubstr;

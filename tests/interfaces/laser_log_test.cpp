@@ -21,72 +21,81 @@ std::string oldScan(int beams, const std::string& range = "2.5", const std::stri
   return line + " 0.96 2.0 0.0 1.0 2.0 0.0 " + stamp + " host 1.0";
 }
 
-LoggedScan read(const std::string& line) {
-  auto scan = parseCarmenLine(line, {});
+CarmenScan read(const std::string& line) {
+  auto scan = parseCarmenLine(line);
   EXPECT_TRUE(scan && *scan) << line;
   return **scan;
 }
 
+/// As the log gives it, complete.
+std::optional<LoggedScan> logged(const std::string& line, const LaserLogOptions& options = {}) {
+  const ScratchFolder folder;
+  put(folder / "a.log", line + "\n");
+  return openLaserLog(folder / "a.log", options)->next();
+}
+
 TEST(Carmen, AnOldScanIsAHalfTurnOfBeams) {
   for (const auto& [beams, step_deg] : {std::pair{180, 1.0}, {181, 1.0}, {360, 0.5}, {361, 0.5}}) {
-    const LoggedScan logged = read(oldScan(beams));
-    EXPECT_EQ(logged.scan.ranges_m.size(), static_cast<std::size_t>(beams));
-    EXPECT_DOUBLE_EQ(logged.scan.angle_min_rad, -0.5 * kPi);
-    EXPECT_NEAR(logged.scan.angle_increment_rad, step_deg * kPi / 180.0, 1e-12);
+    const CarmenScan scan = read(oldScan(beams));
+    EXPECT_EQ(scan.scan.ranges_m.size(), static_cast<std::size_t>(beams));
+    EXPECT_DOUBLE_EQ(scan.scan.angle_min_rad, -0.5 * kPi);
+    EXPECT_NEAR(scan.scan.angle_increment_rad, step_deg * kPi / 180.0, 1e-12);
   }
 }
 
 TEST(Carmen, SaysWhereTheLaserIsAndWhatTheRobotThinks) {
-  const LoggedScan logged = read(oldScan(180));
-  EXPECT_NEAR(logged.T_robot_laser.x_m, -0.04, 1e-12);
-  EXPECT_DOUBLE_EQ(logged.T_odom_robot->x_m, 1.0);
-  EXPECT_EQ(logged.scan.stamps.measured.nanoseconds(), 976052857'337530000);
+  const auto scan = logged(oldScan(180));
+  EXPECT_NEAR(scan->T_robot_laser.x_m, -0.04, 1e-12);
+  EXPECT_DOUBLE_EQ(scan->T_odom_robot->x_m, 1.0);
+  EXPECT_EQ(scan->scan.stamps.measured.nanoseconds(), 976052857'337530000);
 }
 
 TEST(Carmen, ANewScanSaysWhatItsLaserIs) {
-  const LoggedScan logged =
-      read("ROBOTLASER1 0 -1.0 2.0 0.5 50.0 0.1 0 3 1.0 50.0 2.0 1 7.0 1 2 0 1 2 0 0.1 0.2 0 0 0 12.5 host 1.0");
-  EXPECT_DOUBLE_EQ(logged.scan.angle_min_rad, -1.0);
-  EXPECT_DOUBLE_EQ(logged.scan.angle_increment_rad, 0.5);
-  EXPECT_THAT(logged.scan.ranges_m, testing::ElementsAre(1.0F, INFINITY, 2.0F));
-  EXPECT_DOUBLE_EQ(logged.scan.stamps.measured.seconds(), 12.5);
+  const auto scan =
+      logged("ROBOTLASER1 0 -1.0 2.0 0.5 50.0 0.1 0 3 1.0 50.0 2.0 1 7.0 1 2 0 1 2 0 0.1 0.2 0 0 0 12.5 host 1.0");
+  EXPECT_DOUBLE_EQ(scan->scan.angle_min_rad, -1.0);
+  EXPECT_DOUBLE_EQ(scan->scan.angle_increment_rad, 0.5);
+  EXPECT_THAT(scan->scan.ranges_m, testing::ElementsAre(1.0F, INFINITY, 2.0F));
+  EXPECT_DOUBLE_EQ(scan->scan.stamps.measured.seconds(), 12.5);
 }
 
 TEST(Carmen, WhatIsNoReturnIsInfiniteAndWhatIsWrongIsNotANumber) {
   for (const char* no_return : {"81.91", "81.83", "51.2", "50.00", "inf"})
-    EXPECT_TRUE(std::isinf(read(oldScan(3, no_return)).scan.ranges_m[1])) << no_return;
-  for (const char* wrong : {"nan", "-1.0"}) EXPECT_TRUE(std::isnan(read(oldScan(3, wrong)).scan.ranges_m[1])) << wrong;
+    EXPECT_TRUE(std::isinf(logged(oldScan(3, no_return))->scan.ranges_m[1])) << no_return;
+  for (const char* wrong : {"nan", "-1.0"})
+    EXPECT_TRUE(std::isnan(logged(oldScan(3, wrong))->scan.ranges_m[1])) << wrong;
 }
 
 TEST(Carmen, OtherLinesAreNoScans) {
   for (const char* line :
        {"", "# FLASER", "ODOM 1 2 3 0 0 0 1.0 host 1.0", "PARAM robot_width 0.4 1 host 1", "FLASERS 1"}) {
-    const auto scan = parseCarmenLine(line, {});
+    const auto scan = parseCarmenLine(line);
     ASSERT_TRUE(scan) << line;
     EXPECT_FALSE(*scan) << line;
   }
 }
 
 TEST(Carmen, ALineThatIsNotWholeSaysWhere) {
-  const auto cut = parseCarmenLine("FLASER 3 1.0 2.0", {});
+  const auto cut = parseCarmenLine("FLASER 3 1.0 2.0");
   ASSERT_FALSE(cut);
   EXPECT_EQ(cut.error().element, "range");
-  const auto word = parseCarmenLine("FLASER 3 1.0 two 2.0 0 0 0 0 0 0 1.0 host 1.0", {});
+  const auto word = parseCarmenLine("FLASER 3 1.0 two 2.0 0 0 0 0 0 0 1.0 host 1.0");
   ASSERT_FALSE(word);
   EXPECT_EQ(word.error().column, 14);
   EXPECT_THAT(word.error().message, testing::HasSubstr("`two`"));
-  EXPECT_FALSE(parseCarmenLine("FLASER -3 1.0", {}));
-  EXPECT_FALSE(parseCarmenLine("FLASER 1e9 1.0", {}));
-  EXPECT_FALSE(parseCarmenLine("FLASER 1 1.0 nan 0 0 0 0 0 1.0 host 1.0", {}));
+  EXPECT_FALSE(parseCarmenLine("FLASER -3 1.0"));
+  EXPECT_FALSE(parseCarmenLine("FLASER 1e9 1.0"));
+  EXPECT_FALSE(parseCarmenLine("FLASER 1 1.0 nan 0 0 0 0 0 1.0 host 1.0"));
 }
 
 TEST(Carmen, ASensorOverridesTheGeometry) {
   common::LaserConfig sensor;
   sensor.field_of_view_deg = 240.0;
   sensor.range_max_m = 5.6;
-  const auto scan = parseCarmenLine(oldScan(3, "5.7"), {sensor});
-  EXPECT_NEAR((*scan)->scan.angle_increment_rad, 120.0 * common::kRadPerDeg, 1e-12);
-  EXPECT_TRUE(std::isinf((*scan)->scan.ranges_m[0]));
+  const auto scan = logged(oldScan(3, "5.7"), {sensor});
+  EXPECT_NEAR(scan->scan.angle_increment_rad, 120.0 * common::kRadPerDeg, 1e-12);
+  EXPECT_TRUE(std::isinf(scan->scan.ranges_m[0]));
+  EXPECT_DOUBLE_EQ(scan->T_robot_laser.x_m, 0.0);
 }
 
 TEST(LaserLog, BadRecordsAreSkippedAndCountedWithTheirPlace) {
@@ -102,6 +111,28 @@ TEST(LaserLog, BadRecordsAreSkippedAndCountedWithTheirPlace) {
   ASSERT_EQ(log->counts().first_problems.size(), 1U);
   EXPECT_EQ(log->counts().first_problems[0].location.line, 3);
   EXPECT_DOUBLE_EQ(log->progress(), 1.0);
+}
+
+TEST(LaserLog, AWordIsToldShortAndPrintable) {
+  const ScratchFolder folder;
+  put(folder / "a.log", "FLASER 1 \x1b[2J" + std::string(500, '\xff') + "\n");
+  const auto log = openLaserLog(folder / "a.log");
+  EXPECT_FALSE(log->next());
+  EXPECT_THAT(toString(log->counts().first_problems.at(0)),
+              testing::EndsWith("a.log:1:10: range: `?[2J" + std::string(36, '?') + "...` is not a number, skipped"));
+}
+
+TEST(LaserLog, WhatNoLaserHasIsSkipped) {
+  const ScratchFolder folder;
+  const std::string rest = " 50.0 0.1 0 3 1.0 50.0 2.0 0 1 2 0 1 2 0 0.1 0.2 0 0 0 12.5 host 1.0\n";
+  put(folder / "a.log", "ROBOTLASER1 0 -1.0 0.0 0.0" + rest + "ROBOTLASER1 0 -1.0 2.0 4.0" + rest +
+                            "ROBOTLASER1 0 -99 2.0 0.1" + rest + "ROBOTLASER1 0 -1.0 2.0 0.0" + rest);
+  const auto log = openLaserLog(folder / "a.log");
+  EXPECT_DOUBLE_EQ(log->next()->scan.angle_increment_rad, 1.0) << "of the field of view";
+  EXPECT_FALSE(log->next());
+  EXPECT_EQ(log->counts().skipped_records, 3U);
+  EXPECT_THAT(toString(log->counts().first_problems.at(1)),
+              testing::HasSubstr("a.log:2:1: no laser has 3 beams, 4 rad"));
 }
 
 TEST(LaserLog, WhatIsNoLogIsRefused) {

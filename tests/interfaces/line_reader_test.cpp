@@ -145,5 +145,27 @@ TEST(LineReader, ProblemsSayWhere) {
   EXPECT_STREQ(reader.problemAt(3, "word", "is wrong", "hint").what(), "x.txt:2:3: word: is wrong, hint");
 }
 
+RC_GTEST_PROP(LineReader, LongLinesAreCutAndTheirRestIsNotHeld, ()) {
+  const auto text = *rc::gen::container<std::string>(rc::gen::element('\n', 'a', 'b'));
+  LineReader reader = LineReader::fromBytes(text, "text", {3, 1 << 20, true});
+  std::size_t i = 0;
+  const auto lines = cutByHand(text);
+  for (std::string_view line; reader.next(line); ++i) {
+    RC_ASSERT(i < lines.size());
+    RC_ASSERT(line == lines[i].substr(0, 3));
+    RC_ASSERT(reader.lineCut() == (lines[i].size() > 3));
+  }
+  RC_ASSERT(i == lines.size());
+}
+
+TEST(LineReader, ALineOfManyBlocksIsCut) {
+  const std::string text = "one\n" + std::string(3'000'000, 'x') + "\ntwo\n" + std::string(500'000, 'y');
+  LineReader reader = LineReader::fromBytes(text, "text", {100, 1 << 30, true});
+  std::vector<std::size_t> sizes;
+  for (std::string_view line; reader.next(line);) sizes.push_back(line.size());
+  EXPECT_THAT(sizes, ElementsAre(3, 100, 3, 100));
+  EXPECT_EQ(reader.lineNumber(), 4);
+}
+
 }  // namespace
 }  // namespace swiftlet::interfaces

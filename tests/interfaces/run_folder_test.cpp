@@ -14,7 +14,6 @@
 namespace swiftlet::interfaces {
 namespace {
 
-using common::Event;
 using common::FrontierReason;
 using common::MissionState;
 using common::Severity;
@@ -163,7 +162,7 @@ TEST(RunFolder, IsReadableAfterTheProcessWasKilled) {
   EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("not finished"));
 
   // The next run may have the folder.
-  RunFolder(folder / "run", kInfo, "");
+  { const RunFolder next(folder / "run", kInfo, ""); }
   EXPECT_EQ(bytesOf(folder / "run/events.jsonl"), "");
   EXPECT_FALSE(fs::exists(folder / "run/map.pgm")) << "no map of another flight";
 }

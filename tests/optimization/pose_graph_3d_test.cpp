@@ -120,9 +120,9 @@ std::vector<Pose3> denseGaussNewton(const PoseGraph3D& graph) {
     for (const PoseEdge3D& edge : graph.edges) {
       const Pose3 &from = poses[static_cast<std::size_t>(edge.from)], &to = poses[static_cast<std::size_t>(edge.to)];
       Eigen::Matrix<double, 6, Eigen::Dynamic> jacobian = Eigen::MatrixXd::Zero(6, size);
-      jacobian.middleCols<6>(6 * edge.from) =
+      jacobian.middleCols<6>(Eigen::Index{6} * edge.from) =
           derivative([&](const Vector6d& d) { return errorByMatrices(moved(from, d), to, edge.T_from_to); });
-      jacobian.middleCols<6>(6 * edge.to) =
+      jacobian.middleCols<6>(Eigen::Index{6} * edge.to) =
           derivative([&](const Vector6d& d) { return errorByMatrices(from, moved(to, d), edge.T_from_to); });
       hessian += jacobian.transpose() * edge.information * jacobian;
       gradient += jacobian.transpose() * edge.information * errorByMatrices(from, to, edge.T_from_to);

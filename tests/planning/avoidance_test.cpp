@@ -105,7 +105,7 @@ class Story {
 
   /// Senses, obeys with the acceleration it has, and lets time pass. Returns the smallest gap to anyone.
   AvoidanceDecision tick(const Point& wish_map_m_s) {
-    const AvoidanceDecision decision = sense(wish_map_m_s);
+    AvoidanceDecision decision = sense(wish_map_m_s);
     Point target = wish_map_m_s;
     if (target.norm() > decision.speed_limit_m_s) target = target.normalized() * decision.speed_limit_m_s;
     if (decision.retreat_velocity_level_m_s)

@@ -33,10 +33,10 @@ inline std::vector<std::int64_t> dijkstra(const CostMap& map, int source) {
         const auto lethal = [&](common::CellIndex c) { return map.costAt(c) == CostMap::kLethal; };
         if (lethal(next) || lethal({cell.x + dx, cell.y}) || lethal({cell.x, cell.y + dy})) continue;
         const int i = map.indexOf(next);
-        std::int64_t edge = (dx != 0 && dy != 0 ? 17 : 12) * (map.costAt(cell) + map.costAt(next));
+        std::int64_t edge = (dx != 0 && dy != 0 ? 17L : 12L) * (map.costAt(cell) + map.costAt(next));
         if (!map.heights_cm().empty())
-          edge += map.stepCostPerCm() * std::abs(map.heights_cm()[static_cast<std::size_t>(at)] -
-                                                 map.heights_cm()[static_cast<std::size_t>(i)]);
+          edge += std::int64_t{map.stepCostPerCm()} * std::abs(map.heights_cm()[static_cast<std::size_t>(at)] -
+                                                               map.heights_cm()[static_cast<std::size_t>(i)]);
         if (reached + edge >= cost[static_cast<std::size_t>(i)]) continue;
         cost[static_cast<std::size_t>(i)] = reached + edge;
         open.push({reached + edge, i});

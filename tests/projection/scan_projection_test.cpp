@@ -81,7 +81,7 @@ TEST(ScanProjection, TakesMotionAndTiltOutOfTheWalls) {
   EXPECT_LT(worst_m, 2e-3);
 
   // The test can fail: without the motion the same walls are centimetres off.
-  const Pose3 frozen = restless(projected.stamp);
+  Pose3 frozen = restless(projected.stamp);
   double smeared_m = 0.0;
   for (const Eigen::Vector2f& p : project(scan, laser, [&](Time) { return frozen; }, {}).points_level_m)
     smeared_m = std::max(smeared_m, world.distanceToWall(T_world_level * p.cast<double>()));
@@ -92,7 +92,7 @@ TEST(ScanProjection, LeavesOutWhatItSeesOfTheFloorAndTheCeiling) {
   const common::LaserConfig laser = noiseless();
   test::PlanarWorld world;
   world.addBox(0.0, 0.0, 30.0, 30.0);
-  const Pose3 tilted{common::quaternionFrom({0.0, 15.0 * kRadPerDeg, 0.0}), {0.0, 0.0, 1.0}};
+  Pose3 tilted{common::quaternionFrom({0.0, 15.0 * kRadPerDeg, 0.0}), {0.0, 0.0, 1.0}};
   common::RandomStream random(1, "projection");
   const auto scan = test::sweep(
       world, laser, [&](Time) { return tilted; }, Time{}, random);
@@ -117,7 +117,7 @@ TEST(ScanProjection, ALevelBeamNearTheFloorIsAWall) {
   const common::LaserConfig laser = noiseless();
   test::PlanarWorld world;
   world.addBox(0.0, 0.0, 30.0, 30.0);
-  const Pose3 standing{Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.08}};
+  Pose3 standing{Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.08}};
   common::RandomStream random(1, "projection");
   const auto scan = test::sweep(
       world, laser, [&](Time) { return standing; }, Time{}, random);
@@ -155,7 +155,7 @@ TEST(ScanProjection, MirrorBeamsBecomeHeights) {
   laser.mirror_beams = 21;
   laser.mirror_mount.x_m = 0.12;
   laser.mirror_mount.z_m = -0.03;
-  const Pose3 tilted{common::quaternionFrom({0.1, -0.05, 0.7}), {0.5, 0.3, 1.2}};
+  Pose3 tilted{common::quaternionFrom({0.1, -0.05, 0.7}), {0.5, 0.3, 1.2}};
   common::RandomStream random(1, "projection");
   common::LaserScan scan = test::sweep(
       test::flat(), laser, [&](Time) { return tilted; }, Time{}, random);

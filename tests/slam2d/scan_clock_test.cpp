@@ -53,5 +53,17 @@ TEST(ScanClock, OfStampsThatGoBackTheMeanIntervalIsKept) {
   EXPECT_NEAR(last.seconds(), 0.2 * 2000, 0.05 * 400);
 }
 
+TEST(ScanClock, StampsOutOfAllBoundsArePausesOfAnHour) {
+  ScanClock clock;
+  Time last = clock.tick(Time::fromSeconds(-8.9e9));
+  for (const double stamp_s : {8.9e9, -8.9e9, 8.9e9, -8.9e9, 8.9e9, 8.9e9 + 0.2}) {
+    const Time now = clock.tick(Time::fromSeconds(stamp_s));
+    EXPECT_GT(now, last);
+    EXPECT_LE((now - last).seconds(), 3600.0);
+    last = now;
+  }
+  EXPECT_EQ(clock.doubtful(), 2U);
+}
+
 }  // namespace
 }  // namespace swiftlet::perception

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "perception/slam2d/settlement.hpp"
+
 namespace swiftlet::perception {
 namespace {
 
@@ -49,6 +51,50 @@ TEST(SlamTask, ClosuresThatAgreeStay) {
   graph.add({0, 11, Pose2{11.03, 0.05, 0.0}, covarianceOf(0.02, 0.005), true});
   graph.add({2, 9, Pose2{7.01, 0.01, 0.002}, covarianceOf(0.02, 0.005), true});
   EXPECT_TRUE(run(lastTaskOf(graph)).data->taken_back.empty());
+}
+
+FoundLoop loopOf(int from, int to, const Pose2& T_from_to) {
+  FoundLoop loop;
+  loop.edge = {from, to, T_from_to, covarianceOf(0.02, 0.005), true};
+  return loop;
+}
+
+/// There and back along a corridor, where the way back was closed a metre off. In truth the key scan i > 14 stands at
+/// 29 - i; it is believed to be at 30 - i.
+SlamGraph closedAMetreOff() {
+  SlamGraph graph = line(30);
+  for (int i = 15; i < 30; ++i) graph.keys[static_cast<std::size_t>(i)].T_map_body.x_m = 30.0 - i;
+  for (SlamEdge& edge : graph.edges)
+    if (edge.from >= 15) edge.T_from_to.x_m = -1.0;
+  graph.edges[14].T_from_to.x_m = 0.5;  // From 14 to 15 nothing was to be seen along the corridor.
+  graph.edges[14].covariance = covarianceOf(1.0, 0.005);
+  graph.add({6, 24, Pose2{0.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), true});
+  graph.add({4, 26, Pose2{0.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), false});  // Matched there.
+  return graph;
+}
+
+TEST(Settlement, EnoughClosuresThatAgreeTurnTheGraphOver) {
+  const SlamGraph graph = closedAMetreOff();
+  std::vector<FoundLoop> doubted;
+  for (const int key : {23, 25, 27}) {
+    const FoundLoop loop = loopOf(29 - key, key, Pose2{});
+    const Settled alone = settle(graph, {loop}, {});
+    EXPECT_TRUE(alone.accepted.empty() && alone.taken_back.empty()) << "one is not enough";
+    doubted.push_back(loop);
+    EXPECT_EQ(turnedOver(graph, doubted, {}).has_value(), key == 27);
+  }
+  const auto over = turnedOver(graph, doubted, {});
+  ASSERT_TRUE(over);
+  EXPECT_EQ(over->taken_back, (std::vector<int>{29, 30}));
+  EXPECT_EQ(over->accepted.size(), 3U);
+  for (int i = 15; i < 30; ++i) EXPECT_NEAR(over->T_map_key[static_cast<std::size_t>(i)].x_m, 29.0 - i, 0.05);
+}
+
+TEST(Settlement, ClosuresThatDisagreeAmongThemselvesDoNot) {
+  const SlamGraph graph = closedAMetreOff();
+  const std::vector<FoundLoop> doubted{loopOf(7, 22, Pose2{0.6, 0.3, 0.0}), loopOf(5, 24, Pose2{-0.8, 0.0, 0.2}),
+                                       loopOf(3, 26, Pose2{2.0, 0.0, 0.0})};
+  EXPECT_FALSE(turnedOver(graph, doubted, {}));
 }
 
 TEST(SlamGraph, WhatIsWantedIsReachedAsIfAllWereWalked) {

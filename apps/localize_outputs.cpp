@@ -1,0 +1,129 @@
+#include "apps/localize_outputs.hpp"
+
+#include <memory>
+
+#include <fmt/core.h>
+
+#include "common/error.hpp"
+#include "common/world.hpp"
+#include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/json_lines.hpp"
+#include "interfaces/report/report.hpp"
+#include "rendering/encode.hpp"
+#include "rendering/map_layers.hpp"
+#include "rendering/map_renderer.hpp"
+#include "rendering/map_svg.hpp"
+#include "rendering/plot_svg.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+using Ways = std::vector<std::vector<Eigen::Vector2d>>;
+
+/// Points of a way nearer than this to the one before are not drawn.
+constexpr double kDrawnStep_m = 0.05;
+
+void require(const interfaces::Written& written) {
+  if (!written) throw common::InputError(common::Problem{{}, "", written.error().message, ""});
+}
+
+common::World worldOf(const interfaces::StoredMap& map) {
+  common::World world;
+  world.grid = std::make_shared<const common::OccupancyGrid>(map.grid);
+  world.levels = std::make_shared<const common::LevelMap>();
+  world.frontiers = std::make_shared<const std::vector<common::Frontier>>();
+  world.trail_map_m = std::make_shared<const std::vector<Eigen::Vector2d>>();
+  return world;
+}
+
+/// Pictures show the grid's frame.
+Ways inGrid(const Ways& ways_map_m, const common::Pose2& T_map_grid) {
+  const common::Pose2 T_grid_map = T_map_grid.inverse();
+  Ways ways = ways_map_m;
+  for (auto& way : ways)
+    for (Eigen::Vector2d& point : way) point = T_grid_map * point;
+  return ways;
+}
+
+std::string mapPicture(const common::World& world, const Ways& ways_grid_m) {
+  rendering::MapView view;
+  view.width_px = 1280;
+  view.height_px = 960;
+  view.layers.laser = view.layers.trail = view.layers.plan = view.layers.vehicle = false;
+  view.layers.home = view.layers.goal = false;
+  view.viewport = rendering::fitViewport(world, view.width_px, view.height_px);
+  rendering::Canvas canvas(rendering::renderMap(world, view));
+  for (const std::vector<Eigen::Vector2d>& way : ways_grid_m) {
+    std::vector<Eigen::Vector2d> pixels;
+    for (const Eigen::Vector2d& point : way) pixels.push_back(view.viewport->toPixel(point));
+    canvas.polyline(pixels, 3.0, rendering::themeOf(view.scheme).trail);
+  }
+  const rendering::Bytes png = rendering::encodePng(canvas.take());
+  return {png.begin(), png.end()};
+}
+
+std::string mapDrawing(const common::World& world, const Ways& ways_grid_m) {
+  std::vector<rendering::MapLine> lines;
+  std::vector<rendering::MapMark> marks;
+  for (const std::vector<Eigen::Vector2d>& way : ways_grid_m) {
+    lines.push_back({lines.empty() ? "localized" : "", way, false});
+    marks.push_back({fmt::format("{}", marks.size() + 1), way.front()});
+  }
+  return rendering::mapSvg(world, lines, marks);
+}
+
+std::string plotOver(const std::string& title, const std::string& unit, const ThinnedCurve& curve) {
+  rendering::Plot plot;
+  plot.title = title;
+  plot.x_label = "scan";
+  plot.y_label = unit;
+  plot.series = {{"greatest of its neighbours", curve.points(), false}};
+  plot.y_min = 0.0;
+  return rendering::plotSvg(plot);
+}
+
+common::Table tableOf(const std::vector<common::Event>& events) {
+  common::Table table{"", {"time (s)", "state", "reason"}, {}};
+  for (const common::Event& event : events)
+    table.rows.push_back(
+        {{fmt::format("{:.3f}", event.stamp.seconds())},
+         {event.text, event.severity == common::Severity::kWarning ? common::Mark::kBad : common::Mark::kNone},
+         {event.reason}});
+  return table;
+}
+
+}  // namespace
+
+void LocalizedWays::add(const perception::LocalizationEstimate& estimate) {
+  if (estimate.state != perception::LocalizationState::kLocalized) {
+    open_ = false;
+    return;
+  }
+  const Eigen::Vector2d at = estimate.T_map_body.position_m();
+  if (!open_)
+    ways_.push_back({at});
+  else if ((at - ways_.back().back()).norm() >= kDrawnStep_m)
+    ways_.back().push_back(at);
+  open_ = true;
+}
+
+void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
+                          const LocalizeFigures& figures) {
+  const common::World world = worldOf(map);
+  const Ways ways = inGrid(figures.ways.ways_map_m(), map.T_map_grid);
+  interfaces::LocalizationReport report;
+  report.title = fmt::format("{} in {}", figures.log, figures.map);
+  report.facts = figures.facts;
+  report.warnings = figures.warnings;
+  report.events = tableOf(figures.events);
+  report.map_svg = mapDrawing(world, ways);
+  report.plots_svg = {plotOver("Not explained by the map", "% of a scan", figures.unexplained),
+                      plotOver("Time per scan", "ms", figures.milliseconds)};
+  std::string events;
+  for (const common::Event& event : figures.events) events += interfaces::toJson(event) + "\n";
+  require(interfaces::writeAtomically(out / "events.jsonl", events));
+  require(interfaces::writeAtomically(out / "map.png", mapPicture(world, ways)));
+  require(interfaces::writeAtomically(out / "report.html", interfaces::localizationReport(report)));
+}
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,43 @@
+// What `swiftlet localize` leaves: trajectory.tum, events.jsonl, map.png and report.html.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "apps/map_outputs.hpp"
+#include "common/event.hpp"
+#include "interfaces/files/map_server.hpp"
+#include "perception/localization/localizer.hpp"
+
+namespace swiftlet::apps {
+
+/// The ways that were localized without a break, thinned for drawing; map frame.
+class LocalizedWays {
+ public:
+  void add(const perception::LocalizationEstimate& estimate);
+  const std::vector<std::vector<Eigen::Vector2d>>& ways_map_m() const { return ways_; }
+
+ private:
+  std::vector<std::vector<Eigen::Vector2d>> ways_;
+  bool open_ = false;
+};
+
+struct LocalizeFigures {
+  std::string map, log;
+  std::vector<std::pair<std::string, std::string>> facts;
+  std::vector<std::string> warnings;
+  std::vector<common::Event> events;
+  LocalizedWays ways;
+  ThinnedCurve unexplained;   ///< Per cent of each scan while localized, over its index; the greatest of neighbours.
+  ThinnedCurve milliseconds;  ///< Over the index of the scan.
+};
+
+/// Writes all but trajectory.tum into `out`, each in one step. Throws InputError when one cannot be written.
+void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
+                          const LocalizeFigures& figures);
+
+}  // namespace swiftlet::apps

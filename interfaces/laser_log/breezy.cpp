@@ -1,0 +1,128 @@
+#include "interfaces/laser_log/breezy.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "interfaces/files/text_file.hpp"
+#include "interfaces/laser_log/scan_geometry.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::Pose2;
+
+constexpr double kPi = std::numbers::pi;
+
+// The rover: see the format's own reader.
+constexpr double kTicksPerTurn = 2000.0;
+constexpr double kWheelRadius_m = 0.077;
+constexpr double kHalfAxle_m = 0.165;
+constexpr double kLaserAhead_m = 0.145;
+
+// The laser: 1,024 steps a turn, 10 turns a second, the fan spread evenly to both sides of straight ahead. Readings
+// below 20 mm are error codes.
+constexpr double kStep_rad = 2.0 * kPi / 1024.0;
+constexpr common::Duration kStepTime = common::Duration::fromNanoseconds(100'000'000 / 1024);
+constexpr double kRangeMin_m = 0.02;
+constexpr double kRangeMax_m = 5.6;
+constexpr int kWidestFan = 769;  ///< Beams over 270 degrees.
+
+constexpr int kOtherColumns = 20;  ///< Between the ticks and the ranges.
+constexpr double kMostTicks = 2147483648.0;
+constexpr double kLatest_us = 9e15;
+
+/// Where the wheels say the rover is.
+class WheelOdometry {
+ public:
+  Pose2 at(double left_ticks, double right_ticks) {
+    if (begun_) {
+      const double left_m = metres(left_ticks - left_ticks_), right_m = metres(right_ticks - right_ticks_);
+      const double ahead_m = 0.5 * (left_m + right_m), turn_rad = (right_m - left_m) / (2.0 * kHalfAxle_m);
+      // The chord of the arc.
+      const double half_rad = 0.5 * turn_rad;
+      const double chord_m = std::abs(half_rad) < 1e-6 ? ahead_m : ahead_m * std::sin(half_rad) / half_rad;
+      T_odom_robot_ = T_odom_robot_ * Pose2{chord_m * std::cos(half_rad), chord_m * std::sin(half_rad), turn_rad};
+    }
+    begun_ = true;
+    left_ticks_ = left_ticks;
+    right_ticks_ = right_ticks;
+    return T_odom_robot_;
+  }
+
+ private:
+  static double metres(double ticks) { return ticks / kTicksPerTurn * 2.0 * kPi * kWheelRadius_m; }
+  bool begun_ = false;
+  double left_ticks_ = 0.0, right_ticks_ = 0.0;
+  Pose2 T_odom_robot_;
+};
+
+class BreezyFormat final : public LogFormat {
+ public:
+  explicit BreezyFormat(const LaserLogOptions& options) : options_(options) {}
+
+  tl::expected<std::optional<LoggedScan>, RecordProblem> parse(std::string_view line) override {
+    LogFields fields(line);
+    if (fields.atEnd()) return std::nullopt;
+    const double time_us = within(fields, "time", kLatest_us);
+    (void)fields.finite("column");
+    const double left_ticks = within(fields, "left wheel", kMostTicks);
+    const double right_ticks = within(fields, "right wheel", kMostTicks);
+    for (int i = 0; i < kOtherColumns; ++i) (void)fields.finite("column");
+    LoggedScan logged;
+    readRanges(fields, logged.scan);
+    if (fields.problem()) return tl::unexpected(*fields.problem());
+    logged.scan.stamps.measured = common::Time::fromNanoseconds(std::llround(time_us) * 1000);
+    logged.scan.stamps.arrived = logged.scan.stamps.measured;
+    logged.T_robot_laser = {kLaserAhead_m, 0.0, 0.0};
+    if (auto problem = completeScan(options_.sensor, logged)) return tl::unexpected(RecordProblem{1, "", *problem});
+    logged.T_odom_robot = odometry_.at(left_ticks, right_ticks);
+    return logged;
+  }
+
+  std::string name() const override { return "BreezySLAM .dat"; }
+
+ private:
+  static double within(LogFields& fields, const char* name, double limit) {
+    const double value = fields.finite(name);
+    if (std::abs(value) <= limit) return value;
+    fields.fail(name, "is out of all bounds");
+    return 0.0;
+  }
+
+  void readRanges(LogFields& fields, common::LaserScan& scan) const {
+    while (!fields.atEnd() && !fields.problem()) {
+      if (scan.ranges_m.size() >= kMaxBeams) return fields.fail("range", "there are more than any laser has");
+      fields.ranges(1, 1e-3, scan);
+    }
+    const int beams = static_cast<int>(scan.ranges_m.size());
+    if (!fields.problem() && (beams < 2 || (beams > kWidestFan && !options_.sensor)))
+      return fields.fail("range", beams < 2 ? "the line ends before it" : "there are more than a URG-04LX has");
+    scan.angle_min_rad = -0.5 * kStep_rad * (beams - 1);
+    scan.angle_increment_rad = kStep_rad;
+    scan.time_increment = kStepTime;
+    scan.range_min_m = kRangeMin_m;
+    scan.range_max_m = kRangeMax_m;
+  }
+
+  LaserLogOptions options_;
+  WheelOdometry odometry_;
+};
+
+}  // namespace
+
+bool isBreezyLine(std::string_view line) {
+  constexpr std::size_t kColumns = 4 + kOtherColumns + 2;
+  const std::vector<Word> words = wordsOf(line);
+  if (words.size() < kColumns) return false;
+  double value = 0.0;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (!parseNumber(words[i].text, value) || (i < 4 && value != std::floor(value))) return false;
+  return true;
+}
+
+std::unique_ptr<LogFormat> breezyFormat(const LaserLogOptions& options) {
+  return std::make_unique<BreezyFormat>(options);
+}
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,100 @@
+#include "interfaces/laser_log/log_fields.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "interfaces/files/text_file.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+constexpr double kFarthest_m = 1e8;
+constexpr std::size_t kShownBytes = 40;
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+}  // namespace
+
+std::string shown(std::string_view word) {
+  std::string text;
+  for (const char c : word.substr(0, kShownBytes)) text += c >= ' ' && c <= '~' ? c : '?';
+  return word.size() > kShownBytes ? text + "..." : text;
+}
+
+void LogFields::skipBlanks() {
+  while (at_ != end_ && isBlank(*at_)) ++at_;
+}
+
+bool LogFields::atEnd() {
+  skipBlanks();
+  return at_ == end_;
+}
+
+std::string_view LogFields::word(const char* name) {
+  skipBlanks();
+  const char* first = at_;
+  while (at_ != end_ && !isBlank(*at_)) ++at_;
+  if (first == at_) failAt(first, name, "the line ends before it");
+  return {first, static_cast<std::size_t>(at_ - first)};
+}
+
+double LogFields::number(const char* name) {
+  const std::string_view text = word(name);
+  double value = 0.0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && rest == text.data() + text.size()) return value;
+  failAt(text.data(), name, fmt::format("`{}` is not a number", shown(text)));
+  return 0.0;
+}
+
+double LogFields::finite(const char* name) {
+  skipBlanks();
+  const char* first = at_;
+  const double value = number(name);
+  if (std::isfinite(value)) return value;
+  failAt(first, name, "is not finite");
+  return 0.0;
+}
+
+int LogFields::count(const char* name) {
+  skipBlanks();
+  const char* first = at_;
+  const double value = number(name);
+  if (value >= 0 && value <= kMaxBeams && value == std::floor(value)) return static_cast<int>(value);
+  failAt(first, name, fmt::format("{} is not a number of readings", value));
+  return 0;
+}
+
+common::Pose2 LogFields::pose(const char* name) {
+  skipBlanks();
+  const char* first = at_;
+  common::Pose2 pose;
+  pose.x_m = finite(name);
+  pose.y_m = finite(name);
+  pose.yaw_rad = common::wrapAngle(finite(name));
+  if (std::hypot(pose.x_m, pose.y_m) <= kFarthest_m) return pose;
+  failAt(first, name, fmt::format("is farther away than {} m", kFarthest_m));
+  return {};
+}
+
+common::Time LogFields::stamp(const char* name) {
+  const std::string_view text = word(name);
+  const auto stamp = parseStamp(text);
+  if (!stamp) failAt(text.data(), name, fmt::format("`{}` is not a time in seconds", shown(text)));
+  return stamp.value_or(common::Time());
+}
+
+void LogFields::ranges(int count, double unit_m, common::LaserScan& scan) {
+  scan.ranges_m.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count && !problem_; ++i) scan.ranges_m.push_back(static_cast<float>(unit_m * number("range")));
+}
+
+void LogFields::failAt(const char* where, const char* name, std::string message) {
+  if (!problem_) problem_ = RecordProblem{static_cast<int>(where - begin_) + 1, name, std::move(message)};
+  at_ = end_;
+}
+
+}  // namespace swiftlet::interfaces

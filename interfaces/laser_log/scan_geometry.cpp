@@ -1,0 +1,53 @@
+#include "interfaces/laser_log/scan_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::LaserScan;
+
+/// A whole turn, and the beam that some lasers give twice.
+constexpr double kWidestFan_rad = 2.0 * std::numbers::pi + 0.1;
+
+void useSensor(const common::LaserConfig& sensor, LoggedScan& logged) {
+  LaserScan& scan = logged.scan;
+  const double steps = std::max(1.0, static_cast<double>(scan.ranges_m.size()) - 1.0);
+  scan.angle_min_rad = sensor.angleMin_rad();
+  scan.angle_increment_rad = -2.0 * scan.angle_min_rad / steps;
+  scan.range_min_m = sensor.range_min_m;
+  scan.range_max_m = sensor.range_max_m;
+  logged.T_robot_laser = common::planar(sensor.mount.pose());
+}
+
+std::optional<std::string> geometryProblem(const LaserScan& scan) {
+  const double fan_rad = scan.angle_increment_rad * (static_cast<double>(scan.ranges_m.size()) - 1.0);
+  if (!std::isfinite(scan.angle_min_rad) || std::abs(scan.angle_min_rad) > kWidestFan_rad)
+    return fmt::format("a first beam at {} rad", scan.angle_min_rad);
+  if (scan.ranges_m.size() > 1 && !(scan.angle_increment_rad > 0.0 && fan_rad <= kWidestFan_rad))
+    return fmt::format("{} beams, {} rad apart", scan.ranges_m.size(), scan.angle_increment_rad);
+  if (!std::isfinite(scan.range_max_m) || !(scan.range_min_m >= 0.0) || !(scan.range_max_m > scan.range_min_m))
+    return fmt::format("ranges from {} m to {} m", scan.range_min_m, scan.range_max_m);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> completeScan(const std::optional<common::LaserConfig>& sensor, LoggedScan& logged) {
+  if (sensor) useSensor(*sensor, logged);
+  LaserScan& scan = logged.scan;
+  if (auto problem = geometryProblem(scan)) return "no laser has " + *problem + ", give its data sheet by --sensor";
+  const auto farthest_m = static_cast<float>(scan.range_max_m);
+  for (float& range_m : scan.ranges_m) {
+    if (range_m < 0.0F) range_m = std::numeric_limits<float>::quiet_NaN();
+    if (range_m >= farthest_m) range_m = std::numeric_limits<float>::infinity();
+  }
+  return std::nullopt;
+}
+
+}  // namespace swiftlet::interfaces

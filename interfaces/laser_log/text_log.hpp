@@ -1,0 +1,35 @@
+// Laser logs that have a record a line.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "interfaces/files/line_reader.hpp"
+#include "interfaces/laser_log/laser_log.hpp"
+#include "interfaces/laser_log/log_fields.hpp"
+
+namespace swiftlet::interfaces {
+
+/// What a line means. Lines come in the order of the file.
+class LogFormat {
+ public:
+  virtual ~LogFormat() = default;
+  /// The scan of the line; nothing where it holds none.
+  virtual tl::expected<std::optional<LoggedScan>, RecordProblem> parse(std::string_view line) = 0;
+  virtual std::string name() const = 0;
+  /// What was odd in the lines so far.
+  virtual std::vector<std::string> notes() const { return {}; }
+};
+
+/// However long a log is; what is longer than a scan of kMaxBeams ranges and remissions is no scan.
+constexpr LineLimits kLogLimits{std::size_t{1} << 20, std::numeric_limits<std::int64_t>::max(), true};
+
+std::unique_ptr<LaserLog> openTextLog(const std::filesystem::path& file, std::unique_ptr<LogFormat> format);
+
+}  // namespace swiftlet::interfaces

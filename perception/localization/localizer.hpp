@@ -1,0 +1,131 @@
+// Where a vehicle is in a given map: found globally, followed, and doubted.
+//
+//               several places fit               one place, held over some way
+//   kGlobal  <---------------------> kAmbiguous -------------------------------> kLocalized
+//      |  (nothing fits, or too little was seen)      ^                              |
+//      +----------------------------------------------|----------------------->      | the map no longer explains what
+//                                                     |                              | is seen, or explains it much
+//                                                   kLost <--------------------------+ better elsewhere
+//
+// Until it is localized, scans are kept in a local map and the whole of it is compared with the given map: the
+// particles are drawn from all places where it fits (GlobalSearch), in proportion to its likelihood. Once a single
+// place is left and holds while the vehicle goes on, particles follow it: a new generation per distance travelled, from
+// scans that the odometry was not made of (Grzonka 2009, section V-C). Every scan is looked at for how much of it the
+// map explains; that moves no particle.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/occupancy_grid.hpp"
+#include "perception/localization/global_search.hpp"
+#include "perception/localization/local_map.hpp"
+#include "perception/localization/particle_filter.hpp"
+#include "perception/localization/scan_support.hpp"
+#include "perception/projection/scan_projection.hpp"
+
+namespace swiftlet::perception {
+
+enum class LocalizationState {
+  kGlobal,     ///< It may be anywhere.
+  kAmbiguous,  ///< Several places explain what was seen, or one does that has not yet been held for long.
+  kLocalized,
+  kLost,  ///< It was localized, and the pose was wrong or became wrong.
+};
+const char* toString(LocalizationState state);
+
+struct LocalizerConfig {
+  LocalizerConfig();
+
+  MapFieldConfig field;
+  ParticleFilterConfig particles;
+  GlobalSearchConfig search;
+  ScanSupportConfig support;
+  LostTestConfig lost;
+
+  double generation_distance_m = 0.20;  ///< After so much way the particles are weighed and drawn anew,
+  double generation_turn_deg = 15.0;    ///< or after such a turn.
+  double odometry_share = 0.02;         ///< The least error of the odometry, of the way,
+  double odometry_deg_per_m = 0.5;      ///< and of the heading.
+  double max_sigma_m = 1.0;             ///< A pose less certain than this is not known.
+
+  double local_map_length_m = 12.0;
+  double local_map_spacing_m = 0.15;  ///< Between points of the local map.
+  int local_map_points = 160;
+  int local_map_least_points = 40;  ///< With fewer nothing is concluded.
+  double search_distance_m = 0.4;   ///< The whole map is searched again after so much way.
+  double point_weight = 0.15;  ///< Of a point of the local map in the likelihood, as ParticleFilterConfig::beam_weight.
+  double ambiguity = 0.01;     ///< A pose is not believed while others have together more than this probability.
+  double least_explained = 0.70;    ///< Nor when the map explains less of the local map than this.
+  double confirm_distance_m = 1.0;  ///< Nor before it has held over so much way.
+  double doubt_search_s = 0.5;      ///< While in doubt it is looked for elsewhere, with this long between.
+  double elsewhere_nats = 10.0;     ///< So much likelier elsewhere means that it is lost.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct LocalizationInput {
+  /// In the level frame of the body; its own T_odom_body is not read.
+  const ProjectedScan& scan;
+  common::Pose2 T_odom_body;
+  /// Of the odometry since the last input, (x_m, y_m, yaw_rad) with the axes of the body then.
+  Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();
+  bool fresh = true;         ///< The odometry was not made of this scan: it may weigh.
+  bool interrupted = false;  ///< The odometry does not know how the vehicle came here from where it was.
+};
+
+struct LocalizationEvent {
+  common::Time stamp;
+  LocalizationState state = LocalizationState::kGlobal;
+  std::string reason;
+};
+
+struct LocalizationEstimate {
+  LocalizationState state = LocalizationState::kGlobal;
+  common::Pose2 T_map_odom;  ///< Meaningful only when localized.
+  common::Pose2 T_map_body;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of T_map_body: (x_m, y_m, yaw_rad) along the map's axes.
+  double explained = 0.0;                                ///< Share of the scan that the map explains from there.
+  double doubt = 0.0;                      ///< Log-odds that it is lost; at LostTestConfig::threshold it is.
+  int places = 0;                          ///< That explain what was seen; 1 when localized.
+  std::optional<LocalizationEvent> event;  ///< The state changed.
+};
+
+/// Deterministic. Not thread-safe. The work per scan is bounded, but a global search takes some ten milliseconds: in
+/// flight, a job.
+class Localizer {
+ public:
+  /// `T_map_grid` places the grid in the map frame. The map must have walls and free cells: see `whyUnusable`.
+  Localizer(const common::OccupancyGrid& map, const common::Pose2& T_map_grid, const LocalizerConfig& config,
+            std::uint64_t seed);
+  ~Localizer();
+  Localizer(Localizer&&) noexcept;
+  Localizer& operator=(Localizer&&) noexcept;
+
+  /// What makes a map useless for localization; empty when nothing does.
+  static std::string whyUnusable(const common::OccupancyGrid& map);
+
+  /// It is believed to be there, until what is seen says otherwise.
+  void startAt(const common::Pose2& T_map_body, const Eigen::Matrix3d& covariance);
+
+  /// Whether a scan taken at that pose should be kept from the odometry, to weigh particles. The local map is made of
+  /// any scans: it is compared with the given map, not with the odometry.
+  bool wantsFreshScan(const common::Pose2& T_odom_body) const;
+
+  LocalizationEstimate add(const LocalizationInput& input);
+
+  LocalizationState state() const;
+  /// The particles as they are, in the map frame.
+  std::vector<common::Pose2> particles() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::perception

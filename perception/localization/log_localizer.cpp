@@ -1,0 +1,34 @@
+#include "perception/localization/log_localizer.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+/// Where a robot whose odometry lost the thread can be, at most, relative to where it was expected.
+const Eigen::Matrix3d kBreakCovariance = Eigen::Vector3d(0.5 * 0.5, 0.5 * 0.5, 0.3 * 0.3).asDiagonal();
+
+}  // namespace
+
+LogLocalizer::LogLocalizer(const common::OccupancyGrid& map, const common::Pose2& T_map_grid,
+                           const LocalizerConfig& config, std::uint64_t seed)
+    : track_(LaserFrontEndConfig{}.odometry, LaserFrontEndConfig{}.motion), localizer_(map, T_map_grid, config, seed) {}
+
+std::optional<LocalizationEstimate> LogLocalizer::add(const LaserSlamInput& input) {
+  ++scans_;
+  const common::Pose2& expected = track_.predict(input.scan.stamps, input.T_odom_robot);
+  // Never two in a row: the odometry needs scans that overlap.
+  const bool withheld = !withheld_last_ && localizer_.wantsFreshScan(expected);
+  const auto step = track_.add(input.scan, input.T_robot_laser, withheld);
+  withheld_last_ = withheld;
+  if (!step) return std::nullopt;
+  withheld_ += withheld ? 1 : 0;
+  breaks_ += step->broken ? 1 : 0;
+  const Eigen::Matrix3d covariance =
+      step->broken ? Eigen::Matrix3d(step->covariance + kBreakCovariance) : step->covariance;
+  return localizer_.add({step->scan, step->T_odom_robot, covariance, !step->matched, step->broken});
+}
+
+LogLocalizerCounts LogLocalizer::counts() const {
+  return {scans_, withheld_, breaks_, track_.doubtfulStamps(), track_.doubtfulSteps()};
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,41 @@
+// Localization in a recorded laser log, or on any robot that carries its laser level: LaserTrack and Localizer in one.
+// Each scan serves either of the two: those that weigh particles are kept from the odometry.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "perception/localization/localizer.hpp"
+#include "perception/slam2d/laser_front_end.hpp"
+#include "perception/slam2d/laser_track.hpp"
+
+namespace swiftlet::perception {
+
+struct LogLocalizerCounts {
+  std::uint64_t scans = 0;
+  std::uint64_t withheld = 0;  ///< From the odometry, to weigh particles.
+  std::uint64_t breaks = 0;    ///< Times the odometry lost the thread.
+  std::uint64_t doubtful_stamps = 0;
+  std::uint64_t doubtful_odometry = 0;
+};
+
+/// Not thread-safe. Deterministic.
+class LogLocalizer {
+ public:
+  LogLocalizer(const common::OccupancyGrid& map, const common::Pose2& T_map_grid, const LocalizerConfig& config,
+               std::uint64_t seed);
+
+  Localizer& localizer() { return localizer_; }
+  /// None as long as no scan has had enough points to begin with.
+  std::optional<LocalizationEstimate> add(const LaserSlamInput& input);
+
+  LogLocalizerCounts counts() const;
+
+ private:
+  LaserTrack track_;
+  Localizer localizer_;
+  bool withheld_last_ = true;  ///< The first scan is the odometry's.
+  std::uint64_t scans_ = 0, withheld_ = 0, breaks_ = 0;
+};
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,148 @@
+#include "perception/localization/map_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace swiftlet::perception {
+namespace {
+
+/// Reading four bytes at once at the last cell stays within the array.
+constexpr std::size_t kOverread = 16;
+
+/// One pass of the exact Euclidean distance transform (Felzenszwalb and Huttenlocher 2012): the lower envelope of the
+/// parabolas in[i] + (x - i)^2, squared distances in cells.
+class DistancePass {
+ public:
+  explicit DistancePass(std::size_t length) : in_(length), roots_(length), borders_(length + 1) {}
+
+  std::vector<float>& line() { return in_; }
+
+  template <typename Write>
+  void run(std::size_t length, Write&& write) {
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < length; ++i) {
+      if (in_[i] == kFar) continue;
+      float border = -kFar;
+      while (count > 0) {
+        border = crossing(roots_[count - 1], i);
+        if (border > borders_[count - 1]) break;
+        --count;
+      }
+      if (count == 0) border = -kFar;
+      roots_[count] = i;
+      borders_[count++] = border;
+    }
+    for (std::size_t x = 0, k = 0; x < length; ++x) {
+      if (count == 0) {
+        write(x, kFar);
+        continue;
+      }
+      while (k + 1 < count && borders_[k + 1] <= static_cast<float>(x)) ++k;
+      const float off = static_cast<float>(x) - static_cast<float>(roots_[k]);
+      write(x, in_[roots_[k]] + off * off);
+    }
+  }
+
+ private:
+  float crossing(std::size_t a, std::size_t b) const {
+    const auto x = static_cast<float>(a), y = static_cast<float>(b);
+    return (in_[b] - in_[a] + y * y - x * x) / (2.0F * (y - x));
+  }
+
+  std::vector<float> in_;
+  std::vector<std::size_t> roots_;
+  std::vector<float> borders_;
+};
+
+}  // namespace
+
+double beamValue(double distance_m, double sigma_m, double random_share) {
+  const double ratio = distance_m / sigma_m;
+  const double on_wall = (1.0 - random_share) / random_share;
+  return std::log1p(on_wall * std::exp(-0.5 * ratio * ratio)) / std::log1p(on_wall);
+}
+
+MapField::MapField(const common::OccupancyGrid& map, const MapFieldConfig& config) : resolution_m_(map.resolution_m()) {
+  readMap(map);
+  measureDistances();
+  fillValues(config);
+}
+
+void MapField::readMap(const common::OccupancyGrid& map) {
+  const common::CellRect known = common::knownExtent(map);
+  width_ = std::max(known.width(), 0) + 2 * kBorder;
+  height_ = std::max(known.height(), 0) + 2 * kBorder;
+  origin_m_ = Eigen::Vector2d(known.begin.x - kBorder, known.begin.y - kBorder) * resolution_m_;
+  kinds_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), kUnknown);
+  for (int y = known.begin.y; y < known.end.y; ++y) {
+    for (int x = known.begin.x; x < known.end.x; ++x) {
+      const common::occupancy::Cell cell = map.at({x, y});
+      if (common::occupancy::isUnknown(cell)) continue;
+      const bool occupied = common::occupancy::isOccupied(cell);
+      kinds_[indexOf(x - known.begin.x + kBorder, y - known.begin.y + kBorder)] = occupied ? kOccupied : kFree;
+      has_walls_ |= occupied;
+      if (!occupied) free_cells_m_.push_back(map.centerOf({x, y}).cast<float>());
+    }
+  }
+}
+
+void MapField::measureDistances() {
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
+  std::vector<float> columns(kinds_.size());
+  DistancePass pass(std::max(width, height));
+  for (std::size_t x = 0; x < width; ++x) {
+    for (std::size_t y = 0; y < height; ++y) pass.line()[y] = kinds_[y * width + x] == kOccupied ? 0.0F : kFar;
+    pass.run(height, [&](std::size_t y, float value) { columns[y * width + x] = value; });
+  }
+  distances_cm_.resize(kinds_.size());
+  const double cm_per_cell = 100.0 * resolution_m_;
+  for (std::size_t y = 0; y < height; ++y) {
+    for (std::size_t x = 0; x < width; ++x) pass.line()[x] = columns[y * width + x];
+    pass.run(width, [&](std::size_t x, float value) {
+      const double distance_cm = value == kFar ? 255.0 : std::sqrt(static_cast<double>(value)) * cm_per_cell;
+      distances_cm_[y * width + x] = static_cast<std::uint8_t>(std::lround(std::min(distance_cm, 255.0)));
+    });
+  }
+}
+
+void MapField::fillValues(const MapFieldConfig& config) {
+  top_nats_ = std::log1p((1.0 - config.random_share) / config.random_share);
+  // A map of coarse cells places its walls no better than that.
+  const double sigma_m = std::max(config.sigma_m, resolution_m_);
+  std::vector<std::uint8_t> by_distance(256);
+  for (std::size_t cm = 0; cm < by_distance.size(); ++cm)
+    by_distance[cm] = static_cast<std::uint8_t>(
+        std::lround(255.0 * beamValue(0.01 * static_cast<double>(cm), sigma_m, config.random_share)));
+  const auto unknown = static_cast<std::uint8_t>(std::lround(255.0 * config.unknown_value));
+  values_.assign(kinds_.size() + kOverread, unknown);
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    const std::uint8_t value = by_distance[distances_cm_[i]];
+    values_[i] = kinds_[i] == kUnknown ? std::max(value, unknown) : value;
+  }
+}
+
+MapField::Place MapField::at(const Eigen::Vector2d& point_m) const {
+  const Eigen::Vector2d cell = (point_m - origin_m_) / resolution_m_;
+  if (!(cell.x() >= 0.0 && cell.y() >= 0.0 && cell.x() < width_ && cell.y() < height_)) return {};
+  const std::size_t index = indexOf(static_cast<int>(cell.x()), static_cast<int>(cell.y()));
+  const std::uint8_t kind = kinds_[index];
+  return {0.01 * distances_cm_[index], kind != kUnknown, kind == kOccupied, kind == kFree};
+}
+
+double MapField::rayLength_m(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) const {
+  const double length_m = (to_m - from_m).norm();
+  const Eigen::Vector2d direction =
+      length_m > 0.0 ? Eigen::Vector2d((to_m - from_m) / length_m) : Eigen::Vector2d(1, 0);
+  // As far as the nearest wall is away, nothing can be met.
+  for (double along_m = 0.0; along_m <= length_m;) {
+    const Place place = at(from_m + along_m * direction);
+    if (place.occupied) return along_m;
+    along_m += std::max(0.5 * resolution_m_, place.wall_distance_m - 1.5 * resolution_m_);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,93 @@
+// A given map as localization reads it: how likely a beam ends in each cell, in bytes (the likelihood field of Thrun,
+// Burgard and Fox, Probabilistic Robotics, 6.4), how far the nearest wall is, and where the vehicle can be.
+//
+// A value is 255 ln(p(d) / p(far)) / ln(p(0) / p(far)), with p(d) a Gaussian of the distance d to the nearest occupied
+// cell over a constant share of beams that end anywhere: the sum over the beams of a scan is its log-likelihood. A
+// cell that was never seen says nothing for or against a pose: it has the value a beam has in the mean where the pose
+// is wrong.
+//
+// Frame: that of the grid. Immutable; may be read from any thread.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/occupancy_grid.hpp"
+
+namespace swiftlet::perception {
+
+struct MapFieldConfig {
+  double sigma_m = 0.10;        ///< Of a beam's end about the wall: noise, the map's cells, the pose between particles.
+  double random_share = 0.10;   ///< Density of beams that end anywhere, relative to that on a wall.
+  double unknown_value = 0.20;  ///< What an unknown cell counts, of the value on a wall.
+};
+
+/// Bytes row by row, with a border all around so that a clamped look-up falls on it.
+struct FieldView {
+  const std::uint8_t* cells = nullptr;
+  int width = 0;
+  int height = 0;
+  double resolution_m = 0.0;
+  Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();  ///< Corner of cell (0, 0) in the grid's frame.
+};
+
+class MapField {
+ public:
+  static constexpr double kMaxDistance_m = 2.55;
+
+  MapField(const common::OccupancyGrid& map, const MapFieldConfig& config);
+
+  FieldView view() const { return {values_.data(), width_, height_, resolution_m_, origin_m_}; }
+  /// The log-likelihood of a value of 255 over that of 0.
+  double topNats() const { return top_nats_; }
+
+  struct Place {
+    double wall_distance_m = kMaxDistance_m;  ///< To the centre of the nearest occupied cell; capped.
+    bool known = false;
+    bool occupied = false;
+    bool free = false;
+  };
+  Place at(const Eigen::Vector2d& point_m) const;
+
+  /// The length of the ray from one point towards another until it meets an occupied cell; infinity if it meets none.
+  double rayLength_m(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) const;
+
+  double resolution_m() const { return resolution_m_; }
+  /// Centres of the free cells.
+  const std::vector<Eigen::Vector2f>& freeCells_m() const { return free_cells_m_; }
+  bool hasWalls() const { return has_walls_; }
+  /// The known part.
+  Eigen::Vector2d low_m() const { return origin_m_ + Eigen::Vector2d::Constant(resolution_m_ * kBorder); }
+  Eigen::Vector2d high_m() const {
+    return origin_m_ + Eigen::Vector2d(width_ - kBorder, height_ - kBorder) * resolution_m_;
+  }
+
+ private:
+  static constexpr int kBorder = 2;
+  enum CellKind : std::uint8_t { kUnknown, kFree, kOccupied };
+
+  std::size_t indexOf(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+  void readMap(const common::OccupancyGrid& map);
+  void measureDistances();
+  void fillValues(const MapFieldConfig& config);
+
+  double resolution_m_;
+  Eigen::Vector2d origin_m_ = Eigen::Vector2d::Zero();
+  int width_ = 0, height_ = 0;
+  double top_nats_ = 0.0;
+  bool has_walls_ = false;
+  std::vector<std::uint8_t> values_;
+  std::vector<std::uint8_t> kinds_;
+  std::vector<std::uint8_t> distances_cm_;
+  std::vector<Eigen::Vector2f> free_cells_m_;
+};
+
+/// The log-likelihood of a beam that ends `distance_m` from a wall, over that of one far from any, as a share of the
+/// greatest.
+double beamValue(double distance_m, double sigma_m, double random_share);
+
+}  // namespace swiftlet::perception

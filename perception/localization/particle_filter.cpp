@@ -1,0 +1,263 @@
+#include "perception/localization/particle_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <Eigen/Eigenvalues>
+
+#include "common/check.hpp"
+#include "common/validation.hpp"
+#include "perception/localization/beam_sums.hpp"
+#include "perception/localization/kld_sampling.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::kRadPerDeg;
+using common::Pose2;
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+/// Nearly Gaussian, never beyond 3.5: the sum of four uniform numbers. Probabilistic Robotics, Table 5.4, sums twelve.
+float noise(common::RandomStream& random) {
+  const std::uint64_t bits = random.bits();
+  const auto sum = static_cast<float>((bits & 0xffff) + (bits >> 16 & 0xffff) + (bits >> 32 & 0xffff) + (bits >> 48));
+  constexpr float kMean = 4.0F * 32767.5F;
+  constexpr float kDeviation = 37837.2F;  // sqrt(4 / 12) of 65536.
+  return (sum - kMean) * (1.0F / kDeviation);
+}
+
+/// A matrix L with L L^T = covariance; also where the covariance is singular.
+Eigen::Matrix3f rootOf(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+  return (eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal()).cast<float>();
+}
+
+}  // namespace
+
+void ParticleFilterConfig::describe(common::config::Fields& fields) {
+  fields("max_particles", max_particles, "Particles at most.");
+  fields("min_particles", min_particles, "Particles at least.");
+  fields("adaptive", adaptive, "As many particles as the belief needs; else always the most.");
+  fields("kld_error", kld_error, "Greatest distance between the belief and its samples.");
+  fields("kld_quantile", kld_quantile, "Standard normal quantile of the probability that it is kept.");
+  fields("kld_bin_m", kld_bin_m, "Width of the bins in which the two are compared.");
+  fields("kld_bin_deg", kld_bin_deg, "The same for the heading.");
+  fields("beams", beams, "Beams of a scan that weigh.");
+  fields("beam_weight", beam_weight, "Weight of one beam in the likelihood; 1: all are independent.");
+}
+
+std::vector<std::string> ParticleFilterConfig::validate() const {
+  return common::Validation()
+      .within("max_particles", max_particles, 10, 1'000'000)
+      .within("min_particles", min_particles, 10, max_particles)
+      .within("kld_error", kld_error, 0.001, 1)
+      .within("kld_quantile", kld_quantile, 0, 6)
+      .within("kld_bin_m", kld_bin_m, 0.01, 10)
+      .within("kld_bin_deg", kld_bin_deg, 0.1, 180)
+      .within("beams", beams, 5, 10'000)
+      .within("beam_weight", beam_weight, 0.001, 1)
+      .problems();
+}
+
+void cosinesAndSines(std::span<const float> angles_rad, std::span<float> cosines, std::span<float> sines) {
+  constexpr float kQuarterHigh = 1.5707963705062866F, kQuarterLow = -4.371139000186241e-8F;  // pi / 2 in two parts.
+  for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+    const float angle = angles_rad[i];
+    const auto quarter = static_cast<std::int32_t>(angle * (2.0F / kPi) + (angle < 0.0F ? -0.5F : 0.5F));
+    const auto turns = static_cast<float>(quarter);
+    const float r = (angle - turns * kQuarterHigh) - turns * kQuarterLow, r2 = r * r;
+    const float sine = r + r * r2 * (-1.6666654611e-1F + r2 * (8.3321608736e-3F - r2 * 1.9515295891e-4F));
+    const float cosine = 1.0F - 0.5F * r2 +
+                         r2 * r2 * (4.166664568298827e-2F + r2 * (-1.388731625493765e-3F + r2 * 2.443315711809948e-5F));
+    const bool swap = (quarter & 1) != 0;
+    const float c = swap ? sine : cosine, s = swap ? cosine : sine;
+    cosines[i] = ((quarter + 1) & 2) != 0 ? -c : c;
+    sines[i] = (quarter & 2) != 0 ? -s : s;
+  }
+}
+
+ParticleFilter::ParticleFilter(std::shared_ptr<const MapField> map, const ParticleFilterConfig& config,
+                               std::uint64_t seed, Instructions instructions)
+    : map_(std::move(map)), config_(config), seed_(seed), instructions_(instructions) {}
+
+void ParticleFilter::resize(std::size_t count) {
+  for (std::vector<float>* values : {&x_m_, &y_m_, &yaw_rad_, &cosine_, &sine_}) values->resize(count);
+  weights_.assign(count, 1.0F / static_cast<float>(count));
+}
+
+void ParticleFilter::wrapAndTurn() {
+  for (float& yaw : yaw_rad_) yaw = yaw > kPi ? yaw - 2.0F * kPi : yaw <= -kPi ? yaw + 2.0F * kPi : yaw;
+  cosinesAndSines(yaw_rad_, cosine_, sine_);
+}
+
+void ParticleFilter::spreadOverFreeSpace() {
+  const std::vector<Eigen::Vector2f>& free = map_->freeCells_m();
+  SWIFTLET_CHECK(!free.empty());
+  common::RandomStream random(seed_, "spread over free space", draws_++);
+  resize(static_cast<std::size_t>(config_.max_particles));
+  const double half_m = 0.5 * map_->resolution_m();
+  for (std::size_t i = 0; i < size(); ++i) {
+    const auto cell = static_cast<std::size_t>(random.uniform() * static_cast<double>(free.size()));
+    x_m_[i] = free[cell].x() + static_cast<float>(random.uniform(-half_m, half_m));
+    y_m_[i] = free[cell].y() + static_cast<float>(random.uniform(-half_m, half_m));
+    yaw_rad_[i] = static_cast<float>(random.uniform(-1.0, 1.0)) * kPi;
+  }
+  wrapAndTurn();
+}
+
+void ParticleFilter::spreadAround(std::span<const PoseHypothesis> hypotheses) {
+  SWIFTLET_CHECK(!hypotheses.empty());
+  common::RandomStream random(seed_, "spread around", draws_++);
+  resize(static_cast<std::size_t>(config_.max_particles));
+  double all = 0.0;
+  for (const PoseHypothesis& h : hypotheses) all += h.probability;
+  double until = 0.0;
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < hypotheses.size(); ++k) {
+    const PoseHypothesis& h = hypotheses[k];
+    until += h.probability / all;
+    const std::size_t end = k + 1 == hypotheses.size()
+                                ? size()
+                                : std::min(size(), static_cast<std::size_t>(until * static_cast<double>(size())));
+    const Eigen::Matrix3f root = rootOf(h.covariance);
+    for (; i < end; ++i) {
+      const Eigen::Vector3f off = root * Eigen::Vector3f(noise(random), noise(random), noise(random));
+      x_m_[i] = static_cast<float>(h.T_grid_body.x_m) + off.x();
+      y_m_[i] = static_cast<float>(h.T_grid_body.y_m) + off.y();
+      yaw_rad_[i] = static_cast<float>(common::wrapAngle(h.T_grid_body.yaw_rad + static_cast<double>(off.z())));
+    }
+  }
+  wrapAndTurn();
+}
+
+void ParticleFilter::move(const Pose2& step, const Eigen::Matrix3d& covariance) {
+  common::RandomStream random(seed_, "move", draws_++);
+  const Eigen::Matrix3f root = rootOf(covariance);
+  const auto step_x = static_cast<float>(step.x_m), step_y = static_cast<float>(step.y_m);
+  const auto step_yaw = static_cast<float>(common::wrapAngle(step.yaw_rad));
+  for (std::size_t i = 0; i < size(); ++i) {
+    const float a = noise(random), b = noise(random), c = noise(random);
+    const float forward = step_x + root(0, 0) * a + root(0, 1) * b + root(0, 2) * c;
+    const float left = step_y + root(1, 0) * a + root(1, 1) * b + root(1, 2) * c;
+    x_m_[i] += cosine_[i] * forward - sine_[i] * left;
+    y_m_[i] += sine_[i] * forward + cosine_[i] * left;
+    yaw_rad_[i] += step_yaw + root(2, 0) * a + root(2, 1) * b + root(2, 2) * c;
+  }
+  wrapAndTurn();
+}
+
+void ParticleFilter::weigh(std::span<const Eigen::Vector2f> points_body_m) {
+  if (points_body_m.empty() || size() == 0) return;
+  const FieldView field = map_->view();
+  const auto scale = static_cast<float>(1.0 / field.resolution_m);
+  const std::size_t beams = std::min(points_body_m.size(), static_cast<std::size_t>(config_.beams));
+  beams_x_.resize(beams);
+  beams_y_.resize(beams);
+  for (std::size_t k = 0; k < beams; ++k) {
+    const Eigen::Vector2f& point = points_body_m[(2 * k + 1) * points_body_m.size() / (2 * beams)];
+    beams_x_[k] = point.x() * scale;
+    beams_y_[k] = point.y() * scale;
+  }
+  cells_x_.resize(size());
+  cells_y_.resize(size());
+  sums_.resize(size());
+  const auto origin_x = static_cast<float>(field.origin_m.x()), origin_y = static_cast<float>(field.origin_m.y());
+  for (std::size_t i = 0; i < size(); ++i) {
+    cells_x_[i] = (x_m_[i] - origin_x) * scale;
+    cells_y_[i] = (y_m_[i] - origin_y) * scale;
+  }
+  sumBeams(instructions_, field, {cells_x_, cells_y_, cosine_, sine_}, {beams_x_, beams_y_}, sums_);
+
+  const std::int32_t best = *std::max_element(sums_.begin(), sums_.end());
+  const auto nats = static_cast<float>(config_.beam_weight * map_->topNats() / 255.0);
+  double all = 0.0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    weights_[i] *= std::exp(nats * static_cast<float>(sums_[i] - best));
+    all += static_cast<double>(weights_[i]);
+  }
+  // Where all that is likely has lost its weight before, the likelihood alone decides.
+  const bool vanished = !(all > 0.0);
+  for (std::size_t i = 0; i < size(); ++i)
+    weights_[i] = vanished ? 1.0F / static_cast<float>(size()) : static_cast<float>(weights_[i] / all);
+}
+
+void ParticleFilter::resample() {
+  if (size() == 0) return;
+  common::RandomStream random(seed_, "resample", draws_++);
+  config_.adaptive ? resampleAdaptively(random) : resampleAll(random);
+}
+
+/// The low-variance sampler of Probabilistic Robotics, Table 4.4.
+void ParticleFilter::resampleAll(common::RandomStream& random) {
+  const auto count = static_cast<std::size_t>(config_.max_particles);
+  const double step = std::accumulate(weights_.begin(), weights_.end(), 0.0) / static_cast<double>(count);
+  double next = step * random.uniform(), sum = 0.0;
+  chosen_.clear();
+  for (std::size_t i = 0; i < size(); ++i) {
+    sum += static_cast<double>(weights_[i]);
+    for (; next < sum && chosen_.size() < count; next += step) chosen_.push_back(static_cast<std::uint32_t>(i));
+  }
+  while (chosen_.size() < count) chosen_.push_back(static_cast<std::uint32_t>(size() - 1));
+  keep(chosen_);
+}
+
+/// One by one until there are enough. The draws follow the golden section, so that any number of them is spread as
+/// evenly over the weights as the low-variance sampler's.
+void ParticleFilter::resampleAdaptively(common::RandomStream& random) {
+  cumulated_.resize(size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < size(); ++i) cumulated_[i] = sum += static_cast<double>(weights_[i]);
+  PoseBins bins(config_.kld_bin_m, config_.kld_bin_deg * kRadPerDeg);
+  const auto most = static_cast<std::size_t>(config_.max_particles);
+  double at = random.uniform(), enough = config_.min_particles;
+  std::size_t occupied = 0;
+  chosen_.clear();
+  while (chosen_.size() < most && static_cast<double>(chosen_.size()) < enough) {
+    const auto found = std::upper_bound(cumulated_.begin(), cumulated_.end(), at * sum);
+    const auto i = static_cast<std::size_t>(std::min(found, cumulated_.end() - 1) - cumulated_.begin());
+    chosen_.push_back(static_cast<std::uint32_t>(i));
+    at += std::numbers::phi - 1.0;
+    if (at >= 1.0) at -= 1.0;
+    bins.add(x_m_[i], y_m_[i], yaw_rad_[i]);
+    if (bins.occupied() == occupied) continue;
+    occupied = bins.occupied();
+    enough = std::max<double>(config_.min_particles, kldSampleSize(occupied, config_.kld_error, config_.kld_quantile));
+  }
+  keep(chosen_);
+}
+
+void ParticleFilter::keep(std::span<const std::uint32_t> chosen) {
+  for (std::vector<float>* values : {&x_m_, &y_m_, &yaw_rad_, &cosine_, &sine_}) {
+    other_.resize(chosen.size());
+    for (std::size_t i = 0; i < chosen.size(); ++i) other_[i] = (*values)[chosen[i]];
+    std::swap(*values, other_);
+  }
+  weights_.assign(chosen.size(), 1.0F / static_cast<float>(chosen.size()));
+}
+
+ParticleFilter::Estimate ParticleFilter::estimate() const {
+  double all = 0.0, x = 0.0, y = 0.0, cosine = 0.0, sine = 0.0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const auto weight = static_cast<double>(weights_[i]);
+    all += weight;
+    x += weight * static_cast<double>(x_m_[i]);
+    y += weight * static_cast<double>(y_m_[i]);
+    cosine += weight * static_cast<double>(cosine_[i]);
+    sine += weight * static_cast<double>(sine_[i]);
+  }
+  Estimate estimate;
+  if (!(all > 0.0)) return estimate;
+  estimate.T_grid_body = {x / all, y / all, std::atan2(sine, cosine)};
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Eigen::Vector3d off(static_cast<double>(x_m_[i]) - estimate.T_grid_body.x_m,
+                              static_cast<double>(y_m_[i]) - estimate.T_grid_body.y_m,
+                              common::wrapAngle(static_cast<double>(yaw_rad_[i]) - estimate.T_grid_body.yaw_rad));
+    estimate.covariance += static_cast<double>(weights_[i]) / all * off * off.transpose();
+  }
+  return estimate;
+}
+
+}  // namespace swiftlet::perception

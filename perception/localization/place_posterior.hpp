@@ -1,0 +1,41 @@
+// The places that a coarse search found, at their best on the fine likelihood field, and how probable each is.
+#pragma once
+
+#include <vector>
+
+#include "perception/localization/global_search.hpp"
+#include "perception/localization/map_field.hpp"
+#include "perception/scan_matching/window_sums.hpp"
+
+namespace swiftlet::perception {
+
+struct LikelyPlace {
+  common::Pose2 T_grid_points;
+  double log_likelihood = 0.0;  ///< In nats, over that of points that are far from every wall.
+  double probability = 0.0;     ///< Among the places given.
+  double explained = 0.0;       ///< Share of the points on known ground that have a wall near.
+};
+
+/// Log-likelihood of points at a pose; `point_weight` is that of a single point, less than 1 as neighbours are not
+/// independent.
+double logLikelihood(const MapField& map, const std::vector<Eigen::Vector2f>& points_m,
+                     const common::Pose2& T_grid_points, double point_weight);
+
+/// Share of the points on known ground that end within `tolerance_m` of a wall; where that is less than half of the
+/// points, their share of half of the points.
+double explainedShare(const MapField& map, const std::vector<Eigen::Vector2f>& points_m,
+                      const common::Pose2& T_grid_points, double tolerance_m);
+
+struct PlaceDistinction {
+  double distance_m = 0.5;
+  double turn_rad = 0.26;
+  bool same(const common::Pose2& a, const common::Pose2& b) const;
+};
+
+/// Each moved to its best pose near by; those that end up together are one. The most probable first.
+std::vector<LikelyPlace> likelyPlaces(Instructions instructions, const MapField& map,
+                                      const std::vector<FittingPlace>& found,
+                                      const std::vector<Eigen::Vector2f>& points_m, double point_weight,
+                                      double tolerance_m, const PlaceDistinction& distinction);
+
+}  // namespace swiftlet::perception

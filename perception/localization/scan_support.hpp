@@ -1,0 +1,73 @@
+// How much of what a scan saw the map explains from a pose, and what that says of the pose.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "perception/localization/map_field.hpp"
+
+namespace swiftlet::perception {
+
+struct ScanSupportConfig {
+  int beams = 90;                ///< Of a scan, evenly spread.
+  double tolerance_m = 0.20;     ///< A beam is explained when a wall is this near to its end:
+  double tolerance_rad = 0.015;  ///< wider with the range, for what the heading may be off.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// Beams that end where the map knows nothing say nothing and are left out.
+struct ScanSupport {
+  int beams = 0;              ///< Looked at.
+  int evidence = 0;           ///< Of these, that say something.
+  double explained = 0.0;     ///< Share of those that end on a wall of the map, with none before it.
+  double contradicted = 0.0;  ///< Share of those that went through a wall of the map.
+};
+
+ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> points_body_m,
+                      const common::Pose2& T_grid_body, const ScanSupportConfig& config);
+
+struct LostTestConfig {
+  // The log-odds of being lost, of one scan: a logistic regression on simulated walks, see docs/localization.md.
+  double at_none = 9.4;           ///< Of a scan of which nothing is explained,
+  double by_explained = -17.6;    ///< and what it changes by with the share explained.
+  double most = 3.0;              ///< No scan says more than this, for or against.
+  double scans_per_s = 2.0;       ///< Scans nearer in time than this see the same: who stands in the way still does.
+  double doubt_explained = 0.75;  ///< Nor is all well while the map explains less than this: time to look elsewhere.
+  double threshold = 5.0;         ///< Log-odds that are believed.
+  int least_evidence = 15;        ///< Beams of a scan that say something; with fewer it is left out.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// Page's cumulative sum test (1954): the sum of the log-odds of the scans, never below zero, so that it is soon
+/// noticed when the pose becomes wrong, however long it was right. Not thread-safe.
+class LostTest {
+ public:
+  explicit LostTest(const LostTestConfig& config) : config_(config) {}
+
+  void reset();
+  void add(const ScanSupport& support, double elapsed_s);
+  /// That the pose is wrong, by this scan alone; 0 when it says too little.
+  double logOdds(const ScanSupport& support) const;
+
+  bool lost() const { return sum_ >= config_.threshold; }
+  /// Something speaks against the pose.
+  bool doubtful() const { return sum_ > 0.0 || explained_ < config_.doubt_explained; }
+  double sum() const { return sum_; }
+  /// Mean share explained, lately.
+  double explained() const { return explained_; }
+
+ private:
+  LostTestConfig config_;
+  double sum_ = 0.0, explained_ = 1.0;
+};
+
+}  // namespace swiftlet::perception

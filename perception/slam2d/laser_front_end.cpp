@@ -1,0 +1,134 @@
+#include "perception/slam2d/laser_front_end.hpp"
+
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "perception/slam2d/scan_clock.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+/// How wide to search, in sigmas of the prediction.
+constexpr double kWindowSigmas = 4.0;
+
+/// The part of a symmetric matrix that is positive.
+Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+}  // namespace
+
+/// Unlike a vehicle with inertial sensors, nothing else tells where a robot in a corridor is: its motion is known
+/// worse, and how well each scan holds it must be known better.
+LaserFrontEndConfig::LaserFrontEndConfig() {
+  odometry.max_window_m = 1.0;
+  odometry.max_window_deg = 60.0;
+  odometry.min_widened_quality = 0.45;
+  odometry.widened_must_hold = true;
+  odometry.max_failures = 4;
+  odometry.min_fit = 0.55;
+  odometry.min_weak_overlap = 0.93;
+  odometry.matcher.guess_weight = 0.01;  // The prediction has its say in the filter.
+  odometry.matcher.profile_half_m = 1.0;
+}
+
+void LaserFrontEndConfig::describe(common::config::Fields& fields) {
+  fields.section("odometry", odometry, "Matching of each scan to those just before.");
+  fields.section("motion", motion, "Prediction of the next step.");
+}
+
+std::vector<std::string> LaserFrontEndConfig::validate() const { return {}; }
+
+struct LaserFrontEnd::Impl {
+  explicit Impl(const LaserFrontEndConfig& config_in)
+      : config(config_in), motion(config_in.motion), odometry(config_in.odometry) {}
+
+  ProjectedScan levelScan(const LaserSlamInput& input, common::Time now, const Pose2& T_odom_robot) const;
+  Eigen::Matrix3d follow(const std::optional<RelativePose>& relative, const Pose2& before,
+                         const Eigen::Matrix3d& covariance_before);
+
+  LaserFrontEndConfig config;
+  MotionPrediction motion;
+  LaserOdometry odometry;
+  ScanClock clock;
+  std::uint64_t empty_scans = 0;
+
+  bool begun = false;
+  common::Time last_time;
+  Pose2 T_odom_robot;
+  Pose2 T_odom_reference;               ///< Of the scan that the odometry measures from.
+  std::optional<Pose2> T_odom_matched;  ///< At the last match.
+};
+
+ProjectedScan LaserFrontEnd::Impl::levelScan(const LaserSlamInput& input, common::Time now, const Pose2& pose) const {
+  common::LaserConfig laser;
+  laser.mirror_beams = 0;
+  laser.mount.x_m = input.T_robot_laser.x_m;
+  laser.mount.y_m = input.T_robot_laser.y_m;
+  laser.mount.yaw_deg = input.T_robot_laser.yaw_rad / common::kRadPerDeg;
+  common::LaserScan scan = input.scan;
+  scan.stamps = {now, now};
+  return project(scan, laser, [&](common::Time) { return common::lifted(pose, 1.0); }, {});
+}
+
+/// Takes the match in and says how uncertain the step from the scan before is, with the axes of the robot there. A
+/// match is relative to the odometry's reference: what it is uncertain of does not add up from scan to scan, only what
+/// the uncertainty has grown by counts.
+Eigen::Matrix3d LaserFrontEnd::Impl::follow(const std::optional<RelativePose>& relative, const Pose2& before,
+                                            const Eigen::Matrix3d& covariance_before) {
+  const bool restarted = relative && relative->from == relative->to;
+  if (!relative || (begun && restarted))
+    motion.lose(config.odometry.max_window_m, config.odometry.max_window_deg * common::kRadPerDeg);
+  else if (!restarted)
+    motion.correct(relative->T_from_to, relative->covariance, relative->unseen_direction);
+  const Pose2 now = motion.T_reference_robot();
+  const Eigen::Matrix3d carried = propagated(covariance_before, before, now, Eigen::Matrix3d::Zero());
+  Eigen::Matrix3d grown = common::turned(positivePart(motion.covariance() - carried), -before.yaw_rad);
+  T_odom_robot = T_odom_reference * now;
+  if (!relative) return grown;
+  if (relative->reference_changed) {
+    T_odom_reference = T_odom_robot;
+    motion.rebase();
+  }
+  T_odom_matched = T_odom_robot;
+  return grown;
+}
+
+LaserFrontEnd::LaserFrontEnd(const LaserFrontEndConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+LaserFrontEnd::~LaserFrontEnd() = default;
+
+std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input) {
+  Impl& self = *impl_;
+  const common::Time now = self.clock.tick(input.scan.stamps.measured);
+  const double elapsed_s = self.begun ? (now - self.last_time).seconds() : 0.0;
+  self.last_time = now;
+  const Pose2 before = self.motion.T_reference_robot();
+  const Eigen::Matrix3d covariance_before = self.motion.covariance();
+  if (!self.begun)
+    self.motion.begin(input.T_odom_robot);
+  else
+    self.motion.predict(input.T_odom_robot, elapsed_s);
+  ProjectedScan scan = self.levelScan(input, now, self.T_odom_reference * self.motion.T_reference_robot());
+  const auto relative = self.odometry.add(
+      scan, self.T_odom_matched,
+      SearchWindow{kWindowSigmas * self.motion.stepSigma_m(), kWindowSigmas * self.motion.stepSigma_rad()});
+  if (!self.begun && !relative) {
+    ++self.empty_scans;
+    return std::nullopt;
+  }
+  const Eigen::Matrix3d covariance = self.follow(relative, before, covariance_before);
+  self.begun = true;
+  return FollowedScan{std::move(scan), self.T_odom_robot, covariance, relative.has_value()};
+}
+
+const LaserOdometryCounts& LaserFrontEnd::odometryCounts() const { return impl_->odometry.counts(); }
+
+LaserSlamCounts LaserFrontEnd::counts() const {
+  return {impl_->clock.doubtful(), impl_->motion.doubtfulSteps(), impl_->empty_scans};
+}
+
+}  // namespace swiftlet::perception

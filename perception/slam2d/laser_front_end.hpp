@@ -1,0 +1,71 @@
+// What every SLAM of a laser that is carried level begins with: scans put in order of time, and the way from one to the
+// next, with its uncertainty, from the laser itself. Odometry is taken as a hint where there is some.
+//
+//   scan --> ScanClock --> MotionPrediction --> LaserOdometry --> pose in odom, covariance of the step
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+#include "common/sensor_event.hpp"
+#include "perception/projection/scan_projection.hpp"
+#include "perception/scan_matching/laser_odometry.hpp"
+#include "perception/slam2d/motion_prediction.hpp"
+
+namespace swiftlet::perception {
+
+struct LaserFrontEndConfig {
+  LaserFrontEndConfig();
+
+  LaserOdometryConfig odometry;
+  MotionPredictionConfig motion;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct LaserSlamInput {
+  const common::LaserScan& scan;  ///< Its stamp is the log's.
+  common::Pose2 T_robot_laser;
+  std::optional<common::Pose2> T_odom_robot;
+};
+
+struct LaserSlamCounts {
+  std::uint64_t doubtful_stamps = 0;    ///< Not after the one before.
+  std::uint64_t doubtful_odometry = 0;  ///< Steps of the odometry that no robot makes.
+  std::uint64_t empty_scans = 0;        ///< Too few points to begin with.
+};
+
+/// A scan and where it was taken. odom is the frame of the laser odometry: continuous, it begins at the first scan.
+struct FollowedScan {
+  ProjectedScan scan;  ///< Its stamp grows from scan to scan.
+  common::Pose2 T_odom_robot;
+  /// Of the step since the scan before: of the additive errors (x_m, y_m, yaw_rad) with the axes of the robot there.
+  Eigen::Matrix3d covariance_since_last = Eigen::Matrix3d::Zero();
+  bool matched = false;  ///< False: it stands where it was expected.
+};
+
+/// Not thread-safe. Deterministic.
+class LaserFrontEnd {
+ public:
+  explicit LaserFrontEnd(const LaserFrontEndConfig& config);
+  ~LaserFrontEnd();
+
+  /// None as long as no scan has had enough points to begin with.
+  std::optional<FollowedScan> add(const LaserSlamInput& input);
+
+  const LaserOdometryCounts& odometryCounts() const;
+  LaserSlamCounts counts() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::perception

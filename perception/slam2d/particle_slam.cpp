@@ -1,0 +1,228 @@
+#include "perception/slam2d/particle_slam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "common/random.hpp"
+#include "common/validation.hpp"
+#include "perception/slam2d/particle/ancestry_tree.hpp"
+#include "perception/slam2d/particle/resampling.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::kRadPerDeg;
+using common::Pose2;
+using common::RandomStream;
+
+struct Particle {
+  ParticleMap map;
+  Pose2 T_map_body;  ///< At the last scan that was taken in.
+  int node = AncestryTree::kNone;
+  double log_weight = 0.0;      ///< Since the last resampling.
+  double log_likelihood = 0.0;  ///< Of all scans: how good the whole trajectory is.
+};
+
+/// Additive errors with that covariance.
+Pose2 sample(const Pose2& mean, const Eigen::Matrix3d& covariance, RandomStream& random) {
+  const double x = random.gaussian(), y = random.gaussian(), yaw = random.gaussian();
+  const Eigen::Vector3d error = covariance.llt().matrixL() * Eigen::Vector3d(x, y, yaw);
+  return {mean.x_m + error.x(), mean.y_m + error.y(), common::wrapAngle(mean.yaw_rad + error.z())};
+}
+
+}  // namespace
+
+void ParticleSlamConfig::describe(common::config::Fields& fields) {
+  fields.section("map", map, "The maps of the particles.");
+  fields.section("match", match, "Matching of a scan to a particle's map.");
+  fields("particles", particles, "Trajectories that are kept up.");
+  fields("seed", seed, "Of the random numbers.");
+  fields("update_distance_m", update_distance_m, "A scan is taken in after this distance.");
+  fields("update_rotation_deg", update_rotation_deg, "Or after this rotation.");
+  fields("update_time_s", update_time_s, "Or after this time.");
+  fields("motion_sigma_m", motion_sigma_m, "No motion between two of them is more certain than this.");
+  fields("motion_sigma_deg", motion_sigma_deg, "The same for the rotation.");
+  fields("news_share", news_share, "Of what a scan says of a map: the scans before it said the rest already.");
+  fields("min_effective_share", min_effective_share, "Resampled when fewer of the particles are effective.");
+  fields("min_points", min_points, "A scan with fewer points is not the first.");
+}
+
+std::vector<std::string> ParticleSlamConfig::validate() const {
+  return common::Validation()
+      .within("particles", particles, 1, 10'000)
+      .within("seed", seed, 0, 2'147'483'647)
+      .within("update_distance_m", update_distance_m, 0.01, 10)
+      .within("update_rotation_deg", update_rotation_deg, 0.5, 180)
+      .within("update_time_s", update_time_s, 0.001, 1e6)
+      .within("motion_sigma_m", motion_sigma_m, 1e-5, 1)
+      .within("motion_sigma_deg", motion_sigma_deg, 1e-4, 10)
+      .within("news_share", news_share, 0, 1)
+      .within("min_effective_share", min_effective_share, 0, 1)
+      .within("min_points", min_points, 3, 100'000)
+      .problems();
+}
+
+struct ParticleSlam::Impl {
+  explicit Impl(const ParticleSlamConfig& config_in) : config(config_in) {}
+
+  void begin(const ProjectedScan& scan, const Pose2& T_odom_body);
+  void follow(const Pose2& T_odom_body, const Eigen::Matrix3d& covariance_since_last);
+  bool isDue(common::Time now) const;
+  void update(const ProjectedScan& scan);
+  void moveOn(Particle& particle, const MapMatch& match, RandomStream& random);
+  void resample();
+  const Particle& best() const;
+
+  ParticleSlamConfig config;
+  std::vector<Particle> particles;
+  AncestryTree ancestry;
+  std::vector<common::Time> stamps;  ///< Of the scans that were taken in.
+  DrawingBoard board;
+  ParticleSlamCounts counts;
+
+  // Since the last scan that was taken in: the same for all particles.
+  Pose2 T_anchor_body;
+  Eigen::Matrix3d covariance_anchor = Eigen::Matrix3d::Zero();
+  Pose2 T_odom_body;
+  common::Time last_stamp;
+};
+
+/// All begin where odom does, with one map.
+void ParticleSlam::Impl::begin(const ProjectedScan& scan, const Pose2& pose) {
+  ParticleMap map(config.map);
+  map.draw(toDraw(scan, config.map), pose, board);
+  const int root = ancestry.add(AncestryTree::kNone, pose);
+  for (int i = 0; i < config.particles; ++i) {
+    if (i > 0) ancestry.hold(root);
+    particles.push_back({map.snapshot(), pose, root, 0.0, 0.0});
+  }
+  T_odom_body = pose;
+  stamps.push_back(scan.stamp);
+  ++counts.updates;
+}
+
+/// Moves the estimate by what the laser odometry says happened since the last scan.
+void ParticleSlam::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& covariance_since_last) {
+  const Pose2 moved = T_anchor_body * between(T_odom_body, T_odom_body_now);
+  const Eigen::Matrix3d step_covariance =
+      covariance_since_last.allFinite() ? covariance_since_last : Eigen::Matrix3d::Zero();
+  covariance_anchor =
+      propagated(covariance_anchor, T_anchor_body, moved, common::turned(step_covariance, T_anchor_body.yaw_rad));
+  T_anchor_body = moved;
+  T_odom_body = T_odom_body_now;
+}
+
+bool ParticleSlam::Impl::isDue(common::Time now) const {
+  return T_anchor_body.position_m().norm() > config.update_distance_m ||
+         std::abs(T_anchor_body.yaw_rad) > config.update_rotation_deg * kRadPerDeg ||
+         (now - stamps.back()).seconds() > config.update_time_s;
+}
+
+void ParticleSlam::Impl::update(const ProjectedScan& scan) {
+  const std::vector<OrientedPoint> points = pointsToMatch(scan, config.match, config.map.max_gap_m);
+  const ParticleScan drawn = toDraw(scan, config.map);
+  const double sigma_rad = config.motion_sigma_deg * kRadPerDeg;
+  Eigen::Matrix3d motion = covariance_anchor;
+  motion.diagonal() += Eigen::Vector3d(config.motion_sigma_m * config.motion_sigma_m,
+                                       config.motion_sigma_m * config.motion_sigma_m, sigma_rad * sigma_rad);
+  RandomStream random(static_cast<std::uint64_t>(config.seed), "particles", counts.updates);
+  for (Particle& particle : particles) {
+    const MotionPrior prior{particle.T_map_body * T_anchor_body, common::turned(motion, particle.T_map_body.yaw_rad)};
+    moveOn(particle, matchToMap(particle.map, points, prior, config.match), random);
+    particle.map.draw(drawn, particle.T_map_body, board);
+  }
+  stamps.push_back(scan.stamp);
+  ++counts.updates;
+  T_anchor_body = Pose2{};
+  covariance_anchor.setZero();
+  resample();
+}
+
+void ParticleSlam::Impl::moveOn(Particle& particle, const MapMatch& match, RandomStream& random) {
+  particle.T_map_body = sample(match.T_map_body, match.covariance, random);
+  const double news = config.news_share * match.log_likelihood;
+  particle.log_weight += news;
+  particle.log_likelihood += news;
+  const int before = particle.node;
+  particle.node = ancestry.add(before, particle.T_map_body);
+  ancestry.release(before);
+}
+
+void ParticleSlam::Impl::resample() {
+  std::vector<double> log_weights;
+  for (const Particle& particle : particles) log_weights.push_back(particle.log_weight);
+  const std::vector<double> weights = normalizedWeights(log_weights);
+  if (effectiveSampleSize(weights) >= config.min_effective_share * static_cast<double>(particles.size())) return;
+  RandomStream random(static_cast<std::uint64_t>(config.seed), "resampling", counts.updates);
+  std::vector<Particle> next;
+  next.reserve(particles.size());
+  for (const std::size_t index : resampled(weights, random)) {
+    Particle& parent = particles[index];
+    ancestry.hold(parent.node);
+    next.push_back({parent.map.snapshot(), parent.T_map_body, parent.node, 0.0, parent.log_likelihood});
+  }
+  for (const Particle& particle : particles) ancestry.release(particle.node);
+  particles = std::move(next);
+  ++counts.resamplings;
+}
+
+const Particle& ParticleSlam::Impl::best() const {
+  return *std::max_element(particles.begin(), particles.end(),
+                           [](const Particle& a, const Particle& b) { return a.log_likelihood < b.log_likelihood; });
+}
+
+ParticleSlam::ParticleSlam(const ParticleSlamConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+ParticleSlam::~ParticleSlam() = default;
+ParticleSlam::ParticleSlam(ParticleSlam&&) noexcept = default;
+ParticleSlam& ParticleSlam::operator=(ParticleSlam&&) noexcept = default;
+
+bool ParticleSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
+                           const Eigen::Matrix3d& covariance_since_last) {
+  Impl& self = *impl_;
+  ++self.counts.scans;
+  const bool first = self.particles.empty();
+  if (!isFinite(T_odom_body) || (!first && scan.stamp <= self.last_stamp) ||
+      (first && static_cast<int>(scan.points_level_m.size()) < self.config.min_points)) {
+    ++self.counts.ignored_scans;
+    return false;
+  }
+  self.last_stamp = scan.stamp;
+  if (first) {
+    self.begin(scan, T_odom_body);
+    return true;
+  }
+  self.follow(T_odom_body, covariance_since_last);
+  if (!self.isDue(scan.stamp)) return false;
+  self.update(scan);
+  return true;
+}
+
+int ParticleSlam::anchor() const { return static_cast<int>(impl_->stamps.size()) - 1; }
+Pose2 ParticleSlam::T_anchor_body() const { return impl_->T_anchor_body; }
+
+Pose2 ParticleSlam::T_map_body() const {
+  return impl_->particles.empty() ? Pose2{} : impl_->best().T_map_body * impl_->T_anchor_body;
+}
+Pose2 ParticleSlam::T_map_odom() const { return T_map_body() * impl_->T_odom_body.inverse(); }
+
+std::vector<Slam2d::KeyPose> ParticleSlam::keyPoses() const {
+  std::vector<Slam2d::KeyPose> poses;
+  if (impl_->particles.empty()) return poses;
+  const std::vector<Pose2> path = impl_->ancestry.pathTo(impl_->best().node);
+  poses.reserve(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) poses.push_back({impl_->stamps[i], path[i]});
+  return poses;
+}
+
+common::OccupancyGrid ParticleSlam::map() const {
+  return impl_->particles.empty() ? common::makeOccupancyGrid(impl_->config.map.resolution_m)
+                                  : impl_->best().map.occupancy();
+}
+
+const ParticleSlamCounts& ParticleSlam::counts() const { return impl_->counts; }
+std::size_t ParticleSlam::keptPoses() const { return impl_->ancestry.size(); }
+
+}  // namespace swiftlet::perception

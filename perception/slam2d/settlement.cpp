@@ -1,0 +1,96 @@
+#include "perception/slam2d/settlement.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+
+#include "optimization/pose_graph_2d.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+/// So many key scans apart is another pass.
+constexpr int kOtherPass = 15;
+/// So many closures must agree before the graph is doubted.
+constexpr int kLeastToTurnOver = 3;
+
+/// Squared, normalized; of a closure that fits.
+double mostError(const Slam2dConfig& config) { return config.loops.max_edge_sigmas * config.loops.max_edge_sigmas; }
+
+/// A graph with closures that may be held, and what the edges of the problem are.
+struct Trial {
+  optimization::PoseGraph2D problem;
+  std::vector<int> edge_of;  ///< Of the graph; after these, the new ones.
+  int first_new = 0;
+
+  Trial(const SlamGraph& graph, const std::vector<FoundLoop>& loops)
+      : problem(toPoseGraph(graph)), first_new(static_cast<int>(graph.edges.size())) {
+    for (const FoundLoop& loop : loops) problem.edges.push_back(toPoseEdge(loop.edge));
+    edge_of.resize(problem.edges.size());
+    std::iota(edge_of.begin(), edge_of.end(), 0);
+  }
+
+  void remove(std::size_t i, std::vector<int>& removed) {
+    removed.push_back(edge_of[i]);
+    problem.edges.erase(problem.edges.begin() + static_cast<std::ptrdiff_t>(i));
+    edge_of.erase(edge_of.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+
+  Settled settled(std::vector<Pose2> poses, const std::vector<FoundLoop>& loops, std::vector<int> removed) const {
+    Settled result;
+    result.T_map_key = std::move(poses);
+    std::sort(removed.begin(), removed.end());
+    for (int i = 0; i < static_cast<int>(loops.size()); ++i) {
+      const bool out = std::binary_search(removed.begin(), removed.end(), first_new + i);
+      (out ? result.refused : result.accepted).push_back(loops[static_cast<std::size_t>(i)]);
+    }
+    result.taken_back.assign(removed.begin(), std::lower_bound(removed.begin(), removed.end(), first_new));
+    return result;
+  }
+};
+
+}  // namespace
+
+Settled settle(const SlamGraph& graph, const std::vector<FoundLoop>& loops, const Slam2dConfig& config) {
+  Trial trial(graph, loops);
+  std::vector<int> removed;
+  while (true) {
+    optimization::PoseGraph2DSolution solution = optimization::optimize(trial.problem, config.graph);
+    const std::vector<double>& errors = solution.squared_errors;
+    std::optional<std::size_t> worst;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      if (trial.problem.edges[i].robust && errors[i] > mostError(config) && (!worst || errors[i] > errors[*worst]))
+        worst = i;
+    if (!worst) return trial.settled(std::move(solution.poses), loops, std::move(removed));
+    trial.remove(*worst, removed);
+  }
+}
+
+std::optional<Settled> turnedOver(const SlamGraph& graph, const std::vector<FoundLoop>& doubted,
+                                  const Slam2dConfig& config) {
+  if (static_cast<int>(doubted.size()) < kLeastToTurnOver) return std::nullopt;
+  Trial trial(graph, doubted);
+  for (std::size_t i = 0; i < trial.problem.edges.size(); ++i) {
+    optimization::PoseEdge2D& edge = trial.problem.edges[i];
+    edge.robust = static_cast<int>(i) < trial.first_new && (edge.robust || std::abs(edge.to - edge.from) > kOtherPass);
+  }
+  std::vector<int> removed;
+  while (true) {
+    optimization::PoseGraph2DSolution solution = optimization::optimize(trial.problem, config.graph);
+    const std::size_t before = removed.size();
+    for (std::size_t i = solution.squared_errors.size(); i-- > 0;)
+      if (solution.squared_errors[i] > mostError(config) &&
+          (trial.problem.edges[i].robust || trial.edge_of[i] >= trial.first_new))
+        trial.remove(i, removed);
+    if (removed.size() > before) continue;
+    Settled settled = trial.settled(std::move(solution.poses), doubted, std::move(removed));
+    const std::size_t agree = settled.accepted.size();
+    if (static_cast<int>(agree) < kLeastToTurnOver || agree <= settled.taken_back.size()) return std::nullopt;
+    return settled;
+  }
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,125 @@
+// swiftlet localize as people meet it: a log is found in a map, a log of elsewhere is not, and what cannot be used is
+// refused.
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "common/random.hpp"
+#include "tests/localization/buildings.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace swiftlet::commands {
+namespace {
+
+using test_support::describe;
+using test_support::ProgramEnd;
+using test_support::readText;
+using test_support::runSwiftlet;
+using testing::HasSubstr;
+
+/// A walk of `steps` scans, five a second, as a CARMEN log; its odometry has an origin of its own.
+std::string walkThrough(const test::Building& building, std::uint64_t seed, int steps) {
+  const test::Walks walks(building);
+  test::Walker walker(walks, seed, 0.6);
+  test::DriftingOdometry odometry(seed);
+  common::RandomStream random(seed, "log");
+  std::string log;
+  for (int i = 0; i < steps; ++i) {
+    const common::Pose2 pose = walker.pose();
+    log += "FLASER 180";
+    for (int beam = 0; beam < 180; ++beam) {
+      const double angle = pose.yaw_rad + (beam - 90) * common::kRadPerDeg;
+      const double range = building.world.cast({pose.x_m, pose.y_m, 1.0}, {std::cos(angle), std::sin(angle), 0.0});
+      log += fmt::format(" {:.3f}", range + random.gaussian(0.015));
+    }
+    const common::Pose2& odom = odometry.pose();
+    const std::string at = fmt::format(" {:.4f} {:.4f} {:.5f}", odom.x_m, odom.y_m, odom.yaw_rad);
+    log += fmt::format("{}{} {:.2f} robot {:.2f}\n", at, at, 100.0 + 0.2 * i, 0.2 * i);
+    walker.advance(0.2);
+    odometry.step(between(pose, walker.pose()));
+  }
+  return log;
+}
+
+class Localize : public test_support::Scratch {
+ protected:
+  std::string writeMapOf(const test::Building& building, const std::string& name) {
+    const common::OccupancyGrid grid = test::mapOf(building);
+    const common::CellRect known = common::knownExtent(grid);
+    std::string pgm = fmt::format("P5\n{} {}\n255\n", known.width(), known.height());
+    for (int y = known.end.y - 1; y >= known.begin.y; --y)
+      for (int x = known.begin.x; x < known.end.x; ++x) {
+        const auto cell = grid.at({x, y});
+        pgm += static_cast<char>(common::occupancy::isUnknown(cell)    ? 205
+                                 : common::occupancy::isOccupied(cell) ? 0
+                                                                       : 254);
+      }
+    write(name + ".pgm", pgm);
+    return write(name + ".yaml",
+                 fmt::format("image: {}.pgm\nresolution: 0.05\norigin: [{:.3f}, {:.3f}, 0.0]\nnegate: 0\n"
+                             "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
+                             name, known.begin.x * 0.05, known.begin.y * 0.05));
+  }
+  /// Refused, with nothing of it.
+  void expectRefused(const std::vector<std::string>& arguments, const std::string& message) {
+    const ProgramEnd end = runSwiftlet(arguments);
+    EXPECT_EQ(end.exit_code, 2) << describe(end);
+    EXPECT_THAT(end.err, HasSubstr(message));
+  }
+};
+
+TEST_F(Localize, ALogIsFoundInItsMapAndWritten) {
+  const test::Building building = test::offices(21);
+  const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(building, 21, 150));
+  const ProgramEnd end = runSwiftlet({"localize", map, log, "--out", path("out"), "--json"});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const auto json = nlohmann::json::parse(end.out);
+  EXPECT_EQ(json.at("scans"), 150);
+  EXPECT_EQ(json.at("times_localized"), 1);
+  EXPECT_EQ(json.at("times_lost"), 0);
+  EXPECT_EQ(json.at("state_at_end"), "localized");
+  EXPECT_GE(json.at("localized_scans").get<int>(), 75);
+  const std::string trajectory = readText(path("out/trajectory.tum"));
+  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), json.at("localized_scans").get<int>());
+  EXPECT_THAT(trajectory, HasSubstr("129.8")) << "stamped as the log is";
+  EXPECT_THAT(readText(path("out/events.jsonl")), HasSubstr("\"localized\""));
+  EXPECT_THAT(readText(path("out/report.html")), HasSubstr("<svg"));
+  EXPECT_GT(std::filesystem::file_size(path("out/map.png")), 1000U);
+
+  // The same seed, the same bytes.
+  ASSERT_EQ(runSwiftlet({"localize", map, log, "--out", path("again"), "--json"}).exit_code, 0);
+  EXPECT_EQ(readText(path("again/trajectory.tum")), trajectory);
+}
+
+TEST_F(Localize, ALogOfAnotherFloorIsNeverLocalized) {
+  const std::string map = writeMapOf(test::offices(21), "map");
+  const ProgramEnd end =
+      runSwiftlet({"localize", map, write("walk.log", walkThrough(test::hall(22), 22, 100)), "--out", path("out")});
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  EXPECT_THAT(end.out, HasSubstr("never localized"));
+}
+
+TEST_F(Localize, RefusesWhatItCannotUse) {
+  const test::Building building = test::offices(21);
+  const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(building, 21, 2));
+  expectRefused({"localize", path("none.yaml"), log}, "none.yaml");
+  expectRefused({"localize", write("bad.yaml", "image: map.pgm\nresolutoin: 0.05\n"), log},
+                "did you mean `resolution`?");
+  write("black.pgm", "P5\n2 2\n255\n" + std::string(4, '\0'));
+  expectRefused({"localize", write("black.yaml", "image: black.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n"), log},
+                "no free cells");
+  expectRefused({"localize", map, path("none.log")}, "none.log");
+  expectRefused({"localize", map, write("empty.log", "ODOM 0 0 0 0 0 0 1.0 robot 1.0\n"), "--out", path("out")},
+                "no scan");
+  expectRefused({"localize", map, log, "--start", "1;2", "--out", path("out")}, "is not x;y;yaw");
+  expectRefused({"localize", map, log, "--odometry", "wheels"}, "--odometry");
+}
+
+}  // namespace
+}  // namespace swiftlet::commands

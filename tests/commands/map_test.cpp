@@ -1,0 +1,247 @@
+// swiftlet map as people meet it: a log of a walk along a room becomes a map, with odometry or without, whatever the
+// format; logs that are damaged, odd or hostile end it cleanly, with the place that is wrong.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace swiftlet::commands {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::describe;
+using test_support::ProgramEnd;
+using test_support::readText;
+using test_support::runSwiftlet;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+constexpr double kPi = std::numbers::pi;
+const std::vector<std::string> kOutputs = {"map.pgm",        "map.yaml",  "map.png",
+                                           "trajectory.tum", "graph.g2o", "report.html"};
+
+/// To the walls of a room of 8 m by 6 m with a niche, seen from (x, 0) at that angle.
+double range_m(double x_m, double angle_rad) {
+  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+  double nearest_m = c > 0 ? (4.0 - x_m) / c : (-4.0 - x_m) / std::min(c, -1e-9);
+  if (s > 0) nearest_m = std::min(nearest_m, 3.0 / s);
+  if (s < 0) nearest_m = std::min(nearest_m, 3.0 / -s);
+  const double niche_x_m = x_m + 2.0 / std::max(s, 1e-9) * c;
+  if (s > 0 && niche_x_m > 0.5 && niche_x_m < 1.5) nearest_m = std::min(nearest_m, 2.0 / s);
+  return nearest_m;
+}
+
+/// A scan from (x, 0): the laser is where the robot is.
+std::string scan(double x_m, double stamp_s, int beams = 180) {
+  std::string line = fmt::format("FLASER {}", beams);
+  for (int i = 0; i < beams; ++i) line += fmt::format(" {:.2f}", range_m(x_m, -0.5 * kPi + kPi * i / beams));
+  return line + fmt::format(" {0:.4f} 0 0 {0:.4f} 0 0 {1:.6f} host {1:.6f}\n", x_m, stamp_s);
+}
+
+std::string walk(int scans) {
+  std::string log = "# a walk\nPARAM robot_length 0.4\n";
+  for (int i = 0; i < scans; ++i) log += scan(-2.0 + 0.03 * i, 100.0 + 0.1 * i);
+  return log;
+}
+
+class Map : public test_support::Scratch {
+ protected:
+  ProgramEnd map(const std::string& log, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"map", log, "--out", path("out"), "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runSwiftlet(arguments);
+  }
+  /// Maps the text and returns the figures.
+  nlohmann::json mapped(const std::string& log, const std::vector<std::string>& more = {}) const {
+    const ProgramEnd end = map(write("a.log", log), more);
+    EXPECT_EQ(end.exit_code, 0) << describe(end);
+    return end.exit_code == 0 ? nlohmann::json::parse(end.out) : nlohmann::json();
+  }
+  std::string notesOf(const nlohmann::json& figures) const { return figures.at("notes").dump(); }
+  /// What cannot be mapped: exit 2, the message, and nothing is left.
+  void refused(const std::string& log, const std::string& pattern, const std::vector<std::string>& more = {}) const {
+    const ProgramEnd end = map(log, more);
+    EXPECT_EQ(end.exit_code, 2) << describe(end);
+    EXPECT_THAT(end.err, ContainsRegex(pattern));
+    EXPECT_FALSE(fs::exists(path("out"))) << log;
+  }
+  static int linesOf(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
+};
+
+TEST_F(Map, ALogBecomesAMapATrajectoryAGraphAndAReport) {
+  const nlohmann::json figures = mapped(walk(100));
+  EXPECT_EQ(figures.at("scans"), 100);
+  EXPECT_EQ(figures.at("format"), "CARMEN");
+  EXPECT_EQ(figures.at("skipped_records"), 0);
+  EXPECT_EQ(figures.at("invalid_ranges"), 0);
+  EXPECT_EQ(figures.at("doubtful_stamps"), 0);
+  EXPECT_TRUE(figures.at("complete").get<bool>());
+  EXPECT_TRUE(figures.at("notes").empty()) << figures.dump(2);
+  EXPECT_GT(figures.at("scans_per_s").get<double>(), 0.0);
+  for (const std::string& name : kOutputs) EXPECT_GT(fs::file_size(folder_ / "out" / name), 100U) << name;
+
+  const std::string trajectory = readText(path("out/trajectory.tum"));
+  EXPECT_EQ(
+      std::count(trajectory.begin(), trajectory.end(), '\n') - std::count(trajectory.begin(), trajectory.end(), '#'),
+      100);
+  EXPECT_THAT(trajectory, HasSubstr("\n100.100000000 ")) << "stamped with the log's own time";
+  // The last pose of the walk, 2.97 m from the first.
+  const std::size_t last = trajectory.rfind('\n', trajectory.size() - 2) + 1;
+  EXPECT_NEAR(std::stod(trajectory.substr(trajectory.find(' ', last))), 2.97, 0.05);
+}
+
+TEST_F(Map, NoOdometryIsNeeded) {
+  const nlohmann::json figures = mapped(walk(100), {"--odometry", "none"});
+  EXPECT_EQ(figures.at("scans"), 100);
+  const std::string trajectory = readText(path("out/trajectory.tum"));
+  const std::size_t last = trajectory.rfind('\n', trajectory.size() - 2) + 1;
+  EXPECT_NEAR(std::stod(trajectory.substr(trajectory.find(' ', last))), 2.97, 0.05);
+}
+
+TEST_F(Map, TheSameLogGivesTheSameBytes) {
+  const std::string log = write("a.log", walk(60));
+  for (const char* out : {"one", "two"})
+    ASSERT_EQ(runSwiftlet({"map", log, "--out", path(out), "--json"}).exit_code, 0);
+  for (const char* name : {"map.pgm", "map.yaml", "trajectory.tum", "graph.g2o"})
+    EXPECT_EQ(readText(folder_ / "one" / name), readText(folder_ / "two" / name)) << name;
+}
+
+TEST_F(Map, PeopleReadWhatIsOddBeforeTheFigures) {
+  const std::string log = write("b.log", walk(30) + "FLASER 3 1.0 2.0\n");
+  const ProgramEnd end = runSwiftlet({"map", log, "--out", path("out")});
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.out, ContainsRegex("note: 1 record could not be read and was skipped\nnote: .*b\\.log:33:17: range: "
+                                     "the line ends before it, skipped\n(.*\n)*scans +30\n"));
+  EXPECT_THAT(end.out, HasSubstr(path("out") + "/report.html"));
+  EXPECT_THAT(readText(path("out/report.html")), HasSubstr("b.log:33:17"));
+}
+
+TEST_F(Map, WhatIsNoLogIsRefused) {
+  refused(path("none.log"), "none\\.log: cannot be opened: No such file");
+  refused(folder_.string(), "is a folder");
+  refused(write("empty.log", ""), "empty\\.log: is empty, expected CARMEN");
+  refused(write("text.log", "no log\nat all\n"), "text\\.log: not a laser log known here, expected CARMEN");
+  refused(write("binary.log", std::string(100'000, '\0') + "\x7f"
+                                                           "ELF"),
+          "not a laser log known here");
+  refused(write("line.log", std::string(5'000'000, 'x')), "not a laser log known here");
+  refused(write("cut.gz", std::string("\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\x01", 11)),
+          "cut\\.gz: is cut or damaged");
+  refused(write("old.bag", "#ROSBAG V1.2\n"), "old\\.bag: is no bag of version 2\\.0");
+}
+
+TEST_F(Map, ALogWithoutScansOrWithoutPointsHasNoMap) {
+  refused(write("a.log", "# message\nODOM 1 2 3 0 0 0 1.0 host 1.0\n"), "a\\.log: no map: none of its 0 scans");
+  refused(write("b.log", "FLASER 3 1.0\nFLASER x\n"), "no map: .*first problem: .*b\\.log:1:13: range");
+  refused(write("c.log", "FLASER 0 0 0 0 0 0 0 1.0 host 1.0\n"), "no map: none of its 1 scans");
+  refused(write("d.log", "FLASER 2 81.9 81.9 0 0 0 0 0 0 1.0 host 1.0\n"), "no map: none of its 1 scans");
+  refused(write("e.log", "FLASER 2 nan -3 0 0 0 0 0 0 1.0 host 1.0\n"), "no map: none of its 1 scans");
+}
+
+TEST_F(Map, ASingleScanIsAMapToo) {
+  const nlohmann::json figures = mapped(scan(0.0, 1.0));
+  EXPECT_EQ(figures.at("scans"), 1);
+  for (const std::string& name : kOutputs) EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+}
+
+TEST_F(Map, BadRecordsAreSkippedAndTheRestIsMapped) {
+  std::string log = walk(30);
+  log += "FLASER 180 1.0 garbage\n" + std::string(200'000, '\xff') + "\n" + std::string(3'000'000, 'F') + "\n";
+  log += "FLASER 1e30 1\nFLASER -1 1\nFLASER 1 1 nan 0 0 0 0 0 1.0 host 1.0\nFLASER 1 1 1e300 0 0 0 0 0 1.0 host 1\n";
+  for (int i = 30; i < 60; ++i) log += scan(-2.0 + 0.03 * i, 100.0 + 0.1 * i);
+  const std::string whole = scan(0.0, 107.0);
+  log += whole.substr(0, whole.size() / 2);  // Cut within its last record.
+  const nlohmann::json figures = mapped(log);
+  EXPECT_EQ(figures.at("scans"), 60);
+  EXPECT_EQ(figures.at("skipped_records"), 7);
+  EXPECT_THAT(notesOf(figures), HasSubstr("a line of more than 1048576 bytes, skipped"));
+  EXPECT_THAT(notesOf(figures), HasSubstr("`garbage` is not a number"));
+}
+
+TEST_F(Map, OddScansAreMapped) {
+  std::string log;
+  for (int i = 0; i < 60; ++i) {
+    // Beams change; stamps repeat, go back and jump out of all bounds.
+    const double stamp_s = i == 20 ? 8.9e9 : i == 21 ? -8.9e9 : i % 10 == 3 ? 100.0 : 100.0 + 0.1 * i;
+    std::string line = scan(-2.0 + 0.03 * i, stamp_s, i % 3 == 0 ? 181 : i % 3 == 1 ? 90 : 360);
+    if (i == 30) line = "FLASER 4 nan -1 inf 0" + line.substr(line.find(" -1.1"));
+    log += line;
+  }
+  const nlohmann::json figures = mapped(log);
+  EXPECT_EQ(figures.at("scans"), 60);
+  EXPECT_GE(figures.at("doubtful_stamps").get<int>(), 6);
+  EXPECT_EQ(figures.at("invalid_ranges"), 2);
+  EXPECT_THAT(notesOf(figures), HasSubstr("time stamps do not come after the one before"));
+}
+
+TEST_F(Map, OfADamagedArchiveWhatCameBeforeIsMapped) {
+  const std::string log = write("a.log", walk(200));
+  ASSERT_EQ(std::system(("gzip -kf " + log).c_str()), 0);
+  const std::string packed = readText(log + ".gz");
+  const ProgramEnd end = map(write("cut.log.gz", packed.substr(0, packed.size() * 3 / 4)));
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  EXPECT_THAT(end.err, ContainsRegex("cut\\.log\\.gz:[0-9]+: is cut or damaged, its end cannot be read"));
+  const auto figures = nlohmann::json::parse(end.out);
+  EXPECT_FALSE(figures.at("complete").get<bool>());
+  EXPECT_GT(figures.at("scans").get<int>(), 100);
+  EXPECT_LT(figures.at("scans").get<int>(), 200);
+  for (const std::string& name : kOutputs) EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+}
+
+TEST_F(Map, ASensorOverridesTheGeometry) {
+  const std::string sensor = write("short.yaml", "name: short\nbeams: 180\nfield_of_view_deg: 180\nrange_max_m: 0.5\n");
+  refused(write("a.log", walk(5)), "no map: none of its 5 scans", {"--sensor", sensor});
+  refused(write("a.log", walk(5)), "urg_04lxx", {"--sensor", "urg_04lxx"});
+  EXPECT_EQ(mapped(walk(20), {"--sensor", "utm_30lx"}).at("scans"), 20);
+}
+
+TEST_F(Map, UnknownOdometryIsRefused) {
+  const ProgramEnd end = map(write("a.log", walk(5)), {"--odometry", "wheels"});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("--odometry"));
+}
+
+TEST_F(Map, AnOlderMapIsReplacedAndNothingElse) {
+  (void)mapped(walk(20));
+  EXPECT_EQ(mapped(walk(40)).at("scans"), 40) << "an older map is replaced";
+
+  write("out/mine.txt", "mine");
+  const std::string before = readText(path("out/map.yaml"));
+  ProgramEnd end = map(write("a.log", walk(20)));
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("holds `mine.txt`, which is no file of a map"));
+  EXPECT_EQ(readText(path("out/map.yaml")), before);
+
+  fs::create_directories(path("theirs"));
+  write("theirs/map.yaml", "image: map.pgm\n");
+  end = runSwiftlet({"map", path("a.log"), "--out", path("theirs")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("holds no map of this program"));
+  EXPECT_EQ(readText(path("theirs/map.yaml")), "image: map.pgm\n");
+
+  end = runSwiftlet({"map", path("a.log"), "--out", write("file", "")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("is not a folder"));
+}
+
+TEST_F(Map, AFullDiskIsTold) {
+  test_support::ProgramOptions full_disk;
+  full_disk.largest_file_bytes = 3000;
+  const ProgramEnd end = runSwiftlet({"map", write("a.log", walk(100)), "--out", path("out"), "--json"}, full_disk);
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, testing::AnyOf(HasSubstr("too large"), HasSubstr("disk full")));
+}
+
+}  // namespace
+}  // namespace swiftlet::commands

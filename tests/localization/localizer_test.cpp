@@ -1,0 +1,200 @@
+// Stories of a robot that does not know where it is, scan by scan. Truth is seen by the scoring alone.
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include "perception/localization/localizer.hpp"
+#include "tests/localization/lost_cases.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+using common::Time;
+
+/// A robot that walks through a building with an odometry of its own.
+struct Story {
+  explicit Story(const test::Building& building_in, std::uint64_t seed, const LocalizerConfig& config = {})
+      : building(building_in),
+        walks(building),
+        walker(walks, seed),
+        odometry(seed),
+        noise(seed, "story"),
+        localizer(test::mapOf(building), Pose2{}, config, seed) {}
+
+  LocalizationEstimate step(bool fresh = true) {
+    const auto scan = test::levelScan(building.world, walker.pose(), Time::fromSeconds(time_s), noise);
+    truth = walker.pose();
+    odometry_at_scan = odometry.pose();
+    const auto estimate = localizer.add({scan, odometry.pose(), Eigen::Matrix3d::Zero(), fresh, false});
+    walker.advance(0.1);
+    const Pose2 moved = between(truth, walker.pose());
+    odometry.step(moved);
+    way_m += moved.position_m().norm();
+    time_s += 0.1;
+    return estimate;
+  }
+
+  const test::Building building;
+  test::Walks walks;
+  test::Walker walker;
+  test::DriftingOdometry odometry;
+  common::RandomStream noise;
+  Localizer localizer;
+  Pose2 truth, odometry_at_scan;
+  double time_s = 0.0, way_m = 0.0;
+};
+
+double errorOf(const LocalizationEstimate& estimate, const Pose2& truth) {
+  return (estimate.T_map_body.position_m() - truth.position_m()).norm();
+}
+
+TEST(Localizer, FindsItselfWithinAFewMetresAndStaysFound) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Story story(test::offices(seed), seed);
+    double found_m = -1.0, worst_m = 0.0;
+    for (int i = 0; i < 150; ++i) {
+      const auto estimate = story.step();
+      if (estimate.state != LocalizationState::kLocalized) {
+        EXPECT_LT(found_m, 0.0) << "lost again, seed " << seed;
+        continue;
+      }
+      if (found_m < 0.0) found_m = story.way_m;
+      worst_m = std::max(worst_m, errorOf(estimate, story.truth));
+    }
+    EXPECT_GE(found_m, LocalizerConfig{}.confirm_distance_m) << seed;
+    EXPECT_LE(found_m, 5.0) << seed;
+    EXPECT_LE(worst_m, 0.3) << seed;
+  }
+}
+
+/// What the covariance claims is what the errors are, within a factor.
+TEST(Localizer, SaysHonestlyHowUncertainItIs) {
+  Story story(test::offices(4), 4);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal());
+  double normalized = 0.0;
+  int count = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto estimate = story.step();
+    ASSERT_EQ(estimate.state, LocalizationState::kLocalized);
+    if (i < 20 || i % 5 != 0) continue;
+    const Eigen::Vector2d error = estimate.T_map_body.position_m() - story.truth.position_m();
+    normalized += error.dot(estimate.covariance.topLeftCorner<2, 2>().inverse() * error);
+    ++count;
+  }
+  EXPECT_LT(normalized / count, 3.0 * 2.0);  // The mean is 2 where it is exactly honest.
+}
+
+TEST(Localizer, TellsOfTwinPlacesThatItIsAmbiguous) {
+  const test::Building building = test::twinWings(2);
+  Story story(building, 2);
+  // Up and down one wing: nothing tells it from the other.
+  for (int i = 0; i < 80; ++i) {
+    story.walker.carry({6.0 + 0.06 * i, 0.05}, 0.0);
+    if (i == 0) continue;
+    const Pose2 pose = story.walker.pose();
+    const auto scan = test::levelScan(building.world, pose, Time::fromSeconds(0.1 * i), story.noise);
+    const auto estimate = story.localizer.add({scan, Pose2{0.06 * i, 0.0, 0.0}, Eigen::Matrix3d::Zero(), true, false});
+    EXPECT_NE(estimate.state, LocalizationState::kLocalized) << i;
+  }
+  EXPECT_EQ(story.localizer.state(), LocalizationState::kAmbiguous);
+}
+
+TEST(Localizer, WeighsOnlyWithScansTheOdometryWasNotMadeOf) {
+  Story story(test::offices(5), 5);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+  EXPECT_FALSE(story.localizer.wantsFreshScan(story.odometry.pose())) << "nothing is known of the odometry yet";
+  const auto first = story.step(false);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_TRUE(story.localizer.wantsFreshScan(story.odometry.pose()));
+    const auto estimate = story.step(false);
+    EXPECT_EQ(estimate.T_map_odom.x_m, first.T_map_odom.x_m) << "moved by a scan of the odometry";
+  }
+  // One scan of its own moves the particles; where it stands still nothing new is seen, and none is due.
+  EXPECT_NE(story.step(true).T_map_odom.x_m, first.T_map_odom.x_m);
+  const Pose2 here = story.odometry_at_scan;
+  EXPECT_FALSE(story.localizer.wantsFreshScan(here));
+  EXPECT_TRUE(story.localizer.wantsFreshScan(here * Pose2{0.3, 0.0, 0.0}));
+  EXPECT_TRUE(story.localizer.wantsFreshScan(here * Pose2{0.0, 0.0, 0.4}));
+}
+
+/// Without scans of its own the pose is known worse and worse, until it is no longer known.
+TEST(Localizer, GivesUpAPoseThatTheOdometryAloneLedTo) {
+  LocalizerConfig config;
+  config.odometry_share = 0.5;
+  config.max_sigma_m = 0.15;
+  Story story(test::offices(5), 5, config);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.0001).asDiagonal());
+  story.step(true);
+  LocalizationEstimate estimate;
+  for (int i = 0; i < 300 && story.localizer.state() == LocalizationState::kLocalized; ++i)
+    estimate = story.step(false);
+  ASSERT_TRUE(estimate.event);
+  EXPECT_EQ(estimate.state, LocalizationState::kLost);
+  EXPECT_NE(estimate.event->reason.find("uncertain by"), std::string::npos) << estimate.event->reason;
+}
+
+TEST(Localizer, TheSameSeedGivesTheSameBytes) {
+  std::vector<double> first;
+  for (int run = 0; run < 2; ++run) {
+    Story story(test::offices(6), 6);
+    std::vector<double> all;
+    for (int i = 0; i < 60; ++i) {
+      const auto estimate = story.step();
+      for (const double v : {estimate.T_map_body.x_m, estimate.T_map_body.yaw_rad, estimate.covariance(0, 1)})
+        all.push_back(v);
+    }
+    if (run == 0) first = all;
+    EXPECT_EQ(first, all);
+  }
+}
+
+TEST(Localizer, PlacesAGridThatStandsTurnedInTheMap) {
+  const test::Building building = test::offices(7);
+  const Pose2 T_map_grid{10.0, -4.0, 0.7};
+  test::Walks walks(building);
+  test::Walker walker(walks, 7);
+  Localizer localizer(test::mapOf(building), T_map_grid, {}, 7);
+  localizer.startAt(T_map_grid * walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+  common::RandomStream noise(7, "turned");
+  test::DriftingOdometry odometry(7);
+  for (int i = 0; i < 50; ++i) {
+    const auto scan = test::levelScan(building.world, walker.pose(), Time::fromSeconds(0.1 * i), noise);
+    const auto estimate = localizer.add({scan, odometry.pose(), Eigen::Matrix3d::Zero(), true, false});
+    ASSERT_EQ(estimate.state, LocalizationState::kLocalized);
+    EXPECT_LT(errorOf(estimate, T_map_grid * walker.pose()), 0.25);
+    const Pose2 before = walker.pose();
+    walker.advance(0.1);
+    odometry.step(between(before, walker.pose()));
+  }
+}
+
+TEST(Localizer, RefusesMapsInWhichNothingCanBe) {
+  common::OccupancyGrid map = common::makeOccupancyGrid(0.05);
+  EXPECT_NE(Localizer::whyUnusable(map), "");
+  map.set({0, 0}, common::occupancy::kMaxSteps);
+  EXPECT_NE(Localizer::whyUnusable(map).find("no free cells"), std::string::npos);
+  map.set({1, 0}, -common::occupancy::kMaxSteps);
+  EXPECT_EQ(Localizer::whyUnusable(map), "");
+}
+
+/// Scans without points, points that are no numbers, time that goes back: nothing breaks, nothing is made up.
+TEST(Localizer, TakesBadScansCalmly) {
+  Story story(test::offices(8), 8);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+  for (int i = 0; i < 30; ++i) story.step();
+  ProjectedScan nothing;
+  nothing.stamp = Time::fromSeconds(1.0);
+  EXPECT_EQ(story.localizer.add({nothing, story.odometry.pose(), Eigen::Matrix3d::Zero(), true, false}).state,
+            LocalizationState::kLocalized);
+  ProjectedScan nans = nothing;
+  nans.points_level_m.assign(90, Eigen::Vector2f(NAN, 1.0F));
+  (void)story.localizer.add({nans, story.odometry.pose(), Eigen::Matrix3d::Zero(), true, false});
+  for (int i = 0; i < 10; ++i) {
+    const auto estimate = story.step();
+    EXPECT_EQ(estimate.state, LocalizationState::kLocalized);
+    EXPECT_LT(errorOf(estimate, story.truth), 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::perception

@@ -1,0 +1,353 @@
+// What ParticleSlam is made of: trajectories that share their past, resampling, maps that share their tiles, and the
+// match of a scan to one of them.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+
+#include "perception/slam2d/particle/ancestry_tree.hpp"
+#include "perception/slam2d/particle/map_match.hpp"
+#include "perception/slam2d/particle/particle_map.hpp"
+#include "perception/slam2d/particle/resampling.hpp"
+#include "tests/scan_matching/planar_world.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::CellIndex;
+using common::kRadPerDeg;
+using common::Pose2;
+using common::RandomStream;
+
+// --- Trajectories. ---
+
+TEST(AncestryTree, RelativesShareTheirPast) {
+  AncestryTree tree;
+  const int root = tree.add(AncestryTree::kNone, {0.0, 0.0, 0.0});
+  const int parent = tree.add(root, {1.0, 0.0, 0.0});
+  tree.release(root);
+  const int a = tree.add(parent, {2.0, 0.1, 0.0}), b = tree.add(parent, {2.0, -0.1, 0.0});
+  tree.release(parent);
+  EXPECT_EQ(tree.size(), 4U);
+  ASSERT_EQ(tree.pathTo(a).size(), 3U);
+  EXPECT_EQ(tree.pathTo(a).front().x_m, 0.0);
+  EXPECT_EQ(tree.pathTo(a)[1].x_m, 1.0);
+  EXPECT_EQ(tree.pathTo(a).back().y_m, 0.1);
+  EXPECT_EQ(tree.pathTo(b).back().y_m, -0.1);
+}
+
+TEST(AncestryTree, ForgetsWhatNobodyDescendsFrom) {
+  AncestryTree tree;
+  const int root = tree.add(AncestryTree::kNone, {});
+  std::vector<int> leaves{root, root};
+  tree.hold(root);
+  // Two lines side by side, of which one dies out.
+  for (int i = 0; i < 1000; ++i) {
+    for (int& leaf : leaves) {
+      const int next = tree.add(leaf, {static_cast<double>(i), 0.0, 0.0});
+      tree.release(leaf);
+      leaf = next;
+    }
+  }
+  EXPECT_EQ(tree.size(), 2001U);
+  tree.release(leaves[0]);
+  EXPECT_EQ(tree.size(), 1001U);
+  EXPECT_EQ(tree.pathTo(leaves[1]).size(), 1001U);
+  // The room of the dead line is used again.
+  const int other = tree.add(leaves[1], {});
+  tree.release(leaves[1]);
+  EXPECT_EQ(tree.pathTo(other).size(), 1002U);
+  tree.release(other);
+  EXPECT_EQ(tree.size(), 0U);
+}
+
+// --- Resampling. ---
+
+TEST(Resampling, WeightsOfAnySizeSumUpToOne) {
+  for (const double shift : {0.0, -1e5, 1e5}) {
+    const std::vector<double> weights = normalizedWeights({shift, shift + std::log(3.0), shift - 1e4});
+    EXPECT_NEAR(weights[0], 0.25, 1e-9);
+    EXPECT_NEAR(weights[1], 0.75, 1e-9);
+    EXPECT_EQ(weights[2], 0.0);
+  }
+}
+
+TEST(Resampling, TheEffectiveSampleSizeIsBetweenOneAndAll) {
+  EXPECT_NEAR(effectiveSampleSize({0.25, 0.25, 0.25, 0.25}), 4.0, 1e-12);
+  EXPECT_NEAR(effectiveSampleSize({1.0, 0.0, 0.0, 0.0}), 1.0, 1e-12);
+  EXPECT_NEAR(effectiveSampleSize({0.5, 0.5, 0.0, 0.0}), 2.0, 1e-12);
+}
+
+std::vector<double> randomWeights(std::size_t count, RandomStream& random) {
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < count; ++i) logs.push_back(random.gaussian(2.0));
+  return normalizedWeights(logs);
+}
+
+TEST(Resampling, EachIsTakenAboutAsOftenAsItsWeightSays) {
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    RandomStream random(seed, "weights");
+    const std::vector<double> weights = randomWeights(30, random);
+    const std::vector<std::size_t> chosen = resampled(weights, random);
+    ASSERT_EQ(chosen.size(), weights.size());
+    EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const auto taken = static_cast<double>(std::count(chosen.begin(), chosen.end(), i));
+      EXPECT_GE(taken, std::floor(30.0 * weights[i] - 1e-9)) << seed;
+      EXPECT_LE(taken, std::ceil(30.0 * weights[i] + 1e-9)) << seed;
+    }
+  }
+}
+
+TEST(Resampling, TheBestIsNeverLost) {
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    RandomStream random(seed, "weights");
+    const std::vector<double> weights = randomWeights(20, random);
+    const auto best = static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+    const std::vector<std::size_t> chosen = resampled(weights, random);
+    EXPECT_NE(std::find(chosen.begin(), chosen.end(), best), chosen.end()) << seed;
+  }
+}
+
+/// Over many draws the mean number of descendants is n w: no place in the list is favoured.
+TEST(Resampling, IsUnbiased) {
+  constexpr int kDraws = 20'000;
+  const std::vector<double> weights{0.02, 0.41, 0.003, 0.067, 0.25, 0.15, 0.0, 0.1};
+  std::vector<double> taken(weights.size(), 0.0);
+  for (std::uint64_t seed = 0; seed < kDraws; ++seed) {
+    RandomStream random(seed, "resampling");
+    for (const std::size_t i : resampled(weights, random)) taken[i] += 1.0;
+  }
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double expected = 8.0 * weights[i];
+    // A number between floor and ceil of its mean has a variance of at most 1/4; five sigmas of the mean.
+    EXPECT_NEAR(taken[i] / kDraws, expected, 5.0 * 0.5 / std::sqrt(kDraws)) << i;
+  }
+  EXPECT_EQ(taken[6], 0.0);
+}
+
+// --- Maps. ---
+
+/// A scan of the world from a pose, by a level laser.
+ProjectedScan scanAt(const test::PlanarWorld& world, const Pose2& T_world_body, std::uint64_t seed,
+                     double range_max_m = 20.0) {
+  common::LaserConfig laser;
+  laser.mirror_beams = 0;
+  laser.beams = 361;
+  laser.field_of_view_deg = 180.0;
+  laser.range_max_m = range_max_m;
+  laser.sweep_s = 0.0;
+  RandomStream random(seed, "scan");
+  const auto pose = [&](common::Time) { return common::lifted(T_world_body, 1.0); };
+  return project(test::sweep(world, laser, pose, {}, random), laser, pose, {});
+}
+
+ParticleMap mapOf(const test::PlanarWorld& world, const std::vector<Pose2>& poses, const ParticleMapConfig& config,
+                  double range_max_m = 20.0) {
+  ParticleMap map(config);
+  DrawingBoard board;
+  std::uint64_t seed = 100;
+  for (const Pose2& pose : poses) map.draw(toDraw(scanAt(world, pose, ++seed, range_max_m), config), pose, board);
+  return map;
+}
+
+ParticleScan wallAhead(double distance_m) {
+  ParticleScan scan;
+  for (double y = -1.0; y <= 1.0; y += 0.02)
+    scan.hits.push_back({Eigen::Vector2d(distance_m, y).cast<float>(), {-1.0F, 0.0F}});
+  return scan;
+}
+
+TEST(ParticleMap, ConfidenceIsCapped) {
+  const ParticleMapConfig config;
+  ParticleMap map(config);
+  DrawingBoard board;
+  const CellIndex wall = map.cellAt({2.02, 0.0}), before = map.cellAt({1.0, 0.0});
+  for (int i = 0; i < 1000; ++i) map.draw(wallAhead(2.02), {}, board);
+  EXPECT_EQ(map.at(wall).log_odds, config.max_steps);
+  EXPECT_EQ(map.at(before).log_odds, -config.max_steps);
+  EXPECT_LE(map.at(wall).hits, config.max_hits);
+}
+
+/// However long it stood there: a thousand scans of a wall are forgotten as fast as ten.
+TEST(ParticleMap, APlaceThatChangedIsSoonMappedAnew) {
+  const ParticleMapConfig config;
+  DrawingBoard board;
+  std::vector<int> scans_to_free, scans_to_occupied;
+  for (const int seen : {10, 1000}) {
+    ParticleMap map(config);
+    const CellIndex wall = map.cellAt({2.02, 0.0});
+    for (int i = 0; i < seen; ++i) map.draw(wallAhead(2.02), {}, board);
+    int scans = 0;
+    for (; map.at(wall).isOccupied(); ++scans) map.draw(wallAhead(4.02), {}, board);
+    scans_to_free.push_back(scans);
+    for (int i = 0; i < seen; ++i) map.draw(wallAhead(4.02), {}, board);
+    for (scans = 0; !map.at(wall).isOccupied(); ++scans) map.draw(wallAhead(2.02), {}, board);
+    scans_to_occupied.push_back(scans);
+  }
+  EXPECT_EQ(scans_to_free[0], scans_to_free[1]);
+  EXPECT_LE(scans_to_free[1], 12);
+  EXPECT_EQ(scans_to_occupied[0], scans_to_occupied[1]);
+  EXPECT_LE(scans_to_occupied[1], 4);
+}
+
+TEST(ParticleMap, TheSurfaceIsKnownMoreFinelyThanTheCells) {
+  DrawingBoard board;
+  for (const double distance_m : {2.012, 2.021, 2.034}) {
+    ParticleMap fresh{ParticleMapConfig{}};
+    for (int i = 0; i < 5; ++i) fresh.draw(wallAhead(distance_m), {}, board);
+    const CellIndex index = fresh.cellAt({distance_m, 0.0});
+    EXPECT_NEAR(fresh.surface_m(index, fresh.at(index)).x(), distance_m, 0.001);
+    EXPECT_LT(fresh.at(index).normal_x, -120);
+  }
+}
+
+std::vector<int> bytesOf(const ParticleMap& map) {
+  std::vector<int> bytes;
+  map.grid().forEachCell([&](CellIndex c, const ParticleCell& cell) {
+    if (cell != map.grid().background())
+      bytes.insert(bytes.end(),
+                   {c.x, c.y, cell.log_odds, cell.hits, cell.offset_x, cell.offset_y, cell.normal_x, cell.normal_y});
+  });
+  return bytes;
+}
+
+TEST(ParticleMap, WhatOneDrawsTheOthersDoNotSee) {
+  DrawingBoard board;
+  ParticleMap parent{ParticleMapConfig{}};
+  parent.draw(wallAhead(2.0), {}, board);
+  const auto before = bytesOf(parent);
+  ParticleMap child = parent.snapshot(), sibling = parent.snapshot(), grandchild = child.snapshot();
+  child.draw(wallAhead(1.0), {0.0, 0.0, 0.3}, board);
+  EXPECT_NE(bytesOf(child), before);
+  EXPECT_EQ(bytesOf(parent), before);
+  EXPECT_EQ(bytesOf(sibling), before);
+  EXPECT_EQ(bytesOf(grandchild), before);
+  parent.draw(wallAhead(3.0), {}, board);
+  EXPECT_EQ(bytesOf(sibling), before);
+  EXPECT_EQ(bytesOf(grandchild), before);
+}
+
+TEST(ParticleMap, WhatIsNotDrawnToStaysShared) {
+  DrawingBoard board;
+  ParticleMap parent{ParticleMapConfig{}};
+  parent.draw(wallAhead(2.0), {}, board);
+  parent.draw(wallAhead(2.0), {40.0, 0.0, 0.0}, board);
+  ParticleMap child = parent.snapshot();
+  const CellIndex here = parent.cellAt({1.0, 0.0}), there = parent.cellAt({41.0, 0.0});
+  child.draw(wallAhead(2.0), {}, board);
+  EXPECT_NE(child.grid().tileIdentity(here), parent.grid().tileIdentity(here));
+  EXPECT_EQ(child.grid().tileIdentity(there), parent.grid().tileIdentity(there));
+}
+
+// --- Matching. ---
+
+Eigen::Matrix3d motionCovariance(double sigma_m, double sigma_rad) {
+  return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+}
+
+TEST(MapMatch, FindsThePoseAndSaysHowWell) {
+  const test::PlanarWorld world = test::flat();
+  const ParticleMapConfig map_config;
+  const MapMatchConfig config;
+  const ParticleMap map = mapOf(world, {{0.0, 0.0, 0.0}, {0.3, 0.1, 0.2}, {0.5, 0.3, -0.2}}, map_config);
+  double nees = 0.0, worst_m = 0.0, worst_rad = 0.0;
+  constexpr int kCases = 60;
+  for (std::uint64_t seed = 0; seed < kCases; ++seed) {
+    RandomStream random(seed, "pose");
+    const Pose2 truth{random.uniform(-0.2, 0.6), random.uniform(-0.2, 0.4), random.uniform(-0.3, 0.3)};
+    const auto points = pointsToMatch(scanAt(world, truth, seed), config, map_config.max_gap_m);
+    const MotionPrior prior{
+        {truth.x_m + random.gaussian(0.03), truth.y_m + random.gaussian(0.03), truth.yaw_rad + random.gaussian(0.01)},
+        motionCovariance(0.03, 0.01)};
+    const MapMatch match = matchToMap(map, points, prior, config);
+    const Eigen::Vector3d e(match.T_map_body.x_m - truth.x_m, match.T_map_body.y_m - truth.y_m,
+                            common::wrapAngle(match.T_map_body.yaw_rad - truth.yaw_rad));
+    worst_m = std::max(worst_m, e.head<2>().norm());
+    worst_rad = std::max(worst_rad, std::abs(e.z()));
+    nees += e.dot(match.covariance.ldlt().solve(e)) / kCases;
+  }
+  std::printf("  at most %.1f mm, %.2f deg; nees %.2f\n", 1e3 * worst_m, worst_rad / kRadPerDeg, nees);
+  EXPECT_LT(worst_m, 0.02);
+  EXPECT_LT(worst_rad, 0.3 * kRadPerDeg);
+  // Three when honest. It errs on the cautious side here: a real map is worse than the noise of its beams.
+  EXPECT_GT(nees, 0.1);
+  EXPECT_LT(nees, 3.0);
+}
+
+/// The covariance of the motion does not know of a slip; the map does.
+TEST(MapMatch, ASlipOfTheMotionIsNotBelieved) {
+  const test::PlanarWorld world = test::flat();
+  const ParticleMapConfig map_config;
+  const MapMatchConfig config;
+  const ParticleMap map = mapOf(world, {{0.0, 0.0, 0.0}, {0.3, 0.1, 0.2}, {0.5, 0.3, -0.2}}, map_config);
+  const Pose2 truth{0.2, 0.1, 0.05};
+  const auto points = pointsToMatch(scanAt(world, truth, 7), config, map_config.max_gap_m);
+  const MotionPrior slipped{{0.35, 0.0, 0.08}, motionCovariance(0.005, 0.002)};
+  const MotionPrior right{truth, motionCovariance(0.005, 0.002)};
+  const MapMatch match = matchToMap(map, points, slipped, config);
+  EXPECT_LT((match.T_map_body.position_m() - truth.position_m()).norm(), 0.01);
+  // But a particle that came there without one is the more likely.
+  EXPECT_GT(matchToMap(map, points, right, config).log_motion, match.log_motion + 1.0);
+}
+
+TEST(MapMatch, TheRightMapWeighsMoreThanAWrongOne) {
+  const test::PlanarWorld world = test::flat();
+  test::PlanarWorld other = world;
+  other.addBox(2.2, -1.5, 0.5, 0.5);
+  other.addBox(1.5, 1.8, 0.6, 0.3);
+  const ParticleMapConfig map_config;
+  const MapMatchConfig config;
+  const std::vector<Pose2> poses{{0.0, 0.0, 0.0}, {0.3, 0.1, 0.1}};
+  const ParticleMap right = mapOf(world, poses, map_config), wrong = mapOf(other, poses, map_config);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Pose2 truth{0.2, 0.05, 0.05};
+    const auto points = pointsToMatch(scanAt(world, truth, seed), config, map_config.max_gap_m);
+    const MotionPrior prior{truth, motionCovariance(0.01, 0.005)};
+    EXPECT_GT(matchToMap(right, points, prior, config).log_likelihood,
+              matchToMap(wrong, points, prior, config).log_likelihood)
+        << seed;
+  }
+}
+
+/// Along a corridor the map says nothing: there the motion stands, with all its uncertainty.
+TEST(MapMatch, InACorridorTheMotionStandsAlongIt) {
+  test::PlanarWorld corridor;
+  corridor.addPolyline({{-50.0, -1.0}, {50.0, -1.0}}, false);
+  corridor.addPolyline({{-50.0, 1.0}, {50.0, 1.0}}, false);
+  const ParticleMapConfig map_config;
+  const MapMatchConfig config;
+  std::vector<Pose2> poses;
+  for (int i = 0; i < 10; ++i) poses.push_back({0.3 * i, 0.0, 0.0});
+  const ParticleMap map = mapOf(corridor, poses, map_config, 5.6);
+  const Pose2 truth{2.5, 0.02, 0.01};
+  const auto points = pointsToMatch(scanAt(corridor, truth, 3, 5.6), config, map_config.max_gap_m);
+  const MotionPrior prior{{2.35, 0.0, 0.0}, motionCovariance(0.1, 0.02)};
+  const MapMatch match = matchToMap(map, points, prior, config);
+  EXPECT_NEAR(match.T_map_body.x_m, prior.T_map_body.x_m, 0.02);
+  EXPECT_NEAR(match.T_map_body.y_m, truth.y_m, 0.01);
+  EXPECT_NEAR(match.T_map_body.yaw_rad, truth.yaw_rad, 0.005);
+  EXPECT_GT(std::sqrt(match.covariance(0, 0)), 0.07);
+  EXPECT_LT(std::sqrt(match.covariance(1, 1)), 0.01);
+}
+
+TEST(MapMatch, WithoutSupportTheMotionStands) {
+  const MapMatchConfig config;
+  const ParticleMap empty{ParticleMapConfig{}};
+  const MotionPrior prior{{1.0, 2.0, 0.5}, motionCovariance(0.02, 0.01)};
+  const auto points = pointsToMatch(scanAt(test::flat(), {}, 1), config, 0.3);
+  for (const auto& some : {points, std::vector<OrientedPoint>{}}) {
+    const MapMatch match = matchToMap(empty, some, prior, config);
+    EXPECT_EQ(match.T_map_body.x_m, 1.0);
+    EXPECT_EQ(match.support, 0.0);
+    EXPECT_TRUE(match.covariance.isApprox(prior.covariance, 1e-9));
+    EXPECT_TRUE(std::isfinite(match.log_likelihood));
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::perception
