@@ -434,9 +434,11 @@ LocalizationResult run(const LocalizationTask& task) {
   const std::vector<Eigen::Vector2f>& points = result->whole.points_middle_m;
   result->enough_points = static_cast<int>(points.size()) >= config.local_map_least_points;
   if (!result->enough_points) return {std::move(result)};
-  // What cannot be told from the best may be missing among the places, not what can.
-  const double nats = std::log(config.search.max_places / std::max(config.ambiguity, 1e-6));
+  // What cannot be told from the best must not be missing among the places: as many that fit worse still as there are
+  // in a large building are together less likely than the ambiguity allows.
+  constexpr double kOthers = 50.0;
   constexpr double kCoarseness = 0.05;  // By how much the coarse field may misjudge a fit.
+  const double nats = std::log(kOthers / std::max(config.ambiguity, 1e-6));
   const double margin =
       kCoarseness + nats / (config.point_weight * data.map->topNats() * static_cast<double>(points.size()));
   const GlobalSearchResult found = data.search->search(points, margin);
