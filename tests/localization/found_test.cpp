@@ -55,8 +55,8 @@ Count count(double disturbed_share, int cases) {
   for (int i = 0; i < cases; ++i) {
     const auto seed = static_cast<std::uint64_t>(2001 + i);
     const Building building = offices(seed);
-    const Found found =
-        walk(building, disturbed_share > 0.0 ? changedFurniture(building, disturbed_share, seed) : building.world, seed);
+    const Found found = walk(
+        building, disturbed_share > 0.0 ? changedFurniture(building, disturbed_share, seed) : building.world, seed);
     ++count.cases;
     count.within_5_m += found.way_m >= 0.0 && found.way_m <= 5.0 ? 1 : 0;
     count.wrong += found.wrong ? 1 : 0;
