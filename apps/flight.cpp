@@ -31,9 +31,10 @@ class Flight {
       : setup_(setup),
         hooks_(hooks),
         vehicle_(makeVehicle(setup)),
-        recorder_(vehicle_->T_world_map()),
+        recorder_(vehicle_->T_world_map(), setup.map ? setup.map->T_world_given : std::nullopt),
         autonomy_(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser,
-                  behaviors::Mission::fromFile(setup.mission_file), common::makeLockstepJobs(1)),
+                  behaviors::Mission::fromFile(setup.mission_file), common::makeLockstepJobs(1),
+                  setup.map ? &setup.map->map : nullptr),
         folder_(folderOf(setup), runInfo(setup), setup.system.toYaml(true)) {}
 
   FlightResult fly() {
@@ -69,6 +70,7 @@ class Flight {
     info.mission_file = setup.mission_file;
     info.world = setup.scenario.world;
     info.system = setup.system.name;
+    if (setup.map) info.given_map = setup.map->name;
     info.seed = setup.scenario.seed;
     info.version = SWIFTLET_VERSION;
     info.started = setup.started;

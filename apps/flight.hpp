@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/given_map.hpp"
 #include "apps/system.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "interfaces/flight_summary.hpp"
@@ -22,7 +23,8 @@ class WebLink;
 struct FlightSetup {
   System system;
   std::string mission_file;
-  simulation::Scenario scenario;  ///< World, start, weather, seed; vehicle and laser are taken from the system.
+  simulation::Scenario scenario;         ///< World, start, weather, seed; vehicle and laser are taken from the system.
+  std::shared_ptr<const FlightMap> map;  ///< To find itself in; null: it is given none.
   std::filesystem::path out;
   std::string started;           ///< For the run's records.
   double speed = 0.0;            ///< Times real time; 0: as fast as the machine can.

@@ -25,6 +25,7 @@ namespace {
 struct FlyOptions {
   std::string mission;
   std::string world = "worlds/unb_case1.sdf";
+  std::string map;
   std::string system = "swiftlet";
   int seed = 1;
   std::string speed;
@@ -43,6 +44,11 @@ FlightSetup setupOf(const FlyOptions& options) {
   requireSound(setup.mission_file, setup.system);
   setup.scenario.seed = options.seed;
   setup.scenario.world = common::findData(options.world).string();
+  if (!options.map.empty()) {
+    FlightMap map = readFlightMap(options.map);
+    map.map.seed = static_cast<std::uint64_t>(options.seed);
+    setup.map = std::make_shared<const FlightMap>(std::move(map));
+  }
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
@@ -151,6 +157,8 @@ void addFly(CLI::App& program, Run& run) {
   auto* command = program.add_subcommand("fly", "Fly a mission in the simulator; the page shows it live.");
   command->add_option("mission", options->mission, "Mission file (XML).")->required();
   command->add_option("--world", options->world, "World to fly in (SDF).")->capture_default_str();
+  command->add_option("--map", options->map,
+                      "A map of the place (YAML of map_server): the flight finds out where it is in it.");
   command->add_option("--system", options->system, "A profile of config/systems, or a file.")->capture_default_str();
   command->add_option("--seed", options->seed, "Of all that is random.")
       ->capture_default_str()

@@ -12,6 +12,7 @@
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
+#include "apps/given_map.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/numbers.hpp"
 #include "apps/show.hpp"
@@ -61,8 +62,26 @@ void findWorld(TrialConfig& trial) {
   trial.scenario.world = common::findData(trial.scenario.world).string();
 }
 
-FlightSetup setupOf(const TrialConfig& trial, int seed, const fs::path& out) {
+/// The map its flights are given; null when they are given none.
+std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::path& out) {
+  if (!trial.map.given()) return nullptr;
+  if (trial.map.surveyed()) {
+    const simulation::WorldModel world = simulation::loadWorld(trial.scenario.world, trial.scenario.model_paths);
+    return std::make_shared<const FlightMap>(surveyedMap(trial.map.survey, world, out / (trial.name + "-map")));
+  }
+  FlightMap map = readFlightMap(common::findData(trial.map.file));
+  map.T_world_given = common::Pose2{trial.map.x_m, trial.map.y_m, trial.map.yaw_deg * common::kRadPerDeg};
+  return std::make_shared<const FlightMap>(std::move(map));
+}
+
+FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
+                    const fs::path& out) {
   FlightSetup setup;
+  if (map) {
+    FlightMap seeded = *map;
+    seeded.map.seed = static_cast<std::uint64_t>(seed);
+    setup.map = std::make_shared<const FlightMap>(std::move(seeded));
+  }
   setup.system = loadSystem(trial.system);
   setup.mission_file = common::findData(trial.mission).string();
   setup.scenario = trial.scenario;
@@ -85,7 +104,8 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
 }
 
 /// The score is in the flight's own files too.
-evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::path& out, const std::atomic<bool>& stop) {
+evaluation::FlightScore flyOne(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
+                               const fs::path& out, const std::atomic<bool>& stop) {
   evaluation::FlightScore score;
   FlightHooks hooks;
   hooks.stop = &stop;
@@ -94,7 +114,7 @@ evaluation::FlightScore flyOne(const TrialConfig& trial, int seed, const fs::pat
     end.coverage = score.coverage;
     for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
   };
-  const FlightResult result = flySimulated(setupOf(trial, seed, out), hooks);
+  const FlightResult result = flySimulated(setupOf(trial, map, seed, out), hooks);
   if (result.write_failure) throw common::InputError(common::Problem{{}, "", *result.write_failure, ""});
   score.folder = result.folder.filename().string();
   return score;
@@ -114,6 +134,7 @@ std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& 
 void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out, const std::atomic<bool>& stop,
             TrialResult& result) {
   const int count = options.repeat > 0 ? options.repeat : trial.repeat;
+  const std::shared_ptr<const FlightMap> map = givenMap(trial, out);
   std::vector<std::optional<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
   std::mutex mutex;
@@ -121,7 +142,7 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::pat
   const auto work = [&] {
     for (int i = next++; i < count && !stop; i = next++) {
       try {
-        auto score = flyOne(trial, options.seed + i, out, stop);
+        auto score = flyOne(trial, map, options.seed + i, out, stop);
         const std::scoped_lock lock(mutex);
         if (!options.json) show(flightLine(trial, score) + "\n");
         scores[static_cast<std::size_t>(i)] = std::move(score);

@@ -52,10 +52,10 @@ std::vector<std::string> AutonomyConfig::validate() const {
 }
 
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
-                   behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs)
+                   behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given)
     : config_(seeing(config, laser)),
       vehicle_(vehicle),
-      estimator_(config.estimator, laser, vehicle, *jobs),
+      estimator_(config.estimator, laser, vehicle, given, *jobs),
       reactive_(config_.reactive, vehicle.hullRadius_m(), config.estimator.slam.grid),
       controller_(config.control, vehicle),
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
@@ -125,6 +125,7 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
   const common::Setpoint setpoint = controller_.tick(flight);
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
+  estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying);
   // Not while landing: the map stays that of the flight.
   if (controller_.state() == FlightState::kTakingOff || controller_.state() == FlightState::kFlying)
     estimator_.setFlightHeight(flight.state.T_odom_body.position_m.z());
@@ -264,6 +265,7 @@ void Autonomy::takeSnapshot(Time now) {
   world->mission = mission_status_;
   world->mission.tree = mission_.view();
   world->laser = laser_points_;
+  world->localization = estimator_.localization();
   world_ = std::move(world);
 }
 

@@ -42,8 +42,9 @@ struct AutonomyConfig {
 /// One thread. Every call is for a time not before that of the last one.
 class Autonomy {
  public:
+  /// `given`: a map of the place, to find itself in; none: null. Read in the constructor alone.
   Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
-           behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs);
+           behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given = nullptr);
   ~Autonomy();
 
   void process(const common::SensorEvent& event);

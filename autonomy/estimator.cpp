@@ -40,6 +40,7 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
   fields.section("altitude", altitude, "Height and levels from the mirror beams.");
   fields.section("fusion", fusion, "Error-state filter.");
   fields.section("slam", slam, "Graph SLAM and the map.");
+  fields.section("localization", localization, "In a map that the flight was given.");
   fields("match_floor_m", match_floor_m, "Least standard deviation of a match.");
   fields("match_floor_deg", match_floor_deg, "Likewise of its yaw.");
   fields("match_per_tilt_m_rad", match_per_tilt_m_rad, "What each radian of tilt adds: the attitude is not exact.");
@@ -58,7 +59,7 @@ std::vector<std::string> EstimatorConfig::validate() const {
 }
 
 Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& laser,
-                     const common::VehicleConfig& vehicle, common::JobRunner& jobs)
+                     const common::VehicleConfig& vehicle, const GivenMap* given, common::JobRunner& jobs)
     : config_(config),
       laser_(laser),
       vehicle_(vehicle),
@@ -67,6 +68,7 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       odometry_(config.odometry),
       altitude_(config.altitude),
       slam_(config.slam),
+      localizer_(given ? std::make_unique<FlightLocalizer>(*given, config.localization, jobs) : nullptr),
       published_grid_(std::make_shared<common::OccupancyGrid>(slam_.snapshot())),
       published_levels_(std::make_shared<common::LevelMap>()) {}
 
@@ -83,10 +85,18 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   }
   ScanOutcome outcome;
   outcome.scan = projectScan(scan);
-  outcome.matched = fuseOdometry(people.empty() ? outcome.scan : without(people, outcome.scan));
+  const bool withheld = withholds(outcome.scan);
+  const Eigen::Matrix3d covariance_before = covariance_since_map_;
+  const std::uint64_t restarts_before = odometry_.counts().restarts;
+  const perception::ProjectedScan standing = people.empty() ? outcome.scan : without(people, outcome.scan);
+  if (!withheld) outcome.matched = fuseOdometry(standing);
 
   const Pose3 T_odom_body = filter_.poseAt(outcome.scan.stamp).value_or(outcome.scan.T_odom_body);
   outcome.T_map_body = slam_.T_map_odom() * planar(T_odom_body);
+  if (localizer_ && at_flight_height_)
+    localizer_->add({standing, planar(T_odom_body), covariance_since_map_ - covariance_before, withheld,
+                     odometry_.counts().restarts != restarts_before},
+                    now);
   fuseHeight(outcome.scan, outcome.T_map_body);
   if (const auto below_m = medianBelow_m(outcome.scan))
     outcome.raw_height = control::RawHeight{outcome.scan.stamp, *below_m};
@@ -119,7 +129,16 @@ std::shared_ptr<const common::LevelMap> Estimator::levels() {
   return published_levels_;
 }
 
-std::vector<common::Event> Estimator::takeEvents() { return std::exchange(events_, {}); }
+std::optional<common::Localization> Estimator::localization() const {
+  return localizer_ ? std::optional(localizer_->localization()) : std::nullopt;
+}
+
+std::vector<common::Event> Estimator::takeEvents() {
+  std::vector<common::Event> events = std::exchange(events_, {});
+  if (localizer_)
+    for (common::Event& event : localizer_->takeEvents()) events.push_back(std::move(event));
+  return events;
+}
 
 void Estimator::initialize(const common::LaserScan& scan) {
   if (!last_imu_) return;
@@ -170,6 +189,11 @@ perception::ProjectedScan Estimator::without(std::span<const planning::Disc> peo
   scan.points_level_m = std::move(points_level_m);
   scan.heights_level_m = std::move(heights_level_m);
   return scan;
+}
+
+/// Whether a scan is kept from the odometry, so that it can weigh particles.
+bool Estimator::withholds(const perception::ProjectedScan& scan) {
+  return localizer_ && at_flight_height_ && localizer_->wantsScan(planar(scan.T_odom_body));
 }
 
 bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {

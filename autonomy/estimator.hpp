@@ -4,6 +4,7 @@
 //   scan --> project --> match to the local map --> relative pose -----> |  error-state filter --> VehicleState
 //                  \--> mirror beams --> levels --> virtual height ----> |          |
 //                   \--> SLAM (map, T_map_odom) <---------------- pose at the scan -+
+//                    \--> localization in a given map, where there is one <---------+
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "autonomy/flight_localizer.hpp"
 #include "common/config.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
@@ -37,6 +39,7 @@ struct EstimatorConfig {
   perception::MultilevelFilter::Config altitude;
   perception::ErrorStateFilter::Config fusion;
   perception::Slam2dConfig slam;
+  FlightLocalizerConfig localization;
   // What a wrong attitude does to a match, beyond the matcher's own covariance: it grows with the tilt.
   double match_floor_m = 0.004;
   double match_floor_deg = 0.10;
@@ -56,11 +59,12 @@ struct ScanOutcome {
   std::optional<control::RawHeight> raw_height;
 };
 
-/// One thread; SLAM jobs go to the runner it is given.
+/// One thread; the jobs of SLAM and localization go to the runner it is given.
 class Estimator {
  public:
+  /// `given` is a map to localize in; none: null.
   Estimator(const EstimatorConfig& config, const common::LaserConfig& laser, const common::VehicleConfig& vehicle,
-            common::JobRunner& jobs);
+            const GivenMap* given, common::JobRunner& jobs);
 
   void addImu(const common::ImuSample& sample);
   /// Before the filter is initialized a scan initializes it (the vehicle stands still) and gives nothing. What lies
@@ -73,6 +77,9 @@ class Estimator {
   void setFlightHeight(double height_m) { grid_version_ += slam_.setFlightHeight(height_m) ? 1 : 0; }
   /// While true the filter is told that the vehicle stands.
   void setAtRest(bool at_rest) { filter_.setAtRest(at_rest); }
+  /// Only while true scans are looked at for where they are in the given map: near the floor they see what stands
+  /// there.
+  void setAtFlightHeight(bool is) { at_flight_height_ = is; }
 
   /// At the newest IMU sample, with T_map_odom.
   common::VehicleState state() const;
@@ -80,6 +87,8 @@ class Estimator {
 
   std::shared_ptr<const common::OccupancyGrid> grid();
   std::shared_ptr<const common::LevelMap> levels();
+  /// None: no map was given.
+  std::optional<common::Localization> localization() const;
 
   std::vector<common::Event> takeEvents();
 
@@ -87,6 +96,7 @@ class Estimator {
   void initialize(const common::LaserScan& scan);
   perception::ProjectedScan projectScan(const common::LaserScan& scan);
   perception::ProjectedScan without(std::span<const planning::Disc> people, perception::ProjectedScan scan) const;
+  bool withholds(const perception::ProjectedScan& scan);
   bool fuseOdometry(const perception::ProjectedScan& scan);
   Eigen::Matrix3d tiltCovariance(const perception::ProjectedScan& scan) const;
   void fuseHeight(const perception::ProjectedScan& scan, const common::Pose2& T_map_body);
@@ -104,6 +114,8 @@ class Estimator {
   perception::LaserOdometry odometry_;
   perception::MultilevelFilter altitude_;
   perception::Slam2d slam_;
+  std::unique_ptr<FlightLocalizer> localizer_;  ///< Null: no map was given.
+  bool at_flight_height_ = false;
 
   std::optional<common::ImuSample> last_imu_;
   bool waiting_said_ = false;

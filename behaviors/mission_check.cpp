@@ -68,7 +68,8 @@ class Walk {
     if (id == "AlwaysSuccess" || id == "SetBlackboard") return {entry, {}};
     if (id == "AlwaysFailure") return {{}, entry};
     const bool lands = id == "Land";
-    const bool flies = lands || id == "Explore" || id == "MoveToGoal" || id == "GoHome" || id == "OperatorCommand";
+    const bool flies =
+        lands || id == "Explore" || id == "Localize" || id == "MoveToGoal" || id == "GoHome" || id == "OperatorCommand";
     if (flies && !entry.air)
       problems_.push_back({tree_.locationOf(node.id()),
                            std::string(id),

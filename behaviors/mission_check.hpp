@@ -13,9 +13,8 @@ namespace swiftlet::behaviors {
 /// The same problems in the words of common.
 std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems);
 
-/// - Something flies (Explore, MoveToGoal, GoHome, OperatorCommand) or lands where, by the statuses that lead there,
-/// the
-///   vehicle stands on the floor; or nothing ever takes off.
+/// - Something flies (Explore, Localize, MoveToGoal, GoHome, OperatorCommand) or lands where, by the statuses that
+///   lead there, the vehicle stands on the floor; or nothing ever takes off.
 /// - A clearance the reactive layer forbids, or a height above what is allowed.
 /// - A child of a Priority, not the last, that is never SKIPPED: what stands below it could never keep the vehicle.
 std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const MissionLimits& limits);

@@ -3,6 +3,7 @@
 #include "behaviors/go_home.hpp"
 #include "behaviors/hold.hpp"
 #include "behaviors/land.hpp"
+#include "behaviors/localize.hpp"
 #include "behaviors/mission.hpp"
 #include "behaviors/move_to_goal.hpp"
 #include "behaviors/operator_command.hpp"
@@ -17,6 +18,7 @@ const tree::Registry& missionRegistry() {
     registry.add<Land>();
     registry.add<Hold>();
     registry.add<Explore>();
+    registry.add<Localize>();
     registry.add<MoveToGoal>();
     registry.add<GoHome>();
     registry.add<AvoidObstacle>();

@@ -11,6 +11,7 @@
 
 #include "common/intent.hpp"
 #include "common/level_map.hpp"
+#include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/vehicle_state.hpp"
 
@@ -99,6 +100,7 @@ struct World {
   IntentStatus intent;
   MissionStatus mission;
   std::shared_ptr<const LaserPoints> laser;  ///< May be null: the last projected scan.
+  std::optional<Localization> localization;  ///< None: the flight was given no map.
   std::optional<FlightEnding> ending;        ///< Of the last one.
 };
 

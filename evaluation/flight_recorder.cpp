@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "evaluation/statistics.hpp"
 
@@ -28,7 +29,12 @@ Pose3 interpolated(const simulation::Truth& before, const simulation::Truth& aft
 
 }  // namespace
 
-FlightRecorder::FlightRecorder(const Pose3& T_world_map) { record_.T_world_map = T_world_map; }
+FlightRecorder::FlightRecorder(const Pose3& T_world_map, const std::optional<common::Pose2>& T_world_given) {
+  record_.T_world_map = T_world_map;
+  if (!T_world_given) return;
+  T_world_given_ = *T_world_given;
+  record_.localization.emplace();
+}
 
 void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleState& estimate) {
   if (!first_tick_) first_tick_ = truth.stamp;
@@ -97,6 +103,7 @@ void FlightRecorder::world(const common::World& world) {
   home_map_m_ = world.home_map.position_m();
   record_.map = world.grid;
   record_.explored_area_m2 = world.explored_area_m2;
+  followLocalization(world);
   if (common::isOver(record_.mission) || world.mission.state == MissionState::kReady) return;
   if (!mission_begin_) mission_begin_ = world.stamp;
   record_.mission = world.mission.state;
@@ -119,6 +126,29 @@ void FlightRecorder::followTree(const common::TreeView& tree) {
       ++record_.resumed;
     }
   }
+}
+
+void FlightRecorder::followLocalization(const common::World& world) {
+  if (!record_.localization || !world.localization) return;
+  LocalizationRecord& record = *record_.localization;
+  const common::LocalizationState before = std::exchange(localization_, world.localization->state);
+  if (before == common::LocalizationState::kLocalized && localization_ == common::LocalizationState::kLost)
+    ++record.times_lost;
+  if (world.status.flight_state != common::FlightState::kFlying) {
+    last_flown_.reset();
+    return;
+  }
+  const double elapsed_s = last_flown_ ? (world.stamp - *last_flown_).seconds() : 0.0;
+  last_flown_ = world.stamp;
+  record.flown_s += elapsed_s;
+  const std::optional<Pose3> T_world_body = truthAt(world.state.stamp);
+  if (!world.localization->localized() || !T_world_body) return;
+  const common::Pose2 off = common::between(T_world_given_.inverse() * common::planar(*T_world_body),
+                                            world.localization->T_given_odom * common::planar(world.state.T_odom_body));
+  const double error_m = off.position_m().norm(), error_rad = std::abs(off.yaw_rad);
+  record.localized_s += elapsed_s;
+  if (error_m > LocalizationRecord::kWrong_m || error_rad > LocalizationRecord::kWrong_rad) record.wrong_s += elapsed_s;
+  if (!record.found) record.found = {world.stamp, record_.true_distance_m, error_m, error_rad};
 }
 
 FlightRecord FlightRecorder::finish() const {

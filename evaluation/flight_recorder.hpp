@@ -36,9 +36,29 @@ struct ReachedGoal {
   ComparedEstimate estimate;  ///< The newest of that tick.
 };
 
+/// How the flight found itself in the map it was given. Times are of snapshots in flight.
+struct LocalizationRecord {
+  /// The first time it said where it is.
+  struct Found {
+    common::Time stamp;
+    double way_m = 0.0;  ///< True horizontal path until then.
+    double error_m = 0.0;
+    double error_rad = 0.0;
+  };
+  std::optional<Found> found;
+  double flown_s = 0.0;
+  double localized_s = 0.0;
+  double wrong_s = 0.0;  ///< Localized, but farther from the truth than kWrong_m or more turned than kWrong_rad.
+  int times_lost = 0;
+
+  static constexpr double kWrong_m = 0.5;
+  static constexpr double kWrong_rad = 10.0 * common::kRadPerDeg;
+};
+
 /// A whole flight.
 struct FlightRecord {
   common::Pose3 T_world_map;
+  std::optional<LocalizationRecord> localization;  ///< None: no map was given, or where it lies is not known.
   std::vector<ReachedGoal> goals;
   /// While airborne, at the times of the estimates: errors of the estimate.
   std::vector<double> horizontal_errors_m;
@@ -62,8 +82,10 @@ struct FlightRecord {
 /// Fed by the loop that flies; cheap enough for every tick. Calls come in the order of time.
 class FlightRecorder {
  public:
-  /// The true pose of the `map` frame: the take-off place on its floor.
-  explicit FlightRecorder(const common::Pose3& T_world_map);
+  /// The true pose of the `map` frame: the take-off place on its floor. `T_world_given`: that of the map the flight was
+  /// given, if it was given one and that is known.
+  explicit FlightRecorder(const common::Pose3& T_world_map,
+                          const std::optional<common::Pose2>& T_world_given = std::nullopt);
 
   /// At every control tick. The estimate is compared with the truth of its own stamp, wherever that lies in the last
   /// second.
@@ -82,8 +104,12 @@ class FlightRecorder {
   void compare(const common::VehicleState& estimate, const common::Pose3& T_world_body);
   ComparedEstimate compared(const common::VehicleState& estimate, const common::Pose3& T_world_body) const;
   void followTree(const common::TreeView& tree);
+  void followLocalization(const common::World& world);
 
   FlightRecord record_;
+  common::Pose2 T_world_given_;
+  common::LocalizationState localization_ = common::LocalizationState::kGlobal;
+  std::optional<common::Time> last_flown_;
   std::deque<simulation::Truth> history_;
   std::deque<common::VehicleState> pending_;  ///< Estimates of times the truth has not come to.
   ComparedEstimate newest_;

@@ -80,6 +80,21 @@ void scoreMap(const FlightRecord& record, const TrueWorld& world, FlightScore& s
   }
 }
 
+LocalizationScore scoreOf(const LocalizationRecord& record, double within_m) {
+  LocalizationScore score;
+  if (record.found) {
+    score.way_m = record.found->way_m;
+    score.error_m = record.found->error_m;
+    score.error_rad = record.found->error_rad;
+    score.in_time = record.found->way_m <= within_m && record.found->error_m <= LocalizationRecord::kWrong_m &&
+                    record.found->error_rad <= LocalizationRecord::kWrong_rad;
+  }
+  if (record.flown_s > 0) score.time_share = record.localized_s / record.flown_s;
+  if (record.localized_s > 0) score.wrong_share = record.wrong_s / record.localized_s;
+  score.times_lost = record.times_lost;
+  return score;
+}
+
 }  // namespace
 
 void Criteria::describe(common::config::Fields& fields) {
@@ -94,6 +109,10 @@ void Criteria::describe(common::config::Fields& fields) {
   fields("mission_time_max_s", mission_time_max_s, "Simulated time of the mission.");
   fields("estimate_rms_max_m", estimate_rms_max_m, "Horizontal error of the estimate.");
   fields("map_wall_error_max_m", map_wall_error_max_m, "Median distance of mapped walls to true ones.");
+  fields("localized_within_m", localized_within_m,
+         "Way within which a flight that is given a map must have found itself in it to count as localized.");
+  fields("wrong_time_share_max", wrong_time_share_max,
+         "Of the time localized, the share farther than 0.5 m or 10 deg from the truth.");
   fields("all_resumed", all_resumed, "Everything that was interrupted must have gone on.");
   fields("goal_error_median_max_m", goal_error_median_max_m, "Over all flights: the median of their goal errors.");
   fields("home_error_median_max_m", home_error_median_max_m, "Over all flights: the median of their home errors.");
@@ -102,6 +121,7 @@ void Criteria::describe(common::config::Fields& fields) {
   fields("estimate_rms_median_max_m", estimate_rms_median_max_m, "Over all flights: the median of their RMS errors.");
   fields("map_wall_error_median_max_m", map_wall_error_median_max_m,
          "Over all flights: the median of their wall errors.");
+  fields("localized_flights_min", localized_flights_min, "Over all flights: the share of them that were localized.");
 }
 
 std::vector<std::string> Criteria::validate() const {
@@ -120,6 +140,9 @@ std::vector<std::string> Criteria::validate() const {
       .positive("mission_time_median_max_s", mission_time_median_max_s)
       .positive("estimate_rms_median_max_m", estimate_rms_median_max_m)
       .positive("map_wall_error_median_max_m", map_wall_error_median_max_m)
+      .positive("localized_within_m", localized_within_m)
+      .positive("wrong_time_share_max", wrong_time_share_max)
+      .within("localized_flights_min", localized_flights_min, 0, 1)
       .problems();
 }
 
@@ -140,6 +163,7 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   score.estimate_yaw_rms_rad = rmsOf(record.yaw_errors_rad);
   scoreCollision(record.last_truth, score);
   scoreMap(record, world, score);
+  if (record.localization) score.localization = scoreOf(*record.localization, criteria.localized_within_m);
   score.mission_time_s = record.mission_time_s;
   score.flight_time_s = record.flight_time_s;
   score.distance_m = record.true_distance_m;
@@ -167,6 +191,13 @@ std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) 
   add("estimate_yaw_rms_rad", score.estimate_yaw_rms_rad);
   add("map_wall_error_median_m", score.map_wall_error_median_m);
   add("map_wall_error_p95_m", score.map_wall_error_p95_m);
+  if (score.localization) {
+    add("localization_way_m", score.localization->way_m);
+    add("localization_error_m", score.localization->error_m);
+    add("localization_error_rad", score.localization->error_rad);
+    add("localized_time_share", score.localization->time_share);
+    add("wrong_time_share", score.localization->wrong_share);
+  }
   add("min_clearance_m", score.min_clearance_m);
   if (score.reachable_area_m2 > 0) add("reachable_area_m2", score.reachable_area_m2);
   add("collisions", score.collisions);
@@ -187,6 +218,8 @@ std::vector<std::string> missed(const FlightScore& score, const Criteria& criter
   judge.atMost("mission time, s", score.mission_time_s, criteria.mission_time_max_s);
   judge.atMost("estimate RMS, m", score.estimate_rms_m, criteria.estimate_rms_max_m);
   judge.atMost("map wall error, m", score.map_wall_error_median_m, criteria.map_wall_error_max_m);
+  if (score.localization)
+    judge.atMost("share of the time localized wrongly", score.localization->wrong_share, criteria.wrong_time_share_max);
   if (criteria.all_resumed && score.resumed < score.interruptions)
     judge.fail(fmt::format("interruptions: {} of {} went on", score.resumed, score.interruptions));
   return judge.failures;

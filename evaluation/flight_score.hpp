@@ -32,6 +32,9 @@ struct Criteria {
   double mission_time_max_s = kAny;
   double estimate_rms_max_m = kAny;
   double map_wall_error_max_m = kAny;  ///< Of the median.
+  /// Way within which a flight must have found itself, rightly, in the map it was given, to count as localized.
+  double localized_within_m = kAny;
+  double wrong_time_share_max = kAny;  ///< Of the time localized.
   bool all_resumed = true;             ///< Everything that was interrupted went on.
   // Over all flights of a trial; one flight alone is not held against them.
   double goal_error_median_max_m = kAny;
@@ -39,9 +42,21 @@ struct Criteria {
   double mission_time_median_max_s = kAny;  ///< Of the missions that ended well.
   double estimate_rms_median_max_m = kAny;
   double map_wall_error_median_max_m = kAny;
+  double localized_flights_min = 0.0;  ///< Share of all flights.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
+};
+
+/// How a flight found itself in the map it was given.
+struct LocalizationScore {
+  std::optional<double> way_m;  ///< Flown until it first said where it is, and how far off that was.
+  std::optional<double> error_m;
+  std::optional<double> error_rad;
+  bool in_time = false;      ///< It was right, and within Criteria::localized_within_m.
+  double time_share = 0.0;   ///< Of the flight, localized,
+  double wrong_share = 0.0;  ///< and of that, wrongly.
+  int times_lost = 0;
 };
 
 /// An optional figure is none where it could not be measured: no goal was reached, nothing flew.
@@ -64,6 +79,7 @@ struct FlightScore {
   std::optional<double> estimate_yaw_rms_rad;
   std::optional<double> map_wall_error_median_m;
   std::optional<double> map_wall_error_p95_m;
+  std::optional<LocalizationScore> localization;  ///< None: the flight was given no map.
 
   int collisions = 0;
   int avoidable_collisions = 0;  ///< Not those where a walker ran into a vehicle that stood still or made way.

@@ -39,6 +39,23 @@ std::vector<std::string> PaperFigure::validate() const {
       .problems();
 }
 
+void TrialMap::describe(common::config::Fields& fields) {
+  fields("file", file, "YAML of map_server, relative to the root of the software; empty: none.");
+  fields("x_m", x_m, "Where the origin of the file's frame is in the world.");
+  fields("y_m", y_m, "Likewise.");
+  fields("yaw_deg", yaw_deg, "How its axes are turned there.");
+  fields.section("survey", survey, "A robot on wheels that makes the map before the first flight.");
+}
+
+std::vector<std::string> TrialMap::validate() const {
+  return common::Validation()
+      .require(file.empty() || !surveyed(), "file", "is given, and a `survey` that makes another map, too")
+      .within("x_m", x_m, -1e4, 1e4)
+      .within("y_m", y_m, -1e4, 1e4)
+      .within("yaw_deg", yaw_deg, -360, 360)
+      .problems();
+}
+
 void TrialConfig::describe(common::config::Fields& fields) {
   fields("name", name, "For tables and folders.");
   fields("description", description, "What is flown and why.");
@@ -54,6 +71,7 @@ void TrialConfig::describe(common::config::Fields& fields) {
          "A world in which the vehicle can reach more is taken for open: no coverage is measured.");
   fields.section("criteria", criteria, "What each flight, and all of them together, must reach to pass.");
   fields.list("paper", paper, "Figures of the paper that is flown again.");
+  fields.section("map", map, "What the flights are given to find themselves in; nothing: they are given none.");
   fields.section("scenario", scenario, "World, start, weather, people, faults, and what the seed varies.");
 }
 

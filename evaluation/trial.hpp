@@ -8,6 +8,7 @@
 #include "common/config.hpp"
 #include "evaluation/flight_score.hpp"
 #include "simulation/scenario.hpp"
+#include "simulation/survey.hpp"
 
 namespace swiftlet::evaluation {
 
@@ -15,6 +16,21 @@ namespace swiftlet::evaluation {
 struct PaperFigure {
   std::string figure;  ///< As in the results: goal_error_max_m.
   double value = 0.0;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// The map that the flights are given: a file, or one that a robot on wheels makes beforehand.
+struct TrialMap {
+  std::string file;  ///< YAML of map_server, relative to the root of the software; empty: none.
+  double x_m = 0.0;  ///< Where the origin of the file's frame is in the world.
+  double y_m = 0.0;
+  double yaw_deg = 0.0;
+  simulation::SurveyConfig survey;  ///< Its path empty: none drives.
+
+  bool surveyed() const { return !survey.path_world_m.empty(); }
+  bool given() const { return surveyed() || !file.empty(); }
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -35,6 +51,7 @@ struct TrialConfig {
   double reachable_area_max_m2 = kReachableAreaMax_m2;
   Criteria criteria;
   std::vector<PaperFigure> paper;
+  TrialMap map;
   simulation::Scenario scenario;
 
   void describe(common::config::Fields& fields);

@@ -37,6 +37,14 @@ std::optional<double> atQuantile(const std::vector<FlightScore>& flights, Member
 
 constexpr double kMin = 0.0, kMedian = 0.5, kMax = 1.0;
 
+std::optional<double> localizationWay_m(const std::vector<FlightScore>& flights, double q) {
+  std::vector<double> ways_m;
+  for (const FlightScore& flight : flights)
+    if (flight.localization && flight.localization->way_m) ways_m.push_back(*flight.localization->way_m);
+  if (ways_m.empty()) return std::nullopt;
+  return quantile(ways_m, q);
+}
+
 ordered_json orNull(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? ordered_json(common::rounded(*value)) : ordered_json(nullptr);
 }
@@ -47,6 +55,16 @@ ordered_json visitJson(const MarkerVisit& visit) {
           {"marker_map_m", pair(visit.marker_map_m)},
           {"estimate_error_m", pair(visit.estimate_error_m)},
           {"open_loop_error_m", visit.open_loop_error_m ? pair(*visit.open_loop_error_m) : ordered_json(nullptr)}};
+}
+
+ordered_json localizationJson(const LocalizationScore& score) {
+  return {{"in_time", score.in_time},
+          {"way_m", orNull(score.way_m)},
+          {"error_m", orNull(score.error_m)},
+          {"error_rad", orNull(score.error_rad)},
+          {"time_share", orNull(score.time_share)},
+          {"wrong_share", orNull(score.wrong_share)},
+          {"times_lost", score.times_lost}};
 }
 
 ordered_json flightJson(const FlightScore& flight) {
@@ -80,6 +98,7 @@ ordered_json flightJson(const FlightScore& flight) {
           {"estimate_yaw_rms_rad", orNull(flight.estimate_yaw_rms_rad)},
           {"map_wall_error_median_m", orNull(flight.map_wall_error_median_m)},
           {"map_wall_error_p95_m", orNull(flight.map_wall_error_p95_m)},
+          {"localization", flight.localization ? localizationJson(*flight.localization) : ordered_json(nullptr)},
           {"min_clearance_m", orNull(flight.min_clearance_m)},
           {"min_walker_clearance_m", orNull(flight.min_walker_clearance_m)},
           {"interruptions", flight.interruptions},
@@ -110,6 +129,10 @@ ordered_json trialJson(const TrialResult& trial) {
           {"mission_time_median_s", orNull(trial.missionTimeMedian_s())},
           {"estimate_rms_median_m", orNull(trial.estimateRmsMedian_m())},
           {"map_wall_error_median_m", orNull(trial.mapWallErrorMedian_m())},
+          {"localized_flights", orNull(trial.localizedFlights())},
+          {"localization_way_median_m", orNull(trial.localizationWayMedian_m())},
+          {"localization_way_max_m", orNull(trial.localizationWayMax_m())},
+          {"wrong_time_share_max", orNull(trial.wrongTimeShareMax())},
           {"realtime_factor_median", orNull(trial.realtimeFactorMedian())},
           {"paper", paper},
           {"flights", flights}};
@@ -154,6 +177,12 @@ const std::vector<SummaryColumn>& allColumns() {
        &Criteria::marker_error_max_m, true},
       {"relocalization max (m)", "relocalization_error_max_m", decimals<3>, &TrialResult::relocalizationErrorMax_m,
        &Criteria::relocalization_error_max_m, true},
+      {"localized", "localized_flights", percent, &TrialResult::localizedFlights, &Criteria::localized_flights_min,
+       true},
+      {"after, median (m)", "localization_way_median_m", decimals<1>, &TrialResult::localizationWayMedian_m, nullptr,
+       true},
+      {"wrongly, of its time", "wrong_time_share_max", percent, &TrialResult::wrongTimeShareMax,
+       &Criteria::wrong_time_share_max, true},
       {"time median (s)", "mission_time_median_s", decimals<1>, &TrialResult::missionTimeMedian_s,
        &Criteria::mission_time_median_max_s},
       {"RMS median (m)", "estimate_rms_median_m", decimals<3>, &TrialResult::estimateRmsMedian_m,
@@ -183,7 +212,8 @@ Mark markOf(const SummaryColumn& column, const TrialResult& trial) {
   const auto bound = boundOf(column, trial.criteria), value = (trial.*column.value)();
   if (!bound) return Mark::kNone;
   if (!value) return Mark::kBad;
-  return (column.bound == &Criteria::coverage_min ? *value >= *bound : *value <= *bound) ? Mark::kGood : Mark::kBad;
+  const bool at_least = column.bound == &Criteria::coverage_min || column.bound == &Criteria::localized_flights_min;
+  return (at_least ? *value >= *bound : *value <= *bound) ? Mark::kGood : Mark::kBad;
 }
 
 std::vector<SummaryColumn> columnsFor(const std::vector<TrialResult>& trials) {
@@ -246,6 +276,7 @@ std::vector<std::string> TrialResult::missed() const {
   judge.atMost("mission time median, s", missionTimeMedian_s(), criteria.mission_time_median_max_s);
   judge.atMost("estimate RMS median, m", estimateRmsMedian_m(), criteria.estimate_rms_median_max_m);
   judge.atMost("map wall error median, m", mapWallErrorMedian_m(), criteria.map_wall_error_median_max_m);
+  judge.atLeast("flights localized", localizedFlights(), criteria.localized_flights_min, "no flight was given a map");
   return judge.failures;
 }
 
@@ -297,6 +328,24 @@ std::optional<double> TrialResult::mapWallErrorMedian_m() const {
 }
 std::optional<double> TrialResult::realtimeFactorMedian() const {
   return atQuantile(flights, &FlightScore::realtime_factor, kMedian);
+}
+
+std::optional<double> TrialResult::localizedFlights() const {
+  int given = 0, in_time = 0;
+  for (const FlightScore& flight : flights) {
+    given += flight.localization ? 1 : 0;
+    in_time += flight.localization && flight.localization->in_time ? 1 : 0;
+  }
+  if (given == 0) return std::nullopt;
+  return static_cast<double>(in_time) / given;
+}
+std::optional<double> TrialResult::localizationWayMedian_m() const { return localizationWay_m(flights, kMedian); }
+std::optional<double> TrialResult::localizationWayMax_m() const { return localizationWay_m(flights, kMax); }
+std::optional<double> TrialResult::wrongTimeShareMax() const {
+  std::optional<double> greatest;
+  for (const FlightScore& flight : flights)
+    if (flight.localization) greatest = std::max(flight.localization->wrong_share, greatest.value_or(0.0));
+  return greatest;
 }
 
 bool TrialResults::passed() const {

@@ -30,6 +30,19 @@ ordered_json frontierJson(const common::Frontier& frontier) {
           {"explanation", frontier.explanation},         {"attempts", frontier.attempts}};
 }
 
+ordered_json localizationJson(const std::string& map, const LocalizationSummary& summary) {
+  ordered_json pose = nullptr;
+  if (const common::Pose2& at = summary.last.T_given_body; summary.last.localized())
+    pose = {{"x_m", rounded(at.x_m)}, {"y_m", rounded(at.y_m)}, {"yaw_rad", rounded(at.yaw_rad)}};
+  return {{"map", map},
+          {"state", common::toString(summary.last.state)},
+          {"pose", pose},
+          {"found_after_s", orNull(summary.found_after_s)},
+          {"found_after_m", orNull(summary.found_after_m)},
+          {"flown_s", rounded(summary.flown_s)},
+          {"localized_s", rounded(summary.localized_s)}};
+}
+
 }  // namespace
 
 const char* toString(Outcome outcome) {
@@ -53,7 +66,7 @@ std::string toJson(const FlightSummary& summary) {
   for (const Phase& phase : summary.phases) phases.push_back(phaseJson(phase));
   for (const common::Frontier& frontier : summary.frontiers) frontiers.push_back(frontierJson(frontier));
   for (const Figure& figure : summary.figures) figures[figure.name] = rounded(figure.value);
-  const ordered_json json = {
+  ordered_json json = {
       {"format", "swiftlet mission 1"},
       {"mission", summary.info.mission},
       {"mission_file", summary.info.mission_file},
@@ -76,6 +89,7 @@ std::string toJson(const FlightSummary& summary) {
         {"wall_time_s", orNull(summary.wall_time_s)},
         {"realtime_factor", orNull(summary.realtime_factor)}}},
   };
+  if (summary.localization) json["localization"] = localizationJson(summary.info.given_map, *summary.localization);
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

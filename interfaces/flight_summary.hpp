@@ -28,7 +28,8 @@ struct RunInfo {
   std::string system;  ///< The profile.
   std::int64_t seed = 0;
   std::string version;
-  std::string started;  ///< Local date and time; the caller's clock.
+  std::string started;         ///< Local date and time; the caller's clock.
+  std::string given_map = {};  ///< To find itself in; empty: none.
 };
 
 /// A stretch of the flight with one intent.
@@ -55,6 +56,15 @@ struct FlightSample {
   double nearest_m = 0.0;         ///< From the hull to the nearest return; may be infinite.
 };
 
+/// How the flight found itself in the map it was given, as it believes.
+struct LocalizationSummary {
+  common::Localization last;
+  std::optional<double> found_after_s;  ///< When it first said where it is,
+  std::optional<double> found_after_m;  ///< and the way flown until then.
+  double flown_s = 0.0;                 ///< Of the flight,
+  double localized_s = 0.0;             ///< the part while it knew.
+};
+
 struct FlightSummary {
   RunInfo info;
   Outcome outcome = Outcome::kFlying;
@@ -64,6 +74,7 @@ struct FlightSummary {
   std::optional<double> explored_area_m2;  ///< None: the mission did not explore.
   double battery_remaining = 1.0;
   std::optional<double> coverage;  ///< Of the reachable free space, where the truth is known; in [0, 1].
+  std::optional<LocalizationSummary> localization;  ///< None: it was given no map.
   std::vector<Phase> phases;
   std::vector<common::Frontier> frontiers;  ///< Those that remained, each with its reason.
   std::vector<Figure> figures;

@@ -28,8 +28,9 @@ constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(40);  ///< Bet
 constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Between two samples for plots.
 
 /// Every file a run may leave; only these are ever removed.
-constexpr std::array<const char*, 8> kFiles = {"mission.json", "events.jsonl", "trajectory.tum", "map.pgm",
-                                               "map.yaml",     "map.png",      "report.html",    "config.yaml"};
+constexpr std::array<const char*, 9> kFiles = {"mission.json", "events.jsonl", "trajectory.tum", "trajectory_given.tum",
+                                               "map.pgm",      "map.yaml",     "map.png",        "report.html",
+                                               "config.yaml"};
 
 bool isRunFile(const std::string& name) {
   // A `.part` is what a killed process left of a file of ours.
@@ -142,6 +143,8 @@ struct RunFolder::Impl {
         sample_due(kSamplePeriod),
         map_due(kMapPeriod) {
     summary.info = std::move(info);
+    if (!summary.info.given_map.empty())
+      given_trajectory_file = opened(TumWriter::create(path / "trajectory_given.tum"));
   }
 
   void keep(const Written& written) {
@@ -158,18 +161,20 @@ struct RunFolder::Impl {
   }
 
   void track(const common::World& world);
+  void localize(const common::World& world);
 
   fs::path path;
   FolderLock lock;
   std::string config_yaml;
   EventWriter events_file;
   TumWriter trajectory_file;
+  std::optional<TumWriter> given_trajectory_file;
   Every trajectory_due, sample_due, map_due;
   FlightSummary summary;
   std::vector<common::Event> events;
   ReportPictures pictures;
   std::shared_ptr<const common::OccupancyGrid> grid;
-  std::optional<Time> mission_begin;
+  std::optional<Time> mission_begin, last_flown;
   bool mission_over = false;
   Time last_snapshot;
   std::optional<std::string> failure;
@@ -191,6 +196,28 @@ void RunFolder::Impl::track(const common::World& world) {
   if (mission_over || world.mission.phase.empty()) return;
   if (summary.phases.empty() || summary.phases.back().name != world.mission.phase)
     summary.phases.push_back({world.mission.phase, world.stamp, world.stamp});
+}
+
+void RunFolder::Impl::localize(const common::World& world) {
+  if (!world.localization || !given_trajectory_file) return;
+  if (!summary.localization) summary.localization.emplace();
+  LocalizationSummary& localization = *summary.localization;
+  localization.last = *world.localization;
+  if (world.status.flight_state != common::FlightState::kFlying) {
+    last_flown.reset();
+    return;
+  }
+  const double elapsed_s = last_flown ? (world.stamp - *last_flown).seconds() : 0.0;
+  last_flown = world.stamp;
+  localization.flown_s += elapsed_s;
+  if (!world.localization->localized()) return;
+  localization.localized_s += elapsed_s;
+  if (!localization.found_after_s) {
+    localization.found_after_s = world.stamp.seconds();
+    localization.found_after_m = world.status.distance_flown_m;
+  }
+  const common::Pose3 T_given_odom = common::lifted(world.localization->T_given_odom, 0.0);
+  if (!failure) keep(given_trajectory_file->write({world.state.stamp, T_given_odom * world.state.T_odom_body}));
 }
 
 RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)
@@ -216,6 +243,7 @@ void RunFolder::event(const common::Event& event) {
 
 void RunFolder::world(const common::World& world) {
   impl_->track(world);
+  impl_->localize(world);
   impl_->last_snapshot = world.stamp;
   if (impl_->sample_due.due(world.stamp)) impl_->summary.samples.push_back(sampleOf(world));
   if (impl_->failure || !impl_->map_due.due(world.stamp)) return;

@@ -3,6 +3,7 @@
 //   mission.json     outcome, times, distance, phases, frontiers with reasons, figures; "flying" until the end
 //   events.jsonl     every event as it happens
 //   trajectory.tum   the estimate in `map`
+//   trajectory_given.tum   where it was in the map it was given, if it was given one, while it knew
 //   map.pgm, map.yaml, map.png    replaced whole every few seconds and at the end
 //   report.html      the same in one page
 //   config.yaml      the settings in force

@@ -55,6 +55,9 @@ std::vector<std::string> WindConfig::validate() const {
 void Variation::describe(common::config::Fields& fields) {
   fields("start_position_m", start_position_m, "Shift of the start, in x and in y.");
   fields("start_yaw_deg", start_yaw_deg, "Turn of the start.");
+  fields("start_area_world_m", start_area_world_m,
+         "x, y, x, y of two corners: the start is anywhere between them from where the vehicle can fly to the start "
+         "that is given.");
   fields("obstacles", obstacles, "Models that are shifted.");
   fields("obstacle_m", obstacle_m, "Their shift, in x and in y.");
   fields("wind_m_s", wind_m_s, "Added to each component of the mean wind.");
@@ -67,10 +70,13 @@ std::vector<std::string> Variation::validate() const {
   common::Validation validation;
   validation.within("start_position_m", start_position_m, 0, 100)
       .within("start_yaw_deg", start_yaw_deg, 0, 180)
+      .require(start_area_world_m.empty() || start_area_world_m.size() == 4, "start_area_world_m",
+               fmt::format("{} numbers are not two corners x, y, x, y", start_area_world_m.size()))
       .within("obstacle_m", obstacle_m, 0, 100)
       .within("wind_m_s", wind_m_s, 0, 30)
       .within("battery_remaining", battery_remaining, 0, 1)
       .within("flight_height_m", flight_height_m, 0.1, 100);
+  finitePairs(validation, "start_area_world_m", start_area_world_m);
   return finitePairs(validation, "reachable_map_m", reachable_map_m).problems();
 }
 

@@ -39,6 +39,9 @@ struct WindConfig {
 struct Variation {
   double start_position_m = 0.0;
   double start_yaw_deg = 0.0;
+  /// x, y of two corners: the start is drawn anywhere between, on the floor of the start that the scenario names and
+  /// with room above it, where the vehicle could fly to that start. Empty: near that start, as above.
+  std::vector<double> start_area_world_m;
   std::vector<std::string> obstacles;  ///< Models that are shifted.
   double obstacle_m = 0.3;
   double wind_m_s = 0.0;           ///< Added to each component of the mean wind.

@@ -21,6 +21,7 @@ using common::Problem;
 constexpr double kSearchFloorFrom_m = 0.5;  // Above the start.
 constexpr double kSearchFloorDown_m = 20.0;
 constexpr double kUnevenFloor_m = 0.03;
+constexpr double kSameFloor_m = 0.05;  // Nobody starts on a crate where a place on the floor was asked for.
 
 StartConfig nominalStart(const WorldModel& world, const Scenario& scenario) {
   StartConfig start = scenario.start;
@@ -41,6 +42,10 @@ Realization drawOnce(const WorldModel& world, const Scenario& scenario, int draw
   StartConfig& start = drawn.scenario.start = nominalStart(world, scenario);
   start.x_m += within(variation.start_position_m);
   start.y_m += within(variation.start_position_m);
+  if (const std::vector<double>& area = variation.start_area_world_m; !area.empty()) {
+    start.x_m = random.uniform(std::min(area[0], area[2]), std::max(area[0], area[2]));
+    start.y_m = random.uniform(std::min(area[1], area[3]), std::max(area[1], area[3]));
+  }
   start.yaw_deg += within(variation.start_yaw_deg);
   drawn.scenario.wind.mean_x_m_s += within(variation.wind_m_s);
   drawn.scenario.wind.mean_y_m_s += within(variation.wind_m_s);
@@ -93,9 +98,8 @@ std::optional<Problem> placeStart(Realization& drawn, const RayCaster& rays) {
                       "move the start");
 }
 
-std::optional<Problem> unreachableGoal(const Realization& drawn, const RayCaster& rays) {
-  const std::vector<double>& goals = drawn.scenario.variation.reachable_map_m;
-  if (goals.empty()) return std::nullopt;
+/// Where the vehicle gets to at its flight height.
+common::TiledGrid<std::uint8_t> reachableFrom(const Realization& drawn, const RayCaster& rays) {
   const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
   FreeSpaceQuery query;
   query.start_world_m = drawn.T_world_map.position_m.head<2>();
@@ -104,7 +108,33 @@ std::optional<Problem> unreachableGoal(const Realization& drawn, const RayCaster
   query.bottom_m = middle_m - 0.5 * vehicle.hull_height_m;
   query.top_m = middle_m + 0.5 * vehicle.hull_height_m;
   query.resolution_m = 0.1;
-  const auto reachable = reachableSpace(rays, query);
+  return reachableSpace(rays, query);
+}
+
+/// Of a start drawn anywhere: it is on the floor of the nominal one, nothing hangs over it, and it leads there.
+std::optional<Problem> badPlace(const Realization& drawn, const StartConfig& nominal, const RayCaster& rays) {
+  if (drawn.scenario.variation.start_area_world_m.empty()) return std::nullopt;
+  const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
+  const Eigen::Vector3d floor_m = drawn.T_world_map.position_m;
+  if (std::abs(floor_m.z() - nominal.z_m) > kSameFloor_m)
+    return startProblem(drawn, "is not on the floor of the start that is given", "choose the area elsewhere");
+  const Hull hull{vehicle.hullRadius_m(), 0.5 * vehicle.hull_height_m};
+  const double standing_m = drawn.scenario.quadrotor.gear_height_m - Quadrotor::kGearSag_m;
+  for (double height_m = standing_m; height_m < drawn.scenario.variation.flight_height_m;
+       height_m += hull.half_height_m) {
+    const Eigen::Vector3d at = floor_m + height_m * Eigen::Vector3d::UnitZ();
+    if (rays.sweep(hull, at, at, 0.05).shape != Hit::kNothing)
+      return startProblem(drawn, "has no room above it", "choose the area elsewhere");
+  }
+  const auto reachable = reachableFrom(drawn, rays);
+  if (reachable.at(reachable.cellAt({nominal.x_m, nominal.y_m})) != 0) return std::nullopt;
+  return startProblem(drawn, "does not lead to the start that is given", "choose the area elsewhere");
+}
+
+std::optional<Problem> unreachableGoal(const Realization& drawn, const RayCaster& rays) {
+  const std::vector<double>& goals = drawn.scenario.variation.reachable_map_m;
+  if (goals.empty()) return std::nullopt;
+  const auto reachable = reachableFrom(drawn, rays);
   for (std::size_t i = 0; i + 1 < goals.size(); i += 2) {
     const Eigen::Vector3d goal_world = drawn.T_world_map * Eigen::Vector3d(goals[i], goals[i + 1], 0.0);
     if (reachable.at(reachable.cellAt(goal_world.head<2>())) == 0)
@@ -116,7 +146,8 @@ std::optional<Problem> unreachableGoal(const Realization& drawn, const RayCaster
 }
 
 bool varies(const Variation& v) {
-  return v.start_position_m > 0.0 || v.start_yaw_deg > 0.0 || (!v.obstacles.empty() && v.obstacle_m > 0.0);
+  return v.start_position_m > 0.0 || v.start_yaw_deg > 0.0 || !v.start_area_world_m.empty() ||
+         (!v.obstacles.empty() && v.obstacle_m > 0.0);
 }
 
 }  // namespace
@@ -135,6 +166,10 @@ Realization realize(const WorldModel& world, const Scenario& scenario) {
     Realization drawn = drawOnce(world, scenario, draw);
     const RayCaster rays(drawn.world);
     if (const auto problem = placeStart(drawn, rays)) {
+      if (!blocked) blocked = problem;
+      continue;
+    }
+    if (const auto problem = badPlace(drawn, nominalStart(world, scenario), rays)) {
       if (!blocked) blocked = problem;
       continue;
     }

@@ -87,6 +87,15 @@ std::string summarySection(const FlightSummary& summary) {
     facts.emplace_back("Area explored", fmt::format("{:.1f} m²", *summary.explored_area_m2));
   if (summary.coverage) facts.emplace_back("Coverage", fmt::format("{:.1f} %", 100 * *summary.coverage));
   if (summary.explored_area_m2) facts.emplace_back("Frontiers left", fmt::format("{}", summary.frontiers.size()));
+  if (summary.localization) {
+    const LocalizationSummary& localization = *summary.localization;
+    facts.emplace_back("Found itself in the given map", localization.found_after_m
+                                                            ? fmt::format("after {:.1f} m", *localization.found_after_m)
+                                                            : "never");
+    if (localization.flown_s > 0.0)
+      facts.emplace_back("Knew its place",
+                         fmt::format("{:.0f} % of the flight", 100 * localization.localized_s / localization.flown_s));
+  }
   facts.emplace_back("Battery left", fmt::format("{:.0f} %", 100 * summary.battery_remaining));
   if (summary.realtime_factor) facts.emplace_back("Real time", fmt::format("× {:.1f}", *summary.realtime_factor));
   return html::section("Summary", html::facts(facts));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "common/check.hpp"
 #include "common/validation.hpp"
@@ -170,8 +171,8 @@ GlobalSearchResult GlobalSearch::search(const std::vector<Eigen::Vector2f>& poin
   blocks_ = 0;
   complete_ = true;
   boundTopBlocks(least_);
-  for (const std::uint64_t next : order_) {
-    const Node& node = nodes_[next & UINT32_MAX];
+  for (const std::uint32_t next : order_) {
+    const Node& node = nodes_[next];
     if (node.bound <= floor()) break;
     if (blocks_ > config_.max_blocks) {
       complete_ = false;
@@ -203,10 +204,19 @@ void GlobalSearch::boundTopBlocks(std::int32_t floor) {
         }
     }
   }
+  sortByBound();
+}
+
+/// By counting: the bounds are small integers, and of a large map there are hundreds of thousands of nodes.
+void GlobalSearch::sortByBound() {
+  std::int32_t highest = 0;
+  for (const Node& node : nodes_) highest = std::max(highest, node.bound);
+  std::vector<std::uint32_t> begins(static_cast<std::size_t>(highest) + 2);
+  for (const Node& node : nodes_) ++begins[static_cast<std::size_t>(highest - node.bound) + 1];
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
   order_.resize(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    order_[i] = static_cast<std::uint64_t>(UINT32_MAX - static_cast<std::uint32_t>(nodes_[i].bound)) << 32 | i;
-  std::sort(order_.begin(), order_.end());
+    order_[begins[static_cast<std::size_t>(highest - nodes_[i].bound)]++] = static_cast<std::uint32_t>(i);
 }
 
 int GlobalSearch::apart(int a, int b) const {

@@ -32,8 +32,8 @@ struct GlobalSearchConfig {
                                 ///< of the points lie within sigma of a wall, and the others anywhere.
   double distinct_m = 0.5;      ///< Places nearer than this
   double distinct_deg = 15.0;   ///< and less turned than this are one.
-  int max_places = 48;          ///< More than so many are not told apart: the pose is ambiguous anyway.
-  int max_blocks = 300'000;     ///< The search is given up after so many blocks of poses.
+  int max_places = 400;         ///< More than so many are not told apart: the pose is ambiguous anyway.
+  int max_blocks = 1'000'000;   ///< The search is given up after so many blocks of poses.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -79,6 +79,7 @@ class GlobalSearch {
   void buildLevels(const GlobalSearchConfig& config);
   const std::vector<std::int32_t>& offsetsAt(int direction, int level);
   void boundTopBlocks(std::int32_t floor);
+  void sortByBound();
   void descend(const Node& node, int level);
   void take(const Node& node);
   bool covered(const Node& node, int level) const;
@@ -99,7 +100,7 @@ class GlobalSearch {
   // During a search.
   std::vector<Direction> directions_;
   std::vector<Node> nodes_;
-  std::vector<std::uint64_t> order_;  // Of the nodes: the highest bound first, then as they come.
+  std::vector<std::uint32_t> order_;  // Of the nodes: the highest bound first, then as they come.
   std::vector<Place> places_;         // The best first.
   std::int32_t least_ = 0, margin_ = 0;
   int distinct_cells_ = 0, distinct_directions_ = 0, blocks_ = 0;

@@ -28,6 +28,10 @@ constexpr double kTurnShare = 0.02;
 
 double square(double value) { return value * value; }
 
+PlaceDistinction distinctionOf(const LocalizerConfig& config) {
+  return {config.search.distinct_m, config.search.distinct_deg * kRadPerDeg};
+}
+
 double sigma_m(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> position(covariance.topLeftCorner<2, 2>().eval(),
                                                                 Eigen::EigenvaluesOnly);
@@ -36,19 +40,26 @@ double sigma_m(const Eigen::Matrix3d& covariance) {
 
 }  // namespace
 
-const char* toString(LocalizationState state) {
-  switch (state) {
-    case LocalizationState::kGlobal:
-      return "global";
-    case LocalizationState::kAmbiguous:
-      return "ambiguous";
-    case LocalizationState::kLocalized:
-      return "localized";
-    case LocalizationState::kLost:
-      return "lost";
-  }
-  return "?";
-}
+/// As it was when the search was asked for.
+struct LocalizationTask::Data {
+  std::uint64_t epoch = 0;
+  bool doubted = false;  ///< It is believed to be somewhere, and looked for elsewhere.
+  LocalMap local_map{0.0};
+  std::vector<Eigen::Vector2f> scan_body_m;
+  Pose2 T_odom_scan;
+  double way_m = 0.0;
+  LocalizerConfig config;
+  std::shared_ptr<const MapField> map;
+  std::shared_ptr<GlobalSearch> search;  ///< Of this task alone as long as it has not been applied.
+};
+
+struct LocalizationResult::Data {
+  std::shared_ptr<const LocalizationTask::Data> task;
+  LocalMap::Whole whole;
+  bool enough_points = false;
+  std::vector<LikelyPlace> places;
+  bool complete = true;
+};
 
 LocalizerConfig::LocalizerConfig() = default;
 
@@ -103,32 +114,35 @@ struct Localizer::Impl {
         T_map_grid(T_map_grid_in),
         map(std::make_shared<const MapField>(grid, config_in.field)),
         filter(map, config_in.particles, seed),
-        search(map, config_in.search),
+        search(std::make_shared<GlobalSearch>(map, config_in.search)),
         local_map(config_in.local_map_length_m),
         lost_test(config_in.lost),
-        distinction{config_in.search.distinct_m, config_in.search.distinct_deg * kRadPerDeg} {}
+        distinction(distinctionOf(config_in)) {}
 
   void step(const LocalizationInput& input);
   bool generationDue(const Pose2& T_odom_body) const;
-  void follow(const LocalizationInput& input);
+  void track(const LocalizationInput& input);
   Eigen::Matrix3d covarianceNow() const;
   void generate(const ProjectedScan& scan);
   void doubt(const LocalizationInput& input);
-  void lookElsewhere();
+  void lookElsewhere(const LocalizationResult::Data& found);
   void lose(std::string reason);
   void find(const LocalizationInput& input);
-  std::vector<LikelyPlace> placesOf(const LocalMap::Whole& whole, bool& complete);
-  void judge(const std::vector<LikelyPlace>& places, bool complete, const Pose2& T_odom_middle,
-             const ProjectedScan& scan);
-  void keepCandidate(const Pose2& T_grid_odom);
+  void ask(const ProjectedScan& scan);
+  void forgetSearches();
+  void apply(const LocalizationResult::Data& found);
+  void judge(const LocalizationResult::Data& found);
+  void fitsNowhere();
+  void keepCandidate(const Pose2& T_grid_odom, double at_way_m);
   void localize(const LikelyPlace& place, const Pose2& T_odom_middle);
   void enter(LocalizationState next, std::string reason);
+  LocalizationEstimate estimate();
 
   LocalizerConfig config;
   Pose2 T_map_grid;
   std::shared_ptr<const MapField> map;
   ParticleFilter filter;
-  GlobalSearch search;
+  std::shared_ptr<GlobalSearch> search;
   LocalMap local_map;
   LostTest lost_test;
   PlaceDistinction distinction;
@@ -163,6 +177,16 @@ struct Localizer::Impl {
   std::optional<double> searched_way_m;  ///< At the last search.
   double nowhere_way_m = 0.0;            ///< Since when the local map fits nowhere.
   bool fits_nowhere = false;
+
+  // The search that is asked for, and the one that is under way.
+  struct Question {
+    std::vector<Eigen::Vector2f> scan_body_m;
+    Pose2 T_odom_scan;
+    double way_m = 0.0;
+  };
+  std::optional<Question> question;
+  bool searching = false;
+  std::uint64_t epoch = 0;  ///< What was searched for in an earlier one no longer counts.
 
   std::optional<LocalizationEvent> event;
 };
@@ -199,6 +223,7 @@ void Localizer::Impl::step(const LocalizationInput& input) {
   T_odom_body = input.T_odom_body;
   if (!input.interrupted) return;
   local_map.clear();
+  forgetSearches();
   candidate.reset();
   lost_test.reset();
 }
@@ -210,7 +235,7 @@ bool Localizer::Impl::generationDue(const Pose2& next_T_odom_body) const {
              config.generation_turn_deg * kRadPerDeg;
 }
 
-void Localizer::Impl::follow(const LocalizationInput& input) {
+void Localizer::Impl::track(const LocalizationInput& input) {
   if (input.fresh && generationDue(input.T_odom_body)) generate(input.scan);
   if (generation_forced) return;  // The pose that was given is only roughly right.
   doubt(input);
@@ -248,6 +273,7 @@ void Localizer::Impl::doubt(const LocalizationInput& input) {
   const bool doubted = lost_test.doubtful();
   lost_test.add(support, elapsed_s);
   if (!lost_test.doubtful()) {
+    if (!local_map.empty()) forgetSearches();
     local_map.clear();
     return;
   }
@@ -260,46 +286,31 @@ void Localizer::Impl::doubt(const LocalizationInput& input) {
     return;
   }
   since_search_s += elapsed_s;
-  if (since_search_s >= config.doubt_search_s) lookElsewhere();
+  if (since_search_s < config.doubt_search_s) return;
+  since_search_s = 0.0;
+  ask(input.scan);
 }
 
-void Localizer::Impl::lookElsewhere() {
-  since_search_s = 0.0;
-  const LocalMap::Whole whole =
-      local_map.whole(config.local_map_spacing_m, static_cast<std::size_t>(config.local_map_points));
-  if (static_cast<int>(whole.points_middle_m.size()) < config.local_map_least_points) return;
-  bool complete = true;
-  const std::vector<LikelyPlace> found = placesOf(whole, complete);
-  if (found.empty() || found.front().explained < config.least_explained) return;
-  const Pose2 here = T_grid_odom * whole.T_odom_middle;
-  if (distinction.same(found.front().T_grid_points, here)) return;
-  const double gain =
-      found.front().log_likelihood - logLikelihood(*map, whole.points_middle_m, here, config.point_weight);
+void Localizer::Impl::lookElsewhere(const LocalizationResult::Data& found) {
+  if (found.places.empty() || found.places.front().explained < config.least_explained) return;
+  const LikelyPlace& best = found.places.front();
+  const Pose2 here = T_grid_odom * found.whole.T_odom_middle;
+  if (distinction.same(best.T_grid_points, here)) return;
+  const double gain = best.log_likelihood - logLikelihood(*map, found.whole.points_middle_m, here, config.point_weight);
   if (gain >= config.elsewhere_nats)
     lose(fmt::format("what is seen fits {:.1f} m away, {:.0f} % of it; {:.0f} % here",
-                     (found.front().T_grid_points.position_m() - here.position_m()).norm(),
-                     100.0 * found.front().explained, 100.0 * lost_test.explained()));
+                     (best.T_grid_points.position_m() - here.position_m()).norm(), 100.0 * best.explained,
+                     100.0 * lost_test.explained()));
 }
 
 void Localizer::Impl::lose(std::string reason) {
   enter(LocalizationState::kLost, std::move(reason));
   candidate.reset();
+  question.reset();
   searched_way_m.reset();
   lost_test.reset();
   fits_nowhere = false;
   places = 0;
-}
-
-std::vector<LikelyPlace> Localizer::Impl::placesOf(const LocalMap::Whole& whole, bool& complete) {
-  // What cannot be told from the best may be missing among the places, not what can.
-  const auto count = static_cast<double>(whole.points_middle_m.size());
-  const double nats = std::log(config.search.max_places / std::max(config.ambiguity, 1e-6));
-  constexpr double kCoarseness = 0.05;  // By how much the coarse field may misjudge a fit.
-  const GlobalSearchResult found =
-      search.search(whole.points_middle_m, kCoarseness + nats / (config.point_weight * map->topNats() * count));
-  complete = found.complete;
-  return likelyPlaces(bestInstructions(), *map, found.places, whole.points_middle_m, config.point_weight,
-                      config.support.tolerance_m, distinction);
 }
 
 /// The local map grows; the particles are all the places where it fits.
@@ -309,62 +320,80 @@ void Localizer::Impl::find(const LocalizationInput& input) {
   generation_way_m = way_m;
   generation_turned_rad = turned_rad;
   if (searched_way_m && way_m - *searched_way_m < config.search_distance_m) return;
-  const LocalMap::Whole whole =
-      local_map.whole(config.local_map_spacing_m, static_cast<std::size_t>(config.local_map_points));
-  if (static_cast<int>(whole.points_middle_m.size()) < config.local_map_least_points) return;
   searched_way_m = way_m;
-  bool complete = true;
-  const std::vector<LikelyPlace> found = placesOf(whole, complete);
-  judge(found, complete, whole.T_odom_middle, input.scan);
+  ask(input.scan);
 }
 
-void Localizer::Impl::judge(const std::vector<LikelyPlace>& found, bool complete, const Pose2& T_odom_middle,
-                            const ProjectedScan& scan) {
-  places = static_cast<int>(found.size());
-  if (found.empty() || found.front().explained < config.least_explained) {
-    candidate.reset();
-    if (!fits_nowhere) nowhere_way_m = way_m;
-    fits_nowhere = true;
-    filter.spreadOverFreeSpace();
-    // It may have been carried away meanwhile: begin anew from here.
-    if (way_m - nowhere_way_m > config.confirm_distance_m) {
-      local_map.clear();
-      fits_nowhere = false;
-    }
-    if (state == LocalizationState::kAmbiguous)
-      enter(was_localized ? LocalizationState::kLost : LocalizationState::kGlobal, "what was seen fits nowhere");
+void Localizer::Impl::ask(const ProjectedScan& scan) { question = Question{scan.points_level_m, T_odom_body, way_m}; }
+
+void Localizer::Impl::forgetSearches() {
+  question.reset();
+  ++epoch;
+}
+
+void Localizer::Impl::apply(const LocalizationResult::Data& found) {
+  const LocalizationTask::Data& task = *found.task;
+  if (task.epoch != epoch || task.doubted != (state == LocalizationState::kLocalized)) return;
+  if (task.doubted) {
+    if (found.enough_points) lookElsewhere(found);
+  } else if (found.enough_points) {
+    judge(found);
+  } else {
+    searched_way_m.reset();  // Again, as soon as there is more.
+  }
+}
+
+void Localizer::Impl::judge(const LocalizationResult::Data& found) {
+  places = static_cast<int>(found.places.size());
+  if (found.places.empty() || found.places.front().explained < config.least_explained) {
+    fitsNowhere();
     return;
   }
+  const LikelyPlace& best = found.places.front();
+  const Pose2& T_odom_middle = found.whole.T_odom_middle;
   fits_nowhere = false;
   const Pose2 T_middle_body = T_odom_middle.inverse() * T_odom_body;
   std::vector<PoseHypothesis> hypotheses;
-  for (const LikelyPlace& place : found)
+  for (const LikelyPlace& place : found.places)
     hypotheses.push_back({place.T_grid_points * T_middle_body, kPlaceCovariance, place.probability});
   filter.spreadAround(hypotheses);
 
-  const bool single = complete && found.front().probability >= 1.0 - config.ambiguity;
-  if (!single) {
+  if (!found.complete || best.probability < 1.0 - config.ambiguity) {
     candidate.reset();
     enter(LocalizationState::kAmbiguous,
-          fmt::format("{}{} places explain what was seen", complete ? "" : "more than ", found.size()));
+          fmt::format("{}{} places explain what was seen", found.complete ? "" : "more than ", found.places.size()));
     return;
   }
   places = 1;
-  keepCandidate(found.front().T_grid_points * T_odom_middle.inverse());
+  keepCandidate(best.T_grid_points * T_odom_middle.inverse(), found.task->way_m);
   // The last scan alone must not speak against it, either.
-  support = supportOf(*map, scan.points_level_m, candidate->T_grid_odom * T_odom_body, config.support);
-  if (way_m - candidate->way_m >= config.confirm_distance_m && lost_test.logOdds(support) <= 0.0) {
-    localize(found.front(), T_odom_middle);
+  support = supportOf(*map, found.task->scan_body_m, candidate->T_grid_odom * found.task->T_odom_scan, config.support);
+  if (found.task->way_m - candidate->way_m >= config.confirm_distance_m && lost_test.logOdds(support) <= 0.0) {
+    localize(best, T_odom_middle);
     return;
   }
   enter(LocalizationState::kAmbiguous, "one place explains what was seen; not held for long yet");
 }
 
-void Localizer::Impl::keepCandidate(const Pose2& next_T_grid_odom) {
+void Localizer::Impl::fitsNowhere() {
+  candidate.reset();
+  if (!fits_nowhere) nowhere_way_m = way_m;
+  fits_nowhere = true;
+  filter.spreadOverFreeSpace();
+  // It may have been carried away meanwhile: begin anew from here.
+  if (way_m - nowhere_way_m > config.confirm_distance_m) {
+    local_map.clear();
+    fits_nowhere = false;
+  }
+  if (state == LocalizationState::kAmbiguous)
+    enter(was_localized ? LocalizationState::kLost : LocalizationState::kGlobal, "what was seen fits nowhere");
+}
+
+void Localizer::Impl::keepCandidate(const Pose2& next_T_grid_odom, double at_way_m) {
   if (candidate && distinction.same(candidate->T_grid_odom * T_odom_body, next_T_grid_odom * T_odom_body))
     candidate->T_grid_odom = next_T_grid_odom;
   else
-    candidate = Candidate{next_T_grid_odom, way_m};
+    candidate = Candidate{next_T_grid_odom, at_way_m};
 }
 
 void Localizer::Impl::localize(const LikelyPlace& place, const Pose2& T_odom_middle) {
@@ -376,8 +405,47 @@ void Localizer::Impl::localize(const LikelyPlace& place, const Pose2& T_odom_mid
                                                    100.0 * place.explained, local_map.length_m()));
   was_localized = true;
   local_map.clear();
+  question.reset();
   lost_test.reset();
   candidate.reset();
+}
+
+LocalizationEstimate Localizer::Impl::estimate() {
+  LocalizationEstimate estimate;
+  estimate.state = state;
+  estimate.doubt = lost_test.sum();
+  estimate.explained = support.explained;
+  estimate.event = std::exchange(event, std::nullopt);
+  if (estimate.event) estimate.event->stamp = now;
+  estimate.places = state == LocalizationState::kLocalized ? 1 : places;
+  if (state != LocalizationState::kLocalized) return estimate;
+  estimate.T_map_odom = T_map_grid * T_grid_odom;
+  estimate.T_map_body = estimate.T_map_odom * T_odom_body;
+  estimate.covariance = common::turned(covarianceNow(), T_map_grid.yaw_rad);
+  return estimate;
+}
+
+LocalizationResult run(const LocalizationTask& task) {
+  const LocalizationTask::Data& data = *task.data;
+  const LocalizerConfig& config = data.config;
+  auto result = std::make_shared<LocalizationResult::Data>();
+  result->task = task.data;
+  result->whole = data.local_map.whole(config.local_map_spacing_m, static_cast<std::size_t>(config.local_map_points));
+  const std::vector<Eigen::Vector2f>& points = result->whole.points_middle_m;
+  result->enough_points = static_cast<int>(points.size()) >= config.local_map_least_points;
+  if (!result->enough_points) return {std::move(result)};
+  // What cannot be told from the best must not be missing among the places: as many that fit worse still as there are
+  // in a large building are together less likely than the ambiguity allows.
+  constexpr double kOthers = 50.0;
+  constexpr double kCoarseness = 0.05;  // By how much the coarse field may misjudge a fit.
+  const double nats = std::log(kOthers / std::max(config.ambiguity, 1e-6));
+  const double margin =
+      kCoarseness + nats / (config.point_weight * data.map->topNats() * static_cast<double>(points.size()));
+  const GlobalSearchResult found = data.search->search(points, margin);
+  result->complete = found.complete;
+  result->places = likelyPlaces(bestInstructions(), *data.map, found.places, points, config.point_weight,
+                                config.support.tolerance_m, distinctionOf(config));
+  return {std::move(result)};
 }
 
 Localizer::Localizer(const common::OccupancyGrid& grid, const Pose2& T_map_grid, const LocalizerConfig& config,
@@ -409,6 +477,7 @@ void Localizer::startAt(const Pose2& T_map_body, const Eigen::Matrix3d& covarian
   self.covariance = self.start->covariance;
   self.enter(LocalizationState::kLocalized, "given");
   self.was_localized = self.generation_forced = true;
+  self.forgetSearches();
   if (!self.begun) return;
   self.T_grid_odom = T_grid_body * self.T_odom_body.inverse();
   self.start.reset();
@@ -420,29 +489,47 @@ bool Localizer::wantsFreshScan(const Pose2& T_odom_body) const {
 }
 
 LocalizationEstimate Localizer::add(const LocalizationInput& input) {
+  LocalizationEstimate followed = follow(input);
+  const auto task = takeTask();
+  if (!task) return followed;
+  LocalizationEstimate estimate = apply(run(*task));
+  if (!estimate.event) estimate.event = std::move(followed.event);
+  return estimate;
+}
+
+LocalizationEstimate Localizer::follow(const LocalizationInput& input) {
   Impl& self = *impl_;
   self.support = {};
   self.step(input);
   if (self.state == LocalizationState::kLocalized)
-    self.follow(input);
+    self.track(input);
   else
     self.find(input);
+  return self.estimate();
+}
 
-  LocalizationEstimate estimate;
-  estimate.state = self.state;
-  estimate.doubt = self.lost_test.sum();
-  estimate.explained = self.support.explained;
-  estimate.event = std::exchange(self.event, std::nullopt);
-  if (estimate.event) estimate.event->stamp = input.scan.stamp;
-  if (self.state != LocalizationState::kLocalized) {
-    estimate.places = self.places;
-    return estimate;
-  }
-  estimate.places = 1;
-  estimate.T_map_odom = self.T_map_grid * self.T_grid_odom;
-  estimate.T_map_body = estimate.T_map_odom * self.T_odom_body;
-  estimate.covariance = common::turned(self.covarianceNow(), self.T_map_grid.yaw_rad);
-  return estimate;
+std::optional<LocalizationTask> Localizer::takeTask() {
+  Impl& self = *impl_;
+  if (self.searching || !self.question || self.local_map.empty()) return std::nullopt;
+  auto data = std::make_shared<LocalizationTask::Data>();
+  data->epoch = self.epoch;
+  data->doubted = self.state == LocalizationState::kLocalized;
+  data->local_map = self.local_map;
+  data->scan_body_m = std::move(self.question->scan_body_m);
+  data->T_odom_scan = self.question->T_odom_scan;
+  data->way_m = self.question->way_m;
+  data->config = self.config;
+  data->map = self.map;
+  data->search = self.search;
+  self.question.reset();
+  self.searching = true;
+  return LocalizationTask{std::move(data)};
+}
+
+LocalizationEstimate Localizer::apply(const LocalizationResult& result) {
+  impl_->searching = false;
+  impl_->apply(*result.data);
+  return impl_->estimate();
 }
 
 LocalizationState Localizer::state() const { return impl_->state; }

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "common/config.hpp"
+#include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
 #include "perception/localization/global_search.hpp"
 #include "perception/localization/local_map.hpp"
@@ -30,13 +31,7 @@
 
 namespace swiftlet::perception {
 
-enum class LocalizationState {
-  kGlobal,     ///< It may be anywhere.
-  kAmbiguous,  ///< Several places explain what was seen, or one does that has not yet been held for long.
-  kLocalized,
-  kLost,  ///< It was localized, and the pose was wrong or became wrong.
-};
-const char* toString(LocalizationState state);
+using common::LocalizationState;
 
 struct LocalizerConfig {
   LocalizerConfig();
@@ -96,8 +91,22 @@ struct LocalizationEstimate {
   std::optional<LocalizationEvent> event;  ///< The state changed.
 };
 
-/// Deterministic. Not thread-safe. The work per scan is bounded, but a global search takes some ten milliseconds: in
-/// flight, a job.
+/// A search of the whole map; heavy. A pure function of what it was given, for any thread.
+struct LocalizationTask {
+  struct Data;
+  std::shared_ptr<Data> data;
+};
+struct LocalizationResult {
+  struct Data;
+  std::shared_ptr<const Data> data;
+};
+LocalizationResult run(const LocalizationTask& task);
+
+/// Deterministic. Not thread-safe. The work per scan is bounded, but a search of the whole map takes some ten
+/// milliseconds. Where that must not hold up the loop, `follow` leaves it to a task:
+///
+///   follow(scan) --> takeTask() --> run(task), in a job --> apply(result), some scans later
+///
 class Localizer {
  public:
   /// `T_map_grid` places the grid in the map frame. The map must have walls and free cells: see `whyUnusable`.
@@ -117,7 +126,16 @@ class Localizer {
   /// any scans: it is compared with the given map, not with the odometry.
   bool wantsFreshScan(const common::Pose2& T_odom_body) const;
 
+  /// What one scan says, with the search it asks for.
   LocalizationEstimate add(const LocalizationInput& input);
+
+  /// The same without the search.
+  LocalizationEstimate follow(const LocalizationInput& input);
+  /// The search that the last scan asks for; none while one that was taken has not been applied.
+  std::optional<LocalizationTask> takeTask();
+  /// What became of the task, as of the last scan. One that no longer fits, as the vehicle was carried or told a place
+  /// meanwhile, changes nothing.
+  LocalizationEstimate apply(const LocalizationResult& result);
 
   LocalizationState state() const;
   /// The particles as they are, in the map frame.

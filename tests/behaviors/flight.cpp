@@ -91,6 +91,14 @@ Flight& Flight::is(common::FlightState state) {
   return *this;
 }
 
+Flight& Flight::localization(std::optional<common::LocalizationState> state) {
+  changeWorld([&](common::World& world) {
+    world.localization.reset();
+    if (state) world.localization.emplace().state = *state;
+  });
+  return *this;
+}
+
 Flight& Flight::home(double x_m, double y_m) {
   changeWorld([&](common::World& world) { world.home_map = {x_m, y_m, 0.0}; });
   return *this;

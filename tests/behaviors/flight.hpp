@@ -27,6 +27,8 @@ class Flight {
   Flight& holds(bool hold, const std::string& reason = {});
   Flight& retreats(bool retreating, const std::string& reason = {});
   Flight& is(common::FlightState state);
+  /// Where it is in the map it was given; none: it was given none.
+  Flight& localization(std::optional<common::LocalizationState> state);
   Flight& home(double x_m, double y_m);
   /// A goal, or home, from the operator; the id of the command counts from 1.
   Flight& goal(double x_m, double y_m);

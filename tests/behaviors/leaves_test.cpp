@@ -55,6 +55,25 @@ TEST(Explore, HandsDownItsBoundsIfItHasSome) {
   EXPECT_EQ(bounds->max_map_m, Eigen::Vector2d(4, 5));
 }
 
+TEST(Localize, ExploresUntilItKnowsWhereItIs) {
+  Flight flight(R"(<Sequence><Localize clearance_m="0.25"/><Land/></Sequence>)");
+  flight.localization(common::LocalizationState::kGlobal);
+  EXPECT_EQ(flight.tick(), "RUNNING 1 explore");
+  EXPECT_DOUBLE_EQ(std::get<common::ExploreIntent>(flight.context.intent->kind).clearance_m, 0.25);
+  EXPECT_EQ(flight.runs().localization(common::LocalizationState::kAmbiguous).tick(), "RUNNING 1 explore");
+  EXPECT_EQ(flight.localization(common::LocalizationState::kLocalized).tick(), "RUNNING 2 land");
+}
+
+TEST(Localize, FailsWithoutAMapAndWhereNothingIsLeftToExplore) {
+  Flight without("<Localize/>");
+  EXPECT_EQ(without.tick(), "FAILED");
+  EXPECT_EQ(without.last.reason, "Localize: the flight was given no map");
+  Flight flight("<Localize/>");
+  flight.localization(common::LocalizationState::kAmbiguous).tick();
+  EXPECT_EQ(flight.succeeds().tick(), "FAILED");
+  EXPECT_EQ(flight.last.reason, "Localize: nothing is left to explore, and the place is still ambiguous");
+}
+
 TEST(MoveToGoal, HandsDownGoalHeightAndTolerance) {
   Flight flight(R"(<MoveToGoal goal="3.0;-1.5;1.2" tolerance_m="0.2" clearance_m="0.3"/>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 go to (3.00, -1.50)");

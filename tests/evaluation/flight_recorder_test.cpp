@@ -99,6 +99,43 @@ TEST(FlightRecorder, OnTheGroundNothingIsMeasured) {
   EXPECT_EQ(recorder.finish().true_distance_m, 0.0);
 }
 
+/// At 1 m/s along x of `map`; the given map lies as `map` does, but for (10, 20) m and a quarter turn.
+TEST(FlightRecorder, FollowsHowTheFlightFindsItselfInTheGivenMap) {
+  const common::Pose2 T_map_given{10.0, 20.0, M_PI_2};
+  FlightRecorder recorder(kTakeOff, common::planar(kTakeOff) * T_map_given);
+  const auto snapshot = [&](double time_s, common::LocalizationState state, double off_m) {
+    const Eigen::Vector3d at(time_s, 0, 1);
+    recorder.tick(truthAt(time_s, at), estimateAt(time_s, at));
+    common::World world = worldOf(time_s, MissionState::kRunning);
+    world.state = estimateAt(time_s, at);
+    world.status.flight_state = common::FlightState::kFlying;
+    world.localization.emplace().state = state;
+    world.localization->T_given_odom = T_map_given.inverse() * common::Pose2{off_m, 0.0, 0.0};
+    recorder.world(world);
+  };
+  using State = common::LocalizationState;
+  snapshot(0.0, State::kGlobal, 0.0);
+  snapshot(1.0, State::kAmbiguous, 0.0);
+  snapshot(2.0, State::kLocalized, 0.1);
+  snapshot(3.0, State::kLocalized, 0.6);
+  snapshot(4.0, State::kLost, 0.0);
+  const LocalizationRecord record = recorder.finish().localization.value();
+  ASSERT_TRUE(record.found);
+  EXPECT_NEAR(record.found->way_m, 2.0, 1e-9);
+  EXPECT_NEAR(record.found->error_m, 0.1, 1e-9);
+  EXPECT_NEAR(record.found->error_rad, 0.0, 1e-9);
+  EXPECT_NEAR(record.flown_s, 4.0, 1e-9);
+  EXPECT_NEAR(record.localized_s, 2.0, 1e-9);
+  EXPECT_NEAR(record.wrong_s, 1.0, 1e-9);
+  EXPECT_EQ(record.times_lost, 1);
+}
+
+TEST(FlightRecorder, AFlightWithoutAMapHasNoLocalization) {
+  FlightRecorder recorder(kTakeOff);
+  recorder.world(worldOf(0.0, MissionState::kRunning));
+  EXPECT_FALSE(recorder.finish().localization);
+}
+
 TEST(FlightRecorder, AGoalIsMeasuredWhenItsSuccessIsReported) {
   FlightRecorder recorder(kTakeOff);
   const common::Intent to_goal{7, common::GoToIntent{{3.0, -1.5}, {}, {}, 0.05, 0.1}};

@@ -219,6 +219,36 @@ TEST(TrialResults, MarkersAreInTheTableWhereTheyAreAskedFor) {
   EXPECT_EQ(json::parse(toJson(all))["trials"][0]["marker_error_median_m"], 0.01);
 }
 
+TEST(TrialResults, CountFlightsThatFoundThemselvesInTimeAndRightly) {
+  TrialResults all = results();
+  EXPECT_THAT(toText(summaryTable(all)), testing::Not(HasSubstr("localized")));
+  TrialResult& trial = all.trials[0];
+  trial.criteria.localized_flights_min = 0.96;
+  for (std::size_t i = 0; i < 4; ++i) {
+    LocalizationScore& score = trial.flights[i].localization.emplace();
+    score.way_m = 2.0 + static_cast<double>(i);
+    score.in_time = i < 3;
+  }
+  trial.flights[4].localization.emplace().wrong_share = 0.25;
+  EXPECT_THAT(toText(summaryTable(all)), HasSubstr("60.0 %"));
+  EXPECT_THAT(trial.missed(), testing::ElementsAre("flights localized: 0.6000, at least 0.96 was asked for"));
+  const json written = json::parse(toJson(all))["trials"][0];
+  EXPECT_EQ(written["localized_flights"], 0.6);
+  EXPECT_EQ(written["localization_way_median_m"], 3.5);
+  EXPECT_EQ(written["wrong_time_share_max"], 0.25);
+  EXPECT_EQ(written["flights"][0]["localization"]["in_time"], true);
+  EXPECT_TRUE(written["flights"][4]["localization"]["way_m"].is_null());
+}
+
+TEST_F(Trials, AMapIsAFileOrDrivenForButNotBoth) {
+  const std::string survey = "map: {survey: {path_world_m: [0, 0, 1, 0]}}\n";
+  EXPECT_TRUE(readTrial(put("a.yaml", kSmallest + survey)).map.surveyed());
+  EXPECT_FALSE(readTrial(put("b.yaml", kSmallest)).map.given());
+  EXPECT_THAT(
+      problemOf(put("c.yaml", std::string(kSmallest) + "map: {file: m.yaml, survey: {path_world_m: [0, 0, 1, 0]}}\n")),
+      HasSubstr("makes another map"));
+}
+
 TEST(TrialResultsJson, WithoutFlightsAllIsNull) {
   const json trial = json::parse(toJson(TrialResults{{{"empty", "swiftlet", {}, {}}}}))["trials"][0];
   EXPECT_EQ(trial["runs"], 0);

@@ -116,6 +116,35 @@ TEST(RunFolder, LeavesEveryFile) {
   EXPECT_EQ(run.summary().samples.size(), 51u) << "5 Hz for 10 s";
 }
 
+TEST(RunFolder, HasWhereTheFlightWasInTheMapItWasGiven) {
+  const ScratchFolder folder;
+  RunInfo info = kInfo;
+  info.given_map = "maps/office.yaml";
+  RunFolder run(folder / "run", info, "");
+  Flight flight;
+  for (int tick = 0; tick <= 100; ++tick) {
+    flight.time_s = 0.1 * tick;
+    common::World world = flight.world(MissionState::kRunning, "explore");
+    world.status.flight_state = common::FlightState::kFlying;
+    common::Localization& localization = world.localization.emplace();
+    if (tick >= 40) localization.state = common::LocalizationState::kLocalized;
+    localization.T_given_odom = {5.0, 0.0, 0.0};
+    localization.T_given_body = {5.0 + flight.time_s, 0.0, 0.0};
+    run.world(world);
+  }
+  run.finish({});
+  const json localization = json::parse(bytesOf(folder / "run/mission.json"))["localization"];
+  EXPECT_EQ(localization["map"], "maps/office.yaml");
+  EXPECT_EQ(localization["state"], "localized");
+  EXPECT_EQ(localization["found_after_m"], 4.0);
+  EXPECT_NEAR(localization["localized_s"].get<double>(), 6.1, 1e-6);
+  EXPECT_EQ(localization["pose"]["x_m"], 15.0);
+  const common::Trajectory trajectory = readTum(folder / "run/trajectory_given.tum");
+  EXPECT_EQ(trajectory.size(), 61u);
+  EXPECT_EQ(trajectory.front().pose.position_m, Eigen::Vector3d(9.0, 0.0, 1.0));
+  EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("after 4.0 m"));
+}
+
 TEST(RunFolder, SameFlightSameBytes) {
   const ScratchFolder folder;
   for (const char* name : {"a", "b"}) {

@@ -148,6 +148,70 @@ TEST(Localizer, TheSameSeedGivesTheSameBytes) {
   }
 }
 
+/// The searches of a story, each applied `late` scans after it was asked for.
+struct LateSearches {
+  LocalizationEstimate step(Story& story, int late) {
+    const auto scan =
+        test::levelScan(story.building.world, story.walker.pose(), Time::fromSeconds(story.time_s), story.noise);
+    story.truth = story.walker.pose();
+    auto estimate = story.localizer.follow({scan, story.odometry.pose(), Eigen::Matrix3d::Zero(), true, false});
+    if (estimate.event) reasons.push_back(estimate.event->reason);
+    if (auto task = story.localizer.takeTask()) {
+      EXPECT_FALSE(result) << "one at a time";
+      result = run(*task);
+      due = late;
+    }
+    if (result && due-- <= 0) {
+      estimate = story.localizer.apply(*result);
+      result.reset();
+      if (estimate.event) reasons.push_back(estimate.event->reason);
+    }
+    story.walker.advance(0.1);
+    story.odometry.step(between(story.truth, story.walker.pose()));
+    story.time_s += 0.1;
+    return estimate;
+  }
+  std::optional<LocalizationResult> result;
+  int due = 0;
+  std::vector<std::string> reasons;
+};
+
+TEST(Localizer, ASearchBesideTheLoopThatIsBackAtOnceChangesNothing) {
+  Story one(test::offices(2), 2), other(test::offices(2), 2);
+  LateSearches searches;
+  for (int i = 0; i < 150; ++i) {
+    const auto a = one.step(), b = searches.step(other, 0);
+    ASSERT_EQ(a.state, b.state) << "scan " << i;
+    ASSERT_EQ(a.T_map_body.x_m, b.T_map_body.x_m) << "scan " << i;
+    ASSERT_EQ(a.explained, b.explained) << "scan " << i;
+  }
+  EXPECT_EQ(one.localizer.state(), LocalizationState::kLocalized);
+}
+
+TEST(Localizer, ASearchThatComesHalfASecondLateIsOfThePlaceWhereItIsNow) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Story story(test::offices(seed), seed);
+    LateSearches searches;
+    int localized = 0;
+    for (int i = 0; i < 150; ++i) {
+      const auto estimate = searches.step(story, 5);
+      if (estimate.state != LocalizationState::kLocalized) continue;
+      ++localized;
+      EXPECT_LT(errorOf(estimate, story.truth), 0.35) << "seed " << seed << ", scan " << i;
+    }
+    EXPECT_GT(localized, 50) << "seed " << seed;
+  }
+}
+
+TEST(Localizer, ASearchFromBeforeItWasToldItsPlaceChangesNothing) {
+  Story story(test::offices(3), 3);
+  LateSearches searches;
+  while (!searches.result) searches.step(story, 1000);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+  EXPECT_EQ(story.localizer.apply(*searches.result).state, LocalizationState::kLocalized);
+  EXPECT_FALSE(story.localizer.takeTask()) << "nothing is asked for";
+}
+
 TEST(Localizer, PlacesAGridThatStandsTurnedInTheMap) {
   const test::Building building = test::offices(7);
   const Pose2 T_map_grid{10.0, -4.0, 0.7};

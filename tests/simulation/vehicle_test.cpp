@@ -416,6 +416,35 @@ TEST(Variation, DrawsAgainUntilStartIsFreeAndGoalReachable) {
   }
 }
 
+TEST(Variation, AStartAnywhereIsOnTheFloorWithRoomAboveAndAWayToTheNominalOne) {
+  WorldModel world = boxRoom();
+  world.shapes.push_back(boxShape("stage", {-5.0, -4.0, 0.0}, {-3.0, 4.0, 0.3}));
+  world.shapes.push_back(boxShape("awning", {3.0, -4.0, 0.45}, {5.0, 4.0, 0.5}));
+  // A closet that nothing leads into.
+  world.shapes.push_back(boxShape("closet_south", {-1.0, 2.0, 0.0}, {1.5, 2.1, 3.0}));
+  world.shapes.push_back(boxShape("closet_west", {-1.1, 2.0, 0.0}, {-1.0, 4.0, 3.0}));
+  world.shapes.push_back(boxShape("closet_east", {1.5, 2.0, 0.0}, {1.6, 4.0, 3.0}));
+  Scenario scenario;
+  scenario.variation.start_area_world_m = {5.0, 4.0, -5.0, -4.0};
+  scenario.variation.start_yaw_deg = 180.0;
+  scenario.variation.flight_height_m = 0.5;
+  double least_x_m = 5.0, most_x_m = -5.0, most_yaw_rad = 0.0;
+  for (int seed = 1; seed <= 40; ++seed) {
+    scenario.seed = seed;
+    const SimulatedVehicle vehicle(world, scenario);
+    const Eigen::Vector3d at = vehicle.T_world_map().position_m;
+    EXPECT_NEAR(at.z(), 0.0, 1e-6) << "on the stage, seed " << seed;
+    EXPECT_LT(at.x(), 3.0) << "under the awning, seed " << seed;
+    EXPECT_FALSE(at.x() > -1.0 && at.x() < 1.5 && at.y() > 2.0) << "in the closet, seed " << seed;
+    least_x_m = std::min(least_x_m, at.x());
+    most_x_m = std::max(most_x_m, at.x());
+    most_yaw_rad = std::max(most_yaw_rad, std::abs(common::yawOf(vehicle.T_world_map().rotation)));
+  }
+  EXPECT_LT(least_x_m, -2.0);
+  EXPECT_GT(most_x_m, 2.0);
+  EXPECT_GT(most_yaw_rad, 2.5);
+}
+
 TEST(Scenario, PrintsAsYamlAndReadsBack) {
   Scenario scenario;
   scenario.seed = 5;

@@ -179,6 +179,28 @@ TEST(StateJsonTest, HasEverythingAndIsValidJson) {
   EXPECT_EQ(json["levels"][0]["height_m"], 0.76);
   EXPECT_EQ(json["mission"]["tree"][1]["name"], "AvoidObstacle");
   EXPECT_EQ(json["events"][0]["number"], 7);
+  EXPECT_TRUE(json["localization"].is_null());
+}
+
+TEST(StateJsonTest, HasWhereItIsInTheGivenMapAsSoonAsThatIsKnown) {
+  testing::ExampleFlight flight;
+  common::World world = *flight.advance(0.5);
+  common::Localization& localization = world.localization.emplace();
+  localization.state = common::LocalizationState::kAmbiguous;
+  localization.places = 3;
+  const auto unknown = nlohmann::json::parse(completeJson(world, {}, {}))["localization"];
+  EXPECT_EQ(unknown["state"], "ambiguous");
+  EXPECT_EQ(unknown["places"], 3);
+  EXPECT_TRUE(unknown["x_m"].is_null());
+  localization.state = common::LocalizationState::kLocalized;
+  localization.T_given_body = {3.0, -1.5, 0.5};
+  localization.covariance.diagonal() << 0.0009, 0.0016, 0.01;
+  localization.explained = 0.875;
+  const auto known = nlohmann::json::parse(completeJson(world, {}, {}))["localization"];
+  EXPECT_EQ(known["y_m"], -1.5);
+  EXPECT_EQ(known["yaw_rad"], 0.5);
+  EXPECT_EQ(known["deviation_m"], 0.05);
+  EXPECT_EQ(known["explained"], 0.875);
 }
 
 /// A flight at some speed, looked at when a test says so.

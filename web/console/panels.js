@@ -21,6 +21,10 @@ function clockText(seconds) {
   return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
 }
 
+function placeText({ state, x_m, y_m }) {
+  return state === 'localized' ? `(${x_m.toFixed(1)}, ${y_m.toFixed(1)}) m` : state;
+}
+
 export function showState(state) {
   const { flight_state: flight, mission, avoidance } = state;
   setText('flight-state', flight);
@@ -41,6 +45,8 @@ export function showState(state) {
   meter.setAttribute('aria-valuenow', Math.round(100 * (remaining ?? 0)));
   meter.dataset.level = remaining < 0.15 ? 'empty' : remaining < 0.3 ? 'low' : 'good';
   setText('explored', withUnit(state.explored_area_m2, 1, 'm²'));
+  element('given-map').hidden = !state.localization;
+  if (state.localization) setText('given-place', placeText(state.localization));
   setText('time', clockText(state.stamp_s));
   setText('flown', withUnit(state.distance_flown_m, 1, 'm'));
   setText('speed', withUnit(state.speed_m_s, 2, 'm/s'));

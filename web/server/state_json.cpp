@@ -68,6 +68,20 @@ Json missionOf(const common::MissionStatus& mission) {
           {"tree", tree}};
 }
 
+Json localizationOf(const std::optional<common::Localization>& localization) {
+  if (!localization) return nullptr;
+  const bool known = localization->localized();
+  const common::Pose2& at = localization->T_given_body;
+  const double deviation_m = std::sqrt(std::max(0.0, localization->covariance.topLeftCorner<2, 2>().trace()));
+  return {{"state", common::toString(localization->state)},
+          {"x_m", known ? number(at.x_m) : Json(nullptr)},
+          {"y_m", known ? number(at.y_m) : Json(nullptr)},
+          {"yaw_rad", known ? number(at.yaw_rad, 4) : Json(nullptr)},
+          {"deviation_m", known ? number(deviation_m) : Json(nullptr)},
+          {"explained", known ? number(localization->explained) : Json(nullptr)},
+          {"places", localization->places}};
+}
+
 Json stateOf(const common::World& world, const Observation& seen) {
   const Eigen::Vector3d velocity = world.state.velocity_map_m_s();
   const auto optional = [](const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); };
@@ -84,6 +98,7 @@ Json stateOf(const common::World& world, const Observation& seen) {
       {"height_above_ground_m", number(world.state.height_above_ground_m)},
       {"position_deviation_m",
        number(std::sqrt(std::max(0.0, world.state.position_covariance_m2.topLeftCorner<2, 2>().trace())))},
+      {"localization", localizationOf(world.localization)},
       {"horizontal_valid", world.state.horizontal_valid},
       {"vertical_valid", world.state.vertical_valid},
       {"flight_state", common::toString(world.status.flight_state)},

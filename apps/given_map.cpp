@@ -1,0 +1,73 @@
+#include "apps/given_map.hpp"
+
+#include <memory>
+#include <vector>
+
+#include "apps/system.hpp"
+#include "common/error.hpp"
+#include "evaluation/trajectory_metrics.hpp"
+#include "interfaces/files/map_server.hpp"
+#include "perception/slam2d/laser_slam.hpp"
+#include "simulation/ray_caster.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+void requireUsable(const common::OccupancyGrid& grid, const std::string& file, const char* hint) {
+  if (const std::string why = perception::Localizer::whyUnusable(grid); !why.empty())
+    throw common::InputError(common::Problem{{file}, "", why, hint});
+}
+
+/// T_world_given: the rigid fit of the poses the SLAM has to those that were driven.
+common::Pose2 fitted(const perception::LaserSlam& slam, const std::vector<perception::TrackedScan>& tracked,
+                     const std::vector<common::Pose2>& driven) {
+  const std::vector<common::Pose2> keys = slam.keyPoses();
+  std::vector<evaluation::PosePair> pairs;
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    const common::Pose2 estimate = keys[static_cast<std::size_t>(tracked[i].key)] * tracked[i].T_key_robot;
+    pairs.push_back({{}, common::lifted(estimate, 0.0), common::lifted(driven[i], 0.0)});
+  }
+  const auto T_world_given = evaluation::align(pairs, evaluation::Alignment::kPlanar);
+  return T_world_given ? common::planar(*T_world_given) : common::Pose2{};
+}
+
+}  // namespace
+
+FlightMap readFlightMap(const fs::path& yaml_file) {
+  interfaces::StoredMap stored = interfaces::readMap(yaml_file);
+  requireUsable(stored.grid, yaml_file.string(), "are `negate` and the thresholds those of the picture?");
+  FlightMap map;
+  map.name = yaml_file.string();
+  map.map.grid = std::make_shared<const common::OccupancyGrid>(std::move(stored.grid));
+  map.map.T_given_grid = stored.T_map_grid;
+  return map;
+}
+
+FlightMap surveyedMap(const simulation::SurveyConfig& survey, const simulation::WorldModel& world,
+                      const fs::path& folder) {
+  const simulation::RayCaster rays(world);
+  simulation::SurveyDrive drive(survey, loadLaser(survey.laser), rays);
+  perception::LaserSlam slam{perception::LaserSlamConfig{}};
+  std::vector<perception::TrackedScan> tracked;
+  std::vector<common::Pose2> driven;
+  while (const auto taken = drive.next()) {
+    const auto scan = slam.add({taken->scan, {}, std::nullopt});
+    if (!scan) continue;
+    tracked.push_back(*scan);
+    driven.push_back(taken->T_world_body);
+  }
+  slam.finish();
+
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (const auto written = interfaces::writeMap(folder, "map", slam.map()); !written)
+    throw common::InputError(common::Problem{{}, "", written.error().message, ""});
+  // As it is read from there, so that a flight with --map has the same.
+  FlightMap map = readFlightMap(folder / "map.yaml");
+  map.T_world_given = fitted(slam, tracked, driven);
+  return map;
+}
+
+}  // namespace swiftlet::apps

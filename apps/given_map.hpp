@@ -1,0 +1,30 @@
+// The map of the place that a flight is given.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "autonomy/flight_localizer.hpp"
+#include "common/geometry.hpp"
+#include "simulation/survey.hpp"
+#include "simulation/world_model.hpp"
+
+namespace swiftlet::apps {
+
+struct FlightMap {
+  std::string name;        ///< As the user gave it; for the run's record.
+  autonomy::GivenMap map;  ///< Its grid is shared by flights.
+  std::optional<common::Pose2>
+      T_world_given;  ///< Where it lies in the simulated world, where that is known: for the score.
+};
+
+/// Throws common::InputError where the file is no map, or none one could be localized in.
+FlightMap readFlightMap(const std::filesystem::path& yaml_file);
+
+/// A robot on wheels drives through the world, and its scans become a map by SLAM. It lies in the world where its key
+/// poses fit the true ones best. Written to `folder` as map.yaml and map.pgm. Throws common::InputError.
+FlightMap surveyedMap(const simulation::SurveyConfig& survey, const simulation::WorldModel& world,
+                      const std::filesystem::path& folder);
+
+}  // namespace swiftlet::apps

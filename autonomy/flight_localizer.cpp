@@ -1,0 +1,75 @@
+#include "autonomy/flight_localizer.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::LocalizationState;
+using common::Time;
+
+namespace {
+
+/// How far an odometry that lost the thread can be off, relative to where it is believed to be.
+const Eigen::Matrix3d kBreakCovariance = Eigen::Vector3d(0.5 * 0.5, 0.5 * 0.5, 0.3 * 0.3).asDiagonal();
+
+}  // namespace
+
+void FlightLocalizerConfig::describe(common::config::Fields& fields) {
+  fields.section("localizer", localizer, "Finding, following and doubting the pose.");
+  fields("search_latency_s", search_latency_s, "Declared for a search of the whole map.");
+}
+
+std::vector<std::string> FlightLocalizerConfig::validate() const {
+  return common::Validation().within("search_latency_s", search_latency_s, 0.01, 10).problems();
+}
+
+FlightLocalizer::FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs)
+    : config_(config), jobs_(jobs), localizer_(*map.grid, map.T_given_grid, config.localizer, map.seed) {}
+
+bool FlightLocalizer::wantsScan(const common::Pose2& T_odom_body) {
+  withheld_last_ = !withheld_last_ && localizer_.wantsFreshScan(T_odom_body);
+  return withheld_last_;
+}
+
+void FlightLocalizer::add(const LocatedScan& located, Time now) {
+  const Eigen::Matrix3d covariance =
+      located.interrupted ? Eigen::Matrix3d(located.step_covariance + kBreakCovariance) : located.step_covariance;
+  localization_.stamp = located.scan.stamp;
+  take(localizer_.follow({located.scan, located.T_odom_body, covariance, located.withheld, located.interrupted}), now);
+  submitSearch(now);
+}
+
+void FlightLocalizer::take(const perception::LocalizationEstimate& estimate, Time now) {
+  localization_.state = estimate.state;
+  localization_.T_given_odom = estimate.T_map_odom;
+  localization_.T_given_body = estimate.T_map_body;
+  localization_.covariance = estimate.covariance;
+  localization_.explained = estimate.explained;
+  localization_.places = estimate.places;
+  if (!estimate.event) return;
+  const bool lost = estimate.event->state == LocalizationState::kLost;
+  std::string text = toString(estimate.event->state);
+  if (localization_.localized())
+    text += fmt::format(" at ({:.2f}, {:.2f}), heading {:.0f} deg in the given map", localization_.T_given_body.x_m,
+                        localization_.T_given_body.y_m, localization_.T_given_body.yaw_rad / common::kRadPerDeg);
+  events_.push_back({now, lost ? common::Severity::kWarning : common::Severity::kInfo, "localization", std::move(text),
+                     estimate.event->reason});
+}
+
+void FlightLocalizer::submitSearch(Time now) {
+  if (!jobs_.idle("localization")) return;
+  auto task = localizer_.takeTask();
+  if (!task) return;
+  jobs_.submit("localization", now, common::Duration::fromSeconds(config_.search_latency_s),
+               [this, task = std::move(*task)]() -> common::JobRunner::Deliver {
+                 return [this, result = run(task)](Time delivered) { take(localizer_.apply(result), delivered); };
+               });
+}
+
+std::vector<common::Event> FlightLocalizer::takeEvents() { return std::exchange(events_, {}); }
+
+}  // namespace swiftlet::autonomy

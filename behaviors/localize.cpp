@@ -1,0 +1,36 @@
+#include "behaviors/localize.hpp"
+
+#include "behaviors/ports.hpp"
+
+namespace swiftlet::behaviors {
+
+using tree::Status;
+
+tree::NodeManifest Localize::manifest() {
+  return {.id = "Localize",
+          .kind = tree::NodeKind::kAction,
+          .ports = {clearancePort()},
+          .description = "Explores until the vehicle knows where it is in the map it was given."};
+}
+
+Status Localize::act(tree::TickContext& context) {
+  FlightTick& tick = flightTick(context);
+  const auto& localization = tick.flight.world->localization;
+  if (!localization) return fail(context, "the flight was given no map");
+  const auto clearance_m = clearance_m_.get();
+  if (!clearance_m) return fail(context, clearance_m_.problem());
+  wish(tick, common::ExploreIntent{*clearance_m, std::nullopt});
+  if (localization->localized()) return Status::kSuccess;
+  switch (wishState(tick)) {
+    case common::IntentState::kRunning:
+      return Status::kRunning;
+    case common::IntentState::kSucceeded:
+      return fail(context,
+                  std::string("nothing is left to explore, and the place is still ") + toString(localization->state));
+    case common::IntentState::kFailed:
+      return fail(context, tick.flight.status.reason);
+  }
+  return Status::kRunning;
+}
+
+}  // namespace swiftlet::behaviors

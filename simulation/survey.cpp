@@ -1,0 +1,83 @@
+#include "simulation/survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/check.hpp"
+#include "common/validation.hpp"
+
+namespace swiftlet::simulation {
+
+using common::kRadPerDeg;
+using common::Pose2;
+using common::Time;
+
+void SurveyConfig::describe(common::config::Fields& fields) {
+  fields("path_world_m", path_world_m, "x, y, x, y of the way it drives; empty: no map is made.");
+  fields("laser", laser, "A file of config/sensors, without .yaml.");
+  fields("laser_height_world_m", laser_height_world_m, "Of its beams, in the world's frame.");
+  fields("speed_m_s", speed_m_s, "Between the points; it turns on the spot at each.");
+  fields("turn_deg_s", turn_deg_s, "Speed of these turns.");
+  fields("seed", seed, "Of its noise; that of the flights changes nothing here.");
+}
+
+std::vector<std::string> SurveyConfig::validate() const {
+  const bool pairs = path_world_m.size() % 2 == 0 && path_world_m.size() != 2;
+  common::Validation validation;
+  validation.require(pairs, "path_world_m", "is no list of two or more points x, y")
+      .within("laser_height_world_m", laser_height_world_m, -100, 100)
+      .within("speed_m_s", speed_m_s, 0.05, 5)
+      .within("turn_deg_s", turn_deg_s, 1, 360)
+      .within("seed", seed, 0, 1'000'000'000);
+  for (const double value : path_world_m) validation.within("path_world_m", value, -1e4, 1e4);
+  return validation.problems();
+}
+
+SurveyDrive::SurveyDrive(const SurveyConfig& config, const common::LaserConfig& laser, const RayCaster& rays)
+    : config_(config), laser_(laser), rays_(rays), scanner_(laser, config.seed) {
+  const std::vector<double>& path = config.path_world_m;
+  SWIFTLET_CHECK(path.size() >= 4 && path.size() % 2 == 0, path.size());
+  Pose2 at{path[0], path[1], std::atan2(path[3] - path[1], path[2] - path[0])};
+  for (std::size_t i = 2; i < path.size(); i += 2) {
+    const Eigen::Vector2d way = Eigen::Vector2d(path[i], path[i + 1]) - at.position_m();
+    if (way.norm() < 1e-6) continue;
+    const double turn_rad = common::wrapAngle(std::atan2(way.y(), way.x()) - at.yaw_rad);
+    addLeg({at, 0.0, turn_rad}, std::abs(turn_rad) / (config.turn_deg_s * kRadPerDeg));
+    at.yaw_rad = common::wrapAngle(at.yaw_rad + turn_rad);
+    addLeg({at, way.norm(), 0.0}, way.norm() / config.speed_m_s);
+    at = {path[i], path[i + 1], at.yaw_rad};
+  }
+}
+
+void SurveyDrive::addLeg(const Leg& leg, double duration_s) {
+  Leg added = leg;
+  added.begin_s = SurveyDrive::duration_s();
+  added.end_s = added.begin_s + duration_s;
+  if (duration_s > 0.0) legs_.push_back(added);
+}
+
+std::optional<SurveyScan> SurveyDrive::next() {
+  const double start_s = static_cast<double>(frame_) / laser_.rate_hz;
+  const double sweep_s = std::max(scanner_.sweep().seconds(), 1e-3);
+  if (start_s + sweep_s > duration_s()) return std::nullopt;
+  const Time start = Time::fromSeconds(start_s), end = Time::fromSeconds(start_s + sweep_s);
+  SurveyScan taken;
+  taken.T_world_body = poseAt(start_s);
+  taken.scan =
+      scanner_.scan(frame_++, start, {{start, bodyAt(start_s), {}}, {end, bodyAt(start_s + sweep_s), {}}}, rays_);
+  taken.scan.stamps.arrived = end;
+  return taken;
+}
+
+Pose2 SurveyDrive::poseAt(double time_s) const {
+  const auto after = std::find_if(legs_.begin(), legs_.end(), [&](const Leg& leg) { return time_s < leg.end_s; });
+  const Leg& leg = after == legs_.end() ? legs_.back() : *after;
+  const double share = std::clamp((time_s - leg.begin_s) / (leg.end_s - leg.begin_s), 0.0, 1.0);
+  return leg.from * Pose2{share * leg.distance_m, 0.0, share * leg.turn_rad};
+}
+
+common::Pose3 SurveyDrive::bodyAt(double time_s) const {
+  return common::lifted(poseAt(time_s), config_.laser_height_world_m);
+}
+
+}  // namespace swiftlet::simulation

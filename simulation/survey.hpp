@@ -1,0 +1,65 @@
+// A robot on wheels with a level laser drives a given way through the world, so that a map can be made of its scans
+// before the first flight. Its motion is exact and its scans are as noisy as those in flight; it has no odometry.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/sensor_event.hpp"
+#include "common/vehicle_config.hpp"
+#include "simulation/ray_caster.hpp"
+#include "simulation/sensors/laser_scanner.hpp"
+
+namespace swiftlet::simulation {
+
+struct SurveyConfig {
+  std::vector<double> path_world_m;    ///< x, y, x, y ...; it turns on the spot at each. Empty: nothing is driven.
+  std::string laser = "sick_lms_291";  ///< A data sheet of config/sensors; the caller loads it.
+  double laser_height_world_m = 0.80;  ///< Of its beams.
+  double speed_m_s = 0.8;
+  double turn_deg_s = 45.0;
+  int seed = 1;  ///< Of the noise; that of the flights varies nothing here.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct SurveyScan {
+  common::LaserScan scan;      ///< Its stamp counts from the start of the drive.
+  common::Pose2 T_world_body;  ///< At that stamp. For the scorer alone.
+};
+
+class SurveyDrive {
+ public:
+  /// The path has two points or more. `rays` must outlive it.
+  SurveyDrive(const SurveyConfig& config, const common::LaserConfig& laser, const RayCaster& rays);
+
+  /// The next scan; none at the end of the path.
+  std::optional<SurveyScan> next();
+  double duration_s() const { return legs_.empty() ? 0.0 : legs_.back().end_s; }
+
+ private:
+  /// A turn on the spot or a straight line.
+  struct Leg {
+    common::Pose2 from;
+    double distance_m = 0.0;
+    double turn_rad = 0.0;
+    double begin_s = 0.0, end_s = 0.0;
+  };
+  void addLeg(const Leg& leg, double duration_s);
+  common::Pose2 poseAt(double time_s) const;
+  common::Pose3 bodyAt(double time_s) const;
+
+  SurveyConfig config_;
+  common::LaserConfig laser_;
+  const RayCaster& rays_;
+  LaserScanner scanner_;
+  std::vector<Leg> legs_;
+  std::uint64_t frame_ = 0;
+};
+
+}  // namespace swiftlet::simulation
