@@ -210,7 +210,14 @@ ScoreSurface CorrelativeMatcher::Impl::surfaceAround(const SplitPoints& points, 
 }
 
 double CorrelativeMatcher::Impl::support(const SplitPoints& points, const Pose2& pose) {
-  BranchAndBound::cellsAt(field, points.x_m, points.y_m, pose.yaw_rad, pose.x_m, pose.y_m, 1, x_cells, y_cells);
+  // Not by cellsAt, which leaves out what lies outside the field: each point keeps its place.
+  const double scale = 1.0 / field.resolution_m();
+  x_cells.resize(points.x_m.size());
+  y_cells.resize(points.x_m.size());
+  transformToCells(points.x_m, points.y_m, static_cast<float>(std::cos(pose.yaw_rad) * scale),
+                   static_cast<float>(std::sin(pose.yaw_rad) * scale),
+                   static_cast<float>(pose.x_m * scale - field.beginX()),
+                   static_cast<float>(pose.y_m * scale - field.beginY()), x_cells, y_cells);
   double supported = 0.0;
   has_support.resize(x_cells.size());
   for (std::size_t i = 0; i < x_cells.size(); ++i) {
@@ -370,7 +377,9 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   field.prepare(0, 2 * kWindowColumns + 2 * ScoreSurface::kSize);
   const double supported = support(surface_points, result.finest_T_reference_body);
   result.overlap = supported / static_cast<double>(surface_points.x_m.size());
-  const SplitPoints held = wellInside(surface_points);
+  const SplitPoints inside = wellInside(surface_points);
+  const bool enough_inside = static_cast<int>(inside.x_m.size()) >= config.min_points;
+  const SplitPoints& held = enough_inside ? inside : surface_points;
   const double step_rad =
       scored ? grid.step_yaw_rad : config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
   ScoreSurface surface =
@@ -380,7 +389,7 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   const Eigen::Vector3d guess_offset(guess.x_m - result.finest_T_reference_body.x_m,
                                      guess.y_m - result.finest_T_reference_body.y_m,
                                      common::wrapAngle(guess.yaw_rad - result.finest_T_reference_body.yaw_rad));
-  const SurfaceScale scale{scored ? supported : static_cast<double>(held.x_m.size()), field.reach_m(),
+  const SurfaceScale scale{scored || !enough_inside ? supported : static_cast<double>(held.x_m.size()), field.reach_m(),
                            config.covariance_scale, config.unobservable_sigma_m};
   Peak peak = findPeak(surface, scale, guess_offset);
   peak.covariance += attitudeCovariance(held, result.finest_T_reference_body, step_rad, peak);
