@@ -214,7 +214,11 @@ bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
   }
   if (!filter_.hasClone(relative->from)) (void)filter_.addClone(relative->from);
   const Eigen::Matrix3d covariance = relative->covariance + tiltCovariance(scan);
-  const auto inserted = filter_.addRelativePose(relative->from, relative->to, relative->T_from_to, covariance);
+  std::optional<Eigen::Vector2d> unseen_direction_from;
+  if (relative->unseen_direction)
+    unseen_direction_from = Eigen::Rotation2Dd(relative->T_from_to.yaw_rad) * *relative->unseen_direction;
+  const auto inserted =
+      filter_.addRelativePose(relative->from, relative->to, relative->T_from_to, covariance, unseen_direction_from);
   if (relative->reference_changed) {
     (void)filter_.addClone(relative->to);
     // Within one reference the error does not grow; it accumulates from reference to reference.

@@ -28,9 +28,12 @@ constexpr double kMaxExtrapolation_s = 0.02;
 constexpr double kMaxAhead_s = 0.5;
 /// IMU samples a second that the history has room for; a faster IMU shortens it.
 constexpr double kRingRate_hz = 256.0;
+constexpr double kUnitTolerance = 1e-3;  // NaN is beyond it.
 constexpr std::size_t kMeasurementCapacity = 1024;
 /// Standard deviations that an AHRS may be off before it is believed more than the filter.
 constexpr double kAhrsGate = 3.0;
+/// What was felt between two samples is not known over more than this.
+constexpr double kLongestDragStep_s = 0.05;
 
 double square(double x) { return x * x; }
 
@@ -83,6 +86,8 @@ struct ErrorStateFilter::Impl {
   void apply(FilterState& state, const Measurement& measurement) const;
   void applySlot(FilterState& state, const Slot& s) const;
   void updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const;
+  void feelDrag(FilterState& state, const Slot& before, const Slot& now) const;
+  void updateByDrag(FilterState& state) const;
   template <int K>
   void gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& measurement) const;
   void recover(FilterState& state) const;
@@ -106,8 +111,13 @@ struct ErrorStateFilter::Impl {
 
 ErrorStateFilter::Impl::Impl(const Config& c)
     : config(c),
-      noise{c.accelerometer_noise_m_s2_rthz, c.gyroscope_noise_rad_s_rthz, c.accelerometer_bias_walk_m_s3_rthz,
-            c.gyroscope_bias_walk_rad_s2_rthz, c.gravity_m_s2},
+      noise{c.accelerometer_noise_m_s2_rthz,
+            c.gyroscope_noise_rad_s_rthz,
+            c.accelerometer_bias_walk_m_s3_rthz,
+            c.gyroscope_bias_walk_rad_s2_rthz,
+            c.drag_walk_1_s_rts,
+            c.wind_walk_m_s_rts,
+            c.gravity_m_s2},
       ring(static_cast<std::size_t>(std::ceil(c.history_s * kRingRate_hz)) + 2),
       rest({c.rest_s, c.rest_gyroscope_sigma_rad_s, c.rest_accelerometer_sigma_m_s2, c.gravity_m_s2}) {}
 
@@ -175,6 +185,7 @@ void ErrorStateFilter::Impl::step(const Slot& before, Slot& now) {
     apply(state, measurement);
   }
   advanceTo(now.imu.stamp);
+  if (config.use_drag) feelDrag(state, before, now);
   applySlot(state, now);
   // Rounding makes the two halves drift apart over many steps.
   state.covariance.triangularView<Eigen::StrictlyUpper>() = state.covariance.transpose();
@@ -200,7 +211,11 @@ void ErrorStateFilter::Impl::apply(FilterState& state, const Measurement& m) con
       const int clone = state.cloneAt(m.from);
       if (clone < 0) return;  // Dropped for newer ones since it was accepted.
       state.clones[static_cast<std::size_t>(clone)].last_used = m.stamp;
-      gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance));
+      if (m.unseen_direction)
+        gatedUpdate(state, state.relative_gate,
+                    relativePoseAcross(state, clone, m.pose, m.covariance, *m.unseen_direction));
+      else
+        gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance));
       return;
     }
   }
@@ -209,6 +224,7 @@ void ErrorStateFilter::Impl::apply(FilterState& state, const Measurement& m) con
 void ErrorStateFilter::Impl::applySlot(FilterState& state, const Slot& s) const {
   if (!s.attitude_due) return;
   if (config.use_ahrs) updateByAhrs(state, s.up_body);
+  if (config.use_drag) updateByDrag(state);
   if (config.use_gravity) {
     update(state,
            gravity(state, s.imu.specific_force_body_m_s2, config.gravity_m_s2, square(config.gravity_sigma_m_s2)));
@@ -238,6 +254,28 @@ void ErrorStateFilter::Impl::updateByAhrs(FilterState& state, const Eigen::Vecto
   update(state, m);
 }
 
+/// The ground, too, pushes a vehicle that stands; then nothing is learned of the air.
+void ErrorStateFilter::Impl::feelDrag(FilterState& state, const Slot& before, const Slot& now) const {
+  DragStretch& stretch = state.drag_stretch;
+  const double dt_s = (now.imu.stamp - before.imu.stamp).seconds();
+  if (now.at_rest || dt_s > kLongestDragStep_s) {
+    stretch = {};
+    return;
+  }
+  stretch.seconds += dt_s;
+  stretch.force_sum_m_s +=
+      0.5 * dt_s * (before.imu.specific_force_body_m_s2 + now.imu.specific_force_body_m_s2).head<2>();
+  stretch.velocity_sum_m += dt_s * (state.rotation_odom_body.conjugate() * state.velocity_odom_m_s).head<2>();
+}
+
+/// Who is pushed or touches something feels more than the air: that is left out.
+void ErrorStateFilter::Impl::updateByDrag(FilterState& state) const {
+  if (state.drag_stretch.seconds <= 0.0) return;
+  const Linearized<2> m = drag(state, square(config.drag_noise_m_s2_rthz) / state.drag_stretch.seconds);
+  if (mahalanobis2(state, m) <= square(config.gate_sigma)) update(state, m);
+  state.drag_stretch = {};
+}
+
 template <int K>
 void ErrorStateFilter::Impl::gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& m) const {
   const double limit2 = square(config.gate_sigma) + 2.5 * (K - 1);  // About the same tail for K degrees of freedom.
@@ -249,7 +287,7 @@ void ErrorStateFilter::Impl::gatedUpdate(FilterState& state, GateMemory& gate, c
     ++gate.rejected;
     if ((state.stamp - gate.closed_since).seconds() < config.recovery_s) return;
     // The measurement has disagreed for too long to be an outlier: the estimate is wrong, by about the residual.
-    const double jump2 = m.residual.template head<std::min(K, 2)>().squaredNorm();
+    const double jump2 = m.residual.template head<std::max(1, K - 1)>().squaredNorm();
     auto diagonal = state.covariance.diagonal();
     if constexpr (K == 1) {
       diagonal(kPosition + 2) += jump2;
@@ -335,6 +373,9 @@ tl::expected<void, std::string> ErrorStateFilter::initialize(double height_m) {
   diagonal.segment<3>(kAttitude) << square(0.2), square(0.2), 1e-8;
   diagonal.segment<3>(kAccelerometerBias).setConstant(square(f.config.accelerometer_bias_sigma_m_s2));
   diagonal.segment<3>(kGyroscopeBias).setConstant(square(rest->gyroscope_mean_sigma_rad_s) + 1e-8);
+  state.drag_1_s = f.config.drag_1_s;
+  diagonal(kDrag) = square(f.config.drag_sigma_1_s);
+  diagonal.segment<2>(kWind).setConstant(square(f.config.wind_sigma_m_s));
   update(state, gravity(state, rest->specific_force_body_m_s2, f.config.gravity_m_s2,
                         square(rest->accelerometer_mean_sigma_m_s2) + 1e-6));
 
@@ -360,8 +401,10 @@ Insertion ErrorStateFilter::addClone(Time time) {
 }
 
 Insertion ErrorStateFilter::addRelativePose(Time from, Time to, const common::Pose2& T_from_to,
-                                            const Eigen::Matrix3d& covariance) {
-  if (!isFinite(T_from_to) || to <= from || !isCovariance(covariance)) {
+                                            const Eigen::Matrix3d& covariance,
+                                            const std::optional<Eigen::Vector2d>& unseen_direction) {
+  const bool direction_valid = !unseen_direction || std::abs(unseen_direction->norm() - 1.0) < kUnitTolerance;
+  if (!isFinite(T_from_to) || to <= from || !isCovariance(covariance) || !direction_valid) {
     ++impl_->counters.refused;
     return Insertion::kInvalid;
   }
@@ -375,6 +418,7 @@ Insertion ErrorStateFilter::addRelativePose(Time from, Time to, const common::Po
   m.from = from;
   m.pose = T_from_to;
   m.covariance = covariance;
+  m.unseen_direction = unseen_direction;
   return impl_->insert(m);
 }
 
@@ -477,6 +521,18 @@ Eigen::Vector3d ErrorStateFilter::gyroscopeBias_rad_s() const {
   return impl_->newest().state.gyroscope_bias_rad_s;
 }
 
+double ErrorStateFilter::drag_1_s() const {
+  if (impl_->count == 0) return impl_->config.drag_1_s;
+  impl_->replay();
+  return impl_->newest().state.drag_1_s;
+}
+
+Eigen::Vector2d ErrorStateFilter::wind_odom_m_s() const {
+  if (impl_->count == 0) return Eigen::Vector2d::Zero();
+  impl_->replay();
+  return impl_->newest().state.wind_odom_m_s;
+}
+
 Eigen::Matrix<double, 15, 15> ErrorStateFilter::covariance() const {
   if (impl_->count == 0) return Eigen::Matrix<double, 15, 15>::Zero();
   impl_->replay();
@@ -504,8 +560,17 @@ std::optional<common::Pose3> ErrorStateFilter::poseAt(Time time) const {
   f.replay(high + 1);
   const FilterState& a = f.slot(low).state;
   const FilterState& b = f.slot(high).state;
-  return interpolate({a.rotation_odom_body, a.position_odom_m}, {b.rotation_odom_body, b.position_odom_m},
-                     (time - a.stamp).seconds() / (b.stamp - a.stamp).seconds());
+  const common::Pose3 begin{a.rotation_odom_body, a.position_odom_m}, end{b.rotation_odom_body, b.position_odom_m};
+  // What was measured between the two made the estimate jump there: before it counts the one, from it on the other.
+  const auto measured = f.measurements.within(a.stamp, b.stamp);
+  if (measured.empty()) return interpolate(begin, end, (time - a.stamp).seconds() / (b.stamp - a.stamp).seconds());
+  const bool before = time < measured.front().stamp;
+  const FilterState& from = before ? a : b;
+  const Slot& sample = f.slot(before ? low : high);
+  const double ahead_s = (time - from.stamp).seconds();
+  const Eigen::Vector3d turn_body_rad = ahead_s * (sample.imu.angular_velocity_body_rad_s - from.gyroscope_bias_rad_s);
+  return common::Pose3{from.rotation_odom_body * common::expSO3(turn_body_rad),
+                       from.position_odom_m + ahead_s * from.velocity_odom_m_s};
 }
 
 std::optional<VerticalState> ErrorStateFilter::verticalAt(Time time) const {
@@ -592,6 +657,13 @@ void ErrorStateFilter::Config::describe(common::config::Fields& fields) {
   fields("use_gravity", use_gravity, "Take the specific force for gravity (vehicles without an AHRS).");
   fields("gravity_sigma_m_s2", gravity_sigma_m_s2, "What the vehicle's own acceleration adds to it.");
   fields("attitude_rate_hz", attitude_rate_hz, "How often either is used.");
+  fields("use_drag", use_drag, "Take the specific force in the body's x and y for drag, which tells the speed.");
+  fields("drag_1_s", drag_1_s, "Deceleration per speed through the air, at the start; learned in flight.");
+  fields("drag_sigma_1_s", drag_sigma_1_s, "Standard deviation of that.");
+  fields("drag_walk_1_s_rts", drag_walk_1_s_rts, "Its random walk.");
+  fields("drag_noise_m_s2_rthz", drag_noise_m_s2_rthz, "Noise density of the force that is taken for drag.");
+  fields("wind_sigma_m_s", wind_sigma_m_s, "Standard deviation of each component of the wind at the start.");
+  fields("wind_walk_m_s_rts", wind_walk_m_s_rts, "Its random walk.");
   fields("rest_s", rest_s, "Stretch at rest that the start averages.");
   fields("rest_gyroscope_sigma_rad_s", rest_gyroscope_sigma_rad_s, "More spread of the gyroscope: it is moving.");
   fields("rest_accelerometer_sigma_m_s2", rest_accelerometer_sigma_m_s2, "More spread of the accelerometer: moving.");
@@ -622,6 +694,12 @@ std::vector<std::string> ErrorStateFilter::Config::validate() const {
       .within("ahrs_correlation_s", ahrs_correlation_s, 0, 600)
       .within("gravity_sigma_m_s2", gravity_sigma_m_s2, 0.01, 20)
       .within("attitude_rate_hz", attitude_rate_hz, 0.1, 200)
+      .within("drag_1_s", drag_1_s, 0.0, 10)
+      .within("drag_sigma_1_s", drag_sigma_1_s, 0.0, 10)
+      .within("drag_walk_1_s_rts", drag_walk_1_s_rts, 0.0, 10)
+      .positive("drag_noise_m_s2_rthz", drag_noise_m_s2_rthz)
+      .within("wind_sigma_m_s", wind_sigma_m_s, 0.0, 20)
+      .within("wind_walk_m_s_rts", wind_walk_m_s_rts, 0.0, 20)
       .within("rest_s", rest_s, 0.1, 10)
       .positive("rest_gyroscope_sigma_rad_s", rest_gyroscope_sigma_rad_s)
       .positive("rest_accelerometer_sigma_m_s2", rest_accelerometer_sigma_m_s2)

@@ -1,6 +1,6 @@
 // Inertial measurements fused with late measurements of relative pose and height: an error-state Kalman filter
-// (Tomic 2012, "Data Fusion"; Bachrach 2009, 5.2). Direct state 16: position, velocity, attitude quaternion,
-// accelerometer and gyroscope bias; error state 15. Attitude errors are in the odom frame: R = exp(error) *
+// (Tomic 2012, "Data Fusion"; Bachrach 2009, 5.2). Direct state 19: position, velocity, attitude quaternion,
+// accelerometer and gyroscope bias, drag, wind; error state 18. Attitude errors are in the odom frame: R = exp(error) *
 // R_estimated.
 //
 // A laser odometry measures the pose of a scan relative to a reference scan that stays the same over many scans. The
@@ -9,6 +9,9 @@
 // Every measurement is applied at the time it was measured: the filter keeps a ring of IMU samples, states and
 // measurements, steps back, and replays everything after. The state is a function of what was measured when, not of
 // when it arrived: the same measurements late, on time or in another order give the same bits.
+//
+// A multirotor's accelerometer feels in the body's x and y the drag of its rotors alone, which goes with the speed
+// through the air. So the velocity is known, if only as well as bias, drag and wind are, also where no scan holds it.
 //
 // Outliers are gated by their Mahalanobis distance. A gate that stays closed for `recovery_s` is opened by force, the
 // covariance widened by what the measurement says; doing so too often is a divergence. A divergence stays until
@@ -86,7 +89,16 @@ class ErrorStateFilter {
     // Gravity vector as pseudo-measurement of roll and pitch (for vehicles without an AHRS).
     bool use_gravity = false;
     double gravity_sigma_m_s2 = 1.0;  ///< What the vehicle's own acceleration adds.
-    double attitude_rate_hz = 10.0;   ///< Of either of them, and of what is known at rest.
+    double attitude_rate_hz = 10.0;   ///< Of either of them, of the drag, and of what is known at rest.
+    // Drag as a measurement of the velocity through the air: what holds the velocity where the laser does not. Nobody
+    // gives the coefficient; it is learned in flight while the laser sees all directions, and the wind with it.
+    bool use_drag = true;
+    double drag_1_s = 0.3;  ///< At the start: of small quadrotors 0.1 to 0.5.
+    double drag_sigma_1_s = 0.2;
+    double drag_walk_1_s_rts = 0.002;    ///< It changes with the speed, the battery, the height.
+    double drag_noise_m_s2_rthz = 0.02;  ///< Of the accelerometer, and what is not drag.
+    double wind_sigma_m_s = 0.3;
+    double wind_walk_m_s_rts = 0.001;
     // At rest on the ground.
     double rest_s = 0.5;                       ///< IMU stretch that initialize() averages.
     double rest_gyroscope_sigma_rad_s = 0.05;  ///< More spread than this: it is moving.
@@ -131,9 +143,12 @@ class ErrorStateFilter {
   /// that was used longest ago is dropped.
   Insertion addClone(common::Time time);
   /// T_from_to in the level frame of the body at `from`, which must be cloned: heading and planar displacement.
-  /// Covariance of (x, y, yaw).
+  /// Covariance of (x, y, yaw). Along `unseen_direction`, a unit vector in the frame at `from`, nothing was measured
+  /// and nothing is taken in, whatever pose and covariance say there: a guess that comes back with each scan, however
+  /// uncertain, would soon be certain.
   Insertion addRelativePose(common::Time from, common::Time to, const common::Pose2& T_from_to,
-                            const Eigen::Matrix3d& covariance);
+                            const Eigen::Matrix3d& covariance,
+                            const std::optional<Eigen::Vector2d>& unseen_direction = std::nullopt);
   /// Height of the body origin over the take-off floor. `common_variance_m2` is the part of the error that does not
   /// change from one measurement to the next (of the level below); it is not averaged away.
   Insertion addHeight(common::Time time, double height_m, double variance_m2, double common_variance_m2 = 0.0);
@@ -153,6 +168,8 @@ class ErrorStateFilter {
   Eigen::Vector3d accelerationOdom_m_s2() const;
   Eigen::Vector3d accelerometerBias_m_s2() const;
   Eigen::Vector3d gyroscopeBias_rad_s() const;
+  double drag_1_s() const;
+  Eigen::Vector2d wind_odom_m_s() const;
   /// Of the errors (position, velocity, attitude, accelerometer bias, gyroscope bias).
   Eigen::Matrix<double, 15, 15> covariance() const;
 

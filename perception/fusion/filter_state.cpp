@@ -59,6 +59,8 @@ void FilterState::inject(const ErrorVector& error) {
   rotateBy(rotation_odom_body, error.segment<3>(kAttitude));
   accelerometer_bias_m_s2 += error.segment<3>(kAccelerometerBias);
   gyroscope_bias_rad_s += error.segment<3>(kGyroscopeBias);
+  drag_1_s += error(kDrag);
+  wind_odom_m_s += error.segment<2>(kWind);
   for (int i = 0; i < clone_count; ++i) {
     common::Pose3& pose = clones[static_cast<std::size_t>(i)].T_odom_body;
     pose.position_m += error.segment<3>(kCore + kCloneSize * i);
@@ -68,8 +70,8 @@ void FilterState::inject(const ErrorVector& error) {
 
 bool FilterState::finite() const {
   return position_odom_m.allFinite() && velocity_odom_m_s.allFinite() && rotation_odom_body.coeffs().allFinite() &&
-         accelerometer_bias_m_s2.allFinite() && gyroscope_bias_rad_s.allFinite() &&
-         std::isfinite(covariance.sum());  // Vectorized, which allFinite() is not.
+         accelerometer_bias_m_s2.allFinite() && gyroscope_bias_rad_s.allFinite() && std::isfinite(drag_1_s) &&
+         wind_odom_m_s.allFinite() && std::isfinite(covariance.sum());  // Vectorized, which allFinite() is not.
 }
 
 }  // namespace swiftlet::perception::fusion

@@ -18,7 +18,9 @@ inline constexpr int kVelocity = 3;
 inline constexpr int kAttitude = 6;
 inline constexpr int kAccelerometerBias = 9;
 inline constexpr int kGyroscopeBias = 12;
-inline constexpr int kCore = 15;
+inline constexpr int kDrag = 15;
+inline constexpr int kWind = 16;
+inline constexpr int kCore = 18;
 inline constexpr int kCloneSize = 6;
 inline constexpr int kMaxClones = 4;
 inline constexpr int kMaxDimension = kCore + kCloneSize * kMaxClones;
@@ -42,6 +44,13 @@ struct GateMemory {
   std::uint64_t rejected = 0;
 };
 
+/// What was felt, and what was believed, since the drag was measured last: sums over time of the body's x and y.
+struct DragStretch {
+  double seconds = 0.0;
+  Eigen::Vector2d force_sum_m_s = Eigen::Vector2d::Zero();
+  Eigen::Vector2d velocity_sum_m = Eigen::Vector2d::Zero();
+};
+
 struct FilterState {
   common::Time stamp;
   Eigen::Vector3d position_odom_m = Eigen::Vector3d::Zero();
@@ -49,7 +58,10 @@ struct FilterState {
   Eigen::Quaterniond rotation_odom_body = Eigen::Quaterniond::Identity();
   Eigen::Vector3d accelerometer_bias_m_s2 = Eigen::Vector3d::Zero();
   Eigen::Vector3d gyroscope_bias_rad_s = Eigen::Vector3d::Zero();
+  double drag_1_s = 0.0;  ///< Deceleration per speed through the air, in the body's x and y.
+  Eigen::Vector2d wind_odom_m_s = Eigen::Vector2d::Zero();
 
+  DragStretch drag_stretch;
   std::array<ClonedPose, kMaxClones> clones;
   int clone_count = 0;
   ErrorCovariance covariance = ErrorCovariance::Zero(kCore, kCore);

@@ -76,6 +76,8 @@ void addNoise(FilterState& state, double dt_s, const ImuNoise& noise) {
   diagonal.segment<3>(kAttitude).array() += rotation;
   diagonal.segment<3>(kAccelerometerBias).array() += square(noise.accelerometer_walk_m_s3_rthz) * dt_s;
   diagonal.segment<3>(kGyroscopeBias).array() += square(noise.gyroscope_walk_rad_s2_rthz) * dt_s;
+  diagonal(kDrag) += square(noise.drag_walk_1_s_rts) * dt_s;
+  diagonal.segment<2>(kWind).array() += square(noise.wind_walk_m_s_rts) * dt_s;
 }
 
 }  // namespace

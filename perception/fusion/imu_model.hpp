@@ -22,6 +22,8 @@ struct ImuNoise {
   double gyroscope_rad_s_rthz = 0.0;
   double accelerometer_walk_m_s3_rthz = 0.0;
   double gyroscope_walk_rad_s2_rthz = 0.0;
+  double drag_walk_1_s_rts = 0.0;  ///< How the drag and the wind change.
+  double wind_walk_m_s_rts = 0.0;
   double gravity_m_s2 = 9.81;
 };
 

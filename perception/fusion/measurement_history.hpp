@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,9 +19,10 @@ enum class MeasurementKind : std::uint8_t { kHeight, kVerticalSpeed, kRelativePo
 struct Measurement {
   common::Time stamp;
   MeasurementKind kind = MeasurementKind::kClone;
-  common::Time from;   ///< kRelativePose: when the reference was cloned.
-  common::Pose2 pose;  ///< kRelativePose, kAbsolutePose.
-  double value = 0;    ///< kHeight: m; kVerticalSpeed: m/s.
+  common::Time from;                                ///< kRelativePose: when the reference was cloned.
+  common::Pose2 pose;                               ///< kRelativePose, kAbsolutePose.
+  std::optional<Eigen::Vector2d> unseen_direction;  ///< kRelativePose: in the level frame at `from`.
+  double value = 0;                                 ///< kHeight: m; kVerticalSpeed: m/s.
   double common_variance_m2 = 0.0;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< kHeight, kVerticalSpeed: only (0, 0).
 };

@@ -66,6 +66,18 @@ Linearized<3> relativePose(const FilterState& state, int clone, const common::Po
   return m;
 }
 
+Linearized<2> relativePoseAcross(const FilterState& state, int clone, const common::Pose2& T_clone_body,
+                                 const Eigen::Matrix3d& covariance, const Eigen::Vector2d& unseen_direction_clone) {
+  const Linearized<3> whole = relativePose(state, clone, T_clone_body, covariance);
+  Eigen::Matrix<double, 2, 3> seen;
+  seen << -unseen_direction_clone.y(), unseen_direction_clone.x(), 0.0, 0.0, 0.0, 1.0;
+  Linearized<2> m;
+  m.residual = seen * whole.residual;
+  m.jacobian = seen * whole.jacobian;
+  m.noise = seen * whole.noise * seen.transpose();
+  return m;
+}
+
 Linearized<1> height(const FilterState& state, double height_m, double variance_m2) {
   return direct(kPosition + 2, height_m - state.position_odom_m.z(), variance_m2);
 }
@@ -121,6 +133,29 @@ Linearized<3> zeroRotation(const FilterState& state, const Eigen::Vector3d& angu
   m.residual = angular_velocity_body_rad_s - state.gyroscope_bias_rad_s;
   m.jacobian.block<3, 3>(0, kGyroscopeBias).setIdentity();
   m.noise *= variance_rad2_s2;
+  return m;
+}
+
+Linearized<2> drag(const FilterState& state, double variance_m2_s4) {
+  const DragStretch& stretch = state.drag_stretch;
+  const Eigen::Matrix<double, 2, 3> to_body_xy = state.rotation_odom_body.conjugate().toRotationMatrix().topRows<2>();
+  const Eigen::Vector3d wind_odom_m_s(state.wind_odom_m_s.x(), state.wind_odom_m_s.y(), 0.0);
+  const Eigen::Vector2d airspeed_m_s = stretch.velocity_sum_m / stretch.seconds - to_body_xy * wind_odom_m_s;
+  const Eigen::Vector3d airspeed_odom_m_s = state.velocity_odom_m_s - wind_odom_m_s;
+
+  Linearized<2> m;
+  m.residual =
+      stretch.force_sum_m_s / stretch.seconds + state.drag_1_s * airspeed_m_s - state.accelerometer_bias_m_s2.head<2>();
+  m.jacobian.block<2, 3>(0, kVelocity) = -state.drag_1_s * to_body_xy;
+  // R^T (I - [error x]) v = R^T v + R^T [v x] error.
+  Eigen::Matrix3d cross;
+  cross << 0.0, -airspeed_odom_m_s.z(), airspeed_odom_m_s.y(), airspeed_odom_m_s.z(), 0.0, -airspeed_odom_m_s.x(),
+      -airspeed_odom_m_s.y(), airspeed_odom_m_s.x(), 0.0;
+  m.jacobian.block<2, 3>(0, kAttitude) = -state.drag_1_s * to_body_xy * cross;
+  m.jacobian.block<2, 2>(0, kAccelerometerBias).setIdentity();
+  m.jacobian.block<2, 1>(0, kDrag) = -airspeed_m_s;
+  m.jacobian.block<2, 2>(0, kWind) = state.drag_1_s * to_body_xy.leftCols<2>();
+  m.noise *= variance_m2_s4;
   return m;
 }
 

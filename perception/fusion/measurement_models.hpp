@@ -19,6 +19,10 @@ struct Linearized {
 /// Planar pose of the body in the level frame of the body at a clone.
 Linearized<3> relativePose(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                            const Eigen::Matrix3d& covariance);
+/// The same where the scene did not hold the position along a direction (a unit vector in the level frame at the
+/// clone): the position across it, and the heading. Along it nothing is measured.
+Linearized<2> relativePoseAcross(const FilterState& state, int clone, const common::Pose2& T_clone_body,
+                                 const Eigen::Matrix3d& covariance, const Eigen::Vector2d& unseen_direction_clone);
 Linearized<1> height(const FilterState& state, double height_m, double variance_m2);
 Linearized<1> verticalSpeed(const FilterState& state, double speed_m_s, double variance_m2_s2);
 Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom_body,
@@ -31,6 +35,11 @@ Linearized<3> gravity(const FilterState& state, const Eigen::Vector3d& specific_
 Linearized<3> zeroVelocity(const FilterState& state, double variance_m2_s2);
 Linearized<3> zeroRotation(const FilterState& state, const Eigen::Vector3d& angular_velocity_body_rad_s,
                            double variance_rad2_s2);
+
+/// What an accelerometer feels in the body's x and y is the drag of rotors and frame alone, whatever the tilt: the
+/// thrust is along z, gravity is not felt (Martin and Salaun 2010; Leishman et al. 2014). Of the state's drag_stretch,
+/// whose means stand for its middle; it must not be empty.
+Linearized<2> drag(const FilterState& state, double variance_m2_s4);
 
 /// d yaw / d attitude error (in odom).
 Eigen::RowVector3d yawJacobian(const Eigen::Quaterniond& rotation);

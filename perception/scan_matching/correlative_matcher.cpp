@@ -160,6 +160,7 @@ struct CorrelativeMatcher::Impl {
   MatchResult evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points, const Pose2& guess,
                        const PoseGrid& grid, const BestPose& best, bool scored);
   double support(const SplitPoints& points, const Pose2& pose);
+  SplitPoints wellInside(const SplitPoints& points) const;
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
   Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad, const Peak& peak);
   double profileVariance(const SplitPoints& points, const Pose2& center, const Eigen::Vector2d& axis);
@@ -171,7 +172,8 @@ struct CorrelativeMatcher::Impl {
   Instructions instructions;
   LikelihoodField field;
   BranchAndBound search;
-  ScoreGrid all_scores;  ///< Of the last match, when all poses were scored.
+  ScoreGrid all_scores;                   ///< Of the last match, when all poses were scored.
+  std::vector<std::uint8_t> has_support;  ///< Which of the points that support() was given last.
   std::vector<std::int32_t> x_cells, y_cells, offsets;
 };
 
@@ -208,10 +210,39 @@ ScoreSurface CorrelativeMatcher::Impl::surfaceAround(const SplitPoints& points, 
 }
 
 double CorrelativeMatcher::Impl::support(const SplitPoints& points, const Pose2& pose) {
-  BranchAndBound::cellsAt(field, points.x_m, points.y_m, pose.yaw_rad, pose.x_m, pose.y_m, 1, x_cells, y_cells);
+  // Not by cellsAt, which leaves out what lies outside the field: each point keeps its place.
+  const double scale = 1.0 / field.resolution_m();
+  x_cells.resize(points.x_m.size());
+  y_cells.resize(points.x_m.size());
+  transformToCells(points.x_m, points.y_m, static_cast<float>(std::cos(pose.yaw_rad) * scale),
+                   static_cast<float>(std::sin(pose.yaw_rad) * scale),
+                   static_cast<float>(pose.x_m * scale - field.beginX()),
+                   static_cast<float>(pose.y_m * scale - field.beginY()), x_cells, y_cells);
   double supported = 0.0;
-  for (std::size_t i = 0; i < x_cells.size(); ++i) supported += field.at(x_cells[i], y_cells[i]) > 0 ? 1.0 : 0.0;
+  has_support.resize(x_cells.size());
+  for (std::size_t i = 0; i < x_cells.size(); ++i) {
+    has_support[i] = field.at(x_cells[i], y_cells[i]) > 0 ? 1 : 0;
+    supported += has_support[i];
+  }
   return supported;
+}
+
+/// Those with support whose neighbours have it too. At the end of what the reference shows, support comes and goes with
+/// the pose: the score would slide towards more of it.
+SplitPoints CorrelativeMatcher::Impl::wellInside(const SplitPoints& points) const {
+  constexpr int kMargin = 3;
+  SplitPoints kept({});
+  const int n = static_cast<int>(points.x_m.size());
+  for (int i = 0; i < n; ++i) {
+    bool inside = true;
+    for (int j = std::max(0, i - kMargin); inside && j <= std::min(n - 1, i + kMargin); ++j)
+      inside = has_support[static_cast<std::size_t>(j)] != 0;
+    if (!inside) continue;
+    kept.x_m.push_back(points.x_m[static_cast<std::size_t>(i)]);
+    kept.y_m.push_back(points.y_m[static_cast<std::size_t>(i)]);
+    if (!points.heights_m.empty()) kept.heights_m.push_back(points.heights_m[static_cast<std::size_t>(i)]);
+  }
+  return kept;
 }
 
 /// A wrong attitude moves an end point sideways by its height over the body. All points move together, so that more of
@@ -346,24 +377,30 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   field.prepare(0, 2 * kWindowColumns + 2 * ScoreSurface::kSize);
   const double supported = support(surface_points, result.finest_T_reference_body);
   result.overlap = supported / static_cast<double>(surface_points.x_m.size());
+  const SplitPoints inside = wellInside(surface_points);
+  const bool enough_inside = static_cast<int>(inside.x_m.size()) >= config.min_points;
+  const SplitPoints& held = enough_inside ? inside : surface_points;
   const double step_rad =
       scored ? grid.step_yaw_rad : config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
   ScoreSurface surface =
-      scored ? all_scores.surfaceAround(best) : surfaceAround(surface_points, result.finest_T_reference_body, step_rad);
+      scored ? all_scores.surfaceAround(best) : surfaceAround(held, result.finest_T_reference_body, step_rad);
   surface.step_m = config.resolution_m;
   surface.step_rad = step_rad;
   const Eigen::Vector3d guess_offset(guess.x_m - result.finest_T_reference_body.x_m,
                                      guess.y_m - result.finest_T_reference_body.y_m,
                                      common::wrapAngle(guess.yaw_rad - result.finest_T_reference_body.yaw_rad));
-  const SurfaceScale scale{supported, field.reach_m(), config.covariance_scale, config.unobservable_sigma_m};
+  const SurfaceScale scale{scored || !enough_inside ? supported : static_cast<double>(held.x_m.size()), field.reach_m(),
+                           config.covariance_scale, config.unobservable_sigma_m};
   Peak peak = findPeak(surface, scale, guess_offset);
-  peak.covariance += attitudeCovariance(surface_points, result.finest_T_reference_body, step_rad, peak);
+  peak.covariance += attitudeCovariance(held, result.finest_T_reference_body, step_rad, peak);
   if (config.estimate == PoseEstimate::kFinest) peak.offset.setZero();
   if (config.estimate == PoseEstimate::kWeightedMean) peak.offset = weightedMean(surface_points, grid, best);
   if (scored)
     addSpreadElsewhere(best, logPerScore(surface, scale), {surface.step_m, surface.step_m, step_rad}, guess_offset,
                        peak);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(normalSpread(surface_points.x_m, surface_points.y_m));
+  // What only now comes into view faces some way too, but holds nothing yet.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(
+      normalSpread(surface_points.x_m, surface_points.y_m, has_support));
   if (normals.eigenvalues()(0) < config.min_normal_spread)
     holdAlong(Eigen::Rotation2Dd(result.finest_T_reference_body.yaw_rad) * normals.eigenvectors().col(0), guess_offset,
               peak);

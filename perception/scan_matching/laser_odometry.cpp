@@ -13,6 +13,19 @@ namespace swiftlet::perception {
 using common::kRadPerDeg;
 using common::Pose2;
 
+namespace {
+
+/// A key scan does not err along what the map did not show when it joined: what it draws defines the map there. That
+/// the guess it stands at has drifted against the older key scans is not for those to say that are matched to this one.
+Eigen::Matrix3d seenPart(const MatchResult& match) {
+  if (!match.unobservable_direction) return match.covariance;
+  Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
+  across.topLeftCorner<2, 2>() -= *match.unobservable_direction * match.unobservable_direction->transpose();
+  return across * match.covariance * across.transpose();
+}
+
+}  // namespace
+
 void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields.section("matcher", matcher, "Matching of a scan to the local map.");
   fields("max_acceleration_m_s2", max_acceleration_m_s2, "Widens the search with the time since the last match.");
@@ -225,7 +238,7 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   RelativePose relative = self.relativeTo(self.key_scans.back(), scan, match);
   if (self.shouldJoin(relative, scan, match)) {
     relative.reference_changed = true;
-    self.addKeyScan(scan, match.T_reference_body, match.covariance);
+    self.addKeyScan(scan, match.T_reference_body, seenPart(match));
   }
   return relative;
 }

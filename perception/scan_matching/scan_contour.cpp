@@ -119,7 +119,8 @@ std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> point
   return chosen;
 }
 
-Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> y_m) {
+Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> y_m,
+                             std::span<const std::uint8_t> counted) {
   constexpr float kBaseline2_m2 = 0.04F;
   constexpr float kLongest2_m2 = 4.0F;
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
@@ -133,6 +134,7 @@ Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> 
     while (begin + 1 < end && step2(begin + 1) >= kBaseline2_m2) ++begin;
     const float length2 = step2(begin);
     if (length2 < kBaseline2_m2 || length2 > kLongest2_m2) continue;
+    if (!counted.empty() && (counted[begin] == 0 || counted[end] == 0)) continue;
     const Eigen::Vector2d normal(y_m[begin] - y_m[end], x_m[end] - x_m[begin]);
     sum += normal * normal.transpose() / static_cast<double>(length2);
     count += 1.0;

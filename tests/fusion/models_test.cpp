@@ -33,6 +33,8 @@ FilterState randomState(common::RandomStream& random, int clones) {
   state.velocity_odom_m_s = vector(random, 1.0);
   state.accelerometer_bias_m_s2 = vector(random, 0.1);
   state.gyroscope_bias_rad_s = vector(random, 0.02);
+  state.drag_1_s = random.uniform(0.1, 0.5);
+  state.wind_odom_m_s = vector(random, 0.3).head<2>();
   return state;
 }
 
@@ -64,6 +66,20 @@ class Jacobians : public testing::TestWithParam<int> {
 TEST_P(Jacobians, relativePose) {
   expectJacobian<3>(state, [](const FilterState& s) {
     return relativePose(s, 1, {0.3, -0.2, 0.1}, Eigen::Matrix3d::Identity());
+  });
+}
+TEST_P(Jacobians, relativePoseAcross) {
+  expectJacobian<2>(state, [](const FilterState& s) {
+    return relativePoseAcross(s, 1, {0.3, -0.2, 0.1}, Eigen::Matrix3d::Identity(), {0.6, 0.8});
+  });
+}
+/// With the stretch's mean velocity that of the state, as it is after each step.
+TEST_P(Jacobians, drag) {
+  expectJacobian<2>(state, [](FilterState s) {
+    s.drag_stretch.seconds = 0.1;
+    s.drag_stretch.force_sum_m_s = {0.02, -0.01};
+    s.drag_stretch.velocity_sum_m = 0.1 * (s.rotation_odom_body.conjugate() * s.velocity_odom_m_s).head<2>();
+    return drag(s, 0.01);
   });
 }
 TEST_P(Jacobians, height) {
@@ -109,7 +125,8 @@ TEST_P(Jacobians, strapdownStep) {
     numeric << plus.position_odom_m - minus.position_odom_m, plus.velocity_odom_m_s - minus.velocity_odom_m_s,
         common::logSO3(plus.rotation_odom_body * minus.rotation_odom_body.conjugate()),
         plus.accelerometer_bias_m_s2 - minus.accelerometer_bias_m_s2,
-        plus.gyroscope_bias_rad_s - minus.gyroscope_bias_rad_s;
+        plus.gyroscope_bias_rad_s - minus.gyroscope_bias_rad_s, plus.drag_1_s - minus.drag_1_s,
+        plus.wind_odom_m_s - minus.wind_odom_m_s;
     numeric /= 2 * h;
     // Position by gyroscope is of third order in the step and left out: 1e-6 at 5 ms.
     EXPECT_LT((f.col(column) - numeric).cwiseAbs().maxCoeff(), 5e-6) << "column " << column;

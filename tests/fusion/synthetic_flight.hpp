@@ -56,6 +56,13 @@ struct SensorNoise {
   double scan_m = 0.01, scan_rad = 0.2 * std::numbers::pi / 180.0, height_m = 0.01;
 };
 
+/// The made-up flight leans as it likes: what its accelerometer feels beside gravity is no drag.
+inline ErrorStateFilter::Config withoutDrag() {
+  ErrorStateFilter::Config config;
+  config.use_drag = false;
+  return config;
+}
+
 /// A list of things to hand to a filter, each when it arrives.
 struct Delivery {
   common::Time arrives;

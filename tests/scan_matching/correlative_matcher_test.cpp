@@ -183,6 +183,20 @@ TEST(CorrelativeMatcher, SaysWhichWayACorridorHides) {
   }
 }
 
+/// A cupboard that the reference never showed faces the vehicle, and holds nothing.
+TEST(CorrelativeMatcher, WhatOnlyNowComesIntoViewHoldsNothing) {
+  test::PlanarWorld furnished = test::corridor();
+  furnished.addPolyline({{4.0, 1.0}, {4.0, 0.5}, {5.0, 0.5}, {5.0, 1.0}}, false);
+  CorrelativeMatcher matcher{{}};
+  matcher.addReference(scanAt(test::corridor(), {0.0, 0.1, 0.0}, 0), {0.0, 0.1, 0.0});
+  const Pose2 truth{0.06, 0.13, 0.01}, guess{0.03, 0.10, 0.0};
+  const MatchResult match = matcher.match(scanAt(furnished, truth, 1), guess, {0.1, 0.03});
+  ASSERT_FALSE(match.failed);
+  ASSERT_TRUE(match.unobservable_direction);
+  EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
+  EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);
+}
+
 TEST(CorrelativeMatcher, ARoomHidesNothing) {
   common::RandomStream random(10, "room");
   const test::PlanarWorld world = test::flat();
