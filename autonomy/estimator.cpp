@@ -43,6 +43,8 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
   fields.section("localization", localization, "In a map that the flight was given.");
   fields("match_floor_m", match_floor_m, "Least standard deviation of a match.");
   fields("match_floor_deg", match_floor_deg, "Likewise of its yaw.");
+  fields("drift_floor_m", drift_floor_m, "Least that a new reference of the odometry adds to its drift.");
+  fields("drift_floor_deg", drift_floor_deg, "Likewise of its yaw.");
   fields("match_per_tilt_m_rad", match_per_tilt_m_rad, "What each radian of tilt adds: the attitude is not exact.");
   fields("match_per_tilt_deg_rad", match_per_tilt_deg_rad, "Likewise to the yaw.");
   fields("slam_latency_s", slam_latency_s, "Declared for a SLAM job.");
@@ -52,6 +54,8 @@ std::vector<std::string> EstimatorConfig::validate() const {
   return common::Validation()
       .within("match_floor_m", match_floor_m, 0, 1)
       .within("match_floor_deg", match_floor_deg, 0, 10)
+      .within("drift_floor_m", drift_floor_m, 0, 1)
+      .within("drift_floor_deg", drift_floor_deg, 0, 10)
       .within("match_per_tilt_m_rad", match_per_tilt_m_rad, 0, 10)
       .within("match_per_tilt_deg_rad", match_per_tilt_deg_rad, 0, 100)
       .within("slam_latency_s", slam_latency_s, 0.01, 10)
@@ -203,35 +207,46 @@ bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
   const auto relative = odometry_.add(scan, T_odom_last ? std::optional(planar(*T_odom_last)) : std::nullopt);
   if (!relative) return false;
   if (relative->from == relative->to) {
-    (void)filter_.addClone(relative->from);
     // Started anew: nothing ties it to the scans before but what it would have searched for a match.
     if (last_match) {
       const double off_m = config_.odometry.max_window_m;
       const double off_rad = config_.odometry.max_window_deg * std::numbers::pi / 180.0;
       covariance_since_map_ += Eigen::Vector3d(off_m * off_m, off_m * off_m, off_rad * off_rad).asDiagonal();
     }
+    tieOdometry(relative->to);
     return true;
   }
-  if (!filter_.hasClone(relative->from)) (void)filter_.addClone(relative->from);
-  const Eigen::Matrix3d covariance = relative->covariance + tiltCovariance(scan);
-  std::optional<Eigen::Vector2d> unseen_direction_from;
+  if (!filter_.hasClone(track_.clone)) tieOdometry(relative->from);
+  const Pose2 T_clone_body = track_.T_clone_reference * relative->T_from_to;
+  const Eigen::Matrix3d covariance =
+      relative->covariance + tiltCovariance(scan, config_.match_floor_m, config_.match_floor_deg);
+  std::optional<Eigen::Vector2d> unseen_direction_clone;
   if (relative->unseen_direction)
-    unseen_direction_from = Eigen::Rotation2Dd(relative->T_from_to.yaw_rad) * *relative->unseen_direction;
+    unseen_direction_clone = Eigen::Rotation2Dd(T_clone_body.yaw_rad) * *relative->unseen_direction;
   const auto inserted =
-      filter_.addRelativePose(relative->from, relative->to, relative->T_from_to, covariance, unseen_direction_from);
+      filter_.addRelativePose(track_.clone, relative->to, T_clone_body,
+                              common::turned(covariance, track_.T_clone_reference.yaw_rad), unseen_direction_clone);
   if (relative->reference_changed) {
-    (void)filter_.addClone(relative->to);
+    track_.T_clone_reference = T_clone_body;
+    if (relative->unseen_direction) tieOdometry(relative->to);
     // Within one reference the error does not grow; it accumulates from reference to reference.
-    covariance_since_map_ += common::turned(covariance, -relative->T_from_to.yaw_rad);
+    covariance_since_map_ +=
+        common::turned(relative->covariance + tiltCovariance(scan, config_.drift_floor_m, config_.drift_floor_deg),
+                       -relative->T_from_to.yaw_rad);
   }
   return inserted == perception::Insertion::kTaken;
 }
 
-Eigen::Matrix3d Estimator::tiltCovariance(const perception::ProjectedScan& scan) const {
+void Estimator::tieOdometry(Time reference) {
+  (void)filter_.addClone(reference);
+  track_ = {reference, {}};
+}
+
+Eigen::Matrix3d Estimator::tiltCovariance(const perception::ProjectedScan& scan, double floor_m,
+                                          double floor_deg) const {
   const double tilt_rad = std::acos(std::clamp(common::cosTilt(scan.T_odom_body.rotation), -1.0, 1.0));
-  const double position_m = config_.match_floor_m + config_.match_per_tilt_m_rad * tilt_rad;
-  const double yaw_rad =
-      (config_.match_floor_deg + config_.match_per_tilt_deg_rad * tilt_rad) * std::numbers::pi / 180.0;
+  const double position_m = floor_m + config_.match_per_tilt_m_rad * tilt_rad;
+  const double yaw_rad = (floor_deg + config_.match_per_tilt_deg_rad * tilt_rad) * std::numbers::pi / 180.0;
   return Eigen::Vector3d(position_m * position_m, position_m * position_m, yaw_rad * yaw_rad).asDiagonal();
 }
 

@@ -43,6 +43,8 @@ struct EstimatorConfig {
   // What a wrong attitude does to a match, beyond the matcher's own covariance: it grows with the tilt.
   double match_floor_m = 0.004;
   double match_floor_deg = 0.10;
+  double drift_floor_m = 0.002;  ///< A new reference of the odometry adds this to its drift at least,
+  double drift_floor_deg = 0.03;
   double match_per_tilt_m_rad = 0.05;
   double match_per_tilt_deg_rad = 1.5;
   double slam_latency_s = 0.4;  ///< Declared for a SLAM job: loop search, optimization, drawing the map anew.
@@ -98,7 +100,8 @@ class Estimator {
   perception::ProjectedScan without(std::span<const planning::Disc> people, perception::ProjectedScan scan) const;
   bool withholds(const perception::ProjectedScan& scan);
   bool fuseOdometry(const perception::ProjectedScan& scan);
-  Eigen::Matrix3d tiltCovariance(const perception::ProjectedScan& scan) const;
+  void tieOdometry(common::Time reference);
+  Eigen::Matrix3d tiltCovariance(const perception::ProjectedScan& scan, double floor_m, double floor_deg) const;
   void fuseHeight(const perception::ProjectedScan& scan, const common::Pose2& T_map_body);
   void addToMap(ScanOutcome& outcome, common::Time now);
   void submitSlamTask(common::Time now);
@@ -117,6 +120,12 @@ class Estimator {
   std::unique_ptr<FlightLocalizer> localizer_;  ///< Null: no map was given.
   bool at_flight_height_ = false;
 
+  /// The way of the laser odometry since a clone of the filter's pose. Its references are not cloned one after the
+  /// other: the error of a reference in the local map is that of all that is matched to it, and ends with it.
+  struct Track {
+    common::Time clone;
+    common::Pose2 T_clone_reference;
+  } track_;
   std::optional<common::ImuSample> last_imu_;
   bool waiting_said_ = false;
   double height_above_ground_m_ = 0.0;

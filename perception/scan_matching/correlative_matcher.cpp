@@ -26,6 +26,9 @@ constexpr double kTopValue = LikelihoodField::kTopValue;
 /// A window with more poses is searched with bounds, whatever the estimate: so many scores are 80 MB.
 constexpr double kMostScores = 2e7;
 
+/// Fewer neighbours in a row that the reference has not seen are noise, or somebody.
+constexpr std::size_t kLeastUnseen = 3;
+
 /// Half a window is cut to so many steps.
 constexpr double kMostSteps = 4000.0;
 
@@ -64,6 +67,34 @@ SplitPoints spreadWithHeights(const ProjectedScan& scan, int count, double max_r
   return result;
 }
 
+/// Without the points that the reference has not seen, and those beside them as far as the field reaches. There a
+/// surface goes on beyond what was drawn of it; slid along itself, the scan would cover more of it. What comes out of a
+/// shadow while the vehicle goes by would pull it on, a little with each match.
+SplitPoints awayFromUnseen(const SplitPoints& points, const std::vector<bool>& seen, double reach_m) {
+  const std::size_t size = points.x_m.size();
+  const auto reach2 = static_cast<float>(reach_m * reach_m);
+  const auto near = [&](std::size_t i, std::size_t j) {
+    const float dx = points.x_m[i] - points.x_m[j], dy = points.y_m[i] - points.y_m[j];
+    return dx * dx + dy * dy < reach2;
+  };
+  std::vector<bool> kept = seen;
+  for (std::size_t begin = 0, end; begin < size; begin = end + 1) {
+    for (end = begin; end < size && !seen[end];) ++end;
+    if (end - begin < kLeastUnseen) continue;
+    for (std::size_t j = end; j < size && seen[j] && near(end - 1, j); ++j) kept[j] = false;
+    for (std::size_t j = begin; j-- > 0 && seen[j] && near(begin, j);) kept[j] = false;
+  }
+  if (2 * static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true)) < size) return points;
+  SplitPoints result({});
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!kept[i]) continue;
+    result.x_m.push_back(points.x_m[i]);
+    result.y_m.push_back(points.y_m[i]);
+    if (!points.heights_m.empty()) result.heights_m.push_back(points.heights_m[i]);
+  }
+  return result;
+}
+
 }  // namespace
 
 void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
@@ -75,6 +106,7 @@ void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
   fields("sigma_m", sigma_m, "Spread of the end points about the contour of the reference.");
   fields("search_points", search_points, "Points of a scan that are searched with.");
   fields("surface_points", surface_points, "Points from which pose and covariance are taken around the best.");
+  fields("only_seen", only_seen, "Points that the reference has not seen, and those beside them, do not pull.");
   fields("max_range_m", max_range_m, "Points farther than this are not used.");
   fields("max_gap_m", max_gap_m, "Neighbouring end points nearer than this are joined to a contour.");
   fields("guess_weight", guess_weight, "A pose far from the guess loses at most this much quality.");
@@ -159,8 +191,7 @@ struct CorrelativeMatcher::Impl {
                           const Eigen::Vector3d& guess_offset, Peak& peak) const;
   MatchResult evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points, const Pose2& guess,
                        const PoseGrid& grid, const BestPose& best, bool scored);
-  double support(const SplitPoints& points, const Pose2& pose);
-  SplitPoints wellInside(const SplitPoints& points) const;
+  std::vector<bool> supportedAt(const SplitPoints& points, const Pose2& pose);
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
   Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad, const Peak& peak);
   double profileVariance(const SplitPoints& points, const Pose2& center, const Eigen::Vector2d& axis);
@@ -172,8 +203,7 @@ struct CorrelativeMatcher::Impl {
   Instructions instructions;
   LikelihoodField field;
   BranchAndBound search;
-  ScoreGrid all_scores;                   ///< Of the last match, when all poses were scored.
-  std::vector<std::uint8_t> has_support;  ///< Which of the points that support() was given last.
+  ScoreGrid all_scores;  ///< Of the last match, when all poses were scored.
   std::vector<std::int32_t> x_cells, y_cells, offsets;
 };
 
@@ -209,40 +239,19 @@ ScoreSurface CorrelativeMatcher::Impl::surfaceAround(const SplitPoints& points, 
   return surface;
 }
 
-double CorrelativeMatcher::Impl::support(const SplitPoints& points, const Pose2& pose) {
-  // Not by cellsAt, which leaves out what lies outside the field: each point keeps its place.
+/// Which points lie on what was drawn.
+std::vector<bool> CorrelativeMatcher::Impl::supportedAt(const SplitPoints& points, const Pose2& pose) {
+  const std::size_t size = points.x_m.size();
+  x_cells.resize(size);
+  y_cells.resize(size);
   const double scale = 1.0 / field.resolution_m();
-  x_cells.resize(points.x_m.size());
-  y_cells.resize(points.x_m.size());
   transformToCells(points.x_m, points.y_m, static_cast<float>(std::cos(pose.yaw_rad) * scale),
                    static_cast<float>(std::sin(pose.yaw_rad) * scale),
                    static_cast<float>(pose.x_m * scale - field.beginX()),
                    static_cast<float>(pose.y_m * scale - field.beginY()), x_cells, y_cells);
-  double supported = 0.0;
-  has_support.resize(x_cells.size());
-  for (std::size_t i = 0; i < x_cells.size(); ++i) {
-    has_support[i] = field.at(x_cells[i], y_cells[i]) > 0 ? 1 : 0;
-    supported += has_support[i];
-  }
+  std::vector<bool> supported(size);
+  for (std::size_t i = 0; i < size; ++i) supported[i] = field.at(x_cells[i], y_cells[i]) > 0;
   return supported;
-}
-
-/// Those with support whose neighbours have it too. At the end of what the reference shows, support comes and goes with
-/// the pose: the score would slide towards more of it.
-SplitPoints CorrelativeMatcher::Impl::wellInside(const SplitPoints& points) const {
-  constexpr int kMargin = 3;
-  SplitPoints kept({});
-  const int n = static_cast<int>(points.x_m.size());
-  for (int i = 0; i < n; ++i) {
-    bool inside = true;
-    for (int j = std::max(0, i - kMargin); inside && j <= std::min(n - 1, i + kMargin); ++j)
-      inside = has_support[static_cast<std::size_t>(j)] != 0;
-    if (!inside) continue;
-    kept.x_m.push_back(points.x_m[static_cast<std::size_t>(i)]);
-    kept.y_m.push_back(points.y_m[static_cast<std::size_t>(i)]);
-    if (!points.heights_m.empty()) kept.heights_m.push_back(points.heights_m[static_cast<std::size_t>(i)]);
-  }
-  return kept;
 }
 
 /// A wrong attitude moves an end point sideways by its height over the body. All points move together, so that more of
@@ -373,34 +382,33 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   double lever2 = 0.0;
   for (const Eigen::Vector2f& p : points) lever2 += p.squaredNorm();
   const double lever_m = std::sqrt(lever2 / static_cast<double>(points.size()));
-  const SplitPoints surface_points = spreadWithHeights(scan, config.surface_points, config.max_range_m);
+  const SplitPoints all_points = spreadWithHeights(scan, config.surface_points, config.max_range_m);
   field.prepare(0, 2 * kWindowColumns + 2 * ScoreSurface::kSize);
-  const double supported = support(surface_points, result.finest_T_reference_body);
-  result.overlap = supported / static_cast<double>(surface_points.x_m.size());
-  const SplitPoints inside = wellInside(surface_points);
-  const bool enough_inside = static_cast<int>(inside.x_m.size()) >= config.min_points;
-  const SplitPoints& held = enough_inside ? inside : surface_points;
+  const std::vector<bool> seen = supportedAt(all_points, result.finest_T_reference_body);
+  const auto supported = static_cast<double>(std::count(seen.begin(), seen.end(), true));
+  result.overlap = supported / static_cast<double>(all_points.x_m.size());
+  const SplitPoints surface_points = config.only_seen ? awayFromUnseen(all_points, seen, field.reach_m()) : all_points;
   const double step_rad =
       scored ? grid.step_yaw_rad : config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
   ScoreSurface surface =
-      scored ? all_scores.surfaceAround(best) : surfaceAround(held, result.finest_T_reference_body, step_rad);
+      scored ? all_scores.surfaceAround(best) : surfaceAround(surface_points, result.finest_T_reference_body, step_rad);
   surface.step_m = config.resolution_m;
   surface.step_rad = step_rad;
   const Eigen::Vector3d guess_offset(guess.x_m - result.finest_T_reference_body.x_m,
                                      guess.y_m - result.finest_T_reference_body.y_m,
                                      common::wrapAngle(guess.yaw_rad - result.finest_T_reference_body.yaw_rad));
-  const SurfaceScale scale{scored || !enough_inside ? supported : static_cast<double>(held.x_m.size()), field.reach_m(),
-                           config.covariance_scale, config.unobservable_sigma_m};
+  const double supported_there = std::min(supported, static_cast<double>(surface_points.x_m.size()));
+  const SurfaceScale scale{scored ? supported : supported_there, field.reach_m(), config.covariance_scale,
+                           config.unobservable_sigma_m};
   Peak peak = findPeak(surface, scale, guess_offset);
-  peak.covariance += attitudeCovariance(held, result.finest_T_reference_body, step_rad, peak);
+  peak.covariance += attitudeCovariance(surface_points, result.finest_T_reference_body, step_rad, peak);
   if (config.estimate == PoseEstimate::kFinest) peak.offset.setZero();
   if (config.estimate == PoseEstimate::kWeightedMean) peak.offset = weightedMean(surface_points, grid, best);
   if (scored)
     addSpreadElsewhere(best, logPerScore(surface, scale), {surface.step_m, surface.step_m, step_rad}, guess_offset,
                        peak);
-  // What only now comes into view faces some way too, but holds nothing yet.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(
-      normalSpread(surface_points.x_m, surface_points.y_m, has_support));
+      normalSpread(all_points.x_m, all_points.y_m, config.only_seen ? seen : std::vector<bool>{}));
   if (normals.eigenvalues()(0) < config.min_normal_spread)
     holdAlong(Eigen::Rotation2Dd(result.finest_T_reference_body.yaw_rad) * normals.eigenvectors().col(0), guess_offset,
               peak);

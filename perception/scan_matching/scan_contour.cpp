@@ -15,6 +15,8 @@ constexpr float kShortGap_m = 0.3F;
 constexpr float kStraight_cos = 0.966F;  // 15 degrees.
 /// A leap between surfaces counts as this much contour, so that lone points are still chosen.
 constexpr float kLeap_m = 0.3F;
+/// Neighbours to either side over which the distance between points is taken.
+constexpr int kSmoothedOver = 4;
 
 std::vector<Eigen::Vector2f> usable(std::span<const Eigen::Vector2f> points_m, double max_range_m) {
   const auto max2 = static_cast<float>(max_range_m * max_range_m);
@@ -82,22 +84,32 @@ std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m,
 std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m) {
   const auto max2 = static_cast<float>(max_range_m * max_range_m);
   std::vector<int> usable_points;
-  std::vector<float> step;  // From the usable point before.
+  std::vector<Eigen::Vector2f> unrolled;  // The points with the leaps between them cut.
   usable_points.reserve(points_m.size());
-  step.reserve(points_m.size());
-  float length = 0.0F;
+  unrolled.reserve(points_m.size());
   for (std::size_t i = 0; i < points_m.size(); ++i) {
     if (!(points_m[i].squaredNorm() <= max2)) continue;  // True for NaN.
-    const float leap =
-        usable_points.empty()
-            ? 0.0F
-            : std::min((points_m[i] - points_m[static_cast<std::size_t>(usable_points.back())]).norm(), kLeap_m);
+    Eigen::Vector2f step(0.0F, 0.0F);
+    if (!usable_points.empty()) step = points_m[i] - points_m[static_cast<std::size_t>(usable_points.back())];
+    const float leap2 = step.squaredNorm();
+    if (leap2 > kLeap_m * kLeap_m) step *= kLeap_m / std::sqrt(leap2);
+    unrolled.push_back(unrolled.empty() ? step : unrolled.back() + step);
     usable_points.push_back(static_cast<int>(i));
-    step.push_back(leap);
-    length += leap;
   }
   if (usable_points.size() <= static_cast<std::size_t>(count)) return usable_points;
 
+  // How far apart neighbours are is taken over some of them: a point that its own error moved away would be chosen more
+  // often otherwise, and errors that are chosen do not average out.
+  const int size = static_cast<int>(unrolled.size());
+  std::vector<float> step(unrolled.size());
+  float length = 0.0F;
+  for (int i = 0; i < size; ++i) {
+    const int begin = std::max(i - kSmoothedOver, 0), end = std::min(i + kSmoothedOver, size - 1);
+    step[static_cast<std::size_t>(i)] =
+        (unrolled[static_cast<std::size_t>(end)] - unrolled[static_cast<std::size_t>(begin)]).norm() /
+        static_cast<float>(end - begin);
+    length += step[static_cast<std::size_t>(i)];
+  }
   const float spacing = length / static_cast<float>(count);
   std::vector<int> chosen;
   chosen.reserve(static_cast<std::size_t>(count));
@@ -119,8 +131,7 @@ std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> point
   return chosen;
 }
 
-Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> y_m,
-                             std::span<const std::uint8_t> counted) {
+Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> y_m, const std::vector<bool>& counted) {
   constexpr float kBaseline2_m2 = 0.04F;
   constexpr float kLongest2_m2 = 4.0F;
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
@@ -134,7 +145,7 @@ Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> 
     while (begin + 1 < end && step2(begin + 1) >= kBaseline2_m2) ++begin;
     const float length2 = step2(begin);
     if (length2 < kBaseline2_m2 || length2 > kLongest2_m2) continue;
-    if (!counted.empty() && (counted[begin] == 0 || counted[end] == 0)) continue;
+    if (!counted.empty() && (!counted[begin] || !counted[end])) continue;
     const Eigen::Vector2d normal(y_m[begin] - y_m[end], x_m[end] - x_m[begin]);
     sum += normal * normal.transpose() / static_cast<double>(length2);
     count += 1.0;

@@ -34,9 +34,9 @@ std::vector<Eigen::Vector2f> spreadPoints(std::span<const Eigen::Vector2f> point
 
 /// How well the shape of a scan holds a translation: the mean of n n' over the normals n of its contour, in the frame
 /// of the points, which must be in order. Each normal is taken over some decimetres, so that noise does not pose as
-/// structure. The eigenvalues are in [0, 1] and sum up to 1; zero when there is no contour. Where
-/// `counted` is given, one for a point, only normals between points that are not 0 there count.
+/// structure. The eigenvalues are in [0, 1] and sum up to 1; zero when there is no contour. Where `counted` is given,
+/// one for a point, only normals between two that count are taken.
 Eigen::Matrix2d normalSpread(std::span<const float> x_m, std::span<const float> y_m,
-                             std::span<const std::uint8_t> counted = {});
+                             const std::vector<bool>& counted = {});
 
 }  // namespace swiftlet::perception

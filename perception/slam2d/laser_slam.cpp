@@ -6,9 +6,8 @@ using common::Pose2;
 
 LaserSlamConfig::LaserSlamConfig() {
   slam.matcher.profile_half_m = front_end.odometry.matcher.profile_half_m;
+  slam.matcher.only_seen = front_end.odometry.matcher.only_seen;
   // Read off the drift of intel, fr079 and csail without loops: a window must hold the truth.
-  slam.edge_sigma_m = 0.01;
-  slam.edge_sigma_deg = 0.15;
   slam.loops.min_window_m = 1.5;
   slam.loops.min_window_deg = 15.0;
   slam.loops.max_sigma_m = 10.0;

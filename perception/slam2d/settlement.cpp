@@ -12,8 +12,6 @@ namespace {
 
 using common::Pose2;
 
-/// So many key scans apart is another pass.
-constexpr int kOtherPass = 15;
 /// So many closures must agree before the graph is doubted.
 constexpr int kLeastToTurnOver = 3;
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <Eigen/LU>
 
 #include "common/check.hpp"
 #include "perception/slam2d/local_reference.hpp"
@@ -29,6 +32,22 @@ struct Progress {
 /// A tilted scan carries the error of its attitude into the map: a level one is waited for, for half as far again.
 constexpr double kPatience = 1.5;
 
+/// Where the vehicle is in the map; covariance of the additive errors (x_m, y_m, yaw_rad).
+struct WeighedPose {
+  Pose2 T_map_body;
+  Eigen::Matrix3d covariance;
+};
+
+/// A match to an earlier pass counts when this share of the scan lies on it.
+constexpr double kLeastOverlap = 0.75;
+
+/// Where in `keys`, ascending, those of the newest pass begin.
+std::vector<int>::const_iterator newestPass(const std::vector<int>& keys) {
+  auto begin = keys.end();
+  while (begin != keys.begin() && (begin == keys.end() || *begin - *(begin - 1) <= kOtherPass)) --begin;
+  return begin;
+}
+
 bool isLevel(const ProjectedScan& scan, double tilt_deg) {
   return common::cosTilt(scan.T_odom_body.rotation) >= std::cos(tilt_deg * kRadPerDeg);
 }
@@ -43,9 +62,13 @@ struct Slam2d::Impl {
 
   void follow(const Pose2& T_odom_body, const Eigen::Matrix3d& covariance_since_last);
   bool correct(const ProjectedScan& scan, SlamUpdate& update);
-  void addKeyScan(const ProjectedScan& scan, const std::vector<int>& matched_keys, const MatchResult* match);
+  void addKeyScan(const ProjectedScan& scan, const Pose2& pose, const std::vector<int>& matched_keys,
+                  const MatchResult* match);
+  MatchResult matchAround(const ProjectedScan& scan, std::vector<int>& keys);
+  WeighedPose weighWithMotion(const MatchResult& match) const;
+  void tiePasses(int other, const MatchResult& match);
   void standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
-  std::optional<int> keyNear(const std::vector<int>& keys) const;
+  std::optional<int> keyNear(const std::vector<int>& keys, const Pose2& pose) const;
   void draw(const ProjectedScan& scan);
   SlamTask makeTask(std::vector<LoopCandidate> candidates, bool is_last);
 
@@ -67,6 +90,7 @@ struct Slam2d::Impl {
   Progress last_match, last_drawn;
   double way_since_search_m = 0.0;
   bool search_due = false;
+  bool passes_tied = false;  ///< By an edge, since the graph settled last.
 
   std::uint64_t tasks = 0;
   bool task_outstanding = false;
@@ -95,12 +119,12 @@ void Slam2d::Impl::standOn(int key, const Pose2& T_key_body, const Eigen::Matrix
   covariance_anchor = covariance_key;
 }
 
-/// A key scan among `keys` that stands where the vehicle is.
-std::optional<int> Slam2d::Impl::keyNear(const std::vector<int>& keys) const {
+/// A key scan among `keys` that stands where the vehicle does.
+std::optional<int> Slam2d::Impl::keyNear(const std::vector<int>& keys, const Pose2& pose) const {
   std::optional<int> nearest;
   double nearest_m = config.reuse_distance_m;
   for (const int key : keys) {
-    const Pose2 step = between(poseOf(key), T_map_body());
+    const Pose2 step = between(poseOf(key), pose);
     if (step.position_m().norm() > nearest_m || std::abs(step.yaw_rad) > config.reuse_rotation_deg * kRadPerDeg)
       continue;
     nearest_m = step.position_m().norm();
@@ -109,13 +133,12 @@ std::optional<int> Slam2d::Impl::keyNear(const std::vector<int>& keys) const {
   return nearest;
 }
 
-void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const std::vector<int>& matched_keys,
+void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& pose, const std::vector<int>& matched_keys,
                               const MatchResult* match) {
   const int key = static_cast<int>(graph.keys.size());
   auto copy = std::make_shared<ProjectedScan>(scan);
   copy->misses_level_m.clear();  // Kept where they are drawn.
   copy->mirror.clear();
-  const Pose2 pose = match != nullptr ? match->T_reference_body : key == 0 ? Pose2{} : T_map_body();
   graph.keys.push_back({std::move(copy), pose, {}, {}});
   if (key > 0) graph.add({anchor, key, T_anchor_body, edgeCovariance(covariance_anchor, config), false});
   if (match != nullptr) {
@@ -124,8 +147,9 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const std::vector<int>&
     const int nearest = *std::min_element(matched_keys.begin(), matched_keys.end(),
                                           [&](int a, int b) { return distance_m(a) < distance_m(b); });
     for (const int other : {matched_keys.front(), nearest}) {
-      graph.add({other, key, between(poseOf(other), pose),
+      graph.add({other, key, between(poseOf(other), match->T_reference_body),
                  edgeCovariance(2.0 * common::turned(match->covariance, -poseOf(other).yaw_rad), config), false});
+      passes_tied |= key - other > kOtherPass;
       if (matched_keys.front() == nearest) break;
     }
   }
@@ -134,27 +158,66 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const std::vector<int>&
   if (way_since_search_m >= config.loops.spacing_m) search_due = true;
 }
 
+/// Matches to the earliest pass in view: joined to a later one it would be torn between the two, as long as they do not
+/// agree. `keys` are those it was matched to.
+MatchResult Slam2d::Impl::matchAround(const ProjectedScan& scan, std::vector<int>& keys) {
+  const SearchWindow window{config.local_window_m, config.local_window_deg * kRadPerDeg};
+  const auto newest = newestPass(keys);
+  if (newest == keys.begin()) return reference.match(graph, keys, scan, T_map_body(), window);
+  std::vector<int> earlier(keys.cbegin(), newest);
+  const MatchResult match = reference.match(graph, earlier, scan, T_map_body(), window);
+  if (!match.failed && !match.unobservable_direction && match.overlap >= kLeastOverlap) {
+    keys = std::move(earlier);
+    return match;
+  }
+  keys.erase(keys.cbegin(), newest);
+  return reference.match(graph, keys, scan, T_map_body(), window);
+}
+
+/// The match and what the motion since the anchor says, each by its covariance: over a metre the odometry, which is
+/// matched forty times, knows better than one match how the vehicle has turned.
+WeighedPose Slam2d::Impl::weighWithMotion(const MatchResult& match) const {
+  const Pose2 moved = T_map_body();
+  const Eigen::Matrix3d of_motion = common::turned(covariance_anchor, poseOf(anchor).yaw_rad);
+  const Eigen::Matrix3d gain = of_motion * (of_motion + edgeCovariance(match.covariance, config)).inverse();
+  const Eigen::Vector3d step =
+      gain * Eigen::Vector3d(match.T_reference_body.x_m - moved.x_m, match.T_reference_body.y_m - moved.y_m,
+                             common::wrapAngle(match.T_reference_body.yaw_rad - moved.yaw_rad));
+  return {{moved.x_m + step.x(), moved.y_m + step.y(), common::wrapAngle(moved.yaw_rad + step.z())},
+          of_motion - gain * of_motion};
+}
+
+/// The motion since the anchor, and on to where the match has the vehicle beside a key scan of another pass.
+void Slam2d::Impl::tiePasses(int other, const MatchResult& match) {
+  const Pose2 T_anchor_other = T_anchor_body * between(match.T_reference_body, poseOf(other));
+  const Eigen::Matrix3d of_match =
+      common::turned(match.covariance, T_anchor_body.yaw_rad - match.T_reference_body.yaw_rad);
+  graph.add({anchor, other, T_anchor_other,
+             edgeCovariance(propagated(covariance_anchor, T_anchor_body, T_anchor_other, of_match), config), false});
+  passes_tied = true;
+  if (way_since_search_m >= config.loops.spacing_m) search_due = true;
+}
+
 /// The local match: pulls the estimate onto the older key scans around it. False: nothing to be learned from this scan.
 bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
-  const std::vector<int> keys = localReferenceKeys(graph, anchor, T_map_body(), config);
-  const MatchResult match =
-      reference.match(graph, keys, scan, T_map_body(), {config.local_window_m, config.local_window_deg * kRadPerDeg});
+  std::vector<int> keys = localReferenceKeys(graph, anchor, T_map_body(), config);
+  const MatchResult match = matchAround(scan, keys);
   if (match.failed) {
     ++counts.local_failures;
     if (match.points_used == 0 || T_anchor_body.position_m().norm() < config.reuse_distance_m) return false;
-    addKeyScan(scan, {}, nullptr);
+    addKeyScan(scan, T_map_body(), {}, nullptr);
     update.key_scan = true;
     return true;
   }
-  const Pose2 before = T_anchor_body;
-  T_anchor_body = between(poseOf(anchor), match.T_reference_body);
-  if (const std::optional<int> near = keyNear(keys)) {
-    standOn(*near, between(poseOf(*near), match.T_reference_body),
-            edgeCovariance(common::turned(match.covariance, -poseOf(*near).yaw_rad), config));
+  const bool same_pass = std::abs(keys.back() - anchor) <= kOtherPass;
+  const WeighedPose pose = same_pass ? weighWithMotion(match) : WeighedPose{match.T_reference_body, match.covariance};
+  if (const std::optional<int> near = keyNear(keys, pose.T_map_body)) {
+    if (std::abs(*near - anchor) > kOtherPass) tiePasses(*near, match);
+    standOn(*near, between(poseOf(*near), pose.T_map_body),
+            edgeCovariance(common::turned(pose.covariance, -poseOf(*near).yaw_rad), config));
     return true;
   }
-  T_anchor_body = before;  // The edge of the motion says what was measured before the match.
-  addKeyScan(scan, keys, &match);
+  addKeyScan(scan, pose.T_map_body, keys, &match);
   update.key_scan = true;
   return true;
 }
@@ -189,8 +252,7 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
   bool learned = false;
   if (first) {
     self.T_odom_body = T_odom_body;
-    self.addKeyScan(scan, {}, nullptr);
-    self.graph.keys.front().T_map_body = T_odom_body;  // The map begins where odom does.
+    self.addKeyScan(scan, T_odom_body, {}, nullptr);  // The map begins where odom does.
     update.key_scan = learned = true;
   } else {
     self.follow(T_odom_body, covariance_since_last);
@@ -248,7 +310,7 @@ std::optional<SlamTask> Slam2d::takeTask() {
   self.search_due = false;
   std::vector<LoopCandidate> candidates =
       loopCandidates(self.graph, static_cast<int>(self.graph.keys.size()) - 1, self.config);
-  if (candidates.empty()) return std::nullopt;
+  if (candidates.empty() && !self.passes_tied) return std::nullopt;
   self.way_since_search_m = 0.0;
   return self.makeTask(std::move(candidates), false);
 }
@@ -272,6 +334,7 @@ SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, bool is_l
   data->candidates = std::move(candidates);
   data->doubted = doubted;
   data->is_last = is_last;
+  data->passes_tied = std::exchange(passes_tied, false);
   data->config = config;
   return SlamTask{std::move(data)};
 }

@@ -93,8 +93,8 @@ struct Slam2dConfig {
   int local_scans = 10;         ///< At most so many.
   double local_window_m = 0.15;
   double local_window_deg = 3.0;
-  double edge_sigma_m = 0.004;  ///< No edge is more certain than this: what the matcher cannot know (tilt, clutter).
-  double edge_sigma_deg = 0.06;
+  double edge_sigma_m = 0.01;    ///< No edge is more certain than this: neighbours share a reference, so that their
+  double edge_sigma_deg = 0.15;  ///< errors add up to more than matches of their own would.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

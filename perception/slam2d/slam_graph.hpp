@@ -28,6 +28,9 @@ struct KeyScan {
   std::vector<int> edges;          ///< Of the graph, that begin or end here.
 };
 
+/// Key scans that are farther apart than this in the order in which they were taken are of two passes.
+constexpr int kOtherPass = 15;
+
 struct SlamGraph {
   std::vector<KeyScan> keys;
   std::vector<SlamEdge> edges;

@@ -77,6 +77,46 @@ TEST(LaserOdometry, ChainsItsReferencesAcrossTheRoom) {
   EXPECT_EQ(odometry.counts().failures, 0U);
 }
 
+/// A corridor with doors set back in their frames; out of the shadow of each comes what the reference has not seen.
+test::PlanarWorld corridorWithDoors() {
+  test::PlanarWorld world;
+  world.addPolyline({{-3.0, -1.0}, {-3.0, 1.0}}, false);
+  world.addPolyline({{33.0, -1.0}, {33.0, 1.0}}, false);
+  for (const double side : {-1.0, 1.0}) {
+    const double back = 1.13 * side;
+    double x = -3.0;
+    for (double door = side > 0.0 ? -1.0 : -2.2; door<31.0; door += side> 0.0 ? 2.6 : 3.1) {
+      world.addPolyline({{x, side}, {door, side}, {door, back}, {door + 0.95, back}, {door + 0.95, side}}, false);
+      x = door + 0.95;
+    }
+    world.addPolyline({{x, side}, {33.0, side}}, false);
+  }
+  return world;
+}
+
+TEST(LaserOdometry, WhatComesOutOfShadowsDoesNotBendTheWay) {
+  const test::PlanarWorld world = corridorWithDoors();
+  double turned_deg = 0.0, ahead_m = 0.0;
+  constexpr int kWays = 4;
+  for (std::uint64_t way = 0; way < kWays; ++way) {
+    LaserOdometry odometry{{}};
+    Pose2 T_start_reference, estimate, truth;
+    for (std::uint64_t frame = 0; frame < 300; ++frame) {
+      const double x_m = 0.08 * static_cast<double>(frame);
+      truth = {x_m, 0.15 * std::sin(0.5 * x_m), 0.1 * std::sin(0.7 * x_m)};
+      const auto relative = odometry.add(scanWith(world, truth, truth, 1000 * way + frame));
+      ASSERT_TRUE(relative) << frame;
+      estimate = (frame == 0 ? truth : T_start_reference) * relative->T_from_to;
+      if (relative->reference_changed) T_start_reference = estimate;
+    }
+    turned_deg += common::wrapAngle(estimate.yaw_rad - truth.yaw_rad) / common::kRadPerDeg / kWays;
+    ahead_m += (estimate.x_m - truth.x_m) / kWays;
+  }
+  printf("  after 24 m: %.3f deg, %.1f mm ahead, in the mean\n", turned_deg, 1e3 * ahead_m);
+  EXPECT_LT(std::abs(turned_deg), 0.06);
+  EXPECT_LT(std::abs(ahead_m), 0.010);
+}
+
 TEST(LaserOdometry, AGuessThatIsFarOffIsFoundByWidening) {
   const test::PlanarWorld world = test::flat();
   LaserOdometry odometry{{}};

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "common/geometry.hpp"
 #include "common/random.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
@@ -154,6 +155,34 @@ TEST(ScanContour, SpreadsPointsEvenly) {
   EXPECT_GE(chosen.size(), 38U);
   const auto dense = std::count_if(chosen.begin(), chosen.end(), [](const auto& p) { return p.x() < 1.0F; });
   EXPECT_NEAR(static_cast<double>(dense), 20.0, 2.0);
+}
+
+TEST(ScanContour, PointsAreNotChosenForTheirErrors) {
+  // A wall to the right and one to the left, seen in beam order: along one the ranges grow, along the other they
+  // shrink.
+  constexpr double kNoise_m = 0.01;
+  Eigen::Vector2d mean_m = Eigen::Vector2d::Zero(), count = Eigen::Vector2d::Zero();
+  for (std::uint64_t scan = 0; scan < 100; ++scan) {
+    common::RandomStream random(5, "walls", scan);
+    std::vector<Eigen::Vector2f> points;
+    std::vector<double> errors_m;
+    for (int beam = 0; beam < 1081; ++beam) {
+      const double angle_rad = (0.25 * beam - 135.0) * common::kRadPerDeg;
+      const double range_m = std::min(1.0 / std::abs(std::sin(angle_rad)), 8.0 / std::abs(std::cos(angle_rad)));
+      errors_m.push_back(random.gaussian(kNoise_m));
+      const double measured_m = range_m + errors_m.back();
+      points.emplace_back(static_cast<float>(measured_m * std::cos(angle_rad)),
+                          static_cast<float>(measured_m * std::sin(angle_rad)));
+    }
+    for (const int i : spreadIndices(points, 400, 20.0)) {
+      const int side = i < 540 ? 0 : 1;
+      mean_m(side) += errors_m[static_cast<std::size_t>(i)];
+      count(side) += 1.0;
+    }
+  }
+  mean_m = mean_m.cwiseQuotient(count);
+  printf("  mean error of the chosen: %.2f mm right, %.2f mm left\n", 1e3 * mean_m(0), 1e3 * mean_m(1));
+  EXPECT_LT(mean_m.cwiseAbs().maxCoeff(), 4.0 * kNoise_m / std::sqrt(count.minCoeff()));
 }
 
 TEST(ScanContour, NormalsTellACorridorFromARoom) {

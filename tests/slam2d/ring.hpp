@@ -33,7 +33,7 @@ class Ring {
 
   /// Calls each(scan, T_odom_body, covariance, truth) for `loops` rounds; the true start is the origin.
   template <typename Each>
-  void fly(double loops, Each&& each) const {
+  void fly(double loops, Each&& each, double stretch = 1.006, double bend_rad_m = 0.0003) const {
     std::vector<Eigen::Vector2d> corners{{0.0, 0.0}};
     for (int i = 0; i < static_cast<int>(std::ceil(loops)); ++i)
       for (const auto& c : {Eigen::Vector2d(30.0, 0.0), Eigen::Vector2d(30.0, 26.0), Eigen::Vector2d(0.0, 26.0),
@@ -47,8 +47,8 @@ class Ring {
       const auto begin = common::Time::fromSeconds(static_cast<double>(frame) / laser_.rate_hz);
       const common::Pose2 truth = start.inverse() * common::planar(path.at(begin));
       common::Pose2 step = last_truth.inverse() * truth;
-      step.x_m *= 1.006;
-      step.yaw_rad += 0.0003 * step.position_m().norm();
+      step.x_m *= stretch;
+      step.yaw_rad += bend_rad_m * step.position_m().norm();
       T_odom_body = frame == 0 ? truth : T_odom_body * step;
       last_truth = truth;
       common::RandomStream random(13, "ring", frame);
