@@ -238,7 +238,7 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   RelativePose relative = self.relativeTo(self.key_scans.back(), scan, match);
   if (self.shouldJoin(relative, scan, match)) {
     relative.reference_changed = true;
-    self.addKeyScan(scan, match.T_reference_body, seenPart(match));
+    self.addKeyScan(scan, match.T_reference_body, self.config.matcher.only_seen ? seenPart(match) : match.covariance);
   }
   return relative;
 }
