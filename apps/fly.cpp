@@ -41,7 +41,7 @@ FlightSetup setupOf(const FlyOptions& options) {
   FlightSetup setup;
   setup.system = loadSystem(options.system);
   setup.mission_file = common::findData(options.mission).string();
-  requireSound(setup.mission_file, setup.system);
+  requireSound(setup.mission_file, setup.system, !options.map.empty());
   setup.scenario.seed = options.seed;
   setup.scenario.world = common::findData(options.world).string();
   if (!options.map.empty()) {

@@ -4,25 +4,26 @@
 
 namespace swiftlet::apps {
 
-behaviors::MissionLimits missionLimits(const System& system) {
+behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
   behaviors::MissionLimits limits;
   limits.max_height_m = system.config.autonomy.max_height_m;
   limits.clearance_problems = [reactive = system.config.autonomy.reactive](double clearance_m) {
     return reactive.problemsWith(clearance_m);
   };
+  limits.has_map = has_map;
   return limits;
 }
 
-std::vector<common::Problem> missionProblems(const std::string& mission, const System& system) {
+std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map) {
   try {
-    return behaviors::checkMission(common::findData(mission).string(), missionLimits(system));
+    return behaviors::checkMission(common::findData(mission).string(), missionLimits(system, has_map));
   } catch (const common::InputError& missing) {
     return missing.problems();
   }
 }
 
-void requireSound(const std::string& mission, const System& system) {
-  if (auto problems = missionProblems(mission, system); !problems.empty())
+void requireSound(const std::string& mission, const System& system, bool has_map) {
+  if (auto problems = missionProblems(mission, system, has_map); !problems.empty())
     throw common::InputError(std::move(problems));
 }
 

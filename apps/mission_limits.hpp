@@ -9,12 +9,13 @@
 
 namespace swiftlet::apps {
 
-behaviors::MissionLimits missionLimits(const System& system);
+behaviors::MissionLimits missionLimits(const System& system, bool has_map);
 
-/// Every problem of a mission, that of its file included, if it is to be flown with this system.
-std::vector<common::Problem> missionProblems(const std::string& mission, const System& system);
+/// Every problem of a mission, that of its file included, if it is to be flown with this system, and with a map of
+/// the place or without.
+std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map = true);
 
 /// Throws common::InputError with all of them; for what is about to fly.
-void requireSound(const std::string& mission, const System& system);
+void requireSound(const std::string& mission, const System& system, bool has_map);
 
 }  // namespace swiftlet::apps

@@ -193,7 +193,7 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   std::vector<common::Problem> problems;
   for (TrialConfig& trial : trials) {
     if (!options.system.empty()) trial.system = options.system;
-    for (auto& problem : missionProblems(trial.mission, loadSystem(trial.system)))
+    for (auto& problem : missionProblems(trial.mission, loadSystem(trial.system), trial.map.given()))
       problems.push_back(std::move(problem));
   }
   if (!problems.empty()) throw common::InputError(std::move(problems));

@@ -21,6 +21,7 @@ struct MissionLimits {
   std::function<std::vector<std::string>(double clearance_m)> clearance_problems = {};
   /// Above the take-off floor.
   double max_height_m = 10.0;
+  bool has_map = true;  ///< Of the place: what finds itself in one needs it.
 };
 
 struct TickResult {

@@ -148,6 +148,9 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
   for (const tree::NodeRecord& record : tree.nodes()) {
     if (record.manifest == nullptr) continue;
     const int id = record.node->id();
+    if (record.manifest->id == "Localize" && !limits.has_map)
+      problems.push_back({tree.locationOf(id), record.manifest->id, "needs a map of the place, and the flight has none",
+                          "give it one: swiftlet fly --map MAP.yaml, or map: in a trial"});
     for (const tree::Value& value : tree.knownValues(id, "clearance_m"))
       if (const auto* clearance_m = std::get_if<double>(&value); clearance_m != nullptr && limits.clearance_problems)
         for (const std::string& problem : limits.clearance_problems(*clearance_m))

@@ -38,6 +38,14 @@ TEST_F(FlyWithMap, FindsItselfWithinFiveMetresInAMapFromAnotherHeight) {
   EXPECT_FALSE(readText(path(run + "trajectory_given.tum")).empty());
 }
 
+TEST_F(FlyWithMap, AMissionThatNeedsAMapIsRefusedWithoutOne) {
+  const ProgramEnd end = runSwiftlet({"fly", "missions/find_yourself.xml", "--headless", "--out", path("run")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_NE(end.err.find("find_yourself.xml:10"), std::string::npos) << end.err;
+  EXPECT_NE(end.err.find("needs a map of the place"), std::string::npos) << end.err;
+  EXPECT_FALSE(std::filesystem::exists(path("run")));
+}
+
 TEST_F(FlyWithMap, WhatIsNoMapIsRefusedBeforeAnythingMoves) {
   const std::string mission = "missions/find_yourself.xml";
   const ProgramEnd none = runSwiftlet({"fly", mission, "--headless", "--map", path("none.yaml"), "--out", path("run")});

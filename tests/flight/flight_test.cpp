@@ -26,8 +26,11 @@ const std::string kMission = "missions/explore_and_return.xml";
 
 std::vector<std::string> shippedMissions() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(SWIFTLET_SOURCE_DIR) / "missions"))
-    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem().string());
+  for (const auto& entry : fs::directory_iterator(fs::path(SWIFTLET_SOURCE_DIR) / "missions")) {
+    if (entry.path().extension() != ".xml") continue;
+    const bool needs_map = readText(entry.path()).find("<Localize") != std::string::npos;  // Flown in FlyWithMap.
+    if (!needs_map) names.push_back(entry.path().stem().string());
+  }
   std::sort(names.begin(), names.end());
   return names;
 }
