@@ -32,6 +32,9 @@ struct Progress {
 /// A tilted scan carries the error of its attitude into the map: a level one is waited for, for half as far again.
 constexpr double kPatience = 1.5;
 
+/// How much way must lie between two optimizations for each key scan of the graph.
+constexpr double kSettledWayPerKey_m = 0.02;
+
 /// Where the vehicle is in the map; covariance of the additive errors (x_m, y_m, yaw_rad).
 struct WeighedPose {
   Pose2 T_map_body;
@@ -55,7 +58,8 @@ bool isLevel(const ProjectedScan& scan, double tilt_deg) {
 }  // namespace
 
 struct Slam2d::Impl {
-  explicit Impl(const Slam2dConfig& config_in) : config(config_in), reference(config_in.matcher), map(config_in.grid) {}
+  explicit Impl(const Slam2dConfig& config_in)
+      : config(config_in), reference(config_in.matcher), earlier_reference(config_in.matcher), map(config_in.grid) {}
 
   Pose2 T_map_body() const { return poseOf(anchor) * T_anchor_body; }
   const Pose2& poseOf(int key) const { return graph.keys[static_cast<std::size_t>(key)].T_map_body; }
@@ -66,6 +70,7 @@ struct Slam2d::Impl {
                   const MatchResult* match);
   MatchResult matchAround(const ProjectedScan& scan, std::vector<int>& keys);
   WeighedPose weighWithMotion(const MatchResult& match) const;
+  bool settlingIsDue() const;
   void tiePasses(int other, const MatchResult& match);
   void standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
   std::optional<int> keyNear(const std::vector<int>& keys, const Pose2& pose) const;
@@ -75,6 +80,7 @@ struct Slam2d::Impl {
   Slam2dConfig config;
   SlamGraph graph;
   LocalReference reference;
+  LocalReference earlier_reference;  ///< Of the earliest pass, where two are in view; either keeps what is drawn.
   SlicedMap map;
   std::optional<double> flight_height_m;
   SlamCounts counts;
@@ -88,7 +94,7 @@ struct Slam2d::Impl {
   Time last_stamp;
 
   Progress last_match, last_drawn;
-  double way_since_search_m = 0.0;
+  double way_since_search_m = 0.0, way_since_settled_m = 0.0;
   bool search_due = false;
   bool passes_tied = false;  ///< By an edge, since the graph settled last.
 
@@ -111,6 +117,7 @@ void Slam2d::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& c
   T_anchor_body = moved;
   T_odom_body = T_odom_body_now;
   way_since_search_m += step.position_m().norm();
+  way_since_settled_m += step.position_m().norm();
 }
 
 void Slam2d::Impl::standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key) {
@@ -149,7 +156,6 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& pose, cons
     for (const int other : {matched_keys.front(), nearest}) {
       graph.add({other, key, between(poseOf(other), match->T_reference_body),
                  edgeCovariance(2.0 * common::turned(match->covariance, -poseOf(other).yaw_rad), config), false});
-      passes_tied |= key - other > kOtherPass;
       if (matched_keys.front() == nearest) break;
     }
   }
@@ -158,14 +164,14 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& pose, cons
   if (way_since_search_m >= config.loops.spacing_m) search_due = true;
 }
 
-/// Matches to the earliest pass in view: joined to a later one it would be torn between the two, as long as they do not
-/// agree. `keys` are those it was matched to.
+/// Matches to the earlier passes in view alone, if they show enough: joined to the newest, they would tear at the match
+/// as long as they do not agree. `keys` are those it was matched to.
 MatchResult Slam2d::Impl::matchAround(const ProjectedScan& scan, std::vector<int>& keys) {
   const SearchWindow window{config.local_window_m, config.local_window_deg * kRadPerDeg};
   const auto newest = newestPass(keys);
   if (newest == keys.begin()) return reference.match(graph, keys, scan, T_map_body(), window);
   std::vector<int> earlier(keys.cbegin(), newest);
-  const MatchResult match = reference.match(graph, earlier, scan, T_map_body(), window);
+  const MatchResult match = earlier_reference.match(graph, earlier, scan, T_map_body(), window);
   if (!match.failed && !match.unobservable_direction && match.overlap >= kLeastOverlap) {
     keys = std::move(earlier);
     return match;
@@ -187,15 +193,21 @@ WeighedPose Slam2d::Impl::weighWithMotion(const MatchResult& match) const {
           of_motion - gain * of_motion};
 }
 
-/// The motion since the anchor, and on to where the match has the vehicle beside a key scan of another pass.
+/// The motion since the anchor, and on to where the match has the vehicle beside a key scan of another pass. Once is
+/// enough: the graph does not grow in known area.
 void Slam2d::Impl::tiePasses(int other, const MatchResult& match) {
+  const std::vector<int>& edges = graph.keys[static_cast<std::size_t>(anchor)].edges;
+  if (std::any_of(edges.begin(), edges.end(), [&](int index) {
+        const SlamEdge& edge = graph.edges[static_cast<std::size_t>(index)];
+        return edge.from == other || edge.to == other;
+      }))
+    return;
   const Pose2 T_anchor_other = T_anchor_body * between(match.T_reference_body, poseOf(other));
   const Eigen::Matrix3d of_match =
       common::turned(match.covariance, T_anchor_body.yaw_rad - match.T_reference_body.yaw_rad);
   graph.add({anchor, other, T_anchor_other,
              edgeCovariance(propagated(covariance_anchor, T_anchor_body, T_anchor_other, of_match), config), false});
   passes_tied = true;
-  if (way_since_search_m >= config.loops.spacing_m) search_due = true;
 }
 
 /// The local match: pulls the estimate onto the older key scans around it. False: nothing to be learned from this scan.
@@ -215,8 +227,10 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
     if (std::abs(*near - anchor) > kOtherPass) tiePasses(*near, match);
     standOn(*near, between(poseOf(*near), pose.T_map_body),
             edgeCovariance(common::turned(pose.covariance, -poseOf(*near).yaw_rad), config));
+    search_due |= settlingIsDue();
     return true;
   }
+  passes_tied |= static_cast<int>(graph.keys.size()) - keys.front() > kOtherPass;
   addKeyScan(scan, pose.T_map_body, keys, &match);
   update.key_scan = true;
   return true;
@@ -310,7 +324,7 @@ std::optional<SlamTask> Slam2d::takeTask() {
   self.search_due = false;
   std::vector<LoopCandidate> candidates =
       loopCandidates(self.graph, static_cast<int>(self.graph.keys.size()) - 1, self.config);
-  if (candidates.empty() && !self.passes_tied) return std::nullopt;
+  if (candidates.empty() && !self.settlingIsDue()) return std::nullopt;
   self.way_since_search_m = 0.0;
   return self.makeTask(std::move(candidates), false);
 }
@@ -319,6 +333,12 @@ std::optional<SlamTask> Slam2d::takeLastTask() {
   SWIFTLET_CHECK(!impl_->task_outstanding);
   if (impl_->graph.keys.empty()) return std::nullopt;
   return impl_->makeTask({}, true);
+}
+
+/// The larger the graph, the more way lies between two optimizations that no loop asked for: the work per metre is
+/// bounded.
+bool Slam2d::Impl::settlingIsDue() const {
+  return passes_tied && way_since_settled_m >= kSettledWayPerKey_m * static_cast<double>(graph.keys.size());
 }
 
 SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, bool is_last) {
@@ -334,7 +354,11 @@ SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, bool is_l
   data->candidates = std::move(candidates);
   data->doubted = doubted;
   data->is_last = is_last;
-  data->passes_tied = std::exchange(passes_tied, false);
+  data->settle = settlingIsDue();
+  if (data->settle) {
+    passes_tied = false;
+    way_since_settled_m = 0.0;
+  }
   data->config = config;
   return SlamTask{std::move(data)};
 }
@@ -357,6 +381,7 @@ bool Slam2d::apply(const SlamResult& result) {
     self.graph.remove(*edge);
   for (const SlamEdge& closure : result.data->closures) self.graph.add(closure);
   self.reference.invalidate();
+  self.earlier_reference.invalidate();
   if (result.data->map) {
     self.map = *result.data->map;
     if (self.flight_height_m) (void)self.map.setFlightHeight(*self.flight_height_m);

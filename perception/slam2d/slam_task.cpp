@@ -38,7 +38,7 @@ SlamResult run(const SlamTask& task) {
   for (const LoopCandidate& candidate : in.candidates)
     if (const auto found = searchLoop(in.graph, in.query, candidate, in.config)) loops.push_back(*found);
   out->doubted = in.doubted;
-  if (!loops.empty() || in.passes_tied || in.is_last) {
+  if (!loops.empty() || in.settle || in.is_last) {
     Settled settled = settle(in.graph, loops, in.config);
     if (!settled.refused.empty()) {
       out->doubted.insert(out->doubted.end(), settled.refused.begin(), settled.refused.end());
@@ -50,7 +50,7 @@ SlamResult run(const SlamTask& task) {
       }
     }
     // What changes nothing is not worth a jump of the map.
-    if (in.is_last || in.passes_tied || !settled.accepted.empty() || !settled.taken_back.empty())
+    if (in.is_last || in.settle || !settled.accepted.empty() || !settled.taken_back.empty())
       out->T_map_key = std::move(settled.T_map_key);
     out->taken_back = std::move(settled.taken_back);
     for (const FoundLoop& loop : settled.accepted) {

@@ -16,7 +16,7 @@ struct SlamTask::Data {
   int query = 0;
   std::vector<LoopCandidate> candidates;
   std::vector<FoundLoop> doubted;  ///< Closures that the graph refused before.
-  bool passes_tied = false;        ///< A match tied two passes: the graph is to settle, whether or not a loop is found.
+  bool settle = false;             ///< A match tied two passes: the graph is to settle, whether or not a loop is found.
   bool is_last = false;            ///< No more scans come: the graph is to be at its best.
   Slam2dConfig config;
 };
