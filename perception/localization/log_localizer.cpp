@@ -10,25 +10,27 @@ const Eigen::Matrix3d kBreakCovariance = Eigen::Vector3d(0.5 * 0.5, 0.5 * 0.5, 0
 
 LogLocalizer::LogLocalizer(const common::OccupancyGrid& map, const common::Pose2& T_map_grid,
                            const LocalizerConfig& config, std::uint64_t seed)
-    : track_(LaserFrontEndConfig{}.odometry, LaserFrontEndConfig{}.motion), localizer_(map, T_map_grid, config, seed) {}
+    : front_end_(LaserFrontEndConfig{}), localizer_(map, T_map_grid, config, seed) {}
 
 std::optional<LocalizationEstimate> LogLocalizer::add(const LaserSlamInput& input) {
   ++scans_;
-  const common::Pose2& expected = track_.predict(input.scan.stamps, input.T_odom_robot);
-  // Never two in a row: the odometry needs scans that overlap.
-  const bool withheld = !withheld_last_ && localizer_.wantsFreshScan(expected);
-  const auto step = track_.add(input.scan, input.T_robot_laser, withheld);
+  bool withheld = false;
+  const auto step = front_end_.add(input, [&](const common::Pose2& expected) {
+    // Never two in a row: the odometry needs scans that overlap.
+    return withheld = !withheld_last_ && localizer_.wantsFreshScan(expected);
+  });
   withheld_last_ = withheld;
   if (!step) return std::nullopt;
   withheld_ += withheld ? 1 : 0;
   breaks_ += step->broken ? 1 : 0;
   const Eigen::Matrix3d covariance =
-      step->broken ? Eigen::Matrix3d(step->covariance + kBreakCovariance) : step->covariance;
+      step->broken ? Eigen::Matrix3d(step->covariance_since_last + kBreakCovariance) : step->covariance_since_last;
   return localizer_.add({step->scan, step->T_odom_robot, covariance, !step->matched, step->broken});
 }
 
 LogLocalizerCounts LogLocalizer::counts() const {
-  return {scans_, withheld_, breaks_, track_.doubtfulStamps(), track_.doubtfulSteps()};
+  const LaserSlamCounts front_end = front_end_.counts();
+  return {scans_, withheld_, breaks_, front_end.doubtful_stamps, front_end.doubtful_odometry};
 }
 
 }  // namespace swiftlet::perception

@@ -1,5 +1,5 @@
-// Localization in a recorded laser log, or on any robot that carries its laser level: LaserTrack and Localizer in one.
-// Each scan serves either of the two: those that weigh particles are kept from the odometry.
+// Localization in a recorded laser log, or on any robot that carries its laser level: LaserFrontEnd and Localizer in
+// one. Each scan serves either of the two: those that weigh particles are kept from the odometry.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,6 @@
 
 #include "perception/localization/localizer.hpp"
 #include "perception/slam2d/laser_front_end.hpp"
-#include "perception/slam2d/laser_track.hpp"
 
 namespace swiftlet::perception {
 
@@ -32,7 +31,7 @@ class LogLocalizer {
   LogLocalizerCounts counts() const;
 
  private:
-  LaserTrack track_;
+  LaserFrontEnd front_end_;
   Localizer localizer_;
   bool withheld_last_ = true;  ///< The first scan is the odometry's.
   std::uint64_t scans_ = 0, withheld_ = 0, breaks_ = 0;

@@ -206,4 +206,15 @@ ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& 
   return result;
 }
 
+ProjectedScan projectLevel(const common::LaserScan& scan, const common::Pose2& T_robot_laser,
+                           const common::Pose2& T_odom_robot) {
+  constexpr double kHeight_m = 1.0;  // Any, as long as no beam meets the floor.
+  common::LaserConfig laser;
+  laser.mirror_beams = 0;
+  laser.mount.x_m = T_robot_laser.x_m;
+  laser.mount.y_m = T_robot_laser.y_m;
+  laser.mount.yaw_deg = T_robot_laser.yaw_rad / common::kRadPerDeg;
+  return project(scan, laser, [&](common::Time) { return common::lifted(T_odom_robot, kHeight_m); }, {});
+}
+
 }  // namespace swiftlet::perception

@@ -77,4 +77,8 @@ struct ScanProjectionConfig {
 ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& laser, const PoseAt& pose_at,
                       const ScanProjectionConfig& config);
 
+/// The same for a laser that is carried level, on a robot of which the pose at the whole sweep is taken to be one.
+ProjectedScan projectLevel(const common::LaserScan& scan, const common::Pose2& T_robot_laser,
+                           const common::Pose2& T_odom_robot);
+
 }  // namespace swiftlet::perception

@@ -1,7 +1,5 @@
 #include "perception/slam2d/laser_front_end.hpp"
 
-#include <utility>
-
 #include <Eigen/Eigenvalues>
 
 #include "perception/slam2d/scan_clock.hpp"
@@ -48,8 +46,8 @@ struct LaserFrontEnd::Impl {
   explicit Impl(const LaserFrontEndConfig& config_in)
       : config(config_in), motion(config_in.motion), odometry(config_in.odometry) {}
 
-  ProjectedScan levelScan(const LaserSlamInput& input, common::Time now, const Pose2& T_odom_robot) const;
-  Eigen::Matrix3d follow(const std::optional<RelativePose>& relative, const Pose2& before,
+  std::optional<RelativePose> match(const ProjectedScan& scan);
+  Eigen::Matrix3d follow(const std::optional<RelativePose>& relative, bool lost, const Pose2& before,
                          const Eigen::Matrix3d& covariance_before);
 
   LaserFrontEndConfig config;
@@ -65,26 +63,19 @@ struct LaserFrontEnd::Impl {
   std::optional<Pose2> T_odom_matched;  ///< At the last match.
 };
 
-ProjectedScan LaserFrontEnd::Impl::levelScan(const LaserSlamInput& input, common::Time now, const Pose2& pose) const {
-  common::LaserConfig laser;
-  laser.mirror_beams = 0;
-  laser.mount.x_m = input.T_robot_laser.x_m;
-  laser.mount.y_m = input.T_robot_laser.y_m;
-  laser.mount.yaw_deg = input.T_robot_laser.yaw_rad / common::kRadPerDeg;
-  common::LaserScan scan = input.scan;
-  scan.stamps = {now, now};
-  return project(scan, laser, [&](common::Time) { return common::lifted(pose, 1.0); }, {});
+std::optional<RelativePose> LaserFrontEnd::Impl::match(const ProjectedScan& scan) {
+  return odometry.add(scan, T_odom_matched,
+                      SearchWindow{kWindowSigmas * motion.stepSigma_m(), kWindowSigmas * motion.stepSigma_rad()});
 }
 
 /// Takes the match in and says how uncertain the step from the scan before is, with the axes of the robot there. A
 /// match is relative to the odometry's reference: what it is uncertain of does not add up from scan to scan, only what
 /// the uncertainty has grown by counts.
-Eigen::Matrix3d LaserFrontEnd::Impl::follow(const std::optional<RelativePose>& relative, const Pose2& before,
+Eigen::Matrix3d LaserFrontEnd::Impl::follow(const std::optional<RelativePose>& relative, bool lost, const Pose2& before,
                                             const Eigen::Matrix3d& covariance_before) {
-  const bool restarted = relative && relative->from == relative->to;
-  if (!relative || (begun && restarted))
+  if (lost)
     motion.lose(config.odometry.max_window_m, config.odometry.max_window_deg * common::kRadPerDeg);
-  else if (!restarted)
+  else if (relative && relative->from != relative->to)
     motion.correct(relative->T_from_to, relative->covariance, relative->unseen_direction);
   const Pose2 now = motion.T_reference_robot();
   const Eigen::Matrix3d carried = propagated(covariance_before, before, now, Eigen::Matrix3d::Zero());
@@ -102,7 +93,7 @@ Eigen::Matrix3d LaserFrontEnd::Impl::follow(const std::optional<RelativePose>& r
 LaserFrontEnd::LaserFrontEnd(const LaserFrontEndConfig& config) : impl_(std::make_unique<Impl>(config)) {}
 LaserFrontEnd::~LaserFrontEnd() = default;
 
-std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input) {
+std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input, const Withhold& withhold) {
   Impl& self = *impl_;
   const common::Time now = self.clock.tick(input.scan.stamps.measured);
   const double elapsed_s = self.begun ? (now - self.last_time).seconds() : 0.0;
@@ -113,17 +104,25 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input) {
     self.motion.begin(input.T_odom_robot);
   else
     self.motion.predict(input.T_odom_robot, elapsed_s);
-  ProjectedScan scan = self.levelScan(input, now, self.T_odom_reference * self.motion.T_reference_robot());
-  const auto relative = self.odometry.add(
-      scan, self.T_odom_matched,
-      SearchWindow{kWindowSigmas * self.motion.stepSigma_m(), kWindowSigmas * self.motion.stepSigma_rad()});
+  const Pose2 expected = self.T_odom_reference * self.motion.T_reference_robot();
+
+  FollowedScan followed;
+  common::LaserScan stamped = input.scan;
+  stamped.stamps = {now, now};
+  followed.scan = projectLevel(stamped, input.T_robot_laser, expected);
+  const bool withheld = withhold && withhold(expected) && self.begun;
+  const std::optional<RelativePose> relative = withheld ? std::nullopt : self.match(followed.scan);
   if (!self.begun && !relative) {
     ++self.empty_scans;
     return std::nullopt;
   }
-  const Eigen::Matrix3d covariance = self.follow(relative, before, covariance_before);
+  followed.matched = relative.has_value();
+  followed.broken = self.begun && relative && relative->from == relative->to;
+  const bool lost = followed.broken || (!withheld && !relative);
+  followed.covariance_since_last = self.follow(relative, lost, before, covariance_before);
+  followed.T_odom_robot = self.T_odom_robot;
   self.begun = true;
-  return FollowedScan{std::move(scan), self.T_odom_robot, covariance, relative.has_value()};
+  return followed;
 }
 
 const LaserOdometryCounts& LaserFrontEnd::odometryCounts() const { return impl_->odometry.counts(); }

@@ -1,10 +1,11 @@
-// What every SLAM of a laser that is carried level begins with: scans put in order of time, and the way from one to the
-// next, with its uncertainty, from the laser itself. Odometry is taken as a hint where there is some.
+// What SLAM and localization with a laser that is carried level begin with: scans put in order of time, and the way
+// from one to the next, with its uncertainty, from the laser itself. Odometry is taken as a hint where there is some.
 //
 //   scan --> ScanClock --> MotionPrediction --> LaserOdometry --> pose in odom, covariance of the step
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,13 +43,15 @@ struct LaserSlamCounts {
   std::uint64_t empty_scans = 0;        ///< Too few points to begin with.
 };
 
-/// A scan and where it was taken. odom is the frame of the laser odometry: continuous, it begins at the first scan.
+/// A scan and where it was taken. odom is the frame of the laser odometry: it begins at the first scan and is
+/// continuous except after a break.
 struct FollowedScan {
   ProjectedScan scan;  ///< Its stamp grows from scan to scan.
   common::Pose2 T_odom_robot;
   /// Of the step since the scan before: of the additive errors (x_m, y_m, yaw_rad) with the axes of the robot there.
   Eigen::Matrix3d covariance_since_last = Eigen::Matrix3d::Zero();
   bool matched = false;  ///< False: it stands where it was expected.
+  bool broken = false;   ///< How the robot came here from the scan before is not known.
 };
 
 /// Not thread-safe. Deterministic.
@@ -57,8 +60,13 @@ class LaserFrontEnd {
   explicit LaserFrontEnd(const LaserFrontEndConfig& config);
   ~LaserFrontEnd();
 
-  /// None as long as no scan has had enough points to begin with.
-  std::optional<FollowedScan> add(const LaserSlamInput& input);
+  /// Whether a scan that is expected at T_odom_robot is kept from the odometry, for what must not be judged by scans
+  /// that made it. It stands where it was expected then.
+  using Withhold = std::function<bool(const common::Pose2& T_odom_robot)>;
+
+  /// None as long as no scan has had enough points to begin with; until then none is withheld. `withhold` is asked
+  /// once.
+  std::optional<FollowedScan> add(const LaserSlamInput& input, const Withhold& withhold = {});
 
   const LaserOdometryCounts& odometryCounts() const;
   LaserSlamCounts counts() const;

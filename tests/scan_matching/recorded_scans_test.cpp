@@ -38,13 +38,7 @@ struct Agreement {
 Pose2 odometryOf(const interfaces::LoggedScan& logged) { return logged.T_odom_robot.value_or(Pose2{}); }
 
 ProjectedScan projectedFrom(const interfaces::LoggedScan& logged) {
-  common::LaserConfig laser;
-  laser.mirror_beams = 0;
-  laser.mount = {};
-  laser.mount.x_m = logged.T_robot_laser.x_m;
-  laser.mount.y_m = logged.T_robot_laser.y_m;
-  laser.mount.yaw_deg = logged.T_robot_laser.yaw_rad / common::kRadPerDeg;
-  return project(logged.scan, laser, [&](common::Time) { return common::lifted(odometryOf(logged), 1.0); }, {});
+  return projectLevel(logged.scan, logged.T_robot_laser, odometryOf(logged));
 }
 
 /// Each `stride`th scan is matched against the one before.
