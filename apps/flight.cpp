@@ -32,9 +32,7 @@ class Flight {
         hooks_(hooks),
         vehicle_(makeVehicle(setup)),
         recorder_(vehicle_->T_world_map(), setup.map ? setup.map->T_world_given : std::nullopt),
-        autonomy_(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser,
-                  behaviors::Mission::fromFile(setup.mission_file), common::makeLockstepJobs(1),
-                  setup.map ? &setup.map->map : nullptr),
+        autonomy_(makeAutonomy(setup)),
         folder_(folderOf(setup), runInfo(setup), setup.system.toYaml(true)) {}
 
   FlightResult fly() {
@@ -57,6 +55,17 @@ class Flight {
     const std::scoped_lock lock(sdformat_is_not_thread_safe);
     return std::make_unique<simulation::SimulatedVehicle>(simulation::loadWorld(scenario.world, scenario.model_paths),
                                                           scenario);
+  }
+
+  static autonomy::Autonomy makeAutonomy(const FlightSetup& setup) {
+    std::optional<autonomy::GivenMap> given;
+    if (setup.map) {
+      given = setup.map->map;
+      given->seed = static_cast<std::uint64_t>(setup.scenario.seed);
+    }
+    return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser,
+                              behaviors::Mission::fromFile(setup.mission_file), common::makeLockstepJobs(1),
+                              given ? &*given : nullptr);
   }
 
   static std::filesystem::path folderOf(const FlightSetup& setup) {

@@ -44,11 +44,7 @@ FlightSetup setupOf(const FlyOptions& options) {
   requireSound(setup.mission_file, setup.system, !options.map.empty());
   setup.scenario.seed = options.seed;
   setup.scenario.world = common::findData(options.world).string();
-  if (!options.map.empty()) {
-    FlightMap map = readFlightMap(options.map);
-    map.map.seed = static_cast<std::uint64_t>(options.seed);
-    setup.map = std::make_shared<const FlightMap>(std::move(map));
-  }
+  if (!options.map.empty()) setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;

@@ -6,7 +6,6 @@
 #include "apps/system.hpp"
 #include "common/error.hpp"
 #include "evaluation/trajectory_metrics.hpp"
-#include "interfaces/files/map_server.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 #include "simulation/ray_caster.hpp"
 
@@ -14,11 +13,6 @@ namespace swiftlet::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-void requireUsable(const common::OccupancyGrid& grid, const std::string& file, const char* hint) {
-  if (const std::string why = perception::Localizer::whyUnusable(grid); !why.empty())
-    throw common::InputError(common::Problem{{file}, "", why, hint});
-}
 
 /// T_world_given: the rigid fit of the poses the SLAM has to those that were driven.
 common::Pose2 fitted(const perception::LaserSlam& slam, const std::vector<perception::TrackedScan>& tracked,
@@ -35,9 +29,16 @@ common::Pose2 fitted(const perception::LaserSlam& slam, const std::vector<percep
 
 }  // namespace
 
-FlightMap readFlightMap(const fs::path& yaml_file) {
+interfaces::StoredMap readUsableMap(const fs::path& yaml_file) {
   interfaces::StoredMap stored = interfaces::readMap(yaml_file);
-  requireUsable(stored.grid, yaml_file.string(), "are `negate` and the thresholds those of the picture?");
+  if (const std::string why = perception::Localizer::whyUnusable(stored.grid); !why.empty())
+    throw common::InputError(
+        common::Problem{{yaml_file.string()}, "", why, "are `negate` and the thresholds those of the picture?"});
+  return stored;
+}
+
+FlightMap readFlightMap(const fs::path& yaml_file) {
+  interfaces::StoredMap stored = readUsableMap(yaml_file);
   FlightMap map;
   map.name = yaml_file.string();
   map.map.grid = std::make_shared<const common::OccupancyGrid>(std::move(stored.grid));

@@ -7,6 +7,7 @@
 
 #include "autonomy/flight_localizer.hpp"
 #include "common/geometry.hpp"
+#include "interfaces/files/map_server.hpp"
 #include "simulation/survey.hpp"
 #include "simulation/world_model.hpp"
 
@@ -20,6 +21,8 @@ struct FlightMap {
 };
 
 /// Throws common::InputError where the file is no map, or none one could be localized in.
+interfaces::StoredMap readUsableMap(const std::filesystem::path& yaml_file);
+/// The same, to be given to flights.
 FlightMap readFlightMap(const std::filesystem::path& yaml_file);
 
 /// A robot on wheels drives through the world, and its scans become a map by SLAM. It lies in the world where its key

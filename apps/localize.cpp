@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/given_map.hpp"
 #include "apps/localize_outputs.hpp"
 #include "apps/numbers.hpp"
 #include "apps/progress_line.hpp"
@@ -54,13 +55,6 @@ common::Pose2 parseStart(const std::string& text) {
     throw common::InputError(common::Problem{
         {}, "--start", fmt::format("`{}` is not x;y;yaw", text), "metres and degrees, for instance 3.0;-1.5;90"});
   return {x_m, y_m, common::wrapAngle(yaw_deg * common::kRadPerDeg)};
-}
-
-interfaces::StoredMap readUsableMap(const std::string& file) {
-  interfaces::StoredMap map = interfaces::readMap(file);
-  if (const std::string why = perception::Localizer::whyUnusable(map.grid); !why.empty())
-    throw common::InputError(common::Problem{{file}, "", why, "are `negate` and the thresholds those of the picture?"});
-  return map;
 }
 
 struct LocalizeRun {

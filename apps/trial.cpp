@@ -77,11 +77,7 @@ std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::pa
 FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
                     const fs::path& out) {
   FlightSetup setup;
-  if (map) {
-    FlightMap seeded = *map;
-    seeded.map.seed = static_cast<std::uint64_t>(seed);
-    setup.map = std::make_shared<const FlightMap>(std::move(seeded));
-  }
+  setup.map = map;
   setup.system = loadSystem(trial.system);
   setup.mission_file = common::findData(trial.mission).string();
   setup.scenario = trial.scenario;

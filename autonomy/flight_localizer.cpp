@@ -11,13 +11,6 @@ namespace swiftlet::autonomy {
 using common::LocalizationState;
 using common::Time;
 
-namespace {
-
-/// How far an odometry that lost the thread can be off, relative to where it is believed to be.
-const Eigen::Matrix3d kBreakCovariance = Eigen::Vector3d(0.5 * 0.5, 0.5 * 0.5, 0.3 * 0.3).asDiagonal();
-
-}  // namespace
-
 void FlightLocalizerConfig::describe(common::config::Fields& fields) {
   fields.section("localizer", localizer, "Finding, following and doubting the pose.");
   fields("search_latency_s", search_latency_s, "Declared for a search of the whole map.");
@@ -36,10 +29,10 @@ bool FlightLocalizer::wantsScan(const common::Pose2& T_odom_body) {
 }
 
 void FlightLocalizer::add(const LocatedScan& located, Time now) {
-  const Eigen::Matrix3d covariance =
-      located.interrupted ? Eigen::Matrix3d(located.step_covariance + kBreakCovariance) : located.step_covariance;
   localization_.stamp = located.scan.stamp;
-  take(localizer_.follow({located.scan, located.T_odom_body, covariance, located.withheld, located.interrupted}), now);
+  take(localizer_.follow(
+           {located.scan, located.T_odom_body, located.step_covariance, located.withheld, located.interrupted}),
+       now);
   submitSearch(now);
 }
 

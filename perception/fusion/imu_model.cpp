@@ -10,12 +10,6 @@ constexpr double kGap_s = 0.05;
 constexpr double kGapAcceleration_m_s2 = 3.0;
 constexpr double kGapRotation_rad_s = 0.5;
 
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
 /// The non-trivial 3x3 blocks of the transition.
 struct Blocks {
   double dt_s;

@@ -148,10 +148,7 @@ Linearized<2> drag(const FilterState& state, double variance_m2_s4) {
       stretch.force_sum_m_s / stretch.seconds + state.drag_1_s * airspeed_m_s - state.accelerometer_bias_m_s2.head<2>();
   m.jacobian.block<2, 3>(0, kVelocity) = -state.drag_1_s * to_body_xy;
   // R^T (I - [error x]) v = R^T v + R^T [v x] error.
-  Eigen::Matrix3d cross;
-  cross << 0.0, -airspeed_odom_m_s.z(), airspeed_odom_m_s.y(), airspeed_odom_m_s.z(), 0.0, -airspeed_odom_m_s.x(),
-      -airspeed_odom_m_s.y(), airspeed_odom_m_s.x(), 0.0;
-  m.jacobian.block<2, 3>(0, kAttitude) = -state.drag_1_s * to_body_xy * cross;
+  m.jacobian.block<2, 3>(0, kAttitude) = -state.drag_1_s * to_body_xy * skew(airspeed_odom_m_s);
   m.jacobian.block<2, 2>(0, kAccelerometerBias).setIdentity();
   m.jacobian.block<2, 1>(0, kDrag) = -airspeed_m_s;
   m.jacobian.block<2, 2>(0, kWind) = state.drag_1_s * to_body_xy.leftCols<2>();

@@ -26,6 +26,9 @@ constexpr double kLeastNoise_rad = 0.2 * kRadPerDeg;
 /// Of the odometry's turns.
 constexpr double kTurnShare = 0.02;
 
+/// How far an odometry that lost the thread can be off, relative to where it is believed to be.
+const Eigen::Matrix3d kBreakCovariance = Eigen::Vector3d(0.5 * 0.5, 0.5 * 0.5, 0.3 * 0.3).asDiagonal();
+
 double square(double value) { return value * value; }
 
 PlaceDistinction distinctionOf(const LocalizerConfig& config) {
@@ -214,8 +217,10 @@ void Localizer::Impl::step(const LocalizationInput& input) {
   const Eigen::Vector3d least(
       square(config.odometry_share * distance_m), square(config.odometry_share * distance_m),
       square(config.odometry_deg_per_m * kRadPerDeg * distance_m) + square(kTurnShare * turn_rad));
-  const Eigen::Matrix3d own = common::turned(input.step_covariance + Eigen::Matrix3d(least.asDiagonal()),
-                                             between(T_odom_generation, T_odom_body).yaw_rad);
+  Eigen::Matrix3d measured = input.step_covariance;
+  if (input.interrupted) measured += kBreakCovariance;
+  const Eigen::Matrix3d own =
+      common::turned(measured + Eigen::Matrix3d(least.asDiagonal()), between(T_odom_generation, T_odom_body).yaw_rad);
   step_covariance = common::propagated(step_covariance, between(T_odom_generation, T_odom_body),
                                        between(T_odom_generation, input.T_odom_body), own);
   way_m += distance_m;

@@ -70,8 +70,9 @@ struct LocalizationInput {
   common::Pose2 T_odom_body;
   /// Of the odometry since the last input, (x_m, y_m, yaw_rad) with the axes of the body then.
   Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();
-  bool fresh = true;         ///< The odometry was not made of this scan: it may weigh.
-  bool interrupted = false;  ///< The odometry does not know how the vehicle came here from where it was.
+  bool fresh = true;  ///< The odometry was not made of this scan: it may weigh.
+  /// The odometry does not know how the vehicle came here from where it was; what it may be off by is added.
+  bool interrupted = false;
 };
 
 struct LocalizationEvent {

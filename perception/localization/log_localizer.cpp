@@ -23,9 +23,7 @@ std::optional<LocalizationEstimate> LogLocalizer::add(const LaserSlamInput& inpu
   if (!step) return std::nullopt;
   withheld_ += withheld ? 1 : 0;
   breaks_ += step->broken ? 1 : 0;
-  const Eigen::Matrix3d covariance =
-      step->broken ? Eigen::Matrix3d(step->covariance_since_last + kBreakCovariance) : step->covariance_since_last;
-  return localizer_.add({step->scan, step->T_odom_robot, covariance, !step->matched, step->broken});
+  return localizer_.add({step->scan, step->T_odom_robot, step->covariance_since_last, !step->matched, step->broken});
 }
 
 LogLocalizerCounts LogLocalizer::counts() const {

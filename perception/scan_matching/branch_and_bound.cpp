@@ -20,9 +20,9 @@ int topLevelFor(int translations) {
 
 }  // namespace
 
-void BranchAndBound::cellsAt(const LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m,
-                             double yaw_rad, double shift_x_m, double shift_y_m, int border,
-                             std::vector<std::int32_t>& x_cells, std::vector<std::int32_t>& y_cells) {
+void BranchAndBound::allCellsAt(const LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m,
+                                double yaw_rad, double shift_x_m, double shift_y_m, std::vector<std::int32_t>& x_cells,
+                                std::vector<std::int32_t>& y_cells) {
   const double scale = 1.0 / field.resolution_m();
   x_cells.resize(x_m.size());
   y_cells.resize(x_m.size());
@@ -30,6 +30,12 @@ void BranchAndBound::cellsAt(const LikelihoodField& field, std::span<const float
                    static_cast<float>(std::sin(yaw_rad) * scale),
                    static_cast<float>(shift_x_m * scale - field.beginX()),
                    static_cast<float>(shift_y_m * scale - field.beginY()), x_cells, y_cells);
+}
+
+void BranchAndBound::cellsAt(const LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m,
+                             double yaw_rad, double shift_x_m, double shift_y_m, int border,
+                             std::vector<std::int32_t>& x_cells, std::vector<std::int32_t>& y_cells) {
+  allCellsAt(field, x_m, y_m, yaw_rad, shift_x_m, shift_y_m, x_cells, y_cells);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < x_cells.size(); ++i) {
     const std::int32_t x = x_cells[i], y = y_cells[i];

@@ -66,6 +66,10 @@ class BranchAndBound {
   BestPose searchElsewhere(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
                            const ExcludedPoses& excluded, int floor);
 
+  /// The cells of all points at one rotation and translation; some may lie outside the field.
+  static void allCellsAt(const LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m,
+                         double yaw_rad, double shift_x_m, double shift_y_m, std::vector<std::int32_t>& x_cells,
+                         std::vector<std::int32_t>& y_cells);
   /// The cells of the points at one rotation and the first translation, for scoring around the best. Points that can
   /// have no support anywhere in a window of `border` cells are left out.
   static void cellsAt(const LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m,

@@ -241,16 +241,9 @@ ScoreSurface CorrelativeMatcher::Impl::surfaceAround(const SplitPoints& points, 
 
 /// Which points lie on what was drawn.
 std::vector<bool> CorrelativeMatcher::Impl::supportedAt(const SplitPoints& points, const Pose2& pose) {
-  const std::size_t size = points.x_m.size();
-  x_cells.resize(size);
-  y_cells.resize(size);
-  const double scale = 1.0 / field.resolution_m();
-  transformToCells(points.x_m, points.y_m, static_cast<float>(std::cos(pose.yaw_rad) * scale),
-                   static_cast<float>(std::sin(pose.yaw_rad) * scale),
-                   static_cast<float>(pose.x_m * scale - field.beginX()),
-                   static_cast<float>(pose.y_m * scale - field.beginY()), x_cells, y_cells);
-  std::vector<bool> supported(size);
-  for (std::size_t i = 0; i < size; ++i) supported[i] = field.at(x_cells[i], y_cells[i]) > 0;
+  BranchAndBound::allCellsAt(field, points.x_m, points.y_m, pose.yaw_rad, pose.x_m, pose.y_m, x_cells, y_cells);
+  std::vector<bool> supported(x_cells.size());
+  for (std::size_t i = 0; i < supported.size(); ++i) supported[i] = field.at(x_cells[i], y_cells[i]) > 0;
   return supported;
 }
 
@@ -461,13 +454,8 @@ MatchResult CorrelativeMatcher::matchExhaustively(const ProjectedScan& scan, con
   BestPose best;
   std::vector<std::int32_t> x_cells, y_cells;
   for (int k = 0; k < grid.rotations; ++k) {
-    x_cells.resize(points.size());
-    y_cells.resize(points.size());
-    const double scale = 1.0 / impl_->field.resolution_m(), yaw_rad = grid.first_yaw_rad + k * grid.step_yaw_rad;
-    transformToCells(split.x_m, split.y_m, static_cast<float>(std::cos(yaw_rad) * scale),
-                     static_cast<float>(std::sin(yaw_rad) * scale),
-                     static_cast<float>(grid.first_x_m * scale - impl_->field.beginX()),
-                     static_cast<float>(grid.first_y_m * scale - impl_->field.beginY()), x_cells, y_cells);
+    BranchAndBound::allCellsAt(impl_->field, split.x_m, split.y_m, grid.first_yaw_rad + k * grid.step_yaw_rad,
+                               grid.first_x_m, grid.first_y_m, x_cells, y_cells);
     for (int y = 0; y < grid.translations; ++y) {
       for (int x = 0; x < grid.translations; ++x) {
         int score = -BranchAndBound::leastPenalty(impl_->penaltyFor(points.size()), grid, x, y, k, 0);

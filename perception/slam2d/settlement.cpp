@@ -1,7 +1,6 @@
 #include "perception/slam2d/settlement.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -73,7 +72,7 @@ std::optional<Settled> turnedOver(const SlamGraph& graph, const std::vector<Foun
   Trial trial(graph, doubted);
   for (std::size_t i = 0; i < trial.problem.edges.size(); ++i) {
     optimization::PoseEdge2D& edge = trial.problem.edges[i];
-    edge.robust = static_cast<int>(i) < trial.first_new && (edge.robust || std::abs(edge.to - edge.from) > kOtherPass);
+    edge.robust = static_cast<int>(i) < trial.first_new && (edge.robust || areOfTwoPasses(edge.from, edge.to));
   }
   std::vector<int> removed;
   while (true) {

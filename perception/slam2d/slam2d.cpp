@@ -47,7 +47,7 @@ constexpr double kLeastOverlap = 0.75;
 /// Where in `keys`, ascending, those of the newest pass begin.
 std::vector<int>::const_iterator newestPass(const std::vector<int>& keys) {
   auto begin = keys.end();
-  while (begin != keys.begin() && (begin == keys.end() || *begin - *(begin - 1) <= kOtherPass)) --begin;
+  while (begin != keys.begin() && (begin == keys.end() || !areOfTwoPasses(*(begin - 1), *begin))) --begin;
   return begin;
 }
 
@@ -80,7 +80,7 @@ struct Slam2d::Impl {
   Slam2dConfig config;
   SlamGraph graph;
   LocalReference reference;
-  LocalReference earlier_reference;  ///< Of the earliest pass, where two are in view; either keeps what is drawn.
+  LocalReference earlier_reference;  ///< Of earlier passes, where more are in view; each keeps what is drawn.
   SlicedMap map;
   std::optional<double> flight_height_m;
   SlamCounts counts;
@@ -221,16 +221,16 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
     update.key_scan = true;
     return true;
   }
-  const bool same_pass = std::abs(keys.back() - anchor) <= kOtherPass;
+  const bool same_pass = !areOfTwoPasses(keys.back(), anchor);
   const WeighedPose pose = same_pass ? weighWithMotion(match) : WeighedPose{match.T_reference_body, match.covariance};
   if (const std::optional<int> near = keyNear(keys, pose.T_map_body)) {
-    if (std::abs(*near - anchor) > kOtherPass) tiePasses(*near, match);
+    if (areOfTwoPasses(*near, anchor)) tiePasses(*near, match);
     standOn(*near, between(poseOf(*near), pose.T_map_body),
             edgeCovariance(common::turned(pose.covariance, -poseOf(*near).yaw_rad), config));
     search_due |= settlingIsDue();
     return true;
   }
-  passes_tied |= static_cast<int>(graph.keys.size()) - keys.front() > kOtherPass;
+  passes_tied |= areOfTwoPasses(keys.front(), static_cast<int>(graph.keys.size()));
   addKeyScan(scan, pose.T_map_body, keys, &match);
   update.key_scan = true;
   return true;

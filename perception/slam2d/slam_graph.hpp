@@ -1,6 +1,7 @@
 // The graph of key scans, and how far the uncertainty between two of them reaches.
 #pragma once
 
+#include <cstdlib>
 #include <deque>
 #include <memory>
 #include <span>
@@ -28,8 +29,11 @@ struct KeyScan {
   std::vector<int> edges;          ///< Of the graph, that begin or end here.
 };
 
-/// Key scans that are farther apart than this in the order in which they were taken are of two passes.
-constexpr int kOtherPass = 15;
+/// Whether two key scans lie so far apart in the order in which they were taken that they are of two passes.
+inline bool areOfTwoPasses(int a, int b) {
+  constexpr int kOtherPass = 15;
+  return std::abs(a - b) > kOtherPass;
+}
 
 struct SlamGraph {
   std::vector<KeyScan> keys;
