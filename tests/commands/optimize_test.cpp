@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/datasets.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -120,12 +120,9 @@ void PrintTo(const Known& known, std::ostream* stream) { *stream << known.file; 
 class KnownGraphs : public testing::TestWithParam<Known> {};
 
 TEST_P(KnownGraphs, ReachTheLowestChi2) {
-  const char* variable = std::getenv("SWIFTLET_DATASETS");
-  const fs::path folder =
-      variable != nullptr ? fs::path(variable) : fs::path(SWIFTLET_SOURCE_DIR) / "../shared/datasets";
-  const fs::path file = folder / "02-pose-graphs" / GetParam().file;
-  if (!fs::exists(file)) GTEST_SKIP() << "NOT TESTED: no " << file << "; set SWIFTLET_DATASETS";
-  const ProgramEnd end = runSwiftlet({"optimize", file.string(), "--json"});
+  const auto file = test_support::dataSet(std::string("02-pose-graphs/") + GetParam().file);
+  if (!file) return;
+  const ProgramEnd end = runSwiftlet({"optimize", file->string(), "--json"});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const auto json = nlohmann::json::parse(end.out);
   EXPECT_NEAR(json.at("chi2_final").get<double>(), GetParam().chi2, 1e-6 * GetParam().chi2) << json.dump(2);

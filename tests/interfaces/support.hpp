@@ -1,4 +1,4 @@
-// What the tests of this folder share: a scratch folder, real data where there is some, and other people's readers.
+// What the tests of this folder share: a scratch folder and other people's readers.
 #pragma once
 
 #include <sys/resource.h>
@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -67,17 +66,6 @@ inline std::optional<std::string> outputOf(const std::string& command) {
   char block[4096];
   for (std::size_t count = 0; (count = std::fread(block, 1, sizeof block, pipe)) > 0;) output.append(block, count);
   return ::pclose(pipe) == 0 ? std::optional(output) : std::nullopt;
-}
-
-/// A file or folder of the data sets; none, said loudly, when they are not on this machine.
-inline std::optional<fs::path> dataset(const std::string& relative) {
-  const char* variable = std::getenv("SWIFTLET_DATASETS");
-  const fs::path root(SWIFTLET_SOURCE_DIR);
-  for (const fs::path& folder :
-       {fs::path(variable == nullptr ? "" : variable), root / "../shared/datasets", root / "../../shared/datasets"})
-    if (!folder.empty() && fs::exists(folder / relative)) return folder / relative;
-  std::cerr << "NO DATA: " << relative << " is not on this machine; set SWIFTLET_DATASETS to test with real data\n";
-  return std::nullopt;
 }
 
 /// The InputError a call throws, as text; empty when it throws none.

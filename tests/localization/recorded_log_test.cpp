@@ -1,7 +1,6 @@
 // A recorded log of a wheeled robot in the map of its first part: found from nothing, followed, carried away, found
 // again. The truth is the trajectory of the map itself.
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
@@ -10,17 +9,13 @@
 #include "interfaces/laser_log/laser_log.hpp"
 #include "perception/localization/log_localizer.hpp"
 #include "perception/slam2d/laser_slam.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
 namespace fs = std::filesystem;
 using common::Pose2;
-
-fs::path datasets() {
-  if (const char* folder = std::getenv("SWIFTLET_DATASETS")) return folder;
-  return fs::path(SWIFTLET_SOURCE_DIR) / ".." / "shared" / "datasets";
-}
 
 struct Mapped {
   std::vector<interfaces::LoggedScan> scans;
@@ -50,9 +45,9 @@ Mapped mapOf(const fs::path& file, std::size_t count) {
 }
 
 TEST(RecordedLocalization, IntelIsFoundFollowedAndFoundAgainAfterItWasCarriedAway) {
-  const fs::path file = datasets() / "01-laser-slam" / "intel" / "intel.clf.bz2";
-  if (!fs::exists(file)) GTEST_SKIP() << "skipped: no data set " << file << "; set SWIFTLET_DATASETS";
-  const Mapped mapped = mapOf(file, 4000);
+  const auto file = test_support::dataSet("01-laser-slam/intel/intel.clf.bz2");
+  if (!file) return;
+  const Mapped mapped = mapOf(*file, 4000);
   ASSERT_EQ(mapped.scans.size(), 4000U);
   // 500 scans are left out, in which the robot goes on; its wheels are as they were before.
   constexpr std::size_t kFrom = 2000, kTo = 2500;

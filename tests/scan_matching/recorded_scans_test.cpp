@@ -1,8 +1,6 @@
 // The three matchers on real scans: consecutive ones of two logs of wheeled robots, with the wheels as the guess.
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,18 +12,12 @@
 #include "perception/scan_matching/gauss_newton_matcher.hpp"
 #include "perception/scan_matching/point_to_line_matcher.hpp"
 #include "tests/scan_matching/scenes.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
-namespace fs = std::filesystem;
-
 using common::Pose2;
-
-fs::path datasets() {
-  if (const char* folder = std::getenv("SWIFTLET_DATASETS")) return folder;
-  return fs::path(SWIFTLET_SOURCE_DIR) / ".." / "shared" / "datasets";
-}
 
 /// How often a matcher answers, and how far from the one that looks everywhere when both answer.
 struct Agreement {
@@ -78,9 +70,9 @@ std::array<Agreement, 3> compareOn(interfaces::LaserLog& log, int stride) {
 }
 
 void expectAgreement(const std::string& name, int stride) {
-  const fs::path file = datasets() / "01-laser-slam" / name;
-  if (!fs::exists(file)) GTEST_SKIP() << "skipped: no data set " << file << "; set SWIFTLET_DATASETS";
-  const auto log = interfaces::openLaserLog(file);
+  const auto file = test_support::dataSet("01-laser-slam/" + name);
+  if (!file) return;
+  const auto log = interfaces::openLaserLog(*file);
   const std::array<Agreement, 3> agreements = compareOn(*log, stride);
   for (std::size_t k = 1; k < agreements.size(); ++k) {
     const Agreement& a = agreements[k];

@@ -1,4 +1,4 @@
-// Worlds made by others, from ../shared/datasets (or SWIFTLET_DATASETS): they load, and one can fly in them.
+// Worlds made by others, from the data sets: they load, and one can fly in them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,11 +7,10 @@
 #include "fixtures.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/truth_map.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::simulation {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Case {
   const char* archive;
@@ -25,12 +24,10 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.world; }
 class WorldByOthers : public ::testing::TestWithParam<Case> {};
 
 TEST_P(WorldByOthers, LoadsAndCanBeFlownIn) {
-  const char* environment = std::getenv("SWIFTLET_DATASETS");
-  const fs::path datasets = environment != nullptr ? environment : SWIFTLET_SOURCE_DIR "/../shared/datasets";
-  const fs::path archive = datasets / "06-sim-worlds" / GetParam().archive;
-  if (!fs::exists(archive)) GTEST_SKIP() << "no " << archive << "; set SWIFTLET_DATASETS";
+  const auto archive = test_support::dataSet(std::string("06-sim-worlds/") + GetParam().archive);
+  if (!archive) return;
   const TemporaryFolder folder("swiftlet_datasets");
-  ASSERT_EQ(std::system(("tar -xJf '" + archive.string() + "' -C '" + folder.path().string() + "'").c_str()), 0);
+  ASSERT_EQ(std::system(("tar -xJf '" + archive->string() + "' -C '" + folder.path().string() + "'").c_str()), 0);
 
   ::testing::internal::CaptureStderr();
   const WorldModel world = loadWorld((folder.path() / GetParam().world).string());

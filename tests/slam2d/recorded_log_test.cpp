@@ -2,7 +2,6 @@
 // relations of Kuemmerle 2009. The best published means of Cartographer, tuned for each log, and of the peers run on
 // the raw logs: 0.0229 m and 0.453 deg (intel), 0.0353 m and 0.44 deg (fr079).
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,16 +13,12 @@
 #include "interfaces/files/relations.hpp"
 #include "interfaces/laser_log/laser_log.hpp"
 #include "perception/slam2d/laser_slam.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path datasets() {
-  if (const char* folder = std::getenv("SWIFTLET_DATASETS")) return folder;
-  return fs::path(SWIFTLET_SOURCE_DIR) / ".." / "shared" / "datasets";
-}
 
 common::Trajectory trackOf(const fs::path& file, bool odometry, SlamMethod method) {
   struct Tracked {
@@ -50,12 +45,11 @@ common::Trajectory trackOf(const fs::path& file, bool odometry, SlamMethod metho
 
 void expectRelations(const std::string& name, bool odometry, double translation_m, double rotation_deg,
                      SlamMethod method = SlamMethod::kGraph) {
-  const fs::path folder = datasets() / "01-laser-slam" / name;
-  const fs::path log = folder / (name + ".clf.bz2"), relations = folder / (name + ".relations.gz");
-  if (!fs::exists(log) || !fs::exists(relations))
-    GTEST_SKIP() << "skipped: no data set in " << folder << "; set SWIFTLET_DATASETS";
+  const std::string stem = "01-laser-slam/" + name + "/" + name;
+  const auto log = test_support::dataSet(stem + ".clf.bz2"), relations = test_support::dataSet(stem + ".relations.gz");
+  if (!log || !relations) return;
   const evaluation::RelationErrors errors =
-      evaluation::relationErrors(trackOf(log, odometry, method), interfaces::readRelations(relations));
+      evaluation::relationErrors(trackOf(*log, odometry, method), interfaces::readRelations(*relations));
   const double mean_deg = errors.rotation_rad.mean / common::kRadPerDeg;
   std::printf("  %s %s odometry: %.4f +- %.4f m, at most %.2f m; %.3f deg\n", name.c_str(),
               odometry ? "with" : "without", errors.translation_m.mean, errors.translation_m.standard_deviation,

@@ -13,23 +13,16 @@
 #include "behaviors/tree/leaf.hpp"
 #include "behaviors/tree/nodes/sequence.hpp"
 #include "behaviors/tree/parser.hpp"
+#include "tests/support/datasets.hpp"
 
 namespace swiftlet::tree {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside the repository, or where SWIFTLET_DATASETS says.
-fs::path datasets() {
-  if (const char* told = std::getenv("SWIFTLET_DATASETS")) return fs::path(told) / "08-behavior-trees";
-  for (fs::path up = SWIFTLET_SOURCE_DIR; up != up.root_path(); up = up.parent_path())
-    if (fs::exists(up / "shared/datasets/08-behavior-trees")) return up / "shared/datasets/08-behavior-trees";
-  return {};
-}
-
-std::vector<fs::path> files() {
+std::vector<fs::path> filesOf(const fs::path& folder) {
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::recursive_directory_iterator(datasets()))
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.path().extension() == ".xml") paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   return paths;
@@ -127,9 +120,10 @@ std::vector<Problem> readByLearning(const fs::path& path, bool& read) {
 }
 
 TEST(OthersTrees, AreReadOrRefusedWithAPlace) {
-  if (datasets().empty()) GTEST_SKIP() << "NO DATA: shared/datasets/08-behavior-trees is not here, nothing was tested";
+  const auto folder = test_support::dataSet("08-behavior-trees");
+  if (!folder) return;
   int read_count = 0, refused = 0;
-  for (const fs::path& path : files()) {
+  for (const fs::path& path : filesOf(*folder)) {
     bool read = false;
     const std::vector<Problem> problems = readByLearning(path, read);
     (read ? read_count : refused)++;
