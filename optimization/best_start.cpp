@@ -17,9 +17,6 @@ constexpr double kWidths[] = {2.0, 5.0, 20.0};
 /// So large that the first step is that of Gauss-Newton: the starts are near.
 constexpr double kGaussNewtonRadius = 1e16;
 
-PoseGraph2DConfig configFor(const PoseGraph2D&) { return {}; }
-PoseGraph3DConfig configFor(const PoseGraph3D&) { return {}; }
-
 void fix(PoseGraph2D& graph, std::vector<int> poses) { graph.also_fixed = std::move(poses); }
 void fix(PoseGraph3D& graph, std::vector<int> poses) { graph.fixed = std::move(poses); }
 
@@ -64,7 +61,7 @@ class Search {
 
   void attempt(Start start, Poses poses) {
     graph_.poses = std::move(poses);
-    auto config = configFor(graph_);
+    PoseGraphConfig config;
     config.max_iterations = config_.max_iterations;
     config.relative_decrease = config_.relative_decrease;
     config.trust_radius = kGaussNewtonRadius;
@@ -84,7 +81,7 @@ class Search {
   Poses robust(Poses poses) {
     graph_.poses = std::move(poses);
     setRobust(true);
-    auto config = configFor(graph_);
+    PoseGraphConfig config;
     config.max_iterations = std::min(config_.max_iterations, 30);
     config.relative_decrease = 1e-4;
     for (const double width : kWidths) {

@@ -5,11 +5,10 @@
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
 #include <ceres/sized_cost_function.h>
-#include <ceres/solver.h>
 #include <Eigen/Cholesky>
 
 #include "common/check.hpp"
-#include "common/validation.hpp"
+#include "optimization/ceres_solver.hpp"
 
 namespace swiftlet::optimization {
 namespace {
@@ -55,33 +54,7 @@ class PriorCost final : public ceres::SizedCostFunction<3, 3> {
   Eigen::Vector3d prior_;
 };
 
-ceres::Solver::Options solverOptions(const PoseGraph2DConfig& config) {
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = config.max_iterations;
-  options.initial_trust_region_radius = config.trust_radius;
-  options.function_tolerance = config.relative_decrease;
-  options.num_threads = 1;
-  options.max_solver_time_in_seconds = 1e9;
-  options.logging_type = ceres::SILENT;
-  return options;
-}
-
 }  // namespace
-
-void PoseGraph2DConfig::describe(common::config::Fields& fields) {
-  fields("max_iterations", max_iterations, "Iterations after which the optimization stops.");
-  fields("robust_width", robust_width, "Normalized error beyond which a loop closure loses influence.");
-  fields("relative_decrease", relative_decrease, "Converged when the cost changes by less than this share.");
-}
-
-std::vector<std::string> PoseGraph2DConfig::validate() const {
-  return common::Validation()
-      .within("max_iterations", max_iterations, 1, 1000)
-      .within("robust_width", robust_width, 0.1, 100)
-      .within("relative_decrease", relative_decrease, 1e-15, 0.1)
-      .problems();
-}
 
 EdgeError2D edgeError(const Pose2& from, const Pose2& to, const Pose2& T_from_to) {
   const double c = std::cos(from.yaw_rad), s = std::sin(from.yaw_rad);
@@ -102,7 +75,7 @@ EdgeError2D edgeError(const Pose2& from, const Pose2& to, const Pose2& T_from_to
   return e;
 }
 
-PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraph2DConfig& config) {
+PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraphConfig& config) {
   const int size = static_cast<int>(graph.poses.size());
   SWIFTLET_CHECK(size == 0 || (graph.fixed >= 0 && graph.fixed < size), graph.fixed, size);
   PoseGraph2DSolution solution;
@@ -131,8 +104,7 @@ PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraph2DConfig& 
   for (const int index : graph.also_fixed)
     problem.SetParameterBlockConstant(values[static_cast<std::size_t>(index)].data());
 
-  ceres::Solver::Summary summary;
-  ceres::Solve(solverOptions(config), &problem, &summary);
+  const ceres::Solver::Summary summary = solve(problem, config);
   solution.initial_cost = summary.initial_cost;
   solution.final_cost = summary.final_cost;
   solution.iterations = static_cast<int>(summary.iterations.size());

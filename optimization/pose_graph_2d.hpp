@@ -2,13 +2,12 @@
 // Deterministic: one thread, bounded by iterations, never by time. Pure function, safe from any thread.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
 #include "common/geometry.hpp"
+#include "optimization/pose_graph_config.hpp"
 
 namespace swiftlet::optimization {
 
@@ -29,18 +28,6 @@ struct PoseGraph2D {
   std::vector<int> also_fixed = {};  ///< Nor do these.
 };
 
-struct PoseGraph2DConfig {
-  int max_iterations = 30;
-  double robust_width = 3.0;        ///< Normalized error (sigmas) beyond which a robust edge loses influence (Cauchy).
-  double relative_decrease = 1e-6;  ///< Converged when the cost changes by less than this share.
-  /// The trust region's first radius: how far the first step may go, 1e16 for that of Gauss-Newton. Not read from
-  /// files.
-  double trust_radius = 1e4;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
-};
-
 struct PoseGraph2DSolution {
   std::vector<common::Pose2> poses;
   std::vector<double> squared_errors;  ///< Of each edge at the solution: e' * information * e, 3 degrees of freedom.
@@ -51,7 +38,7 @@ struct PoseGraph2DSolution {
 };
 
 /// Poses that no edge ties to the fixed one stay where they were (a slight prior holds them). Indices must be valid.
-PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraph2DConfig& config);
+PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraphConfig& config);
 
 /// The error of an edge, (R_from' (t_to - t_from) - t, yaw), and its Jacobians with respect to (x, y, yaw) of each
 /// pose.

@@ -5,10 +5,9 @@
 #include <ceres/problem.h>
 #include <ceres/product_manifold.h>
 #include <ceres/sized_cost_function.h>
-#include <ceres/solver.h>
 #include <Eigen/Cholesky>
 
-#include "common/validation.hpp"
+#include "optimization/ceres_solver.hpp"
 #include "optimization/graph_parts.hpp"
 
 namespace swiftlet::optimization {
@@ -61,18 +60,6 @@ class EdgeCost final : public ceres::SizedCostFunction<6, 7, 7> {
   Matrix6d sqrt_information_;
 };
 
-ceres::Solver::Options solverOptions(const PoseGraph3DConfig& config) {
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = config.max_iterations;
-  options.initial_trust_region_radius = config.trust_radius;
-  options.function_tolerance = config.relative_decrease;
-  options.num_threads = 1;
-  options.max_solver_time_in_seconds = 1e9;
-  options.logging_type = ceres::SILENT;
-  return options;
-}
-
 void addPoses(ceres::Problem& problem, const PoseGraph3D& graph, std::vector<Vector7d>& values) {
   auto* manifold = new ceres::ProductManifold<ceres::EuclideanManifold<3>, ceres::EigenQuaternionManifold>;
   values.reserve(graph.poses.size());
@@ -85,7 +72,7 @@ void addPoses(ceres::Problem& problem, const PoseGraph3D& graph, std::vector<Vec
     problem.SetParameterBlockConstant(values[static_cast<std::size_t>(anchor)].data());
 }
 
-void addEdges(ceres::Problem& problem, const PoseGraph3D& graph, const PoseGraph3DConfig& config,
+void addEdges(ceres::Problem& problem, const PoseGraph3D& graph, const PoseGraphConfig& config,
               std::vector<Vector7d>& values) {
   for (const PoseEdge3D& edge : graph.edges)
     problem.AddResidualBlock(new EdgeCost(edge), edge.robust ? new ceres::CauchyLoss(config.robust_width) : nullptr,
@@ -94,20 +81,6 @@ void addEdges(ceres::Problem& problem, const PoseGraph3D& graph, const PoseGraph
 }
 
 }  // namespace
-
-void PoseGraph3DConfig::describe(common::config::Fields& fields) {
-  fields("max_iterations", max_iterations, "Iterations after which the optimization stops.");
-  fields("robust_width", robust_width, "Normalized error beyond which a loop closure loses influence.");
-  fields("relative_decrease", relative_decrease, "Converged when the cost changes by less than this share.");
-}
-
-std::vector<std::string> PoseGraph3DConfig::validate() const {
-  return common::Validation()
-      .within("max_iterations", max_iterations, 1, 1000)
-      .within("robust_width", robust_width, 0.1, 100)
-      .within("relative_decrease", relative_decrease, 1e-15, 0.1)
-      .problems();
-}
 
 EdgeError3D edgeError(const Pose3& from, const Pose3& to, const Pose3& T_from_to) {
   const Eigen::Quaterniond back = T_from_to.rotation.conjugate();
@@ -144,7 +117,7 @@ EdgeError3D edgeError(const Pose3& from, const Pose3& to, const Pose3& T_from_to
   return e;
 }
 
-PoseGraph3DSolution optimize(const PoseGraph3D& graph, const PoseGraph3DConfig& config) {
+PoseGraph3DSolution optimize(const PoseGraph3D& graph, const PoseGraphConfig& config) {
   PoseGraph3DSolution solution;
   solution.poses = graph.poses;
   solution.converged = true;
@@ -154,8 +127,7 @@ PoseGraph3DSolution optimize(const PoseGraph3D& graph, const PoseGraph3DConfig& 
   ceres::Problem problem;
   addPoses(problem, graph, values);
   addEdges(problem, graph, config, values);
-  ceres::Solver::Summary summary;
-  ceres::Solve(solverOptions(config), &problem, &summary);
+  const ceres::Solver::Summary summary = solve(problem, config);
   solution.iterations = static_cast<int>(summary.iterations.size()) - 1;
   solution.converged = summary.termination_type == ceres::CONVERGENCE;
   if (summary.IsSolutionUsable())

@@ -7,13 +7,12 @@
 // is not negative, which for small angles is half the rotation vector. No factor 1/2, no factor 2.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
 #include "common/geometry.hpp"
+#include "optimization/pose_graph_config.hpp"
 
 namespace swiftlet::optimization {
 
@@ -36,18 +35,6 @@ struct PoseGraph3D {
   std::vector<int> fixed = {0};  ///< These poses do not move.
 };
 
-struct PoseGraph3DConfig {
-  int max_iterations = 100;
-  double robust_width = 3.0;        ///< Normalized error (sigmas) beyond which a robust edge loses influence (Cauchy).
-  double relative_decrease = 1e-9;  ///< Converged when the cost changes by less than this share.
-  /// The trust region's first radius: how far the first step may go, 1e16 for that of Gauss-Newton. Not read from
-  /// files.
-  double trust_radius = 1e4;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
-};
-
 struct PoseGraph3DSolution {
   std::vector<common::Pose3> poses;
   std::vector<double> squared_errors;  ///< Of each edge at the solution: e' * information * e, 6 degrees of freedom.
@@ -57,7 +44,7 @@ struct PoseGraph3DSolution {
 
 /// Of several poses that no edge ties to a fixed one, the first stays where it is and the others find their place to
 /// it. Indices must be valid.
-PoseGraph3DSolution optimize(const PoseGraph3D& graph, const PoseGraph3DConfig& config);
+PoseGraph3DSolution optimize(const PoseGraph3D& graph, const PoseGraphConfig& config);
 
 /// The error of an edge and its Jacobians with respect to (x, y, z, qx, qy, qz, qw) of each pose, for steps that keep
 /// the quaternion's length of 1.

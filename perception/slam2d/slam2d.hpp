@@ -76,7 +76,7 @@ struct Slam2dConfig {
   CorrelativeMatcherConfig matcher;
   GridDrawingConfig grid;
   LoopClosureConfig loops;
-  optimization::PoseGraph2DConfig graph;
+  optimization::PoseGraphConfig graph;
   double key_distance_m = 0.4;       ///< A scan is matched to the map after this distance,
   double key_rotation_deg = 25.0;    ///< this rotation,
   double key_time_s = 2.0;           ///< or this time; it becomes a key scan where there is none near.

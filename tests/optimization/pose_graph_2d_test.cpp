@@ -123,7 +123,7 @@ TEST(PoseGraph2D, PosesThatNothingTiesStay) {
 
 TEST(PoseGraph2D, StopsAfterItsIterations) {
   std::vector<Pose2> truth;
-  PoseGraph2DConfig config;
+  PoseGraphConfig config;
   config.max_iterations = 1;
   const auto solution = optimize(ring(100, 3, truth), config);
   EXPECT_LE(solution.iterations, 2);

@@ -138,7 +138,7 @@ TEST(PoseGraph3D, TheOptimumIsThatOfDenseGaussNewton) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream random(seed, "dense");
     const PoseGraph3D graph = noisyGraph<Graph3D>(8, 0.05, 0.05, random);
-    PoseGraph3DConfig config;
+    PoseGraphConfig config;
     config.relative_decrease = 1e-14;
     const PoseGraph3DSolution solution = optimize(graph, config);
     const std::vector<Pose3> expected = denseGaussNewton(graph);
@@ -225,7 +225,7 @@ TEST(PoseGraph3D, FixedPosesStayAndSoDoPosesThatNothingTies) {
 
 TEST(PoseGraph3D, StopsAfterItsIterations) {
   RandomStream random(7, "stop");
-  PoseGraph3DConfig config;
+  PoseGraphConfig config;
   config.max_iterations = 1;
   const auto solution = optimize(noisyGraph<Graph3D>(20, 0.1, 0.3, random), config);
   EXPECT_LE(solution.iterations, 1);

@@ -1,0 +1,15 @@
+// How problems are given to Ceres. For sources only: who uses the library needs no Ceres.
+#pragma once
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include "optimization/pose_graph_config.hpp"
+
+namespace swiftlet::optimization {
+
+/// By sparse Levenberg-Marquardt. The same problem gives the same bits: one thread, bounded by iterations, never by
+/// time.
+ceres::Solver::Summary solve(ceres::Problem& problem, const PoseGraphConfig& config);
+
+}  // namespace swiftlet::optimization
