@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <variant>
 
 #include <fmt/format.h>
@@ -98,21 +99,38 @@ std::optional<Problem> placeStart(Realization& drawn, const RayCaster& rays) {
                       "move the start");
 }
 
-/// Where the vehicle gets to at its flight height.
-common::TiledGrid<std::uint8_t> reachableFrom(const Realization& drawn, const RayCaster& rays) {
-  const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
-  FreeSpaceQuery query;
-  query.start_world_m = drawn.T_world_map.position_m.head<2>();
-  query.hull_radius_m = vehicle.hullRadius_m() + 0.1;
-  const double middle_m = drawn.T_world_map.position_m.z() + drawn.scenario.variation.flight_height_m;
-  query.bottom_m = middle_m - 0.5 * vehicle.hull_height_m;
-  query.top_m = middle_m + 0.5 * vehicle.hull_height_m;
-  query.resolution_m = 0.1;
-  return reachableSpace(rays, query);
-}
+/// Where the vehicle gets to at its flight height from a start that was placed; searched once, when it is first asked
+/// for.
+class Reach {
+ public:
+  Reach(const Realization& drawn, const RayCaster& rays) : drawn_(drawn), rays_(rays) {}
+
+  bool has(const Eigen::Vector2d& place_world_m) {
+    if (!cells_) cells_ = reachableSpace(rays_, atFlightHeight());
+    return cells_->at(cells_->cellAt(place_world_m)) != 0;
+  }
+
+ private:
+  FreeSpaceQuery atFlightHeight() const {
+    const common::VehicleConfig& vehicle = drawn_.scenario.vehicle;
+    FreeSpaceQuery query;
+    query.start_world_m = drawn_.T_world_map.position_m.head<2>();
+    query.hull_radius_m = vehicle.hullRadius_m() + 0.1;
+    const double middle_m = drawn_.T_world_map.position_m.z() + drawn_.scenario.variation.flight_height_m;
+    query.bottom_m = middle_m - 0.5 * vehicle.hull_height_m;
+    query.top_m = middle_m + 0.5 * vehicle.hull_height_m;
+    query.resolution_m = 0.1;
+    return query;
+  }
+
+  const Realization& drawn_;
+  const RayCaster& rays_;
+  std::optional<common::TiledGrid<std::uint8_t>> cells_;
+};
 
 /// Of a start drawn anywhere: it is on the floor of the nominal one, nothing hangs over it, and it leads there.
-std::optional<Problem> badPlace(const Realization& drawn, const StartConfig& nominal, const RayCaster& rays) {
+std::optional<Problem> badPlace(const Realization& drawn, const StartConfig& nominal, const RayCaster& rays,
+                                Reach& reach) {
   if (drawn.scenario.variation.start_area_world_m.empty()) return std::nullopt;
   const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
   const Eigen::Vector3d floor_m = drawn.T_world_map.position_m;
@@ -126,18 +144,15 @@ std::optional<Problem> badPlace(const Realization& drawn, const StartConfig& nom
     if (rays.sweep(hull, at, at, 0.05).shape != Hit::kNothing)
       return startProblem(drawn, "has no room above it", "choose the area elsewhere");
   }
-  const auto reachable = reachableFrom(drawn, rays);
-  if (reachable.at(reachable.cellAt({nominal.x_m, nominal.y_m})) != 0) return std::nullopt;
+  if (reach.has({nominal.x_m, nominal.y_m})) return std::nullopt;
   return startProblem(drawn, "does not lead to the start that is given", "choose the area elsewhere");
 }
 
-std::optional<Problem> unreachableGoal(const Realization& drawn, const RayCaster& rays) {
+std::optional<Problem> unreachableGoal(const Realization& drawn, Reach& reach) {
   const std::vector<double>& goals = drawn.scenario.variation.reachable_map_m;
-  if (goals.empty()) return std::nullopt;
-  const auto reachable = reachableFrom(drawn, rays);
   for (std::size_t i = 0; i + 1 < goals.size(); i += 2) {
     const Eigen::Vector3d goal_world = drawn.T_world_map * Eigen::Vector3d(goals[i], goals[i + 1], 0.0);
-    if (reachable.at(reachable.cellAt(goal_world.head<2>())) == 0)
+    if (!reach.has(goal_world.head<2>()))
       return Problem{drawn.world.start_source, "reachable_map_m",
                      fmt::format("the goal ({:.2f}, {:.2f}) cannot be reached from the start", goals[i], goals[i + 1]),
                      "move the goal or the start"};
@@ -169,11 +184,12 @@ Realization realize(const WorldModel& world, const Scenario& scenario) {
       if (!blocked) blocked = problem;
       continue;
     }
-    if (const auto problem = badPlace(drawn, nominalStart(world, scenario), rays)) {
+    Reach reach(drawn, rays);
+    if (const auto problem = badPlace(drawn, nominalStart(world, scenario), rays, reach)) {
       if (!blocked) blocked = problem;
       continue;
     }
-    const auto problem = unreachableGoal(drawn, rays);
+    const auto problem = unreachableGoal(drawn, reach);
     if (!problem) return drawn;
     if (!unreachable) unreachable = problem;
   }
