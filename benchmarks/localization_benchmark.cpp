@@ -35,8 +35,31 @@ const Scene& scene() {
 
 const Eigen::Matrix3d kStep = Eigen::Vector3d(4e-4, 4e-4, 1e-4).asDiagonal();
 
-/// A whole update: noise, 5,000 particles x 60 beams, weights, resampling, mean; KLD off. The argument chooses the
-/// instructions.
+/// Whole updates along the walk, begun anew by `spread` after its last scan: noise, weights, resampling, mean.
+template <typename Spread>
+void updateAlongTheWalk(benchmark::State& state, perception::ParticleFilter& filter, const Spread& spread) {
+  const auto& scans = scene().scans;
+  std::uint64_t i = 0;
+  for (auto _ : state) {
+    if (i % scans.size() == 0) {
+      state.PauseTiming();
+      spread();
+      state.ResumeTiming();
+    }
+    filter.move(between(Scene::poseAt(0), Scene::poseAt(1)), kStep);
+    filter.weigh(scans[i % scans.size()]);
+    filter.resample();
+    benchmark::DoNotOptimize(filter.estimate());
+    ++i;
+  }
+}
+
+void spreadAtTheBegin(perception::ParticleFilter& filter) {
+  const perception::PoseHypothesis here{Scene::poseAt(0), Eigen::Vector3d(0.01, 0.01, 0.003).asDiagonal(), 1.0};
+  filter.spreadAround(std::span(&here, 1));
+}
+
+/// 5,000 particles x 60 beams; KLD off. The argument chooses the instructions.
 void update(benchmark::State& state, bool global) {
   const auto instructions = static_cast<perception::Instructions>(state.range(0));
   if (!perception::isAvailable(instructions)) {
@@ -49,20 +72,7 @@ void update(benchmark::State& state, bool global) {
   // Spread over the whole building the particles would gather within a few updates: they are told nothing.
   if (global) config.beam_weight = 1e-6;
   perception::ParticleFilter filter(scene().field, config, 1, instructions);
-  const perception::PoseHypothesis here{Scene::poseAt(0), Eigen::Vector3d(0.01, 0.01, 0.003).asDiagonal(), 1.0};
-  std::uint64_t i = 0;
-  for (auto _ : state) {
-    if (i % 32 == 0) {
-      state.PauseTiming();
-      global ? filter.spreadOverFreeSpace() : filter.spreadAround(std::span(&here, 1));
-      state.ResumeTiming();
-    }
-    filter.move(between(Scene::poseAt(0), Scene::poseAt(1)), kStep);
-    filter.weigh(scene().scans[i % 32]);
-    filter.resample();
-    benchmark::DoNotOptimize(filter.estimate());
-    ++i;
-  }
+  updateAlongTheWalk(state, filter, [&] { global ? filter.spreadOverFreeSpace() : spreadAtTheBegin(filter); });
 }
 BENCHMARK_CAPTURE(update, tracking, false)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(update, global, true)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
@@ -70,20 +80,7 @@ BENCHMARK_CAPTURE(update, global, true)->DenseRange(0, 2)->Unit(benchmark::kMicr
 /// As many particles as the belief needs.
 void updateAdaptively(benchmark::State& state) {
   perception::ParticleFilter filter(scene().field, perception::ParticleFilterConfig{}, 1);
-  const perception::PoseHypothesis here{Scene::poseAt(0), Eigen::Vector3d(0.01, 0.01, 0.003).asDiagonal(), 1.0};
-  std::uint64_t i = 0;
-  for (auto _ : state) {
-    if (i % 32 == 0) {
-      state.PauseTiming();
-      filter.spreadAround(std::span(&here, 1));
-      state.ResumeTiming();
-    }
-    filter.move(between(Scene::poseAt(0), Scene::poseAt(1)), kStep);
-    filter.weigh(scene().scans[i % 32]);
-    filter.resample();
-    benchmark::DoNotOptimize(filter.estimate());
-    ++i;
-  }
+  updateAlongTheWalk(state, filter, [&] { spreadAtTheBegin(filter); });
 }
 BENCHMARK(updateAdaptively)->Unit(benchmark::kMicrosecond);
 
