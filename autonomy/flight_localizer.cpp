@@ -24,8 +24,7 @@ FlightLocalizer::FlightLocalizer(const GivenMap& map, const FlightLocalizerConfi
     : config_(config), jobs_(jobs), localizer_(*map.grid, map.T_given_grid, config.localizer, map.seed) {}
 
 bool FlightLocalizer::wantsScan(const common::Pose2& T_odom_body) {
-  withheld_last_ = !withheld_last_ && localizer_.wantsFreshScan(T_odom_body);
-  return withheld_last_;
+  return turns_.withholdNext(localizer_, T_odom_body);
 }
 
 void FlightLocalizer::add(const LocatedScan& located, Time now) {

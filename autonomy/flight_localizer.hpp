@@ -18,6 +18,7 @@
 #include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
 #include "perception/localization/localizer.hpp"
+#include "perception/localization/scan_turns.hpp"
 #include "perception/projection/scan_projection.hpp"
 
 namespace swiftlet::autonomy {
@@ -52,8 +53,7 @@ class FlightLocalizer {
  public:
   FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs);
 
-  /// Whether the next scan, expected at that pose, is to be kept from the odometry. Never two in a row: the odometry
-  /// needs scans that overlap.
+  /// Whether the next scan, expected at that pose, is to be kept from the odometry; see perception::ScanTurns.
   bool wantsScan(const common::Pose2& T_odom_body);
   void add(const LocatedScan& located, common::Time now);
 
@@ -67,7 +67,7 @@ class FlightLocalizer {
   FlightLocalizerConfig config_;
   common::JobRunner& jobs_;
   perception::Localizer localizer_;
-  bool withheld_last_ = true;  ///< The first scan is the odometry's.
+  perception::ScanTurns turns_;
   common::Localization localization_;
   std::vector<common::Event> events_;
 };

@@ -1,12 +1,6 @@
 #include "perception/localization/log_localizer.hpp"
 
 namespace swiftlet::perception {
-namespace {
-
-/// Where a robot whose odometry lost the thread can be, at most, relative to where it was expected.
-const Eigen::Matrix3d kBreakCovariance = Eigen::Vector3d(0.5 * 0.5, 0.5 * 0.5, 0.3 * 0.3).asDiagonal();
-
-}  // namespace
 
 LogLocalizer::LogLocalizer(const common::OccupancyGrid& map, const common::Pose2& T_map_grid,
                            const LocalizerConfig& config, std::uint64_t seed)
@@ -15,11 +9,8 @@ LogLocalizer::LogLocalizer(const common::OccupancyGrid& map, const common::Pose2
 std::optional<LocalizationEstimate> LogLocalizer::add(const LaserSlamInput& input) {
   ++scans_;
   bool withheld = false;
-  const auto step = front_end_.add(input, [&](const common::Pose2& expected) {
-    // Never two in a row: the odometry needs scans that overlap.
-    return withheld = !withheld_last_ && localizer_.wantsFreshScan(expected);
-  });
-  withheld_last_ = withheld;
+  const auto step = front_end_.add(
+      input, [&](const common::Pose2& expected) { return withheld = turns_.withholdNext(localizer_, expected); });
   if (!step) return std::nullopt;
   withheld_ += withheld ? 1 : 0;
   breaks_ += step->broken ? 1 : 0;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "perception/localization/localizer.hpp"
+#include "perception/localization/scan_turns.hpp"
 #include "perception/slam2d/laser_front_end.hpp"
 
 namespace swiftlet::perception {
@@ -33,7 +34,7 @@ class LogLocalizer {
  private:
   LaserFrontEnd front_end_;
   Localizer localizer_;
-  bool withheld_last_ = true;  ///< The first scan is the odometry's.
+  ScanTurns turns_;
   std::uint64_t scans_ = 0, withheld_ = 0, breaks_ = 0;
 };
 
