@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "apps/pictures.hpp"
+#include "apps/wall_clock.hpp"
 #include "apps/web_link.hpp"
 #include "autonomy/autonomy.hpp"
 #include "behaviors/mission.hpp"
@@ -17,13 +18,10 @@
 namespace swiftlet::apps {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using interfaces::Outcome;
 
 constexpr double kPicturePeriod_s = 5.0;
 constexpr auto kPictureLatency = common::Duration::fromMilliseconds(1000);
-
-double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 class Flight {
  public:

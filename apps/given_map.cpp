@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "apps/required.hpp"
 #include "apps/system.hpp"
 #include "common/error.hpp"
 #include "evaluation/trajectory_metrics.hpp"
@@ -63,8 +64,7 @@ FlightMap surveyedMap(const simulation::SurveyConfig& survey, const simulation::
 
   std::error_code failure;
   fs::create_directories(folder, failure);
-  if (const auto written = interfaces::writeMap(folder, "map", slam.map()); !written)
-    throw common::InputError(common::Problem{{}, "", written.error().message, ""});
+  required(interfaces::writeMap(folder, "map", slam.map()));
   // As it is read from there, so that a flight with --map has the same.
   FlightMap map = readFlightMap(folder / "map.yaml");
   map.T_world_given = fitted(slam, tracked, driven);

@@ -1,5 +1,4 @@
 // swiftlet optimize: the poses that best satisfy a pose graph of other people.
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +10,8 @@
 
 #include "apps/command.hpp"
 #include "apps/numbers.hpp"
+#include "apps/required.hpp"
+#include "apps/wall_clock.hpp"
 #include "common/error.hpp"
 #include "common/table.hpp"
 #include "interfaces/files/atomic_file.hpp"
@@ -78,7 +79,7 @@ optimization::PoseGraph3D poseGraph(const G2oGraph3D& file) {
 
 template <typename Graph>
 Report optimizeInPlace(Graph& file, const OptimizeOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   auto graph = poseGraph(file);
   if (file.poses.empty()) graph.poses = chainedPoses(graph);
   optimization::BestStartConfig config;
@@ -95,7 +96,7 @@ Report optimizeInPlace(Graph& file, const OptimizeOptions& options) {
   report.start = toString(solution.start);
   report.iterations = solution.iterations;
   report.converged = solution.converged;
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = secondsSince(begin);
   return report;
 }
 
@@ -157,8 +158,7 @@ int optimizeGraph(const OptimizeOptions& options) {
   Report report = std::visit([&](auto& graph) { return optimizeInPlace(graph, options); }, file.graph);
   if (target) {
     const std::string text = std::visit([](const auto& graph) { return toG2o(graph); }, file.graph);
-    if (const auto written = interfaces::writeAtomically(*target, text); !written)
-      throw common::InputError(common::Problem{{}, "", written.error().message, ""});
+    required(interfaces::writeAtomically(*target, text));
     report.written = target->string();
   }
   fmt::print("{}", options.json ? jsonOf(report, file, options) + "\n" : textOf(report, options));

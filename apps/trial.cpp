@@ -15,6 +15,7 @@
 #include "apps/given_map.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/numbers.hpp"
+#include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
 #include "common/data_paths.hpp"
@@ -176,10 +177,8 @@ interfaces::TrialReport reportOf(const TrialResults& results) {
 
 void writeResults(const TrialResults& results, const fs::path& out) {
   for (const auto& [name, text] : {std::pair{"results.json", toJson(results)},
-                                   std::pair{"report.html", interfaces::trialReport(reportOf(results))}}) {
-    if (const auto written = interfaces::writeAtomically(out / name, text); !written)
-      throw common::InputError(common::Problem{{}, "", written.error().message, ""});
-  }
+                                   std::pair{"report.html", interfaces::trialReport(reportOf(results))}})
+    required(interfaces::writeAtomically(out / name, text));
 }
 
 /// What is to be flown, read and found, its missions sound for the systems that fly them: a mistake in the last trial

@@ -1,0 +1,14 @@
+// Real time: how long something has taken.
+#pragma once
+
+#include <chrono>
+
+namespace swiftlet::apps {
+
+using Clock = std::chrono::steady_clock;
+
+inline double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+}  // namespace swiftlet::apps
