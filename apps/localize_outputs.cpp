@@ -4,10 +4,11 @@
 
 #include <fmt/core.h>
 
-#include "common/error.hpp"
+#include "apps/required.hpp"
 #include "common/world.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/json_lines.hpp"
+#include "interfaces/files/tum.hpp"
 #include "interfaces/report/report.hpp"
 #include "rendering/encode.hpp"
 #include "rendering/map_layers.hpp"
@@ -22,10 +23,6 @@ using Ways = std::vector<std::vector<Eigen::Vector2d>>;
 
 /// Points of a way nearer than this to the one before are not drawn.
 constexpr double kDrawnStep_m = 0.05;
-
-void require(const interfaces::Written& written) {
-  if (!written) throw common::InputError(common::Problem{{}, "", written.error().message, ""});
-}
 
 common::World worldOf(const interfaces::StoredMap& map) {
   common::World world;
@@ -72,6 +69,13 @@ std::string mapDrawing(const common::World& world, const Ways& ways_grid_m) {
   return rendering::mapSvg(world, lines, marks);
 }
 
+void writeTrajectory(const std::filesystem::path& file, const Spool<LocalizedScan>& track) {
+  auto writer = required(interfaces::TumWriter::create(file));
+  track.forEach([&](const LocalizedScan& scan) {
+    required(writer.write({scan.stamp, common::lifted(scan.T_map_body, 0.0)}));
+  });
+}
+
 std::string plotOver(const std::string& title, const std::string& unit, const ThinnedCurve& curve) {
   rendering::Plot plot;
   plot.title = title;
@@ -112,7 +116,7 @@ void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::St
   const common::World world = worldOf(map);
   const Ways ways = inGrid(figures.ways.ways_map_m(), map.T_map_grid);
   interfaces::LocalizationReport report;
-  report.title = fmt::format("{} in {}", figures.log, figures.map);
+  report.title = fmt::format("{}{} in {}", kLocalizeResults.title, figures.log, figures.map);
   report.facts = figures.facts;
   report.warnings = figures.warnings;
   report.events = tableOf(figures.events);
@@ -121,9 +125,10 @@ void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::St
                       plotOver("Time per scan", "ms", figures.milliseconds)};
   std::string events;
   for (const common::Event& event : figures.events) events += interfaces::toJson(event) + "\n";
-  require(interfaces::writeAtomically(out / "events.jsonl", events));
-  require(interfaces::writeAtomically(out / "map.png", mapPicture(world, ways)));
-  require(interfaces::writeAtomically(out / "report.html", interfaces::localizationReport(report)));
+  writeTrajectory(out / "trajectory.tum", figures.track);
+  required(interfaces::writeAtomically(out / "events.jsonl", events));
+  required(interfaces::writeAtomically(out / "map.png", mapPicture(world, ways)));
+  required(interfaces::writeAtomically(out / "report.html", interfaces::localizationReport(report)));
 }
 
 }  // namespace swiftlet::apps

@@ -9,7 +9,11 @@
 #include <Eigen/Core>
 
 #include "apps/map_outputs.hpp"
+#include "apps/results_folder.hpp"
+#include "apps/spool.hpp"
 #include "common/event.hpp"
+#include "common/geometry.hpp"
+#include "common/time.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "perception/localization/localizer.hpp"
 
@@ -26,17 +30,27 @@ class LocalizedWays {
   bool open_ = false;
 };
 
+inline const ResultsKind kLocalizeResults{
+    "localization", "Localization of ", {"trajectory.tum", "events.jsonl", "map.png", "report.html"}};
+
+/// Where the robot was at a scan of the log, under the log's own stamp.
+struct LocalizedScan {
+  common::Time stamp;
+  common::Pose2 T_map_body;
+};
+
 struct LocalizeFigures {
   std::string map, log;
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<std::string> warnings;
   std::vector<common::Event> events;
+  Spool<LocalizedScan> track;  ///< What was localized.
   LocalizedWays ways;
   ThinnedCurve unexplained;   ///< Per cent of each scan while localized, over its index; the greatest of neighbours.
   ThinnedCurve milliseconds;  ///< Over the index of the scan.
 };
 
-/// Writes all but trajectory.tum into `out`, each in one step. Throws InputError when one cannot be written.
+/// Writes all files into `out`, all but trajectory.tum in one step each. Throws InputError when one cannot be written.
 void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
                           const LocalizeFigures& figures);
 

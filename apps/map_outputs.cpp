@@ -1,12 +1,12 @@
 #include "apps/map_outputs.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <functional>
+#include <memory>
 
 #include <Eigen/LU>
 
-#include "common/error.hpp"
+#include "apps/required.hpp"
 #include "common/world.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/g2o.hpp"
@@ -29,24 +29,12 @@ constexpr std::size_t kCurvePoints = 2000;
 constexpr double kDrawnStep_m = 0.05;
 constexpr std::size_t kDrawnPoints = 50'000;
 
-struct SpooledScan {
-  std::int64_t stamp_ns = 0;
-  std::int32_t key = 0;
-  std::int32_t matched = 0;
-  double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
-};
-
-void require(const interfaces::Written& written) {
-  if (!written) throw common::InputError(common::Problem{{}, "", written.error().message, ""});
-}
-
 using PoseOf = std::function<Pose2(const perception::TrackedScan&)>;
 
 void writeTrajectory(const fs::path& file, const TrackSpool& track, const PoseOf& poseOf) {
-  auto writer = interfaces::TumWriter::create(file);
-  if (!writer) throw common::InputError(common::Problem{{}, "", writer.error().message, ""});
-  track.forEach([&](common::Time stamp, const perception::TrackedScan& scan) {
-    require(writer->write({stamp, common::lifted(poseOf(scan), 0.0)}));
+  auto writer = required(interfaces::TumWriter::create(file));
+  track.forEach([&](const StampedScan& tracked) {
+    required(writer.write({tracked.stamp, common::lifted(poseOf(tracked.scan), 0.0)}));
   });
 }
 
@@ -69,8 +57,8 @@ interfaces::G2oGraph2D graphOf(const std::vector<Pose2>& keys, const std::vector
 std::vector<Eigen::Vector2d> lineOf(const TrackSpool& track, const PoseOf& poseOf) {
   std::vector<Eigen::Vector2d> line;
   double step_m = kDrawnStep_m;
-  track.forEach([&](common::Time, const perception::TrackedScan& scan) {
-    const Eigen::Vector2d at = poseOf(scan).position_m();
+  track.forEach([&](const StampedScan& tracked) {
+    const Eigen::Vector2d at = poseOf(tracked.scan).position_m();
     if (line.empty() || (at - line.back()).norm() >= step_m) line.push_back(at);
     if (line.size() <= kDrawnPoints) return;
     for (std::size_t i = 0; 2 * i < line.size(); ++i) line[i] = line[2 * i];
@@ -100,26 +88,6 @@ std::string timePlot(const MapFigures& figures) {
 }
 
 }  // namespace
-
-TrackSpool::TrackSpool() : file_(std::tmpfile()) {
-  if (!file_) throw common::InputError(common::Problem{{}, "", "no temporary file can be made", "is the disk full?"});
-}
-
-void TrackSpool::add(common::Time stamp, const perception::TrackedScan& scan) {
-  const SpooledScan spooled{stamp.nanoseconds(),  scan.key,
-                            scan.matched ? 1 : 0, scan.T_key_robot.x_m,
-                            scan.T_key_robot.y_m, scan.T_key_robot.yaw_rad};
-  if (std::fwrite(&spooled, sizeof spooled, 1, file_.get()) != 1)
-    throw common::InputError(
-        common::Problem{{}, "", "the temporary file of the trajectory cannot be written", "is the disk full?"});
-}
-
-void TrackSpool::forEach(const std::function<void(common::Time, const perception::TrackedScan&)>& use) const {
-  std::rewind(file_.get());
-  for (SpooledScan spooled; std::fread(&spooled, sizeof spooled, 1, file_.get()) == 1;)
-    use(common::Time::fromNanoseconds(spooled.stamp_ns),
-        {spooled.key, {spooled.x_m, spooled.y_m, spooled.yaw_rad}, spooled.matched != 0});
-}
 
 void ThinnedCurve::add(double x, double y) {
   if (pending_ == 0)
@@ -157,18 +125,18 @@ void writeMapOutputs(const fs::path& out, perception::LaserSlam& slam, const Tra
                        true});
 
   interfaces::MapReport report;
-  report.title = "Map of " + figures.log;
+  report.title = kMapResults.title + figures.log;
   report.facts = figures.facts;
   report.warnings = figures.warnings;
   report.map_svg = rendering::mapSvg(world, lines, {{"begin", keys.front().position_m()}});
   report.plots_svg = {timePlot(figures)};
 
   writeTrajectory(out / "trajectory.tum", track, poseOf);
-  require(interfaces::writeMap(out, "map", *world.grid));
-  require(interfaces::writeAtomically(out / "map.png", mapPicture(world)));
+  required(interfaces::writeMap(out, "map", *world.grid));
+  required(interfaces::writeAtomically(out / "map.png", mapPicture(world)));
   if (!slam.particles())
-    require(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
-  require(interfaces::writeAtomically(out / "report.html", interfaces::mapReport(report)));
+    required(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
+  required(interfaces::writeAtomically(out / "report.html", interfaces::mapReport(report)));
 }
 
 }  // namespace swiftlet::apps

@@ -2,37 +2,29 @@
 // graph.g2o.
 #pragma once
 
-#include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <functional>
-#include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "apps/results_folder.hpp"
+#include "apps/spool.hpp"
 #include "common/time.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 
 namespace swiftlet::apps {
 
-/// Every scan of a log in the order it was read, kept on disk: a log may be longer than memory. Used by one thread.
-class TrackSpool {
- public:
-  /// Throws InputError when there is no room for temporary files.
-  TrackSpool();
-  void add(common::Time stamp, const perception::TrackedScan& scan);
-  void forEach(const std::function<void(common::Time, const perception::TrackedScan&)>& use) const;
+inline const ResultsKind kMapResults{
+    "map", "Map of ", {"map.pgm", "map.yaml", "map.png", "trajectory.tum", "graph.g2o", "report.html"}};
 
- private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::unique_ptr<std::FILE, Close> file_;
+/// A scan of the log, under the log's own stamp.
+struct StampedScan {
+  common::Time stamp;
+  perception::TrackedScan scan;
 };
+using TrackSpool = Spool<StampedScan>;
 
 /// A curve of bounded length, whatever the number of values: neighbours are joined, the greatest of them stays.
 class ThinnedCurve {

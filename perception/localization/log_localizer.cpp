@@ -17,9 +17,6 @@ std::optional<LocalizationEstimate> LogLocalizer::add(const LaserSlamInput& inpu
   return localizer_.add({step->scan, step->T_odom_robot, step->covariance_since_last, !step->matched, step->broken});
 }
 
-LogLocalizerCounts LogLocalizer::counts() const {
-  const LaserSlamCounts front_end = front_end_.counts();
-  return {scans_, withheld_, breaks_, front_end.doubtful_stamps, front_end.doubtful_odometry};
-}
+LogLocalizerCounts LogLocalizer::counts() const { return {scans_, withheld_, breaks_, front_end_.counts()}; }
 
 }  // namespace swiftlet::perception

@@ -15,8 +15,7 @@ struct LogLocalizerCounts {
   std::uint64_t scans = 0;
   std::uint64_t withheld = 0;  ///< From the odometry, to weigh particles.
   std::uint64_t breaks = 0;    ///< Times the odometry lost the thread.
-  std::uint64_t doubtful_stamps = 0;
-  std::uint64_t doubtful_odometry = 0;
+  LaserSlamCounts front_end;
 };
 
 /// Not thread-safe. Deterministic.

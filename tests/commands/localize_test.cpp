@@ -1,6 +1,7 @@
 // swiftlet localize as people meet it: a log is found in a map, a log of elsewhere is not, and what cannot be used is
 // refused.
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -23,8 +24,12 @@ using test_support::readText;
 using test_support::runSwiftlet;
 using testing::HasSubstr;
 
+/// Which pose of a record is the odometry's.
+enum class Odometry { kOfBoth, kOfLaser };
+
 /// A walk of `steps` scans, five a second, as a CARMEN log; its odometry has an origin of its own.
-std::string walkThrough(const test::Building& building, std::uint64_t seed, int steps) {
+std::string walkThrough(const test::Building& building, std::uint64_t seed, int steps,
+                        Odometry odometry_of = Odometry::kOfBoth) {
   const test::Walks walks(building);
   test::Walker walker(walks, seed, 0.6);
   test::DriftingOdometry odometry(seed);
@@ -40,7 +45,8 @@ std::string walkThrough(const test::Building& building, std::uint64_t seed, int 
     }
     const common::Pose2& odom = odometry.pose();
     const std::string at = fmt::format(" {:.4f} {:.4f} {:.5f}", odom.x_m, odom.y_m, odom.yaw_rad);
-    log += fmt::format("{}{} {:.2f} robot {:.2f}\n", at, at, 100.0 + 0.2 * i, 0.2 * i);
+    const std::string robot_at = odometry_of == Odometry::kOfLaser ? " 0 0 0" : at;
+    log += fmt::format("{}{} {:.2f} robot {:.2f}\n", at, robot_at, 100.0 + 0.2 * i, 0.2 * i);
     walker.advance(0.2);
     odometry.step(between(pose, walker.pose()));
   }
@@ -71,6 +77,7 @@ class Localize : public test_support::Scratch {
     const ProgramEnd end = runSwiftlet(arguments);
     EXPECT_EQ(end.exit_code, 2) << describe(end);
     EXPECT_THAT(end.err, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(path("out"))) << message;
   }
 };
 
@@ -85,6 +92,8 @@ TEST_F(Localize, ALogIsFoundInItsMapAndWritten) {
   EXPECT_EQ(json.at("times_lost"), 0);
   EXPECT_EQ(json.at("state_at_end"), "localized");
   EXPECT_GE(json.at("localized_scans").get<int>(), 75);
+  EXPECT_TRUE(json.at("complete").get<bool>());
+  EXPECT_TRUE(json.at("notes").empty()) << json.dump(2);
   const std::string trajectory = readText(path("out/trajectory.tum"));
   EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), json.at("localized_scans").get<int>());
   EXPECT_THAT(trajectory, HasSubstr("129.8")) << "stamped as the log is";
@@ -103,6 +112,75 @@ TEST_F(Localize, ALogOfAnotherFloorIsNeverLocalized) {
       runSwiftlet({"localize", map, write("walk.log", walkThrough(test::hall(22), 22, 100)), "--out", path("out")});
   EXPECT_EQ(end.exit_code, 1) << describe(end);
   EXPECT_THAT(end.out, HasSubstr("never localized"));
+}
+
+TEST_F(Localize, ReadsWhatMapReads) {
+  const std::string formats = "CARMEN, BreezySLAM .dat or rosbag 1; plain, or packed by";
+  for (const std::string command : {"map", "localize"})
+    EXPECT_THAT(runSwiftlet({command, "--help"}).out, HasSubstr(formats)) << command;
+}
+
+TEST_F(Localize, WhatIsOddAboutTheLogIsSaid) {
+  const test::Building building = test::offices(21);
+  const std::string map = writeMapOf(building, "map");
+  const std::string log = write("odd.log", walkThrough(building, 21, 150, Odometry::kOfLaser) + "FLASER 3 1.0 \xff\n");
+  const ProgramEnd told = runSwiftlet({"localize", map, log, "--out", path("out")});
+  EXPECT_EQ(told.exit_code, 0) << describe(told);
+  EXPECT_THAT(told.out, HasSubstr("note: the robot's pose never changes"));
+  EXPECT_THAT(told.out, HasSubstr("note: 1 record could not be read and was skipped\nnote: "));
+  EXPECT_THAT(readText(path("out/report.html")), HasSubstr("the robot&#39;s pose never changes"));
+
+  const ProgramEnd figures = runSwiftlet({"localize", map, log, "--out", path("out"), "--json"});
+  EXPECT_EQ(figures.exit_code, 0) << describe(figures);
+  EXPECT_THAT(nlohmann::json::parse(figures.out).at("notes").dump(), HasSubstr("the robot's pose never changes"));
+}
+
+TEST_F(Localize, OfADamagedArchiveWhatCameBeforeIsLocalized) {
+  const test::Building building = test::offices(21);
+  const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(building, 21, 200));
+  ASSERT_EQ(std::system(("gzip -kf " + log).c_str()), 0);
+  const std::string packed = readText(log + ".gz");
+  const ProgramEnd end = runSwiftlet(
+      {"localize", map, write("cut.log.gz", packed.substr(0, packed.size() * 3 / 4)), "--out", path("out"), "--json"});
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("is cut or damaged, its end cannot be read"));
+  const auto json = nlohmann::json::parse(end.out);
+  EXPECT_FALSE(json.at("complete").get<bool>());
+  EXPECT_EQ(json.at("times_localized"), 1);
+  EXPECT_LT(json.at("scans").get<int>(), 200);
+  for (const char* name : {"trajectory.tum", "events.jsonl", "map.png", "report.html"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / name)) << name;
+}
+
+TEST_F(Localize, OlderResultsAreReplacedAndNothingElse) {
+  const test::Building building = test::offices(21);
+  const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(building, 21, 100));
+  const auto localize = [&](const std::string& out) { return runSwiftlet({"localize", map, log, "--out", path(out)}); };
+  ASSERT_EQ(localize("out").exit_code, 0);
+  const std::string trajectory = readText(path("out/trajectory.tum"));
+  write("out/trajectory.tum", "old");
+  EXPECT_EQ(localize("out").exit_code, 0) << "older results are replaced";
+  EXPECT_EQ(readText(path("out/trajectory.tum")), trajectory);
+
+  write("out/mine.txt", "mine");
+  write("out/trajectory.tum", "old");
+  ProgramEnd end = localize("out");
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("holds `mine.txt`, which is no file of a localization"));
+  EXPECT_EQ(readText(path("out/trajectory.tum")), "old");
+
+  ASSERT_EQ(runSwiftlet({"map", log, "--out", path("mapped")}).exit_code, 0);
+  const std::string report = readText(path("mapped/report.html"));
+  end = localize("mapped");
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("which is no file of a localization"));
+  EXPECT_EQ(readText(path("mapped/report.html")), report);
+
+  for (const char* name : {"map.pgm", "map.yaml", "graph.g2o"}) std::filesystem::remove(folder_ / "mapped" / name);
+  end = localize("mapped");
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("holds no localization of this program"));
+  EXPECT_EQ(readText(path("mapped/report.html")), report);
 }
 
 TEST_F(Localize, RefusesWhatItCannotUse) {

@@ -1,0 +1,89 @@
+#include "apps/recorded_log.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "apps/system.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::unique_ptr<interfaces::LaserLog> opened(const RecordedLogOptions& options) {
+  interfaces::LaserLogOptions log_options;
+  if (!options.sensor.empty()) log_options.sensor = loadLaser(options.sensor);
+  return interfaces::openLaserLog(options.file, log_options);
+}
+
+}  // namespace
+
+void addLogOptions(CLI::App& command, RecordedLogOptions& options, const std::string& suffix) {
+  command
+      .add_option("log", options.file, "CARMEN, BreezySLAM .dat or rosbag 1; plain, or packed by gzip, bzip2 or xz.")
+      ->required();
+  command.add_option("--sensor", options.sensor,
+                     "A data sheet of config/sensors or a file, where the log does not say what its laser is.");
+  command
+      .add_option("--odometry", options.odometry,
+                  "auto: the log's, as far as it proves right. none: as if it had none.")
+      ->check(CLI::IsMember({"auto", "none"}))
+      ->capture_default_str();
+  command.add_option("--out", options.out, fmt::format("Folder for the results; LOG-{} when not given.", suffix));
+  command.add_flag("--json", options.json, "Print the figures as JSON.");
+}
+
+fs::path folderFor(const RecordedLogOptions& options, const std::string& suffix) {
+  if (!options.out.empty()) return options.out;
+  const std::string name = fs::path(options.file).filename().string();
+  return fmt::format("{}-{}", name.substr(0, name.find('.')), suffix);
+}
+
+std::string plural(std::uint64_t count, const std::string& one, const std::string& more) {
+  return fmt::format("{} {}", count, count == 1 ? one : more);
+}
+
+RecordedLog::RecordedLog(const RecordedLogOptions& options)
+    : file_(options.file), uses_odometry_(options.odometry != "none"), reader_(opened(options)) {}
+
+std::optional<interfaces::LoggedScan> RecordedLog::next() {
+  try {
+    auto logged = reader_->next();
+    scans_ += logged ? 1 : 0;
+    return logged;
+  } catch (const common::InputError& e) {
+    if (scans_ == 0) throw;
+    damage_ = e.what();
+    return std::nullopt;
+  }
+}
+
+perception::LaserSlamInput RecordedLog::inputOf(const interfaces::LoggedScan& logged) const {
+  return {logged.scan, logged.T_robot_laser, uses_odometry_ ? logged.T_odom_robot : std::nullopt};
+}
+
+std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts& found) const {
+  std::vector<std::string> warnings = reader_->notes();
+  if (!damage_.empty()) warnings.push_back("only what came before could be read: " + damage_);
+  if (const auto n = reader_->counts().skipped_records; n > 0) {
+    warnings.push_back(plural(n, "record could not be read and was", "records could not be read and were") +
+                       " skipped");
+    for (const common::Problem& problem : reader_->counts().first_problems) warnings.push_back(toString(problem));
+  }
+  if (const auto n = reader_->counts().invalid_ranges; n > 0)
+    warnings.push_back(plural(n, "range is", "ranges are") + " negative or not a number");
+  if (const auto n = found.doubtful_stamps; n > 0)
+    warnings.push_back(plural(n, "time stamp does", "time stamps do") +
+                       " not come after the one before: the order of the file is believed, not the intervals");
+  if (const auto n = found.doubtful_odometry; n > 0)
+    warnings.push_back(plural(n, "step", "steps") + " of the odometry no robot makes; not believed");
+  return warnings;
+}
+
+common::InputError RecordedLog::error(const std::string& message) const {
+  const std::vector<common::Problem>& problems = reader_->counts().first_problems;
+  return common::InputError(
+      common::Problem{{file_}, "", message, problems.empty() ? "" : "first problem: " + toString(problems.front())});
+}
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,69 @@
+// A recorded laser log as a subcommand takes it: its options, its scans, and what is odd about it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/error.hpp"
+#include "interfaces/laser_log/laser_log.hpp"
+#include "perception/slam2d/laser_front_end.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace swiftlet::apps {
+
+struct RecordedLogOptions {
+  std::string file;
+  std::string sensor;
+  std::string odometry = "auto";
+  std::string out;
+  bool json = false;
+};
+
+/// Adds the log, --sensor, --odometry, --out and --json. `suffix` ends the name of the folder that is made when none is
+/// given.
+void addLogOptions(CLI::App& command, RecordedLogOptions& options, const std::string& suffix);
+
+/// The folder for the results. Where none is given, "logs/intel.clf.bz2" -> "intel-map".
+std::filesystem::path folderFor(const RecordedLogOptions& options, const std::string& suffix);
+
+/// "1 range", "2 ranges".
+std::string plural(std::uint64_t count, const std::string& one, const std::string& more);
+
+/// One thread at a time.
+class RecordedLog {
+ public:
+  /// Throws InputError when there is no such log or sensor.
+  explicit RecordedLog(const RecordedLogOptions& options);
+
+  /// None at the end, also at one that a damage makes: what came before it counts all the same. Throws InputError when
+  /// not a single scan did.
+  std::optional<interfaces::LoggedScan> next();
+  /// `logged` for SLAM and localization, without its odometry where that is not to be used. Refers to `logged`.
+  perception::LaserSlamInput inputOf(const interfaces::LoggedScan& logged) const;
+
+  const interfaces::LaserLog& reader() const { return *reader_; }
+  std::uint64_t scans() const { return scans_; }
+  /// Why it could not be read to its end; empty when it could.
+  const std::string& damage() const { return damage_; }
+
+  /// For people: what is odd about it, with what the front end found.
+  std::vector<std::string> warnings(const perception::LaserSlamCounts& found) const;
+  /// An error about the log as a whole, with the first of its records that could not be read.
+  common::InputError error(const std::string& message) const;
+
+ private:
+  std::string file_;
+  bool uses_odometry_;
+  std::unique_ptr<interfaces::LaserLog> reader_;
+  std::uint64_t scans_ = 0;
+  std::string damage_;
+};
+
+}  // namespace swiftlet::apps
