@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common/square.hpp"
 #include "perception/altitude/height_filter.hpp"
 #include "perception/altitude/level_store.hpp"
 #include "perception/altitude/new_surface.hpp"
@@ -17,6 +18,7 @@ using altitude::LevelEstimate;
 using altitude::LevelStore;
 using altitude::NewSurface;
 using common::CellIndex;
+using common::square;
 using common::Time;
 
 namespace {
@@ -26,8 +28,6 @@ constexpr int kNone = -1;
 constexpr int kFloor = 0;
 constexpr double kFarBelow_sigma = 8.0;  // An unsure height is likelier than a step down from the floor.
 constexpr double kLineAfter_s = 0.15;    // A surface seen for less is taken to stay where it is.
-
-double square(double x) { return x * x; }
 
 struct Beam {
   CellIndex cell;

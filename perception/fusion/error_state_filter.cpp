@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/check.hpp"
+#include "common/square.hpp"
 #include "common/validation.hpp"
 #include "perception/fusion/filter_state.hpp"
 #include "perception/fusion/imu_model.hpp"
@@ -20,6 +21,7 @@ namespace swiftlet::perception {
 using namespace fusion;
 using common::Duration;
 using common::kRadPerDeg;
+using common::square;
 using common::Time;
 
 namespace {
@@ -34,8 +36,6 @@ constexpr std::size_t kMeasurementCapacity = 1024;
 constexpr double kAhrsGate = 3.0;
 /// What was felt between two samples is not known over more than this.
 constexpr double kLongestDragStep_s = 0.05;
-
-double square(double x) { return x * x; }
 
 /// One IMU sample and the state after everything measured up to it.
 struct Slot {

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/check.hpp"
+#include "common/square.hpp"
 #include "common/validation.hpp"
 #include "perception/localization/place_posterior.hpp"
 
@@ -14,6 +15,7 @@ namespace swiftlet::perception {
 
 using common::kRadPerDeg;
 using common::Pose2;
+using common::square;
 
 namespace {
 
@@ -28,8 +30,6 @@ constexpr double kTurnShare = 0.02;
 
 /// How far an odometry that lost the thread can be off, relative to where it is believed to be.
 const Eigen::Matrix3d kBreakCovariance = Eigen::Vector3d(0.5 * 0.5, 0.5 * 0.5, 0.3 * 0.3).asDiagonal();
-
-double square(double value) { return value * value; }
 
 PlaceDistinction distinctionOf(const LocalizerConfig& config) {
   return {config.search.distinct_m, config.search.distinct_deg * kRadPerDeg};

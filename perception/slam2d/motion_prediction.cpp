@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "common/square.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::perception {
@@ -14,8 +15,8 @@ namespace {
 
 using common::kRadPerDeg;
 using common::Pose2;
+using common::square;
 
-double square(double value) { return value * value; }
 /// Errors of position and heading are compared as they move what is seen at this distance.
 constexpr double kLever_m = 3.0;
 /// A single error counts as no more than this many sigmas, so that one slip is not remembered for long.
