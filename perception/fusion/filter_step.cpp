@@ -1,0 +1,185 @@
+#include "perception/fusion/filter_step.hpp"
+
+#include <algorithm>
+
+#include "common/square.hpp"
+
+namespace swiftlet::perception::fusion {
+
+using common::kRadPerDeg;
+using common::square;
+using common::Time;
+
+namespace {
+
+/// Standard deviations that an AHRS may be off before it is believed more than the filter.
+constexpr double kAhrsGate = 3.0;
+/// What was felt between two samples is not known over more than this.
+constexpr double kLongestDragStep_s = 0.05;
+
+}  // namespace
+
+FilterStep::FilterStep(const ErrorStateFilter::Config& config)
+    : config_(config),
+      noise_{config.accelerometer_noise_m_s2_rthz,
+             config.gyroscope_noise_rad_s_rthz,
+             config.accelerometer_bias_walk_m_s3_rthz,
+             config.gyroscope_bias_walk_rad_s2_rthz,
+             config.drag_walk_1_s_rts,
+             config.wind_walk_m_s_rts,
+             config.gravity_m_s2} {}
+
+void FilterStep::advance(const Slot& before, std::span<const Measurement> measured, Slot& now) const {
+  FilterState& state = now.state;
+  state = before.state;
+  ImuValue at = before.imu;
+  const auto advanceTo = [&](Time time) {
+    if (time <= at.stamp) return;
+    const ImuValue next = interpolate(before.imu, now.imu, time);
+    propagate(state, at, next, noise_);
+    at = next;
+  };
+  for (const Measurement& measurement : measured) {
+    advanceTo(measurement.stamp);
+    apply(state, measurement);
+  }
+  advanceTo(now.imu.stamp);
+  if (config_.use_drag) feelDrag(state, before, now);
+  applySlot(state, now);
+  // Rounding makes the two halves drift apart over many steps.
+  state.covariance.triangularView<Eigen::StrictlyUpper>() = state.covariance.transpose();
+  watch(state);
+}
+
+void FilterStep::apply(FilterState& state, const Measurement& m) const {
+  switch (m.kind) {
+    case MeasurementKind::kClone:
+      state.clonePose();
+      return;
+    case MeasurementKind::kHeight:
+      state.height_common_variance_m2 = m.common_variance_m2;
+      gatedUpdate(state, state.height_gate, height(state, m.value, m.covariance(0, 0)));
+      return;
+    case MeasurementKind::kVerticalSpeed:
+      update(state, verticalSpeed(state, m.value, m.covariance(0, 0)));
+      return;
+    case MeasurementKind::kAbsolutePose:
+      update(state, absolutePose(state, m.pose, m.covariance));
+      return;
+    case MeasurementKind::kRelativePose: {
+      const int clone = state.cloneAt(m.from);
+      if (clone < 0) return;  // Dropped for newer ones since it was accepted.
+      state.clones[static_cast<std::size_t>(clone)].last_used = m.stamp;
+      if (m.unseen_direction)
+        gatedUpdate(state, state.relative_gate,
+                    relativePoseAcross(state, clone, m.pose, m.covariance, *m.unseen_direction));
+      else
+        gatedUpdate(state, state.relative_gate, relativePose(state, clone, m.pose, m.covariance));
+      return;
+    }
+  }
+}
+
+void FilterStep::applySlot(FilterState& state, const Slot& s) const {
+  if (!s.attitude_due) return;
+  if (config_.use_ahrs) updateByAhrs(state, s.up_body);
+  if (config_.use_drag) updateByDrag(state);
+  if (config_.use_gravity) {
+    update(state,
+           gravity(state, s.imu.specific_force_body_m_s2, config_.gravity_m_s2, square(config_.gravity_sigma_m_s2)));
+  }
+  if (s.at_rest) {
+    update(state, zeroVelocity(state, square(config_.zero_velocity_sigma_m_s)));
+    update(state, zeroRotation(state, s.imu.angular_velocity_body_rad_s, square(config_.zero_rotation_sigma_rad_s)));
+    state.relative_gate.last_accepted = s.imu.stamp;
+  }
+}
+
+void FilterStep::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const {
+  const double variance = square(config_.ahrs_sigma_deg * kRadPerDeg);
+  Linearized<2> m = upDirection(state, up_body, variance);
+  if (mahalanobis2(state, m) > square(kAhrsGate)) {
+    // The AHRS does not err that far: the filter's own horizon has slipped, and with it what it takes for bias: a wrong
+    // horizon moves gravity into the horizontal axes, and takes next to nothing from the vertical one.
+    const double slipped2 = m.residual.squaredNorm();
+    auto diagonal = state.covariance.diagonal();
+    diagonal.segment<2>(kAttitude).array() += slipped2;
+    diagonal.segment<2>(kAccelerometerBias).array() += square(config_.gravity_m_s2) * slipped2;
+  } else {
+    // N samples of an error that keeps for tau are worth as much as white ones of this variance (integral of the
+    // autocorrelation).
+    m.noise *= 1.0 + 2.0 * config_.ahrs_correlation_s * config_.attitude_rate_hz;
+  }
+  update(state, m);
+}
+
+/// The ground, too, pushes a vehicle that stands; then nothing is learned of the air.
+void FilterStep::feelDrag(FilterState& state, const Slot& before, const Slot& now) const {
+  DragStretch& stretch = state.drag_stretch;
+  const double dt_s = (now.imu.stamp - before.imu.stamp).seconds();
+  if (now.at_rest || dt_s > kLongestDragStep_s) {
+    stretch = {};
+    return;
+  }
+  stretch.seconds += dt_s;
+  stretch.force_sum_m_s +=
+      0.5 * dt_s * (before.imu.specific_force_body_m_s2 + now.imu.specific_force_body_m_s2).head<2>();
+  stretch.velocity_sum_m += dt_s * (state.rotation_odom_body.conjugate() * state.velocity_odom_m_s).head<2>();
+}
+
+/// Who is pushed or touches something feels more than the air: that is left out.
+void FilterStep::updateByDrag(FilterState& state) const {
+  if (state.drag_stretch.seconds <= 0.0) return;
+  const Linearized<2> m = drag(state, square(config_.drag_noise_m_s2_rthz) / state.drag_stretch.seconds);
+  if (mahalanobis2(state, m) <= square(config_.gate_sigma)) update(state, m);
+  state.drag_stretch = {};
+}
+
+template <int K>
+void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& m) const {
+  const double limit2 = square(config_.gate_sigma) + 2.5 * (K - 1);  // About the same tail for K degrees of freedom.
+  if (mahalanobis2(state, m) > limit2) {
+    if (!gate.closed) {
+      gate.closed = true;
+      gate.closed_since = state.stamp;
+    }
+    ++gate.rejected;
+    if ((state.stamp - gate.closed_since).seconds() < config_.recovery_s) return;
+    // The measurement has disagreed for too long to be an outlier: the estimate is wrong, by about the residual.
+    const double jump2 = m.residual.template head<std::max(1, K - 1)>().squaredNorm();
+    auto diagonal = state.covariance.diagonal();
+    if constexpr (K == 1) {
+      diagonal(kPosition + 2) += jump2;
+      diagonal(kVelocity + 2) += jump2 / square(config_.recovery_s);
+    } else {
+      diagonal.segment<2>(kPosition).array() += jump2;
+      diagonal.segment<2>(kVelocity).array() += jump2 / square(config_.recovery_s);
+      diagonal(kAttitude + 2) += square(m.residual(K - 1));
+      // What carried the velocity away is most often a slipped horizon.
+      diagonal.segment<2>(kAttitude).array() += jump2 / square(square(config_.recovery_s) * config_.gravity_m_s2);
+    }
+    recover(state);
+  }
+  if (!update(state, m)) return;
+  gate.closed = false;
+  gate.last_accepted = state.stamp;
+}
+
+void FilterStep::recover(FilterState& state) const {
+  const bool recent =
+      state.recent_recoveries > 0 && (state.stamp - state.last_recovery).seconds() < config_.recovery_window_s;
+  state.recent_recoveries = recent ? state.recent_recoveries + 1 : 1;
+  state.last_recovery = state.stamp;
+  ++state.recoveries;
+  if (state.recent_recoveries > config_.max_recoveries) state.diverged = true;
+}
+
+void FilterStep::watch(FilterState& state) const {
+  const double velocity_variance = state.covariance.diagonal().segment<3>(kVelocity).maxCoeff();
+  const bool sane = state.finite() && state.velocity_odom_m_s.norm() < config_.max_speed_m_s &&
+                    velocity_variance < square(config_.diverged_velocity_sigma_m_s) &&
+                    state.covariance.diagonal().minCoeff() >= 0.0;
+  if (!sane) state.diverged = true;
+}
+
+}  // namespace swiftlet::perception::fusion

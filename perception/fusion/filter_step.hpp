@@ -1,0 +1,49 @@
+// The fusion filter's step from one IMU sample to the next. Private to fusion.
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "perception/fusion/error_state_filter.hpp"
+#include "perception/fusion/filter_state.hpp"
+#include "perception/fusion/imu_model.hpp"
+#include "perception/fusion/measurement_history.hpp"
+#include "perception/fusion/measurement_models.hpp"
+
+namespace swiftlet::perception::fusion {
+
+/// One IMU sample and the state after everything measured up to it.
+struct Slot {
+  ImuValue imu;
+  Eigen::Vector3d up_body = Eigen::Vector3d::UnitZ();  ///< By the AHRS.
+  bool attitude_due = false;
+  bool at_rest = false;
+  FilterState state;
+};
+
+/// A function of the state before and what was measured since; it keeps nothing but its configuration.
+class FilterStep {
+ public:
+  explicit FilterStep(const ErrorStateFilter::Config& config);
+
+  /// Makes now.state: strapdown from `before` on, each of `measured` (after `before`, until `now`, in this order) at
+  /// its time, at the end what the sample itself says. Outliers are gated; the state itself says when it has diverged.
+  void advance(const Slot& before, std::span<const Measurement> measured, Slot& now) const;
+
+ private:
+  void apply(FilterState& state, const Measurement& measurement) const;
+  void applySlot(FilterState& state, const Slot& slot) const;
+  void updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const;
+  void feelDrag(FilterState& state, const Slot& before, const Slot& now) const;
+  void updateByDrag(FilterState& state) const;
+  template <int K>
+  void gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& measurement) const;
+  void recover(FilterState& state) const;
+  void watch(FilterState& state) const;
+
+  ErrorStateFilter::Config config_;
+  ImuNoise noise_;
+};
+
+}  // namespace swiftlet::perception::fusion

@@ -1,0 +1,162 @@
+#include "perception/fusion/state_history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/check.hpp"
+#include "perception/fusion/pose_history.hpp"
+
+namespace swiftlet::perception::fusion {
+
+using common::Duration;
+using common::Time;
+
+namespace {
+
+constexpr double kMaxExtrapolation_s = 0.02;
+constexpr double kMaxAhead_s = 0.5;
+/// IMU samples a second that the history has room for; a faster IMU shortens it.
+constexpr double kRingRate_hz = 256.0;
+constexpr std::size_t kMeasurementCapacity = 1024;
+
+/// Forwards or backwards, turning and moving as at the slot.
+common::Pose3 extrapolated(const Slot& slot, Time time) {
+  const FilterState& state = slot.state;
+  const double ahead_s = (time - state.stamp).seconds();
+  const Eigen::Vector3d turn_body_rad = ahead_s * (slot.imu.angular_velocity_body_rad_s - state.gyroscope_bias_rad_s);
+  return common::Pose3{state.rotation_odom_body * common::expSO3(turn_body_rad),
+                       state.position_odom_m + ahead_s * state.velocity_odom_m_s};
+}
+
+}  // namespace
+
+StateHistory::StateHistory(const ErrorStateFilter::Config& config)
+    : step_(config),
+      length_(Duration::fromSeconds(config.history_s)),
+      attitude_period_s_(1.0 / config.attitude_rate_hz),
+      ring_(static_cast<std::size_t>(std::ceil(config.history_s * kRingRate_hz)) + 2),
+      measurements_(kMeasurementCapacity) {}
+
+void StateHistory::start(const Slot& first) {
+  oldest_ = 0;
+  count_ = 1;
+  dirty_from_ = 1;
+  ring_[0] = first;
+  measurements_.clear();
+  last_attitude_ = first.imu.stamp;
+  diverged_ = false;
+}
+
+void StateHistory::push(const common::ImuSample& sample, bool at_rest) {
+  const Time now = sample.stamps.measured;
+  replay(count_);  // Before the ring may lose the oldest state.
+  if (count_ == ring_.size()) dropOldest();
+  // Too old by the configured length also when the ring has room: how late is late must not depend on the IMU's rate.
+  while (count_ > 2 && now - slot(1).imu.stamp > length_ && dirty_from_ > 1) dropOldest();
+  measurements_.dropUntil(slot(0).imu.stamp);
+  Slot& s = slot(count_);
+  s.imu = {now, sample.angular_velocity_body_rad_s, sample.specific_force_body_m_s2};
+  s.at_rest = at_rest;
+  s.up_body = sample.rotation_ahrs_body.conjugate() * Eigen::Vector3d::UnitZ();
+  s.attitude_due = (now - last_attitude_).seconds() >= attitude_period_s_ - 1e-6;
+  if (s.attitude_due) last_attitude_ = now;
+  dirty_from_ = std::min(dirty_from_, count_);
+  ++count_;
+  replay(count_);
+}
+
+void StateHistory::dropOldest() {
+  SWIFTLET_CHECK(dirty_from_ > 0, dirty_from_);
+  oldest_ = (oldest_ + 1) % ring_.size();
+  --count_;
+  --dirty_from_;
+}
+
+Insertion StateHistory::insert(const Measurement& measurement) {
+  if (count_ == 0 || measurement.stamp <= slot(0).imu.stamp) return Insertion::kTooOld;
+  if ((measurement.stamp - newestStamp()).seconds() > kMaxAhead_s) return Insertion::kTooNew;
+  if (!measurements_.insert(measurement)) return Insertion::kTooOld;
+  std::size_t first = count_;
+  while (first > 1 && slot(first - 1).imu.stamp >= measurement.stamp) --first;
+  dirty_from_ = std::min(dirty_from_, first);
+  return Insertion::kTaken;
+}
+
+void StateHistory::replay(std::size_t until) {
+  if (dirty_from_ >= until) return;
+  SWIFTLET_CHECK(dirty_from_ > 0, until);
+  replays_ += std::min(until, count_ - 1) - dirty_from_;
+  for (std::size_t i = dirty_from_; i < until; ++i) {
+    const Slot& before = slot(i - 1);
+    Slot& now = slot(i);
+    step_.advance(before, measurements_.within(before.imu.stamp, now.imu.stamp), now);
+  }
+  dirty_from_ = until;
+  diverged_ = diverged_ || slot(until - 1).state.diverged;
+}
+
+const Slot& StateHistory::newest() {
+  replay(count_);
+  return slot(count_ - 1);
+}
+
+bool StateHistory::holdsClone(Time time) const {
+  return count_ > 0 && (measurements_.holdsClone(time) || slot(count_ - 1).state.cloneAt(time) >= 0);
+}
+
+std::optional<common::Pose3> StateHistory::poseAt(Time time) {
+  if (count_ == 0 || time < slot(0).imu.stamp) return std::nullopt;
+  if (time >= newestStamp()) {
+    const Slot& last = newest();
+    if ((time - last.imu.stamp).seconds() > kMaxExtrapolation_s) return std::nullopt;
+    return extrapolated(last, time);
+  }
+  std::size_t low = 0, high = count_ - 1;  // slot(low).stamp <= time < slot(high).stamp
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (slot(middle).imu.stamp <= time ? low : high) = middle;
+  }
+  replay(high + 1);
+  const FilterState& a = slot(low).state;
+  const FilterState& b = slot(high).state;
+  const common::Pose3 begin{a.rotation_odom_body, a.position_odom_m}, end{b.rotation_odom_body, b.position_odom_m};
+  // What was measured between the two made the estimate jump there: before it counts the one, from it on the other.
+  const auto measured = measurements_.within(a.stamp, b.stamp);
+  if (measured.empty())
+    return perception::interpolate(begin, end, (time - a.stamp).seconds() / (b.stamp - a.stamp).seconds());
+  return extrapolated(slot(time < measured.front().stamp ? low : high), time);
+}
+
+std::optional<VerticalState> StateHistory::verticalAt(Time time) {
+  const auto pose = poseAt(time);
+  if (!pose) return std::nullopt;
+  std::size_t at = count_ - 1;
+  while (at > 0 && slot(at).imu.stamp > time) --at;
+  const FilterState& state = slot(at).state;
+  constexpr int kZ = kPosition + 2, kVz = kVelocity + 2;
+  VerticalState vertical{pose->position_m.z(), state.velocity_odom_m_s.z(), Eigen::Matrix2d::Zero()};
+  vertical.covariance << state.covariance(kZ, kZ) + state.height_common_variance_m2, state.covariance(kZ, kVz),
+      state.covariance(kVz, kZ), state.covariance(kVz, kVz);
+  return vertical;
+}
+
+PoseHistory StateHistory::poses(Time from, Time to) {
+  std::vector<common::StampedPose> poses;
+  if (count_ == 0) return {};
+  replay(count_);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const FilterState& s = slot(i).state;
+    const bool ends_before = i + 1 < count_ && slot(i + 1).state.stamp <= from;
+    if (ends_before) continue;
+    poses.push_back({s.stamp, {s.rotation_odom_body, s.position_odom_m}});
+    if (s.stamp >= to) break;
+  }
+  if (!poses.empty() && poses.back().stamp < to) {
+    const Time end = std::min(to, poses.back().stamp + Duration::fromSeconds(kMaxExtrapolation_s));
+    if (const auto pose = poseAt(end)) poses.push_back({end, *pose});
+  }
+  return PoseHistory(std::move(poses));
+}
+
+}  // namespace swiftlet::perception::fusion
