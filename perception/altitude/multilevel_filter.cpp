@@ -3,50 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <numbers>
 #include <utility>
 
 #include "common/square.hpp"
+#include "perception/altitude/ground_scan.hpp"
 #include "perception/altitude/height_filter.hpp"
+#include "perception/altitude/level_matching.hpp"
 #include "perception/altitude/level_store.hpp"
 #include "perception/altitude/new_surface.hpp"
 
 namespace swiftlet::perception {
 
-using altitude::HeightFilter;
-using altitude::LevelEstimate;
-using altitude::LevelStore;
-using altitude::NewSurface;
+using namespace altitude;
 using common::CellIndex;
 using common::square;
 using common::Time;
 
 namespace {
 
-constexpr double kFarthest_m = 60.0;
-constexpr int kNone = -1;
-constexpr int kFloor = 0;
-constexpr double kFarBelow_sigma = 8.0;  // An unsure height is likelier than a step down from the floor.
-constexpr double kLineAfter_s = 0.15;    // A surface seen for less is taken to stay where it is.
-
-struct Beam {
-  CellIndex cell;
-  double distance_below_m = 0.0;
-  int level = kNone;
-};
-
-/// The beams of one scan that end on one level.
-struct Group {
-  int level = kNone;
-  int beams = 0;
-  double distance_below_m = 0.0;  ///< Mean.
-  double height_m = 0.0;          ///< Of the level, and its variance, as they were before this scan.
-  double variance_m2 = 0.0;
-};
-
 /// What a level just entered says of the vehicle, until the one who gives the prior has heard of it.
 struct Claim {
-  int level = kNone;
+  int level = kNoLevel;
   Time since;
   double height_m = 0.0;  ///< To be added to the prior.
   double velocity_m_s = 0.0;
@@ -59,35 +36,23 @@ struct MultilevelFilter::Impl {
   explicit Impl(const Config& c) : config(c), height(c.acceleration_noise_m_s2), store(c.resolution_m) {}
 
   // Algorithm 1, in its order.
-  void readBeams(const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points);
   void matchBeams();
-  void groupBeams();
   bool leftALevel() const;
   void assume(const HeightState& prior);
   void forgetTheLast();
   std::optional<VirtualHeight> settled();
   void doubtSlopes();
   std::optional<VirtualHeight> updateHeight();
-  void clusterRest();
   void addNewLevels(AltitudeUpdate& outcome);
   void updateLeftLevels();
   void extendLevels();
   void searchForLoopClosures(AltitudeUpdate& outcome);
 
-  bool isFlat(const NewSurface& surface) const;
-  bool isFlatSeenFromAMovingPlace(const NewSurface& surface) const;
-  std::size_t endOfSurface(std::size_t begin) const;
-  bool likelierThanUnknown(int id, double residual_m, double variance_m2) const;
-  bool isBelow(const LevelEstimate& level) const;
-  int likeliestLevel(double distance_below_m, int averaged, bool known_below) const;
-  double beamVariance(int averaged) const {
-    return square(config.beam_noise_m) / averaged + square(config.surface_noise_m);
-  }
-  double rateVariance_m2_s2(const NewSurface& surface) const;
+  Neighbourhood known() const { return {config, height, store, near, now}; }
+  double beamVariance(int averaged) const { return beamVariance_m2(config, averaged); }
   void learnSpeed(const NewSurface& seen);
   void enter(int id, double distance_below_m, double variance_m2);
   void learn(LevelEstimate& level, double height_m, double variance_m2);
-  std::optional<double> heightAboveGround();
   void publish();
 
   Config config;
@@ -102,92 +67,23 @@ struct MultilevelFilter::Impl {
 
   // Of the present scan.
   Time now;
-  CellIndex center;
-  std::vector<Beam> beams;
+  GroundScan scan;
   std::vector<int> near;
-  std::vector<Group> groups;
-  std::vector<double> distances;
   std::vector<int> present, present_before;  ///< Levels seen in this and in the last scan.
   bool changed = false;
 };
 
-void MultilevelFilter::Impl::readBeams(const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points) {
-  beams.clear();
-  Eigen::Vector2d sum_m = Eigen::Vector2d::Zero();
-  for (const GroundPoint& point : points) {
-    const bool usable = point.position_map_m.allFinite() && std::isfinite(point.distance_below_m) &&
-                        point.distance_below_m > 0.0 && point.distance_below_m < kFarthest_m;
-    if (!usable) continue;
-    beams.push_back({store.cellAt(point.position_map_m), point.distance_below_m, kNone});
-    sum_m += point.position_map_m;
-  }
-  std::sort(beams.begin(), beams.end(), [](const Beam& a, const Beam& b) {
-    return std::pair(a.distance_below_m, a.cell) < std::pair(b.distance_below_m, b.cell);
-  });
-  // The neighbourhood of what is measured; tilted, that is not below the vehicle.
-  center = store.cellAt(beams.empty() ? position_map_m : Eigen::Vector2d(sum_m / static_cast<double>(beams.size())));
-}
-
-/// One past the last beam of the surface that begins with this one: beams in order, without a gap between them.
-std::size_t MultilevelFilter::Impl::endOfSurface(std::size_t begin) const {
-  std::size_t end = begin + 1;
-  while (end < beams.size() && beams[end].distance_below_m - beams[end - 1].distance_below_m <= config.cluster_gap_m)
-    ++end;
-  return end;
-}
-
-bool MultilevelFilter::Impl::isBelow(const LevelEstimate& level) const {
-  return level.seen && (now - level.last.stamp).seconds() <= config.enter_after_s && now >= level.doubted_until;
-}
-
-/// The less sure the height is, the likelier is what lies within its gate something else.
-bool MultilevelFilter::Impl::likelierThanUnknown(int id, double residual_m, double variance_m2) const {
-  const double density_per_m =
-      std::exp(-0.5 * square(residual_m) / variance_m2) / std::sqrt(2.0 * std::numbers::pi * variance_m2);
-  return (id == kFloor ? config.floor_weight : 1.0) * density_per_m > config.unknown_per_m;
-}
-
-/// The likeliest of the levels nearby that could be what `averaged` beams met at this distance.
-int MultilevelFilter::Impl::likeliestLevel(double distance_below_m, int averaged, bool known_below) const {
-  int likeliest = kNone;
-  double best = square(config.gate_sigma);
-  for (const int id : near) {
-    const LevelEstimate& level = store.at(id);
-    if (known_below && !isBelow(level)) continue;
-    const double residual_m = height.height_m() - level.height_m - distance_below_m;
-    // The error of a level that the height is already measured against is in both.
-    const double level_m2 = known_below ? std::max(0.0, level.variance_m2 - height.referenceVariance_m2())
-                                        : level.variance_m2 + height.referenceVariance_m2();
-    const double variance_m2 = height.ownVariance_m2() + level_m2 + beamVariance(averaged);
-    // Nothing lies just below the take-off floor: what seems to is the floor, and the height is wrong.
-    const bool sunk_floor = !known_below && config.one_floor && id == kFloor && residual_m < 0.0 &&
-                            residual_m > -std::max(config.least_step_down_m, kFarBelow_sigma * std::sqrt(variance_m2));
-    if (square(residual_m) > best * variance_m2 && !(sunk_floor && likeliest == kNone)) continue;
-    if (!known_below && !sunk_floor && !likelierThanUnknown(id, residual_m, variance_m2)) continue;
-    best = std::min(best, square(residual_m) / variance_m2);
-    likeliest = id;
-  }
-  return likeliest;
-}
-
-/// Line 5: the levels below that could have generated a beam; each beam takes the likeliest. A surface whose middle is
-/// on no level is not on one with its edge either: over a slope, that edge would take the height along.
+/// Line 5: the levels below that could have generated a beam.
 void MultilevelFilter::Impl::matchBeams() {
-  store.near(center, config.neighbourhood_m, near);
+  store.near(scan.center, config.neighbourhood_m, near);
   if (config.one_floor && (near.empty() || near.front() != kFloor)) near.insert(near.begin(), kFloor);
-  for (Beam& beam : beams) beam.level = kNone;
-  for (std::size_t begin = 0, end = 0; begin < beams.size(); begin = end) {
-    end = endOfSurface(begin);
-    const int count = static_cast<int>(end - begin);
-    if (likeliestLevel(beams[begin + (end - begin) / 2].distance_below_m, count, true) == kNone) continue;
-    for (std::size_t i = begin; i < end; ++i) beams[i].level = likeliestLevel(beams[i].distance_below_m, 1, true);
-  }
-  groupBeams();
+  altitude::matchBeams(known(), scan);
+  scan.group(store);
 }
 
 bool MultilevelFilter::Impl::leftALevel() const {
   return std::any_of(present_before.begin(), present_before.end(), [this](int id) {
-    return std::none_of(groups.begin(), groups.end(), [id](const Group& g) { return g.level == id; });
+    return std::none_of(scan.groups.begin(), scan.groups.end(), [id](const BeamGroup& g) { return g.level == id; });
   });
 }
 
@@ -218,7 +114,7 @@ std::optional<VirtualHeight> MultilevelFilter::Impl::settled() {
 /// Over a level the innovations are noise. Over a slope they lean to one side, each within its gate, and the height
 /// would follow them: a level whose innovations add up to more than noise does is left alone for a while.
 void MultilevelFilter::Impl::doubtSlopes() {
-  std::erase_if(groups, [this](const Group& g) {
+  std::erase_if(scan.groups, [this](const BeamGroup& g) {
     LevelEstimate& level = store.at(g.level);
     // The error of a claim is one and the same; that of a height that follows its measurements is not.
     const double same = claimed ? 2.0 * level.innovations + 1.0 : 1.0;
@@ -229,34 +125,18 @@ void MultilevelFilter::Impl::doubtSlopes() {
     level.forgetInnovations();
     forgetTheLast();
     level.doubted_until = now + common::Duration::fromSeconds(config.doubt_s);
-    for (Beam& beam : beams)
-      if (beam.level == g.level) beam.level = kNone;
+    for (Beam& beam : scan.beams)
+      if (beam.level == g.level) beam.level = kNoLevel;
     return true;
   });
 }
 
-void MultilevelFilter::Impl::groupBeams() {
-  groups.clear();
-  for (const Beam& beam : beams) {
-    if (beam.level == kNone) continue;
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.level == beam.level; });
-    if (group == groups.end()) {
-      const LevelEstimate& level = store.at(beam.level);
-      groups.push_back({beam.level, 0, 0.0, level.height_m, level.variance_m2});
-      group = groups.end() - 1;
-    }
-    ++group->beams;
-    group->distance_below_m += (beam.distance_below_m - group->distance_below_m) / group->beams;
-  }
-  std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.level < b.level; });
-}
-
 /// Lines 6 to 11: one virtual measurement of all levels the vehicle is over.
 std::optional<VirtualHeight> MultilevelFilter::Impl::updateHeight() {
-  if (groups.empty()) return std::nullopt;
-  double weights = 0.0, weighted_m = 0.0, white_weights = 0.0, surest_m2 = groups.front().variance_m2;
+  if (scan.groups.empty()) return std::nullopt;
+  double weights = 0.0, weighted_m = 0.0, white_weights = 0.0, surest_m2 = scan.groups.front().variance_m2;
   int used = 0;
-  for (const Group& g : groups) {
+  for (const BeamGroup& g : scan.groups) {
     const double white_m2 = beamVariance(g.beams), variance_m2 = white_m2 + g.variance_m2;
     weights += 1.0 / variance_m2;
     weighted_m += (g.height_m + g.distance_below_m) / variance_m2;
@@ -294,74 +174,23 @@ void MultilevelFilter::Impl::learn(LevelEstimate& level, double height_m, double
   changed = true;
 }
 
-/// Line 13: the beams that no level explains, in sets of neighbouring distance.
-void MultilevelFilter::Impl::clusterRest() {
-  for (NewSurface& surface : new_surfaces) surface.seen = false;
-  std::size_t begin = 0;
-  while (begin < beams.size()) {
-    if (beams[begin].level != kNone) {
-      ++begin;
-      continue;
-    }
-    std::size_t end = begin + 1, last = begin;
-    double sum_m = beams[begin].distance_below_m;
-    int count = 1;
-    for (; end < beams.size() && beams[end].distance_below_m - beams[last].distance_below_m <= config.cluster_gap_m;
-         ++end) {
-      if (beams[end].level != kNone) continue;
-      sum_m += beams[end].distance_below_m;
-      last = end;
-      ++count;
-    }
-    const bool enough = count >= std::min<int>(config.min_cluster_beams, static_cast<int>(beams.size()));
-    if (enough) {
-      const double mean_m = sum_m / count, surface_m = height.height_m() - mean_m;
-      auto match = std::find_if(new_surfaces.begin(), new_surfaces.end(), [&](const NewSurface& c) {
-        const double expected_m = c.seenFor_s(now) < kLineAfter_s ? c.height_m() : c.heightAt_m(now);
-        return !c.seen && square(expected_m - surface_m) <= 2.0 * square(config.gate_sigma) * beamVariance(count);
-      });
-      if (match == new_surfaces.end()) match = new_surfaces.insert(new_surfaces.end(), NewSurface(now));
-      match->add({now, mean_m, count}, surface_m);
-      match->seen = true;
-      for (std::size_t i = begin; i <= last; ++i)
-        if (beams[i].level == kNone) match->cells.push_back(beams[i].cell);
-    }
-    begin = last + 1;
-  }
-  std::erase_if(new_surfaces, [](const NewSurface& c) { return !c.seen; });
-}
-
-double MultilevelFilter::Impl::rateVariance_m2_s2(const NewSurface& c) const {
-  return beamVariance(std::max(1, c.beams / c.scans)) / std::max(c.spread_s2(), 1e-9);
-}
-
-/// A surface that is flat is met at one height; a slope is not.
-bool MultilevelFilter::Impl::isFlat(const NewSurface& c) const {
-  return c.scans >= config.confirm_scans && c.seenFor_s(now) >= config.confirm_s &&
-         square(c.rate_m_s()) <= square(config.slope_sigma) * rateVariance_m2_s2(c);
-}
-
-/// One that rises or falls evenly may be a slope, or flat and the vertical speed is wrong. Slopes in rooms are short.
-bool MultilevelFilter::Impl::isFlatSeenFromAMovingPlace(const NewSurface& c) const {
-  const double variance_m2_s2 = rateVariance_m2_s2(c) + height.covariance()(1, 1);
-  return c.scans >= config.confirm_scans && c.seenFor_s(now) >= config.confirm_moving_s &&
-         square(c.rate_m_s()) <= square(config.slope_sigma) * variance_m2_s2;
-}
-
 /// What is flat and seems to rise says that the vehicle sinks.
 void MultilevelFilter::Impl::learnSpeed(const NewSurface& seen) {
   // It is the mean of the time it was seen for: the speed's error changed since by what the acceleration is wrong.
-  const double variance_m2_s2 = rateVariance_m2_s2(seen) + square(config.surface_noise_m / seen.seenFor_s(now)) +
+  const double variance_m2_s2 = rateVariance_m2_s2(config, seen) +
+                                square(config.surface_noise_m / seen.seenFor_s(now)) +
                                 square(0.5 * config.acceleration_noise_m_s2 * seen.seenFor_s(now));
   height.updateVelocity(height.velocity_m_s() - seen.rate_m_s(), variance_m2_s2);
 }
 
 /// Line 14.
 void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
-  const bool alone = groups.empty();
+  const bool alone = scan.groups.empty();
   const double height_before_m = height.height_m(), velocity_before_m_s = height.velocity_m_s();
   for (NewSurface& surface : new_surfaces) {
-    if (!isFlat(surface) && !isFlatSeenFromAMovingPlace(surface)) continue;
+    const bool flat =
+        isFlat(config, surface, now) || isFlatSeenFromAMovingPlace(config, surface, now, height.covariance()(1, 1));
+    if (!flat) continue;
     // The end of the line through all that was seen of it; at its ends a line is as sure as a quarter of its points.
     const double below_m = height_before_m - surface.heightAt_m(now);
     const double below_variance_m2 = 4.0 * square(config.beam_noise_m) / surface.beams + square(config.surface_noise_m);
@@ -370,8 +199,8 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
       height.dropReference();
       learnSpeed(surface);
     }
-    int id = likeliestLevel(below_m, surface.last.beams, false);
-    if (id != kNone) {
+    int id = likeliestLevel(known(), below_m, surface.last.beams, false);
+    if (id != kNoLevel) {
       enter(id, below_m, below_variance_m2);
     } else {
       id = store.add(height.height_m() - below_m, height.covariance()(0, 0) + below_variance_m2);
@@ -403,7 +232,7 @@ void MultilevelFilter::Impl::updateLeftLevels() {
     if (std::find(present.begin(), present.end(), left) != present.end()) continue;
     LevelEstimate& level = store.at(left);
     double weights = 0.0, weighted_m = 0.0;
-    for (const Group& g : groups) {
+    for (const BeamGroup& g : scan.groups) {
       const double variance_m2 = g.variance_m2 + beamVariance(g.beams);
       weights += 1.0 / variance_m2;
       weighted_m += (g.height_m + g.distance_below_m) / variance_m2;
@@ -417,8 +246,8 @@ void MultilevelFilter::Impl::updateLeftLevels() {
 
 /// Line 16.
 void MultilevelFilter::Impl::extendLevels() {
-  for (const Beam& beam : beams)
-    if (beam.level != kNone && store.extend(beam.level, beam.cell)) changed = true;
+  for (const Beam& beam : scan.beams)
+    if (beam.level != kNoLevel && store.extend(beam.level, beam.cell)) changed = true;
 }
 
 /// Line 17: levels that meet here and agree are one.
@@ -430,8 +259,8 @@ void MultilevelFilter::Impl::searchForLoopClosures(AltitudeUpdate& outcome) {
       const LevelEstimate& b = store.at(near[j]);
       const double sigma2 = a.variance_m2 + b.variance_m2 + 2.0 * square(config.surface_noise_m);
       const bool agree = square(a.height_m - b.height_m) <= square(config.gate_sigma) * sigma2 &&
-                         likelierThanUnknown(near[i], a.height_m - b.height_m, sigma2);
-      if (!agree || !store.meet(near[i], near[j], center, config.neighbourhood_m, config.join_distance_m)) {
+                         likelierThanUnknown(config, near[i], a.height_m - b.height_m, sigma2);
+      if (!agree || !store.meet(near[i], near[j], scan.center, config.neighbourhood_m, config.join_distance_m)) {
         ++j;
         continue;
       }
@@ -444,23 +273,6 @@ void MultilevelFilter::Impl::searchForLoopClosures(AltitudeUpdate& outcome) {
     }
   std::sort(present.begin(), present.end());
   present.erase(std::unique(present.begin(), present.end()), present.end());
-}
-
-std::optional<double> MultilevelFilter::Impl::heightAboveGround() {
-  distances.clear();
-  for (const Beam& beam : beams) distances.push_back(beam.distance_below_m);
-  std::sort(distances.begin(), distances.end());
-  const std::size_t needed =
-      std::min<std::size_t>(static_cast<std::size_t>(config.min_cluster_beams), distances.size());
-  for (std::size_t i = 0; needed > 0 && i + needed <= distances.size(); ++i) {
-    if (distances[i + needed - 1] - distances[i] > config.cluster_gap_m) continue;
-    double sum_m = 0.0;
-    std::size_t n = 0;
-    for (std::size_t k = i; k < distances.size() && distances[k] - distances[i] <= config.cluster_gap_m; ++k, ++n)
-      sum_m += distances[k];
-    return sum_m / static_cast<double>(n);
-  }
-  return std::nullopt;
 }
 
 void MultilevelFilter::Impl::publish() {
@@ -517,7 +329,7 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
     f.assume(*prior);
   else
     f.height.predictTo(time);
-  f.readBeams(position_map_m, points);
+  f.scan.read(position_map_m, points, f.store);
   f.matchBeams();
   if (f.leftALevel()) {
     // The last that was seen of it may have been the beginning of a slope.
@@ -529,19 +341,19 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
   outcome.measurement = f.settled();
 
   // 2nd stage: update map.
-  for (const Group& g : f.groups) f.present.push_back(g.level);
-  f.clusterRest();
+  for (const BeamGroup& g : f.scan.groups) f.present.push_back(g.level);
+  seeNewSurfaces(f.new_surfaces, f.config, f.scan.beams, f.height.height_m(), time);
   f.addNewLevels(outcome);
   f.updateLeftLevels();
   f.extendLevels();
-  for (const Group& g : f.groups) {
+  for (const BeamGroup& g : f.scan.groups) {
     LevelEstimate& level = f.store.at(g.level);
     level.seen = true;
     level.last = {time, g.distance_below_m, g.beams};
   }
   f.searchForLoopClosures(outcome);
 
-  outcome.height_above_ground_m = f.heightAboveGround();
+  outcome.height_above_ground_m = f.scan.distanceToSurface_m(f.config.min_cluster_beams, f.config.cluster_gap_m);
   f.publish();
   return outcome;
 }

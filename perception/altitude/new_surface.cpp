@@ -1,0 +1,72 @@
+#include "perception/altitude/new_surface.hpp"
+
+#include <algorithm>
+
+#include "common/square.hpp"
+
+namespace swiftlet::perception::altitude {
+
+using common::square;
+using common::Time;
+
+namespace {
+
+constexpr double kLineAfter_s = 0.15;  // A surface seen for less is taken to stay where it is.
+
+}  // namespace
+
+double rateVariance_m2_s2(const MultilevelFilter::Config& config, const NewSurface& c) {
+  return beamVariance_m2(config, std::max(1, c.beams / c.scans)) / std::max(c.spread_s2(), 1e-9);
+}
+
+bool isFlat(const MultilevelFilter::Config& config, const NewSurface& c, Time now) {
+  return c.scans >= config.confirm_scans && c.seenFor_s(now) >= config.confirm_s &&
+         square(c.rate_m_s()) <= square(config.slope_sigma) * rateVariance_m2_s2(config, c);
+}
+
+bool isFlatSeenFromAMovingPlace(const MultilevelFilter::Config& config, const NewSurface& c, Time now,
+                                double speed_variance_m2_s2) {
+  const double variance_m2_s2 = rateVariance_m2_s2(config, c) + speed_variance_m2_s2;
+  return c.scans >= config.confirm_scans && c.seenFor_s(now) >= config.confirm_moving_s &&
+         square(c.rate_m_s()) <= square(config.slope_sigma) * variance_m2_s2;
+}
+
+void seeNewSurfaces(std::vector<NewSurface>& surfaces, const MultilevelFilter::Config& config,
+                    const std::vector<Beam>& beams, double height_m, Time now) {
+  for (NewSurface& surface : surfaces) surface.seen = false;
+  std::size_t begin = 0;
+  while (begin < beams.size()) {
+    if (beams[begin].level != kNoLevel) {
+      ++begin;
+      continue;
+    }
+    std::size_t end = begin + 1, last = begin;
+    double sum_m = beams[begin].distance_below_m;
+    int count = 1;
+    for (; end < beams.size() && beams[end].distance_below_m - beams[last].distance_below_m <= config.cluster_gap_m;
+         ++end) {
+      if (beams[end].level != kNoLevel) continue;
+      sum_m += beams[end].distance_below_m;
+      last = end;
+      ++count;
+    }
+    const bool enough = count >= std::min<int>(config.min_cluster_beams, static_cast<int>(beams.size()));
+    if (enough) {
+      const double mean_m = sum_m / count, surface_m = height_m - mean_m;
+      auto match = std::find_if(surfaces.begin(), surfaces.end(), [&](const NewSurface& c) {
+        const double expected_m = c.seenFor_s(now) < kLineAfter_s ? c.height_m() : c.heightAt_m(now);
+        return !c.seen &&
+               square(expected_m - surface_m) <= 2.0 * square(config.gate_sigma) * beamVariance_m2(config, count);
+      });
+      if (match == surfaces.end()) match = surfaces.insert(surfaces.end(), NewSurface(now));
+      match->add({now, mean_m, count}, surface_m);
+      match->seen = true;
+      for (std::size_t i = begin; i <= last; ++i)
+        if (beams[i].level == kNoLevel) match->cells.push_back(beams[i].cell);
+    }
+    begin = last + 1;
+  }
+  std::erase_if(surfaces, [](const NewSurface& c) { return !c.seen; });
+}
+
+}  // namespace swiftlet::perception::altitude
