@@ -1,0 +1,36 @@
+#include "perception/localization/localization_task.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace swiftlet::perception {
+
+PlaceDistinction distinctionOf(const LocalizerConfig& config) {
+  return {config.search.distinct_m, config.search.distinct_deg * common::kRadPerDeg};
+}
+
+LocalizationResult run(const LocalizationTask& task) {
+  const LocalizationTask::Data& data = *task.data;
+  const LocalizerConfig& config = data.config;
+  auto result = std::make_shared<LocalizationResult::Data>();
+  result->task = task.data;
+  result->whole = data.local_map.whole(config.local_map_spacing_m, static_cast<std::size_t>(config.local_map_points));
+  const std::vector<Eigen::Vector2f>& points = result->whole.points_middle_m;
+  result->enough_points = static_cast<int>(points.size()) >= config.local_map_least_points;
+  if (!result->enough_points) return {std::move(result)};
+  // What cannot be told from the best must not be missing among the places: as many that fit worse still as there are
+  // in a large building are together less likely than the ambiguity allows.
+  constexpr double kOthers = 50.0;
+  constexpr double kCoarseness = 0.05;  // By how much the coarse field may misjudge a fit.
+  const double nats = std::log(kOthers / std::max(config.ambiguity, 1e-6));
+  const double margin =
+      kCoarseness + nats / (config.point_weight * data.map->topNats() * static_cast<double>(points.size()));
+  const GlobalSearchResult found = data.search->search(points, margin);
+  result->complete = found.complete;
+  result->places = likelyPlaces(bestInstructions(), *data.map, found.places, points, config.point_weight,
+                                config.support.tolerance_m, distinctionOf(config));
+  return {std::move(result)};
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,100 @@
+#include "perception/localization/pose_tracker.hpp"
+
+#include <cmath>
+
+#include "common/square.hpp"
+
+namespace swiftlet::perception {
+
+using common::kRadPerDeg;
+using common::Pose2;
+using common::square;
+
+namespace {
+
+/// Particles never move all alike, or they would become one.
+constexpr double kLeastNoise_m = 0.01;
+constexpr double kLeastNoise_rad = 0.2 * kRadPerDeg;
+/// Of the odometry's turns.
+constexpr double kTurnShare = 0.02;
+
+/// How far an odometry that lost the thread can be off, relative to where it is believed to be.
+const Eigen::Matrix3d kBreakCovariance = Eigen::Vector3d(0.5 * 0.5, 0.5 * 0.5, 0.3 * 0.3).asDiagonal();
+
+}  // namespace
+
+PoseTracker::PoseTracker(const std::shared_ptr<const MapField>& map, const LocalizerConfig& config, std::uint64_t seed)
+    : config_(config), filter_(map, config.particles, seed) {}
+
+void PoseTracker::advance(const LocalizationInput& input) {
+  if (!begun_) {
+    T_odom_body_ = T_odom_generation_ = input.T_odom_body;
+    begun_ = true;
+    if (!start_) return;
+    T_grid_odom_ = start_->T_grid_body * T_odom_body_.inverse();
+    start_.reset();
+    return;
+  }
+  const Pose2 moved = between(T_odom_body_, input.T_odom_body);
+  const double distance_m = moved.position_m().norm(), turn_rad = std::abs(common::wrapAngle(moved.yaw_rad));
+  const Eigen::Vector3d least(
+      square(config_.odometry_share * distance_m), square(config_.odometry_share * distance_m),
+      square(config_.odometry_deg_per_m * kRadPerDeg * distance_m) + square(kTurnShare * turn_rad));
+  Eigen::Matrix3d measured = input.step_covariance;
+  if (input.interrupted) measured += kBreakCovariance;
+  const Eigen::Matrix3d own =
+      common::turned(measured + Eigen::Matrix3d(least.asDiagonal()), between(T_odom_generation_, T_odom_body_).yaw_rad);
+  step_covariance_ = common::propagated(step_covariance_, between(T_odom_generation_, T_odom_body_),
+                                        between(T_odom_generation_, input.T_odom_body), own);
+  way_m_ += distance_m;
+  turned_rad_ += turn_rad;
+  T_odom_body_ = input.T_odom_body;
+}
+
+void PoseTracker::startAt(const PoseHypothesis& given) {
+  filter_.spreadAround(std::span(&given, 1));
+  covariance_ = given.covariance;
+  only_given_ = true;
+  if (begun_)
+    T_grid_odom_ = given.T_grid_body * T_odom_body_.inverse();
+  else
+    start_ = given;
+}
+
+void PoseTracker::placeAt(const Pose2& T_grid_odom, const Eigen::Matrix3d& covariance) {
+  T_grid_odom_ = T_grid_odom;
+  covariance_ = covariance;
+  T_odom_generation_ = T_odom_body_;
+  step_covariance_.setZero();
+}
+
+bool PoseTracker::generationDue(const Pose2& next_T_odom_body) const {
+  const Pose2 ahead = between(T_odom_body_, next_T_odom_body);
+  return only_given_ || way_m_ - generation_way_m_ + ahead.position_m().norm() >= config_.generation_distance_m ||
+         turned_rad_ - generation_turned_rad_ + std::abs(common::wrapAngle(ahead.yaw_rad)) >=
+             config_.generation_turn_deg * kRadPerDeg;
+}
+
+void PoseTracker::countGenerationsFromHere() {
+  generation_way_m_ = way_m_;
+  generation_turned_rad_ = turned_rad_;
+}
+
+void PoseTracker::generate(const ProjectedScan& scan) {
+  const Eigen::Vector3d least(square(kLeastNoise_m), square(kLeastNoise_m), square(kLeastNoise_rad));
+  filter_.move(between(T_odom_generation_, T_odom_body_), step_covariance_ + Eigen::Matrix3d(least.asDiagonal()));
+  filter_.weigh(scan.points_level_m);
+  filter_.resample();
+  const ParticleFilter::Estimate estimate = filter_.estimate();
+  placeAt(estimate.T_grid_body * T_odom_body_.inverse(), estimate.covariance);
+  countGenerationsFromHere();
+  only_given_ = false;
+}
+
+Eigen::Matrix3d PoseTracker::covariance() const {
+  const Pose2 T_grid_generation = T_grid_odom_ * T_odom_generation_;
+  return propagated(covariance_, T_grid_generation, T_grid_odom_ * T_odom_body_,
+                    common::turned(step_covariance_, T_grid_generation.yaw_rad));
+}
+
+}  // namespace swiftlet::perception
