@@ -1,0 +1,116 @@
+// results.json.
+#include <cmath>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "common/rounding.hpp"
+#include "evaluation/trial_results.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json orNull(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? ordered_json(common::rounded(*value)) : ordered_json(nullptr);
+}
+
+ordered_json visitJson(const MarkerVisit& visit) {
+  const auto pair = [](const Eigen::Vector2d& v) { return ordered_json{orNull(v.x()), orNull(v.y())}; };
+  return {{"time_s", orNull(visit.stamp.seconds())},
+          {"marker_map_m", pair(visit.marker_map_m)},
+          {"estimate_error_m", pair(visit.estimate_error_m)},
+          {"open_loop_error_m", visit.open_loop_error_m ? pair(*visit.open_loop_error_m) : ordered_json(nullptr)}};
+}
+
+ordered_json localizationJson(const LocalizationScore& score) {
+  return {{"in_time", score.in_time},
+          {"way_m", orNull(score.way_m)},
+          {"error_m", orNull(score.error_m)},
+          {"error_rad", orNull(score.error_rad)},
+          {"time_share", orNull(score.time_share)},
+          {"wrong_share", orNull(score.wrong_share)},
+          {"times_lost", score.times_lost}};
+}
+
+ordered_json flightJson(const FlightScore& flight) {
+  ordered_json visits = ordered_json::array();
+  for (const MarkerVisit& visit : flight.visits) visits.push_back(visitJson(visit));
+  return {{"seed", flight.seed},
+          {"passed", flight.passed()},
+          {"outcome", flight.outcome},
+          {"failures", flight.failures},
+          {"folder", flight.folder},
+          {"mission_done", flight.mission_done},
+          {"collisions", flight.collisions},
+          {"avoidable_collisions", flight.avoidable_collisions},
+          {"collision", flight.collision},
+          {"coverage", orNull(flight.coverage)},
+          {"coverage_problem", flight.coverage_problem},
+          {"goal_error_m", orNull(flight.goal_error_m)},
+          {"home_error_m", orNull(flight.home_error_m)},
+          {"marker_error_m", orNull(flight.marker_error_m)},
+          {"relocalization_error_m", orNull(flight.relocalization_error_m)},
+          {"open_loop_error_m", orNull(flight.open_loop_error_m)},
+          {"visits", visits},
+          {"mission_time_s", orNull(flight.mission_time_s)},
+          {"flight_time_s", orNull(flight.flight_time_s)},
+          {"distance_m", orNull(flight.distance_m)},
+          {"speed_max_m_s", orNull(flight.speed_max_m_s)},
+          {"explored_area_m2", orNull(flight.explored_area_m2)},
+          {"reachable_area_m2", orNull(flight.reachable_area_m2)},
+          {"estimate_rms_m", orNull(flight.estimate_rms_m)},
+          {"estimate_spatial_rms_m", orNull(flight.estimate_spatial_rms_m)},
+          {"estimate_yaw_rms_rad", orNull(flight.estimate_yaw_rms_rad)},
+          {"map_wall_error_median_m", orNull(flight.map_wall_error_median_m)},
+          {"map_wall_error_p95_m", orNull(flight.map_wall_error_p95_m)},
+          {"localization", flight.localization ? localizationJson(*flight.localization) : ordered_json(nullptr)},
+          {"min_clearance_m", orNull(flight.min_clearance_m)},
+          {"min_walker_clearance_m", orNull(flight.min_walker_clearance_m)},
+          {"interruptions", flight.interruptions},
+          {"resumed", flight.resumed},
+          {"realtime_factor", orNull(flight.realtime_factor)}};
+}
+
+ordered_json trialJson(const TrialResult& trial) {
+  ordered_json flights = ordered_json::array(), paper = ordered_json::object();
+  for (const FlightScore& flight : trial.flights) flights.push_back(flightJson(flight));
+  for (const PaperFigure& figure : trial.paper) paper[figure.figure] = figure.value;
+  return {{"name", trial.name},
+          {"system", trial.system},
+          {"runs", trial.flights.size()},
+          {"passed", trial.passed()},
+          {"met", trial.met()},
+          {"failures", trial.missed()},
+          {"collisions", trial.collisions()},
+          {"coverage_min", orNull(trial.coverageMin())},
+          {"goal_error_max_m", orNull(trial.goalErrorMax_m())},
+          {"goal_error_median_m", orNull(trial.goalErrorMedian_m())},
+          {"home_error_max_m", orNull(trial.homeErrorMax_m())},
+          {"home_error_median_m", orNull(trial.homeErrorMedian_m())},
+          {"marker_error_max_m", orNull(trial.markerErrorMax_m())},
+          {"marker_error_median_m", orNull(trial.markerErrorMedian_m())},
+          {"relocalization_error_max_m", orNull(trial.relocalizationErrorMax_m())},
+          {"relocalization_error_median_m", orNull(trial.relocalizationErrorMedian_m())},
+          {"mission_time_median_s", orNull(trial.missionTimeMedian_s())},
+          {"estimate_rms_median_m", orNull(trial.estimateRmsMedian_m())},
+          {"map_wall_error_median_m", orNull(trial.mapWallErrorMedian_m())},
+          {"localized_flights", orNull(trial.localizedFlights())},
+          {"localization_way_median_m", orNull(trial.localizationWayMedian_m())},
+          {"localization_way_max_m", orNull(trial.localizationWayMax_m())},
+          {"wrong_time_share_max", orNull(trial.wrongTimeShareMax())},
+          {"realtime_factor_median", orNull(trial.realtimeFactorMedian())},
+          {"paper", paper},
+          {"flights", flights}};
+}
+
+}  // namespace
+
+std::string toJson(const TrialResults& results) {
+  ordered_json trials = ordered_json::array();
+  for (const TrialResult& trial : results.trials) trials.push_back(trialJson(trial));
+  return ordered_json{{"trials", trials}}.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace swiftlet::evaluation

@@ -1,0 +1,194 @@
+// The tables of a page of trials.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "evaluation/trial_results.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using common::Mark;
+using common::Table;
+using common::TableCell;
+
+std::string shown(const std::optional<double>& value, int decimals) {
+  return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
+}
+
+std::string percent(const std::optional<double>& value) { return value ? fmt::format("{:.1f} %", 100 * *value) : "-"; }
+
+TableCell counted(int good, int all) {
+  return {fmt::format("{}/{}", good, all), good == all ? Mark::kGood : Mark::kBad};
+}
+
+/// The columns of the summary that a paper may have a figure for, by the names of results.json.
+struct SummaryColumn {
+  const char* title;
+  const char* figure;
+  std::string (*show)(const std::optional<double>&);
+  std::optional<double> (TrialResult::*value)() const;
+  /// Of the criterion on it, a lower one for coverage and an upper one otherwise; null: there is none.
+  double Criteria::*bound;
+  bool where_asked = false;  ///< Shown only where a trial asks for it, or its paper has a figure.
+};
+
+template <int kDecimals>
+std::string decimals(const std::optional<double>& value) {
+  return shown(value, kDecimals);
+}
+
+const std::vector<SummaryColumn>& allColumns() {
+  static const std::vector<SummaryColumn> columns = {
+      {"coverage min", "coverage_min", percent, &TrialResult::coverageMin, &Criteria::coverage_min},
+      {"goal err max (m)", "goal_error_max_m", decimals<3>, &TrialResult::goalErrorMax_m, &Criteria::goal_error_max_m},
+      {"median (m)", "goal_error_median_m", decimals<3>, &TrialResult::goalErrorMedian_m,
+       &Criteria::goal_error_median_max_m},
+      {"home err max (m)", "home_error_max_m", decimals<3>, &TrialResult::homeErrorMax_m, &Criteria::home_error_max_m},
+      {"median (m)", "home_error_median_m", decimals<3>, &TrialResult::homeErrorMedian_m,
+       &Criteria::home_error_median_max_m},
+      {"marker err max (m)", "marker_error_max_m", decimals<3>, &TrialResult::markerErrorMax_m,
+       &Criteria::marker_error_max_m, true},
+      {"relocalization max (m)", "relocalization_error_max_m", decimals<3>, &TrialResult::relocalizationErrorMax_m,
+       &Criteria::relocalization_error_max_m, true},
+      {"localized", "localized_flights", percent, &TrialResult::localizedFlights, &Criteria::localized_flights_min,
+       true},
+      {"after, median (m)", "localization_way_median_m", decimals<1>, &TrialResult::localizationWayMedian_m, nullptr,
+       true},
+      {"wrongly, of its time", "wrong_time_share_max", percent, &TrialResult::wrongTimeShareMax,
+       &Criteria::wrong_time_share_max, true},
+      {"time median (s)", "mission_time_median_s", decimals<1>, &TrialResult::missionTimeMedian_s,
+       &Criteria::mission_time_median_max_s},
+      {"RMS median (m)", "estimate_rms_median_m", decimals<3>, &TrialResult::estimateRmsMedian_m,
+       &Criteria::estimate_rms_median_max_m},
+      {"wall err median (m)", "map_wall_error_median_m", decimals<3>, &TrialResult::mapWallErrorMedian_m,
+       &Criteria::map_wall_error_median_max_m},
+      {"x real time", "realtime_factor_median", decimals<1>, &TrialResult::realtimeFactorMedian, nullptr},
+  };
+  return columns;
+}
+
+const PaperFigure* paperFigure(const SummaryColumn& column, const TrialResult& trial) {
+  const auto found = std::find_if(trial.paper.begin(), trial.paper.end(),
+                                  [&](const PaperFigure& figure) { return figure.figure == column.figure; });
+  return found == trial.paper.end() ? nullptr : &*found;
+}
+
+/// None where nothing is asked for.
+std::optional<double> boundOf(const SummaryColumn& column, const Criteria& criteria) {
+  if (column.bound == nullptr) return std::nullopt;
+  const double bound = criteria.*column.bound;
+  if (std::isinf(bound) || bound <= 0) return std::nullopt;
+  return bound;
+}
+
+Mark markOf(const SummaryColumn& column, const TrialResult& trial) {
+  const auto bound = boundOf(column, trial.criteria), value = (trial.*column.value)();
+  if (!bound) return Mark::kNone;
+  if (!value) return Mark::kBad;
+  const bool at_least = column.bound == &Criteria::coverage_min || column.bound == &Criteria::localized_flights_min;
+  return (at_least ? *value >= *bound : *value <= *bound) ? Mark::kGood : Mark::kBad;
+}
+
+std::vector<SummaryColumn> columnsFor(const std::vector<TrialResult>& trials) {
+  std::vector<SummaryColumn> columns;
+  std::copy_if(allColumns().begin(), allColumns().end(), std::back_inserter(columns), [&](const SummaryColumn& column) {
+    return !column.where_asked || std::any_of(trials.begin(), trials.end(), [&](const TrialResult& trial) {
+      return boundOf(column, trial.criteria) || paperFigure(column, trial) != nullptr;
+    });
+  });
+  return columns;
+}
+
+std::vector<TableCell> summaryRow(const TrialResult& trial, const std::vector<SummaryColumn>& columns) {
+  const int runs = static_cast<int>(trial.flights.size());
+  std::vector<TableCell> row = {{trial.name}, counted(trial.passed(), runs)};
+  row.push_back({fmt::format("{}", trial.collisions()), trial.collisions() == 0 ? Mark::kGood : Mark::kBad});
+  for (const SummaryColumn& column : columns)
+    row.push_back({column.show((trial.*column.value)()), markOf(column, trial)});
+  return row;
+}
+
+/// A row under a trial's own with a figure for some of the columns.
+template <typename FigureOf>
+std::vector<TableCell> rowBelow(const char* title, const std::vector<SummaryColumn>& columns, FigureOf figureOf) {
+  std::vector<TableCell> row = {{title}, {""}, {""}};
+  for (const SummaryColumn& column : columns) {
+    const std::optional<double> figure = figureOf(column);
+    row.push_back({figure ? column.show(figure) : ""});
+  }
+  return row;
+}
+
+bool asksForAny(const Criteria& criteria) {
+  return std::any_of(allColumns().begin(), allColumns().end(),
+                     [&](const SummaryColumn& column) { return boundOf(column, criteria).has_value(); });
+}
+
+std::vector<TableCell> askedRow(const TrialResult& trial, const std::vector<SummaryColumn>& columns) {
+  return rowBelow("  asked for", columns, [&](const SummaryColumn& column) { return boundOf(column, trial.criteria); });
+}
+
+std::vector<TableCell> paperRow(const TrialResult& trial, const std::vector<SummaryColumn>& columns) {
+  return rowBelow("  the paper", columns, [&](const SummaryColumn& column) -> std::optional<double> {
+    const PaperFigure* figure = paperFigure(column, trial);
+    if (figure == nullptr) return std::nullopt;
+    return figure->value;
+  });
+}
+
+}  // namespace
+
+Table summaryTable(const TrialResults& results) {
+  const std::vector<SummaryColumn> columns = columnsFor(results.trials);
+  Table table{"Trials", {"trial", "passed", "collisions"}, {}};
+  for (const SummaryColumn& column : columns) table.columns.emplace_back(column.title);
+  for (const TrialResult& trial : results.trials) {
+    table.rows.push_back(summaryRow(trial, columns));
+    if (asksForAny(trial.criteria)) table.rows.push_back(askedRow(trial, columns));
+    if (!trial.paper.empty()) table.rows.push_back(paperRow(trial, columns));
+  }
+  return table;
+}
+
+Table flightTable(const TrialResult& trial) {
+  Table table{"Flights of " + trial.name,
+              {"seed", "passed", "outcome", "coverage", "goal err (m)", "home err (m)", "time (s)", "distance (m)",
+               "estimate RMS (m)", "wall err (m)", "clearance (m)", "interrupted", "resumed", "x real time"},
+              {}};
+  for (const FlightScore& flight : trial.flights) {
+    const std::string link = flight.folder.empty() ? "" : flight.folder + "/report.html";
+    table.rows.push_back({{fmt::format("{}", flight.seed), Mark::kNone, link},
+                          {flight.passed() ? "yes" : "no", flight.passed() ? Mark::kGood : Mark::kBad},
+                          {flight.outcome},
+                          {flight.coverage_problem.empty() ? percent(flight.coverage) : "open world"},
+                          {shown(flight.goal_error_m, 3)},
+                          {shown(flight.home_error_m, 3)},
+                          {shown(flight.mission_time_s, 1)},
+                          {shown(flight.distance_m, 1)},
+                          {shown(flight.estimate_rms_m, 3)},
+                          {shown(flight.map_wall_error_median_m, 3)},
+                          {shown(flight.min_clearance_m, 2)},
+                          {fmt::format("{}", flight.interruptions)},
+                          {fmt::format("{}", flight.resumed)},
+                          {shown(flight.realtime_factor, 1)}});
+  }
+  return table;
+}
+
+Table failureTable(const TrialResults& results) {
+  Table table{"What was missed", {"trial", "seed", "criterion"}, {}};
+  for (const TrialResult& trial : results.trials) {
+    for (const FlightScore& flight : trial.flights)
+      for (const std::string& failure : flight.failures)
+        table.rows.push_back({{trial.name}, {fmt::format("{}", flight.seed)}, {failure, Mark::kBad}});
+    for (const std::string& failure : trial.missed())
+      table.rows.push_back({{trial.name}, {"all"}, {failure, Mark::kBad}});
+  }
+  return table;
+}
+
+}  // namespace swiftlet::evaluation
