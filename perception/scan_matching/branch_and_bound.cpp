@@ -18,7 +18,19 @@ int topLevelFor(int translations) {
   return level;
 }
 
+/// Squared, from the middle of the grid to a block of 2^level translations a side, in steps.
+double leastDistance2(const PoseGrid& grid, int x, int y, int level) {
+  const double middle = 0.5 * (grid.translations - 1), size = (1 << level) - 1;
+  const auto gap = [&](int first) { return std::max({0.0, first - middle, middle - first - size}); };
+  const double dx = gap(x), dy = gap(y);
+  return dx * dx + dy * dy;
+}
+
 }  // namespace
+
+bool BranchAndBound::isBetter(const Node& a, const Node& b) {
+  return a.bound != b.bound ? a.bound > b.bound : a.order < b.order;
+}
 
 void BranchAndBound::allCellsAt(const LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m,
                                 double yaw_rad, double shift_x_m, double shift_y_m, std::vector<std::int32_t>& x_cells,
@@ -36,13 +48,16 @@ void BranchAndBound::cellsAt(const LikelihoodField& field, std::span<const float
                              double yaw_rad, double shift_x_m, double shift_y_m, int border,
                              std::vector<std::int32_t>& x_cells, std::vector<std::int32_t>& y_cells) {
   allCellsAt(field, x_m, y_m, yaw_rad, shift_x_m, shift_y_m, x_cells, y_cells);
+  // Without a branch, as most points are kept; negative cells are great ones here.
+  const auto end_x = static_cast<std::uint32_t>(std::max(field.width() - border, 0));
+  const auto end_y = static_cast<std::uint32_t>(std::max(field.height() - border, 0));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < x_cells.size(); ++i) {
     const std::int32_t x = x_cells[i], y = y_cells[i];
-    if (x < 0 || y < 0 || x + border >= field.width() || y + border >= field.height()) continue;
     x_cells[kept] = x;
     y_cells[kept] = y;
-    ++kept;
+    kept += static_cast<std::size_t>(static_cast<std::uint32_t>(x) < end_x) &
+            static_cast<std::size_t>(static_cast<std::uint32_t>(y) < end_y);
   }
   x_cells.resize(kept);
   y_cells.resize(kept);
@@ -51,10 +66,7 @@ void BranchAndBound::cellsAt(const LikelihoodField& field, std::span<const float
 int BranchAndBound::leastPenalty(const GuessPenalty& penalty, const PoseGrid& grid, int x, int y, int rotation,
                                  int level) {
   if (penalty.greatest == 0) return 0;
-  const double middle = 0.5 * (grid.translations - 1), size = (1 << level) - 1;
-  const auto gap = [&](int first) { return std::max({0.0, first - middle, middle - first - size}); };
-  const double dx = gap(x), dy = gap(y);
-  return penalty.at(dx * dx + dy * dy, rotation - 0.5 * (grid.rotations - 1));
+  return penalty.at(leastDistance2(grid, x, y, level), rotation - 0.5 * (grid.rotations - 1));
 }
 
 const std::vector<std::int32_t>& BranchAndBound::offsetsAt(const LikelihoodField& field, int rotation, int level) {
@@ -107,39 +119,59 @@ BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Ei
   if (rotations_.size() < static_cast<std::size_t>(grid.rotations))
     rotations_.resize(static_cast<std::size_t>(grid.rotations));
 
-  // The columns of the top level, in strips as wide as sumWindows adds.
   const int blocks = ((grid.translations - 1) >> top) + 1;
-  const LikelihoodField::Level level = field.level(top);
-  std::vector<std::uint16_t> sums(static_cast<std::size_t>(blocks) * kWindowColumns);
+  boundTopLevel(field, grid, top, blocks, border);
+  const auto nodeAt = [&](std::size_t i) {
+    const auto index = static_cast<std::int32_t>(i);
+    const std::int32_t row = index / blocks;
+    return Node{bounds_[i], index, static_cast<std::int16_t>(row / blocks), static_cast<std::int16_t>(index % blocks),
+                static_cast<std::int16_t>(row % blocks)};
+  };
+  const auto greatest = std::max_element(bounds_.begin(), bounds_.end());
+  descend(field, nodeAt(static_cast<std::size_t>(greatest - bounds_.begin())), top, grid, best);
   nodes_.clear();
+  for (std::size_t i = 0; i < bounds_.size(); ++i)
+    if (bounds_[i] > best.score) nodes_.push_back(nodeAt(i));
+  std::sort(nodes_.begin(), nodes_.end(), isBetter);
+  for (const Node& node : nodes_) {
+    if (node.bound <= best.score) break;
+    descend(field, node, top, grid, best);
+  }
+  return best;
+}
+
+/// bounds_[(rotation * blocks + y) * blocks + x].
+void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid& grid, int top, int blocks,
+                                   int border) {
+  const auto size = static_cast<std::size_t>(blocks);
+  block_distances2_.resize(size * size);
+  for (int y = 0; y < blocks; ++y)
+    for (int x = 0; x < blocks; ++x)
+      block_distances2_[static_cast<std::size_t>(y) * size + static_cast<std::size_t>(x)] =
+          leastDistance2(grid, x << top, y << top, top);
+
+  // In strips as wide as sumWindows adds.
+  const LikelihoodField::Level level = field.level(top);
+  std::vector<std::uint16_t> sums(size * kWindowColumns);
+  bounds_.resize(static_cast<std::size_t>(grid.rotations) * size * size);
   for (int k = 0; k < grid.rotations; ++k) {
     Rotation& r = rotations_[static_cast<std::size_t>(k)];
     r.has_offsets.fill(false);
     cellsAt(field, x_m_, y_m_, grid.first_yaw_rad + k * grid.step_yaw_rad, grid.first_x_m, grid.first_y_m, border,
             r.x_cells, r.y_cells);
     const std::vector<std::int32_t>& offsets = offsetsAt(field, k, top);
+    std::int32_t* out = &bounds_[static_cast<std::size_t>(k) * size * size];
     for (int x0 = 0; x0 < blocks; x0 += kWindowColumns) {
       sumWindows(instructions_, level.cells + x0, level.stride, offsets, blocks, sums.data());
+      const int columns = std::min(blocks - x0, kWindowColumns);
       for (int y = 0; y < blocks; ++y)
-        for (int x = x0; x < std::min(blocks, x0 + kWindowColumns); ++x)
-          nodes_.push_back({sums[static_cast<std::size_t>(y * kWindowColumns + x - x0)] -
-                                leastPenalty(penalty_, grid, x << top, y << top, k, top),
-                            static_cast<std::int32_t>(nodes_.size()), static_cast<std::int16_t>(k),
-                            static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)});
+        for (int x = 0; x < columns; ++x)
+          out[y * blocks + x0 + x] = sums[static_cast<std::size_t>(y * kWindowColumns + x)];
     }
+    if (penalty_.greatest == 0) continue;
+    const double turned = k - 0.5 * (grid.rotations - 1);
+    for (std::size_t i = 0; i < size * size; ++i) out[i] -= penalty_.at(block_distances2_[i], turned);
   }
-
-  const auto better = [](const Node& a, const Node& b) {
-    return a.bound != b.bound ? a.bound > b.bound : a.order < b.order;
-  };
-  descend(field, *std::min_element(nodes_.begin(), nodes_.end(), better), top, grid, best);
-  std::erase_if(nodes_, [&](const Node& node) { return node.bound <= best.score; });
-  std::sort(nodes_.begin(), nodes_.end(), better);
-  for (const Node& node : nodes_) {
-    if (node.bound <= best.score) break;
-    descend(field, node, top, grid, best);
-  }
-  return best;
 }
 
 /// Whether all poses of the block are.
@@ -174,8 +206,7 @@ void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int
     // Blocks wholly outside the window.
     if (x << (level - 1) >= grid.translations || y << (level - 1) >= grid.translations) child.bound = -1;
   }
-  std::sort(children.begin(), children.end(),
-            [](const Node& a, const Node& b) { return a.bound != b.bound ? a.bound > b.bound : a.order < b.order; });
+  std::sort(children.begin(), children.end(), isBetter);
   for (const Node& child : children) descend(field, child, level - 1, grid, best);
 }
 

@@ -94,6 +94,8 @@ class BranchAndBound {
     std::array<bool, LikelihoodField::kLevels> has_offsets{};
   };
 
+  static bool isBetter(const Node& a, const Node& b);
+  void boundTopLevel(const LikelihoodField& field, const PoseGrid& grid, int top, int blocks, int border);
   const std::vector<std::int32_t>& offsetsAt(const LikelihoodField& field, int rotation, int level);
   BestPose searchFrom(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
                       BestPose best);
@@ -105,6 +107,8 @@ class BranchAndBound {
   GuessPenalty penalty_;
   std::vector<float> x_m_, y_m_;
   std::vector<Rotation> rotations_;
+  std::vector<double> block_distances2_;
+  std::vector<std::int32_t> bounds_;
   std::vector<Node> nodes_;
 };
 

@@ -337,13 +337,14 @@ double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, cons
                                                  const Eigen::Vector2d& axis) {
   const double step_m = 2.0 * config.resolution_m;
   const int half = static_cast<int>(config.profile_half_m / step_m);
+  const LikelihoodField::Level level = field.level(0);
   std::vector<double> distances_m, qualities;
   for (int k = -half; k <= half; ++k) {
     const double distance_m = k * step_m;
     const Eigen::Vector2d at = center.position_m() + distance_m * axis;
     BranchAndBound::cellsAt(field, points.x_m, points.y_m, center.yaw_rad, at.x(), at.y(), 1, x_cells, y_cells);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < x_cells.size(); ++i) sum += field.at(x_cells[i], y_cells[i]);
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < x_cells.size(); ++i) sum += level.cells[y_cells[i] * level.stride + x_cells[i]];
     distances_m.push_back(distance_m);
     qualities.push_back(sum / (kTopValue * static_cast<double>(points.x_m.size())));
   }

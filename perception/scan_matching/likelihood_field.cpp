@@ -32,6 +32,39 @@ void raiseRow(const std::uint8_t* in, std::uint8_t* out) {
 #endif
 }
 
+/// out[i], of at most kTile / 2 + 1: the greatest of the nine cells of three rows from column 2 i on.
+void coarsen(const std::uint8_t* rows, std::ptrdiff_t stride, int count, std::uint8_t* out) {
+  constexpr int kLane = 16;
+  constexpr int kColumns = 5 * kLane;  // At least 2 (kTile / 2 + 1) + 1.
+  alignas(kLane) std::array<std::uint8_t, kColumns + kLane> column_max{};
+  alignas(kLane) std::array<std::uint8_t, 3 * kLane> greatest;
+  const int columns = 2 * count + 1;
+#if defined(__x86_64__)
+  const auto load = [](const std::uint8_t* at) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(at)); };
+  for (int x = 0; x < columns; x += kLane) {
+    const std::uint8_t* in = rows + x;
+    const __m128i top = _mm_max_epu8(_mm_max_epu8(load(in), load(in + stride)), load(in + 2 * stride));
+    _mm_store_si128(reinterpret_cast<__m128i*>(&column_max[static_cast<std::size_t>(x)]), top);
+  }
+  const auto widest = [&](int x) {  // In the lower byte of each pair.
+    const std::uint8_t* in = &column_max[static_cast<std::size_t>(x)];
+    const __m128i top = _mm_max_epu8(_mm_max_epu8(load(in), load(in + 1)), load(in + 2));
+    return _mm_and_si128(top, _mm_set1_epi16(0xFF));
+  };
+  for (int x = 0; x < columns - 1; x += 2 * kLane)
+    _mm_store_si128(reinterpret_cast<__m128i*>(&greatest[static_cast<std::size_t>(x / 2)]),
+                    _mm_packus_epi16(widest(x), x + kLane < kColumns ? widest(x + kLane) : _mm_setzero_si128()));
+#else
+  for (int x = 0; x < columns; ++x)
+    column_max[static_cast<std::size_t>(x)] = std::max({rows[x], rows[x + stride], rows[x + 2 * stride]});
+  for (int i = 0; i < count; ++i) {
+    const std::uint8_t* in = &column_max[static_cast<std::size_t>(2 * i)];
+    greatest[static_cast<std::size_t>(i)] = std::max({in[0], in[1], in[2]});
+  }
+#endif
+  std::memcpy(out, greatest.data(), static_cast<std::size_t>(count));
+}
+
 }  // namespace
 
 LikelihoodField::LikelihoodField(double resolution_m, double sigma_m) : resolution_m_(resolution_m), sigma_m_(sigma_m) {
@@ -155,6 +188,11 @@ void LikelihoodField::reserve(int min_x, int min_y, int max_x, int max_y, int bo
   const int begin_y = floorToMultiple(min_y - border_ - slack, kTile);
   const int width = floorToMultiple(max_x + border_ + slack, kTile) + kTile - begin_x;
   const int height = floorToMultiple(max_y + border_ + slack, kTile) + kTile - begin_y;
+  if (!drawn_ && width <= width_ && height <= height_) {  // All zero: it may lie anywhere.
+    begin_x_ = begin_x;
+    begin_y_ = begin_y;
+    return;
+  }
   std::array<std::vector<std::uint8_t>, kLevels> levels;
   for (int k = 0; k < kLevels; ++k)
     levels[static_cast<std::size_t>(k)].assign(
@@ -209,23 +247,11 @@ void LikelihoodField::updateTile(int tile, int k) {
   // A tile is never at the border of the array, so that the cells around it exist.
   const int begin_x = (x0 >> k) - 1, end_x = (x0 + kTile) >> k;
   const int begin_y = (y0 >> k) - 1, end_y = (y0 + kTile) >> k;
-  const int fine_columns = 2 * (end_x - begin_x) + 1;
-
-  constexpr int kRow = 80;  // At least 2 * (kTile / 2 + 1) + 1, in whole 16-byte lanes.
-  std::array<std::uint8_t, kRow + 16> column_max{};
-  std::array<std::uint8_t, kRow> window_max{};
   for (int y = begin_y; y < end_y; ++y) {
-    const std::uint8_t* __restrict a =
+    const std::uint8_t* row =
         &fine[static_cast<std::size_t>(2 * y) * fine_stride + static_cast<std::size_t>(2 * begin_x)];
-    const std::uint8_t* __restrict b = a + fine_stride;
-    const std::uint8_t* __restrict c = b + fine_stride;
-    for (int x = 0; x < fine_columns; ++x)
-      column_max[static_cast<std::size_t>(x)] = std::max(std::max(a[x], b[x]), c[x]);
-    const std::uint8_t* in = column_max.data();
-    for (int x = 0; x < kRow; ++x)
-      window_max[static_cast<std::size_t>(x)] = std::max(std::max(in[x], in[x + 1]), in[x + 2]);
     std::uint8_t* out = &coarse[static_cast<std::size_t>(y) * coarse_stride + static_cast<std::size_t>(begin_x)];
-    for (int x = 0; x < end_x - begin_x; ++x) out[x] = window_max[static_cast<std::size_t>(2 * x)];
+    coarsen(row, static_cast<std::ptrdiff_t>(fine_stride), end_x - begin_x, out);
   }
 }
 

@@ -32,7 +32,8 @@ LaserFrontEndConfig::LaserFrontEndConfig() {
   odometry.min_weak_overlap = 0.93;
   odometry.matcher.guess_weight = 0.01;  // The prediction has its say in the filter.
   odometry.matcher.profile_half_m = 1.0;
-  odometry.matcher.only_seen = false;  // Of few beams in clutter too little would be left, see decision 020.
+  odometry.matcher.angular_resolution_deg = 0.2;  // A cell at 3 m, as far as most of what is seen.
+  odometry.matcher.only_seen = false;             // Of few beams in clutter too little would be left, see decision 020.
 }
 
 void LaserFrontEndConfig::describe(common::config::Fields& fields) {
@@ -109,6 +110,7 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input, cons
   FollowedScan followed;
   common::LaserScan stamped = input.scan;
   stamped.stamps = {now, now};
+  stamped.time_increment = {};  // Projected as if taken at once, it has one stamp, whatever the log says.
   followed.scan = projectLevel(stamped, input.T_robot_laser, expected);
   const bool withheld = withhold && withhold(expected) && self.begun;
   const std::optional<RelativePose> relative = withheld ? std::nullopt : self.match(followed.scan);
@@ -116,8 +118,8 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input, cons
     ++self.empty_scans;
     return std::nullopt;
   }
-  followed.matched = relative.has_value();
   followed.broken = self.begun && relative && relative->from == relative->to;
+  followed.matched = relative && !followed.broken;
   const bool lost = followed.broken || (!withheld && !relative);
   followed.covariance_since_last = self.follow(relative, lost, before, covariance_before);
   followed.T_odom_robot = self.T_odom_robot;

@@ -21,6 +21,8 @@ using common::square;
 constexpr double kLever_m = 3.0;
 /// A single error counts as no more than this many sigmas, so that one slip is not remembered for long.
 constexpr double kMaxSurprise = 4.0;
+/// A speed is believed for so long: over a longer pause, the robot has as likely stood.
+constexpr double kLongestCoast_s = 2.0;
 
 }  // namespace
 
@@ -75,7 +77,8 @@ void MotionPrediction::predict(const std::optional<Pose2>& T_odom_robot, double 
     }
   }
   const double dt = elapsed_s_;
-  inertia_.step = Pose2{velocity_.x() * dt, velocity_.y() * dt, velocity_.z() * dt};
+  const Eigen::Vector3d coasted = std::min(dt, kLongestCoast_s) * velocity_;
+  inertia_.step = Pose2{coasted.x(), coasted.y(), coasted.z()};
 
   const Source& source = best();
   const Pose2& step = *source.step;

@@ -10,6 +10,7 @@
 #include "common/validation.hpp"
 #include "perception/slam2d/particle/ancestry_tree.hpp"
 #include "perception/slam2d/particle/resampling.hpp"
+#include "perception/slam2d/unknown_step.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -107,8 +108,7 @@ void ParticleSlam::Impl::begin(const ProjectedScan& scan, const Pose2& pose) {
 /// Moves the estimate by what the laser odometry says happened since the last scan.
 void ParticleSlam::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& covariance_since_last) {
   const Pose2 moved = T_anchor_body * between(T_odom_body, T_odom_body_now);
-  const Eigen::Matrix3d step_covariance =
-      covariance_since_last.allFinite() ? covariance_since_last : Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d step_covariance = stepCovarianceOrUnknown(covariance_since_last);
   covariance_anchor =
       propagated(covariance_anchor, T_anchor_body, moved, common::turned(step_covariance, T_anchor_body.yaw_rad));
   T_anchor_body = moved;

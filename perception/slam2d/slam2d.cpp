@@ -9,6 +9,7 @@
 #include "common/check.hpp"
 #include "perception/slam2d/local_reference.hpp"
 #include "perception/slam2d/slam_task.hpp"
+#include "perception/slam2d/unknown_step.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -110,8 +111,7 @@ struct Slam2d::Impl {
 void Slam2d::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& covariance_since_last) {
   const Pose2 step = between(T_odom_body, T_odom_body_now);
   const Pose2 moved = T_anchor_body * step;
-  const Eigen::Matrix3d step_covariance =
-      covariance_since_last.allFinite() ? covariance_since_last : Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d step_covariance = stepCovarianceOrUnknown(covariance_since_last);
   covariance_anchor =
       propagated(covariance_anchor, T_anchor_body, moved, common::turned(step_covariance, T_anchor_body.yaw_rad));
   T_anchor_body = moved;

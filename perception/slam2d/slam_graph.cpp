@@ -18,6 +18,19 @@ double largerSigma(const Eigen::Matrix3d& covariance) {
   return std::sqrt(std::max(0.0, 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + c * c)));
 }
 
+/// On from one end of an edge to the other.
+ProjectedUncertainty projectedAlong(const SlamGraph& graph, const SlamEdge& edge, const ProjectedUncertainty& from) {
+  const int other = edge.from == from.key ? edge.to : edge.from;
+  const Pose2& here = graph.keys[static_cast<std::size_t>(from.key)].T_map_body;
+  const Pose2& there = graph.keys[static_cast<std::size_t>(other)].T_map_body;
+  const double edge_yaw_rad = graph.keys[static_cast<std::size_t>(edge.from)].T_map_body.yaw_rad;
+  // Walked backwards, the edge's own heading error swings the step as well.
+  Eigen::Matrix3d own = common::turned(edge.covariance, edge_yaw_rad);
+  if (edge.to == from.key) own = propagated(own, here, there, Eigen::Matrix3d::Zero());
+  const Eigen::Matrix3d covariance = propagated(from.covariance_map, here, there, own);
+  return {other, covariance, largerSigma(covariance)};
+}
+
 }  // namespace
 
 void SlamGraph::add(SlamEdge edge) {
@@ -40,42 +53,48 @@ double distance(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_
 
 std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m,
                                                      std::span<const int> wanted) {
-  const std::size_t size = graph.keys.size();
-  std::vector<ProjectedUncertainty> best(size);
-  std::vector<char> done(size, 0), is_wanted(size, 0);
+  struct Reached {
+    ProjectedUncertainty uncertainty;
+    bool done = false;
+  };
+  std::vector<Reached> reached;
+  std::vector<std::int32_t> index_of(graph.keys.size(), -1);  // Into `reached`, which holds the few that are near.
+  std::vector<char> is_wanted(wanted.empty() ? 0 : graph.keys.size(), 0);
   for (const int key : wanted) is_wanted[static_cast<std::size_t>(key)] = 1;
   auto missing = std::count(is_wanted.begin(), is_wanted.end(), 1);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  for (std::size_t i = 0; i < size; ++i) best[i] = {static_cast<int>(i), Eigen::Matrix3d::Zero(), INFINITY};
-  best[static_cast<std::size_t>(start)].sigma_m = 0.0;
-  open.push({0.0, start});
+  const auto reach = [&](const ProjectedUncertainty& uncertainty) {
+    std::int32_t& index = index_of[static_cast<std::size_t>(uncertainty.key)];
+    if (index < 0) {
+      index = static_cast<std::int32_t>(reached.size());
+      reached.push_back({uncertainty});
+    } else {
+      Reached& known = reached[static_cast<std::size_t>(index)];
+      if (uncertainty.sigma_m >= known.uncertainty.sigma_m) return;
+      known.uncertainty = uncertainty;
+    }
+    open.push({uncertainty.sigma_m, uncertainty.key});
+  };
+  const auto isDone = [&](int key) {
+    const std::int32_t index = index_of[static_cast<std::size_t>(key)];
+    return index >= 0 && reached[static_cast<std::size_t>(index)].done;
+  };
+  reach({start, Eigen::Matrix3d::Zero(), 0.0});
 
   std::vector<ProjectedUncertainty> result;
   while (!open.empty()) {
     const auto [sigma, key] = open.top();
     open.pop();
-    if (done[static_cast<std::size_t>(key)] != 0) continue;
+    Reached& here = reached[static_cast<std::size_t>(index_of[static_cast<std::size_t>(key)])];
+    if (here.done) continue;
     if (sigma > max_sigma_m) break;
-    done[static_cast<std::size_t>(key)] = 1;
-    result.push_back(best[static_cast<std::size_t>(key)]);
-    if (is_wanted[static_cast<std::size_t>(key)] != 0 && --missing == 0) break;
+    here.done = true;
+    result.push_back(here.uncertainty);
+    if (!wanted.empty() && is_wanted[static_cast<std::size_t>(key)] != 0 && --missing == 0) break;
     for (const int index : graph.keys[static_cast<std::size_t>(key)].edges) {
       const SlamEdge& edge = graph.edges[static_cast<std::size_t>(index)];
-      const int other = edge.from == key ? edge.to : edge.from;
-      if (done[static_cast<std::size_t>(other)] != 0) continue;
-      const Pose2& here = graph.keys[static_cast<std::size_t>(key)].T_map_body;
-      const Pose2& there = graph.keys[static_cast<std::size_t>(other)].T_map_body;
-      const double edge_yaw_rad = graph.keys[static_cast<std::size_t>(edge.from)].T_map_body.yaw_rad;
-      // Walked backwards, the edge's own heading error swings the step as well.
-      Eigen::Matrix3d own = common::turned(edge.covariance, edge_yaw_rad);
-      if (edge.to == key) own = propagated(own, here, there, Eigen::Matrix3d::Zero());
-      const Eigen::Matrix3d covariance =
-          propagated(best[static_cast<std::size_t>(key)].covariance_map, here, there, own);
-      const double other_sigma = largerSigma(covariance);
-      if (other_sigma >= best[static_cast<std::size_t>(other)].sigma_m) continue;
-      best[static_cast<std::size_t>(other)] = {other, covariance, other_sigma};
-      open.push({other_sigma, other});
+      if (!isDone(edge.from == key ? edge.to : edge.from)) reach(projectedAlong(graph, edge, result.back()));
     }
   }
   return result;

@@ -250,6 +250,23 @@ TEST(Slam2d, IgnoresWhatIsLateEmptyOrNotANumber) {
   EXPECT_TRUE(std::isfinite(slam.addScan(next.scan, next.T_odom_body, nan).T_map_body.x_m));
 }
 
+/// It says nothing of the step, not that the step is certain.
+TEST(Slam2d, ACovarianceThatIsNotANumberMakesAWeakEdge) {
+  const auto firstEdge = [](bool known) {
+    Slam2d slam{{}};
+    test::Flight flight = flatFlight(1, 6);
+    while (slam.edges().empty()) {
+      const auto step = flight.next();
+      slam.addScan(step.scan, step.T_odom_body,
+                   known ? step.covariance_since_last
+                         : Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()).eval());
+    }
+    return slam.edges().front().covariance;
+  };
+  EXPECT_LT(firstEdge(true)(0, 0), 0.01);
+  EXPECT_GT(firstEdge(false)(0, 0), 0.2);
+}
+
 // --- The grid. ---
 
 DrawnScan around(double radius_m, int beams) {

@@ -1,0 +1,78 @@
+#include "perception/slam2d/laser_front_end.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/scan_matching/planar_world.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Duration;
+using common::Pose2;
+using common::Time;
+
+/// A robot without wheels in a flat, whose laser is seen through the front end.
+class Robot {
+ public:
+  FollowedScan scanAt(const Pose2& truth, double at_s, Duration time_increment = {}) {
+    common::LaserConfig laser;
+    laser.beams = 361;
+    laser.sweep_s = 0.0;
+    common::RandomStream random(7, "scan", scans_++);
+    common::LaserScan scan = test::sweep(
+        test::flat(), laser, [&](Time) { return common::lifted(truth, 1.0); }, Time::fromSeconds(at_s), random);
+    scan.time_increment = time_increment;
+    return front_end_.add({scan, Pose2{}, std::nullopt}).value();
+  }
+
+  const LaserOdometryCounts& counts() const { return front_end_.odometryCounts(); }
+
+ private:
+  LaserFrontEnd front_end_{LaserFrontEndConfig{}};
+  std::uint64_t scans_ = 0;
+};
+
+/// It went on for a long while, or it stood: the speed before tells nothing.
+TEST(LaserFrontEnd, ALongPauseOfALogIsNoWay) {
+  for (const double pause_s : {5.0, 30.0, 3500.0}) {
+    Robot robot;
+    Pose2 truth;
+    FollowedScan last;
+    for (int i = 0; i < 20; ++i) last = robot.scanAt(truth = {0.03 * i, 0.01 * i, 0.02 * i}, 0.1 * i);
+    for (int i = 0; i < 20; ++i) last = robot.scanAt(truth, 2.0 + pause_s + 0.1 * i);
+    EXPECT_EQ(robot.counts().restarts, 0U) << pause_s;
+    EXPECT_LT(between(last.T_odom_robot, truth).position_m().norm(), 0.03) << pause_s;
+  }
+}
+
+/// A scan is followed as if taken at once: what the log says its beams took moves no stamp.
+TEST(LaserFrontEnd, StampsGrowWhateverTheBeamsAreSaidToTake) {
+  Robot robot;
+  Time last;
+  for (int i = 0; i < 30; ++i) {
+    const Duration time_increment = Duration::fromSeconds(i == 10 ? 0.5 : 0.0001);
+    const FollowedScan followed = robot.scanAt({0.02 * i, 0.0, 0.0}, 0.1 * i, time_increment);
+    EXPECT_TRUE(followed.matched) << i;
+    EXPECT_TRUE(i == 0 || followed.scan.stamp > last) << i;
+    last = followed.scan.stamp;
+  }
+  EXPECT_EQ(robot.counts().out_of_order, 0U);
+}
+
+/// Carried elsewhere, it starts anew with a scan that stands where it was expected: no match.
+TEST(LaserFrontEnd, AScanItStartsAnewWithIsNotMatched) {
+  Robot robot;
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(robot.scanAt({0.02 * i, 0.0, 0.0}, 0.1 * i).matched);
+  int breaks = 0;
+  for (int i = 0; i < 20; ++i) {
+    const FollowedScan followed = robot.scanAt({6.0, 2.0 + 0.02 * i, 2.0}, 2.0 + 0.1 * i);
+    breaks += followed.broken ? 1 : 0;
+    EXPECT_FALSE(followed.broken && followed.matched) << i;
+  }
+  EXPECT_EQ(breaks, 1);
+}
+
+}  // namespace
+}  // namespace swiftlet::perception
