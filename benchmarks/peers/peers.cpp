@@ -1,7 +1,8 @@
 // benchmark_peers LOG RELATIONS [--repeat N] [--settings FOLDER]
 //
-// On one log, in one run: our front end (LaserSlam without loops) beside MRPT's icp-slam, and our full SLAM beside its
-// rbpf-slam. Of each, the processor time a scan took, and how well the trajectory keeps the relations (Kuemmerle 2009).
+// On one log, in one run: our front end (LaserFrontEnd), and our SLAM without loop search, beside MRPT's icp-slam, and
+// our full SLAM beside its rbpf-slam. Of each, the processor time a scan took, and how well the trajectory keeps the
+// relations (Kuemmerle 2009).
 #include <ctime>
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include "common/trajectory.hpp"
 #include "evaluation/relations.hpp"
 #include "interfaces/files/relations.hpp"
+#include "perception/slam2d/laser_front_end.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 
 namespace {
@@ -34,9 +36,23 @@ struct Options {
   std::filesystem::path settings = "/usr/share/mrpt/config_files";  ///< Debian's mrpt-common.
 };
 
-class Ours final : public Peer {
+class OurFrontEnd final : public Peer {
  public:
-  explicit Ours(bool loops) : slam_(configOf(loops)), loops_(loops) {}
+  void add(const LoggedScan& logged) override {
+    const auto followed = front_end_.add({logged.scan, logged.T_robot_laser, logged.T_odom_robot});
+    poses_.push_back(followed ? followed->T_odom_robot : Pose2{});
+  }
+
+  std::vector<Pose2> finish() override { return poses_; }
+
+ private:
+  perception::LaserFrontEnd front_end_{perception::LaserFrontEndConfig{}};
+  std::vector<Pose2> poses_;
+};
+
+class OurSlam final : public Peer {
+ public:
+  explicit OurSlam(bool loops) : slam_(configOf(loops)), loops_(loops) {}
 
   void add(const LoggedScan& logged) override {
     const auto scan = slam_.add({logged.scan, logged.T_robot_laser, logged.T_odom_robot});
@@ -127,12 +143,15 @@ void compare(const Options& options) {
   const auto rbpf = [&] {
     return peers::mrptRbpfSlam(options.settings / "rbpf-slam" / "gridmapping_optimal_sampling.ini");
   };
+  const auto front_end = [] { return std::make_unique<OurFrontEnd>(); };
   const std::vector<Contender> contenders = {
-      {"front end, odometry", true, [] { return std::make_unique<Ours>(false); }},
+      {"front end, odometry", true, front_end},
+      {"SLAM without loop search, odometry", true, [] { return std::make_unique<OurSlam>(false); }},
       {"MRPT icp-slam, odometry", true, icp},
-      {"front end, no odometry", false, [] { return std::make_unique<Ours>(false); }},
+      {"front end, no odometry", false, front_end},
+      {"SLAM without loop search, no odometry", false, [] { return std::make_unique<OurSlam>(false); }},
       {"MRPT icp-slam, no odometry", false, icp},
-      {"full SLAM, odometry", true, [] { return std::make_unique<Ours>(true); }},
+      {"full SLAM, odometry", true, [] { return std::make_unique<OurSlam>(true); }},
       {"MRPT rbpf-slam, odometry", true, rbpf},
   };
   std::printf("%s: %zu scans, %zu relations, %d runs each\n", options.log.c_str(), log.size(), relations.size(),
