@@ -7,12 +7,12 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "common/validation.hpp"
 #include "perception/scan_matching/branch_and_bound.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 #include "perception/scan_matching/score_grid.hpp"
 #include "perception/scan_matching/score_surface.hpp"
+#include "perception/scan_matching/split_points.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -26,9 +26,6 @@ constexpr double kTopValue = LikelihoodField::kTopValue;
 /// A window with more poses is searched with bounds, whatever the estimate: so many scores are 80 MB.
 constexpr double kMostScores = 2e7;
 
-/// Fewer neighbours in a row that the reference has not seen are noise, or somebody.
-constexpr std::size_t kLeastUnseen = 3;
-
 /// Half a window is cut to so many steps.
 constexpr double kMostSteps = 4000.0;
 
@@ -37,115 +34,7 @@ int stepsIn(double half, double step, double most) {
   return half > 0.0 ? static_cast<int>(std::min(std::ceil(half / step), most)) : 0;
 }
 
-/// Points in the two arrays that the transformation wants.
-struct SplitPoints {
-  std::vector<float> x_m, y_m;
-
-  std::vector<float> heights_m;  ///< Over the body; empty when not known.
-
-  explicit SplitPoints(const std::vector<Eigen::Vector2f>& points_m) {
-    x_m.reserve(points_m.size());
-    y_m.reserve(points_m.size());
-    for (const Eigen::Vector2f& p : points_m) {
-      x_m.push_back(p.x());
-      y_m.push_back(p.y());
-    }
-  }
-};
-
-/// At most `count` points of the scan with their heights.
-SplitPoints spreadWithHeights(const ProjectedScan& scan, int count, double max_range_m) {
-  std::vector<Eigen::Vector2f> points;
-  std::vector<float> heights;
-  for (const int i : spreadIndices(scan.points_level_m, count, max_range_m)) {
-    points.push_back(scan.points_level_m[static_cast<std::size_t>(i)]);
-    if (scan.heights_level_m.size() == scan.points_level_m.size())
-      heights.push_back(scan.heights_level_m[static_cast<std::size_t>(i)]);
-  }
-  SplitPoints result(points);
-  result.heights_m = std::move(heights);
-  return result;
-}
-
-/// Without the points that the reference has not seen, and those beside them as far as the field reaches. There a
-/// surface goes on beyond what was drawn of it; slid along itself, the scan would cover more of it. What comes out of a
-/// shadow while the vehicle goes by would pull it on, a little with each match.
-SplitPoints awayFromUnseen(const SplitPoints& points, const std::vector<bool>& seen, double reach_m) {
-  const std::size_t size = points.x_m.size();
-  const auto reach2 = static_cast<float>(reach_m * reach_m);
-  const auto near = [&](std::size_t i, std::size_t j) {
-    const float dx = points.x_m[i] - points.x_m[j], dy = points.y_m[i] - points.y_m[j];
-    return dx * dx + dy * dy < reach2;
-  };
-  std::vector<bool> kept = seen;
-  for (std::size_t begin = 0, end; begin < size; begin = end + 1) {
-    for (end = begin; end < size && !seen[end];) ++end;
-    if (end - begin < kLeastUnseen) continue;
-    for (std::size_t j = end; j < size && seen[j] && near(end - 1, j); ++j) kept[j] = false;
-    for (std::size_t j = begin; j-- > 0 && seen[j] && near(begin, j);) kept[j] = false;
-  }
-  if (2 * static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true)) < size) return points;
-  SplitPoints result({});
-  for (std::size_t i = 0; i < size; ++i) {
-    if (!kept[i]) continue;
-    result.x_m.push_back(points.x_m[i]);
-    result.y_m.push_back(points.y_m[i]);
-    if (!points.heights_m.empty()) result.heights_m.push_back(points.heights_m[i]);
-  }
-  return result;
-}
-
 }  // namespace
-
-void CorrelativeMatcherConfig::describe(common::config::Fields& fields) {
-  fields("resolution_m", resolution_m, "Of the finest level.");
-  fields("angular_resolution_deg", angular_resolution_deg, "Of the finest level.");
-  fields("levels", levels, "Resolutions in the weighted mean, each twice as coarse as the one before.");
-  fields.choice("estimate", estimate, {"finest", "weighted_mean", "surface", "score_grid"},
-                "How the pose is taken from the scores.");
-  fields("sigma_m", sigma_m, "Spread of the end points about the contour of the reference.");
-  fields("search_points", search_points, "Points of a scan that are searched with.");
-  fields("surface_points", surface_points, "Points from which pose and covariance are taken around the best.");
-  fields("only_seen", only_seen, "Points that the reference has not seen, and those beside them, do not pull.");
-  fields("max_range_m", max_range_m, "Points farther than this are not used.");
-  fields("max_gap_m", max_gap_m, "Neighbouring end points nearer than this are joined to a contour.");
-  fields("guess_weight", guess_weight, "A pose far from the guess loses at most this much quality.");
-  fields("guess_distance_m", guess_distance_m, "Half of it is lost at this distance.");
-  fields("guess_rotation_deg", guess_rotation_deg, "Or at this rotation.");
-  fields("min_quality", min_quality, "Below this mean score the match failed.");
-  fields("min_points", min_points, "With fewer points the match failed.");
-  fields("covariance_scale", covariance_scale, "Factor on the covariance of independent points.");
-  fields("attitude_error_deg", attitude_error_deg, "Error of roll and pitch, which the covariance allows for.");
-  fields("profile_half_m", profile_half_m, "How far along the least held direction the score is looked at.");
-  fields("profile_temperature", profile_temperature, "Difference in quality that makes a pose e times less likely.");
-  fields("min_normal_spread", min_normal_spread,
-         "A direction with a smaller share of the contour facing it is not seen.");
-  fields("unobservable_sigma_m", unobservable_sigma_m, "A direction less certain than this is not seen.");
-}
-
-std::vector<std::string> CorrelativeMatcherConfig::validate() const {
-  return common::Validation()
-      .within("resolution_m", resolution_m, 0.001, 1)
-      .within("angular_resolution_deg", angular_resolution_deg, 0.01, 10)
-      .within("levels", levels, 1, 3)
-      .within("sigma_m", sigma_m, 0.5 * resolution_m, LikelihoodField::kMaxKernelCells * resolution_m / 3.0 + 1e-9)
-      .within("search_points", search_points, 10, 256)
-      .within("surface_points", surface_points, 10, 4096)
-      .within("max_range_m", max_range_m, 0.5, 100)
-      .within("max_gap_m", max_gap_m, 0, 10)
-      .within("guess_weight", guess_weight, 0, 1)
-      .within("guess_distance_m", guess_distance_m, 0.001, 100)
-      .within("guess_rotation_deg", guess_rotation_deg, 0.01, 360)
-      .within("min_quality", min_quality, 0, 1)
-      .within("min_points", min_points, 3, 256)
-      .within("covariance_scale", covariance_scale, 0.01, 1000)
-      .within("attitude_error_deg", attitude_error_deg, 0, 20)
-      .within("profile_half_m", profile_half_m, 0, 5)
-      .within("profile_temperature", profile_temperature, 0.0001, 1)
-      .within("min_normal_spread", min_normal_spread, 0, 0.5)
-      .within("unobservable_sigma_m", unobservable_sigma_m, 0.001, 0.9)
-      .problems();
-}
 
 struct CorrelativeMatcher::Impl {
   Impl(const CorrelativeMatcherConfig& config_in, Instructions instructions_in)
@@ -189,8 +78,12 @@ struct CorrelativeMatcher::Impl {
   BestPose searchGrid(const std::vector<Eigen::Vector2f>& points, const PoseGrid& grid);
   void addSpreadElsewhere(const BestPose& best, double log_per_score, const Eigen::Vector3d& step,
                           const Eigen::Vector3d& guess_offset, Peak& peak) const;
+  MatchResult resultOf(const std::vector<Eigen::Vector2f>& points, const PoseGrid& grid, const BestPose& best) const;
   MatchResult evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points, const Pose2& guess,
                        const PoseGrid& grid, const BestPose& best, bool scored);
+  double surfaceStep_rad(const std::vector<Eigen::Vector2f>& points) const;
+  void doubtUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen, const SplitPoints& surface_points,
+                    const Pose2& finest, const Eigen::Vector3d& guess_offset, Peak& peak);
   std::vector<bool> supportedAt(const SplitPoints& points, const Pose2& pose);
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
   Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad, const Peak& peak);
@@ -358,67 +251,77 @@ double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, cons
   return sum2 / weights;
 }
 
-MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points,
-                                               const Pose2& guess, const PoseGrid& grid, const BestPose& best,
-                                               bool scored) {
+/// The search's answer: what of the result does not come from the shape of the scores.
+MatchResult CorrelativeMatcher::Impl::resultOf(const std::vector<Eigen::Vector2f>& points, const PoseGrid& grid,
+                                               const BestPose& best) const {
   MatchResult result;
   result.points_used = static_cast<int>(points.size());
   result.finest_score = best.score;
-  result.finest_T_reference_body = poseAt(grid, best);
-  result.T_reference_body = result.finest_T_reference_body;
+  result.finest_T_reference_body = result.T_reference_body = poseAt(grid, best);
   const int penalty = BranchAndBound::leastPenalty(penaltyFor(points.size()), grid, best.x, best.y, best.rotation, 0);
   result.quality = (best.score + penalty) / (kTopValue * static_cast<double>(points.size()));
   const auto atEdge = [](int i, int size) { return size > 1 && (i == 0 || i == size - 1); };
   result.at_window_edge =
       atEdge(best.x, grid.translations) || atEdge(best.y, grid.translations) || atEdge(best.rotation, grid.rotations);
+  result.failed = result.quality < config.min_quality || result.points_used < config.min_points;
+  return result;
+}
 
-  // One step of rotation moves the points by about one cell, so that the surface is as wide in each direction.
+/// One step of rotation moves the points by about one cell, so that the surface is as wide in each direction.
+double CorrelativeMatcher::Impl::surfaceStep_rad(const std::vector<Eigen::Vector2f>& points) const {
   double lever2 = 0.0;
   for (const Eigen::Vector2f& p : points) lever2 += p.squaredNorm();
   const double lever_m = std::sqrt(lever2 / static_cast<double>(points.size()));
+  return config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
+}
+
+/// A contour that faces one direction only holds the position across it. Along it, the guess stands, or at least the
+/// spread of what scores as well counts.
+void CorrelativeMatcher::Impl::doubtUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen,
+                                            const SplitPoints& surface_points, const Pose2& finest,
+                                            const Eigen::Vector3d& guess_offset, Peak& peak) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(
+      normalSpread(all_points.x_m, all_points.y_m, config.only_seen ? seen : std::vector<bool>{}));
+  const Eigen::Vector2d axis = Eigen::Rotation2Dd(finest.yaw_rad) * normals.eigenvectors().col(0);
+  if (normals.eigenvalues()(0) < config.min_normal_spread) holdAlong(axis, guess_offset, peak);
+  if (config.profile_half_m > 0.0 && normals.eigenvalues()(0) < kProfiledSpread)
+    peak.covariance.topLeftCorner<2, 2>() += profileVariance(surface_points, finest, axis) * axis * axis.transpose();
+}
+
+MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points,
+                                               const Pose2& guess, const PoseGrid& grid, const BestPose& best,
+                                               bool scored) {
+  MatchResult result = resultOf(points, grid, best);
+  const Pose2 finest = result.finest_T_reference_body;
   const SplitPoints all_points = spreadWithHeights(scan, config.surface_points, config.max_range_m);
   field.prepare(0, 2 * kWindowColumns + 2 * ScoreSurface::kSize);
-  const std::vector<bool> seen = supportedAt(all_points, result.finest_T_reference_body);
+  const std::vector<bool> seen = supportedAt(all_points, finest);
   const auto supported = static_cast<double>(std::count(seen.begin(), seen.end(), true));
   result.overlap = supported / static_cast<double>(all_points.x_m.size());
   const SplitPoints surface_points = config.only_seen ? awayFromUnseen(all_points, seen, field.reach_m()) : all_points;
-  const double step_rad =
-      scored ? grid.step_yaw_rad : config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
-  ScoreSurface surface =
-      scored ? all_scores.surfaceAround(best) : surfaceAround(surface_points, result.finest_T_reference_body, step_rad);
+
+  const double step_rad = scored ? grid.step_yaw_rad : surfaceStep_rad(points);
+  ScoreSurface surface = scored ? all_scores.surfaceAround(best) : surfaceAround(surface_points, finest, step_rad);
   surface.step_m = config.resolution_m;
   surface.step_rad = step_rad;
-  const Eigen::Vector3d guess_offset(guess.x_m - result.finest_T_reference_body.x_m,
-                                     guess.y_m - result.finest_T_reference_body.y_m,
-                                     common::wrapAngle(guess.yaw_rad - result.finest_T_reference_body.yaw_rad));
+  const Eigen::Vector3d guess_offset(guess.x_m - finest.x_m, guess.y_m - finest.y_m,
+                                     common::wrapAngle(guess.yaw_rad - finest.yaw_rad));
   const double supported_there = std::min(supported, static_cast<double>(surface_points.x_m.size()));
   const SurfaceScale scale{scored ? supported : supported_there, field.reach_m(), config.covariance_scale,
                            config.unobservable_sigma_m};
   Peak peak = findPeak(surface, scale, guess_offset);
-  peak.covariance += attitudeCovariance(surface_points, result.finest_T_reference_body, step_rad, peak);
+  peak.covariance += attitudeCovariance(surface_points, finest, step_rad, peak);
   if (config.estimate == PoseEstimate::kFinest) peak.offset.setZero();
   if (config.estimate == PoseEstimate::kWeightedMean) peak.offset = weightedMean(surface_points, grid, best);
   if (scored)
     addSpreadElsewhere(best, logPerScore(surface, scale), {surface.step_m, surface.step_m, step_rad}, guess_offset,
                        peak);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(
-      normalSpread(all_points.x_m, all_points.y_m, config.only_seen ? seen : std::vector<bool>{}));
-  if (normals.eigenvalues()(0) < config.min_normal_spread)
-    holdAlong(Eigen::Rotation2Dd(result.finest_T_reference_body.yaw_rad) * normals.eigenvectors().col(0), guess_offset,
-              peak);
-  if (config.profile_half_m > 0.0 && normals.eigenvalues()(0) < kProfiledSpread) {
-    const Eigen::Vector2d axis =
-        Eigen::Rotation2Dd(result.finest_T_reference_body.yaw_rad) * normals.eigenvectors().col(0);
-    peak.covariance.topLeftCorner<2, 2>() +=
-        profileVariance(surface_points, result.finest_T_reference_body, axis) * axis * axis.transpose();
-  }
-  const Eigen::Vector3d& offset = peak.offset;
+  doubtUnfaced(all_points, seen, surface_points, finest, guess_offset, peak);
+
   result.covariance = peak.covariance;
   result.unobservable_direction = peak.unobservable_direction;
-  result.T_reference_body.x_m += offset.x();
-  result.T_reference_body.y_m += offset.y();
-  result.T_reference_body.yaw_rad = common::wrapAngle(result.T_reference_body.yaw_rad + offset.z());
-  result.failed = result.quality < config.min_quality || result.points_used < config.min_points;
+  result.T_reference_body = {finest.x_m + peak.offset.x(), finest.y_m + peak.offset.y(),
+                             common::wrapAngle(finest.yaw_rad + peak.offset.z())};
   return result;
 }
 
