@@ -97,10 +97,12 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
 
   const Pose3 T_odom_body = filter_.poseAt(outcome.scan.stamp).value_or(outcome.scan.T_odom_body);
   outcome.T_map_body = slam_.T_map_odom() * planar(T_odom_body);
+  const bool interrupted = odometry_.counts().restarts != restarts_before;
+  const Eigen::Matrix3d step_covariance = covariance_since_map_ - covariance_before;
   if (localizer_ && at_flight_height_)
-    localizer_->add({standing, planar(T_odom_body), covariance_since_map_ - covariance_before, withheld,
-                     odometry_.counts().restarts != restarts_before},
-                    now);
+    localizer_->add({standing, planar(T_odom_body), step_covariance, withheld, interrupted}, now);
+  else if (localizer_)
+    localizer_->passOver(step_covariance, interrupted);
   fuseHeight(outcome.scan, outcome.T_map_body);
   if (const auto below_m = medianBelow_m(outcome.scan))
     outcome.raw_height = control::RawHeight{outcome.scan.stamp, *below_m};

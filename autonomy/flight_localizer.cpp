@@ -29,10 +29,17 @@ bool FlightLocalizer::wantsScan(const common::Pose2& T_odom_body) {
 
 void FlightLocalizer::add(const LocatedScan& located, Time now) {
   localization_.stamp = located.scan.stamp;
+  passOver(located.step_covariance, located.interrupted);
   take(localizer_.follow(
-           {located.scan, located.T_odom_body, located.step_covariance, located.withheld, located.interrupted}),
+           {located.scan, located.T_odom_body, since_last_.covariance, located.withheld, since_last_.interrupted}),
        now);
+  since_last_ = {};
   submitSearch(now);
+}
+
+void FlightLocalizer::passOver(const Eigen::Matrix3d& step_covariance, bool interrupted) {
+  since_last_.covariance += step_covariance;
+  since_last_.interrupted |= interrupted;
 }
 
 void FlightLocalizer::take(const perception::LocalizationEstimate& estimate, Time now) {

@@ -56,6 +56,8 @@ class FlightLocalizer {
   /// Whether the next scan, expected at that pose, is to be kept from the odometry; see perception::ScanTurns.
   bool wantsScan(const common::Pose2& T_odom_body);
   void add(const LocatedScan& located, common::Time now);
+  /// A scan that is not looked at, as it was taken too low: what the odometry did meanwhile counts with the next.
+  void passOver(const Eigen::Matrix3d& step_covariance, bool interrupted);
 
   const common::Localization& localization() const { return localization_; }
   std::vector<common::Event> takeEvents();
@@ -68,6 +70,10 @@ class FlightLocalizer {
   common::JobRunner& jobs_;
   perception::Localizer localizer_;
   perception::ScanTurns turns_;
+  struct {
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    bool interrupted = false;
+  } since_last_;  ///< Of the odometry, since the last scan that was looked at.
   common::Localization localization_;
   std::vector<common::Event> events_;
 };

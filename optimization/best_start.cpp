@@ -69,7 +69,8 @@ class Search {
     const double chi2 = sum(solution.squared_errors);
     ++best_.starts;
     best_.iterations += solution.iterations;
-    const bool better = best_.starts == 1 ? chi2 <= best_.chi2 : chi2 < best_.chi2;
+    // What ends where it is best already has converged, too.
+    const bool better = best_.starts == 1 || start == Start::kGuess ? chi2 <= best_.chi2 : chi2 < best_.chi2;
     if (!better) return;
     best_.poses = std::move(solution.poses);
     best_.chi2 = chi2;

@@ -1,5 +1,7 @@
 #include "optimization/ceres_solver.hpp"
 
+#include <algorithm>
+
 namespace swiftlet::optimization {
 
 ceres::Solver::Summary solve(ceres::Problem& problem, const PoseGraphConfig& config) {
@@ -14,6 +16,10 @@ ceres::Solver::Summary solve(ceres::Problem& problem, const PoseGraphConfig& con
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   return summary;
+}
+
+int stepsTried(const ceres::Solver::Summary& summary) {
+  return std::max(0, static_cast<int>(summary.iterations.size()) - 1);  // The first is the look at the guess.
 }
 
 }  // namespace swiftlet::optimization

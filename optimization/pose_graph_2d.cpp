@@ -107,7 +107,7 @@ PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraphConfig& co
   const ceres::Solver::Summary summary = solve(problem, config);
   solution.initial_cost = summary.initial_cost;
   solution.final_cost = summary.final_cost;
-  solution.iterations = static_cast<int>(summary.iterations.size());
+  solution.iterations = stepsTried(summary);
   solution.converged = summary.termination_type == ceres::CONVERGENCE;
   if (summary.IsSolutionUsable())
     for (std::size_t i = 0; i < values.size(); ++i)

@@ -128,7 +128,7 @@ PoseGraph3DSolution optimize(const PoseGraph3D& graph, const PoseGraphConfig& co
   addPoses(problem, graph, values);
   addEdges(problem, graph, config, values);
   const ceres::Solver::Summary summary = solve(problem, config);
-  solution.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  solution.iterations = stepsTried(summary);
   solution.converged = summary.termination_type == ceres::CONVERGENCE;
   if (summary.IsSolutionUsable())
     for (std::size_t i = 0; i < values.size(); ++i) {

@@ -174,11 +174,8 @@ GlobalSearchResult GlobalSearch::search(const std::vector<Eigen::Vector2f>& poin
   for (const std::uint32_t next : order_) {
     const Node& node = nodes_[next];
     if (node.bound <= floor()) break;
-    if (blocks_ > config_.max_blocks) {
-      complete_ = false;
-      break;
-    }
     descend(node, kTopLevel);
+    if (!complete_) break;
   }
   complete_ &= static_cast<int>(places_.size()) < config_.max_places;
   for (const Place& place : places_) {
@@ -240,7 +237,10 @@ void GlobalSearch::descend(const Node& node, int level) {
     take(node);
     return;
   }
-  if (++blocks_ > config_.max_blocks) return;
+  if (++blocks_ > config_.max_blocks) {
+    complete_ = false;
+    return;
+  }
   const int finer = level - 1, stride = width_ >> finer;
   std::array<std::uint16_t, std::size_t{2} * kWindowColumns> sums;
   sumWindows(instructions_, fields_[static_cast<std::size_t>(finer)].data() + indexOf(2 * node.x, 2 * node.y, stride),

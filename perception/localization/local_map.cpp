@@ -11,13 +11,20 @@ namespace swiftlet::perception {
 
 using common::Pose2;
 
+namespace {
+
+/// A vehicle that turns on the spot makes no way after which scans are forgotten.
+constexpr std::size_t kMostScans = 200;
+
+}  // namespace
+
 void LocalMap::add(const Pose2& T_odom_body, const std::vector<Eigen::Vector2f>& points_body_m) {
   double way_m = 0.0;
   if (!key_scans_.empty())
     way_m = key_scans_.back().way_m + (T_odom_body.position_m() - key_scans_.back().T_odom_body.position_m()).norm();
   key_scans_.push_back({T_odom_body, points_body_m, way_m});
   std::erase_if(key_scans_.back().points_body_m, [](const Eigen::Vector2f& point) { return !point.allFinite(); });
-  while (way_m - key_scans_.front().way_m > length_m_) key_scans_.pop_front();
+  while (way_m - key_scans_.front().way_m > length_m_ || key_scans_.size() > kMostScans) key_scans_.pop_front();
 }
 
 double LocalMap::length_m() const {

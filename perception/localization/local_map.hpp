@@ -15,7 +15,8 @@ namespace swiftlet::perception {
 /// Not thread-safe.
 class LocalMap {
  public:
-  /// Scans farther back than `length_m` of the way are forgotten: by then the odometry has drifted.
+  /// Scans farther back than `length_m` of the way are forgotten: by then the odometry has drifted. So are, on the
+  /// spot, all but the last 200.
   explicit LocalMap(double length_m) : length_m_(length_m) {}
 
   void clear() { key_scans_.clear(); }

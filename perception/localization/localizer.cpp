@@ -50,6 +50,7 @@ struct Localizer::Impl {
   void find(const LocalizationInput& input);
   void ask(const ProjectedScan& scan);
   void forgetSearches();
+  void forgetAll();
   void apply(const LocalizationResult::Data& found);
   void judge(const LocalizationResult::Data& found);
   void fitsNowhere();
@@ -109,7 +110,11 @@ void Localizer::Impl::step(const LocalizationInput& input) {
   elapsed_s = first ? 0.0 : std::max(0.0, (input.scan.stamp - now).seconds());
   now = input.scan.stamp;
   tracker.advance(input);
-  if (first || !input.interrupted) return;
+  if (!first && input.interrupted) forgetAll();
+}
+
+/// What was seen from another place, or from where the odometry does not know the way, no longer counts.
+void Localizer::Impl::forgetAll() {
   local_map.clear();
   forgetSearches();
   candidate.reset();
@@ -204,11 +209,11 @@ void Localizer::Impl::apply(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::judge(const LocalizationResult::Data& found) {
-  places = static_cast<int>(found.places.size());
   if (found.places.empty() || found.places.front().explained < config.least_explained) {
     fitsNowhere();
     return;
   }
+  places = static_cast<int>(found.places.size());
   const LikelyPlace& best = found.places.front();
   const Pose2& T_odom_middle = found.whole.T_odom_middle;
   fits_nowhere = false;
@@ -236,6 +241,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::fitsNowhere() {
+  places = 0;
   candidate.reset();
   if (!fits_nowhere) nowhere_way_m = tracker.way_m();
   fits_nowhere = true;
@@ -310,7 +316,7 @@ void Localizer::startAt(const Pose2& T_map_body, const Eigen::Matrix3d& covarian
   self.tracker.startAt({T_grid_body, common::turned(covariance, -self.T_map_grid.yaw_rad), 1.0});
   self.enter(LocalizationState::kLocalized, "given");
   self.was_localized = true;
-  self.forgetSearches();
+  self.forgetAll();
 }
 
 bool Localizer::wantsFreshScan(const Pose2& T_odom_body) const {

@@ -103,8 +103,8 @@ struct LocalizationResult {
 };
 LocalizationResult run(const LocalizationTask& task);
 
-/// Deterministic. Not thread-safe. The work per scan is bounded, but a search of the whole map takes some ten
-/// milliseconds. Where that must not hold up the loop, `follow` leaves it to a task:
+/// Deterministic. Not thread-safe. The work per scan is bounded, but a search of the whole map takes up to
+/// some hundred milliseconds. Where that must not hold up the loop, `follow` leaves it to a task:
 ///
 ///   follow(scan) --> takeTask() --> run(task), in a job --> apply(result), some scans later
 ///

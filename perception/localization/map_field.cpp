@@ -136,8 +136,11 @@ double MapField::rayLength_m(const Eigen::Vector2d& from_m, const Eigen::Vector2
   const double length_m = (to_m - from_m).norm();
   const Eigen::Vector2d direction =
       length_m > 0.0 ? Eigen::Vector2d((to_m - from_m) / length_m) : Eigen::Vector2d(1, 0);
+  // A ray may be of any length; outside of the circle around the field there is nothing to meet.
+  const double away_m = (0.5 * (low_m() + high_m()) - from_m).norm(), radius_m = 0.5 * (high_m() - low_m()).norm();
+  const double end_m = std::min(length_m, away_m + radius_m);
   // As far as the nearest wall is away, nothing can be met.
-  for (double along_m = 0.0; along_m <= length_m;) {
+  for (double along_m = std::max(0.0, away_m - radius_m); along_m <= end_m;) {
     const Place place = at(from_m + along_m * direction);
     if (place.occupied) return along_m;
     along_m += std::max(0.5 * resolution_m_, place.wall_distance_m - 1.5 * resolution_m_);

@@ -178,7 +178,7 @@ void ParticleFilter::weigh(std::span<const Eigen::Vector2f> points_body_m) {
     weights_[i] *= std::exp(nats * static_cast<float>(sums_[i] - best));
     all += static_cast<double>(weights_[i]);
   }
-  // Where all that is likely has lost its weight before, the likelihood alone decides.
+  // Where all that is likely had lost its weight before, nothing is known.
   const bool vanished = !(all > 0.0);
   for (std::size_t i = 0; i < size(); ++i)
     weights_[i] = vanished ? 1.0F / static_cast<float>(size()) : static_cast<float>(weights_[i] / all);

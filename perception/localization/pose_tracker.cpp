@@ -27,9 +27,10 @@ PoseTracker::PoseTracker(const std::shared_ptr<const MapField>& map, const Local
     : config_(config), filter_(map, config.particles, seed) {}
 
 void PoseTracker::advance(const LocalizationInput& input) {
-  if (!begun_) {
+  const bool first = !begun();
+  way_.add(input.T_odom_body);
+  if (first) {
     T_odom_body_ = T_odom_generation_ = input.T_odom_body;
-    begun_ = true;
     if (!start_) return;
     T_grid_odom_ = start_->T_grid_body * T_odom_body_.inverse();
     start_.reset();
@@ -46,8 +47,6 @@ void PoseTracker::advance(const LocalizationInput& input) {
       common::turned(measured + Eigen::Matrix3d(least.asDiagonal()), between(T_odom_generation_, T_odom_body_).yaw_rad);
   step_covariance_ = common::propagated(step_covariance_, between(T_odom_generation_, T_odom_body_),
                                         between(T_odom_generation_, input.T_odom_body), own);
-  way_m_ += distance_m;
-  turned_rad_ += turn_rad;
   T_odom_body_ = input.T_odom_body;
 }
 
@@ -55,8 +54,8 @@ void PoseTracker::startAt(const PoseHypothesis& given) {
   filter_.spreadAround(std::span(&given, 1));
   covariance_ = given.covariance;
   only_given_ = true;
-  if (begun_)
-    T_grid_odom_ = given.T_grid_body * T_odom_body_.inverse();
+  if (begun())
+    placeAt(given.T_grid_body * T_odom_body_.inverse(), given.covariance);
   else
     start_ = given;
 }
@@ -69,15 +68,13 @@ void PoseTracker::placeAt(const Pose2& T_grid_odom, const Eigen::Matrix3d& covar
 }
 
 bool PoseTracker::generationDue(const Pose2& next_T_odom_body) const {
-  const Pose2 ahead = between(T_odom_body_, next_T_odom_body);
-  return only_given_ || way_m_ - generation_way_m_ + ahead.position_m().norm() >= config_.generation_distance_m ||
-         turned_rad_ - generation_turned_rad_ + std::abs(common::wrapAngle(ahead.yaw_rad)) >=
-             config_.generation_turn_deg * kRadPerDeg;
+  return only_given_ || way_.way_m(next_T_odom_body) - generation_way_m_ >= config_.generation_distance_m ||
+         way_.turned_rad(next_T_odom_body) - generation_turned_rad_ >= config_.generation_turn_deg * kRadPerDeg;
 }
 
 void PoseTracker::countGenerationsFromHere() {
-  generation_way_m_ = way_m_;
-  generation_turned_rad_ = turned_rad_;
+  generation_way_m_ = way_.way_m();
+  generation_turned_rad_ = way_.turned_rad();
 }
 
 void PoseTracker::generate(const ProjectedScan& scan) {

@@ -13,6 +13,7 @@
 #include "perception/localization/localizer.hpp"
 #include "perception/localization/map_field.hpp"
 #include "perception/localization/particle_filter.hpp"
+#include "perception/localization/way_meter.hpp"
 
 namespace swiftlet::perception {
 
@@ -23,7 +24,7 @@ class PoseTracker {
 
   /// Odometry since the last input, with its errors. The first input says where the odometry begins.
   void advance(const LocalizationInput& input);
-  bool begun() const { return begun_; }
+  bool begun() const { return way_.begun(); }
 
   /// The pose is believed to be this one, with particles about it. It is only roughly right until they are weighed.
   void startAt(const PoseHypothesis& given);
@@ -43,19 +44,18 @@ class PoseTracker {
   Eigen::Matrix3d covariance() const;
 
   const common::Pose2& T_odom_body() const { return T_odom_body_; }
-  double way_m() const { return way_m_; }  ///< Travelled, by the odometry.
+  double way_m() const { return way_.way_m(); }  ///< Travelled, by the odometry.
 
   ParticleFilter& particles() { return filter_; }
 
  private:
   LocalizerConfig config_;
   ParticleFilter filter_;
-  bool begun_ = false;
   bool only_given_ = false;
   std::optional<PoseHypothesis> start_;  ///< Given before the odometry began.
 
   common::Pose2 T_odom_body_;
-  double way_m_ = 0.0, turned_rad_ = 0.0;
+  WayMeter way_;
   double generation_way_m_ = 0.0, generation_turned_rad_ = 0.0;  ///< At the last generation.
 
   common::Pose2 T_grid_odom_;

@@ -49,7 +49,9 @@ TEST_F(Optimize, TheGraphIsToldAndWrittenAndReadBack) {
   const std::string written = readText(path("a/b/graph.g2o"));
   EXPECT_THAT(written, HasSubstr("VERTEX_SE2 5 0 0 0\n")) << "the first pose stays, ids are kept";
   EXPECT_THAT(written, HasSubstr("EDGE_SE2 8 5 1.2 0 1.5707963 100 0 0 100 0 100\n"));
-  const auto again = nlohmann::json::parse(runSwiftlet({"optimize", path("a/b/graph.g2o"), "--json"}).out);
+  const ProgramEnd second = runSwiftlet({"optimize", path("a/b/graph.g2o"), "--json"});
+  EXPECT_EQ(second.exit_code, 0) << describe(second);
+  const auto again = nlohmann::json::parse(second.out);
   EXPECT_NEAR(again.at("chi2_initial").get<double>(), json.at("chi2_final").get<double>(), 1e-6);
   EXPECT_NEAR(again.at("chi2_final").get<double>(), json.at("chi2_final").get<double>(), 1e-6);
 }

@@ -82,6 +82,7 @@ TEST(Localizer, SaysHonestlyHowUncertainItIs) {
     ++count;
   }
   EXPECT_LT(normalized / count, 3.0 * 2.0);  // The mean is 2 where it is exactly honest.
+  EXPECT_GT(normalized / count, 2.0 / 20.0);
 }
 
 TEST(Localizer, TellsOfTwinPlacesThatItIsAmbiguous) {
@@ -210,6 +211,36 @@ TEST(Localizer, ASearchFromBeforeItWasToldItsPlaceChangesNothing) {
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
   EXPECT_EQ(story.localizer.apply(*searches.result).state, LocalizationState::kLocalized);
   EXPECT_FALSE(story.localizer.takeTask()) << "nothing is asked for";
+}
+
+/// Whether it knew where it was or not: what it has gone before it was told is history.
+TEST(Localizer, ToldItsPlaceOnTheWayItGoesOnFromThere) {
+  for (const int steps : {10, 150}) {
+    Story story(test::offices(3), 3);
+    for (int i = 0; i < steps; ++i) story.step(i < 100);
+    story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+    for (int i = 0; i < 10; ++i) {
+      const auto estimate = story.step();
+      ASSERT_EQ(estimate.state, LocalizationState::kLocalized) << i;
+      EXPECT_LT(errorOf(estimate, story.truth), 0.25) << steps << " " << i;
+    }
+  }
+}
+
+/// It trembles in its odometry, sees one view again and again, and has gone no way over which a place could have held.
+TEST(Localizer, StandingStillItIsNeverLocalized) {
+  for (const std::uint64_t seed : {1U, 2U, 6U, 7U}) {
+    const test::Building building = test::offices(seed);
+    Story story(building, seed);
+    common::RandomStream tremble(seed, "tremble");
+    const Pose2 pose = story.walker.pose();
+    for (int i = 0; i < 600; ++i) {
+      const auto scan = test::levelScan(building.world, pose, Time::fromSeconds(0.1 * i), story.noise);
+      const Pose2 odometry{tremble.gaussian(0.005), tremble.gaussian(0.005), tremble.gaussian(0.003)};
+      const auto estimate = story.localizer.add({scan, odometry, Eigen::Matrix3d::Zero(), true, false});
+      ASSERT_NE(estimate.state, LocalizationState::kLocalized) << seed << " " << i;
+    }
+  }
 }
 
 TEST(Localizer, PlacesAGridThatStandsTurnedInTheMap) {

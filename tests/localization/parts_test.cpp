@@ -13,6 +13,7 @@
 #include "perception/localization/particle_filter.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/scan_support.hpp"
+#include "perception/localization/way_meter.hpp"
 #include "tests/localization/buildings.hpp"
 
 namespace swiftlet::perception {
@@ -56,6 +57,7 @@ TEST(MapField, RaysEndWhereTheBeamsOfTheWorldDo) {
   const auto field = fieldOf(building);
   const test::Walks walks(building);
   common::RandomStream random(2, "rays");
+  int shorter = 0;
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector2d from = walks.somewhere(random);
     const double angle = random.uniform(-3.1, 3.1);
@@ -64,7 +66,10 @@ TEST(MapField, RaysEndWhereTheBeamsOfTheWorldDo) {
     const double found = field->rayLength_m(from, from + 40.0 * direction);
     // A ray that grazes a wall meets its cell earlier; it must never pass one.
     EXPECT_LE(found, truth + 0.15) << from.transpose() << " " << angle;
+    shorter += found < truth - 0.15 ? 1 : 0;
+    EXPECT_EQ(field->rayLength_m(from, from + 1e29 * direction), found) << "a length that no laser has";
   }
+  EXPECT_LE(shorter, 20);
 }
 
 TEST(BeamSums, EveryInstructionSetGivesTheBitsOfTheScalarOne) {
@@ -316,6 +321,27 @@ TEST(LostTest, NoticesAChangeHoweverLongAllWasWell) {
   EXPECT_LE(scans, 10) << "a second";
   test.reset();
   EXPECT_FALSE(test.lost());
+}
+
+TEST(LocalMap, OnTheSpotItKeepsTheLastScansOnly) {
+  LocalMap map(2.0);
+  for (int i = 0; i < 1000; ++i) map.add({0.0, 0.0, 0.26 * i}, {{1.0F, 0.0F}});
+  EXPECT_EQ(map.scans(), 200U);
+}
+
+TEST(WayMeter, CountsNoTremblingAndEveryWay) {
+  common::RandomStream tremble(5, "tremble");
+  WayMeter still, gone;
+  for (int i = 0; i < 1000; ++i) {
+    const common::Pose2 error{tremble.gaussian(0.005), tremble.gaussian(0.005), tremble.gaussian(0.005)};
+    still.add(error);
+    gone.add(common::Pose2{0.01 * i, 0.0, 0.01 * i} * error);
+  }
+  EXPECT_LT(still.way_m(), 0.05);
+  EXPECT_LT(still.turned_rad(), 0.05);
+  EXPECT_NEAR(gone.way_m(), 9.99, 0.3);
+  EXPECT_NEAR(gone.turned_rad(), 9.99, 0.3);
+  EXPECT_NEAR(gone.way_m(common::Pose2{11.0, 0.0, 0.0}) - gone.way_m(), 1.0, 0.1);
 }
 
 TEST(LocalMap, ForgetsWhatLiesFarBack) {

@@ -50,6 +50,26 @@ TYPED_TEST(Starts, WithoutNoiseTheyAreExactWhateverTheGuess) {
   EXPECT_TRUE(solution.converged);
 }
 
+/// A graph that is optimized again stays, and is said to be optimized.
+TYPED_TEST(Starts, AGraphAtItsOptimumHasConverged) {
+  for (const double sigma : {0.0, 0.05}) {
+    RandomStream random(2, "again");
+    auto graph = noisyGraph<TypeParam>(30, sigma, sigma, random);
+    for (int i = 0; i < 3; ++i) {
+      const auto solution = optimizeFromBestStart(graph, {});
+      EXPECT_TRUE(solution.converged) << sigma << " " << i;
+      graph.poses = solution.poses;
+    }
+  }
+}
+
+TYPED_TEST(Starts, WhereNothingMayMoveNoStepIsTried) {
+  RandomStream random(3, "fixed");
+  auto graph = noisyGraph<TypeParam>(1, 0.0, 0.0, random);
+  graph.edges.clear();
+  EXPECT_EQ(optimizeFromBestStart(graph, {}).iterations, 0);
+}
+
 TYPED_TEST(Starts, TheGuessDoesNotMatter) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "guess");

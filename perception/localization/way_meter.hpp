@@ -1,0 +1,50 @@
+// How far the odometry has gone and turned, without its trembling: at rest the errors of single steps would add up to a
+// way that nobody went.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "common/geometry.hpp"
+
+namespace swiftlet::perception {
+
+/// Adds up chords between poses so far apart that the odometry does not err by as much.
+class WayMeter {
+ public:
+  void add(const common::Pose2& T_odom_body) {
+    if (!last_) T_odom_way_ = T_odom_turn_ = T_odom_body;
+    last_ = T_odom_body;
+    const double chord_m = distance_m(T_odom_body), turn_rad = this->turn_rad(T_odom_body);
+    if (chord_m >= kChord_m) {
+      way_m_ += chord_m;
+      T_odom_way_ = T_odom_body;
+    }
+    if (turn_rad >= kTurn_rad) {
+      turned_rad_ += turn_rad;
+      T_odom_turn_ = T_odom_body;
+    }
+  }
+
+  bool begun() const { return last_.has_value(); }
+  /// Up to the last pose added, or once it is at `next`.
+  double way_m() const { return last_ ? way_m(*last_) : 0.0; }
+  double way_m(const common::Pose2& next) const { return way_m_ + distance_m(next); }
+  double turned_rad() const { return last_ ? turned_rad(*last_) : 0.0; }
+  double turned_rad(const common::Pose2& next) const { return turned_rad_ + turn_rad(next); }
+
+ private:
+  static constexpr double kChord_m = 0.05;
+  static constexpr double kTurn_rad = 3.0 * common::kRadPerDeg;
+
+  double distance_m(const common::Pose2& pose) const { return between(T_odom_way_, pose).position_m().norm(); }
+  double turn_rad(const common::Pose2& pose) const {
+    return std::abs(common::wrapAngle(pose.yaw_rad - T_odom_turn_.yaw_rad));
+  }
+
+  std::optional<common::Pose2> last_;
+  common::Pose2 T_odom_way_, T_odom_turn_;  ///< Where the last chord, and the last turn, ended.
+  double way_m_ = 0.0, turned_rad_ = 0.0;
+};
+
+}  // namespace swiftlet::perception
