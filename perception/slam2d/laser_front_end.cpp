@@ -32,7 +32,6 @@ LaserFrontEndConfig::LaserFrontEndConfig() {
   odometry.min_weak_overlap = 0.93;
   odometry.matcher.guess_weight = 0.01;  // The prediction has its say in the filter.
   odometry.matcher.profile_half_m = 1.0;
-  odometry.matcher.angular_resolution_deg = 0.2;  // A cell at 3 m, as far as most of what is seen.
   odometry.matcher.only_seen = false;             // Of few beams in clutter too little would be left, see decision 020.
 }
 
