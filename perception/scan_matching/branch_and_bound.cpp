@@ -4,6 +4,10 @@
 #include <array>
 #include <cmath>
 
+#if defined(__x86_64__)
+#include <emmintrin.h>
+#endif
+
 #include "common/check.hpp"
 
 namespace swiftlet::perception {
@@ -51,8 +55,20 @@ void BranchAndBound::cellsAt(const LikelihoodField& field, std::span<const float
   // Without a branch, as most points are kept; negative cells are great ones here.
   const auto end_x = static_cast<std::uint32_t>(std::max(field.width() - border, 0));
   const auto end_y = static_cast<std::uint32_t>(std::max(field.height() - border, 0));
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < x_cells.size(); ++i) {
+  std::size_t kept = 0, i = 0;
+#if defined(__x86_64__)
+  // While all are, four at a time.
+  const auto load = [](const std::int32_t& cell) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(&cell)); };
+  const auto outside = [](__m128i cells, __m128i last) { return _mm_or_si128(cells, _mm_sub_epi32(last, cells)); };
+  const __m128i last_x = _mm_set1_epi32(static_cast<std::int32_t>(end_x) - 1);
+  const __m128i last_y = _mm_set1_epi32(static_cast<std::int32_t>(end_y) - 1);
+  for (; i + 4 <= x_cells.size(); i += 4) {
+    const __m128i signs = _mm_or_si128(outside(load(x_cells[i]), last_x), outside(load(y_cells[i]), last_y));
+    if (_mm_movemask_ps(_mm_castsi128_ps(signs)) != 0) break;
+  }
+  kept = i;
+#endif
+  for (; i < x_cells.size(); ++i) {
     const std::int32_t x = x_cells[i], y = y_cells[i];
     x_cells[kept] = x;
     y_cells[kept] = y;

@@ -32,7 +32,7 @@ LaserFrontEndConfig::LaserFrontEndConfig() {
   odometry.min_weak_overlap = 0.93;
   odometry.matcher.guess_weight = 0.01;  // The prediction has its say in the filter.
   odometry.matcher.profile_half_m = 1.0;
-  odometry.matcher.only_seen = false;             // Of few beams in clutter too little would be left, see decision 020.
+  odometry.matcher.only_seen = false;  // Of few beams in clutter too little would be left, see decision 020.
 }
 
 void LaserFrontEndConfig::describe(common::config::Fields& fields) {
