@@ -163,7 +163,9 @@ int localize(const LocalizeOptions& options) {
          "\n");
   else
     showForPeople(run, out);
-  const bool localized = run.times_localized > 0 || (!options.start.empty() && run.localized > 0);
+  // A place that was given counts as long as nothing spoke against it.
+  const bool given = !options.start.empty();
+  const bool localized = run.times_localized > (given ? 1U : 0U) || (given && run.times_lost == 0);
   if (!localized && !options.log.json) show("never localized: is the log of another place, or floor?\n");
   return localized && log.damage().empty() ? kDone : kFailed;
 }

@@ -277,7 +277,6 @@ void Localizer::Impl::localize(const LikelyPlace& place, const Pose2& T_odom_mid
 LocalizationEstimate Localizer::Impl::estimate() {
   LocalizationEstimate estimate;
   estimate.state = state;
-  estimate.doubt = lost_test.sum();
   estimate.explained = support.explained;
   estimate.event = std::exchange(event, std::nullopt);
   if (estimate.event) estimate.event->stamp = now;
@@ -369,12 +368,5 @@ LocalizationEstimate Localizer::apply(const LocalizationResult& result) {
 }
 
 LocalizationState Localizer::state() const { return impl_->state; }
-
-std::vector<Pose2> Localizer::particles() const {
-  const ParticleFilter& particles = impl_->tracker.particles();
-  std::vector<Pose2> poses;
-  for (std::size_t i = 0; i < particles.size(); ++i) poses.push_back(impl_->T_map_grid * particles.particle(i));
-  return poses;
-}
 
 }  // namespace swiftlet::perception

@@ -87,9 +87,8 @@ struct LocalizationEstimate {
   common::Pose2 T_map_body;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of T_map_body: (x_m, y_m, yaw_rad) along the map's axes.
   double explained = 0.0;                                ///< Share of the scan that the map explains from there.
-  double doubt = 0.0;                      ///< Log-odds that it is lost; at LostTestConfig::threshold it is.
-  int places = 0;                          ///< That explain what was seen; 1 when localized.
-  std::optional<LocalizationEvent> event;  ///< The state changed.
+  int places = 0;                                        ///< That explain what was seen; 1 when localized.
+  std::optional<LocalizationEvent> event;                ///< The state changed.
 };
 
 /// A search of the whole map; heavy. A pure function of what it was given, for any thread.
@@ -139,8 +138,6 @@ class Localizer {
   LocalizationEstimate apply(const LocalizationResult& result);
 
   LocalizationState state() const;
-  /// The particles as they are, in the map frame.
-  std::vector<common::Pose2> particles() const;
 
  private:
   struct Impl;

@@ -71,7 +71,6 @@ class ParticleFilter {
 
   std::size_t size() const { return x_m_.size(); }
   common::Pose2 particle(std::size_t i) const { return {x_m_[i], y_m_[i], yaw_rad_[i]}; }
-  double weight(std::size_t i) const { return weights_[i]; }
 
  private:
   void resize(std::size_t count);

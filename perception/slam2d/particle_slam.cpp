@@ -206,7 +206,6 @@ Pose2 ParticleSlam::T_anchor_body() const { return impl_->T_anchor_body; }
 Pose2 ParticleSlam::T_map_body() const {
   return impl_->particles.empty() ? Pose2{} : impl_->best().T_map_body * impl_->T_anchor_body;
 }
-Pose2 ParticleSlam::T_map_odom() const { return T_map_body() * impl_->T_odom_body.inverse(); }
 
 std::vector<Slam2d::KeyPose> ParticleSlam::keyPoses() const {
   std::vector<Slam2d::KeyPose> poses;

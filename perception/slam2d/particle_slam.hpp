@@ -71,8 +71,6 @@ class ParticleSlam {
   common::Pose2 T_anchor_body() const;
   /// Of the best particle.
   common::Pose2 T_map_body() const;
-  /// Takes odom to map, by the best particle; jumps.
-  common::Pose2 T_map_odom() const;
   /// The trajectory of the best particle: where each scan that was taken in stands.
   std::vector<Slam2d::KeyPose> keyPoses() const;
   /// Its map.

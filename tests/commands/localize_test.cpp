@@ -183,6 +183,16 @@ TEST_F(Localize, OlderResultsAreReplacedAndNothingElse) {
   EXPECT_EQ(readText(path("mapped/report.html")), report);
 }
 
+TEST_F(Localize, AWrongStartThatIsNeverFoundAgainIsAFailure) {
+  const test::Building building = test::offices(21), other = test::offices(22);
+  const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(other, 22, 100));
+  const ProgramEnd end = runSwiftlet({"localize", map, log, "--start", "5;0;0", "--out", path("out"), "--json"});
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  const auto json = nlohmann::json::parse(end.out);
+  EXPECT_EQ(json.at("times_localized"), 1) << "what was given";
+  EXPECT_EQ(json.at("times_lost"), 1);
+}
+
 TEST_F(Localize, RefusesWhatItCannotUse) {
   const test::Building building = test::offices(21);
   const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(building, 21, 2));

@@ -43,8 +43,7 @@ struct Graph3D {
 
 /// `size` poses, each seen from the one before and some from others, with noise; the guess is the truth disturbed.
 template <typename Kind>
-typename Kind::Graph noisyGraph(int size, double noise, double guess_noise, common::RandomStream& random,
-                                decltype(Kind::Graph::poses)* truth_of_poses = nullptr) {
+typename Kind::Graph noisyGraph(int size, double noise, double guess_noise, common::RandomStream& random) {
   typename Kind::Graph graph;
   decltype(graph.poses) truth;
   for (int i = 0; i < size; ++i) truth.push_back(Kind::randomPose(random, 1.0));
@@ -61,7 +60,6 @@ typename Kind::Graph noisyGraph(int size, double noise, double guess_noise, comm
   for (int i = 0; i + 3 < size; i += 2) see(i + 3, i);
   graph.poses = truth;
   for (std::size_t i = 1; i < truth.size(); ++i) graph.poses[i] = truth[i] * Kind::randomPose(random, guess_noise);
-  if (truth_of_poses != nullptr) *truth_of_poses = truth;
   return graph;
 }
 
