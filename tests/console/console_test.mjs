@@ -55,7 +55,7 @@ async function onScreen(page, x_m, y_m) {
 
 const state = async () => (await fetch(`${origin}/api/state`)).json();
 
-async function eventually(what, holds, timeout_s = 10) {
+async function eventually(what, holds, timeout_s = 60) {
   const end = Date.now() + 1000 * kPatience * timeout_s;
   while (Date.now() < end) {
     if (await holds()) return;
