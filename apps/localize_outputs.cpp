@@ -14,7 +14,6 @@
 #include "rendering/map_layers.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/map_svg.hpp"
-#include "rendering/plot_svg.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -74,16 +73,6 @@ void writeTrajectory(const std::filesystem::path& file, const Spool<LocalizedSca
   track.forEach([&](const LocalizedScan& scan) {
     required(writer.write({scan.stamp, common::lifted(scan.T_map_body, 0.0)}));
   });
-}
-
-std::string plotOver(const std::string& title, const std::string& unit, const ThinnedCurve& curve) {
-  rendering::Plot plot;
-  plot.title = title;
-  plot.x_label = "scan";
-  plot.y_label = unit;
-  plot.series = {{"greatest of its neighbours", curve.points(), false}};
-  plot.y_min = 0.0;
-  return rendering::plotSvg(plot);
 }
 
 common::Table tableOf(const std::vector<common::Event>& events) {

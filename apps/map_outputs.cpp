@@ -77,16 +77,6 @@ std::string mapPicture(const common::World& world) {
   return {png.begin(), png.end()};
 }
 
-std::string timePlot(const MapFigures& figures) {
-  rendering::Plot plot;
-  plot.title = "Time per scan";
-  plot.x_label = "scan";
-  plot.y_label = "ms";
-  plot.series = {{"greatest of its neighbours", figures.milliseconds.points(), false}};
-  plot.y_min = 0.0;
-  return rendering::plotSvg(plot);
-}
-
 }  // namespace
 
 void ThinnedCurve::add(double x, double y) {
@@ -101,6 +91,16 @@ void ThinnedCurve::add(double x, double y) {
   points_.resize(points_.size() / 2);
   stride_ *= 2;
   pending_ = 0;
+}
+
+std::string plotOver(const std::string& title, const std::string& unit, const ThinnedCurve& curve) {
+  rendering::Plot plot;
+  plot.title = title;
+  plot.x_label = "scan";
+  plot.y_label = unit;
+  plot.series = {{"greatest of its neighbours", curve.points(), false}};
+  plot.y_min = 0.0;
+  return rendering::plotSvg(plot);
 }
 
 void writeMapOutputs(const fs::path& out, perception::LaserSlam& slam, const TrackSpool& track,
@@ -129,7 +129,7 @@ void writeMapOutputs(const fs::path& out, perception::LaserSlam& slam, const Tra
   report.facts = figures.facts;
   report.warnings = figures.warnings;
   report.map_svg = rendering::mapSvg(world, lines, {{"begin", keys.front().position_m()}});
-  report.plots_svg = {timePlot(figures)};
+  report.plots_svg = {plotOver("Time per scan", "ms", figures.milliseconds)};
 
   writeTrajectory(out / "trajectory.tum", track, poseOf);
   required(interfaces::writeMap(out, "map", *world.grid));

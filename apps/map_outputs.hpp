@@ -37,6 +37,9 @@ class ThinnedCurve {
   int stride_ = 1, pending_ = 0;
 };
 
+/// SVG of a curve over the scans of a log.
+std::string plotOver(const std::string& title, const std::string& unit, const ThinnedCurve& curve);
+
 struct MapFigures {
   std::string log;
   std::vector<std::pair<std::string, std::string>> facts;
@@ -44,7 +47,7 @@ struct MapFigures {
   ThinnedCurve milliseconds;  ///< Over the index of the scan.
 };
 
-/// Writes all files into `out`, each in one step. Throws InputError when one cannot be written.
+/// Writes all files into `out`, all but trajectory.tum in one step each. Throws InputError when one cannot be written.
 void writeMapOutputs(const std::filesystem::path& out, perception::LaserSlam& slam, const TrackSpool& track,
                      const MapFigures& figures);
 

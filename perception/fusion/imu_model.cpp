@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/square.hpp"
+
 namespace swiftlet::perception::fusion {
 namespace {
 
@@ -60,7 +62,7 @@ Blocks blocks(const Midpoint& m) {
 }
 
 void addNoise(FilterState& state, double dt_s, const ImuNoise& noise) {
-  const auto square = [](double x) { return x * x; };
+  using common::square;
   const double gap_s = std::max(0.0, dt_s - kGap_s);
   const double acceleration = square(noise.accelerometer_m_s2_rthz) * dt_s + square(kGapAcceleration_m_s2 * gap_s);
   const double rotation = square(noise.gyroscope_rad_s_rthz) * dt_s + square(kGapRotation_rad_s * gap_s);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/square.hpp"
+#include "perception/slam2d/unknown_step.hpp"
 
 namespace swiftlet::perception {
 
@@ -17,9 +18,6 @@ constexpr double kLeastNoise_m = 0.01;
 constexpr double kLeastNoise_rad = 0.2 * kRadPerDeg;
 /// Of the odometry's turns.
 constexpr double kTurnShare = 0.02;
-
-/// How far an odometry that lost the thread can be off, relative to where it is believed to be.
-const Eigen::Matrix3d kBreakCovariance = Eigen::Vector3d(0.5 * 0.5, 0.5 * 0.5, 0.3 * 0.3).asDiagonal();
 
 }  // namespace
 
@@ -42,7 +40,7 @@ void PoseTracker::advance(const LocalizationInput& input) {
       square(config_.odometry_share * distance_m), square(config_.odometry_share * distance_m),
       square(config_.odometry_deg_per_m * kRadPerDeg * distance_m) + square(kTurnShare * turn_rad));
   Eigen::Matrix3d measured = input.step_covariance;
-  if (input.interrupted) measured += kBreakCovariance;
+  if (input.interrupted) measured += unknownStepCovariance();
   const Eigen::Matrix3d own =
       common::turned(measured + Eigen::Matrix3d(least.asDiagonal()), between(T_odom_generation_, T_odom_body_).yaw_rad);
   step_covariance_ = common::propagated(step_covariance_, between(T_odom_generation_, T_odom_body_),

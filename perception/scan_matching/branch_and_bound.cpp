@@ -161,10 +161,9 @@ void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid&
                                    int border) {
   const auto size = static_cast<std::size_t>(blocks);
   block_distances2_.resize(size * size);
+  auto distance2 = block_distances2_.begin();
   for (int y = 0; y < blocks; ++y)
-    for (int x = 0; x < blocks; ++x)
-      block_distances2_[static_cast<std::size_t>(y) * size + static_cast<std::size_t>(x)] =
-          leastDistance2(grid, x << top, y << top, top);
+    for (int x = 0; x < blocks; ++x) *distance2++ = leastDistance2(grid, x << top, y << top, top);
 
   // In strips as wide as sumWindows adds.
   const LikelihoodField::Level level = field.level(top);
@@ -182,7 +181,7 @@ void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid&
       const int columns = std::min(blocks - x0, kWindowColumns);
       for (int y = 0; y < blocks; ++y)
         for (int x = 0; x < columns; ++x)
-          out[y * blocks + x0 + x] = sums[static_cast<std::size_t>(y * kWindowColumns + x)];
+          out[static_cast<std::size_t>(y) * size + static_cast<std::size_t>(x0 + x)] = sums[windowIndex(x, y)];
     }
     if (penalty_.greatest == 0) continue;
     const double turned = k - 0.5 * (grid.rotations - 1);
@@ -216,7 +215,7 @@ void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int
     const int dx = i % 2, dy = i / 2;
     Node& child = children[static_cast<std::size_t>(i)];
     const int x = 2 * node.x + dx, y = 2 * node.y + dy;
-    child = {sums[static_cast<std::size_t>(dy * kWindowColumns + dx)] -
+    child = {sums[windowIndex(dx, dy)] -
                  leastPenalty(penalty_, grid, x << (level - 1), y << (level - 1), node.rotation, level - 1),
              i, node.rotation, static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
     // Blocks wholly outside the window.
