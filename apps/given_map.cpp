@@ -15,9 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// T_world_given: the rigid fit of the poses the SLAM has to those that were driven.
-common::Pose2 fitted(const perception::LaserSlam& slam, const std::vector<perception::TrackedScan>& tracked,
-                     const std::vector<common::Pose2>& driven) {
+/// T_world_given: the rigid fit of the poses the SLAM has to those that were driven. None where they tell no direction.
+std::optional<common::Pose2> fitted(const perception::LaserSlam& slam,
+                                    const std::vector<perception::TrackedScan>& tracked,
+                                    const std::vector<common::Pose2>& driven) {
   const std::vector<common::Pose2> keys = slam.keyPoses();
   std::vector<evaluation::PosePair> pairs;
   for (std::size_t i = 0; i < tracked.size(); ++i) {
@@ -25,7 +26,8 @@ common::Pose2 fitted(const perception::LaserSlam& slam, const std::vector<percep
     pairs.push_back({{}, common::lifted(estimate, 0.0), common::lifted(driven[i], 0.0)});
   }
   const auto T_world_given = evaluation::align(pairs, evaluation::Alignment::kPlanar);
-  return T_world_given ? common::planar(*T_world_given) : common::Pose2{};
+  if (!T_world_given) return std::nullopt;
+  return common::planar(*T_world_given);
 }
 
 }  // namespace
@@ -68,6 +70,9 @@ FlightMap surveyedMap(const simulation::SurveyConfig& survey, const simulation::
   // As it is read from there, so that a flight with --map has the same.
   FlightMap map = readFlightMap(folder / "map.yaml");
   map.T_world_given = fitted(slam, tracked, driven);
+  if (!map.T_world_given)
+    throw common::InputError(
+        common::Problem{{}, "map.path_world_m", "makes a map of one spot: it cannot be laid into the world", ""});
   return map;
 }
 

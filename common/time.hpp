@@ -63,4 +63,7 @@ class Time {
   std::int64_t ns_ = 0;
 };
 
+/// What is read as a stamp lies within this of the epoch, either way: the Duration between any two then fits too.
+inline constexpr double kFarthestStamp_s = 4.6e9;
+
 }  // namespace swiftlet::common

@@ -105,8 +105,6 @@ PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraphConfig& co
     problem.SetParameterBlockConstant(values[static_cast<std::size_t>(index)].data());
 
   const ceres::Solver::Summary summary = solve(problem, config);
-  solution.initial_cost = summary.initial_cost;
-  solution.final_cost = summary.final_cost;
   solution.iterations = stepsTried(summary);
   solution.converged = summary.termination_type == ceres::CONVERGENCE;
   if (summary.IsSolutionUsable())

@@ -31,9 +31,7 @@ struct PoseGraph2D {
 struct PoseGraph2DSolution {
   std::vector<common::Pose2> poses;
   std::vector<double> squared_errors;  ///< Of each edge at the solution: e' * information * e, 3 degrees of freedom.
-  double initial_cost = 0.0;
-  double final_cost = 0.0;
-  int iterations = 0;      ///< Steps tried.
+  int iterations = 0;                  ///< Steps tried.
   bool converged = false;  ///< False: stopped by max_iterations or not solvable; `poses` are the best found.
 };
 

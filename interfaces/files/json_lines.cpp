@@ -15,12 +15,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double kMostSeconds = 9e9;  ///< Fits the nanoseconds of common::Time.
-
 common::Event eventOf(const ordered_json& object) {
   common::Event event;
   const double t_s = object.at("t_s").get<double>();
-  if (!(std::abs(t_s) <= kMostSeconds)) throw std::invalid_argument(fmt::format("t_s {} is no time of a flight", t_s));
+  if (!(std::abs(t_s) <= common::kFarthestStamp_s))
+    throw std::invalid_argument(fmt::format("t_s {} is no time of a flight", t_s));
   event.stamp = common::Time::fromSeconds(t_s);
   const std::string severity = object.at("severity").get<std::string>();
   bool known = false;

@@ -38,7 +38,7 @@ bool parseNumber(std::string_view word, double& value) {
 
 std::optional<common::Time> parseStamp(std::string_view word) {
   double seconds = 0;
-  if (!parseNumber(word, seconds) || std::abs(seconds) > 9e9) return std::nullopt;
+  if (!parseNumber(word, seconds) || std::abs(seconds) > common::kFarthestStamp_s) return std::nullopt;
   const std::size_t dot = word.find('.');
   const std::string_view fraction = dot == std::string_view::npos ? "" : word.substr(dot + 1);
   const bool plain = word.find_first_not_of("0123456789.") == std::string_view::npos && dot != 0;

@@ -7,16 +7,13 @@ LogLocalizer::LogLocalizer(const common::OccupancyGrid& map, const common::Pose2
     : front_end_(LaserFrontEndConfig{}), localizer_(map, T_map_grid, config, seed) {}
 
 std::optional<LocalizationEstimate> LogLocalizer::add(const LaserSlamInput& input) {
-  ++scans_;
-  bool withheld = false;
-  const auto step = front_end_.add(
-      input, [&](const common::Pose2& expected) { return withheld = turns_.withholdNext(localizer_, expected); });
+  const auto step =
+      front_end_.add(input, [&](const common::Pose2& expected) { return turns_.withholdNext(localizer_, expected); });
   if (!step) return std::nullopt;
-  withheld_ += withheld ? 1 : 0;
   breaks_ += step->broken ? 1 : 0;
   return localizer_.add({step->scan, step->T_odom_robot, step->covariance_since_last, !step->matched, step->broken});
 }
 
-LogLocalizerCounts LogLocalizer::counts() const { return {scans_, withheld_, breaks_, front_end_.counts()}; }
+LogLocalizerCounts LogLocalizer::counts() const { return {breaks_, front_end_.counts()}; }
 
 }  // namespace swiftlet::perception

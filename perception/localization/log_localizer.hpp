@@ -12,9 +12,7 @@
 namespace swiftlet::perception {
 
 struct LogLocalizerCounts {
-  std::uint64_t scans = 0;
-  std::uint64_t withheld = 0;  ///< From the odometry, to weigh particles.
-  std::uint64_t breaks = 0;    ///< Times the odometry lost the thread.
+  std::uint64_t breaks = 0;  ///< Times the odometry lost the thread.
   LaserSlamCounts front_end;
 };
 
@@ -34,7 +32,7 @@ class LogLocalizer {
   LaserFrontEnd front_end_;
   Localizer localizer_;
   ScanTurns turns_;
-  std::uint64_t scans_ = 0, withheld_ = 0, breaks_ = 0;
+  std::uint64_t breaks_ = 0;
 };
 
 }  // namespace swiftlet::perception

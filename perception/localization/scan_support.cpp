@@ -24,7 +24,7 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
                       const common::Pose2& T_grid_body, const ScanSupportConfig& config) {
   ScanSupport support;
   support.beams = static_cast<int>(std::min(points_body_m.size(), static_cast<std::size_t>(config.beams)));
-  int explained = 0, contradicted = 0;
+  int explained = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(support.beams); ++i) {
     const Eigen::Vector2f& point =
         points_body_m[(2 * i + 1) * points_body_m.size() / (2 * static_cast<std::size_t>(support.beams))];
@@ -37,12 +37,8 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
     if (!through && !on_wall && !place.known) continue;
     ++support.evidence;
     explained += on_wall && !through ? 1 : 0;
-    contradicted += through ? 1 : 0;
   }
-  if (support.evidence > 0) {
-    support.explained = static_cast<double>(explained) / support.evidence;
-    support.contradicted = static_cast<double>(contradicted) / support.evidence;
-  }
+  if (support.evidence > 0) support.explained = static_cast<double>(explained) / support.evidence;
   return support;
 }
 

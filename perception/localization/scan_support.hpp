@@ -24,10 +24,9 @@ struct ScanSupportConfig {
 
 /// Beams that end where the map knows nothing say nothing and are left out.
 struct ScanSupport {
-  int beams = 0;              ///< Looked at.
-  int evidence = 0;           ///< Of these, that say something.
-  double explained = 0.0;     ///< Share of those that end on a wall of the map, with none before it.
-  double contradicted = 0.0;  ///< Share of those that went through a wall of the map.
+  int beams = 0;           ///< Looked at.
+  int evidence = 0;        ///< Of these, that say something.
+  double explained = 0.0;  ///< Share of those that end on a wall of the map, with none before it.
 };
 
 ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> points_body_m,

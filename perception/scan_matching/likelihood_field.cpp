@@ -21,6 +21,11 @@ int floorToMultiple(int value, int step) {
   return value - (remainder < 0 ? remainder + step : remainder);
 }
 
+/// Of a cell in rows of `width`.
+std::size_t indexOf(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
 /// out = max(out, in), 16 bytes.
 void raiseRow(const std::uint8_t* in, std::uint8_t* out) {
 #if defined(__x86_64__)
@@ -37,7 +42,7 @@ void coarsen(const std::uint8_t* rows, std::ptrdiff_t stride, int count, std::ui
   constexpr int kLane = 16;
   constexpr int kColumns = 5 * kLane;  // At least 2 (kTile / 2 + 1) + 1.
   alignas(kLane) std::array<std::uint8_t, kColumns + kLane> column_max{};
-  alignas(kLane) std::array<std::uint8_t, 3 * kLane> greatest;
+  alignas(kLane) std::array<std::uint8_t, std::size_t{3} * kLane> greatest;
   const int columns = 2 * count + 1;
 #if defined(__x86_64__)
   const auto load = [](const std::uint8_t* at) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(at)); };
@@ -77,14 +82,14 @@ void LikelihoodField::makeKernels() {
   const double reach_cells = reach_m() / resolution_m_;
   for (int sub_y = 0; sub_y < kSubcells; ++sub_y) {
     for (int sub_x = 0; sub_x < kSubcells; ++sub_x) {
-      auto& kernel = kernels_[static_cast<std::size_t>(sub_y * kSubcells + sub_x)];
+      auto& kernel = kernels_[indexOf(sub_x, sub_y, kSubcells)];
       const double center_x = kMaxKernelCells + (sub_x + 0.5) / kSubcells;
       const double center_y = kMaxKernelCells + (sub_y + 0.5) / kSubcells;
       for (int y = 0; y < kKernelSize; ++y) {
         for (int x = 0; x < kKernelSize; ++x) {
           const double distance = std::hypot(x + 0.5 - center_x, y + 0.5 - center_y) / reach_cells;
           const double value = std::max(0.0, 255.0 * (1.0 - distance * distance));
-          kernel[static_cast<std::size_t>(y * kKernelSize + x)] = static_cast<std::uint8_t>(std::lround(value));
+          kernel[indexOf(x, y, kKernelSize)] = static_cast<std::uint8_t>(std::lround(value));
         }
       }
     }
@@ -146,10 +151,9 @@ void LikelihoodField::draw(std::span<const ContourSegment> segments) {
 void LikelihoodField::stamp(double x_cells, double y_cells) {
   const int x = static_cast<int>(x_cells), y = static_cast<int>(y_cells);
   const int sub_x = static_cast<int>((x_cells - x) * kSubcells), sub_y = static_cast<int>((y_cells - y) * kSubcells);
-  const auto& kernel = kernels_[static_cast<std::size_t>(sub_y * kSubcells + sub_x)];
+  const auto& kernel = kernels_[indexOf(sub_x, sub_y, kSubcells)];
   const int x0 = x - kMaxKernelCells, y0 = y - kMaxKernelCells;
-  std::uint8_t* out =
-      &levels_[0][static_cast<std::size_t>(y0) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x0)];
+  std::uint8_t* out = &levels_[0][indexOf(x0, y0, width_)];
   const std::uint8_t* in = kernel.data();
   for (int row = 0; row < kKernelSize; ++row, out += width_, in += kKernelSize) raiseRow(in, out);
 
@@ -204,11 +208,7 @@ void LikelihoodField::reserve(int min_x, int min_y, int max_x, int max_y, int bo
     const int old_x = tile % (width_ / kTile) * kTile, old_y = tile / (width_ / kTile) * kTile;
     const int x = old_x + begin_x_ - begin_x, y = old_y + begin_y_ - begin_y;
     for (int row = 0; row < kTile; ++row)
-      std::memcpy(
-          &levels[0][static_cast<std::size_t>(y + row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)],
-          &levels_[0][static_cast<std::size_t>(old_y + row) * static_cast<std::size_t>(width_) +
-                      static_cast<std::size_t>(old_x)],
-          kTile);
+      std::memcpy(&levels[0][indexOf(x, y + row, width)], &levels_[0][indexOf(old_x, old_y + row, width_)], kTile);
     const int new_tile = y / kTile * (width / kTile) + x / kTile;
     tile_levels[static_cast<std::size_t>(new_tile)] = 1;
     drawn_tiles.push_back(new_tile);

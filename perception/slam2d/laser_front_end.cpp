@@ -35,13 +35,6 @@ LaserFrontEndConfig::LaserFrontEndConfig() {
   odometry.matcher.only_seen = false;  // Of few beams in clutter too little would be left, see decision 020.
 }
 
-void LaserFrontEndConfig::describe(common::config::Fields& fields) {
-  fields.section("odometry", odometry, "Matching of each scan to those just before.");
-  fields.section("motion", motion, "Prediction of the next step.");
-}
-
-std::vector<std::string> LaserFrontEndConfig::validate() const { return {}; }
-
 struct LaserFrontEnd::Impl {
   explicit Impl(const LaserFrontEndConfig& config_in)
       : config(config_in), motion(config_in.motion), odometry(config_in.odometry) {}
@@ -54,7 +47,6 @@ struct LaserFrontEnd::Impl {
   MotionPrediction motion;
   LaserOdometry odometry;
   ScanClock clock;
-  std::uint64_t empty_scans = 0;
 
   bool begun = false;
   common::Time last_time;
@@ -113,10 +105,7 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input, cons
   followed.scan = projectLevel(stamped, input.T_robot_laser, expected);
   const bool withheld = withhold && withhold(expected) && self.begun;
   const std::optional<RelativePose> relative = withheld ? std::nullopt : self.match(followed.scan);
-  if (!self.begun && !relative) {
-    ++self.empty_scans;
-    return std::nullopt;
-  }
+  if (!self.begun && !relative) return std::nullopt;
   followed.broken = self.begun && relative && relative->from == relative->to;
   followed.matched = relative && !followed.broken;
   const bool lost = followed.broken || (!withheld && !relative);
@@ -128,8 +117,6 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input, cons
 
 const LaserOdometryCounts& LaserFrontEnd::odometryCounts() const { return impl_->odometry.counts(); }
 
-LaserSlamCounts LaserFrontEnd::counts() const {
-  return {impl_->clock.doubtful(), impl_->motion.doubtfulSteps(), impl_->empty_scans};
-}
+LaserSlamCounts LaserFrontEnd::counts() const { return {impl_->clock.doubtful(), impl_->motion.doubtfulSteps()}; }
 
 }  // namespace swiftlet::perception

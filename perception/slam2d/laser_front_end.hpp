@@ -8,8 +8,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -26,9 +24,6 @@ struct LaserFrontEndConfig {
 
   LaserOdometryConfig odometry;
   MotionPredictionConfig motion;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 struct LaserSlamInput {
@@ -40,7 +35,6 @@ struct LaserSlamInput {
 struct LaserSlamCounts {
   std::uint64_t doubtful_stamps = 0;    ///< Not after the one before.
   std::uint64_t doubtful_odometry = 0;  ///< Steps of the odometry that no robot makes.
-  std::uint64_t empty_scans = 0;        ///< Too few points to begin with.
 };
 
 /// A scan and where it was taken. odom is the frame of the laser odometry: it begins at the first scan and is

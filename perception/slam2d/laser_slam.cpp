@@ -16,15 +16,6 @@ LaserSlamConfig::LaserSlamConfig() {
   slam.live_map = false;               // Nobody flies by it.
 }
 
-void LaserSlamConfig::describe(common::config::Fields& fields) {
-  fields.choice("method", method, {"graph", "particles"}, "What holds the map together.");
-  fields.section("front_end", front_end, "From scan to scan.");
-  fields.section("slam", slam, "Key scans, loops and the map of the graph.");
-  fields.section("particles", particles, "The particles and their maps.");
-}
-
-std::vector<std::string> LaserSlamConfig::validate() const { return {}; }
-
 struct LaserSlam::Impl {
   explicit Impl(const LaserSlamConfig& config) : front_end(config.front_end), graph(config.slam) {
     if (config.method == SlamMethod::kParticles) particles.emplace(config.particles);

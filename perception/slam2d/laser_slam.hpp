@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -29,9 +28,6 @@ struct LaserSlamConfig {
   LaserFrontEndConfig front_end;
   Slam2dConfig slam;
   ParticleSlamConfig particles;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// Where a scan was taken: follows its key scan when that one is corrected.

@@ -8,7 +8,6 @@
 #include <Eigen/LU>
 
 #include "common/square.hpp"
-#include "common/validation.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -25,28 +24,6 @@ constexpr double kMaxSurprise = 4.0;
 constexpr double kLongestCoast_s = 2.0;
 
 }  // namespace
-
-void MotionPredictionConfig::describe(common::config::Fields& fields) {
-  fields("memory_steps", memory_steps, "Steps over which the error of a prediction is averaged.");
-  fields("first_error_m", first_error_m, "The error expected at first.");
-  fields("first_error_deg", first_error_deg, "The same for the heading.");
-  fields("least_error_m", least_error_m, "No prediction is taken for better than this.");
-  fields("least_error_deg", least_error_deg, "The same for the heading.");
-  fields("acceleration_m_s2", acceleration_m_s2, "Of a robot that starts or stops.");
-  fields("max_speed_m_s", max_speed_m_s, "Odometry that claims more is not believed in that step.");
-}
-
-std::vector<std::string> MotionPredictionConfig::validate() const {
-  return common::Validation()
-      .within("memory_steps", memory_steps, 1, 10'000)
-      .within("first_error_m", first_error_m, least_error_m, 10)
-      .within("first_error_deg", first_error_deg, least_error_deg, 180)
-      .within("least_error_m", least_error_m, 0.0001, 1)
-      .within("least_error_deg", least_error_deg, 0.001, 90)
-      .within("acceleration_m_s2", acceleration_m_s2, 0, 100)
-      .within("max_speed_m_s", max_speed_m_s, 0.1, 100)
-      .problems();
-}
 
 MotionPrediction::MotionPrediction(const MotionPredictionConfig& config) : config_(config) {
   for (Source* source : {&wheels_, &inertia_}) {

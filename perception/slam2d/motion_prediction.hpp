@@ -3,12 +3,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
 #include "common/geometry.hpp"
 
 namespace swiftlet::perception {
@@ -21,9 +18,6 @@ struct MotionPredictionConfig {
   double least_error_deg = 0.5;    ///< however good it was.
   double acceleration_m_s2 = 1.0;  ///< Of a robot that starts or stops: no speed is more certain than this lets it be.
   double max_speed_m_s = 10.0;     ///< Odometry that claims more is not believed in that step.
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// A filter of pose and velocity, relative to a scan that others are matched to. Not thread-safe.

@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 
 #include "common/random.hpp"
-#include "common/validation.hpp"
 #include "perception/slam2d/particle/ancestry_tree.hpp"
 #include "perception/slam2d/particle/resampling.hpp"
 #include "perception/slam2d/unknown_step.hpp"
@@ -35,36 +34,6 @@ Pose2 sample(const Pose2& mean, const Eigen::Matrix3d& covariance, RandomStream&
 }
 
 }  // namespace
-
-void ParticleSlamConfig::describe(common::config::Fields& fields) {
-  fields.section("map", map, "The maps of the particles.");
-  fields.section("match", match, "Matching of a scan to a particle's map.");
-  fields("particles", particles, "Trajectories that are kept up.");
-  fields("seed", seed, "Of the random numbers.");
-  fields("update_distance_m", update_distance_m, "A scan is taken in after this distance.");
-  fields("update_rotation_deg", update_rotation_deg, "Or after this rotation.");
-  fields("update_time_s", update_time_s, "Or after this time.");
-  fields("motion_sigma_m", motion_sigma_m, "No motion between two of them is more certain than this.");
-  fields("motion_sigma_deg", motion_sigma_deg, "The same for the rotation.");
-  fields("news_share", news_share, "Of what a scan says of a map: the scans before it said the rest already.");
-  fields("min_effective_share", min_effective_share, "Resampled when fewer of the particles are effective.");
-  fields("min_points", min_points, "A scan with fewer points is not the first.");
-}
-
-std::vector<std::string> ParticleSlamConfig::validate() const {
-  return common::Validation()
-      .within("particles", particles, 1, 10'000)
-      .within("seed", seed, 0, 2'147'483'647)
-      .within("update_distance_m", update_distance_m, 0.01, 10)
-      .within("update_rotation_deg", update_rotation_deg, 0.5, 180)
-      .within("update_time_s", update_time_s, 0.001, 1e6)
-      .within("motion_sigma_m", motion_sigma_m, 1e-5, 1)
-      .within("motion_sigma_deg", motion_sigma_deg, 1e-4, 10)
-      .within("news_share", news_share, 0, 1)
-      .within("min_effective_share", min_effective_share, 0, 1)
-      .within("min_points", min_points, 3, 100'000)
-      .problems();
-}
 
 struct ParticleSlam::Impl {
   explicit Impl(const ParticleSlamConfig& config_in) : config(config_in) {}

@@ -12,12 +12,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
 #include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
@@ -41,9 +39,6 @@ struct ParticleSlamConfig {
   double news_share = 0.25;           ///< Of what a scan says of a map: the scans before it said the rest already.
   double min_effective_share = 0.5;   ///< Resampled when the effective particles are a smaller share of all.
   int min_points = 30;                ///< A scan with fewer points is not the first.
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 struct ParticleSlamCounts {

@@ -300,15 +300,16 @@ TEST(ScanSupport, TellsExplainedFromContradictedAndFromUnknown) {
   };
   EXPECT_EQ(supportOfPoint(3.02F, 0.0F).explained, 1.0);
   EXPECT_EQ(supportOfPoint(2.0F, 0.0F).explained, 0.0);  // In front of the wall: something new.
-  EXPECT_EQ(supportOfPoint(2.0F, 0.0F).contradicted, 0.0);
-  EXPECT_EQ(supportOfPoint(4.5F, 0.0F).contradicted, 1.0);  // Behind it.
-  EXPECT_EQ(supportOfPoint(0.0F, 7.0F).evidence, 0);        // Nobody has been there.
+  EXPECT_EQ(supportOfPoint(2.0F, 0.0F).evidence, 1);
+  EXPECT_EQ(supportOfPoint(4.5F, 0.0F).explained, 0.0);  // Behind it.
+  EXPECT_EQ(supportOfPoint(4.5F, 0.0F).evidence, 1);
+  EXPECT_EQ(supportOfPoint(0.0F, 7.0F).evidence, 0);  // Nobody has been there.
   EXPECT_EQ(supportOfPoint(0.0F, 7.0F).beams, 1);
 }
 
 TEST(LostTest, NoticesAChangeHoweverLongAllWasWell) {
   LostTest test{LostTestConfig{}};
-  const ScanSupport good{90, 90, 0.95, 0.0}, bad{90, 90, 0.2, 0.3}, none{90, 3, 0.0, 1.0};
+  const ScanSupport good{90, 90, 0.95}, bad{90, 90, 0.2}, none{90, 3, 0.0};
   for (int i = 0; i < 10'000; ++i) test.add(good, 0.1);
   EXPECT_FALSE(test.doubtful());
   for (int i = 0; i < 100; ++i) test.add(none, 0.1);

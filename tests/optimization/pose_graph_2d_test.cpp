@@ -78,7 +78,6 @@ TEST(PoseGraph2D, ClosingTheRingTakesTheDriftOut) {
   const PoseGraph2D graph = ring(100, 3, truth);
   const PoseGraph2DSolution solution = optimize(graph, {});
   EXPECT_TRUE(solution.converged);
-  EXPECT_LT(solution.final_cost, 0.2 * solution.initial_cost);
   EXPECT_LT(worst(solution.poses, truth), 0.5 * worst(graph.poses, truth));
   // One loop of slack: three errors of freedom.
   double sum = 0.0;

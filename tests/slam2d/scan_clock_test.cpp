@@ -55,8 +55,8 @@ TEST(ScanClock, OfStampsThatGoBackTheMeanIntervalIsKept) {
 
 TEST(ScanClock, StampsOutOfAllBoundsArePausesOfAnHour) {
   ScanClock clock;
-  Time last = clock.tick(Time::fromSeconds(-8.9e9));
-  for (const double stamp_s : {8.9e9, -8.9e9, 8.9e9, -8.9e9, 8.9e9, 8.9e9 + 0.2}) {
+  Time last = clock.tick(Time::fromSeconds(-4.5e9));
+  for (const double stamp_s : {4.5e9, -4.5e9, 4.5e9, -4.5e9, 4.5e9, 4.5e9 + 0.2}) {
     const Time now = clock.tick(Time::fromSeconds(stamp_s));
     EXPECT_GT(now, last);
     EXPECT_LE((now - last).seconds(), 3600.0);

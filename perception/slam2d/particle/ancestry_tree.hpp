@@ -1,6 +1,6 @@
 // The trajectories of a particle filter: a tree in which each particle holds a leaf and shares the way to it with its
-// relatives. What no particle descends from any more is forgotten, so that memory grows with the length of the way,
-// not with the number of particles.
+// relatives. What no particle descends from any more is forgotten, so that memory grows with the poses on
+// the way, not with the number of particles.
 #pragma once
 
 #include <cstddef>

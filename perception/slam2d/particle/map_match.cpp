@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "common/validation.hpp"
 #include "perception/scan_matching/least_squares_match.hpp"
 
 namespace swiftlet::perception {
@@ -200,40 +199,6 @@ MapMatch Matching::run() const {
 }
 
 }  // namespace
-
-void MapMatchConfig::describe(common::config::Fields& fields) {
-  fields("points", points, "Points of a scan that are matched.");
-  fields("coarse_points", coarse_points, "The same while they are far from the surfaces they belong to.");
-  fields("max_range_m", max_range_m, "Points farther than this are not used.");
-  fields("reach_m", reach_m, "A surface is looked for so far along the normal at first.");
-  fields("support_m", support_m, "And so near at last.");
-  fields("enough_support", enough_support, "With a greater share of points on a surface nothing is looked for afar.");
-  fields("iterations", iterations, "Most steps.");
-  fields("residual_m", residual_m, "Distances from the surfaces are taken for at least so large.");
-  fields("covariance_scale", covariance_scale, "Factor on the covariance of independent points.");
-  fields("motion_freedom", motion_freedom, "Degrees of freedom of the motion's Student t.");
-  fields("beam_sigma_m", beam_sigma_m, "Spread of end points about the surfaces of a good map.");
-  fields("outlier_share", outlier_share, "Of end points on what is not in the map.");
-  fields("independent_beams", independent_beams, "A scan says as much as so many independent beams.");
-}
-
-std::vector<std::string> MapMatchConfig::validate() const {
-  return common::Validation()
-      .within("points", points, 10, 100'000)
-      .within("coarse_points", coarse_points, 5, points)
-      .within("max_range_m", max_range_m, 0.5, 100)
-      .within("reach_m", reach_m, support_m, 5)
-      .within("support_m", support_m, 0.005, 1)
-      .within("enough_support", enough_support, 0, 1)
-      .within("iterations", iterations, 1, 1000)
-      .within("residual_m", residual_m, 0.0001, 1)
-      .within("covariance_scale", covariance_scale, 0.01, 1000)
-      .within("motion_freedom", motion_freedom, 1, 1000)
-      .within("beam_sigma_m", beam_sigma_m, 0.001, 1)
-      .within("outlier_share", outlier_share, 0.001, 0.9)
-      .within("independent_beams", independent_beams, 0, 10'000)
-      .problems();
-}
 
 std::vector<OrientedPoint> pointsToMatch(const ProjectedScan& scan, const MapMatchConfig& config, double max_gap_m) {
   return orientedPoints(scan, config.points, max_gap_m, config.max_range_m);

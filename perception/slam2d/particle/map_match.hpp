@@ -4,12 +4,10 @@
 // the motion (Bachrach 2009, section 5.3).
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
 #include "common/geometry.hpp"
 #include "perception/scan_matching/contour_normals.hpp"
 #include "perception/slam2d/particle/particle_map.hpp"
@@ -31,9 +29,6 @@ struct MapMatchConfig {
   double beam_sigma_m = 0.05;  ///< Spread of end points about the surfaces of a good map: of the likelihood.
   double outlier_share = 0.1;  ///< Of end points on what is not in the map.
   double independent_beams = 20.0;  ///< A scan says as much as so many beams that know nothing of each other.
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// Where the scan is expected: T_map_body, and the covariance of its additive errors (x_m, y_m, yaw_rad), axes of map.

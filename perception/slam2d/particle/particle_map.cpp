@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "common/validation.hpp"
 #include "perception/slam2d/grid_ray.hpp"
 
 namespace swiftlet::perception {
@@ -26,30 +25,6 @@ std::int8_t meanWith(std::int8_t mean, double value, int count) {
 }
 
 }  // namespace
-
-void ParticleMapConfig::describe(common::config::Fields& fields) {
-  fields("resolution_m", resolution_m, "Side of a cell.");
-  fields("hit_steps", hit_steps, "Log-odds steps a cell gains when a beam ends in it.");
-  fields("free_steps", free_steps, "Log-odds steps it loses when beams only pass.");
-  fields("max_steps", max_steps, "Cap of the confidence.");
-  fields("max_hits", max_hits, "The surface in a cell is the mean of about so many of its last hits.");
-  fields("max_hit_range_m", max_hit_range_m, "End points farther than this are not drawn.");
-  fields("max_free_range_m", max_free_range_m, "Beams without return clear up to here.");
-  fields("max_gap_m", max_gap_m, "Neighbouring end points nearer than this are of one surface.");
-}
-
-std::vector<std::string> ParticleMapConfig::validate() const {
-  return common::Validation()
-      .within("resolution_m", resolution_m, 0.01, 1)
-      .within("max_steps", max_steps, 1, occupancy::kMaxSteps)
-      .within("hit_steps", hit_steps, 1, max_steps)
-      .within("free_steps", free_steps, 1, max_steps)
-      .within("max_hits", max_hits, 1, 255)
-      .within("max_hit_range_m", max_hit_range_m, 0.5, 100)
-      .within("max_free_range_m", max_free_range_m, 0, 100)
-      .within("max_gap_m", max_gap_m, 0, 10)
-      .problems();
-}
 
 ParticleScan toDraw(const ProjectedScan& scan, const ParticleMapConfig& config) {
   ParticleScan drawn;

@@ -5,12 +5,10 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
 #include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
 #include "perception/projection/scan_projection.hpp"
@@ -27,9 +25,6 @@ struct ParticleMapConfig {
   double max_hit_range_m = 20.0;   ///< End points farther than this are not drawn; the view to there still clears.
   double max_free_range_m = 10.0;  ///< Beams without return clear up to here.
   double max_gap_m = 0.3;          ///< Neighbouring end points nearer than this are of one surface.
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// What of a scan goes into a map, in its level frame; the same for all particles.
