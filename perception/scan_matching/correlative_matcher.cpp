@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include <Eigen/Eigenvalues>
 
 #include "perception/scan_matching/branch_and_bound.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
+#include "perception/scan_matching/reference_view.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 #include "perception/scan_matching/score_grid.hpp"
 #include "perception/scan_matching/score_surface.hpp"
@@ -25,6 +27,9 @@ constexpr double kProfiledSpread = 0.25;
 constexpr double kTopValue = LikelihoodField::kTopValue;
 /// A window with more poses is searched with bounds, whatever the estimate: so many scores are 80 MB.
 constexpr double kMostScores = 2e7;
+
+/// Points this near to where the view of the reference ends may lie beyond it: poses err, and scores blur.
+constexpr double kViewMargin_m = 0.15;
 
 /// Half a window is cut to so many steps.
 constexpr double kMostSteps = 4000.0;
@@ -69,11 +74,8 @@ struct CorrelativeMatcher::Impl {
   bool scoresAll(const PoseGrid& grid) const {
     return config.estimate == PoseEstimate::kScoreGrid && ScoreGrid::poses(grid) <= kMostScores;
   }
-  /// Those that decide which pose of the grid is best.
-  std::vector<Eigen::Vector2f> searchPoints(const ProjectedScan& scan, const PoseGrid& grid) const {
-    return spreadPoints(scan.points_level_m, scoresAll(grid) ? config.surface_points : config.search_points,
-                        config.max_range_m);
-  }
+  std::vector<Eigen::Vector2f> searchPoints(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window,
+                                            const PoseGrid& grid) const;
 
   BestPose searchGrid(const std::vector<Eigen::Vector2f>& points, const PoseGrid& grid);
   void addSpreadElsewhere(const BestPose& best, double log_per_score, const Eigen::Vector3d& step,
@@ -95,10 +97,26 @@ struct CorrelativeMatcher::Impl {
   CorrelativeMatcherConfig config;
   Instructions instructions;
   LikelihoodField field;
+  ReferenceView view;
   BranchAndBound search;
   ScoreGrid all_scores;  ///< Of the last match, when all poses were scored.
   std::vector<std::int32_t> x_cells, y_cells, offsets;
 };
+
+/// Those that decide which pose of the grid is best.
+std::vector<Eigen::Vector2f> CorrelativeMatcher::Impl::searchPoints(const ProjectedScan& scan, const Pose2& guess,
+                                                                    const SearchWindow& window,
+                                                                    const PoseGrid& grid) const {
+  const std::vector<Eigen::Vector2f> points = spreadPoints(
+      scan.points_level_m, scoresAll(grid) ? config.surface_points : config.search_points, config.max_range_m);
+  const SplitPoints split(points);
+  const double margin_m = std::clamp(window.half_translation_m, kViewMargin_m, 2.0 * kViewMargin_m);
+  const std::vector<bool> in_view = view.sees(split.x_m, split.y_m, guess, margin_m);
+  std::vector<Eigen::Vector2f> seen;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (in_view[i]) seen.push_back(points[i]);
+  return 2 * seen.size() >= points.size() ? seen : points;
+}
 
 /// sums[row * 16 + column]: the scores of the translations from -half, in both directions, about `center` with its
 /// rotation replaced.
@@ -298,7 +316,12 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   const std::vector<bool> seen = supportedAt(all_points, finest);
   const auto supported = static_cast<double>(std::count(seen.begin(), seen.end(), true));
   result.overlap = supported / static_cast<double>(all_points.x_m.size());
-  const SplitPoints surface_points = config.only_seen ? awayFromUnseen(all_points, seen, field.reach_m()) : all_points;
+  std::vector<bool> in_view = view.sees(all_points.x_m, all_points.y_m, finest, 0.0);
+  if (config.only_seen) {
+    const std::vector<bool> away = awayFromUnseen(all_points, seen, field.reach_m());
+    std::transform(in_view.begin(), in_view.end(), away.begin(), in_view.begin(), std::logical_and<>());
+  }
+  const SplitPoints surface_points = mostOf(all_points, in_view);
 
   const double step_rad = scored ? grid.step_yaw_rad : surfaceStep_rad(points);
   ScoreSurface surface = scored ? all_scores.surfaceAround(best) : surfaceAround(surface_points, finest, step_rad);
@@ -331,18 +354,22 @@ CorrelativeMatcher::~CorrelativeMatcher() = default;
 CorrelativeMatcher::CorrelativeMatcher(CorrelativeMatcher&&) noexcept = default;
 CorrelativeMatcher& CorrelativeMatcher::operator=(CorrelativeMatcher&&) noexcept = default;
 
-void CorrelativeMatcher::clearReference() { impl_->field.clear(); }
+void CorrelativeMatcher::clearReference() {
+  impl_->field.clear();
+  impl_->view.clear();
+}
 
 void CorrelativeMatcher::addReference(const ProjectedScan& scan, const Pose2& T_reference_body) {
   if (!isFinite(T_reference_body)) return;
   impl_->field.draw(
       contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m, T_reference_body));
+  impl_->view.add(scan.points_level_m, T_reference_body);
 }
 
 MatchResult CorrelativeMatcher::match(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window) {
   if (!isFinite(guess) || impl_->field.empty()) return {};
   const PoseGrid grid = impl_->gridAround(guess, window);
-  const std::vector<Eigen::Vector2f> points = impl_->searchPoints(scan, grid);
+  const std::vector<Eigen::Vector2f> points = impl_->searchPoints(scan, guess, window, grid);
   if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
   const BestPose best = impl_->searchGrid(points, grid);
   return impl_->evaluate(scan, points, guess, grid, best, impl_->scoresAll(grid));
@@ -352,7 +379,7 @@ MatchResult CorrelativeMatcher::matchExhaustively(const ProjectedScan& scan, con
                                                   const SearchWindow& window) {
   if (!isFinite(guess) || impl_->field.empty()) return {};
   const PoseGrid grid = impl_->gridAround(guess, window);
-  const std::vector<Eigen::Vector2f> points = impl_->searchPoints(scan, grid);
+  const std::vector<Eigen::Vector2f> points = impl_->searchPoints(scan, guess, window, grid);
   if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
   const SplitPoints split(points);
   BestPose best;

@@ -153,8 +153,9 @@ MatchResult LaserOdometry::Impl::matchWidening(const ProjectedScan& scan, const 
   while ((result.at_window_edge || result.failed) && result.points_used > 0 &&
          (window.half_translation_m < config.max_window_m ||
           window.half_rotation_rad < config.max_window_deg * kRadPerDeg)) {
-    window.half_translation_m = std::min(config.max_window_m, 3.0 * window.half_translation_m);
-    window.half_rotation_rad = std::min(config.max_window_deg * kRadPerDeg, 3.0 * window.half_rotation_rad);
+    window.half_translation_m = std::clamp(3.0 * window.half_translation_m, config.guess_error_m, config.max_window_m);
+    window.half_rotation_rad = std::clamp(3.0 * window.half_rotation_rad, config.guess_error_deg * kRadPerDeg,
+                                          config.max_window_deg * kRadPerDeg);
     result = matcher.match(scan, guess, window);
     result.failed |=
         result.quality < config.min_widened_quality || (config.widened_must_hold && result.unobservable_direction);
@@ -226,8 +227,9 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   if (match.failed) {
     ++self.counts.failures;
     if (++self.failures < self.config.max_failures) return std::nullopt;
-    ++self.counts.restarts;
-    return self.start(scan);
+    const auto restarted = self.start(scan);
+    self.counts.restarts += restarted ? 1 : 0;
+    return restarted;
   }
   self.failures = 0;
   self.last_match = scan.stamp;

@@ -35,7 +35,7 @@ SplitPoints spreadWithHeights(const ProjectedScan& scan, int count, double max_r
   return result;
 }
 
-SplitPoints awayFromUnseen(const SplitPoints& points, const std::vector<bool>& seen, double reach_m) {
+std::vector<bool> awayFromUnseen(const SplitPoints& points, const std::vector<bool>& seen, double reach_m) {
   const std::size_t size = points.x_m.size();
   const auto reach2 = static_cast<float>(reach_m * reach_m);
   const auto near = [&](std::size_t i, std::size_t j) {
@@ -49,10 +49,15 @@ SplitPoints awayFromUnseen(const SplitPoints& points, const std::vector<bool>& s
     for (std::size_t j = end; j < size && seen[j] && near(end - 1, j); ++j) kept[j] = false;
     for (std::size_t j = begin; j-- > 0 && seen[j] && near(begin, j);) kept[j] = false;
   }
-  if (2 * static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true)) < size) return points;
+  return kept;
+}
+
+SplitPoints mostOf(const SplitPoints& points, const std::vector<bool>& marked) {
+  const std::size_t size = points.x_m.size();
+  if (2 * static_cast<std::size_t>(std::count(marked.begin(), marked.end(), true)) < size) return points;
   SplitPoints result({});
   for (std::size_t i = 0; i < size; ++i) {
-    if (!kept[i]) continue;
+    if (!marked[i]) continue;
     result.x_m.push_back(points.x_m[i]);
     result.y_m.push_back(points.y_m[i]);
     if (!points.heights_m.empty()) result.heights_m.push_back(points.heights_m[i]);

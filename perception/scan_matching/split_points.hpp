@@ -20,10 +20,12 @@ struct SplitPoints {
 /// At most `count` points of the scan, spread evenly along its contour, with their heights.
 SplitPoints spreadWithHeights(const ProjectedScan& scan, int count, double max_range_m);
 
-/// Without the points that the reference has not seen, and those beside them as far as the field reaches. There a
+/// Which points lie on what was drawn (`seen`) and not beside what does not, as far as the field reaches. There a
 /// surface goes on beyond what was drawn of it; slid along itself, the scan would cover more of it. What comes out of a
-/// shadow while the vehicle goes by would pull it on, a little with each match. All points where less than half is
-/// left.
-SplitPoints awayFromUnseen(const SplitPoints& points, const std::vector<bool>& seen, double reach_m);
+/// shadow while the vehicle goes by would pull it on, a little with each match.
+std::vector<bool> awayFromUnseen(const SplitPoints& points, const std::vector<bool>& seen, double reach_m);
+
+/// The marked points; all where less than half is marked.
+SplitPoints mostOf(const SplitPoints& points, const std::vector<bool>& marked);
 
 }  // namespace swiftlet::perception

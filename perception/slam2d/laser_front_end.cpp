@@ -1,6 +1,7 @@
 #include "perception/slam2d/laser_front_end.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include "perception/slam2d/scan_clock.hpp"
 
@@ -16,6 +17,13 @@ constexpr double kWindowSigmas = 4.0;
 Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+/// A direction in the frame of the robot, with the axes of the reference.
+std::optional<Eigen::Vector2d> atReference(const std::optional<Eigen::Vector2d>& direction_robot,
+                                           const Pose2& T_reference_robot) {
+  if (!direction_robot) return std::nullopt;
+  return Eigen::Vector2d(Eigen::Rotation2Dd(T_reference_robot.yaw_rad) * *direction_robot);
 }
 
 }  // namespace
@@ -68,7 +76,8 @@ Eigen::Matrix3d LaserFrontEnd::Impl::follow(const std::optional<RelativePose>& r
   if (lost)
     motion.lose(config.odometry.max_window_m, config.odometry.max_window_deg * common::kRadPerDeg);
   else if (relative && relative->from != relative->to)
-    motion.correct(relative->T_from_to, relative->covariance, relative->unseen_direction);
+    motion.correct(relative->T_from_to, relative->covariance,
+                   atReference(relative->unseen_direction, relative->T_from_to));
   const Pose2 now = motion.T_reference_robot();
   const Eigen::Matrix3d carried = propagated(covariance_before, before, now, Eigen::Matrix3d::Zero());
   Eigen::Matrix3d grown = common::turned(positivePart(motion.covariance() - carried), -before.yaw_rad);

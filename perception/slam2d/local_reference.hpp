@@ -8,10 +8,13 @@
 
 namespace swiftlet::perception {
 
-/// Key scans near `pose` that are firmly tied to `anchor`: the oldest of each place, since they carry no later drift,
-/// and the anchor itself. In ascending order.
-std::vector<int> localReferenceKeys(const SlamGraph& graph, int anchor, const common::Pose2& T_map_body,
-                                    const Slam2dConfig& config);
+/// Key scans around T_map_body that are firmly tied to `anchor`, in ascending order.
+std::vector<int> tiedKeys(const SlamGraph& graph, int anchor, const common::Pose2& T_map_body,
+                          const Slam2dConfig& config);
+
+/// Of `tied`, the oldest of each view, since they carry no later drift, and the anchor. In ascending order.
+std::vector<int> localReferenceKeys(const SlamGraph& graph, const std::vector<int>& tied, int anchor,
+                                    const common::Pose2& T_map_body, const Slam2dConfig& config);
 
 /// Keeps what is drawn between matches; draws anew only when a key scan left the reference or moved.
 class LocalReference {

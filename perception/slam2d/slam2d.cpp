@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <Eigen/LU>
@@ -74,7 +75,7 @@ struct Slam2d::Impl {
   bool settlingIsDue() const;
   void tiePasses(int other, const MatchResult& match);
   void standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
-  std::optional<int> keyNear(const std::vector<int>& keys, const Pose2& pose) const;
+  std::optional<int> keyNear(std::span<const int> keys, const Pose2& pose) const;
   void draw(const ProjectedScan& scan);
   SlamTask makeTask(std::vector<LoopCandidate> candidates, bool is_last);
 
@@ -127,7 +128,7 @@ void Slam2d::Impl::standOn(int key, const Pose2& T_key_body, const Eigen::Matrix
 }
 
 /// A key scan among `keys` that stands where the vehicle does.
-std::optional<int> Slam2d::Impl::keyNear(const std::vector<int>& keys, const Pose2& pose) const {
+std::optional<int> Slam2d::Impl::keyNear(std::span<const int> keys, const Pose2& pose) const {
   std::optional<int> nearest;
   double nearest_m = config.reuse_distance_m;
   for (const int key : keys) {
@@ -212,7 +213,8 @@ void Slam2d::Impl::tiePasses(int other, const MatchResult& match) {
 
 /// The local match: pulls the estimate onto the older key scans around it. False: nothing to be learned from this scan.
 bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
-  std::vector<int> keys = localReferenceKeys(graph, anchor, T_map_body(), config);
+  const std::vector<int> tied = tiedKeys(graph, anchor, T_map_body(), config);
+  std::vector<int> keys = localReferenceKeys(graph, tied, anchor, T_map_body(), config);
   const MatchResult match = matchAround(scan, keys);
   if (match.failed) {
     ++counts.local_failures;
@@ -223,7 +225,10 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   }
   const bool same_pass = !areOfTwoPasses(keys.back(), anchor);
   const WeighedPose pose = same_pass ? weighWithMotion(match) : WeighedPose{match.T_reference_body, match.covariance};
-  if (const std::optional<int> near = keyNear(keys, pose.T_map_body)) {
+  // Any of the passes it was matched to will do.
+  const std::span<const int> same_passes(std::lower_bound(tied.begin(), tied.end(), keys.front()),
+                                         std::upper_bound(tied.begin(), tied.end(), keys.back()));
+  if (const std::optional<int> near = keyNear(same_passes, pose.T_map_body)) {
     if (areOfTwoPasses(*near, anchor)) tiePasses(*near, match);
     standOn(*near, between(poseOf(*near), pose.T_map_body),
             edgeCovariance(common::turned(pose.covariance, -poseOf(*near).yaw_rad), config));

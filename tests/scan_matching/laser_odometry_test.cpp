@@ -77,25 +77,8 @@ TEST(LaserOdometry, ChainsItsReferencesAcrossTheRoom) {
   EXPECT_EQ(odometry.counts().failures, 0U);
 }
 
-/// A corridor with doors set back in their frames; out of the shadow of each comes what the reference has not seen.
-test::PlanarWorld corridorWithDoors() {
-  test::PlanarWorld world;
-  world.addPolyline({{-3.0, -1.0}, {-3.0, 1.0}}, false);
-  world.addPolyline({{33.0, -1.0}, {33.0, 1.0}}, false);
-  for (const double side : {-1.0, 1.0}) {
-    const double back = 1.13 * side;
-    double x = -3.0;
-    for (double door = side > 0.0 ? -1.0 : -2.2; door<31.0; door += side> 0.0 ? 2.6 : 3.1) {
-      world.addPolyline({{x, side}, {door, side}, {door, back}, {door + 0.95, back}, {door + 0.95, side}}, false);
-      x = door + 0.95;
-    }
-    world.addPolyline({{x, side}, {33.0, side}}, false);
-  }
-  return world;
-}
-
 TEST(LaserOdometry, WhatComesOutOfShadowsDoesNotBendTheWay) {
-  const test::PlanarWorld world = corridorWithDoors();
+  const test::PlanarWorld world = test::corridorWithDoors();
   double turned_deg = 0.0, ahead_m = 0.0;
   constexpr int kWays = 4;
   for (std::uint64_t way = 0; way < kWays; ++way) {
@@ -143,6 +126,30 @@ TEST(LaserOdometry, ACorrectedEstimateIsNotCountedTwice) {
     last = corrected;
   }
   EXPECT_EQ(odometry.counts().failures, 0U);
+}
+
+/// A covered laser is no new beginning, and one that was sure of its guess still widens its search.
+TEST(LaserOdometry, ScansWithoutPointsAreNoRestarts) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometry odometry{{}};
+  static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
+  for (std::uint64_t frame = 1; frame < 100; ++frame) {
+    ProjectedScan covered = scanWith(world, {}, {}, frame);
+    covered.points_level_m.clear();
+    covered.heights_level_m.clear();
+    EXPECT_FALSE(odometry.add(covered));
+  }
+  EXPECT_EQ(odometry.counts().restarts, 0U);
+}
+
+TEST(LaserOdometry, AWindowOfNothingIsWidened) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometry odometry{{}};
+  static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
+  const Pose2 truth{0.2, 0.1, 0.05};
+  const auto relative = odometry.add(scanWith(world, truth, {}, 1), std::nullopt, SearchWindow{0.0, 0.0});
+  ASSERT_TRUE(relative);
+  EXPECT_LT(errorOf(relative->T_from_to, truth).head<2>().norm(), 0.01);
 }
 
 TEST(LaserOdometry, LosesItsWayAndStartsAnew) {

@@ -1,6 +1,7 @@
 // The parts below the matcher, each against the slow obvious way.
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,12 +9,15 @@
 #include "common/geometry.hpp"
 #include "common/random.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
+#include "perception/scan_matching/reference_view.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 #include "perception/scan_matching/score_surface.hpp"
 #include "perception/scan_matching/window_sums.hpp"
 
 namespace swiftlet::perception {
 namespace {
+
+using common::Pose2;
 
 RC_GTEST_PROP(WindowSums, AllInstructionsAddTheSame, ()) {
   constexpr int kStride = 64, kRows = 40;
@@ -217,6 +221,47 @@ TEST(ScoreSurface, AQuadraticIsFoundExactly) {
   EXPECT_LT((q.hessian - hessian).norm(), 0.1);
   EXPECT_LT((q.gradient - gradient).norm(), 0.1);
   EXPECT_NEAR(q.constant, 5000.0, 0.5);
+}
+
+TEST(ReferenceView, EndsBehindTheWallAndBesideTheLaser) {
+  // A wall ahead at x = 4, seen over half a turn by a laser that stands at (1, 0) and looks along x.
+  std::vector<Eigen::Vector2f> points;
+  for (int deg = -89; deg <= 89; ++deg) {
+    const double angle_rad = deg * std::numbers::pi / 180.0;
+    const double range_m = std::min(3.0 / std::cos(angle_rad), 8.0);
+    points.emplace_back(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
+  }
+  ReferenceView view;
+  view.add(points, {1.0, 0.0, 0.0});
+  const auto sees = [&](float x, float y, const Pose2& body, double margin_m) {
+    return view.sees(std::vector<float>{x}, std::vector<float>{y}, body, margin_m).front();
+  };
+  EXPECT_TRUE(sees(4.0F, 0.0F, {}, 0.0)) << "on the wall";
+  EXPECT_TRUE(sees(2.0F, 1.0F, {}, 0.0)) << "before it";
+  EXPECT_FALSE(sees(5.0F, 0.0F, {}, 0.0)) << "behind it";
+  EXPECT_FALSE(sees(0.5F, 1.0F, {}, 0.0)) << "behind the laser";
+  EXPECT_TRUE(sees(1.1F, 1.0F, {}, 0.0));
+  EXPECT_FALSE(sees(1.1F, 1.0F, {}, 0.3)) << "too near to where the view ends";
+  EXPECT_TRUE(sees(2.0F, 1.0F, {}, 0.3));
+  EXPECT_TRUE(sees(0.0F, 3.0F, {1.0, 0.0, -std::numbers::pi / 2}, 0.0)) << "turned to it";
+  view.clear();
+  EXPECT_FALSE(sees(4.0F, 0.0F, {}, 0.0));
+}
+
+TEST(ReferenceView, OfAllRoundHasNoEnd) {
+  std::vector<Eigen::Vector2f> points;
+  for (int deg = 0; deg < 360; deg += 2) {
+    const double angle_rad = deg * std::numbers::pi / 180.0;
+    points.emplace_back(3.0 * std::cos(angle_rad), 3.0 * std::sin(angle_rad));
+  }
+  ReferenceView view;
+  view.add(points, {});
+  for (int deg = 0; deg < 360; deg += 7) {
+    const double angle_rad = deg * std::numbers::pi / 180.0;
+    const std::vector<float> x{static_cast<float>(2.9 * std::cos(angle_rad))};
+    const std::vector<float> y{static_cast<float>(2.9 * std::sin(angle_rad))};
+    EXPECT_TRUE(view.sees(x, y, {}, 1.0).front()) << deg;
+  }
 }
 
 }  // namespace

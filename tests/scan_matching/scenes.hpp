@@ -28,6 +28,23 @@ inline PlanarWorld corridor() {
   return world;
 }
 
+/// A corridor with doors set back in their frames; out of the shadow of each comes what the reference has not seen.
+inline PlanarWorld corridorWithDoors() {
+  PlanarWorld world;
+  world.addPolyline({{-3.0, -1.0}, {-3.0, 1.0}}, false);
+  world.addPolyline({{33.0, -1.0}, {33.0, 1.0}}, false);
+  for (const double side : {-1.0, 1.0}) {
+    const double back = 1.13 * side;
+    double x = -3.0;
+    for (double door = side > 0.0 ? -1.0 : -2.2; door<31.0; door += side> 0.0 ? 2.6 : 3.1) {
+      world.addPolyline({{x, side}, {door, side}, {door, back}, {door + 0.95, back}, {door + 0.95, side}}, false);
+      x = door + 0.95;
+    }
+    world.addPolyline({{x, side}, {33.0, side}}, false);
+  }
+  return world;
+}
+
 inline Eigen::Vector3d errorOf(const common::Pose2& estimate, const common::Pose2& truth) {
   return {estimate.x_m - truth.x_m, estimate.y_m - truth.y_m, common::wrapAngle(estimate.yaw_rad - truth.yaw_rad)};
 }

@@ -1,0 +1,93 @@
+#include "perception/scan_matching/reference_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+/// Between beams no farther apart than this was seen what is seen by both.
+constexpr int kJoinedBins = 5;
+/// Where no beam of so many degrees ends, the view ends.
+constexpr int kEndBins = 20;
+/// What lies so far behind the end points was seen, too: walls are rough, and poses err.
+constexpr double kBehind_m = 0.15;
+
+}  // namespace
+
+int ReferenceView::binOf(double angle_rad) {
+  const auto bin = static_cast<int>(std::floor((angle_rad + std::numbers::pi) * (kBins / (2.0 * std::numbers::pi))));
+  return std::clamp(bin, 0, kBins - 1);
+}
+
+void ReferenceView::add(const std::vector<Eigen::Vector2f>& points_body_m, const Pose2& T_reference_body) {
+  Scan scan;
+  scan.T_body_reference = T_reference_body.inverse();
+  std::array<float, kBins> ends_m{};
+  const auto wrapped = [](int bin) { return static_cast<std::size_t>((bin + kBins) % kBins); };
+  int last_bin = 0;
+  float last_m = 0.0F;
+  for (const Eigen::Vector2f& point : points_body_m) {
+    const float range_m = point.norm();
+    const int bin = binOf(std::atan2(point.y(), point.x()));
+    int step = bin - last_bin;
+    if (step > kBins / 2) step -= kBins;
+    if (step < -kBins / 2) step += kBins;
+    const int way = step < 0 ? -1 : 1;
+    if (last_m > 0.0F && std::abs(step) <= kJoinedBins)
+      for (int k = way; k != step && step != 0; k += way) {
+        float& end_m = ends_m[wrapped(last_bin + k)];
+        end_m = std::max({end_m, range_m, last_m});
+      }
+    ends_m[static_cast<std::size_t>(bin)] = std::max(ends_m[static_cast<std::size_t>(bin)], range_m);
+    last_bin = bin;
+    last_m = range_m;
+  }
+  for (int bin = 0; bin < kBins; ++bin)
+    scan.seen_to_m[static_cast<std::size_t>(bin)] =
+        std::max({ends_m[wrapped(bin - 1)], ends_m[wrapped(bin)], ends_m[wrapped(bin + 1)]});
+
+  // Twice round each way: the degrees to the last bin of a stretch that is empty.
+  std::array<int, kBins> to_end;
+  to_end.fill(kBins);
+  for (const int way : {1, -1}) {
+    int empty = 0, since_end = kBins;
+    for (int k = 0; k < 2 * kBins; ++k) {
+      const std::size_t bin = wrapped(way * k % kBins);
+      empty = ends_m[bin] > 0.0F ? 0 : empty + 1;
+      since_end = empty >= kEndBins ? 0 : since_end + 1;
+      to_end[bin] = std::min(to_end[bin], since_end);
+    }
+  }
+  for (std::size_t bin = 0; bin < kBins; ++bin)
+    scan.sine_to_end[bin] =
+        to_end[bin] >= kBins / 4 ? 1.0F : static_cast<float>(std::sin(to_end[bin] * 2.0 * std::numbers::pi / kBins));
+  scans_.push_back(scan);
+}
+
+bool ReferenceView::looksAt(const Scan& scan, const Eigen::Vector2d& point_m, double margin_m) {
+  const auto bin = static_cast<std::size_t>(binOf(std::atan2(point_m.y(), point_m.x())));
+  const double range_m = point_m.norm();
+  return range_m <= static_cast<double>(scan.seen_to_m[bin]) + kBehind_m &&
+         range_m * static_cast<double>(scan.sine_to_end[bin]) >= margin_m;
+}
+
+std::vector<bool> ReferenceView::sees(std::span<const float> x_m, std::span<const float> y_m,
+                                      const Pose2& T_reference_body, double margin_m) const {
+  std::vector<Pose2> T_scan_body;
+  T_scan_body.reserve(scans_.size());
+  for (const Scan& scan : scans_) T_scan_body.push_back(scan.T_body_reference * T_reference_body);
+  std::vector<bool> seen(x_m.size(), false);
+  for (std::size_t i = 0; i < x_m.size(); ++i) {
+    for (std::size_t k = scans_.size(); k-- > 0 && !seen[i];) {  // The newest sees most.
+      const Eigen::Vector2d there_m = T_scan_body[k] * Eigen::Vector2d(x_m[i], y_m[i]);
+      seen[i] = looksAt(scans_[k], there_m, margin_m);
+    }
+  }
+  return seen;
+}
+
+}  // namespace swiftlet::perception
