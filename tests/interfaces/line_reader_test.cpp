@@ -168,6 +168,17 @@ TEST(LineReader, WhatFollowsBzip2IsSaid) {
   EXPECT_EQ(lines, 2);
 }
 
+TEST(LineReader, AByteOrderMarkIsNoPartOfTheFirstLine) {
+  EXPECT_THAT(linesOfText("\xef\xbb\xbf"
+                          "one\n\xef\xbb\xbf"
+                          "two"),
+              ElementsAre("one",
+                          "\xef\xbb\xbf"
+                          "two"));
+  EXPECT_THAT(linesOfText("\xef\xbb\xbf"), ElementsAre(""));
+  EXPECT_THAT(linesOfText("\xef\xbb"), ElementsAre("\xef\xbb"));
+}
+
 TEST(LineReader, LinesBeforeTheCutAreReturned) {
   const ScratchFolder folder;
   put(folder / "plain", longText());
