@@ -13,6 +13,7 @@ set(SWIFTLET_FOUND_BY
   "LibArchive::LibArchive|LibArchive"
   "PNG::PNG|PNG"
   "Threads::Threads|Threads"
+  "ZLIB::ZLIB|ZLIB"
   "assimp::assimp|assimp"
   "embree|embree 3"
   "fmt::fmt|fmt"

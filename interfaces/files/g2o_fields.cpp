@@ -29,13 +29,20 @@ double G2oFields::number(const char* name) {
   return value;
 }
 
+double G2oFields::coordinate_m(const char* name) {
+  const int begin = column();
+  const double value_m = number(name);
+  if (std::abs(value_m) <= kFarthest_m) return value_m;
+  throw problem(begin, fmt::format("{}: is farther away than {} m", name, kFarthest_m));
+}
+
 common::Pose2 G2oFields::pose2() {
-  const double x_m = number("x"), y_m = number("y"), yaw_rad = number("yaw");
+  const double x_m = coordinate_m("x"), y_m = coordinate_m("y"), yaw_rad = number("yaw");
   return {x_m, y_m, common::wrapAngle(yaw_rad)};
 }
 
 common::Pose3 G2oFields::pose3() {
-  const double x_m = number("x"), y_m = number("y"), z_m = number("z");
+  const double x_m = coordinate_m("x"), y_m = coordinate_m("y"), z_m = coordinate_m("z");
   const int begin = column();
   const double x = number("qx"), y = number("qy"), z = number("qz"), w = number("qw");
   const Eigen::Quaterniond rotation(w, x, y, z);

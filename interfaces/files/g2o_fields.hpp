@@ -32,6 +32,8 @@ class G2oFields {
   void expectNumbers(std::size_t count) const;
   std::int64_t id();
   double number(const char* name);
+  /// Within kFarthest_m.
+  double coordinate_m(const char* name);
   common::Pose2 pose2();
   common::Pose3 pose3();
   /// The upper triangle, row by row; positive definite.

@@ -1,5 +1,6 @@
 #include "interfaces/files/line_fields.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -37,6 +38,12 @@ double LineFields::number(std::size_t field) const {
   if (parseNumber(words_[field].text, value)) return value;
   throw problemAt(field, std::string(format_.fields[field]),
                   fmt::format("`{}` is not a finite number", words_[field].text), "expected " + toString(format_));
+}
+
+double LineFields::coordinate_m(std::size_t field) const {
+  const double value_m = number(field);
+  if (std::abs(value_m) <= kFarthest_m) return value_m;
+  throw problemAt(field, std::string(format_.fields[field]), fmt::format("is farther away than {} m", kFarthest_m));
 }
 
 common::InputError LineFields::problemAt(std::size_t field, std::string element, std::string message,

@@ -32,6 +32,8 @@ class LineFields {
   /// Throw InputError when the word is not a time in seconds, or not a finite number.
   common::Time stamp(std::size_t field) const;
   double number(std::size_t field) const;
+  /// Throws InputError also when it is beyond kFarthest_m.
+  double coordinate_m(std::size_t field) const;
 
   /// A problem at that field, to be thrown.
   common::InputError problemAt(std::size_t field, std::string element, std::string message,

@@ -12,6 +12,8 @@ using common::InputError;
 using common::Problem;
 
 constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
+/// Some editors put it before UTF-8.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 }  // namespace
 
@@ -36,8 +38,8 @@ bool LineReader::next(std::string_view& line) {
   const bool ended = end != std::string::npos;
   if (!ended && at_end_ && taken_ == buffer_.size()) return false;
   if (line_number_ < std::numeric_limits<int>::max()) ++line_number_;
-  line_ended_ = ended;
   line = std::string_view(buffer_).substr(taken_, ended ? end - taken_ : std::string::npos);
+  if (line_number_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   line_cut_ = line.size() > limits_.line_bytes;
   if (line_cut_ && !limits_.cut_long_lines)
     throw problemAt(0, "", fmt::format("a line of more than {} bytes", limits_.line_bytes));

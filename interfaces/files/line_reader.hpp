@@ -29,7 +29,8 @@ class LineReader {
   static LineReader fromBytes(std::string_view bytes, std::string name, LineLimits limits = {});
 
   /// The next line without its end (a newline, or carriage return and newline); false after the last. The view holds
-  /// until the next call. A last line without an end is a line; one that is empty is none. Throws InputError when a
+  /// until the next call. A last line without an end is a line; one that is empty is none. A byte order mark is no part
+  /// of the first. Throws InputError when a
   /// line or the file is too long, or when what is compressed is cut or damaged; the lines before that were returned.
   bool next(std::string_view& line);
 
@@ -37,8 +38,6 @@ class LineReader {
   int lineNumber() const { return line_number_; }
   /// Whether the line returned last was longer than it may be and is only its begin.
   bool lineCut() const { return line_cut_; }
-  /// Whether the line returned last had its newline; the last one of a killed writer may not.
-  bool lineEnded() const { return line_ended_; }
   const std::string& name() const { return stream_.name(); }
   /// Of the file as it lies on the disk, for a progress bar.
   std::int64_t packedBytesRead() const { return stream_.packedBytesRead(); }
@@ -57,7 +56,6 @@ class LineReader {
   std::size_t taken_ = 0;  ///< Of the buffer's bytes, those that were returned.
   std::int64_t unpacked_bytes_ = 0;
   bool at_end_ = false;
-  bool line_ended_ = true;
   bool line_cut_ = false;
   int line_number_ = 0;
 };

@@ -18,7 +18,7 @@ std::vector<common::Relation> read(LineReader reader) {
     common::Relation relation;
     relation.from = fields.stamp(0);
     relation.to = fields.stamp(1);
-    relation.T_from_to.position_m = {fields.number(2), fields.number(3), fields.number(4)};
+    relation.T_from_to.position_m = {fields.coordinate_m(2), fields.coordinate_m(3), fields.coordinate_m(4)};
     const double roll = fields.number(5), pitch = fields.number(6), yaw = fields.number(7);
     relation.T_from_to.rotation = common::quaternionFrom({roll, pitch, yaw});
     relations.push_back(relation);

@@ -24,6 +24,10 @@ std::vector<Word> wordsOf(std::string_view line);
 /// A regular file that has `text` within its first bytes, by which one knows files of one's own.
 bool saysAtStart(const std::filesystem::path& file, std::string_view text, std::size_t within_bytes);
 
+/// Nobody drives or flies farther from where a file begins: a coordinate beyond is a mistake, and would take the
+/// figures that are made of it out of what numbers hold.
+inline constexpr double kFarthest_m = 1e8;
+
 /// The whole word as a finite number; false when it is anything else.
 bool parseNumber(std::string_view word, double& value);
 

@@ -19,7 +19,7 @@ std::vector<common::StampedPose> readReferencePoses(LineReader reader) {
     const LineFields fields(reader, words, referenceFormat());
     const common::Time stamp = fields.stamp(0);
     (void)fields.number(1);
-    const double x_m = fields.number(2), y_m = fields.number(3), yaw_rad = fields.number(4);
+    const double x_m = fields.coordinate_m(2), y_m = fields.coordinate_m(3), yaw_rad = fields.number(4);
     poses.push_back({stamp, common::lifted({x_m, y_m, yaw_rad}, 0.0)});
   }
   return poses;

@@ -1,5 +1,7 @@
 #include "interfaces/files/tum.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace swiftlet::interfaces {
@@ -14,21 +16,20 @@ std::string decimal(double value) {
 common::StampedPose poseFrom(const LineFields& fields) {
   common::StampedPose pose;
   pose.stamp = fields.stamp(0);
-  pose.pose.position_m = {fields.number(1), fields.number(2), fields.number(3)};
+  pose.pose.position_m = {fields.coordinate_m(1), fields.coordinate_m(2), fields.coordinate_m(3)};
   const double x = fields.number(4), y = fields.number(5), z = fields.number(6), w = fields.number(7);
   const Eigen::Quaterniond rotation(w, x, y, z);
   if (rotation.norm() < 1e-6) throw fields.problemAt(4, "qx qy qz qw", "a rotation of length zero");
+  if (!std::isfinite(rotation.norm())) throw fields.problemAt(4, "qx qy qz qw", "a rotation of infinite length");
   pose.pose.rotation = rotation.normalized();
   return pose;
 }
 
 std::vector<common::StampedPose> read(LineReader reader, StampOrder order) {
-  const LineFormat& format = tumFormat();
   std::vector<common::StampedPose> poses;
   std::vector<Word> words;
   while (nextWords(reader, words)) {
-    if (!reader.lineEnded() && words.size() < format.fields.size()) break;
-    const LineFields fields(reader, words, format);
+    const LineFields fields(reader, words, tumFormat());
     const common::StampedPose pose = poseFrom(fields);
     if (order == StampOrder::kGrowing && !poses.empty() && pose.stamp <= poses.back().stamp)
       throw fields.problemAt(

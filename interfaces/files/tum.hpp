@@ -37,8 +37,8 @@ enum class StampOrder {
 };
 
 /// The poses in the order of the file, plain or compressed. Throws InputError with file, line and column for anything
-/// that is not a pose, a rotation of length zero, or a stamp that is not in the order asked for. Rotations are
-/// normalized. A last line without its newline that is not whole is left out: its writer was killed.
+/// that is not a pose, also where its writer was killed in the last line, a rotation of length zero, or a stamp that is
+/// not in the order asked for. Rotations are normalized.
 std::vector<common::StampedPose> readTum(const std::filesystem::path& file, StampOrder order = StampOrder::kGrowing);
 /// `name` stands for the file in messages.
 std::vector<common::StampedPose> parseTum(std::string_view text, const std::string& name,

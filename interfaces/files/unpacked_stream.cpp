@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -11,23 +12,95 @@
 
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
+#include "interfaces/files/gunzip.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
 
 constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
+/// A file can be made that unpacks to itself for ever.
+constexpr int kMostGzipLayers = 20;
+
+ByteSource sourceOf(const std::filesystem::path& file) {
+  common::requireFile(file);
+  std::FILE* opened = std::fopen(file.c_str(), "rb");
+  if (opened == nullptr)
+    throw common::InputError(
+        common::Problem{{file.string()}, "", fmt::format("cannot be opened: {}", std::strerror(errno)), ""});
+  return [held = std::shared_ptr<std::FILE>(opened, &std::fclose)](char* to, std::size_t bytes) -> BytesRead {
+    const std::size_t count = std::fread(to, 1, bytes, held.get());
+    if (count == 0 && std::ferror(held.get()) != 0) return tl::unexpected(std::string(std::strerror(errno)));
+    return count;
+  };
+}
+
+ByteSource sourceOf(std::string_view bytes) {
+  return [bytes](char* to, std::size_t count) mutable -> BytesRead {
+    const std::size_t taken = bytes.copy(to, count);
+    bytes.remove_prefix(taken);
+    return taken;
+  };
+}
+
+/// Up to `count` bytes; fewer only where there are no more.
+tl::expected<std::string, std::string> firstBytes(const ByteSource& source, std::size_t count) {
+  std::string first;
+  while (first.size() < count) {
+    std::string more(count - first.size(), '\0');
+    const BytesRead taken = source(more.data(), more.size());
+    if (!taken) return tl::unexpected(taken.error());
+    if (*taken == 0) break;
+    first += more.substr(0, *taken);
+  }
+  return first;
+}
+
+/// `first`, then what `rest` still has.
+ByteSource joined(std::string first, ByteSource rest) {
+  return [first = std::move(first), rest = std::move(rest)](char* to, std::size_t bytes) mutable -> BytesRead {
+    if (first.empty()) return rest(to, bytes);
+    const std::size_t taken = first.copy(to, bytes);
+    first.erase(0, taken);
+    return taken;
+  };
+}
+
+/// What gzip packed, and packed again; other packings are left as they are.
+tl::expected<ByteSource, std::string> withoutGzip(ByteSource source) {
+  for (int layers = 0; layers <= kMostGzipLayers; ++layers) {
+    auto first = firstBytes(source, kGzipMagic.size());
+    if (!first) return tl::unexpected(first.error());
+    const bool packed = *first == kGzipMagic;
+    source = joined(std::move(*first), std::move(source));
+    if (!packed) return source;
+    source = gunzipped(std::move(source));
+  }
+  return tl::unexpected(fmt::format("gzip: packed more than {} times", kMostGzipLayers));
+}
 
 }  // namespace
 
-/// What the archive library takes its bytes from when they are in no file.
+/// What the archive library takes its bytes from.
 struct UnpackedStream::Feed {
   ByteSource source;
   std::array<char, kBlockBytes> block;
+  std::int64_t packed_bytes = 0;      ///< Taken from the file.
+  std::int64_t bytes_to_archive = 0;  ///< Given to the library, without gzip.
+
+  /// `packed`, with its bytes counted.
+  ByteSource counted(ByteSource packed) {
+    return [this, packed = std::move(packed)](char* to, std::size_t bytes) {
+      const BytesRead count = packed(to, bytes);
+      packed_bytes += static_cast<std::int64_t>(count.value_or(0));
+      return count;
+    };
+  }
 
   static la_ssize_t next(struct archive* archive, void* data, const void** bytes) {
     auto& self = *static_cast<Feed*>(data);
     const BytesRead count = self.source(self.block.data(), self.block.size());
     *bytes = self.block.data();
+    self.bytes_to_archive += static_cast<std::int64_t>(count.value_or(0));
     if (count) return static_cast<la_ssize_t>(*count);
     archive_set_error(archive, EIO, "%s", count.error().c_str());
     return -1;
@@ -36,56 +109,65 @@ struct UnpackedStream::Feed {
 
 void UnpackedStream::ArchiveDeleter::operator()(struct archive* opened) const { archive_read_free(opened); }
 
-UnpackedStream::UnpackedStream(std::string name) : name_(std::move(name)), archive_(archive_read_new()) {
-  archive_read_support_filter_gzip(archive_.get());
+UnpackedStream::UnpackedStream(ByteSource packed, std::string name, bool may_be_lz4)
+    : name_(std::move(name)), feed_(std::make_unique<Feed>()), archive_(archive_read_new()) {
   archive_read_support_filter_bzip2(archive_.get());
   archive_read_support_filter_xz(archive_.get());
+  if (may_be_lz4) archive_read_support_filter_lz4(archive_.get());
   archive_read_support_format_raw(archive_.get());
   archive_read_support_format_empty(archive_.get());
+  auto source = withoutGzip(feed_->counted(std::move(packed)));
+  if (!source) {
+    failure_ = source.error();
+    return;
+  }
+  feed_->source = std::move(*source);
+  struct archive_entry* entry = nullptr;
+  int result = archive_read_open(archive_.get(), feed_.get(), nullptr, &Feed::next, nullptr);
+  if (result == ARCHIVE_OK) result = archive_read_next_header(archive_.get(), &entry);
+  at_end_ = result == ARCHIVE_EOF;
+  if (result != ARCHIVE_OK && !at_end_) failure_ = archiveError();
 }
 
-UnpackedStream::UnpackedStream(const std::filesystem::path& file) : UnpackedStream(file.string()) {
-  common::requireFile(file);
-  begin(archive_read_open_filename(archive_.get(), file.c_str(), kBlockBytes));
-}
+UnpackedStream::UnpackedStream(const std::filesystem::path& file)
+    : UnpackedStream(sourceOf(file), file.string(), false) {}
 
 UnpackedStream UnpackedStream::fromBytes(std::string_view bytes, std::string name) {
-  UnpackedStream stream(std::move(name));
-  stream.begin(archive_read_open_memory(stream.archive_.get(), bytes.data(), bytes.size()));
-  return stream;
+  return {sourceOf(bytes), std::move(name), false};
 }
 
 UnpackedStream UnpackedStream::fromSource(ByteSource source, std::string name) {
-  UnpackedStream stream(std::move(name));
-  stream.feed_ = std::make_unique<Feed>();
-  stream.feed_->source = std::move(source);
-  archive_read_support_filter_lz4(stream.archive_.get());
-  stream.begin(archive_read_open(stream.archive_.get(), stream.feed_.get(), nullptr, &Feed::next, nullptr));
-  return stream;
+  return {std::move(source), std::move(name), true};
 }
 
 UnpackedStream::~UnpackedStream() = default;
 UnpackedStream::UnpackedStream(UnpackedStream&&) noexcept = default;
 UnpackedStream& UnpackedStream::operator=(UnpackedStream&&) noexcept = default;
 
-void UnpackedStream::begin(int open_result) {
-  const int error_number = archive_errno(archive_.get());
-  if (open_result != ARCHIVE_OK && error_number > 0 && !feed_)
-    throw common::InputError(
-        common::Problem{{name_}, "", fmt::format("cannot be opened: {}", std::strerror(error_number)), ""});
-  struct archive_entry* entry = nullptr;
-  const int result = open_result == ARCHIVE_OK ? archive_read_next_header(archive_.get(), &entry) : open_result;
-  at_end_ = result == ARCHIVE_EOF;
-  if (result != ARCHIVE_OK && !at_end_) failure_ = archiveError();
+BytesRead UnpackedStream::read(char* to, std::size_t bytes) {
+  while (unpacked_.empty() && failure_.empty() && !at_end_ && bytes > 0) unpackBlock();
+  if (unpacked_.empty() && !failure_.empty()) return tl::unexpected(failure_);
+  const std::size_t count = unpacked_.copy(to, bytes);
+  unpacked_.remove_prefix(count);
+  return count;
 }
 
-BytesRead UnpackedStream::read(char* to, std::size_t bytes) {
-  if (!failure_.empty()) return tl::unexpected(failure_);
-  if (at_end_ || bytes == 0) return 0;
-  const la_ssize_t count = archive_read_data(archive_.get(), to, bytes);
-  if (count < 0) return tl::unexpected(failure_ = archiveError());
-  at_end_ = count == 0;
-  return static_cast<std::size_t>(count);
+/// Block by block: archive_read_data, which fills what it is given, loses what it already has when a failure follows.
+void UnpackedStream::unpackBlock() {
+  const void* block = nullptr;
+  std::size_t bytes = 0;
+  la_int64_t offset = 0;
+  const int result = archive_read_data_block(archive_.get(), &block, &bytes, &offset);
+  if (result == ARCHIVE_OK) {
+    unpacked_ = {static_cast<const char*>(block), bytes};
+  } else if (result != ARCHIVE_EOF) {
+    failure_ = archiveError();
+  } else if (feed_->bytes_to_archive > archive_filter_bytes(archive_.get(), -1)) {
+    // The library overlooks whatever is not packed the same way.
+    failure_ = "it goes on behind its end";
+  } else {
+    at_end_ = true;
+  }
 }
 
 std::string UnpackedStream::archiveError() const {
@@ -93,6 +175,6 @@ std::string UnpackedStream::archiveError() const {
   return text == nullptr ? "damaged" : text;
 }
 
-std::int64_t UnpackedStream::packedBytesRead() const { return archive_filter_bytes(archive_.get(), -1); }
+std::int64_t UnpackedStream::packedBytesRead() const { return feed_->packed_bytes; }
 
 }  // namespace swiftlet::interfaces

@@ -5,21 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 
-#include <tl/expected.hpp>
+#include "interfaces/files/byte_source.hpp"
 
 struct archive;
 
 namespace swiftlet::interfaces {
-
-/// How many bytes were read, at most those asked for and 0 only at the end; or why no more can be.
-using BytesRead = tl::expected<std::size_t, std::string>;
-/// Where packed bytes come from.
-using ByteSource = std::function<BytesRead(char* to, std::size_t bytes)>;
 
 /// Used by one thread.
 class UnpackedStream {
@@ -34,8 +28,8 @@ class UnpackedStream {
   UnpackedStream(UnpackedStream&&) noexcept;
   UnpackedStream& operator=(UnpackedStream&&) noexcept;
 
-  /// An error says that the archive is cut or damaged; what came before it was returned.
-  /// (The checksum of gzip is not verified: damage that leaves it decodable is not seen.)
+  /// An error says that what is packed is cut or damaged, or that something else follows it; what came before was
+  /// returned.
   BytesRead read(char* to, std::size_t bytes);
   /// Of the file as it lies on the disk, for a progress bar.
   std::int64_t packedBytesRead() const;
@@ -47,14 +41,15 @@ class UnpackedStream {
   };
   struct Feed;
 
-  explicit UnpackedStream(std::string name);
-  void begin(int open_result);
+  UnpackedStream(ByteSource packed, std::string name, bool may_be_lz4);
+  void unpackBlock();
   std::string archiveError() const;
 
   std::string name_;
   std::unique_ptr<Feed> feed_;
   std::unique_ptr<struct archive, ArchiveDeleter> archive_;
-  std::string failure_;  ///< Of the first header; told by the first read.
+  std::string_view unpacked_;  ///< The library's, until it is asked for more.
+  std::string failure_;        ///< Met already when it was opened: told by the first read.
   bool at_end_ = false;
 };
 

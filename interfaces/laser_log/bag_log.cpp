@@ -65,16 +65,26 @@ class BagLog final : public CountedLog {
     return std::nullopt;
   }
 
+  static std::string layoutOf(const BagConnection& connection) {
+    std::string layout = shown(connection.type);
+    if (connection.type == kLaserScanType && !isLaserScan(connection))
+      layout += fmt::format(" of another layout, md5 {}", shown(connection.md5sum));
+    return layout;
+  }
+
   common::InputError noScans() const {
     std::string topics;
     std::size_t told = 0;
     for (const auto& [id, connection] : reader_.connections()) {
       if (told++ == kTopicsTold) break;
       topics +=
-          fmt::format("{}{} ({})", topics.empty() ? "it has " : ", ", shown(connection.topic), shown(connection.type));
+          fmt::format("{}{} ({})", topics.empty() ? "it has " : ", ", shown(connection.topic), layoutOf(connection));
     }
+    // What went wrong on the way is why there are none.
+    std::string why;
+    for (const common::Problem& problem : counts().first_problems) why += problem.message + "; ";
     return common::InputError(
-        common::Problem{{reader_.name()}, "", "has no messages of type sensor_msgs/LaserScan", topics});
+        common::Problem{{reader_.name()}, "", fmt::format("has no messages of type {}", kLaserScanType), why + topics});
   }
 
   double file_bytes_;

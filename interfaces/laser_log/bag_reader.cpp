@@ -92,7 +92,11 @@ bool BagReader::next(BagMessage& message) {
 BagReader::Taken BagReader::takeFromFile(BagMessage& message) {
   const std::uint64_t offset = file_.offset();
   try {
-    if (file_.atEnd()) return Taken::kEnd;
+    if (file_.atEnd()) {
+      if (chunks_ < least_chunks_)
+        throw StreamFailure{fmt::format("it has {} of the {} chunks its header tells of", chunks_, least_chunks_)};
+      return Taken::kEnd;
+    }
     const std::string record = header(file_);
     const int op = opOf(record);
     if (op == kMessageOp) return readMessage(record, file_, message);
@@ -162,9 +166,14 @@ void BagReader::readBagHeader(const std::string& header) {
   if (const auto encryptor = find(header, "encryptor"); encryptor && !encryptor->empty())
     throw common::InputError(common::Problem{
         {name()}, "", "is encrypted by " + shown(*encryptor), "`rosbag decrypt` gives one that can be read"});
+  // A writer fills this in at its end; before, the place of the index is zero.
+  const auto index = find(header, "index_pos"), chunks = find(header, "chunk_count");
+  if (index && chunks && index->find_first_not_of('\0') != std::string_view::npos)
+    least_chunks_ = MessageCursor(*chunks).u32();
 }
 
 void BagReader::openChunk(const std::string& header, std::uint32_t bytes) {
+  ++chunks_;
   const std::string_view packing = require(header, "compression");
   if (packing == "none" || packing == "bz2" || packing == "lz4") {
     chunk_ = std::make_unique<Chunk>(file_, bytes, packing != "none");

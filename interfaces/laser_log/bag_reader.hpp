@@ -55,7 +55,8 @@ class BagReader {
   BagReader(UnpackedStream stream, Options options);
   ~BagReader();
 
-  /// False after the last. Throws InputError when the file is cut or damaged, with the place.
+  /// False after the last. Throws InputError when the file is cut or damaged, with the place; also when it ends between
+  /// two records and its header tells of more chunks.
   bool next(BagMessage& message);
 
   const std::map<std::uint32_t, BagConnection>& connections() const { return connections_; }
@@ -79,7 +80,9 @@ class BagReader {
   UnpackedStream stream_;
   Options options_;
   StreamCursor file_;
-  std::unique_ptr<Chunk> chunk_;  ///< The one being read.
+  std::unique_ptr<Chunk> chunk_;    ///< The one being read.
+  std::uint64_t chunks_ = 0;        ///< Met so far,
+  std::uint64_t least_chunks_ = 0;  ///< and as many as the header tells of; 0 where it tells nothing.
   std::map<std::uint32_t, BagConnection> connections_;
 };
 

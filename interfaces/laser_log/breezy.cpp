@@ -1,8 +1,11 @@
 #include "interfaces/laser_log/breezy.hpp"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include "interfaces/files/text_file.hpp"
 #include "interfaces/laser_log/scan_geometry.hpp"
@@ -28,9 +31,11 @@ constexpr double kRangeMin_m = 0.02;
 constexpr double kRangeMax_m = 5.6;
 constexpr int kWidestFan = 769;  ///< Beams over 270 degrees.
 
+constexpr int kFirstColumns = 4;   ///< Time, an unused one, ticks of both wheels.
 constexpr int kOtherColumns = 20;  ///< Between the ticks and the ranges.
 constexpr double kMostTicks = 2147483648.0;
-constexpr double kLatest_us = 9e15;
+constexpr double kFarthestStamp_us = 1e6 * common::kFarthestStamp_s;
+constexpr int kSurveyedLines = 1000;
 
 /// Where the wheels say the rover is.
 class WheelOdometry {
@@ -59,12 +64,12 @@ class WheelOdometry {
 
 class BreezyFormat final : public LogFormat {
  public:
-  explicit BreezyFormat(const LaserLogOptions& options) : options_(options) {}
+  BreezyFormat(int beams, const LaserLogOptions& options) : beams_(beams), options_(options) {}
 
   tl::expected<std::optional<LoggedScan>, RecordProblem> parse(std::string_view line) override {
     LogFields fields(line);
     if (fields.atEnd()) return std::nullopt;
-    const double time_us = within(fields, "time", kLatest_us);
+    const double time_us = within(fields, "time", kFarthestStamp_us);
     (void)fields.finite("column");
     const double left_ticks = within(fields, "left wheel", kMostTicks);
     const double right_ticks = within(fields, "right wheel", kMostTicks);
@@ -98,6 +103,9 @@ class BreezyFormat final : public LogFormat {
     const int beams = static_cast<int>(scan.ranges_m.size());
     if (!fields.problem() && (beams < 2 || (beams > kWidestFan && !options_.sensor)))
       return fields.fail("range", beams < 2 ? "the line ends before it" : "there are more than a URG-04LX has");
+    // The fan of a cut line would be spread in other directions than it was measured in.
+    if (!fields.problem() && beams != beams_)
+      return fields.fail("range", fmt::format("there are {}, in most lines {}", beams, beams_));
     scan.angle_min_rad = -0.5 * kStep_rad * (beams - 1);
     scan.angle_increment_rad = kStep_rad;
     scan.time_increment = kStepTime;
@@ -105,24 +113,44 @@ class BreezyFormat final : public LogFormat {
     scan.range_max_m = kRangeMax_m;
   }
 
+  int beams_;
   LaserLogOptions options_;
   WheelOdometry odometry_;
 };
 
+/// Of most of the first records, and of the longer ones where as many are shorter: a line is cut more easily than it
+/// grows. What cannot be read is met again, and told, when the log is read.
+int surveyedBeams(const std::filesystem::path& file) {
+  std::map<int, int> lines_by_beams;
+  try {
+    LineReader reader(file, kLogLimits);
+    std::string_view line;
+    for (int i = 0; i < kSurveyedLines && reader.next(line); ++i)
+      if (isBreezyLine(line)) ++lines_by_beams[static_cast<int>(wordsOf(line).size()) - kFirstColumns - kOtherColumns];
+  } catch (const common::InputError&) {}
+  int beams = 0, most_lines = 0;
+  for (const auto& [count, lines] : lines_by_beams)
+    if (lines >= most_lines) {
+      beams = count;
+      most_lines = lines;
+    }
+  return beams;
+}
+
 }  // namespace
 
 bool isBreezyLine(std::string_view line) {
-  constexpr std::size_t kColumns = 4 + kOtherColumns + 2;
+  constexpr std::size_t kColumns = kFirstColumns + kOtherColumns + 2;
   const std::vector<Word> words = wordsOf(line);
   if (words.size() < kColumns) return false;
   double value = 0.0;
   for (std::size_t i = 0; i < words.size(); ++i)
-    if (!parseNumber(words[i].text, value) || (i < 4 && value != std::floor(value))) return false;
+    if (!parseNumber(words[i].text, value) || (i < kFirstColumns && value != std::floor(value))) return false;
   return true;
 }
 
-std::unique_ptr<LogFormat> breezyFormat(const LaserLogOptions& options) {
-  return std::make_unique<BreezyFormat>(options);
+std::unique_ptr<LogFormat> breezyFormat(const std::filesystem::path& file, const LaserLogOptions& options) {
+  return std::make_unique<BreezyFormat>(surveyedBeams(file), options);
 }
 
 }  // namespace swiftlet::interfaces

@@ -4,6 +4,7 @@
 // of the laser.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string_view>
 
@@ -14,7 +15,8 @@ namespace swiftlet::interfaces {
 /// Whether a line can be one of such a log: numbers only, as many as a scan has at least, the first ones whole.
 bool isBreezyLine(std::string_view line);
 
-/// Odometry begins at the origin.
-std::unique_ptr<LogFormat> breezyFormat(const LaserLogOptions& options);
+/// Odometry begins at the origin. Nothing in a line says whether it is whole, so that only lines of as many ranges as
+/// most of the first ones of the file have are scans.
+std::unique_ptr<LogFormat> breezyFormat(const std::filesystem::path& file, const LaserLogOptions& options);
 
 }  // namespace swiftlet::interfaces

@@ -21,6 +21,15 @@ constexpr double kOldRangeMin_m = 0.05;
 /// Within which the first records are looked for.
 constexpr int kSurveyedLines = 100'000;
 
+/// What every record ends with. A count of readings that is not that of its ranges shows here at the latest, and a line
+/// that was cut does too: a stamp alone may have lost digits.
+void readStamps(LogFields& fields, common::LaserScan& scan) {
+  scan.stamps.measured = fields.stamp("ipc_timestamp");
+  (void)fields.word("ipc_hostname");
+  (void)fields.number("logger_timestamp");
+  if (!fields.atEnd()) fields.fail("logger_timestamp", "the line goes on after it, is a number of readings wrong?");
+}
+
 /// FLASER n ranges.. laser pose, robot pose, stamp, host, logger's stamp
 void readOldScan(LogFields& fields, CarmenScan& logged) {
   common::LaserScan& scan = logged.scan;
@@ -33,7 +42,7 @@ void readOldScan(LogFields& fields, CarmenScan& logged) {
   scan.range_max_m = kOldRangeMax_m;
   logged.T_odom_laser = fields.pose("laser pose");
   logged.T_odom_robot = fields.pose("robot pose");
-  scan.stamps.measured = fields.stamp("ipc_timestamp");
+  readStamps(fields, scan);
 }
 
 /// ROBOTLASER1 type start fov resolution max accuracy remission_mode n ranges.. m remissions.. laser pose, robot pose,
@@ -58,7 +67,7 @@ void readNewScan(LogFields& fields, CarmenScan& logged) {
   logged.T_odom_robot = fields.pose("robot pose");
   for (const char* name : {"tv", "rv", "forward_safety_dist", "side_safety_dist", "turn_axis"})
     (void)fields.number(name);
-  scan.stamps.measured = fields.stamp("ipc_timestamp");
+  readStamps(fields, scan);
 }
 
 /// Of the first records; what cannot be read is met again, and told, when the log is read.

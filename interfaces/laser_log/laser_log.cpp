@@ -36,7 +36,7 @@ Format formatOf(const std::filesystem::path& file) {
 std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& file, const LaserLogOptions& options) {
   const Format format = formatOf(file);
   if (format == Format::kCarmen) return openTextLog(file, carmenFormat(file, options));
-  if (format == Format::kBreezy) return openTextLog(file, breezyFormat(options));
+  if (format == Format::kBreezy) return openTextLog(file, breezyFormat(file, options));
   if (format == Format::kBag) return openBagLog(file, options);
   throw common::InputError(
       common::Problem{{file.string(), 0, 0},

@@ -8,7 +8,7 @@
 namespace swiftlet::interfaces {
 namespace {
 
-/// Of the definition of the type; another one is another layout.
+/// Of the definition of the type.
 constexpr std::string_view kLaserScanMd5 = "90c7ef2dc6895d81024acba2ac42f369";
 /// No laser is slower from beam to beam; what is not filled in, or nonsense, is taken as at once.
 constexpr double kSlowestBeam_s = 1.0;
@@ -27,7 +27,7 @@ void turnRound(common::LaserScan& scan) {
 }  // namespace
 
 bool isLaserScan(const BagConnection& connection) {
-  return connection.type == "sensor_msgs/LaserScan" &&
+  return connection.type == kLaserScanType &&
          (connection.md5sum == kLaserScanMd5 || connection.md5sum == "*" || connection.md5sum.empty());
 }
 

@@ -1,5 +1,6 @@
 #include "interfaces/laser_log/log_fields.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -11,7 +12,6 @@
 namespace swiftlet::interfaces {
 namespace {
 
-constexpr double kFarthest_m = 1e8;
 constexpr std::size_t kShownBytes = 40;
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
@@ -75,7 +75,7 @@ common::Pose2 LogFields::pose(const char* name) {
   pose.x_m = finite(name);
   pose.y_m = finite(name);
   pose.yaw_rad = common::wrapAngle(finite(name));
-  if (std::hypot(pose.x_m, pose.y_m) <= kFarthest_m) return pose;
+  if (std::max(std::abs(pose.x_m), std::abs(pose.y_m)) <= kFarthest_m) return pose;
   failAt(first, name, fmt::format("is farther away than {} m", kFarthest_m));
   return {};
 }

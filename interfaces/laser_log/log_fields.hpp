@@ -34,7 +34,7 @@ class LogFields {
   double number(const char* name);
   double finite(const char* name);
   int count(const char* name);
-  /// Three numbers; nobody drives a robot farther than 1e8 m.
+  /// Three numbers; x and y within kFarthest_m.
   common::Pose2 pose(const char* name);
   common::Time stamp(const char* name);
   /// So many ranges, each times `unit_m`.

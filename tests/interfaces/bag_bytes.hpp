@@ -33,10 +33,11 @@ inline std::string record(char op, std::vector<Field> header, const std::string&
   return text(fields(header)) + text(data);
 }
 
-inline std::string begin() {
-  return "#ROSBAG V2.0\n" +
-         record(3, {{"index_pos", std::string(8, '\0')}, {"conn_count", u32(1)}, {"chunk_count", u32(1)}},
-                std::string(64, ' '));
+/// As a writer that was killed leaves it; with a number of chunks, as one that came to its end does.
+inline std::string begin(std::uint32_t chunks = 0) {
+  const std::string index_pos = u32(chunks == 0 ? 0 : 4096) + u32(0);
+  return "#ROSBAG V2.0\n" + record(3, {{"index_pos", index_pos}, {"conn_count", u32(1)}, {"chunk_count", u32(chunks)}},
+                                   std::string(64, ' '));
 }
 
 inline std::string connection(std::uint32_t id, const std::string& topic, const std::string& type,

@@ -147,8 +147,24 @@ TEST_F(Bag, WhatCannotBeReadIsRefused) {
   const std::string other = bag_bytes::chunk(bag_bytes::connection(0, "/imu", "sensor_msgs/Imu") +
                                              bag_bytes::connection(1, "/scan", kLaserScan, "another layout") +
                                              bag_bytes::message(0, 1, "x") + bag_bytes::message(1, 1, "x"));
-  EXPECT_THAT(problemOf([&] { (void)open(bag_bytes::begin() + other)->next(); }),
-              HasSubstr("it has /imu (sensor_msgs/Imu), /scan (sensor_msgs/LaserScan)"));
+  EXPECT_THAT(
+      problemOf([&] { (void)open(bag_bytes::begin() + other)->next(); }),
+      HasSubstr("it has /imu (sensor_msgs/Imu), /scan (sensor_msgs/LaserScan of another layout, md5 another layout)"));
+  const std::string unknown = bag_bytes::record(5, {{"compression", "zpaq"}, {"size", bag_bytes::u32(9)}}, "whatever");
+  EXPECT_THAT(
+      problemOf(
+          [&] { (void)open(bag_bytes::begin() + unknown + bag_bytes::connection(0, "/scan", kLaserScan))->next(); }),
+      ContainsRegex("LaserScan, a chunk at byte [0-9]+ is packed by `zpaq`, which is not known; it has /scan "));
+}
+
+TEST_F(Bag, ABagThatEndsBetweenTwoRecordsIsCutWhenItsHeaderTellsOfMoreChunks) {
+  const std::string chunk = bag_bytes::chunk(bag_bytes::connection(0, "/scan", kLaserScan) +
+                                             bag_bytes::message(0, 1, bag_bytes::scan({1.0F, 2.0F})));
+  EXPECT_EQ(scansOf(*open(bag_bytes::begin(2) + chunk + chunk)), 2);
+  const auto log = open(bag_bytes::begin(2) + chunk);
+  EXPECT_TRUE(log->next());
+  EXPECT_THAT(problemOf([&] { (void)log->next(); }),
+              ContainsRegex("is cut or damaged, its end cannot be read, it has 1 of the 2 chunks its header tells of"));
 }
 
 TEST_F(Bag, ManyRecordsTakeNoStack) {

@@ -26,8 +26,8 @@ TEST(Breezy, ARecordIsAScanAndThePlaceByTheWheels) {
   const ScratchFolder folder;
   // A turn of both wheels, then a turn on the spot by a quarter.
   const int quarter = static_cast<int>(std::lround(0.25 * kPi * 2.0 * 0.165 / (2.0 * kPi * 0.077) * 2000.0));
-  put(folder / "a", line(2e6, 1000, 1000, "0 6 1500 5600 250") + line(2.1e6, 3000, 3000, "1000 1000 1000") +
-                        line(2.2e6, 3000 - quarter, 3000 + quarter, "1000 1000 1000"));
+  put(folder / "a", line(2e6, 1000, 1000, "0 6 1500 5600 250") + line(2.1e6, 3000, 3000, "1000 1000 1000 1000 1000") +
+                        line(2.2e6, 3000 - quarter, 3000 + quarter, "1000 1000 1000 1000 1000"));
   const auto log = openLaserLog(folder / "a");
   const auto first = log->next(), second = log->next(), third = log->next();
   ASSERT_TRUE(first && second && third);
@@ -61,6 +61,28 @@ TEST(Breezy, BadRecordsAreSkippedWithTheirPlace) {
   EXPECT_THAT(toString(log->counts().first_problems.at(1)), HasSubstr("a:4:"));
   EXPECT_THAT(toString(log->counts().first_problems.at(1)), HasSubstr("range: `x` is not a number, skipped"));
   EXPECT_THAT(toString(log->counts().first_problems.at(3)), HasSubstr("more than a URG-04LX has"));
+}
+
+TEST(Breezy, ALineOfOtherThanTheUsualNumberOfRangesIsSkipped) {
+  const ScratchFolder folder;
+  const std::string whole = line(1e6, 0, 0, "1000 1000 1000 1000"), half = line(1e6, 0, 0, "1000 1000");
+  for (const std::string& text : {half + whole + whole, whole + half + whole, whole + half}) {
+    put(folder / "a", text);
+    const auto log = openLaserLog(folder / "a");
+    while (const auto logged = log->next()) EXPECT_EQ(logged->scan.ranges_m.size(), 4U);
+    EXPECT_EQ(log->counts().skipped_records, 1U) << text;
+    EXPECT_THAT(toString(log->counts().first_problems.at(0)),
+                HasSubstr("range: there are 2, in most lines 4, skipped"));
+  }
+}
+
+TEST(Breezy, AStampIsWithinTheSameBoundsAsOthers) {
+  const ScratchFolder folder;
+  put(folder / "a", line(4.5e15, 0, 0, "1000 1000") + line(5e15, 0, 0, "1000 1000") + line(-5e15, 0, 0, "1000 1000"));
+  const auto log = openLaserLog(folder / "a");
+  EXPECT_EQ(log->next()->scan.stamps.measured, common::Time::fromSeconds(4.5e9));
+  EXPECT_FALSE(log->next());
+  EXPECT_EQ(log->counts().skipped_records, 2U);
 }
 
 TEST(Breezy, ARecordedLogIsReadPacked) {

@@ -71,6 +71,9 @@ TEST(G2o, MistakesSayWhere) {
   EXPECT_THAT(problem("VERTEX_SE2 -1 0 0 0\n"), HasSubstr("`-1` is not an id"));
   EXPECT_THAT(problem("VERTEX_SE2 1 0 nan 0\n"), HasSubstr("x.g2o:1:16: VERTEX_SE2: y: `nan` is not a finite number"));
   EXPECT_THAT(problem("VERTEX_SE2 1 0 0 inf\n"), HasSubstr("yaw: `inf` is not a finite number"));
+  EXPECT_THAT(problem("VERTEX_SE2 1 0 -1e300 0\n"),
+              HasSubstr("x.g2o:1:16: VERTEX_SE2: y: is farther away than 100000000"));
+  EXPECT_THAT(problem("EDGE_SE3:QUAT 0 1 1 2 1e9 0 0 1 1" + kUnit6), HasSubstr("z: is farther away"));
   EXPECT_THAT(problem(kPlane + "VERTEX_SE2 7 1 1 1\n"), HasSubstr("x.g2o:3:12: VERTEX_SE2: vertex 7 stands in line 2"));
   EXPECT_THAT(problem(kPlane + "EDGE_SE2 7 11 0 0 0 1 0 0 1 0 1\n"),
               HasSubstr("x.g2o:3:10: edge: there is no vertex 11"));

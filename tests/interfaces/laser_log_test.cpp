@@ -88,6 +88,26 @@ TEST(Carmen, ALineThatIsNotWholeSaysWhere) {
   EXPECT_FALSE(parseCarmenLine("FLASER 1 1.0 nan 0 0 0 0 0 1.0 host 1.0"));
 }
 
+TEST(Carmen, ACountThatIsNotThatOfTheRangesIsSaid) {
+  const std::string rest = " 1.0 1.0 1.0 1.0 1.0 1.0 0 0 0 0 0 0 976052857.3 host 1.0";
+  EXPECT_TRUE(parseCarmenLine("FLASER 6" + rest));
+  for (const char* wrong : {"0", "3", "4", "5", "7", "8", "9"})
+    EXPECT_FALSE(parseCarmenLine("FLASER " + std::string(wrong) + rest)) << wrong;
+  const std::string front = "ROBOTLASER1 0 -1.0 2.0 0.5 50.0 0.1 0 ", back = " 1 2 0 1 2 0 0.1 0.2 0 0 0 12.5 host 1.0";
+  EXPECT_TRUE(parseCarmenLine(front + "3 1.0 1.0 1.0 2 7 7" + back));
+  EXPECT_FALSE(parseCarmenLine(front + "3 1.0 1.0 1.0 1 7 7" + back));
+  EXPECT_FALSE(parseCarmenLine(front + "3 1.0 1.0 1.0 3 7 7" + back));
+  const auto more = parseCarmenLine("FLASER 6" + rest + " 2.0");
+  ASSERT_FALSE(more);
+  EXPECT_THAT(more.error().message, testing::HasSubstr("goes on after it, is a number of readings wrong?"));
+}
+
+TEST(Carmen, ALineThatIsCutWithinItsStampsIsNoScan) {
+  const std::string line = oldScan(3);
+  for (const char* last : {"976052857.337530", "97605", "ho"})
+    EXPECT_FALSE(parseCarmenLine(line.substr(0, line.find(last == std::string("97605") ? "2857" : last) + 2))) << last;
+}
+
 TEST(Carmen, ASensorOverridesTheGeometry) {
   common::LaserConfig sensor;
   sensor.field_of_view_deg = 240.0;

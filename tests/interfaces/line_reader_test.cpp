@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
+#include <zlib.h>
 
 #include "support.hpp"
 
@@ -95,12 +96,87 @@ TEST(LineReader, CutAndDamagedFilesAreSaid) {
       EXPECT_THAT(readUntilProblem(folder / "cut", lines), ContainsRegex("cut(:[0-9]+)?: is cut or damaged"))
           << tool << " without its last " << missing << " bytes";
     }
-    if (std::string_view(tool) == "gzip") continue;  // Its checksum is not verified.
     std::string damaged = *packed;
     damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 0x55);
     put(folder / "damaged", damaged);
     EXPECT_THAT(readUntilProblem(folder / "damaged", lines), HasSubstr("is cut or damaged")) << tool;
   }
+}
+
+/// A gzip file of one stored block, which any byte can be changed in without making it undecodable.
+std::string storedByGzip(const std::string& text) {
+  struct Byte {
+    std::size_t value;
+    char operator()(int index) const { return static_cast<char>(value >> (8 * index) & 0xff); }
+  };
+  const Byte size{text.size()}, other{~text.size()},
+      crc{crc32(0, reinterpret_cast<const Bytef*>(text.data()), text.size())};
+  std::string packed("\x1f\x8b\x08\0\0\0\0\0\0\x03\x01", 11);
+  for (const Byte& word : {size, other}) packed += {word(0), word(1)};
+  packed += text;
+  for (const Byte& word : {crc, size}) packed += {word(0), word(1), word(2), word(3)};
+  return packed;
+}
+
+TEST(LineReader, TheChecksumAndLengthOfGzipAreChecked) {
+  const ScratchFolder folder;
+  const std::string packed = storedByGzip("the first line\nthe second line\n");
+  int lines = 0;
+  put(folder / "x", packed);
+  EXPECT_EQ(readUntilProblem(folder / "x", lines), "");
+  EXPECT_EQ(lines, 2);
+  for (const auto& [back, why] :
+       {std::pair{16, "data check"}, {10, "data check"}, {8, "data check"}, {1, "length check"}}) {
+    std::string damaged = packed;
+    damaged[damaged.size() - back] ^= 1;
+    put(folder / "x", damaged);
+    EXPECT_THAT(readUntilProblem(folder / "x", lines),
+                ContainsRegex(std::string("x:2: is cut or damaged, its end cannot be read, gzip: incorrect ") + why));
+    EXPECT_EQ(lines, 2) << "what came before the checksum is given";
+  }
+}
+
+TEST(LineReader, MembersOfGzipFollowEachOtherAndThenOnlyZeros) {
+  const ScratchFolder folder;
+  const std::string one = storedByGzip("the first line\n"), two = storedByGzip("the second line\n"), zeros(600, '\0');
+  put(folder / "x", one + two + zeros);
+  EXPECT_THAT(linesOf(LineReader(folder / "x")), ElementsAre("the first line", "the second line"));
+  put(folder / "x", storedByGzip(one + two));
+  EXPECT_THAT(linesOf(LineReader(folder / "x")), ElementsAre("the first line", "the second line")) << "packed twice";
+  for (const std::string& behind : {std::string("trash"), zeros + two, std::string(1, '\x1f')}) {
+    put(folder / "x", one + behind);
+    int lines = 0;
+    EXPECT_THAT(readUntilProblem(folder / "x", lines), HasSubstr("x:1: is cut or damaged"));
+  }
+  std::string layers = "end\n";
+  for (int i = 0; i < 30; ++i) layers = storedByGzip(layers);
+  put(folder / "x", layers);
+  int lines = 0;
+  EXPECT_THAT(readUntilProblem(folder / "x", lines), HasSubstr("packed more than 20 times"));
+}
+
+TEST(LineReader, WhatFollowsBzip2IsSaid) {
+  const ScratchFolder folder;
+  put(folder / "plain", "one\ntwo\n");
+  const auto packed = outputOf("bzip2 -c " + (folder / "plain").string());
+  if (!packed) GTEST_SKIP() << "NOT TESTED: there is no bzip2";
+  put(folder / "x", *packed + *packed);
+  EXPECT_THAT(linesOf(LineReader(folder / "x")), ElementsAre("one", "two", "one", "two"));
+  put(folder / "x", *packed + std::string(500, 't'));
+  int lines = 0;
+  EXPECT_THAT(readUntilProblem(folder / "x", lines), HasSubstr("x:2: is cut or damaged"));
+  EXPECT_EQ(lines, 2);
+}
+
+TEST(LineReader, AByteOrderMarkIsNoPartOfTheFirstLine) {
+  EXPECT_THAT(linesOfText("\xef\xbb\xbf"
+                          "one\n\xef\xbb\xbf"
+                          "two"),
+              ElementsAre("one",
+                          "\xef\xbb\xbf"
+                          "two"));
+  EXPECT_THAT(linesOfText("\xef\xbb\xbf"), ElementsAre(""));
+  EXPECT_THAT(linesOfText("\xef\xbb"), ElementsAre("\xef\xbb"));
 }
 
 TEST(LineReader, LinesBeforeTheCutAreReturned) {

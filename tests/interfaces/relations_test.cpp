@@ -35,6 +35,7 @@ TEST(Relations, MistakesSayWhere) {
   EXPECT_THAT(problem("1 2 0 0 0 0 0 0 9\n"), HasSubstr("x.relations:1:17: relation: 9 numbers instead of 8"));
   EXPECT_THAT(problem("1 later 0 0 0 0 0 0\n"), HasSubstr("x.relations:1:3: t2: `later` is not a time in seconds"));
   EXPECT_THAT(problem(" 1 2 0 inf 0 0 0 0\n"), HasSubstr("x.relations:1:8: y: `inf` is not a finite number"));
+  EXPECT_THAT(problem("1 2 0 0 1e300 0 0 0\n"), HasSubstr("x.relations:1:9: z: is farther away than 100000000"));
   EXPECT_THAT(problem("1 2 0 0 0 0 0 0x1\n"), HasSubstr("x.relations:1:15: yaw: `0x1`"));
   EXPECT_THAT(problem(kRelation + "1 2 0"), HasSubstr("x.relations:2:5: relation: 3 numbers"));
 }
@@ -79,6 +80,7 @@ TEST(Poses, OfNeitherFormatAreRefused) {
   EXPECT_THAT(problem("# only a comment\n"), HasSubstr("holds no poses"));
   EXPECT_THAT(problem(""), HasSubstr("holds no poses"));
   EXPECT_THAT(problem("1 0 0 0 x\n"), HasSubstr("x:1:9: theta: `x` is not a finite number"));
+  EXPECT_THAT(problem("1 0 1e300 0 0\n"), HasSubstr("x:1:5: x: is farther away than 100000000"));
   EXPECT_THAT(problem("1 0 0 0 0\n2 0 0 0 0 0 0 1\n"), HasSubstr("x:2:15: pose: 8 numbers instead of 5"));
 }
 

@@ -58,7 +58,11 @@ TEST(Tum, SkipsCommentsAndBlankLinesAndTakesExponents) {
   EXPECT_EQ(trajectory[1].stamp, Time::fromNanoseconds(2'000'000'000));
 }
 
-TEST(Tum, LastLineOfAKilledWriterIsLeftOut) { EXPECT_EQ(parseTum("1 0 0 0 0 0 0 1\n2 0 0", "t").size(), 1u); }
+TEST(Tum, TheLastLineOfAKilledWriterIsSaid) {
+  EXPECT_THAT(problemOf([] { parseTum("1 0 0 0 0 0 0 1\n2 0 0", "x.tum"); }),
+              HasSubstr("x.tum:2:5: pose: 3 numbers instead of 8"));
+  EXPECT_EQ(parseTum("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1", "x.tum").size(), 2u) << "only its newline is missing";
+}
 
 TEST(Tum, StampsInAnyOrderWhereThatIsAskedFor) {
   const auto poses = parseTum("2 1 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 3 0 0 0 0 0 1\n", "t", StampOrder::kAny);
@@ -82,6 +86,9 @@ TEST(Tum, MistakesSayWhere) {
   EXPECT_THAT(problem("x 0 0 0 0 0 0 1\n"), HasSubstr("x.tum:1:1: t: `x` is not a time"));
   EXPECT_THAT(problem("1e300 0 0 0 0 0 0 1\n"), HasSubstr("is not a time"));
   EXPECT_THAT(problem("1 0 0 0 0 0 0 0\n"), HasSubstr("x.tum:1:9: qx qy qz qw: a rotation of length zero"));
+  EXPECT_THAT(problem("1 0 0 0 0 0 1e300 1e300\n"), HasSubstr("a rotation of infinite length"));
+  EXPECT_THAT(problem(good + "2 0 -1e300 0 0 0 0 1\n"), HasSubstr("x.tum:2:5: y: is farther away than 100000000"));
+  EXPECT_EQ(problem("1 1e8 -1e8 1e8 0 0 0 1\n"), "");
   EXPECT_THAT(problem(good + good), HasSubstr("x.tum:2:1: t: 1.000000000 does not come after 1.000000000"));
   EXPECT_THAT(problemOf([] { readTum("/nowhere/x.tum"); }), HasSubstr("/nowhere/x.tum: cannot be opened"));
 }
