@@ -37,7 +37,7 @@ struct Localizer::Impl {
         T_map_grid(T_map_grid_in),
         map(std::make_shared<const MapField>(grid, config_in.field)),
         tracker(map, config_in, seed),
-        search(std::make_shared<GlobalSearch>(map, config_in.search)),
+        search(std::make_shared<const GlobalSearch>(map, config_in.search)),
         local_map(config_in.local_map_length_m),
         lost_test(config_in.lost),
         distinction(distinctionOf(config_in)) {}
@@ -63,7 +63,7 @@ struct Localizer::Impl {
   Pose2 T_map_grid;
   std::shared_ptr<const MapField> map;
   PoseTracker tracker;
-  std::shared_ptr<GlobalSearch> search;
+  std::shared_ptr<const GlobalSearch> search;
   LocalMap local_map;
   LostTest lost_test;
   PlaceDistinction distinction;
@@ -209,6 +209,14 @@ void Localizer::Impl::apply(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::judge(const LocalizationResult::Data& found) {
+  if (found.places.empty() && !found.complete) {
+    places = 0;
+    fits_nowhere = false;
+    candidate.reset();
+    tracker.particles().spreadOverFreeSpace();
+    enter(LocalizationState::kAmbiguous, "more places explain what was seen than can be told apart");
+    return;
+  }
   if (found.places.empty() || found.places.front().explained < config.least_explained) {
     fitsNowhere();
     return;

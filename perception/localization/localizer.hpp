@@ -91,7 +91,8 @@ struct LocalizationEstimate {
   std::optional<LocalizationEvent> event;                ///< The state changed.
 };
 
-/// A search of the whole map; heavy. A pure function of what it was given, for any thread.
+/// A search of the whole map; heavy. A pure function of what it was given and of the map, which never changes: for any
+/// thread.
 struct LocalizationTask {
   struct Data;
   std::shared_ptr<Data> data;
