@@ -158,13 +158,17 @@ class GlobalSearch::Descent {
   const std::vector<std::int32_t>& offsetsAt(int direction, int level);
   void boundTopBlocks();
   void keepTheBest();
+  std::array<Block, 4> childrenOf(const Block& block);
+  std::int32_t scoreWithin(Block block);
   void divide(const Block& block);
   bool covered(const Block& block) const;
   int apart(int a, int b) const;
-  std::int32_t floor() const;
+  /// What scores no more than this is of no interest.
+  std::int32_t floor() const { return std::max(least_, best_ - margin_); }
 
   const GlobalSearch& search_;
   std::int32_t least_, margin_;
+  std::int32_t best_ = 0;  // Of the poses looked at so far.
   double step_rad_ = 0.0;
   int distinct_cells_ = 0, distinct_directions_ = 0;
   std::vector<Direction> directions_;
@@ -205,11 +209,6 @@ const std::vector<std::int32_t>& GlobalSearch::Descent::offsetsAt(int direction,
   return offsets;
 }
 
-/// What scores no more than this is of no interest.
-std::int32_t GlobalSearch::Descent::floor() const {
-  return places_.empty() ? least_ : std::max(least_, places_.front().score - margin_);
-}
-
 void GlobalSearch::Descent::run() {
   boundTopBlocks();
   std::make_heap(blocks_.begin(), blocks_.end());
@@ -227,6 +226,7 @@ void GlobalSearch::Descent::run() {
       divide(block);
       continue;
     }
+    best_ = std::max<std::int32_t>(best_, block.bound);
     places_.push_back({block.bound, block.x, block.y, block.direction});
     complete_ = static_cast<int>(places_.size()) < search_.config_.max_places;
     if (!complete_) return;
@@ -239,20 +239,29 @@ void GlobalSearch::Descent::boundTopBlocks() {
   const int blocks_x = s.columns_ >> kTopLevel, blocks_y = s.rows_ >> kTopLevel, stride = s.width_ >> kTopLevel;
   const auto room = 2 * static_cast<std::size_t>(s.config_.max_blocks);
   std::vector<std::uint16_t> sums(indexOf(0, blocks_y, kWindowColumns));
+  std::int32_t least = floor(), highest = 0;
   for (int k = 0; k < static_cast<int>(directions_.size()); ++k) {
     const std::vector<std::int32_t>& offsets = offsetsAt(k, kTopLevel);
     for (int x0 = 0; x0 < blocks_x; x0 += kWindowColumns) {
       sumWindows(s.instructions_, s.fields_[kTopLevel].data() + x0, stride, offsets, blocks_y, sums.data());
-      const std::int32_t floor = std::max(least_, forgotten_);
       for (int y = 0; y < blocks_y; ++y)
         for (int x = x0; x < std::min(blocks_x, x0 + kWindowColumns); ++x) {
           const std::uint16_t bound = sums[windowIndex(x - x0, y)];
-          if (bound > floor && s.isFree(kTopLevel, x, y))
-            blocks_.push_back({bound, static_cast<std::uint16_t>(k), kTopLevel, x, y});
+          if (bound <= least || !s.isFree(kTopLevel, x, y)) continue;
+          blocks_.push_back({bound, static_cast<std::uint16_t>(k), kTopLevel, x, y});
+          if (bound <= highest) continue;
+          // A good pose early leaves less to remember.
+          highest = bound;
+          best_ = std::max(best_, scoreWithin(blocks_.back()));
+          least = std::max(floor(), forgotten_);
         }
-      if (blocks_.size() > room) keepTheBest();
+      if (blocks_.size() > room) {
+        keepTheBest();
+        least = std::max(floor(), forgotten_);
+      }
     }
   }
+  std::erase_if(blocks_, [&](const Block& block) { return block.bound <= least; });
 }
 
 /// As many as will ever be divided: of a large map there are hundreds of millions of blocks.
@@ -281,17 +290,35 @@ bool GlobalSearch::Descent::covered(const Block& block) const {
   });
 }
 
-void GlobalSearch::Descent::divide(const Block& block) {
+/// Those without a free position have the bound 0.
+std::array<GlobalSearch::Descent::Block, 4> GlobalSearch::Descent::childrenOf(const Block& block) {
   const int finer = block.level - 1, stride = search_.width_ >> finer;
   std::array<std::uint16_t, std::size_t{2} * kWindowColumns> sums;
   sumWindows(search_.instructions_,
              search_.fields_[static_cast<std::size_t>(finer)].data() + indexOf(2 * block.x, 2 * block.y, stride), stride,
              offsetsAt(block.direction, finer), 2, sums.data());
+  std::array<Block, 4> children;
   for (int i = 0; i < 4; ++i) {
     const int dx = i % 2, dy = i / 2, x = 2 * block.x + dx, y = 2 * block.y + dy;
-    const std::uint16_t bound = sums[windowIndex(dx, dy)];
-    if (bound <= floor() || !search_.isFree(finer, x, y)) continue;
-    blocks_.push_back({bound, block.direction, finer, x, y});
+    const std::uint16_t bound = search_.isFree(finer, x, y) ? sums[windowIndex(dx, dy)] : std::uint16_t{0};
+    children[static_cast<std::size_t>(i)] = {bound, block.direction, finer, x, y};
+  }
+  return children;
+}
+
+/// That of a good pose of the block, not always its best.
+std::int32_t GlobalSearch::Descent::scoreWithin(Block block) {
+  while (block.level > 0) {
+    const std::array<Block, 4> children = childrenOf(block);
+    block = *std::max_element(children.begin(), children.end());
+  }
+  return block.bound;
+}
+
+void GlobalSearch::Descent::divide(const Block& block) {
+  for (const Block& child : childrenOf(block)) {
+    if (child.bound <= floor()) continue;
+    blocks_.push_back(child);
     std::push_heap(blocks_.begin(), blocks_.end());
   }
 }
