@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
@@ -10,6 +11,7 @@
 #include "perception/localization/localization_task.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/pose_tracker.hpp"
+#include "perception/slam2d/unknown_step.hpp"
 
 namespace swiftlet::perception {
 
@@ -22,7 +24,9 @@ namespace {
 const Eigen::Matrix3d kPlaceCovariance =
     Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 1.0 * kRadPerDeg * 1.0 * kRadPerDeg).asDiagonal();
 
+/// Infinity where the covariance is none.
 double sigma_m(const Eigen::Matrix3d& covariance) {
+  if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> position(covariance.topLeftCorner<2, 2>().eval(),
                                                                 Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, position.eigenvalues()(1)));
@@ -42,6 +46,7 @@ struct Localizer::Impl {
         lost_test(config_in.lost),
         distinction(distinctionOf(config_in)) {}
 
+  void passOver(const LocalizationInput& input);
   void step(const LocalizationInput& input);
   void track(const LocalizationInput& input);
   void doubt(const LocalizationInput& input);
@@ -96,6 +101,11 @@ struct Localizer::Impl {
   bool searching = false;
   std::uint64_t epoch = 0;  ///< What was searched for in an earlier one no longer counts.
 
+  struct {
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    bool interrupted = false;
+  } passed_over;  ///< What the odometry did over inputs without a pose.
+
   std::optional<LocalizationEvent> event;
 };
 
@@ -103,6 +113,11 @@ void Localizer::Impl::enter(LocalizationState next, std::string reason) {
   if (next == state) return;
   state = next;
   event = LocalizationEvent{now, next, std::move(reason)};
+}
+
+void Localizer::Impl::passOver(const LocalizationInput& input) {
+  passed_over.covariance += stepCovarianceOrUnknown(input.step_covariance);
+  passed_over.interrupted |= input.interrupted;
 }
 
 void Localizer::Impl::step(const LocalizationInput& input) {
@@ -126,7 +141,7 @@ void Localizer::Impl::track(const LocalizationInput& input) {
   if (tracker.onlyGiven()) return;
   doubt(input);
   const double uncertain_m = sigma_m(tracker.covariance());
-  if (state == LocalizationState::kLocalized && uncertain_m > config.max_sigma_m)
+  if (state == LocalizationState::kLocalized && !(uncertain_m <= config.max_sigma_m))
     lose(fmt::format("the pose is uncertain by {:.1f} m", uncertain_m));
 }
 
@@ -340,8 +355,14 @@ LocalizationEstimate Localizer::add(const LocalizationInput& input) {
   return estimate;
 }
 
-LocalizationEstimate Localizer::follow(const LocalizationInput& input) {
+LocalizationEstimate Localizer::follow(const LocalizationInput& given) {
   Impl& self = *impl_;
+  self.passOver(given);
+  if (!isFinite(given.T_odom_body)) return self.estimate();
+  LocalizationInput input = given;
+  input.step_covariance = self.passed_over.covariance;
+  input.interrupted = self.passed_over.interrupted;
+  self.passed_over = {};
   self.support = {};
   self.step(input);
   if (self.state == LocalizationState::kLocalized)

@@ -1,4 +1,6 @@
 // Stories of a robot that does not know where it is, scan by scan. Truth is seen by the scoring alone.
+#include <limits>
+
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
@@ -289,6 +291,44 @@ TEST(Localizer, TakesBadScansCalmly) {
     EXPECT_EQ(estimate.state, LocalizationState::kLocalized);
     EXPECT_LT(errorOf(estimate, story.truth), 0.3);
   }
+}
+
+/// An odometry that says for a moment what is no pose, or what is no covariance.
+TEST(Localizer, TakesBadOdometryCalmly) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+  Story story(test::offices(8), 8);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+  for (int i = 0; i < 30; ++i) story.step();
+  const auto add = [&](const Pose2& T_odom_body, double variance) {
+    const auto scan = test::levelScan(story.building.world, story.walker.pose(), Time::fromSeconds(story.time_s += 0.1),
+                                      story.noise);
+    return story.localizer.add({scan, T_odom_body, Eigen::Matrix3d::Identity() * variance, true, false});
+  };
+  const Pose2 here = story.odometry.pose();
+  for (const double bad : {kNan, kInf, -kInf}) {
+    for (const Pose2& pose : {Pose2{bad, here.y_m, here.yaw_rad}, Pose2{here.x_m, here.y_m, bad}}) {
+      const auto estimate = add(pose, 0.0);
+      EXPECT_EQ(estimate.state, LocalizationState::kLocalized);
+      EXPECT_LT(errorOf(estimate, story.truth), 0.5);
+    }
+  }
+  EXPECT_EQ(add(here, kNan).state, LocalizationState::kLocalized);
+  LocalizationEstimate estimate;
+  for (int i = 0; i < 40; ++i) estimate = story.step();
+  EXPECT_EQ(estimate.state, LocalizationState::kLocalized);
+  EXPECT_TRUE(estimate.covariance.allFinite());
+  EXPECT_LT(errorOf(estimate, story.truth), 0.3);
+}
+
+/// While inputs are passed over the odometry may have lost the thread: that is not forgotten with them.
+TEST(Localizer, AnInterruptionThatCameWithoutAPoseCounts) {
+  Story story(test::offices(8), 8);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+  for (int i = 0; i < 30; ++i) story.step();
+  ProjectedScan nothing;
+  const Eigen::Matrix3d none = Eigen::Matrix3d::Zero();
+  (void)story.localizer.add({nothing, Pose2{NAN, 0.0, 0.0}, none, true, true});
+  EXPECT_GT(story.step(false).covariance(0, 0), 0.1);
 }
 
 }  // namespace

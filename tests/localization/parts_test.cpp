@@ -121,6 +121,14 @@ TEST(KldSampling, NeedsWhatFoxsTableSays) {
   EXPECT_EQ(kldSampleSize(1, 0.05, 2.326), 1.0);
 }
 
+TEST(KldSampling, WhatIsNoPlaceFallsIntoABinAsWell) {
+  PoseBins bins(0.25, 0.17);
+  for (const double value : {0.0, 1e300, -1e300, std::numeric_limits<double>::quiet_NaN()}) bins.add(value, 0.0, 0.0);
+  bins.add(0.3, 0.0, 0.0);
+  bins.add(-0.1, 0.0, 0.0);
+  EXPECT_EQ(bins.occupied(), 5U);
+}
+
 TEST(ParticleFilter, DrawsAsManyParticlesAsTheBeliefNeeds) {
   const test::Building building = test::offices(6);
   ParticleFilter filter(fieldOf(building), ParticleFilterConfig{}, 1);
