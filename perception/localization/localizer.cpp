@@ -314,7 +314,7 @@ LocalizationEstimate Localizer::Impl::estimate() {
 Localizer::Localizer(const common::OccupancyGrid& grid, const Pose2& T_map_grid, const LocalizerConfig& config,
                      std::uint64_t seed)
     : impl_(std::make_unique<Impl>(grid, T_map_grid, config, seed)) {
-  SWIFTLET_CHECK(impl_->map->hasWalls() && !impl_->map->freeCells_m().empty());
+  SWIFTLET_CHECK(impl_->map->hasWalls() && impl_->map->freeCells() > 0);
   impl_->tracker.particles().spreadOverFreeSpace();
 }
 Localizer::~Localizer() = default;

@@ -55,8 +55,9 @@ class MapField {
   double rayLength_m(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) const;
 
   double resolution_m() const { return resolution_m_; }
-  /// Centres of the free cells.
-  const std::vector<Eigen::Vector2f>& freeCells_m() const { return free_cells_m_; }
+  std::size_t freeCells() const { return free_cells_; }
+  /// The centre of the n-th free cell, row by row; n < freeCells().
+  Eigen::Vector2d freeCell_m(std::size_t n) const;
   bool hasWalls() const { return has_walls_; }
   /// The known part.
   Eigen::Vector2d low_m() const { return origin_m_ + Eigen::Vector2d::Constant(resolution_m_ * kBorder); }
@@ -76,6 +77,7 @@ class MapField {
   void fillValues(const MapFieldConfig& config);
 
   double resolution_m_;
+  common::CellIndex begin_;  ///< The map's cell that is the field's first.
   Eigen::Vector2d origin_m_ = Eigen::Vector2d::Zero();
   int width_ = 0, height_ = 0;
   double top_nats_ = 0.0;
@@ -83,7 +85,9 @@ class MapField {
   std::vector<std::uint8_t> values_;
   std::vector<std::uint8_t> kinds_;
   std::vector<std::uint8_t> distances_cm_;
-  std::vector<Eigen::Vector2f> free_cells_m_;
+  std::size_t free_cells_ = 0;
+  std::vector<std::uint32_t> free_before_;  ///< Free cells before each stretch of cells: of a large map the list of all
+                                            ///< would be larger than the field.
 };
 
 /// The log-likelihood of a beam that ends `distance_m` from a wall, over that of one far from any, as a share of the

@@ -52,6 +52,19 @@ TEST(MapField, DistancesAreThoseToTheNearestWall) {
   EXPECT_FALSE(field.at({NAN, 0.0}).known);
 }
 
+TEST(MapField, CountsTheFreeCellsRowByRow) {
+  const common::OccupancyGrid map = test::mapOf(test::offices(3));
+  const MapField field(map, MapFieldConfig{});
+  const common::CellRect known = common::knownExtent(map);
+  std::size_t n = 0;
+  for (int y = known.begin.y; y < known.end.y; ++y)
+    for (int x = known.begin.x; x < known.end.x; ++x)
+      if (common::occupancy::isFree(map.at({x, y}))) {
+        ASSERT_EQ(field.freeCell_m(n++), map.centerOf({x, y}));
+      }
+  EXPECT_EQ(field.freeCells(), n);
+}
+
 TEST(MapField, RaysEndWhereTheBeamsOfTheWorldDo) {
   const test::Building building = test::offices(4);
   const auto field = fieldOf(building);
