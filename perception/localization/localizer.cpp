@@ -322,6 +322,10 @@ Localizer::Localizer(Localizer&&) noexcept = default;
 Localizer& Localizer::operator=(Localizer&&) noexcept = default;
 
 std::string Localizer::whyUnusable(const common::OccupancyGrid& map) {
+  const common::CellRect known = common::knownExtent(map);
+  if (static_cast<std::int64_t>(known.width()) * known.height() > MapField::kMaxCells)
+    return fmt::format("what is known of the map spans {} x {} cells: at most {} million can be localized in",
+                       known.width(), known.height(), MapField::kMaxCells / 1'000'000);
   bool walls = false, free = false;
   map.forEachCell([&](common::CellIndex, common::occupancy::Cell cell) {
     walls |= common::occupancy::isOccupied(cell);

@@ -36,6 +36,8 @@ struct FieldView {
 class MapField {
  public:
   static constexpr double kMaxDistance_m = 2.55;
+  /// Of the known part. Cells are counted in 32 bits; so many take, searched, 5 GB.
+  static constexpr std::int64_t kMaxCells = 1'000'000'000;
 
   MapField(const common::OccupancyGrid& map, const MapFieldConfig& config);
 

@@ -272,6 +272,8 @@ TEST(Localizer, RefusesMapsInWhichNothingCanBe) {
   EXPECT_NE(Localizer::whyUnusable(map).find("no free cells"), std::string::npos);
   map.set({1, 0}, -common::occupancy::kMaxSteps);
   EXPECT_EQ(Localizer::whyUnusable(map), "");
+  map.set({39'999, 29'999}, -common::occupancy::kMaxSteps);
+  EXPECT_NE(Localizer::whyUnusable(map).find("40000 x 30000 cells"), std::string::npos);
 }
 
 /// Scans without points, points that are no numbers, time that goes back: nothing breaks, nothing is made up.
