@@ -28,8 +28,6 @@ std::size_t indexOf(int x, int y, int width) {
 void GlobalSearchConfig::describe(common::config::Fields& fields) {
   fields("cell_m", cell_m, "Of the positions searched.");
   fields("sigma_m", sigma_m, "Of the likelihood field.");
-  fields("random_share", random_share, "Density of beams that end anywhere.");
-  fields("unknown_value", unknown_value, "What an unknown cell counts, of the value on a wall.");
   fields("lever_m", lever_m, "Points at this distance move by 2 sigma from one direction to the next.");
   fields("least_fit", least_fit, "Mean value below which a place does not fit.");
   fields("distinct_m", distinct_m, "Places nearer than this are one,");
@@ -42,8 +40,6 @@ std::vector<std::string> GlobalSearchConfig::validate() const {
   return common::Validation()
       .within("cell_m", cell_m, 0.01, 1)
       .within("sigma_m", sigma_m, 0.01, 2)
-      .within("random_share", random_share, 0.001, 0.999)
-      .within("unknown_value", unknown_value, 0, 1)
       .within("lever_m", lever_m, 0.5, 100)
       .within("least_fit", least_fit, 0, 1)
       .within("distinct_m", distinct_m, 0.05, 10)
@@ -76,6 +72,7 @@ void GlobalSearch::buildLevels() {
   width_ = columns_ + 2 * border_ + kWindowColumns * kBlock;
   height_ = rows_ + 2 * border_ + 2 * kBlock;
 
+  const MapFieldConfig& field = map_->config();
   std::vector<std::uint8_t>& finest = fields_[0];
   finest.assign(indexOf(0, height_, width_) + kOverread, 0);
   free_[0].assign(indexOf(0, rows_, columns_), 0);
@@ -83,9 +80,9 @@ void GlobalSearch::buildLevels() {
     for (int x = 0; x < width_; ++x) {
       const Eigen::Vector2d center = map_->low_m() + Eigen::Vector2d(x - border_ + 0.5, y - border_ + 0.5) * cell_m_;
       const MapField::Place place = map_->at(center);
-      const double value = beamValue(place.wall_distance_m, config_.sigma_m, config_.random_share);
+      const double value = beamValue(place.wall_distance_m, config_.sigma_m, field.random_share);
       finest[indexOf(x, y, width_)] =
-          static_cast<std::uint8_t>(std::lround(255.0 * (place.known ? value : std::max(value, config_.unknown_value))));
+          static_cast<std::uint8_t>(std::lround(255.0 * (place.known ? value : std::max(value, field.unknown_value))));
       const int column = x - border_, row = y - border_;
       if (column >= 0 && row >= 0 && column < columns_ && row < rows_)
         free_[0][indexOf(column, row, columns_)] = place.free ? 1 : 0;
@@ -172,14 +169,14 @@ class GlobalSearch::Descent {
   double step_rad_ = 0.0;
   int distinct_cells_ = 0, distinct_directions_ = 0;
   std::vector<Direction> directions_;
-  std::vector<Block> blocks_;  // A heap: the next to look at is its first.
+  std::vector<Block> blocks_;   // A heap: the next to look at is its first.
   std::int32_t forgotten_ = 0;  // The highest bound among the blocks that there was no room for.
   std::vector<Place> places_;
   bool complete_ = true;
 };
 
-GlobalSearch::Descent::Descent(const GlobalSearch& search, const std::vector<float>& x_m,
-                               const std::vector<float>& y_m, std::int32_t least, std::int32_t margin)
+GlobalSearch::Descent::Descent(const GlobalSearch& search, const std::vector<float>& x_m, const std::vector<float>& y_m,
+                               std::int32_t least, std::int32_t margin)
     : search_(search), least_(least), margin_(margin) {
   const GlobalSearchConfig& config = search.config_;
   const auto count = static_cast<int>(std::ceil(2.0 * std::numbers::pi * config.lever_m / (2.0 * config.sigma_m)));
@@ -295,8 +292,8 @@ std::array<GlobalSearch::Descent::Block, 4> GlobalSearch::Descent::childrenOf(co
   const int finer = block.level - 1, stride = search_.width_ >> finer;
   std::array<std::uint16_t, std::size_t{2} * kWindowColumns> sums;
   sumWindows(search_.instructions_,
-             search_.fields_[static_cast<std::size_t>(finer)].data() + indexOf(2 * block.x, 2 * block.y, stride), stride,
-             offsetsAt(block.direction, finer), 2, sums.data());
+             search_.fields_[static_cast<std::size_t>(finer)].data() + indexOf(2 * block.x, 2 * block.y, stride),
+             stride, offsetsAt(block.direction, finer), 2, sums.data());
   std::array<Block, 4> children;
   for (int i = 0; i < 4; ++i) {
     const int dx = i % 2, dy = i / 2, x = 2 * block.x + dx, y = 2 * block.y + dy;

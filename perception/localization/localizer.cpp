@@ -176,10 +176,13 @@ void Localizer::Impl::lookElsewhere(const LocalizationResult::Data& found) {
   const Pose2 here = tracker.T_grid_odom() * found.whole.T_odom_middle;
   if (distinction.same(best.T_grid_points, here)) return;
   const double gain = best.log_likelihood - logLikelihood(*map, found.whole.points_middle_m, here, config.point_weight);
-  if (gain >= config.elsewhere_nats)
-    lose(fmt::format("what is seen fits {:.1f} m away, {:.0f} % of it; {:.0f} % here",
-                     (best.T_grid_points.position_m() - here.position_m()).norm(), 100.0 * best.explained,
-                     100.0 * lost_test.explained()));
+  if (gain < config.elsewhere_nats) return;
+  const Pose2 off = between(here, best.T_grid_points);
+  std::string where = fmt::format("{:.1f} m away", off.position_m().norm());
+  if (off.position_m().norm() <= distinction.distance_m)
+    where += fmt::format(" and turned by {:.0f} deg", off.yaw_rad / kRadPerDeg);
+  lose(fmt::format("what is seen fits {}, {:.0f} % of it; {:.0f} % here", where, 100.0 * best.explained,
+                   100.0 * lost_test.explained()));
 }
 
 void Localizer::Impl::lose(std::string reason) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/validation.hpp"
+
 namespace swiftlet::perception {
 namespace {
 
@@ -15,8 +17,8 @@ constexpr std::size_t kStretch = 256;
 /// Cells up or down to the nearest occupied one, or no number that any map has.
 constexpr std::uint16_t kNone = std::numeric_limits<std::uint16_t>::max();
 
-/// The second pass of the exact Euclidean distance transform (Felzenszwalb and Huttenlocher 2012): the lower envelope of
-/// the parabolas in[i] + (x - i)^2, squared distances in cells.
+/// The second pass of the exact Euclidean distance transform (Felzenszwalb and Huttenlocher 2012): the lower envelope
+/// of the parabolas in[i] + (x - i)^2, squared distances in cells.
 class DistancePass {
  public:
   explicit DistancePass(std::size_t length) : in_(length), roots_(length), borders_(length + 1) {}
@@ -69,10 +71,25 @@ double beamValue(double distance_m, double sigma_m, double random_share) {
   return std::log1p(on_wall * std::exp(-0.5 * ratio * ratio)) / std::log1p(on_wall);
 }
 
-MapField::MapField(const common::OccupancyGrid& map, const MapFieldConfig& config) : resolution_m_(map.resolution_m()) {
+void MapFieldConfig::describe(common::config::Fields& fields) {
+  fields("sigma_m", sigma_m, "Of a beam's end about the wall.");
+  fields("random_share", random_share, "Density of beams that end anywhere, of that on a wall.");
+  fields("unknown_value", unknown_value, "What an unknown cell counts, of the value on a wall.");
+}
+
+std::vector<std::string> MapFieldConfig::validate() const {
+  return common::Validation()
+      .within("sigma_m", sigma_m, 0.01, 2)
+      .within("random_share", random_share, 0.001, 0.999)
+      .within("unknown_value", unknown_value, 0, 1)
+      .problems();
+}
+
+MapField::MapField(const common::OccupancyGrid& map, const MapFieldConfig& config)
+    : config_(config), resolution_m_(map.resolution_m()) {
   readMap(map);
   measureDistances();
-  fillValues(config);
+  fillValues();
 }
 
 void MapField::readMap(const common::OccupancyGrid& map) {
@@ -131,15 +148,15 @@ void MapField::measureDistances() {
   }
 }
 
-void MapField::fillValues(const MapFieldConfig& config) {
-  top_nats_ = std::log1p((1.0 - config.random_share) / config.random_share);
+void MapField::fillValues() {
+  top_nats_ = std::log1p((1.0 - config_.random_share) / config_.random_share);
   // A map of coarse cells places its walls no better than that.
-  const double sigma_m = std::max(config.sigma_m, resolution_m_);
+  const double sigma_m = std::max(config_.sigma_m, resolution_m_);
   std::vector<std::uint8_t> by_distance(256);
   for (std::size_t cm = 0; cm < by_distance.size(); ++cm)
     by_distance[cm] = static_cast<std::uint8_t>(
-        std::lround(255.0 * beamValue(0.01 * static_cast<double>(cm), sigma_m, config.random_share)));
-  const auto unknown = static_cast<std::uint8_t>(std::lround(255.0 * config.unknown_value));
+        std::lround(255.0 * beamValue(0.01 * static_cast<double>(cm), sigma_m, config_.random_share)));
+  const auto unknown = static_cast<std::uint8_t>(std::lround(255.0 * config_.unknown_value));
   values_.assign(kinds_.size() + kOverread, unknown);
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const std::uint8_t value = by_distance[distances_cm_[i]];

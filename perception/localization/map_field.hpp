@@ -10,10 +10,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "common/config.hpp"
 #include "common/occupancy_grid.hpp"
 
 namespace swiftlet::perception {
@@ -22,6 +24,9 @@ struct MapFieldConfig {
   double sigma_m = 0.10;        ///< Of a beam's end about the wall: noise, the map's cells, the pose between particles.
   double random_share = 0.10;   ///< Density of beams that end anywhere, relative to that on a wall.
   double unknown_value = 0.20;  ///< What an unknown cell counts, of the value on a wall.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
 };
 
 /// Bytes row by row, with a border all around so that a clamped look-up falls on it.
@@ -41,6 +46,7 @@ class MapField {
 
   MapField(const common::OccupancyGrid& map, const MapFieldConfig& config);
 
+  const MapFieldConfig& config() const { return config_; }
   FieldView view() const { return {values_.data(), width_, height_, resolution_m_, origin_m_}; }
   /// The log-likelihood of a value of 255 over that of 0.
   double topNats() const { return top_nats_; }
@@ -76,8 +82,9 @@ class MapField {
   }
   void readMap(const common::OccupancyGrid& map);
   void measureDistances();
-  void fillValues(const MapFieldConfig& config);
+  void fillValues();
 
+  MapFieldConfig config_;
   double resolution_m_;
   common::CellIndex begin_;  ///< The map's cell that is the field's first.
   Eigen::Vector2d origin_m_ = Eigen::Vector2d::Zero();

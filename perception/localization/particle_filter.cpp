@@ -10,6 +10,7 @@
 #include "common/check.hpp"
 #include "common/validation.hpp"
 #include "perception/localization/beam_sums.hpp"
+#include "perception/localization/evenly_spread.hpp"
 #include "perception/localization/kld_sampling.hpp"
 
 namespace swiftlet::perception {
@@ -157,7 +158,7 @@ void ParticleFilter::weigh(std::span<const Eigen::Vector2f> points_body_m) {
   beams_x_.resize(beams);
   beams_y_.resize(beams);
   for (std::size_t k = 0; k < beams; ++k) {
-    const Eigen::Vector2f& point = points_body_m[(2 * k + 1) * points_body_m.size() / (2 * beams)];
+    const Eigen::Vector2f& point = points_body_m[evenlySpread(k, beams, points_body_m.size())];
     beams_x_[k] = point.x() * scale;
     beams_y_[k] = point.y() * scale;
   }

@@ -136,6 +136,20 @@ TEST(Localizer, GivesUpAPoseThatTheOdometryAloneLedTo) {
   EXPECT_NE(estimate.event->reason.find("uncertain by"), std::string::npos) << estimate.event->reason;
 }
 
+/// Turned on the spot, unnoticed by its odometry: the distance alone would not say what is wrong.
+TEST(Localizer, SaysByHowMuchItIsTurnedWhereItIsNotElsewhere) {
+  Story story(test::offices(5), 5);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.0001).asDiagonal());
+  for (int i = 0; i < 20; ++i) story.step();
+  const Pose2 before = story.walker.pose();
+  story.walker.carry(before.position_m(), before.yaw_rad + 0.7);
+  LocalizationEstimate estimate;
+  for (int i = 0; i < 20 && !estimate.event; ++i) estimate = story.step();
+  ASSERT_TRUE(estimate.event);
+  EXPECT_EQ(estimate.state, LocalizationState::kLost);
+  EXPECT_NE(estimate.event->reason.find("turned by 4"), std::string::npos) << estimate.event->reason;
+}
+
 TEST(Localizer, TheSameSeedGivesTheSameBytes) {
   std::vector<double> first;
   for (int run = 0; run < 2; ++run) {
@@ -302,8 +316,8 @@ TEST(Localizer, TakesBadOdometryCalmly) {
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
   for (int i = 0; i < 30; ++i) story.step();
   const auto add = [&](const Pose2& T_odom_body, double variance) {
-    const auto scan = test::levelScan(story.building.world, story.walker.pose(), Time::fromSeconds(story.time_s += 0.1),
-                                      story.noise);
+    const auto scan =
+        test::levelScan(story.building.world, story.walker.pose(), Time::fromSeconds(story.time_s += 0.1), story.noise);
     return story.localizer.add({scan, T_odom_body, Eigen::Matrix3d::Identity() * variance, true, false});
   };
   const Pose2 here = story.odometry.pose();
