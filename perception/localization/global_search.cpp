@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <numeric>
+#include <tuple>
 
 #include "common/check.hpp"
 #include "common/validation.hpp"
@@ -27,8 +28,6 @@ std::size_t indexOf(int x, int y, int width) {
 void GlobalSearchConfig::describe(common::config::Fields& fields) {
   fields("cell_m", cell_m, "Of the positions searched.");
   fields("sigma_m", sigma_m, "Of the likelihood field.");
-  fields("random_share", random_share, "Density of beams that end anywhere.");
-  fields("unknown_value", unknown_value, "What an unknown cell counts, of the value on a wall.");
   fields("lever_m", lever_m, "Points at this distance move by 2 sigma from one direction to the next.");
   fields("least_fit", least_fit, "Mean value below which a place does not fit.");
   fields("distinct_m", distinct_m, "Places nearer than this are one,");
@@ -41,8 +40,6 @@ std::vector<std::string> GlobalSearchConfig::validate() const {
   return common::Validation()
       .within("cell_m", cell_m, 0.01, 1)
       .within("sigma_m", sigma_m, 0.01, 2)
-      .within("random_share", random_share, 0.001, 0.999)
-      .within("unknown_value", unknown_value, 0, 1)
       .within("lever_m", lever_m, 0.5, 100)
       .within("least_fit", least_fit, 0, 1)
       .within("distinct_m", distinct_m, 0.05, 10)
@@ -55,13 +52,13 @@ std::vector<std::string> GlobalSearchConfig::validate() const {
 GlobalSearch::GlobalSearch(std::shared_ptr<const MapField> map, const GlobalSearchConfig& config,
                            Instructions instructions)
     : map_(std::move(map)), config_(config), instructions_(instructions) {
-  buildLevels(config);
+  buildLevels();
 }
 
 /// Level k bounds what a point finds that is moved by 0 .. 2^k - 1 positions from any place in a block, as in
 /// LikelihoodField.
-void GlobalSearch::buildLevels(const GlobalSearchConfig& config) {
-  cell_m_ = std::max(config.cell_m, map_->resolution_m());
+void GlobalSearch::buildLevels() {
+  cell_m_ = std::max(config_.cell_m, map_->resolution_m());
   const Eigen::Vector2d size_m = map_->high_m() - map_->low_m();
   reach_m_ = std::min(kMaxReach_m, size_m.norm() + cell_m_);
   constexpr int kBlock = 1 << kTopLevel;
@@ -75,6 +72,7 @@ void GlobalSearch::buildLevels(const GlobalSearchConfig& config) {
   width_ = columns_ + 2 * border_ + kWindowColumns * kBlock;
   height_ = rows_ + 2 * border_ + 2 * kBlock;
 
+  const MapFieldConfig& field = map_->config();
   std::vector<std::uint8_t>& finest = fields_[0];
   finest.assign(indexOf(0, height_, width_) + kOverread, 0);
   free_[0].assign(indexOf(0, rows_, columns_), 0);
@@ -82,9 +80,9 @@ void GlobalSearch::buildLevels(const GlobalSearchConfig& config) {
     for (int x = 0; x < width_; ++x) {
       const Eigen::Vector2d center = map_->low_m() + Eigen::Vector2d(x - border_ + 0.5, y - border_ + 0.5) * cell_m_;
       const MapField::Place place = map_->at(center);
-      const double value = beamValue(place.wall_distance_m, config.sigma_m, config.random_share);
+      const double value = beamValue(place.wall_distance_m, config_.sigma_m, field.random_share);
       finest[indexOf(x, y, width_)] =
-          static_cast<std::uint8_t>(std::lround(255.0 * (place.known ? value : std::max(value, config.unknown_value))));
+          static_cast<std::uint8_t>(std::lround(255.0 * (place.known ? value : std::max(value, field.unknown_value))));
       const int column = x - border_, row = y - border_;
       if (column >= 0 && row >= 0 && column < columns_ && row < rows_)
         free_[0][indexOf(column, row, columns_)] = place.free ? 1 : 0;
@@ -119,25 +117,210 @@ bool GlobalSearch::isFree(int level, int x, int y) const {
   return free_[static_cast<std::size_t>(level)][indexOf(x, y, columns_ >> level)] != 0;
 }
 
-const std::vector<std::int32_t>& GlobalSearch::offsetsAt(int direction, int level) {
+/// The search for one set of points. Best first: the block of poses with the highest bound is divided until single
+/// poses come up. These come in the order of their scores, so that no place is ever bettered by one that comes later.
+class GlobalSearch::Descent {
+ public:
+  struct Place {
+    std::int32_t score = 0, x = 0, y = 0, direction = 0;
+  };
+
+  /// Points in the vehicle's frame; what scores `least` or less is of no interest, nor what scores less than the best
+  /// by `margin` or more.
+  Descent(const GlobalSearch& search, const std::vector<float>& x_m, const std::vector<float>& y_m, std::int32_t least,
+          std::int32_t margin);
+
+  void run();
+  const std::vector<Place>& places() const { return places_; }  ///< The best first.
+  bool complete() const { return complete_; }
+  double step_rad() const { return step_rad_; }
+
+ private:
+  struct Block {
+    std::uint16_t bound = 0, direction = 0;
+    std::int32_t level = 0, x = 0, y = 0;
+
+    /// Of equal bounds the coarser comes first: it may hold a pose that comes before the finer one.
+    bool operator<(const Block& other) const {
+      if (bound != other.bound) return bound < other.bound;
+      if (level != other.level) return level < other.level;
+      return std::tie(other.direction, other.y, other.x) < std::tie(direction, y, x);
+    }
+  };
+  struct Direction {
+    std::vector<std::int32_t> x_cells, y_cells;
+    std::array<std::vector<std::int32_t>, kLevels> offsets;
+  };
+
+  const std::vector<std::int32_t>& offsetsAt(int direction, int level);
+  void boundTopBlocks();
+  void keepTheBest();
+  std::array<Block, 4> childrenOf(const Block& block);
+  std::int32_t scoreWithin(Block block);
+  void divide(const Block& block);
+  bool covered(const Block& block) const;
+  int apart(int a, int b) const;
+  /// What scores no more than this is of no interest.
+  std::int32_t floor() const { return std::max(least_, best_ - margin_); }
+
+  const GlobalSearch& search_;
+  std::int32_t least_, margin_;
+  std::int32_t best_ = 0;  // Of the poses looked at so far.
+  double step_rad_ = 0.0;
+  int distinct_cells_ = 0, distinct_directions_ = 0;
+  std::vector<Direction> directions_;
+  std::vector<Block> blocks_;   // A heap: the next to look at is its first.
+  std::int32_t forgotten_ = 0;  // The highest bound among the blocks that there was no room for.
+  std::vector<Place> places_;
+  bool complete_ = true;
+};
+
+GlobalSearch::Descent::Descent(const GlobalSearch& search, const std::vector<float>& x_m, const std::vector<float>& y_m,
+                               std::int32_t least, std::int32_t margin)
+    : search_(search), least_(least), margin_(margin) {
+  const GlobalSearchConfig& config = search.config_;
+  const auto count = static_cast<int>(std::ceil(2.0 * std::numbers::pi * config.lever_m / (2.0 * config.sigma_m)));
+  step_rad_ = 2.0 * std::numbers::pi / count;
+  distinct_cells_ = static_cast<int>(config.distinct_m / search.cell_m_);
+  distinct_directions_ = static_cast<int>(config.distinct_deg * kRadPerDeg / step_rad_);
+  const auto scale = static_cast<float>(1.0 / search.cell_m_);
+  directions_.resize(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    Direction& d = directions_[static_cast<std::size_t>(k)];
+    d.x_cells.resize(x_m.size());
+    d.y_cells.resize(x_m.size());
+    const double yaw_rad = k * step_rad_;
+    const float middle = 0.5F + static_cast<float>(search.border_);
+    transformToCells(x_m, y_m, static_cast<float>(std::cos(yaw_rad)) * scale,
+                     static_cast<float>(std::sin(yaw_rad)) * scale, middle, middle, d.x_cells, d.y_cells);
+  }
+}
+
+const std::vector<std::int32_t>& GlobalSearch::Descent::offsetsAt(int direction, int level) {
   Direction& d = directions_[static_cast<std::size_t>(direction)];
   std::vector<std::int32_t>& offsets = d.offsets[static_cast<std::size_t>(level)];
   if (!offsets.empty()) return offsets;
   offsets.resize(d.x_cells.size());
   for (std::size_t i = 0; i < offsets.size(); ++i)
-    offsets[i] = (d.y_cells[i] >> level) * (width_ >> level) + (d.x_cells[i] >> level);
+    offsets[i] = (d.y_cells[i] >> level) * (search_.width_ >> level) + (d.x_cells[i] >> level);
   return offsets;
 }
 
-/// The least score that is still of interest.
-std::int32_t GlobalSearch::floor() const {
-  std::int32_t floor = least_;
-  if (!places_.empty()) floor = std::max(floor, places_.front().score - margin_);
-  if (static_cast<int>(places_.size()) >= config_.max_places) floor = std::max(floor, places_.back().score);
-  return floor;
+void GlobalSearch::Descent::run() {
+  boundTopBlocks();
+  std::make_heap(blocks_.begin(), blocks_.end());
+  int divided = 0;
+  while (!blocks_.empty()) {
+    const Block block = blocks_.front();
+    // What was forgotten may be better than all that comes now.
+    if (block.bound <= std::max(floor(), forgotten_)) break;
+    std::pop_heap(blocks_.begin(), blocks_.end());
+    blocks_.pop_back();
+    if (covered(block)) continue;
+    if (block.level > 0) {
+      complete_ = ++divided <= search_.config_.max_blocks;
+      if (!complete_) return;
+      divide(block);
+      continue;
+    }
+    best_ = std::max<std::int32_t>(best_, block.bound);
+    places_.push_back({block.bound, block.x, block.y, block.direction});
+    complete_ = static_cast<int>(places_.size()) < search_.config_.max_places;
+    if (!complete_) return;
+  }
+  complete_ = forgotten_ <= floor();
 }
 
-GlobalSearchResult GlobalSearch::search(const std::vector<Eigen::Vector2f>& points_m, double margin) {
+void GlobalSearch::Descent::boundTopBlocks() {
+  const GlobalSearch& s = search_;
+  const int blocks_x = s.columns_ >> kTopLevel, blocks_y = s.rows_ >> kTopLevel, stride = s.width_ >> kTopLevel;
+  const auto room = 2 * static_cast<std::size_t>(s.config_.max_blocks);
+  std::vector<std::uint16_t> sums(indexOf(0, blocks_y, kWindowColumns));
+  std::int32_t least = floor(), highest = 0;
+  for (int k = 0; k < static_cast<int>(directions_.size()); ++k) {
+    const std::vector<std::int32_t>& offsets = offsetsAt(k, kTopLevel);
+    for (int x0 = 0; x0 < blocks_x; x0 += kWindowColumns) {
+      sumWindows(s.instructions_, s.fields_[kTopLevel].data() + x0, stride, offsets, blocks_y, sums.data());
+      for (int y = 0; y < blocks_y; ++y)
+        for (int x = x0; x < std::min(blocks_x, x0 + kWindowColumns); ++x) {
+          const std::uint16_t bound = sums[windowIndex(x - x0, y)];
+          if (bound <= least || !s.isFree(kTopLevel, x, y)) continue;
+          blocks_.push_back({bound, static_cast<std::uint16_t>(k), kTopLevel, x, y});
+          if (bound <= highest) continue;
+          // A good pose early leaves less to remember.
+          highest = bound;
+          best_ = std::max(best_, scoreWithin(blocks_.back()));
+          least = std::max(floor(), forgotten_);
+        }
+      if (blocks_.size() > room) {
+        keepTheBest();
+        least = std::max(floor(), forgotten_);
+      }
+    }
+  }
+  std::erase_if(blocks_, [&](const Block& block) { return block.bound <= least; });
+}
+
+/// As many as will ever be divided: of a large map there are hundreds of millions of blocks.
+void GlobalSearch::Descent::keepTheBest() {
+  std::vector<std::size_t> counts(std::numeric_limits<std::uint16_t>::max() + 1);
+  for (const Block& block : blocks_) ++counts[block.bound];
+  auto bound = static_cast<std::int32_t>(counts.size());
+  for (std::size_t kept = 0; kept <= static_cast<std::size_t>(search_.config_.max_blocks);)
+    kept += counts[static_cast<std::size_t>(--bound)];
+  forgotten_ = bound;
+  std::erase_if(blocks_, [&](const Block& block) { return block.bound <= forgotten_; });
+}
+
+int GlobalSearch::Descent::apart(int a, int b) const {
+  const int count = static_cast<int>(directions_.size()), off = std::abs(a - b);
+  return std::min(off, count - off);
+}
+
+/// Whether no pose of the block is a place distinct from one that was found. It is no better.
+bool GlobalSearch::Descent::covered(const Block& block) const {
+  const int last = (1 << block.level) - 1, x = block.x << block.level, y = block.y << block.level;
+  return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
+    return apart(place.direction, block.direction) <= distinct_directions_ && x >= place.x - distinct_cells_ &&
+           x + last <= place.x + distinct_cells_ && y >= place.y - distinct_cells_ &&
+           y + last <= place.y + distinct_cells_;
+  });
+}
+
+/// Those without a free position have the bound 0.
+std::array<GlobalSearch::Descent::Block, 4> GlobalSearch::Descent::childrenOf(const Block& block) {
+  const int finer = block.level - 1, stride = search_.width_ >> finer;
+  std::array<std::uint16_t, std::size_t{2} * kWindowColumns> sums;
+  sumWindows(search_.instructions_,
+             search_.fields_[static_cast<std::size_t>(finer)].data() + indexOf(2 * block.x, 2 * block.y, stride),
+             stride, offsetsAt(block.direction, finer), 2, sums.data());
+  std::array<Block, 4> children;
+  for (int i = 0; i < 4; ++i) {
+    const int dx = i % 2, dy = i / 2, x = 2 * block.x + dx, y = 2 * block.y + dy;
+    const std::uint16_t bound = search_.isFree(finer, x, y) ? sums[windowIndex(dx, dy)] : std::uint16_t{0};
+    children[static_cast<std::size_t>(i)] = {bound, block.direction, finer, x, y};
+  }
+  return children;
+}
+
+/// That of a good pose of the block, not always its best.
+std::int32_t GlobalSearch::Descent::scoreWithin(Block block) {
+  while (block.level > 0) {
+    const std::array<Block, 4> children = childrenOf(block);
+    block = *std::max_element(children.begin(), children.end());
+  }
+  return block.bound;
+}
+
+void GlobalSearch::Descent::divide(const Block& block) {
+  for (const Block& child : childrenOf(block)) {
+    if (child.bound <= floor()) continue;
+    blocks_.push_back(child);
+    std::push_heap(blocks_.begin(), blocks_.end());
+  }
+}
+
+GlobalSearchResult GlobalSearch::search(const std::vector<Eigen::Vector2f>& points_m, double margin) const {
   SWIFTLET_CHECK(points_m.size() <= kMaxWindowPoints, points_m.size());
   std::vector<float> x_m, y_m;
   for (const Eigen::Vector2f& p : points_m) {
@@ -146,133 +329,18 @@ GlobalSearchResult GlobalSearch::search(const std::vector<Eigen::Vector2f>& poin
     y_m.push_back(p.y());
   }
   GlobalSearchResult result;
-  if (x_m.empty() || map_->freeCells_m().empty()) return result;
+  if (x_m.empty()) return result;
   const double top = 255.0 * static_cast<double>(x_m.size());
-  least_ = static_cast<std::int32_t>(config_.least_fit * top);
-  margin_ = static_cast<std::int32_t>(margin * top);
-  const auto count = static_cast<int>(std::ceil(2.0 * std::numbers::pi * config_.lever_m / (2.0 * config_.sigma_m)));
-  const double step_rad = 2.0 * std::numbers::pi / count;
-  distinct_cells_ = static_cast<int>(config_.distinct_m / cell_m_);
-  distinct_directions_ = static_cast<int>(config_.distinct_deg * kRadPerDeg / step_rad);
-  const auto scale = static_cast<float>(1.0 / cell_m_);
-  directions_.resize(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) {
-    Direction& d = directions_[static_cast<std::size_t>(k)];
-    d.x_cells.resize(x_m.size());
-    d.y_cells.resize(x_m.size());
-    for (std::vector<std::int32_t>& offsets : d.offsets) offsets.clear();
-    const double yaw_rad = k * step_rad;
-    const float middle = 0.5F + static_cast<float>(border_);
-    transformToCells(x_m, y_m, static_cast<float>(std::cos(yaw_rad)) * scale,
-                     static_cast<float>(std::sin(yaw_rad)) * scale, middle, middle, d.x_cells, d.y_cells);
-  }
-
-  places_.clear();
-  blocks_ = 0;
-  complete_ = true;
-  boundTopBlocks(least_);
-  for (const std::uint32_t next : order_) {
-    const Node& node = nodes_[next];
-    if (node.bound <= floor()) break;
-    descend(node, kTopLevel);
-    if (!complete_) break;
-  }
-  complete_ &= static_cast<int>(places_.size()) < config_.max_places;
-  for (const Place& place : places_) {
+  Descent descent(*this, x_m, y_m, static_cast<std::int32_t>(config_.least_fit * top),
+                  static_cast<std::int32_t>(margin * top));
+  descent.run();
+  for (const Descent::Place& place : descent.places()) {
     const Eigen::Vector2d at = map_->low_m() + Eigen::Vector2d(place.x + 0.5, place.y + 0.5) * cell_m_;
-    result.places.push_back({{at.x(), at.y(), common::wrapAngle(place.direction * step_rad)}, place.score / top});
+    result.places.push_back(
+        {{at.x(), at.y(), common::wrapAngle(place.direction * descent.step_rad())}, place.score / top});
   }
-  result.complete = complete_;
+  result.complete = descent.complete();
   return result;
-}
-
-void GlobalSearch::boundTopBlocks(std::int32_t floor) {
-  const int blocks_x = columns_ >> kTopLevel, blocks_y = rows_ >> kTopLevel, stride = width_ >> kTopLevel;
-  std::vector<std::uint16_t> sums(indexOf(0, blocks_y, kWindowColumns));
-  nodes_.clear();
-  for (int k = 0; k < static_cast<int>(directions_.size()); ++k) {
-    const std::vector<std::int32_t>& offsets = offsetsAt(k, kTopLevel);
-    for (int x0 = 0; x0 < blocks_x; x0 += kWindowColumns) {
-      sumWindows(instructions_, fields_[kTopLevel].data() + x0, stride, offsets, blocks_y, sums.data());
-      for (int y = 0; y < blocks_y; ++y)
-        for (int x = x0; x < std::min(blocks_x, x0 + kWindowColumns); ++x) {
-          const std::int32_t bound = sums[windowIndex(x - x0, y)];
-          if (bound > floor && isFree(kTopLevel, x, y)) nodes_.push_back({bound, x, y, k});
-        }
-    }
-  }
-  sortByBound();
-}
-
-/// By counting: the bounds are small integers, and of a large map there are hundreds of thousands of nodes.
-void GlobalSearch::sortByBound() {
-  std::int32_t highest = 0;
-  for (const Node& node : nodes_) highest = std::max(highest, node.bound);
-  std::vector<std::uint32_t> begins(static_cast<std::size_t>(highest) + 2);
-  for (const Node& node : nodes_) ++begins[static_cast<std::size_t>(highest - node.bound) + 1];
-  std::partial_sum(begins.begin(), begins.end(), begins.begin());
-  order_.resize(nodes_.size());
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    order_[begins[static_cast<std::size_t>(highest - nodes_[i].bound)]++] = static_cast<std::uint32_t>(i);
-}
-
-int GlobalSearch::apart(int a, int b) const {
-  const int count = static_cast<int>(directions_.size()), off = std::abs(a - b);
-  return std::min(off, count - off);
-}
-
-/// Whether the whole block belongs to a place that is better than its bound.
-bool GlobalSearch::covered(const Node& node, int level) const {
-  const int last = (1 << level) - 1, x = node.x << level, y = node.y << level;
-  return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
-    return place.score >= node.bound && apart(place.direction, node.direction) <= distinct_directions_ &&
-           x >= place.x - distinct_cells_ && x + last <= place.x + distinct_cells_ && y >= place.y - distinct_cells_ &&
-           y + last <= place.y + distinct_cells_;
-  });
-}
-
-void GlobalSearch::descend(const Node& node, int level) {
-  if (node.bound <= floor() || covered(node, level)) return;
-  if (level == 0) {
-    take(node);
-    return;
-  }
-  if (++blocks_ > config_.max_blocks) {
-    complete_ = false;
-    return;
-  }
-  const int finer = level - 1, stride = width_ >> finer;
-  std::array<std::uint16_t, std::size_t{2} * kWindowColumns> sums;
-  sumWindows(instructions_, fields_[static_cast<std::size_t>(finer)].data() + indexOf(2 * node.x, 2 * node.y, stride),
-             stride, offsetsAt(node.direction, finer), 2, sums.data());
-  std::array<Node, 4> children;
-  for (int i = 0; i < 4; ++i) {
-    const int dx = i % 2, dy = i / 2;
-    children[static_cast<std::size_t>(i)] = {sums[windowIndex(dx, dy)], 2 * node.x + dx, 2 * node.y + dy,
-                                             node.direction};
-  }
-  std::stable_sort(children.begin(), children.end(), [](const Node& a, const Node& b) { return a.bound > b.bound; });
-  for (const Node& child : children)
-    if (isFree(finer, child.x, child.y)) descend(child, finer);
-}
-
-/// A pose that fits: a place of its own, or a better pose of one that is known.
-void GlobalSearch::take(const Node& node) {
-  const auto same = [&](const Place& place) {
-    return apart(place.direction, node.direction) <= distinct_directions_ &&
-           std::abs(place.x - node.x) <= distinct_cells_ && std::abs(place.y - node.y) <= distinct_cells_;
-  };
-  if (std::any_of(places_.begin(), places_.end(),
-                  [&](const Place& place) { return place.score >= node.bound && same(place); }))
-    return;
-  std::erase_if(places_, same);
-  const Place place{node.bound, node.x, node.y, node.direction};
-  places_.insert(std::upper_bound(places_.begin(), places_.end(), place,
-                                  [](const Place& a, const Place& b) { return a.score > b.score; }),
-                 place);
-  if (static_cast<int>(places_.size()) > config_.max_places) places_.pop_back();
-  const std::int32_t least = places_.front().score - margin_;
-  std::erase_if(places_, [&](const Place& p) { return p.score < least; });
 }
 
 }  // namespace swiftlet::perception

@@ -23,17 +23,15 @@
 namespace swiftlet::perception {
 
 struct GlobalSearchConfig {
-  double cell_m = 0.10;         ///< Of the positions searched; not finer than the map's.
-  double sigma_m = 0.20;        ///< Of the field: covers what lies between the poses searched.
-  double random_share = 0.10;   ///< As in MapFieldConfig.
-  double unknown_value = 0.20;  ///< As in MapFieldConfig.
-  double lever_m = 8.0;         ///< From one direction to the next, points at this distance move by 2 sigma.
-  double least_fit = 0.55;      ///< Mean value, of that on a wall, below which a place does not fit: where two thirds
-                                ///< of the points lie within sigma of a wall, and the others anywhere.
-  double distinct_m = 0.5;      ///< Places nearer than this
-  double distinct_deg = 15.0;   ///< and less turned than this are one.
-  int max_places = 400;         ///< More than so many are not told apart: the pose is ambiguous anyway.
-  int max_blocks = 1'000'000;   ///< The search is given up after so many blocks of poses.
+  double cell_m = 0.10;        ///< Of the positions searched; not finer than the map's.
+  double sigma_m = 0.20;       ///< Of its field: covers what lies between the poses searched.
+  double lever_m = 8.0;        ///< From one direction to the next, points at this distance move by 2 sigma.
+  double least_fit = 0.55;     ///< Mean value, of that on a wall, below which a place does not fit: where two thirds
+                               ///< of the points lie within sigma of a wall, and the others anywhere.
+  double distinct_m = 0.5;     ///< Places nearer than this
+  double distinct_deg = 15.0;  ///< and less turned than this are one.
+  int max_places = 400;        ///< More than so many are not told apart: the pose is ambiguous anyway.
+  int max_blocks = 1'000'000;  ///< The search is given up after so many blocks of poses; it keeps twice as many.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -49,42 +47,24 @@ struct GlobalSearchResult {
   bool complete = true;              ///< False: there may be more.
 };
 
-/// Keeps its buffers between searches. Not thread-safe. Deterministic.
+/// Immutable; may be asked from any thread. Deterministic.
 class GlobalSearch {
  public:
   GlobalSearch(std::shared_ptr<const MapField> map, const GlobalSearchConfig& config,
                Instructions instructions = bestInstructions());
 
   /// At most kMaxWindowPoints points in a frame whose origin was once the vehicle's: it lies on a free cell. Places
-  /// that fit worse than the best by `margin` (of the mean value) are left out.
-  GlobalSearchResult search(const std::vector<Eigen::Vector2f>& points_m, double margin);
+  /// that fit worse than the best by `margin` (of the mean value) are left out. The places are what is left of all
+  /// poses that fit, the best first, when each takes away those after it that are no place distinct from it.
+  GlobalSearchResult search(const std::vector<Eigen::Vector2f>& points_m, double margin) const;
 
  private:
   static constexpr int kTopLevel = 2;  // Blocks of 4 positions a side: coarser ones bound too loosely to pay.
   static constexpr int kLevels = kTopLevel + 1;
 
-  struct Node {
-    std::int32_t bound = 0;
-    std::int32_t x = 0, y = 0;
-    std::int32_t direction = 0;
-  };
-  struct Direction {
-    std::vector<std::int32_t> x_cells, y_cells;
-    std::array<std::vector<std::int32_t>, kLevels> offsets;
-  };
-  struct Place {
-    std::int32_t score = 0, x = 0, y = 0, direction = 0;
-  };
+  class Descent;
 
-  void buildLevels(const GlobalSearchConfig& config);
-  const std::vector<std::int32_t>& offsetsAt(int direction, int level);
-  void boundTopBlocks(std::int32_t floor);
-  void sortByBound();
-  void descend(const Node& node, int level);
-  void take(const Node& node);
-  bool covered(const Node& node, int level) const;
-  int apart(int a, int b) const;
-  std::int32_t floor() const;
+  void buildLevels();
   bool isFree(int level, int x, int y) const;
 
   std::shared_ptr<const MapField> map_;
@@ -96,15 +76,6 @@ class GlobalSearch {
   double reach_m_ = 0.0;
   std::array<std::vector<std::uint8_t>, kLevels> fields_;
   std::array<std::vector<std::uint8_t>, kLevels> free_;  // Whether any position of the block is free.
-
-  // During a search.
-  std::vector<Direction> directions_;
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;  // Of the nodes: the highest bound first, then as they come.
-  std::vector<Place> places_;         // The best first.
-  std::int32_t least_ = 0, margin_ = 0;
-  int distinct_cells_ = 0, distinct_directions_ = 0, blocks_ = 0;
-  bool complete_ = true;
 };
 
 }  // namespace swiftlet::perception

@@ -1,6 +1,7 @@
 // How many particles a belief needs (Fox 2003, "Adapting the sample size in particle filters through KLD-sampling").
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_set>
@@ -27,7 +28,10 @@ class PoseBins {
 
   void add(double x_m, double y_m, double yaw_rad) {
     const auto bin = [](double value, double width) {
-      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / width)) + (1 << 20)) & 0x1fffff;
+      constexpr double kHalf = 1 << 20;
+      const double at = std::floor(value / width) + kHalf;
+      // What is no number, too, falls into a bin.
+      return at > 0.0 ? static_cast<std::uint64_t>(std::min(at, 2.0 * kHalf - 1.0)) : 0U;
     };
     bins_.insert(bin(x_m, bin_m_) << 42 | bin(y_m, bin_m_) << 21 | bin(yaw_rad, bin_rad_));
   }

@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "common/check.hpp"
+#include "perception/localization/evenly_spread.hpp"
 
 namespace swiftlet::perception {
 
@@ -49,8 +50,7 @@ LocalMap::Whole LocalMap::whole(double spacing_m, std::size_t max_points) const 
     }
   }
   const std::size_t kept = std::min(points.size(), max_points);
-  for (std::size_t i = 0; i < kept; ++i)
-    whole.points_middle_m.push_back(points[(2 * i + 1) * points.size() / (2 * kept)]);
+  for (std::size_t i = 0; i < kept; ++i) whole.points_middle_m.push_back(points[evenlySpread(i, kept, points.size())]);
   return whole;
 }
 

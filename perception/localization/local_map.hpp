@@ -23,7 +23,6 @@ class LocalMap {
   void add(const common::Pose2& T_odom_body, const std::vector<Eigen::Vector2f>& points_body_m);
 
   bool empty() const { return key_scans_.empty(); }
-  std::size_t scans() const { return key_scans_.size(); }
   /// The way from its first scan to its last.
   double length_m() const;
   /// Where its last scan was taken. Not to be called when it is empty.

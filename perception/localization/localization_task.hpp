@@ -20,7 +20,7 @@ struct LocalizationTask::Data {
   double way_m = 0.0;
   LocalizerConfig config;
   std::shared_ptr<const MapField> map;
-  std::shared_ptr<GlobalSearch> search;  ///< Of this task alone as long as it has not been applied.
+  std::shared_ptr<const GlobalSearch> search;
 };
 
 struct LocalizationResult::Data {

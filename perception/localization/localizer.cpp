@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
@@ -10,6 +11,7 @@
 #include "perception/localization/localization_task.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/pose_tracker.hpp"
+#include "perception/slam2d/unknown_step.hpp"
 
 namespace swiftlet::perception {
 
@@ -22,7 +24,9 @@ namespace {
 const Eigen::Matrix3d kPlaceCovariance =
     Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 1.0 * kRadPerDeg * 1.0 * kRadPerDeg).asDiagonal();
 
+/// Infinity where the covariance is none.
 double sigma_m(const Eigen::Matrix3d& covariance) {
+  if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> position(covariance.topLeftCorner<2, 2>().eval(),
                                                                 Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, position.eigenvalues()(1)));
@@ -37,11 +41,12 @@ struct Localizer::Impl {
         T_map_grid(T_map_grid_in),
         map(std::make_shared<const MapField>(grid, config_in.field)),
         tracker(map, config_in, seed),
-        search(std::make_shared<GlobalSearch>(map, config_in.search)),
+        search(std::make_shared<const GlobalSearch>(map, config_in.search)),
         local_map(config_in.local_map_length_m),
         lost_test(config_in.lost),
         distinction(distinctionOf(config_in)) {}
 
+  void passOver(const LocalizationInput& input);
   void step(const LocalizationInput& input);
   void track(const LocalizationInput& input);
   void doubt(const LocalizationInput& input);
@@ -63,7 +68,7 @@ struct Localizer::Impl {
   Pose2 T_map_grid;
   std::shared_ptr<const MapField> map;
   PoseTracker tracker;
-  std::shared_ptr<GlobalSearch> search;
+  std::shared_ptr<const GlobalSearch> search;
   LocalMap local_map;
   LostTest lost_test;
   PlaceDistinction distinction;
@@ -96,6 +101,11 @@ struct Localizer::Impl {
   bool searching = false;
   std::uint64_t epoch = 0;  ///< What was searched for in an earlier one no longer counts.
 
+  struct {
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    bool interrupted = false;
+  } passed_over;  ///< What the odometry did over inputs without a pose.
+
   std::optional<LocalizationEvent> event;
 };
 
@@ -103,6 +113,11 @@ void Localizer::Impl::enter(LocalizationState next, std::string reason) {
   if (next == state) return;
   state = next;
   event = LocalizationEvent{now, next, std::move(reason)};
+}
+
+void Localizer::Impl::passOver(const LocalizationInput& input) {
+  passed_over.covariance += stepCovarianceOrUnknown(input.step_covariance);
+  passed_over.interrupted |= input.interrupted;
 }
 
 void Localizer::Impl::step(const LocalizationInput& input) {
@@ -126,7 +141,7 @@ void Localizer::Impl::track(const LocalizationInput& input) {
   if (tracker.onlyGiven()) return;
   doubt(input);
   const double uncertain_m = sigma_m(tracker.covariance());
-  if (state == LocalizationState::kLocalized && uncertain_m > config.max_sigma_m)
+  if (state == LocalizationState::kLocalized && !(uncertain_m <= config.max_sigma_m))
     lose(fmt::format("the pose is uncertain by {:.1f} m", uncertain_m));
 }
 
@@ -161,10 +176,13 @@ void Localizer::Impl::lookElsewhere(const LocalizationResult::Data& found) {
   const Pose2 here = tracker.T_grid_odom() * found.whole.T_odom_middle;
   if (distinction.same(best.T_grid_points, here)) return;
   const double gain = best.log_likelihood - logLikelihood(*map, found.whole.points_middle_m, here, config.point_weight);
-  if (gain >= config.elsewhere_nats)
-    lose(fmt::format("what is seen fits {:.1f} m away, {:.0f} % of it; {:.0f} % here",
-                     (best.T_grid_points.position_m() - here.position_m()).norm(), 100.0 * best.explained,
-                     100.0 * lost_test.explained()));
+  if (gain < config.elsewhere_nats) return;
+  const Pose2 off = between(here, best.T_grid_points);
+  std::string where = fmt::format("{:.1f} m away", off.position_m().norm());
+  if (off.position_m().norm() <= distinction.distance_m)
+    where += fmt::format(" and turned by {:.0f} deg", off.yaw_rad / kRadPerDeg);
+  lose(fmt::format("what is seen fits {}, {:.0f} % of it; {:.0f} % here", where, 100.0 * best.explained,
+                   100.0 * lost_test.explained()));
 }
 
 void Localizer::Impl::lose(std::string reason) {
@@ -209,6 +227,14 @@ void Localizer::Impl::apply(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::judge(const LocalizationResult::Data& found) {
+  if (found.places.empty() && !found.complete) {
+    places = 0;
+    fits_nowhere = false;
+    candidate.reset();
+    tracker.particles().spreadOverFreeSpace();
+    enter(LocalizationState::kAmbiguous, "more places explain what was seen than can be told apart");
+    return;
+  }
   if (found.places.empty() || found.places.front().explained < config.least_explained) {
     fitsNowhere();
     return;
@@ -291,7 +317,7 @@ LocalizationEstimate Localizer::Impl::estimate() {
 Localizer::Localizer(const common::OccupancyGrid& grid, const Pose2& T_map_grid, const LocalizerConfig& config,
                      std::uint64_t seed)
     : impl_(std::make_unique<Impl>(grid, T_map_grid, config, seed)) {
-  SWIFTLET_CHECK(impl_->map->hasWalls() && !impl_->map->freeCells_m().empty());
+  SWIFTLET_CHECK(impl_->map->hasWalls() && impl_->map->freeCells() > 0);
   impl_->tracker.particles().spreadOverFreeSpace();
 }
 Localizer::~Localizer() = default;
@@ -299,6 +325,10 @@ Localizer::Localizer(Localizer&&) noexcept = default;
 Localizer& Localizer::operator=(Localizer&&) noexcept = default;
 
 std::string Localizer::whyUnusable(const common::OccupancyGrid& map) {
+  const common::CellRect known = common::knownExtent(map);
+  if (static_cast<std::int64_t>(known.width()) * known.height() > MapField::kMaxCells)
+    return fmt::format("what is known of the map spans {} x {} cells: at most {} million can be localized in",
+                       known.width(), known.height(), MapField::kMaxCells / 1'000'000);
   bool walls = false, free = false;
   map.forEachCell([&](common::CellIndex, common::occupancy::Cell cell) {
     walls |= common::occupancy::isOccupied(cell);
@@ -332,8 +362,14 @@ LocalizationEstimate Localizer::add(const LocalizationInput& input) {
   return estimate;
 }
 
-LocalizationEstimate Localizer::follow(const LocalizationInput& input) {
+LocalizationEstimate Localizer::follow(const LocalizationInput& given) {
   Impl& self = *impl_;
+  self.passOver(given);
+  if (!isFinite(given.T_odom_body)) return self.estimate();
+  LocalizationInput input = given;
+  input.step_covariance = self.passed_over.covariance;
+  input.interrupted = self.passed_over.interrupted;
+  self.passed_over = {};
   self.support = {};
   self.step(input);
   if (self.state == LocalizationState::kLocalized)

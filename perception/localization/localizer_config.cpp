@@ -7,6 +7,7 @@ namespace swiftlet::perception {
 LocalizerConfig::LocalizerConfig() = default;
 
 void LocalizerConfig::describe(common::config::Fields& fields) {
+  fields.section("field", field, "The map as it is compared with what is seen.");
   fields.section("particles", particles, "The particle filter that follows the pose.");
   fields.section("search", search, "The search of the whole map.");
   fields.section("support", support, "How much of a scan the map explains.");

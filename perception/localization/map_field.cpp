@@ -4,14 +4,21 @@
 #include <cmath>
 #include <limits>
 
+#include "common/validation.hpp"
+
 namespace swiftlet::perception {
 namespace {
 
 /// Reading four bytes at once at the last cell stays within the array.
 constexpr std::size_t kOverread = 16;
+/// Cells among which a free one is looked for one by one.
+constexpr std::size_t kStretch = 256;
 
-/// One pass of the exact Euclidean distance transform (Felzenszwalb and Huttenlocher 2012): the lower envelope of the
-/// parabolas in[i] + (x - i)^2, squared distances in cells.
+/// Cells up or down to the nearest occupied one, or no number that any map has.
+constexpr std::uint16_t kNone = std::numeric_limits<std::uint16_t>::max();
+
+/// The second pass of the exact Euclidean distance transform (Felzenszwalb and Huttenlocher 2012): the lower envelope
+/// of the parabolas in[i] + (x - i)^2, squared distances in cells.
 class DistancePass {
  public:
   explicit DistancePass(std::size_t length) : in_(length), roots_(length), borders_(length + 1) {}
@@ -64,43 +71,76 @@ double beamValue(double distance_m, double sigma_m, double random_share) {
   return std::log1p(on_wall * std::exp(-0.5 * ratio * ratio)) / std::log1p(on_wall);
 }
 
-MapField::MapField(const common::OccupancyGrid& map, const MapFieldConfig& config) : resolution_m_(map.resolution_m()) {
+void MapFieldConfig::describe(common::config::Fields& fields) {
+  fields("sigma_m", sigma_m, "Of a beam's end about the wall.");
+  fields("random_share", random_share, "Density of beams that end anywhere, of that on a wall.");
+  fields("unknown_value", unknown_value, "What an unknown cell counts, of the value on a wall.");
+}
+
+std::vector<std::string> MapFieldConfig::validate() const {
+  return common::Validation()
+      .within("sigma_m", sigma_m, 0.01, 2)
+      .within("random_share", random_share, 0.001, 0.999)
+      .within("unknown_value", unknown_value, 0, 1)
+      .problems();
+}
+
+MapField::MapField(const common::OccupancyGrid& map, const MapFieldConfig& config)
+    : config_(config), resolution_m_(map.resolution_m()) {
   readMap(map);
   measureDistances();
-  fillValues(config);
+  fillValues();
 }
 
 void MapField::readMap(const common::OccupancyGrid& map) {
   const common::CellRect known = common::knownExtent(map);
   width_ = std::max(known.width(), 0) + 2 * kBorder;
   height_ = std::max(known.height(), 0) + 2 * kBorder;
-  origin_m_ = Eigen::Vector2d(known.begin.x - kBorder, known.begin.y - kBorder) * resolution_m_;
+  begin_ = {known.begin.x - kBorder, known.begin.y - kBorder};
+  origin_m_ = Eigen::Vector2d(begin_.x, begin_.y) * resolution_m_;
   kinds_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), kUnknown);
   for (int y = known.begin.y; y < known.end.y; ++y) {
     for (int x = known.begin.x; x < known.end.x; ++x) {
       const common::occupancy::Cell cell = map.at({x, y});
       if (common::occupancy::isUnknown(cell)) continue;
       const bool occupied = common::occupancy::isOccupied(cell);
-      kinds_[indexOf(x - known.begin.x + kBorder, y - known.begin.y + kBorder)] = occupied ? kOccupied : kFree;
+      kinds_[indexOf(x - begin_.x, y - begin_.y)] = occupied ? kOccupied : kFree;
       has_walls_ |= occupied;
-      if (!occupied) free_cells_m_.push_back(map.centerOf({x, y}).cast<float>());
     }
   }
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    if (i % kStretch == 0) free_before_.push_back(static_cast<std::uint32_t>(free_cells_));
+    free_cells_ += kinds_[i] == kFree ? 1U : 0U;
+  }
+}
+
+Eigen::Vector2d MapField::freeCell_m(std::size_t n) const {
+  const auto stretch = std::upper_bound(free_before_.begin(), free_before_.end(), n) - free_before_.begin() - 1;
+  std::size_t i = static_cast<std::size_t>(stretch) * kStretch;
+  for (std::size_t before = free_before_[static_cast<std::size_t>(stretch)];; ++i)
+    if (kinds_[i] == kFree && before++ == n) break;
+  const auto width = static_cast<std::size_t>(width_);
+  return {(begin_.x + static_cast<int>(i % width) + 0.5) * resolution_m_,
+          (begin_.y + static_cast<int>(i / width) + 0.5) * resolution_m_};
 }
 
 void MapField::measureDistances() {
   constexpr float kFar = std::numeric_limits<float>::infinity();
   const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
-  std::vector<float> columns(kinds_.size());
-  DistancePass pass(std::max(width, height));
-  for (std::size_t x = 0; x < width; ++x) {
-    for (std::size_t y = 0; y < height; ++y) pass.line()[y] = kinds_[y * width + x] == kOccupied ? 0.0F : kFar;
-    pass.run(height, [&](std::size_t y, float value) { columns[y * width + x] = value; });
-  }
+  // The first pass, along the columns, in whole cells.
+  std::vector<std::uint16_t> along(kinds_.size(), kNone);
+  const auto next = [](std::uint16_t cells) { return cells == kNone ? kNone : static_cast<std::uint16_t>(cells + 1); };
+  for (std::size_t i = 0; i < along.size(); ++i)
+    along[i] = kinds_[i] == kOccupied ? std::uint16_t{0} : i < width ? kNone : next(along[i - width]);
+  for (std::size_t i = along.size() - width; i-- > 0;) along[i] = std::min(along[i], next(along[i + width]));
+  DistancePass pass(width);
   distances_cm_.resize(kinds_.size());
   const double cm_per_cell = 100.0 * resolution_m_;
   for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t x = 0; x < width; ++x) pass.line()[x] = columns[y * width + x];
+    for (std::size_t x = 0; x < width; ++x) {
+      const auto cells = static_cast<float>(along[y * width + x]);
+      pass.line()[x] = along[y * width + x] == kNone ? kFar : cells * cells;
+    }
     pass.run(width, [&](std::size_t x, float value) {
       const double distance_cm = value == kFar ? 255.0 : std::sqrt(static_cast<double>(value)) * cm_per_cell;
       distances_cm_[y * width + x] = static_cast<std::uint8_t>(std::lround(std::min(distance_cm, 255.0)));
@@ -108,15 +148,15 @@ void MapField::measureDistances() {
   }
 }
 
-void MapField::fillValues(const MapFieldConfig& config) {
-  top_nats_ = std::log1p((1.0 - config.random_share) / config.random_share);
+void MapField::fillValues() {
+  top_nats_ = std::log1p((1.0 - config_.random_share) / config_.random_share);
   // A map of coarse cells places its walls no better than that.
-  const double sigma_m = std::max(config.sigma_m, resolution_m_);
+  const double sigma_m = std::max(config_.sigma_m, resolution_m_);
   std::vector<std::uint8_t> by_distance(256);
   for (std::size_t cm = 0; cm < by_distance.size(); ++cm)
     by_distance[cm] = static_cast<std::uint8_t>(
-        std::lround(255.0 * beamValue(0.01 * static_cast<double>(cm), sigma_m, config.random_share)));
-  const auto unknown = static_cast<std::uint8_t>(std::lround(255.0 * config.unknown_value));
+        std::lround(255.0 * beamValue(0.01 * static_cast<double>(cm), sigma_m, config_.random_share)));
+  const auto unknown = static_cast<std::uint8_t>(std::lround(255.0 * config_.unknown_value));
   values_.assign(kinds_.size() + kOverread, unknown);
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const std::uint8_t value = by_distance[distances_cm_[i]];

@@ -10,10 +10,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "common/config.hpp"
 #include "common/occupancy_grid.hpp"
 
 namespace swiftlet::perception {
@@ -22,6 +24,9 @@ struct MapFieldConfig {
   double sigma_m = 0.10;        ///< Of a beam's end about the wall: noise, the map's cells, the pose between particles.
   double random_share = 0.10;   ///< Density of beams that end anywhere, relative to that on a wall.
   double unknown_value = 0.20;  ///< What an unknown cell counts, of the value on a wall.
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
 };
 
 /// Bytes row by row, with a border all around so that a clamped look-up falls on it.
@@ -36,9 +41,12 @@ struct FieldView {
 class MapField {
  public:
   static constexpr double kMaxDistance_m = 2.55;
+  /// Of the known part. Cells are counted in 32 bits; so many take, searched, 5 GB.
+  static constexpr std::int64_t kMaxCells = 1'000'000'000;
 
   MapField(const common::OccupancyGrid& map, const MapFieldConfig& config);
 
+  const MapFieldConfig& config() const { return config_; }
   FieldView view() const { return {values_.data(), width_, height_, resolution_m_, origin_m_}; }
   /// The log-likelihood of a value of 255 over that of 0.
   double topNats() const { return top_nats_; }
@@ -55,8 +63,9 @@ class MapField {
   double rayLength_m(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) const;
 
   double resolution_m() const { return resolution_m_; }
-  /// Centres of the free cells.
-  const std::vector<Eigen::Vector2f>& freeCells_m() const { return free_cells_m_; }
+  std::size_t freeCells() const { return free_cells_; }
+  /// The centre of the n-th free cell, row by row; n < freeCells().
+  Eigen::Vector2d freeCell_m(std::size_t n) const;
   bool hasWalls() const { return has_walls_; }
   /// The known part.
   Eigen::Vector2d low_m() const { return origin_m_ + Eigen::Vector2d::Constant(resolution_m_ * kBorder); }
@@ -73,9 +82,11 @@ class MapField {
   }
   void readMap(const common::OccupancyGrid& map);
   void measureDistances();
-  void fillValues(const MapFieldConfig& config);
+  void fillValues();
 
+  MapFieldConfig config_;
   double resolution_m_;
+  common::CellIndex begin_;  ///< The map's cell that is the field's first.
   Eigen::Vector2d origin_m_ = Eigen::Vector2d::Zero();
   int width_ = 0, height_ = 0;
   double top_nats_ = 0.0;
@@ -83,7 +94,9 @@ class MapField {
   std::vector<std::uint8_t> values_;
   std::vector<std::uint8_t> kinds_;
   std::vector<std::uint8_t> distances_cm_;
-  std::vector<Eigen::Vector2f> free_cells_m_;
+  std::size_t free_cells_ = 0;
+  std::vector<std::uint32_t> free_before_;  ///< Free cells before each stretch of cells: of a large map the list of all
+                                            ///< would be larger than the field.
 };
 
 /// The log-likelihood of a beam that ends `distance_m` from a wall, over that of one far from any, as a share of the

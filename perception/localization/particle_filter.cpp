@@ -10,6 +10,7 @@
 #include "common/check.hpp"
 #include "common/validation.hpp"
 #include "perception/localization/beam_sums.hpp"
+#include "perception/localization/evenly_spread.hpp"
 #include "perception/localization/kld_sampling.hpp"
 
 namespace swiftlet::perception {
@@ -94,15 +95,15 @@ void ParticleFilter::wrapAndTurn() {
 }
 
 void ParticleFilter::spreadOverFreeSpace() {
-  const std::vector<Eigen::Vector2f>& free = map_->freeCells_m();
-  SWIFTLET_CHECK(!free.empty());
+  SWIFTLET_CHECK(map_->freeCells() > 0);
   common::RandomStream random(seed_, "spread over free space", draws_++);
   resize(static_cast<std::size_t>(config_.max_particles));
   const double half_m = 0.5 * map_->resolution_m();
   for (std::size_t i = 0; i < size(); ++i) {
-    const auto cell = static_cast<std::size_t>(random.uniform() * static_cast<double>(free.size()));
-    x_m_[i] = free[cell].x() + static_cast<float>(random.uniform(-half_m, half_m));
-    y_m_[i] = free[cell].y() + static_cast<float>(random.uniform(-half_m, half_m));
+    const auto cell = static_cast<std::size_t>(random.uniform() * static_cast<double>(map_->freeCells()));
+    const Eigen::Vector2f center_m = map_->freeCell_m(cell).cast<float>();
+    x_m_[i] = center_m.x() + static_cast<float>(random.uniform(-half_m, half_m));
+    y_m_[i] = center_m.y() + static_cast<float>(random.uniform(-half_m, half_m));
     yaw_rad_[i] = static_cast<float>(random.uniform(-1.0, 1.0)) * kPi;
   }
   wrapAndTurn();
@@ -157,7 +158,7 @@ void ParticleFilter::weigh(std::span<const Eigen::Vector2f> points_body_m) {
   beams_x_.resize(beams);
   beams_y_.resize(beams);
   for (std::size_t k = 0; k < beams; ++k) {
-    const Eigen::Vector2f& point = points_body_m[(2 * k + 1) * points_body_m.size() / (2 * beams)];
+    const Eigen::Vector2f& point = points_body_m[evenlySpread(k, beams, points_body_m.size())];
     beams_x_[k] = point.x() * scale;
     beams_y_[k] = point.y() * scale;
   }

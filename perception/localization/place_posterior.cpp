@@ -88,19 +88,8 @@ Pose2 climbed(PoseScorer& scorer, Pose2 pose) {
   return pose;
 }
 
-}  // namespace
-
-bool PlaceDistinction::same(const Pose2& a, const Pose2& b) const {
-  return (a.position_m() - b.position_m()).norm() <= distance_m &&
-         std::abs(common::wrapAngle(a.yaw_rad - b.yaw_rad)) <= turn_rad;
-}
-
-double logLikelihood(const MapField& map, const std::vector<Eigen::Vector2f>& points_m, const Pose2& T_grid_points,
-                     double point_weight) {
-  PoseScorer scorer(Instructions::kScalar, map, points_m);
-  return scorer.score(T_grid_points) * point_weight * map.topNats() / 255.0;
-}
-
+/// Share of the points on known ground that end within `tolerance_m` of a wall; where that is less than half of the
+/// points, their share of half of the points.
 double explainedShare(const MapField& map, const std::vector<Eigen::Vector2f>& points_m, const Pose2& T_grid_points,
                       double tolerance_m) {
   int known = 0, explained = 0;
@@ -113,6 +102,19 @@ double explainedShare(const MapField& map, const std::vector<Eigen::Vector2f>& p
   // A few points on known ground do not speak for a place of which the map knows nothing.
   const double asked = std::max<double>(known, 0.5 * static_cast<double>(points_m.size()));
   return asked > 0.0 ? explained / asked : 0.0;
+}
+
+}  // namespace
+
+bool PlaceDistinction::same(const Pose2& a, const Pose2& b) const {
+  return (a.position_m() - b.position_m()).norm() <= distance_m &&
+         std::abs(common::wrapAngle(a.yaw_rad - b.yaw_rad)) <= turn_rad;
+}
+
+double logLikelihood(const MapField& map, const std::vector<Eigen::Vector2f>& points_m, const Pose2& T_grid_points,
+                     double point_weight) {
+  PoseScorer scorer(Instructions::kScalar, map, points_m);
+  return scorer.score(T_grid_points) * point_weight * map.topNats() / 255.0;
 }
 
 std::vector<LikelyPlace> likelyPlaces(Instructions instructions, const MapField& map,

@@ -21,11 +21,6 @@ struct LikelyPlace {
 double logLikelihood(const MapField& map, const std::vector<Eigen::Vector2f>& points_m,
                      const common::Pose2& T_grid_points, double point_weight);
 
-/// Share of the points on known ground that end within `tolerance_m` of a wall; where that is less than half of the
-/// points, their share of half of the points.
-double explainedShare(const MapField& map, const std::vector<Eigen::Vector2f>& points_m,
-                      const common::Pose2& T_grid_points, double tolerance_m);
-
 struct PlaceDistinction {
   double distance_m = 0.5;
   double turn_rad = 0.26;

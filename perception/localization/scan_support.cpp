@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/validation.hpp"
+#include "perception/localization/evenly_spread.hpp"
 
 namespace swiftlet::perception {
 
@@ -27,7 +28,7 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
   int explained = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(support.beams); ++i) {
     const Eigen::Vector2f& point =
-        points_body_m[(2 * i + 1) * points_body_m.size() / (2 * static_cast<std::size_t>(support.beams))];
+        points_body_m[evenlySpread(i, static_cast<std::size_t>(support.beams), points_body_m.size())];
     const Eigen::Vector2d end_m = T_grid_body * point.cast<double>();
     const double range_m = static_cast<double>(point.norm());
     const double tolerance_m = config.tolerance_m + config.tolerance_rad * range_m;

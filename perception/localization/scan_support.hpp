@@ -60,7 +60,6 @@ class LostTest {
   bool lost() const { return sum_ >= config_.threshold; }
   /// Something speaks against the pose.
   bool doubtful() const { return sum_ > 0.0 || explained_ < config_.doubt_explained; }
-  double sum() const { return sum_; }
   /// Mean share explained, lately.
   double explained() const { return explained_; }
 

@@ -1,4 +1,6 @@
 // Stories of a robot that does not know where it is, scan by scan. Truth is seen by the scoring alone.
+#include <limits>
+
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
@@ -132,6 +134,20 @@ TEST(Localizer, GivesUpAPoseThatTheOdometryAloneLedTo) {
   ASSERT_TRUE(estimate.event);
   EXPECT_EQ(estimate.state, LocalizationState::kLost);
   EXPECT_NE(estimate.event->reason.find("uncertain by"), std::string::npos) << estimate.event->reason;
+}
+
+/// Turned on the spot, unnoticed by its odometry: the distance alone would not say what is wrong.
+TEST(Localizer, SaysByHowMuchItIsTurnedWhereItIsNotElsewhere) {
+  Story story(test::offices(5), 5);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.0001).asDiagonal());
+  for (int i = 0; i < 20; ++i) story.step();
+  const Pose2 before = story.walker.pose();
+  story.walker.carry(before.position_m(), before.yaw_rad + 0.7);
+  LocalizationEstimate estimate;
+  for (int i = 0; i < 20 && !estimate.event; ++i) estimate = story.step();
+  ASSERT_TRUE(estimate.event);
+  EXPECT_EQ(estimate.state, LocalizationState::kLost);
+  EXPECT_NE(estimate.event->reason.find("turned by 4"), std::string::npos) << estimate.event->reason;
 }
 
 TEST(Localizer, TheSameSeedGivesTheSameBytes) {
@@ -270,6 +286,8 @@ TEST(Localizer, RefusesMapsInWhichNothingCanBe) {
   EXPECT_NE(Localizer::whyUnusable(map).find("no free cells"), std::string::npos);
   map.set({1, 0}, -common::occupancy::kMaxSteps);
   EXPECT_EQ(Localizer::whyUnusable(map), "");
+  map.set({39'999, 29'999}, -common::occupancy::kMaxSteps);
+  EXPECT_NE(Localizer::whyUnusable(map).find("40000 x 30000 cells"), std::string::npos);
 }
 
 /// Scans without points, points that are no numbers, time that goes back: nothing breaks, nothing is made up.
@@ -289,6 +307,44 @@ TEST(Localizer, TakesBadScansCalmly) {
     EXPECT_EQ(estimate.state, LocalizationState::kLocalized);
     EXPECT_LT(errorOf(estimate, story.truth), 0.3);
   }
+}
+
+/// An odometry that says for a moment what is no pose, or what is no covariance.
+TEST(Localizer, TakesBadOdometryCalmly) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+  Story story(test::offices(8), 8);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+  for (int i = 0; i < 30; ++i) story.step();
+  const auto add = [&](const Pose2& T_odom_body, double variance) {
+    const auto scan =
+        test::levelScan(story.building.world, story.walker.pose(), Time::fromSeconds(story.time_s += 0.1), story.noise);
+    return story.localizer.add({scan, T_odom_body, Eigen::Matrix3d::Identity() * variance, true, false});
+  };
+  const Pose2 here = story.odometry.pose();
+  for (const double bad : {kNan, kInf, -kInf}) {
+    for (const Pose2& pose : {Pose2{bad, here.y_m, here.yaw_rad}, Pose2{here.x_m, here.y_m, bad}}) {
+      const auto estimate = add(pose, 0.0);
+      EXPECT_EQ(estimate.state, LocalizationState::kLocalized);
+      EXPECT_LT(errorOf(estimate, story.truth), 0.5);
+    }
+  }
+  EXPECT_EQ(add(here, kNan).state, LocalizationState::kLocalized);
+  LocalizationEstimate estimate;
+  for (int i = 0; i < 40; ++i) estimate = story.step();
+  EXPECT_EQ(estimate.state, LocalizationState::kLocalized);
+  EXPECT_TRUE(estimate.covariance.allFinite());
+  EXPECT_LT(errorOf(estimate, story.truth), 0.3);
+}
+
+/// While inputs are passed over the odometry may have lost the thread: that is not forgotten with them.
+TEST(Localizer, AnInterruptionThatCameWithoutAPoseCounts) {
+  Story story(test::offices(8), 8);
+  story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+  for (int i = 0; i < 30; ++i) story.step();
+  ProjectedScan nothing;
+  const Eigen::Matrix3d none = Eigen::Matrix3d::Zero();
+  (void)story.localizer.add({nothing, Pose2{NAN, 0.0, 0.0}, none, true, true});
+  EXPECT_GT(story.step(false).covariance(0, 0), 0.1);
 }
 
 }  // namespace

@@ -52,6 +52,19 @@ TEST(MapField, DistancesAreThoseToTheNearestWall) {
   EXPECT_FALSE(field.at({NAN, 0.0}).known);
 }
 
+TEST(MapField, CountsTheFreeCellsRowByRow) {
+  const common::OccupancyGrid map = test::mapOf(test::offices(3));
+  const MapField field(map, MapFieldConfig{});
+  const common::CellRect known = common::knownExtent(map);
+  std::size_t n = 0;
+  for (int y = known.begin.y; y < known.end.y; ++y)
+    for (int x = known.begin.x; x < known.end.x; ++x)
+      if (common::occupancy::isFree(map.at({x, y}))) {
+        ASSERT_EQ(field.freeCell_m(n++), map.centerOf({x, y}));
+      }
+  EXPECT_EQ(field.freeCells(), n);
+}
+
 TEST(MapField, RaysEndWhereTheBeamsOfTheWorldDo) {
   const test::Building building = test::offices(4);
   const auto field = fieldOf(building);
@@ -119,6 +132,14 @@ TEST(KldSampling, NeedsWhatFoxsTableSays) {
   // Equation 7 of Fox 2003 at 100 bins, error 0.05, 99 %: chi-square quantile 134.6 over 2 epsilon.
   EXPECT_NEAR(kldSampleSize(100, 0.05, 2.326), 134.64 / 0.1, 3.0);
   EXPECT_EQ(kldSampleSize(1, 0.05, 2.326), 1.0);
+}
+
+TEST(KldSampling, WhatIsNoPlaceFallsIntoABinAsWell) {
+  PoseBins bins(0.25, 0.17);
+  for (const double value : {0.0, 1e300, -1e300, std::numeric_limits<double>::quiet_NaN()}) bins.add(value, 0.0, 0.0);
+  bins.add(0.3, 0.0, 0.0);
+  bins.add(-0.1, 0.0, 0.0);
+  EXPECT_EQ(bins.occupied(), 5U);
 }
 
 TEST(ParticleFilter, DrawsAsManyParticlesAsTheBeliefNeeds) {
@@ -191,69 +212,116 @@ TEST(ParticleFilter, TheSameSeedGivesTheSameParticlesOnEveryInstructionSet) {
   }
 }
 
-/// Every pose of the search's own grid, one by one. Points lie within 12 m.
-FittingPlace exhaustively(const MapField& map, const GlobalSearchConfig& config,
-                          const std::vector<Eigen::Vector2f>& points) {
+struct GridPose {
+  int score = 0, direction = 0, row = 0, column = 0;
+  auto operator<=>(const GridPose&) const = default;
+};
+
+/// Every pose of the search's own grid, one by one: those that fit and are distinct from all that fit better. Points
+/// lie within 12 m.
+std::vector<FittingPlace> exhaustively(const MapField& map, const GlobalSearchConfig& config, double margin,
+                                       const std::vector<Eigen::Vector2f>& points) {
   const auto columns = static_cast<int>(std::ceil((map.high_m() - map.low_m()).x() / config.cell_m));
   const auto rows = static_cast<int>(std::ceil((map.high_m() - map.low_m()).y() / config.cell_m));
   const int border = static_cast<int>(13.0 / config.cell_m), width = columns + 2 * border;
   const auto centerOf = [&](int column, int row) -> Eigen::Vector2d {
     return map.low_m() + Eigen::Vector2d(column + 0.5, row + 0.5) * config.cell_m;
   };
+  const MapFieldConfig& field = map.config();
   std::vector<int> values;
   for (int row = -border; row < rows + border; ++row)
     for (int column = -border; column < columns + border; ++column) {
       const MapField::Place place = map.at(centerOf(column, row));
-      const double value = beamValue(place.wall_distance_m, config.sigma_m, config.random_share);
+      const double value = beamValue(place.wall_distance_m, config.sigma_m, field.random_share);
       values.push_back(
-          static_cast<int>(std::lround(255.0 * (place.known ? value : std::max(value, config.unknown_value)))));
+          static_cast<int>(std::lround(255.0 * (place.known ? value : std::max(value, field.unknown_value)))));
     }
-  FittingPlace best;
+  std::vector<float> x_m, y_m;
+  for (const Eigen::Vector2f& point : points) {
+    x_m.push_back(point.x());
+    y_m.push_back(point.y());
+  }
+  std::vector<std::int32_t> x_cells(points.size()), y_cells(points.size());
+  const double top = 255.0 * static_cast<double>(points.size());
+  std::vector<GridPose> poses;
   const int directions = static_cast<int>(std::ceil(std::numbers::pi * config.lever_m / config.sigma_m));
   for (int k = 0; k < directions; ++k) {
-    const double yaw = 2.0 * std::numbers::pi * k / directions;
-    std::vector<int> offsets;
-    for (const Eigen::Vector2f& point : points) {
-      const Eigen::Vector2d moved = Pose2{0.0, 0.0, yaw} * point.cast<double>() / config.cell_m;
-      offsets.push_back(static_cast<int>(std::floor(moved.y() + 0.5)) * width +
-                        static_cast<int>(std::floor(moved.x() + 0.5)));
-    }
+    const double yaw = 2.0 * std::numbers::pi * k / directions, scale = 1.0 / config.cell_m;
+    const float middle = 0.5F + static_cast<float>(border);
+    transformToCells(x_m, y_m, static_cast<float>(std::cos(yaw) * scale), static_cast<float>(std::sin(yaw) * scale),
+                     middle, middle, x_cells, y_cells);
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column) {
         if (!map.at(centerOf(column, row)).free) continue;
         int sum = 0;
-        for (const int offset : offsets)
-          sum += values[static_cast<std::size_t>((row + border) * width + column + border + offset)];
-        const double fit = sum / (255.0 * static_cast<double>(points.size()));
-        if (fit > best.fit) best = {{centerOf(column, row).x(), centerOf(column, row).y(), yaw}, fit};
+        for (std::size_t i = 0; i < points.size(); ++i)
+          sum += values[static_cast<std::size_t>((row + y_cells[i]) * width + column + x_cells[i])];
+        if (sum > static_cast<int>(config.least_fit * top)) poses.push_back({-sum, k, row, column});
       }
   }
-  return best;
+  std::sort(poses.begin(), poses.end());
+  const auto same = [&](const GridPose& a, const GridPose& b) {
+    const int off = std::abs(a.direction - b.direction), cells = static_cast<int>(config.distinct_m / config.cell_m);
+    return std::abs(a.row - b.row) <= cells && std::abs(a.column - b.column) <= cells &&
+           std::min(off, directions - off) <= static_cast<int>(config.distinct_deg / 360.0 * directions);
+  };
+  std::vector<GridPose> distinct;
+  std::vector<FittingPlace> places;
+  for (const GridPose& pose : poses) {
+    if (-pose.score <= -poses.front().score - static_cast<int>(margin * top)) break;
+    if (std::any_of(distinct.begin(), distinct.end(), [&](const GridPose& better) { return same(better, pose); }))
+      continue;
+    distinct.push_back(pose);
+    const Eigen::Vector2d at = centerOf(pose.column, pose.row);
+    places.push_back(
+        {{at.x(), at.y(), common::wrapAngle(2.0 * std::numbers::pi * pose.direction / directions)}, -pose.score / top});
+  }
+  return places;
 }
 
-TEST(GlobalSearch, FindsTheBestOfAllPoses) {
+TEST(GlobalSearch, FindsThePlacesThatLookingAtEveryPoseFinds) {
   const test::Building building = test::hall(2);
   const auto field = fieldOf(building);
   const test::Walks walks(building);
   GlobalSearchConfig config;
-  GlobalSearch search(field, config);
+  const GlobalSearch search(field, config);
   common::RandomStream random(5, "poses");
+  std::size_t most = 0;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector2d at = walks.somewhere(random);
     std::vector<Eigen::Vector2f> points = pointsAt(building, {at.x(), at.y(), random.uniform(-3.1, 3.1)}, 10 + i);
     std::vector<Eigen::Vector2f> some;
-    for (std::size_t k = 0; k < points.size(); k += 6) some.push_back(points[k]);
-    const GlobalSearchResult found = search.search(some, 0.1);
-    const FittingPlace best = exhaustively(*field, config, some);
-    ASSERT_FALSE(found.places.empty());
+    for (std::size_t k = 0; k < points.size(); k += 15) some.push_back(points[k]);
+    const GlobalSearchResult found = search.search(some, 0.4);
+    const std::vector<FittingPlace> expected = exhaustively(*field, config, 0.4, some);
     EXPECT_TRUE(found.complete);
-    EXPECT_NEAR(found.places.front().fit, best.fit, 0.003);  // Rounding of ends on the border of two cells.
+    ASSERT_EQ(found.places.size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      EXPECT_EQ(found.places[k].fit, expected[k].fit) << k;
+      EXPECT_LT((found.places[k].T_grid_points.position_m() - expected[k].T_grid_points.position_m()).norm(), 1e-6);
+      EXPECT_NEAR(found.places[k].T_grid_points.yaw_rad, expected[k].T_grid_points.yaw_rad, 1e-9) << k;
+    }
+    most = std::max(most, expected.size());
   }
+  EXPECT_GT(most, 20U);
+}
+
+/// It may not have seen the best, then, but what it gives are places, and it says that there may be more.
+TEST(GlobalSearch, WithRoomForFewBlocksItSaysThatThereMayBeMore) {
+  const test::Building building = test::hall(2);
+  GlobalSearchConfig config;
+  config.max_blocks = 1000;
+  const GlobalSearch search(fieldOf(building), config);
+  std::vector<Eigen::Vector2f> few = pointsAt(building, {5.0, 0.0, 0.4});
+  few.resize(12);
+  const GlobalSearchResult found = search.search(few, 0.4);
+  EXPECT_FALSE(found.complete);
+  for (const FittingPlace& place : found.places) EXPECT_GT(place.fit, config.least_fit);
 }
 
 TEST(GlobalSearch, FindsBothOfTwinPlaces) {
   const test::Building building = test::twinWings(1);
-  GlobalSearch search(fieldOf(building), GlobalSearchConfig{});
+  const GlobalSearch search(fieldOf(building), GlobalSearchConfig{});
   const Pose2 here{7.0, 0.2, 0.4}, twin = Pose2{0.0, 0.0, std::numbers::pi} * here;
   std::vector<Eigen::Vector2f> points = pointsAt(building, here);
   const GlobalSearchResult found = search.search(points, 0.1);
@@ -269,7 +337,7 @@ TEST(PlacePosterior, SharpensWhatTheSearchFound) {
   const auto field = fieldOf(building);
   const test::Walks walks(building);
   common::RandomStream random(6, "poses");
-  GlobalSearch search(field, GlobalSearchConfig{});
+  const GlobalSearch search(field, GlobalSearchConfig{});
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector2d at = walks.somewhere(random);
     const Pose2 truth{at.x(), at.y(), random.uniform(-3.1, 3.1)};
@@ -327,7 +395,7 @@ TEST(LostTest, NoticesAChangeHoweverLongAllWasWell) {
 TEST(LocalMap, OnTheSpotItKeepsTheLastScansOnly) {
   LocalMap map(2.0);
   for (int i = 0; i < 1000; ++i) map.add({0.0, 0.0, 0.26 * i}, {{1.0F, 0.0F}});
-  EXPECT_EQ(map.scans(), 200U);
+  EXPECT_EQ(map.whole(1e-6, 10'000).points_middle_m.size(), 200U);
 }
 
 TEST(WayMeter, CountsNoTremblingAndEveryWay) {
@@ -349,7 +417,6 @@ TEST(LocalMap, ForgetsWhatLiesFarBack) {
   LocalMap map(2.0);
   const std::vector<Eigen::Vector2f> points{{1.0F, 0.0F}, {1.0F, 1.0F}, {1.01F, 1.01F}};
   for (int i = 0; i <= 10; ++i) map.add({0.5 * i, 0.0, 0.0}, points);
-  EXPECT_EQ(map.scans(), 5U);
   EXPECT_NEAR(map.length_m(), 2.0, 1e-9);
   const LocalMap::Whole whole = map.whole(0.15, 100);
   EXPECT_EQ(whole.points_middle_m.size(), 10U);  // The third point shares its square with the second.
