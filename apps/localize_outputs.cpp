@@ -62,7 +62,7 @@ std::string mapDrawing(const common::World& world, const Ways& ways_grid_m) {
   std::vector<rendering::MapLine> lines;
   std::vector<rendering::MapMark> marks;
   for (const std::vector<Eigen::Vector2d>& way : ways_grid_m) {
-    lines.push_back({lines.empty() ? "localized" : "", way, false});
+    lines.push_back({"localized", way, false});
     marks.push_back({fmt::format("{}", marks.size() + 1), way.front()});
   }
   return rendering::mapSvg(world, lines, marks);

@@ -46,8 +46,9 @@ struct LocalizeFigures {
   std::vector<common::Event> events;
   Spool<LocalizedScan> track;  ///< What was localized.
   LocalizedWays ways;
-  ThinnedCurve unexplained;   ///< Per cent of each scan while localized, over its index; the greatest of neighbours.
-  ThinnedCurve milliseconds;  ///< Over the index of the scan.
+  rendering::ThinnedCurve
+      unexplained;  ///< Per cent of each scan while localized, over its index; the greatest of neighbours.
+  rendering::ThinnedCurve milliseconds;  ///< Over the index of the scan.
 };
 
 /// Writes all files into `out`, all but trajectory.tum in one step each. Throws InputError when one cannot be written.

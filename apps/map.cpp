@@ -36,7 +36,7 @@ struct MapRun {
 
   perception::LaserSlam slam;
   TrackSpool track;
-  ThinnedCurve milliseconds;
+  rendering::ThinnedCurve milliseconds;
   std::uint64_t unmatched = 0;
   double wall_s = 0.0;
 };

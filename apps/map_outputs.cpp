@@ -24,7 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using common::Pose2;
 
-constexpr std::size_t kCurvePoints = 2000;
 /// Points of a trajectory nearer than this to the one before are not drawn.
 constexpr double kDrawnStep_m = 0.05;
 constexpr std::size_t kDrawnPoints = 50'000;
@@ -79,26 +78,12 @@ std::string mapPicture(const common::World& world) {
 
 }  // namespace
 
-void ThinnedCurve::add(double x, double y) {
-  if (pending_ == 0)
-    points_.emplace_back(x, y);
-  else
-    points_.back().y() = std::max(points_.back().y(), y);
-  pending_ = (pending_ + 1) % stride_;
-  if (points_.size() <= kCurvePoints) return;
-  for (std::size_t i = 0; 2 * i + 1 < points_.size(); ++i)
-    points_[i] = {points_[2 * i].x(), std::max(points_[2 * i].y(), points_[2 * i + 1].y())};
-  points_.resize(points_.size() / 2);
-  stride_ *= 2;
-  pending_ = 0;
-}
-
-std::string plotOver(const std::string& title, const std::string& unit, const ThinnedCurve& curve) {
+std::string plotOver(const std::string& title, const std::string& unit, const rendering::ThinnedCurve& curve) {
   rendering::Plot plot;
   plot.title = title;
   plot.x_label = "scan";
   plot.y_label = unit;
-  plot.series = {{"greatest of its neighbours", curve.points(), false}};
+  plot.series = {{"greatest of each stretch", curve.points(), false}};
   plot.y_min = 0.0;
   return rendering::plotSvg(plot);
 }
@@ -119,7 +104,7 @@ void writeMapOutputs(const fs::path& out, perception::LaserSlam& slam, const Tra
   std::vector<rendering::MapLine> lines{{"trajectory", line, false}};
   for (const perception::SlamEdge& edge : slam.slam().edges())
     if (edge.loop)
-      lines.push_back({"",
+      lines.push_back({"loop closures",
                        {keys[static_cast<std::size_t>(edge.from)].position_m(),
                         keys[static_cast<std::size_t>(edge.to)].position_m()},
                        true});

@@ -13,6 +13,7 @@
 #include "apps/spool.hpp"
 #include "common/time.hpp"
 #include "perception/slam2d/laser_slam.hpp"
+#include "rendering/thinned_curve.hpp"
 
 namespace swiftlet::apps {
 
@@ -26,25 +27,14 @@ struct StampedScan {
 };
 using TrackSpool = Spool<StampedScan>;
 
-/// A curve of bounded length, whatever the number of values: neighbours are joined, the greatest of them stays.
-class ThinnedCurve {
- public:
-  void add(double x, double y);
-  const std::vector<Eigen::Vector2d>& points() const { return points_; }
-
- private:
-  std::vector<Eigen::Vector2d> points_;
-  int stride_ = 1, pending_ = 0;
-};
-
 /// SVG of a curve over the scans of a log.
-std::string plotOver(const std::string& title, const std::string& unit, const ThinnedCurve& curve);
+std::string plotOver(const std::string& title, const std::string& unit, const rendering::ThinnedCurve& curve);
 
 struct MapFigures {
   std::string log;
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<std::string> warnings;
-  ThinnedCurve milliseconds;  ///< Over the index of the scan.
+  rendering::ThinnedCurve milliseconds;  ///< Over the index of the scan.
 };
 
 /// Writes all files into `out`, all but trajectory.tum in one step each. Throws InputError when one cannot be written.
