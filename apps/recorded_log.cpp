@@ -1,5 +1,8 @@
 #include "apps/recorded_log.hpp"
 
+#include <initializer_list>
+#include <string_view>
+
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -14,6 +17,13 @@ std::unique_ptr<interfaces::LaserLog> opened(const RecordedLogOptions& options) 
   interfaces::LaserLogOptions log_options;
   if (!options.sensor.empty()) log_options.sensor = loadLaser(options.sensor);
   return interfaces::openLaserLog(options.file, log_options);
+}
+
+/// Without the first of the endings it has.
+std::string without(std::string name, std::initializer_list<std::string_view> endings) {
+  for (const std::string_view ending : endings)
+    if (name.size() > ending.size() && name.ends_with(ending)) return name.substr(0, name.size() - ending.size());
+  return name;
 }
 
 }  // namespace
@@ -35,8 +45,9 @@ void addLogOptions(CLI::App& command, RecordedLogOptions& options, const std::st
 
 fs::path folderFor(const RecordedLogOptions& options, const std::string& suffix) {
   if (!options.out.empty()) return options.out;
-  const std::string name = fs::path(options.file).filename().string();
-  return fmt::format("{}-{}", name.substr(0, name.find('.')), suffix);
+  // Of known endings only: day.01.clf and day.02.clf are two logs.
+  const std::string unpacked = without(fs::path(options.file).filename().string(), {".gz", ".bz2", ".xz"});
+  return fmt::format("{}-{}", without(unpacked, {".clf", ".log", ".bag", ".dat", ".txt"}), suffix);
 }
 
 std::string plural(std::uint64_t count, const std::string& one, const std::string& more) {

@@ -235,6 +235,26 @@ TEST_F(Map, AnOlderMapIsReplacedAndNothingElse) {
   EXPECT_THAT(end.err, HasSubstr("is not a folder"));
 }
 
+TEST_F(Map, ATemporaryFileThatCannotBeWrittenIsTold) {
+  test_support::ProgramOptions full_disk;
+  full_disk.largest_file_bytes = 3000;
+  // Few enough scans that all of them wait in memory until they are read.
+  const ProgramEnd end = runSwiftlet({"map", write("a.log", walk(80)), "--out", path("out"), "--json"}, full_disk);
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("temporary file of the trajectory cannot be written"));
+}
+
+TEST_F(Map, TheFolderIsNamedAfterTheLogWithoutItsEndings) {
+  test_support::ProgramOptions here;
+  here.working_folder = folder_.string();
+  for (const char* name : {"day.01.clf", "day.02.clf", "noending"}) write(name, walk(5));
+  ASSERT_EQ(std::system(("gzip -k " + path("day.02.clf")).c_str()), 0);
+  for (const char* name : {"day.01.clf", "day.02.clf.gz", "noending"})
+    EXPECT_EQ(runSwiftlet({"map", name, "--json"}, here).exit_code, 0) << name;
+  for (const char* folder : {"day.01-map", "day.02-map", "noending-map"})
+    EXPECT_TRUE(fs::exists(folder_ / folder / "map.yaml")) << folder;
+}
+
 TEST_F(Map, AFullDiskIsTold) {
   test_support::ProgramOptions full_disk;
   full_disk.largest_file_bytes = 3000;
