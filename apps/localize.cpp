@@ -139,7 +139,7 @@ int localize(const LocalizeOptions& options) {
         Eigen::Vector3d(kStart_m * kStart_m, kStart_m * kStart_m, yaw_rad * yaw_rad).asDiagonal());
   }
   RecordedLog log(options.log);
-  const ResultsFolder folder(folderFor(options.log, kSuffix), kLocalizeResults);
+  ResultsFolder folder(folderFor(options.log, kSuffix), kLocalizeResults);
   const fs::path& out = folder.path();
   LocalizeRun run;
   localizeLog(log, options, localizer, run);
@@ -157,7 +157,8 @@ int localize(const LocalizeOptions& options) {
                      {"at the end", toString(run.state)},
                      {"time", fmt::format("{:.1f} s", run.wall_s)},
                      {"scans a second", fmt::format("{:.0f}", static_cast<double>(log.scans()) / run.wall_s)}};
-  writeLocalizeOutputs(out, map, run.shown);
+  writeLocalizeOutputs(folder.unfinished(), map, run.shown);
+  folder.publish();
   if (options.log.json)
     show(figuresOf(options, log, run, counts, out).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
          "\n");

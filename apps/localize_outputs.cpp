@@ -105,7 +105,7 @@ void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::St
   const common::World world = worldOf(map);
   const Ways ways = inGrid(figures.ways.ways_map_m(), map.T_map_grid);
   interfaces::LocalizationReport report;
-  report.title = fmt::format("{}{} in {}", kLocalizeResults.title, figures.log, figures.map);
+  report.title = fmt::format("{}{} in {}", kLocalizeTitle, figures.log, figures.map);
   report.facts = figures.facts;
   report.warnings = figures.warnings;
   report.events = tableOf(figures.events);

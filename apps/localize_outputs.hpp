@@ -30,8 +30,11 @@ class LocalizedWays {
   bool open_ = false;
 };
 
-inline const ResultsKind kLocalizeResults{
-    "localization", "Localization of ", {"trajectory.tum", "events.jsonl", "map.png", "report.html"}};
+inline const std::string kLocalizeTitle = "Localization of ";
+inline const ResultsKind kLocalizeResults{"localization",
+                                          "report.html",
+                                          "<title>" + kLocalizeTitle,
+                                          {"report.html", "trajectory.tum", "events.jsonl", "map.png"}};
 
 /// Where the robot was at a scan of the log, under the log's own stamp.
 struct LocalizedScan {
@@ -51,7 +54,7 @@ struct LocalizeFigures {
   rendering::ThinnedCurve milliseconds;  ///< Over the index of the scan.
 };
 
-/// Writes all files into `out`, all but trajectory.tum in one step each. Throws InputError when one cannot be written.
+/// Writes all files into the folder `out`. Throws InputError when one cannot be written.
 void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
                           const LocalizeFigures& figures);
 

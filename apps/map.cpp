@@ -91,7 +91,7 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& l
 
 int map(const MapOptions& options) {
   RecordedLog log(options.log);
-  const ResultsFolder folder(folderFor(options.log, kSuffix), kMapResults);
+  ResultsFolder folder(folderFor(options.log, kSuffix), kMapResults);
   const fs::path& out = folder.path();
   MapRun run(options);
   mapLog(log, options, run);
@@ -109,7 +109,8 @@ int map(const MapOptions& options) {
                  {"loops closed", fmt::format("{}", run.slam.slam().counts().loops_closed)},
                  {"time", fmt::format("{:.1f} s", run.wall_s)},
                  {"scans a second", fmt::format("{:.0f}", static_cast<double>(log.scans()) / run.wall_s)}};
-  writeMapOutputs(out, run.slam, run.track, shown);
+  writeMapOutputs(folder.unfinished(), run.slam, run.track, shown);
+  folder.publish();
   if (options.log.json) {
     show(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return exit_code;

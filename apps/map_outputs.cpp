@@ -110,7 +110,7 @@ void writeMapOutputs(const fs::path& out, perception::LaserSlam& slam, const Tra
                        true});
 
   interfaces::MapReport report;
-  report.title = kMapResults.title + figures.log;
+  report.title = kMapTitle + figures.log;
   report.facts = figures.facts;
   report.warnings = figures.warnings;
   report.map_svg = rendering::mapSvg(world, lines, {{"begin", keys.front().position_m()}});

@@ -17,8 +17,11 @@
 
 namespace swiftlet::apps {
 
-inline const ResultsKind kMapResults{
-    "map", "Map of ", {"map.pgm", "map.yaml", "map.png", "trajectory.tum", "graph.g2o", "report.html"}};
+inline const std::string kMapTitle = "Map of ";
+inline const ResultsKind kMapResults{"map",
+                                     "report.html",
+                                     "<title>" + kMapTitle,
+                                     {"report.html", "map.pgm", "map.yaml", "map.png", "trajectory.tum", "graph.g2o"}};
 
 /// A scan of the log, under the log's own stamp.
 struct StampedScan {
@@ -37,7 +40,7 @@ struct MapFigures {
   rendering::ThinnedCurve milliseconds;  ///< Over the index of the scan.
 };
 
-/// Writes all files into `out`, all but trajectory.tum in one step each. Throws InputError when one cannot be written.
+/// Writes all files into the folder `out`. Throws InputError when one cannot be written.
 void writeMapOutputs(const std::filesystem::path& out, perception::LaserSlam& slam, const TrackSpool& track,
                      const MapFigures& figures);
 
