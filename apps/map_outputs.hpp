@@ -11,6 +11,7 @@
 
 #include "apps/results_folder.hpp"
 #include "apps/spool.hpp"
+#include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 #include "rendering/thinned_curve.hpp"
@@ -40,8 +41,12 @@ struct MapFigures {
   rendering::ThinnedCurve milliseconds;  ///< Over the index of the scan.
 };
 
-/// Writes all files into the folder `out`. Throws InputError when one cannot be written.
-void writeMapOutputs(const std::filesystem::path& out, perception::LaserSlam& slam, const TrackSpool& track,
-                     const MapFigures& figures);
+/// Why a map cannot be written, for people: it is larger than readMap reads. Empty when it can.
+std::string whyNoMap(const common::OccupancyGrid& map);
+
+/// Writes all files into the folder `out`; without `map`, no map and no picture of it. Throws InputError when one
+/// cannot be written.
+void writeMapOutputs(const std::filesystem::path& out, const perception::LaserSlam& slam,
+                     const common::OccupancyGrid* map, const TrackSpool& track, const MapFigures& figures);
 
 }  // namespace swiftlet::apps

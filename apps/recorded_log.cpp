@@ -60,7 +60,11 @@ RecordedLog::RecordedLog(const RecordedLogOptions& options)
 std::optional<interfaces::LoggedScan> RecordedLog::next() {
   try {
     auto logged = reader_->next();
-    scans_ += logged ? 1 : 0;
+    if (!logged) return logged;
+    ++scans_;
+    if (!first_stamp_) first_stamp_ = logged->scan.stamps.measured;
+    duration_s_ = (logged->scan.stamps.measured - *first_stamp_).seconds();
+    stamps_differ_ = stamps_differ_ || logged->scan.stamps.measured != *first_stamp_;
     return logged;
   } catch (const common::InputError& e) {
     if (scans_ == 0) throw;
@@ -83,12 +87,25 @@ std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts
   }
   if (const auto n = reader_->counts().invalid_ranges; n > 0)
     warnings.push_back(plural(n, "range is", "ranges are") + " negative or not a number");
-  if (const auto n = found.doubtful_stamps; n > 0)
+  if (hasOneStamp())
+    warnings.push_back(
+        fmt::format("all scans have the same stamp, {:.3f} s: the order of the file is believed; the poses of the "
+                    "trajectory cannot "
+                    "be told apart by time, and `evaluate` cannot pair them",
+                    first_stamp_->seconds()));
+  else if (const auto n = found.doubtful_stamps; n > 0)
     warnings.push_back(plural(n, "time stamp does", "time stamps do") +
                        " not come after the one before: the order of the file is believed, not the intervals");
   if (const auto n = found.doubtful_odometry; n > 0)
     warnings.push_back(plural(n, "step", "steps") + " of the odometry no robot makes; not believed");
   return warnings;
+}
+
+std::vector<std::pair<std::string, std::string>> RecordedLog::facts() const {
+  std::vector<std::pair<std::string, std::string>> facts{{"format", reader_->format()},
+                                                         {"scans", fmt::format("{}", scans_)}};
+  if (duration_s_ > 0.0) facts.emplace_back("duration", fmt::format("{:.1f} s", duration_s_));
+  return facts;
 }
 
 common::InputError RecordedLog::error(const std::string& message) const {

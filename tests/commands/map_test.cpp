@@ -317,6 +317,43 @@ TEST_F(Map, AFolderThatCannotBeWrittenIsToldBeforeTheWork) {
   EXPECT_THAT(end.err, Not(HasSubstr("scans"))) << "no progress was shown";
 }
 
+/// Scans that have nothing in common, each so far from the one before.
+std::string jumps(int scans, double step_m) {
+  std::string log;
+  unsigned noise = 1;
+  for (int i = 0; i < scans; ++i) {
+    log += "FLASER 45";
+    for (int beam = 0; beam < 45; ++beam) {
+      noise = noise * 1664525u + 1013904223u;
+      log += fmt::format(" {:.2f}", 1.0 + 20.0 * (noise >> 8) / (1u << 24));
+    }
+    log += fmt::format(" {0:.2f} 0 0 {0:.2f} 0 0 {1}.0 host {1}.0\n", step_m * i, 100 + i);
+  }
+  return log;
+}
+
+TEST_F(Map, AMapThatNobodyCouldReadIsNotWritten) {
+  const ProgramEnd end = map(write("a.log", jumps(200, 9.0)));
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  EXPECT_THAT(end.err, ContainsRegex("the map would be 3[0-9]{4} by [0-9]+ cells of 0\\.05 m: the log's odometry or "
+                                     "scans jump; trajectory and graph are written, the map is not"));
+  EXPECT_THAT(notesOf(nlohmann::json::parse(end.out)), HasSubstr("the map would be"));
+  EXPECT_EQ(namesIn("out"), (std::set<std::string>{"graph.g2o", "report.html", "trajectory.tum"}));
+}
+
+TEST_F(Map, AMapOfScansThatDoNotFitIsDoubted) {
+  EXPECT_THAT(notesOf(mapped(jumps(30, 1.0))),
+              HasSubstr("the map is probably wrong in places: 29 of 30 scans matched nothing"));
+}
+
+TEST_F(Map, StampsThatTellNothingAreTold) {
+  std::string log;
+  for (int i = 0; i < 20; ++i) log += scan(-2.0 + 0.03 * i, 0.0);
+  const std::string notes = notesOf(mapped(log));
+  EXPECT_THAT(notes, HasSubstr("all scans have the same stamp, 0.000 s"));
+  EXPECT_THAT(notes, Not(HasSubstr("time stamps do not come after")));
+}
+
 TEST_F(Map, ATemporaryFileThatCannotBeWrittenIsTold) {
   test_support::ProgramOptions full_disk;
   full_disk.largest_file_bytes = 3000;
