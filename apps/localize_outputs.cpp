@@ -120,8 +120,8 @@ void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::St
   const common::World world = worldOf(map);
   const Ways ways = inGrid(figures.ways.ways_map_m(), map.T_map_grid);
   interfaces::LocalizationReport report;
-  report.title = fmt::format("{}{} in {}", kLocalizeTitle, std::filesystem::path(figures.log).filename().string(),
-                             std::filesystem::path(figures.map).filename().string());
+  report.title =
+      fmt::format("{}{} in {}", kLocalizeTitle, std::filesystem::path(figures.log).filename().string(), figures.map);
   report.facts = figures.facts;
   report.warnings = figures.warnings;
   report.events = tableOf(told(figures.events, figures.has_stamps));
