@@ -18,7 +18,7 @@ class Spool {
  public:
   /// Throws InputError when there is no room for temporary files.
   Spool() : file_(std::tmpfile()) {
-    if (!file_) throw common::InputError(common::Problem{{}, "", "no temporary file can be made", "is the disk full?"});
+    if (!file_) throw common::InputError(common::Problem{{}, "", "no temporary file can be made", "is /tmp full?"});
   }
 
   /// Throws InputError when there is no room left.
@@ -40,7 +40,7 @@ class Spool {
  private:
   static common::InputError full() {
     return common::InputError(
-        common::Problem{{}, "", "the temporary file of the trajectory cannot be written", "is the disk full?"});
+        common::Problem{{}, "", "the temporary file of the trajectory cannot be written", "is /tmp full?"});
   }
 
   struct Close {
