@@ -48,7 +48,23 @@ common::Pose2 parseStart(const std::string& text) {
   return {x_m, y_m, common::wrapAngle(yaw_deg * common::kRadPerDeg)};
 }
 
+/// Throws InputError for a start beside the map: nothing seen there would speak against it.
+void refuseOutside(const common::Pose2& T_map_start, const interfaces::StoredMap& map, const std::string& text) {
+  const Eigen::Vector2d start_grid_m = map.T_map_grid.inverse() * T_map_start.position_m();
+  const common::CellRect known = common::knownExtent(map.grid);
+  const Eigen::Vector2d low_grid_m = Eigen::Vector2d(known.begin.x, known.begin.y) * map.grid.resolution_m();
+  const Eigen::Vector2d high_grid_m = Eigen::Vector2d(known.end.x, known.end.y) * map.grid.resolution_m();
+  if ((start_grid_m.array() >= low_grid_m.array()).all() && (start_grid_m.array() <= high_grid_m.array()).all()) return;
+  const Eigen::Vector2d a_m = map.T_map_grid * low_grid_m, b_m = map.T_map_grid * high_grid_m;
+  throw common::InputError(common::Problem{
+      {},
+      "--start",
+      fmt::format("`{}` lies outside the map", text),
+      fmt::format("two of its corners are {:.1f};{:.1f} and {:.1f};{:.1f}", a_m.x(), a_m.y(), b_m.x(), b_m.y())});
+}
+
 struct LocalizeRun {
+  std::uint64_t estimates = 0;  ///< Scans from the first with points enough on.
   std::uint64_t localized = 0, times_localized = 0, times_lost = 0;
   LocalizationState state = LocalizationState::kGlobal;
   LocalizeFigures shown;
@@ -56,12 +72,13 @@ struct LocalizeRun {
 };
 
 /// The event, stamped as the log is; `run.state` is that before it.
-void note(const perception::LocalizationEvent& event, common::Time stamp, LocalizeRun& run) {
+void note(const perception::LocalizationEvent& event, common::Time stamp, std::uint64_t scan, LocalizeRun& run) {
   run.times_localized += event.state == LocalizationState::kLocalized ? 1 : 0;
   const bool lost = event.state == LocalizationState::kLost;
   run.times_lost += lost && run.state == LocalizationState::kLocalized ? 1 : 0;
-  run.shown.events.push_back({stamp, lost ? common::Severity::kWarning : common::Severity::kInfo, "localization",
-                              toString(event.state), event.reason});
+  run.shown.events.push_back({{stamp, lost ? common::Severity::kWarning : common::Severity::kInfo, "localization",
+                               toString(event.state), event.reason},
+                              scan});
 }
 
 void localizeLog(RecordedLog& log, const LocalizeOptions& options, perception::LogLocalizer& localizer,
@@ -74,9 +91,10 @@ void localizeLog(RecordedLog& log, const LocalizeOptions& options, perception::L
     const auto index = static_cast<double>(log.scans() - 1);
     run.shown.milliseconds.add(index, 1e3 * secondsSince(scan_begin));
     if (!estimate) continue;
+    ++run.estimates;
     const common::Time stamp = logged->scan.stamps.measured;
     run.shown.ways.add(*estimate);
-    if (estimate->event) note(*estimate->event, stamp, run);
+    if (estimate->event) note(*estimate->event, stamp, log.scans() - 1, run);
     run.state = estimate->state;
     if (estimate->state == LocalizationState::kLocalized) {
       ++run.localized;
@@ -102,8 +120,8 @@ std::vector<std::string> warningsOf(const RecordedLog& log, const perception::Lo
 nlohmann::ordered_json figuresOf(const LocalizeOptions& options, const RecordedLog& log, const LocalizeRun& run,
                                  const perception::LogLocalizerCounts& counts, const fs::path& out) {
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
-  for (const common::Event& event : run.shown.events)
-    events.push_back({{"t_s", event.stamp.seconds()}, {"state", event.text}, {"reason", event.reason}});
+  for (const auto& [event, scan] : run.shown.events)
+    events.push_back({{"t_s", event.stamp.seconds()}, {"scan", scan}, {"state", event.text}, {"reason", event.reason}});
   return {{"map", options.map},
           {"log", options.log.file},
           {"out", out.string()},
@@ -123,50 +141,62 @@ nlohmann::ordered_json figuresOf(const LocalizeOptions& options, const RecordedL
 
 void showForPeople(const LocalizeRun& run, const fs::path& out) {
   for (const std::string& warning : run.shown.warnings) show("note: " + warning + "\n");
-  for (const common::Event& event : run.shown.events)
-    show(fmt::format("{:.3f} s  {}: {}\n", event.stamp.seconds(), event.text, event.reason));
+  for (const ToldEvent& event : told(run.shown.events, run.shown.has_stamps))
+    show(fmt::format("{}  {}: {}\n", event.when, event.state, event.reason));
   for (const auto& [label, value] : run.shown.facts) show(fmt::format("{:<14} {}\n", label, value));
   show(fmt::format("{}\n", (out / "report.html").string()));
+}
+
+std::vector<std::pair<std::string, std::string>> factsOf(const RecordedLog& log, const LocalizeRun& run) {
+  const auto scans = static_cast<double>(log.scans());
+  auto facts = log.facts();
+  facts.insert(facts.end(), {{"localized", fmt::format("{:.1f} %", 100.0 * static_cast<double>(run.localized) / scans)},
+                             {"times lost", fmt::format("{}", run.times_lost)},
+                             {"at the end", toString(run.state)},
+                             {"computing time", fmt::format("{:.1f} s", run.wall_s)},
+                             {"scans a second", fmt::format("{:.0f}", scans / run.wall_s)}});
+  return facts;
 }
 
 int localize(const LocalizeOptions& options) {
   const interfaces::StoredMap map = readUsableMap(options.map);
   perception::LogLocalizer localizer(map.grid, map.T_map_grid, {}, static_cast<std::uint64_t>(options.seed));
   if (!options.start.empty()) {
+    const common::Pose2 T_map_start = parseStart(options.start);
+    refuseOutside(T_map_start, map, options.start);
     const double yaw_rad = kStart_deg * common::kRadPerDeg;
     localizer.localizer().startAt(
-        parseStart(options.start),
-        Eigen::Vector3d(kStart_m * kStart_m, kStart_m * kStart_m, yaw_rad * yaw_rad).asDiagonal());
+        T_map_start, Eigen::Vector3d(kStart_m * kStart_m, kStart_m * kStart_m, yaw_rad * yaw_rad).asDiagonal());
   }
   RecordedLog log(options.log);
-  const ResultsFolder folder(folderFor(options.log, kSuffix), kLocalizeResults);
+  ResultsFolder folder(folderFor(options.log, kSuffix), kLocalizeResults);
   const fs::path& out = folder.path();
   LocalizeRun run;
   localizeLog(log, options, localizer, run);
   if (log.scans() == 0) throw log.error("no scan in it could be read");
+  if (run.estimates == 0)
+    throw log.error(fmt::format("not localized: none of its {} scans has points enough", log.scans()));
   if (!log.damage().empty()) fmt::print(stderr, "{}\n", log.damage());
 
   const perception::LogLocalizerCounts counts = localizer.counts();
   run.shown.map = options.map;
   run.shown.log = options.log.file;
   run.shown.warnings = warningsOf(log, counts);
-  run.shown.facts = {{"scans", fmt::format("{}", log.scans())},
-                     {"localized", fmt::format("{:.1f} %", 100.0 * static_cast<double>(run.localized) /
-                                                               static_cast<double>(log.scans()))},
-                     {"times lost", fmt::format("{}", run.times_lost)},
-                     {"at the end", toString(run.state)},
-                     {"time", fmt::format("{:.1f} s", run.wall_s)},
-                     {"scans a second", fmt::format("{:.0f}", static_cast<double>(log.scans()) / run.wall_s)}};
-  writeLocalizeOutputs(out, map, run.shown);
+  run.shown.has_stamps = !log.hasOneStamp();
+  run.shown.facts = factsOf(log, run);
+  writeLocalizeOutputs(folder.unfinished(), map, run.shown);
+  folder.publish();
   if (options.log.json)
     show(figuresOf(options, log, run, counts, out).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
          "\n");
   else
     showForPeople(run, out);
   // A place that was given counts as long as nothing spoke against it.
-  const bool given = !options.start.empty();
-  const bool localized = run.times_localized > (given ? 1U : 0U) || (given && run.times_lost == 0);
-  if (!localized && !options.log.json) show("never localized: is the log of another place, or floor?\n");
+  const bool given = !options.start.empty(), given_lost = given && run.times_lost > 0;
+  const bool localized = run.localized > 0 && (run.times_localized > (given ? 1U : 0U) || (given && !given_lost));
+  if (!localized && !options.log.json)
+    show(given_lost ? "the given start was followed until it was lost, and no place found since: was it right?\n"
+                    : "never localized: is the log of another place, or floor?\n");
   return localized && log.damage().empty() ? kDone : kFailed;
 }
 

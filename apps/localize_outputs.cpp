@@ -62,7 +62,7 @@ std::string mapDrawing(const common::World& world, const Ways& ways_grid_m) {
   std::vector<rendering::MapLine> lines;
   std::vector<rendering::MapMark> marks;
   for (const std::vector<Eigen::Vector2d>& way : ways_grid_m) {
-    lines.push_back({lines.empty() ? "localized" : "", way, false});
+    lines.push_back({"localized", way, false});
     marks.push_back({fmt::format("{}", marks.size() + 1), way.front()});
   }
   return rendering::mapSvg(world, lines, marks);
@@ -75,13 +75,11 @@ void writeTrajectory(const std::filesystem::path& file, const Spool<LocalizedSca
   });
 }
 
-common::Table tableOf(const std::vector<common::Event>& events) {
-  common::Table table{"", {"time (s)", "state", "reason"}, {}};
-  for (const common::Event& event : events)
+common::Table tableOf(const std::vector<ToldEvent>& events) {
+  common::Table table{"", {"when", "state", "reason"}, {}};
+  for (const ToldEvent& event : events)
     table.rows.push_back(
-        {{fmt::format("{:.3f}", event.stamp.seconds())},
-         {event.text, event.severity == common::Severity::kWarning ? common::Mark::kBad : common::Mark::kNone},
-         {event.reason}});
+        {{event.when}, {event.state, event.bad ? common::Mark::kBad : common::Mark::kNone}, {event.reason}});
   return table;
 }
 
@@ -100,20 +98,38 @@ void LocalizedWays::add(const perception::LocalizationEstimate& estimate) {
   open_ = true;
 }
 
+std::vector<ToldEvent> told(const std::vector<LoggedEvent>& events, bool has_stamps) {
+  std::vector<ToldEvent> told;
+  std::size_t again = 0;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const common::Event& event = events[i].event;
+    const std::string when =
+        has_stamps ? fmt::format("{:.3f} s", event.stamp.seconds()) : fmt::format("scan {}", events[i].scan);
+    const bool repeated = i > 0 && event.text == events[i - 1].event.text && event.reason == events[i - 1].event.reason;
+    again = repeated ? again + 1 : 0;
+    if (repeated)
+      told.back().reason = fmt::format("{} (again {} x, the last at {})", event.reason, again, when);
+    else
+      told.push_back({when, event.text, event.reason, event.severity == common::Severity::kWarning});
+  }
+  return told;
+}
+
 void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
                           const LocalizeFigures& figures) {
   const common::World world = worldOf(map);
   const Ways ways = inGrid(figures.ways.ways_map_m(), map.T_map_grid);
   interfaces::LocalizationReport report;
-  report.title = fmt::format("{}{} in {}", kLocalizeResults.title, figures.log, figures.map);
+  report.title =
+      fmt::format("{}{} in {}", kLocalizeTitle, std::filesystem::path(figures.log).filename().string(), figures.map);
   report.facts = figures.facts;
   report.warnings = figures.warnings;
-  report.events = tableOf(figures.events);
+  report.events = tableOf(told(figures.events, figures.has_stamps));
   report.map_svg = mapDrawing(world, ways);
   report.plots_svg = {plotOver("Not explained by the map", "% of a scan", figures.unexplained),
                       plotOver("Time per scan", "ms", figures.milliseconds)};
   std::string events;
-  for (const common::Event& event : figures.events) events += interfaces::toJson(event) + "\n";
+  for (const LoggedEvent& logged : figures.events) events += interfaces::toJson(logged.event) + "\n";
   writeTrajectory(out / "trajectory.tum", figures.track);
   required(interfaces::writeAtomically(out / "events.jsonl", events));
   required(interfaces::writeAtomically(out / "map.png", mapPicture(world, ways)));

@@ -1,6 +1,7 @@
 // What `swiftlet localize` leaves: trajectory.tum, events.jsonl, map.png and report.html.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -30,8 +31,11 @@ class LocalizedWays {
   bool open_ = false;
 };
 
-inline const ResultsKind kLocalizeResults{
-    "localization", "Localization of ", {"trajectory.tum", "events.jsonl", "map.png", "report.html"}};
+inline const std::string kLocalizeTitle = "Localization of ";
+inline const ResultsKind kLocalizeResults{"localization",
+                                          "report.html",
+                                          "<title>" + kLocalizeTitle,
+                                          {"report.html", "trajectory.tum", "events.jsonl", "map.png"}};
 
 /// Where the robot was at a scan of the log, under the log's own stamp.
 struct LocalizedScan {
@@ -39,18 +43,34 @@ struct LocalizedScan {
   common::Pose2 T_map_body;
 };
 
+/// A change of state, and the scan of the log it came with, counted from 0.
+struct LoggedEvent {
+  common::Event event;
+  std::uint64_t scan = 0;
+};
+
+/// An event for people; what came again with nothing else between is told once.
+struct ToldEvent {
+  std::string when;  ///< "12.300 s", or "scan 123" of a log whose stamps tell nothing.
+  std::string state, reason;
+  bool bad = false;
+};
+std::vector<ToldEvent> told(const std::vector<LoggedEvent>& events, bool has_stamps);
+
 struct LocalizeFigures {
   std::string map, log;
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<std::string> warnings;
-  std::vector<common::Event> events;
+  std::vector<LoggedEvent> events;
+  bool has_stamps = true;      ///< The log's stamps tell its scans apart.
   Spool<LocalizedScan> track;  ///< What was localized.
   LocalizedWays ways;
-  ThinnedCurve unexplained;   ///< Per cent of each scan while localized, over its index; the greatest of neighbours.
-  ThinnedCurve milliseconds;  ///< Over the index of the scan.
+  rendering::ThinnedCurve
+      unexplained;  ///< Per cent of each scan while localized, over its index; the greatest of neighbours.
+  rendering::ThinnedCurve milliseconds;  ///< Over the index of the scan.
 };
 
-/// Writes all files into `out`, all but trajectory.tum in one step each. Throws InputError when one cannot be written.
+/// Writes all files into the folder `out`. Throws InputError when one cannot be written.
 void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
                           const LocalizeFigures& figures);
 

@@ -20,6 +20,10 @@ namespace fs = std::filesystem;
 /// Ends the name of the folder for the results.
 constexpr const char* kSuffix = "map";
 
+/// A map of which more scans than one in so many matched nothing, or lost the track, is not believed.
+constexpr std::uint64_t kOneUnmatchedOf = 10;
+constexpr std::uint64_t kOneLostOf = 100;
+
 struct MapOptions {
   RecordedLogOptions log;
   std::string slam = "graph";
@@ -36,7 +40,7 @@ struct MapRun {
 
   perception::LaserSlam slam;
   TrackSpool track;
-  ThinnedCurve milliseconds;
+  rendering::ThinnedCurve milliseconds;
   std::uint64_t unmatched = 0;
   double wall_s = 0.0;
 };
@@ -52,8 +56,8 @@ void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
     run.unmatched += tracked->matched ? 0 : 1;
     run.track.add({logged->scan.stamps.measured, *tracked});
     if (log.scans() % 50 == 0)
-      line.update(fmt::format("{:3.0f} %  {} scans, {} key scans, {} loops", 100.0 * log.reader().progress(),
-                              log.scans(), run.slam.keyScans(), run.slam.slam().counts().loops_closed),
+      line.update(fmt::format("{:3.0f} %  {} scans, {} key scans, {}", 100.0 * log.reader().progress(), log.scans(),
+                              run.slam.keyScans(), plural(run.slam.slam().counts().loops_closed, "loop", "loops")),
                   secondsSince(begin));
   }
   run.slam.finish();
@@ -63,13 +67,19 @@ void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
 
 std::vector<std::string> warningsOf(const RecordedLog& log, const MapRun& run) {
   std::vector<std::string> warnings = log.warnings(run.slam.counts());
-  if (const auto n = run.slam.odometryCounts().restarts; n > 0)
+  const auto restarts = run.slam.odometryCounts().restarts;
+  if (kOneUnmatchedOf * run.unmatched > log.scans() || kOneLostOf * restarts > log.scans())
+    warnings.insert(warnings.begin(),
+                    fmt::format("the map is probably wrong in places: {} of {} scans matched nothing, and stand where "
+                                "they were expected",
+                                run.unmatched, log.scans()));
+  if (const auto n = restarts; n > 0)
     warnings.push_back("the track was lost " + plural(n, "time", "times") + " and begun anew where it was expected");
   return warnings;
 }
 
 nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& log, const MapRun& run,
-                                 const fs::path& out) {
+                                 const std::vector<std::string>& notes, const fs::path& out) {
   const interfaces::LaserLogCounts& read = log.reader().counts();
   return {{"log", options.log.file},
           {"format", log.reader().format()},
@@ -86,31 +96,53 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& l
           {"loops_closed", run.slam.slam().counts().loops_closed},
           {"seconds", run.wall_s},
           {"scans_per_s", static_cast<double>(log.scans()) / run.wall_s},
-          {"notes", warningsOf(log, run)}};
+          {"notes", notes}};
+}
+
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+/// From key scan to key scan, so that a robot that stands adds nothing.
+double wayOf_m(const std::vector<common::Pose2>& keys) {
+  double way_m = 0.0;
+  for (std::size_t i = 1; i < keys.size(); ++i) way_m += (keys[i].position_m() - keys[i - 1].position_m()).norm();
+  return way_m;
+}
+
+Facts factsOf(const RecordedLog& log, const MapRun& run) {
+  const auto scans = static_cast<double>(log.scans());
+  Facts facts = log.facts();
+  facts.insert(facts.end(),
+               {{"way", fmt::format("{:.1f} m", wayOf_m(run.slam.keyPoses()))},
+                {"not matched", fmt::format("{}", run.unmatched)},
+                {"key scans", fmt::format("{}", run.slam.keyScans())},
+                {"loops closed", run.slam.particles() ? "-" : fmt::format("{}", run.slam.slam().counts().loops_closed)},
+                {"computing time", fmt::format("{:.1f} s", run.wall_s)},
+                {"scans a second", fmt::format("{:.0f}", scans / run.wall_s)}});
+  return facts;
 }
 
 int map(const MapOptions& options) {
   RecordedLog log(options.log);
-  const ResultsFolder folder(folderFor(options.log, kSuffix), kMapResults);
+  ResultsFolder folder(folderFor(options.log, kSuffix), kMapResults);
   const fs::path& out = folder.path();
   MapRun run(options);
   mapLog(log, options, run);
   if (run.slam.keyPoses().empty())
     throw log.error(fmt::format("no map: none of its {} scans has points enough", log.scans()));
+  if (!log.damage().empty()) fmt::print(stderr, "{}\n", log.damage());
 
-  const int exit_code = log.damage().empty() ? kDone : kFailed;
-  if (exit_code != kDone) fmt::print(stderr, "{}\n", log.damage());
-  const nlohmann::ordered_json figures = figuresOf(options, log, run, out);
-  MapFigures shown{options.log.file, {}, warningsOf(log, run), run.milliseconds};
-  shown.facts = {{"log", log.reader().format()},
-                 {"scans", fmt::format("{}", log.scans())},
-                 {"not matched", fmt::format("{}", run.unmatched)},
-                 {"key scans", fmt::format("{}", run.slam.keyScans())},
-                 {"loops closed", fmt::format("{}", run.slam.slam().counts().loops_closed)},
-                 {"time", fmt::format("{:.1f} s", run.wall_s)},
-                 {"scans a second", fmt::format("{:.0f}", static_cast<double>(log.scans()) / run.wall_s)}};
-  writeMapOutputs(out, run.slam, run.track, shown);
+  const common::OccupancyGrid grid = run.slam.map();
+  const std::string no_map = whyNoMap(grid);
+  MapFigures shown{options.log.file, factsOf(log, run), warningsOf(log, run), run.milliseconds};
+  if (!no_map.empty()) {
+    fmt::print(stderr, "{}\n", no_map);
+    shown.warnings.insert(shown.warnings.begin(), no_map);
+  }
+  writeMapOutputs(folder.unfinished(), run.slam, no_map.empty() ? &grid : nullptr, run.track, shown);
+  folder.publish();
+  const int exit_code = log.damage().empty() && no_map.empty() ? kDone : kFailed;
   if (options.log.json) {
+    const nlohmann::ordered_json figures = figuresOf(options, log, run, shown.warnings, out);
     show(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return exit_code;
   }

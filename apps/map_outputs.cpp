@@ -1,9 +1,10 @@
 #include "apps/map_outputs.hpp"
 
-#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <memory>
 
+#include <fmt/format.h>
 #include <Eigen/LU>
 
 #include "apps/required.hpp"
@@ -24,10 +25,13 @@ namespace {
 namespace fs = std::filesystem;
 using common::Pose2;
 
-constexpr std::size_t kCurvePoints = 2000;
 /// Points of a trajectory nearer than this to the one before are not drawn.
 constexpr double kDrawnStep_m = 0.05;
 constexpr std::size_t kDrawnPoints = 50'000;
+
+/// What readMap takes: this long a side of a picture, and files of 1 GiB, with room for the picture's header.
+constexpr std::uint64_t kMostSide_cells = 1 << 15;
+constexpr std::uint64_t kMost_cells = (1ULL << 30) - 4096;
 
 using PoseOf = std::function<Pose2(const perception::TrackedScan&)>;
 
@@ -68,6 +72,24 @@ std::vector<Eigen::Vector2d> lineOf(const TrackSpool& track, const PoseOf& poseO
   return line;
 }
 
+common::World worldOf(const common::OccupancyGrid& map, const std::vector<Eigen::Vector2d>& way_map_m) {
+  common::World world;
+  world.grid = std::make_shared<const common::OccupancyGrid>(map);
+  world.levels = std::make_shared<const common::LevelMap>();
+  world.frontiers = std::make_shared<const std::vector<common::Frontier>>();
+  world.trail_map_m = std::make_shared<const std::vector<Eigen::Vector2d>>(way_map_m);
+  return world;
+}
+
+std::vector<rendering::MapLine> loopsOf(const std::vector<perception::SlamEdge>& edges,
+                                        const std::vector<Pose2>& keys) {
+  const auto at_m = [&](int key) { return keys[static_cast<std::size_t>(key)].position_m(); };
+  std::vector<rendering::MapLine> lines;
+  for (const perception::SlamEdge& edge : edges)
+    if (edge.loop) lines.push_back({"loop closures", {at_m(edge.from), at_m(edge.to)}, true});
+  return lines;
+}
+
 std::string mapPicture(const common::World& world) {
   rendering::MapView view;
   view.width_px = 1280;
@@ -79,63 +101,52 @@ std::string mapPicture(const common::World& world) {
 
 }  // namespace
 
-void ThinnedCurve::add(double x, double y) {
-  if (pending_ == 0)
-    points_.emplace_back(x, y);
-  else
-    points_.back().y() = std::max(points_.back().y(), y);
-  pending_ = (pending_ + 1) % stride_;
-  if (points_.size() <= kCurvePoints) return;
-  for (std::size_t i = 0; 2 * i + 1 < points_.size(); ++i)
-    points_[i] = {points_[2 * i].x(), std::max(points_[2 * i].y(), points_[2 * i + 1].y())};
-  points_.resize(points_.size() / 2);
-  stride_ *= 2;
-  pending_ = 0;
-}
-
-std::string plotOver(const std::string& title, const std::string& unit, const ThinnedCurve& curve) {
+std::string plotOver(const std::string& title, const std::string& unit, const rendering::ThinnedCurve& curve) {
   rendering::Plot plot;
   plot.title = title;
   plot.x_label = "scan";
   plot.y_label = unit;
-  plot.series = {{"greatest of its neighbours", curve.points(), false}};
+  plot.series = {{"greatest of each stretch", curve.points(), false}};
   plot.y_min = 0.0;
   return rendering::plotSvg(plot);
 }
 
-void writeMapOutputs(const fs::path& out, perception::LaserSlam& slam, const TrackSpool& track,
-                     const MapFigures& figures) {
+std::string whyNoMap(const common::OccupancyGrid& map) {
+  const common::CellRect known = common::knownExtent(map);
+  const auto width = static_cast<std::uint64_t>(known.width()), height = static_cast<std::uint64_t>(known.height());
+  if (width <= kMostSide_cells && height <= kMostSide_cells && width * height <= kMost_cells) return "";
+  return fmt::format(
+      "the map would be {} by {} cells of {:g} m: the log's odometry or scans jump; trajectory and graph are written, "
+      "the "
+      "map is not",
+      width, height, map.resolution_m());
+}
+
+void writeMapOutputs(const fs::path& out, const perception::LaserSlam& slam, const common::OccupancyGrid* map,
+                     const TrackSpool& track, const MapFigures& figures) {
   const std::vector<Pose2> keys = slam.keyPoses();
   const PoseOf poseOf = [&](const perception::TrackedScan& scan) {
     return keys[static_cast<std::size_t>(scan.key)] * scan.T_key_robot;
   };
-  common::World world;
-  world.grid = std::make_shared<const common::OccupancyGrid>(slam.map());
-  const std::vector<Eigen::Vector2d> line = lineOf(track, poseOf);
-  world.levels = std::make_shared<const common::LevelMap>();
-  world.frontiers = std::make_shared<const std::vector<common::Frontier>>();
-  world.trail_map_m = std::make_shared<const std::vector<Eigen::Vector2d>>(line);
-
-  std::vector<rendering::MapLine> lines{{"trajectory", line, false}};
-  for (const perception::SlamEdge& edge : slam.slam().edges())
-    if (edge.loop)
-      lines.push_back({"",
-                       {keys[static_cast<std::size_t>(edge.from)].position_m(),
-                        keys[static_cast<std::size_t>(edge.to)].position_m()},
-                       true});
-
-  interfaces::MapReport report;
-  report.title = kMapResults.title + figures.log;
-  report.facts = figures.facts;
-  report.warnings = figures.warnings;
-  report.map_svg = rendering::mapSvg(world, lines, {{"begin", keys.front().position_m()}});
-  report.plots_svg = {plotOver("Time per scan", "ms", figures.milliseconds)};
-
   writeTrajectory(out / "trajectory.tum", track, poseOf);
-  required(interfaces::writeMap(out, "map", *world.grid));
-  required(interfaces::writeAtomically(out / "map.png", mapPicture(world)));
   if (!slam.particles())
     required(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
+
+  interfaces::MapReport report;
+  report.title = kMapTitle + fs::path(figures.log).filename().string();
+  report.subtitle = figures.log;
+  report.facts = figures.facts;
+  report.warnings = figures.warnings;
+  report.plots_svg = {plotOver("Time per scan", "ms", figures.milliseconds)};
+  report.map_svg = "<p class=\"empty\">None.</p>";
+  if (map) {
+    const common::World world = worldOf(*map, lineOf(track, poseOf));
+    std::vector<rendering::MapLine> lines = loopsOf(slam.slam().edges(), keys);
+    lines.insert(lines.begin(), {"trajectory", *world.trail_map_m, false});
+    report.map_svg = rendering::mapSvg(world, lines, {{"begin", keys.front().position_m()}});
+    required(interfaces::writeMap(out, "map", *map));
+    required(interfaces::writeAtomically(out / "map.png", mapPicture(world)));
+  }
   required(interfaces::writeAtomically(out / "report.html", interfaces::mapReport(report)));
 }
 

@@ -11,13 +11,18 @@
 
 #include "apps/results_folder.hpp"
 #include "apps/spool.hpp"
+#include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 #include "perception/slam2d/laser_slam.hpp"
+#include "rendering/thinned_curve.hpp"
 
 namespace swiftlet::apps {
 
-inline const ResultsKind kMapResults{
-    "map", "Map of ", {"map.pgm", "map.yaml", "map.png", "trajectory.tum", "graph.g2o", "report.html"}};
+inline const std::string kMapTitle = "Map of ";
+inline const ResultsKind kMapResults{"map",
+                                     "report.html",
+                                     "<title>" + kMapTitle,
+                                     {"report.html", "map.pgm", "map.yaml", "map.png", "trajectory.tum", "graph.g2o"}};
 
 /// A scan of the log, under the log's own stamp.
 struct StampedScan {
@@ -26,29 +31,22 @@ struct StampedScan {
 };
 using TrackSpool = Spool<StampedScan>;
 
-/// A curve of bounded length, whatever the number of values: neighbours are joined, the greatest of them stays.
-class ThinnedCurve {
- public:
-  void add(double x, double y);
-  const std::vector<Eigen::Vector2d>& points() const { return points_; }
-
- private:
-  std::vector<Eigen::Vector2d> points_;
-  int stride_ = 1, pending_ = 0;
-};
-
 /// SVG of a curve over the scans of a log.
-std::string plotOver(const std::string& title, const std::string& unit, const ThinnedCurve& curve);
+std::string plotOver(const std::string& title, const std::string& unit, const rendering::ThinnedCurve& curve);
 
 struct MapFigures {
   std::string log;
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<std::string> warnings;
-  ThinnedCurve milliseconds;  ///< Over the index of the scan.
+  rendering::ThinnedCurve milliseconds;  ///< Over the index of the scan.
 };
 
-/// Writes all files into `out`, all but trajectory.tum in one step each. Throws InputError when one cannot be written.
-void writeMapOutputs(const std::filesystem::path& out, perception::LaserSlam& slam, const TrackSpool& track,
-                     const MapFigures& figures);
+/// Why a map cannot be written, for people: it is larger than readMap reads. Empty when it can.
+std::string whyNoMap(const common::OccupancyGrid& map);
+
+/// Writes all files into the folder `out`; without `map`, no map and no picture of it. Throws InputError when one
+/// cannot be written.
+void writeMapOutputs(const std::filesystem::path& out, const perception::LaserSlam& slam,
+                     const common::OccupancyGrid* map, const TrackSpool& track, const MapFigures& figures);
 
 }  // namespace swiftlet::apps

@@ -1,7 +1,10 @@
 // swiftlet optimize: the poses that best satisfy a pose graph of other people.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include <fmt/core.h>
@@ -10,7 +13,9 @@
 
 #include "apps/command.hpp"
 #include "apps/numbers.hpp"
+#include "apps/recorded_log.hpp"
 #include "apps/required.hpp"
+#include "apps/results_folder.hpp"
 #include "apps/wall_clock.hpp"
 #include "common/error.hpp"
 #include "common/table.hpp"
@@ -33,15 +38,20 @@ struct OptimizeOptions {
   bool json = false;
 };
 
+/// The figures prove whose the graph beside them is: a comment in it would not be read by everybody.
+const ResultsKind kOptimizeResults{
+    "optimized graph", "optimized.json", "\"chi2_final\"", {"optimized.json", "graph.g2o"}};
+
 /// What is told of an optimized graph.
 struct Report {
   std::size_t vertices = 0;
   std::size_t edges = 0;
+  std::size_t loose_parts = 0;  ///< That no edges tie to a fixed vertex.
   int dimension = 0;
   double chi2_initial = 0.0;
   double chi2_final = 0.0;
   const char* start = "";
-  int iterations = 0;
+  int iterations = 0;  ///< Of all starts that were tried.
   double seconds = 0.0;
   bool converged = false;
   std::string written;
@@ -84,12 +94,15 @@ Report optimizeInPlace(Graph& file, const OptimizeOptions& options) {
   if (file.poses.empty()) graph.poses = chainedPoses(graph);
   optimization::BestStartConfig config;
   config.max_iterations = options.max_iterations;
+  const std::size_t fixed = std::set<int>(file.fixed.begin(), file.fixed.end()).size();
+  const std::size_t loose_parts = anchorsOf(graph).size() - std::max<std::size_t>(1, fixed);
   auto solution = optimizeFromBestStart(std::move(graph), config);
   file.poses = std::move(solution.poses);
 
   Report report;
   report.vertices = file.ids.size();
   report.edges = file.edges.size();
+  report.loose_parts = loose_parts;
   report.dimension = Graph::kErrors == 3 ? 2 : 3;
   report.chi2_initial = solution.chi2_guess;
   report.chi2_final = solution.chi2;
@@ -100,67 +113,70 @@ Report optimizeInPlace(Graph& file, const OptimizeOptions& options) {
   return report;
 }
 
-common::InputError problem(const fs::path& file, const std::string& message, const std::string& hint = "") {
-  return common::InputError(common::Problem{{file.string()}, "--out", message, hint});
-}
-
-/// The file to be written, its folder made; before the work, so that a mistake is told at once.
-fs::path madeTarget(const OptimizeOptions& options) {
-  const fs::path folder = options.out;
-  fs::path target = folder / "graph.g2o";
-  std::error_code failure;
-  if (fs::equivalent(target, options.graph, failure))
-    throw problem(target, "is the graph to be optimized itself", "give another folder");
-  fs::create_directories(folder, failure);
-  if (failure) throw problem(folder, failure.message());
-  return target;
+void refuseTheGraphItself(const OptimizeOptions& options) {
+  const fs::path target = fs::path(options.out) / "graph.g2o";
+  std::error_code ignored;
+  if (fs::equivalent(target, options.graph, ignored))
+    throw common::InputError(
+        common::Problem{{target.string()}, "--out", "is the graph to be optimized itself", "give another folder"});
 }
 
 std::string jsonOf(const Report& report, const interfaces::G2oFile& file, const OptimizeOptions& options) {
-  nlohmann::json json{{"graph", options.graph},
-                      {"vertices", report.vertices},
-                      {"edges", report.edges},
-                      {"dimension", report.dimension},
-                      {"chi2_initial", report.chi2_initial},
-                      {"chi2_final", report.chi2_final},
-                      {"start", report.start},
-                      {"iterations", report.iterations},
-                      {"seconds", report.seconds},
-                      {"converged", report.converged},
-                      {"warnings", file.warnings}};
+  nlohmann::json json{
+      {"graph", options.graph},        {"vertices", report.vertices},         {"edges", report.edges},
+      {"dimension", report.dimension}, {"chi2_initial", report.chi2_initial}, {"chi2_final", report.chi2_final},
+      {"start", report.start},         {"iterations", report.iterations},     {"loose_parts", report.loose_parts},
+      {"seconds", report.seconds},     {"converged", report.converged},       {"warnings", file.warnings}};
   if (!report.written.empty()) json["written"] = report.written;
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string textOf(const Report& report, const OptimizeOptions& options) {
-  const common::Table table{
-      "",
-      {"graph", "vertices", "edges", "dimension", "chi2 initial", "chi2 final", "start", "iterations", "seconds"},
-      {{{fs::path(options.graph).filename().string()},
-        {fmt::format("{}", report.vertices)},
-        {fmt::format("{}", report.edges)},
-        {fmt::format("{}", report.dimension)},
-        {fmt::format("{:.6g}", report.chi2_initial)},
-        {fmt::format("{:.8g}", report.chi2_final)},
-        {report.start},
-        {fmt::format("{}", report.iterations)},
-        {fmt::format("{:.2f}", report.seconds)}}}};
+  const common::Table table{"",
+                            {"graph", "vertices", "edges", "dimension", "chi2 initial", "chi2 final", "start",
+                             "converged", "iterations in all", "seconds"},
+                            {{{fs::path(options.graph).filename().string()},
+                              {fmt::format("{}", report.vertices)},
+                              {fmt::format("{}", report.edges)},
+                              {fmt::format("{}", report.dimension)},
+                              {fmt::format("{:.6g}", report.chi2_initial)},
+                              {fmt::format("{:.8g}", report.chi2_final)},
+                              {report.start},
+                              {report.converged ? "yes" : "no"},
+                              {fmt::format("{}", report.iterations)},
+                              {fmt::format("{:.2f}", report.seconds)}}}};
   std::string text = toText(table);
   if (!report.converged) text += "it did not converge; more --max-iterations may help\n";
   if (!report.written.empty()) text += fmt::format("written {}\n", report.written);
   return text;
 }
 
+void write(ResultsFolder& folder, const interfaces::G2oFile& file, const OptimizeOptions& options, Report& report) {
+  const std::string graph = std::visit([](const auto& g) { return toG2o(g); }, file.graph);
+  report.written = (folder.path() / "graph.g2o").string();
+  required(interfaces::writeAtomically(folder.unfinished() / "graph.g2o", graph));
+  required(interfaces::writeAtomically(folder.unfinished() / "optimized.json", jsonOf(report, file, options) + "\n"));
+  folder.publish();
+}
+
 int optimizeGraph(const OptimizeOptions& options) {
   interfaces::G2oFile file = interfaces::readG2o(fs::path(options.graph));
   for (const std::string& warning : file.warnings) fmt::print(stderr, "{}\n", warning);
-  const std::optional<fs::path> target = options.out.empty() ? std::nullopt : std::optional(madeTarget(options));
-  Report report = std::visit([&](auto& graph) { return optimizeInPlace(graph, options); }, file.graph);
-  if (target) {
-    const std::string text = std::visit([](const auto& graph) { return toG2o(graph); }, file.graph);
-    required(interfaces::writeAtomically(*target, text));
-    report.written = target->string();
+  std::optional<ResultsFolder> folder;
+  if (!options.out.empty()) {
+    refuseTheGraphItself(options);
+    folder.emplace(options.out, kOptimizeResults);
   }
+  Report report = std::visit([&](auto& graph) { return optimizeInPlace(graph, options); }, file.graph);
+  if (!std::isfinite(report.chi2_final)) {
+    fmt::print(stderr, "{}: chi2 is {}: its errors or its information are too large for numbers; nothing is written\n",
+               options.graph, report.chi2_final);
+    return kFailed;
+  }
+  if (report.loose_parts > 0)
+    fmt::print(stderr, "note: {} not tied to the fixed vertex by edges, and may lie anywhere to it\n",
+               plural(report.loose_parts, "part of the graph is", "parts of the graph are"));
+  if (folder) write(*folder, file, options, report);
   fmt::print("{}", options.json ? jsonOf(report, file, options) + "\n" : textOf(report, options));
   return report.converged ? kDone : kFailed;
 }
@@ -176,12 +192,16 @@ void addOptimize(CLI::App& program, Run& run) {
           "Graph in the plane or in space (SE2 or SE3:QUAT), plain or compressed by gzip, bzip2 or xz. Without "
           "vertices, the guess follows from the shortest chains of edges.")
       ->required();
-  command->add_option("--out", options->out, "Folder for the optimized graph, graph.g2o; made if it is missing.");
+  command->add_option(
+      "--out", options->out,
+      "Folder for the optimized graph, graph.g2o, and its figures, optimized.json; new, empty or with older ones.");
   command->add_option("--max-iterations", options->max_iterations, "Of each start that is tried.")
       ->capture_default_str()
       ->check(numberWithin(1, 1000));
   command->add_flag("--json", options->json, "Print the result as JSON, nothing else.");
-  command->footer("Example: swiftlet optimize sphere2500.g2o.xz --out optimized");
+  command->footer(
+      "chi2 is the sum of e' Omega e over the edges, with g2o's error e and no factor of 1/2; `iterations in all` are\n"
+      "those of all starts that were tried.\n\nExample: swiftlet optimize sphere2500.g2o.xz --out optimized");
   command->callback([&run, options] { run = [options] { return optimizeGraph(*options); }; });
 }
 

@@ -1,5 +1,8 @@
 #include "apps/recorded_log.hpp"
 
+#include <initializer_list>
+#include <string_view>
+
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -14,6 +17,13 @@ std::unique_ptr<interfaces::LaserLog> opened(const RecordedLogOptions& options) 
   interfaces::LaserLogOptions log_options;
   if (!options.sensor.empty()) log_options.sensor = loadLaser(options.sensor);
   return interfaces::openLaserLog(options.file, log_options);
+}
+
+/// Without the first of the endings it has.
+std::string without(std::string name, std::initializer_list<std::string_view> endings) {
+  for (const std::string_view ending : endings)
+    if (name.size() > ending.size() && name.ends_with(ending)) return name.substr(0, name.size() - ending.size());
+  return name;
 }
 
 }  // namespace
@@ -35,8 +45,9 @@ void addLogOptions(CLI::App& command, RecordedLogOptions& options, const std::st
 
 fs::path folderFor(const RecordedLogOptions& options, const std::string& suffix) {
   if (!options.out.empty()) return options.out;
-  const std::string name = fs::path(options.file).filename().string();
-  return fmt::format("{}-{}", name.substr(0, name.find('.')), suffix);
+  // Of known endings only: day.01.clf and day.02.clf are two logs.
+  const std::string unpacked = without(fs::path(options.file).filename().string(), {".gz", ".bz2", ".xz"});
+  return fmt::format("{}-{}", without(unpacked, {".clf", ".log", ".bag", ".dat", ".txt"}), suffix);
 }
 
 std::string plural(std::uint64_t count, const std::string& one, const std::string& more) {
@@ -49,7 +60,11 @@ RecordedLog::RecordedLog(const RecordedLogOptions& options)
 std::optional<interfaces::LoggedScan> RecordedLog::next() {
   try {
     auto logged = reader_->next();
-    scans_ += logged ? 1 : 0;
+    if (!logged) return logged;
+    ++scans_;
+    if (!first_stamp_) first_stamp_ = logged->scan.stamps.measured;
+    duration_s_ = (logged->scan.stamps.measured - *first_stamp_).seconds();
+    stamps_differ_ = stamps_differ_ || logged->scan.stamps.measured != *first_stamp_;
     return logged;
   } catch (const common::InputError& e) {
     if (scans_ == 0) throw;
@@ -72,12 +87,25 @@ std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts
   }
   if (const auto n = reader_->counts().invalid_ranges; n > 0)
     warnings.push_back(plural(n, "range is", "ranges are") + " negative or not a number");
-  if (const auto n = found.doubtful_stamps; n > 0)
+  if (hasOneStamp())
+    warnings.push_back(
+        fmt::format("all scans have the same stamp, {:.3f} s: the order of the file is believed; the poses of the "
+                    "trajectory cannot "
+                    "be told apart by time, and `evaluate` cannot pair them",
+                    first_stamp_->seconds()));
+  else if (const auto n = found.doubtful_stamps; n > 0)
     warnings.push_back(plural(n, "time stamp does", "time stamps do") +
                        " not come after the one before: the order of the file is believed, not the intervals");
   if (const auto n = found.doubtful_odometry; n > 0)
     warnings.push_back(plural(n, "step", "steps") + " of the odometry no robot makes; not believed");
   return warnings;
+}
+
+std::vector<std::pair<std::string, std::string>> RecordedLog::facts() const {
+  std::vector<std::pair<std::string, std::string>> facts{{"format", reader_->format()},
+                                                         {"scans", fmt::format("{}", scans_)}};
+  if (duration_s_ > 0.0) facts.emplace_back("duration", fmt::format("{:.1f} s", duration_s_));
+  return facts;
 }
 
 common::InputError RecordedLog::error(const std::string& message) const {

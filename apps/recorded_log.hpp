@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/error.hpp"
@@ -50,9 +51,13 @@ class RecordedLog {
 
   const interfaces::LaserLog& reader() const { return *reader_; }
   std::uint64_t scans() const { return scans_; }
+  /// All scans so far have the same stamp: it tells nothing.
+  bool hasOneStamp() const { return scans_ > 1 && !stamps_differ_; }
   /// Why it could not be read to its end; empty when it could.
   const std::string& damage() const { return damage_; }
 
+  /// For people, label and value: format, scans and, where the stamps tell it, duration.
+  std::vector<std::pair<std::string, std::string>> facts() const;
   /// For people: what is odd about it, with what the front end found.
   std::vector<std::string> warnings(const perception::LaserSlamCounts& found) const;
   /// An error about the log as a whole, with the first of its records that could not be read.
@@ -63,6 +68,9 @@ class RecordedLog {
   bool uses_odometry_;
   std::unique_ptr<interfaces::LaserLog> reader_;
   std::uint64_t scans_ = 0;
+  std::optional<common::Time> first_stamp_;
+  bool stamps_differ_ = false;
+  double duration_s_ = 0.0;  ///< From the first stamp to the last.
   std::string damage_;
 };
 

@@ -15,11 +15,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kAskForAnother = "give an empty or new folder by --out";
+constexpr const char* kUnfinished = "unfinished.part";
 
-bool isFileOf(const ResultsKind& kind, const std::string& name) {
-  // A `.part` is what a killed process left of a file of ours.
-  return std::any_of(kind.files.begin(), kind.files.end(), [&](const std::string& file) {
-    return name == file || (name.starts_with(file + ".") && name.ends_with(".part"));
+bool isFileOf(const ResultsKind& kind, const fs::directory_entry& entry) {
+  const std::string name = entry.path().filename().string();
+  return entry.is_regular_file() && std::find(kind.files.begin(), kind.files.end(), name) != kind.files.end();
+}
+
+/// What a killed run left; its files may have been on the way to their names.
+bool isUnfinished(const ResultsKind& kind, const fs::directory_entry& entry) {
+  if (entry.path().filename() != kUnfinished || entry.is_symlink() || !entry.is_directory()) return false;
+  return std::all_of(fs::directory_iterator(entry), fs::directory_iterator(), [&](const fs::directory_entry& within) {
+    return isFileOf(kind, within) || (within.is_regular_file() && within.path().extension() == ".part");
   });
 }
 
@@ -29,34 +36,57 @@ common::InputError unusable(const fs::path& path, const std::string& message, co
 
 }  // namespace
 
-ResultsFolder::ResultsFolder(fs::path path, const ResultsKind& kind) : path_(std::move(path)) {
+ResultsFolder::ResultsFolder(fs::path path, const ResultsKind& kind)
+    : path_(std::move(path)), unfinished_(path_ / kUnfinished), kind_(kind) {
   try {
     if (fs::exists(path_) && !fs::is_directory(path_)) throw unusable(path_, "is not a folder", kAskForAnother);
     made_ = fs::create_directories(path_);
     lock_.emplace(path_);
     if (lock_->refused()) throw unusable(path_, "is being written by another run", kAskForAnother);
-    if (!made_) refuseWhatIsNot(kind);
+    if (!made_) refuseWhatIsNotOurs();
+    // Before the work, so that a folder that cannot be written is told at once.
+    fs::remove_all(unfinished_);
+    fs::create_directory(unfinished_);
   } catch (const fs::filesystem_error& e) {
     throw unusable(path_, fmt::format("cannot be used: {}", e.code().message()), "");
   }
 }
 
-void ResultsFolder::refuseWhatIsNot(const ResultsKind& kind) const {
+void ResultsFolder::refuseWhatIsNotOurs() const {
   bool empty = true;
   for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
-    const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || !isFileOf(kind, name))
-      throw unusable(path_, fmt::format("holds `{}`, which is no file of a {}", name, kind.noun), kAskForAnother);
+    if (isUnfinished(kind_, entry)) continue;
+    if (!isFileOf(kind_, entry))
+      throw unusable(path_,
+                     fmt::format("holds `{}`, which is no file of a {}", entry.path().filename().string(), kind_.noun),
+                     kAskForAnother);
     empty = false;
   }
   // A flight, or what another program wrote, has files of the same names.
-  if (!empty && !interfaces::saysAtStart(path_ / "report.html", "<title>" + kind.title, 400))
-    throw unusable(path_, fmt::format("holds no {} of this program, and what it holds would be lost", kind.noun),
+  if (!empty && !interfaces::saysAtStart(path_ / kind_.proof, kind_.proof_text, 400))
+    throw unusable(path_, fmt::format("holds no {} of this program, and what it holds would be lost", kind_.noun),
                    kAskForAnother);
+}
+
+void ResultsFolder::publish() {
+  try {
+    // The proof first: whenever this is interrupted, the folder is known to be ours.
+    fs::rename(unfinished_ / kind_.proof, path_ / kind_.proof);
+    for (const std::string& file : kind_.files) {
+      if (file == kind_.proof) continue;
+      if (fs::exists(unfinished_ / file))
+        fs::rename(unfinished_ / file, path_ / file);
+      else
+        fs::remove(path_ / file);
+    }
+  } catch (const fs::filesystem_error& e) {
+    throw unusable(path_, fmt::format("cannot be written: {}", e.code().message()), "");
+  }
 }
 
 ResultsFolder::~ResultsFolder() {
   std::error_code ignored;
+  fs::remove_all(unfinished_, ignored);
   if (made_ && fs::is_empty(path_, ignored)) fs::remove(path_, ignored);
 }
 

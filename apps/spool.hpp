@@ -1,6 +1,7 @@
 // What is known of each scan of a log, until all of it is known.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <type_traits>
@@ -17,26 +18,36 @@ class Spool {
  public:
   /// Throws InputError when there is no room for temporary files.
   Spool() : file_(std::tmpfile()) {
-    if (!file_) throw common::InputError(common::Problem{{}, "", "no temporary file can be made", "is the disk full?"});
+    if (!file_) throw common::InputError(common::Problem{{}, "", "no temporary file can be made", "is /tmp full?"});
   }
 
+  /// Throws InputError when there is no room left.
   void add(const Record& record) {
-    if (std::fwrite(&record, sizeof record, 1, file_.get()) != 1)
-      throw common::InputError(
-          common::Problem{{}, "", "the temporary file of the trajectory cannot be written", "is the disk full?"});
+    if (std::fwrite(&record, sizeof record, 1, file_.get()) != 1) throw full();
+    ++records_;
   }
 
+  /// Throws InputError when what was added did not reach the disk: all records or an error.
   template <typename Use>
   void forEach(const Use& use) const {
-    std::rewind(file_.get());
-    for (Record record; std::fread(&record, sizeof record, 1, file_.get()) == 1;) use(record);
+    // The last records may be in memory still, and rewind() would not tell that they find no room.
+    if (std::fflush(file_.get()) != 0 || std::fseek(file_.get(), 0, SEEK_SET) != 0) throw full();
+    std::uint64_t read = 0;
+    for (Record record; std::fread(&record, sizeof record, 1, file_.get()) == 1; ++read) use(record);
+    if (read != records_) throw full();
   }
 
  private:
+  static common::InputError full() {
+    return common::InputError(
+        common::Problem{{}, "", "the temporary file of the trajectory cannot be written", "is /tmp full?"});
+  }
+
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
   std::unique_ptr<std::FILE, Close> file_;
+  std::uint64_t records_ = 0;
 };
 
 }  // namespace swiftlet::apps

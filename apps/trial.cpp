@@ -63,6 +63,18 @@ void findWorld(TrialConfig& trial) {
   trial.scenario.world = common::findData(trial.scenario.world).string();
 }
 
+/// The file of the map that its flights are given: beside the trials, or where data is.
+void findMap(TrialConfig& trial, const fs::path& trials) {
+  if (trial.map.file.empty()) return;
+  const fs::path beside = (fs::is_directory(trials) ? trials : trials.parent_path()) / trial.map.file;
+  try {
+    trial.map.file = (fs::exists(beside) ? beside : common::findData(trial.map.file)).string();
+  } catch (const common::InputError& e) {
+    throw common::InputError(
+        common::Problem{{trials.string()}, fmt::format("trial {}: map", trial.name), e.what(), "or beside the trial"});
+  }
+}
+
 /// The map its flights are given; null when they are given none.
 std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::path& out) {
   if (!trial.map.given()) return nullptr;
@@ -70,7 +82,7 @@ std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::pa
     const simulation::WorldModel world = simulation::loadWorld(trial.scenario.world, trial.scenario.model_paths);
     return std::make_shared<const FlightMap>(surveyedMap(trial.map.survey, world, out / (trial.name + "-map")));
   }
-  FlightMap map = readFlightMap(common::findData(trial.map.file));
+  FlightMap map = readFlightMap(trial.map.file);
   map.T_world_given = common::Pose2{trial.map.x_m, trial.map.y_m, trial.map.yaw_deg * common::kRadPerDeg};
   return std::make_shared<const FlightMap>(std::move(map));
 }
@@ -184,7 +196,8 @@ void writeResults(const TrialResults& results, const fs::path& out) {
 /// What is to be flown, read and found, its missions sound for the systems that fly them: a mistake in the last trial
 /// is told before the first flight.
 std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
-  auto trials = evaluation::readTrials(common::findData(options.trials));
+  const fs::path file_or_folder = common::findData(options.trials);
+  auto trials = evaluation::readTrials(file_or_folder);
   std::vector<common::Problem> problems;
   for (TrialConfig& trial : trials) {
     if (!options.system.empty()) trial.system = options.system;
@@ -192,7 +205,10 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
       problems.push_back(std::move(problem));
   }
   if (!problems.empty()) throw common::InputError(std::move(problems));
-  for (TrialConfig& trial : trials) findWorld(trial);
+  for (TrialConfig& trial : trials) {
+    findMap(trial, file_or_folder);
+    findWorld(trial);
+  }
   return trials;
 }
 

@@ -85,9 +85,9 @@ void drawLaser(Layer& layer, const common::LaserPoints& laser) {
   layer.canvas.discs(centers, 0.9 * layer.scale, layer.theme().laser);
 }
 
-void drawTrail(Layer& layer, const std::vector<Vector2d>& trail_map_m, const Vector2d& vehicle_map_m) {
+void drawTrail(Layer& layer, const std::vector<Vector2d>& trail_map_m, const std::optional<Vector2d>& vehicle_map_m) {
   std::vector<Vector2d> pixels = toPixels(layer.viewport, trail_map_m);
-  pixels.push_back(layer.viewport.toPixel(vehicle_map_m));
+  if (vehicle_map_m) pixels.push_back(layer.viewport.toPixel(*vehicle_map_m));
   layer.canvas.polyline(pixels, 2.2 * layer.scale, layer.theme().trail);
 }
 

@@ -1,6 +1,9 @@
 // What is drawn above the grid, one function a layer, in the order they lie.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "common/world.hpp"
 #include "rendering/canvas.hpp"
 #include "rendering/theme.hpp"
@@ -22,7 +25,9 @@ void drawMetreLines(Layer& layer);
 void drawLevels(Layer& layer, const common::LevelMap& levels);
 void drawFrontiers(Layer& layer, const std::vector<common::Frontier>& frontiers, double resolution_m);
 void drawLaser(Layer& layer, const common::LaserPoints& laser);
-void drawTrail(Layer& layer, const std::vector<Eigen::Vector2d>& trail_map_m, const Eigen::Vector2d& vehicle_map_m);
+/// Up to the vehicle, where there is one: the trail's last point may be older than its pose.
+void drawTrail(Layer& layer, const std::vector<Eigen::Vector2d>& trail_map_m,
+               const std::optional<Eigen::Vector2d>& vehicle_map_m);
 void drawPlan(Layer& layer, const std::vector<Eigen::Vector2d>& plan_map_m, const Eigen::Vector2d& vehicle_map_m);
 void drawHome(Layer& layer, const Eigen::Vector2d& home_map_m);
 void drawGoal(Layer& layer, const Eigen::Vector2d& goal_map_m);

@@ -35,7 +35,8 @@ common::Image withLayers(common::Image grid_layer, const common::World& world, c
   if (on.levels) drawLevels(layer, *world.levels);
   if (on.frontiers) drawFrontiers(layer, *world.frontiers, world.grid->resolution_m());
   if (on.laser && world.laser) drawLaser(layer, *world.laser);
-  if (on.trail) drawTrail(layer, *world.trail_map_m, T_map_body.position_m());
+  if (on.trail)
+    drawTrail(layer, *world.trail_map_m, on.vehicle ? std::optional(T_map_body.position_m()) : std::nullopt);
   if (on.plan) drawPlan(layer, world.plan_map_m, T_map_body.position_m());
   if (on.home) drawHome(layer, world.home_map.position_m());
   if (on.goal && world.goal_map_m) drawGoal(layer, *world.goal_map_m);

@@ -1,5 +1,6 @@
 #include "rendering/map_svg.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -31,16 +32,30 @@ Viewport viewportOf(const common::World& world, const MapView& view, int strip_p
   return viewport;
 }
 
+/// The first line of each name, in their order.
+std::vector<MapLine> namedOnce(const std::vector<MapLine>& lines) {
+  std::vector<MapLine> named;
+  for (const MapLine& line : lines)
+    if (std::none_of(named.begin(), named.end(), [&](const MapLine& other) { return other.name == line.name; }))
+      named.push_back({line.name, {}, line.dashed});
+  return named;
+}
+
+/// The style's classes of a line: a colour for each name, as long as there are colours.
+std::string classesOf(const MapLine& line, const std::vector<MapLine>& named) {
+  const auto same = std::find_if(named.begin(), named.end(), [&](const MapLine& n) { return n.name == line.name; });
+  return fmt::format("s s{}{}", (same - named.begin()) % 6 + 1, line.dashed ? " dash" : "");
+}
+
 /// One beside the other in the strip, between the scale bar and the axes.
-void drawNames(const std::vector<MapLine>& lines, int height_px, std::back_insert_iterator<std::string> out) {
+void drawNames(const std::vector<MapLine>& named, int height_px, std::back_insert_iterator<std::string> out) {
   constexpr double kCharacter_px = 6.6;
   double x = 200.0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    fmt::format_to(out,
-                   R"(<path class="s s{}{}" d="M{:.1f} {:.1f}h22"/><text class="name" x="{:.1f}" y="{:.1f}">{}</text>)",
-                   i % 6 + 1, lines[i].dashed ? " dash" : "", x, height_px - 18.0, x + 29.0, height_px - 14.0,
-                   common::escaped(lines[i].name));
-    x += 58.0 + kCharacter_px * static_cast<double>(lines[i].name.size());
+  for (const MapLine& line : named) {
+    if (line.name.empty()) continue;
+    fmt::format_to(out, R"(<path class="{}" d="M{:.1f} {:.1f}h22"/><text class="name" x="{:.1f}" y="{:.1f}">{}</text>)",
+                   classesOf(line, named), x, height_px - 18.0, x + 29.0, height_px - 14.0, common::escaped(line.name));
+    x += 58.0 + kCharacter_px * static_cast<double>(line.name.size());
   }
 }
 
@@ -68,14 +83,14 @@ std::string mapSvg(const common::World& world, const std::vector<MapLine>& lines
                  base64(encodePng(renderMap(world, view))));
   // The picture below is always light, so its lines are too.
   text += R"(<g style="--c1:#1f6fe0;--c2:#d9480f;--c3:#0a8f6c;--c4:#9c36b5;--c5:#b7791f;--c6:#c2255c;--ink:#2b3947">)";
-  for (std::size_t i = 0; i < lines.size(); ++i) {
+  const std::vector<MapLine> named = namedOnce(lines);
+  for (const MapLine& line : lines) {
     std::vector<Eigen::Vector2d> pixels;
-    for (const Eigen::Vector2d& p : lines[i].points_map_m) pixels.push_back(toPixel(p));
-    const std::string classes = fmt::format("s s{}{}", i % 6 + 1, lines[i].dashed ? " dash" : "");
+    for (const Eigen::Vector2d& p : line.points_map_m) pixels.push_back(toPixel(p));
     for (const std::string& list : svg::pointLists(pixels))
-      fmt::format_to(out, R"(<polyline class="{}" points="{}"/>)", classes, list);
+      fmt::format_to(out, R"(<polyline class="{}" points="{}"/>)", classesOf(line, named), list);
   }
-  drawNames(lines, height_px, out);
+  drawNames(named, height_px, out);
   for (const MapMark& mark : marks) {
     const Eigen::Vector2d p = toPixel(mark.point_map_m);
     if (!p.allFinite()) continue;

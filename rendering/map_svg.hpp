@@ -12,7 +12,8 @@
 namespace swiftlet::rendering {
 
 struct MapLine {
-  std::string name;  ///< For the legend: "estimate", "ground truth".
+  /// For the legend: "estimate", "ground truth". Lines of one name share a colour and an entry; an empty one has none.
+  std::string name;
   std::vector<Eigen::Vector2d> points_map_m;
   bool dashed = false;
 };

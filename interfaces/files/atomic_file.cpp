@@ -15,6 +15,13 @@ FileError errorOf(const std::filesystem::path& file, int error_number) {
   return {fmt::format("{}: {}", file.string(), std::strerror(error_number))};
 }
 
+/// A new file of that name, as open(2) returns it. What had the name loses it: through a link, a file elsewhere would
+/// be overwritten.
+int openAnew(const std::filesystem::path& file, int flags) {
+  if (::unlink(file.c_str()) != 0 && errno != ENOENT) return -1;
+  return ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | flags, 0644);
+}
+
 /// 0 or the errno of the write that failed.
 int writeAll(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -40,7 +47,7 @@ int syncFolder(const std::filesystem::path& folder) {
 Written writeAtomically(const std::filesystem::path& file, std::string_view bytes, Durability durability) {
   std::filesystem::path temporary = file;
   temporary += fmt::format(".{}.part", ::getpid());
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int descriptor = openAnew(temporary, 0);
   if (descriptor < 0) return tl::unexpected(errorOf(file, errno));
 
   int failure = writeAll(descriptor, bytes);
@@ -57,7 +64,7 @@ Written writeAtomically(const std::filesystem::path& file, std::string_view byte
 }
 
 tl::expected<AppendFile, FileError> AppendFile::create(const std::filesystem::path& file) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
+  const int descriptor = openAnew(file, O_APPEND);
   if (descriptor < 0) return tl::unexpected(errorOf(file, errno));
   return AppendFile(file, descriptor);
 }

@@ -29,7 +29,7 @@ enum class Durability { kProcess, kPower };
 /// the disk is taken back. Used by one thread.
 class AppendFile {
  public:
-  /// Starts an empty file; an older one of that name is replaced.
+  /// Starts an empty file; an older one of that name is replaced, a link not followed.
   [[nodiscard]] static tl::expected<AppendFile, FileError> create(const std::filesystem::path& file);
   ~AppendFile();
   AppendFile(AppendFile&& other) noexcept;

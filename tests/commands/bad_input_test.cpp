@@ -249,6 +249,16 @@ TEST_F(BadInput, LastTrialOfAFolderIsToldBeforeTheFirstIsFlown) {
   }
 }
 
+TEST_F(BadInput, ATrialWithoutItsMapIsToldBeforeAnyFlight) {
+  const std::string trial = write("t.yaml",
+                                  "mission: missions/find_yourself.xml\nmap: {file: lost.yaml}\n"
+                                  "scenario: {world: worlds/unb_case1.sdf}\n");
+  expectRefused(runSwiftlet({"trial", trial, "--out", path("run")}),
+                "t\\.yaml: trial t: map: lost\\.yaml: no such file");
+  write("lost.yaml", "image: nowhere.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n");
+  EXPECT_THAT(runSwiftlet({"trial", trial, "--out", path("run")}).err, HasSubstr("nowhere.pgm")) << "beside the trial";
+}
+
 TEST_F(BadInput, ResultsOfOthersAreNotReplacedByATrials) {
   fs::create_directories(path("thesis"));
   write("thesis/report.html", "a thesis");

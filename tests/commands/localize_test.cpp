@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -206,7 +207,35 @@ TEST_F(Localize, RefusesWhatItCannotUse) {
   expectRefused({"localize", map, write("empty.log", "ODOM 0 0 0 0 0 0 1.0 robot 1.0\n"), "--out", path("out")},
                 "no scan");
   expectRefused({"localize", map, log, "--start", "1;2", "--out", path("out")}, "is not x;y;yaw");
+  for (const char* start : {"1e300;0;0", "-90;0;0", "0;200;0"})
+    expectRefused({"localize", map, log, "--start", start, "--out", path("out")}, "lies outside the map");
   expectRefused({"localize", map, log, "--odometry", "wheels"}, "--odometry");
+}
+
+TEST_F(Localize, ALogWithoutPointsIsNotLocalizedWhateverTheStart) {
+  const std::string map = writeMapOf(test::offices(21), "map");
+  std::string text;
+  for (int i = 0; i < 20; ++i) text += fmt::format("FLASER 2 81.9 81.9 0 0 0 0 0 0 {0}.0 host {0}.0\n", i);
+  const std::string log = write("blind.log", text);
+  expectRefused({"localize", map, log, "--start", "5;2;0", "--out", path("out")},
+                "not localized: none of its 20 scans has points enough");
+  expectRefused({"localize", map, log, "--out", path("out")}, "not localized: none of its 20 scans");
+}
+
+TEST_F(Localize, WithoutStampsItsEventsAreToldByScan) {
+  const test::Building building = test::offices(21);
+  std::istringstream lines(walkThrough(building, 21, 120));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t before_stamp = line.rfind(' ', line.find(" robot ") - 1);
+    text += line.substr(0, before_stamp) + " 0 robot 0\n";
+  }
+  const ProgramEnd end =
+      runSwiftlet({"localize", writeMapOf(building, "map"), write("same.log", text), "--out", path("out")});
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.out, HasSubstr("note: all scans have the same stamp, 0.000 s"));
+  EXPECT_THAT(end.out, testing::ContainsRegex("\nscan [0-9]+  localized: "));
+  EXPECT_THAT(readText(path("out/report.html")), testing::ContainsRegex(">scan [0-9]+<"));
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ TEST_F(Optimize, TheTableIsForPeopleAndTheSameGraphGivesTheSameBytes) {
   const std::string graph = write("square.g2o", kSquare + "VERTEX_XY 9 1 1\n");
   const ProgramEnd end = runSwiftlet({"optimize", graph, "--out", path("a")});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
-  EXPECT_THAT(end.out, ContainsRegex("graph +vertices +edges .*chi2 initial +chi2 final"));
+  EXPECT_THAT(end.out,
+              ContainsRegex("graph +vertices +edges .*chi2 initial +chi2 final +start +converged +iterations in all"));
   EXPECT_THAT(end.out, HasSubstr("\nsquare.g2o "));
   EXPECT_THAT(end.err, HasSubstr("square.g2o:9: VERTEX_XY: not used, 1 line is left out"));
   EXPECT_EQ(runSwiftlet({"optimize", graph, "--out", path("b")}).exit_code, 0);
@@ -104,7 +105,42 @@ TEST_F(Optimize, TheGraphItselfIsNotOverwrittenAndABadFolderIsTold) {
   full_disk.largest_file_bytes = 100;
   const ProgramEnd full = runSwiftlet({"optimize", graph, "--out", path("full")}, full_disk);
   EXPECT_EQ(full.exit_code, 2) << describe(full);
-  EXPECT_TRUE(fs::is_empty(path("full"))) << "nothing half written";
+  EXPECT_FALSE(fs::exists(path("full"))) << "nothing half written";
+}
+
+TEST_F(Optimize, OnlyAnOlderGraphOfItsOwnIsReplaced) {
+  const std::string graph = write("square.g2o", kSquare);
+  const std::vector<std::string> arguments{"optimize", graph, "--out", path("out")};
+  EXPECT_EQ(runSwiftlet(arguments).exit_code, 0);
+  EXPECT_EQ(runSwiftlet(arguments).exit_code, 0) << "its own";
+  EXPECT_NEAR(nlohmann::json::parse(readText(path("out/optimized.json"))).at("chi2_final").get<double>(), 0.8, 1e-3);
+
+  fs::create_directories(path("theirs"));
+  write("theirs/graph.g2o", "theirs");
+  const ProgramEnd end = runSwiftlet({"optimize", graph, "--out", path("theirs")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("holds no optimized graph of this program"));
+  EXPECT_EQ(readText(path("theirs/graph.g2o")), "theirs");
+}
+
+TEST_F(Optimize, AChi2ThatIsNoNumberIsAFailure) {
+  const std::string graph = write("huge.g2o",
+                                  "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1e200 0 0\n"
+                                  "EDGE_SE2 0 1 -1e200 0 0 1e200 0 0 1e200 0 1\n"
+                                  "EDGE_SE2 0 1 1e200 0 0 1e200 0 0 1e200 0 1\n");
+  const ProgramEnd end = runSwiftlet({"optimize", graph, "--out", path("out")});
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("huge.g2o: chi2 is "));
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
+TEST_F(Optimize, PartsThatNothingTiesAreTold) {
+  const std::string graph = write("parts.g2o",
+                                  "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_SE2 2 5 5 0\nVERTEX_SE2 3 6 5 0\n"
+                                  "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n");
+  const ProgramEnd end = runSwiftlet({"optimize", graph});
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("note: 1 part of the graph is not tied to the fixed vertex"));
 }
 
 TEST_F(Optimize, WhatDoesNotConvergeIsToldByTheExitCode) {

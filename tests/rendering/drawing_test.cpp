@@ -166,6 +166,23 @@ TEST(MapRendererTest, AnEmptyMapIsAPictureToo) {
   EXPECT_EQ(renderMap(world, view).rgb.size(), 768u);
 }
 
+TEST(MapRendererTest, ATrailWithoutItsVehicleEndsAtItsLastPoint) {
+  testing::ExampleFlight flight;
+  common::World world = *flight.advance(1.0);
+  world.trail_map_m = std::make_shared<const std::vector<Eigen::Vector2d>>(
+      std::vector<Eigen::Vector2d>{{1.0, 1.0}, {1.5, 1.0}, {1.5, 2.0}});
+  MapView view;
+  view.viewport = Viewport{{0.0, 0.0}, 60.0, 640, 480};
+  view.layers.vehicle = view.layers.plan = false;  // A plan begins at the vehicle, too.
+  const auto drawn = [&](double x_m) {
+    world.state.T_odom_body.position_m = {x_m, -2.0, 0.5};
+    return renderMap(world, view).rgb;
+  };
+  EXPECT_EQ(drawn(2.0), drawn(-2.0)) << "no line to a vehicle that is not shown";
+  view.layers.vehicle = true;
+  EXPECT_NE(drawn(2.0), drawn(-2.0));
+}
+
 TEST(ResizeTest, EachPixelIsTheMeanOfItsArea) {
   common::Image image = black(12, 8);
   for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<std::uint8_t>(i * 37 % 251);

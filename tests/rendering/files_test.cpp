@@ -12,6 +12,7 @@
 #include "rendering/map_renderer.hpp"
 #include "rendering/map_svg.hpp"
 #include "rendering/plot_svg.hpp"
+#include "rendering/thinned_curve.hpp"
 #include "tests/rendering/example_flight.hpp"
 
 namespace swiftlet::rendering {
@@ -117,6 +118,39 @@ TEST(MapSvgTest, HasThePictureTheLinesAndTheMarks) {
   EXPECT_EQ(countOf(svg, "<polyline"), 2);
   EXPECT_EQ(countOf(svg, "<circle"), 2);
   std::ofstream(std::string(SWIFTLET_BINARY_DIR) + "/map.svg") << svg;
+}
+
+TEST(MapSvgTest, LinesOfOneNameShareAColourAndAnEntryOfTheLegend) {
+  testing::ExampleFlight flight;
+  const auto world = flight.advance(1.0);
+  std::vector<MapLine> lines{{"trajectory", {{0, 0}, {1, 1}}, false}};
+  for (int i = 0; i < 20; ++i) lines.push_back({"loop closures", {{0, 0}, {1, 0.1 * i}}, true});
+  lines.push_back({"", {{0, 0}, {0, 1}}, false});
+  const std::string svg = mapSvg(*world, lines, {});
+  EXPECT_EQ(countOf(svg, "<polyline class=\"s s1\""), 1);
+  EXPECT_EQ(countOf(svg, "<polyline class=\"s s2 dash\""), 20);
+  EXPECT_EQ(countOf(svg, "<polyline class=\"s s3\""), 1);
+  EXPECT_EQ(countOf(svg, "<text class=\"name\""), 2) << "what has no name is not in the legend";
+  EXPECT_EQ(countOf(svg, ">loop closures<"), 1);
+}
+
+TEST(ThinnedCurveTest, TheGreatestStaysWhereverItIs) {
+  for (const int values : {1, 2000, 2001, 4000, 4001, 12345}) {
+    for (const int peak : {0, 1, 999, 1999, 2000, 2001, 3999, 4000, 4001, 8000, 12344}) {
+      if (peak >= values) continue;
+      ThinnedCurve curve;
+      for (int i = 0; i < values; ++i) curve.add(i, i == peak ? 5.0 : 1.0);
+      EXPECT_LE(curve.points().size(), ThinnedCurve::kPoints);
+      int seen = 0;
+      for (const Eigen::Vector2d& p : curve.points()) {
+        if (p.y() != 5.0) continue;
+        ++seen;
+        EXPECT_LE(p.x(), peak);
+        EXPECT_GT(p.x() + 16.0, peak) << "at its place";
+      }
+      EXPECT_EQ(seen, 1) << peak << " of " << values;
+    }
+  }
 }
 
 }  // namespace
