@@ -125,9 +125,9 @@ TEST_F(Optimize, OnlyAnOlderGraphOfItsOwnIsReplaced) {
 
 TEST_F(Optimize, AChi2ThatIsNoNumberIsAFailure) {
   const std::string graph = write("huge.g2o",
-                                  "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1e200 0 0\n"
-                                  "EDGE_SE2 0 1 -1e200 0 0 1e200 0 0 1e200 0 1\n"
-                                  "EDGE_SE2 0 1 1e200 0 0 1e200 0 0 1e200 0 1\n");
+                                  "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1e7 0 0\n"
+                                  "EDGE_SE2 0 1 -1e7 0 0 1e300 0 0 1e300 0 1\n"
+                                  "EDGE_SE2 0 1 1e7 0 0 1e300 0 0 1e300 0 1\n");
   const ProgramEnd end = runSwiftlet({"optimize", graph, "--out", path("out")});
   EXPECT_EQ(end.exit_code, 1) << describe(end);
   EXPECT_THAT(end.err, HasSubstr("huge.g2o: chi2 is "));

@@ -233,7 +233,7 @@ TEST(ReferenceView, EndsBehindTheWallAndBesideTheLaser) {
   }
   ReferenceView view;
   view.add(points, {1.0, 0.0, 0.0});
-  const auto sees = [&](float x, float y, const Pose2& body, double margin_m) {
+  const auto sees = [&](float x, float y, const Pose2& body, double margin_m) -> bool {
     return view.sees(std::vector<float>{x}, std::vector<float>{y}, body, margin_m).front();
   };
   EXPECT_TRUE(sees(4.0F, 0.0F, {}, 0.0)) << "on the wall";
