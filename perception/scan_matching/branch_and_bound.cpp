@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #if defined(__x86_64__)
 #include <emmintrin.h>
@@ -109,6 +110,7 @@ BestPose BranchAndBound::search(LikelihoodField& field, const std::vector<Eigen:
 BestPose BranchAndBound::searchElsewhere(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m,
                                          const PoseGrid& grid, const ExcludedPoses& excluded, int floor) {
   excluded_ = &excluded;
+  steps_per_turn_ = static_cast<int>(std::lround(2.0 * std::numbers::pi / grid.step_yaw_rad));
   penalty_ = {};
   BestPose least;
   least.score = floor;
@@ -193,7 +195,8 @@ void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid&
 bool BranchAndBound::isExcluded(const Node& node, int level) const {
   const int half = excluded_->half_translation, last = (1 << level) - 1;
   const int x = node.x << level, y = node.y << level;
-  return std::abs(node.rotation - excluded_->center.rotation) <= excluded_->half_rotation &&
+  const int apart = std::abs(node.rotation - excluded_->center.rotation);
+  return std::min(apart, std::abs(steps_per_turn_ - apart)) <= excluded_->half_rotation &&
          x >= excluded_->center.x - half && x + last <= excluded_->center.x + half && y >= excluded_->center.y - half &&
          y + last <= excluded_->center.y + half;
 }

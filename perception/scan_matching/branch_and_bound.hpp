@@ -45,7 +45,7 @@ struct BestPose {
   int rotation = 0;
 };
 
-/// Poses within these distances of one pose, in steps of the grid.
+/// Poses within these distances of one pose, in steps of the grid; rotations that differ by a turn are the same.
 struct ExcludedPoses {
   BestPose center;
   int half_translation = 0;
@@ -104,6 +104,7 @@ class BranchAndBound {
 
   Instructions instructions_;
   const ExcludedPoses* excluded_ = nullptr;  // During a search only.
+  int steps_per_turn_ = 0;                   // The same.
   GuessPenalty penalty_;
   std::vector<float> x_m_, y_m_;
   std::vector<Rotation> rotations_;

@@ -20,12 +20,16 @@ constexpr double kViewDistance_m = 2.0;
 /// The wide search's spread, in its cells.
 constexpr double kWideSigmaCells = 2.0;
 
-/// The newest scans up to the query that are firmly tied to it, as one scan in its frame.
-ProjectedScan joinedQuery(const SlamGraph& graph, int query, int count) {
+/// Of the newest scans up to the query those that are firmly tied to it, as one scan in its frame.
+ProjectedScan joinedQuery(const SlamGraph& graph, int query, const Slam2dConfig& config) {
   const Pose2& T_map_query = graph.keys[static_cast<std::size_t>(query)].T_map_body;
   ProjectedScan joined;
   joined.stamp = graph.keys[static_cast<std::size_t>(query)].scan->stamp;
-  for (int key = query; key >= std::max(0, query - count + 1); --key) {
+  std::vector<int> keys;
+  for (const ProjectedUncertainty& u : projectUncertainty(graph, query, config.local_sigma_m))
+    if (u.key <= query && u.key > query - config.loops.query_scans) keys.push_back(u.key);
+  std::sort(keys.rbegin(), keys.rend());
+  for (const int key : keys) {
     const KeyScan& source = graph.keys[static_cast<std::size_t>(key)];
     const Pose2 T_query_key = between(T_map_query, source.T_map_body);
     const auto c = static_cast<float>(std::cos(T_query_key.yaw_rad)),
@@ -62,12 +66,7 @@ void drawReference(const SlamGraph& graph, const std::vector<int>& keys, const C
                    LikelihoodField& field) {
   for (const int key : keys) {
     const KeyScan& source = graph.keys[static_cast<std::size_t>(key)];
-    std::vector<ContourSegment> contour = contourOf(source.scan->points_level_m, config.max_gap_m, config.max_range_m);
-    for (ContourSegment& segment : contour) {
-      segment.begin_m = source.T_map_body * segment.begin_m;
-      segment.end_m = source.T_map_body * segment.end_m;
-    }
-    field.draw(contour);
+    field.draw(contourOf(source.scan->points_level_m, config.max_gap_m, config.max_range_m, source.T_map_body));
   }
 }
 
@@ -117,7 +116,7 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
   const LoopClosureConfig& loops = config.loops;
   const std::vector<int> reference = referenceKeys(graph, query, candidate.key, config);
   if (reference.empty()) return std::nullopt;
-  const ProjectedScan joined = joinedQuery(graph, query, loops.query_scans);
+  const ProjectedScan joined = joinedQuery(graph, query, config);
   const std::vector<Eigen::Vector2f> points =
       spreadPoints(joined.points_level_m, config.matcher.search_points, config.matcher.max_range_m);
   if (static_cast<int>(points.size()) < config.matcher.min_points) return std::nullopt;

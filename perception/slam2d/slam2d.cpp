@@ -104,7 +104,6 @@ struct Slam2d::Impl {
   bool task_outstanding = false;
   std::vector<FoundLoop> doubted;  ///< Closures that were refused.
   std::size_t task_keys = 0;
-  int task_query = 0;
   std::vector<std::pair<int, AttachedScan>> drawn_since_task;
 };
 
@@ -350,12 +349,11 @@ SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, bool is_l
   counts.loop_candidates += candidates.size();
   task_outstanding = true;
   task_keys = graph.keys.size();
-  task_query = static_cast<int>(graph.keys.size()) - 1;
   drawn_since_task.clear();
   auto data = std::make_shared<SlamTask::Data>();
   data->id = ++tasks;
   data->graph = graph;
-  data->query = task_query;
+  data->query = static_cast<int>(graph.keys.size()) - 1;
   data->candidates = std::move(candidates);
   data->doubted = doubted;
   data->is_last = is_last;
@@ -378,10 +376,18 @@ bool Slam2d::apply(const SlamResult& result) {
   const std::vector<Pose2>& poses = result.data->T_map_key;
   if (poses.empty()) return false;
 
-  // What came after the task was built on its query; it moves along.
-  const Pose2 correction = poses[static_cast<std::size_t>(self.task_query)] * self.poseOf(self.task_query).inverse();
-  for (std::size_t i = 0; i < self.graph.keys.size(); ++i)
-    self.graph.keys[i].T_map_body = i < self.task_keys ? poses[i] : correction * self.graph.keys[i].T_map_body;
+  // What came after the task moves along with what it was built on: its first edge comes from there.
+  std::vector<Pose2> T_map_before;
+  for (const KeyScan& key : self.graph.keys) T_map_before.push_back(key.T_map_body);
+  for (std::size_t i = 0; i < self.graph.keys.size(); ++i) {
+    KeyScan& key = self.graph.keys[i];
+    if (i < self.task_keys) {
+      key.T_map_body = poses[i];
+    } else {
+      const int base = self.graph.edges[static_cast<std::size_t>(key.edges.front())].from;
+      key.T_map_body = self.poseOf(base) * between(T_map_before[static_cast<std::size_t>(base)], T_map_before[i]);
+    }
+  }
   for (auto edge = result.data->taken_back.rbegin(); edge != result.data->taken_back.rend(); ++edge)
     self.graph.remove(*edge);
   for (const SlamEdge& closure : result.data->closures) self.graph.add(closure);

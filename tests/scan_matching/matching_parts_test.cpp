@@ -8,11 +8,14 @@
 
 #include "common/geometry.hpp"
 #include "common/random.hpp"
+#include "perception/scan_matching/branch_and_bound.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
 #include "perception/scan_matching/reference_view.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 #include "perception/scan_matching/score_surface.hpp"
+#include "perception/scan_matching/split_points.hpp"
 #include "perception/scan_matching/window_sums.hpp"
+#include "tests/scan_matching/scenes.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -221,6 +224,42 @@ TEST(ScoreSurface, AQuadraticIsFoundExactly) {
   EXPECT_LT((q.hessian - hessian).norm(), 0.1);
   EXPECT_LT((q.gradient - gradient).norm(), 0.1);
   EXPECT_NEAR(q.constant, 5000.0, 0.5);
+}
+
+/// The best pose that is not beside the best: as if all were tried, and half a turn to the left is one to the right.
+TEST(BranchAndBound, SearchingElsewhereIsExhaustive) {
+  const ProjectedScan scan = test::scanAt(test::flat(), {0.5, 0.3, 0.4}, 1);
+  LikelihoodField field(0.05, 0.1);
+  field.draw(contourOf(scan.points_level_m, 0.3, 20.0));
+  const std::vector<Eigen::Vector2f> points = spreadPoints(scan.points_level_m, 120, 20.0);
+  const double step_rad = 4.0 * common::kRadPerDeg;
+  BranchAndBound search(bestInstructions());
+  for (const double turned_rad : {0.0, 1.0, std::numbers::pi}) {
+    // The best lies in the middle of the window, between, and at both of its ends.
+    const PoseGrid grid{-0.3, -0.3, turned_rad - 45 * step_rad, step_rad, 91, 13};
+    const BestPose best = search.search(field, points, grid, {}, 0);
+    const ExcludedPoses here{best, 3, 4};
+    const SplitPoints split(points);
+    std::vector<std::int32_t> x_cells, y_cells;
+    int expected = 0;
+    for (int k = 0; k < grid.rotations; ++k) {
+      BranchAndBound::allCellsAt(field, split.x_m, split.y_m, grid.first_yaw_rad + k * step_rad, grid.first_x_m,
+                                 grid.first_y_m, x_cells, y_cells);
+      const int apart = std::abs(k - best.rotation);
+      const bool same_rotation = std::min(apart, 90 - apart) <= here.half_rotation || apart > 90 - here.half_rotation;
+      for (int y = 0; y < grid.translations; ++y)
+        for (int x = 0; x < grid.translations; ++x) {
+          if (same_rotation && std::abs(x - best.x) <= here.half_translation &&
+              std::abs(y - best.y) <= here.half_translation)
+            continue;
+          int score = 0;
+          for (std::size_t i = 0; i < points.size(); ++i) score += field.at(x_cells[i] + x, y_cells[i] + y);
+          expected = std::max(expected, score);
+        }
+    }
+    EXPECT_EQ(search.searchElsewhere(field, points, grid, here, 0).score, expected) << turned_rad;
+    EXPECT_LT(expected, best.score) << turned_rad;
+  }
 }
 
 TEST(ReferenceView, EndsBehindTheWallAndBesideTheLaser) {
