@@ -90,7 +90,7 @@ struct UnpackedStream::Feed {
   /// `packed`, with its bytes counted.
   ByteSource counted(ByteSource packed) {
     return [this, packed = std::move(packed)](char* to, std::size_t bytes) {
-      const BytesRead count = packed(to, bytes);
+      BytesRead count = packed(to, bytes);
       packed_bytes += static_cast<std::int64_t>(count.value_or(0));
       return count;
     };

@@ -64,7 +64,7 @@ struct BagReader::Chunk {
   }
 
   BytesRead takeFromFile(char* to, std::size_t count) {
-    const BytesRead taken = file.some(to, std::min<std::size_t>(count, left));
+    BytesRead taken = file.some(to, std::min<std::size_t>(count, left));
     left -= static_cast<std::uint32_t>(taken.value_or(0));
     return taken;
   }
