@@ -227,7 +227,7 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   if (match.failed) {
     ++self.counts.failures;
     if (++self.failures < self.config.max_failures) return std::nullopt;
-    const auto restarted = self.start(scan);
+    auto restarted = self.start(scan);
     self.counts.restarts += restarted ? 1 : 0;
     return restarted;
   }
