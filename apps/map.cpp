@@ -73,8 +73,9 @@ std::vector<std::string> warningsOf(const RecordedLog& log, const MapRun& run) {
                     fmt::format("the map is probably wrong in places: {} of {} scans matched nothing, and stand where "
                                 "they were expected",
                                 run.unmatched, log.scans()));
-  if (const auto n = restarts; n > 0)
-    warnings.push_back("the track was lost " + plural(n, "time", "times") + " and begun anew where it was expected");
+  if (restarts > 0)
+    warnings.push_back("the track was lost " + plural(restarts, "time", "times") +
+                       " and begun anew where it was expected");
   return warnings;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/map_outputs.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "apps/required.hpp"
+#include "common/read_bytes.hpp"
 #include "common/world.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/g2o.hpp"
@@ -29,9 +31,8 @@ using common::Pose2;
 constexpr double kDrawnStep_m = 0.05;
 constexpr std::size_t kDrawnPoints = 50'000;
 
-/// What readMap takes: this long a side of a picture, and files of 1 GiB, with room for the picture's header.
-constexpr std::uint64_t kMostSide_cells = 1 << 15;
-constexpr std::uint64_t kMost_cells = (1ULL << 30) - 4096;
+/// Of the largest file that is read, what the header of a picture may take.
+constexpr std::uint64_t kHeaderBytes = 4096;
 
 using PoseOf = std::function<Pose2(const perception::TrackedScan&)>;
 
@@ -114,11 +115,11 @@ std::string plotOver(const std::string& title, const std::string& unit, const re
 std::string whyNoMap(const common::OccupancyGrid& map) {
   const common::CellRect known = common::knownExtent(map);
   const auto width = static_cast<std::uint64_t>(known.width()), height = static_cast<std::uint64_t>(known.height());
-  if (width <= kMostSide_cells && height <= kMostSide_cells && width * height <= kMost_cells) return "";
+  if (std::max(width, height) <= interfaces::kMostSide_px && width * height <= common::kMostFileBytes - kHeaderBytes)
+    return "";
   return fmt::format(
-      "the map would be {} by {} cells of {:g} m: the log's odometry or scans jump; trajectory and graph are written, "
-      "the "
-      "map is not",
+      "the map would be {} by {} cells of {:g} m: the log's odometry or scans jump; trajectory and "
+      "graph are written, the map is not",
       width, height, map.resolution_m());
 }
 

@@ -90,8 +90,7 @@ std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts
   if (hasOneStamp())
     warnings.push_back(
         fmt::format("all scans have the same stamp, {:.3f} s: the order of the file is believed; the poses of the "
-                    "trajectory cannot "
-                    "be told apart by time, and `evaluate` cannot pair them",
+                    "trajectory cannot be told apart by time, and `evaluate` cannot pair them",
                     first_stamp_->seconds()));
   else if (const auto n = found.doubtful_stamps; n > 0)
     warnings.push_back(plural(n, "time stamp does", "time stamps do") +

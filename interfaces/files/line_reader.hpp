@@ -30,8 +30,8 @@ class LineReader {
 
   /// The next line without its end (a newline, or carriage return and newline); false after the last. The view holds
   /// until the next call. A last line without an end is a line; one that is empty is none. A byte order mark is no part
-  /// of the first. Throws InputError when a
-  /// line or the file is too long, or when what is compressed is cut or damaged; the lines before that were returned.
+  /// of the first. Throws InputError when a line or the file is too long, or when what is compressed is cut or damaged;
+  /// the lines before that were returned.
   bool next(std::string_view& line);
 
   /// Of the line returned last, counted from 1; 0 before the first. Stays at the greatest int.

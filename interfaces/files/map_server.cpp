@@ -206,14 +206,13 @@ StoredMap readMap(const std::filesystem::path& yaml_file) {
 }
 
 GreyImage parsePgm(std::string_view bytes, const std::string& name) {
-  constexpr int kMaxSide = 1 << 15;
   PgmHeader header(bytes, name);
   const std::string_view magic = header.word();
   if (magic != "P5" && magic != "P2")
     throw header.fail("PGM", fmt::format("begins with `{}`, P5 or P2 was expected", magic.substr(0, 8)));
   GreyImage image;
-  image.width_px = header.number("width", 1, kMaxSide);
-  image.height_px = header.number("height", 1, kMaxSide);
+  image.width_px = header.number("width", 1, kMostSide_px);
+  image.height_px = header.number("height", 1, kMostSide_px);
   const int greatest = header.number("greatest value", 1, 255);
   const std::size_t count = static_cast<std::size_t>(image.width_px) * image.height_px;
 

@@ -12,6 +12,9 @@
 
 namespace swiftlet::interfaces {
 
+/// The longest side of a picture that is read.
+inline constexpr int kMostSide_px = 1 << 15;
+
 /// The known part of a grid as a binary PGM: 0 occupied, 254 free, 205 unknown. An empty grid gives one unknown pixel.
 std::string toPgm(const common::OccupancyGrid& grid);
 

@@ -32,8 +32,8 @@ struct CorrelativeMatcherConfig {
   double sigma_m = 0.02;     ///< Spread of the end points about the contour of the reference.
   int search_points = 256;   ///< Points of a scan that are searched with, spread evenly along its contour; at most 256.
   int surface_points = 512;  ///< Points from which pose and covariance are taken around the best.
-  bool only_seen = true;     ///< Pose and covariance are taken from what the reference has seen only: what comes out
-                             ///< of a shadow while the vehicle goes by would pull the scan on.
+  bool only_seen = true;     ///< Of what the reference looked at, pose and covariance are taken only from what lies on
+                             ///< it, away from where it ends: what comes out of a shadow would pull the scan on.
   double max_range_m = 20.0;  ///< Points farther than this are not used; bounds the memory of the field.
   double max_gap_m = 0.3;     ///< Neighbouring end points of the reference nearer than this are joined to a contour.
   double guess_weight = 0.1;  ///< A pose far from the guess loses at most this much quality: the motion's prior.

@@ -36,13 +36,10 @@ void ReferenceView::add(const std::vector<Eigen::Vector2f>& points_body_m, const
     int step = bin - last_bin;
     if (step > kBins / 2) step -= kBins;
     if (step < -kBins / 2) step += kBins;
-    const int way = step < 0 ? -1 : 1;
+    const auto reach = [&](int at, float to_m) { ends_m[wrapped(at)] = std::max(ends_m[wrapped(at)], to_m); };
     if (last_m > 0.0F && std::abs(step) <= kJoinedBins)
-      for (int k = way; k != step && step != 0; k += way) {
-        float& end_m = ends_m[wrapped(last_bin + k)];
-        end_m = std::max({end_m, range_m, last_m});
-      }
-    ends_m[static_cast<std::size_t>(bin)] = std::max(ends_m[static_cast<std::size_t>(bin)], range_m);
+      for (int k = 1; k < std::abs(step); ++k) reach(last_bin + (step < 0 ? -k : k), std::max(range_m, last_m));
+    reach(bin, range_m);
     last_bin = bin;
     last_m = range_m;
   }

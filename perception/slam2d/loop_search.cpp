@@ -21,13 +21,14 @@ constexpr double kViewDistance_m = 2.0;
 constexpr double kWideSigmaCells = 2.0;
 
 /// Of the newest scans up to the query those that are firmly tied to it, as one scan in its frame.
-ProjectedScan joinedQuery(const SlamGraph& graph, int query, const Slam2dConfig& config) {
+ProjectedScan joinedQuery(const SlamGraph& graph, int query, const std::vector<ProjectedUncertainty>& tied_to_query,
+                          int count) {
   const Pose2& T_map_query = graph.keys[static_cast<std::size_t>(query)].T_map_body;
   ProjectedScan joined;
   joined.stamp = graph.keys[static_cast<std::size_t>(query)].scan->stamp;
   std::vector<int> keys;
-  for (const ProjectedUncertainty& u : projectUncertainty(graph, query, config.local_sigma_m))
-    if (u.key <= query && u.key > query - config.loops.query_scans) keys.push_back(u.key);
+  for (const ProjectedUncertainty& u : tied_to_query)
+    if (u.key <= query && u.key > query - count) keys.push_back(u.key);
   std::sort(keys.rbegin(), keys.rend());
   for (const int key : keys) {
     const KeyScan& source = graph.keys[static_cast<std::size_t>(key)];
@@ -42,10 +43,10 @@ ProjectedScan joinedQuery(const SlamGraph& graph, int query, const Slam2dConfig&
 }
 
 /// Key scans around the candidate that are firmly tied to it, and not to the query.
-std::vector<int> referenceKeys(const SlamGraph& graph, int query, int candidate, const Slam2dConfig& config) {
+std::vector<int> referenceKeys(const SlamGraph& graph, const std::vector<ProjectedUncertainty>& tied_to_query,
+                               int candidate, const Slam2dConfig& config) {
   std::vector<char> of_query(graph.keys.size(), 0);
-  for (const ProjectedUncertainty& u : projectUncertainty(graph, query, config.local_sigma_m))
-    of_query[static_cast<std::size_t>(u.key)] = 1;
+  for (const ProjectedUncertainty& u : tied_to_query) of_query[static_cast<std::size_t>(u.key)] = 1;
   std::vector<int> keys;
   const Pose2& center = graph.keys[static_cast<std::size_t>(candidate)].T_map_body;
   for (const ProjectedUncertainty& u : projectUncertainty(graph, candidate, config.local_sigma_m))
@@ -114,9 +115,10 @@ std::vector<LoopCandidate> loopCandidates(const SlamGraph& graph, int query, con
 std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const LoopCandidate& candidate,
                                     const Slam2dConfig& config) {
   const LoopClosureConfig& loops = config.loops;
-  const std::vector<int> reference = referenceKeys(graph, query, candidate.key, config);
+  const std::vector<ProjectedUncertainty> tied_to_query = projectUncertainty(graph, query, config.local_sigma_m);
+  const std::vector<int> reference = referenceKeys(graph, tied_to_query, candidate.key, config);
   if (reference.empty()) return std::nullopt;
-  const ProjectedScan joined = joinedQuery(graph, query, config);
+  const ProjectedScan joined = joinedQuery(graph, query, tied_to_query, loops.query_scans);
   const std::vector<Eigen::Vector2f> points =
       spreadPoints(joined.points_level_m, config.matcher.search_points, config.matcher.max_range_m);
   if (static_cast<int>(points.size()) < config.matcher.min_points) return std::nullopt;
