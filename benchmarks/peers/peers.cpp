@@ -1,4 +1,4 @@
-// benchmark_peers LOG RELATIONS [--repeat N] [--settings FOLDER]
+// benchmark_peers LOG RELATIONS [--repeat N] [--only PART] [--settings FOLDER]
 //
 // On one log, in one run: our front end (LaserFrontEnd), and our SLAM without loop search, beside MRPT's icp-slam, and
 // our full SLAM beside its rbpf-slam. Of each, the processor time a scan took, and how well the trajectory keeps the
@@ -33,6 +33,7 @@ using peers::Peer;
 struct Options {
   std::string log, relations;
   int repeat = 3;
+  std::string only;                                                 ///< Those whose name has this in it.
   std::filesystem::path settings = "/usr/share/mrpt/config_files";  ///< Debian's mrpt-common.
 };
 
@@ -158,6 +159,7 @@ void compare(const Options& options) {
               options.repeat);
   common::Table table{"", {"", "log s", "mean ms", "median ms", "p99 ms", "m", "+-", "deg", "+-"}, {}};
   for (const Contender& contender : contenders) {
+    if (contender.name.find(options.only) == std::string::npos) continue;
     const Result result = medianOf(contender, options, log, relations);
     const auto& translation = result.errors.translation_m;
     const auto& rotation = result.errors.rotation_rad;
@@ -181,6 +183,8 @@ Options parse(int argc, char** argv) {
     const std::string word = argv[i];
     if (word == "--repeat" && i + 1 < argc)
       options.repeat = std::max(1, std::atoi(argv[++i]));
+    else if (word == "--only" && i + 1 < argc)
+      options.only = argv[++i];
     else if (word == "--settings" && i + 1 < argc)
       options.settings = argv[++i];
     else
@@ -195,7 +199,8 @@ int main(int argc, char** argv) {
   const Options options = parse(argc, argv);
   if (options.relations.empty() || !std::filesystem::exists(options.settings / "icp-slam")) {
     std::fprintf(stderr,
-                 "benchmark_peers LOG RELATIONS [--repeat N] [--settings FOLDER]\n"
+                 "benchmark_peers LOG RELATIONS [--repeat N] [--only PART] [--settings FOLDER]\n"
+                 "PART of a name, as \"front end\": the others are left out.\n"
                  "FOLDER holds MRPT's config_files; Debian's package mrpt-common brings them.\n");
     return 2;
   }

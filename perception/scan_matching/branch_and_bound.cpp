@@ -33,10 +33,6 @@ double leastDistance2(const PoseGrid& grid, int x, int y, int level) {
 
 }  // namespace
 
-bool BranchAndBound::isBetter(const Node& a, const Node& b) {
-  return a.bound != b.bound ? a.bound > b.bound : a.order < b.order;
-}
-
 void BranchAndBound::allCellsAt(const LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m,
                                 double yaw_rad, double shift_x_m, double shift_y_m, std::vector<std::int32_t>& x_cells,
                                 std::vector<std::int32_t>& y_cells) {
@@ -150,10 +146,13 @@ BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Ei
   nodes_.clear();
   for (std::size_t i = 0; i < bounds_.size(); ++i)
     if (bounds_[i] > best.score) nodes_.push_back(nodeAt(i));
-  std::sort(nodes_.begin(), nodes_.end(), isBetter);
-  for (const Node& node : nodes_) {
-    if (node.bound <= best.score) break;
-    descend(field, node, top, grid, best);
+  // A heap, as most are never looked at.
+  const auto isWorse = [](const Node& a, const Node& b) { return b.isBetter(a); };
+  std::make_heap(nodes_.begin(), nodes_.end(), isWorse);
+  while (!nodes_.empty() && nodes_.front().bound > best.score) {
+    descend(field, nodes_.front(), top, grid, best);
+    std::pop_heap(nodes_.begin(), nodes_.end(), isWorse);
+    nodes_.pop_back();
   }
   return best;
 }
@@ -162,10 +161,11 @@ BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Ei
 void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid& grid, int top, int blocks,
                                    int border) {
   const auto size = static_cast<std::size_t>(blocks);
-  block_distances2_.resize(size * size);
-  auto distance2 = block_distances2_.begin();
+  block_shares_.resize(size * size);
+  auto share = block_shares_.begin();
   for (int y = 0; y < blocks; ++y)
-    for (int x = 0; x < blocks; ++x) *distance2++ = leastDistance2(grid, x << top, y << top, top);
+    for (int x = 0; x < blocks; ++x)
+      *share++ = penalty_.translationShare(leastDistance2(grid, x << top, y << top, top));
 
   // In strips as wide as sumWindows adds.
   const LikelihoodField::Level level = field.level(top);
@@ -186,8 +186,8 @@ void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid&
           out[static_cast<std::size_t>(y) * size + static_cast<std::size_t>(x0 + x)] = sums[windowIndex(x, y)];
     }
     if (penalty_.greatest == 0) continue;
-    const double turned = k - 0.5 * (grid.rotations - 1);
-    for (std::size_t i = 0; i < size * size; ++i) out[i] -= penalty_.at(block_distances2_[i], turned);
+    const double turned = penalty_.rotationShare(k - 0.5 * (grid.rotations - 1));
+    for (std::size_t i = 0; i < size * size; ++i) out[i] -= penalty_.ofShares(block_shares_[i], turned);
   }
 }
 
@@ -214,18 +214,21 @@ void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int
   sumWindows(instructions_, finer.cells + static_cast<std::ptrdiff_t>(2 * node.y) * finer.stride + 2 * node.x,
              finer.stride, offsets, 2, sums.data());
   std::array<Node, 4> children;
+  std::size_t count = 0;
   for (int i = 0; i < 4; ++i) {
     const int dx = i % 2, dy = i / 2;
-    Node& child = children[static_cast<std::size_t>(i)];
     const int x = 2 * node.x + dx, y = 2 * node.y + dy;
-    child = {sums[windowIndex(dx, dy)] -
-                 leastPenalty(penalty_, grid, x << (level - 1), y << (level - 1), node.rotation, level - 1),
-             i, node.rotation, static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
-    // Blocks wholly outside the window.
-    if (x << (level - 1) >= grid.translations || y << (level - 1) >= grid.translations) child.bound = -1;
+    const int first_x = x << (level - 1), first_y = y << (level - 1);
+    int bound = sums[windowIndex(dx, dy)];
+    if (bound <= best.score || first_x >= grid.translations || first_y >= grid.translations) continue;
+    bound -= leastPenalty(penalty_, grid, first_x, first_y, node.rotation, level - 1);
+    if (bound <= best.score) continue;
+    const Node child{bound, i, node.rotation, static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
+    std::size_t place = count++;
+    for (; place > 0 && child.isBetter(children[place - 1]); --place) children[place] = children[place - 1];
+    children[place] = child;
   }
-  std::sort(children.begin(), children.end(), isBetter);
-  for (const Node& child : children) descend(field, child, level - 1, grid, best);
+  for (std::size_t i = 0; i < count; ++i) descend(field, children[i], level - 1, grid, best);
 }
 
 }  // namespace swiftlet::perception

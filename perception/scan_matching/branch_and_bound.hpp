@@ -31,9 +31,15 @@ struct GuessPenalty {
   double half_rotations = 1.0;     ///< or at so many of rotation.
 
   int at(double translations2, double rotations) const {
-    if (greatest == 0) return 0;
-    const double r2 = translations2 / (half_translations * half_translations) +
-                      rotations * rotations / (half_rotations * half_rotations);
+    return greatest == 0 ? 0 : ofShares(translationShare(translations2), rotationShare(rotations));
+  }
+  /// The same from its two parts, for who needs many.
+  double translationShare(double translations2) const {
+    return translations2 / (half_translations * half_translations);
+  }
+  double rotationShare(double rotations) const { return rotations * rotations / (half_rotations * half_rotations); }
+  int ofShares(double translation, double rotation) const {
+    const double r2 = translation + rotation;
     return static_cast<int>(greatest * (r2 / (1.0 + r2)));
   }
 };
@@ -86,6 +92,8 @@ class BranchAndBound {
     std::int16_t rotation = 0;
     std::int16_t x = 0;
     std::int16_t y = 0;
+
+    bool isBetter(const Node& other) const { return bound != other.bound ? bound > other.bound : order < other.order; }
   };
   struct Rotation {
     std::vector<std::int32_t> x_cells;
@@ -94,7 +102,6 @@ class BranchAndBound {
     std::array<bool, LikelihoodField::kLevels> has_offsets{};
   };
 
-  static bool isBetter(const Node& a, const Node& b);
   void boundTopLevel(const LikelihoodField& field, const PoseGrid& grid, int top, int blocks, int border);
   const std::vector<std::int32_t>& offsetsAt(const LikelihoodField& field, int rotation, int level);
   BestPose searchFrom(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
@@ -108,7 +115,7 @@ class BranchAndBound {
   GuessPenalty penalty_;
   std::vector<float> x_m_, y_m_;
   std::vector<Rotation> rotations_;
-  std::vector<double> block_distances2_;
+  std::vector<double> block_shares_;  // Of the penalty.
   std::vector<std::int32_t> bounds_;
   std::vector<Node> nodes_;
 };

@@ -197,10 +197,13 @@ void LikelihoodField::reserve(int min_x, int min_y, int max_x, int max_y, int bo
     begin_y_ = begin_y;
     return;
   }
-  std::array<std::vector<std::uint8_t>, kLevels> levels;
-  for (int k = 0; k < kLevels; ++k)
-    levels[static_cast<std::size_t>(k)].assign(
-        static_cast<std::size_t>(width >> k) * static_cast<std::size_t>(height >> k) + kOverread, 0);
+  std::array<std::vector<std::uint8_t>, kLevels>& levels = spare_levels_;
+  for (int k = 0; k < kLevels; ++k) {
+    const std::size_t cells = static_cast<std::size_t>(width >> k) * static_cast<std::size_t>(height >> k) + kOverread;
+    std::vector<std::uint8_t>& level = levels[static_cast<std::size_t>(k)];
+    if (level.capacity() < cells) level.reserve(cells + cells / 4);
+    level.assign(cells, 0);
+  }
   std::vector<std::uint8_t> tile_levels(
       static_cast<std::size_t>(width / kTile) * static_cast<std::size_t>(height / kTile), 0);
   std::vector<int> drawn_tiles;
@@ -213,7 +216,7 @@ void LikelihoodField::reserve(int min_x, int min_y, int max_x, int max_y, int bo
     tile_levels[static_cast<std::size_t>(new_tile)] = 1;
     drawn_tiles.push_back(new_tile);
   }
-  levels_ = std::move(levels);
+  std::swap(levels_, levels);
   tile_levels_ = std::move(tile_levels);
   drawn_tiles_ = std::move(drawn_tiles);
   begin_x_ = begin_x;

@@ -79,6 +79,7 @@ class LikelihoodField {
   bool drawn_ = false;
   int prepared_top_ = 0;  ///< No level above this was ever computed.
   std::array<std::vector<std::uint8_t>, kLevels> levels_;
+  std::array<std::vector<std::uint8_t>, kLevels> spare_levels_;  ///< Memory for the next time the array grows.
 
   /// Of each tile of the finest level: levels below this are current; 0: never drawn.
   std::vector<std::uint8_t> tile_levels_;

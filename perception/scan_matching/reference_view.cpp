@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 namespace swiftlet::perception {
 namespace {
 
@@ -74,13 +76,21 @@ bool ReferenceView::looksAt(const Scan& scan, const Eigen::Vector2d& point_m, do
 
 std::vector<bool> ReferenceView::sees(std::span<const float> x_m, std::span<const float> y_m,
                                       const Pose2& T_reference_body, double margin_m) const {
-  std::vector<Pose2> T_scan_body;
+  struct Placed {
+    Eigen::Matrix2d rotation;
+    Eigen::Vector2d position_m;
+  };
+  std::vector<Placed> T_scan_body;
   T_scan_body.reserve(scans_.size());
-  for (const Scan& scan : scans_) T_scan_body.push_back(scan.T_body_reference * T_reference_body);
+  for (const Scan& scan : scans_) {
+    const Pose2 pose = scan.T_body_reference * T_reference_body;
+    T_scan_body.push_back({Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix(), pose.position_m()});
+  }
   std::vector<bool> seen(x_m.size(), false);
   for (std::size_t i = 0; i < x_m.size(); ++i) {
     for (std::size_t k = scans_.size(); k-- > 0 && !seen[i];) {  // The newest sees most.
-      const Eigen::Vector2d there_m = T_scan_body[k] * Eigen::Vector2d(x_m[i], y_m[i]);
+      const Eigen::Vector2d there_m =
+          T_scan_body[k].rotation * Eigen::Vector2d(x_m[i], y_m[i]) + T_scan_body[k].position_m;
       seen[i] = looksAt(scans_[k], there_m, margin_m);
     }
   }

@@ -27,15 +27,23 @@ Quadratic fitQuadratic(const ScoreSurface& surface) {
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (int rotation = -kHalf; rotation <= kHalf; ++rotation) {
     for (int y = -kHalf; y <= kHalf; ++y) {
+      double of_row = 0.0, of_row_x = 0.0, of_row_xx = 0.0;
       for (int x = -kHalf; x <= kHalf; ++x) {
         const double score = surface.at(x, y, rotation);
-        const Eigen::Vector3d u(x, y, rotation);
-        sum += score;
-        first += score * u;
-        second += score * u * u.transpose();
+        of_row += score;
+        of_row_x += score * x;
+        of_row_xx += score * x * x;
       }
+      const Eigen::Vector2d others(y, rotation);
+      sum += of_row;
+      first(0) += of_row_x;
+      first.tail<2>() += of_row * others;
+      second(0, 0) += of_row_xx;
+      second.block<2, 1>(1, 0) += of_row_x * others;
+      second.bottomRightCorner<2, 2>() += of_row * others * others.transpose();
     }
   }
+  second.block<1, 2>(0, 1) = second.block<2, 1>(1, 0).transpose();
 
   Quadratic q;
   q.gradient = first / (kCount * m2);
