@@ -1,4 +1,5 @@
 // swiftlet map: the map of a recorded laser log.
+#include <cmath>
 #include <memory>
 
 #include <fmt/core.h>
@@ -79,6 +80,23 @@ std::vector<std::string> warningsOf(const RecordedLog& log, const MapRun& run) {
   return warnings;
 }
 
+/// Of steps of this length at least, so that a robot that stands adds nothing.
+constexpr double kWayStep_m = 0.1;
+
+double wayOf_m(const MapRun& run) {
+  const std::vector<common::Pose2> keys = run.slam.keyPoses();
+  Eigen::Vector2d last_m = keys.front().position_m();
+  double way_m = 0.0;
+  run.track.forEach([&](const StampedScan& tracked) {
+    const common::Pose2 pose = keys[static_cast<std::size_t>(tracked.scan.key)] * tracked.scan.T_key_robot;
+    const double step_m = (pose.position_m() - last_m).norm();
+    if (step_m < kWayStep_m) return;
+    way_m += step_m;
+    last_m = pose.position_m();
+  });
+  return way_m;
+}
+
 nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& log, const MapRun& run,
                                  const std::vector<std::string>& notes, const fs::path& out) {
   const interfaces::LaserLogCounts& read = log.reader().counts();
@@ -91,6 +109,7 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& l
           {"invalid_ranges", read.invalid_ranges},
           {"doubtful_stamps", run.slam.counts().doubtful_stamps},
           {"doubtful_odometry_steps", run.slam.counts().doubtful_odometry},
+          {"way_m", std::round(1e3 * wayOf_m(run)) / 1e3},
           {"unmatched_scans", run.unmatched},
           {"restarts", run.slam.odometryCounts().restarts},
           {"key_scans", run.slam.keyScans()},
@@ -102,18 +121,11 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& l
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-/// From key scan to key scan, so that a robot that stands adds nothing.
-double wayOf_m(const std::vector<common::Pose2>& keys) {
-  double way_m = 0.0;
-  for (std::size_t i = 1; i < keys.size(); ++i) way_m += (keys[i].position_m() - keys[i - 1].position_m()).norm();
-  return way_m;
-}
-
 Facts factsOf(const RecordedLog& log, const MapRun& run) {
   const auto scans = static_cast<double>(log.scans());
   Facts facts = log.facts();
   facts.insert(facts.end(),
-               {{"way", fmt::format("{:.1f} m", wayOf_m(run.slam.keyPoses()))},
+               {{"way", fmt::format("{:.1f} m", wayOf_m(run))},
                 {"not matched", fmt::format("{}", run.unmatched)},
                 {"key scans", fmt::format("{}", run.slam.keyScans())},
                 {"loops closed", run.slam.particles() ? "-" : fmt::format("{}", run.slam.slam().counts().loops_closed)},

@@ -94,7 +94,8 @@ std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts
                     first_stamp_->seconds()));
   else if (const auto n = found.doubtful_stamps; n > 0)
     warnings.push_back(plural(n, "time stamp does", "time stamps do") +
-                       " not come after the one before: the order of the file is believed, not the intervals");
+                       " not follow the one before at a laser's pace: the order of the file is believed, not the "
+                       "intervals");
   if (const auto n = found.doubtful_odometry; n > 0)
     warnings.push_back(plural(n, "step", "steps") + " of the odometry no robot makes; not believed");
   return warnings;

@@ -33,7 +33,7 @@ struct LaserSlamInput {
 };
 
 struct LaserSlamCounts {
-  std::uint64_t doubtful_stamps = 0;    ///< Not after the one before.
+  std::uint64_t doubtful_stamps = 0;    ///< Not after the one before, or too soon after it.
   std::uint64_t doubtful_odometry = 0;  ///< Steps of the odometry that no robot makes.
 };
 

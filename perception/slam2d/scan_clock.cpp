@@ -9,9 +9,10 @@ namespace {
 
 using common::Duration;
 
-/// So many stamps that went back make the others doubtful too.
+/// So many doubtful stamps make the others doubtful too.
 constexpr std::uint64_t kDoubts = 3;
-constexpr Duration kLeastInterval = Duration::fromMilliseconds(1);
+/// No laser turns faster: of scans stamped nearer to each other, one was held up on its way.
+constexpr Duration kLeastInterval = Duration::fromMilliseconds(5);
 /// Between scans whose stamps are all the same: so long that no step of a robot is too far for it.
 constexpr Duration kUnknownInterval = Duration::fromMilliseconds(1000);
 /// In a longer pause, or with stamps out of all bounds, a robot may have gone anywhere as well.
@@ -32,13 +33,19 @@ common::Time ScanClock::tick(common::Time stamp) {
   } else {
     const Duration interval = boundedInterval(last_stamp_, stamp);
     intervals_[(ticks_ - 1) % kRemembered] = interval;
-    const bool grows = interval > Duration();
-    if (!grows) ++doubtful_;
-    now_ += std::max(grows && doubtful_ < kDoubts ? interval : usualInterval(), kLeastInterval);
+    const bool credible = interval >= kLeastInterval && !isEarly(interval);
+    if (!credible) ++doubtful_;
+    now_ += std::max(credible && doubtful_ < kDoubts ? interval : usualInterval(), kLeastInterval);
+    last_interval_ = interval;
   }
   last_stamp_ = stamp;
   ++ticks_;
   return now_;
+}
+
+/// A laser keeps its rate: after a longer interval, one of less than half the usual was no scan's.
+bool ScanClock::isEarly(Duration interval) const {
+  return interval * 2 < last_interval_ && interval * 2 < usualInterval();
 }
 
 /// The mean of the middle ones: late stamps and early ones make up for each other, a wrong one does not count.

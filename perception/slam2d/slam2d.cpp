@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -104,6 +105,7 @@ struct Slam2d::Impl {
   bool task_outstanding = false;
   std::vector<FoundLoop> doubted;  ///< Closures that were refused.
   std::size_t task_keys = 0;
+  int settled_keys = 0;  ///< Those before this one stood when the graph settled last.
   std::vector<std::pair<int, AttachedScan>> drawn_since_task;
 };
 
@@ -224,10 +226,11 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   }
   const bool same_pass = !areOfTwoPasses(keys.back(), anchor);
   const WeighedPose pose = same_pass ? weighWithMotion(match) : WeighedPose{match.T_reference_body, match.covariance};
-  // Any of the passes it was matched to will do.
-  const std::span<const int> same_passes(std::lower_bound(tied.begin(), tied.end(), keys.front()),
-                                         std::upper_bound(tied.begin(), tied.end(), keys.back()));
-  if (const std::optional<int> near = keyNear(same_passes, pose.T_map_body)) {
+  // Any of the passes it was matched to will do, and what the graph has settled beside them.
+  std::vector<int> agreeing;
+  std::copy_if(tied.begin(), tied.end(), std::back_inserter(agreeing),
+               [&](int key) { return key < settled_keys || (key >= keys.front() && key <= keys.back()); });
+  if (const std::optional<int> near = keyNear(agreeing, pose.T_map_body)) {
     if (areOfTwoPasses(*near, anchor)) tiePasses(*near, match);
     standOn(*near, between(poseOf(*near), pose.T_map_body),
             edgeCovariance(common::turned(pose.covariance, -poseOf(*near).yaw_rad), config));
@@ -376,6 +379,7 @@ bool Slam2d::apply(const SlamResult& result) {
   const std::vector<Pose2>& poses = result.data->T_map_key;
   if (poses.empty()) return false;
 
+  self.settled_keys = static_cast<int>(self.task_keys);
   // What came after the task moves along with what it was built on: its first edge comes from there.
   std::vector<Pose2> T_map_before;
   for (const KeyScan& key : self.graph.keys) T_map_before.push_back(key.T_map_body);

@@ -1,5 +1,6 @@
 #include "perception/slam2d/scan_clock.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -53,6 +54,49 @@ TEST(ScanClock, OfStampsThatGoBackTheMeanIntervalIsKept) {
   EXPECT_NEAR(last.seconds(), 0.2 * 2000, 0.05 * 400);
 }
 
+/// Scans every 0.2 s, stamped when they came: every third is held up, until the next two come with it.
+TEST(ScanClock, OfStampsThatComeInBurstsTheMeanIntervalIsKept) {
+  ScanClock clock;
+  Time last, last_stamp;
+  for (int i = 0; i < 2000; ++i) {
+    const double late_s = 0.2 * (2 - i % 3) + 0.001 * (i % 3);
+    const Time stamp = Time::fromSeconds(0.2 * i + late_s);
+    EXPECT_TRUE(i == 0 || stamp > last_stamp);
+    const Time now = clock.tick(last_stamp = stamp);
+    if (i > 50) {
+      EXPECT_NEAR((now - last).seconds(), 0.2, 0.02) << i;
+    }
+    last = now;
+  }
+  EXPECT_GT(clock.doubtful(), 1000U);
+}
+
+/// Delays of up to 1.75 times the interval, but never a stamp before the one before it, or within 6 ms.
+TEST(ScanClock, LateStampsThatGrowAreDoubtedToo) {
+  ScanClock clock;
+  Time last;
+  double stamp_s = -1.0;
+  for (int i = 0; i < 2000; ++i) {
+    stamp_s = std::max(stamp_s + 0.006, 0.2 * i + 0.175 + 0.175 * std::sin(2.4 * i));
+    const Time now = clock.tick(Time::fromSeconds(stamp_s));
+    if (i > 50) {
+      EXPECT_NEAR((now - last).seconds(), 0.2, 0.03) << i;
+    }
+    last = now;
+  }
+  EXPECT_GT(clock.doubtful(), 200U);
+}
+
+TEST(ScanClock, PausesAndScansThatAreMissingAreNoReasonToDoubt) {
+  ScanClock clock;
+  double stamp_s = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    stamp_s += i % 100 == 99 ? 60.0 : i % 7 == 0 ? 0.4 : i % 2 == 0 ? 0.19 : 0.21;
+    EXPECT_EQ(clock.tick(Time::fromSeconds(stamp_s)), Time::fromSeconds(stamp_s));
+  }
+  EXPECT_EQ(clock.doubtful(), 0U);
+}
+
 TEST(ScanClock, StampsOutOfAllBoundsArePausesOfAnHour) {
   ScanClock clock;
   Time last = clock.tick(Time::fromSeconds(-4.5e9));
@@ -62,7 +106,7 @@ TEST(ScanClock, StampsOutOfAllBoundsArePausesOfAnHour) {
     EXPECT_LE((now - last).seconds(), 3600.0);
     last = now;
   }
-  EXPECT_EQ(clock.doubtful(), 2U);
+  EXPECT_EQ(clock.doubtful(), 3U);
 }
 
 }  // namespace
