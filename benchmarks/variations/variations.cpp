@@ -1,0 +1,153 @@
+// benchmark_variations LOG RELATIONS
+//
+// How far the SLAM of a recorded log depends on that very log: it is run on variations of it, forwards and backwards, with
+// odometry and without, and each trajectory is scored by the same relations (Kuemmerle 2009).
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/random.hpp"
+#include "common/table.hpp"
+#include "common/trajectory.hpp"
+#include "evaluation/relations.hpp"
+#include "interfaces/files/relations.hpp"
+#include "interfaces/laser_log/laser_log.hpp"
+#include "perception/slam2d/laser_slam.hpp"
+
+namespace {
+
+using namespace swiftlet;
+using common::Duration;
+using common::Pose2;
+using common::Time;
+
+struct KnownScan {
+  Time known_as;  ///< The stamp of the relations.
+  interfaces::LoggedScan logged;
+};
+using Log = std::vector<KnownScan>;
+using Variation = std::pair<std::string, std::function<void(Log&)>>;
+
+constexpr double kNoise_m = 0.01;
+constexpr double kPeriod_s = 0.2;
+constexpr double kLatest_s = 0.35;
+constexpr Duration kLeastInterval = Duration::fromMilliseconds(6);
+
+void stampAt(KnownScan& scan, Time stamp) { scan.logged.scan.stamps = {stamp, stamp}; }
+
+/// The intervals of the log in the order of its scans, none of them back.
+void stampGrowing(Log& log) {
+  Time now = log.front().known_as;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    if (i > 0) {
+      const Duration interval = log[i].known_as - log[i - 1].known_as;
+      now += std::max({interval, Duration() - interval, Duration::fromMilliseconds(1)});
+    }
+    stampAt(log[i], now);
+  }
+}
+
+void keepEvery(Log& log, std::size_t n) {
+  Log kept;
+  for (std::size_t i = 0; i < log.size(); i += n) kept.push_back(std::move(log[i]));
+  log = std::move(kept);
+}
+
+void leaveOutEvery(Log& log, std::size_t n) {
+  Log kept;
+  for (std::size_t i = 0; i < log.size(); ++i)
+    if (i % n != n - 1) kept.push_back(std::move(log[i]));
+  log = std::move(kept);
+}
+
+void addNoise(Log& log) {
+  common::RandomStream random(1, "noise");
+  for (KnownScan& scan : log)
+    for (float& range_m : scan.logged.scan.ranges_m) range_m += static_cast<float>(kNoise_m * random.gaussian());
+}
+
+/// As if taken at an even rate and stamped when they came.
+void stampLate(Log& log) {
+  common::RandomStream random(1, "delays");
+  Time last;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const Time late = Time::fromSeconds(kPeriod_s * static_cast<double>(i) + random.uniform(0.0, kLatest_s));
+    last = i == 0 ? late : std::max(late, last + kLeastInterval);
+    stampAt(log[i], last);
+  }
+}
+
+std::vector<Variation> variations() {
+  return {{"its own intervals, growing", [](Log&) {}},
+          {"from the 38th scan on", [](Log& log) { log.erase(log.begin(), log.begin() + 37); }},
+          {"without every twentieth scan", [](Log& log) { leaveOutEvery(log, 20); }},
+          {"every second scan", [](Log& log) { keepEvery(log, 2); }},
+          {"1 cm of noise more", addNoise},
+          {"stamped up to 0.35 s late", stampLate}};
+}
+
+evaluation::RelationErrors errorsOf(const Log& log, bool odometry, const std::vector<common::Relation>& relations) {
+  perception::LaserSlam slam{perception::LaserSlamConfig{}};
+  std::vector<std::pair<Time, perception::TrackedScan>> track;
+  for (const KnownScan& scan : log) {
+    const auto T_odom_robot = odometry ? scan.logged.T_odom_robot : std::nullopt;
+    if (const auto tracked = slam.add({scan.logged.scan, scan.logged.T_robot_laser, T_odom_robot}))
+      track.emplace_back(scan.known_as, *tracked);
+  }
+  slam.finish();
+  const std::vector<Pose2> keys = slam.keyPoses();
+  std::vector<common::StampedPose> poses;
+  for (const auto& [stamp, scan] : track)
+    poses.push_back({stamp, common::lifted(keys[static_cast<std::size_t>(scan.key)] * scan.T_key_robot, 0.0)});
+  return evaluation::relationErrors(common::ordered(std::move(poses)).trajectory, relations);
+}
+
+void compare(const std::string& file, const std::string& relations_file) {
+  const auto reader = interfaces::openLaserLog(file);
+  Log forwards;
+  while (auto logged = reader->next()) forwards.push_back({logged->scan.stamps.measured, *logged});
+  const auto relations = interfaces::readRelations(relations_file);
+  common::Table table{"", {"", "way", "odometry", "m", "at most", "deg"}, {}};
+  for (const auto& [name, vary] : variations()) {
+    for (const bool backwards : {false, true}) {
+      Log log = forwards;
+      if (backwards) std::reverse(log.begin(), log.end());
+      stampGrowing(log);
+      vary(log);
+      for (const bool odometry : {true, false}) {
+        const evaluation::RelationErrors errors = errorsOf(log, odometry, relations);
+        table.rows.push_back({{name},
+                              {backwards ? "back" : "on"},
+                              {odometry ? "yes" : "no"},
+                              {fmt::format("{:.4f}", errors.translation_m.mean)},
+                              {fmt::format("{:.2f}", errors.translation_m.max)},
+                              {fmt::format("{:.3f}", errors.rotation_rad.mean / common::kRadPerDeg)}});
+        std::fprintf(stderr, "%s: done\n", name.c_str());
+      }
+    }
+  }
+  std::printf("%s: %zu scans, %zu relations\n%s", file.c_str(), forwards.size(), relations.size(),
+              toText(table).c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "benchmark_variations LOG RELATIONS\n");
+    return 2;
+  }
+  try {
+    compare(argv[1], argv[2]);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 2;
+  }
+  return 0;
+}
