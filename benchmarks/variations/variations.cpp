@@ -1,7 +1,7 @@
 // benchmark_variations LOG RELATIONS
 //
-// How far the SLAM of a recorded log depends on that very log: it is run on variations of it, forwards and backwards, with
-// odometry and without, and each trajectory is scored by the same relations (Kuemmerle 2009).
+// How far the SLAM of a recorded log depends on that very log: it is run on variations of it, forwards and backwards,
+// with odometry and without, and each trajectory is scored by the same relations (Kuemmerle 2009).
 #include <algorithm>
 #include <cstdio>
 #include <functional>
