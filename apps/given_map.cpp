@@ -22,7 +22,7 @@ std::optional<common::Pose2> fitted(const perception::LaserSlam& slam,
   const std::vector<common::Pose2> keys = slam.keyPoses();
   std::vector<evaluation::PosePair> pairs;
   for (std::size_t i = 0; i < tracked.size(); ++i) {
-    const common::Pose2 estimate = keys[static_cast<std::size_t>(tracked[i].key)] * tracked[i].T_key_robot;
+    const common::Pose2 estimate = tracked[i].T_map_robot(keys);
     pairs.push_back({{}, common::lifted(estimate, 0.0), common::lifted(driven[i], 0.0)});
   }
   const auto T_world_given = evaluation::align(pairs, evaluation::Alignment::kPlanar);

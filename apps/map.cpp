@@ -1,6 +1,7 @@
 // swiftlet map: the map of a recorded laser log.
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
@@ -44,7 +45,25 @@ struct MapRun {
   rendering::ThinnedCurve milliseconds;
   std::uint64_t unmatched = 0;
   double wall_s = 0.0;
+  double way_m = 0.0;  ///< Of the robot.
 };
+
+/// Of steps of this length at least, so that a robot that stands adds nothing.
+constexpr double kWayStep_m = 0.1;
+
+double wayOf_m(const MapRun& run) {
+  const std::vector<common::Pose2> keys = run.slam.keyPoses();
+  std::optional<Eigen::Vector2d> last_m;
+  double way_m = 0.0;
+  run.track.forEach([&](const StampedScan& tracked) {
+    const Eigen::Vector2d now_m = tracked.scan.T_map_robot(keys).position_m();
+    const double step_m = last_m ? (now_m - *last_m).norm() : 0.0;
+    if (last_m && step_m < kWayStep_m) return;
+    way_m += step_m;
+    last_m = now_m;
+  });
+  return way_m;
+}
 
 void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
   const auto begin = Clock::now();
@@ -63,6 +82,7 @@ void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
   }
   run.slam.finish();
   run.wall_s = secondsSince(begin);
+  run.way_m = wayOf_m(run);
   line.close();
 }
 
@@ -80,23 +100,6 @@ std::vector<std::string> warningsOf(const RecordedLog& log, const MapRun& run) {
   return warnings;
 }
 
-/// Of steps of this length at least, so that a robot that stands adds nothing.
-constexpr double kWayStep_m = 0.1;
-
-double wayOf_m(const MapRun& run) {
-  const std::vector<common::Pose2> keys = run.slam.keyPoses();
-  Eigen::Vector2d last_m = keys.front().position_m();
-  double way_m = 0.0;
-  run.track.forEach([&](const StampedScan& tracked) {
-    const common::Pose2 pose = keys[static_cast<std::size_t>(tracked.scan.key)] * tracked.scan.T_key_robot;
-    const double step_m = (pose.position_m() - last_m).norm();
-    if (step_m < kWayStep_m) return;
-    way_m += step_m;
-    last_m = pose.position_m();
-  });
-  return way_m;
-}
-
 nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& log, const MapRun& run,
                                  const std::vector<std::string>& notes, const fs::path& out) {
   const interfaces::LaserLogCounts& read = log.reader().counts();
@@ -109,7 +112,7 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& l
           {"invalid_ranges", read.invalid_ranges},
           {"doubtful_stamps", run.slam.counts().doubtful_stamps},
           {"doubtful_odometry_steps", run.slam.counts().doubtful_odometry},
-          {"way_m", std::round(1e3 * wayOf_m(run)) / 1e3},
+          {"way_m", std::round(1e3 * run.way_m) / 1e3},
           {"unmatched_scans", run.unmatched},
           {"restarts", run.slam.odometryCounts().restarts},
           {"key_scans", run.slam.keyScans()},
@@ -125,7 +128,7 @@ Facts factsOf(const RecordedLog& log, const MapRun& run) {
   const auto scans = static_cast<double>(log.scans());
   Facts facts = log.facts();
   facts.insert(facts.end(),
-               {{"way", fmt::format("{:.1f} m", wayOf_m(run))},
+               {{"way", fmt::format("{:.1f} m", run.way_m)},
                 {"not matched", fmt::format("{}", run.unmatched)},
                 {"key scans", fmt::format("{}", run.slam.keyScans())},
                 {"loops closed", run.slam.particles() ? "-" : fmt::format("{}", run.slam.slam().counts().loops_closed)},

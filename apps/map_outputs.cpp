@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <memory>
 
 #include <fmt/format.h>
@@ -34,12 +33,10 @@ constexpr std::size_t kDrawnPoints = 50'000;
 /// Of the largest file that is read, what the header of a picture may take.
 constexpr std::uint64_t kHeaderBytes = 4096;
 
-using PoseOf = std::function<Pose2(const perception::TrackedScan&)>;
-
-void writeTrajectory(const fs::path& file, const TrackSpool& track, const PoseOf& poseOf) {
+void writeTrajectory(const fs::path& file, const TrackSpool& track, const std::vector<Pose2>& keys) {
   auto writer = required(interfaces::TumWriter::create(file));
   track.forEach([&](const StampedScan& tracked) {
-    required(writer.write({tracked.stamp, common::lifted(poseOf(tracked.scan), 0.0)}));
+    required(writer.write({tracked.stamp, common::lifted(tracked.scan.T_map_robot(keys), 0.0)}));
   });
 }
 
@@ -59,11 +56,11 @@ interfaces::G2oGraph2D graphOf(const std::vector<Pose2>& keys, const std::vector
 }
 
 /// Of bounded length: the longer the way, the coarser it is drawn.
-std::vector<Eigen::Vector2d> lineOf(const TrackSpool& track, const PoseOf& poseOf) {
+std::vector<Eigen::Vector2d> lineOf(const TrackSpool& track, const std::vector<Pose2>& keys) {
   std::vector<Eigen::Vector2d> line;
   double step_m = kDrawnStep_m;
   track.forEach([&](const StampedScan& tracked) {
-    const Eigen::Vector2d at = poseOf(tracked.scan).position_m();
+    const Eigen::Vector2d at = tracked.scan.T_map_robot(keys).position_m();
     if (line.empty() || (at - line.back()).norm() >= step_m) line.push_back(at);
     if (line.size() <= kDrawnPoints) return;
     for (std::size_t i = 0; 2 * i < line.size(); ++i) line[i] = line[2 * i];
@@ -126,10 +123,7 @@ std::string whyNoMap(const common::OccupancyGrid& map) {
 void writeMapOutputs(const fs::path& out, const perception::LaserSlam& slam, const common::OccupancyGrid* map,
                      const TrackSpool& track, const MapFigures& figures) {
   const std::vector<Pose2> keys = slam.keyPoses();
-  const PoseOf poseOf = [&](const perception::TrackedScan& scan) {
-    return keys[static_cast<std::size_t>(scan.key)] * scan.T_key_robot;
-  };
-  writeTrajectory(out / "trajectory.tum", track, poseOf);
+  writeTrajectory(out / "trajectory.tum", track, keys);
   if (!slam.particles())
     required(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
 
@@ -141,7 +135,7 @@ void writeMapOutputs(const fs::path& out, const perception::LaserSlam& slam, con
   report.plots_svg = {plotOver("Time per scan", "ms", figures.milliseconds)};
   report.map_svg = "<p class=\"empty\">None.</p>";
   if (map) {
-    const common::World world = worldOf(*map, lineOf(track, poseOf));
+    const common::World world = worldOf(*map, lineOf(track, keys));
     std::vector<rendering::MapLine> lines = loopsOf(slam.slam().edges(), keys);
     lines.insert(lines.begin(), {"trajectory", *world.trail_map_m, false});
     report.map_svg = rendering::mapSvg(world, lines, {{"begin", keys.front().position_m()}});

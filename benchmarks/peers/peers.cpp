@@ -64,8 +64,7 @@ class OurSlam final : public Peer {
     if (loops_) slam_.finish();
     const std::vector<Pose2> keys = slam_.keyPoses();
     std::vector<Pose2> poses;
-    for (const perception::TrackedScan& scan : track_)
-      poses.push_back(keys.at(static_cast<std::size_t>(scan.key)) * scan.T_key_robot);
+    for (const perception::TrackedScan& scan : track_) poses.push_back(scan.T_map_robot(keys));
     return poses;
   }
 

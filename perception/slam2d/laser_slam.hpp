@@ -35,6 +35,11 @@ struct TrackedScan {
   int key = 0;  ///< Into keyPoses().
   common::Pose2 T_key_robot;
   bool matched = false;  ///< False: it stands where it was expected.
+
+  /// Throws std::out_of_range when `keys` are not those of its map.
+  common::Pose2 T_map_robot(const std::vector<common::Pose2>& keys) const {
+    return keys.at(static_cast<std::size_t>(key)) * T_key_robot;
+  }
 };
 
 /// Not thread-safe. Deterministic.

@@ -38,8 +38,7 @@ Mapped mapOf(const fs::path& file, std::size_t count) {
   }
   slam.finish();
   const std::vector<Pose2> keys = slam.keyPoses();
-  for (const TrackedScan& scan : track)
-    mapped.poses.push_back(keys[static_cast<std::size_t>(scan.key)] * scan.T_key_robot);
+  for (const TrackedScan& scan : track) mapped.poses.push_back(scan.T_map_robot(keys));
   mapped.map = slam.map();
   return mapped;
 }

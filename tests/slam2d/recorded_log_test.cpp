@@ -49,8 +49,7 @@ common::Trajectory trackOf(LaserSlam& slam, const std::vector<KnownScan>& scans,
   slam.finish();
   const std::vector<common::Pose2> keys = slam.keyPoses();
   std::vector<common::StampedPose> poses;
-  for (const auto& [stamp, scan] : track)
-    poses.push_back({stamp, common::lifted(keys[static_cast<std::size_t>(scan.key)] * scan.T_key_robot, 0.0)});
+  for (const auto& [stamp, scan] : track) poses.push_back({stamp, common::lifted(scan.T_map_robot(keys), 0.0)});
   return common::ordered(std::move(poses)).trajectory;
 }
 
