@@ -211,7 +211,7 @@ void BranchAndBound::descend(const LikelihoodField& field, const Node& node, int
   const LikelihoodField::Level finer = field.level(level - 1);
   const std::vector<std::int32_t>& offsets = offsetsAt(field, node.rotation, level - 1);
   std::array<std::uint16_t, 2 * kWindowColumns> sums;
-  sumWindows(instructions_, finer.cells + static_cast<std::ptrdiff_t>(2 * node.y) * finer.stride + 2 * node.x,
+  sumWindows(instructions_, finer.cells + 2 * (static_cast<std::ptrdiff_t>(node.y) * finer.stride + node.x),
              finer.stride, offsets, 2, sums.data());
   std::array<Node, 4> children;
   std::size_t count = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numbers>
 
 #include <Eigen/Eigenvalues>
 
@@ -35,7 +36,8 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields("guess_error_deg", guess_error_deg, "The same for the rotation.");
   fields("max_window_m", max_window_m, "Half the greatest search window.");
   fields("max_window_deg", max_window_deg, "The same for the rotation.");
-  fields("min_widened_quality", min_widened_quality, "A match found only in a widened window needs this quality.");
+  fields("min_widened_quality", min_widened_quality,
+         "A match at the end of the greatest window needs this quality; nearer, less.");
   fields("widened_must_hold", widened_must_hold, "And must hold the position in all directions.");
   fields("min_overlap", min_overlap, "A scan with a smaller share of supported points joins the local map.");
   fields("min_fit", min_fit, "A scan that fits worse than this joins the local map.");
@@ -80,11 +82,28 @@ struct LaserOdometry::Impl {
     Eigen::Matrix3d covariance_local;  ///< Of that pose against the map drawn before; zero for the first.
   };
 
+  /// Where a scan is sought.
+  struct Guess {
+    Pose2 T_local_body;
+    SearchWindow window;
+  };
+  struct Found {
+    MatchResult match;
+    double margin = -1.0;  ///< Of its quality; below zero it is not believed.
+    bool otherwise = false;
+  };
+
   explicit Impl(const LaserOdometryConfig& config_in) : config(config_in), matcher(config_in.matcher) {}
 
   std::optional<RelativePose> start(const ProjectedScan& scan);
   SearchWindow usualWindow(common::Time now) const;
-  MatchResult matchWidening(const ProjectedScan& scan, const Pose2& guess, SearchWindow window);
+  Guess guessOf(const Pose2& T_last_now, const SearchWindow& window) const;
+  Found find(const ProjectedScan& scan, const Guess& guess, const std::optional<Guess>& other);
+  Found matchIn(const SearchWindow& window, const ProjectedScan& scan, const Guess& guess, bool otherwise);
+  double marginOf(const MatchResult& match, const Guess& guess) const;
+  static bool isWorthAsking(const Guess& other, const Guess& guess);
+  bool canWiden(const SearchWindow& window) const;
+  SearchWindow widened(const SearchWindow& window) const;
   void addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body, const Eigen::Matrix3d& covariance_local);
   RelativePose relativeTo(const KeyScan& reference, const ProjectedScan& scan, const MatchResult& match) const;
   bool shouldJoin(const RelativePose& relative, const ProjectedScan& scan, const MatchResult& match) const;
@@ -145,22 +164,76 @@ SearchWindow LaserOdometry::Impl::usualWindow(common::Time now) const {
           config.guess_error_deg * kRadPerDeg + config.max_angular_acceleration_rad_s2 * half_dt2};
 }
 
-/// A best pose at the window's edge asks for more, and so does a match that failed.
-MatchResult LaserOdometry::Impl::matchWidening(const ProjectedScan& scan, const Pose2& guess, SearchWindow window) {
-  window.half_translation_m = std::min(config.max_window_m, window.half_translation_m);
-  window.half_rotation_rad = std::min(config.max_window_deg * kRadPerDeg, window.half_rotation_rad);
-  MatchResult result = matcher.match(scan, guess, window);
-  while ((result.at_window_edge || result.failed) && result.points_used > 0 &&
-         (window.half_translation_m < config.max_window_m ||
-          window.half_rotation_rad < config.max_window_deg * kRadPerDeg)) {
-    window.half_translation_m = std::clamp(3.0 * window.half_translation_m, config.guess_error_m, config.max_window_m);
-    window.half_rotation_rad = std::clamp(3.0 * window.half_rotation_rad, config.guess_error_deg * kRadPerDeg,
-                                          config.max_window_deg * kRadPerDeg);
-    result = matcher.match(scan, guess, window);
-    result.failed |=
-        result.quality < config.min_widened_quality || (config.widened_must_hold && result.unobservable_direction);
+LaserOdometry::Impl::Guess LaserOdometry::Impl::guessOf(const Pose2& T_last_now, const SearchWindow& window) const {
+  return {last_T_local_body * T_last_now,
+          {std::min(config.max_window_m, window.half_translation_m),
+           std::min(config.max_window_deg * kRadPerDeg, window.half_rotation_rad)}};
+}
+
+/// By how much a match fits better than it must. The farther from the guess, the better it must fit, as the logarithm
+/// of a likelihood falls: with the square. Beyond where the scan was expected, the guess does not stand in for what the
+/// scene does not hold.
+double LaserOdometry::Impl::marginOf(const MatchResult& match, const Guess& guess) const {
+  if (match.failed) return -1.0;
+  const Pose2 offset = between(guess.T_local_body, match.T_reference_body);
+  const double offset_m = offset.position_m().norm(), offset_rad = std::abs(offset.yaw_rad);
+  const bool expected =
+      offset_m <= std::numbers::sqrt2 * guess.window.half_translation_m && offset_rad <= guess.window.half_rotation_rad;
+  if (!expected && config.widened_must_hold && match.unobservable_direction) return -1.0;
+  const double share = std::max(offset_m / config.max_window_m, offset_rad / (config.max_window_deg * kRadPerDeg));
+  return match.quality -
+         std::lerp(config.matcher.min_quality, config.min_widened_quality, std::min(1.0, share * share));
+}
+
+LaserOdometry::Impl::Found LaserOdometry::Impl::matchIn(const SearchWindow& window, const ProjectedScan& scan,
+                                                        const Guess& guess, bool otherwise) {
+  const MatchResult match = matcher.match(scan, guess.T_local_body, window);
+  return {match, marginOf(match, guess), otherwise};
+}
+
+/// One inside the window of the guess has nothing to add.
+bool LaserOdometry::Impl::isWorthAsking(const Guess& other, const Guess& guess) {
+  const Pose2 apart = between(guess.T_local_body, other.T_local_body);
+  return apart.position_m().norm() > guess.window.half_translation_m ||
+         std::abs(apart.yaw_rad) > guess.window.half_rotation_rad;
+}
+
+bool LaserOdometry::Impl::canWiden(const SearchWindow& window) const {
+  return window.half_translation_m < config.max_window_m ||
+         window.half_rotation_rad < config.max_window_deg * kRadPerDeg;
+}
+
+SearchWindow LaserOdometry::Impl::widened(const SearchWindow& window) const {
+  return {std::clamp(3.0 * window.half_translation_m, config.guess_error_m, config.max_window_m),
+          std::clamp(3.0 * window.half_rotation_rad, config.guess_error_deg * kRadPerDeg,
+                     config.max_window_deg * kRadPerDeg)};
+}
+
+/// Where the scan fits best for where it lies. A best pose at the window's edge asks for more, and so does one that
+/// does not fit: first about the other guess, then in wider windows about the better one.
+LaserOdometry::Impl::Found LaserOdometry::Impl::find(const ProjectedScan& scan, const Guess& guess,
+                                                     const std::optional<Guess>& other) {
+  const auto isFound = [&](const Found& found) {
+    return found.margin >= 0.0 && !found.match.at_window_edge && found.match.quality >= config.min_fit;
+  };
+  Found best = matchIn(guess.window, scan, guess, false);
+  if (isFound(best)) return best;
+  const Guess* center = &guess;
+  if (other && isWorthAsking(*other, guess)) {
+    const Found there = matchIn(other->window, scan, *other, true);
+    if (there.match.quality > best.match.quality) {
+      best = there;
+      center = &*other;
+    }
   }
-  return result;
+  Found last = best;
+  SearchWindow window = center->window;
+  while (!isFound(last) && last.match.points_used > 0 && canWiden(window)) {
+    window = widened(window);
+    last = matchIn(window, scan, *center, best.otherwise);
+    if (last.margin >= best.margin) best = last;
+  }
+  return best;
 }
 
 /// Both scans stand in the local map with their own errors; that of the reference's heading swings the way between.
@@ -204,7 +277,8 @@ std::optional<common::Time> LaserOdometry::lastMatch() const {
 }
 
 std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const std::optional<Pose2>& T_odom_last,
-                                               const std::optional<SearchWindow>& first_window) {
+                                               const std::optional<SearchWindow>& first_window,
+                                               const std::optional<OtherGuess>& other) {
   Impl& self = *impl_;
   ++self.counts.scans;
   const Pose2 T_odom_body = common::planar(scan.T_odom_body);
@@ -222,9 +296,12 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   }
   self.last_stamp = scan.stamp;
 
-  const Pose2 guess = self.last_T_local_body * (T_odom_last.value_or(self.last_T_odom_body).inverse() * T_odom_body);
-  const MatchResult match = self.matchWidening(scan, guess, first_window.value_or(self.usualWindow(scan.stamp)));
-  if (match.failed) {
+  const Pose2 T_last_odom = T_odom_last.value_or(self.last_T_odom_body).inverse();
+  std::optional<Impl::Guess> other_guess;
+  if (other) other_guess = self.guessOf(T_last_odom * other->T_odom_body, other->window);
+  const auto [match, margin, otherwise] = self.find(
+      scan, self.guessOf(T_last_odom * T_odom_body, first_window.value_or(self.usualWindow(scan.stamp))), other_guess);
+  if (margin < 0.0) {
     ++self.counts.failures;
     if (++self.failures < self.config.max_failures) return std::nullopt;
     auto restarted = self.start(scan);
@@ -234,10 +311,11 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   self.failures = 0;
   self.last_match = scan.stamp;
   if (!match.unobservable_direction) self.last_seen_whole = scan.stamp;
-  self.last_T_odom_body = T_odom_body;
+  self.last_T_odom_body = otherwise ? other->T_odom_body : T_odom_body;
   self.last_T_local_body = match.T_reference_body;
 
   RelativePose relative = self.relativeTo(self.key_scans.back(), scan, match);
+  relative.otherwise = otherwise;
   if (self.shouldJoin(relative, scan, match)) {
     relative.reference_changed = true;
     self.addKeyScan(scan, match.T_reference_body, self.config.matcher.only_seen ? seenPart(match) : match.covariance);

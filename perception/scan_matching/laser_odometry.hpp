@@ -27,8 +27,15 @@ struct RelativePose {
   common::Pose2 T_from_to;                               ///< Between the level frames of the two scans.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x_m, y_m, yaw_rad) in the frame at `from`.
   bool reference_changed = false;
+  bool otherwise = false;  ///< It was found from the other guess.
   /// Unit vector in the frame at `to` along which the scene did not hold the position: it is that of the guess.
   std::optional<Eigen::Vector2d> unseen_direction;
+};
+
+/// Where else a scan may have been taken, and how far around to look.
+struct OtherGuess {
+  common::Pose2 T_odom_body;
+  SearchWindow window;
 };
 
 struct LaserOdometryConfig {
@@ -40,14 +47,16 @@ struct LaserOdometryConfig {
   double guess_error_deg = 1.5;
   double max_window_m = 0.5;
   double max_window_deg = 15.0;
-  double min_widened_quality = 0.35;  ///< A match found only in a widened window needs this quality: chance is greater.
-  bool widened_must_hold = false;     ///< And must hold the position in all directions: the guess no longer does.
-  double min_overlap = 0.75;          ///< A scan with a smaller share of supported points joins the local map.
-  double min_fit = 0.35;              ///< So does one that fits worse than this (MatchResult::quality): the map
-                                      ///< has become wrong about the place.
-  double min_weak_overlap = 0.75;     ///< The same where the position is held weakly in one direction:
-  double weak_sigma_m = 0.05;         ///< less certain than this. What comes into view must not be missed then.
-  double max_reference_distance_m = 2.0;     ///< So does one farther than this from the reference,
+  double min_widened_quality = 0.35;      ///< A match at the end of the greatest window needs this quality: chance is
+                                          ///< greater. Nearer, less; where it is expected, matcher.min_quality.
+  bool widened_must_hold = false;         ///< Beyond the first window it must hold the position in all directions: the
+                                          ///< guess no longer does.
+  double min_overlap = 0.75;              ///< A scan with a smaller share of supported points joins the local map.
+  double min_fit = 0.35;                  ///< So does one that fits worse than this (MatchResult::quality): the map
+                                          ///< has become wrong about the place. It is sought farther off before.
+  double min_weak_overlap = 0.75;         ///< The same where the position is held weakly in one direction:
+  double weak_sigma_m = 0.05;             ///< less certain than this. What comes into view must not be missed then.
+  double max_reference_distance_m = 2.0;  ///< So does one farther than this from the reference,
   double max_reference_rotation_deg = 60.0;  ///< or turned more than this against it.
   double level_tilt_deg = 2.0;  ///< A scan tilted more than this is drawn with the error of its attitude; it waits
   double tilted_overlap_margin = 0.15;  ///< until the overlap is smaller by this.
@@ -78,10 +87,12 @@ class LaserOdometry {
   /// since then. `T_odom_last` is where the estimate that predicted this scan has the body at `lastMatch()`; a filter
   /// that took in that match must give it, or its correction counts twice. Without it, the prediction of that scan
   /// stands (wheels, a simulator: an odometry that nobody corrects). `first_window` replaces the least search
-  /// window where the caller knows how good its prediction is; a search that fails in it is widened all the same.
+  /// window where the caller knows how good its prediction is; a search that fails in it is widened all the same. Where
+  /// it fails and `other` fits better, `other` takes the place of the prediction.
   [[nodiscard]] std::optional<RelativePose> add(const ProjectedScan& scan,
                                                 const std::optional<common::Pose2>& T_odom_last = std::nullopt,
-                                                const std::optional<SearchWindow>& first_window = std::nullopt);
+                                                const std::optional<SearchWindow>& first_window = std::nullopt,
+                                                const std::optional<OtherGuess>& other = std::nullopt);
 
   /// The stamp of the last scan that matched.
   std::optional<common::Time> lastMatch() const;

@@ -33,7 +33,7 @@ std::optional<Eigen::Vector2d> atReference(const std::optional<Eigen::Vector2d>&
 LaserFrontEndConfig::LaserFrontEndConfig() {
   odometry.max_window_m = 1.0;
   odometry.max_window_deg = 60.0;
-  odometry.min_widened_quality = 0.45;
+  odometry.min_widened_quality = 0.75;
   odometry.widened_must_hold = true;
   odometry.max_failures = 4;
   odometry.min_fit = 0.55;
@@ -64,8 +64,15 @@ struct LaserFrontEnd::Impl {
 };
 
 std::optional<RelativePose> LaserFrontEnd::Impl::match(const ProjectedScan& scan) {
-  return odometry.add(scan, T_odom_matched,
-                      SearchWindow{kWindowSigmas * motion.stepSigma_m(), kWindowSigmas * motion.stepSigma_rad()});
+  std::optional<OtherGuess> other;
+  if (const auto alternative = motion.alternative())
+    other = {T_odom_reference * alternative->T_reference_robot,
+             {kWindowSigmas * alternative->step_sigma_m, kWindowSigmas * alternative->step_sigma_rad}};
+  const auto relative =
+      odometry.add(scan, T_odom_matched,
+                   SearchWindow{kWindowSigmas * motion.stepSigma_m(), kWindowSigmas * motion.stepSigma_rad()}, other);
+  if (relative && relative->otherwise) motion.takeAlternative();
+  return relative;
 }
 
 /// Takes the match in and says how uncertain the step from the scan before is, with the axes of the robot there. A

@@ -37,9 +37,30 @@ const MotionPrediction::Source& MotionPrediction::best() const {
   return wheels_.step && cost(wheels_) <= cost(inertia_) ? wheels_ : inertia_;
 }
 
-double MotionPrediction::stepSigma_m() const { return std::max(std::sqrt(best().variance_m2), config_.least_error_m); }
-double MotionPrediction::stepSigma_rad() const {
-  return std::max(std::sqrt(best().variance_rad2), config_.least_error_deg * kRadPerDeg);
+const MotionPrediction::Source* MotionPrediction::other() const {
+  const Source& source = &best() == &wheels_ ? inertia_ : wheels_;
+  return source.step ? &source : nullptr;
+}
+
+double MotionPrediction::sigma_m(const Source& source) const {
+  return std::max(std::sqrt(source.variance_m2), config_.least_error_m);
+}
+double MotionPrediction::sigma_rad(const Source& source) const {
+  return std::max(std::sqrt(source.variance_rad2), config_.least_error_deg * kRadPerDeg);
+}
+double MotionPrediction::stepSigma_m() const { return sigma_m(best()); }
+double MotionPrediction::stepSigma_rad() const { return sigma_rad(best()); }
+
+std::optional<MotionPrediction::Alternative> MotionPrediction::alternative() const {
+  const Source* source = other();
+  if (source == nullptr) return std::nullopt;
+  return Alternative{before_ * *source->step, sigma_m(*source), sigma_rad(*source)};
+}
+
+void MotionPrediction::takeAlternative() {
+  velocity_ = velocity_before_;
+  covariance_ = covariance_before_;
+  follow(*other());
 }
 
 void MotionPrediction::predict(const std::optional<Pose2>& T_odom_robot, double elapsed_s) {
@@ -53,13 +74,18 @@ void MotionPrediction::predict(const std::optional<Pose2>& T_odom_robot, double 
       wheels_.step.reset();
     }
   }
-  const double dt = elapsed_s_;
-  const Eigen::Vector3d coasted = std::min(dt, kLongestCoast_s) * velocity_;
+  const Eigen::Vector3d coasted = std::min(elapsed_s_, kLongestCoast_s) * velocity_;
   inertia_.step = Pose2{coasted.x(), coasted.y(), coasted.z()};
 
-  const Source& source = best();
-  const Pose2& step = *source.step;
   before_ = pose_;
+  velocity_before_ = velocity_;
+  covariance_before_ = covariance_;
+  follow(best());
+}
+
+void MotionPrediction::follow(const Source& source) {
+  const double dt = elapsed_s_;
+  const Pose2& step = *source.step;
   pose_ = before_ * step;
   Matrix6d move = Matrix6d::Identity();
   const Eigen::Vector2d way = pose_.position_m() - before_.position_m();
@@ -74,9 +100,9 @@ void MotionPrediction::predict(const std::optional<Pose2>& T_odom_robot, double 
   } else {
     move.topRightCorner<3, 3>() = turn * dt;
   }
-  const double sigma_m =
-      &source == &wheels_ ? stepSigma_m() : std::max(stepSigma_m(), config_.acceleration_m_s2 * dt * dt);
-  const Eigen::Vector3d variances(square(sigma_m), square(sigma_m), square(stepSigma_rad()));
+  const double position_m =
+      &source == &wheels_ ? sigma_m(source) : std::max(sigma_m(source), config_.acceleration_m_s2 * dt * dt);
+  const Eigen::Vector3d variances(square(position_m), square(position_m), square(sigma_rad(source)));
   covariance_ = move * covariance_ * move.transpose() + by_step * variances.asDiagonal() * by_step.transpose();
 }
 

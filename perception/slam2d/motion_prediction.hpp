@@ -29,6 +29,14 @@ class MotionPrediction {
   void begin(const std::optional<common::Pose2>& T_odom_robot) { T_odom_robot_ = T_odom_robot; }
   /// Moves on to a scan `elapsed_s` after the last one. `T_odom_robot` is that of the robot's own odometry at the scan.
   void predict(const std::optional<common::Pose2>& T_odom_robot, double elapsed_s);
+  /// What the other source foretells, if there are two.
+  struct Alternative {
+    common::Pose2 T_reference_robot;
+    double step_sigma_m = 0.0, step_sigma_rad = 0.0;
+  };
+  std::optional<Alternative> alternative() const;
+  /// It was right: the prediction is made anew from it.
+  void takeAlternative();
   /// The scan's pose as it was matched, with the covariance of its errors.
   void correct(const common::Pose2& T_reference_robot, const Eigen::Matrix3d& covariance,
                const std::optional<Eigen::Vector2d>& unseen_direction_reference);
@@ -54,6 +62,10 @@ class MotionPrediction {
     double variance_m2 = 0.0, variance_rad2 = 0.0;
   };
   const Source& best() const;
+  const Source* other() const;
+  double sigma_m(const Source& source) const;
+  double sigma_rad(const Source& source) const;
+  void follow(const Source& source);
   void learn(Source& source, const common::Pose2& step, const std::optional<Eigen::Vector2d>& unseen_direction) const;
 
   MotionPredictionConfig config_;
@@ -66,6 +78,8 @@ class MotionPrediction {
   common::Pose2 pose_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< (m/s, m/s, rad/s) with the axes of the robot.
   Matrix6d covariance_ = Matrix6d::Zero();              ///< Of pose and velocity.
+  Eigen::Vector3d velocity_before_ = Eigen::Vector3d::Zero();
+  Matrix6d covariance_before_ = Matrix6d::Zero();
 };
 
 }  // namespace swiftlet::perception

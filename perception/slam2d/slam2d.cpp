@@ -173,7 +173,7 @@ MatchResult Slam2d::Impl::matchAround(const ProjectedScan& scan, std::vector<int
   const auto newest = newestPass(keys);
   if (newest == keys.begin()) return reference.match(graph, keys, scan, T_map_body(), window);
   std::vector<int> earlier(keys.cbegin(), newest);
-  const MatchResult match = earlier_reference.match(graph, earlier, scan, T_map_body(), window);
+  MatchResult match = earlier_reference.match(graph, earlier, scan, T_map_body(), window);
   if (!match.failed && !match.unobservable_direction && match.overlap >= kLeastOverlap) {
     keys = std::move(earlier);
     return match;

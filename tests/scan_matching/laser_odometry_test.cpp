@@ -152,6 +152,53 @@ TEST(LaserOdometry, AWindowOfNothingIsWidened) {
   EXPECT_LT(errorOf(relative->T_from_to, truth).head<2>().norm(), 0.01);
 }
 
+/// Whether a scan is found that was taken `offset_m` from where it was expected, with people before a third of the
+/// beams.
+bool findsAmongPeople(double offset_m, const LaserOdometryConfig& config) {
+  const test::PlanarWorld world = test::flat();
+  LaserOdometry odometry(config);
+  static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
+  ProjectedScan scan = scanWith(world, {offset_m, 0.0, 0.0}, {}, 1);
+  for (std::size_t i = 0; i < scan.points_level_m.size(); i += 3) scan.points_level_m[i] *= 0.8F;
+  const auto relative = odometry.add(scan);
+  return relative && std::abs(relative->T_from_to.x_m - offset_m) < 0.02;
+}
+
+TEST(LaserOdometry, WhatLiesFarFromTheGuessMustFitBetter) {
+  LaserOdometryConfig config;
+  config.min_fit = 0.6;
+  EXPECT_TRUE(findsAmongPeople(0.45, config));
+  config.min_widened_quality = 0.95;
+  EXPECT_FALSE(findsAmongPeople(0.45, config));
+  EXPECT_TRUE(findsAmongPeople(0.05, config));
+}
+
+/// Half of the walls fit where it was expected as well.
+TEST(LaserOdometry, APoorFitWhereItWasExpectedIsSoughtFartherOff) {
+  LaserOdometryConfig config;
+  config.min_fit = 0.35;
+  EXPECT_FALSE(findsAmongPeople(0.45, config));
+  config.min_fit = 0.6;
+  EXPECT_TRUE(findsAmongPeople(0.45, config));
+}
+
+TEST(LaserOdometry, TheOtherGuessIsTakenWhereItFitsBetter) {
+  const test::PlanarWorld world = test::flat();
+  const Pose2 jump{0.4, 0.1, 1.5}, truth{0.1, 0.05, 0.1};
+  const OtherGuess other{truth * Pose2{0.02, 0.0, 0.01}, SearchWindow{0.05, 0.05}};
+  LaserOdometry odometry{{}};
+  static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
+  EXPECT_FALSE(odometry.add(scanWith(world, truth, jump, 1)));
+  const auto relative = odometry.add(scanWith(world, truth, jump, 2), std::nullopt, std::nullopt, other);
+  ASSERT_TRUE(relative);
+  EXPECT_TRUE(relative->otherwise);
+  EXPECT_LT(errorOf(relative->T_from_to, truth).head<2>().norm(), 0.01);
+  // The guess moves on from where the scan was found, by what the prediction says from there.
+  const auto next = odometry.add(scanWith(world, truth, other.T_odom_body, 3));
+  ASSERT_TRUE(next);
+  EXPECT_FALSE(next->otherwise);
+}
+
 TEST(LaserOdometry, LosesItsWayAndStartsAnew) {
   const test::PlanarWorld world = test::flat();
   LaserOdometryConfig config;

@@ -69,6 +69,33 @@ TEST(MotionPrediction, AJumpOfTheWheelsIsNotFollowed) {
   EXPECT_LT(between(truth, motion.T_reference_robot()).position_m().norm(), 0.2);
 }
 
+TEST(MotionPrediction, TheOtherSourceTakesThePlaceOfThePrediction) {
+  MotionPrediction motion({}), never_wrong({});
+  for (MotionPrediction* one : {&motion, &never_wrong}) one->begin(Pose2{});
+  Pose2 truth;
+  for (int i = 0; i < 60; ++i) {
+    truth = truth * Pose2{0.05, 0.0, 0.01};
+    for (MotionPrediction* one : {&motion, &never_wrong}) step(*one, truth, truth);
+  }
+  truth = truth * Pose2{0.05, 0.0, 0.01};
+  motion.predict(truth * Pose2{0.0, 0.4, 1.5}, kDt_s);  // The wheels slip on the spot.
+  EXPECT_GT(std::abs(between(truth, motion.T_reference_robot()).yaw_rad), 1.4);
+  ASSERT_TRUE(motion.alternative());
+  motion.takeAlternative();
+  EXPECT_LT(std::abs(between(truth, motion.T_reference_robot()).yaw_rad), 0.02);
+  EXPECT_LT(between(truth, motion.T_reference_robot()).position_m().norm(), 0.02);
+  // The step that was taken back is not in the uncertainty, nor in the speed.
+  never_wrong.predict(std::nullopt, kDt_s);
+  EXPECT_TRUE(motion.covariance().isApprox(never_wrong.covariance()));
+}
+
+TEST(MotionPrediction, WithoutWheelsThereIsNoOtherSource) {
+  MotionPrediction motion({});
+  motion.begin(std::nullopt);
+  motion.predict(std::nullopt, kDt_s);
+  EXPECT_FALSE(motion.alternative());
+}
+
 TEST(MotionPrediction, OnceLostThePoseIsUncertainUnlessTheWheelsTell) {
   const auto sigmaAfterLoss_m = [](bool wheels) {
     MotionPrediction motion({});

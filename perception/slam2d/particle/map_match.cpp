@@ -192,7 +192,7 @@ MapMatch Matching::verdict(const Pose2& pose) const {
 
 /// Most often the motion is right. Where the scan then does not lie on the map it may have slipped, or the map is new.
 MapMatch Matching::run() const {
-  const MapMatch near = verdict(settle(config_.support_m));
+  MapMatch near = verdict(settle(config_.support_m));
   if (near.support > config_.enough_support) return near;
   const MapMatch far = verdict(settle(config_.reach_m));
   return far.log_likelihood + far.log_motion > near.log_likelihood + near.log_motion ? far : near;
