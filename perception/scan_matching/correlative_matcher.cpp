@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -30,6 +31,10 @@ constexpr double kMostScores = 2e7;
 
 /// Points this near to where the view of the reference ends may lie beyond it: poses err, and scores blur.
 constexpr double kViewMargin_m = 0.15;
+/// With a smaller share of the points in the view of the reference, the guess is as likely wrong as they are new.
+constexpr double kLeastInView = 0.25;
+/// A match of a smaller share must fit better: chance is greater.
+constexpr double kUsuallyInView = 0.5;
 
 /// Half a window is cut to so many steps.
 constexpr double kMostSteps = 4000.0;
@@ -74,18 +79,23 @@ struct CorrelativeMatcher::Impl {
   bool scoresAll(const PoseGrid& grid) const {
     return config.estimate == PoseEstimate::kScoreGrid && ScoreGrid::poses(grid) <= kMostScores;
   }
-  std::vector<Eigen::Vector2f> searchPoints(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window,
-                                            const PoseGrid& grid) const;
+  /// Those that decide which pose of the grid is best.
+  struct SearchPoints {
+    std::vector<Eigen::Vector2f> level_m;
+    double share = 1.0;  ///< Of all points of the scan.
+  };
+  SearchPoints searchPoints(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window,
+                            const PoseGrid& grid) const;
 
   BestPose searchGrid(const std::vector<Eigen::Vector2f>& points, const PoseGrid& grid);
   void addSpreadElsewhere(const BestPose& best, double log_per_score, const Eigen::Vector3d& step,
-                          const Eigen::Vector3d& guess_offset, Peak& peak) const;
-  MatchResult resultOf(const std::vector<Eigen::Vector2f>& points, const PoseGrid& grid, const BestPose& best) const;
-  MatchResult evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points, const Pose2& guess,
-                       const PoseGrid& grid, const BestPose& best, bool scored);
+                          const ExpectedPose& expected, Peak& peak) const;
+  MatchResult resultOf(const SearchPoints& points, const PoseGrid& grid, const BestPose& best) const;
+  MatchResult evaluate(const ProjectedScan& scan, const SearchPoints& points, const Pose2& guess,
+                       const SearchWindow& window, const PoseGrid& grid, const BestPose& best, bool scored);
   double surfaceStep_rad(const std::vector<Eigen::Vector2f>& points) const;
   void doubtUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen, const SplitPoints& surface_points,
-                    const Pose2& finest, const Eigen::Vector3d& guess_offset, Peak& peak);
+                    const Pose2& finest, const ExpectedPose& expected, Peak& peak);
   std::vector<bool> supportedAt(const SplitPoints& points, const Pose2& pose);
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
   Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad, const Peak& peak);
@@ -103,11 +113,12 @@ struct CorrelativeMatcher::Impl {
   std::vector<std::int32_t> x_cells, y_cells, offsets;
 };
 
-/// Those that decide which pose of the grid is best.
-std::vector<Eigen::Vector2f> CorrelativeMatcher::Impl::searchPoints(const ProjectedScan& scan, const Pose2& guess,
-                                                                    const SearchWindow& window,
-                                                                    const PoseGrid& grid) const {
-  const std::vector<Eigen::Vector2f> points = spreadPoints(
+/// What the reference looked at, if that is enough of the scan.
+CorrelativeMatcher::Impl::SearchPoints CorrelativeMatcher::Impl::searchPoints(const ProjectedScan& scan,
+                                                                              const Pose2& guess,
+                                                                              const SearchWindow& window,
+                                                                              const PoseGrid& grid) const {
+  std::vector<Eigen::Vector2f> points = spreadPoints(
       scan.points_level_m, scoresAll(grid) ? config.surface_points : config.search_points, config.max_range_m);
   const SplitPoints split(points);
   const double margin_m = std::clamp(window.half_translation_m, kViewMargin_m, 2.0 * kViewMargin_m);
@@ -115,7 +126,9 @@ std::vector<Eigen::Vector2f> CorrelativeMatcher::Impl::searchPoints(const Projec
   std::vector<Eigen::Vector2f> seen;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (in_view[i]) seen.push_back(points[i]);
-  return 2 * seen.size() >= points.size() ? seen : points;
+  const double share = static_cast<double>(seen.size()) / std::max(1.0, static_cast<double>(points.size()));
+  if (share < kLeastInView || static_cast<int>(seen.size()) < config.min_points) return {std::move(points), 1.0};
+  return {std::move(seen), share};
 }
 
 /// sums[row * 16 + column]: the scores of the translations from -half, in both directions, about `center` with its
@@ -233,13 +246,13 @@ BestPose CorrelativeMatcher::Impl::searchGrid(const std::vector<Eigen::Vector2f>
 /// Likely poses elsewhere in the window make the covariance as wide as they lie; wider than what counts as seen, the
 /// guess stands.
 void CorrelativeMatcher::Impl::addSpreadElsewhere(const BestPose& best, double log_per_score,
-                                                  const Eigen::Vector3d& step, const Eigen::Vector3d& guess_offset,
+                                                  const Eigen::Vector3d& step, const ExpectedPose& expected,
                                                   Peak& peak) const {
   peak.covariance += step.asDiagonal() * all_scores.spreadElsewhere(best, log_per_score) * step.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(peak.covariance.topLeftCorner<2, 2>().eval());
   const double unseen_m = config.unobservable_sigma_m;
   if (!peak.unobservable_direction && spread.eigenvalues()(1) > unseen_m * unseen_m)
-    holdAlong(spread.eigenvectors().col(1), guess_offset, peak);
+    holdAlong(spread.eigenvectors().col(1), expected, peak);
 }
 
 /// The spread (m^2) about `center` of the places along `axis` that score about as well: a likelihood tempered so that a
@@ -270,18 +283,20 @@ double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, cons
 }
 
 /// The search's answer: what of the result does not come from the shape of the scores.
-MatchResult CorrelativeMatcher::Impl::resultOf(const std::vector<Eigen::Vector2f>& points, const PoseGrid& grid,
+MatchResult CorrelativeMatcher::Impl::resultOf(const SearchPoints& points, const PoseGrid& grid,
                                                const BestPose& best) const {
   MatchResult result;
-  result.points_used = static_cast<int>(points.size());
+  result.points_used = static_cast<int>(points.level_m.size());
   result.finest_score = best.score;
   result.finest_T_reference_body = result.T_reference_body = poseAt(grid, best);
-  const int penalty = BranchAndBound::leastPenalty(penaltyFor(points.size()), grid, best.x, best.y, best.rotation, 0);
-  result.quality = (best.score + penalty) / (kTopValue * static_cast<double>(points.size()));
+  const int penalty =
+      BranchAndBound::leastPenalty(penaltyFor(points.level_m.size()), grid, best.x, best.y, best.rotation, 0);
+  result.quality = (best.score + penalty) / (kTopValue * static_cast<double>(points.level_m.size()));
   const auto atEdge = [](int i, int size) { return size > 1 && (i == 0 || i == size - 1); };
   result.at_window_edge =
       atEdge(best.x, grid.translations) || atEdge(best.y, grid.translations) || atEdge(best.rotation, grid.rotations);
-  result.failed = result.quality < config.min_quality || result.points_used < config.min_points;
+  result.failed = result.quality * std::min(1.0, points.share / kUsuallyInView) < config.min_quality ||
+                  result.points_used < config.min_points;
   return result;
 }
 
@@ -297,18 +312,18 @@ double CorrelativeMatcher::Impl::surfaceStep_rad(const std::vector<Eigen::Vector
 /// spread of what scores as well counts.
 void CorrelativeMatcher::Impl::doubtUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen,
                                             const SplitPoints& surface_points, const Pose2& finest,
-                                            const Eigen::Vector3d& guess_offset, Peak& peak) {
+                                            const ExpectedPose& expected, Peak& peak) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(
       normalSpread(all_points.x_m, all_points.y_m, config.only_seen ? seen : std::vector<bool>{}));
   const Eigen::Vector2d axis = Eigen::Rotation2Dd(finest.yaw_rad) * normals.eigenvectors().col(0);
-  if (normals.eigenvalues()(0) < config.min_normal_spread) holdAlong(axis, guess_offset, peak);
+  if (normals.eigenvalues()(0) < config.min_normal_spread) holdAlong(axis, expected, peak);
   if (config.profile_half_m > 0.0 && normals.eigenvalues()(0) < kProfiledSpread)
     peak.covariance.topLeftCorner<2, 2>() += profileVariance(surface_points, finest, axis) * axis * axis.transpose();
 }
 
-MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const std::vector<Eigen::Vector2f>& points,
-                                               const Pose2& guess, const PoseGrid& grid, const BestPose& best,
-                                               bool scored) {
+MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const SearchPoints& points,
+                                               const Pose2& guess, const SearchWindow& window, const PoseGrid& grid,
+                                               const BestPose& best, bool scored) {
   MatchResult result = resultOf(points, grid, best);
   const Pose2 finest = result.finest_T_reference_body;
   const SplitPoints all_points = spreadWithHeights(scan, config.surface_points, config.max_range_m);
@@ -323,23 +338,21 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   }
   const SplitPoints surface_points = mostOf(all_points, in_view);
 
-  const double step_rad = scored ? grid.step_yaw_rad : surfaceStep_rad(points);
+  const double step_rad = scored ? grid.step_yaw_rad : surfaceStep_rad(points.level_m);
   ScoreSurface surface = scored ? all_scores.surfaceAround(best) : surfaceAround(surface_points, finest, step_rad);
   surface.step_m = config.resolution_m;
   surface.step_rad = step_rad;
-  const Eigen::Vector3d guess_offset(guess.x_m - finest.x_m, guess.y_m - finest.y_m,
-                                     common::wrapAngle(guess.yaw_rad - finest.yaw_rad));
+  const ExpectedPose expected = expectedFrom(finest, guess, window);
   const double supported_there = std::min(supported, static_cast<double>(surface_points.x_m.size()));
   const SurfaceScale scale{scored ? supported : supported_there, field.reach_m(), config.covariance_scale,
                            config.unobservable_sigma_m};
-  Peak peak = findPeak(surface, scale, guess_offset);
+  Peak peak = findPeak(surface, scale, expected);
   peak.covariance += attitudeCovariance(surface_points, finest, step_rad, peak);
   if (config.estimate == PoseEstimate::kFinest) peak.offset.setZero();
   if (config.estimate == PoseEstimate::kWeightedMean) peak.offset = weightedMean(surface_points, grid, best);
   if (scored)
-    addSpreadElsewhere(best, logPerScore(surface, scale), {surface.step_m, surface.step_m, step_rad}, guess_offset,
-                       peak);
-  doubtUnfaced(all_points, seen, surface_points, finest, guess_offset, peak);
+    addSpreadElsewhere(best, logPerScore(surface, scale), {surface.step_m, surface.step_m, step_rad}, expected, peak);
+  doubtUnfaced(all_points, seen, surface_points, finest, expected, peak);
 
   result.covariance = peak.covariance;
   result.unobservable_direction = peak.unobservable_direction;
@@ -369,19 +382,19 @@ void CorrelativeMatcher::addReference(const ProjectedScan& scan, const Pose2& T_
 MatchResult CorrelativeMatcher::match(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window) {
   if (!isFinite(guess) || impl_->field.empty()) return {};
   const PoseGrid grid = impl_->gridAround(guess, window);
-  const std::vector<Eigen::Vector2f> points = impl_->searchPoints(scan, guess, window, grid);
-  if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
-  const BestPose best = impl_->searchGrid(points, grid);
-  return impl_->evaluate(scan, points, guess, grid, best, impl_->scoresAll(grid));
+  const Impl::SearchPoints points = impl_->searchPoints(scan, guess, window, grid);
+  if (static_cast<int>(points.level_m.size()) < impl_->config.min_points) return {};
+  const BestPose best = impl_->searchGrid(points.level_m, grid);
+  return impl_->evaluate(scan, points, guess, window, grid, best, impl_->scoresAll(grid));
 }
 
 MatchResult CorrelativeMatcher::matchExhaustively(const ProjectedScan& scan, const Pose2& guess,
                                                   const SearchWindow& window) {
   if (!isFinite(guess) || impl_->field.empty()) return {};
   const PoseGrid grid = impl_->gridAround(guess, window);
-  const std::vector<Eigen::Vector2f> points = impl_->searchPoints(scan, guess, window, grid);
-  if (static_cast<int>(points.size()) < impl_->config.min_points) return {};
-  const SplitPoints split(points);
+  const Impl::SearchPoints points = impl_->searchPoints(scan, guess, window, grid);
+  if (static_cast<int>(points.level_m.size()) < impl_->config.min_points) return {};
+  const SplitPoints split(points.level_m);
   BestPose best;
   std::vector<std::int32_t> x_cells, y_cells;
   for (int k = 0; k < grid.rotations; ++k) {
@@ -389,13 +402,14 @@ MatchResult CorrelativeMatcher::matchExhaustively(const ProjectedScan& scan, con
                                grid.first_x_m, grid.first_y_m, x_cells, y_cells);
     for (int y = 0; y < grid.translations; ++y) {
       for (int x = 0; x < grid.translations; ++x) {
-        int score = -BranchAndBound::leastPenalty(impl_->penaltyFor(points.size()), grid, x, y, k, 0);
-        for (std::size_t i = 0; i < points.size(); ++i) score += impl_->field.at(x_cells[i] + x, y_cells[i] + y);
+        int score = -BranchAndBound::leastPenalty(impl_->penaltyFor(points.level_m.size()), grid, x, y, k, 0);
+        for (std::size_t i = 0; i < points.level_m.size(); ++i)
+          score += impl_->field.at(x_cells[i] + x, y_cells[i] + y);
         if (score > best.score) best = {score, x, y, k};
       }
     }
   }
-  return impl_->evaluate(scan, points, guess, grid, best, false);
+  return impl_->evaluate(scan, points, guess, window, grid, best, false);
 }
 
 }  // namespace swiftlet::perception

@@ -25,6 +25,15 @@ Eigen::Matrix3d seenPart(const MatchResult& match) {
   return across * match.covariance * across.transpose();
 }
 
+/// So many times as far away as the window reaches, the guess says nothing for a match.
+constexpr double kFarWindows = 6.0;
+
+/// How far beyond its window something lies: 0 inside, 1 far away.
+double shareBeyond(double off, double window, double greatest_window) {
+  const double far = std::clamp(kFarWindows * window, 0.5 * greatest_window, greatest_window);
+  return off > window ? std::min(1.0, (off - window) / std::max(far - window, 1e-9)) : 0.0;
+}
+
 }  // namespace
 
 void LaserOdometryConfig::describe(common::config::Fields& fields) {
@@ -37,7 +46,7 @@ void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields("max_window_m", max_window_m, "Half the greatest search window.");
   fields("max_window_deg", max_window_deg, "The same for the rotation.");
   fields("min_widened_quality", min_widened_quality,
-         "A match at the end of the greatest window needs this quality; nearer, less.");
+         "A match far beyond the first window needs this quality; nearer, less.");
   fields("widened_must_hold", widened_must_hold, "And must hold the position in all directions.");
   fields("min_overlap", min_overlap, "A scan with a smaller share of supported points joins the local map.");
   fields("min_fit", min_fit, "A scan that fits worse than this joins the local map.");
@@ -99,8 +108,8 @@ struct LaserOdometry::Impl {
   SearchWindow usualWindow(common::Time now) const;
   Guess guessOf(const Pose2& T_last_now, const SearchWindow& window) const;
   Found find(const ProjectedScan& scan, const Guess& guess, const std::optional<Guess>& other);
-  Found matchIn(const SearchWindow& window, const ProjectedScan& scan, const Guess& guess, bool otherwise);
-  double marginOf(const MatchResult& match, const Guess& guess) const;
+  Found matchIn(const SearchWindow& window, const ProjectedScan& scan, const Guess& guess, const Guess& about);
+  double marginOf(const MatchResult& match, const Guess& guess, const Guess& about) const;
   static bool isWorthAsking(const Guess& other, const Guess& guess);
   bool canWiden(const SearchWindow& window) const;
   SearchWindow widened(const SearchWindow& window) const;
@@ -170,25 +179,28 @@ LaserOdometry::Impl::Guess LaserOdometry::Impl::guessOf(const Pose2& T_last_now,
            std::min(config.max_window_deg * kRadPerDeg, window.half_rotation_rad)}};
 }
 
-/// By how much a match fits better than it must. The farther from the guess, the better it must fit, as the logarithm
-/// of a likelihood falls: with the square. Beyond where the scan was expected, the guess does not stand in for what the
-/// scene does not hold.
-double LaserOdometry::Impl::marginOf(const MatchResult& match, const Guess& guess) const {
+/// By how much a match fits better than it must. Far from the guess it must fit better than beside it. Where it was not
+/// expected, the guess does not stand in for what the scene does not hold.
+double LaserOdometry::Impl::marginOf(const MatchResult& match, const Guess& guess, const Guess& about) const {
   if (match.failed) return -1.0;
-  const Pose2 offset = between(guess.T_local_body, match.T_reference_body);
-  const double offset_m = offset.position_m().norm(), offset_rad = std::abs(offset.yaw_rad);
-  const bool expected =
-      offset_m <= std::numbers::sqrt2 * guess.window.half_translation_m && offset_rad <= guess.window.half_rotation_rad;
-  if (!expected && config.widened_must_hold && match.unobservable_direction) return -1.0;
-  const double share = std::max(offset_m / config.max_window_m, offset_rad / (config.max_window_deg * kRadPerDeg));
-  return match.quality -
-         std::lerp(config.matcher.min_quality, config.min_widened_quality, std::min(1.0, share * share));
+  const auto isExpectedBy = [&](const Guess& by) {
+    const Pose2 off = between(by.T_local_body, match.T_reference_body);
+    return off.position_m().norm() <= std::numbers::sqrt2 * by.window.half_translation_m &&
+           std::abs(off.yaw_rad) <= by.window.half_rotation_rad;
+  };
+  if (config.widened_must_hold && match.unobservable_direction && !isExpectedBy(guess) && !isExpectedBy(about))
+    return -1.0;
+  const Pose2 off = between(guess.T_local_body, match.T_reference_body);
+  const double beyond =
+      std::max(shareBeyond(off.position_m().norm(), guess.window.half_translation_m, config.max_window_m),
+               shareBeyond(std::abs(off.yaw_rad), guess.window.half_rotation_rad, config.max_window_deg * kRadPerDeg));
+  return match.quality - std::lerp(config.matcher.min_quality, config.min_widened_quality, beyond);
 }
 
 LaserOdometry::Impl::Found LaserOdometry::Impl::matchIn(const SearchWindow& window, const ProjectedScan& scan,
-                                                        const Guess& guess, bool otherwise) {
-  const MatchResult match = matcher.match(scan, guess.T_local_body, window);
-  return {match, marginOf(match, guess), otherwise};
+                                                        const Guess& guess, const Guess& about) {
+  const MatchResult match = matcher.match(scan, about.T_local_body, window);
+  return {match, marginOf(match, guess, about), &about != &guess};
 }
 
 /// One inside the window of the guess has nothing to add.
@@ -216,21 +228,22 @@ LaserOdometry::Impl::Found LaserOdometry::Impl::find(const ProjectedScan& scan, 
   const auto isFound = [&](const Found& found) {
     return found.margin >= 0.0 && !found.match.at_window_edge && found.match.quality >= config.min_fit;
   };
-  Found best = matchIn(guess.window, scan, guess, false);
+  Found best = matchIn(guess.window, scan, guess, guess);
   if (isFound(best)) return best;
-  const Guess* center = &guess;
+  const Guess* about = &guess;
   if (other && isWorthAsking(*other, guess)) {
-    const Found there = matchIn(other->window, scan, *other, true);
-    if (there.match.quality > best.match.quality) {
+    const Found there = matchIn(other->window, scan, guess, *other);
+    const bool neither = there.margin < 0.0 && best.margin < 0.0;
+    if (neither ? there.match.quality > best.match.quality : there.margin > best.margin) {
       best = there;
-      center = &*other;
+      about = &*other;
     }
   }
   Found last = best;
-  SearchWindow window = center->window;
+  SearchWindow window = about->window;
   while (!isFound(last) && last.match.points_used > 0 && canWiden(window)) {
     window = widened(window);
-    last = matchIn(window, scan, *center, best.otherwise);
+    last = matchIn(window, scan, guess, *about);
     if (last.margin >= best.margin) best = last;
   }
   return best;

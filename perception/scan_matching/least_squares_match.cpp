@@ -85,10 +85,6 @@ std::optional<Eigen::Vector2d> LeastSquaresMatch::heldDirection(double yaw_rad) 
   return Eigen::Rotation2Dd(yaw_rad) * *held_level_;
 }
 
-Eigen::Vector3d LeastSquaresMatch::guessOffset(const Pose2& pose) const {
-  return {guess_.x_m - pose.x_m, guess_.y_m - pose.y_m, common::wrapAngle(guess_.yaw_rad - pose.yaw_rad)};
-}
-
 Quadratic LeastSquaresMatch::quadraticAt(const NormalEquations& equations,
                                          const std::optional<Eigen::Vector2d>& held) const {
   Eigen::Matrix3d kept = Eigen::Matrix3d::Identity();
@@ -109,7 +105,7 @@ double LeastSquaresMatch::step(const NormalEquations& equations, double reach_m,
   scale.unobservable_sigma_m = config_.unobservable_sigma_m;
   scale.reach_steps = reach_m;
   const Quadratic quadratic = quadraticAt(equations, heldDirection(pose.yaw_rad));
-  const Eigen::Vector3d offset = findPeak(quadratic, scale, guessOffset(pose)).offset;
+  const Eigen::Vector3d offset = findPeak(quadratic, scale, expectedFrom(pose, guess_, window_)).offset;
   pose.x_m += offset.x();
   pose.y_m += offset.y();
   pose.yaw_rad = common::wrapAngle(pose.yaw_rad + offset.z());
@@ -117,7 +113,7 @@ double LeastSquaresMatch::step(const NormalEquations& equations, double reach_m,
 }
 
 void LeastSquaresMatch::judgeWindow(MatchResult& result) const {
-  const Eigen::Vector3d away = guessOffset(result.T_reference_body).cwiseAbs();
+  const Eigen::Vector3d away = expectedFrom(result.T_reference_body, guess_, window_).offset.cwiseAbs();
   const double half_m = window_.half_translation_m, half_rad = window_.half_rotation_rad;
   const double farthest_m = away.head<2>().maxCoeff();
   result.at_window_edge = farthest_m > half_m - std::min(kEdge_m, 0.5 * half_m) ||
@@ -165,7 +161,7 @@ MatchResult LeastSquaresMatch::finish(const NormalEquations& equations, double q
   scale.unobservable_sigma_m = config_.unobservable_sigma_m;
   scale.reach_steps = config_.support_m;
   const std::optional<Eigen::Vector2d> held = heldDirection(pose.yaw_rad);
-  const Peak peak = findPeak(quadraticAt(equations, held), scale, guessOffset(pose));
+  const Peak peak = findPeak(quadraticAt(equations, held), scale, expectedFrom(pose, guess_, window_));
   // A wrong attitude moves all points together, so that more of them do not help.
   const Eigen::Matrix<double, 3, 2> shift =
       peak.peak_of_gradient * equations.tilt * (config_.attitude_error_deg * kRadPerDeg);

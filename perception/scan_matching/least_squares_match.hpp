@@ -91,7 +91,6 @@ class LeastSquaresMatch {
                      const common::Pose2& pose) const;
 
  private:
-  Eigen::Vector3d guessOffset(const common::Pose2& pose) const;
   Quadratic quadraticAt(const NormalEquations& equations, const std::optional<Eigen::Vector2d>& held) const;
   /// The direction no contour faces, along the reference axes.
   std::optional<Eigen::Vector2d> heldDirection(double yaw_rad) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 namespace swiftlet::perception {
 namespace {
@@ -12,18 +13,34 @@ constexpr double kFloorSigma_m = 0.0005;
 constexpr double kFloorSigma_rad = 0.0001;
 /// The uncertainty given along what is not seen.
 constexpr double kUnseenSigma_m = 1.0;
+/// No guess is better than this.
+constexpr double kLeastSpread_m = 0.001;
+constexpr double kLeastSpread_rad = 0.001;
+
+/// What lies in the space that `unseen` projects to, nearest to `offset` in units of `spread`.
+Eigen::Vector3d mostExpected(const Eigen::Matrix3d& unseen, const Eigen::Vector3d& offset,
+                             const Eigen::Vector3d& spread) {
+  const Eigen::Matrix3d scaled = spread.cwiseInverse().asDiagonal() * unseen;
+  return unseen * scaled.completeOrthogonalDecomposition().solve(offset.cwiseQuotient(spread));
+}
 
 }  // namespace
 
-Peak findPeak(const Quadratic& q, const PeakScale& scale, const Eigen::Vector3d& guess_offset) {
+ExpectedPose expectedFrom(const common::Pose2& pose, const common::Pose2& guess, const SearchWindow& window) {
+  const double spread_m = std::max(window.half_translation_m, kLeastSpread_m);
+  return {{guess.x_m - pose.x_m, guess.y_m - pose.y_m, common::wrapAngle(guess.yaw_rad - pose.yaw_rad)},
+          {spread_m, spread_m, std::max(window.half_rotation_rad, kLeastSpread_rad)}};
+}
+
+Peak findPeak(const Quadratic& q, const PeakScale& scale, const ExpectedPose& expected) {
   const Eigen::Vector3d& step = scale.step;
   const double step2 = step.x() * step.x();
   const double unseen_information = 1.0 / (kUnseenSigma_m * kUnseenSigma_m);
 
   // In units of one step, where all three axes move the points by about as much.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(-q.hessian);
-  const Eigen::Vector3d guess_steps = guess_offset.cwiseQuotient(step);
   Eigen::Vector3d peak_steps = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d unseen = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d covariance_steps = Eigen::Matrix3d::Zero(), peak_of_gradient = Eigen::Matrix3d::Zero();
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis = eigen.eigenvectors().col(i);
@@ -35,9 +52,11 @@ Peak findPeak(const Quadratic& q, const PeakScale& scale, const Eigen::Vector3d&
       peak_steps += axis * std::clamp(along, -scale.reach_steps, scale.reach_steps);
       peak_of_gradient += axis * axis.transpose() / curvature;
     } else {
-      peak_steps += axis * axis.dot(guess_steps);
+      unseen += axis * axis.transpose();
     }
   }
+  peak_steps +=
+      mostExpected(unseen, expected.offset.cwiseQuotient(step) - peak_steps, expected.spread.cwiseQuotient(step));
 
   Peak peak;
   peak.gradient = q.gradient;
@@ -52,9 +71,9 @@ Peak findPeak(const Quadratic& q, const PeakScale& scale, const Eigen::Vector3d&
   return peak;
 }
 
-void holdAlong(const Eigen::Vector2d& direction, const Eigen::Vector3d& guess_offset, Peak& peak) {
+void holdAlong(const Eigen::Vector2d& direction, const ExpectedPose& expected, Peak& peak) {
   const Eigen::Vector2d axis = direction.normalized();
-  peak.offset.head<2>() += axis * axis.dot(guess_offset.head<2>() - peak.offset.head<2>());
+  peak.offset.head<2>() += axis * axis.dot(expected.offset.head<2>() - peak.offset.head<2>());
   peak.covariance.topLeftCorner<2, 2>() += kUnseenSigma_m * kUnseenSigma_m * axis * axis.transpose();
   peak.unobservable_direction = axis;
 }

@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "perception/scan_matching/scan_matcher.hpp"
+
 namespace swiftlet::perception {
 
 /// c + g'u + u'Hu/2 with u the offset of the pose (x, y, rotation) in steps; H is negative where there is a peak.
@@ -33,10 +35,20 @@ struct Peak {
   Eigen::Matrix3d peak_of_gradient = Eigen::Matrix3d::Zero();  ///< and how the peak (m, m, rad) follows it.
 };
 
-/// Along what is not seen, the peak is where the guess is.
-Peak findPeak(const Quadratic& quadratic, const PeakScale& scale, const Eigen::Vector3d& guess_offset);
+/// Where the pose was expected, relative to where u = 0; axes of the reference frame.
+struct ExpectedPose {
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad)
+  Eigen::Vector3d spread =
+      Eigen::Vector3d::Ones();  ///< How far off it may be in each; only the ratios matter. Positive.
+};
 
-/// Marks a direction as not seen: the peak keeps the guess along it, and the covariance says so.
-void holdAlong(const Eigen::Vector2d& direction, const Eigen::Vector3d& guess_offset, Peak& peak);
+/// The guess of a search, seen from `pose`.
+ExpectedPose expectedFrom(const common::Pose2& pose, const common::Pose2& guess, const SearchWindow& window);
+
+/// Along what is not seen, the peak is where it is expected most: a heading that is hardly known does not move it.
+Peak findPeak(const Quadratic& quadratic, const PeakScale& scale, const ExpectedPose& expected);
+
+/// Marks a direction as not seen: the peak keeps what was expected along it, and the covariance says so.
+void holdAlong(const Eigen::Vector2d& direction, const ExpectedPose& expected, Peak& peak);
 
 }  // namespace swiftlet::perception

@@ -63,13 +63,13 @@ double logPerScore(const ScoreSurface& surface, const SurfaceScale& scale) {
   return reach2 / (2.0 * LikelihoodField::kTopValue * residual2 * scale.covariance_scale);
 }
 
-Peak findPeak(const ScoreSurface& surface, const SurfaceScale& scale, const Eigen::Vector3d& guess_offset) {
+Peak findPeak(const ScoreSurface& surface, const SurfaceScale& scale, const ExpectedPose& expected) {
   PeakScale peak_scale;
   peak_scale.step = {surface.step_m, surface.step_m, surface.step_rad};
   peak_scale.information_per_curvature = logPerScore(surface, scale) / (surface.step_m * surface.step_m);
   peak_scale.unobservable_sigma_m = scale.unobservable_sigma_m;
   peak_scale.reach_steps = ScoreSurface::kHalf;
-  return findPeak(fitQuadratic(surface), peak_scale, guess_offset);
+  return findPeak(fitQuadratic(surface), peak_scale, expected);
 }
 
 }  // namespace swiftlet::perception

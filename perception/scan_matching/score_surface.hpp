@@ -46,7 +46,7 @@ double logPerScore(const ScoreSurface& surface, const SurfaceScale& scale);
 
 /// Each supported point adds -(d / reach)^2 to the score, with d along the normal of its contour; the curvature is
 /// therefore the sum of n n', and with the spread of d, read off the height of the peak, the covariance follows as that
-/// of least squares. Along what is not seen, the peak is where the guess is.
-Peak findPeak(const ScoreSurface& surface, const SurfaceScale& scale, const Eigen::Vector3d& guess_offset);
+/// of least squares. Along what is not seen, the peak is where it is expected.
+Peak findPeak(const ScoreSurface& surface, const SurfaceScale& scale, const ExpectedPose& expected);
 
 }  // namespace swiftlet::perception

@@ -197,6 +197,21 @@ TEST(CorrelativeMatcher, WhatOnlyNowComesIntoViewHoldsNothing) {
   EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);
 }
 
+/// The reference looked at a third of what is seen now: the rest does not speak against the pose.
+TEST(CorrelativeMatcher, AThirdInViewIsEnough) {
+  const test::PlanarWorld world = test::flat();
+  ProjectedScan narrow = scanAt(world, {}, 0);
+  std::erase_if(narrow.points_level_m,
+                [](const Eigen::Vector2f& p) { return std::abs(std::atan2(p.y(), p.x())) > 0.9F; });
+  CorrelativeMatcher matcher{{}};
+  matcher.addReference(narrow, {});
+  const Pose2 truth{0.06, -0.04, 0.03};
+  const MatchResult match = matcher.match(scanAt(world, truth, 1), {}, {0.1, 0.06});
+  EXPECT_FALSE(match.failed);
+  EXPECT_GT(match.quality, 0.8);
+  EXPECT_LT(errorOf(match.T_reference_body, truth).head<2>().norm(), 0.02);
+}
+
 TEST(CorrelativeMatcher, ARoomHidesNothing) {
   common::RandomStream random(10, "room");
   const test::PlanarWorld world = test::flat();

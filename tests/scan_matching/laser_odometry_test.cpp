@@ -199,6 +199,28 @@ TEST(LaserOdometry, TheOtherGuessIsTakenWhereItFitsBetter) {
   EXPECT_FALSE(next->otherwise);
 }
 
+/// Some more of the scan was taken there, but it lies six windows off.
+TEST(LaserOdometry, TheOtherGuessMustFitFarBetterFarOff) {
+  const test::PlanarWorld world = test::flat();
+  const Pose2 here{0.01, 0.0, 0.0}, there{0.4, 0.1, 0.1};
+  LaserOdometryConfig config;
+  config.min_fit = 0.95;
+  const auto isFoundThere = [&](double least_quality) {
+    config.min_widened_quality = least_quality;
+    LaserOdometry odometry{config};
+    static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
+    ProjectedScan scan = scanWith(world, here, {}, 1);
+    const ProjectedScan elsewhere = test::scanAt(world, there, 1);
+    for (std::size_t i = 0; i < std::min(scan.points_level_m.size(), elsewhere.points_level_m.size()); ++i)
+      if (i % 20 < 11) scan.points_level_m[i] = elsewhere.points_level_m[i];
+    const OtherGuess other{there, SearchWindow{0.05, 0.05}};
+    const auto relative = odometry.add(scan, std::nullopt, SearchWindow{0.05, 0.05}, other);
+    return relative && relative->otherwise;
+  };
+  EXPECT_TRUE(isFoundThere(0.35));
+  EXPECT_FALSE(isFoundThere(0.75));
+}
+
 TEST(LaserOdometry, LosesItsWayAndStartsAnew) {
   const test::PlanarWorld world = test::flat();
   LaserOdometryConfig config;

@@ -10,6 +10,7 @@
 #include "common/random.hpp"
 #include "perception/scan_matching/branch_and_bound.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
+#include "perception/scan_matching/quadratic_peak.hpp"
 #include "perception/scan_matching/reference_view.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 #include "perception/scan_matching/score_surface.hpp"
@@ -227,6 +228,24 @@ TEST(ScoreSurface, AQuadraticIsFoundExactly) {
 }
 
 /// The best pose that is not beside the best: as if all were tried, and half a turn to the left is one to the right.
+/// A cluster far ahead: the position may swing about it with the heading. The heading is hardly known, the position is.
+TEST(QuadraticPeak, WhereNothingIsSeenTheBetterKnownPartOfWhatWasExpectedStays) {
+  Quadratic quadratic;
+  const Eigen::Vector3d unseen = Eigen::Vector3d(0.0, 1.0, -1.0).normalized();
+  quadratic.hessian = -100.0 * (Eigen::Matrix3d::Identity() - unseen * unseen.transpose());
+  PeakScale scale;
+  scale.step = {0.01, 0.01, 0.002};
+  scale.information_per_curvature = 1e4;
+  scale.unobservable_sigma_m = 0.1;
+  scale.reach_steps = 5.0;
+  const ExpectedPose by_position{{0.0, 0.02, 0.3}, {0.05, 0.05, 0.5}};
+  EXPECT_NEAR(findPeak(quadratic, scale, by_position).offset.y(), 0.02, 0.01);
+  const ExpectedPose by_heading{{0.0, 0.02, 0.3}, {5.0, 5.0, 0.01}};
+  const Peak turned = findPeak(quadratic, scale, by_heading);
+  EXPECT_NEAR(turned.offset.z(), 0.3, 0.01);
+  EXPECT_NEAR(turned.offset.y(), -1.5, 0.05);
+}
+
 TEST(BranchAndBound, SearchingElsewhereIsExhaustive) {
   const ProjectedScan scan = test::scanAt(test::flat(), {0.5, 0.3, 0.4}, 1);
   LikelihoodField field(0.05, 0.1);
