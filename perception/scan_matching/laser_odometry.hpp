@@ -47,9 +47,9 @@ struct LaserOdometryConfig {
   double guess_error_deg = 1.5;
   double max_window_m = 0.5;
   double max_window_deg = 15.0;
-  double min_widened_quality = 0.35;      ///< A match six times as far off as the first window reaches, or at the end
-                                          ///< of the greatest, needs this quality: chance is greater. Nearer, less; in
-                                          ///< the first window, matcher.min_quality.
+  double min_widened_quality = 0.35;      ///< A match six times as far off as the first window reaches (at least half
+                                          ///< the greatest window, at most all of it) needs this quality: chance is
+                                          ///< greater. Nearer, less; in the first window, matcher.min_quality.
   bool widened_must_hold = false;         ///< Beyond the first window it must hold the position in all directions: the
                                           ///< guess no longer does.
   double min_overlap = 0.75;              ///< A scan with a smaller share of supported points joins the local map.

@@ -38,8 +38,7 @@ struct Peak {
 /// Where the pose was expected, relative to where u = 0; axes of the reference frame.
 struct ExpectedPose {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad)
-  Eigen::Vector3d spread =
-      Eigen::Vector3d::Ones();  ///< How far off it may be in each; only the ratios matter. Positive.
+  Eigen::Vector3d spread = Eigen::Vector3d::Ones();  ///< How far off it may be in each, > 0; the ratios matter.
 };
 
 /// The guess of a search, seen from `pose`.
