@@ -28,7 +28,7 @@ void expectTheExhaustiveAnswer(const CorrelativeMatcherConfig& config, const Sea
   for (int trial = 0; trial < trials; ++trial) {
     CorrelativeMatcher matcher{config};
     const Pose2 reference = poseInFlat(random);
-    const auto frame = static_cast<std::uint64_t>(2 * trial);
+    const auto frame = 2 * static_cast<std::uint64_t>(trial);
     matcher.addReference(scanAt(world, reference, frame), reference);
     const ProjectedScan scan = scanAt(world, reference * randomStep(random), frame + 1);
     const SearchWindow window{random.uniform(0.0, widest.half_translation_m),
@@ -92,7 +92,7 @@ Accuracy measureAccuracy(const CorrelativeMatcherConfig& config, int trials) {
   for (int trial = 0; trial < trials; ++trial) {
     CorrelativeMatcher matcher{config};
     const Pose2 reference = poseInFlat(random);
-    const auto frame = static_cast<std::uint64_t>(2 * trial);
+    const auto frame = 2 * static_cast<std::uint64_t>(trial);
     matcher.addReference(scanAt(world, reference, frame), reference);
     const Pose2 truth = reference * randomStep(random);
     const MatchResult match = matcher.match(scanAt(world, truth, frame + 1), reference, {0.1, 0.03});

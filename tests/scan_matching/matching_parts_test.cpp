@@ -38,7 +38,7 @@ RC_GTEST_PROP(WindowSums, AllInstructionsAddTheSame, ()) {
   for (const auto offset : offsets)
     for (int i = 0; i < rows * kWindowColumns; ++i)
       expected[static_cast<std::size_t>(i)] +=
-          cells[static_cast<std::size_t>(offset + i / kWindowColumns * kStride + i % kWindowColumns)];
+          *(cells.begin() + offset + i / kWindowColumns * kStride + i % kWindowColumns);
   for (const Instructions instructions : {Instructions::kScalar, Instructions::kSse41, Instructions::kAvx2}) {
     if (!isAvailable(instructions)) continue;
     std::vector<std::uint16_t> sums(expected.size());
