@@ -36,9 +36,9 @@ RC_GTEST_PROP(WindowSums, AllInstructionsAddTheSame, ()) {
                       static_cast<std::int32_t>(random.uniform() * kStride));
   std::vector<int> expected(static_cast<std::size_t>(rows) * kWindowColumns, 0);
   for (const auto offset : offsets)
-    for (int i = 0; i < rows * kWindowColumns; ++i)
-      expected[static_cast<std::size_t>(i)] +=
-          *(cells.begin() + offset + i / kWindowColumns * kStride + i % kWindowColumns);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      expected[i] +=
+          cells.at(static_cast<std::size_t>(offset) + std::size_t{kStride} * (i / kWindowColumns) + i % kWindowColumns);
   for (const Instructions instructions : {Instructions::kScalar, Instructions::kSse41, Instructions::kAvx2}) {
     if (!isAvailable(instructions)) continue;
     std::vector<std::uint16_t> sums(expected.size());
