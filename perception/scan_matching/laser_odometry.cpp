@@ -95,6 +95,13 @@ struct LaserOdometry::Impl {
   struct Guess {
     Pose2 T_local_body;
     SearchWindow window;
+
+    /// Whether a pose lies no farther off than the half window, in position so many times that.
+    bool covers(const Pose2& pose_local, double half_translations = 1.0) const {
+      const Pose2 off = between(T_local_body, pose_local);
+      return off.position_m().norm() <= half_translations * window.half_translation_m &&
+             std::abs(off.yaw_rad) <= window.half_rotation_rad;
+    }
   };
   struct Found {
     MatchResult match;
@@ -110,7 +117,6 @@ struct LaserOdometry::Impl {
   Found find(const ProjectedScan& scan, const Guess& guess, const std::optional<Guess>& other);
   Found matchIn(const SearchWindow& window, const ProjectedScan& scan, const Guess& guess, const Guess& about);
   double marginOf(const MatchResult& match, const Guess& guess, const Guess& about) const;
-  static bool isWorthAsking(const Guess& other, const Guess& guess);
   bool canWiden(const SearchWindow& window) const;
   SearchWindow widened(const SearchWindow& window) const;
   void addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body, const Eigen::Matrix3d& covariance_local);
@@ -183,11 +189,7 @@ LaserOdometry::Impl::Guess LaserOdometry::Impl::guessOf(const Pose2& T_last_now,
 /// expected, the guess does not stand in for what the scene does not hold.
 double LaserOdometry::Impl::marginOf(const MatchResult& match, const Guess& guess, const Guess& about) const {
   if (match.failed) return -1.0;
-  const auto isExpectedBy = [&](const Guess& by) {
-    const Pose2 off = between(by.T_local_body, match.T_reference_body);
-    return off.position_m().norm() <= std::numbers::sqrt2 * by.window.half_translation_m &&
-           std::abs(off.yaw_rad) <= by.window.half_rotation_rad;
-  };
+  const auto isExpectedBy = [&](const Guess& by) { return by.covers(match.T_reference_body, std::numbers::sqrt2); };
   if (config.widened_must_hold && match.unobservable_direction && !isExpectedBy(guess) && !isExpectedBy(about))
     return -1.0;
   const Pose2 off = between(guess.T_local_body, match.T_reference_body);
@@ -201,13 +203,6 @@ LaserOdometry::Impl::Found LaserOdometry::Impl::matchIn(const SearchWindow& wind
                                                         const Guess& guess, const Guess& about) {
   const MatchResult match = matcher.match(scan, about.T_local_body, window);
   return {match, marginOf(match, guess, about), &about != &guess};
-}
-
-/// One inside the window of the guess has nothing to add.
-bool LaserOdometry::Impl::isWorthAsking(const Guess& other, const Guess& guess) {
-  const Pose2 apart = between(guess.T_local_body, other.T_local_body);
-  return apart.position_m().norm() > guess.window.half_translation_m ||
-         std::abs(apart.yaw_rad) > guess.window.half_rotation_rad;
 }
 
 bool LaserOdometry::Impl::canWiden(const SearchWindow& window) const {
@@ -231,7 +226,7 @@ LaserOdometry::Impl::Found LaserOdometry::Impl::find(const ProjectedScan& scan, 
   Found best = matchIn(guess.window, scan, guess, guess);
   if (isFound(best)) return best;
   const Guess* about = &guess;
-  if (other && isWorthAsking(*other, guess)) {
+  if (other && !guess.covers(other->T_local_body)) {
     const Found there = matchIn(other->window, scan, guess, *other);
     const bool neither = there.margin < 0.0 && best.margin < 0.0;
     if (neither ? there.match.quality > best.match.quality : there.margin > best.margin) {

@@ -227,7 +227,6 @@ TEST(ScoreSurface, AQuadraticIsFoundExactly) {
   EXPECT_NEAR(q.constant, 5000.0, 0.5);
 }
 
-/// The best pose that is not beside the best: as if all were tried, and half a turn to the left is one to the right.
 /// A cluster far ahead: the position may swing about it with the heading. The heading is hardly known, the position is.
 TEST(QuadraticPeak, WhereNothingIsSeenTheBetterKnownPartOfWhatWasExpectedStays) {
   Quadratic quadratic;
@@ -246,6 +245,7 @@ TEST(QuadraticPeak, WhereNothingIsSeenTheBetterKnownPartOfWhatWasExpectedStays) 
   EXPECT_NEAR(turned.offset.y(), -1.5, 0.05);
 }
 
+/// The best pose that is not beside the best: as if all were tried, and half a turn to the left is one to the right.
 TEST(BranchAndBound, SearchingElsewhereIsExhaustive) {
   const ProjectedScan scan = test::scanAt(test::flat(), {0.5, 0.3, 0.4}, 1);
   LikelihoodField field(0.05, 0.1);
