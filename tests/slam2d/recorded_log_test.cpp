@@ -63,17 +63,22 @@ void expectErrors(const evaluation::RelationErrors& errors, const std::string& w
   EXPECT_LE(mean_deg, rotation_deg);
 }
 
-void expectRelations(const std::string& name, bool odometry, double translation_m, double rotation_deg,
-                     SlamMethod method = SlamMethod::kGraph) {
+/// None without the data set.
+std::optional<evaluation::RelationErrors> relationsOf(const std::string& name, bool odometry, SlamMethod method) {
   const std::string stem = "01-laser-slam/" + name + "/" + name;
   const auto log = test_support::dataSet(stem + ".clf.bz2"), relations = test_support::dataSet(stem + ".relations.gz");
-  if (!log || !relations) return;
+  if (!log || !relations) return std::nullopt;
   LaserSlamConfig config;
   config.method = method;
   LaserSlam slam(config);
   const std::vector<KnownScan> scans = scansOf(*log, odometry);
-  expectErrors(evaluation::relationErrors(trackOf(slam, scans, scans.size()), interfaces::readRelations(*relations)),
-               name + (odometry ? " with odometry" : " without odometry"), translation_m, rotation_deg);
+  return evaluation::relationErrors(trackOf(slam, scans, scans.size()), interfaces::readRelations(*relations));
+}
+
+void expectRelations(const std::string& name, bool odometry, double translation_m, double rotation_deg,
+                     SlamMethod method = SlamMethod::kGraph) {
+  if (const auto errors = relationsOf(name, odometry, method))
+    expectErrors(*errors, name + (odometry ? " with odometry" : " without odometry"), translation_m, rotation_deg);
 }
 
 TEST(RecordedLog, IntelWithOdometry) { expectRelations("intel", true, 0.0229, 0.453); }
@@ -107,6 +112,15 @@ TEST(RecordedLog, IntelThereAndBackwardsHome) {
 
 /// gmapping, run on the raw log with its odometry, is 0.042 m off; published, 0.070 m.
 TEST(RecordedLog, IntelByParticles) { expectRelations("intel", true, 0.05, 0.453, SlamMethod::kParticles); }
+
+/// One way through the corridor is not mended (decision 023): the mean is 0.63 m. What is near keeps its place.
+TEST(RecordedLog, IntelByParticlesWithoutOdometry) {
+  const auto errors = relationsOf("intel", false, SlamMethod::kParticles);
+  if (!errors) return;
+  EXPECT_TRUE(errors->missing.empty());
+  EXPECT_LE(errors->translation_m.median, 0.05);
+  EXPECT_LE(errors->rotation_rad.mean / common::kRadPerDeg, 0.453);
+}
 
 }  // namespace
 }  // namespace swiftlet::perception
