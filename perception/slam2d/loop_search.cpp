@@ -6,6 +6,7 @@
 
 #include "perception/scan_matching/branch_and_bound.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
+#include "perception/slam2d/seen_through.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -20,16 +21,20 @@ constexpr double kViewDistance_m = 2.0;
 /// The wide search's spread, in its cells.
 constexpr double kWideSigmaCells = 2.0;
 
-/// Of the newest scans up to the query those that are firmly tied to it, as one scan in its frame.
-ProjectedScan joinedQuery(const SlamGraph& graph, int query, const std::vector<ProjectedUncertainty>& tied_to_query,
-                          int count) {
-  const Pose2& T_map_query = graph.keys[static_cast<std::size_t>(query)].T_map_body;
-  ProjectedScan joined;
-  joined.stamp = graph.keys[static_cast<std::size_t>(query)].scan->stamp;
+/// Of the newest key scans up to the query those that are firmly tied to it, the newest first.
+std::vector<int> queryKeys(int query, const std::vector<ProjectedUncertainty>& tied_to_query, int count) {
   std::vector<int> keys;
   for (const ProjectedUncertainty& u : tied_to_query)
     if (u.key <= query && u.key > query - count) keys.push_back(u.key);
   std::sort(keys.rbegin(), keys.rend());
+  return keys;
+}
+
+/// As one scan in the frame of the first.
+ProjectedScan joined(const SlamGraph& graph, const std::vector<int>& keys) {
+  const Pose2& T_map_query = graph.keys[static_cast<std::size_t>(keys.front())].T_map_body;
+  ProjectedScan joined;
+  joined.stamp = graph.keys[static_cast<std::size_t>(keys.front())].scan->stamp;
   for (const int key : keys) {
     const KeyScan& source = graph.keys[static_cast<std::size_t>(key)];
     const Pose2 T_query_key = between(T_map_query, source.T_map_body);
@@ -60,6 +65,16 @@ std::vector<int> referenceKeys(const SlamGraph& graph, const std::vector<Project
   if (static_cast<int>(keys.size()) > config.loops.reference_scans)
     keys.resize(static_cast<std::size_t>(config.loops.reference_scans));
   return keys;
+}
+
+/// Key scans where they are believed to be, moved by `T_map_believed`.
+std::vector<PlacedScan> placed(const SlamGraph& graph, const std::vector<int>& keys, const Pose2& T_map_believed) {
+  std::vector<PlacedScan> scans;
+  for (const int key : keys) {
+    const KeyScan& source = graph.keys[static_cast<std::size_t>(key)];
+    scans.push_back({source.scan.get(), T_map_believed * source.T_map_body});
+  }
+  return scans;
 }
 
 /// Contours of the reference scans in the map frame.
@@ -118,9 +133,10 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
   const std::vector<ProjectedUncertainty> tied_to_query = projectUncertainty(graph, query, config.local_sigma_m);
   const std::vector<int> reference = referenceKeys(graph, tied_to_query, candidate.key, config);
   if (reference.empty()) return std::nullopt;
-  const ProjectedScan joined = joinedQuery(graph, query, tied_to_query, loops.query_scans);
+  const std::vector<int> newest = queryKeys(query, tied_to_query, loops.query_scans);
+  const ProjectedScan query_scan = joined(graph, newest);
   const std::vector<Eigen::Vector2f> points =
-      spreadPoints(joined.points_level_m, config.matcher.search_points, config.matcher.max_range_m);
+      spreadPoints(query_scan.points_level_m, config.matcher.search_points, config.matcher.max_range_m);
   if (static_cast<int>(points.size()) < config.matcher.min_points) return std::nullopt;
 
   LikelihoodField field(loops.resolution_m, kWideSigmaCells * loops.resolution_m);
@@ -162,8 +178,12 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
                       graph.keys[static_cast<std::size_t>(key)].T_map_body);
   const Pose2 coarse{grid.first_x_m + best.x * loops.resolution_m, grid.first_y_m + best.y * loops.resolution_m,
                      grid.first_yaw_rad + best.rotation * step_rad};
-  const MatchResult match = fine.match(joined, coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
+  const MatchResult match = fine.match(query_scan, coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
   if (match.failed || match.quality < loops.min_fine_quality || match.unobservable_direction) return std::nullopt;
+  const double seen_through =
+      shareSeenThrough(placed(graph, newest, match.T_reference_body * believed.inverse()),
+                       placed(graph, reference, {}), config.matcher.max_range_m);
+  if (seen_through > loops.max_seen_through) return std::nullopt;
 
   const Pose2& T_map_candidate = graph.keys[static_cast<std::size_t>(candidate.key)].T_map_body;
   FoundLoop found;
