@@ -180,9 +180,8 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
                      grid.first_yaw_rad + best.rotation * step_rad};
   const MatchResult match = fine.match(query_scan, coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
   if (match.failed || match.quality < loops.min_fine_quality || match.unobservable_direction) return std::nullopt;
-  const double seen_through =
-      shareSeenThrough(placed(graph, newest, match.T_reference_body * believed.inverse()),
-                       placed(graph, reference, {}), config.matcher.max_range_m);
+  const double seen_through = shareSeenThrough(placed(graph, newest, match.T_reference_body * believed.inverse()),
+                                               placed(graph, reference, {}), config.matcher.max_range_m);
   if (seen_through > loops.max_seen_through) return std::nullopt;
 
   const Pose2& T_map_candidate = graph.keys[static_cast<std::size_t>(candidate.key)].T_map_body;

@@ -67,7 +67,7 @@ struct LoopClosureConfig {
   double distinct_m = 0.4;              ///< What counts as distinct.
   double distinct_deg = 12.0;
   double max_seen_through = 0.15;  ///< Greatest share of either side's points that the other looked through.
-  double max_edge_sigmas = 4.0;  ///< A closure whose error after optimization is larger is taken back.
+  double max_edge_sigmas = 4.0;    ///< A closure whose error after optimization is larger is taken back.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

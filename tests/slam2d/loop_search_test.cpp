@@ -1,0 +1,96 @@
+#include "perception/slam2d/loop_search.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "perception/slam2d/seen_through.hpp"
+#include "tests/scan_matching/scenes.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+/// A room no pose but one fits; with a corner of two walls in it, or without.
+test::PlanarWorld room(bool divided) {
+  test::PlanarWorld world;
+  world.addPolyline(
+      {{-4.0, -3.0}, {5.0, -3.0}, {5.0, 1.0}, {3.5, 1.0}, {3.5, 3.0}, {-1.0, 3.0}, {-1.0, 4.0}, {-4.0, 4.0}}, true);
+  if (divided) world.addPolyline({{1.6, -3.0}, {1.6, 1.5}, {-2.5, 1.5}}, false);
+  return world;
+}
+
+PlacedScan placedAt(const ProjectedScan& scan, const Pose2& pose) { return {&scan, pose}; }
+
+TEST(SeenThrough, NothingWhereBothSawTheSame) {
+  const Pose2 a{-1.0, 0.0, 0.3}, b{0.5, -1.0, -2.0};
+  const ProjectedScan from_a = test::scanAt(room(true), a, 1), from_b = test::scanAt(room(true), b, 2);
+  const PlacedScan one[] = {placedAt(from_a, a)}, other[] = {placedAt(from_b, b)};
+  EXPECT_LT(shareSeenThrough(one, other, 20.0), 0.01);
+}
+
+TEST(SeenThrough, AWallThatTheOtherDidNotMeet) {
+  const Pose2 a{-1.0, 0.0, 0.3}, b{0.5, -1.0, -2.0};
+  const ProjectedScan from_a = test::scanAt(room(true), a, 1), from_b = test::scanAt(room(false), b, 2);
+  const PlacedScan one[] = {placedAt(from_a, a)}, other[] = {placedAt(from_b, b)};
+  const double share = shareSeenThrough(one, other, 20.0);
+  EXPECT_GT(share, 0.15);
+  EXPECT_NEAR(shareSeenThrough(other, one, 20.0), share, 1e-12);
+  // Beyond the greatest range a point is none.
+  EXPECT_EQ(shareSeenThrough(one, other, 0.1), 0.0);
+}
+
+TEST(SeenThrough, WhereNeitherLookedNothingIsSaid) {
+  const Pose2 pose{-1.0, 0.0, 0.3};
+  const ProjectedScan scan = test::scanAt(room(false), pose, 1), empty;
+  const PlacedScan here[] = {placedAt(scan, pose)}, nothing[] = {placedAt(empty, pose)};
+  const PlacedScan far[] = {placedAt(scan, {60.0, 0.0, 0.3})};
+  EXPECT_EQ(shareSeenThrough(here, far, 20.0), 0.0);
+  EXPECT_EQ(shareSeenThrough(here, nothing, 20.0), 0.0);
+  EXPECT_EQ(shareSeenThrough({}, {}, 20.0), 0.0);
+}
+
+/// Five key scans in one room and five in another, the second believed to be 1.5 m beside the first.
+struct TwoVisits {
+  explicit TwoVisits(const test::PlanarWorld& first, const test::PlanarWorld& second) {
+    for (int i = 0; i < 2 * kEach; ++i) {
+      const Pose2 truth{-2.0 + 0.4 * (i % kEach), -0.5, 0.1};
+      const auto scan = std::make_shared<ProjectedScan>(
+          test::scanAt(i < kEach ? first : second, truth, static_cast<std::uint64_t>(i)));
+      graph.keys.push_back({scan, i < kEach ? truth : Pose2{truth.x_m + 1.2, truth.y_m - 0.9, truth.yaw_rad}, {}, {}});
+      if (i == 0) continue;
+      const double sigma_m = i == kEach ? 1.0 : 0.01;
+      graph.add({i - 1, i,
+                 between(graph.keys[static_cast<std::size_t>(i - 1)].T_map_body, graph.keys.back().T_map_body),
+                 Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-5).asDiagonal(), false});
+    }
+  }
+  std::optional<FoundLoop> search() const {
+    const std::vector<LoopCandidate> candidates = loopCandidates(graph, 2 * kEach - 1, config);
+    EXPECT_FALSE(candidates.empty());
+    return candidates.empty() ? std::nullopt : searchLoop(graph, 2 * kEach - 1, candidates.front(), config);
+  }
+
+  static constexpr int kEach = 5;
+  SlamGraph graph;
+  Slam2dConfig config;
+};
+
+TEST(LoopSearch, FindsTheRoomAgain) {
+  const TwoVisits visits(room(false), room(false));
+  const auto found = visits.search();
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->shift_m, 1.5, 0.05);
+}
+
+TEST(LoopSearch, ARoomWithAWallMoreIsAnother) {
+  TwoVisits visits(room(false), room(true));
+  EXPECT_FALSE(visits.search());
+  // That is what keeps it from being taken for the same.
+  visits.config.loops.max_seen_through = 1.0;
+  EXPECT_TRUE(visits.search());
+}
+
+}  // namespace
+}  // namespace swiftlet::perception
