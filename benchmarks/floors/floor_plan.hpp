@@ -1,0 +1,26 @@
+// Floors that nobody measured and nobody has seen: corridors drawn at random, for telling what a change of the SLAM
+// does where its settings were not looked at.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace swiftlet::benchmarks {
+
+struct Wall {
+  Eigen::Vector2d from_m;
+  Eigen::Vector2d to_m;
+};
+
+struct FloorPlan {
+  std::vector<Wall> walls;
+  std::vector<Eigen::Vector2d> way_m;  ///< The corners of a drive through all of its corridors, in order.
+};
+
+/// A ring of corridors, 120 m by 80 m and 2.4 m wide, with a corridor across; along the walls closed doors, pillars,
+/// cabinets and open rooms with furniture. The same for the same seed.
+FloorPlan makeFloorPlan(std::uint64_t seed);
+
+}  // namespace swiftlet::benchmarks
