@@ -1,10 +1,10 @@
 #include "perception/slam2d/seen_through.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -17,40 +17,54 @@ namespace {
 
 using common::Pose2;
 
-constexpr int kBins = 360;
 /// Of one scan; more of them say the same.
 constexpr int kPoints = 180;
 /// Walls are rough and poses err; the farther away, the more.
 constexpr double kBehind_m = 0.3;
 constexpr double kBehindShare = 0.02;
+/// A direction was looked at where beams ended on both sides of it within this; at the edge of the view nobody knows.
+constexpr float kAside_rad = 1.5F * static_cast<float>(common::kRadPerDeg);
 
-std::size_t binOf(double angle_rad) {
-  const auto bin = static_cast<int>(std::floor((angle_rad + std::numbers::pi) * (kBins / (2.0 * std::numbers::pi))));
-  return static_cast<std::size_t>(std::clamp(bin, 0, kBins - 1));
-}
+struct Beam {
+  float angle_rad;
+  float range_m;
+};
 
-/// Where the beams of each degree and of its neighbours end, so that a wall seen at an angle is not looked through.
 struct View {
   Pose2 T_body_map;
-  std::array<float, kBins> nearest_m, farthest_m;  ///< Infinite and 0 where no beam ended.
+  std::vector<Beam> beams;  ///< By angle; those near a half turn at both ends.
 };
 
 View viewOf(const PlacedScan& placed) {
-  std::array<float, kBins> nearest_m, farthest_m;
-  nearest_m.fill(std::numeric_limits<float>::infinity());
-  farthest_m.fill(0.0F);
+  constexpr float kHalfTurn_rad = std::numbers::pi_v<float>;
+  View view{placed.T_map_body.inverse(), {}};
   for (const Eigen::Vector2f& p : placed.scan->points_level_m) {
-    const std::size_t bin = binOf(std::atan2(p.y(), p.x()));
-    nearest_m[bin] = std::min(nearest_m[bin], p.norm());
-    farthest_m[bin] = std::max(farthest_m[bin], p.norm());
+    const Beam beam{std::atan2(p.y(), p.x()), p.norm()};
+    view.beams.push_back(beam);
+    if (std::abs(beam.angle_rad) > kHalfTurn_rad - kAside_rad)
+      view.beams.push_back({beam.angle_rad - std::copysign(2.0F * kHalfTurn_rad, beam.angle_rad), beam.range_m});
   }
-  View view{placed.T_map_body.inverse(), {}, {}};
-  for (std::size_t bin = 0; bin < kBins; ++bin) {
-    const std::size_t before = (bin + kBins - 1) % kBins, after = (bin + 1) % kBins;
-    view.nearest_m[bin] = std::min({nearest_m[before], nearest_m[bin], nearest_m[after]});
-    view.farthest_m[bin] = std::max({farthest_m[before], farthest_m[bin], farthest_m[after]});
-  }
+  std::sort(view.beams.begin(), view.beams.end(),
+            [](const Beam& a, const Beam& b) { return a.angle_rad < b.angle_rad; });
   return view;
+}
+
+/// Where the beams beside a direction end; nothing where it was not looked at.
+struct Ends {
+  float nearest_m, farthest_m;
+};
+
+std::optional<Ends> endsBeside(const View& view, float angle_rad) {
+  const auto beam = std::lower_bound(view.beams.begin(), view.beams.end(), angle_rad - kAside_rad,
+                                     [](const Beam& b, float angle) { return b.angle_rad < angle; });
+  Ends ends{std::numeric_limits<float>::infinity(), 0.0F};
+  bool left = false, right = false;
+  for (auto b = beam; b != view.beams.end() && b->angle_rad <= angle_rad + kAside_rad; ++b) {
+    ends = {std::min(ends.nearest_m, b->range_m), std::max(ends.farthest_m, b->range_m)};
+    left |= b->angle_rad >= angle_rad;
+    right |= b->angle_rad <= angle_rad;
+  }
+  return left && right ? std::optional(ends) : std::nullopt;
 }
 
 struct Counts {
@@ -66,12 +80,11 @@ void count(const std::vector<View>& views, const PlacedScan& placed, double max_
     const Eigen::Rotation2Dd turn(T_view_scan.yaw_rad);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Eigen::Vector2d there_m = turn * points[i].cast<double>() + T_view_scan.position_m();
-      const std::size_t bin = binOf(std::atan2(there_m.y(), there_m.x()));
+      const std::optional<Ends> ends = endsBeside(view, static_cast<float>(std::atan2(there_m.y(), there_m.x())));
       const double range_m = there_m.norm();
-      const double nearest_m = view.nearest_m[bin], farthest_m = view.farthest_m[bin];
-      if (farthest_m <= 0.0 || range_m > farthest_m + kBehind_m) continue;
+      if (!ends || range_m > ends->farthest_m + kBehind_m) continue;
       looked_at[i] = 1;
-      if (range_m < nearest_m - kBehind_m - kBehindShare * range_m) through[i] = 1;
+      if (range_m < ends->nearest_m - kBehind_m - kBehindShare * range_m) through[i] = 1;
     }
   }
   counts.looked_at += static_cast<int>(std::count(looked_at.begin(), looked_at.end(), 1));

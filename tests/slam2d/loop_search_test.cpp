@@ -1,5 +1,6 @@
 #include "perception/slam2d/loop_search.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -49,6 +50,28 @@ TEST(SeenThrough, WhereNeitherLookedNothingIsSaid) {
   EXPECT_EQ(shareSeenThrough(here, far, 20.0), 0.0);
   EXPECT_EQ(shareSeenThrough(here, nothing, 20.0), 0.0);
   EXPECT_EQ(shareSeenThrough({}, {}, 20.0), 0.0);
+}
+
+/// A scan of points all at one range, one a degree.
+ProjectedScan arc(double range_m, double from_deg, double to_deg) {
+  ProjectedScan scan;
+  for (double angle_deg = from_deg; angle_deg <= to_deg; angle_deg += 1.0) {
+    const double angle_rad = angle_deg * common::kRadPerDeg;
+    scan.points_level_m.push_back((range_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad))).cast<float>());
+  }
+  return scan;
+}
+
+TEST(SeenThrough, BesideTheLastBeamNobodyLooked) {
+  const ProjectedScan forward = arc(8.0, -90.0, 90.0), wider = arc(8.0, -90.0, 92.0), wall = arc(3.0, 90.5, 91.5);
+  const PlacedScan seen[] = {placedAt(wall, {})};
+  EXPECT_EQ(shareSeenThrough(std::array{placedAt(forward, {})}, seen, 20.0), 0.0);
+  EXPECT_EQ(shareSeenThrough(std::array{placedAt(wider, {})}, seen, 20.0), 1.0);
+}
+
+TEST(SeenThrough, AViewAllAroundHasNoEdge) {
+  const ProjectedScan around = arc(8.0, -179.5, 179.5), wall = arc(3.0, 179.0, 181.0);
+  EXPECT_EQ(shareSeenThrough(std::array{placedAt(around, {})}, std::array{placedAt(wall, {})}, 20.0), 1.0);
 }
 
 /// Five key scans in one room and five in another, the second believed to be 1.5 m beside the first.
