@@ -1,4 +1,4 @@
-#include "floor_drive.hpp"
+#include "benchmarks/floors/floor_drive.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "benchmarks/floors/floor_plan.hpp"
 #include "common/geometry.hpp"
 #include "common/sensor_event.hpp"
 #include "common/trajectory.hpp"
-#include "floor_plan.hpp"
 
 namespace swiftlet::benchmarks {
 

@@ -1,4 +1,4 @@
-#include "floor_plan.hpp"
+#include "benchmarks/floors/floor_plan.hpp"
 
 #include <algorithm>
 #include <initializer_list>

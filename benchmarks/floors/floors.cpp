@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "benchmarks/floors/floor_drive.hpp"
 #include "common/table.hpp"
 #include "evaluation/trajectory_metrics.hpp"
-#include "floor_drive.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 
 namespace {
