@@ -10,7 +10,6 @@
 namespace swiftlet::benchmarks {
 namespace {
 
-using common::Duration;
 using common::Pose2;
 using common::Time;
 using Eigen::Vector2d;

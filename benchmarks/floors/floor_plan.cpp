@@ -27,11 +27,7 @@ class Side {
     double behind_m;
   };
   void draw(std::initializer_list<Point> points) {
-    const Point* last = nullptr;
-    for (const Point& point : points) {
-      if (last != nullptr) walls_.push_back({placed(*last), placed(point)});
-      last = &point;
-    }
+    for (const Point* p = points.begin(); p + 1 < points.end(); ++p) walls_.push_back({placed(p[0]), placed(p[1])});
   }
 
  private:
