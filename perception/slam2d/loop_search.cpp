@@ -77,6 +77,14 @@ std::vector<PlacedScan> placed(const SlamGraph& graph, const std::vector<int>& k
   return scans;
 }
 
+/// What every second key scan and those between looked through of each other: people, leaves, a map that is bent.
+double shareSeenThroughItself(const SlamGraph& graph, std::vector<int> keys, double max_range_m) {
+  std::sort(keys.begin(), keys.end());
+  std::vector<int> one, other;
+  for (std::size_t i = 0; i < keys.size(); ++i) (i % 2 == 0 ? one : other).push_back(keys[i]);
+  return shareSeenThrough(placed(graph, one, {}), placed(graph, other, {}), max_range_m);
+}
+
 /// Contours of the reference scans in the map frame.
 void drawReference(const SlamGraph& graph, const std::vector<int>& keys, const CorrelativeMatcherConfig& config,
                    LikelihoodField& field) {
@@ -180,9 +188,12 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
                      grid.first_yaw_rad + best.rotation * step_rad};
   const MatchResult match = fine.match(query_scan, coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
   if (match.failed || match.quality < loops.min_fine_quality || match.unobservable_direction) return std::nullopt;
+  const double max_range_m = config.matcher.max_range_m;
   const double seen_through = shareSeenThrough(placed(graph, newest, match.T_reference_body * believed.inverse()),
-                                               placed(graph, reference, {}), config.matcher.max_range_m);
-  if (seen_through > loops.max_seen_through) return std::nullopt;
+                                               placed(graph, reference, {}), max_range_m);
+  const double usual = std::max(shareSeenThroughItself(graph, newest, max_range_m),
+                                shareSeenThroughItself(graph, reference, max_range_m));
+  if (seen_through > usual + loops.max_seen_through) return std::nullopt;
 
   const Pose2& T_map_candidate = graph.keys[static_cast<std::size_t>(candidate.key)].T_map_body;
   FoundLoop found;

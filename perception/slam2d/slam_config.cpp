@@ -55,7 +55,8 @@ void LoopClosureConfig::describe(common::config::Fields& fields) {
   fields("max_ambiguity", max_ambiguity, "A second, distinct place must score less than this share of the best.");
   fields("distinct_m", distinct_m, "Distance from which a place is distinct.");
   fields("distinct_deg", distinct_deg, "Rotation from which it is.");
-  fields("max_seen_through", max_seen_through, "Greatest share of either side's points that the other looked through.");
+  fields("max_seen_through", max_seen_through,
+         "Greatest share of either side's points that the other looked through, beyond its own of itself.");
   fields("max_edge_sigmas", max_edge_sigmas, "A closure whose error after optimization is larger is taken back.");
 }
 

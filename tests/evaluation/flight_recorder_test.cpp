@@ -10,7 +10,6 @@
 namespace swiftlet::evaluation {
 namespace {
 
-using common::Duration;
 using common::MissionState;
 using common::Pose3;
 using common::Time;
@@ -141,7 +140,7 @@ TEST(FlightRecorder, AGoalIsMeasuredWhenItsSuccessIsReported) {
   const common::Intent to_goal{7, common::GoToIntent{{3.0, -1.5}, {}, {}, 0.05, 0.1}};
   const common::Intent to_home{8, common::GoToIntent{{0.0, 0.0}, {}, {}, 0.05, 0.1}};
   const auto step = [&](double time_s, const Eigen::Vector3d& truth_map_m, const common::Intent& intent,
-                        common::IntentStatus status) {
+                        const common::IntentStatus& status) {
     recorder.tick(truthAt(time_s, truth_map_m), estimateAt(time_s, truth_map_m));
     recorder.intent(Time::fromSeconds(time_s), intent, status);
   };

@@ -17,7 +17,7 @@ struct Entry {
   std::string name;
   std::string content;
   unsigned type = AE_IFREG;
-  std::string link = "";
+  std::string link;
 };
 
 void writeTar(const fs::path& file, const std::vector<Entry>& entries) {
@@ -70,7 +70,7 @@ TEST(Archive, RefusesWhatLeadsOutAndLeavesNothing) {
   const ScratchFolder folder;
   const auto problem = [&](const Entry& bad) {
     writeTar(folder / "bad.tar.xz", {{"good", "content"}, bad});
-    const std::string text = problemOf([&] { unpackInto(folder / "cache", folder / "bad.tar.xz"); });
+    std::string text = problemOf([&] { unpackInto(folder / "cache", folder / "bad.tar.xz"); });
     EXPECT_TRUE(fs::is_empty(folder / "cache")) << bad.name;
     return text;
   };

@@ -53,7 +53,7 @@ struct Count {
 Count count(double disturbed_share, int cases) {
   Count count;
   for (int i = 0; i < cases; ++i) {
-    const auto seed = static_cast<std::uint64_t>(2001 + i);
+    const auto seed = 2001 + static_cast<std::uint64_t>(i);
     const Building building = offices(seed);
     const Found found = walk(
         building, disturbed_share > 0.0 ? changedFurniture(building, disturbed_share, seed) : building.world, seed);

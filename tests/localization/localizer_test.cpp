@@ -27,7 +27,7 @@ struct Story {
     const auto scan = test::levelScan(building.world, walker.pose(), Time::fromSeconds(time_s), noise);
     truth = walker.pose();
     odometry_at_scan = odometry.pose();
-    const auto estimate = localizer.add({scan, odometry.pose(), Eigen::Matrix3d::Zero(), fresh, false});
+    auto estimate = localizer.add({scan, odometry.pose(), Eigen::Matrix3d::Zero(), fresh, false});
     walker.advance(0.1);
     const Pose2 moved = between(truth, walker.pose());
     odometry.step(moved);

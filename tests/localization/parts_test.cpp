@@ -255,7 +255,8 @@ std::vector<FittingPlace> exhaustively(const MapField& map, const GlobalSearchCo
         if (!map.at(centerOf(column, row)).free) continue;
         int sum = 0;
         for (std::size_t i = 0; i < points.size(); ++i)
-          sum += values[static_cast<std::size_t>((row + y_cells[i]) * width + column + x_cells[i])];
+          sum += values[static_cast<std::size_t>(row + y_cells[i]) * static_cast<std::size_t>(width) +
+                        static_cast<std::size_t>(column + x_cells[i])];
         if (sum > static_cast<int>(config.least_fit * top)) poses.push_back({-sum, k, row, column});
       }
   }
