@@ -17,7 +17,7 @@ struct Entry {
   std::string name;
   std::string content;
   unsigned type = AE_IFREG;
-  std::string link;
+  std::string link = {};  // Few entries have one.
 };
 
 void writeTar(const fs::path& file, const std::vector<Entry>& entries) {
