@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -76,11 +77,13 @@ TEST(SeenThrough, AViewAllAroundHasNoEdge) {
 
 /// Five key scans in one room and five in another, the second believed to be 1.5 m beside the first.
 struct TwoVisits {
-  explicit TwoVisits(const test::PlanarWorld& first, const test::PlanarWorld& second) {
+  TwoVisits(const test::PlanarWorld& first, const test::PlanarWorld& second)
+      : TwoVisits([&](int key) -> const test::PlanarWorld& { return key < kEach ? first : second; }) {}
+  /// `worldOf`: what key scan i sees.
+  explicit TwoVisits(const std::function<const test::PlanarWorld&(int)>& worldOf) {
     for (int i = 0; i < 2 * kEach; ++i) {
       const Pose2 truth{-2.0 + 0.4 * (i % kEach), -0.5, 0.1};
-      const auto scan = std::make_shared<ProjectedScan>(
-          test::scanAt(i < kEach ? first : second, truth, static_cast<std::uint64_t>(i)));
+      const auto scan = std::make_shared<ProjectedScan>(test::scanAt(worldOf(i), truth, static_cast<std::uint64_t>(i)));
       graph.keys.push_back({scan, i < kEach ? truth : Pose2{truth.x_m + 1.2, truth.y_m - 0.9, truth.yaw_rad}, {}, {}});
       if (i == 0) continue;
       const double sigma_m = i == kEach ? 1.0 : 0.01;
@@ -112,6 +115,12 @@ TEST(LoopSearch, ARoomWithAWallMoreIsAnother) {
   EXPECT_FALSE(visits.search());
   // That is what keeps it from being taken for the same.
   visits.config.loops.max_seen_through = 1.0;
+  EXPECT_TRUE(visits.search());
+}
+
+TEST(LoopSearch, WhatComesAndGoesTellsNoRoomFromAnother) {
+  const test::PlanarWorld empty = room(false), divided = room(true);
+  const TwoVisits visits([&](int key) -> const test::PlanarWorld& { return key == 3 || key == 8 ? divided : empty; });
   EXPECT_TRUE(visits.search());
 }
 
