@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "common/random.hpp"
+#include "tests/slam2d/smoothed.hpp"
 
 namespace swiftlet::benchmarks {
 namespace {
@@ -16,17 +16,16 @@ using Eigen::Vector2d;
 
 constexpr double kStep_m = 0.12;
 constexpr double kStep_s = 0.2;
-constexpr int kCorner_steps = 25;  ///< Corners are rounded over so many.
+constexpr int kHalfCorner_steps = 12;  ///< Corners are rounded over so many to either side.
 constexpr double kWeave_m = 0.25;
 constexpr double kWeave_radPerM = 0.35;
 
 constexpr int kBeams = 180;
+constexpr double kHeight_m = 1.0;
 constexpr double kRangeMax_m = 81.0;
 constexpr double kNothing_m = 81.83;
 constexpr double kNoise_m = 0.012;
 constexpr double kLost = 0.002;
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The directions of travel, one for each point of the line.
 std::vector<Vector2d> directions(const std::vector<Vector2d>& line) {
@@ -46,21 +45,9 @@ std::vector<Vector2d> stepsAlong(const std::vector<Vector2d>& corners) {
   return steps;
 }
 
-std::vector<Vector2d> smoothed(const std::vector<Vector2d>& line) {
-  std::vector<Vector2d> result;
-  const int last = static_cast<int>(line.size()) - 1;
-  for (int i = 0; i <= last; ++i) {
-    Vector2d sum = Vector2d::Zero();
-    for (int k = -kCorner_steps / 2; k <= kCorner_steps / 2; ++k)
-      sum += line[static_cast<std::size_t>(std::clamp(i + k, 0, last))];
-    result.emplace_back(sum / kCorner_steps);
-  }
-  return result;
-}
-
 /// Corners rounded, and weaving from side to side as a driver does.
 std::vector<Pose2> posesAlong(const std::vector<Vector2d>& corners, common::RandomStream& random) {
-  std::vector<Vector2d> line = smoothed(stepsAlong(corners));
+  std::vector<Vector2d> line = test::smoothed(stepsAlong(corners), kHalfCorner_steps);
   const std::vector<Vector2d> straight = directions(line);
   const double phase_rad = random.uniform(0.0, 6.0);
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -74,21 +61,7 @@ std::vector<Pose2> posesAlong(const std::vector<Vector2d>& corners, common::Rand
   return poses;
 }
 
-double rangeAlong(const Vector2d& from, const Vector2d& direction, const std::vector<Wall>& walls) {
-  double range = std::numeric_limits<double>::infinity();
-  for (const Wall& wall : walls) {
-    const Vector2d side = wall.to_m - wall.from_m;
-    const double turned = cross(direction, side);
-    if (turned == 0.0) continue;
-    const Vector2d offset = wall.from_m - from;
-    const double along_wall = cross(offset, direction) / turned;
-    const double along_beam = cross(offset, side) / turned;
-    if (along_wall >= 0.0 && along_wall <= 1.0 && along_beam > 0.01) range = std::min(range, along_beam);
-  }
-  return range;
-}
-
-common::LaserScan scanFrom(const Pose2& pose, Time stamp, const std::vector<Wall>& walls,
+common::LaserScan scanFrom(const Pose2& pose, Time stamp, const test::PlanarWorld& world,
                            common::RandomStream& random) {
   common::LaserScan scan;
   scan.stamps = {stamp, stamp};
@@ -98,7 +71,7 @@ common::LaserScan scanFrom(const Pose2& pose, Time stamp, const std::vector<Wall
   scan.range_max_m = kRangeMax_m;
   for (int beam = 0; beam < kBeams; ++beam) {
     const double yaw_rad = pose.yaw_rad + scan.angle_min_rad + beam * scan.angle_increment_rad;
-    const double range_m = rangeAlong(pose.position_m(), {std::cos(yaw_rad), std::sin(yaw_rad)}, walls);
+    const double range_m = world.cast({pose.x_m, pose.y_m, kHeight_m}, {std::cos(yaw_rad), std::sin(yaw_rad), 0.0});
     const double noise_m = random.gaussian(kNoise_m);
     const bool found = range_m < kRangeMax_m && !random.chance(kLost);
     scan.ranges_m.push_back(static_cast<float>(found ? std::max(scan.range_min_m, range_m + noise_m) : kNothing_m));
@@ -139,7 +112,7 @@ FloorDrive makeFloorDrive(const FloorPlan& plan, std::uint64_t seed) {
     last = pose;
     const Time stamp = Time::fromSeconds(kStep_s * static_cast<double>(drive.scans.size() + 1));
     drive.truth.push_back({stamp, common::lifted(pose, 0.0)});
-    drive.scans.push_back({scanFrom(pose, stamp, plan.walls, laser), T_odom_robot});
+    drive.scans.push_back({scanFrom(pose, stamp, plan.world, laser), T_odom_robot});
   }
   return drive;
 }

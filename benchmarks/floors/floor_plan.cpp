@@ -19,24 +19,24 @@ constexpr double kHalfCorridor_m = 1.2;
 /// Draws one side of a corridor: `along` runs from its beginning, `behind` away from the corridor.
 class Side {
  public:
-  Side(const Vector2d& from, const Vector2d& to, std::vector<Wall>& walls)
-      : from_(from), along_((to - from).normalized()), behind_(along_.y(), -along_.x()), walls_(walls) {}
+  Side(const Vector2d& from, const Vector2d& to, test::PlanarWorld& world)
+      : from_(from), along_((to - from).normalized()), behind_(along_.y(), -along_.x()), world_(world) {}
 
   struct Point {
     double along_m;
     double behind_m;
   };
   void draw(std::initializer_list<Point> points) {
-    for (const Point* p = points.begin(); p + 1 < points.end(); ++p) walls_.push_back({placed(p[0]), placed(p[1])});
+    std::vector<Vector2d> corners;
+    for (const Point& point : points) corners.push_back(from_ + along_ * point.along_m + behind_ * point.behind_m);
+    world_.addPolyline(corners, false);
   }
 
  private:
-  Vector2d placed(const Point& point) const { return from_ + along_ * point.along_m + behind_ * point.behind_m; }
-
   Vector2d from_;
   Vector2d along_;
   Vector2d behind_;
-  std::vector<Wall>& walls_;
+  test::PlanarWorld& world_;
 };
 
 /// Whatever stands out of the wall, or is let into it, between `begin` and `end`.
@@ -67,8 +67,8 @@ void drawRoom(Side& side, double begin, double end, double free_before, common::
 }
 
 /// The corridor lies to the left of the way from `from` to `to`.
-void drawSide(const Vector2d& from, const Vector2d& to, common::RandomStream& random, std::vector<Wall>& walls) {
-  Side side(from, to, walls);
+void drawSide(const Vector2d& from, const Vector2d& to, common::RandomStream& random, test::PlanarWorld& world) {
+  Side side(from, to, world);
   const double length = (to - from).norm();
   double drawn = 0.0;
   while (true) {
@@ -95,9 +95,9 @@ void drawSide(const Vector2d& from, const Vector2d& to, common::RandomStream& ra
 }
 
 /// All sides of a block of corners in order, the corridor to the left of each.
-void drawBlock(const std::vector<Vector2d>& corners, common::RandomStream& random, std::vector<Wall>& walls) {
+void drawBlock(const std::vector<Vector2d>& corners, common::RandomStream& random, test::PlanarWorld& world) {
   for (std::size_t i = 0; i < corners.size(); ++i)
-    drawSide(corners[i], corners[(i + 1) % corners.size()], random, walls);
+    drawSide(corners[i], corners[(i + 1) % corners.size()], random, world);
 }
 
 }  // namespace
@@ -110,13 +110,13 @@ FloorPlan makeFloorPlan(std::uint64_t seed) {
              {kLength_m + kHalf, -kHalf},
              {kLength_m + kHalf, kWidth_m + kHalf},
              {-kHalf, kWidth_m + kHalf}},
-            random, plan.walls);
+            random, plan.world);
   for (const auto& [left, right] : {std::pair{0.0, kAcross_m}, std::pair{kAcross_m, kLength_m}})
     drawBlock({{left + kHalf, kHalf},
                {left + kHalf, kWidth_m - kHalf},
                {right - kHalf, kWidth_m - kHalf},
                {right - kHalf, kHalf}},
-              random, plan.walls);
+              random, plan.world);
   // Round the ring, through the corridor across, and part of the ring the other way.
   plan.way_m = {{2.0, 0.0},       {kLength_m, 0.0},      {kLength_m, kWidth_m}, {0.0, kWidth_m}, {0.0, 0.0},
                 {kAcross_m, 0.0}, {kAcross_m, kWidth_m}, {kLength_m, kWidth_m}, {kLength_m, 0.0}};

@@ -7,15 +7,12 @@
 
 #include <Eigen/Core>
 
+#include "tests/scan_matching/planar_world.hpp"
+
 namespace swiftlet::benchmarks {
 
-struct Wall {
-  Eigen::Vector2d from_m;
-  Eigen::Vector2d to_m;
-};
-
 struct FloorPlan {
-  std::vector<Wall> walls;
+  test::PlanarWorld world;
   std::vector<Eigen::Vector2d> way_m;  ///< The corners of a drive through all of its corridors, in order.
 };
 

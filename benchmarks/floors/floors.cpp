@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "common/table.hpp"
 #include "evaluation/trajectory_metrics.hpp"
 #include "perception/slam2d/laser_slam.hpp"
+#include "tests/slam2d/tracked_way.hpp"
 
 namespace {
 
@@ -22,16 +22,10 @@ using namespace swiftlet;
 double trajectoryError_m(const benchmarks::FloorDrive& drive, bool odometry,
                          const perception::LaserSlamConfig& config) {
   perception::LaserSlam slam(config);
-  std::vector<std::pair<common::Time, perception::TrackedScan>> track;
-  for (const auto& [scan, T_odom_robot] : drive.scans) {
-    const perception::LaserSlamInput input{scan, {}, odometry ? std::optional(T_odom_robot) : std::nullopt};
-    if (const auto tracked = slam.add(input)) track.emplace_back(scan.stamps.measured, *tracked);
-  }
-  slam.finish();
-  const std::vector<common::Pose2> keys = slam.keyPoses();
-  common::Trajectory estimate;
-  for (const auto& [stamp, scan] : track) estimate.push_back({stamp, common::lifted(scan.T_map_robot(keys), 0.0)});
-  return evaluation::absoluteTrajectoryError(evaluation::associate(estimate, drive.truth),
+  test::TrackedWay way(slam);
+  for (const auto& [scan, T_odom_robot] : drive.scans)
+    way.add(scan.stamps.measured, {scan, {}, odometry ? std::optional(T_odom_robot) : std::nullopt});
+  return evaluation::absoluteTrajectoryError(evaluation::associate(way.finish(), drive.truth),
                                              evaluation::Alignment::kPlanar)
       .value()
       .translation_m.rmse;

@@ -19,12 +19,12 @@
 #include "interfaces/files/relations.hpp"
 #include "interfaces/laser_log/laser_log.hpp"
 #include "perception/slam2d/laser_slam.hpp"
+#include "tests/slam2d/tracked_way.hpp"
 
 namespace {
 
 using namespace swiftlet;
 using common::Duration;
-using common::Pose2;
 using common::Time;
 
 struct KnownScan {
@@ -89,17 +89,12 @@ std::vector<Variation> variations() {
 
 evaluation::RelationErrors errorsOf(const Log& log, bool odometry, const std::vector<common::Relation>& relations) {
   perception::LaserSlam slam{perception::LaserSlamConfig{}};
-  std::vector<std::pair<Time, perception::TrackedScan>> track;
+  test::TrackedWay way(slam);
   for (const KnownScan& scan : log) {
     const auto T_odom_robot = odometry ? scan.logged.T_odom_robot : std::nullopt;
-    if (const auto tracked = slam.add({scan.logged.scan, scan.logged.T_robot_laser, T_odom_robot}))
-      track.emplace_back(scan.known_as, *tracked);
+    way.add(scan.known_as, {scan.logged.scan, scan.logged.T_robot_laser, T_odom_robot});
   }
-  slam.finish();
-  const std::vector<Pose2> keys = slam.keyPoses();
-  std::vector<common::StampedPose> poses;
-  for (const auto& [stamp, scan] : track) poses.push_back({stamp, common::lifted(scan.T_map_robot(keys), 0.0)});
-  return evaluation::relationErrors(common::ordered(std::move(poses)).trajectory, relations);
+  return evaluation::relationErrors(way.finish(), relations);
 }
 
 void compare(const std::string& file, const std::string& relations_file) {

@@ -85,6 +85,18 @@ double shareSeenThroughItself(const SlamGraph& graph, std::vector<int> keys, dou
   return shareSeenThrough(placed(graph, one, {}), placed(graph, other, {}), max_range_m);
 }
 
+/// Whether the newest key scans, moved by `T_map_believed`, and the reference look through each other by more than
+/// either looks through itself.
+bool lookThroughEachOther(const SlamGraph& graph, const std::vector<int>& newest, const Pose2& T_map_believed,
+                          const std::vector<int>& reference, const Slam2dConfig& config) {
+  const double max_range_m = config.matcher.max_range_m, most = config.loops.max_seen_through;
+  const double share =
+      shareSeenThrough(placed(graph, newest, T_map_believed), placed(graph, reference, {}), max_range_m);
+  if (share <= most) return false;
+  return share > most + std::max(shareSeenThroughItself(graph, newest, max_range_m),
+                                 shareSeenThroughItself(graph, reference, max_range_m));
+}
+
 /// Contours of the reference scans in the map frame.
 void drawReference(const SlamGraph& graph, const std::vector<int>& keys, const CorrelativeMatcherConfig& config,
                    LikelihoodField& field) {
@@ -188,12 +200,8 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
                      grid.first_yaw_rad + best.rotation * step_rad};
   const MatchResult match = fine.match(query_scan, coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
   if (match.failed || match.quality < loops.min_fine_quality || match.unobservable_direction) return std::nullopt;
-  const double max_range_m = config.matcher.max_range_m;
-  const double seen_through = shareSeenThrough(placed(graph, newest, match.T_reference_body * believed.inverse()),
-                                               placed(graph, reference, {}), max_range_m);
-  const double usual = std::max(shareSeenThroughItself(graph, newest, max_range_m),
-                                shareSeenThroughItself(graph, reference, max_range_m));
-  if (seen_through > usual + loops.max_seen_through) return std::nullopt;
+  if (lookThroughEachOther(graph, newest, match.T_reference_body * believed.inverse(), reference, config))
+    return std::nullopt;
 
   const Pose2& T_map_candidate = graph.keys[static_cast<std::size_t>(candidate.key)].T_map_body;
   FoundLoop found;

@@ -55,14 +55,14 @@ struct Ends {
 };
 
 std::optional<Ends> endsBeside(const View& view, float angle_rad) {
-  const auto beam = std::lower_bound(view.beams.begin(), view.beams.end(), angle_rad - kAside_rad,
-                                     [](const Beam& b, float angle) { return b.angle_rad < angle; });
+  const auto first = std::lower_bound(view.beams.begin(), view.beams.end(), angle_rad - kAside_rad,
+                                      [](const Beam& beam, float angle) { return beam.angle_rad < angle; });
   Ends ends{std::numeric_limits<float>::infinity(), 0.0F};
   bool left = false, right = false;
-  for (auto b = beam; b != view.beams.end() && b->angle_rad <= angle_rad + kAside_rad; ++b) {
-    ends = {std::min(ends.nearest_m, b->range_m), std::max(ends.farthest_m, b->range_m)};
-    left |= b->angle_rad >= angle_rad;
-    right |= b->angle_rad <= angle_rad;
+  for (auto beam = first; beam != view.beams.end() && beam->angle_rad <= angle_rad + kAside_rad; ++beam) {
+    ends = {std::min(ends.nearest_m, beam->range_m), std::max(ends.farthest_m, beam->range_m)};
+    left |= beam->angle_rad >= angle_rad;
+    right |= beam->angle_rad <= angle_rad;
   }
   return left && right ? std::optional(ends) : std::nullopt;
 }

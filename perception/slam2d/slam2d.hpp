@@ -66,7 +66,7 @@ struct LoopClosureConfig {
   double max_ambiguity = 0.90;          ///< A second, distinct place must score less than this share of the best.
   double distinct_m = 0.4;              ///< What counts as distinct.
   double distinct_deg = 12.0;
-  /// Greatest share of the points of either side that the other looked through, beyond what a side does of its own.
+  /// Greatest share of either side's points that the other looked through, beyond what a side looks through of itself.
   double max_seen_through = 0.03;
   double max_edge_sigmas = 4.0;  ///< A closure whose error after optimization is larger is taken back.
 

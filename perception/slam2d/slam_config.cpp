@@ -56,7 +56,8 @@ void LoopClosureConfig::describe(common::config::Fields& fields) {
   fields("distinct_m", distinct_m, "Distance from which a place is distinct.");
   fields("distinct_deg", distinct_deg, "Rotation from which it is.");
   fields("max_seen_through", max_seen_through,
-         "Greatest share of either side's points that the other looked through, beyond its own of itself.");
+         "Greatest share of either side's points that the other looked through, beyond what a side looks through of "
+         "itself.");
   fields("max_edge_sigmas", max_edge_sigmas, "A closure whose error after optimization is larger is taken back.");
 }
 

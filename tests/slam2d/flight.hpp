@@ -9,6 +9,7 @@
 #include "perception/projection/scan_projection.hpp"
 #include "perception/scan_matching/laser_odometry.hpp"
 #include "tests/scan_matching/planar_world.hpp"
+#include "tests/slam2d/smoothed.hpp"
 
 namespace swiftlet::test {
 
@@ -61,17 +62,6 @@ class SmoothPath {
   }
 
  private:
-  static std::vector<Eigen::Vector2d> smoothed(const std::vector<Eigen::Vector2d>& in, int half) {
-    std::vector<Eigen::Vector2d> out(in.size());
-    for (int i = 0; i < static_cast<int>(in.size()); ++i) {
-      Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-      for (int k = -half; k <= half; ++k)
-        sum += in[static_cast<std::size_t>(std::clamp(i + k, 0, static_cast<int>(in.size()) - 1))];
-      out[static_cast<std::size_t>(i)] = sum / (2 * half + 1);
-    }
-    return out;
-  }
-
   std::vector<Eigen::Vector2d> positions_, yaws_;
   double step_s_ = 0.02;
 };

@@ -15,6 +15,7 @@
 #include "interfaces/files/relations.hpp"
 #include "interfaces/laser_log/laser_log.hpp"
 #include "perception/slam2d/laser_slam.hpp"
+#include "tests/slam2d/tracked_way.hpp"
 #include "tests/support/datasets.hpp"
 
 namespace swiftlet::perception {
@@ -41,16 +42,15 @@ std::vector<KnownScan> scansOf(const fs::path& file, bool odometry) {
 
 /// The way of the last `of_last` scans, by the map of all.
 common::Trajectory trackOf(LaserSlam& slam, const std::vector<KnownScan>& scans, std::size_t of_last) {
-  std::vector<std::pair<common::Time, TrackedScan>> track;
+  test::TrackedWay way(slam);
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    const auto scan = slam.add({scans[i].scan, scans[i].T_robot_laser, scans[i].T_odom_robot});
-    if (scan && i + of_last >= scans.size()) track.emplace_back(scans[i].known_as, *scan);
+    const LaserSlamInput input{scans[i].scan, scans[i].T_robot_laser, scans[i].T_odom_robot};
+    if (i + of_last >= scans.size())
+      way.add(scans[i].known_as, input);
+    else
+      (void)slam.add(input);
   }
-  slam.finish();
-  const std::vector<common::Pose2> keys = slam.keyPoses();
-  std::vector<common::StampedPose> poses;
-  for (const auto& [stamp, scan] : track) poses.push_back({stamp, common::lifted(scan.T_map_robot(keys), 0.0)});
-  return common::ordered(std::move(poses)).trajectory;
+  return way.finish();
 }
 
 void expectErrors(const evaluation::RelationErrors& errors, const std::string& what, double translation_m,
