@@ -11,7 +11,7 @@
 
 #include "common/error.hpp"
 #include "interfaces/laser_log/laser_log.hpp"
-#include "perception/slam2d/laser_front_end.hpp"
+#include "perception/laser_odometry/laser_front_end.hpp"
 
 namespace CLI {
 class App;

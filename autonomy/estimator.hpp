@@ -26,10 +26,10 @@
 #include "control/emergency_descent.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
 #include "perception/fusion/error_state_filter.hpp"
+#include "perception/laser_odometry/laser_odometry.hpp"
 #include "perception/projection/scan_projection.hpp"
-#include "perception/scan_matching/laser_odometry.hpp"
 #include "perception/slam2d/slam2d.hpp"
-#include "planning/cost_map.hpp"
+#include "planning/costs/cost_map.hpp"
 
 namespace swiftlet::autonomy {
 

@@ -17,8 +17,8 @@
 #include "common/vehicle_state.hpp"
 #include "common/world.hpp"
 #include "control/flight_controller.hpp"
-#include "planning/avoidance.hpp"
-#include "planning/plan_keeper.hpp"
+#include "planning/avoidance/avoidance.hpp"
+#include "planning/search/plan_keeper.hpp"
 
 namespace swiftlet::autonomy {
 

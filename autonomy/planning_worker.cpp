@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planning/wavefront.hpp"
+#include "planning/search/wavefront.hpp"
 
 namespace swiftlet::autonomy {
 namespace {

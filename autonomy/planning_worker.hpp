@@ -11,10 +11,10 @@
 
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
-#include "planning/cost_map.hpp"
-#include "planning/dstar_lite.hpp"
-#include "planning/exploration.hpp"
-#include "planning/planner.hpp"
+#include "planning/costs/cost_map.hpp"
+#include "planning/exploration/exploration.hpp"
+#include "planning/search/dstar_lite.hpp"
+#include "planning/search/planner.hpp"
 
 namespace swiftlet::autonomy {
 

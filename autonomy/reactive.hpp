@@ -10,8 +10,8 @@
 #include "common/vehicle_state.hpp"
 #include "perception/projection/scan_projection.hpp"
 #include "perception/slam2d/slam2d.hpp"
-#include "planning/avoidance.hpp"
-#include "planning/dynamic_obstacles.hpp"
+#include "planning/avoidance/avoidance.hpp"
+#include "planning/avoidance/dynamic_obstacles.hpp"
 
 namespace swiftlet::autonomy {
 

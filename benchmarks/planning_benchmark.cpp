@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "common/random.hpp"
-#include "planning/avoidance.hpp"
-#include "planning/cost_map.hpp"
-#include "planning/dstar_lite.hpp"
-#include "planning/exploration.hpp"
-#include "planning/wavefront.hpp"
+#include "planning/avoidance/avoidance.hpp"
+#include "planning/costs/cost_map.hpp"
+#include "planning/exploration/exploration.hpp"
+#include "planning/search/dstar_lite.hpp"
+#include "planning/search/wavefront.hpp"
 
 namespace {
 

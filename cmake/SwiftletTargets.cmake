@@ -1,19 +1,35 @@
-# swiftlet_library(NAME [DEPENDS targets...] [PRIVATE targets...] [EXCLUDE regex])
-#   A static library of every .cpp below its folder: target swiftlet_NAME, alias swiftlet::NAME. DEPENDS are public (they
-#   stand in headers), PRIVATE stay in the sources. Libraries from outside are included as system headers.
+# swiftlet_library(NAME [FOLDER path] [DEPENDS targets...] [PRIVATE targets...] [EXCLUDE regex])
+#   A static library of every .cpp below its folder (default: the one that calls): target swiftlet_NAME, alias
+#   swiftlet::NAME. DEPENDS are public (they stand in headers), PRIVATE stay in the sources. Libraries from outside are
+#   included as system headers.
 function(swiftlet_library name)
-  cmake_parse_arguments(ARG "" "EXCLUDE" "DEPENDS;PRIVATE" ${ARGN})
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  cmake_parse_arguments(ARG "" "EXCLUDE;FOLDER" "DEPENDS;PRIVATE" ${ARGN})
+  cmake_path(ABSOLUTE_PATH ARG_FOLDER BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" NORMALIZE)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${ARG_FOLDER}/*.cpp")
   if(ARG_EXCLUDE)
     list(FILTER sources EXCLUDE REGEX "${ARG_EXCLUDE}")
   endif()
   add_library(swiftlet_${name} STATIC ${sources})
-  add_library(swiftlet::${name} ALIAS swiftlet_${name})
-  set_target_properties(swiftlet_${name} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(swiftlet_${name} PUBLIC cxx_std_20)
   target_include_directories(swiftlet_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/swiftlet>)
   target_link_libraries(swiftlet_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})
+  swiftlet_publish(${name} "${ARG_FOLDER}")
+endfunction()
+
+# swiftlet_rooms(NAME ROOM...)
+#   The interface target swiftlet_NAME, alias swiftlet::NAME, over the libraries of the rooms of a folder.
+function(swiftlet_rooms name)
+  add_library(swiftlet_${name} INTERFACE)
+  list(TRANSFORM ARGN PREPEND swiftlet:: OUTPUT_VARIABLE rooms)
+  target_link_libraries(swiftlet_${name} INTERFACE ${rooms})
+  swiftlet_publish(${name} "")
+endfunction()
+
+# Names a library swiftlet::NAME inside and outside of the project; its headers, those of `folder`, are installed.
+function(swiftlet_publish name folder)
+  add_library(swiftlet::${name} ALIAS swiftlet_${name})
+  set_target_properties(swiftlet_${name} PROPERTIES EXPORT_NAME ${name} SWIFTLET_FOLDER "${folder}")
   set_property(GLOBAL APPEND PROPERTY SWIFTLET_LIBRARIES swiftlet_${name})
 endfunction()
 

@@ -20,7 +20,7 @@
 #include "common/trajectory.hpp"
 #include "evaluation/relations.hpp"
 #include "interfaces/files/relations.hpp"
-#include "perception/slam2d/laser_front_end.hpp"
+#include "perception/laser_odometry/laser_front_end.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 
 namespace {

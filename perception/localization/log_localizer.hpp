@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "perception/laser_odometry/laser_front_end.hpp"
 #include "perception/localization/localizer.hpp"
 #include "perception/localization/scan_turns.hpp"
-#include "perception/slam2d/laser_front_end.hpp"
 
 namespace swiftlet::perception {
 

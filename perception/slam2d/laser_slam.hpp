@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/geometry.hpp"
-#include "perception/slam2d/laser_front_end.hpp"
+#include "perception/laser_odometry/laser_front_end.hpp"
 #include "perception/slam2d/particle_slam.hpp"
 #include "perception/slam2d/slam2d.hpp"
 

@@ -10,8 +10,8 @@
 #include "control/flight_controller.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
 #include "perception/fusion/error_state_filter.hpp"
+#include "perception/laser_odometry/laser_odometry.hpp"
 #include "perception/projection/scan_projection.hpp"
-#include "perception/scan_matching/laser_odometry.hpp"
 #include "tests/simulation/fixtures.hpp"
 
 namespace swiftlet {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "grid_builder.hpp"
-#include "planning/avoidance.hpp"
-#include "planning/dynamic_obstacles.hpp"
+#include "planning/avoidance/avoidance.hpp"
+#include "planning/avoidance/dynamic_obstacles.hpp"
 
 namespace swiftlet::planning {
 namespace {

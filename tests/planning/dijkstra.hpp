@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "planning/cost_map.hpp"
+#include "planning/costs/cost_map.hpp"
 
 namespace swiftlet::planning::test {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "grid_builder.hpp"
-#include "planning/dynamic_obstacles.hpp"
+#include "planning/avoidance/dynamic_obstacles.hpp"
 
 namespace swiftlet::planning {
 namespace {

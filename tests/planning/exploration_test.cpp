@@ -10,8 +10,8 @@
 
 #include "flatland.hpp"
 #include "grid_builder.hpp"
-#include "planning/frontiers.hpp"
-#include "planning/localizability.hpp"
+#include "planning/costs/localizability.hpp"
+#include "planning/exploration/frontiers.hpp"
 
 namespace swiftlet::planning {
 namespace {

@@ -8,7 +8,7 @@
 #include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/random.hpp"
-#include "planning/exploration.hpp"
+#include "planning/exploration/exploration.hpp"
 
 namespace swiftlet::planning::test {
 

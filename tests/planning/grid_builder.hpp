@@ -6,7 +6,7 @@
 
 #include "common/occupancy_grid.hpp"
 #include "common/random.hpp"
-#include "planning/cost_map.hpp"
+#include "planning/costs/cost_map.hpp"
 
 namespace swiftlet::planning::test {
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "grid_builder.hpp"
-#include "planning/dstar_lite.hpp"
-#include "planning/plan_keeper.hpp"
+#include "planning/search/dstar_lite.hpp"
+#include "planning/search/plan_keeper.hpp"
 
 namespace swiftlet::planning {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "dijkstra.hpp"
 #include "grid_builder.hpp"
-#include "planning/dstar_lite.hpp"
-#include "planning/wavefront.hpp"
+#include "planning/search/dstar_lite.hpp"
+#include "planning/search/wavefront.hpp"
 
 namespace swiftlet::planning {
 namespace {

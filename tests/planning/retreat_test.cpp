@@ -9,7 +9,7 @@
 
 #include "common/random.hpp"
 #include "grid_builder.hpp"
-#include "planning/retreat.hpp"
+#include "planning/avoidance/retreat.hpp"
 
 namespace swiftlet::planning {
 namespace {

@@ -26,6 +26,12 @@ Files readTrackedFiles() {
   return files;
 }
 
+/// A folder that may be used may be used with every room in it.
+bool allows(const std::set<std::string>& uses, std::string folder) {
+  while (!folder.empty() && !uses.contains(folder)) folder = folderOf(folder);
+  return !folder.empty();
+}
+
 }  // namespace
 
 const Files& trackedFiles() {
@@ -105,24 +111,24 @@ Arrows readArrows(const std::string& page) {
   return arrows;
 }
 
+std::string ownerOf(const std::string& path, const Arrows& arrows) {
+  std::string folder = folderOf(path);
+  while (!folder.empty() && !arrows.contains(folder)) folder = folderOf(folder);
+  return folder;
+}
+
 std::vector<std::string> forbiddenArrows(const Files& files, const Arrows& arrows) {
   std::vector<std::string> found;
   for (const auto& [path, text] : files) {
     if (!endsWithAny(path, {".hpp", ".cpp"})) continue;
-    // A row of the table may be a folder inside a folder (behaviors/tree); the deepest that holds the file counts.
-    const auto owner = [&](const std::string& file) {
-      std::string folder = folderOf(file);
-      while (!folder.empty() && !arrows.contains(folder)) folder = folderOf(folder);
-      return folder;
-    };
-    const std::string from = owner(path);
+    const std::string from = ownerOf(path, arrows);
     if (from.empty()) continue;
     for (const Include& include : includesOf(path, text)) {
-      const std::string to = owner(include.target);
+      const std::string to = ownerOf(include.target, arrows);
       const std::string place = path + ":" + std::to_string(include.line) + ": ";
       if (to.empty())
         found.push_back(place + "\"" + include.target + "\" is in no folder of the list, or not named from the root");
-      else if (to != from && !arrows.at(from).contains(to))
+      else if (to != from && !allows(arrows.at(from), to))
         found.push_back(place + from + " may not use " + to);
     }
   }
@@ -157,6 +163,19 @@ std::vector<std::string> cycles(const Arrows& graph) {
     finished.insert(node);
   };
   for (const auto& [node, targets] : graph) visit(node);
+  return found;
+}
+
+std::vector<std::string> twoWayPairs(const Files& files) {
+  const auto partOf = [](const std::string& path) { return path.substr(0, path.rfind('.')); };
+  Arrows parts;
+  for (const auto& [path, targets] : fileGraph(files))
+    for (const std::string& target : targets) parts[partOf(path)].insert(partOf(target));
+  std::vector<std::string> found;
+  for (const auto& [part, targets] : parts)
+    for (const std::string& target : targets)
+      if (part < target && parts.contains(target) && parts.at(target).contains(part))
+        found.push_back(part + " <-> " + target);
   return found;
 }
 

@@ -43,6 +43,9 @@ std::vector<Include> includesOf(const std::string& path, const std::string& text
 using Arrows = std::map<std::string, std::set<std::string>>;
 Arrows readArrows(const std::string& page);
 
+/// The row of the table that holds the file: the deepest folder above it that has one. Empty: none has.
+std::string ownerOf(const std::string& path, const Arrows& arrows);
+
 /// "file:line: folder may not use folder" for every include that is not in the list.
 std::vector<std::string> forbiddenArrows(const Files& files, const Arrows& arrows);
 
@@ -50,5 +53,8 @@ std::vector<std::string> forbiddenArrows(const Files& files, const Arrows& arrow
 std::vector<std::string> cycles(const Arrows& graph);
 /// Which file includes which.
 Arrows fileGraph(const Files& files);
+
+/// A header and its source count as one part. One line for two parts that include each other: "a/one <-> a/two".
+std::vector<std::string> twoWayPairs(const Files& files);
 
 }  // namespace swiftlet::repository

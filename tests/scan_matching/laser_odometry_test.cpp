@@ -1,4 +1,4 @@
-#include "perception/scan_matching/laser_odometry.hpp"
+#include "perception/laser_odometry/laser_odometry.hpp"
 
 #include <cmath>
 #include <limits>

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "perception/laser_odometry/laser_odometry.hpp"
 #include "perception/projection/scan_projection.hpp"
-#include "perception/scan_matching/laser_odometry.hpp"
 #include "tests/scan_matching/planar_world.hpp"
 #include "tests/slam2d/smoothed.hpp"
 

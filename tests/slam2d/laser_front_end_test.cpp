@@ -1,4 +1,4 @@
-#include "perception/slam2d/laser_front_end.hpp"
+#include "perception/laser_odometry/laser_front_end.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "perception/slam2d/motion_prediction.hpp"
+#include "perception/laser_odometry/motion_prediction.hpp"
 
 #include <algorithm>
 #include <cmath>

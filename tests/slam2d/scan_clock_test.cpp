@@ -1,4 +1,4 @@
-#include "perception/slam2d/scan_clock.hpp"
+#include "perception/laser_odometry/scan_clock.hpp"
 
 #include <algorithm>
 #include <cmath>

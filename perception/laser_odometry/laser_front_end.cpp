@@ -1,0 +1,138 @@
+#include "perception/laser_odometry/laser_front_end.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "perception/laser_odometry/scan_clock.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Pose2;
+
+/// How wide to search, in sigmas of the prediction.
+constexpr double kWindowSigmas = 4.0;
+
+/// The part of a symmetric matrix that is positive.
+Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+/// A direction in the frame of the robot, with the axes of the reference.
+std::optional<Eigen::Vector2d> atReference(const std::optional<Eigen::Vector2d>& direction_robot,
+                                           const Pose2& T_reference_robot) {
+  if (!direction_robot) return std::nullopt;
+  return Eigen::Vector2d(Eigen::Rotation2Dd(T_reference_robot.yaw_rad) * *direction_robot);
+}
+
+}  // namespace
+
+/// Unlike a vehicle with inertial sensors, nothing else tells where a robot in a corridor is: its motion is known
+/// worse, and how well each scan holds it must be known better.
+LaserFrontEndConfig::LaserFrontEndConfig() {
+  odometry.max_window_m = 1.0;
+  odometry.max_window_deg = 60.0;
+  odometry.min_widened_quality = 0.75;
+  odometry.widened_must_hold = true;
+  odometry.max_failures = 4;
+  odometry.min_fit = 0.55;
+  odometry.min_weak_overlap = 0.93;
+  odometry.matcher.guess_weight = 0.01;  // The prediction has its say in the filter.
+  odometry.matcher.profile_half_m = 1.0;
+  odometry.matcher.only_seen = false;  // Of few beams in clutter too little would be left, see decision 020.
+}
+
+struct LaserFrontEnd::Impl {
+  explicit Impl(const LaserFrontEndConfig& config_in)
+      : config(config_in), motion(config_in.motion), odometry(config_in.odometry) {}
+
+  std::optional<RelativePose> match(const ProjectedScan& scan);
+  Eigen::Matrix3d follow(const std::optional<RelativePose>& relative, bool lost, const Pose2& before,
+                         const Eigen::Matrix3d& covariance_before);
+
+  LaserFrontEndConfig config;
+  MotionPrediction motion;
+  LaserOdometry odometry;
+  ScanClock clock;
+
+  bool begun = false;
+  common::Time last_time;
+  Pose2 T_odom_robot;
+  Pose2 T_odom_reference;               ///< Of the scan that the odometry measures from.
+  std::optional<Pose2> T_odom_matched;  ///< At the last match.
+};
+
+std::optional<RelativePose> LaserFrontEnd::Impl::match(const ProjectedScan& scan) {
+  std::optional<OtherGuess> other;
+  if (const auto alternative = motion.alternative())
+    other = {T_odom_reference * alternative->T_reference_robot,
+             {kWindowSigmas * alternative->step_sigma_m, kWindowSigmas * alternative->step_sigma_rad}};
+  const auto relative =
+      odometry.add(scan, T_odom_matched,
+                   SearchWindow{kWindowSigmas * motion.stepSigma_m(), kWindowSigmas * motion.stepSigma_rad()}, other);
+  if (relative && relative->otherwise) motion.takeAlternative();
+  return relative;
+}
+
+/// Takes the match in and says how uncertain the step from the scan before is, with the axes of the robot there. A
+/// match is relative to the odometry's reference: what it is uncertain of does not add up from scan to scan, only what
+/// the uncertainty has grown by counts.
+Eigen::Matrix3d LaserFrontEnd::Impl::follow(const std::optional<RelativePose>& relative, bool lost, const Pose2& before,
+                                            const Eigen::Matrix3d& covariance_before) {
+  if (lost)
+    motion.lose(config.odometry.max_window_m, config.odometry.max_window_deg * common::kRadPerDeg);
+  else if (relative && relative->from != relative->to)
+    motion.correct(relative->T_from_to, relative->covariance,
+                   atReference(relative->unseen_direction, relative->T_from_to));
+  const Pose2 now = motion.T_reference_robot();
+  const Eigen::Matrix3d carried = propagated(covariance_before, before, now, Eigen::Matrix3d::Zero());
+  Eigen::Matrix3d grown = common::turned(positivePart(motion.covariance() - carried), -before.yaw_rad);
+  T_odom_robot = T_odom_reference * now;
+  if (!relative) return grown;
+  if (relative->reference_changed) {
+    T_odom_reference = T_odom_robot;
+    motion.rebase();
+  }
+  T_odom_matched = T_odom_robot;
+  return grown;
+}
+
+LaserFrontEnd::LaserFrontEnd(const LaserFrontEndConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+LaserFrontEnd::~LaserFrontEnd() = default;
+
+std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input, const Withhold& withhold) {
+  Impl& self = *impl_;
+  const common::Time now = self.clock.tick(input.scan.stamps.measured);
+  const double elapsed_s = self.begun ? (now - self.last_time).seconds() : 0.0;
+  self.last_time = now;
+  const Pose2 before = self.motion.T_reference_robot();
+  const Eigen::Matrix3d covariance_before = self.motion.covariance();
+  if (!self.begun)
+    self.motion.begin(input.T_odom_robot);
+  else
+    self.motion.predict(input.T_odom_robot, elapsed_s);
+  const Pose2 expected = self.T_odom_reference * self.motion.T_reference_robot();
+
+  FollowedScan followed;
+  common::LaserScan stamped = input.scan;
+  stamped.stamps = {now, now};
+  stamped.time_increment = {};  // Projected as if taken at once, it has one stamp, whatever the log says.
+  followed.scan = projectLevel(stamped, input.T_robot_laser, expected);
+  const bool withheld = withhold && withhold(expected) && self.begun;
+  const std::optional<RelativePose> relative = withheld ? std::nullopt : self.match(followed.scan);
+  if (!self.begun && !relative) return std::nullopt;
+  followed.broken = self.begun && relative && relative->from == relative->to;
+  followed.matched = relative && !followed.broken;
+  const bool lost = followed.broken || (!withheld && !relative);
+  followed.covariance_since_last = self.follow(relative, lost, before, covariance_before);
+  followed.T_odom_robot = self.T_odom_robot;
+  self.begun = true;
+  return followed;
+}
+
+const LaserOdometryCounts& LaserFrontEnd::odometryCounts() const { return impl_->odometry.counts(); }
+
+LaserSlamCounts LaserFrontEnd::counts() const { return {impl_->clock.doubtful(), impl_->motion.doubtfulSteps()}; }
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,334 @@
+#include "perception/laser_odometry/laser_odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::perception {
+
+using common::kRadPerDeg;
+using common::Pose2;
+
+namespace {
+
+/// A key scan does not err along what the map did not show when it joined: what it draws defines the map there. That
+/// the guess it stands at has drifted against the older key scans is not for those to say that are matched to this one.
+Eigen::Matrix3d seenPart(const MatchResult& match) {
+  if (!match.unobservable_direction) return match.covariance;
+  Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
+  across.topLeftCorner<2, 2>() -= *match.unobservable_direction * match.unobservable_direction->transpose();
+  return across * match.covariance * across.transpose();
+}
+
+/// So many times as far away as the window reaches, the guess says nothing for a match.
+constexpr double kFarWindows = 6.0;
+
+/// How far beyond its window something lies: 0 inside, 1 far away.
+double shareBeyond(double off, double window, double greatest_window) {
+  const double far = std::clamp(kFarWindows * window, 0.5 * greatest_window, greatest_window);
+  return off > window ? std::min(1.0, (off - window) / std::max(far - window, 1e-9)) : 0.0;
+}
+
+}  // namespace
+
+void LaserOdometryConfig::describe(common::config::Fields& fields) {
+  fields.section("matcher", matcher, "Matching of a scan to the local map.");
+  fields("max_acceleration_m_s2", max_acceleration_m_s2, "Widens the search with the time since the last match.");
+  fields("max_angular_acceleration_rad_s2", max_angular_acceleration_rad_s2, "The same for the rotation.");
+  fields("guess_error_m", guess_error_m, "Half the least search window.");
+  fields("unseen_drift_m_s", unseen_drift_m_s, "Widens the search with the time since all directions were seen.");
+  fields("guess_error_deg", guess_error_deg, "The same for the rotation.");
+  fields("max_window_m", max_window_m, "Half the greatest search window.");
+  fields("max_window_deg", max_window_deg, "The same for the rotation.");
+  fields("min_widened_quality", min_widened_quality,
+         "A match far beyond the first window needs this quality; nearer, less.");
+  fields("widened_must_hold", widened_must_hold, "And must hold the position in all directions.");
+  fields("min_overlap", min_overlap, "A scan with a smaller share of supported points joins the local map.");
+  fields("min_fit", min_fit, "A scan that fits worse than this joins the local map.");
+  fields("min_weak_overlap", min_weak_overlap, "The same where the position is held weakly in one direction.");
+  fields("weak_sigma_m", weak_sigma_m, "A position less certain than this is held weakly.");
+  fields("max_reference_distance_m", max_reference_distance_m, "A scan this far from the reference joins too.");
+  fields("max_reference_rotation_deg", max_reference_rotation_deg, "Or turned this much.");
+  fields("level_tilt_deg", level_tilt_deg, "A scan tilted more than this is joined only when it must be.");
+  fields("tilted_overlap_margin", tilted_overlap_margin, "So much less overlap makes it join all the same.");
+  fields("local_map_scans", local_map_scans, "Key scans kept in the local map.");
+  fields("max_failures", max_failures, "After so many scans without a match it starts anew.");
+}
+
+std::vector<std::string> LaserOdometryConfig::validate() const {
+  return common::Validation()
+      .within("max_acceleration_m_s2", max_acceleration_m_s2, 0, 100)
+      .within("max_angular_acceleration_rad_s2", max_angular_acceleration_rad_s2, 0, 1000)
+      .within("unseen_drift_m_s", unseen_drift_m_s, 0, 10)
+      .within("guess_error_m", guess_error_m, 0.001, max_window_m)
+      .within("guess_error_deg", guess_error_deg, 0.01, max_window_deg)
+      .within("max_window_m", max_window_m, 0.01, 5)
+      .within("max_window_deg", max_window_deg, 0.1, 180)
+      .within("min_widened_quality", min_widened_quality, 0, 1)
+      .within("min_overlap", min_overlap, 0, 1)
+      .within("min_fit", min_fit, 0, 1)
+      .within("min_weak_overlap", min_weak_overlap, 0, 1)
+      .within("weak_sigma_m", weak_sigma_m, 0.001, 10)
+      .within("max_reference_distance_m", max_reference_distance_m, 0.05, 100)
+      .within("max_reference_rotation_deg", max_reference_rotation_deg, 1, 360)
+      .within("level_tilt_deg", level_tilt_deg, 0, 90)
+      .within("tilted_overlap_margin", tilted_overlap_margin, 0, 1)
+      .within("local_map_scans", local_map_scans, 1, 100)
+      .within("max_failures", max_failures, 1, 100'000)
+      .problems();
+}
+
+struct LaserOdometry::Impl {
+  struct KeyScan {
+    common::Time stamp;
+    ProjectedScan scan;
+    Pose2 T_local_body;
+    Eigen::Matrix3d covariance_local;  ///< Of that pose against the map drawn before; zero for the first.
+  };
+
+  /// Where a scan is sought.
+  struct Guess {
+    Pose2 T_local_body;
+    SearchWindow window;
+
+    /// Whether a pose lies no farther off than the half window, in position so many times that.
+    bool covers(const Pose2& pose_local, double half_translations = 1.0) const {
+      const Pose2 off = between(T_local_body, pose_local);
+      return off.position_m().norm() <= half_translations * window.half_translation_m &&
+             std::abs(off.yaw_rad) <= window.half_rotation_rad;
+    }
+  };
+  struct Found {
+    MatchResult match;
+    double margin = -1.0;  ///< Of its quality; below zero it is not believed.
+    bool otherwise = false;
+  };
+
+  explicit Impl(const LaserOdometryConfig& config_in) : config(config_in), matcher(config_in.matcher) {}
+
+  std::optional<RelativePose> start(const ProjectedScan& scan);
+  SearchWindow usualWindow(common::Time now) const;
+  Guess guessOf(const Pose2& T_last_now, const SearchWindow& window) const;
+  Found find(const ProjectedScan& scan, const Guess& guess, const std::optional<Guess>& other);
+  Found matchIn(const SearchWindow& window, const ProjectedScan& scan, const Guess& guess, const Guess& about);
+  double marginOf(const MatchResult& match, const Guess& guess, const Guess& about) const;
+  bool canWiden(const SearchWindow& window) const;
+  SearchWindow widened(const SearchWindow& window) const;
+  void addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body, const Eigen::Matrix3d& covariance_local);
+  RelativePose relativeTo(const KeyScan& reference, const ProjectedScan& scan, const MatchResult& match) const;
+  bool shouldJoin(const RelativePose& relative, const ProjectedScan& scan, const MatchResult& match) const;
+  void drawLocalMap();
+
+  LaserOdometryConfig config;
+  CorrelativeMatcher matcher;
+  LaserOdometryCounts counts;
+  std::deque<KeyScan> key_scans;  ///< The last one is the reference.
+  common::Time last_stamp, last_match;
+  common::Time last_seen_whole;  ///< The last match that saw all directions.
+  Pose2 last_T_odom_body;        ///< As predicted, at the last match.
+  Pose2 last_T_local_body;       ///< As matched.
+  int failures = 0;
+};
+
+void LaserOdometry::Impl::drawLocalMap() {
+  matcher.clearReference();
+  for (const KeyScan& key : key_scans) matcher.addReference(key.scan, key.T_local_body);
+}
+
+void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body,
+                                     const Eigen::Matrix3d& covariance_local) {
+  ++counts.references;
+  key_scans.push_back({scan.stamp, scan, T_local_body, covariance_local});
+  if (static_cast<int>(key_scans.size()) <= config.local_map_scans) {
+    matcher.addReference(scan, T_local_body);
+    return;
+  }
+  // Half of the map is forgotten at once, so that drawing it anew is rare.
+  const auto kept = static_cast<std::size_t>(config.local_map_scans) / 2 + 1;
+  while (key_scans.size() > kept) key_scans.pop_front();
+  drawLocalMap();
+}
+
+std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan) {
+  if (static_cast<int>(scan.points_level_m.size()) < config.matcher.min_points) return std::nullopt;
+  key_scans.clear();
+  matcher.clearReference();
+  addKeyScan(scan, Pose2{}, Eigen::Matrix3d::Zero());
+  last_match = last_seen_whole = scan.stamp;
+  last_T_odom_body = common::planar(scan.T_odom_body);
+  last_T_local_body = Pose2{};
+  failures = 0;
+  RelativePose first;
+  first.from = first.to = scan.stamp;
+  first.reference_changed = true;
+  return first;
+}
+
+/// Covers what the vehicle can have done against the prediction.
+SearchWindow LaserOdometry::Impl::usualWindow(common::Time now) const {
+  const double elapsed_s = (now - last_match).seconds();
+  const double half_dt2 = 0.5 * elapsed_s * elapsed_s;
+  // Along what was not seen, the guess has drifted since; seen again, the truth may be as far away.
+  const double unseen_m = config.unseen_drift_m_s * (now - last_seen_whole).seconds();
+  return {config.guess_error_m + config.max_acceleration_m_s2 * half_dt2 + unseen_m,
+          config.guess_error_deg * kRadPerDeg + config.max_angular_acceleration_rad_s2 * half_dt2};
+}
+
+LaserOdometry::Impl::Guess LaserOdometry::Impl::guessOf(const Pose2& T_last_now, const SearchWindow& window) const {
+  return {last_T_local_body * T_last_now,
+          {std::min(config.max_window_m, window.half_translation_m),
+           std::min(config.max_window_deg * kRadPerDeg, window.half_rotation_rad)}};
+}
+
+/// By how much a match fits better than it must. Far from the guess it must fit better than beside it. Where it was not
+/// expected, the guess does not stand in for what the scene does not hold.
+double LaserOdometry::Impl::marginOf(const MatchResult& match, const Guess& guess, const Guess& about) const {
+  if (match.failed) return -1.0;
+  const auto isExpectedBy = [&](const Guess& by) { return by.covers(match.T_reference_body, std::numbers::sqrt2); };
+  if (config.widened_must_hold && match.unobservable_direction && !isExpectedBy(guess) && !isExpectedBy(about))
+    return -1.0;
+  const Pose2 off = between(guess.T_local_body, match.T_reference_body);
+  const double beyond =
+      std::max(shareBeyond(off.position_m().norm(), guess.window.half_translation_m, config.max_window_m),
+               shareBeyond(std::abs(off.yaw_rad), guess.window.half_rotation_rad, config.max_window_deg * kRadPerDeg));
+  return match.quality - std::lerp(config.matcher.min_quality, config.min_widened_quality, beyond);
+}
+
+LaserOdometry::Impl::Found LaserOdometry::Impl::matchIn(const SearchWindow& window, const ProjectedScan& scan,
+                                                        const Guess& guess, const Guess& about) {
+  const MatchResult match = matcher.match(scan, about.T_local_body, window);
+  return {match, marginOf(match, guess, about), &about != &guess};
+}
+
+bool LaserOdometry::Impl::canWiden(const SearchWindow& window) const {
+  return window.half_translation_m < config.max_window_m ||
+         window.half_rotation_rad < config.max_window_deg * kRadPerDeg;
+}
+
+SearchWindow LaserOdometry::Impl::widened(const SearchWindow& window) const {
+  return {std::clamp(3.0 * window.half_translation_m, config.guess_error_m, config.max_window_m),
+          std::clamp(3.0 * window.half_rotation_rad, config.guess_error_deg * kRadPerDeg,
+                     config.max_window_deg * kRadPerDeg)};
+}
+
+/// Where the scan fits best for where it lies. A best pose at the window's edge asks for more, and so does one that
+/// does not fit: first about the other guess, then in wider windows about the better one.
+LaserOdometry::Impl::Found LaserOdometry::Impl::find(const ProjectedScan& scan, const Guess& guess,
+                                                     const std::optional<Guess>& other) {
+  const auto isFound = [&](const Found& found) {
+    return found.margin >= 0.0 && !found.match.at_window_edge && found.match.quality >= config.min_fit;
+  };
+  Found best = matchIn(guess.window, scan, guess, guess);
+  if (isFound(best)) return best;
+  const Guess* about = &guess;
+  if (other && !guess.covers(other->T_local_body)) {
+    const Found there = matchIn(other->window, scan, guess, *other);
+    const bool neither = there.margin < 0.0 && best.margin < 0.0;
+    if (neither ? there.match.quality > best.match.quality : there.margin > best.margin) {
+      best = there;
+      about = &*other;
+    }
+  }
+  Found last = best;
+  SearchWindow window = about->window;
+  while (!isFound(last) && last.match.points_used > 0 && canWiden(window)) {
+    window = widened(window);
+    last = matchIn(window, scan, guess, *about);
+    if (last.margin >= best.margin) best = last;
+  }
+  return best;
+}
+
+/// Both scans stand in the local map with their own errors; that of the reference's heading swings the way between.
+RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const ProjectedScan& scan,
+                                             const MatchResult& match) const {
+  RelativePose relative;
+  relative.from = reference.stamp;
+  relative.to = scan.stamp;
+  relative.T_from_to = between(reference.T_local_body, match.T_reference_body);
+  relative.covariance = common::turned(
+      propagated(reference.covariance_local, reference.T_local_body, match.T_reference_body, match.covariance),
+      -reference.T_local_body.yaw_rad);
+  if (match.unobservable_direction)
+    relative.unseen_direction = Eigen::Rotation2Dd(-match.T_reference_body.yaw_rad) * *match.unobservable_direction;
+  return relative;
+}
+
+/// A tilted scan is drawn with the error of its attitude; as long as the map still holds it, a level one is waited for.
+bool LaserOdometry::Impl::shouldJoin(const RelativePose& relative, const ProjectedScan& scan,
+                                     const MatchResult& match) const {
+  const bool far = relative.T_from_to.position_m().norm() > config.max_reference_distance_m ||
+                   std::abs(relative.T_from_to.yaw_rad) > config.max_reference_rotation_deg * kRadPerDeg;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> position(match.covariance.topLeftCorner<2, 2>().eval(),
+                                                                Eigen::EigenvaluesOnly);
+  const bool weak = position.eigenvalues()(1) > config.weak_sigma_m * config.weak_sigma_m;
+  if (!far && match.quality >= config.min_fit && match.overlap >= (weak ? config.min_weak_overlap : config.min_overlap))
+    return false;
+  const bool tilted = common::cosTilt(scan.T_odom_body.rotation) < std::cos(config.level_tilt_deg * kRadPerDeg);
+  return !tilted || match.overlap < config.min_overlap - config.tilted_overlap_margin;
+}
+
+LaserOdometry::LaserOdometry(const LaserOdometryConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+LaserOdometry::~LaserOdometry() = default;
+LaserOdometry::LaserOdometry(LaserOdometry&&) noexcept = default;
+LaserOdometry& LaserOdometry::operator=(LaserOdometry&&) noexcept = default;
+
+const LaserOdometryCounts& LaserOdometry::counts() const { return impl_->counts; }
+
+std::optional<common::Time> LaserOdometry::lastMatch() const {
+  return impl_->key_scans.empty() ? std::nullopt : std::optional(impl_->last_match);
+}
+
+std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const std::optional<Pose2>& T_odom_last,
+                                               const std::optional<SearchWindow>& first_window,
+                                               const std::optional<OtherGuess>& other) {
+  Impl& self = *impl_;
+  ++self.counts.scans;
+  const Pose2 T_odom_body = common::planar(scan.T_odom_body);
+  if (!isFinite(T_odom_body)) {
+    ++self.counts.failures;
+    return std::nullopt;
+  }
+  if (self.key_scans.empty()) {
+    self.last_stamp = scan.stamp;
+    return self.start(scan);
+  }
+  if (scan.stamp <= self.last_stamp) {
+    ++self.counts.out_of_order;
+    return std::nullopt;
+  }
+  self.last_stamp = scan.stamp;
+
+  const Pose2 T_last_odom = T_odom_last.value_or(self.last_T_odom_body).inverse();
+  std::optional<Impl::Guess> other_guess;
+  if (other) other_guess = self.guessOf(T_last_odom * other->T_odom_body, other->window);
+  const auto [match, margin, otherwise] = self.find(
+      scan, self.guessOf(T_last_odom * T_odom_body, first_window.value_or(self.usualWindow(scan.stamp))), other_guess);
+  if (margin < 0.0) {
+    ++self.counts.failures;
+    if (++self.failures < self.config.max_failures) return std::nullopt;
+    auto restarted = self.start(scan);
+    self.counts.restarts += restarted ? 1 : 0;
+    return restarted;
+  }
+  self.failures = 0;
+  self.last_match = scan.stamp;
+  if (!match.unobservable_direction) self.last_seen_whole = scan.stamp;
+  self.last_T_odom_body = otherwise ? other->T_odom_body : T_odom_body;
+  self.last_T_local_body = match.T_reference_body;
+
+  RelativePose relative = self.relativeTo(self.key_scans.back(), scan, match);
+  relative.otherwise = otherwise;
+  if (self.shouldJoin(relative, scan, match)) {
+    relative.reference_changed = true;
+    self.addKeyScan(scan, match.T_reference_body, self.config.matcher.only_seen ? seenPart(match) : match.covariance);
+  }
+  return relative;
+}
+
+}  // namespace swiftlet::perception

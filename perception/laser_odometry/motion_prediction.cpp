@@ -1,0 +1,160 @@
+#include "perception/laser_odometry/motion_prediction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "common/square.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::kRadPerDeg;
+using common::Pose2;
+using common::square;
+
+/// Errors of position and heading are compared as they move what is seen at this distance.
+constexpr double kLever_m = 3.0;
+/// A single error counts as no more than this many sigmas, so that one slip is not remembered for long.
+constexpr double kMaxSurprise = 4.0;
+/// A speed is believed for so long: over a longer pause, the robot has as likely stood.
+constexpr double kLongestCoast_s = 2.0;
+
+}  // namespace
+
+MotionPrediction::MotionPrediction(const MotionPredictionConfig& config) : config_(config) {
+  for (Source* source : {&wheels_, &inertia_}) {
+    source->variance_m2 = square(config.first_error_m);
+    source->variance_rad2 = square(config.first_error_deg * kRadPerDeg);
+  }
+}
+
+const MotionPrediction::Source& MotionPrediction::best() const {
+  const auto cost = [](const Source& s) { return s.variance_m2 + square(kLever_m) * s.variance_rad2; };
+  return wheels_.step && cost(wheels_) <= cost(inertia_) ? wheels_ : inertia_;
+}
+
+const MotionPrediction::Source* MotionPrediction::other() const {
+  const Source& source = &best() == &wheels_ ? inertia_ : wheels_;
+  return source.step ? &source : nullptr;
+}
+
+double MotionPrediction::sigma_m(const Source& source) const {
+  return std::max(std::sqrt(source.variance_m2), config_.least_error_m);
+}
+double MotionPrediction::sigma_rad(const Source& source) const {
+  return std::max(std::sqrt(source.variance_rad2), config_.least_error_deg * kRadPerDeg);
+}
+double MotionPrediction::stepSigma_m() const { return sigma_m(best()); }
+double MotionPrediction::stepSigma_rad() const { return sigma_rad(best()); }
+
+std::optional<MotionPrediction::Alternative> MotionPrediction::alternative() const {
+  const Source* source = other();
+  if (source == nullptr) return std::nullopt;
+  return Alternative{before_ * *source->step, sigma_m(*source), sigma_rad(*source)};
+}
+
+void MotionPrediction::takeAlternative() {
+  velocity_ = velocity_before_;
+  covariance_ = covariance_before_;
+  follow(*other());
+}
+
+void MotionPrediction::predict(const std::optional<Pose2>& T_odom_robot, double elapsed_s) {
+  elapsed_s_ = std::max(elapsed_s, 1e-3);
+  const std::optional<Pose2> last_odom = std::exchange(T_odom_robot_, T_odom_robot);
+  wheels_.step.reset();
+  if (last_odom && T_odom_robot) {
+    wheels_.step = between(*last_odom, *T_odom_robot);
+    if (!(wheels_.step->position_m().norm() <= config_.max_speed_m_s * elapsed_s_)) {
+      ++doubtful_steps_;
+      wheels_.step.reset();
+    }
+  }
+  const Eigen::Vector3d coasted = std::min(elapsed_s_, kLongestCoast_s) * velocity_;
+  inertia_.step = Pose2{coasted.x(), coasted.y(), coasted.z()};
+
+  before_ = pose_;
+  velocity_before_ = velocity_;
+  covariance_before_ = covariance_;
+  follow(best());
+}
+
+void MotionPrediction::follow(const Source& source) {
+  const double dt = elapsed_s_;
+  const Pose2& step = *source.step;
+  pose_ = before_ * step;
+  Matrix6d move = Matrix6d::Identity();
+  const Eigen::Vector2d way = pose_.position_m() - before_.position_m();
+  move.block<2, 1>(0, 2) = Eigen::Vector2d(-way.y(), way.x());
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(before_.yaw_rad).toRotationMatrix();
+  Eigen::Matrix<double, 6, 3> by_step;  // How an error of the step enters.
+  by_step << turn, Eigen::Matrix3d::Identity() / dt;
+  if (&source == &wheels_) {
+    velocity_ = Eigen::Vector3d(step.x_m, step.y_m, step.yaw_rad) / dt;
+    move.bottomRightCorner<3, 3>().setZero();
+  } else {
+    move.topRightCorner<3, 3>() = turn * dt;
+  }
+  const double position_m =
+      &source == &wheels_ ? sigma_m(source) : std::max(sigma_m(source), config_.acceleration_m_s2 * dt * dt);
+  const Eigen::Vector3d variances(square(position_m), square(position_m), square(sigma_rad(source)));
+  covariance_ = move * covariance_ * move.transpose() + by_step * variances.asDiagonal() * by_step.transpose();
+}
+
+void MotionPrediction::correct(const Pose2& matched, const Eigen::Matrix3d& covariance,
+                               const std::optional<Eigen::Vector2d>& unseen_direction) {
+  const Eigen::Matrix<double, 6, 3> gain =
+      covariance_.leftCols<3>() * (covariance_.topLeftCorner<3, 3>() + covariance).inverse();
+  const Eigen::Vector3d off(matched.x_m - pose_.x_m, matched.y_m - pose_.y_m,
+                            common::wrapAngle(matched.yaw_rad - pose_.yaw_rad));
+  const Eigen::Matrix<double, 6, 1> change = gain * off;
+  pose_ = {pose_.x_m + change(0), pose_.y_m + change(1), common::wrapAngle(pose_.yaw_rad + change(2))};
+  velocity_ += change.tail<3>();
+  covariance_ -= gain * covariance_.topRows<3>();
+  covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
+
+  std::optional<Eigen::Vector2d> unseen_before;
+  if (unseen_direction) unseen_before = Eigen::Rotation2Dd(-before_.yaw_rad) * *unseen_direction;
+  const Pose2 step = between(before_, matched);
+  learn(wheels_, step, unseen_before);
+  learn(inertia_, step, unseen_before);
+}
+
+void MotionPrediction::learn(Source& source, const Pose2& step, const std::optional<Eigen::Vector2d>& unseen) const {
+  if (!source.step) return;
+  Eigen::Vector2d error_m = step.position_m() - source.step->position_m();
+  double seen_axes = 2.0;
+  if (unseen) {
+    error_m -= *unseen * unseen->dot(error_m);
+    seen_axes = 1.0;
+  }
+  const double share = 1.0 / config_.memory_steps;
+  const auto average = [&](double& variance, double error2, double least) {
+    const double bounded = std::min(error2, square(kMaxSurprise) * std::max(variance, square(least)));
+    variance += share * (bounded - variance);
+  };
+  average(source.variance_m2, error_m.squaredNorm() / seen_axes, config_.least_error_m);
+  average(source.variance_rad2, square(common::wrapAngle(step.yaw_rad - source.step->yaw_rad)),
+          config_.least_error_deg * kRadPerDeg);
+}
+
+void MotionPrediction::lose(double sought_m, double sought_rad) {
+  velocity_ *= 0.5;
+  if (&best() == &inertia_)
+    covariance_.diagonal().head<3>() += Eigen::Vector3d(square(sought_m), square(sought_m), square(sought_rad));
+  for (int i = 0; i < 2; ++i) covariance_(3 + i, 3 + i) += square(stepSigma_m() / elapsed_s_);
+  covariance_(5, 5) += square(stepSigma_rad() / elapsed_s_);
+}
+
+void MotionPrediction::rebase() {
+  pose_ = Pose2{};
+  covariance_.topRows<3>().setZero();
+  covariance_.leftCols<3>().setZero();
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,221 @@
+#include "planning/avoidance/avoidance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "planning/avoidance/retreat.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTimeStep_s = 0.1;
+constexpr double kStill_m_s = 1e-3;
+constexpr double kSameBody_m = 0.3;
+
+double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// How far a disc of `radius_m` at the origin may go before it touches the point; infinity when it passes.
+double gapAlong(const Point& direction, const Point& point_m, double radius_m) {
+  const double ahead_m = point_m.dot(direction), aside_m = std::abs(cross(direction, point_m));
+  if (ahead_m <= 0.0 || aside_m >= radius_m) return kInfinity;
+  if (point_m.norm() <= radius_m) {
+    // Already nearer than it should be: it may slide past, not go closer.
+    constexpr double kSlide = 0.2;
+    return ahead_m > kSlide * point_m.norm() ? 0.0 : kInfinity;
+  }
+  return ahead_m - std::sqrt(radius_m * radius_m - aside_m * aside_m);
+}
+
+std::string bearingInWords(const Point& p) {
+  return fmt::format("{:.0f} deg", std::atan2(p.y(), p.x()) * 180.0 / std::numbers::pi);
+}
+
+}  // namespace
+
+Avoidance::Avoidance(const Config& config, double hull_radius_m) : config_(config), hull_radius_m_(hull_radius_m) {}
+
+AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
+  const Points returns = smoothed(config_, input.points_level_m);
+  const std::vector<Bin> sectors = bins(config_, returns);
+  Points points = returns;
+  if (config_.bin_range == BinRange::kMean) {
+    points.clear();
+    for (const Bin& bin : sectors)
+      if (std::isfinite(bin.range_m)) points.push_back(bin.nearest_level_m);
+  }
+  const std::vector<Threat> around = threats(input, sectors);
+  for (const Threat& threat : around) {
+    if (!threat.dangerous) continue;
+    danger_stamp_ = input.stamp;
+    danger_ = threat.why;
+    retreating_ = true;
+    break;
+  }
+  if (retreating_ && (input.stamp - danger_stamp_).seconds() > config_.calm_s) {
+    retreating_ = false;
+    last_retreat_level_.setZero();
+  }
+
+  AvoidanceDecision decision;
+  const double speed_m_s = input.velocity_level_m_s.norm();
+  const bool wishes = input.wish_level_m_s.norm() > kStill_m_s;
+  const Point& course = wishes ? input.wish_level_m_s : input.velocity_level_m_s;
+  decision.speed_limit_m_s = config_.max_speed_m_s;
+  if (course.norm() > kStill_m_s) {
+    decision.speed_limit_m_s = speedLimit(course.normalized(), points);
+    const double intended_m_s = std::min(course.norm(), decision.speed_limit_m_s);
+    const double yielding_m_s = yieldingSpeed(course.normalized(), speed_m_s, intended_m_s, around);
+    if (yielding_m_s < intended_m_s) decision.speed_limit_m_s = yielding_m_s;
+  }
+  if (retreating_) {
+    last_retreat_level_ = retreat(input, points, around);
+    decision.retreat_velocity_level_m_s = last_retreat_level_;
+    decision.retreat_acceleration_m_s2 = config_.deceleration_m_s2;
+    decision.turn_rad = turnToSee(around, last_retreat_level_);
+  }
+
+  common::AvoidanceStatus& status = decision.status;
+  status.nearest_m = kInfinity;
+  for (const Point& p : points) status.nearest_m = std::min(status.nearest_m, p.norm() - hull_radius_m_);
+  const double wanted_m_s = std::max(input.wish_level_m_s.norm(), speed_m_s);
+  status.braking = wanted_m_s > kStill_m_s && decision.speed_limit_m_s < wanted_m_s;
+  status.retreating = retreating_;
+  if (retreating_)
+    status.reason = danger_;
+  else if (status.braking)
+    status.reason =
+        fmt::format("at most {:.2f} m/s, nearest {:.2f} m off the hull", decision.speed_limit_m_s, status.nearest_m);
+  return decision;
+}
+
+bool Avoidance::isMapped(const AvoidanceInput& input, const Point& point_level_m) const {
+  const common::CellIndex cell = input.cost_map->cellAt(input.T_map_level * point_level_m);
+  return input.cost_map->stateAt(cell) != CellState::kFree ||
+         input.cost_map->obstacleDistance_m(cell) <= config_.mapped_within_m;
+}
+
+std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const {
+  const double slack = retreating_ ? config_.release_factor : 1.0;
+  std::vector<Threat> result;
+  const common::Pose2 T_level_map = input.T_map_level.inverse();
+  const Eigen::Rotation2Dd to_level(T_level_map.yaw_rad);
+  for (const DynamicObstacle& o : input.obstacles) {
+    const double age_s = std::max(0.0, (input.stamp - o.last_seen).seconds());
+    const bool moving = o.moving && o.velocity_map_m_s.norm() >= config_.closing_speed_m_s;
+    const Point velocity_map_m_s = moving ? o.velocity_map_m_s : Point::Zero();
+    Threat threat{T_level_map * Point(o.center_map_m + velocity_map_m_s * age_s), o.radius_m,
+                  to_level * velocity_map_m_s, false, ""};
+    const double gap_m = threat.gapTo(hull_radius_m_, Point::Zero(), 0.0);
+    const bool leaving = moving && threat.velocity_m_s.dot(threat.center_m) > 0.0;
+    double least_m = gap_m;
+    for (double t = kTimeStep_s; t <= config_.contact_time_s * slack; t += kTimeStep_s)
+      least_m = std::min(least_m, threat.gapTo(hull_radius_m_, Point::Zero(), t));
+    const bool near = gap_m < config_.retreat_distance_m * slack;
+    const bool closing = moving && least_m < config_.contact_gap_m * slack;
+    threat.dangerous = (near || closing) && !leaving;
+    threat.why = fmt::format("{} {:.2f} m off the hull at {}", closing ? "something closing in," : "something unmapped",
+                             gap_m, bearingInWords(threat.center_m));
+    result.push_back(threat);
+  }
+  if (input.cost_map == nullptr) return result;
+  const auto followed_count = static_cast<std::ptrdiff_t>(result.size());
+  for (const Bin& bin : bins) {
+    const double gap_m = bin.range_m - hull_radius_m_;
+    if (gap_m >= config_.retreat_distance_m * slack || isMapped(input, bin.nearest_level_m)) continue;
+    const bool followed = std::any_of(result.begin(), result.begin() + followed_count, [&](const Threat& t) {
+      return (t.center_m - bin.nearest_level_m).norm() <= t.radius_m + kSameBody_m;
+    });
+    if (followed) continue;
+    result.push_back(
+        {bin.nearest_level_m, 0.0, Point::Zero(), true,
+         fmt::format("something unmapped {:.2f} m off the hull at {}", gap_m, bearingInWords(bin.nearest_level_m))});
+  }
+  return result;
+}
+
+double Avoidance::speedLimit(const Point& direction, const Points& points) const {
+  double gap_m = kInfinity;
+  for (const Point& p : points) gap_m = std::min(gap_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
+  // Where the laser does not look the map knows the walls, and nobody knows who walks there.
+  const double most_m_s = isSeen(direction) ? config_.max_speed_m_s : config_.blind_speed_m_s;
+  return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed(gap_m)) : most_m_s;
+}
+
+bool Avoidance::isSeen(const Point& direction) const {
+  return std::abs(std::atan2(direction.y(), direction.x())) <=
+         0.5 * config_.field_of_view_deg * std::numbers::pi / 180.0;
+}
+
+double Avoidance::stoppingSpeed(double gap_m) const {
+  // v t + v^2 / (2 a) = gap
+  const double a = config_.deceleration_m_s2, t = config_.latency_s;
+  return std::sqrt(a * a * t * t + 2.0 * a * gap_m) - a * t;
+}
+
+double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double intended_m_s,
+                                const std::vector<Threat>& threats) const {
+  constexpr double kStep_m_s = 0.1, kHorizon_s = 2.5;
+  const double a = config_.deceleration_m_s2;
+  const auto leastGap = [&](const Threat& threat, double v) {
+    double moved_m = 0.0, now_m_s = speed_m_s, least_m = kInfinity;
+    for (double time_s = 0.0; time_s <= kHorizon_s; time_s += kTimeStep_s) {
+      least_m = std::min(least_m, threat.gapTo(hull_radius_m_, moved_m * direction, time_s));
+      if (time_s >= config_.latency_s) now_m_s += std::clamp(v - now_m_s, -a * kTimeStep_s, a * kTimeStep_s);
+      moved_m += now_m_s * kTimeStep_s;
+    }
+    return least_m;
+  };
+  double result_m_s = intended_m_s;
+  for (const Threat& threat : threats) {
+    if (threat.velocity_m_s.isZero()) continue;
+    // Nearer than the gap it may come only as far as it would to a vehicle that stops at once.
+    const double enough_m = std::min(config_.release_factor * config_.contact_gap_m, leastGap(threat, 0.0) - 1e-6);
+    while (result_m_s > 0.0 && leastGap(threat, result_m_s) < enough_m) result_m_s -= kStep_m_s;
+  }
+  return std::max(0.0, result_m_s);
+}
+
+Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const {
+  // The danger may just have passed: then it stands until it is over for good.
+  if (std::none_of(threats.begin(), threats.end(), [](const Threat& t) { return t.dangerous; })) return Point::Zero();
+  return retreatVelocity(
+      config_, hull_radius_m_,
+      {input.velocity_level_m_s, points, threats, last_retreat_level_, input.T_map_level, input.cost_map});
+}
+
+/// The laser does not see all around: who walks where it does not look is forgotten after a while, and comes back as a
+/// surprise; and who flies backwards meets somebody else there.
+double Avoidance::turnToSee(const std::vector<Threat>& threats, const Point& retreat_level_m_s) const {
+  constexpr double kStep_rad = std::numbers::pi / 36.0, kDanger = 4.0, kWayOut = 2.0, kLeast_m_s = 0.1;
+  const Threat* nearest = nullptr;
+  for (const Threat& threat : threats) {
+    if (!threat.dangerous && threat.velocity_m_s.isZero()) continue;
+    if (nearest == nullptr || threat.center_m.norm() < nearest->center_m.norm()) nearest = &threat;
+  }
+  if (nearest == nullptr) return 0.0;
+  const double seen_rad = (0.5 * config_.field_of_view_deg - config_.view_margin_deg) * std::numbers::pi / 180.0;
+  const auto outside_rad = [&](const Point& direction, double turn_rad) {
+    const double bearing_rad = common::wrapAngle(std::atan2(direction.y(), direction.x()) - turn_rad);
+    return std::max(0.0, std::abs(bearing_rad) - seen_rad);
+  };
+  double best_rad = 0.0, least_cost = kInfinity;
+  for (int i = 0; i <= 36; ++i) {
+    for (const double turn_rad : {i * kStep_rad, -i * kStep_rad}) {
+      double cost = std::abs(turn_rad) + kDanger * outside_rad(nearest->center_m, turn_rad);
+      if (retreat_level_m_s.norm() > kLeast_m_s) cost += kWayOut * outside_rad(retreat_level_m_s, turn_rad);
+      if (cost >= least_cost - 1e-9) continue;
+      least_cost = cost;
+      best_rad = turn_rad;
+    }
+  }
+  return best_rad;
+}
+
+}  // namespace swiftlet::planning

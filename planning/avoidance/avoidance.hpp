@@ -1,0 +1,123 @@
+// The reactive layer at the laser rate, under every intent (Saeedi, section III-G): beams smoothed by a sliding window
+// and put into bins; the speed is limited so that the vehicle can stop; from what is unmapped or closing it retreats.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "common/world.hpp"
+#include "planning/avoidance/dynamic_obstacles.hpp"
+#include "planning/costs/cost_map.hpp"
+
+namespace swiftlet::planning {
+
+struct Threat;
+
+/// One scan and what is known beside it. The level frame is the body frame without roll and pitch.
+struct AvoidanceInput {
+  common::Time stamp;
+  std::span<const Eigen::Vector2f> points_level_m;  ///< In order of bearing; points that are not finite are left out.
+  Eigen::Vector2d velocity_level_m_s = Eigen::Vector2d::Zero();
+  Eigen::Vector2d wish_level_m_s = Eigen::Vector2d::Zero();  ///< What the intent wants; zero: to stop.
+  common::Pose2 T_map_level;
+  const CostMap* cost_map = nullptr;           ///< May be null: then nothing is known to be mapped.
+  std::span<const DynamicObstacle> obstacles;  ///< From DynamicObstacles, in the `map` frame.
+};
+
+struct AvoidanceDecision {
+  double speed_limit_m_s = 0.0;  ///< Along the wish, or the velocity when that is zero.
+  /// When set it replaces what the intent wants; to be flown with `retreat_acceleration_m_s2`.
+  std::optional<Eigen::Vector2d> retreat_velocity_level_m_s;
+  double retreat_acceleration_m_s2 = 0.0;
+  double turn_rad = 0.0;  ///< While retreating: by so much it must turn to see what it retreats from, and where to.
+  common::AvoidanceStatus status;
+};
+
+/// The range of one sector, from the body origin; infinity when it holds no return.
+struct Bin {
+  double bearing_rad = 0.0;  ///< Of the middle.
+  double range_m = 0.0;
+  Eigen::Vector2d nearest_level_m = Eigen::Vector2d::Zero();  ///< The smoothed return that gave the range.
+};
+
+/// Keeps the hysteresis and the last decision. One thread; call once a scan.
+///
+///           danger: unmapped and near, or on a course to hit          gone for `calm_s`
+///   calm ------------------------------------------------> retreating -----------------> calm
+///
+/// Retreat is for what standing still does not solve: something unmapped within `retreat_distance_m` of the hull, or
+/// something moving that would come within `contact_gap_m` of the vehicle at rest before `contact_time_s`. What the map
+/// holds and does not move only brakes. All distances are from the hull.
+class Avoidance {
+ public:
+  /// kMean is the paper's; its mean over 5 deg hides a thin pole. kRobustMinimum takes the least of the medians of
+  /// three neighbouring beams, which one stray return does not move.
+  enum class BinRange { kMean, kRobustMinimum };
+
+  struct Config {
+    int bins = 54;
+    double field_of_view_deg = 270.0;
+    BinRange bin_range = BinRange::kRobustMinimum;
+    int smoothing_window = 5;
+    double max_speed_m_s = 1.5;
+    double deceleration_m_s2 = 1.0;
+    double blind_speed_m_s = 0.3;
+    double latency_s = 0.15;
+    double margin_m = 0.05;
+    double retreat_distance_m = 0.25;
+    double contact_time_s = 1.8;
+    double contact_gap_m = 0.20;
+    double closing_speed_m_s = 0.15;
+    double mapped_within_m = 0.15;
+    double retreat_speed_m_s = 0.7;
+    double retreat_margin_m = 0.15;
+    double view_margin_deg = 30.0;
+    double release_factor = 1.3;
+    double calm_s = 0.6;
+    double self_radius_m = 0.10;
+
+    void describe(common::config::Fields& fields);
+    std::vector<std::string> validate() const;
+    /// Problems of these distances with a clearance the planner may use and with what it keeps from unmapped things
+    /// beyond that (DynamicObstacles::Config::keep_out_m): what would stop the vehicle, or make it retreat, on a path
+    /// that the planner may take is refused. Empty when they fit.
+    std::vector<std::string> validateAgainst(double clearance_m, double keep_out_m) const;
+  };
+
+  Avoidance(const Config& config, double hull_radius_m);
+
+  [[nodiscard]] AvoidanceDecision update(const AvoidanceInput& input);
+
+  /// The returns after the sliding window, and the sectors of a scan; functions of their arguments alone.
+  static std::vector<Eigen::Vector2d> smoothed(const Config& config, std::span<const Eigen::Vector2f> points_level_m);
+  static std::vector<Bin> bins(const Config& config, const std::vector<Eigen::Vector2d>& smoothed_level_m);
+
+ private:
+  using Points = std::vector<Eigen::Vector2d>;
+
+  std::vector<Threat> threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
+  double speedLimit(const Eigen::Vector2d& direction, const Points& points) const;
+  bool isSeen(const Eigen::Vector2d& direction) const;
+  double stoppingSpeed(double gap_m) const;
+  double yieldingSpeed(const Eigen::Vector2d& direction, double speed_m_s, double intended_m_s,
+                       const std::vector<Threat>& threats) const;
+  Eigen::Vector2d retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const;
+  double turnToSee(const std::vector<Threat>& threats, const Eigen::Vector2d& retreat_level_m_s) const;
+  bool isMapped(const AvoidanceInput& input, const Eigen::Vector2d& point_level_m) const;
+
+  Config config_;
+  double hull_radius_m_;
+  bool retreating_ = false;
+  common::Time danger_stamp_;
+  std::string danger_;
+  Eigen::Vector2d last_retreat_level_ = Eigen::Vector2d::Zero();
+};
+
+}  // namespace swiftlet::planning

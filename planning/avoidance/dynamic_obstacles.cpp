@@ -1,0 +1,204 @@
+#include "planning/avoidance/dynamic_obstacles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+using common::CellIndex;
+using Point = Eigen::Vector2d;
+
+/// In space the background knows as free, with nothing occupied or unknown within `cells`.
+bool unexplained(const common::OccupancyGrid& background, const Point& point_m, int cells) {
+  const CellIndex center = background.cellAt(point_m);
+  for (int dy = -cells; dy <= cells; ++dy) {
+    for (int dx = -cells; dx <= cells; ++dx) {
+      if (dx * dx + dy * dy > cells * cells) continue;
+      if (!common::occupancy::isFree(background.at({center.x + dx, center.y + dy}))) return false;
+    }
+  }
+  return true;
+}
+
+/// Beams pass the middle of where it should be and end well behind it.
+bool seenThrough(const DynamicObstacle& obstacle, double age_s, std::span<const Eigen::Vector2f> points_map_m,
+                 const Point& sensor_map_m) {
+  constexpr int kBeams = 2;
+  constexpr double kBehind_m = 0.2;
+  const Point to = obstacle.center_map_m + obstacle.velocity_map_m_s * age_s - sensor_map_m;
+  int through = 0;
+  for (const Eigen::Vector2f& point : points_map_m) {
+    const Point beam = point.cast<double>() - sensor_map_m;
+    const double length_m = beam.norm();
+    if (!(length_m > to.norm() + obstacle.radius_m + kBehind_m) || beam.dot(to) <= 0.0) continue;
+    const double aside_m = std::abs(beam.x() * to.y() - beam.y() * to.x()) / length_m;
+    if (aside_m < 0.5 * obstacle.radius_m && ++through >= kBeams) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void BackgroundMap::add(common::Time stamp, std::shared_ptr<const common::OccupancyGrid> grid) {
+  history_.push_back({stamp, std::move(grid)});
+}
+
+std::shared_ptr<const common::OccupancyGrid> BackgroundMap::at(common::Time now) {
+  while (history_.size() > 1 && history_[1].stamp <= now - age_) history_.pop_front();
+  return history_.empty() ? nullptr : history_.front().grid;
+}
+
+void DynamicObstacles::Config::describe(common::config::Fields& fields) {
+  fields("explained_within_m", explained_within_m,
+         "An end point this near to something mapped or unknown is explained.");
+  fields("cluster_gap_m", cluster_gap_m, "Unexplained end points nearer to each other belong together.");
+  fields("min_points", min_points, "Fewer points are taken for noise.");
+  fields("max_radius_m", max_radius_m, "A larger cluster is part of the building, seen from where it was not before.");
+  fields("assumed_depth_m", assumed_depth_m, "The laser sees the near side; the body is this much behind it.");
+  fields("time_to_live_s", time_to_live_s, "How long it is believed in after it was last seen.");
+  fields("refuted_after_s", refuted_after_s, "Not seen for this long where beams pass through, it is gone.");
+  fields("max_speed_m_s", max_speed_m_s, "Nothing is thought to move faster.");
+  fields("moved_m", moved_m, "What has come this far is moving.");
+  fields("moved_within_s", moved_within_s, "What has not come that far in this time is standing.");
+  fields("followed_s", followed_s, "What was followed for a shorter time is not said to move,");
+  fields("followed_share", followed_share,
+         "nor what was seen in a lesser share of the scans: where a nodding laser meets furniture comes and goes.");
+  fields("smoothing_s", smoothing_s, "Time constant of the filter on place and velocity.");
+  fields("keep_out_m", keep_out_m,
+         "Added to the radius for the planner, so that it does not plan what makes the vehicle retreat.");
+  fields("max_range_m", max_range_m, "End points farther away are left out.");
+  fields("background_age_s", background_age_s, "How old the map is that explains end points.");
+}
+
+std::vector<std::string> DynamicObstacles::Config::validate() const {
+  return common::Validation()
+      .within("explained_within_m", explained_within_m, 0, 2)
+      .within("cluster_gap_m", cluster_gap_m, 0.01, 2)
+      .within("min_points", min_points, 1, 1000)
+      .within("max_radius_m", max_radius_m, 0.05, 5)
+      .within("assumed_depth_m", assumed_depth_m, 0, 2)
+      .within("time_to_live_s", time_to_live_s, 0, 60)
+      .within("refuted_after_s", refuted_after_s, 0, 60)
+      .within("max_speed_m_s", max_speed_m_s, 0.1, 20)
+      .within("moved_m", moved_m, 0.01, 5)
+      .within("moved_within_s", moved_within_s, 0.1, 60)
+      .within("followed_s", followed_s, 0, 5)
+      .within("followed_share", followed_share, 0, 1)
+      .within("smoothing_s", smoothing_s, 0.01, 5)
+      .within("keep_out_m", keep_out_m, 0, 2)
+      .within("max_range_m", max_range_m, 0.5, 100)
+      .within("background_age_s", background_age_s, 0, 60)
+      .problems();
+}
+
+DynamicObstacles::DynamicObstacles(const Config& config) : config_(config) {}
+
+std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const Eigen::Vector2f> points_map_m,
+                                                                 const Point& sensor_map_m,
+                                                                 const common::OccupancyGrid& background) const {
+  const int cells = static_cast<int>(std::lround(config_.explained_within_m / background.resolution_m()));
+  std::vector<Cluster> clusters;
+  std::vector<Point> members;
+  const auto close = [&] {
+    if (static_cast<int>(members.size()) >= config_.min_points &&
+        (members.back() - members.front()).norm() <= 2.0 * config_.max_radius_m) {
+      Point mean = Point::Zero();
+      for (const Point& p : members) mean += p / static_cast<double>(members.size());
+      double extent_m = 0.0;
+      for (const Point& p : members) extent_m = std::max(extent_m, (p - mean).norm());
+      const Point away = mean - sensor_map_m;
+      const Point center = away.norm() > 1e-6 ? Point(mean + away.normalized() * config_.assumed_depth_m) : mean;
+      clusters.push_back({center, std::clamp(extent_m, config_.assumed_depth_m, config_.max_radius_m)});
+    }
+    members.clear();
+  };
+  for (const Eigen::Vector2f& point : points_map_m) {
+    if (!point.allFinite()) continue;
+    const Point p = point.cast<double>();
+    if ((p - sensor_map_m).norm() > config_.max_range_m || !unexplained(background, p, cells)) continue;
+    if (!members.empty() && (p - members.back()).norm() > config_.cluster_gap_m) close();
+    members.push_back(p);
+  }
+  close();
+  return clusters;
+}
+
+void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2f> points_map_m,
+                              const Point& sensor_map_m, const common::OccupancyGrid& background) {
+  for (DynamicObstacle& o : obstacles_) ++o.scans;
+  std::vector<bool> taken(obstacles_.size(), false);
+  const std::size_t known = obstacles_.size();
+  for (const Cluster& seen : cluster(points_map_m, sensor_map_m, background)) {
+    std::optional<std::size_t> nearest;
+    double nearest_m = 0.0;
+    for (std::size_t i = 0; i < known; ++i) {
+      const double dt_s = (stamp - obstacles_[i].last_seen).seconds();
+      const Point expected = obstacles_[i].center_map_m + obstacles_[i].velocity_map_m_s * dt_s;
+      const double off_m = (expected - seen.center_map_m).norm();
+      const double gate_m = 0.3 + config_.max_speed_m_s * std::min(dt_s, 0.3);
+      if (taken[i] || off_m > gate_m || (nearest && off_m >= nearest_m)) continue;
+      nearest = i;
+      nearest_m = off_m;
+    }
+    if (!nearest) {
+      obstacles_.push_back(
+          {next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, seen.center_map_m, stamp, 0, 0, stamp});
+      continue;
+    }
+    taken[*nearest] = true;
+    DynamicObstacle& o = obstacles_[*nearest];
+    const double dt_s = (stamp - o.last_seen).seconds();
+    if (dt_s <= 0.0) continue;
+    const Point expected = o.center_map_m + o.velocity_map_m_s * dt_s, error = seen.center_map_m - expected;
+    // The critically damped alpha-beta filter of this time constant.
+    const double forget = std::exp(-dt_s / config_.smoothing_s);
+    o.center_map_m = expected + (1.0 - forget * forget) * error;
+    o.velocity_map_m_s += error * ((1.0 - forget) * (1.0 - forget) / dt_s);
+    const double speed_m_s = o.velocity_map_m_s.norm();
+    if (speed_m_s > config_.max_speed_m_s) o.velocity_map_m_s *= config_.max_speed_m_s / speed_m_s;
+    o.radius_m = std::max(seen.radius_m, 0.9 * o.radius_m);
+    o.last_seen = stamp;
+    ++o.sightings;
+    judgeMotion(o);
+  }
+  std::erase_if(obstacles_, [&](const DynamicObstacle& o) {
+    const double age_s = (stamp - o.last_seen).seconds();
+    return age_s > config_.time_to_live_s ||
+           (age_s > config_.refuted_after_s && seenThrough(o, age_s, points_map_m, sensor_map_m));
+  });
+}
+
+/// What comes into view bit by bit seems to move for a moment, but soon stays where it is.
+void DynamicObstacles::judgeMotion(DynamicObstacle& o) const {
+  const double since_s = (o.last_seen - o.anchor_stamp).seconds();
+  const bool moved = (o.center_map_m - o.anchor_map_m).norm() >= config_.moved_m;
+  const bool followed = since_s >= config_.followed_s && o.sightings >= config_.followed_share * o.scans;
+  if (!(moved && followed) && since_s < config_.moved_within_s) return;
+  o.moving = moved && (followed || o.moving);  // Who was followed before may have been hidden meanwhile.
+  o.anchor_map_m = o.center_map_m;
+  o.anchor_stamp = o.last_seen;
+  o.scans = o.sightings = 0;
+}
+
+bool DynamicObstacles::anyMoves() const {
+  return std::any_of(obstacles_.begin(), obstacles_.end(), [](const DynamicObstacle& o) { return o.moving; });
+}
+
+std::vector<Disc> DynamicObstacles::discs(common::Time now, double horizon_s) const {
+  std::vector<Disc> result;
+  for (const DynamicObstacle& o : obstacles_) {
+    const double age_s = (now - o.last_seen).seconds();
+    if (age_s > config_.time_to_live_s) continue;
+    const Point velocity_map_m_s = o.believedVelocity_map_m_s();
+    const double step_s = std::max(0.1, o.radius_m / std::max(0.1, velocity_map_m_s.norm()));
+    for (double t = 0.0; t <= horizon_s; t += step_s)
+      result.push_back(
+          {o.center_map_m + velocity_map_m_s * (std::min(age_s, 1.0) + t), o.radius_m + config_.keep_out_m});
+  }
+  return result;
+}
+
+}  // namespace swiftlet::planning

@@ -1,0 +1,162 @@
+#include "planning/avoidance/retreat.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace swiftlet::planning {
+namespace {
+
+using Point = Eigen::Vector2d;
+using Points = std::vector<Point>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kStep_s = 0.1;
+constexpr int kSteps = 20;
+/// People are not believed to go on as they do for longer; what is nearer in time than this is past changing.
+constexpr double kForesight_s = 1.5, kTooSoon_s = 0.3;
+constexpr int kDirections = 36;
+constexpr std::array<double, 3> kShareOfSpeed{0.25, 0.5, 1.0};
+constexpr std::array<double, 3> kGoing_s{0.2, 0.5, 0.9};
+/// What else counts than the gap, in metres of it: to go straight away, to go on in the same direction, to go slowly,
+/// and to be worth it at all.
+constexpr double kAway_m = 0.06, kSame_m = 0.05, kHaste_m = 0.06, kWorth_m = 0.02;
+constexpr double kThinned_m = 0.05;
+
+/// Where the vehicle is at every step, from the origin.
+using Course = std::array<Point, kSteps + 1>;
+
+struct Prospect {
+  double seen_m;     ///< Least distance from the centre to a return,
+  double mapped_m;   ///< and to what the map holds.
+  double gap_m;      ///< Least gap to anybody,
+  double end_gap_m;  ///< and at the end of what is foreseen.
+  double room_m;     ///< From the centre to whatever stands, where it ends; no more than the margin asks for.
+
+  double worth_m() const { return gap_m + 0.5 * end_gap_m + room_m; }
+};
+
+class Retreat {
+ public:
+  Retreat(const Avoidance::Config& config, double hull_radius_m, const RetreatInput& input)
+      : config_(config), hull_radius_m_(hull_radius_m), input_(input) {
+    const double reach_m =
+        input.velocity_level_m_s.norm() * config.latency_s + config.retreat_speed_m_s * kSteps * kStep_s;
+    for (const Point& p : input.points_level_m) {
+      const bool far = p.norm() > reach_m + safe_m();
+      if (!far && (near_.empty() || (p - near_.back()).norm() > kThinned_m)) near_.push_back(p);
+    }
+    for (const Threat& threat : input.threats)
+      if (threat.dangerous) away_ += awayFrom(threat);
+    if (away_.norm() > 1e-6) away_.normalize();
+    if (input.last_level_m_s.norm() > 1e-6) last_ = input.last_level_m_s.normalized();
+  }
+
+  Point best() const {
+    const Prospect stop = prospectOf(courseAt(Point::Zero(), 0.0));
+    double best_score = -kInfinity;
+    Point best = Point::Zero();
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle_rad = 2.0 * std::numbers::pi * i / kDirections;
+      const Point direction(std::cos(angle_rad), std::sin(angle_rad));
+      for (const double share : kShareOfSpeed) {
+        const Point velocity = share * config_.retreat_speed_m_s * direction;
+        for (const double going_s : kGoing_s) {
+          const Course course = courseAt(velocity, going_s);
+          const Prospect prospect = prospectOf(course);
+          const bool clear = prospect.seen_m >= std::min(stop.seen_m, safe_m()) &&
+                             prospect.mapped_m >= std::min(stop.mapped_m, safe_m());
+          if (!clear || prospect.gap_m < stop.gap_m) continue;
+          if (prospect.worth_m() < stop.worth_m() + kWorth_m) continue;
+          const double score =
+              prospect.worth_m() + kAway_m * direction.dot(away_) + kSame_m * direction.dot(last_) - kHaste_m * share;
+          if (score <= best_score) continue;
+          best_score = score;
+          best = velocity;
+        }
+      }
+    }
+    return best;
+  }
+
+ private:
+  /// Out of the way of who passes, rather than along it before him; straight away from who comes straight on.
+  static Point awayFrom(const Threat& threat) {
+    constexpr double kPasses_m = 0.5;
+    Point straight = -threat.center_m.normalized();
+    if (threat.velocity_m_s.isZero()) return straight;
+    const Point along = threat.velocity_m_s.normalized();
+    const Point aside = -threat.center_m + threat.center_m.dot(along) * along;
+    const double passing = std::min(1.0, aside.norm() / kPasses_m);
+    return passing * aside.normalized() + (1.0 - passing) * straight;
+  }
+
+  double safe_m() const { return hull_radius_m_ + config_.retreat_margin_m; }
+
+  /// Towards that velocity for so long, then to rest.
+  Course courseAt(const Point& wanted_m_s, double going_s) const {
+    const double most_m_s = config_.deceleration_m_s2 * kStep_s;
+    Course course;
+    Point place = Point::Zero(), velocity = input_.velocity_level_m_s;
+    for (int i = 0; i <= kSteps; ++i) {
+      course[static_cast<std::size_t>(i)] = place;
+      const double since_s = i * kStep_s - config_.latency_s;
+      if (since_s >= 0.0) {
+        const Point change = (since_s < going_s ? wanted_m_s : Point::Zero()) - velocity;
+        velocity += change.norm() > most_m_s ? Point(change.normalized() * most_m_s) : change;
+      }
+      place += velocity * kStep_s;
+    }
+    return course;
+  }
+
+  Prospect prospectOf(const Course& course) const {
+    // Beyond what releases a retreat by more than is not worth moving for.
+    const double enough_m =
+        config_.release_factor * std::max(config_.retreat_distance_m, config_.contact_gap_m) + 2.0 * kWorth_m;
+    double seen_m = kInfinity, mapped_m = kInfinity, gap_m = enough_m, end_gap_m = enough_m, room_m = 0.0;
+    double time_s = 0.0;
+    for (const Point& place : course) {
+      const double to_seen_m = toSeen_m(place), to_mapped_m = toMapped_m(place);
+      seen_m = std::min(seen_m, to_seen_m);
+      mapped_m = std::min(mapped_m, to_mapped_m);
+      room_m = std::min({to_seen_m, to_mapped_m, safe_m()});
+      if (time_s >= kTooSoon_s && time_s <= kForesight_s) {
+        end_gap_m = enough_m;
+        for (const Threat& threat : input_.threats)
+          end_gap_m = std::min(end_gap_m, threat.gapTo(hull_radius_m_, place, time_s));
+        gap_m = std::min(gap_m, end_gap_m);
+      }
+      time_s += kStep_s;
+    }
+    return {seen_m, mapped_m, gap_m, end_gap_m, room_m};
+  }
+
+  double toSeen_m(const Point& place) const {
+    double squared = kInfinity;
+    for (const Point& p : near_) squared = std::min(squared, (p - place).squaredNorm());
+    return std::sqrt(squared);
+  }
+
+  double toMapped_m(const Point& place) const {
+    if (input_.cost_map == nullptr) return kInfinity;
+    const common::CellIndex cell = input_.cost_map->cellAt(input_.T_map_level * place);
+    return input_.cost_map->stateAt(cell) == CellState::kUnknown ? 0.0 : input_.cost_map->obstacleDistance_m(cell);
+  }
+
+  const Avoidance::Config& config_;
+  double hull_radius_m_;
+  const RetreatInput& input_;
+  Points near_;
+  Point away_ = Point::Zero(), last_ = Point::Zero();
+};
+
+}  // namespace
+
+Eigen::Vector2d retreatVelocity(const Avoidance::Config& config, double hull_radius_m, const RetreatInput& input) {
+  return Retreat(config, hull_radius_m, input).best();
+}
+
+}  // namespace swiftlet::planning

@@ -1,0 +1,26 @@
+// The exact Euclidean distance transform with a bounded reach, one tile at a time, so that a map is repaired where it
+// changed. Two passes: down and up the columns, then across the rows (Saito and Toriwaki 1994).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/tiled_grid.hpp"
+#include "planning/costs/cost_map.hpp"
+
+namespace swiftlet::planning {
+
+/// A row-by-row array of states that is looked into.
+struct StateImage {
+  const std::vector<CellState>& states;
+  int width;
+  int height;
+};
+
+/// Writes into `squared` (same shape as the image), for the 64 x 64 cells from column `x0` and row `y0` on, the squared
+/// distance in cells to the nearest cell in state `which`, cut at (reach + 1) squared. Outside the image nothing is in
+/// that state. 0 <= reach <= CostMap::kMaxReachCells.
+void tileDistances(const StateImage& image, int x0, int y0, CellState which, int reach,
+                   std::vector<std::int16_t>& squared);
+
+}  // namespace swiftlet::planning

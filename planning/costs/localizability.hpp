@@ -1,0 +1,29 @@
+// How well the laser fixes x, y and yaw at a place: the information matrix of the walls it would see there (Bachrach
+// 2009, section 5.4: the ability of the vehicle to localize itself). A long corridor fixes one direction only.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "planning/costs/cost_map.hpp"
+
+namespace swiftlet::planning {
+
+/// A return expected from a wall, seen from the place, with the wall's unit normal there.
+struct WallReturn {
+  Eigen::Vector2d offset_m;
+  Eigen::Vector2d normal;
+};
+
+/// The normal of the occupied cells around one, by their principal axis; zero when they have none (a lone cell).
+Eigen::Vector2d wallNormal(const CostMap& map, int index);
+
+/// 0 (some direction, or the yaw, is not fixed at all) to 1 (walls all around). `beams` counts those without return
+/// too.
+double localizability(const std::vector<WallReturn>& returns, int beams);
+
+/// The same for a place, by casting `beams` rays up to `range_m`.
+double localizabilityAt(const CostMap& map, common::CellIndex place, double range_m, int beams = 90);
+
+}  // namespace swiftlet::planning

@@ -1,0 +1,87 @@
+// Exploration: what is left to see, why each rest is left, and where to look from next. Frontiers after Yamauchi, used
+// by Saeedi, section III-F; scored by what would be seen and by how well the laser fixes the pose there (Bachrach 2009,
+// section 5.4).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config.hpp"
+#include "common/geometry.hpp"
+#include "common/intent.hpp"
+#include "common/world.hpp"
+#include "planning/costs/cost_map.hpp"
+#include "planning/search/planner.hpp"
+
+namespace swiftlet::planning {
+
+/// Where to look from.
+struct Viewpoint {
+  common::Pose2 pose_map;
+  Path path;                                               ///< From the present pose.
+  Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();  ///< The unknown place it is for.
+  double gain_m2 = 0.0;                                    ///< Unknown area expected to be seen.
+  double utility = 0.0;
+};
+
+/// A look at an unknown place that stayed unknown, and from where.
+struct ExplorationAttempt {
+  Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
+};
+
+/// How the next viewpoint is chosen among the best of each frontier.
+enum class ExplorationStrategy { kNearest, kUtility };
+
+struct ExplorationInput {
+  std::shared_ptr<const CostMap> cost_map;  ///< Not null. Built at the clearance to be flown; holds the grid's states.
+  common::Pose2 pose_map;
+  std::optional<Viewpoint> current;  ///< The one being flown to; kept unless another is clearly better.
+  std::vector<ExplorationAttempt> attempts;
+  std::optional<common::MapBounds> bounds;  ///< What lies outside is left.
+};
+
+struct ExplorationResult {
+  std::vector<common::Frontier> frontiers;  ///< All of them, each with its reason; open ones best first.
+  std::optional<Viewpoint> next;            ///< None when done, or when the vehicle itself is shut in.
+  bool done = false;                        ///< No frontier is open: each has its reason.
+  bool kept_current = false;                ///< `next` goes on with the viewpoint that was given as current.
+  double explored_area_m2 = 0.0;            ///< Of known free cells.
+  std::string reason;                       ///< For people: "4 open frontiers, next 3.2 m away".
+};
+
+struct ExplorationConfig {
+  ExplorationStrategy strategy = ExplorationStrategy::kUtility;
+  double min_frontier_m = 0.30;
+  double segment_m = 1.5;
+  double laser_range_m = 12.0;
+  double laser_field_of_view_deg = 270.0;
+  double gain_depth_m = 2.0;
+  double gain_exponent = 0.6;
+  double min_gain_m2 = 0.03;
+  double speed_m_s = 0.8;
+  double yaw_rate_rad_s = 1.0;
+  double acceleration_m_s2 = 0.8;
+  double hysteresis = 0.25;
+  double localizability_weight = 0.3;
+  int max_attempts = 3;
+  double attempt_radius_m = 0.35;
+  int max_evaluated = 30;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// A pure function of its arguments; run it as a job.
+[[nodiscard]] ExplorationResult explore(const ExplorationInput& input, const ExplorationConfig& config);
+
+/// The viewpoint was reached and what is seen from it is in the map.
+inline ExplorationAttempt attemptFrom(const Viewpoint& viewpoint) {
+  return {viewpoint.target_map_m, viewpoint.pose_map.position_m()};
+}
+
+}  // namespace swiftlet::planning

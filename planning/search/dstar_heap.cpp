@@ -1,0 +1,57 @@
+// The queue of D* Lite: a 4-ary heap whose vertices know their place, so that any of them can be moved or removed.
+#include <algorithm>
+
+#include "planning/search/dstar_lite.hpp"
+
+namespace swiftlet::planning {
+namespace {
+constexpr std::size_t kChildren = 4;
+}
+
+void DStarLite::insert(std::int32_t index, Key key) {
+  heap_.push_back({key, index});
+  siftUp(heap_.size() - 1, {key, index});
+}
+
+void DStarLite::remove(Vertex& vertex) {
+  const auto place = static_cast<std::size_t>(vertex.place);
+  vertex.place = -1;
+  const Entry last = heap_.back();
+  heap_.pop_back();
+  if (place == heap_.size()) return;
+  if (place > 0 && last.key < heap_[(place - 1) / kChildren].key)
+    siftUp(place, last);
+  else
+    siftDown(place, last);
+}
+
+void DStarLite::siftUp(std::size_t place, Entry entry) {
+  while (place > 0) {
+    const std::size_t parent = (place - 1) / kChildren;
+    if (heap_[parent].key <= entry.key) break;
+    heap_[place] = heap_[parent];
+    vertices_[static_cast<std::size_t>(heap_[place].index)].place = static_cast<std::int32_t>(place);
+    place = parent;
+  }
+  heap_[place] = entry;
+  vertices_[static_cast<std::size_t>(entry.index)].place = static_cast<std::int32_t>(place);
+}
+
+void DStarLite::siftDown(std::size_t place, Entry entry) {
+  while (true) {
+    const std::size_t first = place * kChildren + 1;
+    if (first >= heap_.size()) break;
+    std::size_t least = first;
+    const std::size_t end = std::min(first + kChildren, heap_.size());
+    for (std::size_t child = first + 1; child < end; ++child)
+      if (heap_[child].key < heap_[least].key) least = child;
+    if (heap_[least].key >= entry.key) break;
+    heap_[place] = heap_[least];
+    vertices_[static_cast<std::size_t>(heap_[place].index)].place = static_cast<std::int32_t>(place);
+    place = least;
+  }
+  heap_[place] = entry;
+  vertices_[static_cast<std::size_t>(entry.index)].place = static_cast<std::int32_t>(place);
+}
+
+}  // namespace swiftlet::planning

@@ -1,0 +1,86 @@
+// D* Lite, optimized version (Koenig and Likhachev 2002, figure 4), as Grzonka 2012, section IV-E, plans with: the
+// search of the last plan is repaired where cells changed and when the vehicle has moved.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planning/search/planner.hpp"
+
+namespace swiftlet::planning {
+
+/// 8-connected, no corner cut, integer costs, everything in arrays over the dense rectangle of the cost map. The same
+/// goal cell keeps the search; another goal, rectangle or resolution starts anew. Costs are compared with those of the
+/// last call, so any map may be given at any time. Costs of paths must stay below 2^30, about 100 km of dear cells.
+class DStarLite final : public Planner {
+ public:
+  [[nodiscard]] tl::expected<Path, PlanFailure> plan(const CostMap& map, const Eigen::Vector2d& start_map_m,
+                                                     const Eigen::Vector2d& goal_map_m) override;
+
+  /// The cost of the cell path of the last successful plan, from where the search started to the goal; for tests.
+  std::int32_t searchCost() const { return search_cost_; }
+  /// Vertices taken from the queue by the last plan.
+  int expansions() const { return expansions_; }
+
+ private:
+  static constexpr std::int32_t kInfinity = 1 << 30;
+  using Key = std::uint64_t;  ///< (k1, k2) packed: compares as the pair does.
+
+  /// All that is known of a cell; 16 bytes, so that a row of neighbours shares a cache line.
+  struct Vertex {
+    std::int32_t g = kInfinity;
+    std::int32_t rhs = kInfinity;
+    std::int32_t place = -1;  ///< In the heap; -1: not in it.
+    CostMap::Cost cost = CostMap::kLethal;
+    std::uint16_t generation = 0;  ///< Older than generation_: never touched since the restart.
+  };
+  struct Entry {
+    Key key;
+    std::int32_t index;
+  };
+  struct Edge {
+    std::int32_t to;
+    std::int32_t cost;
+  };
+  struct Edges {
+    Edge edges[8];
+    int count = 0;
+    const Edge* begin() const { return edges; }
+    const Edge* end() const { return edges + count; }
+  };
+
+  void restart(const CostMap& map, int goal);
+  void adoptChanges(const CostMap& map);
+  void search();
+  CellPath follow(const CostMap& map);
+
+  Vertex& touch(std::int32_t index);
+  Edges edgesOf(std::int32_t index);
+  std::int32_t bestOverNeighbours(std::int32_t index);
+  std::int32_t heuristic(std::int32_t a, std::int32_t b) const;
+  Key keyOf(std::int32_t index, const Vertex& vertex) const;
+  void updateVertex(std::int32_t index, Vertex& vertex);
+
+  void insert(std::int32_t index, Key key);
+  void remove(Vertex& vertex);
+  void siftUp(std::size_t place, Entry entry);
+  void siftDown(std::size_t place, Entry entry);
+
+  common::CellRect rect_;
+  double resolution_m_ = 0.0;
+  int stride_ = 0;
+  std::int32_t goal_ = -1;
+  std::int32_t start_ = -1;
+  std::uint32_t key_offset_ = 0;  ///< k_m of the paper.
+  std::uint16_t generation_ = 0;
+  std::int32_t step_per_cm_ = 0;
+  std::vector<CostMap::Cost> cost_;      ///< As the search knows them.
+  std::vector<std::int16_t> height_cm_;  ///< The same; empty without levels.
+  std::vector<Vertex> vertices_;
+  std::vector<Entry> heap_;
+  std::vector<std::uint8_t> marked_;  ///< All zero between calls.
+  std::int32_t search_cost_ = 0;
+  int expansions_ = 0;
+};
+
+}  // namespace swiftlet::planning

@@ -1,0 +1,136 @@
+#include "planning/search/plan_keeper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "common/validation.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+/// The share of the way from a to b at the point nearest to p, in [0, 1].
+double shareNearest(const Point& a, const Point& b, const Point& p) {
+  const Point step = b - a;
+  const double squared = step.squaredNorm();
+  return squared > 0.0 ? std::clamp((p - a).dot(step) / squared, 0.0, 1.0) : 0.0;
+}
+
+/// The cost of what is left; the vehicle's own place and what it has to leave may be lethal, what comes after may not.
+struct Rest {
+  double cost_m = 0.0;
+  std::optional<Point> blocked_map_m;
+};
+
+Rest costOf(const CostMap& map, const std::vector<Point>& points_m) {
+  Rest rest;
+  bool leaving = map.costAt(map.cellAt(points_m.front())) == CostMap::kLethal;
+  for (std::size_t i = 1; i < points_m.size(); ++i) {
+    const SegmentCost step = segmentCost(map, points_m[i - 1], points_m[i]);
+    if (!step.lethal) {
+      leaving = false;
+      rest.cost_m += step.cost_m;
+      continue;
+    }
+    const bool out = map.costAt(map.cellAt(points_m[i])) != CostMap::kLethal;
+    if (!leaving) {
+      rest.blocked_map_m = points_m[i];
+      return rest;
+    }
+    leaving = !out;
+    rest.cost_m += (points_m[i] - points_m[i - 1]).norm();
+  }
+  if (leaving && points_m.size() > 1) rest.blocked_map_m = points_m.back();
+  return rest;
+}
+
+}  // namespace
+
+void PlanKeeper::Config::describe(common::config::Fields& fields) {
+  fields("max_age_s", max_age_s, "An older plan is checked against a new one.");
+  fields("better_by", better_by, "A new plan replaces a valid one when it is cheaper by this share.");
+  fields("max_deviation_m", max_deviation_m, "Farther than this from the plan it no longer holds.");
+}
+
+std::vector<std::string> PlanKeeper::Config::validate() const {
+  return common::Validation()
+      .positive("max_age_s", max_age_s)
+      .within("better_by", better_by, 0, 1)
+      .within("max_deviation_m", max_deviation_m, 0.01, 10)
+      .problems();
+}
+
+void PlanKeeper::clear() {
+  path_.reset();
+  valid_ = false;
+}
+
+PlanKeeper::Check PlanKeeper::check(common::Time now, const CostMap& map, const Point& position_map_m) {
+  if (!path_) return {false, true, "no plan"};
+  advanceTo(position_map_m);
+  const std::vector<Point> rest = remaining();
+  const double deviation_m = (position_map_m - rest.front()).norm();
+  Check result{true, (now - stamp_).seconds() >= config_.max_age_s, ""};
+  if (const Rest left = costOf(map, rest); left.blocked_map_m) {
+    result = {false, true,
+              fmt::format("blocked before ({:.2f}, {:.2f})", left.blocked_map_m->x(), left.blocked_map_m->y())};
+  } else if (deviation_m > config_.max_deviation_m) {
+    result = {false, true, fmt::format("{:.2f} m off the plan", deviation_m)};
+  }
+  valid_ = result.valid;
+  return result;
+}
+
+bool PlanKeeper::offer(const Path& path, common::Time now, const CostMap& map, const Point& position_map_m) {
+  if (path_ && valid_ && path.points_map_m.back() == path_->points_map_m.back()) {
+    advanceTo(position_map_m);
+    stamp_ = now;
+    const Rest old = costOf(map, remaining());
+    if (!old.blocked_map_m && path.cost_m >= old.cost_m * (1.0 - config_.better_by)) return false;
+  }
+  path_ = path;
+  stamp_ = now;
+  segment_ = 0;
+  along_ = 0.0;
+  valid_ = true;
+  advanceTo(position_map_m);
+  return true;
+}
+
+void PlanKeeper::advanceTo(const Point& position_map_m) {
+  const std::vector<Point>& points = path_->points_map_m;
+  constexpr double kSame_m = 1e-9;  // At a corner the segment after it counts.
+  // Only forwards, and not past a place that is farther off than where it stands: a path may pass itself.
+  double best_m = std::numeric_limits<double>::infinity();
+  std::size_t best_segment = segment_;
+  double best_along = along_;
+  for (std::size_t i = segment_; i + 1 < points.size(); ++i) {
+    double share = shareNearest(points[i], points[i + 1], position_map_m);
+    if (i == segment_) share = std::max(share, along_);
+    const double off_m = (points[i] + share * (points[i + 1] - points[i]) - position_map_m).norm();
+    if (off_m <= best_m + kSame_m) {
+      best_m = std::min(best_m, off_m);
+      best_segment = i;
+      best_along = share;
+    } else if (off_m > best_m + config_.max_deviation_m) {
+      break;
+    }
+  }
+  segment_ = best_segment;
+  along_ = best_along;
+}
+
+std::vector<Point> PlanKeeper::remaining() const {
+  if (!path_) return {};
+  const std::vector<Point>& points = path_->points_map_m;
+  if (points.size() == 1) return points;
+  std::vector<Point> rest{points[segment_] + along_ * (points[segment_ + 1] - points[segment_])};
+  rest.insert(rest.end(), points.begin() + static_cast<std::ptrdiff_t>(segment_) + 1, points.end());
+  return rest;
+}
+
+}  // namespace swiftlet::planning

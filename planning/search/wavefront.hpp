@@ -1,0 +1,45 @@
+// The wavefront planner (Saeedi, section III-F): the cost of reaching every cell from one, optimal and without local
+// minima. Also gives exploration its distances.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planning/search/planner.hpp"
+
+namespace swiftlet::planning {
+
+/// The cheapest cost from a source cell to every cell it reaches, exact (equal to Dijkstra).
+/// Buckets as wide as the cheapest edge: cells in one bucket cannot improve each other, so no heap is needed.
+class CostField {
+ public:
+  static constexpr std::int32_t kUnreached = INT32_MAX;
+
+  /// Spreads from `source` (not lethal) until everything reachable is settled, or until `until` is when given.
+  void spread(const CostMap& map, common::CellIndex source, std::optional<common::CellIndex> until = std::nullopt);
+
+  std::int32_t at(int index) const { return cost_[static_cast<std::size_t>(index)]; }
+  bool reached(int index) const { return at(index) != kUnreached; }
+  /// In metres of open space.
+  double cost_m(int index, double resolution_m) const { return at(index) * (resolution_m / CostMap::kStraightMin); }
+  /// From the source to a reached cell.
+  CellPath pathTo(const CostMap& map, common::CellIndex target) const;
+
+ private:
+  std::vector<std::int32_t> cost_;
+  std::vector<std::uint8_t> from_;  ///< Direction the cell was reached by.
+  std::vector<std::vector<std::int32_t>> buckets_;
+};
+
+class Wavefront final : public Planner {
+ public:
+  [[nodiscard]] tl::expected<Path, PlanFailure> plan(const CostMap& map, const Eigen::Vector2d& start_map_m,
+                                                     const Eigen::Vector2d& goal_map_m) override;
+  std::int32_t searchCost() const { return search_cost_; }
+
+ private:
+  CostField field_;
+  std::int32_t search_cost_ = 0;
+};
+
+}  // namespace swiftlet::planning
