@@ -4,8 +4,9 @@
 #   included as system headers.
 function(swiftlet_library name)
   cmake_parse_arguments(ARG "" "EXCLUDE;FOLDER" "DEPENDS;PRIVATE" ${ARGN})
-  cmake_path(ABSOLUTE_PATH ARG_FOLDER BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" NORMALIZE)
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${ARG_FOLDER}/*.cpp")
+  set(folder "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FOLDER}")
+  cmake_path(NORMAL_PATH folder)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${folder}/*.cpp")
   if(ARG_EXCLUDE)
     list(FILTER sources EXCLUDE REGEX "${ARG_EXCLUDE}")
   endif()
@@ -14,7 +15,7 @@ function(swiftlet_library name)
   target_include_directories(swiftlet_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/swiftlet>)
   target_link_libraries(swiftlet_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})
-  swiftlet_publish(${name} "${ARG_FOLDER}")
+  swiftlet_publish(${name} "${folder}")
 endfunction()
 
 # swiftlet_rooms(NAME ROOM...)
