@@ -8,6 +8,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}")
 
 option(SWIFTLET_TESTS "Build the tests" ON)
 option(SWIFTLET_BENCHMARKS "Build the benchmarks" OFF)
+option(SWIFTLET_PCH "Precompile the headers from outside" ON)
 option(SWIFTLET_FUZZ "Build the fuzzers (clang)" OFF)
 option(SWIFTLET_WARNINGS_AS_ERRORS "Stop at a warning" ON)
 set(SWIFTLET_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize= takes them")
@@ -20,6 +21,11 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  if(SWIFTLET_PCH)
+    # ccache serves sources with a precompiled header only when told not to look into it for macros.
+    set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE_PROGRAM}")
+    add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
 endif()
 
 # Same seed, same bytes: no contraction to fused multiply-add, no instruction set beyond the platform's baseline.

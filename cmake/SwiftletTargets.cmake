@@ -1,9 +1,11 @@
-# swiftlet_library(NAME [FOLDER path] [DEPENDS targets...] [PRIVATE targets...] [EXCLUDE regex])
+# swiftlet_library(NAME [FOLDER path] [DEPENDS targets...] [PRIVATE targets...] [EXCLUDE regex]
+#                  [PRECOMPILE headers... | PRECOMPILED_BY library])
 #   A static library of every .cpp below its folder (default: the one that calls): target swiftlet_NAME, alias
 #   swiftlet::NAME. DEPENDS are public (they stand in headers), PRIVATE stay in the sources. Libraries from outside are
-#   included as system headers.
+#   included as system headers. Those that most libraries read are precompiled by swiftlet_common for all; a library that
+#   is compiled with other options, or reads others, precompiles its own.
 function(swiftlet_library name)
-  cmake_parse_arguments(ARG "" "EXCLUDE;FOLDER" "DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "EXCLUDE;FOLDER;PRECOMPILED_BY" "DEPENDS;PRIVATE;PRECOMPILE" ${ARGN})
   set(folder "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FOLDER}")
   cmake_path(NORMAL_PATH folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${folder}/*.cpp")
@@ -15,6 +17,13 @@ function(swiftlet_library name)
   target_include_directories(swiftlet_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/swiftlet>)
   target_link_libraries(swiftlet_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})
+  if(ARG_PRECOMPILE)
+    swiftlet_precompile(swiftlet_${name} ${ARG_PRECOMPILE})
+  elseif(ARG_PRECOMPILED_BY)
+    swiftlet_share_precompiled(swiftlet_${name} swiftlet_${ARG_PRECOMPILED_BY})
+  else()
+    swiftlet_share_precompiled(swiftlet_${name} swiftlet_common)
+  endif()
   swiftlet_publish(${name} "${folder}")
 endfunction()
 
@@ -35,7 +44,8 @@ function(swiftlet_publish name folder)
 endfunction()
 
 # swiftlet_tests(NAME [DEPENDS targets...] [LABELS labels...] [TIMEOUT seconds])
-#   One GoogleTest program test_NAME of every *_test.cpp in tests/NAME; each test of it is a ctest test.
+#   One GoogleTest program test_NAME of every *_test.cpp in tests/NAME; each test of it is a ctest test. What most test
+#   programs read is precompiled by test_precompiled (tests/CMakeLists.txt).
 function(swiftlet_tests name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "DEPENDS;LABELS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/${name}/*.cpp")
@@ -43,6 +53,9 @@ function(swiftlet_tests name)
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE SWIFTLET_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                              SWIFTLET_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(NOT name STREQUAL "tree")  # Alone without fmt, whose definitions are among the options.
+    swiftlet_share_precompiled(test_${name} test_precompiled)
+  endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
