@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/system.hpp"
+#include "interfaces/laser_log/open_laser_log.hpp"
 
 namespace swiftlet::apps {
 namespace {

@@ -2,27 +2,17 @@
 // acts.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "behaviors/context.hpp"
+#include "behaviors/mission_limits.hpp"
 #include "behaviors/tree/registry.hpp"
 #include "common/error.hpp"
 #include "common/world.hpp"
 
 namespace swiftlet::behaviors {
-
-/// What the rest of the system allows a mission to ask for.
-struct MissionLimits {
-  /// Why the reactive layer would not let the vehicle fly with a clearance (m, between hull and obstacle); empty when
-  /// it would. No function: every clearance can be flown.
-  std::function<std::vector<std::string>(double clearance_m)> clearance_problems = {};
-  /// Above the take-off floor.
-  double max_height_m = 10.0;
-  bool has_map = true;  ///< Of the place: what finds itself in one needs it.
-};
 
 struct TickResult {
   /// kRunning, kHeld (Context::hold, and the mission wishes nothing but to hold: from the first tick in which it stops

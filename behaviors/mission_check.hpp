@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "behaviors/mission.hpp"
+#include "behaviors/mission_limits.hpp"
 #include "behaviors/tree/problem.hpp"
 #include "behaviors/tree/tree.hpp"
 #include "common/error.hpp"

@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "fuzz/scratch.hpp"
 #include "interfaces/laser_log/laser_log.hpp"
+#include "interfaces/laser_log/open_laser_log.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "optimization/pose_graph_2d.hpp"
-#include "optimization/pose_graph_3d.hpp"
+#include "optimization/graph_2d.hpp"
+#include "optimization/graph_3d.hpp"
 
 namespace swiftlet::optimization {
 

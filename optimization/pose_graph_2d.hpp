@@ -7,26 +7,10 @@
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
+#include "optimization/graph_2d.hpp"
 #include "optimization/pose_graph_config.hpp"
 
 namespace swiftlet::optimization {
-
-/// "Seen from pose `from`, pose `to` stands at T_from_to."
-struct PoseEdge2D {
-  int from = 0;
-  int to = 0;
-  common::Pose2 T_from_to;
-  /// Inverse covariance of the additive errors (x_m, y_m, yaw_rad) of T_from_to; symmetric positive definite.
-  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
-  bool robust = false;  ///< May be wrong (a loop closure): its pull is bounded by the robust kernel.
-};
-
-struct PoseGraph2D {
-  std::vector<common::Pose2> poses;  ///< The initial guess.
-  std::vector<PoseEdge2D> edges;
-  int fixed = 0;                     ///< This pose does not move.
-  std::vector<int> also_fixed = {};  ///< Nor do these.
-};
 
 struct PoseGraph2DSolution {
   std::vector<common::Pose2> poses;

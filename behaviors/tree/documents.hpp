@@ -3,12 +3,15 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "behaviors/tree/parser.hpp"
+#include "behaviors/tree/parse_options.hpp"
+#include "behaviors/tree/problem.hpp"
 #include "behaviors/tree/xml.hpp"
 
 namespace swiftlet::tree {

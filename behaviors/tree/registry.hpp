@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,29 +9,9 @@
 #include <vector>
 
 #include "behaviors/tree/node.hpp"
-#include "behaviors/tree/port.hpp"
+#include "behaviors/tree/node_manifest.hpp"
 
 namespace swiftlet::tree {
-
-enum class NodeKind : unsigned char { kAction, kCondition, kControl, kDecorator };
-/// "Action", "Condition", "Control", "Decorator": the tags of the explicit form.
-const char* toString(NodeKind kind);
-
-struct NodeManifest {
-  std::string id = {};
-  NodeKind kind = NodeKind::kAction;
-  std::vector<PortManifest> ports = {};
-  std::string description = {};  ///< One sentence.
-  /// Whether it may answer SKIPPED by itself (leaves), or only as its children do.
-  bool may_skip = false;
-
-  const PortManifest* findPort(std::string_view name) const;
-  /// Controls: 1 or more; decorators: 1; leaves: 0.
-  int minChildren() const { return kind == NodeKind::kControl || kind == NodeKind::kDecorator ? 1 : 0; }
-  int maxChildren() const {
-    return kind == NodeKind::kControl ? std::numeric_limits<int>::max() : kind == NodeKind::kDecorator ? 1 : 0;
-  }
-};
 
 /// Kinds with children build a Composite, the others a Leaf.
 using NodeBuilder = std::function<std::unique_ptr<Node>(const NodeSetup&)>;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "behaviors/tree/node.hpp"
+#include "behaviors/tree/node_record.hpp"
 #include "behaviors/tree/problem.hpp"
-#include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::tree {
 
@@ -18,13 +18,6 @@ struct NodeView {
   int parent = -1;  ///< -1 for the root.
   std::string name;
   Status status = Status::kIdle;
-};
-
-/// What is known of a node beside its state.
-struct NodeRecord {
-  Node* node = nullptr;
-  int parent = -1;
-  const NodeManifest* manifest = nullptr;  ///< Null for a SubTree node.
 };
 
 struct TreeParts;

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "behaviors/tree/tree.hpp"
+#include "behaviors/tree/node_record.hpp"
+#include "behaviors/tree/problem.hpp"
 #include "behaviors/tree/xml.hpp"
 
 namespace swiftlet::tree {

@@ -20,6 +20,7 @@
 #include "common/trajectory.hpp"
 #include "evaluation/relations.hpp"
 #include "interfaces/files/relations.hpp"
+#include "interfaces/laser_log/open_laser_log.hpp"
 #include "perception/laser_odometry/laser_front_end.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 

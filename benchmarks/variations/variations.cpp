@@ -18,6 +18,7 @@
 #include "evaluation/relations.hpp"
 #include "interfaces/files/relations.hpp"
 #include "interfaces/laser_log/laser_log.hpp"
+#include "interfaces/laser_log/open_laser_log.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 #include "tests/slam2d/tracked_way.hpp"
 

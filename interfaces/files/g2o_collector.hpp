@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "interfaces/files/g2o.hpp"
 #include "interfaces/files/g2o_fields.hpp"
+#include "interfaces/files/g2o_graph.hpp"
 
 namespace swiftlet::interfaces {
 

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,9 +52,5 @@ class LaserLog {
   /// What is odd about the log as far as it was read, and how it was taken, for people.
   virtual std::vector<std::string> notes() const = 0;
 };
-
-/// Opens a log by what is in it; plain, or compressed by gzip, bzip2 or xz. Throws InputError when there is no such
-/// file, or it is no log of a format known here. Of a bag, the first topic with laser scans is read.
-std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& file, const LaserLogOptions& options = {});
 
 }  // namespace swiftlet::interfaces

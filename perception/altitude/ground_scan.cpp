@@ -16,7 +16,7 @@ constexpr double kFarthest_m = 60.0;
 
 }  // namespace
 
-double beamVariance_m2(const MultilevelFilter::Config& config, int averaged) {
+double beamVariance_m2(const MultilevelConfig& config, int averaged) {
   return square(config.beam_noise_m) / averaged + square(config.surface_noise_m);
 }
 

@@ -8,8 +8,9 @@
 #include <Eigen/Core>
 
 #include "common/tiled_grid.hpp"
+#include "perception/altitude/height_measurement.hpp"
 #include "perception/altitude/level_store.hpp"
-#include "perception/altitude/multilevel_filter.hpp"
+#include "perception/altitude/multilevel_config.hpp"
 
 namespace swiftlet::perception::altitude {
 
@@ -31,7 +32,7 @@ struct BeamGroup {
 };
 
 /// Of the mean of so many distances to one surface.
-double beamVariance_m2(const MultilevelFilter::Config& config, int averaged);
+double beamVariance_m2(const MultilevelConfig& config, int averaged);
 
 /// No heap use in the steady state: it is read anew for each scan.
 struct GroundScan {

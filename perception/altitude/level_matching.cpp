@@ -21,14 +21,14 @@ bool isBelow(const Neighbourhood& known, const LevelEstimate& level) {
 
 }  // namespace
 
-bool likelierThanUnknown(const MultilevelFilter::Config& config, int id, double residual_m, double variance_m2) {
+bool likelierThanUnknown(const MultilevelConfig& config, int id, double residual_m, double variance_m2) {
   const double density_per_m =
       std::exp(-0.5 * square(residual_m) / variance_m2) / std::sqrt(2.0 * std::numbers::pi * variance_m2);
   return (id == kFloor ? config.floor_weight : 1.0) * density_per_m > config.unknown_per_m;
 }
 
 int likeliestLevel(const Neighbourhood& known, double distance_below_m, int averaged, bool known_below) {
-  const MultilevelFilter::Config& config = known.config;
+  const MultilevelConfig& config = known.config;
   const HeightFilter& height = known.height;
   int likeliest = kNoLevel;
   double best = square(config.gate_sigma);

@@ -7,7 +7,7 @@
 #include "perception/altitude/ground_scan.hpp"
 #include "perception/altitude/height_filter.hpp"
 #include "perception/altitude/level_store.hpp"
-#include "perception/altitude/multilevel_filter.hpp"
+#include "perception/altitude/multilevel_config.hpp"
 
 namespace swiftlet::perception::altitude {
 
@@ -15,7 +15,7 @@ inline constexpr int kFloor = 0;
 
 /// What is known about the place of a scan, for as long as a question takes.
 struct Neighbourhood {
-  const MultilevelFilter::Config& config;
+  const MultilevelConfig& config;
   const HeightFilter& height;
   const LevelStore& store;
   const std::vector<int>& near;  ///< The levels that may explain a beam.
@@ -23,7 +23,7 @@ struct Neighbourhood {
 };
 
 /// The less sure the height is, the likelier is what lies within its gate something else.
-bool likelierThanUnknown(const MultilevelFilter::Config& config, int id, double residual_m, double variance_m2);
+bool likelierThanUnknown(const MultilevelConfig& config, int id, double residual_m, double variance_m2);
 
 /// The likeliest of the levels nearby that could be what `averaged` beams met at this distance. `known_below`: of those
 /// that were below in the last scans already.

@@ -1,10 +1,10 @@
-// The configuration of the multilevel filter.
+#include "perception/altitude/multilevel_config.hpp"
+
 #include "common/validation.hpp"
-#include "perception/altitude/multilevel_filter.hpp"
 
 namespace swiftlet::perception {
 
-void MultilevelFilter::Config::describe(common::config::Fields& fields) {
+void MultilevelConfig::describe(common::config::Fields& fields) {
   fields("resolution_m", resolution_m, "Cells of the level map.");
   fields("neighbourhood_m", neighbourhood_m, "A level known within this distance may explain a beam.");
   fields("join_distance_m", join_distance_m, "Two levels whose cells come this close meet.");
@@ -29,7 +29,7 @@ void MultilevelFilter::Config::describe(common::config::Fields& fields) {
   fields("settle_s", settle_s, "A measurement that was not doubted for this long is given out.");
 }
 
-std::vector<std::string> MultilevelFilter::Config::validate() const {
+std::vector<std::string> MultilevelConfig::validate() const {
   return common::Validation()
       .within("resolution_m", resolution_m, 0.02, 1)
       .within("neighbourhood_m", neighbourhood_m, 0, 5)

@@ -15,24 +15,24 @@ constexpr double kLineAfter_s = 0.15;  // A surface seen for less is taken to st
 
 }  // namespace
 
-double rateVariance_m2_s2(const MultilevelFilter::Config& config, const NewSurface& c) {
+double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& c) {
   return beamVariance_m2(config, std::max(1, c.beams / c.scans)) / std::max(c.spread_s2(), 1e-9);
 }
 
-bool isFlat(const MultilevelFilter::Config& config, const NewSurface& c, Time now) {
+bool isFlat(const MultilevelConfig& config, const NewSurface& c, Time now) {
   return c.scans >= config.confirm_scans && c.seenFor_s(now) >= config.confirm_s &&
          square(c.rate_m_s()) <= square(config.slope_sigma) * rateVariance_m2_s2(config, c);
 }
 
-bool isFlatSeenFromAMovingPlace(const MultilevelFilter::Config& config, const NewSurface& c, Time now,
+bool isFlatSeenFromAMovingPlace(const MultilevelConfig& config, const NewSurface& c, Time now,
                                 double speed_variance_m2_s2) {
   const double variance_m2_s2 = rateVariance_m2_s2(config, c) + speed_variance_m2_s2;
   return c.scans >= config.confirm_scans && c.seenFor_s(now) >= config.confirm_moving_s &&
          square(c.rate_m_s()) <= square(config.slope_sigma) * variance_m2_s2;
 }
 
-void seeNewSurfaces(std::vector<NewSurface>& surfaces, const MultilevelFilter::Config& config,
-                    const std::vector<Beam>& beams, double height_m, Time now) {
+void seeNewSurfaces(std::vector<NewSurface>& surfaces, const MultilevelConfig& config, const std::vector<Beam>& beams,
+                    double height_m, Time now) {
   for (NewSurface& surface : surfaces) surface.seen = false;
   std::size_t begin = 0;
   while (begin < beams.size()) {

@@ -7,7 +7,7 @@
 #include "common/time.hpp"
 #include "perception/altitude/ground_scan.hpp"
 #include "perception/altitude/level_store.hpp"
-#include "perception/altitude/multilevel_filter.hpp"
+#include "perception/altitude/multilevel_config.hpp"
 
 namespace swiftlet::perception::altitude {
 
@@ -45,16 +45,16 @@ class NewSurface {
   double t_s_ = 0.0, tt_s2_ = 0.0, h_m_ = 0.0, th_m_s_ = 0.0;  ///< Sums over the scans.
 };
 
-double rateVariance_m2_s2(const MultilevelFilter::Config& config, const NewSurface& surface);
+double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& surface);
 /// A surface that is flat is met at one height; a slope is not.
-bool isFlat(const MultilevelFilter::Config& config, const NewSurface& surface, common::Time now);
+bool isFlat(const MultilevelConfig& config, const NewSurface& surface, common::Time now);
 /// One that rises or falls evenly may be a slope, or flat and the vertical speed is wrong. Slopes in rooms are short.
-bool isFlatSeenFromAMovingPlace(const MultilevelFilter::Config& config, const NewSurface& surface, common::Time now,
+bool isFlatSeenFromAMovingPlace(const MultilevelConfig& config, const NewSurface& surface, common::Time now,
                                 double speed_variance_m2_s2);
 
 /// Algorithm 1, line 13: the beams that no level explains, in sets of neighbouring distance, for a vehicle at this
 /// height. Those sets are the surfaces afterwards; what is not seen again is forgotten.
-void seeNewSurfaces(std::vector<NewSurface>& surfaces, const MultilevelFilter::Config& config,
-                    const std::vector<Beam>& beams, double height_m, common::Time now);
+void seeNewSurfaces(std::vector<NewSurface>& surfaces, const MultilevelConfig& config, const std::vector<Beam>& beams,
+                    double height_m, common::Time now);
 
 }  // namespace swiftlet::perception::altitude

@@ -53,20 +53,6 @@ FilterState stateAtRest(const ErrorStateFilter::Config& config, const RestEstima
 
 }  // namespace
 
-const char* toString(FusionStatus status) {
-  switch (status) {
-    case FusionStatus::kNotInitialized:
-      return "not initialized";
-    case FusionStatus::kOk:
-      return "ok";
-    case FusionStatus::kDegraded:
-      return "degraded";
-    case FusionStatus::kDiverged:
-      return "diverged";
-  }
-  return "";
-}
-
 struct ErrorStateFilter::Impl {
   explicit Impl(const Config& c)
       : config(c),

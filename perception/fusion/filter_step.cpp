@@ -19,7 +19,7 @@ constexpr double kLongestDragStep_s = 0.05;
 
 }  // namespace
 
-FilterStep::FilterStep(const ErrorStateFilter::Config& config)
+FilterStep::FilterStep(const FusionConfig& config)
     : config_(config),
       noise_{config.accelerometer_noise_m_s2_rthz,
              config.gyroscope_noise_rad_s_rthz,

@@ -5,8 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "perception/fusion/error_state_filter.hpp"
 #include "perception/fusion/filter_state.hpp"
+#include "perception/fusion/fusion_config.hpp"
+#include "perception/fusion/fusion_types.hpp"
 #include "perception/fusion/imu_model.hpp"
 #include "perception/fusion/measurement_history.hpp"
 #include "perception/fusion/measurement_models.hpp"
@@ -25,7 +26,7 @@ struct Slot {
 /// A function of the state before and what was measured since; it keeps nothing but its configuration.
 class FilterStep {
  public:
-  explicit FilterStep(const ErrorStateFilter::Config& config);
+  explicit FilterStep(const FusionConfig& config);
 
   /// Makes now.state: strapdown from `before` on, each of `measured` (after `before`, until `now`, in this order) at
   /// its time, at the end what the sample itself says. Outliers are gated; the state itself says when it has diverged.
@@ -42,7 +43,7 @@ class FilterStep {
   void recover(FilterState& state) const;
   void watch(FilterState& state) const;
 
-  ErrorStateFilter::Config config_;
+  FusionConfig config_;
   ImuNoise noise_;
 };
 

@@ -1,10 +1,10 @@
-// The configuration of the fusion filter.
+#include "perception/fusion/fusion_config.hpp"
+
 #include "common/validation.hpp"
-#include "perception/fusion/error_state_filter.hpp"
 
 namespace swiftlet::perception {
 
-void ErrorStateFilter::Config::describe(common::config::Fields& fields) {
+void FusionConfig::describe(common::config::Fields& fields) {
   fields("history_s", history_s, "How late a measurement may come.");
   fields("gravity_m_s2", gravity_m_s2, "Magnitude of gravity.");
   fields("accelerometer_noise_m_s2_rthz", accelerometer_noise_m_s2_rthz, "Accelerometer noise density.");
@@ -42,7 +42,7 @@ void ErrorStateFilter::Config::describe(common::config::Fields& fields) {
   fields("diverged_velocity_sigma_m_s", diverged_velocity_sigma_m_s, "Beyond this the filter has diverged.");
 }
 
-std::vector<std::string> ErrorStateFilter::Config::validate() const {
+std::vector<std::string> FusionConfig::validate() const {
   return common::Validation()
       .within("history_s", history_s, 0.1, 10)
       .within("gravity_m_s2", gravity_m_s2, 9.7, 9.9)

@@ -31,7 +31,7 @@ common::Pose3 extrapolated(const Slot& slot, Time time) {
 
 }  // namespace
 
-StateHistory::StateHistory(const ErrorStateFilter::Config& config)
+StateHistory::StateHistory(const FusionConfig& config)
     : step_(config),
       length_(Duration::fromSeconds(config.history_s)),
       attitude_period_s_(1.0 / config.attitude_rate_hz),

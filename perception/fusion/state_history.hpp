@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "perception/fusion/error_state_filter.hpp"
 #include "perception/fusion/filter_step.hpp"
+#include "perception/fusion/fusion_config.hpp"
+#include "perception/fusion/fusion_types.hpp"
 #include "perception/fusion/measurement_history.hpp"
 
 namespace swiftlet::perception::fusion {
@@ -15,7 +16,7 @@ namespace swiftlet::perception::fusion {
 /// after it out of date; they are computed again when they are asked for, no more of them than the question needs.
 class StateHistory {
  public:
-  explicit StateHistory(const ErrorStateFilter::Config& config);
+  explicit StateHistory(const FusionConfig& config);
 
   /// Forgets all; this one is up to date.
   void start(const Slot& first);

@@ -1,36 +1,22 @@
-// What travels between the localizer and the thread that searches the whole map; private to localization.
+// The search of the whole map as a value.
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <vector>
-
-#include "perception/localization/localizer.hpp"
-#include "perception/localization/place_posterior.hpp"
 
 namespace swiftlet::perception {
 
-/// As it was when the search was asked for.
-struct LocalizationTask::Data {
-  std::uint64_t epoch = 0;
-  bool doubted = false;  ///< It is believed to be somewhere, and looked for elsewhere.
-  LocalMap local_map{0.0};
-  std::vector<Eigen::Vector2f> scan_body_m;
-  common::Pose2 T_odom_scan;
-  double way_m = 0.0;
-  LocalizerConfig config;
-  std::shared_ptr<const MapField> map;
-  std::shared_ptr<const GlobalSearch> search;
+/// A search of the whole map; heavy. A pure function of what it was given and of the map, which never changes: for any
+/// thread.
+struct LocalizationTask {
+  struct Data;
+  std::shared_ptr<Data> data;
 };
 
-struct LocalizationResult::Data {
-  std::shared_ptr<const LocalizationTask::Data> task;
-  LocalMap::Whole whole;
-  bool enough_points = false;
-  std::vector<LikelyPlace> places;
-  bool complete = true;
+struct LocalizationResult {
+  struct Data;
+  std::shared_ptr<const Data> data;
 };
 
-PlaceDistinction distinctionOf(const LocalizerConfig& config);
+LocalizationResult run(const LocalizationTask& task);
 
 }  // namespace swiftlet::perception

@@ -8,10 +8,10 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/check.hpp"
-#include "perception/localization/localization_task.hpp"
+#include "perception/laser_odometry/unknown_step.hpp"
+#include "perception/localization/localization_task_data.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/pose_tracker.hpp"
-#include "perception/slam2d/unknown_step.hpp"
 
 namespace swiftlet::perception {
 

@@ -20,61 +20,16 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
 #include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
-#include "perception/localization/global_search.hpp"
-#include "perception/localization/local_map.hpp"
-#include "perception/localization/particle_filter.hpp"
-#include "perception/localization/scan_support.hpp"
+#include "perception/localization/localization_input.hpp"
+#include "perception/localization/localization_task.hpp"
+#include "perception/localization/localizer_config.hpp"
 #include "perception/projection/scan_projection.hpp"
 
 namespace swiftlet::perception {
 
 using common::LocalizationState;
-
-struct LocalizerConfig {
-  LocalizerConfig();
-
-  MapFieldConfig field;
-  ParticleFilterConfig particles;
-  GlobalSearchConfig search;
-  ScanSupportConfig support;
-  LostTestConfig lost;
-
-  double generation_distance_m = 0.20;  ///< After so much way the particles are weighed and drawn anew,
-  double generation_turn_deg = 15.0;    ///< or after such a turn.
-  double odometry_share = 0.02;         ///< The least error of the odometry, of the way,
-  double odometry_deg_per_m = 0.5;      ///< and of the heading.
-  double max_sigma_m = 1.0;             ///< A pose less certain than this is not known.
-
-  double local_map_length_m = 12.0;
-  double local_map_spacing_m = 0.15;  ///< Between points of the local map.
-  int local_map_points = 160;
-  int local_map_least_points = 40;  ///< With fewer nothing is concluded.
-  double search_distance_m = 0.4;   ///< The whole map is searched again after so much way.
-  double point_weight = 0.15;  ///< Of a point of the local map in the likelihood, as ParticleFilterConfig::beam_weight.
-  double ambiguity = 0.01;     ///< A pose is not believed while others have together more than this probability.
-  double least_explained = 0.70;    ///< Nor when the map explains less of the local map than this.
-  double confirm_distance_m = 1.0;  ///< Nor before it has held over so much way.
-  double doubt_search_s = 0.5;      ///< While in doubt it is looked for elsewhere, with this long between.
-  double elsewhere_nats = 10.0;     ///< So much likelier elsewhere means that it is lost.
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
-};
-
-struct LocalizationInput {
-  /// In the level frame of the body; its own T_odom_body is not read.
-  const ProjectedScan& scan;
-  common::Pose2 T_odom_body;  ///< An input without a finite one is passed over.
-  /// Of the odometry since the last input, (x_m, y_m, yaw_rad) with the axes of the body then. One that is not finite
-  /// says nothing: the step is taken for very uncertain.
-  Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();
-  bool fresh = true;  ///< The odometry was not made of this scan: it may weigh.
-  /// The odometry does not know how the vehicle came here from where it was; what it may be off by is added.
-  bool interrupted = false;
-};
 
 struct LocalizationEvent {
   common::Time stamp;
@@ -91,18 +46,6 @@ struct LocalizationEstimate {
   int places = 0;                                        ///< That explain what was seen; 1 when localized.
   std::optional<LocalizationEvent> event;                ///< The state changed.
 };
-
-/// A search of the whole map; heavy. A pure function of what it was given and of the map, which never changes: for any
-/// thread.
-struct LocalizationTask {
-  struct Data;
-  std::shared_ptr<Data> data;
-};
-struct LocalizationResult {
-  struct Data;
-  std::shared_ptr<const Data> data;
-};
-LocalizationResult run(const LocalizationTask& task);
 
 /// Deterministic. Not thread-safe. The work per scan is bounded, but a search of the whole map takes up to
 /// some hundred milliseconds. Where that must not hold up the loop, `follow` leaves it to a task:

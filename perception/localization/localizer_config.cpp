@@ -1,6 +1,6 @@
-// The configuration of the localizer.
+#include "perception/localization/localizer_config.hpp"
+
 #include "common/validation.hpp"
-#include "perception/localization/localizer.hpp"
 
 namespace swiftlet::perception {
 

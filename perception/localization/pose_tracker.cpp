@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "common/square.hpp"
-#include "perception/slam2d/unknown_step.hpp"
+#include "perception/laser_odometry/unknown_step.hpp"
 
 namespace swiftlet::perception {
 

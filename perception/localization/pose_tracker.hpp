@@ -10,7 +10,8 @@
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
-#include "perception/localization/localizer.hpp"
+#include "perception/localization/localization_input.hpp"
+#include "perception/localization/localizer_config.hpp"
 #include "perception/localization/map_field.hpp"
 #include "perception/localization/particle_filter.hpp"
 #include "perception/localization/way_meter.hpp"

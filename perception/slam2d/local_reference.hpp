@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "perception/scan_matching/correlative_matcher.hpp"
+#include "perception/slam2d/slam_config.hpp"
 #include "perception/slam2d/slam_graph.hpp"
 
 namespace swiftlet::perception {

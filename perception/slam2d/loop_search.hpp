@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "perception/slam2d/slam_config.hpp"
+#include "perception/slam2d/slam_edge.hpp"
 #include "perception/slam2d/slam_graph.hpp"
 
 namespace swiftlet::perception {

@@ -7,9 +7,9 @@
 #include <Eigen/Cholesky>
 
 #include "common/random.hpp"
+#include "perception/laser_odometry/unknown_step.hpp"
 #include "perception/slam2d/particle/ancestry_tree.hpp"
 #include "perception/slam2d/particle/resampling.hpp"
-#include "perception/slam2d/unknown_step.hpp"
 
 namespace swiftlet::perception {
 namespace {

@@ -20,9 +20,9 @@
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 #include "perception/projection/scan_projection.hpp"
+#include "perception/slam2d/grid_drawing_config.hpp"
 #include "perception/slam2d/particle/map_match.hpp"
 #include "perception/slam2d/particle/particle_map.hpp"
-#include "perception/slam2d/slam2d.hpp"
 
 namespace swiftlet::perception {
 

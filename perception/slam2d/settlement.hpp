@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "perception/slam2d/loop_search.hpp"
-#include "perception/slam2d/slam2d.hpp"
+#include "perception/slam2d/slam_config.hpp"
 #include "perception/slam2d/slam_graph.hpp"
 
 namespace swiftlet::perception {

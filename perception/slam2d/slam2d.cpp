@@ -9,9 +9,9 @@
 #include <Eigen/LU>
 
 #include "common/check.hpp"
+#include "perception/laser_odometry/unknown_step.hpp"
 #include "perception/slam2d/local_reference.hpp"
-#include "perception/slam2d/slam_task.hpp"
-#include "perception/slam2d/unknown_step.hpp"
+#include "perception/slam2d/slam_task_data.hpp"
 
 namespace swiftlet::perception {
 namespace {

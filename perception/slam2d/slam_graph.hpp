@@ -12,6 +12,7 @@
 #include "common/geometry.hpp"
 #include "optimization/pose_graph_2d.hpp"
 #include "perception/projection/scan_projection.hpp"
+#include "perception/slam2d/slam_edge.hpp"
 #include "perception/slam2d/sliced_map.hpp"
 
 namespace swiftlet::perception {

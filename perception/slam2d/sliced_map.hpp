@@ -13,7 +13,7 @@
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 #include "perception/projection/scan_projection.hpp"
-#include "perception/slam2d/slam2d.hpp"
+#include "perception/slam2d/grid_drawing_config.hpp"
 
 namespace swiftlet::perception {
 

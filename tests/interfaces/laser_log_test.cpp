@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "interfaces/laser_log/carmen.hpp"
+#include "interfaces/laser_log/open_laser_log.hpp"
 #include "tests/interfaces/support.hpp"
 
 namespace swiftlet::interfaces {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "interfaces/laser_log/laser_log.hpp"
+#include "interfaces/laser_log/open_laser_log.hpp"
 #include "tests/interfaces/support.hpp"
 #include "tests/support/datasets.hpp"
 

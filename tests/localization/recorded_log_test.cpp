@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "interfaces/laser_log/laser_log.hpp"
+#include "interfaces/laser_log/open_laser_log.hpp"
 #include "perception/localization/log_localizer.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 #include "tests/support/datasets.hpp"

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "interfaces/laser_log/laser_log.hpp"
+#include "interfaces/laser_log/open_laser_log.hpp"
 #include "perception/scan_matching/correlative_matcher.hpp"
 #include "perception/scan_matching/gauss_newton_matcher.hpp"
 #include "perception/scan_matching/point_to_line_matcher.hpp"

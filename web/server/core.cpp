@@ -10,7 +10,7 @@
 
 namespace swiftlet::web {
 
-Core::Core(boost::asio::io_context& io, WebServer::Options options_in, WebServer::Sources sources, Policy policy_in)
+Core::Core(boost::asio::io_context& io, WebServerOptions options_in, WebServerSources sources, Policy policy_in)
     : options(std::move(options_in)),
       policy(std::move(policy_in)),
       telemetry(sources, options.unix_time),

@@ -13,7 +13,7 @@
 #include "web/server/frame_hub.hpp"
 #include "web/server/route.hpp"
 #include "web/server/telemetry.hpp"
-#include "web/server/web_server.hpp"
+#include "web/server/web_server_options.hpp"
 
 namespace swiftlet::web {
 
@@ -32,7 +32,7 @@ class Connection {
 
 class Core : public std::enable_shared_from_this<Core> {
  public:
-  Core(boost::asio::io_context& io, WebServer::Options options_in, WebServer::Sources sources, Policy policy_in);
+  Core(boost::asio::io_context& io, WebServerOptions options_in, WebServerSources sources, Policy policy_in);
 
   /// Counts a connection and closes it when the server stops.
   void add(const std::shared_ptr<Connection>& connection);
@@ -44,7 +44,7 @@ class Core : public std::enable_shared_from_this<Core> {
   void close();
   bool closed() const { return closed_; }
 
-  WebServer::Options options;
+  WebServerOptions options;
   Policy policy;
   Telemetry telemetry;
   FrameHub hub;

@@ -6,8 +6,8 @@
 //   after the last: FAILURE, or SKIPPED when all were skipped.
 #pragma once
 
+#include "behaviors/tree/node_manifest.hpp"
 #include "behaviors/tree/nodes/chain.hpp"
-#include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::tree {
 

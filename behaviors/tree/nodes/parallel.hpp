@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "behaviors/tree/composite.hpp"
-#include "behaviors/tree/registry.hpp"
+#include "behaviors/tree/node_manifest.hpp"
 
 namespace swiftlet::tree {
 

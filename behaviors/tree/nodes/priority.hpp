@@ -18,7 +18,7 @@
 #pragma once
 
 #include "behaviors/tree/composite.hpp"
-#include "behaviors/tree/registry.hpp"
+#include "behaviors/tree/node_manifest.hpp"
 
 namespace swiftlet::tree {
 

@@ -7,8 +7,8 @@
 // While a halted child lets go (it may take several ticks) the node is RUNNING and ticks nobody; a FAILURE stands.
 #pragma once
 
+#include "behaviors/tree/node_manifest.hpp"
 #include "behaviors/tree/nodes/reactive.hpp"
-#include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::tree {
 

@@ -6,8 +6,8 @@
 // A cycle that started in this tick and ended in it ends the tick (RUNNING), so that no tick is endless.
 #pragma once
 
+#include "behaviors/tree/node_manifest.hpp"
 #include "behaviors/tree/nodes/again.hpp"
-#include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::tree {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "behaviors/tree/leaf.hpp"
-#include "behaviors/tree/registry.hpp"
+#include "behaviors/tree/node_manifest.hpp"
 
 namespace swiftlet::tree {
 

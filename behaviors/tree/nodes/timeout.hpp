@@ -7,7 +7,7 @@
 #pragma once
 
 #include "behaviors/tree/composite.hpp"
-#include "behaviors/tree/registry.hpp"
+#include "behaviors/tree/node_manifest.hpp"
 #include "behaviors/tree/stopwatch.hpp"
 
 namespace swiftlet::tree {

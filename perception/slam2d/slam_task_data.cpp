@@ -1,4 +1,4 @@
-#include "perception/slam2d/slam_task.hpp"
+#include "perception/slam2d/slam_task_data.hpp"
 
 #include <algorithm>
 #include <cmath>

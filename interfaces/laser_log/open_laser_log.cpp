@@ -1,4 +1,4 @@
-#include "interfaces/laser_log/laser_log.hpp"
+#include "interfaces/laser_log/open_laser_log.hpp"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "perception/localization/localization_task.hpp"
+#include "perception/localization/localization_task_data.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,31 @@
+// How tree files are read: limits, and where their text comes from.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace swiftlet::tree {
+
+/// Sizes beyond which a file is refused, so that no input can exhaust stack or memory.
+struct ParseLimits {
+  std::size_t file_bytes = std::size_t{8} << 20;
+  int files = 64;       ///< The file itself and all it includes.
+  int depth = 200;      ///< Elements within elements, and nodes within nodes after subtrees are expanded.
+  int nodes = 100'000;  ///< After subtrees are expanded.
+  int problems = 100;   ///< The rest is counted, not listed.
+};
+
+/// The text of a file, or nothing when it cannot be read.
+using FileReader = std::function<std::optional<std::string>(const std::string& path)>;
+
+struct ParseOptions {
+  ParseLimits limits;
+  /// Blackboard entries of the main tree that the host sets before the first tick.
+  std::vector<std::string> host_entries;
+  FileReader read_file;  ///< Null: the file system.
+};
+
+}  // namespace swiftlet::tree
