@@ -131,7 +131,7 @@ nlohmann::ordered_json figuresOf(const LocalizeOptions& options, const RecordedL
           {"times_localized", run.times_localized},
           {"times_lost", run.times_lost},
           {"state_at_end", toString(run.state)},
-          {"doubtful_stamps", counts.front_end.doubtful_stamps},
+          {"unreliable_stamps", counts.front_end.unreliable_stamps},
           {"breaks", counts.breaks},
           {"events", events},
           {"seconds", run.wall_s},

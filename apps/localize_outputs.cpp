@@ -33,9 +33,9 @@ common::World worldOf(const interfaces::StoredMap& map) {
 }
 
 /// Pictures show the grid's frame.
-Ways inGrid(const Ways& ways_map_m, const common::Pose2& T_map_grid) {
+Ways inGrid(const Ways& path_lengths_map_m, const common::Pose2& T_map_grid) {
   const common::Pose2 T_grid_map = T_map_grid.inverse();
-  Ways ways = ways_map_m;
+  Ways ways = path_lengths_map_m;
   for (auto& way : ways)
     for (Eigen::Vector2d& point : way) point = T_grid_map * point;
   return ways;
@@ -118,7 +118,7 @@ std::vector<ToldEvent> told(const std::vector<LoggedEvent>& events, bool has_sta
 void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
                           const LocalizeFigures& figures) {
   const common::World world = worldOf(map);
-  const Ways ways = inGrid(figures.ways.ways_map_m(), map.T_map_grid);
+  const Ways ways = inGrid(figures.ways.path_lengths_map_m(), map.T_map_grid);
   interfaces::LocalizationReport report;
   report.title =
       fmt::format("{}{} in {}", kLocalizeTitle, std::filesystem::path(figures.log).filename().string(), figures.map);

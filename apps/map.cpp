@@ -45,24 +45,24 @@ struct MapRun {
   rendering::ThinnedCurve milliseconds;
   std::uint64_t unmatched = 0;
   double wall_s = 0.0;
-  double way_m = 0.0;  ///< Of the robot.
+  double path_length_m = 0.0;  ///< Of the robot.
 };
 
 /// Of steps of this length at least, so that a robot that stands adds nothing.
 constexpr double kWayStep_m = 0.1;
 
-double wayOf_m(const MapRun& run) {
+double pathLength_m(const MapRun& run) {
   const std::vector<common::Pose2> keys = run.slam.keyPoses();
   std::optional<Eigen::Vector2d> last_m;
-  double way_m = 0.0;
+  double path_length_m = 0.0;
   run.track.forEach([&](const StampedScan& tracked) {
     const Eigen::Vector2d now_m = tracked.scan.T_map_robot(keys).position_m();
     const double step_m = last_m ? (now_m - *last_m).norm() : 0.0;
     if (last_m && step_m < kWayStep_m) return;
-    way_m += step_m;
+    path_length_m += step_m;
     last_m = now_m;
   });
-  return way_m;
+  return path_length_m;
 }
 
 void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
@@ -82,7 +82,7 @@ void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
   }
   run.slam.finish();
   run.wall_s = secondsSince(begin);
-  run.way_m = wayOf_m(run);
+  run.path_length_m = pathLength_m(run);
   line.close();
 }
 
@@ -110,9 +110,9 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& l
           {"scans", log.scans()},
           {"skipped_records", read.skipped_records},
           {"invalid_ranges", read.invalid_ranges},
-          {"doubtful_stamps", run.slam.counts().doubtful_stamps},
-          {"doubtful_odometry_steps", run.slam.counts().doubtful_odometry},
-          {"way_m", std::round(1e3 * run.way_m) / 1e3},
+          {"unreliable_stamps", run.slam.counts().unreliable_stamps},
+          {"implausible_odometry_steps", run.slam.counts().implausible_odometry},
+          {"path_length_m", std::round(1e3 * run.path_length_m) / 1e3},
           {"unmatched_scans", run.unmatched},
           {"restarts", run.slam.odometryCounts().restarts},
           {"key_scans", run.slam.keyScans()},
@@ -128,7 +128,7 @@ Facts factsOf(const RecordedLog& log, const MapRun& run) {
   const auto scans = static_cast<double>(log.scans());
   Facts facts = log.facts();
   facts.insert(facts.end(),
-               {{"way", fmt::format("{:.1f} m", run.way_m)},
+               {{"way", fmt::format("{:.1f} m", run.path_length_m)},
                 {"not matched", fmt::format("{}", run.unmatched)},
                 {"key scans", fmt::format("{}", run.slam.keyScans())},
                 {"loops closed", run.slam.particles() ? "-" : fmt::format("{}", run.slam.slam().counts().loops_closed)},

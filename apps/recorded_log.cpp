@@ -93,11 +93,11 @@ std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts
         fmt::format("all scans have the same stamp, {:.3f} s: the order of the file is believed; the poses of the "
                     "trajectory cannot be told apart by time, and `evaluate` cannot pair them",
                     first_stamp_->seconds()));
-  else if (const auto n = found.doubtful_stamps; n > 0)
+  else if (const auto n = found.unreliable_stamps; n > 0)
     warnings.push_back(plural(n, "time stamp does", "time stamps do") +
                        " not follow the one before at a laser's pace: the order of the file is believed, not the "
                        "intervals");
-  if (const auto n = found.doubtful_odometry; n > 0)
+  if (const auto n = found.implausible_odometry; n > 0)
     warnings.push_back(plural(n, "step", "steps") + " of the odometry no robot makes; not believed");
   return warnings;
 }

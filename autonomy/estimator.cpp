@@ -215,10 +215,10 @@ bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
       const double off_rad = config_.odometry.max_window_deg * std::numbers::pi / 180.0;
       covariance_since_map_ += Eigen::Vector3d(off_m * off_m, off_m * off_m, off_rad * off_rad).asDiagonal();
     }
-    tieOdometry(relative->to);
+    anchorOdometry(relative->to);
     return true;
   }
-  if (!filter_.hasClone(track_.clone)) tieOdometry(relative->from);
+  if (!filter_.hasClone(track_.clone)) anchorOdometry(relative->from);
   const Pose2 T_clone_body = track_.T_clone_reference * relative->T_from_to;
   const Eigen::Matrix3d covariance =
       relative->covariance + tiltCovariance(scan, config_.match_floor_m, config_.match_floor_deg);
@@ -230,7 +230,7 @@ bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
                               common::turned(covariance, track_.T_clone_reference.yaw_rad), unseen_direction_clone);
   if (relative->reference_changed) {
     track_.T_clone_reference = T_clone_body;
-    if (relative->unseen_direction) tieOdometry(relative->to);
+    if (relative->unseen_direction) anchorOdometry(relative->to);
     // Within one reference the error does not grow; it accumulates from reference to reference.
     covariance_since_map_ +=
         common::turned(relative->covariance + tiltCovariance(scan, config_.drift_floor_m, config_.drift_floor_deg),
@@ -239,7 +239,7 @@ bool Estimator::fuseOdometry(const perception::ProjectedScan& scan) {
   return inserted == perception::Insertion::kTaken;
 }
 
-void Estimator::tieOdometry(Time reference) {
+void Estimator::anchorOdometry(Time reference) {
   (void)filter_.addClone(reference);
   track_ = {reference, {}};
 }

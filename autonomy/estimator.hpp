@@ -100,7 +100,7 @@ class Estimator {
   perception::ProjectedScan without(std::span<const planning::Disc> people, perception::ProjectedScan scan) const;
   bool withholds(const perception::ProjectedScan& scan);
   bool fuseOdometry(const perception::ProjectedScan& scan);
-  void tieOdometry(common::Time reference);
+  void anchorOdometry(common::Time reference);
   Eigen::Matrix3d tiltCovariance(const perception::ProjectedScan& scan, double floor_m, double floor_deg) const;
   void fuseHeight(const perception::ProjectedScan& scan, const common::Pose2& T_map_body);
   void addToMap(ScanOutcome& outcome, common::Time now);

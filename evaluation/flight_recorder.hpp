@@ -41,7 +41,7 @@ struct LocalizationRecord {
   /// The first time it said where it is.
   struct Found {
     common::Time stamp;
-    double way_m = 0.0;  ///< True horizontal path until then.
+    double path_length_m = 0.0;  ///< True horizontal path until then.
     double error_m = 0.0;
     double error_rad = 0.0;
   };

@@ -83,10 +83,10 @@ void scoreMap(const FlightRecord& record, const TrueWorld& world, FlightScore& s
 LocalizationScore scoreOf(const LocalizationRecord& record, double within_m) {
   LocalizationScore score;
   if (record.found) {
-    score.way_m = record.found->way_m;
+    score.path_length_m = record.found->path_length_m;
     score.error_m = record.found->error_m;
     score.error_rad = record.found->error_rad;
-    score.in_time = record.found->way_m <= within_m && record.found->error_m <= LocalizationRecord::kWrong_m &&
+    score.in_time = record.found->path_length_m <= within_m && record.found->error_m <= LocalizationRecord::kWrong_m &&
                     record.found->error_rad <= LocalizationRecord::kWrong_rad;
   }
   if (record.flown_s > 0) score.time_share = record.localized_s / record.flown_s;
@@ -192,7 +192,7 @@ std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) 
   add("map_wall_error_median_m", score.map_wall_error_median_m);
   add("map_wall_error_p95_m", score.map_wall_error_p95_m);
   if (score.localization) {
-    add("localization_way_m", score.localization->way_m);
+    add("localization_path_length_m", score.localization->path_length_m);
     add("localization_error_m", score.localization->error_m);
     add("localization_error_rad", score.localization->error_rad);
     add("localized_time_share", score.localization->time_share);

@@ -50,7 +50,7 @@ struct Criteria {
 
 /// How a flight found itself in the map it was given.
 struct LocalizationScore {
-  std::optional<double> way_m;  ///< Flown until it first said where it is, and how far off that was.
+  std::optional<double> path_length_m;  ///< Flown until it first said where it is, and how far off that was.
   std::optional<double> error_m;
   std::optional<double> error_rad;
   bool in_time = false;      ///< It was right, and within Criteria::localized_within_m.

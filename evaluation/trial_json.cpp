@@ -26,7 +26,7 @@ ordered_json visitJson(const MarkerVisit& visit) {
 
 ordered_json localizationJson(const LocalizationScore& score) {
   return {{"in_time", score.in_time},
-          {"way_m", orNull(score.way_m)},
+          {"path_length_m", orNull(score.path_length_m)},
           {"error_m", orNull(score.error_m)},
           {"error_rad", orNull(score.error_rad)},
           {"time_share", orNull(score.time_share)},
@@ -97,8 +97,8 @@ ordered_json trialJson(const TrialResult& trial) {
           {"estimate_rms_median_m", orNull(trial.estimateRmsMedian_m())},
           {"map_wall_error_median_m", orNull(trial.mapWallErrorMedian_m())},
           {"localized_flights", orNull(trial.localizedFlights())},
-          {"localization_way_median_m", orNull(trial.localizationWayMedian_m())},
-          {"localization_way_max_m", orNull(trial.localizationWayMax_m())},
+          {"localization_path_length_median_m", orNull(trial.localizationPathLengthMedian_m())},
+          {"localization_path_length_max_m", orNull(trial.localizationPathLengthMax_m())},
           {"wrong_time_share_max", orNull(trial.wrongTimeShareMax())},
           {"realtime_factor_median", orNull(trial.realtimeFactorMedian())},
           {"paper", paper},

@@ -27,12 +27,13 @@ std::optional<double> atQuantile(const std::vector<FlightScore>& flights, Member
 
 constexpr double kMin = 0.0, kMedian = 0.5, kMax = 1.0;
 
-std::optional<double> localizationWay_m(const std::vector<FlightScore>& flights, double q) {
-  std::vector<double> ways_m;
+std::optional<double> localizationPathLength_m(const std::vector<FlightScore>& flights, double q) {
+  std::vector<double> path_lengths_m;
   for (const FlightScore& flight : flights)
-    if (flight.localization && flight.localization->way_m) ways_m.push_back(*flight.localization->way_m);
-  if (ways_m.empty()) return std::nullopt;
-  return quantile(ways_m, q);
+    if (flight.localization && flight.localization->path_length_m)
+      path_lengths_m.push_back(*flight.localization->path_length_m);
+  if (path_lengths_m.empty()) return std::nullopt;
+  return quantile(path_lengths_m, q);
 }
 
 }  // namespace
@@ -111,8 +112,12 @@ std::optional<double> TrialResult::localizedFlights() const {
   if (given == 0) return std::nullopt;
   return static_cast<double>(in_time) / given;
 }
-std::optional<double> TrialResult::localizationWayMedian_m() const { return localizationWay_m(flights, kMedian); }
-std::optional<double> TrialResult::localizationWayMax_m() const { return localizationWay_m(flights, kMax); }
+std::optional<double> TrialResult::localizationPathLengthMedian_m() const {
+  return localizationPathLength_m(flights, kMedian);
+}
+std::optional<double> TrialResult::localizationPathLengthMax_m() const {
+  return localizationPathLength_m(flights, kMax);
+}
 std::optional<double> TrialResult::wrongTimeShareMax() const {
   std::optional<double> greatest;
   for (const FlightScore& flight : flights)

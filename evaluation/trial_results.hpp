@@ -41,8 +41,8 @@ struct TrialResult {
   std::optional<double> realtimeFactorMedian() const;
   /// Of the flights that were given a map: the share that was localized in time and rightly.
   std::optional<double> localizedFlights() const;
-  std::optional<double> localizationWayMedian_m() const;  ///< Of those that said where they are.
-  std::optional<double> localizationWayMax_m() const;
+  std::optional<double> localizationPathLengthMedian_m() const;  ///< Of those that said where they are.
+  std::optional<double> localizationPathLengthMax_m() const;
   std::optional<double> wrongTimeShareMax() const;
 };
 

@@ -86,10 +86,11 @@ class Wheels {
       : random_(seed, "wheels"), scale_(1.0 + random_.gaussian(0.01)), bias_radPerM_(random_.gaussian(0.002)) {}
 
   Pose2 counted(const Pose2& step) {
-    const double way_m = step.position_m().norm();
-    return {
-        scale_ * step.x_m + random_.gaussian(0.01 * way_m + 1e-4), step.y_m + random_.gaussian(0.005 * way_m),
-        1.01 * step.yaw_rad + bias_radPerM_ * way_m + random_.gaussian(0.01 * way_m + 0.02 * std::abs(step.yaw_rad))};
+    const double corners_m = step.position_m().norm();
+    return {scale_ * step.x_m + random_.gaussian(0.01 * corners_m + 1e-4),
+            step.y_m + random_.gaussian(0.005 * corners_m),
+            1.01 * step.yaw_rad + bias_radPerM_ * corners_m +
+                random_.gaussian(0.01 * corners_m + 0.02 * std::abs(step.yaw_rad))};
   }
 
  private:
@@ -107,7 +108,7 @@ FloorDrive makeFloorDrive(const FloorPlan& plan, std::uint64_t seed) {
   FloorDrive drive;
   Pose2 T_odom_robot;
   std::optional<Pose2> last;
-  for (const Pose2& pose : posesAlong(plan.way_m, driver)) {
+  for (const Pose2& pose : posesAlong(plan.corners_m, driver)) {
     if (last) T_odom_robot = T_odom_robot * wheels.counted(common::between(*last, pose));
     last = pose;
     const Time stamp = Time::fromSeconds(kStep_s * static_cast<double>(drive.scans.size() + 1));

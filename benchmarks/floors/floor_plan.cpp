@@ -118,8 +118,8 @@ FloorPlan makeFloorPlan(std::uint64_t seed) {
                {right - kHalf, kHalf}},
               random, plan.world);
   // Round the ring, through the corridor across, and part of the ring the other way.
-  plan.way_m = {{2.0, 0.0},       {kLength_m, 0.0},      {kLength_m, kWidth_m}, {0.0, kWidth_m}, {0.0, 0.0},
-                {kAcross_m, 0.0}, {kAcross_m, kWidth_m}, {kLength_m, kWidth_m}, {kLength_m, 0.0}};
+  plan.corners_m = {{2.0, 0.0},       {kLength_m, 0.0},      {kLength_m, kWidth_m}, {0.0, kWidth_m}, {0.0, 0.0},
+                    {kAcross_m, 0.0}, {kAcross_m, kWidth_m}, {kLength_m, kWidth_m}, {kLength_m, 0.0}};
   return plan;
 }
 

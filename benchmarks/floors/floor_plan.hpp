@@ -13,7 +13,7 @@ namespace swiftlet::benchmarks {
 
 struct FloorPlan {
   test::PlanarWorld world;
-  std::vector<Eigen::Vector2d> way_m;  ///< The corners of a drive through all of its corridors, in order.
+  std::vector<Eigen::Vector2d> corners_m;  ///< The corners of a drive through all of its corridors, in order.
 };
 
 /// A ring of corridors, 120 m by 80 m and 2.4 m wide, with a corridor across; along the walls closed doors, pillars,

@@ -12,7 +12,7 @@
 #include "common/table.hpp"
 #include "evaluation/trajectory_metrics.hpp"
 #include "perception/slam2d/laser_slam.hpp"
-#include "tests/slam2d/tracked_way.hpp"
+#include "tests/slam2d/tracked_path.hpp"
 
 namespace {
 
@@ -22,7 +22,7 @@ using namespace swiftlet;
 double trajectoryError_m(const benchmarks::FloorDrive& drive, bool odometry,
                          const perception::LaserSlamConfig& config) {
   perception::LaserSlam slam(config);
-  test::TrackedWay way(slam);
+  test::TrackedPath way(slam);
   for (const auto& [scan, T_odom_robot] : drive.scans)
     way.add(scan.stamps.measured, {scan, {}, odometry ? std::optional(T_odom_robot) : std::nullopt});
   return evaluation::absoluteTrajectoryError(evaluation::associate(way.finish(), drive.truth),
@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
   perception::LaserSlamConfig config;
   app.add_option("--first", first, "Seed of the first floor")->capture_default_str();
   app.add_option("--count", count, "How many floors")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--max-seen-through", config.slam.loops.max_seen_through,
+  app.add_option("--max-free-space-violation", config.slam.loops.max_free_space_violation,
                  "Greatest share of a closure that was looked through; 1: any")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();

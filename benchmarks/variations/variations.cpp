@@ -20,7 +20,7 @@
 #include "interfaces/laser_log/laser_log.hpp"
 #include "interfaces/laser_log/open_laser_log.hpp"
 #include "perception/slam2d/laser_slam.hpp"
-#include "tests/slam2d/tracked_way.hpp"
+#include "tests/slam2d/tracked_path.hpp"
 
 namespace {
 
@@ -90,7 +90,7 @@ std::vector<Variation> variations() {
 
 evaluation::RelationErrors errorsOf(const Log& log, bool odometry, const std::vector<common::Relation>& relations) {
   perception::LaserSlam slam{perception::LaserSlamConfig{}};
-  test::TrackedWay way(slam);
+  test::TrackedPath way(slam);
   for (const KnownScan& scan : log) {
     const auto T_odom_robot = odometry ? scan.logged.T_odom_robot : std::nullopt;
     way.add(scan.known_as, {scan.logged.scan, scan.logged.T_robot_laser, T_odom_robot});

@@ -16,7 +16,7 @@ constexpr double kFarBelow_sigma = 8.0;  // An unsure height is likelier than a 
 
 bool isBelow(const Neighbourhood& known, const LevelEstimate& level) {
   return level.seen && (known.now - level.last.stamp).seconds() <= known.config.enter_after_s &&
-         known.now >= level.doubted_until;
+         known.now >= level.distrusted_until;
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct LevelEstimate {
   int innovations = 0;
   double innovation_sum_m = 0.0;
   double innovation_variance_m2 = 0.0;
-  common::Time doubted_until;
+  common::Time distrusted_until;
 
   void forgetInnovations() {
     innovations = 0;

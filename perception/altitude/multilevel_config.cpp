@@ -19,14 +19,14 @@ void MultilevelConfig::describe(common::config::Fields& fields) {
   fields("confirm_moving_s", confirm_moving_s,
          "How long, when it rises or falls no faster than the error of the vertical speed.");
   fields("slope_sigma", slope_sigma, "What rises or falls by more than this many standard deviations is a slope.");
-  fields("doubt_s", doubt_s, "How long a level is left alone after it behaved like a slope.");
+  fields("hold_off_s", hold_off_s, "How long a level is left alone after it behaved like a slope.");
   fields("enter_after_s", enter_after_s, "A level not seen for this long is entered anew.");
   fields("unknown_per_m", unknown_per_m,
          "Surfaces not known yet that may be met, a metre of height, for each known one.");
   fields("floor_weight", floor_weight, "The take-off floor is so much likelier to be met than another level.");
   fields("one_floor", one_floor, "The take-off floor may be met again anywhere, not only near where it was seen.");
   fields("least_step_down_m", least_step_down_m, "Nothing is less than this below the take-off floor.");
-  fields("settle_s", settle_s, "A measurement that was not doubted for this long is given out.");
+  fields("publish_delay_s", publish_delay_s, "A measurement that was not doubted for this long is given out.");
 }
 
 std::vector<std::string> MultilevelConfig::validate() const {
@@ -44,12 +44,12 @@ std::vector<std::string> MultilevelConfig::validate() const {
       .within("confirm_s", confirm_s, 0.01, 10)
       .within("confirm_moving_s", confirm_moving_s, confirm_s, 10)
       .within("slope_sigma", slope_sigma, 1, 100)
-      .within("doubt_s", doubt_s, 0, 10)
+      .within("hold_off_s", hold_off_s, 0, 10)
       .within("enter_after_s", enter_after_s, 0, 10)
       .within("unknown_per_m", unknown_per_m, 0, 100)
       .within("floor_weight", floor_weight, 0, 1000)
       .within("least_step_down_m", least_step_down_m, 0, 10)
-      .within("settle_s", settle_s, 0, 1)
+      .within("publish_delay_s", publish_delay_s, 0, 1)
       .problems();
 }
 

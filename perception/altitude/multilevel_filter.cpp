@@ -41,7 +41,7 @@ struct MultilevelFilter::Impl {
   void assume(const HeightState& prior);
   void forgetTheLast();
   std::optional<VirtualHeight> settled();
-  void doubtSlopes();
+  void distrustSlopes();
   std::optional<VirtualHeight> updateHeight();
   void addNewLevels(AltitudeUpdate& outcome);
   void updateLeftLevels();
@@ -104,7 +104,7 @@ void MultilevelFilter::Impl::assume(const HeightState& prior) {
 }
 
 std::optional<VirtualHeight> MultilevelFilter::Impl::settled() {
-  if (settling.empty() || (now - settling.front().stamp).seconds() < config.settle_s) return std::nullopt;
+  if (settling.empty() || (now - settling.front().stamp).seconds() < config.publish_delay_s) return std::nullopt;
   const VirtualHeight oldest = settling.front();
   settling.pop_front();
   if (claimed && oldest.stamp > claimed->since) claimed.reset();
@@ -113,7 +113,7 @@ std::optional<VirtualHeight> MultilevelFilter::Impl::settled() {
 
 /// Over a level the innovations are noise. Over a slope they lean to one side, each within its gate, and the height
 /// would follow them: a level whose innovations add up to more than noise does is left alone for a while.
-void MultilevelFilter::Impl::doubtSlopes() {
+void MultilevelFilter::Impl::distrustSlopes() {
   std::erase_if(scan.groups, [this](const BeamGroup& g) {
     LevelEstimate& level = store.at(g.level);
     // The error of a claim is one and the same; that of a height that follows its measurements is not.
@@ -124,7 +124,7 @@ void MultilevelFilter::Impl::doubtSlopes() {
     if (square(level.innovation_sum_m) <= square(config.slope_sigma) * level.innovation_variance_m2) return false;
     level.forgetInnovations();
     forgetTheLast();
-    level.doubted_until = now + common::Duration::fromSeconds(config.doubt_s);
+    level.distrusted_until = now + common::Duration::fromSeconds(config.hold_off_s);
     for (Beam& beam : scan.beams)
       if (beam.level == g.level) beam.level = kNoLevel;
     return true;
@@ -336,7 +336,7 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
     f.forgetTheLast();
     f.matchBeams();
   }
-  f.doubtSlopes();
+  f.distrustSlopes();
   if (const auto measured = f.updateHeight()) f.settling.push_back(*measured);
   outcome.measurement = f.settled();
 

@@ -41,8 +41,8 @@ namespace swiftlet::perception {
 
 /// What one scan did.
 struct AltitudeUpdate {
-  /// Of a scan `settle_s` ago: by then it is known whether it met a level or the beginning of a slope. None: no beam
-  /// was explained by a known level (line 10), or it was a slope.
+  /// Of a scan `publish_delay_s` ago: by then it is known whether it met a level or the beginning of a slope. None: no
+  /// beam was explained by a known level (line 10), or it was a slope.
   std::optional<VirtualHeight> measurement;
   std::optional<double> height_above_ground_m;  ///< Over the highest surface below that two beams agree on.
   int levels_added = 0;

@@ -133,6 +133,6 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input, cons
 
 const LaserOdometryCounts& LaserFrontEnd::odometryCounts() const { return impl_->odometry.counts(); }
 
-LaserSlamCounts LaserFrontEnd::counts() const { return {impl_->clock.doubtful(), impl_->motion.doubtfulSteps()}; }
+LaserSlamCounts LaserFrontEnd::counts() const { return {impl_->clock.unreliable(), impl_->motion.implausibleSteps()}; }
 
 }  // namespace swiftlet::perception

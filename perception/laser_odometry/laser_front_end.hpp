@@ -33,8 +33,8 @@ struct LaserSlamInput {
 };
 
 struct LaserSlamCounts {
-  std::uint64_t doubtful_stamps = 0;    ///< Not after the one before, or too soon after it.
-  std::uint64_t doubtful_odometry = 0;  ///< Steps of the odometry that no robot makes.
+  std::uint64_t unreliable_stamps = 0;     ///< Not after the one before, or too soon after it.
+  std::uint64_t implausible_odometry = 0;  ///< Steps of the odometry that no robot makes.
 };
 
 /// A scan and where it was taken. odom is the frame of the laser odometry: it begins at the first scan and is

@@ -70,7 +70,7 @@ void MotionPrediction::predict(const std::optional<Pose2>& T_odom_robot, double 
   if (last_odom && T_odom_robot) {
     wheels_.step = between(*last_odom, *T_odom_robot);
     if (!(wheels_.step->position_m().norm() <= config_.max_speed_m_s * elapsed_s_)) {
-      ++doubtful_steps_;
+      ++implausible_steps_;
       wheels_.step.reset();
     }
   }

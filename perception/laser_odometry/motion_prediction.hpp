@@ -53,7 +53,7 @@ class MotionPrediction {
   double stepSigma_m() const;
   double stepSigma_rad() const;
   /// Steps of the odometry that no robot makes.
-  std::uint64_t doubtfulSteps() const { return doubtful_steps_; }
+  std::uint64_t implausibleSteps() const { return implausible_steps_; }
 
  private:
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -71,7 +71,7 @@ class MotionPrediction {
   MotionPredictionConfig config_;
   Source wheels_, inertia_;
   std::optional<common::Pose2> T_odom_robot_;
-  std::uint64_t doubtful_steps_ = 0;
+  std::uint64_t implausible_steps_ = 0;
   double elapsed_s_ = 0.0;
   common::Pose2 before_;  ///< The pose at the last scan.
 

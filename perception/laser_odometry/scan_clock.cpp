@@ -10,7 +10,7 @@ namespace {
 using common::Duration;
 
 /// So many doubtful stamps make the others doubtful too.
-constexpr std::uint64_t kDoubts = 3;
+constexpr std::uint64_t kDistrusts = 3;
 /// No laser turns faster: of scans stamped nearer to each other, one was held up on its way.
 constexpr Duration kLeastInterval = Duration::fromMilliseconds(5);
 /// Between scans whose stamps are all the same: so long that no step of a robot is too far for it.
@@ -34,8 +34,8 @@ common::Time ScanClock::tick(common::Time stamp) {
     const Duration interval = boundedInterval(last_stamp_, stamp);
     intervals_[(ticks_ - 1) % kRemembered] = interval;
     const bool credible = interval >= kLeastInterval && !isEarly(interval);
-    if (!credible) ++doubtful_;
-    now_ += std::max(credible && doubtful_ < kDoubts ? interval : usualInterval(), kLeastInterval);
+    if (!credible) ++unreliable_;
+    now_ += std::max(credible && unreliable_ < kDistrusts ? interval : usualInterval(), kLeastInterval);
     last_interval_ = interval;
   }
   last_stamp_ = stamp;

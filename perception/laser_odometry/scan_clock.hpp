@@ -16,7 +16,7 @@ class ScanClock {
   /// The time of a scan with that stamp; after all before.
   common::Time tick(common::Time stamp);
   /// Stamps that did not come after the one before, or sooner than a laser turns.
-  std::uint64_t doubtful() const { return doubtful_; }
+  std::uint64_t unreliable() const { return unreliable_; }
 
  private:
   bool isEarly(common::Duration interval) const;
@@ -24,7 +24,7 @@ class ScanClock {
 
   static constexpr std::size_t kRemembered = 128;
   std::array<common::Duration, kRemembered> intervals_;  ///< The last ones, as stamped, in no order.
-  std::uint64_t ticks_ = 0, doubtful_ = 0;
+  std::uint64_t ticks_ = 0, unreliable_ = 0;
   common::Duration last_interval_;
   common::Time last_stamp_, now_;
 };

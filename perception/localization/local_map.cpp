@@ -20,16 +20,18 @@ constexpr std::size_t kMostScans = 200;
 }  // namespace
 
 void LocalMap::add(const Pose2& T_odom_body, const std::vector<Eigen::Vector2f>& points_body_m) {
-  double way_m = 0.0;
+  double path_length_m = 0.0;
   if (!key_scans_.empty())
-    way_m = key_scans_.back().way_m + (T_odom_body.position_m() - key_scans_.back().T_odom_body.position_m()).norm();
-  key_scans_.push_back({T_odom_body, points_body_m, way_m});
+    path_length_m = key_scans_.back().path_length_m +
+                    (T_odom_body.position_m() - key_scans_.back().T_odom_body.position_m()).norm();
+  key_scans_.push_back({T_odom_body, points_body_m, path_length_m});
   std::erase_if(key_scans_.back().points_body_m, [](const Eigen::Vector2f& point) { return !point.allFinite(); });
-  while (way_m - key_scans_.front().way_m > length_m_ || key_scans_.size() > kMostScans) key_scans_.pop_front();
+  while (path_length_m - key_scans_.front().path_length_m > length_m_ || key_scans_.size() > kMostScans)
+    key_scans_.pop_front();
 }
 
 double LocalMap::length_m() const {
-  return key_scans_.empty() ? 0.0 : key_scans_.back().way_m - key_scans_.front().way_m;
+  return key_scans_.empty() ? 0.0 : key_scans_.back().path_length_m - key_scans_.front().path_length_m;
 }
 
 LocalMap::Whole LocalMap::whole(double spacing_m, std::size_t max_points) const {

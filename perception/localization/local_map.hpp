@@ -40,7 +40,7 @@ class LocalMap {
   struct KeyScan {
     common::Pose2 T_odom_body;
     std::vector<Eigen::Vector2f> points_body_m;
-    double way_m = 0.0;  ///< Since the very first scan.
+    double path_length_m = 0.0;  ///< Since the very first scan.
   };
   double length_m_;
   std::deque<KeyScan> key_scans_;

@@ -19,7 +19,7 @@ struct LocalizationTask::Data {
   LocalMap local_map{0.0};
   std::vector<Eigen::Vector2f> scan_body_m;
   common::Pose2 T_odom_scan;
-  double way_m = 0.0;
+  double path_length_m = 0.0;
   LocalizerConfig config;
   std::shared_ptr<const MapField> map;
   std::shared_ptr<const GlobalSearch> search;

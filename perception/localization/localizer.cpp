@@ -59,7 +59,7 @@ struct Localizer::Impl {
   void apply(const LocalizationResult::Data& found);
   void judge(const LocalizationResult::Data& found);
   void fitsNowhere();
-  void keepCandidate(const Pose2& T_grid_odom, double at_way_m);
+  void keepCandidate(const Pose2& T_grid_odom, double at_path_length_m);
   void localize(const LikelyPlace& place, const Pose2& T_odom_middle);
   void enter(LocalizationState next, std::string reason);
   LocalizationEstimate estimate();
@@ -84,18 +84,18 @@ struct Localizer::Impl {
   // While not.
   struct Candidate {
     Pose2 T_grid_odom;
-    double way_m = 0.0;  ///< Where it was first the only place.
+    double path_length_m = 0.0;  ///< Where it was first the only place.
   };
   std::optional<Candidate> candidate;
-  std::optional<double> searched_way_m;  ///< At the last search.
-  double nowhere_way_m = 0.0;            ///< Since when the local map fits nowhere.
+  std::optional<double> searched_path_length_m;  ///< At the last search.
+  double nowhere_path_length_m = 0.0;            ///< Since when the local map fits nowhere.
   bool fits_nowhere = false;
 
   // The search that is asked for, and the one that is under way.
   struct Question {
     std::vector<Eigen::Vector2f> scan_body_m;
     Pose2 T_odom_scan;
-    double way_m = 0.0;
+    double path_length_m = 0.0;
   };
   std::optional<Question> question;
   bool searching = false;
@@ -155,7 +155,7 @@ void Localizer::Impl::doubt(const LocalizationInput& input) {
     local_map.clear();
     return;
   }
-  if (!doubted) since_search_s = config.doubt_search_s;
+  if (!doubted) since_search_s = config.distrust_search_s;
   const bool moved =
       local_map.empty() ||
       (between(local_map.T_odom_last(), tracker.T_odom_body()).position_m().norm() >= config.generation_distance_m);
@@ -165,7 +165,7 @@ void Localizer::Impl::doubt(const LocalizationInput& input) {
     return;
   }
   since_search_s += elapsed_s;
-  if (since_search_s < config.doubt_search_s) return;
+  if (since_search_s < config.distrust_search_s) return;
   since_search_s = 0.0;
   ask(input.scan);
 }
@@ -189,7 +189,7 @@ void Localizer::Impl::lose(std::string reason) {
   enter(LocalizationState::kLost, std::move(reason));
   candidate.reset();
   question.reset();
-  searched_way_m.reset();
+  searched_path_length_m.reset();
   lost_test.reset();
   fits_nowhere = false;
   places = 0;
@@ -200,13 +200,13 @@ void Localizer::Impl::find(const LocalizationInput& input) {
   if (!local_map.empty() && !tracker.generationDue(input.T_odom_body)) return;
   local_map.add(tracker.T_odom_body(), input.scan.points_level_m);
   tracker.countGenerationsFromHere();
-  if (searched_way_m && tracker.way_m() - *searched_way_m < config.search_distance_m) return;
-  searched_way_m = tracker.way_m();
+  if (searched_path_length_m && tracker.path_length_m() - *searched_path_length_m < config.search_distance_m) return;
+  searched_path_length_m = tracker.path_length_m();
   ask(input.scan);
 }
 
 void Localizer::Impl::ask(const ProjectedScan& scan) {
-  question = Question{scan.points_level_m, tracker.T_odom_body(), tracker.way_m()};
+  question = Question{scan.points_level_m, tracker.T_odom_body(), tracker.path_length_m()};
 }
 
 void Localizer::Impl::forgetSearches() {
@@ -222,7 +222,7 @@ void Localizer::Impl::apply(const LocalizationResult::Data& found) {
   } else if (found.enough_points) {
     judge(found);
   } else {
-    searched_way_m.reset();  // Again, as soon as there is more.
+    searched_path_length_m.reset();  // Again, as soon as there is more.
   }
 }
 
@@ -256,10 +256,11 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
     return;
   }
   places = 1;
-  keepCandidate(best.T_grid_points * T_odom_middle.inverse(), found.task->way_m);
+  keepCandidate(best.T_grid_points * T_odom_middle.inverse(), found.task->path_length_m);
   // The last scan alone must not speak against it, either.
   support = supportOf(*map, found.task->scan_body_m, candidate->T_grid_odom * found.task->T_odom_scan, config.support);
-  if (found.task->way_m - candidate->way_m >= config.confirm_distance_m && lost_test.logOdds(support) <= 0.0) {
+  if (found.task->path_length_m - candidate->path_length_m >= config.confirm_distance_m &&
+      lost_test.logOdds(support) <= 0.0) {
     localize(best, T_odom_middle);
     return;
   }
@@ -269,11 +270,11 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
 void Localizer::Impl::fitsNowhere() {
   places = 0;
   candidate.reset();
-  if (!fits_nowhere) nowhere_way_m = tracker.way_m();
+  if (!fits_nowhere) nowhere_path_length_m = tracker.path_length_m();
   fits_nowhere = true;
   tracker.particles().spreadOverFreeSpace();
   // It may have been carried away meanwhile: begin anew from here.
-  if (tracker.way_m() - nowhere_way_m > config.confirm_distance_m) {
+  if (tracker.path_length_m() - nowhere_path_length_m > config.confirm_distance_m) {
     local_map.clear();
     fits_nowhere = false;
   }
@@ -281,12 +282,12 @@ void Localizer::Impl::fitsNowhere() {
     enter(was_localized ? LocalizationState::kLost : LocalizationState::kGlobal, "what was seen fits nowhere");
 }
 
-void Localizer::Impl::keepCandidate(const Pose2& next_T_grid_odom, double at_way_m) {
+void Localizer::Impl::keepCandidate(const Pose2& next_T_grid_odom, double at_path_length_m) {
   const Pose2& T_odom_body = tracker.T_odom_body();
   if (candidate && distinction.same(candidate->T_grid_odom * T_odom_body, next_T_grid_odom * T_odom_body))
     candidate->T_grid_odom = next_T_grid_odom;
   else
-    candidate = Candidate{next_T_grid_odom, at_way_m};
+    candidate = Candidate{next_T_grid_odom, at_path_length_m};
 }
 
 void Localizer::Impl::localize(const LikelyPlace& place, const Pose2& T_odom_middle) {
@@ -388,7 +389,7 @@ std::optional<LocalizationTask> Localizer::takeTask() {
   data->local_map = self.local_map;
   data->scan_body_m = std::move(self.question->scan_body_m);
   data->T_odom_scan = self.question->T_odom_scan;
-  data->way_m = self.question->way_m;
+  data->path_length_m = self.question->path_length_m;
   data->config = self.config;
   data->map = self.map;
   data->search = self.search;

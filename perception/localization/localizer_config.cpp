@@ -26,7 +26,7 @@ void LocalizerConfig::describe(common::config::Fields& fields) {
   fields("ambiguity", ambiguity, "Probability of all other places at which a pose is not believed.");
   fields("least_explained", least_explained, "Share of the local map that the map must explain.");
   fields("confirm_distance_m", confirm_distance_m, "Way over which a pose must hold.");
-  fields("doubt_search_s", doubt_search_s, "In doubt, the whole map is searched this often.");
+  fields("distrust_search_s", distrust_search_s, "In doubt, the whole map is searched this often.");
   fields("elsewhere_nats", elsewhere_nats, "So much likelier elsewhere means lost.");
 }
 
@@ -46,7 +46,7 @@ std::vector<std::string> LocalizerConfig::validate() const {
       .within("ambiguity", ambiguity, 0, 1)
       .within("least_explained", least_explained, 0, 1)
       .within("confirm_distance_m", confirm_distance_m, 0, 100)
-      .within("doubt_search_s", doubt_search_s, 0, 100)
+      .within("distrust_search_s", distrust_search_s, 0, 100)
       .within("elsewhere_nats", elsewhere_nats, 0, 1000)
       .problems();
 }

@@ -35,7 +35,7 @@ struct LocalizerConfig {
   double ambiguity = 0.01;     ///< A pose is not believed while others have together more than this probability.
   double least_explained = 0.70;    ///< Nor when the map explains less of the local map than this.
   double confirm_distance_m = 1.0;  ///< Nor before it has held over so much way.
-  double doubt_search_s = 0.5;      ///< While in doubt it is looked for elsewhere, with this long between.
+  double distrust_search_s = 0.5;   ///< While in doubt it is looked for elsewhere, with this long between.
   double elsewhere_nats = 10.0;     ///< So much likelier elsewhere means that it is lost.
 
   void describe(common::config::Fields& fields);

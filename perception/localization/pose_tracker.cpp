@@ -66,12 +66,13 @@ void PoseTracker::placeAt(const Pose2& T_grid_odom, const Eigen::Matrix3d& covar
 }
 
 bool PoseTracker::generationDue(const Pose2& next_T_odom_body) const {
-  return only_given_ || way_.way_m(next_T_odom_body) - generation_way_m_ >= config_.generation_distance_m ||
+  return only_given_ ||
+         way_.path_length_m(next_T_odom_body) - generation_path_length_m_ >= config_.generation_distance_m ||
          way_.turned_rad(next_T_odom_body) - generation_turned_rad_ >= config_.generation_turn_deg * kRadPerDeg;
 }
 
 void PoseTracker::countGenerationsFromHere() {
-  generation_way_m_ = way_.way_m();
+  generation_path_length_m_ = way_.path_length_m();
   generation_turned_rad_ = way_.turned_rad();
 }
 

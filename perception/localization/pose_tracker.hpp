@@ -13,8 +13,8 @@
 #include "perception/localization/localization_input.hpp"
 #include "perception/localization/localizer_config.hpp"
 #include "perception/localization/map_field.hpp"
+#include "perception/localization/odometer.hpp"
 #include "perception/localization/particle_filter.hpp"
-#include "perception/localization/way_meter.hpp"
 
 namespace swiftlet::perception {
 
@@ -45,7 +45,7 @@ class PoseTracker {
   Eigen::Matrix3d covariance() const;
 
   const common::Pose2& T_odom_body() const { return T_odom_body_; }
-  double way_m() const { return way_.way_m(); }  ///< Travelled, by the odometry.
+  double path_length_m() const { return way_.path_length_m(); }  ///< Travelled, by the odometry.
 
   ParticleFilter& particles() { return filter_; }
 
@@ -56,8 +56,8 @@ class PoseTracker {
   std::optional<PoseHypothesis> start_;  ///< Given before the odometry began.
 
   common::Pose2 T_odom_body_;
-  WayMeter way_;
-  double generation_way_m_ = 0.0, generation_turned_rad_ = 0.0;  ///< At the last generation.
+  Odometer way_;
+  double generation_path_length_m_ = 0.0, generation_turned_rad_ = 0.0;  ///< At the last generation.
 
   common::Pose2 T_grid_odom_;
   common::Pose2 T_odom_generation_;                            ///< Where the particles are,

@@ -46,7 +46,7 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
 void LostTestConfig::describe(common::config::Fields& fields) {
   fields("at_none", at_none, "Log-odds of being lost when nothing of a scan is explained.");
   fields("by_explained", by_explained, "What it changes by with the share explained.");
-  fields("doubt_explained", doubt_explained, "While the map explains less, the pose is looked for elsewhere.");
+  fields("distrust_explained", distrust_explained, "While the map explains less, the pose is looked for elsewhere.");
   fields("most", most, "No scan says more than this.");
   fields("scans_per_s", scans_per_s, "Scans that are independent.");
   fields("threshold", threshold, "Log-odds that are believed.");
@@ -57,7 +57,7 @@ std::vector<std::string> LostTestConfig::validate() const {
   return common::Validation()
       .within("at_none", at_none, -100, 100)
       .within("by_explained", by_explained, -100, 0)
-      .within("doubt_explained", doubt_explained, 0, 1)
+      .within("distrust_explained", distrust_explained, 0, 1)
       .within("most", most, 0.1, 100)
       .within("scans_per_s", scans_per_s, 0.1, 100)
       .within("threshold", threshold, 0.1, 100)

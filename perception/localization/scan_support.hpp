@@ -34,13 +34,13 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
 
 struct LostTestConfig {
   // The log-odds of being lost, of one scan: a logistic regression on simulated walks, see docs/localization.md.
-  double at_none = 9.4;           ///< Of a scan of which nothing is explained,
-  double by_explained = -17.6;    ///< and what it changes by with the share explained.
-  double most = 3.0;              ///< No scan says more than this, for or against.
-  double scans_per_s = 2.0;       ///< Scans nearer in time than this see the same: who stands in the way still does.
-  double doubt_explained = 0.75;  ///< Nor is all well while the map explains less than this: time to look elsewhere.
-  double threshold = 5.0;         ///< Log-odds that are believed.
-  int least_evidence = 15;        ///< Beams of a scan that say something; with fewer it is left out.
+  double at_none = 9.4;              ///< Of a scan of which nothing is explained,
+  double by_explained = -17.6;       ///< and what it changes by with the share explained.
+  double most = 3.0;                 ///< No scan says more than this, for or against.
+  double scans_per_s = 2.0;          ///< Scans nearer in time than this see the same: who stands in the way still does.
+  double distrust_explained = 0.75;  ///< Nor is all well while the map explains less than this: time to look elsewhere.
+  double threshold = 5.0;            ///< Log-odds that are believed.
+  int least_evidence = 15;           ///< Beams of a scan that say something; with fewer it is left out.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -59,7 +59,7 @@ class LostTest {
 
   bool lost() const { return sum_ >= config_.threshold; }
   /// Something speaks against the pose.
-  bool doubtful() const { return sum_ > 0.0 || explained_ < config_.doubt_explained; }
+  bool doubtful() const { return sum_ > 0.0 || explained_ < config_.distrust_explained; }
   /// Mean share explained, lately.
   double explained() const { return explained_; }
 

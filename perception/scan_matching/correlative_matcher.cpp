@@ -94,8 +94,8 @@ struct CorrelativeMatcher::Impl {
   MatchResult evaluate(const ProjectedScan& scan, const SearchPoints& points, const Pose2& guess,
                        const SearchWindow& window, const PoseGrid& grid, const BestPose& best, bool scored);
   double surfaceStep_rad(const std::vector<Eigen::Vector2f>& points) const;
-  void doubtUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen, const SplitPoints& surface_points,
-                    const Pose2& finest, const ExpectedPose& expected, Peak& peak);
+  void distrustUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen, const SplitPoints& surface_points,
+                       const Pose2& finest, const ExpectedPose& expected, Peak& peak);
   std::vector<bool> supportedAt(const SplitPoints& points, const Pose2& pose);
   ScoreSurface surfaceAround(const SplitPoints& points, const Pose2& center, double step_rad);
   Eigen::Matrix3d attitudeCovariance(const SplitPoints& points, const Pose2& center, double step_rad, const Peak& peak);
@@ -310,9 +310,9 @@ double CorrelativeMatcher::Impl::surfaceStep_rad(const std::vector<Eigen::Vector
 
 /// A contour that faces one direction only holds the position across it. Along it, the guess stands, or at least the
 /// spread of what scores as well counts.
-void CorrelativeMatcher::Impl::doubtUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen,
-                                            const SplitPoints& surface_points, const Pose2& finest,
-                                            const ExpectedPose& expected, Peak& peak) {
+void CorrelativeMatcher::Impl::distrustUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen,
+                                               const SplitPoints& surface_points, const Pose2& finest,
+                                               const ExpectedPose& expected, Peak& peak) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(
       normalSpread(all_points.x_m, all_points.y_m, config.only_seen ? seen : std::vector<bool>{}));
   const Eigen::Vector2d axis = Eigen::Rotation2Dd(finest.yaw_rad) * normals.eigenvectors().col(0);
@@ -352,7 +352,7 @@ MatchResult CorrelativeMatcher::Impl::evaluate(const ProjectedScan& scan, const 
   if (config.estimate == PoseEstimate::kWeightedMean) peak.offset = weightedMean(surface_points, grid, best);
   if (scored)
     addSpreadElsewhere(best, logPerScore(surface, scale), {surface.step_m, surface.step_m, step_rad}, expected, peak);
-  doubtUnfaced(all_points, seen, surface_points, finest, expected, peak);
+  distrustUnfaced(all_points, seen, surface_points, finest, expected, peak);
 
   result.covariance = peak.covariance;
   result.unobservable_direction = peak.unobservable_direction;

@@ -23,13 +23,13 @@ inline common::CellIndex cellOf(const Eigen::Vector2d& point_cells) {
 template <typename Mark, typename Touch>
 void touchCrossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Mark* mark, int stride, Touch&& touch) {
   const common::CellIndex begin = cellOf(from), end = cellOf(to);
-  const Eigen::Vector2d way = to - from;
+  const Eigen::Vector2d ray = to - from;
   int left_x = std::abs(end.x - begin.x), left_y = std::abs(end.y - begin.y);
-  const double per_x = 1.0 / std::max(std::abs(way.x()), 1e-12), per_y = 1.0 / std::max(std::abs(way.y()), 1e-12);
-  double next_x = per_x * (way.x() >= 0.0 ? begin.x + 1 - from.x() : from.x() - begin.x);
-  double next_y = per_y * (way.y() >= 0.0 ? begin.y + 1 - from.y() : from.y() - begin.y);
-  const std::ptrdiff_t step_x = way.x() >= 0.0 ? 1 : -1;
-  const std::ptrdiff_t step_y = way.y() >= 0.0 ? stride : -static_cast<std::ptrdiff_t>(stride);
+  const double per_x = 1.0 / std::max(std::abs(ray.x()), 1e-12), per_y = 1.0 / std::max(std::abs(ray.y()), 1e-12);
+  double next_x = per_x * (ray.x() >= 0.0 ? begin.x + 1 - from.x() : from.x() - begin.x);
+  double next_y = per_y * (ray.y() >= 0.0 ? begin.y + 1 - from.y() : from.y() - begin.y);
+  const std::ptrdiff_t step_x = ray.x() >= 0.0 ? 1 : -1;
+  const std::ptrdiff_t step_y = ray.y() >= 0.0 ? stride : -static_cast<std::ptrdiff_t>(stride);
   while (left_x + left_y > 0) {
     touch(*mark);
     if (left_y == 0 || (left_x > 0 && next_x < next_y)) {

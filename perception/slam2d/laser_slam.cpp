@@ -12,7 +12,7 @@ LaserSlamConfig::LaserSlamConfig() {
   slam.loops.min_window_deg = 15.0;
   slam.loops.max_sigma_m = 10.0;
   slam.loops.max_window_deg = 180.0;
-  slam.loops.min_fine_quality = 0.45;  // The query's own scans are tied less well than those of a flight.
+  slam.loops.min_fine_quality = 0.45;  // The query's own scans are constrained less than those of a flight.
   slam.live_map = false;               // Nobody flies by it.
 }
 

@@ -19,20 +19,21 @@ bool isSameView(const Pose2& a, const Pose2& b) {
 
 }  // namespace
 
-std::vector<int> tiedKeys(const SlamGraph& graph, int anchor, const Pose2& T_map_body, const Slam2dConfig& config) {
-  std::vector<int> tied;
+std::vector<int> connectedKeys(const SlamGraph& graph, int anchor, const Pose2& T_map_body,
+                               const Slam2dConfig& config) {
+  std::vector<int> connected;
   for (const ProjectedUncertainty& u : projectUncertainty(graph, anchor, config.local_sigma_m))
     if (distance(graph.keys[static_cast<std::size_t>(u.key)].T_map_body, T_map_body) < config.local_radius_m)
-      tied.push_back(u.key);
-  std::sort(tied.begin(), tied.end());
-  return tied;
+      connected.push_back(u.key);
+  std::sort(connected.begin(), connected.end());
+  return connected;
 }
 
-std::vector<int> localReferenceKeys(const SlamGraph& graph, const std::vector<int>& tied, int anchor,
+std::vector<int> localReferenceKeys(const SlamGraph& graph, const std::vector<int>& connected, int anchor,
                                     const Pose2& T_map_body, const Slam2dConfig& config) {
   const auto poseOf = [&](int key) -> const Pose2& { return graph.keys[static_cast<std::size_t>(key)].T_map_body; };
   std::vector<int> chosen;
-  for (const int key : tied)
+  for (const int key : connected)
     if (std::none_of(chosen.begin(), chosen.end(), [&](int other) { return isSameView(poseOf(key), poseOf(other)); }))
       chosen.push_back(key);
   std::stable_sort(chosen.begin(), chosen.end(),

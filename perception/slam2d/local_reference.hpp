@@ -9,12 +9,12 @@
 
 namespace swiftlet::perception {
 
-/// Key scans around T_map_body that are firmly tied to `anchor`, in ascending order.
-std::vector<int> tiedKeys(const SlamGraph& graph, int anchor, const common::Pose2& T_map_body,
-                          const Slam2dConfig& config);
+/// Key scans around T_map_body that are connected to `anchor`, in ascending order.
+std::vector<int> connectedKeys(const SlamGraph& graph, int anchor, const common::Pose2& T_map_body,
+                               const Slam2dConfig& config);
 
-/// Of `tied`, the oldest of each view, since they carry no later drift, and the anchor. In ascending order.
-std::vector<int> localReferenceKeys(const SlamGraph& graph, const std::vector<int>& tied, int anchor,
+/// Of `connected`, the oldest of each view, since they carry no later drift, and the anchor. In ascending order.
+std::vector<int> localReferenceKeys(const SlamGraph& graph, const std::vector<int>& connected, int anchor,
                                     const common::Pose2& T_map_body, const Slam2dConfig& config);
 
 /// Keeps what is drawn between matches; draws anew only when a key scan left the reference or moved.

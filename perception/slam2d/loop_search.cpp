@@ -6,7 +6,7 @@
 
 #include "perception/scan_matching/branch_and_bound.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
-#include "perception/slam2d/seen_through.hpp"
+#include "perception/slam2d/free_space_violation.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -21,10 +21,10 @@ constexpr double kViewDistance_m = 2.0;
 /// The wide search's spread, in its cells.
 constexpr double kWideSigmaCells = 2.0;
 
-/// Of the newest key scans up to the query those that are firmly tied to it, the newest first.
-std::vector<int> queryKeys(int query, const std::vector<ProjectedUncertainty>& tied_to_query, int count) {
+/// Of the newest key scans up to the query those that are connected to it with little uncertainty, the newest first.
+std::vector<int> queryKeys(int query, const std::vector<ProjectedUncertainty>& connected_to_query, int count) {
   std::vector<int> keys;
-  for (const ProjectedUncertainty& u : tied_to_query)
+  for (const ProjectedUncertainty& u : connected_to_query)
     if (u.key <= query && u.key > query - count) keys.push_back(u.key);
   std::sort(keys.rbegin(), keys.rend());
   return keys;
@@ -47,11 +47,11 @@ ProjectedScan joined(const SlamGraph& graph, const std::vector<int>& keys) {
   return joined;
 }
 
-/// Key scans around the candidate that are firmly tied to it, and not to the query.
-std::vector<int> referenceKeys(const SlamGraph& graph, const std::vector<ProjectedUncertainty>& tied_to_query,
+/// Key scans around the candidate that are connected to it with little uncertainty, and not to the query.
+std::vector<int> referenceKeys(const SlamGraph& graph, const std::vector<ProjectedUncertainty>& connected_to_query,
                                int candidate, const Slam2dConfig& config) {
   std::vector<char> of_query(graph.keys.size(), 0);
-  for (const ProjectedUncertainty& u : tied_to_query) of_query[static_cast<std::size_t>(u.key)] = 1;
+  for (const ProjectedUncertainty& u : connected_to_query) of_query[static_cast<std::size_t>(u.key)] = 1;
   std::vector<int> keys;
   const Pose2& center = graph.keys[static_cast<std::size_t>(candidate)].T_map_body;
   for (const ProjectedUncertainty& u : projectUncertainty(graph, candidate, config.local_sigma_m))
@@ -78,23 +78,23 @@ std::vector<PlacedScan> placed(const SlamGraph& graph, const std::vector<int>& k
 }
 
 /// What every second key scan and those between looked through of each other: people, leaves, a map that is bent.
-double shareSeenThroughItself(const SlamGraph& graph, std::vector<int> keys, double max_range_m) {
+double ownFreeSpaceViolation(const SlamGraph& graph, std::vector<int> keys, double max_range_m) {
   std::sort(keys.begin(), keys.end());
   std::vector<int> one, other;
   for (std::size_t i = 0; i < keys.size(); ++i) (i % 2 == 0 ? one : other).push_back(keys[i]);
-  return shareSeenThrough(placed(graph, one, {}), placed(graph, other, {}), max_range_m);
+  return freeSpaceViolation(placed(graph, one, {}), placed(graph, other, {}), max_range_m);
 }
 
 /// Whether the newest key scans, moved by `T_map_believed`, and the reference look through each other by more than
 /// either looks through itself.
 bool lookThroughEachOther(const SlamGraph& graph, const std::vector<int>& newest, const Pose2& T_map_believed,
                           const std::vector<int>& reference, const Slam2dConfig& config) {
-  const double max_range_m = config.matcher.max_range_m, most = config.loops.max_seen_through;
+  const double max_range_m = config.matcher.max_range_m, most = config.loops.max_free_space_violation;
   const double share =
-      shareSeenThrough(placed(graph, newest, T_map_believed), placed(graph, reference, {}), max_range_m);
+      freeSpaceViolation(placed(graph, newest, T_map_believed), placed(graph, reference, {}), max_range_m);
   if (share <= most) return false;
-  return share > most + std::max(shareSeenThroughItself(graph, newest, max_range_m),
-                                 shareSeenThroughItself(graph, reference, max_range_m));
+  return share > most + std::max(ownFreeSpaceViolation(graph, newest, max_range_m),
+                                 ownFreeSpaceViolation(graph, reference, max_range_m));
 }
 
 /// Contours of the reference scans in the map frame.
@@ -150,10 +150,10 @@ std::vector<LoopCandidate> loopCandidates(const SlamGraph& graph, int query, con
 std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const LoopCandidate& candidate,
                                     const Slam2dConfig& config) {
   const LoopClosureConfig& loops = config.loops;
-  const std::vector<ProjectedUncertainty> tied_to_query = projectUncertainty(graph, query, config.local_sigma_m);
-  const std::vector<int> reference = referenceKeys(graph, tied_to_query, candidate.key, config);
+  const std::vector<ProjectedUncertainty> connected_to_query = projectUncertainty(graph, query, config.local_sigma_m);
+  const std::vector<int> reference = referenceKeys(graph, connected_to_query, candidate.key, config);
   if (reference.empty()) return std::nullopt;
-  const std::vector<int> newest = queryKeys(query, tied_to_query, loops.query_scans);
+  const std::vector<int> newest = queryKeys(query, connected_to_query, loops.query_scans);
   const ProjectedScan query_scan = joined(graph, newest);
   const std::vector<Eigen::Vector2f> points =
       spreadPoints(query_scan.points_level_m, config.matcher.search_points, config.matcher.max_range_m);

@@ -35,8 +35,8 @@ struct Progress {
 /// A tilted scan carries the error of its attitude into the map: a level one is waited for, for half as far again.
 constexpr double kPatience = 1.5;
 
-/// How much way must lie between two optimizations for each key scan of the graph.
-constexpr double kSettledWayPerKey_m = 0.02;
+/// The path length that must lie between two optimizations for each key scan of the graph.
+constexpr double kOptimizationPathPerKey_m = 0.02;
 
 /// Where the vehicle is in the map; covariance of the additive errors (x_m, y_m, yaw_rad).
 struct WeighedPose {
@@ -73,8 +73,8 @@ struct Slam2d::Impl {
                   const MatchResult* match);
   MatchResult matchAround(const ProjectedScan& scan, std::vector<int>& keys);
   WeighedPose weighWithMotion(const MatchResult& match) const;
-  bool settlingIsDue() const;
-  void tiePasses(int other, const MatchResult& match);
+  bool optimizationIsDue() const;
+  void connectPasses(int other, const MatchResult& match);
   void standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
   std::optional<int> keyNear(std::span<const int> keys, const Pose2& pose) const;
   void draw(const ProjectedScan& scan);
@@ -97,15 +97,15 @@ struct Slam2d::Impl {
   Time last_stamp;
 
   Progress last_match, last_drawn;
-  double way_since_search_m = 0.0, way_since_settled_m = 0.0;
+  double path_length_since_search_m = 0.0, path_length_since_optimization_m = 0.0;
   bool search_due = false;
-  bool passes_tied = false;  ///< By an edge, since the graph settled last.
+  bool passes_connected = false;  ///< By an edge, since the last optimization.
 
   std::uint64_t tasks = 0;
   bool task_outstanding = false;
-  std::vector<FoundLoop> doubted;  ///< Closures that were refused.
+  std::vector<FoundLoop> rejected;  ///< Closures that were refused.
   std::size_t task_keys = 0;
-  int settled_keys = 0;  ///< Those before this one stood when the graph settled last.
+  int optimized_keys = 0;  ///< Those before this one existed at the last optimization.
   std::vector<std::pair<int, AttachedScan>> drawn_since_task;
 };
 
@@ -118,8 +118,8 @@ void Slam2d::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& c
       propagated(covariance_anchor, T_anchor_body, moved, common::turned(step_covariance, T_anchor_body.yaw_rad));
   T_anchor_body = moved;
   T_odom_body = T_odom_body_now;
-  way_since_search_m += step.position_m().norm();
-  way_since_settled_m += step.position_m().norm();
+  path_length_since_search_m += step.position_m().norm();
+  path_length_since_optimization_m += step.position_m().norm();
 }
 
 void Slam2d::Impl::standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key) {
@@ -163,7 +163,7 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& pose, cons
   }
   standOn(key, Pose2{}, Eigen::Matrix3d::Zero());
   ++counts.key_scans;
-  if (way_since_search_m >= config.loops.spacing_m) search_due = true;
+  if (path_length_since_search_m >= config.loops.spacing_m) search_due = true;
 }
 
 /// Matches to the earlier passes in view alone, if they show enough: joined to the newest, they would tear at the match
@@ -197,7 +197,7 @@ WeighedPose Slam2d::Impl::weighWithMotion(const MatchResult& match) const {
 
 /// The motion since the anchor, and on to where the match has the vehicle beside a key scan of another pass. Once is
 /// enough: the graph does not grow in known area.
-void Slam2d::Impl::tiePasses(int other, const MatchResult& match) {
+void Slam2d::Impl::connectPasses(int other, const MatchResult& match) {
   const std::vector<int>& edges = graph.keys[static_cast<std::size_t>(anchor)].edges;
   if (std::any_of(edges.begin(), edges.end(), [&](int index) {
         const SlamEdge& edge = graph.edges[static_cast<std::size_t>(index)];
@@ -209,13 +209,13 @@ void Slam2d::Impl::tiePasses(int other, const MatchResult& match) {
       common::turned(match.covariance, T_anchor_body.yaw_rad - match.T_reference_body.yaw_rad);
   graph.add({anchor, other, T_anchor_other,
              edgeCovariance(propagated(covariance_anchor, T_anchor_body, T_anchor_other, of_match), config), false});
-  passes_tied = true;
+  passes_connected = true;
 }
 
 /// The local match: pulls the estimate onto the older key scans around it. False: nothing to be learned from this scan.
 bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
-  const std::vector<int> tied = tiedKeys(graph, anchor, T_map_body(), config);
-  std::vector<int> keys = localReferenceKeys(graph, tied, anchor, T_map_body(), config);
+  const std::vector<int> connected = connectedKeys(graph, anchor, T_map_body(), config);
+  std::vector<int> keys = localReferenceKeys(graph, connected, anchor, T_map_body(), config);
   const MatchResult match = matchAround(scan, keys);
   if (match.failed) {
     ++counts.local_failures;
@@ -226,18 +226,18 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   }
   const bool same_pass = !areOfTwoPasses(keys.back(), anchor);
   const WeighedPose pose = same_pass ? weighWithMotion(match) : WeighedPose{match.T_reference_body, match.covariance};
-  // Any of the passes it was matched to will do, and what the graph has settled beside them.
+  // Any of the passes it was matched to will do, and what the last optimization placed beside them.
   std::vector<int> agreeing;
-  std::copy_if(tied.begin(), tied.end(), std::back_inserter(agreeing),
-               [&](int key) { return key < settled_keys || (key >= keys.front() && key <= keys.back()); });
+  std::copy_if(connected.begin(), connected.end(), std::back_inserter(agreeing),
+               [&](int key) { return key < optimized_keys || (key >= keys.front() && key <= keys.back()); });
   if (const std::optional<int> near = keyNear(agreeing, pose.T_map_body)) {
-    if (areOfTwoPasses(*near, anchor)) tiePasses(*near, match);
+    if (areOfTwoPasses(*near, anchor)) connectPasses(*near, match);
     standOn(*near, between(poseOf(*near), pose.T_map_body),
             edgeCovariance(common::turned(pose.covariance, -poseOf(*near).yaw_rad), config));
-    search_due |= settlingIsDue();
+    search_due |= optimizationIsDue();
     return true;
   }
-  passes_tied |= areOfTwoPasses(keys.front(), static_cast<int>(graph.keys.size()));
+  passes_connected |= areOfTwoPasses(keys.front(), static_cast<int>(graph.keys.size()));
   addKeyScan(scan, pose.T_map_body, keys, &match);
   update.key_scan = true;
   return true;
@@ -331,8 +331,8 @@ std::optional<SlamTask> Slam2d::takeTask() {
   self.search_due = false;
   std::vector<LoopCandidate> candidates =
       loopCandidates(self.graph, static_cast<int>(self.graph.keys.size()) - 1, self.config);
-  if (candidates.empty() && !self.settlingIsDue()) return std::nullopt;
-  self.way_since_search_m = 0.0;
+  if (candidates.empty() && !self.optimizationIsDue()) return std::nullopt;
+  self.path_length_since_search_m = 0.0;
   return self.makeTask(std::move(candidates), false);
 }
 
@@ -342,10 +342,11 @@ std::optional<SlamTask> Slam2d::takeLastTask() {
   return impl_->makeTask({}, true);
 }
 
-/// The larger the graph, the more way lies between two optimizations that no loop asked for: the work per metre is
+/// The larger the graph, the longer the path between two optimizations that no loop asked for: the work per metre is
 /// bounded.
-bool Slam2d::Impl::settlingIsDue() const {
-  return passes_tied && way_since_settled_m >= kSettledWayPerKey_m * static_cast<double>(graph.keys.size());
+bool Slam2d::Impl::optimizationIsDue() const {
+  return passes_connected &&
+         path_length_since_optimization_m >= kOptimizationPathPerKey_m * static_cast<double>(graph.keys.size());
 }
 
 SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, bool is_last) {
@@ -358,12 +359,12 @@ SlamTask Slam2d::Impl::makeTask(std::vector<LoopCandidate> candidates, bool is_l
   data->graph = graph;
   data->query = static_cast<int>(graph.keys.size()) - 1;
   data->candidates = std::move(candidates);
-  data->doubted = doubted;
+  data->rejected = rejected;
   data->is_last = is_last;
-  data->settle = settlingIsDue();
-  if (data->settle) {
-    passes_tied = false;
-    way_since_settled_m = 0.0;
+  data->optimize_graph = optimizationIsDue();
+  if (data->optimize_graph) {
+    passes_connected = false;
+    path_length_since_optimization_m = 0.0;
   }
   data->config = config;
   return SlamTask{std::move(data)};
@@ -373,13 +374,13 @@ bool Slam2d::apply(const SlamResult& result) {
   Impl& self = *impl_;
   SWIFTLET_CHECK(self.task_outstanding && result.data != nullptr && result.data->id == self.tasks, self.tasks);
   self.task_outstanding = false;
-  self.doubted = result.data->doubted;
+  self.rejected = result.data->rejected;
   self.counts.loops_closed += result.accepted.size();
-  self.counts.loops_taken_back += result.data->taken_back.size();
+  self.counts.loops_rejected += result.data->rejected_edges.size();
   const std::vector<Pose2>& poses = result.data->T_map_key;
   if (poses.empty()) return false;
 
-  self.settled_keys = static_cast<int>(self.task_keys);
+  self.optimized_keys = static_cast<int>(self.task_keys);
   // What came after the task moves along with what it was built on: its first edge comes from there.
   std::vector<Pose2> T_map_before;
   for (const KeyScan& key : self.graph.keys) T_map_before.push_back(key.T_map_body);
@@ -392,7 +393,7 @@ bool Slam2d::apply(const SlamResult& result) {
       key.T_map_body = self.poseOf(base) * between(T_map_before[static_cast<std::size_t>(base)], T_map_before[i]);
     }
   }
-  for (auto edge = result.data->taken_back.rbegin(); edge != result.data->taken_back.rend(); ++edge)
+  for (auto edge = result.data->rejected_edges.rbegin(); edge != result.data->rejected_edges.rend(); ++edge)
     self.graph.remove(*edge);
   for (const SlamEdge& closure : result.data->closures) self.graph.add(closure);
   self.reference.invalidate();

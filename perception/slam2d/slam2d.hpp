@@ -43,7 +43,7 @@ struct SlamCounts {
   std::uint64_t local_failures = 0;  ///< Scans that should have matched older ones, but did not.
   std::uint64_t loop_candidates = 0;
   std::uint64_t loops_closed = 0;
-  std::uint64_t loops_taken_back = 0;  ///< Of those, closures that later ones contradicted.
+  std::uint64_t loops_rejected = 0;  ///< Of those, closures that later ones contradicted.
 };
 
 /// Single-threaded; the values it hands out are safe anywhere.
@@ -84,7 +84,7 @@ class Slam2d {
   };
   /// Every key scan at its best pose so far.
   std::vector<KeyPose> keyPoses() const;
-  /// What they are tied by, as indices into keyPoses().
+  /// The constraints between them, as indices into keyPoses().
   const std::vector<SlamEdge>& edges() const;
 
  private:

@@ -22,7 +22,7 @@ void LoopClosureConfig::describe(common::config::Fields& fields) {
   fields("max_ambiguity", max_ambiguity, "A second, distinct place must score less than this share of the best.");
   fields("distinct_m", distinct_m, "Distance from which a place is distinct.");
   fields("distinct_deg", distinct_deg, "Rotation from which it is.");
-  fields("max_seen_through", max_seen_through,
+  fields("max_free_space_violation", max_free_space_violation,
          "Greatest share of either side's points that the other looked through, beyond what a side looks through of "
          "itself.");
   fields("max_edge_sigmas", max_edge_sigmas, "A closure whose error after optimization is larger is taken back.");
@@ -43,7 +43,7 @@ std::vector<std::string> LoopClosureConfig::validate() const {
       .within("min_quality", min_quality, 0, 1)
       .within("min_fine_quality", min_fine_quality, 0, 1)
       .within("max_ambiguity", max_ambiguity, 0, 1)
-      .within("max_seen_through", max_seen_through, 0, 1)
+      .within("max_free_space_violation", max_free_space_violation, 0, 1)
       .within("distinct_m", distinct_m, 0, 10)
       .within("distinct_deg", distinct_deg, 0, 180)
       .within("max_edge_sigmas", max_edge_sigmas, 0.1, 100)

@@ -29,7 +29,7 @@ struct LoopClosureConfig {
   double distinct_m = 0.4;              ///< What counts as distinct.
   double distinct_deg = 12.0;
   /// Greatest share of either side's points that the other looked through, beyond what a side looks through of itself.
-  double max_seen_through = 0.03;
+  double max_free_space_violation = 0.03;
   double max_edge_sigmas = 4.0;  ///< A closure whose error after optimization is larger is taken back.
 
   void describe(common::config::Fields& fields);

@@ -7,7 +7,7 @@
 
 namespace swiftlet::perception {
 
-/// What ties two key scans: a match, or the motion between them.
+/// A constraint between two key scans: a match, or the motion between them.
 struct SlamEdge {
   int from = 0;
   int to = 0;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/check.hpp"
-#include "perception/slam2d/settlement.hpp"
+#include "perception/slam2d/loop_consensus.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -13,8 +13,8 @@ using common::Pose2;
 
 /// A shift of less than this share of a cell does not show in the grid.
 constexpr double kVisibleCells = 0.25;
-/// So many closures that were refused are kept, the newest.
-constexpr std::size_t kDoubted = 24;
+/// The newest rejected closures are kept, at most this many.
+constexpr std::size_t kRejectedKept = 24;
 
 double greatestShift(const SlamGraph& graph, const std::vector<Pose2>& poses) {
   double greatest = 0.0;
@@ -37,23 +37,23 @@ SlamResult run(const SlamTask& task) {
   std::vector<FoundLoop> loops;
   for (const LoopCandidate& candidate : in.candidates)
     if (const auto found = searchLoop(in.graph, in.query, candidate, in.config)) loops.push_back(*found);
-  out->doubted = in.doubted;
-  if (!loops.empty() || in.settle || in.is_last) {
-    Settled settled = settle(in.graph, loops, in.config);
-    if (!settled.refused.empty()) {
-      out->doubted.insert(out->doubted.end(), settled.refused.begin(), settled.refused.end());
-      if (auto over = turnedOver(in.graph, out->doubted, in.config)) {
-        settled = std::move(*over);
-        out->doubted.clear();
-      } else if (out->doubted.size() > kDoubted) {
-        out->doubted.erase(out->doubted.begin(), out->doubted.end() - static_cast<std::ptrdiff_t>(kDoubted));
+  out->rejected = in.rejected;
+  if (!loops.empty() || in.optimize_graph || in.is_last) {
+    LoopConsensus consensus = optimizeWithRejection(in.graph, loops, in.config);
+    if (!consensus.refused.empty()) {
+      out->rejected.insert(out->rejected.end(), consensus.refused.begin(), consensus.refused.end());
+      if (auto overruled = consensusOfRejected(in.graph, out->rejected, in.config)) {
+        consensus = std::move(*overruled);
+        out->rejected.clear();
+      } else if (out->rejected.size() > kRejectedKept) {
+        out->rejected.erase(out->rejected.begin(), out->rejected.end() - static_cast<std::ptrdiff_t>(kRejectedKept));
       }
     }
     // What changes nothing is not worth a jump of the map.
-    if (in.is_last || in.settle || !settled.accepted.empty() || !settled.taken_back.empty())
-      out->T_map_key = std::move(settled.T_map_key);
-    out->taken_back = std::move(settled.taken_back);
-    for (const FoundLoop& loop : settled.accepted) {
+    if (in.is_last || in.optimize_graph || !consensus.accepted.empty() || !consensus.rejected_edges.empty())
+      out->T_map_key = std::move(consensus.T_map_key);
+    out->rejected_edges = std::move(consensus.rejected_edges);
+    for (const FoundLoop& loop : consensus.accepted) {
       out->closures.push_back(loop.edge);
       result.accepted.push_back({loop.edge.from, loop.edge.to, loop.edge.T_from_to, loop.quality, loop.shift_m});
     }

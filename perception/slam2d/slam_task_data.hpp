@@ -16,9 +16,11 @@ struct SlamTask::Data {
   SlamGraph graph;  ///< A copy; its scans are shared and immutable.
   int query = 0;
   std::vector<LoopCandidate> candidates;
-  std::vector<FoundLoop> doubted;  ///< Closures that the graph refused before.
-  bool settle = false;             ///< A match tied two passes: the graph is to settle, whether or not a loop is found.
-  bool is_last = false;            ///< No more scans come: the graph is to be at its best.
+  std::vector<FoundLoop> rejected;  ///< Closures that the graph refused before.
+  /// An edge connected two passes: the graph is optimized, whether or not a loop is found.
+  bool optimize_graph = false;
+  /// No more scans come: the graph is optimized as a whole.
+  bool is_last = false;
   Slam2dConfig config;
 };
 
@@ -26,9 +28,9 @@ struct SlamResult::Data {
   std::uint64_t id = 0;
   std::vector<common::Pose2> T_map_key;  ///< Of every key scan of the task; empty when nothing was found.
   std::vector<SlamEdge> closures;
-  std::vector<FoundLoop> doubted;  ///< Closures refused, now and before.
-  std::vector<int> taken_back;     ///< Edges of the task's graph, ascending.
-  std::optional<SlicedMap> map;    ///< Drawn anew, when the poses moved by enough to be seen.
+  std::vector<FoundLoop> rejected;  ///< Closures refused, now and before.
+  std::vector<int> rejected_edges;  ///< Edges of the task's graph, ascending.
+  std::optional<SlicedMap> map;     ///< Drawn anew, when the poses moved by enough to be seen.
 };
 
 }  // namespace swiftlet::perception

@@ -24,8 +24,8 @@ bool unexplained(const common::OccupancyGrid& background, const Point& point_m, 
 }
 
 /// Beams pass the middle of where it should be and end well behind it.
-bool seenThrough(const DynamicObstacle& obstacle, double age_s, std::span<const Eigen::Vector2f> points_map_m,
-                 const Point& sensor_map_m) {
+bool violatesFreeSpace(const DynamicObstacle& obstacle, double age_s, std::span<const Eigen::Vector2f> points_map_m,
+                       const Point& sensor_map_m) {
   constexpr int kBeams = 2;
   constexpr double kBehind_m = 0.2;
   const Point to = obstacle.center_map_m + obstacle.velocity_map_m_s * age_s - sensor_map_m;
@@ -167,7 +167,7 @@ void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2
   std::erase_if(obstacles_, [&](const DynamicObstacle& o) {
     const double age_s = (stamp - o.last_seen).seconds();
     return age_s > config_.time_to_live_s ||
-           (age_s > config_.refuted_after_s && seenThrough(o, age_s, points_map_m, sensor_map_m));
+           (age_s > config_.refuted_after_s && violatesFreeSpace(o, age_s, points_map_m, sensor_map_m));
   });
 }
 

@@ -326,7 +326,7 @@ TEST(MultilevelFilter, joinIsTheFormulaOfThePaper) {
 
 TEST(MultilevelFilter, garbageInNothingOut) {
   MultilevelFilter::Config config;
-  config.settle_s = 0.0;
+  config.publish_delay_s = 0.0;
   MultilevelFilter filter(config);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<GroundPoint> points(10, GroundPoint{{0, 0}, 1.0});

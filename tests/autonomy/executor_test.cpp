@@ -237,8 +237,8 @@ class ExecutorRetreating : public ExecutorToGoal {
     run(1.5);
     const Eigen::Vector2d from_m = position_m();
     run(1.0);
-    const Eigen::Vector2d way_m = Eigen::Rotation2Dd(-yaw_rad_) * (position_m() - from_m);
-    EXPECT_LT((way_m - Eigen::Vector2d(-0.5, 0.0)).norm(), 0.02) << way_m.transpose();
+    const Eigen::Vector2d path_length_m = Eigen::Rotation2Dd(-yaw_rad_) * (position_m() - from_m);
+    EXPECT_LT((path_length_m - Eigen::Vector2d(-0.5, 0.0)).norm(), 0.02) << path_length_m.transpose();
     EXPECT_NEAR(state_.T_map_body_planar().yaw_rad, yaw_rad_ + 0.4, 0.02);
     EXPECT_FALSE(controller_.followsPath());
     EXPECT_TRUE(executor_.remainingPlan_map_m().empty());

@@ -93,7 +93,7 @@ TEST_F(Map, TheWayIsThatOfTheRobotThroughKnownAreaToo) {
   std::string log;
   for (int i = 0; i < 400; ++i) log += scan(-2.0 + 0.03 * std::abs(i % 200 - 100), 100.0 + 0.1 * i);
   for (int i = 400; i < 440; ++i) log += scan(1.0, 100.0 + 0.1 * i);  // It stands.
-  EXPECT_NEAR(mapped(log).at("way_m").get<double>(), 12.0, 0.4);
+  EXPECT_NEAR(mapped(log).at("path_length_m").get<double>(), 12.0, 0.4);
 }
 
 TEST_F(Map, ALogBecomesAMapATrajectoryAGraphAndAReport) {
@@ -102,7 +102,7 @@ TEST_F(Map, ALogBecomesAMapATrajectoryAGraphAndAReport) {
   EXPECT_EQ(figures.at("format"), "CARMEN");
   EXPECT_EQ(figures.at("skipped_records"), 0);
   EXPECT_EQ(figures.at("invalid_ranges"), 0);
-  EXPECT_EQ(figures.at("doubtful_stamps"), 0);
+  EXPECT_EQ(figures.at("unreliable_stamps"), 0);
   EXPECT_TRUE(figures.at("complete").get<bool>());
   EXPECT_TRUE(figures.at("notes").empty()) << figures.dump(2);
   EXPECT_GT(figures.at("scans_per_s").get<double>(), 0.0);
@@ -197,7 +197,7 @@ TEST_F(Map, OddScansAreMapped) {
   }
   const nlohmann::json figures = mapped(log);
   EXPECT_EQ(figures.at("scans"), 60);
-  EXPECT_GE(figures.at("doubtful_stamps").get<int>(), 6);
+  EXPECT_GE(figures.at("unreliable_stamps").get<int>(), 6);
   EXPECT_EQ(figures.at("invalid_ranges"), 2);
   EXPECT_THAT(notesOf(figures), HasSubstr("time stamps do not follow the one before"));
 }
@@ -348,7 +348,7 @@ TEST_F(Map, AMapThatNobodyCouldReadIsNotWritten) {
   EXPECT_EQ(namesIn("out"), (std::set<std::string>{"graph.g2o", "report.html", "trajectory.tum"}));
 }
 
-TEST_F(Map, AMapOfScansThatDoNotFitIsDoubted) {
+TEST_F(Map, AMapOfScansThatDoNotFitIsDistrusted) {
   EXPECT_THAT(notesOf(mapped(jumps(30, 1.0))),
               HasSubstr("the map is probably wrong in places: 29 of 30 scans matched nothing"));
 }

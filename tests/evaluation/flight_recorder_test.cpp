@@ -120,7 +120,7 @@ TEST(FlightRecorder, FollowsHowTheFlightFindsItselfInTheGivenMap) {
   snapshot(4.0, State::kLost, 0.0);
   const LocalizationRecord record = recorder.finish().localization.value();
   ASSERT_TRUE(record.found);
-  EXPECT_NEAR(record.found->way_m, 2.0, 1e-9);
+  EXPECT_NEAR(record.found->path_length_m, 2.0, 1e-9);
   EXPECT_NEAR(record.found->error_m, 0.1, 1e-9);
   EXPECT_NEAR(record.found->error_rad, 0.0, 1e-9);
   EXPECT_NEAR(record.flown_s, 4.0, 1e-9);

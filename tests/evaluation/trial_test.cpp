@@ -226,7 +226,7 @@ TEST(TrialResults, CountFlightsThatFoundThemselvesInTimeAndRightly) {
   trial.criteria.localized_flights_min = 0.96;
   for (std::size_t i = 0; i < 4; ++i) {
     LocalizationScore& score = trial.flights[i].localization.emplace();
-    score.way_m = 2.0 + static_cast<double>(i);
+    score.path_length_m = 2.0 + static_cast<double>(i);
     score.in_time = i < 3;
   }
   trial.flights[4].localization.emplace().wrong_share = 0.25;
@@ -234,10 +234,10 @@ TEST(TrialResults, CountFlightsThatFoundThemselvesInTimeAndRightly) {
   EXPECT_THAT(trial.missed(), testing::ElementsAre("flights localized: 0.6000, at least 0.96 was asked for"));
   const json written = json::parse(toJson(all))["trials"][0];
   EXPECT_EQ(written["localized_flights"], 0.6);
-  EXPECT_EQ(written["localization_way_median_m"], 3.5);
+  EXPECT_EQ(written["localization_path_length_median_m"], 3.5);
   EXPECT_EQ(written["wrong_time_share_max"], 0.25);
   EXPECT_EQ(written["flights"][0]["localization"]["in_time"], true);
-  EXPECT_TRUE(written["flights"][4]["localization"]["way_m"].is_null());
+  EXPECT_TRUE(written["flights"][4]["localization"]["path_length_m"].is_null());
 }
 
 TEST_F(Trials, AMapIsAFileOrDrivenForButNotBoth) {

@@ -363,8 +363,8 @@ class DriftingOdometry {
   const common::Pose2& pose() const { return pose_; }
   void step(const common::Pose2& moved) {
     // Errors of single steps that add up to those per metre.
-    const double way_m = moved.position_m().norm(), turn_rad = std::abs(common::wrapAngle(moved.yaw_rad));
-    const double root = std::sqrt(way_m);
+    const double path_length_m = moved.position_m().norm(), turn_rad = std::abs(common::wrapAngle(moved.yaw_rad));
+    const double root = std::sqrt(path_length_m);
     pose_ = pose_ * common::Pose2{moved.x_m + random_.gaussian(0.02 * root), moved.y_m + random_.gaussian(0.02 * root),
                                   moved.yaw_rad + random_.gaussian(0.5 * common::kRadPerDeg * root + 0.02 * turn_rad)};
   }

@@ -14,8 +14,8 @@ namespace {
 using common::Pose2;
 
 struct Found {
-  double way_m = -1.0;  ///< Until it was first localized; negative: never.
-  bool wrong = false;   ///< Then, or at any time after.
+  double path_length_m = -1.0;  ///< Until it was first localized; negative: never.
+  bool wrong = false;           ///< Then, or at any time after.
 };
 
 Found walk(const Building& mapped, const PlanarWorld& world, std::uint64_t seed) {
@@ -27,27 +27,27 @@ Found walk(const Building& mapped, const PlanarWorld& world, std::uint64_t seed)
   common::RandomStream noise(seed, "found");
   perception::Localizer localizer(mapOf(mapped), Pose2{}, {}, seed);
   Found found;
-  double way_m = 0.0;
+  double path_length_m = 0.0;
   for (int i = 0; i < 300; ++i) {
     const Pose2 truth = walker.pose();
     const auto scan = levelScan(world, truth, common::Time::fromSeconds(kScan_s * i), noise);
     const auto estimate = localizer.add({scan, odometry.pose(), Eigen::Matrix3d::Zero(), true, false});
     if (estimate.state == perception::LocalizationState::kLocalized) {
-      if (found.way_m < 0.0) found.way_m = way_m;
+      if (found.path_length_m < 0.0) found.path_length_m = path_length_m;
       const Pose2 off = between(truth, estimate.T_map_body);
       found.wrong |= off.position_m().norm() > kWrong_m || std::abs(off.yaw_rad) > kWrong_rad;
     }
     walker.advance(kScan_s);
     const Pose2 moved = between(truth, walker.pose());
     odometry.step(moved);
-    way_m += moved.position_m().norm();
+    path_length_m += moved.position_m().norm();
   }
   return found;
 }
 
 struct Count {
   int cases = 0, within_5_m = 0, wrong = 0, never = 0;
-  std::vector<double> ways_m;
+  std::vector<double> path_lengths_m;
 };
 
 Count count(double disturbed_share, int cases) {
@@ -58,16 +58,16 @@ Count count(double disturbed_share, int cases) {
     const Found found = walk(
         building, disturbed_share > 0.0 ? changedFurniture(building, disturbed_share, seed) : building.world, seed);
     ++count.cases;
-    count.within_5_m += found.way_m >= 0.0 && found.way_m <= 5.0 ? 1 : 0;
+    count.within_5_m += found.path_length_m >= 0.0 && found.path_length_m <= 5.0 ? 1 : 0;
     count.wrong += found.wrong ? 1 : 0;
-    count.never += found.way_m < 0.0 ? 1 : 0;
-    if (found.way_m >= 0.0) count.ways_m.push_back(found.way_m);
+    count.never += found.path_length_m < 0.0 ? 1 : 0;
+    if (found.path_length_m >= 0.0) count.path_lengths_m.push_back(found.path_length_m);
   }
-  std::sort(count.ways_m.begin(), count.ways_m.end());
+  std::sort(count.path_lengths_m.begin(), count.path_lengths_m.end());
   std::printf("%2.0f %% disturbed: %d cases, %d within 5 m, median %.1f m, at most %.1f m, never %d, wrong %d\n",
               100.0 * disturbed_share, count.cases, count.within_5_m,
-              count.ways_m.empty() ? 0.0 : count.ways_m[count.ways_m.size() / 2],
-              count.ways_m.empty() ? 0.0 : count.ways_m.back(), count.never, count.wrong);
+              count.path_lengths_m.empty() ? 0.0 : count.path_lengths_m[count.path_lengths_m.size() / 2],
+              count.path_lengths_m.empty() ? 0.0 : count.path_lengths_m.back(), count.never, count.wrong);
   return count;
 }
 

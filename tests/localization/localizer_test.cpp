@@ -31,7 +31,7 @@ struct Story {
     walker.advance(0.1);
     const Pose2 moved = between(truth, walker.pose());
     odometry.step(moved);
-    way_m += moved.position_m().norm();
+    path_length_m += moved.position_m().norm();
     time_s += 0.1;
     return estimate;
   }
@@ -43,7 +43,7 @@ struct Story {
   common::RandomStream noise;
   Localizer localizer;
   Pose2 truth, odometry_at_scan;
-  double time_s = 0.0, way_m = 0.0;
+  double time_s = 0.0, path_length_m = 0.0;
 };
 
 double errorOf(const LocalizationEstimate& estimate, const Pose2& truth) {
@@ -60,7 +60,7 @@ TEST(Localizer, FindsItselfWithinAFewMetresAndStaysFound) {
         EXPECT_LT(found_m, 0.0) << "lost again, seed " << seed;
         continue;
       }
-      if (found_m < 0.0) found_m = story.way_m;
+      if (found_m < 0.0) found_m = story.path_length_m;
       worst_m = std::max(worst_m, errorOf(estimate, story.truth));
     }
     EXPECT_GE(found_m, LocalizerConfig{}.confirm_distance_m) << seed;

@@ -10,10 +10,10 @@
 #include "perception/localization/kld_sampling.hpp"
 #include "perception/localization/local_map.hpp"
 #include "perception/localization/map_field.hpp"
+#include "perception/localization/odometer.hpp"
 #include "perception/localization/particle_filter.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/scan_support.hpp"
-#include "perception/localization/way_meter.hpp"
 #include "tests/localization/buildings.hpp"
 
 namespace swiftlet::perception {
@@ -399,19 +399,19 @@ TEST(LocalMap, OnTheSpotItKeepsTheLastScansOnly) {
   EXPECT_EQ(map.whole(1e-6, 10'000).points_middle_m.size(), 200U);
 }
 
-TEST(WayMeter, CountsNoTremblingAndEveryWay) {
+TEST(Odometer, CountsNoTremblingAndEveryWay) {
   common::RandomStream tremble(5, "tremble");
-  WayMeter still, gone;
+  Odometer still, gone;
   for (int i = 0; i < 1000; ++i) {
     const common::Pose2 error{tremble.gaussian(0.005), tremble.gaussian(0.005), tremble.gaussian(0.005)};
     still.add(error);
     gone.add(common::Pose2{0.01 * i, 0.0, 0.01 * i} * error);
   }
-  EXPECT_LT(still.way_m(), 0.05);
+  EXPECT_LT(still.path_length_m(), 0.05);
   EXPECT_LT(still.turned_rad(), 0.05);
-  EXPECT_NEAR(gone.way_m(), 9.99, 0.3);
+  EXPECT_NEAR(gone.path_length_m(), 9.99, 0.3);
   EXPECT_NEAR(gone.turned_rad(), 9.99, 0.3);
-  EXPECT_NEAR(gone.way_m(common::Pose2{11.0, 0.0, 0.0}) - gone.way_m(), 1.0, 0.1);
+  EXPECT_NEAR(gone.path_length_m(common::Pose2{11.0, 0.0, 0.0}) - gone.path_length_m(), 1.0, 0.1);
 }
 
 TEST(LocalMap, ForgetsWhatLiesFarBack) {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "perception/slam2d/seen_through.hpp"
+#include "perception/slam2d/free_space_violation.hpp"
 #include "tests/scan_matching/scenes.hpp"
 
 namespace swiftlet::perception {
@@ -25,32 +25,32 @@ test::PlanarWorld room(bool divided) {
 
 PlacedScan placedAt(const ProjectedScan& scan, const Pose2& pose) { return {&scan, pose}; }
 
-TEST(SeenThrough, NothingWhereBothSawTheSame) {
+TEST(FreeSpaceViolation, NothingWhereBothSawTheSame) {
   const Pose2 a{-1.0, 0.0, 0.3}, b{0.5, -1.0, -2.0};
   const ProjectedScan from_a = test::scanAt(room(true), a, 1), from_b = test::scanAt(room(true), b, 2);
   const PlacedScan one[] = {placedAt(from_a, a)}, other[] = {placedAt(from_b, b)};
-  EXPECT_LT(shareSeenThrough(one, other, 20.0), 0.01);
+  EXPECT_LT(freeSpaceViolation(one, other, 20.0), 0.01);
 }
 
-TEST(SeenThrough, AWallThatTheOtherDidNotMeet) {
+TEST(FreeSpaceViolation, AWallThatTheOtherDidNotMeet) {
   const Pose2 a{-1.0, 0.0, 0.3}, b{0.5, -1.0, -2.0};
   const ProjectedScan from_a = test::scanAt(room(true), a, 1), from_b = test::scanAt(room(false), b, 2);
   const PlacedScan one[] = {placedAt(from_a, a)}, other[] = {placedAt(from_b, b)};
-  const double share = shareSeenThrough(one, other, 20.0);
+  const double share = freeSpaceViolation(one, other, 20.0);
   EXPECT_GT(share, 0.15);
-  EXPECT_NEAR(shareSeenThrough(other, one, 20.0), share, 1e-12);
+  EXPECT_NEAR(freeSpaceViolation(other, one, 20.0), share, 1e-12);
   // Beyond the greatest range a point is none.
-  EXPECT_EQ(shareSeenThrough(one, other, 0.1), 0.0);
+  EXPECT_EQ(freeSpaceViolation(one, other, 0.1), 0.0);
 }
 
-TEST(SeenThrough, WhereNeitherLookedNothingIsSaid) {
+TEST(FreeSpaceViolation, WhereNeitherLookedNothingIsSaid) {
   const Pose2 pose{-1.0, 0.0, 0.3};
   const ProjectedScan scan = test::scanAt(room(false), pose, 1), empty;
   const PlacedScan here[] = {placedAt(scan, pose)}, nothing[] = {placedAt(empty, pose)};
   const PlacedScan far[] = {placedAt(scan, {60.0, 0.0, 0.3})};
-  EXPECT_EQ(shareSeenThrough(here, far, 20.0), 0.0);
-  EXPECT_EQ(shareSeenThrough(here, nothing, 20.0), 0.0);
-  EXPECT_EQ(shareSeenThrough({}, {}, 20.0), 0.0);
+  EXPECT_EQ(freeSpaceViolation(here, far, 20.0), 0.0);
+  EXPECT_EQ(freeSpaceViolation(here, nothing, 20.0), 0.0);
+  EXPECT_EQ(freeSpaceViolation({}, {}, 20.0), 0.0);
 }
 
 /// A scan of points all at one range, one a degree.
@@ -63,16 +63,16 @@ ProjectedScan arc(double range_m, double from_deg, double to_deg) {
   return scan;
 }
 
-TEST(SeenThrough, BesideTheLastBeamNobodyLooked) {
+TEST(FreeSpaceViolation, BesideTheLastBeamNobodyLooked) {
   const ProjectedScan forward = arc(8.0, -90.0, 90.0), wider = arc(8.0, -90.0, 92.0), wall = arc(3.0, 90.5, 91.5);
   const PlacedScan seen[] = {placedAt(wall, {})};
-  EXPECT_EQ(shareSeenThrough(std::array{placedAt(forward, {})}, seen, 20.0), 0.0);
-  EXPECT_EQ(shareSeenThrough(std::array{placedAt(wider, {})}, seen, 20.0), 1.0);
+  EXPECT_EQ(freeSpaceViolation(std::array{placedAt(forward, {})}, seen, 20.0), 0.0);
+  EXPECT_EQ(freeSpaceViolation(std::array{placedAt(wider, {})}, seen, 20.0), 1.0);
 }
 
-TEST(SeenThrough, AViewAllAroundHasNoEdge) {
+TEST(FreeSpaceViolation, AViewAllAroundHasNoEdge) {
   const ProjectedScan around = arc(8.0, -179.5, 179.5), wall = arc(3.0, 179.0, 181.0);
-  EXPECT_EQ(shareSeenThrough(std::array{placedAt(around, {})}, std::array{placedAt(wall, {})}, 20.0), 1.0);
+  EXPECT_EQ(freeSpaceViolation(std::array{placedAt(around, {})}, std::array{placedAt(wall, {})}, 20.0), 1.0);
 }
 
 /// Five key scans in one room and five in another, the second believed to be 1.5 m beside the first.
@@ -114,7 +114,7 @@ TEST(LoopSearch, ARoomWithAWallMoreIsAnother) {
   TwoVisits visits(room(false), room(true));
   EXPECT_FALSE(visits.search());
   // That is what keeps it from being taken for the same.
-  visits.config.loops.max_seen_through = 1.0;
+  visits.config.loops.max_free_space_violation = 1.0;
   EXPECT_TRUE(visits.search());
 }
 

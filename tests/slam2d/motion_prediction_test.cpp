@@ -65,7 +65,7 @@ TEST(MotionPrediction, AJumpOfTheWheelsIsNotFollowed) {
   Pose2 truth;
   for (int i = 0; i < 40; ++i) step(motion, truth = truth * Pose2{0.1, 0.0, 0.0}, truth * Pose2{0.1, 0.0, 0.0});
   motion.predict(truth * Pose2{30.0, 0.0, 0.0}, kDt_s);
-  EXPECT_EQ(motion.doubtfulSteps(), 1U);
+  EXPECT_EQ(motion.implausibleSteps(), 1U);
   EXPECT_LT(between(truth, motion.T_reference_robot()).position_m().norm(), 0.2);
 }
 

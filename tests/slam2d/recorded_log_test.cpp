@@ -16,7 +16,7 @@
 #include "interfaces/laser_log/laser_log.hpp"
 #include "interfaces/laser_log/open_laser_log.hpp"
 #include "perception/slam2d/laser_slam.hpp"
-#include "tests/slam2d/tracked_way.hpp"
+#include "tests/slam2d/tracked_path.hpp"
 #include "tests/support/datasets.hpp"
 
 namespace swiftlet::perception {
@@ -43,7 +43,7 @@ std::vector<KnownScan> scansOf(const fs::path& file, bool odometry) {
 
 /// The way of the last `of_last` scans, by the map of all.
 common::Trajectory trackOf(LaserSlam& slam, const std::vector<KnownScan>& scans, std::size_t of_last) {
-  test::TrackedWay way(slam);
+  test::TrackedPath way(slam);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const LaserSlamInput input{scans[i].scan, scans[i].T_robot_laser, scans[i].T_odom_robot};
     if (i + of_last >= scans.size())

@@ -14,14 +14,14 @@ TEST(ScanClock, KeepsStampsThatGrow) {
   ScanClock clock;
   for (const double stamp_s : {100.0, 100.2, 100.5, 107.0})
     EXPECT_EQ(clock.tick(Time::fromSeconds(stamp_s)), Time::fromSeconds(stamp_s));
-  EXPECT_EQ(clock.doubtful(), 0U);
+  EXPECT_EQ(clock.unreliable(), 0U);
 }
 
 TEST(ScanClock, ALateStampIsMadeUpForWithTheUsualInterval) {
   ScanClock clock;
   for (int i = 0; i < 50; ++i) (void)clock.tick(Time::fromSeconds(0.2 * i));
   const Time repeated = clock.tick(Time::fromSeconds(0.2 * 49));
-  EXPECT_EQ(clock.doubtful(), 1U);
+  EXPECT_EQ(clock.unreliable(), 1U);
   EXPECT_NEAR(repeated.seconds(), 0.2 * 50, 0.01);
 }
 
@@ -35,7 +35,7 @@ TEST(ScanClock, StampsThatAreAllTheSameLeaveTimeForAnyStep) {
     }
     last = now;
   }
-  EXPECT_EQ(clock.doubtful(), 199U);
+  EXPECT_EQ(clock.unreliable(), 199U);
 }
 
 /// Scans every 0.2 s, stamped up to half a second late, so that one in three stamps goes back.
@@ -50,7 +50,7 @@ TEST(ScanClock, OfStampsThatGoBackTheMeanIntervalIsKept) {
     }
     last = now;
   }
-  EXPECT_GT(clock.doubtful(), 300U);
+  EXPECT_GT(clock.unreliable(), 300U);
   EXPECT_NEAR(last.seconds(), 0.2 * 2000, 0.05 * 400);
 }
 
@@ -68,11 +68,11 @@ TEST(ScanClock, OfStampsThatComeInBurstsTheMeanIntervalIsKept) {
     }
     last = now;
   }
-  EXPECT_GT(clock.doubtful(), 1000U);
+  EXPECT_GT(clock.unreliable(), 1000U);
 }
 
 /// Delays of up to 1.75 times the interval, but never a stamp before the one before it, or within 6 ms.
-TEST(ScanClock, LateStampsThatGrowAreDoubtedToo) {
+TEST(ScanClock, LateStampsThatGrowAreDistrustedToo) {
   ScanClock clock;
   Time last;
   double stamp_s = -1.0;
@@ -84,7 +84,7 @@ TEST(ScanClock, LateStampsThatGrowAreDoubtedToo) {
     }
     last = now;
   }
-  EXPECT_GT(clock.doubtful(), 200U);
+  EXPECT_GT(clock.unreliable(), 200U);
 }
 
 TEST(ScanClock, PausesAndScansThatAreMissingAreNoReasonToDoubt) {
@@ -94,7 +94,7 @@ TEST(ScanClock, PausesAndScansThatAreMissingAreNoReasonToDoubt) {
     stamp_s += i % 100 == 99 ? 60.0 : i % 7 == 0 ? 0.4 : i % 2 == 0 ? 0.19 : 0.21;
     EXPECT_EQ(clock.tick(Time::fromSeconds(stamp_s)), Time::fromSeconds(stamp_s));
   }
-  EXPECT_EQ(clock.doubtful(), 0U);
+  EXPECT_EQ(clock.unreliable(), 0U);
 }
 
 TEST(ScanClock, StampsOutOfAllBoundsArePausesOfAnHour) {
@@ -106,7 +106,7 @@ TEST(ScanClock, StampsOutOfAllBoundsArePausesOfAnHour) {
     EXPECT_LE((now - last).seconds(), 3600.0);
     last = now;
   }
-  EXPECT_EQ(clock.doubtful(), 3U);
+  EXPECT_EQ(clock.unreliable(), 3U);
 }
 
 }  // namespace

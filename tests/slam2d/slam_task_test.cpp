@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "perception/slam2d/settlement.hpp"
+#include "perception/slam2d/loop_consensus.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -38,7 +38,7 @@ TEST(SlamTask, AClosureThatTheOthersContradictIsTakenBack) {
   graph.add({1, 10, Pose2{6.0, 2.0, 0.3}, covarianceOf(0.02, 0.005), true});  // Of another corridor.
   graph.add({2, 9, Pose2{7.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), true});
   const SlamResult result = run(lastTaskOf(graph));
-  ASSERT_EQ(result.data->taken_back, std::vector<int>{12});
+  ASSERT_EQ(result.data->rejected_edges, std::vector<int>{12});
   ASSERT_EQ(result.data->T_map_key.size(), 12U);
   for (int i = 0; i < 12; ++i) {
     EXPECT_NEAR(result.data->T_map_key[static_cast<std::size_t>(i)].x_m, i, 0.03);
@@ -50,7 +50,7 @@ TEST(SlamTask, ClosuresThatAgreeStay) {
   SlamGraph graph = line(12);
   graph.add({0, 11, Pose2{11.03, 0.05, 0.0}, covarianceOf(0.02, 0.005), true});
   graph.add({2, 9, Pose2{7.01, 0.01, 0.002}, covarianceOf(0.02, 0.005), true});
-  EXPECT_TRUE(run(lastTaskOf(graph)).data->taken_back.empty());
+  EXPECT_TRUE(run(lastTaskOf(graph)).data->rejected_edges.empty());
 }
 
 FoundLoop loopOf(int from, int to, const Pose2& T_from_to) {
@@ -73,28 +73,28 @@ SlamGraph closedAMetreOff() {
   return graph;
 }
 
-TEST(Settlement, EnoughClosuresThatAgreeTurnTheGraphOver) {
+TEST(LoopConsensus, EnoughClosuresThatAgreeTurnTheGraphOver) {
   const SlamGraph graph = closedAMetreOff();
   std::vector<FoundLoop> doubted;
   for (const int key : {23, 25, 27}) {
     const FoundLoop loop = loopOf(29 - key, key, Pose2{});
     const Settled alone = settle(graph, {loop}, {});
-    EXPECT_TRUE(alone.accepted.empty() && alone.taken_back.empty()) << "one is not enough";
+    EXPECT_TRUE(alone.accepted.empty() && alone.rejected_edges.empty()) << "one is not enough";
     doubted.push_back(loop);
-    EXPECT_EQ(turnedOver(graph, doubted, {}).has_value(), key == 27);
+    EXPECT_EQ(consensusAgainst(graph, doubted, {}).has_value(), key == 27);
   }
-  const auto over = turnedOver(graph, doubted, {});
+  const auto over = consensusAgainst(graph, doubted, {});
   ASSERT_TRUE(over);
-  EXPECT_EQ(over->taken_back, (std::vector<int>{29, 30}));
+  EXPECT_EQ(over->rejected_edges, (std::vector<int>{29, 30}));
   EXPECT_EQ(over->accepted.size(), 3U);
   for (int i = 15; i < 30; ++i) EXPECT_NEAR(over->T_map_key[static_cast<std::size_t>(i)].x_m, 29.0 - i, 0.05);
 }
 
-TEST(Settlement, ClosuresThatDisagreeAmongThemselvesDoNot) {
+TEST(LoopConsensus, ClosuresThatDisagreeAmongThemselvesDoNot) {
   const SlamGraph graph = closedAMetreOff();
   const std::vector<FoundLoop> doubted{loopOf(7, 22, Pose2{0.6, 0.3, 0.0}), loopOf(5, 24, Pose2{-0.8, 0.0, 0.2}),
                                        loopOf(3, 26, Pose2{2.0, 0.0, 0.0})};
-  EXPECT_FALSE(turnedOver(graph, doubted, {}));
+  EXPECT_FALSE(consensusAgainst(graph, doubted, {}));
 }
 
 TEST(SlamGraph, WhatIsWantedIsReachedAsIfAllWereWalked) {

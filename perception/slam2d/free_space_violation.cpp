@@ -1,4 +1,4 @@
-#include "perception/slam2d/seen_through.hpp"
+#include "perception/slam2d/free_space_violation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +93,7 @@ void count(const std::vector<View>& views, const PlacedScan& placed, double max_
 
 }  // namespace
 
-double shareSeenThrough(std::span<const PlacedScan> one, std::span<const PlacedScan> other, double max_range_m) {
+double freeSpaceViolation(std::span<const PlacedScan> one, std::span<const PlacedScan> other, double max_range_m) {
   Counts counts;
   for (const auto& [seeing, seen] : {std::pair{one, other}, std::pair{other, one}}) {
     std::vector<View> views;

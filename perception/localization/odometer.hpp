@@ -10,14 +10,14 @@
 namespace swiftlet::perception {
 
 /// Adds up chords between poses so far apart that the odometry does not err by as much.
-class WayMeter {
+class Odometer {
  public:
   void add(const common::Pose2& T_odom_body) {
     if (!last_) T_odom_way_ = T_odom_turn_ = T_odom_body;
     last_ = T_odom_body;
     const double chord_m = distance_m(T_odom_body), turn_rad = this->turn_rad(T_odom_body);
     if (chord_m >= kChord_m) {
-      way_m_ += chord_m;
+      path_length_m_ += chord_m;
       T_odom_way_ = T_odom_body;
     }
     if (turn_rad >= kTurn_rad) {
@@ -28,8 +28,8 @@ class WayMeter {
 
   bool begun() const { return last_.has_value(); }
   /// Up to the last pose added, or once it is at `next`.
-  double way_m() const { return last_ ? way_m(*last_) : 0.0; }
-  double way_m(const common::Pose2& next) const { return way_m_ + distance_m(next); }
+  double path_length_m() const { return last_ ? path_length_m(*last_) : 0.0; }
+  double path_length_m(const common::Pose2& next) const { return path_length_m_ + distance_m(next); }
   double turned_rad() const { return last_ ? turned_rad(*last_) : 0.0; }
   double turned_rad(const common::Pose2& next) const { return turned_rad_ + turn_rad(next); }
 
@@ -44,7 +44,7 @@ class WayMeter {
 
   std::optional<common::Pose2> last_;
   common::Pose2 T_odom_way_, T_odom_turn_;  ///< Where the last chord, and the last turn, ended.
-  double way_m_ = 0.0, turned_rad_ = 0.0;
+  double path_length_m_ = 0.0, turned_rad_ = 0.0;
 };
 
 }  // namespace swiftlet::perception

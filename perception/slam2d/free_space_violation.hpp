@@ -18,6 +18,6 @@ struct PlacedScan {
 /// Of the points of each side that a scan of the other side looked at, the share that one of them looked through: its
 /// beams in that direction end well behind. Where a beam found nothing it says nothing. 0 where neither side looked at
 /// what the other shows. Points beyond `max_range_m` are left out; all in one frame. Thread-safe.
-double shareSeenThrough(std::span<const PlacedScan> one, std::span<const PlacedScan> other, double max_range_m);
+double freeSpaceViolation(std::span<const PlacedScan> one, std::span<const PlacedScan> other, double max_range_m);
 
 }  // namespace swiftlet::perception

@@ -10,9 +10,9 @@ namespace swiftlet::test {
 
 /// Gives scans to a SLAM, and has the way by its map of all: the final pose of each scan that was matched, under the
 /// stamp it is known by.
-class TrackedWay {
+class TrackedPath {
  public:
-  explicit TrackedWay(perception::LaserSlam& slam) : slam_(slam) {}
+  explicit TrackedPath(perception::LaserSlam& slam) : slam_(slam) {}
 
   void add(common::Time known_as, const perception::LaserSlamInput& input) {
     if (const auto scan = slam_.add(input)) track_.emplace_back(known_as, *scan);

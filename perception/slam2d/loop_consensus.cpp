@@ -1,4 +1,4 @@
-#include "perception/slam2d/settlement.hpp"
+#include "perception/slam2d/loop_consensus.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -11,8 +11,8 @@ namespace {
 
 using common::Pose2;
 
-/// So many closures must agree before the graph is doubted.
-constexpr int kLeastToTurnOver = 3;
+/// So many closures must agree before they overrule the graph.
+constexpr int kLeastConsensus = 3;
 
 /// Squared, normalized; of a closure that fits.
 double mostError(const Slam2dConfig& config) { return config.loops.max_edge_sigmas * config.loops.max_edge_sigmas; }
@@ -36,22 +36,24 @@ struct Trial {
     edge_of.erase(edge_of.begin() + static_cast<std::ptrdiff_t>(i));
   }
 
-  Settled settled(std::vector<Pose2> poses, const std::vector<FoundLoop>& loops, std::vector<int> removed) const {
-    Settled result;
+  LoopConsensus consensus(std::vector<Pose2> poses, const std::vector<FoundLoop>& loops,
+                          std::vector<int> removed) const {
+    LoopConsensus result;
     result.T_map_key = std::move(poses);
     std::sort(removed.begin(), removed.end());
     for (int i = 0; i < static_cast<int>(loops.size()); ++i) {
       const bool out = std::binary_search(removed.begin(), removed.end(), first_new + i);
       (out ? result.refused : result.accepted).push_back(loops[static_cast<std::size_t>(i)]);
     }
-    result.taken_back.assign(removed.begin(), std::lower_bound(removed.begin(), removed.end(), first_new));
+    result.rejected_edges.assign(removed.begin(), std::lower_bound(removed.begin(), removed.end(), first_new));
     return result;
   }
 };
 
 }  // namespace
 
-Settled settle(const SlamGraph& graph, const std::vector<FoundLoop>& loops, const Slam2dConfig& config) {
+LoopConsensus optimizeWithRejection(const SlamGraph& graph, const std::vector<FoundLoop>& loops,
+                                    const Slam2dConfig& config) {
   Trial trial(graph, loops);
   std::vector<int> removed;
   while (true) {
@@ -61,15 +63,15 @@ Settled settle(const SlamGraph& graph, const std::vector<FoundLoop>& loops, cons
     for (std::size_t i = 0; i < errors.size(); ++i)
       if (trial.problem.edges[i].robust && errors[i] > mostError(config) && (!worst || errors[i] > errors[*worst]))
         worst = i;
-    if (!worst) return trial.settled(std::move(solution.poses), loops, std::move(removed));
+    if (!worst) return trial.consensus(std::move(solution.poses), loops, std::move(removed));
     trial.remove(*worst, removed);
   }
 }
 
-std::optional<Settled> turnedOver(const SlamGraph& graph, const std::vector<FoundLoop>& doubted,
-                                  const Slam2dConfig& config) {
-  if (static_cast<int>(doubted.size()) < kLeastToTurnOver) return std::nullopt;
-  Trial trial(graph, doubted);
+std::optional<LoopConsensus> consensusOfRejected(const SlamGraph& graph, const std::vector<FoundLoop>& rejected,
+                                                 const Slam2dConfig& config) {
+  if (static_cast<int>(rejected.size()) < kLeastConsensus) return std::nullopt;
+  Trial trial(graph, rejected);
   for (std::size_t i = 0; i < trial.problem.edges.size(); ++i) {
     optimization::PoseEdge2D& edge = trial.problem.edges[i];
     edge.robust = static_cast<int>(i) < trial.first_new && (edge.robust || areOfTwoPasses(edge.from, edge.to));
@@ -83,10 +85,10 @@ std::optional<Settled> turnedOver(const SlamGraph& graph, const std::vector<Foun
           (trial.problem.edges[i].robust || trial.edge_of[i] >= trial.first_new))
         trial.remove(i, removed);
     if (removed.size() > before) continue;
-    Settled settled = trial.settled(std::move(solution.poses), doubted, std::move(removed));
-    const std::size_t agree = settled.accepted.size();
-    if (static_cast<int>(agree) < kLeastToTurnOver || agree <= settled.taken_back.size()) return std::nullopt;
-    return settled;
+    LoopConsensus consensus = trial.consensus(std::move(solution.poses), rejected, std::move(removed));
+    const std::size_t agree = consensus.accepted.size();
+    if (static_cast<int>(agree) < kLeastConsensus || agree <= consensus.rejected_edges.size()) return std::nullopt;
+    return consensus;
   }
 }
 
