@@ -5,6 +5,8 @@
 #include <queue>
 
 #include "common/check.hpp"
+#include "optimization/edge_error_3d.hpp"
+#include "optimization/pose_graph_2d.hpp"
 
 namespace swiftlet::optimization {
 namespace {

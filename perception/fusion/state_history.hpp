@@ -5,10 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "common/sensor_event.hpp"
 #include "perception/fusion/filter_step.hpp"
 #include "perception/fusion/fusion_config.hpp"
 #include "perception/fusion/fusion_types.hpp"
 #include "perception/fusion/measurement_history.hpp"
+#include "perception/fusion/pose_history.hpp"
 
 namespace swiftlet::perception::fusion {
 

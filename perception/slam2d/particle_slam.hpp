@@ -23,6 +23,7 @@
 #include "perception/slam2d/grid_drawing_config.hpp"
 #include "perception/slam2d/particle/map_match.hpp"
 #include "perception/slam2d/particle/particle_map.hpp"
+#include "perception/slam2d/slam2d.hpp"
 
 namespace swiftlet::perception {
 

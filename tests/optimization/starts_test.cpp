@@ -6,6 +6,7 @@
 
 #include "graphs.hpp"
 #include "optimization/chordal_start.hpp"
+#include "optimization/edge_error_3d.hpp"
 #include "optimization/graph_parts.hpp"
 
 namespace swiftlet::optimization {
