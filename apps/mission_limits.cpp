@@ -1,5 +1,6 @@
 #include "apps/mission_limits.hpp"
 
+#include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
 
 namespace swiftlet::apps {

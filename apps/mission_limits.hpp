@@ -6,6 +6,7 @@
 
 #include "apps/system.hpp"
 #include "behaviors/mission.hpp"
+#include "behaviors/mission_limits.hpp"
 
 namespace swiftlet::apps {
 

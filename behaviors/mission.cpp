@@ -7,6 +7,7 @@
 #include "behaviors/goal_check.hpp"
 #include "behaviors/mission_check.hpp"
 #include "behaviors/narrator.hpp"
+#include "behaviors/registry.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "common/check.hpp"
 

@@ -4,11 +4,8 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "behaviors/context.hpp"
-#include "behaviors/mission_limits.hpp"
-#include "behaviors/tree/registry.hpp"
 #include "common/error.hpp"
 #include "common/world.hpp"
 
@@ -50,15 +47,5 @@ class Mission {
   explicit Mission(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
-
-/// Every problem of a mission file, without flying it: those of the XML, and what could not work in flight (flies
-/// before it takes off, a clearance the reactive layer forbids, a branch that never gets the vehicle). Empty: it is
-/// sound.
-std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits = {});
-std::vector<common::Problem> checkMissionText(const std::string& text, const std::string& name,
-                                              const MissionLimits& limits = {});
-
-/// The engine's nodes and the behaviours.
-const tree::Registry& missionRegistry();
 
 }  // namespace swiftlet::behaviors

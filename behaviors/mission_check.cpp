@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "behaviors/registry.hpp"
 #include "behaviors/tree/parser.hpp"
 
 namespace swiftlet::behaviors {

@@ -1,10 +1,11 @@
+#include "behaviors/registry.hpp"
+
 #include "behaviors/avoid_obstacle.hpp"
 #include "behaviors/explore.hpp"
 #include "behaviors/go_home.hpp"
 #include "behaviors/hold.hpp"
 #include "behaviors/land.hpp"
 #include "behaviors/localize.hpp"
-#include "behaviors/mission.hpp"
 #include "behaviors/move_to_goal.hpp"
 #include "behaviors/operator_command.hpp"
 #include "behaviors/take_off.hpp"

@@ -6,6 +6,7 @@
 
 #include "behaviors/mission.hpp"
 #include "behaviors/mission_check.hpp"
+#include "behaviors/registry.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "common/check.hpp"
 

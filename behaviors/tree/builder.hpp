@@ -14,6 +14,7 @@
 
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/registry.hpp"
+#include "behaviors/tree/tree.hpp"
 #include "behaviors/tree/tree_parts.hpp"
 
 namespace swiftlet::tree {

@@ -1,5 +1,6 @@
 #include "perception/slam2d/grid_drawing_config.hpp"
 
+#include "common/occupancy_grid.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::perception {

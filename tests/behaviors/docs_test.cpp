@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "behaviors/mission.hpp"
+#include "behaviors/mission_check.hpp"
+#include "behaviors/registry.hpp"
 #include "tests/tree/story.hpp"
 
 namespace swiftlet::behaviors {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "behaviors/mission_check.hpp"
 #include "tests/behaviors/flight.hpp"
 
 namespace swiftlet::behaviors::testing {

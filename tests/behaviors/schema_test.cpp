@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "behaviors/mission.hpp"
+#include "behaviors/mission_check.hpp"
+#include "behaviors/registry.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
