@@ -1,4 +1,4 @@
-#include "perception/slam2d/slam_task.hpp"
+#include "perception/slam2d/slam_task_data.hpp"
 
 #include <algorithm>
 
@@ -75,15 +75,15 @@ SlamGraph closedAMetreOff() {
 
 TEST(LoopConsensus, EnoughClosuresThatAgreeTurnTheGraphOver) {
   const SlamGraph graph = closedAMetreOff();
-  std::vector<FoundLoop> doubted;
+  std::vector<FoundLoop> rejected;
   for (const int key : {23, 25, 27}) {
     const FoundLoop loop = loopOf(29 - key, key, Pose2{});
-    const Settled alone = settle(graph, {loop}, {});
+    const LoopConsensus alone = optimizeWithRejection(graph, {loop}, {});
     EXPECT_TRUE(alone.accepted.empty() && alone.rejected_edges.empty()) << "one is not enough";
-    doubted.push_back(loop);
-    EXPECT_EQ(consensusAgainst(graph, doubted, {}).has_value(), key == 27);
+    rejected.push_back(loop);
+    EXPECT_EQ(consensusOfRejected(graph, rejected, {}).has_value(), key == 27);
   }
-  const auto over = consensusAgainst(graph, doubted, {});
+  const auto over = consensusOfRejected(graph, rejected, {});
   ASSERT_TRUE(over);
   EXPECT_EQ(over->rejected_edges, (std::vector<int>{29, 30}));
   EXPECT_EQ(over->accepted.size(), 3U);
@@ -92,9 +92,9 @@ TEST(LoopConsensus, EnoughClosuresThatAgreeTurnTheGraphOver) {
 
 TEST(LoopConsensus, ClosuresThatDisagreeAmongThemselvesDoNot) {
   const SlamGraph graph = closedAMetreOff();
-  const std::vector<FoundLoop> doubted{loopOf(7, 22, Pose2{0.6, 0.3, 0.0}), loopOf(5, 24, Pose2{-0.8, 0.0, 0.2}),
+  const std::vector<FoundLoop> rejected{loopOf(7, 22, Pose2{0.6, 0.3, 0.0}), loopOf(5, 24, Pose2{-0.8, 0.0, 0.2}),
                                        loopOf(3, 26, Pose2{2.0, 0.0, 0.0})};
-  EXPECT_FALSE(consensusAgainst(graph, doubted, {}));
+  EXPECT_FALSE(consensusOfRejected(graph, rejected, {}));
 }
 
 TEST(SlamGraph, WhatIsWantedIsReachedAsIfAllWereWalked) {
