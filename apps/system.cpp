@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "common/config.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
 
@@ -48,12 +49,10 @@ std::string asComment(const std::string& yaml) {
 }  // namespace
 
 void SystemConfig::describe(common::config::Fields& fields) {
-  fields("vehicle", vehicle, "A file of config/vehicles, without .yaml.");
-  fields("laser", laser, "A file of config/sensors, without .yaml.");
+  fields("vehicle", vehicle, "A file of config/vehicles, without .yaml, or a path.");
+  fields("laser", laser, "A file of config/sensors, without .yaml, or a path.");
   fields.section("autonomy", autonomy, "How the autonomy is set.");
 }
-
-std::vector<std::string> SystemConfig::validate() const { return {}; }
 
 std::string System::toYaml(bool comments) const {
   using common::config::YamlPrinter;

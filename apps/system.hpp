@@ -5,18 +5,17 @@
 #include <vector>
 
 #include "autonomy/autonomy.hpp"
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
 
 namespace swiftlet::apps {
 
 struct SystemConfig {
-  std::string vehicle = "cobra";   ///< config/vehicles/NAME.yaml, or a file.
-  std::string laser = "utm_30lx";  ///< config/sensors/NAME.yaml, or a file.
+  std::string vehicle = "cobra";
+  std::string laser = "utm_30lx";
   autonomy::AutonomyConfig autonomy;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 struct System {

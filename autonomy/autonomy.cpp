@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -32,22 +32,19 @@ AutonomyConfig seeing(AutonomyConfig config, const common::LaserConfig& laser) {
 void AutonomyConfig::describe(common::config::Fields& fields) {
   fields.section("estimator", estimator, "From raw samples to a state and a map.");
   fields.section("reactive", reactive, "Braking and retreat at the laser rate.");
-  fields.section("execution", execution, "Carrying out intents: planning and exploring.");
+  fields.section("execution", execution, "Planning and exploring to carry out intents.");
   fields.section("control", control, "State machine, trajectories and controllers.");
-  fields.section("supervisor", supervisor, "What stands above the mission.");
-  fields("behavior_rate_hz", behavior_rate_hz, "Ticks of the mission's tree a second.");
-  fields("scan_latency_s", scan_latency_s, "Declared for projecting and matching one scan.");
-  fields("max_height_m", max_height_m, "Above the take-off floor; a mission that asks for more is refused.");
+  fields.section("supervisor", supervisor, "Hold and landing above the mission.");
+  fields("behavior_rate_hz", behavior_rate_hz, {1, 100}, "Ticks of the mission's tree a second.");
+  fields("scan_latency_s", scan_latency_s, {0, 0.2}, "Declared time for projecting and matching one scan.");
+  fields("max_height_m", max_height_m, {0.2, 100},
+         "Greatest height over the take-off floor; a mission that asks for more is refused.");
 }
 
 std::vector<std::string> AutonomyConfig::validate() const {
-  auto problems = common::Validation()
-                      .within("behavior_rate_hz", behavior_rate_hz, 1, 100)
-                      .within("scan_latency_s", scan_latency_s, 0, 0.2)
-                      .within("max_height_m", max_height_m, 0.2, 100)
-                      .problems();
+  std::vector<std::string> problems;
   for (const std::string& problem : reactive.problemsWith(execution.clearance_m))
-    problems.push_back("reactive: avoidance." + problem);
+    problems.push_back("reactive.avoidance." + problem);
   return problems;
 }
 

@@ -13,7 +13,7 @@
 #include "autonomy/supervisor.hpp"
 #include "behaviors/mission.hpp"
 #include "common/command.hpp"
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
 #include "common/sensor_event.hpp"
@@ -32,8 +32,8 @@ struct AutonomyConfig {
   control::FlightController::Config control;
   SupervisorConfig supervisor;
   double behavior_rate_hz = 20.0;
-  double scan_latency_s = 0.004;  ///< Declared for projecting and matching one scan.
-  double max_height_m = 10.0;     ///< Above the take-off floor; a mission that asks for more is refused.
+  double scan_latency_s = 0.004;
+  double max_height_m = 10.0;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

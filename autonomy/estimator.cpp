@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -35,31 +35,24 @@ common::Duration sweepOf(const common::LaserScan& scan) {
 }  // namespace
 
 void EstimatorConfig::describe(common::config::Fields& fields) {
-  fields.section("projection", projection, "Scans out of motion and tilt.");
+  fields.section("projection", projection, "Scans corrected for motion and tilt.");
   fields.section("odometry", odometry, "Scans matched to the last ones.");
   fields.section("altitude", altitude, "Height and levels from the mirror beams.");
   fields.section("fusion", fusion, "Error-state filter.");
   fields.section("slam", slam, "Graph SLAM and the map.");
-  fields.section("localization", localization, "In a map that the flight was given.");
-  fields("match_floor_m", match_floor_m, "Least standard deviation of a match.");
-  fields("match_floor_deg", match_floor_deg, "Likewise of its yaw.");
-  fields("drift_floor_m", drift_floor_m, "Least that a new reference of the odometry adds to its drift.");
-  fields("drift_floor_deg", drift_floor_deg, "Likewise of its yaw.");
-  fields("match_per_tilt_m_rad", match_per_tilt_m_rad, "What each radian of tilt adds: the attitude is not exact.");
-  fields("match_per_tilt_deg_rad", match_per_tilt_deg_rad, "Likewise to the yaw.");
-  fields("slam_latency_s", slam_latency_s, "Declared for a SLAM job.");
-}
-
-std::vector<std::string> EstimatorConfig::validate() const {
-  return common::Validation()
-      .within("match_floor_m", match_floor_m, 0, 1)
-      .within("match_floor_deg", match_floor_deg, 0, 10)
-      .within("drift_floor_m", drift_floor_m, 0, 1)
-      .within("drift_floor_deg", drift_floor_deg, 0, 10)
-      .within("match_per_tilt_m_rad", match_per_tilt_m_rad, 0, 10)
-      .within("match_per_tilt_deg_rad", match_per_tilt_deg_rad, 0, 100)
-      .within("slam_latency_s", slam_latency_s, 0.01, 10)
-      .problems();
+  fields.section("localization", localization, "Localization in a map that the flight was given.");
+  fields("match_floor_m", match_floor_m, {0, 1}, "Least standard deviation of a match's position.");
+  fields("match_floor_deg", match_floor_deg, {0, 10}, "Least standard deviation of a match's yaw.");
+  fields("drift_floor_m", drift_floor_m, {0, 1},
+         "Least position error that a new reference of the odometry adds to its drift.");
+  fields("drift_floor_deg", drift_floor_deg, {0, 10},
+         "Least yaw error that a new reference of the odometry adds to its drift.");
+  fields("match_per_tilt_m_rad", match_per_tilt_m_rad, {0, 10},
+         "Position error of a match for each radian of tilt, since the attitude is not exact.");
+  fields("match_per_tilt_deg_rad", match_per_tilt_deg_rad, {0, 100},
+         "Yaw error of a match for each radian of tilt, since the attitude is not exact.");
+  fields("slam_latency_s", slam_latency_s, {0.01, 10},
+         "Declared time of a SLAM job: loop search, optimization and redrawing the map.");
 }
 
 Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& laser,

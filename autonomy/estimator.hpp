@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "autonomy/flight_localizer.hpp"
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
 #include "common/level_map.hpp"
@@ -40,17 +40,15 @@ struct EstimatorConfig {
   perception::ErrorStateFilter::Config fusion;
   perception::Slam2dConfig slam;
   FlightLocalizerConfig localization;
-  // What a wrong attitude does to a match, beyond the matcher's own covariance: it grows with the tilt.
   double match_floor_m = 0.004;
   double match_floor_deg = 0.10;
-  double drift_floor_m = 0.002;  ///< A new reference of the odometry adds this to its drift at least,
+  double drift_floor_m = 0.002;
   double drift_floor_deg = 0.03;
   double match_per_tilt_m_rad = 0.05;
   double match_per_tilt_deg_rad = 1.5;
-  double slam_latency_s = 0.4;  ///< Declared for a SLAM job: loop search, optimization, drawing the map anew.
+  double slam_latency_s = 0.4;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// What one scan gave.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "autonomy/planning_worker.hpp"
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/intent.hpp"
 #include "common/jobs.hpp"
@@ -26,21 +26,19 @@ struct ExecutorConfig {
   planning::CostMap::Config cost_map;
   planning::ExplorationConfig exploration;
   planning::PlanKeeper::Config plan_keeper;
-  double planning_latency_s = 0.06;  ///< Declared for a planning job.
-  double planning_period_s = 0.25;   ///< The cost map is never older than this plus the latency.
-  double explore_period_s = 0.5;     ///< How often the next viewpoint is thought over.
-  double clearance_m = 0.10;         ///< Where an intent names none.
-  double arrival_speed_m_s = 0.15;   ///< A goal is reached when slower than this,
-  double arrival_s = 0.25;           ///< and within the tolerance for this long.
+  double planning_latency_s = 0.06;
+  double planning_period_s = 0.25;
+  double explore_period_s = 0.5;
+  double clearance_m = 0.10;
+  double arrival_speed_m_s = 0.15;
+  double arrival_s = 0.25;
   double viewpoint_tolerance_m = 0.15;
   double viewpoint_tolerance_deg = 12.0;
-  double give_up_s = 60.0;  ///< No way to the goal for this long: the intent fails.
-  /// No way for this long: it goes nearer to see what stands there, or aside, so that who stands in the way can pass.
+  double give_up_s = 60.0;
   double detour_after_s = 2.5;
-  double detour_s = 15.0;  ///< At most; the way is asked for meanwhile.
+  double detour_s = 15.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// What the executor sees of the world at one tick.

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -12,12 +12,8 @@ using common::LocalizationState;
 using common::Time;
 
 void FlightLocalizerConfig::describe(common::config::Fields& fields) {
-  fields.section("localizer", localizer, "Finding, following and doubting the pose.");
-  fields("search_latency_s", search_latency_s, "Declared for a search of the whole map.");
-}
-
-std::vector<std::string> FlightLocalizerConfig::validate() const {
-  return common::Validation().within("search_latency_s", search_latency_s, 0.01, 10).problems();
+  fields.section("localizer", localizer, "Finding the pose, following it and noticing that it is lost.");
+  fields("search_latency_s", search_latency_s, {0.01, 10}, "Declared time for a search of the whole map.");
 }
 
 FlightLocalizer::FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs)

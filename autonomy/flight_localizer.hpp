@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
 #include "common/localization.hpp"
@@ -32,10 +32,9 @@ struct GivenMap {
 
 struct FlightLocalizerConfig {
   perception::LocalizerConfig localizer;
-  double search_latency_s = 0.3;  ///< Declared for a search of the whole map.
+  double search_latency_s = 0.3;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// A scan as the estimator leaves it.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/config_fields.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 
@@ -20,8 +22,6 @@ void ReactiveConfig::describe(common::config::Fields& fields) {
   fields.section("avoidance", avoidance, "Braking and retreat.");
   fields.section("dynamic_obstacles", dynamic_obstacles, "People and other things that move.");
 }
-
-std::vector<std::string> ReactiveConfig::validate() const { return {}; }
 
 std::vector<std::string> ReactiveConfig::problemsWith(double clearance_m) const {
   return avoidance.validateAgainst(clearance_m, dynamic_obstacles.keep_out_m);

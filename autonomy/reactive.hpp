@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/vehicle_state.hpp"
 #include "perception/projection/scan_projection.hpp"
@@ -20,7 +20,6 @@ struct ReactiveConfig {
   planning::DynamicObstacles::Config dynamic_obstacles;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
   /// What would stop the vehicle, or make it retreat, on a path planned at this clearance; empty when nothing would.
   std::vector<std::string> problemsWith(double clearance_m) const;
 };

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/config_fields.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::autonomy {
@@ -13,17 +14,14 @@ using common::Severity;
 using common::Time;
 
 void SupervisorConfig::describe(common::config::Fields& fields) {
-  fields("laser_hold_s", laser_hold_s, "Without a scan for this long it holds.");
-  fields("laser_land_s", laser_land_s, "Without a scan for this long it lands.");
-  fields("battery_land_share", battery_land_share, "Remaining charge at which it lands where it is.");
+  fields("laser_hold_s", laser_hold_s, {0.05, 10}, "Without a usable scan for this long the vehicle holds.");
+  fields("laser_land_s", laser_land_s, {0.1, 10}, "Without a usable scan for this long the vehicle lands.");
+  fields("battery_land_share", battery_land_share, {0, 0.9},
+         "Remaining charge at which the vehicle lands where it is.");
 }
 
 std::vector<std::string> SupervisorConfig::validate() const {
-  return common::Validation()
-      .within("laser_hold_s", laser_hold_s, 0.05, laser_land_s)
-      .within("laser_land_s", laser_land_s, 0.1, 10)
-      .within("battery_land_share", battery_land_share, 0, 0.9)
-      .problems();
+  return common::Validation().atMost("laser_hold_s", laser_hold_s, "laser_land_s", laser_land_s).problems();
 }
 
 std::optional<common::CommandResult> Supervisor::take(const common::OperatorCommand& command, Time now) {

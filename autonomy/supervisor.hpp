@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/command.hpp"
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
@@ -16,9 +16,9 @@
 namespace swiftlet::autonomy {
 
 struct SupervisorConfig {
-  double laser_hold_s = 0.3;         ///< Without a usable scan for this long it holds,
-  double laser_land_s = 1.0;         ///< and for this long it lands.
-  double battery_land_share = 0.12;  ///< Remaining charge at which it lands where it is.
+  double laser_hold_s = 0.3;
+  double laser_land_s = 1.0;
+  double battery_land_share = 0.12;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/config.hpp"
 #include "simulation/simulated_vehicle.hpp"
 
 namespace swiftlet::simulation {

@@ -1,15 +1,4 @@
-// Configuration: each class has a `struct Config` whose `describe` names every field once, with a sentence; reading
-// YAML, refusing unknown keys, printing the effective values and documenting them all follow from that one list.
-//
-//   struct Config {
-//     double max_speed_m_s = 1.0;
-//     Matcher::Config matcher;
-//     void describe(config::Fields& fields) {
-//       fields("max_speed_m_s", max_speed_m_s, "Greatest horizontal speed.");
-//       fields.section("matcher", matcher, "Scan matching.");
-//     }
-//     std::vector<std::string> validate() const;   // every problem: "max_speed_m_s: 0 is not positive"
-//   };
+// Configs as files: reading YAML over their defaults and printing them. What a Config is says common/config_fields.hpp.
 #pragma once
 
 #include <memory>
@@ -18,58 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/config_fields.hpp"
+
 namespace swiftlet::common::config {
-
-/// What `describe` is handed. Units are in the names.
-class Fields {
- public:
-  virtual ~Fields() = default;
-  virtual void operator()(std::string_view name, double& value, std::string_view sentence) = 0;
-  virtual void operator()(std::string_view name, int& value, std::string_view sentence) = 0;
-  virtual void operator()(std::string_view name, bool& value, std::string_view sentence) = 0;
-  virtual void operator()(std::string_view name, std::string& value, std::string_view sentence) = 0;
-  virtual void operator()(std::string_view name, std::vector<double>& value, std::string_view sentence) = 0;
-  virtual void operator()(std::string_view name, std::vector<std::string>& value, std::string_view sentence) = 0;
-  /// One of a fixed set of words; `value` is the index into `words`.
-  virtual void choice(std::string_view name, int& value, const std::vector<std::string>& words,
-                      std::string_view sentence) = 0;
-
-  /// An enumeration whose enumerators count from 0 in the order of `words`.
-  template <typename Enum>
-  void choice(std::string_view name, Enum& value, const std::vector<std::string>& words, std::string_view sentence) {
-    int index = static_cast<int>(value);
-    choice(name, index, words, sentence);
-    value = static_cast<Enum>(index);
-  }
-
-  /// A nested Config; its own problems are prefixed by the section's name.
-  template <typename Config>
-  void section(std::string_view name, Config& config, std::string_view sentence) {
-    if (!beginSection(name, sentence)) return;
-    config.describe(*this);
-    endSection(config.validate());
-  }
-
-  /// A sequence of Configs.
-  template <typename Config>
-  void list(std::string_view name, std::vector<Config>& configs, std::string_view sentence) {
-    const int count = beginList(name, static_cast<int>(configs.size()), sentence);
-    configs.resize(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) {
-      beginItem(i);
-      configs[static_cast<std::size_t>(i)].describe(*this);
-      endSection(configs[static_cast<std::size_t>(i)].validate());
-    }
-    endList();
-  }
-
- protected:
-  virtual bool beginSection(std::string_view name, std::string_view sentence) = 0;
-  virtual void endSection(std::vector<std::string> problems) = 0;
-  virtual int beginList(std::string_view name, int count, std::string_view sentence) = 0;
-  virtual void beginItem(int index) = 0;
-  virtual void endList() = 0;
-};
 
 /// Reads YAML over the values a config already has.
 class YamlReader final : public Fields {
@@ -81,20 +21,22 @@ class YamlReader final : public Fields {
   ~YamlReader() override;
   YamlReader(YamlReader&&) noexcept;
 
-  /// Throws InputError with every problem at once: unknown key (with "did you mean"), wrong type, failed validation,
-  /// each with file, line and column. Keys that are not in the file keep their value.
+  /// Throws InputError with every problem at once: unknown key (with "did you mean"), wrong type, out of bounds, failed
+  /// validation, each with file, line and column. Keys that are not in the file keep their value; one whose value is
+  /// out of its own bounds must be in the file.
   template <typename Config>
   void read(Config& config) {
     config.describe(*this);
-    finish(config.validate());
+    finish(relationProblems(config));
   }
 
   using Fields::choice;
-  void operator()(std::string_view name, double& value, std::string_view sentence) override;
-  void operator()(std::string_view name, int& value, std::string_view sentence) override;
+  void operator()(std::string_view name, double& value, const Bounds& bounds, std::string_view sentence) override;
+  void operator()(std::string_view name, int& value, const Bounds& bounds, std::string_view sentence) override;
   void operator()(std::string_view name, bool& value, std::string_view sentence) override;
   void operator()(std::string_view name, std::string& value, std::string_view sentence) override;
-  void operator()(std::string_view name, std::vector<double>& value, std::string_view sentence) override;
+  void operator()(std::string_view name, std::vector<double>& value, const Bounds& bounds,
+                  std::string_view sentence) override;
   void operator()(std::string_view name, std::vector<std::string>& value, std::string_view sentence) override;
   void choice(std::string_view name, int& value, const std::vector<std::string>& words,
               std::string_view sentence) override;
@@ -113,7 +55,8 @@ class YamlReader final : public Fields {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Prints a config as YAML that YamlReader reads back to the same values.
+/// Prints a config as YAML that YamlReader reads back to the same values. The comment behind a value is its sentence
+/// and its bounds.
 class YamlPrinter final : public Fields {
  public:
   enum class Comments { kNo, kYes };
@@ -126,11 +69,12 @@ class YamlPrinter final : public Fields {
   }
 
   using Fields::choice;
-  void operator()(std::string_view name, double& value, std::string_view sentence) override;
-  void operator()(std::string_view name, int& value, std::string_view sentence) override;
+  void operator()(std::string_view name, double& value, const Bounds& bounds, std::string_view sentence) override;
+  void operator()(std::string_view name, int& value, const Bounds& bounds, std::string_view sentence) override;
   void operator()(std::string_view name, bool& value, std::string_view sentence) override;
   void operator()(std::string_view name, std::string& value, std::string_view sentence) override;
-  void operator()(std::string_view name, std::vector<double>& value, std::string_view sentence) override;
+  void operator()(std::string_view name, std::vector<double>& value, const Bounds& bounds,
+                  std::string_view sentence) override;
   void operator()(std::string_view name, std::vector<std::string>& value, std::string_view sentence) override;
   void choice(std::string_view name, int& value, const std::vector<std::string>& words,
               std::string_view sentence) override;

@@ -4,14 +4,9 @@
 
 namespace swiftlet::common {
 
-Validation& Validation::within(std::string_view name, double value, double low, double high) {
-  if (!(value >= low && value <= high))
-    problems_.push_back(fmt::format("{}: {} is not within {} and {}", name, value, low, high));
-  return *this;
-}
-
-Validation& Validation::positive(std::string_view name, double value) {
-  if (!(value > 0.0)) problems_.push_back(fmt::format("{}: {} is not positive", name, value));
+Validation& Validation::atMost(std::string_view name, double value, std::string_view limit_name, double limit) {
+  if (!(value <= limit))
+    problems_.push_back(fmt::format("{}: {} is more than {}, which is {}", name, value, limit_name, limit));
   return *this;
 }
 

@@ -1,4 +1,5 @@
-// Collects what is wrong with the values of a config: `Validation().within("rate_hz", rate_hz, 1, 100).problems()`.
+// What is wrong between the fields of one Config; what is wrong with each alone follows from its bounds:
+// `Validation().atMost("near_m", near_m, "far_m", far_m).problems()`.
 #pragma once
 
 #include <string>
@@ -9,10 +10,8 @@ namespace swiftlet::common {
 
 class Validation {
  public:
-  /// low <= value <= high; NaN is a problem.
-  Validation& within(std::string_view name, double value, double low, double high);
-  /// value > 0; NaN is a problem.
-  Validation& positive(std::string_view name, double value);
+  /// value <= limit, which is another field.
+  Validation& atMost(std::string_view name, double value, std::string_view limit_name, double limit);
   /// Any condition with its own words, after "name: ".
   Validation& require(bool condition, std::string_view name, std::string_view message);
 

@@ -2,28 +2,20 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "common/config_fields.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::common {
 
 void MountConfig::describe(config::Fields& fields) {
-  fields("x_m", x_m, "Forward of the body origin.");
-  fields("y_m", y_m, "Left of it.");
-  fields("z_m", z_m, "Above it.");
-  fields("roll_deg", roll_deg, "Rotation about x.");
-  fields("pitch_deg", pitch_deg, "Rotation about y.");
-  fields("yaw_deg", yaw_deg, "Rotation about z.");
-}
-
-std::vector<std::string> MountConfig::validate() const {
-  return Validation()
-      .within("x_m", x_m, -2, 2)
-      .within("y_m", y_m, -2, 2)
-      .within("z_m", z_m, -2, 2)
-      .within("roll_deg", roll_deg, -360, 360)
-      .within("pitch_deg", pitch_deg, -360, 360)
-      .within("yaw_deg", yaw_deg, -360, 360)
-      .problems();
+  fields("x_m", x_m, {-2, 2}, "Position forward of the body's origin.");
+  fields("y_m", y_m, {-2, 2}, "Position left of the body's origin.");
+  fields("z_m", z_m, {-2, 2}, "Position above the body's origin.");
+  fields("roll_deg", roll_deg, {-360, 360}, "Rotation about the body's x axis, applied first.");
+  fields("pitch_deg", pitch_deg, {-360, 360}, "Rotation about the body's y axis, applied second.");
+  fields("yaw_deg", yaw_deg, {-360, 360}, "Rotation about the body's z axis, applied last.");
 }
 
 Pose3 MountConfig::pose() const {
@@ -31,36 +23,31 @@ Pose3 MountConfig::pose() const {
 }
 
 void LaserConfig::describe(config::Fields& fields) {
-  fields("name", name, "For messages.");
-  fields("beams", beams, "Beams of one sweep, those on the mirror included.");
-  fields("field_of_view_deg", field_of_view_deg, "From the first to the last beam.");
-  fields("rate_hz", rate_hz, "Sweeps a second.");
-  fields("sweep_s", sweep_s, "From the first to the last beam of a sweep.");
-  fields("range_min_m", range_min_m, "Shortest valid range.");
-  fields("range_max_m", range_max_m, "Longest valid range.");
-  fields("range_noise_m", range_noise_m, "Standard deviation of a range.");
-  fields("dropout_rate", dropout_rate, "Share of beams without a return.");
-  fields("mirror_first_beam", mirror_first_beam, "First beam on the mirror.");
-  fields("mirror_beams", mirror_beams, "Beams on the mirror, 0 for none.");
-  fields("mirror_spread_deg", mirror_spread_deg, "Angle between the first and the last beam on the mirror.");
-  fields.section("mount", mount, "Laser in the body frame.");
+  fields("name", name, "Name of the laser, for messages.");
+  fields("beams", beams, {2, 100'000}, "Beams of one sweep, those on the mirror included.");
+  fields("field_of_view_deg", field_of_view_deg, {1, 360}, "Angle from the first to the last beam.");
+  fields("rate_hz", rate_hz, {0.1, 1000}, "Sweeps a second.");
+  fields("sweep_s", sweep_s, {0, 10}, "Time from the first to the last beam of a sweep, at most one period.");
+  fields("range_min_m", range_min_m, {0, 1000}, "Shortest valid range.");
+  fields("range_max_m", range_max_m, {0.1, 1000}, "Longest valid range.");
+  fields("range_noise_m", range_noise_m, {0, 1}, "Standard deviation of a range up to 10 m.");
+  fields("dropout_rate", dropout_rate, {0, 1}, "Share of beams without a return.");
+  fields("mirror_first_beam", mirror_first_beam, {0, 100'000}, "First beam that the mirror deflects.");
+  fields("mirror_beams", mirror_beams, {0, 100'000},
+         "Beams that the mirror deflects straight down, 0 without a mirror.");
+  fields("mirror_spread_deg", mirror_spread_deg, {0, 90}, "Angle between the first and the last deflected beam.");
+  fields.section("mount", mount, "Pose of the laser in the body frame.");
   fields.section("mirror_mount", mirror_mount,
-                 "Origin of the deflected beams in the body frame; they point along its -z.");
+                 "Origin of the deflected beams in the body frame; they point along its -z, fanned about its x axis.");
 }
 
 std::vector<std::string> LaserConfig::validate() const {
   return Validation()
-      .within("beams", beams, 2, 100'000)
-      .within("field_of_view_deg", field_of_view_deg, 1, 360)
-      .within("rate_hz", rate_hz, 0.1, 1000)
-      .within("sweep_s", sweep_s, 0, 1.0 / rate_hz)
-      .within("range_min_m", range_min_m, 0, range_max_m)
-      .within("range_max_m", range_max_m, 0.1, 1000)
-      .within("range_noise_m", range_noise_m, 0, 1)
-      .within("dropout_rate", dropout_rate, 0, 1)
-      .within("mirror_first_beam", mirror_first_beam, 0, beams)
-      .within("mirror_beams", mirror_beams, 0, static_cast<double>(beams) - mirror_first_beam)
-      .within("mirror_spread_deg", mirror_spread_deg, 0, 90)
+      .require(sweep_s <= 1.0 / rate_hz, "sweep_s", fmt::format("{} is more than one period of rate_hz", sweep_s))
+      .atMost("range_min_m", range_min_m, "range_max_m", range_max_m)
+      .atMost("mirror_first_beam", mirror_first_beam, "beams", beams)
+      .require(mirror_beams <= static_cast<double>(beams) - mirror_first_beam, "mirror_beams",
+               fmt::format("{} are more than follow on mirror_first_beam", mirror_beams))
       .problems();
 }
 
@@ -79,25 +66,23 @@ Eigen::Vector3d LaserConfig::direction(int beam) const {
 }
 
 void VehicleConfig::describe(config::Fields& fields) {
-  fields("name", name, "For messages.");
-  fields("mass_kg", mass_kg, "Take-off mass.");
-  fields("hull_diameter_m", hull_diameter_m, "Tip to tip, rotors included.");
-  fields("hull_height_m", hull_height_m, "Height of the hull about the body origin.");
-  fields("max_thrust_n", max_thrust_n, "Greatest collective thrust at full battery.");
-  fields("max_tilt_deg", max_tilt_deg, "Greatest commanded roll or pitch.");
-  fields("battery_full_v", battery_full_v, "Voltage of the full battery at rest.");
-  fields("battery_empty_v", battery_empty_v, "Voltage at which it must be on the ground.");
+  fields("name", name, "Name of the vehicle, for messages.");
+  fields("mass_kg", mass_kg, {0.05, 100}, "Take-off mass.");
+  fields("hull_diameter_m", hull_diameter_m, {0.05, 5},
+         "Diameter from rotor tip to rotor tip; the hull is an upright cylinder about the body's origin.");
+  fields("hull_height_m", hull_height_m, {0.02, 2}, "Height of the hull, half of it above the body's origin.");
+  fields("max_thrust_n", max_thrust_n, {0.1, 10'000},
+         "Greatest collective thrust at full battery, at least 1.1 times the weight.");
+  fields("max_tilt_deg", max_tilt_deg, {1, 60}, "Greatest commanded roll or pitch.");
+  fields("battery_full_v", battery_full_v, {1, 100}, "Voltage of the full battery at rest.");
+  fields("battery_empty_v", battery_empty_v, {1, 100}, "Voltage at which the vehicle must be on the ground.");
 }
 
 std::vector<std::string> VehicleConfig::validate() const {
   return Validation()
-      .within("mass_kg", mass_kg, 0.05, 100)
-      .within("hull_diameter_m", hull_diameter_m, 0.05, 5)
-      .within("hull_height_m", hull_height_m, 0.02, 2)
-      .within("max_thrust_n", max_thrust_n, mass_kg * 9.81 * 1.1, 10'000)
-      .within("max_tilt_deg", max_tilt_deg, 1, 60)
-      .within("battery_full_v", battery_full_v, battery_empty_v, 100)
-      .within("battery_empty_v", battery_empty_v, 1, 100)
+      .require(max_thrust_n >= 1.1 * 9.81 * mass_kg, "max_thrust_n",
+               fmt::format("{} is less than 1.1 times the weight of {} kg", max_thrust_n, mass_kg))
+      .atMost("battery_empty_v", battery_empty_v, "battery_full_v", battery_full_v)
       .problems();
 }
 

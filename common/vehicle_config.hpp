@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 
 namespace swiftlet::common {
@@ -21,7 +21,6 @@ struct MountConfig {
   double yaw_deg = 0.0;
 
   void describe(config::Fields& fields);
-  std::vector<std::string> validate() const;
   Pose3 pose() const;
 };
 
@@ -31,16 +30,15 @@ struct LaserConfig {
   int beams = 1081;
   double field_of_view_deg = 270.0;
   double rate_hz = 40.0;
-  double sweep_s = 0.01875;  ///< From the first to the last beam.
+  double sweep_s = 0.01875;
   double range_min_m = 0.1;
   double range_max_m = 30.0;
-  double range_noise_m = 0.01;  ///< Standard deviation up to 10 m.
-  double dropout_rate = 0.002;  ///< Share of beams without a return.
-  int mirror_first_beam = 0;    ///< First beam the mirror deflects.
-  int mirror_beams =
-      0;  ///< How many; 0: no mirror. They leave straight down from the mirror, spread as `mirror_spread_deg`.
-  double mirror_spread_deg = 2.0;  ///< Angle between the first and the last deflected beam.
-  MountConfig mount;               ///< T_body_laser.
+  double range_noise_m = 0.01;
+  double dropout_rate = 0.002;
+  int mirror_first_beam = 0;
+  int mirror_beams = 0;
+  double mirror_spread_deg = 2.0;
+  MountConfig mount;         ///< T_body_laser.
   MountConfig mirror_mount;  ///< T_body_mirror: origin of the deflected beams; beam k points along its -z, fanned about
                              ///< its x axis.
 
@@ -58,9 +56,9 @@ struct LaserConfig {
 struct VehicleConfig {
   std::string name = "cobra";
   double mass_kg = 1.6;
-  double hull_diameter_m = 0.55;  ///< Tip to tip; the hull is an upright cylinder about the body origin.
+  double hull_diameter_m = 0.55;
   double hull_height_m = 0.25;
-  double max_thrust_n = 28.0;  ///< At full battery.
+  double max_thrust_n = 28.0;
   double max_tilt_deg = 20.0;
   double battery_full_v = 12.6;
   double battery_empty_v = 10.2;

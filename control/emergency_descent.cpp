@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::control {
+
+using common::config::kPositive;
 namespace {
 
 constexpr double kStill_m_s = 0.10;
@@ -83,37 +85,23 @@ common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const Thr
 }
 
 void EmergencyDescent::Config::describe(common::config::Fields& fields) {
-  fields("descent_m_s", descent_m_s, "Speed of descent.");
-  fields("touchdown_descent_m_s", touchdown_descent_m_s, "Speed of descent near the ground.");
-  fields("touchdown_height_m", touchdown_height_m, "Near the ground begins this far above standing.");
-  fields("gain_1_s", gain_1_s, "Vertical speed error to acceleration.");
-  fields("integral_1_s2", integral_1_s2, "Its integral to acceleration.");
-  fields("alpha", alpha, "Share of the residual that corrects the height.");
-  fields("beta", beta, "Share of the residual that corrects the speed.");
-  fields("jump_m", jump_m, "A larger residual is a step of the ground.");
-  fields("blind_after_s", blind_after_s, "Without a raw height for this long: sink by thrust alone.");
-  fields("blind_thrust", blind_thrust, "Thrust then, as a share of the hover command.");
-  fields("rest_margin_m", rest_margin_m, "Less than this above where it stood it may be standing.");
-  fields("rest_s", rest_s, "So long low and still: on the ground.");
-  fields("blind_rest_s", blind_rest_s, "After sinking blind for this long the motors stop.");
-}
-
-std::vector<std::string> EmergencyDescent::Config::validate() const {
-  return common::Validation()
-      .within("descent_m_s", descent_m_s, 0.05, 2)
-      .within("touchdown_descent_m_s", touchdown_descent_m_s, 0.05, 2)
-      .within("touchdown_height_m", touchdown_height_m, 0, 5)
-      .within("gain_1_s", gain_1_s, 0, 20)
-      .within("integral_1_s2", integral_1_s2, 0, 20)
-      .within("alpha", alpha, 0.01, 1)
-      .within("beta", beta, 0.001, 1)
-      .positive("jump_m", jump_m)
-      .positive("blind_after_s", blind_after_s)
-      .within("blind_thrust", blind_thrust, 0.5, 1)
-      .within("rest_margin_m", rest_margin_m, 0, 1)
-      .positive("rest_s", rest_s)
-      .positive("blind_rest_s", blind_rest_s)
-      .problems();
+  fields("descent_m_s", descent_m_s, {0.05, 2}, "Speed of descent.");
+  fields("touchdown_descent_m_s", touchdown_descent_m_s, {0.05, 2}, "Speed of descent near the ground.");
+  fields("touchdown_height_m", touchdown_height_m, {0, 5},
+         "Height above where it stood at which the ground counts as near.");
+  fields("gain_1_s", gain_1_s, {0, 20}, "Vertical acceleration per error of the vertical speed.");
+  fields("integral_1_s2", integral_1_s2, {0, 20}, "Vertical acceleration per integrated error of the vertical speed.");
+  fields("alpha", alpha, {0.01, 1}, "Share of the residual that corrects the height (alpha-beta filter, Tomic 2012).");
+  fields("beta", beta, {0.001, 1},
+         "Share of the residual that corrects the vertical speed (alpha-beta filter, Tomic 2012).");
+  fields("jump_m", jump_m, kPositive, "A residual larger than this is a step of the ground.");
+  fields("blind_after_s", blind_after_s, kPositive,
+         "Without a raw height for this long the vehicle sinks by thrust alone.");
+  fields("blind_thrust", blind_thrust, {0.5, 1},
+         "Thrust of sinking without a height, as a share of the hover command.");
+  fields("rest_margin_m", rest_margin_m, {0, 1}, "Less than this above where it stood the vehicle may be standing.");
+  fields("rest_s", rest_s, kPositive, "Low and still for this long the vehicle is on the ground.");
+  fields("blind_rest_s", blind_rest_s, kPositive, "After sinking without a height for this long the motors stop.");
 }
 
 }  // namespace swiftlet::control

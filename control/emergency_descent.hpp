@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/time.hpp"
 #include "common/vehicle.hpp"
 #include "control/thrust_model.hpp"
@@ -44,21 +44,20 @@ class EmergencyDescent {
  public:
   struct Config {
     double descent_m_s = 0.4;
-    double touchdown_descent_m_s = 0.2;  ///< Less than `touchdown_height_m` above standing.
+    double touchdown_descent_m_s = 0.2;
     double touchdown_height_m = 0.4;
-    double gain_1_s = 2.5;       ///< Vertical speed error to acceleration.
-    double integral_1_s2 = 0.8;  ///< Integral of the vertical speed error to acceleration.
+    double gain_1_s = 2.5;
+    double integral_1_s2 = 0.8;
     double alpha = 0.4;
     double beta = 0.08;
     double jump_m = 0.15;
-    double blind_after_s = 0.5;   ///< Without a raw height for this long: sink by thrust alone.
-    double blind_thrust = 0.95;   ///< Of the hover command.
-    double rest_margin_m = 0.08;  ///< Less than this above where it stood it may be standing.
-    double rest_s = 0.5;          ///< So long low and still: on the ground.
-    double blind_rest_s = 12.0;   ///< Blind for this long: the motors stop.
+    double blind_after_s = 0.5;
+    double blind_thrust = 0.95;
+    double rest_margin_m = 0.08;
+    double rest_s = 0.5;
+    double blind_rest_s = 12.0;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
   };
 
   EmergencyDescent(const Config& config);

@@ -7,9 +7,11 @@
 
 #include <fmt/core.h>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::control {
+
+using common::config::kPositive;
 
 using common::FlightState;
 using common::Severity;
@@ -355,45 +357,30 @@ void FlightController::say(Severity severity, std::string text, std::string reas
 }
 
 void FlightController::Config::describe(common::config::Fields& fields) {
-  fields("spool_up_s", spool_up_s, "From engaging the motors to lifting.");
-  fields("climb_m_s", climb_m_s, "Climb speed when taking off.");
-  fields("descent_m_s", descent_m_s, "Descent speed when landing.");
-  fields("touchdown_descent_m_s", touchdown_descent_m_s, "Descent speed near the ground.");
-  fields("touchdown_height_m", touchdown_height_m, "Near the ground begins this far above standing.");
-  fields("take_off_timeout_s", take_off_timeout_s,
-         "Not hovering so long after it could have climbed that high: land again.");
-  fields("climb_acceleration_m_s2", climb_acceleration_m_s2, "Vertical acceleration of taking off and landing.");
-  fields("hover_tolerance_m", hover_tolerance_m, "Taking off ends this close to the height.");
-  fields("hover_speed_m_s", hover_speed_m_s, "And this slow.");
-  fields("hover_s", hover_s, "For so long.");
-  fields("touchdown_thrust", touchdown_thrust, "Below this share of the hover command the ground carries it.");
-  fields("touchdown_s", touchdown_s, "For so long.");
-  fields("stopped_speed_m_s", stopped_speed_m_s, "Slower than this it has stopped.");
-  fields("horizontal_loss_s", horizontal_loss_s, "Without a horizontal estimate for this long: land.");
-  fields("vertical_loss_s", vertical_loss_s, "Without a vertical estimate for this long: emergency.");
+  fields("spool_up_s", spool_up_s, {0.05, 10}, "Time from starting the motors to lifting.");
+  fields("climb_m_s", climb_m_s, {0.05, 3}, "Climb speed when taking off.");
+  fields("descent_m_s", descent_m_s, {0.05, 3}, "Descent speed when landing.");
+  fields("touchdown_descent_m_s", touchdown_descent_m_s, {0.05, 3}, "Descent speed near the ground.");
+  fields("touchdown_height_m", touchdown_height_m, {0, 5},
+         "Height over what is below at which the ground counts as near.");
+  fields("take_off_timeout_s", take_off_timeout_s, kPositive,
+         "Without hovering this long after the climb should have ended the vehicle lands again.");
+  fields("climb_acceleration_m_s2", climb_acceleration_m_s2, {0.05, 5},
+         "Vertical acceleration of taking off and landing.");
+  fields("hover_tolerance_m", hover_tolerance_m, kPositive, "Taking off ends this close to the height.");
+  fields("hover_speed_m_s", hover_speed_m_s, kPositive, "Taking off ends only when the vehicle is slower than this.");
+  fields("hover_s", hover_s, {0, 10}, "Taking off ends when the vehicle has been close and slow for this long.");
+  fields("touchdown_thrust", touchdown_thrust, {0.1, 0.99},
+         "Below this share of the hover command the ground carries the vehicle.");
+  fields("touchdown_s", touchdown_s, {0, 10}, "The vehicle has landed when the ground has carried it for this long.");
+  fields("stopped_speed_m_s", stopped_speed_m_s, kPositive, "Slower than this the vehicle has stopped.");
+  fields("horizontal_loss_s", horizontal_loss_s, kPositive,
+         "Without a horizontal estimate for this long the vehicle lands level.");
+  fields("vertical_loss_s", vertical_loss_s, kPositive,
+         "Without a vertical estimate for this long the emergency descent begins.");
   fields.section("path", path, "References from paths.");
   fields.section("position", position, "Position controller.");
   fields.section("emergency", emergency, "Emergency descent.");
-}
-
-std::vector<std::string> FlightController::Config::validate() const {
-  return common::Validation()
-      .within("spool_up_s", spool_up_s, 0.05, 10)
-      .within("climb_m_s", climb_m_s, 0.05, 3)
-      .within("descent_m_s", descent_m_s, 0.05, 3)
-      .within("touchdown_descent_m_s", touchdown_descent_m_s, 0.05, 3)
-      .within("touchdown_height_m", touchdown_height_m, 0, 5)
-      .positive("take_off_timeout_s", take_off_timeout_s)
-      .within("climb_acceleration_m_s2", climb_acceleration_m_s2, 0.05, 5)
-      .positive("hover_tolerance_m", hover_tolerance_m)
-      .positive("hover_speed_m_s", hover_speed_m_s)
-      .within("hover_s", hover_s, 0, 10)
-      .within("touchdown_thrust", touchdown_thrust, 0.1, 0.99)
-      .within("touchdown_s", touchdown_s, 0, 10)
-      .positive("stopped_speed_m_s", stopped_speed_m_s)
-      .positive("horizontal_loss_s", horizontal_loss_s)
-      .positive("vertical_loss_s", vertical_loss_s)
-      .problems();
 }
 
 }  // namespace swiftlet::control

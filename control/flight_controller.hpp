@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <tl/expected.hpp>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/vehicle.hpp"
 #include "common/vehicle_config.hpp"
@@ -54,27 +54,26 @@ struct FlightTick {
 class FlightController {
  public:
   struct Config {
-    double spool_up_s = 0.8;  ///< From engaging the motors to lifting.
+    double spool_up_s = 0.8;
     double climb_m_s = 0.5;
     double descent_m_s = 0.4;
     double touchdown_descent_m_s = 0.2;
-    double touchdown_height_m = 0.4;   ///< Over what is below: slower from here on.
-    double take_off_timeout_s = 15.0;  ///< Not hovering so long after it could have climbed that high: land again.
+    double touchdown_height_m = 0.4;
+    double take_off_timeout_s = 15.0;
     double climb_acceleration_m_s2 = 0.8;
-    double hover_tolerance_m = 0.10;  ///< Taking off ends this close to the height ...
-    double hover_speed_m_s = 0.15;    ///< ... and this slow ...
-    double hover_s = 0.4;             ///< ... for so long.
-    double touchdown_thrust = 0.7;    ///< Below this share of the hover command something else carries the vehicle.
+    double hover_tolerance_m = 0.10;
+    double hover_speed_m_s = 0.15;
+    double hover_s = 0.4;
+    double touchdown_thrust = 0.7;
     double touchdown_s = 0.3;
     double stopped_speed_m_s = 0.10;
-    double horizontal_loss_s = 1.0;  ///< No horizontal estimate for this long: land level.
-    double vertical_loss_s = 0.3;    ///< No vertical estimate for this long: emergency.
+    double horizontal_loss_s = 1.0;
+    double vertical_loss_s = 0.3;
     PathFollower::Config path;
     PositionController::Config position;
     EmergencyDescent::Config emergency;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
   };
 
   FlightController(const Config& config, const common::VehicleConfig& vehicle);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/check.hpp"
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 #include "control/path_shape.hpp"
 
 namespace swiftlet::control {
@@ -292,46 +292,28 @@ const PathFollower::Limits& PathFollower::Config::limits(FlightMode mode) const 
 }
 
 void PathFollower::Limits::describe(common::config::Fields& fields) {
-  fields("speed_m_s", speed_m_s, "Greatest speed.");
-  fields("acceleration_m_s2", acceleration_m_s2, "Greatest acceleration along the path and across it.");
-  fields("corner_deviation_m", corner_deviation_m, "How far a corner may be cut.");
-}
-
-std::vector<std::string> PathFollower::Limits::validate() const {
-  return common::Validation()
-      .within("speed_m_s", speed_m_s, 0.01, 20)
-      .within("acceleration_m_s2", acceleration_m_s2, 0.05, 10)
-      .within("corner_deviation_m", corner_deviation_m, 0.001, 5)
-      .problems();
+  fields("speed_m_s", speed_m_s, {0.01, 20}, "Greatest speed.");
+  fields("acceleration_m_s2", acceleration_m_s2, {0.05, 10}, "Greatest acceleration along the path and across it.");
+  fields("corner_deviation_m", corner_deviation_m, {0.001, 5},
+         "Greatest distance of the reference from the path's lines at a corner.");
 }
 
 void PathFollower::Config::describe(common::config::Fields& fields) {
-  fields.section("fast", fast, "Flight mode fast.");
-  fields.section("careful", careful, "Flight mode careful.");
-  fields.section("accurate", accurate, "Flight mode accurate.");
-  fields("climb_speed_m_s", climb_speed_m_s, "Greatest vertical part of the speed.");
-  fields("filter_rad_s", filter_rad_s, "Bandwidth of the reference filter.");
-  fields("simplify_tolerance_m", simplify_tolerance_m, "Points this close to a line between others are left out.");
-  fields("turn_distance_m", turn_distance_m, "Goals farther than this are faced.");
-  fields("yaw_rate_deg_s", yaw_rate_deg_s, "Greatest yaw rate.");
-  fields("yaw_acceleration_deg_s2", yaw_acceleration_deg_s2, "Greatest yaw acceleration.");
-  fields("look_ahead_m", look_ahead_m, "The yaw faces the path this far ahead.");
-  fields("turn_first_angle_deg", turn_first_angle_deg, "Flying this far off the nose it turns first.");
-  fields("turn_first_speed_m_s", turn_first_speed_m_s, "Greatest speed meanwhile.");
-}
-
-std::vector<std::string> PathFollower::Config::validate() const {
-  return common::Validation()
-      .within("climb_speed_m_s", climb_speed_m_s, 0.05, 5)
-      .within("filter_rad_s", filter_rad_s, 0.5, 50)
-      .within("simplify_tolerance_m", simplify_tolerance_m, 0, 1)
-      .within("turn_distance_m", turn_distance_m, 0, 100)
-      .within("yaw_rate_deg_s", yaw_rate_deg_s, 1, 360)
-      .within("yaw_acceleration_deg_s2", yaw_acceleration_deg_s2, 1, 3600)
-      .within("look_ahead_m", look_ahead_m, 0.05, 10)
-      .within("turn_first_angle_deg", turn_first_angle_deg, 0, 180)
-      .within("turn_first_speed_m_s", turn_first_speed_m_s, 0.01, 5)
-      .problems();
+  fields.section("fast", fast, "Limits of flight mode fast.");
+  fields.section("careful", careful, "Limits of flight mode careful.");
+  fields.section("accurate", accurate, "Limits of flight mode accurate.");
+  fields("climb_speed_m_s", climb_speed_m_s, {0.05, 5}, "Greatest vertical part of the speed, in every mode.");
+  fields("filter_rad_s", filter_rad_s, {0.5, 50}, "Bandwidth of the reference filter.");
+  fields("simplify_tolerance_m", simplify_tolerance_m, {0, 1},
+         "Points this close to the line between their neighbours are left out.");
+  fields("turn_distance_m", turn_distance_m, {0, 100},
+         "Goals farther than this are faced; nearer ones are flown to sideways.");
+  fields("yaw_rate_deg_s", yaw_rate_deg_s, {1, 360}, "Greatest yaw rate.");
+  fields("yaw_acceleration_deg_s2", yaw_acceleration_deg_s2, {1, 3600}, "Greatest yaw acceleration.");
+  fields("look_ahead_m", look_ahead_m, {0.05, 10}, "The yaw faces the path this far ahead.");
+  fields("turn_first_angle_deg", turn_first_angle_deg, {0, 180},
+         "Where the path leads this far off the nose, which the laser does not see, the vehicle turns first.");
+  fields("turn_first_speed_m_s", turn_first_speed_m_s, {0.01, 5}, "Greatest speed while turning first.");
 }
 
 }  // namespace swiftlet::control

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "control/reference.hpp"
 
@@ -26,28 +26,26 @@ class PathFollower {
   struct Limits {
     double speed_m_s = 1.0;
     double acceleration_m_s2 = 1.0;
-    double corner_deviation_m = 0.05;  ///< How far the reference may leave the lines at a corner.
+    double corner_deviation_m = 0.05;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
   };
 
   struct Config {
     Limits fast{1.0, 1.2, 0.08};
     Limits careful{0.6, 0.8, 0.05};
     Limits accurate{0.3, 0.5, 0.02};
-    double climb_speed_m_s = 0.5;        ///< Vertical part of the speed, all modes.
-    double filter_rad_s = 5.0;           ///< Bandwidth of the reference filter.
-    double simplify_tolerance_m = 0.01;  ///< Points this close to the line between their neighbours are left out.
-    double turn_distance_m = 0.6;        ///< Goals farther than this are faced; nearer ones are flown to sideways.
+    double climb_speed_m_s = 0.5;
+    double filter_rad_s = 5.0;
+    double simplify_tolerance_m = 0.01;
+    double turn_distance_m = 0.6;
     double yaw_rate_deg_s = 60.0;
     double yaw_acceleration_deg_s2 = 180.0;
-    double look_ahead_m = 0.5;            ///< The yaw faces the path this far ahead.
-    double turn_first_angle_deg = 100.0;  ///< Flying this far off the nose is behind the laser: turn first.
-    double turn_first_speed_m_s = 0.15;   ///< Meanwhile.
+    double look_ahead_m = 0.5;
+    double turn_first_angle_deg = 100.0;
+    double turn_first_speed_m_s = 0.15;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
     const Limits& limits(FlightMode mode) const;
   };
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::control {
+
+using common::config::kPositive;
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
@@ -125,42 +127,25 @@ void PositionController::integrate(const Eigen::Vector3d& missing_m_s, const Eig
 }
 
 void PositionController::Config::describe(common::config::Fields& fields) {
-  fields("horizontal_p_1_s", horizontal_p_1_s, "Position error to velocity.");
-  fields("horizontal_v_1_s", horizontal_v_1_s, "Velocity error to acceleration.");
-  fields("horizontal_i_1_s2", horizontal_i_1_s2, "Integral of the velocity error to acceleration.");
-  fields("vertical_p_1_s", vertical_p_1_s, "Height error to climb speed.");
-  fields("vertical_v_1_s", vertical_v_1_s, "Climb speed error to acceleration.");
-  fields("vertical_i_1_s2", vertical_i_1_s2, "Integral of the climb speed error to acceleration.");
-  fields("yaw_p_1_s", yaw_p_1_s, "Yaw error to yaw rate.");
-  fields("max_correction_m_s", max_correction_m_s, "Velocity that a position error may ask for.");
-  fields("max_speed_m_s", max_speed_m_s, "Horizontal speed that reference and correction may ask for together.");
-  fields("max_climb_m_s", max_climb_m_s, "Climb speed that a height error may ask for.");
-  fields("max_acceleration_up_m_s2", max_acceleration_up_m_s2, "Greatest vertical acceleration asked for.");
-  fields("max_integral_m_s2", max_integral_m_s2, "Greatest integral part.");
-  fields("max_yaw_rate_deg_s", max_yaw_rate_deg_s, "Greatest yaw rate.");
-  fields("latency_s", latency_s, "From measurement to command.");
-  fields("attitude_lag_s", attitude_lag_s, "What the attitude takes to follow a command.");
+  fields("horizontal_p_1_s", horizontal_p_1_s, {0, 10}, "Horizontal velocity per position error.");
+  fields("horizontal_v_1_s", horizontal_v_1_s, {0, 20}, "Horizontal acceleration per velocity error.");
+  fields("horizontal_i_1_s2", horizontal_i_1_s2, {0, 20}, "Horizontal acceleration per integrated velocity error.");
+  fields("vertical_p_1_s", vertical_p_1_s, {0, 10}, "Climb speed per height error.");
+  fields("vertical_v_1_s", vertical_v_1_s, {0, 20}, "Vertical acceleration per climb speed error.");
+  fields("vertical_i_1_s2", vertical_i_1_s2, {0, 20}, "Vertical acceleration per integrated climb speed error.");
+  fields("yaw_p_1_s", yaw_p_1_s, {0, 10}, "Yaw rate per yaw error.");
+  fields("max_correction_m_s", max_correction_m_s, kPositive,
+         "Greatest velocity that a position error adds to the reference's.");
+  fields("max_speed_m_s", max_speed_m_s, kPositive, "Greatest horizontal speed of reference and correction together.");
+  fields("max_climb_m_s", max_climb_m_s, kPositive,
+         "Greatest climb speed that a height error adds to the reference's.");
+  fields("max_acceleration_up_m_s2", max_acceleration_up_m_s2, {0.1, 9}, "Greatest vertical acceleration.");
+  fields("max_integral_m_s2", max_integral_m_s2, {0, 9}, "Greatest integral part of the acceleration.");
+  fields("max_yaw_rate_deg_s", max_yaw_rate_deg_s, kPositive, "Greatest yaw rate.");
+  fields("latency_s", latency_s, {0, 0.5}, "Time from measurement to command, by which the state is predicted.");
+  fields("attitude_lag_s", attitude_lag_s, {0, 0.5},
+         "Time the attitude takes to follow a command, by which the horizontal state is predicted further.");
   fields.section("thrust", thrust, "Thrust by battery voltage.");
-}
-
-std::vector<std::string> PositionController::Config::validate() const {
-  return common::Validation()
-      .within("horizontal_p_1_s", horizontal_p_1_s, 0, 10)
-      .within("horizontal_v_1_s", horizontal_v_1_s, 0, 20)
-      .within("horizontal_i_1_s2", horizontal_i_1_s2, 0, 20)
-      .within("vertical_p_1_s", vertical_p_1_s, 0, 10)
-      .within("vertical_v_1_s", vertical_v_1_s, 0, 20)
-      .within("vertical_i_1_s2", vertical_i_1_s2, 0, 20)
-      .within("yaw_p_1_s", yaw_p_1_s, 0, 10)
-      .positive("max_correction_m_s", max_correction_m_s)
-      .positive("max_speed_m_s", max_speed_m_s)
-      .positive("max_climb_m_s", max_climb_m_s)
-      .within("max_acceleration_up_m_s2", max_acceleration_up_m_s2, 0.1, 9)
-      .within("max_integral_m_s2", max_integral_m_s2, 0, 9)
-      .positive("max_yaw_rate_deg_s", max_yaw_rate_deg_s)
-      .within("latency_s", latency_s, 0, 0.5)
-      .within("attitude_lag_s", attitude_lag_s, 0, 0.5)
-      .problems();
 }
 
 }  // namespace swiftlet::control

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/vehicle.hpp"
 #include "common/vehicle_config.hpp"
 #include "common/vehicle_state.hpp"
@@ -21,25 +21,24 @@ namespace swiftlet::control {
 class PositionController {
  public:
   struct Config {
-    double horizontal_p_1_s = 2.2;   ///< Position error to velocity.
-    double horizontal_v_1_s = 5.0;   ///< Velocity error to acceleration.
-    double horizontal_i_1_s2 = 2.5;  ///< Integral of the velocity-loop error to acceleration.
+    double horizontal_p_1_s = 2.2;
+    double horizontal_v_1_s = 5.0;
+    double horizontal_i_1_s2 = 2.5;
     double vertical_p_1_s = 1.8;
     double vertical_v_1_s = 4.5;
     double vertical_i_1_s2 = 2.0;
     double yaw_p_1_s = 2.0;
-    double max_correction_m_s = 1.0;  ///< Velocity that a position error may ask for on top of the reference's,
-    double max_speed_m_s = 1.5;       ///< and the speed that both may ask for together.
-    double max_climb_m_s = 1.0;       ///< Likewise, vertically.
+    double max_correction_m_s = 1.0;
+    double max_speed_m_s = 1.5;
+    double max_climb_m_s = 1.0;
     double max_acceleration_up_m_s2 = 4.0;
     double max_integral_m_s2 = 2.0;
     double max_yaw_rate_deg_s = 90.0;
-    double latency_s = 0.03;       ///< From measurement to command; the state is carried forward by it ...
-    double attitude_lag_s = 0.12;  ///< ... and, horizontally, by what the attitude takes to follow.
+    double latency_s = 0.03;
+    double attitude_lag_s = 0.12;
     ThrustModel::Config thrust;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
   };
 
   enum class Horizontal {

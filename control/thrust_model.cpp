@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/config_fields.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::control {
+
+using common::config::kPositive;
 namespace {
 constexpr double kGravity_m_s2 = 9.81;
 }
@@ -39,23 +42,17 @@ double ThrustModel::commandFor(double acceleration_up_m_s2, double cos_tilt) con
 double ThrustModel::hoverCommand() const { return commandFor(0.0, 1.0); }
 
 void ThrustModel::Config::describe(common::config::Fields& fields) {
-  fields("voltage_exponent", voltage_exponent, "Thrust of a command goes with (voltage / full) to this power.");
-  fields("voltage_filter_s", voltage_filter_s, "Time constant that smooths the voltage.");
-  fields("learning_time_s", learning_time_s, "Time constant by which the hover command is learned.");
-  fields("max_correction", max_correction, "The learned factor stays within 1 +- this.");
-  fields("min_thrust", min_thrust, "Least thrust in flight.");
-  fields("max_thrust", max_thrust, "Greatest thrust commanded.");
+  fields("voltage_exponent", voltage_exponent, {0, 4},
+         "The thrust of a command goes with (voltage / full voltage) to this power.");
+  fields("voltage_filter_s", voltage_filter_s, kPositive, "Time constant that smooths the measured voltage.");
+  fields("learning_time_s", learning_time_s, kPositive, "Time constant by which the hover command is learned.");
+  fields("max_correction", max_correction, {0, 0.9}, "The learned factor stays within 1 plus or minus this.");
+  fields("min_thrust", min_thrust, {0, 1}, "Least thrust in flight, so that the attitude stays controlled.");
+  fields("max_thrust", max_thrust, {0, 1}, "Greatest thrust commanded.");
 }
 
 std::vector<std::string> ThrustModel::Config::validate() const {
-  return common::Validation()
-      .within("voltage_exponent", voltage_exponent, 0, 4)
-      .positive("voltage_filter_s", voltage_filter_s)
-      .positive("learning_time_s", learning_time_s)
-      .within("max_correction", max_correction, 0, 0.9)
-      .within("min_thrust", min_thrust, 0, max_thrust)
-      .within("max_thrust", max_thrust, 0, 1)
-      .problems();
+  return common::Validation().atMost("min_thrust", min_thrust, "max_thrust", max_thrust).problems();
 }
 
 }  // namespace swiftlet::control

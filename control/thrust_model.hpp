@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
 
 namespace swiftlet::control {
@@ -14,11 +14,11 @@ namespace swiftlet::control {
 class ThrustModel {
  public:
   struct Config {
-    double voltage_exponent = 2.0;  ///< Thrust of a given command goes with (U / U_full) to this power.
-    double voltage_filter_s = 0.5;  ///< Time constant by which the measured voltage is smoothed.
-    double learning_time_s = 2.0;   ///< Time constant by which the hover command is learned.
-    double max_correction = 0.35;   ///< The learned factor stays within 1 +- this.
-    double min_thrust = 0.10;       ///< In flight, so that the attitude stays controlled.
+    double voltage_exponent = 2.0;
+    double voltage_filter_s = 0.5;
+    double learning_time_s = 2.0;
+    double max_correction = 0.35;
+    double min_thrust = 0.10;
     double max_thrust = 0.95;
 
     void describe(common::config::Fields& fields);

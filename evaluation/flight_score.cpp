@@ -5,13 +5,15 @@
 
 #include <fmt/format.h>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 #include "evaluation/judge.hpp"
 #include "evaluation/map_metrics.hpp"
 #include "evaluation/statistics.hpp"
 #include "simulation/truth_map.hpp"
 
 namespace swiftlet::evaluation {
+
+using common::config::kPositive;
 namespace {
 
 using common::MissionState;
@@ -98,52 +100,37 @@ LocalizationScore scoreOf(const LocalizationRecord& record, double within_m) {
 }  // namespace
 
 void Criteria::describe(common::config::Fields& fields) {
-  fields("mission_done", mission_done, "The mission must end well.");
-  fields("collisions_max", collisions_max, "Touches of anything, a walker that runs into the vehicle included.");
-  fields("coverage_min", coverage_min, "Share of the reachable free space that is in the map.");
-  fields("goal_error_max_m", goal_error_max_m, "From each goal to the true place when it is reported as reached.");
-  fields("home_error_max_m", home_error_max_m, "The same for home.");
-  fields("marker_error_max_m", marker_error_max_m, "Of the estimate, whenever a goal or home is reported as reached.");
-  fields("relocalization_error_max_m", relocalization_error_max_m,
-         "Between what the estimate's errors were at the same goal at different times.");
-  fields("mission_time_max_s", mission_time_max_s, "Simulated time of the mission.");
-  fields("estimate_rms_max_m", estimate_rms_max_m, "Horizontal error of the estimate.");
-  fields("map_wall_error_max_m", map_wall_error_max_m, "Median distance of mapped walls to true ones.");
-  fields("localized_within_m", localized_within_m,
-         "Way within which a flight that is given a map must have found itself in it to count as localized.");
-  fields("wrong_time_share_max", wrong_time_share_max,
-         "Of the time localized, the share farther than 0.5 m or 10 deg from the truth.");
-  fields("all_resumed", all_resumed, "Everything that was interrupted must have gone on.");
-  fields("goal_error_median_max_m", goal_error_median_max_m, "Over all flights: the median of their goal errors.");
-  fields("home_error_median_max_m", home_error_median_max_m, "Over all flights: the median of their home errors.");
-  fields("mission_time_median_max_s", mission_time_median_max_s,
-         "Over all flights: the median of the missions that ended well.");
-  fields("estimate_rms_median_max_m", estimate_rms_median_max_m, "Over all flights: the median of their RMS errors.");
-  fields("map_wall_error_median_max_m", map_wall_error_median_max_m,
-         "Over all flights: the median of their wall errors.");
-  fields("localized_flights_min", localized_flights_min, "Over all flights: the share of them that were localized.");
-}
-
-std::vector<std::string> Criteria::validate() const {
-  return common::Validation()
-      .within("collisions_max", collisions_max, 0, 1)
-      .within("coverage_min", coverage_min, 0, 1)
-      .positive("goal_error_max_m", goal_error_max_m)
-      .positive("home_error_max_m", home_error_max_m)
-      .positive("marker_error_max_m", marker_error_max_m)
-      .positive("relocalization_error_max_m", relocalization_error_max_m)
-      .positive("mission_time_max_s", mission_time_max_s)
-      .positive("estimate_rms_max_m", estimate_rms_max_m)
-      .positive("map_wall_error_max_m", map_wall_error_max_m)
-      .positive("goal_error_median_max_m", goal_error_median_max_m)
-      .positive("home_error_median_max_m", home_error_median_max_m)
-      .positive("mission_time_median_max_s", mission_time_median_max_s)
-      .positive("estimate_rms_median_max_m", estimate_rms_median_max_m)
-      .positive("map_wall_error_median_max_m", map_wall_error_median_max_m)
-      .positive("localized_within_m", localized_within_m)
-      .positive("wrong_time_share_max", wrong_time_share_max)
-      .within("localized_flights_min", localized_flights_min, 0, 1)
-      .problems();
+  fields("mission_done", mission_done, "Whether the mission must end well.");
+  fields("collisions_max", collisions_max, {0, 1},
+         "Greatest number of touches of anything, a walker that runs into the vehicle included; a flight ends with the "
+         "first.");
+  fields("coverage_min", coverage_min, {0, 1}, "Least share of the reachable free space that is in the map.");
+  fields("goal_error_max_m", goal_error_max_m, kPositive,
+         "Greatest distance of the vehicle from a goal that is reported as reached.");
+  fields("home_error_max_m", home_error_max_m, kPositive,
+         "Greatest distance of the vehicle from home when that is reported as reached.");
+  fields("marker_error_max_m", marker_error_max_m, kPositive,
+         "Greatest error of the estimate when a goal or home is reported as reached.");
+  fields("relocalization_error_max_m", relocalization_error_max_m, kPositive,
+         "Greatest difference between the estimate's errors at the same goal at different times.");
+  fields("mission_time_max_s", mission_time_max_s, kPositive, "Greatest simulated time of the mission.");
+  fields("estimate_rms_max_m", estimate_rms_max_m, kPositive, "Greatest RMS of the estimate's horizontal error.");
+  fields("map_wall_error_max_m", map_wall_error_max_m, kPositive,
+         "Greatest median distance of mapped walls to true ones.");
+  fields("localized_within_m", localized_within_m, kPositive,
+         "Path length within which a flight that is given a map must have found itself in it to count as localized.");
+  fields("wrong_time_share_max", wrong_time_share_max, kPositive,
+         "Greatest share of the time localized in which the estimate is farther than 0.5 m or 10 deg from the truth.");
+  fields("all_resumed", all_resumed, "Whether everything that was interrupted must have gone on.");
+  fields("goal_error_median_max_m", goal_error_median_max_m, kPositive, "Greatest median of all flights' goal errors.");
+  fields("home_error_median_max_m", home_error_median_max_m, kPositive, "Greatest median of all flights' home errors.");
+  fields("mission_time_median_max_s", mission_time_median_max_s, kPositive,
+         "Greatest median of the times of all missions that ended well.");
+  fields("estimate_rms_median_max_m", estimate_rms_median_max_m, kPositive,
+         "Greatest median of all flights' RMS errors.");
+  fields("map_wall_error_median_max_m", map_wall_error_median_max_m, kPositive,
+         "Greatest median of all flights' wall errors.");
+  fields("localized_flights_min", localized_flights_min, {0, 1}, "Least share of all flights that were localized.");
 }
 
 FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,

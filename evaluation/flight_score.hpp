@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "evaluation/marker_errors.hpp"
@@ -22,7 +22,6 @@ struct Criteria {
   static constexpr double kAny = std::numeric_limits<double>::infinity();
 
   bool mission_done = true;
-  /// The reports count every touch; a flight that was touched is over, so that this is 0 or 1 for one flight.
   int collisions_max = 0;
   double coverage_min = 0.0;
   double goal_error_max_m = kAny;
@@ -31,21 +30,18 @@ struct Criteria {
   double relocalization_error_max_m = kAny;
   double mission_time_max_s = kAny;
   double estimate_rms_max_m = kAny;
-  double map_wall_error_max_m = kAny;  ///< Of the median.
-  /// Way within which a flight must have found itself, rightly, in the map it was given, to count as localized.
+  double map_wall_error_max_m = kAny;
   double localized_within_m = kAny;
-  double wrong_time_share_max = kAny;  ///< Of the time localized.
-  bool all_resumed = true;             ///< Everything that was interrupted went on.
-  // Over all flights of a trial; one flight alone is not held against them.
+  double wrong_time_share_max = kAny;
+  bool all_resumed = true;
   double goal_error_median_max_m = kAny;
   double home_error_median_max_m = kAny;
-  double mission_time_median_max_s = kAny;  ///< Of the missions that ended well.
+  double mission_time_median_max_s = kAny;
   double estimate_rms_median_max_m = kAny;
   double map_wall_error_median_max_m = kAny;
-  double localized_flights_min = 0.0;  ///< Share of all flights.
+  double localized_flights_min = 0.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// How a flight found itself in the map it was given.

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "common/config.hpp"
+#include "common/config_fields.hpp"
 #include "common/error.hpp"
 #include "common/validation.hpp"
 
@@ -28,50 +30,44 @@ bool canBeSeen(const std::string& name) {
 }  // namespace
 
 void PaperFigure::describe(common::config::Fields& fields) {
-  fields("figure", figure, "Which figure, as the results name it.");
-  fields("value", value, "What the paper reports.");
+  fields("figure", figure, "Name of the figure, as in the results: goal_error_max_m.");
+  fields("value", value, common::config::kFinite, "Value that the paper reports.");
 }
 
 std::vector<std::string> PaperFigure::validate() const {
-  return common::Validation()
-      .require(!figure.empty(), "figure", "is missing")
-      .require(std::isfinite(value), "value", "is not finite")
-      .problems();
+  return common::Validation().require(!figure.empty(), "figure", "is missing").problems();
 }
 
 void TrialMap::describe(common::config::Fields& fields) {
-  fields("file", file, "YAML of map_server, relative to the root of the software; empty: none.");
-  fields("x_m", x_m, "Where the origin of the file's frame is in the world.");
-  fields("y_m", y_m, "Likewise.");
-  fields("yaw_deg", yaw_deg, "How its axes are turned there.");
+  fields("file", file, "YAML of map_server, relative to the root of the software; empty for none.");
+  fields("x_m", x_m, {-1e4, 1e4}, "Position of the origin of the file's frame along the world's x.");
+  fields("y_m", y_m, {-1e4, 1e4}, "Position of the origin of the file's frame along the world's y.");
+  fields("yaw_deg", yaw_deg, {-360, 360}, "Rotation of the file's frame in the world.");
   fields.section("survey", survey, "A robot on wheels that makes the map before the first flight.");
 }
 
 std::vector<std::string> TrialMap::validate() const {
   return common::Validation()
       .require(file.empty() || !surveyed(), "file", "is given, and a `survey` that makes another map, too")
-      .within("x_m", x_m, -1e4, 1e4)
-      .within("y_m", y_m, -1e4, 1e4)
-      .within("yaw_deg", yaw_deg, -360, 360)
       .problems();
 }
 
 void TrialConfig::describe(common::config::Fields& fields) {
-  fields("name", name, "For tables and folders.");
+  fields("name", name, "Name for tables and folders; that of the file when none is given.");
   fields("description", description, "What is flown and why.");
   fields("mission", mission, "XML file, relative to the root of the software.");
   fields("system", system, "System profile.");
   fields("archive", archive,
-         "The world's archive below the folder of data sets; empty: the world is with the software.");
-  fields("repeat", repeat, "Flights, each with the next seed.");
-  fields("time_limit_s", time_limit_s, "Simulated time after which a flight is ended.");
-  fields("clearance_m", clearance_m,
-         "The mission's, between hull and obstacle: where it does not fit is not reachable.");
-  fields("reachable_area_max_m2", reachable_area_max_m2,
+         "The world's archive below the folder of data sets; empty when the world is with the software.");
+  fields("repeat", repeat, {1, 10'000}, "Flights, each with the next seed.");
+  fields("time_limit_s", time_limit_s, {1, 100'000}, "Simulated time after which a flight is ended.");
+  fields("clearance_m", clearance_m, {0, 5},
+         "The mission's distance between hull and obstacle; where it does not fit is not reachable.");
+  fields("reachable_area_max_m2", reachable_area_max_m2, {1, 20'000},
          "A world in which the vehicle can reach more is taken for open: no coverage is measured.");
   fields.section("criteria", criteria, "What each flight, and all of them together, must reach to pass.");
   fields.list("paper", paper, "Figures of the paper that is flown again.");
-  fields.section("map", map, "What the flights are given to find themselves in; nothing: they are given none.");
+  fields.section("map", map, "Map that the flights are given to find themselves in; without one they make their own.");
   fields.section("scenario", scenario, "World, start, weather, people, faults, and what the seed varies.");
 }
 
@@ -82,10 +78,6 @@ std::vector<std::string> TrialConfig::validate() const {
       .require(!mission.empty(), "mission", "is missing")
       .require(!system.empty(), "system", "is missing")
       .require(!scenario.world.empty(), "scenario", "names no `world`")
-      .within("repeat", repeat, 1, 10'000)
-      .within("time_limit_s", time_limit_s, 1, 100'000)
-      .within("clearance_m", clearance_m, 0, 5)
-      .within("reachable_area_max_m2", reachable_area_max_m2, 1, 20'000)
       .problems();
 }
 

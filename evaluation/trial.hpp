@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "evaluation/flight_score.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/survey.hpp"
@@ -14,7 +14,7 @@ namespace swiftlet::evaluation {
 
 /// A figure of the paper that the trial flies again.
 struct PaperFigure {
-  std::string figure;  ///< As in the results: goal_error_max_m.
+  std::string figure;
   double value = 0.0;
 
   void describe(common::config::Fields& fields);
@@ -23,11 +23,11 @@ struct PaperFigure {
 
 /// The map that the flights are given: a file, or one that a robot on wheels makes beforehand.
 struct TrialMap {
-  std::string file;  ///< YAML of map_server, relative to the root of the software; empty: none.
-  double x_m = 0.0;  ///< Where the origin of the file's frame is in the world.
+  std::string file;
+  double x_m = 0.0;
   double y_m = 0.0;
   double yaw_deg = 0.0;
-  simulation::SurveyConfig survey;  ///< Its path empty: none drives.
+  simulation::SurveyConfig survey;
 
   bool surveyed() const { return !survey.path_world_m.empty(); }
   bool given() const { return surveyed() || !file.empty(); }
@@ -37,17 +37,14 @@ struct TrialMap {
 };
 
 struct TrialConfig {
-  std::string name;  ///< The file's name, when it gives none.
+  std::string name;
   std::string description;
-  std::string mission;              ///< XML file, relative to the root of the software.
-  std::string system = "swiftlet";  ///< Profile.
-  /// The world, or the models it is made of, come in this archive, relative to the folder of data sets; empty: all is
-  /// with the software.
+  std::string mission;
+  std::string system = "swiftlet";
   std::string archive;
-  int repeat = 1;                     ///< Flights, unless the user says otherwise.
-  double time_limit_s = 600.0;        ///< Simulated; the flight is ended then.
-  double clearance_m = kClearance_m;  ///< The mission's, for what counts as reachable.
-  /// A world in which the vehicle can reach more than this is taken for open: it has no coverage.
+  int repeat = 1;
+  double time_limit_s = 600.0;
+  double clearance_m = kClearance_m;
   double reachable_area_max_m2 = kReachableAreaMax_m2;
   Criteria criteria;
   std::vector<PaperFigure> paper;

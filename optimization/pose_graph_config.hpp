@@ -4,20 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 
 namespace swiftlet::optimization {
 
 struct PoseGraphConfig {
   int max_iterations = 30;
-  double robust_width = 3.0;        ///< Normalized error (sigmas) beyond which a robust edge loses influence (Cauchy).
-  double relative_decrease = 1e-6;  ///< Converged when the cost changes by less than this share.
+  double robust_width = 3.0;
+  double relative_decrease = 1e-6;
   /// The trust region's first radius: how far the first step may go, 1e16 for that of Gauss-Newton. Not read from
   /// files.
   double trust_radius = 1e4;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 }  // namespace swiftlet::optimization

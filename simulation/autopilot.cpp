@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -20,27 +20,16 @@ double finiteOr(double value, double otherwise) { return std::isfinite(value) ? 
 }  // namespace
 
 void AutopilotConfig::describe(common::config::Fields& fields) {
-  fields("attitude_gain_1_s", attitude_gain_1_s, "Rate asked per radian of roll or pitch error.");
-  fields("max_rate_rad_s", max_rate_rad_s, "Greatest roll and pitch rate asked.");
-  fields("max_yaw_rate_rad_s", max_yaw_rate_rad_s, "Greatest yaw rate asked.");
-  fields("rate_gain_1_s", rate_gain_1_s, "Angular acceleration asked per roll or pitch rate error.");
-  fields("yaw_rate_gain_1_s", yaw_rate_gain_1_s, "Angular acceleration asked per yaw rate error.");
-  fields("rate_integral_1_s2", rate_integral_1_s2, "Angular acceleration asked per integrated rate error.");
-  fields("link_timeout_s", link_timeout_s, "Without a new setpoint for so long it levels and descends.");
-  fields("failsafe_thrust_share", failsafe_thrust_share, "Thrust then, as a share of the weight.");
-}
-
-std::vector<std::string> AutopilotConfig::validate() const {
-  return common::Validation()
-      .within("attitude_gain_1_s", attitude_gain_1_s, 0.1, 100)
-      .within("max_rate_rad_s", max_rate_rad_s, 0.1, 50)
-      .within("max_yaw_rate_rad_s", max_yaw_rate_rad_s, 0.1, 50)
-      .within("rate_gain_1_s", rate_gain_1_s, 0.1, 500)
-      .within("yaw_rate_gain_1_s", yaw_rate_gain_1_s, 0.1, 500)
-      .within("rate_integral_1_s2", rate_integral_1_s2, 0, 500)
-      .within("link_timeout_s", link_timeout_s, 0.05, 10)
-      .within("failsafe_thrust_share", failsafe_thrust_share, 0.5, 1)
-      .problems();
+  fields("attitude_gain_1_s", attitude_gain_1_s, {0.1, 100}, "Rate per radian of roll or pitch error.");
+  fields("max_rate_rad_s", max_rate_rad_s, {0.1, 50}, "Greatest roll and pitch rate.");
+  fields("max_yaw_rate_rad_s", max_yaw_rate_rad_s, {0.1, 50}, "Greatest yaw rate.");
+  fields("rate_gain_1_s", rate_gain_1_s, {0.1, 500}, "Angular acceleration per roll or pitch rate error.");
+  fields("yaw_rate_gain_1_s", yaw_rate_gain_1_s, {0.1, 500}, "Angular acceleration per yaw rate error.");
+  fields("rate_integral_1_s2", rate_integral_1_s2, {0, 500},
+         "Angular acceleration per integrated rate error, which takes out what leans the vehicle constantly.");
+  fields("link_timeout_s", link_timeout_s, {0.05, 10},
+         "Without a new setpoint for this long the vehicle levels and descends.");
+  fields("failsafe_thrust_share", failsafe_thrust_share, {0.5, 1}, "Thrust of that descent, as a share of the weight.");
 }
 
 Autopilot::Autopilot(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe,

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/vehicle.hpp"
 #include "common/vehicle_config.hpp"
 #include "simulation/quadrotor.hpp"
@@ -18,17 +18,16 @@
 namespace swiftlet::simulation {
 
 struct AutopilotConfig {
-  double attitude_gain_1_s = 7.0;   ///< Rate asked per radian of roll or pitch error.
-  double max_rate_rad_s = 4.0;      ///< Greatest roll and pitch rate asked.
-  double max_yaw_rate_rad_s = 2.5;  ///< Greatest yaw rate asked.
-  double rate_gain_1_s = 18.0;      ///< Angular acceleration asked per rad/s of roll or pitch rate error.
+  double attitude_gain_1_s = 7.0;
+  double max_rate_rad_s = 4.0;
+  double max_yaw_rate_rad_s = 2.5;
+  double rate_gain_1_s = 18.0;
   double yaw_rate_gain_1_s = 7.0;
-  double rate_integral_1_s2 = 12.0;     ///< Takes out what leans the vehicle constantly.
-  double link_timeout_s = 0.5;          ///< Without a new setpoint for so long it levels and descends.
-  double failsafe_thrust_share = 0.93;  ///< Thrust then, as a share of the weight.
+  double rate_integral_1_s2 = 12.0;
+  double link_timeout_s = 0.5;
+  double failsafe_thrust_share = 0.93;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 class Autopilot {

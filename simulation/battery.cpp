@@ -3,24 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::simulation {
 
 void Battery::Config::describe(common::config::Fields& fields) {
-  fields("capacity_ah", capacity_ah, "Charge of the full battery.");
-  fields("resistance_ohm", resistance_ohm, "Inner resistance: the sag under load.");
-  fields("electronics_w", electronics_w, "What computer and sensors draw.");
-  fields("power_w_per_n15", power_w_per_n15, "Power of one motor over its thrust^1.5.");
-}
-
-std::vector<std::string> Battery::Config::validate() const {
-  return common::Validation()
-      .within("capacity_ah", capacity_ah, 0.1, 100)
-      .within("resistance_ohm", resistance_ohm, 0, 1)
-      .within("electronics_w", electronics_w, 0, 1000)
-      .within("power_w_per_n15", power_w_per_n15, 0, 100)
-      .problems();
+  fields("capacity_ah", capacity_ah, {0.1, 100}, "Charge of the full battery.");
+  fields("resistance_ohm", resistance_ohm, {0, 1}, "Inner resistance, which makes the voltage sag under load.");
+  fields("electronics_w", electronics_w, {0, 1000}, "Power of computer and sensors.");
+  fields("power_w_per_n15", power_w_per_n15, {0, 100},
+         "Electrical power of one motor per thrust to the power of 1.5 (momentum theory of a hovering rotor).");
 }
 
 Battery::Battery(const common::VehicleConfig& vehicle, const Config& config, double remaining)

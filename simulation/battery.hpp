@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
 
 namespace swiftlet::simulation {
@@ -14,12 +14,10 @@ class Battery {
   struct Config {
     double capacity_ah = 5.0;
     double resistance_ohm = 0.025;
-    double electronics_w = 15.0;  ///< Computer and sensors.
-    /// Electrical power of one motor is this times thrust^1.5 (momentum theory of a hovering rotor).
+    double electronics_w = 15.0;
     double power_w_per_n15 = 6.0;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
   };
 
   Battery(const common::VehicleConfig& vehicle, const Config& config, double remaining);

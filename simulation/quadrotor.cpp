@@ -3,41 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::simulation {
 
 using Eigen::Vector3d;
 
 void QuadrotorConfig::describe(common::config::Fields& fields) {
-  fields("inertia_xx_kg_m2", inertia_xx_kg_m2, "About the forward axis.");
-  fields("inertia_yy_kg_m2", inertia_yy_kg_m2, "About the left axis.");
-  fields("inertia_zz_kg_m2", inertia_zz_kg_m2, "About the up axis.");
-  fields("arm_m", arm_m, "From the centre to a rotor axis.");
-  fields("torque_per_thrust_m", torque_per_thrust_m, "Reaction torque of a rotor per newton of thrust.");
-  fields("motor_lag_s", motor_lag_s, "Time constant of a motor's thrust.");
-  fields("linear_drag_n_s_m", linear_drag_n_s_m, "Drag per speed through the air.");
-  fields("quadratic_drag_n_s2_m2", quadratic_drag_n_s2_m2, "Drag per squared speed through the air.");
-  fields("angular_drag_n_m_s", angular_drag_n_m_s, "Torque against turning, per turn rate.");
-  fields("gear_height_m", gear_height_m, "From the feet to the body origin.");
-  fields("gear_radius_m", gear_radius_m, "From the centre to a foot.");
+  fields("inertia_xx_kg_m2", inertia_xx_kg_m2, {1e-4, 10}, "Moment of inertia about the forward axis.");
+  fields("inertia_yy_kg_m2", inertia_yy_kg_m2, {1e-4, 10}, "Moment of inertia about the left axis.");
+  fields("inertia_zz_kg_m2", inertia_zz_kg_m2, {1e-4, 10}, "Moment of inertia about the up axis.");
+  fields("arm_m", arm_m, {0.02, 2}, "Distance from the centre to a rotor's axis.");
+  fields("torque_per_thrust_m", torque_per_thrust_m, {0.001, 0.5},
+         "Reaction torque of a rotor about its axis per newton of thrust.");
+  fields("motor_lag_s", motor_lag_s, {0.005, 0.5}, "Time constant of a motor's thrust.");
+  fields("linear_drag_n_s_m", linear_drag_n_s_m, {0, 10}, "Drag per speed through the air.");
+  fields("quadratic_drag_n_s2_m2", quadratic_drag_n_s2_m2, {0, 10}, "Drag per squared speed through the air.");
+  fields("angular_drag_n_m_s", angular_drag_n_m_s, {0, 1}, "Torque against turning per turn rate.");
+  fields("gear_height_m", gear_height_m, {0.01, 2},
+         "Height of the body's origin over the feet, which are below the hull.");
+  fields("gear_radius_m", gear_radius_m, {0.01, 2}, "Distance from the centre to a foot.");
   fields.section("battery", battery, "The battery.");
-}
-
-std::vector<std::string> QuadrotorConfig::validate() const {
-  return common::Validation()
-      .within("inertia_xx_kg_m2", inertia_xx_kg_m2, 1e-4, 10)
-      .within("inertia_yy_kg_m2", inertia_yy_kg_m2, 1e-4, 10)
-      .within("inertia_zz_kg_m2", inertia_zz_kg_m2, 1e-4, 10)
-      .within("arm_m", arm_m, 0.02, 2)
-      .within("torque_per_thrust_m", torque_per_thrust_m, 0.001, 0.5)
-      .within("motor_lag_s", motor_lag_s, 0.005, 0.5)
-      .within("linear_drag_n_s_m", linear_drag_n_s_m, 0, 10)
-      .within("quadratic_drag_n_s2_m2", quadratic_drag_n_s2_m2, 0, 10)
-      .within("angular_drag_n_m_s", angular_drag_n_m_s, 0, 1)
-      .within("gear_height_m", gear_height_m, 0.01, 2)
-      .within("gear_radius_m", gear_radius_m, 0.01, 2)
-      .problems();
 }
 
 Quadrotor::Quadrotor(const common::VehicleConfig& vehicle, const QuadrotorConfig& config,

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/vehicle_config.hpp"
 #include "simulation/battery.hpp"
@@ -22,18 +22,17 @@ struct QuadrotorConfig {
   double inertia_xx_kg_m2 = 0.020;
   double inertia_yy_kg_m2 = 0.021;
   double inertia_zz_kg_m2 = 0.036;
-  double arm_m = 0.165;                ///< From the centre to a rotor axis.
-  double torque_per_thrust_m = 0.016;  ///< Reaction torque of a rotor about its axis, per newton of thrust.
+  double arm_m = 0.165;
+  double torque_per_thrust_m = 0.016;
   double motor_lag_s = 0.035;
   double linear_drag_n_s_m = 0.25;
   double quadratic_drag_n_s2_m2 = 0.06;
   double angular_drag_n_m_s = 0.004;
-  double gear_height_m = 0.15;  ///< From the feet to the body origin; below the hull.
-  double gear_radius_m = 0.15;  ///< From the centre to a foot.
+  double gear_height_m = 0.15;
+  double gear_radius_m = 0.15;
   Battery::Config battery;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// Thrusts by motor: front left, front right, rear right, rear left; front left and rear right turn clockwise.

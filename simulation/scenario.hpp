@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
 #include "simulation/autopilot.hpp"
 #include "simulation/quadrotor.hpp"
@@ -15,40 +15,35 @@
 namespace swiftlet::simulation {
 
 struct StartConfig {
-  bool from_world = true;  ///< The world's `<frame name="start">`, or its origin where it has none.
-  double x_m = 0.0;        ///< In the world's frame.
+  bool from_world = true;
+  double x_m = 0.0;
   double y_m = 0.0;
-  double z_m = 0.0;  ///< The floor is the first surface below half a metre above this.
+  double z_m = 0.0;
   double yaw_deg = 0.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 struct WindConfig {
   double mean_x_m_s = 0.0;
   double mean_y_m_s = 0.0;
-  double gust_m_s = 0.0;  ///< Standard deviation of each horizontal component.
+  double gust_m_s = 0.0;
   double gust_time_s = 2.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// How far a seed may move things; all uniform in +- the value.
 struct Variation {
   double start_position_m = 0.0;
   double start_yaw_deg = 0.0;
-  /// x, y of two corners: the start is drawn anywhere between, on the floor of the start that the scenario names and
-  /// with room above it, where the vehicle could fly to that start. Empty: near that start, as above.
   std::vector<double> start_area_world_m;
-  std::vector<std::string> obstacles;  ///< Models that are shifted.
+  std::vector<std::string> obstacles;
   double obstacle_m = 0.3;
-  double wind_m_s = 0.0;           ///< Added to each component of the mean wind.
-  double battery_remaining = 0.0;  ///< The start charge is lowered by up to this.
-  /// Goals as x, y, x, y, ... in `map`: a draw is taken only if the vehicle can get to all of them.
+  double wind_m_s = 0.0;
+  double battery_remaining = 0.0;
   std::vector<double> reachable_map_m;
-  double flight_height_m = 1.0;  ///< Of the body above the take-off floor, where that is judged.
+  double flight_height_m = 1.0;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -64,14 +59,14 @@ enum class WalkerEnd { kStay, kLeave, kReturn, kLoop };
 /// A person. It never yields.
 struct WalkerConfig {
   WalkerMode mode = WalkerMode::kPath;
-  std::vector<double> path_world_m;  ///< x, y, x, y, ... for kPath.
+  std::vector<double> path_world_m;
   WalkerEnd at_end = WalkerEnd::kLoop;
   double speed_m_s = 1.0;
   double radius_m = 0.25;
   double height_m = 1.75;
   double start_s = 0.0;
-  double distance_m = 2.5;  ///< kCrossPath: how far ahead it crosses. kFollow: how near it comes, hull to person.
-  double repeat_s = 0.0;    ///< kCrossPath: crosses again after this long; 0: once.
+  double distance_m = 2.5;
+  double repeat_s = 0.0;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -79,12 +74,11 @@ struct WalkerConfig {
 
 struct PushConfig {
   double time_s = 0.0;
-  double x_n_s = 0.0;  ///< In the world's frame.
+  double x_n_s = 0.0;
   double y_n_s = 0.0;
   double z_n_s = 0.0;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 enum class FaultKind {
@@ -115,13 +109,12 @@ struct PilotConfig {
   bool takes_over = false;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 struct Scenario {
   int seed = 1;
-  std::string world;                     ///< SDF file; the caller loads it.
-  std::vector<std::string> model_paths;  ///< Where its includes are.
+  std::string world;
+  std::vector<std::string> model_paths;
   StartConfig start;
   double battery_remaining = 1.0;
   WindConfig wind;
@@ -129,7 +122,7 @@ struct Scenario {
   std::vector<WalkerConfig> walkers;
   std::vector<PushConfig> pushes;
   std::vector<FaultConfig> faults;
-  std::vector<PilotConfig> pilot;  ///< Empty: there is no remote control, and no pilot samples.
+  std::vector<PilotConfig> pilot;
   QuadrotorConfig quadrotor;
   AutopilotConfig autopilot;
   SensorsConfig sensors;

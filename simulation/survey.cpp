@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/check.hpp"
+#include "common/config_fields.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::simulation {
@@ -13,24 +14,18 @@ using common::Pose2;
 using common::Time;
 
 void SurveyConfig::describe(common::config::Fields& fields) {
-  fields("path_world_m", path_world_m, "x, y, x, y of the way it drives; empty: no map is made.");
+  fields("path_world_m", path_world_m, {-1e4, 1e4},
+         "Points x, y, x, y of the path it drives, turning on the spot at each; empty when no map is made.");
   fields("laser", laser, "A file of config/sensors, without .yaml.");
-  fields("laser_height_world_m", laser_height_world_m, "Of its beams, in the world's frame.");
-  fields("speed_m_s", speed_m_s, "Between the points; it turns on the spot at each.");
-  fields("turn_deg_s", turn_deg_s, "Speed of these turns.");
-  fields("seed", seed, "Of its noise; that of the flights changes nothing here.");
+  fields("laser_height_world_m", laser_height_world_m, {-100, 100}, "Height of its beams in the world's frame.");
+  fields("speed_m_s", speed_m_s, {0.05, 5}, "Speed between the points.");
+  fields("turn_deg_s", turn_deg_s, {1, 360}, "Speed of the turns on the spot.");
+  fields("seed", seed, {0, 1'000'000'000}, "Seed of its noise; that of the flights changes nothing here.");
 }
 
 std::vector<std::string> SurveyConfig::validate() const {
   const bool pairs = path_world_m.size() % 2 == 0 && path_world_m.size() != 2;
-  common::Validation validation;
-  validation.require(pairs, "path_world_m", "is no list of two or more points x, y")
-      .within("laser_height_world_m", laser_height_world_m, -100, 100)
-      .within("speed_m_s", speed_m_s, 0.05, 5)
-      .within("turn_deg_s", turn_deg_s, 1, 360)
-      .within("seed", seed, 0, 1'000'000'000);
-  for (const double value : path_world_m) validation.within("path_world_m", value, -1e4, 1e4);
-  return validation.problems();
+  return common::Validation().require(pairs, "path_world_m", "is no list of two or more points x, y").problems();
 }
 
 SurveyDrive::SurveyDrive(const SurveyConfig& config, const common::LaserConfig& laser, const RayCaster& rays)

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/sensor_event.hpp"
 #include "common/vehicle_config.hpp"
@@ -17,12 +17,12 @@
 namespace swiftlet::simulation {
 
 struct SurveyConfig {
-  std::vector<double> path_world_m;    ///< x, y, x, y ...; it turns on the spot at each. Empty: nothing is driven.
-  std::string laser = "sick_lms_291";  ///< A data sheet of config/sensors; the caller loads it.
-  double laser_height_world_m = 0.80;  ///< Of its beams.
+  std::vector<double> path_world_m;
+  std::string laser = "sick_lms_291";
+  double laser_height_world_m = 0.80;
   double speed_m_s = 0.8;
   double turn_deg_s = 45.0;
-  int seed = 1;  ///< Of the noise; that of the flights varies nothing here.
+  int seed = 1;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

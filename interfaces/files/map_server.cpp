@@ -53,11 +53,12 @@ struct MapYaml {
 
   void describe(common::config::Fields& fields) {
     fields("image", image, "The picture, relative to this file.");
-    fields("resolution", resolution_m, "Metres a pixel.");
-    fields("origin", origin, "x, y and yaw of the lower left pixel's corner, metres and radians.");
-    fields("negate", negate, "1: white is occupied.");
-    fields("occupied_thresh", occupied_thresh, "Probability from which a pixel is occupied.");
-    fields("free_thresh", free_thresh, "Probability up to which a pixel is free.");
+    fields("resolution", resolution_m, {1e-3, 100}, "Metres a pixel.");
+    fields("origin", origin, {-kMostOrigin_m, kMostOrigin_m},
+           "x, y and yaw of the lower left pixel's corner, in metres and radians.");
+    fields("negate", negate, {0, 1}, "1 when white is occupied.");
+    fields("occupied_thresh", occupied_thresh, {0, 1}, "Probability from which a pixel is occupied.");
+    fields("free_thresh", free_thresh, {0, 1}, "Probability up to which a pixel is free.");
     fields.choice("mode", mode, {"trinary", "scale", "raw"}, "How pixels are understood.");
   }
 
@@ -66,17 +67,7 @@ struct MapYaml {
         .require(!image.empty(), "image", "is missing")
         .require(image.empty() || image.ends_with(".pgm"), "image",
                  fmt::format("`{}` is not a .pgm picture; convert it, for instance by ImageMagick's `convert`", image))
-        .require(resolution_m > 0, "resolution", "is missing or not positive")
-        .require(!(resolution_m > 0) || (resolution_m >= 1e-3 && resolution_m <= 100), "resolution",
-                 "is not within 0.001 and 100")
-        .require(
-            origin.size() == 3 && std::all_of(origin.begin(), origin.end(), [](double v) { return std::isfinite(v); }),
-            "origin", "is not a list of three finite numbers: x, y, yaw")
-        .require(std::all_of(origin.begin(), origin.end(), [](double v) { return !(std::abs(v) > kMostOrigin_m); }),
-                 "origin", fmt::format("is further than {} m away", kMostOrigin_m))
-        .require(negate == 0 || negate == 1, "negate", "is neither 0 nor 1")
-        .within("occupied_thresh", occupied_thresh, 0, 1)
-        .within("free_thresh", free_thresh, 0, 1)
+        .require(origin.size() == 3, "origin", "is not a list of three numbers: x, y, yaw")
         .require(free_thresh < occupied_thresh, "free_thresh", "is not below occupied_thresh")
         .problems();
   }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "common/config_fields.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::perception {
@@ -38,48 +39,50 @@ double shareBeyond(double off, double window, double greatest_window) {
 
 void LaserOdometryConfig::describe(common::config::Fields& fields) {
   fields.section("matcher", matcher, "Matching of a scan to the local map.");
-  fields("max_acceleration_m_s2", max_acceleration_m_s2, "Widens the search with the time since the last match.");
-  fields("max_angular_acceleration_rad_s2", max_angular_acceleration_rad_s2, "The same for the rotation.");
-  fields("guess_error_m", guess_error_m, "Half the least search window.");
-  fields("unseen_drift_m_s", unseen_drift_m_s, "Widens the search with the time since all directions were seen.");
-  fields("guess_error_deg", guess_error_deg, "The same for the rotation.");
-  fields("max_window_m", max_window_m, "Half the greatest search window.");
-  fields("max_window_deg", max_window_deg, "The same for the rotation.");
-  fields("min_widened_quality", min_widened_quality,
-         "A match far beyond the first window needs this quality; nearer, less.");
-  fields("widened_must_hold", widened_must_hold, "And must hold the position in all directions.");
-  fields("min_overlap", min_overlap, "A scan with a smaller share of supported points joins the local map.");
-  fields("min_fit", min_fit, "A scan that fits worse than this joins the local map.");
-  fields("min_weak_overlap", min_weak_overlap, "The same where the position is held weakly in one direction.");
-  fields("weak_sigma_m", weak_sigma_m, "A position less certain than this is held weakly.");
-  fields("max_reference_distance_m", max_reference_distance_m, "A scan this far from the reference joins too.");
-  fields("max_reference_rotation_deg", max_reference_rotation_deg, "Or turned this much.");
-  fields("level_tilt_deg", level_tilt_deg, "A scan tilted more than this is joined only when it must be.");
-  fields("tilted_overlap_margin", tilted_overlap_margin, "So much less overlap makes it join all the same.");
-  fields("local_map_scans", local_map_scans, "Key scans kept in the local map.");
-  fields("max_failures", max_failures, "After so many scans without a match it starts anew.");
+  fields("max_acceleration_m_s2", max_acceleration_m_s2, {0, 100},
+         "Acceleration that widens the search with the time since the last match (Bachrach 2009, 5.1).");
+  fields("max_angular_acceleration_rad_s2", max_angular_acceleration_rad_s2, {0, 1000},
+         "Angular acceleration that widens the search with the time since the last match.");
+  fields("unseen_drift_m_s", unseen_drift_m_s, {0, 10},
+         "Speed that widens the search with the time since all directions were seen, as the guess drifts.");
+  fields("guess_error_m", guess_error_m, {0.001, 5}, "Half the least search window; at most max_window_m.");
+  fields("guess_error_deg", guess_error_deg, {0.01, 180},
+         "Half the least search window of the rotation; at most max_window_deg.");
+  fields("max_window_m", max_window_m, {0.01, 5}, "Half the greatest search window.");
+  fields("max_window_deg", max_window_deg, {0.1, 180}, "Half the greatest search window of the rotation.");
+  fields("min_widened_quality", min_widened_quality, {0, 1},
+         "Least quality of a match six times as far off as the first window reaches, since chance matches are likelier "
+         "there; nearer ones need less, down to matcher.min_quality within the first window.");
+  fields(
+      "widened_must_hold", widened_must_hold,
+      "Whether a match beyond the first window must fix the position in all directions, as the guess no longer does.");
+  fields("min_overlap", min_overlap, {0, 1}, "A scan with a smaller share of supported points joins the local map.");
+  fields("min_fit", min_fit, {0, 1},
+         "A scan that fits worse than this joins the local map, which has become wrong about the place; it is sought "
+         "farther off before.");
+  fields("min_weak_overlap", min_weak_overlap, {0, 1},
+         "Value of min_overlap where the position is weakly fixed in one direction.");
+  fields("weak_sigma_m", weak_sigma_m, {0.001, 10},
+         "A position less certain than this in one direction is weakly fixed.");
+  fields("max_reference_distance_m", max_reference_distance_m, {0.05, 100},
+         "A scan this far from the reference joins the local map.");
+  fields("max_reference_rotation_deg", max_reference_rotation_deg, {1, 360},
+         "A scan turned this much against the reference joins the local map.");
+  fields("level_tilt_deg", level_tilt_deg, {0, 90},
+         "A scan tilted more than this is drawn with the error of its attitude, so that it joins the local map only "
+         "when it must.");
+  fields(
+      "tilted_overlap_margin", tilted_overlap_margin, {0, 1},
+      "A tilted scan joins the local map when its overlap is this much smaller than a level one's would have to be.");
+  fields("local_map_scans", local_map_scans, {1, 100}, "Key scans kept in the local map.");
+  fields("max_failures", max_failures, {1, 100'000},
+         "After this many scans without a match the odometry starts anew from the present one.");
 }
 
 std::vector<std::string> LaserOdometryConfig::validate() const {
   return common::Validation()
-      .within("max_acceleration_m_s2", max_acceleration_m_s2, 0, 100)
-      .within("max_angular_acceleration_rad_s2", max_angular_acceleration_rad_s2, 0, 1000)
-      .within("unseen_drift_m_s", unseen_drift_m_s, 0, 10)
-      .within("guess_error_m", guess_error_m, 0.001, max_window_m)
-      .within("guess_error_deg", guess_error_deg, 0.01, max_window_deg)
-      .within("max_window_m", max_window_m, 0.01, 5)
-      .within("max_window_deg", max_window_deg, 0.1, 180)
-      .within("min_widened_quality", min_widened_quality, 0, 1)
-      .within("min_overlap", min_overlap, 0, 1)
-      .within("min_fit", min_fit, 0, 1)
-      .within("min_weak_overlap", min_weak_overlap, 0, 1)
-      .within("weak_sigma_m", weak_sigma_m, 0.001, 10)
-      .within("max_reference_distance_m", max_reference_distance_m, 0.05, 100)
-      .within("max_reference_rotation_deg", max_reference_rotation_deg, 1, 360)
-      .within("level_tilt_deg", level_tilt_deg, 0, 90)
-      .within("tilted_overlap_margin", tilted_overlap_margin, 0, 1)
-      .within("local_map_scans", local_map_scans, 1, 100)
-      .within("max_failures", max_failures, 1, 100'000)
+      .atMost("guess_error_m", guess_error_m, "max_window_m", max_window_m)
+      .atMost("guess_error_deg", guess_error_deg, "max_window_deg", max_window_deg)
       .problems();
 }
 

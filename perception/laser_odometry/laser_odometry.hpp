@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/time.hpp"
 #include "perception/scan_matching/correlative_matcher.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
@@ -40,29 +40,25 @@ struct OtherGuess {
 
 struct LaserOdometryConfig {
   CorrelativeMatcherConfig matcher;
-  double max_acceleration_m_s2 = 5.0;  ///< Widens the search with the time since the last match (Bachrach 2009, 5.1).
+  double max_acceleration_m_s2 = 5.0;
   double max_angular_acceleration_rad_s2 = 20.0;
-  double unseen_drift_m_s = 0.5;  ///< Widens it with the time since all directions were seen: by then the guess drifts.
-  double guess_error_m = 0.04;    ///< Half the least search window.
+  double unseen_drift_m_s = 0.5;
+  double guess_error_m = 0.04;
   double guess_error_deg = 1.5;
   double max_window_m = 0.5;
   double max_window_deg = 15.0;
-  double min_widened_quality = 0.35;      ///< A match six times as far off as the first window reaches (at least half
-                                          ///< the greatest window, at most all of it) needs this quality: chance is
-                                          ///< greater. Nearer, less; in the first window, matcher.min_quality.
-  bool widened_must_hold = false;         ///< Beyond the first window it must hold the position in all directions: the
-                                          ///< guess no longer does.
-  double min_overlap = 0.75;              ///< A scan with a smaller share of supported points joins the local map.
-  double min_fit = 0.35;                  ///< So does one that fits worse than this (MatchResult::quality): the map
-                                          ///< has become wrong about the place. It is sought farther off before.
-  double min_weak_overlap = 0.75;         ///< The same where the position is held weakly in one direction:
-  double weak_sigma_m = 0.05;             ///< less certain than this. What comes into view must not be missed then.
-  double max_reference_distance_m = 2.0;  ///< So does one farther than this from the reference,
-  double max_reference_rotation_deg = 60.0;  ///< or turned more than this against it.
-  double level_tilt_deg = 2.0;  ///< A scan tilted more than this is drawn with the error of its attitude; it waits
-  double tilted_overlap_margin = 0.15;  ///< until the overlap is smaller by this.
-  int local_map_scans = 8;              ///< Key scans kept in the local map.
-  int max_failures = 20;                ///< After so many scans without a match it starts anew from the present one.
+  double min_widened_quality = 0.35;
+  bool widened_must_hold = false;
+  double min_overlap = 0.75;
+  double min_fit = 0.35;
+  double min_weak_overlap = 0.75;
+  double weak_sigma_m = 0.05;
+  double max_reference_distance_m = 2.0;
+  double max_reference_rotation_deg = 60.0;
+  double level_tilt_deg = 2.0;
+  double tilted_overlap_margin = 0.15;
+  int local_map_scans = 8;
+  int max_failures = 20;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

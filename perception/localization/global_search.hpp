@@ -15,7 +15,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "perception/localization/map_field.hpp"
 #include "perception/scan_matching/window_sums.hpp"
@@ -23,18 +23,16 @@
 namespace swiftlet::perception {
 
 struct GlobalSearchConfig {
-  double cell_m = 0.10;        ///< Of the positions searched; not finer than the map's.
-  double sigma_m = 0.20;       ///< Of its field: covers what lies between the poses searched.
-  double lever_m = 8.0;        ///< From one direction to the next, points at this distance move by 2 sigma.
-  double least_fit = 0.55;     ///< Mean value, of that on a wall, below which a place does not fit: where two thirds
-                               ///< of the points lie within sigma of a wall, and the others anywhere.
-  double distinct_m = 0.5;     ///< Places nearer than this
-  double distinct_deg = 15.0;  ///< and less turned than this are one.
-  int max_places = 400;        ///< More than so many are not told apart: the pose is ambiguous anyway.
-  int max_blocks = 1'000'000;  ///< The search is given up after so many blocks of poses; it keeps twice as many.
+  double cell_m = 0.10;
+  double sigma_m = 0.20;
+  double lever_m = 8.0;
+  double least_fit = 0.55;
+  double distinct_m = 0.5;
+  double distinct_deg = 15.0;
+  int max_places = 400;
+  int max_blocks = 1'000'000;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 struct FittingPlace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -72,17 +72,11 @@ double beamValue(double distance_m, double sigma_m, double random_share) {
 }
 
 void MapFieldConfig::describe(common::config::Fields& fields) {
-  fields("sigma_m", sigma_m, "Of a beam's end about the wall.");
-  fields("random_share", random_share, "Density of beams that end anywhere, of that on a wall.");
-  fields("unknown_value", unknown_value, "What an unknown cell counts, of the value on a wall.");
-}
-
-std::vector<std::string> MapFieldConfig::validate() const {
-  return common::Validation()
-      .within("sigma_m", sigma_m, 0.01, 2)
-      .within("random_share", random_share, 0.001, 0.999)
-      .within("unknown_value", unknown_value, 0, 1)
-      .problems();
+  fields("sigma_m", sigma_m, {0.01, 2},
+         "Standard deviation of a beam's end about the wall: noise, the map's cells, the pose between particles.");
+  fields("random_share", random_share, {0.001, 0.999},
+         "Density of beams that end anywhere, relative to that on a wall.");
+  fields("unknown_value", unknown_value, {0, 1}, "Value of an unknown cell, relative to that on a wall.");
 }
 
 MapField::MapField(const common::OccupancyGrid& map, const MapFieldConfig& config)

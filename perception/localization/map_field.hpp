@@ -15,18 +15,17 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/occupancy_grid.hpp"
 
 namespace swiftlet::perception {
 
 struct MapFieldConfig {
-  double sigma_m = 0.10;        ///< Of a beam's end about the wall: noise, the map's cells, the pose between particles.
-  double random_share = 0.10;   ///< Density of beams that end anywhere, relative to that on a wall.
-  double unknown_value = 0.20;  ///< What an unknown cell counts, of the value on a wall.
+  double sigma_m = 0.10;
+  double random_share = 0.10;
+  double unknown_value = 0.20;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// Bytes row by row, with a border all around so that a clamped look-up falls on it.

@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/random.hpp"
 #include "perception/localization/map_field.hpp"
@@ -22,15 +22,15 @@
 namespace swiftlet::perception {
 
 struct ParticleFilterConfig {
-  int max_particles = 5000;    ///< Grzonka 2009, section VI-A.
-  int min_particles = 500;     ///< However narrow the belief is.
-  bool adaptive = true;        ///< KLD sampling; else always max_particles.
-  double kld_error = 0.05;     ///< Between the belief and its samples (Fox 2003, section 4),
-  double kld_quantile = 2.33;  ///< with a probability of 99 %.
-  double kld_bin_m = 0.25;     ///< The bins in which they are compared.
+  int max_particles = 5000;
+  int min_particles = 500;
+  bool adaptive = true;
+  double kld_error = 0.05;
+  double kld_quantile = 2.33;
+  double kld_bin_m = 0.25;
   double kld_bin_deg = 10.0;
-  int beams = 60;            ///< Of a scan, evenly spread.
-  double beam_weight = 0.2;  ///< Of a beam in the likelihood: neighbours are wrong about the map together.
+  int beams = 60;
+  double beam_weight = 0.2;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

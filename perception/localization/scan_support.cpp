@@ -2,23 +2,16 @@
 
 #include <algorithm>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 #include "perception/localization/evenly_spread.hpp"
 
 namespace swiftlet::perception {
 
 void ScanSupportConfig::describe(common::config::Fields& fields) {
-  fields("beams", beams, "Beams of a scan that are looked at.");
-  fields("tolerance_m", tolerance_m, "A beam is explained when a wall is this near to its end;");
-  fields("tolerance_rad", tolerance_rad, "wider with the range.");
-}
-
-std::vector<std::string> ScanSupportConfig::validate() const {
-  return common::Validation()
-      .within("beams", beams, 5, 10'000)
-      .within("tolerance_m", tolerance_m, 0.01, 1)
-      .within("tolerance_rad", tolerance_rad, 0, 0.5)
-      .problems();
+  fields("beams", beams, {5, 10'000}, "Beams of a scan, evenly spread, that are judged.");
+  fields("tolerance_m", tolerance_m, {0.01, 1}, "A beam is explained when a wall is this near to its end.");
+  fields("tolerance_rad", tolerance_rad, {0, 0.5},
+         "Growth of that tolerance with the range, for the error of the heading.");
 }
 
 ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> points_body_m,
@@ -44,25 +37,18 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
 }
 
 void LostTestConfig::describe(common::config::Fields& fields) {
-  fields("at_none", at_none, "Log-odds of being lost when nothing of a scan is explained.");
-  fields("by_explained", by_explained, "What it changes by with the share explained.");
-  fields("distrust_explained", distrust_explained, "While the map explains less, the pose is looked for elsewhere.");
-  fields("most", most, "No scan says more than this.");
-  fields("scans_per_s", scans_per_s, "Scans that are independent.");
-  fields("threshold", threshold, "Log-odds that are believed.");
-  fields("least_evidence", least_evidence, "A scan with fewer beams that say something is left out.");
-}
-
-std::vector<std::string> LostTestConfig::validate() const {
-  return common::Validation()
-      .within("at_none", at_none, -100, 100)
-      .within("by_explained", by_explained, -100, 0)
-      .within("distrust_explained", distrust_explained, 0, 1)
-      .within("most", most, 0.1, 100)
-      .within("scans_per_s", scans_per_s, 0.1, 100)
-      .within("threshold", threshold, 0.1, 100)
-      .within("least_evidence", least_evidence, 1, 10'000)
-      .problems();
+  fields("at_none", at_none, {-100, 100},
+         "Log-odds of being lost when nothing of a scan is explained (logistic regression on simulated walks, "
+         "docs/localization.md).");
+  fields("by_explained", by_explained, {-100, 0},
+         "Change of the log-odds with the share explained (from the same regression as at_none).");
+  fields("most", most, {0.1, 100}, "Greatest log-odds that one scan adds, for or against.");
+  fields("scans_per_s", scans_per_s, {0.1, 100},
+         "Rate of scans that count as independent: nearer ones see the same person in front.");
+  fields("distrust_explained", distrust_explained, {0, 1},
+         "While the map explains less than this share, the pose is also sought elsewhere.");
+  fields("threshold", threshold, {0.1, 100}, "Log-odds from which the pose counts as lost.");
+  fields("least_evidence", least_evidence, {1, 10'000}, "A scan with fewer beams that tell anything is left out.");
 }
 
 void LostTest::reset() {

@@ -7,19 +7,18 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "perception/localization/map_field.hpp"
 
 namespace swiftlet::perception {
 
 struct ScanSupportConfig {
-  int beams = 90;                ///< Of a scan, evenly spread.
-  double tolerance_m = 0.20;     ///< A beam is explained when a wall is this near to its end:
-  double tolerance_rad = 0.015;  ///< wider with the range, for what the heading may be off.
+  int beams = 90;
+  double tolerance_m = 0.20;
+  double tolerance_rad = 0.015;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// Beams that end where the map knows nothing say nothing and are left out.
@@ -33,17 +32,15 @@ ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> poin
                       const common::Pose2& T_grid_body, const ScanSupportConfig& config);
 
 struct LostTestConfig {
-  // The log-odds of being lost, of one scan: a logistic regression on simulated walks, see docs/localization.md.
-  double at_none = 9.4;              ///< Of a scan of which nothing is explained,
-  double by_explained = -17.6;       ///< and what it changes by with the share explained.
-  double most = 3.0;                 ///< No scan says more than this, for or against.
-  double scans_per_s = 2.0;          ///< Scans nearer in time than this see the same: who stands in the way still does.
-  double distrust_explained = 0.75;  ///< Nor is all well while the map explains less than this: time to look elsewhere.
-  double threshold = 5.0;            ///< Log-odds that are believed.
-  int least_evidence = 15;           ///< Beams of a scan that say something; with fewer it is left out.
+  double at_none = 9.4;
+  double by_explained = -17.6;
+  double most = 3.0;
+  double scans_per_s = 2.0;
+  double distrust_explained = 0.75;
+  double threshold = 5.0;
+  int least_evidence = 15;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// Page's cumulative sum test (1954): the sum of the log-odds of the scans, never below zero, so that it is soon

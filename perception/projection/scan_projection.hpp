@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
@@ -58,17 +58,15 @@ struct ProjectedScan {
 };
 
 struct ScanProjectionConfig {
-  double floor_height_odom_m = 0.0;    ///< Of the take-off floor; the origin of odom is on it.
-  double ceiling_height_odom_m = 0.0;  ///< 0: unknown, nothing is left out as ceiling.
-  double surface_margin_m = 0.05;      ///< End points this near to floor or ceiling are theirs.
-  double attitude_error_deg = 1.0;     ///< Widens that margin with the range (Grzonka 2009: accurate up to 1 deg).
-  double free_band_m =
-      0.30;  ///< A beam that hit no wall clears cells as long as it is within this of the body's height.
-  double body_radius_m = 0.0;  ///< Returns nearer than this to the body's axis are the vehicle itself and invalid.
-  int min_no_return_run = 3;   ///< Fewer neighbouring beams without return are dropouts, not free space.
+  double floor_height_odom_m = 0.0;
+  double ceiling_height_odom_m = 0.0;
+  double surface_margin_m = 0.05;
+  double attitude_error_deg = 1.0;
+  double free_band_m = 0.30;
+  double body_radius_m = 0.0;
+  int min_no_return_run = 3;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// Projects one sweep. Never fails: what cannot be used is counted. A scan whose number of beams differs from the

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 #include "perception/scan_matching/window_sums.hpp"
 
@@ -25,30 +25,27 @@ enum class PoseEstimate {
 };
 
 struct CorrelativeMatcherConfig {
-  double resolution_m = 0.01;  ///< Of the finest level; each coarser one doubles it.
+  double resolution_m = 0.01;
   double angular_resolution_deg = 0.1;
-  int levels = 3;  ///< Resolutions that take part in the weighted mean (1, 2 and 4 cm; Grzonka 2012, IV-A).
+  int levels = 3;
   PoseEstimate estimate = PoseEstimate::kSurface;
-  double sigma_m = 0.02;     ///< Spread of the end points about the contour of the reference.
-  int search_points = 256;   ///< Points of a scan that are searched with, spread evenly along its contour; at most 256.
-  int surface_points = 512;  ///< Points from which pose and covariance are taken around the best.
-  bool only_seen = true;     ///< Of what the reference looked at, pose and covariance are taken only from what lies on
-                             ///< it, away from where it ends: what comes out of a shadow would pull the scan on.
-  double max_range_m = 20.0;  ///< Points farther than this are not used; bounds the memory of the field.
-  double max_gap_m = 0.3;     ///< Neighbouring end points of the reference nearer than this are joined to a contour.
-  double guess_weight = 0.1;  ///< A pose far from the guess loses at most this much quality: the motion's prior.
-  double guess_distance_m = 0.08;   ///< Half of it at this distance,
-  double guess_rotation_deg = 3.0;  ///< or this rotation.
-  double min_quality = 0.35;        ///< Below this the match failed.
-  int min_points = 30;              ///< With fewer points the match failed.
-  double covariance_scale = 1.5;    ///< On the covariance of independent points; calibrated, see the test of honesty.
-  double attitude_error_deg = 1.0;  ///< Of roll and pitch: moves each end point by its height over the body times this.
-  double unobservable_sigma_m =
-      0.1;                      ///< A direction less certain than this is not seen: the pose keeps the guess there.
-  double profile_half_m = 0.0;  ///< How far along the direction that is held least the score is looked at: what scores
-                                ///< nearly as much there is believed nearly as much. 0: not at all.
-  double profile_temperature = 0.010;  ///< A difference in quality of this makes a pose e times less likely.
-  double min_normal_spread = 0.01;     ///< Nor is one that a smaller share of the contour faces: a corridor's axis.
+  double sigma_m = 0.02;
+  int search_points = 256;
+  int surface_points = 512;
+  bool only_seen = true;
+  double max_range_m = 20.0;
+  double max_gap_m = 0.3;
+  double guess_weight = 0.1;
+  double guess_distance_m = 0.08;
+  double guess_rotation_deg = 3.0;
+  double min_quality = 0.35;
+  int min_points = 30;
+  double covariance_scale = 1.5;
+  double attitude_error_deg = 1.0;
+  double unobservable_sigma_m = 0.1;
+  double profile_half_m = 0.0;
+  double profile_temperature = 0.010;
+  double min_normal_spread = 0.01;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/config_fields.hpp"
 #include "common/validation.hpp"
 #include "perception/scan_matching/interpolated_field.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
@@ -23,25 +24,18 @@ constexpr int kHalvings = 3;
 
 void GaussNewtonMatcherConfig::describe(common::config::Fields& fields) {
   LeastSquaresMatcherConfig::describe(fields);
-  fields("resolution_m", resolution_m, "Of the finest map.");
-  fields("levels", levels, "Maps, each four times as coarse as the one before.");
-  fields("iterations", iterations, "Most steps at each level but the finest.");
-  fields("finest_iterations", finest_iterations, "Most steps at the finest level.");
+  fields("resolution_m", resolution_m, {0.001, 1},
+         "Side of a cell of the finest map; support_m is two to seven times this.");
+  fields("levels", levels, {1, 4},
+         "Maps, each four times as coarse as the one before, as is the support of a point in it.");
+  fields("iterations", iterations, {1, 100}, "Greatest number of steps at each level but the finest.");
+  fields("finest_iterations", finest_iterations, {1, 100}, "Greatest number of steps at the finest level.");
 }
 
 std::vector<std::string> GaussNewtonMatcherConfig::validate() const {
-  std::vector<std::string> problems = LeastSquaresMatcherConfig::validate();
-  for (std::string& problem : common::Validation()
-                                  .within("resolution_m", resolution_m, 0.001, 1)
-                                  .require(support_m >= 2.0 * resolution_m &&
-                                               support_m <= LikelihoodField::kMaxKernelCells * resolution_m + 1e-9,
-                                           "support_m", "is not two to seven times resolution_m")
-                                  .within("levels", levels, 1, 4)
-                                  .within("iterations", iterations, 1, 100)
-                                  .within("finest_iterations", finest_iterations, 1, 100)
-                                  .problems())
-    problems.push_back(std::move(problem));
-  return problems;
+  const bool held =
+      support_m >= 2.0 * resolution_m && support_m <= LikelihoodField::kMaxKernelCells * resolution_m + 1e-9;
+  return common::Validation().require(held, "support_m", "is not two to seven times resolution_m").problems();
 }
 
 struct GaussNewtonMatcher::Impl {

@@ -12,17 +12,17 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "perception/scan_matching/least_squares_match.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 
 namespace swiftlet::perception {
 
 struct GaussNewtonMatcherConfig : LeastSquaresMatcherConfig {
-  double resolution_m = 0.01;  ///< Of the finest map.
-  int levels = 3;      ///< Maps, each four times as coarse as the one before, as is the support of a point in it.
-  int iterations = 4;  ///< Most steps at each level but the finest,
-  int finest_iterations = 8;  ///< and at the finest.
+  double resolution_m = 0.01;
+  int levels = 3;
+  int iterations = 4;
+  int finest_iterations = 8;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "perception/scan_matching/contour_normals.hpp"
 #include "perception/scan_matching/quadratic_peak.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
@@ -17,22 +17,19 @@
 namespace swiftlet::perception {
 
 struct LeastSquaresMatcherConfig {
-  int points = 400;                     ///< Of a scan that are matched, spread evenly along its contour.
-  double max_range_m = 20.0;            ///< Points farther than this are not used.
-  double max_gap_m = 0.3;               ///< Neighbouring end points nearer than this are joined to a contour.
-  double support_m = 0.06;              ///< A point farther than this from the reference has no support.
-  double min_quality = 0.35;            ///< Below this the match failed.
-  double min_direction_support = 0.25;  ///< So it did when less of the contour facing some direction has support: the
-                                        ///< other walls fit, and these were taken for outliers.
-  int min_points = 30;                  ///< With fewer points the match failed.
-  double covariance_scale = 2.0;    ///< On the covariance of independent points; calibrated, see the tests of honesty.
-  double attitude_error_deg = 1.0;  ///< Of roll and pitch: moves each end point by its height over the body times this.
-  double unobservable_sigma_m =
-      0.1;                          ///< A direction less certain than this is not seen: the pose keeps the guess there.
-  double min_normal_spread = 0.01;  ///< Nor is one that a smaller share of the contour faces: a corridor's axis.
+  int points = 400;
+  double max_range_m = 20.0;
+  double max_gap_m = 0.3;
+  double support_m = 0.06;
+  double min_quality = 0.35;
+  double min_direction_support = 0.25;
+  int min_points = 30;
+  double covariance_scale = 2.0;
+  double attitude_error_deg = 1.0;
+  double unobservable_sigma_m = 0.1;
+  double min_normal_spread = 0.01;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// Sums over the matched points at one pose. The unknown is (x, y, turn), each in metres of displacement of the points:

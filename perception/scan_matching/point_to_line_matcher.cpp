@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/config_fields.hpp"
 #include "common/validation.hpp"
 #include "perception/scan_matching/oriented_points.hpp"
 
@@ -31,20 +32,14 @@ struct Pair {
 
 void PointToLineMatcherConfig::describe(common::config::Fields& fields) {
   LeastSquaresMatcherConfig::describe(fields);
-  fields("max_distance_m", max_distance_m, "Points are paired no farther than this.");
-  fields("trim_sigmas", trim_sigmas, "Pairs with more than this many times the usual distance are left out.");
-  fields("iterations", iterations, "Most times pairs are made.");
+  fields("max_distance_m", max_distance_m, {0.005, 5},
+         "Points are paired no farther than this, and less far when the window is small; at least support_m.");
+  fields("trim_sigmas", trim_sigmas, {1, 100}, "Pairs with more than this many times the usual distance are left out.");
+  fields("iterations", iterations, {1, 1000}, "Greatest number of times that pairs are made.");
 }
 
 std::vector<std::string> PointToLineMatcherConfig::validate() const {
-  std::vector<std::string> problems = LeastSquaresMatcherConfig::validate();
-  for (std::string& problem : common::Validation()
-                                  .within("max_distance_m", max_distance_m, support_m, 5)
-                                  .within("trim_sigmas", trim_sigmas, 1, 100)
-                                  .within("iterations", iterations, 1, 1000)
-                                  .problems())
-    problems.push_back(std::move(problem));
-  return problems;
+  return common::Validation().atMost("support_m", support_m, "max_distance_m", max_distance_m).problems();
 }
 
 struct PointToLineMatcher::Impl {

@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "perception/scan_matching/least_squares_match.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 
 namespace swiftlet::perception {
 
 struct PointToLineMatcherConfig : LeastSquaresMatcherConfig {
-  double max_distance_m = 0.5;  ///< Points are paired no farther than this; less when the window is small.
-  double trim_sigmas = 3.0;     ///< Pairs with more than this many times the usual distance are left out.
-  int iterations = 20;          ///< Most times pairs are made.
+  double max_distance_m = 0.5;
+  double trim_sigmas = 3.0;
+  int iterations = 20;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

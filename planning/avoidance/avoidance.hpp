@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "common/world.hpp"
@@ -84,7 +84,6 @@ class Avoidance {
     double self_radius_m = 0.10;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
     /// Problems of these distances with a clearance the planner may use and with what it keeps from unmapped things
     /// beyond that (DynamicObstacles::Config::keep_out_m): what would stop the vehicle, or make it retreat, on a path
     /// that the planner may take is refused. Empty when they fit.

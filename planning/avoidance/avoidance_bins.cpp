@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 #include "planning/avoidance/avoidance.hpp"
 
 namespace swiftlet::planning {
@@ -45,51 +45,33 @@ std::vector<Point> medianOfThree(const std::vector<Point>& points) {
 }  // namespace
 
 void Avoidance::Config::describe(common::config::Fields& fields) {
-  fields("bins", bins, "Sectors of the field of view.");
-  fields("field_of_view_deg", field_of_view_deg, "Centred on the nose; the laser's where that is less.");
-  fields.choice("bin_range", bin_range, {"mean", "robust_minimum"}, "What stands for the beams of a bin.");
-  fields("smoothing_window", smoothing_window, "Beams of the sliding mean; for `mean` only.");
-  fields("max_speed_m_s", max_speed_m_s, "The limit where nothing is near.");
-  fields("deceleration_m_s2", deceleration_m_s2, "Braking that can be counted on.");
-  fields("blind_speed_m_s", blind_speed_m_s, "The limit on a course that the laser does not see.");
-  fields("latency_s", latency_s, "From a return to the first effect on the speed.");
-  fields("margin_m", margin_m, "Between hull and obstacle when it has stopped.");
-  fields("retreat_distance_m", retreat_distance_m, "Something unmapped nearer to the hull makes it retreat.");
-  fields("contact_time_s", contact_time_s, "It retreats when something moving would arrive within this time.");
-  fields("contact_gap_m", contact_gap_m, "Passing nearer than this to the hull is arriving.");
-  fields("closing_speed_m_s", closing_speed_m_s, "Slower things do not count as moving.");
-  fields("mapped_within_m", mapped_within_m, "A return this near to something mapped or unknown is that.");
-  fields("retreat_speed_m_s", retreat_speed_m_s, "Greatest speed of a retreat.");
-  fields("retreat_margin_m", retreat_margin_m, "Between hull and obstacle when a retreat has ended.");
-  fields("view_margin_deg", view_margin_deg,
-         "While retreating it turns until the danger and the way out are this far within the field of view.");
-  fields("release_factor", release_factor, "While retreating, distances and times are longer by this.");
-  fields("calm_s", calm_s, "A retreat ends this long after the danger.");
-  fields("self_radius_m", self_radius_m, "Returns nearer to the origin are the vehicle itself.");
-}
-
-std::vector<std::string> Avoidance::Config::validate() const {
-  return common::Validation()
-      .within("bins", bins, 4, 1000)
-      .within("field_of_view_deg", field_of_view_deg, 10, 360)
-      .within("smoothing_window", smoothing_window, 1, 101)
-      .within("max_speed_m_s", max_speed_m_s, 0.05, 20)
-      .within("deceleration_m_s2", deceleration_m_s2, 0.1, 20)
-      .within("blind_speed_m_s", blind_speed_m_s, 0.05, 20)
-      .within("latency_s", latency_s, 0, 2)
-      .within("margin_m", margin_m, 0, 2)
-      .within("retreat_distance_m", retreat_distance_m, 0, 5)
-      .within("contact_time_s", contact_time_s, 0, 10)
-      .within("contact_gap_m", contact_gap_m, 0, 5)
-      .within("closing_speed_m_s", closing_speed_m_s, 0.01, 5)
-      .within("mapped_within_m", mapped_within_m, 0, 1)
-      .within("retreat_speed_m_s", retreat_speed_m_s, 0.05, 10)
-      .within("retreat_margin_m", retreat_margin_m, 0, 2)
-      .within("view_margin_deg", view_margin_deg, 0, 180)
-      .within("release_factor", release_factor, 1, 5)
-      .within("calm_s", calm_s, 0, 10)
-      .within("self_radius_m", self_radius_m, 0, 1)
-      .problems();
+  fields("bins", bins, {4, 1000}, "Sectors into which the field of view is divided.");
+  fields("field_of_view_deg", field_of_view_deg, {10, 360},
+         "Angle centred on the nose in which the layer counts on the laser.");
+  fields.choice("bin_range", bin_range, {"mean", "robust_minimum"}, "Range that stands for the beams of a bin.");
+  fields("smoothing_window", smoothing_window, {1, 101}, "Beams of the sliding mean that `mean` smooths with.");
+  fields("max_speed_m_s", max_speed_m_s, {0.05, 20}, "Speed limit where nothing is near.");
+  fields("deceleration_m_s2", deceleration_m_s2, {0.1, 20}, "Braking that can be counted on.");
+  fields("blind_speed_m_s", blind_speed_m_s, {0.05, 20}, "Speed limit on a course that the laser does not see.");
+  fields("latency_s", latency_s, {0, 2}, "Time from a return to its first effect on the speed.");
+  fields("margin_m", margin_m, {0, 2}, "Distance between hull and obstacle when the vehicle has stopped.");
+  fields("retreat_distance_m", retreat_distance_m, {0, 5},
+         "Something unmapped nearer to the hull than this makes the vehicle retreat.");
+  fields("contact_time_s", contact_time_s, {0, 10},
+         "Something moving that would arrive within this time makes the vehicle retreat.");
+  fields("contact_gap_m", contact_gap_m, {0, 5}, "Passing nearer than this to the hull counts as arriving.");
+  fields("closing_speed_m_s", closing_speed_m_s, {0.01, 5},
+         "What closes in more slowly than this does not count as moving.");
+  fields("mapped_within_m", mapped_within_m, {0, 1},
+         "A return this near to something mapped or unknown is not unmapped.");
+  fields("retreat_speed_m_s", retreat_speed_m_s, {0.05, 10}, "Greatest speed of a retreat.");
+  fields("retreat_margin_m", retreat_margin_m, {0, 2}, "Distance between hull and obstacle when a retreat has ended.");
+  fields("view_margin_deg", view_margin_deg, {0, 180},
+         "While retreating the vehicle turns until the danger and its course are this far within the field of view.");
+  fields("release_factor", release_factor, {1, 5},
+         "Factor on distances and times while retreating, so that a retreat does not flicker.");
+  fields("calm_s", calm_s, {0, 10}, "A retreat ends this long after the danger.");
+  fields("self_radius_m", self_radius_m, {0, 1}, "Returns nearer to the origin than this are the vehicle itself.");
 }
 
 std::vector<std::string> Avoidance::Config::validateAgainst(double clearance_m, double keep_out_m) const {

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 #include "planning/costs/cost_map.hpp"
@@ -76,7 +76,6 @@ class DynamicObstacles {
     double background_age_s = 2.0;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
   };
 
   explicit DynamicObstacles(const Config& config);

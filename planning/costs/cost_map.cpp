@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/check.hpp"
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 #include "planning/costs/distance_transform.hpp"
 
 namespace swiftlet::planning {
@@ -56,20 +56,15 @@ struct CostMap::Changes {
 };
 
 void CostMap::Config::describe(common::config::Fields& fields) {
-  fields("comfort_distance_m", comfort_distance_m, "Beyond the clearance, where an obstacle stops to raise the cost.");
-  fields("comfort_weight", comfort_weight, "How much dearer a metre is at the clearance than in the open; 0: equal.");
-  fields("pass_unknown", pass_unknown, "Plan through space that was never seen.");
-  fields("unknown_gap_m", unknown_gap_m, "Unknown slivers up to this width between free cells count as free.");
-  fields("height_step_weight", height_step_weight, "Metres of detour that one metre of step of the surface is worth.");
-}
-
-std::vector<std::string> CostMap::Config::validate() const {
-  return common::Validation()
-      .within("comfort_distance_m", comfort_distance_m, 0, 3)
-      .within("comfort_weight", comfort_weight, 0, 50)
-      .within("unknown_gap_m", unknown_gap_m, 0, 0.5)
-      .within("height_step_weight", height_step_weight, 0, 50)
-      .problems();
+  fields("comfort_distance_m", comfort_distance_m, {0, 3},
+         "Distance beyond the clearance at which an obstacle stops to raise the cost.");
+  fields("comfort_weight", comfort_weight, {0, 50},
+         "A metre at the clearance costs 1 plus this times a metre in the open.");
+  fields("pass_unknown", pass_unknown, "Whether paths may lead where nothing is known.");
+  fields("unknown_gap_m", unknown_gap_m, {0, 0.5},
+         "Unknown slivers up to this width between free cells count as free.");
+  fields("height_step_weight", height_step_weight, {0, 50},
+         "Metres of detour that one metre of step of the surface is worth.");
 }
 
 CostMap::CostMap(const Config& config, double resolution_m)

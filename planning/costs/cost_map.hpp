@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 
@@ -56,7 +56,6 @@ class CostMap {
     double height_step_weight = 2.0;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
   };
 
   using Cost = std::uint16_t;

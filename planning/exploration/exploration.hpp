@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
 #include "common/world.hpp"
@@ -73,7 +73,6 @@ struct ExplorationConfig {
   int max_evaluated = 30;
 
   void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// A pure function of its arguments; run it as a job.

@@ -6,9 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "common/validation.hpp"
+#include "common/config_fields.hpp"
 
 namespace swiftlet::planning {
+
+using common::config::kPositive;
 namespace {
 
 using Point = Eigen::Vector2d;
@@ -51,17 +53,10 @@ Rest costOf(const CostMap& map, const std::vector<Point>& points_m) {
 }  // namespace
 
 void PlanKeeper::Config::describe(common::config::Fields& fields) {
-  fields("max_age_s", max_age_s, "An older plan is checked against a new one.");
-  fields("better_by", better_by, "A new plan replaces a valid one when it is cheaper by this share.");
-  fields("max_deviation_m", max_deviation_m, "Farther than this from the plan it no longer holds.");
-}
-
-std::vector<std::string> PlanKeeper::Config::validate() const {
-  return common::Validation()
-      .positive("max_age_s", max_age_s)
-      .within("better_by", better_by, 0, 1)
-      .within("max_deviation_m", max_deviation_m, 0.01, 10)
-      .problems();
+  fields("max_age_s", max_age_s, kPositive, "An older plan is compared with a new one.");
+  fields("better_by", better_by, {0, 1}, "A new plan replaces a valid one when it is cheaper by this share.");
+  fields("max_deviation_m", max_deviation_m, {0.01, 10},
+         "A plan does not hold any longer when the vehicle is farther from it than this.");
 }
 
 void PlanKeeper::clear() {

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "common/config.hpp"
+#include "common/config_fwd.hpp"
 #include "common/time.hpp"
 #include "planning/search/planner.hpp"
 
@@ -23,7 +23,6 @@ class PlanKeeper {
     double max_deviation_m = 0.30;
 
     void describe(common::config::Fields& fields);
-    std::vector<std::string> validate() const;
   };
 
   struct Check {

@@ -41,7 +41,7 @@ std::string readBlock(std::istream& file, int& number) {
 }
 
 std::vector<Example> examples() {
-  std::ifstream file(std::string(SWIFTLET_SOURCE_DIR) + "/docs/behaviors.md");
+  std::ifstream file(SWIFTLET_SOURCE_DIR "/docs/behaviors.md");
   std::vector<Example> found;
   bool follows = false;  // Only blanks since the last XML block.
   int number = 0;
@@ -102,7 +102,7 @@ TEST(Docs, EveryExampleIsTrue) {
 }
 
 TEST(Docs, NameEveryNode) {
-  std::ifstream file(std::string(SWIFTLET_SOURCE_DIR) + "/docs/behaviors.md");
+  std::ifstream file(SWIFTLET_SOURCE_DIR "/docs/behaviors.md");
   std::stringstream text;
   text << file.rdbuf();
   for (const std::string& id : missionRegistry().ids())

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/config.hpp"
 #include "control/flight_controller.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
 #include "perception/fusion/error_state_filter.hpp"

@@ -129,7 +129,7 @@ TEST_F(BadInput, ProfileWhoseDistancesForbidItsOwnClearance) {
   const std::string system =
       write("shy.yaml", "autonomy:\n  reactive:\n    avoidance:\n      retreat_distance_m: 0.45\n");
   expectRefused(runSwiftlet({"check", hop(), "--system", system}),
-                "shy\\.yaml:3:5: autonomy: reactive: avoidance\\.retreat_distance_m: 0\\.45 m .*forbids passing");
+                "shy\\.yaml:4:27: autonomy\\.reactive\\.avoidance\\.retreat_distance_m: 0\\.45 m .*forbids passing");
 }
 
 TEST_F(BadInput, EveryMistakeIsNamedNotOnlyTheFirst) {

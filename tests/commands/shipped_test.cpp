@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/config.hpp"
 #include "common/vehicle_config.hpp"
 #include "evaluation/trial.hpp"
 #include "simulation/world_model.hpp"

@@ -2,14 +2,70 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "common/config.hpp"
+#include "common/config_check.hpp"
+#include "common/config_reference.hpp"
 #include "common/error.hpp"
+#include "common/validation.hpp"
 #include "common/vehicle_config.hpp"
 
 namespace swiftlet::common {
 namespace {
 
+using config::YamlPrinter;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// One field of each kind.
+struct Leaf {
+  double share = 0.5;
+  int count = 3;
+  double gain = 1.0;
+  std::vector<double> corners_m{1.0, 2.0};
+  std::vector<std::string> names{"a"};
+  int color = 1;
+  bool on = true;
+
+  void describe(config::Fields& fields) {
+    fields("share", share, {0, 1}, "A share.");
+    fields("count", count, {1, 9}, "A count.");
+    fields("gain", gain, config::kPositive, "A gain.");
+    fields("corners_m", corners_m, {-10, 10}, "Some corners.");
+    fields("names", names, "Some names.");
+    fields.choice("color", color, {"red", "blue"}, "A colour.");
+    fields("on", on, "A switch.");
+  }
+};
+
+struct Branch {
+  double near_m = 1.0;
+  double far_m = 2.0;
+  Leaf leaf;
+  std::vector<Leaf> leaves;
+
+  void describe(config::Fields& fields) {
+    fields("near_m", near_m, {0, 100}, "The near end.");
+    fields("far_m", far_m, config::atLeast(0.5), "The far end.");
+    fields.section("leaf", leaf, "One leaf.");
+    fields.list("leaves", leaves, "Many leaves.");
+  }
+  std::vector<std::string> validate() const {
+    return Validation()
+        .atMost("near_m", near_m, "far_m", far_m)
+        .require(leaf.share < 0.9 || leaf.count > 1, "leaf.share", "is too much for one")
+        .problems();
+  }
+};
+
+/// A number that has no default.
+struct Required {
+  double size_m = 0.0;
+  void describe(config::Fields& fields) { fields("size_m", size_m, {0.1, 1}, "A size."); }
+};
 
 template <typename Config>
 std::string problemsOf(const std::string& yaml) {
@@ -43,15 +99,47 @@ TEST(Config, AKeyGivenTwiceIsSaid) {
 TEST(Config, WrongTypeAndRangeAreReportedTogether) {
   const std::string text = problemsOf<LaserConfig>("beams: many\nrange_max_m: -3\nmount: {roll: 3}\n");
   EXPECT_THAT(text, HasSubstr("test.yaml:1:8: beams: `many` is not a whole number"));
-  EXPECT_THAT(text, HasSubstr("test.yaml:2:14: range_max_m: -3 is not within"));
+  EXPECT_THAT(text, HasSubstr("test.yaml:2:14: range_max_m: -3 is not within 0.1 and 1000"));
   EXPECT_THAT(text, HasSubstr("test.yaml:3:9: mount: unknown key `roll`, did you mean `roll_deg`?"));
 }
 
 TEST(Config, NumbersAtTheEndOfTheirRange) {
   EXPECT_THAT(problemsOf<LaserConfig>("beams: -2147483648\nmirror_first_beam: 1\n"), HasSubstr("beams: -2147483648"));
   EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: 1e400\n"), HasSubstr("`1e400` is not a number"));
-  EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: .nan\n"), HasSubstr("mass_kg: nan is not within"));
-  EXPECT_THAT(problemsOf<LaserConfig>("mount: {roll_deg: .nan}\n"), HasSubstr("roll_deg: nan is not within"));
+  EXPECT_EQ(problemsOf<Leaf>("share: 0\ncount: 9\n"), "") << "both ends are within";
+  EXPECT_EQ(problemsOf<Leaf>("gain: 0\n"), "test.yaml:1:7: gain: 0 is not positive");
+}
+
+TEST(Config, NotANumberIsNeverWithin) {
+  EXPECT_EQ(problemsOf<Leaf>("share: .nan\n"), "test.yaml:1:8: share: nan is not within 0 and 1");
+  EXPECT_EQ(problemsOf<Leaf>("gain: .nan\n"), "test.yaml:1:7: gain: nan is not positive");
+  EXPECT_EQ(problemsOf<Branch>("far_m: .nan\n"), "test.yaml:1:8: far_m: nan is not at least 0.5");
+  EXPECT_THAT(problemsOf<LaserConfig>("mount: {roll_deg: .nan}\n"), HasSubstr("mount.roll_deg: nan is not within"));
+}
+
+TEST(Config, OutOfBoundsIsToldWhereItStandsInSectionsAndLists) {
+  EXPECT_EQ(problemsOf<Branch>("leaf:\n  count: 10\n"), "test.yaml:2:10: leaf.count: 10 is not within 1 and 9");
+  EXPECT_EQ(problemsOf<Branch>("leaves:\n  - count: 2\n  - {count: 0}\n"),
+            "test.yaml:3:13: leaves[1].count: 0 is not within 1 and 9");
+  EXPECT_EQ(problemsOf<Leaf>("corners_m: [1, -2,\n  30, .nan]\n"),
+            "test.yaml:2:3: corners_m[2]: 30 is not within -10 and 10\n"
+            "test.yaml:2:7: corners_m[3]: nan is not within -10 and 10");
+}
+
+TEST(Config, ARelationIsToldAtTheFieldItNames) {
+  EXPECT_EQ(problemsOf<Branch>("near_m: 5\nfar_m: 4\n"), "test.yaml:1:9: near_m: 5 is more than far_m, which is 4");
+  EXPECT_EQ(problemsOf<Branch>("near_m: 1\nleaf: {count: 1, share: 0.95}\n"),
+            "test.yaml:2:25: leaf.share: is too much for one");
+  EXPECT_EQ(problemsOf<Branch>("near_m: 5\n"), "test.yaml:1:9: near_m: 5 is more than far_m, which is 2");
+}
+
+TEST(Config, WhatIsOutOfBoundsIsNotComparedWithOthers) {
+  EXPECT_EQ(problemsOf<Branch>("far_m: -1\n"), "test.yaml:1:8: far_m: -1 is not at least 0.5");
+}
+
+TEST(Config, ANumberWithoutADefaultMustBeGiven) {
+  EXPECT_EQ(problemsOf<Required>("{}\n"), "test.yaml:1:1: size_m: is missing");
+  EXPECT_EQ(problemsOf<Required>("size_m: 0.2\n"), "");
 }
 
 TEST(Config, NotYamlAndMissingFile) {
@@ -60,17 +148,104 @@ TEST(Config, NotYamlAndMissingFile) {
   EXPECT_THAT(problemsOf<LaserConfig>("- 1\n- 2\n"), HasSubstr("a list where keys were expected"));
 }
 
+TEST(Config, OneThatIsMadeInCodeIsCheckedAsOneThatIsRead) {
+  EXPECT_THAT(config::problemsOf(Branch()), IsEmpty());
+  Branch branch;
+  branch.near_m = std::nan("");
+  branch.leaf.count = 0;
+  branch.leaf.color = 2;
+  branch.leaves.resize(2);
+  branch.leaves[1].corners_m = {0.0, std::numeric_limits<double>::infinity()};
+  EXPECT_THAT(
+      config::problemsOf(branch),
+      ElementsAre("near_m: nan is not within 0 and 100", "leaf.count: 0 is not within 1 and 9",
+                  "leaf.color: 2 is none of its 2 words", "leaves[1].corners_m[1]: inf is not within -10 and 10",
+                  "near_m: nan is more than far_m, which is 2"));
+}
+
+TEST(Config, CommentsHoldTheSentenceAndTheBounds) {
+  EXPECT_EQ(YamlPrinter(YamlPrinter::Comments::kYes).print(Branch()),
+            "near_m: 1  # The near end. From 0 to 100.\n"
+            "far_m: 2  # The far end. At least 0.5.\n"
+            "leaf:  # One leaf.\n"
+            "  share: 0.5  # A share. From 0 to 1.\n"
+            "  count: 3  # A count. From 1 to 9.\n"
+            "  gain: 1  # A gain. Above 0.\n"
+            "  corners_m: [1, 2]  # Some corners. From -10 to 10.\n"
+            "  names: [\"a\"]  # Some names.\n"
+            "  color: blue  # A colour. One of: red, blue.\n"
+            "  on: true  # A switch.\n"
+            "leaves: []  # Many leaves.\n");
+}
+
 TEST(Config, PrintedConfigReadsBack) {
   LaserConfig laser;
   laser.rate_hz = 12.5;
   laser.name = "it's: \"odd\"";
   laser.mount.yaw_deg = -90;
-  const std::string yaml = config::YamlPrinter(config::YamlPrinter::Comments::kYes).print(laser);
   LaserConfig back;
-  config::YamlReader::fromText(yaml, "printed").read(back);
+  config::YamlReader::fromText(YamlPrinter(YamlPrinter::Comments::kYes).print(laser), "printed").read(back);
   EXPECT_EQ(back.rate_hz, 12.5);
   EXPECT_EQ(back.name, laser.name);
   EXPECT_EQ(back.mount.yaw_deg, -90);
+}
+
+TEST(Config, EveryKindOfFieldReadsBack) {
+  Branch branch;
+  branch.far_m = std::numeric_limits<double>::infinity();
+  branch.leaf.corners_m = {-0.1, 1e-7};
+  branch.leaf.names = {"", "# no comment", "two\nlines"};
+  branch.leaf.color = 0;
+  branch.leaves.resize(2);
+  branch.leaves[1].on = false;
+  for (const auto comments : {YamlPrinter::Comments::kNo, YamlPrinter::Comments::kYes}) {
+    const std::string printed = YamlPrinter(comments).print(branch);
+    Branch back;
+    config::YamlReader::fromText(printed, "printed").read(back);
+    EXPECT_EQ(YamlPrinter(comments).print(back), printed);
+    EXPECT_EQ(back.leaf.corners_m, branch.leaf.corners_m);
+    EXPECT_EQ(back.leaf.names, branch.leaf.names);
+  }
+}
+
+TEST(Config, TheReferenceHasARowForEachSettingAndATableForEachSection) {
+  EXPECT_EQ(config::ReferencePrinter().print("A branch", "What it is for.", Branch()),
+            "## A branch\n"
+            "\n"
+            "What it is for.\n"
+            "\n"
+            "| setting | default | bounds | |\n"
+            "| --- | --- | --- | --- |\n"
+            "| `near_m` | `1` | 0 to 100 | The near end. |\n"
+            "| `far_m` | `2` | at least 0.5 | The far end. |\n"
+            "\n"
+            "### `leaf`\n"
+            "\n"
+            "One leaf.\n"
+            "\n"
+            "| setting | default | bounds | |\n"
+            "| --- | --- | --- | --- |\n"
+            "| `share` | `0.5` | 0 to 1 | A share. |\n"
+            "| `count` | `3` | 1 to 9 | A count. |\n"
+            "| `gain` | `1` | above 0 | A gain. |\n"
+            "| `corners_m` | `[1, 2]` | list, each -10 to 10 | Some corners. |\n"
+            "| `names` | `[\"a\"]` | list of texts | Some names. |\n"
+            "| `color` | `blue` | red, blue | A colour. |\n"
+            "| `on` | `true` | true, false | A switch. |\n"
+            "\n"
+            "### `leaves[]`\n"
+            "\n"
+            "Many leaves.\n"
+            "\n"
+            "| setting | default | bounds | |\n"
+            "| --- | --- | --- | --- |\n"
+            "| `share` | `0.5` | 0 to 1 | A share. |\n"
+            "| `count` | `3` | 1 to 9 | A count. |\n"
+            "| `gain` | `1` | above 0 | A gain. |\n"
+            "| `corners_m` | `[1, 2]` | list, each -10 to 10 | Some corners. |\n"
+            "| `names` | `[\"a\"]` | list of texts | Some names. |\n"
+            "| `color` | `blue` | red, blue | A colour. |\n"
+            "| `on` | `true` | true, false | A switch. |\n");
 }
 
 }  // namespace

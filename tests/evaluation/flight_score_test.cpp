@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "common/config_check.hpp"
 #include "common/error.hpp"
 #include "small_world.hpp"
 
@@ -168,10 +169,10 @@ TEST(CriteriaConfig, NotANumberIsNotGoodEnough) {
 
 TEST(CriteriaConfig, IsChecked) {
   Criteria criteria;
-  EXPECT_THAT(criteria.validate(), IsEmpty());
+  EXPECT_THAT(common::config::problemsOf(criteria), IsEmpty());
   criteria.coverage_min = 99;  // Meant as per cent.
   criteria.goal_error_max_m = -1;
-  EXPECT_EQ(criteria.validate().size(), 2u);
+  EXPECT_EQ(common::config::problemsOf(criteria).size(), 2u);
 }
 
 }  // namespace

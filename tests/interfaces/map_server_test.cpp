@@ -164,13 +164,15 @@ TEST(MapServer, BadYamlSaysWhere) {
     return problemOf([&] { readMap(folder / "m.yaml"); });
   };
   const std::string good = "image: m.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n";
-  EXPECT_THAT(problem("image: m.pgm\n"), HasSubstr("resolution: is missing or not positive"));
+  EXPECT_THAT(problem("image: m.pgm\n"), HasSubstr("resolution: is missing"));
   EXPECT_THAT(problem("resolution: 0.05\norigin: [0, 0, 0]\n"), HasSubstr("image: is missing"));
   EXPECT_THAT(problem("image: m.pgm\nresolution: 0.05\norigin: [0, 0]\n"), HasSubstr("m.yaml:3:"));
-  EXPECT_THAT(problem("image: m.pgm\nresolution: 0.05\norigin: [0, .nan, 0]\n"), HasSubstr("three finite numbers"));
+  EXPECT_THAT(problem("image: m.pgm\nresolution: 0.05\norigin: [0, .nan, 0]\n"),
+              HasSubstr("m.yaml:3:13: origin[1]: nan is not within"));
   EXPECT_THAT(problem("image: m.pgm\nresolution: .inf\norigin: [0, 0, 0]\n"), HasSubstr("is not within 0.001 and"));
   EXPECT_THAT(problem("image: m.pgm\nresolution: 1e-9\norigin: [9, 0, 0]\n"), HasSubstr("is not within 0.001 and"));
-  EXPECT_THAT(problem("image: m.pgm\nresolution: 0.05\norigin: [0, -1e300, 0]\n"), HasSubstr("is further than"));
+  EXPECT_THAT(problem("image: m.pgm\nresolution: 0.05\norigin: [0, -1e300, 0]\n"),
+              HasSubstr("origin[1]: -1e+300 is not within"));
   EXPECT_THAT(problem(good + "free_thresh: 0.7\n"), HasSubstr("free_thresh: is not below occupied_thresh"));
   EXPECT_THAT(problem(good + "mode: colour\n"), HasSubstr("m.yaml:4:"));
   EXPECT_THAT(problem(good + "treshold: 1\n"), HasSubstr("unknown key `treshold`"));

@@ -1,7 +1,7 @@
 // Pose graphs in space: the error is that of g2o, the Jacobians are its derivatives, and the optimum is that of a dense
 // Gauss-Newton with numeric derivatives, which shares nothing with the solver but the definition of the error.
-#include "optimization/edge_error_3d.hpp"
 #include "optimization/pose_graph_3d.hpp"
+#include "optimization/edge_error_3d.hpp"
 
 #include <cmath>
 #include <numbers>

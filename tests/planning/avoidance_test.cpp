@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "common/config_check.hpp"
 #include "grid_builder.hpp"
 #include "planning/avoidance/avoidance.hpp"
 #include "planning/avoidance/dynamic_obstacles.hpp"
@@ -388,7 +389,7 @@ TEST(Avoidance, WithoutAMapItStillBrakes) {
 
 TEST(Avoidance, AMarginThatForbidsTheClearanceIsRefused) {
   Avoidance::Config config;
-  EXPECT_TRUE(config.validate().empty());
+  EXPECT_TRUE(common::config::problemsOf(config).empty());
   EXPECT_TRUE(config.validateAgainst(0.10, 0.25).empty());
   ASSERT_EQ(config.validateAgainst(0.05, 0.25).size(), 2u);
   EXPECT_THAT(config.validateAgainst(0.05, 0.25)[0], HasSubstr("forbids the clearance of 0.05 m"));

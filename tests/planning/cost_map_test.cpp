@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "common/config.hpp"
+#include "common/config_check.hpp"
 #include "grid_builder.hpp"
 
 namespace swiftlet::planning {
@@ -109,8 +109,8 @@ TEST(CostMap, DiscsAreKeptClearOfAndLeaveNoTrace) {
 TEST(CostMap, ConfigProblemsAreNamed) {
   CostMap::Config config;
   config.comfort_distance_m = -1;
-  EXPECT_EQ(config.validate().size(), 1u);
-  EXPECT_TRUE(CostMap::Config().validate().empty());
+  EXPECT_EQ(common::config::problemsOf(config).size(), 1u);
+  EXPECT_TRUE(common::config::problemsOf(CostMap::Config()).empty());
 }
 
 }  // namespace

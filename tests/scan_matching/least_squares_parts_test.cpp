@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/config_check.hpp"
 #include "common/random.hpp"
 #include "perception/scan_matching/contour_normals.hpp"
 #include "perception/scan_matching/gauss_newton_matcher.hpp"
@@ -16,6 +17,7 @@ namespace swiftlet::perception {
 namespace {
 
 using common::Pose2;
+using common::config::problemsOf;
 
 TEST(InterpolatedField, TheSlopeIsTheDerivative) {
   common::RandomStream random(1, "slope");
@@ -133,15 +135,15 @@ TEST(OrientedPoints, TheNearestIsTheNearest) {
 }
 
 TEST(LeastSquaresConfigs, TheDefaultsAreSoundAndNonsenseIsNamed) {
-  EXPECT_TRUE(GaussNewtonMatcherConfig{}.validate().empty());
-  EXPECT_TRUE(PointToLineMatcherConfig{}.validate().empty());
+  EXPECT_TRUE(problemsOf(GaussNewtonMatcherConfig{}).empty());
+  EXPECT_TRUE(problemsOf(PointToLineMatcherConfig{}).empty());
   GaussNewtonMatcherConfig gauss_newton;
   gauss_newton.support_m = 0.5;  // Wider than the kernels of its map.
-  EXPECT_EQ(gauss_newton.validate().size(), 1U);
+  EXPECT_EQ(problemsOf(gauss_newton).size(), 1U);
   PointToLineMatcherConfig point_to_line;
   point_to_line.max_distance_m = 0.01;
   point_to_line.points = 0;
-  EXPECT_EQ(point_to_line.validate().size(), 2U);
+  EXPECT_EQ(problemsOf(point_to_line).size(), 2U);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // A robot on wheels that drives a way and looks around from a fixed height.
 #include "simulation/survey.hpp"
+#include "common/config.hpp"
+#include "common/config_check.hpp"
 
 #include <cmath>
 
@@ -60,11 +62,11 @@ TEST_F(Survey, TheSameSeedGivesTheSameBytes) {
 
 TEST(SurveyConfig, AWayHasTwoPointsOrMore) {
   SurveyConfig config;
-  EXPECT_TRUE(config.validate().empty()) << "none is driven";
+  EXPECT_TRUE(common::config::problemsOf(config).empty()) << "none is driven";
   config.path_world_m = {1.0, 2.0};
-  EXPECT_EQ(config.validate().size(), 1u);
+  EXPECT_EQ(common::config::problemsOf(config).size(), 1u);
   config.path_world_m = {1.0, 2.0, 3.0};
-  EXPECT_EQ(config.validate().size(), 1u);
+  EXPECT_EQ(common::config::problemsOf(config).size(), 1u);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 
+#include "common/config.hpp"
 #include "common/error.hpp"
 #include "fixtures.hpp"
 

@@ -93,7 +93,7 @@ TEST(LoopConsensus, EnoughClosuresThatAgreeTurnTheGraphOver) {
 TEST(LoopConsensus, ClosuresThatDisagreeAmongThemselvesDoNot) {
   const SlamGraph graph = closedAMetreOff();
   const std::vector<FoundLoop> rejected{loopOf(7, 22, Pose2{0.6, 0.3, 0.0}), loopOf(5, 24, Pose2{-0.8, 0.0, 0.2}),
-                                       loopOf(3, 26, Pose2{2.0, 0.0, 0.0})};
+                                        loopOf(3, 26, Pose2{2.0, 0.0, 0.0})};
   EXPECT_FALSE(consensusOfRejected(graph, rejected, {}));
 }
 

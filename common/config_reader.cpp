@@ -1,41 +1,17 @@
-#include "common/config.hpp"
-
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <set>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "common/config.hpp"
+#include "common/config_text.hpp"
 #include "common/error.hpp"
 #include "common/read_bytes.hpp"
 
 namespace swiftlet::common::config {
-namespace {
-
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
-std::string number(double value) {
-  if (std::isnan(value)) return ".nan";
-  if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
-  return fmt::format("{}", value);
-}
-
-std::string doubleQuoted(const std::string& value) {
-  YAML::Emitter emitter;
-  emitter << YAML::DoubleQuoted << value;
-  return emitter.c_str();
-}
-
-}  // namespace
-
-// ---------------------------------------------------------------------------------------------------------- reading
-
 struct YamlReader::Impl {
   /// One mapping that is being read: the keys asked for are what it may have.
   struct Level {
@@ -76,15 +52,30 @@ struct YamlReader::Impl {
     return value;
   }
 
+  /// Leaves the value as it is when that in the file is not of its kind.
   template <typename Value>
   void scalar(std::string_view name, Value& value, const char* expected) {
     const auto node = find(name);
-    if (!node) return;
-    if (!convert(*node, value)) report(*node, name, fmt::format("{} is not {}", textOf(*node), expected));
+    if (node && !convert(*node, value)) report(*node, name, fmt::format("{} is not {}", textOf(*node), expected));
+  }
+
+  /// Leaves the value as it is when that in the file is no number or out of bounds.
+  template <typename Value>
+  void number(std::string_view name, Value& value, const Bounds& bounds, const char* expected) {
+    const auto node = find(name);
+    if (!node) {
+      if (!bounds.contain(value)) report(levels.back().node, name, "is missing");
+      return;
+    }
+    Value read{};
+    if (!convert(*node, read)) return report(*node, name, fmt::format("{} is not {}", textOf(*node), expected));
+    if (!bounds.contain(read)) return report(*node, name, bounds.problem(read));
+    value = read;
   }
 
   template <typename Value>
-  void sequence(std::string_view name, std::vector<Value>& values, const char* expected) {
+  void sequence(std::string_view name, std::vector<Value>& values, const char* expected,
+                const std::optional<Bounds>& bounds = std::nullopt) {
     const auto node = find(name);
     if (!node) return;
     if (!node->IsSequence()) return report(*node, name, fmt::format("{} is not a list", textOf(*node)));
@@ -92,6 +83,9 @@ struct YamlReader::Impl {
     for (const YAML::Node& item : *node) {
       Value value{};
       if (!convert(item, value)) return report(item, name, fmt::format("{} is not {}", textOf(item), expected));
+      if constexpr (std::is_arithmetic_v<Value>)
+        if (bounds && !bounds->contain(value))
+          report(item, fmt::format("{}[{}]", name, read.size()), bounds->problem(value));
       read.push_back(value);
     }
     values = std::move(read);
@@ -110,27 +104,42 @@ struct YamlReader::Impl {
     return node.IsMap() ? "a mapping" : node.IsSequence() ? "a list" : "an empty value";
   }
 
-  void closeLevel(std::vector<std::string> failed) {
+  void refuseUnknownKeys(const Level& level) {
+    std::set<std::string> met;
+    for (const auto& entry : level.node) {
+      const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
+      if (!met.insert(key).second) report(entry.first, "", fmt::format("key `{}` is given twice", key), "");
+      const auto& known = level.known_keys;
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        report(entry.first, "", fmt::format("unknown key `{}`", key),
+               didYouMean(key, known).empty() ? "known are: " + listed(known) : didYouMean(key, known));
+    }
+  }
+
+  /// "loops.max_sigma_m: what is wrong" at the place of that key, or of the last on the way to it that is in the file.
+  void reportRelation(const YAML::Node& from, const std::string& text) {
+    const std::size_t colon = text.find(": ");
+    if (colon == std::string::npos) return report(from, "", text);
+    const std::string name = text.substr(0, colon);
+    YAML::Node node = from;
+    for (std::size_t begin = 0; begin <= name.size() && node.IsMap();) {
+      const std::size_t end = std::min(name.find('.', begin), name.size());
+      const YAML::Node& map = node;
+      const YAML::Node next = map[name.substr(begin, end - begin)];
+      if (!next.IsDefined()) break;
+      node.reset(next);
+      begin = end + 1;
+    }
+    report(node, name, text.substr(colon + 2));
+  }
+
+  void closeLevel(const std::vector<std::string>& relations) {
     const Level level = levels.back();
-    if (level.node.IsMap()) {
-      std::set<std::string> met;
-      for (const auto& entry : level.node) {
-        const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
-        if (!met.insert(key).second) report(entry.first, "", fmt::format("key `{}` is given twice", key), "");
-        const auto& known = level.known_keys;
-        if (std::find(known.begin(), known.end(), key) == known.end())
-          report(entry.first, "", fmt::format("unknown key `{}`", key),
-                 didYouMean(key, known).empty() ? "known are: " + listed(known) : didYouMean(key, known));
-      }
-    } else if (!level.node.IsNull()) {
+    if (level.node.IsMap())
+      refuseUnknownKeys(level);
+    else if (!level.node.IsNull())
       report(level.node, "", fmt::format("{} where keys were expected", textOf(level.node)));
-    }
-    for (std::string& text : failed) {
-      const std::string key = text.substr(0, text.find_first_of(": "));
-      const YAML::Node value = level.node.IsMap() ? level.node[key] : YAML::Node();
-      problems.push_back(
-          {value.IsDefined() && level.node.IsMap() ? at(value) : at(level.node), level.path, std::move(text), {}});
-    }
+    for (const std::string& text : relations) reportRelation(level.node, text);
     levels.pop_back();
   }
 };
@@ -156,11 +165,11 @@ YamlReader YamlReader::fromText(const std::string& text, const std::string& name
   return YamlReader(std::move(impl));
 }
 
-void YamlReader::operator()(std::string_view name, double& value, std::string_view) {
-  impl_->scalar(name, value, "a number");
+void YamlReader::operator()(std::string_view name, double& value, const Bounds& bounds, std::string_view) {
+  impl_->number(name, value, bounds, "a number");
 }
-void YamlReader::operator()(std::string_view name, int& value, std::string_view) {
-  impl_->scalar(name, value, "a whole number");
+void YamlReader::operator()(std::string_view name, int& value, const Bounds& bounds, std::string_view) {
+  impl_->number(name, value, bounds, "a whole number");
 }
 void YamlReader::operator()(std::string_view name, bool& value, std::string_view) {
   impl_->scalar(name, value, "true or false");
@@ -168,8 +177,8 @@ void YamlReader::operator()(std::string_view name, bool& value, std::string_view
 void YamlReader::operator()(std::string_view name, std::string& value, std::string_view) {
   impl_->scalar(name, value, "a text");
 }
-void YamlReader::operator()(std::string_view name, std::vector<double>& value, std::string_view) {
-  impl_->sequence(name, value, "a number");
+void YamlReader::operator()(std::string_view name, std::vector<double>& value, const Bounds& bounds, std::string_view) {
+  impl_->sequence(name, value, "a number", bounds);
 }
 void YamlReader::operator()(std::string_view name, std::vector<std::string>& value, std::string_view) {
   impl_->sequence(name, value, "a text");
@@ -196,7 +205,7 @@ bool YamlReader::beginSection(std::string_view name, std::string_view) {
   return true;
 }
 
-void YamlReader::endSection(std::vector<std::string> problems) { impl_->closeLevel(std::move(problems)); }
+void YamlReader::endSection(std::vector<std::string> problems) { impl_->closeLevel(problems); }
 
 int YamlReader::beginList(std::string_view name, int count, std::string_view) {
   const auto node = impl_->find(name);
@@ -220,70 +229,8 @@ void YamlReader::endList() {
 }
 
 void YamlReader::finish(std::vector<std::string> problems) {
-  impl_->closeLevel(std::move(problems));
+  impl_->closeLevel(problems);
   if (!impl_->problems.empty()) throw InputError(std::move(impl_->problems));
 }
-
-// --------------------------------------------------------------------------------------------------------- printing
-
-void YamlPrinter::line(std::string_view name, const std::string& value, std::string_view sentence) {
-  std::string indent(static_cast<std::size_t>(2 * depth_), ' ');
-  if (item_starts_) indent.replace(indent.size() - 2, 2, "- ");
-  item_starts_ = false;
-  text_ += fmt::format("{}{}:{}{}", indent, name, value.empty() ? "" : " ", value);
-  if (comments_ == Comments::kYes && !sentence.empty()) text_ += fmt::format("  # {}", sentence);
-  text_ += '\n';
-}
-
-void YamlPrinter::operator()(std::string_view name, double& value, std::string_view sentence) {
-  line(name, number(value), sentence);
-}
-void YamlPrinter::operator()(std::string_view name, int& value, std::string_view sentence) {
-  line(name, std::to_string(value), sentence);
-}
-void YamlPrinter::operator()(std::string_view name, bool& value, std::string_view sentence) {
-  line(name, value ? "true" : "false", sentence);
-}
-void YamlPrinter::operator()(std::string_view name, std::string& value, std::string_view sentence) {
-  line(name, doubleQuoted(value), sentence);
-}
-
-void YamlPrinter::operator()(std::string_view name, std::vector<double>& value, std::string_view sentence) {
-  std::vector<std::string> words;
-  for (const double v : value) words.push_back(number(v));
-  line(name, "[" + listed(words) + "]", sentence);
-}
-
-void YamlPrinter::operator()(std::string_view name, std::vector<std::string>& value, std::string_view sentence) {
-  std::vector<std::string> words;
-  for (const std::string& v : value) words.push_back(doubleQuoted(v));
-  line(name, "[" + listed(words) + "]", sentence);
-}
-
-void YamlPrinter::choice(std::string_view name, int& value, const std::vector<std::string>& words,
-                         std::string_view sentence) {
-  line(name, words.at(static_cast<std::size_t>(value)), fmt::format("{} One of: {}.", sentence, listed(words)));
-}
-
-bool YamlPrinter::beginSection(std::string_view name, std::string_view sentence) {
-  line(name, "", sentence);
-  ++depth_;
-  return true;
-}
-
-void YamlPrinter::endSection(std::vector<std::string>) { --depth_; }
-
-int YamlPrinter::beginList(std::string_view name, int count, std::string_view sentence) {
-  line(name, count == 0 ? "[]" : "", sentence);
-  ++depth_;
-  return count;
-}
-
-void YamlPrinter::beginItem(int) {
-  ++depth_;
-  item_starts_ = true;
-}
-
-void YamlPrinter::endList() { --depth_; }
 
 }  // namespace swiftlet::common::config

@@ -1,0 +1,58 @@
+// The reference page of a Config in Markdown: a table a section, a row a setting, with default, bounds and sentence.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::common::config {
+
+class ReferencePrinter final : public Fields {
+ public:
+  /// A chapter `title` with `sentence` below it; the defaults are the values `config` has. Of a list that is empty the
+  /// settings of an item are shown.
+  template <typename Config>
+  std::string print(std::string_view title, std::string_view sentence, Config config) {
+    open(std::string(title), std::string(sentence));
+    config.describe(*this);
+    return "## " + std::string(title) + "\n" + closed();
+  }
+
+  using Fields::choice;
+  void operator()(std::string_view name, double& value, const Bounds& bounds, std::string_view sentence) override;
+  void operator()(std::string_view name, int& value, const Bounds& bounds, std::string_view sentence) override;
+  void operator()(std::string_view name, bool& value, std::string_view sentence) override;
+  void operator()(std::string_view name, std::string& value, std::string_view sentence) override;
+  void operator()(std::string_view name, std::vector<double>& value, const Bounds& bounds,
+                  std::string_view sentence) override;
+  void operator()(std::string_view name, std::vector<std::string>& value, std::string_view sentence) override;
+  void choice(std::string_view name, int& value, const std::vector<std::string>& words,
+              std::string_view sentence) override;
+
+ protected:
+  bool beginSection(std::string_view name, std::string_view sentence) override;
+  void endSection(std::vector<std::string> problems) override;
+  int beginList(std::string_view name, int count, std::string_view sentence) override;
+  void beginItem(int index) override;
+  void endList() override;
+
+ private:
+  struct Section {
+    std::string path, sentence;
+    std::string rows;      ///< Of its own settings.
+    std::string sections;  ///< Those within, complete.
+  };
+
+  void open(std::string path, std::string sentence);
+  /// The text of the innermost section that is open, below its heading.
+  std::string closed();
+  void row(std::string_view name, const std::string& value, const std::string& bounds, std::string_view sentence);
+  std::string pathOf(std::string_view name) const;
+
+  std::vector<Section> open_;
+};
+
+}  // namespace swiftlet::common::config
