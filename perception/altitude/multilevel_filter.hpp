@@ -1,5 +1,5 @@
 // The height of the vehicle and of the surfaces below it, from the laser beams a mirror bends down (Grzonka 2012,
-// section IV-C, Algorithm 1; Grzonka 2009, section III-E).
+// section IV-C, Algorithm 1; Grzonka 2009, section V-E).
 //
 // Stage 1, a Kalman filter over (z, v_z): predicted by the vertical acceleration; the levels known in the neighbourhood
 // that explain a beam give one virtual measurement of the height over the take-off floor, as if nothing were below.

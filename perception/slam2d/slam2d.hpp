@@ -1,4 +1,4 @@
-// Graph SLAM in the plane (Grzonka 2009, section III.D): key scans are nodes, matches are edges, loops are sought where
+// Graph SLAM in the plane (Grzonka 2009, section V-D): key scans are nodes, matches are edges, loops are sought where
 // the projected uncertainty allows, and the map is an occupancy grid drawn from the scans at their best poses.
 //
 // In flight each scan costs a fraction of a millisecond: a key scan is matched to the older key scans around it, which

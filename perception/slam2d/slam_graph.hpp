@@ -52,7 +52,7 @@ struct ProjectedUncertainty {
   double sigma_m = 0.0;                                      ///< The larger axis of the position.
 };
 
-/// Dijkstra projection of the covariances from `start` (Grzonka 2009, section III.D), in order of growing sigma_m, up
+/// Dijkstra projection of the covariances from `start` (Grzonka 2009, section V-D), in order of growing sigma_m, up
 /// to `max_sigma_m`, or, where `wanted` keys are given, until all of those are reached.
 std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m,
                                                      std::span<const int> wanted = {});
