@@ -15,6 +15,7 @@
 #include "common/config_fwd.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
+#include "planning/costs/cell_state.hpp"
 
 namespace swiftlet::planning {
 
@@ -40,9 +41,6 @@ struct CostLayers {
   std::span<const Eigen::Vector2d> flown_map_m = {};
 };
 
-/// What a cell is, after unknown slivers between beams were closed.
-enum class CellState : std::uint8_t { kUnknown, kFree, kOccupied };
-
 /// A dense copy of the grid's extent plus one tile of margin, in the `map` frame, on the grid's own cells. A value:
 /// copy it to give a job its snapshot. Reading is safe from any thread while nobody updates the same object. Distances
 /// run from cell centre to cell centre and are exact up to the reach of the cost.
@@ -59,11 +57,10 @@ class CostMap {
   };
 
   using Cost = std::uint16_t;
-  static constexpr Cost kOpenCost = 8;       ///< Of a cell far from everything.
-  static constexpr Cost kLethal = 0xFFFF;    ///< The centre may not be there.
-  static constexpr int kStraightEdge = 12;   ///< Edge cost = this times the sum of the two cell costs.
-  static constexpr int kDiagonalEdge = 17;   ///< 17 / 12 is the square root of 2 within 0.2 %.
-  static constexpr int kMaxReachCells = 63;  ///< Greatest lethal or comfort distance; below a tile.
+  static constexpr Cost kOpenCost = 8;      ///< Of a cell far from everything.
+  static constexpr Cost kLethal = 0xFFFF;   ///< The centre may not be there.
+  static constexpr int kStraightEdge = 12;  ///< Edge cost = this times the sum of the two cell costs.
+  static constexpr int kDiagonalEdge = 17;  ///< 17 / 12 is the square root of 2 within 0.2 %.
   static constexpr std::int32_t kStraightMin = 2 * kStraightEdge * kOpenCost;  ///< The cheapest edge there is.
 
   /// A map that is lethal everywhere. `config` is validated.

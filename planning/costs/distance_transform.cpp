@@ -9,7 +9,7 @@ namespace swiftlet::planning {
 namespace {
 
 constexpr int kTile = common::OccupancyGrid::kTileSize;
-constexpr int kMaxWidth = kTile + 2 * CostMap::kMaxReachCells;
+constexpr int kMaxWidth = kTile + 2 * kMaxReachCells;
 using Row = std::array<std::int16_t, kMaxWidth>;
 using Block = std::array<Row, kTile>;
 
@@ -53,7 +53,7 @@ bool columnPass(const StateImage& image, int x0, int y0, CellState which, int re
 
 void tileDistances(const StateImage& image, int x0, int y0, CellState which, int reach,
                    std::vector<std::int16_t>& squared) {
-  SWIFTLET_CHECK(reach >= 0 && reach <= CostMap::kMaxReachCells, reach);
+  SWIFTLET_CHECK(reach >= 0 && reach <= kMaxReachCells, reach);
   const auto beyond = static_cast<std::int16_t>((reach + 1) * (reach + 1));
   Block columns;
   const bool met = columnPass(image, x0, y0, which, reach, columns);

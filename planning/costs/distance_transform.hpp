@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "common/tiled_grid.hpp"
-#include "planning/costs/cost_map.hpp"
+#include "planning/costs/cell_state.hpp"
 
 namespace swiftlet::planning {
+
+/// Greatest distance that is computed, in cells; below a tile.
+inline constexpr int kMaxReachCells = 63;
 
 /// A row-by-row array of states that is looked into.
 struct StateImage {
@@ -19,7 +22,7 @@ struct StateImage {
 
 /// Writes into `squared` (same shape as the image), for the 64 x 64 cells from column `x0` and row `y0` on, the squared
 /// distance in cells to the nearest cell in state `which`, cut at (reach + 1) squared. Outside the image nothing is in
-/// that state. 0 <= reach <= CostMap::kMaxReachCells.
+/// that state. 0 <= reach <= kMaxReachCells.
 void tileDistances(const StateImage& image, int x0, int y0, CellState which, int reach,
                    std::vector<std::int16_t>& squared);
 

@@ -10,11 +10,11 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
 #include "common/world.hpp"
 #include "planning/costs/cost_map.hpp"
+#include "planning/exploration/exploration_config.hpp"
 #include "planning/search/planner.hpp"
 
 namespace swiftlet::planning {
@@ -34,9 +34,6 @@ struct ExplorationAttempt {
   Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
 };
 
-/// How the next viewpoint is chosen among the best of each frontier.
-enum class ExplorationStrategy { kNearest, kUtility };
-
 struct ExplorationInput {
   std::shared_ptr<const CostMap> cost_map;  ///< Not null. Built at the clearance to be flown; holds the grid's states.
   common::Pose2 pose_map;
@@ -52,27 +49,6 @@ struct ExplorationResult {
   bool kept_current = false;                ///< `next` goes on with the viewpoint that was given as current.
   double explored_area_m2 = 0.0;            ///< Of known free cells.
   std::string reason;                       ///< For people: "4 open frontiers, next 3.2 m away".
-};
-
-struct ExplorationConfig {
-  ExplorationStrategy strategy = ExplorationStrategy::kUtility;
-  double min_frontier_m = 0.30;
-  double segment_m = 1.5;
-  double laser_range_m = 12.0;
-  double laser_field_of_view_deg = 270.0;
-  double gain_depth_m = 2.0;
-  double gain_exponent = 0.6;
-  double min_gain_m2 = 0.03;
-  double speed_m_s = 0.8;
-  double yaw_rate_rad_s = 1.0;
-  double acceleration_m_s2 = 0.8;
-  double hysteresis = 0.25;
-  double localizability_weight = 0.3;
-  int max_attempts = 3;
-  double attempt_radius_m = 0.35;
-  int max_evaluated = 30;
-
-  void describe(common::config::Fields& fields);
 };
 
 /// A pure function of its arguments; run it as a job.

@@ -1,5 +1,6 @@
+#include "planning/exploration/exploration_config.hpp"
+
 #include "common/config_fields.hpp"
-#include "planning/exploration/exploration.hpp"
 
 namespace swiftlet::planning {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planning/costs/sight.hpp"
-#include "planning/exploration/exploration.hpp"
+#include "planning/exploration/exploration_config.hpp"
 #include "planning/exploration/frontiers.hpp"
 #include "planning/search/wavefront.hpp"
 

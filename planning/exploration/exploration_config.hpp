@@ -1,0 +1,32 @@
+// The configuration of exploration.
+#pragma once
+
+#include "common/config_fwd.hpp"
+
+namespace swiftlet::planning {
+
+/// How the next viewpoint is chosen among the best of each frontier.
+enum class ExplorationStrategy { kNearest, kUtility };
+
+struct ExplorationConfig {
+  ExplorationStrategy strategy = ExplorationStrategy::kUtility;
+  double min_frontier_m = 0.30;
+  double segment_m = 1.5;
+  double laser_range_m = 12.0;
+  double laser_field_of_view_deg = 270.0;
+  double gain_depth_m = 2.0;
+  double gain_exponent = 0.6;
+  double min_gain_m2 = 0.03;
+  double speed_m_s = 0.8;
+  double yaw_rate_rad_s = 1.0;
+  double acceleration_m_s2 = 0.8;
+  double hysteresis = 0.25;
+  double localizability_weight = 0.3;
+  int max_attempts = 3;
+  double attempt_radius_m = 0.35;
+  int max_evaluated = 30;
+
+  void describe(common::config::Fields& fields);
+};
+
+}  // namespace swiftlet::planning
