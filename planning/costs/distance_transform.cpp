@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/check.hpp"
+#include "common/occupancy_grid.hpp"
 
 namespace swiftlet::planning {
 namespace {
