@@ -15,7 +15,7 @@ const common::Level* levelNear(const common::LevelMap& map, double height_m, dou
   return best;
 }
 
-TEST(MultilevelFilter, tracksClimbAndHoverOverAFlatFloor) {
+TEST(MultilevelFilter, TracksClimbAndHoverOverAFlatFloor) {
   Overflight flight;
   flight.start();
   flight.climbTo(1.5);
@@ -31,7 +31,7 @@ TEST(MultilevelFilter, tracksClimbAndHoverOverAFlatFloor) {
 
 // Fig. 3: a chair (level 1) and a table (level 2); the vehicle turns and meets the same table elsewhere (level 3);
 // flying on, level 3 reaches level 2 and both become one.
-TEST(MultilevelFilter, figure3TheSameTableFoundTwiceBecomesOne) {
+TEST(MultilevelFilter, Figure3TheSameTableFoundTwiceBecomesOne) {
   Overflight flight;
   flight.boxes = {{1.0, 1.5, -0.3, 0.3, 0.48}, {2.5, 3.7, -0.3, 3.5, 0.77}};
   flight.start();
@@ -63,7 +63,7 @@ TEST(MultilevelFilter, figure3TheSameTableFoundTwiceBecomesOne) {
 }
 
 // 48.6 +- 2.7 for a chair of 48, 74.9 +- 2.8 for tables of 77 [Freiburg]; ours over 20 flights of the same kind.
-TEST(MultilevelFilter, heightsOfChairAndTableBeatThePaper) {
+TEST(MultilevelFilter, HeightsOfChairAndTableBeatThePaper) {
   double chair_sum = 0, chair2 = 0, table_sum = 0, table2 = 0, worst_m = 0;
   constexpr int kFlights = 20;
   for (int seed = 1; seed <= kFlights; ++seed) {
@@ -100,7 +100,7 @@ TEST(MultilevelFilter, heightsOfChairAndTableBeatThePaper) {
   EXPECT_LT(worst_m, 0.10);
 }
 
-TEST(MultilevelFilter, stepsMetWhileClimbingAndSinkingDoNotMoveTheHeight) {
+TEST(MultilevelFilter, StepsMetWhileClimbingAndSinkingDoNotMoveTheHeight) {
   Overflight flight;
   flight.boxes = {{0.8, 1.6, -1, 1, 0.30}, {1.6, 2.4, -1, 1, 0.60}, {2.4, 3.2, -1, 1, 0.90}};
   flight.start();
@@ -119,7 +119,7 @@ TEST(MultilevelFilter, stepsMetWhileClimbingAndSinkingDoNotMoveTheHeight) {
   }
 }
 
-TEST(MultilevelFilter, manyCrossingsDoNotDrift) {
+TEST(MultilevelFilter, ManyCrossingsDoNotDrift) {
   Overflight flight;
   flight.boxes = {{1.0, 1.6, -1, 1, 0.48}, {2.2, 3.2, -1, 1, 0.77}};
   flight.start();
@@ -146,7 +146,7 @@ MultilevelFilter onlyNear() {
   return MultilevelFilter(config);
 }
 
-TEST(MultilevelFilter, theFloorBehindAWideTableIsKnownAtOnce) {
+TEST(MultilevelFilter, TheFloorBehindAWideTableIsKnownAtOnce) {
   Overflight flight;
   flight.boxes = {{1.0, 4.0, -1.5, 1.5, 0.77}};
   flight.start();
@@ -156,7 +156,7 @@ TEST(MultilevelFilter, theFloorBehindAWideTableIsKnownAtOnce) {
   EXPECT_LT(flight.worst_error_m, 0.04);
 }
 
-TEST(MultilevelFilter, theFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
+TEST(MultilevelFilter, TheFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
   Overflight flight;
   flight.filter = onlyNear();
   flight.boxes = {{1.0, 4.0, -1.5, 1.5, 0.77}};
@@ -173,7 +173,7 @@ TEST(MultilevelFilter, theFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
 
 /// The back and the seat of a sofa, in many steepnesses: what is not flat says nothing about the height, and must not
 /// take it along.
-TEST(MultilevelFilter, slopesDoNotCarryTheHeightAway) {
+TEST(MultilevelFilter, SlopesDoNotCarryTheHeightAway) {
   for (const double speed_m_s : {0.3, 0.6, 0.9}) {
     for (const double length_m : {0.15, 0.3, 0.6}) {
       SCOPED_TRACE(testing::Message() << speed_m_s << " m/s over a slope of " << length_m << " m");
@@ -196,7 +196,7 @@ TEST(MultilevelFilter, slopesDoNotCarryTheHeightAway) {
 /// Boxes of all heights side by side, few of them wide enough to be believed, crossed on an acceleration that goes
 /// wrong; then the floor. It must be the floor again soon, and not a slope, a new level, or one of the boxes. There are
 /// seeds that deserve to fail: boxes that make a table, or drift that puts the floor where the table was.
-TEST(MultilevelFilter, theFloorBehindClutterIsBelievedAgain) {
+TEST(MultilevelFilter, TheFloorBehindClutterIsBelievedAgain) {
   constexpr int kFlights = 400;
   int untold = 0, wrong = 0;
   for (int seed = 1; seed <= kFlights; ++seed) {
@@ -225,7 +225,7 @@ TEST(MultilevelFilter, theFloorBehindClutterIsBelievedAgain) {
   EXPECT_LE(wrong, kFlights * 3 / 100);
 }
 
-TEST(MultilevelFilter, outliersAndDropoutsMakeNoLevels) {
+TEST(MultilevelFilter, OutliersAndDropoutsMakeNoLevels) {
   Overflight flight;
   flight.outlier_rate = 0.05;
   flight.dropout_rate = 0.3;
@@ -236,7 +236,7 @@ TEST(MultilevelFilter, outliersAndDropoutsMakeNoLevels) {
   EXPECT_LT(flight.worst_error_m, 0.05);
 }
 
-TEST(MultilevelFilter, withoutAnyReturnItPredictsAndSaysSo) {
+TEST(MultilevelFilter, WithoutAnyReturnItPredictsAndSaysSo) {
   Overflight flight;
   flight.start();
   flight.climbTo(1.5);
@@ -253,7 +253,7 @@ TEST(MultilevelFilter, withoutAnyReturnItPredictsAndSaysSo) {
   EXPECT_EQ(flight.filter.levels().levels.size(), 1u);
 }
 
-TEST(MultilevelFilter, aTableEdgeSplitsTheBeamsBetweenBothLevels) {
+TEST(MultilevelFilter, ATableEdgeSplitsTheBeamsBetweenBothLevels) {
   Overflight flight;
   flight.boxes = {{-10, 10, 0.0, 3.0, 0.75}};
   flight.position_m = {0.0, -1.0};
@@ -268,7 +268,7 @@ TEST(MultilevelFilter, aTableEdgeSplitsTheBeamsBetweenBothLevels) {
   EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.02);
 }
 
-TEST(MultilevelFilter, theVarianceIsHonest) {
+TEST(MultilevelFilter, TheVarianceIsHonest) {
   // Over many flights the error of a level is what its variance says.
   double nees = 0;
   constexpr int kFlights = 40;
@@ -289,7 +289,7 @@ TEST(MultilevelFilter, theVarianceIsHonest) {
   EXPECT_LT(nees, 1.6);
 }
 
-TEST(MultilevelFilter, theSameFlightGivesTheSameBits) {
+TEST(MultilevelFilter, TheSameFlightGivesTheSameBits) {
   const auto run = [] {
     Overflight flight;
     flight.outlier_rate = 0.02;
@@ -310,7 +310,7 @@ TEST(MultilevelFilter, theSameFlightGivesTheSameBits) {
   }
 }
 
-TEST(MultilevelFilter, joinIsTheFormulaOfThePaper) {
+TEST(MultilevelFilter, JoinIsTheFormulaOfThePaper) {
   // h = (s_j^2 h_i + s_i^2 h_j) / (s_i^2 + s_j^2): twice the same information halves the variance.
   Overflight flight;
   flight.filter = onlyNear();
@@ -324,7 +324,7 @@ TEST(MultilevelFilter, joinIsTheFormulaOfThePaper) {
   EXPECT_GT(map.levels[2].variance_m2, 0.0);
 }
 
-TEST(MultilevelFilter, garbageInNothingOut) {
+TEST(MultilevelFilter, GarbageInNothingOut) {
   MultilevelFilter::Config config;
   config.publish_delay_s = 0.0;
   MultilevelFilter filter(config);

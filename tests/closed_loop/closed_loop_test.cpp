@@ -140,7 +140,7 @@ struct Loop {
   }
 };
 
-TEST(ClosedLoop, hoversOnItsOwnSensors) {
+TEST(ClosedLoop, HoversOnItsOwnSensors) {
   double worst_m = 0, worst_height_m = 0;
   for (int seed = 1; seed <= 3; ++seed) {
     Loop loop(seed);
@@ -166,7 +166,7 @@ TEST(ClosedLoop, hoversOnItsOwnSensors) {
   EXPECT_LT(worst_height_m, 0.10);
 }
 
-TEST(ClosedLoop, fliesOverATableAndLands) {
+TEST(ClosedLoop, FliesOverATableAndLands) {
   Loop loop(4, true);
   ASSERT_TRUE(loop.hover()) << loop.vehicle.stopReason();
   ASSERT_TRUE(loop.controller.follow(

@@ -71,7 +71,7 @@ Rms hoverFor(Flight& flight, double seconds, const Eigen::Vector3d& at) {
   return {std::sqrt(horizontal2 / n), std::sqrt(vertical2 / n), worst};
 }
 
-TEST(Flight, hoversWithinThreeCentimetresOnAWanderingHorizon) {
+TEST(Flight, HoversWithinThreeCentimetresOnAWanderingHorizon) {
   double worst_m = 0, worst_height_m = 0;
   for (int seed = 1; seed <= 5; ++seed) {
     Flight flight;
@@ -88,7 +88,7 @@ TEST(Flight, hoversWithinThreeCentimetresOnAWanderingHorizon) {
   EXPECT_LT(worst_height_m, 0.05);
 }
 
-TEST(Flight, learnsTheHoverThrustOfAWeakAndSaggingVehicle) {
+TEST(Flight, LearnsTheHoverThrustOfAWeakAndSaggingVehicle) {
   Flight flight;
   flight.model.thrust_factor = 0.88;
   flight.model.voltage_drop_v_s = 0.02;  // 1.2 V in a minute.
@@ -99,7 +99,7 @@ TEST(Flight, learnsTheHoverThrustOfAWeakAndSaggingVehicle) {
   EXPECT_NEAR(flight.controller.positionController().thrust().correction(), 1.0 / 0.88, 0.05);
 }
 
-TEST(Flight, holdsAgainstWind) {
+TEST(Flight, HoldsAgainstWind) {
   Flight flight;
   flight.model.wind_m_s = {2.0, -1.0, 0.0};
   flight.hover();
@@ -107,7 +107,7 @@ TEST(Flight, holdsAgainstWind) {
   EXPECT_LT(hoverFor(flight, 20.0, flight.controller.reference().position_odom_m).horizontal_m, 0.03);
 }
 
-TEST(Flight, followsAPathWithCornersToItsGoal) {
+TEST(Flight, FollowsAPathWithCornersToItsGoal) {
   Flight flight;
   flight.hover();
   const Eigen::Vector3d goal(1.0, 3.0, 1.2);
@@ -128,7 +128,7 @@ TEST(Flight, followsAPathWithCornersToItsGoal) {
               flight.greatest_tilt_rad * 57.3, flight.model.now.seconds());
 }
 
-TEST(Flight, brakesFromFullSpeedWithoutOvershootWhenHalted) {
+TEST(Flight, BrakesFromFullSpeedWithoutOvershootWhenHalted) {
   Flight flight;
   flight.hover();
   ASSERT_TRUE(flight.controller.follow({{{0, 0, 1}, {8, 0, 1}}, FlightMode::kFast, {}}));
@@ -148,7 +148,7 @@ TEST(Flight, brakesFromFullSpeedWithoutOvershootWhenHalted) {
   EXPECT_TRUE(flight.until([&] { return flight.controller.pathFinished(); }, 12.0));
 }
 
-TEST(Flight, aCorrectionOfTheMapMovesTheHoldPointSmoothly) {
+TEST(Flight, ACorrectionOfTheMapMovesTheHoldPointSmoothly) {
   Flight flight;
   flight.hover();
   flight.run(2.0);
@@ -159,7 +159,7 @@ TEST(Flight, aCorrectionOfTheMapMovesTheHoldPointSmoothly) {
   EXPECT_LT(flight.greatest_tilt_rad * 57.3, 20.0);
 }
 
-TEST(Flight, landsSoftlyAndKnowsIt) {
+TEST(Flight, LandsSoftlyAndKnowsIt) {
   Flight flight;
   flight.hover();
   ASSERT_TRUE(flight.controller.command(Land{}));
@@ -171,7 +171,7 @@ TEST(Flight, landsSoftlyAndKnowsIt) {
   EXPECT_TRUE(flight.controller.stopped());
 }
 
-TEST(Flight, landsOnATableBelow) {
+TEST(Flight, LandsOnATableBelow) {
   Flight flight;
   flight.hover(1.5);
   flight.model.floor_m = 0.75;
@@ -181,7 +181,7 @@ TEST(Flight, landsOnATableBelow) {
   EXPECT_LT(flight.model.hardest_touch_m_s, 0.35);
 }
 
-TEST(Flight, landCancelsTakingOff) {
+TEST(Flight, LandCancelsTakingOff) {
   Flight flight;
   flight.tick();
   ASSERT_TRUE(flight.controller.command(Prepared{}));
@@ -194,7 +194,7 @@ TEST(Flight, landCancelsTakingOff) {
   EXPECT_LT(flight.model.position_m.z(), 0.2);
 }
 
-TEST(Flight, divergenceEndsInAnEmergencyLandingWithoutTheEstimate) {
+TEST(Flight, DivergenceEndsInAnEmergencyLandingWithoutTheEstimate) {
   Flight flight;
   flight.hover(1.5);
   flight.diverged = true;
@@ -208,7 +208,7 @@ TEST(Flight, divergenceEndsInAnEmergencyLandingWithoutTheEstimate) {
   EXPECT_FALSE(flight.model.in_force.motors_on);
 }
 
-TEST(Flight, emergencyOverATableEdgeIsNotFooledByTheStep) {
+TEST(Flight, EmergencyOverATableEdgeIsNotFooledByTheStep) {
   Flight flight;
   flight.hover(1.8);
   flight.diverged = true;
@@ -226,7 +226,7 @@ TEST(Flight, emergencyOverATableEdgeIsNotFooledByTheStep) {
   EXPECT_LT(flight.model.hardest_touch_m_s, 0.6);
 }
 
-TEST(Flight, comesDownBlindWhenNothingIsLeft) {
+TEST(Flight, ComesDownBlindWhenNothingIsLeft) {
   Flight flight;
   flight.hover(1.0);
   flight.diverged = true;
@@ -236,7 +236,7 @@ TEST(Flight, comesDownBlindWhenNothingIsLeft) {
   EXPECT_LT(flight.model.hardest_touch_m_s, 1.5);
 }
 
-TEST(Flight, aSilentLaserMeansHoldThenLand) {
+TEST(Flight, ASilentLaserMeansHoldThenLand) {
   Flight flight;
   flight.hover();
   ASSERT_TRUE(flight.controller.follow({{{0, 0, 1}, {5, 0, 1}}, FlightMode::kFast, {}}));
@@ -250,7 +250,7 @@ TEST(Flight, aSilentLaserMeansHoldThenLand) {
   EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 10.0));
 }
 
-TEST(Flight, refusesWhatTheStateDoesNotAllow) {
+TEST(Flight, RefusesWhatTheStateDoesNotAllow) {
   Flight flight;
   flight.tick();
   EXPECT_FALSE(flight.controller.command(TakeOff{1.0}));

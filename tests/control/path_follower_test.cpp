@@ -44,7 +44,7 @@ struct Watch {
   }
 };
 
-TEST(PathFollower, aStraightLineIsATrapezoid) {
+TEST(PathFollower, AStraightLineIsATrapezoid) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {4, 0, 0}}, FlightMode::kFast);
   ASSERT_TRUE(watch.finish());
@@ -56,7 +56,7 @@ TEST(PathFollower, aStraightLineIsATrapezoid) {
   EXPECT_LT(watch.seconds, 5.6);
 }
 
-TEST(PathFollower, theReferenceLiesOnAStraightLineWithoutLag) {
+TEST(PathFollower, TheReferenceLiesOnAStraightLineWithoutLag) {
   Watch watch({0, 0, 1});
   watch.follower.setPath({{0, 0, 1}, {3, 3, 1}}, FlightMode::kFast);
   const double whole_m = watch.follower.remaining_m();
@@ -70,7 +70,7 @@ TEST(PathFollower, theReferenceLiesOnAStraightLineWithoutLag) {
   EXPECT_LT(lag_m, 0.005);
 }
 
-TEST(PathFollower, cornersAreRoundedWithinTheModesDeviation) {
+TEST(PathFollower, CornersAreRoundedWithinTheModesDeviation) {
   const Points corner = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}};
   for (const auto& [mode, deviation_m] : {std::pair(FlightMode::kFast, 0.08), std::pair(FlightMode::kCareful, 0.05),
                                           std::pair(FlightMode::kAccurate, 0.02)}) {
@@ -89,7 +89,7 @@ TEST(PathFollower, cornersAreRoundedWithinTheModesDeviation) {
   }
 }
 
-TEST(PathFollower, aNewPathInFlightIsContinuousAndKeepsTheSpeed) {
+TEST(PathFollower, ANewPathInFlightIsContinuousAndKeepsTheSpeed) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kFast);
   for (int i = 0; i < 250; ++i) watch.step();
@@ -105,7 +105,7 @@ TEST(PathFollower, aNewPathInFlightIsContinuousAndKeepsTheSpeed) {
   EXPECT_LT(watch.worst_jump_m, 2e-4);
 }
 
-TEST(PathFollower, turningBackAtSpeedBrakesFirst) {
+TEST(PathFollower, TurningBackAtSpeedBrakesFirst) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kFast);
   for (int i = 0; i < 300; ++i) watch.step();
@@ -121,7 +121,7 @@ TEST(PathFollower, turningBackAtSpeedBrakesFirst) {
   EXPECT_LT(watch.worst_acceleration_m_s2, 3.0);
 }
 
-TEST(PathFollower, stopTakesTheBrakingDistance) {
+TEST(PathFollower, StopTakesTheBrakingDistance) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kCareful);
   for (int i = 0; i < 300; ++i) watch.step();
@@ -132,7 +132,7 @@ TEST(PathFollower, stopTakesTheBrakingDistance) {
   EXPECT_LT(watch.worst_acceleration_m_s2, 1.3);
 }
 
-TEST(PathFollower, stopsAndTurns) {
+TEST(PathFollower, StopsAndTurns) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kCareful);
   for (int i = 0; i < 300; ++i) watch.step();
@@ -144,7 +144,7 @@ TEST(PathFollower, stopsAndTurns) {
   EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 1.2, 0.02) << "it holds that yaw";
 }
 
-TEST(PathFollower, aSpeedLimitActsWithinItsBraking) {
+TEST(PathFollower, ASpeedLimitActsWithinItsBraking) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {20, 0, 0}}, FlightMode::kFast);
   for (int i = 0; i < 300; ++i) watch.step();
@@ -159,7 +159,7 @@ TEST(PathFollower, aSpeedLimitActsWithinItsBraking) {
   EXPECT_TRUE(watch.finish());
 }
 
-TEST(PathFollower, facesWhereItFliesFarAndHoldsTheYawNear) {
+TEST(PathFollower, FacesWhereItFliesFarAndHoldsTheYawNear) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {0, 4, 0}}, FlightMode::kFast);
   ASSERT_TRUE(watch.finish());
@@ -171,7 +171,7 @@ TEST(PathFollower, facesWhereItFliesFarAndHoldsTheYawNear) {
   EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, std::numbers::pi / 2, 0.02) << "sideways";
 }
 
-TEST(PathFollower, doesNotFlyFastWhereTheLaserDoesNotSee) {
+TEST(PathFollower, DoesNotFlyFastWhereTheLaserDoesNotSee) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {-4, 0, 0}}, FlightMode::kFast);
   while (std::abs(watch.follower.reference().yaw_odom_rad) < 75 * std::numbers::pi / 180) {
@@ -181,7 +181,7 @@ TEST(PathFollower, doesNotFlyFastWhereTheLaserDoesNotSee) {
   EXPECT_TRUE(watch.finish());
 }
 
-TEST(PathFollower, movingTheMapMovesThePathNotTheReference) {
+TEST(PathFollower, MovingTheMapMovesThePathNotTheReference) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kFast);
   for (int i = 0; i < 300; ++i) watch.step();
@@ -193,7 +193,7 @@ TEST(PathFollower, movingTheMapMovesThePathNotTheReference) {
   EXPECT_LT((watch.follower.reference().position_odom_m.head<2>() - goal).norm(), 2e-3);
 }
 
-TEST(PathFollower, anyPathsAnyTimeStayContinuousAndEndAtTheGoal) {
+TEST(PathFollower, AnyPathsAnyTimeStayContinuousAndEndAtTheGoal) {
   rc::check([] {
     const auto seed = *rc::gen::inRange(1, 1'000'000);
     common::RandomStream random(static_cast<std::uint64_t>(seed), "paths");
@@ -217,7 +217,7 @@ TEST(PathFollower, anyPathsAnyTimeStayContinuousAndEndAtTheGoal) {
   });
 }
 
-TEST(PathShape, simplifyingStaysWithinTheTolerance) {
+TEST(PathShape, SimplifyingStaysWithinTheTolerance) {
   rc::check([] {
     common::RandomStream random(static_cast<std::uint64_t>(*rc::gen::inRange(1, 1'000'000)), "simplify");
     Points points{{0, 0, 0}};
@@ -230,7 +230,7 @@ TEST(PathShape, simplifyingStaysWithinTheTolerance) {
   });
 }
 
-TEST(PathShape, noPointIsPassedFasterThanWhatComesAllows) {
+TEST(PathShape, NoPointIsPassedFasterThanWhatComesAllows) {
   const Points points = rounded({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1.1, 1, 0}, {1.1, 0, 0}}, 0.05);
   const auto speeds = speedsAlong(points, {1.0, 1.0, 0.5, 0.12});
   const auto along = distancesAlong(points);
@@ -239,7 +239,7 @@ TEST(PathShape, noPointIsPassedFasterThanWhatComesAllows) {
   EXPECT_EQ(speeds.back(), 0.0);
 }
 
-TEST(PathFollower, aVelocityIsReachedAlongAStraightLineAndTurnedBackAtOnce) {
+TEST(PathFollower, AVelocityIsReachedAlongAStraightLineAndTurnedBackAtOnce) {
   Watch watch({1, 2, 1});
   watch.follower.setVelocity({0.6, 0.0, 0.0}, 1.0, 0.4);
   for (int i = 0; i < 80; ++i) watch.step();
@@ -255,7 +255,7 @@ TEST(PathFollower, aVelocityIsReachedAlongAStraightLineAndTurnedBackAtOnce) {
   EXPECT_LE(watch.worst_jump_m, 1e-6);
 }
 
-TEST(PathFollower, fromAPathToAVelocityAndBackItIsSmooth) {
+TEST(PathFollower, FromAPathToAVelocityAndBackItIsSmooth) {
   Watch watch({0, 0, 1});
   watch.follower.setPath({{0, 0, 1}, {5, 0, 1}}, FlightMode::kFast);
   for (int i = 0; i < 150; ++i) watch.step();

@@ -47,7 +47,7 @@ std::map<FlightState, Path> reachable() {
   return ways;
 }
 
-TEST(FlightStateMachine, anOrdinaryFlight) {
+TEST(FlightStateMachine, AnOrdinaryFlight) {
   FlightStateMachine machine;
   const std::pair<FlightInput, FlightState> story[] = {{FlightInput::kPrepared, FlightState::kPoweredOff},
                                                        {FlightInput::kEngageMotors, FlightState::kLanded},
@@ -59,7 +59,7 @@ TEST(FlightStateMachine, anOrdinaryFlight) {
   for (const auto& [input, state] : story) EXPECT_EQ(machine.apply(input).value(), state);
 }
 
-TEST(FlightStateMachine, exactlyTheArrowsOfTheDrawing) {
+TEST(FlightStateMachine, ExactlyTheArrowsOfTheDrawing) {
   const auto ways = reachable();
   EXPECT_EQ(ways.size(), std::size(kStates));
   std::set<std::string> arrows;
@@ -78,7 +78,7 @@ TEST(FlightStateMachine, exactlyTheArrowsOfTheDrawing) {
   EXPECT_EQ(arrows.size(), 14u) << testing::PrintToString(arrows);
 }
 
-TEST(FlightStateMachine, table1) {
+TEST(FlightStateMachine, Table1) {
   const auto active = [](FlightState state) {
     const Activation a = activationOf(state);
     return std::tuple(a.fusion, a.control, a.waypoints);
@@ -92,7 +92,7 @@ TEST(FlightStateMachine, table1) {
   EXPECT_EQ(active(FlightState::kEmergencyLanding), std::tuple(false, true, false));
 }
 
-TEST(FlightStateMachine, anEmergencyIsPossibleFromEveryStateInTheAirAndLeftByTouchingDownOnly) {
+TEST(FlightStateMachine, AnEmergencyIsPossibleFromEveryStateInTheAirAndLeftByTouchingDownOnly) {
   for (const auto& [state, way] : reachable()) {
     FlightStateMachine machine = after(way);
     const auto result = machine.apply(FlightInput::kEmergency);

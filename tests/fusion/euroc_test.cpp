@@ -72,32 +72,102 @@ Recording read(const fs::path& folder) {
   return out;
 }
 
-TEST(Euroc, planarOdometryAndHeightHoldARealFlight) {
+/// The recording's own data sheet, widened as for any real IMU.
+ErrorStateFilter::Config configOfTheRecording() {
+  ErrorStateFilter::Config config;
+  config.use_ahrs = false;
+  config.accelerometer_noise_m_s2_rthz = 0.02;
+  config.gyroscope_noise_rad_s_rthz = 0.001;
+  config.gravity_m_s2 = 9.81;
+  config.accelerometer_bias_sigma_m_s2 = 0.2;
+  return config;
+}
+
+/// The planar odometry and the heights that a scan matcher would give, made of the truth and noise.
+class MadeUpScans {
+ public:
+  MadeUpScans(const PoseHistory& truth, Time started) : truth_(truth), started_(started), next_scan_(started) {}
+
+  void addUntil(Time now, ErrorStateFilter& filter) {
+    while (next_scan_ + Duration::fromMilliseconds(20) <= now) {
+      const Time scan = next_scan_;
+      next_scan_ += Duration::fromMilliseconds(25);
+      const auto pose = truth_.at(scan);
+      if (pose && scan > started_) add(scan, *pose, filter);
+    }
+  }
+
+ private:
+  static constexpr double kSigma_m = 0.01, kSigma_rad = 0.2 * std::numbers::pi / 180.0;
+
+  void add(Time scan, const common::Pose3& pose, ErrorStateFilter& filter) {
+    (void)filter.addHeight(scan, pose.position_m.z() + random_.gaussian(kSigma_m), kSigma_m * kSigma_m);
+    if (reference_) {
+      common::Pose2 relative = planar(*truth_.at(*reference_)).inverse() * planar(pose);
+      relative.x_m += random_.gaussian(kSigma_m);
+      relative.y_m += random_.gaussian(kSigma_m);
+      relative.yaw_rad += random_.gaussian(kSigma_rad);
+      const Eigen::Matrix3d covariance =
+          Eigen::Vector3d(kSigma_m * kSigma_m, kSigma_m * kSigma_m, kSigma_rad * kSigma_rad).asDiagonal();
+      EXPECT_EQ(filter.addRelativePose(*reference_, scan, relative, covariance), Insertion::kTaken);
+    }
+    if (!reference_ || (scan - *reference_).seconds() >= 0.5) {
+      (void)filter.addClone(scan);
+      reference_ = scan;
+    }
+  }
+
+  const PoseHistory& truth_;
+  Time started_;
+  Time next_scan_;
+  std::optional<Time> reference_;
+  common::RandomStream random_{1, "euroc"};
+};
+
+/// Sums of squares of what the estimate misses.
+struct Errors {
+  double position2 = 0, velocity2 = 0, height2 = 0, relative2 = 0;
+  int n = 0, relative_n = 0;
+  std::optional<common::Pose3> estimate_before, truth_before;
+
+  void add(const common::VehicleState& state, const common::Pose3& pose, const Eigen::Vector3d& velocity_world,
+           const common::Pose2& T_odom_world) {
+    const Eigen::Vector3d velocity_odom = lifted(T_odom_world, 0.0).rotation * velocity_world;
+    const Eigen::Vector2d position_odom = T_odom_world * Eigen::Vector2d(pose.position_m.head<2>());
+    position2 += (state.T_odom_body.position_m.head<2>() - position_odom).squaredNorm();
+    height2 += std::pow(state.T_odom_body.position_m.z() - pose.position_m.z(), 2);
+    // Velocities in the heading frame: the yaw drifts freely.
+    const double yaw = common::yawOf(state.T_odom_body.rotation);
+    const double true_yaw = common::yawOf(pose.rotation) + T_odom_world.yaw_rad;
+    const Eigen::Vector3d a = common::lifted({0, 0, -yaw}, 0).rotation * state.velocity_odom_m_s;
+    const Eigen::Vector3d b = common::lifted({0, 0, -true_yaw}, 0).rotation * velocity_odom;
+    velocity2 += (a - b).squaredNorm();
+    if (n % 200 == 0) {
+      if (estimate_before) {
+        const common::Pose2 moved = planar(*estimate_before).inverse() * planar(state.T_odom_body);
+        const common::Pose2 should = planar(*truth_before).inverse() * planar(pose);
+        relative2 += (moved.position_m() - should.position_m()).squaredNorm();
+        ++relative_n;
+      }
+      estimate_before = state.T_odom_body;
+      truth_before = pose;
+    }
+    ++n;
+  }
+};
+
+TEST(Euroc, PlanarOdometryAndHeightHoldARealFlight) {
   const auto folder = test_support::dataSet("04-uav-logs/euroc-V1_01");
   if (!folder) return;
   const Recording recording = read(*folder);
   ASSERT_GT(recording.imu.size(), 20000u) << "xz is needed to read it";
   const PoseHistory truth(recording.truth);
 
-  ErrorStateFilter::Config config;  // The recording's own data sheet, widened as for any real IMU.
-  config.use_ahrs = false;
-  config.accelerometer_noise_m_s2_rthz = 0.02;
-  config.gyroscope_noise_rad_s_rthz = 0.001;
-  config.gravity_m_s2 = 9.81;
-  config.accelerometer_bias_sigma_m_s2 = 0.2;
-  ErrorStateFilter filter(config);
-  common::RandomStream random(1, "euroc");
-  const double sigma_m = 0.01, sigma_rad = 0.2 * std::numbers::pi / 180.0;
-  const Eigen::Matrix3d covariance =
-      Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
-
+  ErrorStateFilter filter(configOfTheRecording());
   common::Pose2 T_odom_world;
-  std::optional<Time> reference;
-  Time next_scan, started;
-  double position2 = 0, velocity2 = 0, height2 = 0, relative2 = 0;
-  int n = 0, relative_n = 0;
-  std::vector<Delivery> under_way;
-  std::optional<common::Pose3> estimate_before, truth_before;
+  Time started;
+  std::optional<MadeUpScans> scans;
+  Errors errors;
   for (const auto& sample : recording.imu) {
     const Time now = sample.stamps.measured;
     filter.predict(sample);
@@ -108,56 +178,19 @@ TEST(Euroc, planarOdometryAndHeightHoldARealFlight) {
       const auto pose = truth.at(now);
       if (!filter.initialize(pose->position_m.z())) continue;
       T_odom_world = planar(*pose).inverse();
-      next_scan = started = now;
+      started = now;
+      scans.emplace(truth, started);
     }
-    while (next_scan + Duration::fromMilliseconds(20) <= now) {
-      const Time scan = next_scan;
-      next_scan += Duration::fromMilliseconds(25);
-      const auto pose = truth.at(scan);
-      if (!pose || scan <= started) continue;
-      (void)filter.addHeight(scan, pose->position_m.z() + random.gaussian(sigma_m), sigma_m * sigma_m);
-      if (reference) {
-        common::Pose2 relative = planar(*truth.at(*reference)).inverse() * planar(*pose);
-        relative.x_m += random.gaussian(sigma_m);
-        relative.y_m += random.gaussian(sigma_m);
-        relative.yaw_rad += random.gaussian(sigma_rad);
-        EXPECT_EQ(filter.addRelativePose(*reference, scan, relative, covariance), Insertion::kTaken);
-      }
-      if (!reference || (scan - *reference).seconds() >= 0.5) {
-        (void)filter.addClone(scan);
-        reference = scan;
-      }
-    }
-    const auto pose = truth.at(now);
+    scans->addUntil(now, filter);
     if ((now - started).seconds() < 3.0) continue;
-    const auto state = filter.state();
     const Eigen::Vector3d velocity_world =
         (truth.at(now + aside)->position_m - truth.at(now - aside)->position_m) / 0.02;
-    const Eigen::Vector3d velocity_odom = lifted(T_odom_world, 0.0).rotation * velocity_world;
-    const Eigen::Vector2d position_odom = T_odom_world * Eigen::Vector2d(pose->position_m.head<2>());
-    position2 += (state.T_odom_body.position_m.head<2>() - position_odom).squaredNorm();
-    height2 += std::pow(state.T_odom_body.position_m.z() - pose->position_m.z(), 2);
-    // Velocities in the heading frame: the yaw drifts freely.
-    const double yaw = common::yawOf(state.T_odom_body.rotation);
-    const double true_yaw = common::yawOf(pose->rotation) + T_odom_world.yaw_rad;
-    const Eigen::Vector3d a = common::lifted({0, 0, -yaw}, 0).rotation * state.velocity_odom_m_s;
-    const Eigen::Vector3d b = common::lifted({0, 0, -true_yaw}, 0).rotation * velocity_odom;
-    velocity2 += (a - b).squaredNorm();
-    if (n % 200 == 0) {
-      if (estimate_before) {
-        const common::Pose2 moved = planar(*estimate_before).inverse() * planar(state.T_odom_body);
-        const common::Pose2 should = planar(*truth_before).inverse() * planar(*pose);
-        relative2 += (moved.position_m() - should.position_m()).squaredNorm();
-        ++relative_n;
-      }
-      estimate_before = state.T_odom_body;
-      truth_before = *pose;
-    }
-    ++n;
+    errors.add(filter.state(), *truth.at(now), velocity_world, T_odom_world);
   }
+  const int n = errors.n;
   ASSERT_GT(n, 20000);
-  const double position_m = std::sqrt(position2 / n), velocity_m_s = std::sqrt(velocity2 / n),
-               height_m = std::sqrt(height2 / n), relative_m = std::sqrt(relative2 / relative_n);
+  const double position_m = std::sqrt(errors.position2 / n), velocity_m_s = std::sqrt(errors.velocity2 / n),
+               height_m = std::sqrt(errors.height2 / n), relative_m = std::sqrt(errors.relative2 / errors.relative_n);
   std::printf(
       "EuRoC V1_01, %.0f s: drifting position %.3f m RMSE, over 1 s %.4f m, height %.4f m, velocity %.4f m/s; %s, "
       "gated %llu + %llu, %llu recoveries\n",

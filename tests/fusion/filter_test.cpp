@@ -23,7 +23,7 @@ void expectSameState(const ErrorStateFilter& a, const ErrorStateFilter& b, doubl
   EXPECT_LE((a.covariance() - b.covariance()).cwiseAbs().maxCoeff(), tolerance);
 }
 
-TEST(ErrorStateFilter, lateIsAsGoodAsOnTime) {
+TEST(ErrorStateFilter, LateIsAsGoodAsOnTime) {
   SyntheticFlight flight(1, 12.0);
   const auto imu = flight.imuSamples();
   flight.delay_s = 0.0;
@@ -43,7 +43,7 @@ TEST(ErrorStateFilter, lateIsAsGoodAsOnTime) {
   expectSameState(a, b, 1e-12);
 }
 
-TEST(ErrorStateFilter, theOrderOfArrivalDoesNotMatter) {
+TEST(ErrorStateFilter, TheOrderOfArrivalDoesNotMatter) {
   SyntheticFlight flight(2, 8.0);
   const auto imu = flight.imuSamples();
   const auto in_order = flight.deliveries();
@@ -61,7 +61,7 @@ TEST(ErrorStateFilter, theOrderOfArrivalDoesNotMatter) {
   }
 }
 
-TEST(ErrorStateFilter, theSameInputGivesTheSameBits) {
+TEST(ErrorStateFilter, TheSameInputGivesTheSameBits) {
   SyntheticFlight flight(3, 6.0);
   const auto imu = flight.imuSamples();
   const auto deliveries = flight.deliveries();
@@ -78,7 +78,7 @@ struct Consistency {
   double tilt_rad = 0;
 };
 
-TEST(ErrorStateFilter, itsErrorsAreAsLargeAsItSays) {
+TEST(ErrorStateFilter, ItsErrorsAreAsLargeAsItSays) {
   constexpr int kRuns = 24;
   double nees_sum = 0;
   double velocity2 = 0, tilt2 = 0;
@@ -126,7 +126,7 @@ TEST(ErrorStateFilter, itsErrorsAreAsLargeAsItSays) {
   EXPECT_LT(std::sqrt(tilt2 / samples), 0.01);
 }
 
-TEST(ErrorStateFilter, startsLevelledAndKnowsItsGyroscope) {
+TEST(ErrorStateFilter, StartsLevelledAndKnowsItsGyroscope) {
   SensorNoise noise;
   SyntheticFlight flight(5, 1.0, noise);
   ErrorStateFilter filter(withoutDrag());
@@ -143,7 +143,7 @@ TEST(ErrorStateFilter, startsLevelledAndKnowsItsGyroscope) {
   EXPECT_EQ(filter.state().T_odom_body.position_m, Eigen::Vector3d(0, 0, 0.15));
 }
 
-TEST(ErrorStateFilter, refusesToStartWhileMoving) {
+TEST(ErrorStateFilter, RefusesToStartWhileMoving) {
   SyntheticFlight flight(6, 6.0);
   ErrorStateFilter filter(withoutDrag());
   for (const auto& sample : flight.imuSamples()) filter.predict(sample);
@@ -151,7 +151,7 @@ TEST(ErrorStateFilter, refusesToStartWhileMoving) {
   EXPECT_FALSE(filter.initialize(std::nan("")));
 }
 
-TEST(ErrorStateFilter, outliersAreGated) {
+TEST(ErrorStateFilter, OutliersAreGated) {
   SyntheticFlight flight(7, 12.0);
   const auto imu = flight.imuSamples();
   auto deliveries = flight.deliveries();
@@ -176,7 +176,7 @@ TEST(ErrorStateFilter, outliersAreGated) {
   EXPECT_LT(worst_m, 0.05);
 }
 
-TEST(ErrorStateFilter, aGateThatStaysShutIsForcedOpenAndReported) {
+TEST(ErrorStateFilter, AGateThatStaysShutIsForcedOpenAndReported) {
   SyntheticFlight flight(8, 14.0);
   const auto imu = flight.imuSamples();
   auto deliveries = flight.deliveries();
@@ -200,7 +200,7 @@ TEST(ErrorStateFilter, aGateThatStaysShutIsForcedOpenAndReported) {
   EXPECT_EQ(filter.health().status, FusionStatus::kOk);
 }
 
-TEST(ErrorStateFilter, contradictionWithoutEndIsADivergenceThatStays) {
+TEST(ErrorStateFilter, ContradictionWithoutEndIsADivergenceThatStays) {
   SyntheticFlight flight(9, 16.0);
   const auto imu = flight.imuSamples();
   auto deliveries = flight.deliveries();
@@ -217,7 +217,7 @@ TEST(ErrorStateFilter, contradictionWithoutEndIsADivergenceThatStays) {
   EXPECT_FALSE(filter.state().vertical_valid);
 }
 
-TEST(ErrorStateFilter, aSilentLaserDegradesAndComesBack) {
+TEST(ErrorStateFilter, ASilentLaserDegradesAndComesBack) {
   SyntheticFlight flight(10, 16.0);
   flight.silent_from_s = 8.0;
   flight.silent_until_s = 9.2;
@@ -239,7 +239,7 @@ TEST(ErrorStateFilter, aSilentLaserDegradesAndComesBack) {
 }
 
 /// Half a second without a height, on an acceleration that is wrong: a measured speed, late, takes the height along.
-TEST(ErrorStateFilter, aVerticalSpeedCorrectsTheHeightAsWell) {
+TEST(ErrorStateFilter, AVerticalSpeedCorrectsTheHeightAsWell) {
   SyntheticFlight flight(13, 6.0);
   const auto imu = flight.imuSamples();
   auto deliveries = flight.deliveries();
@@ -263,7 +263,7 @@ TEST(ErrorStateFilter, aVerticalSpeedCorrectsTheHeightAsWell) {
   EXPECT_FALSE(told.verticalAt(at + Duration::fromSeconds(2.0)));
 }
 
-TEST(ErrorStateFilter, garbageIsCountedAndLeftOut) {
+TEST(ErrorStateFilter, GarbageIsCountedAndLeftOut) {
   SyntheticFlight flight(11, 6.0);
   const auto imu = flight.imuSamples();
   const auto deliveries = flight.deliveries();
@@ -302,7 +302,7 @@ TEST(ErrorStateFilter, garbageIsCountedAndLeftOut) {
   expectSameState(clean, dirty, 0.0);
 }
 
-TEST(ErrorStateFilter, survivesLostImuSamples) {
+TEST(ErrorStateFilter, SurvivesLostImuSamples) {
   SyntheticFlight flight(12, 14.0);
   auto imu = flight.imuSamples();
   common::RandomStream random(1, "loss");
@@ -318,7 +318,7 @@ TEST(ErrorStateFilter, survivesLostImuSamples) {
   EXPECT_EQ(filter.health().status, FusionStatus::kOk) << filter.health().reason;
 }
 
-TEST(ErrorStateFilter, aSlippedHorizonIsPulledBackByTheAhrs) {
+TEST(ErrorStateFilter, ASlippedHorizonIsPulledBackByTheAhrs) {
   SyntheticFlight flight(15, 16.0);
   auto imu = flight.imuSamples();
   // A knock: the gyroscope reports five degrees of roll that did not happen.
@@ -339,7 +339,7 @@ TEST(ErrorStateFilter, aSlippedHorizonIsPulledBackByTheAhrs) {
   EXPECT_LT((state.velocity_odom_m_s - flight.motion.truth(state.stamp.seconds()).velocity_m_s).norm(), 0.1);
 }
 
-TEST(ErrorStateFilter, posesInterpolateTheHistory) {
+TEST(ErrorStateFilter, PosesInterpolateTheHistory) {
   SyntheticFlight flight(13, 8.0);
   ErrorStateFilter filter(withoutDrag());
   feed(filter, flight.imuSamples(), flight.deliveries(), flight.restUntil());
@@ -361,119 +361,6 @@ TEST(ErrorStateFilter, posesInterpolateTheHistory) {
   EXPECT_FALSE(filter.poseAt(newest + Duration::fromMilliseconds(50)));
   EXPECT_TRUE(
       filter.poses(newest, newest + Duration::fromMilliseconds(15)).covers(newest + Duration::fromMilliseconds(15)));
-}
-
-/// In a corridor a matcher gives back the guess. Taken for a measurement, again and again, it would make certain what
-/// nobody saw.
-TEST(ErrorStateFilter, whatNoScanSawIsNotTakenIn) {
-  const Time from = Time::fromSeconds(0.7);
-  const auto fly = [&](double along_m, bool unseen) {
-    ErrorStateFilter filter({});
-    for (int i = 0; i <= 2000; ++i) {
-      common::ImuSample sample;
-      sample.stamps.measured = sample.stamps.arrived = Time::fromSeconds(0.005 * i);
-      sample.specific_force_body_m_s2 = {0.0, 0.0, 9.81};
-      filter.predict(sample);
-      if (i == 130) {
-        EXPECT_TRUE(filter.initialize(0.15));
-      }
-      if (i == 150) {
-        EXPECT_EQ(filter.addClone(from), Insertion::kTaken);
-      }
-      if (i <= 150 || i % 20 != 0) continue;
-      const Eigen::Matrix3d covariance = Eigen::Vector3d(1.0, 1e-4, 1e-6).asDiagonal();
-      const auto direction = unseen ? std::optional<Eigen::Vector2d>(Eigen::Vector2d::UnitX()) : std::nullopt;
-      EXPECT_EQ(filter.addRelativePose(from, sample.stamps.measured, {along_m, 0.0, 0.0}, covariance, direction),
-                Insertion::kTaken);
-    }
-    return filter.state();
-  };
-  const auto right = fly(0.0, true), wrong = fly(3.0, true), believed = fly(0.0, false);
-  EXPECT_EQ(right.T_odom_body.position_m, wrong.T_odom_body.position_m);
-  EXPECT_EQ(right.position_covariance_m2, wrong.position_covariance_m2);
-  EXPECT_LT(right.position_covariance_m2(1, 1), 1e-3);
-  EXPECT_GT(right.position_covariance_m2(0, 0), 2.0 * believed.position_covariance_m2(0, 0));
-  EXPECT_TRUE(right.horizontal_valid);
-}
-
-/// 20 s at 0.7 m/s, of which the laser sees the first six: the drag that was learned there holds the speed after. The
-/// accelerometer has a bias that nobody gave.
-TEST(ErrorStateFilter, dragHoldsTheSpeedThatNoScanSees) {
-  constexpr double kDrag_1_s = 0.18, kBias_m_s2 = 0.06, kSpeed_m_s = 0.7, kStart_s = 3.0, kSeen_s = 9.0;
-  const auto speedAt = [&](double t) { return std::clamp(0.7 * (t - kStart_s), 0.0, kSpeed_m_s); };
-  const auto errorAtEnd = [&](bool use_drag) {
-    ErrorStateFilter::Config config;
-    config.use_drag = use_drag;
-    ErrorStateFilter filter(config);
-    common::RandomStream random(5, "drag");
-    double x_m = 0.0, learned_1_s = 0.0;
-    Time reference;
-    double reference_x_m = 0.0;
-    for (int i = 0; i <= 4600; ++i) {
-      const double t = 0.005 * i, speed = speedAt(t), acceleration = (speedAt(t + 0.005) - speed) / 0.005;
-      // It leans just as far as drag and acceleration ask for.
-      const double lean_rad = std::asin((acceleration + kDrag_1_s * speed) / 9.81);
-      const double lean_after_rad =
-          std::asin(((speedAt(t + 0.01) - speedAt(t + 0.005)) / 0.005 + kDrag_1_s * speedAt(t + 0.005)) / 9.81);
-      common::ImuSample sample;
-      sample.stamps.measured = sample.stamps.arrived = Time::fromSeconds(t);
-      sample.rotation_ahrs_body = common::quaternionFrom({0.0, lean_rad, 0.0});
-      sample.angular_velocity_body_rad_s = {0.0, (lean_after_rad - lean_rad) / 0.005, 0.0};
-      sample.specific_force_body_m_s2 = {kBias_m_s2 - kDrag_1_s * speed + random.gaussian(0.08), random.gaussian(0.08),
-                                         9.81 * std::cos(lean_rad) + random.gaussian(0.08)};
-      filter.setAtRest(t < 1.0);
-      filter.predict(sample);
-      if (i == 130) {
-        EXPECT_TRUE(filter.initialize(0.15));
-      }
-      if (i >= 150 && i % 20 == 0) {
-        if (i > 150 && t <= kSeen_s)
-          (void)filter.addRelativePose(reference, sample.stamps.measured,
-                                       {x_m - reference_x_m + random.gaussian(0.004), 0.0, 0.0},
-                                       Eigen::Vector3d(2e-5, 2e-5, 1e-5).asDiagonal());
-        else if (i > 150)
-          (void)filter.addRelativePose(reference, sample.stamps.measured, {},
-                                       Eigen::Vector3d(1, 2e-5, 1e-5).asDiagonal(),
-                                       Eigen::Vector2d(Eigen::Vector2d::UnitX()));
-        (void)filter.addHeight(sample.stamps.measured, 0.15, 1e-4);
-        if (i % 100 == 0 || reference == Time{}) {
-          (void)filter.addClone(sample.stamps.measured);
-          reference = sample.stamps.measured;
-          reference_x_m = x_m;
-        }
-      }
-      if (t < kSeen_s) learned_1_s = filter.drag_1_s();
-      x_m += 0.005 * 0.5 * (speed + speedAt(t + 0.005));
-    }
-    if (use_drag) {
-      EXPECT_NEAR(learned_1_s, kDrag_1_s, 0.05);
-    }
-    return std::abs(filter.state().T_odom_body.position_m.x() - x_m);
-  };
-  const double with_drag_m = errorAtEnd(true), without_m = errorAtEnd(false);
-  std::printf("14 s unseen at 0.7 m/s: %.2f m off with the drag, %.2f m without\n", with_drag_m, without_m);
-  EXPECT_LT(with_drag_m, 0.8);
-  EXPECT_LT(with_drag_m, 0.5 * without_m);
-}
-
-TEST(ErrorStateFilter, absolutePosesRemoveDrift) {
-  SyntheticFlight flight(14, 20.0);
-  flight.reference_every_s = 0.05;  // Much drift.
-  const auto imu = flight.imuSamples();
-  auto deliveries = flight.deliveries();
-  for (double t = 8.0; t < 20.0; t += 1.0) {
-    const auto pose = planar(flight.motion.pose(t));
-    const Time at = Time::fromSeconds(t);
-    deliveries.push_back({at + Duration::fromSeconds(0.3), 9, [=](ErrorStateFilter& f) {
-                            EXPECT_EQ(f.addAbsolutePose2(at, pose, 1e-4 * Eigen::Matrix3d::Identity()),
-                                      Insertion::kTaken);
-                          }});
-  }
-  ErrorStateFilter filter(withoutDrag());
-  feed(filter, imu, deliveries, flight.restUntil());
-  const auto state = filter.state();
-  const Truth truth = flight.motion.truth(state.stamp.seconds());
-  EXPECT_LT((state.T_odom_body.position_m - truth.T_odom_body.position_m).norm(), 0.08);
 }
 
 }  // namespace

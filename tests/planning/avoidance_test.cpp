@@ -4,162 +4,20 @@
 
 #include <cmath>
 #include <numbers>
-#include <optional>
 
+#include "avoidance_story.hpp"
 #include "common/config_check.hpp"
 #include "grid_builder.hpp"
-#include "planning/avoidance/avoidance.hpp"
-#include "planning/avoidance/dynamic_obstacles.hpp"
 
 namespace swiftlet::planning {
 namespace {
 
-using common::Duration;
 using common::Pose2;
-using common::Time;
+using test::kHull_m;
+using test::kTick_s;
+using test::Point;
+using test::Story;
 using testing::HasSubstr;
-using Point = Eigen::Vector2d;
-
-constexpr double kHull_m = 0.275;
-constexpr double kTick_s = 0.025;
-
-struct Person {
-  Point place_map_m;
-  Point velocity_map_m_s;
-  double radius_m = 0.25;
-};
-
-/// A room with a vehicle, a laser of 1,081 beams over 270 deg, and people who do not yield.
-class Story {
- public:
-  explicit Story(int width_cells = 200, int height_cells = 160, Avoidance::Config config = {})
-      : grid_(test::room(width_cells, height_cells)),
-        map_({}, 0.05),
-        truth_({}, 0.05),
-        avoidance_(config, kHull_m),
-        config_(config),
-        background_(Duration::fromSeconds(DynamicObstacles::Config().background_age_s)) {
-    learn();
-    truth_ = map_;
-  }
-
-  void addWall(common::CellRect rect) {
-    test::fill(grid_, rect, test::kWallCell);
-    learn();
-    truth_ = map_;
-  }
-  void learn() {
-    snapshot_ = std::make_shared<common::OccupancyGrid>(grid_.snapshot());
-    map_.update(*snapshot_, {});
-    background_.add(now, snapshot_);
-  }
-
-  /// What SLAM does all the time: whoever stands in the scan gets into the map, and out again.
-  void mapScan(const std::vector<Eigen::Vector2f>& points_map) {
-    for (const auto& p : points_map) {
-      const Point hit = p.cast<double>(), step = hit - pose.position_m();
-      common::CellIndex last = grid_.cellAt(hit);
-      for (double r = step.norm() - 0.05; r > 0.0; r -= 0.05) {
-        const common::CellIndex cell = grid_.cellAt(pose.position_m() + step.normalized() * r);
-        if (cell != last && cell != grid_.cellAt(hit)) grid_.set(cell, common::occupancy::updated(grid_.at(cell), -8));
-        last = cell;
-      }
-      grid_.set(grid_.cellAt(hit), common::occupancy::updated(grid_.at(grid_.cellAt(hit)), 17));
-    }
-    learn();
-  }
-
-  double range(double bearing_map_rad) const {
-    const Point u(std::cos(bearing_map_rad), std::sin(bearing_map_rad));
-    double best = 30.0;
-    for (double r = 0.0; r < best;) {
-      const common::CellIndex cell = truth_.cellAt(pose.position_m() + r * u);
-      if (truth_.stateAt(cell) != CellState::kFree) best = std::min(best, r);
-      r += std::max(0.01, truth_.obstacleDistance_m(cell) - 0.1);
-    }
-    for (const Person& person : people) best = std::min(best, toDisc(person.place_map_m, person.radius_m, u));
-    for (const Person& pole : poles) best = std::min(best, toDisc(pole.place_map_m, pole.radius_m, u));
-    return best;
-  }
-
-  std::vector<Eigen::Vector2f> scan() const {
-    std::vector<Eigen::Vector2f> points;
-    for (int i = 0; i < beams; ++i) {
-      const double bearing_rad = (i * 270.0 / (beams - 1) - 135.0) * std::numbers::pi / 180.0;
-      const double r = range(pose.yaw_rad + bearing_rad);
-      if (r < 30.0) points.push_back((r * Point(std::cos(bearing_rad), std::sin(bearing_rad))).cast<float>());
-    }
-    return points;
-  }
-
-  /// One scan at the present instant; `wish` is the velocity the intent asks for, in the map frame.
-  AvoidanceDecision sense(const Point& wish_map_m_s) {
-    const std::vector<Eigen::Vector2f> points = scan();
-    std::vector<Eigen::Vector2f> points_map;
-    for (const auto& p : points) points_map.push_back((pose * Point(p.cast<double>())).cast<float>());
-    if (live_map && ++scans_ % 4 == 0) mapScan(points_map);
-    dynamic_.update(now, points_map, pose.position_m(), *background_.at(now));
-    const Eigen::Rotation2Dd to_level(-pose.yaw_rad);
-    return avoidance_.update(
-        {now, points, to_level * velocity_map_m_s, to_level * wish_map_m_s, pose, &map_, dynamic_.obstacles()});
-  }
-
-  /// Senses, obeys with the acceleration it has, and lets time pass. Returns the smallest gap to anyone.
-  AvoidanceDecision tick(const Point& wish_map_m_s) {
-    AvoidanceDecision decision = sense(wish_map_m_s);
-    Point target = wish_map_m_s;
-    if (target.norm() > decision.speed_limit_m_s) target = target.normalized() * decision.speed_limit_m_s;
-    if (decision.retreat_velocity_level_m_s)
-      target = Eigen::Rotation2Dd(pose.yaw_rad) * *decision.retreat_velocity_level_m_s;
-    delayed_.push_back(target);
-    if (delayed_.size() > 4) delayed_.erase(delayed_.begin());
-    const Point change = delayed_.front() - velocity_map_m_s;
-    const double most = 1.2 * kTick_s;
-    velocity_map_m_s += change.norm() > most ? Point(change.normalized() * most) : change;
-    pose.x_m += velocity_map_m_s.x() * kTick_s;
-    pose.y_m += velocity_map_m_s.y() * kTick_s;
-    for (Person& person : people) person.place_map_m += person.velocity_map_m_s * kTick_s;
-    now += Duration::fromSeconds(kTick_s);
-    for (const Person& person : people)
-      least_gap_m = std::min(least_gap_m, (person.place_map_m - pose.position_m()).norm() - person.radius_m - kHull_m);
-    least_wall_m = std::min(least_wall_m, truth_.obstacleDistance_m(truth_.cellAt(pose.position_m())) - kHull_m);
-    retreats += decision.status.retreating && !was_retreating_;
-    was_retreating_ = decision.status.retreating;
-    return decision;
-  }
-
-  Pose2 pose{5.0, 4.0, 0.0};
-  Point velocity_map_m_s = Point::Zero();
-  std::vector<Person> people;
-  std::vector<Person> poles;
-  Time now = Time::fromSeconds(10.0);
-  double least_gap_m = 1e9;
-  double least_wall_m = 1e9;
-  int retreats = 0;
-  bool live_map = false;
-  int beams = 1081;
-  const CostMap& map() const { return map_; }
-
- private:
-  double toDisc(const Point& center_m, double radius_m, const Point& u) const {
-    const Point to = center_m - pose.position_m();
-    const double ahead_m = to.dot(u), aside2 = to.squaredNorm() - ahead_m * ahead_m;
-    if (ahead_m <= 0.0 || aside2 >= radius_m * radius_m) return 30.0;
-    return ahead_m - std::sqrt(radius_m * radius_m - aside2);
-  }
-
-  common::OccupancyGrid grid_;
-  std::shared_ptr<const common::OccupancyGrid> snapshot_;
-  CostMap map_;
-  CostMap truth_;
-  Avoidance avoidance_;
-  Avoidance::Config config_;
-  BackgroundMap background_;
-  DynamicObstacles dynamic_{DynamicObstacles::Config()};
-  std::vector<Point> delayed_;
-  bool was_retreating_ = false;
-  int scans_ = 0;
-};
 
 TEST(Avoidance, NothingNearNothingLimited) {
   Story story;

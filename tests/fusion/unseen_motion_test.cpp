@@ -1,0 +1,128 @@
+// The error-state filter where no scan sees how the vehicle moves: the guess, the drag, a given pose.
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "tests/fusion/synthetic_flight.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Duration;
+using common::Time;
+
+/// In a corridor a matcher gives back the guess. Taken for a measurement, again and again, it would make certain what
+/// nobody saw.
+TEST(ErrorStateFilter, WhatNoScanSawIsNotTakenIn) {
+  const Time from = Time::fromSeconds(0.7);
+  const auto fly = [&](double along_m, bool unseen) {
+    ErrorStateFilter filter({});
+    for (int i = 0; i <= 2000; ++i) {
+      common::ImuSample sample;
+      sample.stamps.measured = sample.stamps.arrived = Time::fromSeconds(0.005 * i);
+      sample.specific_force_body_m_s2 = {0.0, 0.0, 9.81};
+      filter.predict(sample);
+      if (i == 130) {
+        EXPECT_TRUE(filter.initialize(0.15));
+      }
+      if (i == 150) {
+        EXPECT_EQ(filter.addClone(from), Insertion::kTaken);
+      }
+      if (i <= 150 || i % 20 != 0) continue;
+      const Eigen::Matrix3d covariance = Eigen::Vector3d(1.0, 1e-4, 1e-6).asDiagonal();
+      const auto direction = unseen ? std::optional<Eigen::Vector2d>(Eigen::Vector2d::UnitX()) : std::nullopt;
+      EXPECT_EQ(filter.addRelativePose(from, sample.stamps.measured, {along_m, 0.0, 0.0}, covariance, direction),
+                Insertion::kTaken);
+    }
+    return filter.state();
+  };
+  const auto right = fly(0.0, true), wrong = fly(3.0, true), believed = fly(0.0, false);
+  EXPECT_EQ(right.T_odom_body.position_m, wrong.T_odom_body.position_m);
+  EXPECT_EQ(right.position_covariance_m2, wrong.position_covariance_m2);
+  EXPECT_LT(right.position_covariance_m2(1, 1), 1e-3);
+  EXPECT_GT(right.position_covariance_m2(0, 0), 2.0 * believed.position_covariance_m2(0, 0));
+  EXPECT_TRUE(right.horizontal_valid);
+}
+
+/// 20 s at 0.7 m/s, of which the laser sees the first six: the drag that was learned there holds the speed after. The
+/// accelerometer has a bias that nobody gave.
+TEST(ErrorStateFilter, DragHoldsTheSpeedThatNoScanSees) {
+  constexpr double kDrag_1_s = 0.18, kBias_m_s2 = 0.06, kSpeed_m_s = 0.7, kStart_s = 3.0, kSeen_s = 9.0;
+  const auto speedAt = [&](double t) { return std::clamp(0.7 * (t - kStart_s), 0.0, kSpeed_m_s); };
+  const auto errorAtEnd = [&](bool use_drag) {
+    ErrorStateFilter::Config config;
+    config.use_drag = use_drag;
+    ErrorStateFilter filter(config);
+    common::RandomStream random(5, "drag");
+    double x_m = 0.0, learned_1_s = 0.0;
+    Time reference;
+    double reference_x_m = 0.0;
+    for (int i = 0; i <= 4600; ++i) {
+      const double t = 0.005 * i, speed = speedAt(t), acceleration = (speedAt(t + 0.005) - speed) / 0.005;
+      // It leans just as far as drag and acceleration ask for.
+      const double lean_rad = std::asin((acceleration + kDrag_1_s * speed) / 9.81);
+      const double lean_after_rad =
+          std::asin(((speedAt(t + 0.01) - speedAt(t + 0.005)) / 0.005 + kDrag_1_s * speedAt(t + 0.005)) / 9.81);
+      common::ImuSample sample;
+      sample.stamps.measured = sample.stamps.arrived = Time::fromSeconds(t);
+      sample.rotation_ahrs_body = common::quaternionFrom({0.0, lean_rad, 0.0});
+      sample.angular_velocity_body_rad_s = {0.0, (lean_after_rad - lean_rad) / 0.005, 0.0};
+      sample.specific_force_body_m_s2 = {kBias_m_s2 - kDrag_1_s * speed + random.gaussian(0.08), random.gaussian(0.08),
+                                         9.81 * std::cos(lean_rad) + random.gaussian(0.08)};
+      filter.setAtRest(t < 1.0);
+      filter.predict(sample);
+      if (i == 130) {
+        EXPECT_TRUE(filter.initialize(0.15));
+      }
+      if (i >= 150 && i % 20 == 0) {
+        if (i > 150 && t <= kSeen_s)
+          (void)filter.addRelativePose(reference, sample.stamps.measured,
+                                       {x_m - reference_x_m + random.gaussian(0.004), 0.0, 0.0},
+                                       Eigen::Vector3d(2e-5, 2e-5, 1e-5).asDiagonal());
+        else if (i > 150)
+          (void)filter.addRelativePose(reference, sample.stamps.measured, {},
+                                       Eigen::Vector3d(1, 2e-5, 1e-5).asDiagonal(),
+                                       Eigen::Vector2d(Eigen::Vector2d::UnitX()));
+        (void)filter.addHeight(sample.stamps.measured, 0.15, 1e-4);
+        if (i % 100 == 0 || reference == Time{}) {
+          (void)filter.addClone(sample.stamps.measured);
+          reference = sample.stamps.measured;
+          reference_x_m = x_m;
+        }
+      }
+      if (t < kSeen_s) learned_1_s = filter.drag_1_s();
+      x_m += 0.005 * 0.5 * (speed + speedAt(t + 0.005));
+    }
+    if (use_drag) {
+      EXPECT_NEAR(learned_1_s, kDrag_1_s, 0.05);
+    }
+    return std::abs(filter.state().T_odom_body.position_m.x() - x_m);
+  };
+  const double with_drag_m = errorAtEnd(true), without_m = errorAtEnd(false);
+  std::printf("14 s unseen at 0.7 m/s: %.2f m off with the drag, %.2f m without\n", with_drag_m, without_m);
+  EXPECT_LT(with_drag_m, 0.8);
+  EXPECT_LT(with_drag_m, 0.5 * without_m);
+}
+
+TEST(ErrorStateFilter, AbsolutePosesRemoveDrift) {
+  SyntheticFlight flight(14, 20.0);
+  flight.reference_every_s = 0.05;  // Much drift.
+  const auto imu = flight.imuSamples();
+  auto deliveries = flight.deliveries();
+  for (double t = 8.0; t < 20.0; t += 1.0) {
+    const auto pose = planar(flight.motion.pose(t));
+    const Time at = Time::fromSeconds(t);
+    deliveries.push_back({at + Duration::fromSeconds(0.3), 9, [=](ErrorStateFilter& f) {
+                            EXPECT_EQ(f.addAbsolutePose2(at, pose, 1e-4 * Eigen::Matrix3d::Identity()),
+                                      Insertion::kTaken);
+                          }});
+  }
+  ErrorStateFilter filter(withoutDrag());
+  feed(filter, imu, deliveries, flight.restUntil());
+  const auto state = filter.state();
+  const Truth truth = flight.motion.truth(state.stamp.seconds());
+  EXPECT_LT((state.T_odom_body.position_m - truth.T_odom_body.position_m).norm(), 0.08);
+}
+
+}  // namespace
+}  // namespace swiftlet::perception

@@ -1,0 +1,154 @@
+// How scans are drawn into the grid of the map.
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "common/random.hpp"
+#include "perception/slam2d/sliced_map.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::CellIndex;
+using common::Pose2;
+
+DrawnScan around(double radius_m, int beams) {
+  DrawnScan scan;
+  for (int i = 0; i < beams; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / beams;
+    scan.hits_level_m.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle), 0.0);
+  }
+  return scan;
+}
+
+TEST(GridDrawing, FreeInsideOccupiedAtTheEndUnknownBeyond) {
+  const GridDrawingConfig config;
+  SlicedMap map(config);
+  const Pose2 pose{0.51, -0.32, 0.4};
+  for (int i = 0; i < 3; ++i) map.draw(around(2.0, 720), pose);
+  const common::OccupancyGrid grid = map.atFlightHeight();
+  int occupied = 0;
+  grid.forEachCell([&](CellIndex c, common::occupancy::Cell value) {
+    const double range_m = (grid.centerOf(c) - pose.position_m()).norm();
+    EXPECT_TRUE(range_m > 1.9 || common::occupancy::isFree(value)) << c.x << ' ' << c.y;
+    EXPECT_TRUE(range_m < 2.1 || common::occupancy::isUnknown(value)) << c.x << ' ' << c.y;
+    occupied += common::occupancy::isOccupied(value) ? 1 : 0;
+  });
+  EXPECT_GT(occupied, 200);  // 2 pi 2 m / 5 cm = 251 cells.
+}
+
+TEST(GridDrawing, AWalkerIsClearedAgain) {
+  const GridDrawingConfig config;
+  SlicedMap map(config);
+  DrawnScan person = around(3.0, 720);
+  for (Eigen::Vector3f& p : person.hits_level_m)
+    if (std::abs(std::atan2(p.y(), p.x())) < 0.15F) p *= 0.5F;
+  for (int i = 0; i < 50; ++i) map.draw(person, {});
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  EXPECT_EQ(where(), config.max_steps);  // Capped, however long they stood there.
+  int scans = 0;
+  for (; common::occupancy::isOccupied(where()) && scans < 100; ++scans) map.draw(around(3.0, 720), {});
+  EXPECT_LE(scans, 12);
+}
+
+TEST(GridDrawing, WhatDoesNotChangeStaysShared) {
+  const GridDrawingConfig config;
+  SlicedMap map(config);
+  for (int i = 0; i < 30; ++i) map.draw(around(1.0, 360), {});
+  const common::OccupancyGrid before = map.atFlightHeight();
+  map.draw(around(1.0, 360), {});
+  EXPECT_EQ(before.tileIdentity({0, 0}), map.atFlightHeight().tileIdentity({0, 0}));
+}
+
+/// A wall of 3 m around, and in front of it something lower, which beams meet that point `below_m` down.
+DrawnScan over(double below_m, double body_height_m) {
+  DrawnScan scan = around(3.0, 720);
+  scan.body_height_m = body_height_m;
+  for (Eigen::Vector3f& p : scan.hits_level_m) {
+    const bool ahead = std::abs(std::atan2(p.y(), p.x())) < 0.2F;
+    if (ahead && below_m > 0.0) p *= 0.5F;
+    if (ahead) p.z() = static_cast<float>(-below_m);
+  }
+  return scan;
+}
+
+TEST(GridDrawing, LevelBeamsDoNotEraseWhatIsLower) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  for (int i = 0; i < 10; ++i) map.draw(over(0.0, 1.0), {});
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+  map.draw(over(0.15, 1.0), {});  // A nod, one scan long.
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  // Long enough to be met again on the way there; a trace that never is goes in the end.
+  for (int i = 0; i < 50; ++i) map.draw(over(0.0, 1.0), {});
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  for (int i = 0; i < 50; ++i) map.draw(over(0.0, 1.0), {});
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+  // Just below the level beams it goes sooner: they dip there now and then.
+  map.draw(over(0.06, 1.0), {});
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  for (int i = 0; i < 25; ++i) map.draw(over(0.0, 1.0), {});
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+}
+
+/// What was kept up cell by cell while drawing is what all slices give when they are combined anew.
+TEST(GridDrawing, TheMapAtFlightHeightIsThatOfItsSlices) {
+  common::RandomStream random(1, "slices");
+  SlicedMap map{GridDrawingConfig{}};
+  for (int i = 0; i < 300; ++i) {
+    DrawnScan scan = around(random.uniform(1.0, 3.0), 360);
+    scan.body_height_m = random.uniform(0.7, 1.3);
+    for (Eigen::Vector3f& p : scan.hits_level_m) p.z() = static_cast<float>(random.uniform(-0.4, 0.4));
+    map.draw(scan, {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-3.0, 3.0)});
+    if (i % 20 != 0) continue;
+    const common::OccupancyGrid kept_up = map.atFlightHeight();
+    ASSERT_TRUE(map.setFlightHeight(5.0));
+    ASSERT_TRUE(map.setFlightHeight(1.0));
+    const common::OccupancyGrid anew = map.atFlightHeight();
+    int known = 0, different = 0;
+    anew.forEachCell([&](CellIndex c, common::occupancy::Cell value) {
+      known += common::occupancy::isUnknown(value) ? 0 : 1;
+      if (i > 0) different += value == kept_up.at(c) ? 0 : 1;  // The first flight height is that of the first scan.
+    });
+    EXPECT_GT(known, 500);
+    EXPECT_EQ(different, 0) << "after " << i + 1 << " scans";
+  }
+}
+
+TEST(GridDrawing, WhatIsFarBelowTheHullIsNotInItsWayUntilItSinks) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  for (int i = 0; i < 3; ++i) map.draw(over(0.0, 0.6), {});
+  for (int i = 0; i < 3; ++i) map.draw(over(0.01, 0.6), {});  // Something as high as 0.6 m.
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  EXPECT_TRUE(map.setFlightHeight(1.4));
+  for (int i = 0; i < 3; ++i) map.draw(over(0.0, 1.4), {});  // From far above it.
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+  map.draw(over(0.4, 1.4), {});  // A view that ends far below says that the hull's height is free.
+  EXPECT_TRUE(common::occupancy::isFree(where()));
+  EXPECT_TRUE(map.setFlightHeight(0.6));
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+}
+
+TEST(GridDrawing, ThinsAndBoundsWhatItKeeps) {
+  const GridDrawingConfig config;
+  ProjectedScan scan;
+  for (int i = 0; i < 1000; ++i) scan.points_level_m.emplace_back(1.0F, 0.001F * static_cast<float>(i));
+  scan.points_level_m.emplace_back(100.0F, 0.0F);
+  scan.points_level_m.emplace_back(3.0F, 0.0F);
+  scan.heights_level_m.assign(1001, 0.0F);
+  scan.heights_level_m.push_back(1.5F);  // Far above the body.
+  scan.misses_level_m = {{0.0F, 30.0F, 0.0F}, {std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F}};
+  const DrawnScan drawn = thinForDrawing(scan, config);
+  EXPECT_LT(drawn.hits_level_m.size(), 60U);
+  ASSERT_EQ(drawn.free_level_m.size(), 3U);
+  EXPECT_NEAR(drawn.free_level_m[0].norm(), config.max_hit_range_m, 1e-3);
+  EXPECT_NEAR(drawn.free_level_m[1].z(), config.max_height_above_m, 1e-6);  // Free as long as it was in the hull's way.
+  EXPECT_NEAR(drawn.free_level_m[1].x(), 3.0 * config.max_height_above_m / 1.5, 1e-6);
+  EXPECT_NEAR(drawn.free_level_m[2].norm(), config.max_free_range_m, 1e-3);
+}
+
+}  // namespace
+}  // namespace swiftlet::perception
