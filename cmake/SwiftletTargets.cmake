@@ -43,11 +43,12 @@ function(swiftlet_publish name folder)
   set_property(GLOBAL APPEND PROPERTY SWIFTLET_LIBRARIES swiftlet_${name})
 endfunction()
 
-# swiftlet_tests(NAME [DEPENDS targets...] [LABELS labels...] [TIMEOUT seconds])
+# swiftlet_tests(NAME [DEPENDS targets...] [SLOW filter | QUICK filter] [TIMEOUT seconds])
 #   One GoogleTest program test_NAME of every *_test.cpp in tests/NAME; each test of it is a ctest test. What most test
-#   programs read is precompiled by test_precompiled (tests/CMakeLists.txt).
+#   programs read is precompiled by test_precompiled (tests/CMakeLists.txt). Each test has the label NAME and one of two
+#   more: `slow` what SLOW names (or all that QUICK does not), `quick` the others; all quick ones take a minute together.
 function(swiftlet_tests name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "QUICK;SLOW;TIMEOUT" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/${name}/*.cpp")
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
@@ -60,6 +61,21 @@ function(swiftlet_tests name)
     set(ARG_TIMEOUT 300)
   endif()
   math(EXPR timeout "${ARG_TIMEOUT} * ${SWIFTLET_TEST_PATIENCE}")
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${name};${ARG_LABELS}" TIMEOUT ${timeout})
+  if(ARG_QUICK)
+    set(quick "${ARG_QUICK}")
+    set(slow "-${ARG_QUICK}")
+  elseif(ARG_SLOW)
+    set(quick "-${ARG_SLOW}")
+    set(slow "${ARG_SLOW}")
+  else()
+    set(quick "*")
+    set(slow "")
+  endif()
+  foreach(pace quick slow)
+    if(${pace})
+      gtest_discover_tests(test_${name} TEST_PREFIX "${name}." TEST_FILTER "${${pace}}" TEST_LIST ${name}_${pace}
+                           DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+                           PROPERTIES LABELS "${name};${pace}" TIMEOUT ${timeout})
+    endif()
+  endforeach()
 endfunction()

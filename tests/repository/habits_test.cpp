@@ -5,6 +5,7 @@
 #include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -13,8 +14,10 @@
 namespace swiftlet::repository {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
@@ -84,6 +87,44 @@ TEST(Files, LibrariesTakeNoTimeChanceOrThreadsOfTheirOwn) {
     }
   }
   EXPECT_THAT(found, IsEmpty()) << joined(found);
+}
+
+TEST(Files, AreNotLong) {
+  const std::set<std::string> not_yet_parted = {"autonomy/executor.cpp", "perception/localization/localizer.cpp",
+                                                "perception/scan_matching/correlative_matcher.cpp",
+                                                "perception/slam2d/slam2d.cpp", "tests/simulation/vehicle_test.cpp"};
+  for (const auto& [path, text] : trackedFiles()) {
+    if (!endsWithAny(path, {".cpp", ".hpp", ".js", ".mjs", ".css", ".sh"}) || not_yet_parted.contains(path)) continue;
+    EXPECT_LE(linesOf(text).size(), 400U) << path << ": two subjects are two files";
+  }
+}
+
+/// What is wrong with the names of the tests in a file: "line: text".
+std::vector<std::string> oddTestNames(const std::string& text) {
+  static const std::regex kBegins("^(TEST(_F|_P)?|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\\(.*");
+  static const std::regex kNamed("^[A-Z_]+\\([A-Z][A-Za-z0-9]*, ?([A-Z][A-Za-z0-9]*[,)].*|$)");
+  std::vector<std::string> found;
+  int number = 0;
+  for (const std::string& line : linesOf(text)) {
+    ++number;
+    if (std::regex_match(line, kBegins) && !std::regex_match(line, kNamed))
+      found.push_back(std::to_string(number) + ": " + line);
+  }
+  return found;
+}
+
+TEST(Files, TestsAreNamedInOneCase) {
+  for (const auto& [path, text] : trackedFiles()) {
+    if (!path.starts_with("tests/") || !path.ends_with(".cpp") || path == "tests/repository/habits_test.cpp") continue;
+    const std::vector<std::string> found = oddTestNames(text);
+    EXPECT_THAT(found, IsEmpty()) << path << ": tests are named LikeThis\n" << joined(found);
+  }
+}
+
+TEST(Files, APlantedTestNameInAnotherCaseIsCaught) {
+  EXPECT_THAT(oddTestNames("TEST(Room, SaysSo) {\nRC_GTEST_PROP(Room, SaysSo, ()) {\nTEST_F(Room,\n"), IsEmpty());
+  EXPECT_THAT(oddTestNames("TEST(Room, saysSo) {\n"), SizeIs(1));
+  EXPECT_THAT(oddTestNames("\nTEST_P(Room, Says_so) {\n"), ElementsAre("2: TEST_P(Room, Says_so) {"));
 }
 
 std::string withoutComments(std::string page) {
