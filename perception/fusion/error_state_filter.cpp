@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include <fmt/core.h>
-#include <Eigen/Eigenvalues>
 
+#include "common/small_matrices.hpp"
 #include "common/square.hpp"
 #include "perception/fusion/rest_estimator.hpp"
 #include "perception/fusion/state_history.hpp"
@@ -24,7 +24,7 @@ constexpr double kUnitTolerance = 1e-3;  // NaN is beyond it.
 
 bool isCovariance(const Eigen::Matrix3d& m) {
   if (!m.allFinite() || !m.isApprox(m.transpose(), 1e-6)) return false;
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() > 0.0;
+  return common::symmetricEigenvalues(m).minCoeff() > 0.0;
 }
 
 /// Position and yaw are the origin by definition. Tilt and accelerometer bias share what gravity shows: start wide and

@@ -1,7 +1,8 @@
 #include "perception/laser_odometry/laser_front_end.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "common/small_matrices.hpp"
 
 #include "perception/laser_odometry/scan_clock.hpp"
 
@@ -15,8 +16,8 @@ constexpr double kWindowSigmas = 4.0;
 
 /// The part of a symmetric matrix that is positive.
 Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
+  const common::SymmetricEigen<3> eigen = common::symmetricEigen(matrix);
+  return eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
 }
 
 /// A direction in the frame of the robot, with the axes of the reference.

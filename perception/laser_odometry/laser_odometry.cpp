@@ -5,9 +5,8 @@
 #include <deque>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "common/config_fields.hpp"
+#include "common/small_matrices.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::perception {
@@ -267,9 +266,9 @@ bool LaserOdometry::Impl::shouldJoin(const RelativePose& relative, const Project
                                      const MatchResult& match) const {
   const bool far = relative.T_from_to.position_m().norm() > config.max_reference_distance_m ||
                    std::abs(relative.T_from_to.yaw_rad) > config.max_reference_rotation_deg * kRadPerDeg;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> position(match.covariance.topLeftCorner<2, 2>().eval(),
-                                                                Eigen::EigenvaluesOnly);
-  const bool weak = position.eigenvalues()(1) > config.weak_sigma_m * config.weak_sigma_m;
+  const Eigen::Vector2d position =
+      common::symmetricEigenvalues(Eigen::Matrix2d(match.covariance.topLeftCorner<2, 2>()));
+  const bool weak = position(1) > config.weak_sigma_m * config.weak_sigma_m;
   if (!far && match.quality >= config.min_fit && match.overlap >= (weak ? config.min_weak_overlap : config.min_overlap))
     return false;
   const bool tilted = common::cosTilt(scan.T_odom_body.rotation) < std::cos(config.level_tilt_deg * kRadPerDeg);

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
 #include "common/check.hpp"
 #include "perception/laser_odometry/unknown_step.hpp"
+#include "perception/localization/greatest_sigma.hpp"
 #include "perception/localization/localization_task_data.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/pose_tracker.hpp"
@@ -23,14 +22,6 @@ namespace {
 /// How far particles are spread about a place that was found: what its search left open.
 const Eigen::Matrix3d kPlaceCovariance =
     Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 1.0 * kRadPerDeg * 1.0 * kRadPerDeg).asDiagonal();
-
-/// Infinity where the covariance is none.
-double sigma_m(const Eigen::Matrix3d& covariance) {
-  if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> position(covariance.topLeftCorner<2, 2>().eval(),
-                                                                Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, position.eigenvalues()(1)));
-}
 
 }  // namespace
 
@@ -140,7 +131,7 @@ void Localizer::Impl::track(const LocalizationInput& input) {
   if (input.fresh && tracker.generationDue(input.T_odom_body)) tracker.generate(input.scan);
   if (tracker.onlyGiven()) return;
   doubt(input);
-  const double uncertain_m = sigma_m(tracker.covariance());
+  const double uncertain_m = greatestSigma_m(tracker.covariance());
   if (state == LocalizationState::kLocalized && !(uncertain_m <= config.max_sigma_m))
     lose(fmt::format("the pose is uncertain by {:.1f} m", uncertain_m));
 }
@@ -324,21 +315,6 @@ Localizer::Localizer(const common::OccupancyGrid& grid, const Pose2& T_map_grid,
 Localizer::~Localizer() = default;
 Localizer::Localizer(Localizer&&) noexcept = default;
 Localizer& Localizer::operator=(Localizer&&) noexcept = default;
-
-std::string Localizer::whyUnusable(const common::OccupancyGrid& map) {
-  const common::CellRect known = common::knownExtent(map);
-  if (static_cast<std::int64_t>(known.width()) * known.height() > MapField::kMaxCells)
-    return fmt::format("what is known of the map spans {} x {} cells: at most {} million can be localized in",
-                       known.width(), known.height(), MapField::kMaxCells / 1'000'000);
-  bool walls = false, free = false;
-  map.forEachCell([&](common::CellIndex, common::occupancy::Cell cell) {
-    walls |= common::occupancy::isOccupied(cell);
-    free |= common::occupancy::isFree(cell);
-  });
-  if (!free) return "the map has no free cells: a vehicle can be nowhere in it";
-  if (!walls) return "the map has no occupied cells: there is nothing to see in it";
-  return "";
-}
 
 void Localizer::startAt(const Pose2& T_map_body, const Eigen::Matrix3d& covariance) {
   Impl& self = *impl_;

@@ -5,10 +5,9 @@
 #include <numbers>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
-
 #include "common/check.hpp"
 #include "common/config_fields.hpp"
+#include "common/small_matrices.hpp"
 #include "common/validation.hpp"
 #include "perception/localization/beam_sums.hpp"
 #include "perception/localization/evenly_spread.hpp"
@@ -33,8 +32,8 @@ float noise(common::RandomStream& random) {
 
 /// A matrix L with L L^T = covariance; also where the covariance is singular.
 Eigen::Matrix3f rootOf(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
-  return (eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal()).cast<float>();
+  const common::SymmetricEigen<3> eigen = common::symmetricEigen(covariance);
+  return (eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal()).cast<float>();
 }
 
 }  // namespace

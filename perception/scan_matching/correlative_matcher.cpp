@@ -1,17 +1,16 @@
 #include "perception/scan_matching/correlative_matcher.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
+#include "common/small_matrices.hpp"
 #include "perception/scan_matching/branch_and_bound.hpp"
 #include "perception/scan_matching/likelihood_field.hpp"
 #include "perception/scan_matching/reference_view.hpp"
+#include "perception/scan_matching/resolution_mean.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 #include "perception/scan_matching/score_grid.hpp"
 #include "perception/scan_matching/score_surface.hpp"
@@ -192,48 +191,15 @@ Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& 
   return covariance;
 }
 
-/// The best pose of a coarser level is that of the mean scores of its blocks, blocks lying on the grid of the search: a
-/// likelihood field of that resolution, sampled at that resolution.
 Eigen::Vector3d CorrelativeMatcher::Impl::weightedMean(const SplitPoints& points, const PoseGrid& grid,
                                                        const BestPose& best) {
-  constexpr int kHalf = 7;
-  constexpr int kRotations = 4;
+  constexpr int kHalf = ResolutionMean::kHalf, kRotations = ResolutionMean::kRotations;
   const Pose2 finest = poseAt(grid, best);
-  std::array<std::vector<std::uint32_t>, 2 * kRotations + 1> windows;
-  const auto scores = windows.begin() + kRotations;  // From -kRotations to +kRotations.
+  ResolutionMean mean;
   for (int k = -kRotations; k <= kRotations; ++k)
-    addWindows(points, finest, finest.yaw_rad + k * grid.step_yaw_rad, kHalf, 2 * kHalf + 1, scores[k]);
-
-  // Wider, the coarse levels' own quantization outweighs what their averaging gains.
-  const double spread_m = 0.5 * config.resolution_m;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double weights = 0.0;
-  for (int level = 0; level < config.levels; ++level) {
-    const int block = 1 << level;
-    std::uint64_t top = 0;
-    Eigen::Vector3d estimate = Eigen::Vector3d::Zero();  // From the finest pose, in cells and rotation steps.
-    for (int k = -kRotations; k <= kRotations; ++k) {
-      if ((best.rotation + k) % block != 0) continue;
-      const std::vector<std::uint32_t>& window = scores[k];
-      for (int y0 = -kHalf; y0 + block - 1 <= kHalf; ++y0) {
-        if ((best.y + y0) % block != 0) continue;
-        for (int x0 = -kHalf; x0 + block - 1 <= kHalf; ++x0) {
-          if ((best.x + x0) % block != 0) continue;
-          std::uint64_t score = 0;
-          for (int y = y0; y < y0 + block; ++y)
-            for (int x = x0; x < x0 + block; ++x) score += window[windowIndex(x + kHalf, y + kHalf)];
-          if (score <= top) continue;
-          top = score;
-          estimate = Eigen::Vector3d(x0 + 0.5 * (block - 1), y0 + 0.5 * (block - 1), k);
-        }
-      }
-    }
-    const double distance_m = estimate.head<2>().norm() * config.resolution_m;
-    const double weight = std::exp(-0.5 * distance_m * distance_m / (spread_m * spread_m));
-    sum += weight * estimate;
-    weights += weight;
-  }
-  return (sum / weights).cwiseProduct(Eigen::Vector3d(config.resolution_m, config.resolution_m, grid.step_yaw_rad));
+    addWindows(points, finest, finest.yaw_rad + k * grid.step_yaw_rad, kHalf, 2 * kHalf + 1, mean.scores(k));
+  return mean.of(best, config.levels, config.resolution_m)
+      .cwiseProduct(Eigen::Vector3d(config.resolution_m, config.resolution_m, grid.step_yaw_rad));
 }
 
 BestPose CorrelativeMatcher::Impl::searchGrid(const std::vector<Eigen::Vector2f>& points, const PoseGrid& grid) {
@@ -249,10 +215,11 @@ void CorrelativeMatcher::Impl::addSpreadElsewhere(const BestPose& best, double l
                                                   const Eigen::Vector3d& step, const ExpectedPose& expected,
                                                   Peak& peak) const {
   peak.covariance += step.asDiagonal() * all_scores.spreadElsewhere(best, log_per_score) * step.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(peak.covariance.topLeftCorner<2, 2>().eval());
+  const common::SymmetricEigen<2> spread =
+      common::symmetricEigen(Eigen::Matrix2d(peak.covariance.topLeftCorner<2, 2>()));
   const double unseen_m = config.unobservable_sigma_m;
-  if (!peak.unobservable_direction && spread.eigenvalues()(1) > unseen_m * unseen_m)
-    holdAlong(spread.eigenvectors().col(1), expected, peak);
+  if (!peak.unobservable_direction && spread.values(1) > unseen_m * unseen_m)
+    holdAlong(spread.vectors.col(1), expected, peak);
 }
 
 /// The spread (m^2) about `center` of the places along `axis` that score about as well: a likelihood tempered so that a
@@ -313,11 +280,11 @@ double CorrelativeMatcher::Impl::surfaceStep_rad(const std::vector<Eigen::Vector
 void CorrelativeMatcher::Impl::distrustUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen,
                                                const SplitPoints& surface_points, const Pose2& finest,
                                                const ExpectedPose& expected, Peak& peak) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(
+  const common::SymmetricEigen<2> normals = common::symmetricEigen(
       normalSpread(all_points.x_m, all_points.y_m, config.only_seen ? seen : std::vector<bool>{}));
-  const Eigen::Vector2d axis = Eigen::Rotation2Dd(finest.yaw_rad) * normals.eigenvectors().col(0);
-  if (normals.eigenvalues()(0) < config.min_normal_spread) holdAlong(axis, expected, peak);
-  if (config.profile_half_m > 0.0 && normals.eigenvalues()(0) < kProfiledSpread)
+  const Eigen::Vector2d axis = Eigen::Rotation2Dd(finest.yaw_rad) * normals.vectors.col(0);
+  if (normals.values(0) < config.min_normal_spread) holdAlong(axis, expected, peak);
+  if (config.profile_half_m > 0.0 && normals.values(0) < kProfiledSpread)
     peak.covariance.topLeftCorner<2, 2>() += profileVariance(surface_points, finest, axis) * axis * axis.transpose();
 }
 

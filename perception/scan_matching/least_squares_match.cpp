@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "common/config_fields.hpp"
+#include "common/small_matrices.hpp"
 #include "perception/scan_matching/scan_contour.hpp"
 
 namespace swiftlet::perception {
@@ -64,8 +63,8 @@ LeastSquaresMatch::LeastSquaresMatch(const LeastSquaresMatcherConfig& config, st
     y_m.push_back(p.point_m.y());
   }
   lever_m_ = std::max(kLeastLever_m, std::sqrt(lever2 / static_cast<double>(points_.size())));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normals(normalSpread(x_m, y_m));
-  if (normals.eigenvalues()(0) < config_.min_normal_spread) held_level_ = normals.eigenvectors().col(0);
+  const common::SymmetricEigen<2> normals = common::symmetricEigen(normalSpread(x_m, y_m));
+  if (normals.values(0) < config_.min_normal_spread) held_level_ = normals.vectors.col(0);
 }
 
 std::optional<Eigen::Vector2d> LeastSquaresMatch::heldDirection(double yaw_rad) const {
@@ -124,8 +123,7 @@ double LeastSquaresMatch::leastSupport(const NormalEquations& equations, double 
     const Eigen::Vector2d seen = held_level_->unitOrthogonal();
     return seen.dot(supported * seen) / seen.dot(facing * seen);
   }
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(supported, facing, Eigen::EigenvaluesOnly)
-      .eigenvalues()(0);
+  return common::generalizedEigenvalues(supported, facing)(0);
 }
 
 MatchResult LeastSquaresMatch::finish(const NormalEquations& equations, double quality_sum, bool converged,

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include "common/small_matrices.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -21,7 +20,7 @@ constexpr double kLeastSpread_rad = 0.001;
 Eigen::Vector3d mostExpected(const Eigen::Matrix3d& unseen, const Eigen::Vector3d& offset,
                              const Eigen::Vector3d& spread) {
   const Eigen::Matrix3d scaled = spread.cwiseInverse().asDiagonal() * unseen;
-  return unseen * scaled.completeOrthogonalDecomposition().solve(offset.cwiseQuotient(spread));
+  return unseen * common::leastNormSolution(scaled, offset.cwiseQuotient(spread));
 }
 
 }  // namespace
@@ -38,13 +37,13 @@ Peak findPeak(const Quadratic& q, const PeakScale& scale, const ExpectedPose& ex
   const double unseen_information = 1.0 / (kUnseenSigma_m * kUnseenSigma_m);
 
   // In units of one step, where all three axes move the points by about as much.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(-q.hessian);
+  const common::SymmetricEigen<3> eigen = common::symmetricEigen(Eigen::Matrix3d(-q.hessian));
   Eigen::Vector3d peak_steps = Eigen::Vector3d::Zero();
   Eigen::Matrix3d unseen = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d covariance_steps = Eigen::Matrix3d::Zero(), peak_of_gradient = Eigen::Matrix3d::Zero();
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d axis = eigen.eigenvectors().col(i);
-    const double curvature = eigen.eigenvalues()(i);
+    const Eigen::Vector3d axis = eigen.vectors.col(i);
+    const double curvature = eigen.values(i);
     const double information = std::max(curvature * scale.information_per_curvature, unseen_information);  // 1 / m^2
     covariance_steps += axis * axis.transpose() / (information * step2);
     if (information * scale.unobservable_sigma_m * scale.unobservable_sigma_m > 1.0) {
@@ -65,9 +64,10 @@ Peak findPeak(const Quadratic& q, const PeakScale& scale, const ExpectedPose& ex
   peak.covariance = step.asDiagonal() * covariance_steps * step.asDiagonal();
   peak.covariance.diagonal() +=
       Eigen::Vector3d(kFloorSigma_m * kFloorSigma_m, kFloorSigma_m * kFloorSigma_m, kFloorSigma_rad * kFloorSigma_rad);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> translation(peak.covariance.topLeftCorner<2, 2>().eval());
-  if (translation.eigenvalues()(1) > scale.unobservable_sigma_m * scale.unobservable_sigma_m)
-    peak.unobservable_direction = translation.eigenvectors().col(1);
+  const common::SymmetricEigen<2> translation =
+      common::symmetricEigen(Eigen::Matrix2d(peak.covariance.topLeftCorner<2, 2>()));
+  if (translation.values(1) > scale.unobservable_sigma_m * scale.unobservable_sigma_m)
+    peak.unobservable_direction = translation.vectors.col(1);
   return peak;
 }
 

@@ -106,6 +106,47 @@ void drawReference(const SlamGraph& graph, const std::vector<int>& keys, const C
   }
 }
 
+/// Where in the reach of the candidate's uncertainty the points fit the reference: the one place on the grid of the
+/// wide search, if there is one, inside the window, and no other nearly as good.
+std::optional<Pose2> searchWidely(const SlamGraph& graph, const std::vector<int>& reference,
+                                  const std::vector<Eigen::Vector2f>& points, const Pose2& believed,
+                                  const LoopCandidate& candidate, const Slam2dConfig& config) {
+  const LoopClosureConfig& loops = config.loops;
+  LikelihoodField field(loops.resolution_m, kWideSigmaCells * loops.resolution_m);
+  drawReference(graph, reference, config.matcher, field);
+  if (field.empty()) return std::nullopt;
+
+  const double half_m = std::clamp(kSigmas * candidate.sigma_m, loops.min_window_m, loops.max_sigma_m);
+  const double half_rad = std::clamp(kSigmas * std::sqrt(candidate.covariance_map(2, 2)),
+                                     loops.min_window_deg * kRadPerDeg, loops.max_window_deg * kRadPerDeg);
+  const int half = static_cast<int>(std::ceil(half_m / loops.resolution_m));
+  const double step_rad = loops.angular_resolution_deg * kRadPerDeg;
+  const int half_turn = static_cast<int>(std::ceil(half_rad / step_rad));
+  const PoseGrid grid{believed.x_m - half * loops.resolution_m,
+                      believed.y_m - half * loops.resolution_m,
+                      believed.yaw_rad - half_turn * step_rad,
+                      step_rad,
+                      2 * half_turn + 1,
+                      2 * half + 1};
+  BranchAndBound wide(bestInstructions());
+  const int poor =
+      static_cast<int>(loops.min_quality * LikelihoodField::kTopValue * static_cast<double>(points.size()));
+  const BestPose best = wide.search(field, points, grid, {}, poor);
+  if (best.score <= poor) return std::nullopt;
+  const auto atEdge = [](int i, int size) { return i == 0 || i == size - 1; };
+  const bool whole_turn = 2.0 * half_rad >= 2.0 * std::numbers::pi;
+  if (atEdge(best.x, grid.translations) || atEdge(best.y, grid.translations) ||
+      (atEdge(best.rotation, grid.rotations) && !whole_turn))
+    return std::nullopt;  // The best is beyond.
+
+  const ExcludedPoses same_place{best, static_cast<int>(loops.distinct_m / loops.resolution_m),
+                                 static_cast<int>(loops.distinct_deg * kRadPerDeg / step_rad)};
+  const int rival = static_cast<int>(loops.max_ambiguity * best.score);
+  if (wide.searchElsewhere(field, points, grid, same_place, rival).score > rival) return std::nullopt;
+  return Pose2{grid.first_x_m + best.x * loops.resolution_m, grid.first_y_m + best.y * loops.resolution_m,
+               grid.first_yaw_rad + best.rotation * step_rad};
+}
+
 }  // namespace
 
 Eigen::Matrix3d edgeCovariance(const Eigen::Matrix3d& covariance, const Slam2dConfig& config) {
@@ -159,46 +200,16 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
       spreadPoints(query_scan.points_level_m, config.matcher.search_points, config.matcher.max_range_m);
   if (static_cast<int>(points.size()) < config.matcher.min_points) return std::nullopt;
 
-  LikelihoodField field(loops.resolution_m, kWideSigmaCells * loops.resolution_m);
-  drawReference(graph, reference, config.matcher, field);
-  if (field.empty()) return std::nullopt;
-
   const Pose2& believed = graph.keys[static_cast<std::size_t>(query)].T_map_body;
-  const double half_m = std::clamp(kSigmas * candidate.sigma_m, loops.min_window_m, loops.max_sigma_m);
-  const double half_rad = std::clamp(kSigmas * std::sqrt(candidate.covariance_map(2, 2)),
-                                     loops.min_window_deg * kRadPerDeg, loops.max_window_deg * kRadPerDeg);
-  const int half = static_cast<int>(std::ceil(half_m / loops.resolution_m));
-  const double step_rad = loops.angular_resolution_deg * kRadPerDeg;
-  const int half_turn = static_cast<int>(std::ceil(half_rad / step_rad));
-  const PoseGrid grid{believed.x_m - half * loops.resolution_m,
-                      believed.y_m - half * loops.resolution_m,
-                      believed.yaw_rad - half_turn * step_rad,
-                      step_rad,
-                      2 * half_turn + 1,
-                      2 * half + 1};
-  BranchAndBound wide(bestInstructions());
-  const int poor =
-      static_cast<int>(loops.min_quality * LikelihoodField::kTopValue * static_cast<double>(points.size()));
-  const BestPose best = wide.search(field, points, grid, {}, poor);
-  if (best.score <= poor) return std::nullopt;
-  const auto atEdge = [](int i, int size) { return i == 0 || i == size - 1; };
-  const bool whole_turn = 2.0 * half_rad >= 2.0 * std::numbers::pi;
-  if (atEdge(best.x, grid.translations) || atEdge(best.y, grid.translations) ||
-      (atEdge(best.rotation, grid.rotations) && !whole_turn))
-    return std::nullopt;  // The best is beyond.
-
-  const ExcludedPoses same_place{best, static_cast<int>(loops.distinct_m / loops.resolution_m),
-                                 static_cast<int>(loops.distinct_deg * kRadPerDeg / step_rad)};
-  const int rival = static_cast<int>(loops.max_ambiguity * best.score);
-  if (wide.searchElsewhere(field, points, grid, same_place, rival).score > rival) return std::nullopt;
+  const std::optional<Pose2> coarse = searchWidely(graph, reference, points, believed, candidate, config);
+  if (!coarse) return std::nullopt;
 
   CorrelativeMatcher fine(config.matcher);
   for (const int key : reference)
     fine.addReference(*graph.keys[static_cast<std::size_t>(key)].scan,
                       graph.keys[static_cast<std::size_t>(key)].T_map_body);
-  const Pose2 coarse{grid.first_x_m + best.x * loops.resolution_m, grid.first_y_m + best.y * loops.resolution_m,
-                     grid.first_yaw_rad + best.rotation * step_rad};
-  const MatchResult match = fine.match(query_scan, coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
+  const double step_rad = loops.angular_resolution_deg * kRadPerDeg;
+  const MatchResult match = fine.match(query_scan, *coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
   if (match.failed || match.quality < loops.min_fine_quality || match.unobservable_direction) return std::nullopt;
   if (lookThroughEachOther(graph, newest, match.T_reference_body * believed.inverse(), reference, config))
     return std::nullopt;

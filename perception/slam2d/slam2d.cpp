@@ -6,12 +6,12 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "common/check.hpp"
 #include "perception/laser_odometry/unknown_step.hpp"
 #include "perception/slam2d/local_reference.hpp"
+#include "perception/slam2d/progress.hpp"
 #include "perception/slam2d/slam_task_data.hpp"
+#include "perception/slam2d/uncertain_pose.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -20,29 +20,11 @@ using common::kRadPerDeg;
 using common::Pose2;
 using common::Time;
 
-/// Since when the vehicle moved how far.
-struct Progress {
-  Pose2 T_odom_body;
-  Time stamp;
-
-  bool exceeds(const Pose2& T_odom_body_now, Time now, double distance_m, double rotation_deg, double time_s) const {
-    const Pose2 step = between(T_odom_body, T_odom_body_now);
-    return step.position_m().norm() > distance_m || std::abs(step.yaw_rad) > rotation_deg * kRadPerDeg ||
-           (now - stamp).seconds() > time_s;
-  }
-};
-
 /// A tilted scan carries the error of its attitude into the map: a level one is waited for, for half as far again.
 constexpr double kPatience = 1.5;
 
 /// The path length that must lie between two optimizations for each key scan of the graph.
 constexpr double kOptimizationPathPerKey_m = 0.02;
-
-/// Where the vehicle is in the map; covariance of the additive errors (x_m, y_m, yaw_rad).
-struct WeighedPose {
-  Pose2 T_map_body;
-  Eigen::Matrix3d covariance;
-};
 
 /// A match to an earlier pass counts when this share of the scan lies on it.
 constexpr double kLeastOverlap = 0.75;
@@ -72,7 +54,7 @@ struct Slam2d::Impl {
   void addKeyScan(const ProjectedScan& scan, const Pose2& pose, const std::vector<int>& matched_keys,
                   const MatchResult* match);
   MatchResult matchAround(const ProjectedScan& scan, std::vector<int>& keys);
-  WeighedPose weighWithMotion(const MatchResult& match) const;
+  UncertainPose movedPose() const { return {T_map_body(), common::turned(covariance_anchor, poseOf(anchor).yaw_rad)}; }
   bool optimizationIsDue() const;
   void connectPasses(int other, const MatchResult& match);
   void standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
@@ -182,19 +164,6 @@ MatchResult Slam2d::Impl::matchAround(const ProjectedScan& scan, std::vector<int
   return reference.match(graph, keys, scan, T_map_body(), window);
 }
 
-/// The match and what the motion since the anchor says, each by its covariance: over a metre the odometry, which is
-/// matched forty times, knows better than one match how the vehicle has turned.
-WeighedPose Slam2d::Impl::weighWithMotion(const MatchResult& match) const {
-  const Pose2 moved = T_map_body();
-  const Eigen::Matrix3d of_motion = common::turned(covariance_anchor, poseOf(anchor).yaw_rad);
-  const Eigen::Matrix3d gain = of_motion * (of_motion + edgeCovariance(match.covariance, config)).inverse();
-  const Eigen::Vector3d step =
-      gain * Eigen::Vector3d(match.T_reference_body.x_m - moved.x_m, match.T_reference_body.y_m - moved.y_m,
-                             common::wrapAngle(match.T_reference_body.yaw_rad - moved.yaw_rad));
-  return {{moved.x_m + step.x(), moved.y_m + step.y(), common::wrapAngle(moved.yaw_rad + step.z())},
-          of_motion - gain * of_motion};
-}
-
 /// The motion since the anchor, and on to where the match has the vehicle beside a key scan of another pass. Once is
 /// enough: the graph does not grow in known area.
 void Slam2d::Impl::connectPasses(int other, const MatchResult& match) {
@@ -225,7 +194,9 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
     return true;
   }
   const bool same_pass = !areOfTwoPasses(keys.back(), anchor);
-  const WeighedPose pose = same_pass ? weighWithMotion(match) : WeighedPose{match.T_reference_body, match.covariance};
+  const UncertainPose pose =
+      same_pass ? weightedMean(movedPose(), {match.T_reference_body, edgeCovariance(match.covariance, config)})
+                : UncertainPose{match.T_reference_body, match.covariance};
   // Any of the passes it was matched to will do, and what the last optimization placed beside them.
   std::vector<int> agreeing;
   std::copy_if(connected.begin(), connected.end(), std::back_inserter(agreeing),

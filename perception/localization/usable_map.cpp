@@ -1,0 +1,27 @@
+// Which maps can be localized in.
+#include <string>
+
+#include <fmt/format.h>
+
+#include "common/occupancy_grid.hpp"
+#include "perception/localization/localizer.hpp"
+#include "perception/localization/map_field.hpp"
+
+namespace swiftlet::perception {
+
+std::string Localizer::whyUnusable(const common::OccupancyGrid& map) {
+  const common::CellRect known = common::knownExtent(map);
+  if (static_cast<std::int64_t>(known.width()) * known.height() > MapField::kMaxCells)
+    return fmt::format("what is known of the map spans {} x {} cells: at most {} million can be localized in",
+                       known.width(), known.height(), MapField::kMaxCells / 1'000'000);
+  bool walls = false, free = false;
+  map.forEachCell([&](common::CellIndex, common::occupancy::Cell cell) {
+    walls |= common::occupancy::isOccupied(cell);
+    free |= common::occupancy::isFree(cell);
+  });
+  if (!free) return "the map has no free cells: a vehicle can be nowhere in it";
+  if (!walls) return "the map has no occupied cells: there is nothing to see in it";
+  return "";
+}
+
+}  // namespace swiftlet::perception
