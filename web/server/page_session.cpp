@@ -130,7 +130,8 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
   }
 
   std::shared_ptr<Core> core_;
-  websocket::stream<beast::tcp_stream> stream_;
+  /// Without compression, which is never asked for and takes as long to compile as all the rest.
+  websocket::stream<beast::tcp_stream, false> stream_;
   beast::flat_buffer buffer_;
   std::deque<Message> queue_;
   Beat state_beat_{kStatesPerSecond};
