@@ -53,7 +53,7 @@ FlightMap surveyedMap(const simulation::SurveyConfig& survey, const simulation::
                       const fs::path& folder) {
   const simulation::RayCaster rays(world);
   simulation::SurveyDrive drive(survey, loadLaser(survey.laser), rays);
-  perception::LaserSlam slam{perception::LaserSlamConfig{}};
+  perception::LaserSlam slam{laserSlamOf(loadSystem("laser_log"))};
   std::vector<perception::TrackedScan> tracked;
   std::vector<common::Pose2> driven;
   while (const auto taken = drive.next()) {

@@ -14,6 +14,7 @@
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
+#include "apps/system.hpp"
 #include "apps/wall_clock.hpp"
 #include "perception/localization/log_localizer.hpp"
 
@@ -160,7 +161,11 @@ std::vector<std::pair<std::string, std::string>> factsOf(const RecordedLog& log,
 
 int localize(const LocalizeOptions& options) {
   const interfaces::StoredMap map = readUsableMap(options.map);
-  perception::LogLocalizer localizer(map.grid, map.T_map_grid, {}, static_cast<std::uint64_t>(options.seed));
+  const System system = loadSystem(options.log.system);
+  perception::LogLocalizer localizer(
+      map.grid, map.T_map_grid,
+      {laserSlamOf(system).front_end, system.config.autonomy.estimator.localization.localizer},
+      static_cast<std::uint64_t>(options.seed));
   if (!options.start.empty()) {
     const common::Pose2 T_map_start = parseStart(options.start);
     refuseOutside(T_map_start, map, options.start);

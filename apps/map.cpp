@@ -12,6 +12,7 @@
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
+#include "apps/system.hpp"
 #include "apps/wall_clock.hpp"
 
 namespace swiftlet::apps {
@@ -32,7 +33,7 @@ struct MapOptions {
 };
 
 perception::LaserSlamConfig configOf(const MapOptions& options) {
-  perception::LaserSlamConfig config;
+  perception::LaserSlamConfig config = laserSlamOf(loadSystem(options.log.system));
   if (options.slam == "particles") config.method = perception::SlamMethod::kParticles;
   return config;
 }

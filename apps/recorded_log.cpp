@@ -40,6 +40,8 @@ void addLogOptions(CLI::App& command, RecordedLogOptions& options, const std::st
                   "auto: the log's, as far as it proves right. none: as if it had none.")
       ->check(CLI::IsMember({"auto", "none"}))
       ->capture_default_str();
+  command.add_option("--system", options.system, "A profile of config/systems, or a file: its odometry and SLAM.")
+      ->capture_default_str();
   command.add_option("--out", options.out, fmt::format("Folder for the results; LOG-{} when not given.", suffix));
   command.add_flag("--json", options.json, "Print the figures as JSON.");
 }

@@ -23,12 +23,13 @@ struct RecordedLogOptions {
   std::string file;
   std::string sensor;
   std::string odometry = "auto";
+  std::string system = "laser_log";
   std::string out;
   bool json = false;
 };
 
-/// Adds the log, --sensor, --odometry, --out and --json. `suffix` ends the name of the folder that is made when none is
-/// given.
+/// Adds the log, --sensor, --odometry, --system, --out and --json. `suffix` ends the name of the folder that is made
+/// when none is given.
 void addLogOptions(CLI::App& command, RecordedLogOptions& options, const std::string& suffix);
 
 /// The folder for the results. Where none is given, "logs/intel.clf.bz2" -> "intel-map".

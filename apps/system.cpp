@@ -10,6 +10,7 @@
 #include "common/config.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "perception/slam2d/laser_slam.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -72,7 +73,16 @@ System loadSystem(const std::string& name) {
   };
   system.vehicle = common::config::readFile<common::VehicleConfig>(sheet(system.config.vehicle, "vehicles", "vehicle"));
   system.laser = common::config::readFile<common::LaserConfig>(sheet(system.config.laser, "sensors", "laser"));
+  system.config.autonomy.limitTo(system.laser);
   return system;
+}
+
+perception::LaserSlamConfig laserSlamOf(const System& system) {
+  const autonomy::EstimatorConfig& estimator = system.config.autonomy.estimator;
+  perception::LaserSlamConfig config;
+  config.front_end.odometry = estimator.odometry;
+  config.slam = estimator.slam;
+  return config;
 }
 
 common::LaserConfig loadLaser(const std::string& name) {

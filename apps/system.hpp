@@ -8,6 +8,10 @@
 #include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
 
+namespace swiftlet::perception {
+struct LaserSlamConfig;
+}  // namespace swiftlet::perception
+
 namespace swiftlet::apps {
 
 struct SystemConfig {
@@ -28,11 +32,15 @@ struct System {
   std::string toYaml(bool comments) const;
 };
 
-/// `name` is a profile of config/systems or a file. Throws common::InputError.
+/// `name` is a profile of config/systems or a file. The autonomy counts on seeing no more than the laser does. Throws
+/// common::InputError.
 System loadSystem(const std::string& name);
 
 /// `name` is a data sheet of config/sensors or a file. Throws common::InputError.
 common::LaserConfig loadLaser(const std::string& name);
+
+/// SLAM with a laser that is carried level, as the profile has odometry and SLAM.
+perception::LaserSlamConfig laserSlamOf(const System& system);
 
 /// The names of the profiles that come along.
 std::vector<std::string> systemNames();

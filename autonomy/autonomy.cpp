@@ -17,16 +17,6 @@ constexpr std::uint64_t kSupervisorHold = 1ULL << 62;
 constexpr std::uint64_t kSupervisorLand = kSupervisorHold + 1;
 constexpr double kTrailStep_m = 0.05;
 
-/// Nobody counts on seeing more than the laser sees.
-AutonomyConfig seeing(AutonomyConfig config, const common::LaserConfig& laser) {
-  double& avoidance_deg = config.reactive.avoidance.field_of_view_deg;
-  planning::ExplorationConfig& exploration = config.execution.exploration;
-  avoidance_deg = std::min(avoidance_deg, laser.field_of_view_deg);
-  exploration.laser_field_of_view_deg = std::min(exploration.laser_field_of_view_deg, laser.field_of_view_deg);
-  exploration.laser_range_m = std::min(exploration.laser_range_m, laser.range_max_m);
-  return config;
-}
-
 }  // namespace
 
 void AutonomyConfig::describe(common::config::Fields& fields) {
@@ -48,9 +38,17 @@ std::vector<std::string> AutonomyConfig::validate() const {
   return problems;
 }
 
+void AutonomyConfig::limitTo(const common::LaserConfig& laser) {
+  double& avoidance_deg = reactive.avoidance.field_of_view_deg;
+  planning::ExplorationConfig& exploration = execution.exploration;
+  avoidance_deg = std::min(avoidance_deg, laser.field_of_view_deg);
+  exploration.laser_field_of_view_deg = std::min(exploration.laser_field_of_view_deg, laser.field_of_view_deg);
+  exploration.laser_range_m = std::min(exploration.laser_range_m, laser.range_max_m);
+}
+
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
                    behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given)
-    : config_(seeing(config, laser)),
+    : config_(config),
       vehicle_(vehicle),
       estimator_(config.estimator, laser, vehicle, given, *jobs),
       reactive_(config_.reactive, vehicle.hullRadius_m(), config.estimator.slam.grid),

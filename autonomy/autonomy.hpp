@@ -37,6 +37,8 @@ struct AutonomyConfig {
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
+  /// Lowers the fields of view and ranges that avoidance and exploration count on to those of the laser.
+  void limitTo(const common::LaserConfig& laser);
 };
 
 /// One thread. Every call is for a time not before that of the last one.

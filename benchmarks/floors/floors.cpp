@@ -13,6 +13,7 @@
 #include "evaluation/trajectory_metrics.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 #include "tests/slam2d/tracked_path.hpp"
+#include "tests/support/laser_log_profile.hpp"
 
 namespace {
 
@@ -54,7 +55,7 @@ int main(int argc, char** argv) {
   CLI::App app{"The SLAM on floors drawn at random, with wheels and without"};
   std::uint64_t first = 1;
   int count = 8;
-  perception::LaserSlamConfig config;
+  perception::LaserSlamConfig config = test_support::laserLogSlam();
   app.add_option("--first", first, "Seed of the first floor")->capture_default_str();
   app.add_option("--count", count, "How many floors")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--max-free-space-violation", config.slam.loops.max_free_space_violation,

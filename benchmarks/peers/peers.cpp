@@ -23,6 +23,7 @@
 #include "interfaces/laser_log/open_laser_log.hpp"
 #include "perception/laser_odometry/laser_front_end.hpp"
 #include "perception/slam2d/laser_slam.hpp"
+#include "tests/support/laser_log_profile.hpp"
 
 namespace {
 
@@ -48,7 +49,7 @@ class OurFrontEnd final : public Peer {
   std::vector<Pose2> finish() override { return poses_; }
 
  private:
-  perception::LaserFrontEnd front_end_{perception::LaserFrontEndConfig{}};
+  perception::LaserFrontEnd front_end_{test_support::laserLogFrontEnd()};
   std::vector<Pose2> poses_;
 };
 
@@ -71,7 +72,7 @@ class OurSlam final : public Peer {
 
  private:
   static perception::LaserSlamConfig configOf(bool loops) {
-    perception::LaserSlamConfig config;
+    perception::LaserSlamConfig config = test_support::laserLogSlam();
     if (!loops) config.slam.loops.spacing_m = 1e9;
     return config;
   }

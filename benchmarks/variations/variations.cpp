@@ -21,6 +21,7 @@
 #include "interfaces/laser_log/open_laser_log.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 #include "tests/slam2d/tracked_path.hpp"
+#include "tests/support/laser_log_profile.hpp"
 
 namespace {
 
@@ -89,7 +90,7 @@ std::vector<Variation> variations() {
 }
 
 evaluation::RelationErrors errorsOf(const Log& log, bool odometry, const std::vector<common::Relation>& relations) {
-  perception::LaserSlam slam{perception::LaserSlamConfig{}};
+  perception::LaserSlam slam{test_support::laserLogSlam()};
   test::TrackedPath way(slam);
   for (const KnownScan& scan : log) {
     const auto T_odom_robot = odometry ? scan.logged.T_odom_robot : std::nullopt;

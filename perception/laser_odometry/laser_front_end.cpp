@@ -29,21 +29,6 @@ std::optional<Eigen::Vector2d> atReference(const std::optional<Eigen::Vector2d>&
 
 }  // namespace
 
-/// Unlike a vehicle with inertial sensors, nothing else tells where a robot in a corridor is: its motion is known
-/// worse, and how well each scan holds it must be known better.
-LaserFrontEndConfig::LaserFrontEndConfig() {
-  odometry.max_window_m = 1.0;
-  odometry.max_window_deg = 60.0;
-  odometry.min_widened_quality = 0.75;
-  odometry.widened_must_hold = true;
-  odometry.max_failures = 4;
-  odometry.min_fit = 0.55;
-  odometry.min_weak_overlap = 0.93;
-  odometry.matcher.guess_weight = 0.01;  // The prediction has its say in the filter.
-  odometry.matcher.profile_half_m = 1.0;
-  odometry.matcher.only_seen = false;  // Of few beams in clutter too little would be left, see decision 020.
-}
-
 struct LaserFrontEnd::Impl {
   explicit Impl(const LaserFrontEndConfig& config_in)
       : config(config_in), motion(config_in.motion), odometry(config_in.odometry) {}

@@ -19,9 +19,8 @@
 
 namespace swiftlet::perception {
 
+/// For a robot that carries its laser level the shipped profile config/systems/laser_log.yaml sets the odometry.
 struct LaserFrontEndConfig {
-  LaserFrontEndConfig();
-
   LaserOdometryConfig odometry;
   MotionPredictionConfig motion;
 };

@@ -3,8 +3,8 @@
 namespace swiftlet::perception {
 
 LogLocalizer::LogLocalizer(const common::OccupancyGrid& map, const common::Pose2& T_map_grid,
-                           const LocalizerConfig& config, std::uint64_t seed)
-    : front_end_(LaserFrontEndConfig{}), localizer_(map, T_map_grid, config, seed) {}
+                           const LogLocalizerConfig& config, std::uint64_t seed)
+    : front_end_(config.front_end), localizer_(map, T_map_grid, config.localizer, seed) {}
 
 std::optional<LocalizationEstimate> LogLocalizer::add(const LaserSlamInput& input) {
   const auto step =

@@ -11,6 +11,11 @@
 
 namespace swiftlet::perception {
 
+struct LogLocalizerConfig {
+  LaserFrontEndConfig front_end;
+  LocalizerConfig localizer;
+};
+
 struct LogLocalizerCounts {
   std::uint64_t breaks = 0;  ///< Times the odometry lost the thread.
   LaserSlamCounts front_end;
@@ -19,7 +24,7 @@ struct LogLocalizerCounts {
 /// Not thread-safe. Deterministic.
 class LogLocalizer {
  public:
-  LogLocalizer(const common::OccupancyGrid& map, const common::Pose2& T_map_grid, const LocalizerConfig& config,
+  LogLocalizer(const common::OccupancyGrid& map, const common::Pose2& T_map_grid, const LogLocalizerConfig& config,
                std::uint64_t seed);
 
   Localizer& localizer() { return localizer_; }

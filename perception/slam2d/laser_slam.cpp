@@ -4,18 +4,6 @@ namespace swiftlet::perception {
 
 using common::Pose2;
 
-LaserSlamConfig::LaserSlamConfig() {
-  slam.matcher.profile_half_m = front_end.odometry.matcher.profile_half_m;
-  slam.matcher.only_seen = front_end.odometry.matcher.only_seen;
-  // Read off the drift of intel, fr079 and csail without loops: a window must hold the truth.
-  slam.loops.min_window_m = 1.5;
-  slam.loops.min_window_deg = 15.0;
-  slam.loops.max_sigma_m = 10.0;
-  slam.loops.max_window_deg = 180.0;
-  slam.loops.min_fine_quality = 0.45;  // The query's own scans are constrained less than those of a flight.
-  slam.live_map = false;               // Nobody flies by it.
-}
-
 struct LaserSlam::Impl {
   explicit Impl(const LaserSlamConfig& config) : front_end(config.front_end), graph(config.slam) {
     if (config.method == SlamMethod::kParticles) particles.emplace(config.particles);

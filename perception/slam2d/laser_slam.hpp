@@ -22,8 +22,6 @@ enum class SlamMethod {
 };
 
 struct LaserSlamConfig {
-  LaserSlamConfig();
-
   SlamMethod method = SlamMethod::kGraph;
   LaserFrontEndConfig front_end;
   Slam2dConfig slam;

@@ -11,6 +11,7 @@
 #include "perception/localization/log_localizer.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 #include "tests/support/datasets.hpp"
+#include "tests/support/laser_log_profile.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -26,7 +27,7 @@ struct Mapped {
 
 Mapped mapOf(const fs::path& file, std::size_t count) {
   Mapped mapped;
-  LaserSlam slam{LaserSlamConfig{}};
+  LaserSlam slam{test_support::laserLogSlam()};
   std::vector<TrackedScan> track;
   const auto log = interfaces::openLaserLog(file);
   while (mapped.scans.size() < count) {
@@ -52,7 +53,7 @@ TEST(RecordedLocalization, IntelIsFoundFollowedAndFoundAgainAfterItWasCarriedAwa
   // 500 scans are left out, in which the robot goes on; its wheels are as they were before.
   constexpr std::size_t kFrom = 2000, kTo = 2500;
   const Pose2 T_jump = *mapped.scans[kFrom - 1].T_odom_robot * mapped.scans[kTo].T_odom_robot->inverse();
-  LogLocalizer localizer(mapped.map, Pose2{}, {}, 1);
+  LogLocalizer localizer(mapped.map, Pose2{}, {test_support::laserLogFrontEnd(), {}}, 1);
   int localized = 0, wrong = 0, all = 0;
   double sum_m = 0.0;
   for (std::size_t i = 0; i < mapped.scans.size(); ++i) {

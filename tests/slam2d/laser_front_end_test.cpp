@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scan_matching/scenes.hpp"
+#include "tests/support/laser_log_profile.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -31,7 +32,7 @@ class Robot {
   const LaserOdometryCounts& counts() const { return front_end_.odometryCounts(); }
 
  private:
-  LaserFrontEnd front_end_{LaserFrontEndConfig{}};
+  LaserFrontEnd front_end_{test_support::laserLogFrontEnd()};
   std::uint64_t scans_ = 0;
 };
 
@@ -43,7 +44,7 @@ TEST(LaserFrontEnd, ARobotThatDrivesBackwardsIsFollowed) {
   laser.field_of_view_deg = 180.0;
   laser.sweep_s = 0.0;
   for (const double way : {1.0, -1.0}) {
-    LaserFrontEnd front_end{LaserFrontEndConfig{}};
+    LaserFrontEnd front_end{test_support::laserLogFrontEnd()};
     const double begin_m = way > 0.0 ? 0.0 : 22.0;
     Pose2 at_end;
     for (int i = 0; i < 360; ++i) {

@@ -18,6 +18,7 @@
 #include "perception/slam2d/laser_slam.hpp"
 #include "tests/slam2d/tracked_path.hpp"
 #include "tests/support/datasets.hpp"
+#include "tests/support/laser_log_profile.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -69,7 +70,7 @@ std::optional<evaluation::RelationErrors> relationsOf(const std::string& name, b
   const std::string stem = "01-laser-slam/" + name + "/" + name;
   const auto log = test_support::dataSet(stem + ".clf.bz2"), relations = test_support::dataSet(stem + ".relations.gz");
   if (!log || !relations) return std::nullopt;
-  LaserSlamConfig config;
+  LaserSlamConfig config = test_support::laserLogSlam();
   config.method = method;
   LaserSlam slam(config);
   const std::vector<KnownScan> scans = scansOf(*log, odometry);
@@ -93,7 +94,7 @@ TEST(RecordedLog, IntelThereAndBackwardsHome) {
   const auto log = test_support::dataSet("01-laser-slam/intel/intel.clf.bz2");
   const auto relations = test_support::dataSet("01-laser-slam/intel/intel.relations.gz");
   if (!log || !relations) return;
-  LaserSlam slam{LaserSlamConfig{}};
+  LaserSlam slam{test_support::laserLogSlam()};
   std::vector<KnownScan> scans = scansOf(*log, false);
   const std::size_t there = scans.size();
   common::Time now = scans.back().known_as;
@@ -103,7 +104,7 @@ TEST(RecordedLog, IntelThereAndBackwardsHome) {
     back.scan.stamps = {now, now};
     scans.push_back(back);
   }
-  LaserSlam alone{LaserSlamConfig{}};
+  LaserSlam alone{test_support::laserLogSlam()};
   for (std::size_t i = 0; i < there; ++i) static_cast<void>(alone.add({scans[i].scan, scans[i].T_robot_laser, {}}));
   expectErrors(evaluation::relationErrors(trackOf(slam, scans, there), interfaces::readRelations(*relations)),
                "intel backwards", 1.3 * 0.0229, 1.3 * 0.453);
