@@ -1,29 +1,57 @@
 // swiftlet config
 #include <memory>
+#include <string>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "apps/command.hpp"
 #include "apps/system.hpp"
+#include "common/config_reference.hpp"
+#include "evaluation/trial.hpp"
 
 namespace swiftlet::apps {
+namespace {
+
+/// docs/configuration.md.
+std::string reference() {
+  using common::config::ReferencePrinter;
+  const auto chapter = [](const char* title, const char* sentence, const auto& config) {
+    return "\n" + ReferencePrinter().print(title, sentence, config);
+  };
+  return "# Every setting\n\n"
+         "Printed by `swiftlet config --reference`. The last word of a name is its unit. A value out of its bounds is "
+         "refused, as is a\nkey that is not here; both ends of the bounds are allowed. How a profile is made: "
+         "[profile](tutorials/profile.md).\n" +
+         chapter("System profile",
+                 "A file of `config/systems`. `swiftlet config --system NAME` prints what is in force.",
+                 SystemConfig()) +
+         chapter("Vehicle", "A file of `config/vehicles`.", common::VehicleConfig()) +
+         chapter("Laser", "A file of `config/sensors`.", common::LaserConfig()) +
+         chapter("Trial", "A file of `trials`, see [trials](tutorials/trials.md).", evaluation::TrialConfig());
+}
+
+}  // namespace
 
 void addConfig(CLI::App& program, Run& run) {
   struct Options {
     std::string system = "swiftlet";
     bool plain = false;
     bool list = false;
+    bool reference = false;
   };
   auto options = std::make_shared<Options>();
   auto* command = program.add_subcommand("config", "Print the effective configuration of a system profile.");
   command->add_option("--system", options->system, "A profile of config/systems, or a file.")->capture_default_str();
   command->add_flag("--plain", options->plain, "Without the comments.");
   command->add_flag("--list", options->list, "Only the names of the profiles.");
+  command->add_flag("--reference", options->reference, "Every setting with its bounds, as Markdown.");
   command->footer("Example: swiftlet config --system swiftlet > mine.yaml");
   command->callback([&run, options] {
     run = [options] {
-      if (options->list) {
+      if (options->reference) {
+        fmt::print("{}", reference());
+      } else if (options->list) {
         for (const std::string& name : systemNames()) fmt::print("{}\n", name);
       } else {
         fmt::print("{}", loadSystem(options->system).toYaml(!options->plain));

@@ -70,6 +70,11 @@ TEST(Shipped, EachDataSheetLoads) {
     EXPECT_NO_THROW(readFile<common::LaserConfig>((kRoot / file).string())) << file;
 }
 
+TEST(Shipped, TheReferenceOfAllSettingsIsOfThisVersion) {
+  EXPECT_EQ(test_support::readText(kRoot / "docs/configuration.md"), runSwiftlet({"config", "--reference"}).out)
+      << "write it anew: swiftlet config --reference > docs/configuration.md";
+}
+
 class Profiles : public test_support::Scratch {};
 
 // "swiftlet config > mine.yaml" is where one's own profile begins.
