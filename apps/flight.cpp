@@ -4,90 +4,112 @@
 #include <ctime>
 #include <mutex>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "apps/pictures.hpp"
+#include "apps/flight_sinks.hpp"
+#include "apps/picture_sink.hpp"
 #include "apps/wall_clock.hpp"
 #include "apps/web_link.hpp"
 #include "autonomy/autonomy.hpp"
-#include "behaviors/mission.hpp"
-#include "common/jobs.hpp"
+#include "autonomy/flight_loop.hpp"
+#include "common/mailbox.hpp"
 
 namespace swiftlet::apps {
 namespace {
 
 using interfaces::Outcome;
 
-constexpr double kPicturePeriod_s = 5.0;
-constexpr auto kPictureLatency = common::Duration::fromMilliseconds(1000);
+std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(const FlightSetup& setup) {
+  simulation::Scenario scenario = setup.scenario;
+  scenario.vehicle = setup.system.vehicle;
+  scenario.laser = setup.system.laser;
+  static std::mutex sdformat_is_not_thread_safe;
+  const std::scoped_lock lock(sdformat_is_not_thread_safe);
+  return std::make_unique<simulation::SimulatedVehicle>(simulation::loadWorld(scenario.world, scenario.model_paths),
+                                                        scenario);
+}
 
+autonomy::Autonomy makeAutonomy(const FlightSetup& setup, behaviors::Mission mission) {
+  std::optional<autonomy::GivenMap> given;
+  if (setup.map) {
+    given = setup.map->map;
+    given->seed = static_cast<std::uint64_t>(setup.scenario.seed);
+  }
+  return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
+                            common::makeLockstepJobs(1), given ? &*given : nullptr);
+}
+
+interfaces::RunInfo runInfo(const FlightSetup& setup) {
+  interfaces::RunInfo info;
+  info.mission = std::filesystem::path(setup.mission_file).stem().string();
+  info.mission_file = setup.mission_file;
+  info.world = setup.scenario.world;
+  info.system = setup.system.name;
+  if (setup.map) info.given_map = setup.map->name;
+  info.seed = setup.scenario.seed;
+  info.version = SWIFTLET_VERSION;
+  info.started = setup.started;
+  return info;
+}
+
+std::filesystem::path folderOf(const FlightSetup& setup) {
+  if (!setup.out.empty()) return setup.out;
+  return interfaces::freshRunFolder("runs", setup.started, runInfo(setup).mission);
+}
+
+/// One vehicle, its autonomy, the loop between them and the sinks beside it; and the pace of simulated time.
 class Flight {
  public:
-  Flight(const FlightSetup& setup, const FlightHooks& hooks)
+  Flight(const FlightSetup& setup, behaviors::Mission mission, const FlightHooks& hooks)
       : setup_(setup),
         hooks_(hooks),
         vehicle_(makeVehicle(setup)),
         recorder_(vehicle_->T_world_map(), setup.map ? setup.map->T_world_given : std::nullopt),
-        autonomy_(makeAutonomy(setup)),
-        folder_(folderOf(setup), runInfo(setup), setup.system.toYaml(true)) {}
+        autonomy_(makeAutonomy(setup, std::move(mission))),
+        folder_(folderOf(setup), runInfo(setup), setup.system.toYaml(true)),
+        pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
+        sinks_(makeSinks()),
+        loop_(*vehicle_, autonomy_, hooks.web ? hooks.web->commands() : no_commands_, sinks()) {}
 
   FlightResult fly() {
     for (const std::string& warning : vehicle_->world().warnings)
-      tell({now_, common::Severity::kWarning, "world", warning, ""});
+      for (autonomy::FlightSink* sink : sinks())
+        sink->event({loop_.now(), common::Severity::kWarning, "world", warning, ""});
     while (!over()) {
-      now_ += common::kControlPeriod;
-      step();
+      if (hooks_.web) vehicle_->setCameraConsumer(hooks_.web->cameraWanted());
+      if (!loop_.step(loop_.now() + common::kControlPeriod)) end(Outcome::kCrashed, vehicle_->stopReason());
       pace();
     }
+    loop_.finish();
     return finish();
   }
 
  private:
-  static std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(const FlightSetup& setup) {
-    simulation::Scenario scenario = setup.scenario;
-    scenario.vehicle = setup.system.vehicle;
-    scenario.laser = setup.system.laser;
-    static std::mutex sdformat_is_not_thread_safe;
-    const std::scoped_lock lock(sdformat_is_not_thread_safe);
-    return std::make_unique<simulation::SimulatedVehicle>(simulation::loadWorld(scenario.world, scenario.model_paths),
-                                                          scenario);
+  std::vector<std::unique_ptr<autonomy::FlightSink>> makeSinks() {
+    std::vector<std::unique_ptr<autonomy::FlightSink>> sinks;
+    sinks.push_back(std::make_unique<FolderSink>(folder_));
+    sinks.push_back(std::make_unique<TruthSink>(*vehicle_, recorder_));
+    if (hooks_.event) sinks.push_back(std::make_unique<EventSink>(hooks_.event));
+    if (hooks_.web) sinks.push_back(std::make_unique<PageSink>(*hooks_.web));
+    return sinks;
   }
 
-  static autonomy::Autonomy makeAutonomy(const FlightSetup& setup) {
-    std::optional<autonomy::GivenMap> given;
-    if (setup.map) {
-      given = setup.map->map;
-      given->seed = static_cast<std::uint64_t>(setup.scenario.seed);
-    }
-    return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser,
-                              behaviors::Mission::fromFile(setup.mission_file), common::makeLockstepJobs(1),
-                              given ? &*given : nullptr);
-  }
-
-  static std::filesystem::path folderOf(const FlightSetup& setup) {
-    if (!setup.out.empty()) return setup.out;
-    return interfaces::freshRunFolder("runs", setup.started, runInfo(setup).mission);
-  }
-
-  static interfaces::RunInfo runInfo(const FlightSetup& setup) {
-    interfaces::RunInfo info;
-    info.mission = std::filesystem::path(setup.mission_file).stem().string();
-    info.mission_file = setup.mission_file;
-    info.world = setup.scenario.world;
-    info.system = setup.system.name;
-    if (setup.map) info.given_map = setup.map->name;
-    info.seed = setup.scenario.seed;
-    info.version = SWIFTLET_VERSION;
-    info.started = setup.started;
-    return info;
+  /// The pictures last: they show what the others have written.
+  std::vector<autonomy::FlightSink*> sinks() {
+    std::vector<autonomy::FlightSink*> all;
+    for (const auto& sink : sinks_) all.push_back(sink.get());
+    all.push_back(&pictures_);
+    return all;
   }
 
   bool over() {
     if (outcome_ != Outcome::kFlying) return true;
     if (hooks_.stop && *hooks_.stop) return end(Outcome::kStopped, "stopped from outside");
-    if (now_.seconds() >= setup_.time_limit_s) return end(Outcome::kStopped, "the time limit is over");
+    if (loop_.now().seconds() >= setup_.time_limit_s) return end(Outcome::kStopped, "the time limit is over");
     if (folder_.failure()) return end(Outcome::kStopped, *folder_.failure());
     if (autonomy_.finished()) {
       const common::MissionStatus& mission = autonomy_.missionStatus();
@@ -106,80 +128,22 @@ class Flight {
     return true;
   }
 
-  void step() {
-    sensor_events_.clear();
-    if (hooks_.web) vehicle_->setCameraConsumer(hooks_.web->cameraWanted());
-    const bool alive = vehicle_->advanceTo(now_, sensor_events_);
-    for (const common::SensorEvent& event : sensor_events_) {
-      const auto* frame = std::get_if<std::shared_ptr<const common::CameraFrame>>(&event);
-      if (frame && hooks_.web) {
-        hooks_.web->camera().post(*frame);
-      } else {
-        autonomy_.process(event);
-      }
-    }
-    if (hooks_.web)
-      for (const common::OperatorCommand& command : hooks_.web->takeCommands()) autonomy_.process(command, now_);
-    vehicle_->apply(autonomy_.tick(now_));
-    publish();
-    if (alive) return;
-    tell({now_, common::Severity::kError, "vehicle", "the flight has ended", vehicle_->stopReason()});
-    end(Outcome::kCrashed, vehicle_->stopReason());
-  }
-
-  void publish() {
-    jobs_->deliverDue(now_);
-    const common::VehicleState state = autonomy_.state();
-    folder_.state(state);
-    recorder_.tick(vehicle_->truth(), state);
-    recorder_.intent(now_, autonomy_.intent(), autonomy_.intentStatus());
-    if (const auto world = autonomy_.world(); world != last_world_) {
-      last_world_ = world;
-      if (hooks_.web) hooks_.web->world().post(world);
-      recorder_.world(*world);
-      folder_.world(*world);
-      if ((now_ - last_picture_).seconds() >= kPicturePeriod_s) submitPictures();
-    }
-    for (const common::Event& event : autonomy_.takeEvents()) tell(event);
-    for (common::CommandResult& result : autonomy_.takeResults())
-      if (hooks_.web) hooks_.web->postResult(std::move(result));
-  }
-
-  void tell(const common::Event& event) {
-    folder_.event(event);
-    if (hooks_.event) hooks_.event(event);
-    if (hooks_.web) hooks_.web->postEvent(event);
-  }
-
-  /// Drawn beside the flight; they take about as long as half a second of it.
-  void submitPictures() {
-    if (!jobs_->idle("pictures")) return;
-    last_picture_ = now_;
-    jobs_->submit("pictures", now_, kPictureLatency,
-                  [this, world = last_world_, summary = folder_.summary(), truth = recorder_.record().truth_map,
-                   hull_m = setup_.system.vehicle.hull_diameter_m]() -> common::JobRunner::Deliver {
-                    auto pictures = reportPictures(*world, summary, truth, hull_m);
-                    return [this, pictures = std::move(pictures)](common::Time) { folder_.show(pictures); };
-                  });
-  }
-
   void pace() {
     const double wall_s = secondsSince(begin_);
     if (hooks_.progress && wall_s - last_progress_s_ >= 0.1) {
       last_progress_s_ = wall_s;
-      hooks_.progress({autonomy_.world(), now_.seconds(), wall_s});
+      hooks_.progress({autonomy_.world(), loop_.now().seconds(), wall_s});
     }
     if (setup_.speed <= 0.0) return;
     const auto due = begin_ + std::chrono::duration_cast<Clock::duration>(
-                                  std::chrono::duration<double>(now_.seconds() / setup_.speed));
+                                  std::chrono::duration<double>(loop_.now().seconds() / setup_.speed));
     std::this_thread::sleep_until(due);
   }
 
   FlightResult finish() {
     const double wall_s = secondsSince(begin_);
-    if (hooks_.progress) hooks_.progress({autonomy_.world(), now_.seconds(), wall_s});
-    folder_.show(reportPictures(*autonomy_.world(), folder_.summary(), recorder_.record().truth_map,
-                                setup_.system.vehicle.hull_diameter_m));
+    if (hooks_.progress) hooks_.progress({autonomy_.world(), loop_.now().seconds(), wall_s});
+    pictures_.drawNow(*autonomy_.world());
     interfaces::FlightEnd end;
     end.outcome = outcome_;
     end.reason = reason_;
@@ -212,21 +176,22 @@ class Flight {
   evaluation::FlightRecorder recorder_;
   autonomy::Autonomy autonomy_;
   interfaces::RunFolder folder_;
+  PictureSink pictures_;
+  std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
+  common::LosslessQueue<common::OperatorCommand> no_commands_;
+  autonomy::FlightLoop loop_;
 
-  common::Time now_;
-  std::vector<common::SensorEvent> sensor_events_;
-  std::shared_ptr<const common::World> last_world_;
-  common::Time last_picture_;
   Outcome outcome_ = Outcome::kFlying;
   std::string reason_;
   Clock::time_point begin_ = Clock::now();
   double last_progress_s_ = 0.0;
-  std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(1);  ///< Last: its jobs use what is above.
 };
 
 }  // namespace
 
-FlightResult flySimulated(const FlightSetup& setup, const FlightHooks& hooks) { return Flight(setup, hooks).fly(); }
+FlightResult flySimulated(const FlightSetup& setup, behaviors::Mission mission, const FlightHooks& hooks) {
+  return Flight(setup, std::move(mission), hooks).fly();
+}
 
 std::string startedNow() { return fmt::format("{:%Y-%m-%d_%H-%M-%S}", fmt::localtime(std::time(nullptr))); }
 

@@ -1,5 +1,5 @@
-// One simulated flight from the first tick to the last: the loop that lets time pass, feeds the autonomy, writes the
-// run folder and takes down the truth for the scorer. Used by `fly` and by `trial`.
+// One simulated flight from the first tick to the last: the simulator's vehicle and the autonomy in a FlightLoop, with
+// the run folder, the page and the scorer's recorder beside it. Used by `fly` and by `trial`.
 #pragma once
 
 #include <atomic>
@@ -11,6 +11,7 @@
 
 #include "apps/given_map.hpp"
 #include "apps/system.hpp"
+#include "behaviors/mission.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "interfaces/flight_summary.hpp"
 #include "interfaces/run_folder.hpp"
@@ -22,7 +23,7 @@ class WebLink;
 
 struct FlightSetup {
   System system;
-  std::string mission_file;
+  std::string mission_file;              ///< For the run's records; what is flown is the mission read from it.
   simulation::Scenario scenario;         ///< World, start, weather, seed; vehicle and laser are taken from the system.
   std::shared_ptr<const FlightMap> map;  ///< To find itself in; null: it is given none.
   std::filesystem::path out;
@@ -54,9 +55,9 @@ struct FlightResult {
   std::optional<std::string> write_failure;
 };
 
-/// Flies it to its end. Throws common::InputError for a mission, world or folder that cannot be used, before anything
-/// moves. Flights may run in several threads at once, each with a folder of its own.
-FlightResult flySimulated(const FlightSetup& setup, const FlightHooks& hooks);
+/// Flies it to its end. Throws common::InputError for a world or folder that cannot be used, before anything moves.
+/// Flights may run in several threads at once, each with a folder of its own.
+FlightResult flySimulated(const FlightSetup& setup, behaviors::Mission mission, const FlightHooks& hooks);
 
 /// "2026-11-21_14-03-55", local time.
 std::string startedNow();

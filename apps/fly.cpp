@@ -41,10 +41,8 @@ FlightSetup setupOf(const FlyOptions& options) {
   FlightSetup setup;
   setup.system = loadSystem(options.system);
   setup.mission_file = common::findData(options.mission).string();
-  requireSound(setup.mission_file, setup.system, !options.map.empty());
   setup.scenario.seed = options.seed;
   setup.scenario.world = common::findData(options.world).string();
-  if (!options.map.empty()) setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
@@ -114,7 +112,9 @@ void printEnd(const FlightResult& result, bool json) {
 }
 
 int fly(const FlyOptions& options) {
-  const FlightSetup setup = setupOf(options);
+  FlightSetup setup = setupOf(options);
+  behaviors::Mission mission = soundMission(setup.mission_file, setup.system, !options.map.empty());
+  if (!options.map.empty()) setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
   const std::atomic<bool>& stop = stopOnSignals();
   outliveReaders();
 
@@ -136,7 +136,7 @@ int fly(const FlyOptions& options) {
   hooks.web = web.get();
   hooks.stop = &stop;
 
-  const FlightResult result = flySimulated(setup, hooks);
+  const FlightResult result = flySimulated(setup, std::move(mission), hooks);
   terminal.closeLine();
   printEnd(result, options.json);
   if (result.write_failure) {

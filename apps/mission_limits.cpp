@@ -23,9 +23,8 @@ std::vector<common::Problem> missionProblems(const std::string& mission, const S
   }
 }
 
-void requireSound(const std::string& mission, const System& system, bool has_map) {
-  if (auto problems = missionProblems(mission, system, has_map); !problems.empty())
-    throw common::InputError(std::move(problems));
+behaviors::Mission soundMission(const std::string& file, const System& system, bool has_map) {
+  return behaviors::Mission::fromFile(common::findData(file).string(), missionLimits(system, has_map));
 }
 
 }  // namespace swiftlet::apps

@@ -16,7 +16,8 @@ behaviors::MissionLimits missionLimits(const System& system, bool has_map);
 /// the place or without.
 std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map = true);
 
-/// Throws common::InputError with all of them; for what is about to fly.
-void requireSound(const std::string& mission, const System& system, bool has_map);
+/// The mission of that file, for what is about to fly: read once and checked. Throws common::InputError with all
+/// problems.
+behaviors::Mission soundMission(const std::string& file, const System& system, bool has_map);
 
 }  // namespace swiftlet::apps

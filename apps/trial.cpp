@@ -123,7 +123,9 @@ evaluation::FlightScore flyOne(const TrialConfig& trial, const std::shared_ptr<c
     end.coverage = score.coverage;
     for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
   };
-  const FlightResult result = flySimulated(setupOf(trial, map, seed, out), hooks);
+  const FlightSetup setup = setupOf(trial, map, seed, out);
+  const FlightResult result =
+      flySimulated(setup, soundMission(setup.mission_file, setup.system, map != nullptr), hooks);
   if (result.write_failure) throw common::InputError(common::Problem{{}, "", *result.write_failure, ""});
   score.folder = result.folder.filename().string();
   return score;

@@ -25,7 +25,7 @@ class WebLink {
   bool cameraWanted() const { return server_->cameraWanted(); }
   common::LatestValue<common::World>& world() { return world_; }
   common::LatestValue<common::CameraFrame>& camera() { return camera_; }
-  std::vector<common::OperatorCommand> takeCommands() { return commands_.takeAll(); }
+  common::LosslessQueue<common::OperatorCommand>& commands() { return commands_; }
   void postResult(common::CommandResult result) { results_.push(std::move(result)); }
   void postEvent(const common::Event& event) { server_->postEvent(event); }
 

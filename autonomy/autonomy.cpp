@@ -65,9 +65,17 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
 
 Autonomy::~Autonomy() = default;
 
-void Autonomy::process(const common::SensorEvent& event) {
+std::optional<common::Setpoint> Autonomy::process(const Input& input) {
+  if (const auto* timer = std::get_if<Tick>(&input)) return tick(timer->now);
+  if (const auto* event = std::get_if<common::SensorEvent>(&input)) take(*event);
+  if (const auto* command = std::get_if<CommandInput>(&input)) take(command->command, command->taken);
+  if (const auto* delivery = std::get_if<common::JobDelivery>(&input)) jobs_->deliver(*delivery);
+  return std::nullopt;
+}
+
+/// A camera frame changes nothing here; it comes this way so that it is recorded with the rest.
+void Autonomy::take(const common::SensorEvent& event) {
   const Time arrived = common::stampsOf(event).arrived;
-  jobs_->deliverDue(arrived);
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
     estimator_.addImu(*imu);
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
@@ -81,7 +89,7 @@ void Autonomy::process(const common::SensorEvent& event) {
   }
 }
 
-void Autonomy::process(const common::OperatorCommand& command, Time now) {
+void Autonomy::take(const common::OperatorCommand& command, Time now) {
   if (auto result = supervisor_.take(command, now)) {
     results_.push_back(std::move(*result));
     return;
@@ -100,7 +108,6 @@ void Autonomy::process(const common::OperatorCommand& command, Time now) {
 }
 
 common::Setpoint Autonomy::tick(Time now) {
-  jobs_->deliverDue(now);
   processDueScans(now);
 
   const double period_s = 1.0 / config_.behavior_rate_hz;

@@ -1,4 +1,4 @@
-// The whole autonomy: takes one stamped event at a time and returns setpoints. This is the picture of
+// The whole autonomy: takes one stamped input at a time and returns setpoints. This is the picture of
 // docs/architecture.md as code.
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "autonomy/estimator.hpp"
 #include "autonomy/executor.hpp"
+#include "autonomy/input.hpp"
 #include "autonomy/reactive.hpp"
 #include "autonomy/supervisor.hpp"
 #include "behaviors/mission.hpp"
@@ -41,7 +42,7 @@ struct AutonomyConfig {
   void limitTo(const common::LaserConfig& laser);
 };
 
-/// One thread. Every call is for a time not before that of the last one.
+/// One thread; a function of its inputs in their order. No input is of a time before that of the last one.
 class Autonomy {
  public:
   /// `given`: a map of the place, to find itself in; none: null. Read in the constructor alone.
@@ -49,10 +50,15 @@ class Autonomy {
            behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given = nullptr);
   ~Autonomy();
 
-  void process(const common::SensorEvent& event);
-  void process(const common::OperatorCommand& command, common::Time now);
-  /// The 100 Hz timer: delivers what is due, ticks the behaviours when it is their time, and returns the setpoint.
-  common::Setpoint tick(common::Time now);
+  /// A tick is answered by a setpoint, everything else by nothing. The delivery of a job must be awaited.
+  std::optional<common::Setpoint> process(const Input& input);
+
+  /// The delivery that is the next input, if it comes at or before `now`: to be asked before each input of that time.
+  std::optional<common::JobDelivery> dueDelivery(common::Time now) const { return jobs_->nextDue(now); }
+  /// False for the delivery of a job that was never submitted or is delivered already: the inputs are not those of a
+  /// flight of this autonomy.
+  bool awaits(const common::JobDelivery& delivery) const { return jobs_->awaits(delivery); }
+  std::vector<common::JobTimes> jobTimes() const { return jobs_->times(); }
 
   /// The newest snapshot; never null.
   std::shared_ptr<const common::World> world() const { return world_; }
@@ -70,6 +76,9 @@ class Autonomy {
   std::vector<common::CommandResult> takeResults();
 
  private:
+  void take(const common::SensorEvent& event);
+  void take(const common::OperatorCommand& command, common::Time now);
+  common::Setpoint tick(common::Time now);
   void processDueScans(common::Time now);
   void processScan(const common::LaserScan& scan, common::Time now);
   void prepare();

@@ -56,6 +56,13 @@ Mission Mission::fromFile(const std::string& path) {
   return Mission(std::make_unique<Impl>(sound(tree::parseFile(path, missionRegistry()))));
 }
 
+Mission Mission::fromFile(const std::string& path, const MissionLimits& limits) {
+  tree::Tree tree = sound(tree::parseFile(path, missionRegistry()));
+  if (const auto problems = semanticProblems(tree, limits); !problems.empty())
+    throw common::InputError(toCommon(problems));
+  return Mission(std::make_unique<Impl>(std::move(tree)));
+}
+
 Mission Mission::fromText(const std::string& text, const std::string& name) {
   return Mission(std::make_unique<Impl>(sound(tree::parseText(text, name, missionRegistry()))));
 }

@@ -21,8 +21,10 @@ struct TickResult {
 
 class Mission {
  public:
-  /// Throws common::InputError with every problem of the file.
+  /// Throws common::InputError with every problem of the XML.
   static Mission fromFile(const std::string& path);
+  /// Also throws for what could not work in flight within these limits, as checkMission has it.
+  static Mission fromFile(const std::string& path, const MissionLimits& limits);
   /// `name` stands for the file in messages.
   static Mission fromText(const std::string& text, const std::string& name);
   Mission(Mission&&) noexcept;

@@ -14,13 +14,16 @@
 namespace swiftlet::common {
 namespace {
 
-class LockstepJobs final : public JobRunner {
+using Task = std::packaged_task<JobRunner::Deliver()>;
+
+/// Runs tasks in the order they come. Without threads, at once in the caller's.
+class Pool {
  public:
-  explicit LockstepJobs(int threads) {
+  explicit Pool(int threads) {
     for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { serve(); });
   }
 
-  ~LockstepJobs() override {
+  ~Pool() {
     {
       const std::scoped_lock lock(mutex_);
       stopping_ = true;
@@ -29,15 +32,7 @@ class LockstepJobs final : public JobRunner {
     for (std::thread& thread : threads_) thread.join();
   }
 
-  bool idle(const std::string& kind) const override {
-    return std::none_of(outstanding_.begin(), outstanding_.end(),
-                        [&](const Outstanding& job) { return job.kind == kind; });
-  }
-
-  void submit(const std::string& kind, Time now, Duration latency, Work work) override {
-    SWIFTLET_CHECK(idle(kind), kind);
-    std::packaged_task<Deliver()> task(std::move(work));
-    outstanding_.push_back({kind, now + latency, task.get_future()});
+  void run(Task task) {
     if (threads_.empty()) {
       task();
       return;
@@ -49,28 +44,10 @@ class LockstepJobs final : public JobRunner {
     wake_.notify_one();
   }
 
-  void deliverDue(Time now) override {
-    while (true) {
-      const auto next = std::min_element(outstanding_.begin(), outstanding_.end(),
-                                         [](const Outstanding& a, const Outstanding& b) { return a.due < b.due; });
-      if (next == outstanding_.end() || next->due > now) return;
-      const Time due = next->due;
-      std::future<Deliver> result = std::move(next->result);
-      outstanding_.erase(next);
-      if (const Deliver deliver = result.get()) deliver(due);
-    }
-  }
-
  private:
-  struct Outstanding {
-    std::string kind;
-    Time due;
-    std::future<Deliver> result;
-  };
-
   void serve() {
     while (true) {
-      std::packaged_task<Deliver()> task;
+      Task task;
       {
         std::unique_lock lock(mutex_);
         wake_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
@@ -82,16 +59,152 @@ class LockstepJobs final : public JobRunner {
     }
   }
 
-  std::vector<Outstanding> outstanding_;  // In order of submission.
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<std::packaged_task<Deliver()>> waiting_;
+  std::deque<Task> waiting_;
   bool stopping_ = false;
   std::vector<std::thread> threads_;
+};
+
+struct Outstanding {
+  std::string kind;
+  std::uint64_t number = 0;
+  Time submitted;
+  Time due;
+  std::future<JobRunner::Deliver> result;
+};
+
+/// What both runners share: the jobs that are out, in order of submission.
+class PooledJobs : public JobRunner {
+ public:
+  explicit PooledJobs(int threads) : pool_(threads) {}
+
+  bool idle(const std::string& kind) const override {
+    return std::none_of(outstanding_.begin(), outstanding_.end(),
+                        [&](const Outstanding& job) { return job.kind == kind; });
+  }
+
+  void submit(const std::string& kind, Time now, Duration latency, Work work) override {
+    SWIFTLET_CHECK(idle(kind), kind);
+    ++submitted_;
+    Task task(std::move(work));
+    outstanding_.push_back({kind, submitted_, now, now + latency, task.get_future()});
+    pool_.run(std::move(task));
+  }
+
+  bool awaits(const JobDelivery& delivery) const override {
+    return std::any_of(outstanding_.begin(), outstanding_.end(),
+                       [&](const Outstanding& job) { return isOf(job, delivery); });
+  }
+
+  void deliver(const JobDelivery& delivery) override {
+    const auto job = std::find_if(outstanding_.begin(), outstanding_.end(),
+                                  [&](const Outstanding& out) { return isOf(out, delivery); });
+    SWIFTLET_CHECK(job != outstanding_.end(), delivery.kind, delivery.number);
+    std::future<Deliver> result = std::move(job->result);
+    outstanding_.erase(job);
+    result.wait();
+    joined(delivery.number);
+    if (const Deliver deliver = result.get()) deliver(delivery.delivered);
+  }
+
+ protected:
+  /// The work of that job is done, and its result is about to be handed on.
+  virtual void joined(std::uint64_t /*number*/) {}
+  const std::vector<Outstanding>& outstanding() const { return outstanding_; }
+  std::uint64_t submittedSoFar() const { return submitted_; }
+
+ private:
+  static bool isOf(const Outstanding& job, const JobDelivery& delivery) {
+    return job.number == delivery.number && job.kind == delivery.kind && job.submitted == delivery.submitted;
+  }
+
+  std::vector<Outstanding> outstanding_;
+  std::uint64_t submitted_ = 0;
+  Pool pool_;  // Last: joined before what its tasks are part of goes.
+};
+
+class LockstepJobs final : public PooledJobs {
+ public:
+  using PooledJobs::PooledJobs;
+
+  std::optional<JobDelivery> nextDue(Time now) const override {
+    const auto next = std::min_element(outstanding().begin(), outstanding().end(),
+                                       [](const Outstanding& a, const Outstanding& b) { return a.due < b.due; });
+    if (next == outstanding().end() || next->due > now) return std::nullopt;
+    return JobDelivery{next->kind, next->number, next->submitted, next->due};
+  }
+};
+
+/// Written by the pool, read by the loop.
+struct Done {
+  std::mutex mutex;
+  std::vector<std::uint64_t> numbers;  ///< In the order in which they were done.
+  JobStopwatch stopwatch;
+};
+
+/// Says that a job is done when it goes, also when the work threw: that is thrown again where it is delivered.
+struct DoneAtEnd {
+  ~DoneAtEnd() {
+    const Duration took = clock() - begin;
+    const std::scoped_lock lock(done.mutex);
+    done.numbers.push_back(number);
+    done.stopwatch.add(kind, declared, took);
+  }
+
+  Done& done;
+  const RunningClock& clock;
+  const std::string& kind;
+  std::uint64_t number;
+  Duration declared;
+  Time begin;
+};
+
+class WallClockJobs final : public PooledJobs {
+ public:
+  WallClockJobs(int threads, RunningClock clock) : PooledJobs(threads), clock_(std::move(clock)) {
+    SWIFTLET_CHECK(threads > 0, threads);
+  }
+
+  void submit(const std::string& kind, Time now, Duration latency, Work work) override {
+    auto timed = [done = done_, clock = clock_, kind, latency, number = submittedSoFar() + 1, begin = clock_(),
+                  work = std::move(work)]() -> Deliver {
+      const DoneAtEnd at_end{*done, clock, kind, number, latency, begin};
+      return work();
+    };
+    PooledJobs::submit(kind, now, latency, std::move(timed));
+  }
+
+  std::optional<JobDelivery> nextDue(Time now) const override {
+    const std::scoped_lock lock(done_->mutex);
+    if (done_->numbers.empty()) return std::nullopt;
+    const auto job = std::find_if(outstanding().begin(), outstanding().end(),
+                                  [&](const Outstanding& out) { return out.number == done_->numbers.front(); });
+    SWIFTLET_CHECK(job != outstanding().end(), done_->numbers.front());
+    return JobDelivery{job->kind, job->number, job->submitted, now};
+  }
+
+  std::vector<JobTimes> times() const override {
+    const std::scoped_lock lock(done_->mutex);
+    return done_->stopwatch.times();
+  }
+
+ private:
+  void joined(std::uint64_t number) override {
+    const std::scoped_lock lock(done_->mutex);
+    std::erase(done_->numbers, number);
+  }
+
+  RunningClock clock_;
+  std::shared_ptr<Done> done_ = std::make_shared<Done>();
 };
 
 }  // namespace
 
 std::unique_ptr<JobRunner> makeLockstepJobs(int threads) { return std::make_unique<LockstepJobs>(threads); }
+
+std::unique_ptr<JobRunner> makeWallClockJobs(int threads, RunningClock clock) {
+  return std::make_unique<WallClockJobs>(threads, std::move(clock));
+}
 
 }  // namespace swiftlet::common

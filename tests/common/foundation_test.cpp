@@ -6,7 +6,6 @@
 #include <rapidcheck.h>
 
 #include "common/geometry.hpp"
-#include "common/jobs.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/random.hpp"
 #include "common/time.hpp"
@@ -119,27 +118,6 @@ TEST(RandomStream, GaussianHasUnitVariance) {
   }
   EXPECT_NEAR(sum / kCount, 0.0, 0.02);
   EXPECT_NEAR(squares / kCount, 1.0, 0.02);
-}
-
-TEST(LockstepJobs, DeliversAtTheDeclaredTimeWhateverTheThreads) {
-  for (const int threads : {0, 2}) {
-    auto jobs = makeLockstepJobs(threads);
-    std::vector<std::pair<int, double>> delivered;
-    const auto submit = [&](const char* kind, int id, double latency_s) {
-      jobs->submit(kind, Time{}, Duration::fromSeconds(latency_s), [&delivered, id]() -> JobRunner::Deliver {
-        return [&delivered, id](Time t) { delivered.emplace_back(id, t.seconds()); };
-      });
-    };
-    submit("slow", 1, 0.2);
-    submit("fast", 2, 0.1);
-    EXPECT_FALSE(jobs->idle("slow"));
-    jobs->deliverDue(Time::fromSeconds(0.05));
-    EXPECT_TRUE(delivered.empty());
-    jobs->deliverDue(Time::fromSeconds(0.3));
-    const std::vector<std::pair<int, double>> expected{{2, 0.1}, {1, 0.2}};
-    EXPECT_EQ(delivered, expected);
-    EXPECT_TRUE(jobs->idle("slow"));
-  }
 }
 
 }  // namespace

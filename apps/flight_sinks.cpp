@@ -1,0 +1,32 @@
+#include "apps/flight_sinks.hpp"
+
+#include "apps/web_link.hpp"
+#include "common/world.hpp"
+#include "evaluation/flight_recorder.hpp"
+#include "interfaces/run_folder.hpp"
+#include "simulation/simulated_vehicle.hpp"
+
+namespace swiftlet::apps {
+
+using WorldPtr = std::shared_ptr<const common::World>;
+
+void FolderSink::ticked(const autonomy::TickOutcome& outcome) { folder_.state(outcome.state); }
+void FolderSink::world(const WorldPtr& world) { folder_.world(*world); }
+void FolderSink::event(const common::Event& event) { folder_.event(event); }
+
+void TruthSink::ticked(const autonomy::TickOutcome& outcome) {
+  recorder_.tick(vehicle_.truth(), outcome.state);
+  recorder_.intent(outcome.now, outcome.intent, outcome.intent_status);
+}
+void TruthSink::world(const WorldPtr& world) { recorder_.world(*world); }
+
+void PageSink::input(const autonomy::Input& input) {
+  const auto* event = std::get_if<common::SensorEvent>(&input);
+  if (event == nullptr) return;
+  if (const auto* frame = std::get_if<std::shared_ptr<const common::CameraFrame>>(event)) web_.camera().post(*frame);
+}
+void PageSink::world(const WorldPtr& world) { web_.world().post(world); }
+void PageSink::event(const common::Event& event) { web_.postEvent(event); }
+void PageSink::result(const common::CommandResult& result) { web_.postResult(result); }
+
+}  // namespace swiftlet::apps

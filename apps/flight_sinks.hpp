@@ -1,0 +1,71 @@
+// Those beside a simulated flight: its run folder, the scorer's recorder, the page, the terminal.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "autonomy/flight_sink.hpp"
+
+namespace swiftlet::evaluation {
+class FlightRecorder;
+}
+namespace swiftlet::interfaces {
+class RunFolder;
+}
+namespace swiftlet::simulation {
+class SimulatedVehicle;
+}
+
+namespace swiftlet::apps {
+
+class WebLink;
+
+/// Each refers to what it is given, which must outlive it.
+class FolderSink final : public autonomy::FlightSink {
+ public:
+  explicit FolderSink(interfaces::RunFolder& folder) : folder_(folder) {}
+  void ticked(const autonomy::TickOutcome& outcome) override;
+  void world(const std::shared_ptr<const common::World>& world) override;
+  void event(const common::Event& event) override;
+
+ private:
+  interfaces::RunFolder& folder_;
+};
+
+/// What really happened beside what was believed.
+class TruthSink final : public autonomy::FlightSink {
+ public:
+  TruthSink(const simulation::SimulatedVehicle& vehicle, evaluation::FlightRecorder& recorder)
+      : vehicle_(vehicle), recorder_(recorder) {}
+  void ticked(const autonomy::TickOutcome& outcome) override;
+  void world(const std::shared_ptr<const common::World>& world) override;
+
+ private:
+  const simulation::SimulatedVehicle& vehicle_;
+  evaluation::FlightRecorder& recorder_;
+};
+
+class PageSink final : public autonomy::FlightSink {
+ public:
+  explicit PageSink(WebLink& web) : web_(web) {}
+  /// The newest camera frame.
+  void input(const autonomy::Input& input) override;
+  void world(const std::shared_ptr<const common::World>& world) override;
+  void event(const common::Event& event) override;
+  void result(const common::CommandResult& result) override;
+
+ private:
+  WebLink& web_;
+};
+
+class EventSink final : public autonomy::FlightSink {
+ public:
+  using Tell = std::function<void(const common::Event&)>;
+  explicit EventSink(Tell tell) : tell_(std::move(tell)) {}
+  void event(const common::Event& event) override { tell_(event); }
+
+ private:
+  Tell tell_;
+};
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,43 @@
+#include "apps/picture_sink.hpp"
+
+#include <utility>
+
+#include "apps/pictures.hpp"
+#include "common/world.hpp"
+#include "evaluation/flight_recorder.hpp"
+#include "interfaces/run_folder.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+constexpr double kPicturePeriod_s = 5.0;
+/// Drawing takes about as long as half a second of a flight at full speed.
+constexpr auto kPictureLatency = common::Duration::fromMilliseconds(1000);
+
+}  // namespace
+
+PictureSink::PictureSink(interfaces::RunFolder& folder, const evaluation::FlightRecorder& recorder,
+                         double hull_diameter_m)
+    : folder_(folder), recorder_(recorder), hull_diameter_m_(hull_diameter_m) {}
+
+void PictureSink::ticked(const autonomy::TickOutcome& outcome) {
+  now_ = outcome.now;
+  jobs_->deliverDue(now_);
+}
+
+void PictureSink::world(const std::shared_ptr<const common::World>& world) {
+  if ((now_ - drawn_).seconds() < kPicturePeriod_s || !jobs_->idle("pictures")) return;
+  drawn_ = now_;
+  jobs_->submit("pictures", now_, kPictureLatency,
+                [this, world, summary = folder_.summary(), truth = recorder_.record().truth_map,
+                 hull_m = hull_diameter_m_]() -> common::JobRunner::Deliver {
+                  auto pictures = reportPictures(*world, summary, truth, hull_m);
+                  return [this, pictures = std::move(pictures)](common::Time) { folder_.show(pictures); };
+                });
+}
+
+void PictureSink::drawNow(const common::World& world) {
+  folder_.show(reportPictures(world, folder_.summary(), recorder_.record().truth_map, hull_diameter_m_));
+}
+
+}  // namespace swiftlet::apps

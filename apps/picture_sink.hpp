@@ -1,0 +1,38 @@
+// Draws the pictures of a run's report every few seconds, beside the flight.
+#pragma once
+
+#include <memory>
+
+#include "autonomy/flight_sink.hpp"
+#include "common/jobs.hpp"
+
+namespace swiftlet::evaluation {
+class FlightRecorder;
+}
+namespace swiftlet::interfaces {
+class RunFolder;
+}
+
+namespace swiftlet::apps {
+
+/// Refers to what it is given, which must outlive it; shows the folder what it drew. To be told after the sinks that
+/// write the folder and the recorder.
+class PictureSink final : public autonomy::FlightSink {
+ public:
+  PictureSink(interfaces::RunFolder& folder, const evaluation::FlightRecorder& recorder, double hull_diameter_m);
+
+  void ticked(const autonomy::TickOutcome& outcome) override;
+  void world(const std::shared_ptr<const common::World>& world) override;
+  /// The pictures of the end, at once.
+  void drawNow(const common::World& world);
+
+ private:
+  interfaces::RunFolder& folder_;
+  const evaluation::FlightRecorder& recorder_;
+  double hull_diameter_m_;
+  common::Time now_;
+  common::Time drawn_;
+  std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(1);
+};
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,39 @@
+// Gives an autonomy its inputs and tells the sinks what came of them: what a flight and its replay have in common.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "autonomy/input.hpp"
+#include "common/event.hpp"
+#include "common/vehicle.hpp"
+
+namespace swiftlet::common {
+struct World;
+}
+
+namespace swiftlet::autonomy {
+
+class Autonomy;
+class FlightSink;
+
+/// One thread. Refers to the autonomy and the sinks, which must outlive it; the sinks are told in their order here.
+class InputFeed {
+ public:
+  InputFeed(Autonomy& autonomy, std::vector<FlightSink*> sinks);
+
+  /// What Autonomy::process answers.
+  std::optional<common::Setpoint> give(const Input& input);
+  /// An event that is not the autonomy's own.
+  void tell(const common::Event& event);
+
+ private:
+  void publish(common::Time now, const common::Setpoint& setpoint);
+
+  Autonomy& autonomy_;
+  std::vector<FlightSink*> sinks_;
+  std::shared_ptr<const common::World> last_world_;
+};
+
+}  // namespace swiftlet::autonomy

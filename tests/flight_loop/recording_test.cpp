@@ -1,0 +1,137 @@
+// A flight is a function of its inputs: recorded in memory and given to another autonomy, it gives the same again.
+#include "autonomy/recording.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "autonomy/flight_loop.hpp"
+#include "common/mailbox.hpp"
+#include "tests/flight_loop/short_flight.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::Duration;
+using common::JobDelivery;
+using common::Time;
+
+/// One flight from the ground to the ground in lockstep, with a command of the operator's, flown once for all tests.
+struct Flown {
+  Flown() {
+    const auto vehicle = makeVehicle(11);
+    vehicle->setCameraConsumer(true);
+    Autonomy autonomy = makeAutonomy(common::makeLockstepJobs(1));
+    common::LosslessQueue<common::OperatorCommand> commands;
+    InputRecorder recorder;
+    FlightLoop loop(*vehicle, autonomy, commands, {&recorder, &witness});
+    while (!autonomy.finished() && loop.now() < Time::fromSeconds(45)) {
+      if (loop.now() == Time::fromSeconds(9)) commands.push({1, common::HomeCommand{}});
+      if (!loop.step(loop.now() + common::kControlPeriod)) break;
+    }
+    finished = autonomy.finished();
+    recording = recorder.recording();
+  }
+
+  Witness witness;
+  Recording recording;
+  bool finished = false;
+};
+
+const Flown& flown() {
+  static const Flown kFlown;
+  return kFlown;
+}
+
+std::map<std::string, int> deliveriesByKind(const Recording& recording) {
+  std::map<std::string, int> counts;
+  for (const Input& input : recording)
+    if (const auto* delivery = std::get_if<JobDelivery>(&input)) ++counts[delivery->kind];
+  return counts;
+}
+
+int scansIn(const Recording& recording) {
+  return static_cast<int>(std::count_if(recording.begin(), recording.end(), [](const Input& input) {
+    const auto* event = std::get_if<common::SensorEvent>(&input);
+    return event && std::holds_alternative<std::shared_ptr<const common::LaserScan>>(*event);
+  }));
+}
+
+TEST(Recording, HoldsAFlightWithAllThatCanComeIn) {
+  ASSERT_TRUE(flown().finished);
+  EXPECT_TRUE(flown().witness.heard("flying"));
+  auto counts = deliveriesByKind(flown().recording);
+  EXPECT_GE(counts["planning"], 3);
+  EXPECT_GE(counts["slam"], 1);
+  EXPECT_GT(scansIn(flown().recording), 300);
+  EXPECT_EQ(flown().witness.results.size(), 1u);
+}
+
+TEST(Recording, CameraFramesComeTheSameWayAsScans) {
+  const auto& recording = flown().recording;
+  EXPECT_TRUE(std::any_of(recording.begin(), recording.end(), [](const Input& input) {
+    const auto* event = std::get_if<common::SensorEvent>(&input);
+    return event && std::holds_alternative<std::shared_ptr<const common::CameraFrame>>(*event);
+  }));
+}
+
+TEST(Recording, NoInputIsOfATimeBeforeTheLast) {
+  Time last;
+  for (const Input& input : flown().recording) {
+    EXPECT_GE(timeOf(input), last);
+    last = timeOf(input);
+  }
+}
+
+TEST(Recording, GivesTheSameFlightAgain) {
+  Autonomy again = makeAutonomy(common::makeLockstepJobs(0));
+  Witness witness;
+  const auto outcome = replay(flown().recording, again, {&witness});
+  ASSERT_TRUE(outcome) << outcome.error();
+  ASSERT_FALSE(witness.ticks.empty());
+  EXPECT_EQ(difference(flown().witness, witness), "");
+  EXPECT_TRUE(again.finished());
+}
+
+/// The same inputs, but one delivery comes a second later.
+Recording withOneDeliveryShifted(Recording recording, const std::string& kind) {
+  const auto delivery = std::find_if(recording.begin(), recording.end(), [&](const Input& input) {
+    const auto* one = std::get_if<JobDelivery>(&input);
+    return one && one->kind == kind && one->delivered > Time::fromSeconds(6);
+  });
+  EXPECT_NE(delivery, recording.end());
+  JobDelivery shifted = std::get<JobDelivery>(*delivery);
+  shifted.delivered += Duration::fromSeconds(1);
+  recording.erase(delivery);
+  const auto later = std::find_if(recording.begin(), recording.end(),
+                                  [&](const Input& input) { return timeOf(input) >= shifted.delivered; });
+  recording.insert(later, shifted);
+  return recording;
+}
+
+TEST(Recording, AShiftedDeliveryIsNoticed) {
+  for (const std::string kind : {"planning", "slam"}) {
+    Autonomy again = makeAutonomy(common::makeLockstepJobs(0));
+    Witness witness;
+    const auto outcome = replay(withOneDeliveryShifted(flown().recording, kind), again, {&witness});
+    if (!outcome) {
+      EXPECT_THAT(outcome.error(), testing::HasSubstr("not outstanding")) << kind;
+    } else {
+      EXPECT_NE(difference(flown().witness, witness), "") << kind;
+    }
+  }
+}
+
+TEST(Recording, OfAnotherFlightIsRefusedWithItsPlace) {
+  Autonomy fresh = makeAutonomy(common::makeLockstepJobs(0));
+  const JobDelivery stray{"planning", 7, Time::fromSeconds(1), Time::fromSeconds(2)};
+  const auto outcome = replay({Tick{Time::fromSeconds(0.01)}, stray}, fresh, {});
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error(),
+            "at 2.000 s the recording delivers job 7 (planning) of 1.000 s, which is not outstanding in the replay");
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy
