@@ -13,7 +13,7 @@
 #include "common/config.hpp"
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
-#include "common/world.hpp"
+#include "common/world/frontier.hpp"
 #include "planning/costs/cost_map.hpp"
 #include "planning/search/planner.hpp"
 

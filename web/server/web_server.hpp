@@ -24,8 +24,11 @@
 #include "common/event.hpp"
 #include "common/mailbox.hpp"
 #include "common/sensor_event.hpp"
-#include "common/world.hpp"
 #include "web/server/io_context.hpp"
+
+namespace swiftlet::common {
+struct World;
+}
 
 namespace swiftlet::web {
 
