@@ -11,9 +11,9 @@ namespace swiftlet::rendering {
 namespace {
 
 /// 300 x 300 cells, all known.
-testing::Layers wholeMap() {
+test::Layers wholeMap() {
   testing::ExampleFlight flight;
-  testing::Layers layers(*flight.advance(30.0));
+  test::Layers layers(*flight.advance(30.0));
   common::OccupancyGrid grid = *layers.map.grid;
   for (int y = -80; y < 220; ++y)
     for (int x = -60; x < 240; ++x)
@@ -33,7 +33,7 @@ void fresh(benchmark::State& state) {
 BENCHMARK(fresh)->Arg(320)->Arg(640)->Arg(1280)->Unit(benchmark::kMillisecond);
 
 void streamed(benchmark::State& state) {
-  testing::Layers layers = wholeMap();
+  test::Layers layers = wholeMap();
   common::OccupancyGrid grid = *layers.map.grid;
   MapRenderer renderer;
   int step = 0;

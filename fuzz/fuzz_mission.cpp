@@ -15,7 +15,7 @@ namespace {
 using namespace swiftlet;
 
 std::shared_ptr<const common::World> worldFrom(std::uint8_t bits) {
-  testing::Layers layers;
+  test::Layers layers;
   layers.vehicle.flight_state = (bits & 1U) != 0 ? common::FlightState::kFlying : common::FlightState::kLanded;
   layers.vehicle.avoidance.retreating = (bits & 2U) != 0;
   layers.vehicle.home_map.x_m = (bits & 4U) != 0 ? 1.0 : 0.0;

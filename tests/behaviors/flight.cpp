@@ -13,8 +13,8 @@ std::shared_ptr<const common::OccupancyGrid> someGrid() {
   return grid;
 }
 
-swiftlet::testing::Layers someLayers() {
-  swiftlet::testing::Layers layers;
+test::Layers someLayers() {
+  test::Layers layers;
   layers.map.grid = someGrid();
   layers.vehicle.flight_state = common::FlightState::kFlying;
   return layers;

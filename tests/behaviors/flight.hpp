@@ -48,7 +48,7 @@ class Flight {
   TickResult last;
 
  private:
-  using Layers = swiftlet::testing::Layers;
+  using Layers = test::Layers;
   Flight& change(const std::function<void(Layers&)>& change);
   std::uint64_t commands_ = 0;
 };

@@ -60,7 +60,7 @@ double FakeBackend::serverCpu_s() const {
 }
 
 common::CommandResult FakeBackend::carryOut(const common::OperatorCommand& command) {
-  Layers& layers = flight_.layers();
+  test::Layers& layers = flight_.layers();
   const auto say = [&](common::Severity severity, const std::string& text, const std::string& reason) {
     server_->postEvent({layers.stamp, severity, "mission", text, reason});
   };

@@ -14,7 +14,7 @@ namespace {
 using common::MissionState;
 using common::Pose3;
 using common::Time;
-using swiftlet::testing::Layers;
+using test::Layers;
 
 /// The take-off place: at (3, 4) on a floor of 0.2 m, heading along the world's y.
 const Pose3 kTakeOff{common::quaternionFrom({0, 0, M_PI_2}), {3, 4, 0.2}};

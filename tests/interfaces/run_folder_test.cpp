@@ -41,10 +41,10 @@ struct Flight {
     return state;
   }
 
-  swiftlet::testing::Layers layers(MissionState mission, const std::string& phase) {
+  test::Layers layers(MissionState mission, const std::string& phase) {
     grid.set(grid.cellAt(time_s, 0.0), -10);
     grid.set(grid.cellAt(time_s, 1.0), 10);
-    swiftlet::testing::Layers layers;
+    test::Layers layers;
     layers.stamp = Time::fromSeconds(time_s);
     layers.vehicle.state = state();
     layers.vehicle.distance_flown_m = time_s;

@@ -144,7 +144,7 @@ TEST(ViewportTest, ScreenAndMapAreInverse) {
 
 TEST(ViewportTest, ADivergedEstimateDoesNotEmptyThePicture) {
   testing::ExampleFlight flight;
-  testing::Layers layers(*flight.advance(1.0));
+  test::Layers layers(*flight.advance(1.0));
   const auto viewportOf = [](const MapPicture& picture) {
     return fitViewport(*picture.grid, picture.in_view_map_m, 640, 480);
   };
@@ -223,7 +223,7 @@ TEST(MapRendererTest, ATrailWithoutItsVehicleEndsAtItsLastPoint) {
 }
 
 TEST(PictureOfWorldTest, TrailAndPlanMeetAtTheVehicle) {
-  testing::Layers layers;
+  test::Layers layers;
   layers.vehicle.state.T_odom_body.position_m = {2.0, 3.0, 1.0};
   layers.vehicle.trail = common::Trail({{0.0, 0.0}, {1.0, 2.0}});
   layers.vehicle.plan_map_m = {{5.0, 3.0}, {5.0, 6.0}};
@@ -239,7 +239,7 @@ TEST(PictureOfWorldTest, TrailAndPlanMeetAtTheVehicle) {
 }
 
 TEST(PictureOfWorldTest, WithoutAPlanThereIsNoLineOfIt) {
-  const MapPicture picture = pictureOf(testing::Layers().world(), 0.55);
+  const MapPicture picture = pictureOf(test::Layers().world(), 0.55);
   ASSERT_EQ(picture.lines.size(), 1u);
   EXPECT_EQ(picture.lines[0].style, LineStyle::kTrail);
   EXPECT_EQ(picture.marks.size(), 2u) << "home and vehicle, no goal";

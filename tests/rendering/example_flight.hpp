@@ -17,7 +17,7 @@ class ExampleFlight {
   /// Flies on for `seconds` and returns the world then.
   std::shared_ptr<const common::World> advance(double seconds);
   /// What the next world has; what the flight itself changes is made anew when it flies on.
-  Layers& layers() { return layers_; }
+  test::Layers& layers() { return layers_; }
 
   /// A camera picture that changes with time.
   static common::CameraFrame cameraFrame(double time_s, int width_px, int height_px);
@@ -37,7 +37,7 @@ class ExampleFlight {
   common::Pose2 pose_;
   double time_s_ = 0.0;
   std::size_t waypoint_ = 0;
-  Layers layers_;
+  test::Layers layers_;
 };
 
 }  // namespace swiftlet::testing

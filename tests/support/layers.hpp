@@ -11,7 +11,7 @@
 #include "common/world/people_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 
-namespace swiftlet::testing {
+namespace swiftlet::test {
 
 struct Layers {
   common::Time stamp;
@@ -45,4 +45,4 @@ struct Layers {
   }
 };
 
-}  // namespace swiftlet::testing
+}  // namespace swiftlet::test

@@ -184,7 +184,7 @@ TEST(StateJsonTest, HasEverythingAndIsValidJson) {
 
 TEST(StateJsonTest, HasWhereItIsInTheGivenMapAsSoonAsThatIsKnown) {
   testing::ExampleFlight flight;
-  testing::Layers layers(*flight.advance(0.5));
+  test::Layers layers(*flight.advance(0.5));
   common::Localization& localization = layers.map.localization.emplace();
   localization.state = common::LocalizationState::kAmbiguous;
   localization.places = 3;
@@ -239,7 +239,7 @@ TEST_F(RealtimeFactor, IsThereRightAfterAPauseInLooking) {
 
 TEST(StateJsonTest, NamesTheVehicleOnlyWhereThereAreSeveral) {
   testing::ExampleFlight flight;
-  testing::Layers layers(*flight.advance(0.1));
+  test::Layers layers(*flight.advance(0.1));
   std::vector<NumberedEvent> events{{1, {layers.stamp, common::Severity::kInfo, "mission", "ready", ""}}};
   const auto alone = nlohmann::json::parse(completeJson(layers.world(), {}, events));
   EXPECT_FALSE(alone.contains("vehicle"));
@@ -252,7 +252,7 @@ TEST(StateJsonTest, NamesTheVehicleOnlyWhereThereAreSeveral) {
 
 TEST(StateJsonTest, SurvivesNumbersAndTextThatAreNone) {
   testing::ExampleFlight flight;
-  testing::Layers layers(*flight.advance(0.1));
+  test::Layers layers(*flight.advance(0.1));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   layers.vehicle.state.T_odom_body.position_m.setConstant(nan);
   layers.vehicle.state.T_odom_body.rotation.coeffs().setConstant(nan);
