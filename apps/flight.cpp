@@ -17,6 +17,8 @@
 #include "autonomy/autonomy.hpp"
 #include "autonomy/flight_loop.hpp"
 #include "common/mailbox.hpp"
+#include "common/world.hpp"
+#include "common/world/mission_layer.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -152,7 +154,9 @@ class Flight {
     folder_.finish(end);
     if (hooks_.web) {
       auto last = std::make_shared<common::World>(*autonomy_.world());
-      last->ending = {std::string(interfaces::toString(outcome_)), reason_};
+      auto mission = std::make_shared<common::MissionLayer>(*last->mission);
+      mission->ending = {std::string(interfaces::toString(outcome_)), reason_};
+      last->mission = std::move(mission);
       hooks_.web->world().post(std::move(last));
     }
     FlightResult result;

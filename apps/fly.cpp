@@ -18,6 +18,11 @@
 #include "apps/web_link.hpp"
 #include "common/data_paths.hpp"
 #include "common/rounding.hpp"
+#include "common/world.hpp"
+#include "common/world/energy_layer.hpp"
+#include "common/world/map_layer.hpp"
+#include "common/world/mission_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -53,11 +58,13 @@ FlightSetup setupOf(const FlyOptions& options) {
 
 std::string progressLine(const FlightProgress& progress) {
   const common::World& world = *progress.world;
-  const std::string explored =
-      world.explored_area_m2 > 0 ? fmt::format("{:6.1f} m2", world.explored_area_m2) : std::string(9, ' ');
+  const common::VehicleLayer& vehicle = *world.vehicle;
+  const std::string& phase = world.mission->status.phase;
+  const double explored_m2 = world.map->explored_area_m2;
+  const std::string explored = explored_m2 > 0 ? fmt::format("{:6.1f} m2", explored_m2) : std::string(9, ' ');
   return fmt::format("{:6.1f} s  {:<24.24} {}  {:6.1f} m  battery {:3.0f} %  {:5.1f} x real time", progress.simulated_s,
-                     world.mission.phase.empty() ? toString(world.status.flight_state) : world.mission.phase, explored,
-                     world.status.distance_flown_m, 100.0 * world.status.battery_remaining,
+                     phase.empty() ? toString(vehicle.flight_state) : phase, explored, vehicle.distance_flown_m,
+                     100.0 * world.energy->battery_remaining,
                      progress.wall_s > 0 ? progress.simulated_s / progress.wall_s : 0.0);
 }
 

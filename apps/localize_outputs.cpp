@@ -5,13 +5,11 @@
 #include <fmt/core.h>
 
 #include "apps/required.hpp"
-#include "common/world.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/json_lines.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/report/report.hpp"
 #include "rendering/encode.hpp"
-#include "rendering/map_layers.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/map_svg.hpp"
 
@@ -23,49 +21,38 @@ using Ways = std::vector<std::vector<Eigen::Vector2d>>;
 /// Points of a way nearer than this to the one before are not drawn.
 constexpr double kDrawnStep_m = 0.05;
 
-common::World worldOf(const interfaces::StoredMap& map) {
-  common::World world;
-  world.grid = std::make_shared<const common::OccupancyGrid>(map.grid);
-  world.levels = std::make_shared<const common::LevelMap>();
-  world.frontiers = std::make_shared<const std::vector<common::Frontier>>();
-  world.trail_map_m = std::make_shared<const std::vector<Eigen::Vector2d>>();
-  return world;
-}
-
 /// Pictures show the grid's frame.
-Ways inGrid(const Ways& path_lengths_map_m, const common::Pose2& T_map_grid) {
+Ways inGrid(const Ways& paths_map_m, const common::Pose2& T_map_grid) {
   const common::Pose2 T_grid_map = T_map_grid.inverse();
-  Ways ways = path_lengths_map_m;
+  Ways ways = paths_map_m;
   for (auto& way : ways)
     for (Eigen::Vector2d& point : way) point = T_grid_map * point;
   return ways;
 }
 
-std::string mapPicture(const common::World& world, const Ways& ways_grid_m) {
+rendering::MapPicture pictureOf(const interfaces::StoredMap& map, const Ways& ways_grid_m) {
+  rendering::MapPicture picture;
+  picture.grid = std::make_shared<const common::OccupancyGrid>(map.grid);
+  for (const std::vector<Eigen::Vector2d>& way : ways_grid_m)
+    picture.lines.push_back({"localized", way, rendering::LineStyle::kTrack});
+  return picture;
+}
+
+std::string mapPng(const rendering::MapPicture& picture) {
   rendering::MapView view;
   view.width_px = 1280;
   view.height_px = 960;
-  view.layers.laser = view.layers.trail = view.layers.plan = view.layers.vehicle = false;
-  view.layers.home = view.layers.goal = false;
-  view.viewport = rendering::fitViewport(world, view.width_px, view.height_px);
-  rendering::Canvas canvas(rendering::renderMap(world, view));
-  for (const std::vector<Eigen::Vector2d>& way : ways_grid_m) {
-    std::vector<Eigen::Vector2d> pixels;
-    for (const Eigen::Vector2d& point : way) pixels.push_back(view.viewport->toPixel(point));
-    canvas.polyline(pixels, 3.0, rendering::themeOf(view.scheme).trail);
-  }
-  const rendering::Bytes png = rendering::encodePng(canvas.take());
+  const rendering::Bytes png = rendering::encodePng(rendering::renderMap(picture, view));
   return {png.begin(), png.end()};
 }
 
-std::string mapDrawing(const common::World& world, const Ways& ways_grid_m) {
-  std::vector<rendering::MapLine> lines;
-  std::vector<rendering::MapMark> marks;
-  for (const std::vector<Eigen::Vector2d>& way : ways_grid_m) {
-    lines.push_back({"localized", way, false});
-    marks.push_back({fmt::format("{}", marks.size() + 1), way.front()});
+/// The begin of each line has its number.
+std::string mapDrawing(rendering::MapPicture picture) {
+  for (const rendering::MapLine& line : picture.lines) {
+    const Eigen::Vector2d& begin = line.points_map_m.front();
+    picture.marks.push_back({fmt::format("{}", picture.marks.size() + 1), {begin.x(), begin.y(), 0.0}});
   }
-  return rendering::mapSvg(world, lines, marks);
+  return rendering::mapSvg(picture);
 }
 
 void writeTrajectory(const std::filesystem::path& file, const Spool<LocalizedScan>& track) {
@@ -117,22 +104,21 @@ std::vector<ToldEvent> told(const std::vector<LoggedEvent>& events, bool has_sta
 
 void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
                           const LocalizeFigures& figures) {
-  const common::World world = worldOf(map);
-  const Ways ways = inGrid(figures.ways.path_lengths_map_m(), map.T_map_grid);
+  const rendering::MapPicture picture = pictureOf(map, inGrid(figures.ways.paths_map_m(), map.T_map_grid));
   interfaces::LocalizationReport report;
   report.title =
       fmt::format("{}{} in {}", kLocalizeTitle, std::filesystem::path(figures.log).filename().string(), figures.map);
   report.facts = figures.facts;
   report.warnings = figures.warnings;
   report.events = tableOf(told(figures.events, figures.has_stamps));
-  report.map_svg = mapDrawing(world, ways);
+  report.map_svg = mapDrawing(picture);
   report.plots_svg = {plotOver("Not explained by the map", "% of a scan", figures.unexplained),
                       plotOver("Time per scan", "ms", figures.milliseconds)};
   std::string events;
   for (const LoggedEvent& logged : figures.events) events += interfaces::toJson(logged.event) + "\n";
   writeTrajectory(out / "trajectory.tum", figures.track);
   required(interfaces::writeAtomically(out / "events.jsonl", events));
-  required(interfaces::writeAtomically(out / "map.png", mapPicture(world, ways)));
+  required(interfaces::writeAtomically(out / "map.png", mapPng(picture)));
   required(interfaces::writeAtomically(out / "report.html", interfaces::localizationReport(report)));
 }
 

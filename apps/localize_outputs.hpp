@@ -24,7 +24,7 @@ namespace swiftlet::apps {
 class LocalizedWays {
  public:
   void add(const perception::LocalizationEstimate& estimate);
-  const std::vector<std::vector<Eigen::Vector2d>>& path_lengths_map_m() const { return ways_; }
+  const std::vector<std::vector<Eigen::Vector2d>>& paths_map_m() const { return ways_; }
 
  private:
   std::vector<std::vector<Eigen::Vector2d>> ways_;

@@ -9,7 +9,6 @@
 
 #include "apps/required.hpp"
 #include "common/read_bytes.hpp"
-#include "common/world.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/g2o.hpp"
 #include "interfaces/files/map_server.hpp"
@@ -70,30 +69,21 @@ std::vector<Eigen::Vector2d> lineOf(const TrackSpool& track, const std::vector<P
   return line;
 }
 
-common::World worldOf(const common::OccupancyGrid& map, const std::vector<Eigen::Vector2d>& way_map_m) {
-  common::World world;
-  world.grid = std::make_shared<const common::OccupancyGrid>(map);
-  world.levels = std::make_shared<const common::LevelMap>();
-  world.frontiers = std::make_shared<const std::vector<common::Frontier>>();
-  world.trail_map_m = std::make_shared<const std::vector<Eigen::Vector2d>>(way_map_m);
-  return world;
-}
-
 std::vector<rendering::MapLine> loopsOf(const std::vector<perception::SlamEdge>& edges,
                                         const std::vector<Pose2>& keys) {
   const auto at_m = [&](int key) { return keys[static_cast<std::size_t>(key)].position_m(); };
   std::vector<rendering::MapLine> lines;
   for (const perception::SlamEdge& edge : edges)
-    if (edge.loop) lines.push_back({"loop closures", {at_m(edge.from), at_m(edge.to)}, true});
+    if (edge.loop)
+      lines.push_back({"loop closures", {at_m(edge.from), at_m(edge.to)}, rendering::LineStyle::kReference});
   return lines;
 }
 
-std::string mapPicture(const common::World& world) {
+std::string mapPng(const rendering::MapPicture& picture) {
   rendering::MapView view;
   view.width_px = 1280;
   view.height_px = 960;
-  view.layers.laser = view.layers.plan = view.layers.vehicle = view.layers.home = view.layers.goal = false;
-  const rendering::Bytes png = rendering::encodePng(rendering::renderMap(world, view));
+  const rendering::Bytes png = rendering::encodePng(rendering::renderMap(picture, view));
   return {png.begin(), png.end()};
 }
 
@@ -135,12 +125,15 @@ void writeMapOutputs(const fs::path& out, const perception::LaserSlam& slam, con
   report.plots_svg = {plotOver("Time per scan", "ms", figures.milliseconds)};
   report.map_svg = "<p class=\"empty\">None.</p>";
   if (map) {
-    const common::World world = worldOf(*map, lineOf(track, keys));
-    std::vector<rendering::MapLine> lines = loopsOf(slam.slam().edges(), keys);
-    lines.insert(lines.begin(), {"trajectory", *world.trail_map_m, false});
-    report.map_svg = rendering::mapSvg(world, lines, {{"begin", keys.front().position_m()}});
+    rendering::MapPicture picture;
+    picture.grid = std::make_shared<const common::OccupancyGrid>(*map);
+    picture.lines = {{"trajectory", lineOf(track, keys), rendering::LineStyle::kTrail}};
+    required(interfaces::writeAtomically(out / "map.png", mapPng(picture)));
+    const std::vector<rendering::MapLine> loops = loopsOf(slam.slam().edges(), keys);
+    picture.lines.insert(picture.lines.end(), loops.begin(), loops.end());
+    picture.marks = {{"begin", keys.front(), rendering::MarkStyle::kHome}};
+    report.map_svg = rendering::mapSvg(picture);
     required(interfaces::writeMap(out, "map", *map));
-    required(interfaces::writeAtomically(out / "map.png", mapPicture(world)));
   }
   required(interfaces::writeAtomically(out / "report.html", interfaces::mapReport(report)));
 }

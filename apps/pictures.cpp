@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "common/world.hpp"
+#include "common/world/vehicle_layer.hpp"
 #include "rendering/encode.hpp"
+#include "rendering/map_picture.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/map_svg.hpp"
 #include "rendering/plot_svg.hpp"
@@ -78,17 +81,20 @@ interfaces::ReportPictures reportPictures(const common::World& world, const inte
   rendering::MapView view;
   view.width_px = 960;
   view.height_px = 720;
-  view.hull_diameter_m = hull_diameter_m;
-  view.layers.laser = false;
-  const rendering::Bytes png = rendering::encodePng(rendering::renderMap(world, view));
+  rendering::MapPicture picture = rendering::pictureOf(world, hull_diameter_m);
+  picture.scan_map_m.clear();
+  const rendering::Bytes png = rendering::encodePng(rendering::renderMap(picture, view));
 
-  std::vector<rendering::MapLine> lines{{"estimate", *world.trail_map_m, false}};
-  if (!truth_map.empty()) lines.push_back({"ground truth", planarPoints(truth_map), true});
-  std::vector<rendering::MapMark> marks{{"home", world.home_map.position_m()}};
+  const common::VehicleLayer& vehicle = *world.vehicle;
+  const auto trail_map_m = vehicle.trail.points_map_m();
+  picture.lines = {{"estimate", {trail_map_m.begin(), trail_map_m.end()}, rendering::LineStyle::kTrail}};
+  if (!truth_map.empty())
+    picture.lines.push_back({"ground truth", planarPoints(truth_map), rendering::LineStyle::kReference});
+  picture.marks = {{"home", vehicle.home_map, rendering::MarkStyle::kHome}};
 
   interfaces::ReportPictures pictures;
   pictures.map_png.assign(png.begin(), png.end());
-  pictures.map_svg = rendering::mapSvg(world, lines, marks);
+  pictures.map_svg = rendering::mapSvg(picture);
   pictures.plots_svg = plotsOf(summary);
   return pictures;
 }

@@ -2,9 +2,12 @@
 #pragma once
 
 #include "common/trajectory.hpp"
-#include "common/world.hpp"
 #include "interfaces/flight_summary.hpp"
 #include "interfaces/report/report.hpp"
+
+namespace swiftlet::common {
+struct World;
+}
 
 namespace swiftlet::apps {
 

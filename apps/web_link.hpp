@@ -10,7 +10,6 @@
 #include "common/event.hpp"
 #include "common/mailbox.hpp"
 #include "common/sensor_event.hpp"
-#include "common/world.hpp"
 #include "web/server/web_server.hpp"
 
 namespace swiftlet::apps {

@@ -15,7 +15,6 @@ namespace {
 /// Ids of the supervisor's own intents; those of the mission count from 1.
 constexpr std::uint64_t kSupervisorHold = 1ULL << 62;
 constexpr std::uint64_t kSupervisorLand = kSupervisorHold + 1;
-constexpr double kTrailStep_m = 0.05;
 
 }  // namespace
 
@@ -56,8 +55,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
       supervisor_(config.supervisor),
       mission_(std::move(mission)),
-      jobs_(std::move(jobs)),
-      trail_(std::make_shared<std::vector<Eigen::Vector2d>>()) {
+      jobs_(std::move(jobs)) {
   context_.hull_radius_m = vehicle.hullRadius_m();
   mission_status_.accepts_goals = mission_.acceptsGoals();
   takeSnapshot(Time{});
@@ -82,8 +80,8 @@ void Autonomy::take(const common::SensorEvent& event) {
     scans_.push_back({*scan, arrived + common::Duration::fromSeconds(config_.scan_latency_s)});
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     if (!supervisor_.batteryArrived(arrived, *battery)) return;
-    status_.battery_voltage_v = battery->voltage_v;
-    status_.battery_remaining = battery->remaining;
+    energy_.battery_voltage_v = battery->voltage_v;
+    energy_.battery_remaining = battery->remaining;
   } else if (const auto* pilot = std::get_if<common::PilotSample>(&event)) {
     supervisor_.pilotArrived(arrived, pilot->takes_over);
   }
@@ -122,7 +120,7 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.now = now;
   flight.state = estimator_.state();
   flight.raw_height = std::exchange(raw_height_, std::nullopt);
-  flight.battery_v = status_.battery_voltage_v;
+  flight.battery_v = energy_.battery_voltage_v;
   flight.pilot_flies = supervisor_.pilotFlies();
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
   const common::Setpoint setpoint = controller_.tick(flight);
@@ -190,7 +188,6 @@ void Autonomy::prepare() {
 // --------------------------------------------------------------------------------------------------- behaviours
 
 void Autonomy::tickBehaviors(Time now) {
-  status_.flight_state = controller_.state();
   takeSnapshot(now);
   if (prepared_) wish_ = wishOf(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
@@ -202,7 +199,7 @@ void Autonomy::tickBehaviors(Time now) {
 /// The supervisor's wish before the mission's.
 common::Intent Autonomy::wishOf(Time now) {
   const bool airborne = control::isAirborne(controller_.state());
-  const Supervision& supervision = supervisor_.tick(now, airborne, status_);
+  const Supervision& supervision = supervisor_.tick(now, airborne, energy_);
   context_.world = world_;
   context_.status = executor_.status();
   context_.now = now;
@@ -239,36 +236,20 @@ void Autonomy::tickMission() {
 }
 
 void Autonomy::takeSnapshot(Time now) {
-  const common::VehicleState state = estimator_.state();
-  const Eigen::Vector2d position_odom_m = state.T_odom_body.position_m.head<2>();
-  if (control::isAirborne(status_.flight_state)) {
-    if (last_position_odom_m_) status_.distance_flown_m += (position_odom_m - *last_position_odom_m_).norm();
-    const Eigen::Vector2d position_map_m = state.T_map_body().position_m.head<2>();
-    if (trail_->empty() || (trail_->back() - position_map_m).norm() > kTrailStep_m) {
-      trail_ = std::make_shared<std::vector<Eigen::Vector2d>>(*trail_);
-      trail_->push_back(position_map_m);
-    }
-  }
-  last_position_odom_m_ = position_odom_m;
-
-  auto world = std::make_shared<common::World>();
-  world->stamp = now;
-  world->state = state;
-  world->status = status_;
-  world->avoidance = reactive_.decision().status;
-  world->grid = estimator_.grid();
-  world->levels = estimator_.levels();
-  world->frontiers = executor_.frontiers();
-  world->plan_map_m = executor_.remainingPlan_map_m();
-  world->trail_map_m = trail_;
-  world->goal_map_m = executor_.goal_map_m();
-  world->explored_area_m2 = executor_.exploredArea_m2();
-  world->intent = executor_.status();
-  world->mission = mission_status_;
-  world->mission.tree = mission_.view();
-  world->laser = laser_points_;
-  world->localization = estimator_.localization();
-  world_ = std::move(world);
+  WorldParts parts;
+  parts.vehicle.state = estimator_.state();
+  parts.vehicle.flight_state = controller_.state();
+  parts.vehicle.avoidance = reactive_.decision().status;
+  parts.vehicle.plan_map_m = executor_.remainingPlan_map_m();
+  parts.vehicle.laser = laser_points_;
+  parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}};
+  parts.mission.status.tree = mission_.view();
+  parts.map = {estimator_.grid(), estimator_.levels(), executor_.frontiers(), executor_.exploredArea_m2(),
+               estimator_.localization()};
+  for (const planning::Disc& person : reactive_.people(now))
+    parts.people.people.push_back({person.center_map_m, person.radius_m});
+  parts.energy = energy_;
+  world_ = world_builder_.build(now, std::move(parts));
 }
 
 void Autonomy::collect(std::vector<common::Event> events) {

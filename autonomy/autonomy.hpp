@@ -12,6 +12,7 @@
 #include "autonomy/input.hpp"
 #include "autonomy/reactive.hpp"
 #include "autonomy/supervisor.hpp"
+#include "autonomy/world_builder.hpp"
 #include "behaviors/mission.hpp"
 #include "common/command.hpp"
 #include "common/config_fwd.hpp"
@@ -105,7 +106,7 @@ class Autonomy {
     common::Time due;
   };
   std::vector<WaitingScan> scans_;
-  common::VehicleStatus status_;
+  common::EnergyLayer energy_;
   std::optional<control::RawHeight> raw_height_;
   std::shared_ptr<const common::LaserPoints> laser_points_;
 
@@ -116,8 +117,7 @@ class Autonomy {
   bool prepared_ = false;
   std::optional<common::Time> last_behaviors_;
 
-  std::shared_ptr<std::vector<Eigen::Vector2d>> trail_;
-  std::optional<Eigen::Vector2d> last_position_odom_m_;
+  WorldBuilder world_builder_;
   std::shared_ptr<const common::World> world_;
   std::vector<common::Event> events_;
   std::vector<common::CommandResult> results_;

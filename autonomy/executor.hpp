@@ -15,7 +15,7 @@
 #include "common/jobs.hpp"
 #include "common/vehicle_config.hpp"
 #include "common/vehicle_state.hpp"
-#include "common/world.hpp"
+#include "common/world/frontier.hpp"
 #include "control/flight_controller.hpp"
 #include "planning/avoidance/avoidance.hpp"
 #include "planning/search/plan_keeper.hpp"

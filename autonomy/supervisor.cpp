@@ -61,7 +61,7 @@ bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
   return believed;
 }
 
-const Supervision& Supervisor::tick(Time now, bool airborne, const common::VehicleStatus& status) {
+const Supervision& Supervisor::tick(Time now, bool airborne, const common::EnergyLayer& energy) {
   const double silent_s = last_scan_ ? (now - *last_scan_).seconds() : 0.0;
   if (airborne && silent_s > config_.laser_land_s) land(now, fmt::format("no scan for {:.1f} s", silent_s));
   const bool laser_holds = airborne && silent_s > config_.laser_hold_s;
@@ -70,8 +70,8 @@ const Supervision& Supervisor::tick(Time now, bool airborne, const common::Vehic
         laser_holds ? fmt::format("no scan for {:.2f} s", silent_s) : "");
   laser_holds_ = laser_holds;
 
-  if (airborne && status.battery_remaining < config_.battery_land_share)
-    land(now, fmt::format("{:.0f} % of the battery left", 100.0 * status.battery_remaining));
+  if (airborne && energy.battery_remaining < config_.battery_land_share)
+    land(now, fmt::format("{:.0f} % of the battery left", 100.0 * energy.battery_remaining));
 
   supervision_.hold = operator_holds_ || laser_holds_ || pilot_flies_;
   supervision_.hold_reason = pilot_flies_      ? "the pilot flies"

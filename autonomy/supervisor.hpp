@@ -11,7 +11,7 @@
 #include "common/event.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
-#include "common/world.hpp"
+#include "common/world/energy_layer.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -52,7 +52,7 @@ class Supervisor {
   bool pilotFlies() const { return pilot_flies_; }
 
   /// `airborne`: a fault on the ground is no reason to land.
-  const Supervision& tick(common::Time now, bool airborne, const common::VehicleStatus& status);
+  const Supervision& tick(common::Time now, bool airborne, const common::EnergyLayer& energy);
 
   bool landedByOperator() const { return landed_by_operator_; }
   std::vector<common::Event> takeEvents();

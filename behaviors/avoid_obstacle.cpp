@@ -1,5 +1,8 @@
 #include "behaviors/avoid_obstacle.hpp"
 
+#include "common/world.hpp"
+#include "common/world/vehicle_layer.hpp"
+
 namespace swiftlet::behaviors {
 
 tree::NodeManifest AvoidObstacle::manifest() {
@@ -12,13 +15,13 @@ tree::NodeManifest AvoidObstacle::manifest() {
 }
 
 std::string AvoidObstacle::reason(const tree::TickContext& context) const {
-  const std::string& reason = flightTick(context).flight.world->avoidance.reason;
+  const std::string& reason = flightTick(context).flight.world->vehicle->avoidance.reason;
   return reason.empty() ? "the reactive layer retreats" : reason;
 }
 
 bool AvoidObstacle::onAsked(const tree::TickContext& context) const {
-  const common::World& world = *flightTick(context).flight.world;
-  return world.status.flight_state == common::FlightState::kFlying && world.avoidance.retreating;
+  const common::VehicleLayer& vehicle = *flightTick(context).flight.world->vehicle;
+  return vehicle.flight_state == common::FlightState::kFlying && vehicle.avoidance.retreating;
 }
 
 tree::Status AvoidObstacle::act(tree::TickContext& context) {

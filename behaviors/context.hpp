@@ -11,7 +11,10 @@
 #include "common/event.hpp"
 #include "common/intent.hpp"
 #include "common/time.hpp"
-#include "common/world.hpp"
+
+namespace swiftlet::common {
+struct World;
+}
 
 namespace swiftlet::behaviors {
 

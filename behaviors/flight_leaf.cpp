@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "common/world.hpp"
+#include "common/world/vehicle_layer.hpp"
+
 namespace swiftlet::behaviors {
 
 using tree::Release;
@@ -32,7 +35,7 @@ Release FlightLeaf::onSuspend(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
   wishHold(tick);
   const bool stopped = tick.flight.status.id == hold_id_ && tick.flight.status.released;
-  return stopped || tick.flight.world->avoidance.retreating ? Release::kReleased : Release::kLettingGo;
+  return stopped || tick.flight.world->vehicle->avoidance.retreating ? Release::kReleased : Release::kLettingGo;
 }
 
 Release FlightLeaf::onHalt(tree::TickContext& context) { return onSuspend(context); }

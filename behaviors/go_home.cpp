@@ -1,6 +1,8 @@
 #include "behaviors/go_home.hpp"
 
 #include "behaviors/ports.hpp"
+#include "common/world.hpp"
+#include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::behaviors {
 
@@ -20,14 +22,14 @@ IntentLeaf::Wish GoHome::makeWish(const FlightTick& tick) {
   if (!tolerance_m) return {std::nullopt, tolerance_m_.problem()};
   if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
   made_ = {};
-  made_.goal_map_m = tick.flight.world->home_map.position_m();
+  made_.goal_map_m = tick.flight.world->vehicle->home_map.position_m();
   made_.tolerance_m = *tolerance_m;
   made_.clearance_m = *clearance_m;
   return {made_, {}};
 }
 
 bool GoHome::isOutdated(const FlightTick& tick) const {
-  const Eigen::Vector2d home_map_m = tick.flight.world->home_map.position_m();
+  const Eigen::Vector2d home_map_m = tick.flight.world->vehicle->home_map.position_m();
   return (home_map_m - made_.goal_map_m).norm() > 0.5 * made_.tolerance_m;
 }
 

@@ -1,6 +1,8 @@
 #include "behaviors/localize.hpp"
 
 #include "behaviors/ports.hpp"
+#include "common/world.hpp"
+#include "common/world/map_layer.hpp"
 
 namespace swiftlet::behaviors {
 
@@ -15,7 +17,7 @@ tree::NodeManifest Localize::manifest() {
 
 Status Localize::act(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
-  const auto& localization = tick.flight.world->localization;
+  const auto& localization = tick.flight.world->map->localization;
   if (!localization) return fail(context, "the flight was given no map");
   const auto clearance_m = clearance_m_.get();
   if (!clearance_m) return fail(context, clearance_m_.problem());

@@ -10,6 +10,8 @@
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "common/check.hpp"
+#include "common/world.hpp"
+#include "common/world/map_layer.hpp"
 
 namespace swiftlet::behaviors {
 
@@ -126,7 +128,8 @@ std::string Mission::Impl::refusal(const Context& context, const common::Operato
     return "not a command for the mission";
   if (!accepts_goals) return "the mission " + tree.name() + " has no OperatorCommand: it flies its own goals";
   if (common::isOver(result.state)) return "the mission has ended";
-  return goal == nullptr ? std::string() : goalProblem(*context.world->grid, goal->goal_map_m, context.hull_radius_m);
+  return goal == nullptr ? std::string()
+                         : goalProblem(*context.world->map->grid, goal->goal_map_m, context.hull_radius_m);
 }
 
 TickResult Mission::Impl::resultOf(const Context& context, Status status) {

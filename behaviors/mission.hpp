@@ -7,7 +7,7 @@
 
 #include "behaviors/context.hpp"
 #include "common/error.hpp"
-#include "common/world.hpp"
+#include "common/world/mission_status.hpp"
 
 namespace swiftlet::behaviors {
 

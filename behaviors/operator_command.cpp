@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "behaviors/ports.hpp"
+#include "common/world.hpp"
+#include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::behaviors {
 
@@ -67,7 +69,7 @@ std::optional<common::GoToIntent> OperatorCommand::goalOf(const FlightTick& tick
   goal.tolerance_m = *tolerance_m_.get();
   goal.clearance_m = *clearance_m_.get();
   const auto* point = std::get_if<common::GoalCommand>(&command.kind);
-  goal.goal_map_m = point != nullptr ? point->goal_map_m : tick.flight.world->home_map.position_m();
+  goal.goal_map_m = point != nullptr ? point->goal_map_m : tick.flight.world->vehicle->home_map.position_m();
   return goal;
 }
 

@@ -11,30 +11,30 @@ namespace swiftlet::rendering {
 namespace {
 
 /// 300 x 300 cells, all known.
-std::shared_ptr<const common::World> wholeMap() {
+test::Layers wholeMap() {
   testing::ExampleFlight flight;
-  auto world = std::make_shared<common::World>(*flight.advance(30.0));
-  common::OccupancyGrid grid = *world->grid;
+  test::Layers layers(*flight.advance(30.0));
+  common::OccupancyGrid grid = *layers.map.grid;
   for (int y = -80; y < 220; ++y)
     for (int x = -60; x < 240; ++x)
       if (common::occupancy::isUnknown(grid.at({x, y})))
         grid.set({x, y}, static_cast<common::occupancy::Cell>(-(x * y) % 60));
-  world->grid = std::make_shared<const common::OccupancyGrid>(grid.snapshot());
-  return world;
+  layers.map.grid = std::make_shared<const common::OccupancyGrid>(grid.snapshot());
+  return layers;
 }
 
 void fresh(benchmark::State& state) {
-  const auto world = wholeMap();
+  const common::World world = wholeMap().world();
   MapView view;
   view.width_px = static_cast<int>(state.range(0));
   view.height_px = view.width_px * 3 / 4;
-  for (auto _ : state) benchmark::DoNotOptimize(renderMap(*world, view));
+  for (auto _ : state) benchmark::DoNotOptimize(renderMap(pictureOf(world, 0.55), view));
 }
 BENCHMARK(fresh)->Arg(320)->Arg(640)->Arg(1280)->Unit(benchmark::kMillisecond);
 
 void streamed(benchmark::State& state) {
-  auto world = std::make_shared<common::World>(*wholeMap());
-  common::OccupancyGrid grid = *world->grid;
+  test::Layers layers = wholeMap();
+  common::OccupancyGrid grid = *layers.map.grid;
   MapRenderer renderer;
   int step = 0;
   for (auto _ : state) {
@@ -42,15 +42,16 @@ void streamed(benchmark::State& state) {
     grid.snapshot();
     for (int tile = 0; tile < 4; ++tile) grid.set({64 * (tile % 2) + step % 60, 64 * (tile / 2)}, 50);
     ++step;
-    world->grid = std::make_shared<const common::OccupancyGrid>(grid.snapshot());
+    layers.map.grid = std::make_shared<const common::OccupancyGrid>(grid.snapshot());
+    const common::World world = layers.world();
     state.ResumeTiming();
-    benchmark::DoNotOptimize(renderer.render(*world, {}));
+    benchmark::DoNotOptimize(renderer.render(pictureOf(world, 0.55), {}));
   }
 }
 BENCHMARK(streamed)->Unit(benchmark::kMillisecond);
 
 void jpeg(benchmark::State& state) {
-  const common::Image image = renderMap(*wholeMap(), {});
+  const common::Image image = renderMap(pictureOf(wholeMap().world(), 0.55), {});
   JpegEncoder encoder;
   std::size_t bytes = 0;
   for (auto _ : state) bytes = encoder.encode(image, 85).size();
@@ -59,7 +60,7 @@ void jpeg(benchmark::State& state) {
 BENCHMARK(jpeg)->Unit(benchmark::kMillisecond);
 
 void png(benchmark::State& state) {
-  const common::Image image = renderMap(*wholeMap(), {});
+  const common::Image image = renderMap(pictureOf(wholeMap().world(), 0.55), {});
   std::size_t bytes = 0;
   for (auto _ : state) bytes = encodePng(image).size();
   state.counters["bytes"] = static_cast<double>(bytes);

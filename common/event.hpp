@@ -14,9 +14,10 @@ const char* toString(Severity severity);
 struct Event {
   Time stamp;
   Severity severity = Severity::kInfo;
-  std::string source;  ///< The part that says it: "mission", "flight", "slam2d", "avoidance" ...
-  std::string text;    ///< What happened, with values.
-  std::string reason;  ///< Why; may be empty.
+  std::string source;        ///< The part that says it: "mission", "flight", "slam2d", "avoidance" ...
+  std::string text;          ///< What happened, with values.
+  std::string reason;        ///< Why; may be empty.
+  std::string vehicle = {};  ///< Which one says it; empty while there is only one.
 };
 
 }  // namespace swiftlet::common

@@ -54,6 +54,8 @@ struct IntentStatus {
   std::string reason;  ///< For people: what it is doing, or why it failed.
   /// The vehicle has stopped and may be handed over; for an intent that is being given up.
   bool released = true;
+
+  bool operator==(const IntentStatus&) const = default;
 };
 
 /// "go to (3.00, -1.50)", for events and the page.

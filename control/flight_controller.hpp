@@ -15,7 +15,7 @@
 #include "common/vehicle.hpp"
 #include "common/vehicle_config.hpp"
 #include "common/vehicle_state.hpp"
-#include "common/world.hpp"
+#include "common/world/flight_state.hpp"
 #include "control/emergency_descent.hpp"
 #include "control/flight_state_machine.hpp"
 #include "control/path_follower.hpp"

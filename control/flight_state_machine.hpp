@@ -6,7 +6,7 @@
 
 #include <tl/expected.hpp>
 
-#include "common/world.hpp"
+#include "common/world/flight_state.hpp"
 
 namespace swiftlet::control {
 

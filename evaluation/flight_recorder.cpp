@@ -5,6 +5,10 @@
 #include <map>
 #include <utility>
 
+#include "common/world.hpp"
+#include "common/world/map_layer.hpp"
+#include "common/world/mission_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
 #include "evaluation/statistics.hpp"
 
 namespace swiftlet::evaluation {
@@ -100,16 +104,17 @@ void FlightRecorder::intent(Time now, const common::Intent& intent, const common
 }
 
 void FlightRecorder::world(const common::World& world) {
-  home_map_m_ = world.home_map.position_m();
-  record_.map = world.grid;
-  record_.explored_area_m2 = world.explored_area_m2;
+  home_map_m_ = world.vehicle->home_map.position_m();
+  record_.map = world.map->grid;
+  record_.explored_area_m2 = world.map->explored_area_m2;
   followLocalization(world);
-  if (common::isOver(record_.mission) || world.mission.state == MissionState::kReady) return;
+  const common::MissionStatus& mission = world.mission->status;
+  if (common::isOver(record_.mission) || mission.state == MissionState::kReady) return;
   if (!mission_begin_) mission_begin_ = world.stamp;
-  record_.mission = world.mission.state;
-  record_.mission_reason = world.mission.reason;
+  record_.mission = mission.state;
+  record_.mission_reason = mission.reason;
   record_.mission_time_s = (world.stamp - *mission_begin_).seconds();
-  followTree(world.mission.tree);
+  followTree(mission.tree);
 }
 
 void FlightRecorder::followTree(const common::TreeView& tree) {
@@ -129,22 +134,24 @@ void FlightRecorder::followTree(const common::TreeView& tree) {
 }
 
 void FlightRecorder::followLocalization(const common::World& world) {
-  if (!record_.localization || !world.localization) return;
+  if (!record_.localization || !world.map->localization) return;
+  const common::Localization& localization = *world.map->localization;
+  const common::VehicleLayer& vehicle = *world.vehicle;
   LocalizationRecord& record = *record_.localization;
-  const common::LocalizationState before = std::exchange(localization_, world.localization->state);
+  const common::LocalizationState before = std::exchange(localization_, localization.state);
   if (before == common::LocalizationState::kLocalized && localization_ == common::LocalizationState::kLost)
     ++record.times_lost;
-  if (world.status.flight_state != common::FlightState::kFlying) {
+  if (vehicle.flight_state != common::FlightState::kFlying) {
     last_flown_.reset();
     return;
   }
   const double elapsed_s = last_flown_ ? (world.stamp - *last_flown_).seconds() : 0.0;
   last_flown_ = world.stamp;
   record.flown_s += elapsed_s;
-  const std::optional<Pose3> T_world_body = truthAt(world.state.stamp);
-  if (!world.localization->localized() || !T_world_body) return;
+  const std::optional<Pose3> T_world_body = truthAt(vehicle.state.stamp);
+  if (!localization.localized() || !T_world_body) return;
   const common::Pose2 off = common::between(T_world_given_.inverse() * common::planar(*T_world_body),
-                                            world.localization->T_given_odom * common::planar(world.state.T_odom_body));
+                                            localization.T_given_odom * common::planar(vehicle.state.T_odom_body));
   const double error_m = off.position_m().norm(), error_rad = std::abs(off.yaw_rad);
   record.localized_s += elapsed_s;
   if (error_m > LocalizationRecord::kWrong_m || error_rad > LocalizationRecord::kWrong_rad) record.wrong_s += elapsed_s;

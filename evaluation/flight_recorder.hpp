@@ -13,10 +13,16 @@
 
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
+#include "common/localization.hpp"
+#include "common/occupancy_grid.hpp"
 #include "common/trajectory.hpp"
 #include "common/vehicle_state.hpp"
-#include "common/world.hpp"
+#include "common/world/mission_status.hpp"
 #include "simulation/truth.hpp"
+
+namespace swiftlet::common {
+struct World;
+}
 
 namespace swiftlet::evaluation {
 

@@ -9,19 +9,18 @@
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "common/check.hpp"
+#include "tests/support/layers.hpp"
 
 namespace {
 
 using namespace swiftlet;
 
 std::shared_ptr<const common::World> worldFrom(std::uint8_t bits) {
-  static const auto kGrid = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.1));
-  auto world = std::make_shared<common::World>();
-  world->grid = kGrid;
-  world->status.flight_state = (bits & 1U) != 0 ? common::FlightState::kFlying : common::FlightState::kLanded;
-  world->avoidance.retreating = (bits & 2U) != 0;
-  world->home_map.x_m = (bits & 4U) != 0 ? 1.0 : 0.0;
-  return world;
+  test::Layers layers;
+  layers.vehicle.flight_state = (bits & 1U) != 0 ? common::FlightState::kFlying : common::FlightState::kLanded;
+  layers.vehicle.avoidance.retreating = (bits & 2U) != 0;
+  layers.vehicle.home_map.x_m = (bits & 4U) != 0 ? 1.0 : 0.0;
+  return std::make_shared<const common::World>(layers.world());
 }
 
 void fly(behaviors::Mission mission, const std::uint8_t* bytes, std::size_t size) {

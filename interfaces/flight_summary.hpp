@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "common/event.hpp"
-#include "common/world.hpp"
+#include <Eigen/Core>
+
+#include "common/localization.hpp"
+#include "common/time.hpp"
+#include "common/world/frontier.hpp"
 
 namespace swiftlet::interfaces {
 

@@ -7,6 +7,11 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/world.hpp"
+#include "common/world/energy_layer.hpp"
+#include "common/world/map_layer.hpp"
+#include "common/world/mission_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
 #include "interfaces/files/folder_lock.hpp"
 #include "interfaces/files/json_lines.hpp"
 #include "interfaces/files/map_server.hpp"
@@ -101,15 +106,15 @@ class Every {
 };
 
 FlightSample sampleOf(const common::World& world) {
-  const common::VehicleState& state = world.state;
+  const common::VehicleState& state = world.vehicle->state;
   FlightSample sample;
   sample.time_s = world.stamp.seconds();
   sample.position_map_m = state.T_map_body().position_m;
   sample.speed_m_s = state.velocity_odom_m_s.head<2>().norm();
   sample.height_above_ground_m = state.height_above_ground_m;
-  sample.battery_v = world.status.battery_voltage_v;
-  sample.explored_area_m2 = world.explored_area_m2;
-  sample.nearest_m = world.avoidance.nearest_m;
+  sample.battery_v = world.energy->battery_voltage_v;
+  sample.explored_area_m2 = world.map->explored_area_m2;
+  sample.nearest_m = world.vehicle->avoidance.nearest_m;
   return sample;
 }
 
@@ -182,42 +187,45 @@ struct RunFolder::Impl {
 
 /// The summary follows the flight: its figures, and the phases by the mission's own words for them.
 void RunFolder::Impl::track(const common::World& world) {
-  summary.distance_m = world.status.distance_flown_m;
-  if (world.explored_area_m2 > 0) summary.explored_area_m2 = world.explored_area_m2;
-  summary.battery_remaining = world.status.battery_remaining;
-  if (world.frontiers) summary.frontiers = *world.frontiers;
-  grid = world.grid;
-  if (world.mission.state == MissionState::kReady || mission_over) return;
+  summary.distance_m = world.vehicle->distance_flown_m;
+  if (world.map->explored_area_m2 > 0) summary.explored_area_m2 = world.map->explored_area_m2;
+  summary.battery_remaining = world.energy->battery_remaining;
+  if (world.map->frontiers) summary.frontiers = *world.map->frontiers;
+  grid = world.map->grid;
+  const common::MissionStatus& mission = world.mission->status;
+  if (mission.state == MissionState::kReady || mission_over) return;
 
   if (!mission_begin) mission_begin = world.stamp;
   summary.mission_time = world.stamp - *mission_begin;
-  mission_over = common::isOver(world.mission.state);
+  mission_over = common::isOver(mission.state);
   if (!summary.phases.empty()) summary.phases.back().end = world.stamp;
-  if (mission_over || world.mission.phase.empty()) return;
-  if (summary.phases.empty() || summary.phases.back().name != world.mission.phase)
-    summary.phases.push_back({world.mission.phase, world.stamp, world.stamp});
+  if (mission_over || mission.phase.empty()) return;
+  if (summary.phases.empty() || summary.phases.back().name != mission.phase)
+    summary.phases.push_back({mission.phase, world.stamp, world.stamp});
 }
 
 void RunFolder::Impl::localize(const common::World& world) {
-  if (!world.localization || !given_trajectory_file) return;
+  if (!world.map->localization || !given_trajectory_file) return;
+  const common::Localization& now = *world.map->localization;
   if (!summary.localization) summary.localization.emplace();
   LocalizationSummary& localization = *summary.localization;
-  localization.last = *world.localization;
-  if (world.status.flight_state != common::FlightState::kFlying) {
+  localization.last = now;
+  if (world.vehicle->flight_state != common::FlightState::kFlying) {
     last_flown.reset();
     return;
   }
   const double elapsed_s = last_flown ? (world.stamp - *last_flown).seconds() : 0.0;
   last_flown = world.stamp;
   localization.flown_s += elapsed_s;
-  if (!world.localization->localized()) return;
+  if (!now.localized()) return;
   localization.localized_s += elapsed_s;
   if (!localization.found_after_s) {
     localization.found_after_s = world.stamp.seconds();
-    localization.found_after_m = world.status.distance_flown_m;
+    localization.found_after_m = world.vehicle->distance_flown_m;
   }
-  const common::Pose3 T_given_odom = common::lifted(world.localization->T_given_odom, 0.0);
-  if (!failure) keep(given_trajectory_file->write({world.state.stamp, T_given_odom * world.state.T_odom_body}));
+  const common::Pose3 T_given_odom = common::lifted(now.T_given_odom, 0.0);
+  if (!failure)
+    keep(given_trajectory_file->write({world.vehicle->state.stamp, T_given_odom * world.vehicle->state.T_odom_body}));
 }
 
 RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)

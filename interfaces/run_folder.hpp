@@ -17,9 +17,12 @@
 
 #include "common/event.hpp"
 #include "common/vehicle_state.hpp"
-#include "common/world.hpp"
 #include "interfaces/flight_summary.hpp"
 #include "interfaces/report/report.hpp"
+
+namespace swiftlet::common {
+struct World;
+}
 
 namespace swiftlet::interfaces {
 

@@ -1,5 +1,6 @@
 #include "rendering/map_layers.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,13 +13,6 @@ using Eigen::Vector2d;
 
 /// A level lower than this is the floor itself.
 constexpr double kFloor_m = 0.05;
-
-std::vector<Vector2d> toPixels(const Viewport& viewport, const std::vector<Vector2d>& points_map_m) {
-  std::vector<Vector2d> pixels;
-  pixels.reserve(points_map_m.size() + 1);
-  for (const Vector2d& point : points_map_m) pixels.push_back(viewport.toPixel(point));
-  return pixels;
-}
 
 void drawLevel(Layer& layer, const common::Level& level, double resolution_m) {
   const double px = layer.viewport.px_per_m * resolution_m;
@@ -34,6 +28,42 @@ void drawLevel(Layer& layer, const common::Level& level, double resolution_m) {
   const double height_px = 9.0 * layer.scale;
   layer.canvas.text(fmt::format("{:.2f} m", level.height_m), {middle.x(), middle.y() + 0.5 * height_px}, height_px,
                     layer.theme().text, Align::kCenter, layer.theme().free.withAlpha(200));
+}
+
+void drawHome(Layer& layer, const MapMark& mark) {
+  const Vector2d at = layer.viewport.toPixel(mark.at_map.position_m());
+  const double s = layer.scale;
+  layer.canvas.disc(at, 8.5 * s, layer.theme().free.withAlpha(230));
+  layer.canvas.ring(at, 8.5 * s, 1.6 * s, layer.theme().home);
+  const std::array<Vector2d, 5> house{at + Vector2d(-3.6, 3.8) * s, at + Vector2d(-3.6, -0.6) * s,
+                                      at + Vector2d(0.0, -4.4) * s, at + Vector2d(3.6, -0.6) * s,
+                                      at + Vector2d(3.6, 3.8) * s};
+  layer.canvas.polygon(house, layer.theme().home);
+}
+
+void drawGoal(Layer& layer, const MapMark& mark) {
+  const Vector2d at = layer.viewport.toPixel(mark.at_map.position_m());
+  const double s = layer.scale;
+  layer.canvas.ring(at, 8.0 * s, 4.5 * s, layer.theme().free.withAlpha(200));
+  layer.canvas.ring(at, 8.0 * s, 2.2 * s, layer.theme().goal);
+  for (const Vector2d& direction : {Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, 1), Vector2d(0, -1)})
+    layer.canvas.line(at + 8.0 * s * direction, at + 12.5 * s * direction, 2.2 * s, layer.theme().goal);
+  layer.canvas.disc(at, 2.4 * s, layer.theme().goal);
+}
+
+void drawVehicle(Layer& layer, const MapMark& mark) {
+  const Theme& theme = layer.theme();
+  const Vector2d at = layer.viewport.toPixel(mark.at_map.position_m());
+  const double radius = std::max(7.0 * layer.scale, 0.5 * mark.diameter_m * layer.viewport.px_per_m);
+  const double width = std::clamp(0.14 * radius, 1.4 * layer.scale, 3.0 * layer.scale);
+  layer.canvas.disc(at, radius, theme.vehicle.withAlpha(70));
+  layer.canvas.ring(at, radius, width, theme.vehicle);
+  const auto ahead = [&](double along, double left) {
+    const double c = std::cos(mark.at_map.yaw_rad), s = std::sin(mark.at_map.yaw_rad);
+    return Vector2d(at + radius * Vector2d(c * along - s * left, -(s * along + c * left)));
+  };
+  const std::array<Vector2d, 4> arrow{ahead(0.78, 0.0), ahead(-0.52, 0.48), ahead(-0.26, 0.0), ahead(-0.52, -0.48)};
+  layer.canvas.polygon(arrow, theme.vehicle);
 }
 
 /// 1, 2 or 5 times a power of ten.
@@ -77,62 +107,40 @@ void drawFrontiers(Layer& layer, const std::vector<common::Frontier>& frontiers,
   }
 }
 
-void drawLaser(Layer& layer, const common::LaserPoints& laser) {
+void drawScan(Layer& layer, const std::vector<Eigen::Vector2f>& points_map_m) {
   std::vector<Vector2d> centers;
-  centers.reserve(laser.points_map_m.size());
-  for (const Eigen::Vector2f& point : laser.points_map_m)
-    centers.push_back(layer.viewport.toPixel(point.cast<double>()));
+  centers.reserve(points_map_m.size());
+  for (const Eigen::Vector2f& point : points_map_m) centers.push_back(layer.viewport.toPixel(point.cast<double>()));
   layer.canvas.discs(centers, 0.9 * layer.scale, layer.theme().laser);
 }
 
-void drawTrail(Layer& layer, const std::vector<Vector2d>& trail_map_m, const std::optional<Vector2d>& vehicle_map_m) {
-  std::vector<Vector2d> pixels = toPixels(layer.viewport, trail_map_m);
-  if (vehicle_map_m) pixels.push_back(layer.viewport.toPixel(*vehicle_map_m));
-  layer.canvas.polyline(pixels, 2.2 * layer.scale, layer.theme().trail);
-}
-
-void drawPlan(Layer& layer, const std::vector<Vector2d>& plan_map_m, const Vector2d& vehicle_map_m) {
-  if (plan_map_m.empty()) return;
-  std::vector<Vector2d> pixels{layer.viewport.toPixel(vehicle_map_m)};
-  for (const Vector2d& point : plan_map_m) pixels.push_back(layer.viewport.toPixel(point));
-  layer.canvas.dashedPolyline(pixels, 2.4 * layer.scale, 7.0 * layer.scale, 5.5 * layer.scale, layer.theme().plan);
-  layer.canvas.disc(pixels.back(), 3.2 * layer.scale, layer.theme().plan);
-}
-
-void drawHome(Layer& layer, const Vector2d& home_map_m) {
-  const Vector2d at = layer.viewport.toPixel(home_map_m);
+void drawLine(Layer& layer, const MapLine& line) {
   const double s = layer.scale;
-  layer.canvas.disc(at, 8.5 * s, layer.theme().free.withAlpha(230));
-  layer.canvas.ring(at, 8.5 * s, 1.6 * s, layer.theme().home);
-  const std::array<Vector2d, 5> house{at + Vector2d(-3.6, 3.8) * s, at + Vector2d(-3.6, -0.6) * s,
-                                      at + Vector2d(0.0, -4.4) * s, at + Vector2d(3.6, -0.6) * s,
-                                      at + Vector2d(3.6, 3.8) * s};
-  layer.canvas.polygon(house, layer.theme().home);
+  std::vector<Vector2d> pixels;
+  pixels.reserve(line.points_map_m.size());
+  for (const Vector2d& point : line.points_map_m) pixels.push_back(layer.viewport.toPixel(point));
+  switch (line.style) {
+    case LineStyle::kTrail:
+      return layer.canvas.polyline(pixels, 2.2 * s, layer.theme().trail);
+    case LineStyle::kTrack:
+      return layer.canvas.polyline(pixels, 1.5 * s, layer.theme().trail);
+    case LineStyle::kReference:
+      return layer.canvas.dashedPolyline(pixels, 1.5 * s, 5.0 * s, 4.0 * s, layer.theme().text);
+    case LineStyle::kPlan:
+      layer.canvas.dashedPolyline(pixels, 2.4 * s, 7.0 * s, 5.5 * s, layer.theme().plan);
+      if (!pixels.empty()) layer.canvas.disc(pixels.back(), 3.2 * s, layer.theme().plan);
+  }
 }
 
-void drawGoal(Layer& layer, const Vector2d& goal_map_m) {
-  const Vector2d at = layer.viewport.toPixel(goal_map_m);
-  const double s = layer.scale;
-  layer.canvas.ring(at, 8.0 * s, 4.5 * s, layer.theme().free.withAlpha(200));
-  layer.canvas.ring(at, 8.0 * s, 2.2 * s, layer.theme().goal);
-  for (const Vector2d& direction : {Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, 1), Vector2d(0, -1)})
-    layer.canvas.line(at + 8.0 * s * direction, at + 12.5 * s * direction, 2.2 * s, layer.theme().goal);
-  layer.canvas.disc(at, 2.4 * s, layer.theme().goal);
-}
-
-void drawVehicle(Layer& layer, const common::Pose2& T_map_body, double hull_diameter_m) {
-  const Theme& theme = layer.theme();
-  const Vector2d at = layer.viewport.toPixel(T_map_body.position_m());
-  const double radius = std::max(7.0 * layer.scale, 0.5 * hull_diameter_m * layer.viewport.px_per_m);
-  const double width = std::clamp(0.14 * radius, 1.4 * layer.scale, 3.0 * layer.scale);
-  layer.canvas.disc(at, radius, theme.vehicle.withAlpha(70));
-  layer.canvas.ring(at, radius, width, theme.vehicle);
-  const auto ahead = [&](double along, double left) {
-    const double c = std::cos(T_map_body.yaw_rad), s = std::sin(T_map_body.yaw_rad);
-    return Vector2d(at + radius * Vector2d(c * along - s * left, -(s * along + c * left)));
-  };
-  const std::array<Vector2d, 4> arrow{ahead(0.78, 0.0), ahead(-0.52, 0.48), ahead(-0.26, 0.0), ahead(-0.52, -0.48)};
-  layer.canvas.polygon(arrow, theme.vehicle);
+void drawMark(Layer& layer, const MapMark& mark) {
+  switch (mark.style) {
+    case MarkStyle::kHome:
+      return drawHome(layer, mark);
+    case MarkStyle::kGoal:
+      return drawGoal(layer, mark);
+    case MarkStyle::kVehicle:
+      return drawVehicle(layer, mark);
+  }
 }
 
 void drawLegend(Layer& layer) {

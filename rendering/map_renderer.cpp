@@ -9,10 +9,11 @@
 namespace swiftlet::rendering {
 namespace {
 
-Viewport viewportOf(const common::World& world, const MapView& view) {
+Viewport viewportOf(const MapPicture& picture, const MapView& view) {
   SWIFTLET_CHECK(view.width_px >= 16 && view.width_px <= 8192 && view.height_px >= 16 && view.height_px <= 8192,
                  view.width_px, view.height_px);
-  Viewport viewport = view.viewport ? *view.viewport : fitViewport(world, view.width_px, view.height_px);
+  Viewport viewport =
+      view.viewport ? *view.viewport : fitViewport(*picture.grid, picture.in_view_map_m, view.width_px, view.height_px);
   viewport.width_px = view.width_px;
   viewport.height_px = view.height_px;
   return viewport;
@@ -25,31 +26,25 @@ common::Image gridLayer(const common::OccupancyGrid& grid, const Viewport& viewp
   return image;
 }
 
-common::Image withLayers(common::Image grid_layer, const common::World& world, const MapView& view,
+common::Image withLayers(common::Image grid_layer, const MapPicture& picture, const MapView& view,
                          const Viewport& viewport) {
   Canvas canvas(std::move(grid_layer));
   Layer layer{canvas, viewport, view.scheme, std::max(0.6, std::min(view.width_px, view.height_px * 4 / 3) / 640.0)};
-  const common::Pose2 T_map_body = world.state.T_map_body_planar();
-  const MapLayers& on = view.layers;
-  if (on.metre_lines) drawMetreLines(layer);
-  if (on.levels) drawLevels(layer, *world.levels);
-  if (on.frontiers) drawFrontiers(layer, *world.frontiers, world.grid->resolution_m());
-  if (on.laser && world.laser) drawLaser(layer, *world.laser);
-  if (on.trail)
-    drawTrail(layer, *world.trail_map_m, on.vehicle ? std::optional(T_map_body.position_m()) : std::nullopt);
-  if (on.plan) drawPlan(layer, world.plan_map_m, T_map_body.position_m());
-  if (on.home) drawHome(layer, world.home_map.position_m());
-  if (on.goal && world.goal_map_m) drawGoal(layer, *world.goal_map_m);
-  if (on.vehicle) drawVehicle(layer, T_map_body, view.hull_diameter_m);
-  if (on.legend) drawLegend(layer);
+  drawMetreLines(layer);
+  if (picture.levels) drawLevels(layer, *picture.levels);
+  if (picture.frontiers) drawFrontiers(layer, *picture.frontiers, picture.grid->resolution_m());
+  drawScan(layer, picture.scan_map_m);
+  for (const MapLine& line : picture.lines) drawLine(layer, line);
+  for (const MapMark& mark : picture.marks) drawMark(layer, mark);
+  drawLegend(layer);
   return canvas.take();
 }
 
 }  // namespace
 
-common::Image renderMap(const common::World& world, const MapView& view) {
-  const Viewport viewport = viewportOf(world, view);
-  return withLayers(gridLayer(*world.grid, viewport, view.scheme), world, view, viewport);
+common::Image renderMap(const MapPicture& picture, const MapView& view) {
+  const Viewport viewport = viewportOf(picture, view);
+  return withLayers(gridLayer(*picture.grid, viewport, view.scheme), picture, view, viewport);
 }
 
 /// The grid of the last call is kept alive, so that an equal tile address cannot mean another tile.
@@ -81,17 +76,17 @@ MapRenderer::~MapRenderer() = default;
 MapRenderer::MapRenderer(MapRenderer&&) noexcept = default;
 MapRenderer& MapRenderer::operator=(MapRenderer&&) noexcept = default;
 
-common::Image MapRenderer::render(const common::World& world, const MapView& view) {
-  const Viewport viewport = viewportOf(world, view);
-  if (cache_->fits(*world.grid, viewport, view.scheme)) {
-    cache_->update(*world.grid);
+common::Image MapRenderer::render(const MapPicture& picture, const MapView& view) {
+  const Viewport viewport = viewportOf(picture, view);
+  if (cache_->fits(*picture.grid, viewport, view.scheme)) {
+    cache_->update(*picture.grid);
   } else {
-    cache_->layer = gridLayer(*world.grid, viewport, view.scheme);
+    cache_->layer = gridLayer(*picture.grid, viewport, view.scheme);
     cache_->viewport = viewport;
     cache_->scheme = view.scheme;
   }
-  cache_->grid = world.grid;
-  return withLayers(cache_->layer, world, view, viewport);
+  cache_->grid = picture.grid;
+  return withLayers(cache_->layer, picture, view, viewport);
 }
 
 }  // namespace swiftlet::rendering

@@ -15,8 +15,8 @@ namespace swiftlet::rendering {
 namespace {
 
 /// The aspect of what is known, so that no half of the picture is empty.
-int heightFor(const common::World& world, int width_px) {
-  const common::CellRect known = common::knownExtent(*world.grid);
+int heightFor(const common::OccupancyGrid& grid, int width_px) {
+  const common::CellRect known = common::knownExtent(grid);
   const double aspect = known.empty() ? 0.75 : static_cast<double>(known.height()) / known.width();
   return static_cast<int>(std::lround(width_px * std::clamp(aspect, 0.4, 1.4)));
 }
@@ -25,8 +25,8 @@ int heightFor(const common::World& world, int width_px) {
 constexpr int kLegendHeight_px = 56;
 
 /// All that is known in the upper part of the picture, the legend's strip below it.
-Viewport viewportOf(const common::World& world, const MapView& view, int strip_px) {
-  Viewport viewport = fitViewport(world, view.width_px, view.height_px - strip_px);
+Viewport viewportOf(const MapPicture& picture, const MapView& view, int strip_px) {
+  Viewport viewport = fitViewport(*picture.grid, picture.in_view_map_m, view.width_px, view.height_px - strip_px);
   viewport.height_px = view.height_px;
   viewport.center_map_m.y() -= 0.5 * strip_px / viewport.px_per_m;
   return viewport;
@@ -37,14 +37,16 @@ std::vector<MapLine> namedOnce(const std::vector<MapLine>& lines) {
   std::vector<MapLine> named;
   for (const MapLine& line : lines)
     if (std::none_of(named.begin(), named.end(), [&](const MapLine& other) { return other.name == line.name; }))
-      named.push_back({line.name, {}, line.dashed});
+      named.push_back({line.name, {}, line.style});
   return named;
 }
+
+bool isDashed(LineStyle style) { return style == LineStyle::kPlan || style == LineStyle::kReference; }
 
 /// The style's classes of a line: a colour for each name, as long as there are colours.
 std::string classesOf(const MapLine& line, const std::vector<MapLine>& named) {
   const auto same = std::find_if(named.begin(), named.end(), [&](const MapLine& n) { return n.name == line.name; });
-  return fmt::format("s s{}{}", (same - named.begin()) % 6 + 1, line.dashed ? " dash" : "");
+  return fmt::format("s s{}{}", (same - named.begin()) % 6 + 1, isDashed(line.style) ? " dash" : "");
 }
 
 /// One beside the other in the strip, between the scale bar and the axes.
@@ -61,15 +63,16 @@ void drawNames(const std::vector<MapLine>& named, int height_px, std::back_inser
 
 }  // namespace
 
-std::string mapSvg(const common::World& world, const std::vector<MapLine>& lines, const std::vector<MapMark>& marks,
-                   int width_px) {
+std::string mapSvg(const MapPicture& picture, int width_px) {
   MapView view;
   // The PNG has twice the pixels, for screens that show them.
   view.width_px = 2 * width_px;
-  view.height_px = 2 * (heightFor(world, width_px) + kLegendHeight_px);
-  view.layers.trail = view.layers.plan = view.layers.laser = view.layers.vehicle = false;
-  view.layers.home = view.layers.goal = false;
-  view.viewport = viewportOf(world, view, 2 * kLegendHeight_px);
+  view.height_px = 2 * (heightFor(*picture.grid, width_px) + kLegendHeight_px);
+  view.viewport = viewportOf(picture, view, 2 * kLegendHeight_px);
+  MapPicture below;  // What lines and marks lie on.
+  below.grid = picture.grid;
+  below.levels = picture.levels;
+  below.frontiers = picture.frontiers;
   const auto toPixel = [&](const Eigen::Vector2d& p) { return Eigen::Vector2d(0.5 * view.viewport->toPixel(p)); };
 
   const int height_px = view.height_px / 2;
@@ -80,19 +83,19 @@ std::string mapSvg(const common::World& world, const std::vector<MapLine>& lines
                  R"(style="max-width:100%;height:auto" role="img" aria-label="Map">{2})",
                  width_px, height_px, svg::style());
   fmt::format_to(out, R"(<image width="{}" height="{}" href="data:image/png;base64,{}"/>)", width_px, height_px,
-                 base64(encodePng(renderMap(world, view))));
+                 base64(encodePng(renderMap(below, view))));
   // The picture below is always light, so its lines are too.
   text += R"(<g style="--c1:#1f6fe0;--c2:#d9480f;--c3:#0a8f6c;--c4:#9c36b5;--c5:#b7791f;--c6:#c2255c;--ink:#2b3947">)";
-  const std::vector<MapLine> named = namedOnce(lines);
-  for (const MapLine& line : lines) {
+  const std::vector<MapLine> named = namedOnce(picture.lines);
+  for (const MapLine& line : picture.lines) {
     std::vector<Eigen::Vector2d> pixels;
     for (const Eigen::Vector2d& p : line.points_map_m) pixels.push_back(toPixel(p));
     for (const std::string& list : svg::pointLists(pixels))
       fmt::format_to(out, R"(<polyline class="{}" points="{}"/>)", classesOf(line, named), list);
   }
   drawNames(named, height_px, out);
-  for (const MapMark& mark : marks) {
-    const Eigen::Vector2d p = toPixel(mark.point_map_m);
+  for (const MapMark& mark : picture.marks) {
+    const Eigen::Vector2d p = toPixel(mark.at_map.position_m());
     if (!p.allFinite()) continue;
     fmt::format_to(out,
                    R"(<circle cx="{0:.1f}" cy="{1:.1f}" r="4.5" fill="#fff" stroke="#c2255c" stroke-width="2"/>)"

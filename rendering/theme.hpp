@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "common/world.hpp"
+#include "common/world/frontier.hpp"
 #include "rendering/color.hpp"
 
 namespace swiftlet::rendering {

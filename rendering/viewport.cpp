@@ -25,17 +25,16 @@ struct Bounds {
 
 }  // namespace
 
-Viewport fitViewport(const common::World& world, int width_px, int height_px) {
+Viewport fitViewport(const common::OccupancyGrid& grid, std::span<const Eigen::Vector2d> points_map_m, int width_px,
+                     int height_px) {
   Bounds bounds;
-  const common::CellRect known = common::knownExtent(*world.grid);
+  const common::CellRect known = common::knownExtent(grid);
   if (!known.empty()) {
-    const double resolution_m = world.grid->resolution_m();
+    const double resolution_m = grid.resolution_m();
     bounds.low = Eigen::Vector2d(known.begin.x, known.begin.y) * resolution_m;
     bounds.high = Eigen::Vector2d(known.end.x, known.end.y) * resolution_m;
   }
-  bounds.include(world.home_map.position_m());
-  bounds.include(world.state.T_map_body_planar().position_m());
-  if (world.goal_map_m) bounds.include(*world.goal_map_m);
+  for (const Eigen::Vector2d& point_map_m : points_map_m) bounds.include(point_map_m);
 
   const Eigen::Vector2d low = (bounds.low.array() - kMargin_m).floor();
   const Eigen::Vector2d high = (bounds.high.array() + kMargin_m).ceil();

@@ -1,9 +1,11 @@
 // Which part of the `map` frame a picture shows: x of the map to the right, y up, no rotation.
 #pragma once
 
+#include <span>
+
 #include <Eigen/Core>
 
-#include "common/world.hpp"
+#include "common/occupancy_grid.hpp"
 
 namespace swiftlet::rendering {
 
@@ -25,8 +27,10 @@ struct Viewport {
   bool operator==(const Viewport&) const = default;
 };
 
-/// The viewport that shows all that is known of the world, its vehicle, home and goal, with a margin. Its borders sit
-/// on whole metres, so that a growing map makes the picture jump seldom. At least 6 m are shown.
-Viewport fitViewport(const common::World& world, int width_px, int height_px);
+/// The viewport that shows all that is known of the map and the points, with a margin. Its borders sit on whole metres,
+/// so that a growing map makes the picture jump seldom. At least 6 m are shown; a point farther than 100 m from the
+/// rest, or not finite, is left out.
+Viewport fitViewport(const common::OccupancyGrid& grid, std::span<const Eigen::Vector2d> points_map_m, int width_px,
+                     int height_px);
 
 }  // namespace swiftlet::rendering

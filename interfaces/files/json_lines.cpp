@@ -32,6 +32,7 @@ common::Event eventOf(const ordered_json& object) {
   event.source = object.at("source").get<std::string>();
   event.text = object.at("text").get<std::string>();
   event.reason = object.value("reason", "");
+  event.vehicle = object.value("vehicle", "");
   return event;
 }
 
@@ -39,11 +40,12 @@ common::Event eventOf(const ordered_json& object) {
 
 std::string toJson(const common::Event& event) {
   constexpr int kNanoseconds = 9;
-  const ordered_json object = {{"t_s", common::rounded(event.stamp.seconds(), kNanoseconds)},
-                               {"severity", common::toString(event.severity)},
-                               {"source", event.source},
-                               {"text", event.text},
-                               {"reason", event.reason}};
+  ordered_json object = {{"t_s", common::rounded(event.stamp.seconds(), kNanoseconds)},
+                         {"severity", common::toString(event.severity)},
+                         {"source", event.source},
+                         {"text", event.text},
+                         {"reason", event.reason}};
+  if (!event.vehicle.empty()) object["vehicle"] = event.vehicle;
   return object.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 

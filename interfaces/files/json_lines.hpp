@@ -10,7 +10,8 @@
 
 namespace swiftlet::interfaces {
 
-/// {"t_s": 12.5, "severity": "info", "source": "mission", "text": "...", "reason": "..."}, without the newline.
+/// {"t_s": 12.5, "severity": "info", "source": "mission", "text": "...", "reason": "..."}, without the newline. With
+/// "vehicle": "..." at its end when the event names one.
 std::string toJson(const common::Event& event);
 
 class EventWriter {

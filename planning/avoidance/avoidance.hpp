@@ -12,7 +12,7 @@
 #include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
-#include "common/world.hpp"
+#include "common/world/avoidance_status.hpp"
 #include "planning/avoidance/dynamic_obstacles.hpp"
 #include "planning/costs/cost_map.hpp"
 

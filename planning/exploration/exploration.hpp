@@ -12,7 +12,7 @@
 
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
-#include "common/world.hpp"
+#include "common/world/frontier.hpp"
 #include "planning/costs/cost_map.hpp"
 #include "planning/exploration/exploration_config.hpp"
 #include "planning/search/planner.hpp"

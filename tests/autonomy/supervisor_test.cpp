@@ -15,12 +15,12 @@ using testing::HasSubstr;
 class SupervisorStory : public testing::Test {
  protected:
   const Supervision& at(double t_s, bool airborne = true) {
-    return supervisor_.tick(Time::fromSeconds(t_s), airborne, status_);
+    return supervisor_.tick(Time::fromSeconds(t_s), airborne, energy_);
   }
   void scanAt(double t_s) { supervisor_.scanArrived(Time::fromSeconds(t_s)); }
 
   Supervisor supervisor_{SupervisorConfig{}};
-  common::VehicleStatus status_;
+  common::EnergyLayer energy_;
 };
 
 TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
@@ -85,9 +85,9 @@ TEST_F(SupervisorStory, SilenceOnTheGroundIsNoReasonToLand) {
 }
 
 TEST_F(SupervisorStory, EmptyBatteryLands) {
-  status_.battery_remaining = 0.5;
+  energy_.battery_remaining = 0.5;
   EXPECT_FALSE(at(1.0).land);
-  status_.battery_remaining = 0.1;
+  energy_.battery_remaining = 0.1;
   EXPECT_TRUE(at(1.1).land);
   EXPECT_FALSE(supervisor_.landedByOperator());
 }

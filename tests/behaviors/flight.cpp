@@ -13,14 +13,11 @@ std::shared_ptr<const common::OccupancyGrid> someGrid() {
   return grid;
 }
 
-common::World someWorld() {
-  common::World world;
-  world.grid = someGrid();
-  world.levels = std::make_shared<common::LevelMap>();
-  world.frontiers = std::make_shared<std::vector<common::Frontier>>();
-  world.trail_map_m = std::make_shared<std::vector<Eigen::Vector2d>>();
-  world.status.flight_state = common::FlightState::kFlying;
-  return world;
+test::Layers someLayers() {
+  test::Layers layers;
+  layers.map.grid = someGrid();
+  layers.vehicle.flight_state = common::FlightState::kFlying;
+  return layers;
 }
 
 std::string upper(std::string text) {
@@ -36,7 +33,7 @@ Flight::Flight(const std::string& inside, const std::string& more)
                                "mission.xml")) {}
 
 Flight::Flight(Mission flown) : mission(std::move(flown)) {
-  context.world = std::make_shared<common::World>(someWorld());
+  context.world = std::make_shared<const common::World>(someLayers().world());
   context.hull_radius_m = 0.275;
 }
 
@@ -79,29 +76,25 @@ Flight& Flight::holds(bool hold, const std::string& reason) {
 }
 
 Flight& Flight::retreats(bool retreating, const std::string& reason) {
-  changeWorld([&](common::World& world) {
-    world.avoidance.retreating = retreating;
-    world.avoidance.reason = reason;
+  return change([&](Layers& layers) {
+    layers.vehicle.avoidance.retreating = retreating;
+    layers.vehicle.avoidance.reason = reason;
   });
-  return *this;
 }
 
 Flight& Flight::is(common::FlightState state) {
-  changeWorld([&](common::World& world) { world.status.flight_state = state; });
-  return *this;
+  return change([&](Layers& layers) { layers.vehicle.flight_state = state; });
 }
 
 Flight& Flight::localization(std::optional<common::LocalizationState> state) {
-  changeWorld([&](common::World& world) {
-    world.localization.reset();
-    if (state) world.localization.emplace().state = *state;
+  return change([&](Layers& layers) {
+    layers.map.localization.reset();
+    if (state) layers.map.localization.emplace().state = *state;
   });
-  return *this;
 }
 
 Flight& Flight::home(double x_m, double y_m) {
-  changeWorld([&](common::World& world) { world.home_map = {x_m, y_m, 0.0}; });
-  return *this;
+  return change([&](Layers& layers) { layers.vehicle.home_map = {x_m, y_m, 0.0}; });
 }
 
 Flight& Flight::goal(double x_m, double y_m) { return command({0, common::GoalCommand{{x_m, y_m}}}); }
@@ -135,10 +128,11 @@ std::string Flight::view() const {
   return text;
 }
 
-void Flight::changeWorld(const std::function<void(common::World&)>& change) {
-  auto world = std::make_shared<common::World>(*context.world);
-  change(*world);
-  context.world = std::move(world);
+Flight& Flight::change(const std::function<void(Layers&)>& change) {
+  Layers layers(*context.world);
+  change(layers);
+  context.world = std::make_shared<const common::World>(layers.world());
+  return *this;
 }
 
 }  // namespace swiftlet::behaviors::testing

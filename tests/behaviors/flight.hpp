@@ -3,10 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "behaviors/mission.hpp"
+#include "tests/support/layers.hpp"
 
 namespace swiftlet::behaviors::testing {
 
@@ -46,7 +48,8 @@ class Flight {
   TickResult last;
 
  private:
-  void changeWorld(const std::function<void(common::World&)>& change);
+  using Layers = test::Layers;
+  Flight& change(const std::function<void(Layers&)>& change);
   std::uint64_t commands_ = 0;
 };
 

@@ -30,7 +30,7 @@ FakeBackend::FakeBackend(Setup setup) : setup_(std::move(setup)) {
   server_ =
       std::make_unique<web::WebServer>(io_, options, web::WebServer::Sources{world_, camera_, commands_, results_});
   if (setup_.flies) {
-    flight_.world().mission.state = common::MissionState::kRunning;
+    flight_.layers().mission.status.state = common::MissionState::kRunning;
     world_.post(flight_.advance(setup_.warm_up_s));
   }
   server_thread_ = std::jthread([this] { io_.run(); });
@@ -60,9 +60,9 @@ double FakeBackend::serverCpu_s() const {
 }
 
 common::CommandResult FakeBackend::carryOut(const common::OperatorCommand& command) {
-  common::World& world = flight_.world();
+  test::Layers& layers = flight_.layers();
   const auto say = [&](common::Severity severity, const std::string& text, const std::string& reason) {
-    server_->postEvent({world.stamp, severity, "mission", text, reason});
+    server_->postEvent({layers.stamp, severity, "mission", text, reason});
   };
   if (const auto* goal = std::get_if<common::GoalCommand>(&command.kind)) {
     if (!flight_.isKnownFree(goal->goal_map_m)) {
@@ -73,12 +73,12 @@ common::CommandResult FakeBackend::carryOut(const common::OperatorCommand& comma
     }
     flight_.flyTo(goal->goal_map_m);
   } else if (std::holds_alternative<common::HoldCommand>(command.kind)) {
-    world.mission.state = common::MissionState::kHeld;
+    layers.mission.status.state = common::MissionState::kHeld;
   } else if (std::holds_alternative<common::ResumeCommand>(command.kind)) {
-    if (world.mission.state != common::MissionState::kHeld) return {command.id, false, "nothing is on hold"};
-    world.mission.state = common::MissionState::kRunning;
+    if (layers.mission.status.state != common::MissionState::kHeld) return {command.id, false, "nothing is on hold"};
+    layers.mission.status.state = common::MissionState::kRunning;
   } else if (std::holds_alternative<common::HomeCommand>(command.kind)) {
-    flight_.flyTo(world.home_map.position_m());
+    flight_.flyTo(layers.vehicle.home_map.position_m());
   }
   say(common::Severity::kInfo, common::toString(command), "the operator asked");
   return {command.id, true, ""};
@@ -96,9 +96,9 @@ void FakeBackend::fly(const std::stop_token& stop) {
       }
       if (setup_.answers) results_.push(carryOut(command));
     }
-    const bool held = flight_.world().mission.state == common::MissionState::kHeld;
+    const bool held = flight_.layers().mission.status.state == common::MissionState::kHeld;
     if (!held) world_.post(flight_.advance(period.count()));
-    if (held) world_.post(std::make_shared<const common::World>(flight_.world()));
+    if (held) world_.post(std::make_shared<const common::World>(flight_.layers().world()));
     camera_s += period.count();
     if (server_->cameraWanted())
       camera_.post(std::make_shared<const common::CameraFrame>(ExampleFlight::cameraFrame(camera_s, 640, 480)));

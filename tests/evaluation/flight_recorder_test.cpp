@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/statistics.hpp"
+#include "tests/support/layers.hpp"
 
 namespace swiftlet::evaluation {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 using common::MissionState;
 using common::Pose3;
 using common::Time;
+using test::Layers;
 
 /// The take-off place: at (3, 4) on a floor of 0.2 m, heading along the world's y.
 const Pose3 kTakeOff{common::quaternionFrom({0, 0, M_PI_2}), {3, 4, 0.2}};
@@ -33,12 +35,17 @@ common::VehicleState estimateAt(double time_s, const Eigen::Vector3d& position_m
   return state;
 }
 
+Layers layersOf(double time_s, MissionState mission) {
+  Layers layers;
+  layers.stamp = Time::fromSeconds(time_s);
+  layers.mission.status.state = mission;
+  return layers;
+}
+
 common::World worldOf(double time_s, MissionState mission, const std::vector<std::pair<int, std::string>>& nodes = {}) {
-  common::World world;
-  world.stamp = Time::fromSeconds(time_s);
-  world.mission.state = mission;
-  for (const auto& [id, status] : nodes) world.mission.tree.push_back({id, id - 1, "node", status});
-  return world;
+  Layers layers = layersOf(time_s, mission);
+  for (const auto& [id, status] : nodes) layers.mission.status.tree.push_back({id, id - 1, "node", status});
+  return layers.world();
 }
 
 TEST(FlightRecorder, ErrorsAreInTheTrueMapFrame) {
@@ -105,12 +112,12 @@ TEST(FlightRecorder, FollowsHowTheFlightFindsItselfInTheGivenMap) {
   const auto snapshot = [&](double time_s, common::LocalizationState state, double off_m) {
     const Eigen::Vector3d at(time_s, 0, 1);
     recorder.tick(truthAt(time_s, at), estimateAt(time_s, at));
-    common::World world = worldOf(time_s, MissionState::kRunning);
-    world.state = estimateAt(time_s, at);
-    world.status.flight_state = common::FlightState::kFlying;
-    world.localization.emplace().state = state;
-    world.localization->T_given_odom = T_map_given.inverse() * common::Pose2{off_m, 0.0, 0.0};
-    recorder.world(world);
+    Layers layers = layersOf(time_s, MissionState::kRunning);
+    layers.vehicle.state = estimateAt(time_s, at);
+    layers.vehicle.flight_state = common::FlightState::kFlying;
+    layers.map.localization.emplace().state = state;
+    layers.map.localization->T_given_odom = T_map_given.inverse() * common::Pose2{off_m, 0.0, 0.0};
+    recorder.world(layers.world());
   };
   using State = common::LocalizationState;
   snapshot(0.0, State::kGlobal, 0.0);

@@ -21,6 +21,18 @@ TEST(Events, OneLineOfJson) {
         << ms << " ms";
 }
 
+TEST(Events, NameTheVehicleOnlyWhereThereAreSeveral) {
+  const ScratchFolder folder;
+  const common::Event event{Time::fromSeconds(1), Severity::kInfo, "flight", "landed", "", "second"};
+  EXPECT_EQ(toJson(event),
+            R"({"t_s":1.0,"severity":"info","source":"flight","text":"landed","reason":"","vehicle":"second"})");
+  put(folder / "e.jsonl", toJson(event) + "\n" + toJson({event.stamp, Severity::kInfo, "a", "b", ""}) + "\n");
+  const auto events = readEvents(folder / "e.jsonl");
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].vehicle, "second");
+  EXPECT_EQ(events[1].vehicle, "");
+}
+
 TEST(Events, AnyTextStaysOnItsLine) {
   const ScratchFolder folder;
   const std::string odd = "two\nlines, \"quoted\", \t tab, \xff no UTF-8, é";

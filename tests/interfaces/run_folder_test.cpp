@@ -10,6 +10,7 @@
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/tum.hpp"
 #include "support.hpp"
+#include "tests/support/layers.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -40,28 +41,27 @@ struct Flight {
     return state;
   }
 
-  common::World world(MissionState mission, const std::string& phase) {
+  test::Layers layers(MissionState mission, const std::string& phase) {
     grid.set(grid.cellAt(time_s, 0.0), -10);
     grid.set(grid.cellAt(time_s, 1.0), 10);
-    common::World world;
-    world.stamp = Time::fromSeconds(time_s);
-    world.state = state();
-    world.status.distance_flown_m = time_s;
-    world.status.battery_remaining = 0.5;
-    world.grid = std::make_shared<common::OccupancyGrid>(grid.snapshot());
-    world.levels = std::make_shared<common::LevelMap>();
+    test::Layers layers;
+    layers.stamp = Time::fromSeconds(time_s);
+    layers.vehicle.state = state();
+    layers.vehicle.distance_flown_m = time_s;
+    layers.energy.battery_remaining = 0.5;
+    layers.map.grid = std::make_shared<common::OccupancyGrid>(grid.snapshot());
     common::Frontier frontier;
     frontier.centroid_map_m = {1.5, -2.0};
     frontier.length_m = 0.3;
     frontier.reason = FrontierReason::kUnreachable;
     frontier.explanation = "unreachable at clearance 0.10 m";
-    world.frontiers = std::make_shared<std::vector<common::Frontier>>(1, frontier);
-    world.trail_map_m = std::make_shared<std::vector<Eigen::Vector2d>>();
-    world.explored_area_m2 = 12.5;
-    world.mission.state = mission;
-    world.mission.phase = phase;
-    return world;
+    layers.map.frontiers = std::make_shared<std::vector<common::Frontier>>(1, frontier);
+    layers.map.explored_area_m2 = 12.5;
+    layers.mission.status.state = mission;
+    layers.mission.status.phase = phase;
+    return layers;
   }
+  common::World world(MissionState mission, const std::string& phase) { return layers(mission, phase).world(); }
 
   /// 10 s of it: two phases, estimates at 100 Hz, snapshots at 10 Hz.
   void flyInto(RunFolder& run) {
@@ -124,13 +124,13 @@ TEST(RunFolder, HasWhereTheFlightWasInTheMapItWasGiven) {
   Flight flight;
   for (int tick = 0; tick <= 100; ++tick) {
     flight.time_s = 0.1 * tick;
-    common::World world = flight.world(MissionState::kRunning, "explore");
-    world.status.flight_state = common::FlightState::kFlying;
-    common::Localization& localization = world.localization.emplace();
+    auto layers = flight.layers(MissionState::kRunning, "explore");
+    layers.vehicle.flight_state = common::FlightState::kFlying;
+    common::Localization& localization = layers.map.localization.emplace();
     if (tick >= 40) localization.state = common::LocalizationState::kLocalized;
     localization.T_given_odom = {5.0, 0.0, 0.0};
     localization.T_given_body = {5.0 + flight.time_s, 0.0, 0.0};
-    run.world(world);
+    run.world(layers.world());
   }
   run.finish({});
   const json localization = json::parse(bytesOf(folder / "run/mission.json"))["localization"];
@@ -253,10 +253,10 @@ TEST(RunFolder, FiguresAreShortAndWhatWasNotExploredIsNull) {
   const ScratchFolder folder;
   RunFolder run(folder / "run", kInfo, "");
   Flight flight;
-  common::World world = flight.world(MissionState::kRunning, "go to");
-  world.explored_area_m2 = 0.0;
-  world.status.distance_flown_m = 30.563146064540703;
-  run.world(world);
+  auto layers = flight.layers(MissionState::kRunning, "go to");
+  layers.map.explored_area_m2 = 0.0;
+  layers.vehicle.distance_flown_m = 30.563146064540703;
+  run.world(layers.world());
   run.finish({});
   EXPECT_TRUE(json::parse(bytesOf(folder / "run/mission.json"))["explored_area_m2"].is_null());
   EXPECT_THAT(bytesOf(folder / "run/mission.json"), HasSubstr("\"distance_m\": 30.5631,"));
@@ -269,10 +269,10 @@ TEST(RunFolder, NotFiniteEstimatesAreLeftOut) {
   common::VehicleState broken = flight.state();
   broken.T_odom_body.position_m.x() = std::nan("");
   run.state(broken);
-  common::World world = flight.world(MissionState::kRunning, "explore");
-  world.state = broken;
-  world.status.distance_flown_m = std::nan("");
-  run.world(world);
+  auto layers = flight.layers(MissionState::kRunning, "explore");
+  layers.vehicle.state = broken;
+  layers.vehicle.distance_flown_m = std::nan("");
+  run.world(layers.world());
   run.finish({});
   EXPECT_EQ(run.failure(), std::nullopt);
   EXPECT_TRUE(readTum(folder / "run/trajectory.tum").empty());

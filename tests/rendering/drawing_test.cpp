@@ -112,10 +112,10 @@ TEST(GridLayerTest, APixelIsTheMeanOfTheCellsItCovers) {
   for (const double px_per_m : {3.7, 19.0, 61.3}) {
     const Viewport viewport{{1.234, 0.567}, px_per_m, 90, 70};
     common::Image image = black(90, 70);
-    drawGrid(*world->grid, viewport, themeOf(Scheme::kLight), {0, 0, 90, 70}, image);
+    drawGrid(*world->map->grid, viewport, themeOf(Scheme::kLight), {0, 0, 90, 70}, image);
     for (int y = 0; y < 70; y += 3)
       for (int x = 0; x < 90; x += 3) {
-        const Eigen::Vector3d wanted = sampled(*world->grid, viewport, x, y);
+        const Eigen::Vector3d wanted = sampled(*world->map->grid, viewport, x, y);
         const std::uint8_t* pixel = &image.rgb[3 * static_cast<std::size_t>(y * 90 + x)];
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(pixel[c], wanted[c], 11.0) << px_per_m << " " << x << "," << y;
       }
@@ -127,10 +127,10 @@ TEST(GridLayerTest, PiecesEqualTheWhole) {
   const auto world = flight.advance(2.0);
   const Viewport viewport{{0.3, 1.1}, 37.0, 120, 90};
   common::Image whole = black(120, 90), pieces = black(120, 90);
-  drawGrid(*world->grid, viewport, themeOf(Scheme::kDark), {0, 0, 120, 90}, whole);
+  drawGrid(*world->map->grid, viewport, themeOf(Scheme::kDark), {0, 0, 120, 90}, whole);
   for (int y = 0; y < 90; y += 17)
     for (int x = 0; x < 120; x += 23)
-      drawGrid(*world->grid, viewport, themeOf(Scheme::kDark), {x, y, std::min(120, x + 23), std::min(90, y + 17)},
+      drawGrid(*world->map->grid, viewport, themeOf(Scheme::kDark), {x, y, std::min(120, x + 23), std::min(90, y + 17)},
                pieces);
   EXPECT_EQ(whole.rgb, pieces.rgb);
 }
@@ -144,43 +144,105 @@ TEST(ViewportTest, ScreenAndMapAreInverse) {
 
 TEST(ViewportTest, ADivergedEstimateDoesNotEmptyThePicture) {
   testing::ExampleFlight flight;
-  common::World world = *flight.advance(1.0);
-  const Viewport sound = fitViewport(world, 640, 480);
+  test::Layers layers(*flight.advance(1.0));
+  const auto viewportOf = [](const MapPicture& picture) {
+    return fitViewport(*picture.grid, picture.in_view_map_m, 640, 480);
+  };
+  const Viewport sound = viewportOf(pictureOf(layers.world(), 0.55));
   for (const double bad :
        {1e12, -1e30, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    world.state.T_odom_body.position_m.setConstant(bad);
-    EXPECT_EQ(fitViewport(world, 640, 480), sound);
-    EXPECT_EQ(renderMap(world, {}).width_px, 640);
+    layers.vehicle.state.T_odom_body.position_m.setConstant(bad);
+    const MapPicture picture = pictureOf(layers.world(), 0.55);
+    EXPECT_EQ(viewportOf(picture), sound);
+    EXPECT_EQ(renderMap(picture, {}).width_px, 640);
   }
 }
 
 TEST(MapRendererTest, AnEmptyMapIsAPictureToo) {
-  common::World world;
-  world.grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
-  world.levels = std::make_shared<const common::LevelMap>();
-  world.frontiers = std::make_shared<const std::vector<common::Frontier>>();
-  world.trail_map_m = std::make_shared<const std::vector<Eigen::Vector2d>>();
+  MapPicture picture;
+  picture.grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
   MapView view;
   view.width_px = 16;
   view.height_px = 16;
-  EXPECT_EQ(renderMap(world, view).rgb.size(), 768u);
+  EXPECT_EQ(renderMap(picture, view).rgb.size(), 768u);
+}
+
+/// A map where nothing is known, 10 px a metre, 16 m x 12 m.
+struct BlankMap {
+  BlankMap() {
+    picture.grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+    view.width_px = 160;
+    view.height_px = 120;
+    view.viewport = Viewport{{0.0, 0.0}, 10.0, 160, 120};
+  }
+  /// Whether the pixels around the point are other than in the blank map.
+  bool isInkedAt(double x_m, double y_m) const {
+    MapPicture blank;
+    blank.grid = picture.grid;
+    const common::Image with = renderMap(picture, view), without = renderMap(blank, view);
+    const Eigen::Vector2d at = view.viewport->toPixel({x_m, y_m});
+    for (int y = static_cast<int>(at.y()) - 1; y <= static_cast<int>(at.y()) + 1; ++y) {
+      const auto first = 3 * (static_cast<std::size_t>(y) * 160 + static_cast<std::size_t>(at.x()) - 1);
+      if (!std::equal(with.rgb.begin() + first, with.rgb.begin() + first + 9, without.rgb.begin() + first)) return true;
+    }
+    return false;
+  }
+
+  MapPicture picture;
+  MapView view;
+};
+
+TEST(MapRendererTest, EveryStyleOfLineIsDrawnWhereItIs) {
+  for (const LineStyle style : {LineStyle::kTrail, LineStyle::kTrack, LineStyle::kPlan, LineStyle::kReference}) {
+    BlankMap map;
+    map.picture.lines = {{"", {{-3.05, 2.05}, {3.05, 2.05}}, style}};
+    const auto inked = [&](int i) { return map.isInkedAt(-3.0 + 0.1 * i, 2.05); };
+    int count = 0;
+    for (int i = 0; i <= 60; ++i) count += inked(i);
+    const bool solid = style == LineStyle::kTrail || style == LineStyle::kTrack;
+    EXPECT_EQ(count == 61, solid) << "style " << static_cast<int>(style) << ", inked " << count;
+    EXPECT_GT(count, 30) << "style " << static_cast<int>(style);
+    EXPECT_FALSE(map.isInkedAt(0.0, 0.0)) << "style " << static_cast<int>(style);
+  }
+}
+
+TEST(MapRendererTest, EveryMarkIsDrawnWhereItIs) {
+  for (const MarkStyle style : {MarkStyle::kHome, MarkStyle::kGoal, MarkStyle::kVehicle}) {
+    BlankMap map;
+    map.picture.marks = {{"", {2.05, 1.05, 0.5}, style, 0.6}};
+    EXPECT_TRUE(map.isInkedAt(2.05, 1.05)) << "style " << static_cast<int>(style);
+    EXPECT_FALSE(map.isInkedAt(-2.05, 1.05)) << "style " << static_cast<int>(style);
+  }
 }
 
 TEST(MapRendererTest, ATrailWithoutItsVehicleEndsAtItsLastPoint) {
-  testing::ExampleFlight flight;
-  common::World world = *flight.advance(1.0);
-  world.trail_map_m = std::make_shared<const std::vector<Eigen::Vector2d>>(
-      std::vector<Eigen::Vector2d>{{1.0, 1.0}, {1.5, 1.0}, {1.5, 2.0}});
-  MapView view;
-  view.viewport = Viewport{{0.0, 0.0}, 60.0, 640, 480};
-  view.layers.vehicle = view.layers.plan = false;  // A plan begins at the vehicle, too.
-  const auto drawn = [&](double x_m) {
-    world.state.T_odom_body.position_m = {x_m, -2.0, 0.5};
-    return renderMap(world, view).rgb;
-  };
-  EXPECT_EQ(drawn(2.0), drawn(-2.0)) << "no line to a vehicle that is not shown";
-  view.layers.vehicle = true;
-  EXPECT_NE(drawn(2.0), drawn(-2.0));
+  BlankMap map;
+  map.picture.lines = {{"", {{1.05, 1.05}, {1.55, 1.05}, {1.55, 2.05}}, LineStyle::kTrail}};
+  EXPECT_TRUE(map.isInkedAt(1.55, 1.8));
+  EXPECT_FALSE(map.isInkedAt(2.05, -1.95)) << "no line to a vehicle that is not shown";
+}
+
+TEST(PictureOfWorldTest, TrailAndPlanMeetAtTheVehicle) {
+  test::Layers layers;
+  layers.vehicle.state.T_odom_body.position_m = {2.0, 3.0, 1.0};
+  layers.vehicle.trail = common::Trail({{0.0, 0.0}, {1.0, 2.0}});
+  layers.vehicle.plan_map_m = {{5.0, 3.0}, {5.0, 6.0}};
+  layers.mission.goal_map_m = {5.0, 6.0};
+  const MapPicture picture = pictureOf(layers.world(), 0.7);
+  ASSERT_EQ(picture.lines.size(), 2u);
+  EXPECT_EQ(picture.lines[0].points_map_m, (std::vector<Eigen::Vector2d>{{0.0, 0.0}, {1.0, 2.0}, {2.0, 3.0}}));
+  EXPECT_EQ(picture.lines[1].points_map_m, (std::vector<Eigen::Vector2d>{{2.0, 3.0}, {5.0, 3.0}, {5.0, 6.0}}));
+  ASSERT_EQ(picture.marks.size(), 3u);
+  EXPECT_EQ(picture.marks[1].name, "goal");
+  EXPECT_EQ(picture.marks[2].diameter_m, 0.7);
+  EXPECT_EQ(picture.in_view_map_m, (std::vector<Eigen::Vector2d>{{0.0, 0.0}, {2.0, 3.0}, {5.0, 6.0}}));
+}
+
+TEST(PictureOfWorldTest, WithoutAPlanThereIsNoLineOfIt) {
+  const MapPicture picture = pictureOf(test::Layers().world(), 0.55);
+  ASSERT_EQ(picture.lines.size(), 1u);
+  EXPECT_EQ(picture.lines[0].style, LineStyle::kTrail);
+  EXPECT_EQ(picture.marks.size(), 2u) << "home and vehicle, no goal";
 }
 
 TEST(ResizeTest, EachPixelIsTheMeanOfItsArea) {

@@ -45,11 +45,9 @@ double clearSeconds(double value) { return std::max(0.0, value); }
 }  // namespace
 
 ExampleFlight::ExampleFlight() {
-  world_.levels = std::make_shared<const common::LevelMap>();
-  world_.frontiers = std::make_shared<const std::vector<common::Frontier>>();
-  world_.status.flight_state = common::FlightState::kFlying;
-  world_.mission.state = common::MissionState::kRunning;
-  world_.state.horizontal_valid = world_.state.vertical_valid = true;
+  layers_.vehicle.flight_state = common::FlightState::kFlying;
+  layers_.mission.status.state = common::MissionState::kRunning;
+  layers_.vehicle.state.horizontal_valid = layers_.vehicle.state.vertical_valid = true;
   look();
   describe();
 }
@@ -78,11 +76,12 @@ void ExampleFlight::look() {
       last = cell;
     }
   }
-  world_.laser = laser;
+  layers_.vehicle.laser = laser;
 }
 
 void ExampleFlight::move(double seconds) {
-  const Vector2d target = world_.goal_map_m ? *world_.goal_map_m : Vector2d(kRoute[waypoint_][0], kRoute[waypoint_][1]);
+  std::optional<Vector2d>& goal_map_m = layers_.mission.goal_map_m;
+  const Vector2d target = goal_map_m ? *goal_map_m : Vector2d(kRoute[waypoint_][0], kRoute[waypoint_][1]);
   const Vector2d way = target - pose_.position_m();
   const double step_m = std::min(way.norm(), 0.8 * seconds);
   if (way.norm() > 1e-6) {
@@ -90,38 +89,39 @@ void ExampleFlight::move(double seconds) {
     pose_.yaw_rad = common::wrapAngle(pose_.yaw_rad + std::clamp(turn, -1.5 * seconds, 1.5 * seconds));
     pose_.x_m += step_m / way.norm() * way.x();
     pose_.y_m += step_m / way.norm() * way.y();
-    world_.state.velocity_odom_m_s = {way.x() / way.norm() * 0.8, way.y() / way.norm() * 0.8, 0.0};
+    layers_.vehicle.state.velocity_odom_m_s = {way.x() / way.norm() * 0.8, way.y() / way.norm() * 0.8, 0.0};
   }
   if ((target - pose_.position_m()).norm() < 0.05) {
-    if (!world_.goal_map_m) waypoint_ = (waypoint_ + 1) % kRoute.size();
-    world_.goal_map_m.reset();
+    if (!goal_map_m) waypoint_ = (waypoint_ + 1) % kRoute.size();
+    goal_map_m.reset();
   }
-  if (trail_.empty() || (trail_.back() - pose_.position_m()).norm() > 0.08) trail_.push_back(pose_.position_m());
-  world_.status.distance_flown_m += step_m;
+  const auto trail_map_m = trail_.trail().points_map_m();
+  if (trail_map_m.empty() || (trail_map_m.back() - pose_.position_m()).norm() > 0.08) trail_.add(pose_.position_m());
+  layers_.vehicle.distance_flown_m += step_m;
 }
 
 void ExampleFlight::describe() {
-  world_.stamp = world_.state.stamp = common::Time::fromSeconds(time_s_);
-  world_.state.T_odom_body = common::lifted(pose_, 1.0 + 0.02 * std::sin(time_s_));
-  world_.state.height_above_ground_m = 1.0;
-  world_.state.position_covariance_m2 = Eigen::Vector3d(4e-4, 3e-4, 1e-4).asDiagonal();
-  world_.grid = std::make_shared<const common::OccupancyGrid>(grid_.snapshot());
-  world_.trail_map_m = std::make_shared<const std::vector<Vector2d>>(trail_);
-  world_.plan_map_m.clear();
-  if (world_.goal_map_m) {
-    world_.plan_map_m.push_back(*world_.goal_map_m);
+  layers_.stamp = layers_.vehicle.state.stamp = common::Time::fromSeconds(time_s_);
+  layers_.vehicle.state.T_odom_body = common::lifted(pose_, 1.0 + 0.02 * std::sin(time_s_));
+  layers_.vehicle.state.height_above_ground_m = 1.0;
+  layers_.vehicle.state.position_covariance_m2 = Eigen::Vector3d(4e-4, 3e-4, 1e-4).asDiagonal();
+  layers_.map.grid = std::make_shared<const common::OccupancyGrid>(grid_.snapshot());
+  layers_.vehicle.trail = trail_.trail();
+  layers_.vehicle.plan_map_m.clear();
+  if (layers_.mission.goal_map_m) {
+    layers_.vehicle.plan_map_m.push_back(*layers_.mission.goal_map_m);
   } else {
     for (std::size_t i = waypoint_; i < std::min(waypoint_ + 2, kRoute.size()); ++i)
-      world_.plan_map_m.emplace_back(kRoute[i][0], kRoute[i][1]);
+      layers_.vehicle.plan_map_m.emplace_back(kRoute[i][0], kRoute[i][1]);
   }
   std::int64_t known = 0;
   grid_.forEachCell([&](CellIndex, common::occupancy::Cell c) { known += common::occupancy::isFree(c); });
-  world_.explored_area_m2 = static_cast<double>(known) * 0.0025;
-  world_.status.battery_remaining = clearSeconds(1.0 - time_s_ / 900.0);
-  world_.status.battery_voltage_v = 10.6 + 2.0 * world_.status.battery_remaining;
-  world_.intent = {3, common::IntentState::kRunning, "to the frontier at (6.20, 2.60), 2.4 m away", false};
-  world_.mission.phase = "explore";
-  world_.mission.tree = {
+  layers_.map.explored_area_m2 = static_cast<double>(known) * 0.0025;
+  layers_.energy.battery_remaining = clearSeconds(1.0 - time_s_ / 900.0);
+  layers_.energy.battery_voltage_v = 10.6 + 2.0 * layers_.energy.battery_remaining;
+  layers_.mission.intent = {3, common::IntentState::kRunning, "to the frontier at (6.20, 2.60), 2.4 m away", false};
+  layers_.mission.status.phase = "explore";
+  layers_.mission.status.tree = {
       {0, -1, "Priority", "RUNNING"}, {1, 0, "AvoidObstacle", "SKIPPED"}, {2, 0, "Hold", "SKIPPED"},
       {3, 0, "Sequence", "RUNNING"},  {4, 3, "TakeOff 1.0 m", "SUCCESS"}, {5, 3, "Explore", "RUNNING"},
       {6, 3, "MoveToGoal", "IDLE"},   {7, 3, "GoHome", "IDLE"},           {8, 3, "Land", "IDLE"}};
@@ -133,7 +133,7 @@ void ExampleFlight::describe() {
   for (int x = 56; x < 61; ++x)
     for (int y = 42; y < 47; ++y) chair.cells.push_back({x, y});
   levels->levels = {table, chair};
-  world_.levels = levels;
+  layers_.map.levels = levels;
 
   auto frontiers = std::make_shared<std::vector<common::Frontier>>();
   const auto add = [&](double x0, double y0, double x1, double y1, common::FrontierReason reason, const char* why) {
@@ -151,7 +151,7 @@ void ExampleFlight::describe() {
   add(-1.9, 5.4, -1.4, 5.8, common::FrontierReason::kTooSmall, "too small: 0.35 m of 0.40 m");
   add(7.3, 5.9, 9.4, 5.9, common::FrontierReason::kOutOfBounds, "out of bounds");
   add(3.5, -2.6, 4.6, -2.6, common::FrontierReason::kBlacklisted, "blacklisted after 3 attempts");
-  world_.frontiers = frontiers;
+  layers_.map.frontiers = frontiers;
 }
 
 std::shared_ptr<const common::World> ExampleFlight::advance(double seconds) {
@@ -162,7 +162,7 @@ std::shared_ptr<const common::World> ExampleFlight::advance(double seconds) {
     look();
   }
   describe();
-  return std::make_shared<const common::World>(world_);
+  return std::make_shared<const common::World>(layers_.world());
 }
 
 bool ExampleFlight::isKnownFree(const Vector2d& point_map_m) const {

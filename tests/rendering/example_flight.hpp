@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/sensor_event.hpp"
-#include "common/world.hpp"
+#include "tests/support/layers.hpp"
 
 namespace swiftlet::testing {
 
@@ -16,14 +16,15 @@ class ExampleFlight {
 
   /// Flies on for `seconds` and returns the world then.
   std::shared_ptr<const common::World> advance(double seconds);
-  common::World& world() { return world_; }
+  /// What the next world has; what the flight itself changes is made anew when it flies on.
+  test::Layers& layers() { return layers_; }
 
   /// A camera picture that changes with time.
   static common::CameraFrame cameraFrame(double time_s, int width_px, int height_px);
 
   /// Free and already seen.
   bool isKnownFree(const Eigen::Vector2d& point_map_m) const;
-  void flyTo(const Eigen::Vector2d& goal_map_m) { world_.goal_map_m = goal_map_m; }
+  void flyTo(const Eigen::Vector2d& goal_map_m) { layers_.mission.goal_map_m = goal_map_m; }
 
  private:
   bool isWall(const Eigen::Vector2d& point_map_m) const;
@@ -32,11 +33,11 @@ class ExampleFlight {
   void describe();
 
   common::OccupancyGrid grid_ = common::makeOccupancyGrid(0.05);
-  std::vector<Eigen::Vector2d> trail_;
+  common::TrailRecorder trail_;
   common::Pose2 pose_;
   double time_s_ = 0.0;
   std::size_t waypoint_ = 0;
-  common::World world_;
+  test::Layers layers_;
 };
 
 }  // namespace swiftlet::testing

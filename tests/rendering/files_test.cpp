@@ -111,9 +111,12 @@ TEST(PlotSvgTest, BreaksTheLineAtNanAndSurvivesNothing) {
 TEST(MapSvgTest, HasThePictureTheLinesAndTheMarks) {
   testing::ExampleFlight flight;
   const auto world = flight.advance(6.0);
-  const std::string svg =
-      mapSvg(*world, {{"estimate", *world->trail_map_m, false}, {"truth", {{0, 0}, {1.8, 1}}, true}},
-             {{"home", {0, 0}}, {"goal", {1.8, 3.2}}});
+  MapPicture picture = pictureOf(*world, 0.55);
+  const auto trail_map_m = world->vehicle->trail.points_map_m();
+  picture.lines = {{"estimate", {trail_map_m.begin(), trail_map_m.end()}, LineStyle::kTrail},
+                   {"truth", {{0, 0}, {1.8, 1}}, LineStyle::kReference}};
+  picture.marks = {{"home", {0, 0, 0}, MarkStyle::kHome}, {"goal", {1.8, 3.2, 0}, MarkStyle::kGoal}};
+  const std::string svg = mapSvg(picture);
   EXPECT_THAT(svg, HasSubstr("data:image/png;base64,iVBOR"));
   EXPECT_EQ(countOf(svg, "<polyline"), 2);
   EXPECT_EQ(countOf(svg, "<circle"), 2);
@@ -122,11 +125,13 @@ TEST(MapSvgTest, HasThePictureTheLinesAndTheMarks) {
 
 TEST(MapSvgTest, LinesOfOneNameShareAColourAndAnEntryOfTheLegend) {
   testing::ExampleFlight flight;
-  const auto world = flight.advance(1.0);
-  std::vector<MapLine> lines{{"trajectory", {{0, 0}, {1, 1}}, false}};
-  for (int i = 0; i < 20; ++i) lines.push_back({"loop closures", {{0, 0}, {1, 0.1 * i}}, true});
-  lines.push_back({"", {{0, 0}, {0, 1}}, false});
-  const std::string svg = mapSvg(*world, lines, {});
+  MapPicture picture = pictureOf(*flight.advance(1.0), 0.55);
+  picture.lines = {{"trajectory", {{0, 0}, {1, 1}}, LineStyle::kTrail}};
+  for (int i = 0; i < 20; ++i)
+    picture.lines.push_back({"loop closures", {{0, 0}, {1, 0.1 * i}}, LineStyle::kReference});
+  picture.lines.push_back({"", {{0, 0}, {0, 1}}, LineStyle::kTrail});
+  picture.marks.clear();
+  const std::string svg = mapSvg(picture);
   EXPECT_EQ(countOf(svg, "<polyline class=\"s s1\""), 1);
   EXPECT_EQ(countOf(svg, "<polyline class=\"s s2 dash\""), 20);
   EXPECT_EQ(countOf(svg, "<polyline class=\"s s3\""), 1);

@@ -15,18 +15,18 @@ TEST(MapRendererTest, CachedEqualsFreshWhileTheMapGrows) {
   MapRenderer renderer;
   MapView view;
   for (int i = 0; i < 12; ++i) {
-    const auto world = flight.advance(0.7);
-    ASSERT_EQ(renderer.render(*world, view).rgb, renderMap(*world, view).rgb) << "at step " << i;
+    const MapPicture picture = pictureOf(*flight.advance(0.7), 0.55);
+    ASSERT_EQ(renderer.render(picture, view).rgb, renderMap(picture, view).rgb) << "at step " << i;
   }
 }
 
 TEST(MapRendererTest, WritesPicturesToLookAt) {
   testing::ExampleFlight flight;
-  const auto world = flight.advance(16.0);
+  const MapPicture picture = pictureOf(*flight.advance(16.0), 0.55);
   for (const Scheme scheme : {Scheme::kLight, Scheme::kDark}) {
     MapView view;
     view.scheme = scheme;
-    const Bytes png = encodePng(renderMap(*world, view));
+    const Bytes png = encodePng(renderMap(picture, view));
     std::ofstream(std::string(SWIFTLET_BINARY_DIR) + (scheme == Scheme::kLight ? "/map_light.png" : "/map_dark.png"),
                   std::ios::binary)
         .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));

@@ -86,11 +86,11 @@ TEST(TileFeedTest, APageThatTakesEveryMessageHasTheMapWheneverItCame) {
   std::shared_ptr<const common::World> world;
   for (int i = 0; i < 8; ++i) {
     world = flight.advance(1.0);
-    feed.update(world->grid);
+    feed.update(world->map->grid);
     for (std::string m = early.next(feed, 1000); !m.empty(); m = early.next(feed, 1000)) early_page.take(m);
   }
   for (std::string m = late.next(feed, 1000); !m.empty(); m = late.next(feed, 1000)) late_page.take(m);
-  world->grid->forEachCell([&](common::CellIndex c, Cell value) {
+  world->map->grid->forEachCell([&](common::CellIndex c, Cell value) {
     ASSERT_EQ(early_page.shadeAt(c), shadeOf(value));
     ASSERT_EQ(late_page.shadeAt(c), shadeOf(value));
   });
@@ -170,11 +170,11 @@ TEST(StateJsonTest, HasEverythingAndIsValidJson) {
   const std::vector<NumberedEvent> events{
       {7, {common::Time::fromSeconds(1.5), common::Severity::kWarning, "web", "a", "b"}}};
   const auto json = nlohmann::json::parse(completeJson(*world, {}, events));
-  EXPECT_NEAR(json["pose"]["x_m"], world->state.T_map_body_planar().x_m, 1e-3);
+  EXPECT_NEAR(json["pose"]["x_m"], world->vehicle->state.T_map_body_planar().x_m, 1e-3);
   EXPECT_EQ(json["flight_state"], "flying");
   EXPECT_EQ(json["goal"]["x_m"], 1.0);
-  EXPECT_EQ(json["trail"].size(), world->trail_map_m->size());
-  EXPECT_EQ(json["frontiers"].size(), world->frontiers->size());
+  EXPECT_EQ(json["trail"].size(), world->vehicle->trail.points_map_m().size());
+  EXPECT_EQ(json["frontiers"].size(), world->map->frontiers->size());
   EXPECT_EQ(json["frontiers"][1]["reason"], "unreachable");
   EXPECT_EQ(json["levels"][0]["height_m"], 0.76);
   EXPECT_EQ(json["mission"]["tree"][1]["name"], "AvoidObstacle");
@@ -184,11 +184,11 @@ TEST(StateJsonTest, HasEverythingAndIsValidJson) {
 
 TEST(StateJsonTest, HasWhereItIsInTheGivenMapAsSoonAsThatIsKnown) {
   testing::ExampleFlight flight;
-  common::World world = *flight.advance(0.5);
-  common::Localization& localization = world.localization.emplace();
+  test::Layers layers(*flight.advance(0.5));
+  common::Localization& localization = layers.map.localization.emplace();
   localization.state = common::LocalizationState::kAmbiguous;
   localization.places = 3;
-  const auto unknown = nlohmann::json::parse(completeJson(world, {}, {}))["localization"];
+  const auto unknown = nlohmann::json::parse(completeJson(layers.world(), {}, {}))["localization"];
   EXPECT_EQ(unknown["state"], "ambiguous");
   EXPECT_EQ(unknown["places"], 3);
   EXPECT_TRUE(unknown["x_m"].is_null());
@@ -196,7 +196,7 @@ TEST(StateJsonTest, HasWhereItIsInTheGivenMapAsSoonAsThatIsKnown) {
   localization.T_given_body = {3.0, -1.5, 0.5};
   localization.covariance.diagonal() << 0.0009, 0.0016, 0.01;
   localization.explained = 0.875;
-  const auto known = nlohmann::json::parse(completeJson(world, {}, {}))["localization"];
+  const auto known = nlohmann::json::parse(completeJson(layers.world(), {}, {}))["localization"];
   EXPECT_EQ(known["y_m"], -1.5);
   EXPECT_EQ(known["yaw_rad"], 0.5);
   EXPECT_EQ(known["deviation_m"], 0.05);
@@ -237,17 +237,30 @@ TEST_F(RealtimeFactor, IsThereRightAfterAPauseInLooking) {
   EXPECT_NEAR(after(0.02, 2.0).get<double>(), 2.0, 0.01);
 }
 
+TEST(StateJsonTest, NamesTheVehicleOnlyWhereThereAreSeveral) {
+  testing::ExampleFlight flight;
+  test::Layers layers(*flight.advance(0.1));
+  std::vector<NumberedEvent> events{{1, {layers.stamp, common::Severity::kInfo, "mission", "ready", ""}}};
+  const auto alone = nlohmann::json::parse(completeJson(layers.world(), {}, events));
+  EXPECT_FALSE(alone.contains("vehicle"));
+  EXPECT_FALSE(alone["events"][0].contains("vehicle"));
+  layers.vehicle.name = events[0].event.vehicle = "second";
+  const auto named = nlohmann::json::parse(completeJson(layers.world(), {}, events));
+  EXPECT_EQ(named["vehicle"], "second");
+  EXPECT_EQ(named["events"][0]["vehicle"], "second");
+}
+
 TEST(StateJsonTest, SurvivesNumbersAndTextThatAreNone) {
   testing::ExampleFlight flight;
-  common::World world = *flight.advance(0.1);
+  test::Layers layers(*flight.advance(0.1));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  world.state.T_odom_body.position_m.setConstant(nan);
-  world.state.T_odom_body.rotation.coeffs().setConstant(nan);
-  world.status.battery_voltage_v = nan;
-  world.avoidance.nearest_m = std::numeric_limits<double>::infinity();
-  world.plan_map_m = {{nan, 1e300}};
-  world.mission.phase = "bad \xff\xc3 text \n\x01";
-  const auto json = nlohmann::json::parse(completeJson(world, {}, {}));
+  layers.vehicle.state.T_odom_body.position_m.setConstant(nan);
+  layers.vehicle.state.T_odom_body.rotation.coeffs().setConstant(nan);
+  layers.energy.battery_voltage_v = nan;
+  layers.vehicle.avoidance.nearest_m = std::numeric_limits<double>::infinity();
+  layers.vehicle.plan_map_m = {{nan, 1e300}};
+  layers.mission.status.phase = "bad \xff\xc3 text \n\x01";
+  const auto json = nlohmann::json::parse(completeJson(layers.world(), {}, {}));
   EXPECT_TRUE(json["pose"]["x_m"].is_null());
   EXPECT_TRUE(json["avoidance"]["nearest_m"].is_null());
   EXPECT_TRUE(json["plan"][0][0].is_null());

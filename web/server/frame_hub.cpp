@@ -13,12 +13,11 @@ namespace {
 constexpr int kMapQuality = 85;
 constexpr int kCameraQuality = 75;
 
-rendering::MapView mapView(const PictureView& asked, double hull_diameter_m) {
+rendering::MapView mapView(const PictureView& asked) {
   rendering::MapView view;
   view.width_px = asked.width_px;
   view.height_px = asked.height_px;
   view.scheme = asked.scheme;
-  view.hull_diameter_m = hull_diameter_m;
   return view;
 }
 
@@ -83,10 +82,10 @@ std::shared_ptr<const StreamFrame> FrameHub::encode(View& view, common::Time now
       stamp = world.value->stamp;
       seen = world.unix_time;
     }
-    jpeg =
-        jpeg_.encode(world.value ? view.renderer_.render(*world.value, mapView(asked, hull_diameter_m_))
-                                 : notice(asked.width_px, asked.height_px, asked.scheme, "waiting for the first map"),
-                     kMapQuality);
+    jpeg = jpeg_.encode(
+        world.value ? view.renderer_.render(rendering::pictureOf(*world.value, hull_diameter_m_), mapView(asked))
+                    : notice(asked.width_px, asked.height_px, asked.scheme, "waiting for the first map"),
+        kMapQuality);
   } else {
     const auto& camera = telemetry_.camera();
     frame->source_sequence = camera.sequence;
@@ -110,7 +109,8 @@ std::shared_ptr<const StreamFrame> FrameHub::encode(View& view, common::Time now
 }
 
 rendering::Bytes FrameHub::png(const PictureView& view) const {
-  return rendering::encodePng(rendering::renderMap(*telemetry_.world().value, mapView(view, hull_diameter_m_)));
+  return rendering::encodePng(
+      rendering::renderMap(rendering::pictureOf(*telemetry_.world().value, hull_diameter_m_), mapView(view)));
 }
 
 }  // namespace swiftlet::web

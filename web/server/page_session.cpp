@@ -93,7 +93,7 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
   }
 
   void collectTrail(const Telemetry& telemetry) {
-    const auto& trail = *telemetry.world().value->trail_map_m;
+    const auto trail = telemetry.world().value->vehicle->trail.points_map_m();
     if (telemetry.trailVersion() != trail_version_) {
       trail_version_ = telemetry.trailVersion();
       trail_sent_ = 0;

@@ -6,6 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "common/rounding.hpp"
+#include "common/world.hpp"
+#include "common/world/energy_layer.hpp"
+#include "common/world/map_layer.hpp"
+#include "common/world/mission_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::web {
 namespace {
@@ -17,7 +22,7 @@ Json number(double value, int decimals = 3) { return common::rounded(value, deci
 
 Json point(const Eigen::Vector2d& p) { return Json::array({number(p.x()), number(p.y())}); }
 
-Json points(const std::vector<Eigen::Vector2d>& list, std::size_t from = 0) {
+Json points(std::span<const Eigen::Vector2d> list, std::size_t from = 0) {
   Json array = Json::array();
   for (std::size_t i = from; i < list.size(); ++i) array.push_back(point(list[i]));
   return array;
@@ -49,8 +54,8 @@ const char* word(common::IntentState state) {
   return "unknown";
 }
 
-Json poseOf(const common::World& world) {
-  const common::Pose3 pose = world.state.T_map_body();
+Json poseOf(const common::VehicleState& state) {
+  const common::Pose3 pose = state.T_map_body();
   const common::RollPitchYaw angles = common::rollPitchYaw(pose.rotation);
   return {{"x_m", number(pose.position_m.x())},       {"y_m", number(pose.position_m.y())},
           {"z_m", number(pose.position_m.z())},       {"roll_rad", number(angles.roll_rad, 4)},
@@ -82,44 +87,53 @@ Json localizationOf(const std::optional<common::Localization>& localization) {
           {"places", localization->places}};
 }
 
+Json avoidanceOf(const common::AvoidanceStatus& avoidance) {
+  return {{"braking", avoidance.braking},
+          {"retreating", avoidance.retreating},
+          {"reason", avoidance.reason},
+          {"nearest_m", number(avoidance.nearest_m, 2)}};
+}
+
 Json stateOf(const common::World& world, const Observation& seen) {
-  const Eigen::Vector3d velocity = world.state.velocity_map_m_s();
+  const common::VehicleLayer& vehicle = *world.vehicle;
+  const common::VehicleState& state = vehicle.state;
+  const common::MissionLayer& mission = *world.mission;
+  const Eigen::Vector3d velocity = state.velocity_map_m_s();
   const auto optional = [](const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); };
-  return {
+  Json json = {
       {"type", "state"},
       {"sequence", seen.sequence},
       {"stamp_s", number(world.stamp.seconds())},
       {"age_s", number(seen.world_age_s)},
       {"camera_age_s", optional(seen.camera_age_s)},
       {"realtime_factor", optional(seen.realtime_factor)},
-      {"pose", poseOf(world)},
+      {"pose", poseOf(state)},
       {"velocity_m_s", {number(velocity.x()), number(velocity.y()), number(velocity.z())}},
       {"speed_m_s", number(velocity.norm())},
-      {"height_above_ground_m", number(world.state.height_above_ground_m)},
+      {"height_above_ground_m", number(state.height_above_ground_m)},
       {"position_deviation_m",
-       number(std::sqrt(std::max(0.0, world.state.position_covariance_m2.topLeftCorner<2, 2>().trace())))},
-      {"localization", localizationOf(world.localization)},
-      {"horizontal_valid", world.state.horizontal_valid},
-      {"vertical_valid", world.state.vertical_valid},
-      {"flight_state", common::toString(world.status.flight_state)},
+       number(std::sqrt(std::max(0.0, state.position_covariance_m2.topLeftCorner<2, 2>().trace())))},
+      {"localization", localizationOf(world.map->localization)},
+      {"horizontal_valid", state.horizontal_valid},
+      {"vertical_valid", state.vertical_valid},
+      {"flight_state", common::toString(vehicle.flight_state)},
       {"battery",
-       {{"voltage_v", number(world.status.battery_voltage_v, 2)},
-        {"remaining", number(world.status.battery_remaining)}}},
-      {"distance_flown_m", number(world.status.distance_flown_m, 2)},
-      {"explored_area_m2", world.explored_area_m2 > 0 ? number(world.explored_area_m2, 2) : Json(nullptr)},
-      {"avoidance",
-       {{"braking", world.avoidance.braking},
-        {"retreating", world.avoidance.retreating},
-        {"reason", world.avoidance.reason},
-        {"nearest_m", number(world.avoidance.nearest_m, 2)}}},
-      {"intent", {{"state", word(world.intent.state)}, {"reason", world.intent.reason}}},
-      {"mission", missionOf(world.mission)},
+       {{"voltage_v", number(world.energy->battery_voltage_v, 2)},
+        {"remaining", number(world.energy->battery_remaining)}}},
+      {"distance_flown_m", number(vehicle.distance_flown_m, 2)},
+      {"explored_area_m2", world.map->explored_area_m2 > 0 ? number(world.map->explored_area_m2, 2) : Json(nullptr)},
+      {"avoidance", avoidanceOf(vehicle.avoidance)},
+      {"intent", {{"state", word(mission.intent.state)}, {"reason", mission.intent.reason}}},
+      {"mission", missionOf(mission.status)},
       {"ending",
-       world.ending ? Json{{"outcome", world.ending->outcome}, {"reason", world.ending->reason}} : Json(nullptr)},
-      {"home", {{"x_m", number(world.home_map.x_m)}, {"y_m", number(world.home_map.y_m)}}},
-      {"goal", world.goal_map_m ? Json{{"x_m", number(world.goal_map_m->x())}, {"y_m", number(world.goal_map_m->y())}}
-                                : Json(nullptr)},
-      {"plan", points(world.plan_map_m)}};
+       mission.ending ? Json{{"outcome", mission.ending->outcome}, {"reason", mission.ending->reason}} : Json(nullptr)},
+      {"home", {{"x_m", number(vehicle.home_map.x_m)}, {"y_m", number(vehicle.home_map.y_m)}}},
+      {"goal", mission.goal_map_m
+                   ? Json{{"x_m", number(mission.goal_map_m->x())}, {"y_m", number(mission.goal_map_m->y())}}
+                   : Json(nullptr)},
+      {"plan", points(vehicle.plan_map_m)}};
+  if (!vehicle.name.empty()) json["vehicle"] = vehicle.name;
+  return json;
 }
 
 Json frontierOf(const common::Frontier& frontier) {
@@ -149,13 +163,15 @@ Json levelsOf(const common::LevelMap& levels) {
 
 Json eventsOf(std::span<const NumberedEvent> events) {
   Json list = Json::array();
-  for (const auto& [number_in_flight, event] : events)
+  for (const auto& [number_in_flight, event] : events) {
     list.push_back({{"number", number_in_flight},
                     {"stamp_s", number(event.stamp.seconds())},
                     {"severity", common::toString(event.severity)},
                     {"source", event.source},
                     {"text", event.text},
                     {"reason", event.reason}});
+    if (!event.vehicle.empty()) list.back()["vehicle"] = event.vehicle;
+  }
   return list;
 }
 
@@ -174,7 +190,7 @@ std::string frontiersJson(const std::vector<common::Frontier>& frontiers, double
 
 std::string levelsJson(const common::LevelMap& levels) { return dump(levelsOf(levels)); }
 
-std::string trailJson(const std::vector<Eigen::Vector2d>& trail_map_m, std::size_t from) {
+std::string trailJson(std::span<const Eigen::Vector2d> trail_map_m, std::size_t from) {
   return dump({{"type", "trail"}, {"from", from}, {"points", points(trail_map_m, from)}});
 }
 
@@ -186,11 +202,12 @@ std::string completeJson(const common::World& world, const Observation& observat
                          std::span<const NumberedEvent> events) {
   Json json = stateOf(world, observation);
   json.erase("type");
-  json["trail"] = points(*world.trail_map_m);
-  json["frontiers"] = frontiersOf(*world.frontiers, world.grid->resolution_m())["frontiers"];
-  json["levels"] = levelsOf(*world.levels)["levels"];
-  json["resolution_m"] = world.grid->resolution_m();
-  json["levels_resolution_m"] = world.levels->resolution_m;
+  const common::MapLayer& map = *world.map;
+  json["trail"] = points(world.vehicle->trail.points_map_m());
+  json["frontiers"] = frontiersOf(*map.frontiers, map.grid->resolution_m())["frontiers"];
+  json["levels"] = levelsOf(*map.levels)["levels"];
+  json["resolution_m"] = map.grid->resolution_m();
+  json["levels_resolution_m"] = map.levels->resolution_m;
   json["events"] = eventsOf(events);
   return dump(json);
 }

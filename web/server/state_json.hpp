@@ -5,9 +5,17 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "common/event.hpp"
-#include "common/world.hpp"
+#include "common/level_map.hpp"
+#include "common/world/frontier.hpp"
+
+namespace swiftlet::common {
+struct World;
+}
 
 namespace swiftlet::web {
 
@@ -26,12 +34,12 @@ struct NumberedEvent {
 };
 
 /// Lengths in metres to the millimetre, angles in radians; what is not finite becomes null, and so does the explored
-/// area while nothing was explored.
+/// area while nothing was explored. A vehicle is named, in the state and in its events, only when it has a name.
 std::string stateJson(const common::World& world, const Observation& observation);
 std::string frontiersJson(const std::vector<common::Frontier>& frontiers, double resolution_m);
 std::string levelsJson(const common::LevelMap& levels);
 /// The points from `from` on; the page puts them after the first `from` it has.
-std::string trailJson(const std::vector<Eigen::Vector2d>& trail_map_m, std::size_t from);
+std::string trailJson(std::span<const Eigen::Vector2d> trail_map_m, std::size_t from);
 std::string eventsJson(std::span<const NumberedEvent> events);
 
 /// All of it in one object.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/world/map_layer.hpp"
+
 namespace swiftlet::web {
 namespace {
 
@@ -58,27 +60,29 @@ Observation Telemetry::observe() const {
 }
 
 void Telemetry::followTrail() {
-  const auto& next = world_.value->trail_map_m;
-  if (next == trail_) return;
-  const bool grown =
-      trail_ && next->size() >= trail_->size() && std::equal(trail_->begin(), trail_->end(), next->begin());
-  if (!grown) ++trail_version_;
+  const common::Trail& next = world_.value->vehicle->trail;
+  if (!next.continues(trail_)) ++trail_version_;
   trail_ = next;
 }
 
 void Telemetry::encodeParts() {
   if (!world_.value) return;
-  const common::World& world = *world_.value;
-  state_ = std::make_shared<const std::string>(stateJson(world, observe()));
+  state_ = std::make_shared<const std::string>(stateJson(*world_.value, observe()));
   if (world_.sequence == encoded_sequence_) return;
   encoded_sequence_ = world_.sequence;
-  if (!encoded_ || encoded_->frontiers != world.frontiers)
-    frontiers_.set(frontiersJson(*world.frontiers, world.grid->resolution_m()));
-  if (!encoded_ || encoded_->levels != world.levels) levels_.set(levelsJson(*world.levels));
-  if (world.laser && (!encoded_ || encoded_->laser != world.laser)) laser_.set(laserBytes(*world.laser));
-  tiles_.update(world.grid);
+  encodeMap(*world_.value->map);
+  const auto& laser = world_.value->vehicle->laser;
+  if (laser && encoded_laser_ != laser) laser_.set(laserBytes(*laser));
+  encoded_laser_ = laser;
   followTrail();
-  encoded_ = world_.value;
+}
+
+void Telemetry::encodeMap(const common::MapLayer& map) {
+  if (!encoded_map_ || encoded_map_->frontiers != map.frontiers)
+    frontiers_.set(frontiersJson(*map.frontiers, map.grid->resolution_m()));
+  if (!encoded_map_ || encoded_map_->levels != map.levels) levels_.set(levelsJson(*map.levels));
+  tiles_.update(map.grid);
+  encoded_map_ = world_.value->map;
 }
 
 void Telemetry::postEvent(const common::Event& event) {

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "common/world.hpp"
+#include "common/world/vehicle_layer.hpp"
 #include "web/server/state_json.hpp"
 #include "web/server/tile_feed.hpp"
 #include "web/server/web_server.hpp"
@@ -73,6 +75,7 @@ class Telemetry {
   std::vector<NumberedEvent> eventsAfter(std::uint64_t number) const;
 
  private:
+  void encodeMap(const common::MapLayer& map);
   void followTrail();
 
   WebServer::Sources sources_;
@@ -85,9 +88,10 @@ class Telemetry {
   std::uint64_t encoded_sequence_ = 0;
   SharedText state_;
   Part frontiers_, levels_, laser_;
-  std::shared_ptr<const common::World> encoded_;
+  std::shared_ptr<const common::MapLayer> encoded_map_;
+  std::shared_ptr<const common::LaserPoints> encoded_laser_;
   TileFeed tiles_;
-  std::shared_ptr<const std::vector<Eigen::Vector2d>> trail_;
+  common::Trail trail_;
   std::uint64_t trail_version_ = 1;
 
   mutable std::mutex events_mutex_;

@@ -7,7 +7,10 @@
 #include "common/command.hpp"
 #include "common/mailbox.hpp"
 #include "common/sensor_event.hpp"
-#include "common/world.hpp"
+
+namespace swiftlet::common {
+struct World;
+}
 
 namespace swiftlet::web {
 

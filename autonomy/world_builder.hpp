@@ -1,0 +1,49 @@
+// Composes the World: one immutable snapshot after another from what the parts of the autonomy say.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "common/world.hpp"
+#include "common/world/energy_layer.hpp"
+#include "common/world/map_layer.hpp"
+#include "common/world/mission_layer.hpp"
+#include "common/world/people_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
+
+namespace swiftlet::autonomy {
+
+/// What the parts say at one instant.
+struct WorldParts {
+  /// Its name, its trail and the distance flown are the builder's own.
+  common::VehicleLayer vehicle;
+  common::MissionLayer mission;
+  common::MapLayer map;
+  common::PeopleLayer people;
+  common::EnergyLayer energy;
+};
+
+/// One thread; the snapshots may be read from any.
+class WorldBuilder {
+ public:
+  /// `vehicle_name` tells the snapshots of several vehicles apart; empty when there is one.
+  explicit WorldBuilder(std::string vehicle_name = {}) : vehicle_name_(std::move(vehicle_name)) {}
+
+  /// The snapshot of `now`. A layer equal to that of the snapshot before is that very layer. The vehicle's is always
+  /// new: its trail and its distance grow while it is airborne.
+  std::shared_ptr<const common::World> build(common::Time now, WorldParts parts);
+
+ private:
+  void follow(const common::VehicleLayer& vehicle);
+
+  std::string vehicle_name_;
+  common::TrailRecorder trail_;
+  double distance_flown_m_ = 0.0;
+  std::optional<Eigen::Vector2d> last_position_odom_m_;
+  common::World last_;  ///< Its layers are null before the first snapshot.
+};
+
+}  // namespace swiftlet::autonomy

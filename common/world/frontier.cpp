@@ -1,0 +1,23 @@
+#include "common/world/frontier.hpp"
+
+#include "common/check.hpp"
+
+namespace swiftlet::common {
+
+const char* toString(FrontierReason reason) {
+  switch (reason) {
+    case FrontierReason::kOpen:
+      return "open";
+    case FrontierReason::kTooSmall:
+      return "too small";
+    case FrontierReason::kUnreachable:
+      return "unreachable";
+    case FrontierReason::kOutOfBounds:
+      return "out of bounds";
+    case FrontierReason::kBlacklisted:
+      return "blacklisted";
+  }
+  SWIFTLET_CHECK(false, static_cast<int>(reason));
+}
+
+}  // namespace swiftlet::common

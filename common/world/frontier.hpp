@@ -1,0 +1,28 @@
+// Where the known free space ends, and why it was not explored further.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/tiled_grid.hpp"
+
+namespace swiftlet::common {
+
+/// Why a frontier is not (yet) explored.
+enum class FrontierReason { kOpen, kTooSmall, kUnreachable, kOutOfBounds, kBlacklisted };
+const char* toString(FrontierReason reason);
+
+/// A connected run of free cells that touch unknown ones.
+struct Frontier {
+  std::vector<CellIndex> cells;
+  Eigen::Vector2d centroid_map_m = Eigen::Vector2d::Zero();
+  double length_m = 0.0;
+  double score = 0.0;  ///< Higher is better; only for open ones.
+  FrontierReason reason = FrontierReason::kOpen;
+  int attempts = 0;         ///< How often it was tried.
+  std::string explanation;  ///< "unreachable at clearance 0.10 m", for people.
+};
+
+}  // namespace swiftlet::common

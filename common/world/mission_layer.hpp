@@ -1,0 +1,31 @@
+// The World's layer of the mission: what is wanted, and how it stands.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "common/intent.hpp"
+#include "common/world/mission_status.hpp"
+
+namespace swiftlet::common {
+
+/// How a flight ended, in words: "done".
+struct FlightEnding {
+  std::string outcome;
+  std::string reason;
+
+  bool operator==(const FlightEnding&) const = default;
+};
+
+struct MissionLayer {
+  MissionStatus status;
+  IntentStatus intent;
+  std::optional<Eigen::Vector2d> goal_map_m;
+  std::optional<FlightEnding> ending;  ///< Only in the last snapshot of a flight.
+
+  bool operator==(const MissionLayer&) const = default;
+};
+
+}  // namespace swiftlet::common

@@ -1,0 +1,35 @@
+// How the mission and its tree stand.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace swiftlet::common {
+
+/// One node of the mission tree, for the page.
+struct TreeNodeView {
+  int id = 0;
+  int parent = -1;  ///< -1 for the root.
+  std::string name;
+  std::string status;  ///< IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED, SUSPENDED.
+
+  bool operator==(const TreeNodeView&) const = default;
+};
+using TreeView = std::vector<TreeNodeView>;
+
+/// kStopped: landed by the operator before its end.
+enum class MissionState { kReady, kRunning, kHeld, kDone, kFailed, kStopped };
+const char* toString(MissionState state);
+bool isOver(MissionState state);
+
+struct MissionStatus {
+  MissionState state = MissionState::kReady;
+  std::string phase;   ///< The intent in words.
+  std::string reason;  ///< Why it failed or holds.
+  bool accepts_goals = true;
+  TreeView tree;
+
+  bool operator==(const MissionStatus&) const = default;
+};
+
+}  // namespace swiftlet::common

@@ -1,0 +1,24 @@
+// The World's layer of people: what moves near the vehicle.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace swiftlet::common {
+
+/// Somebody who was seen just before the snapshot, as a disc.
+struct Person {
+  Eigen::Vector2d position_map_m = Eigen::Vector2d::Zero();
+  double radius_m = 0.0;
+
+  bool operator==(const Person&) const = default;
+};
+
+struct PeopleLayer {
+  std::vector<Person> people;
+
+  bool operator==(const PeopleLayer&) const = default;
+};
+
+}  // namespace swiftlet::common
