@@ -37,6 +37,8 @@ struct AutonomyConfig {
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
+  /// What would stop the vehicle, or make it retreat, on a path planned at this clearance; empty when nothing would.
+  std::vector<std::string> problemsWith(double clearance_m) const;
 };
 
 /// One thread. Every call is for a time not before that of the last one.

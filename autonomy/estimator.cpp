@@ -39,6 +39,7 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
   fields.section("odometry", odometry, "Scans matched to the last ones.");
   fields.section("altitude", altitude, "Height and levels from the mirror beams.");
   fields.section("fusion", fusion, "Error-state filter.");
+  fields.section("people", people, "People and other things that move.");
   fields.section("slam", slam, "Graph SLAM and the map.");
   fields.section("localization", localization, "Localization in a map that the flight was given.");
   fields("match_floor_m", match_floor_m, {0, 1}, "Least standard deviation of a match's position.");
@@ -62,6 +63,7 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       vehicle_(vehicle),
       jobs_(jobs),
       filter_(config.fusion),
+      people_(config.people, {config.slam.grid.max_height_above_m, config.slam.grid.max_height_below_m}),
       odometry_(config.odometry),
       altitude_(config.altitude),
       slam_(config.slam),
@@ -74,8 +76,7 @@ void Estimator::addImu(const common::ImuSample& sample) {
   last_imu_ = sample;
 }
 
-std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Time now,
-                                              std::span<const planning::Disc> people) {
+std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Time now) {
   if (!filter_.initialized()) {
     initialize(scan);
     return std::nullopt;
@@ -85,7 +86,8 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   const bool withheld = withholds(outcome.scan);
   const Eigen::Matrix3d covariance_before = covariance_since_map_;
   const std::uint64_t restarts_before = odometry_.counts().restarts;
-  const perception::ProjectedScan standing = people.empty() ? outcome.scan : without(people, outcome.scan);
+  const perception::ProjectedScan standing = perception::withoutPeople(
+      people_.expectedAt(scan.stamps.measured), slam_.T_map_odom() * planar(outcome.scan.T_odom_body), outcome.scan);
   if (!withheld) outcome.matched = fuseOdometry(standing);
 
   const Pose3 T_odom_body = filter_.poseAt(outcome.scan.stamp).value_or(outcome.scan.T_odom_body);
@@ -101,6 +103,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
     outcome.raw_height = control::RawHeight{outcome.scan.stamp, *below_m};
 
   if (outcome.matched) addToMap(outcome, now);
+  people_.update(outcome.scan, outcome.T_map_body, slam_.T_map_odom(), grid());
   reportHealth(now);
   return outcome;
 }
@@ -165,29 +168,6 @@ perception::ProjectedScan Estimator::projectScan(const common::LaserScan& scan) 
   const Pose3 newest = filter_.state().T_odom_body;
   return project(
       scan, laser_, [&](Time t) { return history.at(t).value_or(newest); }, config_.projection);
-}
-
-/// Who walks beside the vehicle takes the match along. Where he leaves too little to match, he has to do.
-perception::ProjectedScan Estimator::without(std::span<const planning::Disc> people,
-                                             perception::ProjectedScan scan) const {
-  constexpr double kLeastShare = 0.4;
-  const Pose2 T_map_body = slam_.T_map_odom() * planar(scan.T_odom_body);
-  std::vector<Eigen::Vector2f> points_level_m;
-  std::vector<float> heights_level_m;
-  for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
-    const Eigen::Vector2d point_map_m = T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>());
-    if (std::any_of(people.begin(), people.end(), [&](const planning::Disc& disc) {
-          return (point_map_m - disc.center_map_m).squaredNorm() <= disc.radius_m * disc.radius_m;
-        }))
-      continue;
-    points_level_m.push_back(scan.points_level_m[i]);
-    heights_level_m.push_back(scan.heights_level_m[i]);
-  }
-  if (static_cast<double>(points_level_m.size()) < kLeastShare * static_cast<double>(scan.points_level_m.size()))
-    return scan;
-  scan.points_level_m = std::move(points_level_m);
-  scan.heights_level_m = std::move(heights_level_m);
-  return scan;
 }
 
 /// Whether a scan is kept from the odometry, so that it can weigh particles.

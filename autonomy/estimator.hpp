@@ -27,9 +27,9 @@
 #include "perception/altitude/multilevel_filter.hpp"
 #include "perception/fusion/error_state_filter.hpp"
 #include "perception/laser_odometry/laser_odometry.hpp"
+#include "perception/people/people_tracker.hpp"
 #include "perception/projection/scan_projection.hpp"
 #include "perception/slam2d/slam2d.hpp"
-#include "planning/costs/cost_map.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -38,6 +38,7 @@ struct EstimatorConfig {
   perception::LaserOdometryConfig odometry;
   perception::MultilevelFilter::Config altitude;
   perception::ErrorStateFilter::Config fusion;
+  perception::PeopleTracker::Config people;
   perception::Slam2dConfig slam;
   FlightLocalizerConfig localization;
   double match_floor_m = 0.004;
@@ -67,10 +68,8 @@ class Estimator {
             const GivenMap* given, common::JobRunner& jobs);
 
   void addImu(const common::ImuSample& sample);
-  /// Before the filter is initialized a scan initializes it (the vehicle stands still) and gives nothing. What lies
-  /// within `people` (in `map`, at the scan's time) is not matched.
-  std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now,
-                                     std::span<const planning::Disc> people = {});
+  /// Before the filter is initialized a scan initializes it (the vehicle stands still) and gives nothing.
+  std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
 
   bool ready() const { return filter_.initialized(); }
   /// The height over the take-off floor that the map is to be of.
@@ -87,6 +86,7 @@ class Estimator {
 
   std::shared_ptr<const common::OccupancyGrid> grid();
   std::shared_ptr<const common::LevelMap> levels();
+  const perception::PeopleTracker& people() const { return people_; }
   /// None: no map was given.
   std::optional<common::Localization> localization() const;
 
@@ -95,7 +95,6 @@ class Estimator {
  private:
   void initialize(const common::LaserScan& scan);
   perception::ProjectedScan projectScan(const common::LaserScan& scan);
-  perception::ProjectedScan without(std::span<const planning::Disc> people, perception::ProjectedScan scan) const;
   bool withholds(const perception::ProjectedScan& scan);
   bool fuseOdometry(const perception::ProjectedScan& scan);
   void anchorOdometry(common::Time reference);
@@ -112,6 +111,7 @@ class Estimator {
   common::JobRunner& jobs_;
 
   perception::ErrorStateFilter filter_;
+  perception::PeopleTracker people_;
   perception::LaserOdometry odometry_;
   perception::MultilevelFilter altitude_;
   perception::Slam2d slam_;

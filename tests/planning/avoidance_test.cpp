@@ -8,8 +8,9 @@
 
 #include "common/config_check.hpp"
 #include "grid_builder.hpp"
+#include "perception/people/background_map.hpp"
+#include "perception/people/dynamic_obstacles.hpp"
 #include "planning/avoidance/avoidance.hpp"
-#include "planning/avoidance/dynamic_obstacles.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -17,6 +18,8 @@ namespace {
 using common::Duration;
 using common::Pose2;
 using common::Time;
+using perception::BackgroundMap;
+using perception::DynamicObstacles;
 using testing::HasSubstr;
 using Point = Eigen::Vector2d;
 
