@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "autonomy/flight_localizer.hpp"
+#include "autonomy/estimation/flight_localizer.hpp"
 #include "common/geometry.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "simulation/survey.hpp"

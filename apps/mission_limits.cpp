@@ -8,8 +8,8 @@ namespace swiftlet::apps {
 behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
   behaviors::MissionLimits limits;
   limits.max_height_m = system.config.autonomy.max_height_m;
-  limits.clearance_problems = [reactive = system.config.autonomy.reactive](double clearance_m) {
-    return reactive.problemsWith(clearance_m);
+  limits.clearance_problems = [autonomy = system.config.autonomy](double clearance_m) {
+    return autonomy.problemsWith(clearance_m);
   };
   limits.has_map = has_map;
   return limits;

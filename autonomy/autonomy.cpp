@@ -32,7 +32,7 @@ void AutonomyConfig::describe(common::config::Fields& fields) {
 
 std::vector<std::string> AutonomyConfig::validate() const {
   std::vector<std::string> problems;
-  for (const std::string& problem : reactive.problemsWith(execution.clearance_m))
+  for (const std::string& problem : problemsWith(execution.clearance_m))
     problems.push_back("reactive.avoidance." + problem);
   return problems;
 }
@@ -45,12 +45,16 @@ void AutonomyConfig::limitTo(const common::LaserConfig& laser) {
   exploration.laser_range_m = std::min(exploration.laser_range_m, laser.range_max_m);
 }
 
+std::vector<std::string> AutonomyConfig::problemsWith(double clearance_m) const {
+  return reactive.avoidance.validateAgainst(clearance_m, estimator.people.keep_out_m);
+}
+
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
                    behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given)
     : config_(config),
       vehicle_(vehicle),
       estimator_(config.estimator, laser, vehicle, given, *jobs),
-      reactive_(config_.reactive, vehicle.hullRadius_m(), config.estimator.slam.grid),
+      reactive_(config_.reactive, vehicle.hullRadius_m()),
       controller_(config.control, vehicle),
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
       supervisor_(config.supervisor),
@@ -160,7 +164,7 @@ void Autonomy::processDueScans(Time now) {
 }
 
 void Autonomy::processScan(const common::LaserScan& scan, Time now) {
-  auto outcome = estimator_.addScan(scan, now, reactive_.people(scan.stamps.measured));
+  auto outcome = estimator_.addScan(scan, now);
   if (!outcome) return;
   const int hits = outcome->scan.counts.hits + outcome->scan.counts.no_returns;
   if (hits > 0) supervisor_.scanArrived(now);
@@ -168,8 +172,8 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
 
   const common::VehicleState state = estimator_.state();
   const auto cost_map = executor_.costMap();
-  const auto& decision = reactive_.update(outcome->scan, outcome->T_map_body, state, executor_.wishedVelocity_map_m_s(),
-                                          estimator_.grid(), cost_map.get());
+  const auto& decision = reactive_.update({outcome->scan, outcome->T_map_body, state, estimator_.people().obstacles(),
+                                           executor_.wishedVelocity_map_m_s(), cost_map.get()});
   executor_.react(decision, state);
 
   auto points = std::make_shared<common::LaserPoints>();
@@ -192,8 +196,8 @@ void Autonomy::tickBehaviors(Time now) {
   if (prepared_) wish_ = wishOf(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
   executor_.want(wish_);
-  executor_.tick({now, estimator_.state(), estimator_.grid(), estimator_.levels(), reactive_.discs(now),
-                  reactive_.anybodyWalks(), reactive_.decision()});
+  executor_.tick({now, estimator_.state(), estimator_.grid(), estimator_.levels(), estimator_.people().discs(now),
+                  estimator_.people().anyMoves(), reactive_.decision()});
 }
 
 /// The supervisor's wish before the mission's.
@@ -246,7 +250,7 @@ void Autonomy::takeSnapshot(Time now) {
   parts.mission.status.tree = mission_.view();
   parts.map = {estimator_.grid(), estimator_.levels(), executor_.frontiers(), executor_.exploredArea_m2(),
                estimator_.localization()};
-  for (const planning::Disc& person : reactive_.people(now))
+  for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
   parts.energy = energy_;
   world_ = world_builder_.build(now, std::move(parts));

@@ -41,6 +41,8 @@ struct AutonomyConfig {
   std::vector<std::string> validate() const;
   /// Lowers the fields of view and ranges that avoidance and exploration count on to those of the laser.
   void limitTo(const common::LaserConfig& laser);
+  /// What would stop the vehicle, or make it retreat, on a path planned at this clearance; empty when nothing would.
+  std::vector<std::string> problemsWith(double clearance_m) const;
 };
 
 /// One thread; a function of its inputs in their order. No input is of a time before that of the last one.

@@ -1,23 +1,27 @@
-// From raw samples to a state: IMU -> error-state filter; scan -> projection -> matching -> altitude -> filter -> SLAM.
+// From raw samples to a state, a map and the people around, one step after the other around one filter:
 //
-//   IMU sample ----------------------------------------------> predict --+
-//   scan --> project --> match to the local map --> relative pose -----> |  error-state filter --> VehicleState
-//                  \--> mirror beams --> levels --> virtual height ----> |          |
-//                   \--> SLAM (map, T_map_odom) <---------------- pose at the scan -+
-//                    \--> localization in a given map, where there is one <---------+
+//   IMU sample --> predict --------------------------------> error-state filter --> VehicleState
+//   scan --> project --> leave out people --> match --> fuse ---^   |
+//                \--> altitude over levels -----------> fuse ---^   v
+//                 \--> map <-------------------------- pose at the scan --> localize in a given map
+//                       \--> people, for the next scan
+//
+// Each step is a small object that takes values and returns values; only the Estimator speaks with the filter.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "autonomy/flight_localizer.hpp"
+#include "autonomy/estimation/altitude_pipeline.hpp"
+#include "autonomy/estimation/flight_localizer.hpp"
+#include "autonomy/estimation/laser_pipeline.hpp"
+#include "autonomy/estimation/map_pipeline.hpp"
 #include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
+#include "common/key_pose.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/sensor_event.hpp"
@@ -26,26 +30,19 @@
 #include "control/emergency_descent.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
 #include "perception/fusion/error_state_filter.hpp"
-#include "perception/laser_odometry/laser_odometry.hpp"
+#include "perception/people/people_tracker.hpp"
 #include "perception/projection/scan_projection.hpp"
 #include "perception/slam2d/slam2d.hpp"
-#include "planning/costs/cost_map.hpp"
 
 namespace swiftlet::autonomy {
 
 struct EstimatorConfig {
-  perception::ScanProjectionConfig projection;
-  perception::LaserOdometryConfig odometry;
+  LaserPipelineConfig laser;  ///< Its keys stand among those of the estimator.
   perception::MultilevelFilter::Config altitude;
   perception::ErrorStateFilter::Config fusion;
+  perception::PeopleTracker::Config people;
   perception::Slam2dConfig slam;
   FlightLocalizerConfig localization;
-  double match_floor_m = 0.004;
-  double match_floor_deg = 0.10;
-  double drift_floor_m = 0.002;
-  double drift_floor_deg = 0.03;
-  double match_per_tilt_m_rad = 0.05;
-  double match_per_tilt_deg_rad = 1.5;
   double slam_latency_s = 0.4;
 
   void describe(common::config::Fields& fields);
@@ -54,12 +51,14 @@ struct EstimatorConfig {
 /// What one scan gave.
 struct ScanOutcome {
   perception::ProjectedScan scan;
-  bool matched = false;
-  common::Pose2 T_map_body;  ///< At the scan's stamp.
+  bool matched = false;                           ///< It matched and the filter took it in.
+  bool interrupted = false;                       ///< The odometry was lost, and begins anew with this scan.
+  common::Pose2 T_map_body;                       ///< At the scan's stamp.
+  std::optional<common::KeyRelativePose> at_key;  ///< The same relative to a key scan of the map.
   std::optional<control::RawHeight> raw_height;
 };
 
-/// One thread; the jobs of SLAM and localization go to the runner it is given.
+/// One thread; the jobs of SLAM and localization go to the runner it is given, which must not deliver after its end.
 class Estimator {
  public:
   /// `given` is a map to localize in; none: null.
@@ -67,26 +66,25 @@ class Estimator {
             const GivenMap* given, common::JobRunner& jobs);
 
   void addImu(const common::ImuSample& sample);
-  /// Before the filter is initialized a scan initializes it (the vehicle stands still) and gives nothing. What lies
-  /// within `people` (in `map`, at the scan's time) is not matched.
-  std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now,
-                                     std::span<const planning::Disc> people = {});
+  /// Before the filter is initialized a scan initializes it (the vehicle stands still) and gives nothing.
+  std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
 
   bool ready() const { return filter_.initialized(); }
   /// The height over the take-off floor that the map is to be of.
-  void setFlightHeight(double height_m) { grid_version_ += slam_.setFlightHeight(height_m) ? 1 : 0; }
+  void setFlightHeight(double height_m) { map_.setFlightHeight(height_m); }
   /// While true the filter is told that the vehicle stands.
   void setAtRest(bool at_rest) { filter_.setAtRest(at_rest); }
-  /// Only while true scans are looked at for where they are in the given map: near the floor they see what stands
-  /// there.
+  /// Only while true scans are compared with the given map: near the floor they meet what stands there.
   void setAtFlightHeight(bool is) { at_flight_height_ = is; }
 
   /// At the newest IMU sample, with T_map_odom.
   common::VehicleState state() const;
   perception::FusionHealth health() const { return filter_.health(); }
 
-  std::shared_ptr<const common::OccupancyGrid> grid();
-  std::shared_ptr<const common::LevelMap> levels();
+  std::shared_ptr<const common::OccupancyGrid> grid() { return map_.grid(); }
+  std::shared_ptr<const common::KeyPoses> keyPoses() { return map_.keyPoses(); }
+  std::shared_ptr<const common::LevelMap> levels() { return altitude_.levels(); }
+  const perception::PeopleTracker& people() const { return people_; }
   /// None: no map was given.
   std::optional<common::Localization> localization() const;
 
@@ -94,46 +92,29 @@ class Estimator {
 
  private:
   void initialize(const common::LaserScan& scan);
-  perception::ProjectedScan projectScan(const common::LaserScan& scan);
-  perception::ProjectedScan without(std::span<const planning::Disc> people, perception::ProjectedScan scan) const;
-  bool withholds(const perception::ProjectedScan& scan);
-  bool fuseOdometry(const perception::ProjectedScan& scan);
-  void anchorOdometry(common::Time reference);
-  Eigen::Matrix3d tiltCovariance(const perception::ProjectedScan& scan, double floor_m, double floor_deg) const;
-  void fuseHeight(const perception::ProjectedScan& scan, const common::Pose2& T_map_body);
-  void addToMap(ScanOutcome& outcome, common::Time now);
-  void submitSlamTask(common::Time now);
+  perception::ProjectedScan project(const common::LaserScan& scan) const;
+  perception::ProjectedScan withoutPeople(const perception::ProjectedScan& scan, common::Time measured) const;
+  bool isWithheld(const perception::ProjectedScan& scan);
+  OdometryStep match(const perception::ProjectedScan& scan);
+  bool fuse(const OdometryStep& step);
+  void fuse(const AltitudeStep& step, common::Time stamp);
+  void localize(const LocatedScan& located, common::Time now);
+  common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
   void reportHealth(common::Time now);
   void say(common::Time now, common::Severity severity, std::string source, std::string text, std::string reason = {});
 
-  EstimatorConfig config_;
-  common::LaserConfig laser_;
-  common::VehicleConfig vehicle_;
-  common::JobRunner& jobs_;
-
+  double standing_height_m_;  ///< Of the body, where the mirror shows no floor.
   perception::ErrorStateFilter filter_;
-  perception::LaserOdometry odometry_;
-  perception::MultilevelFilter altitude_;
-  perception::Slam2d slam_;
+  perception::PeopleTracker people_;
+  LaserPipeline laser_;
+  AltitudePipeline altitude_;
+  MapPipeline map_;
   std::unique_ptr<FlightLocalizer> localizer_;  ///< Null: no map was given.
-  bool at_flight_height_ = false;
 
-  /// The way of the laser odometry since a clone of the filter's pose. Its references are not cloned one after the
-  /// other: the error of a reference in the local map is that of all that is matched to it, and ends with it.
-  struct Track {
-    common::Time clone;
-    common::Pose2 T_clone_reference;
-  } track_;
   std::optional<common::ImuSample> last_imu_;
+  bool at_flight_height_ = false;
   bool waiting_said_ = false;
-  double height_above_ground_m_ = 0.0;
-  Eigen::Matrix3d covariance_since_map_ = Eigen::Matrix3d::Zero();
   perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;
-  std::uint64_t grid_version_ = 0;
-  std::uint64_t published_grid_version_ = 0;
-  std::shared_ptr<const common::OccupancyGrid> published_grid_;
-  std::uint64_t published_levels_version_ = 0;
-  std::shared_ptr<const common::LevelMap> published_levels_;
   std::vector<common::Event> events_;
 };
 

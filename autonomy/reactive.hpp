@@ -1,54 +1,48 @@
-// The reactive layer at the laser rate: what moves, how fast one may fly, and when to retreat. It acts below every
-// intent.
+// The reactive layer at the laser rate: how fast one may fly, and when to retreat, from what the laser sees, from those
+// who move and from the map. It acts below every intent.
 #pragma once
 
-#include <memory>
-#include <vector>
+#include <span>
+
+#include <Eigen/Core>
 
 #include "common/config_fwd.hpp"
-#include "common/occupancy_grid.hpp"
+#include "common/dynamic_obstacle.hpp"
+#include "common/geometry.hpp"
 #include "common/vehicle_state.hpp"
 #include "perception/projection/scan_projection.hpp"
-#include "perception/slam2d/slam2d.hpp"
 #include "planning/avoidance/avoidance.hpp"
-#include "planning/avoidance/dynamic_obstacles.hpp"
 
 namespace swiftlet::autonomy {
 
 struct ReactiveConfig {
   planning::Avoidance::Config avoidance;
-  planning::DynamicObstacles::Config dynamic_obstacles;
 
   void describe(common::config::Fields& fields);
-  /// What would stop the vehicle, or make it retreat, on a path planned at this clearance; empty when nothing would.
-  std::vector<std::string> problemsWith(double clearance_m) const;
+};
+
+/// A scan, and what is known when it comes.
+struct ReactiveInput {
+  const perception::ProjectedScan& scan;
+  common::Pose2 T_map_body;  ///< At the scan's stamp.
+  const common::VehicleState& state;
+  std::span<const common::DynamicObstacle> obstacles;      ///< People above all, after this scan.
+  Eigen::Vector2d wish_map_m_s = Eigen::Vector2d::Zero();  ///< The velocity the intent wants; zero when it holds.
+  const planning::CostMap* cost_map = nullptr;             ///< Null before the first plan.
 };
 
 /// One thread; update() once a scan.
 class Reactive {
  public:
-  /// `drawing`: of the grid, which knows only what it says is in the way of the hull.
-  Reactive(const ReactiveConfig& config, double hull_radius_m, const perception::GridDrawingConfig& drawing);
+  Reactive(const ReactiveConfig& config, double hull_radius_m);
 
-  /// `cost_map` may be null before the first plan. `wish_map_m_s` is the velocity the intent wants, zero when it holds.
-  const planning::AvoidanceDecision& update(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
-                                            const common::VehicleState& state, const Eigen::Vector2d& wish_map_m_s,
-                                            const std::shared_ptr<const common::OccupancyGrid>& grid,
-                                            const planning::CostMap* cost_map);
+  const planning::AvoidanceDecision& update(const ReactiveInput& input);
 
+  /// The last one; before the first scan nothing limits the speed.
   const planning::AvoidanceDecision& decision() const { return decision_; }
-  /// Where those are, in `map`, who were seen just before `stamp`.
-  std::vector<planning::Disc> people(common::Time stamp) const;
-  bool anybodyWalks() const { return obstacles_.anyMoves(); }
-  /// Where people are and will soon be, for the cost map.
-  std::vector<planning::Disc> discs(common::Time now) const { return obstacles_.discs(now); }
 
  private:
-  float above_m_, below_m_;  ///< Of the body: the way of the hull.
   planning::Avoidance avoidance_;
-  planning::BackgroundMap background_;
-  common::Pose2 T_map_odom_;
-  planning::DynamicObstacles obstacles_;
   planning::AvoidanceDecision decision_;
 };
 

@@ -106,7 +106,7 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
   std::vector<Threat> result;
   const common::Pose2 T_level_map = input.T_map_level.inverse();
   const Eigen::Rotation2Dd to_level(T_level_map.yaw_rad);
-  for (const DynamicObstacle& o : input.obstacles) {
+  for (const common::DynamicObstacle& o : input.obstacles) {
     const double age_s = std::max(0.0, (input.stamp - o.last_seen).seconds());
     const bool moving = o.moving && o.velocity_map_m_s.norm() >= config_.closing_speed_m_s;
     const Point velocity_map_m_s = moving ? o.velocity_map_m_s : Point::Zero();

@@ -10,10 +10,10 @@
 #include <Eigen/Core>
 
 #include "common/config_fwd.hpp"
+#include "common/dynamic_obstacle.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "common/world/avoidance_status.hpp"
-#include "planning/avoidance/dynamic_obstacles.hpp"
 #include "planning/costs/cost_map.hpp"
 
 namespace swiftlet::planning {
@@ -27,8 +27,8 @@ struct AvoidanceInput {
   Eigen::Vector2d velocity_level_m_s = Eigen::Vector2d::Zero();
   Eigen::Vector2d wish_level_m_s = Eigen::Vector2d::Zero();  ///< What the intent wants; zero: to stop.
   common::Pose2 T_map_level;
-  const CostMap* cost_map = nullptr;           ///< May be null: then nothing is known to be mapped.
-  std::span<const DynamicObstacle> obstacles;  ///< From DynamicObstacles, in the `map` frame.
+  const CostMap* cost_map = nullptr;                   ///< May be null: then nothing is known to be mapped.
+  std::span<const common::DynamicObstacle> obstacles;  ///< What the map does not explain, people above all.
 };
 
 struct AvoidanceDecision {
@@ -85,8 +85,8 @@ class Avoidance {
 
     void describe(common::config::Fields& fields);
     /// Problems of these distances with a clearance the planner may use and with what it keeps from unmapped things
-    /// beyond that (DynamicObstacles::Config::keep_out_m): what would stop the vehicle, or make it retreat, on a path
-    /// that the planner may take is refused. Empty when they fit.
+    /// beyond that: what would stop the vehicle, or make it retreat, on a path that the planner may take is refused.
+    /// Empty when they fit.
     std::vector<std::string> validateAgainst(double clearance_m, double keep_out_m) const;
   };
 

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include "common/config_fwd.hpp"
+#include "common/disc.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 #include "planning/costs/cell_state.hpp"
@@ -26,15 +27,11 @@ struct Footprint {
   double radius_m() const { return hull_radius_m + clearance_m; }
 };
 
-/// An obstacle that is not in the grid: a person, a place that was tried and failed. In the `map` frame.
-struct Disc {
-  Eigen::Vector2d center_map_m = Eigen::Vector2d::Zero();
-  double radius_m = 0.0;
-};
+using common::Disc;
 
 /// What lies over the grid. Pointers may be null and are read during the call only.
 struct CostLayers {
-  std::span<const Disc> discs;
+  std::span<const Disc> discs;  ///< Obstacles that are not in the grid: people, places that were tried and failed.
   const common::LevelMap* levels = nullptr;
   /// Where the vehicle has flown, in order, in the `map` frame: half the clearance will do there. A door that was flown
   /// through does not close behind the vehicle because the map of its frame grew by a cell.

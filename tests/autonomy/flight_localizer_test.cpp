@@ -1,5 +1,5 @@
 // Localization in flight: searches as jobs, and scans that serve the odometry or the particles, never both.
-#include "autonomy/flight_localizer.hpp"
+#include "autonomy/estimation/flight_localizer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Sensors of the simulator -> odometry, altitude, fusion -> controller -> the simulator's motors. No SLAM, no planner:
-// what the inner loop is worth by itself.
+// Sensors of the simulator -> Estimator -> controller -> the simulator's motors. No mission, no planner: what the inner
+// loop is worth by itself.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -7,12 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "autonomy/estimator.hpp"
 #include "common/config.hpp"
 #include "control/flight_controller.hpp"
-#include "perception/altitude/multilevel_filter.hpp"
-#include "perception/fusion/error_state_filter.hpp"
-#include "perception/laser_odometry/laser_odometry.hpp"
-#include "perception/projection/scan_projection.hpp"
 #include "tests/simulation/fixtures.hpp"
 
 namespace swiftlet {
@@ -44,76 +41,41 @@ struct Loop {
   }
 
   simulation::SimulatedVehicle vehicle;
-  perception::ErrorStateFilter fusion{perception::ErrorStateFilter::Config{}};
-  perception::MultilevelFilter altitude{perception::MultilevelFilter::Config{}};
-  perception::LaserOdometry odometry{perception::LaserOdometryConfig{}};
+  std::unique_ptr<common::JobRunner> jobs = common::makeLockstepJobs(0);
+  autonomy::Estimator estimator{{}, scenario(1).laser, scenario(1).vehicle, nullptr, *jobs};
   control::FlightController controller{control::FlightController::Config{}, scenario(1).vehicle};
-  double battery_v = 0, over_ground_m = 0;
+  double battery_v = 0;
   std::optional<control::RawHeight> raw_height;
   std::vector<common::SensorEvent> events;
-  int scans = 0;
   double estimate2_m2 = 0, velocity2 = 0, worst_tracking_m = 0;
   int ticks = 0;
-
-  void onScan(const common::LaserScan& scan) {
-    using namespace perception;
-    const Time begin = scan.stamps.measured;
-    const Time end = begin + scan.time_increment * static_cast<std::int64_t>(scan.ranges_m.size());
-    const PoseHistory history = fusion.poses(begin, end);
-    const auto newest = fusion.state().T_odom_body;
-    const ProjectedScan projected = project(
-        scan, scenario(1).laser, [&](Time t) { return history.at(t).value_or(newest); }, ScanProjectionConfig{});
-    if (!fusion.initialized()) {
-      double sum_m = 0;
-      for (const auto& point : projected.mirror) sum_m += point.belowBody_m();
-      if (projected.mirror.empty() || !fusion.initialize(sum_m / static_cast<double>(projected.mirror.size()))) return;
-      altitude.initialize(fusion.newest(), {0, 0}, fusion.state().T_odom_body.position_m.z());
-      ASSERT_TRUE(controller.command(control::Prepared{}));
-      return;
-    }
-    ++scans;
-    if (const auto relative = odometry.add(projected)) {
-      if (relative->from != relative->to) {
-        EXPECT_EQ(fusion.addRelativePose(relative->from, relative->to, relative->T_from_to, relative->covariance),
-                  Insertion::kTaken);
-      }
-      if (relative->reference_changed || relative->from == relative->to) (void)fusion.addClone(relative->to);
-    }
-    const common::Pose2 here = planar(fusion.poseAt(projected.stamp)->operator*(common::Pose3{}));
-    std::vector<GroundPoint> ground;
-    for (const auto& point : projected.mirror)
-      ground.push_back({here * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
-    const auto update = altitude.update(projected.stamp, here.position_m(), ground);
-    if (update.measurement)
-      (void)fusion.addHeight(update.measurement->stamp, update.measurement->height_m, update.measurement->variance_m2,
-                             update.measurement->level_variance_m2);
-    if (update.height_above_ground_m) {
-      over_ground_m = *update.height_above_ground_m;
-      raw_height = control::RawHeight{projected.stamp, over_ground_m};
-    }
-  }
+  bool prepared = false;
 
   bool tick() {
     events.clear();
     if (!vehicle.advanceTo(vehicle.now() + common::Duration::fromMilliseconds(10), events)) return false;
     for (const auto& event : events) {
       if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
-        fusion.predict(*imu);
-        altitude.addAcceleration(imu->stamps.measured, fusion.accelerationOdom_m_s2().z());
+        estimator.addImu(*imu);
       } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
-        onScan(**scan);
+        const auto outcome = estimator.addScan(**scan, vehicle.now());
+        if (outcome && outcome->raw_height) raw_height = outcome->raw_height;
       } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
         battery_v = battery->voltage_v;
       }
     }
-    fusion.setAtRest(!control::isAirborne(controller.state()));
+    jobs->deliverDue(vehicle.now());
     control::FlightTick tick;
     tick.now = vehicle.now();
-    tick.state = fusion.state();
-    tick.state.height_above_ground_m = over_ground_m;
+    tick.state = estimator.state();
+    const bool airborne = control::isAirborne(controller.state());
+    estimator.setAtRest(!airborne);
+    if (airborne) estimator.setFlightHeight(tick.state.T_odom_body.position_m.z());
+    if (!prepared && tick.state.horizontal_valid && tick.state.vertical_valid)
+      prepared = controller.command(control::Prepared{}).has_value();
     tick.raw_height = std::exchange(raw_height, std::nullopt);
     tick.battery_v = battery_v;
-    tick.fusion_diverged = fusion.health().status == perception::FusionStatus::kDiverged;
+    tick.fusion_diverged = estimator.health().status == perception::FusionStatus::kDiverged;
     vehicle.apply(controller.tick(tick));
     if (controller.state() == FlightState::kFlying) {
       const auto truth = T_map_body();
@@ -157,8 +119,8 @@ TEST(ClosedLoop, HoversOnItsOwnSensors) {
     }
     std::printf("seed %d: hover %.3f m RMS, %.3f m worst height; estimate %.3f m, %.3f m/s RMS; fusion %s %s\n", seed,
                 std::sqrt(horizontal2), height, std::sqrt(loop.estimate2_m2 / loop.ticks),
-                std::sqrt(loop.velocity2 / loop.ticks), toString(loop.fusion.health().status),
-                loop.fusion.health().reason.c_str());
+                std::sqrt(loop.velocity2 / loop.ticks), toString(loop.estimator.health().status),
+                loop.estimator.health().reason.c_str());
     worst_m = std::max(worst_m, std::sqrt(horizontal2));
     worst_height_m = std::max(worst_height_m, height);
   }
@@ -186,7 +148,7 @@ TEST(ClosedLoop, FliesOverATableAndLands) {
   ASSERT_TRUE(loop.controller.command(control::Land{}));
   EXPECT_TRUE(loop.until([&] { return loop.controller.state() == FlightState::kLanded; }, 12.0))
       << loop.vehicle.stopReason();
-  const auto levels = loop.altitude.levels();
+  const common::LevelMap levels = *loop.estimator.levels();
   std::printf(
       "path: %.3f m worst off the reference, %.3f m in height; home within %.3f m; estimate %.3f m, %.3f m/s RMS\n",
       worst_m, worst_height_m, home.head<2>().norm(), std::sqrt(loop.estimate2_m2 / loop.ticks),

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "grid_builder.hpp"
+#include "perception/people/background_map.hpp"
+#include "perception/people/dynamic_obstacles.hpp"
 #include "planning/avoidance/avoidance.hpp"
-#include "planning/avoidance/dynamic_obstacles.hpp"
 
 namespace swiftlet::planning::test {
 
@@ -37,7 +38,7 @@ class Story {
         truth_({}, 0.05),
         avoidance_(config, kHull_m),
         config_(config),
-        background_(Duration::fromSeconds(DynamicObstacles::Config().background_age_s)) {
+        background_(Duration::fromSeconds(perception::DynamicObstacles::Config().background_age_s)) {
     learn();
     truth_ = map_;
   }
@@ -153,8 +154,8 @@ class Story {
   CostMap truth_;
   Avoidance avoidance_;
   Avoidance::Config config_;
-  BackgroundMap background_;
-  DynamicObstacles dynamic_{DynamicObstacles::Config()};
+  perception::BackgroundMap background_;
+  perception::DynamicObstacles dynamic_{perception::DynamicObstacles::Config()};
   std::vector<Point> delayed_;
   bool was_retreating_ = false;
   int scans_ = 0;

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid_builder.hpp"
-#include "planning/avoidance/dynamic_obstacles.hpp"
+#include "perception/people/dynamic_obstacles.hpp"
+#include "tests/planning/grid_builder.hpp"
 
-namespace swiftlet::planning {
+namespace swiftlet::perception {
 namespace {
 
-using common::Duration;
 using common::Time;
 using Point = Eigen::Vector2d;
 
@@ -24,14 +23,14 @@ std::vector<Eigen::Vector2f> front(const Point& center, double radius_m, const P
 }
 
 struct Moving : testing::Test {
-  common::OccupancyGrid grid = test::room(200, 160);
+  common::OccupancyGrid grid = planning::test::room(200, 160);
   DynamicObstacles tracker{DynamicObstacles::Config()};
   Point sensor{5, 4};
   static Time at(double s) { return Time::fromSeconds(s); }
 };
 
 TEST_F(Moving, WallsAreExplainedAndUnknownSpaceIsNotDynamic) {
-  test::fill(grid, {{150, 100}, {190, 150}}, common::occupancy::kUnknown);
+  planning::test::fill(grid, {{150, 100}, {190, 150}}, common::occupancy::kUnknown);
   std::vector<Eigen::Vector2f> points;
   for (int i = 0; i < 100; ++i) points.push_back({10.02f, 1.0f + 0.05f * static_cast<float>(i)});  // a wall
   for (int i = 0; i < 20; ++i) points.push_back({8.0f + 0.05f * static_cast<float>(i), 6.0f});     // never seen
@@ -49,7 +48,7 @@ TEST_F(Moving, APersonIsOneDiscWithAVelocity) {
     ASSERT_EQ(tracker.obstacles().size(), 1u) << t;
     EXPECT_EQ(tracker.obstacles()[0].id, id);
   }
-  const DynamicObstacle& person = tracker.obstacles()[0];
+  const common::DynamicObstacle& person = tracker.obstacles()[0];
   EXPECT_NEAR((person.center_map_m - Point(7.5, 3.5)).norm(), 0.0, 0.15);
   EXPECT_NEAR((person.velocity_map_m_s - Point(0, 1)).norm(), 0.0, 0.25);
   EXPECT_NEAR(person.radius_m, 0.2, 0.1);
@@ -87,7 +86,7 @@ TEST_F(Moving, DiscsRunAheadAndExpire) {
     tracker.update(at(t), front({7.5, 2.5 + t}, 0.25, sensor), sensor, grid);
   }
   double farthest_y = 0.0;
-  for (const Disc& disc : tracker.discs(at(1.0), 0.5)) farthest_y = std::max(farthest_y, disc.center_map_m.y());
+  for (const common::Disc& disc : tracker.discs(at(1.0), 0.5)) farthest_y = std::max(farthest_y, disc.center_map_m.y());
   EXPECT_GT(farthest_y, 3.7);
   // Out of sight it is believed in for a while.
   tracker.update(at(2.0), {}, sensor, grid);
@@ -113,20 +112,5 @@ TEST_F(Moving, TwoPeopleApartAreTwo) {
   EXPECT_EQ(tracker.obstacles().size(), 2u);
 }
 
-TEST(BackgroundMap, GivesTheNewestThatIsOldEnough) {
-  BackgroundMap background(Duration::fromSeconds(2));
-  EXPECT_EQ(background.at(Time::fromSeconds(0)), nullptr);
-  std::vector<std::shared_ptr<const common::OccupancyGrid>> grids;
-  for (int i = 0; i < 5; ++i) {
-    grids.push_back(std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.05)));
-    background.add(Time::fromSeconds(i), grids.back());
-  }
-  EXPECT_EQ(background.at(Time::fromSeconds(1)), grids[0]);
-  EXPECT_EQ(background.at(Time::fromSeconds(4)), grids[2]);
-  EXPECT_EQ(background.at(Time::fromSeconds(5.5)), grids[3]);
-  background.restart();
-  EXPECT_EQ(background.at(Time::fromSeconds(6)), nullptr);
-}
-
 }  // namespace
-}  // namespace swiftlet::planning
+}  // namespace swiftlet::perception

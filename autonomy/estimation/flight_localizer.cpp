@@ -1,4 +1,4 @@
-#include "autonomy/flight_localizer.hpp"
+#include "autonomy/estimation/flight_localizer.hpp"
 
 #include <utility>
 

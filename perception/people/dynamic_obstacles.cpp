@@ -1,14 +1,16 @@
-#include "planning/avoidance/dynamic_obstacles.hpp"
+#include "perception/people/dynamic_obstacles.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/config_fields.hpp"
 
-namespace swiftlet::planning {
+namespace swiftlet::perception {
 namespace {
 
 using common::CellIndex;
+using common::Disc;
+using common::DynamicObstacle;
 using Point = Eigen::Vector2d;
 
 /// In space the background knows as free, with nothing occupied or unknown within `cells`.
@@ -41,15 +43,6 @@ bool violatesFreeSpace(const DynamicObstacle& obstacle, double age_s, std::span<
 }
 
 }  // namespace
-
-void BackgroundMap::add(common::Time stamp, std::shared_ptr<const common::OccupancyGrid> grid) {
-  history_.push_back({stamp, std::move(grid)});
-}
-
-std::shared_ptr<const common::OccupancyGrid> BackgroundMap::at(common::Time now) {
-  while (history_.size() > 1 && history_[1].stamp <= now - age_) history_.pop_front();
-  return history_.empty() ? nullptr : history_.front().grid;
-}
 
 void DynamicObstacles::Config::describe(common::config::Fields& fields) {
   fields("explained_within_m", explained_within_m, {0, 2},
@@ -111,61 +104,80 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const
   return clusters;
 }
 
+DynamicObstacles::Track* DynamicObstacles::nearestFree(const Cluster& seen, common::Time stamp, std::span<Track> tracks,
+                                                       const std::vector<bool>& taken) {
+  Track* nearest = nullptr;
+  double nearest_m = 0.0;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const DynamicObstacle& o = tracks[i].obstacle;
+    const double dt_s = (stamp - o.last_seen).seconds();
+    const Point expected = o.center_map_m + o.velocity_map_m_s * dt_s;
+    const double off_m = (expected - seen.center_map_m).norm();
+    const double gate_m = 0.3 + config_.max_speed_m_s * std::min(dt_s, 0.3);
+    if (taken[i] || off_m > gate_m || (nearest != nullptr && off_m >= nearest_m)) continue;
+    nearest = &tracks[i];
+    nearest_m = off_m;
+  }
+  return nearest;
+}
+
 void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2f> points_map_m,
                               const Point& sensor_map_m, const common::OccupancyGrid& background) {
-  for (DynamicObstacle& o : obstacles_) ++o.scans;
-  std::vector<bool> taken(obstacles_.size(), false);
-  const std::size_t known = obstacles_.size();
+  for (Track& track : tracks_) ++track.scans;
+  const std::size_t known = tracks_.size();
+  std::vector<bool> taken(known, false);
+  std::vector<Track> fresh;
   for (const Cluster& seen : cluster(points_map_m, sensor_map_m, background)) {
-    std::optional<std::size_t> nearest;
-    double nearest_m = 0.0;
-    for (std::size_t i = 0; i < known; ++i) {
-      const double dt_s = (stamp - obstacles_[i].last_seen).seconds();
-      const Point expected = obstacles_[i].center_map_m + obstacles_[i].velocity_map_m_s * dt_s;
-      const double off_m = (expected - seen.center_map_m).norm();
-      const double gate_m = 0.3 + config_.max_speed_m_s * std::min(dt_s, 0.3);
-      if (taken[i] || off_m > gate_m || (nearest && off_m >= nearest_m)) continue;
-      nearest = i;
-      nearest_m = off_m;
-    }
-    if (!nearest) {
-      obstacles_.push_back(
-          {next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, seen.center_map_m, stamp, 0, 0, stamp});
+    Track* const track = nearestFree(seen, stamp, tracks_, taken);
+    if (track == nullptr) {
+      fresh.push_back({{next_id_++, seen.center_map_m, seen.radius_m, Point::Zero(), false, stamp},
+                       seen.center_map_m,
+                       stamp,
+                       0,
+                       0});
       continue;
     }
-    taken[*nearest] = true;
-    DynamicObstacle& o = obstacles_[*nearest];
-    const double dt_s = (stamp - o.last_seen).seconds();
-    if (dt_s <= 0.0) continue;
-    const Point expected = o.center_map_m + o.velocity_map_m_s * dt_s, error = seen.center_map_m - expected;
-    // The critically damped alpha-beta filter of this time constant.
-    const double forget = std::exp(-dt_s / config_.smoothing_s);
-    o.center_map_m = expected + (1.0 - forget * forget) * error;
-    o.velocity_map_m_s += error * ((1.0 - forget) * (1.0 - forget) / dt_s);
-    const double speed_m_s = o.velocity_map_m_s.norm();
-    if (speed_m_s > config_.max_speed_m_s) o.velocity_map_m_s *= config_.max_speed_m_s / speed_m_s;
-    o.radius_m = std::max(seen.radius_m, 0.9 * o.radius_m);
-    o.last_seen = stamp;
-    ++o.sightings;
-    judgeMotion(o);
+    taken[static_cast<std::size_t>(track - tracks_.data())] = true;
+    correct(*track, seen, stamp);
   }
-  std::erase_if(obstacles_, [&](const DynamicObstacle& o) {
-    const double age_s = (stamp - o.last_seen).seconds();
+  tracks_.insert(tracks_.end(), fresh.begin(), fresh.end());
+  std::erase_if(tracks_, [&](const Track& track) {
+    const double age_s = (stamp - track.obstacle.last_seen).seconds();
     return age_s > config_.time_to_live_s ||
-           (age_s > config_.refuted_after_s && violatesFreeSpace(o, age_s, points_map_m, sensor_map_m));
+           (age_s > config_.refuted_after_s && violatesFreeSpace(track.obstacle, age_s, points_map_m, sensor_map_m));
   });
+  obstacles_.clear();
+  for (const Track& track : tracks_) obstacles_.push_back(track.obstacle);
+}
+
+/// The critically damped alpha-beta filter of the time constant `smoothing_s`.
+void DynamicObstacles::correct(Track& track, const Cluster& seen, common::Time stamp) const {
+  DynamicObstacle& o = track.obstacle;
+  const double dt_s = (stamp - o.last_seen).seconds();
+  if (dt_s <= 0.0) return;
+  const Point expected = o.center_map_m + o.velocity_map_m_s * dt_s, error = seen.center_map_m - expected;
+  const double forget = std::exp(-dt_s / config_.smoothing_s);
+  o.center_map_m = expected + (1.0 - forget * forget) * error;
+  o.velocity_map_m_s += error * ((1.0 - forget) * (1.0 - forget) / dt_s);
+  const double speed_m_s = o.velocity_map_m_s.norm();
+  if (speed_m_s > config_.max_speed_m_s) o.velocity_map_m_s *= config_.max_speed_m_s / speed_m_s;
+  o.radius_m = std::max(seen.radius_m, 0.9 * o.radius_m);
+  o.last_seen = stamp;
+  ++track.sightings;
+  judgeMotion(track);
 }
 
 /// What comes into view bit by bit seems to move for a moment, but soon stays where it is.
-void DynamicObstacles::judgeMotion(DynamicObstacle& o) const {
-  const double since_s = (o.last_seen - o.anchor_stamp).seconds();
-  const bool moved = (o.center_map_m - o.anchor_map_m).norm() >= config_.moved_m;
-  const bool followed = since_s >= config_.followed_s && o.sightings >= config_.followed_share * o.scans;
+void DynamicObstacles::judgeMotion(Track& track) const {
+  DynamicObstacle& o = track.obstacle;
+  const double since_s = (o.last_seen - track.anchor_stamp).seconds();
+  const bool moved = (o.center_map_m - track.anchor_map_m).norm() >= config_.moved_m;
+  const bool followed = since_s >= config_.followed_s && track.sightings >= config_.followed_share * track.scans;
   if (!(moved && followed) && since_s < config_.moved_within_s) return;
   o.moving = moved && (followed || o.moving);  // Who was followed before may have been hidden meanwhile.
-  o.anchor_map_m = o.center_map_m;
-  o.anchor_stamp = o.last_seen;
-  o.scans = o.sightings = 0;
+  track.anchor_map_m = o.center_map_m;
+  track.anchor_stamp = o.last_seen;
+  track.scans = track.sightings = 0;
 }
 
 bool DynamicObstacles::anyMoves() const {
@@ -186,4 +198,4 @@ std::vector<Disc> DynamicObstacles::discs(common::Time now, double horizon_s) co
   return result;
 }
 
-}  // namespace swiftlet::planning
+}  // namespace swiftlet::perception

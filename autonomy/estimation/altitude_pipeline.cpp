@@ -1,0 +1,50 @@
+#include "autonomy/estimation/altitude_pipeline.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace swiftlet::autonomy {
+
+std::optional<double> medianBelow_m(const perception::ProjectedScan& scan) {
+  if (scan.mirror.empty()) return std::nullopt;
+  std::vector<double> distances_m;
+  for (const auto& point : scan.mirror) distances_m.push_back(point.belowBody_m());
+  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
+  std::nth_element(distances_m.begin(), middle, distances_m.end());
+  return *middle;
+}
+
+AltitudePipeline::AltitudePipeline(const perception::MultilevelFilter::Config& config)
+    : filter_(config), published_(std::make_shared<common::LevelMap>()) {}
+
+void AltitudePipeline::initialize(common::Time time, double height_m) {
+  filter_.initialize(time, Eigen::Vector2d::Zero(), height_m);
+}
+
+AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
+                                   const std::optional<perception::VerticalState>& vertical) {
+  AltitudeStep step;
+  step.below_m = medianBelow_m(scan);
+  if (!vertical) return step;
+  std::vector<perception::GroundPoint> ground;
+  ground.reserve(scan.mirror.size());
+  for (const auto& point : scan.mirror)
+    ground.push_back({T_map_body * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
+  const perception::HeightState prior{scan.stamp, vertical->height_m, vertical->velocity_m_s, vertical->covariance};
+  const auto update = filter_.update(scan.stamp, T_map_body.position_m(), ground, prior);
+  if (update.height_above_ground_m) height_above_ground_m_ = *update.height_above_ground_m;
+  step.measurement = update.measurement;
+  step.levels_joined = update.levels_joined;
+  return step;
+}
+
+std::shared_ptr<const common::LevelMap> AltitudePipeline::levels() {
+  if (published_version_ != filter_.levelsVersion()) {
+    published_ = std::make_shared<common::LevelMap>(filter_.levels());
+    published_version_ = filter_.levelsVersion();
+  }
+  return published_;
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,53 @@
+// From the mirror beams of a scan to the height over the take-off floor and the surfaces below.
+//
+//   mirror beams --> points below, in the map --> levels --> virtual height --> AltitudeStep
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "common/geometry.hpp"
+#include "common/level_map.hpp"
+#include "common/time.hpp"
+#include "perception/altitude/multilevel_filter.hpp"
+#include "perception/fusion/error_state_filter.hpp"
+#include "perception/projection/scan_projection.hpp"
+
+namespace swiftlet::autonomy {
+
+/// Vertical distance from the body down to what is below: the median of the mirror beams; none without any.
+std::optional<double> medianBelow_m(const perception::ProjectedScan& scan);
+
+/// What one scan says of the height.
+struct AltitudeStep {
+  std::optional<double> below_m;                         ///< As measured: medianBelow_m of the scan.
+  std::optional<perception::VirtualHeight> measurement;  ///< For the filter; its stamp is that of an earlier scan.
+  int levels_joined = 0;
+};
+
+/// One thread.
+class AltitudePipeline {
+ public:
+  explicit AltitudePipeline(const perception::MultilevelFilter::Config& config);
+
+  /// The vehicle stands on the take-off floor, at the origin of the map, its body `height_m` above it.
+  void initialize(common::Time time, double height_m);
+
+  /// `vertical` is what the filter believes at the scan's stamp; where it knows nothing, the scan is left out.
+  AltitudeStep add(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
+                   const std::optional<perception::VerticalState>& vertical);
+
+  /// Over what is below right now, table or floor; zero before the first scan that saw it.
+  double heightAboveGround_m() const { return height_above_ground_m_; }
+  /// Never null; the same object until a level changes.
+  std::shared_ptr<const common::LevelMap> levels();
+
+ private:
+  perception::MultilevelFilter filter_;
+  double height_above_ground_m_ = 0.0;
+  std::uint64_t published_version_ = 0;
+  std::shared_ptr<const common::LevelMap> published_;
+};
+
+}  // namespace swiftlet::autonomy

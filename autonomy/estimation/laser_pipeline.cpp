@@ -1,0 +1,95 @@
+#include "autonomy/estimation/laser_pipeline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::Pose2;
+
+void LaserPipelineConfig::describe(common::config::Fields& fields) {
+  fields.section("projection", projection, "Scans corrected for motion and tilt.");
+  fields.section("odometry", odometry, "Scans matched to the last ones.");
+  fields("match_floor_m", match_floor_m, {0, 1}, "Least standard deviation of a match's position.");
+  fields("match_floor_deg", match_floor_deg, {0, 10}, "Least standard deviation of a match's yaw.");
+  fields("drift_floor_m", drift_floor_m, {0, 1},
+         "Least position error that a new reference of the odometry adds to its drift.");
+  fields("drift_floor_deg", drift_floor_deg, {0, 10},
+         "Least yaw error that a new reference of the odometry adds to its drift.");
+  fields("match_per_tilt_m_rad", match_per_tilt_m_rad, {0, 10},
+         "Position error of a match for each radian of tilt, since the attitude is not exact.");
+  fields("match_per_tilt_deg_rad", match_per_tilt_deg_rad, {0, 100},
+         "Yaw error of a match for each radian of tilt, since the attitude is not exact.");
+}
+
+LaserPipeline::LaserPipeline(const LaserPipelineConfig& config, const common::LaserConfig& laser)
+    : config_(config), laser_(laser), odometry_(config.odometry) {}
+
+perception::ProjectedScan LaserPipeline::project(const common::LaserScan& scan,
+                                                 const perception::PoseAt& pose_at) const {
+  return perception::project(scan, laser_, pose_at, config_.projection);
+}
+
+OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const FilterView& filter) {
+  const bool begun = lastMatch().has_value();
+  const auto relative = odometry_.add(scan, filter.T_odom_last);
+  if (!relative) return {};
+  if (relative->from == relative->to) return restart(*relative, begun);
+
+  OdometryStep step;
+  step.matched = true;
+  if (!filter.has_clone) {
+    track_ = {relative->from, {}};
+    step.clone_before = relative->from;
+  }
+  const Pose2 T_clone_body = track_.T_clone_reference * relative->T_from_to;
+  const Eigen::Matrix3d covariance =
+      relative->covariance + tiltCovariance(scan, config_.match_floor_m, config_.match_floor_deg);
+  step.measurement = {track_.clone, relative->to, T_clone_body,
+                      common::turned(covariance, track_.T_clone_reference.yaw_rad), std::nullopt};
+  if (relative->unseen_direction)
+    step.measurement->unseen_direction = Eigen::Rotation2Dd(T_clone_body.yaw_rad) * *relative->unseen_direction;
+  if (!relative->reference_changed) return step;
+
+  track_.T_clone_reference = T_clone_body;
+  if (relative->unseen_direction) {
+    track_ = {relative->to, {}};
+    step.clone_after = relative->to;
+  }
+  // Within one reference the error does not grow; it accumulates from reference to reference.
+  step.covariance =
+      common::turned(relative->covariance + tiltCovariance(scan, config_.drift_floor_m, config_.drift_floor_deg),
+                     -relative->T_from_to.yaw_rad);
+  return step;
+}
+
+/// The scan is the first of a local map. After an interruption nothing says how far the vehicle came since the last
+/// match but the window in which a match was sought.
+OdometryStep LaserPipeline::restart(const perception::RelativePose& relative, bool interrupted) {
+  track_ = {relative.to, {}};
+  OdometryStep step;
+  step.matched = true;
+  step.interrupted = interrupted;
+  step.clone_after = relative.to;
+  if (interrupted) {
+    const double off_m = config_.odometry.max_window_m;
+    const double off_rad = config_.odometry.max_window_deg * std::numbers::pi / 180.0;
+    step.covariance = Eigen::Vector3d(off_m * off_m, off_m * off_m, off_rad * off_rad).asDiagonal();
+  }
+  return step;
+}
+
+Eigen::Matrix3d LaserPipeline::tiltCovariance(const perception::ProjectedScan& scan, double floor_m,
+                                              double floor_deg) const {
+  const double tilt_rad = std::acos(std::clamp(common::cosTilt(scan.T_odom_body.rotation), -1.0, 1.0));
+  const double position_m = floor_m + config_.match_per_tilt_m_rad * tilt_rad;
+  const double yaw_rad = (floor_deg + config_.match_per_tilt_deg_rad * tilt_rad) * std::numbers::pi / 180.0;
+  return Eigen::Vector3d(position_m * position_m, position_m * position_m, yaw_rad * yaw_rad).asDiagonal();
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,77 @@
+// From matched scans to the 2D map, the correction T_map_odom and the key scans: Slam2d, its heavy work as a job.
+//
+//   scan, pose in odom, drift since the last one --> Slam2d --> MapStep
+//                                                       \--> loop search and optimization, a job --> late correction
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/event.hpp"
+#include "common/geometry.hpp"
+#include "common/jobs.hpp"
+#include "common/key_pose.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/time.hpp"
+#include "perception/projection/scan_projection.hpp"
+#include "perception/slam2d/slam2d.hpp"
+
+namespace swiftlet::autonomy {
+
+/// A scan as the filter leaves it.
+struct MappedScan {
+  const perception::ProjectedScan& scan;
+  common::Pose3 T_odom_body;                                  ///< At its stamp.
+  Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();  ///< OdometryStep::covariance.
+  bool matched = false;                                       ///< If not, it is not put into the map.
+};
+
+struct MapStep {
+  common::Pose2 T_map_body;  ///< At the scan's stamp.
+  /// The same relative to a key scan, for what hangs on the map; none before the first scan in the map.
+  std::optional<common::KeyRelativePose> at_key;
+};
+
+/// One thread; its jobs refer to it, so it stays where it is and outlives them.
+class MapPipeline {
+ public:
+  MapPipeline(const perception::Slam2dConfig& config, common::Duration job_latency, common::JobRunner& jobs);
+  MapPipeline(const MapPipeline&) = delete;
+  MapPipeline& operator=(const MapPipeline&) = delete;
+
+  MapStep add(const MappedScan& mapped, common::Time now);
+
+  /// Jumps with local corrections (millimetres) and loop closures.
+  common::Pose2 T_map_odom() const { return slam_.T_map_odom(); }
+  /// The height over the take-off floor that the map is to be of.
+  void setFlightHeight(double height_m) { grid_version_ += slam_.setFlightHeight(height_m) ? 1 : 0; }
+
+  /// Never null; the same object until the map changes.
+  std::shared_ptr<const common::OccupancyGrid> grid();
+  /// Never null; the same object until a key scan is added or moved.
+  std::shared_ptr<const common::KeyPoses> keyPoses();
+  const perception::SlamCounts& counts() const { return slam_.counts(); }
+
+  std::vector<common::Event> takeEvents();
+
+ private:
+  void submitTask(common::Time now);
+  void take(const perception::SlamResult& result, common::Time delivered);
+
+  common::Duration job_latency_;
+  common::JobRunner& jobs_;
+  perception::Slam2d slam_;
+
+  Eigen::Matrix3d covariance_since_map_ = Eigen::Matrix3d::Zero();  ///< Of the odometry, since the last scan added.
+  common::Pose2 T_odom_mapped_;                                     ///< Of the body at that scan.
+  std::uint64_t grid_version_ = 0, keys_version_ = 0, published_grid_version_ = 0;
+  std::shared_ptr<const common::OccupancyGrid> published_grid_;
+  std::shared_ptr<const common::KeyPoses> published_keys_;
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy

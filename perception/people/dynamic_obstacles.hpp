@@ -1,0 +1,82 @@
+// What moves: end points that the known map does not explain (background subtraction, Grzonka 2012, section IV-E),
+// clustered and followed.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config_fwd.hpp"
+#include "common/disc.hpp"
+#include "common/dynamic_obstacle.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::perception {
+
+/// Finds and follows them. One thread.
+class DynamicObstacles {
+ public:
+  struct Config {
+    double explained_within_m = 0.20;
+    double cluster_gap_m = 0.25;
+    int min_points = 3;
+    double max_radius_m = 0.6;
+    double assumed_depth_m = 0.10;
+    double time_to_live_s = 2.0;
+    double refuted_after_s = 0.2;
+    double max_speed_m_s = 2.5;
+    double moved_m = 0.25;
+    double moved_within_s = 1.0;
+    double followed_s = 0.15;
+    double followed_share = 0.5;
+    double smoothing_s = 0.15;
+    double keep_out_m = 0.25;
+    double max_range_m = 6.0;
+    double background_age_s = 2.0;
+
+    void describe(common::config::Fields& fields);
+  };
+
+  explicit DynamicObstacles(const Config& config);
+
+  /// `points_map_m`: end points of one scan in order of bearing, seen from `sensor_map_m`. Points that are not finite
+  /// are left out. A point is unexplained when it lies in space the background knows as free, with nothing occupied
+  /// near; what lies in unknown space is new, not dynamic.
+  void update(common::Time stamp, std::span<const Eigen::Vector2f> points_map_m, const Eigen::Vector2d& sensor_map_m,
+              const common::OccupancyGrid& background);
+
+  /// Those still believed in, by id.
+  const std::vector<common::DynamicObstacle>& obstacles() const { return obstacles_; }
+  /// Whether any of them has left the place where it was seen first.
+  bool anyMoves() const;
+  /// For the cost map: where each is, and where it will be within `horizon_s` as it moves now.
+  std::vector<common::Disc> discs(common::Time now, double horizon_s = 0.5) const;
+
+ private:
+  struct Cluster {
+    Eigen::Vector2d center_map_m;
+    double radius_m;
+  };
+  std::vector<Cluster> cluster(std::span<const Eigen::Vector2f> points_map_m, const Eigen::Vector2d& sensor_map_m,
+                               const common::OccupancyGrid& background) const;
+  /// An obstacle, and what speaks for its motion.
+  struct Track {
+    common::DynamicObstacle obstacle;
+    Eigen::Vector2d anchor_map_m = Eigen::Vector2d::Zero();  ///< A place where it was seen.
+    common::Time anchor_stamp;                               ///< When it was seen there.
+    int scans = 0;                                           ///< Scans since then.
+    int sightings = 0;                                       ///< Those of them that saw it.
+  };
+  Track* nearestFree(const Cluster& seen, common::Time stamp, std::span<Track> tracks, const std::vector<bool>& taken);
+  void correct(Track& track, const Cluster& seen, common::Time stamp) const;
+  void judgeMotion(Track& track) const;
+
+  Config config_;
+  int next_id_ = 1;
+  std::vector<Track> tracks_;
+  std::vector<common::DynamicObstacle> obstacles_;  ///< Of the tracks.
+};
+
+}  // namespace swiftlet::perception

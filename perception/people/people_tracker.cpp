@@ -1,0 +1,80 @@
+#include "perception/people/people_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Disc;
+using common::Pose2;
+
+/// A map that moved by more was corrected as a whole: local corrections are millimetres, loop closures are not.
+constexpr double kCorrected_m = 0.05;
+constexpr double kCorrected_rad = 0.01;
+
+/// Older sightings are not predicted: six scans at 40 Hz.
+constexpr double kJustSeen_s = 0.15;
+/// A body's outline beyond what was seen of it.
+constexpr double kAround_m = 0.20;
+
+/// The least share of a scan's points that must remain without people.
+constexpr double kLeastShare = 0.4;
+
+}  // namespace
+
+PeopleTracker::PeopleTracker(const Config& config, const HeightBand& band)
+    : band_(band), background_(common::Duration::fromSeconds(config.background_age_s)), obstacles_(config) {}
+
+void PeopleTracker::update(const ProjectedScan& scan, const Pose2& T_map_body, const Pose2& T_map_odom,
+                           std::shared_ptr<const common::OccupancyGrid> grid) {
+  // A corrected map explains nothing that was seen against the old one.
+  const Pose2 jump = T_map_odom_.inverse() * T_map_odom;
+  if (jump.position_m().norm() > kCorrected_m || std::abs(jump.yaw_rad) > kCorrected_rad) background_.restart();
+  T_map_odom_ = T_map_odom;
+  background_.add(scan.stamp, std::move(grid));
+
+  const auto above_m = static_cast<float>(band_.above_body_m), below_m = static_cast<float>(band_.below_body_m);
+  constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
+  std::vector<Eigen::Vector2f> points_map_m;
+  points_map_m.reserve(scan.points_level_m.size());
+  for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
+    const bool in_band = scan.heights_level_m[i] <= above_m && scan.heights_level_m[i] >= -below_m;
+    points_map_m.push_back(
+        in_band ? Eigen::Vector2f((T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>())).cast<float>())
+                : Eigen::Vector2f(kNowhere, kNowhere));
+  }
+  if (const auto background = background_.at(scan.stamp))
+    obstacles_.update(scan.stamp, points_map_m, T_map_body.position_m(), *background);
+}
+
+std::vector<Disc> PeopleTracker::expectedAt(common::Time stamp) const {
+  std::vector<Disc> result;
+  for (const common::DynamicObstacle& o : obstacles()) {
+    const double age_s = (stamp - o.last_seen).seconds();
+    if (age_s > kJustSeen_s) continue;
+    result.push_back({o.center_map_m + o.believedVelocity_map_m_s() * age_s, o.radius_m + kAround_m});
+  }
+  return result;
+}
+
+ProjectedScan withoutPeople(std::span<const Disc> people, const Pose2& T_map_body, ProjectedScan scan) {
+  if (people.empty()) return scan;
+  std::vector<Eigen::Vector2f> points_level_m;
+  std::vector<float> heights_level_m;
+  for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
+    const Eigen::Vector2d point_map_m = T_map_body * Eigen::Vector2d(scan.points_level_m[i].cast<double>());
+    if (std::any_of(people.begin(), people.end(), [&](const Disc& disc) { return disc.covers(point_map_m); })) continue;
+    points_level_m.push_back(scan.points_level_m[i]);
+    heights_level_m.push_back(scan.heights_level_m[i]);
+  }
+  if (static_cast<double>(points_level_m.size()) < kLeastShare * static_cast<double>(scan.points_level_m.size()))
+    return scan;
+  scan.points_level_m = std::move(points_level_m);
+  scan.heights_level_m = std::move(heights_level_m);
+  return scan;
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,114 @@
+// What the stories of the whole autonomy are told with: a simulated vehicle in a room, and hands that may keep sensor
+// events from the autonomy or change them on their way.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "autonomy/autonomy.hpp"
+#include "common/config.hpp"
+#include "tests/simulation/fixtures.hpp"
+
+namespace swiftlet::autonomy {
+
+using common::FlightState;
+using common::MissionState;
+
+class AutonomyStory {
+ public:
+  /// `leaves` are flown one after the other, below AvoidObstacle and Hold.
+  explicit AutonomyStory(const std::string& leaves)
+      : vehicle_(room(), scenario()),
+        autonomy_({}, vehicle_.scenario().vehicle, vehicle_.scenario().laser, mission(leaves),
+                  common::makeLockstepJobs(0)) {}
+
+  /// Sees every sensor event before the autonomy does; false: it gets lost.
+  std::function<bool(common::SensorEvent&)> hand = [](common::SensorEvent&) { return true; };
+
+  [[nodiscard]] bool tick() {
+    sensed_.clear();
+    if (!vehicle_.advanceTo(vehicle_.now() + common::kControlPeriod, sensed_)) return false;
+    for (common::SensorEvent& event : sensed_)
+      if (hand(event)) autonomy_.process(event);
+    vehicle_.apply(autonomy_.tick(vehicle_.now()));
+    for (common::Event& event : autonomy_.takeEvents()) events.push_back(std::move(event));
+    for (common::CommandResult& result : autonomy_.takeResults()) results.push_back(std::move(result));
+    return true;
+  }
+  /// False when it does not come to be in time, or the vehicle crashes.
+  template <typename Condition>
+  [[nodiscard]] bool until(Condition condition, double at_most_s) {
+    const common::Time end = vehicle_.now() + common::Duration::fromSeconds(at_most_s);
+    while (!condition())
+      if (vehicle_.now() >= end || !tick()) return false;
+    return true;
+  }
+  [[nodiscard]] bool fly(double seconds) {
+    (void)until([] { return false; }, seconds);
+    return vehicle_.stopReason().empty();
+  }
+  [[nodiscard]] bool isFlying() {
+    return until([this] { return world().status.flight_state == FlightState::kFlying; }, 15.0);
+  }
+
+  /// The answer, which may come with a later tick.
+  template <typename Kind>
+  common::CommandResult order(Kind kind) {
+    const std::uint64_t id = ++orders_;
+    autonomy_.process(common::OperatorCommand{id, kind}, vehicle_.now());
+    const auto answer = [&] {
+      return std::find_if(results.begin(), results.end(), [&](const auto& result) { return result.id == id; });
+    };
+    EXPECT_TRUE(until([&] { return answer() != results.end(); }, 1.0)) << "no answer";
+    return answer() == results.end() ? common::CommandResult{} : *answer();
+  }
+
+  const common::World& world() const { return *autonomy_.world(); }
+  const Autonomy& autonomy() const { return autonomy_; }
+  common::Time now() const { return vehicle_.now(); }
+  /// Of the first event that begins so; the end of the list when there is none.
+  std::vector<common::Event>::const_iterator event(const std::string& source, const std::string& text) const {
+    return std::find_if(events.begin(), events.end(),
+                        [&](const auto& e) { return e.source == source && e.text.starts_with(text); });
+  }
+
+  std::vector<common::Event> events;
+  std::vector<common::CommandResult> results;
+
+ private:
+  static simulation::WorldModel room() {
+    simulation::WorldModel world = simulation::boxRoom();
+    world.shapes.push_back(simulation::boxShape("cupboard", {2.5, 2.5, 0}, {3.5, 3.3, 2.5}));
+    world.shapes.push_back(simulation::boxShape("shelf", {-4.9, -1.0, 0}, {-4.4, 1.0, 2.5}));
+    return world;
+  }
+  static simulation::Scenario scenario() {
+    using common::config::readFile;
+    simulation::Scenario scenario;
+    scenario.seed = 1;
+    scenario.start.from_world = false;
+    scenario.vehicle = readFile<common::VehicleConfig>(SWIFTLET_SOURCE_DIR "/config/vehicles/cobra.yaml");
+    scenario.laser = readFile<common::LaserConfig>(SWIFTLET_SOURCE_DIR "/config/sensors/utm_30lx.yaml");
+    return scenario;
+  }
+  static behaviors::Mission mission(const std::string& leaves) {
+    return behaviors::Mission::fromText(
+        R"(<root BTCPP_format="4" main_tree_to_execute="Story"><BehaviorTree ID="Story"><Priority>)"
+        "<AvoidObstacle/><Hold/><Sequence>" +
+            leaves + "</Sequence></Priority></BehaviorTree></root>",
+        "story.xml");
+  }
+
+  simulation::SimulatedVehicle vehicle_;
+  Autonomy autonomy_;
+  std::vector<common::SensorEvent> sensed_;
+  std::uint64_t orders_ = 0;
+};
+
+}  // namespace swiftlet::autonomy

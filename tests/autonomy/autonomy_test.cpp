@@ -1,0 +1,144 @@
+// The whole autonomy in a simulated room: from sensor events and commands to setpoints, events and the world.
+#include "autonomy/autonomy.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/autonomy/autonomy_story.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr char kUpAndDown[] = R"(<TakeOff height_m="1.0"/><Land/>)";
+/// Flies across the room until somebody says otherwise.
+constexpr char kAcross[] = R"(<TakeOff height_m="1.0"/><MoveToGoal goal="2.5;-2.0"/><MoveToGoal goal="-2.5;2.0"/>)"
+                           R"(<MoveToGoal goal="2.5;-2.0"/><Land/>)";
+
+bool isScan(const common::SensorEvent& event) {
+  return std::holds_alternative<std::shared_ptr<const common::LaserScan>>(event);
+}
+
+TEST(Autonomy, FliesItsMissionAndTellsItInOrder) {
+  AutonomyStory story(kUpAndDown);
+  EXPECT_NE(story.autonomy().world(), nullptr) << "there is a world before the first event";
+  ASSERT_TRUE(story.until([&] { return story.autonomy().finished(); }, 40.0));
+  EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kDone);
+  EXPECT_FALSE(story.autonomy().landedByOperator());
+
+  const auto initialized = story.event("fusion", "initialized");
+  const auto taking_off = story.event("flight", "taking off");
+  const auto landing = story.event("flight", "landing");
+  ASSERT_NE(initialized, story.events.end());
+  ASSERT_NE(taking_off, story.events.end());
+  ASSERT_NE(landing, story.events.end());
+  EXPECT_LT(initialized, taking_off);
+  EXPECT_LT(taking_off, landing);
+  for (std::size_t i = 1; i < story.events.size(); ++i)
+    EXPECT_LE(story.events[i - 1].stamp, story.events[i].stamp) << story.events[i].text;
+  EXPECT_LT(story.world().state.T_map_body().position_m.head<2>().norm(), 0.2) << "down where it rose";
+}
+
+TEST(Autonomy, ValuesThatAreNoNumbersChangeNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  AutonomyStory story(kUpAndDown);
+  ASSERT_TRUE(story.isFlying());
+  ASSERT_TRUE(story.fly(0.2));
+  const double battery_v = story.world().status.battery_voltage_v;
+  int spoiled = 0, count = 0;
+  story.hand = [&](common::SensorEvent& event) {
+    if (auto* battery = std::get_if<common::BatterySample>(&event)) {
+      battery->voltage_v = battery->remaining = nan;
+      ++spoiled;
+    } else if (auto* imu = std::get_if<common::ImuSample>(&event); imu && ++count % 20 == 0) {
+      imu->specific_force_body_m_s2.x() = nan;
+      ++spoiled;
+    } else if (isScan(event)) {
+      auto scan = *std::get<std::shared_ptr<const common::LaserScan>>(event);
+      for (std::size_t i = 0; i < scan.ranges_m.size(); i += 10) scan.ranges_m[i] = static_cast<float>(nan);
+      event = std::make_shared<const common::LaserScan>(std::move(scan));
+      ++spoiled;
+    }
+    return true;
+  };
+  EXPECT_TRUE(story.fly(2.0));
+  EXPECT_GT(spoiled, 50);
+  EXPECT_TRUE(story.world().state.T_map_body().position_m.allFinite());
+  EXPECT_NEAR(story.world().status.battery_voltage_v, battery_v, 0.5) << "the last good value is kept";
+  EXPECT_TRUE(story.until([&] { return story.autonomy().finished(); }, 40.0));
+  EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kDone);
+}
+
+TEST(Autonomy, TheOperatorHoldsAndResumes) {
+  AutonomyStory story(kAcross);
+  ASSERT_TRUE(story.isFlying());
+  ASSERT_TRUE(story.until([&] { return story.world().state.velocity_odom_m_s.norm() > 0.3; }, 20.0));
+  EXPECT_TRUE(story.order(common::HoldCommand{}).accepted);
+  ASSERT_TRUE(story.fly(3.0));
+  EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kHeld);
+  EXPECT_LT(story.world().state.velocity_odom_m_s.norm(), 0.15);
+  const Eigen::Vector3d held_at = story.world().state.T_map_body().position_m;
+  ASSERT_TRUE(story.fly(2.0));
+  EXPECT_LT((story.world().state.T_map_body().position_m - held_at).norm(), 0.15);
+
+  EXPECT_TRUE(story.order(common::ResumeCommand{}).accepted);
+  EXPECT_TRUE(story.until([&] { return story.world().state.velocity_odom_m_s.norm() > 0.3; }, 10.0));
+  EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kRunning);
+}
+
+TEST(Autonomy, TheOperatorLandsAndAfterTheEndCommandsAreRefused) {
+  AutonomyStory story(kAcross);
+  ASSERT_TRUE(story.isFlying());
+  const common::CommandResult goal = story.order(common::GoalCommand{{1.0, 0.0}});
+  EXPECT_FALSE(goal.accepted) << "the mission has no leaf for it";
+  EXPECT_FALSE(goal.reason.empty());
+
+  EXPECT_TRUE(story.order(common::LandCommand{}).accepted);
+  ASSERT_TRUE(story.until([&] { return story.autonomy().finished(); }, 30.0));
+  EXPECT_TRUE(story.autonomy().landedByOperator());
+  EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kStopped);
+
+  const common::CommandResult late = story.order(common::GoalCommand{{1.0, 0.0}});
+  EXPECT_FALSE(late.accepted);
+  EXPECT_THAT(late.reason, HasSubstr("the mission has ended"));
+  EXPECT_FALSE(story.order(common::HomeCommand{}).accepted);
+}
+
+TEST(Autonomy, ADroppedLaserLeadsToHoldAndThenToLanding) {
+  AutonomyStory story(kAcross);
+  ASSERT_TRUE(story.isFlying());
+  ASSERT_TRUE(story.fly(1.0));
+  const common::Time dropped = story.now();
+  story.hand = [](common::SensorEvent& event) { return !isScan(event); };
+  ASSERT_TRUE(story.until([&] { return story.autonomy().finished(); }, 30.0));
+  const auto hold = story.event("supervisor", "hold"), land = story.event("supervisor", "land");
+  ASSERT_NE(hold, story.events.end());
+  ASSERT_NE(land, story.events.end());
+  const SupervisorConfig config;
+  EXPECT_NEAR((hold->stamp - dropped).seconds(), config.laser_hold_s, 0.1);
+  EXPECT_NEAR((land->stamp - dropped).seconds(), config.laser_land_s, 0.1);
+  EXPECT_THAT(land->reason, HasSubstr("no scan"));
+  EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kFailed);
+  EXPECT_THAT(story.autonomy().missionStatus().reason, HasSubstr("no scan"));
+  EXPECT_FALSE(story.autonomy().landedByOperator());
+}
+
+TEST(Autonomy, ScansThatComeBackEndTheHold) {
+  AutonomyStory story(kAcross);
+  ASSERT_TRUE(story.isFlying());
+  ASSERT_TRUE(story.fly(1.0));
+  story.hand = [](common::SensorEvent& event) { return !isScan(event); };
+  ASSERT_TRUE(story.fly(0.6));
+  story.hand = [](common::SensorEvent&) { return true; };
+  ASSERT_TRUE(story.fly(2.0));
+  EXPECT_NE(story.event("supervisor", "scans are back"), story.events.end());
+  EXPECT_EQ(story.event("supervisor", "land"), story.events.end());
+  EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kRunning);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,106 @@
+// What the laser says of the motion, scan by scan, as values for the filter.
+#include "autonomy/estimation/laser_pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/autonomy/estimator_story.hpp"
+#include "tests/scan_matching/scenes.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::Pose2;
+
+struct LaserStory : testing::Test {
+  OdometryStep see(const test::PlanarWorld& world, const Pose2& truth) {
+    return laser.match(test::scanAt(world, truth, ++frame), filter);
+  }
+
+  LaserPipeline laser{LaserPipelineConfig{}, common::LaserConfig{}};
+  FilterView filter;
+  std::uint64_t frame = 0;
+  const test::PlanarWorld flat = test::flat();
+};
+
+TEST_F(LaserStory, TheFirstScanIsClonedAndMeasuresNothing) {
+  const OdometryStep first = see(flat, {0, 0, 0});
+  EXPECT_TRUE(first.matched);
+  EXPECT_FALSE(first.interrupted);
+  EXPECT_FALSE(first.measurement);
+  ASSERT_TRUE(first.clone_after);
+  EXPECT_EQ(*first.clone_after, laser.clone());
+  EXPECT_TRUE(first.covariance.isZero()) << "nothing has drifted yet";
+}
+
+TEST_F(LaserStory, TheNextScansAreMeasuredFromTheClone) {
+  const common::Time clone = *see(flat, {0, 0, 0}).clone_after;
+  filter.has_clone = true;
+  for (int i = 1; i <= 5; ++i) {
+    const OdometryStep step = see(flat, {0.02 * i, 0.01 * i, 0.002 * i});
+    ASSERT_TRUE(step.matched && step.measurement);
+    EXPECT_FALSE(step.clone_before);
+    EXPECT_EQ(step.measurement->from, clone);
+    EXPECT_NEAR(step.measurement->T_from_to.x_m, 0.02 * i, 0.01);
+    EXPECT_NEAR(step.measurement->T_from_to.y_m, 0.01 * i, 0.01);
+    EXPECT_GE(std::sqrt(step.measurement->covariance(0, 0)), LaserPipelineConfig{}.match_floor_m);
+    EXPECT_TRUE(step.covariance.isZero()) << "within one reference nothing drifts";
+  }
+}
+
+TEST_F(LaserStory, ANewReferenceDriftsAndStaysMeasuredFromTheClone) {
+  const common::Time clone = *see(flat, {0, 0, 0}).clone_after;
+  filter.has_clone = true;
+  bool drifted = false;
+  for (int i = 1; i <= 60 && !drifted; ++i) {
+    const OdometryStep step = see(flat, {0.035 * i, 0, 0});
+    ASSERT_TRUE(step.measurement) << i;
+    EXPECT_EQ(step.measurement->from, clone) << "references are not cloned one after the other";
+    drifted = !step.covariance.isZero();
+    EXPECT_TRUE(!drifted || std::sqrt(step.covariance(0, 0)) >= LaserPipelineConfig{}.drift_floor_m);
+  }
+  EXPECT_TRUE(drifted);
+}
+
+TEST_F(LaserStory, WhereTheFilterDroppedTheCloneItClonesTheReference) {
+  const common::Time reference = *see(flat, {0, 0, 0}).clone_after;
+  filter.has_clone = false;
+  const OdometryStep step = see(flat, {0.02, 0, 0});
+  ASSERT_TRUE(step.clone_before && step.measurement);
+  EXPECT_EQ(*step.clone_before, reference);
+  EXPECT_EQ(step.measurement->from, reference);
+}
+
+TEST_F(LaserStory, AnInterruptionIsAsUncertainAsTheGreatestWindow) {
+  const LaserPipelineConfig config;
+  (void)see(flat, {0, 0, 0});
+  filter.has_clone = true;
+  const test::PlanarWorld elsewhere = den({0.0, 0.0}, 1.2);
+  OdometryStep step;
+  int failures = 0;
+  while (failures < 100 && !(step = see(elsewhere, {0, 0, 0})).matched) {
+    ++failures;
+    EXPECT_TRUE(step.covariance.isZero());
+    EXPECT_FALSE(step.measurement || step.clone_after || step.interrupted);
+  }
+  EXPECT_EQ(failures, config.odometry.max_failures - 1);
+  EXPECT_TRUE(step.interrupted);
+  EXPECT_TRUE(step.clone_after);
+  EXPECT_FALSE(step.measurement) << "how it came here is not known";
+  EXPECT_DOUBLE_EQ(std::sqrt(step.covariance(0, 0)), config.odometry.max_window_m);
+  EXPECT_DOUBLE_EQ(std::sqrt(step.covariance(2, 2)), config.odometry.max_window_deg * common::kRadPerDeg);
+}
+
+/// A tilted scan is placed by an attitude that is not exact.
+TEST_F(LaserStory, TiltWidensTheMatch) {
+  (void)see(flat, {0, 0, 0});
+  filter.has_clone = true;
+  const OdometryStep level = see(flat, {0.01, 0, 0});
+  perception::ProjectedScan scan = test::scanAt(flat, {0.02, 0, 0}, ++frame);
+  scan.T_odom_body.rotation = common::quaternionFrom({0.2, 0.0, 0.0});
+  const OdometryStep tilted = laser.match(scan, filter);
+  ASSERT_TRUE(level.measurement && tilted.measurement);
+  EXPECT_GT(tilted.measurement->covariance(0, 0), level.measurement->covariance(0, 0) + 0.005 * 0.005);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy
