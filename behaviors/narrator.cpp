@@ -9,16 +9,10 @@ using tree::Node;
 using tree::Status;
 using tree::Switch;
 
-/// What a child of a Priority is doing: the name of the behaviour under way in it, or its own.
-const std::string& describe(const Node& node) {
-  for (const auto& child : node.children())
-    if (tree::isActive(child->status())) return describe(*child);
-  return node.name();
-}
-
 }  // namespace
 
 void Narrator::onStatus(const Node& node, Status from, Status to) {
+  if (to == Status::kSuccess) forgiveBelow(node);
   if (!node.children().empty() && to != Status::kFailure) return;
   switch (to) {
     case Status::kRunning:
@@ -42,10 +36,10 @@ void Narrator::onStatus(const Node& node, Status from, Status to) {
 }
 
 void Narrator::onSwitch(const Switch& change) {
-  const std::string& to = describe(*change.to);
+  const std::string& to = change.to_leaf->name();
   switch (change.kind) {
     case Switch::Kind::kLetsGo:
-      say(common::Severity::kInfo, describe(*change.from) + " lets go for " + to, change.reason);
+      say(common::Severity::kInfo, change.from_leaf->name() + " lets go for " + to, change.reason);
       return;
     case Switch::Kind::kKeeps:
       say(common::Severity::kInfo, to + " goes on", change.reason);
@@ -58,13 +52,29 @@ void Narrator::onSwitch(const Switch& change) {
   else if (change.from == nullptr)
     say(common::Severity::kInfo, to + " has the vehicle", change.reason);
   else
-    say(common::Severity::kInfo, to + " takes over from " + describe(*change.from), change.reason);
+    say(common::Severity::kInfo, to + " takes over from " + change.from_leaf->name(), change.reason);
 }
 
 void Narrator::onFailure(const Node& node, std::string_view reason) {
   failed_node_ = node.id();
   failure_reason_ = reason;
-  failure_ = node.name() + ": " + failure_reason_;
+  std::erase_if(failures_, [&](const Failure& failure) { return failure.node == node.id(); });
+  failures_.push_back({node.id(), node.name() + ": " + failure_reason_});
+}
+
+std::string Narrator::failure() const {
+  if (failures_.empty()) return {};
+  const std::string& first = failures_.front().text;
+  return failures_.size() == 1 ? first : first + ", and then " + failures_.back().text;
+}
+
+/// What failed below a node that succeeds in the end is no cause of anything any more.
+void Narrator::forgiveBelow(const Node& node) {
+  const auto isBelow = [&](int id) {
+    while (id > node.id()) id = tree_.nodes()[static_cast<std::size_t>(id)].parent;
+    return id == node.id();
+  };
+  std::erase_if(failures_, [&](const Failure& failure) { return isBelow(failure.node); });
 }
 
 /// A child of a Priority: who has the vehicle is said already.

@@ -65,11 +65,16 @@ void Priority::give(TickContext& context, std::size_t index) {
 
 void Priority::tell(TickContext& context, Switch::Kind kind, std::size_t to, std::string reason) const {
   if (context.observer == nullptr) return;
-  if (reason.empty()) reason = child(to).name() + " has something to do";
+  const Node* from = holder_ == kNobody ? nullptr : &child(holder_);
+  const Node* from_leaf = from != nullptr && isActive(from->status()) ? &from->acting(context) : from;
+  if (reason.empty())
+    reason = from_leaf == nullptr ? "nothing above it asks for the vehicle" : "it stands above " + from_leaf->name();
   context.observer->onSwitch({.kind = kind,
                               .priority = this,
-                              .from = holder_ == kNobody ? nullptr : &child(holder_),
+                              .from = from,
                               .to = &child(to),
+                              .from_leaf = from_leaf,
+                              .to_leaf = &child(to).acting(context),
                               .reason = std::move(reason)});
 }
 
