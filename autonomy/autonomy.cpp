@@ -60,7 +60,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       mission_(std::move(mission)),
       jobs_(std::move(jobs)),
       trail_(std::make_shared<std::vector<Eigen::Vector2d>>()) {
-  context_.hull_radius_m = vehicle.hullRadius_m();
+  context_.goal_limits.greatest_height_m = config.max_height_m;
   mission_status_.accepts_goals = mission_.acceptsGoals();
   takeSnapshot(Time{});
 }
@@ -91,12 +91,6 @@ void Autonomy::process(const common::OperatorCommand& command, Time now) {
   if (missionOver()) {
     results_.push_back({command.id, false, "the mission has ended"});
     return;
-  }
-  if (const auto* goal = std::get_if<common::GoalCommand>(&command.kind); goal && mission_.acceptsGoals()) {
-    if (auto refusal = executor_.refusalOfGoal(goal->goal_map_m)) {
-      results_.push_back({command.id, false, std::move(*refusal)});
-      return;
-    }
   }
   context_.commands.push_back(command);
 }
@@ -164,7 +158,7 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   if (outcome->raw_height) raw_height_ = outcome->raw_height;
 
   const common::VehicleState state = estimator_.state();
-  const auto cost_map = executor_.costMap();
+  const auto cost_map = executor_.desk().costMap();
   const auto& decision = reactive_.update(outcome->scan, outcome->T_map_body, state, executor_.wishedVelocity_map_m_s(),
                                           estimator_.grid(), cost_map.get());
   executor_.react(decision, state);
@@ -189,9 +183,8 @@ void Autonomy::tickBehaviors(Time now) {
   takeSnapshot(now);
   if (prepared_) wish_ = wishOf(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
-  executor_.want(wish_);
-  executor_.tick({now, estimator_.state(), estimator_.grid(), estimator_.levels(), reactive_.discs(now),
-                  reactive_.anybodyWalks(), reactive_.decision()});
+  executor_.tick(wish_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(), reactive_.discs(now),
+                         reactive_.anybodyWalks(), reactive_.decision()});
 }
 
 /// The supervisor's wish before the mission's.
@@ -199,6 +192,7 @@ common::Intent Autonomy::wishOf(Time now) {
   const bool airborne = control::isAirborne(controller_.state());
   const Supervision& supervision = supervisor_.tick(now, airborne, status_);
   context_.world = world_;
+  context_.goal_map = executor_.desk().goalMap();
   context_.status = executor_.status();
   context_.now = now;
   context_.hold = supervision.hold;
@@ -253,11 +247,11 @@ void Autonomy::takeSnapshot(Time now) {
   world->avoidance = reactive_.decision().status;
   world->grid = estimator_.grid();
   world->levels = estimator_.levels();
-  world->frontiers = executor_.frontiers();
+  world->frontiers = executor_.desk().frontiers();
   world->plan_map_m = executor_.remainingPlan_map_m();
   world->trail_map_m = trail_;
   world->goal_map_m = executor_.goal_map_m();
-  world->explored_area_m2 = executor_.exploredArea_m2();
+  world->explored_area_m2 = executor_.desk().exploredArea_m2();
   world->intent = executor_.status();
   world->mission = mission_status_;
   world->mission.tree = mission_.view();
