@@ -68,7 +68,7 @@ TickResult Mission::tick(Context& context) {
 
   FlightTick tick(context, self.last_intent_id, self.pending_command);
   tick.observer = &self.narrator;
-  self.narrator.listen(&context);
+  self.narrator.listen(&tick);
   const Status status = self.tree.tick(tick);
   self.narrator.listen(nullptr);
   if (status != Status::kRunning) context.intent.reset();  // Whoever ended in this tick wishes nothing any more.
@@ -82,7 +82,7 @@ bool Mission::letGo(Context& context) {
   context.intent.reset();
   FlightTick tick(context, self.last_intent_id, self.pending_command);
   tick.observer = &self.narrator;
-  self.narrator.listen(&context);
+  self.narrator.listen(&tick);
   const bool released = self.tree.halt(tick) == tree::Release::kReleased;
   self.narrator.listen(nullptr);
   if (released) {

@@ -9,6 +9,17 @@ using tree::Node;
 using tree::Status;
 using tree::Switch;
 
+/// What acts in a child of a Priority: the leaf under way in it, or the one that a tick now would reach first; the
+/// child itself when it has ended.
+const Node& actingIn(const Node& node, const tree::TickContext& tick) {
+  for (const auto& child : node.children())
+    if (tree::isActive(child->status())) return actingIn(*child, tick);
+  if (node.status() != Status::kSuccess && node.status() != Status::kFailure)
+    for (const auto& child : node.children())
+      if (child->wants(tick)) return actingIn(*child, tick);
+  return node;
+}
+
 }  // namespace
 
 void Narrator::onStatus(const Node& node, Status from, Status to) {
@@ -36,10 +47,11 @@ void Narrator::onStatus(const Node& node, Status from, Status to) {
 }
 
 void Narrator::onSwitch(const Switch& change) {
-  const std::string& to = change.to_leaf->name();
+  if (tick_ == nullptr) return;
+  const std::string& to = actingIn(*change.to, *tick_).name();
   switch (change.kind) {
     case Switch::Kind::kLetsGo:
-      say(common::Severity::kInfo, change.from_leaf->name() + " lets go for " + to, change.reason);
+      say(common::Severity::kInfo, actingIn(*change.from, *tick_).name() + " lets go for " + to, change.reason);
       return;
     case Switch::Kind::kKeeps:
       say(common::Severity::kInfo, to + " goes on", change.reason);
@@ -52,7 +64,7 @@ void Narrator::onSwitch(const Switch& change) {
   else if (change.from == nullptr)
     say(common::Severity::kInfo, to + " has the vehicle", change.reason);
   else
-    say(common::Severity::kInfo, to + " takes over from " + change.from_leaf->name(), change.reason);
+    say(common::Severity::kInfo, to + " takes over from " + actingIn(*change.from, *tick_).name(), change.reason);
 }
 
 void Narrator::onFailure(const Node& node, std::string_view reason) {
@@ -86,8 +98,9 @@ bool Narrator::isToldBySwitches(const Node& node) const {
 }
 
 void Narrator::say(common::Severity severity, std::string text, std::string reason) {
-  if (context_ == nullptr) return;
-  context_->events.push_back({context_->now, severity, "mission", std::move(text), std::move(reason)});
+  if (tick_ == nullptr) return;
+  Context& context = tick_->flight;
+  context.events.push_back({context.now, severity, "mission", std::move(text), std::move(reason)});
 }
 
 }  // namespace swiftlet::behaviors

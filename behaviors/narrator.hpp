@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "behaviors/context.hpp"
+#include "behaviors/flight_tick.hpp"
 #include "behaviors/tree/tree.hpp"
 
 namespace swiftlet::behaviors {
@@ -13,8 +13,8 @@ class Narrator final : public tree::Observer {
  public:
   explicit Narrator(const tree::Tree& tree) : tree_(tree) {}
 
-  /// Where the events of this tick go; null between ticks.
-  void listen(Context* context) { context_ = context; }
+  /// The tick whose events are told, into its flight's; null between ticks.
+  void listen(FlightTick* tick) { tick_ = tick; }
   /// Why the tree fails, the first cause first: "MoveToGoal: no path", or "MoveToGoal: no path, and then GoHome: the
   /// goal is unreachable". Empty when nothing has failed, or what did was made good for by a node above it.
   std::string failure() const;
@@ -36,7 +36,7 @@ class Narrator final : public tree::Observer {
   void say(common::Severity severity, std::string text, std::string reason);
 
   const tree::Tree& tree_;
-  Context* context_ = nullptr;
+  FlightTick* tick_ = nullptr;
   std::vector<Failure> failures_;  ///< In the order they came.
   int failed_node_ = -1;
   std::string failure_reason_;

@@ -16,15 +16,17 @@ constexpr double kFarthest_m = 1e5;
 constexpr double kShareOfTolerance = 0.8;
 constexpr double kReach_m = 3.0;
 
-std::string inWords(const Eigen::Vector2d& place_m) { return fmt::format("({:.2f}, {:.2f})", place_m.x(), place_m.y()); }
+std::string inWords(const Eigen::Vector2d& place_m) {
+  return fmt::format("({:.2f}, {:.2f})", place_m.x(), place_m.y());
+}
 
 GoalRefusal refusal(PlaceState state, const Goal& goal, const std::optional<Eigen::Vector2d>& nearest) {
   const std::string place = "goal " + inWords(goal.place_map_m);
   if (state == PlaceState::kOutsideMap) return {Reason::kOutsideMap, place + " is outside the map", nearest};
-  const auto [reason, why] =
-      state == PlaceState::kObstacle ? std::pair(Reason::kObstacle, "is in an obstacle")
-      : state == PlaceState::kUnseen ? std::pair(Reason::kUnseen, "is in space never seen")
-                                     : std::pair(Reason::kTooClose, "is too close to an obstacle or to unknown space");
+  const auto [reason, why] = state == PlaceState::kObstacle ? std::pair(Reason::kObstacle, "is in an obstacle")
+                             : state == PlaceState::kUnseen
+                                 ? std::pair(Reason::kUnseen, "is in space never seen")
+                                 : std::pair(Reason::kTooClose, "is too close to an obstacle or to unknown space");
   return {reason,
           fmt::format("{} {} at clearance {:.2f} m{}", place, why, goal.clearance_m,
                       nearest ? ", the nearest free place is " + inWords(*nearest) : std::string()),

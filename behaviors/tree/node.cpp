@@ -49,14 +49,6 @@ Status Node::fail(TickContext& context, std::string_view reason) const {
   return Status::kFailure;
 }
 
-const Node& Node::acting(const TickContext& context) const {
-  for (const auto& child : children())
-    if (isActive(child->status())) return child->acting(context);
-  for (const auto& child : children())
-    if (child->wants(context)) return child->acting(context);
-  return *this;
-}
-
 std::string Node::reason(const TickContext&) const { return {}; }
 
 const std::vector<std::unique_ptr<Node>>& Node::children() const {

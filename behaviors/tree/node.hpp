@@ -38,10 +38,8 @@ struct Switch {
   };
   Kind kind = Kind::kTakes;
   const Node* priority = nullptr;
-  const Node* from = nullptr;  ///< The child that had it; null when nobody had.
+  const Node* from = nullptr;  ///< Null when nobody had it.
   const Node* to = nullptr;
-  const Node* from_leaf = nullptr;  ///< The leaf that acts below `from`; `from` itself when that has ended.
-  const Node* to_leaf = nullptr;    ///< The leaf that acts, or is about to, below `to`.
   std::string reason;
 };
 
@@ -86,9 +84,6 @@ class Node {
   bool wants(const TickContext& context) const { return isActive(status_) || onAsked(context); }
   /// Why it wants the vehicle, for people; may be empty.
   virtual std::string reason(const TickContext& context) const;
-
-  /// The leaf below (or this one) that is under way, or that a tick now would reach first.
-  const Node& acting(const TickContext& context) const;
 
   /// Shown as SKIPPED, for a node that was asked and does not want. Only for one that is not under way.
   void markSkipped(TickContext& context) { setStatus(context, Status::kSkipped); }

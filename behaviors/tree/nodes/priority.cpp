@@ -65,16 +65,12 @@ void Priority::give(TickContext& context, std::size_t index) {
 
 void Priority::tell(TickContext& context, Switch::Kind kind, std::size_t to, std::string reason) const {
   if (context.observer == nullptr) return;
-  const Node* from = holder_ == kNobody ? nullptr : &child(holder_);
-  const Node* from_leaf = from != nullptr && isActive(from->status()) ? &from->acting(context) : from;
   if (reason.empty())
-    reason = from_leaf == nullptr ? "nothing above it asks for the vehicle" : "it stands above " + from_leaf->name();
+    reason = holder_ == kNobody ? "nothing above it asks for the vehicle" : "it stands above " + child(holder_).name();
   context.observer->onSwitch({.kind = kind,
                               .priority = this,
-                              .from = from,
+                              .from = holder_ == kNobody ? nullptr : &child(holder_),
                               .to = &child(to),
-                              .from_leaf = from_leaf,
-                              .to_leaf = &child(to).acting(context),
                               .reason = std::move(reason)});
 }
 
