@@ -60,7 +60,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       supervisor_(config.supervisor),
       mission_(std::move(mission)),
       jobs_(std::move(jobs)) {
-  context_.hull_radius_m = vehicle.hullRadius_m();
+  context_.goal_limits.greatest_height_m = config.max_height_m;
   mission_status_.accepts_goals = mission_.acceptsGoals();
   takeSnapshot(Time{});
 }
@@ -99,12 +99,6 @@ void Autonomy::take(const common::OperatorCommand& command, Time now) {
   if (missionOver()) {
     results_.push_back({command.id, false, "the mission has ended"});
     return;
-  }
-  if (const auto* goal = std::get_if<common::GoalCommand>(&command.kind); goal && mission_.acceptsGoals()) {
-    if (auto refusal = executor_.refusalOfGoal(goal->goal_map_m)) {
-      results_.push_back({command.id, false, std::move(*refusal)});
-      return;
-    }
   }
   context_.commands.push_back(command);
 }
@@ -171,7 +165,7 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   if (outcome->raw_height) raw_height_ = outcome->raw_height;
 
   const common::VehicleState state = estimator_.state();
-  const auto cost_map = executor_.costMap();
+  const auto cost_map = executor_.desk().costMap();
   const auto& decision = reactive_.update({outcome->scan, outcome->T_map_body, state, estimator_.people().obstacles(),
                                            executor_.wishedVelocity_map_m_s(), cost_map.get()});
   executor_.react(decision, state);
@@ -195,9 +189,8 @@ void Autonomy::tickBehaviors(Time now) {
   takeSnapshot(now);
   if (prepared_) wish_ = wishOf(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
-  executor_.want(wish_);
-  executor_.tick({now, estimator_.state(), estimator_.grid(), estimator_.levels(), estimator_.people().discs(now),
-                  estimator_.people().anyMoves(), reactive_.decision()});
+  executor_.tick(wish_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(), estimator_.people().discs(now),
+                         estimator_.people().anyMoves(), reactive_.decision()});
 }
 
 /// The supervisor's wish before the mission's.
@@ -205,6 +198,7 @@ common::Intent Autonomy::wishOf(Time now) {
   const bool airborne = control::isAirborne(controller_.state());
   const Supervision& supervision = supervisor_.tick(now, airborne, energy_);
   context_.world = world_;
+  context_.goal_map = executor_.desk().goalMap();
   context_.status = executor_.status();
   context_.now = now;
   context_.hold = supervision.hold;
@@ -248,7 +242,8 @@ void Autonomy::takeSnapshot(Time now) {
   parts.vehicle.laser = laser_points_;
   parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}};
   parts.mission.status.tree = mission_.view();
-  parts.map = {estimator_.grid(), estimator_.levels(), executor_.frontiers(), executor_.exploredArea_m2(),
+  parts.map = {estimator_.grid(), estimator_.levels(), executor_.desk().frontiers(),
+               executor_.desk().exploredArea_m2(),
                estimator_.localization()};
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});

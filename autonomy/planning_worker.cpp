@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planning/search/admission.hpp"
+#include "planning/search/goal_map.hpp"
 #include "planning/search/wavefront.hpp"
 
 namespace swiftlet::autonomy {
@@ -36,29 +38,36 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
     input.bounds = explore_request->bounds;
     answer.exploration = planning::explore(input, exploration_);
   }
+  answer.use = {planner_->name(), paths_};
   return answer;
+}
+
+tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::plan(const Eigen::Vector2d& from_map_m,
+                                                                         const Eigen::Vector2d& to_map_m) {
+  auto path = planner_->plan(map_, from_map_m, to_map_m);
+  if (path) ++paths_;
+  return path;
 }
 
 tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const GoalRequest& goal,
                                                                          const Eigen::Vector2d& position_map_m) {
-  auto path = planner_.plan(map_, position_map_m, goal.goal_map_m);
-  if (path || !path.error().nearest_free_map_m) return path;
-  // Some of the tolerance is left to the controller.
-  constexpr double kShareOfTolerance = 0.8;
-  const Eigen::Vector2d& nearest = *path.error().nearest_free_map_m;
-  if ((nearest - goal.goal_map_m).norm() > kShareOfTolerance * goal.tolerance_m) return path;
-  return planner_.plan(map_, position_map_m, nearest);
+  const planning::CostGoalMap goals(map_);
+  const auto place =
+      common::judgeGoal({goal.goal_map_m, std::nullopt, goal.tolerance_m, map_.footprint().clearance_m}, {}, &goals);
+  if (!place) return tl::make_unexpected(planning::failureOf(place.error()));
+  return plan(position_map_m, *place);
 }
 
-std::optional<Detour> PlanningWorker::detour(const DetourRequest& request, const std::vector<planning::Disc>& people,
-                                             const Eigen::Vector2d& position_map_m) {
+std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request,
+                                                 const std::vector<planning::Disc>& people,
+                                                 const Eigen::Vector2d& position_map_m) {
   constexpr double kWorth_m = 1.5;
   const auto blocked = planning::blockedWay(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
   const bool somebody = blocked && std::any_of(people.begin(), people.end(), [&](const planning::Disc& disc) {
                           const double off_m = (map_.centerOf(blocked->first_lethal) - disc.center_map_m).norm();
                           return off_m <= disc.radius_m + map_.footprint().radius_m() + map_.resolution_m();
                         });
-  Detour result;
+  DetourPlan result;
   std::optional<Eigen::Vector2d> place;
   if (blocked && !somebody) place = map_.centerOf(blocked->last_free);
   if (!place || (*place - position_map_m).norm() < kWorth_m) {
@@ -66,7 +75,7 @@ std::optional<Detour> PlanningWorker::detour(const DetourRequest& request, const
     result.makes_room = true;
   }
   if (!place) return std::nullopt;
-  auto path = planner_.plan(map_, position_map_m, *place);
+  auto path = plan(position_map_m, *place);
   if (!path) return std::nullopt;
   result.path = *std::move(path);
   return result;

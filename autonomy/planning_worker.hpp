@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -13,8 +14,8 @@
 #include "common/occupancy_grid.hpp"
 #include "planning/costs/cost_map.hpp"
 #include "planning/exploration/exploration.hpp"
-#include "planning/search/dstar_lite.hpp"
 #include "planning/search/planner.hpp"
+#include "planning/search/planner_choice.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -27,11 +28,14 @@ struct ExploreRequest {
   std::vector<planning::ExplorationAttempt> attempts;
   std::optional<common::MapBounds> bounds;
 };
-/// Where to go while there is no way to a goal. When somebody stands in it: far along free ground and wide, so that he
+/// Where to go while there is no path to a goal. When somebody stands in it: far along free ground and wide, so that he
 /// can come past. Otherwise as far towards the goal as it is free, to see whether what the map holds is still there.
 struct DetourRequest {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
 };
+
+/// Nothing: only the cost map is wanted.
+using PlanningQuestion = std::variant<std::monostate, GoalRequest, DetourRequest, ExploreRequest>;
 
 struct PlanningRequest {
   std::uint64_t intent_id = 0;
@@ -40,43 +44,52 @@ struct PlanningRequest {
   std::vector<planning::Disc> discs;
   planning::Footprint footprint;
   common::Pose2 T_map_body;
-  /// Nothing: only the cost map is wanted.
-  std::variant<std::monostate, GoalRequest, DetourRequest, ExploreRequest> question;
+  PlanningQuestion question;
 };
 
-struct Detour {
+struct DetourPlan {
   planning::Path path;
   bool makes_room = false;
+};
+
+/// Who found the paths, and how many.
+struct PlannerUse {
+  std::string planner;
+  int paths = 0;
 };
 
 struct PlanningAnswer {
   std::uint64_t intent_id = 0;
   std::shared_ptr<const planning::CostMap> cost_map;
   std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;  ///< For a GoalRequest.
-  std::optional<Detour> detour;                            ///< For a DetourRequest, when there is anywhere to go.
+  std::optional<DetourPlan> detour;                        ///< For a DetourRequest, when there is anywhere to go.
   std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest.
+  PlannerUse use;                                          ///< So far, this answer included.
 };
 
 /// One job at a time; a pure function of the requests so far.
 class PlanningWorker {
  public:
   PlanningWorker(const planning::CostMap::Config& cost_map, const planning::ExplorationConfig& exploration,
-                 double resolution_m)
-      : exploration_(exploration), map_(cost_map, resolution_m) {}
+                 const planning::PlannerConfig& planner, double resolution_m)
+      : exploration_(exploration), map_(cost_map, resolution_m), planner_(planning::makePlanner(planner)) {}
 
   PlanningAnswer answer(const PlanningRequest& request);
 
  private:
+  tl::expected<planning::Path, planning::PlanFailure> plan(const Eigen::Vector2d& from_map_m,
+                                                           const Eigen::Vector2d& to_map_m);
   tl::expected<planning::Path, planning::PlanFailure> goTo(const GoalRequest& goal,
                                                            const Eigen::Vector2d& position_map_m);
-  std::optional<Detour> detour(const DetourRequest& request, const std::vector<planning::Disc>& people,
-                               const Eigen::Vector2d& position_map_m);
+  std::optional<DetourPlan> detour(const DetourRequest& request, const std::vector<planning::Disc>& people,
+                                   const Eigen::Vector2d& position_map_m);
   std::optional<Eigen::Vector2d> roomyPlace(const Eigen::Vector2d& position_map_m) const;
 
   planning::ExplorationConfig exploration_;
   planning::CostMap map_;
   std::vector<Eigen::Vector2d> flown_map_m_;  ///< Where the vehicle was at the requests.
-  planning::DStarLite planner_;
+  std::unique_ptr<planning::Planner> planner_;
+  int paths_ = 0;  ///< Found by the planner.
 };
 
 }  // namespace swiftlet::autonomy

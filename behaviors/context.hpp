@@ -9,6 +9,7 @@
 
 #include "common/command.hpp"
 #include "common/event.hpp"
+#include "common/goal.hpp"
 #include "common/intent.hpp"
 #include "common/time.hpp"
 
@@ -26,7 +27,9 @@ struct Context {
   common::Time now;                            ///< Must not go back.
   bool hold = false;                           ///< The operator holds, or an emergency does.
   std::string hold_reason;                     ///< "the operator holds"; for events.
-  double hull_radius_m = 0.0;                  ///< A goal nearer than this to an obstacle of the map is refused.
+  common::GoalLimits goal_limits;              ///< Of the goals that are accepted.
+  /// What goals of the operator are judged by; null while there is no map yet.
+  std::shared_ptr<const common::GoalMap> goal_map;
   /// Goals and home that arrived since the last tick, in order. The mission empties it and answers each in `results`.
   std::vector<common::OperatorCommand> commands;
 

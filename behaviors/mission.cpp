@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "behaviors/flight_tick.hpp"
-#include "behaviors/goal_check.hpp"
 #include "behaviors/mission_check.hpp"
 #include "behaviors/narrator.hpp"
+#include "behaviors/operator_command.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "common/check.hpp"
@@ -23,6 +23,7 @@ struct Mission::Impl {
 
   void answerCommands(Context& context);
   std::string refusal(const Context& context, const common::OperatorCommand& command) const;
+  std::string refusalOfGoal(const Context& context, const Eigen::Vector2d& goal_map_m) const;
   TickResult resultOf(const Context& context, Status status);
   static bool holds(const Context& context);
 
@@ -30,7 +31,7 @@ struct Mission::Impl {
   Narrator narrator;
   std::uint64_t last_intent_id = 0;
   std::optional<common::OperatorCommand> pending_command;
-  bool accepts_goals = false;
+  std::vector<const OperatorCommand*> takers;  ///< Of goals and home.
   TickResult result;
 };
 
@@ -45,9 +46,8 @@ tree::Tree sound(tree::ParseResult parsed) {
 }  // namespace
 
 Mission::Mission(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {
-  for (const tree::NodeRecord& record : impl_->tree.nodes()) {
-    if (record.manifest != nullptr && record.manifest->id == "OperatorCommand") impl_->accepts_goals = true;
-  }
+  for (const tree::NodeRecord& record : impl_->tree.nodes())
+    if (const auto* taker = dynamic_cast<const OperatorCommand*>(record.node)) impl_->takers.push_back(taker);
 }
 
 Mission::Mission(Mission&&) noexcept = default;
@@ -78,7 +78,7 @@ TickResult Mission::tick(Context& context) {
 
   FlightTick tick(context, self.last_intent_id, self.pending_command);
   tick.observer = &self.narrator;
-  self.narrator.listen(&context);
+  self.narrator.listen(&tick);
   const Status status = self.tree.tick(tick);
   self.narrator.listen(nullptr);
   if (status != Status::kRunning) context.intent.reset();  // Whoever ended in this tick wishes nothing any more.
@@ -92,11 +92,12 @@ bool Mission::letGo(Context& context) {
   context.intent.reset();
   FlightTick tick(context, self.last_intent_id, self.pending_command);
   tick.observer = &self.narrator;
-  self.narrator.listen(&context);
+  self.narrator.listen(&tick);
   const bool released = self.tree.halt(tick) == tree::Release::kReleased;
   self.narrator.listen(nullptr);
   if (released) {
     self.pending_command.reset();
+    self.narrator.forget();
     self.result = {};
   }
   return released;
@@ -109,7 +110,7 @@ common::TreeView Mission::view() const {
   return view;
 }
 
-bool Mission::acceptsGoals() const { return impl_->accepts_goals; }
+bool Mission::acceptsGoals() const { return !impl_->takers.empty(); }
 
 const std::string& Mission::name() const { return impl_->tree.name(); }
 
@@ -126,19 +127,31 @@ std::string Mission::Impl::refusal(const Context& context, const common::Operato
   const auto* goal = std::get_if<common::GoalCommand>(&command.kind);
   if (goal == nullptr && !std::holds_alternative<common::HomeCommand>(command.kind))
     return "not a command for the mission";
-  if (!accepts_goals) return "the mission " + tree.name() + " has no OperatorCommand: it flies its own goals";
+  if (takers.empty()) return "the mission " + tree.name() + " has no OperatorCommand: it flies its own goals";
   if (common::isOver(result.state)) return "the mission has ended";
-  return goal == nullptr ? std::string()
-                         : goalProblem(*context.world->map->grid, goal->goal_map_m, context.hull_radius_m);
+  return goal == nullptr ? std::string() : refusalOfGoal(context, goal->goal_map_m);
+}
+
+/// Empty when one of those that may take the goal would fly to it, by its tolerance and clearance.
+std::string Mission::Impl::refusalOfGoal(const Context& context, const Eigen::Vector2d& goal_map_m) const {
+  std::string first;
+  for (const OperatorCommand* taker : takers) {
+    const auto verdict =
+        common::judgeGoal(common::goalOf(taker->goalTo(goal_map_m)), context.goal_limits, context.goal_map.get());
+    if (verdict) return {};
+    if (first.empty()) first = verdict.error().text;
+  }
+  return first;
 }
 
 TickResult Mission::Impl::resultOf(const Context& context, Status status) {
   switch (status) {
     case Status::kSuccess:
       return {MissionState::kDone, "done", {}};
-    case Status::kFailure:
-      return {MissionState::kFailed, "failed",
-              narrator.failure().empty() ? "the tree answered FAILURE" : narrator.failure()};
+    case Status::kFailure: {
+      std::string cause = narrator.failure();
+      return {MissionState::kFailed, "failed", cause.empty() ? "the tree answered FAILURE" : std::move(cause)};
+    }
     case Status::kRunning:
     case Status::kSkipped:
     case Status::kIdle:

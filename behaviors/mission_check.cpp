@@ -6,6 +6,7 @@
 
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/parser.hpp"
+#include "common/goal.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
@@ -158,16 +159,16 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
           report(*record.node, *record.manifest, "clearance_m",
                  metres(*clearance_m) + " cannot be flown with this system: " + problem,
                  "raise it, or change that distance in the system profile");
-    const auto checkHeight = [&](const char* port, double height_m) {
-      if (height_m > limits.max_height_m)
-        report(*record.node, *record.manifest, port,
-               metres(height_m) + " is above the greatest height, " + metres(limits.max_height_m), "");
+    // Goals, and the place over the floor where it takes off: all that can be judged without a map.
+    const auto checkGoal = [&](const char* port, const common::Goal& goal) {
+      const auto verdict = common::judgeGoal(goal, {.greatest_height_m = limits.max_height_m}, nullptr);
+      if (!verdict) report(*record.node, *record.manifest, port, verdict.error().text, "");
     };
     for (const tree::Value& value : tree.knownValues(id, "height_m"))
-      if (const auto* height_m = std::get_if<double>(&value)) checkHeight("height_m", *height_m);
+      if (const auto* height_m = std::get_if<double>(&value)) checkGoal("height_m", {.height_m = *height_m});
     for (const tree::Value& value : tree.knownValues(id, "goal"))
-      if (const auto* goal = std::get_if<tree::Point>(&value); goal != nullptr && goal->z)
-        checkHeight("goal", *goal->z);
+      if (const auto* goal = std::get_if<tree::Point>(&value))
+        checkGoal("goal", {.place_map_m = {goal->x, goal->y}, .height_m = goal->z});
   }
 }
 

@@ -16,7 +16,7 @@ std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems
 
 /// - Something flies (Explore, Localize, MoveToGoal, GoHome, OperatorCommand) or lands where, by the statuses that
 ///   lead there, the vehicle stands on the floor; or nothing ever takes off.
-/// - A clearance the reactive layer forbids, or a height above what is allowed.
+/// - A clearance the reactive layer forbids, or a goal that no map could make one to fly to (common/goal.hpp).
 /// - A child of a Priority, not the last, that is never SKIPPED: what stands below it could never keep the vehicle.
 std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const MissionLimits& limits);
 

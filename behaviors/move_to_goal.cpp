@@ -19,7 +19,7 @@ tree::NodeManifest MoveToGoal::manifest() {
 MoveToGoal::MoveToGoal(const tree::NodeSetup& setup)
     : IntentLeaf(setup), goal_(setup, "goal"), tolerance_m_(setup, "tolerance_m"), clearance_m_(setup, "clearance_m") {}
 
-IntentLeaf::Wish MoveToGoal::makeWish(const FlightTick&) {
+IntentLeaf::Wish MoveToGoal::makeWish(const FlightTick& tick) {
   const auto goal = goal_.get();
   const auto tolerance_m = tolerance_m_.get();
   const auto clearance_m = clearance_m_.get();
@@ -31,6 +31,9 @@ IntentLeaf::Wish MoveToGoal::makeWish(const FlightTick&) {
   wish.height_m = goal->z;
   wish.tolerance_m = *tolerance_m;
   wish.clearance_m = *clearance_m;
+  // Not by the map, which may be about to grow: that the executor does, and waits.
+  const auto verdict = common::judgeGoal(common::goalOf(wish), tick.flight.goal_limits, nullptr);
+  if (!verdict) return {std::nullopt, verdict.error().text};
   return {wish, {}};
 }
 

@@ -9,16 +9,21 @@ using tree::Node;
 using tree::Status;
 using tree::Switch;
 
-/// What a child of a Priority is doing: the name of the behaviour under way in it, or its own.
-const std::string& describe(const Node& node) {
+/// What acts in a child of a Priority: the leaf under way in it, or the one that a tick now would reach first; the
+/// child itself when it has ended.
+const Node& actingIn(const Node& node, const tree::TickContext& tick) {
   for (const auto& child : node.children())
-    if (tree::isActive(child->status())) return describe(*child);
-  return node.name();
+    if (tree::isActive(child->status())) return actingIn(*child, tick);
+  if (node.status() != Status::kSuccess && node.status() != Status::kFailure)
+    for (const auto& child : node.children())
+      if (child->wants(tick)) return actingIn(*child, tick);
+  return node;
 }
 
 }  // namespace
 
 void Narrator::onStatus(const Node& node, Status from, Status to) {
+  if (to == Status::kSuccess) forgiveBelow(node);
   if (!node.children().empty() && to != Status::kFailure) return;
   switch (to) {
     case Status::kRunning:
@@ -42,10 +47,11 @@ void Narrator::onStatus(const Node& node, Status from, Status to) {
 }
 
 void Narrator::onSwitch(const Switch& change) {
-  const std::string& to = describe(*change.to);
+  if (tick_ == nullptr) return;
+  const std::string& to = actingIn(*change.to, *tick_).name();
   switch (change.kind) {
     case Switch::Kind::kLetsGo:
-      say(common::Severity::kInfo, describe(*change.from) + " lets go for " + to, change.reason);
+      say(common::Severity::kInfo, actingIn(*change.from, *tick_).name() + " lets go for " + to, change.reason);
       return;
     case Switch::Kind::kKeeps:
       say(common::Severity::kInfo, to + " goes on", change.reason);
@@ -58,13 +64,29 @@ void Narrator::onSwitch(const Switch& change) {
   else if (change.from == nullptr)
     say(common::Severity::kInfo, to + " has the vehicle", change.reason);
   else
-    say(common::Severity::kInfo, to + " takes over from " + describe(*change.from), change.reason);
+    say(common::Severity::kInfo, to + " takes over from " + actingIn(*change.from, *tick_).name(), change.reason);
 }
 
 void Narrator::onFailure(const Node& node, std::string_view reason) {
   failed_node_ = node.id();
   failure_reason_ = reason;
-  failure_ = node.name() + ": " + failure_reason_;
+  std::erase_if(failures_, [&](const Failure& failure) { return failure.node == node.id(); });
+  failures_.push_back({node.id(), node.name() + ": " + failure_reason_});
+}
+
+std::string Narrator::failure() const {
+  if (failures_.empty()) return {};
+  const std::string& first = failures_.front().text;
+  return failures_.size() == 1 ? first : first + ", and then " + failures_.back().text;
+}
+
+/// What failed below a node that succeeds in the end is no cause of anything any more.
+void Narrator::forgiveBelow(const Node& node) {
+  const auto isBelow = [&](int id) {
+    while (id > node.id()) id = tree_.nodes()[static_cast<std::size_t>(id)].parent;
+    return id == node.id();
+  };
+  std::erase_if(failures_, [&](const Failure& failure) { return isBelow(failure.node); });
 }
 
 /// A child of a Priority: who has the vehicle is said already.
@@ -76,8 +98,9 @@ bool Narrator::isToldBySwitches(const Node& node) const {
 }
 
 void Narrator::say(common::Severity severity, std::string text, std::string reason) {
-  if (context_ == nullptr) return;
-  context_->events.push_back({context_->now, severity, "mission", std::move(text), std::move(reason)});
+  if (tick_ == nullptr) return;
+  Context& context = tick_->flight;
+  context.events.push_back({context.now, severity, "mission", std::move(text), std::move(reason)});
 }
 
 }  // namespace swiftlet::behaviors

@@ -42,7 +42,8 @@ void OperatorCommand::take(FlightTick& tick) {
   const common::OperatorCommand next = *std::exchange(tick.pending_command, std::nullopt);
   if (command_) say(tick, common::Severity::kInfo, toString(*command_) + " given up", "replaced by " + toString(next));
   command_ = next;
-  goal_ = goalOf(tick, next);
+  const auto* point = std::get_if<common::GoalCommand>(&next.kind);
+  goal_ = goalTo(point != nullptr ? point->goal_map_m : tick.flight.world->home_map.position_m());
   renewWish();
 }
 
@@ -63,13 +64,11 @@ void OperatorCommand::finish(FlightTick& tick) {
   goal_.reset();
 }
 
-std::optional<common::GoToIntent> OperatorCommand::goalOf(const FlightTick& tick,
-                                                          const common::OperatorCommand& command) const {
+common::GoToIntent OperatorCommand::goalTo(const Eigen::Vector2d& place_map_m) const {
   common::GoToIntent goal;
-  goal.tolerance_m = *tolerance_m_.get();
-  goal.clearance_m = *clearance_m_.get();
-  const auto* point = std::get_if<common::GoalCommand>(&command.kind);
-  goal.goal_map_m = point != nullptr ? point->goal_map_m : tick.flight.world->vehicle->home_map.position_m();
+  goal.goal_map_m = place_map_m;
+  goal.tolerance_m = tolerance_m_.get().value_or(goal.tolerance_m);
+  goal.clearance_m = clearance_m_.get().value_or(goal.clearance_m);
   return goal;
 }
 

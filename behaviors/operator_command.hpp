@@ -19,13 +19,15 @@ class OperatorCommand final : public FlightLeaf {
   explicit OperatorCommand(const tree::NodeSetup& setup);
   static tree::NodeManifest manifest();
 
+  /// How it would fly to that place: with its tolerance and clearance.
+  common::GoToIntent goalTo(const Eigen::Vector2d& place_map_m) const;
+
  private:
   tree::Status act(tree::TickContext& context) override;
   void onStart(tree::TickContext& context) override;
   void take(FlightTick& tick);
   void finish(FlightTick& tick);
   void say(FlightTick& tick, common::Severity severity, std::string text, std::string reason) const;
-  std::optional<common::GoToIntent> goalOf(const FlightTick& tick, const common::OperatorCommand& command) const;
 
   tree::Input<double> tolerance_m_;
   tree::Input<double> clearance_m_;

@@ -1,5 +1,7 @@
 #include "behaviors/take_off.hpp"
 
+#include "common/goal.hpp"
+
 namespace swiftlet::behaviors {
 
 tree::NodeManifest TakeOff::manifest() {
@@ -8,7 +10,7 @@ tree::NodeManifest TakeOff::manifest() {
           .ports = {{.name = "height_m",
                      .type = tree::PortType::kDouble,
                      .default_value = "1.0",
-                     .minimum = 0.3,
+                     .minimum = common::kLeastFlightHeight_m,
                      .maximum = 100.0,
                      .description = "Above the take-off floor."}},
           .description = "Climbs from the floor to a height and hovers."};

@@ -51,13 +51,15 @@ tl::expected<void, std::string> FlightController::command(const FlightCommand& c
     const auto result = machine_.apply(input);
     if (!result) return tl::unexpected(result.error());
     enter(from, *result);
-    say(Severity::kInfo, common::toString(*result), reason);
+    say(Severity::kInfo, input == FlightInput::kEngageMotors ? "motors on" : common::toString(*result), reason);
     return {};
   };
   if (std::holds_alternative<Prepared>(command)) return apply(FlightInput::kPrepared, "the estimate has started");
   if (std::holds_alternative<Land>(command)) {
     if (state() == FlightState::kLanding) return {};
-    return apply(FlightInput::kLand, "commanded");
+    auto landing = apply(FlightInput::kLand, "commanded");
+    if (landing) grounded_reason_ = "a landing was commanded";
+    return landing;
   }
   if (std::holds_alternative<DisengageMotors>(command)) return apply(FlightInput::kDisengageMotors, "commanded");
   const double height_m = std::get<TakeOff>(command).height_m;
@@ -298,6 +300,7 @@ void FlightController::transition(FlightInput input, const std::string& reason) 
   if (!result) return;
   enter(from, *result);
   const bool bad = input == FlightInput::kEmergency || input == FlightInput::kLand;
+  if (bad) grounded_reason_ = reason;
   say(bad ? Severity::kWarning : Severity::kInfo, common::toString(*result), reason);
 }
 
@@ -308,6 +311,7 @@ void FlightController::enter(FlightState from, FlightState entered) {
   const double yaw_rad = common::yawOf(last_state_.T_odom_body.rotation);
   switch (entered) {
     case FlightState::kTakingOff:
+      grounded_reason_.clear();
       standing_height_m_ = position_m.z();
       standing_raw_m_ = emergency_.filter().ready() ? emergency_.filter().height_m() : position_m.z();
       follower_.reset(position_m, yaw_rad);

@@ -36,7 +36,7 @@ using FlightCommand = std::variant<Prepared, TakeOff, Land, DisengageMotors>;
 /// A path in `map`; it follows the map when SLAM corrects T_map_odom.
 struct FlightPath {
   std::vector<Eigen::Vector3d> points_map_m;  ///< z over the take-off floor. The last one is the goal.
-  FlightMode mode = FlightMode::kCareful;
+  common::FlightMode mode = common::FlightMode::kCareful;
   std::optional<double> goal_yaw_map_rad;
 };
 
@@ -92,11 +92,13 @@ class FlightController {
   common::Setpoint tick(const FlightTick& tick);
 
   common::FlightState state() const { return machine_.state(); }
+  /// Why it does not fly any more: "no valid height for 0.3 s". Empty from the take-off until it comes down.
+  const std::string& groundedReason() const { return grounded_reason_; }
   /// On the ground, or flying with the reference at rest and the vehicle slow.
   bool stopped() const;
   /// The last path is still what is flown: no hold, no lost estimate and no pilot has come in between.
   bool followsPath() const { return follower_.followsPath(); }
-  double speed_m_s(FlightMode mode) const { return config_.path.limits(mode).speed_m_s; }
+  double speed_m_s(common::FlightMode mode) const { return config_.path.limits(mode).speed_m_s; }
   /// The goal of the last path is reached by the reference.
   bool pathFinished() const;
   const Reference& reference() const { return follower_.reference(); }
@@ -126,6 +128,7 @@ class FlightController {
   PositionController position_;
   EmergencyDescent emergency_;
   std::vector<common::Event> events_;
+  std::string grounded_reason_;
 
   common::Time now_;
   bool ticked_ = false;

@@ -10,6 +10,9 @@
 #include "control/path_shape.hpp"
 
 namespace swiftlet::control {
+
+using common::FlightMode;
+
 namespace {
 
 /// Sudden change of the velocity vector that the reference filter may be asked to smooth.
@@ -25,18 +28,6 @@ constexpr double kYawReached_rad = 0.01;
 constexpr double kLeastLook_m = 0.05;
 
 }  // namespace
-
-const char* toString(FlightMode mode) {
-  switch (mode) {
-    case FlightMode::kFast:
-      return "fast";
-    case FlightMode::kCareful:
-      return "careful";
-    case FlightMode::kAccurate:
-      return "accurate";
-  }
-  return "";
-}
 
 PathFollower::PathFollower(const Config& config)
     : config_(config), limits_(config.careful), speed_limit_m_s_(std::numeric_limits<double>::infinity()) {

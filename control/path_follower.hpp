@@ -12,13 +12,11 @@
 #include <Eigen/Core>
 
 #include "common/config_fwd.hpp"
+#include "common/flight_mode.hpp"
 #include "common/geometry.hpp"
 #include "control/reference.hpp"
 
 namespace swiftlet::control {
-
-enum class FlightMode { kFast, kCareful, kAccurate };
-const char* toString(FlightMode mode);
 
 /// One thread.
 class PathFollower {
@@ -46,7 +44,7 @@ class PathFollower {
     double turn_first_speed_m_s = 0.15;
 
     void describe(common::config::Fields& fields);
-    const Limits& limits(FlightMode mode) const;
+    const Limits& limits(common::FlightMode mode) const;
   };
 
   explicit PathFollower(const Config& config);
@@ -56,7 +54,7 @@ class PathFollower {
 
   /// Replaces the path. The points are in odom, the goal is the last one; an empty path stops. Where the reference is
   /// off the first line it joins the nearest point of the first lines. `goal_yaw_odom_rad` is turned to near the goal.
-  void setPath(std::vector<Eigen::Vector3d> points_odom_m, FlightMode mode,
+  void setPath(std::vector<Eigen::Vector3d> points_odom_m, common::FlightMode mode,
                std::optional<double> goal_yaw_odom_rad = std::nullopt);
   /// Leaves the path and flies at that velocity until told otherwise, turned to that yaw. From now to then the velocity
   /// changes along a straight line by `acceleration_m_s2`: it may turn back at once.

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "common/check.hpp"
+#include "planning/search/admission.hpp"
 
 namespace swiftlet::planning {
 

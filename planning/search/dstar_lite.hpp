@@ -17,6 +17,8 @@ class DStarLite final : public Planner {
   [[nodiscard]] tl::expected<Path, PlanFailure> plan(const CostMap& map, const Eigen::Vector2d& start_map_m,
                                                      const Eigen::Vector2d& goal_map_m) override;
 
+  const char* name() const override { return "D* Lite"; }
+
   /// The cost of the cell path of the last successful plan, from where the search started to the goal; for tests.
   std::int32_t searchCost() const { return search_cost_; }
   /// Vertices taken from the queue by the last plan.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "common/check.hpp"
 
 namespace swiftlet::planning {
@@ -12,8 +10,6 @@ namespace {
 
 using common::CellIndex;
 using Point = Eigen::Vector2d;
-
-std::string inWords(const Point& point_m) { return fmt::format("({:.2f}, {:.2f})", point_m.x(), point_m.y()); }
 
 }  // namespace
 
@@ -33,7 +29,8 @@ const char* toString(PlanFailure::Reason reason) {
   SWIFTLET_CHECK(false, static_cast<int>(reason));
 }
 
-std::optional<Point> nearestFree(const CostMap& map, const Point& point_map_m, double reach_m) {
+std::optional<Point> nearestPlace(const CostMap& map, const Point& point_map_m, double reach_m,
+                                  const std::function<bool(CellIndex)>& isSuch) {
   constexpr double kWithinCell = 0.4;  // From its centre, on either side.
   const CellIndex center = map.cellAt(point_map_m);
   const int reach = static_cast<int>(std::ceil(reach_m / map.resolution_m()));
@@ -45,7 +42,7 @@ std::optional<Point> nearestFree(const CostMap& map, const Point& point_map_m, d
       const int step = std::abs(dy) == ring || ring == 0 ? 1 : 2 * ring;
       for (int dx = -ring; dx <= ring; dx += step) {
         const CellIndex cell{center.x + dx, center.y + dy};
-        if (map.costAt(cell) == CostMap::kLethal) continue;
+        if (!isSuch(cell)) continue;
         const Point center_m = map.centerOf(cell), within = Point::Constant(kWithinCell * map.resolution_m());
         const Point place_m = point_map_m.cwiseMax(center_m - within).cwiseMin(center_m + within);
         const double distance_m = (place_m - point_map_m).norm();
@@ -58,41 +55,8 @@ std::optional<Point> nearestFree(const CostMap& map, const Point& point_map_m, d
   return best;
 }
 
-tl::expected<CellPath, PlanFailure> admit(const CostMap& map, const Point& start_map_m, const Point& goal_map_m) {
-  using Reason = PlanFailure::Reason;
-  const auto refuse = [](Reason reason, std::string text, const std::optional<Point>& nearest = std::nullopt) {
-    return tl::make_unexpected(PlanFailure{reason, std::move(text), nearest});
-  };
-  if (!start_map_m.allFinite() || !goal_map_m.allFinite())
-    return refuse(Reason::kOutsideMap, "start or goal is not a number");
-  const CellIndex start = map.cellAt(start_map_m), goal = map.cellAt(goal_map_m);
-  if (!map.contains(goal))
-    return refuse(Reason::kOutsideMap, fmt::format("goal {} is outside the map", inWords(goal_map_m)),
-                  nearestFree(map, goal_map_m));
-  if (!map.contains(start))
-    return refuse(Reason::kOutsideMap, fmt::format("start {} is outside the map", inWords(start_map_m)));
-  if (map.costAt(goal) == CostMap::kLethal) {
-    const char* why = map.stateAt(goal) == CellState::kOccupied  ? "is in an obstacle"
-                      : map.stateAt(goal) == CellState::kUnknown ? "is in space never seen"
-                                                                 : "is too close to an obstacle or to unknown space";
-    const std::optional<Point> nearest = nearestFree(map, goal_map_m);
-    return refuse(
-        map.stateAt(goal) == CellState::kUnknown ? Reason::kGoalUnseen : Reason::kGoalBlocked,
-        fmt::format("goal {} {} at clearance {:.2f} m{}", inWords(goal_map_m), why, map.footprint().clearance_m,
-                    nearest ? ", the nearest free place is " + inWords(*nearest) : std::string()),
-        nearest);
-  }
-  std::optional<CellPath> escape = escapeFrom(map, start);
-  if (!escape)
-    return refuse(Reason::kStartBlocked, fmt::format("start {} is shut in at clearance {:.2f} m", inWords(start_map_m),
-                                                     map.footprint().clearance_m));
-  return *std::move(escape);
-}
-
-PlanFailure unreachable(const CostMap& map, const Point& goal_map_m) {
-  return {PlanFailure::Reason::kUnreachable,
-          fmt::format("goal {} is unreachable at clearance {:.2f} m", inWords(goal_map_m), map.footprint().clearance_m),
-          std::nullopt};
+std::optional<Point> nearestFree(const CostMap& map, const Point& point_map_m, double reach_m) {
+  return nearestPlace(map, point_map_m, reach_m, [&](CellIndex cell) { return map.costAt(cell) != CostMap::kLethal; });
 }
 
 }  // namespace swiftlet::planning

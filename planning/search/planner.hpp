@@ -2,6 +2,7 @@
 // inflated zone, refusing with a reason, and turning a chain of cells into a path that a quadrotor flies well.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,8 @@ class Planner {
   virtual ~Planner() = default;
   [[nodiscard]] virtual tl::expected<Path, PlanFailure> plan(const CostMap& map, const Eigen::Vector2d& start_map_m,
                                                              const Eigen::Vector2d& goal_map_m) = 0;
+  /// "D* Lite".
+  virtual const char* name() const = 0;
 };
 
 /// A chain of cells, each an 8-neighbour of the one before it.
@@ -52,15 +55,12 @@ struct BlockedWay {
 };
 std::optional<BlockedWay> blockedWay(const CostMap& map, common::CellIndex start, common::CellIndex goal);
 
+/// The place nearest to a point that lies in such a cell, within `reach_m`.
+std::optional<Eigen::Vector2d> nearestPlace(const CostMap& map, const Eigen::Vector2d& point_map_m, double reach_m,
+                                            const std::function<bool(common::CellIndex)>& isSuch);
 /// The place nearest to a point where the centre may be, within `reach_m`.
 std::optional<Eigen::Vector2d> nearestFree(const CostMap& map, const Eigen::Vector2d& point_map_m,
                                            double reach_m = 3.0);
-
-/// What both planners ask first: the ends in the map, the goal free, the start free or able to escape.
-/// The chain returned ends at the cell where the search starts.
-tl::expected<CellPath, PlanFailure> admit(const CostMap& map, const Eigen::Vector2d& start_map_m,
-                                          const Eigen::Vector2d& goal_map_m);
-PlanFailure unreachable(const CostMap& map, const Eigen::Vector2d& goal_map_m);
 
 /// Integral of the cost over a segment in metres of open space, steps of the surface included, and the greatest cell
 /// cost met. `lethal` when it touches a lethal cell.

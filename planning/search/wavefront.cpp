@@ -4,6 +4,7 @@
 #include <array>
 
 #include "common/check.hpp"
+#include "planning/search/admission.hpp"
 
 namespace swiftlet::planning {
 namespace {

@@ -35,6 +35,7 @@ class Wavefront final : public Planner {
  public:
   [[nodiscard]] tl::expected<Path, PlanFailure> plan(const CostMap& map, const Eigen::Vector2d& start_map_m,
                                                      const Eigen::Vector2d& goal_map_m) override;
+  const char* name() const override { return "wavefront"; }
   std::int32_t searchCost() const { return search_cost_; }
 
  private:

@@ -1,4 +1,4 @@
-// What the planning job answers: ways to goals, to nearly free goals, and to where others can come past.
+// What the planning job answers: paths to goals, to nearly free goals, and to where others can come past.
 #include <gtest/gtest.h>
 
 #include "autonomy/planning_worker.hpp"
@@ -35,13 +35,28 @@ struct Worker : testing::Test {
   }
   common::Pose2 pose{2.0, 2.0, 0.0};
   std::shared_ptr<common::OccupancyGrid> grid = room();
-  PlanningWorker worker{planning::CostMap::Config{}, planning::ExplorationConfig{}, 0.05};
+  PlanningWorker worker{planning::CostMap::Config{}, planning::ExplorationConfig{}, {}, 0.05};
 };
 
-TEST_F(Worker, FindsTheWayToAGoal) {
+TEST_F(Worker, FindsThePathToAGoal) {
   const auto answer = ask(GoalRequest{{6.0, 2.0}, 0.05});
   ASSERT_TRUE(answer.path && *answer.path);
   EXPECT_EQ((*answer.path)->points_map_m.back(), Eigen::Vector2d(6.0, 2.0));
+}
+
+TEST_F(Worker, TheChosenPlannerFindsThePathAndIsCounted) {
+  build(24);
+  EXPECT_EQ(ask({}).use.paths, 0);
+  const auto first = ask(GoalRequest{{6.0, 3.0}, 0.05});
+  EXPECT_EQ(first.use.planner, "D* Lite");
+  EXPECT_EQ(first.use.paths, 1);
+  worker = PlanningWorker{{}, {}, {planning::PlannerKind::kWavefront}, 0.05};
+  const auto second = ask(GoalRequest{{6.0, 3.0}, 0.05});
+  EXPECT_EQ(second.use.planner, "wavefront");
+  EXPECT_EQ(second.use.paths, 1);
+  ASSERT_TRUE(*first.path && *second.path);
+  EXPECT_NEAR((*first.path)->cost_m, (*second.path)->cost_m, 0.05) << "both are optimal on the cells";
+  EXPECT_EQ(ask(GoalRequest{{90.0, 3.0}, 0.05}).use.paths, 1) << "a path that was not found is none";
 }
 
 TEST_F(Worker, AGoalJustTooCloseToTheWallIsReachedWithinItsTolerance) {
@@ -64,7 +79,7 @@ TEST_F(Worker, ADoorThatWasFlownThroughDoesNotCloseBehindTheVehicle) {
   build(14);  // Its frame has grown by a cell on each side.
   const auto back = ask(GoalRequest{{2.0, 2.0}, 0.05});
   ASSERT_TRUE(back.path && *back.path);
-  worker = PlanningWorker{planning::CostMap::Config{}, planning::ExplorationConfig{}, 0.05};
+  worker = PlanningWorker{planning::CostMap::Config{}, planning::ExplorationConfig{}, {}, 0.05};
   EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value()) << "who has not flown there knows no better";
 }
 

@@ -1,5 +1,7 @@
 #include "tests/behaviors/flight.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace swiftlet::behaviors::testing {
@@ -12,6 +14,25 @@ std::shared_ptr<const common::OccupancyGrid> someGrid() {
     for (int x = -50; x < 50; ++x) grid->set({x, y}, x == 40 ? 50 : -50);
   return grid;
 }
+
+/// The same floor, as goals are judged by it.
+class SomeGoalMap final : public common::GoalMap {
+ public:
+  common::PlaceState stateAt(const Eigen::Vector2d& place_map_m, double clearance_m) const override {
+    if (place_map_m.cwiseAbs().maxCoeff() >= 5.0) return common::PlaceState::kOutsideMap;
+    const double from_wall_m = std::abs(place_map_m.x() - 4.05) - 0.05;
+    if (from_wall_m <= 0.0) return common::PlaceState::kObstacle;
+    return from_wall_m < kHullRadius_m + clearance_m ? common::PlaceState::kTooClose : common::PlaceState::kFree;
+  }
+  std::optional<Eigen::Vector2d> nearestFree(const Eigen::Vector2d& place_map_m, double reach_m,
+                                             double clearance_m) const override {
+    const Eigen::Vector2d free_m(std::min(place_map_m.x(), 4.0 - kHullRadius_m - clearance_m), place_map_m.y());
+    return (free_m - place_map_m).norm() <= reach_m ? std::optional(free_m) : std::nullopt;
+  }
+
+ private:
+  static constexpr double kHullRadius_m = 0.275;
+};
 
 test::Layers someLayers() {
   test::Layers layers;
@@ -34,7 +55,7 @@ Flight::Flight(const std::string& inside, const std::string& more)
 
 Flight::Flight(Mission flown) : mission(std::move(flown)) {
   context.world = std::make_shared<const common::World>(someLayers().world());
-  context.hull_radius_m = 0.275;
+  context.goal_map = std::make_shared<SomeGoalMap>();
 }
 
 std::string Flight::tick() {

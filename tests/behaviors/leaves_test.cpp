@@ -90,6 +90,22 @@ TEST(MoveToGoal, StaysAtItsHeightWithoutZ) {
   EXPECT_FALSE(std::get<common::GoToIntent>(flight.context.intent->kind).height_m);
 }
 
+TEST(MoveToGoal, FailsForAHeightThatIsNotFlown) {
+  for (const auto& [goal, reason] : {std::pair("1;2;9", "MoveToGoal: 9 m is above the greatest height, 3 m"),
+                                     std::pair("1;2;0.1", "MoveToGoal: 0.1 m is below the least height, 0.3 m")}) {
+    Flight flight(std::string(R"(<Sequence><SetBlackboard value=")") + goal +
+                  R"(" output_key="target"/><MoveToGoal goal="{target}"/></Sequence>)");
+    flight.context.goal_limits.greatest_height_m = 3.0;
+    EXPECT_EQ(flight.tick(), "FAILED");
+    EXPECT_EQ(flight.last.reason, reason);
+  }
+}
+
+TEST(MoveToGoal, WaitsForTheMapToSayWhetherItsGoalIsFree) {
+  Flight flight(R"(<MoveToGoal goal="4.05;0"/>)");
+  EXPECT_EQ(flight.tick(), "RUNNING 1 go to (4.05, 0.00)");
+}
+
 TEST(MoveToGoal, ReadsItsGoalFromAnEntry) {
   Flight flight(
       R"(<Sequence><SetBlackboard value="1;2" output_key="target"/><MoveToGoal goal="{target}"/></Sequence>)");
@@ -258,11 +274,36 @@ TEST(OperatorCommand, RefusesWhatCannotBeAGoal) {
       .goal(1e300, 0.0)
       .command({0, common::LandCommand{}});
   EXPECT_EQ(flight.tick(), "RUNNING 2 hold");
+  EXPECT_THAT(
+      flight.results(),
+      ElementsAre("1 refused: goal (4.05, 0.00) is in an obstacle at clearance 0.10 m, the nearest free place is "
+                  "(3.62, 0.00)",
+                  "2 refused: goal (20.00, 0.00) is outside the map",
+                  "3 refused: goal (3.90, 0.00) is too close to an obstacle or to unknown space at clearance "
+                  "0.10 m, the nearest free place is (3.62, 0.00)",
+                  "4 refused: the goal is not a point of the map", "5 refused: the goal is not a point of the map",
+                  "6 refused: not a command for the mission"));
+}
+
+TEST(OperatorCommand, AcceptsAGoalWithAFreePlaceWithinItsTolerance) {
+  Flight flight = waiting();
+  flight.goal(3.70, 0.0).tick();
+  EXPECT_THAT(flight.results(), ElementsAre("1 accepted")) << "0.075 m beside, of a tolerance of 0.1 m";
+}
+
+TEST(OperatorCommand, ItsOwnClearanceJudges) {
+  Flight flight(R"(<Sequence><TakeOff/><OperatorCommand clearance_m="0.5"/></Sequence>)");
+  flight.goal(3.4, 0.0).tick();
   EXPECT_THAT(flight.results(),
-              ElementsAre("1 refused: (4.05, 0.00) is in an obstacle", "2 refused: (20.00, 0.00) is outside the map",
-                          "3 refused: (3.90, 0.00) is 0.16 m from an obstacle, the hull needs 0.28 m",
-                          "4 refused: the goal is not a point of the map",
-                          "5 refused: the goal is not a point of the map", "6 refused: not a command for the mission"));
+              ElementsAre("1 refused: goal (3.40, 0.00) is too close to an obstacle or to unknown space at clearance "
+                          "0.50 m, the nearest free place is (3.22, 0.00)"));
+}
+
+TEST(OperatorCommand, WithoutAMapAGoalIsAcceptedForWhoFliesToIt) {
+  Flight flight = waiting();
+  flight.context.goal_map.reset();
+  flight.goal(4.05, 0.0).goal(std::nan(""), 0.0).tick();
+  EXPECT_THAT(flight.results(), ElementsAre("1 accepted", "2 refused: the goal is not a point of the map"));
 }
 
 TEST(OperatorCommand, AGoalGivenWhileHeldIsFlownAfterwards) {
@@ -320,6 +361,45 @@ TEST(Mission, LetsGoForWhoeverStandsAboveIt) {
   EXPECT_EQ(flight.view(),
             "Priority IDLE, AvoidObstacle IDLE, Hold IDLE, Sequence IDLE, TakeOff IDLE, Explore IDLE, Land IDLE");
   EXPECT_EQ(flight.tick().substr(10), "take off to 1.00 m") << "it stands at its beginning";
+}
+
+TEST(Mission, TellsWhichBehaviourHasTheVehicleAndWhy) {
+  Flight flight(kMission);
+  flight.tick();
+  EXPECT_THAT(flight.events(),
+              ElementsAre("TakeOff has the vehicle (nothing above it asks for the vehicle)", "TakeOff starts"));
+  flight.succeeds().tick();
+  flight.events();
+  flight.retreats(true, "a person 0.6 m ahead closing").runs().tick();
+  EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for AvoidObstacle (a person 0.6 m ahead closing)",
+                                           "AvoidObstacle takes over from Explore (a person 0.6 m ahead closing)"));
+}
+
+TEST(Mission, TheBehaviourBelowANodeIsNamed) {
+  Flight flight("<Priority><Fallback><Hold/></Fallback><Sequence><TakeOff/><Explore/></Sequence></Priority>");
+  flight.tick();
+  flight.succeeds().tick();
+  flight.events();
+  flight.runs().holds(true, "the operator holds").tick();
+  EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for Hold (the operator holds)"));
+}
+
+TEST(Mission, ItsEndNamesTheFirstCause) {
+  Flight flight("<Fallback><Sequence><TakeOff/><Explore/></Sequence><Sequence><GoHome/><Land/></Sequence></Fallback>");
+  flight.tick();
+  flight.succeeds().tick();
+  flight.fails("the vehicle is shut in").tick();
+  EXPECT_EQ(flight.fails("goal (0.00, 0.00) is unreachable").tick(), "FAILED");
+  EXPECT_EQ(flight.last.reason, "Explore: the vehicle is shut in, and then GoHome: goal (0.00, 0.00) is unreachable");
+}
+
+TEST(Mission, WhatWasMadeGoodForIsNoCause) {
+  Flight flight("<Sequence><Fallback><Explore/><TakeOff/></Fallback><Land/></Sequence>");
+  flight.tick();
+  flight.fails("cannot explore while powered off").tick();
+  flight.succeeds().tick();
+  EXPECT_EQ(flight.fails("the motors are off").tick(), "FAILED");
+  EXPECT_EQ(flight.last.reason, "Land: the motors are off");
 }
 
 TEST(Mission, NothingToDoIsNoIntent) {

@@ -139,6 +139,16 @@ TEST(Check, TooHigh) {
                   HasSubstr("MoveToGoal.goal: 9 m is above the greatest height, 3 m")));
 }
 
+TEST(Check, TooLow) {
+  EXPECT_THAT(problemsOf("<Sequence><TakeOff/><MoveToGoal goal=\"1;2;0.1\"/></Sequence>"),
+              ElementsAre(HasSubstr("MoveToGoal.goal: 0.1 m is below the least height, 0.3 m")));
+}
+
+TEST(Check, AGoalThatNoMapReaches) {
+  EXPECT_THAT(problemsOf("<Sequence><TakeOff/><MoveToGoal goal=\"1e9;2\"/></Sequence>"),
+              ElementsAre(HasSubstr("MoveToGoal.goal: the goal is not a point of the map")));
+}
+
 TEST(Check, WhatNeverStepsBackStarvesWhatIsBelow) {
   EXPECT_THAT(
       problemsOf(

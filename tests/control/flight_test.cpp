@@ -10,6 +10,7 @@
 namespace swiftlet::control {
 namespace {
 
+using common::FlightMode;
 using common::FlightState;
 
 struct Flight {

@@ -12,6 +12,8 @@
 namespace swiftlet::control {
 namespace {
 
+using common::FlightMode;
+
 constexpr double kDt_s = 0.01;
 
 double distanceToPath(const Points& points, const Eigen::Vector3d& point) {

@@ -65,7 +65,8 @@ void Priority::give(TickContext& context, std::size_t index) {
 
 void Priority::tell(TickContext& context, Switch::Kind kind, std::size_t to, std::string reason) const {
   if (context.observer == nullptr) return;
-  if (reason.empty()) reason = child(to).name() + " has something to do";
+  if (reason.empty())
+    reason = holder_ == kNobody ? "nothing above it asks for the vehicle" : "it stands above " + child(holder_).name();
   context.observer->onSwitch({.kind = kind,
                               .priority = this,
                               .from = holder_ == kNobody ? nullptr : &child(holder_),

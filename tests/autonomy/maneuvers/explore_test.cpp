@@ -1,10 +1,10 @@
-// The executor's stories of exploration: viewpoints, looks, what is left, and who stands in the way.
+// Explore: viewpoints, looks, what is left, and who stands in the way.
 #include <algorithm>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "tests/autonomy/executor_story.hpp"
+#include "tests/autonomy/maneuver_story.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -13,12 +13,18 @@ using planning::test::fill;
 using planning::test::kFreeCell;
 using planning::test::kWallCell;
 
-class ExecutorExploring : public ExecutorInFlight {
+TEST_F(ManeuverStory, OnTheGroundNothingIsExplored) {
+  want(common::ExploreIntent{});
+  EXPECT_EQ(runToTheEnd(0.1), IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason, "cannot explore while powered off");
+}
+
+class ExploreManeuver : public ManeuverInFlight {
  protected:
   /// It takes off with its back to what there is to see.
   void SetUp() override {
     place(1.5, 2.0, std::numbers::pi);
-    ExecutorInFlight::SetUp();
+    ManeuverInFlight::SetUp();
   }
   /// A room of 5 m by 4 m whose door, when it has one, nobody has looked through yet.
   void build(bool door) {
@@ -37,12 +43,12 @@ class ExecutorExploring : public ExecutorInFlight {
   planning::Disc personInThePassage() const { return {{5.4, 1.9}, 0.5}; }
   int looks() const {
     int most = 0;
-    for (const common::Frontier& frontier : *executor_.frontiers()) most = std::max(most, frontier.attempts);
+    for (const common::Frontier& frontier : *executor_.desk().frontiers()) most = std::max(most, frontier.attempts);
     return most;
   }
 };
 
-TEST_F(ExecutorExploring, AViewpointIsFlownToAndCountsAfterALookOfHalfASecond) {
+TEST_F(ExploreManeuver, AViewpointIsFlownToAndCountsAfterALookOfHalfASecond) {
   build(true);
   want(common::ExploreIntent{});
   runUntil([this] { return looks() == 1 && executor_.goal_map_m(); }, 5.0);  // The door shows from the take-off place.
@@ -66,7 +72,7 @@ TEST_F(ExecutorExploring, AViewpointIsFlownToAndCountsAfterALookOfHalfASecond) {
   EXPECT_EQ(looks(), 2);
 }
 
-TEST_F(ExecutorExploring, WhatStaysUnknownIsLeftAfterThreeLooksAndSaid) {
+TEST_F(ExploreManeuver, WhatStaysUnknownIsLeftAfterThreeLooksAndSaid) {
   build(true);
   fill(grid_, {{20, 80}, {23, 81}}, kFreeCell);  // A crack.
   want(common::ExploreIntent{});
@@ -77,10 +83,10 @@ TEST_F(ExecutorExploring, WhatStaysUnknownIsLeftAfterThreeLooksAndSaid) {
   EXPECT_EQ(reasonOf("frontier of 0.15 m"), "too small: 0.15 m long");
 }
 
-TEST_F(ExecutorExploring, DoneIsBelievedWhenItIsSaidTwiceStandingStill) {
+TEST_F(ExploreManeuver, DoneIsBelievedWhenItIsSaidTwiceStandingStill) {
   build(false);
   want(common::ExploreIntent{});
-  runUntil([this] { return executor_.exploredArea_m2() > 0.0; }, 1.0);
+  runUntil([this] { return executor_.desk().exploredArea_m2() > 0.0; }, 1.0);
   EXPECT_EQ(executor_.status().state, IntentState::kRunning) << "said once";
   EXPECT_EQ(runToTheEnd(2.0), IntentState::kSucceeded);
   follows_ = false;
@@ -92,7 +98,7 @@ TEST_F(ExecutorExploring, DoneIsBelievedWhenItIsSaidTwiceStandingStill) {
   EXPECT_EQ(runToTheEnd(2.0), IntentState::kSucceeded);
 }
 
-TEST_F(ExecutorExploring, WhoWalkedLatelyAndStandsInTheWayIsGivenRoom) {
+TEST_F(ExploreManeuver, WhoWalkedLatelyAndStandsInTheWayIsGivenRoom) {
   buildPassage();
   anybody_walks_ = true;
   discs_ = {personInThePassage()};
@@ -108,7 +114,7 @@ TEST_F(ExecutorExploring, WhoWalkedLatelyAndStandsInTheWayIsGivenRoom) {
   EXPECT_LT(distanceTo_m({6.0, 2.0}), 0.6) << "the way is free: " << executor_.status().reason;
 }
 
-TEST_F(ExecutorExploring, WhoStaysInTheWayIsNotWaitedForForEver) {
+TEST_F(ExploreManeuver, WhoStaysInTheWayIsNotWaitedForForEver) {
   buildPassage();
   anybody_walks_ = true;
   discs_ = {personInThePassage()};
@@ -118,7 +124,7 @@ TEST_F(ExecutorExploring, WhoStaysInTheWayIsNotWaitedForForEver) {
   EXPECT_EQ(runToTheEnd(30.0), IntentState::kSucceeded);
 }
 
-TEST_F(ExecutorExploring, WhereNobodyWalkedLatelyNobodyIsGivenRoom) {
+TEST_F(ExploreManeuver, WhereNobodyWalkedLatelyNobodyIsGivenRoom) {
   buildPassage();
   discs_ = {personInThePassage()};
   anybody_walks_ = true;
@@ -131,19 +137,29 @@ TEST_F(ExecutorExploring, WhereNobodyWalkedLatelyNobodyIsGivenRoom) {
   EXPECT_EQ(timesSaid("goes aside to make room"), 0);
 }
 
-TEST_F(ExecutorExploring, GoesOnAfterARetreat) {
+TEST_F(ExploreManeuver, WhatWasLookedAtInVainIsRememberedAfterAnInterruption) {
+  build(true);
+  want(common::ExploreIntent{});
+  runUntil([this] { return looks() == 2; }, 30.0);
+  ASSERT_EQ(looks(), 2);
+  want(common::HoldIntent{});
+  run(1.0);
+  want(common::ExploreIntent{});
+  run(0.5);
+  EXPECT_EQ(looks(), 2);
+  EXPECT_EQ(runToTheEnd(60.0), IntentState::kSucceeded);
+  EXPECT_EQ(looks(), 3) << "one more look, not three";
+}
+
+TEST_F(ExploreManeuver, GoesOnAfterARetreat) {
   build(true);
   want(common::ExploreIntent{});
   runUntil([this] { return looks() == 1 && executor_.goal_map_m(); }, 5.0);
   const Eigen::Vector2d viewpoint_m = *executor_.goal_map_m();
-  decision_.retreat_velocity_level_m_s = Eigen::Vector2d(-0.3, 0.0);
-  decision_.retreat_acceleration_m_s2 = 2.0;
-  executor_.react(decision_, state_);
+  retreat({-0.3, 0.0});
   run(2.0);
   EXPECT_GT(distanceTo_m({1.5, 2.0}), 0.4);
-  decision_ = {};
-  decision_.speed_limit_m_s = 1.0;
-  executor_.react(decision_, state_);
+  calm();
   runUntil([&] { return distanceTo_m(viewpoint_m) < 0.15; }, 10.0);
   EXPECT_LT(distanceTo_m(viewpoint_m), 0.15) << executor_.status().reason;
 }

@@ -1,5 +1,5 @@
-// What the stories of the executor are told with: a real flight controller and real planning jobs, a map drawn by hand,
-// and a vehicle that is where the controller's reference is, or where the test puts it.
+// What the stories of the maneuvers are told with: the executor, a real flight controller and real planning jobs, a map
+// drawn by hand, and a vehicle that is where the controller's reference is, or where the test puts it.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +24,10 @@ inline constexpr double kStanding_m = 0.15, kHeight_m = 1.0;
 /// `map` and `odom` differ, so that a frame mistake shows.
 inline const common::Pose2 kT_map_odom{0.4, -0.3, 0.5};
 
-class ExecutorStory : public testing::Test {
+class ManeuverStory : public testing::Test {
  protected:
-  ExecutorStory() {
+  explicit ManeuverStory(planning::PlannerKind planner = planning::PlannerKind::kDStarLite)
+      : executor_(config(planner), {}, 0.05, controller_, *jobs_) {
     state_.T_map_odom = kT_map_odom;
     state_.horizontal_valid = state_.vertical_valid = true;
     state_.T_odom_body.position_m.z() = kStanding_m;
@@ -77,6 +78,20 @@ class ExecutorStory : public testing::Test {
     return executor_.status().id == intent_.id && executor_.status().state != IntentState::kRunning;
   }
 
+  /// The executor's react(), with what the reactive layer decides from now on.
+  void retreat(const Eigen::Vector2d& velocity_level_m_s, double turn_rad = 0.0) {
+    decision_.retreat_velocity_level_m_s = velocity_level_m_s;
+    decision_.retreat_acceleration_m_s2 = 2.0;
+    decision_.turn_rad = turn_rad;
+    decision_.status.reason = "somebody comes";
+    executor_.react(decision_, state_);
+  }
+  void calm() {
+    decision_ = {};
+    decision_.speed_limit_m_s = 1.0;
+    executor_.react(decision_, state_);
+  }
+
   // Of events by how their text begins.
   long timesSaid(const std::string& text) const {
     return std::count_if(events_.begin(), events_.end(),
@@ -88,6 +103,12 @@ class ExecutorStory : public testing::Test {
     return at == events_.end() ? "never said: " + text : at->reason;
   }
 
+  ManeuverInput input() {
+    return {now_,           state_,   std::make_shared<const common::OccupancyGrid>(grid_.snapshot()), nullptr, discs_,
+            anybody_walks_, decision_};
+  }
+
+  common::Time now_;
   control::FlightController controller_{{}, {}};
   common::VehicleState state_;
   common::OccupancyGrid grid_ = planning::test::room(160, 80);  ///< 8 m by 4 m.
@@ -98,11 +119,12 @@ class ExecutorStory : public testing::Test {
   double ceiling_m_ = kHeight_m;  ///< Where taking off ends.
   std::vector<common::Event> events_;
   std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(0);
-  Executor executor_{config(), {}, 0.05, controller_, *jobs_};
+  Executor executor_;
 
  private:
-  static ExecutorConfig config() {
+  static ExecutorConfig config(planning::PlannerKind planner) {
     ExecutorConfig config;
+    config.planner.kind = planner;
     config.give_up_s = 12.0;
     return config;
   }
@@ -112,11 +134,7 @@ class ExecutorStory : public testing::Test {
     now_ += common::Duration::fromMilliseconds(10);
     state_.stamp = now_;
     jobs_->deliverDue(now_);
-    if (ticks_++ % 5 == 0) {
-      executor_.want(intent_);
-      executor_.tick({now_, state_, std::make_shared<const common::OccupancyGrid>(grid_.snapshot()), nullptr, discs_,
-                      anybody_walks_, decision_});
-    }
+    if (ticks_++ % 5 == 0) executor_.tick(intent_, input());
     for (common::Event& event : executor_.takeEvents()) events_.push_back(std::move(event));
     control::FlightTick tick;
     tick.now = now_;
@@ -142,15 +160,15 @@ class ExecutorStory : public testing::Test {
     state_.height_above_ground_m = state_.T_odom_body.position_m.z();
   }
 
-  common::Time now_;
   long ticks_ = 0;
   common::Intent intent_;
 };
 
-class ExecutorInFlight : public ExecutorStory {
+class ManeuverInFlight : public ManeuverStory {
  protected:
+  using ManeuverStory::ManeuverStory;
   void SetUp() override {
-    ExecutorStory::SetUp();
+    ManeuverStory::SetUp();
     want(common::TakeOffIntent{kHeight_m});
     ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
   }

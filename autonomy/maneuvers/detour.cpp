@@ -1,0 +1,45 @@
+#include "autonomy/maneuvers/detour.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace swiftlet::autonomy {
+
+using common::Time;
+
+Detour::Detour(const ManeuverSetup& setup, PathFlight& flight)
+    : config_(setup.config), memory_(setup.memory), flight_(flight) {}
+
+bool Detour::due(Time stuck_since, Time now) const {
+  if (flight_.plan()) return false;
+  return (now - std::max(stuck_since, since_.value_or(stuck_since))).seconds() >= config_.detour_after_s;
+}
+
+void Detour::ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m) {
+  since_ = input.now;
+  flight_.ask(input, DetourRequest{goal_map_m});
+}
+
+void Detour::begin(const DetourPlan& plan, std::string reason, Time now, const common::VehicleState& state) {
+  active_ = true;
+  memory_.say(now, common::Severity::kInfo, plan.makes_room ? "goes aside to make room" : "goes nearer to look",
+              std::move(reason));
+  flight_.offer(plan.path, now, state);
+}
+
+void Detour::endWhenOver(const ManeuverInput& input) {
+  if (!active_) return;
+  if (const planning::Path* path = flight_.plan(); path && (input.now - *since_).seconds() <= config_.detour_s) {
+    const Eigen::Vector2d left_m = path->points_map_m.back() - input.position_map_m();
+    if (left_m.norm() > config_.viewpoint_tolerance_m) return;
+  }
+  active_ = false;
+  since_ = input.now;
+  flight_.abandon();
+}
+
+void Detour::breakOff() {
+  if (std::exchange(active_, false)) flight_.release();
+}
+
+}  // namespace swiftlet::autonomy

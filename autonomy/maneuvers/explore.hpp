@@ -1,0 +1,41 @@
+// Explore: flies from viewpoint to viewpoint until every frontier that is left has a reason why it is left.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "autonomy/maneuvers/detour.hpp"
+#include "autonomy/maneuvers/path_maneuver.hpp"
+
+namespace swiftlet::autonomy {
+
+class Explore final : public PathManeuver {
+ public:
+  Explore(const common::ExploreIntent& intent, const ManeuverSetup& setup);
+  Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
+  /// The viewpoint.
+  std::optional<Eigen::Vector2d> goal_map_m() const override;
+
+ private:
+  Progress fly(const ManeuverInput& input) override;
+  /// True when it has looked long enough from the viewpoint, which is then behind it.
+  bool look(const ManeuverInput& input);
+  void goOn(const planning::ExplorationResult& result, common::Time now, const common::VehicleState& state);
+  Progress nothingOpen(const planning::ExplorationResult& result, common::Time now);
+  Progress explored(const planning::ExplorationResult& result, common::Time now);
+  /// The longest frontier that somebody who was seen lately may hide.
+  std::optional<Eigen::Vector2d> blockedFrontier(const planning::ExplorationResult& result, common::Time now) const;
+
+  common::ExploreIntent intent_;
+  Detour detour_;
+  std::string reason_;  ///< Of the last answer.
+  std::optional<common::Time> asked_;
+  std::optional<planning::Viewpoint> viewpoint_;
+  std::optional<common::Time> looks_since_;  ///< At the viewpoint, turned as it asks.
+  std::optional<common::Time> shut_in_since_;
+  int done_answers_ = 0;                    ///< Explorations in a row that found nothing open.
+  std::optional<common::Time> done_since_;  ///< The first of them.
+  std::optional<Eigen::Vector2d> blocked_frontier_map_m_;
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,65 @@
+#include "autonomy/maneuvers/go_to.hpp"
+
+#include <fmt/format.h>
+
+namespace swiftlet::autonomy {
+namespace {
+
+/// A map that does not reach the goal may just be about to grow.
+constexpr double kGrowing_s = 2.0;
+
+/// Somebody who stands in the way may go; a goal in space never seen is not seen by waiting.
+bool mayPass(const planning::PlanFailure& failure) {
+  using Reason = planning::PlanFailure::Reason;
+  return failure.reason != Reason::kGoalUnseen && failure.reason != Reason::kOutsideMap;
+}
+
+}  // namespace
+
+using common::Time;
+
+GoTo::GoTo(const common::GoToIntent& intent, const ManeuverSetup& setup)
+    : PathManeuver(setup, "fly to a goal", common::FlightMode::kFast), intent_(intent), detour_(setup, flight_) {
+  if (intent.height_m) setup.memory.cruise_height_m = *intent.height_m;
+  flight_.setGoalYaw(intent.yaw_map_rad);
+}
+
+Progress GoTo::fly(const ManeuverInput& input) {
+  if (flight_.arrived(input, intent_.goal_map_m, intent_.tolerance_m))
+    return Progress::done(fmt::format("reached ({:.2f}, {:.2f})", intent_.goal_map_m.x(), intent_.goal_map_m.y()));
+  const bool replan = flight_.keep(input);
+  if (no_path_) {
+    const double patience_s = mayPass(no_path_->failure) ? setup_.config.give_up_s : kGrowing_s;
+    if ((input.now - no_path_->since).seconds() > patience_s) return Progress::failed(no_path_->failure.text);
+  }
+  detour_.endWhenOver(input);
+  if (!flight_.mayAsk()) return Progress::running();
+  if (no_path_ && mayPass(no_path_->failure) && detour_.due(no_path_->since, input.now)) {
+    detour_.ask(input, intent_.goal_map_m);
+  } else if (detour_.active() ? (input.now - asked_).seconds() >= Detour::kAskAgain_s : replan) {
+    asked_ = input.now;
+    flight_.ask(input, GoalRequest{intent_.goal_map_m, intent_.tolerance_m});
+  }
+  return Progress::running();
+}
+
+Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
+  if (answer.detour && no_path_) detour_.begin(*answer.detour, "waiting: " + no_path_->failure.text, now, state);
+  if (!answer.path) return Progress::running();
+  if (!*answer.path) return waitFor(answer.path->error(), now);
+  no_path_.reset();
+  detour_.breakOff();
+  flight_.offer(**answer.path, now, state);
+  return Progress::running(fmt::format("flying to ({:.2f}, {:.2f})", intent_.goal_map_m.x(), intent_.goal_map_m.y()));
+}
+
+Progress GoTo::waitFor(const planning::PlanFailure& failure, Time now) {
+  if (!no_path_) {
+    setup_.memory.say(now, common::Severity::kWarning, "no way to the goal at present", failure.text);
+    no_path_ = NoPath{now, failure};
+  }
+  no_path_->failure = failure;
+  return Progress::running("waiting: " + failure.text);
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,34 @@
+// GoTo: flies to a place of the map; done when it is there. Without a path it waits, goes on detours, and in the end
+// fails with the planner's words. The way home is a GoTo with the home pose.
+#pragma once
+
+#include <optional>
+
+#include "autonomy/maneuvers/detour.hpp"
+#include "autonomy/maneuvers/path_maneuver.hpp"
+
+namespace swiftlet::autonomy {
+
+class GoTo final : public PathManeuver {
+ public:
+  GoTo(const common::GoToIntent& intent, const ManeuverSetup& setup);
+  Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
+  std::optional<Eigen::Vector2d> goal_map_m() const override { return intent_.goal_map_m; }
+
+ private:
+  /// Since when there has been no path, and what the planner said last.
+  struct NoPath {
+    common::Time since;
+    planning::PlanFailure failure;
+  };
+
+  Progress fly(const ManeuverInput& input) override;
+  Progress waitFor(const planning::PlanFailure& failure, common::Time now);
+
+  common::GoToIntent intent_;
+  Detour detour_;
+  std::optional<NoPath> no_path_;
+  common::Time asked_;  ///< For the path to the goal, last.
+};
+
+}  // namespace swiftlet::autonomy

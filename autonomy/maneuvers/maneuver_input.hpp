@@ -1,0 +1,28 @@
+// What carrying out an intent sees of the world at one tick.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/level_map.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/time.hpp"
+#include "common/vehicle_state.hpp"
+#include "planning/avoidance/avoidance.hpp"
+#include "planning/costs/cost_map.hpp"
+
+namespace swiftlet::autonomy {
+
+struct ManeuverInput {
+  common::Time now;
+  common::VehicleState state;
+  std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null; a snapshot that nobody writes to.
+  std::shared_ptr<const common::LevelMap> levels;     ///< May be null.
+  std::vector<planning::Disc> discs;                  ///< Where people are and will soon be, in `map`.
+  bool anybody_walks = false;
+  const planning::AvoidanceDecision& avoidance;
+
+  Eigen::Vector2d position_map_m() const { return state.T_map_body_planar().position_m(); }
+};
+
+}  // namespace swiftlet::autonomy

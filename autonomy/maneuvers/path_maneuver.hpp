@@ -1,0 +1,31 @@
+// What the maneuvers that fly paths share: they need a flying vehicle, leave it to the reactive layer while that
+// retreats, and fly by a PathFlight.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "autonomy/maneuvers/path_flight.hpp"
+
+namespace swiftlet::autonomy {
+
+class PathManeuver : public Maneuver {
+ public:
+  Progress step(const ManeuverInput& input) final;
+  const PathFlight* path() const final { return &flight_; }
+
+ protected:
+  /// `purpose` ends "cannot ...": "fly to a goal".
+  PathManeuver(const ManeuverSetup& setup, std::string purpose, common::FlightMode mode);
+
+  /// A step while flying, with no retreat under way.
+  virtual Progress fly(const ManeuverInput& input) = 0;
+
+  ManeuverSetup setup_;
+  PathFlight flight_;
+
+ private:
+  std::string purpose_;
+};
+
+}  // namespace swiftlet::autonomy

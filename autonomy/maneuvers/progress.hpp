@@ -1,0 +1,21 @@
+// How a maneuver stands after a step: running, done, or failed for a reason.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "common/intent.hpp"
+
+namespace swiftlet::autonomy {
+
+struct Progress {
+  common::IntentState state = common::IntentState::kRunning;
+  /// For people: what it does or waits for, what it reached, or why it failed. Empty while running: as before.
+  std::string reason;
+
+  static Progress running(std::string reason = {}) { return {common::IntentState::kRunning, std::move(reason)}; }
+  static Progress done(std::string reason) { return {common::IntentState::kSucceeded, std::move(reason)}; }
+  static Progress failed(std::string reason) { return {common::IntentState::kFailed, std::move(reason)}; }
+};
+
+}  // namespace swiftlet::autonomy

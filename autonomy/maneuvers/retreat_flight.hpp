@@ -1,0 +1,31 @@
+// Flies what the reactive layer asks for: its speed limit, and its retreat, which comes before everything an intent
+// wants.
+#pragma once
+
+#include <optional>
+
+#include "common/vehicle_state.hpp"
+#include "control/flight_controller.hpp"
+#include "planning/avoidance/avoidance.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread; react() at the laser rate.
+///
+///            the layer wants to retreat
+///   calm ----------------------------------> active: flies at the velocity asked for, no path
+///     ^   no longer (then it holds), or the vehicle is not flying any more    |
+///     +-----------------------------------------------------------------------+
+class RetreatFlight {
+ public:
+  explicit RetreatFlight(control::FlightController& controller) : controller_(controller) {}
+
+  void react(const planning::AvoidanceDecision& decision, const common::VehicleState& state);
+  bool active() const { return yaw_map_rad_.has_value(); }
+
+ private:
+  control::FlightController& controller_;
+  std::optional<double> yaw_map_rad_;  ///< What it faces meanwhile.
+};
+
+}  // namespace swiftlet::autonomy

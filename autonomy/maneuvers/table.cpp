@@ -1,0 +1,34 @@
+#include "autonomy/maneuvers/table.hpp"
+
+#include <variant>
+
+#include "autonomy/maneuvers/avoid.hpp"
+#include "autonomy/maneuvers/explore.hpp"
+#include "autonomy/maneuvers/go_to.hpp"
+#include "autonomy/maneuvers/hold.hpp"
+#include "autonomy/maneuvers/land.hpp"
+#include "autonomy/maneuvers/take_off.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+/// The table: a line an intent. An intent that is not in it does not compile.
+struct Made {
+  using Pointer = std::unique_ptr<Maneuver>;
+  const ManeuverSetup& setup;
+
+  Pointer operator()(const common::HoldIntent& intent) const { return std::make_unique<Hold>(intent, setup); }
+  Pointer operator()(const common::TakeOffIntent& intent) const { return std::make_unique<TakeOff>(intent, setup); }
+  Pointer operator()(const common::LandIntent& intent) const { return std::make_unique<Land>(intent, setup); }
+  Pointer operator()(const common::ExploreIntent& intent) const { return std::make_unique<Explore>(intent, setup); }
+  Pointer operator()(const common::GoToIntent& intent) const { return std::make_unique<GoTo>(intent, setup); }
+  Pointer operator()(const common::AvoidIntent& intent) const { return std::make_unique<Avoid>(intent, setup); }
+};
+
+}  // namespace
+
+std::unique_ptr<Maneuver> makeManeuver(const common::IntentKind& kind, const ManeuverSetup& setup) {
+  return std::visit(Made{setup}, kind);
+}
+
+}  // namespace swiftlet::autonomy

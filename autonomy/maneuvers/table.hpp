@@ -1,0 +1,13 @@
+// Which maneuver carries out which intent.
+#pragma once
+
+#include <memory>
+
+#include "autonomy/maneuvers/maneuver.hpp"
+
+namespace swiftlet::autonomy {
+
+/// Begins to carry out the intent.
+std::unique_ptr<Maneuver> makeManeuver(const common::IntentKind& kind, const ManeuverSetup& setup);
+
+}  // namespace swiftlet::autonomy

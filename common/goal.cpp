@@ -1,0 +1,64 @@
+#include "common/goal.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace swiftlet::common {
+namespace {
+
+using Reason = GoalRefusal::Reason;
+
+/// No map is so large; beyond it the index of a cell would overflow.
+constexpr double kFarthest_m = 1e5;
+/// Some of the tolerance is left to the controller.
+constexpr double kShareOfTolerance = 0.8;
+constexpr double kReach_m = 3.0;
+
+std::string inWords(const Eigen::Vector2d& place_m) {
+  return fmt::format("({:.2f}, {:.2f})", place_m.x(), place_m.y());
+}
+
+GoalRefusal refusal(PlaceState state, const Goal& goal, const std::optional<Eigen::Vector2d>& nearest) {
+  const std::string place = "goal " + inWords(goal.place_map_m);
+  if (state == PlaceState::kOutsideMap) return {Reason::kOutsideMap, place + " is outside the map", nearest};
+  const auto [reason, why] = state == PlaceState::kObstacle ? std::pair(Reason::kObstacle, "is in an obstacle")
+                             : state == PlaceState::kUnseen
+                                 ? std::pair(Reason::kUnseen, "is in space never seen")
+                                 : std::pair(Reason::kTooClose, "is too close to an obstacle or to unknown space");
+  return {reason,
+          fmt::format("{} {} at clearance {:.2f} m{}", place, why, goal.clearance_m,
+                      nearest ? ", the nearest free place is " + inWords(*nearest) : std::string()),
+          nearest};
+}
+
+}  // namespace
+
+Goal goalOf(const GoToIntent& intent) {
+  return {intent.goal_map_m, intent.height_m, intent.tolerance_m, intent.clearance_m};
+}
+
+tl::expected<Eigen::Vector2d, GoalRefusal> judgeGoal(const Goal& goal, const GoalLimits& limits, const GoalMap* map) {
+  const Eigen::Vector2d& place = goal.place_map_m;
+  if (!place.allFinite() || place.cwiseAbs().maxCoeff() > kFarthest_m)
+    return tl::unexpected(GoalRefusal{Reason::kNoPlace, "the goal is not a point of the map", std::nullopt});
+  if (goal.height_m && !(*goal.height_m <= limits.greatest_height_m))
+    return tl::unexpected(GoalRefusal{
+        Reason::kHeight,
+        fmt::format("{:.4g} m is above the greatest height, {:.4g} m", *goal.height_m, limits.greatest_height_m),
+        std::nullopt});
+  if (goal.height_m && !(*goal.height_m >= limits.least_height_m))
+    return tl::unexpected(
+        GoalRefusal{Reason::kHeight,
+                    fmt::format("{:.4g} m is below the least height, {:.4g} m", *goal.height_m, limits.least_height_m),
+                    std::nullopt});
+  if (map == nullptr) return place;
+  const PlaceState state = map->stateAt(place, goal.clearance_m);
+  if (state == PlaceState::kFree) return place;
+  const auto nearest = map->nearestFree(place, kReach_m, goal.clearance_m);
+  if (nearest && (*nearest - place).norm() <= kShareOfTolerance * goal.tolerance_m) return *nearest;
+  return tl::unexpected(refusal(state, goal, nearest));
+}
+
+}  // namespace swiftlet::common

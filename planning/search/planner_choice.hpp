@@ -1,0 +1,22 @@
+// Which planner finds the paths to goals; a system profile chooses.
+#pragma once
+
+#include <memory>
+
+#include "common/config_fwd.hpp"
+#include "planning/search/planner.hpp"
+
+namespace swiftlet::planning {
+
+/// D* Lite repairs its last search (Grzonka 2012), the wavefront spreads anew from the vehicle (Saeedi).
+enum class PlannerKind { kDStarLite, kWavefront };
+
+struct PlannerConfig {
+  PlannerKind kind = PlannerKind::kDStarLite;
+
+  void describe(common::config::Fields& fields);
+};
+
+std::unique_ptr<Planner> makePlanner(const PlannerConfig& config);
+
+}  // namespace swiftlet::planning

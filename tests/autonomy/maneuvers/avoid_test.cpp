@@ -1,0 +1,28 @@
+// Avoid: the reactive layer has the vehicle.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/autonomy/maneuver_story.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using AvoidManeuver = ManeuverInFlight;
+
+TEST_F(AvoidManeuver, TellsWhyAndReleasesTheVehicleOnlyWhenTheRetreatIsOver) {
+  retreat({-0.5, 0.0});
+  want(common::AvoidIntent{});
+  run(1.5);
+  EXPECT_EQ(executor_.status().reason, "somebody comes");
+  retreat(Eigen::Vector2d::Zero());
+  run(1.5);
+  EXPECT_FALSE(executor_.status().released) << "it stands, but the layer still has it";
+  calm();
+  run(1.5);
+  EXPECT_TRUE(executor_.status().released) << "it has stopped";
+  want(to(1.5, 3.4));
+  EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,80 @@
+// Detour: when it is due, what it flies, and when it is over.
+#include <gtest/gtest.h>
+
+#include "autonomy/maneuvers/detour.hpp"
+#include "tests/autonomy/maneuvers/workbench.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+class DetourTest : public ManeuverWorkbench {
+ protected:
+  common::Time in(double seconds) const { return now_ + common::Duration::fromSeconds(seconds); }
+  void begin() {
+    detour_.ask(input(), {6.0, 2.0});
+    deliver();
+    detour_.begin({straight(position_m(), {3.0, 2.0}), false}, "a wall", now_, state_);
+  }
+  PathFlight flight_{setup_, common::FlightMode::kFast};
+  Detour detour_{setup_, flight_};
+};
+
+TEST_F(DetourTest, IsDueWhenThereHasBeenNoPathForAWhileAndNothingIsFlown) {
+  EXPECT_FALSE(detour_.due(now_, in(2.4)));
+  EXPECT_TRUE(detour_.due(now_, in(2.6)));
+  flight_.offer(straight(position_m(), {3.0, 2.0}), now_, state_);
+  EXPECT_FALSE(detour_.due(now_, in(2.6)));
+}
+
+TEST_F(DetourTest, IsAskedForFromTheDeskAndNotAgainAtOnce) {
+  answers_.clear();
+  detour_.ask(input(), {6.0, 2.0});
+  EXPECT_FALSE(flight_.mayAsk());
+  deliver();
+  ASSERT_EQ(answers_.size(), 1U);
+  EXPECT_TRUE(answers_[0].detour);
+  EXPECT_FALSE(detour_.active()) << "the maneuver begins it with the answer";
+  EXPECT_FALSE(detour_.due(now_, in(2.4))) << "even where there was nowhere to go";
+  EXPECT_TRUE(detour_.due(now_, in(2.6)));
+}
+
+TEST_F(DetourTest, IsFlownAndEndsAtItsPlace) {
+  begin();
+  EXPECT_TRUE(detour_.active());
+  EXPECT_EQ(lastSaid(), "goes nearer to look");
+  EXPECT_EQ(memory_.events.back().reason, "a wall");
+  runUntil(
+      [this] {
+        detour_.endWhenOver(input());
+        return !detour_.active();
+      },
+      10.0);
+  EXPECT_LT(distanceTo_m({3.0, 2.0}), 0.16);
+  EXPECT_FALSE(flight_.plan());
+  EXPECT_FALSE(detour_.due(now_, in(2.4))) << "the next one counts from its end";
+}
+
+TEST_F(DetourTest, EndsWhenItTakesTooLongOrItsPathIsGone) {
+  follows_ = false;
+  begin();
+  now_ += common::Duration::fromSeconds(15.1);
+  detour_.endWhenOver(input());
+  EXPECT_FALSE(detour_.active());
+  begin();
+  controller_.hold();
+  detour_.endWhenOver(input());
+  EXPECT_FALSE(detour_.active());
+}
+
+TEST_F(DetourTest, IsBrokenOffForAPathWithoutAStop) {
+  begin();
+  run(0.5);
+  detour_.breakOff();
+  EXPECT_FALSE(detour_.active());
+  EXPECT_TRUE(controller_.followsPath());
+  flight_.offer(straight(position_m(), {6.0, 2.0}), now_, state_);
+  EXPECT_EQ(flight_.plan()->points_map_m.back(), Eigen::Vector2d(6.0, 2.0));
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy

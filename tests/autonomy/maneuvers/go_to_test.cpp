@@ -1,0 +1,208 @@
+// GoTo: goals that are flown to, waited for, gone round for and given up.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/autonomy/maneuver_story.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using planning::test::fill;
+using planning::test::kFreeCell;
+using planning::test::kWallCell;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr common::CellRect kDoor{{80, 28}, {81, 52}};  ///< 1.2 m wide, in the wall at x = 4 m, about y = 2 m.
+
+TEST_F(ManeuverStory, OnTheGroundNoGoalIsFlownTo) {
+  want(to(6.0, 2.0));
+  EXPECT_EQ(runToTheEnd(0.1), IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason, "cannot fly to a goal while powered off");
+}
+
+TEST_F(ManeuverInFlight, AfterALandingAGoalNamesWhyItCameDown) {
+  state_.horizontal_valid = false;
+  want(to(6.0, 2.0));
+  EXPECT_EQ(runToTheEnd(5.0), IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason, "cannot fly to a goal: landing because no horizontal estimate for 1.0 s");
+  runUntil([this] { return controller_.state() == FlightState::kLanded; }, 10.0);
+  want(to(6.0, 2.0));
+  EXPECT_EQ(runToTheEnd(0.1), IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason, "cannot fly to a goal: landed because no horizontal estimate for 1.0 s");
+}
+
+class GoToManeuver : public ManeuverInFlight {
+ protected:
+  /// Another wall, at x = 4 m.
+  void build(bool open) {
+    fill(grid_, {{80, 0}, {81, 80}}, kWallCell);
+    if (open) fill(grid_, kDoor, kFreeCell);
+  }
+  long detours() const { return timesSaid("goes nearer to look") + timesSaid("goes aside to make room"); }
+};
+
+TEST_F(GoToManeuver, TheGoalIsFlownToThroughTheDoor) {
+  build(true);
+  want(to(6.0, 3.2));
+  run(0.5);
+  EXPECT_TRUE(controller_.followsPath());
+  EXPECT_FALSE(executor_.status().released);
+  EXPECT_GT(executor_.wishedVelocity_map_m_s().x(), 0.5);
+  EXPECT_EQ(executor_.goal_map_m(), Eigen::Vector2d(6.0, 3.2));
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_EQ(executor_.status().reason, "reached (6.00, 3.20)");
+  EXPECT_LT(distanceTo_m({6.0, 3.2}), 0.05);
+  EXPECT_TRUE(executor_.remainingPlan_map_m().empty());
+}
+
+TEST_F(GoToManeuver, ReachedMeansNearAndSlowForAWhile) {
+  follows_ = false;
+  want(to(2.0, 2.0));
+  const auto stillRuns = [this](double seconds) {
+    run(seconds);
+    return executor_.status().state == IntentState::kRunning;
+  };
+  place(2.0, 2.0);
+  state_.velocity_odom_m_s = {0.2, 0.0, 0.0};
+  EXPECT_TRUE(stillRuns(1.0)) << "too fast";
+  place(2.0, 2.06);
+  EXPECT_TRUE(stillRuns(1.0)) << "too far";
+  place(2.0, 2.0);
+  state_.T_odom_body.position_m.z() = kHeight_m + 0.15;
+  EXPECT_TRUE(stillRuns(1.0)) << "too high";
+  state_.T_odom_body.position_m.z() = kHeight_m;
+  EXPECT_TRUE(stillRuns(0.2)) << "too short";
+  place(2.0, 2.06);
+  EXPECT_TRUE(stillRuns(0.1));
+  place(2.0, 2.0);
+  EXPECT_TRUE(stillRuns(0.2)) << "the time counts from when it came back";
+  EXPECT_FALSE(stillRuns(0.2));
+  EXPECT_EQ(executor_.status().state, IntentState::kSucceeded);
+}
+
+TEST_F(GoToManeuver, APathIsWaitedForAndADetourGoesToLook) {
+  build(false);
+  want(to(6.0, 2.0));
+  run(2.0);
+  EXPECT_EQ(executor_.status().state, IntentState::kRunning);
+  EXPECT_THAT(executor_.status().reason, StartsWith("waiting: goal (6.00, 2.00) is unreachable"));
+  EXPECT_EQ(timesSaid("no way to the goal at present"), 1);
+  EXPECT_EQ(detours(), 0);
+  EXPECT_LT(distanceTo_m({1.5, 2.0}), 0.05) << "meanwhile it stays";
+  run(1.0);
+  EXPECT_EQ(timesSaid("goes nearer to look"), 1);
+  run(3.0);
+  EXPECT_NEAR(position_m().x(), 4.0 - 0.375, 0.2);
+  run(3.0);
+  EXPECT_EQ(detours(), 2) << "having looked, it makes room";
+  fill(grid_, kDoor, kFreeCell);
+  run(1.4);
+  ASSERT_FALSE(executor_.remainingPlan_map_m().empty());
+  EXPECT_EQ(executor_.remainingPlan_map_m().back(), Eigen::Vector2d(6.0, 2.0)) << "asked for on the detour too";
+  EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
+}
+
+TEST_F(GoToManeuver, RoomIsMadeForWhoStandsInTheDoor) {
+  build(true);
+  discs_ = {{{4.0, 2.0}, 0.5}};
+  want(to(6.0, 2.0));
+  runUntil([this] { return detours() > 0; }, 5.0);
+  EXPECT_EQ(timesSaid("goes aside to make room"), 1);
+  discs_.clear();
+  EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
+}
+
+TEST_F(GoToManeuver, WithoutAPathItFailsInTheEndWithThePlannersWords) {
+  build(false);
+  want(to(6.0, 2.0));
+  EXPECT_NEAR(runUntil([this] { return ended(); }, 30.0), 12.1, 0.3);
+  EXPECT_EQ(executor_.status().state, IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason, "goal (6.00, 2.00) is unreachable at clearance 0.10 m");
+  EXPECT_FALSE(controller_.followsPath());
+}
+
+TEST_F(GoToManeuver, ForAGoalNeverSeenItWaitsNoLongerThanAMapTakesToGrow) {
+  want(to(8.5, 2.0));
+  EXPECT_NEAR(runUntil([this] { return ended(); }, 30.0), 2.1, 0.3);
+  EXPECT_EQ(executor_.status().state, IntentState::kFailed);
+  EXPECT_THAT(executor_.status().reason, HasSubstr("space never seen"));
+  EXPECT_EQ(detours(), 0);
+}
+
+TEST_F(GoToManeuver, APlanThatBecameBlockedIsGivenUpAndTheVehicleHolds) {
+  build(true);
+  want(to(6.0, 2.0));
+  runUntil([this] { return position_m().x() > 2.0; }, 10.0);
+  ASSERT_TRUE(controller_.followsPath());
+  fill(grid_, kDoor, kWallCell);
+  EXPECT_LT(runUntil([this] { return timesSaid("plan given up") > 0; }, 5.0), 0.5);
+  EXPECT_THAT(reasonOf("plan given up"), StartsWith("blocked before"));
+  EXPECT_FALSE(controller_.followsPath());
+  EXPECT_TRUE(executor_.remainingPlan_map_m().empty());
+  run(1.5);
+  EXPECT_TRUE(controller_.stopped());
+  EXPECT_LT(position_m().x(), 4.0 - 0.375);
+  fill(grid_, kDoor, kFreeCell);
+  EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
+  EXPECT_EQ(timesSaid("plan given up"), 1);
+}
+
+TEST_F(GoToManeuver, APathLostWithTheEstimateIsSentAgain) {
+  want(to(6.5, 2.0));
+  run(1.0);
+  ASSERT_TRUE(controller_.followsPath());
+  state_.horizontal_valid = false;
+  run(0.03);
+  ASSERT_FALSE(controller_.followsPath()) << "the controller holds";
+  state_.horizontal_valid = true;
+  run(0.5);
+  EXPECT_TRUE(controller_.followsPath());
+  EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
+}
+
+/// The controller forgets it when the estimate is back: it starts from where it is then.
+TEST_F(GoToManeuver, APathSentWhileTheEstimateIsLostIsSentAgain) {
+  want(to(6.5, 2.0));
+  run(1.0);
+  state_.horizontal_valid = false;
+  run(0.5);
+  state_.horizontal_valid = true;
+  EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
+}
+
+class GoToByWavefront : public ManeuverInFlight {
+ protected:
+  GoToByWavefront() : ManeuverInFlight(planning::PlannerKind::kWavefront) {}
+};
+
+TEST_F(GoToByWavefront, ThePlannerOfTheProfileFindsThePaths) {
+  fill(grid_, {{80, 0}, {81, 80}}, kWallCell);
+  fill(grid_, kDoor, kFreeCell);
+  want(to(6.0, 3.2));
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded) << executor_.status().reason;
+  EXPECT_LT(distanceTo_m({6.0, 3.2}), 0.05);
+  EXPECT_EQ(executor_.desk().plannerUse().planner, "wavefront");
+  EXPECT_GT(executor_.desk().plannerUse().paths, 5) << "asked again while it flies";
+}
+
+TEST_F(GoToManeuver, DStarLiteFindsThePathsWhereNothingElseIsChosen) {
+  want(to(6.0, 3.2));
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_EQ(executor_.desk().plannerUse().planner, "D* Lite");
+  EXPECT_GT(executor_.desk().plannerUse().paths, 5);
+}
+
+TEST_F(GoToManeuver, AHeightIsFlownAtAndKeptForTheNextGoal) {
+  common::GoToIntent high = to(3.0, 2.0);
+  high.height_m = 1.4;
+  want(high);
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_NEAR(state_.T_odom_body.position_m.z(), 1.4, 0.05);
+  want(to(4.0, 2.0));
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  EXPECT_NEAR(state_.T_odom_body.position_m.z(), 1.4, 0.05);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy

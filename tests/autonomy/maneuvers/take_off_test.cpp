@@ -1,0 +1,56 @@
+// TakeOff, from the ground to the height, or to why not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/autonomy/maneuver_story.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using testing::HasSubstr;
+
+using TakeOffManeuver = ManeuverStory;
+
+TEST_F(TakeOffManeuver, SucceedsAtTheHeight) {
+  ceiling_m_ = 0.8;
+  want(common::TakeOffIntent{kHeight_m});
+  run(6.0);
+  EXPECT_EQ(executor_.status().state, IntentState::kRunning);
+  ceiling_m_ = kHeight_m;
+  EXPECT_EQ(runToTheEnd(2.0), IntentState::kSucceeded);
+  EXPECT_EQ(executor_.status().reason, "at the take-off height");
+}
+
+TEST_F(TakeOffManeuver, FailsWhenItIsRefusedOrBrokenOff) {
+  want(common::TakeOffIntent{0.1});
+  ASSERT_EQ(runToTheEnd(0.1), IntentState::kFailed);
+  EXPECT_THAT(executor_.status().reason, HasSubstr("is not above"));
+  ceiling_m_ = 0.5;  // The controller gives up in the end and lands.
+  want(common::TakeOffIntent{kHeight_m});
+  EXPECT_EQ(runToTheEnd(30.0), IntentState::kFailed);
+  EXPECT_EQ(executor_.status().reason, "cannot take off: landing because not hovering after 17 s");
+  want(common::TakeOffIntent{kHeight_m});
+  EXPECT_EQ(runToTheEnd(0.1), IntentState::kFailed) << "it still comes down";
+  EXPECT_EQ(executor_.status().reason, "cannot take off: landing because not hovering after 17 s");
+}
+
+TEST_F(TakeOffManeuver, AVehicleThatFliesIsDoneAtOnceAndKeepsItsHeight) {
+  want(common::TakeOffIntent{kHeight_m});
+  ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+  want(common::TakeOffIntent{2.0});
+  EXPECT_EQ(runToTheEnd(0.1), IntentState::kSucceeded);
+  want(to(2.0, 2.0));
+  EXPECT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+  EXPECT_NEAR(state_.T_odom_body.position_m.z(), kHeight_m, 0.05);
+}
+
+TEST_F(TakeOffManeuver, GoesOnWhenItIsWantedAgainWhileClimbing) {
+  want(common::TakeOffIntent{kHeight_m});
+  run(2.0);
+  ASSERT_EQ(controller_.state(), FlightState::kTakingOff);
+  want(common::TakeOffIntent{kHeight_m});
+  EXPECT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy

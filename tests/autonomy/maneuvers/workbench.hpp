@@ -1,0 +1,44 @@
+// What parts of maneuvers are tried with, one by one: a vehicle in flight that nobody else moves, and a desk whose
+// answers come when the test says so.
+#pragma once
+
+#include <vector>
+
+#include "autonomy/maneuvers/path_flight.hpp"
+#include "tests/autonomy/maneuver_story.hpp"
+
+namespace swiftlet::autonomy {
+
+class ManeuverWorkbench : public ManeuverInFlight {
+ protected:
+  void SetUp() override {
+    ManeuverInFlight::SetUp();  // The executor's intent is done: it asks the controller for nothing any more.
+    memory_.cruise_height_m = kHeight_m;
+    look();
+  }
+
+  /// The desk's cost map is that of the grid.
+  void look() {
+    desk_.ask(input(), setup_.client, {});
+    deliver();
+  }
+  void deliver() { desk_jobs_->deliverDue(now_ + common::Duration::fromSeconds(1.0)); }
+
+  static planning::Path straight(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
+    const double length_m = (to_map_m - from_map_m).norm();
+    return {{from_map_m, to_map_m}, length_m, length_m};
+  }
+  std::string lastSaid() const { return memory_.events.empty() ? "nothing" : memory_.events.back().text; }
+
+  std::unique_ptr<common::JobRunner> desk_jobs_ = common::makeLockstepJobs(0);
+  std::vector<PlanningAnswer> answers_;
+  ExecutorConfig config_;
+  PlanningDesk desk_{config_, {}, 0.05, *desk_jobs_, [this](const PlanningAnswer& answer, common::Time) {
+                       answers_.push_back(answer);
+                     }};
+  RetreatFlight retreat_{controller_};
+  FlightMemory memory_;
+  ManeuverSetup setup_{config_, controller_, desk_, retreat_, memory_, {7, 0.10}};
+};
+
+}  // namespace swiftlet::autonomy
