@@ -43,7 +43,7 @@ void OperatorCommand::take(FlightTick& tick) {
   if (command_) say(tick, common::Severity::kInfo, toString(*command_) + " given up", "replaced by " + toString(next));
   command_ = next;
   const auto* point = std::get_if<common::GoalCommand>(&next.kind);
-  goal_ = goalTo(point != nullptr ? point->goal_map_m : tick.flight.world->home_map.position_m());
+  goal_ = goalTo(point != nullptr ? point->goal_map_m : tick.flight.world->vehicle->home_map.position_m());
   renewWish();
 }
 

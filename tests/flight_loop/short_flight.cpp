@@ -112,8 +112,8 @@ std::string difference(const Witness& first, const Witness& second) {
             return a.id == b.id && a.accepted == b.accepted && a.reason == b.reason;
           }))
     return "answer " + std::to_string(*i);
-  if (!same(*first.last_world->grid, *second.last_world->grid)) return "map";
-  if (!same(*first.last_world->levels, *second.last_world->levels)) return "levels";
+  if (!same(*first.last_world->map->grid, *second.last_world->map->grid)) return "map";
+  if (!same(*first.last_world->map->levels, *second.last_world->map->levels)) return "levels";
   return {};
 }
 
