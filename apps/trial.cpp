@@ -40,7 +40,7 @@ struct TrialOptions {
   std::string trials;
   int repeat = 0;
   int jobs = 1;
-  int seed = 1;
+  std::optional<int> seed;  ///< Of the first flight; none: what the trial says.
   std::string system;
   std::string out;
   bool json = false;
@@ -145,6 +145,7 @@ std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& 
 void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out, const std::atomic<bool>& stop,
             TrialResult& result) {
   const int count = options.repeat > 0 ? options.repeat : trial.repeat;
+  const int first_seed = options.seed.value_or(trial.scenario.seed);
   const std::shared_ptr<const FlightMap> map = givenMap(trial, out);
   std::vector<std::optional<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
@@ -153,7 +154,7 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::pat
   const auto work = [&] {
     for (int i = next++; i < count && !stop; i = next++) {
       try {
-        auto score = flyOne(trial, map, options.seed + i, out, stop);
+        auto score = flyOne(trial, map, first_seed + i, out, stop);
         const std::scoped_lock lock(mutex);
         if (!options.json) show(flightLine(trial, score) + "\n");
         scores[static_cast<std::size_t>(i)] = std::move(score);
@@ -274,8 +275,7 @@ void addTrial(CLI::App& program, Run& run) {
   command->add_option("--jobs", options->jobs, "Flights at the same time.")
       ->capture_default_str()
       ->check(numberWithin(1, 64));
-  command->add_option("--seed", options->seed, "The first seed S.")
-      ->capture_default_str()
+  command->add_option("--seed", options->seed, "The first seed S; default: the trial's scenario.seed, or 1.")
       ->check(numberWithin(0, kGreatestSeed));
   command->add_option("--system", options->system, "Profile to fly them all with, instead of their own.");
   command->add_option("--out", options->out, "Folder of the results; default runs/<time>-trial.");

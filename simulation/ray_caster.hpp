@@ -14,12 +14,13 @@ namespace swiftlet::simulation {
 
 struct WorldModel;
 
-/// A solid upright cylinder: a walking person.
+/// A solid upright cylinder that moves: a walking person, or the hull of another vehicle.
 struct Actor {
   Eigen::Vector2d position_world_m = Eigen::Vector2d::Zero();
   double radius_m = 0.25;
   double bottom_m = 0.0;
   double top_m = 1.75;
+  Eigen::Vector3f color{0.85F, 0.35F, 0.2F};  ///< For cameras: linear red, green, blue in [0, 1].
 };
 
 struct Ray {

@@ -112,9 +112,20 @@ void Referee::judgeWalker(common::Time now, const QuadrotorState& state, const A
   const Vector2d velocity = state.velocity_world_m_s.head<2>();
   truth.by_walker = true;
   truth.yielding = velocity.norm() < kStill_m_s || velocity.dot(to_walker) < 0.0;
-  const Vector2d touch = position.head<2>() + hull_.radius_m * to_walker.normalized();
-  const Vector3d point(touch.x(), touch.y(), position.z());
-  crash(truth, now, name, touchedAt(name, point));
+  crash(truth, now, name, touchedAt(name, hullPointTowards(position, to_walker)));
+}
+
+void Referee::judgeMeeting(common::Time now, const QuadrotorState& state, double gap_m, const Actor& other,
+                           const std::string& name, Truth& truth) const {
+  if (!state.standing) truth.min_vehicle_clearance_m = std::min(truth.min_vehicle_clearance_m, gap_m);
+  if (gap_m > 0.0) return;
+  const Vector3d& position = state.T_world_body.position_m;
+  crash(truth, now, name, touchedAt(name, hullPointTowards(position, other.position_world_m - position.head<2>())));
+}
+
+Vector3d Referee::hullPointTowards(const Vector3d& position_world_m, const Vector2d& direction) const {
+  const Vector2d point = position_world_m.head<2>() + hull_.radius_m * direction.normalized();
+  return {point.x(), point.y(), position_world_m.z()};
 }
 
 }  // namespace swiftlet::simulation

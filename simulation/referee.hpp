@@ -34,10 +34,15 @@ class Referee {
   /// Sweeps the hull from where it was at the last call. Call at 100 Hz or more.
   void judgeContacts(common::Time now, const QuadrotorState& state, std::span<const Walker> walkers, Truth& truth);
 
+  /// Another vehicle with that hull, name and horizontal distance between the two hulls, 0 where they touch.
+  void judgeMeeting(common::Time now, const QuadrotorState& state, double gap_m, const Actor& other,
+                    const std::string& name, Truth& truth) const;
+
  private:
   void judgeWorld(common::Time now, const QuadrotorState& state, Truth& truth) const;
   void judgeWalker(common::Time now, const QuadrotorState& state, const Actor& walker, const std::string& name,
                    Truth& truth) const;
+  Eigen::Vector3d hullPointTowards(const Eigen::Vector3d& position_world_m, const Eigen::Vector2d& direction) const;
 
   const WorldModel& world_;
   const RayCaster& rays_;

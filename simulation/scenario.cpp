@@ -1,19 +1,60 @@
 #include "simulation/scenario.hpp"
 
-#include <limits>
+#include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
+#include "common/check.hpp"
 #include "common/config_fields.hpp"
+#include "common/error.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
 constexpr double kAnywhere_m = 1e4;
+constexpr double kGreatestSeed = 1e9;  // A trial counts on from it.
 
 std::string noPairs(const std::vector<double>& values) {
   return fmt::format("{} numbers are no list of x, y pairs", values.size());
+}
+
+/// Each entry is later than the one before.
+bool inOrder(const std::vector<PilotConfig>& pilot) {
+  const auto not_later = [](const PilotConfig& a, const PilotConfig& b) { return a.time_s >= b.time_s; };
+  return std::adjacent_find(pilot.begin(), pilot.end(), not_later) == pilot.end();
+}
+
+/// Of the list of vehicles, and of who refers to it.
+std::vector<std::string> vehicleProblems(const Scenario& scenario) {
+  common::Validation validation;
+  std::vector<std::string> names;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    validation.require(std::find(names.begin(), names.end(), vehicle.name) == names.end(), "vehicles",
+                       fmt::format("two are called `{}`", vehicle.name));
+    names.push_back(vehicle.name);
+  }
+  for (const WalkerConfig& walker : scenario.walkers)
+    validation.require(
+        walker.vehicle.empty() || std::find(names.begin(), names.end(), walker.vehicle) != names.end(), "walkers",
+        fmt::format("there is no vehicle `{}`{}", walker.vehicle, common::didYouMean(walker.vehicle, names)));
+  const auto alone = [&](const char* field, bool is_default) {
+    validation.require(scenario.vehicles.empty() || is_default, field,
+                       "is of one vehicle; where `vehicles` lists several it stands there");
+  };
+  alone("start", scenario.start.from_world);
+  alone("battery_remaining", scenario.battery_remaining == 1.0);
+  alone("pushes", scenario.pushes.empty());
+  alone("faults", scenario.faults.empty());
+  alone("pilot", scenario.pilot.empty());
+  return validation.problems();
+}
+
+/// May stand in messages and in the name of a folder.
+bool isName(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  return !name.empty() && name.size() <= 40 && std::all_of(name.begin(), name.end(), plain);
 }
 
 }  // namespace
@@ -71,6 +112,7 @@ void WalkerConfig::describe(common::config::Fields& fields) {
   fields("distance_m", distance_m, {0.1, 100},
          "For cross_path, how far ahead it crosses; for follow, how near it comes, hull to person.");
   fields("repeat_s", repeat_s, {0, 1e6}, "For cross_path, it crosses again after this long; 0 for once.");
+  fields("vehicle", vehicle, "Name of the vehicle that it crosses or follows; empty for the first.");
 }
 
 std::vector<std::string> WalkerConfig::validate() const {
@@ -108,8 +150,24 @@ void PilotConfig::describe(common::config::Fields& fields) {
   fields("takes_over", takes_over, "Whether the pilot flies alone.");
 }
 
+void ScenarioVehicle::describe(common::config::Fields& fields) {
+  fields("name", name, "Name of the vehicle.");
+  fields.section("start", start, "Where the vehicle stands.");
+  fields("battery_remaining", battery_remaining, {0.01, 1}, "Charge at the start, as a share of the full one.");
+  fields.list("pushes", pushes, "Pushes of the vehicle.");
+  fields.list("faults", faults, "Sensor faults.");
+  fields.list("pilot", pilot, "The pilot's sticks over time; without entries there is no remote control.");
+}
+
+std::vector<std::string> ScenarioVehicle::validate() const {
+  return common::Validation()
+      .require(isName(name), "name", "is not 1 to 40 letters, digits, `_` and `-`")
+      .require(inOrder(pilot), "pilot", "entries are not in the order of their time")
+      .problems();
+}
+
 void Scenario::describe(common::config::Fields& fields) {
-  fields("seed", seed, {0, std::numeric_limits<int>::max()}, "Name of every random stream.");
+  fields("seed", seed, {0, kGreatestSeed}, "Name of every random stream.");
   fields("world", world, "SDF file.");
   fields("model_paths", model_paths, "Folders that hold the models the world includes.");
   fields.section("start", start, "Where the vehicle stands.");
@@ -123,13 +181,38 @@ void Scenario::describe(common::config::Fields& fields) {
   fields.section("quadrotor", quadrotor, "The airframe's physics.");
   fields.section("autopilot", autopilot, "The inner loop.");
   fields.section("sensors", sensors, "Errors and delays of the sensors.");
+  fields.list("vehicles", vehicles,
+              "All vehicles where there are several; start, battery_remaining, pushes, faults and pilot then stand here.");
 }
 
 std::vector<std::string> Scenario::validate() const {
   common::Validation validation;
-  for (std::size_t i = 1; i < pilot.size(); ++i)
-    validation.require(pilot[i].time_s > pilot[i - 1].time_s, "pilot", "entries are not in the order of their time");
-  return validation.problems();
+  validation.require(inOrder(pilot), "pilot", "entries are not in the order of their time");
+  std::vector<std::string> problems = validation.problems(), more = vehicleProblems(*this);
+  problems.insert(problems.end(), more.begin(), more.end());
+  return problems;
+}
+
+std::size_t Scenario::vehicleNumber(const std::string& name) const {
+  if (name.empty()) return 0;
+  const auto found =
+      std::find_if(vehicles.begin(), vehicles.end(), [&name](const ScenarioVehicle& one) { return one.name == name; });
+  SWIFTLET_CHECK(found != vehicles.end(), name);
+  return static_cast<std::size_t>(found - vehicles.begin());
+}
+
+Scenario Scenario::withVehicleAlone(std::size_t number) const {
+  SWIFTLET_CHECK(number < vehicleCount(), number, vehicleCount());
+  Scenario alone = *this;
+  if (vehicles.empty()) return alone;
+  alone.vehicles.clear();
+  const ScenarioVehicle& own = vehicles[number];
+  alone.start = own.start;
+  alone.battery_remaining = own.battery_remaining;
+  alone.pushes = own.pushes;
+  alone.faults = own.faults;
+  alone.pilot = own.pilot;
+  return alone;
 }
 
 }  // namespace swiftlet::simulation

@@ -1,4 +1,5 @@
-// One scripted flight: where, from where, with what weather, people, pushes and faults; and what a seed may vary.
+// One scripted flight: where, from where, with what weather, people, pushes and faults, of one vehicle or several; and
+// what a seed may vary.
 // The trial file's `scenario` section is read into it.
 #pragma once
 
@@ -67,6 +68,7 @@ struct WalkerConfig {
   double start_s = 0.0;
   double distance_m = 2.5;
   double repeat_s = 0.0;
+  std::string vehicle = {};
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -111,6 +113,19 @@ struct PilotConfig {
   void describe(common::config::Fields& fields);
 };
 
+/// One vehicle of several: what the scenario itself says of a vehicle that flies alone.
+struct ScenarioVehicle {
+  std::string name;
+  StartConfig start;
+  double battery_remaining = 1.0;
+  std::vector<PushConfig> pushes;
+  std::vector<FaultConfig> faults;
+  std::vector<PilotConfig> pilot;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
 struct Scenario {
   int seed = 1;
   std::string world;
@@ -126,6 +141,9 @@ struct Scenario {
   QuadrotorConfig quadrotor;
   AutopilotConfig autopilot;
   SensorsConfig sensors;
+  /// All that fly, in the order of their numbers. Empty: one vehicle without a name, of which `start`,
+  /// `battery_remaining`, `pushes`, `faults` and `pilot` speak; these are left at their defaults when it is not empty.
+  std::vector<ScenarioVehicle> vehicles;
 
   /// The data sheets the autonomy knows too; they come from the system profile, not from the scenario's file.
   common::VehicleConfig vehicle;
@@ -133,6 +151,12 @@ struct Scenario {
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
+
+  std::size_t vehicleCount() const { return vehicles.empty() ? 1 : vehicles.size(); }
+  /// The number of the vehicle with that name, which there must be; 0 for an empty name.
+  std::size_t vehicleNumber(const std::string& name) const;
+  /// The same scenario with that vehicle alone: its start, charge, pushes, faults and pilot, and no `vehicles`.
+  Scenario withVehicleAlone(std::size_t number) const;
 };
 
 }  // namespace swiftlet::simulation

@@ -1,31 +1,33 @@
 #include "simulation/simulated_vehicle.hpp"
 
-#include "simulation/flight.hpp"
+#include <utility>
+
+#include "simulation/arena.hpp"
 
 namespace swiftlet::simulation {
 
-struct SimulatedVehicle::Impl {
-  Impl(WorldModel world, const Scenario& scenario) : flight(realize(world, scenario)) {}
-  Flight flight;
-};
-
-SimulatedVehicle::SimulatedVehicle(WorldModel world, const Scenario& scenario)
-    : impl_(std::make_unique<Impl>(std::move(world), scenario)) {}
-SimulatedVehicle::~SimulatedVehicle() = default;
-
-common::Time SimulatedVehicle::now() const { return impl_->flight.now(); }
-bool SimulatedVehicle::advanceTo(common::Time time, std::vector<common::SensorEvent>& events) {
-  return impl_->flight.advanceTo(time, events);
+SimulatedVehicle::SimulatedVehicle(std::shared_ptr<Arena> arena, std::size_t index)
+    : arena_(std::move(arena)), index_(index) {
+  arena_->attend(index_);
 }
-void SimulatedVehicle::apply(const common::Setpoint& setpoint) { impl_->flight.apply(setpoint); }
-std::string SimulatedVehicle::stopReason() const { return impl_->flight.truth().crash_reason; }
-void SimulatedVehicle::setCameraConsumer(bool wanted) { impl_->flight.setCameraConsumer(wanted); }
-const Truth& SimulatedVehicle::truth() const { return impl_->flight.truth(); }
-common::Pose3 SimulatedVehicle::T_world_map() const { return impl_->flight.realization().T_world_map; }
-const WorldModel& SimulatedVehicle::world() const { return impl_->flight.realization().world; }
-const RayCaster& SimulatedVehicle::rays() const { return impl_->flight.rays(); }
-const Scenario& SimulatedVehicle::scenario() const { return impl_->flight.realization().scenario; }
-int SimulatedVehicle::redraws() const { return impl_->flight.realization().redraws; }
-std::vector<Actor> SimulatedVehicle::walkers() const { return impl_->flight.actors(); }
+SimulatedVehicle::SimulatedVehicle(const WorldModel& world, const Scenario& scenario)
+    : SimulatedVehicle(std::make_shared<Arena>(world, scenario), 0) {}
+SimulatedVehicle::~SimulatedVehicle() { arena_->leave(index_); }
+
+common::Time SimulatedVehicle::now() const { return arena_->nowOf(index_); }
+bool SimulatedVehicle::advanceTo(common::Time time, std::vector<common::SensorEvent>& events) {
+  return arena_->advance(index_, time, events);
+}
+void SimulatedVehicle::apply(const common::Setpoint& setpoint) { arena_->apply(index_, setpoint); }
+std::string SimulatedVehicle::stopReason() const { return truth().crash_reason; }
+void SimulatedVehicle::setCameraConsumer(bool wanted) { arena_->setCameraConsumer(index_, wanted); }
+const std::string& SimulatedVehicle::name() const { return arena_->vehicle(index_).placed().name; }
+const Truth& SimulatedVehicle::truth() const { return arena_->vehicle(index_).truth(); }
+common::Pose3 SimulatedVehicle::T_world_map() const { return arena_->vehicle(index_).placed().T_world_map; }
+const WorldModel& SimulatedVehicle::world() const { return arena_->world(); }
+const RayCaster& SimulatedVehicle::rays() const { return arena_->rays(); }
+const Scenario& SimulatedVehicle::scenario() const { return arena_->vehicle(index_).placed().scenario; }
+int SimulatedVehicle::redraws() const { return arena_->vehicle(index_).placed().redraws; }
+std::vector<Actor> SimulatedVehicle::walkers() const { return arena_->people(); }
 
 }  // namespace swiftlet::simulation

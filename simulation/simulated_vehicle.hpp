@@ -1,4 +1,4 @@
-// The vehicle in the simulator: the same interface a real one has, plus the truth for the scorer.
+// A vehicle in the simulator: the same interface a real one has, plus the truth for the scorer.
 #pragma once
 
 #include <memory>
@@ -14,14 +14,22 @@
 
 namespace swiftlet::simulation {
 
-/// Always lockstep: time passes in advanceTo alone. Physics at 1 kHz, attitude loop at 500 Hz, hull swept at 100 Hz.
-/// Everything random is drawn from streams named by (seed, sensor, frame): who looks at what changes nothing.
+class Arena;
+
+/// Attends one vehicle of an arena, from the start on and for as long as it lives. Always lockstep: time passes in
+/// advanceTo alone, and vehicles of one arena pass through the same instants (see Arena). Physics at 1 kHz, attitude
+/// loop at 500 Hz, hull swept at 100 Hz. Everything random is drawn from streams named by (seed, sensor, frame), with a
+/// seed of its own for each vehicle: who looks at what, and who else flies, changes nothing.
 class SimulatedVehicle final : public common::Vehicle {
  public:
-  /// Applies the scenario's variation by its seed. Throws common::InputError when there is no floor under the start,
-  /// the start is inside a wall, a model to be shifted does not exist, or no draw leaves the goals reachable.
-  SimulatedVehicle(WorldModel world, const Scenario& scenario);
+  /// Vehicle number `index` of the arena; time has not passed there, and nobody else attends it.
+  SimulatedVehicle(std::shared_ptr<Arena> arena, std::size_t index);
+  /// The first vehicle of an arena of its own. Throws what Arena throws.
+  SimulatedVehicle(const WorldModel& world, const Scenario& scenario);
+  /// What it attended stays in the arena, with its last setpoint and the autopilot's rule for a lost link.
   ~SimulatedVehicle() override;
+  SimulatedVehicle(const SimulatedVehicle&) = delete;
+  SimulatedVehicle& operator=(const SimulatedVehicle&) = delete;
 
   common::Time now() const override;
   [[nodiscard]] bool advanceTo(common::Time time, std::vector<common::SensorEvent>& events) override;
@@ -31,13 +39,15 @@ class SimulatedVehicle final : public common::Vehicle {
   /// Whether camera frames are rendered and delivered from now on; at first they are not.
   void setCameraConsumer(bool wanted);
 
+  /// The scenario's name for it; empty when it flies alone without one.
+  const std::string& name() const;
   const Truth& truth() const;
   /// The frame the autonomy calls `map`: the take-off place on its floor, with the yaw of the start.
   common::Pose3 T_world_map() const;
   /// The world after the seed's variation, and rays in it.
   const WorldModel& world() const;
   const RayCaster& rays() const;
-  /// The scenario as flown: start, wind and battery after the variation.
+  /// The scenario as flown by this vehicle: start, wind and battery after the variation.
   const Scenario& scenario() const;
   /// How many draws of the variation were refused.
   int redraws() const;
@@ -45,8 +55,8 @@ class SimulatedVehicle final : public common::Vehicle {
   std::vector<Actor> walkers() const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<Arena> arena_;
+  std::size_t index_;
 };
 
 }  // namespace swiftlet::simulation

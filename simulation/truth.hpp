@@ -16,15 +16,16 @@ struct Truth {
   Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();
   bool airborne = false;
 
-  /// Smallest horizontal distance so far from the hull to the static world, and to a walker, while airborne. They are
-  /// capped at kClearanceLimit_m.
+  /// Smallest horizontal distance so far from the hull to the static world, to a walker and to the hull of another
+  /// vehicle, while airborne. They are capped at kClearanceLimit_m.
   static constexpr double kClearanceLimit_m = 1.0;
   double min_clearance_m = kClearanceLimit_m;
   double min_walker_clearance_m = kClearanceLimit_m;
+  double min_vehicle_clearance_m = kClearanceLimit_m;
 
   bool crashed = false;
   std::string crash_reason;  ///< "touched `north_wall` at (1.20, 3.40, 1.05)"
-  std::string touched;       ///< Name of the model or walker.
+  std::string touched;       ///< Name of the model, walker or other vehicle.
   common::Time contact_time;
   bool by_walker = false;  ///< A walker was touched.
   /// The vehicle stood still (below 0.1 m/s) or moved away when the walker ran into it.

@@ -34,12 +34,24 @@ StartConfig nominalStart(const WorldModel& world, const Scenario& scenario) {
   return start;
 }
 
+std::uint64_t streamSeed(int seed, std::size_t vehicle) {
+  const auto own = static_cast<std::uint64_t>(seed);
+  return vehicle == 0 ? own : common::RandomStream(own, "vehicle", vehicle).bits();
+}
+
+/// One vehicle in the world that was drawn with it.
+struct Drawn : PlacedVehicle {
+  WorldModel world;
+};
+
 /// One draw of everything the seed varies.
-Realization drawOnce(const WorldModel& world, const Scenario& scenario, int draw) {
+Drawn drawOnce(const WorldModel& world, const PlacedVehicle& nominal, int draw) {
+  const Scenario& scenario = nominal.scenario;
   const Variation& variation = scenario.variation;
-  common::RandomStream random(static_cast<std::uint64_t>(scenario.seed), "variation", static_cast<std::uint64_t>(draw));
+  common::RandomStream random(nominal.stream_seed, "variation", static_cast<std::uint64_t>(draw));
   const auto within = [&random](double most) { return random.uniform(-most, most); };
-  Realization drawn{world, scenario, {}, draw};
+  Drawn drawn{nominal, world};
+  drawn.redraws = draw;
   StartConfig& start = drawn.scenario.start = nominalStart(world, scenario);
   start.x_m += within(variation.start_position_m);
   start.y_m += within(variation.start_position_m);
@@ -59,14 +71,14 @@ Realization drawOnce(const WorldModel& world, const Scenario& scenario, int draw
   return drawn;
 }
 
-Problem startProblem(const Realization& drawn, const std::string& message, const std::string& hint) {
+Problem startProblem(const Drawn& drawn, const std::string& message, const std::string& hint) {
   const StartConfig& start = drawn.scenario.start;
-  return {drawn.world.start_source, "start",
+  return {drawn.world.start_source, drawn.name.empty() ? "start" : "start of `" + drawn.name + "`",
           fmt::format("at ({:.2f}, {:.2f}, {:.2f}) {}", start.x_m, start.y_m, start.z_m, message), hint};
 }
 
 /// Puts the start on its floor; says what is in the way, if something is.
-std::optional<Problem> placeStart(Realization& drawn, const RayCaster& rays) {
+std::optional<Problem> placeStart(Drawn& drawn, const RayCaster& rays) {
   const Scenario& scenario = drawn.scenario;
   const StartConfig& start = scenario.start;
   double lowest_m = INFINITY, highest_m = -INFINITY;
@@ -99,11 +111,23 @@ std::optional<Problem> placeStart(Realization& drawn, const RayCaster& rays) {
                       "move the start");
 }
 
+/// The other vehicle whose hull its own would touch.
+std::optional<Problem> meetsAnother(const Drawn& drawn, const std::vector<PlacedVehicle>& others) {
+  const Eigen::Vector3d at = drawn.T_world_map.position_m;
+  for (const PlacedVehicle& other : others) {
+    const Eigen::Vector3d apart = other.T_world_map.position_m - at;
+    const common::VehicleConfig &a = drawn.scenario.vehicle, &b = other.scenario.vehicle;
+    if (apart.head<2>().norm() > a.hullRadius_m() + b.hullRadius_m() || std::abs(apart.z()) > a.hull_height_m) continue;
+    return startProblem(drawn, fmt::format("touches the vehicle `{}`", other.name), "move one of the two starts");
+  }
+  return std::nullopt;
+}
+
 /// Where the vehicle gets to at its flight height from a start that was placed; searched once, when it is first asked
 /// for.
 class Reach {
  public:
-  Reach(const Realization& drawn, const RayCaster& rays) : drawn_(drawn), rays_(rays) {}
+  Reach(const Drawn& drawn, const RayCaster& rays) : drawn_(drawn), rays_(rays) {}
 
   bool has(const Eigen::Vector2d& place_world_m) {
     if (!cells_) cells_ = reachableSpace(rays_, atFlightHeight());
@@ -123,14 +147,13 @@ class Reach {
     return query;
   }
 
-  const Realization& drawn_;
+  const Drawn& drawn_;
   const RayCaster& rays_;
   std::optional<common::TiledGrid<std::uint8_t>> cells_;
 };
 
 /// Of a start drawn anywhere: it is on the floor of the nominal one, nothing hangs over it, and it leads there.
-std::optional<Problem> badPlace(const Realization& drawn, const StartConfig& nominal, const RayCaster& rays,
-                                Reach& reach) {
+std::optional<Problem> badPlace(const Drawn& drawn, const StartConfig& nominal, const RayCaster& rays, Reach& reach) {
   if (drawn.scenario.variation.start_area_world_m.empty()) return std::nullopt;
   const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
   const Eigen::Vector3d floor_m = drawn.T_world_map.position_m;
@@ -148,7 +171,7 @@ std::optional<Problem> badPlace(const Realization& drawn, const StartConfig& nom
   return startProblem(drawn, "does not lead to the start that is given", "choose the area elsewhere");
 }
 
-std::optional<Problem> unreachableGoal(const Realization& drawn, Reach& reach) {
+std::optional<Problem> unreachableGoal(const Drawn& drawn, Reach& reach) {
   const std::vector<double>& goals = drawn.scenario.variation.reachable_map_m;
   for (std::size_t i = 0; i + 1 < goals.size(); i += 2) {
     const Eigen::Vector3d goal_world = drawn.T_world_map * Eigen::Vector3d(goals[i], goals[i + 1], 0.0);
@@ -165,6 +188,38 @@ bool varies(const Variation& v) {
          (!v.obstacles.empty() && v.obstacle_m > 0.0);
 }
 
+/// They are drawn with the first vehicle.
+void takeAirAndObstaclesOf(const PlacedVehicle& first, Scenario& scenario) {
+  scenario.wind = first.scenario.wind;
+  scenario.variation.wind_m_s = 0.0;
+  scenario.variation.obstacles.clear();
+}
+
+Drawn drawUntilItWillDo(const WorldModel& world, const PlacedVehicle& nominal,
+                        const std::vector<PlacedVehicle>& others) {
+  const int draws = varies(nominal.scenario.variation) ? kMostDraws : 1;
+  std::optional<Problem> blocked, unreachable;
+  for (int draw = 0; draw < draws; ++draw) {
+    Drawn drawn = drawOnce(world, nominal, draw);
+    const RayCaster rays(drawn.world);
+    Reach reach(drawn, rays);
+    auto problem = placeStart(drawn, rays);
+    if (!problem) problem = meetsAnother(drawn, others);
+    if (!problem) problem = badPlace(drawn, nominalStart(world, nominal.scenario), rays, reach);
+    if (problem) {
+      if (!blocked) blocked = problem;
+      continue;
+    }
+    problem = unreachableGoal(drawn, reach);
+    if (!problem) return drawn;
+    if (!unreachable) unreachable = problem;
+  }
+  // A start that was free but led nowhere says more than one that was not.
+  Problem problem = unreachable ? *unreachable : *blocked;
+  if (draws > 1) problem.message += fmt::format("; none of the {} draws of the seed's variation will do", draws);
+  throw InputError(problem);
+}
+
 }  // namespace
 
 Realization realize(const WorldModel& world, const Scenario& scenario) {
@@ -175,28 +230,20 @@ Realization realize(const WorldModel& world, const Scenario& scenario) {
                                "variation.obstacles",
                                fmt::format("there is no model `{}`", obstacle),
                                common::didYouMean(obstacle, models)});
-  const int draws = varies(scenario.variation) ? kMostDraws : 1;
-  std::optional<Problem> blocked, unreachable;
-  for (int draw = 0; draw < draws; ++draw) {
-    Realization drawn = drawOnce(world, scenario, draw);
-    const RayCaster rays(drawn.world);
-    if (const auto problem = placeStart(drawn, rays)) {
-      if (!blocked) blocked = problem;
-      continue;
-    }
-    Reach reach(drawn, rays);
-    if (const auto problem = badPlace(drawn, nominalStart(world, scenario), rays, reach)) {
-      if (!blocked) blocked = problem;
-      continue;
-    }
-    const auto problem = unreachableGoal(drawn, reach);
-    if (!problem) return drawn;
-    if (!unreachable) unreachable = problem;
+  Realization realization{world, {}};
+  std::vector<PlacedVehicle>& placed = realization.vehicles;
+  for (std::size_t i = 0; i < scenario.vehicleCount(); ++i) {
+    PlacedVehicle nominal{scenario.vehicles.empty() ? "" : scenario.vehicles[i].name,
+                          scenario.withVehicleAlone(i),
+                          streamSeed(scenario.seed, i),
+                          {},
+                          0};
+    if (i > 0) takeAirAndObstaclesOf(placed.front(), nominal.scenario);
+    Drawn drawn = drawUntilItWillDo(realization.world, nominal, placed);
+    realization.world = std::move(drawn.world);
+    placed.push_back(std::move(static_cast<PlacedVehicle&>(drawn)));
   }
-  // A start that was free but led nowhere says more than one that was not.
-  Problem problem = unreachable ? *unreachable : *blocked;
-  if (draws > 1) problem.message += fmt::format("; none of the {} draws of the seed's variation will do", draws);
-  throw InputError(problem);
+  return realization;
 }
 
 }  // namespace swiftlet::simulation

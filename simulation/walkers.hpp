@@ -14,7 +14,7 @@
 
 namespace swiftlet::simulation {
 
-/// What a walker may see of the vehicle.
+/// What a walker may see of the vehicle it crosses or follows.
 struct WalkedAround {
   Eigen::Vector3d position_world_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();

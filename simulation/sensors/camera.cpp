@@ -10,7 +10,6 @@ namespace swiftlet::simulation {
 namespace {
 
 constexpr double kSight_m = 60.0;
-const Color kWalker(0.85F, 0.35F, 0.2F);
 
 Color sky(const Eigen::Vector3f& direction_world) {
   const float up = std::clamp(0.5F + 0.5F * direction_world.z(), 0.0F, 1.0F);
@@ -43,17 +42,17 @@ std::uint8_t toByte(float value) { return static_cast<std::uint8_t>(std::clamp(v
 
 }  // namespace
 
-Camera::Camera(const CameraConfig& config, const WorldModel& world, int seed)
+Camera::Camera(const CameraConfig& config, const WorldModel& world, std::uint64_t seed)
     : config_(config), seed_(seed), T_body_camera_(config.mount.pose()) {
   for (const Shape& shape : world.shapes) colors_.push_back(shape.color);
 }
 
 // Lambert twice: a lamp on the vehicle and a soft light from above, so that walls of a corner differ.
-Color Camera::shade(const Hit& hit, const Eigen::Vector3f& direction_world) const {
+Color Camera::shade(const Hit& hit, const Eigen::Vector3f& direction_world, std::span<const Actor> actors) const {
   if (!hit) return sky(direction_world);
   static const Eigen::Vector3f kLight = Eigen::Vector3f(0.35F, 0.55F, 0.76F).normalized();
   const auto shape = static_cast<std::size_t>(hit.shape);
-  const Color color = shape < colors_.size() ? colors_[shape] : kWalker;
+  const Color color = shape < colors_.size() ? colors_[shape] : actors[shape - colors_.size()].color;
   const float lamp = std::max(0.0F, -hit.normal_world.dot(direction_world));
   const float light = 0.5F + 0.5F * hit.normal_world.dot(kLight);
   const float fade = 1.0F / (1.0F + 0.004F * static_cast<float>(hit.distance_m * hit.distance_m));
@@ -68,7 +67,7 @@ common::Image Camera::render(std::uint64_t frame, const common::Pose3& T_world_b
   const float half_width = 0.5F * static_cast<float>(width), half_height = 0.5F * static_cast<float>(height);
   const float focal_px =
       half_width / static_cast<float>(std::tan(0.5 * config_.field_of_view_deg * std::numbers::pi / 180.0));
-  PixelNoise noise(config_.pixel_noise, common::RandomStream(static_cast<std::uint64_t>(seed_), "camera", frame));
+  PixelNoise noise(config_.pixel_noise, common::RandomStream(seed_, "camera", frame));
 
   common::Image image{config_.width_px, config_.height_px, std::vector<std::uint8_t>(3 * width * height)};
   std::vector<Ray> row(width);
@@ -81,7 +80,7 @@ common::Image Camera::render(std::uint64_t frame, const common::Pose3& T_world_b
     }
     rays.castAll(row, kSight_m, actors, hits);
     for (std::size_t u = 0; u < width; ++u) {
-      const Color color = shade(hits[u], row[u].direction_world);
+      const Color color = shade(hits[u], row[u].direction_world, actors);
       const float grey = noise.next();
       for (std::size_t channel = 0; channel < 3; ++channel)
         image.rgb[3 * (v * width + u) + channel] = toByte(255.0F * color[static_cast<int>(channel)] + grey);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -15,17 +16,17 @@ namespace swiftlet::simulation {
 
 class Camera {
  public:
-  Camera(const CameraConfig& config, const WorldModel& world, int seed);
+  Camera(const CameraConfig& config, const WorldModel& world, std::uint64_t seed);
 
   /// Frame number `frame`; the same pose and number give the same picture, whatever was rendered before.
   common::Image render(std::uint64_t frame, const common::Pose3& T_world_body, std::span<const Actor> actors,
                        const RayCaster& rays) const;
 
  private:
-  Color shade(const Hit& hit, const Eigen::Vector3f& direction_world) const;
+  Color shade(const Hit& hit, const Eigen::Vector3f& direction_world, std::span<const Actor> actors) const;
 
   CameraConfig config_;
-  int seed_;
+  std::uint64_t seed_;
   common::Pose3 T_body_camera_;
   std::vector<Color> colors_;
 };

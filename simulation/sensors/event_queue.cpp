@@ -65,12 +65,12 @@ struct MakeNan {
 
 }  // namespace
 
-EventQueue::EventQueue(const Scenario& scenario) : faults_(scenario.faults) {
+EventQueue::EventQueue(const Scenario& scenario, std::uint64_t seed) : faults_(scenario.faults) {
   const SensorsConfig& sensors = scenario.sensors;
   const std::array<const LinkConfig*, kSensorCount> configs{
       &sensors.imu_link, &sensors.laser_link, &sensors.battery_link, &sensors.pilot_link, &sensors.camera_link};
   for (int i = 0; i < kSensorCount; ++i)
-    links_.emplace_back(*configs[static_cast<std::size_t>(i)], scenario.seed, toString(static_cast<Sensor>(i)));
+    links_.emplace_back(*configs[static_cast<std::size_t>(i)], seed, toString(static_cast<Sensor>(i)));
 }
 
 const FaultConfig* EventQueue::activeFault(Sensor sensor, common::Time measured) const {

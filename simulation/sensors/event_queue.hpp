@@ -14,7 +14,8 @@ namespace swiftlet::simulation {
 
 class EventQueue {
  public:
-  explicit EventQueue(const Scenario& scenario);
+  /// `seed` names the random streams of the links.
+  EventQueue(const Scenario& scenario, std::uint64_t seed);
 
   /// Number `frame` of a sensor is ready to be sent; its stamp `measured` is set.
   void send(Sensor sensor, std::uint64_t frame, common::Time ready, common::SensorEvent event);

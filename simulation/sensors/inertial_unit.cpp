@@ -21,8 +21,8 @@ Vector3d gaussians(RandomStream& random, double standard_deviation) {
 
 }  // namespace
 
-InertialUnit::InertialUnit(const ImuConfig& config, int seed) : config_(config), seed_(seed) {
-  RandomStream random(static_cast<std::uint64_t>(seed), "inertial unit");
+InertialUnit::InertialUnit(const ImuConfig& config, std::uint64_t seed) : config_(config), seed_(seed) {
+  RandomStream random(seed, "inertial unit");
   gyro_bias_rad_s_ = gaussians(random, config.gyro_bias_rad_s);
   accel_bias_m_s2_ = gaussians(random, config.accel_bias_m_s2);
   slow_tilt_rad_ = gaussians(random, config.tilt_error_deg * kRadPerDeg).head<2>();
@@ -45,7 +45,7 @@ Eigen::Quaterniond InertialUnit::withErrors(const QuadrotorState& state, const V
 }
 
 AttitudeMeasurement InertialUnit::attitude(std::uint64_t tick, const QuadrotorState& state, double step_s) {
-  RandomStream random(static_cast<std::uint64_t>(seed_), "ahrs", tick);
+  RandomStream random(seed_, "ahrs", tick);
   const double root_step = std::sqrt(step_s);
 
   // Gauss-Markov: correlated over tilt_error_time_s, of constant variance.
@@ -73,7 +73,7 @@ AttitudeMeasurement InertialUnit::attitude(std::uint64_t tick, const QuadrotorSt
 }
 
 common::ImuSample InertialUnit::sample(std::uint64_t frame, const QuadrotorState& state) {
-  RandomStream random(static_cast<std::uint64_t>(seed_), "imu", frame);
+  RandomStream random(seed_, "imu", frame);
   const double share = felt_count_ > 0 ? 1.0 / felt_count_ : 0.0;
   common::ImuSample sample;
   sample.angular_velocity_body_rad_s =

@@ -22,7 +22,7 @@ struct AttitudeMeasurement {
 
 class InertialUnit {
  public:
-  InertialUnit(const ImuConfig& config, int seed);
+  InertialUnit(const ImuConfig& config, std::uint64_t seed);
 
   /// Call after each physics step: averages what is felt, as a sensor that integrates between its samples.
   void feel(const QuadrotorState& state);
@@ -37,7 +37,7 @@ class InertialUnit {
   Eigen::Quaterniond withErrors(const QuadrotorState& state, const Eigen::Vector3d& noise_rad) const;
 
   ImuConfig config_;
-  int seed_;
+  std::uint64_t seed_;
   Eigen::Vector3d gyro_bias_rad_s_;
   Eigen::Vector3d accel_bias_m_s2_;
   Eigen::Vector2d slow_tilt_rad_;

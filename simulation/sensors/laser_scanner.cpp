@@ -20,7 +20,7 @@ constexpr double kNoiseGrowsFrom_m = 10.0;  // Range noise is constant up to her
 
 }  // namespace
 
-LaserScanner::LaserScanner(const common::LaserConfig& config, int seed)
+LaserScanner::LaserScanner(const common::LaserConfig& config, std::uint64_t seed)
     : config_(config),
       seed_(seed),
       time_increment_(
@@ -61,7 +61,7 @@ void LaserScanner::sweepRays(Time start, const std::vector<Moment>& track, const
 }
 
 void LaserScanner::addNoise(std::uint64_t frame, std::vector<float>& ranges_m) const {
-  common::RandomStream random(static_cast<std::uint64_t>(seed_), "laser", frame);
+  common::RandomStream random(seed_, "laser", frame);
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
     // Drawn for every beam alike, so that what one beam meets does not shift the noise of the next.
     const bool dropped = random.chance(config_.dropout_rate);

@@ -24,7 +24,7 @@ struct Moment {
 
 class LaserScanner {
  public:
-  LaserScanner(const common::LaserConfig& config, int seed);
+  LaserScanner(const common::LaserConfig& config, std::uint64_t seed);
 
   common::Duration sweep() const { return time_increment_ * (config_.beams - 1); }
 
@@ -43,7 +43,7 @@ class LaserScanner {
   void addNoise(std::uint64_t frame, std::vector<float>& ranges_m) const;
 
   common::LaserConfig config_;
-  int seed_;
+  std::uint64_t seed_;
   common::Duration time_increment_;
   std::vector<Beam> beams_;
   std::vector<Ray> rays_;  // Kept between scans to spare the allocation.

@@ -13,7 +13,7 @@ namespace swiftlet::simulation {
 class Link {
  public:
   /// `name` names the random stream.
-  Link(const LinkConfig& config, int seed, std::string name);
+  Link(const LinkConfig& config, std::uint64_t seed, std::string name);
 
   /// When number `frame`, ready at `ready`, arrives; none when it is lost. Call in the order of frames; leaving some
   /// out changes nothing for the others.
@@ -21,7 +21,7 @@ class Link {
 
  private:
   LinkConfig config_;
-  int seed_;
+  std::uint64_t seed_;
   std::string name_;
   common::Time last_;
 };

@@ -10,12 +10,13 @@ namespace swiftlet::simulation {
 
 using common::Time;
 
-SensorSuite::SensorSuite(const Scenario& scenario, const WorldModel& world)
+SensorSuite::SensorSuite(const Scenario& scenario, std::uint64_t seed, const WorldModel& world)
     : scenario_(scenario),
-      inertial_(scenario.sensors.imu, scenario.seed),
-      laser_(scenario.laser, scenario.seed),
-      camera_(scenario.sensors.camera, world, scenario.seed),
-      queue_(scenario),
+      seed_(seed),
+      inertial_(scenario.sensors.imu, seed),
+      laser_(scenario.laser, seed),
+      camera_(scenario.sensors.camera, world, seed),
+      queue_(scenario, seed),
       imu_clock_(scenario.sensors.imu.rate_hz),
       laser_clock_(scenario.laser.rate_hz),
       battery_clock_(scenario.sensors.battery_rate_hz),
@@ -75,7 +76,7 @@ void SensorSuite::stepCamera(Time now, const QuadrotorState& state, const std::v
 
 void SensorSuite::stepSlow(Time now, const Battery& battery) {
   if (battery_clock_.due(now)) {
-    common::RandomStream random(static_cast<std::uint64_t>(scenario_.seed), "battery", battery_clock_.frame);
+    common::RandomStream random(seed_, "battery", battery_clock_.frame);
     common::BatterySample sample;
     sample.stamps.measured = now;
     sample.voltage_v = battery.voltage_v() + random.gaussian(scenario_.sensors.battery_noise_v);

@@ -18,7 +18,8 @@ namespace swiftlet::simulation {
 
 class SensorSuite {
  public:
-  SensorSuite(const Scenario& scenario, const WorldModel& world);
+  /// `seed` names the random streams of all of them.
+  SensorSuite(const Scenario& scenario, std::uint64_t seed, const WorldModel& world);
 
   /// What the autopilot measures at its tick number `tick`.
   AttitudeMeasurement attitude(std::uint64_t tick, const QuadrotorState& state, const Battery& battery, double step_s);
@@ -53,6 +54,7 @@ class SensorSuite {
   void stepSlow(common::Time now, const Battery& battery);
 
   Scenario scenario_;
+  std::uint64_t seed_;
   InertialUnit inertial_;
   LaserScanner laser_;
   Camera camera_;

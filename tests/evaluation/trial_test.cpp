@@ -90,6 +90,11 @@ TEST_F(Trials, MistakesOfAllFilesAreSaidAtOnce) {
   EXPECT_THAT(problem, HasSubstr("coverage_min: 99 is not within"));
 }
 
+TEST_F(Trials, SeveralVehiclesAreRefused) {
+  put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: alpha}, {name: beta}]}\n");
+  EXPECT_THAT(problemOf(folder_), HasSubstr("scenario: lists several `vehicles`; a trial flies one"));
+}
+
 TEST_F(Trials, NothingThere) {
   EXPECT_THAT(problemOf(folder_ / "papers"), HasSubstr("holds no trials"));
   EXPECT_THAT(problemOf(folder_ / "none.yaml"), HasSubstr("none.yaml: cannot be opened"));

@@ -35,33 +35,69 @@ std::vector<std::string> shippedMissions() {
   return names;
 }
 
+/// A mission that waits for an operator never ends by itself.
+bool waits(const std::string& mission) {
+  return readText(fs::path(SWIFTLET_SOURCE_DIR) / "missions" / (mission + ".xml")).find("<OperatorCommand") !=
+         std::string::npos;
+}
+
+std::vector<std::string> missionsThat(bool wait) {
+  std::vector<std::string> names = shippedMissions();
+  names.erase(std::remove_if(names.begin(), names.end(), [&](const auto& name) { return waits(name) != wait; }),
+              names.end());
+  return names;
+}
+
+const auto kByName = [](const auto& mission) { return mission.param; };
+
 class ShippedMission : public test_support::Scratch, public testing::WithParamInterface<std::string> {};
 
-TEST_P(ShippedMission, FliesAndLeavesItsRun) {
-  const std::string mission = "missions/" + GetParam() + ".xml";
-  // A mission that waits for an operator never ends by itself: it is ended by the clock.
-  const bool waits = readText(fs::path(SWIFTLET_SOURCE_DIR) / mission).find("<OperatorCommand") != std::string::npos;
-  const ProgramEnd end = runSwiftlet({"fly", mission, "--headless", "--speed", "max", "--seed", "3", "--json", "--out",
-                                      path("run"), "--time-limit", waits ? "20" : "300"});
-  ASSERT_EQ(end.exit_code, waits ? 1 : 0) << describe(end);
-  const auto said = nlohmann::json::parse(end.out);
-  EXPECT_EQ(said.at("outcome"), waits ? "stopped" : "done") << said.dump(2);
-  EXPECT_EQ(said.at("run"), path("run"));
+// Scored against the truth, by the bounds of trials/papers/unb_case1.yaml for one flight.
+TEST_P(ShippedMission, FliesAccuratelyAndLeavesItsRun) {
+  const std::string trial = write(GetParam() + ".yaml", "mission: missions/" + GetParam() +
+                                                            ".xml\n"
+                                                            "time_limit_s: 300\n"
+                                                            "criteria:\n"
+                                                            "  goal_error_max_m: 0.16\n"
+                                                            "  home_error_max_m: 0.16\n"
+                                                            "  estimate_rms_max_m: 0.05\n"
+                                                            "  map_wall_error_max_m: 0.05\n"
+                                                            "scenario: {world: worlds/unb_case1.sdf, seed: 3}\n");
+  const ProgramEnd end = runSwiftlet({"trial", trial, "--repeat", "1", "--json", "--out", path("out")});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const auto flight = nlohmann::json::parse(end.out).at("trials").at(0).at("flights").at(0);
+  EXPECT_TRUE(flight.at("failures").empty()) << flight.dump(2);
+  EXPECT_LE(flight.at("goal_error_m").get<double>(), 0.16);
+  EXPECT_LE(flight.at("estimate_rms_m").get<double>(), 0.05);
 
-  expectSoundRun(path("run"));
-  const auto mission_json = nlohmann::json::parse(readText(path("run/mission.json")));
-  EXPECT_EQ(mission_json.at("outcome"), said.at("outcome"));
+  const std::string run = path("out/" + GetParam() + "-003");
+  expectSoundRun(run);
+  const auto mission_json = nlohmann::json::parse(readText(run + "/mission.json"));
+  EXPECT_EQ(mission_json.at("outcome"), "done");
   EXPECT_EQ(mission_json.at("mission"), GetParam());
   EXPECT_EQ(mission_json.at("seed"), 3);
-  if (waits) return;
   EXPECT_GT(mission_json.at("distance_m").get<double>(), 3.0);
   EXPECT_FALSE(mission_json.at("phases").empty());
   for (const auto& frontier : mission_json.at("frontiers"))
     EXPECT_NE(frontier.at("reason"), "open") << "left without a reason: " << frontier;
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, ShippedMission, testing::ValuesIn(shippedMissions()),
-                         [](const auto& mission) { return mission.param; });
+INSTANTIATE_TEST_SUITE_P(Each, ShippedMission, testing::ValuesIn(missionsThat(false)), kByName);
+
+class WaitingMission : public test_support::Scratch, public testing::WithParamInterface<std::string> {};
+
+TEST_P(WaitingMission, IsEndedByTheClock) {
+  const ProgramEnd end = runSwiftlet({"fly", "missions/" + GetParam() + ".xml", "--headless", "--speed", "max",
+                                      "--seed", "3", "--json", "--out", path("run"), "--time-limit", "20"});
+  ASSERT_EQ(end.exit_code, 1) << describe(end);
+  const auto said = nlohmann::json::parse(end.out);
+  EXPECT_EQ(said.at("outcome"), "stopped") << said.dump(2);
+  EXPECT_EQ(said.at("run"), path("run"));
+  expectSoundRun(path("run"));
+  EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), said.at("outcome"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, WaitingMission, testing::ValuesIn(missionsThat(true)), kByName);
 
 /// A mission of a few leaves in the first world, with one seed.
 class ShortMission : public test_support::Scratch {

@@ -69,6 +69,7 @@ class TruthPilot {
     target_ = {x_m, y_m, vehicle_.T_world_map().position_m.z() + height_m};
     motors_on_ = true;
   }
+  const SimulatedVehicle& vehicle() const { return vehicle_; }
   void cutMotors() { motors_on_ = false; }
   double yaw_rate_rad_s = 0.0;
   double max_speed_m_s = 1.0;
@@ -77,11 +78,14 @@ class TruthPilot {
   bool fly(double seconds) {
     const common::Time end = vehicle_.now() + common::Duration::fromSeconds(seconds);
     while (vehicle_.now() < end) {
-      vehicle_.apply(setpoint());
-      if (!vehicle_.advanceTo(vehicle_.now() + common::Duration::fromMilliseconds(10), events)) return false;
+      steer();
+      if (!advance()) return false;
     }
     return true;
   }
+  /// The two halves of a control period, for who flies several vehicles.
+  void steer() { vehicle_.apply(setpoint()); }
+  bool advance() { return vehicle_.advanceTo(vehicle_.now() + common::kControlPeriod, events); }
 
   std::vector<common::SensorEvent> events;
 

@@ -1,0 +1,88 @@
+// One vehicle of the arena: physics, autopilot, battery, sensors, the link that brings it setpoints, and the referee of
+// its hull. The arena moves it, step by step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/sensor_event.hpp"
+#include "common/vehicle.hpp"
+#include "simulation/autopilot.hpp"
+#include "simulation/quadrotor.hpp"
+#include "simulation/ray_caster.hpp"
+#include "simulation/referee.hpp"
+#include "simulation/sensors/link.hpp"
+#include "simulation/sensors/sensor_suite.hpp"
+#include "simulation/truth.hpp"
+#include "simulation/variation.hpp"
+#include "simulation/walkers.hpp"
+
+namespace swiftlet::simulation {
+
+/// Steps of the physics.
+inline constexpr common::Duration kStep = common::Duration::fromMilliseconds(1);
+inline constexpr double kStep_s = 0.001;
+inline constexpr std::uint64_t kStepsPerLook = 10;  ///< 100 Hz: referee and wind.
+
+class VehicleModel {
+ public:
+  /// World and rays must outlive it.
+  VehicleModel(PlacedVehicle placed, const WorldModel& world, const RayCaster& rays);
+
+  /// Scenario, name and start as drawn.
+  const PlacedVehicle& placed() const { return placed_; }
+  /// Ends with the contact when it has crashed.
+  const Truth& truth() const { return truth_; }
+  /// Where its hull is, as the rays of other vehicles meet it. A crashed one falls to the floor and stays there.
+  Actor hull() const;
+  WalkedAround asWalkedAround() const;
+
+  // One step of the arena, in this order. `around` is what its rays meet beside the world.
+
+  /// The sensors' first look, before any step.
+  void begin(const std::vector<Actor>& around);
+  /// Step number `step`, which begins at `now`: autopilot, pushes and physics.
+  void fly(common::Time now, std::uint64_t step, const Eigen::Vector3d& wind_world_m_s);
+  /// At the end of step number `step`, at `now`: touch-downs, and contacts when a look is due.
+  void judge(common::Time now, std::uint64_t step, std::span<const Walker> walkers);
+  /// The gap between its hull and that of another vehicle; 0: they touch, which ends both.
+  void judgeMeeting(common::Time now, double gap_m, const VehicleModel& other);
+  void measure(common::Time now, const std::vector<Actor>& around, const RayCaster& rays);
+
+  void take(common::Time until, std::vector<common::SensorEvent>& events) { sensors_.take(until, events); }
+  /// A setpoint handed over at `now`; it is on its way for as long as the link takes.
+  void apply(common::Time now, const common::Setpoint& setpoint);
+  void setCameraConsumer(bool wanted) { sensors_.setCameraConsumer(wanted); }
+
+ private:
+  void receiveSetpoints(common::Time now);
+  void stepAutopilot(common::Time now, std::uint64_t tick);
+  void push(common::Time now);
+  void fall();
+  void updateTruth(common::Time now);
+
+  PlacedVehicle placed_;
+  Quadrotor quadrotor_;
+  Autopilot autopilot_;
+  Referee referee_;
+  SensorSuite sensors_;
+  Link command_link_;
+  std::uint64_t commands_ = 0;
+  std::deque<std::pair<common::Time, common::Setpoint>> commands_under_way_;
+  std::array<double, 4> throttles_{};
+  QuadrotorState before_step_;
+  Truth truth_;
+  bool stopped_ = false;   ///< It had crashed before the present step.
+  double fallen_m_ = 0.0;  ///< Since then.
+  double falling_m_s_ = 0.0;
+};
+
+/// Horizontal distance between two upright cylinders, 0 where they touch; infinity where one is above the other.
+double gapBetween_m(const Actor& a, const Actor& b);
+
+}  // namespace swiftlet::simulation
