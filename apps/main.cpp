@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/command.hpp"
+#include "apps/usage.hpp"
 #include "common/error.hpp"
 
 namespace {
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
 
   CLI::App program{"Explore, map and fly home indoors: autonomy for small quadrotors.", "swiftlet"};
   program.require_subcommand(0, 1);  // At least one is required below, so that an unknown one is named first.
+  program.set_version_flag("--version", "swiftlet " SWIFTLET_VERSION, "Print the version.");
   program.footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
 
   apps::Run run;
@@ -58,7 +60,9 @@ int main(int argc, char** argv) {
     if (program.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
     return withOutput(run());
   } catch (const CLI::ParseError& e) {
-    return program.exit(e) == 0 ? apps::kDone : apps::kBadInput;
+    if (e.get_exit_code() == 0) return withOutput(program.exit(e));  // Help or the version was asked for.
+    complain(apps::usageProblem(program, e));
+    return apps::kBadInput;
   } catch (const common::InputError& e) {
     complain(fmt::format("{}\n", e.what()));
     return apps::kBadInput;
