@@ -6,6 +6,7 @@
 
 #include "apps/command.hpp"
 #include "apps/system.hpp"
+#include "common/printable.hpp"
 
 namespace swiftlet::apps {
 
@@ -24,7 +25,7 @@ void addConfig(CLI::App& program, Run& run) {
   command->callback([&run, options] {
     run = [options] {
       if (options->list) {
-        for (const std::string& name : systemNames()) fmt::print("{}\n", name);
+        for (const std::string& name : systemNames()) fmt::print("{}\n", common::printable(name));
       } else {
         fmt::print("{}", loadSystem(options->system).toYaml(!options->plain));
       }

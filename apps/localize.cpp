@@ -176,7 +176,7 @@ int localize(const LocalizeOptions& options) {
   if (log.scans() == 0) throw log.error("no scan in it could be read");
   if (run.estimates == 0)
     throw log.error(fmt::format("not localized: none of its {} scans has points enough", log.scans()));
-  if (!log.damage().empty()) fmt::print(stderr, "{}\n", log.damage());
+  if (!log.damage().empty()) showError(log.damage() + "\n");
 
   const perception::LogLocalizerCounts counts = localizer.counts();
   run.shown.map = options.map;
@@ -187,8 +187,8 @@ int localize(const LocalizeOptions& options) {
   writeLocalizeOutputs(folder.unfinished(), map, run.shown);
   folder.publish();
   if (options.log.json)
-    show(figuresOf(options, log, run, counts, out).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-         "\n");
+    showJson(figuresOf(options, log, run, counts, out).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+             "\n");
   else
     showForPeople(run, out);
   // A place that was given counts as long as nothing spoke against it.

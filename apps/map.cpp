@@ -145,13 +145,13 @@ int map(const MapOptions& options) {
   mapLog(log, options, run);
   if (run.slam.keyPoses().empty())
     throw log.error(fmt::format("no map: none of its {} scans has points enough", log.scans()));
-  if (!log.damage().empty()) fmt::print(stderr, "{}\n", log.damage());
+  if (!log.damage().empty()) showError(log.damage() + "\n");
 
   const common::OccupancyGrid grid = run.slam.map();
   const std::string no_map = whyNoMap(grid);
   MapFigures shown{options.log.file, factsOf(log, run), warningsOf(log, run), run.milliseconds};
   if (!no_map.empty()) {
-    fmt::print(stderr, "{}\n", no_map);
+    showError(no_map + "\n");
     shown.warnings.insert(shown.warnings.begin(), no_map);
   }
   writeMapOutputs(folder.unfinished(), run.slam, no_map.empty() ? &grid : nullptr, run.track, shown);
@@ -159,7 +159,7 @@ int map(const MapOptions& options) {
   const int exit_code = log.damage().empty() && no_map.empty() ? kDone : kFailed;
   if (options.log.json) {
     const nlohmann::ordered_json figures = figuresOf(options, log, run, shown.warnings, out);
-    show(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    showJson(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return exit_code;
   }
   for (const std::string& warning : shown.warnings) show("note: " + warning + "\n");

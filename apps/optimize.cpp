@@ -16,6 +16,7 @@
 #include "apps/recorded_log.hpp"
 #include "apps/required.hpp"
 #include "apps/results_folder.hpp"
+#include "apps/show.hpp"
 #include "apps/wall_clock.hpp"
 #include "common/error.hpp"
 #include "common/table.hpp"
@@ -161,7 +162,7 @@ void write(ResultsFolder& folder, const interfaces::G2oFile& file, const Optimiz
 
 int optimizeGraph(const OptimizeOptions& options) {
   interfaces::G2oFile file = interfaces::readG2o(fs::path(options.graph));
-  for (const std::string& warning : file.warnings) fmt::print(stderr, "{}\n", warning);
+  for (const std::string& warning : file.warnings) showError(warning + "\n");
   std::optional<ResultsFolder> folder;
   if (!options.out.empty()) {
     refuseTheGraphItself(options);
@@ -169,15 +170,19 @@ int optimizeGraph(const OptimizeOptions& options) {
   }
   Report report = std::visit([&](auto& graph) { return optimizeInPlace(graph, options); }, file.graph);
   if (!std::isfinite(report.chi2_final)) {
-    fmt::print(stderr, "{}: chi2 is {}: its errors or its information are too large for numbers; nothing is written\n",
-               options.graph, report.chi2_final);
+    showError(
+        fmt::format("{}: chi2 is {}: its errors or its information are too large for numbers; nothing is written\n",
+                    options.graph, report.chi2_final));
     return kFailed;
   }
   if (report.loose_parts > 0)
     fmt::print(stderr, "note: {} not tied to the fixed vertex by edges, and may lie anywhere to it\n",
                plural(report.loose_parts, "part of the graph is", "parts of the graph are"));
   if (folder) write(*folder, file, options, report);
-  fmt::print("{}", options.json ? jsonOf(report, file, options) + "\n" : textOf(report, options));
+  if (options.json)
+    showJson(jsonOf(report, file, options) + "\n");
+  else
+    show(textOf(report, options));
   return report.converged ? kDone : kFailed;
 }
 
