@@ -127,6 +127,8 @@ nlohmann::ordered_json figuresOf(const LocalizeOptions& options, const RecordedL
           {"out", out.string()},
           {"complete", log.damage().empty()},
           {"scans", log.scans()},
+          {"skipped_records", log.reader().counts().skipped_records},
+          {"first_skipped_line", orNull<nlohmann::ordered_json>(log.firstSkippedLine())},
           {"localized_scans", run.localized},
           {"times_localized", run.times_localized},
           {"times_lost", run.times_lost},

@@ -109,6 +109,7 @@ nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& l
           {"complete", log.damage().empty()},
           {"scans", log.scans()},
           {"skipped_records", read.skipped_records},
+          {"first_skipped_line", orNull<nlohmann::ordered_json>(log.firstSkippedLine())},
           {"invalid_ranges", read.invalid_ranges},
           {"doubtful_stamps", run.slam.counts().doubtful_stamps},
           {"doubtful_odometry_steps", run.slam.counts().doubtful_odometry},

@@ -138,7 +138,7 @@ TEST_F(Map, PeopleReadWhatIsOddBeforeTheFigures) {
   const std::string log = write("b.log", walk(30) + "FLASER 3 1.0 2.0\n");
   const ProgramEnd end = runSwiftlet({"map", log, "--out", path("out")});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
-  EXPECT_THAT(end.out, ContainsRegex("note: 1 record could not be read and was skipped\nnote: .*b\\.log:33:17: range: "
+  EXPECT_THAT(end.out, ContainsRegex("note: 1 record could not be read and was skipped, the first in line 33\nnote: .*b\\.log:33:17: range: "
                                      "the line ends before it, skipped\n(.*\n)*scans +30\n"));
   EXPECT_THAT(end.out, HasSubstr(path("out") + "/report.html"));
   EXPECT_THAT(readText(path("out/report.html")), HasSubstr("b.log:33:17"));
