@@ -7,6 +7,7 @@
 
 #include "apps/command.hpp"
 #include "apps/mission_limits.hpp"
+#include "apps/show.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -30,12 +31,11 @@ int check(const CheckOptions& options) {
                         {"element", problem.element},
                         {"message", problem.message},
                         {"hint", problem.hint}});
-      if (!options.json) fmt::print(stderr, "{}\n", toString(problem));
+      if (!options.json) showError(toString(problem) + "\n");
     }
   }
   if (options.json) {
-    fmt::print("{}\n",
-               nlohmann::json{{"problems", report}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    showJson(nlohmann::json{{"problems", report}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   } else if (count == 0) {
     fmt::print("{} mission{} sound\n", options.missions.size(), options.missions.size() == 1 ? " is" : "s are");
   }

@@ -8,6 +8,7 @@
 #include "apps/command.hpp"
 #include "apps/system.hpp"
 #include "common/config_reference.hpp"
+#include "common/printable.hpp"
 #include "evaluation/trial.hpp"
 
 namespace swiftlet::apps {
@@ -52,7 +53,7 @@ void addConfig(CLI::App& program, Run& run) {
       if (options->reference) {
         fmt::print("{}", reference());
       } else if (options->list) {
-        for (const std::string& name : systemNames()) fmt::print("{}\n", name);
+        for (const std::string& name : systemNames()) fmt::print("{}\n", common::printable(name));
       } else {
         fmt::print("{}", loadSystem(options->system).toYaml(!options->plain));
       }

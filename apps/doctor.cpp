@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/show.hpp"
 #include "apps/system.hpp"
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
@@ -90,12 +91,13 @@ int doctor(bool json) {
                       {"detail", finding.detail},
                       {"remedy", finding.ok ? "" : finding.remedy}});
     if (json) continue;
-    fmt::print("{:<8}{:<18}{}\n", finding.ok ? "ok" : "missing", finding.what, finding.detail);
-    if (!finding.ok) fmt::print("{:<26}-> {}\n", "", finding.remedy);
+    show(fmt::format("{:<8}{:<18}{}\n", finding.ok ? "ok" : "missing", finding.what, finding.detail));
+    if (!finding.ok) show(fmt::format("{:<26}-> {}\n", "", finding.remedy));
   }
   if (json)
-    fmt::print("{}\n", nlohmann::json{{"well", well}, {"findings", report}}.dump(
-                           2, ' ', false, nlohmann::json::error_handler_t::replace));
+    showJson(nlohmann::json{{"well", well}, {"findings", report}}.dump(2, ' ', false,
+                                                                       nlohmann::json::error_handler_t::replace) +
+             "\n");
   return well ? kDone : kFailed;
 }
 

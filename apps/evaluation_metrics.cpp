@@ -7,6 +7,7 @@
 
 #include "apps/command.hpp"
 #include "apps/error_figures.hpp"
+#include "apps/show.hpp"
 #include "common/error.hpp"
 #include "common/rounding.hpp"
 #include "evaluation/relations.hpp"
@@ -27,7 +28,7 @@ using evaluation::Stretch;
 constexpr double kDegPerRad = 1.0 / common::kRadPerDeg;
 
 void print(const nlohmann::json& json) {
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  showJson(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 /// To the microsecond, as logs and relations write it.
@@ -41,10 +42,10 @@ Ordered read(const std::string& file) { return common::ordered(interfaces::readP
 /// What a reader of the figures should know about the stamps of a file.
 void tellStamps(const std::string& file, const Ordered& poses) {
   if (poses.went_back > 0)
-    fmt::print("{}: {} stamps go back in time; the poses are taken in the order of their stamps\n", file,
-               poses.went_back);
+    show(fmt::format("{}: {} stamps go back in time; the poses are taken in the order of their stamps\n", file,
+                     poses.went_back));
   if (poses.repeated > 0)
-    fmt::print("{}: {} stamps occur again; the last pose of each is taken\n", file, poses.repeated);
+    show(fmt::format("{}: {} stamps occur again; the last pose of each is taken\n", file, poses.repeated));
 }
 
 void addStamps(nlohmann::json& json, const std::string& whose, const Ordered& poses) {

@@ -17,6 +17,7 @@
 #include "apps/stop_signals.hpp"
 #include "apps/web_link.hpp"
 #include "common/data_paths.hpp"
+#include "common/printable.hpp"
 #include "common/rounding.hpp"
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
@@ -80,8 +81,8 @@ class Terminal {
     const std::string text = fmt::format("{:6.1f} s  {}: {}{}", event.stamp.seconds(), event.source, event.text,
                                          event.reason.empty() ? "" : " (" + event.reason + ")");
     if (line_.interactive() && event.severity != common::Severity::kInfo) {
-      show(fmt::format(fg(event.severity == common::Severity::kError ? fmt::color::red : fmt::color::orange), "{}\n",
-                       text));
+      showStyled(fmt::format(fg(event.severity == common::Severity::kError ? fmt::color::red : fmt::color::orange),
+                             "{}\n", common::printable(text)));
     } else {
       show(text + "\n");
     }
@@ -98,17 +99,17 @@ void printEnd(const FlightResult& result, bool json) {
   const interfaces::FlightSummary& summary = result.summary;
   const std::optional<double>& explored_m2 = summary.explored_area_m2;
   if (json) {
-    show(nlohmann::json{
-             {"outcome", toString(summary.outcome)},
-             {"reason", summary.reason},
-             {"mission_time_s", common::rounded(summary.mission_time.seconds())},
-             {"distance_m", common::rounded(summary.distance_m)},
-             {"explored_area_m2", explored_m2 ? nlohmann::json(common::rounded(*explored_m2)) : nlohmann::json()},
-             {"realtime_factor", common::rounded(summary.realtime_factor.value_or(0.0))},
-             {"run", result.folder.string()},
-             {"report", (result.folder / "report.html").string()}}
-             .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-         "\n");
+    showJson(nlohmann::json{
+                 {"outcome", toString(summary.outcome)},
+                 {"reason", summary.reason},
+                 {"mission_time_s", common::rounded(summary.mission_time.seconds())},
+                 {"distance_m", common::rounded(summary.distance_m)},
+                 {"explored_area_m2", explored_m2 ? nlohmann::json(common::rounded(*explored_m2)) : nlohmann::json()},
+                 {"realtime_factor", common::rounded(summary.realtime_factor.value_or(0.0))},
+                 {"run", result.folder.string()},
+                 {"report", (result.folder / "report.html").string()}}
+                 .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+             "\n");
     return;
   }
   show(fmt::format("\n{}{} after {:.1f} s and {:.1f} m{}, {:.1f} x real time\n", toString(summary.outcome),
@@ -132,7 +133,7 @@ int fly(const FlyOptions& options) {
     web = std::make_unique<WebLink>(options.listen, options.port, title, setup.system.vehicle.hull_diameter_m);
     const std::string page = fmt::format("page    {}\n\n", web->operatorUrl());
     if (options.json)
-      fmt::print(stderr, "{}", page);  // The token is in it, and standard output is the outcome alone.
+      showError(page);  // The token is in it, and standard output is the outcome alone.
     else
       show(page);
   }
@@ -147,7 +148,7 @@ int fly(const FlyOptions& options) {
   terminal.closeLine();
   printEnd(result, options.json);
   if (result.write_failure) {
-    fmt::print(stderr, "{}\n", *result.write_failure);
+    showError(*result.write_failure + "\n");
     return kBadInput;
   }
   return result.summary.outcome == interfaces::Outcome::kDone ? kDone : kFailed;

@@ -128,6 +128,8 @@ nlohmann::ordered_json figuresOf(const LocalizeOptions& options, const RecordedL
           {"out", out.string()},
           {"complete", log.damage().empty()},
           {"scans", log.scans()},
+          {"skipped_records", log.reader().counts().skipped_records},
+          {"first_skipped_line", orNull<nlohmann::ordered_json>(log.firstSkippedLine())},
           {"localized_scans", run.localized},
           {"times_localized", run.times_localized},
           {"times_lost", run.times_lost},
@@ -181,7 +183,7 @@ int localize(const LocalizeOptions& options) {
   if (log.scans() == 0) throw log.error("no scan in it could be read");
   if (run.estimates == 0)
     throw log.error(fmt::format("not localized: none of its {} scans has points enough", log.scans()));
-  if (!log.damage().empty()) fmt::print(stderr, "{}\n", log.damage());
+  if (!log.damage().empty()) showError(log.damage() + "\n");
 
   const perception::LogLocalizerCounts counts = localizer.counts();
   run.shown.map = options.map;
@@ -192,8 +194,8 @@ int localize(const LocalizeOptions& options) {
   writeLocalizeOutputs(folder.unfinished(), map, run.shown);
   folder.publish();
   if (options.log.json)
-    show(figuresOf(options, log, run, counts, out).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-         "\n");
+    showJson(figuresOf(options, log, run, counts, out).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+             "\n");
   else
     showForPeople(run, out);
   // A place that was given counts as long as nothing spoke against it.

@@ -10,12 +10,11 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/command.hpp"
+#include "apps/show.hpp"
+#include "apps/usage.hpp"
 #include "common/error.hpp"
 
 namespace {
-
-/// Where nobody can be told, the exit code says it.
-void complain(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 /// A file of the run that was opened as descriptor 1 would get the progress lines.
 void openStandardStreams() {
@@ -27,7 +26,7 @@ void openStandardStreams() {
 int withOutput(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   if (errno == EPIPE) return code;
-  complain(fmt::format("the output could not be written: {}\n", std::strerror(errno)));
+  swiftlet::apps::showError(fmt::format("the output could not be written: {}\n", std::strerror(errno)));
   return swiftlet::apps::kBadInput;
 }
 
@@ -39,6 +38,7 @@ int main(int argc, char** argv) {
 
   CLI::App program{"Explore, map and fly home indoors: autonomy for small quadrotors.", "swiftlet"};
   program.require_subcommand(0, 1);  // At least one is required below, so that an unknown one is named first.
+  program.set_version_flag("--version", "swiftlet " SWIFTLET_VERSION, "Print the version.");
   program.footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
 
   apps::Run run;
@@ -58,12 +58,14 @@ int main(int argc, char** argv) {
     if (program.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
     return withOutput(run());
   } catch (const CLI::ParseError& e) {
-    return program.exit(e) == 0 ? apps::kDone : apps::kBadInput;
+    if (e.get_exit_code() == 0) return withOutput(program.exit(e));  // Help or the version was asked for.
+    apps::showError(apps::usageProblem(program, e));
+    return apps::kBadInput;
   } catch (const common::InputError& e) {
-    complain(fmt::format("{}\n", e.what()));
+    apps::showError(fmt::format("{}\n", e.what()));
     return apps::kBadInput;
   } catch (const std::exception& e) {
-    complain(fmt::format("swiftlet: {}\n", e.what()));
+    apps::showError(fmt::format("swiftlet: {}\n", e.what()));
     return apps::kBadInput;
   }
 }

@@ -23,10 +23,6 @@ namespace fs = std::filesystem;
 /// Ends the name of the folder for the results.
 constexpr const char* kSuffix = "map";
 
-/// A map of which more scans than one in so many matched nothing, or lost the track, is not believed.
-constexpr std::uint64_t kOneUnmatchedOf = 10;
-constexpr std::uint64_t kOneLostOf = 100;
-
 struct MapOptions {
   RecordedLogOptions log;
   std::string slam = "graph";
@@ -87,35 +83,49 @@ void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
   line.close();
 }
 
-std::vector<std::string> warningsOf(const RecordedLog& log, const MapRun& run) {
+/// Whether the map may be believed, and why.
+struct Trust {
+  bool trusted = false;
+  std::string reason;
+};
+
+Trust trustOf(const RecordedLog& log, const MapRun& run) {
+  const perception::TrackConnection track = run.slam.connection();
+  if (std::string why_not = perception::whyNotTrusted(log.scans(), run.unmatched, track); !why_not.empty())
+    return {false, std::move(why_not)};
+  if (track.breaks == 0) return {true, "the track was never lost"};
+  return {true, fmt::format("the track was lost {}, and all its pieces are connected",
+                            plural(track.breaks, "time", "times"))};
+}
+
+std::vector<std::string> warningsOf(const RecordedLog& log, const MapRun& run, const Trust& trust) {
   std::vector<std::string> warnings = log.warnings(run.slam.counts());
-  const auto restarts = run.slam.odometryCounts().restarts;
-  if (kOneUnmatchedOf * run.unmatched > log.scans() || kOneLostOf * restarts > log.scans())
-    warnings.insert(warnings.begin(),
-                    fmt::format("the map is probably wrong in places: {} of {} scans matched nothing, and stand where "
-                                "they were expected",
-                                run.unmatched, log.scans()));
-  if (restarts > 0)
+  if (!trust.trusted) warnings.insert(warnings.begin(), "the map is probably wrong: " + trust.reason);
+  if (const auto restarts = run.slam.connection().breaks; trust.trusted && restarts > 0)
     warnings.push_back("the track was lost " + plural(restarts, "time", "times") +
-                       " and begun anew where it was expected");
+                       " and begun anew where it was expected; all its pieces were connected again");
   return warnings;
 }
 
 nlohmann::ordered_json figuresOf(const MapOptions& options, const RecordedLog& log, const MapRun& run,
-                                 const std::vector<std::string>& notes, const fs::path& out) {
+                                 const Trust& trust, const std::vector<std::string>& notes, const fs::path& out) {
   const interfaces::LaserLogCounts& read = log.reader().counts();
   return {{"log", options.log.file},
           {"format", log.reader().format()},
           {"out", out.string()},
           {"complete", log.damage().empty()},
+          {"trusted", trust.trusted},
+          {"trust_reason", trust.reason},
           {"scans", log.scans()},
           {"skipped_records", read.skipped_records},
+          {"first_skipped_line", orNull<nlohmann::ordered_json>(log.firstSkippedLine())},
           {"invalid_ranges", read.invalid_ranges},
           {"unreliable_stamps", run.slam.counts().unreliable_stamps},
           {"implausible_odometry_steps", run.slam.counts().implausible_odometry},
           {"path_length_m", std::round(1e3 * run.path_length_m) / 1e3},
           {"unmatched_scans", run.unmatched},
-          {"restarts", run.slam.odometryCounts().restarts},
+          {"restarts", run.slam.connection().breaks},
+          {"unconnected_pieces", run.slam.connection().unconnected},
           {"key_scans", run.slam.keyScans()},
           {"loops_closed", run.slam.slam().counts().loops_closed},
           {"seconds", run.wall_s},
@@ -146,21 +156,20 @@ int map(const MapOptions& options) {
   mapLog(log, options, run);
   if (run.slam.keyPoses().empty())
     throw log.error(fmt::format("no map: none of its {} scans has points enough", log.scans()));
-  if (!log.damage().empty()) fmt::print(stderr, "{}\n", log.damage());
+  if (!log.damage().empty()) showError(log.damage() + "\n");
 
   const common::OccupancyGrid grid = run.slam.map();
   const std::string no_map = whyNoMap(grid);
-  MapFigures shown{options.log.file, factsOf(log, run), warningsOf(log, run), run.milliseconds};
-  if (!no_map.empty()) {
-    fmt::print(stderr, "{}\n", no_map);
-    shown.warnings.insert(shown.warnings.begin(), no_map);
-  }
+  Trust trust = trustOf(log, run);
+  if (!no_map.empty()) trust = {false, no_map};
+  MapFigures shown{options.log.file, factsOf(log, run), warningsOf(log, run, trust), run.milliseconds};
+  if (!no_map.empty()) showError(no_map + "\n");
   writeMapOutputs(folder.unfinished(), run.slam, no_map.empty() ? &grid : nullptr, run.track, shown);
   folder.publish();
   const int exit_code = log.damage().empty() && no_map.empty() ? kDone : kFailed;
   if (options.log.json) {
-    const nlohmann::ordered_json figures = figuresOf(options, log, run, shown.warnings, out);
-    show(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    const nlohmann::ordered_json figures = figuresOf(options, log, run, trust, shown.warnings, out);
+    showJson(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return exit_code;
   }
   for (const std::string& warning : shown.warnings) show("note: " + warning + "\n");

@@ -16,6 +16,7 @@
 #include "apps/recorded_log.hpp"
 #include "apps/required.hpp"
 #include "apps/results_folder.hpp"
+#include "apps/show.hpp"
 #include "apps/wall_clock.hpp"
 #include "common/error.hpp"
 #include "common/table.hpp"
@@ -35,6 +36,7 @@ struct OptimizeOptions {
   std::string graph;
   std::string out;
   int max_iterations = 100;
+  bool ignore_cross_terms = false;
   bool json = false;
 };
 
@@ -122,11 +124,19 @@ void refuseTheGraphItself(const OptimizeOptions& options) {
 }
 
 std::string jsonOf(const Report& report, const interfaces::G2oFile& file, const OptimizeOptions& options) {
-  nlohmann::json json{
-      {"graph", options.graph},        {"vertices", report.vertices},         {"edges", report.edges},
-      {"dimension", report.dimension}, {"chi2_initial", report.chi2_initial}, {"chi2_final", report.chi2_final},
-      {"start", report.start},         {"iterations", report.iterations},     {"loose_parts", report.loose_parts},
-      {"seconds", report.seconds},     {"converged", report.converged},       {"warnings", file.warnings}};
+  nlohmann::json json{{"graph", options.graph},
+                      {"vertices", report.vertices},
+                      {"edges", report.edges},
+                      {"dimension", report.dimension},
+                      {"chi2_initial", report.chi2_initial},
+                      {"chi2_final", report.chi2_final},
+                      {"start", report.start},
+                      {"iterations", report.iterations},
+                      {"loose_parts", report.loose_parts},
+                      {"seconds", report.seconds},
+                      {"converged", report.converged},
+                      {"warnings", file.warnings},
+                      {"indefinite_edges", file.indefinite_edges}};
   if (!report.written.empty()) json["written"] = report.written;
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -160,8 +170,11 @@ void write(ResultsFolder& folder, const interfaces::G2oFile& file, const Optimiz
 }
 
 int optimizeGraph(const OptimizeOptions& options) {
-  interfaces::G2oFile file = interfaces::readG2o(fs::path(options.graph));
-  for (const std::string& warning : file.warnings) fmt::print(stderr, "{}\n", warning);
+  interfaces::G2oFile file = interfaces::readG2o(fs::path(options.graph), {options.ignore_cross_terms});
+  for (const std::string& warning : file.warnings) showError(warning + "\n");
+  if (file.indefinite_edges > 0)
+    showError(fmt::format("note: the information of {} is not positive definite: its diagonal alone is used\n",
+                          plural(file.indefinite_edges, "edge", "edges")));
   std::optional<ResultsFolder> folder;
   if (!options.out.empty()) {
     refuseTheGraphItself(options);
@@ -169,15 +182,19 @@ int optimizeGraph(const OptimizeOptions& options) {
   }
   Report report = std::visit([&](auto& graph) { return optimizeInPlace(graph, options); }, file.graph);
   if (!std::isfinite(report.chi2_final)) {
-    fmt::print(stderr, "{}: chi2 is {}: its errors or its information are too large for numbers; nothing is written\n",
-               options.graph, report.chi2_final);
+    showError(
+        fmt::format("{}: chi2 is {}: its errors or its information are too large for numbers; nothing is written\n",
+                    options.graph, report.chi2_final));
     return kFailed;
   }
   if (report.loose_parts > 0)
     fmt::print(stderr, "note: {} not tied to the fixed vertex by edges, and may lie anywhere to it\n",
                plural(report.loose_parts, "part of the graph is", "parts of the graph are"));
   if (folder) write(*folder, file, options, report);
-  fmt::print("{}", options.json ? jsonOf(report, file, options) + "\n" : textOf(report, options));
+  if (options.json)
+    showJson(jsonOf(report, file, options) + "\n");
+  else
+    show(textOf(report, options));
   return report.converged ? kDone : kFailed;
 }
 
@@ -198,6 +215,9 @@ void addOptimize(CLI::App& program, Run& run) {
   command->add_option("--max-iterations", options->max_iterations, "Of each start that is tried.")
       ->capture_default_str()
       ->check(numberWithin(1, 1000));
+  command->add_flag("--ignore-cross-terms", options->ignore_cross_terms,
+                    "Where the information of an edge is not positive definite, use its diagonal alone. Without this, "
+                    "such a graph is refused.");
   command->add_flag("--json", options->json, "Print the result as JSON, nothing else.");
   command->footer(
       "chi2 is the sum of e' Omega e over the edges, with g2o's error e and no factor of 1/2; `iterations in all` are\n"

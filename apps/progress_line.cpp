@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "apps/show.hpp"
+#include "common/printable.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -16,7 +17,7 @@ ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), interactive_(isatty(STDO
 void ProgressLine::update(const std::string& text, double wall_s) {
   if (quiet_) return;
   if (interactive_) {
-    show("\r\033[K" + text);
+    showStyled("\r\033[K" + common::printable(text));
     open_ = true;
   } else if (wall_s - last_s_ >= kElsewhere_s) {
     last_s_ = wall_s;
@@ -25,7 +26,7 @@ void ProgressLine::update(const std::string& text, double wall_s) {
 }
 
 void ProgressLine::close() {
-  if (open_) show("\r\033[K");
+  if (open_) showStyled("\r\033[K");
   open_ = false;
 }
 

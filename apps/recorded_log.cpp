@@ -85,7 +85,8 @@ std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts
   if (!damage_.empty()) warnings.push_back("only what came before could be read: " + damage_);
   if (const auto n = reader_->counts().skipped_records; n > 0) {
     warnings.push_back(plural(n, "record could not be read and was", "records could not be read and were") +
-                       " skipped");
+                       " skipped" +
+                       (firstSkippedLine() ? fmt::format(", the first in line {}", *firstSkippedLine()) : ""));
     for (const common::Problem& problem : reader_->counts().first_problems) warnings.push_back(toString(problem));
   }
   if (const auto n = reader_->counts().invalid_ranges; n > 0)
@@ -102,6 +103,12 @@ std::vector<std::string> RecordedLog::warnings(const perception::LaserSlamCounts
   if (const auto n = found.implausible_odometry; n > 0)
     warnings.push_back(plural(n, "step", "steps") + " of the odometry no robot makes; not believed");
   return warnings;
+}
+
+std::optional<int> RecordedLog::firstSkippedLine() const {
+  const std::vector<common::Problem>& problems = reader_->counts().first_problems;
+  if (problems.empty() || problems.front().location.line == 0) return std::nullopt;
+  return problems.front().location.line;
 }
 
 std::vector<std::pair<std::string, std::string>> RecordedLog::facts() const {

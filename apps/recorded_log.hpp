@@ -38,6 +38,12 @@ std::filesystem::path folderFor(const RecordedLogOptions& options, const std::st
 /// "1 range", "2 ranges".
 std::string plural(std::uint64_t count, const std::string& one, const std::string& more);
 
+/// The value for JSON, null where there is none.
+template <typename Json, typename Value>
+Json orNull(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json();
+}
+
 /// One thread at a time.
 class RecordedLog {
  public:
@@ -56,6 +62,9 @@ class RecordedLog {
   bool hasOneStamp() const { return scans_ > 1 && !stamps_differ_; }
   /// Why it could not be read to its end; empty when it could.
   const std::string& damage() const { return damage_; }
+
+  /// Of the first record that could not be read; none where all could, or the format has no lines.
+  std::optional<int> firstSkippedLine() const;
 
   /// For people, label and value: format, scans and, where the stamps tell it, duration.
   std::vector<std::pair<std::string, std::string>> facts() const;

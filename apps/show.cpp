@@ -4,13 +4,45 @@
 #include <csignal>
 #include <cstdio>
 
+#include <fmt/format.h>
+
+#include "common/printable.hpp"
+
 namespace swiftlet::apps {
+namespace {
+
+/// JSON escapes what is below 0x20, and leaves DEL and the C1 characters (UTF-8: C2 80 to C2 9F) as they are.
+std::string withoutControls(const std::string& json) {
+  std::string result;
+  result.reserve(json.size());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(json[i]);
+    const unsigned char next = i + 1 < json.size() ? static_cast<unsigned char>(json[i + 1]) : 0;
+    if (byte == 0x7F) {
+      result += "\\u007f";
+    } else if (byte == 0xC2 && next >= 0x80 && next < 0xA0) {
+      result += fmt::format("\\u00{:02x}", next);
+      ++i;
+    } else {
+      result += json[i];
+    }
+  }
+  return result;
+}
+
+}  // namespace
 
 void outliveReaders() { std::signal(SIGPIPE, SIG_IGN); }
 
-void show(const std::string& text) {
+void showStyled(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   if (std::fflush(stdout) != 0 && errno == EPIPE) std::clearerr(stdout);
 }
+
+void show(const std::string& text) { showStyled(common::printableLines(text)); }
+
+void showJson(const std::string& text) { showStyled(withoutControls(text)); }
+
+void showError(const std::string& text) { std::fputs(common::printableLines(text).c_str(), stderr); }
 
 }  // namespace swiftlet::apps

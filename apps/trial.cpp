@@ -254,7 +254,7 @@ int trial(const TrialOptions& options) {
     writeResults(results, out);
   }
   if (options.json) {
-    show(toJson(results));
+    showJson(toJson(results));
   } else {
     show(fmt::format("\n{}\n", toText(summaryTable(results))));
     for (const TrialResult& trial : results.trials)

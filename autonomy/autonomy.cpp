@@ -189,8 +189,8 @@ void Autonomy::tickBehaviors(Time now) {
   takeSnapshot(now);
   if (prepared_) wish_ = wishOf(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
-  executor_.tick(wish_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(), estimator_.people().discs(now),
-                         estimator_.people().anyMoves(), reactive_.decision()});
+  executor_.tick(wish_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(),
+                         estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision()});
 }
 
 /// The supervisor's wish before the mission's.
@@ -242,8 +242,7 @@ void Autonomy::takeSnapshot(Time now) {
   parts.vehicle.laser = laser_points_;
   parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}};
   parts.mission.status.tree = mission_.view();
-  parts.map = {estimator_.grid(), estimator_.levels(), executor_.desk().frontiers(),
-               executor_.desk().exploredArea_m2(),
+  parts.map = {estimator_.grid(), estimator_.levels(), executor_.desk().frontiers(), executor_.desk().exploredArea_m2(),
                estimator_.localization()};
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});

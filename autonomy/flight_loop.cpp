@@ -25,8 +25,7 @@ bool FlightLoop::step(common::Time now) {
   for (const common::OperatorCommand& command : commands_.takeAll()) feed_.give(CommandInput{command, now});
   deliverDue(now);
   if (const auto setpoint = feed_.give(Tick{now})) vehicle_.apply(*setpoint);
-  if (!alive)
-    feed_.tell({now, common::Severity::kError, "vehicle", "the flight has ended", vehicle_.stopReason()});
+  if (!alive) feed_.tell({now, common::Severity::kError, "vehicle", "the flight has ended", vehicle_.stopReason()});
   return alive;
 }
 
@@ -37,10 +36,10 @@ void FlightLoop::deliverDue(common::Time now) {
 void FlightLoop::finish() {
   for (const common::JobTimes& times : autonomy_.jobTimes()) {
     if (!times.tooSlow()) continue;
-    feed_.tell({now_, common::Severity::kWarning, "jobs", fmt::format("{} is slower than declared", times.kind),
-                fmt::format("{} jobs, median {:.3f} s, 99th percentile {:.3f} s, declared {:.3f} s, {} late",
-                            times.count, times.median.seconds(), times.p99.seconds(), times.declared.seconds(),
-                            times.late)});
+    feed_.tell(
+        {now_, common::Severity::kWarning, "jobs", fmt::format("{} is slower than declared", times.kind),
+         fmt::format("{} jobs, median {:.3f} s, 99th percentile {:.3f} s, declared {:.3f} s, {} late", times.count,
+                     times.median.seconds(), times.p99.seconds(), times.declared.seconds(), times.late)});
   }
 }
 

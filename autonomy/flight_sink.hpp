@@ -21,7 +21,7 @@ struct TickOutcome {
   common::Time now;
   common::Setpoint setpoint;
   common::VehicleState state;
-  common::Intent intent;  ///< Carried out since the last tick of the behaviours,
+  common::Intent intent;               ///< Carried out since the last tick of the behaviours,
   common::IntentStatus intent_status;  ///< and how it stands.
 };
 

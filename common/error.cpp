@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "common/printable.hpp"
+
 namespace swiftlet::common {
 namespace {
 
@@ -36,7 +38,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string toString(const SourceLocation& location) {
-  std::string text = location.file;
+  std::string text = printable(location.file);
   if (location.line > 0) text += fmt::format(":{}", location.line);
   if (location.line > 0 && location.column > 0) text += fmt::format(":{}", location.column);
   return text;
@@ -47,9 +49,9 @@ std::string toString(const Problem& problem) {
   for (const std::string* part : {&problem.element, &problem.message}) {
     if (part->empty()) continue;
     if (!text.empty()) text += ": ";
-    text += *part;
+    text += printable(*part);
   }
-  if (!problem.hint.empty()) text += ", " + problem.hint;
+  if (!problem.hint.empty()) text += ", " + printable(problem.hint);
   return text;
 }
 

@@ -13,7 +13,7 @@ namespace swiftlet::common {
 struct JobTimes {
   std::string kind;
   int count = 0;
-  int late = 0;  ///< How many took longer than was declared for them.
+  int late = 0;       ///< How many took longer than was declared for them.
   Duration declared;  ///< Of the last one.
   Duration median;
   Duration p99;  ///< The least duration that at least 99 % of them kept.

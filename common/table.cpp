@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/check.hpp"
+#include "common/printable.hpp"
 
 namespace swiftlet::common {
 namespace {
@@ -37,7 +38,10 @@ bool isNumeric(const Table& table, std::size_t column) {
   });
 }
 
-std::string toText(const Table& table) {
+std::string toText(const Table& given) {
+  Table table = given;
+  for (std::vector<TableCell>& row : table.rows)
+    for (TableCell& cell : row) cell.text = printable(cell.text);
   std::vector<Column> columns;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     columns.push_back({widthOf(table.columns[i]), isNumeric(table, i)});
@@ -49,7 +53,7 @@ std::string toText(const Table& table) {
 
   std::size_t total = 0;
   for (const Column& column : columns) total += column.width + (total > 0 ? 2 : 0);
-  std::string text = table.title.empty() ? "" : table.title + "\n";
+  std::string text = table.title.empty() ? "" : printableLines(table.title) + "\n";
   text += joined(columns, table.columns) + std::string(total, '-') + "\n";
   for (const auto& row : table.rows) {
     std::vector<std::string> texts;

@@ -181,8 +181,9 @@ void Scenario::describe(common::config::Fields& fields) {
   fields.section("quadrotor", quadrotor, "The airframe's physics.");
   fields.section("autopilot", autopilot, "The inner loop.");
   fields.section("sensors", sensors, "Errors and delays of the sensors.");
-  fields.list("vehicles", vehicles,
-              "All vehicles where there are several; start, battery_remaining, pushes, faults and pilot then stand here.");
+  fields.list(
+      "vehicles", vehicles,
+      "All vehicles where there are several; start, battery_remaining, pushes, faults and pilot then stand here.");
 }
 
 std::vector<std::string> Scenario::validate() const {

@@ -36,7 +36,7 @@ const std::vector<std::string> kUsedTags = {"VERTEX_SE2", "EDGE_SE2", "VERTEX_SE
 
 class Reading {
  public:
-  explicit Reading(LineReader lines) : lines_(std::move(lines)) {}
+  Reading(LineReader lines, const G2oOptions& options) : lines_(std::move(lines)), plane_(options), space_(options) {}
 
   G2oFile run() {
     for (std::string_view line; lines_.next(line);) {
@@ -55,6 +55,7 @@ class Reading {
                           "holds no pose graph, expected VERTEX_SE2, EDGE_SE2, VERTEX_SE3:QUAT or EDGE_SE3:QUAT",
                           ""});
     }
+    file.indefinite_edges = plane_.indefiniteEdges() + space_.indefiniteEdges();
     for (const auto& [tag, left_out] : left_out_) file.warnings.push_back(warningOf(tag, left_out));
     return file;
   }
@@ -113,8 +114,10 @@ class Reading {
 
 }  // namespace
 
-G2oFile readG2o(const std::filesystem::path& file) { return readG2o(LineReader(file)); }
+G2oFile readG2o(const std::filesystem::path& file, const G2oOptions& options) {
+  return readG2o(LineReader(file), options);
+}
 
-G2oFile readG2o(LineReader lines) { return Reading(std::move(lines)).run(); }
+G2oFile readG2o(LineReader lines, const G2oOptions& options) { return Reading(std::move(lines), options).run(); }
 
 }  // namespace swiftlet::interfaces

@@ -7,6 +7,7 @@
 // the unit quaternion whose w is not negative, which for small angles is half the rotation vector).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <variant>
@@ -17,17 +18,26 @@
 
 namespace swiftlet::interfaces {
 
+struct G2oOptions {
+  /// Of an information that is not positive definite only the diagonal counts.
+  bool ignore_cross_terms = false;
+};
+
 struct G2oFile {
   std::variant<G2oGraph2D, G2oGraph3D> graph;
+  /// Edges whose information, as the file has it, is not positive definite: no covariance belongs to it. Only with
+  /// `ignore_cross_terms` there are any.
+  std::size_t indefinite_edges = 0;
   std::vector<std::string> warnings;  ///< What was left out, one sentence a tag, with its first line.
 };
 
 /// Files compressed by gzip, bzip2 or xz are read as they are. Throws InputError with line and column for a line that
 /// is not what its tag says, numbers that are not finite, a vertex that stands twice, an edge of a vertex to itself or
-/// to one that is missing (a file without any vertex is sound: it has only edges), an information that is not positive
-/// definite, elements of the plane and of space in one file, and a file without edges. Rotations are normalized.
-G2oFile readG2o(const std::filesystem::path& file);
-G2oFile readG2o(LineReader lines);
+/// to one that is missing (a file without any vertex is sound: it has only edges), elements of the plane and of space
+/// in one file, a file without edges, and, when all lines were read, for edges whose information is not positive
+/// definite, with their number. Rotations are normalized.
+G2oFile readG2o(const std::filesystem::path& file, const G2oOptions& options = {});
+G2oFile readG2o(LineReader lines, const G2oOptions& options = {});
 
 /// Equal graphs give equal bytes; numbers read back to the same bits, but for quaternions, which read back as they were
 /// within rounding and are written with w >= 0. A graph with edges only is written so.

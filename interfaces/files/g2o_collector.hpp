@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include "common/error.hpp"
 #include "interfaces/files/g2o_fields.hpp"
@@ -26,6 +28,8 @@ class G2oCollector {
   using Pose = typename Graph::Pose;
   static constexpr std::size_t kPoseNumbers = Graph::kErrors == 3 ? 3 : 7;
   static constexpr std::size_t kInformationNumbers = Graph::kErrors * (Graph::kErrors + 1) / 2;
+
+  explicit G2oCollector(const G2oOptions& options) : options_(options) {}
 
   void addVertex(G2oFields& fields, int line) {
     fields.expectNumbers(1 + kPoseNumbers);
@@ -44,16 +48,18 @@ class G2oCollector {
     if (from == to) throw fields.problem(column, fmt::format("the edge leads from vertex {} to itself", from));
     typename Graph::Edge edge;
     edge.T_from_to = poseIn(fields);
-    edge.information = fields.template information<typename Graph::Information>();
+    edge.information = definite(fields);
     graph_.edges.push_back(edge);
     ends_.push_back({from, to, line, column});
   }
 
+  std::size_t indefiniteEdges() const { return indefinite_edges_; }
   bool empty() const { return graph_.ids.empty() && graph_.edges.empty(); }
 
   Graph finish(const std::string& file, const std::map<std::int64_t, common::SourceLocation>& fixed) {
     if (graph_.edges.empty())
       throw common::InputError(common::Problem{{file}, "", "holds vertices but no edges, nothing ties them", ""});
+    if (first_problem_) throw indefiniteError();
     if (graph_.ids.empty()) takeVerticesFromEdges();
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       const Ends& ends = ends_[i];
@@ -72,6 +78,35 @@ class G2oCollector {
     } else {
       return fields.pose3();
     }
+  }
+
+  using Information = typename Graph::Information;
+
+  static bool isPositiveDefinite(const Information& information) {
+    const Eigen::LLT<Information> llt(information);
+    return llt.info() == Eigen::Success && llt.matrixLLT().allFinite();
+  }
+
+  /// The information of an edge, as far as it is one: see indefiniteError.
+  Information definite(G2oFields& fields) {
+    const int column = fields.column();
+    const Information information = fields.template information<Information>();
+    if (isPositiveDefinite(information)) return information;
+    ++indefinite_edges_;
+    const Information diagonal = information.diagonal().asDiagonal();
+    if (options_.ignore_cross_terms && isPositiveDefinite(diagonal)) return diagonal;
+    if (++refused_edges_ == 1)
+      first_problem_ = fields.problem(column, "the information is not positive definite").problems().front();
+    return diagonal;
+  }
+
+  common::InputError indefiniteError() const {
+    common::Problem problem = *first_problem_;
+    problem.message +=
+        fmt::format("{}; so it is for {} of {} edges", options_.ignore_cross_terms ? ", not even its diagonal" : "",
+                    refused_edges_, graph_.edges.size());
+    if (!options_.ignore_cross_terms) problem.hint = "--ignore-cross-terms uses the diagonals of these alone";
+    return common::InputError(std::move(problem));
   }
 
   struct Vertex {
@@ -104,6 +139,10 @@ class G2oCollector {
   Graph graph_;
   std::unordered_map<std::int64_t, Vertex> vertices_;
   std::vector<Ends> ends_;
+  G2oOptions options_;
+  std::size_t indefinite_edges_ = 0;              ///< As the file has them,
+  std::size_t refused_edges_ = 0;                 ///< and those of these that cannot be used.
+  std::optional<common::Problem> first_problem_;  ///< Of an information that cannot be used.
 };
 
 }  // namespace swiftlet::interfaces

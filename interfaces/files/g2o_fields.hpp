@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "common/error.hpp"
 #include "common/geometry.hpp"
 #include "interfaces/files/line_reader.hpp"
@@ -36,7 +34,7 @@ class G2oFields {
   double coordinate_m(const char* name);
   common::Pose2 pose2();
   common::Pose3 pose3();
-  /// The upper triangle, row by row; positive definite.
+  /// The upper triangle, row by row, whatever it is worth.
   template <typename Matrix>
   Matrix information();
 
@@ -52,13 +50,10 @@ class G2oFields {
 
 template <typename Matrix>
 Matrix G2oFields::information() {
-  const int begin = column();
   Matrix matrix;
   for (int row = 0; row < Matrix::RowsAtCompileTime; ++row)
     for (int col = row; col < Matrix::ColsAtCompileTime; ++col)
       matrix(row, col) = matrix(col, row) = number("information");
-  if (const Eigen::LLT<Matrix> llt(matrix); llt.info() != Eigen::Success || !llt.matrixLLT().allFinite())
-    throw problem(begin, "the information is not positive definite");
   return matrix;
 }
 

@@ -1,7 +1,9 @@
 #include "interfaces/laser_log/carmen.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -70,6 +72,12 @@ void readNewScan(LogFields& fields, CarmenScan& logged) {
   readStamps(fields, scan);
 }
 
+/// The name of a message with one letter wrong; the first and the last may tell lasers apart (RLASER, ROBOTLASER2).
+bool isAlmost(std::string_view name, std::string_view message) {
+  if (name.size() != message.size() || name.front() != message.front() || name.back() != message.back()) return false;
+  return std::inner_product(name.begin(), name.end(), message.begin(), 0, std::plus<>(), std::not_equal_to<>()) == 1;
+}
+
 /// Of the first records; what cannot be read is met again, and told, when the log is read.
 LaserMount surveyedMount(const std::filesystem::path& file) {
   MountSurvey survey;
@@ -90,6 +98,8 @@ class CarmenFormat final : public LogFormat {
   tl::expected<std::optional<LoggedScan>, RecordProblem> parse(std::string_view line) override {
     auto read = parseCarmenLine(line);
     if (!read) return tl::unexpected(std::move(read.error()));
+    if (!*read && isGarbledCarmenLine(line))
+      return tl::unexpected(RecordProblem{1, "", "is no message of CARMEN, is the log damaged?"});
     if (!*read) return std::nullopt;
     const Pose2 T_odom_laser = (*read)->T_odom_laser, T_odom_robot = (*read)->T_odom_robot;
     if (mount_.rigid && !agrees(T_odom_robot.inverse() * T_odom_laser, mount_)) ++elsewhere_;
@@ -141,6 +151,18 @@ tl::expected<std::optional<CarmenScan>, RecordProblem> parseCarmenLine(std::stri
   if (fields.problem()) return tl::unexpected(*fields.problem());
   logged.scan.stamps.arrived = logged.scan.stamps.measured;
   return logged;
+}
+
+bool isGarbledCarmenLine(std::string_view line) {
+  const std::string_view text = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+  if (text.empty() || text.front() == '#') return false;
+  if (std::any_of(text.begin(), text.end(), [](char c) { return (c < ' ' && c != '\t') || c > '~'; })) return true;
+  const std::string_view name = text.substr(0, text.find_first_of(" \t"));
+  const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
+  if (name.empty() || !isUpper(name.front()) ||
+      !std::all_of(name.begin(), name.end(), [&](char c) { return isUpper(c) || (c >= '0' && c <= '9') || c == '_'; }))
+    return true;
+  return isAlmost(name, "FLASER") || isAlmost(name, "ROBOTLASER1");
 }
 
 std::unique_ptr<LogFormat> carmenFormat(const std::filesystem::path& file, const LaserLogOptions& options) {

@@ -25,6 +25,10 @@ tl::expected<std::optional<CarmenScan>, RecordProblem> parseCarmenLine(std::stri
 /// Whether a line looks like one of CARMEN's.
 bool isCarmenLine(std::string_view line);
 
+/// Whether a line without a scan is none that CARMEN writes: neither empty, nor a comment, nor a message, which is
+/// plain text and begins with its name in capitals. A name that is that of a scan but for one letter is garbled too.
+bool isGarbledCarmenLine(std::string_view line);
+
 /// Reads the file's first records to see how the laser is mounted.
 std::unique_ptr<LogFormat> carmenFormat(const std::filesystem::path& file, const LaserLogOptions& options);
 

@@ -30,7 +30,7 @@ struct LaserLogOptions {
 
 struct LaserLogCounts {
   std::uint64_t scans = 0;
-  std::uint64_t skipped_records = 0;            ///< Scans that could not be read,
+  std::uint64_t skipped_records = 0;            ///< Records that could not be read,
   std::vector<common::Problem> first_problems;  ///< and why, for the first few.
   std::uint64_t invalid_ranges = 0;             ///< NaN or negative, of scans that were read otherwise.
   static constexpr std::size_t kProblemsKept = 5;

@@ -9,27 +9,35 @@ struct LaserSlam::Impl {
     if (config.method == SlamMethod::kParticles) particles.emplace(config.particles);
   }
 
+  std::optional<TrackedScan> place(const FollowedScan& followed);
+
   LaserFrontEnd front_end;
   Slam2d graph;
   std::optional<ParticleSlam> particles;
+  TrackPieces pieces;
 };
 
 LaserSlam::LaserSlam(const LaserSlamConfig& config) : impl_(std::make_unique<Impl>(config)) {}
 LaserSlam::~LaserSlam() = default;
 
+std::optional<TrackedScan> LaserSlam::Impl::place(const FollowedScan& followed) {
+  if (particles) {
+    particles->addScan(followed.scan, followed.T_odom_robot, followed.covariance_since_last);
+    if (particles->anchor() < 0) return std::nullopt;
+    return TrackedScan{particles->anchor(), particles->T_anchor_body(), followed.matched};
+  }
+  graph.addScan(followed.scan, followed.T_odom_robot, followed.covariance_since_last);
+  if (const auto task = graph.takeTask()) graph.apply(run(*task));
+  return TrackedScan{graph.anchor(), graph.T_anchor_body(), followed.matched};
+}
+
 std::optional<TrackedScan> LaserSlam::add(const LaserSlamInput& input) {
   const auto followed = impl_->front_end.add(input);
   if (!followed) return std::nullopt;
-  if (impl_->particles) {
-    ParticleSlam& particles = *impl_->particles;
-    particles.addScan(followed->scan, followed->T_odom_robot, followed->covariance_since_last);
-    if (particles.anchor() < 0) return std::nullopt;
-    return TrackedScan{particles.anchor(), particles.T_anchor_body(), followed->matched};
-  }
-  Slam2d& graph = impl_->graph;
-  graph.addScan(followed->scan, followed->T_odom_robot, followed->covariance_since_last);
-  if (const auto task = graph.takeTask()) graph.apply(run(*task));
-  return TrackedScan{graph.anchor(), graph.T_anchor_body(), followed->matched};
+  const std::uint64_t keys_before = keyScans();
+  const std::optional<TrackedScan> tracked = impl_->place(*followed);
+  impl_->pieces.add(*followed, keys_before, keyScans());
+  return tracked;
 }
 
 void LaserSlam::finish() {
@@ -54,5 +62,9 @@ const Slam2d& LaserSlam::slam() const { return impl_->graph; }
 const ParticleSlam* LaserSlam::particles() const { return impl_->particles ? &*impl_->particles : nullptr; }
 const LaserOdometryCounts& LaserSlam::odometryCounts() const { return impl_->front_end.odometryCounts(); }
 LaserSlamCounts LaserSlam::counts() const { return impl_->front_end.counts(); }
+
+TrackConnection LaserSlam::connection() const {
+  return impl_->pieces.connection(keyScans(), impl_->particles ? std::vector<SlamEdge>{} : impl_->graph.edges());
+}
 
 }  // namespace swiftlet::perception

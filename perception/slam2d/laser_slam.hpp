@@ -13,11 +13,12 @@
 #include "perception/laser_odometry/laser_front_end.hpp"
 #include "perception/slam2d/particle_slam.hpp"
 #include "perception/slam2d/slam2d.hpp"
+#include "perception/slam2d/track_pieces.hpp"
 
 namespace swiftlet::perception {
 
 enum class SlamMethod {
-  kGraph,      ///< A graph of key scans (Grzonka 2009, section III.D).
+  kGraph,      ///< A graph of key scans (Grzonka 2009, section V-D).
   kParticles,  ///< Particles with a map each (Bachrach 2009, section 5.3).
 };
 
@@ -62,6 +63,8 @@ class LaserSlam {
   const ParticleSlam* particles() const;
   const LaserOdometryCounts& odometryCounts() const;
   LaserSlamCounts counts() const;
+  /// Which pieces of the track hold together so far. Particles close no loops that it could know of.
+  TrackConnection connection() const;
 
  private:
   struct Impl;

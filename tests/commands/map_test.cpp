@@ -49,9 +49,10 @@ double range_m(double x_m, double angle_rad) {
 }
 
 /// A scan from (x, 0): the laser is where the robot is.
-std::string scan(double x_m, double stamp_s, int beams = 180) {
+std::string scan(double x_m, double stamp_s, int beams = 180, double room_size = 1.0) {
   std::string line = fmt::format("FLASER {}", beams);
-  for (int i = 0; i < beams; ++i) line += fmt::format(" {:.2f}", range_m(x_m, -0.5 * kPi + kPi * i / beams));
+  for (int i = 0; i < beams; ++i)
+    line += fmt::format(" {:.2f}", room_size * range_m(x_m, -0.5 * kPi + kPi * i / beams));
   return line + fmt::format(" {0:.4f} 0 0 {0:.4f} 0 0 {1:.6f} host {1:.6f}\n", x_m, stamp_s);
 }
 
@@ -104,6 +105,9 @@ TEST_F(Map, ALogBecomesAMapATrajectoryAGraphAndAReport) {
   EXPECT_EQ(figures.at("invalid_ranges"), 0);
   EXPECT_EQ(figures.at("unreliable_stamps"), 0);
   EXPECT_TRUE(figures.at("complete").get<bool>());
+  EXPECT_TRUE(figures.at("trusted").get<bool>());
+  EXPECT_EQ(figures.at("trust_reason"), "the track was never lost");
+  EXPECT_TRUE(figures.at("first_skipped_line").is_null());
   EXPECT_TRUE(figures.at("notes").empty()) << figures.dump(2);
   EXPECT_GT(figures.at("scans_per_s").get<double>(), 0.0);
   for (const std::string& name : kOutputs) EXPECT_GT(fs::file_size(folder_ / "out" / name), 100U) << name;
@@ -116,6 +120,23 @@ TEST_F(Map, ALogBecomesAMapATrajectoryAGraphAndAReport) {
   // The last pose of the walk, 2.97 m from the first.
   const std::size_t last = trajectory.rfind('\n', trajectory.size() - 2) + 1;
   EXPECT_NEAR(std::stod(trajectory.substr(trajectory.find(' ', last))), 2.97, 0.05);
+}
+
+/// Along the room, then nothing to see for a second, then along a room of another size.
+std::string walkThroughTheDark() {
+  std::string log = walk(60);
+  for (int i = 60; i < 70; ++i) log += scan(-2.0 + 0.03 * i, 100.0 + 0.1 * i, 180, 40.0);
+  for (int i = 70; i < 130; ++i) log += scan(-2.0 + 0.03 * i, 100.0 + 0.1 * i, 180, 1.7);
+  return log;
+}
+
+TEST_F(Map, ATrackThatWasLostAndNeverConnectedIsProbablyWrong) {
+  const nlohmann::json alone = mapped(walkThroughTheDark(), {"--odometry", "none"});
+  EXPECT_TRUE(alone.at("complete").get<bool>()) << "the log was read to its end";
+  EXPECT_FALSE(alone.at("trusted").get<bool>());
+  EXPECT_THAT(alone.at("trust_reason").get<std::string>(), HasSubstr("the track was lost once, and 1 of its 2 pieces"));
+  EXPECT_THAT(notesOf(alone), HasSubstr("the map is probably wrong: the track was lost once"));
+  EXPECT_THAT(readText(path("out/report.html")), HasSubstr("the map is probably wrong: the track was lost once"));
 }
 
 TEST_F(Map, NoOdometryIsNeeded) {
@@ -138,8 +159,11 @@ TEST_F(Map, PeopleReadWhatIsOddBeforeTheFigures) {
   const std::string log = write("b.log", walk(30) + "FLASER 3 1.0 2.0\n");
   const ProgramEnd end = runSwiftlet({"map", log, "--out", path("out")});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
-  EXPECT_THAT(end.out, ContainsRegex("note: 1 record could not be read and was skipped\nnote: .*b\\.log:33:17: range: "
-                                     "the line ends before it, skipped\n(.*\n)*scans +30\n"));
+  EXPECT_THAT(
+      end.out,
+      ContainsRegex(
+          "note: 1 record could not be read and was skipped, the first in line 33\nnote: .*b\\.log:33:17: range: "
+          "the line ends before it, skipped\n(.*\n)*scans +30\n"));
   EXPECT_THAT(end.out, HasSubstr(path("out") + "/report.html"));
   EXPECT_THAT(readText(path("out/report.html")), HasSubstr("b.log:33:17"));
 }
@@ -349,8 +373,7 @@ TEST_F(Map, AMapThatNobodyCouldReadIsNotWritten) {
 }
 
 TEST_F(Map, AMapOfScansThatDoNotFitIsDistrusted) {
-  EXPECT_THAT(notesOf(mapped(jumps(30, 1.0))),
-              HasSubstr("the map is probably wrong in places: 29 of 30 scans matched nothing"));
+  EXPECT_THAT(notesOf(mapped(jumps(30, 1.0))), HasSubstr("the map is probably wrong: 29 of 30 scans matched nothing"));
 }
 
 TEST_F(Map, StampsThatTellNothingAreTold) {

@@ -93,6 +93,27 @@ TEST_F(Optimize, WhatCannotBeUsedIsRefusedAndNothingIsWritten) {
   refused(folder_.string(), "is a folder");
 }
 
+TEST_F(Optimize, EdgesWithAnIndefiniteInformationAreCountedAndMayBeMended) {
+  // The cross term of the first two is greater than their diagonals.
+  const std::string graph = write("cross.g2o", kSquare +
+                                                   "EDGE_SE2 5 7 1 1 3.1415926 100 150 0 100 0 100\n"
+                                                   "EDGE_SE2 6 8 1 1 3.1415926 100 150 0 100 0 100\n"
+                                                   "EDGE_SE2 6 8 1 1 3.1415926 100 50 0 100 0 100\n");
+  const ProgramEnd refused = runSwiftlet({"optimize", graph});
+  EXPECT_EQ(refused.exit_code, 2) << describe(refused);
+  EXPECT_THAT(refused.err, HasSubstr("cross.g2o:9:28: EDGE_SE2: the information is not positive definite; so it is for "
+                                     "2 of 7 edges, --ignore-cross-terms uses the diagonals of these alone\n"));
+  const ProgramEnd mended = runSwiftlet({"optimize", graph, "--ignore-cross-terms", "--json"});
+  EXPECT_EQ(mended.exit_code, 0) << describe(mended);
+  EXPECT_EQ(nlohmann::json::parse(mended.out).at("indefinite_edges"), 2);
+  EXPECT_THAT(mended.err, HasSubstr("the information of 2 edges is not positive definite"));
+
+  const std::string diagonal = write("diagonal.g2o", kSquare + "EDGE_SE2 5 7 1 1 3.1415926 100 0 0 -1 0 100\n");
+  const ProgramEnd hopeless = runSwiftlet({"optimize", diagonal, "--ignore-cross-terms"});
+  EXPECT_EQ(hopeless.exit_code, 2) << describe(hopeless);
+  EXPECT_THAT(hopeless.err, HasSubstr("not even its diagonal; so it is for 1 of 5 edges\n"));
+}
+
 TEST_F(Optimize, TheGraphItselfIsNotOverwrittenAndABadFolderIsTold) {
   const std::string graph = write("graph.g2o", kSquare);
   const ProgramEnd same = runSwiftlet({"optimize", graph, "--out", folder_.string()});

@@ -41,5 +41,31 @@ TEST(Usage, VersionAndDoctorAreJsonWhenAsked) {
   EXPECT_TRUE(nlohmann::json::accept(runSwiftlet({"doctor", "--json"}).out));
 }
 
+TEST(Usage, VersionIsAnOptionToo) {
+  const ProgramEnd option = runSwiftlet({"--version"});
+  EXPECT_EQ(option.exit_code, 0) << describe(option);
+  EXPECT_EQ(option.out, runSwiftlet({"version"}).out);
+}
+
+TEST(Usage, WhatWasProbablyMeantIsNamed) {
+  const auto told = [](const std::vector<std::string>& arguments, const std::string& message) {
+    const ProgramEnd end = runSwiftlet(arguments);
+    EXPECT_EQ(end.exit_code, 2) << describe(end);
+    EXPECT_THAT(end.err, HasSubstr(message));
+    EXPECT_EQ(end.out, "");
+  };
+  told({"flyy"}, "`flyy` is not a command of `swiftlet`, did you mean `fly`?\nRun `swiftlet --help`");
+  told({"fly", "missions/explore_and_return.xml", "--sped", "2"},
+       "`--sped` is not an option of `swiftlet fly`, did you mean `--speed`?\nRun `swiftlet fly --help`");
+  told({"map", "--jsn"}, "`--jsn` is not an option of `swiftlet map`, did you mean `--json`?");
+  told({"map", "a.log", "--odomtry=none"},
+       "`--odomtry` is not an option of `swiftlet map`, did you mean `--odometry`?");
+  told({"evaluate", "relation", "a", "b"},
+       "`relation` is not a command of `swiftlet evaluate`, did you mean `relations`?");
+  told({"--verison"}, "`--verison` is not an option of `swiftlet`, did you mean `--version`?");
+  told({"doctor", "now"}, "`now` is one argument too many for `swiftlet doctor`");
+  told({"qqqqqqqqqq"}, "`qqqqqqqqqq` is not a command of `swiftlet`\n");
+}
+
 }  // namespace
 }  // namespace swiftlet::commands

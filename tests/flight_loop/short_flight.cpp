@@ -107,10 +107,9 @@ std::string difference(const Witness& first, const Witness& second) {
   if (const auto i = firstDifference(first.events, second.events,
                                      [](const common::Event& a, const common::Event& b) { return same(a, b); }))
     return "event " + std::to_string(*i);
-  if (const auto i =
-          firstDifference(first.results, second.results, [](const auto& a, const auto& b) {
-            return a.id == b.id && a.accepted == b.accepted && a.reason == b.reason;
-          }))
+  if (const auto i = firstDifference(first.results, second.results, [](const auto& a, const auto& b) {
+        return a.id == b.id && a.accepted == b.accepted && a.reason == b.reason;
+      }))
     return "answer " + std::to_string(*i);
   if (!same(*first.last_world->map->grid, *second.last_world->map->grid)) return "map";
   if (!same(*first.last_world->map->levels, *second.last_world->map->levels)) return "levels";

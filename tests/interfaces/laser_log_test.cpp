@@ -134,6 +134,32 @@ TEST(LaserLog, BadRecordsAreSkippedAndCountedWithTheirPlace) {
   EXPECT_DOUBLE_EQ(log->progress(), 1.0);
 }
 
+TEST(Carmen, ALineThatNobodyWritesIsGarbled) {
+  for (const char* line : {"", "  \r", "# FLASER\x80", "ODOM 1 2 3\t0", "PARAM robot_width 0.4", "NEFF 4", "RLASER 1",
+                           "LLASER 1", "FLASERS 1", "ROBOTLASER2 1", "VERTEX2 0 1 2 3", "GPS_2 $GPGGA,1"})
+    EXPECT_FALSE(isGarbledCarmenLine(line)) << line;
+  for (const char* line :
+       {"FLA\xd3"
+        "ER 180 1.0",
+        "3.42 3.43 3.45", "ODOM 1 2 \x01 3", "flaser 3 1.0", "FLASFR 3 1.0 1.0 1.0", "FL@SER 3", "ROBOTLASFR1 0"})
+    EXPECT_TRUE(isGarbledCarmenLine(line)) << line;
+}
+
+TEST(LaserLog, GarbledLinesAreCountedWithTheirPlace) {
+  const ScratchFolder folder;
+  std::string flipped = oldScan(3);
+  flipped[2] ^= 0x10;
+  put(folder / "a.log", oldScan(3) + "\n" + flipped + "\n1.2 3.4\nODOM 1 2 3\n\n" + oldScan(3) + "\n");
+  const auto log = openLaserLog(folder / "a.log");
+  EXPECT_TRUE(log->next());
+  EXPECT_TRUE(log->next());
+  EXPECT_FALSE(log->next());
+  EXPECT_EQ(log->counts().skipped_records, 2U);
+  ASSERT_EQ(log->counts().first_problems.size(), 2U);
+  EXPECT_EQ(log->counts().first_problems[0].location.line, 2);
+  EXPECT_EQ(log->counts().first_problems[1].location.line, 3);
+}
+
 TEST(LaserLog, AWordIsToldShortAndPrintable) {
   const ScratchFolder folder;
   put(folder / "a.log", "FLASER 1 \x1b[2J" + std::string(500, '\xff') + "\n");
