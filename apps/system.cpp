@@ -80,7 +80,7 @@ System loadSystem(const std::string& name) {
 perception::LaserSlamConfig laserSlamOf(const System& system) {
   const autonomy::EstimatorConfig& estimator = system.config.autonomy.estimator;
   perception::LaserSlamConfig config;
-  config.front_end.odometry = estimator.odometry;
+  config.front_end.odometry = estimator.laser.odometry;
   config.slam = estimator.slam;
   return config;
 }

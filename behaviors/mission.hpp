@@ -6,6 +6,7 @@
 #include <string>
 
 #include "behaviors/context.hpp"
+#include "behaviors/mission_limits.hpp"
 #include "common/error.hpp"
 #include "common/world/mission_status.hpp"
 

@@ -18,11 +18,6 @@
 
 namespace swiftlet::interfaces {
 
-struct G2oOptions {
-  /// Of an information that is not positive definite only the diagonal counts.
-  bool ignore_cross_terms = false;
-};
-
 struct G2oFile {
   std::variant<G2oGraph2D, G2oGraph3D> graph;
   /// Edges whose information, as the file has it, is not positive definite: no covariance belongs to it. Only with

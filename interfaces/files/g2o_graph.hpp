@@ -33,4 +33,9 @@ struct G2oGraph {
 using G2oGraph2D = G2oGraph<common::Pose2, 3>;
 using G2oGraph3D = G2oGraph<common::Pose3, 6>;
 
+struct G2oOptions {
+  /// Of an information that is not positive definite only the diagonal counts.
+  bool ignore_cross_terms = false;
+};
+
 }  // namespace swiftlet::interfaces

@@ -9,8 +9,8 @@
 
 #include "common/geometry.hpp"
 #include "perception/laser_odometry/laser_front_end.hpp"
+#include "perception/laser_odometry/unknown_step.hpp"
 #include "perception/slam2d/slam2d.hpp"
-#include "perception/slam2d/unknown_step.hpp"
 
 namespace swiftlet::perception {
 namespace {

@@ -12,13 +12,40 @@
 #include <gtest/gtest.h>
 
 #include "autonomy/autonomy.hpp"
+#include "autonomy/flight_loop.hpp"
+#include "autonomy/flight_sink.hpp"
 #include "common/config.hpp"
+#include "common/mailbox.hpp"
+#include "common/world.hpp"
+#include "common/world/energy_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
 #include "tests/simulation/fixtures.hpp"
 
 namespace swiftlet::autonomy {
 
 using common::FlightState;
 using common::MissionState;
+
+/// A vehicle whose sensor events pass through a hand that may change them, or keep them (false).
+class HandledVehicle final : public common::Vehicle {
+ public:
+  using Hand = std::function<bool(common::SensorEvent&)>;
+  /// Refers to both.
+  HandledVehicle(common::Vehicle& vehicle, const Hand& hand) : vehicle_(vehicle), hand_(hand) {}
+
+  common::Time now() const override { return vehicle_.now(); }
+  bool advanceTo(common::Time time, std::vector<common::SensorEvent>& events) override {
+    const bool alive = vehicle_.advanceTo(time, events);
+    std::erase_if(events, [this](common::SensorEvent& event) { return !hand_(event); });
+    return alive;
+  }
+  void apply(const common::Setpoint& setpoint) override { vehicle_.apply(setpoint); }
+  std::string stopReason() const override { return vehicle_.stopReason(); }
+
+ private:
+  common::Vehicle& vehicle_;
+  const Hand& hand_;
+};
 
 class AutonomyStory {
  public:
@@ -29,18 +56,9 @@ class AutonomyStory {
                   common::makeLockstepJobs(0)) {}
 
   /// Sees every sensor event before the autonomy does; false: it gets lost.
-  std::function<bool(common::SensorEvent&)> hand = [](common::SensorEvent&) { return true; };
+  HandledVehicle::Hand hand = [](common::SensorEvent&) { return true; };
 
-  [[nodiscard]] bool tick() {
-    sensed_.clear();
-    if (!vehicle_.advanceTo(vehicle_.now() + common::kControlPeriod, sensed_)) return false;
-    for (common::SensorEvent& event : sensed_)
-      if (hand(event)) autonomy_.process(event);
-    vehicle_.apply(autonomy_.tick(vehicle_.now()));
-    for (common::Event& event : autonomy_.takeEvents()) events.push_back(std::move(event));
-    for (common::CommandResult& result : autonomy_.takeResults()) results.push_back(std::move(result));
-    return true;
-  }
+  [[nodiscard]] bool tick() { return loop_.step(vehicle_.now() + common::kControlPeriod); }
   /// False when it does not come to be in time, or the vehicle crashes.
   template <typename Condition>
   [[nodiscard]] bool until(Condition condition, double at_most_s) {
@@ -54,14 +72,14 @@ class AutonomyStory {
     return vehicle_.stopReason().empty();
   }
   [[nodiscard]] bool isFlying() {
-    return until([this] { return world().status.flight_state == FlightState::kFlying; }, 15.0);
+    return until([this] { return world().vehicle->flight_state == FlightState::kFlying; }, 15.0);
   }
 
   /// The answer, which may come with a later tick.
   template <typename Kind>
   common::CommandResult order(Kind kind) {
     const std::uint64_t id = ++orders_;
-    autonomy_.process(common::OperatorCommand{id, kind}, vehicle_.now());
+    commands_.push({id, kind});
     const auto answer = [&] {
       return std::find_if(results.begin(), results.end(), [&](const auto& result) { return result.id == id; });
     };
@@ -105,9 +123,20 @@ class AutonomyStory {
         "story.xml");
   }
 
+  /// Keeps what the flight says.
+  struct Listener final : FlightSink {
+    explicit Listener(AutonomyStory& told) : story(told) {}
+    void event(const common::Event& event) override { story.events.push_back(event); }
+    void result(const common::CommandResult& result) override { story.results.push_back(result); }
+    AutonomyStory& story;
+  };
+
   simulation::SimulatedVehicle vehicle_;
+  HandledVehicle handled_{vehicle_, hand};
   Autonomy autonomy_;
-  std::vector<common::SensorEvent> sensed_;
+  common::LosslessQueue<common::OperatorCommand> commands_;
+  Listener listener_{*this};
+  FlightLoop loop_{handled_, autonomy_, commands_, {&listener_}};
   std::uint64_t orders_ = 0;
 };
 

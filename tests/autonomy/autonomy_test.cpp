@@ -40,7 +40,7 @@ TEST(Autonomy, FliesItsMissionAndTellsItInOrder) {
   EXPECT_LT(taking_off, landing);
   for (std::size_t i = 1; i < story.events.size(); ++i)
     EXPECT_LE(story.events[i - 1].stamp, story.events[i].stamp) << story.events[i].text;
-  EXPECT_LT(story.world().state.T_map_body().position_m.head<2>().norm(), 0.2) << "down where it rose";
+  EXPECT_LT(story.world().vehicle->state.T_map_body().position_m.head<2>().norm(), 0.2) << "down where it rose";
 }
 
 TEST(Autonomy, ValuesThatAreNoNumbersChangeNothing) {
@@ -48,7 +48,7 @@ TEST(Autonomy, ValuesThatAreNoNumbersChangeNothing) {
   AutonomyStory story(kUpAndDown);
   ASSERT_TRUE(story.isFlying());
   ASSERT_TRUE(story.fly(0.2));
-  const double battery_v = story.world().status.battery_voltage_v;
+  const double battery_v = story.world().energy->battery_voltage_v;
   int spoiled = 0, count = 0;
   story.hand = [&](common::SensorEvent& event) {
     if (auto* battery = std::get_if<common::BatterySample>(&event)) {
@@ -67,8 +67,8 @@ TEST(Autonomy, ValuesThatAreNoNumbersChangeNothing) {
   };
   EXPECT_TRUE(story.fly(2.0));
   EXPECT_GT(spoiled, 50);
-  EXPECT_TRUE(story.world().state.T_map_body().position_m.allFinite());
-  EXPECT_NEAR(story.world().status.battery_voltage_v, battery_v, 0.5) << "the last good value is kept";
+  EXPECT_TRUE(story.world().vehicle->state.T_map_body().position_m.allFinite());
+  EXPECT_NEAR(story.world().energy->battery_voltage_v, battery_v, 0.5) << "the last good value is kept";
   EXPECT_TRUE(story.until([&] { return story.autonomy().finished(); }, 40.0));
   EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kDone);
 }
@@ -76,17 +76,17 @@ TEST(Autonomy, ValuesThatAreNoNumbersChangeNothing) {
 TEST(Autonomy, TheOperatorHoldsAndResumes) {
   AutonomyStory story(kAcross);
   ASSERT_TRUE(story.isFlying());
-  ASSERT_TRUE(story.until([&] { return story.world().state.velocity_odom_m_s.norm() > 0.3; }, 20.0));
+  ASSERT_TRUE(story.until([&] { return story.world().vehicle->state.velocity_odom_m_s.norm() > 0.3; }, 20.0));
   EXPECT_TRUE(story.order(common::HoldCommand{}).accepted);
   ASSERT_TRUE(story.fly(3.0));
   EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kHeld);
-  EXPECT_LT(story.world().state.velocity_odom_m_s.norm(), 0.15);
-  const Eigen::Vector3d held_at = story.world().state.T_map_body().position_m;
+  EXPECT_LT(story.world().vehicle->state.velocity_odom_m_s.norm(), 0.15);
+  const Eigen::Vector3d held_at = story.world().vehicle->state.T_map_body().position_m;
   ASSERT_TRUE(story.fly(2.0));
-  EXPECT_LT((story.world().state.T_map_body().position_m - held_at).norm(), 0.15);
+  EXPECT_LT((story.world().vehicle->state.T_map_body().position_m - held_at).norm(), 0.15);
 
   EXPECT_TRUE(story.order(common::ResumeCommand{}).accepted);
-  EXPECT_TRUE(story.until([&] { return story.world().state.velocity_odom_m_s.norm() > 0.3; }, 10.0));
+  EXPECT_TRUE(story.until([&] { return story.world().vehicle->state.velocity_odom_m_s.norm() > 0.3; }, 10.0));
   EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kRunning);
 }
 

@@ -132,7 +132,7 @@ TEST(ClosedLoop, FliesOverATableAndLands) {
   Loop loop(4, true);
   ASSERT_TRUE(loop.hover()) << loop.vehicle.stopReason();
   ASSERT_TRUE(loop.controller.follow(
-      {{{0, 0, 1}, {3, 0, 1}, {3, -2, 1}, {0, -2, 1}, {0, 0, 1}}, control::FlightMode::kFast, {}}));
+      {{{0, 0, 1}, {3, 0, 1}, {3, -2, 1}, {0, -2, 1}, {0, 0, 1}}, common::FlightMode::kFast, {}}));
   double worst_m = 0, worst_height_m = 0;
   ASSERT_TRUE(loop.until(
       [&] {

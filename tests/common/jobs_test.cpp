@@ -11,12 +11,15 @@
 namespace swiftlet::common {
 namespace {
 
-using Delivered = std::vector<std::pair<int, double>>;
+/// Which job was delivered, and at how many milliseconds.
+using Delivered = std::vector<std::pair<int, std::int64_t>>;
+
+std::int64_t millisecondsOf(Time time) { return time.nanoseconds() / 1'000'000; }
 
 /// Work that takes no time and writes down when it was delivered.
 JobRunner::Work note(Delivered& delivered, int id) {
   return [&delivered, id]() -> JobRunner::Deliver {
-    return [&delivered, id](Time t) { delivered.emplace_back(id, t.seconds()); };
+    return [&delivered, id](Time t) { delivered.emplace_back(id, millisecondsOf(t)); };
   };
 }
 
@@ -30,7 +33,7 @@ TEST(LockstepJobs, AreDeliveredAtTheDeclaredTimeWhateverTheThreads) {
     jobs->deliverDue(Time::fromSeconds(0.05));
     EXPECT_TRUE(delivered.empty());
     jobs->deliverDue(Time::fromSeconds(0.3));
-    EXPECT_EQ(delivered, (Delivered{{2, 0.1}, {1, 0.2}}));
+    EXPECT_EQ(delivered, (Delivered{{2, 100}, {1, 200}}));
     EXPECT_TRUE(jobs->idle("slow"));
   }
 }
@@ -41,7 +44,7 @@ TEST(LockstepJobs, TwoThatAreDueTogetherComeInTheOrderOfSubmission) {
   jobs->submit("b", Time{}, Duration::fromSeconds(0.1), note(delivered, 1));
   jobs->submit("a", Time{}, Duration::fromSeconds(0.1), note(delivered, 2));
   jobs->deliverDue(Time::fromSeconds(0.1));
-  EXPECT_EQ(delivered, (Delivered{{1, 0.1}, {2, 0.1}}));
+  EXPECT_EQ(delivered, (Delivered{{1, 100}, {2, 100}}));
 }
 
 TEST(LockstepJobs, AreDeliveredWhenARecordingSaysSo) {
@@ -51,7 +54,7 @@ TEST(LockstepJobs, AreDeliveredWhenARecordingSaysSo) {
   const JobDelivery early{"plan", 1, Time::fromSeconds(1.0), Time::fromSeconds(1.05)};
   ASSERT_TRUE(jobs->awaits(early));
   jobs->deliver(early);
-  EXPECT_EQ(delivered, (Delivered{{1, 1.05}}));
+  EXPECT_EQ(delivered, (Delivered{{1, 1050}}));
   EXPECT_FALSE(jobs->awaits(early)) << "it is delivered already";
   EXPECT_FALSE(jobs->nextDue(Time::fromSeconds(9)));
 }
@@ -94,7 +97,7 @@ TEST(WallClockJobs, AreDeliveredInTheOrderInWhichTheyAreDone) {
   jobs->submit("first", Time{}, Duration::fromSeconds(0.1),
                [&, gate = first_may_end.get_future().share()]() -> JobRunner::Deliver {
                  gate.wait();
-                 return [&](Time t) { delivered.emplace_back(1, t.seconds()); };
+                 return [&](Time t) { delivered.emplace_back(1, millisecondsOf(t)); };
                });
   jobs->submit("second", Time{}, Duration::fromSeconds(0.1), note(delivered, 2));
   const JobDelivery due = awaited(*jobs, Time::fromSeconds(0.03));
@@ -107,7 +110,7 @@ TEST(WallClockJobs, AreDeliveredInTheOrderInWhichTheyAreDone) {
 
   first_may_end.set_value();
   jobs->deliver(awaited(*jobs, Time::fromSeconds(6)));
-  EXPECT_EQ(delivered, (Delivered{{2, 0.03}, {1, 6.0}}));
+  EXPECT_EQ(delivered, (Delivered{{2, 30}, {1, 6000}}));
   EXPECT_TRUE(jobs->idle("first"));
 }
 

@@ -90,7 +90,11 @@ Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs) {
       <Land/>
     </Sequence></BehaviorTree></root>)",
                                               "short.xml");
-  return Autonomy(AutonomyConfig{}, vehicleSheet(), laserSheet(), std::move(mission), std::move(jobs));
+  AutonomyConfig config;
+  // So that it seeks loops already within the few metres of a short flight.
+  config.estimator.slam.local_sigma_m = 0.02;
+  config.estimator.slam.loops.spacing_m = 0.5;
+  return Autonomy(config, vehicleSheet(), laserSheet(), std::move(mission), std::move(jobs));
 }
 
 bool Witness::heard(const std::string& part) const {

@@ -7,8 +7,11 @@
 #include <variant>
 
 #include "autonomy/autonomy.hpp"
+#include "autonomy/flight_loop.hpp"
+#include "autonomy/flight_sink.hpp"
 #include "behaviors/mission.hpp"
 #include "common/config.hpp"
+#include "common/mailbox.hpp"
 #include "simulation/arena.hpp"
 #include "tests/simulation/arena_fixtures.hpp"
 
@@ -39,7 +42,7 @@ simulation::Scenario twoThatFaceEachOther() {
 }
 
 /// One vehicle and its autonomy, tick by tick.
-class Flyer {
+class Flyer : private autonomy::FlightSink {
  public:
   Flyer(const std::shared_ptr<simulation::Arena>& arena, std::size_t index, const std::string& mission)
       : vehicle_(arena, index),
@@ -47,13 +50,9 @@ class Flyer {
                   behaviors::Mission::fromText(mission, "mission.xml"), common::makeLockstepJobs(1)) {}
 
   void fly(Time now) {
-    events_.clear();
-    if (!vehicle_.advanceTo(now, events_)) return;
-    for (const common::SensorEvent& event : events_) autonomy_.process(event);
-    vehicle_.apply(autonomy_.tick(now));
+    if (!loop_.step(now)) return;
     const common::Pose3 T_map_body = vehicle_.T_world_map().inverse() * vehicle_.truth().T_world_body;
     farthest_m_ = std::max(farthest_m_, T_map_body.position_m.x());
-    for (const common::Event& event : autonomy_.takeEvents()) story_ += event.source + ": " + event.text + "\n";
   }
   /// It is still advanced after its mission, or the other could not fly on.
   bool over() const { return vehicle_.truth().crashed || autonomy_.finished(); }
@@ -64,9 +63,12 @@ class Flyer {
   const std::string& story() const { return story_; }
 
  private:
+  void event(const common::Event& event) override { story_ += event.source + ": " + event.text + "\n"; }
+
   simulation::SimulatedVehicle vehicle_;
   autonomy::Autonomy autonomy_;
-  std::vector<common::SensorEvent> events_;
+  common::LosslessQueue<common::OperatorCommand> commands_;
+  autonomy::FlightLoop loop_{vehicle_, autonomy_, commands_, {this}};
   double farthest_m_ = 0.0;
   std::string story_;
 };
