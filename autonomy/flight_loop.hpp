@@ -1,6 +1,6 @@
 // The loop that flies: lets a vehicle's time pass, gives the autonomy what comes of it, and the vehicle its setpoints.
-// It knows neither a simulator nor a clock; who steps it decides how fast time passes, and several loops may be stepped
-// side by side.
+// It knows neither a simulator nor a clock: the caller decides how fast time passes, and may step several loops side by
+// side.
 //
 //   step(now):  the vehicle's events up to now, each behind the jobs due at its arrival
 //               the operator's commands
