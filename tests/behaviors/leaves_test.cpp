@@ -8,7 +8,6 @@ namespace swiftlet::behaviors::testing {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 TEST(TakeOff, IsOneWishUntilItIsDone) {
   Flight flight(R"(<TakeOff height_m="1.5"/>)");
@@ -214,141 +213,12 @@ TEST(AvoidObstacle, InterruptsAHold) {
   EXPECT_EQ(flight.retreats(false).holds(false).tick(), "RUNNING 8 explore") << "the hold ended meanwhile";
 }
 
-constexpr const char* kOperator =
-    R"(<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><OperatorCommand tolerance_m="0.1"/></Sequence></Priority>)";
-
-/// Taken off; OperatorCommand holds as wish 2.
-Flight waiting() {
-  Flight flight(kOperator);
-  flight.tick();
-  flight.succeeds().tick();
-  flight.events();
-  return flight;
-}
-
-TEST(OperatorCommand, HoldsUntilAGoalComesAndAgainAfterIt) {
-  Flight flight = waiting();
-  EXPECT_EQ(flight.stops().tick(), "RUNNING 2 hold");
-  EXPECT_EQ(flight.goal(1.0, 2.0).tick(), "RUNNING 3 go to (1.00, 2.00)");
-  EXPECT_THAT(flight.results(), ElementsAre("1 accepted"));
-  EXPECT_DOUBLE_EQ(std::get<common::GoToIntent>(flight.context.intent->kind).tolerance_m, 0.1);
-  EXPECT_EQ(flight.runs().tick(), "RUNNING 3 go to (1.00, 2.00)");
-  EXPECT_EQ(flight.succeeds().tick(), "RUNNING 4 hold");
-  EXPECT_THAT(flight.events(), ElementsAre("goal (1.00, 2.00) reached"));
-}
-
-TEST(OperatorCommand, ANewGoalReplacesTheOldOne) {
-  Flight flight = waiting();
-  flight.goal(1.0, 2.0).tick();
-  EXPECT_EQ(flight.runs().goal(-1.0, 0.0).tick(), "RUNNING 4 go to (-1.00, 0.00)");
-  EXPECT_THAT(flight.events(), ElementsAre("goal (1.00, 2.00) given up (replaced by goal (-1.00, 0.00))"));
-  EXPECT_EQ(flight.tick(), "RUNNING 4 go to (-1.00, 0.00)") << "what is said of wish 3 does not matter";
-}
-
-TEST(OperatorCommand, OfSeveralGoalsInOneTickTheLastCounts) {
-  Flight flight = waiting();
-  EXPECT_EQ(flight.goal(1.0, 2.0).goal(2.0, 2.0).tick(), "RUNNING 3 go to (2.00, 2.00)");
-  EXPECT_THAT(flight.results(), ElementsAre("1 accepted", "2 accepted"));
-}
-
-TEST(OperatorCommand, AGoalThatCannotBeReachedIsToldAndTheMissionGoesOn) {
-  Flight flight = waiting();
-  flight.goal(1.0, 2.0).tick();
-  EXPECT_EQ(flight.fails("no path at clearance 0.10 m").tick(), "RUNNING 4 hold");
-  EXPECT_THAT(flight.events(), ElementsAre("goal (1.00, 2.00) not reached (no path at clearance 0.10 m)"));
-}
-
-TEST(OperatorCommand, GoesHome) {
-  Flight flight = waiting();
-  EXPECT_EQ(flight.home(0.5, 0.25).homeCommand().tick(), "RUNNING 3 go to (0.50, 0.25)");
-  flight.succeeds().tick();
-  EXPECT_THAT(flight.events(), ElementsAre("home reached"));
-}
-
-TEST(OperatorCommand, RefusesWhatCannotBeAGoal) {
-  Flight flight = waiting();
-  flight.goal(4.05, 0.0)
-      .goal(20.0, 0.0)
-      .goal(3.9, 0.0)
-      .goal(std::nan(""), 0.0)
-      .goal(1e300, 0.0)
-      .command({0, common::LandCommand{}});
-  EXPECT_EQ(flight.tick(), "RUNNING 2 hold");
-  EXPECT_THAT(
-      flight.results(),
-      ElementsAre("1 refused: goal (4.05, 0.00) is in an obstacle at clearance 0.10 m, the nearest free place is "
-                  "(3.62, 0.00)",
-                  "2 refused: goal (20.00, 0.00) is outside the map",
-                  "3 refused: goal (3.90, 0.00) is too close to an obstacle or to unknown space at clearance "
-                  "0.10 m, the nearest free place is (3.62, 0.00)",
-                  "4 refused: the goal is not a point of the map", "5 refused: the goal is not a point of the map",
-                  "6 refused: not a command for the mission"));
-}
-
-TEST(OperatorCommand, AcceptsAGoalWithAFreePlaceWithinItsTolerance) {
-  Flight flight = waiting();
-  flight.goal(3.70, 0.0).tick();
-  EXPECT_THAT(flight.results(), ElementsAre("1 accepted")) << "0.075 m beside, of a tolerance of 0.1 m";
-}
-
-TEST(OperatorCommand, ItsOwnClearanceJudges) {
-  Flight flight(R"(<Sequence><TakeOff/><OperatorCommand clearance_m="0.5"/></Sequence>)");
-  flight.goal(3.4, 0.0).tick();
-  EXPECT_THAT(flight.results(),
-              ElementsAre("1 refused: goal (3.40, 0.00) is too close to an obstacle or to unknown space at clearance "
-                          "0.50 m, the nearest free place is (3.22, 0.00)"));
-}
-
-TEST(OperatorCommand, WithoutAMapAGoalIsAcceptedForWhoFliesToIt) {
-  Flight flight = waiting();
-  flight.context.goal_map.reset();
-  flight.goal(4.05, 0.0).goal(std::nan(""), 0.0).tick();
-  EXPECT_THAT(flight.results(), ElementsAre("1 accepted", "2 refused: the goal is not a point of the map"));
-}
-
-TEST(OperatorCommand, AGoalGivenWhileHeldIsFlownAfterwards) {
-  Flight flight = waiting();
-  flight.stops().holds(true).tick();
-  EXPECT_EQ(flight.goal(1.0, 2.0).tick(), "HELD 3 hold");
-  EXPECT_THAT(flight.results(), ElementsAre("1 accepted"));
-  EXPECT_EQ(flight.holds(false).tick(), "RUNNING 4 go to (1.00, 2.00)");
-}
-
-TEST(OperatorCommand, AHoldInterruptsAGoalAndItIsResumed) {
-  Flight flight = waiting();
-  flight.goal(1.0, 2.0).tick();
-  EXPECT_EQ(flight.runs().holds(true).tick(), "HELD 4 hold");
-  EXPECT_EQ(flight.stops().tick(), "HELD 5 hold");
-  EXPECT_EQ(flight.holds(false).tick(), "RUNNING 6 go to (1.00, 2.00)");
-}
-
-TEST(OperatorCommand, WhoHoldsAlreadyLetsGoAtOnce) {
-  Flight flight = waiting();
-  EXPECT_EQ(flight.stops().holds(true).tick(), "HELD 3 hold");
-}
-
-TEST(OperatorCommand, AGoalGivenDuringTakeOffIsFlownAfterIt) {
-  Flight flight(kOperator);
-  flight.goal(1.0, 2.0).tick();
-  EXPECT_THAT(flight.results(), ElementsAre("1 accepted"));
-  EXPECT_EQ(flight.succeeds().tick(), "RUNNING 2 go to (1.00, 2.00)");
-}
-
 TEST(Commands, AreRefusedWhereTheMissionHasNoOperatorCommand) {
   Flight flight = exploring();
   EXPECT_FALSE(flight.mission.acceptsGoals());
   flight.goal(1.0, 2.0).homeCommand().tick();
   EXPECT_THAT(flight.results(), ElementsAre("1 refused: the mission M has no OperatorCommand: it flies its own goals",
                                             "2 refused: the mission M has no OperatorCommand: it flies its own goals"));
-  EXPECT_TRUE(waiting().mission.acceptsGoals());
-}
-
-TEST(Commands, AreRefusedWhenTheMissionHasEnded) {
-  Flight flight("<Timeout msec='1'><OperatorCommand/></Timeout>");
-  flight.tick();
-  EXPECT_EQ(flight.stops().tick(), "FAILED");
-  flight.goal(1.0, 2.0).tick();
-  EXPECT_THAT(flight.results(), ElementsAre("1 refused: the mission has ended"));
 }
 
 TEST(Mission, LetsGoForWhoeverStandsAboveIt) {
@@ -361,45 +231,6 @@ TEST(Mission, LetsGoForWhoeverStandsAboveIt) {
   EXPECT_EQ(flight.view(),
             "Priority IDLE, AvoidObstacle IDLE, Hold IDLE, Sequence IDLE, TakeOff IDLE, Explore IDLE, Land IDLE");
   EXPECT_EQ(flight.tick().substr(10), "take off to 1.00 m") << "it stands at its beginning";
-}
-
-TEST(Mission, TellsWhichBehaviourHasTheVehicleAndWhy) {
-  Flight flight(kMission);
-  flight.tick();
-  EXPECT_THAT(flight.events(),
-              ElementsAre("TakeOff has the vehicle (nothing above it asks for the vehicle)", "TakeOff starts"));
-  flight.succeeds().tick();
-  flight.events();
-  flight.retreats(true, "a person 0.6 m ahead closing").runs().tick();
-  EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for AvoidObstacle (a person 0.6 m ahead closing)",
-                                           "AvoidObstacle takes over from Explore (a person 0.6 m ahead closing)"));
-}
-
-TEST(Mission, TheBehaviourBelowANodeIsNamed) {
-  Flight flight("<Priority><Fallback><Hold/></Fallback><Sequence><TakeOff/><Explore/></Sequence></Priority>");
-  flight.tick();
-  flight.succeeds().tick();
-  flight.events();
-  flight.runs().holds(true, "the operator holds").tick();
-  EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for Hold (the operator holds)"));
-}
-
-TEST(Mission, ItsEndNamesTheFirstCause) {
-  Flight flight("<Fallback><Sequence><TakeOff/><Explore/></Sequence><Sequence><GoHome/><Land/></Sequence></Fallback>");
-  flight.tick();
-  flight.succeeds().tick();
-  flight.fails("the vehicle is shut in").tick();
-  EXPECT_EQ(flight.fails("goal (0.00, 0.00) is unreachable").tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "Explore: the vehicle is shut in, and then GoHome: goal (0.00, 0.00) is unreachable");
-}
-
-TEST(Mission, WhatWasMadeGoodForIsNoCause) {
-  Flight flight("<Sequence><Fallback><Explore/><TakeOff/></Fallback><Land/></Sequence>");
-  flight.tick();
-  flight.fails("cannot explore while powered off").tick();
-  flight.succeeds().tick();
-  EXPECT_EQ(flight.fails("the motors are off").tick(), "FAILED");
-  EXPECT_EQ(flight.last.reason, "Land: the motors are off");
 }
 
 TEST(Mission, NothingToDoIsNoIntent) {
