@@ -93,7 +93,7 @@ TEST(OperatorCommand, ItsOwnClearanceJudges) {
   flight.goal(3.4, 0.0).tick();
   EXPECT_THAT(flight.results(),
               ElementsAre("1 refused: goal (3.40, 0.00) is too close to an obstacle or to unknown space at clearance "
-                          "0.50 m, the nearest free place is (3.22, 0.00)"));
+                          "0.50 m, the nearest free place is (3.23, 0.00)"));
 }
 
 TEST(OperatorCommand, WithoutAMapAGoalIsAcceptedForWhoFliesToIt) {

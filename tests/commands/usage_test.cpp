@@ -55,8 +55,8 @@ TEST(Usage, WhatWasProbablyMeantIsNamed) {
     EXPECT_EQ(end.out, "");
   };
   told({"flyy"}, "`flyy` is not a command of `swiftlet`, did you mean `fly`?\nRun `swiftlet --help`");
-  told({"fly", "missions/explore_and_return.xml", "--sped", "2"},
-       "`--sped` is not an option of `swiftlet fly`, did you mean `--speed`?\nRun `swiftlet fly --help`");
+  told({"fly", "missions/explore_and_return.xml", "--speeed", "2"},
+       "`--speeed` is not an option of `swiftlet fly`, did you mean `--speed`?\nRun `swiftlet fly --help`");
   told({"map", "--jsn"}, "`--jsn` is not an option of `swiftlet map`, did you mean `--json`?");
   told({"map", "a.log", "--odomtry=none"},
        "`--odomtry` is not an option of `swiftlet map`, did you mean `--odometry`?");

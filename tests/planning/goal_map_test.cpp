@@ -61,7 +61,7 @@ TEST_F(GoalMapTest, FindsTheNearestFreePlaceForTheClearance) {
     const auto place = goals.nearestFree({3.9, 2.0}, 3.0, clearance_m);
     ASSERT_TRUE(place);
     EXPECT_NEAR(4.0 - place->x(), 0.275 + clearance_m, 0.06);
-    EXPECT_NEAR(place->y(), 2.0, 1e-9);
+    EXPECT_NEAR(place->y(), 2.0, 0.05);  // Somewhere in a cell beside it.
   }
   EXPECT_FALSE(goals.nearestFree({90.0, 2.0}, 3.0, 0.10));
 }

@@ -176,14 +176,16 @@ struct BlankMap {
     view.viewport = Viewport{{0.0, 0.0}, 10.0, 160, 120};
   }
   /// Whether the pixels around the point are other than in the blank map.
-  bool isInkedAt(double x_m, double y_m) const {
+  /// Whether a pixel at most `margin_px` beside the place is drawn on.
+  bool isInkedAt(double x_m, double y_m, int margin_px = 1) const {
     MapPicture blank;
     blank.grid = picture.grid;
     const common::Image with = renderMap(picture, view), without = renderMap(blank, view);
     const Eigen::Vector2d at = view.viewport->toPixel({x_m, y_m});
-    for (int y = static_cast<int>(at.y()) - 1; y <= static_cast<int>(at.y()) + 1; ++y) {
-      const auto first = 3 * (static_cast<std::size_t>(y) * 160 + static_cast<std::size_t>(at.x()) - 1);
-      if (!std::equal(with.rgb.begin() + first, with.rgb.begin() + first + 9, without.rgb.begin() + first)) return true;
+    for (int y = static_cast<int>(at.y()) - margin_px; y <= static_cast<int>(at.y()) + margin_px; ++y) {
+      const auto first = 3 * (y * 160 + static_cast<int>(at.x()) - margin_px), length = 3 * (2 * margin_px + 1);
+      if (!std::equal(with.rgb.begin() + first, with.rgb.begin() + first + length, without.rgb.begin() + first))
+        return true;
     }
     return false;
   }
@@ -196,7 +198,7 @@ TEST(MapRendererTest, EveryStyleOfLineIsDrawnWhereItIs) {
   for (const LineStyle style : {LineStyle::kTrail, LineStyle::kTrack, LineStyle::kPlan, LineStyle::kReference}) {
     BlankMap map;
     map.picture.lines = {{"", {{-3.05, 2.05}, {3.05, 2.05}}, style}};
-    const auto inked = [&](int i) { return map.isInkedAt(-3.0 + 0.1 * i, 2.05); };
+    const auto inked = [&](int i) { return map.isInkedAt(-3.0 + 0.1 * i, 2.05, 0); };
     int count = 0;
     for (int i = 0; i <= 60; ++i) count += inked(i);
     const bool solid = style == LineStyle::kTrail || style == LineStyle::kTrack;
