@@ -9,11 +9,11 @@
 
 #include <Eigen/Core>
 
-#include "common/config_fwd.hpp"
 #include "common/dynamic_obstacle.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "common/world/avoidance_status.hpp"
+#include "planning/avoidance/avoidance_config.hpp"
 #include "planning/costs/cost_map.hpp"
 
 namespace swiftlet::planning {
@@ -57,38 +57,8 @@ struct Bin {
 /// holds and does not move only brakes. All distances are from the hull.
 class Avoidance {
  public:
-  /// kMean is the paper's; its mean over 5 deg hides a thin pole. kRobustMinimum takes the least of the medians of
-  /// three neighbouring beams, which one stray return does not move.
-  enum class BinRange { kMean, kRobustMinimum };
-
-  struct Config {
-    int bins = 54;
-    double field_of_view_deg = 270.0;
-    BinRange bin_range = BinRange::kRobustMinimum;
-    int smoothing_window = 5;
-    double max_speed_m_s = 1.5;
-    double deceleration_m_s2 = 1.0;
-    double blind_speed_m_s = 0.3;
-    double latency_s = 0.15;
-    double margin_m = 0.05;
-    double retreat_distance_m = 0.25;
-    double contact_time_s = 1.8;
-    double contact_gap_m = 0.20;
-    double closing_speed_m_s = 0.15;
-    double mapped_within_m = 0.15;
-    double retreat_speed_m_s = 0.7;
-    double retreat_margin_m = 0.15;
-    double view_margin_deg = 30.0;
-    double release_factor = 1.3;
-    double calm_s = 0.6;
-    double self_radius_m = 0.10;
-
-    void describe(common::config::Fields& fields);
-    /// Problems of these distances with a clearance the planner may use and with what it keeps from unmapped things
-    /// beyond that: what would stop the vehicle, or make it retreat, on a path that the planner may take is refused.
-    /// Empty when they fit.
-    std::vector<std::string> validateAgainst(double clearance_m, double keep_out_m) const;
-  };
+  using Config = AvoidanceConfig;
+  using BinRange = AvoidanceBinRange;
 
   Avoidance(const Config& config, double hull_radius_m);
 

@@ -40,7 +40,7 @@ struct Prospect {
 
 class Retreat {
  public:
-  Retreat(const Avoidance::Config& config, double hull_radius_m, const RetreatInput& input)
+  Retreat(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input)
       : config_(config), hull_radius_m_(hull_radius_m), input_(input) {
     const double reach_m =
         input.velocity_level_m_s.norm() * config.latency_s + config.retreat_speed_m_s * kSteps * kStep_s;
@@ -146,7 +146,7 @@ class Retreat {
     return input_.cost_map->stateAt(cell) == CellState::kUnknown ? 0.0 : input_.cost_map->obstacleDistance_m(cell);
   }
 
-  const Avoidance::Config& config_;
+  const AvoidanceConfig& config_;
   double hull_radius_m_;
   const RetreatInput& input_;
   Points near_;
@@ -155,7 +155,7 @@ class Retreat {
 
 }  // namespace
 
-Eigen::Vector2d retreatVelocity(const Avoidance::Config& config, double hull_radius_m, const RetreatInput& input) {
+Eigen::Vector2d retreatVelocity(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input) {
   return Retreat(config, hull_radius_m, input).best();
 }
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
-#include "planning/avoidance/avoidance.hpp"
+#include "planning/avoidance/avoidance_config.hpp"
 #include "planning/costs/cost_map.hpp"
 
 namespace swiftlet::planning {
@@ -42,6 +42,6 @@ struct RetreatInput {
 /// The velocity to fly until the next scan, in the level frame; zero: to stop is best. Whoever flies it with the
 /// `deceleration_m_s2` of the configuration, and asks again at each scan, comes no nearer to anything that stands than
 /// `retreat_margin_m` off the hull, or than stopping at once would have brought him. Pure.
-Eigen::Vector2d retreatVelocity(const Avoidance::Config& config, double hull_radius_m, const RetreatInput& input);
+Eigen::Vector2d retreatVelocity(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input);
 
 }  // namespace swiftlet::planning

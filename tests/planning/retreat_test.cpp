@@ -50,7 +50,7 @@ struct Flyer {
     for (int i = 0; i <= count; ++i) walls_m.push_back(from_m + (to_m - from_m) * i / count);
   }
 
-  Avoidance::Config config;
+  AvoidanceConfig config;
   Point place_m = Point::Zero(), velocity_m_s = Point::Zero(), answer_m_s = Point::Zero();
   std::vector<Threat> threats;
   std::vector<Point> walls_m;
