@@ -75,7 +75,16 @@ function(swiftlet_tests name)
     if(${pace})
       gtest_discover_tests(test_${name} TEST_PREFIX "${name}." TEST_FILTER "${${pace}}" TEST_LIST ${name}_${pace}
                            DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                           PROPERTIES LABELS "${name};${pace}" TIMEOUT ${timeout})
+                           PROPERTIES TIMEOUT ${timeout})
     endif()
   endforeach()
+  # gtest_discover_tests takes no list as the value of a property, so the labels are set when ctest has the tests.
+  file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/labels.cmake" @ONLY CONTENT [[
+foreach(pace quick slow)
+  if(@name@_${pace})
+    set_tests_properties(${@name@_${pace}} PROPERTIES LABELS "@name@;${pace}")
+  endif()
+endforeach()
+]])
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${CMAKE_CURRENT_BINARY_DIR}/labels.cmake")
 endfunction()
