@@ -80,6 +80,7 @@ class Estimator {
   /// At the newest IMU sample, with T_map_odom.
   common::VehicleState state() const;
   perception::FusionHealth health() const { return filter_.health(); }
+  const perception::LaserOdometryCounts& odometryCounts() const { return laser_.counts(); }
 
   std::shared_ptr<const common::OccupancyGrid> grid() { return map_.grid(); }
   std::shared_ptr<const common::KeyPoses> keyPoses() { return map_.keyPoses(); }

@@ -48,6 +48,7 @@ class LaserPipeline {
 
   /// The stamp of the last scan that matched; none before the first.
   std::optional<common::Time> lastMatch() const { return odometry_.lastMatch(); }
+  const perception::LaserOdometryCounts& counts() const { return odometry_.counts(); }
   /// The time of the clone that the next measurement starts from.
   common::Time clone() const { return track_.clone; }
 

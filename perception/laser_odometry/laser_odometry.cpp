@@ -25,6 +25,20 @@ Eigen::Matrix3d seenPart(const MatchResult& match) {
   return across * match.covariance * across.transpose();
 }
 
+void countSearch(LaserOdometryCounts& counts, MatcherKind kind) {
+  switch (kind) {
+    case MatcherKind::kCorrelative:
+      ++counts.correlative_searches;
+      return;
+    case MatcherKind::kGaussNewton:
+      ++counts.gauss_newton_searches;
+      return;
+    case MatcherKind::kPointToLine:
+      ++counts.point_to_line_searches;
+      return;
+  }
+}
+
 /// So many times as far away as the window reaches, the guess says nothing for a match.
 constexpr double kFarWindows = 6.0;
 
@@ -111,7 +125,7 @@ struct LaserOdometry::Impl {
     bool otherwise = false;
   };
 
-  explicit Impl(const LaserOdometryConfig& config_in) : config(config_in), matcher(config_in.matcher) {}
+  explicit Impl(const LaserOdometryConfig& config_in) : config(config_in), matcher(makeMatcher(config_in.matcher)) {}
 
   std::optional<RelativePose> start(const ProjectedScan& scan);
   SearchWindow usualWindow(common::Time now) const;
@@ -127,7 +141,7 @@ struct LaserOdometry::Impl {
   void drawLocalMap();
 
   LaserOdometryConfig config;
-  CorrelativeMatcher matcher;
+  std::unique_ptr<ScanMatcher> matcher;
   LaserOdometryCounts counts;
   std::deque<KeyScan> key_scans;  ///< The last one is the reference.
   common::Time last_stamp, last_match;
@@ -138,8 +152,8 @@ struct LaserOdometry::Impl {
 };
 
 void LaserOdometry::Impl::drawLocalMap() {
-  matcher.clearReference();
-  for (const KeyScan& key : key_scans) matcher.addReference(key.scan, key.T_local_body);
+  matcher->clearReference();
+  for (const KeyScan& key : key_scans) matcher->addReference(key.scan, key.T_local_body);
 }
 
 void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body,
@@ -147,7 +161,7 @@ void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_l
   ++counts.references;
   key_scans.push_back({scan.stamp, scan, T_local_body, covariance_local});
   if (static_cast<int>(key_scans.size()) <= config.local_map_scans) {
-    matcher.addReference(scan, T_local_body);
+    matcher->addReference(scan, T_local_body);
     return;
   }
   // Half of the map is forgotten at once, so that drawing it anew is rare.
@@ -157,9 +171,9 @@ void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_l
 }
 
 std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan) {
-  if (static_cast<int>(scan.points_level_m.size()) < config.matcher.min_points) return std::nullopt;
+  if (static_cast<int>(scan.points_level_m.size()) < config.matcher.minPoints()) return std::nullopt;
   key_scans.clear();
-  matcher.clearReference();
+  matcher->clearReference();
   addKeyScan(scan, Pose2{}, Eigen::Matrix3d::Zero());
   last_match = last_seen_whole = scan.stamp;
   last_T_odom_body = common::planar(scan.T_odom_body);
@@ -198,12 +212,13 @@ double LaserOdometry::Impl::marginOf(const MatchResult& match, const Guess& gues
   const double beyond =
       std::max(shareBeyond(off.position_m().norm(), guess.window.half_translation_m, config.max_window_m),
                shareBeyond(std::abs(off.yaw_rad), guess.window.half_rotation_rad, config.max_window_deg * kRadPerDeg));
-  return match.quality - std::lerp(config.matcher.min_quality, config.min_widened_quality, beyond);
+  return match.quality - std::lerp(config.matcher.minQuality(), config.min_widened_quality, beyond);
 }
 
 LaserOdometry::Impl::Found LaserOdometry::Impl::matchIn(const SearchWindow& window, const ProjectedScan& scan,
                                                         const Guess& guess, const Guess& about) {
-  const MatchResult match = matcher.match(scan, about.T_local_body, window);
+  countSearch(counts, matcher->kind());
+  const MatchResult match = matcher->match(scan, about.T_local_body, window);
   return {match, marginOf(match, guess, about), &about != &guess};
 }
 

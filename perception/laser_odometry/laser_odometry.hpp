@@ -10,7 +10,7 @@
 
 #include "common/config_fwd.hpp"
 #include "common/time.hpp"
-#include "perception/scan_matching/correlative_matcher.hpp"
+#include "perception/scan_matching/matcher_choice.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 
 namespace swiftlet::perception {
@@ -39,7 +39,7 @@ struct OtherGuess {
 };
 
 struct LaserOdometryConfig {
-  CorrelativeMatcherConfig matcher;
+  MatcherChoiceConfig matcher;
   double max_acceleration_m_s2 = 5.0;
   double max_angular_acceleration_rad_s2 = 20.0;
   double unseen_drift_m_s = 0.5;
@@ -66,7 +66,11 @@ struct LaserOdometryConfig {
 
 struct LaserOdometryCounts {
   std::uint64_t scans = 0;
-  std::uint64_t failures = 0;      ///< Scans that did not match.
+  std::uint64_t failures = 0;  ///< Scans that did not match.
+  /// Searches made by the matcher of each kind; several for a scan that is sought in wider windows.
+  std::uint64_t correlative_searches = 0;
+  std::uint64_t gauss_newton_searches = 0;
+  std::uint64_t point_to_line_searches = 0;
   std::uint64_t references = 0;    ///< Key scans.
   std::uint64_t restarts = 0;      ///< Times it was lost and started anew.
   std::uint64_t out_of_order = 0;  ///< Scans not newer than the one before; ignored.

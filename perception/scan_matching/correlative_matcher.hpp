@@ -58,6 +58,7 @@ class CorrelativeMatcher final : public ScanMatcher {
   CorrelativeMatcher(CorrelativeMatcher&&) noexcept;
   CorrelativeMatcher& operator=(CorrelativeMatcher&&) noexcept;
 
+  MatcherKind kind() const override { return MatcherKind::kCorrelative; }
   void clearReference() override;
   void addReference(const ProjectedScan& scan, const common::Pose2& T_reference_body) override;
   [[nodiscard]] MatchResult match(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,

@@ -37,6 +37,7 @@ class GaussNewtonMatcher final : public ScanMatcher {
   GaussNewtonMatcher(GaussNewtonMatcher&&) noexcept;
   GaussNewtonMatcher& operator=(GaussNewtonMatcher&&) noexcept;
 
+  MatcherKind kind() const override { return MatcherKind::kGaussNewton; }
   void clearReference() override;
   void addReference(const ProjectedScan& scan, const common::Pose2& T_reference_body) override;
   [[nodiscard]] MatchResult match(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,

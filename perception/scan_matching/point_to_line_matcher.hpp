@@ -32,6 +32,7 @@ class PointToLineMatcher final : public ScanMatcher {
   PointToLineMatcher(PointToLineMatcher&&) noexcept;
   PointToLineMatcher& operator=(PointToLineMatcher&&) noexcept;
 
+  MatcherKind kind() const override { return MatcherKind::kPointToLine; }
   void clearReference() override;
   void addReference(const ProjectedScan& scan, const common::Pose2& T_reference_body) override;
   [[nodiscard]] MatchResult match(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,

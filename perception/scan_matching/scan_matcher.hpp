@@ -33,10 +33,15 @@ struct MatchResult {
   int points_used = 0;
 };
 
+/// How a matcher works; see the header of each.
+enum class MatcherKind { kCorrelative, kGaussNewton, kPointToLine };
+
 /// Not thread-safe: one object per thread.
 class ScanMatcher {
  public:
   virtual ~ScanMatcher() = default;
+
+  virtual MatcherKind kind() const = 0;
 
   /// Forgets the reference.
   virtual void clearReference() = 0;
