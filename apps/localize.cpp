@@ -94,7 +94,7 @@ void localizeLog(RecordedLog& log, const LocalizeOptions& options, perception::L
     if (!estimate) continue;
     ++run.estimates;
     const common::Time stamp = logged->scan.stamps.measured;
-    run.shown.ways.add(*estimate);
+    run.shown.paths.add(*estimate);
     if (estimate->event) note(*estimate->event, stamp, log.scans() - 1, run);
     run.state = estimate->state;
     if (estimate->state == LocalizationState::kLocalized) {

@@ -16,25 +16,25 @@
 namespace swiftlet::apps {
 namespace {
 
-using Ways = std::vector<std::vector<Eigen::Vector2d>>;
+using Paths = std::vector<std::vector<Eigen::Vector2d>>;
 
-/// Points of a way nearer than this to the one before are not drawn.
+/// Points of a path nearer than this to the one before are not drawn.
 constexpr double kDrawnStep_m = 0.05;
 
 /// Pictures show the grid's frame.
-Ways inGrid(const Ways& paths_map_m, const common::Pose2& T_map_grid) {
+Paths inGrid(const Paths& paths_map_m, const common::Pose2& T_map_grid) {
   const common::Pose2 T_grid_map = T_map_grid.inverse();
-  Ways ways = paths_map_m;
-  for (auto& way : ways)
-    for (Eigen::Vector2d& point : way) point = T_grid_map * point;
-  return ways;
+  Paths paths = paths_map_m;
+  for (auto& path : paths)
+    for (Eigen::Vector2d& point : path) point = T_grid_map * point;
+  return paths;
 }
 
-rendering::MapPicture pictureOf(const interfaces::StoredMap& map, const Ways& ways_grid_m) {
+rendering::MapPicture pictureOf(const interfaces::StoredMap& map, const Paths& paths_grid_m) {
   rendering::MapPicture picture;
   picture.grid = std::make_shared<const common::OccupancyGrid>(map.grid);
-  for (const std::vector<Eigen::Vector2d>& way : ways_grid_m)
-    picture.lines.push_back({"localized", way, rendering::LineStyle::kTrack});
+  for (const std::vector<Eigen::Vector2d>& path : paths_grid_m)
+    picture.lines.push_back({"localized", path, rendering::LineStyle::kTrack});
   return picture;
 }
 
@@ -72,16 +72,16 @@ common::Table tableOf(const std::vector<ToldEvent>& events) {
 
 }  // namespace
 
-void LocalizedWays::add(const perception::LocalizationEstimate& estimate) {
+void LocalizedPaths::add(const perception::LocalizationEstimate& estimate) {
   if (estimate.state != perception::LocalizationState::kLocalized) {
     open_ = false;
     return;
   }
   const Eigen::Vector2d at = estimate.T_map_body.position_m();
   if (!open_)
-    ways_.push_back({at});
-  else if ((at - ways_.back().back()).norm() >= kDrawnStep_m)
-    ways_.back().push_back(at);
+    paths_.push_back({at});
+  else if ((at - paths_.back().back()).norm() >= kDrawnStep_m)
+    paths_.back().push_back(at);
   open_ = true;
 }
 
@@ -104,7 +104,7 @@ std::vector<ToldEvent> told(const std::vector<LoggedEvent>& events, bool has_sta
 
 void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
                           const LocalizeFigures& figures) {
-  const rendering::MapPicture picture = pictureOf(map, inGrid(figures.ways.paths_map_m(), map.T_map_grid));
+  const rendering::MapPicture picture = pictureOf(map, inGrid(figures.paths.paths_map_m(), map.T_map_grid));
   interfaces::LocalizationReport report;
   report.title =
       fmt::format("{}{} in {}", kLocalizeTitle, std::filesystem::path(figures.log).filename().string(), figures.map);

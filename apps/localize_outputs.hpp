@@ -20,14 +20,14 @@
 
 namespace swiftlet::apps {
 
-/// The ways that were localized without a break, thinned for drawing; map frame.
-class LocalizedWays {
+/// The paths that were localized without a break, thinned for drawing; map frame.
+class LocalizedPaths {
  public:
   void add(const perception::LocalizationEstimate& estimate);
-  const std::vector<std::vector<Eigen::Vector2d>>& paths_map_m() const { return ways_; }
+  const std::vector<std::vector<Eigen::Vector2d>>& paths_map_m() const { return paths_; }
 
  private:
-  std::vector<std::vector<Eigen::Vector2d>> ways_;
+  std::vector<std::vector<Eigen::Vector2d>> paths_;
   bool open_ = false;
 };
 
@@ -64,7 +64,7 @@ struct LocalizeFigures {
   std::vector<LoggedEvent> events;
   bool has_stamps = true;      ///< The log's stamps tell its scans apart.
   Spool<LocalizedScan> track;  ///< What was localized.
-  LocalizedWays ways;
+  LocalizedPaths paths;
   rendering::ThinnedCurve
       unexplained;  ///< Per cent of each scan while localized, over its index; the greatest of neighbours.
   rendering::ThinnedCurve milliseconds;  ///< Over the index of the scan.
