@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "common/flight_mode.hpp"
+
 namespace swiftlet::common {
 
 struct TakeOffIntent {
@@ -35,6 +37,7 @@ struct GoToIntent {
   std::optional<double> yaw_map_rad;
   double tolerance_m = 0.05;  ///< Horizontal; arrived when nearer than this.
   double clearance_m = 0.10;  ///< Between hull and obstacle.
+  FlightMode mode = FlightMode::kFast;
 };
 /// Give the vehicle to the reactive layer until the danger is over.
 struct AvoidIntent {};

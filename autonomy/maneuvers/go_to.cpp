@@ -19,7 +19,7 @@ bool mayPass(const planning::PlanFailure& failure) {
 using common::Time;
 
 GoTo::GoTo(const common::GoToIntent& intent, const ManeuverSetup& setup)
-    : PathManeuver(setup, "fly to a goal", common::FlightMode::kFast), intent_(intent), detour_(setup, flight_) {
+    : PathManeuver(setup, "fly to a goal", intent.mode), intent_(intent), detour_(setup, flight_) {
   if (intent.height_m) setup.memory.cruise_height_m = *intent.height_m;
   flight_.setGoalYaw(intent.yaw_map_rad);
 }

@@ -171,6 +171,15 @@ TEST_F(GoToManeuver, APathSentWhileTheEstimateIsLostIsSentAgain) {
   EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
 }
 
+TEST_F(GoToManeuver, TheModeOfTheIntentIsFlown) {
+  common::GoToIntent careful = to(6.5, 2.0);
+  careful.mode = common::FlightMode::kCareful;
+  want(careful);
+  runUntil([this] { return position_m().x() > 3.0; }, 15.0);
+  EXPECT_NEAR(state_.velocity_odom_m_s.norm(), controller_.speed_m_s(common::FlightMode::kCareful), 0.02);
+  EXPECT_NEAR(executor_.wishedVelocity_map_m_s().norm(), controller_.speed_m_s(common::FlightMode::kCareful), 1e-9);
+}
+
 class GoToByWavefront : public ManeuverInFlight {
  protected:
   GoToByWavefront() : ManeuverInFlight(planning::PlannerKind::kWavefront) {}
