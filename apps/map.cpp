@@ -1,5 +1,6 @@
 // swiftlet map: the map of a recorded laser log.
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -23,14 +24,18 @@ namespace fs = std::filesystem;
 /// Ends the name of the folder for the results.
 constexpr const char* kSuffix = "map";
 
+const std::map<std::string, perception::SlamMethod> kSlamMethods{{"graph", perception::SlamMethod::kGraph},
+                                                                 {"particles", perception::SlamMethod::kParticles},
+                                                                 {"scan_to_map", perception::SlamMethod::kScanToMap}};
+
 struct MapOptions {
   RecordedLogOptions log;
-  std::string slam = "graph";
+  std::string slam;  ///< One of kSlamMethods; empty: that of the profile.
 };
 
 perception::LaserSlamConfig configOf(const MapOptions& options) {
   perception::LaserSlamConfig config = laserSlamOf(loadSystem(options.log.system));
-  if (options.slam == "particles") config.method = perception::SlamMethod::kParticles;
+  if (!options.slam.empty()) config.slam.method = kSlamMethods.at(options.slam);
   return config;
 }
 
@@ -138,13 +143,14 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 Facts factsOf(const RecordedLog& log, const MapRun& run) {
   const auto scans = static_cast<double>(log.scans());
   Facts facts = log.facts();
-  facts.insert(facts.end(),
-               {{"way", fmt::format("{:.1f} m", run.path_length_m)},
-                {"not matched", fmt::format("{}", run.unmatched)},
-                {"key scans", fmt::format("{}", run.slam.keyScans())},
-                {"loops closed", run.slam.particles() ? "-" : fmt::format("{}", run.slam.slam().counts().loops_closed)},
-                {"computing time", fmt::format("{:.1f} s", run.wall_s)},
-                {"scans a second", fmt::format("{:.0f}", scans / run.wall_s)}});
+  facts.insert(
+      facts.end(),
+      {{"way", fmt::format("{:.1f} m", run.path_length_m)},
+       {"not matched", fmt::format("{}", run.unmatched)},
+       {"key scans", fmt::format("{}", run.slam.keyScans())},
+       {"loops closed", run.slam.slam().hasGraph() ? fmt::format("{}", run.slam.slam().counts().loops_closed) : "-"},
+       {"computing time", fmt::format("{:.1f} s", run.wall_s)},
+       {"scans a second", fmt::format("{:.0f}", scans / run.wall_s)}});
   return facts;
 }
 
@@ -185,10 +191,11 @@ void addMap(CLI::App& program, Run& run) {
   auto* command = program.add_subcommand("map", "Make the map of a recorded laser log; no odometry is needed.");
   addLogOptions(*command, options->log, kSuffix);
   command
-      ->add_option("--slam", options->slam,
-                   "graph: key scans tied by matches and loop closures. particles: trajectories with a map each.")
-      ->check(CLI::IsMember({"graph", "particles"}))
-      ->capture_default_str();
+      ->add_option(
+          "--slam", options->slam,
+          "graph: key scans with constraints between them, and loop closures. particles: trajectories with a map "
+          "each. scan_to_map: scans matched to one map, without loop closure. The profile's when not given.")
+      ->check(CLI::IsMember({"graph", "particles", "scan_to_map"}));
   command->footer("Example: swiftlet map intel.clf.bz2 --out intel");
   command->callback([&run, options] { run = [options] { return map(*options); }; });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include <fmt/format.h>
 #include <Eigen/LU>
@@ -39,7 +40,7 @@ void writeTrajectory(const fs::path& file, const TrackSpool& track, const std::v
   });
 }
 
-interfaces::G2oGraph2D graphOf(const std::vector<Pose2>& keys, const std::vector<perception::SlamEdge>& edges) {
+interfaces::G2oGraph2D graphOf(const std::vector<Pose2>& keys, std::span<const perception::SlamEdge> edges) {
   interfaces::G2oGraph2D graph;
   for (std::size_t i = 0; i < keys.size(); ++i) graph.ids.push_back(static_cast<std::int64_t>(i));
   graph.poses = keys;
@@ -69,8 +70,7 @@ std::vector<Eigen::Vector2d> lineOf(const TrackSpool& track, const std::vector<P
   return line;
 }
 
-std::vector<rendering::MapLine> loopsOf(const std::vector<perception::SlamEdge>& edges,
-                                        const std::vector<Pose2>& keys) {
+std::vector<rendering::MapLine> loopsOf(std::span<const perception::SlamEdge> edges, const std::vector<Pose2>& keys) {
   const auto at_m = [&](int key) { return keys[static_cast<std::size_t>(key)].position_m(); };
   std::vector<rendering::MapLine> lines;
   for (const perception::SlamEdge& edge : edges)
@@ -114,7 +114,7 @@ void writeMapOutputs(const fs::path& out, const perception::LaserSlam& slam, con
                      const TrackSpool& track, const MapFigures& figures) {
   const std::vector<Pose2> keys = slam.keyPoses();
   writeTrajectory(out / "trajectory.tum", track, keys);
-  if (!slam.particles())
+  if (slam.slam().hasGraph())
     required(interfaces::writeAtomically(out / "graph.g2o", interfaces::toG2o(graphOf(keys, slam.slam().edges()))));
 
   interfaces::MapReport report;

@@ -53,6 +53,7 @@ void SystemConfig::describe(common::config::Fields& fields) {
   fields("vehicle", vehicle, "A file of config/vehicles, without .yaml, or a path.");
   fields("laser", laser, "A file of config/sensors, without .yaml, or a path.");
   fields.section("autonomy", autonomy, "How the autonomy is set.");
+  fields.section("log_motion", log_motion, "Recorded logs: what the next step of the robot is expected to be.");
 }
 
 std::string System::toYaml(bool comments) const {
@@ -81,6 +82,7 @@ perception::LaserSlamConfig laserSlamOf(const System& system) {
   const autonomy::EstimatorConfig& estimator = system.config.autonomy.estimator;
   perception::LaserSlamConfig config;
   config.front_end.odometry = estimator.laser.odometry;
+  config.front_end.motion = system.config.log_motion;
   config.slam = estimator.slam;
   return config;
 }

@@ -7,6 +7,7 @@
 #include "autonomy/autonomy.hpp"
 #include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
+#include "perception/laser_odometry/motion_prediction.hpp"
 
 namespace swiftlet::perception {
 struct LaserSlamConfig;
@@ -18,6 +19,7 @@ struct SystemConfig {
   std::string vehicle = "cobra";
   std::string laser = "utm_30lx";
   autonomy::AutonomyConfig autonomy;
+  perception::MotionPredictionConfig log_motion;
 
   void describe(common::config::Fields& fields);
 };

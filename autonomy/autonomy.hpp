@@ -71,6 +71,9 @@ class Autonomy {
   /// The end came by the operator's Land, not by the mission.
   bool landedByOperator() const { return supervisor_.landedByOperator(); }
   common::VehicleState state() const { return estimator_.state(); }
+  /// What the matcher and the SLAM method that the profile names have done.
+  const perception::LaserOdometryCounts& odometryCounts() const { return estimator_.odometryCounts(); }
+  const perception::SlamCounts& slamCounts() const { return estimator_.slamCounts(); }
   /// What is carried out since the last tick of the behaviours, and how it stands.
   const common::Intent& intent() const { return wish_; }
   const common::IntentStatus& intentStatus() const { return executor_.status(); }

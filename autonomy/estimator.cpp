@@ -19,10 +19,10 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
   fields.section("altitude", altitude, "Height and levels from the mirror beams.");
   fields.section("fusion", fusion, "Error-state filter.");
   fields.section("people", people, "People and other things that move.");
-  fields.section("slam", slam, "Graph SLAM and the map.");
+  fields.section("slam", slam, "SLAM and the map.");
   fields.section("localization", localization, "Localization in a map that the flight was given.");
   fields("slam_latency_s", slam_latency_s, {0.01, 10},
-         "Declared time of a SLAM job: loop search, optimization and redrawing the map.");
+         "Declared time of a SLAM job, of the method graph: loop search, optimization and redrawing the map.");
 }
 
 Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& laser,

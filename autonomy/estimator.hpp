@@ -32,7 +32,7 @@
 #include "perception/fusion/error_state_filter.hpp"
 #include "perception/people/people_tracker.hpp"
 #include "perception/projection/scan_projection.hpp"
-#include "perception/slam2d/slam2d.hpp"
+#include "perception/slam2d/slam_method.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -41,7 +41,7 @@ struct EstimatorConfig {
   perception::MultilevelFilter::Config altitude;
   perception::ErrorStateFilter::Config fusion;
   perception::PeopleTracker::Config people;
-  perception::Slam2dConfig slam;
+  perception::SlamMethodConfig slam;
   FlightLocalizerConfig localization;
   double slam_latency_s = 0.4;
 
@@ -81,6 +81,7 @@ class Estimator {
   common::VehicleState state() const;
   perception::FusionHealth health() const { return filter_.health(); }
   const perception::LaserOdometryCounts& odometryCounts() const { return laser_.counts(); }
+  const perception::SlamCounts& slamCounts() const { return map_.counts(); }
 
   std::shared_ptr<const common::OccupancyGrid> grid() { return map_.grid(); }
   std::shared_ptr<const common::KeyPoses> keyPoses() { return map_.keyPoses(); }

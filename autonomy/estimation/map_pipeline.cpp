@@ -4,16 +4,19 @@
 
 #include <fmt/format.h>
 
+#include "perception/slam2d/slam_method.hpp"
+
 namespace swiftlet::autonomy {
 
 using common::Pose2;
 using common::Time;
 
-MapPipeline::MapPipeline(const perception::Slam2dConfig& config, common::Duration job_latency, common::JobRunner& jobs)
+MapPipeline::MapPipeline(const perception::SlamMethodConfig& config, common::Duration job_latency,
+                         common::JobRunner& jobs)
     : job_latency_(job_latency),
       jobs_(jobs),
-      slam_(config),
-      published_grid_(std::make_shared<common::OccupancyGrid>(slam_.snapshot())),
+      slam_(makeSlam(config)),
+      published_grid_(std::make_shared<common::OccupancyGrid>(slam_->snapshot())),
       published_keys_(std::make_shared<common::KeyPoses>()) {}
 
 MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
@@ -21,7 +24,7 @@ MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
   const Pose2 T_odom_body = planar(mapped.T_odom_body);
   MapStep step;
   if (mapped.matched) {
-    const auto update = slam_.addScan(mapped.scan, T_odom_body, covariance_since_map_);
+    const auto update = slam_->addScan(mapped.scan, T_odom_body, covariance_since_map_);
     covariance_since_map_.setZero();
     T_odom_mapped_ = T_odom_body;
     step.T_map_body = update.T_map_body;
@@ -29,19 +32,19 @@ MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
     if (update.key_scan) ++keys_version_;
     submitTask(now);
   } else {
-    step.T_map_body = slam_.T_map_odom() * T_odom_body;
+    step.T_map_body = slam_->T_map_odom() * T_odom_body;
   }
-  if (slam_.anchor() >= 0) {
-    const Pose2 T_key_body = slam_.T_anchor_body() * between(T_odom_mapped_, T_odom_body);
+  if (slam_->anchor() >= 0) {
+    const Pose2 T_key_body = slam_->T_anchor_body() * between(T_odom_mapped_, T_odom_body);
     const common::Pose3 tilted = lifted(T_odom_body, 0.0).inverse() * mapped.T_odom_body;
-    step.at_key = {slam_.anchor(), lifted(T_key_body, 0.0) * tilted};
+    step.at_key = {slam_->anchor(), lifted(T_key_body, 0.0) * tilted};
   }
   return step;
 }
 
 std::shared_ptr<const common::OccupancyGrid> MapPipeline::grid() {
   if (published_grid_version_ != grid_version_) {
-    published_grid_ = std::make_shared<common::OccupancyGrid>(slam_.snapshot());
+    published_grid_ = std::make_shared<common::OccupancyGrid>(slam_->snapshot());
     published_grid_version_ = grid_version_;
   }
   return published_grid_;
@@ -51,7 +54,7 @@ std::shared_ptr<const common::KeyPoses> MapPipeline::keyPoses() {
   if (published_keys_->version != keys_version_) {
     auto keys = std::make_shared<common::KeyPoses>();
     keys->version = keys_version_;
-    for (const auto& key : slam_.keyPoses()) keys->keys.push_back({key.stamp, key.T_map_body});
+    for (const auto& key : slam_->keyPoses()) keys->keys.push_back({key.stamp, key.T_map_body});
     published_keys_ = std::move(keys);
   }
   return published_keys_;
@@ -61,7 +64,7 @@ std::vector<common::Event> MapPipeline::takeEvents() { return std::exchange(even
 
 void MapPipeline::submitTask(Time now) {
   if (!jobs_.idle("slam")) return;
-  auto task = slam_.takeTask();
+  auto task = slam_->takeTask();
   if (!task) return;
   jobs_.submit("slam", now, job_latency_, [this, task = std::move(*task)]() -> common::JobRunner::Deliver {
     return [this, result = run(task)](Time delivered) { take(result, delivered); };
@@ -69,7 +72,7 @@ void MapPipeline::submitTask(Time now) {
 }
 
 void MapPipeline::take(const perception::SlamResult& result, Time delivered) {
-  if (slam_.apply(result)) {
+  if (slam_->apply(result)) {
     ++grid_version_;
     ++keys_version_;
   }

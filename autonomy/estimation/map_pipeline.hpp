@@ -1,7 +1,8 @@
-// From matched scans to the 2D map, the correction T_map_odom and the key scans: Slam2d, its heavy work as a job.
+// From matched scans to the 2D map, the correction T_map_odom and the key scans: the SLAM method of the profile, its
+// heavy work, where it has any, as a job.
 //
-//   scan, pose in odom, drift since the last one --> Slam2d --> MapStep
-//                                                       \--> loop search and optimization, a job --> late correction
+//   scan, pose in odom, drift since the last one --> PlanarSlam --> MapStep
+//                                                         \--> loop search and optimization, a job --> late correction
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,11 @@
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 #include "perception/projection/scan_projection.hpp"
-#include "perception/slam2d/slam2d.hpp"
+#include "perception/slam2d/planar_slam.hpp"
+
+namespace swiftlet::perception {
+struct SlamMethodConfig;
+}  // namespace swiftlet::perception
 
 namespace swiftlet::autonomy {
 
@@ -39,22 +44,22 @@ struct MapStep {
 /// One thread; its jobs refer to it, so it stays where it is and outlives them.
 class MapPipeline {
  public:
-  MapPipeline(const perception::Slam2dConfig& config, common::Duration job_latency, common::JobRunner& jobs);
+  MapPipeline(const perception::SlamMethodConfig& config, common::Duration job_latency, common::JobRunner& jobs);
   MapPipeline(const MapPipeline&) = delete;
   MapPipeline& operator=(const MapPipeline&) = delete;
 
   MapStep add(const MappedScan& mapped, common::Time now);
 
-  /// Jumps with local corrections (millimetres) and loop closures.
-  common::Pose2 T_map_odom() const { return slam_.T_map_odom(); }
+  /// Jumps when the method corrects the odometry: by millimetres with a match, by more with a loop closure.
+  common::Pose2 T_map_odom() const { return slam_->T_map_odom(); }
   /// The height over the take-off floor that the map is to be of.
-  void setFlightHeight(double height_m) { grid_version_ += slam_.setFlightHeight(height_m) ? 1 : 0; }
+  void setFlightHeight(double height_m) { grid_version_ += slam_->setFlightHeight(height_m) ? 1 : 0; }
 
   /// Never null; the same object until the map changes.
   std::shared_ptr<const common::OccupancyGrid> grid();
   /// Never null; the same object until a key scan is added or moved.
   std::shared_ptr<const common::KeyPoses> keyPoses();
-  const perception::SlamCounts& counts() const { return slam_.counts(); }
+  const perception::SlamCounts& counts() const { return slam_->counts(); }
 
   std::vector<common::Event> takeEvents();
 
@@ -64,7 +69,7 @@ class MapPipeline {
 
   common::Duration job_latency_;
   common::JobRunner& jobs_;
-  perception::Slam2d slam_;
+  std::unique_ptr<perception::PlanarSlam> slam_;  ///< Never null.
 
   Eigen::Matrix3d covariance_since_map_ = Eigen::Matrix3d::Zero();  ///< Of the odometry, since the last scan added.
   common::Pose2 T_odom_mapped_;                                     ///< Of the body at that scan.

@@ -1,23 +1,26 @@
 // What the next step of a robot will be, before its scan is matched: that of its own odometry, or the last step once
-// more, whichever foretold the last steps better. How far it was off tells how wide to search.
+// more, whichever predicted the last steps better. How far it was off tells how wide to search.
 #pragma once
 
 #include <optional>
 
 #include <Eigen/Core>
 
+#include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 
 namespace swiftlet::perception {
 
 struct MotionPredictionConfig {
-  double memory_steps = 30;        ///< Over about so many steps the error of a prediction is averaged.
-  double first_error_m = 0.10;     ///< The error expected at first,
-  double first_error_deg = 5.0;    ///< in position and heading.
-  double least_error_m = 0.01;     ///< No prediction is taken for better,
-  double least_error_deg = 0.5;    ///< however good it was.
-  double acceleration_m_s2 = 1.0;  ///< Of a robot that starts or stops: no speed is more certain than this lets it be.
-  double max_speed_m_s = 10.0;     ///< Odometry that claims more is not believed in that step.
+  double memory_steps = 30;
+  double first_error_m = 0.10;
+  double first_error_deg = 5.0;
+  double least_error_m = 0.01;
+  double least_error_deg = 0.5;
+  double acceleration_m_s2 = 1.0;
+  double max_speed_m_s = 10.0;
+
+  void describe(common::config::Fields& fields);
 };
 
 /// A filter of pose and velocity, relative to a scan that others are matched to. Not thread-safe.
@@ -29,7 +32,7 @@ class MotionPrediction {
   void begin(const std::optional<common::Pose2>& T_odom_robot) { T_odom_robot_ = T_odom_robot; }
   /// Moves on to a scan `elapsed_s` after the last one. `T_odom_robot` is that of the robot's own odometry at the scan.
   void predict(const std::optional<common::Pose2>& T_odom_robot, double elapsed_s);
-  /// What the other source foretells, if there are two.
+  /// What the other source predicts, if there are two.
   struct Alternative {
     common::Pose2 T_reference_robot;
     double step_sigma_m = 0.0, step_sigma_rad = 0.0;

@@ -5,7 +5,6 @@
 #include "common/config_fields.hpp"
 #include "common/validation.hpp"
 #include "perception/scan_matching/interpolated_field.hpp"
-#include "perception/scan_matching/scan_contour.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -146,9 +145,11 @@ void GaussNewtonMatcher::clearReference() {
 
 void GaussNewtonMatcher::addReference(const ProjectedScan& scan, const Pose2& T_reference_body) {
   if (!isFinite(T_reference_body)) return;
-  const std::vector<ContourSegment> contour =
-      contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m, T_reference_body);
-  for (LikelihoodField& field : impl_->fields) field.draw(contour);
+  addReference(contourOf(scan.points_level_m, impl_->config.max_gap_m, impl_->config.max_range_m, T_reference_body));
+}
+
+void GaussNewtonMatcher::addReference(std::span<const ContourSegment> contour_reference_m) {
+  for (LikelihoodField& field : impl_->fields) field.draw(contour_reference_m);
 }
 
 MatchResult GaussNewtonMatcher::match(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window) {

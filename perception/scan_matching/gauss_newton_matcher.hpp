@@ -9,11 +9,13 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "common/config_fwd.hpp"
 #include "perception/scan_matching/least_squares_match.hpp"
+#include "perception/scan_matching/scan_contour.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 
 namespace swiftlet::perception {
@@ -40,6 +42,8 @@ class GaussNewtonMatcher final : public ScanMatcher {
   MatcherKind kind() const override { return MatcherKind::kGaussNewton; }
   void clearReference() override;
   void addReference(const ProjectedScan& scan, const common::Pose2& T_reference_body) override;
+  /// Adds a shape that is no scan's, such as the surfaces of a map, in the reference frame.
+  void addReference(std::span<const ContourSegment> contour_reference_m);
   [[nodiscard]] MatchResult match(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,
                                   const SearchWindow& window) override;
 

@@ -1,7 +1,7 @@
 // SLAM from a laser that is carried level, and nothing else: a recorded log, a robot on wheels. Odometry is taken as a
 // hint where there is some; without, the last step is expected again.
 //
-//   scan --> LaserFrontEnd --> Slam2d or ParticleSlam --> where the scan stands relative to a key scan
+//   scan --> LaserFrontEnd --> PlanarSlam --> where the scan stands relative to a key scan
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,14 @@
 
 #include "common/geometry.hpp"
 #include "perception/laser_odometry/laser_front_end.hpp"
-#include "perception/slam2d/particle_slam.hpp"
-#include "perception/slam2d/slam2d.hpp"
+#include "perception/slam2d/slam_method.hpp"
 #include "perception/slam2d/track_pieces.hpp"
 
 namespace swiftlet::perception {
 
-enum class SlamMethod {
-  kGraph,      ///< A graph of key scans (Grzonka 2009, section V-D).
-  kParticles,  ///< Particles with a map each (Bachrach 2009, section 5.3).
-};
-
 struct LaserSlamConfig {
-  SlamMethod method = SlamMethod::kGraph;
   LaserFrontEndConfig front_end;
-  Slam2dConfig slam;
-  ParticleSlamConfig particles;
+  SlamMethodConfig slam;
 };
 
 /// Where a scan was taken: follows its key scan when that one is corrected.
@@ -57,13 +49,10 @@ class LaserSlam {
   std::vector<common::Pose2> keyPoses() const;
   std::uint64_t keyScans() const;  ///< How many these are.
   common::OccupancyGrid map();
-  /// The graph; empty when another method is at work.
-  const Slam2d& slam() const;
-  /// The particles, when they are at work.
-  const ParticleSlam* particles() const;
+  const PlanarSlam& slam() const;
   const LaserOdometryCounts& odometryCounts() const;
   LaserSlamCounts counts() const;
-  /// Which pieces of the track hold together so far. Particles close no loops that it could know of.
+  /// Which pieces of the track hold together so far. A method without a graph closes no loops that it could know of.
   TrackConnection connection() const;
 
  private:

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Cholesky>
 
+#include "common/config_fields.hpp"
 #include "common/random.hpp"
 #include "perception/laser_odometry/unknown_step.hpp"
+#include "perception/slam2d/grid_update.hpp"
 #include "perception/slam2d/particle/ancestry_tree.hpp"
 #include "perception/slam2d/particle/resampling.hpp"
 
@@ -19,7 +22,7 @@ using common::Pose2;
 using common::RandomStream;
 
 struct Particle {
-  ParticleMap map;
+  SurfaceMap map;
   Pose2 T_map_body;  ///< At the last scan that was taken in.
   int node = AncestryTree::kNone;
   double log_weight = 0.0;      ///< Since the last resampling.
@@ -35,8 +38,29 @@ Pose2 sample(const Pose2& mean, const Eigen::Matrix3d& covariance, RandomStream&
 
 }  // namespace
 
+void ParticleSlamConfig::describe(common::config::Fields& fields) {
+  fields.section("map", map, "The map of each particle.");
+  fields.section("match", match, "Matching a scan to it.");
+  fields("count", count, {1, 1000}, "Particles.");
+  fields("seed", seed, {0, 1e9}, "Of the random numbers.");
+  fields("update_distance_m", update_distance_m, {0.01, 10}, "A scan is taken in after this distance.");
+  fields("update_rotation_deg", update_rotation_deg, {0.5, 180}, "A scan is taken in after this rotation.");
+  fields("update_time_s", update_time_s, {0.01, 1e6}, "A scan is taken in after this time.");
+  fields(
+      "motion_sigma_m", motion_sigma_m, {1e-5, 1},
+      "Least standard deviation of the motion between two scans that are taken in: what the matcher cannot know (tilt, "
+      "clutter).");
+  fields("motion_sigma_deg", motion_sigma_deg, {1e-4, 10}, "Least standard deviation of the rotation between them.");
+  fields("news_share", news_share, {0, 1},
+         "Share of what a scan says of a map that counts: the scans before it said the rest already.");
+  fields("min_effective_share", min_effective_share, {0, 1},
+         "Resampled when the effective particles are a smaller share of all.");
+  fields("min_points", min_points, {1, 10'000}, "The map does not begin with a scan of fewer points.");
+}
+
 struct ParticleSlam::Impl {
-  explicit Impl(const ParticleSlamConfig& config_in) : config(config_in) {}
+  explicit Impl(const ParticleSlamConfig& config_in)
+      : config(config_in), published(common::makeOccupancyGrid(config_in.map.grid.resolution_m)) {}
 
   void begin(const ProjectedScan& scan, const Pose2& T_odom_body);
   void follow(const Pose2& T_odom_body, const Eigen::Matrix3d& covariance_since_last);
@@ -47,11 +71,15 @@ struct ParticleSlam::Impl {
   const Particle& best() const;
 
   ParticleSlamConfig config;
+  DrawnHeights band() const { return heightsAround(flight_height_m.value_or(0.0), config.map.grid); }
+
   std::vector<Particle> particles;
   AncestryTree ancestry;
   std::vector<common::Time> stamps;  ///< Of the scans that were taken in.
   DrawingBoard board;
-  ParticleSlamCounts counts;
+  common::OccupancyGrid published;
+  std::optional<double> flight_height_m;
+  SlamCounts counts;
 
   // Since the last scan that was taken in: the same for all particles.
   Pose2 T_anchor_body;
@@ -62,16 +90,17 @@ struct ParticleSlam::Impl {
 
 /// All begin where odom does, with one map.
 void ParticleSlam::Impl::begin(const ProjectedScan& scan, const Pose2& pose) {
-  ParticleMap map(config.map);
-  map.draw(toDraw(scan, config.map), pose, board);
+  SurfaceMap map(config.map);
+  if (!flight_height_m) flight_height_m = scan.T_odom_body.position_m.z();
+  map.draw(toDraw(scan, config.map, band()), pose, board);
   const int root = ancestry.add(AncestryTree::kNone, pose);
-  for (int i = 0; i < config.particles; ++i) {
+  for (int i = 0; i < config.count; ++i) {
     if (i > 0) ancestry.hold(root);
     particles.push_back({map.snapshot(), pose, root, 0.0, 0.0});
   }
   T_odom_body = pose;
   stamps.push_back(scan.stamp);
-  ++counts.updates;
+  ++counts.key_scans;
 }
 
 /// Moves the estimate by what the laser odometry says happened since the last scan.
@@ -92,19 +121,20 @@ bool ParticleSlam::Impl::isDue(common::Time now) const {
 
 void ParticleSlam::Impl::update(const ProjectedScan& scan) {
   const std::vector<OrientedPoint> points = pointsToMatch(scan, config.match, config.map.max_gap_m);
-  const ParticleScan drawn = toDraw(scan, config.map);
+  const SurfaceScan drawn = toDraw(scan, config.map, band());
   const double sigma_rad = config.motion_sigma_deg * kRadPerDeg;
   Eigen::Matrix3d motion = covariance_anchor;
   motion.diagonal() += Eigen::Vector3d(config.motion_sigma_m * config.motion_sigma_m,
                                        config.motion_sigma_m * config.motion_sigma_m, sigma_rad * sigma_rad);
-  RandomStream random(static_cast<std::uint64_t>(config.seed), "particles", counts.updates);
+  RandomStream random(static_cast<std::uint64_t>(config.seed), "particles", counts.key_scans);
   for (Particle& particle : particles) {
     const MotionPrior prior{particle.T_map_body * T_anchor_body, common::turned(motion, particle.T_map_body.yaw_rad)};
     moveOn(particle, matchToMap(particle.map, points, prior, config.match), random);
+    ++counts.particle_matches;
     particle.map.draw(drawn, particle.T_map_body, board);
   }
   stamps.push_back(scan.stamp);
-  ++counts.updates;
+  ++counts.key_scans;
   T_anchor_body = Pose2{};
   covariance_anchor.setZero();
   resample();
@@ -125,7 +155,7 @@ void ParticleSlam::Impl::resample() {
   for (const Particle& particle : particles) log_weights.push_back(particle.log_weight);
   const std::vector<double> weights = normalizedWeights(log_weights);
   if (effectiveSampleSize(weights) >= config.min_effective_share * static_cast<double>(particles.size())) return;
-  RandomStream random(static_cast<std::uint64_t>(config.seed), "resampling", counts.updates);
+  RandomStream random(static_cast<std::uint64_t>(config.seed), "resampling", counts.key_scans);
   std::vector<Particle> next;
   next.reserve(particles.size());
   for (const std::size_t index : resampled(weights, random)) {
@@ -148,25 +178,30 @@ ParticleSlam::~ParticleSlam() = default;
 ParticleSlam::ParticleSlam(ParticleSlam&&) noexcept = default;
 ParticleSlam& ParticleSlam::operator=(ParticleSlam&&) noexcept = default;
 
-bool ParticleSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
-                           const Eigen::Matrix3d& covariance_since_last) {
+SlamUpdate ParticleSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
+                                 const Eigen::Matrix3d& covariance_since_last) {
   Impl& self = *impl_;
   ++self.counts.scans;
   const bool first = self.particles.empty();
   if (!isFinite(T_odom_body) || (!first && scan.stamp <= self.last_stamp) ||
       (first && static_cast<int>(scan.points_level_m.size()) < self.config.min_points)) {
     ++self.counts.ignored_scans;
-    return false;
+    return {false, false, first ? T_odom_body : T_map_body()};
   }
   self.last_stamp = scan.stamp;
+  bool taken_in = first;
   if (first) {
     self.begin(scan, T_odom_body);
-    return true;
+  } else {
+    self.follow(T_odom_body, covariance_since_last);
+    taken_in = self.isDue(scan.stamp);
+    if (taken_in) self.update(scan);
   }
-  self.follow(T_odom_body, covariance_since_last);
-  if (!self.isDue(scan.stamp)) return false;
-  self.update(scan);
-  return true;
+  return {taken_in, taken_in, T_map_body()};
+}
+
+Pose2 ParticleSlam::T_map_odom() const {
+  return impl_->particles.empty() ? Pose2{} : T_map_body() * impl_->T_odom_body.inverse();
 }
 
 int ParticleSlam::anchor() const { return static_cast<int>(impl_->stamps.size()) - 1; }
@@ -176,8 +211,8 @@ Pose2 ParticleSlam::T_map_body() const {
   return impl_->particles.empty() ? Pose2{} : impl_->best().T_map_body * impl_->T_anchor_body;
 }
 
-std::vector<Slam2d::KeyPose> ParticleSlam::keyPoses() const {
-  std::vector<Slam2d::KeyPose> poses;
+std::vector<PlanarSlam::KeyPose> ParticleSlam::keyPoses() const {
+  std::vector<KeyPose> poses;
   if (impl_->particles.empty()) return poses;
   const std::vector<Pose2> path = impl_->ancestry.pathTo(impl_->best().node);
   poses.reserve(path.size());
@@ -185,12 +220,17 @@ std::vector<Slam2d::KeyPose> ParticleSlam::keyPoses() const {
   return poses;
 }
 
-common::OccupancyGrid ParticleSlam::map() const {
-  return impl_->particles.empty() ? common::makeOccupancyGrid(impl_->config.map.resolution_m)
-                                  : impl_->best().map.occupancy();
+bool ParticleSlam::setFlightHeight(double height_m) {
+  if (std::isfinite(height_m)) impl_->flight_height_m = height_m;
+  return false;
 }
 
-const ParticleSlamCounts& ParticleSlam::counts() const { return impl_->counts; }
+common::OccupancyGrid ParticleSlam::snapshot() {
+  if (!impl_->particles.empty()) makeEqual(impl_->published, impl_->best().map.occupancy());
+  return impl_->published.snapshot();
+}
+
+const SlamCounts& ParticleSlam::counts() const { return impl_->counts; }
 std::size_t ParticleSlam::keptPoses() const { return impl_->ancestry.size(); }
 
 }  // namespace swiftlet::perception

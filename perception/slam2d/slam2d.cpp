@@ -186,6 +186,7 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   const std::vector<int> connected = connectedKeys(graph, anchor, T_map_body(), config);
   std::vector<int> keys = localReferenceKeys(graph, connected, anchor, T_map_body(), config);
   const MatchResult match = matchAround(scan, keys);
+  ++counts.graph_matches;
   if (match.failed) {
     ++counts.local_failures;
     if (match.points_used == 0 || T_anchor_body.position_m().norm() < config.reuse_distance_m) return false;
@@ -294,7 +295,7 @@ std::vector<Slam2d::KeyPose> Slam2d::keyPoses() const {
   return poses;
 }
 
-const std::vector<SlamEdge>& Slam2d::edges() const { return impl_->graph.edges; }
+std::span<const SlamEdge> Slam2d::edges() const { return impl_->graph.edges; }
 
 std::optional<SlamTask> Slam2d::takeTask() {
   Impl& self = *impl_;

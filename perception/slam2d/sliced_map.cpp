@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "perception/slam2d/grid_ray.hpp"
+#include "perception/slam2d/grid_update.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -208,13 +209,7 @@ void SlicedMap::combineAll() {
       value = merged(value, here);
     });
   }
-  std::vector<CellIndex> changed;
-  const auto compare = [&](CellIndex c, Cell) {
-    if (fresh.at(c) != combined_.at(c)) changed.push_back(c);
-  };
-  fresh.forEachCell(compare);
-  combined_.forEachCell(compare);  // What is out of the slices now.
-  for (const CellIndex& c : changed) combined_.set(c, fresh.at(c));
+  makeEqual(combined_, fresh);
 }
 
 }  // namespace swiftlet::perception

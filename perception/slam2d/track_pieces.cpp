@@ -10,7 +10,7 @@
 #include "common/geometry.hpp"
 #include "perception/laser_odometry/laser_front_end.hpp"
 #include "perception/laser_odometry/unknown_step.hpp"
-#include "perception/slam2d/slam2d.hpp"
+#include "perception/slam2d/slam_edge.hpp"
 
 namespace swiftlet::perception {
 namespace {
@@ -65,7 +65,7 @@ void TrackPieces::add(const FollowedScan& followed, std::uint64_t keys_before, s
   gap_covariance_.setZero();
 }
 
-TrackConnection TrackPieces::connection(std::uint64_t keys, const std::vector<SlamEdge>& edges) const {
+TrackConnection TrackPieces::connection(std::uint64_t keys, std::span<const SlamEdge> edges) const {
   // First the pieces, then the key scans made while the track was lost: each of these stands for itself.
   const std::size_t pieces = breaks_.size() + 1;
   Groups groups(pieces + keys);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,7 @@ class TrackPieces {
 
   /// What holds together with these edges between `keys` key scans. Of the edges only loop closures count: a match
   /// to what lay around the last pose seeks no farther than that pose is uncertain only as long as it is not lost.
-  TrackConnection connection(std::uint64_t keys, const std::vector<SlamEdge>& edges) const;
+  TrackConnection connection(std::uint64_t keys, std::span<const SlamEdge> edges) const;
 
  private:
   struct Break {

@@ -11,8 +11,8 @@
 
 #include "perception/slam2d/particle/ancestry_tree.hpp"
 #include "perception/slam2d/particle/map_match.hpp"
-#include "perception/slam2d/particle/particle_map.hpp"
 #include "perception/slam2d/particle/resampling.hpp"
+#include "perception/slam2d/surface_map.hpp"
 #include "tests/scan_matching/planar_world.hpp"
 
 namespace swiftlet::perception {
@@ -146,40 +146,40 @@ ProjectedScan scanAt(const test::PlanarWorld& world, const Pose2& T_world_body, 
   return project(test::sweep(world, laser, pose, {}, random), laser, pose, {});
 }
 
-ParticleMap mapOf(const test::PlanarWorld& world, const std::vector<Pose2>& poses, const ParticleMapConfig& config,
-                  double range_max_m = 20.0) {
-  ParticleMap map(config);
+SurfaceMap mapOf(const test::PlanarWorld& world, const std::vector<Pose2>& poses, const SurfaceMapConfig& config,
+                 double range_max_m = 20.0) {
+  SurfaceMap map(config);
   DrawingBoard board;
   std::uint64_t seed = 100;
   for (const Pose2& pose : poses) map.draw(toDraw(scanAt(world, pose, ++seed, range_max_m), config), pose, board);
   return map;
 }
 
-ParticleScan wallAhead(double distance_m) {
-  ParticleScan scan;
+SurfaceScan wallAhead(double distance_m) {
+  SurfaceScan scan;
   for (double y = -1.0; y <= 1.0; y += 0.02)
     scan.hits.push_back({Eigen::Vector2d(distance_m, y).cast<float>(), {-1.0F, 0.0F}});
   return scan;
 }
 
-TEST(ParticleMap, ConfidenceIsCapped) {
-  const ParticleMapConfig config;
-  ParticleMap map(config);
+TEST(SurfaceMap, ConfidenceIsCapped) {
+  const SurfaceMapConfig config;
+  SurfaceMap map(config);
   DrawingBoard board;
   const CellIndex wall = map.cellAt({2.02, 0.0}), before = map.cellAt({1.0, 0.0});
   for (int i = 0; i < 1000; ++i) map.draw(wallAhead(2.02), {}, board);
-  EXPECT_EQ(map.at(wall).log_odds, config.max_steps);
-  EXPECT_EQ(map.at(before).log_odds, -config.max_steps);
+  EXPECT_EQ(map.at(wall).log_odds, config.grid.max_steps);
+  EXPECT_EQ(map.at(before).log_odds, -config.grid.max_steps);
   EXPECT_LE(map.at(wall).hits, config.max_hits);
 }
 
 /// However long it stood there: a thousand scans of a wall are forgotten as fast as ten.
-TEST(ParticleMap, APlaceThatChangedIsSoonMappedAnew) {
-  const ParticleMapConfig config;
+TEST(SurfaceMap, APlaceThatChangedIsSoonMappedAnew) {
+  const SurfaceMapConfig config;
   DrawingBoard board;
   std::vector<int> scans_to_free, scans_to_occupied;
   for (const int seen : {10, 1000}) {
-    ParticleMap map(config);
+    SurfaceMap map(config);
     const CellIndex wall = map.cellAt({2.02, 0.0});
     for (int i = 0; i < seen; ++i) map.draw(wallAhead(2.02), {}, board);
     int scans = 0;
@@ -195,10 +195,10 @@ TEST(ParticleMap, APlaceThatChangedIsSoonMappedAnew) {
   EXPECT_LE(scans_to_occupied[1], 4);
 }
 
-TEST(ParticleMap, TheSurfaceIsKnownMoreFinelyThanTheCells) {
+TEST(SurfaceMap, TheSurfaceIsKnownMoreFinelyThanTheCells) {
   DrawingBoard board;
   for (const double distance_m : {2.012, 2.021, 2.034}) {
-    ParticleMap fresh{ParticleMapConfig{}};
+    SurfaceMap fresh{SurfaceMapConfig{}};
     for (int i = 0; i < 5; ++i) fresh.draw(wallAhead(distance_m), {}, board);
     const CellIndex index = fresh.cellAt({distance_m, 0.0});
     EXPECT_NEAR(fresh.surface_m(index, fresh.at(index)).x(), distance_m, 0.001);
@@ -206,9 +206,9 @@ TEST(ParticleMap, TheSurfaceIsKnownMoreFinelyThanTheCells) {
   }
 }
 
-std::vector<int> bytesOf(const ParticleMap& map) {
+std::vector<int> bytesOf(const SurfaceMap& map) {
   std::vector<int> bytes;
-  map.grid().forEachCell([&](CellIndex c, const ParticleCell& cell) {
+  map.grid().forEachCell([&](CellIndex c, const SurfaceCell& cell) {
     if (cell != map.grid().background())
       bytes.insert(bytes.end(),
                    {c.x, c.y, cell.log_odds, cell.hits, cell.offset_x, cell.offset_y, cell.normal_x, cell.normal_y});
@@ -216,12 +216,12 @@ std::vector<int> bytesOf(const ParticleMap& map) {
   return bytes;
 }
 
-TEST(ParticleMap, WhatOneDrawsTheOthersDoNotSee) {
+TEST(SurfaceMap, WhatOneDrawsTheOthersDoNotSee) {
   DrawingBoard board;
-  ParticleMap parent{ParticleMapConfig{}};
+  SurfaceMap parent{SurfaceMapConfig{}};
   parent.draw(wallAhead(2.0), {}, board);
   const auto before = bytesOf(parent);
-  ParticleMap child = parent.snapshot(), sibling = parent.snapshot(), grandchild = child.snapshot();
+  SurfaceMap child = parent.snapshot(), sibling = parent.snapshot(), grandchild = child.snapshot();
   child.draw(wallAhead(1.0), {0.0, 0.0, 0.3}, board);
   EXPECT_NE(bytesOf(child), before);
   EXPECT_EQ(bytesOf(parent), before);
@@ -232,12 +232,12 @@ TEST(ParticleMap, WhatOneDrawsTheOthersDoNotSee) {
   EXPECT_EQ(bytesOf(grandchild), before);
 }
 
-TEST(ParticleMap, WhatIsNotDrawnToStaysShared) {
+TEST(SurfaceMap, WhatIsNotDrawnToStaysShared) {
   DrawingBoard board;
-  ParticleMap parent{ParticleMapConfig{}};
+  SurfaceMap parent{SurfaceMapConfig{}};
   parent.draw(wallAhead(2.0), {}, board);
   parent.draw(wallAhead(2.0), {40.0, 0.0, 0.0}, board);
-  ParticleMap child = parent.snapshot();
+  SurfaceMap child = parent.snapshot();
   const CellIndex here = parent.cellAt({1.0, 0.0}), there = parent.cellAt({41.0, 0.0});
   child.draw(wallAhead(2.0), {}, board);
   EXPECT_NE(child.grid().tileIdentity(here), parent.grid().tileIdentity(here));
@@ -252,9 +252,9 @@ Eigen::Matrix3d motionCovariance(double sigma_m, double sigma_rad) {
 
 TEST(MapMatch, FindsThePoseAndSaysHowWell) {
   const test::PlanarWorld world = test::flat();
-  const ParticleMapConfig map_config;
+  const SurfaceMapConfig map_config;
   const MapMatchConfig config;
-  const ParticleMap map = mapOf(world, {{0.0, 0.0, 0.0}, {0.3, 0.1, 0.2}, {0.5, 0.3, -0.2}}, map_config);
+  const SurfaceMap map = mapOf(world, {{0.0, 0.0, 0.0}, {0.3, 0.1, 0.2}, {0.5, 0.3, -0.2}}, map_config);
   double nees = 0.0, worst_m = 0.0, worst_rad = 0.0;
   constexpr int kCases = 60;
   for (std::uint64_t seed = 0; seed < kCases; ++seed) {
@@ -282,9 +282,9 @@ TEST(MapMatch, FindsThePoseAndSaysHowWell) {
 /// The covariance of the motion does not know of a slip; the map does.
 TEST(MapMatch, ASlipOfTheMotionIsNotBelieved) {
   const test::PlanarWorld world = test::flat();
-  const ParticleMapConfig map_config;
+  const SurfaceMapConfig map_config;
   const MapMatchConfig config;
-  const ParticleMap map = mapOf(world, {{0.0, 0.0, 0.0}, {0.3, 0.1, 0.2}, {0.5, 0.3, -0.2}}, map_config);
+  const SurfaceMap map = mapOf(world, {{0.0, 0.0, 0.0}, {0.3, 0.1, 0.2}, {0.5, 0.3, -0.2}}, map_config);
   const Pose2 truth{0.2, 0.1, 0.05};
   const auto points = pointsToMatch(scanAt(world, truth, 7), config, map_config.max_gap_m);
   const MotionPrior slipped{{0.35, 0.0, 0.08}, motionCovariance(0.005, 0.002)};
@@ -300,10 +300,10 @@ TEST(MapMatch, TheRightMapWeighsMoreThanAWrongOne) {
   test::PlanarWorld other = world;
   other.addBox(2.2, -1.5, 0.5, 0.5);
   other.addBox(1.5, 1.8, 0.6, 0.3);
-  const ParticleMapConfig map_config;
+  const SurfaceMapConfig map_config;
   const MapMatchConfig config;
   const std::vector<Pose2> poses{{0.0, 0.0, 0.0}, {0.3, 0.1, 0.1}};
-  const ParticleMap right = mapOf(world, poses, map_config), wrong = mapOf(other, poses, map_config);
+  const SurfaceMap right = mapOf(world, poses, map_config), wrong = mapOf(other, poses, map_config);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Pose2 truth{0.2, 0.05, 0.05};
     const auto points = pointsToMatch(scanAt(world, truth, seed), config, map_config.max_gap_m);
@@ -319,11 +319,11 @@ TEST(MapMatch, InACorridorTheMotionStandsAlongIt) {
   test::PlanarWorld corridor;
   corridor.addPolyline({{-50.0, -1.0}, {50.0, -1.0}}, false);
   corridor.addPolyline({{-50.0, 1.0}, {50.0, 1.0}}, false);
-  const ParticleMapConfig map_config;
+  const SurfaceMapConfig map_config;
   const MapMatchConfig config;
   std::vector<Pose2> poses;
   for (int i = 0; i < 10; ++i) poses.push_back({0.3 * i, 0.0, 0.0});
-  const ParticleMap map = mapOf(corridor, poses, map_config, 5.6);
+  const SurfaceMap map = mapOf(corridor, poses, map_config, 5.6);
   const Pose2 truth{2.5, 0.02, 0.01};
   const auto points = pointsToMatch(scanAt(corridor, truth, 3, 5.6), config, map_config.max_gap_m);
   const MotionPrior prior{{2.35, 0.0, 0.0}, motionCovariance(0.1, 0.02)};
@@ -337,7 +337,7 @@ TEST(MapMatch, InACorridorTheMotionStandsAlongIt) {
 
 TEST(MapMatch, WithoutSupportTheMotionStands) {
   const MapMatchConfig config;
-  const ParticleMap empty{ParticleMapConfig{}};
+  const SurfaceMap empty{SurfaceMapConfig{}};
   const MotionPrior prior{{1.0, 2.0, 0.5}, motionCovariance(0.02, 0.01)};
   const auto points = pointsToMatch(scanAt(test::flat(), {}, 1), config, 0.3);
   for (const auto& some : {points, std::vector<OrientedPoint>{}}) {

@@ -26,7 +26,7 @@ std::vector<int> bytesOf(const common::OccupancyGrid& grid) {
 
 ParticleSlamConfig someParticles(int count, int seed = 1) {
   ParticleSlamConfig config;
-  config.particles = count;
+  config.count = count;
   config.seed = seed;
   return config;
 }
@@ -38,7 +38,7 @@ double flyFlat(ParticleSlam& slam, int scans, std::uint64_t seed) {
   const Pose2 start = flight.start();
   for (int i = 0; i < scans && !flight.done(); ++i) {
     const auto step = flight.next();
-    if (slam.addScan(step.scan, step.T_odom_body, step.covariance_since_last))
+    if (slam.addScan(step.scan, step.T_odom_body, step.covariance_since_last).key_scan)
       truth.push_back(start.inverse() * step.truth_T_world_body);
   }
   const auto keys = slam.keyPoses();
@@ -53,22 +53,22 @@ TEST(ParticleSlam, ALoopThroughTheFlat) {
   ParticleSlam slam(someParticles(15));
   const double worst_m = flyFlat(slam, std::numeric_limits<int>::max(), 1);
   std::printf("  worst %.3f m; %d updates, %d resamplings, %d poses kept\n", worst_m,
-              static_cast<int>(slam.counts().updates), static_cast<int>(slam.counts().resamplings),
+              static_cast<int>(slam.counts().key_scans), static_cast<int>(slam.counts().resamplings),
               static_cast<int>(slam.keptPoses()));
   EXPECT_LT(worst_m, 0.04);
   EXPECT_GT(slam.counts().resamplings, 0U);
   // After a resampling the trajectories share their past.
-  EXPECT_LT(slam.keptPoses(), 15 * slam.counts().updates * 9 / 10);
+  EXPECT_LT(slam.keptPoses(), 15 * slam.counts().key_scans * 9 / 10);
 }
 
 TEST(ParticleSlam, TheSameSeedGivesTheSameBytes) {
   ParticleSlam a(someParticles(8)), b(someParticles(8)), other(someParticles(8, 2));
   for (ParticleSlam* slam : {&a, &b, &other}) flyFlat(*slam, 150, 5);
-  EXPECT_EQ(bytesOf(a.map()), bytesOf(b.map()));
+  EXPECT_EQ(bytesOf(a.snapshot()), bytesOf(b.snapshot()));
   ASSERT_EQ(a.keyPoses().size(), b.keyPoses().size());
   for (std::size_t i = 0; i < a.keyPoses().size(); ++i)
     EXPECT_EQ(a.keyPoses()[i].T_map_body.x_m, b.keyPoses()[i].T_map_body.x_m);
-  EXPECT_NE(bytesOf(a.map()), bytesOf(other.map()));
+  EXPECT_NE(bytesOf(a.snapshot()), bytesOf(other.snapshot()));
 }
 
 struct RingScore {
@@ -83,7 +83,7 @@ RingScore flyRing(int particles, int seed) {
   ring.fly(1.15, [&](const ProjectedScan& scan, const Pose2& T_odom_body, const Eigen::Matrix3d& covariance,
                      const Pose2& at) {
     score.worst_odom_m = std::max(score.worst_odom_m, (T_odom_body.position_m() - at.position_m()).norm());
-    if (slam.addScan(scan, T_odom_body, covariance)) truth.push_back(at);
+    if (slam.addScan(scan, T_odom_body, covariance).key_scan) truth.push_back(at);
   });
   const auto keys = slam.keyPoses();
   EXPECT_EQ(keys.size(), truth.size());
@@ -108,12 +108,12 @@ TEST(ParticleSlam, IgnoresWhatIsLateEmptyOrNotANumber) {
   ParticleSlam slam(someParticles(3));
   EXPECT_EQ(slam.anchor(), -1);
   EXPECT_TRUE(slam.keyPoses().empty());
-  EXPECT_FALSE(slam.addScan({}, {}, Eigen::Matrix3d::Zero()));  // No points: the map does not begin here.
+  EXPECT_FALSE(slam.addScan({}, {}, Eigen::Matrix3d::Zero()).key_scan);  // No points: the map does not begin here.
   test::Flight flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, 6);
   const auto step = flight.next(), next = flight.next();
-  EXPECT_TRUE(slam.addScan(step.scan, step.T_odom_body, step.covariance_since_last));
-  EXPECT_FALSE(slam.addScan(step.scan, step.T_odom_body, step.covariance_since_last));  // Again.
-  EXPECT_FALSE(slam.addScan(next.scan, {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}, {}));
+  EXPECT_TRUE(slam.addScan(step.scan, step.T_odom_body, step.covariance_since_last).key_scan);
+  EXPECT_FALSE(slam.addScan(step.scan, step.T_odom_body, step.covariance_since_last).key_scan);  // Again.
+  EXPECT_FALSE(slam.addScan(next.scan, {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}, {}).key_scan);
   EXPECT_EQ(slam.counts().ignored_scans, 3U);
   const Eigen::Matrix3d nan = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
   slam.addScan(next.scan, {5.0, 0.0, 0.0}, nan);
@@ -125,9 +125,9 @@ TEST(ParticleSlam, IgnoresWhatIsLateEmptyOrNotANumber) {
 TEST(ParticleSlam, TheMapOfTheBestParticleStaysCapped) {
   ParticleSlam slam(someParticles(5));
   flyFlat(slam, 200, 3);
-  const int cap = ParticleMapConfig{}.max_steps;
+  const int cap = SurfaceMapConfig{}.grid.max_steps;
   int known = 0;
-  slam.map().forEachCell([&](CellIndex, common::occupancy::Cell value) {
+  slam.snapshot().forEachCell([&](CellIndex, common::occupancy::Cell value) {
     if (common::occupancy::isUnknown(value)) return;
     ++known;
     EXPECT_LE(std::abs(static_cast<int>(value)), cap);

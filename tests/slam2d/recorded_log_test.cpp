@@ -71,7 +71,7 @@ std::optional<evaluation::RelationErrors> relationsOf(const std::string& name, b
   const auto log = test_support::dataSet(stem + ".clf.bz2"), relations = test_support::dataSet(stem + ".relations.gz");
   if (!log || !relations) return std::nullopt;
   LaserSlamConfig config = test_support::laserLogSlam();
-  config.method = method;
+  config.slam.method = method;
   LaserSlam slam(config);
   const std::vector<KnownScan> scans = scansOf(*log, odometry);
   return evaluation::relationErrors(trackOf(slam, scans, scans.size()), interfaces::readRelations(*relations));

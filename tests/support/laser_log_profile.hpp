@@ -14,7 +14,7 @@ namespace swiftlet::test_support {
 struct LaserLogProfile {
   struct Estimator {
     perception::LaserOdometryConfig odometry;
-    perception::Slam2dConfig slam;
+    perception::SlamMethodConfig slam;
     void describe(common::config::Fields& fields) {
       fields.section("odometry", odometry, "");
       fields.section("slam", slam, "");
@@ -25,7 +25,11 @@ struct LaserLogProfile {
     void describe(common::config::Fields& fields) { fields.section("estimator", estimator, ""); }
   };
   Autonomy autonomy;
-  void describe(common::config::Fields& fields) { fields.section("autonomy", autonomy, ""); }
+  perception::MotionPredictionConfig log_motion;
+  void describe(common::config::Fields& fields) {
+    fields.section("autonomy", autonomy, "");
+    fields.section("log_motion", log_motion, "");
+  }
 };
 
 inline perception::LaserSlamConfig laserLogSlam() {
@@ -33,6 +37,7 @@ inline perception::LaserSlamConfig laserLogSlam() {
       common::config::readFile<LaserLogProfile>(common::findData("config/systems/laser_log.yaml").string());
   perception::LaserSlamConfig config;
   config.front_end.odometry = profile.autonomy.estimator.odometry;
+  config.front_end.motion = profile.log_motion;
   config.slam = profile.autonomy.estimator.slam;
   return config;
 }

@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "common/config_fields.hpp"
+#include "common/validation.hpp"
 #include "perception/scan_matching/least_squares_match.hpp"
 
 namespace swiftlet::perception {
@@ -31,7 +33,7 @@ struct Surface {
 
 class Matching {
  public:
-  Matching(const ParticleMap& map, const std::vector<OrientedPoint>& points, const MotionPrior& prior,
+  Matching(const SurfaceMap& map, const std::vector<OrientedPoint>& points, const MotionPrior& prior,
            const MapMatchConfig& config)
       : map_(map), points_(points), prior_(prior), config_(config), information_(prior.covariance.inverse()) {
     double lever2 = 0.0;
@@ -60,7 +62,7 @@ class Matching {
   Pose2 settle(double reach_m) const;
   MapMatch verdict(const Pose2& pose) const;
 
-  const ParticleMap& map_;
+  const SurfaceMap& map_;
   const std::vector<OrientedPoint>& points_;
   const MotionPrior& prior_;
   const MapMatchConfig& config_;
@@ -69,7 +71,7 @@ class Matching {
 };
 
 std::optional<Surface> Matching::surfaceIn(CellIndex index, const Eigen::Vector2d& normal) const {
-  const ParticleCell cell = map_.at(index);
+  const SurfaceCell cell = map_.at(index);
   if (!cell.isOccupied()) return std::nullopt;
   const Eigen::Vector2d facing(cell.normal_x, cell.normal_y);
   if (facing.dot(normal) < kSameSide * 127.0) return std::nullopt;
@@ -200,11 +202,42 @@ MapMatch Matching::run() const {
 
 }  // namespace
 
+void MapMatchConfig::describe(common::config::Fields& fields) {
+  fields("points", points, {10, 100'000}, "Points of a scan that are matched, spread evenly along its contour.");
+  fields("coarse_points", coarse_points, {3, 100'000},
+         "Points that are matched while they are still far from the surfaces they belong to.");
+  fields("max_range_m", max_range_m, {0.5, 100}, "Points farther than this are not used.");
+  fields("reach_m", reach_m, {0.01, 10},
+         "Where the motion may have slipped, a surface is looked for so far along the normal of a point.");
+  fields("support_m", support_m, {0.005, 10}, "Where it has not slipped, a surface is looked for so near a point.");
+  fields("enough_support", enough_support, {0, 1},
+         "With a greater share of points on a surface the motion has not slipped.");
+  fields("iterations", iterations, {1, 100}, "Greatest number of steps.");
+  fields("residual_m", residual_m, {0.001, 1},
+         "Distances of the points from the surfaces are taken for at least so large.");
+  fields("covariance_scale", covariance_scale, {0.01, 1000},
+         "Factor on the covariance of independent points, which neighbouring ones are not.");
+  fields("motion_freedom", motion_freedom, {0.1, 1000},
+         "Degrees of freedom of the motion's Student t: its covariance does not know of slips.");
+  fields("beam_sigma_m", beam_sigma_m, {0.001, 1},
+         "Of the likelihood: spread of end points about the surfaces of a good map.");
+  fields("outlier_share", outlier_share, {1e-6, 0.99}, "Share of end points on what is not in the map.");
+  fields("independent_beams", independent_beams, {0.1, 10'000},
+         "A scan says as much as so many beams that know nothing of each other.");
+}
+
+std::vector<std::string> MapMatchConfig::validate() const {
+  return common::Validation()
+      .atMost("support_m", support_m, "reach_m", reach_m)
+      .atMost("coarse_points", coarse_points, "points", points)
+      .problems();
+}
+
 std::vector<OrientedPoint> pointsToMatch(const ProjectedScan& scan, const MapMatchConfig& config, double max_gap_m) {
   return orientedPoints(scan, config.points, max_gap_m, config.max_range_m);
 }
 
-MapMatch matchToMap(const ParticleMap& map, const std::vector<OrientedPoint>& points, const MotionPrior& prior,
+MapMatch matchToMap(const SurfaceMap& map, const std::vector<OrientedPoint>& points, const MotionPrior& prior,
                     const MapMatchConfig& config) {
   return Matching(map, points, prior, config).run();
 }

@@ -1,0 +1,194 @@
+#include "perception/slam2d/scan_to_map_slam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "common/config_fields.hpp"
+#include "common/validation.hpp"
+#include "perception/laser_odometry/unknown_step.hpp"
+#include "perception/slam2d/progress.hpp"
+#include "perception/slam2d/sliced_map.hpp"
+#include "perception/slam2d/uncertain_pose.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::kRadPerDeg;
+using common::Pose2;
+using common::Time;
+
+/// A search window holds so many standard deviations of where the scan is expected.
+constexpr double kWindowSigmas = 3.0;
+
+Eigen::Matrix3d diagonal(double sigma_m, double sigma_deg) {
+  const double sigma_rad = sigma_deg * kRadPerDeg;
+  return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+}
+
+}  // namespace
+
+void ScanToMapConfig::describe(common::config::Fields& fields) {
+  fields.section("matcher", matcher, "Matching a scan to the surfaces in the map.");
+  fields.section("surfaces", surfaces, "The surfaces that scans are matched to.");
+  fields("match_distance_m", match_distance_m, {0.01, 10}, "A scan is matched to the map after this distance.");
+  fields("match_rotation_deg", match_rotation_deg, {0.1, 180}, "A scan is matched to the map after this rotation.");
+  fields("match_time_s", match_time_s, {0.001, 1e6}, "A scan is matched to the map after this time.");
+  fields("key_distance_m", key_distance_m, {0.01, 10},
+         "A matched scan becomes a key scan after this distance: it is drawn into the surfaces.");
+  fields("key_rotation_deg", key_rotation_deg, {0.1, 180}, "A matched scan becomes a key scan after this rotation.");
+  fields("key_time_s", key_time_s, {0.001, 1e6}, "A matched scan becomes a key scan after this time.");
+  fields("window_m", window_m, {0.01, 5}, "Half the least search window.");
+  fields("window_deg", window_deg, {0.1, 90}, "Half the least search window of the rotation.");
+  fields("max_window_m", max_window_m, {0.01, 5}, "Half the greatest search window; at least window_m.");
+  fields("max_window_deg", max_window_deg, {0.1, 90},
+         "Half the greatest search window of the rotation; at least window_deg.");
+  fields(
+      "map_sigma_m", map_sigma_m, {1e-5, 1},
+      "Standard deviation of the map about the pose: however often a scan matches the same map, no pose in it is more "
+      "certain.");
+  fields("map_sigma_deg", map_sigma_deg, {1e-4, 10}, "Standard deviation of the map's rotation about the pose.");
+}
+
+std::vector<std::string> ScanToMapConfig::validate() const {
+  return common::Validation()
+      .atMost("window_m", window_m, "max_window_m", max_window_m)
+      .atMost("window_deg", window_deg, "max_window_deg", max_window_deg)
+      .problems();
+}
+
+struct ScanToMapSlam::Impl {
+  explicit Impl(const ScanToMapConfig& config_in)
+      : config(config_in), matcher(config_in.matcher), surfaces(config_in.surfaces), map(config_in.surfaces.grid) {}
+
+  void follow(const Pose2& T_odom_body, const Eigen::Matrix3d& covariance_since_last);
+  bool correct(const ProjectedScan& scan);
+  SearchWindow window() const;
+  void drawReference();
+  void addKeyScan(const ProjectedScan& scan);
+  void draw(const ProjectedScan& scan) { map.draw(thinForDrawing(scan, config.surfaces.grid), pose.T_map_body); }
+  DrawnHeights band() const { return heightsAround(flight_height_m.value_or(0.0), config.surfaces.grid); }
+
+  ScanToMapConfig config;
+  GaussNewtonMatcher matcher;
+  SurfaceMap surfaces;
+  DrawingBoard board;
+  bool reference_is_old = true;  ///< The surfaces changed since they were drawn for the matcher.
+  SlicedMap map;
+  std::optional<double> flight_height_m;
+  std::vector<KeyPose> keys;
+  SlamCounts counts;
+
+  UncertainPose pose{Pose2{}, Eigen::Matrix3d::Zero()};  ///< Of the last scan.
+  Pose2 T_odom_body;
+  Pose2 T_map_odom;
+  Time last_stamp;
+  Progress last_match, last_key;
+};
+
+/// Moves the estimate by what the odometry says happened since the last scan.
+void ScanToMapSlam::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& covariance_since_last) {
+  const Pose2 moved = T_map_odom * T_odom_body_now;
+  const Eigen::Matrix3d step_covariance = stepCovarianceOrUnknown(covariance_since_last);
+  pose.covariance =
+      propagated(pose.covariance, pose.T_map_body, moved, common::turned(step_covariance, pose.T_map_body.yaw_rad));
+  pose.T_map_body = moved;
+  T_odom_body = T_odom_body_now;
+}
+
+SearchWindow ScanToMapSlam::Impl::window() const {
+  const Eigen::Vector3d sigmas = pose.covariance.diagonal().cwiseSqrt();
+  return {std::clamp(kWindowSigmas * sigmas.head<2>().maxCoeff(), config.window_m, config.max_window_m),
+          std::clamp(kWindowSigmas * sigmas.z(), config.window_deg * kRadPerDeg, config.max_window_deg * kRadPerDeg)};
+}
+
+/// The surfaces that a scan from here can meet, as the reference of the matcher.
+void ScanToMapSlam::Impl::drawReference() {
+  if (!reference_is_old) return;
+  reference_is_old = false;
+  matcher.clearReference();
+  matcher.addReference(
+      surfaces.contourAround(pose.T_map_body.position_m(), config.matcher.max_range_m + config.max_window_m));
+}
+
+/// False, and nothing learned, when the scan does not match the map.
+bool ScanToMapSlam::Impl::correct(const ProjectedScan& scan) {
+  drawReference();
+  const MatchResult match = matcher.match(scan, pose.T_map_body, window());
+  ++counts.map_matches;
+  if (match.failed || match.at_window_edge) {
+    ++counts.local_failures;
+    return false;
+  }
+  const Eigen::Matrix3d of_map = diagonal(config.map_sigma_m, config.map_sigma_deg);
+  pose = weightedMean(pose, {match.T_reference_body, match.covariance + of_map});
+  // What the map is wrong by is the same in every match, so that the mean of many is not better.
+  pose.covariance.diagonal() = pose.covariance.diagonal().cwiseMax(of_map.diagonal());
+  T_map_odom = pose.T_map_body * T_odom_body.inverse();
+  return true;
+}
+
+void ScanToMapSlam::Impl::addKeyScan(const ProjectedScan& scan) {
+  if (!flight_height_m) flight_height_m = scan.T_odom_body.position_m.z();
+  surfaces.draw(toDraw(scan, config.surfaces, band()), pose.T_map_body, board);
+  reference_is_old = true;
+  keys.push_back({scan.stamp, pose.T_map_body});
+  ++counts.key_scans;
+  last_key = {T_odom_body, scan.stamp};
+}
+
+ScanToMapSlam::ScanToMapSlam(const ScanToMapConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+ScanToMapSlam::~ScanToMapSlam() = default;
+ScanToMapSlam::ScanToMapSlam(ScanToMapSlam&&) noexcept = default;
+ScanToMapSlam& ScanToMapSlam::operator=(ScanToMapSlam&&) noexcept = default;
+
+SlamUpdate ScanToMapSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
+                                  const Eigen::Matrix3d& covariance_since_last) {
+  Impl& self = *impl_;
+  const ScanToMapConfig& config = self.config;
+  ++self.counts.scans;
+  const bool first = self.keys.empty();
+  if (!isFinite(T_odom_body) || (!first && scan.stamp <= self.last_stamp) ||
+      (first && static_cast<int>(scan.points_level_m.size()) < config.matcher.min_points)) {
+    ++self.counts.ignored_scans;
+    return {false, false, first ? T_odom_body : self.pose.T_map_body};
+  }
+  self.last_stamp = scan.stamp;
+  if (first) {
+    self.pose.T_map_body = self.T_odom_body = T_odom_body;  // The map begins where odom does.
+  } else {
+    self.follow(T_odom_body, covariance_since_last);
+    if (!self.last_match.exceeds(T_odom_body, scan.stamp, config.match_distance_m, config.match_rotation_deg,
+                                 config.match_time_s))
+      return {false, false, self.pose.T_map_body};
+  }
+  self.last_match = {T_odom_body, scan.stamp};
+  const bool matched = first || self.correct(scan);
+  // A scan of new area matches little. Where it is taken on the odometry's word, the map grows, and the next ones
+  // match.
+  const bool is_key = first || self.last_key.exceeds(T_odom_body, scan.stamp, config.key_distance_m,
+                                                     config.key_rotation_deg, config.key_time_s);
+  if (is_key) self.addKeyScan(scan);
+  if (matched || is_key) self.draw(scan);
+  return {is_key, matched || is_key, self.pose.T_map_body};
+}
+
+Pose2 ScanToMapSlam::T_map_odom() const { return impl_->T_map_odom; }
+int ScanToMapSlam::anchor() const { return static_cast<int>(impl_->keys.size()) - 1; }
+
+Pose2 ScanToMapSlam::T_anchor_body() const {
+  return impl_->keys.empty() ? Pose2{} : between(impl_->keys.back().T_map_body, impl_->pose.T_map_body);
+}
+
+std::vector<PlanarSlam::KeyPose> ScanToMapSlam::keyPoses() const { return impl_->keys; }
+
+bool ScanToMapSlam::setFlightHeight(double height_m) {
+  if (std::isfinite(height_m)) impl_->flight_height_m = height_m;
+  return impl_->map.setFlightHeight(height_m);
+}
+
+common::OccupancyGrid ScanToMapSlam::snapshot() { return impl_->map.atFlightHeight(); }
+const SlamCounts& ScanToMapSlam::counts() const { return impl_->counts; }
+const Eigen::Matrix3d& ScanToMapSlam::covariance() const { return impl_->pose.covariance; }
+
+}  // namespace swiftlet::perception

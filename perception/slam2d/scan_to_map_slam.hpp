@@ -1,0 +1,82 @@
+// SLAM by matching scans to the one map that they are drawn into (Saeedi, section III-B, after Kohlbrecher 2011). The
+// pose of a scan is
+//
+//   argmin over (x, y, psi) of the sum over the end points of (1 - M(S_i(x, y, psi)))^2                  (Saeedi, eq.
+//   1)
+//
+// M being the map between its cells and S_i the end point i at the pose; the first-order expansion of M gives the
+// Gauss-Newton step (Kohlbrecher, eq. 7 to 13), repeated down a pyramid of maps from coarse to fine (section V-B
+// there). The work is that of GaussNewtonMatcher. Where the papers interpolate the occupancy of the cells, M here is 1
+// on the surfaces in the occupied cells (SurfaceMap) and falls linearly with the distance from them, so that a wall
+// pulls to where it is, not to the middle of its cells.
+//
+//   scan --> far enough? --> match to the surfaces around --> weigh against the motion --> key scan? --> draw
+//
+// There is NO loop closure and nothing is ever optimized: a key scan stays where it was put. The error grows with the
+// distance from known area, and a loop that comes back farther off than the search window is not closed: the map then
+// has its walls twice. For rooms and short flights.
+//
+// T_map_odom changes with each scan that matches. One that does not match leaves it as it is: the odometry is followed.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/config_fwd.hpp"
+#include "perception/scan_matching/gauss_newton_matcher.hpp"
+#include "perception/slam2d/planar_slam.hpp"
+#include "perception/slam2d/surface_map.hpp"
+
+namespace swiftlet::perception {
+
+struct ScanToMapConfig {
+  GaussNewtonMatcherConfig matcher;
+  SurfaceMapConfig surfaces;
+  double match_distance_m = 0.10;
+  double match_rotation_deg = 5.0;
+  double match_time_s = 0.25;
+  double key_distance_m = 0.4;
+  double key_rotation_deg = 20.0;
+  double key_time_s = 2.0;
+  double window_m = 0.15;
+  double window_deg = 3.0;
+  double max_window_m = 0.5;
+  double max_window_deg = 10.0;
+  double map_sigma_m = 0.005;
+  double map_sigma_deg = 0.1;
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// Key scans are those drawn into the surfaces that others are matched to. The published map is a SlicedMap, drawn with
+/// every scan that matches.
+class ScanToMapSlam final : public PlanarSlam {
+ public:
+  explicit ScanToMapSlam(const ScanToMapConfig& config);
+  ~ScanToMapSlam() override;
+  ScanToMapSlam(ScanToMapSlam&&) noexcept;
+  ScanToMapSlam& operator=(ScanToMapSlam&&) noexcept;
+
+  SlamMethod method() const override { return SlamMethod::kScanToMap; }
+  SlamUpdate addScan(const ProjectedScan& scan, const common::Pose2& T_odom_body,
+                     const Eigen::Matrix3d& covariance_since_last) override;
+
+  common::Pose2 T_map_odom() const override;
+  int anchor() const override;
+  common::Pose2 T_anchor_body() const override;
+  std::vector<KeyPose> keyPoses() const override;
+  bool setFlightHeight(double height_m) override;
+  common::OccupancyGrid snapshot() override;
+  const SlamCounts& counts() const override;
+
+  /// Of the additive errors (x_m, y_m, yaw_rad) of the last scan's pose in the map; never less than what the map itself
+  /// is uncertain by (map_sigma).
+  const Eigen::Matrix3d& covariance() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swiftlet::perception

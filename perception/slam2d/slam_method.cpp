@@ -1,0 +1,33 @@
+#include "perception/slam2d/slam_method.hpp"
+
+#include "common/config_fields.hpp"
+#include "perception/slam2d/slam2d.hpp"
+
+namespace swiftlet::perception {
+
+void SlamMethodConfig::describe(common::config::Fields& fields) {
+  fields.choice("method", method, {"graph", "particles", "scan_to_map"}, "Which method does the work.");
+  Slam2dConfig::describe(fields);
+  fields.section("particles", particles, "Settings of the method particles.");
+  fields.section("scan_to_map", scan_to_map, "Settings of the method scan_to_map.");
+}
+
+std::unique_ptr<PlanarSlam> makeSlam(const SlamMethodConfig& config) {
+  switch (config.method) {
+    case SlamMethod::kParticles: {
+      ParticleSlamConfig particles = config.particles;
+      particles.map.grid = config.grid;
+      return std::make_unique<ParticleSlam>(particles);
+    }
+    case SlamMethod::kScanToMap: {
+      ScanToMapConfig scan_to_map = config.scan_to_map;
+      scan_to_map.surfaces.grid = config.grid;
+      return std::make_unique<ScanToMapSlam>(scan_to_map);
+    }
+    case SlamMethod::kGraph:
+      break;
+  }
+  return std::make_unique<Slam2d>(config);
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,179 @@
+#include "perception/slam2d/surface_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "common/config_fields.hpp"
+#include "perception/slam2d/grid_ray.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::CellIndex;
+using common::Pose2;
+using common::occupancy::Cell;
+namespace occupancy = common::occupancy;
+
+constexpr std::uint8_t kCrossed = 1, kEnded = 2;
+constexpr double kOffsetsPerCell = 254.0;
+constexpr double kNormalLength = 127.0;
+/// A mean normal that is shorter than this share of one is of surfaces of many directions: the hits that it is the mean
+/// of face as many degrees apart as two walls of a corner.
+constexpr double kClearNormal = 0.75;
+
+/// Of the values before, `count` counting the new one.
+std::int8_t meanWith(std::int8_t mean, double value, int count) {
+  const double moved = mean + (value - mean) / count;
+  return static_cast<std::int8_t>(std::lround(std::clamp(moved, -127.0, 127.0)));
+}
+
+/// The share of a view that is within the band, from the body, which is, to an end so much higher than the body.
+double withinBand(const DrawnHeights& band, double body_m, double height_m) {
+  if (band.contains(body_m + height_m)) return 1.0;
+  return (height_m > 0.0 ? band.high_m - body_m : band.low_m - body_m) / height_m;
+}
+
+}  // namespace
+
+void SurfaceMapConfig::describe(common::config::Fields& fields) {
+  fields("max_hits", max_hits, {1, 255}, "The surface in a cell is the mean of about so many of its last hits.");
+  fields("max_gap_m", max_gap_m, {0, 10}, "Neighbouring end points nearer than this are of one surface.");
+}
+
+DrawnHeights heightsAround(double flight_height_m, const GridDrawingConfig& config) {
+  return {flight_height_m - config.max_height_below_m, flight_height_m + config.max_height_above_m};
+}
+
+SurfaceScan toDraw(const ProjectedScan& scan, const SurfaceMapConfig& config, const DrawnHeights& band) {
+  SurfaceScan drawn;
+  const double body_m = scan.T_odom_body.position_m.z(), max_hit_range_m = config.grid.max_hit_range_m;
+  if (!band.contains(body_m)) return drawn;
+  const auto addFree = [&](const Eigen::Vector2f& end, double height_m, double range_m) {
+    const float within_range = static_cast<float>(range_m) / std::max(end.norm(), 1e-6F);
+    drawn.free_m.push_back(end * std::min(static_cast<float>(withinBand(band, body_m, height_m)), within_range));
+  };
+  const std::vector<OrientedPoint> oriented = orientedPoints(scan, 0, config.max_gap_m, max_hit_range_m);
+  auto next = oriented.begin();
+  for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
+    const Eigen::Vector2f& end = scan.points_level_m[i];
+    if (!end.allFinite()) continue;
+    const double height_m = i < scan.heights_level_m.size() ? static_cast<double>(scan.heights_level_m[i]) : 0.0;
+    const bool is_oriented = next != oriented.end() && next->point_m == end;
+    const SurfaceScan::Hit hit =
+        is_oriented ? SurfaceScan::Hit{next->foot_m, next->normal} : SurfaceScan::Hit{end, Eigen::Vector2f::Zero()};
+    if (is_oriented) ++next;
+    if (end.norm() > static_cast<float>(max_hit_range_m) || !band.contains(body_m + height_m))
+      addFree(end, height_m, max_hit_range_m);
+    else
+      drawn.hits.push_back(hit);
+  }
+  for (const Eigen::Vector3f& end : scan.misses_level_m)
+    if (end.allFinite()) addFree(end.head<2>(), static_cast<double>(end.z()), config.grid.max_free_range_m);
+  return drawn;
+}
+
+SurfaceMap SurfaceMap::snapshot() {
+  SurfaceMap copy(config_);
+  copy.grid_ = grid_.snapshot();
+  return copy;
+}
+
+common::OccupancyGrid SurfaceMap::occupancy() const {
+  common::OccupancyGrid occupancy = common::makeOccupancyGrid(config_.grid.resolution_m);
+  grid_.forEachCell([&](CellIndex index, const SurfaceCell& cell) {
+    if (!occupancy::isUnknown(cell.log_odds)) occupancy.set(index, cell.log_odds);
+  });
+  return occupancy;
+}
+
+std::vector<ContourSegment> SurfaceMap::contourAround(const Eigen::Vector2d& middle_m, double half_m) const {
+  std::vector<ContourSegment> contour;
+  const Eigen::Vector2d half(half_m, half_m);
+  const CellIndex low = cellAt(middle_m - half), high = cellAt(middle_m + half);
+  const common::CellRect around{low, {high.x + 1, high.y + 1}};
+  grid_.forEachCell([&](CellIndex index, const SurfaceCell& cell) {
+    if (!cell.isOccupied() || !around.contains(index)) return;
+    const Eigen::Vector2d at_m = surface_m(index, cell), normal(cell.normal_x, cell.normal_y);
+    Eigen::Vector2d arm_m = Eigen::Vector2d::Zero();
+    if (normal.norm() > kClearNormal * kNormalLength) {
+      const Eigen::Vector2d along = normal.unitOrthogonal();
+      arm_m = 0.5 * config_.grid.resolution_m / along.cwiseAbs().maxCoeff() * along;
+    }
+    contour.push_back({at_m - arm_m, at_m + arm_m});
+  });
+  return contour;
+}
+
+/// Marks the cells that the views cross and those they end in; where some do either, the end wins.
+void SurfaceMap::sketch(const SurfaceScan& scan, const Pose2& T_map_body, DrawingBoard& board) const {
+  const double scale = 1.0 / config_.grid.resolution_m;
+  const Eigen::Vector2d body = scale * T_map_body.position_m();
+  const Eigen::Matrix2d R = scale * Eigen::Rotation2Dd(T_map_body.yaw_rad).toRotationMatrix();
+  const auto inCells = [&](const Eigen::Vector2f& p) -> Eigen::Vector2d { return body + R * p.cast<double>(); };
+  const CellIndex first = cellOf(body);
+  common::CellRect rect{first, {first.x + 1, first.y + 1}};
+  const auto include = [&](const Eigen::Vector2f& p) {
+    const CellIndex c = cellOf(inCells(p));
+    rect.begin = {std::min(rect.begin.x, c.x), std::min(rect.begin.y, c.y)};
+    rect.end = {std::max(rect.end.x, c.x + 1), std::max(rect.end.y, c.y + 1)};
+  };
+  for (const SurfaceScan::Hit& hit : scan.hits) include(hit.point_m);
+  for (const Eigen::Vector2f& end : scan.free_m) include(end);
+
+  board.rect = rect;
+  board.marks.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), 0);
+  const auto markAt = [&](CellIndex c) -> std::uint8_t& {
+    return board.marks[static_cast<std::size_t>(c.y - rect.begin.y) * static_cast<std::size_t>(rect.width()) +
+                       static_cast<std::size_t>(c.x - rect.begin.x)];
+  };
+  const auto cross = [&](const Eigen::Vector2d& to) {
+    touchCrossed(body, to, &markAt(first), rect.width(), [](std::uint8_t& mark) { mark |= kCrossed; });
+  };
+  for (const SurfaceScan::Hit& hit : scan.hits) {
+    const Eigen::Vector2d to = inCells(hit.point_m);
+    cross(to);
+    markAt(cellOf(to)) = kEnded;
+  }
+  for (const Eigen::Vector2f& end : scan.free_m) cross(inCells(end));
+}
+
+/// Not writing what does not change leaves the tile shared.
+void SurfaceMap::update(CellIndex index, int steps) {
+  const SurfaceCell old = grid_.at(index);
+  const int sum = (occupancy::isUnknown(old.log_odds) ? 0 : old.log_odds) + steps;
+  const auto value = static_cast<Cell>(std::clamp(sum, -config_.grid.max_steps, config_.grid.max_steps));
+  if (value == old.log_odds) return;
+  SurfaceCell& cell = grid_.mutableAt(index);
+  cell.log_odds = value;
+  if (!cell.isOccupied()) cell.hits = 0;  // The surface that was here is gone.
+}
+
+void SurfaceMap::addSurface(const Eigen::Vector2d& point_m, const Eigen::Vector2d& normal) {
+  const CellIndex index = grid_.cellAt(point_m);
+  SurfaceCell& cell = grid_.mutableAt(index);
+  if (cell.hits < config_.max_hits) ++cell.hits;
+  const Eigen::Vector2d offset = (point_m - grid_.centerOf(index)) * (kOffsetsPerCell / config_.grid.resolution_m);
+  cell.offset_x = meanWith(cell.offset_x, offset.x(), cell.hits);
+  cell.offset_y = meanWith(cell.offset_y, offset.y(), cell.hits);
+  cell.normal_x = meanWith(cell.normal_x, kNormalLength * normal.x(), cell.hits);
+  cell.normal_y = meanWith(cell.normal_y, kNormalLength * normal.y(), cell.hits);
+}
+
+void SurfaceMap::draw(const SurfaceScan& scan, const Pose2& T_map_body, DrawingBoard& board) {
+  sketch(scan, T_map_body, board);
+  const std::uint8_t* mark = board.marks.data();
+  for (int y = board.rect.begin.y; y < board.rect.end.y; ++y) {
+    for (int x = board.rect.begin.x; x < board.rect.end.x; ++x, ++mark) {
+      if (*mark == 0) continue;
+      update({x, y}, (*mark & kEnded) != 0 ? config_.grid.hit_steps : -config_.grid.free_steps);
+    }
+  }
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(T_map_body.yaw_rad).toRotationMatrix();
+  for (const SurfaceScan::Hit& hit : scan.hits) {
+    const Eigen::Vector2d point_m = T_map_body.position_m() + R * hit.point_m.cast<double>();
+    if (grid_.at(grid_.cellAt(point_m)).isOccupied()) addSurface(point_m, R * hit.normal.cast<double>());
+  }
+}
+
+}  // namespace swiftlet::perception
