@@ -306,11 +306,17 @@ TEST_F(Map, WhatAKilledRunLeftDoesNotStandInTheWay) {
   EXPECT_EQ(readText(path("theirs/unfinished.part/mine.txt")), "mine");
 }
 
-TEST_F(Map, AnOlderGraphDoesNotStayBesideTheMapOfParticles) {
-  (void)mapped(walk(20));
-  (void)mapped(walk(20), {"--slam", "particles"});
-  EXPECT_FALSE(fs::exists(path("out/graph.g2o")));
-  EXPECT_TRUE(fs::exists(path("out/map.yaml")));
+TEST_F(Map, AnOlderGraphDoesNotStayBesideTheMapOfAMethodWithoutOne) {
+  const std::string profile = write("mine.yaml", "autonomy: {estimator: {slam: {method: scan_to_map}}}\n");
+  using Arguments = std::vector<std::string>;
+  for (const Arguments& without :
+       {Arguments{"--slam", "particles"}, Arguments{"--slam", "scan_to_map"}, Arguments{"--system", profile}}) {
+    (void)mapped(walk(20), {"--slam", "graph"});
+    EXPECT_TRUE(fs::exists(path("out/graph.g2o")));
+    (void)mapped(walk(20), without);
+    EXPECT_FALSE(fs::exists(path("out/graph.g2o"))) << without.back();
+    EXPECT_TRUE(fs::exists(path("out/map.yaml")));
+  }
 }
 
 TEST_F(Map, AFolderThatCannotBeWrittenIsToldBeforeTheWork) {

@@ -83,18 +83,21 @@ std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(int seed) {
                                                         scenario);
 }
 
-Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs) {
+Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyConfig& config) {
   auto mission = behaviors::Mission::fromText(R"(<root BTCPP_format="4"><BehaviorTree ID="Short"><Sequence>
       <TakeOff height_m="1.0"/>
       <ForceSuccess><Timeout msec="9000"><Explore clearance_m="0.10"/></Timeout></ForceSuccess>
       <Land/>
     </Sequence></BehaviorTree></root>)",
                                               "short.xml");
+  return Autonomy(config, vehicleSheet(), laserSheet(), std::move(mission), std::move(jobs));
+}
+
+Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs) {
   AutonomyConfig config;
-  // So that it seeks loops already within the few metres of a short flight.
   config.estimator.slam.local_sigma_m = 0.02;
   config.estimator.slam.loops.spacing_m = 0.5;
-  return Autonomy(config, vehicleSheet(), laserSheet(), std::move(mission), std::move(jobs));
+  return makeAutonomy(std::move(jobs), config);
 }
 
 bool Witness::heard(const std::string& part) const {

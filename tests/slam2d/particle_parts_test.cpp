@@ -244,6 +244,50 @@ TEST(SurfaceMap, WhatIsNotDrawnToStaysShared) {
   EXPECT_EQ(child.grid().tileIdentity(there), parent.grid().tileIdentity(there));
 }
 
+/// Three beams ahead, level, up and down, from a body at a height over the floor.
+ProjectedScan nodding(double body_m) {
+  ProjectedScan scan;
+  scan.T_odom_body.position_m.z() = body_m;
+  scan.points_level_m = {{2.0F, 0.0F}, {4.0F, 1.0F}, {4.0F, -1.0F}};
+  scan.heights_level_m = {0.1F, 0.5F, -0.5F};
+  return scan;
+}
+
+TEST(SurfaceMap, OnlyWhatIsInTheHeightBandIsDrawn) {
+  const SurfaceMapConfig config;
+  const DrawnHeights heights = heightsAround(1.0, config.grid);  // 0.75 to 1.25 m.
+  const SurfaceScan level = toDraw(nodding(1.0), config, heights);
+  ASSERT_EQ(level.hits.size(), 1U);
+  EXPECT_EQ(level.hits[0].point_m.x(), 2.0F);
+  // The other two left the band halfway; to there they saw nothing.
+  ASSERT_EQ(level.free_m.size(), 2U);
+  for (const Eigen::Vector2f& end : level.free_m) EXPECT_NEAR(end.x(), 2.0F, 1e-5F);
+  // The band is that of the flight, not of the body.
+  const SurfaceScan lower = toDraw(nodding(0.8), config, heights);
+  ASSERT_EQ(lower.hits.size(), 1U);
+  ASSERT_EQ(lower.free_m.size(), 2U);
+  EXPECT_NEAR(lower.free_m[0].x(), 4.0F * 0.9F, 1e-5F);
+  EXPECT_NEAR(lower.free_m[1].x(), 4.0F * 0.1F, 1e-5F);
+  const SurfaceScan from_the_floor = toDraw(nodding(0.2), config, heights);
+  EXPECT_TRUE(from_the_floor.hits.empty() && from_the_floor.free_m.empty());
+}
+
+TEST(SurfaceMap, ItsContourLiesOnTheSurfaces) {
+  DrawingBoard board;
+  SurfaceMap map{SurfaceMapConfig{}};
+  for (int i = 0; i < 5; ++i) map.draw(wallAhead(2.034), {}, board);
+  const std::vector<ContourSegment> contour = map.contourAround({2.0, 0.0}, 5.0);
+  EXPECT_GE(contour.size(), 40U);
+  double length_m = 0.0;
+  for (const ContourSegment& piece : contour) {
+    EXPECT_NEAR(piece.begin_m.x(), 2.034, 0.002);
+    EXPECT_NEAR(piece.end_m.x(), 2.034, 0.002);
+    length_m += (piece.end_m - piece.begin_m).norm();
+  }
+  EXPECT_NEAR(length_m, 2.05, 0.1);
+  EXPECT_TRUE(map.contourAround({20.0, 0.0}, 5.0).empty());
+}
+
 // --- Matching. ---
 
 Eigen::Matrix3d motionCovariance(double sigma_m, double sigma_rad) {

@@ -1,0 +1,139 @@
+// What a shipped profile chooses is what flies: each is flown by itself in the first world, and its counters say which
+// matcher and which SLAM method did the work.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "autonomy/flight_loop.hpp"
+#include "common/config.hpp"
+#include "common/mailbox.hpp"
+#include "evaluation/map_metrics.hpp"
+#include "tests/flight_loop/short_flight.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::Pose2;
+using common::Time;
+
+const std::string kSystems = SWIFTLET_SOURCE_DIR "/config/systems/";
+
+/// config/systems/NAME.yaml, as far as it is read here: these profiles all fly the same vehicle and laser.
+struct Profile {
+  std::string vehicle, laser;
+  AutonomyConfig autonomy;
+  void describe(common::config::Fields& fields) {
+    fields("vehicle", vehicle, "");
+    fields("laser", laser, "");
+    fields.section("autonomy", autonomy, "");
+  }
+};
+
+struct Flown {
+  bool finished = false;
+  double worst_m = 0.0;  ///< Of the estimate in the map, in flight.
+  evaluation::WallError walls;
+  perception::LaserOdometryCounts odometry;
+  perception::SlamCounts slam;
+  Witness witness;
+};
+
+Flown fly(const std::string& name, int seed = 11) {
+  const auto profile = common::config::readFile<Profile>(kSystems + name + ".yaml");
+  EXPECT_EQ(profile.vehicle, "cobra");
+  EXPECT_EQ(profile.laser, "utm_30lx");
+  const auto vehicle = makeVehicle(seed);
+  Autonomy autonomy = makeAutonomy(common::makeLockstepJobs(0), profile.autonomy);
+  common::LosslessQueue<common::OperatorCommand> commands;
+  Flown flown;
+  FlightLoop loop(*vehicle, autonomy, commands, {&flown.witness});
+  const common::Pose3 T_map_world = vehicle->T_world_map().inverse();
+  while (!autonomy.finished() && loop.now() < Time::fromSeconds(45)) {
+    if (!loop.step(loop.now() + common::kControlPeriod)) break;
+    if (!vehicle->truth().airborne) continue;
+    const Pose2 truth = planar(T_map_world * vehicle->truth().T_world_body);
+    const Pose2 estimate = planar(autonomy.state().T_map_body());
+    flown.worst_m = std::max(flown.worst_m, (estimate.position_m() - truth.position_m()).norm());
+  }
+  flown.finished = autonomy.finished() && !vehicle->truth().crashed;
+  flown.odometry = autonomy.odometryCounts();
+  flown.slam = autonomy.slamCounts();
+  const auto walls =
+      evaluation::wallError(*flown.witness.last_world->map->grid, planar(vehicle->T_world_map()), vehicle->rays(), 1.0);
+  if (walls) flown.walls = *walls;
+  std::printf("  %-22s worst %.3f m; walls median %.3f m, p95 %.3f m; %d key scans\n", name.c_str(), flown.worst_m,
+              flown.walls.median_m, flown.walls.p95_m, static_cast<int>(flown.slam.key_scans));
+  return flown;
+}
+
+void expectGood(const Flown& flown) {
+  EXPECT_TRUE(flown.finished);
+  EXPECT_LT(flown.worst_m, 0.05);
+  EXPECT_GT(flown.walls.cells, 500U);
+  EXPECT_LT(flown.walls.median_m, 0.03);
+  EXPECT_LT(flown.walls.p95_m, 0.05);
+}
+
+/// As many matches of each matcher as scans, or none.
+void expectMatchers(const Flown& flown, bool correlative, bool gauss_newton, bool point_to_line) {
+  EXPECT_EQ(flown.odometry.correlative_searches > 300, correlative);
+  EXPECT_EQ(flown.odometry.gauss_newton_searches > 300, gauss_newton);
+  EXPECT_EQ(flown.odometry.point_to_line_searches > 300, point_to_line);
+  EXPECT_EQ((flown.odometry.correlative_searches > 0) + (flown.odometry.gauss_newton_searches > 0) +
+                (flown.odometry.point_to_line_searches > 0),
+            1);
+}
+
+void expectMethods(const Flown& flown, bool graph, bool particles, bool scan_to_map) {
+  const perception::SlamCounts& counts = flown.slam;
+  EXPECT_GT(counts.scans, 300U);
+  EXPECT_EQ(counts.graph_matches > 10, graph);
+  EXPECT_EQ(counts.particle_matches > 10, particles);
+  EXPECT_EQ(counts.map_matches > 10, scan_to_map);
+  EXPECT_EQ((counts.graph_matches > 0) + (counts.particle_matches > 0) + (counts.map_matches > 0), 1);
+}
+
+TEST(ShippedProfile, SwiftletFliesByTheGraph) {
+  const Flown flown = fly("swiftlet");
+  expectGood(flown);
+  expectMatchers(flown, true, false, false);
+  expectMethods(flown, true, false, false);
+}
+
+TEST(ShippedProfile, ParticlesFlyAndTheSameAgain) {
+  const Flown flown = fly("swiftlet_particles");
+  expectGood(flown);
+  expectMatchers(flown, true, false, false);
+  expectMethods(flown, false, true, false);
+  EXPECT_EQ(flown.slam.particle_matches % 30, 0U) << "every scan that is taken in is matched by all particles";
+  EXPECT_EQ(difference(flown.witness, fly("swiftlet_particles").witness), "");
+}
+
+TEST(ShippedProfile, ScanToMapFliesAndTheSameAgain) {
+  const Flown flown = fly("swiftlet_scan_to_map");
+  expectGood(flown);
+  expectMatchers(flown, true, false, false);
+  expectMethods(flown, false, false, true);
+  EXPECT_LT(flown.slam.local_failures, flown.slam.map_matches / 10);
+  EXPECT_EQ(difference(flown.witness, fly("swiftlet_scan_to_map").witness), "");
+}
+
+TEST(ShippedProfile, TheGaussNewtonMatcherFlies) {
+  const Flown flown = fly("swiftlet_gauss_newton");
+  expectGood(flown);
+  expectMatchers(flown, false, true, false);
+  expectMethods(flown, true, false, false);
+}
+
+TEST(ShippedProfile, ThePointToLineMatcherFlies) {
+  const Flown flown = fly("swiftlet_point_to_line");
+  expectGood(flown);
+  expectMatchers(flown, false, false, true);
+  expectMethods(flown, true, false, false);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy
