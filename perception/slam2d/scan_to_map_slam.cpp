@@ -35,9 +35,9 @@ void ScanToMapConfig::describe(common::config::Fields& fields) {
   fields("match_rotation_deg", match_rotation_deg, {0.1, 180}, "A scan is matched to the map after this rotation.");
   fields("match_time_s", match_time_s, {0.001, 1e6}, "A scan is matched to the map after this time.");
   fields("key_distance_m", key_distance_m, {0.01, 10},
-         "A matched scan becomes a key scan after this distance: it is drawn into the surfaces.");
-  fields("key_rotation_deg", key_rotation_deg, {0.1, 180}, "A matched scan becomes a key scan after this rotation.");
-  fields("key_time_s", key_time_s, {0.001, 1e6}, "A matched scan becomes a key scan after this time.");
+         "A scan becomes a key scan, which is drawn into the surfaces, after this distance.");
+  fields("key_rotation_deg", key_rotation_deg, {0.1, 180}, "A scan becomes a key scan after this rotation.");
+  fields("key_time_s", key_time_s, {0.001, 1e6}, "A scan becomes a key scan after this time.");
   fields("window_m", window_m, {0.01, 5}, "Half the least search window.");
   fields("window_deg", window_deg, {0.1, 90}, "Half the least search window of the rotation.");
   fields("max_window_m", max_window_m, {0.01, 5}, "Half the greatest search window; at least window_m.");
