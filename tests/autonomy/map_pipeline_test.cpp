@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "perception/slam2d/slam_method.hpp"
 #include "tests/slam2d/ring.hpp"
 
 namespace swiftlet::autonomy {
@@ -55,21 +56,28 @@ TEST(MapPipeline, ALoopClosureCorrectsWhatWasSeenBefore) {
   EXPECT_EQ(map.keyPoses(), keys) << "the same object until a key scan is added or moved";
 }
 
+/// Whichever method is at work.
 TEST(MapPipeline, AScanThatDidNotMatchIsPlacedButNotDrawn) {
-  const test::Ring ring;
-  const auto jobs = common::makeLockstepJobs(0);
-  MapPipeline map({}, common::Duration::fromSeconds(0.4), *jobs);
-  int scans = 0;
-  ring.fly(0.1, [&](const perception::ProjectedScan& scan, const Pose2& T_odom_body, const Eigen::Matrix3d& covariance,
-                    const Pose2&) {
-    const bool matched = ++scans <= 10;
-    const auto grid = map.grid();
-    const MapStep step = map.add({scan, common::lifted(T_odom_body, 1.0), covariance, matched}, scan.stamp);
-    ASSERT_TRUE(step.at_key);
-    EXPECT_LT((planar(map.keyPoses()->inMap(*step.at_key)).position_m() - step.T_map_body.position_m()).norm(), 1e-9);
-    EXPECT_TRUE(matched || map.grid() == grid);
-  });
-  EXPECT_EQ(map.counts().scans, 10u);
+  using perception::SlamMethod;
+  for (const SlamMethod method : {SlamMethod::kGraph, SlamMethod::kParticles, SlamMethod::kScanToMap}) {
+    const test::Ring ring;
+    const auto jobs = common::makeLockstepJobs(0);
+    perception::SlamMethodConfig config;
+    config.method = method;
+    MapPipeline map(config, common::Duration::fromSeconds(0.4), *jobs);
+    int scans = 0;
+    ring.fly(0.1, [&](const perception::ProjectedScan& scan, const Pose2& T_odom_body,
+                      const Eigen::Matrix3d& covariance, const Pose2&) {
+      const bool matched = ++scans <= 10;
+      const auto grid = map.grid();
+      const MapStep step = map.add({scan, common::lifted(T_odom_body, 1.0), covariance, matched}, scan.stamp);
+      ASSERT_TRUE(step.at_key);
+      EXPECT_LT((planar(map.keyPoses()->inMap(*step.at_key)).position_m() - step.T_map_body.position_m()).norm(), 1e-9);
+      EXPECT_TRUE(matched || map.grid() == grid);
+    });
+    EXPECT_EQ(map.counts().scans, 10u);
+    EXPECT_EQ(map.keyPoses()->keys.size(), map.counts().key_scans);
+  }
 }
 
 TEST(MapPipeline, BeforeTheFirstScanThereIsNoKeyScan) {
