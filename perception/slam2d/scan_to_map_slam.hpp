@@ -70,8 +70,8 @@ class ScanToMapSlam final : public PlanarSlam {
   common::OccupancyGrid snapshot() override;
   const SlamCounts& counts() const override;
 
-  /// Of the additive errors (x_m, y_m, yaw_rad) of the last scan's pose, axes of map, relative to the map around it: how
-  /// far that has drifted since the take-off is not in it. Never less than map_sigma.
+  /// Of the additive errors (x_m, y_m, yaw_rad) of the last scan's pose, axes of map, relative to the map around it:
+  /// how far that has drifted since the take-off is not in it. Never less than map_sigma.
   const Eigen::Matrix3d& covariance() const;
 
  private:
