@@ -46,6 +46,8 @@ ParticleScan toDraw(const ProjectedScan& scan, const ParticleMapConfig& config) 
   }
   for (const Eigen::Vector3f& end : scan.misses_level_m)
     if (end.allFinite()) drawn.free_m.push_back(within(end.head<2>(), config.max_free_range_m));
+  for (const Eigen::Vector3f& end : scan.no_returns_level_m)
+    if (end.allFinite()) drawn.no_returns_m.push_back(within(end.head<2>(), config.max_free_range_m));
   return drawn;
 }
 
@@ -78,6 +80,7 @@ void ParticleMap::sketch(const ParticleScan& scan, const Pose2& T_map_body, Draw
   };
   for (const ParticleScan::Hit& hit : scan.hits) include(hit.point_m);
   for (const Eigen::Vector2f& end : scan.free_m) include(end);
+  for (const Eigen::Vector2f& end : scan.no_returns_m) include(end);
 
   board.rect = rect;
   board.marks.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), 0);
@@ -86,7 +89,10 @@ void ParticleMap::sketch(const ParticleScan& scan, const Pose2& T_map_body, Draw
                        static_cast<std::size_t>(c.x - rect.begin.x)];
   };
   const auto cross = [&](const Eigen::Vector2d& to) {
-    touchCrossed(body, to, &markAt(first), rect.width(), [](std::uint8_t& mark) { mark |= kCrossed; });
+    visitCrossed(body, to, [&](const CellIndex& cell, double, double) {
+      markAt(cell) |= kCrossed;
+      return true;
+    });
   };
   for (const ParticleScan::Hit& hit : scan.hits) {
     const Eigen::Vector2d to = inCells(hit.point_m);
@@ -94,6 +100,11 @@ void ParticleMap::sketch(const ParticleScan& scan, const Pose2& T_map_body, Draw
     markAt(cellOf(to)) = kEnded;
   }
   for (const Eigen::Vector2f& end : scan.free_m) cross(inCells(end));
+  // A wall that is dark, or seen at a grazing angle, swallows beams: nobody has looked through it.
+  const auto isWall = [&](const CellIndex& cell) {
+    return (markAt(cell) & kEnded) != 0 || grid_.at(cell).isOccupied();
+  };
+  for (const Eigen::Vector2f& end : scan.no_returns_m) cross(beforeWall(body, inCells(end), isWall));
 }
 
 /// Not writing what does not change leaves the tile shared.

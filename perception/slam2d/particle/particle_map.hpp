@@ -34,7 +34,8 @@ struct ParticleScan {
     Eigen::Vector2f normal;  ///< Of the surface, towards the laser; zero when it is not known.
   };
   std::vector<Hit> hits;
-  std::vector<Eigen::Vector2f> free_m;  ///< Ends of views that hit nothing.
+  std::vector<Eigen::Vector2f> free_m;        ///< Ends of views that ended on what is not drawn.
+  std::vector<Eigen::Vector2f> no_returns_m;  ///< Ends of views that nothing answered; drawn up to a wall.
 };
 ParticleScan toDraw(const ProjectedScan& scan, const ParticleMapConfig& config);
 
