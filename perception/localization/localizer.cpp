@@ -11,6 +11,7 @@
 #include "perception/localization/localization_task_data.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/pose_tracker.hpp"
+#include "perception/localization/search_patience.hpp"
 
 namespace swiftlet::perception {
 
@@ -22,15 +23,6 @@ namespace {
 /// How far particles are spread about a place that was found: what its search left open.
 const Eigen::Matrix3d kPlaceCovariance =
     Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 1.0 * kRadPerDeg * 1.0 * kRadPerDeg).asDiagonal();
-
-/// A vehicle that is in the map is found within this path length (docs/localization.md), so for so long the whole map
-/// is searched at each search distance. In a map of elsewhere every search is as heavy as all else together, and none
-/// can succeed. So beyond, searches come apart by this share of the path searched in vain.
-constexpr double kPatience_m = 8.0;
-constexpr double kSpacingShare = 0.25;
-/// A search that leaves so few places is not in vain: in a wrong map of the same kind of building, each of 166 searches
-/// of fr079's log in the map of intel found either nothing that is explained or more than 50 places.
-constexpr std::size_t kFewPlaces = 20;
 
 }  // namespace
 
@@ -53,7 +45,6 @@ struct Localizer::Impl {
   void lookElsewhere(const LocalizationResult::Data& found);
   void lose(std::string reason);
   void find(const LocalizationInput& input);
-  double searchSpacing_m() const;
   void ask(const ProjectedScan& scan);
   void forgetSearches();
   void forgetAll();
@@ -89,7 +80,7 @@ struct Localizer::Impl {
   };
   std::optional<Candidate> candidate;
   std::optional<double> searched_path_length_m;  ///< At the last search.
-  double hopeful_path_length_m = 0.0;  ///< Where the last search began that was not in vain, or searching did.
+  SearchPatience patience;
   double nowhere_path_length_m = 0.0;  ///< Since when the local map fits nowhere.
   bool fits_nowhere = false;
 
@@ -192,7 +183,7 @@ void Localizer::Impl::lose(std::string reason) {
   candidate.reset();
   question.reset();
   searched_path_length_m.reset();
-  hopeful_path_length_m = tracker.path_length_m();
+  patience.begin(tracker.path_length_m());
   lost_test.reset();
   fits_nowhere = false;
   places = 0;
@@ -203,16 +194,10 @@ void Localizer::Impl::find(const LocalizationInput& input) {
   if (!local_map.empty() && !tracker.generationDue(input.T_odom_body)) return;
   local_map.add(tracker.T_odom_body(), input.scan.points_level_m);
   tracker.countGenerationsFromHere();
-  if (searched_path_length_m && tracker.path_length_m() - *searched_path_length_m < searchSpacing_m()) return;
-  searched_path_length_m = tracker.path_length_m();
+  const double here_m = tracker.path_length_m();
+  if (searched_path_length_m && here_m - *searched_path_length_m < patience.spacing_m(here_m, config)) return;
+  searched_path_length_m = here_m;
   ask(input.scan);
-}
-
-/// At most the length of the local map, so that every stretch of the path is still compared with the map.
-double Localizer::Impl::searchSpacing_m() const {
-  const double in_vain_m = tracker.path_length_m() - hopeful_path_length_m - kPatience_m;
-  return std::clamp(kSpacingShare * in_vain_m, config.search_distance_m,
-                    std::max(config.search_distance_m, config.local_map_length_m));
 }
 
 void Localizer::Impl::ask(const ProjectedScan& scan) {
@@ -251,7 +236,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
   }
   places = static_cast<int>(found.places.size());
   const LikelyPlace& best = found.places.front();
-  if (found.complete && found.places.size() <= kFewPlaces) hopeful_path_length_m = found.task->path_length_m;
+  if (found.complete) patience.found(found.task->path_length_m, found.places.size());
   const Pose2& T_odom_middle = found.whole.T_odom_middle;
   fits_nowhere = false;
   const Pose2 T_middle_body = T_odom_middle.inverse() * tracker.T_odom_body();
