@@ -11,6 +11,7 @@
 #include "perception/localization/localization_task_data.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/pose_tracker.hpp"
+#include "perception/localization/search_patience.hpp"
 
 namespace swiftlet::perception {
 
@@ -79,7 +80,8 @@ struct Localizer::Impl {
   };
   std::optional<Candidate> candidate;
   std::optional<double> searched_path_length_m;  ///< At the last search.
-  double nowhere_path_length_m = 0.0;            ///< Since when the local map fits nowhere.
+  SearchPatience patience;
+  double nowhere_path_length_m = 0.0;  ///< Since when the local map fits nowhere.
   bool fits_nowhere = false;
 
   // The search that is asked for, and the one that is under way.
@@ -181,6 +183,7 @@ void Localizer::Impl::lose(std::string reason) {
   candidate.reset();
   question.reset();
   searched_path_length_m.reset();
+  patience.begin(tracker.path_length_m());
   lost_test.reset();
   fits_nowhere = false;
   places = 0;
@@ -191,8 +194,9 @@ void Localizer::Impl::find(const LocalizationInput& input) {
   if (!local_map.empty() && !tracker.generationDue(input.T_odom_body)) return;
   local_map.add(tracker.T_odom_body(), input.scan.points_level_m);
   tracker.countGenerationsFromHere();
-  if (searched_path_length_m && tracker.path_length_m() - *searched_path_length_m < config.search_distance_m) return;
-  searched_path_length_m = tracker.path_length_m();
+  const double here_m = tracker.path_length_m();
+  if (searched_path_length_m && here_m - *searched_path_length_m < patience.spacing_m(here_m, config)) return;
+  searched_path_length_m = here_m;
   ask(input.scan);
 }
 
@@ -232,6 +236,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
   }
   places = static_cast<int>(found.places.size());
   const LikelyPlace& best = found.places.front();
+  if (found.complete) patience.found(found.task->path_length_m, found.places.size());
   const Pose2& T_odom_middle = found.whole.T_odom_middle;
   fits_nowhere = false;
   const Pose2 T_middle_body = T_odom_middle.inverse() * tracker.T_odom_body();

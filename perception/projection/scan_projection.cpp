@@ -140,7 +140,7 @@ ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& 
   std::vector<Eigen::Vector3f> run;  // Ends of the view along the present run of beams without return.
   const auto endRun = [&] {
     if (static_cast<int>(run.size()) >= config.min_no_return_run)
-      result.misses_level_m.insert(result.misses_level_m.end(), run.begin(), run.end());
+      result.no_returns_level_m.insert(result.no_returns_level_m.end(), run.begin(), run.end());
     run.clear();
   };
 

@@ -48,11 +48,12 @@ struct ProjectedScan {
   common::Pose3 T_odom_body;                    ///< At `stamp`, as predicted by `PoseAt`.
   std::vector<Eigen::Vector2f> points_level_m;  ///< End points, in beam order.
   std::vector<float> heights_level_m;           ///< Height of each end point relative to the body.
-  /// Where the view along a beam that hit no wall ends: everything from the body to there is free. At the greatest
-  /// range for a beam without return, nearer where the beam leaves the height band in which "free" means free for the
-  /// body (a tilted beam, one that ends on floor or ceiling).
-  /// The third coordinate is the height relative to the body.
+  /// Where the view along a beam that ended on floor or ceiling leaves the height band in which "free" means free for
+  /// the body: everything from the body to there is free. The third coordinate is the height relative to the body.
   std::vector<Eigen::Vector3f> misses_level_m;
+  /// The same for beams without return, at most at the greatest range. Nothing answered them: a dark or slanted wall
+  /// swallows a beam too, so that they say less.
+  std::vector<Eigen::Vector3f> no_returns_level_m;
   std::vector<MirrorPoint> mirror;
   BeamCounts counts;
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdlib>
 
 #include <Eigen/Core>
@@ -17,31 +16,51 @@ inline common::CellIndex cellOf(const Eigen::Vector2d& point_cells) {
   return {static_cast<int>(std::floor(point_cells.x())), static_cast<int>(std::floor(point_cells.y()))};
 }
 
-/// Calls touch(mark) for every cell the line from `from` to `to` touches, up to, but without, that of its end
-/// (Amanatides and Woo 1987). Lines through cell centres only would leave pinholes between the rays, and each would be
-/// a frontier. Both points are in cells, with fractions; `mark` is that of the cell of `from`, in rows of `stride`.
-template <typename Mark, typename Touch>
-void touchCrossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Mark* mark, int stride, Touch&& touch) {
+/// Calls visit(cell, enters, leaves) for every cell the line from `from` to `to` touches, up to, but without, that of
+/// its end, until that returns false; true when it never did (Amanatides and Woo 1987). Lines through cell centres only
+/// would leave pinholes between the rays, and each would be a frontier. Both points are in cells, with fractions;
+/// `enters` and `leaves` say between which shares of its length the line is in the cell.
+template <typename Visit>
+bool visitCrossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Visit&& visit) {
   const common::CellIndex begin = cellOf(from), end = cellOf(to);
   const Eigen::Vector2d ray = to - from;
   int left_x = std::abs(end.x - begin.x), left_y = std::abs(end.y - begin.y);
   const double per_x = 1.0 / std::max(std::abs(ray.x()), 1e-12), per_y = 1.0 / std::max(std::abs(ray.y()), 1e-12);
   double next_x = per_x * (ray.x() >= 0.0 ? begin.x + 1 - from.x() : from.x() - begin.x);
   double next_y = per_y * (ray.y() >= 0.0 ? begin.y + 1 - from.y() : from.y() - begin.y);
-  const std::ptrdiff_t step_x = ray.x() >= 0.0 ? 1 : -1;
-  const std::ptrdiff_t step_y = ray.y() >= 0.0 ? stride : -static_cast<std::ptrdiff_t>(stride);
+  const int step_x = ray.x() >= 0.0 ? 1 : -1, step_y = ray.y() >= 0.0 ? 1 : -1;
+  common::CellIndex cell = begin;
+  double enters = 0.0;
   while (left_x + left_y > 0) {
-    touch(*mark);
-    if (left_y == 0 || (left_x > 0 && next_x < next_y)) {
-      mark += step_x;
+    const bool along_x = left_y == 0 || (left_x > 0 && next_x < next_y);
+    const double leaves = along_x ? next_x : next_y;
+    if (!visit(cell, enters, leaves)) return false;
+    enters = leaves;
+    if (along_x) {
+      cell.x += step_x;
       next_x += per_x;
       --left_x;
     } else {
-      mark += step_y;
+      cell.y += step_y;
       next_y += per_y;
       --left_y;
     }
   }
+  return true;
+}
+
+/// How far a view from `from` to `to` reaches when isWall(cell) ends it: to within the last cell before the first wall,
+/// or to `to`. In cells, with fractions.
+template <typename IsWall>
+Eigen::Vector2d beforeWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, IsWall&& isWall) {
+  constexpr double kCorner = 1e-6;  // A line that only touches the corner of a cell does not end safely within it.
+  double reached = 0.0;
+  const bool open = visitCrossed(from, to, [&](const common::CellIndex& cell, double enters, double leaves) {
+    if (isWall(cell)) return false;
+    if (leaves - enters > kCorner) reached = 0.5 * (enters + leaves);
+    return true;
+  });
+  return open && !isWall(cellOf(to)) ? to : from + reached * (to - from);
 }
 
 }  // namespace swiftlet::perception

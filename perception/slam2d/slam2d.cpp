@@ -129,6 +129,7 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& pose, cons
   const int key = static_cast<int>(graph.keys.size());
   auto copy = std::make_shared<ProjectedScan>(scan);
   copy->misses_level_m.clear();  // Kept where they are drawn.
+  copy->no_returns_level_m.clear();
   copy->mirror.clear();
   graph.keys.push_back({std::move(copy), pose, {}, {}});
   if (key > 0) graph.add({anchor, key, T_anchor_body, edgeCovariance(covariance_anchor, config), false});

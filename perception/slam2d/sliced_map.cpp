@@ -25,6 +25,8 @@ Cell merged(Cell a, Cell b) {
   return occupancy::isFree(a) && occupancy::isFree(b) ? std::min(a, b) : std::max(a, b);
 }
 
+bool rowByRow(const CellIndex& a, const CellIndex& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
+
 /// The part of the view that is within `share` of its length.
 Eigen::Vector3f shortened(const Eigen::Vector3f& end, float share) { return share < 1.0F ? end * share : end; }
 
@@ -58,6 +60,8 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
   }
   for (const Eigen::Vector3f& end : scan.misses_level_m)
     if (end.allFinite()) add(drawn.free_level_m, withinRange(end, config.max_free_range_m));
+  for (const Eigen::Vector3f& end : scan.no_returns_level_m)
+    if (end.allFinite()) add(drawn.no_returns_level_m, withinRange(end, config.max_free_range_m));
   return drawn;
 }
 
@@ -106,22 +110,39 @@ void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
   const double c = std::cos(T_map_body.yaw_rad), s = std::sin(T_map_body.yaw_rad);
   const Eigen::Vector2d body = T_map_body.position_m() / config_.resolution_m;
   const int body_slice = sliceAt(scan.body_height_m);
-  const auto add = [&](const Eigen::Vector3f& end, bool ended) {
-    const Eigen::Vector2d to((T_map_body.x_m + c * end.x() - s * end.y()) / config_.resolution_m,
-                             (T_map_body.y_m + s * end.x() + c * end.y()) / config_.resolution_m);
-    const int last = sliceAt(scan.body_height_m + end.z());
+  const auto inCells = [&](const Eigen::Vector3f& end) {
+    return Eigen::Vector2d((T_map_body.x_m + c * end.x() - s * end.y()) / config_.resolution_m,
+                           (T_map_body.y_m + s * end.x() + c * end.y()) / config_.resolution_m);
+  };
+  const auto add = [&](const Eigen::Vector2d& to, double rise_m, bool ended) {
+    const int last = sliceAt(scan.body_height_m + rise_m);
     const int step = last > body_slice ? 1 : -1;
     Eigen::Vector2d from = body;
     for (int slice = body_slice; slice != last; slice += step) {
       const double boundary_m = (slice + 0.5 * step) * config_.slice_height_m - scan.body_height_m;
-      const Eigen::Vector2d cut = body + (to - body) * std::clamp(boundary_m / end.z(), 0.0, 1.0);
+      const Eigen::Vector2d cut = body + (to - body) * std::clamp(boundary_m / rise_m, 0.0, 1.0);
       rays_[slice].push_back({from, cut, false});
       from = cut;
     }
     rays_[last].push_back({from, to, ended});
   };
-  for (const Eigen::Vector3f& end : scan.free_level_m) add(end, false);
-  for (const Eigen::Vector3f& end : scan.hits_level_m) add(end, true);
+  for (const Eigen::Vector3f& end : scan.free_level_m) add(inCells(end), end.z(), false);
+  ended_.clear();
+  for (const Eigen::Vector3f& end : scan.hits_level_m) {
+    const Eigen::Vector2d to = inCells(end);
+    add(to, end.z(), true);
+    ended_.push_back(cellOf(to));
+  }
+  std::sort(ended_.begin(), ended_.end(), rowByRow);
+  for (const Eigen::Vector3f& end : scan.no_returns_level_m) {
+    const Eigen::Vector2d to = inCells(end);
+    const Eigen::Vector2d seen = beforeWall(body, to, [&](CellIndex cell) { return isWall(cell); });
+    add(seen, end.z() * (seen - body).norm() / std::max((to - body).norm(), 1e-9), false);
+  }
+}
+
+bool SlicedMap::isWall(CellIndex cell) const {
+  return occupancy::isOccupied(combined_.at(cell)) || std::binary_search(ended_.begin(), ended_.end(), cell, rowByRow);
 }
 
 void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays) {
@@ -135,8 +156,10 @@ void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays) {
   }
   marks_.assign(static_cast<std::size_t>(rect_.width()) * static_cast<std::size_t>(rect_.height()), 0);
   for (const Ray& ray : rays) {
-    touchCrossed(ray.from, ray.to, &markAt(cellOf(ray.from)), rect_.width(),
-                 [](std::uint32_t& mark) { mark += kCrossed; });
+    visitCrossed(ray.from, ray.to, [&](const CellIndex& cell, double, double) {
+      markAt(cell) += kCrossed;
+      return true;
+    });
     markAt(cellOf(ray.to)) += ray.ended ? kEnded : kCrossed;
   }
   apply(slice);

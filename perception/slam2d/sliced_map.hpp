@@ -22,12 +22,15 @@ struct DrawnScan {
   common::Time stamp;
   double body_height_m = 0.0;  ///< Over the take-off floor.
   std::vector<Eigen::Vector3f> hits_level_m;
-  std::vector<Eigen::Vector3f> free_level_m;  ///< Ends of views that hit nothing.
+  std::vector<Eigen::Vector3f> free_level_m;        ///< Ends of views that ended on what is not drawn.
+  std::vector<Eigen::Vector3f> no_returns_level_m;  ///< Ends of views that nothing answered; drawn up to a wall.
 };
 DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& config);
 
-/// In each slice, cells where beams end gain, cells that beams cross lose, each at most once a scan. Single-threaded;
-/// a snapshot may go to another thread.
+/// In each slice, cells where beams end gain, cells that beams cross lose, each at most once a scan. A beam without
+/// return crosses cells only up to what is occupied at flight height, or where another beam of its scan ended: a wall
+/// that is dark, or seen at a grazing angle, swallows beams, and nobody has looked through it. Single-threaded; a
+/// snapshot may go to another thread.
 class SlicedMap {
  public:
   explicit SlicedMap(const GridDrawingConfig& config);
@@ -52,6 +55,7 @@ class SlicedMap {
 
   int sliceAt(double height_m) const;
   void split(const DrawnScan& scan, const common::Pose2& T_map_body);
+  bool isWall(common::CellIndex cell) const;
   void drawSlice(int slice, const std::vector<Ray>& rays);
   void apply(int slice);
   void fadeAround(int slice, common::CellIndex cell);
@@ -73,6 +77,7 @@ class SlicedMap {
   int drawn_ = 0;  ///< Scans.
   // Of the scan being drawn.
   std::map<int, std::vector<Ray>> rays_;
+  std::vector<common::CellIndex> ended_;  ///< Cells that its beams ended in, at any height; in order.
   common::CellRect rect_;
   std::vector<std::uint32_t> marks_;
 };

@@ -49,9 +49,9 @@ SurfaceScan toDraw(const ProjectedScan& scan, const SurfaceMapConfig& config, co
   SurfaceScan drawn;
   const double body_m = scan.T_odom_body.position_m.z(), max_hit_range_m = config.grid.max_hit_range_m;
   if (!band.contains(body_m)) return drawn;
-  const auto addFree = [&](const Eigen::Vector2f& end, double height_m, double range_m) {
+  const auto free = [&](const Eigen::Vector2f& end, double height_m, double range_m) -> Eigen::Vector2f {
     const float within_range = static_cast<float>(range_m) / std::max(end.norm(), 1e-6F);
-    drawn.free_m.push_back(end * std::min(static_cast<float>(withinBand(band, body_m, height_m)), within_range));
+    return end * std::min(static_cast<float>(withinBand(band, body_m, height_m)), within_range);
   };
   const std::vector<OrientedPoint> oriented = orientedPoints(scan, 0, config.max_gap_m, max_hit_range_m);
   auto next = oriented.begin();
@@ -64,12 +64,16 @@ SurfaceScan toDraw(const ProjectedScan& scan, const SurfaceMapConfig& config, co
         is_oriented ? SurfaceScan::Hit{next->foot_m, next->normal} : SurfaceScan::Hit{end, Eigen::Vector2f::Zero()};
     if (is_oriented) ++next;
     if (end.norm() > static_cast<float>(max_hit_range_m) || !band.contains(body_m + height_m))
-      addFree(end, height_m, max_hit_range_m);
+      drawn.free_m.push_back(free(end, height_m, max_hit_range_m));
     else
       drawn.hits.push_back(hit);
   }
   for (const Eigen::Vector3f& end : scan.misses_level_m)
-    if (end.allFinite()) addFree(end.head<2>(), static_cast<double>(end.z()), config.grid.max_free_range_m);
+    if (end.allFinite())
+      drawn.free_m.push_back(free(end.head<2>(), static_cast<double>(end.z()), config.grid.max_free_range_m));
+  for (const Eigen::Vector3f& end : scan.no_returns_level_m)
+    if (end.allFinite())
+      drawn.no_returns_m.push_back(free(end.head<2>(), static_cast<double>(end.z()), config.grid.max_free_range_m));
   return drawn;
 }
 
@@ -120,6 +124,7 @@ void SurfaceMap::sketch(const SurfaceScan& scan, const Pose2& T_map_body, Drawin
   };
   for (const SurfaceScan::Hit& hit : scan.hits) include(hit.point_m);
   for (const Eigen::Vector2f& end : scan.free_m) include(end);
+  for (const Eigen::Vector2f& end : scan.no_returns_m) include(end);
 
   board.rect = rect;
   board.marks.assign(static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height()), 0);
@@ -128,7 +133,10 @@ void SurfaceMap::sketch(const SurfaceScan& scan, const Pose2& T_map_body, Drawin
                        static_cast<std::size_t>(c.x - rect.begin.x)];
   };
   const auto cross = [&](const Eigen::Vector2d& to) {
-    touchCrossed(body, to, &markAt(first), rect.width(), [](std::uint8_t& mark) { mark |= kCrossed; });
+    visitCrossed(body, to, [&](const CellIndex& cell, double, double) {
+      markAt(cell) |= kCrossed;
+      return true;
+    });
   };
   for (const SurfaceScan::Hit& hit : scan.hits) {
     const Eigen::Vector2d to = inCells(hit.point_m);
@@ -136,6 +144,11 @@ void SurfaceMap::sketch(const SurfaceScan& scan, const Pose2& T_map_body, Drawin
     markAt(cellOf(to)) = kEnded;
   }
   for (const Eigen::Vector2f& end : scan.free_m) cross(inCells(end));
+  // A wall that is dark, or hit at a grazing angle, swallows beams: what is beyond it is not known to be free.
+  const auto isWall = [&](const CellIndex& cell) {
+    return (markAt(cell) & kEnded) != 0 || grid_.at(cell).isOccupied();
+  };
+  for (const Eigen::Vector2f& end : scan.no_returns_m) cross(beforeWall(body, inCells(end), isWall));
 }
 
 /// Not writing what does not change leaves the tile shared.

@@ -49,7 +49,8 @@ struct SurfaceScan {
     Eigen::Vector2f normal;  ///< Of the surface, towards the laser; zero when it is not known.
   };
   std::vector<Hit> hits;
-  std::vector<Eigen::Vector2f> free_m;  ///< Ends of views that hit nothing.
+  std::vector<Eigen::Vector2f> free_m;        ///< Ends of views that ended on what is not drawn.
+  std::vector<Eigen::Vector2f> no_returns_m;  ///< Ends of views that nothing answered; drawn up to a wall.
 };
 /// A view that leaves the band says that it is free as long as it was within. A scan from outside the band says
 /// nothing.

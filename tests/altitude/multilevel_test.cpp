@@ -1,4 +1,5 @@
-// Stories of flights over furniture, after the figures of Grzonka 2012 (3 and 7).
+// Stories of flights over furniture, after the figures of Grzonka 2012 (3 and 7). What is promised are the figures of
+// that paper: the heights of chair and table (V-C), and the altitude of the vehicle (V-D b).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,6 +7,12 @@
 
 namespace swiftlet::perception {
 namespace {
+
+/// "The estimated heights of the chair and the tables were 48.6 cm +- 2.7 cm and 74.9 cm +- 2.8 cm" (48 and 77 cm).
+constexpr double kChairSigma_m = 0.027, kTableSigma_m = 0.028;
+/// "The desired height was kept by the vehicle up to an error of +-10 cm", over different elevations. The estimate has
+/// no more than half of it at rest, so that half is left to the control of the vehicle.
+constexpr double kAltitude_m = 0.10, kAltitudeAtRest_m = 0.05;
 
 const common::Level* levelNear(const common::LevelMap& map, double height_m, double tolerance_m = 0.08) {
   const common::Level* best = nullptr;
@@ -23,10 +30,10 @@ TEST(MultilevelFilter, TracksClimbAndHoverOverAFlatFloor) {
   EXPECT_EQ(flight.filter.levels().levels.size(), 1u);
   EXPECT_EQ(flight.filter.levels().levels[0].height_m, 0.0);
   EXPECT_LE(flight.without_measurement, 7);  // Until the first has settled.
-  EXPECT_LT(flight.rms_m(), 0.012);
-  EXPECT_NEAR(flight.filter.state().velocity_m_s, flight.vz_m_s, 0.05);
+  EXPECT_LT(flight.worst_error_m, kAltitudeAtRest_m);
+  EXPECT_NEAR(flight.filter.state().velocity_m_s, flight.vz_m_s, 0.02);  // Bachrach 2009: 0.02 m/s against the truth.
   ASSERT_TRUE(flight.last.height_above_ground_m);
-  EXPECT_NEAR(*flight.last.height_above_ground_m, flight.z_m, 0.03);
+  EXPECT_NEAR(*flight.last.height_above_ground_m, flight.z_m, kAltitudeAtRest_m);
 }
 
 // Fig. 3: a chair (level 1) and a table (level 2); the vehicle turns and meets the same table elsewhere (level 3);
@@ -39,8 +46,8 @@ TEST(MultilevelFilter, Figure3TheSameTableFoundTwiceBecomesOne) {
   flight.flyTo({3.0, 0.0});
   auto map = flight.filter.levels();
   ASSERT_EQ(map.levels.size(), 3u);
-  EXPECT_NEAR(map.levels[1].height_m, 0.48, 0.02);
-  EXPECT_NEAR(map.levels[2].height_m, 0.77, 0.02);
+  EXPECT_NEAR(map.levels[1].height_m, 0.48, kChairSigma_m);
+  EXPECT_NEAR(map.levels[2].height_m, 0.77, kTableSigma_m);
   // Off the table, around, and onto it again two metres farther along.
   flight.flyTo({4.5, 0.0});
   flight.flyTo({4.5, 3.0});
@@ -49,7 +56,7 @@ TEST(MultilevelFilter, Figure3TheSameTableFoundTwiceBecomesOne) {
   const auto tables = std::count_if(map.levels.begin(), map.levels.end(),
                                     [](const common::Level& l) { return std::abs(l.height_m - 0.77) < 0.05; });
   EXPECT_EQ(tables, 2) << "the table's far end is not near its mapped part: a level of its own";
-  EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.03);
+  EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, kAltitudeAtRest_m);
   const int joined = flight.joined;
   flight.flyTo({3.2, 0.2});
   EXPECT_GT(flight.joined, joined);
@@ -57,12 +64,12 @@ TEST(MultilevelFilter, Figure3TheSameTableFoundTwiceBecomesOne) {
   const auto left = std::count_if(map.levels.begin(), map.levels.end(),
                                   [](const common::Level& l) { return std::abs(l.height_m - 0.77) < 0.05; });
   EXPECT_EQ(left, 1);
-  EXPECT_NEAR(levelNear(map, 0.77)->height_m, 0.77, 0.015);
+  EXPECT_NEAR(levelNear(map, 0.77)->height_m, 0.77, kTableSigma_m);
   EXPECT_GT(levelNear(map, 0.77)->cells.size(), 25u) << "both stretches belong to it";
-  EXPECT_LT(flight.worst_error_m, 0.05);
+  EXPECT_LT(flight.worst_error_m, kAltitude_m);
 }
 
-// 48.6 +- 2.7 for a chair of 48, 74.9 +- 2.8 for tables of 77 [Freiburg]; ours over 20 flights of the same kind.
+// Over 20 flights of the kind of the paper's. Its means are 0.6 cm and 2.1 cm off.
 TEST(MultilevelFilter, HeightsOfChairAndTableBeatThePaper) {
   double chair_sum = 0, chair2 = 0, table_sum = 0, table2 = 0, worst_m = 0;
   constexpr int kFlights = 20;
@@ -95,9 +102,11 @@ TEST(MultilevelFilter, HeightsOfChairAndTableBeatThePaper) {
   const double chair_rms_cm = 100 * std::sqrt(chair2 / kFlights), table_rms_cm = 100 * std::sqrt(table2 / kFlights);
   std::printf("levels: chair %.1f +- %.1f cm (48), table %.1f +- %.1f cm (77), worst height error %.1f cm\n", chair_cm,
               chair_rms_cm, table_cm, table_rms_cm, 100 * worst_m);
-  EXPECT_LT(chair_rms_cm, 2.7);
-  EXPECT_LT(table_rms_cm, 2.8);
-  EXPECT_LT(worst_m, 0.10);
+  EXPECT_NEAR(chair_cm, 48.0, 0.6);
+  EXPECT_NEAR(table_cm, 77.0, 2.1);
+  EXPECT_LT(chair_rms_cm, 100 * kChairSigma_m);
+  EXPECT_LT(table_rms_cm, 100 * kTableSigma_m);
+  EXPECT_LT(worst_m, kAltitude_m);
 }
 
 TEST(MultilevelFilter, StepsMetWhileClimbingAndSinkingDoNotMoveTheHeight) {
@@ -111,11 +120,11 @@ TEST(MultilevelFilter, StepsMetWhileClimbingAndSinkingDoNotMoveTheHeight) {
     flight.position_m.x() += 0.01;
     flight.scan(i < 40 ? 0.3 : (i >= 280 && i < 320 ? -0.3 : 0.0));
   }
-  EXPECT_LT(flight.worst_error_m, 0.05);
+  EXPECT_LT(flight.worst_error_m, kAltitude_m);
   const auto map = flight.filter.levels();
   for (const double height_m : {0.30, 0.60, 0.90}) {
     ASSERT_TRUE(levelNear(map, height_m)) << height_m;
-    EXPECT_NEAR(levelNear(map, height_m)->height_m, height_m, 0.03);
+    EXPECT_NEAR(levelNear(map, height_m)->height_m, height_m, kTableSigma_m);
   }
 }
 
@@ -129,10 +138,10 @@ TEST(MultilevelFilter, ManyCrossingsDoNotDrift) {
     flight.flyTo({0.0, 0.1 * (crossing % 5)}, 1.0);
   }
   const auto map = flight.filter.levels();
-  EXPECT_LT(flight.worst_error_m, 0.08);  // Up to two seconds by the accelerations alone.
-  EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.02);
-  EXPECT_NEAR(levelNear(map, 0.48)->height_m, 0.48, 0.015);
-  EXPECT_NEAR(levelNear(map, 0.77)->height_m, 0.77, 0.015);
+  EXPECT_LT(flight.worst_error_m, kAltitude_m);  // Up to two seconds by the accelerations alone.
+  EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, kAltitudeAtRest_m);
+  EXPECT_NEAR(levelNear(map, 0.48)->height_m, 0.48, kChairSigma_m);
+  EXPECT_NEAR(levelNear(map, 0.77)->height_m, 0.77, kTableSigma_m);
   EXPECT_EQ(map.levels[0].height_m, 0.0);
   EXPECT_LE(map.levels.size(), 5u) << "the floor beyond the furniture has been joined";
   std::printf("120 crossings: worst height error %.1f cm, RMS %.1f cm, %zu levels\n", 100 * flight.worst_error_m,
@@ -153,7 +162,7 @@ TEST(MultilevelFilter, TheFloorBehindAWideTableIsKnownAtOnce) {
   flight.climbTo(1.5);
   flight.flyTo({6.0, 0.0});
   EXPECT_EQ(flight.filter.levels().levels.size(), 2u);
-  EXPECT_LT(flight.worst_error_m, 0.04);
+  EXPECT_LT(flight.worst_error_m, kAltitude_m);
 }
 
 TEST(MultilevelFilter, TheFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
@@ -187,8 +196,8 @@ TEST(MultilevelFilter, SlopesDoNotCarryTheHeightAway) {
         flight.flyTo({end_m + 1.5, 0.0}, speed_m_s);
         flight.flyTo({0.0, 0.0}, speed_m_s);
       }
-      EXPECT_LT(flight.worst_error_m, 0.08);  // Up to two seconds by the accelerations alone.
-      EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.02);
+      EXPECT_LT(flight.worst_error_m, kAltitude_m);  // Up to two seconds by the accelerations alone.
+      EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, kAltitudeAtRest_m);
     }
   }
 }
@@ -217,12 +226,13 @@ TEST(MultilevelFilter, TheFloorBehindClutterIsBelievedAgain) {
     flight.acceleration_bias_m_s2 = flight.random.uniform(-0.03, 0.03);
     flight.flyTo({x_m + 1.5, 0.0}, 0.7);
     untold += flight.last.measurement ? 0 : 1;
-    wrong += std::abs(flight.filter.state().height_m - flight.z_m) < 0.05 ? 0 : 1;
+    wrong += std::abs(flight.filter.state().height_m - flight.z_m) < kAltitudeAtRest_m ? 0 : 1;
   }
   std::printf("floor behind clutter: %d of %d flights without a measurement, %d with a wrong height\n", untold,
               kFlights, wrong);
-  EXPECT_LE(untold, kFlights * 2 / 100);
-  EXPECT_LE(wrong, kFlights * 3 / 100);
+  // The paper has no such figure. One in fifty is what is promised: clutter like this is met a few times in a flight.
+  EXPECT_LE(untold, kFlights / 50);
+  EXPECT_LE(wrong, kFlights / 50);
 }
 
 TEST(MultilevelFilter, OutliersAndDropoutsMakeNoLevels) {
@@ -233,7 +243,7 @@ TEST(MultilevelFilter, OutliersAndDropoutsMakeNoLevels) {
   flight.climbTo(1.5);
   flight.flyTo({5.0, 0.0});
   EXPECT_EQ(flight.filter.levels().levels.size(), 1u);
-  EXPECT_LT(flight.worst_error_m, 0.05);
+  EXPECT_LT(flight.worst_error_m, kAltitudeAtRest_m);
 }
 
 TEST(MultilevelFilter, WithoutAnyReturnItPredictsAndSaysSo) {
@@ -249,7 +259,7 @@ TEST(MultilevelFilter, WithoutAnyReturnItPredictsAndSaysSo) {
   EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 4.0 * std::sqrt(flight.filter.state().covariance(0, 0)));
   flight.dropout_rate = 0.0;
   for (int i = 0; i < 20; ++i) flight.scan(0.0);
-  EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.02);
+  EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, kAltitudeAtRest_m);
   EXPECT_EQ(flight.filter.levels().levels.size(), 1u);
 }
 
@@ -264,8 +274,8 @@ TEST(MultilevelFilter, ATableEdgeSplitsTheBeamsBetweenBothLevels) {
   for (int i = 0; i < 80; ++i) flight.scan(0.0);
   ASSERT_TRUE(flight.last.measurement);
   EXPECT_EQ(flight.last.measurement->beams, 10);
-  EXPECT_NEAR(*flight.last.height_above_ground_m, flight.z_m - 0.75, 0.02) << "over the highest below";
-  EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.02);
+  EXPECT_NEAR(*flight.last.height_above_ground_m, flight.z_m - 0.75, kAltitudeAtRest_m) << "over the highest below";
+  EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, kAltitudeAtRest_m);
 }
 
 TEST(MultilevelFilter, TheVarianceIsHonest) {
@@ -286,7 +296,7 @@ TEST(MultilevelFilter, TheVarianceIsHonest) {
     const auto* same = levelNear(map, 0.6, 0.2);
     nees += std::pow(same->height_m - 0.6, 2) / same->variance_m2 / kFlights;
   }
-  EXPECT_LT(nees, 1.6);
+  EXPECT_LT(nees, 1.6);  // 99 % of the means of 40 squares of one degree of freedom.
 }
 
 TEST(MultilevelFilter, TheSameFlightGivesTheSameBits) {

@@ -1,5 +1,8 @@
 // Stories of a robot that does not know where it is, scan by scan. Truth is seen by the scoring alone.
+#include <algorithm>
+#include <cstdio>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>
@@ -67,6 +70,50 @@ TEST(Localizer, FindsItselfWithinAFewMetresAndStaysFound) {
     EXPECT_LE(found_m, 5.0) << seed;
     EXPECT_LE(worst_m, 0.3) << seed;
   }
+}
+
+/// A robot that comes into the mapped building from another one, of which it has no map.
+TEST(Localizer, InAMapOfElsewhereSearchesComeApartAndTheWayBackIsFound) {
+  const test::Building elsewhere = test::hall(3), mapped = test::offices(3);
+  Localizer localizer(test::mapOf(mapped), Pose2{}, {}, 3);
+  common::RandomStream noise(3, "elsewhere");
+  double walked_m = 0.0;
+  std::vector<double> searched_at_m;
+  Pose2 T_odom_body;
+  const auto walkIn = [&](const test::Building& building, double length_m) {
+    const test::Walks walks(building);
+    test::Walker walker(walks, 3);
+    const double until_m = walked_m + length_m;
+    auto state = LocalizationState::kGlobal;
+    while (walked_m < until_m && state != LocalizationState::kLocalized) {
+      const Pose2 from = walker.pose();
+      const Time stamp = Time::fromSeconds(walked_m / 0.7);
+      localizer.follow({test::levelScan(building.world, from, stamp, noise), T_odom_body, {}, true, false});
+      if (const auto task = localizer.takeTask()) {
+        searched_at_m.push_back(walked_m);
+        localizer.apply(run(*task));
+      }
+      state = localizer.state();
+      walker.advance(0.1);
+      const Pose2 moved = between(from, walker.pose());
+      T_odom_body = T_odom_body * moved;
+      walked_m += std::max(moved.position_m().norm(), 0.001);
+    }
+    return state;
+  };
+  EXPECT_NE(walkIn(elsewhere, 60.0), LocalizationState::kLocalized);
+  const auto searches = [&](double from_m, double to_m) {
+    return std::count_if(searched_at_m.begin(), searched_at_m.end(),
+                         [&](double at_m) { return at_m >= from_m && at_m < to_m; });
+  };
+  EXPECT_GE(searches(0.0, 8.0), 15) << "each 0.4 m at first";
+  EXPECT_LE(searches(40.0, 60.0), 4);
+  const double home_m = walked_m;
+  EXPECT_EQ(walkIn(mapped, 30.0), LocalizationState::kLocalized);
+  // The next search may be 12 m away, and what it sees of the building elsewhere is forgotten by the one after.
+  EXPECT_LE(walked_m - home_m, 25.0);
+  std::printf("  %td searches in 60 m elsewhere; found %.1f m after it came back\n", searches(0.0, home_m),
+              walked_m - home_m);
 }
 
 /// What the covariance claims is what the errors are, within a factor.

@@ -133,8 +133,9 @@ TEST(ScanProjection, CountsWhatCannotBeUsed) {
   EXPECT_EQ(projected.counts, (BeamCounts{3, 4, 5, 0, 0, 0, 0}));
   EXPECT_EQ(projected.points_level_m.size(), 3U);
   // The lone beam without return is a dropout; the three side by side are free space up to the greatest range.
-  ASSERT_EQ(projected.misses_level_m.size(), 3U);
-  EXPECT_NEAR(projected.misses_level_m[0].head<2>().norm(), laser.range_max_m, 1e-3);
+  EXPECT_TRUE(projected.misses_level_m.empty());
+  ASSERT_EQ(projected.no_returns_level_m.size(), 3U);
+  EXPECT_NEAR(projected.no_returns_level_m[0].head<2>().norm(), laser.range_max_m, 1e-3);
 }
 
 TEST(ScanProjection, SurvivesGarbage) {

@@ -53,6 +53,67 @@ TEST(GridDrawing, AWalkerIsClearedAgain) {
   EXPECT_LE(scans, 12);
 }
 
+/// What a laser at (0, y) sees of a wall along x = 2 m, from -3 m to 3 m, whose middle third is dark: seen at less than
+/// 45 degrees it swallows the beams.
+DrawnScan ofDarkWall(double y_m) {
+  constexpr double kWall_m = 2.001;  // Within a cell.
+  DrawnScan scan;
+  for (double angle = -1.2; angle < 1.2; angle += 0.005) {
+    const double at_m = y_m + kWall_m * std::tan(angle);
+    if (std::abs(at_m) > 3.0) continue;
+    const Eigen::Vector2d ahead(std::cos(angle), std::sin(angle));
+    if (std::abs(at_m) < 1.0 && std::abs(angle) > 0.25 * std::numbers::pi)
+      scan.no_returns_level_m.emplace_back(10.0 * ahead.x(), 10.0 * ahead.y(), 0.0);
+    else
+      scan.hits_level_m.emplace_back(kWall_m, at_m - y_m, 0.0);
+  }
+  return scan;
+}
+
+TEST(GridDrawing, ThereIsNoViewThroughADarkWall) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto at = [&](double x_m, double y_m) {
+    return map.atFlightHeight().at(map.atFlightHeight().cellAt(x_m, y_m));
+  };
+  for (int i = 0; i < 3; ++i) map.draw(ofDarkWall(0.0), {});  // Head on, all of it answers.
+  for (int i = 0; i < 50; ++i) map.draw(ofDarkWall(-2.5), {0.0, -2.5, 0.0});
+  for (int i = 0; i < 50; ++i) map.draw(ofDarkWall(2.5), {0.0, 2.5, 0.0});
+  for (double y_m = -2.9; y_m < 2.9; y_m += 0.05) {
+    EXPECT_TRUE(common::occupancy::isOccupied(at(2.01, y_m))) << y_m;
+    for (double x_m = 2.1; x_m < 8.0; x_m += 0.05)
+      EXPECT_TRUE(common::occupancy::isUnknown(at(x_m, y_m))) << x_m << ' ' << y_m;
+  }
+  EXPECT_TRUE(common::occupancy::isFree(at(1.8, 0.0))) << "up to the wall they do clear";
+}
+
+TEST(GridDrawing, WhatAnotherBeamOfTheScanHitIsNoViewEither) {
+  SlicedMap map{GridDrawingConfig{}};
+  DrawnScan scan;
+  for (int i = -20; i <= 20; ++i) {  // Of neighbouring beams, each second is swallowed.
+    const float y_m = 0.02F * static_cast<float>(i);
+    if (i % 2 == 0)
+      scan.hits_level_m.emplace_back(2.01F, y_m, 0.0F);
+    else
+      scan.no_returns_level_m.emplace_back(4.0F * 2.01F, 4.0F * y_m, 0.0F);
+  }
+  map.draw(scan, {});
+  const common::OccupancyGrid grid = map.atFlightHeight();
+  grid.forEachCell([&](CellIndex c, common::occupancy::Cell value) {
+    EXPECT_TRUE(grid.centerOf(c).x() < 2.1 || common::occupancy::isUnknown(value)) << c.x << ' ' << c.y;
+  });
+}
+
+TEST(GridDrawing, WithNothingInTheirWayBeamsWithoutReturnClear) {
+  SlicedMap map{GridDrawingConfig{}};
+  DrawnScan scan = around(1.0, 720);
+  std::erase_if(scan.hits_level_m, [](const Eigen::Vector3f& p) { return p.x() > 0.5F; });
+  scan.no_returns_level_m = {{9.0F, 0.0F, 0.0F}, {9.0F, 0.0F, 0.2F}, {9.0F, 0.0F, -0.2F}};
+  for (int i = 0; i < 3; ++i) map.draw(scan, {});
+  const common::OccupancyGrid grid = map.atFlightHeight();
+  for (double x_m = 0.1; x_m < 8.9; x_m += 0.05)
+    EXPECT_TRUE(common::occupancy::isFree(grid.at(grid.cellAt(x_m, 0.0)))) << x_m;
+}
+
 TEST(GridDrawing, WhatDoesNotChangeStaysShared) {
   const GridDrawingConfig config;
   SlicedMap map(config);
@@ -141,6 +202,7 @@ TEST(GridDrawing, ThinsAndBoundsWhatItKeeps) {
   scan.heights_level_m.assign(1001, 0.0F);
   scan.heights_level_m.push_back(1.5F);  // Far above the body.
   scan.misses_level_m = {{0.0F, 30.0F, 0.0F}, {std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F}};
+  scan.no_returns_level_m = scan.misses_level_m;
   const DrawnScan drawn = thinForDrawing(scan, config);
   EXPECT_LT(drawn.hits_level_m.size(), 60U);
   ASSERT_EQ(drawn.free_level_m.size(), 3U);
@@ -148,6 +210,8 @@ TEST(GridDrawing, ThinsAndBoundsWhatItKeeps) {
   EXPECT_NEAR(drawn.free_level_m[1].z(), config.max_height_above_m, 1e-6);  // Free as long as it was in the hull's way.
   EXPECT_NEAR(drawn.free_level_m[1].x(), 3.0 * config.max_height_above_m / 1.5, 1e-6);
   EXPECT_NEAR(drawn.free_level_m[2].norm(), config.max_free_range_m, 1e-3);
+  ASSERT_EQ(drawn.no_returns_level_m.size(), 1U);
+  EXPECT_NEAR(drawn.no_returns_level_m[0].norm(), config.max_free_range_m, 1e-3);
 }
 
 }  // namespace

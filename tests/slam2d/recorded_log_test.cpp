@@ -65,28 +65,24 @@ void expectErrors(const evaluation::RelationErrors& errors, const std::string& w
   EXPECT_LE(mean_deg, rotation_deg);
 }
 
-/// None without the data set.
-std::optional<evaluation::RelationErrors> relationsOf(const std::string& name, bool odometry, SlamMethod method) {
+/// Nothing is expected where the data set is missing.
+void expectRelations(const std::string& name, bool odometry, double translation_m, double rotation_deg,
+                     SlamMethod method = SlamMethod::kGraph) {
   const std::string stem = "01-laser-slam/" + name + "/" + name;
   const auto log = test_support::dataSet(stem + ".clf.bz2"), relations = test_support::dataSet(stem + ".relations.gz");
-  if (!log || !relations) return std::nullopt;
+  if (!log || !relations) return;
   LaserSlamConfig config = test_support::laserLogSlam();
   config.slam.method = method;
   LaserSlam slam(config);
   const std::vector<KnownScan> scans = scansOf(*log, odometry);
-  return evaluation::relationErrors(trackOf(slam, scans, scans.size()), interfaces::readRelations(*relations));
-}
-
-void expectRelations(const std::string& name, bool odometry, double translation_m, double rotation_deg,
-                     SlamMethod method = SlamMethod::kGraph) {
-  if (const auto errors = relationsOf(name, odometry, method))
-    expectErrors(*errors, name + (odometry ? " with odometry" : " without odometry"), translation_m, rotation_deg);
+  expectErrors(evaluation::relationErrors(trackOf(slam, scans, scans.size()), interfaces::readRelations(*relations)),
+               name + (odometry ? " with odometry" : " without odometry"), translation_m, rotation_deg);
 }
 
 TEST(RecordedLog, IntelWithOdometry) { expectRelations("intel", true, 0.0229, 0.453); }
-TEST(RecordedLog, IntelWithoutOdometry) { expectRelations("intel", false, 1.3 * 0.0229, 1.3 * 0.453); }
+TEST(RecordedLog, IntelWithoutOdometry) { expectRelations("intel", false, 0.0229, 0.453); }
 TEST(RecordedLog, Freiburg079WithOdometry) { expectRelations("fr079", true, 0.0353, 0.44); }
-TEST(RecordedLog, Freiburg079WithoutOdometry) { expectRelations("fr079", false, 1.3 * 0.0353, 1.3 * 0.44); }
+TEST(RecordedLog, Freiburg079WithoutOdometry) { expectRelations("fr079", false, 0.0353, 0.44); }
 
 /// The log, and then the log from its end: the robot drives back as it came, backwards. It knows all it sees, and has
 /// never seen the walls that come up beside it.
@@ -112,17 +108,9 @@ TEST(RecordedLog, IntelThereAndBackwardsHome) {
   EXPECT_LT(slam.keyPoses().size(), alone.keyPoses().size() * 5 / 4) << "the graph grows in known area";
 }
 
-/// gmapping, run on the raw log with its odometry, is 0.042 m off; published, 0.070 m.
-TEST(RecordedLog, IntelByParticles) { expectRelations("intel", true, 0.05, 0.453, SlamMethod::kParticles); }
-
-/// One way through the corridor is not mended (decision 023): the mean is 0.63 m. What is near keeps its place.
-TEST(RecordedLog, IntelByParticlesWithoutOdometry) {
-  const auto errors = relationsOf("intel", false, SlamMethod::kParticles);
-  if (!errors) return;
-  EXPECT_TRUE(errors->missing.empty());
-  EXPECT_LE(errors->translation_m.median, 0.05);
-  EXPECT_LE(errors->rotation_rad.mean / common::kRadPerDeg, 0.453);
-}
+/// gmapping, run on the raw log with its odometry, is 0.042 m off; published, 0.070 m. Without odometry nothing is
+/// promised of particles (docs/tutorials/recorded_log.md): a corridor entered wrongly stays wrong (decision 023).
+TEST(RecordedLog, IntelByParticles) { expectRelations("intel", true, 0.042, 0.453, SlamMethod::kParticles); }
 
 }  // namespace
 }  // namespace swiftlet::perception
