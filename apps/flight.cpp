@@ -1,170 +1,106 @@
 #include "apps/flight.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "apps/flight_sinks.hpp"
-#include "apps/picture_sink.hpp"
+#include "apps/mission_limits.hpp"
+#include "apps/vehicle_flight.hpp"
 #include "apps/wall_clock.hpp"
-#include "apps/web_link.hpp"
-#include "autonomy/autonomy.hpp"
-#include "autonomy/flight_loop.hpp"
-#include "common/mailbox.hpp"
-#include "common/world.hpp"
-#include "common/world/mission_layer.hpp"
+#include "common/data_paths.hpp"
+#include "simulation/arena.hpp"
 
 namespace swiftlet::apps {
 namespace {
 
-using interfaces::Outcome;
+namespace fs = std::filesystem;
 
-std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(const FlightSetup& setup) {
+std::shared_ptr<simulation::Arena> makeArena(const FlightSetup& setup) {
   simulation::Scenario scenario = setup.scenario;
   scenario.vehicle = setup.system.vehicle;
   scenario.laser = setup.system.laser;
   static std::mutex sdformat_is_not_thread_safe;
   const std::scoped_lock lock(sdformat_is_not_thread_safe);
-  return std::make_unique<simulation::SimulatedVehicle>(simulation::loadWorld(scenario.world, scenario.model_paths),
-                                                        scenario);
+  return std::make_shared<simulation::Arena>(simulation::loadWorld(scenario.world, scenario.model_paths), scenario);
 }
 
-autonomy::Autonomy makeAutonomy(const FlightSetup& setup, behaviors::Mission mission) {
-  std::optional<autonomy::GivenMap> given;
-  if (setup.map) {
-    given = setup.map->map;
-    given->seed = static_cast<std::uint64_t>(setup.scenario.seed);
-  }
-  return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
-                            common::makeLockstepJobs(1), given ? &*given : nullptr);
+fs::path folderOf(const FlightSetup& setup) {
+  if (setup.out.empty())
+    return interfaces::freshRunFolder("runs", setup.started, fs::path(setup.mission_file).stem().string());
+  const bool several = !setup.scenario.vehicles.empty();
+  if (several && fs::exists(setup.out / "mission.json"))
+    throw common::InputError(common::Problem{{setup.out.string()},
+                                             "--out",
+                                             "holds the run of one vehicle, among whose files several would be lost",
+                                             "give an empty or new folder"});
+  return setup.out;
 }
 
-interfaces::RunInfo runInfo(const FlightSetup& setup) {
-  interfaces::RunInfo info;
-  info.mission = std::filesystem::path(setup.mission_file).stem().string();
-  info.mission_file = setup.mission_file;
-  info.world = setup.scenario.world;
-  info.system = setup.system.name;
-  if (setup.map) info.given_map = setup.map->name;
-  info.seed = setup.scenario.seed;
-  info.version = SWIFTLET_VERSION;
-  info.started = setup.started;
-  return info;
-}
-
-std::filesystem::path folderOf(const FlightSetup& setup) {
-  if (!setup.out.empty()) return setup.out;
-  return interfaces::freshRunFolder("runs", setup.started, runInfo(setup).mission);
-}
-
-/// One vehicle, its autonomy, the loop between them and the sinks beside it; and the pace of simulated time.
+/// The vehicles of one arena, tick by tick, and the pace of simulated time.
 class Flight {
  public:
-  Flight(const FlightSetup& setup, behaviors::Mission mission, const FlightHooks& hooks)
-      : setup_(setup),
-        hooks_(hooks),
-        vehicle_(makeVehicle(setup)),
-        recorder_(vehicle_->T_world_map(), setup.map ? setup.map->T_world_given : std::nullopt),
-        autonomy_(makeAutonomy(setup, std::move(mission))),
-        folder_(folderOf(setup), runInfo(setup), setup.system.toYaml(true)),
-        pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
-        sinks_(makeSinks()),
-        loop_(*vehicle_, autonomy_, hooks.web ? hooks.web->commands() : no_commands_, sinks()) {}
+  Flight(const FlightSetup& setup, std::vector<FlightMission> missions, const FlightHooks& hooks)
+      : setup_(setup), hooks_(hooks) {
+    const auto arena = makeArena(setup);
+    folder_ = folderOf(setup);
+    const std::vector<std::string> names = vehicleNames(setup.scenario);
+    for (std::size_t i = 0; i < missions.size(); ++i)
+      vehicles_.push_back(std::make_unique<VehicleFlight>(setup, hooks, arena, i, std::move(missions[i]),
+                                                          names.empty() ? folder_ : folder_ / names[i]));
+  }
 
   FlightResult fly() {
-    for (const std::string& warning : vehicle_->world().warnings)
-      for (autonomy::FlightSink* sink : sinks())
-        sink->event({loop_.now(), common::Severity::kWarning, "world", warning, ""});
-    while (!over()) {
-      if (hooks_.web) vehicle_->setCameraConsumer(hooks_.web->cameraWanted());
-      if (!loop_.step(loop_.now() + common::kControlPeriod)) end(Outcome::kCrashed, vehicle_->stopReason());
+    for (const auto& vehicle : vehicles_) vehicle->tellWarnings();
+    while (anyFlies()) {
+      now_ += common::kControlPeriod;
+      for (const auto& vehicle : vehicles_)
+        if (!vehicle->finished()) vehicle->step(now_);
       pace();
     }
-    loop_.finish();
-    return finish();
+    if (hooks_.progress) hooks_.progress(progress(secondsSince(begin_)));
+    FlightResult result{folder_, {}};
+    for (const auto& vehicle : vehicles_) result.vehicles.push_back(vehicle->result());
+    linger();
+    return result;
   }
 
  private:
-  std::vector<std::unique_ptr<autonomy::FlightSink>> makeSinks() {
-    std::vector<std::unique_ptr<autonomy::FlightSink>> sinks;
-    sinks.push_back(std::make_unique<FolderSink>(folder_));
-    sinks.push_back(std::make_unique<TruthSink>(*vehicle_, recorder_));
-    if (hooks_.event) sinks.push_back(std::make_unique<EventSink>(hooks_.event));
-    if (hooks_.web) sinks.push_back(std::make_unique<PageSink>(*hooks_.web));
-    return sinks;
-  }
-
-  /// The pictures last: they show what the others have written.
-  std::vector<autonomy::FlightSink*> sinks() {
-    std::vector<autonomy::FlightSink*> all;
-    for (const auto& sink : sinks_) all.push_back(sink.get());
-    all.push_back(&pictures_);
-    return all;
-  }
-
-  bool over() {
-    if (outcome_ != Outcome::kFlying) return true;
-    if (hooks_.stop && *hooks_.stop) return end(Outcome::kStopped, "stopped from outside");
-    if (loop_.now().seconds() >= setup_.time_limit_s) return end(Outcome::kStopped, "the time limit is over");
-    if (folder_.failure()) return end(Outcome::kStopped, *folder_.failure());
-    if (autonomy_.finished()) {
-      const common::MissionStatus& mission = autonomy_.missionStatus();
-      const bool done = mission.state == common::MissionState::kDone;
-      return end(done                           ? Outcome::kDone
-                 : autonomy_.landedByOperator() ? Outcome::kStopped
-                                                : Outcome::kFailed,
-                 mission.reason);
+  /// Those that are over are finished: the others fly on without them.
+  bool anyFlies() {
+    bool any = false;
+    for (const auto& vehicle : vehicles_) {
+      if (vehicle->finished()) continue;
+      if (vehicle->over())
+        vehicle->finish(secondsSince(begin_));
+      else
+        any = true;
     }
-    return false;
+    return any;
   }
 
-  bool end(Outcome outcome, std::string reason) {
-    outcome_ = outcome;
-    reason_ = std::move(reason);
-    return true;
+  FlightProgress progress(double wall_s) const {
+    FlightProgress progress{{}, now_.seconds(), wall_s};
+    for (const auto& vehicle : vehicles_) progress.worlds.push_back(vehicle->world());
+    return progress;
   }
 
   void pace() {
     const double wall_s = secondsSince(begin_);
     if (hooks_.progress && wall_s - last_progress_s_ >= 0.1) {
       last_progress_s_ = wall_s;
-      hooks_.progress({autonomy_.world(), loop_.now().seconds(), wall_s});
+      hooks_.progress(progress(wall_s));
     }
     if (setup_.speed <= 0.0) return;
     const auto due = begin_ + std::chrono::duration_cast<Clock::duration>(
-                                  std::chrono::duration<double>(loop_.now().seconds() / setup_.speed));
+                                  std::chrono::duration<double>(now_.seconds() / setup_.speed));
     std::this_thread::sleep_until(due);
-  }
-
-  FlightResult finish() {
-    const double wall_s = secondsSince(begin_);
-    if (hooks_.progress) hooks_.progress({autonomy_.world(), loop_.now().seconds(), wall_s});
-    pictures_.drawNow(*autonomy_.world());
-    interfaces::FlightEnd end;
-    end.outcome = outcome_;
-    end.reason = reason_;
-    end.wall_time_s = wall_s;
-    if (hooks_.score) hooks_.score(recorder_.finish(), *vehicle_, end);
-    folder_.finish(end);
-    if (hooks_.web) {
-      auto last = std::make_shared<common::World>(*autonomy_.world());
-      auto mission = std::make_shared<common::MissionLayer>(*last->mission);
-      mission->ending = {std::string(interfaces::toString(outcome_)), reason_};
-      last->mission = std::move(mission);
-      hooks_.web->world().post(std::move(last));
-    }
-    FlightResult result;
-    result.summary = folder_.summary();
-    result.folder = folder_.path();
-    result.write_failure = folder_.failure();
-    linger();
-    return result;
   }
 
   /// So that the pages see how it ended.
@@ -176,25 +112,51 @@ class Flight {
 
   const FlightSetup& setup_;
   const FlightHooks& hooks_;
-  std::unique_ptr<simulation::SimulatedVehicle> vehicle_;
-  evaluation::FlightRecorder recorder_;
-  autonomy::Autonomy autonomy_;
-  interfaces::RunFolder folder_;
-  PictureSink pictures_;
-  std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
-  common::LosslessQueue<common::OperatorCommand> no_commands_;
-  autonomy::FlightLoop loop_;
-
-  Outcome outcome_ = Outcome::kFlying;
-  std::string reason_;
+  fs::path folder_;
+  std::vector<std::unique_ptr<VehicleFlight>> vehicles_;
+  common::Time now_;
   Clock::time_point begin_ = Clock::now();
   double last_progress_s_ = 0.0;
 };
 
 }  // namespace
 
-FlightResult flySimulated(const FlightSetup& setup, behaviors::Mission mission, const FlightHooks& hooks) {
-  return Flight(setup, std::move(mission), hooks).fly();
+bool FlightResult::done() const {
+  return std::all_of(vehicles.begin(), vehicles.end(),
+                     [](const auto& vehicle) { return vehicle.summary.outcome == interfaces::Outcome::kDone; });
+}
+
+std::optional<std::string> FlightResult::writeFailure() const {
+  for (const VehicleResult& vehicle : vehicles)
+    if (vehicle.write_failure) return vehicle.write_failure;
+  return std::nullopt;
+}
+
+std::vector<std::string> vehicleNames(const simulation::Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const simulation::ScenarioVehicle& vehicle : scenario.vehicles) names.push_back(vehicle.name);
+  return names;
+}
+
+std::vector<FlightMission> soundMissions(const FlightSetup& setup, bool has_map) {
+  std::vector<FlightMission> missions;
+  std::map<std::string, std::vector<common::Problem>> problems;  // By file: several may fly a wrong one.
+  for (const std::string& file : missionFiles(setup.scenario, setup.mission_file)) {
+    try {
+      const std::string found = common::findData(file).string();
+      missions.push_back({found, soundMission(found, setup.system, has_map)});
+    } catch (const common::InputError& wrong) {
+      problems[file] = wrong.problems();
+    }
+  }
+  std::vector<common::Problem> all;
+  for (const auto& [file, of_file] : problems) all.insert(all.end(), of_file.begin(), of_file.end());
+  if (!all.empty()) throw common::InputError(std::move(all));
+  return missions;
+}
+
+FlightResult flySimulated(const FlightSetup& setup, std::vector<FlightMission> missions, const FlightHooks& hooks) {
+  return Flight(setup, std::move(missions), hooks).fly();
 }
 
 std::string startedNow() { return fmt::format("{:%Y-%m-%d_%H-%M-%S}", fmt::localtime(std::time(nullptr))); }

@@ -18,7 +18,7 @@ class SimulatedVehicle;
 
 namespace swiftlet::apps {
 
-class WebLink;
+class WebChannel;
 
 /// Each refers to what it is given, which must outlive it.
 class FolderSink final : public autonomy::FlightSink {
@@ -47,7 +47,7 @@ class TruthSink final : public autonomy::FlightSink {
 
 class PageSink final : public autonomy::FlightSink {
  public:
-  explicit PageSink(WebLink& web) : web_(web) {}
+  explicit PageSink(WebChannel& web) : web_(web) {}
   /// The newest camera frame.
   void input(const autonomy::Input& input) override;
   void world(const std::shared_ptr<const common::World>& world) override;
@@ -55,7 +55,7 @@ class PageSink final : public autonomy::FlightSink {
   void result(const common::CommandResult& result) override;
 
  private:
-  WebLink& web_;
+  WebChannel& web_;
 };
 
 class EventSink final : public autonomy::FlightSink {

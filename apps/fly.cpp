@@ -9,12 +9,12 @@
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
-#include "apps/mission_limits.hpp"
 #include "apps/numbers.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/show.hpp"
 #include "apps/speed.hpp"
 #include "apps/stop_signals.hpp"
+#include "apps/trial_world.hpp"
 #include "apps/web_link.hpp"
 #include "common/data_paths.hpp"
 #include "common/printable.hpp"
@@ -24,6 +24,7 @@
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
+#include "evaluation/trial.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -31,9 +32,11 @@ namespace {
 struct FlyOptions {
   std::string mission;
   std::string world = "worlds/unb_case1.sdf";
+  std::string scenario;
   std::string map;
   std::string system = "swiftlet";
   int seed = 1;
+  bool seed_given = false;
   std::string speed;
   bool headless = false;
   std::string listen = "127.0.0.1";
@@ -47,8 +50,14 @@ FlightSetup setupOf(const FlyOptions& options) {
   FlightSetup setup;
   setup.system = loadSystem(options.system);
   setup.mission_file = common::findData(options.mission).string();
-  setup.scenario.seed = options.seed;
-  setup.scenario.world = common::findData(options.world).string();
+  if (options.scenario.empty()) {
+    setup.scenario.world = common::findData(options.world).string();
+  } else {
+    evaluation::TrialConfig trial = evaluation::readTrial(common::findData(options.scenario));
+    findWorld(trial);
+    setup.scenario = trial.scenario;
+  }
+  if (options.scenario.empty() || options.seed_given) setup.scenario.seed = options.seed;
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
@@ -57,15 +66,28 @@ FlightSetup setupOf(const FlyOptions& options) {
   return setup;
 }
 
-std::string progressLine(const FlightProgress& progress) {
-  const common::World& world = *progress.world;
-  const common::VehicleLayer& vehicle = *world.vehicle;
+std::string phaseOf(const common::World& world) {
   const std::string& phase = world.mission->status.phase;
+  return phase.empty() ? toString(world.vehicle->flight_state) : phase;
+}
+
+std::string oneVehicle(const common::World& world) {
   const double explored_m2 = world.map->explored_area_m2;
   const std::string explored = explored_m2 > 0 ? fmt::format("{:6.1f} m2", explored_m2) : std::string(9, ' ');
-  return fmt::format("{:6.1f} s  {:<24.24} {}  {:6.1f} m  battery {:3.0f} %  {:5.1f} x real time", progress.simulated_s,
-                     phase.empty() ? toString(vehicle.flight_state) : phase, explored, vehicle.distance_flown_m,
-                     100.0 * world.energy->battery_remaining,
+  return fmt::format("{:<24.24} {}  {:6.1f} m  battery {:3.0f} %", phaseOf(world), explored,
+                     world.vehicle->distance_flown_m, 100.0 * world.energy->battery_remaining);
+}
+
+std::string oneOfSeveral(const common::World& world) {
+  return fmt::format("{}: {:<20.20} {:5.1f} m  {:3.0f} %", world.vehicle->name, phaseOf(world),
+                     world.vehicle->distance_flown_m, 100.0 * world.energy->battery_remaining);
+}
+
+std::string progressLine(const FlightProgress& progress) {
+  std::string vehicles;
+  for (const auto& world : progress.worlds)
+    vehicles += progress.worlds.size() == 1 ? oneVehicle(*world) + "  " : oneOfSeveral(*world) + "  ";
+  return fmt::format("{:6.1f} s  {}{:5.1f} x real time", progress.simulated_s, vehicles,
                      progress.wall_s > 0 ? progress.simulated_s / progress.wall_s : 0.0);
 }
 
@@ -78,8 +100,9 @@ class Terminal {
   void event(const common::Event& event) {
     if (quiet_) return;
     line_.close();
-    const std::string text = fmt::format("{:6.1f} s  {}: {}{}", event.stamp.seconds(), event.source, event.text,
-                                         event.reason.empty() ? "" : " (" + event.reason + ")");
+    const std::string text =
+        fmt::format("{:6.1f} s  {}{}: {}{}", event.stamp.seconds(), event.vehicle.empty() ? "" : event.vehicle + " ",
+                    event.source, event.text, event.reason.empty() ? "" : " (" + event.reason + ")");
     if (line_.interactive() && event.severity != common::Severity::kInfo) {
       showStyled(fmt::format(fg(event.severity == common::Severity::kError ? fmt::color::red : fmt::color::orange),
                              "{}\n", common::printable(text)));
@@ -95,33 +118,49 @@ class Terminal {
   ProgressLine line_;
 };
 
-void printEnd(const FlightResult& result, bool json) {
-  const interfaces::FlightSummary& summary = result.summary;
+nlohmann::json endJson(const VehicleResult& vehicle) {
+  const interfaces::FlightSummary& summary = vehicle.summary;
   const std::optional<double>& explored_m2 = summary.explored_area_m2;
-  if (json) {
-    showJson(nlohmann::json{
-                 {"outcome", toString(summary.outcome)},
-                 {"reason", summary.reason},
-                 {"mission_time_s", common::rounded(summary.mission_time.seconds())},
-                 {"distance_m", common::rounded(summary.distance_m)},
-                 {"explored_area_m2", explored_m2 ? nlohmann::json(common::rounded(*explored_m2)) : nlohmann::json()},
-                 {"realtime_factor", common::rounded(summary.realtime_factor.value_or(0.0))},
-                 {"run", result.folder.string()},
-                 {"report", (result.folder / "report.html").string()}}
-                 .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-             "\n");
-    return;
-  }
-  show(fmt::format("\n{}{} after {:.1f} s and {:.1f} m{}, {:.1f} x real time\n", toString(summary.outcome),
+  nlohmann::json json = {
+      {"outcome", toString(summary.outcome)},
+      {"reason", summary.reason},
+      {"mission_time_s", common::rounded(summary.mission_time.seconds())},
+      {"distance_m", common::rounded(summary.distance_m)},
+      {"explored_area_m2", explored_m2 ? nlohmann::json(common::rounded(*explored_m2)) : nlohmann::json()},
+      {"realtime_factor", common::rounded(summary.realtime_factor.value_or(0.0))},
+      {"run", vehicle.folder.string()},
+      {"report", (vehicle.folder / "report.html").string()}};
+  if (!vehicle.name.empty()) json["vehicle"] = vehicle.name;
+  return json;
+}
+
+/// Of several vehicles: the list, and whether all are done.
+nlohmann::json endJson(const FlightResult& result) {
+  if (result.vehicles.size() == 1) return endJson(result.vehicles.front());
+  nlohmann::json vehicles = nlohmann::json::array();
+  for (const VehicleResult& vehicle : result.vehicles) vehicles.push_back(endJson(vehicle));
+  return {{"outcome", result.done() ? "done" : "failed"}, {"run", result.folder.string()}, {"vehicles", vehicles}};
+}
+
+void printEnd(const VehicleResult& vehicle) {
+  const interfaces::FlightSummary& summary = vehicle.summary;
+  const std::optional<double>& explored_m2 = summary.explored_area_m2;
+  show(fmt::format("\n{}{}{} after {:.1f} s and {:.1f} m{}, {:.1f} x real time\n",
+                   vehicle.name.empty() ? "" : vehicle.name + ": ", toString(summary.outcome),
                    summary.reason.empty() ? "" : " (" + summary.reason + ")", summary.mission_time.seconds(),
                    summary.distance_m, explored_m2 ? fmt::format(", {:.1f} m2 explored", *explored_m2) : "",
                    summary.realtime_factor.value_or(0.0)));
-  show(fmt::format("run     {}\nreport  {}\n", result.folder.string(), (result.folder / "report.html").string()));
+  show(fmt::format("run     {}\nreport  {}\n", vehicle.folder.string(), (vehicle.folder / "report.html").string()));
+}
+
+void printEnd(const FlightResult& result, bool json) {
+  if (json) return showJson(endJson(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  for (const VehicleResult& vehicle : result.vehicles) printEnd(vehicle);
 }
 
 int fly(const FlyOptions& options) {
   FlightSetup setup = setupOf(options);
-  behaviors::Mission mission = soundMission(setup.mission_file, setup.system, !options.map.empty());
+  std::vector<FlightMission> missions = soundMissions(setup, !options.map.empty());
   if (!options.map.empty()) setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
   const std::atomic<bool>& stop = stopOnSignals();
   outliveReaders();
@@ -129,8 +168,9 @@ int fly(const FlyOptions& options) {
   std::unique_ptr<WebLink> web;
   if (!options.headless) {
     const auto title = fmt::format("{} in {}", std::filesystem::path(options.mission).stem().string(),
-                                   std::filesystem::path(options.world).stem().string());
-    web = std::make_unique<WebLink>(options.listen, options.port, title, setup.system.vehicle.hull_diameter_m);
+                                   std::filesystem::path(setup.scenario.world).stem().string());
+    web = std::make_unique<WebLink>(options.listen, options.port, title, setup.system.vehicle.hull_diameter_m,
+                                    vehicleNames(setup.scenario));
     const std::string page = fmt::format("page    {}\n\n", web->operatorUrl());
     if (options.json)
       showError(page);  // The token is in it, and standard output is the outcome alone.
@@ -144,14 +184,14 @@ int fly(const FlyOptions& options) {
   hooks.web = web.get();
   hooks.stop = &stop;
 
-  const FlightResult result = flySimulated(setup, std::move(mission), hooks);
+  const FlightResult result = flySimulated(setup, std::move(missions), hooks);
   terminal.closeLine();
   printEnd(result, options.json);
-  if (result.write_failure) {
-    showError(*result.write_failure + "\n");
+  if (const auto failure = result.writeFailure()) {
+    showError(*failure + "\n");
     return kBadInput;
   }
-  return result.summary.outcome == interfaces::Outcome::kDone ? kDone : kFailed;
+  return result.done() ? kDone : kFailed;
 }
 
 }  // namespace
@@ -160,7 +200,11 @@ void addFly(CLI::App& program, Run& run) {
   auto options = std::make_shared<FlyOptions>();
   auto* command = program.add_subcommand("fly", "Fly a mission in the simulator; the page shows it live.");
   command->add_option("mission", options->mission, "Mission file (XML).")->required();
-  command->add_option("--world", options->world, "World to fly in (SDF).")->capture_default_str();
+  auto* world = command->add_option("--world", options->world, "World to fly in (SDF).")->capture_default_str();
+  command
+      ->add_option("--scenario", options->scenario,
+                   "A trial file whose scenario is flown: world, start, people, weather, several vehicles.")
+      ->excludes(world);
   command->add_option("--map", options->map,
                       "A map of the place (YAML of map_server): the flight finds out where it is in it.");
   command->add_option("--system", options->system, "A profile of config/systems, or a file.")->capture_default_str();
@@ -180,7 +224,10 @@ void addFly(CLI::App& program, Run& run) {
       ->check(numberWithin(0.01, 1e6));
   command->add_flag("--json", options->json, "Print the outcome as JSON, nothing else.");
   command->footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
-  command->callback([&run, options] { run = [options] { return fly(*options); }; });
+  command->callback([&run, options, command] {
+    options->seed_given = command->count("--seed") > 0;
+    run = [options] { return fly(*options); };
+  });
 }
 
 }  // namespace swiftlet::apps

@@ -15,6 +15,14 @@ behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
   return limits;
 }
 
+std::vector<std::string> missionFiles(const simulation::Scenario& scenario, const std::string& otherwise) {
+  if (scenario.vehicles.empty()) return {otherwise};
+  std::vector<std::string> files;
+  for (const simulation::ScenarioVehicle& vehicle : scenario.vehicles)
+    files.push_back(vehicle.mission.empty() ? otherwise : vehicle.mission);
+  return files;
+}
+
 std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map) {
   try {
     return behaviors::checkMission(common::findData(mission).string(), missionLimits(system, has_map));

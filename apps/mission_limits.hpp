@@ -7,10 +7,14 @@
 #include "apps/system.hpp"
 #include "behaviors/mission.hpp"
 #include "behaviors/mission_limits.hpp"
+#include "simulation/scenario.hpp"
 
 namespace swiftlet::apps {
 
 behaviors::MissionLimits missionLimits(const System& system, bool has_map);
+
+/// The mission file of each vehicle of the scenario, in their order: its own, or `otherwise` where it names none.
+std::vector<std::string> missionFiles(const simulation::Scenario& scenario, const std::string& otherwise);
 
 /// Every problem of a mission, that of its file included, if it is to be flown with this system, and with a map of
 /// the place or without.

@@ -1,7 +1,8 @@
 // swiftlet trial: scripted flights with pass criteria.
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,12 +19,12 @@
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
+#include "apps/trial_world.hpp"
 #include "common/data_paths.hpp"
 #include "common/table.hpp"
 #include "evaluation/flight_score.hpp"
 #include "evaluation/trial.hpp"
 #include "evaluation/trial_results.hpp"
-#include "interfaces/files/archive.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/text_file.hpp"
 #include "interfaces/report/report.hpp"
@@ -45,23 +46,6 @@ struct TrialOptions {
   std::string out;
   bool json = false;
 };
-
-fs::path cacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME")) return fs::path(cache) / "swiftlet";
-  if (const char* home = std::getenv("HOME")) return fs::path(home) / ".cache" / "swiftlet";
-  return fs::temp_directory_path() / "swiftlet";
-}
-
-/// The world's files are with the software, or in an archive of the data sets that is unpacked once.
-void findWorld(TrialConfig& trial) {
-  const fs::path root = common::findData("worlds").parent_path();
-  fs::path unpacked = root;
-  if (!trial.archive.empty())
-    unpacked =
-        interfaces::unpackInto(cacheFolder(), evaluation::findArchive(trial.archive, evaluation::dataSetsFolder(root)));
-  trial.resolvePaths(unpacked, root);
-  trial.scenario.world = common::findData(trial.scenario.world).string();
-}
 
 /// The file of the map that its flights are given: beside the trials, or where data is.
 void findMap(TrialConfig& trial, const fs::path& trials) {
@@ -92,7 +76,7 @@ FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const Flight
   FlightSetup setup;
   setup.map = map;
   setup.system = loadSystem(trial.system);
-  setup.mission_file = common::findData(trial.mission).string();
+  setup.mission_file = trial.mission;
   setup.scenario = trial.scenario;
   setup.scenario.seed = seed;
   setup.started = startedNow();
@@ -112,27 +96,33 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
   return evaluation::scoreOf(record, truth, trial.criteria, seed, wall_time_s);
 }
 
-/// The score is in the flight's own files too.
-evaluation::FlightScore flyOne(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
-                               const fs::path& out, const std::atomic<bool>& stop) {
-  evaluation::FlightScore score;
+/// A score for each vehicle; they are in the flight's own files too.
+std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map,
+                                            int seed, const fs::path& out, const std::atomic<bool>& stop) {
+  std::map<std::string, evaluation::FlightScore> by_name;
   FlightHooks hooks;
   hooks.stop = &stop;
   hooks.score = [&](const auto& record, const auto& vehicle, interfaces::FlightEnd& end) {
+    evaluation::FlightScore& score = by_name[vehicle.name()];
     score = scoreOf(trial, seed, record, vehicle, end.wall_time_s.value_or(0.0));
+    score.vehicle = vehicle.name();
     end.coverage = score.coverage;
     for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
   };
   const FlightSetup setup = setupOf(trial, map, seed, out);
-  const FlightResult result =
-      flySimulated(setup, soundMission(setup.mission_file, setup.system, map != nullptr), hooks);
-  if (result.write_failure) throw common::InputError(common::Problem{{}, "", *result.write_failure, ""});
-  score.folder = result.folder.filename().string();
-  return score;
+  const FlightResult result = flySimulated(setup, soundMissions(setup, map != nullptr), hooks);
+  if (const auto failure = result.writeFailure()) throw common::InputError(common::Problem{{}, "", *failure, ""});
+  std::vector<evaluation::FlightScore> scores;
+  for (const VehicleResult& vehicle : result.vehicles) {
+    scores.push_back(std::move(by_name[vehicle.name]));
+    scores.back().folder = vehicle.folder.lexically_relative(out).string();
+  }
+  return scores;
 }
 
 std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& score) {
-  std::string line = fmt::format("{:<24} seed {:<4} {:<8} {:6.1f} s {:5.1f} x", trial.name, score.seed,
+  const std::string vehicle = score.vehicle.empty() ? "" : fmt::format("{:<10} ", score.vehicle);
+  std::string line = fmt::format("{:<24} seed {:<4} {}{:<8} {:6.1f} s {:5.1f} x", trial.name, score.seed, vehicle,
                                  score.passed() ? "passed" : "FAILED", score.mission_time_s, score.realtime_factor);
   for (const std::string& failure : score.failures) line += "\n    " + failure;
   if (!score.coverage_problem.empty() && trial.criteria.coverage_min <= 0)
@@ -147,17 +137,18 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::pat
   const int count = options.repeat > 0 ? options.repeat : trial.repeat;
   const int first_seed = options.seed.value_or(trial.scenario.seed);
   const std::shared_ptr<const FlightMap> map = givenMap(trial, out);
-  std::vector<std::optional<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
+  std::vector<std::vector<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
   std::mutex mutex;
   std::exception_ptr failure;
   const auto work = [&] {
     for (int i = next++; i < count && !stop; i = next++) {
       try {
-        auto score = flyOne(trial, map, first_seed + i, out, stop);
+        auto flown = flyOne(trial, map, first_seed + i, out, stop);
         const std::scoped_lock lock(mutex);
-        if (!options.json) show(flightLine(trial, score) + "\n");
-        scores[static_cast<std::size_t>(i)] = std::move(score);
+        if (!options.json)
+          for (const evaluation::FlightScore& score : flown) show(flightLine(trial, score) + "\n");
+        scores[static_cast<std::size_t>(i)] = std::move(flown);
       } catch (...) {
         const std::scoped_lock lock(mutex);
         failure = std::current_exception();
@@ -169,8 +160,7 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::pat
   for (int i = 1; i < std::min(options.jobs, count); ++i) threads.emplace_back(work);
   work();
   for (std::thread& thread : threads) thread.join();
-  for (auto& score : scores)
-    if (score) result.flights.push_back(std::move(*score));
+  for (auto& flown : scores) std::move(flown.begin(), flown.end(), std::back_inserter(result.flights));
   if (failure) std::rethrow_exception(failure);
 }
 
@@ -184,8 +174,8 @@ interfaces::TrialReport reportOf(const TrialResults& results) {
   for (const TrialResult& trial : results.trials) {
     report.tables.push_back(flightTable(trial));
     for (const auto& flight : trial.flights)
-      report.pictures.push_back({fmt::format("{} seed {}", trial.name, flight.seed), flight.folder + "/map.png",
-                                 flight.folder + "/report.html", flight.passed()});
+      report.pictures.push_back({fmt::format("{} seed {} {}", trial.name, flight.seed, flight.vehicle),
+                                 flight.folder + "/map.png", flight.folder + "/report.html", flight.passed()});
   }
   return report;
 }
@@ -204,8 +194,9 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   std::vector<common::Problem> problems;
   for (TrialConfig& trial : trials) {
     if (!options.system.empty()) trial.system = options.system;
-    for (auto& problem : missionProblems(trial.mission, loadSystem(trial.system), trial.map.given()))
-      problems.push_back(std::move(problem));
+    for (const std::string& mission : missionFiles(trial.scenario, trial.mission))
+      for (auto& problem : missionProblems(mission, loadSystem(trial.system), trial.map.given()))
+        problems.push_back(std::move(problem));
   }
   if (!problems.empty()) throw common::InputError(std::move(problems));
   for (TrialConfig& trial : trials) {

@@ -1,5 +1,6 @@
 #include "apps/web_link.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 namespace swiftlet::apps {
@@ -12,7 +13,14 @@ common::Time unixTime() {
 
 }  // namespace
 
-WebLink::WebLink(const std::string& address, int port, const std::string& title, double hull_diameter_m) {
+WebLink::WebLink(const std::string& address, int port, const std::string& title, double hull_diameter_m,
+                 const std::vector<std::string>& vehicles) {
+  std::vector<web::WebServer::Sources> sources;
+  for (std::size_t i = 0; i < std::max<std::size_t>(vehicles.size(), 1); ++i) {
+    WebChannel& channel = *channels_.emplace_back(std::make_unique<WebChannel>());
+    sources.push_back(
+        {channel.world_, channel.camera_, channel.commands_, channel.results_, vehicles.empty() ? "" : vehicles[i]});
+  }
   web::WebServer::Options options;
   options.address = address;
   options.port = port;
@@ -20,8 +28,11 @@ WebLink::WebLink(const std::string& address, int port, const std::string& title,
   options.title = title;
   options.hull_diameter_m = hull_diameter_m;
   options.unix_time = unixTime;
-  server_ =
-      std::make_unique<web::WebServer>(io_, options, web::WebServer::Sources{world_, camera_, commands_, results_});
+  server_ = std::make_unique<web::WebServer>(io_, options, sources);
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    channels_[i]->server_ = server_.get();
+    channels_[i]->number_ = i;
+  }
   thread_ = std::thread([this] { io_.run(); });
 }
 

@@ -1,4 +1,4 @@
-// The page beside the flight: the server's thread, and the mailboxes and queues between it and the loop.
+// The page beside the flight: the server's thread, and the mailboxes and queues between it and the loops.
 #pragma once
 
 #include <memory>
@@ -14,25 +14,41 @@
 
 namespace swiftlet::apps {
 
-class WebLink {
+/// What goes between the page and one vehicle.
+class WebChannel {
  public:
-  /// Listens at once; throws common::InputError when it cannot.
-  WebLink(const std::string& address, int port, const std::string& title, double hull_diameter_m);
-  ~WebLink();
-
-  std::string operatorUrl() const { return server_->operatorUrl(); }
-  bool cameraWanted() const { return server_->cameraWanted(); }
+  bool cameraWanted() const { return server_->cameraWanted(number_); }
   common::LatestValue<common::World>& world() { return world_; }
   common::LatestValue<common::CameraFrame>& camera() { return camera_; }
   common::LosslessQueue<common::OperatorCommand>& commands() { return commands_; }
   void postResult(common::CommandResult result) { results_.push(std::move(result)); }
-  void postEvent(const common::Event& event) { server_->postEvent(event); }
+  void postEvent(const common::Event& event) { server_->postEvent(event, number_); }
 
  private:
+  friend class WebLink;
+
+  web::WebServer* server_ = nullptr;
+  std::size_t number_ = 0;
   common::LatestValue<common::World> world_;
   common::LatestValue<common::CameraFrame> camera_;
   common::LosslessQueue<common::OperatorCommand> commands_;
   common::LosslessQueue<common::CommandResult> results_;
+};
+
+class WebLink {
+ public:
+  /// Listens at once; throws common::InputError when it cannot. `vehicles`: the names of several; empty for one that
+  /// flies alone.
+  WebLink(const std::string& address, int port, const std::string& title, double hull_diameter_m,
+          const std::vector<std::string>& vehicles);
+  ~WebLink();
+
+  std::string operatorUrl() const { return server_->operatorUrl(); }
+  /// By the vehicle's number.
+  WebChannel& channel(std::size_t number) { return *channels_.at(number); }
+
+ private:
+  std::vector<std::unique_ptr<WebChannel>> channels_;
   web::IoContext io_;
   std::unique_ptr<web::WebServer> server_;
   std::thread thread_;

@@ -50,16 +50,19 @@ std::vector<std::string> AutonomyConfig::problemsWith(double clearance_m) const 
 }
 
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
-                   behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given)
+                   behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given,
+                   std::string vehicle_name)
     : config_(config),
       vehicle_(vehicle),
+      vehicle_name_(std::move(vehicle_name)),
       estimator_(config.estimator, laser, vehicle, given, *jobs),
       reactive_(config_.reactive, vehicle.hullRadius_m()),
       controller_(config.control, vehicle),
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
       supervisor_(config.supervisor),
       mission_(std::move(mission)),
-      jobs_(std::move(jobs)) {
+      jobs_(std::move(jobs)),
+      world_builder_(vehicle_name_) {
   context_.goal_limits.greatest_height_m = config.max_height_m;
   mission_status_.accepts_goals = mission_.acceptsGoals();
   takeSnapshot(Time{});

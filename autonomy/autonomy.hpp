@@ -48,9 +48,11 @@ struct AutonomyConfig {
 /// One thread; a function of its inputs in their order. No input is of a time before that of the last one.
 class Autonomy {
  public:
-  /// `given`: a map of the place, to find itself in; none: null. Read in the constructor alone.
+  /// `given`: a map of the place, to find itself in; none: null. Read in the constructor alone. `vehicle_name` stands
+  /// in its snapshots and in the events that its loop tells; empty where there is only one vehicle.
   Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
-           behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given = nullptr);
+           behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given = nullptr,
+           std::string vehicle_name = {});
   ~Autonomy();
 
   /// A tick is answered by a setpoint, everything else by nothing. The delivery of a job must be awaited.
@@ -67,6 +69,7 @@ class Autonomy {
   std::shared_ptr<const common::World> world() const { return world_; }
   /// The mission has ended and the vehicle stands with its motors off.
   bool finished() const;
+  const std::string& vehicleName() const { return vehicle_name_; }
   const common::MissionStatus& missionStatus() const { return mission_status_; }
   /// The end came by the operator's Land, not by the mission.
   bool landedByOperator() const { return supervisor_.landedByOperator(); }
@@ -97,6 +100,7 @@ class Autonomy {
 
   AutonomyConfig config_;
   common::VehicleConfig vehicle_;
+  std::string vehicle_name_;
   // Delivered results refer to the parts below, so the jobs go first when the autonomy ends.
   Estimator estimator_;
   Reactive reactive_;

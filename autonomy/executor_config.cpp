@@ -9,8 +9,9 @@ using common::config::kPositive;
 
 void ExecutorConfig::describe(common::config::Fields& fields) {
   fields.section("cost_map", cost_map, "Where the vehicle may be.");
+  fields.section("explorer", explorer, "Where to look from next.");
   fields.section("exploration", exploration, "Frontiers and viewpoints.");
-  fields.section("planner", planner, "Paths to goals.");
+  fields.section("planner", planner, "Paths to goals and to viewpoints.");
   fields.section("plan_keeper", plan_keeper, "How long a plan is kept.");
   fields("planning_latency_s", planning_latency_s, {0.0, 2.0}, "Declared time of a planning job.");
   fields("planning_period_s", planning_period_s, {0.05, 5.0},

@@ -3,7 +3,8 @@
 
 #include "common/config_fwd.hpp"
 #include "planning/costs/cost_map.hpp"
-#include "planning/exploration/exploration.hpp"
+#include "planning/exploration/exploration_config.hpp"
+#include "planning/exploration/explorer_choice.hpp"
 #include "planning/search/plan_keeper.hpp"
 #include "planning/search/planner_choice.hpp"
 
@@ -11,6 +12,7 @@ namespace swiftlet::autonomy {
 
 struct ExecutorConfig {
   planning::CostMap::Config cost_map;
+  planning::ExplorerConfig explorer;
   planning::ExplorationConfig exploration;
   planning::PlannerConfig planner;
   planning::PlanKeeper::Config plan_keeper;

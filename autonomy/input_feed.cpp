@@ -17,7 +17,8 @@ std::optional<common::Setpoint> InputFeed::give(const Input& input) {
   return setpoint;
 }
 
-void InputFeed::tell(const common::Event& event) {
+void InputFeed::tell(common::Event event) {
+  event.vehicle = autonomy_.vehicleName();
   for (FlightSink* sink : sinks_) sink->event(event);
 }
 

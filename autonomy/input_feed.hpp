@@ -25,8 +25,8 @@ class InputFeed {
 
   /// What Autonomy::process answers.
   std::optional<common::Setpoint> give(const Input& input);
-  /// An event that is not the autonomy's own.
-  void tell(const common::Event& event);
+  /// An event, the autonomy's own or another of its vehicle; the sinks are told it with the vehicle's name.
+  void tell(common::Event event);
 
  private:
   void publish(common::Time now, const common::Setpoint& setpoint);

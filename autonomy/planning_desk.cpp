@@ -15,7 +15,7 @@ PlanningDesk::PlanningDesk(const ExecutorConfig& config, const common::VehicleCo
       hull_radius_m_(vehicle.hullRadius_m()),
       jobs_(jobs),
       deliver_(std::move(deliver)),
-      worker_(std::make_shared<PlanningWorker>(config.cost_map, config.exploration, config.planner, grid_resolution_m)),
+      worker_(std::make_shared<PlanningWorker>(config, grid_resolution_m)),
       frontiers_(std::make_shared<std::vector<common::Frontier>>()) {}
 
 void PlanningDesk::ask(const ManeuverInput& input, const PlanningClient& client, PlanningQuestion question) {

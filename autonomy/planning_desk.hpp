@@ -46,8 +46,8 @@ class PlanningDesk {
   /// As the last exploration saw them; never null.
   std::shared_ptr<const std::vector<common::Frontier>> frontiers() const { return frontiers_; }
   double exploredArea_m2() const { return explored_area_m2_; }
-  /// Who found the paths to goals, by the answers so far.
-  const PlannerUse& plannerUse() const { return use_; }
+  /// Who found the paths and chose the viewpoints, by the answers so far.
+  const PlanningUse& use() const { return use_; }
 
  private:
   void receive(const PlanningAnswer& answer, common::Time now);
@@ -61,7 +61,7 @@ class PlanningDesk {
   std::shared_ptr<const common::GoalMap> goal_map_;
   std::shared_ptr<const std::vector<common::Frontier>> frontiers_;
   double explored_area_m2_ = 0.0;
-  PlannerUse use_;
+  PlanningUse use_;
 };
 
 }  // namespace swiftlet::autonomy

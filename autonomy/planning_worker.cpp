@@ -1,6 +1,7 @@
 #include "autonomy/planning_worker.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "planning/search/admission.hpp"
 #include "planning/search/goal_map.hpp"
@@ -30,16 +31,29 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   } else if (const auto* blocked = std::get_if<DetourRequest>(&request.question)) {
     answer.detour = detour(*blocked, request.discs, request.T_map_body.position_m());
   } else if (const auto* explore_request = std::get_if<ExploreRequest>(&request.question)) {
-    planning::ExplorationInput input;
-    input.cost_map = answer.cost_map;
-    input.pose_map = request.T_map_body;
-    input.current = explore_request->current;
-    input.attempts = explore_request->attempts;
-    input.bounds = explore_request->bounds;
-    answer.exploration = planning::explore(input, exploration_);
+    explore(request, *explore_request, answer);
   }
-  answer.use = {planner_->name(), paths_};
+  answer.use = {planner_->name(), paths_, explorer_->name(), viewpoints_};
   return answer;
+}
+
+void PlanningWorker::explore(const PlanningRequest& request, const ExploreRequest& question, PlanningAnswer& answer) {
+  planning::ExplorationInput input;
+  input.cost_map = answer.cost_map;
+  input.pose_map = request.T_map_body;
+  input.current = question.current;
+  input.attempts = question.attempts;
+  input.bounds = question.bounds;
+  planning::ExplorationResult result = explorer_->explore(input);
+  if (result.next) {
+    if (!result.kept_current) ++viewpoints_;
+    answer.path = plan(input.pose_map.position_m(), result.next->pose_map.position_m());
+    if (!*answer.path) {
+      result.reason = "no path to the viewpoint: " + answer.path->error().text;
+      result.next.reset();
+    }
+  }
+  answer.exploration = std::move(result);
 }
 
 tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::plan(const Eigen::Vector2d& from_map_m,

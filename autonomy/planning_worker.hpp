@@ -1,4 +1,4 @@
-// The planning job: brings the cost map up to date and answers one request. It keeps the cost map and the D* Lite
+// The planning job: brings the cost map up to date and answers one request. It keeps the cost map and the planner's
 // search between jobs; while a job is out, the worker belongs to it.
 #pragma once
 
@@ -10,12 +10,13 @@
 
 #include <tl/expected.hpp>
 
+#include "autonomy/executor_config.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 #include "planning/costs/cost_map.hpp"
 #include "planning/exploration/exploration.hpp"
+#include "planning/exploration/explorer_choice.hpp"
 #include "planning/search/planner.hpp"
-#include "planning/search/planner_choice.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -52,27 +53,31 @@ struct DetourPlan {
   bool makes_room = false;
 };
 
-/// Who found the paths, and how many.
-struct PlannerUse {
+/// Who found the paths and chose the viewpoints, and how many.
+struct PlanningUse {
   std::string planner;
-  int paths = 0;
+  int paths = 0;  ///< To goals, to viewpoints and of detours.
+  std::string explorer;
+  int viewpoints = 0;  ///< A viewpoint that was kept is not counted again.
 };
 
 struct PlanningAnswer {
   std::uint64_t intent_id = 0;
   std::shared_ptr<const planning::CostMap> cost_map;
-  std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;  ///< For a GoalRequest.
+  /// For a GoalRequest, and to the viewpoint that an ExploreRequest found.
+  std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;
   std::optional<DetourPlan> detour;                        ///< For a DetourRequest, when there is anywhere to go.
-  std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest.
-  PlannerUse use;                                          ///< So far, this answer included.
+  std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest; a `next` in it has its path.
+  PlanningUse use;                                         ///< So far, this answer included.
 };
 
 /// One job at a time; a pure function of the requests so far.
 class PlanningWorker {
  public:
-  PlanningWorker(const planning::CostMap::Config& cost_map, const planning::ExplorationConfig& exploration,
-                 const planning::PlannerConfig& planner, double resolution_m)
-      : exploration_(exploration), map_(cost_map, resolution_m), planner_(planning::makePlanner(planner)) {}
+  PlanningWorker(const ExecutorConfig& config, double resolution_m)
+      : map_(config.cost_map, resolution_m),
+        explorer_(planning::makeExplorer(config.explorer, config.exploration)),
+        planner_(planning::makePlanner(config.planner)) {}
 
   PlanningAnswer answer(const PlanningRequest& request);
 
@@ -83,13 +88,15 @@ class PlanningWorker {
                                                            const Eigen::Vector2d& position_map_m);
   std::optional<DetourPlan> detour(const DetourRequest& request, const std::vector<planning::Disc>& people,
                                    const Eigen::Vector2d& position_map_m);
+  void explore(const PlanningRequest& request, const ExploreRequest& question, PlanningAnswer& answer);
   std::optional<Eigen::Vector2d> roomyPlace(const Eigen::Vector2d& position_map_m) const;
 
-  planning::ExplorationConfig exploration_;
   planning::CostMap map_;
   std::vector<Eigen::Vector2d> flown_map_m_;  ///< Where the vehicle was at the requests.
+  std::unique_ptr<planning::Explorer> explorer_;
   std::unique_ptr<planning::Planner> planner_;
-  int paths_ = 0;  ///< Found by the planner.
+  int paths_ = 0;       ///< Found by the planner.
+  int viewpoints_ = 0;  ///< Chosen by the explorer.
 };
 
 }  // namespace swiftlet::autonomy

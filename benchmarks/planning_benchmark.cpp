@@ -12,7 +12,7 @@
 #include "common/random.hpp"
 #include "planning/avoidance/avoidance.hpp"
 #include "planning/costs/cost_map.hpp"
-#include "planning/exploration/exploration.hpp"
+#include "planning/exploration/utility_explorer.hpp"
 #include "planning/search/dstar_lite.hpp"
 #include "planning/search/wavefront.hpp"
 
@@ -221,9 +221,10 @@ void Explore(benchmark::State& state) {
   planning::ExplorationInput input;
   input.cost_map = map;
   input.pose_map = {start.x(), start.y(), 0.0};
+  const planning::UtilityExplorer explorer{{}};
   planning::ExplorationResult result;
   for (auto _ : state) {
-    result = planning::explore(input, {});
+    result = explorer.explore(input);
     benchmark::DoNotOptimize(result);
   }
   state.counters["frontiers"] = static_cast<double>(result.frontiers.size());

@@ -58,6 +58,7 @@ struct LocalizationScore {
 /// An optional figure is none where it could not be measured: no goal was reached, nothing flew.
 struct FlightScore {
   std::int64_t seed = 0;
+  std::string vehicle;  ///< Its name among several that flew together; empty: it flew alone.
   std::string folder;   ///< Of the run, relative to the trial's; set by the caller.
   std::string outcome;  ///< "done", or why not.
   bool mission_done = false;

@@ -78,7 +78,6 @@ std::vector<std::string> TrialConfig::validate() const {
       .require(!mission.empty(), "mission", "is missing")
       .require(!system.empty(), "system", "is missing")
       .require(!scenario.world.empty(), "scenario", "names no `world`")
-      .require(scenario.vehicleCount() == 1, "scenario", "lists several `vehicles`; a trial flies one")
       .problems();
 }
 

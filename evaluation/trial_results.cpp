@@ -25,6 +25,14 @@ std::optional<double> atQuantile(const std::vector<FlightScore>& flights, Member
   return quantile(values, q);
 }
 
+/// The number of the first score of each flight: vehicles that flew together follow each other with one seed.
+std::vector<std::size_t> firstOfFlights(const std::vector<FlightScore>& scores) {
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    if (i == 0 || scores[i].vehicle.empty() || scores[i].seed != scores[i - 1].seed) first.push_back(i);
+  return first;
+}
+
 constexpr double kMin = 0.0, kMedian = 0.5, kMax = 1.0;
 
 std::optional<double> localizationPathLength_m(const std::vector<FlightScore>& flights, double q) {
@@ -38,8 +46,17 @@ std::optional<double> localizationPathLength_m(const std::vector<FlightScore>& f
 
 }  // namespace
 
+int TrialResult::flown() const { return static_cast<int>(firstOfFlights(flights).size()); }
+
 int TrialResult::passed() const {
-  return static_cast<int>(std::count_if(flights.begin(), flights.end(), [](const auto& f) { return f.passed(); }));
+  const std::vector<std::size_t> first = firstOfFlights(flights);
+  int passed = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const auto begin = flights.begin() + static_cast<std::ptrdiff_t>(first[i]);
+    const auto end = i + 1 < first.size() ? flights.begin() + static_cast<std::ptrdiff_t>(first[i + 1]) : flights.end();
+    passed += std::all_of(begin, end, [](const FlightScore& score) { return score.passed(); }) ? 1 : 0;
+  }
+  return passed;
 }
 
 std::vector<std::string> TrialResult::missed() const {
@@ -53,9 +70,7 @@ std::vector<std::string> TrialResult::missed() const {
   return judge.failures;
 }
 
-bool TrialResult::met() const {
-  return !flights.empty() && passed() == static_cast<int>(flights.size()) && missed().empty();
-}
+bool TrialResult::met() const { return !flights.empty() && passed() == flown() && missed().empty(); }
 
 int TrialResult::collisions() const {
   int sum = 0;

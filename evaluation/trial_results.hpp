@@ -11,7 +11,8 @@
 
 namespace swiftlet::evaluation {
 
-/// The flights of one trial, in the order of their seeds.
+/// The flights of one trial, in the order of their seeds. Several vehicles that flew together have a score each, one
+/// after the other; figures over all flights are over all scores.
 struct TrialResult {
   std::string name;
   std::string system;
@@ -19,6 +20,8 @@ struct TrialResult {
   std::vector<FlightScore> flights;
   Criteria criteria = {};
 
+  /// Flights, and those of which every vehicle passed.
+  int flown() const;
   int passed() const;
   /// The criteria over all flights that are missed.
   std::vector<std::string> missed() const;

@@ -104,8 +104,7 @@ std::vector<SummaryColumn> columnsFor(const std::vector<TrialResult>& trials) {
 }
 
 std::vector<TableCell> summaryRow(const TrialResult& trial, const std::vector<SummaryColumn>& columns) {
-  const int runs = static_cast<int>(trial.flights.size());
-  std::vector<TableCell> row = {{trial.name}, counted(trial.passed(), runs)};
+  std::vector<TableCell> row = {{trial.name}, counted(trial.passed(), trial.flown())};
   row.push_back({fmt::format("{}", trial.collisions()), trial.collisions() == 0 ? Mark::kGood : Mark::kBad});
   for (const SummaryColumn& column : columns)
     row.push_back({column.show((trial.*column.value)()), markOf(column, trial)});
@@ -121,6 +120,11 @@ std::vector<TableCell> rowBelow(const char* title, const std::vector<SummaryColu
     row.push_back({figure ? column.show(figure) : ""});
   }
   return row;
+}
+
+/// "7", or "7 beta" of several vehicles.
+std::string flightName(const FlightScore& flight) {
+  return fmt::format("{}{}{}", flight.seed, flight.vehicle.empty() ? "" : " ", flight.vehicle);
 }
 
 bool asksForAny(const Criteria& criteria) {
@@ -161,7 +165,7 @@ Table flightTable(const TrialResult& trial) {
               {}};
   for (const FlightScore& flight : trial.flights) {
     const std::string link = flight.folder.empty() ? "" : flight.folder + "/report.html";
-    table.rows.push_back({{fmt::format("{}", flight.seed), Mark::kNone, link},
+    table.rows.push_back({{flightName(flight), Mark::kNone, link},
                           {flight.passed() ? "yes" : "no", flight.passed() ? Mark::kGood : Mark::kBad},
                           {flight.outcome},
                           {flight.coverage_problem.empty() ? percent(flight.coverage) : "open world"},
@@ -184,7 +188,7 @@ Table failureTable(const TrialResults& results) {
   for (const TrialResult& trial : results.trials) {
     for (const FlightScore& flight : trial.flights)
       for (const std::string& failure : flight.failures)
-        table.rows.push_back({{trial.name}, {fmt::format("{}", flight.seed)}, {failure, Mark::kBad}});
+        table.rows.push_back({{trial.name}, {flightName(flight)}, {failure, Mark::kBad}});
     for (const std::string& failure : trial.missed())
       table.rows.push_back({{trial.name}, {"all"}, {failure, Mark::kBad}});
   }

@@ -33,6 +33,7 @@ struct RunInfo {
   std::string version;
   std::string started;         ///< Local date and time; the caller's clock.
   std::string given_map = {};  ///< To find itself in; empty: none.
+  std::string vehicle = {};    ///< Its name among several; empty: it flew alone.
 };
 
 /// A stretch of the flight with one intent.

@@ -152,6 +152,7 @@ void PilotConfig::describe(common::config::Fields& fields) {
 
 void ScenarioVehicle::describe(common::config::Fields& fields) {
   fields("name", name, "Name of the vehicle.");
+  fields("mission", mission, "Mission that it flies, a file as the trial's; empty for that of the trial.");
   fields.section("start", start, "Where the vehicle stands.");
   fields("battery_remaining", battery_remaining, {0.01, 1}, "Charge at the start, as a share of the full one.");
   fields.list("pushes", pushes, "Pushes of the vehicle.");

@@ -121,6 +121,7 @@ struct ScenarioVehicle {
   std::vector<PushConfig> pushes;
   std::vector<FaultConfig> faults;
   std::vector<PilotConfig> pilot;
+  std::string mission = {};
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -70,7 +70,7 @@ Progress Explore::answered(const PlanningAnswer& answer, Time now, const common:
   reason_ = result.reason;
   if (result.next || result.done) shut_in_since_.reset();
   if (result.next) {
-    goOn(result, now, state);
+    goOn(answer, now, state);
   } else if (!detour_.active()) {
     viewpoint_.reset();
     flight_.abandon();
@@ -80,7 +80,8 @@ Progress Explore::answered(const PlanningAnswer& answer, Time now, const common:
   return Progress::running(reason_);
 }
 
-void Explore::goOn(const planning::ExplorationResult& result, Time now, const common::VehicleState& state) {
+void Explore::goOn(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
+  const planning::ExplorationResult& result = *answer.exploration;
   done_answers_ = 0;
   done_since_.reset();
   blocked_frontier_map_m_.reset();
@@ -91,7 +92,7 @@ void Explore::goOn(const planning::ExplorationResult& result, Time now, const co
     flight_.setGoalYaw(result.next->pose_map.yaw_rad);
     flight_.release();
   }
-  flight_.offer(result.next->path, now, state);
+  flight_.offer(**answer.path, now, state);
 }
 
 Progress Explore::nothingOpen(const planning::ExplorationResult& result, Time now) {

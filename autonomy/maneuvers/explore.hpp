@@ -20,7 +20,7 @@ class Explore final : public PathManeuver {
   Progress fly(const ManeuverInput& input) override;
   /// True when it has looked long enough from the viewpoint, which is then behind it.
   bool look(const ManeuverInput& input);
-  void goOn(const planning::ExplorationResult& result, common::Time now, const common::VehicleState& state);
+  void goOn(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state);
   Progress nothingOpen(const planning::ExplorationResult& result, common::Time now);
   Progress explored(const planning::ExplorationResult& result, common::Time now);
   /// The longest frontier that somebody who was seen lately may hide.

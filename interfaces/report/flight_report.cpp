@@ -66,9 +66,14 @@ std::pair<std::string, Mark> verdictOf(const FlightSummary& summary) {
   return {"", Mark::kNone};
 }
 
+/// "explore_and_return", with the vehicle's name where several flew.
+std::string titleOf(const FlightSummary& summary) {
+  return summary.info.mission + (summary.info.vehicle.empty() ? "" : ", " + summary.info.vehicle);
+}
+
 std::string header(const FlightSummary& summary) {
   const auto [verdict, mark] = verdictOf(summary);
-  std::string text = fmt::format("<h1>{} {}</h1>\n", escaped(summary.info.mission), html::pill(verdict, mark));
+  std::string text = fmt::format("<h1>{} {}</h1>\n", escaped(titleOf(summary)), html::pill(verdict, mark));
   if (!summary.reason.empty()) text += fmt::format("<p>{}</p>\n", escaped(summary.reason));
   if (summary.outcome == Outcome::kFlying)
     text += "<p>The flight goes on, or its program was ended before it could say how the flight ended.</p>\n";
@@ -202,7 +207,7 @@ std::string flightReport(const FlightSummary& summary, const std::vector<common:
   const std::string body = summarySection(summary) + mapSection(pictures.map_svg) + phasesSection(summary.phases) +
                            plotsSection(pictures.plots_svg) + figuresSection(summary.figures) +
                            frontiersSection(summary) + eventsSection(events) + settingsSection(config_yaml);
-  return html::page(summary.info.mission + ": " + toString(summary.outcome), header(summary), body);
+  return html::page(titleOf(summary) + ": " + toString(summary.outcome), header(summary), body);
 }
 
 }  // namespace swiftlet::interfaces

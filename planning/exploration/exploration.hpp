@@ -1,6 +1,5 @@
-// Exploration: what is left to see, why each rest is left, and where to look from next. Frontiers after Yamauchi, used
-// by Saeedi, section III-F; scored by what would be seen and by how well the laser fixes the pose there (Bachrach 2009,
-// section 5.4).
+// Exploration: what is left to see, why each rest is left, and where to look from next. An explorer chooses the
+// viewpoint; the path there is found by a planner.
 #pragma once
 
 #include <memory>
@@ -14,18 +13,15 @@
 #include "common/intent.hpp"
 #include "common/world/frontier.hpp"
 #include "planning/costs/cost_map.hpp"
-#include "planning/exploration/exploration_config.hpp"
-#include "planning/search/planner.hpp"
 
 namespace swiftlet::planning {
 
 /// Where to look from.
 struct Viewpoint {
   common::Pose2 pose_map;
-  Path path;                                               ///< From the present pose.
   Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();  ///< The unknown place it is for.
   double gain_m2 = 0.0;                                    ///< Unknown area expected to be seen.
-  double utility = 0.0;
+  double utility = 0.0;                                    ///< Of several viewpoints the greatest is chosen.
 };
 
 /// A look at an unknown place that stayed unknown, and from where.
@@ -51,8 +47,14 @@ struct ExplorationResult {
   std::string reason;                       ///< For people: "4 open frontiers, next 3.2 m away".
 };
 
-/// A pure function of its arguments; run it as a job.
-[[nodiscard]] ExplorationResult explore(const ExplorationInput& input, const ExplorationConfig& config);
+/// Chooses viewpoints. Constant: what it answers follows from the input alone; run it as a job.
+class Explorer {
+ public:
+  virtual ~Explorer() = default;
+  [[nodiscard]] virtual ExplorationResult explore(const ExplorationInput& input) const = 0;
+  /// "utility".
+  virtual const char* name() const = 0;
+};
 
 /// The viewpoint was reached and what is seen from it is in the map.
 inline ExplorationAttempt attemptFrom(const Viewpoint& viewpoint) {

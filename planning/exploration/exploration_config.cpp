@@ -5,7 +5,6 @@
 namespace swiftlet::planning {
 
 void ExplorationConfig::describe(common::config::Fields& fields) {
-  fields.choice("strategy", strategy, {"nearest", "utility"}, "How the next viewpoint is chosen.");
   fields("min_frontier_m", min_frontier_m, {0, 5}, "Shorter frontiers are left as too small.");
   fields("segment_m", segment_m, {0.2, 20}, "Longer frontiers are cut into pieces of at most this length.");
   fields("laser_range_m", laser_range_m, {0.5, 100}, "Range within which a viewpoint counts on seeing.");
@@ -13,7 +12,7 @@ void ExplorationConfig::describe(common::config::Fields& fields) {
          "Angle centred on the heading in which a viewpoint counts on seeing.");
   fields("gain_depth_m", gain_depth_m, {0.1, 20}, "Depth of the unknown that a beam is expected to see.");
   fields("gain_exponent", gain_exponent, {0, 3},
-         "Utility grows with the gain to this power; 0 takes the nearest first.");
+         "Utility grows with the gain to this power; at 0 only the travel time counts.");
   fields("min_gain_m2", min_gain_m2, {0, 10}, "A frontier behind which less is expected is left as too small.");
   fields("speed_m_s", speed_m_s, {0.05, 10}, "Speed from which travel times are estimated.");
   fields("acceleration_m_s2", acceleration_m_s2, {0.05, 20}, "Acceleration from which travel times are estimated.");

@@ -1,15 +1,11 @@
-// The configuration of exploration.
+// What every explorer is set by.
 #pragma once
 
 #include "common/config_fwd.hpp"
 
 namespace swiftlet::planning {
 
-/// How the next viewpoint is chosen among the best of each frontier.
-enum class ExplorationStrategy { kNearest, kUtility };
-
 struct ExplorationConfig {
-  ExplorationStrategy strategy = ExplorationStrategy::kUtility;
   double min_frontier_m = 0.30;
   double segment_m = 1.5;
   double laser_range_m = 12.0;

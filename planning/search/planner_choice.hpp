@@ -1,4 +1,4 @@
-// Which planner finds the paths to goals; a system profile chooses.
+// Which planner finds the paths to goals and to viewpoints; a system profile chooses.
 #pragma once
 
 #include <memory>

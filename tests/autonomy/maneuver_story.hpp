@@ -24,10 +24,15 @@ inline constexpr double kStanding_m = 0.15, kHeight_m = 1.0;
 /// `map` and `odom` differ, so that a frame mistake shows.
 inline const common::Pose2 kT_map_odom{0.4, -0.3, 0.5};
 
+/// What a profile may choose.
+struct Choices {
+  planning::PlannerKind planner = planning::PlannerKind::kDStarLite;
+  planning::ExplorerKind explorer = planning::ExplorerKind::kUtility;
+};
+
 class ManeuverStory : public testing::Test {
  protected:
-  explicit ManeuverStory(planning::PlannerKind planner = planning::PlannerKind::kDStarLite)
-      : executor_(config(planner), {}, 0.05, controller_, *jobs_) {
+  explicit ManeuverStory(const Choices& choices = {}) : executor_(config(choices), {}, 0.05, controller_, *jobs_) {
     state_.T_map_odom = kT_map_odom;
     state_.horizontal_valid = state_.vertical_valid = true;
     state_.T_odom_body.position_m.z() = kStanding_m;
@@ -122,9 +127,10 @@ class ManeuverStory : public testing::Test {
   Executor executor_;
 
  private:
-  static ExecutorConfig config(planning::PlannerKind planner) {
+  static ExecutorConfig config(const Choices& choices) {
     ExecutorConfig config;
-    config.planner.kind = planner;
+    config.planner.kind = choices.planner;
+    config.explorer.kind = choices.explorer;
     config.give_up_s = 12.0;
     return config;
   }

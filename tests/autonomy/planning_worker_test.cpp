@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "autonomy/planning_worker.hpp"
+#include "planning/search/planner_choice.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -35,7 +36,7 @@ struct Worker : testing::Test {
   }
   common::Pose2 pose{2.0, 2.0, 0.0};
   std::shared_ptr<common::OccupancyGrid> grid = room();
-  PlanningWorker worker{planning::CostMap::Config{}, planning::ExplorationConfig{}, {}, 0.05};
+  PlanningWorker worker{ExecutorConfig{}, 0.05};
 };
 
 TEST_F(Worker, FindsThePathToAGoal) {
@@ -50,13 +51,36 @@ TEST_F(Worker, TheChosenPlannerFindsThePathAndIsCounted) {
   const auto first = ask(GoalRequest{{6.0, 3.0}, 0.05});
   EXPECT_EQ(first.use.planner, "D* Lite");
   EXPECT_EQ(first.use.paths, 1);
-  worker = PlanningWorker{{}, {}, {planning::PlannerKind::kWavefront}, 0.05};
+  ExecutorConfig by_wavefront;
+  by_wavefront.planner.kind = planning::PlannerKind::kWavefront;
+  worker = PlanningWorker{by_wavefront, 0.05};
   const auto second = ask(GoalRequest{{6.0, 3.0}, 0.05});
   EXPECT_EQ(second.use.planner, "wavefront");
   EXPECT_EQ(second.use.paths, 1);
   ASSERT_TRUE(*first.path && *second.path);
   EXPECT_NEAR((*first.path)->cost_m, (*second.path)->cost_m, 0.05) << "both are optimal on the cells";
   EXPECT_EQ(ask(GoalRequest{{90.0, 3.0}, 0.05}).use.paths, 1) << "a path that was not found is none";
+}
+
+TEST_F(Worker, TheChosenPlannerFindsThePathToTheViewpoint) {
+  for (int y = 20; y < 50; ++y) grid->set({159, y}, -common::occupancy::kMaxSteps);
+  for (const planning::PlannerKind kind : {planning::PlannerKind::kDStarLite, planning::PlannerKind::kWavefront}) {
+    ExecutorConfig config;
+    config.planner.kind = kind;
+    worker = PlanningWorker{config, 0.05};
+    const auto answer = ask(ExploreRequest{});
+    ASSERT_TRUE(answer.exploration && answer.exploration->next && answer.path && *answer.path);
+    EXPECT_EQ((*answer.path)->points_map_m.front(), pose.position_m());
+    EXPECT_EQ((*answer.path)->points_map_m.back(), answer.exploration->next->pose_map.position_m());
+    EXPECT_EQ(answer.use.explorer, "utility");
+    EXPECT_EQ(answer.use.planner, planning::makePlanner({kind})->name());
+    EXPECT_EQ(answer.use.paths, 1);
+    EXPECT_EQ(answer.use.viewpoints, 1);
+    const auto again = ask(ExploreRequest{answer.exploration->next, {}, std::nullopt});
+    EXPECT_TRUE(again.exploration->kept_current);
+    EXPECT_EQ(again.use.paths, 2);
+    EXPECT_EQ(again.use.viewpoints, 1) << "the same is flown to";
+  }
 }
 
 TEST_F(Worker, AGoalJustTooCloseToTheWallIsReachedWithinItsTolerance) {
@@ -79,7 +103,7 @@ TEST_F(Worker, ADoorThatWasFlownThroughDoesNotCloseBehindTheVehicle) {
   build(14);  // Its frame has grown by a cell on each side.
   const auto back = ask(GoalRequest{{2.0, 2.0}, 0.05});
   ASSERT_TRUE(back.path && *back.path);
-  worker = PlanningWorker{planning::CostMap::Config{}, planning::ExplorationConfig{}, {}, 0.05};
+  worker = PlanningWorker{ExecutorConfig{}, 0.05};
   EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value()) << "who has not flown there knows no better";
 }
 

@@ -90,9 +90,41 @@ TEST_F(Trials, MistakesOfAllFilesAreSaidAtOnce) {
   EXPECT_THAT(problem, HasSubstr("coverage_min: 99 is not within"));
 }
 
-TEST_F(Trials, SeveralVehiclesAreRefused) {
-  put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: alpha}, {name: beta}]}\n");
-  EXPECT_THAT(problemOf(folder_), HasSubstr("scenario: lists several `vehicles`; a trial flies one"));
+TEST_F(Trials, OfSeveralVehiclesEachMayHaveItsOwnMission) {
+  put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: alpha}, {name: beta, mission: n.xml}]}\n");
+  const TrialConfig trial = readTrials(folder_).at(0);
+  ASSERT_EQ(trial.scenario.vehicles.size(), 2u);
+  EXPECT_EQ(trial.scenario.vehicles[0].mission, "");
+  EXPECT_EQ(trial.scenario.vehicles[1].mission, "n.xml");
+}
+
+TEST_F(Trials, VehiclesOfOneNameOrWithASlashInItAreRefused) {
+  put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: alpha}, {name: alpha}]}\n");
+  EXPECT_THAT(problemOf(folder_), HasSubstr("vehicles: two are called `alpha`"));
+  put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: up/down}]}\n");
+  EXPECT_THAT(problemOf(folder_), HasSubstr("name: is not 1 to 40 letters, digits, `_` and `-`"));
+}
+
+TEST(TrialOfTwo, AFlightPassesWhenBothVehiclesDo) {
+  const auto score = [](int seed, const std::string& vehicle, bool passes) {
+    FlightScore made;
+    made.seed = seed;
+    made.vehicle = vehicle;
+    if (!passes) made.failures.push_back("coverage: 0.5, asked for at least 0.9");
+    return made;
+  };
+  TrialResult trial{"two", "swiftlet", {}, {}};
+  trial.flights = {score(7, "alpha", true), score(7, "beta", false), score(8, "alpha", true), score(8, "beta", true)};
+  EXPECT_EQ(trial.flown(), 2);
+  EXPECT_EQ(trial.passed(), 1);
+  EXPECT_FALSE(trial.met());
+  const json results = json::parse(toJson({{trial}})).at("trials").at(0);
+  EXPECT_EQ(results.at("runs"), 2);
+  ASSERT_EQ(results.at("flights").size(), 4u);
+  EXPECT_EQ(results.at("flights")[1].at("vehicle"), "beta");
+  EXPECT_EQ(flightTable(trial).rows[1][0].text, "7 beta");
+  trial.flights[1].failures.clear();
+  EXPECT_TRUE(trial.met());
 }
 
 TEST_F(Trials, NothingThere) {

@@ -12,6 +12,8 @@
 #include "grid_builder.hpp"
 #include "planning/costs/localizability.hpp"
 #include "planning/exploration/frontiers.hpp"
+#include "planning/exploration/nearest_frontier_explorer.hpp"
+#include "planning/exploration/utility_explorer.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -65,6 +67,48 @@ TEST(Exploration, RandomBuildingsAreExplored) {
   }
 }
 
+TEST(Exploration, ByTheNearestFrontierBuildingsAreExploredToo) {
+  test::FlightConfig config = quick();
+  config.explorer.kind = ExplorerKind::kNearestFrontier;
+  for (const bool pockets : {true, false}) {
+    const std::string name = pockets ? "nearest_pocket" : "nearest_building";
+    const auto world = pockets ? test::pocketRoom(1) : test::randomBuilding(1, 14, 10, 3, 2, 8);
+    const test::FlightReport report = test::fly(world, config, 1);
+    record(report, name);
+    expectExplored(report, name);
+  }
+}
+
+/// Beside the vehicle a nook of half a metre, across the hall an unknown room.
+TEST(NearestFrontier, IsFlownToHoweverLittleIsThereAndKeptUntilItIsReached) {
+  common::OccupancyGrid grid = test::room(200, 100);
+  test::fill(grid, {{30, 100}, {50, 101}}, test::kFreeCell);
+  test::fill(grid, {{25, 102}, {55, 103}}, test::kWallCell);
+  test::fill(grid, {{200, 30}, {201, 70}}, test::kFreeCell);
+  auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
+  map->update(grid.snapshot(), {});
+  ExplorationInput input{map, {2.0, 2.5, 0.0}, std::nullopt, {}, std::nullopt};
+  const NearestFrontierExplorer nearest{{}};
+  const auto first = nearest.explore(input).next, by_gain = UtilityExplorer({}).explore(input).next;
+  ASSERT_TRUE(first && by_gain);
+  EXPECT_NEAR(first->target_map_m.x(), 2.0, 0.6);
+  EXPECT_GT(by_gain->target_map_m.x(), 9.0);
+  EXPECT_LT((first->target_map_m - first->pose_map.position_m()).norm(), 0.6) << "it goes there to look";
+  const Eigen::Vector2d to = first->target_map_m - first->pose_map.position_m();
+  EXPECT_NEAR(common::wrapAngle(std::atan2(to.y(), to.x()) - first->pose_map.yaw_rad), 0.0, 1e-9);
+
+  input.current = first;
+  input.pose_map = {8.5, 2.5, 0.0};
+  const ExplorationResult later = nearest.explore(input);
+  EXPECT_TRUE(later.kept_current) << "though the other is nearer now";
+  EXPECT_EQ(later.next->pose_map.position_m(), first->pose_map.position_m());
+  input.attempts.assign(3, attemptFrom(*first));
+  const ExplorationResult last = nearest.explore(input);
+  EXPECT_FALSE(last.kept_current);
+  ASSERT_TRUE(last.next);
+  EXPECT_GT(last.next->target_map_m.x(), 9.0);
+}
+
 TEST(Exploration, AWallThatSwallowsBeamsDoesNotKeepItFlying) {
   test::Flatland world = test::pocketRoom(3);
   world.black.push_back({{world.width - 2, 40}, {world.width, 90}});
@@ -88,7 +132,7 @@ struct TwoRooms : testing::Test {
     map->update(grid.snapshot(), {});
     input.cost_map = map;
     input.pose_map = {2.0, 2.5, 0.0};
-    return explore(input, config);
+    return UtilityExplorer(config).explore(input);
   }
 };
 
@@ -99,7 +143,6 @@ TEST_F(TwoRooms, ADoorwayIsOpenAndLookedInto) {
   EXPECT_FALSE(result.done);
   ASSERT_TRUE(result.next);
   EXPECT_GT(result.next->gain_m2, 1.0);
-  EXPECT_EQ(result.next->path.points_map_m.front(), Eigen::Vector2d(2.0, 2.5));
   // The target is within the field of view.
   const Eigen::Vector2d to = result.next->target_map_m - result.next->pose_map.position_m();
   EXPECT_LT(std::abs(common::wrapAngle(std::atan2(to.y(), to.x()) - result.next->pose_map.yaw_rad)),
@@ -141,7 +184,7 @@ TEST_F(TwoRooms, BlacklistedAfterEnoughLooks) {
 TEST_F(TwoRooms, TheSameInputGivesTheSameAnswer) {
   const ExplorationResult a = look(24), b = look(24);
   EXPECT_EQ(a.reason, b.reason);
-  EXPECT_EQ(a.next->path.points_map_m, b.next->path.points_map_m);
+  EXPECT_EQ(a.next->pose_map.position_m(), b.next->pose_map.position_m());
   EXPECT_EQ(a.next->utility, b.next->utility);
 }
 
@@ -168,7 +211,7 @@ TEST(Exploration, BehindAPassageTooNarrowForTheHullIsUnreachable) {
   test::fill(grid, {{109, 70}, {110, 80}}, common::occupancy::kUnknown);
   auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
   map->update(grid.snapshot(), {});
-  const ExplorationResult result = explore({map, {2.0, 2.6, 0.0}, std::nullopt, {}, std::nullopt}, {});
+  const ExplorationResult result = UtilityExplorer({}).explore({map, {2.0, 2.6, 0.0}, std::nullopt, {}, std::nullopt});
   ASSERT_EQ(result.frontiers.size(), 1u);
   EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kUnreachable);
   EXPECT_THAT(result.frontiers[0].explanation, HasSubstr("at clearance 0.10 m"));
@@ -179,9 +222,11 @@ TEST(Exploration, AVehicleShutInSaysSo) {
   common::OccupancyGrid grid = test::room(40, 4);
   auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
   map->update(grid.snapshot(), {});
-  const ExplorationResult result = explore({map, {1.0, 0.1, 0.0}, std::nullopt, {}, std::nullopt}, {});
-  EXPECT_FALSE(result.next);
-  EXPECT_THAT(result.reason, HasSubstr("shut in"));
+  for (const ExplorerKind kind : {ExplorerKind::kUtility, ExplorerKind::kNearestFrontier}) {
+    const auto result = makeExplorer({kind}, {})->explore({map, {1.0, 0.1, 0.0}, std::nullopt, {}, std::nullopt});
+    EXPECT_FALSE(result.next);
+    EXPECT_THAT(result.reason, HasSubstr("shut in"));
+  }
 }
 
 TEST(Frontiers, LongOnesAreCutAndCoverEveryBorderCell) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "planning/search/wavefront.hpp"
+
 namespace swiftlet::planning::test {
 namespace {
 
@@ -94,8 +96,9 @@ struct Flyer {
   double speed_m_s = 0.0;
   std::size_t next = 1;
 
-  void step(const Viewpoint& viewpoint, const FlightConfig& config, double dt_s, FlightReport& report) {
-    const auto& points = viewpoint.path.points_map_m;
+  void step(const Viewpoint& viewpoint, const Path& path, const FlightConfig& config, double dt_s,
+            FlightReport& report) {
+    const auto& points = path.points_map_m;
     double left_m = 0.0;
     Point at = pose.position_m();
     for (std::size_t i = next; i < points.size(); ++i) {
@@ -204,6 +207,9 @@ FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_
   std::vector<ExplorationAttempt> attempts;
   Flyer flyer;
   std::optional<Viewpoint> current;
+  Path path;
+  Wavefront planner;
+  const std::unique_ptr<Explorer> explorer = makeExplorer(config.explorer, config.exploration);
   common::OccupancyGrid& grid = report.grid;
   flyer.pose = {0.5 * kRes, 0.5 * kRes, random.uniform(-3.1, 3.1)};
   // What lies under the vehicle at take-off is free.
@@ -221,16 +227,18 @@ FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_
       map.update(grid.snapshot(), config.footprint);
       const Point before = current ? current->target_map_m : Point::Zero();
       const bool flying = current.has_value();
-      report.last =
-          explore({std::make_shared<CostMap>(map), flyer.pose, current, attempts, std::nullopt}, config.exploration);
+      report.last = explorer->explore({std::make_shared<CostMap>(map), flyer.pose, current, attempts, std::nullopt});
       ++report.calls;
       report.done = report.last.done;
       if (report.done || !report.last.next) break;
       current = report.last.next;
+      const auto planned = planner.plan(map, flyer.pose.position_m(), current->pose_map.position_m());
+      if (!planned) break;
+      path = *planned;
       report.switches += flying && !report.last.kept_current && (current->target_map_m - before).norm() > 0.5;
       flyer.next = 1;
     }
-    flyer.step(*current, config, kTick_s, report);
+    flyer.step(*current, path, config, kTick_s, report);
     report.trail_map_m.push_back(flyer.pose.position_m());
     for (int i = 0; i < 24; ++i) {
       const double angle_rad = i * std::numbers::pi / 12;

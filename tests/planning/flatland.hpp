@@ -9,6 +9,7 @@
 #include "common/occupancy_grid.hpp"
 #include "common/random.hpp"
 #include "planning/exploration/exploration.hpp"
+#include "planning/exploration/explorer_choice.hpp"
 
 namespace swiftlet::planning::test {
 
@@ -37,6 +38,7 @@ Flatland randomBuilding(std::uint64_t seed, double width_m, double height_m, int
 Flatland pocketRoom(std::uint64_t seed);
 
 struct FlightConfig {
+  ExplorerConfig explorer;
   ExplorationConfig exploration;
   Footprint footprint;
   CostMap::Config cost_map;
@@ -62,7 +64,7 @@ struct FlightReport {
   std::vector<Eigen::Vector2d> trail_map_m;
 };
 
-/// Flies until explore() says done or the time is up.
+/// Flies until the explorer says done or the time is up; the wavefront plans the paths.
 FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_t seed);
 
 }  // namespace swiftlet::planning::test

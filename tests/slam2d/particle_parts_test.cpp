@@ -173,20 +173,20 @@ TEST(SurfaceMap, ConfidenceIsCapped) {
   EXPECT_LE(map.at(wall).hits, config.max_hits);
 }
 
-TEST(ParticleMap, ThereIsNoViewThroughADarkWall) {
-  const ParticleMapConfig config;
-  ParticleMap map(config);
+TEST(SurfaceMap, ThereIsNoViewThroughADarkWall) {
+  const SurfaceMapConfig config;
+  SurfaceMap map(config);
   DrawingBoard board;
   const CellIndex wall = map.cellAt({2.02, 0.0}), before = map.cellAt({1.0, 0.0}), behind = map.cellAt({3.0, 0.0});
   for (int i = 0; i < 3; ++i) map.draw(wallAhead(2.02), {}, board);
   const auto sure = map.at(wall).log_odds;
-  ParticleScan dark;
+  SurfaceScan dark;
   dark.no_returns_m = {{9.0F, 0.0F}, {9.0F, 0.05F}, {9.0F, -0.05F}};
   for (int i = 0; i < 50; ++i) map.draw(dark, {}, board);
   EXPECT_EQ(map.at(wall).log_odds, sure);
   EXPECT_TRUE(common::occupancy::isUnknown(map.at(behind).log_odds));
-  EXPECT_EQ(map.at(before).log_odds, -config.max_steps) << "up to the wall they do clear";
-  ParticleMap open(config);
+  EXPECT_EQ(map.at(before).log_odds, -config.grid.max_steps) << "up to the wall they do clear";
+  SurfaceMap open(config);
   open.draw(dark, {}, board);
   EXPECT_TRUE(common::occupancy::isFree(open.at(behind).log_odds));
 }

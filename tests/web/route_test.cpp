@@ -51,6 +51,34 @@ TEST(RouteTest, ReducesWhatIsTooMuchAndRefusesWhatIsNoNumber) {
   EXPECT_THAT(reasonOf(route(get("/stream/map.mjpg?widht=3"), kPolicy)), ::testing::HasSubstr("did you mean `width`"));
 }
 
+TEST(RouteTest, OfSeveralVehiclesTheNamedOneIsMeant) {
+  Policy several = kPolicy;
+  several.vehicles = {"alpha", "beta"};
+  EXPECT_EQ(std::get<SendState>(route(get("/api/state"), several)).vehicle, 0u);
+  EXPECT_EQ(std::get<SendState>(route(get("/api/state?vehicle=beta"), several)).vehicle, 1u);
+  EXPECT_EQ(std::get<SendPicture>(route(get("/api/map.png?vehicle=beta&width=99"), several)).vehicle, 1u);
+  EXPECT_EQ(std::get<StreamPictures>(route(get("/stream/map.mjpg?vehicle=beta"), several)).vehicle, 1u);
+  EXPECT_EQ(std::get<StreamPictures>(route(get("/stream/camera.mjpg?vehicle=beta"), several)).vehicle, 1u);
+  for (const char* name : {"hold", "resume", "home", "land"})
+    EXPECT_EQ(std::get<GiveCommand>(route(post(std::string("/api/") + name + "?vehicle=beta"), several)).vehicle, 1u);
+  const auto goal = route(post("/api/goal?vehicle=beta", R"({"x_m": 1.0, "y_m": 2.0})"), several);
+  EXPECT_EQ(std::get<GiveCommand>(goal).vehicle, 1u);
+  Request socket = get("/api/ws?vehicle=beta");
+  socket.wants_websocket = true;
+  EXPECT_EQ(std::get<OpenSocket>(route(socket, several)).vehicle, 1u);
+  EXPECT_EQ(std::get<ServeFile>(route(get("/?vehicle=beta"), several)).name, "index.html");
+}
+
+TEST(RouteTest, AVehicleThatIsNotThereIsNotFound) {
+  Policy several = kPolicy;
+  several.vehicles = {"alpha", "beta"};
+  for (const char* target : {"/api/state?vehicle=bet", "/?vehicle=bet", "/stream/map.mjpg?vehicle=bet"})
+    EXPECT_EQ(statusOf(route(get(target), several)), 404) << target;
+  EXPECT_THAT(reasonOf(route(get("/api/state?vehicle=bet"), several)), ::testing::HasSubstr("did you mean `beta`"));
+  EXPECT_EQ(statusOf(route(post("/api/land?vehicle=gamma"), several)), 404) << "not the first one";
+  EXPECT_EQ(statusOf(route(get("/api/state?vehicle=alpha"), kPolicy)), 404) << "one that flies alone has no name";
+}
+
 TEST(RouteTest, RefusesForeignHosts) {
   for (const char* host : {"", "evil.example", "127.0.0.1.evil.example", "localhost.evil.example:8080", "cobra.local:x",
                            "1.2.3", "1.2.3.4.5", "[::1", "a b", "999.1.1.1.example"}) {

@@ -93,6 +93,57 @@ TEST(ServerTest, AnswersACommandWithItsResult) {
   EXPECT_EQ(jsonOf(request(backend.port(), "GET", "/api/state"))["events"].size(), 6u);
 }
 
+/// What one of several vehicles hands to the server; the test carries its commands out.
+struct Flown {
+  explicit Flown(std::string name_in) : name(std::move(name_in)) {
+    flight.layers().vehicle.name = name;
+    world.post(flight.advance(1.0));
+  }
+  web::WebServer::Sources sources() { return {world, camera, commands, results, name}; }
+
+  std::string name;
+  ExampleFlight flight;
+  common::LatestValue<common::World> world;
+  common::LatestValue<common::CameraFrame> camera;
+  common::LosslessQueue<common::OperatorCommand> commands;
+  common::LosslessQueue<common::CommandResult> results;
+};
+
+TEST(ServerTest, OfSeveralVehiclesEachHasItsStateItsEventsAndItsCommands) {
+  Flown alpha("alpha"), beta("beta");
+  web::WebServer::Options options;
+  options.port = 0;
+  options.token = "operator-token";
+  options.unix_time = unixTime;
+  web::IoContext io;
+  web::WebServer server(io, options, {alpha.sources(), beta.sources()});
+  server.postEvent({common::Time(), common::Severity::kInfo, "flight", "motors on", "", "beta"}, 1);
+  std::jthread thread([&] { io.run(); });
+  const auto stateOf = [&](const std::string& query) {
+    return jsonOf(request(server.port(), "GET", "/api/state" + query));
+  };
+  EXPECT_EQ(stateOf("")["vehicle"], "alpha") << "the first, where none is named";
+  EXPECT_EQ(stateOf("?vehicle=beta")["vehicle"], "beta");
+  EXPECT_EQ(stateOf("?vehicle=beta")["events"].size(), 1u);
+  EXPECT_EQ(stateOf("?vehicle=alpha")["events"].size(), 0u);
+  EXPECT_EQ(request(server.port(), "GET", "/api/state?vehicle=gamma").status, 404);
+
+  std::jthread pilot([&] {
+    std::vector<common::OperatorCommand> asked;
+    eventually([&] { return !(asked = beta.commands.takeAll()).empty(); });
+    for (const common::OperatorCommand& command : asked) beta.results.push({command.id, true, "by beta"});
+  });
+  const Reply landed = request(server.port(), "POST", "/api/land?vehicle=beta", bearer());
+  EXPECT_EQ(jsonOf(landed)["reason"], "by beta");
+  EXPECT_TRUE(alpha.commands.takeAll().empty());
+  EXPECT_FALSE(server.cameraWanted(1));
+  RawClient stream(server.port());
+  stream.send("GET /stream/camera.mjpg?vehicle=beta HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  EXPECT_TRUE(eventually([&] { return server.cameraWanted(1); }));
+  EXPECT_FALSE(server.cameraWanted(0));
+  server.stop();
+}
+
 TEST(ServerTest, WithoutTheTokenNothingReachesTheVehicle) {
   FakeBackend backend({});
   EXPECT_EQ(request(backend.port(), "POST", "/api/land").status, 401);

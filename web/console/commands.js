@@ -1,5 +1,7 @@
 // What the operator asks for, with the token of the link that was printed at start.
 
+import { forVehicle } from './vehicle.js';
+
 const kKey = 'swiftlet-token';
 
 /** The token moves from the address to this tab's storage, so that it is not shared with a copied address. */
@@ -26,7 +28,7 @@ export class Commands {
   /** `name`: goal, hold, resume, home or land. Resolves to {accepted, reason}; never rejects. */
   async give(name, body) {
     try {
-      const response = await fetch(`/api/${name}`, {
+      const response = await fetch(forVehicle(`/api/${name}`), {
         method: 'POST',
         headers: { Authorization: `Bearer ${this.token}`, 'Content-Type': 'application/json' },
         body: body ? JSON.stringify(body) : undefined,

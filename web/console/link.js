@@ -1,5 +1,7 @@
 // The live connection: parses what the server sends, reconnects by itself, and says how old the data is.
 
+import { forVehicle } from './vehicle.js';
+
 /** Cells along a side of a tile. */
 export const kTileSize = 64;
 
@@ -53,7 +55,7 @@ export class Link {
 
   connect() {
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    const socket = new WebSocket(`${scheme}://${location.host}/api/ws`);
+    const socket = new WebSocket(`${scheme}://${location.host}${forVehicle('/api/ws')}`);
     socket.binaryType = 'arraybuffer';
     socket.onmessage = (event) => {
       this.lastMessage_ms = performance.now();

@@ -5,6 +5,7 @@ import { MapStore } from './map_store.js';
 import { MapView } from './map_view.js';
 import { endText, fliesItsOwnGoals, hasEnded } from './mission.js';
 import { forgetEvents, showEvents, showFrontiers, showState, toast } from './panels.js';
+import { forVehicle, offerVehicles } from './vehicle.js';
 
 const element = (id) => document.getElementById(id);
 const commands = new Commands();
@@ -24,6 +25,7 @@ const link = new Link((message) => {
   if (message.type === 'hello') {
     element('title').textContent = message.title;
     document.title = message.title ? `${message.title} – Swiftlet` : 'Swiftlet';
+    offerVehicles(element('vehicle'), message.vehicles ?? [], message.vehicle);
     forgetEvents();
   }
   if (message.type === 'state') {
@@ -118,7 +120,7 @@ element('camera-toggle').addEventListener('click', ({ currentTarget: button }) =
   if (shown) return;
   const image = new Image();
   image.alt = 'Picture of the onboard camera';
-  image.src = `/stream/camera.mjpg?width=480&fps=10&t=${Date.now()}`;
+  image.src = forVehicle(`/stream/camera.mjpg?width=480&fps=10&t=${Date.now()}`);
   camera.append(image);
 });
 

@@ -10,14 +10,19 @@
 
 namespace swiftlet::web {
 
-Core::Core(boost::asio::io_context& io, WebServerOptions options_in, WebServerSources sources, Policy policy_in)
-    : options(std::move(options_in)),
-      policy(std::move(policy_in)),
+WatchedVehicle::WatchedVehicle(const WebServerOptions& options, const WebServerSources& sources)
+    : name(sources.name),
       telemetry(sources, options.unix_time),
       hub(telemetry, options.hull_diameter_m),
       desk(sources.commands, sources.results,
-           std::max(1, static_cast<int>(std::lround(options.command_timeout_s * kTicksPerSecond)))),
-      timer_(io) {}
+           std::max(1, static_cast<int>(std::lround(options.command_timeout_s * kTicksPerSecond)))) {}
+
+Core::Core(boost::asio::io_context& io, WebServerOptions options_in, const std::vector<WebServerSources>& sources,
+           Policy policy_in)
+    : options(std::move(options_in)), policy(std::move(policy_in)), timer_(io) {
+  for (const WebServerSources& vehicle : sources)
+    vehicles_.push_back(std::make_unique<WatchedVehicle>(options, vehicle));
+}
 
 void Core::add(const std::shared_ptr<Connection>& connection) {
   std::erase_if(connections_, [](const auto& known) { return known.expired(); });
@@ -32,7 +37,7 @@ bool Core::full() const {
 
 void Core::watch(const std::shared_ptr<Connection>& connection) {
   watchers_.push_back(connection);
-  telemetry.look();
+  for (const auto& vehicle : vehicles_) vehicle->telemetry.look();
   wake();
 }
 
@@ -51,15 +56,17 @@ void Core::schedule() {
 }
 
 void Core::tick() {
-  telemetry.look();
-  desk.tick();
+  for (const auto& vehicle : vehicles_) {
+    vehicle->telemetry.look();
+    vehicle->desk.tick();
+  }
   std::erase_if(watchers_, [](const auto& watcher) { return watcher.expired(); });
-  const common::Time now = telemetry.now();
+  const common::Time now = this->now();
   // A watcher may close while it is told, and another may come.
   for (const std::weak_ptr<Connection>& weak : std::vector(watchers_))
     if (const auto watcher = weak.lock()) watcher->tick(now);
   // With nobody there it still looks now and then, so that whoever comes is told at once how fast time passes.
-  ticking_ = !watchers_.empty() || desk.waiting();
+  ticking_ = !watchers_.empty() || anyWaiting();
   timer_.expires_after(std::chrono::milliseconds(1000 / (ticking_ ? kTicksPerSecond : kIdleTicksPerSecond)));
   schedule();
 }
@@ -71,7 +78,12 @@ void Core::close() {
     if (const auto connection = weak.lock()) connection->close();
   watchers_.clear();
   // Who waits for an answer is held by the desk and holds this: told that none comes, they let each other go.
-  while (desk.waiting()) desk.tick();
+  for (const auto& vehicle : vehicles_)
+    while (vehicle->desk.waiting()) vehicle->desk.tick();
+}
+
+bool Core::anyWaiting() const {
+  return std::any_of(vehicles_.begin(), vehicles_.end(), [](const auto& vehicle) { return vehicle->desk.waiting(); });
 }
 
 int unsentBytes(int native_socket) {

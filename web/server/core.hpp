@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <boost/asio/steady_timer.hpp>
@@ -30,9 +31,22 @@ class Connection {
   virtual void tick(common::Time /*now*/) {}
 };
 
+/// One vehicle as the pages see it and send commands to.
+struct WatchedVehicle {
+  WatchedVehicle(const WebServerOptions& options, const WebServerSources& sources);
+
+  std::string name;  ///< Empty when it flies alone.
+  Telemetry telemetry;
+  FrameHub hub;
+  CommandDesk desk;
+  std::atomic<int> camera_watchers = 0;
+};
+
 class Core : public std::enable_shared_from_this<Core> {
  public:
-  Core(boost::asio::io_context& io, WebServerOptions options_in, WebServerSources sources, Policy policy_in);
+  /// `sources`: one for each vehicle, at least one.
+  Core(boost::asio::io_context& io, WebServerOptions options_in, const std::vector<WebServerSources>& sources,
+       Policy policy_in);
 
   /// Counts a connection and closes it when the server stops.
   void add(const std::shared_ptr<Connection>& connection);
@@ -44,17 +58,20 @@ class Core : public std::enable_shared_from_this<Core> {
   void close();
   bool closed() const { return closed_; }
 
+  /// By its number, as route() gives it. They stay as long as this.
+  WatchedVehicle& vehicle(std::size_t number) { return *vehicles_[number]; }
+  common::Time now() const { return options.unix_time(); }
+
   WebServerOptions options;
   Policy policy;
-  Telemetry telemetry;
-  FrameHub hub;
-  CommandDesk desk;
-  std::atomic<int> camera_watchers = 0;
 
  private:
   void schedule();
   void tick();
 
+  bool anyWaiting() const;
+
+  std::vector<std::unique_ptr<WatchedVehicle>> vehicles_;
   boost::asio::steady_timer timer_;
   std::vector<std::weak_ptr<Connection>> connections_;
   std::vector<std::weak_ptr<Connection>> watchers_;

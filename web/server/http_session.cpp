@@ -114,16 +114,17 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   }
 
   void perform(const SendPicture& picture) {
-    core_->telemetry.look();
-    if (!core_->telemetry.world().value) return sendError(503, "there is no map yet");
-    const rendering::Bytes png = core_->hub.png(picture.view);
+    WatchedVehicle& vehicle = core_->vehicle(picture.vehicle);
+    vehicle.telemetry.look();
+    if (!vehicle.telemetry.world().value) return sendError(503, "there is no map yet");
+    const rendering::Bytes png = vehicle.hub.png(picture.view);
     Response response = make(200, "image/png");
     response.body().assign(png.begin(), png.end());
     send(std::move(response));
   }
 
-  void perform(const SendState&) {
-    Telemetry& telemetry = core_->telemetry;
+  void perform(const SendState& state) {
+    Telemetry& telemetry = core_->vehicle(state.vehicle).telemetry;
     telemetry.look();
     if (!telemetry.world().value) return sendError(503, "there is no state yet");
     Response response = make(200, "application/json");
@@ -131,14 +132,15 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     send(std::move(response));
   }
 
-  void perform(const OpenSocket&) { startPage(core_, stream_.release_socket(), request_); }
+  void perform(const OpenSocket& socket) { startPage(core_, socket.vehicle, stream_.release_socket(), request_); }
 
   void perform(const GiveCommand& command) {
-    const bool given = core_->desk.give(
-        command.kind,
-        [self = shared_from_this()](std::uint64_t id, const std::optional<common::CommandResult>& result) {
-          self->answer(id, result);
-        });
+    const bool given =
+        core_->vehicle(command.vehicle)
+            .desk.give(command.kind, [self = shared_from_this()](std::uint64_t id,
+                                                                 const std::optional<common::CommandResult>& result) {
+              self->answer(id, result);
+            });
     if (!given) return sendError(503, "too many commands wait for their answer");
     stream_.expires_never();
     core_->wake();

@@ -19,8 +19,8 @@ constexpr std::size_t kMostTileBytes = std::size_t{64} * 1024;
 
 class PageSession : public Connection, public std::enable_shared_from_this<PageSession> {
  public:
-  PageSession(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket)
-      : core_(std::move(core)), stream_(std::move(socket)) {}
+  PageSession(std::shared_ptr<Core> core, std::size_t vehicle, boost::asio::ip::tcp::socket socket)
+      : core_(std::move(core)), vehicle_(core_->vehicle(vehicle)), stream_(std::move(socket)) {}
 
   void start(const beast::http::request<beast::http::string_body>& upgrade) {
     error_code ignored;
@@ -37,7 +37,9 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
     stream_.async_accept(upgrade, [self = shared_from_this()](const error_code& error) {
       if (error || self->core_->closed()) return;
       self->open_ = true;
-      self->queueText(helloJson(self->core_->options.title, self->core_->options.hull_diameter_m));
+      const Core& core = *self->core_;
+      self->queueText(
+          helloJson(core.options.title, core.options.hull_diameter_m, core.policy.vehicles, self->vehicle_.name));
       self->core_->watch(self);
       self->read();
     });
@@ -73,7 +75,7 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
   }
 
   void collect(common::Time now) {
-    Telemetry& telemetry = core_->telemetry;
+    Telemetry& telemetry = vehicle_.telemetry;
     telemetry.encodeParts();
     if (const auto events = telemetry.eventsAfter(last_event_); !events.empty()) {
       last_event_ = events.back().number;
@@ -130,6 +132,7 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
   }
 
   std::shared_ptr<Core> core_;
+  WatchedVehicle& vehicle_;
   /// Without compression, which is never asked for and takes as long to compile as all the rest.
   websocket::stream<beast::tcp_stream, false> stream_;
   beast::flat_buffer buffer_;
@@ -146,9 +149,9 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
 
 }  // namespace
 
-void startPage(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket,
+void startPage(std::shared_ptr<Core> core, std::size_t vehicle, boost::asio::ip::tcp::socket socket,
                const beast::http::request<beast::http::string_body>& upgrade) {
-  std::make_shared<PageSession>(std::move(core), std::move(socket))->start(upgrade);
+  std::make_shared<PageSession>(std::move(core), vehicle, std::move(socket))->start(upgrade);
 }
 
 }  // namespace swiftlet::web

@@ -14,7 +14,7 @@
 
 namespace swiftlet::web {
 
-void startPage(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket,
+void startPage(std::shared_ptr<Core> core, std::size_t vehicle, boost::asio::ip::tcp::socket socket,
                const boost::beast::http::request<boost::beast::http::string_body>& upgrade);
 
 }  // namespace swiftlet::web

@@ -73,12 +73,22 @@ void checkToken(const Request& request, const Target& target, const Policy& poli
     refuse(401, "the operator's token is wrong: open the link printed at this program's start");
 }
 
+/// The number of the vehicle that is meant; the first where none is named.
+std::size_t vehicleOf(const Target& target, const Policy& policy) {
+  const auto named = target.query.find("vehicle");
+  if (named == target.query.end()) return 0;
+  const auto it = std::find(policy.vehicles.begin(), policy.vehicles.end(), named->second);
+  if (it != policy.vehicles.end()) return static_cast<std::size_t>(it - policy.vehicles.begin());
+  const std::string hint = common::didYouMean(named->second, policy.vehicles);
+  refuse(404, fmt::format("there is no vehicle {}{}{}", shown(named->second), hint.empty() ? "" : ", ", hint));
+}
+
 class Parameters {
  public:
   Parameters(const Target& target, std::vector<std::string> known) : query_(target.query) {
     for (const auto& [key, value] : query_) {
       // Pages add `t` or `_` to get past a cache.
-      if (key == "token" || key == "t" || key == "_") continue;
+      if (key == "token" || key == "vehicle" || key == "t" || key == "_") continue;
       if (std::find(known.begin(), known.end(), key) == known.end()) {
         const std::string hint = common::didYouMean(key, known);
         refuse(400, fmt::format("unknown parameter {}{}{}", shown(key), hint.empty() ? "" : ", ", hint));
@@ -122,22 +132,22 @@ double framesPerSecond(const Parameters& parameters) {
   return parameters.number("fps", 10.0, 0.1, 30.0, " per second");
 }
 
-Action mapStream(const Target& target) {
+Action mapStream(const Target& target, std::size_t vehicle) {
   const Parameters parameters(target, {"width", "height", "fps", "scheme"});
-  return StreamPictures{mapView(parameters), framesPerSecond(parameters)};
+  return StreamPictures{mapView(parameters), framesPerSecond(parameters), vehicle};
 }
 
-Action mapPicture(const Target& target) {
-  return SendPicture{mapView(Parameters(target, {"width", "height", "scheme"}))};
+Action mapPicture(const Target& target, std::size_t vehicle) {
+  return SendPicture{mapView(Parameters(target, {"width", "height", "scheme"})), vehicle};
 }
 
-Action cameraStream(const Target& target) {
+Action cameraStream(const Target& target, std::size_t vehicle) {
   const Parameters parameters(target, {"width", "fps"});
   PictureView view;
   view.source = PictureView::Source::kCamera;
   view.width_px = static_cast<int>(parameters.number("width", 640, 32, 1920, " pixels"));
   view.height_px = 0;
-  return StreamPictures{view, framesPerSecond(parameters)};
+  return StreamPictures{view, framesPerSecond(parameters), vehicle};
 }
 
 double coordinate(const nlohmann::json& body, const char* key) {
@@ -150,31 +160,31 @@ double coordinate(const nlohmann::json& body, const char* key) {
   return value;
 }
 
-Action goal(const Request& request) {
+Action goal(const Request& request, std::size_t vehicle) {
   const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
   if (!body.is_object()) refuse(400, "the body is not a JSON object; send {\"x_m\": 1.0, \"y_m\": 2.0}");
   for (const auto& [key, value] : body.items())
     if (key != "x_m" && key != "y_m") refuse(400, fmt::format("unknown key {}; send x_m and y_m", shown(key)));
-  return GiveCommand{common::GoalCommand{{coordinate(body, "x_m"), coordinate(body, "y_m")}}};
+  return GiveCommand{common::GoalCommand{{coordinate(body, "x_m"), coordinate(body, "y_m")}}, vehicle};
 }
 
-Action command(const Request& request, const std::string& name) {
-  if (name == "goal") return goal(request);
-  if (name == "hold") return GiveCommand{common::HoldCommand{}};
-  if (name == "resume") return GiveCommand{common::ResumeCommand{}};
-  if (name == "home") return GiveCommand{common::HomeCommand{}};
-  return GiveCommand{common::LandCommand{}};
+Action command(const Request& request, const std::string& name, std::size_t vehicle) {
+  if (name == "goal") return goal(request, vehicle);
+  if (name == "hold") return GiveCommand{common::HoldCommand{}, vehicle};
+  if (name == "resume") return GiveCommand{common::ResumeCommand{}, vehicle};
+  if (name == "home") return GiveCommand{common::HomeCommand{}, vehicle};
+  return GiveCommand{common::LandCommand{}, vehicle};
 }
 
-Action read(const Request& request, const Target& target) {
+Action read(const Request& request, const Target& target, std::size_t vehicle) {
   checkMethod(request, "GET");
-  if (target.path == "/stream/map.mjpg") return mapStream(target);
-  if (target.path == "/stream/camera.mjpg") return cameraStream(target);
-  if (target.path == "/api/map.png") return mapPicture(target);
-  if (target.path == "/api/state") return SendState{};
+  if (target.path == "/stream/map.mjpg") return mapStream(target, vehicle);
+  if (target.path == "/stream/camera.mjpg") return cameraStream(target, vehicle);
+  if (target.path == "/api/map.png") return mapPicture(target, vehicle);
+  if (target.path == "/api/state") return SendState{vehicle};
   checkOrigin(request);
   if (!request.wants_websocket) refuse(426, "this is a WebSocket: connect with `Upgrade: websocket`");
-  return OpenSocket{};
+  return OpenSocket{vehicle};
 }
 
 Action decide(const Request& request, const Policy& policy) {
@@ -187,15 +197,17 @@ Action decide(const Request& request, const Policy& policy) {
   checkHost(request, policy);
   const auto target = parseTarget(request.target);
   if (!target) refuse(400, fmt::format("the address {} is malformed", shown(request.target)));
-  if (in(kReads, target->path)) return read(request, *target);
+  if (in(kReads, target->path)) return read(request, *target, vehicleOf(*target, policy));
   if (in(kCommands, target->path)) {
+    const std::size_t vehicle = vehicleOf(*target, policy);
     checkMethod(request, "POST");
     checkOrigin(request);
     checkToken(request, *target, policy);
-    return command(request, target->path.substr(5));
+    return command(request, target->path.substr(5), vehicle);
   }
   const std::string file = target->path == "/" ? "index.html" : target->path.substr(1);
   if (!in(policy.files, file)) refuse(404, fmt::format("there is no {} here", shown(target->path)));
+  (void)vehicleOf(*target, policy);
   checkMethod(request, "GET");
   return ServeFile{file};
 }

@@ -25,17 +25,25 @@ struct PictureView {
 struct ServeFile {
   std::string name;  ///< As embedded: "index.html".
 };
+// `vehicle`: the number of the one that is meant.
 struct StreamPictures {
   PictureView view;
   double fps = 10.0;
+  std::size_t vehicle = 0;
 };
 struct SendPicture {
   PictureView view;
+  std::size_t vehicle = 0;
 };
-struct SendState {};
-struct OpenSocket {};
+struct SendState {
+  std::size_t vehicle = 0;
+};
+struct OpenSocket {
+  std::size_t vehicle = 0;
+};
 struct GiveCommand {
   decltype(common::OperatorCommand::kind) kind;
+  std::size_t vehicle = 0;
 };
 struct Refuse {
   int status = 400;  ///< 400, 401, 403, 404, 405, 426
@@ -49,10 +57,11 @@ struct Policy {
   std::string token;
   std::vector<std::string> hosts;  ///< Names, lower case, that may stand in Host besides addresses and localhost.
   std::vector<std::string> files;  ///< The embedded ones.
+  std::vector<std::string> vehicles = {};  ///< Names of several, by their numbers; empty: there is one.
 };
 
-/// Checked in this order: host (403), target (400), path (404), method (405), origin (403), token (401), parameters and
-/// body (400). Widths, heights and rates that are too large are reduced to what is offered.
+/// Checked in this order: host (403), target (400), path (404), vehicle (404), method (405), origin (403), token (401),
+/// parameters and body (400). Widths, heights and rates that are too large are reduced to what is offered.
 Action route(const Request& request, const Policy& policy);
 
 }  // namespace swiftlet::web

@@ -212,8 +212,14 @@ std::string completeJson(const common::World& world, const Observation& observat
   return dump(json);
 }
 
-std::string helloJson(const std::string& title, double hull_diameter_m) {
-  return dump({{"type", "hello"}, {"title", title}, {"hull_diameter_m", hull_diameter_m}});
+std::string helloJson(const std::string& title, double hull_diameter_m, const std::vector<std::string>& vehicles,
+                      const std::string& vehicle) {
+  Json hello = {{"type", "hello"}, {"title", title}, {"hull_diameter_m", hull_diameter_m}};
+  if (!vehicles.empty()) {
+    hello["vehicles"] = vehicles;
+    hello["vehicle"] = vehicle;
+  }
+  return dump(hello);
 }
 
 }  // namespace swiftlet::web

@@ -46,7 +46,8 @@ std::string eventsJson(std::span<const NumberedEvent> events);
 std::string completeJson(const common::World& world, const Observation& observation,
                          std::span<const NumberedEvent> events);
 
-/// What a page needs once.
-std::string helloJson(const std::string& title, double hull_diameter_m);
+/// What a page needs once. `vehicles`: the names of several, of which the page shows `vehicle`; empty for one.
+std::string helloJson(const std::string& title, double hull_diameter_m, const std::vector<std::string>& vehicles,
+                      const std::string& vehicle);
 
 }  // namespace swiftlet::web

@@ -15,16 +15,17 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
  public:
   StreamSession(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket, const StreamPictures& asked)
       : core_(std::move(core)),
+        vehicle_(core_->vehicle(asked.vehicle)),
         socket_(std::move(socket)),
-        view_(core_->hub.watch(asked.view)),
+        view_(vehicle_.hub.watch(asked.view)),
         period_(common::Duration::fromSeconds(1.0 / asked.fps)),
         beat_(asked.fps),
         watches_camera_(asked.view.source == PictureView::Source::kCamera) {
-    if (watches_camera_) ++core_->camera_watchers;
+    if (watches_camera_) ++vehicle_.camera_watchers;
   }
 
   ~StreamSession() override {
-    if (watches_camera_) --core_->camera_watchers;
+    if (watches_camera_) --vehicle_.camera_watchers;
   }
 
   void start() {
@@ -55,7 +56,7 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
     }
     stalled_ticks_ = 0;
     if (!beat_.due(now)) return;
-    const auto frame = core_->hub.frame(*view_, last_, period_, sent_);
+    const auto frame = vehicle_.hub.frame(*view_, last_, period_, sent_);
     // Without something new the client stays due, so that it need not wait for the next beat when it comes.
     if (!frame) return;
     beat_.done(now);
@@ -87,6 +88,7 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
   }
 
   std::shared_ptr<Core> core_;
+  WatchedVehicle& vehicle_;
   boost::asio::ip::tcp::socket socket_;
   std::shared_ptr<FrameHub::View> view_;
   common::Duration period_;

@@ -57,7 +57,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-Policy policyOf(const WebServer::Options& options) {
+Policy policyOf(const WebServer::Options& options, const std::vector<WebServer::Sources>& sources) {
   Policy policy;
   policy.token = options.token;
   std::array<char, 256> name{};
@@ -66,17 +66,19 @@ Policy policyOf(const WebServer::Options& options) {
     policy.hosts.push_back(lower(name.data()) + ".local");
   }
   for (const Asset& asset : assets()) policy.files.emplace_back(asset.name);
+  for (const WebServer::Sources& vehicle : sources)
+    if (!vehicle.name.empty()) policy.vehicles.push_back(vehicle.name);
   return policy;
 }
 
 }  // namespace
 
 struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
-  Impl(boost::asio::io_context& context, const Options& options, const Sources& sources)
+  Impl(boost::asio::io_context& context, const Options& options, const std::vector<Sources>& sources)
       : io(context),
         acceptor(context),
         retry(context),
-        core(std::make_shared<Core>(context, options, sources, policyOf(options))) {}
+        core(std::make_shared<Core>(context, options, sources, policyOf(options, sources))) {}
 
   void listen(const tcp::endpoint& endpoint) {
     error_code error;
@@ -125,7 +127,11 @@ struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
   int port = 0;
 };
 
-WebServer::WebServer(IoContext& io, const Options& options, const Sources& sources) {
+WebServer::WebServer(IoContext& io, const Options& options, const Sources& sources)
+    : WebServer(io, options, std::vector<Sources>{sources}) {}
+
+WebServer::WebServer(IoContext& io, const Options& options, const std::vector<Sources>& sources) {
+  SWIFTLET_CHECK(!sources.empty());
   checkOptions(options);
   const tcp::endpoint endpoint(addressOf(options.address), static_cast<unsigned short>(options.port));
   impl_ = std::make_shared<Impl>(io.get(), options, sources);
@@ -146,9 +152,13 @@ std::string WebServer::operatorUrl() const {
   return fmt::format("http://{}:{}/?token={}", host, impl_->port, options.token);
 }
 
-bool WebServer::cameraWanted() const { return impl_->core->camera_watchers.load() > 0; }
+bool WebServer::cameraWanted(std::size_t vehicle) const {
+  return impl_->core->vehicle(vehicle).camera_watchers.load() > 0;
+}
 
-void WebServer::postEvent(const common::Event& event) { impl_->core->telemetry.postEvent(event); }
+void WebServer::postEvent(const common::Event& event, std::size_t vehicle) {
+  impl_->core->vehicle(vehicle).telemetry.postEvent(event);
+}
 
 void WebServer::stop() {
   if (impl_->stopped.exchange(true)) return;

@@ -9,6 +9,8 @@
 //   GET  /api/ws                  WebSocket: what /api/state has, in parts and only what changed, and the map's tiles
 //   POST /api/goal|hold|resume|home|land    `Authorization: Bearer TOKEN` or ?token=; goal: {"x_m": 1.0, "y_m": 2.0}
 //
+// Where several vehicles fly, ?vehicle=NAME says which one is meant, everywhere; without it the first.
+//
 // Streams: a picture is encoded once for all clients that asked for the same; each client has at most one frame under
 // way and gets the newest when it is ready again, so that a slow client costs and delays nobody, and its own picture
 // is never older than one frame. Requests whose Host is neither an address nor a name of this machine, or whose Origin
@@ -17,6 +19,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/event.hpp"
 #include "web/server/io_context.hpp"
@@ -31,6 +34,8 @@ class WebServer {
 
   /// Listens at once. Throws common::InputError when the address cannot be used or the port is taken.
   WebServer(IoContext& io, const Options& options, const Sources& sources);
+  /// One for each vehicle, at least one; of several all have names.
+  WebServer(IoContext& io, const Options& options, const std::vector<Sources>& sources);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
@@ -41,10 +46,10 @@ class WebServer {
   /// others can open, where it has one.
   std::string operatorUrl() const;
 
-  /// Someone watches the camera, so that it is worth rendering. Any thread.
-  bool cameraWanted() const;
-  /// Shown in the page's list; the last 200 are kept. Any thread.
-  void postEvent(const common::Event& event);
+  /// Someone watches the vehicle's camera, so that it is worth rendering. Any thread.
+  bool cameraWanted(std::size_t vehicle = 0) const;
+  /// Shown in the list of the vehicle's page; the last 200 are kept. Any thread.
+  void postEvent(const common::Event& event, std::size_t vehicle = 0);
   /// Closes all connections; IoContext::run() returns. Any thread, more than once.
   void stop();
 

@@ -27,13 +27,14 @@ struct WebServerOptions {
   std::function<common::Time()> unix_time;
 };
 
-/// Where telemetry comes from and commands go to; all must outlive IoContext::run(). Commands carry ids that rise
-/// from 1; each result in `results` answers the command with its id.
+/// Where the telemetry of a vehicle comes from and its commands go to; all must outlive IoContext::run(). Commands
+/// carry ids that rise from 1; each result in `results` answers the command with its id.
 struct WebServerSources {
   const common::LatestValue<common::World>& world;
   const common::LatestValue<common::CameraFrame>& camera;
   common::LosslessQueue<common::OperatorCommand>& commands;
   common::LosslessQueue<common::CommandResult>& results;
+  std::string name = {};  ///< Of one of several vehicles, each another; empty for one that flies alone.
 };
 
 }  // namespace swiftlet::web

@@ -1,6 +1,7 @@
 // Explore: viewpoints, looks, what is left, and who stands in the way.
 #include <algorithm>
 #include <numbers>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -21,6 +22,7 @@ TEST_F(ManeuverStory, OnTheGroundNothingIsExplored) {
 
 class ExploreManeuver : public ManeuverInFlight {
  protected:
+  using ManeuverInFlight::ManeuverInFlight;
   /// It takes off with its back to what there is to see.
   void SetUp() override {
     place(1.5, 2.0, std::numbers::pi);
@@ -82,6 +84,32 @@ TEST_F(ExploreManeuver, WhatStaysUnknownIsLeftAfterThreeLooksAndSaid) {
   EXPECT_EQ(reasonOf("frontier of 1.20 m"), "blacklisted: looked at 3 times");
   EXPECT_EQ(reasonOf("frontier of 0.15 m"), "too small: 0.15 m long");
 }
+
+/// The default, another planner, another explorer: who was chosen did the work.
+class ExploreBy : public ExploreManeuver, public testing::WithParamInterface<std::tuple<Choices, PlanningUse>> {
+ protected:
+  ExploreBy() : ExploreManeuver(std::get<Choices>(GetParam())) {}
+};
+
+TEST_P(ExploreBy, WhoWasChosenFindsTheViewpointsAndThePathsThere) {
+  const PlanningUse& expected = std::get<PlanningUse>(GetParam());
+  build(true);
+  want(common::ExploreIntent{});
+  ASSERT_EQ(runToTheEnd(60.0), IntentState::kSucceeded) << executor_.status().reason;
+  EXPECT_EQ(looks(), 3);
+  const PlanningUse& use = executor_.desk().use();
+  EXPECT_EQ(use.explorer, expected.explorer);
+  EXPECT_GE(use.viewpoints, 3) << "one a look";
+  EXPECT_EQ(use.planner, expected.planner);
+  EXPECT_GE(use.paths, use.viewpoints) << "every leg is planned, and planned anew while it is flown";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Chosen, ExploreBy,
+    testing::Values(std::tuple{Choices{}, PlanningUse{"D* Lite", 0, "utility", 0}},
+                    std::tuple{Choices{planning::PlannerKind::kWavefront}, PlanningUse{"wavefront", 0, "utility", 0}},
+                    std::tuple{Choices{planning::PlannerKind::kDStarLite, planning::ExplorerKind::kNearestFrontier},
+                               PlanningUse{"D* Lite", 0, "nearest frontier", 0}}));
 
 TEST_F(ExploreManeuver, DoneIsBelievedWhenItIsSaidTwiceStandingStill) {
   build(false);

@@ -182,7 +182,7 @@ TEST_F(GoToManeuver, TheModeOfTheIntentIsFlown) {
 
 class GoToByWavefront : public ManeuverInFlight {
  protected:
-  GoToByWavefront() : ManeuverInFlight(planning::PlannerKind::kWavefront) {}
+  GoToByWavefront() : ManeuverInFlight(Choices{planning::PlannerKind::kWavefront}) {}
 };
 
 TEST_F(GoToByWavefront, ThePlannerOfTheProfileFindsThePaths) {
@@ -191,15 +191,15 @@ TEST_F(GoToByWavefront, ThePlannerOfTheProfileFindsThePaths) {
   want(to(6.0, 3.2));
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded) << executor_.status().reason;
   EXPECT_LT(distanceTo_m({6.0, 3.2}), 0.05);
-  EXPECT_EQ(executor_.desk().plannerUse().planner, "wavefront");
-  EXPECT_GT(executor_.desk().plannerUse().paths, 5) << "asked again while it flies";
+  EXPECT_EQ(executor_.desk().use().planner, "wavefront");
+  EXPECT_GT(executor_.desk().use().paths, 5) << "asked again while it flies";
 }
 
 TEST_F(GoToManeuver, DStarLiteFindsThePathsWhereNothingElseIsChosen) {
   want(to(6.0, 3.2));
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
-  EXPECT_EQ(executor_.desk().plannerUse().planner, "D* Lite");
-  EXPECT_GT(executor_.desk().plannerUse().paths, 5);
+  EXPECT_EQ(executor_.desk().use().planner, "D* Lite");
+  EXPECT_GT(executor_.desk().use().paths, 5);
 }
 
 TEST_F(GoToManeuver, AHeightIsFlownAtAndKeptForTheNextGoal) {

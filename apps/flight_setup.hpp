@@ -1,0 +1,64 @@
+// What a simulated flight is set up with, who listens to it, and what comes of each vehicle.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/given_map.hpp"
+#include "apps/system.hpp"
+#include "behaviors/mission.hpp"
+#include "evaluation/flight_recorder.hpp"
+#include "interfaces/flight_summary.hpp"
+#include "interfaces/run_folder.hpp"
+#include "simulation/simulated_vehicle.hpp"
+
+namespace swiftlet::apps {
+
+class WebLink;
+
+struct FlightSetup {
+  System system;
+  std::string mission_file;              ///< Of every vehicle that names none of its own.
+  simulation::Scenario scenario;         ///< World, starts, weather, seed; vehicle and laser are taken from the system.
+  std::shared_ptr<const FlightMap> map;  ///< To find itself in; null: it is given none.
+  std::filesystem::path out;
+  std::string started;           ///< For the run's records.
+  double speed = 0.0;            ///< Times real time; 0: as fast as the machine can.
+  double time_limit_s = 1800.0;  ///< Of simulated time.
+  double linger_s = 0.0;         ///< Time on the wall clock to wait after the end, so that a page sees it.
+};
+
+struct FlightMission {
+  std::string file;  ///< For the run's records; what is flown is the mission read from it.
+  behaviors::Mission mission;
+};
+
+struct FlightProgress {
+  std::vector<std::shared_ptr<const common::World>> worlds;  ///< One a vehicle, in the order of the scenario.
+  double simulated_s = 0.0;
+  double wall_s = 0.0;
+};
+
+struct FlightHooks {
+  std::function<void(const FlightProgress&)> progress;  ///< About ten times a second of wall time.
+  std::function<void(const common::Event&)> event;
+  WebLink* web = nullptr;                   ///< With a channel for each vehicle.
+  const std::atomic<bool>* stop = nullptr;  ///< Ends the flight from outside.
+  /// At the end of each vehicle's flight, before the run's last files are written: adds to them what a scorer finds.
+  std::function<void(const evaluation::FlightRecord&, const simulation::SimulatedVehicle&, interfaces::FlightEnd&)>
+      score;
+};
+
+struct VehicleResult {
+  std::string name;  ///< Empty when it flew alone.
+  interfaces::FlightSummary summary;
+  std::filesystem::path folder;
+  std::optional<std::string> write_failure;
+};
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,131 @@
+#include "apps/vehicle_flight.hpp"
+
+#include <utility>
+
+#include "apps/flight_sinks.hpp"
+#include "apps/web_link.hpp"
+#include "common/world.hpp"
+#include "common/world/mission_layer.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+using interfaces::Outcome;
+
+autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& name, behaviors::Mission mission) {
+  std::optional<autonomy::GivenMap> given;
+  if (setup.map) {
+    given = setup.map->map;
+    given->seed = static_cast<std::uint64_t>(setup.scenario.seed);
+  }
+  return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
+                            common::makeLockstepJobs(1), given ? &*given : nullptr, name);
+}
+
+interfaces::RunInfo runInfo(const FlightSetup& setup, const std::string& name, const std::string& mission_file) {
+  interfaces::RunInfo info;
+  info.mission = std::filesystem::path(mission_file).stem().string();
+  info.mission_file = mission_file;
+  info.world = setup.scenario.world;
+  info.system = setup.system.name;
+  if (setup.map) info.given_map = setup.map->name;
+  info.vehicle = name;
+  info.seed = setup.scenario.seed;
+  info.version = SWIFTLET_VERSION;
+  info.started = setup.started;
+  return info;
+}
+
+}  // namespace
+
+VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
+                             const std::shared_ptr<simulation::Arena>& arena, std::size_t number, FlightMission mission,
+                             const std::filesystem::path& folder)
+    : setup_(setup),
+      hooks_(hooks),
+      web_(hooks.web ? &hooks.web->channel(number) : nullptr),
+      vehicle_(std::make_unique<simulation::SimulatedVehicle>(arena, number)),
+      name_(vehicle_->name()),
+      recorder_(vehicle_->T_world_map(), setup.map ? setup.map->T_world_given : std::nullopt),
+      autonomy_(makeAutonomy(setup, name_, std::move(mission.mission))),
+      folder_(folder, runInfo(setup, name_, mission.file), setup.system.toYaml(true)),
+      pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
+      sinks_(makeSinks()),
+      loop_(*vehicle_, autonomy_, web_ ? web_->commands() : no_commands_, sinks()) {}
+
+VehicleFlight::~VehicleFlight() = default;
+
+std::vector<std::unique_ptr<autonomy::FlightSink>> VehicleFlight::makeSinks() {
+  std::vector<std::unique_ptr<autonomy::FlightSink>> sinks;
+  sinks.push_back(std::make_unique<FolderSink>(folder_));
+  sinks.push_back(std::make_unique<TruthSink>(*vehicle_, recorder_));
+  if (hooks_.event) sinks.push_back(std::make_unique<EventSink>(hooks_.event));
+  if (web_) sinks.push_back(std::make_unique<PageSink>(*web_));
+  return sinks;
+}
+
+/// The pictures last: they show what the others have written.
+std::vector<autonomy::FlightSink*> VehicleFlight::sinks() {
+  std::vector<autonomy::FlightSink*> all;
+  for (const auto& sink : sinks_) all.push_back(sink.get());
+  all.push_back(&pictures_);
+  return all;
+}
+
+void VehicleFlight::tellWarnings() {
+  for (const std::string& warning : vehicle_->world().warnings)
+    for (autonomy::FlightSink* sink : sinks())
+      sink->event({loop_.now(), common::Severity::kWarning, "world", warning, "", name_});
+}
+
+void VehicleFlight::step(common::Time now) {
+  if (web_) vehicle_->setCameraConsumer(web_->cameraWanted());
+  if (!loop_.step(now)) end(Outcome::kCrashed, vehicle_->stopReason());
+}
+
+bool VehicleFlight::over() {
+  if (outcome_ != Outcome::kFlying) return true;
+  if (hooks_.stop && *hooks_.stop) return end(Outcome::kStopped, "stopped from outside");
+  if (loop_.now().seconds() >= setup_.time_limit_s) return end(Outcome::kStopped, "the time limit is over");
+  if (folder_.failure()) return end(Outcome::kStopped, *folder_.failure());
+  if (autonomy_.finished()) {
+    const common::MissionStatus& mission = autonomy_.missionStatus();
+    const bool done = mission.state == common::MissionState::kDone;
+    return end(done                           ? Outcome::kDone
+               : autonomy_.landedByOperator() ? Outcome::kStopped
+                                              : Outcome::kFailed,
+               mission.reason);
+  }
+  return false;
+}
+
+bool VehicleFlight::end(Outcome outcome, std::string reason) {
+  outcome_ = outcome;
+  reason_ = std::move(reason);
+  return true;
+}
+
+void VehicleFlight::finish(double wall_s) {
+  loop_.finish();
+  pictures_.drawNow(*autonomy_.world());
+  interfaces::FlightEnd end;
+  end.outcome = outcome_;
+  end.reason = reason_;
+  end.wall_time_s = wall_s;
+  if (hooks_.score) hooks_.score(recorder_.finish(), *vehicle_, end);
+  folder_.finish(end);
+  if (web_) showEnd();
+  vehicle_.reset();
+}
+
+void VehicleFlight::showEnd() const {
+  auto last = std::make_shared<common::World>(*autonomy_.world());
+  auto mission = std::make_shared<common::MissionLayer>(*last->mission);
+  mission->ending = {std::string(interfaces::toString(outcome_)), reason_};
+  last->mission = std::move(mission);
+  web_->world().post(std::move(last));
+}
+
+VehicleResult VehicleFlight::result() const { return {name_, folder_.summary(), folder_.path(), folder_.failure()}; }
+
+}  // namespace swiftlet::apps

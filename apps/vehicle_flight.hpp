@@ -1,0 +1,69 @@
+// One vehicle of a simulated flight, from its first tick to its last file: the vehicle in the arena, its autonomy, the
+// loop between them and the sinks beside it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/flight_setup.hpp"
+#include "apps/picture_sink.hpp"
+#include "autonomy/autonomy.hpp"
+#include "autonomy/flight_loop.hpp"
+#include "common/mailbox.hpp"
+
+namespace swiftlet::simulation {
+class Arena;
+}
+
+namespace swiftlet::apps {
+
+class WebChannel;
+
+/// One thread. Refers to the setup and the hooks, which must outlive it.
+class VehicleFlight {
+ public:
+  /// Vehicle number `number` of the arena, whose run lies in `folder`. Throws common::InputError for a folder that
+  /// cannot be used.
+  VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks, const std::shared_ptr<simulation::Arena>& arena,
+                std::size_t number, FlightMission mission, const std::filesystem::path& folder);
+  ~VehicleFlight();
+  VehicleFlight(const VehicleFlight&) = delete;
+  VehicleFlight& operator=(const VehicleFlight&) = delete;
+
+  /// What was skipped or replaced in the world, for its files and whoever listens.
+  void tellWarnings();
+  void step(common::Time now);
+  /// Its mission has ended, it has crashed, or something ends it from outside.
+  bool over();
+  /// Writes the last files and leaves the arena, where the vehicle stays as it is; once, when it is over.
+  void finish(double wall_s);
+  bool finished() const { return vehicle_ == nullptr; }
+
+  std::shared_ptr<const common::World> world() const { return autonomy_.world(); }
+  /// After finish().
+  VehicleResult result() const;
+
+ private:
+  std::vector<std::unique_ptr<autonomy::FlightSink>> makeSinks();
+  std::vector<autonomy::FlightSink*> sinks();
+  bool end(interfaces::Outcome outcome, std::string reason);
+  void showEnd() const;
+
+  const FlightSetup& setup_;
+  const FlightHooks& hooks_;
+  WebChannel* web_;  ///< Null: nobody watches.
+  std::unique_ptr<simulation::SimulatedVehicle> vehicle_;
+  std::string name_;  ///< Empty when it flies alone.
+  evaluation::FlightRecorder recorder_;
+  autonomy::Autonomy autonomy_;
+  interfaces::RunFolder folder_;
+  PictureSink pictures_;
+  std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
+  common::LosslessQueue<common::OperatorCommand> no_commands_;
+  autonomy::FlightLoop loop_;
+  interfaces::Outcome outcome_ = interfaces::Outcome::kFlying;
+  std::string reason_;
+};
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,47 @@
+#include "planning/exploration/nearest_frontier_explorer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planning/exploration/frontier_survey.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+/// Greater for what is nearer, 1 where the vehicle is.
+double nearness(double path_m) { return 1.0 / (1.0 + path_m); }
+
+/// The first lookout of a frontier is that of the ring nearest to it.
+const Lookout& nearestToIt(const SeenFrontier& seen) { return seen.lookouts.front(); }
+
+}  // namespace
+
+ExplorationResult NearestFrontierExplorer::explore(const ExplorationInput& input) const {
+  FrontierSurvey survey(input, config_);
+  if (survey.shutIn()) return survey.finish(std::nullopt, false);
+  const CostMap& map = survey.map();
+  const Scout scout(map, survey.field(), config_);
+  const std::vector<SeenFrontier> seen = survey.seenBy(scout);
+  if (seen.empty()) return survey.finish(std::nullopt, false);
+
+  std::vector<std::size_t> numbers;
+  for (const SeenFrontier& frontier : seen) {
+    numbers.push_back(frontier.number);
+    survey.score(frontier.number, nearness(nearestToIt(frontier).path_m));
+  }
+  const auto nearest = std::min_element(seen.begin(), seen.end(), [](const auto& a, const auto& b) {
+    return nearestToIt(a).path_m < nearestToIt(b).path_m;
+  });
+  const bool keep = survey.ofCurrent(numbers).has_value();
+  const Lookout lookout = keep ? survey.currentLookout() : nearestToIt(*nearest);
+  const Eigen::Vector2d place_m = map.centerOf(lookout.place), target_m = map.centerOf(lookout.target);
+  const double yaw_rad =
+      keep ? input.current->pose_map.yaw_rad : std::atan2(target_m.y() - place_m.y(), target_m.x() - place_m.x());
+  return survey.finish(Viewpoint{{place_m.x(), place_m.y(), yaw_rad},
+                                 target_m,
+                                 scout.view(lookout.place, yaw_rad).gain_m2,
+                                 nearness(lookout.path_m)},
+                       keep);
+}
+
+}  // namespace swiftlet::planning

@@ -1,0 +1,142 @@
+#include "planning/exploration/utility_explorer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "planning/exploration/frontier_survey.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+using common::FrontierReason;
+using Point = Eigen::Vector2d;
+
+/// A frontier with the best place to see it from.
+struct Option {
+  std::size_t frontier = 0;
+  Lookout lookout;
+  View view;
+  double utility = 0.0;
+};
+
+/// One call.
+class Choice {
+ public:
+  Choice(const ExplorationInput& input, const ExplorationConfig& config)
+      : input_(input),
+        config_(config),
+        survey_(input, config),
+        map_(survey_.map()),
+        scout_(map_, survey_.field(), config) {}
+
+  ExplorationResult run() {
+    if (survey_.shutIn()) return survey_.finish(std::nullopt, false);
+    evaluate();
+    reviewCurrent();
+    if (options_.empty()) return survey_.finish(std::nullopt, false);
+    const Option& best = greatestUtility();
+    const bool keep = current_ && best.utility <= current_->utility * (1.0 + config_.hysteresis);
+    return survey_.finish(viewpointOf(keep ? *current_ : best), keep);
+  }
+
+ private:
+  /// Looks for viewpoints of the open frontiers, the nearest first.
+  void evaluate() {
+    for (const SeenFrontier& seen : survey_.seenBy(scout_)) {
+      if (static_cast<int>(options_.size()) >= config_.max_evaluated) break;
+      double greatest_gain_m2 = 0.0;
+      if (const auto best = bestOf(seen, greatest_gain_m2)) {
+        survey_.score(seen.number, best->utility);
+        options_.push_back(*best);
+      } else {
+        leaveUnseen(seen.number, greatest_gain_m2);
+      }
+    }
+  }
+
+  /// The best place to see it from, one from where nobody looked yet before all others.
+  std::optional<Option> bestOf(const SeenFrontier& seen, double& greatest_gain_m2) const {
+    std::optional<Option> best;
+    bool best_is_new = false;
+    for (const Lookout& lookout : seen.lookouts) {
+      const Option option = optionAt(seen.number, lookout);
+      greatest_gain_m2 = std::max(greatest_gain_m2, option.view.gain_m2);
+      if (option.view.gain_m2 < config_.min_gain_m2) continue;
+      const bool is_new = !survey_.lookedFrom(lookout);
+      if (best && (is_new != best_is_new ? best_is_new : option.utility <= best->utility)) continue;
+      best = option;
+      best_is_new = is_new;
+    }
+    return best;
+  }
+
+  /// None of the places that can be reached sees enough of it.
+  void leaveUnseen(std::size_t frontier, double greatest_gain_m2) {
+    const std::vector<common::CellIndex>& cells = survey_.run(frontier).cells;
+    const double at_it_m2 = scout_.view(cells[cells.size() / 2], 0.0).gain_m2;
+    if (at_it_m2 < config_.min_gain_m2) {
+      survey_.leave(frontier, FrontierReason::kTooSmall, fmt::format("{:.2f} m2 to be seen", greatest_gain_m2));
+    } else {
+      survey_.leave(frontier, FrontierReason::kUnreachable,
+                    fmt::format("from where one can be at clearance {:.2f} m only {:.2f} of {:.2f} m2 are seen",
+                                map_.footprint().clearance_m, greatest_gain_m2, at_it_m2));
+    }
+  }
+
+  Option optionAt(std::size_t frontier, const Lookout& lookout) const {
+    Option option{frontier, lookout, {}, 0.0};
+    const Point travel_m = map_.centerOf(lookout.target) - map_.centerOf(lookout.place);
+    option.view = scout_.view(lookout.place, std::atan2(travel_m.y(), travel_m.x()));
+    const double trust = 1.0 - config_.localizability_weight * (1.0 - option.view.localizability);
+    option.utility =
+        trust * std::pow(option.view.gain_m2, config_.gain_exponent) /
+        (travelTime_s(lookout.path_m, option.view.yaw_map_rad) + config_.speed_m_s / config_.acceleration_m_s2);
+    return option;
+  }
+
+  double travelTime_s(double path_m, double yaw_map_rad) const {
+    const double turn_rad = std::abs(common::wrapAngle(yaw_map_rad - input_.pose_map.yaw_rad));
+    return std::max(path_m / config_.speed_m_s, turn_rad / config_.yaw_rate_rad_s);
+  }
+
+  /// The viewpoint being flown to stays an option while there is something left to see at its target.
+  void reviewCurrent() {
+    std::vector<std::size_t> numbers;
+    for (const Option& option : options_) numbers.push_back(option.frontier);
+    const std::optional<std::size_t> frontier = survey_.ofCurrent(numbers);
+    if (!frontier) return;
+    Option option = optionAt(*frontier, survey_.currentLookout());
+    if (option.view.gain_m2 < config_.min_gain_m2) return;
+    option.view.yaw_map_rad = input_.current->pose_map.yaw_rad;
+    current_ = option;
+  }
+
+  const Option& greatestUtility() const {
+    return *std::max_element(options_.begin(), options_.end(),
+                             [](const Option& a, const Option& b) { return a.utility < b.utility; });
+  }
+
+  Viewpoint viewpointOf(const Option& option) const {
+    const Point place_m = map_.centerOf(option.lookout.place);
+    return {{place_m.x(), place_m.y(), option.view.yaw_map_rad},
+            map_.centerOf(option.lookout.target),
+            option.view.gain_m2,
+            option.utility};
+  }
+
+  const ExplorationInput& input_;
+  const ExplorationConfig& config_;
+  FrontierSurvey survey_;
+  const CostMap& map_;
+  Scout scout_;
+  std::vector<Option> options_;
+  std::optional<Option> current_;
+};
+
+}  // namespace
+
+ExplorationResult UtilityExplorer::explore(const ExplorationInput& input) const { return Choice(input, config_).run(); }
+
+}  // namespace swiftlet::planning

@@ -1,0 +1,21 @@
+// Looks where most is seen for the time it takes: frontiers (Yamauchi 1997, used by Saeedi, section III-F), each with
+// the best place to see it from, scored by the unknown area expected there, by the travel time and by how well the
+// laser fixes the pose there (Bachrach 2009, section 5.4).
+#pragma once
+
+#include "planning/exploration/exploration.hpp"
+#include "planning/exploration/exploration_config.hpp"
+
+namespace swiftlet::planning {
+
+class UtilityExplorer final : public Explorer {
+ public:
+  explicit UtilityExplorer(const ExplorationConfig& config) : config_(config) {}
+  [[nodiscard]] ExplorationResult explore(const ExplorationInput& input) const override;
+  const char* name() const override { return "utility"; }
+
+ private:
+  ExplorationConfig config_;
+};
+
+}  // namespace swiftlet::planning
