@@ -167,7 +167,7 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   const common::VehicleState state = estimator_.state();
   const auto cost_map = executor_.desk().costMap();
   const auto& decision = reactive_.update({outcome->scan, outcome->T_map_body, state, estimator_.people().obstacles(),
-                                           executor_.wishedVelocity_map_m_s(), cost_map.get()});
+                                           executor_.wantedVelocity_map_m_s(), cost_map.get()});
   executor_.react(decision, state);
 
   auto points = std::make_shared<common::LaserPoints>();
@@ -193,7 +193,7 @@ void Autonomy::tickBehaviors(Time now) {
                          estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision()});
 }
 
-/// The supervisor's wish before the mission's.
+/// The supervisor's intent comes before the mission's.
 common::Intent Autonomy::wishOf(Time now) {
   const bool airborne = control::isAirborne(controller_.state());
   const Supervision& supervision = supervisor_.tick(now, airborne, energy_);

@@ -36,7 +36,7 @@ class Executor {
 
   const common::IntentStatus& status() const { return status_; }
   /// Along the path being flown; zero when none is.
-  Eigen::Vector2d wishedVelocity_map_m_s() const;
+  Eigen::Vector2d wantedVelocity_map_m_s() const;
   std::vector<Eigen::Vector2d> remainingPlan_map_m() const;
   /// Where the vehicle flies to at present, if the intent is such.
   std::optional<Eigen::Vector2d> goal_map_m() const;

@@ -10,6 +10,7 @@
 
 #include <tl/expected.hpp>
 
+#include "common/disc.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 #include "planning/costs/cost_map.hpp"
@@ -41,7 +42,7 @@ struct PlanningRequest {
   std::uint64_t intent_id = 0;
   std::shared_ptr<const common::OccupancyGrid> grid;
   std::shared_ptr<const common::LevelMap> levels;
-  std::vector<planning::Disc> discs;
+  std::vector<common::Disc> discs;
   planning::Footprint footprint;
   common::Pose2 T_map_body;
   PlanningQuestion question;
@@ -81,7 +82,7 @@ class PlanningWorker {
                                                            const Eigen::Vector2d& to_map_m);
   tl::expected<planning::Path, planning::PlanFailure> goTo(const GoalRequest& goal,
                                                            const Eigen::Vector2d& position_map_m);
-  std::optional<DetourPlan> detour(const DetourRequest& request, const std::vector<planning::Disc>& people,
+  std::optional<DetourPlan> detour(const DetourRequest& request, const std::vector<common::Disc>& people,
                                    const Eigen::Vector2d& position_map_m);
   std::optional<Eigen::Vector2d> roomyPlace(const Eigen::Vector2d& position_map_m) const;
 

@@ -26,9 +26,9 @@ struct ReactiveInput {
   const perception::ProjectedScan& scan;
   common::Pose2 T_map_body;  ///< At the scan's stamp.
   const common::VehicleState& state;
-  std::span<const common::DynamicObstacle> obstacles;      ///< People above all, after this scan.
-  Eigen::Vector2d wish_map_m_s = Eigen::Vector2d::Zero();  ///< The velocity the intent wants; zero when it holds.
-  const planning::CostMap* cost_map = nullptr;             ///< Null before the first plan.
+  std::span<const common::DynamicObstacle> obstacles;        ///< People above all, after this scan.
+  Eigen::Vector2d wanted_map_m_s = Eigen::Vector2d::Zero();  ///< The velocity the intent wants; zero when it holds.
+  const planning::CostMap* cost_map = nullptr;               ///< Null before the first plan.
 };
 
 /// One thread; update() once a scan.

@@ -36,7 +36,7 @@ struct Supervision {
 ///
 ///             hold command, no scan for laser_hold_s, the pilot takes over
 ///   watching --------------------------------------------------------------> holding
-///      ^  resume command, scans are back, the pilot gives back                  |
+///      ^  resume command, scans are back, the pilot gives control back          |
 ///      +------------------------------------------------------------------------+
 ///   any -- land command, no scan for laser_land_s, battery low --> landing (stays)
 class Supervisor {

@@ -98,7 +98,7 @@ Progress Explore::nothingOpen(const planning::ExplorationResult& result, Time no
   if (!done_since_) done_since_ = now;
   blocked_frontier_map_m_ = blockedFrontier(result, now);
   if (blocked_frontier_map_m_)
-    reason_ = "somebody may stand in the way";
+    reason_ = "a person may block the path";
   else if (setup_.controller.stopped() && ++done_answers_ >= kDoneAnswers)
     return explored(result, now);
   return Progress::running(reason_);

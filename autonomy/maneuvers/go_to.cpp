@@ -55,7 +55,7 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
 
 Progress GoTo::waitFor(const planning::PlanFailure& failure, Time now) {
   if (!no_path_) {
-    setup_.memory.say(now, common::Severity::kWarning, "no way to the goal at present", failure.text);
+    setup_.memory.say(now, common::Severity::kWarning, "no path to the goal at present", failure.text);
     no_path_ = NoPath{now, failure};
   }
   no_path_->failure = failure;

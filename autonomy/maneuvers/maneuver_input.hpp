@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/disc.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
@@ -18,7 +19,7 @@ struct ManeuverInput {
   common::VehicleState state;
   std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null; a snapshot that nobody writes to.
   std::shared_ptr<const common::LevelMap> levels;     ///< May be null.
-  std::vector<planning::Disc> discs;                  ///< Where people are and will soon be, in `map`.
+  std::vector<common::Disc> discs;                    ///< Where people are and will soon be, in `map`.
   bool anybody_walks = false;
   const planning::AvoidanceDecision& avoidance;
 

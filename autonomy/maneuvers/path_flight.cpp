@@ -60,7 +60,7 @@ std::vector<Eigen::Vector2d> PathFlight::remaining_map_m() const {
   return plan() ? keeper_.remaining() : std::vector<Eigen::Vector2d>{};
 }
 
-Eigen::Vector2d PathFlight::wishedVelocity_map_m_s() const {
+Eigen::Vector2d PathFlight::wantedVelocity_map_m_s() const {
   constexpr double kAhead_m = 0.05;  // A shorter step tells no direction.
   const auto points = remaining_map_m();
   for (std::size_t i = 1; i < points.size(); ++i) {

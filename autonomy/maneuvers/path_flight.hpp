@@ -40,7 +40,7 @@ class PathFlight {
   /// What is left of the plan, from where the vehicle was seen last; empty without one.
   std::vector<Eigen::Vector2d> remaining_map_m() const;
   /// Along the plan at the mode's speed; zero without one.
-  Eigen::Vector2d wishedVelocity_map_m_s() const;
+  Eigen::Vector2d wantedVelocity_map_m_s() const;
 
  private:
   const ExecutorConfig& config_;
