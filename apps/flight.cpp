@@ -63,7 +63,7 @@ std::filesystem::path folderOf(const FlightSetup& setup) {
   return interfaces::freshRunFolder("runs", setup.started, runInfo(setup).mission);
 }
 
-/// One vehicle, its autonomy, the loop between them and the sinks beside it; and the pace of simulated time.
+/// One vehicle, its autonomy, the loop between them with its sinks, and the pace of simulated time.
 class Flight {
  public:
   Flight(const FlightSetup& setup, behaviors::Mission mission, const FlightHooks& hooks)
@@ -100,7 +100,7 @@ class Flight {
     return sinks;
   }
 
-  /// The pictures last: they show what the others have written.
+  /// The pictures come last, because they show what the other sinks have written.
   std::vector<autonomy::FlightSink*> sinks() {
     std::vector<autonomy::FlightSink*> all;
     for (const auto& sink : sinks_) all.push_back(sink.get());
@@ -167,7 +167,7 @@ class Flight {
     return result;
   }
 
-  /// So that the pages see how it ended.
+  /// The pages need time to show how the flight ended.
   void linger() const {
     const Clock::time_point begin = Clock::now();
     while (secondsSince(begin) < setup_.linger_s && !(hooks_.stop && *hooks_.stop))

@@ -1,5 +1,5 @@
 // One simulated flight from the first tick to the last: the simulator's vehicle and the autonomy in a FlightLoop, with
-// the run folder, the page and the scorer's recorder beside it. Used by `fly` and by `trial`.
+// the run folder, the page and the scorer's recorder as sinks. `fly` and `trial` use it.
 #pragma once
 
 #include <atomic>
@@ -23,14 +23,14 @@ class WebLink;
 
 struct FlightSetup {
   System system;
-  std::string mission_file;              ///< For the run's records; what is flown is the mission read from it.
-  simulation::Scenario scenario;         ///< World, start, weather, seed; vehicle and laser are taken from the system.
-  std::shared_ptr<const FlightMap> map;  ///< To find itself in; null: it is given none.
+  std::string mission_file;              ///< For the run's records; the mission itself was already read from it.
+  simulation::Scenario scenario;         ///< World, start, weather, seed. Vehicle and laser are those of the system.
+  std::shared_ptr<const FlightMap> map;  ///< The map to localize in; null if none was given.
   std::filesystem::path out;
   std::string started;           ///< For the run's records.
-  double speed = 0.0;            ///< Times real time; 0: as fast as the machine can.
-  double time_limit_s = 1800.0;  ///< Of simulated time.
-  double linger_s = 0.0;         ///< Time on the wall clock to wait after the end, so that a page sees it.
+  double speed = 0.0;            ///< Multiple of real time; 0 for as fast as possible.
+  double time_limit_s = 1800.0;  ///< Limit of simulated time.
+  double linger_s = 0.0;         ///< Time on the wall clock to wait after the end, so that a page can show it.
 };
 
 struct FlightProgress {
@@ -40,11 +40,11 @@ struct FlightProgress {
 };
 
 struct FlightHooks {
-  std::function<void(const FlightProgress&)> progress;  ///< About ten times a second of wall time.
+  std::function<void(const FlightProgress&)> progress;  ///< Called about ten times a second of wall time.
   std::function<void(const common::Event&)> event;
   WebLink* web = nullptr;
   const std::atomic<bool>* stop = nullptr;  ///< Ends the flight from outside.
-  /// At the end, before the run's last files are written: adds to them what a scorer finds.
+  /// Called at the end, before the run's last files are written. It adds the figures of a scorer to them.
   std::function<void(const evaluation::FlightRecord&, const simulation::SimulatedVehicle&, interfaces::FlightEnd&)>
       score;
 };
@@ -55,8 +55,8 @@ struct FlightResult {
   std::optional<std::string> write_failure;
 };
 
-/// Flies it to its end. Throws common::InputError for a world or folder that cannot be used, before anything moves.
-/// Flights may run in several threads at once, each with a folder of its own.
+/// Flies to the end of the flight. Throws common::InputError for a world or folder that cannot be used, before anything
+/// moves. Flights may run in several threads at once, each with a folder of its own.
 FlightResult flySimulated(const FlightSetup& setup, behaviors::Mission mission, const FlightHooks& hooks);
 
 /// "2026-11-21_14-03-55", local time.

@@ -1,4 +1,4 @@
-// What a system profile lets a mission ask for, and the check of a mission against it.
+// The limits that a system profile sets to a mission, and the check of a mission against them.
 #pragma once
 
 #include <string>
@@ -12,12 +12,11 @@ namespace swiftlet::apps {
 
 behaviors::MissionLimits missionLimits(const System& system, bool has_map);
 
-/// Every problem of a mission, that of its file included, if it is to be flown with this system, and with a map of
-/// the place or without.
+/// Every problem of a mission, including those of its file, if it is flown with this system, with or without a given
+/// map.
 std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map = true);
 
-/// The mission of that file, for what is about to fly: read once and checked. Throws common::InputError with all
-/// problems.
+/// The mission of that file for a flight: read once and checked. Throws common::InputError with all problems.
 behaviors::Mission soundMission(const std::string& file, const System& system, bool has_map);
 
 }  // namespace swiftlet::apps

@@ -1,4 +1,4 @@
-// The page beside the flight: the server's thread, and the mailboxes and queues between it and the loop.
+// The page of a flight: the server's thread, and the mailboxes and queues between it and the loop.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace swiftlet::apps {
 
 class WebLink {
  public:
-  /// Listens at once; throws common::InputError when it cannot.
+  /// Starts to listen at once; throws common::InputError if it cannot.
   WebLink(const std::string& address, int port, const std::string& title, double hull_diameter_m);
   ~WebLink();
 

@@ -55,10 +55,10 @@ void Core::tick() {
   desk.tick();
   std::erase_if(watchers_, [](const auto& watcher) { return watcher.expired(); });
   const common::Time now = telemetry.now();
-  // A watcher may close while it is told, and another may come.
+  // A watcher may close, or a new one come, during these calls.
   for (const std::weak_ptr<Connection>& weak : std::vector(watchers_))
     if (const auto watcher = weak.lock()) watcher->tick(now);
-  // With nobody there it still looks now and then, so that whoever comes is told at once how fast time passes.
+  // Without watchers it still looks now and then, so that a new watcher learns the real-time factor at once.
   ticking_ = !watchers_.empty() || desk.waiting();
   timer_.expires_after(std::chrono::milliseconds(1000 / (ticking_ ? kTicksPerSecond : kIdleTicksPerSecond)));
   schedule();
@@ -70,7 +70,7 @@ void Core::close() {
   for (const std::weak_ptr<Connection>& weak : std::exchange(connections_, {}))
     if (const auto connection = weak.lock()) connection->close();
   watchers_.clear();
-  // Who waits for an answer is held by the desk and holds this: told that none comes, they let each other go.
+  // A waiting session and the desk refer to each other; answering that nothing comes releases both.
   while (desk.waiting()) desk.tick();
 }
 

@@ -120,7 +120,7 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
                         });
   }
 
-  /// Pages say nothing; reading answers pings and notices the end.
+  /// Pages send no messages; reading answers pings and detects the end.
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
       if (error) return self->close();
@@ -130,7 +130,7 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
   }
 
   std::shared_ptr<Core> core_;
-  /// Without compression, which is never asked for and takes as long to compile as all the rest.
+  /// Without compression: it is never requested, and takes as long to compile as all the rest.
   websocket::stream<beast::tcp_stream, false> stream_;
   beast::flat_buffer buffer_;
   std::deque<Message> queue_;

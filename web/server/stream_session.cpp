@@ -56,7 +56,7 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
     stalled_ticks_ = 0;
     if (!beat_.due(now)) return;
     const auto frame = core_->hub.frame(*view_, last_, period_, sent_);
-    // Without something new the client stays due, so that it need not wait for the next beat when it comes.
+    // Without a new picture the client stays due, so that it gets the next one without waiting for its beat.
     if (!frame) return;
     beat_.done(now);
     send(frame, now);
@@ -77,7 +77,7 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
                              });
   }
 
-  /// A client says nothing more; a read ends when it goes away.
+  /// A client sends nothing more; the read ends when it goes away.
   void listen() {
     socket_.async_read_some(boost::asio::buffer(ignored_),
                             [self = shared_from_this()](const error_code& error, std::size_t) {
@@ -92,7 +92,7 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
   common::Duration period_;
   Beat beat_;
   bool watches_camera_;
-  std::shared_ptr<StreamSession> self_;  ///< Until it is closed.
+  std::shared_ptr<StreamSession> self_;  ///< Keeps the session alive until it is closed.
   std::string head_;
   std::shared_ptr<const StreamFrame> last_;
   common::Time sent_;

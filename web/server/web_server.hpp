@@ -1,18 +1,18 @@
 // The operator's page, its live state and the picture streams, over HTTP and WebSocket. It reads telemetry and hands
-// over commands; it can delay or change nothing in the flight.
+// over commands; it cannot delay or change anything in the flight.
 //
 //   GET  /                        the page, embedded in the program; no other host is needed
 //   GET  /stream/map.mjpg         ?width= &height= &fps= &scheme=light|dark; multipart/x-mixed-replace
 //   GET  /stream/camera.mjpg      ?width= &fps=
 //   GET  /api/state               everything as one JSON document
 //   GET  /api/map.png             the picture of the map; ?width= &height= &scheme=
-//   GET  /api/ws                  WebSocket: what /api/state has, in parts and only what changed, and the map's tiles
+//   GET  /api/ws                  WebSocket: the content of /api/state in parts, only changes, and the map's tiles
 //   POST /api/goal|hold|resume|home|land    `Authorization: Bearer TOKEN` or ?token=; goal: {"x_m": 1.0, "y_m": 2.0}
 //
-// Streams: a picture is encoded once for all clients that asked for the same; each client has at most one frame under
-// way and gets the newest when it is ready again, so that a slow client costs and delays nobody, and its own picture
-// is never older than one frame. Requests whose Host is neither an address nor a name of this machine, or whose Origin
-// is foreign, are refused (no DNS rebinding, no CSRF).
+// Streams: a picture is encoded once for all clients that asked for the same view. At most one frame is being sent to a
+// client, and the next one is the newest. So a slow client does not delay the others, and its own picture is never
+// older than one frame. A request is refused if its Host is neither an address nor a name of this machine, or if its
+// Origin is foreign (against DNS rebinding and CSRF).
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ class WebServer {
   using Options = WebServerOptions;
   using Sources = WebServerSources;
 
-  /// Listens at once. Throws common::InputError when the address cannot be used or the port is taken.
+  /// Starts to listen at once. Throws common::InputError if the address cannot be used or the port is taken.
   WebServer(IoContext& io, const Options& options, const Sources& sources);
   ~WebServer();
   WebServer(const WebServer&) = delete;
@@ -37,15 +37,15 @@ class WebServer {
 
   /// The port it listens on.
   int port() const;
-  /// "http://127.0.0.1:8080/?token=...": what to open. For "0.0.0.0" and "::" with an address of this machine that
-  /// others can open, where it has one.
+  /// The link to open: "http://127.0.0.1:8080/?token=...". For "0.0.0.0" and "::" it has an address of this machine
+  /// that others can open, if there is one.
   std::string operatorUrl() const;
 
-  /// Someone watches the camera, so that it is worth rendering. Any thread.
+  /// A page shows the camera, so it must be rendered. Any thread.
   bool cameraWanted() const;
-  /// Shown in the page's list; the last 200 are kept. Any thread.
+  /// Adds an event to the page's list; the last 200 are kept. Any thread.
   void postEvent(const common::Event& event);
-  /// Closes all connections; IoContext::run() returns. Any thread, more than once.
+  /// Closes all connections, after which IoContext::run() returns. Any thread; may be called more than once.
   void stop();
 
  private:
