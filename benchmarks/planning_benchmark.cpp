@@ -136,7 +136,7 @@ void DStarRepair(benchmark::State& state) {
     left_m -= step.norm();
   }
   CostMap blocked = s.map;
-  const std::vector<planning::Disc> discs{{ahead, 0.2}};
+  const std::vector<common::Disc> discs{{ahead, 0.2}};
   blocked.update(s.grid.snapshot(), {}, {discs, nullptr});
   for (auto _ : state) {
     auto path = planner.plan(blocked, s.task.start, s.task.goal);

@@ -23,10 +23,10 @@ using namespace swiftlet;
 double trajectoryError_m(const benchmarks::FloorDrive& drive, bool odometry,
                          const perception::LaserSlamConfig& config) {
   perception::LaserSlam slam(config);
-  test::TrackedPath way(slam);
+  test::TrackedPath path(slam);
   for (const auto& [scan, T_odom_robot] : drive.scans)
-    way.add(scan.stamps.measured, {scan, {}, odometry ? std::optional(T_odom_robot) : std::nullopt});
-  return evaluation::absoluteTrajectoryError(evaluation::associate(way.finish(), drive.truth),
+    path.add(scan.stamps.measured, {scan, {}, odometry ? std::optional(T_odom_robot) : std::nullopt});
+  return evaluation::absoluteTrajectoryError(evaluation::associate(path.finish(), drive.truth),
                                              evaluation::Alignment::kPlanar)
       .value()
       .translation_m.rmse;

@@ -22,7 +22,7 @@ TEST(MultilevelFilter, TracksClimbAndHoverOverAFlatFloor) {
   flight.flyTo({5.0, 0.0}, 1.0);
   EXPECT_EQ(flight.filter.levels().levels.size(), 1u);
   EXPECT_EQ(flight.filter.levels().levels[0].height_m, 0.0);
-  EXPECT_LE(flight.without_measurement, 7);  // Until the first has settled.
+  EXPECT_LE(flight.without_measurement, 7);  // Until the first level is published.
   EXPECT_LT(flight.rms_m(), 0.012);
   EXPECT_NEAR(flight.filter.state().velocity_m_s, flight.vz_m_s, 0.05);
   ASSERT_TRUE(flight.last.height_above_ground_m);
@@ -129,7 +129,7 @@ TEST(MultilevelFilter, ManyCrossingsDoNotDrift) {
     flight.flyTo({0.0, 0.1 * (crossing % 5)}, 1.0);
   }
   const auto map = flight.filter.levels();
-  EXPECT_LT(flight.worst_error_m, 0.08);  // Up to two seconds by the accelerations alone.
+  EXPECT_LT(flight.worst_error_m, 0.08);  // Up to two seconds on the accelerations alone.
   EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.02);
   EXPECT_NEAR(levelNear(map, 0.48)->height_m, 0.48, 0.015);
   EXPECT_NEAR(levelNear(map, 0.77)->height_m, 0.77, 0.015);
@@ -139,7 +139,7 @@ TEST(MultilevelFilter, ManyCrossingsDoNotDrift) {
               100 * flight.rms_m(), map.levels.size());
 }
 
-/// Only levels near by may explain a beam, as in the paper.
+/// Only levels nearby may explain a beam, as in the paper.
 MultilevelFilter onlyNear() {
   MultilevelFilter::Config config;
   config.one_floor = false;
@@ -171,8 +171,7 @@ TEST(MultilevelFilter, TheFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
   EXPECT_EQ(flight.filter.levels().levels[0].height_m, 0.0);
 }
 
-/// The back and the seat of a sofa, in many steepnesses: what is not flat says nothing about the height, and must not
-/// take it along.
+/// The back and the seat of a sofa at many slopes: a surface that is not flat has no effect on the height.
 TEST(MultilevelFilter, SlopesDoNotCarryTheHeightAway) {
   for (const double speed_m_s : {0.3, 0.6, 0.9}) {
     for (const double length_m : {0.15, 0.3, 0.6}) {
@@ -187,18 +186,18 @@ TEST(MultilevelFilter, SlopesDoNotCarryTheHeightAway) {
         flight.flyTo({end_m + 1.5, 0.0}, speed_m_s);
         flight.flyTo({0.0, 0.0}, speed_m_s);
       }
-      EXPECT_LT(flight.worst_error_m, 0.08);  // Up to two seconds by the accelerations alone.
+      EXPECT_LT(flight.worst_error_m, 0.08);  // Up to two seconds on the accelerations alone.
       EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, 0.02);
     }
   }
 }
 
-/// Boxes of all heights side by side, few of them wide enough to be believed, crossed on an acceleration that goes
-/// wrong; then the floor. It must be the floor again soon, and not a slope, a new level, or one of the boxes. There are
-/// seeds that deserve to fail: boxes that make a table, or drift that puts the floor where the table was.
+/// Boxes of all heights side by side, few of them wide enough to become a level, crossed with a wrong acceleration;
+/// then the floor. The filter must soon return to the floor, and not to a slope, a new level, or one of the boxes. Some
+/// seeds fail rightly: boxes that form a table, or drift that moves the floor to the height of the table.
 TEST(MultilevelFilter, TheFloorBehindClutterIsBelievedAgain) {
   constexpr int kFlights = 400;
-  int untold = 0, wrong = 0;
+  int unmeasured = 0, wrong = 0;
   for (int seed = 1; seed <= kFlights; ++seed) {
     Overflight flight;
     flight.fused = true;
@@ -216,12 +215,12 @@ TEST(MultilevelFilter, TheFloorBehindClutterIsBelievedAgain) {
     flight.flyTo({2.5, 0.0}, 0.7);
     flight.acceleration_bias_m_s2 = flight.random.uniform(-0.03, 0.03);
     flight.flyTo({x_m + 1.5, 0.0}, 0.7);
-    untold += flight.last.measurement ? 0 : 1;
+    unmeasured += flight.last.measurement ? 0 : 1;
     wrong += std::abs(flight.filter.state().height_m - flight.z_m) < 0.05 ? 0 : 1;
   }
-  std::printf("floor behind clutter: %d of %d flights without a measurement, %d with a wrong height\n", untold,
+  std::printf("floor behind clutter: %d of %d flights without a measurement, %d with a wrong height\n", unmeasured,
               kFlights, wrong);
-  EXPECT_LE(untold, kFlights * 2 / 100);
+  EXPECT_LE(unmeasured, kFlights * 2 / 100);
   EXPECT_LE(wrong, kFlights * 3 / 100);
 }
 
@@ -269,7 +268,7 @@ TEST(MultilevelFilter, ATableEdgeSplitsTheBeamsBetweenBothLevels) {
 }
 
 TEST(MultilevelFilter, TheVarianceIsHonest) {
-  // Over many flights the error of a level is what its variance says.
+  // Over many flights the error of a level agrees with its variance.
   double nees = 0;
   constexpr int kFlights = 40;
   for (int seed = 1; seed <= kFlights; ++seed) {

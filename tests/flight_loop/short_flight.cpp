@@ -91,7 +91,7 @@ Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs) {
     </Sequence></BehaviorTree></root>)",
                                               "short.xml");
   AutonomyConfig config;
-  // So that it seeks loops already within the few metres of a short flight.
+  // Short, so that it searches loops within the few metres of a short flight.
   config.estimator.slam.local_sigma_m = 0.02;
   config.estimator.slam.loops.spacing_m = 0.5;
   return Autonomy(config, vehicleSheet(), laserSheet(), std::move(mission), std::move(jobs));
