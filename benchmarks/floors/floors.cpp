@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   app.add_option("--first", first, "Seed of the first floor")->capture_default_str();
   app.add_option("--count", count, "How many floors")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--max-free-space-violation", config.slam.loops.max_free_space_violation,
-                 "Greatest share of a closure that was looked through; 1: any")
+                 "Greatest share of a closure that violates free space; 1: any")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
