@@ -187,10 +187,10 @@ void Autonomy::prepare() {
 
 void Autonomy::tickBehaviors(Time now) {
   takeSnapshot(now);
-  if (prepared_) wish_ = wishOf(now);
+  if (prepared_) intent_ = wishOf(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
-  executor_.tick(wish_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(),
-                         estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision()});
+  executor_.tick(intent_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(),
+                           estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision()});
 }
 
 /// The supervisor's intent comes before the mission's.

@@ -5,10 +5,10 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// A map that does not reach the goal may just be about to grow.
+/// A map that does not reach the goal may be about to grow.
 constexpr double kGrowing_s = 2.0;
 
-/// Somebody who stands in the way may go; a goal in space never seen is not seen by waiting.
+/// A person who blocks the path may go away, so waiting helps. It does not help for a goal in unknown space.
 bool mayPass(const planning::PlanFailure& failure) {
   using Reason = planning::PlanFailure::Reason;
   return failure.reason != Reason::kGoalUnseen && failure.reason != Reason::kOutsideMap;
