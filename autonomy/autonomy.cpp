@@ -187,14 +187,14 @@ void Autonomy::prepare() {
 
 void Autonomy::tickBehaviors(Time now) {
   takeSnapshot(now);
-  if (prepared_) intent_ = wishOf(now);
+  if (prepared_) intent_ = nextIntent(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
   executor_.tick(intent_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(),
                            estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision()});
 }
 
 /// The supervisor's intent comes before the mission's.
-common::Intent Autonomy::wishOf(Time now) {
+common::Intent Autonomy::nextIntent(Time now) {
   const bool airborne = control::isAirborne(controller_.state());
   const Supervision& supervision = supervisor_.tick(now, airborne, energy_);
   context_.world = world_;

@@ -87,7 +87,7 @@ class Autonomy {
   void processScan(const common::LaserScan& scan, common::Time now);
   void prepare();
   void tickBehaviors(common::Time now);
-  common::Intent wishOf(common::Time now);
+  common::Intent nextIntent(common::Time now);
   bool missionOver() const { return common::isOver(mission_status_.state); }
   void tickMission();
   void takeSnapshot(common::Time now);
