@@ -35,7 +35,7 @@ bool exists(std::string path, const Files& files) {
 
 /// The quoted paths of a page that begin with a folder of the tree and name nothing in it.
 std::vector<std::string> missingPaths(const std::string& page, const Files& files) {
-  static const std::regex kPath("[A-Za-z0-9_./*-]+");
+  static const std::regex kPath("[A-Za-z0-9_][A-Za-z0-9_./*-]+");
   std::set<std::string> folders;
   for (const auto& [path, text] : files) folders.insert(topFolderOf(path));
   std::vector<std::string> missing;
@@ -82,7 +82,9 @@ TEST(Pages, DecisionsNameCodeThatExists) {
 TEST(Pages, PlantedMistakesAreCaught) {
   const Files files = {
       {"common/jobs.hpp", ""}, {"common/world/map_layer.hpp", ""}, {"config/systems/swiftlet.yaml", ""}};
-  EXPECT_THAT(missingPaths("`common/jobs`, `common/jobs.*`, `common/world/`, `runs/first`, `a/b c`", files), IsEmpty());
+  EXPECT_THAT(
+      missingPaths("`common/jobs`, `common/jobs.*`, `common/world/`, `runs/first`, `/api/state`, `a/b c`", files),
+      IsEmpty());
   EXPECT_THAT(missingPaths("`common/job.hpp` and `config/systems/swift_*.yaml`", files),
               ElementsAre("common/job.hpp", "config/systems/swift_*.yaml"));
   const std::string page = "- Where it shows: `Jobs::submit`,\n  `common/jobs.hpp`\n\n## What\n\n`old_name`\n";
