@@ -65,8 +65,8 @@ struct LocalizeFigures {
   bool has_stamps = true;      ///< The log's stamps differ between scans.
   Spool<LocalizedScan> track;  ///< The localized scans.
   LocalizedPaths paths;
-  rendering::ThinnedCurve
-      unexplained;  ///< Per cent of each scan over its index, while localized. Of merged scans it is the greatest.
+  /// Per cent of each scan over its index, while localized. Of merged scans it is the greatest.
+  rendering::ThinnedCurve unexplained;
   rendering::ThinnedCurve milliseconds;  ///< Computing time over the index of the scan.
 };
 

@@ -26,10 +26,10 @@ struct ReactiveInput {
   const perception::ProjectedScan& scan;
   common::Pose2 T_map_body;  ///< At the scan's stamp.
   const common::VehicleState& state;
-  std::span<const common::DynamicObstacle>
-      obstacles;  ///< Objects that the map does not explain, usually people, after this scan.
-  Eigen::Vector2d wanted_map_m_s =
-      Eigen::Vector2d::Zero();                  ///< The velocity that the intent asks for; zero if it holds.
+  /// Objects that the map does not explain, usually people, after this scan.
+  std::span<const common::DynamicObstacle> obstacles;
+  /// The velocity that the intent asks for; zero if it holds.
+  Eigen::Vector2d wanted_map_m_s = Eigen::Vector2d::Zero();
   const planning::CostMap* cost_map = nullptr;  ///< Null before the first plan.
 };
 

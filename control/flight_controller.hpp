@@ -48,8 +48,8 @@ struct FlightTick {
   std::optional<RawHeight> raw_height;  ///< A height measured since the last tick, if there is one.
   double battery_v = 0.0;               ///< Latest voltage; 0 while unknown.
   bool fusion_diverged = false;
-  bool pilot_flies =
-      false;  ///< The pilot has control: setpoints have no effect, and the references follow the vehicle.
+  /// The pilot has control: setpoints have no effect, and the references follow the vehicle.
+  bool pilot_flies = false;
 };
 
 /// One thread. Never throws; a refused command returns its reason.

@@ -64,8 +64,8 @@ struct LocalizationRecord {
 /// The record of a whole flight.
 struct FlightRecord {
   common::Pose3 T_world_map;
-  std::optional<LocalizationRecord>
-      localization;  ///< None if no map was given, or if its pose in the world is not known.
+  /// None if no map was given, or if its pose in the world is not known.
+  std::optional<LocalizationRecord> localization;
   std::vector<ReachedGoal> goals;
   /// Errors of the estimate at the times of the estimates, while airborne.
   std::vector<double> horizontal_errors_m;

@@ -69,8 +69,8 @@ struct FlightScore {
   std::vector<MarkerVisit> visits;               ///< Every goal that was reached.
   std::optional<double> marker_error_m;          ///< Worst error of the estimate at a goal.
   std::optional<double> relocalization_error_m;  ///< Worst difference between visits of the same goal.
-  std::optional<double>
-      open_loop_error_m;                 ///< Worst error of the odometry from one visit to the next of the same goal.
+  /// Worst error of the odometry from one visit to the next of the same goal.
+  std::optional<double> open_loop_error_m;
   std::optional<double> estimate_rms_m;  ///< Horizontal, against the truth in the true map frame, without alignment.
   std::optional<double> estimate_spatial_rms_m;
   std::optional<double> estimate_yaw_rms_rad;
@@ -79,8 +79,8 @@ struct FlightScore {
   std::optional<LocalizationScore> localization;  ///< None if the flight was given no map.
 
   int collisions = 0;
-  int avoidable_collisions =
-      0;  ///< All collisions except those where a walker ran into a vehicle that stood still or moved away.
+  /// All collisions except those where a walker ran into a vehicle that stood still or moved away.
+  int avoidable_collisions = 0;
   std::string collision;         ///< What was touched; empty if nothing was.
   double min_clearance_m = 0.0;  ///< Least distance from the hull while airborne; capped by the simulator.
   double min_walker_clearance_m = 0.0;
@@ -95,8 +95,8 @@ struct FlightScore {
   int resumed = 0;
   double realtime_factor = 0.0;
 
-  std::vector<std::string>
-      failures;  ///< Every criterion that was missed, with figure and bound; empty if the flight passed.
+  /// Every criterion that was missed, with figure and bound; empty if the flight passed.
+  std::vector<std::string> failures;
   bool passed() const { return failures.empty(); }
 };
 

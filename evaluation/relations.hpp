@@ -24,8 +24,8 @@ struct RelationErrors {
   Statistics rotation_rad;
   Statistics translation_squared_m2;
   Statistics rotation_squared_rad2;
-  std::vector<std::size_t>
-      missing;  ///< Relations with a stamp that is not in the estimate; no figure above includes them.
+  /// Relations with a stamp that is not in the estimate; no figure above includes them.
+  std::vector<std::size_t> missing;
 };
 
 /// A stamp finds the pose within half a microsecond of it, because logs and relations are written with six decimals. A

@@ -28,8 +28,8 @@ using common::MissionState;
 using common::Problem;
 using common::Time;
 
-constexpr Duration kMapPeriod =
-    Duration::fromMilliseconds(3000);  ///< Between two versions of map, mission.json and report.
+/// Between two versions of map, mission.json and report.
+constexpr Duration kMapPeriod = Duration::fromMilliseconds(3000);
 constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(40);  ///< Between two poses of trajectory.tum.
 constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Between two samples for plots.
 

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSeenWalking_m =
-    3.0;  // Greatest distance beside the vehicle's path at which a crossing starts and ends.
+// Greatest distance beside the vehicle's path at which a crossing starts and ends.
+constexpr double kSeenWalking_m = 3.0;
 constexpr double kLeastStep_m = 0.8;   // Least distance beside the vehicle's path at which a crossing starts and ends.
 constexpr double kLeastAhead_m = 1.5;  // No person steps into the path nearer to the vehicle than this.
 constexpr double kUnderFoot_m = 0.05;  // Anything lower does not stop a person.

@@ -34,8 +34,8 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 const std::string* nearest(std::string_view word, std::span<const std::string> candidates) {
   for (const std::string& candidate : candidates)
     if (withoutUnit(candidate) == withoutUnit(word)) return &candidate;
-  constexpr std::size_t kLongestName =
-      100;  // A longer name is not a typing error, and the distance takes quadratic time.
+  // A longer name is not a typing error, and the distance takes quadratic time.
+  constexpr std::size_t kLongestName = 100;
   if (word.size() > kLongestName) return nullptr;
   const std::string low = lowered(word);
   const std::string* best = nullptr;

@@ -26,8 +26,8 @@ struct AvoidanceInput {
   common::Time stamp;
   std::span<const Eigen::Vector2f> points_level_m;  ///< In order of bearing; points that are not finite are ignored.
   Eigen::Vector2d velocity_level_m_s = Eigen::Vector2d::Zero();
-  Eigen::Vector2d wanted_level_m_s =
-      Eigen::Vector2d::Zero();  ///< The velocity that the intent asks for; zero asks for a stop.
+  /// The velocity that the intent asks for; zero asks for a stop.
+  Eigen::Vector2d wanted_level_m_s = Eigen::Vector2d::Zero();
   common::Pose2 T_map_level;
   const CostMap* cost_map = nullptr;                   ///< May be null: then nothing counts as mapped.
   std::span<const common::DynamicObstacle> obstacles;  ///< What the map does not explain, usually people.
@@ -38,8 +38,8 @@ struct AvoidanceDecision {
   /// Replaces the velocity of the intent if set. Fly it with `retreat_acceleration_m_s2`.
   std::optional<Eigen::Vector2d> retreat_velocity_level_m_s;
   double retreat_acceleration_m_s2 = 0.0;
-  double turn_rad =
-      0.0;  ///< During a retreat: the angle to turn so that the laser sees both the danger and the course.
+  /// During a retreat: the angle to turn so that the laser sees both the danger and the course.
+  double turn_rad = 0.0;
   common::AvoidanceStatus status;
 };
 

@@ -30,8 +30,8 @@ struct Footprint {
 
 /// The layers over the grid. Pointers may be null and are read during the call only.
 struct CostLayers {
-  std::span<const common::Disc>
-      discs;  ///< Obstacles that are not in the grid: people, places that were tried and failed.
+  /// Obstacles that are not in the grid: people, places that were tried and failed.
+  std::span<const common::Disc> discs;
   const common::LevelMap* levels = nullptr;
   /// The flown trail, in order, in the `map` frame. Near it half the clearance is enough, so that a door that was flown
   /// through stays open even if the map of its frame grew by a cell.
@@ -143,8 +143,8 @@ class CostMap {
   std::int32_t height_edge_ = 0;  ///< Edge cost of a step of 1 cm.
   std::vector<CellState> raw_;    ///< States as in the grid.
   std::vector<CellState> state_;  ///< States with the unknown slivers closed.
-  std::vector<std::int16_t>
-      occupied_distance2_;  ///< Squared distance in cells to the nearest occupied cell, cut at (reach + 1) squared.
+  /// Squared distance in cells to the nearest occupied cell, cut at (reach + 1) squared.
+  std::vector<std::int16_t> occupied_distance2_;
   std::vector<std::int16_t> unknown_distance2_;
   std::vector<Cost> margin_cost_;  ///< Cost by occupied distance squared.
   std::vector<Cost> static_cost_;  ///< Cost from the grid only.
