@@ -94,8 +94,7 @@ std::vector<Eigen::Vector3d> PathFollower::joined(const std::vector<Eigen::Vecto
   const Eigen::Vector3d across = velocity - std::max(0.0, velocity.dot(direction)) * direction;
   if (off_m <= kOnPath_m && across.norm() <= 2.0 * kKink_m_s) return out;
 
-  if (velocity.norm() <=
-      2.0 * kKink_m_s) {  // Slow: fly straight to a point as far ahead as the reference is off the path.
+  if (velocity.norm() <= 2.0 * kKink_m_s) {  // Slow: fly straight to a point as far ahead as the distance off the path.
     out = rest(std::min(near_m + off_m, along.back()));
     out.insert(out.begin(), here);
     return out;

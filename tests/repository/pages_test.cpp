@@ -1,4 +1,4 @@
-// What the pages name is there: files, and for decisions also the names of the code.
+// The files that pages name exist, and so does the code that decisions name. The README types no figures.
 #include <fnmatch.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
