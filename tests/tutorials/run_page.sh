@@ -16,7 +16,7 @@
 set -euo pipefail
 write=0
 [ "$1" = --write ] && { write=1; shift; }
-page=$1 build=$2 scratch=$3
+page=$(realpath "$1") build=$(realpath "$2") scratch=$(realpath -m "$3")
 source_dir=$(cd "$(dirname "$0")/../.." && pwd)
 command -v curl >/dev/null || { echo 'curl is not installed'; exit 77; }
 export SWIFTLET_DATASETS=${SWIFTLET_DATASETS:-$source_dir/../shared/datasets}
