@@ -246,7 +246,7 @@ void AvoidanceTick(benchmark::State& state) {
     points.push_back({static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a))});
   }
   planning::Avoidance avoidance({}, 0.275);
-  planning::DynamicObstacle person;
+  common::DynamicObstacle person;
   person.center_map_m = {6.5, 4.0};
   person.radius_m = 0.25;
   person.velocity_map_m_s = {-1.0, 0.0};
