@@ -1,4 +1,4 @@
-// A subcommand of the program: it declares its options and is run when it was chosen.
+// A subcommand of the program. It declares its options, and is run if it was chosen.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,8 @@ enum ExitCode : int {
   kBadInput = 2,  ///< Wrong usage or input that cannot be used, a mission that is not sound too.
 };
 
-/// Each adds its subcommand; when it is chosen, `run` is set to what carries it out and returns the exit code.
+/// Each function adds its subcommand. If it is chosen, `run` is set to a function that executes it and returns the exit
+/// code.
 using Run = std::function<int()>;
 void addFly(CLI::App& program, Run& run);
 void addCheck(CLI::App& program, Run& run);

@@ -14,7 +14,7 @@
 namespace swiftlet::apps {
 namespace {
 
-/// docs/configuration.md.
+/// Prints the text of docs/configuration.md.
 std::string reference() {
   using common::config::ReferencePrinter;
   const auto chapter = [](const char* title, const char* sentence, const auto& config) {

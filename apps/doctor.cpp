@@ -72,7 +72,7 @@ Finding dataSetsFinding() {
     const auto folder = evaluation::dataSetsFolder(common::findData("worlds").parent_path());
     if (std::filesystem::is_directory(folder)) found = folder.lexically_normal().string();
   } catch (const common::InputError&) {
-    // That there are no worlds is a finding of its own.
+    // Missing worlds are reported separately.
   }
   return {"data sets", true, found, ""};
 }

@@ -41,7 +41,7 @@ void addReference(CLI::App& command, EvaluateOptions& options) {
 void addEvaluate(CLI::App& program, Run& run) {
   auto options = std::make_shared<EvaluateOptions>();
   auto* command = program.add_subcommand("evaluate", "Measure a trajectory by the published metrics.");
-  command->require_subcommand(0, 1);  // That one is required is said below, so that an unknown one is named first.
+  command->require_subcommand(0, 1);  // A missing subcommand is reported below, so that an unknown one is named first.
   command->callback([&run, command] {
     if (command->get_subcommands().empty()) run = []() -> int { throw CLI::RequiredError("A metric"); };
   });

@@ -31,7 +31,7 @@ void print(const nlohmann::json& json) {
   showJson(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-/// To the microsecond, as logs and relations write it.
+/// Rounded to the microsecond, as in logs and relations.
 std::string textOf(common::Time stamp) {
   const std::string text = interfaces::stampText(stamp);
   return text.substr(0, text.size() - 3);
@@ -39,8 +39,8 @@ std::string textOf(common::Time stamp) {
 
 Ordered read(const std::string& file) { return common::ordered(interfaces::readPoses(file)); }
 
-/// What a reader of the figures should know about the stamps of a file.
-void tellStamps(const std::string& file, const Ordered& poses) {
+/// Notes about the stamps of a file, for the reader of the figures.
+void noteStamps(const std::string& file, const Ordered& poses) {
   if (poses.went_back > 0)
     show(fmt::format("{}: {} stamps go back in time; the poses are taken in the order of their stamps\n", file,
                      poses.went_back));
@@ -62,7 +62,7 @@ std::vector<ErrorFigures> figuresOf(const evaluation::RelationErrors& errors) {
            inUnit(errors.rotation_squared_rad2, kDegPerRad * kDegPerRad)}};
 }
 
-/// An estimate beside its reference.
+/// An estimate with its reference.
 struct Compared {
   Ordered estimate, reference;
   std::vector<PosePair> pairs;  ///< Not empty.
@@ -94,8 +94,8 @@ void requireAlignable(const EvaluateOptions& options, const Compared& compared) 
               "see `--align first` and `--align none`"});
 }
 
-void tell(const EvaluateOptions& options, const Compared& compared, nlohmann::json json, const std::string& title,
-          const std::vector<ErrorFigures>& figures) {
+void report(const EvaluateOptions& options, const Compared& compared, nlohmann::json json, const std::string& title,
+            const std::vector<ErrorFigures>& figures) {
   if (options.json) {
     for (const ErrorFigures& figure : figures) addTo(json, figure);
     json["pairs"] = compared.pairs.size();
@@ -107,8 +107,8 @@ void tell(const EvaluateOptions& options, const Compared& compared, nlohmann::js
   fmt::print("{}", toText(tableOf(title, figures)));
   fmt::print("{} pairs of {} estimated and {} reference poses\n", compared.pairs.size(),
              compared.estimate.trajectory.size(), compared.reference.trajectory.size());
-  tellStamps(options.estimate, compared.estimate);
-  tellStamps(options.against, compared.reference);
+  noteStamps(options.estimate, compared.estimate);
+  noteStamps(options.against, compared.reference);
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ int evaluateRelations(const EvaluateOptions& options) {
     print(json);
   } else {
     fmt::print("{}", toText(tableOf(fmt::format("{} relations", compared), figures)));
-    tellStamps(options.estimate, estimate);
+    noteStamps(options.estimate, estimate);
   }
   if (missing > 0)
     fmt::print(stderr, "{} of {} relations are missing: no pose has their stamps; the first is from {} to {}\n",
@@ -160,9 +160,9 @@ int evaluateAte(const EvaluateOptions& options) {
   if (!error) throw InputError(Problem{{options.estimate}, "--scale", "shrinks the estimate to nothing", ""});
   std::string title = "Absolute trajectory error, aligned: " + options.align;
   if (options.scale) title += fmt::format(", estimate scaled by {:.6f}", scale);
-  tell(options, compared, {{"align", options.align}, {"scale", common::rounded(scale, 9)}}, title,
-       {{"translation", "ate_", "m", error->translation_m},
-        {"rotation", "ate_rotational_", "deg", inUnit(error->rotation_rad, kDegPerRad)}});
+  report(options, compared, {{"align", options.align}, {"scale", common::rounded(scale, 9)}}, title,
+         {{"translation", "ate_", "m", error->translation_m},
+          {"rotation", "ate_rotational_", "deg", inUnit(error->rotation_rad, kDegPerRad)}});
   return kDone;
 }
 
@@ -179,10 +179,10 @@ int evaluateRpe(const EvaluateOptions& options) {
         "--delta",
         fmt::format("no stretch of {} {} lies within the {} pairs", options.delta, options.unit, compared.pairs.size()),
         "give a shorter one"});
-  tell(options, compared, {{"delta", options.delta}, {"unit", options.unit}, {"stretches", stretches}},
-       fmt::format("Relative pose error over {} {}, {} stretches", options.delta, options.unit, stretches),
-       {{"translation", "rpe_translational_", "m", error.translation_m},
-        {"rotation", "rpe_rotational_", "deg", inUnit(error.rotation_rad, kDegPerRad)}});
+  report(options, compared, {{"delta", options.delta}, {"unit", options.unit}, {"stretches", stretches}},
+         fmt::format("Relative pose error over {} {}, {} stretches", options.delta, options.unit, stretches),
+         {{"translation", "rpe_translational_", "m", error.translation_m},
+          {"rotation", "rpe_rotational_", "deg", inUnit(error.rotation_rad, kDegPerRad)}});
   return kDone;
 }
 

@@ -1,4 +1,4 @@
-// What `swiftlet evaluate` does once its command line is read.
+// The work of `swiftlet evaluate` after its command line was read.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@ namespace swiftlet::apps {
 
 struct EvaluateOptions {
   std::string estimate;
-  std::string against;  ///< The relations or the reference.
+  std::string against;  ///< File of the relations or of the reference.
   bool allow_missing = false;
   double max_difference_s = 0.01;
   std::string align = "spatial";  ///< A key of kAlignments.

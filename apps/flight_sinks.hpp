@@ -1,4 +1,4 @@
-// Those beside a simulated flight: its run folder, the scorer's recorder, the page, the terminal.
+// The sinks of a simulated flight: its run folder, the scorer's recorder, the page, the terminal.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ namespace swiftlet::apps {
 
 class WebChannel;
 
-/// Each refers to what it is given, which must outlive it.
+/// Each sink refers to its arguments, which must outlive it.
 class FolderSink final : public autonomy::FlightSink {
  public:
   explicit FolderSink(interfaces::RunFolder& folder) : folder_(folder) {}
@@ -32,7 +32,7 @@ class FolderSink final : public autonomy::FlightSink {
   interfaces::RunFolder& folder_;
 };
 
-/// What really happened beside what was believed.
+/// Records the truth together with the estimates.
 class TruthSink final : public autonomy::FlightSink {
  public:
   TruthSink(const simulation::SimulatedVehicle& vehicle, evaluation::FlightRecorder& recorder)
@@ -60,12 +60,12 @@ class PageSink final : public autonomy::FlightSink {
 
 class EventSink final : public autonomy::FlightSink {
  public:
-  using Tell = std::function<void(const common::Event&)>;
-  explicit EventSink(Tell tell) : tell_(std::move(tell)) {}
-  void event(const common::Event& event) override { tell_(event); }
+  using Report = std::function<void(const common::Event&)>;
+  explicit EventSink(Report report) : report_(std::move(report)) {}
+  void event(const common::Event& event) override { report_(event); }
 
  private:
-  Tell tell_;
+  Report report_;
 };
 
 }  // namespace swiftlet::apps

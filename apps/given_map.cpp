@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// T_world_given: the rigid fit of the poses the SLAM has to those that were driven. None where they tell no direction.
+/// T_world_given: the rigid fit of the SLAM poses to the driven ones. None if they do not determine a direction.
 std::optional<common::Pose2> fitted(const perception::LaserSlam& slam,
                                     const std::vector<perception::TrackedScan>& tracked,
                                     const std::vector<common::Pose2>& driven) {
@@ -67,7 +67,7 @@ FlightMap surveyedMap(const simulation::SurveyConfig& survey, const simulation::
   std::error_code failure;
   fs::create_directories(folder, failure);
   required(interfaces::writeMap(folder, "map", slam.map()));
-  // As it is read from there, so that a flight with --map has the same.
+  // The map is read back from its file, so that a flight with --map gets the same map.
   FlightMap map = readFlightMap(folder / "map.yaml");
   map.T_world_given = fitted(slam, tracked, driven);
   if (!map.T_world_given)

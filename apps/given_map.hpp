@@ -14,19 +14,20 @@
 namespace swiftlet::apps {
 
 struct FlightMap {
-  std::string name;        ///< As the user gave it; for the run's record.
-  autonomy::GivenMap map;  ///< Its grid is shared by flights.
-  /// Where it lies in the simulated world, where that is known: for the score.
+  std::string name;        ///< Name as given by the user, for the run's record.
+  autonomy::GivenMap map;  ///< The map; flights share its grid.
+  /// Its pose in the simulated world, if it is known, for the score.
   std::optional<common::Pose2> T_world_given;
 };
 
-/// Throws common::InputError where the file is no map, or none one could be localized in.
+/// Throws common::InputError if the file is not a map, or is a map in which nothing can be localized.
 interfaces::StoredMap readUsableMap(const std::filesystem::path& yaml_file);
-/// The same, to be given to flights.
+/// The map of a file, with the pose of its origin in the world.
 FlightMap readFlightMap(const std::filesystem::path& yaml_file);
 
-/// A robot on wheels drives through the world, and its scans become a map by SLAM. It lies in the world where the
-/// poses of its scans fit the true ones best. Written to `folder` as map.yaml and map.pgm. Throws common::InputError.
+/// A robot on wheels drives through the world, and SLAM makes a map of its scans. The pose of the map in the world is
+/// the best fit of the scans' poses to the true ones. Written to `folder` as map.yaml and map.pgm. Throws
+/// common::InputError.
 FlightMap surveyedMap(const simulation::SurveyConfig& survey, const simulation::WorldModel& world,
                       const std::filesystem::path& folder);
 

@@ -24,11 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 using perception::LocalizationState;
 
-/// How well somebody knows where a robot stands who says so.
+/// Standard deviations of a start that the user gives.
 constexpr double kStart_m = 0.3;
 constexpr double kStart_deg = 10.0;
 
-/// Ends the name of the folder for the results.
+/// Ending of the folder's name for the results.
 constexpr const char* kSuffix = "localize";
 
 struct LocalizeOptions {
@@ -49,7 +49,7 @@ common::Pose2 parseStart(const std::string& text) {
   return {x_m, y_m, common::wrapAngle(yaw_deg * common::kRadPerDeg)};
 }
 
-/// Throws InputError for a start beside the map: nothing seen there would speak against it.
+/// Throws InputError for a start outside the map: nothing seen there could contradict it.
 void refuseOutside(const common::Pose2& T_map_start, const interfaces::StoredMap& map, const std::string& text) {
   const Eigen::Vector2d start_grid_m = map.T_map_grid.inverse() * T_map_start.position_m();
   const common::CellRect known = common::knownExtent(map.grid);
@@ -65,14 +65,14 @@ void refuseOutside(const common::Pose2& T_map_start, const interfaces::StoredMap
 }
 
 struct LocalizeRun {
-  std::uint64_t estimates = 0;  ///< Scans from the first with points enough on.
+  std::uint64_t estimates = 0;  ///< Number of scans since the first one with enough points.
   std::uint64_t localized = 0, times_localized = 0, times_lost = 0;
   LocalizationState state = LocalizationState::kGlobal;
   LocalizeFigures shown;
   double wall_s = 0.0;
 };
 
-/// The event, stamped as the log is; `run.state` is that before it.
+/// The event with the stamp of the log; `run.state` is the state before it.
 void note(const perception::LocalizationEvent& event, common::Time stamp, std::uint64_t scan, LocalizeRun& run) {
   run.times_localized += event.state == LocalizationState::kLocalized ? 1 : 0;
   const bool lost = event.state == LocalizationState::kLost;
@@ -144,7 +144,7 @@ nlohmann::ordered_json figuresOf(const LocalizeOptions& options, const RecordedL
 
 void showForPeople(const LocalizeRun& run, const fs::path& out) {
   for (const std::string& warning : run.shown.warnings) show("note: " + warning + "\n");
-  for (const ToldEvent& event : told(run.shown.events, run.shown.has_stamps))
+  for (const ReportedEvent& event : reported(run.shown.events, run.shown.has_stamps))
     show(fmt::format("{}  {}: {}\n", event.when, event.state, event.reason));
   for (const auto& [label, value] : run.shown.facts) show(fmt::format("{:<14} {}\n", label, value));
   show(fmt::format("{}\n", (out / "report.html").string()));
@@ -198,7 +198,7 @@ int localize(const LocalizeOptions& options) {
              "\n");
   else
     showForPeople(run, out);
-  // A place that was given counts as long as nothing spoke against it.
+  // A given start counts as localized until something contradicts it.
   const bool given = !options.start.empty(), given_lost = given && run.times_lost > 0;
   const bool localized = run.localized > 0 && (run.times_localized > (given ? 1U : 0U) || (given && !given_lost));
   if (!localized && !options.log.json)

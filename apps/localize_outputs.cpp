@@ -18,10 +18,10 @@ namespace {
 
 using Paths = std::vector<std::vector<Eigen::Vector2d>>;
 
-/// Points of a path nearer than this to the one before are not drawn.
+/// A point of a path nearer than this to the one before is not drawn.
 constexpr double kDrawnStep_m = 0.05;
 
-/// Pictures show the grid's frame.
+/// Pictures are drawn in the grid's frame.
 Paths inGrid(const Paths& paths_map_m, const common::Pose2& T_map_grid) {
   const common::Pose2 T_grid_map = T_map_grid.inverse();
   Paths paths = paths_map_m;
@@ -46,7 +46,7 @@ std::string mapPng(const rendering::MapPicture& picture) {
   return {png.begin(), png.end()};
 }
 
-/// The begin of each line has its number.
+/// Starts of the paths, numbered.
 std::string mapDrawing(rendering::MapPicture picture) {
   for (const rendering::MapLine& line : picture.lines) {
     const Eigen::Vector2d& begin = line.points_map_m.front();
@@ -62,9 +62,9 @@ void writeTrajectory(const std::filesystem::path& file, const Spool<LocalizedSca
   });
 }
 
-common::Table tableOf(const std::vector<ToldEvent>& events) {
+common::Table tableOf(const std::vector<ReportedEvent>& events) {
   common::Table table{"", {"when", "state", "reason"}, {}};
-  for (const ToldEvent& event : events)
+  for (const ReportedEvent& event : events)
     table.rows.push_back(
         {{event.when}, {event.state, event.bad ? common::Mark::kBad : common::Mark::kNone}, {event.reason}});
   return table;
@@ -85,8 +85,8 @@ void LocalizedPaths::add(const perception::LocalizationEstimate& estimate) {
   open_ = true;
 }
 
-std::vector<ToldEvent> told(const std::vector<LoggedEvent>& events, bool has_stamps) {
-  std::vector<ToldEvent> told;
+std::vector<ReportedEvent> reported(const std::vector<LoggedEvent>& events, bool has_stamps) {
+  std::vector<ReportedEvent> reported;
   std::size_t again = 0;
   for (std::size_t i = 0; i < events.size(); ++i) {
     const common::Event& event = events[i].event;
@@ -95,11 +95,11 @@ std::vector<ToldEvent> told(const std::vector<LoggedEvent>& events, bool has_sta
     const bool repeated = i > 0 && event.text == events[i - 1].event.text && event.reason == events[i - 1].event.reason;
     again = repeated ? again + 1 : 0;
     if (repeated)
-      told.back().reason = fmt::format("{} (again {} x, the last at {})", event.reason, again, when);
+      reported.back().reason = fmt::format("{} (again {} x, the last at {})", event.reason, again, when);
     else
-      told.push_back({when, event.text, event.reason, event.severity == common::Severity::kWarning});
+      reported.push_back({when, event.text, event.reason, event.severity == common::Severity::kWarning});
   }
-  return told;
+  return reported;
 }
 
 void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
@@ -110,7 +110,7 @@ void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::St
       fmt::format("{}{} in {}", kLocalizeTitle, std::filesystem::path(figures.log).filename().string(), figures.map);
   report.facts = figures.facts;
   report.warnings = figures.warnings;
-  report.events = tableOf(told(figures.events, figures.has_stamps));
+  report.events = tableOf(reported(figures.events, figures.has_stamps));
   report.map_svg = mapDrawing(picture);
   report.plots_svg = {plotOver("Not explained by the map", "% of a scan", figures.unexplained),
                       plotOver("Time per scan", "ms", figures.milliseconds)};

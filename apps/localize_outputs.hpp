@@ -1,4 +1,4 @@
-// What `swiftlet localize` leaves: trajectory.tum, events.jsonl, map.png and report.html.
+// The results of `swiftlet localize`: trajectory.tum, events.jsonl, map.png and report.html.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 
 namespace swiftlet::apps {
 
-/// The paths that were localized without a break, thinned for drawing; map frame.
+/// The paths of uninterrupted localization, thinned for drawing; map frame.
 class LocalizedPaths {
  public:
   void add(const perception::LocalizationEstimate& estimate);
@@ -37,40 +37,40 @@ inline const ResultsKind kLocalizeResults{"localization",
                                           "<title>" + kLocalizeTitle,
                                           {"report.html", "trajectory.tum", "events.jsonl", "map.png"}};
 
-/// Where the robot was at a scan of the log, under the log's own stamp.
+/// The robot's pose at a scan of the log, with the log's own stamp.
 struct LocalizedScan {
   common::Time stamp;
   common::Pose2 T_map_body;
 };
 
-/// A change of state, and the scan of the log it came with, counted from 0.
+/// A change of state, with the index of the scan at which it came.
 struct LoggedEvent {
   common::Event event;
   std::uint64_t scan = 0;
 };
 
-/// An event for people; what came again with nothing else between is told once.
-struct ToldEvent {
-  std::string when;  ///< "12.300 s", or "scan 123" of a log whose stamps tell nothing.
+/// An event for people. Repetitions in direct succession are merged into one.
+struct ReportedEvent {
+  std::string when;  ///< "12.300 s", or "scan 123" if the stamps of the log are useless.
   std::string state, reason;
   bool bad = false;
 };
-std::vector<ToldEvent> told(const std::vector<LoggedEvent>& events, bool has_stamps);
+std::vector<ReportedEvent> reported(const std::vector<LoggedEvent>& events, bool has_stamps);
 
 struct LocalizeFigures {
   std::string map, log;
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<std::string> warnings;
   std::vector<LoggedEvent> events;
-  bool has_stamps = true;      ///< The log's stamps tell its scans apart.
-  Spool<LocalizedScan> track;  ///< What was localized.
+  bool has_stamps = true;      ///< The log's stamps differ between scans.
+  Spool<LocalizedScan> track;  ///< The localized scans.
   LocalizedPaths paths;
-  rendering::ThinnedCurve
-      unexplained;  ///< Per cent of each scan while localized, over its index; the greatest of neighbours.
-  rendering::ThinnedCurve milliseconds;  ///< Over the index of the scan.
+  /// Per cent of each scan over its index, while localized. Of merged scans it is the greatest.
+  rendering::ThinnedCurve unexplained;
+  rendering::ThinnedCurve milliseconds;  ///< Computing time over the index of the scan.
 };
 
-/// Writes all files into the folder `out`. Throws InputError when one cannot be written.
+/// Writes all files into the folder `out`. Throws InputError if one cannot be written.
 void writeLocalizeOutputs(const std::filesystem::path& out, const interfaces::StoredMap& map,
                           const LocalizeFigures& figures);
 

@@ -16,13 +16,13 @@
 
 namespace {
 
-/// A file of the run that was opened as descriptor 1 would get the progress lines.
+/// Otherwise a file of the run that gets descriptor 1 would receive the progress lines.
 void openStandardStreams() {
   for (int descriptor = 0; descriptor <= 2; ++descriptor)
     if (::fcntl(descriptor, F_GETFD) < 0) (void)::open("/dev/null", descriptor == 0 ? O_RDONLY : O_WRONLY);
 }
 
-/// What was printed may have been lost: a full disk is told, a reader that has gone is not.
+/// The output may have been lost. A full disk is reported; a reader that has gone is not.
 int withOutput(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   if (errno == EPIPE) return code;
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   openStandardStreams();
 
   CLI::App program{"Explore, map and fly home indoors: autonomy for small quadrotors.", "swiftlet"};
-  program.require_subcommand(0, 1);  // At least one is required below, so that an unknown one is named first.
+  program.require_subcommand(0, 1);  // A missing subcommand is reported below, so that an unknown one is named first.
   program.set_version_flag("--version", "swiftlet " SWIFTLET_VERSION, "Print the version.");
   program.footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
 
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
     if (program.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
     return withOutput(run());
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return withOutput(program.exit(e));  // Help or the version was asked for.
+    if (e.get_exit_code() == 0) return withOutput(program.exit(e));  // Help or the version was requested.
     apps::showError(apps::usageProblem(program, e));
     return apps::kBadInput;
   } catch (const common::InputError& e) {

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ends the name of the folder for the results.
+/// Ending of the folder's name for the results.
 constexpr const char* kSuffix = "map";
 
 const std::map<std::string, perception::SlamMethod> kSlamMethods{{"graph", perception::SlamMethod::kGraph},
@@ -47,11 +47,11 @@ struct MapRun {
   rendering::ThinnedCurve milliseconds;
   std::uint64_t unmatched = 0;
   double wall_s = 0.0;
-  double path_length_m = 0.0;  ///< Of the robot.
+  double path_length_m = 0.0;  ///< Length of the robot's path.
 };
 
-/// Of steps of this length at least, so that a robot that stands adds nothing.
-constexpr double kWayStep_m = 0.1;
+/// Sums steps of at least this length, so that a standing robot adds nothing.
+constexpr double kPathStep_m = 0.1;
 
 double pathLength_m(const MapRun& run) {
   const std::vector<common::Pose2> keys = run.slam.keyPoses();
@@ -60,7 +60,7 @@ double pathLength_m(const MapRun& run) {
   run.track.forEach([&](const StampedScan& tracked) {
     const Eigen::Vector2d now_m = tracked.scan.T_map_robot(keys).position_m();
     const double step_m = last_m ? (now_m - *last_m).norm() : 0.0;
-    if (last_m && step_m < kWayStep_m) return;
+    if (last_m && step_m < kPathStep_m) return;
     path_length_m += step_m;
     last_m = now_m;
   });
@@ -88,7 +88,7 @@ void mapLog(RecordedLog& log, const MapOptions& options, MapRun& run) {
   line.close();
 }
 
-/// Whether the map may be believed, and why.
+/// Whether the map can be trusted, and why not.
 struct Trust {
   bool trusted = false;
   std::string reason;

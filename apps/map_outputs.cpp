@@ -26,11 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 using common::Pose2;
 
-/// Points of a trajectory nearer than this to the one before are not drawn.
+/// A point of a trajectory nearer than this to the one before is not drawn.
 constexpr double kDrawnStep_m = 0.05;
 constexpr std::size_t kDrawnPoints = 50'000;
 
-/// Of the largest file that is read, what the header of a picture may take.
+/// Size of the header of a picture, which is subtracted from the greatest file size.
 constexpr std::uint64_t kHeaderBytes = 4096;
 
 void writeTrajectory(const fs::path& file, const TrackSpool& track, const std::vector<Pose2>& keys) {
@@ -46,7 +46,7 @@ interfaces::G2oGraph2D graphOf(const std::vector<Pose2>& keys, std::span<const p
   graph.poses = keys;
   graph.fixed = {0};
   for (const perception::SlamEdge& edge : edges) {
-    // g2o's error has the axes of the measured pose of `to`, ours those of `from`.
+    // The error of g2o is in the axes of the measured pose of `to`, that of Swiftlet in those of `from`.
     const Eigen::Matrix3d covariance = common::turned(edge.covariance, -edge.T_from_to.yaw_rad);
     Eigen::Matrix3d information = covariance.inverse();
     information = 0.5 * (information + information.transpose()).eval();
@@ -55,7 +55,7 @@ interfaces::G2oGraph2D graphOf(const std::vector<Pose2>& keys, std::span<const p
   return graph;
 }
 
-/// Of bounded length: the longer the way, the coarser it is drawn.
+/// The number of points is bounded: a longer path is drawn more coarsely.
 std::vector<Eigen::Vector2d> lineOf(const TrackSpool& track, const std::vector<Pose2>& keys) {
   std::vector<Eigen::Vector2d> line;
   double step_m = kDrawnStep_m;

@@ -1,4 +1,4 @@
-// What `swiftlet map` leaves: map.pgm, map.yaml, map.png, trajectory.tum, report.html and, where there is a graph,
+// The results of `swiftlet map`: map.pgm, map.yaml, map.png, trajectory.tum, report.html and, if there is a graph,
 // graph.g2o.
 #pragma once
 
@@ -24,7 +24,7 @@ inline const ResultsKind kMapResults{"map",
                                      "<title>" + kMapTitle,
                                      {"report.html", "map.pgm", "map.yaml", "map.png", "trajectory.tum", "graph.g2o"}};
 
-/// A scan of the log, under the log's own stamp.
+/// A scan of the log, with the log's own stamp.
 struct StampedScan {
   common::Time stamp;
   perception::TrackedScan scan;
@@ -38,14 +38,14 @@ struct MapFigures {
   std::string log;
   std::vector<std::pair<std::string, std::string>> facts;
   std::vector<std::string> warnings;
-  rendering::ThinnedCurve milliseconds;  ///< Over the index of the scan.
+  rendering::ThinnedCurve milliseconds;  ///< Computing time over the index of the scan.
 };
 
-/// Why a map cannot be written, for people: it is larger than readMap reads. Empty when it can.
+/// Why a map cannot be written, for people: it is larger than readMap accepts. Empty if it can.
 std::string whyNoMap(const common::OccupancyGrid& map);
 
-/// Writes all files into the folder `out`; without `map`, no map and no picture of it. Throws InputError when one
-/// cannot be written.
+/// Writes all files into the folder `out`; without `map`, it writes no map and no picture of it. Throws InputError if
+/// one cannot be written.
 void writeMapOutputs(const std::filesystem::path& out, const perception::LaserSlam& slam,
                      const common::OccupancyGrid* map, const TrackSpool& track, const MapFigures& figures);
 

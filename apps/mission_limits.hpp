@@ -1,4 +1,4 @@
-// What a system profile lets a mission ask for, and the check of a mission against it.
+// The limits that a system profile sets to a mission, and the check of a mission against them.
 #pragma once
 
 #include <string>
@@ -20,8 +20,7 @@ std::vector<std::string> missionFiles(const simulation::Scenario& scenario, cons
 /// the place or without.
 std::vector<common::Problem> missionProblems(const std::string& mission, const System& system, bool has_map = true);
 
-/// The mission of that file, for what is about to fly: read once and checked. Throws common::InputError with all
-/// problems.
+/// The mission of that file for a flight: read once and checked. Throws common::InputError with all problems.
 behaviors::Mission soundMission(const std::string& file, const System& system, bool has_map);
 
 }  // namespace swiftlet::apps

@@ -1,4 +1,4 @@
-// What numbers a command line takes.
+// The numbers that a command line accepts.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace swiftlet::apps {
 
-/// A finite number within the bounds; CLI11's own checks let nan through and name the largest double.
+/// A finite number within the bounds. CLI11's own checks accept nan and show the largest double in messages.
 CLI::Validator numberWithin(double low, double high);
 
-/// Seeds leave room to count on from them.
+/// Seeds are bounded, so that counting on from them does not overflow.
 constexpr double kGreatestSeed = 1e9;
 
 }  // namespace swiftlet::apps

@@ -1,4 +1,4 @@
-// swiftlet optimize: the poses that best satisfy a pose graph of other people.
+// swiftlet optimize: the poses that best satisfy any pose graph.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -40,27 +40,28 @@ struct OptimizeOptions {
   bool json = false;
 };
 
-/// The figures prove whose the graph beside them is: a comment in it would not be read by everybody.
+/// The file of the figures marks the folder as made by this command. A comment in the graph would not be readable for
+/// every program.
 const ResultsKind kOptimizeResults{
     "optimized graph", "optimized.json", "\"chi2_final\"", {"optimized.json", "graph.g2o"}};
 
-/// What is told of an optimized graph.
+/// The report about an optimized graph.
 struct Report {
   std::size_t vertices = 0;
   std::size_t edges = 0;
-  std::size_t loose_parts = 0;  ///< That no edges tie to a fixed vertex.
+  std::size_t loose_parts = 0;  ///< Number of parts that no edges connect to a fixed vertex.
   int dimension = 0;
   double chi2_initial = 0.0;
   double chi2_final = 0.0;
   const char* start = "";
-  int iterations = 0;  ///< Of all starts that were tried.
+  int iterations = 0;  ///< Iterations of all starts together.
   double seconds = 0.0;
   bool converged = false;
   std::string written;
 };
 
-/// The file's information belongs to the error turned into the frame that the measurement leads to (g2o's), ours to
-/// that in the frame it starts from; chi2 is the same.
+/// The file's information belongs to the error expressed in the frame where the measurement ends (g2o's), Swiftlet's to
+/// that in the frame where it starts. chi2 is the same.
 optimization::PoseGraph2D poseGraph(const G2oGraph2D& file) {
   optimization::PoseGraph2D graph;
   graph.poses = file.poses;

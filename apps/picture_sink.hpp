@@ -1,4 +1,4 @@
-// Draws the pictures of a run's report every few seconds, beside the flight.
+// Draws the pictures of a run's report every few seconds of a flight.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class RunFolder;
 
 namespace swiftlet::apps {
 
-/// Refers to what it is given, which must outlive it; shows the folder what it drew. To be told after the sinks that
+/// Refers to its arguments, which must outlive it, and gives the pictures to the folder. Call it after the sinks that
 /// write the folder and the recorder.
 class PictureSink final : public autonomy::FlightSink {
  public:
@@ -23,7 +23,7 @@ class PictureSink final : public autonomy::FlightSink {
 
   void ticked(const autonomy::TickOutcome& outcome) override;
   void world(const std::shared_ptr<const common::World>& world) override;
-  /// The pictures of the end, at once.
+  /// Draws the pictures of the end at once.
   void drawNow(const common::World& world);
 
  private:

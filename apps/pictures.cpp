@@ -43,7 +43,7 @@ std::string plotOf(const std::string& title, const std::string& y_label, std::ve
   return rendering::plotSvg(plot);
 }
 
-/// Zero is what stands there before the first measurement; the curve begins with that.
+/// The value is zero before the first measurement; the curve starts with that measurement.
 double measured(double value) { return value > 0.0 ? value : std::numeric_limits<double>::quiet_NaN(); }
 
 std::vector<std::string> plotsOf(const interfaces::FlightSummary& summary) {

@@ -1,4 +1,4 @@
-// What a run's report shows: the map and the plots, drawn from what is known so far.
+// The map and the plots of a run's report, drawn from the data so far.
 #pragma once
 
 #include "common/trajectory.hpp"
@@ -11,7 +11,7 @@ struct World;
 
 namespace swiftlet::apps {
 
-/// `truth_map` may be empty where there is no truth.
+/// `truth_map` is empty if the truth is not known.
 interfaces::ReportPictures reportPictures(const common::World& world, const interfaces::FlightSummary& summary,
                                           const common::Trajectory& truth_map, double hull_diameter_m);
 

@@ -1,4 +1,4 @@
-// How far a long run is: one line that is rewritten on a terminal, a line every few seconds elsewhere.
+// Shows the progress of a long run: one line that is rewritten on a terminal, a line every few seconds otherwise.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ class ProgressLine {
   explicit ProgressLine(bool quiet);
 
   void update(const std::string& text, double wall_s);
-  /// To be called before anything else is printed.
+  /// Call it before anything else is printed.
   void close();
   bool interactive() const { return interactive_; }
 

@@ -20,7 +20,7 @@ std::unique_ptr<interfaces::LaserLog> opened(const RecordedLogOptions& options) 
   return interfaces::openLaserLog(options.file, log_options);
 }
 
-/// Without the first of the endings it has.
+/// The name without the first of these endings that it has.
 std::string without(std::string name, std::initializer_list<std::string_view> endings) {
   for (const std::string_view ending : endings)
     if (name.size() > ending.size() && name.ends_with(ending)) return name.substr(0, name.size() - ending.size());
@@ -48,7 +48,7 @@ void addLogOptions(CLI::App& command, RecordedLogOptions& options, const std::st
 
 fs::path folderFor(const RecordedLogOptions& options, const std::string& suffix) {
   if (!options.out.empty()) return options.out;
-  // Of known endings only: day.01.clf and day.02.clf are two logs.
+  // Only known endings are removed: day.01.clf and day.02.clf are two logs.
   const std::string unpacked = without(fs::path(options.file).filename().string(), {".gz", ".bz2", ".xz"});
   return fmt::format("{}-{}", without(unpacked, {".clf", ".log", ".bag", ".dat", ".txt"}), suffix);
 }

@@ -1,4 +1,4 @@
-// What a command cannot go on without.
+// Results without which a command cannot continue.
 #pragma once
 
 #include <type_traits>
@@ -9,7 +9,7 @@
 
 namespace swiftlet::apps {
 
-/// What was made or written; throws InputError that says why where it could not be.
+/// The value; throws InputError with the reason if there is none.
 template <typename Made>
 Made required(tl::expected<Made, interfaces::FileError> made) {
   if (!made) throw common::InputError(common::Problem{{}, "", made.error().message, ""});

@@ -22,7 +22,7 @@ bool isFileOf(const ResultsKind& kind, const fs::directory_entry& entry) {
   return entry.is_regular_file() && std::find(kind.files.begin(), kind.files.end(), name) != kind.files.end();
 }
 
-/// What a killed run left; its files may have been on the way to their names.
+/// Remains of a killed run; its files may have been about to be renamed.
 bool isUnfinished(const ResultsKind& kind, const fs::directory_entry& entry) {
   if (entry.path().filename() != kUnfinished || entry.is_symlink() || !entry.is_directory()) return false;
   return std::all_of(fs::directory_iterator(entry), fs::directory_iterator(), [&](const fs::directory_entry& within) {
@@ -43,8 +43,8 @@ ResultsFolder::ResultsFolder(fs::path path, const ResultsKind& kind)
     made_ = fs::create_directories(path_);
     lock_.emplace(path_);
     if (lock_->refused()) throw unusable(path_, "is being written by another run", kAskForAnother);
-    if (!made_) refuseWhatIsNotOurs();
-    // Before the work, so that a folder that cannot be written is told at once.
+    if (!made_) refuseForeignFiles();
+    // Before the work, so that a folder that cannot be written is reported at once.
     fs::remove_all(unfinished_);
     fs::create_directory(unfinished_);
   } catch (const fs::filesystem_error& e) {
@@ -52,7 +52,7 @@ ResultsFolder::ResultsFolder(fs::path path, const ResultsKind& kind)
   }
 }
 
-void ResultsFolder::refuseWhatIsNotOurs() const {
+void ResultsFolder::refuseForeignFiles() const {
   bool empty = true;
   for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
     if (isUnfinished(kind_, entry)) continue;
@@ -62,7 +62,7 @@ void ResultsFolder::refuseWhatIsNotOurs() const {
                      kAskForAnother);
     empty = false;
   }
-  // A flight, or what another program wrote, has files of the same names.
+  // A flight, or another program, writes files of the same names.
   if (!empty && !interfaces::saysAtStart(path_ / kind_.proof, kind_.proof_text, 400))
     throw unusable(path_, fmt::format("holds no {} of this program, and what it holds would be lost", kind_.noun),
                    kAskForAnother);
@@ -70,7 +70,7 @@ void ResultsFolder::refuseWhatIsNotOurs() const {
 
 void ResultsFolder::publish() {
   try {
-    // The proof first: whenever this is interrupted, the folder is known to be ours.
+    // The proof file first: after an interruption at any point the folder is still recognized.
     fs::rename(unfinished_ / kind_.proof, path_ / kind_.proof);
     for (const std::string& file : kind_.files) {
       if (file == kind_.proof) continue;

@@ -10,37 +10,37 @@
 
 namespace swiftlet::apps {
 
-/// What results of a command are known by.
+/// How the results of a command are recognized.
 struct ResultsKind {
-  std::string noun;                ///< "map".
-  std::string proof;               ///< The file by which older results are known to be ours: "report.html",
-  std::string proof_text;          ///< and what it has near its beginning: "<title>Map of ".
-  std::vector<std::string> files;  ///< The names of all they can have.
+  std::string noun;                ///< The kind of results: "map".
+  std::string proof;               ///< The file by which older results are recognized: "report.html".
+  std::string proof_text;          ///< Text near the beginning of that file: "<title>Map of ".
+  std::vector<std::string> files;  ///< The names of all files that results can have.
 };
 
-/// Held by one run at a time. One that was made for it and stayed empty is gone with it.
+/// One run at a time holds it. A folder that was made for it and stayed empty is removed with it.
 ///
-///   made --> results are written into unfinished() --> publish(): they take the place of older ones
-///                 \-> the end without publish(), or a kill: older ones stand; what was begun is removed, at the latest
-///                     by the next run
+///   made --> results are written into unfinished() --> publish(): they replace older ones
+///                \-> the end without publish(), or a kill: older results stay; unfinished ones are removed,
+///                    at the latest by the next run
 class ResultsFolder {
  public:
-  /// Makes the folder. One that is there must be writable and be empty or hold older results of that kind; anything
-  /// else is refused. Throws InputError that says why.
+  /// Makes the folder. An existing one must be writable, and be empty or contain older results of that kind; anything
+  /// else is refused. Throws InputError with the reason.
   ResultsFolder(std::filesystem::path path, const ResultsKind& kind);
   ~ResultsFolder();
   ResultsFolder(const ResultsFolder&) = delete;
   ResultsFolder& operator=(const ResultsFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// A folder within, for the results as long as some are missing.
+  /// A folder within, for the results until all are written.
   const std::filesystem::path& unfinished() const { return unfinished_; }
-  /// Puts the results in the place of older ones, by renames within one file system; older ones that have no successor
-  /// are removed. Links among them are replaced, not followed. Throws InputError when that fails.
+  /// Replaces older results by the new ones, by renames within one file system; older ones without a successor are
+  /// removed. Links among them are replaced, not followed. Throws InputError if that fails.
   void publish();
 
  private:
-  void refuseWhatIsNotOurs() const;
+  void refuseForeignFiles() const;
 
   std::filesystem::path path_, unfinished_;
   ResultsKind kind_;

@@ -11,7 +11,7 @@
 namespace swiftlet::apps {
 namespace {
 
-/// JSON escapes what is below 0x20, and leaves DEL and the C1 characters (UTF-8: C2 80 to C2 9F) as they are.
+/// JSON escapes characters below 0x20, but not DEL and the C1 characters (UTF-8: C2 80 to C2 9F).
 std::string withoutControls(const std::string& json) {
   std::string result;
   result.reserve(json.size());

@@ -1,22 +1,22 @@
-// What is said to the terminal. Text of an input may be in all of it, so control characters are escaped (see
-// common/printable.hpp) but for the ends of lines.
+// Output to the terminal. It may contain text of an input, so control characters are escaped (see
+// common/printable.hpp), except line ends.
 #pragma once
 
 #include <string>
 
 namespace swiftlet::apps {
 
-/// From now on a reader that goes away does not end the program: `swiftlet fly ... | head -1` is flown to its end.
+/// After this call a reader that goes away does not end the program: `swiftlet fly ... | head -1` is flown to its end.
 void outliveReaders();
 
-/// Prints at once, and unlike fmt::print goes on when nobody reads any more. One thread at a time.
+/// Prints at once, and unlike fmt::print continues if the reader is gone. One thread at a time.
 void show(const std::string& text);
-/// The same for text that commands the terminal on purpose (colours, a line written over). What it has of an input must
-/// be printable already.
+/// Prints text that controls the terminal on purpose (colours, a line that is overwritten). Text of an input must be
+/// made printable first.
 void showStyled(const std::string& text);
-/// The same for the text of a JSON value: what is left of control characters becomes \u escapes.
+/// Prints the text of a JSON value: remaining control characters become \u escapes.
 void showJson(const std::string& text);
-/// To standard error, where it need not be seen: the exit code says the same.
+/// Prints to standard error. It may be lost: the exit code says the same.
 void showError(const std::string& text);
 
 }  // namespace swiftlet::apps

@@ -5,7 +5,7 @@
 
 namespace swiftlet::apps {
 
-/// "max" is 0 (as fast as the machine can); a number is that many times real time. Throws common::InputError otherwise.
+/// "max" is 0 (as fast as possible); a number is that multiple of real time. Throws common::InputError otherwise.
 double parseSpeed(const std::string& text);
 
 }  // namespace swiftlet::apps

@@ -1,4 +1,4 @@
-// What is known of each scan of a log, until all of it is known.
+// Stores data of each scan of a log until the whole log is read.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,21 @@ class Spool {
   static_assert(std::is_trivially_copyable_v<Record>, "it is written as it lies in memory");
 
  public:
-  /// Throws InputError when there is no room for temporary files.
+  /// Throws InputError if there is no room for temporary files.
   Spool() : file_(std::tmpfile()) {
     if (!file_) throw common::InputError(common::Problem{{}, "", "no temporary file can be made", "is /tmp full?"});
   }
 
-  /// Throws InputError when there is no room left.
+  /// Throws InputError if there is no room left.
   void add(const Record& record) {
     if (std::fwrite(&record, sizeof record, 1, file_.get()) != 1) throw full();
     ++records_;
   }
 
-  /// Throws InputError when what was added did not reach the disk: all records or an error.
+  /// Throws InputError if a record did not reach the disk: it gives all records or an error.
   template <typename Use>
   void forEach(const Use& use) const {
-    // The last records may be in memory still, and rewind() would not tell that they find no room.
+    // The last records may still be in memory, and rewind() would not report a full disk.
     if (std::fflush(file_.get()) != 0 || std::fseek(file_.get(), 0, SEEK_SET) != 0) throw full();
     std::uint64_t read = 0;
     for (Record record; std::fread(&record, sizeof record, 1, file_.get()) == 1; ++read) use(record);

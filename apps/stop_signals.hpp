@@ -1,11 +1,11 @@
-// Ctrl-C, SIGTERM and a closed terminal end a flight in order.
+// Lets Ctrl-C, SIGTERM and a closed terminal end a flight in order.
 #pragma once
 
 #include <atomic>
 
 namespace swiftlet::apps {
 
-/// From now on SIGINT, SIGTERM and SIGHUP raise this flag instead of ending the process.
+/// After this call SIGINT, SIGTERM and SIGHUP raise this flag instead of ending the process.
 const std::atomic<bool>& stopOnSignals();
 
 }  // namespace swiftlet::apps

@@ -22,7 +22,7 @@ std::string fileFor(const std::string& name, const std::string& folder) {
   return common::findData(std::filesystem::path("config") / folder / (name + ".yaml")).string();
 }
 
-/// A data sheet that a profile names; a file of the user's is looked for beside the profile first.
+/// A data sheet that a profile names. A file of the user is searched for beside the profile first.
 std::string sheetFor(const std::string& name, const std::string& folder, const std::string& key,
                      const std::filesystem::path& profile) {
   const std::filesystem::path beside = profile.parent_path() / name;
@@ -39,7 +39,7 @@ std::string sheetFor(const std::string& name, const std::string& folder, const s
   }
 }
 
-/// Every line behind "# ".
+/// Puts "# " before every line.
 std::string asComment(const std::string& yaml) {
   std::string text;
   std::istringstream lines(yaml);

@@ -1,4 +1,4 @@
-// A system profile: which vehicle and laser, and how the autonomy is set. config/systems/NAME.yaml.
+// A system profile: vehicle, laser, and the settings of the autonomy. config/systems/NAME.yaml.
 #pragma once
 
 #include <string>
@@ -30,21 +30,21 @@ struct System {
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
 
-  /// The effective profile as YAML that loadSystem reads back; with comments, also the data sheets it names.
+  /// The effective profile as YAML that loadSystem can read; with comments, it includes the data sheets that it names.
   std::string toYaml(bool comments) const;
 };
 
-/// `name` is a profile of config/systems or a file. The autonomy counts on seeing no more than the laser does. Throws
-/// common::InputError.
+/// `name` is a profile of config/systems or a file. Field of view and range of the autonomy are limited to those of the
+/// laser. Throws common::InputError.
 System loadSystem(const std::string& name);
 
 /// `name` is a data sheet of config/sensors or a file. Throws common::InputError.
 common::LaserConfig loadLaser(const std::string& name);
 
-/// SLAM with a laser that is carried level, as the profile has odometry and SLAM.
+/// SLAM with a laser that is carried level, with the profile's odometry and SLAM.
 perception::LaserSlamConfig laserSlamOf(const System& system);
 
-/// The names of the profiles that come along.
+/// The names of the shipped profiles.
 std::vector<std::string> systemNames();
 
 }  // namespace swiftlet::apps

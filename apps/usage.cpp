@@ -32,13 +32,13 @@ std::vector<std::string> commandsOf(const CLI::App& app) {
   return names;
 }
 
-/// "`x` is no ...", and what was probably meant.
+/// "`x` is no ...", with the most similar word.
 std::string unknown(const std::string& what, const std::string& word, const std::vector<std::string>& known) {
   return toString(common::Problem{{}, "", what, common::didYouMean(word, known)});
 }
 
-/// A word that `app` has no use for. Of the words that are left over, an option is the cause: what follows it is its
-/// value.
+/// A word that `app` cannot use. If several words remain, an option among them is the cause, because the word after it
+/// is its value.
 std::optional<std::string> unknownWord(const CLI::App& app) {
   const std::vector<std::string> left_over = app.remaining();
   for (const std::string& word : left_over) {

@@ -1,4 +1,4 @@
-// What is told when the command line is wrong.
+// Messages about a wrong command line.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ class ParseError;
 
 namespace swiftlet::apps {
 
-/// What was wrong with the arguments that `program` has just refused, and where help is. A command or an option that
-/// does not exist is told before anything else, with the one that was probably meant.
+/// What is wrong with the arguments that `program` has just refused, and where help is. A command or an option that
+/// does not exist is reported first, with the one that was probably meant.
 std::string usageProblem(const CLI::App& program, const CLI::ParseError& error);
 
 }  // namespace swiftlet::apps

@@ -1,4 +1,4 @@
-// Real time: how long something has taken.
+// Measures real time.
 #pragma once
 
 #include <chrono>

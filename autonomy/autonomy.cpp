@@ -170,7 +170,7 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   const common::VehicleState state = estimator_.state();
   const auto cost_map = executor_.desk().costMap();
   const auto& decision = reactive_.update({outcome->scan, outcome->T_map_body, state, estimator_.people().obstacles(),
-                                           executor_.wishedVelocity_map_m_s(), cost_map.get()});
+                                           executor_.wantedVelocity_map_m_s(), cost_map.get()});
   executor_.react(decision, state);
 
   auto points = std::make_shared<common::LaserPoints>();
@@ -190,14 +190,14 @@ void Autonomy::prepare() {
 
 void Autonomy::tickBehaviors(Time now) {
   takeSnapshot(now);
-  if (prepared_) wish_ = wishOf(now);
+  if (prepared_) intent_ = nextIntent(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
-  executor_.tick(wish_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(),
-                         estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision()});
+  executor_.tick(intent_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(),
+                           estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision()});
 }
 
-/// The supervisor's wish before the mission's.
-common::Intent Autonomy::wishOf(Time now) {
+/// The supervisor's intent comes before the mission's.
+common::Intent Autonomy::nextIntent(Time now) {
   const bool airborne = control::isAirborne(controller_.state());
   const Supervision& supervision = supervisor_.tick(now, airborne, energy_);
   context_.world = world_;

@@ -26,7 +26,7 @@
 
 namespace swiftlet::autonomy {
 
-/// Everything one may choose; a system profile (config/systems) is one of these.
+/// All settings of the autonomy; a system profile (config/systems) gives them.
 struct AutonomyConfig {
   EstimatorConfig estimator;
   ReactiveConfig reactive;
@@ -39,13 +39,14 @@ struct AutonomyConfig {
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
-  /// Lowers the fields of view and ranges that avoidance and exploration count on to those of the laser.
+  /// Lowers the fields of view and ranges that avoidance and exploration use to those of the laser.
   void limitTo(const common::LaserConfig& laser);
-  /// What would stop the vehicle, or make it retreat, on a path planned at this clearance; empty when nothing would.
+  /// Why the reactive layer would stop the vehicle, or make it retreat, on a path planned at this clearance; empty if
+  /// it would not.
   std::vector<std::string> problemsWith(double clearance_m) const;
 };
 
-/// One thread; a function of its inputs in their order. No input is of a time before that of the last one.
+/// One thread; a function of its inputs in their order. The time of an input is never before that of the last one.
 class Autonomy {
  public:
   /// `given`: a map of the place, to find itself in; none: null. Read in the constructor alone. `vehicle_name` stands
@@ -55,13 +56,13 @@ class Autonomy {
            std::string vehicle_name = {});
   ~Autonomy();
 
-  /// A tick is answered by a setpoint, everything else by nothing. The delivery of a job must be awaited.
+  /// Returns a setpoint for a tick, and nothing for any other input. The delivery of a job must be awaited.
   std::optional<common::Setpoint> process(const Input& input);
 
-  /// The delivery that is the next input, if it comes at or before `now`: to be asked before each input of that time.
+  /// The delivery of a job that is due at or before `now`, if there is one. Call it before each input of that time.
   std::optional<common::JobDelivery> dueDelivery(common::Time now) const { return jobs_->nextDue(now); }
-  /// False for the delivery of a job that was never submitted or is delivered already: the inputs are not those of a
-  /// flight of this autonomy.
+  /// False for the delivery of a job that was never submitted or is delivered already: the inputs are then not those of
+  /// a flight of this autonomy.
   bool awaits(const common::JobDelivery& delivery) const { return jobs_->awaits(delivery); }
   std::vector<common::JobTimes> jobTimes() const { return jobs_->times(); }
 
@@ -71,7 +72,7 @@ class Autonomy {
   bool finished() const;
   const std::string& vehicleName() const { return vehicle_name_; }
   const common::MissionStatus& missionStatus() const { return mission_status_; }
-  /// The end came by the operator's Land, not by the mission.
+  /// The mission ended by the operator's Land.
   bool landedByOperator() const { return supervisor_.landedByOperator(); }
   common::VehicleState state() const { return estimator_.state(); }
   /// What the matcher and the SLAM method that the profile names have done.
@@ -92,7 +93,7 @@ class Autonomy {
   void processScan(const common::LaserScan& scan, common::Time now);
   void prepare();
   void tickBehaviors(common::Time now);
-  common::Intent wishOf(common::Time now);
+  common::Intent nextIntent(common::Time now);
   bool missionOver() const { return common::isOver(mission_status_.state); }
   void tickMission();
   void takeSnapshot(common::Time now);
@@ -120,9 +121,9 @@ class Autonomy {
   std::shared_ptr<const common::LaserPoints> laser_points_;
 
   behaviors::Context context_;
-  common::Intent wish_;
+  common::Intent intent_;
   common::MissionStatus mission_status_;
-  bool lets_go_ = false;  ///< It was landed from above, and has not stopped yet.
+  bool lets_go_ = false;  ///< A landing from above the mission has begun, and the mission has not let go yet.
   bool prepared_ = false;
   std::optional<common::Time> last_behaviors_;
 

@@ -100,7 +100,8 @@ void Estimator::initialize(const common::LaserScan& scan) {
   const auto initialized = filter_.initialize(height_m);
   if (!initialized) {
     if (!waiting_said_)
-      say(scan.stamps.arrived, Severity::kInfo, "fusion", "waiting to stand still", initialized.error());
+      say(scan.stamps.arrived, Severity::kInfo, "fusion", "waiting until the vehicle stands still",
+          initialized.error());
     waiting_said_ = true;
     return;
   }

@@ -79,9 +79,9 @@ void Executor::receive(const PlanningAnswer& answer, Time now) {
 
 PlanningClient Executor::client() const { return {intent_.id, clearanceOf(intent_.kind, config_.clearance_m)}; }
 
-Eigen::Vector2d Executor::wishedVelocity_map_m_s() const {
+Eigen::Vector2d Executor::wantedVelocity_map_m_s() const {
   const PathFlight* path = maneuver_ ? maneuver_->path() : nullptr;
-  return path ? path->wishedVelocity_map_m_s() : Eigen::Vector2d::Zero();
+  return path ? path->wantedVelocity_map_m_s() : Eigen::Vector2d::Zero();
 }
 
 std::vector<Eigen::Vector2d> Executor::remainingPlan_map_m() const {

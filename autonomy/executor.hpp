@@ -1,5 +1,5 @@
 // Carries out one Intent at a time. It only switches: each intent has its maneuver (autonomy/maneuvers), made when the
-// intent begins and destroyed when it ends; a retreat of the reactive layer comes before everything the intent wants.
+// intent begins and destroyed when it ends. A retreat of the reactive layer overrides the intent.
 #pragma once
 
 #include <memory>
@@ -29,18 +29,18 @@ class Executor {
   Executor& operator=(const Executor&) = delete;
   ~Executor();
 
-  /// Carries out the intent; the same id goes on with what is under way.
+  /// Carries out the intent; the same id continues what is under way.
   void tick(const common::Intent& intent, const ManeuverInput& input);
-  /// Follows the retreat of the reactive layer, or gives the vehicle back to the intent when there is none.
+  /// Flies the retreat of the reactive layer, or returns the vehicle to the intent if there is none.
   void react(const planning::AvoidanceDecision& decision, const common::VehicleState& state);
 
   const common::IntentStatus& status() const { return status_; }
-  /// Along the path being flown; zero when none is.
-  Eigen::Vector2d wishedVelocity_map_m_s() const;
+  /// The velocity along the path being flown; zero if there is none.
+  Eigen::Vector2d wantedVelocity_map_m_s() const;
   std::vector<Eigen::Vector2d> remainingPlan_map_m() const;
-  /// Where the vehicle flies to at present, if the intent is such.
+  /// The place that the vehicle is flying to, if the intent has one.
   std::optional<Eigen::Vector2d> goal_map_m() const;
-  /// What planning knows.
+  /// The state of the planning.
   const PlanningDesk& desk() const { return desk_; }
 
   std::vector<common::Event> takeEvents();
@@ -59,9 +59,9 @@ class Executor {
 
   common::Intent intent_;
   common::IntentStatus status_;
-  std::unique_ptr<Maneuver> maneuver_;  ///< Of the intent; null when that has ended.
+  std::unique_ptr<Maneuver> maneuver_;  ///< The maneuver of the intent; null if the intent has ended.
   common::Time now_;
-  common::VehicleState state_;  ///< The newest.
+  common::VehicleState state_;  ///< The newest state.
 };
 
 }  // namespace swiftlet::autonomy

@@ -1,4 +1,4 @@
-// How intents are carried out: planning, exploring, arriving, and what is done when there is no path.
+// How intents are carried out: planning, exploring, arriving, and detours while there is no path.
 #pragma once
 
 #include "common/config_fwd.hpp"

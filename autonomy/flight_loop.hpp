@@ -1,6 +1,6 @@
-// The loop that flies: lets a vehicle's time pass, gives the autonomy what comes of it, and the vehicle its setpoints.
-// It knows neither a simulator nor a clock: the caller decides how fast time passes, and may step several loops side by
-// side.
+// The loop that flies: it advances a vehicle, gives its events to the autonomy, and gives the setpoints to the vehicle.
+// It depends on neither a simulator nor a clock: the caller decides how fast time passes, and may step several loops in
+// turn.
 //
 //   step(now):  the vehicle's events up to now, each behind the jobs due at its arrival
 //               the operator's commands
@@ -23,17 +23,17 @@ class LosslessQueue;
 
 namespace swiftlet::autonomy {
 
-/// One thread; any thread may push commands. Refers to what it is given, which must outlive it.
+/// One thread; any thread may push commands. Refers to its arguments, which must outlive it.
 class FlightLoop {
  public:
   FlightLoop(common::Vehicle& vehicle, Autonomy& autonomy, common::LosslessQueue<common::OperatorCommand>& commands,
              std::vector<FlightSink*> sinks);
 
-  /// To be called every common::kControlPeriod of the vehicle's time. Returns false when nothing more comes of the
-  /// vehicle (crashed, end of the log, link closed), which the sinks have then been told as an event.
+  /// Call it every common::kControlPeriod of the vehicle's time. Returns false if the vehicle sends nothing more
+  /// (crashed, end of the log, link closed); the sinks have then received this as an event.
   [[nodiscard]] bool step(common::Time now);
 
-  /// Once, after the last step: tells the sinks which kinds of jobs took longer than they were declared to take.
+  /// Call it once, after the last step. It reports to the sinks which kinds of jobs took longer than declared.
   void finish();
 
   common::Time now() const { return now_; }

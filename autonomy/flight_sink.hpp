@@ -1,4 +1,4 @@
-// Those beside a flight: the run folder, the page, the scorer, a recorder. They see everything and change nothing.
+// Observers of a flight: the run folder, the page, the scorer, a recorder. They see everything and change nothing.
 #pragma once
 
 #include <memory>
@@ -16,21 +16,21 @@ struct World;
 
 namespace swiftlet::autonomy {
 
-/// What a tick came to.
+/// The outcome of a tick.
 struct TickOutcome {
   common::Time now;
   common::Setpoint setpoint;
   common::VehicleState state;
-  common::Intent intent;               ///< Carried out since the last tick of the behaviours,
-  common::IntentStatus intent_status;  ///< and how it stands.
+  common::Intent intent;               ///< The intent since the last tick of the behaviours.
+  common::IntentStatus intent_status;  ///< The status of that intent.
 };
 
-/// Each function is called in the loop's thread, and need not be overridden. The order is that of the loop: the inputs
-/// up to a tick; then, of the tick: its outcome, the world if there is a new snapshot, events, answers to commands.
+/// Each function is called in the loop's thread, and may be left out. The order is that of the loop: the inputs up to a
+/// tick; then the outcome of the tick, the world if there is a new snapshot, the events, and the answers to commands.
 class FlightSink {
  public:
   virtual ~FlightSink() = default;
-  /// Before it is processed. Camera frames, too, are found here.
+  /// Called before the input is processed; camera frames are inputs too.
   virtual void input(const Input& /*input*/) {}
   virtual void ticked(const TickOutcome& /*outcome*/) {}
   /// Never null.

@@ -1,5 +1,5 @@
-// All that the autonomy ever learns comes as one of these, one after the other. The same inputs in the same order give
-// the same setpoints, events and map, bit for bit.
+// Everything that the autonomy receives is one of these inputs. The same inputs in the same order give the same
+// setpoints, events and map, bit for bit.
 #pragma once
 
 #include <variant>
@@ -25,7 +25,7 @@ struct Tick {
 /// An immutable value; scans and camera frames are shared, not copied.
 using Input = std::variant<common::SensorEvent, CommandInput, common::JobDelivery, Tick>;
 
-/// When it is given to the autonomy: a sensor event when it arrived, a job when it was delivered.
+/// The time when the autonomy gets it: the arrival of a sensor event, the delivery of a job.
 common::Time timeOf(const Input& input);
 
 }  // namespace swiftlet::autonomy

@@ -1,4 +1,4 @@
-// Gives an autonomy its inputs and tells the sinks what came of them: what a flight and its replay have in common.
+// Gives an autonomy its inputs and passes the outcome to the sinks. A flight and its replay share it.
 #pragma once
 
 #include <memory>
@@ -18,12 +18,12 @@ namespace swiftlet::autonomy {
 class Autonomy;
 class FlightSink;
 
-/// One thread. Refers to the autonomy and the sinks, which must outlive it; the sinks are told in their order here.
+/// One thread. Refers to the autonomy and the sinks, which must outlive it; the sinks are called in their order here.
 class InputFeed {
  public:
   InputFeed(Autonomy& autonomy, std::vector<FlightSink*> sinks);
 
-  /// What Autonomy::process answers.
+  /// The answer of Autonomy::process.
   std::optional<common::Setpoint> give(const Input& input);
   /// An event, the autonomy's own or another of its vehicle; the sinks are told it with the vehicle's name.
   void tell(common::Event event);

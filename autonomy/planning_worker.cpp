@@ -72,12 +72,11 @@ tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const G
   return plan(position_map_m, *place);
 }
 
-std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request,
-                                                 const std::vector<planning::Disc>& people,
+std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, const std::vector<common::Disc>& people,
                                                  const Eigen::Vector2d& position_map_m) {
   constexpr double kWorth_m = 1.5;
   const auto blocked = planning::blockedWay(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
-  const bool somebody = blocked && std::any_of(people.begin(), people.end(), [&](const planning::Disc& disc) {
+  const bool somebody = blocked && std::any_of(people.begin(), people.end(), [&](const common::Disc& disc) {
                           const double off_m = (map_.centerOf(blocked->first_lethal) - disc.center_map_m).norm();
                           return off_m <= disc.radius_m + map_.footprint().radius_m() + map_.resolution_m();
                         });

@@ -42,7 +42,7 @@ struct PlanningRequest {
   std::uint64_t intent_id = 0;
   std::shared_ptr<const common::OccupancyGrid> grid;
   std::shared_ptr<const common::LevelMap> levels;
-  std::vector<planning::Disc> discs;
+  std::vector<common::Disc> discs;
   planning::Footprint footprint;
   common::Pose2 T_map_body;
   PlanningQuestion question;
@@ -86,7 +86,7 @@ class PlanningWorker {
                                                            const Eigen::Vector2d& to_map_m);
   tl::expected<planning::Path, planning::PlanFailure> goTo(const GoalRequest& goal,
                                                            const Eigen::Vector2d& position_map_m);
-  std::optional<DetourPlan> detour(const DetourRequest& request, const std::vector<planning::Disc>& people,
+  std::optional<DetourPlan> detour(const DetourRequest& request, const std::vector<common::Disc>& people,
                                    const Eigen::Vector2d& position_map_m);
   void explore(const PlanningRequest& request, const ExploreRequest& question, PlanningAnswer& answer);
   std::optional<Eigen::Vector2d> roomyPlace(const Eigen::Vector2d& position_map_m) const;

@@ -22,7 +22,7 @@ const planning::AvoidanceDecision& Reactive::update(const ReactiveInput& input) 
   seen.stamp = input.scan.stamp;
   seen.points_level_m = input.scan.points_level_m;
   seen.velocity_level_m_s = level_from_map * Eigen::Vector2d(input.state.velocity_map_m_s().head<2>());
-  seen.wish_level_m_s = level_from_map * input.wish_map_m_s;
+  seen.wanted_level_m_s = level_from_map * input.wanted_map_m_s;
   seen.T_map_level = input.T_map_body;
   seen.cost_map = input.cost_map;
   seen.obstacles = input.obstacles;

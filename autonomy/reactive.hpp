@@ -1,5 +1,5 @@
-// The reactive layer at the laser rate: how fast one may fly, and when to retreat, from what the laser sees, from those
-// who move and from the map. It acts below every intent.
+// The reactive layer at the laser rate: it computes the speed limit, and when to retreat, from the scan, moving people
+// and the map. It acts below every intent.
 #pragma once
 
 #include <span>
@@ -21,14 +21,16 @@ struct ReactiveConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// A scan, and what is known when it comes.
+/// A scan, with the state at its arrival.
 struct ReactiveInput {
   const perception::ProjectedScan& scan;
   common::Pose2 T_map_body;  ///< At the scan's stamp.
   const common::VehicleState& state;
-  std::span<const common::DynamicObstacle> obstacles;      ///< People above all, after this scan.
-  Eigen::Vector2d wish_map_m_s = Eigen::Vector2d::Zero();  ///< The velocity the intent wants; zero when it holds.
-  const planning::CostMap* cost_map = nullptr;             ///< Null before the first plan.
+  /// Objects that the map does not explain, usually people, after this scan.
+  std::span<const common::DynamicObstacle> obstacles;
+  /// The velocity that the intent asks for; zero if it holds.
+  Eigen::Vector2d wanted_map_m_s = Eigen::Vector2d::Zero();
+  const planning::CostMap* cost_map = nullptr;  ///< Null before the first plan.
 };
 
 /// One thread; update() once a scan.
@@ -38,7 +40,7 @@ class Reactive {
 
   const planning::AvoidanceDecision& update(const ReactiveInput& input);
 
-  /// The last one; before the first scan nothing limits the speed.
+  /// The last decision; before the first scan the speed is not limited.
   const planning::AvoidanceDecision& decision() const { return decision_; }
 
  private:

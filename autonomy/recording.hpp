@@ -1,4 +1,4 @@
-// A flight as the list of its inputs, kept in memory, and given again to another autonomy.
+// A flight as the list of its inputs, kept in memory, and replayed with another autonomy.
 #pragma once
 
 #include <string>
@@ -13,8 +13,7 @@ namespace swiftlet::autonomy {
 
 class Autonomy;
 
-/// In the order in which they were processed. A value: scans and camera frames are immutable and shared with the
-/// flight.
+/// Inputs in the order of processing. A value: scans and camera frames are immutable and shared with the flight.
 using Recording = std::vector<Input>;
 
 class InputRecorder final : public FlightSink {
@@ -26,11 +25,11 @@ class InputRecorder final : public FlightSink {
   Recording recording_;
 };
 
-/// Gives the inputs to an autonomy that was made as the recorded one was (settings, data sheets, mission, given map)
-/// and has processed nothing yet; its jobs are those of makeLockstepJobs. The sinks are told what those of the flight
-/// were told, bit for bit, but for what was no answer of the autonomy's (the end of the vehicle, slow jobs). A job is
-/// done again and delivered where the recording delivers it. Ends early, with the reason, where the recording delivers
-/// a job that this autonomy has not submitted at that time: it is of another flight, or was changed.
+/// Gives the inputs to an autonomy that was made like the recorded one (settings, data sheets, mission, given map) and
+/// has processed nothing yet; its jobs are those of makeLockstepJobs. The sinks receive the same as in the flight, bit
+/// for bit, except events that did not come from the autonomy (the end of the vehicle, slow jobs). A job is computed
+/// again and delivered at the place of its delivery in the recording. Ends early, with the reason, if the recording
+/// delivers a job that this autonomy has not submitted by then: the recording is of another flight, or was changed.
 tl::expected<void, std::string> replay(const Recording& recording, Autonomy& autonomy,
                                        const std::vector<FlightSink*>& sinks);
 

@@ -47,8 +47,8 @@ std::optional<common::CommandResult> Supervisor::take(const common::OperatorComm
 void Supervisor::pilotArrived(Time now, bool takes_over) {
   if (takes_over == pilot_flies_) return;
   pilot_flies_ = takes_over;
-  say(now, Severity::kWarning, takes_over ? "hold" : "goes on",
-      takes_over ? "the pilot took over" : "the pilot gave back");
+  say(now, Severity::kWarning, takes_over ? "hold" : "resume",
+      takes_over ? "the pilot took over" : "the pilot gave control back");
 }
 
 bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {

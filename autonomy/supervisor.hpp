@@ -1,5 +1,5 @@
-// Stands above the mission: what must work whatever the mission says. Hold and land from the operator, and the answers
-// to a silent laser and an empty battery.
+// The supervisor above the mission: hold and land from the operator, and the reactions to a silent laser and an empty
+// battery. These work whatever the mission does.
 #pragma once
 
 #include <optional>
@@ -24,11 +24,11 @@ struct SupervisorConfig {
   std::vector<std::string> validate() const;
 };
 
-/// What the supervisor asks for in one tick.
+/// The request of the supervisor in one tick.
 struct Supervision {
   bool hold = false;
   std::string hold_reason;
-  bool land = false;  ///< For good: the mission is over.
+  bool land = false;  ///< Land for good: the mission is over.
   std::string land_reason;
 };
 
@@ -36,22 +36,22 @@ struct Supervision {
 ///
 ///             hold command, no scan for laser_hold_s, the pilot takes over
 ///   watching --------------------------------------------------------------> holding
-///      ^  resume command, scans are back, the pilot gives back                  |
+///      ^  resume command, scans are back, the pilot gives control back          |
 ///      +------------------------------------------------------------------------+
 ///   any -- land command, no scan for laser_land_s, battery low --> landing (stays)
 class Supervisor {
  public:
   explicit Supervisor(const SupervisorConfig& config) : config_(config) {}
 
-  /// Hold, resume and land are taken here and answered; everything else is for the mission.
+  /// Handles and answers hold, resume and land; every other command is for the mission.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command, common::Time now);
   void scanArrived(common::Time now) { last_scan_ = now; }
   void pilotArrived(common::Time now, bool takes_over);
-  /// False when it is not to be believed.
+  /// False if the sample is not plausible.
   bool batteryArrived(common::Time now, const common::BatterySample& sample);
   bool pilotFlies() const { return pilot_flies_; }
 
-  /// `airborne`: a fault on the ground is no reason to land.
+  /// `airborne`: on the ground a fault does not cause a landing.
   const Supervision& tick(common::Time now, bool airborne, const common::EnergyLayer& energy);
 
   bool landedByOperator() const { return landed_by_operator_; }

@@ -1,4 +1,4 @@
-// Composes the World: one immutable snapshot after another from what the parts of the autonomy say.
+// Composes the World: one immutable snapshot after another from the states of the parts of the autonomy.
 #pragma once
 
 #include <memory>
@@ -16,9 +16,9 @@
 
 namespace swiftlet::autonomy {
 
-/// What the parts say at one instant.
+/// The states of the parts at one instant.
 struct WorldParts {
-  /// Its name, its trail and the distance flown are the builder's own.
+  /// The builder itself keeps its name, its trail and the distance flown.
   common::VehicleLayer vehicle;
   common::MissionLayer mission;
   common::MapLayer map;
@@ -26,14 +26,14 @@ struct WorldParts {
   common::EnergyLayer energy;
 };
 
-/// One thread; the snapshots may be read from any.
+/// One thread; any thread may read the snapshots.
 class WorldBuilder {
  public:
-  /// `vehicle_name` tells the snapshots of several vehicles apart; empty when there is one.
+  /// `vehicle_name` distinguishes the snapshots of several vehicles; empty if there is one.
   explicit WorldBuilder(std::string vehicle_name = {}) : vehicle_name_(std::move(vehicle_name)) {}
 
-  /// The snapshot of `now`. A layer equal to that of the snapshot before is that very layer. The vehicle's is always
-  /// new: its trail and its distance grow while it is airborne.
+  /// The snapshot of `now`. A layer that did not change is the same object as before. The vehicle's layer is always
+  /// new, because its trail and its distance grow while it is airborne.
   std::shared_ptr<const common::World> build(common::Time now, WorldParts parts);
 
  private:

@@ -26,7 +26,7 @@ bool AvoidObstacle::onAsked(const tree::TickContext& context) const {
 
 tree::Status AvoidObstacle::act(tree::TickContext& context) {
   if (!onAsked(context)) return tree::Status::kSuccess;
-  wish(flightTick(context), common::AvoidIntent{});
+  emitIntent(flightTick(context), common::AvoidIntent{});
   return tree::Status::kRunning;
 }
 

@@ -15,16 +15,16 @@ tree::NodeManifest Explore::manifest() {
           .description = "Flies to frontiers of the map until nothing is left to explore."};
 }
 
-IntentLeaf::Wish Explore::makeWish(const FlightTick&) {
+IntentLeaf::IntentOrProblem Explore::makeIntent(const FlightTick&) {
   const auto clearance_m = clearance_m_.get();
   if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
-  common::ExploreIntent wish{*clearance_m, std::nullopt};
+  common::ExploreIntent intent{*clearance_m, std::nullopt};
   if (bounds_.given()) {
     const auto bounds = bounds_.get();
     if (!bounds) return {std::nullopt, bounds_.problem()};
-    wish.bounds = common::MapBounds{{bounds->x_min, bounds->y_min}, {bounds->x_max, bounds->y_max}};
+    intent.bounds = common::MapBounds{{bounds->x_min, bounds->y_min}, {bounds->x_max, bounds->y_max}};
   }
-  return {wish, {}};
+  return {intent, {}};
 }
 
 }  // namespace swiftlet::behaviors

@@ -1,4 +1,4 @@
-// Explore: SUCCESS when every frontier that is left has a reason why it is left; one outside `bounds` has.
+// Explore: SUCCESS when every remaining frontier has a reason why it is left; lying outside `bounds` is such a reason.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"
@@ -13,7 +13,7 @@ class Explore final : public IntentLeaf {
   static tree::NodeManifest manifest();
 
  private:
-  Wish makeWish(const FlightTick& tick) override;
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
   tree::Input<double> clearance_m_;
   tree::Input<tree::Rectangle> bounds_;
 };

@@ -10,30 +10,30 @@ namespace swiftlet::behaviors {
 using tree::Release;
 using tree::Status;
 
-void FlightLeaf::wish(FlightTick& tick, common::IntentKind kind) {
-  if (wish_id_ == 0) wish_id_ = tick.newIntentId();
+void FlightLeaf::emitIntent(FlightTick& tick, common::IntentKind kind) {
+  if (intent_id_ == 0) intent_id_ = tick.newIntentId();
   hold_id_ = 0;
-  tick.emit(wish_id_, std::move(kind));
+  tick.emit(intent_id_, std::move(kind));
 }
 
-void FlightLeaf::wishHold(FlightTick& tick) {
+void FlightLeaf::emitHold(FlightTick& tick) {
   if (hold_id_ == 0) hold_id_ = tick.newIntentId();
-  wish_id_ = 0;
+  intent_id_ = 0;
   tick.emit(hold_id_, common::HoldIntent{});
 }
 
-common::IntentState FlightLeaf::wishState(const FlightTick& tick) const {
+common::IntentState FlightLeaf::intentState(const FlightTick& tick) const {
   const common::IntentStatus& status = tick.flight.status;
-  return wish_id_ != 0 && status.id == wish_id_ ? status.state : common::IntentState::kRunning;
+  return intent_id_ != 0 && status.id == intent_id_ ? status.state : common::IntentState::kRunning;
 }
 
-void FlightLeaf::onStart(tree::TickContext&) { wish_id_ = hold_id_ = 0; }
+void FlightLeaf::onStart(tree::TickContext&) { intent_id_ = hold_id_ = 0; }
 
-void FlightLeaf::onResume(tree::TickContext&) { wish_id_ = hold_id_ = 0; }
+void FlightLeaf::onResume(tree::TickContext&) { intent_id_ = hold_id_ = 0; }
 
 Release FlightLeaf::onSuspend(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
-  wishHold(tick);
+  emitHold(tick);
   const bool stopped = tick.flight.status.id == hold_id_ && tick.flight.status.released;
   return stopped || tick.flight.world->vehicle->avoidance.retreating ? Release::kReleased : Release::kLettingGo;
 }
@@ -54,15 +54,15 @@ Status IntentLeaf::act(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
   if (kind_ && isOutdated(tick)) {
     kind_.reset();
-    renewWish();
+    renewIntent();
   }
   if (!kind_) {
-    Wish made = makeWish(tick);
+    IntentOrProblem made = makeIntent(tick);
     if (!made.kind) return fail(context, made.problem);
     kind_ = std::move(made.kind);
   }
-  wish(tick, *kind_);
-  switch (wishState(tick)) {
+  emitIntent(tick, *kind_);
+  switch (intentState(tick)) {
     case common::IntentState::kRunning:
       return Status::kRunning;
     case common::IntentState::kSucceeded:

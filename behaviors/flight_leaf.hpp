@@ -1,7 +1,7 @@
-// A behaviour: a leaf that wishes (emits an Intent) at each tick and watches the IntentStatus of that wish.
+// A behaviour: a leaf that emits an Intent at each tick and watches the IntentStatus of that intent.
 //
-// It lets go by wishing to hold until the vehicle has stopped (IntentStatus::released of that hold), or until the
-// reactive layer has the vehicle anyway. Resumed, it wishes anew, with a new id.
+// To let go, it emits hold until the vehicle has stopped (IntentStatus::released of that hold), or until the reactive
+// layer has the vehicle anyway. When it resumes, it emits its intent again with a new id.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ class FlightLeaf : public tree::Leaf {
   using Leaf::Leaf;
 
  protected:
-  /// Emits the wish: the same id as long as nothing came between. `kind` may only change with renewWish().
-  void wish(FlightTick& tick, common::IntentKind kind);
-  /// The next wish() is a new one.
-  void renewWish() { wish_id_ = 0; }
-  /// How the present wish stands; running as long as nobody has answered it.
-  common::IntentState wishState(const FlightTick& tick) const;
-  /// Emits hold, as the same wish from tick to tick.
-  void wishHold(FlightTick& tick);
+  /// Emits the intent, with the same id until something interrupts it. `kind` may change only after renewIntent().
+  void emitIntent(FlightTick& tick, common::IntentKind kind);
+  /// The next emitIntent() gets a new id.
+  void renewIntent() { intent_id_ = 0; }
+  /// Status of the present intent; running until it is answered.
+  common::IntentState intentState(const FlightTick& tick) const;
+  /// Emits hold, as the same intent from tick to tick.
+  void emitHold(FlightTick& tick);
 
   void onStart(tree::TickContext& context) override;
   void onResume(tree::TickContext& context) override;
@@ -31,24 +31,24 @@ class FlightLeaf : public tree::Leaf {
   tree::Release onHalt(tree::TickContext& context) override;
 
  private:
-  std::uint64_t wish_id_ = 0;  ///< 0: none yet.
+  std::uint64_t intent_id_ = 0;  ///< 0 if there is none yet.
   std::uint64_t hold_id_ = 0;
 };
 
-/// A behaviour that is one wish: SUCCESS and FAILURE are those of the wish.
+/// A behaviour with a single intent: SUCCESS and FAILURE are those of the intent.
 class IntentLeaf : public FlightLeaf {
  public:
   using FlightLeaf::FlightLeaf;
 
  protected:
-  /// The wish, or why there is none.
-  struct Wish {
+  /// The intent, or the reason why there is none.
+  struct IntentOrProblem {
     std::optional<common::IntentKind> kind;
     std::string problem;
   };
-  /// Asked when a wish begins: at the start and after a suspension.
-  virtual Wish makeWish(const FlightTick& tick) = 0;
-  /// The wish under way no longer says what is meant, and begins anew.
+  /// Called when an intent begins: at the start and after a suspension.
+  virtual IntentOrProblem makeIntent(const FlightTick& tick) = 0;
+  /// The present intent is outdated and must be emitted anew.
   virtual bool isOutdated(const FlightTick&) const { return false; }
 
   void onStart(tree::TickContext& context) override;

@@ -1,4 +1,4 @@
-// What a mission hands down its tree: the engine's tick and the flight around it.
+// What a mission passes down its tree: the engine's tick with the context of the flight.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@ class FlightTick final : public tree::TickContext {
   void emit(std::uint64_t id, common::IntentKind kind) { flight.intent = common::Intent{id, std::move(kind)}; }
 
   Context& flight;
-  /// The newest goal or home that was accepted and that no OperatorCommand has taken yet.
+  /// The newest accepted goal or home command that no OperatorCommand has taken yet.
   std::optional<common::OperatorCommand>& pending_command;
 
  private:
   std::uint64_t& last_intent_id_;
 };
 
-/// The trees of missions are only ever ticked by Mission, with a FlightTick.
+/// Trees of missions are ticked only by Mission, with a FlightTick.
 inline FlightTick& flightTick(tree::TickContext& context) { return static_cast<FlightTick&>(context); }
 inline const FlightTick& flightTick(const tree::TickContext& context) {
   return static_cast<const FlightTick&>(context);

@@ -16,7 +16,7 @@ tree::NodeManifest GoHome::manifest() {
 GoHome::GoHome(const tree::NodeSetup& setup)
     : IntentLeaf(setup), tolerance_m_(setup, "tolerance_m"), clearance_m_(setup, "clearance_m") {}
 
-IntentLeaf::Wish GoHome::makeWish(const FlightTick& tick) {
+IntentLeaf::IntentOrProblem GoHome::makeIntent(const FlightTick& tick) {
   const auto tolerance_m = tolerance_m_.get();
   const auto clearance_m = clearance_m_.get();
   if (!tolerance_m) return {std::nullopt, tolerance_m_.problem()};

@@ -1,5 +1,5 @@
-// GoHome: SUCCESS when the vehicle is within tolerance_m of the take-off place. Where that is in `map` may be corrected
-// in flight; a correction of more than half the tolerance renews the wish.
+// GoHome: SUCCESS when the vehicle is within tolerance_m of the take-off place. SLAM may correct that place in `map`
+// during the flight; a correction of more than half the tolerance renews the intent.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"
@@ -13,7 +13,7 @@ class GoHome final : public IntentLeaf {
   static tree::NodeManifest manifest();
 
  private:
-  Wish makeWish(const FlightTick& tick) override;
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
   bool isOutdated(const FlightTick& tick) const override;
 
   tree::Input<double> tolerance_m_;

@@ -18,7 +18,7 @@ std::string Hold::reason(const tree::TickContext& context) const {
 tree::Status Hold::act(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
   if (!tick.flight.hold) return tree::Status::kSuccess;
-  wishHold(tick);
+  emitHold(tick);
   return tree::Status::kRunning;
 }
 

@@ -21,9 +21,9 @@ Status Localize::act(tree::TickContext& context) {
   if (!localization) return fail(context, "the flight was given no map");
   const auto clearance_m = clearance_m_.get();
   if (!clearance_m) return fail(context, clearance_m_.problem());
-  wish(tick, common::ExploreIntent{*clearance_m, std::nullopt});
+  emitIntent(tick, common::ExploreIntent{*clearance_m, std::nullopt});
   if (localization->localized()) return Status::kSuccess;
-  switch (wishState(tick)) {
+  switch (intentState(tick)) {
     case common::IntentState::kRunning:
       return Status::kRunning;
     case common::IntentState::kSucceeded:

@@ -1,5 +1,5 @@
-// Localize: SUCCESS as soon as the vehicle knows where it is in the map it was given; explores until then. FAILURE when
-// there is no such map, or nothing is left to explore.
+// Localize: explores until the vehicle is localized in the given map, which is SUCCESS. FAILURE if there is no such
+// map, or if nothing is left to explore.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"

@@ -31,13 +31,13 @@ struct Mission::Impl {
   Narrator narrator;
   std::uint64_t last_intent_id = 0;
   std::optional<common::OperatorCommand> pending_command;
-  std::vector<const OperatorCommand*> takers;  ///< Of goals and home.
+  std::vector<const OperatorCommand*> takers;  ///< The nodes that take goals and home commands.
   TickResult result;
 };
 
 namespace {
 
-/// Throws when there are problems.
+/// Throws if there are problems.
 tree::Tree sound(tree::ParseResult parsed) {
   if (!parsed.tree) throw common::InputError(toCommon(parsed.problems));
   return std::move(*parsed.tree);
@@ -81,7 +81,7 @@ TickResult Mission::tick(Context& context) {
   self.narrator.listen(&tick);
   const Status status = self.tree.tick(tick);
   self.narrator.listen(nullptr);
-  if (status != Status::kRunning) context.intent.reset();  // Whoever ended in this tick wishes nothing any more.
+  if (status != Status::kRunning) context.intent.reset();  // A leaf that ended in this tick has no intent any more.
   self.result = self.resultOf(context, status);
   return self.result;
 }
@@ -132,7 +132,8 @@ std::string Mission::Impl::refusal(const Context& context, const common::Operato
   return goal == nullptr ? std::string() : refusalOfGoal(context, goal->goal_map_m);
 }
 
-/// Empty when one of those that may take the goal would fly to it, by its tolerance and clearance.
+/// Why the goal is refused; empty if at least one of the nodes that may take it can fly to it with its tolerance and
+/// clearance.
 std::string Mission::Impl::refusalOfGoal(const Context& context, const Eigen::Vector2d& goal_map_m) const {
   std::string first;
   for (const OperatorCommand* taker : takers) {

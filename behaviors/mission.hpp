@@ -1,5 +1,5 @@
-// A mission: a behaviour tree read from XML, ticked at 10 to 20 Hz. It only wishes (Context::intent); the autonomy
-// acts.
+// A mission: a behaviour tree read from XML, ticked at 10 to 20 Hz. It only emits intents (Context::intent); the
+// autonomy executes them.
 #pragma once
 
 #include <memory>
@@ -13,20 +13,20 @@
 namespace swiftlet::behaviors {
 
 struct TickResult {
-  /// kRunning, kHeld (Context::hold, and the mission wishes nothing but to hold: from the first tick in which it stops
-  /// for it), kDone or kFailed. After kDone and kFailed a tick does nothing.
+  /// kRunning, kHeld, kDone or kFailed. kHeld means that Context::hold is set and the mission emits only hold, from the
+  /// first tick in which it stops for it. After kDone and kFailed a tick does nothing.
   common::MissionState state = common::MissionState::kReady;
-  std::string phase;   ///< The wish in words: "go to (3.00, -1.50)".
-  std::string reason;  ///< Why it failed or holds.
+  std::string phase;   ///< The intent in words: "go to (3.00, -1.50)".
+  std::string reason;  ///< Why the mission failed or holds.
 };
 
 class Mission {
  public:
   /// Throws common::InputError with every problem of the XML.
   static Mission fromFile(const std::string& path);
-  /// Also throws for what could not work in flight within these limits, as checkMission has it.
+  /// Also throws for anything that cannot work in flight within these limits, by the rules of checkMission.
   static Mission fromFile(const std::string& path, const MissionLimits& limits);
-  /// `name` stands for the file in messages.
+  /// Messages use `name` as the file.
   static Mission fromText(const std::string& text, const std::string& name);
   Mission(Mission&&) noexcept;
   Mission& operator=(Mission&&) noexcept;
@@ -34,13 +34,13 @@ class Mission {
 
   TickResult tick(Context& context);
 
-  /// For whoever stands above the mission and wants the vehicle for good (land, shut down): called instead of tick
-  /// until it returns true, or once, when its wishes are not flown any more. Emits hold until the vehicle has stopped.
-  /// The mission then stands at its beginning.
+  /// Takes the vehicle from the mission for good (land, shut down). Call it instead of tick until it returns true, or
+  /// once if its intents are not flown any more. Emits hold until the vehicle has stopped. Afterwards the mission is
+  /// reset.
   bool letGo(Context& context);
 
   common::TreeView view() const;
-  /// The mission has an OperatorCommand: goals and home are flown instead of refused.
+  /// The mission has an OperatorCommand: goals and home commands are flown instead of refused.
   bool acceptsGoals() const;
   /// The ID of the main tree.
   const std::string& name() const;

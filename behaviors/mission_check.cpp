@@ -11,7 +11,7 @@
 namespace swiftlet::behaviors {
 namespace {
 
-/// Where the vehicle may be at a place of the tree.
+/// Possible positions of the vehicle at a point of the tree: on the floor or in the air.
 struct Whereabouts {
   bool ground = false;
   bool air = false;
@@ -20,18 +20,18 @@ struct Whereabouts {
 Whereabouts either(Whereabouts a, Whereabouts b) { return {a.ground || b.ground, a.air || b.air}; }
 bool nowhere(Whereabouts w) { return !w.ground && !w.air; }
 
-/// Where it may be when a node ended, by how it ended.
+/// Possible positions when a node ended, for each result.
 struct Exits {
   Whereabouts success;
   Whereabouts failure;
 };
 
-/// Walks the tree as it would be ticked and follows where the vehicle may be.
+/// Walks the tree in the order of ticking and tracks the possible positions of the vehicle.
 class Walk {
  public:
   Walk(const tree::Tree& tree, std::vector<tree::Problem>& problems)
       : tree_(tree), problems_(problems), skips_(tree.nodes().size()) {
-    // Preorder: children stand behind their parents.
+    // Preorder: children come after their parents.
     for (std::size_t i = tree.nodes().size(); i-- > 0;) skips_[i] = computeMaySkip(tree.nodes()[i]);
   }
 
@@ -82,7 +82,7 @@ class Walk {
     return {entry, entry};
   }
 
-  /// A Sequence goes on with SUCCESS, a Fallback with FAILURE; both go on with SKIPPED.
+  /// A Sequence continues after SUCCESS, a Fallback after FAILURE; both continue after SKIPPED.
   Exits walkChain(const tree::Node& node, Whereabouts entry, bool on_success) {
     Exits exits;
     Whereabouts at = entry;
@@ -106,8 +106,8 @@ class Walk {
       at = maySkip(*child) ? either(at, child_exits.success) : child_exits.success;
       if (child == node.children().back() || maySkip(*child)) continue;
       problems_.push_back({tree_.locationOf(child->id()), child->name(),
-                           "never answers SKIPPED, so that nothing below it in the Priority keeps the vehicle",
-                           "only what steps back by itself (AvoidObstacle, Hold) belongs above another"});
+                           "never answers SKIPPED, so that no child below it in the Priority gets the vehicle",
+                           "only a leaf that can be SKIPPED (AvoidObstacle, Hold) may stand above another child"});
     }
     exits.success = at;
     return exits;
@@ -159,7 +159,7 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
           report(*record.node, *record.manifest, "clearance_m",
                  metres(*clearance_m) + " cannot be flown with this system: " + problem,
                  "raise it, or change that distance in the system profile");
-    // Goals, and the place over the floor where it takes off: all that can be judged without a map.
+    // Goals, and the place above the floor where it takes off: all that can be judged without a map.
     const auto checkGoal = [&](const char* port, const common::Goal& goal) {
       const auto verdict = common::judgeGoal(goal, {.greatest_height_m = limits.max_height_m}, nullptr);
       if (!verdict) report(*record.node, *record.manifest, port, verdict.error().text, "");

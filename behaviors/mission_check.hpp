@@ -1,4 +1,4 @@
-// What could not work in flight, seen in the tree alone.
+// Finds what cannot work in flight, from the tree alone.
 #pragma once
 
 #include <string>
@@ -11,18 +11,19 @@
 
 namespace swiftlet::behaviors {
 
-/// The same problems in the words of common.
+/// The problems in the type of common.
 std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems);
 
-/// - Something flies (Explore, Localize, MoveToGoal, GoHome, OperatorCommand) or lands where, by the statuses that
-///   lead there, the vehicle stands on the floor; or nothing ever takes off.
-/// - A clearance the reactive layer forbids, or a goal that no map could make one to fly to (common/goal.hpp).
-/// - A child of a Priority, not the last, that is never SKIPPED: what stands below it could never keep the vehicle.
+/// - A node flies (Explore, Localize, MoveToGoal, GoHome, OperatorCommand) or lands although the vehicle is on the
+///   floor, judged by the statuses that lead there; or nothing ever takes off.
+/// - A clearance that the reactive layer forbids, or a goal that cannot be valid in any map (common/goal.hpp).
+/// - A child of a Priority, other than the last, that is never SKIPPED: the children below it would never get the
+///   vehicle.
 std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const MissionLimits& limits);
 
-/// Every problem of a mission file, without flying it: those of the XML, and what could not work in flight (flies
-/// before it takes off, a clearance the reactive layer forbids, a branch that never gets the vehicle). Empty: it is
-/// sound.
+/// Every problem of a mission file, without flying it: those of the XML, and what cannot work in flight (a node that
+/// flies before the take-off, a clearance the reactive layer forbids, a branch that never gets the vehicle). Empty if
+/// the mission is sound.
 std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits = {});
 std::vector<common::Problem> checkMissionText(const std::string& text, const std::string& name,
                                               const MissionLimits& limits = {});

@@ -1,4 +1,4 @@
-// What a mission may ask for.
+// Limits of what a mission may ask for.
 #pragma once
 
 #include <functional>
@@ -7,14 +7,14 @@
 
 namespace swiftlet::behaviors {
 
-/// What the rest of the system allows a mission to ask for.
+/// Limits that the rest of the system sets to a mission.
 struct MissionLimits {
-  /// Why the reactive layer would not let the vehicle fly with a clearance (m, between hull and obstacle); empty when
-  /// it would. No function: every clearance can be flown.
+  /// Why the reactive layer would not let the vehicle fly with a clearance (m, between hull and obstacle); empty if it
+  /// would. Without a function every clearance is accepted.
   std::function<std::vector<std::string>(double clearance_m)> clearance_problems = {};
-  /// Above the take-off floor.
+  /// Heights above the take-off floor.
   double max_height_m = 10.0;
-  bool has_map = true;  ///< Of the place: what finds itself in one needs it.
+  bool has_map = true;  ///< A map of the place is given; nodes that localize need one.
 };
 
 }  // namespace swiftlet::behaviors

@@ -19,22 +19,22 @@ tree::NodeManifest MoveToGoal::manifest() {
 MoveToGoal::MoveToGoal(const tree::NodeSetup& setup)
     : IntentLeaf(setup), goal_(setup, "goal"), tolerance_m_(setup, "tolerance_m"), clearance_m_(setup, "clearance_m") {}
 
-IntentLeaf::Wish MoveToGoal::makeWish(const FlightTick& tick) {
+IntentLeaf::IntentOrProblem MoveToGoal::makeIntent(const FlightTick& tick) {
   const auto goal = goal_.get();
   const auto tolerance_m = tolerance_m_.get();
   const auto clearance_m = clearance_m_.get();
   if (!goal) return {std::nullopt, goal_.problem()};
   if (!tolerance_m) return {std::nullopt, tolerance_m_.problem()};
   if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
-  common::GoToIntent wish;
-  wish.goal_map_m = {goal->x, goal->y};
-  wish.height_m = goal->z;
-  wish.tolerance_m = *tolerance_m;
-  wish.clearance_m = *clearance_m;
-  // Not by the map, which may be about to grow: that the executor does, and waits.
-  const auto verdict = common::judgeGoal(common::goalOf(wish), tick.flight.goal_limits, nullptr);
+  common::GoToIntent intent;
+  intent.goal_map_m = {goal->x, goal->y};
+  intent.height_m = goal->z;
+  intent.tolerance_m = *tolerance_m;
+  intent.clearance_m = *clearance_m;
+  // The goal is not judged by the map here, because the map may be about to grow: the executor does that, and waits.
+  const auto verdict = common::judgeGoal(common::goalOf(intent), tick.flight.goal_limits, nullptr);
   if (!verdict) return {std::nullopt, verdict.error().text};
-  return {wish, {}};
+  return {intent, {}};
 }
 
 }  // namespace swiftlet::behaviors

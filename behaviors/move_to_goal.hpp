@@ -13,7 +13,7 @@ class MoveToGoal final : public IntentLeaf {
   static tree::NodeManifest manifest();
 
  private:
-  Wish makeWish(const FlightTick& tick) override;
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
   tree::Input<tree::Point> goal_;
   tree::Input<double> tolerance_m_;
   tree::Input<double> clearance_m_;

@@ -9,8 +9,8 @@ using tree::Node;
 using tree::Status;
 using tree::Switch;
 
-/// What acts in a child of a Priority: the leaf under way in it, or the one that a tick now would reach first; the
-/// child itself when it has ended.
+/// The node that acts in a child of a Priority: the running leaf in it, or the one that a tick would reach first now;
+/// the child itself if it has ended.
 const Node& actingIn(const Node& node, const tree::TickContext& tick) {
   for (const auto& child : node.children())
     if (tree::isActive(child->status())) return actingIn(*child, tick);
@@ -27,13 +27,15 @@ void Narrator::onStatus(const Node& node, Status from, Status to) {
   if (!node.children().empty() && to != Status::kFailure) return;
   switch (to) {
     case Status::kRunning:
-      if (!tree::isActive(from) && !isToldBySwitches(node)) say(common::Severity::kInfo, node.name() + " starts", {});
+      if (!tree::isActive(from) && !isReportedBySwitches(node))
+        say(common::Severity::kInfo, node.name() + " starts", {});
       break;
     case Status::kSuccess:
-      if (tree::isActive(from) && !isToldBySwitches(node)) say(common::Severity::kInfo, node.name() + " is done", {});
+      if (tree::isActive(from) && !isReportedBySwitches(node))
+        say(common::Severity::kInfo, node.name() + " is done", {});
       break;
     case Status::kFailure:
-      if (failed_node_ != node.id()) break;  // A parent that fails because its child did adds nothing.
+      if (failed_node_ != node.id()) break;  // A parent that fails because its child did adds no information.
       say(common::Severity::kWarning, node.name() + " failed", failure_reason_);
       failed_node_ = -1;
       break;
@@ -80,7 +82,7 @@ std::string Narrator::failure() const {
   return failures_.size() == 1 ? first : first + ", and then " + failures_.back().text;
 }
 
-/// What failed below a node that succeeds in the end is no cause of anything any more.
+/// A failure below a node that succeeds in the end is no longer a cause.
 void Narrator::forgiveBelow(const Node& node) {
   const auto isBelow = [&](int id) {
     while (id > node.id()) id = tree_.nodes()[static_cast<std::size_t>(id)].parent;
@@ -89,8 +91,8 @@ void Narrator::forgiveBelow(const Node& node) {
   std::erase_if(failures_, [&](const Failure& failure) { return isBelow(failure.node); });
 }
 
-/// A child of a Priority: who has the vehicle is said already.
-bool Narrator::isToldBySwitches(const Node& node) const {
+/// A child of a Priority: its event already says who has the vehicle.
+bool Narrator::isReportedBySwitches(const Node& node) const {
   const int parent = tree_.nodes()[static_cast<std::size_t>(node.id())].parent;
   if (parent < 0) return false;
   const tree::NodeManifest* manifest = tree_.nodes()[static_cast<std::size_t>(parent)].manifest;

@@ -1,4 +1,4 @@
-// Tells what happens in the tree as events of the mission.
+// Reports what happens in the tree as events of the mission.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ class Narrator final : public tree::Observer {
  public:
   explicit Narrator(const tree::Tree& tree) : tree_(tree) {}
 
-  /// The tick whose events are told, into its flight's; null between ticks.
+  /// The tick whose events are reported, into its flight's list; null between ticks.
   void listen(FlightTick* tick) { tick_ = tick; }
   /// Why the tree fails, the first cause first: "MoveToGoal: no path", or "MoveToGoal: no path, and then GoHome: the
-  /// goal is unreachable". Empty when nothing has failed, or what did was made good for by a node above it.
+  /// goal is unreachable". Empty if nothing has failed, or if a node above the failure recovered from it.
   std::string failure() const;
-  /// The mission begins anew.
+  /// Call when the mission is reset.
   void forget() { failures_.clear(); }
 
   void onStatus(const tree::Node& node, tree::Status from, tree::Status to) override;
@@ -32,12 +32,12 @@ class Narrator final : public tree::Observer {
   };
 
   void forgiveBelow(const tree::Node& node);
-  bool isToldBySwitches(const tree::Node& node) const;
+  bool isReportedBySwitches(const tree::Node& node) const;
   void say(common::Severity severity, std::string text, std::string reason);
 
   const tree::Tree& tree_;
   FlightTick* tick_ = nullptr;
-  std::vector<Failure> failures_;  ///< In the order they came.
+  std::vector<Failure> failures_;  ///< Failures in the order of time.
   int failed_node_ = -1;
   std::string failure_reason_;
 };

@@ -31,9 +31,9 @@ tree::Status OperatorCommand::act(tree::TickContext& context) {
   finish(tick);
   take(tick);
   if (goal_)
-    wish(tick, *goal_);
+    emitIntent(tick, *goal_);
   else
-    wishHold(tick);
+    emitHold(tick);
   return tree::Status::kRunning;
 }
 
@@ -44,13 +44,13 @@ void OperatorCommand::take(FlightTick& tick) {
   command_ = next;
   const auto* point = std::get_if<common::GoalCommand>(&next.kind);
   goal_ = goalTo(point != nullptr ? point->goal_map_m : tick.flight.world->vehicle->home_map.position_m());
-  renewWish();
+  renewIntent();
 }
 
-/// Looks at the goal under way before a new one may replace it: what was reached is said to be reached.
+/// Checks the present goal before a new one replaces it, so that a goal that was reached is reported as reached.
 void OperatorCommand::finish(FlightTick& tick) {
   if (!command_) return;
-  switch (wishState(tick)) {
+  switch (intentState(tick)) {
     case common::IntentState::kRunning:
       return;
     case common::IntentState::kSucceeded:

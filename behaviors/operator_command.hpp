@@ -1,8 +1,9 @@
-// OperatorCommand: flies to the goals the operator gives, or home, and holds between. RUNNING for ever; whoever wants
-// the mission to end says so from above it.
-//   a new goal replaces the one under way
-//   a goal reached, or one that cannot be reached: an event, then hold
-//   suspended and resumed: goes on to the goal it had
+// OperatorCommand: flies to the goals the operator gives, or home, and holds in between. It is RUNNING forever; a node
+// above it must end the mission.
+//
+//   a new goal: replaces the present one
+//   a goal is reached, or cannot be reached: an event, then hold
+//   suspended and resumed: continues to its goal
 #pragma once
 
 #include <optional>
@@ -19,7 +20,7 @@ class OperatorCommand final : public FlightLeaf {
   explicit OperatorCommand(const tree::NodeSetup& setup);
   static tree::NodeManifest manifest();
 
-  /// How it would fly to that place: with its tolerance and clearance.
+  /// The goal with the tolerance and clearance of this node.
   common::GoToIntent goalTo(const Eigen::Vector2d& place_map_m) const;
 
  private:
@@ -31,7 +32,7 @@ class OperatorCommand final : public FlightLeaf {
 
   tree::Input<double> tolerance_m_;
   tree::Input<double> clearance_m_;
-  std::optional<common::OperatorCommand> command_;  ///< Under way; none: it holds.
+  std::optional<common::OperatorCommand> command_;  ///< The present command; none if it holds.
   std::optional<common::GoToIntent> goal_;
 };
 

@@ -1,4 +1,4 @@
-// Ports that several behaviours share, so that they mean the same everywhere.
+// Ports that several behaviours share, so that they mean the same in all of them.
 #pragma once
 
 #include "behaviors/tree/port.hpp"

@@ -16,7 +16,7 @@ tree::NodeManifest TakeOff::manifest() {
           .description = "Climbs from the floor to a height and hovers."};
 }
 
-IntentLeaf::Wish TakeOff::makeWish(const FlightTick&) {
+IntentLeaf::IntentOrProblem TakeOff::makeIntent(const FlightTick&) {
   const auto height_m = height_m_.get();
   if (!height_m) return {std::nullopt, height_m_.problem()};
   return {common::TakeOffIntent{*height_m}, {}};

@@ -12,7 +12,7 @@ class TakeOff final : public IntentLeaf {
   static tree::NodeManifest manifest();
 
  private:
-  Wish makeWish(const FlightTick& tick) override;
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
   tree::Input<double> height_m_;
 };
 

@@ -136,7 +136,7 @@ void DStarRepair(benchmark::State& state) {
     left_m -= step.norm();
   }
   CostMap blocked = s.map;
-  const std::vector<planning::Disc> discs{{ahead, 0.2}};
+  const std::vector<common::Disc> discs{{ahead, 0.2}};
   blocked.update(s.grid.snapshot(), {}, {discs, nullptr});
   for (auto _ : state) {
     auto path = planner.plan(blocked, s.task.start, s.task.goal);
@@ -247,7 +247,7 @@ void AvoidanceTick(benchmark::State& state) {
     points.push_back({static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a))});
   }
   planning::Avoidance avoidance({}, 0.275);
-  planning::DynamicObstacle person;
+  common::DynamicObstacle person;
   person.center_map_m = {6.5, 4.0};
   person.radius_m = 0.25;
   person.velocity_map_m_s = {-1.0, 0.0};

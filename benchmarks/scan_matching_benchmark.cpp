@@ -80,8 +80,8 @@ BENCHMARK_CAPTURE(match, flat_4cm_1p5deg, test::flat(), kFlight)->DenseRange(0, 
 BENCHMARK_CAPTURE(match, flat_10cm_3deg, test::flat(), kWide)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(match, corridor_4cm_1p5deg, corridor(), kFlight)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 
-/// The way of Grzonka 2012, IV-A: three resolutions down to 1 cm and 0.1 degrees, weighted mean, over all poses that a
-/// vehicle of at most 1 m/s can have reached at 40 Hz, 2.5 cm, and 1.5 cm more for the error of the guess.
+/// The method of Grzonka 2012, IV-A: three resolutions down to 1 cm and 0.1 degrees, weighted mean, over all poses that
+/// a vehicle of at most 1 m/s can have reached at 40 Hz, 2.5 cm, and 1.5 cm more for the error of the guess.
 void threeResolutions(benchmark::State& state) {
   perception::CorrelativeMatcherConfig config;
   config.estimate = perception::PoseEstimate::kWeightedMean;
@@ -90,8 +90,8 @@ void threeResolutions(benchmark::State& state) {
 }
 BENCHMARK(threeResolutions)->Unit(benchmark::kMicrosecond);
 
-/// The way of Bachrach 2009, 5.1.2: 350 points, 7.5 mm and 0.15 degrees, every one of some 15,000 poses scored, and the
-/// covariance from the scores.
+/// The method of Bachrach 2009, 5.1.2: 350 points, 7.5 mm and 0.15 degrees, every one of some 15,000 poses scored, and
+/// the covariance from the scores.
 void everyPose(benchmark::State& state) {
   const auto instructions = static_cast<perception::Instructions>(state.range(0));
   if (!perception::isAvailable(instructions)) {

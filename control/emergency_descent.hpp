@@ -15,17 +15,17 @@ namespace swiftlet::control {
 
 /// One raw height over whatever is below.
 struct RawHeight {
-  common::Time stamp;  ///< When it was measured.
+  common::Time stamp;  ///< Time of the measurement.
   double height_m = 0.0;
 };
 
-/// Height and vertical speed from raw heights, alpha-beta. A jump of the ground below (an edge of a table) moves the
-/// height but not the speed.
+/// Height and vertical speed from raw heights, by an alpha-beta filter. A jump of the ground below (the edge of a
+/// table) moves the height but not the speed.
 class AlphaBetaFilter {
  public:
   AlphaBetaFilter(double alpha, double beta, double jump_m) : alpha_(alpha), beta_(beta), jump_m_(jump_m) {}
   void reset();
-  /// Non-finite or older ones are left out.
+  /// Ignores heights that are not finite and those older than the last one.
   void update(const RawHeight& raw);
   bool ready() const { return samples_ >= 2; }
   common::Time stamp() const { return stamp_; }
@@ -62,11 +62,11 @@ class EmergencyDescent {
 
   EmergencyDescent(const Config& config);
 
-  /// In every state, so that the filter is ready when it is needed.
+  /// Call it in every state, so that the filter is ready when it is needed.
   void observe(const RawHeight& raw) { filter_.update(raw); }
-  /// `standing_height_m` is what the mirror showed on the ground.
+  /// `standing_height_m` is what the mirror measured on the ground.
   void start(common::Time now, double standing_height_m);
-  /// Level, yaw rate zero.
+  /// A level attitude with yaw rate zero.
   common::Setpoint tick(common::Time now, double dt_s, const ThrustModel& thrust);
   bool touchedDown() const { return touched_down_; }
   const AlphaBetaFilter& filter() const { return filter_; }
@@ -74,7 +74,7 @@ class EmergencyDescent {
  private:
   Config config_;
   AlphaBetaFilter filter_;
-  common::Time last_seen_;  ///< The ground, or the start.
+  common::Time last_seen_;  ///< When the ground was last measured; at first, when the descent started.
   common::Time last_moving_;
   double standing_height_m_ = 0.0;
   double integral_m_s2_ = 0.0;

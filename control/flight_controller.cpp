@@ -19,11 +19,11 @@ using common::Severity;
 namespace {
 
 constexpr double kLiftedOff_m = 0.06;
-constexpr double kSpoolShare = 0.6;       ///< Of the hover command, before it lifts.
-constexpr double kReferenceLead_m = 0.3;  ///< The height reference runs no farther ahead of the vehicle.
+constexpr double kSpoolShare = 0.6;       ///< Share of the hover command given before the vehicle lifts.
+constexpr double kReferenceLead_m = 0.3;  ///< Greatest lead of the height reference over the vehicle.
 constexpr double kTouchdownSpeed_m_s = 0.10;
 constexpr double kTouchdownMargin_m = 0.20;
-/// A velocity known this well is worth damping although the position is not known.
+/// When the position is unknown, a velocity with at most this deviation is still damped.
 constexpr double kDampedVelocitySigma_m_s = 0.6;
 
 bool isFinite(const common::VehicleState& state) {
@@ -165,7 +165,7 @@ common::Setpoint FlightController::takeOff(const FlightTick& tick) {
     return setpoint;
   }
   if (!lifted_ && height_m > standing_height_m_ + kLiftedOff_m) {
-    // The lead that the reference took while the feet still stood would become overshoot.
+    // The lead that the reference gained while the vehicle still stood would become overshoot.
     lifted_ = true;
     height_reference_m_ = height_m;
   }
@@ -199,7 +199,7 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
                  height_m);
   const common::Setpoint setpoint = track(tick, follower_.advance(dt_s_));
 
-  // What pushes from below while the controller wants down is the ground.
+  // If the vehicle is pushed up while the controller wants down, it stands on the ground.
   const bool rests = setpoint.thrust < config_.touchdown_thrust * position_.thrust().hoverCommand() &&
                      std::abs(last_state_.velocity_odom_m_s.z()) < kTouchdownSpeed_m_s &&
                      over_ground_m < standing_raw_m_ + kTouchdownMargin_m;
@@ -268,7 +268,7 @@ void FlightController::watch(const FlightTick& tick) {
 void FlightController::watchHorizontal(const FlightTick& tick) {
   if (tick.state.horizontal_valid) {
     if (horizontal_lost_) {
-      // Where it is now, not where it was to be: that may be far away.
+      // The present height, not the reference, which may be far away.
       Eigen::Vector3d here = last_state_.T_odom_body.position_m;
       here.z() = follower_.reference().position_odom_m.z();
       follower_.reset(here, common::yawOf(last_state_.T_odom_body.rotation));
@@ -327,7 +327,7 @@ void FlightController::enter(FlightState from, FlightState entered) {
       return;
     }
     case FlightState::kLanding:
-      // While taking off the height reference already moves on its own; while flying it is the path's.
+      // During take-off the height reference moves by itself; in flight the path moves it.
       if (from == FlightState::kFlying) {
         height_reference_m_ = follower_.reference().position_odom_m.z();
         climb_reference_m_s_ = follower_.reference().velocity_odom_m_s.z();

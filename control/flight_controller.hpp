@@ -23,9 +23,10 @@
 
 namespace swiftlet::control {
 
-/// The fusion has been initialized on the ground: preparation -> powered off.
+/// Preparation -> powered off. Call it when the fusion has been initialized on the ground.
 struct Prepared {};
-/// To this height over the take-off floor, above where it stands. Engages the motors when they are off.
+/// Takes off to this height over the take-off floor, which must be above the place where the vehicle stands. Engages
+/// the motors if they are off.
 struct TakeOff {
   double height_m = 1.0;
 };
@@ -33,24 +34,25 @@ struct Land {};
 struct DisengageMotors {};
 using FlightCommand = std::variant<Prepared, TakeOff, Land, DisengageMotors>;
 
-/// A path in `map`; it follows the map when SLAM corrects T_map_odom.
+/// A path in `map`. It moves with the map when SLAM corrects T_map_odom.
 struct FlightPath {
   std::vector<Eigen::Vector3d> points_map_m;  ///< z over the take-off floor. The last one is the goal.
   common::FlightMode mode = common::FlightMode::kCareful;
   std::optional<double> goal_yaw_map_rad;
 };
 
-/// What one tick knows.
+/// The inputs of one tick.
 struct FlightTick {
   common::Time now;
   common::VehicleState state;
-  std::optional<RawHeight> raw_height;  ///< A new one since the last tick, else none.
-  double battery_v = 0.0;               ///< Latest; 0 while unknown.
+  std::optional<RawHeight> raw_height;  ///< A height measured since the last tick, if there is one.
+  double battery_v = 0.0;               ///< Latest voltage; 0 while unknown.
   bool fusion_diverged = false;
-  bool pilot_flies = false;  ///< What is commanded has no effect: the references follow the vehicle.
+  /// The pilot has control: setpoints have no effect, and the references follow the vehicle.
+  bool pilot_flies = false;
 };
 
-/// One thread. Never throws; refused commands say why.
+/// One thread. Never throws; a refused command returns its reason.
 class FlightController {
  public:
   struct Config {
@@ -79,35 +81,37 @@ class FlightController {
   FlightController(const Config& config, const common::VehicleConfig& vehicle);
 
   tl::expected<void, std::string> command(const FlightCommand& command);
-  /// Only while flying (Table 1). An empty path stops.
+  /// Allowed only while flying (Table 1). An empty path stops.
   tl::expected<void, std::string> follow(const FlightPath& path);
-  /// Leaves the path for that velocity until told otherwise; see PathFollower::setVelocity. Only while flying.
+  /// Leaves the path and flies at that velocity until the next command; see PathFollower::setVelocity. Allowed only
+  /// while flying.
   tl::expected<void, std::string> followVelocity(const Eigen::Vector2d& velocity_map_m_s, double acceleration_m_s2,
                                                  double yaw_map_rad);
-  /// Stops as fast as the flight mode allows and holds, turned to that yaw when one is given.
+  /// Stops as fast as the flight mode allows and holds, at that yaw if one is given.
   void hold(std::optional<double> yaw_map_rad = std::nullopt);
-  /// From the reactive layer; infinity lifts it.
+  /// Speed limit of the reactive layer; infinity lifts it.
   void setSpeedLimit(double speed_m_s);
 
   common::Setpoint tick(const FlightTick& tick);
 
   common::FlightState state() const { return machine_.state(); }
-  /// Why it does not fly any more: "no valid height for 0.3 s". Empty from the take-off until it comes down.
+  /// Why the controlled flight ended, for example "no valid height for 0.3 s". Empty from the take-off until the
+  /// vehicle comes down.
   const std::string& groundedReason() const { return grounded_reason_; }
   /// On the ground, or flying with the reference at rest and the vehicle slow.
   bool stopped() const;
-  /// The last path is still what is flown: no hold, no lost estimate and no pilot has come in between.
+  /// The last path is still being flown: no hold, no lost estimate and no pilot has interrupted it.
   bool followsPath() const { return follower_.followsPath(); }
   double speed_m_s(common::FlightMode mode) const { return config_.path.limits(mode).speed_m_s; }
-  /// The goal of the last path is reached by the reference.
+  /// The reference has reached the goal of the last path.
   bool pathFinished() const;
   const Reference& reference() const { return follower_.reference(); }
-  /// What happened since the last call.
+  /// The events since the last call.
   std::vector<common::Event> takeEvents();
   const PositionController& positionController() const { return position_; }
 
  private:
-  /// An input the state does not take changes nothing.
+  /// An input that the present state does not accept changes nothing.
   void transition(FlightInput input, const std::string& reason);
   void enter(common::FlightState from, common::FlightState entered);
   void say(common::Severity severity, std::string text, std::string reason = {});
@@ -135,14 +139,14 @@ class FlightController {
   double dt_s_;
   common::VehicleState last_state_;
   common::Pose2 T_map_odom_;
-  double standing_height_m_ = 0.0;  ///< Of the body origin over the take-off floor.
-  double standing_raw_m_ = 0.0;     ///< The same as the mirror sees it.
+  double standing_height_m_ = 0.0;  ///< Height of the body origin over the take-off floor while standing.
+  double standing_raw_m_ = 0.0;     ///< Height that the mirror measures while standing.
   double take_off_height_m_ = 1.0;
-  double height_reference_m_ = 0.0;  ///< Taking off and landing move it themselves.
+  double height_reference_m_ = 0.0;  ///< Moved by the controller itself during take-off and landing.
   double climb_reference_m_s_ = 0.0;
   bool lifted_ = false;
   common::Time state_since_;
-  std::optional<common::Time> condition_since_;  ///< Hover reached, or touched down.
+  std::optional<common::Time> condition_since_;  ///< Since when the vehicle has hovered, or touched the ground.
   std::optional<common::Time> horizontal_lost_;
   std::optional<common::Time> vertical_lost_;
 };

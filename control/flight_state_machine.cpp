@@ -15,7 +15,7 @@ struct Transition {
   FlightState to;
 };
 
-/// The arrows of the drawing; what is not here is refused.
+/// The arrows of the drawing. Every other transition is refused.
 constexpr Transition kTransitions[] = {
     {FlightState::kPreparation, FlightInput::kPrepared, FlightState::kPoweredOff},
     {FlightState::kPoweredOff, FlightInput::kPrepare, FlightState::kPreparation},

@@ -10,21 +10,21 @@
 
 namespace swiftlet::control {
 
-/// What may happen to the machine: requests, and conditions that the flight controller detects.
+/// Inputs of the machine: requests, and conditions that the flight controller detects.
 enum class FlightInput {
-  kPrepared,         ///< The vehicle stands at its start and will not be moved any more.
-  kPrepare,          ///< It will be carried elsewhere.
+  kPrepared,         ///< The vehicle stands at its start and will not be carried any more.
+  kPrepare,          ///< The vehicle will be carried elsewhere.
   kEngageMotors,     //
   kDisengageMotors,  //
   kTakeOff,          //
   kHoverReached,     ///< Condition: at the take-off height within the stated accuracy.
   kLand,             //
   kTouchedDown,      ///< Condition: on the ground.
-  kEmergency,        ///< Divergence of the fusion, or asked for.
+  kEmergency,        ///< The fusion diverged, or an emergency landing was requested.
 };
 const char* toString(FlightInput input);
 
-/// Table 1.
+/// The columns of Table 1.
 struct Activation {
   bool fusion = false;
   bool control = false;
@@ -33,7 +33,7 @@ struct Activation {
 };
 Activation activationOf(common::FlightState state);
 
-/// In the air or about to be: an emergency applies.
+/// In the air or about to lift off: an emergency applies.
 bool isAirborne(common::FlightState state);
 
 /// ```
@@ -54,8 +54,8 @@ bool isAirborne(common::FlightState state);
 ///                                 +------------------- | emergency landing |
 ///                                                      +-------------------+
 /// ```
-/// Everything else is refused with a reason and changes nothing. An emergency landing can not be left but by touching
-/// down, and ends with the motors off. Plain data, one thread.
+/// Everything else is refused with a reason and changes nothing. An emergency landing ends only by touching down, with
+/// the motors off. Plain data, one thread.
 class FlightStateMachine {
  public:
   common::FlightState state() const { return state_; }

@@ -15,16 +15,16 @@ using common::FlightMode;
 
 namespace {
 
-/// Sudden change of the velocity vector that the reference filter may be asked to smooth.
+/// Greatest sudden change of the velocity vector that the reference filter is given.
 constexpr double kKink_m_s = 0.12;
-/// How far the reference may lie off a new path before a line is drawn that leads it there.
+/// Greatest distance of the reference from a new path. Beyond it, an extra line leads the reference to the path.
 constexpr double kOnPath_m = 0.03;
-/// A new path is joined somewhere on its first stretch of this length.
+/// The reference joins a new path within its first stretch of this length.
 constexpr double kJoin_m = 1.5;
 constexpr double kAtGoal_m = 1e-3;
 constexpr double kAtRest_m_s = 1e-3;
 constexpr double kYawReached_rad = 0.01;
-/// Shorter looks ahead do not tell a direction.
+/// A shorter look-ahead gives no reliable direction.
 constexpr double kLeastLook_m = 0.05;
 
 }  // namespace
@@ -94,12 +94,13 @@ std::vector<Eigen::Vector3d> PathFollower::joined(const std::vector<Eigen::Vecto
   const Eigen::Vector3d across = velocity - std::max(0.0, velocity.dot(direction)) * direction;
   if (off_m <= kOnPath_m && across.norm() <= 2.0 * kKink_m_s) return out;
 
-  if (velocity.norm() <= 2.0 * kKink_m_s) {  // Slow: straight to a point as far ahead as it is off.
+  if (velocity.norm() <= 2.0 * kKink_m_s) {  // Slow: fly straight to a point as far ahead as the distance off the path.
     out = rest(std::min(near_m + off_m, along.back()));
     out.insert(out.begin(), here);
     return out;
   }
-  // Fast in another direction: on along the velocity, as far as turning (or stopping) takes, then over to the path.
+  // Fast in another direction: continue along the velocity for as long as turning (or stopping) takes, then join the
+  // path.
   const double speed = velocity.norm();
   const Eigen::Vector3d heading = velocity / speed;
   const Eigen::Vector3d target = pointOn(points, along, std::min(near_m + std::max(off_m, 0.3), along.back()));
@@ -198,8 +199,8 @@ double PathFollower::allowedSpeed(double dt_s) const {
   const std::size_t segment = segmentAt(carrot_m_);
   const double to_next_m = distances_m_[segment + 1] - carrot_m_;
   const double next = speeds_m_s_[segment + 1];
-  // v^2 = next^2 + 2 a (way left after this step): solved for the speed at the end of the step, so that braking needs
-  // no more than a to the very end.
+  // v^2 = next^2 + 2 a (distance left after this step), solved for the speed at the end of the step, so that braking
+  // never needs more than a.
   const double a = limits_.acceleration_m_s2, half = 0.5 * a * dt_s;
   const double left2 = next * next + 2.0 * a * std::max(0.0, to_next_m) - a * dt_s * carrot_speed_m_s_;
   speed = std::min(speed, std::max(0.0, std::sqrt(std::max(0.0, half * half + left2)) - half));
@@ -217,8 +218,8 @@ double PathFollower::allowedSpeed(double dt_s) const {
 
 void PathFollower::pullReference(const Carrot& carrot, double dt_s) {
   const double w = config_.filter_rad_s;
-  // x'' = c'' + 2 w (c' - x') + w^2 (c - x): critically damped, without lag behind a carrot on a straight line. Exact
-  // for the error, which decays as (e0 + (e0' + w e0) t) exp(-w t).
+  // x'' = c'' + 2 w (c' - x') + w^2 (c - x): critically damped, with no lag behind a carrot on a straight line. The
+  // error decays exactly as (e0 + (e0' + w e0) t) exp(-w t).
   const Eigen::Vector3d carrot_before =
       carrot.position_odom_m - carrot.velocity_odom_m_s * dt_s + 0.5 * dt_s * dt_s * carrot.acceleration_odom_m_s2;
   const Eigen::Vector3d velocity_before = carrot.velocity_odom_m_s - carrot.acceleration_odom_m_s2 * dt_s;
@@ -247,7 +248,7 @@ void PathFollower::advanceYaw(double dt_s) {
   const double most_rad_s = config_.yaw_rate_deg_s * common::kRadPerDeg;
   const double step = config_.yaw_acceleration_deg_s2 * common::kRadPerDeg * dt_s;
   const double stoppable = std::sqrt(2.0 * config_.yaw_acceleration_deg_s2 * common::kRadPerDeg * std::abs(error));
-  // The last step lands on the goal instead of hunting about it.
+  // The last step ends on the goal, so that the carrot does not oscillate about it.
   const double rate = std::min({most_rad_s, stoppable, std::abs(error) / dt_s});
   reference_.yaw_rate_rad_s = std::clamp(std::copysign(rate, error), reference_.yaw_rate_rad_s - 1.2 * step,
                                          reference_.yaw_rate_rad_s + 1.2 * step);

@@ -1,8 +1,9 @@
 // From a path to a smooth reference (Tomic 2012, "Action": straight lines between waypoints, flown in modes, run
-// through a filter of the vehicle's translational dynamics). A carrot runs along the lines under a trapezoid of speed;
-// the reference is pulled after it by a critically damped filter fed with the carrot's own speed and acceleration, so
-// that it lies on the carrot on a straight line and rounds the corners. Whatever is changed in flight (path, limit,
-// frame) moves the carrot alone: the reference stays continuous in position and velocity.
+// "Action": straight lines between waypoints, flown in modes, filtered by the vehicle's translational dynamics). A
+// carrot moves along the lines with a trapezoid of speed. A critically damped filter, fed with the carrot's own speed
+// and acceleration, pulls the reference after it: the reference lies on the carrot on a straight line and rounds the
+// corners. A change in flight (path, limit, frame) moves the carrot alone: the reference stays continuous in position
+// and velocity.
 #pragma once
 
 #include <optional>
@@ -49,41 +50,41 @@ class PathFollower {
 
   explicit PathFollower(const Config& config);
 
-  /// Places the reference at rest; forgets the path.
+  /// Places the reference at rest and forgets the path.
   void reset(const Eigen::Vector3d& position_odom_m, double yaw_odom_rad);
 
-  /// Replaces the path. The points are in odom, the goal is the last one; an empty path stops. Where the reference is
-  /// off the first line it joins the nearest point of the first lines. `goal_yaw_odom_rad` is turned to near the goal.
+  /// Replaces the path. The points are in odom, the last one is the goal; an empty path stops. If the reference is off
+  /// the first line, it joins the nearest point of the first lines. Near the goal it turns to `goal_yaw_odom_rad`.
   void setPath(std::vector<Eigen::Vector3d> points_odom_m, common::FlightMode mode,
                std::optional<double> goal_yaw_odom_rad = std::nullopt);
-  /// Leaves the path and flies at that velocity until told otherwise, turned to that yaw. From now to then the velocity
-  /// changes along a straight line by `acceleration_m_s2`: it may turn back at once.
+  /// Leaves the path and flies at that velocity and yaw until the next command. The velocity changes along a straight
+  /// line by `acceleration_m_s2`, so it may reverse at once.
   void setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double acceleration_m_s2, double yaw_odom_rad);
-  /// Stops as fast as the mode's limits allow and holds there, turned to that yaw when one is given.
+  /// Stops as fast as the mode's limits allow and holds there, at that yaw if one is given.
   void stop(std::optional<double> yaw_odom_rad = std::nullopt);
-  /// From the reactive layer; 0 halts on the path, infinity lifts the limit. Holds until changed.
+  /// Speed limit of the reactive layer: 0 halts on the path, infinity lifts the limit. It holds until it is changed.
   void setSpeedLimit(double speed_m_s);
-  /// odom was re-expressed: the path (or the velocity) moves by T_new_old, the reference does not.
+  /// The odom frame was re-expressed: the path (or the velocity) moves by T_new_old, the reference does not move.
   void movePath(const common::Pose2& T_new_old);
 
-  /// Advances by dt and returns the reference there.
+  /// Advances by dt and returns the reference at that time.
   const Reference& advance(double dt_s);
   const Reference& reference() const { return reference_; }
 
-  /// The last path is still what is followed: no stop, no velocity and no reset has come in between.
+  /// The last path is still being followed: no stop, velocity or reset has replaced it.
   bool followsPath() const { return follows_path_; }
   double remaining_m() const;
-  /// The carrot is at the goal and the reference rests there (1 mm, 1 mm/s).
+  /// The carrot is at the goal and the reference rests there (within 1 mm and 1 mm/s).
   bool finished() const;
 
  private:
-  /// What the reference is pulled after.
+  /// The point that the reference is pulled after.
   struct Carrot {
     Eigen::Vector3d position_odom_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
     Eigen::Vector3d acceleration_odom_m_s2 = Eigen::Vector3d::Zero();
   };
-  /// Instead of a path.
+  /// The velocity that is flown instead of a path.
   struct VelocityTarget {
     Eigen::Vector3d velocity_odom_m_s;
     double acceleration_m_s2;
@@ -91,7 +92,7 @@ class PathFollower {
   };
 
   void lay(std::vector<Eigen::Vector3d> points);
-  /// The path from where the reference is and as it moves; `turns`: its first corner is a turn at speed.
+  /// The path from where the reference is and as it moves. `turns`: its first corner is a turn at speed.
   std::vector<Eigen::Vector3d> joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const;
   Carrot advanceAlongPath(double dt_s);
   static Carrot advanceToVelocity(VelocityTarget& target, double dt_s);
@@ -104,12 +105,12 @@ class PathFollower {
   Limits limits_;
   double speed_limit_m_s_;
   std::vector<Eigen::Vector3d> points_;
-  std::vector<double> distances_m_;  ///< Along the path, per point.
-  std::vector<double> speeds_m_s_;   ///< Greatest at each point, so that all later ones can be met.
+  std::vector<double> distances_m_;  ///< Distance of each point along the path.
+  std::vector<double> speeds_m_s_;   ///< Greatest speed at each point at which all later ones can still be met.
   std::optional<double> goal_yaw_odom_rad_;
   double carrot_m_ = 0.0;
   double carrot_speed_m_s_ = 0.0;
-  bool follows_path_ = false;  ///< What was laid is a path, not the way to a stop.
+  bool follows_path_ = false;  ///< The lines are a path that was set, not the braking distance of a stop.
   std::optional<VelocityTarget> velocity_target_;
   double hold_yaw_odom_rad_ = 0.0;
   bool faces_travel_ = false;

@@ -64,7 +64,7 @@ Points simplified(const Points& points, double tolerance_m) {
   Points out;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (keep[i] && (out.empty() || (points[i] - out.back()).norm() > kSame_m)) out.push_back(points[i]);
-  // The goal is the goal to the last digit.
+  // The last point is exactly the goal.
   out.back() = points.back();
   return out;
 }
@@ -142,7 +142,7 @@ std::vector<double> speedsAlong(const Points& points, const SpeedLimits& limits)
       const Eigen::Vector3d before = points[i] - points[i - 1];
       const double turn_rad = turnBetween(before, after);
       const double curvature_1_m = turn_rad / (0.5 * (before.norm() + length_m));
-      // A curve of many points is felt as its curvature; a lone corner as the kick that it gives.
+      // A curve of many points is limited by its curvature, a lone corner by its change of velocity.
       if (turn_rad > 1e-3) {
         const double kink = limits.kink_m_s / (2.0 * std::sin(0.5 * turn_rad));
         const double curve = std::sqrt(limits.acceleration_m_s2 / curvature_1_m);

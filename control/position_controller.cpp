@@ -21,7 +21,7 @@ Eigen::Vector2d limited(const Eigen::Vector2d& v, double most) {
   return norm > most ? Eigen::Vector2d(v * (most / norm)) : v;
 }
 
-/// Horizontal acceleration that the present tilt makes at hover thrust.
+/// Horizontal acceleration of the present tilt at hover thrust.
 Eigen::Vector2d accelerationOfTilt(const Eigen::Quaterniond& rotation) {
   const Eigen::Vector3d up = rotation * Eigen::Vector3d::UnitZ();
   return kGravity_m_s2 * up.head<2>() / std::max(0.5, up.z());
@@ -95,8 +95,8 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
                                -config_.max_climb_m_s, config_.max_climb_m_s);
   if (horizontal == Horizontal::kLevel) return missing_m_s;
 
-  // Where state and reference will be when the command has become a tilt. The integral is the part of the tilt that
-  // wind and a wrong horizon eat up: it does not accelerate.
+  // State and reference are predicted to the time when the command has become a tilt. The integral is the part of the
+  // tilt that wind and a wrong horizon take up: it does not accelerate.
   const Eigen::Vector2d acceleration_m_s2 = accelerationOfTilt(state.T_odom_body.rotation) - integral_m_s2_.head<2>();
   if (horizontal == Horizontal::kVelocity) {
     missing_m_s.head<2>() = -state.velocity_odom_m_s.head<2>() - lead_s * acceleration_m_s2;
@@ -119,7 +119,7 @@ void PositionController::integrate(const Eigen::Vector3d& missing_m_s, const Eig
   const Eigen::Vector3d gain_1_s2(config_.horizontal_i_1_s2, config_.horizontal_i_1_s2, config_.vertical_i_1_s2);
   for (int axis = 0; axis < 3; ++axis) {
     const double refused_m_s2 = wanted_m_s2[axis] - given_m_s2[axis];
-    // What the vehicle cannot give must not be asked for ever louder.
+    // The integral must not grow when the vehicle cannot give more.
     if (refused_m_s2 * missing_m_s[axis] > 1e-9) continue;
     integral_m_s2_[axis] = std::clamp(integral_m_s2_[axis] + dt_s * gain_1_s2[axis] * missing_m_s[axis],
                                       -config_.max_integral_m_s2, config_.max_integral_m_s2);

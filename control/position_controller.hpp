@@ -16,8 +16,8 @@
 
 namespace swiftlet::control {
 
-/// At 100 Hz. One thread; keeps the integral between ticks. NaN in the state never leaves it as NaN: the setpoint is
-/// then level at hover thrust.
+/// Call at 100 Hz from one thread; it keeps the integral between ticks. A NaN in the state never reaches the setpoint,
+/// which is then level at hover thrust.
 class PositionController {
  public:
   struct Config {
@@ -43,8 +43,8 @@ class PositionController {
 
   enum class Horizontal {
     kPosition,  ///< Hold the reference.
-    kVelocity,  ///< Position unknown: only damp the velocity.
-    kLevel,     ///< Neither known: the trim learned so far.
+    kVelocity,  ///< The position is unknown: only damp the velocity.
+    kLevel,     ///< Neither is known: keep the trim learned so far.
   };
 
   PositionController(const Config& config, const common::VehicleConfig& vehicle);
@@ -52,7 +52,7 @@ class PositionController {
   /// Forgets the integrals; the learned hover command stays.
   void reset();
 
-  /// `on_ground`: integrals rest and the tilt stays zero.
+  /// While `on_ground` the integrals do not change and the tilt stays zero.
   common::Setpoint tick(common::Time now, double dt_s, const common::VehicleState& state, const Reference& reference,
                         double battery_v, Horizontal horizontal = Horizontal::kPosition, bool on_ground = false);
 
@@ -60,7 +60,7 @@ class PositionController {
   const ThrustModel& thrust() const { return thrust_; }
 
  private:
-  /// Velocity still missing, horizontally and vertically: what P, I and the lead act on.
+  /// The missing velocity, horizontal and vertical, that P, I and the lead act on.
   Eigen::Vector3d missingVelocity(const common::VehicleState& state, const Reference& reference,
                                   Horizontal horizontal) const;
   void integrate(const Eigen::Vector3d& missing_m_s, const Eigen::Vector3d& wanted_m_s2,

@@ -27,15 +27,15 @@ class ThrustModel {
 
   ThrustModel(const Config& config, const common::VehicleConfig& vehicle);
 
-  /// A voltage that is not finite or not positive is left out.
+  /// Ignores a voltage that is not finite or not positive.
   void observeVoltage(double voltage_v, double dt_s);
-  /// Learns from the integral part: `correction_m_s2` is the constant acceleration the controller had to add.
-  /// Returns how much of it (m/s^2) has now moved into the model, to be taken off the integral.
+  /// Learns from the integral part: `correction_m_s2` is the constant acceleration that the controller had to add.
+  /// Returns how much of it (m/s^2) has moved into the model; the controller subtracts that from its integral.
   double learn(double correction_m_s2, double dt_s);
 
-  /// The command that lifts the weight and adds `acceleration_up_m_s2`, tilted by the given angle; clamped.
+  /// The command that carries the weight and adds `acceleration_up_m_s2` at the given tilt, clamped to the valid range.
   double commandFor(double acceleration_up_m_s2, double cos_tilt) const;
-  /// C(U) now.
+  /// The present C(U).
   double hoverCommand() const;
   double correction() const { return correction_; }
 

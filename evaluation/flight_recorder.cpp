@@ -21,7 +21,7 @@ using common::Time;
 
 constexpr Duration kHistory = Duration::fromMilliseconds(1000);
 constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(50);
-/// A goal this near to home is home.
+/// A goal this near to home counts as home.
 constexpr double kSamePlace_m = 1e-3;
 
 Pose3 interpolated(const simulation::Truth& before, const simulation::Truth& after, Time stamp) {
@@ -63,7 +63,7 @@ void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleS
   }
 }
 
-/// The truth of a time in the history; none before it and after it.
+/// The truth at a time within the history; none before or after it.
 std::optional<Pose3> FlightRecorder::truthAt(Time stamp) const {
   const auto after = std::lower_bound(history_.begin(), history_.end(), stamp,
                                       [](const simulation::Truth& truth, Time t) { return truth.stamp < t; });

@@ -47,8 +47,8 @@ void scoreCollision(const simulation::Truth& truth, FlightScore& score) {
   score.avoidable_collisions = truth.by_walker && truth.yielding ? 0 : 1;
 }
 
-/// The flood was stopped by its bound and not by walls: what could be covered has no end. Asked before the free space
-/// is worked out, which would take minutes in the open.
+/// The flood was stopped by its bound and not by walls, so the coverable area has no end. This is checked before the
+/// free space is computed, which would take minutes in the open.
 bool isOpen(const simulation::RayCaster& rays, const simulation::FreeSpaceQuery& query) {
   std::size_t cells = 0;
   simulation::reachableSpace(rays, query).forEachCell([&](common::CellIndex, std::uint8_t cell) { cells += cell; });

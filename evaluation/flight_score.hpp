@@ -16,8 +16,8 @@
 
 namespace swiftlet::evaluation {
 
-/// What a flight, and all flights of a trial together, must reach to pass. What is left at its default is not asked
-/// for, but for the first two.
+/// What a flight, and all flights of a trial together, must reach to pass. Criteria at their default are not checked,
+/// except the first two.
 struct Criteria {
   static constexpr double kAny = std::numeric_limits<double>::infinity();
 
@@ -44,18 +44,18 @@ struct Criteria {
   void describe(common::config::Fields& fields);
 };
 
-/// How a flight found itself in the map it was given.
+/// How a flight localized in the map it was given.
 struct LocalizationScore {
-  std::optional<double> path_length_m;  ///< Flown until it first said where it is, and how far off that was.
+  std::optional<double> path_length_m;  ///< Path flown until it first reported a pose.
   std::optional<double> error_m;
   std::optional<double> error_rad;
-  bool in_time = false;      ///< It was right, and within Criteria::localized_within_m.
-  double time_share = 0.0;   ///< Of the flight, localized,
-  double wrong_share = 0.0;  ///< and of that, wrongly.
+  bool in_time = false;      ///< The first pose was right, and came within Criteria::localized_within_m.
+  double time_share = 0.0;   ///< Share of the flight in which it was localized.
+  double wrong_share = 0.0;  ///< Share of the localized time in which the pose was wrong.
   int times_lost = 0;
 };
 
-/// An optional figure is none where it could not be measured: no goal was reached, nothing flew.
+/// An optional figure is none if it could not be measured, for example if no goal was reached.
 struct FlightScore {
   std::int64_t seed = 0;
   std::string vehicle;  ///< Its name among several that flew together; empty: it flew alone.
@@ -63,63 +63,67 @@ struct FlightScore {
   std::string outcome;  ///< "done", or why not.
   bool mission_done = false;
 
-  std::optional<double> coverage;      ///< Of the free space the hull can cover, at the mission's clearance.
-  std::string coverage_problem;        ///< Why there is none: the world is not closed.
-  std::optional<double> goal_error_m;  ///< The worst of the mission's goals.
+  std::optional<double> coverage;      ///< Share of the free space that the hull can cover, at the mission's clearance.
+  std::string coverage_problem;        ///< Why there is no coverage: the world is not closed.
+  std::optional<double> goal_error_m;  ///< The worst error of the mission's goals.
   std::optional<double> home_error_m;
-  std::vector<MarkerVisit> visits;               ///< Every goal reached; the worst of the flight's follow.
-  std::optional<double> marker_error_m;          ///< Of the estimate, at a goal.
-  std::optional<double> relocalization_error_m;  ///< Between visits of the same goal.
-  std::optional<double> open_loop_error_m;       ///< Of the odometry, from one visit to the next of the same goal.
-  std::optional<double> estimate_rms_m;          ///< Horizontal, against the truth in the true map frame: no alignment.
+  std::vector<MarkerVisit> visits;               ///< Every goal that was reached.
+  std::optional<double> marker_error_m;          ///< Worst error of the estimate at a goal.
+  std::optional<double> relocalization_error_m;  ///< Worst difference between visits of the same goal.
+  /// Worst error of the odometry from one visit to the next of the same goal.
+  std::optional<double> open_loop_error_m;
+  std::optional<double> estimate_rms_m;  ///< Horizontal, against the truth in the true map frame, without alignment.
   std::optional<double> estimate_spatial_rms_m;
   std::optional<double> estimate_yaw_rms_rad;
   std::optional<double> map_wall_error_median_m;
   std::optional<double> map_wall_error_p95_m;
-  std::optional<LocalizationScore> localization;  ///< None: the flight was given no map.
+  std::optional<LocalizationScore> localization;  ///< None if the flight was given no map.
 
   int collisions = 0;
-  int avoidable_collisions = 0;  ///< Not those where a walker ran into a vehicle that stood still or made way.
-  std::string collision;         ///< What was touched; empty when nothing was.
-  double min_clearance_m = 0.0;  ///< From the hull, while airborne; capped by the simulator.
+  /// All collisions except those where a walker ran into a vehicle that stood still or moved away.
+  int avoidable_collisions = 0;
+  std::string collision;         ///< What was touched; empty if nothing was.
+  double min_clearance_m = 0.0;  ///< Least distance from the hull while airborne; capped by the simulator.
   double min_walker_clearance_m = 0.0;
 
   double mission_time_s = 0.0;
-  double flight_time_s = 0.0;              ///< Simulated.
-  double distance_m = 0.0;                 ///< True.
-  double speed_max_m_s = 0.0;              ///< True, horizontal.
-  std::optional<double> explored_area_m2;  ///< None: the mission did not explore.
-  double reachable_area_m2 = 0.0;          ///< That the hull can cover; `coverage` is a share of it.
+  double flight_time_s = 0.0;              ///< Simulated time.
+  double distance_m = 0.0;                 ///< True distance.
+  double speed_max_m_s = 0.0;              ///< True horizontal speed.
+  std::optional<double> explored_area_m2;  ///< None if the mission did not explore.
+  double reachable_area_m2 = 0.0;          ///< Area that the hull can cover; `coverage` is a share of it.
   int interruptions = 0;
   int resumed = 0;
   double realtime_factor = 0.0;
 
-  std::vector<std::string> failures;  ///< Every criterion that was missed, with figure and bound; empty: passed.
+  /// Every criterion that was missed, with figure and bound; empty if the flight passed.
+  std::vector<std::string> failures;
   bool passed() const { return failures.empty(); }
 };
 
-/// Where a trial says nothing else.
+/// Clearance and bound of the reachable area for trials that give none.
 inline constexpr double kClearance_m = 0.10;
 inline constexpr double kReachableAreaMax_m2 = 2000.0;
 
-/// What the scorer needs to know of the world as it was for this flight, after the seed's variation.
+/// The world of this flight, after the seed's variation, as the scorer needs it.
 struct TrueWorld {
   const simulation::RayCaster* rays = nullptr;
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
-  double clearance_m = kClearance_m;  ///< The mission's: where hull and clearance do not fit, nobody expects it to go.
-  double reachable_area_max_m2 = kReachableAreaMax_m2;  ///< A world where it gets to more than this is taken for open.
+  double clearance_m = kClearance_m;  ///< Clearance of the mission. Places where the hull does not fit with it are not
+                                      ///< expected to be reached.
+  double reachable_area_max_m2 = kReachableAreaMax_m2;  ///< A world with a larger reachable area counts as open.
 };
 
-/// `wall_time_s` is how long the machine took; 0: not known.
+/// `wall_time_s` is the computing time; 0 if not known.
 FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
                     double wall_time_s);
 
-/// The measured figures by the names of results.json, for the report of the flight; coverage has a place of its own
+/// The measured figures by their names in results.json, for the report of the flight; coverage is stored separately
 /// there.
 std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score);
 
-/// The criteria of one flight that it misses; those over all flights are TrialResult::missed().
+/// The criteria of one flight that it misses; for those over all flights see TrialResult::missed().
 std::vector<std::string> missed(const FlightScore& score, const Criteria& criteria);
 
 }  // namespace swiftlet::evaluation

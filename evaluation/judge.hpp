@@ -1,4 +1,4 @@
-// Holds figures against what was asked for, and says each miss in words.
+// Compares figures with their bounds and describes each miss in words.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@ namespace swiftlet::evaluation {
 
 class Judge {
  public:
-  /// An infinite bound asks for nothing; otherwise a value that is missing or not a number is a miss.
+  /// An infinite bound checks nothing; otherwise a value that is missing or not a number is a miss.
   void atMost(const char* name, const std::optional<double>& value, double bound);
-  /// A bound of 0 or less asks for nothing. `missing` says why there is no value.
+  /// A bound of 0 or less checks nothing. `missing` says why there is no value.
   void atLeast(const char* name, const std::optional<double>& value, double bound, const std::string& missing = {});
   void fail(std::string text) { failures.push_back(std::move(text)); }
 

@@ -1,4 +1,4 @@
-// How well a map shows the true building.
+// How well a map agrees with the true building.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace swiftlet::evaluation {
 
-/// The share of the free space a vehicle can cover that the map knows, in [0, 1]; 1 when there is no such space.
-/// `T_world_map` places the map in the world. Cells the map takes for occupied count as known: that they should be free
-/// is an error of the map, which `wallError` measures, and not of the exploration.
+/// The share of the free space a vehicle can cover that the map knows, in [0, 1]; 1 if there is no such space.
+/// `T_world_map` places the map in the world. Cells that the map calls occupied count as known: if they are free, this
+/// is an error of the map, measured by `wallError`, and not of the exploration.
 double coverage(const common::OccupancyGrid& map, const common::Pose2& T_world_map,
                 const simulation::FreeSpace& free_space);
 
@@ -26,7 +26,7 @@ struct WallError {
   static constexpr double kLimit_m = 1.0;
 };
 
-/// None when the map has no occupied cell.
+/// None if the map has no occupied cell.
 std::optional<WallError> wallError(const common::OccupancyGrid& map, const common::Pose2& T_world_map,
                                    const simulation::RayCaster& rays, double height_world_m);
 

@@ -7,15 +7,15 @@ namespace {
 
 using common::Pose2;
 
-/// Home moves by millimetres when the map is corrected; it is the same place all the same.
+/// Home moves by millimetres when the map is corrected; it still counts as the same place.
 constexpr double kSameMarker_m = 0.02;
 
 bool sameMarker(const Eigen::Vector2d& a_map_m, const Eigen::Vector2d& b_map_m) {
   return (a_map_m - b_map_m).norm() < kSameMarker_m;
 }
 
-/// The last visit before `visit` of the same marker; at the origin of `map` at least the take-off, where `map`, `odom`
-/// and the vehicle were one.
+/// The last visit of the same marker before `visit`. At the origin of `map` it is at least the take-off, where `map`,
+/// `odom` and the vehicle coincided.
 std::optional<ComparedEstimate> visitBefore(const std::vector<ReachedGoal>& goals, std::size_t visit) {
   const Eigen::Vector2d marker_map_m = goals[visit].goal_map_m;
   for (std::size_t i = visit; i-- > 0;)

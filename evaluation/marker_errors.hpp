@@ -1,5 +1,5 @@
-// How well a vehicle that flies round and round knows where it is: the three errors of Grzonka et al. 2012, section
-// V-B, at the goals of a mission, there markers on the floor.
+// How well a vehicle that flies several rounds knows its place: the three errors of Grzonka et al. 2012, section V-B,
+// at the goals of a mission, which are markers on the floor in the paper.
 #pragma once
 
 #include <optional>
@@ -12,24 +12,25 @@
 
 namespace swiftlet::evaluation {
 
-/// A marker that was reached. Errors are horizontal, the estimate less the truth, with the axes of the true `map`.
+/// A marker that was reached. Errors are horizontal: the estimate minus the truth, along the axes of the true `map`.
 struct MarkerVisit {
   common::Time stamp;
-  Eigen::Vector2d marker_map_m = Eigen::Vector2d::Zero();  ///< As the mission has it.
-  /// Of T_map_body, nothing aligned: the paper's absolute error.
+  Eigen::Vector2d marker_map_m = Eigen::Vector2d::Zero();  ///< The marker's place in the mission.
+  /// Error of T_map_body without alignment: the paper's absolute error.
   Eigen::Vector2d estimate_error_m = Eigen::Vector2d::Zero();
-  /// Of T_odom_body, put on the truth at the visit before of the same marker, at take-off where the marker is there:
-  /// what one loop adds where nothing is matched to the map, nor a graph optimized. None on the first visit elsewhere.
+  /// Error of T_odom_body when it is placed on the truth at the visit before of the same marker, or at take-off if the
+  /// marker is there. This is what one loop adds if nothing is matched to the map and no graph is optimized. None on
+  /// the first visit elsewhere.
   std::optional<Eigen::Vector2d> open_loop_error_m;
 };
 
-/// The goals that were reached, home with them, in the order of time.
+/// The goals that were reached, home included, in the order of time.
 std::vector<MarkerVisit> markerVisits(const std::vector<ReachedGoal>& goals);
 
-// The worst of a flight, as distances; none where there was nothing to measure.
+// The worst errors of a flight, as distances; none if there was nothing to measure.
 
 std::optional<double> markerError_m(const std::vector<MarkerVisit>& visits);
-/// Between any two visits of the same marker: how far apart the same place was estimated.
+/// Distance between the estimates of the same place at any two visits of a marker.
 std::optional<double> relocalizationError_m(const std::vector<MarkerVisit>& visits);
 std::optional<double> openLoopError_m(const std::vector<MarkerVisit>& visits);
 

@@ -11,7 +11,7 @@ using common::StampedPose;
 
 constexpr Duration kSameStamp = Duration::fromNanoseconds(500);
 
-/// Null when there is none.
+/// Null if there is none.
 const Pose3* poseAt(const common::Trajectory& trajectory, common::Time stamp) {
   const auto distance = [&](const StampedPose& pose) { return std::max(pose.stamp - stamp, stamp - pose.stamp); };
   auto nearest = std::lower_bound(trajectory.begin(), trajectory.end(), stamp,

@@ -27,7 +27,7 @@ std::size_t nearest(const common::Trajectory& trajectory, common::Time stamp) {
   return stamp - trajectory[index - 1].stamp <= trajectory[index].stamp - stamp ? index - 1 : index;
 }
 
-/// Below this the points tell no direction.
+/// Points closer together than this give no direction.
 constexpr double kLeastSpread_m2 = 1e-12;
 
 struct Means {
@@ -46,7 +46,7 @@ Means meansOf(const std::vector<PosePair>& pairs) {
   return means;
 }
 
-/// The transform with this rotation that brings mean to mean.
+/// The transform with this rotation that maps mean to mean.
 Pose3 about(const Means& means, const Eigen::Quaterniond& rotation) {
   return {rotation, means.truth - rotation * means.estimate};
 }
@@ -71,7 +71,7 @@ std::optional<Pose3> alignSpatial(const std::vector<PosePair>& pairs) {
     covariance += (pair.truth.position_m - means.truth) * (pair.estimate.position_m - means.estimate).transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   if (svd.singularValues()[1] < kLeastSpread_m2) return std::nullopt;
-  // A reflection would fit better, but is none that a vehicle could have made.
+  // A reflection would fit better, but no vehicle can move so.
   const double sign = svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1.0 : 1.0;
   const Eigen::Matrix3d rotation =
       svd.matrixU() * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
@@ -80,7 +80,7 @@ std::optional<Pose3> alignSpatial(const std::vector<PosePair>& pairs) {
 
 double angleOf(const Eigen::Quaterniond& rotation) { return common::logSO3(rotation).norm(); }
 
-/// How far along the stretches' unit each pair is.
+/// Position of each pair along the chosen unit of stretches.
 std::vector<double> measure(const std::vector<PosePair>& pairs, Stretch::Unit unit) {
   std::vector<double> at(pairs.size(), 0.0);
   for (std::size_t i = 1; i < pairs.size(); ++i) {
@@ -104,18 +104,17 @@ std::vector<double> measure(const std::vector<PosePair>& pairs, Stretch::Unit un
 std::vector<PosePair> associate(const common::Trajectory& estimate, const common::Trajectory& truth,
                                 Duration max_difference) {
   if (truth.empty()) return {};
-  constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> taken_by(truth.size(), kNobody);
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> taken_by(truth.size(), kNone);
   const auto difference = [&](std::size_t e, std::size_t t) { return magnitude(estimate[e].stamp - truth[t].stamp); };
   for (std::size_t e = 0; e < estimate.size(); ++e) {
     const std::size_t t = nearest(truth, estimate[e].stamp);
     if (difference(e, t) > max_difference) continue;
-    if (taken_by[t] == kNobody || difference(e, t) < difference(taken_by[t], t)) taken_by[t] = e;
+    if (taken_by[t] == kNone || difference(e, t) < difference(taken_by[t], t)) taken_by[t] = e;
   }
   std::vector<PosePair> pairs;
   for (std::size_t t = 0; t < truth.size(); ++t)
-    if (taken_by[t] != kNobody)
-      pairs.push_back({estimate[taken_by[t]].stamp, estimate[taken_by[t]].pose, truth[t].pose});
+    if (taken_by[t] != kNone) pairs.push_back({estimate[taken_by[t]].stamp, estimate[taken_by[t]].pose, truth[t].pose});
   return pairs;
 }
 

@@ -14,13 +14,13 @@ namespace swiftlet::evaluation {
 
 /// An estimated and a true pose of the same time.
 struct PosePair {
-  common::Time stamp;  ///< Of the estimate.
+  common::Time stamp;  ///< Stamp of the estimate.
   common::Pose3 estimate;
   common::Pose3 truth;
 };
 
-/// Each estimate with the true pose nearest in time, if it is within `max_difference`; of two estimates that want one
-/// true pose, the nearer gets it. Both trajectories are ordered by time.
+/// Pairs each estimate with the true pose nearest in time, if it is within `max_difference`. If two estimates have the
+/// same nearest true pose, the nearer estimate gets it. Both trajectories are ordered by time.
 std::vector<PosePair> associate(const common::Trajectory& estimate, const common::Trajectory& truth,
                                 common::Duration max_difference = common::Duration::fromMilliseconds(10));
 
@@ -31,18 +31,18 @@ enum class Alignment {
   kSpatial,    ///< Least squares over all six degrees of freedom. No scale.
 };
 
-/// T_truth_estimate. None when there are too few pairs, or their points lie so that the rotation is not determined: on
-/// one point (planar) or on one line (spatial).
+/// T_truth_estimate. None if there are too few pairs, or if their points do not determine the rotation: all at one
+/// point (planar) or on one line (spatial).
 std::optional<common::Pose3> align(const std::vector<PosePair>& pairs, Alignment alignment);
 
-/// By what the estimate is multiplied to fit best when it is also aligned so (planar or spatial; Umeyama 1991, eq. 42):
-/// for estimates that do not know how large the world is, as those of one camera. None where `align` gives none, or
-/// where no positive scale fits: heights that are upside down can outweigh the rest of a planar alignment.
+/// The factor by which the estimate is multiplied to fit best when it is also aligned in this mode (planar or spatial;
+/// Umeyama 1991, eq. 42). It is for estimates without absolute scale, such as those of one camera. None if `align`
+/// gives none, or if no positive scale fits: heights that are upside down can outweigh the rest of a planar alignment.
 std::optional<double> bestScale(const std::vector<PosePair>& pairs, Alignment alignment);
-/// The pairs with the estimate's positions multiplied.
+/// The pairs with the positions of the estimate multiplied by `scale`.
 std::vector<PosePair> scaled(std::vector<PosePair> pairs, double scale);
 
-/// The errors of the positions after alignment, in metres; none where `align` gives none.
+/// The errors of the positions after alignment, in metres; none if `align` gives none.
 struct AbsoluteError {
   common::Pose3 T_truth_estimate;
   Statistics translation_m;
@@ -50,15 +50,15 @@ struct AbsoluteError {
 };
 std::optional<AbsoluteError> absoluteTrajectoryError(const std::vector<PosePair>& pairs, Alignment alignment);
 
-/// Over which stretch a relative error is taken: from each pose to the first one at least this far on, but for what
-/// rounding may take away.
+/// The stretch over which a relative error is taken: from each pose to the first one at least this far on, within
+/// rounding.
 struct Stretch {
   enum class Unit { kFrames, kSeconds, kMetres };  ///< Metres along the true path.
   Unit unit = Unit::kFrames;
   double length = 1.0;
 };
 
-/// The drift over stretches, from every pose that has one; independent of any alignment.
+/// The drift over stretches, from every pose that starts one; independent of any alignment.
 struct RelativeError {
   Statistics translation_m;
   Statistics rotation_rad;

@@ -21,7 +21,7 @@ using common::Problem;
 
 bool isTrialFile(const fs::path& path) { return path.extension() == ".yaml" || path.extension() == ".yml"; }
 
-/// No control characters; and no longer than a folder's name may be.
+/// A name without control characters, and no longer than the name of a folder may be.
 bool canBeSeen(const std::string& name) {
   return name.size() <= 100 &&
          std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 127; });

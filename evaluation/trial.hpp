@@ -12,7 +12,7 @@
 
 namespace swiftlet::evaluation {
 
-/// A figure of the paper that the trial flies again.
+/// A figure of the paper whose experiment the trial repeats.
 struct PaperFigure {
   std::string figure;
   double value = 0.0;
@@ -21,7 +21,7 @@ struct PaperFigure {
   std::vector<std::string> validate() const;
 };
 
-/// The map that the flights are given: a file, or one that a robot on wheels makes beforehand.
+/// The map that the flights are given: a file, or one that a robot on wheels makes first.
 struct TrialMap {
   std::string file;
   double x_m = 0.0;
@@ -54,8 +54,8 @@ struct TrialConfig {
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
 
-  /// Makes `world` and `model_paths` of the scenario paths below `unpacked`, the archive's content, where there is such
-  /// a file, and below `root`, where the software is, otherwise.
+  /// Makes `world` and `model_paths` of the scenario absolute: below `unpacked`, the content of the archive, if there
+  /// is such a file, otherwise below `root`, the installed or source tree.
   void resolvePaths(const std::filesystem::path& unpacked, const std::filesystem::path& root);
 };
 
@@ -66,8 +66,8 @@ TrialConfig readTrial(const std::filesystem::path& file);
 /// the problems of all files.
 std::vector<TrialConfig> readTrials(const std::filesystem::path& file_or_folder);
 
-/// The folder of data sets: the environment's SWIFTLET_DATASETS if it is set, ../shared/datasets beside `root`, where
-/// the software is, otherwise. It need not exist.
+/// The folder of data sets: the environment's SWIFTLET_DATASETS if it is set, otherwise ../shared/datasets beside
+/// `root`. It need not exist.
 std::filesystem::path dataSetsFolder(const std::filesystem::path& root);
 
 /// An archive below the folder of data sets. Throws common::InputError that says how to get it.

@@ -1,4 +1,4 @@
-// results.json.
+// Writes results.json.
 #include <cmath>
 #include <optional>
 

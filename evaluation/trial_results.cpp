@@ -9,7 +9,7 @@
 namespace swiftlet::evaluation {
 namespace {
 
-/// The figure of the flights that have it.
+/// The values of the flights that have the figure.
 template <typename Member>
 std::vector<double> figures(const std::vector<FlightScore>& flights, Member member) {
   std::vector<double> values;

@@ -1,4 +1,4 @@
-// The flights of trials put together: one table, one JSON file.
+// The results of all flights of trials: one table, one JSON file.
 #pragma once
 
 #include <optional>
@@ -25,10 +25,10 @@ struct TrialResult {
   int passed() const;
   /// The criteria over all flights that are missed.
   std::vector<std::string> missed() const;
-  /// Every flight passed, at least one flew, and nothing over all of them is missed.
+  /// Every flight passed, at least one flew, and no criterion over all of them is missed.
   bool met() const;
   int collisions() const;
-  /// Over the flights that have the figure; none when none has.
+  /// Statistics over the flights that have the figure; none if none has it.
   std::optional<double> coverageMin() const;
   std::optional<double> goalErrorMax_m() const;
   std::optional<double> goalErrorMedian_m() const;
@@ -38,13 +38,13 @@ struct TrialResult {
   std::optional<double> markerErrorMedian_m() const;
   std::optional<double> relocalizationErrorMax_m() const;
   std::optional<double> relocalizationErrorMedian_m() const;
-  std::optional<double> missionTimeMedian_s() const;  ///< Of the missions that ended well.
+  std::optional<double> missionTimeMedian_s() const;  ///< Median over the missions that succeeded.
   std::optional<double> estimateRmsMedian_m() const;
   std::optional<double> mapWallErrorMedian_m() const;
   std::optional<double> realtimeFactorMedian() const;
-  /// Of the flights that were given a map: the share that was localized in time and rightly.
+  /// Share of the flights with a given map that were localized in time and rightly.
   std::optional<double> localizedFlights() const;
-  std::optional<double> localizationPathLengthMedian_m() const;  ///< Of those that said where they are.
+  std::optional<double> localizationPathLengthMedian_m() const;  ///< Median over the flights that reported a pose.
   std::optional<double> localizationPathLengthMax_m() const;
   std::optional<double> wrongTimeShareMax() const;
 };
@@ -52,20 +52,20 @@ struct TrialResult {
 struct TrialResults {
   std::vector<TrialResult> trials;
 
-  /// Every trial is met, and there is at least one.
+  /// Every trial passed, and there is at least one.
   bool passed() const;
 };
 
-/// results.json; figures have at most four decimals, what could not be measured is null.
+/// results.json. Figures have at most four decimals; what could not be measured is null.
 std::string toJson(const TrialResults& results);
 
-/// One row a trial; under it one with what was asked for and one with the paper's figures, where there are some.
+/// One row for each trial. Under it is a row with the criteria and one with the paper's figures, if there are any.
 common::Table summaryTable(const TrialResults& results);
 
-/// One row a flight, linked to the report in its folder.
+/// One row for each flight, linked to the report in its folder.
 common::Table flightTable(const TrialResult& trial);
 
-/// Every criterion that was missed, by trial and seed ("all": over all flights); no rows when all passed.
+/// Every criterion that was missed, by trial and seed ("all" for those over all flights); no rows if all passed.
 common::Table failureTable(const TrialResults& results);
 
 }  // namespace swiftlet::evaluation

@@ -25,15 +25,15 @@ TableCell counted(int good, int all) {
   return {fmt::format("{}/{}", good, all), good == all ? Mark::kGood : Mark::kBad};
 }
 
-/// The columns of the summary that a paper may have a figure for, by the names of results.json.
+/// The columns of the summary for which a paper may have a figure, by their names in results.json.
 struct SummaryColumn {
   const char* title;
   const char* figure;
   std::string (*show)(const std::optional<double>&);
   std::optional<double> (TrialResult::*value)() const;
-  /// Of the criterion on it, a lower one for coverage and an upper one otherwise; null: there is none.
+  /// Its criterion, a lower bound for coverage and an upper bound otherwise; null if there is none.
   double Criteria::*bound;
-  bool where_asked = false;  ///< Shown only where a trial asks for it, or its paper has a figure.
+  bool where_asked = false;  ///< Shown only if a trial has the criterion, or its paper has a figure.
 };
 
 template <int kDecimals>
@@ -77,7 +77,7 @@ const PaperFigure* paperFigure(const SummaryColumn& column, const TrialResult& t
   return found == trial.paper.end() ? nullptr : &*found;
 }
 
-/// None where nothing is asked for.
+/// None if there is no criterion.
 std::optional<double> boundOf(const SummaryColumn& column, const Criteria& criteria) {
   if (column.bound == nullptr) return std::nullopt;
   const double bound = criteria.*column.bound;
@@ -111,7 +111,7 @@ std::vector<TableCell> summaryRow(const TrialResult& trial, const std::vector<Su
   return row;
 }
 
-/// A row under a trial's own with a figure for some of the columns.
+/// A row below a trial's own with a figure for some of the columns.
 template <typename FigureOf>
 std::vector<TableCell> rowBelow(const char* title, const std::vector<SummaryColumn>& columns, FigureOf figureOf) {
   std::vector<TableCell> row = {{title}, {""}, {""}};

@@ -15,20 +15,20 @@
 namespace swiftlet::interfaces {
 
 enum class Outcome {
-  kFlying,   ///< Not over; in the files of a run that is over: the process was killed.
+  kFlying,   ///< Not over. In the files of a run that is over: the process was killed.
   kDone,     ///< The mission succeeded.
   kFailed,   ///< The mission failed; the reason says why.
   kCrashed,  ///< Something was touched.
-  kStopped,  ///< Ended from outside: by the operator, a time limit, or a disk that is full.
+  kStopped,  ///< Ended from outside: by the operator, a time limit, or a full disk.
 };
 const char* toString(Outcome outcome);
 
-/// What is known before the flight.
+/// Facts that are known before the flight.
 struct RunInfo {
-  std::string mission;       ///< Its name, for titles and folders.
+  std::string mission;       ///< Name of the mission, for titles and folders.
   std::string mission_file;  ///< As given by the user.
   std::string world;
-  std::string system;  ///< The profile.
+  std::string system;  ///< Name of the profile.
   std::int64_t seed = 0;
   std::string version;
   std::string started;         ///< Local date and time; the caller's clock.
@@ -43,30 +43,30 @@ struct Phase {
   common::Time end;
 };
 
-/// A named figure of a flight, its unit at the end of the name: goal_error_m.
+/// A named figure of a flight. The name ends in the unit: goal_error_m.
 struct Figure {
   std::string name;
   double value = 0.0;
 };
 
-/// The flight a few times a second, for plots.
+/// The state of the flight a few times a second, for plots.
 struct FlightSample {
   double time_s = 0.0;
   Eigen::Vector3d position_map_m = Eigen::Vector3d::Zero();
-  double speed_m_s = 0.0;  ///< Horizontal.
+  double speed_m_s = 0.0;  ///< Horizontal speed.
   double height_above_ground_m = 0.0;
   double battery_v = 0.0;
   double explored_area_m2 = 0.0;  ///< 0 until the first Explore.
-  double nearest_m = 0.0;         ///< From the hull to the nearest return; may be infinite.
+  double nearest_m = 0.0;         ///< Distance from the hull to the nearest return; may be infinite.
 };
 
-/// How the flight found itself in the map it was given, as it believes.
+/// How the flight localized in the map it was given, by its own estimate.
 struct LocalizationSummary {
   common::Localization last;
-  std::optional<double> found_after_s;  ///< When it first said where it is,
-  std::optional<double> found_after_m;  ///< and the way flown until then.
-  double flown_s = 0.0;                 ///< Of the flight,
-  double localized_s = 0.0;             ///< the part while it knew.
+  std::optional<double> found_after_s;  ///< Time until it first reported a pose.
+  std::optional<double> found_after_m;  ///< Path length until it first reported a pose.
+  double flown_s = 0.0;                 ///< Length of the flight.
+  double localized_s = 0.0;             ///< Part of the flight in which it was localized.
 };
 
 struct FlightSummary {
@@ -74,17 +74,17 @@ struct FlightSummary {
   Outcome outcome = Outcome::kFlying;
   std::string reason;
   common::Duration mission_time;           ///< From the first tick of the mission to its end.
-  double distance_m = 0.0;                 ///< By the estimate.
-  std::optional<double> explored_area_m2;  ///< None: the mission did not explore.
+  double distance_m = 0.0;                 ///< Path length by the estimate.
+  std::optional<double> explored_area_m2;  ///< None if the mission did not explore.
   double battery_remaining = 1.0;
-  std::optional<double> coverage;  ///< Of the reachable free space, where the truth is known; in [0, 1].
-  std::optional<LocalizationSummary> localization;  ///< None: it was given no map.
+  std::optional<double> coverage;  ///< Share of the reachable free space in [0, 1]; none if the truth is not known.
+  std::optional<LocalizationSummary> localization;  ///< None if it was given no map.
   std::vector<Phase> phases;
-  std::vector<common::Frontier> frontiers;  ///< Those that remained, each with its reason.
+  std::vector<common::Frontier> frontiers;  ///< The frontiers that remained, each with its reason.
   std::vector<Figure> figures;
   std::vector<FlightSample> samples;
-  std::optional<double> wall_time_s;      ///< How long the machine took.
-  std::optional<double> realtime_factor;  ///< Flown over wall_time_s, from start to end.
+  std::optional<double> wall_time_s;      ///< Computing time.
+  std::optional<double> realtime_factor;  ///< Flown time over wall_time_s, from start to end.
 };
 
 /// mission.json, indented. Figures have at most four decimals; those that are not finite, or not known, are null.

@@ -28,23 +28,25 @@ using common::MissionState;
 using common::Problem;
 using common::Time;
 
-constexpr Duration kMapPeriod = Duration::fromMilliseconds(3000);       ///< Of map, mission.json and report.
+/// Between two versions of map, mission.json and report.
+constexpr Duration kMapPeriod = Duration::fromMilliseconds(3000);
 constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(40);  ///< Between two poses of trajectory.tum.
 constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Between two samples for plots.
 
-/// Every file a run may leave; only these are ever removed.
+/// Every file that a run may leave; no other file is ever removed.
 constexpr std::array<const char*, 9> kFiles = {"mission.json", "events.jsonl", "trajectory.tum", "trajectory_given.tum",
                                                "map.pgm",      "map.yaml",     "map.png",        "report.html",
                                                "config.yaml"};
 
 bool isRunFile(const std::string& name) {
-  // A `.part` is what a killed process left of a file of ours.
+  // A `.part` file is left of a Swiftlet file if the process was killed.
   return std::any_of(kFiles.begin(), kFiles.end(), [&](const std::string& file) {
     return name == file || (name.starts_with(file + ".") && name.ends_with(".part"));
   });
 }
 
-/// Whether its mission.json is that of a run; a profile or a map of others may have the name of a run's file.
+/// Whether mission.json is that of a run. A profile or a map of another program may have the same name as a file of a
+/// run.
 bool holdsRun(const fs::path& folder) { return saysAtStart(folder / "mission.json", "swiftlet mission", 200); }
 
 constexpr const char* kAskForAnother = "give an empty or new folder";
@@ -53,7 +55,7 @@ InputError unusable(const fs::path& path, const std::string& message, const std:
   return InputError(Problem{{path.string()}, "", message, hint});
 }
 
-/// Makes the folder where there is none.
+/// Makes the folder if there is none.
 FolderLock claimed(const fs::path& path) {
   try {
     if (fs::exists(path) && !fs::is_directory(path))
@@ -67,7 +69,7 @@ FolderLock claimed(const fs::path& path) {
   return lock;
 }
 
-/// Without the files of an older run.
+/// Removes the files of an older run.
 const fs::path& cleared(const fs::path& path) {
   try {
     std::vector<fs::path> old;
@@ -90,7 +92,8 @@ Writer opened(tl::expected<Writer, FileError> writer) {
   return std::move(*writer);
 }
 
-/// True for the first call and then once a period; keeps to the lattice of periods, so that late calls do not add up.
+/// True for the first call and then once a period. It keeps to the lattice of periods, so that late calls do not add
+/// up.
 class Every {
  public:
   explicit Every(Duration period) : period_(period) {}
@@ -185,7 +188,7 @@ struct RunFolder::Impl {
   std::optional<std::string> failure;
 };
 
-/// The summary follows the flight: its figures, and the phases by the mission's own words for them.
+/// Updates the summary from the flight: its figures, and its phases in the mission's own words.
 void RunFolder::Impl::track(const common::World& world) {
   summary.distance_m = world.vehicle->distance_flown_m;
   if (world.map->explored_area_m2 > 0) summary.explored_area_m2 = world.map->explored_area_m2;

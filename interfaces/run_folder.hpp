@@ -1,9 +1,9 @@
-// What a run leaves: a folder that is readable at every moment of the flight, also after the process was killed.
+// The folder of a run. It is readable at every moment of the flight, also after the process was killed.
 //
 //   mission.json     outcome, times, distance, phases, frontiers with reasons, figures; "flying" until the end
 //   events.jsonl     every event as it happens
 //   trajectory.tum   the estimate in `map`
-//   trajectory_given.tum   where it was in the map it was given, if it was given one, while it knew
+//   trajectory_given.tum   the pose in the given map, if there is one, while localized
 //   map.pgm, map.yaml, map.png    replaced whole every few seconds and at the end
 //   report.html      the same in one page
 //   config.yaml      the settings in force
@@ -26,8 +26,8 @@ struct World;
 
 namespace swiftlet::interfaces {
 
-/// Makes a folder of its own below `parent`: STARTED-MISSION, with a number where that is taken, also by a flight that
-/// starts at the same moment. Characters that are no good in file names become `-`. Throws common::InputError.
+/// Makes a new folder below `parent`: STARTED-MISSION, with a number if that name is taken, also by a flight that
+/// starts at the same moment. Characters that are not allowed in file names become `-`. Throws common::InputError.
 std::filesystem::path freshRunFolder(const std::filesystem::path& parent, const std::string& started,
                                      const std::string& mission);
 
@@ -40,33 +40,33 @@ struct FlightEnd {
   std::optional<double> wall_time_s;
 };
 
-/// Used by one thread. Nothing throws after the constructor: what cannot be written (full disk) is kept in `failure`,
-/// writing stops, and the caller decides; no file is left half written.
+/// Used by one thread. Nothing throws after the constructor. If something cannot be written (full disk), the reason is
+/// kept in `failure`, writing stops, and the caller decides; no file is left half written.
 class RunFolder {
  public:
-  /// Makes the folder. One that is there must be empty or an older run, whose files are removed first; anything else
-  /// is refused, also a folder that another flight writes. Throws common::InputError that says why.
+  /// Makes the folder. An existing one must be empty or an older run, whose files are removed first. Anything else is
+  /// refused, also a folder that another flight writes. Throws common::InputError with the reason.
   RunFolder(std::filesystem::path path, RunInfo info, std::string config_yaml);
   ~RunFolder();
   RunFolder(RunFolder&&) noexcept;
   RunFolder& operator=(RunFolder&&) noexcept;
 
-  /// At every estimate.
+  /// Call at every estimate.
   void state(const common::VehicleState& state);
-  /// At every event, in order.
+  /// Call at every event, in order.
   void event(const common::Event& event);
-  /// At every snapshot.
+  /// Call at every snapshot.
   void world(const common::World& world);
-  /// The pictures of the next report and map.png; may be given again and again.
+  /// The pictures of the next report and map.png; may be called repeatedly.
   void show(ReportPictures pictures);
-  /// The last map, mission.json and report, safe from a cut of the power. Called once, last; tries everything even if
-  /// something failed before.
+  /// Writes the last map, mission.json and report, safe from a power cut. Call it once, as the last call. It tries
+  /// everything even if something failed before.
   void finish(const FlightEnd& end);
 
   const std::filesystem::path& path() const;
-  /// What is known so far; after `finish` the whole flight.
+  /// The summary so far; after `finish` that of the whole flight.
   const FlightSummary& summary() const;
-  /// Why something could not be written; none while all is well.
+  /// Why something could not be written; none if nothing failed.
   const std::optional<std::string>& failure() const;
 
  private:

@@ -71,7 +71,8 @@ void Canvas::coverSegment(const Point& a, const Point& b, double radius_px) {
   const Point along = b - a;
   const double length2 = along.squaredNorm();
   for (int y = box.y0; y < box.y1; ++y) {
-    // Only the part of the segment near this row can cover it; without this a long diagonal would visit its whole box.
+    // Only the part of the segment near this row can cover it. Without this bound a long diagonal would visit its whole
+    // box.
     int x0 = box.x0, x1 = box.x1;
     if (std::abs(along.y()) > 1e-9) {
       const double t0 = std::clamp((y + 0.5 - reach - 0.5 - a.y()) / along.y(), 0.0, 1.0);
@@ -119,11 +120,11 @@ void Canvas::polyline(std::span<const Point> points, double width_px, Color colo
 void Canvas::dashedPolyline(std::span<const Point> points, double width_px, double dash_px, double gap_px,
                             Color color) {
   SWIFTLET_CHECK(dash_px > 0.0 && gap_px > 0.0, dash_px, gap_px);
-  double phase = 0.0;  // How far into the current dash and gap.
+  double phase = 0.0;  // Position within the current dash and gap.
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Point along = points[i] - points[i - 1];
     const double length = along.norm();
-    // A segment that reaches far out of the picture is not worth its dashes.
+    // A segment that reaches far out of the picture is drawn without dashes.
     if (!(length > 0.0) || length > 1e5) continue;
     for (double at = 0.0; at < length;) {
       const bool inked = phase < dash_px;

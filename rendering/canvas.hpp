@@ -31,12 +31,12 @@ class Canvas {
   void polyline(std::span<const Point> points, double width_px, Color color);
   void dashedPolyline(std::span<const Point> points, double width_px, double dash_px, double gap_px, Color color);
   void disc(const Point& center, double radius_px, Color color);
-  /// Many discs as one shape.
+  /// Paints many discs as one shape.
   void discs(std::span<const Point> centers, double radius_px, Color color);
   void ring(const Point& center, double radius_px, double width_px, Color color);
-  /// Even-odd rule.
+  /// Fills by the even-odd rule.
   void polygon(std::span<const Point> corners, Color color);
-  /// `baseline` is where the text starts or is centred. `halo` is painted around it first if it is visible.
+  /// `baseline` is where the text starts or is centred. A visible `halo` is painted around it first.
   void text(std::string_view text, const Point& baseline, double height_px, Color color, Align align = Align::kLeft,
             Color halo = {0, 0, 0, 0});
 
@@ -52,7 +52,7 @@ class Canvas {
   void coverDisc(const Point& center, double radius_px);
   void cover(int x, int y, double coverage);
   void touch(const Box& box);
-  /// Paints what is covered and clears the cover.
+  /// Paints the covered pixels and clears the cover.
   void paint(Color color);
 
   common::Image image_;

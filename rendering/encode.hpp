@@ -1,5 +1,5 @@
-// Pictures to bytes: JPEG for streams (libjpeg-turbo), PNG for files (libpng). The same picture gives the same bytes:
-// no time stamps, fixed compression.
+// Encodes pictures: JPEG for streams (libjpeg-turbo), PNG for files (libpng). The same picture gives the same bytes: no
+// time stamps, fixed compression.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class JpegEncoder {
 
 Bytes encodePng(const common::Image& image);
 
-/// For pictures inside HTML and SVG.
+/// Base64, for pictures inside HTML and SVG.
 std::string base64(const Bytes& bytes);
 
 }  // namespace swiftlet::rendering

@@ -25,7 +25,7 @@ Bytes JpegEncoder::encode(const common::Image& image, int quality) {
   SWIFTLET_CHECK(image.width_px > 0 && image.height_px > 0 && quality >= 1 && quality <= 100, image.width_px,
                  image.height_px, quality);
   SWIFTLET_CHECK(image.rgb.size() == 3 * static_cast<std::size_t>(image.width_px) * image.height_px);
-  // Full colour resolution: the map's thin coloured lines would bleed otherwise.
+  // Full colour resolution: otherwise the map's thin coloured lines would bleed.
   const int sampling = TJSAMP_444;
   const unsigned long needed = tjBufSize(image.width_px, image.height_px, sampling);
   if (needed > impl_->capacity) {

@@ -12,7 +12,7 @@ void append(png_structp png, png_bytep data, png_size_t size) {
 }
 
 [[noreturn]] void fail(png_structp, png_const_charp message) {
-  // Only memory can run out: the arguments were checked and the output is a vector.
+  // Only memory can run out, because the arguments were checked and the output is a vector.
   common::checkFailed("libpng", __FILE__, __LINE__, std::string(" ") + message);
 }
 
@@ -27,7 +27,7 @@ Bytes encodePng(const common::Image& image) {
   png_set_write_fn(png, &bytes, append, nullptr);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px), static_cast<png_uint_32>(image.height_px), 8,
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  // Maps are large even areas: no filter compresses them best, and fast.
+  // Maps are large even areas: no filter compresses them best and fastest.
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_set_compression_level(png, 6);
   png_write_info(png, info);

@@ -8,8 +8,8 @@
 namespace swiftlet::rendering {
 namespace {
 
-/// How pixels along one axis cover cells: pixel i has the taps [first[i], first[i + 1]). The weights of a pixel sum
-/// to 256.
+/// How pixels along one axis cover cells. Pixel i has the taps [first[i], first[i + 1]). The weights of a pixel sum to
+/// 256.
 struct Taps {
   struct Tap {
     int cell;
@@ -38,8 +38,8 @@ Taps tapsOf(double start, double step, int begin_px, int end_px) {
   return result;
 }
 
-// Three channels in one 64-bit number, 21 bits each. The first pass sums 8-bit values with 8-bit weights and keeps
-// 13 bits, the second takes 13 to 21: no lane runs over.
+// Three channels in one 64-bit number, 21 bits each. The first pass sums 8-bit values with 8-bit weights and keeps 13
+// bits, the second goes from 13 to 21 bits, so no lane overflows.
 constexpr std::uint64_t lanes(std::uint64_t value) { return value << 42 | value << 21 | value; }
 
 std::uint64_t packed(Color c) {
@@ -54,7 +54,7 @@ class RowCache {
     std::transform(colors.begin(), colors.end(), colors_.begin(), packed);
   }
 
-  /// The colours of a row of cells, from column `begin` on. Valid until two other rows were asked for.
+  /// The colours of a row of cells, from column `begin` on. Valid until two other rows are requested.
   const std::uint64_t* row(int y) {
     for (const Row& row : rows_)
       if (row.y == y && !row.colors.empty()) return row.colors.data();
@@ -95,7 +95,7 @@ std::array<Color, 256> cellColors(const Theme& theme) {
   for (int i = 0; i < 256; ++i) {
     const auto cell = static_cast<common::occupancy::Cell>(i - 128);
     const double p = common::occupancy::probability(cell);
-    // What was seen once already looks free or occupied, what is certain a little more so.
+    // A cell seen once already looks free or occupied; a certain one looks slightly more so.
     const auto weight = [](double certainty) { return static_cast<int>(std::lround(255 * (0.55 + 0.45 * certainty))); };
     colors[static_cast<std::size_t>(i)] = common::occupancy::isUnknown(cell) ? theme.unknown
                                           : p <= 0.5 ? mix(theme.unknown, theme.free, weight(1.0 - 2.0 * p))

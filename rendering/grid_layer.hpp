@@ -11,7 +11,7 @@
 
 namespace swiftlet::rendering {
 
-/// Half open, in pixels.
+/// A half-open rectangle in pixels.
 struct PixelRect {
   int x0 = 0;
   int y0 = 0;
@@ -20,10 +20,10 @@ struct PixelRect {
   bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
-/// The colour of a cell value by index value + 128.
+/// The colours of cell values; the index is value + 128.
 std::array<Color, 256> cellColors(const Theme& theme);
 
-/// Paints `rect` of `image`, whose size is that of the viewport. The pixels do not depend on the choice of `rect`.
+/// Paints `rect` of `image`, which has the size of the viewport. The pixels do not depend on the choice of `rect`.
 void drawGrid(const common::OccupancyGrid& grid, const Viewport& viewport, const Theme& theme, const PixelRect& rect,
               common::Image& image);
 

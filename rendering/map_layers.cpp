@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// A level lower than this is the floor itself.
+/// A lower level counts as the floor.
 constexpr double kFloor_m = 0.05;
 
 void drawLevel(Layer& layer, const common::Level& level, double resolution_m) {
@@ -66,7 +66,7 @@ void drawVehicle(Layer& layer, const MapMark& mark) {
   layer.canvas.polygon(arrow, theme.vehicle);
 }
 
-/// 1, 2 or 5 times a power of ten.
+/// The nearest 1, 2 or 5 times a power of ten.
 double roundLength(double longest) {
   const double power = std::pow(10.0, std::floor(std::log10(longest)));
   for (const double factor : {5.0, 2.0})

@@ -1,4 +1,4 @@
-// What is drawn above the grid, one function a layer, in the order they lie.
+// What is drawn above the grid: one function for each layer, in the order of drawing.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace swiftlet::rendering {
 
-/// Where and with what a layer is drawn.
+/// The surface and the scale on which a layer is drawn.
 struct Layer {
   Canvas& canvas;
   const Viewport& viewport;
   Scheme scheme;
-  double scale;  ///< Of lines and text: 1 for a picture 640 pixels wide.
+  double scale;  ///< Scale of lines and text: 1 for a picture 640 pixels wide.
 
   const Theme& theme() const { return themeOf(scheme); }
 };

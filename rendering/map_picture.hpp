@@ -1,4 +1,4 @@
-// What a picture of a map shows: a value that a flight, a mapped log or a localized log fills.
+// The content of a picture of a map. A flight, a mapped log or a localized log fills it.
 #pragma once
 
 #include <memory>
@@ -19,15 +19,15 @@ struct World;
 namespace swiftlet::rendering {
 
 enum class LineStyle {
-  kTrail,      ///< Where the vehicle has been: broad, solid.
-  kTrack,      ///< Where the sensor of a log has been: finer, solid.
-  kPlan,       ///< Where the vehicle will fly: dashed, with a dot at its end.
-  kReference,  ///< What the others are compared with, and what connects them: fine, dashed.
+  kTrail,      ///< The flown path of the vehicle: broad, solid.
+  kTrack,      ///< The path of the sensor of a log: finer, solid.
+  kPlan,       ///< The planned path: dashed, with a dot at its end.
+  kReference,  ///< A path to compare with, or a connection between paths: fine, dashed.
 };
 
 struct MapLine {
-  /// For the legend of an SVG: "estimate", "ground truth". Lines of one name share a colour and an entry; an empty one
-  /// has none.
+  /// Name in the legend of an SVG: "estimate", "ground truth". Lines of one name share a colour and an entry; an empty
+  /// name has no entry.
   std::string name;
   std::vector<Eigen::Vector2d> points_map_m;
   LineStyle style = LineStyle::kTrail;
@@ -36,10 +36,10 @@ struct MapLine {
 enum class MarkStyle { kHome, kGoal, kVehicle };
 
 struct MapMark {
-  std::string name;  ///< Written beside it in an SVG: "home", "goal".
+  std::string name;  ///< Written beside the mark in an SVG: "home", "goal".
   common::Pose2 at_map;
   MarkStyle style = MarkStyle::kHome;
-  double diameter_m = 0.0;  ///< Of the vehicle's hull; the others have a size in pixels.
+  double diameter_m = 0.0;  ///< Diameter of the vehicle's hull; other marks have a size in pixels.
 };
 
 struct MapPicture {
@@ -47,12 +47,12 @@ struct MapPicture {
   std::shared_ptr<const common::LevelMap> levels;                  ///< May be null: none.
   std::shared_ptr<const std::vector<common::Frontier>> frontiers;  ///< May be null: none.
   std::vector<Eigen::Vector2f> scan_map_m;                         ///< The end points of a scan.
-  std::vector<MapLine> lines;                                      ///< The first is drawn lowest,
-  std::vector<MapMark> marks;                                      ///< and so it is with the marks, over the lines.
-  std::vector<Eigen::Vector2d> in_view_map_m{Eigen::Vector2d::Zero()};  ///< Shown even where nothing is known.
+  std::vector<MapLine> lines;  ///< Lines in the order of drawing; the first is the lowest.
+  std::vector<MapMark> marks;  ///< Marks in the order of drawing, above the lines.
+  std::vector<Eigen::Vector2d> in_view_map_m{Eigen::Vector2d::Zero()};  ///< Points that are always shown.
 };
 
-/// All that the World knows: its map, the last scan, trail and plan, home, goal and the vehicle.
+/// The picture of a World: its map, the last scan, trail and plan, home, goal and the vehicle.
 MapPicture pictureOf(const common::World& world, double hull_diameter_m);
 
 }  // namespace swiftlet::rendering

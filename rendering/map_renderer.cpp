@@ -47,7 +47,7 @@ common::Image renderMap(const MapPicture& picture, const MapView& view) {
   return withLayers(gridLayer(*picture.grid, viewport, view.scheme), picture, view, viewport);
 }
 
-/// The grid of the last call is kept alive, so that an equal tile address cannot mean another tile.
+/// The grid of the last call is kept alive, so that a tile at the same address is the same tile.
 struct MapRenderer::Cache {
   std::shared_ptr<const common::OccupancyGrid> grid;
   Viewport viewport;

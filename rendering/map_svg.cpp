@@ -14,17 +14,17 @@
 namespace swiftlet::rendering {
 namespace {
 
-/// The aspect of what is known, so that no half of the picture is empty.
+/// Aspect ratio of the known area, so that no half of the picture is empty.
 int heightFor(const common::OccupancyGrid& grid, int width_px) {
   const common::CellRect known = common::knownExtent(grid);
   const double aspect = known.empty() ? 0.75 : static_cast<double>(known.height()) / known.width();
   return static_cast<int>(std::lround(width_px * std::clamp(aspect, 0.4, 1.4)));
 }
 
-/// Below the map, for scale bar, names and axes, so that they hide nothing of it.
+/// Height of a strip below the map for scale bar, names and axes, so that they cover nothing of it.
 constexpr int kLegendHeight_px = 56;
 
-/// All that is known in the upper part of the picture, the legend's strip below it.
+/// The known area is in the upper part of the picture, the strip of the legend below it.
 Viewport viewportOf(const MapPicture& picture, const MapView& view, int strip_px) {
   Viewport viewport = fitViewport(*picture.grid, picture.in_view_map_m, view.width_px, view.height_px - strip_px);
   viewport.height_px = view.height_px;
@@ -32,7 +32,7 @@ Viewport viewportOf(const MapPicture& picture, const MapView& view, int strip_px
   return viewport;
 }
 
-/// The first line of each name, in their order.
+/// The first line of each name, in order.
 std::vector<MapLine> namedOnce(const std::vector<MapLine>& lines) {
   std::vector<MapLine> named;
   for (const MapLine& line : lines)
@@ -43,13 +43,13 @@ std::vector<MapLine> namedOnce(const std::vector<MapLine>& lines) {
 
 bool isDashed(LineStyle style) { return style == LineStyle::kPlan || style == LineStyle::kReference; }
 
-/// The style's classes of a line: a colour for each name, as long as there are colours.
+/// The style classes of a line: a colour for each name, until the colours run out.
 std::string classesOf(const MapLine& line, const std::vector<MapLine>& named) {
   const auto same = std::find_if(named.begin(), named.end(), [&](const MapLine& n) { return n.name == line.name; });
   return fmt::format("s s{}{}", (same - named.begin()) % 6 + 1, isDashed(line.style) ? " dash" : "");
 }
 
-/// One beside the other in the strip, between the scale bar and the axes.
+/// The names side by side in the strip, between the scale bar and the axes.
 void drawNames(const std::vector<MapLine>& named, int height_px, std::back_insert_iterator<std::string> out) {
   constexpr double kCharacter_px = 6.6;
   double x = 200.0;
@@ -65,11 +65,11 @@ void drawNames(const std::vector<MapLine>& named, int height_px, std::back_inser
 
 std::string mapSvg(const MapPicture& picture, int width_px) {
   MapView view;
-  // The PNG has twice the pixels, for screens that show them.
+  // The PNG has twice the pixels, for screens of high resolution.
   view.width_px = 2 * width_px;
   view.height_px = 2 * (heightFor(*picture.grid, width_px) + kLegendHeight_px);
   view.viewport = viewportOf(picture, view, 2 * kLegendHeight_px);
-  MapPicture below;  // What lines and marks lie on.
+  MapPicture below;  // The picture below the lines and marks.
   below.grid = picture.grid;
   below.levels = picture.levels;
   below.frontiers = picture.frontiers;
@@ -84,7 +84,7 @@ std::string mapSvg(const MapPicture& picture, int width_px) {
                  width_px, height_px, svg::style());
   fmt::format_to(out, R"(<image width="{}" height="{}" href="data:image/png;base64,{}"/>)", width_px, height_px,
                  base64(encodePng(renderMap(below, view))));
-  // The picture below is always light, so its lines are too.
+  // The picture below is always light, so the lines on it are too.
   text += R"(<g style="--c1:#1f6fe0;--c2:#d9480f;--c3:#0a8f6c;--c4:#9c36b5;--c5:#b7791f;--c6:#c2255c;--ink:#2b3947">)";
   const std::vector<MapLine> named = namedOnce(picture.lines);
   for (const MapLine& line : picture.lines) {

@@ -1,5 +1,5 @@
-// The map with trajectories as one SVG picture for the report; the grid is an embedded PNG, the lines stay sharp at
-// any size.
+// The map with trajectories as one SVG picture for the report. The grid is an embedded PNG; the lines stay sharp at any
+// size.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace swiftlet::rendering {
 
-/// Grid, levels and frontiers as in renderMap(), over them all lines, dashed where their style is, and all marks with
-/// their names; the scan is left out.
+/// Grid, levels and frontiers as in renderMap(). Above them are all lines, dashed if their style says so, and all marks
+/// with their names. The scan is left out.
 std::string mapSvg(const MapPicture& picture, int width_px = 720);
 
 }  // namespace swiftlet::rendering

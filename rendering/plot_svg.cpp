@@ -23,8 +23,8 @@ struct Range {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  /// Something to divide by, also for a constant or nothing at all.
-  void settle() {
+  /// A range that is never zero, also for constant or missing data.
+  void widen() {
     if (!(low <= high)) low = 0.0, high = 1.0;
     if (high - low < 1e-9 * std::max(1.0, std::abs(high))) {
       const double half = std::max(0.5, 0.05 * std::abs(high));
@@ -52,7 +52,7 @@ struct Ticks {
   }
 };
 
-/// The area of the curves and what it shows.
+/// The area of the curves with the ranges it shows.
 struct Frame {
   double left, top, width, height;
   Range x, y;
@@ -73,12 +73,12 @@ Frame frameOf(const Plot& plot) {
     }
   if (plot.y_min) frame.y.include(*plot.y_min);
   if (plot.y_max) frame.y.include(*plot.y_max);
-  frame.x.settle();
-  frame.y.settle();
+  frame.x.widen();
+  frame.y.widen();
   const Ticks ticks(frame.y, 4);
   frame.y.low = plot.y_min.value_or(ticks.floorOf(frame.y.low));
   frame.y.high = plot.y_max.value_or(ticks.ceilOf(frame.y.high));
-  frame.y.settle();
+  frame.y.widen();
   return frame;
 }
 
@@ -128,7 +128,7 @@ void drawAxes(const Plot& plot, const Frame& f, std::back_insert_iterator<std::s
 }
 
 void drawSpans(const Plot& plot, const Frame& f, std::back_insert_iterator<std::string> out) {
-  bool odd = true;  // Every other one is darker, so that each shows where it begins.
+  bool odd = true;  // Every other stretch is darker, so that its borders are visible.
   for (const Span& span : plot.spans) {
     odd = !odd;
     const double x0 = f.toPixel({std::clamp(span.begin, f.x.low, f.x.high), 0.0}).x();
@@ -143,7 +143,7 @@ void drawSpans(const Plot& plot, const Frame& f, std::back_insert_iterator<std::
   }
 }
 
-/// The names at the upper right, in the line's colour; right to left.
+/// The names at the upper right in the colours of their lines, from right to left.
 void drawNames(const Plot& plot, const Frame& f, std::back_insert_iterator<std::string> out) {
   double right = f.left + f.width;
   for (std::size_t i = plot.series.size(); i-- > 0;) {

@@ -28,14 +28,14 @@ struct Plot {
   std::string y_label;
   std::vector<Series> series;
   std::vector<Span> spans;
-  std::optional<double> y_min;  ///< None: from the data.
+  std::optional<double> y_min;  ///< None: computed from the data.
   std::optional<double> y_max;
   int width_px = 560;
   int height_px = 250;
 };
 
 /// One <svg> element with its own style. Long series are thinned to what a pixel column can show (its first, lowest,
-/// highest and last value), so that a peak is never lost.
+/// highest and last value), so that no peak is lost.
 std::string plotSvg(const Plot& plot);
 
 }  // namespace swiftlet::rendering

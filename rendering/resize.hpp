@@ -5,8 +5,8 @@
 
 namespace swiftlet::rendering {
 
-/// The picture at most `width_px` wide, each new pixel the mean of the area it covers; the aspect is kept. A picture
-/// that is small enough already is returned as it is. `width_px` is positive.
+/// The picture at most `width_px` wide, each new pixel the mean of the area it covers. The aspect ratio is kept. A
+/// smaller picture is returned unchanged. `width_px` is positive.
 common::Image shrinkToWidth(const common::Image& image, int width_px);
 
 }  // namespace swiftlet::rendering

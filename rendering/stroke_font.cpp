@@ -7,7 +7,7 @@ namespace swiftlet::rendering {
 namespace {
 
 constexpr double kUnitsPerCapital = 6.0;
-constexpr double kGap = 1.7;  // Between two characters, in units.
+constexpr double kGap = 1.7;  // Gap between two characters, in units.
 
 /// Strokes are pairs: a column '0'..'4' and a row 'a' (-2, the descender) .. 'c' (0, the baseline) .. 'g' (4, a small
 /// letter) .. 'i' (6, a capital). A blank ends a stroke; a stroke of one repeated point is a dot.
@@ -124,7 +124,7 @@ const Glyph& glyphOf(char c) {
 
 using Stroke = std::vector<Eigen::Vector2d>;
 
-/// Cuts blunt corners once more, so that the chamfers of the grid read as curves; sharp corners stay.
+/// Cuts blunt corners once more, so that the chamfers of the grid look like curves; sharp corners stay.
 Stroke rounded(const Stroke& stroke) {
   Stroke result;
   for (std::size_t i = 0; i < stroke.size(); ++i) {

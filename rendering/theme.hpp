@@ -15,9 +15,9 @@ enum class Scheme { kLight, kDark };
 std::optional<Scheme> schemeFrom(std::string_view word);
 
 struct Theme {
-  Color unknown;  ///< Never observed.
-  Color free;     ///< Surely free.
-  Color wall;     ///< Surely occupied.
+  Color unknown;  ///< Never observed cells.
+  Color free;     ///< Cells that are certainly free.
+  Color wall;     ///< Cells that are certainly occupied.
   Color grid;     ///< The lines every metre.
   Color text;
   Color trail;
@@ -31,7 +31,7 @@ struct Theme {
 
 const Theme& themeOf(Scheme scheme);
 
-/// Open frontiers invite, the others say by their colour why they were left.
+/// A bright colour for open frontiers; the colour of the others shows why they were left.
 Color frontierColor(common::FrontierReason reason, Scheme scheme);
 
 }  // namespace swiftlet::rendering

@@ -1,4 +1,4 @@
-// A curve to be drawn of more values than can be kept.
+// A curve with more values than can be stored.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace swiftlet::rendering {
 
-/// At most kPoints points, whatever the number of values: neighbours are joined to one point at the first one's x, with
-/// the greatest of their y.
+/// At most kPoints points for any number of values. Neighbours are merged to one point at the x of the first, with the
+/// greatest of their y.
 class ThinnedCurve {
  public:
   static constexpr std::size_t kPoints = 2000;
@@ -21,8 +21,8 @@ class ThinnedCurve {
   void joinPairs();
 
   std::vector<Eigen::Vector2d> points_;
-  int stride_ = 1;   ///< Values a point.
-  int in_last_ = 0;  ///< Values of the last point; the others are complete.
+  int stride_ = 1;   ///< Number of values in a point.
+  int in_last_ = 0;  ///< Number of values in the last point; the other points are complete.
 };
 
 }  // namespace swiftlet::rendering

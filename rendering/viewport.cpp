@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kMargin_m = 0.4;
 constexpr double kSmallest_m = 6.0;
-constexpr double kFarthest_m = 100.0;  // From the map; a diverged estimate must not shrink the map to a dot.
+// Greatest distance from the map; a diverged estimate must not shrink the map to a dot.
+constexpr double kFarthest_m = 100.0;
 
 struct Bounds {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();

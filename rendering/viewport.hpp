@@ -27,9 +27,9 @@ struct Viewport {
   bool operator==(const Viewport&) const = default;
 };
 
-/// The viewport that shows all that is known of the map and the points, with a margin. Its borders sit on whole metres,
-/// so that a growing map makes the picture jump seldom. At least 6 m are shown; a point farther than 100 m from the
-/// rest, or not finite, is left out.
+/// The viewport that shows the known map and the points, with a margin. Its borders are on whole metres, so that a
+/// growing map rarely makes the picture jump. It shows at least 6 m. A point farther than 100 m from the rest, or not
+/// finite, is left out.
 Viewport fitViewport(const common::OccupancyGrid& grid, std::span<const Eigen::Vector2d> points_map_m, int width_px,
                      int height_px);
 

@@ -43,11 +43,11 @@ void Autopilot::receive(const common::Setpoint& setpoint, common::Time arrived) 
 
 bool Autopilot::linkLost(common::Time now) const { return (now - received_).seconds() > config_.link_timeout_s; }
 
-/// The setpoint within the vehicle's limits, or the autopilot's own when the link is lost.
+/// The setpoint within the vehicle's limits, or the autopilot's own setpoint if the link is lost.
 common::Setpoint Autopilot::effective(common::Time now, const AttitudeMeasurement& measured) const {
   common::Setpoint setpoint = setpoint_;
   if (setpoint.motors_on && linkLost(now)) {
-    // Its own voltage meter tells how much throttle the sinking thrust takes.
+    // The autopilot's own voltage meter tells it how much throttle makes up for the falling thrust.
     const double sag = measured.battery_voltage_v / vehicle_.battery_full_v;
     setpoint.roll_rad = setpoint.pitch_rad = setpoint.yaw_rate_rad_s = 0.0;
     setpoint.thrust = config_.failsafe_thrust_share * vehicle_.mass_kg * kGravity_m_s2 /
@@ -62,7 +62,7 @@ common::Setpoint Autopilot::effective(common::Time now, const AttitudeMeasuremen
   return setpoint;
 }
 
-/// The integral takes out a constant lean; it neither winds up in a step nor against the floor.
+/// The integral removes a constant lean. It does not wind up during a step or against the floor.
 void Autopilot::integrate(const Vector3d& rate_error, double thrust, double step_s) {
   if (thrust < kThrustOnGround) rate_integral_rad_.setZero();
   for (int axis = 0; axis < 3; ++axis)
@@ -97,7 +97,7 @@ std::array<double, 4> Autopilot::tick(common::Time now, const AttitudeMeasuremen
   const Vector3d gain(config_.rate_gain_1_s, config_.rate_gain_1_s, config_.yaw_rate_gain_1_s);
   const Vector3d acceleration = gain.cwiseProduct(error) + config_.rate_integral_1_s2 * rate_integral_rad_;
 
-  // Torques as shares of the full thrust of one motor, around the collective.
+  // Torques around the collective, as shares of the full thrust of one motor.
   const double motor_n = 0.25 * vehicle_.max_thrust_n;
   const double lever_m = airframe_.arm_m / std::sqrt(2.0);
   const double roll = airframe_.inertia_xx_kg_m2 * acceleration.x() / (4.0 * lever_m * motor_n);

@@ -1,5 +1,5 @@
-// The autopilot inside the vehicle: an AHRS that is good to about a degree, and the attitude loop that flies on it at
-// 500 Hz: attitude error -> rate -> torque -> four throttles. It never sees the true attitude.
+// The autopilot inside the vehicle: an AHRS with an error of about a degree, and the attitude loop that uses it at 500
+// Hz: attitude error -> rate -> torque -> four throttles. It never sees the true attitude.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class Autopilot {
  public:
   Autopilot(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe, const AutopilotConfig& config);
 
-  /// A setpoint has come over the link at `arrived`.
+  /// Takes a setpoint that came over the link at `arrived`.
   void receive(const common::Setpoint& setpoint, common::Time arrived);
 
   /// One tick of the attitude loop: the throttles of the motors until the next.

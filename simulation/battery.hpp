@@ -22,15 +22,15 @@ class Battery {
 
   Battery(const common::VehicleConfig& vehicle, const Config& config, double remaining);
 
-  /// Draws `power_w` for a step.
+  /// Draws `power_w` for one step.
   void draw(double power_w, double step_s);
 
-  /// At the terminals, under the present load.
+  /// Voltage at the terminals under the present load.
   double voltage_v() const { return voltage_v_; }
   double openCircuit_v() const;
   /// Share of the charge, in [0, 1].
   double remaining() const { return remaining_; }
-  /// (voltage / full voltage)^2, what the thrust falls with.
+  /// (voltage / full voltage)^2, the factor by which the thrust falls.
   double thrustShare() const;
 
  private:

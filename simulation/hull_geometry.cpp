@@ -15,7 +15,7 @@ Eigen::Vector2d nearestOnSegment(const Segment2d& segment, const Eigen::Vector2d
   return segment.from_m + std::clamp((point - segment.from_m).dot(along) / squared, 0.0, 1.0) * along;
 }
 
-/// The point where two segments cross properly; parallel ones are told by their ends.
+/// The point where two segments cross properly. Parallel segments are judged by their ends.
 bool crossing(const Segment2d& a, const Segment2d& b, Eigen::Vector2d& point) {
   const Eigen::Vector2d u = a.to_m - a.from_m, v = b.to_m - b.from_m, w = b.from_m - a.from_m;
   const double denominator = cross(u, v);
@@ -34,7 +34,7 @@ Slice::Slice(const std::array<Eigen::Vector3d, 3>& triangle_m, double bottom_m, 
   clip(top_m, -1.0);
 }
 
-// Sutherland and Hodgman against one horizontal plane: keeps what lies above (side 1) or below it (side -1).
+// Sutherland and Hodgman against one horizontal plane: keeps the part above it (side 1) or below it (side -1).
 void Slice::clip(double height_m, double side) {
   std::array<Eigen::Vector3d, 8> kept;
   int count = 0;

@@ -12,12 +12,12 @@ namespace swiftlet::simulation {
 
 struct Mesh {
   Triangles triangles;
-  Color color = Color::Constant(0.7F);  ///< Of the materials, averaged over the triangles.
+  Color color = Color::Constant(0.7F);  ///< Colour of the materials, averaged over the triangles.
 };
 
-/// In metres: a COLLADA file's unit is applied, its `<up_axis>` is not, because Gazebo, for which these files were
-/// made, takes coordinates as they stand. `submesh` keeps the node or mesh of that name alone; empty keeps all. The
-/// error is a sentence without the file's name.
+/// In metres: a COLLADA file's unit is applied. Its `<up_axis>` is not, because Gazebo, for which these files were
+/// made, uses the coordinates unchanged. `submesh` keeps only the node or mesh of that name; empty keeps all. The error
+/// is a sentence without the file's name.
 tl::expected<Mesh, std::string> loadMesh(const std::string& file, const std::string& submesh = {});
 
 }  // namespace swiftlet::simulation

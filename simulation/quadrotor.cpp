@@ -51,7 +51,7 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   const auto& f = state_.thrusts_n;
   const Eigen::Quaterniond& R_world_body = state_.T_world_body.rotation;
 
-  // Forces other than gravity, in the world: thrust along the body's z, drag against the air, the floor, a push.
+  // Forces other than gravity, in the world: thrust along the body's z, drag against the air, the floor, and a push.
   const Vector3d airspeed_world = state_.velocity_world_m_s - wind_world_m_s;
   const Vector3d drag_world =
       -(config_.linear_drag_n_s_m + config_.quadratic_drag_n_s2_m2 * airspeed_world.norm()) * airspeed_world;
@@ -94,8 +94,8 @@ double Quadrotor::gearForce_n(double floor_world_m) const {
       0.0, vehicle_.mass_kg * frequency_rad_s * (frequency_rad_s * pressed_m - 2.0 * state_.velocity_world_m_s.z()));
 }
 
-// The feet stop a turn within some hundredths of a second and push the body level. A torque, so that what the
-// gyroscopes feel stays the motion of the body, also while the motors lean it against the floor.
+// The feet stop a turn within some hundredths of a second and push the body level. This is a torque, so that the
+// gyroscopes still feel the motion of the body while the motors lean it against the floor.
 Vector3d Quadrotor::gearTurning(double gear_n) const {
   constexpr double kFrequency_rad_s = 33.0;
   const double carried = std::min(1.0, gear_n / (vehicle_.mass_kg * kGravity_m_s2));

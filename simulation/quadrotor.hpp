@@ -43,11 +43,11 @@ struct QuadrotorState {
   Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_velocity_body_rad_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d specific_force_body_m_s2 = Eigen::Vector3d::Zero();  ///< What an accelerometer feels.
-  MotorThrusts thrusts_n{};                                            ///< Now, after the lag.
+  MotorThrusts thrusts_n{};                                            ///< Present thrusts, after the lag.
   bool standing = true;                                                ///< The feet carry the weight.
 };
 
-/// Advances by fixed steps; the caller finds the floor and judges contacts.
+/// Advances by fixed steps. The caller finds the floor and judges contacts.
 class Quadrotor {
  public:
   Quadrotor(const common::VehicleConfig& vehicle, const QuadrotorConfig& config, const common::Pose3& T_world_body,
@@ -56,8 +56,9 @@ class Quadrotor {
   const QuadrotorState& state() const { return state_; }
   const Battery& battery() const { return battery_; }
 
-  /// One step. `throttles` in [0, 1] of the greatest thrust of one motor at full battery; what it gives falls with the
-  /// square of the voltage. `floor_world_m` is the height of the floor below the feet, -infinity for none.
+  /// One step. `throttles` are shares in [0, 1] of the greatest thrust of one motor at full battery; the real thrust
+  /// falls with the square of the voltage. `floor_world_m` is the height of the floor below the feet, -infinity for
+  /// none.
   void step(const std::array<double, 4>& throttles, const Eigen::Vector3d& wind_world_m_s, double floor_world_m,
             double step_s);
 
@@ -72,14 +73,14 @@ class Quadrotor {
   void spinMotors(const std::array<double, 4>& throttles, double step_s);
   Eigen::Vector3d takePush(double step_s);
   double gearForce_n(double floor_world_m) const;
-  Eigen::Vector3d gearTurning(double gear_n) const;  ///< Angular acceleration.
+  Eigen::Vector3d gearTurning(double gear_n) const;  ///< Angular acceleration by the gear.
   void rub(double gear_n, double step_s);
 
   common::VehicleConfig vehicle_;
   QuadrotorConfig config_;
   QuadrotorState state_;
   Battery battery_;
-  Eigen::Vector3d push_world_n_s_ = Eigen::Vector3d::Zero();  ///< What is left of it.
+  Eigen::Vector3d push_world_n_s_ = Eigen::Vector3d::Zero();  ///< The part of the push that is still to come.
   double push_left_s_ = 0.0;
 };
 

@@ -15,7 +15,7 @@ namespace swiftlet::simulation {
 namespace {
 
 constexpr unsigned kPacket = 4;
-// Every x86-64 machine of the last fifteen years has it; Embree rounds differently with wider ones.
+// Every x86-64 machine of the last fifteen years has this instruction set; Embree rounds differently with wider ones.
 constexpr const char* kDeviceConfig = "isa=sse4.2,threads=1,start_threads=0,set_affinity=0";
 
 struct Geometry {
@@ -39,7 +39,7 @@ std::array<Eigen::Vector3d, 3> corners(const Geometry& geometry, unsigned triang
           geometry.vertices[index[2]].cast<double>()};
 }
 
-/// Of the sphere about the middle of the sweep that holds everything nearer than `distance_m`.
+/// Radius of the sphere about the middle of the sweep that contains everything nearer than `distance_m`.
 float queryRadius(const SweepQuery& query, double distance_m) {
   return static_cast<float>(
       std::hypot(query.half_length_m + query.radius_m + distance_m, query.half_height_m) * (1.0 + 1e-5) + 1e-5);
@@ -51,7 +51,7 @@ bool considerTriangle(RTCPointQueryFunctionArguments* arguments) {
   if (slice.empty()) return false;
   const Nearest2d nearest = slice.nearestTo(query.segment);
   const double distance_m = std::max(0.0, nearest.distance_m - query.radius_m);
-  // Ties by number, so that the answer does not depend on the order of the tree.
+  // Equal distances are ordered by number, so that the answer does not depend on the order of the tree.
   const int shape = static_cast<int>(arguments->geomID);
   if (distance_m > query.best.distance_m ||
       (distance_m == query.best.distance_m && query.best.shape != Hit::kNothing && shape >= query.best.shape))
@@ -66,7 +66,7 @@ struct ActorHit {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
 
-/// A ray and the side and top of an upright cylinder; from inside, the distance is 0.
+/// Distance along a ray to the side or top of an upright cylinder; 0 from inside.
 ActorHit castOnActor(const Actor& actor, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
   const Eigen::Vector2d o = origin.head<2>() - actor.position_world_m, d = direction.head<2>();
   const double a = d.squaredNorm(), b = o.dot(d), c = o.squaredNorm() - actor.radius_m * actor.radius_m;

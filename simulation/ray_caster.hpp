@@ -1,5 +1,5 @@
-// Rays and hull against the world. Static triangles lie in an Embree scene pinned to one instruction set, so that the
-// same ray gives the same range on every machine; people are upright cylinders, tested exactly beside it.
+// Rays and hull against the world. Static triangles are in an Embree scene pinned to one instruction set, so that the
+// same ray gives the same range on every machine. People are upright cylinders, tested exactly and separately.
 #pragma once
 
 #include <limits>
@@ -44,11 +44,11 @@ struct Hull {
   double half_height_m = 0.125;
 };
 
-/// What is nearest to the hull. The distance is horizontal, to whatever lies in the hull's height band.
+/// The surface nearest to the hull. The distance is horizontal, to anything within the hull's height band.
 struct Clearance {
-  double distance_m = 0.0;  ///< 0: touching. The limit of the query when nothing is nearer.
+  double distance_m = 0.0;  ///< 0 if they touch; the limit of the query if nothing is nearer.
   int shape = Hit::kNothing;
-  Eigen::Vector3d point_world_m = Eigen::Vector3d::Zero();  ///< Nearest point; valid when shape is.
+  Eigen::Vector3d point_world_m = Eigen::Vector3d::Zero();  ///< Nearest point; valid if `shape` is.
 };
 
 /// Const and without state: safe to use from several threads at once.
@@ -67,7 +67,7 @@ class RayCaster {
   /// `distances_m` has the size of `rays`.
   void castAll(std::span<const Ray> rays, double max_m, std::span<const Actor> actors,
                std::span<float> distances_m) const;
-  /// The same with shape and normal.
+  /// The full hits, with shape and normal, within max_m.
   void castAll(std::span<const Ray> rays, double max_m, std::span<const Actor> actors, std::span<Hit> hits) const;
 
   /// The smallest horizontal distance between the static world and the hull while its centre moves along the segment

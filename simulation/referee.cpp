@@ -13,10 +13,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kLandingSpeed_m_s = 1.0;  // Faster, the gear breaks.
+constexpr double kLandingSpeed_m_s = 1.0;  // Above this speed the gear breaks.
 constexpr double kLandingTilt_rad = 25.0 * std::numbers::pi / 180.0;
-constexpr double kSkidSpeed_m_s = 1.0;  // Faster along the floor, it tumbles.
-constexpr double kTipOver_m = 0.05;     // One foot so much lower than another.
+constexpr double kSkidSpeed_m_s = 1.0;  // Above this speed along the floor the vehicle tumbles.
+constexpr double kTipOver_m = 0.05;     // Above this height difference of the feet the vehicle tips over.
 constexpr double kStill_m_s = 0.1;
 constexpr double kDeepest_m = 1000.0;
 

@@ -1,4 +1,4 @@
-// Finds the floor under the feet and judges contacts: landing on something is fine, touching anything else ends the
+// Finds the floor under the feet and judges contacts: landing on something is allowed, touching anything else ends the
 // flight.
 #pragma once
 
@@ -22,19 +22,19 @@ class Referee {
   /// World and rays must outlive it.
   Referee(const WorldModel& world, const RayCaster& rays, const Scenario& scenario);
 
-  /// Highest floor under the feet at the last look; -infinity when there is none.
+  /// Highest floor under the feet at the last call of look(); -infinity if there is none.
   double floor_world_m() const { return floor_world_m_; }
 
-  /// Looks for the floor under the feet. Call at 100 Hz or more.
+  /// Finds the floor under the feet. Call at 100 Hz or more.
   void lookDown(const QuadrotorState& state);
 
-  /// After each physics step: whether a touch-down was a landing or a crash.
+  /// Call after each physics step. Judges whether a touch-down was a landing or a crash.
   void judgeTouchDown(common::Time now, const QuadrotorState& before, const QuadrotorState& after, Truth& truth) const;
 
-  /// Sweeps the hull from where it was at the last call. Call at 100 Hz or more.
+  /// Sweeps the hull from its place at the last call. Call at 100 Hz or more.
   void judgeContacts(common::Time now, const QuadrotorState& state, std::span<const Walker> walkers, Truth& truth);
 
-  /// Another vehicle with that hull, name and horizontal distance between the two hulls, 0 where they touch.
+  /// Reports another vehicle: its hull, its name and the horizontal distance between the two hulls, 0 if they touch.
   void judgeMeeting(common::Time now, const QuadrotorState& state, double gap_m, const Actor& other,
                     const std::string& name, Truth& truth) const;
 
@@ -50,7 +50,7 @@ class Referee {
   double gear_radius_m_;
   double lowest_world_m_;
   double floor_world_m_;
-  double feet_apart_m_ = 0.0;  ///< In height, at the last look.
+  double feet_apart_m_ = 0.0;  ///< Difference of the feet's floor heights at the last look.
   int floor_shape_ = Hit::kNothing;
   Eigen::Vector3d last_position_world_m_;
   bool first_ = true;

@@ -30,7 +30,7 @@ struct Include {
   int column = 0;
 };
 
-/// The little of a file that is looked at.
+/// The parts of a file that the check reads.
 struct Outline {
   std::string root;
   std::optional<std::string> version;
@@ -38,7 +38,7 @@ struct Outline {
   std::optional<Problem> malformed;
 };
 
-/// Follows one document; only the uri that stands directly in an <include> is kept.
+/// Follows one document; only a uri directly in an <include> is kept.
 class OutlineReader {
  public:
   explicit OutlineReader(std::string file) : file_(std::move(file)) {}
@@ -99,13 +99,14 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1));
 }
 
-/// "1.9"
+/// A version such as "1.9".
 bool isVersion(const std::string& text) {
   const auto digit = [](unsigned char c) { return std::isdigit(c) != 0; };
   return text.size() == 3 && digit(text[0]) && text[1] == '.' && digit(text[2]);
 }
 
-/// What an include may bring: the file, or in a model's folder every SDF file, of which libsdformat picks one.
+/// The files that an include may load: the file itself, or in a model's folder every SDF file, of which libsdformat
+/// picks one.
 std::vector<fs::path> filesOf(const fs::path& included) {
   std::error_code ignored;
   if (!fs::is_directory(included, ignored)) return {included};
@@ -125,7 +126,8 @@ class CircleFinder {
     open_.push_back(real);
     for (const Include& include : outline.includes) {
       const std::string uri = trimmed(include.uri);
-      for (const fs::path& next : filesOf(resolver_.find(uri).value_or(uri)))  // Or below the working folder.
+      for (const fs::path& next :
+           filesOf(resolver_.find(uri).value_or(uri)))  // An unresolved uri may be a path below the working folder.
         visit(next, {file.string(), include.line, include.column});
     }
     open_.pop_back();
@@ -151,8 +153,8 @@ class CircleFinder {
   }
 
   const UriResolver& resolver_;
-  std::vector<fs::path> open_;  ///< From the world to the file that is being followed.
-  std::set<fs::path> closed_;   ///< Sound.
+  std::vector<fs::path> open_;  ///< The chain of files from the world to the present one.
+  std::set<fs::path> closed_;   ///< Files that were found sound.
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What libsdformat would not survive, or not explain, is found before it sees a world.
+// Finds errors that libsdformat would not survive, or not explain, before it reads a world.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace swiftlet::simulation {
 
-/// Throws common::InputError (file:line:column) for malformed XML, which libsdformat tells to the terminal only and
-/// then takes for URDF; for a root or a version that is none of SDF; and for files that include each other in a circle,
-/// which it follows until the memory is full. `text` is what stands in `file`.
+/// Throws common::InputError (file:line:column) for malformed XML, which libsdformat reports only on the terminal and
+/// then takes for URDF; for a root or a version that SDF does not have; and for files that include each other in a
+/// circle, which libsdformat follows until the memory is full. `text` is the content of `file`.
 void checkBeforeSdf(const std::string& file, const std::string& text, const UriResolver& resolver);
 
 }  // namespace swiftlet::simulation

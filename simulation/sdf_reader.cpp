@@ -24,8 +24,8 @@ namespace {
 using common::InputError;
 using common::Problem;
 
-/// Takes what libsdformat prints for as long as it lives. What fails as SDF it also tries as URDF, whose parser
-/// complains on std::cerr, where errors of included files go as well.
+/// Captures what libsdformat prints during its lifetime. If a file fails as SDF, libsdformat also tries URDF, whose
+/// parser complains on std::cerr, like errors of included files.
 class ConsoleCapture {
  public:
   ConsoleCapture()
@@ -41,7 +41,7 @@ class ConsoleCapture {
   ConsoleCapture(const ConsoleCapture&) = delete;
   ConsoleCapture& operator=(const ConsoleCapture&) = delete;
 
-  /// Its lines without colours and without the place in libsdformat's own source.
+  /// Its lines without colours and without the position in libsdformat's own source.
   std::vector<std::string> lines() const { return linesOf(text_); }
   std::vector<std::string> errorLines() const { return linesOf(errors_); }
 
@@ -106,7 +106,7 @@ bool isWarning(const sdf::Error& error) {
   }
 }
 
-/// These only repeat that something inside failed.
+/// Codes that only repeat that something inside failed.
 bool isEcho(const sdf::Error& error) {
   const std::string message = error.Message();
   return error.Code() == sdf::ErrorCode::FILE_READ || message.starts_with("Failed to load a world") ||
@@ -118,7 +118,7 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// Where an error is; those of the frame graphs have no line, but name what they are about in brackets.
+/// Where an error is. Those of the frame graphs have no line, but give their subject in brackets.
 common::SourceLocation locate(const sdf::Error& error, const std::string& file, const std::string& text) {
   common::SourceLocation location{error.FilePath().value_or(file), error.LineNumber().value_or(0)};
   if (location.line > 0) return location;
@@ -167,7 +167,7 @@ Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& con
     }
     sorted.warnings.push_back(toString(problem));
   }
-  // Only echoes: what happened was printed, the echo knows the line.
+  // These are echoes: the original message was printed, with its line.
   if (sorted.problems.empty() && first_echo != nullptr && !(sorted.warnings.size() > 0 && console.empty())) {
     std::string message = trimmed(first_echo->Message());
     for (const std::string& line : console) message += ": " + line;
@@ -176,9 +176,8 @@ Sorted sortErrors(const sdf::Errors& errors, const std::vector<std::string>& con
   return sorted;
 }
 
-/// For the same reason a model that an included file includes and that is missing is only printed, as
-/// "Error Code 13: [/sdf/model...:FILE:L12]: Msg: Unable to find uri[model://x]". Without it obstacles would be
-/// missing.
+/// If an included file includes a model that is missing, libsdformat only prints it, as "Error Code 13:
+/// [/sdf/model...:FILE:L12]: Msg: Unable to find uri[model://x]". If this were ignored, obstacles would be missing.
 void addPrinted(const std::vector<std::string>& lines, Sorted& sorted) {
   static const std::regex kMissing(R"(:([^:\]]+):L([0-9]{1,7})\]: Msg: (Unable to find uri\[.*))");
   for (const std::string& line : lines) {
@@ -197,7 +196,7 @@ void addPrinted(const std::vector<std::string>& lines, Sorted& sorted) {
   }
 }
 
-/// libsdformat also throws, of several kinds.
+/// libsdformat also throws exceptions, of several kinds.
 sdf::Errors loadOrExplain(sdf::Root& root, const std::string& file, const sdf::ParserConfig& config) {
   try {
     return root.Load(file, config);

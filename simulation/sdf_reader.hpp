@@ -1,4 +1,4 @@
-// Reads an SDF file by libsdformat and sorts what it has to say into warnings and errors, each with file and line.
+// Reads an SDF file by libsdformat and sorts its messages into warnings and errors, each with file and line.
 #pragma once
 
 #include <string>

@@ -16,17 +16,18 @@ namespace swiftlet::simulation {
 
 class Arena;
 
-/// Attends one vehicle of an arena, from the start on and for as long as it lives. Always lockstep: time passes in
-/// advanceTo alone, and vehicles of one arena pass through the same instants (see Arena). Physics at 1 kHz, attitude
-/// loop at 500 Hz, hull swept at 100 Hz. Everything random is drawn from streams named by (seed, sensor, frame), with a
-/// seed of its own for each vehicle: who looks at what, and who else flies, changes nothing.
+/// Attends one vehicle of an arena for its whole lifetime. Always lockstep: time passes only in advanceTo, and the
+/// vehicles of one arena pass through the same instants (see Arena). Physics at 1 kHz, attitude loop at 500 Hz, hull
+/// swept at 100 Hz. Everything random is drawn from streams named by (seed, sensor, frame), with a separate seed for
+/// each vehicle, so that viewers and other vehicles change nothing.
 class SimulatedVehicle final : public common::Vehicle {
  public:
-  /// Vehicle number `index` of the arena; time has not passed there, and nobody else attends it.
+  /// Vehicle number `index` of the arena. No time may have passed in the arena, and no other object may attend the
+  /// vehicle.
   SimulatedVehicle(std::shared_ptr<Arena> arena, std::size_t index);
-  /// The first vehicle of an arena of its own. Throws what Arena throws.
+  /// The first vehicle of an arena that this object owns. Throws what Arena throws.
   SimulatedVehicle(const WorldModel& world, const Scenario& scenario);
-  /// What it attended stays in the arena, with its last setpoint and the autopilot's rule for a lost link.
+  /// The attended vehicle stays in the arena, with its last setpoint and the autopilot's rule for a lost link.
   ~SimulatedVehicle() override;
   SimulatedVehicle(const SimulatedVehicle&) = delete;
   SimulatedVehicle& operator=(const SimulatedVehicle&) = delete;
@@ -36,22 +37,22 @@ class SimulatedVehicle final : public common::Vehicle {
   void apply(const common::Setpoint& setpoint) override;
   std::string stopReason() const override;
 
-  /// Whether camera frames are rendered and delivered from now on; at first they are not.
+  /// Whether camera frames are rendered and delivered from now on; initially they are not.
   void setCameraConsumer(bool wanted);
 
-  /// The scenario's name for it; empty when it flies alone without one.
+  /// The scenario's name for the vehicle; empty for a single vehicle without a name.
   const std::string& name() const;
   const Truth& truth() const;
-  /// The frame the autonomy calls `map`: the take-off place on its floor, with the yaw of the start.
+  /// The frame the autonomy calls `map`: at the take-off place on its floor, with the yaw of the start.
   common::Pose3 T_world_map() const;
-  /// The world after the seed's variation, and rays in it.
+  /// The world after the seed's variation, and the rays in it.
   const WorldModel& world() const;
   const RayCaster& rays() const;
   /// The scenario as flown by this vehicle: start, wind and battery after the variation.
   const Scenario& scenario() const;
   /// How many draws of the variation were refused.
   int redraws() const;
-  /// Where the walkers are now.
+  /// Present positions of the walkers.
   std::vector<Actor> walkers() const;
 
  private:

@@ -34,12 +34,12 @@ SurveyDrive::SurveyDrive(const SurveyConfig& config, const common::LaserConfig& 
   SWIFTLET_CHECK(path.size() >= 4 && path.size() % 2 == 0, path.size());
   Pose2 at{path[0], path[1], std::atan2(path[3] - path[1], path[2] - path[0])};
   for (std::size_t i = 2; i < path.size(); i += 2) {
-    const Eigen::Vector2d way = Eigen::Vector2d(path[i], path[i + 1]) - at.position_m();
-    if (way.norm() < 1e-6) continue;
-    const double turn_rad = common::wrapAngle(std::atan2(way.y(), way.x()) - at.yaw_rad);
+    const Eigen::Vector2d leg = Eigen::Vector2d(path[i], path[i + 1]) - at.position_m();
+    if (leg.norm() < 1e-6) continue;
+    const double turn_rad = common::wrapAngle(std::atan2(leg.y(), leg.x()) - at.yaw_rad);
     addLeg({at, 0.0, turn_rad}, std::abs(turn_rad) / (config.turn_deg_s * kRadPerDeg));
     at.yaw_rad = common::wrapAngle(at.yaw_rad + turn_rad);
-    addLeg({at, way.norm(), 0.0}, way.norm() / config.speed_m_s);
+    addLeg({at, leg.norm(), 0.0}, leg.norm() / config.speed_m_s);
     at = {path[i], path[i + 1], at.yaw_rad};
   }
 }

@@ -1,4 +1,4 @@
-// A robot on wheels with a level laser drives a given way through the world, so that a map can be made of its scans
+// A robot on wheels with a level laser drives a given path through the world, so that a map can be made from its scans
 // before the first flight. Its motion is exact and its scans are as noisy as those in flight; it has no odometry.
 #pragma once
 
@@ -30,7 +30,7 @@ struct SurveyConfig {
 
 struct SurveyScan {
   common::LaserScan scan;      ///< Its stamp counts from the start of the drive.
-  common::Pose2 T_world_body;  ///< At that stamp. For the scorer alone.
+  common::Pose2 T_world_body;  ///< True pose at that stamp, for the scorer alone.
 };
 
 class SurveyDrive {

@@ -1,4 +1,4 @@
-// What really happens to the vehicle. For simulation and evaluation only.
+// The true state of the vehicle. For simulation and evaluation only.
 #pragma once
 
 #include <string>
@@ -16,15 +16,15 @@ struct Truth {
   Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();
   bool airborne = false;
 
-  /// Smallest horizontal distance so far from the hull to the static world, to a walker and to the hull of another
-  /// vehicle, while airborne. They are capped at kClearanceLimit_m.
+  /// Smallest horizontal distance from the hull so far, while airborne: to the static world, to a walker, and to the
+  /// hull of another vehicle. They are capped at kClearanceLimit_m.
   static constexpr double kClearanceLimit_m = 1.0;
   double min_clearance_m = kClearanceLimit_m;
   double min_walker_clearance_m = kClearanceLimit_m;
   double min_vehicle_clearance_m = kClearanceLimit_m;
 
   bool crashed = false;
-  std::string crash_reason;  ///< "touched `north_wall` at (1.20, 3.40, 1.05)"
+  std::string crash_reason;  ///< For example "touched `north_wall` at (1.20, 3.40, 1.05)".
   std::string touched;       ///< Name of the model, walker or other vehicle.
   common::Time contact_time;
   bool by_walker = false;  ///< A walker was touched.

@@ -19,7 +19,8 @@ bool fits(const RayCaster& rays, const FreeSpaceQuery& query, const Eigen::Vecto
   return rays.sweep(bandHull(query), centre, centre, 1e-6).shape == Hit::kNothing;
 }
 
-/// Neighbours are joined only if the hull passes from one to the other, so that a flood leaks through nothing thin.
+/// Neighbours are joined only if the hull can pass from one to the other, so that the flood does not leak through thin
+/// walls.
 bool passes(const RayCaster& rays, const FreeSpaceQuery& query, const Eigen::Vector2d& from,
             const Eigen::Vector2d& to) {
   const double height_m = bandMiddle_m(query);

@@ -1,5 +1,5 @@
-// The free space a vehicle can reach, computed from the true world: what coverage is measured against. For evaluation
-// only.
+// The free space that a vehicle can reach, computed from the true world; coverage is measured against it. For
+// evaluation only.
 #pragma once
 
 #include <cstdint>
@@ -17,20 +17,20 @@ struct FreeSpaceQuery {
   double bottom_m = 0.85;  ///< Height band of the hull in flight, in the world's frame.
   double top_m = 1.15;
   double resolution_m = 0.05;
-  double max_area_m2 = 10'000.0;  ///< Where the flood stops when the world has no walls.
+  double max_area_m2 = 10'000.0;  ///< Area at which the flood stops if the world has no walls.
 };
 
-/// Grids in the world's frame; 1: yes, 0: no.
+/// Grids in the world's frame; a cell is 1 for yes, 0 for no.
 struct FreeSpace {
-  common::TiledGrid<std::uint8_t> reachable;  ///< The centre of the hull can get there from the start.
-  /// What the hull can cover: every cell within the hull's radius of a reachable one.
+  common::TiledGrid<std::uint8_t> reachable;  ///< The centre of the hull can reach the cell from the start.
+  /// The hull can cover the cell: it is within the hull's radius of a reachable cell.
   common::TiledGrid<std::uint8_t> covered;
   double reachable_area_m2 = 0.0;
   double covered_area_m2 = 0.0;
 };
 
-/// Where the centre of the hull can get to from the start, by a flood over cells: all of it nothing when the start does
-/// not fit.
+/// The cells that the centre of the hull can reach from the start, by a flood. All are 0 if the hull does not fit at
+/// the start.
 common::TiledGrid<std::uint8_t> reachableSpace(const RayCaster& rays, const FreeSpaceQuery& query);
 
 FreeSpace freeSpace(const RayCaster& rays, const FreeSpaceQuery& query);

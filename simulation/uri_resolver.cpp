@@ -38,7 +38,8 @@ UriResolver::UriResolver(const fs::path& sdf_file, const std::vector<std::string
   for (const fs::path& base : {folder, folder.parent_path()})
     for (const char* inside : {"", "models", "media"})
       if (base == folder || *inside != '\0') folders_.push_back(base / inside);
-  folders_.push_back(folder.parent_path());  // A bare models/NAME/model.sdf says model://NAME/meshes/...
+  folders_.push_back(folder.parent_path());  // The file of a bare model, models/NAME/model.sdf, uses uris such as
+                                             // model://NAME/meshes/...
 }
 
 std::optional<fs::path> UriResolver::find(const std::string& uri, const fs::path& used_in) const {

@@ -19,10 +19,10 @@ using common::InputError;
 using common::kRadPerDeg;
 using common::Problem;
 
-constexpr double kSearchFloorFrom_m = 0.5;  // Above the start.
+constexpr double kSearchFloorFrom_m = 0.5;  // Height above the start from which the floor is searched.
 constexpr double kSearchFloorDown_m = 20.0;
 constexpr double kUnevenFloor_m = 0.03;
-constexpr double kSameFloor_m = 0.05;  // Nobody starts on a crate where a place on the floor was asked for.
+constexpr double kSameFloor_m = 0.05;  // A drawn start must be on the same floor as the nominal one, not on a crate.
 
 StartConfig nominalStart(const WorldModel& world, const Scenario& scenario) {
   StartConfig start = scenario.start;
@@ -39,7 +39,7 @@ std::uint64_t streamSeed(int seed, std::size_t vehicle) {
   return vehicle == 0 ? own : common::RandomStream(own, "vehicle", vehicle).bits();
 }
 
-/// One vehicle in the world that was drawn with it.
+/// One vehicle and the world drawn with it.
 struct Drawn : PlacedVehicle {
   WorldModel world;
 };
@@ -77,7 +77,7 @@ Problem startProblem(const Drawn& drawn, const std::string& message, const std::
           fmt::format("at ({:.2f}, {:.2f}, {:.2f}) {}", start.x_m, start.y_m, start.z_m, message), hint};
 }
 
-/// Puts the start on its floor; says what is in the way, if something is.
+/// Puts the start on its floor; returns what blocks it, if anything does.
 std::optional<Problem> placeStart(Drawn& drawn, const RayCaster& rays) {
   const Scenario& scenario = drawn.scenario;
   const StartConfig& start = scenario.start;
@@ -111,7 +111,7 @@ std::optional<Problem> placeStart(Drawn& drawn, const RayCaster& rays) {
                       "move the start");
 }
 
-/// The other vehicle whose hull its own would touch.
+/// The other vehicle whose hull would be touched.
 std::optional<Problem> meetsAnother(const Drawn& drawn, const std::vector<PlacedVehicle>& others) {
   const Eigen::Vector3d at = drawn.T_world_map.position_m;
   for (const PlacedVehicle& other : others) {
@@ -123,8 +123,8 @@ std::optional<Problem> meetsAnother(const Drawn& drawn, const std::vector<Placed
   return std::nullopt;
 }
 
-/// Where the vehicle gets to at its flight height from a start that was placed; searched once, when it is first asked
-/// for.
+/// The cells that the vehicle can reach at its flight height from a placed start. They are computed once, at the first
+/// call.
 class Reach {
  public:
   Reach(const Drawn& drawn, const RayCaster& rays) : drawn_(drawn), rays_(rays) {}
@@ -152,7 +152,8 @@ class Reach {
   std::optional<common::TiledGrid<std::uint8_t>> cells_;
 };
 
-/// Of a start drawn anywhere: it is on the floor of the nominal one, nothing hangs over it, and it leads there.
+/// Conditions for a start drawn in an area: it is on the floor of the nominal start, nothing is above it, and the
+/// nominal start can be reached from it.
 std::optional<Problem> badPlace(const Drawn& drawn, const StartConfig& nominal, const RayCaster& rays, Reach& reach) {
   if (drawn.scenario.variation.start_area_world_m.empty()) return std::nullopt;
   const common::VehicleConfig& vehicle = drawn.scenario.vehicle;
@@ -188,7 +189,7 @@ bool varies(const Variation& v) {
          (!v.obstacles.empty() && v.obstacle_m > 0.0);
 }
 
-/// They are drawn with the first vehicle.
+/// The obstacles are drawn with the first vehicle.
 void takeAirAndObstaclesOf(const PlacedVehicle& first, Scenario& scenario) {
   scenario.wind = first.scenario.wind;
   scenario.variation.wind_m_s = 0.0;
@@ -214,7 +215,7 @@ Drawn drawUntilItWillDo(const WorldModel& world, const PlacedVehicle& nominal,
     if (!problem) return drawn;
     if (!unreachable) unreachable = problem;
   }
-  // A start that was free but led nowhere says more than one that was not.
+  // Report a start that was free but cut off rather than one that was blocked: it tells more.
   Problem problem = unreachable ? *unreachable : *blocked;
   if (draws > 1) problem.message += fmt::format("; none of the {} draws of the seed's variation will do", draws);
   throw InputError(problem);

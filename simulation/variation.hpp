@@ -1,4 +1,4 @@
-// What a seed makes of a scenario: where the vehicles start, where the obstacles stand, the wind and the batteries.
+// The scenario as varied by a seed: starts of the vehicles, places of the obstacles, the wind and the batteries.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,15 @@ namespace swiftlet::simulation {
 
 /// A vehicle at its start.
 struct PlacedVehicle {
-  std::string name;  ///< Empty when it flies alone without one.
-  /// With this vehicle alone; `start`, `wind.mean` and `battery_remaining` as drawn.
+  std::string name;  ///< Empty for a single vehicle without a name.
+  /// The scenario for this vehicle alone; `start`, `wind.mean` and `battery_remaining` as drawn.
   Scenario scenario;
-  /// Names its random streams: the scenario's own seed for the first vehicle, so that it draws as if it flew alone.
+  /// Names its random streams. For the first vehicle it is the scenario's own seed, so that it draws as if it flew
+  /// alone.
   std::uint64_t stream_seed = 0;
   /// The take-off place on its floor.
   common::Pose3 T_world_map;
-  int redraws = 0;  ///< Draws that were refused: something in the way of start or obstacle, a goal out of reach.
+  int redraws = 0;  ///< Draws that were refused: start or obstacle blocked, or a goal out of reach.
 };
 
 struct Realization {
@@ -28,10 +29,10 @@ struct Realization {
   std::vector<PlacedVehicle> vehicles;  ///< At least one.
 };
 
-/// Draws until the start is free and every goal can be reached, at most kMostDraws times; first the obstacles, the wind
-/// and the first vehicle, then each further vehicle in what stands by then. The same world, scenario and seed give the
-/// same result. Throws common::InputError with file and line when the scenario cannot be flown: no floor under a start,
-/// a start inside something, an unknown obstacle, or no draw that will do.
+/// Draws until the start is free and every goal can be reached, at most kMostDraws times. First it draws the obstacles,
+/// the wind and the first vehicle, then each further vehicle into the world with those before it. The same world,
+/// scenario and seed give the same result. Throws common::InputError with file and line if the scenario cannot be
+/// flown: no floor under a start, a start inside something, an unknown obstacle, or no suitable draw.
 Realization realize(const WorldModel& world, const Scenario& scenario);
 inline constexpr int kMostDraws = 200;
 

@@ -1,5 +1,5 @@
-// One vehicle of the arena: physics, autopilot, battery, sensors, the link that brings it setpoints, and the referee of
-// its hull. The arena moves it, step by step.
+// One vehicle of the arena: physics, autopilot, battery, sensors, the link for its setpoints, and the referee of its
+// hull. The arena moves it, step by step.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@
 
 namespace swiftlet::simulation {
 
-/// Steps of the physics.
+/// Period of a physics step.
 inline constexpr common::Duration kStep = common::Duration::fromMilliseconds(1);
 inline constexpr double kStep_s = 0.001;
 inline constexpr std::uint64_t kStepsPerLook = 10;  ///< 100 Hz: referee and wind.
@@ -34,28 +34,28 @@ class VehicleModel {
   /// World and rays must outlive it.
   VehicleModel(PlacedVehicle placed, const WorldModel& world, const RayCaster& rays);
 
-  /// Scenario, name and start as drawn.
+  /// The scenario, name and start as drawn.
   const PlacedVehicle& placed() const { return placed_; }
-  /// Ends with the contact when it has crashed.
+  /// The truth. It stays at the contact after a crash.
   const Truth& truth() const { return truth_; }
-  /// Where its hull is, as the rays of other vehicles meet it. A crashed one falls to the floor and stays there.
+  /// The hull as the rays of other vehicles meet it. A crashed one falls to the floor and stays there.
   Actor hull() const;
   WalkedAround asWalkedAround() const;
 
-  // One step of the arena, in this order. `around` is what its rays meet beside the world.
+  // One step of the arena, in this order. `around` are the moving cylinders that its rays meet besides the world.
 
-  /// The sensors' first look, before any step.
+  /// The sensors' first measurements, before any step.
   void begin(const std::vector<Actor>& around);
   /// Step number `step`, which begins at `now`: autopilot, pushes and physics.
   void fly(common::Time now, std::uint64_t step, const Eigen::Vector3d& wind_world_m_s);
   /// At the end of step number `step`, at `now`: touch-downs, and contacts when a look is due.
   void judge(common::Time now, std::uint64_t step, std::span<const Walker> walkers);
-  /// The gap between its hull and that of another vehicle; 0: they touch, which ends both.
+  /// The gap between its hull and that of another vehicle. At 0 they touch, which ends both flights.
   void judgeMeeting(common::Time now, double gap_m, const VehicleModel& other);
   void measure(common::Time now, const std::vector<Actor>& around, const RayCaster& rays);
 
   void take(common::Time until, std::vector<common::SensorEvent>& events) { sensors_.take(until, events); }
-  /// A setpoint handed over at `now`; it is on its way for as long as the link takes.
+  /// A setpoint handed over at `now`; it arrives after the latency of the link.
   void apply(common::Time now, const common::Setpoint& setpoint);
   void setCameraConsumer(bool wanted) { sensors_.setCameraConsumer(wanted); }
 
@@ -78,11 +78,11 @@ class VehicleModel {
   QuadrotorState before_step_;
   Truth truth_;
   bool stopped_ = false;   ///< It had crashed before the present step.
-  double fallen_m_ = 0.0;  ///< Since then.
+  double fallen_m_ = 0.0;  ///< How far it has fallen since the crash.
   double falling_m_s_ = 0.0;
 };
 
-/// Horizontal distance between two upright cylinders, 0 where they touch; infinity where one is above the other.
+/// Horizontal distance between two upright cylinders, 0 if they touch, infinity if one is above the other.
 double gapBetween_m(const Actor& a, const Actor& b);
 
 }  // namespace swiftlet::simulation

@@ -11,11 +11,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSeenWalking_m = 3.0;  // How far beside the vehicle's way a crossing starts and ends at most.
-constexpr double kLeastStep_m = 0.8;    // ... and at least.
-constexpr double kLeastAhead_m = 1.5;   // Nearer than this nobody steps into the way.
-constexpr double kUnderFoot_m = 0.05;   // What is lower does not stop a person.
-constexpr double kTrail_m = 0.1;        // Spacing of the remembered trail.
+// Greatest distance beside the vehicle's path at which a crossing starts and ends.
+constexpr double kSeenWalking_m = 3.0;
+constexpr double kLeastStep_m = 0.8;   // Least distance beside the vehicle's path at which a crossing starts and ends.
+constexpr double kLeastAhead_m = 1.5;  // No person steps into the path nearer to the vehicle than this.
+constexpr double kUnderFoot_m = 0.05;  // Anything lower does not stop a person.
+constexpr double kTrail_m = 0.1;       // Spacing of the remembered trail.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double length(const std::vector<Vector2d>& path) {
@@ -86,7 +87,7 @@ void Walker::walkPath(double walked_m) {
   appearAt(along(path_world_m_, walked_m));
 }
 
-// Waits for the vehicle to be under way, walks across once, is gone, and waits again if it is to repeat.
+// Waits for the vehicle to move, walks across once, disappears, and waits again if it is to repeat.
 void Walker::cross(double now_s, const WalkedAround& vehicle) {
   if (actor_) {
     const double walked_m = config_.speed_m_s * (now_s - path_start_s_);
@@ -124,9 +125,9 @@ bool Walker::planCrossing(const WalkedAround& vehicle) {
   const double after_m = std::min(kSeenWalking_m, freeAlong(middle, across, 2.0 * kSeenWalking_m) - margin_m);
   if (before_m < kLeastStep_m || after_m < kLeastStep_m) return false;
   const Vector2d from = middle - before_m * across, to = middle + after_m * across;
-  // In the vehicle's sight from the first step.
+  // The person is in the vehicle's view from the first step.
   const Vector2d sight = from - position;
-  if (freeAlong(position, sight.normalized(), sight.norm()) < sight.norm() || !freeWay(from, to)) return false;
+  if (freeAlong(position, sight.normalized(), sight.norm()) < sight.norm() || !freePath(from, to)) return false;
   path_world_m_ = {from, to};
   return true;
 }
@@ -144,17 +145,17 @@ void Walker::follow(const WalkedAround& vehicle, double step_s) {
   double left_m = config_.speed_m_s * step_s;
   Vector2d next = actor_->position_world_m;
   while (left_m > 0.0 && path_world_m_.size() > 1 && (next - position).norm() > keep_m) {
-    const Vector2d way = path_world_m_.front() - next;
-    const double stride_m = std::min(left_m, way.norm());
-    if (way.norm() > 0.0) next += stride_m * way.normalized();
+    const Vector2d leg = path_world_m_.front() - next;
+    const double stride_m = std::min(left_m, leg.norm());
+    if (leg.norm() > 0.0) next += stride_m * leg.normalized();
     left_m -= stride_m;
-    if (stride_m == way.norm()) path_world_m_.erase(path_world_m_.begin());
+    if (stride_m == leg.norm()) path_world_m_.erase(path_world_m_.begin());
     if (stride_m == 0.0 && left_m > 0.0 && path_world_m_.size() <= 1) break;
   }
-  if (next != actor_->position_world_m && freeWay(actor_->position_world_m, next)) appearAt(next);
+  if (next != actor_->position_world_m && freePath(actor_->position_world_m, next)) appearAt(next);
 }
 
-bool Walker::freeWay(const Vector2d& from_world_m, const Vector2d& to_world_m) const {
+bool Walker::freePath(const Vector2d& from_world_m, const Vector2d& to_world_m) const {
   const double half_height_m = 0.5 * (config_.height_m - kUnderFoot_m);
   const double middle_m = floor_world_m_ + kUnderFoot_m + half_height_m;
   return rays_

@@ -1,5 +1,5 @@
-// People in the world. They walk a path as written, cross the vehicle's way where that way is free, or follow it until
-// something stands in the way. They never yield to the vehicle.
+// People in the world. They walk a given path, cross the vehicle's path where that is free, or follow the vehicle until
+// something blocks them. They never yield to the vehicle.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace swiftlet::simulation {
 
-/// What a walker may see of the vehicle it crosses or follows.
+/// The state of the vehicle that a walker crosses or follows.
 struct WalkedAround {
   Eigen::Vector3d position_world_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();
@@ -38,7 +38,7 @@ class Walker {
   bool planCrossing(const WalkedAround& vehicle);
   void follow(const WalkedAround& vehicle, double step_s);
   /// Whether a person walking straight from one point to the other touches nothing.
-  bool freeWay(const Eigen::Vector2d& from_world_m, const Eigen::Vector2d& to_world_m) const;
+  bool freePath(const Eigen::Vector2d& from_world_m, const Eigen::Vector2d& to_world_m) const;
 
   WalkerConfig config_;
   int seed_;
@@ -47,7 +47,7 @@ class Walker {
   double hull_radius_m_;
   const RayCaster& rays_;
   std::optional<Actor> actor_;
-  std::vector<Eigen::Vector2d> path_world_m_;  // kFollow: the vehicle's trail that is still ahead.
+  std::vector<Eigen::Vector2d> path_world_m_;  // For kFollow: the part of the vehicle's trail that is still ahead.
   double path_start_s_ = 0.0;
   double next_crossing_s_ = 0.0;
   std::uint64_t crossings_ = 0;

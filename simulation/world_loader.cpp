@@ -51,7 +51,7 @@ common::SourceLocation locationOf(const sdf::ElementPtr& element, const std::str
   return {element->FilePath().empty() ? file : element->FilePath(), element->LineNumber().value_or(0)};
 }
 
-/// The colours of Gazebo's own material scripts that worlds use most.
+/// Colours of the most common material scripts of Gazebo.
 std::optional<Color> scriptColor(const std::string& script) {
   static const std::array<std::pair<const char*, Color>, 16> kColors{{{"Gazebo/Grey", {0.7F, 0.7F, 0.7F}},
                                                                       {"Gazebo/DarkGrey", {0.18F, 0.18F, 0.18F}},
@@ -83,7 +83,7 @@ std::optional<Color> colorOf(const sdf::Visual* visual) {
   return Color(diffuse.R(), diffuse.G(), diffuse.B());
 }
 
-/// A soft colour that differs from model to model, for what has none of its own.
+/// A soft colour, different for each model, for models without a colour.
 Color colorByName(const std::string& name) {
   common::RandomStream random(0, name);
   const auto channel = [&random] { return static_cast<float>(random.uniform(0.45, 0.85)); };

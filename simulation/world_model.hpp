@@ -1,5 +1,5 @@
-// The world the simulator flies in: triangles with a colour and the name of the model they belong to, in the world's
-// own frame (ENU, metres). Loaded once, then immutable data that any thread may read.
+// The world of the simulator: triangles with a colour and the name of the model they belong to, in the world's own
+// frame (ENU, metres). Loaded once; then any thread may read it.
 #pragma once
 
 #include <array>
@@ -37,9 +37,9 @@ struct WorldModel {
   std::vector<Shape> shapes;
   /// The pose of `<frame name="start">`, if the world has one.
   std::optional<common::Pose3> T_world_start;
-  /// Where that frame stands in the file, or the world itself when it has none.
+  /// The line of that frame in the file, or of the world if it has none.
   common::SourceLocation start_source;
-  /// What was skipped or replaced, each as "file:line: ...".
+  /// Elements that were skipped or replaced, each as "file:line: ...".
   std::vector<std::string> warnings;
 
   /// Names of the top-level models, in the order of the file.
@@ -52,11 +52,11 @@ struct WorldModel {
 };
 
 /// Reads an SDF world, or a bare `<model>` file as a world of that one model. Boxes, cylinders, spheres, capsules,
-/// ellipsoids, planes and meshes are triangulated; collision geometry counts, the visual one where a link has none.
-/// `model://` and `file://` URIs are looked for in `model_paths`, in the folders of SDF_PATH, and around the file
-/// itself (its folder, and the folders `models` and `media` beside and above it). An include that cannot be found and
-/// brings no geometry that matters (Sun) is a warning; the well-known ground plane is replaced by one at z = 0. Throws
-/// common::InputError (file:line) when the file cannot be read, is malformed, or refers to something missing. Not
+/// ellipsoids, planes and meshes are triangulated. The collision geometry of a link is used, or its visual geometry if
+/// it has none. `model://` and `file://` URIs are searched for in `model_paths`, in the folders of SDF_PATH, and around
+/// the file itself (its folder, and the folders `models` and `media` beside and above it). An include that cannot be
+/// found and has no geometry that matters (Sun) is a warning; the well-known ground plane is replaced by one at z = 0.
+/// Throws common::InputError (file:line) if the file cannot be read, is malformed, or refers to something missing. Not
 /// thread-safe: libsdformat has global state.
 WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths = {});
 

@@ -1,5 +1,5 @@
-// What a maneuver does while there is no path to where it wants to be: it goes nearer to look at what stands there, or
-// aside so that somebody who stands in the way can pass.
+// What a maneuver does while there is no path to its goal: it moves nearer to look at the blockage, or aside so that a
+// person in the path can pass.
 #pragma once
 
 #include <optional>
@@ -19,21 +19,22 @@ namespace swiftlet::autonomy {
 ///     +-------------------------------------------+
 class Detour {
  public:
-  /// How often a maneuver asks for its own path while a detour is flown.
+  /// Period at which a maneuver asks for its own path while a detour is flown.
   static constexpr double kAskAgain_s = 1.0;
 
-  /// The maneuver's own flight, which the detour borrows.
+  /// `flight` is the maneuver's own flight, which the detour borrows.
   Detour(const ManeuverSetup& setup, PathFlight& flight);
 
   bool active() const { return active_; }
-  /// Without a path since then, nothing flown, and the last detour ended (or was asked for) long enough ago.
+  /// Whether a detour is due: there has been no path and no flight since then, and the last detour ended (or was
+  /// requested) long enough ago.
   bool due(common::Time stuck_since, common::Time now) const;
   void ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m);
-  /// `reason`: why there is no path.
+  /// `reason` says why there is no path.
   void begin(const DetourPlan& plan, std::string reason, common::Time now, const common::VehicleState& state);
-  /// Once a tick: stops when it is there, when it took too long, or when its path is gone.
+  /// Call it once a tick. Stops when the detour has arrived, took too long, or lost its path.
   void endWhenOver(const ManeuverInput& input);
-  /// A path was found: the vehicle flies on, and whatever is offered next is flown.
+  /// A path was found: the vehicle flies on, and the next plan that is offered is flown.
   void breakOff();
 
  private:
@@ -41,7 +42,7 @@ class Detour {
   FlightMemory& memory_;
   PathFlight& flight_;
   bool active_ = false;
-  std::optional<common::Time> since_;  ///< When the last one was asked for, or ended.
+  std::optional<common::Time> since_;  ///< When the last detour was requested, or ended.
 };
 
 }  // namespace swiftlet::autonomy

@@ -8,11 +8,12 @@
 namespace swiftlet::autonomy {
 namespace {
 
-constexpr double kLook_s = 0.5;  // At a viewpoint, until its scans are in the map and were thought over.
-/// Who was about so lately may stand in the way of what could not be reached, or have stood there when it was mapped;
-/// that is looked into, but not for ever.
+constexpr double kLook_s = 0.5;  // Time at a viewpoint, until its scans are in the map and were processed.
+/// A person seen within this time may block what could not be reached, or may have been mapped there. Then a detour is
+/// made, but not forever.
 constexpr double kLately_s = 30.0, kLookInto_s = 30.0;
-/// The last scans may still be on their way into the map: done is believed when it is said so often, standing still.
+/// The last scans may not be in the map yet. Exploring is done only after this many equal answers while the vehicle
+/// stands still.
 constexpr int kDoneAnswers = 2;
 
 }  // namespace
@@ -99,7 +100,7 @@ Progress Explore::nothingOpen(const planning::ExplorationResult& result, Time no
   if (!done_since_) done_since_ = now;
   blocked_frontier_map_m_ = blockedFrontier(result, now);
   if (blocked_frontier_map_m_)
-    reason_ = "somebody may stand in the way";
+    reason_ = "a person may block the path";
   else if (setup_.controller.stopped() && ++done_answers_ >= kDoneAnswers)
     return explored(result, now);
   return Progress::running(reason_);

@@ -1,4 +1,4 @@
-// What outlives a maneuver: facts about the flight and the place. What an intent wants is not among them.
+// What outlives a maneuver: facts about the flight and the place, but not the goal of an intent.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@
 
 namespace swiftlet::autonomy {
 
-/// What exploring has found out about the place, so that an Explore that was interrupted does not look again where
-/// looking was in vain.
+/// Results of exploring, so that an Explore that was interrupted does not look again from viewpoints that showed
+/// nothing new.
 struct ExplorationMemory {
-  std::vector<planning::ExplorationAttempt> attempts;  ///< Until everything is explored.
-  std::optional<common::Time> people_seen;             ///< When somebody walked about last.
+  std::vector<planning::ExplorationAttempt> attempts;  ///< Kept until everything is explored.
+  std::optional<common::Time> people_seen;             ///< When a moving person was last seen.
 };
 
 struct FlightMemory {
-  /// Paths are flown at this height over the take-off floor: that of the take-off until a goal names another.
+  /// Height of paths over the take-off floor: that of the take-off until a goal names another.
   double cruise_height_m = 1.0;
   ExplorationMemory exploration;
   std::vector<common::Event> events;

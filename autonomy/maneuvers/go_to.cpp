@@ -5,10 +5,10 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// A map that does not reach the goal may just be about to grow.
+/// A map that does not reach the goal may be about to grow.
 constexpr double kGrowing_s = 2.0;
 
-/// Somebody who stands in the way may go; a goal in space never seen is not seen by waiting.
+/// A person who blocks the path may go away, so waiting helps. It does not help for a goal in unknown space.
 bool mayPass(const planning::PlanFailure& failure) {
   using Reason = planning::PlanFailure::Reason;
   return failure.reason != Reason::kGoalUnseen && failure.reason != Reason::kOutsideMap;
@@ -55,7 +55,7 @@ Progress GoTo::answered(const PlanningAnswer& answer, Time now, const common::Ve
 
 Progress GoTo::waitFor(const planning::PlanFailure& failure, Time now) {
   if (!no_path_) {
-    setup_.memory.say(now, common::Severity::kWarning, "no way to the goal at present", failure.text);
+    setup_.memory.say(now, common::Severity::kWarning, "no path to the goal at present", failure.text);
     no_path_ = NoPath{now, failure};
   }
   no_path_->failure = failure;

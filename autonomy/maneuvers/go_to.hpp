@@ -1,5 +1,5 @@
-// GoTo: flies to a place of the map; done when it is there. Without a path it waits, goes on detours, and in the end
-// fails with the planner's words. The way home is a GoTo with the home pose.
+// GoTo: flies to a place of the map; done on arrival. Without a path it waits and makes detours, and finally fails with
+// the planner's reason. Going home is a GoTo with the home pose.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ class GoTo final : public PathManeuver {
   std::optional<Eigen::Vector2d> goal_map_m() const override { return intent_.goal_map_m; }
 
  private:
-  /// Since when there has been no path, and what the planner said last.
+  /// Since when there has been no path, with the planner's last reason.
   struct NoPath {
     common::Time since;
     planning::PlanFailure failure;
@@ -28,7 +28,7 @@ class GoTo final : public PathManeuver {
   common::GoToIntent intent_;
   Detour detour_;
   std::optional<NoPath> no_path_;
-  common::Time asked_;  ///< For the path to the goal, last.
+  common::Time asked_;  ///< When the path to the goal was last requested.
 };
 
 }  // namespace swiftlet::autonomy

@@ -1,4 +1,4 @@
-// Land: comes down where it is; done when the vehicle stands on the ground. In the air it cannot fail.
+// Land: lands where the vehicle is; done when it stands on the ground. In the air it cannot fail.
 #pragma once
 
 #include <string>

@@ -24,18 +24,18 @@ namespace swiftlet::autonomy {
 
 class PathFlight;
 
-/// What a maneuver works with; all of it outlives the maneuver.
+/// The objects that a maneuver uses; all of them outlive it.
 struct ManeuverSetup {
   const ExecutorConfig& config;
   control::FlightController& controller;
   PlanningDesk& desk;
   const RetreatFlight& retreat;
   FlightMemory& memory;
-  PlanningClient client;  ///< In whose name it asks for plans.
+  PlanningClient client;  ///< The client in whose name it asks for plans.
 };
 
-/// For a maneuver that the flight state does not allow; names what brought the vehicle down, when that is why: "cannot
-/// take off: landed because no valid height for 0.3 s".
+/// The failure of a maneuver that the flight state does not allow. It names what brought the vehicle down, if that is
+/// the cause: "cannot take off: landed because no valid height for 0.3 s".
 Progress cannot(std::string_view purpose, const control::FlightController& controller);
 
 class Maneuver {
@@ -45,15 +45,15 @@ class Maneuver {
   Maneuver& operator=(const Maneuver&) = delete;
   virtual ~Maneuver() = default;
 
-  /// At the behaviours' rate, from the tick on in which the intent began.
+  /// Called at the behaviours' rate, from the tick in which the intent began.
   virtual Progress step(const ManeuverInput& input) = 0;
-  /// The planning it asked for is there; not called while the reactive layer retreats, as that answer is outdated.
-  /// `state` is the newest.
+  /// The answer to its planning request. It is not called while the reactive layer retreats, because the answer is
+  /// outdated then. `state` is the newest.
   virtual Progress answered(const PlanningAnswer&, common::Time, const common::VehicleState&) { return {}; }
 
-  /// Where it flies to at present, for people to see; in `map`.
+  /// The place it is flying to, in `map`, for display.
   virtual std::optional<Eigen::Vector2d> goal_map_m() const { return std::nullopt; }
-  /// The path it flies; null for a maneuver that flies none.
+  /// The path it flies; null for a maneuver without paths.
   virtual const PathFlight* path() const { return nullptr; }
 };
 

@@ -1,9 +1,10 @@
-// What carrying out an intent sees of the world at one tick.
+// The state of the world at one tick, as maneuvers see it.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "common/disc.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
@@ -16,9 +17,9 @@ namespace swiftlet::autonomy {
 struct ManeuverInput {
   common::Time now;
   common::VehicleState state;
-  std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null; a snapshot that nobody writes to.
+  std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null; a snapshot that is not written to any more.
   std::shared_ptr<const common::LevelMap> levels;     ///< May be null.
-  std::vector<planning::Disc> discs;                  ///< Where people are and will soon be, in `map`.
+  std::vector<common::Disc> discs;                    ///< Present and predicted places of people, in `map`.
   bool anybody_walks = false;
   const planning::AvoidanceDecision& avoidance;
 

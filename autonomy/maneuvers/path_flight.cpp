@@ -28,7 +28,7 @@ bool PathFlight::keep(const ManeuverInput& input) {
 void PathFlight::offer(const planning::Path& path, common::Time now, const common::VehicleState& state) {
   const auto cost_map = desk_.costMap();
   if (!cost_map) return;
-  if (!plan()) keeper_.clear();  // A plan that is not followed any more is not worth keeping.
+  if (!plan()) keeper_.clear();  // A plan that is no longer followed is dropped.
   if (!keeper_.offer(path, now, *cost_map, state.T_map_body_planar().position_m())) return;
   control::FlightPath flown;
   for (const Eigen::Vector2d& point : path.points_map_m)
@@ -60,8 +60,8 @@ std::vector<Eigen::Vector2d> PathFlight::remaining_map_m() const {
   return plan() ? keeper_.remaining() : std::vector<Eigen::Vector2d>{};
 }
 
-Eigen::Vector2d PathFlight::wishedVelocity_map_m_s() const {
-  constexpr double kAhead_m = 0.05;  // A shorter step tells no direction.
+Eigen::Vector2d PathFlight::wantedVelocity_map_m_s() const {
+  constexpr double kAhead_m = 0.05;  // A shorter step gives no reliable direction.
   const auto points = remaining_map_m();
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Eigen::Vector2d step = points[i] - points.front();

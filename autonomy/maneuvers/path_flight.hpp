@@ -1,5 +1,5 @@
-// Flies the plans of one maneuver: asks for them, keeps a plan while it is good, offers it to the flight controller,
-// and tells when a goal is reached.
+// Flies the plans of one maneuver: requests them, keeps a plan while it is good, offers it to the flight controller,
+// and reports arrival at a goal.
 #pragma once
 
 #include <optional>
@@ -21,26 +21,27 @@ class PathFlight {
   bool mayAsk() const { return desk_.free(); }
   void ask(const ManeuverInput& input, PlanningQuestion question) { desk_.ask(input, client_, std::move(question)); }
 
-  /// Once a tick. Stops when the plan has become invalid on the present cost map; true when a new plan is wanted.
+  /// Call it once a tick. Stops if the plan has become invalid on the present cost map; true if a new plan is needed.
   bool keep(const ManeuverInput& input);
-  /// Flies the path, unless the plan under way leads there about as well.
+  /// Flies the path, unless the present plan is about as good.
   void offer(const planning::Path& path, common::Time now, const common::VehicleState& state);
-  /// Whatever is offered next is flown; until then the vehicle goes on.
+  /// The next plan that is offered is flown; until then the vehicle flies on.
   void release() { keeper_.clear(); }
-  /// Stops. Whatever is offered next is flown.
+  /// Stops. The next plan that is offered is flown.
   void abandon();
-  /// The heading at the end of the paths offered from now on; none: that of the flight.
+  /// The heading at the end of later paths; none for the direction of flight.
   void setGoalYaw(std::optional<double> yaw_map_rad) { goal_yaw_map_rad_ = yaw_map_rad; }
 
-  /// At the goal and at the flight's height within the tolerance, and slow, for a while. To be asked at every tick.
+  /// The vehicle has been at the goal and at the flight's height, within the tolerance and slow, for a while. Call it
+  /// at every tick.
   bool arrived(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m, double tolerance_m);
 
-  /// Null without one.
+  /// The present plan; null if there is none.
   const planning::Path* plan() const { return controller_.followsPath() ? keeper_.plan() : nullptr; }
-  /// What is left of the plan, from where the vehicle was seen last; empty without one.
+  /// The rest of the plan, from the place where the vehicle was last seen; empty without a plan.
   std::vector<Eigen::Vector2d> remaining_map_m() const;
-  /// Along the plan at the mode's speed; zero without one.
-  Eigen::Vector2d wishedVelocity_map_m_s() const;
+  /// The velocity along the plan at the mode's speed; zero without a plan.
+  Eigen::Vector2d wantedVelocity_map_m_s() const;
 
  private:
   const ExecutorConfig& config_;
@@ -51,7 +52,7 @@ class PathFlight {
   common::FlightMode mode_;
   planning::PlanKeeper keeper_;
   std::optional<double> goal_yaw_map_rad_;
-  std::optional<common::Time> within_since_;  ///< The goal's tolerances are met.
+  std::optional<common::Time> within_since_;  ///< Since when the tolerances of the goal have been met.
 };
 
 }  // namespace swiftlet::autonomy

@@ -1,5 +1,5 @@
-// What the maneuvers that fly paths share: they need a flying vehicle, leave it to the reactive layer while that
-// retreats, and fly by a PathFlight.
+// What the maneuvers that fly paths share: they need a flying vehicle, do nothing while the reactive layer retreats,
+// and fly by a PathFlight.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@ class PathManeuver : public Maneuver {
   const PathFlight* path() const final { return &flight_; }
 
  protected:
-  /// `purpose` ends "cannot ...": "fly to a goal".
+  /// `purpose` completes "cannot ...": "fly to a goal".
   PathManeuver(const ManeuverSetup& setup, std::string purpose, common::FlightMode mode);
 
-  /// A step while flying, with no retreat under way.
+  /// A step in flight without a retreat.
   virtual Progress fly(const ManeuverInput& input) = 0;
 
   ManeuverSetup setup_;

@@ -1,4 +1,4 @@
-// How a maneuver stands after a step: running, done, or failed for a reason.
+// The status of a maneuver after a step: running, done, or failed with a reason.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@ namespace swiftlet::autonomy {
 
 struct Progress {
   common::IntentState state = common::IntentState::kRunning;
-  /// For people: what it does or waits for, what it reached, or why it failed. Empty while running: as before.
+  /// For people: what it does or waits for, what it reached, or why it failed. If it is empty while running, the last
+  /// reason stays.
   std::string reason;
 
   static Progress running(std::string reason = {}) { return {common::IntentState::kRunning, std::move(reason)}; }

@@ -1,5 +1,4 @@
-// Flies what the reactive layer asks for: its speed limit, and its retreat, which comes before everything an intent
-// wants.
+// Flies what the reactive layer asks for: its speed limit, and its retreat, which overrides every intent.
 #pragma once
 
 #include <optional>
@@ -25,7 +24,7 @@ class RetreatFlight {
 
  private:
   control::FlightController& controller_;
-  std::optional<double> yaw_map_rad_;  ///< What it faces meanwhile.
+  std::optional<double> yaw_map_rad_;  ///< The heading during the retreat.
 };
 
 }  // namespace swiftlet::autonomy

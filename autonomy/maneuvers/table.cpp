@@ -12,7 +12,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// The table: a line an intent. An intent that is not in it does not compile.
+/// The table has one line for each intent. An intent that is missing does not compile.
 struct Made {
   using Pointer = std::unique_ptr<Maneuver>;
   const ManeuverSetup& setup;

@@ -7,7 +7,7 @@
 
 namespace swiftlet::autonomy {
 
-/// Begins to carry out the intent.
+/// Makes the maneuver of an intent.
 std::unique_ptr<Maneuver> makeManeuver(const common::IntentKind& kind, const ManeuverSetup& setup);
 
 }  // namespace swiftlet::autonomy

@@ -1,9 +1,9 @@
 // Makes the nodes of the main tree, subtrees expanded in place.
 //
-// Entries: each tree used has its own. A SubTree attribute `inner="{outer}"` makes both names one entry, `inner="text"`
-// gives the inner entry that text, and `_autoremap="true"` makes every inner name that is not given the outer one of
-// the same name, unless it starts with "_". `{@name}` is an entry of the main tree wherever it stands. A port that
-// <TreeNodesModel> declares with a default takes it when the attribute is missing.
+// Entries: each use of a tree has its own. A SubTree attribute `inner="{outer}"` makes both names one entry,
+// `inner="text"` gives the inner entry that text, and `_autoremap="true"` maps every inner name that is not given to
+// the outer entry of the same name, unless it starts with "_". `{@name}` is an entry of the main tree in every subtree.
+// A port that <TreeNodesModel> declares with a default takes it if the attribute is missing.
 #pragma once
 
 #include <map>
@@ -24,7 +24,7 @@ class Builder {
   Builder(const Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems);
   ~Builder();
 
-  /// For documents in which Checker found no problem. The tree is good when there is still none.
+  /// For documents in which Checker found no problem. The tree is valid if there is still none afterwards.
   Tree build();
 
  private:
@@ -61,7 +61,7 @@ class Builder {
   bool gave_up_ = false;
 };
 
-/// Entries that are read but never set, or set to what their readers cannot take.
+/// Entries that are read but never set, or set to a value that their readers cannot take.
 void checkEntries(const TreeParts& tree, Problems& problems);
 
 }  // namespace swiftlet::tree

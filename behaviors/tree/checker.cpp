@@ -33,7 +33,7 @@ std::vector<std::string> portNames(const NodeManifest& manifest) {
   return names;
 }
 
-/// "`clearance_cm` is in centimetres, expected `clearance_m` in metres", when only the unit differs.
+/// "`clearance_cm` is in centimetres, expected `clearance_m` in metres", if only the unit differs.
 std::string otherUnit(std::string_view given, const NodeManifest& manifest) {
   for (const PortManifest& port : manifest.ports) {
     const auto expected = unitInWords(unitOf(port.name));
@@ -189,7 +189,7 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
     return (explicitKind(element.name) ? *element.attribute("ID") : element.name) + "." + port.name;
   };
   if (port.direction == Direction::kOutput) {
-    // The key of SetBlackboard may stand without braces.
+    // The key of SetBlackboard may be written without braces.
     if (port.type == PortType::kAny && isEntryName(attribute.value)) return;
     problems_.add(
         {document.at(element, port.name), where(), "`" + attribute.value + "` is not an entry, expected `{name}`", {}});
@@ -212,7 +212,7 @@ void Checker::checkChildren(const Document& document, const XmlElement& element,
        {}});
 }
 
-/// Depth-first over "uses"; a tree met again while it is open contains itself.
+/// Depth-first over "uses". A tree that is reached again while it is open contains itself.
 void Checker::checkRecursion() {
   std::map<std::string, std::map<std::string, Use>> uses;
   for (const auto& [id, tree] : documents_.trees) collectSubTrees(*tree.document, *tree.element, uses[id]);

@@ -1,4 +1,4 @@
-// A node with children, and what all of those share: letting go of whatever is under way below.
+// A node with children, and what all such nodes share: letting go of whatever is running below.
 #pragma once
 
 #include <memory>
@@ -18,23 +18,22 @@ class Composite : public Node {
   std::string reason(const TickContext& context) const override;
 
  protected:
-  /// The node's own rule; called unless it is ending (see endWith).
+  /// The node's own rule; called unless the node is ending (see endWith).
   virtual Status run(TickContext& context) = 0;
-  /// Clears what the node's rule remembers.
+  /// Clears the memory of the node's rule.
   virtual void clear(TickContext&) {}
 
   std::size_t count() const { return children_.size(); }
   Node& child(std::size_t index = 0) const { return *children_[index]; }
 
-  /// Ends with `result` once everything below has let go: RUNNING until then, whatever the children would say
-  /// meanwhile.
+  /// Ends with `result` once everything below has let go. It is RUNNING until then, and the children are not asked.
   Status endWith(TickContext& context, Status result);
-  /// Halts what is under way below, except `kept`; true when all have let go.
+  /// Halts what is running below, except `kept`; true when all have let go.
   bool haltOthers(TickContext& context, std::size_t kept);
 
   Release onSuspend(TickContext& context) override;
   Release onHalt(TickContext& context) override;
-  /// Any child wants.
+  /// At least one child wants the vehicle.
   bool onAsked(const TickContext& context) const override;
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads at most one byte more than the limit, so that a huge file is noticed and not loaded.
+/// Reads at most one byte more than the limit, so that a huge file is detected and not loaded.
 std::optional<std::string> readFromDisk(const std::string& path, std::size_t limit) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return std::nullopt;
@@ -58,7 +58,7 @@ void Documents::load(const std::string& path) {
 }
 
 void Documents::load(std::string text, const std::string& name) {
-  // Includes are finished first: the main file is the last.
+  // Includes are finished first, so the main file is the last.
   if (add(std::move(text), name, nullptr, nullptr)) findMain(*documents.back());
 }
 

@@ -22,7 +22,7 @@ class Problems {
   explicit Problems(int limit) : limit_(static_cast<std::size_t>(limit)) {}
   void add(Problem problem);
   bool empty() const { return list_.empty(); }
-  /// Looking for more is a waste of time.
+  /// The list is full; there is no need to look for more.
   bool full() const { return list_.size() > limit_; }
   std::vector<Problem> take() { return std::move(list_); }
 
@@ -59,12 +59,12 @@ class Documents {
   std::vector<std::unique_ptr<Document>> documents;  ///< In the order they were finished reading; stable addresses.
   std::map<std::string, TreeDefinition, std::less<>> trees;
   std::map<std::string, SubTreeModel, std::less<>> subtree_models;
-  /// Null when there is none, which is then among the problems.
+  /// Null if there is none, which is then reported as a problem.
   const TreeDefinition* main = nullptr;
   std::string main_id;
 
  private:
-  /// False when this file cannot hold a tree at all.
+  /// False if this file cannot contain a tree at all.
   bool add(std::string text, const std::string& path, const Document* from, const XmlElement* include);
   void include(const Document& document, const XmlElement& element, const std::string& path);
   bool checkRoot(const Document& document);

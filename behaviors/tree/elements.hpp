@@ -1,5 +1,5 @@
-// How the elements below <BehaviorTree> are read: which node type they name, which attributes are ports, what an
-// attribute binds.
+// How the elements below <BehaviorTree> are read: their node type, which attributes are ports, and what an attribute
+// binds.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,10 @@ namespace swiftlet::tree {
 /// <Action>, <Condition>, <Control>, <Decorator>: the type is in the attribute ID.
 std::optional<NodeKind> explicitKind(std::string_view tag);
 inline bool isSubTree(const XmlElement& element) { return element.name == "SubTree"; }
-/// The node type an element names; null when there is none or no such type.
+/// The node type that an element names; null if there is no such type.
 const NodeType* typeOf(const XmlElement& element, const Registry& registry);
 
-/// An attribute that the format itself knows: name, ID of the explicit form, _description and what editors leave
-/// behind.
+/// An attribute of the format itself: name, ID of the explicit form, _description and attributes of editors.
 bool isStructural(const XmlElement& element, std::string_view attribute);
 /// A pre- or postcondition of the format, which needs scripting.
 bool isScripted(std::string_view attribute);
@@ -27,7 +26,7 @@ bool isAutoremapped(const XmlElement& element);
 
 /// "{x}" -> "x"; "{=}" -> the port's own name; nothing for a literal.
 std::optional<std::string> entryOf(std::string_view text, std::string_view port);
-/// A name an entry may have: not empty, without blanks and braces.
+/// A valid name of an entry: not empty, without blanks and braces.
 bool isEntryName(std::string_view name);
 
 }  // namespace swiftlet::tree

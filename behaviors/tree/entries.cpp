@@ -23,7 +23,7 @@ std::vector<std::string> namesOfSet(const TreeParts& tree) {
   return names;
 }
 
-/// The same name set in another tree is the usual cause: subtrees share nothing by themselves.
+/// The usual cause is the same name in another tree: subtrees share entries only if they are mapped.
 std::string hintFor(const TreeParts& tree, const std::string& name) {
   const std::vector<std::string> names = namesOfSet(tree);
   if (std::find(names.begin(), names.end(), name) == names.end()) return didYouMean(name, names);

@@ -1,5 +1,5 @@
-// A node without children. It answers SKIPPED exactly when onAsked() says that it has nothing to do; onTick() is then
-// not called and must itself never return SKIPPED.
+// A node without children. It answers SKIPPED exactly if onAsked() says that it does not want the vehicle; onTick() is
+// not called then, and must itself never return SKIPPED.
 #pragma once
 
 #include "behaviors/tree/node.hpp"
@@ -11,7 +11,7 @@ class Leaf : public Node {
   using Node::Node;
 
  protected:
-  /// Starts or goes on; only called when there is something to do.
+  /// Starts or continues; called only if the leaf wants the vehicle.
   virtual Status act(TickContext& context) = 0;
 
  private:

@@ -18,7 +18,7 @@ const char* tagOf(Direction direction) {
   return "?";
 }
 
-/// The types by which Groot2 knows a port; what it does not know it shows as text.
+/// The port types that Groot2 knows; it shows other types as text.
 const char* editorType(PortType type) {
   switch (type) {
     case PortType::kDouble:
@@ -49,7 +49,7 @@ void writePort(const PortManifest& port, std::string& text) {
 }  // namespace
 
 std::string writeTreeNodesModel(const Registry& registry) {
-  // An editor knows the standard nodes of the format; Priority is ours.
+  // An editor knows the standard nodes of the format, but not Priority.
   const Registry standard = Registry::standard();
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<root BTCPP_format=\"4\">\n  <TreeNodesModel>\n";
   for (const auto& [id, type] : registry.types()) {

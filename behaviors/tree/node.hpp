@@ -8,11 +8,11 @@
 //             Resume |  v
 //                  SUSPENDED --- halt (at once) --------------> IDLE
 //
-// Letting go may take several ticks: the parent asks suspend() or halt() once a tick until the answer is kReleased, and
-// hands the vehicle to nobody else before. suspend() keeps the progress, halt() drops it. A node that is ticked while
-// it is letting go for a suspension simply goes on (onResume); one that is being halted first finishes that.
+// Letting go may take several ticks: the parent calls suspend() or halt() once a tick until the answer is kReleased,
+// and hands the vehicle to no other node before. suspend() keeps the progress, halt() drops it. A node that is ticked
+// while it lets go for a suspension continues (onResume); one that is being halted finishes that first.
 //
-// Time is handed in with each tick; no node looks at a clock. Single-threaded.
+// Each tick brings the time; no node reads a clock. Single-threaded.
 #pragma once
 
 #include <cstdint>
@@ -29,21 +29,21 @@ namespace swiftlet::tree {
 
 class Node;
 
-/// Another child of a Priority has the vehicle, or is about to.
+/// Another child of a Priority has the vehicle, or is about to get it.
 struct Switch {
   enum class Kind : unsigned char {
     kLetsGo,  ///< `from` was asked to let go for `to`; it may take several ticks.
     kTakes,   ///< `to` has the vehicle from this tick on.
-    kKeeps,   ///< `to` (which is also `from`) goes on after all: who asked for the vehicle asks no longer.
+    kKeeps,   ///< `to` (which is also `from`) continues after all, because the other child no longer wants the vehicle.
   };
   Kind kind = Kind::kTakes;
   const Node* priority = nullptr;
-  const Node* from = nullptr;  ///< Null when nobody had it.
+  const Node* from = nullptr;  ///< Null if no node had it.
   const Node* to = nullptr;
   std::string reason;
 };
 
-/// Told what happens inside a tick, in order.
+/// Is told what happens inside a tick, in order.
 class Observer {
  public:
   virtual ~Observer() = default;
@@ -53,7 +53,7 @@ class Observer {
   virtual void onFailure(const Node& node, std::string_view reason) = 0;
 };
 
-/// What a tick hands down the tree; whoever owns the leaves derives from it to hand down more.
+/// What a tick passes down the tree. An application derives from it to pass more to its own leaves.
 class TickContext {
  public:
   TickContext() = default;
@@ -73,45 +73,47 @@ class Node {
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
-  /// Starts or goes on. Returns kRunning, kSuccess, kFailure or kSkipped.
+  /// Starts or continues. Returns kRunning, kSuccess, kFailure or kSkipped.
   Status tick(TickContext& context);
-  /// Asked each tick until it returns kReleased: lets go and keeps its progress.
+  /// Called each tick until it returns kReleased: the node lets go and keeps its progress.
   Release suspend(TickContext& context);
-  /// Asked each tick until it returns kReleased: lets go and forgets; it and all below are then IDLE.
+  /// Called each tick until it returns kReleased: the node lets go and drops its progress; it and all nodes below are
+  /// then IDLE.
   Release halt(TickContext& context);
 
-  /// Would a tick now answer something other than SKIPPED? Changes nothing. Whatever is under way always wants.
+  /// Whether a tick now would answer something other than SKIPPED. Changes nothing. A running node always wants the
+  /// vehicle.
   bool wants(const TickContext& context) const { return isActive(status_) || onAsked(context); }
   /// Why it wants the vehicle, for people; may be empty.
   virtual std::string reason(const TickContext& context) const;
 
-  /// Shown as SKIPPED, for a node that was asked and does not want. Only for one that is not under way.
+  /// Shows SKIPPED for a node that was asked and does not want the vehicle. Not for a running node.
   void markSkipped(TickContext& context) { setStatus(context, Status::kSkipped); }
-  /// It and all below are IDLE, at once. Only for one that is not running: nothing is let go.
+  /// It and all nodes below become IDLE at once. Not for a running node, because nothing is let go.
   void reset(TickContext& context);
 
-  /// Called once when all children are there; what is wrong with the built node, or an empty string.
+  /// Called once when all children are there. Returns what is wrong with the built node, or an empty string.
   virtual std::string checkBuilt() const { return {}; }
 
   const std::string& name() const { return name_; }
   Status status() const { return status_; }
-  /// In preorder from 0, unique in its tree.
+  /// Index in preorder from 0, unique in its tree.
   int id() const { return id_; }
   void setId(int id) { id_ = id; }
   virtual const std::vector<std::unique_ptr<Node>>& children() const;
 
  protected:
-  /// Before the first onTick of a new start. Everything a former run left behind is to be cleared here.
+  /// Called before the first onTick of a new start. The node must clear everything that a former run left.
   virtual void onStart(TickContext&) {}
   /// Before the first onTick after a suspension, also after one that was not complete.
   virtual void onResume(TickContext&) {}
   virtual Status onTick(TickContext& context) = 0;
   virtual Release onSuspend(TickContext&) { return Release::kReleased; }
   virtual Release onHalt(TickContext&) { return Release::kReleased; }
-  /// wants() of a node that is not under way.
+  /// wants() for a node that is not running.
   virtual bool onAsked(const TickContext&) const { return true; }
 
-  /// Reports the reason and is FAILURE.
+  /// Reports the reason and returns FAILURE.
   Status fail(TickContext& context, std::string_view reason) const;
 
  private:

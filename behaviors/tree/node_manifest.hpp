@@ -1,4 +1,4 @@
-// What a node type says of itself: its name, kind and ports.
+// Description of a node type: its name, kind and ports.
 #pragma once
 
 #include <limits>
@@ -19,7 +19,7 @@ struct NodeManifest {
   NodeKind kind = NodeKind::kAction;
   std::vector<PortManifest> ports = {};
   std::string description = {};  ///< One sentence.
-  /// Whether it may answer SKIPPED by itself (leaves), or only as its children do.
+  /// Whether it may answer SKIPPED on its own (leaves), or only if its children do.
   bool may_skip = false;
 
   const PortManifest* findPort(std::string_view name) const;

@@ -1,4 +1,4 @@
-// A node of a built tree, with what is known of it beside its state.
+// A node of a built tree with its facts.
 #pragma once
 
 #include "behaviors/tree/node.hpp"
@@ -6,7 +6,7 @@
 
 namespace swiftlet::tree {
 
-/// What is known of a node beside its state.
+/// The facts of a node that do not change with its state.
 struct NodeRecord {
   Node* node = nullptr;
   int parent = -1;

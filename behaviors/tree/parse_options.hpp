@@ -1,4 +1,4 @@
-// How tree files are read: limits, and where their text comes from.
+// Options for reading tree files: limits, and the source of their text.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,16 @@
 
 namespace swiftlet::tree {
 
-/// Sizes beyond which a file is refused, so that no input can exhaust stack or memory.
+/// Limits beyond which a file is refused, so that no input can exhaust stack or memory.
 struct ParseLimits {
   std::size_t file_bytes = std::size_t{8} << 20;
   int files = 64;       ///< The file itself and all it includes.
   int depth = 200;      ///< Elements within elements, and nodes within nodes after subtrees are expanded.
   int nodes = 100'000;  ///< After subtrees are expanded.
-  int problems = 100;   ///< The rest is counted, not listed.
+  int problems = 100;   ///< Further problems are counted, not listed.
 };
 
-/// The text of a file, or nothing when it cannot be read.
+/// The text of a file, or nothing if it cannot be read.
 using FileReader = std::function<std::optional<std::string>(const std::string& path)>;
 
 struct ParseOptions {

@@ -13,7 +13,7 @@ ParseResult finish(const Documents& documents, const Registry& registry, const P
                    Problems& problems) {
   ParseResult result;
   Checker(documents, registry, problems).check();
-  // Subtrees that exist and do not contain themselves are what building rests on.
+  // Building requires that subtrees exist and do not contain themselves.
   if (problems.empty() && documents.main != nullptr) {
     Tree tree = Builder(documents, registry, options, problems).build();
     if (problems.empty()) result.tree = std::move(tree);

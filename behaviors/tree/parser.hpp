@@ -5,7 +5,7 @@
 // explicit form (<Action ID="TakeOff" height_m="1"/>), the attributes name, _description, _uid and _fullpath.
 // Refused with a message that says so: format 3, scripted conditions (_skipIf ...), DOCTYPE, ros_pkg.
 //
-// All problems of all files are collected, each with line and column; a tree is returned only when there is none.
+// All problems of all files are collected, each with line and column; a tree is returned only if there is none.
 #pragma once
 
 #include <optional>
@@ -21,12 +21,12 @@
 namespace swiftlet::tree {
 
 struct ParseResult {
-  std::optional<Tree> tree;       ///< There when `problems` is empty.
-  std::vector<Problem> problems;  ///< In the order of the files and lines they were met in.
+  std::optional<Tree> tree;       ///< Present if `problems` is empty.
+  std::vector<Problem> problems;  ///< In the order of the files and lines.
 };
 
 ParseResult parseFile(const std::string& path, const Registry& registry, const ParseOptions& options = {});
-/// `name` stands for the file in messages; includes are found relative to its folder.
+/// Messages use `name` as the file; includes are found relative to its folder.
 ParseResult parseText(std::string text, const std::string& name, const Registry& registry,
                       const ParseOptions& options = {});
 

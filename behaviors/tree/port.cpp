@@ -6,7 +6,7 @@
 namespace swiftlet::tree {
 namespace {
 
-/// What a range is about: the number itself, or a duration in the unit of its port.
+/// The quantity that a range limits: the number itself, or a duration in the unit of its port.
 std::optional<double> magnitude(const Value& value, std::string_view port_name) {
   if (const auto* number = std::get_if<double>(&value)) return *number;
   if (const auto* number = std::get_if<std::int64_t>(&value)) return static_cast<double>(*number);
@@ -24,7 +24,7 @@ bool inRange(const PortManifest& port, const Value& value) {
   return !number || ((!port.minimum || *number >= *port.minimum) && (!port.maximum || *number <= *port.maximum));
 }
 
-/// The value of an entry as this port takes it; a whole number is also a number, and text is read.
+/// The value of an entry in the type of this port: a whole number is also a number, and text is parsed.
 template <typename T>
 std::optional<T> converted(const PortManifest& port, const Value& value) {
   if (const T* exact = std::get_if<T>(&value)) return inRange(port, value) ? std::optional<T>(*exact) : std::nullopt;

@@ -14,11 +14,11 @@ namespace swiftlet::tree {
 enum class Direction : unsigned char { kInput, kOutput, kInOut };
 
 struct PortManifest {
-  std::string name = {};  ///< Ends with its unit where it has one.
+  std::string name = {};  ///< Ends with its unit if it has one.
   PortType type = PortType::kString;
   Direction direction = Direction::kInput;
   bool required = false;
-  std::optional<std::string> default_value = std::nullopt;  ///< Text, read as an attribute would be.
+  std::optional<std::string> default_value = std::nullopt;  ///< Text, parsed like an attribute.
   std::optional<double> minimum = std::nullopt;             ///< Inclusive; numbers and durations (in the port's unit).
   std::optional<double> maximum = std::nullopt;
   std::string description = {};  ///< One sentence.
@@ -41,14 +41,14 @@ struct Slot {
   std::optional<Value> value;
 };
 
-/// What stands behind a port of one node: a literal, a blackboard entry, or nothing.
+/// The binding of a port of one node: a literal, a blackboard entry, or nothing.
 struct PortBinding {
   const PortManifest* manifest = nullptr;
   std::optional<Value> literal;
   Slot* slot = nullptr;
 };
 
-/// What a node is made from. It outlives nothing: nodes take what they need in the constructor.
+/// What a node is constructed from. It lives only during construction, so nodes copy what they need.
 struct NodeSetup {
   std::string name;  ///< The attribute `name`, or the type.
   std::vector<PortBinding> ports;
@@ -56,8 +56,8 @@ struct NodeSetup {
   const PortBinding& port(std::string_view port_name) const;
 };
 
-/// A port read as T (std::string, double, std::int64_t, bool, Point, Rectangle or Duration). A text entry is read when
-/// asked for.
+/// A port read as T (std::string, double, std::int64_t, bool, Point, Rectangle or Duration). A text entry is parsed
+/// when it is read.
 template <typename T>
 class Input {
  public:
@@ -66,9 +66,9 @@ class Input {
 
   /// Given in the XML or by a default.
   bool given() const { return binding_.literal.has_value() || binding_.slot != nullptr; }
-  /// Nothing when not given, when the entry is not set yet, or when it holds what this port cannot take.
+  /// Nothing if it is not given, if the entry is not set yet, or if its value does not fit this port.
   std::optional<T> get() const;
-  /// Why get() has nothing: "port goal: the entry {target} is not set".
+  /// Why get() returns nothing: "port goal: the entry {target} is not set".
   std::string problem() const;
 
  private:
@@ -79,7 +79,7 @@ class Input {
 class Output {
  public:
   Output(const NodeSetup& setup, std::string_view port_name) : binding_(setup.port(port_name)) {}
-  /// Does nothing when the port is not given.
+  /// Does nothing if the port is not given.
   void set(Value value) const {
     if (binding_.slot != nullptr) binding_.slot->value = std::move(value);
   }

@@ -8,7 +8,7 @@
 namespace swiftlet::tree {
 namespace {
 
-/// For letters of ASCII; the locale must not matter.
+/// Lower case of ASCII letters, independent of the locale.
 std::string lowered(std::string_view text) {
   std::string result(text);
   for (char& c : result)
@@ -34,7 +34,8 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 const std::string* nearest(std::string_view word, std::span<const std::string> candidates) {
   for (const std::string& candidate : candidates)
     if (withoutUnit(candidate) == withoutUnit(word)) return &candidate;
-  constexpr std::size_t kLongestName = 100;  // Nobody mistypes a longer one, and the distance is quadratic.
+  // A longer name is not a typing error, and the distance takes quadratic time.
+  constexpr std::size_t kLongestName = 100;
   if (word.size() > kLongestName) return nullptr;
   const std::string low = lowered(word);
   const std::string* best = nullptr;

@@ -1,4 +1,4 @@
-// What is wrong in a tree file, as the user reads it.
+// An error in a tree file, as shown to the user.
 #pragma once
 
 #include <span>
@@ -27,8 +27,8 @@ std::string toString(const Problem& problem);
 /// One line a problem.
 std::string toString(const std::vector<Problem>& problems);
 
-/// "did you mean `x`?" for the candidate nearest to `word` by edit distance, or an empty string when none is near.
-/// A name that differs in its unit only (`clearance_cm`, `clearance`) is nearest of all.
+/// "did you mean `x`?" for the candidate nearest to `word` by edit distance, or an empty string if none is near. A name
+/// that differs only in its unit (`clearance_cm`, `clearance`) counts as nearest.
 std::string didYouMean(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace swiftlet::tree

@@ -13,7 +13,7 @@
 
 namespace swiftlet::tree {
 
-/// Kinds with children build a Composite, the others a Leaf.
+/// Kinds with children make a Composite, the others a Leaf.
 using NodeBuilder = std::function<std::unique_ptr<Node>(const NodeSetup&)>;
 
 struct NodeType {
@@ -27,7 +27,7 @@ class Registry {
   /// The control nodes, decorators and leaves of the engine.
   static Registry standard();
 
-  /// Replaces a type of the same id.
+  /// Replaces a type with the same id.
   void add(NodeManifest manifest, NodeBuilder build);
   /// A class with `static NodeManifest manifest()` and a constructor from NodeSetup.
   template <typename T>
@@ -43,7 +43,8 @@ class Registry {
   std::map<std::string, NodeType, std::less<>> types_;
 };
 
-/// The palette an editor (Groot2) loads: <root><TreeNodesModel> with every type of the registry that is not its own.
+/// The palette that an editor (Groot2) loads: <root><TreeNodesModel> with every type of the registry that the editor
+/// does not have itself.
 std::string writeTreeNodesModel(const Registry& registry);
 /// An XML Schema 1.0 of tree files for this registry: elements, ports, types, ranges and numbers of children.
 std::string writeSchema(const Registry& registry);

@@ -80,7 +80,7 @@ std::string numberType(const PortManifest& port, const char* base) {
   return text + "</xs:restriction></xs:simpleType>";
 }
 
-/// A union of what the port takes and an entry `{x}`; empty: any text.
+/// A union of the values of the port and an entry `{x}`; empty for any text.
 std::string typeOf(const PortManifest& port) {
   const auto withEntry = [](const std::string& members, const std::string& inner) {
     return "<xs:simpleType><xs:union memberTypes=\"" + members + "\">" + inner + "</xs:union></xs:simpleType>";

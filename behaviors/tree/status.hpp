@@ -1,19 +1,19 @@
-// The words of the engine: how a node stands, and whether it has let go of what it held.
+// The words of the engine: the status of a node, and whether it has let go of what it held.
 #pragma once
 
 namespace swiftlet::tree {
 
-/// kIdle was not ticked since its parent started; kSuccess, kFailure and kSkipped are how it ended last; kRunning and
-/// kSuspended are under way. tick() never returns kIdle or kSuspended.
+/// kIdle: not ticked since its parent started. kSuccess, kFailure and kSkipped: its last result. kRunning and
+/// kSuspended: it is under way. tick() never returns kIdle or kSuspended.
 enum class Status : unsigned char { kIdle, kRunning, kSuccess, kFailure, kSkipped, kSuspended };
 
 /// "IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED", "SUSPENDED".
 const char* toString(Status status);
 
-/// Under way: it keeps its progress, and a tick goes on with it instead of starting anew.
+/// Under way: it keeps its progress, and a tick continues it instead of starting anew.
 constexpr bool isActive(Status status) { return status == Status::kRunning || status == Status::kSuspended; }
 
-/// The answer of a node asked to let go: not yet (ask again next tick), or done.
+/// The answer of a node that was asked to let go: not yet (ask again next tick), or done.
 enum class Release : unsigned char { kLettingGo, kReleased };
 
 constexpr Release both(Release a, Release b) {

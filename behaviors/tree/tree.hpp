@@ -31,11 +31,11 @@ class Tree {
   ~Tree();
 
   Status tick(TickContext& context);
-  /// Asked each tick until it returns kReleased; the tree is then IDLE and may be ticked anew.
+  /// Called each tick until it returns kReleased; the tree is then IDLE and may be ticked anew.
   Release halt(TickContext& context);
 
-  /// Sets an entry of the main tree that was named in ParseOptions::host_entries; false when it was not, or nobody
-  /// reads it.
+  /// Sets an entry of the main tree that was named in ParseOptions::host_entries. False if it was not named, or if
+  /// nothing reads it.
   bool set(std::string_view entry, Value value);
 
   /// The ID of the main tree.
@@ -45,10 +45,10 @@ class Tree {
   const std::vector<NodeRecord>& nodes() const;
   std::vector<NodeView> view() const;
 
-  /// Where the element of a node stands, or one of its attributes (the element when it is not there).
+  /// The position of a node's element, or of one of its attributes (of the element if the attribute is missing).
   Location locationOf(int id, std::string_view attribute = {}) const;
-  /// Every value a port is known to take before the first tick: its literal or default, or the texts that subtree ports
-  /// and SetBlackboard give its entry. Values that cannot be read are left out (they are problems already).
+  /// Every value that a port may take before the first tick: its literal or default, or the texts that subtree ports
+  /// and SetBlackboard give its entry. Values that cannot be parsed are left out, because they are problems already.
   std::vector<Value> knownValues(int id, std::string_view port) const;
 
  private:

@@ -1,4 +1,4 @@
-// What a Tree owns. Inside the engine only.
+// The parts of a Tree. For use inside the engine only.
 #pragma once
 
 #include <deque>
@@ -12,32 +12,32 @@
 
 namespace swiftlet::tree {
 
-/// Where a node stands: a file and an offset in it.
+/// The position of a node: a file and an offset in it.
 struct NodeOrigin {
   std::size_t file = 0;
   std::size_t offset = 0;
 };
 
-/// One place that gives an entry a text.
+/// A place that gives an entry a text.
 struct LiteralWrite {
   std::string text;
   NodeOrigin origin;
   std::string attribute;
 };
 
-/// One port that reads an entry.
+/// A port that reads an entry.
 struct EntryRead {
   const PortManifest* port = nullptr;
   std::string owner;  ///< The node's type.
   NodeOrigin origin;
 };
 
-/// All that flows into and out of one entry, as far as the file tells.
+/// All sources and readers of one entry, as far as the file shows them.
 struct EntryFlow {
   std::vector<LiteralWrite> literals;
   std::vector<EntryRead> reads;          ///< One for each port manifest.
   std::vector<std::size_t> copied_from;  ///< Slots whose value SetBlackboard copies here.
-  std::vector<PortType> typed_writes;    ///< By output ports of leaves.
+  std::vector<PortType> typed_writes;    ///< Types that output ports of leaves write.
   bool by_host = false;
 };
 
@@ -52,7 +52,7 @@ struct TreeParts {
   std::deque<EntryFlow> flows;  ///< By slot id.
 
   Location locate(const NodeOrigin& origin, std::string_view attribute = {}) const;
-  /// Every text that may reach a slot: given to it, or to those it is copied from (at most kMaxCopies of them).
+  /// Every text that may reach a slot, directly or from slots it is copied from (at most kMaxCopies of them).
   std::vector<const LiteralWrite*> literalsOf(std::size_t slot) const;
   static constexpr std::size_t kMaxCopies = 64;
 };

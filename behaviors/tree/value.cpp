@@ -12,7 +12,7 @@ namespace {
 struct Unit {
   std::string_view name;
   std::string_view words;
-  double seconds = 0.0;  ///< For units of time.
+  double seconds = 0.0;  ///< Seconds in a unit of time.
 };
 
 constexpr std::array kUnits = {Unit{"m", "metres"},
@@ -68,7 +68,7 @@ std::optional<Value> parseBool(std::string_view text) {
   return std::nullopt;
 }
 
-/// Numbers between semicolons, no more than `most`; nothing when one of them is no number.
+/// Numbers between semicolons, at most `most`; nothing if one of them is not a number.
 std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size_t most) {
   std::vector<double> numbers;
   while (true) {

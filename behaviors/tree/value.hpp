@@ -1,4 +1,4 @@
-// The values that ports and blackboard entries hold, and how they are read from text.
+// The values of ports and blackboard entries, and how they are parsed from text.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct Duration {
   auto operator<=>(const Duration&) const = default;
 };
 
-/// Text that came through SetBlackboard or a literal stays text until a typed port reads it.
+/// Text from SetBlackboard or a literal stays text until a typed port reads it.
 using Value = std::variant<std::string, double, std::int64_t, bool, Point, Rectangle, Duration>;
 
 enum class PortType : unsigned char { kAny, kString, kDouble, kInt, kBool, kPoint, kRectangle, kDuration };
@@ -42,16 +42,16 @@ const char* toString(PortType type);
 
 /// The unit that ends a port's name ("clearance_m" -> "m", "msec" -> "msec"); empty when there is none.
 std::string_view unitOf(std::string_view port_name);
-/// "m" -> "metres"; empty for what is not a unit.
+/// "m" -> "metres"; empty if it is not a unit.
 std::string_view unitInWords(std::string_view unit);
 /// The name without its unit: "clearance_m" -> "clearance".
 std::string_view withoutUnit(std::string_view port_name);
 
-/// Nothing when `text` is not of that type. Numbers are finite, in the C locale, with blanks around them allowed; bool
-/// is true, false, 1 or 0. `unit` is that of the port and matters for kDuration only.
+/// Nothing if `text` is not of that type. Numbers are finite, in the C locale, and may have blanks around them; bool is
+/// true, false, 1 or 0. `unit` is that of the port and is used for kDuration only.
 std::optional<Value> parseValue(std::string_view text, PortType type, std::string_view unit);
 
-/// As parseValue would read it back (durations: nanoseconds, for people).
+/// A text that parseValue reads back (durations: nanoseconds, for people).
 std::string toString(const Value& value);
 
 }  // namespace swiftlet::tree

@@ -100,7 +100,7 @@ class Reader {
   // The encoding is fixed so that byte offsets are those of the text.
   std::unique_ptr<XML_ParserStruct, Free> parser_{XML_ParserCreate("UTF-8")};
   std::optional<XmlElement> root_;
-  // Into the children of the one before; those do not move while a child of theirs is open.
+  // Descends into the last child. Elements do not move while one of their children is open.
   std::vector<XmlElement*> open_;
   std::optional<Problem> problem_;
 };

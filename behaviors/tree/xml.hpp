@@ -1,5 +1,5 @@
-// XML as elements with the place each stands at. Reads UTF-8 by expat; no DOCTYPE, hence no entities but the five of
-// XML.
+// XML as elements with their positions. Reads UTF-8 by expat. A DOCTYPE is refused, so that there are no entities but
+// the five of XML.
 #pragma once
 
 #include <cstddef>
@@ -21,13 +21,13 @@ struct XmlElement {
   std::string name;
   std::vector<XmlAttribute> attributes;
   std::vector<XmlElement> children;
-  std::size_t offset = 0;                  ///< Of its "<", in bytes.
-  std::optional<std::size_t> text_offset;  ///< Of the first text directly in it that is not blank.
+  std::size_t offset = 0;                  ///< Offset of its "<", in bytes.
+  std::optional<std::size_t> text_offset;  ///< Offset of its first text that is not blank, children excluded.
 
   const std::string* attribute(std::string_view attribute_name) const;
 };
 
-/// A file's text, in which offsets are turned into lines and columns when a message needs them.
+/// The text of a file, which converts offsets to lines and columns for messages.
 class SourceText {
  public:
   SourceText(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {}
@@ -35,7 +35,8 @@ class SourceText {
   const std::string& file() const { return file_; }
   const std::string& text() const { return text_; }
   Location locate(std::size_t offset) const;
-  /// Of an attribute's name within the tag that starts at `element_offset`; of the tag when it has no such attribute.
+  /// Offset of an attribute's name within the tag that starts at `element_offset`; that of the tag if it has no such
+  /// attribute.
   Location locate(std::size_t element_offset, std::string_view attribute) const;
 
  private:
@@ -45,10 +46,10 @@ class SourceText {
 
 struct XmlResult {
   std::optional<XmlElement> root;
-  std::optional<Problem> problem;  ///< There when `root` is not.
+  std::optional<Problem> problem;  ///< Present if `root` is not.
 };
 
-/// `max_depth`: elements within elements.
+/// `max_depth` limits elements within elements.
 XmlResult parseXml(const SourceText& source, int max_depth);
 
 }  // namespace swiftlet::tree

@@ -1,4 +1,4 @@
-// Text as XML.
+// Escapes text for XML.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace swiftlet::tree {
 
-/// With the five characters of XML replaced, for attributes and text.
+/// Replaces the five special characters of XML, for attributes and text.
 inline std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {

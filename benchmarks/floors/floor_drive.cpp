@@ -40,7 +40,7 @@ std::vector<Vector2d> stepsAlong(const std::vector<Vector2d>& corners) {
   std::vector<Vector2d> steps;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const Vector2d leg = corners[i + 1] - corners[i];
-    for (double way = 0.0; way < leg.norm(); way += kStep_m) steps.push_back(corners[i] + leg.normalized() * way);
+    for (double at_m = 0.0; at_m < leg.norm(); at_m += kStep_m) steps.push_back(corners[i] + leg.normalized() * at_m);
   }
   return steps;
 }
@@ -79,7 +79,7 @@ common::LaserScan scanFrom(const Pose2& pose, Time stamp, const test::PlanarWorl
   return scan;
 }
 
-/// What is wrong with the wheels: some of it all the way, some of it new with every step.
+/// Errors of the wheels: some are constant, some new with every step.
 class Wheels {
  public:
   explicit Wheels(std::uint64_t seed)

@@ -22,7 +22,7 @@ struct FloorDrive {
 };
 
 /// The laser has 180 beams over 180 degrees, 81 m of range and 1.2 cm of noise; 2 beams in 1,000 find nothing. A scan
-/// every 12 cm. The wheels count up to some percent wrong all the way, and drift on top. The same for the same seed.
+/// every 12 cm. The wheels have a constant error of up to some percent, and drift. Equal seeds give equal drives.
 FloorDrive makeFloorDrive(const FloorPlan& plan, std::uint64_t seed);
 
 }  // namespace swiftlet::benchmarks

@@ -66,7 +66,7 @@ void drawRoom(Side& side, double begin, double end, double free_before, common::
   }
 }
 
-/// The corridor lies to the left of the way from `from` to `to`.
+/// The corridor lies to the left of the line from `from` to `to`.
 void drawSide(const Vector2d& from, const Vector2d& to, common::RandomStream& random, test::PlanarWorld& world) {
   Side side(from, to, world);
   const double length = (to - from).norm();
@@ -117,7 +117,7 @@ FloorPlan makeFloorPlan(std::uint64_t seed) {
                {right - kHalf, kWidth_m - kHalf},
                {right - kHalf, kHalf}},
               random, plan.world);
-  // Round the ring, through the corridor across, and part of the ring the other way.
+  // Round the ring, through the corridor across, and part of the ring in the other direction.
   plan.corners_m = {{2.0, 0.0},       {kLength_m, 0.0},      {kLength_m, kWidth_m}, {0.0, kWidth_m}, {0.0, 0.0},
                     {kAcross_m, 0.0}, {kAcross_m, kWidth_m}, {kLength_m, kWidth_m}, {kLength_m, 0.0}};
   return plan;

@@ -1,5 +1,5 @@
-// Floors that nobody measured and nobody has seen: corridors drawn at random, for telling what a change of the SLAM
-// does where its settings were not looked at.
+// Random floors of corridors. The settings of the SLAM were not tuned on them, so they show the effect of a change on
+// unknown buildings.
 #pragma once
 
 #include <cstdint>

@@ -23,10 +23,10 @@ using namespace swiftlet;
 double trajectoryError_m(const benchmarks::FloorDrive& drive, bool odometry,
                          const perception::LaserSlamConfig& config) {
   perception::LaserSlam slam(config);
-  test::TrackedPath way(slam);
+  test::TrackedPath path(slam);
   for (const auto& [scan, T_odom_robot] : drive.scans)
-    way.add(scan.stamps.measured, {scan, {}, odometry ? std::optional(T_odom_robot) : std::nullopt});
-  return evaluation::absoluteTrajectoryError(evaluation::associate(way.finish(), drive.truth),
+    path.add(scan.stamps.measured, {scan, {}, odometry ? std::optional(T_odom_robot) : std::nullopt});
+  return evaluation::absoluteTrajectoryError(evaluation::associate(path.finish(), drive.truth),
                                              evaluation::Alignment::kPlanar)
       .value()
       .translation_m.rmse;
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   app.add_option("--first", first, "Seed of the first floor")->capture_default_str();
   app.add_option("--count", count, "How many floors")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--max-free-space-violation", config.slam.loops.max_free_space_violation,
-                 "Greatest share of a closure that was looked through; 1: any")
+                 "Greatest share of a closure that violates free space; 1: any")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);

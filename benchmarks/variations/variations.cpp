@@ -125,13 +125,13 @@ struct Outcome {
 
 Outcome outcomeOf(const Log& log, bool odometry, const Reference& reference) {
   perception::LaserSlam slam{test_support::laserLogSlam()};
-  test::TrackedPath way(slam);
+  test::TrackedPath path(slam);
   Outcome outcome;
   for (const KnownScan& scan : log) {
     const auto T_odom_robot = odometry ? scan.logged.T_odom_robot : std::nullopt;
-    way.add(scan.known_as, {scan.logged.scan, scan.logged.T_robot_laser, T_odom_robot});
+    path.add(scan.known_as, {scan.logged.scan, scan.logged.T_robot_laser, T_odom_robot});
   }
-  const common::Trajectory track = way.finish();
+  const common::Trajectory track = path.finish();
   if (!reference.relations.empty()) {
     outcome.translation_m = evaluation::relationErrors(track, reference.relations).translation_m;
   } else if (const auto error = evaluation::absoluteTrajectoryError(evaluation::associate(track, reference.poses),
@@ -151,7 +151,7 @@ void compare(const std::string& file, const std::string& reference_file) {
   const Reference reference = referenceOf(reference_file, forwards);
   common::Table table{
       "",
-      {"", "way", "odometry", "RMS m", "mean m", "at most", "lost", "bridged", "loose", "unmatched", "trusted"},
+      {"", "path", "odometry", "RMS m", "mean m", "at most", "lost", "bridged", "loose", "unmatched", "trusted"},
       {}};
   int wrong_trusted = 0, right_untrusted = 0, wrong = 0;
   for (const auto& [name, vary] : variations()) {

@@ -29,7 +29,7 @@ struct ReaderDeleter {
 };
 using Reader = std::unique_ptr<struct archive, ReaderDeleter>;
 
-/// Removes what was unpacked so far unless it is handed over.
+/// Removes what was unpacked so far, unless it is released to the caller.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(fs::path path) : path_(std::move(path)) {

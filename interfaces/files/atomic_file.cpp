@@ -15,8 +15,8 @@ FileError errorOf(const std::filesystem::path& file, int error_number) {
   return {fmt::format("{}: {}", file.string(), std::strerror(error_number))};
 }
 
-/// A new file of that name, as open(2) returns it. What had the name loses it: through a link, a file elsewhere would
-/// be overwritten.
+/// Creates a file of that name and returns its descriptor as open(2) does. An older file of that name is unlinked
+/// first: writing through a link would change a file elsewhere.
 int openAnew(const std::filesystem::path& file, int flags) {
   if (::unlink(file.c_str()) != 0 && errno != ENOENT) return -1;
   return ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | flags, 0644);
@@ -33,7 +33,7 @@ int writeAll(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-/// The name of the file's entry itself reaches the disk only with its folder.
+/// The entry of the file's name reaches the disk only when its folder is synced.
 int syncFolder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return errno;
@@ -85,8 +85,8 @@ AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
 
 Written AppendFile::append(std::string_view record) {
   if (const int failure = writeAll(descriptor_, record); failure != 0) {
-    // A truncation frees space, so it succeeds where the write did not; if it fails all the same, the reader still
-    // leaves out a last line without an end.
+    // A truncation frees space, so it succeeds where the write failed. If it fails nevertheless, the reader ignores a
+    // last line without an end.
     [[maybe_unused]] const int truncated = ::ftruncate(descriptor_, size_);
     return tl::unexpected(errorOf(file_, failure));
   }

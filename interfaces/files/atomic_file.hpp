@@ -1,5 +1,5 @@
 // Files that are never seen half written: whole files by a temporary one and a rename, growing files by whole records.
-// What goes wrong (full disk, missing rights) is an expected answer, not an exception, so that it can be met in flight.
+// Failures (full disk, missing rights) are returned, not thrown, so that they can be handled in flight.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace swiftlet::interfaces {
 
-/// Why a file could not be written, in words for people: "out/map.pgm: No space left on device".
+/// Why a file could not be written, for people: "out/map.pgm: No space left on device".
 struct FileError {
   std::string message;
 };
 using Written = tl::expected<void, FileError>;
 
-/// What the file must survive: a killed process, or also a cut of the power (slower: waits for the disk).
+/// What the file must survive: a killed process, or also a power cut, which is slower because it waits for the disk.
 enum class Durability { kProcess, kPower };
 
-/// Replaces `file` by `bytes` in one step: readers see the old content or the new one. When it fails, the old content
-/// stands and nothing is left behind. The folder must exist.
+/// Replaces `file` by `bytes` in one step: readers see the old content or the new one. If it fails, the old content
+/// stays and nothing else is left. The folder must exist.
 [[nodiscard]] Written writeAtomically(const std::filesystem::path& file, std::string_view bytes,
                                       Durability durability = Durability::kProcess);
 
-/// A file that grows by whole records, each in the kernel's hands when `append` returns. A record that does not fit on
-/// the disk is taken back. Used by one thread.
+/// A file that grows by whole records. Each record is handed to the kernel before `append` returns. A record that does
+/// not fit on the disk is removed again. Used by one thread.
 class AppendFile {
  public:
-  /// Starts an empty file; an older one of that name is replaced, a link not followed.
+  /// Starts an empty file. An older file of that name is replaced; a link is not followed.
   [[nodiscard]] static tl::expected<AppendFile, FileError> create(const std::filesystem::path& file);
   ~AppendFile();
   AppendFile(AppendFile&& other) noexcept;

@@ -1,5 +1,5 @@
-// Keeps two processes, or two flights of one, from writing into one folder. Ends with its holder, also with one that is
-// killed. File systems that know no locks give none, and everybody the folder.
+// Keeps two processes, or two flights of one process, from writing into one folder. The lock ends with its holder, even
+// if that is killed. On file systems without locks every request succeeds.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@ namespace swiftlet::interfaces {
 
 class FolderLock {
  public:
-  /// Does not wait. The folder must exist.
+  /// Does not wait for a lock. The folder must exist.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&& other) noexcept;
 
-  /// Somebody else holds the folder.
+  /// Another process or flight holds the folder.
   bool refused() const { return refused_; }
 
  private:

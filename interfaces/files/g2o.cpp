@@ -11,7 +11,7 @@
 namespace swiftlet::interfaces {
 namespace {
 
-/// Other elements of g2o: landmarks, priors, calibration and raw data. They are left out, and said to be.
+/// Other elements of g2o: landmarks, priors, calibration and raw data. They are left out with a warning.
 const std::set<std::string, std::less<>> kUnusedTags = {"VERTEX_XY",
                                                         "EDGE_SE2_XY",
                                                         "EDGE_BEARING_SE2_XY",

@@ -20,22 +20,22 @@ namespace swiftlet::interfaces {
 
 struct G2oFile {
   std::variant<G2oGraph2D, G2oGraph3D> graph;
-  /// Edges whose information, as the file has it, is not positive definite: no covariance belongs to it. Only with
-  /// `ignore_cross_terms` there are any.
+  /// Edges whose information in the file is not positive definite, so that no covariance belongs to it. Without
+  /// `ignore_cross_terms` such a file is refused, so the count is 0.
   std::size_t indefinite_edges = 0;
-  std::vector<std::string> warnings;  ///< What was left out, one sentence a tag, with its first line.
+  std::vector<std::string> warnings;  ///< What was left out: one sentence for each tag, with its first line.
 };
 
-/// Files compressed by gzip, bzip2 or xz are read as they are. Throws InputError with line and column for a line that
-/// is not what its tag says, numbers that are not finite, a vertex that stands twice, an edge of a vertex to itself or
-/// to one that is missing (a file without any vertex is sound: it has only edges), elements of the plane and of space
-/// in one file, a file without edges, and, when all lines were read, for edges whose information is not positive
+/// Files compressed by gzip, bzip2 or xz are decompressed. Throws InputError with line and column for a line that does
+/// not fit its tag, numbers that are not finite, a vertex that appears twice, an edge from a vertex to itself or to a
+/// missing one (a file without any vertex is valid: it has only edges), elements of the plane and of space in one file,
+/// and a file without edges. When all lines have been read, it also throws for edges whose information is not positive
 /// definite, with their number. Rotations are normalized.
 G2oFile readG2o(const std::filesystem::path& file, const G2oOptions& options = {});
 G2oFile readG2o(LineReader lines, const G2oOptions& options = {});
 
-/// Equal graphs give equal bytes; numbers read back to the same bits, but for quaternions, which read back as they were
-/// within rounding and are written with w >= 0. A graph with edges only is written so.
+/// Equal graphs give equal bytes. Numbers read back to the same bits. Quaternions are written with w >= 0 and read back
+/// the same within rounding. A graph with edges only is written without vertices.
 std::string toG2o(const G2oGraph2D& graph);
 std::string toG2o(const G2oGraph3D& graph);
 

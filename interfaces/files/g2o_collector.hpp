@@ -1,4 +1,4 @@
-// What a g2o file holds of one dimension, for its reader: elements as they come, then a graph.
+// Collects the elements of a g2o file of one dimension, and makes the graph.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@
 
 namespace swiftlet::interfaces {
 
-/// Throws InputError for elements that are wrong in themselves at once, for those that others are missing to at the
-/// end.
+/// Throws InputError: at once for elements that are wrong in themselves, at the end for elements that refer to missing
+/// ones.
 template <typename Graph>
 class G2oCollector {
  public:
@@ -87,7 +87,7 @@ class G2oCollector {
     return llt.info() == Eigen::Success && llt.matrixLLT().allFinite();
   }
 
-  /// The information of an edge, as far as it is one: see indefiniteError.
+  /// The information of an edge, if it is valid: see indefiniteError.
   Information definite(G2oFields& fields) {
     const int column = fields.column();
     const Information information = fields.template information<Information>();
@@ -140,9 +140,9 @@ class G2oCollector {
   std::unordered_map<std::int64_t, Vertex> vertices_;
   std::vector<Ends> ends_;
   G2oOptions options_;
-  std::size_t indefinite_edges_ = 0;              ///< As the file has them,
-  std::size_t refused_edges_ = 0;                 ///< and those of these that cannot be used.
-  std::optional<common::Problem> first_problem_;  ///< Of an information that cannot be used.
+  std::size_t indefinite_edges_ = 0;  ///< Edges whose information in the file is not positive definite.
+  std::size_t refused_edges_ = 0;     ///< Edges that cannot be used even with the diagonal of their information alone.
+  std::optional<common::Problem> first_problem_;  ///< The first edge whose information cannot be used.
 };
 
 }  // namespace swiftlet::interfaces

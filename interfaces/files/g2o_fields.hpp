@@ -15,26 +15,26 @@
 
 namespace swiftlet::interfaces {
 
-/// Read from the left, after the tag; throws InputError where a word is not what is asked for. Words must be left where
-/// one is asked for: see expectNumbers.
+/// Reads words from the left, after the tag. Throws InputError if a word is not of the expected kind. A word must be
+/// left: call expectNumbers first.
 class G2oFields {
  public:
-  /// At least one word, the tag. `lines` and the line must outlive it.
+  /// At least one word, the tag. `lines` and the line must outlive this.
   G2oFields(const LineReader& lines, std::vector<Word> words) : lines_(lines), words_(std::move(words)) {}
 
   std::string tag() const { return std::string(words_[0].text); }
   std::size_t left() const { return words_.size() - next_; }
-  /// Of the next word, or of the last where none is left.
+  /// Column of the next word, or of the last one if none is left.
   int column() const { return words_[std::min(next_, words_.size() - 1)].column; }
 
   void expectNumbers(std::size_t count) const;
   std::int64_t id();
   double number(const char* name);
-  /// Within kFarthest_m.
+  /// A length within kFarthest_m.
   double coordinate_m(const char* name);
   common::Pose2 pose2();
   common::Pose3 pose3();
-  /// The upper triangle, row by row, whatever it is worth.
+  /// The upper triangle, row by row, without a check of its values.
   template <typename Matrix>
   Matrix information();
 

@@ -1,4 +1,4 @@
-// A pose graph as a g2o file has it.
+// A pose graph as it is in a g2o file.
 #pragma once
 
 #include <cstdint>
@@ -16,25 +16,25 @@ struct G2oGraph {
   static constexpr int kErrors = kErrors_;
   using Information = Eigen::Matrix<double, kErrors, kErrors>;
 
-  /// "Seen from the vertex `from`, the vertex `to` stands at T_from_to."
+  /// The pose of vertex `to` seen from vertex `from` is T_from_to.
   struct Edge {
-    int from = 0;  ///< Indices of `ids`, not ids.
+    int from = 0;  ///< Index into `ids`, not an id.
     int to = 0;
     Pose T_from_to;
     Information information = Information::Identity();
   };
 
-  std::vector<std::int64_t> ids;  ///< Of each vertex; in the file's order, or ascending when it has only edges.
-  std::vector<Pose> poses;        ///< Of each vertex; empty when the file has only edges.
+  std::vector<std::int64_t> ids;  ///< Id of each vertex: in the file's order, or ascending if the file has only edges.
+  std::vector<Pose> poses;        ///< Pose of each vertex; empty if the file has only edges.
   std::vector<Edge> edges;
-  std::vector<int> fixed;  ///< Indices of `ids`, ascending.
+  std::vector<int> fixed;  ///< Indices into `ids`, ascending.
 };
 
 using G2oGraph2D = G2oGraph<common::Pose2, 3>;
 using G2oGraph3D = G2oGraph<common::Pose3, 6>;
 
 struct G2oOptions {
-  /// Of an information that is not positive definite only the diagonal counts.
+  /// For an information that is not positive definite, use only its diagonal.
   bool ignore_cross_terms = false;
 };
 

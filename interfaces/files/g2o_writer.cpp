@@ -5,7 +5,8 @@
 namespace swiftlet::interfaces {
 namespace {
 
-/// The shortest decimals that read back to the same bits; no negative zero, which would tell equal graphs apart.
+/// The shortest decimals that read back to the same bits. Never a negative zero, because then equal graphs would
+/// differ.
 void put(std::string& text, double value) { fmt::format_to(std::back_inserter(text), " {}", value + 0.0); }
 
 void put(std::string& text, const common::Pose2& pose) {

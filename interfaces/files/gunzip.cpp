@@ -14,7 +14,7 @@ namespace swiftlet::interfaces {
 namespace {
 
 constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
-/// The greatest window, and 16 for gzip: zlib then reads the header of a member and checks its trailer.
+/// The greatest window, plus 16 for gzip: zlib then reads the header of a member and checks its trailer.
 constexpr int kGzipWindow = 15 + 16;
 
 //   +--------- a member begins ---------.
@@ -42,7 +42,7 @@ class Gunzip {
       else
         refill();
     }
-    // What was unpacked before the failure is given first.
+    // The bytes unpacked before the failure are returned first.
     const std::size_t given = bytes - zlib_.avail_out;
     if (given == 0 && !failure_.empty()) return tl::unexpected(failure_);
     return given;
@@ -90,7 +90,7 @@ class Gunzip {
   std::array<char, kBlockBytes> block_;
   z_stream zlib_{};
   State state_ = State::kMember;
-  bool filled_up_ = false;  ///< Zeros followed the last member: now nothing else may.
+  bool filled_up_ = false;  ///< Zeros followed the last member, so nothing but zeros may follow.
   bool at_end_ = false;
   std::string failure_;
 };

@@ -1,4 +1,4 @@
-// events.jsonl: one JSON object a line, in the order they happened, each on the disk before the next is taken.
+// events.jsonl: one JSON object a line, in the order of the events, each written to the disk before the next.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace swiftlet::interfaces {
 
-/// {"t_s": 12.5, "severity": "info", "source": "mission", "text": "...", "reason": "..."}, without the newline. With
-/// "vehicle": "..." at its end when the event names one.
+/// {"t_s": 12.5, "severity": "info", "source": "mission", "text": "...", "reason": "..."}, without the newline. An
+/// event that names a vehicle also has "vehicle": "..." at its end.
 std::string toJson(const common::Event& event);
 
 class EventWriter {
@@ -24,7 +24,7 @@ class EventWriter {
   AppendFile file_;
 };
 
-/// Throws InputError with file and line. A last line without its newline is that of a process that was killed while
+/// Throws InputError with file and line. A last line without its newline comes from a process that was killed while
 /// writing, and is left out.
 std::vector<common::Event> readEvents(const std::filesystem::path& file);
 

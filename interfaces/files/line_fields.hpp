@@ -1,4 +1,4 @@
-// Lines of which each word is a number with a name, as trajectories and relations are written. Mistakes say where.
+// Lines in which each word is a number with a name, as in files of trajectories and relations. Errors name the place.
 #pragma once
 
 #include <cstddef>
@@ -12,30 +12,30 @@
 namespace swiftlet::interfaces {
 
 struct LineFormat {
-  std::string_view element;              ///< What a line is: "pose".
-  std::vector<std::string_view> fields;  ///< What its words are: "t", "x" ...
+  std::string_view element;              ///< What a line describes, such as "pose".
+  std::vector<std::string_view> fields;  ///< Names of the words, such as "t" and "x".
 };
 
 /// "`t x y z`", for messages.
 std::string toString(const LineFormat& format);
 
-/// The words of the next line that is neither blank nor a comment that `#` begins; they hold until the reader goes on.
-/// False after the last.
+/// The words of the next line that is neither blank nor a comment (`#`); they are valid until the next call. False
+/// after the last line.
 bool nextWords(LineReader& reader, std::vector<Word>& words);
 
-/// The words of the line that was read last, as numbers.
+/// The words of the last line read, as numbers.
 class LineFields {
  public:
-  /// Throws InputError when there are not as many words as the format has fields. All three outlive this.
+  /// Throws InputError if the number of words is not that of the fields. All three arguments outlive this.
   LineFields(const LineReader& reader, const std::vector<Word>& words, const LineFormat& format);
 
-  /// Throw InputError when the word is not a time in seconds, or not a finite number.
+  /// Throw InputError if the word is not a time in seconds, or not a finite number.
   common::Time stamp(std::size_t field) const;
   double number(std::size_t field) const;
-  /// Throws InputError also when it is beyond kFarthest_m.
+  /// Throws InputError also if the value is beyond kFarthest_m.
   double coordinate_m(std::size_t field) const;
 
-  /// A problem at that field, to be thrown.
+  /// A problem at that field, to throw.
   common::InputError problemAt(std::size_t field, std::string element, std::string message,
                                std::string hint = "") const;
 

@@ -12,7 +12,7 @@ using common::InputError;
 using common::Problem;
 
 constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
-/// Some editors put it before UTF-8.
+/// The byte order mark that some editors write before UTF-8.
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 }  // namespace

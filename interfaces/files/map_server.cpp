@@ -26,7 +26,7 @@ constexpr char kOccupiedPixel = 0;
 constexpr char kFreePixel = static_cast<char>(254);
 constexpr char kUnknownPixel = static_cast<char>(205);
 
-/// What the picture covers; one cell when nothing is known.
+/// The cells of the picture; one cell if nothing is known.
 CellRect pictured(const OccupancyGrid& grid) {
   const CellRect known = knownExtent(grid);
   return known.empty() ? CellRect{{0, 0}, {1, 1}} : known;
@@ -37,7 +37,7 @@ char pixelOf(occupancy::Cell cell) {
   return occupancy::isOccupied(cell) ? kOccupiedPixel : kFreePixel;
 }
 
-/// With the least resolution every cell still has an index.
+/// Even at the finest resolution every cell has an index.
 constexpr double kMostOrigin_m = 1e6;
 
 enum class Mode { kTrinary, kScale, kRaw };
@@ -115,7 +115,7 @@ class PgmHeader {
     return InputError(Problem{{name_, line_}, element, message, hint});
   }
 
-  /// What follows the one blank that ends the header.
+  /// The bytes after the one blank that ends the header.
   std::string_view rest() const { return bytes_.substr(std::min(at_ + 1, bytes_.size())); }
 
  private:
@@ -138,14 +138,14 @@ class PgmHeader {
   int line_ = 1;
 };
 
-/// The grid of the picture, its cells moved by whole cells as far as the origin asks.
+/// The grid of the picture. Its cells are shifted by whole cells as far as the origin asks.
 StoredMap place(const GreyImage& image, const MapYaml& yaml) {
   StoredMap map{common::makeOccupancyGrid(yaml.resolution_m), {yaml.origin[0], yaml.origin[1], yaml.origin[2]}};
   common::CellIndex corner;
   if (std::abs(map.T_map_grid.yaw_rad) < 1e-9) {
     corner = {static_cast<int>(std::lround(yaml.origin[0] / yaml.resolution_m)),
               static_cast<int>(std::lround(yaml.origin[1] / yaml.resolution_m))};
-    // A yaml file keeps few decimals: what is less than a thousandth of a cell is rounding.
+    // A yaml file has few decimals: less than a thousandth of a cell is rounding.
     const auto remainder = [&](double origin_m, int cells) {
       const double rest_m = origin_m - cells * yaml.resolution_m;
       return std::abs(rest_m) < 1e-3 * yaml.resolution_m ? 0.0 : rest_m;
@@ -207,7 +207,7 @@ GreyImage parsePgm(std::string_view bytes, const std::string& name) {
   const int greatest = header.number("greatest value", 1, 255);
   const std::size_t count = static_cast<std::size_t>(image.width_px) * image.height_px;
 
-  // Each pixel takes at least one byte: a header that promises more than there is must not allocate it.
+  // Each pixel takes at least one byte. A header that promises more pixels than there are bytes must not allocate them.
   const std::string_view data = header.rest();
   if (data.size() < (magic == "P5" ? count : count - 1))
     throw header.fail("pixels", fmt::format("the file ends after {} of {} pixels", data.size(), count));

@@ -1,4 +1,4 @@
-// Maps as ROS map_server keeps them: a PGM picture, its first row the largest y, and a YAML file that places it.
+// Maps as ROS map_server stores them: a PGM picture, its first row the largest y, and a YAML file that places it.
 // Source: nav2_map_server (map_io), conventions in docs/conventions.md.
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace swiftlet::interfaces {
 
-/// The longest side of a picture that is read.
+/// The greatest side of a picture that is accepted.
 inline constexpr int kMostSide_px = 1 << 15;
 
 /// The known part of a grid as a binary PGM: 0 occupied, 254 free, 205 unknown. An empty grid gives one unknown pixel.
 std::string toPgm(const common::OccupancyGrid& grid);
 
-/// The YAML beside it: mode trinary, negate 0, origin the lower left corner of the lower left pixel in `map`.
+/// The YAML of the picture: mode trinary, negate 0, origin the lower left corner of the lower left pixel in `map`.
 /// `image` is the picture's file name.
 std::string toMapYaml(const common::OccupancyGrid& grid, const std::string& image);
 
@@ -26,27 +26,26 @@ std::string toMapYaml(const common::OccupancyGrid& grid, const std::string& imag
 [[nodiscard]] Written writeMap(const std::filesystem::path& folder, const std::string& name,
                                const common::OccupancyGrid& grid, Durability durability = Durability::kProcess);
 
-/// A map that was read. Cells are occupied or free with full confidence, or unknown.
-/// `T_map_grid` places the grid's frame in the file's `map` frame: the identity when the file's origin lies on the
-/// lattice of cells, as in maps of our own; what is left of the origin (at most half a cell, or a turned map)
-/// otherwise.
+/// A map that was read. Cells are occupied or free with full confidence, or unknown. `T_map_grid` places the grid's
+/// frame in the file's `map` frame. It is the identity if the file's origin lies on the lattice of cells, as in maps of
+/// Swiftlet. Otherwise it is the rest of the origin: at most half a cell, or the rotation of a turned map.
 struct StoredMap {
   common::OccupancyGrid grid = common::makeOccupancyGrid(0.05);
   common::Pose2 T_map_grid;
 };
 
-/// Reads the YAML and the PGM it names (relative to it); modes trinary, scale and raw, negate, P2 and P5 of up to 8
-/// bits. Throws InputError with file, line and column where it knows them.
+/// Reads the YAML and the PGM that it names (relative to it); modes trinary, scale and raw, negate, P2 and P5 of up to
+/// 8 bits. Throws InputError with file, line and column if they are known.
 StoredMap readMap(const std::filesystem::path& yaml_file);
 
 /// A grey picture, row by row from the top.
 struct GreyImage {
   int width_px = 0;
   int height_px = 0;
-  std::string pixels;  ///< One byte each, scaled to 0..255.
+  std::string pixels;  ///< One byte for each pixel, scaled to 0..255.
 };
 
-/// `name` stands for the file in messages. Throws InputError.
+/// Messages use `name` as the file. Throws InputError.
 GreyImage parsePgm(std::string_view bytes, const std::string& name);
 
 }  // namespace swiftlet::interfaces

@@ -12,10 +12,10 @@
 
 namespace swiftlet::interfaces {
 
-/// In the order of the file, plain or compressed; blank lines and those that `#` begins are left out. Throws InputError
-/// with file, line and column for anything else that is not a relation.
+/// Relations in the order of the file, plain or compressed. Blank lines and comments (`#`) are left out. Throws
+/// InputError with file, line and column for any other line that is not a relation.
 std::vector<common::Relation> readRelations(const std::filesystem::path& file);
-/// `name` stands for the file in messages.
+/// Messages use `name` as the file.
 std::vector<common::Relation> parseRelations(std::string_view text, const std::string& name);
 
 }  // namespace swiftlet::interfaces

@@ -24,7 +24,7 @@ std::vector<Word> wordsOf(std::string_view line) {
 
 bool saysAtStart(const std::filesystem::path& file, std::string_view text, std::size_t within_bytes) {
   std::error_code failure;
-  if (!std::filesystem::is_regular_file(file, failure)) return false;  // A pipe would make us wait.
+  if (!std::filesystem::is_regular_file(file, failure)) return false;  // Opening a pipe would block.
   std::string begin(within_bytes, '\0');
   std::ifstream(file).read(begin.data(), static_cast<std::streamsize>(begin.size()));
   return begin.find(text) != std::string::npos;

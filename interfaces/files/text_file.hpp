@@ -1,4 +1,4 @@
-// Words and numbers of text files, for the readers beside this.
+// Words and numbers of text files, for the readers in this folder.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace swiftlet::interfaces {
 
-/// A word of a line and the column it starts at, counted from 1.
+/// A word of a line with its first column, counted from 1.
 struct Word {
   std::string_view text;
   int column = 0;
@@ -21,19 +21,19 @@ struct Word {
 /// The words of a line, separated by spaces and tabs; views into `line`.
 std::vector<Word> wordsOf(std::string_view line);
 
-/// A regular file that has `text` within its first bytes, by which one knows files of one's own.
+/// True for a regular file with `text` within its first bytes. Files that Swiftlet wrote are recognized so.
 bool saysAtStart(const std::filesystem::path& file, std::string_view text, std::size_t within_bytes);
 
-/// Nobody drives or flies farther from where a file begins: a coordinate beyond is a mistake, and would take the
-/// figures that are made of it out of what numbers hold.
+/// No robot moves farther than this from the origin of a file. A larger coordinate is an error, and would exceed the
+/// precision of the figures computed from it.
 inline constexpr double kFarthest_m = 1e8;
 
-/// The whole word as a finite number; false when it is anything else.
+/// The whole word as a finite number; false if it is anything else.
 bool parseNumber(std::string_view word, double& value);
 
-/// Seconds; exact for plain decimals, which a double of seconds since 1970 is not. None for anything else.
+/// Seconds, exact for plain decimals; a double of seconds since 1970 would not be exact. None for anything else.
 std::optional<common::Time> parseStamp(std::string_view word);
-/// Seconds with nine decimals, from the nanoseconds: it reads back exactly.
+/// Seconds with nine decimals, computed from the nanoseconds, so that they read back exactly.
 std::string stampText(common::Time stamp);
 
 }  // namespace swiftlet::interfaces

@@ -7,7 +7,7 @@
 namespace swiftlet::interfaces {
 namespace {
 
-/// Nine decimals without a negative zero, which would tell two equal poses apart.
+/// Nine decimals without a negative zero, because then equal poses would differ.
 std::string decimal(double value) {
   std::string text = fmt::format("{:.9f}", value);
   return text == "-0.000000000" ? text.substr(1) : text;

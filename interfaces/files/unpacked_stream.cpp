@@ -18,7 +18,7 @@ namespace swiftlet::interfaces {
 namespace {
 
 constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
-/// A file can be made that unpacks to itself for ever.
+/// Limit of nested packings: a crafted file can unpack to itself forever.
 constexpr int kMostGzipLayers = 20;
 
 ByteSource sourceOf(const std::filesystem::path& file) {
@@ -42,7 +42,7 @@ ByteSource sourceOf(std::string_view bytes) {
   };
 }
 
-/// Up to `count` bytes; fewer only where there are no more.
+/// Reads up to `count` bytes; fewer only at the end.
 tl::expected<std::string, std::string> firstBytes(const ByteSource& source, std::size_t count) {
   std::string first;
   while (first.size() < count) {
@@ -55,7 +55,7 @@ tl::expected<std::string, std::string> firstBytes(const ByteSource& source, std:
   return first;
 }
 
-/// `first`, then what `rest` still has.
+/// Returns `first`, then the rest of `rest`.
 ByteSource joined(std::string first, ByteSource rest) {
   return [first = std::move(first), rest = std::move(rest)](char* to, std::size_t bytes) mutable -> BytesRead {
     if (first.empty()) return rest(to, bytes);
@@ -65,7 +65,7 @@ ByteSource joined(std::string first, ByteSource rest) {
   };
 }
 
-/// What gzip packed, and packed again; other packings are left as they are.
+/// Unpacks gzip, also if it is packed several times; other packings are left unchanged.
 tl::expected<ByteSource, std::string> withoutGzip(ByteSource source) {
   for (int layers = 0; layers <= kMostGzipLayers; ++layers) {
     auto first = firstBytes(source, kGzipMagic.size());
@@ -80,14 +80,14 @@ tl::expected<ByteSource, std::string> withoutGzip(ByteSource source) {
 
 }  // namespace
 
-/// What the archive library takes its bytes from.
+/// The source from which the archive library reads.
 struct UnpackedStream::Feed {
   ByteSource source;
   std::array<char, kBlockBytes> block;
-  std::int64_t packed_bytes = 0;      ///< Taken from the file.
-  std::int64_t bytes_to_archive = 0;  ///< Given to the library, without gzip.
+  std::int64_t packed_bytes = 0;      ///< Bytes taken from the file.
+  std::int64_t bytes_to_archive = 0;  ///< Bytes given to the library, after gzip was unpacked.
 
-  /// `packed`, with its bytes counted.
+  /// `packed` with a count of its bytes.
   ByteSource counted(ByteSource packed) {
     return [this, packed = std::move(packed)](char* to, std::size_t bytes) {
       BytesRead count = packed(to, bytes);
@@ -152,7 +152,7 @@ BytesRead UnpackedStream::read(char* to, std::size_t bytes) {
   return count;
 }
 
-/// Block by block: archive_read_data, which fills what it is given, loses what it already has when a failure follows.
+/// Reads block by block: archive_read_data fills a given buffer, and loses what it already has if a failure follows.
 void UnpackedStream::unpackBlock() {
   const void* block = nullptr;
   std::size_t bytes = 0;
@@ -163,7 +163,7 @@ void UnpackedStream::unpackBlock() {
   } else if (result != ARCHIVE_EOF) {
     failure_ = archiveError();
   } else if (feed_->bytes_to_archive > archive_filter_bytes(archive_.get(), -1)) {
-    // The library overlooks whatever is not packed the same way.
+    // The library also ignores bytes that are not packed in the same format.
     failure_ = "it goes on behind its end";
   } else {
     at_end_ = true;

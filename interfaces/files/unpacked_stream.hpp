@@ -1,5 +1,5 @@
-// The bytes of a file, plain or compressed by gzip, bzip2 or xz (told by its bytes, not by its name), unpacked as it
-// goes: the memory it takes does not depend on the file's size.
+// The bytes of a file, plain or compressed by gzip, bzip2 or xz (recognized by its bytes, not by its name). It is
+// unpacked as a stream: the memory used does not depend on the file's size.
 #pragma once
 
 #include <cstddef>
@@ -18,20 +18,20 @@ namespace swiftlet::interfaces {
 /// Used by one thread.
 class UnpackedStream {
  public:
-  /// Throws InputError when the file is no regular file or cannot be opened.
+  /// Throws InputError if the file is not a regular file or cannot be opened.
   explicit UnpackedStream(const std::filesystem::path& file);
-  /// Reads `bytes`, which must outlive this, as if a file named `name` held them.
+  /// Reads `bytes` as if a file named `name` contained them. They must outlive this.
   static UnpackedStream fromBytes(std::string_view bytes, std::string name);
-  /// Reads what `source` gives; also lz4, which chunks of bags are packed by.
+  /// Reads from `source`; this also unpacks lz4, which chunks of bags may use.
   static UnpackedStream fromSource(ByteSource source, std::string name);
   ~UnpackedStream();
   UnpackedStream(UnpackedStream&&) noexcept;
   UnpackedStream& operator=(UnpackedStream&&) noexcept;
 
-  /// An error says that what is packed is cut or damaged, or that something else follows it; what came before was
+  /// An error says that packed data are cut or damaged, or that something else follows them; the bytes before that were
   /// returned.
   BytesRead read(char* to, std::size_t bytes);
-  /// Of the file as it lies on the disk, for a progress bar.
+  /// Bytes of the file on the disk, for a progress bar.
   std::int64_t packedBytesRead() const;
   const std::string& name() const { return name_; }
 
@@ -48,8 +48,8 @@ class UnpackedStream {
   std::string name_;
   std::unique_ptr<Feed> feed_;
   std::unique_ptr<struct archive, ArchiveDeleter> archive_;
-  std::string_view unpacked_;  ///< The library's, until it is asked for more.
-  std::string failure_;        ///< Met already when it was opened: told by the first read.
+  std::string_view unpacked_;  ///< Owned by the library; valid until it is asked for more.
+  std::string failure_;        ///< A failure when opening, reported by the first read.
   bool at_end_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Little-endian bytes: out of a stream of any length, and out of what is in memory.
+// Little-endian bytes, from a stream of any length or from memory.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace swiftlet::interfaces {
 
-/// Numbers and texts of a message in memory. Past its end everything is zero and empty, and `whole()` false.
+/// Numbers and texts of a message in memory. Past its end everything is zero or empty, and `whole()` is false.
 class MessageCursor {
  public:
   explicit MessageCursor(std::string_view bytes) : left_(bytes) {}
@@ -34,24 +34,24 @@ struct StreamFailure {
   std::string message;
 };
 
-/// What is read is held only until the next call.
+/// The bytes read are valid only until the next call.
 class StreamCursor {
  public:
   explicit StreamCursor(ByteSource source) : source_(std::move(source)) {}
 
-  /// Throws StreamFailure when the stream ends before, or cannot be read on.
+  /// Throws StreamFailure if the stream ends too early or cannot be read on.
   std::string_view bytes(std::size_t count);
   std::uint32_t u32() { return MessageCursor(bytes(4)).u32(); }
   void skip(std::uint64_t count);
-  /// Up to `count` bytes as they come, for a stream in this one.
+  /// Up to `count` bytes, for a stream inside this one.
   BytesRead some(char* to, std::size_t count);
-  /// Throws StreamFailure when that cannot be told.
+  /// Whether the stream has ended. Throws StreamFailure if it cannot be read on.
   bool atEnd();
-  /// Of the bytes taken so far.
+  /// Number of bytes taken so far.
   std::uint64_t offset() const { return offset_; }
 
  private:
-  /// Makes more bytes ready; false at the end.
+  /// Makes more bytes available; false at the end.
   bool fill();
 
   ByteSource source_;

@@ -14,8 +14,8 @@
 namespace swiftlet::interfaces {
 namespace {
 
-/// Topics that are named in a message.
-constexpr std::size_t kTopicsTold = 5;
+/// The most topics that a message lists.
+constexpr std::size_t kTopicsListed = 5;
 
 class BagLog final : public CountedLog {
  public:
@@ -74,13 +74,13 @@ class BagLog final : public CountedLog {
 
   common::InputError noScans() const {
     std::string topics;
-    std::size_t told = 0;
+    std::size_t listed = 0;
     for (const auto& [id, connection] : reader_.connections()) {
-      if (told++ == kTopicsTold) break;
+      if (listed++ == kTopicsListed) break;
       topics +=
           fmt::format("{}{} ({})", topics.empty() ? "it has " : ", ", shown(connection.topic), layoutOf(connection));
     }
-    // What went wrong on the way is why there are none.
+    // The first problem explains why there are no scans.
     std::string why;
     for (const common::Problem& problem : counts().first_problems) why += problem.message + "; ";
     return common::InputError(

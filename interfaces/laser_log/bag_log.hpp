@@ -1,4 +1,4 @@
-// The laser scans of a rosbag 1 file: those of the first topic that has some.
+// The laser scans of a rosbag 1 file, from the first topic that has some.
 #pragma once
 
 #include <filesystem>

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view kAnyVersion = "#ROSBAG V";
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-/// Headers hold numbers, a topic and a few words; the data of a connection holds the definition of its type.
+/// Greatest sizes. Headers contain numbers, a topic and a few words; the data of a connection contain the definition of
+/// its type.
 constexpr std::uint32_t kMostHeaderBytes = 1U << 16;
 constexpr std::uint32_t kMostConnectionBytes = 1U << 20;
 constexpr std::size_t kMostConnections = 10'000;
@@ -20,7 +21,7 @@ constexpr std::uint32_t kIndexEntryBytes = 12;
 
 enum Op : unsigned char { kMessageOp = 2, kBagHeaderOp = 3, kIndexOp = 4, kChunkOp = 5, kConnectionOp = 7 };
 
-/// The value of a field of a header, "name=value" each behind its length.
+/// The value of a field of a header. Each field is a length followed by "name=value".
 std::optional<std::string_view> find(std::string_view header, std::string_view name) {
   for (MessageCursor cursor(header); cursor.left() > 0 && cursor.whole();) {
     const std::string_view field = cursor.text();
@@ -47,7 +48,7 @@ int opOf(std::string_view header) { return static_cast<unsigned char>(require(he
 
 bool isBag(std::string_view first_bytes) { return first_bytes.starts_with(kAnyVersion); }
 
-/// The records of a chunk: its bytes as they are, or unpacked.
+/// The records of a chunk, unpacked if necessary.
 struct BagReader::Chunk {
   StreamCursor& file;
   std::uint32_t left;
@@ -105,7 +106,7 @@ BagReader::Taken BagReader::takeFromFile(BagMessage& message) {
     } else if (op == kChunkOp) {
       openChunk(record, file_.u32());
     } else if (op == kIndexOp) {
-      // Not by the length it says of itself, which writers of some years got wrong.
+      // The length in its header is not used: writers of some years got it wrong.
       (void)file_.u32();
       file_.skip(std::uint64_t{kIndexEntryBytes} * requireU32(record, "count"));
     } else {
@@ -118,7 +119,7 @@ BagReader::Taken BagReader::takeFromFile(BagMessage& message) {
   }
 }
 
-/// What is damaged within a chunk does not concern the next one.
+/// Damage within one chunk does not affect the next one.
 BagReader::Taken BagReader::takeFromChunk(BagMessage& message) {
   StreamCursor& records = chunk_->records;
   try {
@@ -139,7 +140,7 @@ BagReader::Taken BagReader::takeFromChunk(BagMessage& message) {
   return Taken::kOther;
 }
 
-/// The file stands behind the chunk then.
+/// Afterwards the file is positioned after the chunk.
 void BagReader::leaveChunk() {
   const std::uint32_t left = chunk_->left;
   const std::uint64_t offset = file_.offset();
@@ -166,7 +167,7 @@ void BagReader::readBagHeader(const std::string& header) {
   if (const auto encryptor = find(header, "encryptor"); encryptor && !encryptor->empty())
     throw common::InputError(common::Problem{
         {name()}, "", "is encrypted by " + shown(*encryptor), "`rosbag decrypt` gives one that can be read"});
-  // A writer fills this in at its end; before, the place of the index is zero.
+  // A writer fills this in at its end; until then the position of the index is zero.
   const auto index = find(header, "index_pos"), chunks = find(header, "chunk_count");
   if (index && chunks && index->find_first_not_of('\0') != std::string_view::npos)
     least_chunks_ = MessageCursor(*chunks).u32();
@@ -188,7 +189,7 @@ void BagReader::readConnection(const std::string& header, StreamCursor& from) {
   const std::uint32_t id = requireU32(header, "conn"), bytes = from.u32();
   if (bytes > kMostConnectionBytes) throw StreamFailure{fmt::format("a connection of {} bytes", bytes)};
   const std::string_view data = from.bytes(bytes);
-  if (connections_.contains(id)) return;  // Each chunk, and the end, may say it again.
+  if (connections_.contains(id)) return;  // Every chunk, and the end of the file, may repeat a connection.
   if (connections_.size() >= kMostConnections) throw StreamFailure{"more connections than any robot has"};
   connections_[id] = {std::string(require(header, "topic")), std::string(require(data, "type")),
                       std::string(find(data, "md5sum").value_or(""))};

@@ -4,7 +4,8 @@
 //   #ROSBAG V2.0 | bag header | chunk, indices of it | chunk, indices of it | ... | connections | chunk infos
 //                               '-> connections and messages, plain or packed by bz2 or lz4
 //
-// Read as it goes: the indices are not used, so neither the length of a bag nor a writer that was killed matters.
+// It is read as a stream: the indices are not used, so neither the length of a bag nor a writer that was killed
+// matters.
 #pragma once
 
 #include <cstdint>
@@ -23,40 +24,40 @@
 
 namespace swiftlet::interfaces {
 
-/// What a topic carries, by one publisher.
+/// The type of the messages of a topic, from one publisher.
 struct BagConnection {
   std::string topic;
   std::string type;    ///< "sensor_msgs/LaserScan".
-  std::string md5sum;  ///< Of the definition of the type.
+  std::string md5sum;  ///< Hash of the definition of the type.
 };
 
 struct BagMessage {
   const BagConnection* connection = nullptr;
   common::Time recorded;
-  std::string_view data;  ///< Until the next call; empty when it is longer than was asked for.
+  std::string_view data;  ///< Valid until the next call; empty if it is longer than the limit.
   std::uint32_t bytes = 0;
 };
 
-/// Whether the first bytes of a file are those of a bag, of any version.
+/// Whether a file begins like a bag, of any version.
 bool isBag(std::string_view first_bytes);
 
 /// Used by one thread.
 class BagReader {
  public:
-  /// Only messages of connections that are `wanted` are given, their data up to `most_bytes`. What is wrong within a
-  /// chunk is told by `onProblem`; the rest of that chunk is left out.
+  /// Returns only messages of connections that are `wanted`, with their data up to `most_bytes`. A problem within a
+  /// chunk is passed to `onProblem`; the rest of that chunk is left out.
   struct Options {
     std::function<bool(const BagConnection&)> wanted;
     std::size_t most_bytes = 0;
     std::function<void(std::string message)> onProblem;
   };
 
-  /// Throws InputError when this is no bag of version 2.0.
+  /// Throws InputError if this is not a bag of version 2.0.
   BagReader(UnpackedStream stream, Options options);
   ~BagReader();
 
-  /// False after the last. Throws InputError when the file is cut or damaged, with the place; also when it ends between
-  /// two records and its header tells of more chunks.
+  /// False after the last message. Throws InputError with the place if the file is cut or damaged; also if it ends
+  /// between two records although its header promises more chunks.
   bool next(BagMessage& message);
 
   const std::map<std::uint32_t, BagConnection>& connections() const { return connections_; }
@@ -80,9 +81,9 @@ class BagReader {
   UnpackedStream stream_;
   Options options_;
   StreamCursor file_;
-  std::unique_ptr<Chunk> chunk_;    ///< The one being read.
-  std::uint64_t chunks_ = 0;        ///< Met so far,
-  std::uint64_t least_chunks_ = 0;  ///< and as many as the header tells of; 0 where it tells nothing.
+  std::unique_ptr<Chunk> chunk_;    ///< The chunk that is being read.
+  std::uint64_t chunks_ = 0;        ///< Number of chunks read so far.
+  std::uint64_t least_chunks_ = 0;  ///< Number of chunks that the header promises; 0 if it says nothing.
   std::map<std::uint32_t, BagConnection> connections_;
 };
 

@@ -17,27 +17,27 @@ using common::Pose2;
 
 constexpr double kPi = std::numbers::pi;
 
-// The rover: see the format's own reader.
+// Data of the rover: see the format's own reader.
 constexpr double kTicksPerTurn = 2000.0;
 constexpr double kWheelRadius_m = 0.077;
 constexpr double kHalfAxle_m = 0.165;
 constexpr double kLaserAhead_m = 0.145;
 
-// The laser: 1,024 steps a turn, 10 turns a second, the fan spread evenly to both sides of straight ahead. Readings
-// below 20 mm are error codes.
+// Data of the laser: 1,024 steps a turn, 10 turns a second, the beams spread evenly to both sides of straight ahead.
+// Readings below 20 mm are error codes.
 constexpr double kStep_rad = 2.0 * kPi / 1024.0;
 constexpr common::Duration kStepTime = common::Duration::fromNanoseconds(100'000'000 / 1024);
 constexpr double kRangeMin_m = 0.02;
 constexpr double kRangeMax_m = 5.6;
 constexpr int kWidestFan = 769;  ///< Beams over 270 degrees.
 
-constexpr int kFirstColumns = 4;   ///< Time, an unused one, ticks of both wheels.
-constexpr int kOtherColumns = 20;  ///< Between the ticks and the ranges.
+constexpr int kFirstColumns = 4;   ///< Time, one unused column, ticks of both wheels.
+constexpr int kOtherColumns = 20;  ///< Columns between the ticks and the ranges.
 constexpr double kMostTicks = 2147483648.0;
 constexpr double kFarthestStamp_us = 1e6 * common::kFarthestStamp_s;
 constexpr int kSurveyedLines = 1000;
 
-/// Where the wheels say the rover is.
+/// Pose of the rover by its wheels.
 class WheelOdometry {
  public:
   Pose2 at(double left_ticks, double right_ticks) {
@@ -103,7 +103,7 @@ class BreezyFormat final : public LogFormat {
     const int beams = static_cast<int>(scan.ranges_m.size());
     if (!fields.problem() && (beams < 2 || (beams > kWidestFan && !options_.sensor)))
       return fields.fail("range", beams < 2 ? "the line ends before it" : "there are more than a URG-04LX has");
-    // The fan of a cut line would be spread in other directions than it was measured in.
+    // A cut line would spread its beams in wrong directions.
     if (!fields.problem() && beams != beams_)
       return fields.fail("range", fmt::format("there are {}, in most lines {}", beams, beams_));
     scan.angle_min_rad = -0.5 * kStep_rad * (beams - 1);
@@ -118,8 +118,8 @@ class BreezyFormat final : public LogFormat {
   WheelOdometry odometry_;
 };
 
-/// Of most of the first records, and of the longer ones where as many are shorter: a line is cut more easily than it
-/// grows. What cannot be read is met again, and told, when the log is read.
+/// The number of ranges in most of the first records. If as many are shorter, the longer ones decide: a line is cut
+/// more often than it grows. Lines that cannot be read are reported later, when the log is read.
 int surveyedBeams(const std::filesystem::path& file) {
   std::map<int, int> lines_by_beams;
   try {

@@ -17,14 +17,14 @@ namespace {
 using common::Pose2;
 
 constexpr double kPi = std::numbers::pi;
-/// Old lines do not say how far their laser sees: SICK and others write 50, 51.x, 81.8 or 81.9 for "nothing".
+/// Old lines do not give the range of their laser: SICK and others write 50, 51.x, 81.8 or 81.9 for "nothing".
 constexpr double kOldRangeMax_m = 49.9;
 constexpr double kOldRangeMin_m = 0.05;
-/// Within which the first records are looked for.
+/// The first records are searched within this many lines.
 constexpr int kSurveyedLines = 100'000;
 
-/// What every record ends with. A count of readings that is not that of its ranges shows here at the latest, and a line
-/// that was cut does too: a stamp alone may have lost digits.
+/// The words at the end of every record. A wrong count of readings is detected here at the latest. All words are
+/// required, so that a cut line is detected too: a cut stamp alone may only have lost digits.
 void readStamps(LogFields& fields, common::LaserScan& scan) {
   scan.stamps.measured = fields.stamp("ipc_timestamp");
   (void)fields.word("ipc_hostname");
@@ -37,7 +37,7 @@ void readOldScan(LogFields& fields, CarmenScan& logged) {
   common::LaserScan& scan = logged.scan;
   const int beams = fields.count("number of readings");
   fields.ranges(beams, 1.0, scan);
-  // 180 or 360 beams leave out the last of the half turn, 181 or 361 do not.
+  // 180 or 360 beams omit the last one of the half turn; 181 or 361 include it.
   scan.angle_min_rad = -0.5 * kPi;
   scan.angle_increment_rad = beams > 1 ? kPi / (beams % 2 == 0 ? beams : beams - 1) : 0.0;
   scan.range_min_m = kOldRangeMin_m;
@@ -57,7 +57,7 @@ void readNewScan(LogFields& fields, CarmenScan& logged) {
   scan.angle_increment_rad = fields.finite("angular_resolution");
   scan.range_min_m = kOldRangeMin_m;
   scan.range_max_m = fields.finite("maximum_range");
-  if (scan.range_max_m <= kOldRangeMin_m) scan.range_max_m = kOldRangeMax_m;  // Not filled in.
+  if (scan.range_max_m <= kOldRangeMin_m) scan.range_max_m = kOldRangeMax_m;  // The field was not filled in.
   (void)fields.number("accuracy");
   (void)fields.number("remission_mode");
   const int beams = fields.count("number of readings");
@@ -72,13 +72,14 @@ void readNewScan(LogFields& fields, CarmenScan& logged) {
   readStamps(fields, scan);
 }
 
-/// The name of a message with one letter wrong; the first and the last may tell lasers apart (RLASER, ROBOTLASER2).
+/// The name of a message with one letter wrong. The first and the last letter may distinguish lasers (RLASER,
+/// ROBOTLASER2).
 bool isAlmost(std::string_view name, std::string_view message) {
   if (name.size() != message.size() || name.front() != message.front() || name.back() != message.back()) return false;
   return std::inner_product(name.begin(), name.end(), message.begin(), 0, std::plus<>(), std::not_equal_to<>()) == 1;
 }
 
-/// Of the first records; what cannot be read is met again, and told, when the log is read.
+/// The mount from the first records. Lines that cannot be read are reported later, when the log is read.
 LaserMount surveyedMount(const std::filesystem::path& file) {
   MountSurvey survey;
   try {

@@ -12,24 +12,25 @@
 
 namespace swiftlet::interfaces {
 
-/// As the line has it.
+/// The value in the line.
 struct CarmenScan {
   common::LaserScan scan;
   common::Pose2 T_odom_laser, T_odom_robot;
 };
 
-/// The scan of a FLASER or ROBOTLASER1 line; nothing for any other line. An old line does not say what its laser is:
-/// 180 degrees spread over its beams, as SICK lasers have them, and no return at 49.9 m or beyond.
+/// The scan of a FLASER or ROBOTLASER1 line; nothing for any other line. An old line does not describe its laser: 180
+/// degrees are spread over its beams, as for SICK lasers, and 49.9 m or more is no return.
 tl::expected<std::optional<CarmenScan>, RecordProblem> parseCarmenLine(std::string_view line);
 
-/// Whether a line looks like one of CARMEN's.
+/// Whether a line looks like one of a CARMEN log.
 bool isCarmenLine(std::string_view line);
 
-/// Whether a line without a scan is none that CARMEN writes: neither empty, nor a comment, nor a message, which is
-/// plain text and begins with its name in capitals. A name that is that of a scan but for one letter is garbled too.
+/// Whether a line without a scan is one that CARMEN does not write: neither empty, nor a comment, nor a message, which
+/// is plain text and begins with its name in capitals. A name with one letter different from that of a scan also counts
+/// as garbled.
 bool isGarbledCarmenLine(std::string_view line);
 
-/// Reads the file's first records to see how the laser is mounted.
+/// Reads the file's first records to find the mount of the laser.
 std::unique_ptr<LogFormat> carmenFormat(const std::filesystem::path& file, const LaserLogOptions& options);
 
 }  // namespace swiftlet::interfaces

@@ -1,4 +1,4 @@
-// What the logs of all formats count.
+// The counters that logs of all formats have.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Recorded logs of a 2D laser, scan by scan, whatever format they are in: CARMEN text, BreezySLAM .dat, rosbag 1.
-// A log is streamed: what is held does not grow with its length.
+// Recorded logs of a 2D laser, scan by scan, in any of three formats: CARMEN text, BreezySLAM .dat, rosbag 1. A log is
+// streamed: the memory used does not grow with its length.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,25 @@
 
 namespace swiftlet::interfaces {
 
-/// One scan as the log has it.
+/// One scan of the log.
 struct LoggedScan {
-  /// `stamps` are the log's own: they may repeat, and go back. Both are the same.
+  /// `stamps` are the log's own: they may repeat and go back. The measured and the arrived stamp are equal.
   common::LaserScan scan;
   common::Pose2 T_robot_laser;
-  std::optional<common::Pose2> T_odom_robot;  ///< By the robot's own odometry; none where the log has none.
+  std::optional<common::Pose2> T_odom_robot;  ///< The robot's own odometry; none if the log has none.
 };
 
 struct LaserLogOptions {
-  /// The laser's geometry, where the log's is wrong or unknown: field of view, ranges and mount. The number of beams is
-  /// always the scan's own; the field of view is spread over it.
+  /// The laser's geometry, to use if that of the log is wrong or unknown: field of view, ranges and mount. The number
+  /// of beams is always the scan's own; the field of view is spread over them.
   std::optional<common::LaserConfig> sensor;
 };
 
 struct LaserLogCounts {
   std::uint64_t scans = 0;
-  std::uint64_t skipped_records = 0;            ///< Records that could not be read,
-  std::vector<common::Problem> first_problems;  ///< and why, for the first few.
-  std::uint64_t invalid_ranges = 0;             ///< NaN or negative, of scans that were read otherwise.
+  std::uint64_t skipped_records = 0;            ///< Number of records that could not be read.
+  std::vector<common::Problem> first_problems;  ///< The reasons of the first few skipped records.
+  std::uint64_t invalid_ranges = 0;             ///< NaN or negative ranges in scans that were otherwise read.
   static constexpr std::size_t kProblemsKept = 5;
 };
 
@@ -42,14 +42,14 @@ class LaserLog {
   virtual ~LaserLog() = default;
 
   /// The next scan that can be read; none at the end. A record that cannot be read is skipped and counted. Throws
-  /// InputError where the file itself cannot be read on (a damaged archive), with file and line.
+  /// InputError with file and line if the file itself cannot be read on (a damaged archive).
   [[nodiscard]] virtual std::optional<LoggedScan> next() = 0;
   virtual const LaserLogCounts& counts() const = 0;
   /// Share of the file that has been read, in [0, 1].
   virtual double progress() const = 0;
-  /// What was recognized, for people: "rosbag, /scan".
+  /// The format that was recognized, for people: "rosbag, /scan".
   virtual std::string format() const = 0;
-  /// What is odd about the log as far as it was read, and how it was taken, for people.
+  /// Oddities of the log so far, and how they were handled, for people.
   virtual std::vector<std::string> notes() const = 0;
 };
 

@@ -8,9 +8,9 @@
 namespace swiftlet::interfaces {
 namespace {
 
-/// Of the definition of the type.
+/// Hash of the definition of the type.
 constexpr std::string_view kLaserScanMd5 = "90c7ef2dc6895d81024acba2ac42f369";
-/// No laser is slower from beam to beam; what is not filled in, or nonsense, is taken as at once.
+/// No laser is slower from beam to beam. A larger value was not filled in or is wrong, and counts as zero.
 constexpr double kSlowestBeam_s = 1.0;
 
 common::Time timeOf(std::int64_t seconds, std::int64_t nanoseconds) {
@@ -20,7 +20,8 @@ common::Time timeOf(std::int64_t seconds, std::int64_t nanoseconds) {
 void turnRound(common::LaserScan& scan) {
   scan.angle_min_rad += scan.angle_increment_rad * (static_cast<double>(scan.ranges_m.size()) - 1.0);
   scan.angle_increment_rad = -scan.angle_increment_rad;
-  scan.time_increment = common::Duration();  // The first beam is the last now, and time goes on.
+  // After turning, the first beam would be the last in time, and time must not go back.
+  scan.time_increment = common::Duration();
   std::reverse(scan.ranges_m.begin(), scan.ranges_m.end());
 }
 

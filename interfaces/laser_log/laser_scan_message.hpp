@@ -12,16 +12,16 @@
 
 namespace swiftlet::interfaces {
 
-/// Header with its frame's name, seven numbers, ranges and intensities of kMaxBeams.
+/// Size of the header with the name of its frame, seven numbers, and ranges and intensities of kMaxBeams.
 constexpr std::size_t kMostScanBytes = std::size_t{8} * kMaxBeams + 4096;
 
 inline constexpr std::string_view kLaserScanType = "sensor_msgs/LaserScan";
 
-/// By its type, and by the definition of it: another one is another layout.
+/// Recognizes the message by its type and by the hash of its definition: another definition is another layout.
 bool isLaserScan(const BagConnection& connection);
 
-/// Stamped as its header says, or as it was recorded where that says nothing. A fan that runs clockwise is turned
-/// round. The mount is not known to it.
+/// The stamp is that of the header, or the time of recording if the header has none. Scans that run clockwise are
+/// reversed. The message does not contain the mount.
 tl::expected<LoggedScan, RecordProblem> parseLaserScan(const BagMessage& message);
 
 }  // namespace swiftlet::interfaces

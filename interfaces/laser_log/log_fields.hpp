@@ -11,37 +11,37 @@
 
 namespace swiftlet::interfaces {
 
-/// Readings of one scan at most: more than any laser has.
+/// Greatest number of readings of one scan: more than any laser has.
 constexpr int kMaxBeams = 20'000;
 
 /// Why a record could not be read, and where in its line.
 struct RecordProblem {
-  int column = 0;  ///< Counted from 1; 0 where there are no lines.
+  int column = 0;  ///< Counted from 1; 0 for formats without lines.
   std::string element;
   std::string message;
 };
 
-/// A word of a log as it may be printed: short, and without what a terminal would act on.
+/// A word of a log for messages: short, and without control characters.
 std::string shown(std::string_view word);
 
-/// Once one word is not what it should be, that is the line's problem, and what follows is zero.
+/// The first word that is not as expected becomes the line's problem; all later values are zero.
 class LogFields {
  public:
-  /// The line outlives this.
+  /// The line must outlive this.
   explicit LogFields(std::string_view line) : begin_(line.data()), at_(begin_), end_(begin_ + line.size()) {}
 
   std::string_view word(const char* name);
   double number(const char* name);
   double finite(const char* name);
   int count(const char* name);
-  /// Three numbers; x and y within kFarthest_m.
+  /// Three numbers; x and y are within kFarthest_m.
   common::Pose2 pose(const char* name);
   common::Time stamp(const char* name);
-  /// So many ranges, each times `unit_m`.
+  /// `count` ranges, each multiplied by `unit_m`.
   void ranges(int count, double unit_m, common::LaserScan& scan);
 
   bool atEnd();
-  /// Makes this the line's problem, unless there is one.
+  /// Sets the line's problem, unless it has one.
   void fail(const char* name, std::string message) { failAt(at_, name, std::move(message)); }
   const std::optional<RecordProblem>& problem() const { return problem_; }
 

@@ -9,7 +9,7 @@ namespace {
 using common::Pose2;
 
 constexpr std::size_t kFewRecords = 20, kManyRecords = 5000;
-/// Far enough for a distance that is not kept to show.
+/// The distance a pose must move, so that a changing distance between the poses shows.
 constexpr double kMoved_m = 1.0;
 /// Logs are printed with six digits, to 1 cm and 0.01 rad at worst (beyond 1 km).
 constexpr double kSame_m = 0.02, kSame_rad = 0.02;

@@ -11,7 +11,7 @@
 namespace swiftlet::interfaces {
 namespace {
 
-/// Within which a log shows what it is.
+/// The format is recognized within these first lines and bytes.
 constexpr int kFirstLines = 1000;
 constexpr std::size_t kFirstBytes = 64;
 

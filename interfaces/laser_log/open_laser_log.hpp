@@ -1,4 +1,4 @@
-// Opens a recorded laser log of any format known here.
+// Opens a recorded laser log of any supported format.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace swiftlet::interfaces {
 
-/// Opens a log by what is in it; plain, or compressed by gzip, bzip2 or xz. Throws InputError when there is no such
-/// file, or it is no log of a format known here. Of a bag, the first topic with laser scans is read.
+/// The content decides the format; the file is plain, or compressed by gzip, bzip2 or xz. Throws InputError if there is
+/// no such file, or if its format is not supported. In a bag, the first topic with laser scans is read.
 std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& file, const LaserLogOptions& options = {});
 
 }  // namespace swiftlet::interfaces

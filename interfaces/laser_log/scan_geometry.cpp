@@ -12,9 +12,9 @@ namespace {
 
 using common::LaserScan;
 
-/// A whole turn, and the beam that some lasers give twice.
+/// A whole turn, plus one beam that some lasers repeat.
 constexpr double kWidestFan_rad = 2.0 * std::numbers::pi + 0.1;
-/// No laser sees farther; logs that claim it mean that nothing was seen.
+/// No laser has a longer range. Logs that claim one mean that nothing was seen.
 constexpr double kFarthest_m = 1000.0;
 
 void useSensor(const common::LaserConfig& sensor, LoggedScan& logged) {

@@ -1,4 +1,4 @@
-// What holds for the scans of every log, whatever its format.
+// Rules for the scans of every log, whatever its format.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace swiftlet::interfaces {
 
-/// Takes the geometry and the mount of `sensor`, where one is given, and puts the ranges as LaserScan has them: NaN
-/// where they are negative, infinite at the laser's greatest and beyond. Says what is wrong where no laser is like
-/// that; the scan is not to be used then.
+/// Applies the geometry and the mount of `sensor`, if one is given, and converts the ranges to those of LaserScan: NaN
+/// for negative ones, infinite at the laser's greatest range and beyond. Returns a problem if no laser can have such a
+/// geometry; the scan must not be used then.
 std::optional<std::string> completeScan(const std::optional<common::LaserConfig>& sensor, LoggedScan& logged);
 
 }  // namespace swiftlet::interfaces

@@ -1,4 +1,4 @@
-// Laser logs that have a record a line.
+// Laser logs with one record a line.
 #pragma once
 
 #include <filesystem>
@@ -16,18 +16,18 @@
 
 namespace swiftlet::interfaces {
 
-/// What a line means. Lines come in the order of the file.
+/// The meaning of a line. Lines come in the order of the file.
 class LogFormat {
  public:
   virtual ~LogFormat() = default;
-  /// The scan of the line; nothing where it holds none.
+  /// The scan of the line; nothing if it has none.
   virtual tl::expected<std::optional<LoggedScan>, RecordProblem> parse(std::string_view line) = 0;
   virtual std::string name() const = 0;
-  /// What was odd in the lines so far.
+  /// Oddities of the lines so far.
   virtual std::vector<std::string> notes() const { return {}; }
 };
 
-/// However long a log is; what is longer than a scan of kMaxBeams ranges and remissions is no scan.
+/// Limits: a log may have any length; a line longer than a scan of kMaxBeams ranges and remissions is not a scan.
 constexpr LineLimits kLogLimits{std::size_t{1} << 20, std::numeric_limits<std::int64_t>::max(), true};
 
 std::unique_ptr<LaserLog> openTextLog(const std::filesystem::path& file, std::unique_ptr<LogFormat> format);

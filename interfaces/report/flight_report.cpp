@@ -15,10 +15,10 @@ namespace {
 using common::escaped;
 using common::Mark;
 
-/// More events than this are left to events.jsonl.
+/// At most this many events are shown; the rest are in events.jsonl.
 constexpr std::size_t kMaxEvents = 2000;
 
-/// Told apart by people with any colour vision, on light and on dark (after Okabe and Ito).
+/// Colours that people with any colour vision can tell apart, on light and on dark (after Okabe and Ito).
 constexpr std::array<const char*, 7> kPhaseColors = {"#0072b2", "#e69f00", "#009e73", "#cc79a7",
                                                      "#56b4e9", "#d55e00", "#8a8f98"};
 
@@ -27,7 +27,7 @@ std::string minutes(double seconds) {
   return whole < 60 ? fmt::format("{:.1f} s", seconds) : fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 
-/// Endings of names, the longest first, and what a reader knows them by.
+/// Endings of names, the longest first, with their units for readers.
 constexpr std::array<std::pair<std::string_view, const char*>, 8> kUnits = {{{"_m_s2", "m/s²"},
                                                                              {"_m_s", "m/s"},
                                                                              {"_rad", "rad"},
@@ -148,7 +148,7 @@ std::string phasesSection(const std::vector<Phase>& phases) {
                            rows + "</tbody></table></div>");
 }
 
-/// The explanation without the reason it begins with, which stands in a column of its own.
+/// The explanation without the reason at its beginning, which has a column of its own.
 std::string detailOf(const common::Frontier& frontier) {
   const std::string reason = std::string(common::toString(frontier.reason)) + ": ";
   return frontier.explanation.starts_with(reason) ? frontier.explanation.substr(reason.size()) : frontier.explanation;

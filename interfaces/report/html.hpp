@@ -1,4 +1,4 @@
-// The pieces the reports are made of.
+// Building blocks of the reports.
 #pragma once
 
 #include <string>
@@ -13,24 +13,24 @@ namespace swiftlet::interfaces::html {
 /// A link that stays inside the folder of the report: a relative path with special characters encoded.
 std::string relativeUrl(std::string_view path);
 
-/// "2026-11-21_14-03-55", as folders are named, as people write it: "2026-11-21 14:03:55"; anything else as it is.
+/// Converts "2026-11-21_14-03-55", as in the names of folders, to "2026-11-21 14:03:55"; anything else is unchanged.
 std::string moment(std::string started);
 
-/// A word on a coloured ground.
+/// A word on a coloured background.
 std::string pill(const std::string& text, common::Mark mark);
 
 std::string section(const std::string& title, const std::string& body);
 
-/// Small facts side by side: label and value.
+/// Small facts in a row, each with label and value.
 std::string facts(const std::vector<std::pair<std::string, std::string>>& facts);
 
-/// Plots, as many beside each other as fit.
+/// Plots, as many in a row as fit.
 std::string plots(const std::vector<std::string>& svg);
 
-/// Scrolls sideways where the screen is narrow.
+/// Scrolls sideways on a narrow screen.
 std::string table(const common::Table& table);
 
-/// A whole document. `title` is escaped here, the others are HTML.
+/// A whole document. `title` is escaped here; the other arguments are HTML.
 std::string page(const std::string& title, const std::string& header, const std::string& body);
 
 }  // namespace swiftlet::interfaces::html

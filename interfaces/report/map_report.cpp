@@ -28,7 +28,7 @@ std::string localizationReport(const LocalizationReport& report) {
                      mapSection(report.map_svg);
   body +=
       html::section("Events", report.events.rows.empty() ? "<p class=\"empty\">None.</p>" : html::table(report.events));
-  if (!report.plots_svg.empty()) body += html::section("Along the way", html::plots(report.plots_svg));
+  if (!report.plots_svg.empty()) body += html::section("Along the path", html::plots(report.plots_svg));
   return html::page(report.title, fmt::format("<h1>{}</h1>", escaped(report.title)), body);
 }
 
@@ -37,7 +37,7 @@ std::string mapReport(const MapReport& report) {
   std::string body = html::section("Summary", html::facts(report.facts));
   body += warningsSection(report.warnings);
   body += mapSection(report.map_svg);
-  if (!report.plots_svg.empty()) body += html::section("Along the way", html::plots(report.plots_svg));
+  if (!report.plots_svg.empty()) body += html::section("Along the path", html::plots(report.plots_svg));
   return html::page(report.title, header, body);
 }
 

@@ -1,5 +1,5 @@
-// Reports as one HTML file each: no script, nothing loaded from elsewhere, light and dark by the reader's setting.
-// Pictures come ready-made, so that this draws nothing itself.
+// Each report is one HTML file: no script, nothing loaded from elsewhere, light or dark by the reader's setting.
+// Pictures are arguments; nothing is drawn here.
 #pragma once
 
 #include <string>
@@ -12,22 +12,22 @@
 
 namespace swiftlet::interfaces {
 
-/// What a flight shows beside its figures; each may be empty. An SVG is one <svg> element, put into the page as it is.
+/// The pictures of a flight; each may be empty. An SVG is one <svg> element, put into the page unchanged.
 struct ReportPictures {
   std::string map_png;  ///< The bytes of a PNG: map.png of the run.
   std::string map_svg;  ///< The map of the report.
   std::vector<std::string> plots_svg;
 };
 
-/// `config_yaml` are the settings the flight used.
+/// `config_yaml` has the settings of the flight.
 std::string flightReport(const FlightSummary& summary, const std::vector<common::Event>& events,
                          const ReportPictures& pictures, const std::string& config_yaml);
 
 /// A picture of one flight of a trial.
 struct TrialPicture {
   std::string caption;
-  std::string file;  ///< Relative to the report: map.png of the flight's folder.
-  std::string link;  ///< The flight's own report, relative.
+  std::string file;  ///< Path relative to the report: map.png of the flight's folder.
+  std::string link;  ///< Relative link to the flight's own report.
   bool passed = true;
 };
 
@@ -40,23 +40,23 @@ struct TrialReport {
 };
 std::string trialReport(const TrialReport& report);
 
-/// A map that was made of a recorded log.
+/// The report of a map made from a recorded log.
 struct MapReport {
   std::string title;
   std::string subtitle;
   std::vector<std::pair<std::string, std::string>> facts;  ///< Label and value.
-  std::vector<std::string> warnings;                       ///< What was doubtful about the log.
+  std::vector<std::string> warnings;                       ///< Problems of the log.
   std::string map_svg;
   std::vector<std::string> plots_svg;
 };
 std::string mapReport(const MapReport& report);
 
-/// A recorded log followed in a given map.
+/// The report of a recorded log that was localized in a given map.
 struct LocalizationReport {
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  ///< Label and value.
-  std::vector<std::string> warnings;                       ///< What was doubtful about the log.
-  common::Table events;                                    ///< What it said of itself, and when.
+  std::vector<std::string> warnings;                       ///< Problems of the log.
+  common::Table events;                                    ///< The events of the localization with their times.
   std::string map_svg;
   std::vector<std::string> plots_svg;
 };

@@ -21,12 +21,12 @@ constexpr double kSameBody_m = 0.3;
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// How far a disc of `radius_m` at the origin may go before it touches the point; infinity when it passes.
+/// How far a disc of `radius_m` at the origin may move before it touches the point; infinity if it passes by.
 double gapAlong(const Point& direction, const Point& point_m, double radius_m) {
   const double ahead_m = point_m.dot(direction), aside_m = std::abs(cross(direction, point_m));
   if (ahead_m <= 0.0 || aside_m >= radius_m) return kInfinity;
   if (point_m.norm() <= radius_m) {
-    // Already nearer than it should be: it may slide past, not go closer.
+    // The point is already nearer than the radius: moving past it is allowed, moving closer is not.
     constexpr double kSlide = 0.2;
     return ahead_m > kSlide * point_m.norm() ? 0.0 : kInfinity;
   }
@@ -65,8 +65,8 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
 
   AvoidanceDecision decision;
   const double speed_m_s = input.velocity_level_m_s.norm();
-  const bool wishes = input.wish_level_m_s.norm() > kStill_m_s;
-  const Point& course = wishes ? input.wish_level_m_s : input.velocity_level_m_s;
+  const bool moves = input.wanted_level_m_s.norm() > kStill_m_s;
+  const Point& course = moves ? input.wanted_level_m_s : input.velocity_level_m_s;
   decision.speed_limit_m_s = config_.max_speed_m_s;
   if (course.norm() > kStill_m_s) {
     decision.speed_limit_m_s = speedLimit(course.normalized(), points);
@@ -84,7 +84,7 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   common::AvoidanceStatus& status = decision.status;
   status.nearest_m = kInfinity;
   for (const Point& p : points) status.nearest_m = std::min(status.nearest_m, p.norm() - hull_radius_m_);
-  const double wanted_m_s = std::max(input.wish_level_m_s.norm(), speed_m_s);
+  const double wanted_m_s = std::max(input.wanted_level_m_s.norm(), speed_m_s);
   status.braking = wanted_m_s > kStill_m_s && decision.speed_limit_m_s < wanted_m_s;
   status.retreating = retreating_;
   if (retreating_)
@@ -143,7 +143,7 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
 double Avoidance::speedLimit(const Point& direction, const Points& points) const {
   double gap_m = kInfinity;
   for (const Point& p : points) gap_m = std::min(gap_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
-  // Where the laser does not look the map knows the walls, and nobody knows who walks there.
+  // Outside the field of view only the map's walls are known; a person there is not.
   const double most_m_s = isSeen(direction) ? config_.max_speed_m_s : config_.blind_speed_m_s;
   return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed(gap_m)) : most_m_s;
 }
@@ -175,7 +175,7 @@ double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double
   double result_m_s = intended_m_s;
   for (const Threat& threat : threats) {
     if (threat.velocity_m_s.isZero()) continue;
-    // Nearer than the gap it may come only as far as it would to a vehicle that stops at once.
+    // An obstacle inside the gap may come no nearer than it would if the vehicle stopped at once.
     const double enough_m = std::min(config_.release_factor * config_.contact_gap_m, leastGap(threat, 0.0) - 1e-6);
     while (result_m_s > 0.0 && leastGap(threat, result_m_s) < enough_m) result_m_s -= kStep_m_s;
   }
@@ -183,17 +183,17 @@ double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double
 }
 
 Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const {
-  // The danger may just have passed: then it stands until it is over for good.
+  // The danger may have passed only for a moment, so the state lasts until it has been gone for `calm_s`.
   if (std::none_of(threats.begin(), threats.end(), [](const Threat& t) { return t.dangerous; })) return Point::Zero();
   return retreatVelocity(
       config_, hull_radius_m_,
       {input.velocity_level_m_s, points, threats, last_retreat_level_, input.T_map_level, input.cost_map});
 }
 
-/// The laser does not see all around: who walks where it does not look is forgotten after a while, and comes back as a
-/// surprise; and who flies backwards meets somebody else there.
+/// The laser does not see all around. A person outside its view is soon forgotten and then appears as a surprise, and
+/// flying backwards the vehicle may meet another one. So it turns.
 double Avoidance::turnToSee(const std::vector<Threat>& threats, const Point& retreat_level_m_s) const {
-  constexpr double kStep_rad = std::numbers::pi / 36.0, kDanger = 4.0, kWayOut = 2.0, kLeast_m_s = 0.1;
+  constexpr double kStep_rad = std::numbers::pi / 36.0, kDanger = 4.0, kCourse = 2.0, kLeast_m_s = 0.1;
   const Threat* nearest = nullptr;
   for (const Threat& threat : threats) {
     if (!threat.dangerous && threat.velocity_m_s.isZero()) continue;
@@ -209,7 +209,7 @@ double Avoidance::turnToSee(const std::vector<Threat>& threats, const Point& ret
   for (int i = 0; i <= 36; ++i) {
     for (const double turn_rad : {i * kStep_rad, -i * kStep_rad}) {
       double cost = std::abs(turn_rad) + kDanger * outside_rad(nearest->center_m, turn_rad);
-      if (retreat_level_m_s.norm() > kLeast_m_s) cost += kWayOut * outside_rad(retreat_level_m_s, turn_rad);
+      if (retreat_level_m_s.norm() > kLeast_m_s) cost += kCourse * outside_rad(retreat_level_m_s, turn_rad);
       if (cost >= least_cost - 1e-9) continue;
       least_cost = cost;
       best_rad = turn_rad;

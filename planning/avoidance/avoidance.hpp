@@ -1,5 +1,6 @@
-// The reactive layer at the laser rate, under every intent (Saeedi, section III-G): beams smoothed by a sliding window
-// and put into bins; the speed is limited so that the vehicle can stop; from what is unmapped or closing it retreats.
+// The reactive layer at the laser rate, under every intent (Saeedi, section III-G). Beams are smoothed by a sliding
+// window and put into bins. The speed is limited so that the vehicle can stop. From what is unmapped or closing, the
+// vehicle retreats.
 #pragma once
 
 #include <optional>
@@ -20,29 +21,31 @@ namespace swiftlet::planning {
 
 struct Threat;
 
-/// One scan and what is known beside it. The level frame is the body frame without roll and pitch.
+/// One scan and what is known with it. The level frame is the body frame without roll and pitch.
 struct AvoidanceInput {
   common::Time stamp;
-  std::span<const Eigen::Vector2f> points_level_m;  ///< In order of bearing; points that are not finite are left out.
+  std::span<const Eigen::Vector2f> points_level_m;  ///< In order of bearing; points that are not finite are ignored.
   Eigen::Vector2d velocity_level_m_s = Eigen::Vector2d::Zero();
-  Eigen::Vector2d wish_level_m_s = Eigen::Vector2d::Zero();  ///< What the intent wants; zero: to stop.
+  /// The velocity that the intent asks for; zero asks for a stop.
+  Eigen::Vector2d wanted_level_m_s = Eigen::Vector2d::Zero();
   common::Pose2 T_map_level;
-  const CostMap* cost_map = nullptr;                   ///< May be null: then nothing is known to be mapped.
-  std::span<const common::DynamicObstacle> obstacles;  ///< What the map does not explain, people above all.
+  const CostMap* cost_map = nullptr;                   ///< May be null: then nothing counts as mapped.
+  std::span<const common::DynamicObstacle> obstacles;  ///< What the map does not explain, usually people.
 };
 
 struct AvoidanceDecision {
-  double speed_limit_m_s = 0.0;  ///< Along the wish, or the velocity when that is zero.
-  /// When set it replaces what the intent wants; to be flown with `retreat_acceleration_m_s2`.
+  double speed_limit_m_s = 0.0;  ///< Limit along the wanted velocity, or along the present one if that is zero.
+  /// Replaces the velocity of the intent if set. Fly it with `retreat_acceleration_m_s2`.
   std::optional<Eigen::Vector2d> retreat_velocity_level_m_s;
   double retreat_acceleration_m_s2 = 0.0;
-  double turn_rad = 0.0;  ///< While retreating: by so much it must turn to see what it retreats from, and where to.
+  /// During a retreat: the angle to turn so that the laser sees both the danger and the course.
+  double turn_rad = 0.0;
   common::AvoidanceStatus status;
 };
 
-/// The range of one sector, from the body origin; infinity when it holds no return.
+/// The range of one sector, from the body origin; infinity if it has no return.
 struct Bin {
-  double bearing_rad = 0.0;  ///< Of the middle.
+  double bearing_rad = 0.0;  ///< Bearing of the middle of the sector.
   double range_m = 0.0;
   Eigen::Vector2d nearest_level_m = Eigen::Vector2d::Zero();  ///< The smoothed return that gave the range.
 };
@@ -52,9 +55,9 @@ struct Bin {
 ///           danger: unmapped and near, or on a course to hit          gone for `calm_s`
 ///   calm ------------------------------------------------> retreating -----------------> calm
 ///
-/// Retreat is for what standing still does not solve: something unmapped within `retreat_distance_m` of the hull, or
-/// something moving that would come within `contact_gap_m` of the vehicle at rest before `contact_time_s`. What the map
-/// holds and does not move only brakes. All distances are from the hull.
+/// A retreat is for situations that standing still does not solve: something unmapped within `retreat_distance_m` of
+/// the hull, or something moving that would come within `contact_gap_m` of the vehicle at rest before `contact_time_s`.
+/// For mapped things that do not move the vehicle only brakes. All distances are from the hull.
 class Avoidance {
  public:
   using Config = AvoidanceConfig;
@@ -64,7 +67,7 @@ class Avoidance {
 
   [[nodiscard]] AvoidanceDecision update(const AvoidanceInput& input);
 
-  /// The returns after the sliding window, and the sectors of a scan; functions of their arguments alone.
+  /// The returns after the sliding window, and the sectors of a scan. Pure functions.
   static std::vector<Eigen::Vector2d> smoothed(const Config& config, std::span<const Eigen::Vector2f> points_level_m);
   static std::vector<Bin> bins(const Config& config, const std::vector<Eigen::Vector2d>& smoothed_level_m);
 

@@ -35,9 +35,8 @@ struct AvoidanceConfig {
   double self_radius_m = 0.10;
 
   void describe(common::config::Fields& fields);
-  /// Problems of these distances with a clearance the planner may use and with what it keeps from unmapped things
-  /// beyond that: what would stop the vehicle, or make it retreat, on a path that the planner may take is refused.
-  /// Empty when they fit.
+  /// Conflicts between these distances and the clearance that the planner may use: a distance is refused if it would
+  /// stop the vehicle, or make it retreat, on a path that the planner may take. Empty if there are none.
   std::vector<std::string> validateAgainst(double clearance_m, double keep_out_m) const;
 };
 

@@ -15,25 +15,26 @@ using Points = std::vector<Point>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kStep_s = 0.1;
 constexpr int kSteps = 20;
-/// People are not believed to go on as they do for longer; what is nearer in time than this is past changing.
+/// Motion of people is extrapolated for at most this time. A contact sooner than `kTooSoon_s` cannot be changed any
+/// more.
 constexpr double kForesight_s = 1.5, kTooSoon_s = 0.3;
 constexpr int kDirections = 36;
 constexpr std::array<double, 3> kShareOfSpeed{0.25, 0.5, 1.0};
 constexpr std::array<double, 3> kGoing_s{0.2, 0.5, 0.9};
-/// What else counts than the gap, in metres of it: to go straight away, to go on in the same direction, to go slowly,
-/// and to be worth it at all.
-constexpr double kAway_m = 0.06, kSame_m = 0.05, kHaste_m = 0.06, kWorth_m = 0.02;
+/// Preferences that are weighed against the gap, in metres of gap: flying straight away, keeping the direction, flying
+/// slowly, and moving at all.
+constexpr double kAway_m = 0.06, kSame_m = 0.05, kSlow_m = 0.06, kWorth_m = 0.02;
 constexpr double kThinned_m = 0.05;
 
-/// Where the vehicle is at every step, from the origin.
+/// Position of the vehicle at every step, from the origin.
 using Course = std::array<Point, kSteps + 1>;
 
 struct Prospect {
-  double seen_m;     ///< Least distance from the centre to a return,
-  double mapped_m;   ///< and to what the map holds.
-  double gap_m;      ///< Least gap to anybody,
-  double end_gap_m;  ///< and at the end of what is foreseen.
-  double room_m;     ///< From the centre to whatever stands, where it ends; no more than the margin asks for.
+  double seen_m;     ///< Least distance of the centre to a return.
+  double mapped_m;   ///< Least distance of the centre to a mapped obstacle.
+  double gap_m;      ///< Least gap to any person during the prediction.
+  double end_gap_m;  ///< Gap to the nearest person at the end of the prediction.
+  double room_m;     ///< Distance of the centre to the nearest standing thing at the end, capped at the wanted margin.
 
   double worth_m() const { return gap_m + 0.5 * end_gap_m + room_m; }
 };
@@ -71,7 +72,7 @@ class Retreat {
           if (!clear || prospect.gap_m < stop.gap_m) continue;
           if (prospect.worth_m() < stop.worth_m() + kWorth_m) continue;
           const double score =
-              prospect.worth_m() + kAway_m * direction.dot(away_) + kSame_m * direction.dot(last_) - kHaste_m * share;
+              prospect.worth_m() + kAway_m * direction.dot(away_) + kSame_m * direction.dot(last_) - kSlow_m * share;
           if (score <= best_score) continue;
           best_score = score;
           best = velocity;
@@ -82,7 +83,8 @@ class Retreat {
   }
 
  private:
-  /// Out of the way of who passes, rather than along it before him; straight away from who comes straight on.
+  /// Prefers a course across the path of a person who passes to one along it, and straight away from a person who comes
+  /// straight on.
   static Point awayFrom(const Threat& threat) {
     constexpr double kPasses_m = 0.5;
     Point straight = -threat.center_m.normalized();
@@ -95,7 +97,7 @@ class Retreat {
 
   double safe_m() const { return hull_radius_m_ + config_.retreat_margin_m; }
 
-  /// Towards that velocity for so long, then to rest.
+  /// Accelerates to that velocity, holds it for the given time, then brakes to rest.
   Course courseAt(const Point& wanted_m_s, double going_s) const {
     const double most_m_s = config_.deceleration_m_s2 * kStep_s;
     Course course;
@@ -113,7 +115,7 @@ class Retreat {
   }
 
   Prospect prospectOf(const Course& course) const {
-    // Beyond what releases a retreat by more than is not worth moving for.
+    // A gap beyond the one that ends a retreat is not worth moving for.
     const double enough_m =
         config_.release_factor * std::max(config_.retreat_distance_m, config_.contact_gap_m) + 2.0 * kWorth_m;
     double seen_m = kInfinity, mapped_m = kInfinity, gap_m = enough_m, end_gap_m = enough_m, room_m = 0.0;

@@ -1,4 +1,4 @@
-// What lies over the grid in a cost map: flown ways, discs, heights.
+// The layers over the grid of a cost map: flown paths, discs, heights.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,7 +16,7 @@ void CostMap::applyLayers(const CostLayers& layers) {
   cost_ = static_cost_;
   for (std::size_t i = 1; i < layers.flown_map_m.size(); ++i)
     applyFlown(layers.flown_map_m[i - 1], layers.flown_map_m[i]);
-  for (const Disc& disc : layers.discs) applyDisc(disc);
+  for (const common::Disc& disc : layers.discs) applyDisc(disc);
   applyHeights(layers.levels);
 
   const int width = rect_.width(), height = rect_.height();
@@ -34,8 +34,8 @@ void CostMap::applyLayers(const CostLayers& layers) {
 
 void CostMap::applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
   constexpr double kWithin_m = 0.075, kJump_m = 1.0;
-  const Eigen::Vector2d way = to_map_m - from_map_m;
-  if (!way.allFinite() || way.norm() > kJump_m) return;
+  const Eigen::Vector2d step = to_map_m - from_map_m;
+  if (!step.allFinite() || step.norm() > kJump_m) return;
   const double least_m = footprint_.hull_radius_m + 0.5 * footprint_.clearance_m;
   const Eigen::Vector2d within = Eigen::Vector2d::Constant(kWithin_m);
   const common::CellIndex low = cellAt(from_map_m.cwiseMin(to_map_m) - within);
@@ -43,8 +43,8 @@ void CostMap::applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2
   for (int y = std::max(low.y, rect_.begin.y); y <= std::min(high.y, rect_.end.y - 1); ++y) {
     for (int x = std::max(low.x, rect_.begin.x); x <= std::min(high.x, rect_.end.x - 1); ++x) {
       const Eigen::Vector2d to_cell = centerOf({x, y}) - from_map_m;
-      const double along = way.isZero() ? 0.0 : std::clamp(to_cell.dot(way) / way.squaredNorm(), 0.0, 1.0);
-      if ((to_cell - along * way).norm() > kWithin_m) continue;
+      const double along = step.isZero() ? 0.0 : std::clamp(to_cell.dot(step) / step.squaredNorm(), 0.0, 1.0);
+      if ((to_cell - along * step).norm() > kWithin_m) continue;
       Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
       if (cost == kLethal && stateAt({x, y}) == CellState::kFree && obstacleDistance_m({x, y}) >= least_m)
         cost = costOfMargin(0.0);
@@ -52,7 +52,7 @@ void CostMap::applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2
   }
 }
 
-void CostMap::applyDisc(const Disc& disc) {
+void CostMap::applyDisc(const common::Disc& disc) {
   if (!disc.center_map_m.allFinite()) return;
   const double lethal_m = disc.radius_m + footprint_.radius_m();
   const double reach_m = lethal_m + (this->reach_m() - footprint_.radius_m());

@@ -25,7 +25,7 @@ CellRect dilated(const CellRect& r, int by, const CellRect& within) {
           {std::min(r.end.x + by, within.end.x), std::min(r.end.y + by, within.end.y)}};
 }
 
-/// Grows to the cells that are added; empty at first.
+/// Grows to include the cells that are added; empty at first.
 struct BoundingBox {
   CellRect rect{{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}};
   void add(int x, int y) {

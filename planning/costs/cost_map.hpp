@@ -20,26 +20,26 @@
 
 namespace swiftlet::planning {
 
-/// What must fit through: the hull is an upright cylinder, the clearance is kept between it and anything occupied.
+/// The body that must fit through: the hull is an upright cylinder, the clearance is kept between it and anything
+/// occupied.
 struct Footprint {
   double hull_radius_m = 0.275;
   double clearance_m = 0.10;
   double radius_m() const { return hull_radius_m + clearance_m; }
 };
 
-using common::Disc;
-
-/// What lies over the grid. Pointers may be null and are read during the call only.
+/// The layers over the grid. Pointers may be null and are read during the call only.
 struct CostLayers {
-  std::span<const Disc> discs;  ///< Obstacles that are not in the grid: people, places that were tried and failed.
+  /// Obstacles that are not in the grid: people, places that were tried and failed.
+  std::span<const common::Disc> discs;
   const common::LevelMap* levels = nullptr;
-  /// Where the vehicle has flown, in order, in the `map` frame: half the clearance will do there. A door that was flown
-  /// through does not close behind the vehicle because the map of its frame grew by a cell.
+  /// The flown trail, in order, in the `map` frame. Near it half the clearance is enough, so that a door that was flown
+  /// through stays open even if the map of its frame grew by a cell.
   std::span<const Eigen::Vector2d> flown_map_m = {};
 };
 
 /// A dense copy of the grid's extent plus one tile of margin, in the `map` frame, on the grid's own cells. A value:
-/// copy it to give a job its snapshot. Reading is safe from any thread while nobody updates the same object. Distances
+/// copy it to give a job its snapshot. Reading is safe from any thread while the same object is not updated. Distances
 /// run from cell centre to cell centre and are exact up to the reach of the cost.
 class CostMap {
  public:
@@ -54,19 +54,20 @@ class CostMap {
   };
 
   using Cost = std::uint16_t;
-  static constexpr Cost kOpenCost = 8;      ///< Of a cell far from everything.
+  static constexpr Cost kOpenCost = 8;      ///< Cost of a cell far from everything.
   static constexpr Cost kLethal = 0xFFFF;   ///< The centre may not be there.
   static constexpr int kStraightEdge = 12;  ///< Edge cost = this times the sum of the two cell costs.
   static constexpr int kDiagonalEdge = 17;  ///< 17 / 12 is the square root of 2 within 0.2 %.
-  static constexpr std::int32_t kStraightMin = 2 * kStraightEdge * kOpenCost;  ///< The cheapest edge there is.
+  static constexpr std::int32_t kStraightMin = 2 * kStraightEdge * kOpenCost;  ///< The cheapest possible edge.
 
   /// A map that is lethal everywhere. `config` is validated.
   CostMap(const Config& config, double resolution_m);
 
-  /// Brings the map to the given grid. Costs are recomputed only around cells whose state changed since the last call
-  /// (tiles with the same identity are not read), unless the footprint changed. Equal to a fresh map, always.
-  /// `grid` is a snapshot that nobody writes to any more (OccupancyGrid::snapshot()), of the constructor's resolution;
-  /// a copy of it (shared tiles) is held. Radius plus comfort distance beyond kMaxReachCells cells is cut there.
+  /// Updates the map to the given grid. Costs are recomputed only around cells whose state changed since the last call
+  /// (tiles with the same identity are not read), unless the footprint changed. The result always equals that of a
+  /// fresh map. `grid` is a snapshot that is not written to any more (OccupancyGrid::snapshot()), of the constructor's
+  /// resolution; a copy of it (with shared tiles) is kept. The reach is radius plus comfort distance, at most
+  /// kMaxReachCells cells.
   void update(const common::OccupancyGrid& grid, const Footprint& footprint, const CostLayers& layers = {});
 
   const Footprint& footprint() const { return footprint_; }
@@ -92,16 +93,16 @@ class CostMap {
   CellState stateAt(common::CellIndex c) const { return contains(c) ? state(indexOf(c)) : CellState::kUnknown; }
   const std::vector<Cost>& costs() const { return cost_; }
   const std::vector<CellState>& states() const { return state_; }
-  /// Height of the surface below in cm; empty without levels.
+  /// Height of the surface below in cm; empty if there are no levels.
   const std::vector<std::int16_t>& heights_cm() const { return height_cm_; }
 
-  /// From the centre of the cell to that of the nearest occupied one of the grid (discs are not counted); never above
-  /// reach_m(), which is also the answer where nothing is near and outside the map.
+  /// Distance from the centre of the cell to that of the nearest occupied cell of the grid; discs are not counted. At
+  /// most reach_m(), which is also the answer if nothing is near and outside the map.
   double obstacleDistance_m(common::CellIndex c) const;
   double reach_m() const { return reach_cells_ * resolution_m(); }
 
-  /// The cost of going between two 8-neighbours, neither lethal. A diagonal is forbidden (kNoEdge) when one of the two
-  /// cells beside it is lethal: no corner is cut.
+  /// The cost of moving between two 8-neighbours, neither of them lethal. A diagonal is forbidden (kNoEdge) if one of
+  /// the two cells beside it is lethal, so no corner is cut.
   static constexpr std::int32_t kNoEdge = INT32_MAX;
   std::int32_t edgeCost(int from, int dx, int dy) const {
     const int to = from + dy * stride() + dx;
@@ -109,14 +110,14 @@ class CostMap {
     if (isLethal(to) || (diagonal && (isLethal(from + dx) || isLethal(from + dy * stride())))) return kNoEdge;
     return (diagonal ? kDiagonalEdge : kStraightEdge) * (cost(from) + cost(to)) + stepCost(from, to);
   }
-  /// What the step of the surface between two cells adds; 0 without levels.
+  /// The cost that a step of the surface between two cells adds; 0 without levels.
   std::int32_t stepCost(int from, int to) const {
     if (height_cm_.empty()) return 0;
     return height_edge_ *
            std::abs(height_cm_[static_cast<std::size_t>(from)] - height_cm_[static_cast<std::size_t>(to)]);
   }
   std::int32_t stepCostPerCm() const { return height_edge_; }
-  /// The greatest cost an edge can have under this config.
+  /// The greatest possible cost of an edge with this config.
   std::int32_t maxEdgeCost() const { return max_edge_cost_; }
 
  private:
@@ -128,7 +129,7 @@ class CostMap {
   void costTile(int x0, int y0);
   void applyLayers(const CostLayers& layers);
   void applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m);
-  void applyDisc(const Disc& disc);
+  void applyDisc(const common::Disc& disc);
   void applyHeights(const common::LevelMap* levels);
   Cost costOfMargin(double margin_m) const;
 
@@ -139,14 +140,15 @@ class CostMap {
   int reach_cells_ = 0;
   int unknown_reach_cells_ = 0;
   std::int32_t max_edge_cost_ = 0;
-  std::int32_t height_edge_ = 0;                  ///< Edge cost of a step of 1 cm.
-  std::vector<CellState> raw_;                    ///< As the grid says.
-  std::vector<CellState> state_;                  ///< Slivers closed.
-  std::vector<std::int16_t> occupied_distance2_;  ///< In cells squared, cut at (reach + 1) squared.
+  std::int32_t height_edge_ = 0;  ///< Edge cost of a step of 1 cm.
+  std::vector<CellState> raw_;    ///< States as in the grid.
+  std::vector<CellState> state_;  ///< States with the unknown slivers closed.
+  /// Squared distance in cells to the nearest occupied cell, cut at (reach + 1) squared.
+  std::vector<std::int16_t> occupied_distance2_;
   std::vector<std::int16_t> unknown_distance2_;
   std::vector<Cost> margin_cost_;  ///< Cost by occupied distance squared.
-  std::vector<Cost> static_cost_;  ///< Grid only.
-  std::vector<Cost> cost_;         ///< With the layers.
+  std::vector<Cost> static_cost_;  ///< Cost from the grid only.
+  std::vector<Cost> cost_;         ///< Cost with the layers.
   std::vector<std::int16_t> height_cm_;
 };
 

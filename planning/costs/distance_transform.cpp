@@ -14,7 +14,7 @@ constexpr int kMaxWidth = kTile + 2 * kMaxReachCells;
 using Row = std::array<std::int16_t, kMaxWidth>;
 using Block = std::array<Row, kTile>;
 
-/// One step of the column pass: `run` is the distance to the last cell of the state met in each column.
+/// One step of the column pass. `run` is the distance to the last cell of the state in each column.
 bool advance(const StateImage& image, int y, int x_begin, int x_end, int x_first, CellState which, std::int16_t cap,
              Row& run) {
   bool met = false;
@@ -28,7 +28,7 @@ bool advance(const StateImage& image, int y, int x_begin, int x_end, int x_first
   return met;
 }
 
-/// The distance within each column, cut at reach + 1; false when the state is nowhere near the tile.
+/// The distance within each column, cut at reach + 1. False if the state does not occur near the tile.
 bool columnPass(const StateImage& image, int x0, int y0, CellState which, int reach, Block& columns) {
   const auto cap = static_cast<std::int16_t>(reach + 1);
   const int x_first = x0 - reach, x_begin = std::max(0, x_first), x_end = std::min(image.width, x0 + kTile + reach);

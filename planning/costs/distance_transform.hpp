@@ -1,5 +1,5 @@
-// The exact Euclidean distance transform with a bounded reach, one tile at a time, so that a map is repaired where it
-// changed. Two passes: down and up the columns, then across the rows (Saito and Toriwaki 1994).
+// The exact Euclidean distance transform with a bounded reach. It works tile by tile, so that only the changed part of
+// a map is computed again. Two passes: down and up the columns, then across the rows (Saito and Toriwaki 1994).
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace swiftlet::planning {
 
-/// Greatest distance that is computed, in cells; below a tile.
+/// Greatest distance that is computed, in cells; less than the side of a tile.
 inline constexpr int kMaxReachCells = 63;
 
-/// A row-by-row array of states that is looked into.
+/// An array of states in row-major order.
 struct StateImage {
   const std::vector<CellState>& states;
   int width;

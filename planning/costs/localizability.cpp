@@ -28,7 +28,7 @@ Eigen::Vector2d wallNormal(const CostMap& map, int index) {
   const Eigen::Matrix2d covariance = squares / count - sum * sum.transpose() / (static_cast<double>(count) * count);
   const double a = covariance(0, 0), b = covariance(0, 1), d = covariance(1, 1);
   const double root = std::hypot(0.5 * (a - d), b);
-  if (root < 0.2 * (a + d)) return Eigen::Vector2d::Zero();  // As wide as long: a corner or a blob.
+  if (root < 0.2 * (a + d)) return Eigen::Vector2d::Zero();  // As wide as long: a corner or a blob has no normal.
   const double along_rad = 0.5 * std::atan2(2.0 * b, a - d);
   return {-std::sin(along_rad), std::cos(along_rad)};
 }
@@ -50,7 +50,7 @@ double localizability(const std::vector<WallReturn>& returns, int beams) {
   const double weakest = mean - std::hypot(0.5 * (position(0, 0) - position(1, 1)), position(0, 1));
   if (weakest < 1e-6 * beams) return 0.0;
   const double yaw_alone = yaw - cross.dot(position.inverse() * cross);
-  // In the middle of a square room half of the beams fix each direction, and the yaw has about a sixth of the lever.
+  // In the middle of a square room half of the beams fix each direction, and the yaw has about a sixth of the leverage.
   const double position_share = 2.0 * weakest / beams, yaw_share = 6.0 * yaw_alone / lever2_m2;
   return std::clamp(std::min(position_share, yaw_share), 0.0, 1.0);
 }

@@ -10,20 +10,20 @@
 
 namespace swiftlet::planning {
 
-/// A return expected from a wall, seen from the place, with the wall's unit normal there.
+/// A return expected from a wall, relative to the place, with the wall's unit normal.
 struct WallReturn {
   Eigen::Vector2d offset_m;
   Eigen::Vector2d normal;
 };
 
-/// The normal of the occupied cells around one, by their principal axis; zero when they have none (a lone cell).
+/// The normal of the occupied cells around a cell, from their principal axis; zero if there is none (a lone cell).
 Eigen::Vector2d wallNormal(const CostMap& map, int index);
 
-/// 0 (some direction, or the yaw, is not fixed at all) to 1 (walls all around). `beams` counts those without return
-/// too.
+/// From 0 (some direction, or the yaw, is not fixed at all) to 1 (walls all around). `beams` is the number of all
+/// beams, including those without return.
 double localizability(const std::vector<WallReturn>& returns, int beams);
 
-/// The same for a place, by casting `beams` rays up to `range_m`.
+/// The localizability of a place, from `beams` rays cast up to `range_m`.
 double localizabilityAt(const CostMap& map, common::CellIndex place, double range_m, int beams = 90);
 
 }  // namespace swiftlet::planning

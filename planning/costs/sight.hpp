@@ -1,4 +1,4 @@
-// Rays over the states of a cost map: what a place sees.
+// Rays over the states of a cost map, to find what is visible from a place.
 #pragma once
 
 #include <cmath>
@@ -36,8 +36,7 @@ class Directions {
   std::vector<Ray> rays_;
 };
 
-/// Calls visit(index, step) for the cells from the one after `from` on, until it returns false, the map ends or
-/// `max_steps` are done.
+/// Calls visit(index, step) for each cell after `from`, until it returns false, the map ends or `max_steps` are done.
 template <typename Visit>
 void castRay(const CostMap& map, common::CellIndex from, const Directions::Ray& ray, int max_steps, Visit&& visit) {
   const auto width = static_cast<std::uint32_t>(map.rect().width());

@@ -16,7 +16,7 @@ Color sky(const Eigen::Vector3f& direction_world) {
   return Color(0.75F, 0.8F, 0.86F) * (1.0F - up) + Color(0.45F, 0.6F, 0.85F) * up;
 }
 
-/// Grey noise, near enough to Gaussian: the sum of four bytes, two pixels of one draw.
+/// Grey noise, close enough to Gaussian: the sum of four bytes. One draw serves two pixels.
 class PixelNoise {
  public:
   PixelNoise(double standard_deviation, common::RandomStream random)
@@ -47,7 +47,7 @@ Camera::Camera(const CameraConfig& config, const WorldModel& world, std::uint64_
   for (const Shape& shape : world.shapes) colors_.push_back(shape.color);
 }
 
-// Lambert twice: a lamp on the vehicle and a soft light from above, so that walls of a corner differ.
+// Lambert twice: a lamp on the vehicle and a soft light from above, so that the walls of a corner differ.
 Color Camera::shade(const Hit& hit, const Eigen::Vector3f& direction_world, std::span<const Actor> actors) const {
   if (!hit) return sky(direction_world);
   static const Eigen::Vector3f kLight = Eigen::Vector3f(0.35F, 0.55F, 0.76F).normalized();

@@ -1,4 +1,4 @@
-// Measurements on their way to the computer: through their links and through what is broken.
+// Measurements on their links to the computer, with the configured faults applied.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ class EventQueue {
   /// `seed` names the random streams of the links.
   EventQueue(const Scenario& scenario, std::uint64_t seed);
 
-  /// Number `frame` of a sensor is ready to be sent; its stamp `measured` is set.
+  /// Sends measurement number `frame` of a sensor; its stamp `measured` is set.
   void send(Sensor sensor, std::uint64_t frame, common::Time ready, common::SensorEvent event);
 
   /// Appends what has arrived by `until`, by time of arrival, then in the order of Sensor, then by frame.
@@ -33,7 +33,7 @@ class EventQueue {
   const FaultConfig* activeFault(Sensor sensor, common::Time measured) const;
 
   std::vector<FaultConfig> faults_;
-  std::vector<Link> links_;  ///< By Sensor.
+  std::vector<Link> links_;  ///< One link per Sensor.
   std::array<std::optional<common::SensorEvent>, kSensorCount> last_good_;
   std::vector<Entry> under_way_;
 };

@@ -1,5 +1,5 @@
-// Gyroscopes, accelerometers and the attitude the autopilot makes of them: right to about a degree, leaning into long
-// accelerations as a complementary filter does, with a yaw that drifts from an arbitrary origin.
+// Gyroscopes, accelerometers, and the attitude that the autopilot computes from them: its error is about a degree, it
+// leans into long accelerations as a complementary filter does, and its yaw drifts from an arbitrary origin.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The laser: beams swept in time along the vehicle's path, bent down by the mirror where there is one, with range
-// noise, millimetres, dropouts and a shortest and longest range.
+// The laser: beams swept in time along the vehicle's path, some bent down by the mirror, with range noise, millimetre
+// steps, dropouts, and a shortest and a longest range.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace swiftlet::simulation {
 
-/// Where the vehicle and the walkers were at one instant.
+/// The poses of the vehicle and the walkers at one instant.
 struct Moment {
   common::Time time;
   common::Pose3 T_world_body;
@@ -46,7 +46,7 @@ class LaserScanner {
   std::uint64_t seed_;
   common::Duration time_increment_;
   std::vector<Beam> beams_;
-  std::vector<Ray> rays_;  // Kept between scans to spare the allocation.
+  std::vector<Ray> rays_;  // Kept between scans to save the allocation.
   std::vector<float> distances_m_;
 };
 

@@ -1,4 +1,4 @@
-// The way of measurements to the computer: latency, jitter, loss; first in, first out.
+// The link from a sensor to the computer: latency, jitter, loss; first in, first out.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ class Link {
   /// `name` names the random stream.
   Link(const LinkConfig& config, std::uint64_t seed, std::string name);
 
-  /// When number `frame`, ready at `ready`, arrives; none when it is lost. Call in the order of frames; leaving some
-  /// out changes nothing for the others.
+  /// The arrival time of measurement number `frame`, ready at `ready`; none if it is lost. Call in the order of frames;
+  /// leaving some out changes nothing for the others.
   std::optional<common::Time> arrival(std::uint64_t frame, common::Time ready);
 
  private:

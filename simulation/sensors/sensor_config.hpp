@@ -1,4 +1,4 @@
-// What only nature knows of the sensors: errors, rates, latency and loss on the way to the computer.
+// Properties of the sensors that only the simulator knows: errors, rates, and the latency and loss of their links.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ enum class Sensor { kImu, kLaser, kBattery, kPilot, kCamera };
 inline constexpr int kSensorCount = 5;
 const char* toString(Sensor sensor);
 
-/// The way from a sensor to the computer. Measurements of one sensor never overtake each other.
+/// The link from a sensor to the computer. Measurements of one sensor never overtake each other.
 struct LinkConfig {
   double latency_s = 0.001;
   double jitter_s = 0.0;
@@ -23,7 +23,7 @@ struct LinkConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// Inertial sensors and the attitude the autopilot makes of them.
+/// Inertial sensors and the attitude that the autopilot computes from them.
 struct ImuConfig {
   double rate_hz = 200.0;
   double gyro_noise_rad_s = 0.005;

@@ -55,7 +55,7 @@ void SensorSuite::stepLaser(Time now, const QuadrotorState& state, const std::ve
   const Time start = laser_clock_.next(), end = start + laser_.sweep();
   if (now < end) return;
   auto scan = std::make_shared<common::LaserScan>(laser_.scan(laser_clock_.frame, start, track_, rays));
-  // The sweep ended between two steps; nothing arrives before it was computed.
+  // The sweep ended between two steps. Nothing arrives before it was computed.
   queue_.send(Sensor::kLaser, laser_clock_.frame++, now, std::shared_ptr<const common::LaserScan>(std::move(scan)));
   const Time next = laser_clock_.next();
   const auto first_needed =

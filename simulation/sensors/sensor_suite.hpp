@@ -1,4 +1,5 @@
-// All sensors of the vehicle on their clocks. What nobody consumes is not rendered; that changes no other byte.
+// All sensors of the vehicle with their clocks. Camera frames are rendered only if they are consumed; this changes no
+// other byte.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace swiftlet::simulation {
 
 class SensorSuite {
  public:
-  /// `seed` names the random streams of all of them.
+  /// `seed` names the random streams of all sensors.
   SensorSuite(const Scenario& scenario, std::uint64_t seed, const WorldModel& world);
 
   /// What the autopilot measures at its tick number `tick`.
@@ -38,7 +39,7 @@ class SensorSuite {
   const PilotConfig* sticks(common::Time now) const;
 
  private:
-  /// Counts the periods of a sensor; true once at or after each.
+  /// Counts the periods of a sensor; true once at or after each period.
   struct Clock {
     explicit Clock(double rate_hz) : period(common::Duration::fromSeconds(1.0 / rate_hz)) {}
     common::Duration period;
@@ -60,7 +61,7 @@ class SensorSuite {
   Camera camera_;
   EventQueue queue_;
   Clock imu_clock_, laser_clock_, battery_clock_, pilot_clock_, camera_clock_;
-  std::vector<Moment> track_;  ///< Since the start of the present sweep.
+  std::vector<Moment> track_;  ///< The track since the start of the present sweep.
   bool camera_wanted_ = false;
 };
 

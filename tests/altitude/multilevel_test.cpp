@@ -148,7 +148,7 @@ TEST(MultilevelFilter, ManyCrossingsDoNotDrift) {
               100 * flight.rms_m(), map.levels.size());
 }
 
-/// Only levels near by may explain a beam, as in the paper.
+/// Only levels nearby may explain a beam, as in the paper.
 MultilevelFilter onlyNear() {
   MultilevelFilter::Config config;
   config.one_floor = false;
@@ -180,8 +180,7 @@ TEST(MultilevelFilter, TheFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
   EXPECT_EQ(flight.filter.levels().levels[0].height_m, 0.0);
 }
 
-/// The back and the seat of a sofa, in many steepnesses: what is not flat says nothing about the height, and must not
-/// take it along.
+/// The back and the seat of a sofa at many slopes: a surface that is not flat has no effect on the height.
 TEST(MultilevelFilter, SlopesDoNotCarryTheHeightAway) {
   for (const double speed_m_s : {0.3, 0.6, 0.9}) {
     for (const double length_m : {0.15, 0.3, 0.6}) {
@@ -202,12 +201,12 @@ TEST(MultilevelFilter, SlopesDoNotCarryTheHeightAway) {
   }
 }
 
-/// Boxes of all heights side by side, few of them wide enough to be believed, crossed on an acceleration that goes
-/// wrong; then the floor. It must be the floor again soon, and not a slope, a new level, or one of the boxes. There are
-/// seeds that deserve to fail: boxes that make a table, or drift that puts the floor where the table was.
+/// Boxes of all heights side by side, few of them wide enough to become a level, crossed with a wrong acceleration;
+/// then the floor. The filter must soon return to the floor, and not to a slope, a new level, or one of the boxes. Some
+/// seeds fail rightly: boxes that form a table, or drift that moves the floor to the height of the table.
 TEST(MultilevelFilter, TheFloorBehindClutterIsBelievedAgain) {
   constexpr int kFlights = 400;
-  int untold = 0, wrong = 0;
+  int unmeasured = 0, wrong = 0;
   for (int seed = 1; seed <= kFlights; ++seed) {
     Overflight flight;
     flight.fused = true;
@@ -228,7 +227,7 @@ TEST(MultilevelFilter, TheFloorBehindClutterIsBelievedAgain) {
     untold += flight.last.measurement ? 0 : 1;
     wrong += std::abs(flight.filter.state().height_m - flight.z_m) < kAltitudeAtRest_m ? 0 : 1;
   }
-  std::printf("floor behind clutter: %d of %d flights without a measurement, %d with a wrong height\n", untold,
+  std::printf("floor behind clutter: %d of %d flights without a measurement, %d with a wrong height\n", unmeasured,
               kFlights, wrong);
   // The paper has no such figure. One in fifty is what is promised: clutter like this is met a few times in a flight.
   EXPECT_LE(untold, kFlights / 50);
@@ -279,7 +278,7 @@ TEST(MultilevelFilter, ATableEdgeSplitsTheBeamsBetweenBothLevels) {
 }
 
 TEST(MultilevelFilter, TheVarianceIsHonest) {
-  // Over many flights the error of a level is what its variance says.
+  // Over many flights the error of a level agrees with its variance.
   double nees = 0;
   constexpr int kFlights = 40;
   for (int seed = 1; seed <= kFlights; ++seed) {

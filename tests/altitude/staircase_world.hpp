@@ -1,4 +1,4 @@
-// Boxes on a floor, seen from above by mirror beams: what the multilevel filter is tested on.
+// Boxes on a floor, measured from above by mirror beams, to test the multilevel filter.
 #pragma once
 
 #include <cmath>
@@ -13,14 +13,14 @@ namespace swiftlet::perception {
 
 struct Box {
   double x0, x1, y0, y1, height_m;
-  double height_at_x1_m = -1.0;  ///< Where it differs, the top is a slope.
+  double height_at_x1_m = -1.0;  ///< Height at x1. If it differs, the top is a slope.
   double heightAt(double x) const {
     return height_at_x1_m < 0.0 ? height_m : height_m + (height_at_x1_m - height_m) * (x - x0) / (x1 - x0);
   }
 };
 
-/// What the fusion filter is to the multilevel filter in flight: a Kalman filter over height, vertical speed and the
-/// error of the acceleration that takes measurements late, here by replaying all scans since.
+/// Stands for the fusion filter in flight: a Kalman filter over height, vertical speed and the error of the
+/// acceleration. It accepts late measurements by replaying all scans since.
 class LateFilter {
  public:
   void start(common::Time time, double height_m) {
@@ -51,7 +51,7 @@ class LateFilter {
     common::Time stamp;
     Eigen::Vector3d state;
     Eigen::Matrix3d covariance;
-    double acceleration_m_s2;  ///< That led here.
+    double acceleration_m_s2;  ///< The acceleration since the state before.
   };
   static void advance(Step& step, common::Time time, double acceleration_m_s2) {
     constexpr double kNoise_m_s2_rthz = 0.03, kWalk_m_s3_rthz = 0.01;
@@ -87,7 +87,7 @@ struct Overflight {
   double acceleration_sigma_m_s2 = 0.1;
   double acceleration_bias_m_s2 = 0.0;
   double outlier_rate = 0.0, dropout_rate = 0.0;
-  double height_offset_m = 0.0;  ///< Of all beams: a wrong mirror mount.
+  double height_offset_m = 0.0;  ///< Offset of all beams: a wrong mirror mount.
   bool fused = false;            ///< The prior comes from outside, as in flight.
   LateFilter fusion;
 
@@ -155,7 +155,7 @@ struct Overflight {
     }
   }
 
-  /// Straight to a place, swaying a little in height as a vehicle does.
+  /// Flies straight to a place, with small changes of height.
   void flyTo(const Eigen::Vector2d& goal_m, double speed_m_s = 0.5) {
     const double hold_m = z_m;
     while ((goal_m - position_m).norm() > 1e-6) {

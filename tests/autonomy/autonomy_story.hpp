@@ -1,5 +1,5 @@
-// What the stories of the whole autonomy are told with: a simulated vehicle in a room, and hands that may keep sensor
-// events from the autonomy or change them on their way.
+// Support for stories of the whole autonomy: a simulated vehicle in a room, and a hook that may drop or change sensor
+// events before the autonomy gets them.
 #pragma once
 
 #include <algorithm>
@@ -26,11 +26,11 @@ namespace swiftlet::autonomy {
 using common::FlightState;
 using common::MissionState;
 
-/// A vehicle whose sensor events pass through a hand that may change them, or keep them (false).
+/// A vehicle with a hook on its sensor events. The hook may change an event, or drop it (false).
 class HandledVehicle final : public common::Vehicle {
  public:
   using Hand = std::function<bool(common::SensorEvent&)>;
-  /// Refers to both.
+  /// Refers to both arguments.
   HandledVehicle(common::Vehicle& vehicle, const Hand& hand) : vehicle_(vehicle), hand_(hand) {}
 
   common::Time now() const override { return vehicle_.now(); }
@@ -55,11 +55,11 @@ class AutonomyStory {
         autonomy_({}, vehicle_.scenario().vehicle, vehicle_.scenario().laser, mission(leaves),
                   common::makeLockstepJobs(0)) {}
 
-  /// Sees every sensor event before the autonomy does; false: it gets lost.
+  /// Is called with every sensor event before the autonomy gets it; false drops the event.
   HandledVehicle::Hand hand = [](common::SensorEvent&) { return true; };
 
   [[nodiscard]] bool tick() { return loop_.step(vehicle_.now() + common::kControlPeriod); }
-  /// False when it does not come to be in time, or the vehicle crashes.
+  /// False if it does not become true in time, or if the vehicle crashes.
   template <typename Condition>
   [[nodiscard]] bool until(Condition condition, double at_most_s) {
     const common::Time end = vehicle_.now() + common::Duration::fromSeconds(at_most_s);
@@ -90,7 +90,7 @@ class AutonomyStory {
   const common::World& world() const { return *autonomy_.world(); }
   const Autonomy& autonomy() const { return autonomy_; }
   common::Time now() const { return vehicle_.now(); }
-  /// Of the first event that begins so; the end of the list when there is none.
+  /// The first event with that beginning; the end of the list if there is none.
   std::vector<common::Event>::const_iterator event(const std::string& source, const std::string& text) const {
     return std::find_if(events.begin(), events.end(),
                         [&](const auto& e) { return e.source == source && e.text.starts_with(text); });
@@ -123,9 +123,9 @@ class AutonomyStory {
         "story.xml");
   }
 
-  /// Keeps what the flight says.
+  /// Collects the events of the flight.
   struct Listener final : FlightSink {
-    explicit Listener(AutonomyStory& told) : story(told) {}
+    explicit Listener(AutonomyStory& heard) : story(heard) {}
     void event(const common::Event& event) override { story.events.push_back(event); }
     void result(const common::CommandResult& result) override { story.results.push_back(result); }
     AutonomyStory& story;

@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr char kUpAndDown[] = R"(<TakeOff height_m="1.0"/><Land/>)";
-/// Flies across the room until somebody says otherwise.
+/// Flies across the room until a command stops it.
 constexpr char kAcross[] = R"(<TakeOff height_m="1.0"/><MoveToGoal goal="2.5;-2.0"/><MoveToGoal goal="-2.5;2.0"/>)"
                            R"(<MoveToGoal goal="2.5;-2.0"/><Land/>)";
 

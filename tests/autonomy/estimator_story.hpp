@@ -1,5 +1,5 @@
-// What the stories of the estimator are told with: a made-up flight through a flat of upright walls, measured by an IMU
-// and a swept laser with a mirror. `odom` begins at the truth's origin, so that errors are differences.
+// Support for stories of the estimator: an artificial flight through a flat of upright walls, measured by an IMU and a
+// swept laser with a mirror. `odom` starts at the truth's origin, so that errors are differences.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace swiftlet::autonomy {
 
-/// A den about a place, so near on all sides that none of its walls lies on one of the flat.
+/// A small room around a place, so close on all sides that none of its walls coincides with one of the flat.
 inline test::PlanarWorld den(const Eigen::Vector2d& center_m, double radius_m) {
   std::vector<Eigen::Vector2d> corners;
   for (int i = 0; i < 9; ++i) {
@@ -41,14 +41,14 @@ class EstimatorStory {
         jobs_(common::makeLockstepJobs(0)),
         estimator(config, laser_, common::VehicleConfig{}, given, *jobs_) {}
 
-  /// The made-up flight leans as it likes: what its accelerometer feels beside gravity is no drag.
+  /// The artificial flight tilts independently of its motion, so its accelerometer shows no drag.
   static EstimatorConfig config() {
     EstimatorConfig config;
     config.fusion.use_drag = false;
     return config;
   }
 
-  /// Feeds what was measured until then; `each` is called after every scan.
+  /// Feeds the measurements until then; `each` is called after every scan.
   void run(double until_s, const std::function<void(const std::optional<ScanOutcome>&)>& each = {}) {
     for (; next_ < imu_.size() && imu_[next_].stamps.measured.seconds() <= until_s; ++next_) {
       const common::Time now = imu_[next_].stamps.measured;
@@ -56,13 +56,13 @@ class EstimatorStory {
       estimator.setAtRest(now.seconds() < flight_.rest_until_s - 0.05);
       estimator.addImu(imu_[next_]);
       if (next_ % kImuPerScan != kImuPerScan - 1) continue;
-      // The sweep that has just come in began four samples ago.
+      // The sweep that has just arrived began four samples ago.
       const auto outcome = estimator.addScan(scanFrom(imu_[next_ + 1 - kImuPerScan].stamps.measured, now), now);
       for (common::Event& event : estimator.takeEvents()) events.push_back(std::move(event));
       if (each) each(outcome);
     }
   }
-  /// What was measured until then is lost.
+  /// Drops the measurements until then.
   void skipTo(double s) {
     while (next_ < imu_.size() && imu_[next_].stamps.measured.seconds() < s) ++next_;
   }

@@ -1,4 +1,4 @@
-// The estimator as stories: what scans and IMU samples make of the state, the map and the events.
+// Stories of the estimator: the state, the map and the events that follow from scans and IMU samples.
 #include "autonomy/estimator.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ TEST(Estimator, WaitsUntilTheVehicleStandsStill) {
   moving.skipTo(5.0);
   moving.run(7.0, [](const auto& outcome) { EXPECT_FALSE(outcome); });
   EXPECT_FALSE(moving.estimator.ready());
-  EXPECT_EQ(moving.eventsThatBegin("waiting to stand still"), 1) << "said once";
+  EXPECT_EQ(moving.eventsThatBegin("waiting until the vehicle stands still"), 1) << "said once";
 
   EstimatorStory standing(2.0);
   standing.run(1.0);
@@ -81,7 +81,7 @@ TEST(Estimator, SaysWhenTheLaserIsBlindAndWhenItIsBack) {
 TEST(Estimator, AnInterruptedOdometryBeginsAnewAndSaysSo) {
   EstimatorStory story(6.0);
   story.run(4.0);
-  // Nothing is where it was.
+  // The room has changed completely.
   story.world = den(story.truthAt(Time::fromSeconds(4.5)).position_m.head<2>(), 1.4);
   int interruptions = 0, unmatched = 0;
   story.run(5.0, [&](const std::optional<ScanOutcome>& outcome) {

@@ -1,4 +1,4 @@
-// The executor: one intent at a time, and the retreat before all of them.
+// The executor carries out one intent at a time, and the retreat before all of them.
 #include <gtest/gtest.h>
 
 #include "tests/autonomy/maneuver_story.hpp"
@@ -70,7 +70,7 @@ class ExecutorRetreating : public ManeuverInFlight {
     yaw_rad_ = state_.T_map_body_planar().yaw_rad;
     retreat({-0.5, 0.0}, 0.4);
   }
-  /// It has turned back by then; the retreat is behind where it faced when that began.
+  /// It has turned back by then; the retreat is behind the direction it faced at the beginning.
   void expectRetreat() {
     run(1.5);
     const Eigen::Vector2d from_m = position_m();
@@ -101,7 +101,7 @@ TEST_F(ExecutorRetreating, GoesOnUnderEveryIntent) {
 
 TEST_F(ExecutorRetreating, ThePlanIsGoneAtOnce) {
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty()) << "not only at the next tick";
-  EXPECT_EQ(executor_.wishedVelocity_map_m_s(), Eigen::Vector2d::Zero());
+  EXPECT_EQ(executor_.wantedVelocity_map_m_s(), Eigen::Vector2d::Zero());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the laser says of the motion, scan by scan, as values for the filter.
+// The measurements of the motion by the laser, scan by scan, as values for the filter.
 #include "autonomy/estimation/laser_pipeline.hpp"
 
 #include <gtest/gtest.h>

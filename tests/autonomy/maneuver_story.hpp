@@ -1,5 +1,5 @@
-// What the stories of the maneuvers are told with: the executor, a real flight controller and real planning jobs, a map
-// drawn by hand, and a vehicle that is where the controller's reference is, or where the test puts it.
+// Support for stories of the maneuvers: the executor, a real flight controller and real planning jobs, a map drawn by
+// hand, and a vehicle that is at the controller's reference, or where the test puts it.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class ManeuverStory : public testing::Test {
     ASSERT_TRUE(controller_.command(control::Prepared{}));
   }
 
-  /// The vehicle is there, at rest.
+  /// Puts the vehicle there, at rest.
   void place(double x_m, double y_m, double yaw_rad = 0.0) {
     const double z_m = state_.T_odom_body.position_m.z();
     state_.T_odom_body = common::lifted(kT_map_odom.inverse() * common::Pose2{x_m, y_m, yaw_rad}, z_m);
@@ -52,7 +52,7 @@ class ManeuverStory : public testing::Test {
   }
   Eigen::Vector2d position_m() const { return state_.T_map_body_planar().position_m(); }
   double distanceTo_m(const Eigen::Vector2d& place_map_m) const { return (place_map_m - position_m()).norm(); }
-  /// Where the path leads: the vehicle itself may be held elsewhere by the test.
+  /// The end of the path. The test may hold the vehicle elsewhere.
   common::Pose2 reference() const {
     const control::Reference& r = controller_.reference();
     return kT_map_odom * common::Pose2{r.position_odom_m.x(), r.position_odom_m.y(), r.yaw_odom_rad};
@@ -117,10 +117,10 @@ class ManeuverStory : public testing::Test {
   control::FlightController controller_{{}, {}};
   common::VehicleState state_;
   common::OccupancyGrid grid_ = planning::test::room(160, 80);  ///< 8 m by 4 m.
-  std::vector<planning::Disc> discs_;
+  std::vector<common::Disc> discs_;
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;
-  bool follows_ = true;           ///< The vehicle is where the reference is; otherwise the test says where.
+  bool follows_ = true;           ///< The vehicle is at the reference; otherwise the test places it.
   double ceiling_m_ = kHeight_m;  ///< Where taking off ends.
   std::vector<common::Event> events_;
   std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(0);

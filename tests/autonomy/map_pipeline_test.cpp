@@ -1,4 +1,4 @@
-// The map as a step of the estimator: scans in, corrections out, and what hangs on key scans moves with them.
+// The map as a step of the estimator: scans in, corrections out. What is relative to key scans moves with them.
 #include "autonomy/estimation/map_pipeline.hpp"
 
 #include <gtest/gtest.h>

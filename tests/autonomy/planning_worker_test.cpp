@@ -1,4 +1,4 @@
-// What the planning job answers: paths to goals, to nearly free goals, and to where others can come past.
+// Answers of the planning job: paths to goals, to nearly free goals, and to places where others can pass.
 #include <gtest/gtest.h>
 
 #include "autonomy/planning_worker.hpp"
@@ -19,7 +19,7 @@ std::shared_ptr<common::OccupancyGrid> room() {
 }
 
 struct Worker : testing::Test {
-  PlanningAnswer ask(decltype(PlanningRequest::question) question, std::vector<planning::Disc> people = {}) {
+  PlanningAnswer ask(decltype(PlanningRequest::question) question, std::vector<common::Disc> people = {}) {
     PlanningRequest request;
     request.discs = std::move(people);
     request.grid = std::make_shared<const common::OccupancyGrid>(grid->snapshot());
@@ -109,7 +109,7 @@ TEST_F(Worker, ADoorThatWasFlownThroughDoesNotCloseBehindTheVehicle) {
 
 TEST_F(Worker, WhatStandsInTheFlownWayBlocksIt) {
   for (; pose.x_m < 6.0; pose.x_m += 0.2) (void)ask(GoalRequest{{6.0, 2.0}, 0.05});
-  build(11);  // Somebody put something there: less than half the clearance is left.
+  build(11);  // An obstacle was added: less than half the clearance is left.
   EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value());
 }
 

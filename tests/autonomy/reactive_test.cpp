@@ -1,4 +1,4 @@
-// The reactive layer with a scan, those who move and the planner's map: frames, limits, retreat.
+// The reactive layer with a scan, moving people and the planner's map: frames, limits, retreat.
 #include "autonomy/reactive.hpp"
 
 #include <cmath>
@@ -24,18 +24,18 @@ struct ReactiveStory : testing::Test {
     state.T_odom_body = common::lifted(state.T_map_odom.inverse() * T_map_body, 1.0);
   }
 
-  /// Returns of what stands there, in the level frame: x ahead.
+  /// Returns of obstacles, in the level frame: x ahead.
   void returnAt(const Eigen::Vector2d& center_level_m) {
     for (int i = -5; i <= 5; ++i)
       scan.points_level_m.push_back((center_level_m + Eigen::Vector2d(0.0, 0.03 * i)).cast<float>());
   }
   void fliesWith(const Eigen::Vector2d& velocity_map_m_s) {
-    wish_map_m_s = velocity_map_m_s;
+    wanted_map_m_s = velocity_map_m_s;
     state.velocity_odom_m_s.head<2>() = Eigen::Rotation2Dd(-state.T_map_odom.yaw_rad) * velocity_map_m_s;
   }
   const planning::AvoidanceDecision& scanAt(double s) {
     scan.stamp = Time::fromSeconds(s);
-    return reactive.update({scan, T_map_body, state, obstacles, wish_map_m_s, &cost_map});
+    return reactive.update({scan, T_map_body, state, obstacles, wanted_map_m_s, &cost_map});
   }
 
   common::OccupancyGrid grid = planning::test::room(200, 160);
@@ -44,7 +44,7 @@ struct ReactiveStory : testing::Test {
   common::VehicleState state;
   perception::ProjectedScan scan;
   std::vector<common::DynamicObstacle> obstacles;
-  Eigen::Vector2d wish_map_m_s = Eigen::Vector2d::Zero();
+  Eigen::Vector2d wanted_map_m_s = Eigen::Vector2d::Zero();
   Reactive reactive{ReactiveConfig{}, 0.275};
 };
 

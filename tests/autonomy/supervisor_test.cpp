@@ -1,4 +1,4 @@
-// What stands above the mission, tick by tick.
+// The supervisor above the mission, tick by tick.
 #include "autonomy/supervisor.hpp"
 
 #include <cmath>

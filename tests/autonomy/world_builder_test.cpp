@@ -1,4 +1,4 @@
-// Snapshots of the World, one after the other: what they share, and how the trail and the distance grow.
+// Successive snapshots of the World: what they share, and how the trail and the distance grow.
 #include "autonomy/world_builder.hpp"
 
 #include <gtest/gtest.h>

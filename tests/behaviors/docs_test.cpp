@@ -1,4 +1,4 @@
-// Runs docs/behaviors.md: each XML block is followed by the table of its ticks, by the problems it has, or is sound.
+// Runs docs/behaviors.md: each XML block is followed by the table of its ticks, by its problems, or is a valid mission.
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -68,7 +68,7 @@ std::string problemsOf(const std::string& xml) {
   return text;
 }
 
-void tell(const Example& example) {
+void run(const Example& example) {
   tree::testing::Story story(example.xml);
   ASSERT_TRUE(story.problems().empty()) << toString(story.problems());
   const Row& head = example.table.front();
@@ -89,7 +89,7 @@ TEST(Docs, EveryExampleIsTrue) {
   for (const Example& example : examples()) {
     SCOPED_TRACE("docs/behaviors.md:" + std::to_string(example.line));
     if (!example.table.empty()) {
-      tell(example);
+      run(example);
       ++stories;
     } else {
       EXPECT_EQ(problemsOf(example.xml), example.problems.value_or(""));

@@ -20,16 +20,16 @@ class Flight {
 
   /// 100 ms pass, one tick: "RUNNING 1 take off to 1.00 m" is the state and the intent with its id.
   std::string tick();
-  /// What the autonomy answers to the last intent at the next tick.
+  /// The answers of the autonomy to the last intent at the next tick.
   Flight& runs();   ///< Under way, moving.
-  Flight& stops();  ///< Under way, and the vehicle has stopped.
+  Flight& stops();  ///< Under way; the vehicle has stopped.
   Flight& succeeds();
   Flight& fails(const std::string& reason);
 
   Flight& holds(bool hold, const std::string& reason = {});
   Flight& retreats(bool retreating, const std::string& reason = {});
   Flight& is(common::FlightState state);
-  /// Where it is in the map it was given; none: it was given none.
+  /// The pose in the given map; none if no map was given.
   Flight& localization(std::optional<common::LocalizationState> state);
   Flight& home(double x_m, double y_m);
   /// A goal, or home, from the operator; the id of the command counts from 1.

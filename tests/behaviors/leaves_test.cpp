@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(TakeOff, IsOneWishUntilItIsDone) {
+TEST(TakeOff, IsOneIntentUntilItIsDone) {
   Flight flight(R"(<TakeOff height_m="1.5"/>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.50 m");
   EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.50 m") << "nobody has answered yet";
@@ -28,11 +28,11 @@ TEST(TakeOff, AFailureEndsTheMissionWithItsReason) {
   EXPECT_THAT(flight.events(), ElementsAre("TakeOff starts", "TakeOff failed (the battery is empty)"));
 }
 
-TEST(Leaves, AnAnswerToAnOlderWishIsNotMistakenForTheNewOne) {
+TEST(Leaves, AnAnswerToAnOlderIntentIsNotMistakenForTheNewOne) {
   Flight flight("<Sequence><TakeOff/><Land/></Sequence>");
   flight.tick();
   EXPECT_EQ(flight.succeeds().tick(), "RUNNING 2 land");
-  EXPECT_EQ(flight.tick(), "RUNNING 2 land") << "the status still says that wish 1 succeeded";
+  EXPECT_EQ(flight.tick(), "RUNNING 2 land") << "the status still says that intent 1 succeeded";
   EXPECT_EQ(flight.succeeds().tick(), "DONE");
 }
 
@@ -76,11 +76,11 @@ TEST(Localize, FailsWithoutAMapAndWhereNothingIsLeftToExplore) {
 TEST(MoveToGoal, HandsDownGoalHeightAndTolerance) {
   Flight flight(R"(<MoveToGoal goal="3.0;-1.5;1.2" tolerance_m="0.2" clearance_m="0.3"/>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 go to (3.00, -1.50)");
-  const auto wish = std::get<common::GoToIntent>(flight.context.intent->kind);
-  EXPECT_EQ(wish.height_m, 1.2);
-  EXPECT_EQ(wish.tolerance_m, 0.2);
-  EXPECT_EQ(wish.clearance_m, 0.3);
-  EXPECT_FALSE(wish.yaw_map_rad);
+  const auto intent = std::get<common::GoToIntent>(flight.context.intent->kind);
+  EXPECT_EQ(intent.height_m, 1.2);
+  EXPECT_EQ(intent.tolerance_m, 0.2);
+  EXPECT_EQ(intent.clearance_m, 0.3);
+  EXPECT_FALSE(intent.yaw_map_rad);
 }
 
 TEST(MoveToGoal, StaysAtItsHeightWithoutZ) {
@@ -122,7 +122,7 @@ TEST(GoHome, FollowsACorrectionOfHome) {
 constexpr const char* kMission =
     R"(<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><Explore/><Land/></Sequence></Priority>)";
 
-/// In the middle of Explore, which is wish 2.
+/// In the middle of Explore, which is intent 2.
 Flight exploring() {
   Flight flight(kMission);
   flight.tick();
@@ -135,7 +135,7 @@ Flight exploring() {
 TEST(Hold, TakesOverOnlyWhenTheVehicleHasStopped) {
   Flight flight = exploring();
   flight.holds(true, "the operator holds");
-  EXPECT_EQ(flight.tick(), "HELD 3 hold") << "Explore wishes to stop";
+  EXPECT_EQ(flight.tick(), "HELD 3 hold") << "Explore asks to stop";
   EXPECT_EQ(flight.runs().tick(), "HELD 3 hold") << "not stopped yet";
   EXPECT_EQ(flight.stops().tick(), "HELD 4 hold") << "the Hold's own";
   EXPECT_EQ(flight.last.reason, "the operator holds");
@@ -145,7 +145,7 @@ TEST(Hold, TakesOverOnlyWhenTheVehicleHasStopped) {
   EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for Hold (the operator holds)",
                                            "Hold takes over from Explore (the operator holds)"));
   flight.holds(false);
-  EXPECT_EQ(flight.stops().tick(), "RUNNING 5 explore") << "resumed in the same tick, as a new wish";
+  EXPECT_EQ(flight.stops().tick(), "RUNNING 5 explore") << "resumed in the same tick, as a new intent";
   EXPECT_THAT(flight.events(), ElementsAre("Explore resumes (Hold ended with SUCCESS)"));
 }
 
@@ -154,13 +154,13 @@ TEST(Hold, GivenUpBeforeTheVehicleStopped) {
   flight.holds(true).tick();
   EXPECT_EQ(flight.runs().holds(false).tick(), "RUNNING 4 explore");
   EXPECT_THAT(flight.events(),
-              ElementsAre("Explore lets go for Hold (the operator holds)", "Explore goes on (Hold asks no longer)"));
+              ElementsAre("Explore lets go for Hold (the operator holds)", "Explore goes on (Hold no longer asks)"));
 }
 
-TEST(Hold, AnswersForAnotherWishDoNotReleaseTheVehicle) {
+TEST(Hold, AnswersForAnotherIntentDoNotReleaseTheVehicle) {
   Flight flight = exploring();
   flight.stops().holds(true);
-  EXPECT_EQ(flight.tick(), "HELD 3 hold") << "released is about Explore's wish, not about the hold";
+  EXPECT_EQ(flight.tick(), "HELD 3 hold") << "released is about Explore's intent, not about the hold";
   EXPECT_EQ(flight.tick(), "HELD 3 hold");
 }
 

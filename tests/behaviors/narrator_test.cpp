@@ -1,4 +1,4 @@
-// What is told of a mission: which behaviour has the vehicle and why, and what it failed for.
+// The events of a mission: which behaviour has the vehicle and why, and why it failed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 constexpr const char* kOperator =
     R"(<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><OperatorCommand tolerance_m="0.1"/></Sequence></Priority>)";
 
-/// Taken off; OperatorCommand holds as wish 2.
+/// Taken off; OperatorCommand holds as intent 2.
 Flight waiting() {
   Flight flight(kOperator);
   flight.tick();
@@ -39,7 +39,7 @@ TEST(OperatorCommand, ANewGoalReplacesTheOldOne) {
   flight.goal(1.0, 2.0).tick();
   EXPECT_EQ(flight.runs().goal(-1.0, 0.0).tick(), "RUNNING 4 go to (-1.00, 0.00)");
   EXPECT_THAT(flight.events(), ElementsAre("goal (1.00, 2.00) given up (replaced by goal (-1.00, 0.00))"));
-  EXPECT_EQ(flight.tick(), "RUNNING 4 go to (-1.00, 0.00)") << "what is said of wish 3 does not matter";
+  EXPECT_EQ(flight.tick(), "RUNNING 4 go to (-1.00, 0.00)") << "what is said of intent 3 does not matter";
 }
 
 TEST(OperatorCommand, OfSeveralGoalsInOneTickTheLastCounts) {

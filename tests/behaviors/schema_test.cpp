@@ -1,5 +1,5 @@
-// The schema and the palette are made from the registry: stale ones fail here, and the schema says of missions what the
-// parser says.
+// The schema and the palette are made from the registry. Stale ones fail here, and the schema accepts the same missions
+// as the parser.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
-// Sensors of the simulator -> Estimator -> controller -> the simulator's motors. No mission, no planner: what the inner
-// loop is worth by itself.
+// Sensors of the simulator -> Estimator -> controller -> the simulator's motors. No mission and no planner: this
+// measures the inner loop alone.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -23,7 +23,7 @@ struct Loop {
 
   static simulation::WorldModel room(bool table) {
     simulation::WorldModel world = simulation::boxRoom();
-    // Corners, so that no direction is blind.
+    // Corners, so that every direction is observable.
     world.shapes.push_back(simulation::boxShape("cupboard", {2.5, 2.5, 0}, {3.5, 3.3, 2.5}));
     world.shapes.push_back(simulation::boxShape("shelf", {-4.9, -1.0, 0}, {-4.4, 1.0, 2.5}));
     if (table) world.shapes.push_back(simulation::boxShape("table", {1.0, -0.8, 0}, {2.2, 0.8, 0.5}));

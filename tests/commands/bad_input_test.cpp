@@ -1,4 +1,5 @@
-// Every input that cannot be used is refused with exit code 2, a message that says where and what, and nothing written.
+// Every input that cannot be used is refused with exit code 2 and a message that names place and cause; nothing is
+// written.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ class BadInput : public test_support::Scratch {
     return runSwiftlet(arguments, options);
   }
 
-  /// Refused, in these words, before anything was written.
+  /// Refused, with these words, before anything was written.
   void expectRefused(const ProgramEnd& end, const std::string& pattern) const {
     EXPECT_EQ(end.exit_code, 2) << describe(end);
     EXPECT_THAT(end.err, ContainsRegex(pattern));
@@ -273,7 +274,7 @@ TEST_F(BadInput, NamesThatAreNoTextAreStillJson) {
   EXPECT_TRUE(nlohmann::json::accept(end.out)) << describe(end);
 }
 
-// The flight is what was asked for; its lines on the terminal are not.
+// The files of the flight matter; its lines on the terminal do not.
 TEST_F(BadInput, NobodyReadsTheLinesOfAFlight) {
   ProgramOptions options;
   options.hang_up_after_bytes = 1;
@@ -296,7 +297,7 @@ TEST_F(BadInput, NobodyReadsTheLinesOfATrial) {
 
 class FullDisk : public BadInput, public testing::WithParamInterface<std::size_t> {};
 
-// Whenever the disk fills up: the message says which file, and none is left half written.
+// At whatever file the disk becomes full, the message names that file, and none is left half written.
 TEST_P(FullDisk, EndsTheFlight) {
   ProgramOptions options;
   options.largest_file_bytes = GetParam();

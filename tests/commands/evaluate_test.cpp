@@ -1,4 +1,4 @@
-// `swiftlet evaluate` as people meet it: figures, keys, exit codes, and what it says to bad input.
+// `swiftlet evaluate` as users meet it: figures, keys, exit codes, and messages about bad input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ class Evaluate : public test_support::Scratch {
                  "2 1 0 0 0 0 0.70710678 0.70710678\n"
                  "3 1 2 0 0 0 0.70710678 0.70710678\n");
   }
-  /// The same, but that the last pose is half a metre to the right: x is 1.5.
+  /// The same poses, except that the last one is half a metre to the right: x is 1.5.
   std::string reference() const {
     return write("ref.txt",
                  "# ipc_timestamp scan_index x y theta\n1 0 0 0 0\n2 1 1 0 1.57079633\n3 2 1.5 2 1.57079633\n");

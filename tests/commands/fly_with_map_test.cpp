@@ -1,4 +1,4 @@
-// Flights that are given a map: one finds itself in a map made by another vehicle from another height, and what is no
+// Flights with a given map: one localizes in a map made by another vehicle at another height, and a file that is not a
 // map is refused before anything moves.
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-// The log of a robot that walks along a room: CARMEN text.
+// The log of a robot that moves along a room: CARMEN text.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace swiftlet::commands {
 
-/// To the walls of a room of 8 m by 6 m with a niche, seen from (x, 0) at that angle.
+/// Distance to the walls of a room of 8 m by 6 m with a niche, from (x, 0) at that angle.
 inline double range_m(double x_m, double angle_rad) {
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
   double nearest_m = c > 0 ? (4.0 - x_m) / c : (-4.0 - x_m) / std::min(c, -1e-9);

@@ -1,4 +1,4 @@
-// swiftlet localize as people meet it: a log is found in a map, a log of elsewhere is not, and what cannot be used is
+// swiftlet localize as users meet it: a log is localized in a map, a log of another place is not, and unusable input is
 // refused.
 #include <cmath>
 #include <cstdlib>

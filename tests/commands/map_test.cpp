@@ -1,5 +1,5 @@
-// swiftlet map as people meet it: a log of a walk along a room becomes a map, with odometry or without, whatever the
-// format; logs that are damaged, odd or hostile end it cleanly, with the place that is wrong.
+// swiftlet map as users meet it: a log of a walk along a room becomes a map, with odometry or without, in any format.
+// Logs that are damaged, odd or hostile end it cleanly, with the place of the error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -97,7 +97,7 @@ TEST_F(Map, ALogBecomesAMapATrajectoryAGraphAndAReport) {
   EXPECT_NEAR(std::stod(trajectory.substr(trajectory.find(' ', last))), 2.97, 0.05);
 }
 
-/// Along the room, then nothing to see for a second, then along a room of another size.
+/// Along the room, then a second without anything in range, then along a room of another size.
 std::string walkThroughTheDark() {
   std::string log = walk(60);
   for (int i = 60; i < 70; ++i) log += scan(-2.0 + 0.03 * i, 100.0 + 0.1 * i, 180, 40.0);
@@ -298,7 +298,7 @@ TEST_F(Map, WhatAKilledRunLeftDoesNotStandInTheWay) {
   EXPECT_EQ(map(log).exit_code, 0);
   EXPECT_EQ(namesIn("out"), std::set<std::string>(kOutputs.begin(), kOutputs.end()));
 
-  // A folder of that name with other things is not ours.
+  // A folder of that name with other content is not overwritten.
   fs::create_directories(path("theirs/unfinished.part"));
   write("theirs/unfinished.part/mine.txt", "mine");
   const ProgramEnd end = runSwiftlet({"map", log, "--out", path("theirs")});
@@ -329,7 +329,7 @@ TEST_F(Map, AFolderThatCannotBeWrittenIsToldBeforeTheWork) {
   EXPECT_THAT(end.err, Not(HasSubstr("scans"))) << "no progress was shown";
 }
 
-/// Scans that have nothing in common, each so far from the one before.
+/// Scans without common structure, each far from the one before.
 std::string jumps(int scans, double step_m) {
   std::string log;
   unsigned noise = 1;

@@ -1,5 +1,5 @@
-// swiftlet optimize as people meet it: a graph of other people becomes better, is told and written; what cannot be used
-// is refused. On the usual data sets chi2 is the lowest that any solver setting or start has reached.
+// swiftlet optimize as users meet it: a graph is improved, reported and written; unusable input is refused. On the
+// usual data sets chi2 is the lowest that any solver setting or start has reached.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -172,7 +172,7 @@ TEST_F(Optimize, WhatDoesNotConvergeIsToldByTheExitCode) {
 
 struct Known {
   const char* file;
-  double chi2;  ///< The lowest seen from any start with any setting.
+  double chi2;  ///< The lowest value from any start with any setting.
 };
 void PrintTo(const Known& known, std::ostream* stream) { *stream << known.file; }
 

@@ -1,5 +1,5 @@
-// A terminal takes control characters for commands. What the program was given (missions, logs, maps, worlds, names,
-// arguments) may hold some; nothing of it reaches the terminal as it is.
+// A terminal obeys control characters. Inputs (missions, logs, maps, worlds, names, arguments) may contain some; none
+// of them reaches the terminal unescaped.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What each command says of itself, and that what it prints can be used.
+// The help of each command, and that its examples work.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

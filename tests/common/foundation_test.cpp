@@ -1,4 +1,4 @@
-// The words everything else is built on: time, transforms, grids, random streams, jobs.
+// The types everything else is built on: time, transforms, grids, random streams, jobs.
 #include <cmath>
 #include <map>
 

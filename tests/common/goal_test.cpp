@@ -1,4 +1,4 @@
-// The one rule of goals: each reason a goal is refused for, and what the tolerance forgives.
+// The one rule of goals: each reason to refuse a goal, and what the tolerance permits.
 #include "common/goal.hpp"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace {
 using Reason = GoalRefusal::Reason;
 using Point = Eigen::Vector2d;
 
-/// Free floor from x = 0 to 10 m; from 10 to 10.4 m too close to the obstacle that stands there up to 11 m; behind it
-/// nobody has looked, and at 12 m the map ends.
+/// Free floor from x = 0 to 10 m; from 10 to 10.4 m too close to the obstacle, which extends to 11 m; unknown behind
+/// it, and at 12 m the map ends.
 class Corridor final : public GoalMap {
  public:
   PlaceState stateAt(const Point& p, double) const override {

@@ -1,4 +1,4 @@
-// Jobs on both clocks: when a result is due, and that it can be delivered again when a recording says so.
+// Jobs on both clocks: when a result is due, and that a recording can deliver it again.
 #include "common/jobs.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Whole files: what is none is refused and never waited for.
+// Reading whole files: anything that is not a file is refused and never waited for.
 #include "common/read_bytes.hpp"
 
 #include <gmock/gmock.h>

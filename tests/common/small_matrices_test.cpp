@@ -18,7 +18,7 @@ TEST(SymmetricEigen, ValuesAscendAndVectorsAreTheirDirections) {
   EXPECT_TRUE((eigen.vectors.transpose() * eigen.vectors).isIdentity(1e-12));
 }
 
-// Asked for alone, they are the same bits: who asks for less must not get another flight.
+// Computed alone they have the same bits, so that a caller of one gets the same flight as a caller of all.
 TEST(SymmetricEigen, TheValuesAloneAreThose) {
   const Eigen::Matrix2d two{{2.0, -0.7}, {-0.7, 0.3}};
   EXPECT_EQ(symmetricEigenvalues(two), symmetricEigen(two).values);

@@ -1,4 +1,4 @@
-// A path that grows at its end while others read what it was.
+// A path that grows at its end while others read its earlier state.
 #include "common/world/trail.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Poses in any order become a trajectory, and what was wrong with the order is counted.
+// Poses in any order become a trajectory, and errors of the order are counted.
 #include "common/trajectory.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace swiftlet::common {
 namespace {
 
-/// Poses that know by x where they stood in the file.
+/// Poses whose x is their position in the file.
 std::vector<StampedPose> posesAt(std::initializer_list<int> stamps_s) {
   std::vector<StampedPose> poses;
   for (const int stamp_s : stamps_s)

@@ -1,4 +1,4 @@
-// How figures and text go into files.
+// How figures and text are written into files.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-// A server with a made-up flight behind it, in its own threads: for tests over sockets and for the browser test.
+// A server with an artificial flight behind it, in its own threads: for tests over sockets and for the browser test.
 #pragma once
 
 #include <atomic>
@@ -23,11 +23,11 @@ class FakeBackend {
     int port = 0;
     std::string token = "operator-token";
     double worlds_per_second = 20.0;
-    bool answers = true;  ///< False: commands are swallowed.
-    bool flies = true;    ///< False: no world is ever posted.
+    bool answers = true;  ///< If false, commands are not answered.
+    bool flies = true;    ///< If false, no world is ever posted.
     double stall_timeout_s = 10.0;
     int max_connections = 256;
-    double warm_up_s = 4.0;  ///< Flown before the first world.
+    double warm_up_s = 4.0;  ///< Flown time before the first world.
   };
 
   explicit FakeBackend(Setup setup);

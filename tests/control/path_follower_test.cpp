@@ -1,4 +1,4 @@
-// Laws of the reference: continuous, within its limits, on its path, at its goal - whatever is changed on the way.
+// Laws of the reference: continuous, within its limits, on its path, at its goal, whatever is changed in flight.
 #include <limits>
 #include <numbers>
 
@@ -21,7 +21,7 @@ double distanceToPath(const Points& points, const Eigen::Vector3d& point) {
   return nearestOn(points, along, point, std::numeric_limits<double>::infinity()).off_m;
 }
 
-/// Follows a reference and keeps the worst of what must stay small.
+/// Follows a reference and records its greatest deviations.
 struct Watch {
   PathFollower follower{PathFollower::Config{}};
   double worst_jump_m = 0, worst_speed_m_s = 0, worst_acceleration_m_s2 = 0, worst_yaw_rate = 0, seconds = 0;
@@ -54,7 +54,7 @@ TEST(PathFollower, AStraightLineIsATrapezoid) {
   EXPECT_NEAR((watch.follower.reference().position_odom_m - Eigen::Vector3d(4, 0, 0)).norm(), 0.0, 1e-3);
   EXPECT_LE(watch.worst_speed_m_s, 1.001);
   EXPECT_LE(watch.worst_acceleration_m_s2, 1.2 * 1.25);
-  // 4 m at 1 m/s and 1.2 m/s^2 take 4.83 s; the rest is for settling to a millimetre.
+  // 4 m at 1 m/s and 1.2 m/s^2 take 4.83 s; the rest is for the last millimetre.
   EXPECT_LT(watch.seconds, 5.6);
 }
 
@@ -97,7 +97,7 @@ TEST(PathFollower, ANewPathInFlightIsContinuousAndKeepsTheSpeed) {
   for (int i = 0; i < 250; ++i) watch.step();
   const Eigen::Vector3d here = watch.follower.reference().position_odom_m;
   ASSERT_NEAR(watch.follower.reference().velocity_odom_m_s.x(), 1.0, 1e-3);
-  // The planner's start is where it believes the vehicle to be: a few centimetres off.
+  // The planner starts from its estimate of the vehicle: a few centimetres off.
   watch.follower.setPath({here + Eigen::Vector3d(-0.02, 0.02, 0), {5, 0.3, 0}, {10, 0, 0}}, FlightMode::kFast);
   watch.worst_acceleration_m_s2 = 0;
   for (int i = 0; i < 50; ++i) watch.step();

@@ -1,5 +1,5 @@
-// A quadrotor small enough to read: attitude loop on a wandering horizon, lagging thrust that sags with the battery,
-// drag, wind, late commands and a noisy, late estimate. Stands on a floor at z = 0 (feet 0.15 m below the origin).
+// A small model of a quadrotor: attitude loop on a drifting horizon, lagging thrust that sags with the battery, drag,
+// wind, late commands and a noisy, late estimate. It stands on a floor at z = 0 (feet 0.15 m below the origin).
 #pragma once
 
 #include <cmath>
@@ -17,12 +17,12 @@ struct QuadrotorModel {
   static constexpr double kStep_s = 0.002;
   static constexpr double kStanding_m = 0.15;
 
-  // What nature does.
+  // Differences between nature and the data sheet.
   double attitude_sigma_deg = 1.0, attitude_correlation_s = 2.0;
   double motor_lag_s = 0.05, latency_s = 0.03, drag_1_s = 0.18;
   double position_sigma_m = 0.005, velocity_sigma_m_s = 0.02;
   double voltage_v = 12.4, voltage_drop_v_s = 0.004;
-  double thrust_factor = 1.0;  ///< Of what the data sheet says.
+  double thrust_factor = 1.0;  ///< Share of the thrust in the data sheet.
   Eigen::Vector3d wind_m_s = Eigen::Vector3d::Zero();
   double floor_m = 0.0;
 

@@ -27,24 +27,24 @@ FlightStateMachine after(const Path& path) {
   return machine;
 }
 
-/// Every state with a shortest way to it.
+/// Every state with a shortest path to it.
 std::map<FlightState, Path> reachable() {
-  std::map<FlightState, Path> ways{{FlightState::kPreparation, {}}};
+  std::map<FlightState, Path> paths{{FlightState::kPreparation, {}}};
   std::deque<FlightState> open{FlightState::kPreparation};
   while (!open.empty()) {
-    const Path way = ways.at(open.front());
+    const Path path = paths.at(open.front());
     open.pop_front();
     for (const FlightInput input : kInputs) {
-      FlightStateMachine machine = after(way);
+      FlightStateMachine machine = after(path);
       const auto result = machine.apply(input);
-      if (!result || ways.contains(*result)) continue;
-      Path longer = way;
+      if (!result || paths.contains(*result)) continue;
+      Path longer = path;
       longer.push_back(input);
-      ways.emplace(*result, longer);
+      paths.emplace(*result, longer);
       open.push_back(*result);
     }
   }
-  return ways;
+  return paths;
 }
 
 TEST(FlightStateMachine, AnOrdinaryFlight) {
@@ -60,12 +60,12 @@ TEST(FlightStateMachine, AnOrdinaryFlight) {
 }
 
 TEST(FlightStateMachine, ExactlyTheArrowsOfTheDrawing) {
-  const auto ways = reachable();
-  EXPECT_EQ(ways.size(), std::size(kStates));
+  const auto paths = reachable();
+  EXPECT_EQ(paths.size(), std::size(kStates));
   std::set<std::string> arrows;
-  for (const auto& [state, way] : ways)
+  for (const auto& [state, path] : paths)
     for (const FlightInput input : kInputs) {
-      FlightStateMachine machine = after(way);
+      FlightStateMachine machine = after(path);
       const auto result = machine.apply(input);
       if (result) {
         arrows.insert(std::string(common::toString(state)) + " -" + toString(input) + "-> " +
@@ -93,8 +93,8 @@ TEST(FlightStateMachine, Table1) {
 }
 
 TEST(FlightStateMachine, AnEmergencyIsPossibleFromEveryStateInTheAirAndLeftByTouchingDownOnly) {
-  for (const auto& [state, way] : reachable()) {
-    FlightStateMachine machine = after(way);
+  for (const auto& [state, path] : reachable()) {
+    FlightStateMachine machine = after(path);
     const auto result = machine.apply(FlightInput::kEmergency);
     if (state == FlightState::kEmergencyLanding) {
       EXPECT_FALSE(result);

@@ -19,7 +19,7 @@ using test::Layers;
 /// The take-off place: at (3, 4) on a floor of 0.2 m, heading along the world's y.
 const Pose3 kTakeOff{common::quaternionFrom({0, 0, M_PI_2}), {3, 4, 0.2}};
 
-/// The truth when the vehicle is really at this place of the `map` frame.
+/// The truth if the vehicle is really at this place of the `map` frame.
 simulation::Truth truthAt(double time_s, const Eigen::Vector3d& position_map_m) {
   simulation::Truth truth;
   truth.stamp = Time::fromSeconds(time_s);
@@ -105,7 +105,7 @@ TEST(FlightRecorder, OnTheGroundNothingIsMeasured) {
   EXPECT_EQ(recorder.finish().true_distance_m, 0.0);
 }
 
-/// At 1 m/s along x of `map`; the given map lies as `map` does, but for (10, 20) m and a quarter turn.
+/// At 1 m/s along x of `map`; the given map is shifted from `map` by (10, 20) m and turned by a quarter.
 TEST(FlightRecorder, FollowsHowTheFlightFindsItselfInTheGivenMap) {
   const common::Pose2 T_map_given{10.0, 20.0, M_PI_2};
   FlightRecorder recorder(kTakeOff, common::planar(kTakeOff) * T_map_given);
@@ -155,7 +155,7 @@ TEST(FlightRecorder, AGoalIsMeasuredWhenItsSuccessIsReported) {
   step(1.0, {2.0, -1.5, 1}, to_goal, {7, IntentState::kRunning, "", true});
   step(1.1, {2.9, -1.5, 1}, to_goal, {6, IntentState::kSucceeded, "", true});  // Of an older intent.
   step(1.2, {3.0, -1.44, 1}, to_goal, {7, IntentState::kSucceeded, "", true});
-  step(1.3, {3.5, -1.5, 1}, to_goal, {7, IntentState::kSucceeded, "", true});  // Still reported; measured already.
+  step(1.3, {3.5, -1.5, 1}, to_goal, {7, IntentState::kSucceeded, "", true});  // Still reported, but recorded already.
   step(2.0, {0.03, 0.04, 1}, to_home, {8, IntentState::kSucceeded, "", true});
   const FlightRecord record = recorder.finish();
   ASSERT_EQ(record.goals.size(), 2u);

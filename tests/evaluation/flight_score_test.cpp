@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A flight in the small room that did everything right.
+/// A flight in the small room that meets every criterion.
 FlightRecord goodRecord() {
   FlightRecord record;
   record.T_world_map.position_m = {1.0, 1.0, 0.0};

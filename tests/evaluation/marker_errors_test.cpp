@@ -1,4 +1,4 @@
-// Loops past markers, with estimates that are wrong in known ways.
+// Loops past markers, with estimates whose errors are known.
 #include "evaluation/marker_errors.hpp"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 using common::Pose2;
 using common::Time;
 
-/// A goal reached with the vehicle really at `truth`, the map's estimate and the odometry's beside it.
+/// A goal that was reached: the true pose, the map's estimate and that of the odometry.
 ReachedGoal reached(double time_s, const Eigen::Vector2d& goal_map_m, const Pose2& truth, const Pose2& estimate,
                     const Pose2& odometry) {
   ReachedGoal goal;
@@ -27,7 +27,7 @@ TEST(MarkerErrors, WithoutGoalsThereIsNothingToMeasure) {
 }
 
 TEST(MarkerErrors, TheEstimateIsHeldAgainstTheTruthAndNotAgainstTheGoal) {
-  // 4 cm off the marker, and it knows within 5 mm where it is.
+  // 4 cm off the marker, with an estimate right within 5 mm.
   const auto visits = markerVisits({reached(9, {3, 0}, {2.96, 0, 0}, {2.963, 0.004, 0}, {2.963, 0.004, 0})});
   ASSERT_EQ(visits.size(), 1u);
   EXPECT_EQ(visits[0].stamp, Time::fromSeconds(9));
@@ -58,7 +58,7 @@ TEST(MarkerErrors, TheFirstLoopBeginsAtTakeOff) {
   EXPECT_NEAR(visits[0].open_loop_error_m->y(), -0.1, 1e-12);
 }
 
-// The odometry has drifted and turned in the first loop; the second is judged by what it adds.
+// The odometry drifted and turned in the first loop; the second is judged by what it adds.
 TEST(MarkerErrors, EachLoopIsOpenedAlone) {
   const Pose2 drift{0.4, -0.2, 0.05}, truth_1{0.02, 0.01, -1.2}, truth_2{-0.03, 0.02, -1.1};
   const Pose2 added{truth_2.x_m + 0.07, truth_2.y_m - 0.02, truth_2.yaw_rad};

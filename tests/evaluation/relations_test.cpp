@@ -1,4 +1,4 @@
-// The relations metric: by hand, by law, and on the trajectories that others made of the benchmark's logs.
+// The relations metric: by hand, by law, and on published trajectories of the benchmark's logs.
 #include "evaluation/relations.hpp"
 
 #include <cmath>
@@ -36,7 +36,7 @@ TEST(RelationErrors, ByHand) {
   const RelationErrors errors =
       relationErrors(estimate, {// As it is.
                                 {second(1), second(2), turned(1, 0, kQuarter)},
-                                // From 2 to 3 the estimate says (2, 0) without a turn: off by (0.3, 0.4) and 0.1.
+                                // From 2 to 3 the estimate is (2, 0) without a turn: off by (0.3, 0.4) and 0.1.
                                 {second(2), second(3), turned(1.7, -0.4, 0.1)},
                                 // The place is right, the direction off by 0.3 to the other side.
                                 {second(1), second(3), turned(1, 2, kQuarter + 0.3)}});

@@ -16,7 +16,7 @@ inline simulation::Shape wall(const char* name, float x0, float y0, float x1, fl
   return shape;
 }
 
-/// `gap_m` is the way between the left and the right half, at the upper end of the wall at x = 2.
+/// `gap_m` is the opening between the left and the right half, at the upper end of the wall at x = 2.
 inline simulation::WorldModel smallWorld(float gap_m) {
   simulation::WorldModel world;
   world.shapes = {wall("south", 0, 0, 4, 0), wall("north", 0, 3, 4, 3), wall("west", 0, 0, 0, 3),

@@ -80,7 +80,7 @@ TEST(AbsoluteError, ByHandWithoutAlignment) {
 }
 
 TEST(AbsoluteError, FirstPoseTurnsTheRestAlong) {
-  // The estimate believes to have started heading along y: its whole path lies along y.
+  // The estimate starts with a heading along y, so its whole path is along y.
   const auto error = absoluteTrajectoryError(pairsOf({at(5, 5, 1, M_PI_2), at(5, 6, 1, M_PI_2), at(5, 7.1, 1, M_PI_2)},
                                                      {at(0, 0, 0), at(1, 0, 0), at(2, 0, 0)}),
                                              Alignment::kFirstPose);
@@ -91,7 +91,7 @@ TEST(AbsoluteError, FirstPoseTurnsTheRestAlong) {
 }
 
 TEST(AbsoluteError, PlanarLeavesRollAndPitchAlone) {
-  // A square that is tilted by a little: a turn about z cannot mend it, a turn in space can.
+  // A square with a small tilt: a turn about z cannot correct it, a turn in space can.
   const Pose3 tilt{common::quaternionFrom({0.1, 0, 0}), {1, 2, 3}};
   std::vector<Pose3> truth = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0)}, estimate;
   for (const Pose3& pose : truth) estimate.push_back(tilt * pose);
@@ -127,7 +127,7 @@ RC_GTEST_PROP(AbsoluteError, PlanarAlignmentFindsTheTransform, ()) {
   RC_ASSERT(error->translation_m.max < 1e-6);
 }
 
-/// Horn's closed form by unit quaternions (JOSA 1987): another way to the same optimum.
+/// Horn's closed form by unit quaternions (JOSA 1987): another algorithm for the same optimum.
 double rmseByHorn(const std::vector<PosePair>& pairs) {
   Eigen::Vector3d from_mean = Eigen::Vector3d::Zero(), to_mean = Eigen::Vector3d::Zero();
   for (const PosePair& pair : pairs) {
@@ -172,7 +172,7 @@ TEST(AbsoluteError, NoneWhereTheRotationIsNotDetermined) {
 }
 
 TEST(RelativeError, DriftByHand) {
-  // Each metre is taken for 1.01 m, and each step turns by 0.02 rad that are not there.
+  // Each metre is estimated as 1.01 m, and each step has an additional turn of 0.02 rad.
   std::vector<Pose3> truth, estimate;
   Pose3 pose;
   for (int i = 0; i < 11; ++i) {

@@ -1,4 +1,4 @@
-// Bad values and silence from the laser in flight: the vehicle goes on, or comes down safely and says why.
+// Bad values and missing scans of the laser in flight: the vehicle continues, or lands safely and says why.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST_F(SensorFault, NotANumberInScansDoesNotStopTheFlight) {
   const auto flight = flyWith("{sensor: laser, kind: nan, from_s: 10.0, to_s: 10.2}");
   EXPECT_TRUE(flight.at("passed").get<bool>()) << flight.dump(2);
 
-  // What the scorer found is in the flight's own files too.
+  // The scorer's figures are in the flight's own files too.
   const auto mission = nlohmann::json::parse(readText(path("out/fault-001/mission.json")));
   EXPECT_EQ(mission.at("coverage"), flight.at("coverage"));
   for (const std::string figure :
@@ -70,7 +70,7 @@ TEST_F(SensorFault, ThePilotTakesOverAndGivesBack) {
       "    - {time_s: 13.0}\n");
   EXPECT_TRUE(flight.at("passed").get<bool>()) << flight.dump(2);
   EXPECT_THAT(events(), HasSubstr("the pilot took over"));
-  EXPECT_THAT(events(), HasSubstr("the pilot gave back"));
+  EXPECT_THAT(events(), HasSubstr("the pilot gave control back"));
 }
 
 TEST_F(SensorFault, ShortSilenceHoldsAndGoesOn) {

@@ -1,4 +1,4 @@
-// The program flies. Worlds and missions are the shipped ones; what is checked are the files a run leaves.
+// Flights of the program. Worlds and missions are the shipped ones; the files of a run are checked.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ std::vector<std::string> shippedMissions() {
   return names;
 }
 
-/// A mission that waits for an operator never ends by itself.
+/// A mission that waits for an operator never ends without one.
 bool waits(const std::string& mission) {
   return readText(fs::path(SWIFTLET_SOURCE_DIR) / "missions" / (mission + ".xml")).find("<OperatorCommand") !=
          std::string::npos;
@@ -112,7 +112,7 @@ class ShortMission : public test_support::Scratch {
   nlohmann::json missionJson() const { return nlohmann::json::parse(readText(path("run/mission.json"))); }
 };
 
-// A part of the first room: what is seen beyond it, whatever the seed, is left and said to be out of bounds.
+// A part of the first room: a frontier beyond it is left and reported as out of bounds, for every seed.
 TEST_F(ShortMission, WhatLiesOutsideItsBoundsIsLeftAndSaidToBe) {
   constexpr double kEast_m = 3.0, kSouth_m = -3.0;
   const ProgramEnd end = fly("<TakeOff/><Explore bounds=\"-3;-3;3;4\"/><GoHome/><Land/>", "300");
@@ -128,7 +128,7 @@ TEST_F(ShortMission, WhatLiesOutsideItsBoundsIsLeftAndSaidToBe) {
   EXPECT_GE(out_of_bounds, 1);
 }
 
-// Nobody stands in the way who might go: it does not hang about for a minute.
+// No person blocks a path, so it does not wait for a minute.
 TEST_F(ShortMission, AGoalNeverSeenIsGivenUpAtOnce) {
   const ProgramEnd end = fly("<TakeOff/><MoveToGoal goal=\"40.0;40.0;1.0\"/><Land/>", "60");
   ASSERT_EQ(end.exit_code, 1) << describe(end);

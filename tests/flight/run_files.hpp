@@ -1,4 +1,4 @@
-// The files of a run as other people's tools read them: plain readers of their own, so that a mistake in ours shows.
+// Independent readers of the files of a run, so that a mistake of Swiftlet's own readers is found.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ struct TumPose {
   double position_m[3] = {};
   double quaternion[4] = {};
 };
-/// The complete lines of the file; a line that does not hold eight numbers fails the test.
+/// The complete lines of the file; a line without eight numbers fails the test.
 std::vector<TumPose> readTum(const std::filesystem::path& file);
 
 struct Pgm {
@@ -22,10 +22,10 @@ struct Pgm {
   int greatest = 0;
   std::string pixels;  ///< Row by row from the top.
 };
-/// A binary graymap (P5); what is none fails the test.
+/// A binary graymap (P5); any other file fails the test.
 Pgm readPgm(const std::filesystem::path& file);
 
-/// All that must hold of the files of any run, finished or cut short.
+/// The conditions for the files of every run, finished or interrupted.
 void expectSoundRun(const std::filesystem::path& run);
 
 }  // namespace swiftlet::flight

@@ -1,4 +1,4 @@
-// Which flights a trial is: their seeds.
+// The seeds of the flights of a trial.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -24,7 +24,7 @@ class TrialSeeds : public test_support::Scratch {
     std::vector<std::string> arguments = {"trial", trial, "--repeat", "2", "--json", "--out", path("out")};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const ProgramEnd end = runSwiftlet(arguments);
-    EXPECT_EQ(end.exit_code, 1) << describe(end);  // Nobody explores a room in a second.
+    EXPECT_EQ(end.exit_code, 1) << describe(end);  // A second is too short to explore a room.
     const auto results = nlohmann::json::parse(end.out);
     std::vector<int> seeds;
     for (const auto& flight : results.at("trials").at(0).at("flights")) seeds.push_back(flight.at("seed"));

@@ -1,4 +1,5 @@
-// A flight is a function of its inputs: recorded in memory and given to another autonomy, it gives the same again.
+// A flight is a function of its inputs: recorded in memory and given to another autonomy, they give the same flight
+// again.
 #include "autonomy/recording.hpp"
 
 #include <gmock/gmock.h>
@@ -18,7 +19,7 @@ using common::Duration;
 using common::JobDelivery;
 using common::Time;
 
-/// One flight from the ground to the ground in lockstep, with a command of the operator's, flown once for all tests.
+/// One flight from the ground to the ground in lockstep, with an operator's command, flown once for all tests.
 struct Flown {
   Flown() {
     const auto vehicle = makeVehicle(11);
@@ -67,7 +68,7 @@ TEST(Recording, HoldsAFlightWithAllThatCanComeIn) {
   EXPECT_GE(counts["planning"], 3);
   EXPECT_GE(counts["slam"], 1);
   EXPECT_GT(countOf<common::LaserScan>(flown().recording), 300);
-  EXPECT_GT(countOf<common::CameraFrame>(flown().recording), 100) << "frames come the same way as scans";
+  EXPECT_GT(countOf<common::CameraFrame>(flown().recording), 100) << "frames are recorded like scans";
   EXPECT_EQ(flown().witness.results.size(), 1u);
 
   Time last;

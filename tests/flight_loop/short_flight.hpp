@@ -1,4 +1,4 @@
-// A short mission in the first world: take-off, exploring with plans and SLAM jobs, landing; and all that comes of it.
+// A short mission in the first world: take-off, exploring with plans and SLAM jobs, landing; and all its outputs.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyCon
 /// Set so that it seeks loops already within the few metres of a short flight.
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs);
 
-/// Everything the autonomy gave.
+/// All outputs of the autonomy.
 class Witness final : public FlightSink {
  public:
   void ticked(const TickOutcome& outcome) override { ticks.push_back(outcome); }
@@ -33,7 +33,7 @@ class Witness final : public FlightSink {
   std::shared_ptr<const common::World> last_world;
 };
 
-/// In what the second differs from the first, bit for bit: "setpoint 231"; empty when in nothing.
+/// The first bitwise difference of the second flight: "setpoint 231"; empty if there is none.
 std::string difference(const Witness& first, const Witness& second);
 
 }  // namespace swiftlet::autonomy

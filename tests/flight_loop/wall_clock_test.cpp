@@ -1,4 +1,4 @@
-// The other clock: a vehicle that does not wait, jobs that are delivered when they are done; the same loop.
+// The wall clock: a vehicle that does not wait, jobs that are delivered when they are done; the same loop.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 using common::JobDelivery;
 using common::Time;
 
-/// The time of a flight that begins with it, so many times as fast as on the wall.
+/// The time of a flight, from its start, at a multiple of the wall clock.
 class WallClock {
  public:
   explicit WallClock(double speed) : speed_(speed) {}
@@ -34,7 +34,7 @@ class WallClock {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// The simulator's vehicle made to wait as a real one does.
+/// The simulator's vehicle, made to wait like a real one.
 class PacedVehicle final : public common::Vehicle {
  public:
   PacedVehicle(common::Vehicle& vehicle, const WallClock& clock) : vehicle_(vehicle), clock_(clock) {}
@@ -77,14 +77,14 @@ TEST(WallClock, TwentySecondsOfFlightThroughTheSameLoop) {
   EXPECT_GE(delivered, 3);
   EXPECT_GE(not_at_the_declared_time, 1);
 
-  // Whatever the machine was doing meanwhile, in lockstep the recording gives the same flight.
+  // In lockstep the recording gives the same flight, whatever else the machine was doing.
   Autonomy again = makeAutonomy(common::makeLockstepJobs(0));
   Witness replayed;
   const auto outcome = replay(recorder.recording(), again, {&replayed});
   ASSERT_TRUE(outcome) << outcome.error();
   EXPECT_EQ(difference(flown, replayed), "");
 
-  // At the end the loop tells which jobs took longer than was declared for them.
+  // At the end the loop reports which jobs took longer than declared.
   loop.finish();
   const auto all = autonomy.jobTimes();
   ASSERT_FALSE(all.empty());

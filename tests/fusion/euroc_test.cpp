@@ -124,7 +124,7 @@ class MadeUpScans {
   common::RandomStream random_{1, "euroc"};
 };
 
-/// Sums of squares of what the estimate misses.
+/// Sums of squares of the estimate's errors.
 struct Errors {
   double position2 = 0, velocity2 = 0, height2 = 0, relative2 = 0;
   int n = 0, relative_n = 0;

@@ -31,7 +31,7 @@ TEST(ErrorStateFilter, LateIsAsGoodAsOnTime) {
   auto late = on_time;
   for (Delivery& delivery : late) delivery.arrives += Duration::fromSeconds(0.173);
   ErrorStateFilter a({}), b({});
-  // Nothing is under way at the end.
+  // All measurements have arrived at the end.
   const auto last = Time::fromSeconds(11.5);
   std::erase_if(on_time, [&](const Delivery& d) { return d.arrives > last; });
   std::erase_if(late, [&](const Delivery& d) { return d.arrives > last + Duration::fromSeconds(0.173); });
@@ -162,7 +162,7 @@ TEST(ErrorStateFilter, OutliersAreGated) {
     const Time to = deliveries[i].arrives - Duration::fromSeconds(flight.delay_s);
     deliveries.push_back({deliveries[i].arrives, 5, [=](ErrorStateFilter& f) { (void)f.addHeight(to, 3.0, 1e-4); }});
     deliveries.push_back({deliveries[i].arrives, 6, [=](ErrorStateFilter& f) {
-                            (void)f.addAbsolutePose2(to, {}, 1e6 * covariance);  // Says nothing.
+                            (void)f.addAbsolutePose2(to, {}, 1e6 * covariance);  // It has no information.
                           }});
   }
   ErrorStateFilter filter(withoutDrag());
@@ -238,7 +238,7 @@ TEST(ErrorStateFilter, ASilentLaserDegradesAndComesBack) {
   EXPECT_TRUE(filter.state().horizontal_valid);
 }
 
-/// Half a second without a height, on an acceleration that is wrong: a measured speed, late, takes the height along.
+/// Half a second without a height and with a wrong acceleration: a measured speed, late, corrects the height too.
 TEST(ErrorStateFilter, AVerticalSpeedCorrectsTheHeightAsWell) {
   SyntheticFlight flight(13, 6.0);
   const auto imu = flight.imuSamples();

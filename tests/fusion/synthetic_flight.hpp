@@ -1,4 +1,4 @@
-// A smooth made-up flight with an IMU and a laser odometry that measure it: what the fusion filter is tested on.
+// A smooth artificial flight with an IMU and a laser odometry, to test the fusion filter.
 #pragma once
 
 #include <cmath>
@@ -56,7 +56,7 @@ struct SensorNoise {
   double scan_m = 0.01, scan_rad = 0.2 * std::numbers::pi / 180.0, height_m = 0.01;
 };
 
-/// The made-up flight leans as it likes: what its accelerometer feels beside gravity is no drag.
+/// The artificial flight tilts independently of its motion, so its accelerometer shows no drag.
 inline ErrorStateFilter::Config withoutDrag() {
   ErrorStateFilter::Config config;
   config.use_drag = false;

@@ -1,4 +1,4 @@
-// The error-state filter where no scan sees how the vehicle moves: the guess, the drag, a given pose.
+// The error-state filter when no scan observes the motion: the guess, the drag, a given pose.
 #include <cstdio>
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 using common::Duration;
 using common::Time;
 
-/// In a corridor a matcher gives back the guess. Taken for a measurement, again and again, it would make certain what
-/// nobody saw.
+/// In a corridor a matcher returns the guess. Used as a measurement, repeatedly, it would make an unobserved motion
+/// certain.
 TEST(ErrorStateFilter, WhatNoScanSawIsNotTakenIn) {
   const Time from = Time::fromSeconds(0.7);
   const auto fly = [&](double along_m, bool unseen) {
@@ -44,8 +44,8 @@ TEST(ErrorStateFilter, WhatNoScanSawIsNotTakenIn) {
   EXPECT_TRUE(right.horizontal_valid);
 }
 
-/// 20 s at 0.7 m/s, of which the laser sees the first six: the drag that was learned there holds the speed after. The
-/// accelerometer has a bias that nobody gave.
+/// 20 s at 0.7 m/s, of which the laser observes the first six: the drag learned there holds the speed afterwards. The
+/// accelerometer has an unknown bias.
 TEST(ErrorStateFilter, DragHoldsTheSpeedThatNoScanSees) {
   constexpr double kDrag_1_s = 0.18, kBias_m_s2 = 0.06, kSpeed_m_s = 0.7, kStart_s = 3.0, kSeen_s = 9.0;
   const auto speedAt = [&](double t) { return std::clamp(0.7 * (t - kStart_s), 0.0, kSpeed_m_s); };

@@ -1,4 +1,4 @@
-// Archives by others: unpacked once, whole, and never outside their folder.
+// Archives are unpacked once, whole, and never outside their folder.
 #include "interfaces/files/archive.hpp"
 
 #include <archive.h>

@@ -1,4 +1,4 @@
-// Files that are whole or as they were.
+// Files are either whole or unchanged.
 #include "interfaces/files/atomic_file.hpp"
 
 #include <csignal>

@@ -33,7 +33,7 @@ inline std::string record(char op, std::vector<Field> header, const std::string&
   return text(fields(header)) + text(data);
 }
 
-/// As a writer that was killed leaves it; with a number of chunks, as one that came to its end does.
+/// As left by a writer that was killed; with a number of chunks, as left by one that finished.
 inline std::string begin(std::uint32_t chunks = 0) {
   const std::string index_pos = u32(chunks == 0 ? 0 : 4096) + u32(0);
   return "#ROSBAG V2.0\n" + record(3, {{"index_pos", index_pos}, {"conn_count", u32(1)}, {"chunk_count", u32(chunks)}},

@@ -1,4 +1,4 @@
-// Bags: the first topic with scans is read, from chunks of every packing; what is damaged is left out or told.
+// Bags: the first topic with scans is read, from chunks of every packing; damaged parts are left out or reported.
 #include <cmath>
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Maps that others' tools open, and theirs that we do.
+// Maps that other tools read, and maps of other tools.
 #include "interfaces/files/map_server.hpp"
 
 #include <map>
@@ -67,7 +67,7 @@ RC_GTEST_PROP(MapServer, ReadsBackWhatItWrote, ()) {
   RC_ASSERT(sameKinds(grid, map.grid));
 }
 
-// The rules of map_server written down once more, by another hand and in another language.
+// The rules of map_server in an independent implementation, in another language.
 TEST(MapServer, AnIndependentReaderSeesTheSameMap) {
   if (!outputOf("python3 -c 'import yaml' 2>/dev/null")) GTEST_SKIP() << "no python3 with yaml on this machine";
   const ScratchFolder folder;

@@ -1,4 +1,4 @@
-// Where the laser sits, from records whose two poses may be one, apart, or of different origins.
+// The mount of the laser, from records whose two poses may coincide, differ, or have different origins.
 #include "interfaces/laser_log/mount_survey.hpp"
 
 #include <cmath>
@@ -20,12 +20,12 @@ using testing::HasSubstr;
 const Pose2 kMount{0.2, -0.1, 3.1};
 
 /// Along an arc of 0.1 m a step.
-Pose2 onTheWay(int i) { return Pose2{3.0, 2.0, -3.0} * Pose2{std::sin(0.1 * i), 1.0 - std::cos(0.1 * i), 0.1 * i}; }
+Pose2 poseAt(int i) { return Pose2{3.0, 2.0, -3.0} * Pose2{std::sin(0.1 * i), 1.0 - std::cos(0.1 * i), 0.1 * i}; }
 
 TEST(MountSurvey, ARigidMountIsTheOneMostRecordsHave) {
   MountSurvey survey;
   for (int i = 0; !survey.decided(); ++i)
-    survey.add(i == 3 ? Pose2{9, 9, 9} : onTheWay(i) * kMount * Pose2{0.005 * std::cos(i), 0.0, 0.005}, onTheWay(i));
+    survey.add(i == 3 ? Pose2{9, 9, 9} : poseAt(i) * kMount * Pose2{0.005 * std::cos(i), 0.0, 0.005}, poseAt(i));
   const LaserMount mount = survey.result();
   EXPECT_TRUE(mount.rigid);
   EXPECT_NEAR(mount.T_robot_laser.x_m, kMount.x_m, 0.006);
@@ -47,8 +47,8 @@ TEST(MountSurvey, ItWaitsUntilSomethingMoved) {
 
 TEST(MountSurvey, PosesOfDifferentOriginsAreNoMount) {
   MountSurvey survey;
-  // One corrected, the other raw odometry that drifts away from it.
-  for (int i = 0; !survey.decided(); ++i) survey.add(onTheWay(i) * Pose2{0.02 * i, 0, 0.01 * i}, onTheWay(i));
+  // One is corrected, the other is raw odometry that drifts away from it.
+  for (int i = 0; !survey.decided(); ++i) survey.add(poseAt(i) * Pose2{0.02 * i, 0, 0.01 * i}, poseAt(i));
   EXPECT_FALSE(survey.result().rigid);
   EXPECT_FALSE(survey.result().robot_stands);
   EXPECT_DOUBLE_EQ(survey.result().T_robot_laser.x_m, 0.0);
@@ -56,7 +56,7 @@ TEST(MountSurvey, PosesOfDifferentOriginsAreNoMount) {
 
 TEST(MountSurvey, ARobotThatNeverMovesWasNeverFilledIn) {
   MountSurvey survey;
-  for (int i = 0; !survey.decided(); ++i) survey.add(onTheWay(i), {});
+  for (int i = 0; !survey.decided(); ++i) survey.add(poseAt(i), {});
   EXPECT_FALSE(survey.result().rigid);
   EXPECT_TRUE(survey.result().robot_stands);
 }
@@ -71,13 +71,13 @@ std::string record(const Pose2& laser, const Pose2& robot, int i) {
 TEST(CarmenMount, IsOneForTheWholeLog) {
   const ScratchFolder folder;
   std::string text;
-  for (int i = 0; i < 40; ++i) text += record(i == 30 ? Pose2{} : onTheWay(i) * Pose2{-0.04, 0, 0}, onTheWay(i), i);
+  for (int i = 0; i < 40; ++i) text += record(i == 30 ? Pose2{} : poseAt(i) * Pose2{-0.04, 0, 0}, poseAt(i), i);
   put(folder / "a", text);
   const auto log = openLaserLog(folder / "a");
   std::optional<LoggedScan> logged;
   for (int i = 0; (logged = log->next()); ++i) {
     EXPECT_NEAR(logged->T_robot_laser.x_m, -0.04, 1e-5);
-    EXPECT_NEAR(logged->T_odom_robot->x_m, onTheWay(i).x_m, 1e-5);
+    EXPECT_NEAR(logged->T_odom_robot->x_m, poseAt(i).x_m, 1e-5);
   }
   EXPECT_THAT(log->notes(), ElementsAre(HasSubstr("1 of the records have the laser elsewhere on the robot")));
 }
@@ -85,11 +85,11 @@ TEST(CarmenMount, IsOneForTheWholeLog) {
 TEST(CarmenMount, WhereTheRobotStandsTheLaserIsTheOdometry) {
   const ScratchFolder folder;
   std::string text;
-  for (int i = 0; i < 40; ++i) text += record(onTheWay(i), {}, i);
+  for (int i = 0; i < 40; ++i) text += record(poseAt(i), {}, i);
   put(folder / "a", text);
   const auto log = openLaserLog(folder / "a");
   (void)log->next();
-  EXPECT_NEAR(log->next()->T_odom_robot->x_m, onTheWay(1).x_m, 1e-5);
+  EXPECT_NEAR(log->next()->T_odom_robot->x_m, poseAt(1).x_m, 1e-5);
   EXPECT_THAT(log->notes(), ElementsAre(HasSubstr("keep no distance"), HasSubstr("never changes")));
 }
 
@@ -100,7 +100,7 @@ struct Known {
   double laser_x_m;
 };
 
-// In all logs there are, corrected ones too, the mount is one.
+// In all available logs, corrected ones included, the mount is constant.
 TEST(CarmenMount, OfRecordedLogsIsRigid) {
   for (const Known& known :
        {Known{"acapulco/acapulco-corrected.log.gz", 861, 181, 0.0},

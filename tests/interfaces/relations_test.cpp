@@ -1,4 +1,4 @@
-// Relations and reference poses: read exactly, and refused with line and column when they are none.
+// Relations and reference poses: read exactly, and refused with line and column if they are not valid.
 #include "interfaces/files/relations.hpp"
 
 #include <gmock/gmock.h>

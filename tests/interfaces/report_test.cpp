@@ -1,4 +1,4 @@
-// Reports are one file each, show what there is, and whatever text they are given stays text.
+// Reports are one file each, show all their content, and never interpret given text as HTML.
 #include "interfaces/report/report.hpp"
 
 #include <limits>

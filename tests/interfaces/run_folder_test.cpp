@@ -1,4 +1,4 @@
-// What a run leaves, whatever becomes of the run.
+// The folder of a run, for every end of the run.
 #include "interfaces/run_folder.hpp"
 
 #include <csignal>
@@ -175,7 +175,7 @@ TEST(RunFolder, IsReadableAfterTheProcessWasKilled) {
   }
   char byte = 0;
   ASSERT_EQ(::read(ready[0], &byte, 1), 1);
-  ::usleep(3000);  // It goes on writing, so that the signal meets it somewhere in its work.
+  ::usleep(3000);  // It continues to write, so that the signal comes at an arbitrary moment.
   ::kill(child, SIGKILL);
   int status = 0;
   ::waitpid(child, &status, 0);

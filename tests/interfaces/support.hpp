@@ -1,4 +1,4 @@
-// What the tests of this folder share: a scratch folder and other people's readers.
+// What the tests of this folder share: a scratch folder and independent readers.
 #pragma once
 
 #include <sys/resource.h>

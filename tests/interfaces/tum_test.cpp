@@ -1,4 +1,4 @@
-// Trajectories: exact, the same bytes each time, and refused with line and column when they are none.
+// Trajectories: exact, the same bytes each time, and refused with line and column if they are not valid.
 #include "interfaces/files/tum.hpp"
 
 #include <cmath>

@@ -1,5 +1,4 @@
-// Buildings drawn by chance, their maps, and walks through them, for the tests of localization. Nothing but the scoring
-// sees the truth.
+// Random buildings, their maps, and walks through them, for the tests of localization. Only the scoring sees the truth.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +21,7 @@ struct Area {
 };
 
 struct Building {
-  PlanarWorld world;         ///< Walls and furniture that stood there when the map was made.
+  PlanarWorld world;         ///< Walls, and the furniture that was there when the map was made.
   std::vector<Area> rooms;   ///< Where furniture may stand.
   Eigen::Vector2d inside_m;  ///< A free place.
 };
@@ -109,8 +108,8 @@ inline Building hall(std::uint64_t seed) {
   return building;
 }
 
-/// Two wings that are alike to the centimetre, turned by 180 degrees about the middle of a hallway that joins them;
-/// only what stands in the hallway tells them apart.
+/// Two wings that are identical to the centimetre, turned by 180 degrees about the middle of a hallway that joins them.
+/// Only the objects in the hallway distinguish them.
 inline Building twinWings(std::uint64_t seed) {
   common::RandomStream random(seed, "twin wings");
   Building building;
@@ -144,7 +143,7 @@ inline Building twinWings(std::uint64_t seed) {
   return building;
 }
 
-/// The map a robot would have made: walls as it saw them, free where it can have been, unknown elsewhere.
+/// The map a robot would have made: occupied at the walls it saw, free where it can have been, unknown elsewhere.
 inline common::OccupancyGrid mapOf(const Building& building, double resolution_m = 0.05) {
   common::OccupancyGrid map = common::makeOccupancyGrid(resolution_m);
   for (const Wall& wall : building.world.walls) {
@@ -170,7 +169,7 @@ inline common::OccupancyGrid mapOf(const Building& building, double resolution_m
   return map;
 }
 
-/// Ways through a building, clear of its walls.
+/// Paths through a building, clear of its walls.
 class Walks {
  public:
   explicit Walks(const Building& building, double clearance_m = 0.35) : inside_m_(building.inside_m) {
@@ -200,8 +199,8 @@ class Walks {
     }
   }
 
-  /// Waypoints some centimetres apart, by the shortest way over cells.
-  std::vector<Eigen::Vector2d> way(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+  /// Waypoints some centimetres apart, along the shortest path over cells.
+  std::vector<Eigen::Vector2d> path(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
     const common::CellIndex start = cellOf(from), goal = cellOf(to);
     std::vector<int> came(free_.size(), -1);
     std::deque<common::CellIndex> open{goal};
@@ -216,13 +215,13 @@ class Walks {
         open.push_back(next);
       }
     }
-    std::vector<Eigen::Vector2d> way{from};
+    std::vector<Eigen::Vector2d> path{from};
     for (common::CellIndex c = start; came[index(c)] >= 0 && !(c == goal);) {
       const int next = came[index(c)];
       c = {next % width_, next / width_};
-      way.push_back(pointOf(c));
+      path.push_back(pointOf(c));
     }
-    return way;
+    return path;
   }
 
  private:
@@ -278,7 +277,7 @@ class Walks {
   std::vector<std::uint8_t> free_;
 };
 
-/// A walker that goes from place to place, looking where it goes, and can be carried away.
+/// A robot that moves from place to place, looks along its path, and can be carried away.
 class Walker {
  public:
   Walker(const Walks& walks, std::uint64_t seed, double speed_m_s = 0.7)
@@ -290,7 +289,7 @@ class Walker {
 
   void carry(const Eigen::Vector2d& to, double yaw_rad) {
     pose_ = {to.x(), to.y(), yaw_rad};
-    way_.clear();
+    path_.clear();
   }
   Eigen::Vector2d somewhereElse(double least_m) {
     for (int i = 0;; ++i) {
@@ -300,22 +299,22 @@ class Walker {
   }
 
   void advance(double dt_s) {
-    while (way_.size() < 2) plan();
+    while (path_.size() < 2) plan();
     double left_m = speed_m_s_ * dt_s;
     Eigen::Vector2d at = pose_.position_m();
-    while (left_m > 0.0 && way_.size() > 1) {
-      const Eigen::Vector2d to = way_[1] - at;
+    while (left_m > 0.0 && path_.size() > 1) {
+      const Eigen::Vector2d to = path_[1] - at;
       if (to.norm() > left_m) {
         at += to.normalized() * left_m;
         left_m = 0.0;
       } else {
         left_m -= to.norm();
-        at = way_[1];
-        way_.pop_front();
+        at = path_[1];
+        path_.pop_front();
       }
     }
     // It looks a little ahead and turns with at most 1.5 rad/s.
-    const Eigen::Vector2d ahead = way_[std::min<std::size_t>(way_.size() - 1, 5)] - at;
+    const Eigen::Vector2d ahead = path_[std::min<std::size_t>(path_.size() - 1, 5)] - at;
     double turn = ahead.norm() > 0.05 ? common::wrapAngle(std::atan2(ahead.y(), ahead.x()) - pose_.yaw_rad) : 0.0;
     turn = std::clamp(turn, -1.5 * dt_s, 1.5 * dt_s);
     pose_ = {at.x(), at.y(), common::wrapAngle(pose_.yaw_rad + turn)};
@@ -323,15 +322,15 @@ class Walker {
 
  private:
   void plan() {
-    const std::vector<Eigen::Vector2d> way = walks_->way(pose_.position_m(), walks_->somewhere(random_));
-    way_.assign(way.begin(), way.end());
+    const std::vector<Eigen::Vector2d> path = walks_->path(pose_.position_m(), walks_->somewhere(random_));
+    path_.assign(path.begin(), path.end());
   }
 
   const Walks* walks_;
   common::RandomStream random_;
   double speed_m_s_;
   common::Pose2 pose_;
-  std::deque<Eigen::Vector2d> way_;
+  std::deque<Eigen::Vector2d> path_;
 };
 
 /// Level scans of a laser with 181 beams over 270 degrees and 12 m, 2 cm noise, 1 % dropouts.
@@ -354,8 +353,8 @@ inline perception::ProjectedScan levelScan(const PlanarWorld& world, const commo
   return scan;
 }
 
-/// Odometry that drifts: by 2 % of the way and by half a degree a metre and 2 % of each turn (one sigma). It does not
-/// notice when the robot is carried.
+/// Odometry that drifts: by 2 % of the path length, by half a degree a metre, and by 2 % of each turn (one sigma). It
+/// does not notice when the robot is carried.
 class DriftingOdometry {
  public:
   explicit DriftingOdometry(std::uint64_t seed) : random_(seed, "odometry") {}
@@ -371,7 +370,7 @@ class DriftingOdometry {
 
  private:
   common::RandomStream random_;
-  common::Pose2 pose_{3.0, -2.0, 1.0};  ///< Its origin says nothing.
+  common::Pose2 pose_{3.0, -2.0, 1.0};  ///< An arbitrary origin.
 };
 
 }  // namespace swiftlet::test

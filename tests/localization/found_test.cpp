@@ -1,5 +1,5 @@
-// How far a robot goes until it has found itself, from nothing. SWIFTLET_FOUND_CASES sets how many buildings; the table
-// of docs/localization.md is of 50.
+// How far a robot moves until it is localized, from nothing. SWIFTLET_FOUND_CASES sets the number of buildings; the
+// table of docs/localization.md is for 50.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -14,8 +14,8 @@ namespace {
 using common::Pose2;
 
 struct Found {
-  double path_length_m = -1.0;  ///< Until it was first localized; negative: never.
-  bool wrong = false;           ///< Then, or at any time after.
+  double path_length_m = -1.0;  ///< Path length until it was first localized; negative if it never was.
+  bool wrong = false;           ///< Wrong at that moment or later.
 };
 
 Found walk(const Building& mapped, const PlanarWorld& world, std::uint64_t seed) {

@@ -111,7 +111,7 @@ TEST(GlobalSearch, FindsThePlacesThatLookingAtEveryPoseFinds) {
   EXPECT_GT(most, 20U);
 }
 
-/// It may not have seen the best, then, but what it gives are places, and it says that there may be more.
+/// It may miss the best pose then, but its results are valid places, and it says that there may be more.
 TEST(GlobalSearch, WithRoomForFewBlocksItSaysThatThereMayBeMore) {
   const test::Building building = test::hall(2);
   GlobalSearchConfig config;

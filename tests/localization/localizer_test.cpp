@@ -16,7 +16,7 @@ namespace {
 using common::Pose2;
 using common::Time;
 
-/// A robot that walks through a building with an odometry of its own.
+/// A robot that moves through a building with an odometry of its own.
 struct Story {
   explicit Story(const test::Building& building_in, std::uint64_t seed, const LocalizerConfig& config = {})
       : building(building_in),
@@ -137,7 +137,7 @@ TEST(Localizer, SaysHonestlyHowUncertainItIs) {
 TEST(Localizer, TellsOfTwinPlacesThatItIsAmbiguous) {
   const test::Building building = test::twinWings(2);
   Story story(building, 2);
-  // Up and down one wing: nothing tells it from the other.
+  // Up and down one wing: nothing distinguishes it from the other.
   for (int i = 0; i < 80; ++i) {
     story.walker.carry({6.0 + 0.06 * i, 0.05}, 0.0);
     if (i == 0) continue;
@@ -167,7 +167,7 @@ TEST(Localizer, WeighsOnlyWithScansTheOdometryWasNotMadeOf) {
   EXPECT_TRUE(story.localizer.wantsFreshScan(here * Pose2{0.0, 0.0, 0.4}));
 }
 
-/// Without scans of its own the pose is known worse and worse, until it is no longer known.
+/// Without scans of its own the pose becomes less and less certain, until it is given up.
 TEST(Localizer, GivesUpAPoseThatTheOdometryAloneLedTo) {
   LocalizerConfig config;
   config.odometry_share = 0.5;
@@ -183,7 +183,7 @@ TEST(Localizer, GivesUpAPoseThatTheOdometryAloneLedTo) {
   EXPECT_NE(estimate.event->reason.find("uncertain by"), std::string::npos) << estimate.event->reason;
 }
 
-/// Turned on the spot, unnoticed by its odometry: the distance alone would not say what is wrong.
+/// Turned on the spot, unnoticed by its odometry: the distance alone would not show the error.
 TEST(Localizer, SaysByHowMuchItIsTurnedWhereItIsNotElsewhere) {
   Story story(test::offices(5), 5);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.0001).asDiagonal());
@@ -276,7 +276,7 @@ TEST(Localizer, ASearchFromBeforeItWasToldItsPlaceChangesNothing) {
   EXPECT_FALSE(story.localizer.takeTask()) << "nothing is asked for";
 }
 
-/// Whether it knew where it was or not: what it has gone before it was told is history.
+/// Localized or not: the path before it was given a start does not count.
 TEST(Localizer, ToldItsPlaceOnTheWayItGoesOnFromThere) {
   for (const int steps : {10, 150}) {
     Story story(test::offices(3), 3);
@@ -290,7 +290,8 @@ TEST(Localizer, ToldItsPlaceOnTheWayItGoesOnFromThere) {
   }
 }
 
-/// It trembles in its odometry, sees one view again and again, and has gone no way over which a place could have held.
+/// Its odometry trembles, it sees one view repeatedly, and it has not moved a distance over which a place could have
+/// held.
 TEST(Localizer, StandingStillItIsNeverLocalized) {
   for (const std::uint64_t seed : {1U, 2U, 6U, 7U}) {
     const test::Building building = test::offices(seed);
@@ -337,7 +338,7 @@ TEST(Localizer, RefusesMapsInWhichNothingCanBe) {
   EXPECT_NE(Localizer::whyUnusable(map).find("40000 x 30000 cells"), std::string::npos);
 }
 
-/// Scans without points, points that are no numbers, time that goes back: nothing breaks, nothing is made up.
+/// Scans without points, points that are not numbers, time that goes back: nothing breaks, and no pose is invented.
 TEST(Localizer, TakesBadScansCalmly) {
   Story story(test::offices(8), 8);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
@@ -356,7 +357,7 @@ TEST(Localizer, TakesBadScansCalmly) {
   }
 }
 
-/// An odometry that says for a moment what is no pose, or what is no covariance.
+/// An odometry that is for a moment not a pose, or has an invalid covariance.
 TEST(Localizer, TakesBadOdometryCalmly) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
   Story story(test::offices(8), 8);
@@ -383,7 +384,7 @@ TEST(Localizer, TakesBadOdometryCalmly) {
   EXPECT_LT(errorOf(estimate, story.truth), 0.3);
 }
 
-/// While inputs are passed over the odometry may have lost the thread: that is not forgotten with them.
+/// The odometry may be interrupted while inputs are skipped; the interruption must still take effect.
 TEST(Localizer, AnInterruptionThatCameWithoutAPoseCounts) {
   Story story(test::offices(8), 8);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());

@@ -1,4 +1,4 @@
-// Cases in which a robot that believes to know where it is must say whether that is still so.
+// Cases in which a localized robot must detect whether its pose is still right.
 #pragma once
 
 #include <cmath>
@@ -14,11 +14,11 @@ namespace swiftlet::test {
 
 enum class CaseKind {
   kUndisturbed,       ///< Nothing happens.
-  kChangedFurniture,  ///< 20 to 35 % of the beams end on what is not in the map. Nothing else happens.
+  kChangedFurniture,  ///< 20 to 35 % of the beams end on things that are not in the map. Nothing else happens.
   kKidnapped,         ///< Carried elsewhere in the building, unnoticed by its odometry.
-  kKidnappedChanged,  ///< The same where the furniture has changed, too.
-  kWrongMap,          ///< Told a place in a map of another building.
-  kTwin,              ///< Begins anywhere between two wings that are alike, told nothing.
+  kKidnappedChanged,  ///< Carried elsewhere, and the furniture has changed.
+  kWrongMap,          ///< Given a start in a map of another building.
+  kTwin,              ///< Starts anywhere between two identical wings, without a given start.
 };
 inline const char* toString(CaseKind kind) {
   switch (kind) {
@@ -38,7 +38,7 @@ inline const char* toString(CaseKind kind) {
   return "?";
 }
 
-/// A pose is wrong when it is farther than this from the truth.
+/// A pose farther than this from the truth is wrong.
 inline constexpr double kWrong_m = 1.0;
 inline constexpr double kWrong_rad = 0.5;
 /// The time within which a wrong pose must be noticed.
@@ -47,7 +47,7 @@ inline constexpr double kScan_s = 0.1;
 
 inline Building buildingOf(std::uint64_t seed, bool large_hall) { return large_hall ? hall(seed) : offices(seed); }
 
-/// Other furniture is added until the share of beams disturbed is what is asked for.
+/// Adds furniture until the given share of beams is disturbed.
 inline PlanarWorld changedFurniture(const Building& building, double share, std::uint64_t seed) {
   common::RandomStream random(seed, "changed furniture");
   const Walks walks(building);
@@ -84,17 +84,18 @@ inline PlanarWorld changedFurniture(const Building& building, double share, std:
   return world;
 }
 
-/// What came of one case.
+/// The result of one case.
 struct CaseResult {
   CaseKind kind = CaseKind::kUndisturbed;
   std::uint64_t seed = 0;
-  /// Moments: stretches in which the pose was wrong while it had been believed at their beginning, or the map is not of
-  /// this place; noticed when the localizer stopped to believe it within kNotice_s.
+  /// Stretches in which the pose was wrong although it was accepted at their beginning, or in which the map is of
+  /// another place. They count as noticed if the localizer gave the pose up within kNotice_s.
   int wrong = 0, noticed = 0;
-  int alarms = 0, false_alarms = 0;  ///< Times it said that it is lost; of these, with a pose that was right.
+  int alarms = 0, false_alarms = 0;  ///< Times it reported to be lost, and how often the pose was right then.
   double worst_delay_s = 0.0;
-  int scans = 0, localized = 0, falsely_localized = 0;  ///< The last: believed a wrong pose for longer than kNotice_s.
-  std::vector<double> error_m;                          ///< While localized and not wrong.
+  int scans = 0, localized = 0, falsely_localized = 0;  ///< Numbers of scans. The last one counts those with a wrong
+                                                        ///< pose that was accepted for longer than kNotice_s.
+  std::vector<double> error_m;                          ///< Position errors while localized and not wrong.
   std::vector<std::string> story;
 };
 
@@ -104,7 +105,7 @@ struct SupportSample {
   perception::ScanSupport support;
 };
 
-/// A walk of `duration_s`, told scan by scan.
+/// A walk of `duration_s`, scored scan by scan.
 class LostCase {
  public:
   LostCase(CaseKind kind, std::uint64_t seed, perception::LocalizerConfig config = {}) : kind_(kind), seed_(seed) {
@@ -146,7 +147,7 @@ class LostCase {
       walker_->advance(kScan_s);
       odometry.step(between(before, walker_->pose()));
     }
-    // What became wrong in the last moments cannot have been noticed yet.
+    // A pose that became wrong in the last moments cannot have been noticed yet.
     if (wrong_since_s_ && duration_s - *wrong_since_s_ <= kNotice_s) --result_.wrong;
     return result_;
   }
@@ -168,8 +169,8 @@ class LostCase {
     return kind_ == CaseKind::kWrongMap || error.position_m().norm() > kWrong_m || std::abs(error.yaw_rad) > kWrong_rad;
   }
 
-  /// The pose that was believed before this scan, moved on by the odometry, may be wrong by now; the estimate tells
-  /// what is believed after it.
+  /// The pose before this scan, moved by the odometry, may be wrong by now; the estimate says whether it is still
+  /// accepted.
   void judge(double t, const common::Pose2& T_odom_body, const perception::LocalizationEstimate& estimate) {
     const bool believed = estimate.state == perception::LocalizationState::kLocalized;
     const bool wrong_before = T_map_odom_ && isWrong(*T_map_odom_ * T_odom_body);
@@ -212,7 +213,7 @@ class LostCase {
   double carried_s_ = 0.0;
   CaseResult result_;
   std::optional<double> wrong_since_s_;
-  std::optional<common::Pose2> T_map_odom_;  ///< As believed at the last scan.
+  std::optional<common::Pose2> T_map_odom_;  ///< As accepted at the last scan.
   bool wrong_ = false;
 };
 

@@ -1,4 +1,4 @@
-// The particles by which a place is believed in: how many, how they move, how they are drawn anew.
+// The particles: how many there are, how they move, how they are resampled.
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The parts of localization, each against the slow and obvious way.
+// The parts of localization, each against a slow and simple computation.
 #include <cmath>
 #include <limits>
 
@@ -146,11 +146,11 @@ TEST(ScanSupport, TellsExplainedFromContradictedAndFromUnknown) {
     return supportOf(field, points, pose, ScanSupportConfig{});
   };
   EXPECT_EQ(supportOfPoint(3.02F, 0.0F).explained, 1.0);
-  EXPECT_EQ(supportOfPoint(2.0F, 0.0F).explained, 0.0);  // In front of the wall: something new.
+  EXPECT_EQ(supportOfPoint(2.0F, 0.0F).explained, 0.0);  // In front of the wall: a new object.
   EXPECT_EQ(supportOfPoint(2.0F, 0.0F).evidence, 1);
   EXPECT_EQ(supportOfPoint(4.5F, 0.0F).explained, 0.0);  // Behind it.
   EXPECT_EQ(supportOfPoint(4.5F, 0.0F).evidence, 1);
-  EXPECT_EQ(supportOfPoint(0.0F, 7.0F).evidence, 0);  // Nobody has been there.
+  EXPECT_EQ(supportOfPoint(0.0F, 7.0F).evidence, 0);  // An unknown place.
   EXPECT_EQ(supportOfPoint(0.0F, 7.0F).beams, 1);
 }
 

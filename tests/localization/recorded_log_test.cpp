@@ -1,5 +1,5 @@
-// A recorded log of a wheeled robot in the map of its first part: found from nothing, followed, carried away, found
-// again. The truth is the trajectory of the map itself.
+// A recorded log of a wheeled robot in the map of its first part: localized from nothing, tracked, carried away,
+// localized again. The truth is the trajectory of the map itself.
 #include <cstdio>
 #include <filesystem>
 #include <vector>
@@ -50,7 +50,7 @@ TEST(RecordedLocalization, IntelIsFoundFollowedAndFoundAgainAfterItWasCarriedAwa
   if (!file) return;
   const Mapped mapped = mapOf(*file, 4000);
   ASSERT_EQ(mapped.scans.size(), 4000U);
-  // 500 scans are left out, in which the robot goes on; its wheels are as they were before.
+  // 500 scans are left out while the robot moves; its wheels are reset to their values before.
   constexpr std::size_t kFrom = 2000, kTo = 2500;
   const Pose2 T_jump = *mapped.scans[kFrom - 1].T_odom_robot * mapped.scans[kTo].T_odom_robot->inverse();
   LogLocalizer localizer(mapped.map, Pose2{}, {test_support::laserLogFrontEnd(), {}}, 1);

@@ -21,7 +21,7 @@ class Starts : public testing::Test {};
 using Kinds = testing::Types<test::Graph2D, test::Graph3D>;
 TYPED_TEST_SUITE(Starts, Kinds);
 
-/// The guess without any sense, but of the first pose.
+/// A random guess, except for the first pose.
 template <typename Kind>
 typename Kind::Graph scrambled(typename Kind::Graph graph, RandomStream& random) {
   for (std::size_t i = 1; i < graph.poses.size(); ++i) graph.poses[i] = Kind::randomPose(random, 3.0);
@@ -33,7 +33,7 @@ double chi2Of(const Graph& graph, const decltype(Graph::poses)& poses) {
   return sum(squaredErrors(graph, poses));
 }
 
-/// How far two poses lie apart, as a squared error.
+/// The distance of two poses as a squared error.
 template <typename Graph>
 double apart(const Graph&, const typename decltype(Graph::poses)::value_type& a,
              const typename decltype(Graph::poses)::value_type& b) {
@@ -51,7 +51,7 @@ TYPED_TEST(Starts, WithoutNoiseTheyAreExactWhateverTheGuess) {
   EXPECT_TRUE(solution.converged);
 }
 
-/// A graph that is optimized again stays, and is said to be optimized.
+/// A graph that is optimized again does not change, and is reported as optimized.
 TYPED_TEST(Starts, AGraphAtItsOptimumHasConverged) {
   for (const double sigma : {0.0, 0.05}) {
     RandomStream random(2, "again");

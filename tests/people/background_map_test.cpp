@@ -1,4 +1,4 @@
-// A person stands out against the map of some seconds ago.
+// A person is visible against the map of some seconds ago.
 #include <gtest/gtest.h>
 
 #include "perception/people/background_map.hpp"

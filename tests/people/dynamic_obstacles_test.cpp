@@ -1,4 +1,4 @@
-// What moves is found where the map of a while ago shows free space, followed, and forgotten.
+// Moving objects are found where the map of some seconds ago shows free space, tracked, and forgotten.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 using common::Time;
 using Point = Eigen::Vector2d;
 
-/// The side of a disc that faces the sensor, and nothing else.
+/// The side of a disc that faces the sensor.
 std::vector<Eigen::Vector2f> front(const Point& center, double radius_m, const Point& sensor) {
   std::vector<Eigen::Vector2f> points;
   const double facing = std::atan2(sensor.y() - center.y(), sensor.x() - center.x());
@@ -69,7 +69,7 @@ TEST_F(Moving, WhoWalksIsKnownWithinHalfASecondAlsoWhenHiddenForAWhile) {
   EXPECT_TRUE(tracker.anyMoves());
 }
 
-/// Where a laser that nods meets something lower: seen in one scan of four, each time elsewhere.
+/// A nodding laser hits a lower object: it appears in one scan of four, each time elsewhere.
 TEST_F(Moving, WhatComesAndGoesDoesNotWalk) {
   for (int i = 0; i < 120; ++i) {
     const double t = i * 0.025;
@@ -88,7 +88,7 @@ TEST_F(Moving, DiscsRunAheadAndExpire) {
   double farthest_y = 0.0;
   for (const common::Disc& disc : tracker.discs(at(1.0), 0.5)) farthest_y = std::max(farthest_y, disc.center_map_m.y());
   EXPECT_GT(farthest_y, 3.7);
-  // Out of sight it is believed in for a while.
+  // Out of sight it is kept for a while.
   tracker.update(at(2.0), {}, sensor, grid);
   EXPECT_EQ(tracker.obstacles().size(), 1u);
   tracker.update(at(3.5), {}, sensor, grid);

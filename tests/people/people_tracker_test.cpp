@@ -1,4 +1,4 @@
-// A vehicle in a known room follows those who walk through it, and leaves them out of what it matches.
+// A vehicle in a known room tracks the people who walk through it, and leaves them out of the match.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ struct People : testing::Test {
     scan.stamp = Time::fromSeconds(s);
     return scan;
   }
-  /// Somebody walks along x of the map, 2 m before the vehicle at 1 m/s.
+  /// A person walks along x of the map, 2 m ahead of the vehicle, at 1 m/s.
   void walk(double from_s, double to_s, const Pose2& T_map_odom = {}) {
     for (double t = from_s; t < to_s; t += 0.025) {
       ProjectedScan scan = scanAt(t);

@@ -1,4 +1,4 @@
-// A room in which the reactive layer is told, tick by tick, what the laser sees.
+// A room in which the reactive layer receives, tick by tick, what the laser sees.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,7 @@ class Story {
     background_.add(now, snapshot_);
   }
 
-  /// What SLAM does all the time: whoever stands in the scan gets into the map, and out again.
+  /// What SLAM does all the time: a standing person gets into the map, and out again.
   void mapScan(const std::vector<Eigen::Vector2f>& points_map) {
     for (const auto& p : points_map) {
       const Point hit = p.cast<double>(), step = hit - pose.position_m();
@@ -92,8 +92,8 @@ class Story {
     return points;
   }
 
-  /// One scan at the present instant; `wish` is the velocity the intent asks for, in the map frame.
-  AvoidanceDecision sense(const Point& wish_map_m_s) {
+  /// One scan at the present instant; `wanted_map_m_s` is the velocity the intent asks for, in the map frame.
+  AvoidanceDecision sense(const Point& wanted_map_m_s) {
     const std::vector<Eigen::Vector2f> points = scan();
     std::vector<Eigen::Vector2f> points_map;
     for (const auto& p : points) points_map.push_back((pose * Point(p.cast<double>())).cast<float>());
@@ -101,13 +101,13 @@ class Story {
     dynamic_.update(now, points_map, pose.position_m(), *background_.at(now));
     const Eigen::Rotation2Dd to_level(-pose.yaw_rad);
     return avoidance_.update(
-        {now, points, to_level * velocity_map_m_s, to_level * wish_map_m_s, pose, &map_, dynamic_.obstacles()});
+        {now, points, to_level * velocity_map_m_s, to_level * wanted_map_m_s, pose, &map_, dynamic_.obstacles()});
   }
 
-  /// Senses, obeys with the acceleration it has, and lets time pass. Returns the smallest gap to anyone.
-  AvoidanceDecision tick(const Point& wish_map_m_s) {
-    AvoidanceDecision decision = sense(wish_map_m_s);
-    Point target = wish_map_m_s;
+  /// Senses, obeys with its acceleration, and lets time pass. Returns the smallest gap to any person.
+  AvoidanceDecision tick(const Point& wanted_map_m_s) {
+    AvoidanceDecision decision = sense(wanted_map_m_s);
+    Point target = wanted_map_m_s;
     if (target.norm() > decision.speed_limit_m_s) target = target.normalized() * decision.speed_limit_m_s;
     if (decision.retreat_velocity_level_m_s)
       target = Eigen::Rotation2Dd(pose.yaw_rad) * *decision.retreat_velocity_level_m_s;

@@ -51,9 +51,9 @@ TEST(Avoidance, AWallAlongsideAtThePlannersClearanceDoesNotBrake) {
   const AvoidanceDecision d = story.sense({1.0, 0});
   EXPECT_GE(d.speed_limit_m_s, 1.4);
   EXPECT_FALSE(d.retreat_velocity_level_m_s);
-  // Towards it: no.
+  // Towards the wall: not allowed.
   EXPECT_LT(story.sense({0, -1.0}).speed_limit_m_s, 0.3);
-  // Pushed closer than the margin it may still slide along and leave.
+  // Inside the margin it may still move along the wall and away from it.
   story.pose.y_m = kHull_m + 0.02;
   EXPECT_GT(story.sense({0, 1.0}).speed_limit_m_s, 1.0);
   EXPECT_EQ(story.sense({0, -1.0}).speed_limit_m_s, 0.0);
@@ -159,7 +159,7 @@ TEST(Avoidance, APersonWalkingAtItIsAvoided) {
 }
 
 TEST(Avoidance, AFollowerWasSeenAndIsNotForgotten) {
-  // Seen while it passed from the front to the side, then in the rear 90 deg: the memory stops a flight backwards.
+  // Seen while it passed from the front to the side, then in the rear 90 deg: the memory prevents a flight backwards.
   Story story;
   story.pose = {5.0, 4.0, 0.0};
   story.people.push_back({{4.1, 3.1}, {-0.0, 0.0}});
@@ -180,7 +180,7 @@ double bearing_deg(const Story& story, const Point& direction_map) {
 }
 
 TEST(Avoidance, TurnsUntilItSeesWhatItRetreatsFrom) {
-  // Somebody comes from where the laser hardly looks.
+  // A person comes from the edge of the laser's view.
   Story story;
   const double from_rad = 125.0 * std::numbers::pi / 180.0;
   const Point from(std::cos(from_rad), std::sin(from_rad));
@@ -226,7 +226,7 @@ TEST(Avoidance, DoesNotChatter) {
   Story story;
   story.people.push_back({{5.0 + kHull_m + 0.25 + 0.26, 4.0}, {0, 0}});
   for (int i = 0; i < 400; ++i) {
-    // Someone who sways about the retreat distance.
+    // A person who moves about the retreat distance.
     story.people[0].velocity_map_m_s = {0.1 * std::sin(i * 0.1), 0.0};
     story.tick({0, 0});
   }

@@ -45,7 +45,7 @@ RC_GTEST_PROP(CostMap, RepairedEqualsFresh, (std::uint64_t seed)) {
   for (int step = 0; step < 5; ++step) {
     // Some changes lie outside, so that the map grows.
     test::clutter(grid, {{-40, -30}, {190, 130}}, 3, random);
-    std::vector<Disc> discs;
+    std::vector<common::Disc> discs;
     for (int i = 0; i < step % 3; ++i) discs.push_back({{random.uniform(0, 7), random.uniform(0, 5)}, 0.25});
     const Footprint footprint{0.275, step < 4 ? 0.10 : 0.20};
     map.update(grid.snapshot(), footprint, {discs, nullptr});
@@ -97,7 +97,7 @@ TEST(CostMap, DiscsAreKeptClearOfAndLeaveNoTrace) {
   common::OccupancyGrid grid = test::room(100, 100);
   CostMap map = test::mapOf(grid);
   const auto before = map.costs();
-  const std::vector<Disc> discs{{{2.5, 2.5}, 0.25}, {{NAN, 1.0}, 0.2}};
+  const std::vector<common::Disc> discs{{{2.5, 2.5}, 0.25}, {{NAN, 1.0}, 0.2}};
   map.update(grid.snapshot(), {}, {discs, nullptr});
   EXPECT_EQ(map.costAt(map.cellAt({2.5 + 0.57, 2.5})), CostMap::kLethal);
   EXPECT_NE(map.costAt(map.cellAt({2.5 + 0.7, 2.5})), CostMap::kLethal);

@@ -1,5 +1,5 @@
-// Exploration of flat worlds by an ideal vehicle: it always ends, nothing that can be reached is left, and what is left
-// has its reason.
+// Exploration of flat worlds by an ideal vehicle: it always ends, every reachable place is explored, and every
+// remaining frontier has its reason.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -196,7 +196,7 @@ TEST_F(TwoRooms, TheViewpointIsKeptWhileItIsGoodEnough) {
   const ExplorationResult again = look(24, input);
   EXPECT_TRUE(again.kept_current);
   EXPECT_NEAR((again.next->pose_map.position_m() - place).norm(), 0.0, 0.05);
-  // Where nothing is left to see it is given up.
+  // A place with nothing new to see is given up.
   input.current->target_map_m = {1.0, 1.0};
   EXPECT_FALSE(look(24, input).kept_current);
 }

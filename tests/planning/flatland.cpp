@@ -90,7 +90,7 @@ void scan(const Flatland& world, const Pose2& pose, const FlightConfig& config, 
   }
 }
 
-/// The ideal vehicle on a path: a speed with an acceleration limit, slowing for the end, the nose along the way.
+/// The ideal vehicle on a path: a speed with an acceleration limit, slowing for the end, the nose along the path.
 struct Flyer {
   Pose2 pose;
   double speed_m_s = 0.0;
@@ -122,8 +122,8 @@ struct Flyer {
       if (go_m >= length_m - 1e-9) ++next;
     }
     const bool near = left_m < 0.6 || heading.isZero();
-    const double wish_rad = near ? viewpoint.pose_map.yaw_rad : std::atan2(heading.y(), heading.x());
-    const double turn_rad = common::wrapAngle(wish_rad - pose.yaw_rad), most_rad = config.yaw_rate_rad_s * dt_s;
+    const double wanted_rad = near ? viewpoint.pose_map.yaw_rad : std::atan2(heading.y(), heading.x());
+    const double turn_rad = common::wrapAngle(wanted_rad - pose.yaw_rad), most_rad = config.yaw_rate_rad_s * dt_s;
     pose.yaw_rad = common::wrapAngle(pose.yaw_rad + std::clamp(turn_rad, -most_rad, most_rad));
   }
 
@@ -171,7 +171,7 @@ Flatland randomBuilding(std::uint64_t seed, double width_m, double height_m, int
   for (int i = 0; i < rooms_x; ++i) {
     for (int j = 0; j < rooms_y; ++j) {
       const int door = whole(18, 24);
-      // Through the wall and past any box in the way.
+      // Through the wall and past any box in between.
       if (i + 1 < rooms_x && (j == 0 || random.chance(0.6)))
         world.open((i + 1) * w - 12, j * h + whole(10, h - door - 10), 27, door);
       if (j + 1 < rooms_y) world.open(i * w + whole(10, w - door - 10), (j + 1) * h - 12, door, 27);
@@ -212,7 +212,7 @@ FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_
   const std::unique_ptr<Explorer> explorer = makeExplorer(config.explorer, config.exploration);
   common::OccupancyGrid& grid = report.grid;
   flyer.pose = {0.5 * kRes, 0.5 * kRes, random.uniform(-3.1, 3.1)};
-  // What lies under the vehicle at take-off is free.
+  // The place below the vehicle at take-off is free.
   for (int y = -8; y <= 8; ++y)
     for (int x = -8; x <= 8; ++x)
       if (std::hypot(x, y) <= 8) grid.set({x, y}, -40);

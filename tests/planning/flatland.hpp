@@ -1,4 +1,5 @@
-// A flat world with an ideal vehicle and scanner, to explore in: rooms with doors, boxes with pockets behind them.
+// A flat world with an ideal vehicle and scanner, to test exploration: rooms with doors, boxes with pockets behind
+// them.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +21,12 @@ struct Flatland {
   int height = 0;
   common::CellIndex start;  ///< In cells of the truth.
   std::vector<bool> walls;
-  std::vector<common::CellRect> black;  ///< Walls in here return no beam: what lies before them stays unseen.
+  std::vector<common::CellRect> black;  ///< Walls in here return no beam: places in front of them stay unknown.
 
   bool occupied(int x, int y) const {
     return x < 0 || y < 0 || x >= width || y >= height || walls[static_cast<std::size_t>(y) * width + x];
   }
-  /// By a point of `map`.
+  /// The cell of a point in `map`.
   bool occupiedAt(const Eigen::Vector2d& point_map_m) const;
   common::CellIndex toMap(common::CellIndex truth) const { return {truth.x - start.x, truth.y - start.y}; }
   void block(int x0, int y0, int w, int h);

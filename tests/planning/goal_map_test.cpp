@@ -1,5 +1,4 @@
-// The cost map as goals are judged by it: at the clearance it was made for it agrees with the planner, at others the
-// obstacles decide.
+// The cost map that judges goals: at its own clearance it agrees with the planner, at others the obstacles decide.
 #include "planning/search/goal_map.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +30,7 @@ TEST_F(GoalMapTest, TellsWhatIsAtAPlace) {
 
 TEST_F(GoalMapTest, AgreesWithThePlannerEverywhere) {
   test::fill(grid, {{20, 20}, {30, 30}}, common::occupancy::kUnknown);
-  const std::vector<Disc> people{{{6.5, 2.0}, 0.4}};
+  const std::vector<common::Disc> people{{{6.5, 2.0}, 0.4}};
   const CostMap map = test::mapOf(grid, {}, {}, {.discs = people});
   const CostGoalMap goals(map);
   DStarLite planner;

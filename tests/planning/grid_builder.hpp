@@ -27,7 +27,7 @@ inline common::OccupancyGrid room(int width, int height, double resolution_m = 0
   return grid;
 }
 
-/// Boxes and specks of all three states thrown in.
+/// Random boxes and specks of all three states.
 inline void clutter(common::OccupancyGrid& grid, common::CellRect within, int count, common::RandomStream& random) {
   for (int i = 0; i < count; ++i) {
     const int x = within.begin.x + static_cast<int>(random.uniform() * within.width());

@@ -1,4 +1,4 @@
-// A plan is kept until it is invalid or old, and gives way only to a clearly better one.
+// A plan is kept until it is invalid or old, and is replaced only by a clearly better one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST_F(Keeping, KeptForHalfASecondThenCompared) {
   const PlanKeeper::Check old = keeper.check(at(0.5), map, {2.4, 4});
   EXPECT_TRUE(old.valid);
   EXPECT_TRUE(old.replan);
-  // The answer is as good as the old: not taken, and there is peace for another half second.
+  // The answer is as good as the old plan: it is not taken, and there is no new request for half a second.
   EXPECT_FALSE(keeper.offer(pathOf(map, {{2.4, 4}, {6, 4.1}, {10, 4}}), at(0.5), map, {2.4, 4}));
   EXPECT_FALSE(keeper.check(at(0.9), map, {2.7, 4}).replan);
   EXPECT_EQ(keeper.plan()->points_map_m, straight.points_map_m);
@@ -57,13 +57,13 @@ TEST_F(Keeping, AClearlyBetterPlanIsTaken) {
 
 TEST_F(Keeping, APersonOnItMakesItInvalid) {
   keeper.offer(straight, at(0), map, {2, 4});
-  const std::vector<Disc> discs{{{6, 4.2}, 0.25}};
+  const std::vector<common::Disc> discs{{{6, 4.2}, 0.25}};
   map.update(grid.snapshot(), {}, {discs, nullptr});
   const PlanKeeper::Check check = keeper.check(at(0.1), map, {2.1, 4});
   EXPECT_FALSE(check.valid);
   EXPECT_TRUE(check.replan);
   EXPECT_THAT(check.reason, HasSubstr("blocked"));
-  // A detour is dearer and yet taken.
+  // The detour is dearer and yet taken.
   DStarLite planner;
   const auto detour = planner.plan(map, {2.1, 4}, {10, 4});
   ASSERT_TRUE(detour);
@@ -73,7 +73,7 @@ TEST_F(Keeping, APersonOnItMakesItInvalid) {
 
 TEST_F(Keeping, AWayRoundIsTakenAtOnceWhenTheOldOneIsBlocked) {
   keeper.offer(straight, at(0), map, {2, 4});
-  const std::vector<Disc> discs{{{3, 4}, 0.25}};
+  const std::vector<common::Disc> discs{{{3, 4}, 0.25}};
   CostLayers layers;
   layers.discs = discs;
   map.update(grid.snapshot(), {}, layers);
@@ -84,7 +84,7 @@ TEST_F(Keeping, AWayRoundIsTakenAtOnceWhenTheOldOneIsBlocked) {
 TEST_F(Keeping, WhatLiesBehindDoesNotMatter) {
   keeper.offer(straight, at(0), map, {2, 4});
   ASSERT_TRUE(keeper.check(at(0.1), map, {6, 4}).valid);
-  const std::vector<Disc> discs{{{4, 4}, 0.25}};
+  const std::vector<common::Disc> discs{{{4, 4}, 0.25}};
   map.update(grid.snapshot(), {}, {discs, nullptr});
   EXPECT_TRUE(keeper.check(at(0.2), map, {6, 4.05}).valid);
   EXPECT_NEAR(keeper.remaining().front().x(), 6.0, 1e-9);
@@ -113,13 +113,13 @@ TEST_F(Keeping, APlanOutOfTheInflatedZoneIsValid) {
 }
 
 TEST_F(Keeping, TwoEqualWaysDoNotSwing) {
-  // A box in the middle, ways of equal length on both sides, a map that flickers: one way is kept.
+  // A box in the middle, paths of equal length on both sides, a map that flickers: one path is kept.
   test::fill(grid, {{110, 60}, {130, 100}}, test::kWallCell);
   DStarLite planner;
   Point position{2, 4};
   int taken = 0;
   for (int i = 0; i < 140; ++i) {
-    // Noise beside either way in turn makes the other cheaper by a little.
+    // Noise beside the two paths in turn makes the other one slightly cheaper.
     test::fill(grid, {{118, i % 2 ? 14 : 144}, {122, i % 2 ? 16 : 146}}, test::kWallCell);
     test::fill(grid, {{118, i % 2 ? 144 : 14}, {122, i % 2 ? 146 : 16}}, test::kFreeCell);
     map.update(grid.snapshot(), {});

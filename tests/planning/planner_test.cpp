@@ -1,4 +1,4 @@
-// Both planners against Dijkstra, after every random change; what they refuse and why; how their paths look.
+// Both planners against Dijkstra, after every random change; what they refuse and why; the shape of their paths.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -54,7 +54,7 @@ std::string firstDifference(std::uint64_t seed, bool plant_bug) {
   std::optional<CellIndex> start, goal;
   for (int step = 0; step < 20; ++step) {
     test::clutter(grid, {{0, 0}, {110, 80}}, 1 + static_cast<int>(random.uniform() * 4), random);
-    std::vector<Disc> discs;
+    std::vector<common::Disc> discs;
     if (random.chance(0.5))
       discs.push_back({{random.uniform(0, 5.5), random.uniform(0, 4)}, random.uniform(0.05, 0.4)});
     CostLayers layers{discs, with_levels ? &levels : nullptr};
@@ -66,14 +66,14 @@ std::string firstDifference(std::uint64_t seed, bool plant_bug) {
     const std::int64_t truth = test::dijkstra(map, map.indexOf(*start))[static_cast<std::size_t>(map.indexOf(*goal))];
     CostMap seen = map;
     if (plant_bug) {
-      // The planner is not told of the discs: a plan that was not repaired.
+      // The planner does not get the discs, so its plan is not repaired.
       seen.update(grid.snapshot(), kSmall, {{}, layers.levels});
     }
     const auto a = dstar.plan(seen, map.centerOf(*start), map.centerOf(*goal));
     const auto b = wavefront.plan(seen, map.centerOf(*start), map.centerOf(*goal));
     const std::string where = fmt::format("seed {} step {}: ", seed, step);
-    if (a.has_value() != (truth != test::kNever)) return where + "D* Lite disagrees on whether there is a way";
-    if (b.has_value() != (truth != test::kNever)) return where + "wavefront disagrees on whether there is a way";
+    if (a.has_value() != (truth != test::kNever)) return where + "D* Lite disagrees on whether there is a path";
+    if (b.has_value() != (truth != test::kNever)) return where + "wavefront disagrees on whether there is a path";
     if (!a) continue;
     if (dstar.searchCost() != truth) return where + fmt::format("D* Lite {} != {}", dstar.searchCost(), truth);
     if (wavefront.searchCost() != truth)

@@ -1,5 +1,5 @@
-// Where to go from who comes, flown as a point mass that answers late: never into what stands, and no faster than need
-// be.
+// The course away from a person, flown as a point mass with latency: never into an obstacle, and no faster than
+// necessary.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr double kTick_s = 0.025;
 
 Threat person(const Point& center_m, const Point& velocity_m_s) { return {center_m, 0.25, velocity_m_s, true, ""}; }
 
-/// A vehicle that flies what it is told, a tenth of a second late. The level frame keeps the map's heading.
+/// A vehicle that flies its commands a tenth of a second late. The level frame keeps the map's heading.
 struct Flyer {
   void tick() {
     std::vector<Point> seen;
@@ -95,7 +95,8 @@ TEST(Retreat, GoesNoFasterThanNeedBe) {
 }
 
 TEST(Retreat, AtSpeedItReckonsWithTheWayItTakesToTurn) {
-  // The touch this was made for: to one side of a wall, flying along it, and somebody comes from the other side.
+  // The collision that led to this rule: the vehicle flies along a wall beside it, and a person comes from the other
+  // side.
   Flyer flyer;
   flyer.addWall({-6.0, -0.5}, {6.0, -0.5});
   flyer.velocity_m_s = {0.7, -0.1};
@@ -122,7 +123,7 @@ TEST(Retreat, NeverFliesIntoWhatStands) {
                                      -random.uniform(0.2, 1.2) * Point(std::cos(towards_rad), std::sin(towards_rad))));
     }
     stopper.walls_m = flyer.walls_m;
-    stopper.fly(2.0);  // Nobody comes: it stops.
+    stopper.fly(2.0);  // No person comes: it stops.
     flyer.fly(3.0);
     const double allowed_m = std::min(stopper.least_wall_m, kHull_m + flyer.config.retreat_margin_m);
     EXPECT_GT(flyer.least_wall_m, allowed_m - 0.03) << seed;

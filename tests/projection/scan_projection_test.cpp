@@ -104,7 +104,7 @@ TEST(ScanProjection, LeavesOutWhatItSeesOfTheFloorAndTheCeiling) {
   EXPECT_GT(projected.counts.ceiling_hits, 100);
   for (std::size_t i = 0; i < projected.points_level_m.size(); ++i)
     EXPECT_LT(world.distanceToWall(projected.points_level_m[i].cast<double>()), 1e-3);
-  // What they crossed near the height of the body is still free.
+  // The cells that they crossed near the height of the body are still free.
   EXPECT_EQ(projected.misses_level_m.size(),
             static_cast<std::size_t>(projected.counts.floor_hits + projected.counts.ceiling_hits));
   for (const Eigen::Vector3f& end : projected.misses_level_m) {

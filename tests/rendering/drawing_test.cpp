@@ -1,4 +1,4 @@
-// The rasterizer, the grid layer and scaling against the slow obvious way.
+// The rasterizer, the grid layer and scaling against slow and simple computations.
 #include <cmath>
 #include <limits>
 
@@ -175,7 +175,7 @@ struct BlankMap {
     view.height_px = 120;
     view.viewport = Viewport{{0.0, 0.0}, 10.0, 160, 120};
   }
-  /// Whether the pixels around the point are other than in the blank map.
+  /// Whether the pixels around the point differ from those of the blank map.
   /// Whether a pixel at most `margin_px` beside the place is drawn on.
   bool isInkedAt(double x_m, double y_m, int margin_px = 1) const {
     MapPicture blank;

@@ -1,5 +1,5 @@
-// A made-up flight through a made-up flat, for looking at pictures and pages and for tests of them: the grid grows as
-// the vehicle goes round, with trail, plan, levels, frontiers of every reason and a mission tree.
+// An artificial flight through an artificial flat, to look at pictures and pages and to test them: the grid grows as
+// the vehicle moves, with trail, plan, levels, frontiers of every reason and a mission tree.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ class ExampleFlight {
 
   /// Flies on for `seconds` and returns the world then.
   std::shared_ptr<const common::World> advance(double seconds);
-  /// What the next world has; what the flight itself changes is made anew when it flies on.
+  /// Values of the next world; those that the flight itself changes are replaced when it flies on.
   test::Layers& layers() { return layers_; }
 
   /// A camera picture that changes with time.

@@ -1,4 +1,4 @@
-// What ends in files: PNG, JPEG, SVG.
+// The formats of files: PNG, JPEG, SVG.
 #include <cmath>
 #include <fstream>
 #include <limits>

@@ -1,4 +1,4 @@
-// What is left lying about, what a script says of itself, what the presets are called.
+// Unfinished work, machine paths, long files, names of tests, links, scripts and presets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

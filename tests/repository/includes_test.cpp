@@ -48,7 +48,7 @@ TEST(Includes, WhatOnlyNatureKnowsStaysWithTheSimulatorAndTheScorer) {
   }
 }
 
-// The checks above are worth what they catch.
+// Planted mistakes show that the checks above work.
 TEST(Includes, APlantedForbiddenArrowIsCaught) {
   const Arrows arrows = readArrows("| `common` | - |\n| `planning` | common |\n| `perception` | common |\n");
   const Files files = {{"common/time.hpp", "#pragma once\n"},
@@ -86,8 +86,8 @@ TEST(Includes, APlantedPairThatIncludesEachOtherIsCaught) {
   EXPECT_THAT(twoWayPairs(files), ElementsAre("a/part <-> a/whole"));
 }
 
-// With the headers that no source stands beside, which are compiled alone (CMakeLists.txt), this makes every header
-// compile by itself.
+// Headers without a source are compiled alone (CMakeLists.txt). Together with this test, every header compiles by
+// itself.
 TEST(Includes, ASourceIncludesItsOwnHeaderFirst) {
   for (const auto& [path, text] : trackedFiles()) {
     if (!path.ends_with(".cpp") || topFolderOf(path) == "tests") continue;

@@ -1,4 +1,4 @@
-// scripts/setup on machines it cannot see here: each is a folder of programs that answer as that machine would.
+// scripts/setup on other machines: each is a folder of programs that answer as on that machine.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -17,7 +17,7 @@ using testing::Not;
 
 const std::string kSummary = "\n100% tests passed, 0 tests failed out of 30\n\nTotal Test time (real) =  31.00 sec\n";
 
-/// What ctest says of `count` tests, of which each takes a second longer than the one before.
+/// The output of ctest for `count` tests, each a second longer than the one before.
 std::string ctestOutput(int count) {
   std::string text;
   for (int i = 1; i <= count; ++i) {

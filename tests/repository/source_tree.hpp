@@ -1,4 +1,4 @@
-// The repository's own files as the tests of its habits read them.
+// The repository's own files, for the tests in this folder.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@ namespace swiftlet::repository {
 /// Text of each file by its path from the root, sorted.
 using Files = std::map<std::string, std::string>;
 
-/// Every file that is tracked or would be (not ignored), without those that are not text.
+/// Every file that is tracked or would be (not ignored), except binary files.
 const Files& trackedFiles();
 
 /// What a program prints on both streams, and its exit code. `command` is read by the shell, in the root.
@@ -39,7 +39,8 @@ struct Include {
 };
 std::vector<Include> includesOf(const std::string& path, const std::string& text);
 
-/// Folder to the folders it may use. Read from the table of docs/architecture.md, so that the page cannot be wrong.
+/// Each folder with the folders it may use, read from the table of docs/architecture.md, so that the page cannot be
+/// wrong.
 using Arrows = std::map<std::string, std::set<std::string>>;
 Arrows readArrows(const std::string& page);
 

@@ -1,4 +1,4 @@
-// All matchers in the same scenes: how far off they are, and whether they say so when they fail or cannot see.
+// All matchers in the same scenes: their errors, and whether they report a failed match or an unobservable direction.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -25,12 +25,12 @@ using test::errorOf;
 using test::poseInFlat;
 using test::scanAt;
 
-/// The greatest errors that are let pass.
+/// The greatest errors that are accepted.
 struct Tolerance {
   double median_m = 0.002, most_m = 0.005;  ///< `most`: of 95 %.
   double median_deg = 0.05, most_deg = 0.15;
 };
-/// What averages poses of a grid of 1 cm and 0.1 degrees knows no better than half a cell; 95 % are within two.
+/// An average over poses of a grid of 1 cm and 0.1 degrees is exact to half a cell; 95 % are within two.
 constexpr Tolerance kOfTheGrid{0.005, 0.02, 0.05, 0.2};
 
 struct Kind {
@@ -72,12 +72,12 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AllMatchers,
                                          leastSquares<PointToLineMatcher, PointToLineMatcherConfig>("PointToLine")),
                          [](const auto& kind) { return kind.param.name; });
 
-/// Where the reference was seen from, and by how much at most the guess is off.
+/// The pose of the reference, and the greatest error of the guess.
 struct Scene {
   const char* name;
   test::PlanarWorld world;
   std::function<Pose2(common::RandomStream&)> somewhere;
-  Pose2 farthest;  ///< Of the truth from the reference; the guess is the reference.
+  Pose2 farthest;  ///< Greatest distance of the truth from the reference; the guess is the reference.
   bool hides_x = false;
 };
 
@@ -91,7 +91,7 @@ std::vector<Scene> scenes() {
           {"corridor, 8 cm, 0.9 deg", test::corridor(), poseInCorridor, {0.08, 0.08, 0.9 * kRadPerDeg}, true}};
 }
 
-/// The value that so large a share of them does not exceed.
+/// The value that this share of them does not exceed.
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
@@ -120,7 +120,7 @@ TEST_P(AllMatchers, AreAccurateInTheSameScenes) {
       if (!scene.hides_x || !match.unobservable_direction) continue;
       EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.98);
       EXPECT_GT(match.covariance(0, 0), 0.09);
-      EXPECT_NEAR(match.T_reference_body.x_m, reference.x_m, 0.01);  // The guess stands.
+      EXPECT_NEAR(match.T_reference_body.x_m, reference.x_m, 0.01);  // The guess is returned.
     }
     std::printf("  %-13s %-24s median %.2f mm %.3f deg, 95 %% %.2f mm %.3f deg, failed %d, hidden %d of %d\n",
                 GetParam().name.c_str(), scene.name, 1e3 * quantile(off_m, 0.5), quantile(off_deg, 0.5),
@@ -146,7 +146,7 @@ TEST_P(AllMatchers, RefuseWhatTheyCannotMatch) {
   const SearchWindow window{0.1, 0.03};
   const auto empty = GetParam().make();
   expectRefused(empty->match(scan, {}, window));
-  empty->addReference({}, {});  // A scan that saw nothing is no reference.
+  empty->addReference({}, {});  // A scan without returns is not a reference.
   expectRefused(empty->match(scan, {}, window));
 
   const auto matcher = matcherAt(scan, {});
@@ -158,7 +158,7 @@ TEST_P(AllMatchers, RefuseWhatTheyCannotMatch) {
     expectRefused(matcher->match(scan, {0.0, 0.0, no_number}, window));
   }
   for (const double far_m : {-40.0, 40.0, 1e6}) expectRefused(matcher->match(scan, {far_m, 0.0, 0.0}, window));
-  // With a window that is none they may match or not; what they say is finite.
+  // With an empty window they may match or not; their results are finite.
   for (const double no_width : {nan, -1.0}) {
     const MatchResult match = matcher->match(scan, {}, {no_width, no_width});
     EXPECT_TRUE(isFinite(match.T_reference_body));
@@ -175,13 +175,13 @@ TEST_P(AllMatchers, AWrongGuessIsRarelyBelieved) {
   for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
     const Pose2 reference = poseInFlat(random);
     const auto matcher = matcherAt(scanAt(world, reference, 2 * trial), reference);
-    // Farther off than the window is wide, to any side, and turned.
+    // Farther off than the window is wide, in all directions, and turned.
     const double distance_m = random.uniform(0.4, 1.5), bearing_rad = random.uniform(-3.1, 3.1);
     const double turn_rad = std::copysign(random.uniform(0.2, 0.6), random.uniform(-1.0, 1.0));
     const Pose2 guess =
         reference * Pose2{distance_m * std::cos(bearing_rad), distance_m * std::sin(bearing_rad), turn_rad};
     const MatchResult match = matcher->match(scanAt(world, reference, 2 * trial + 1), guess, {0.1, 0.05});
-    // A pose at the edge is not believed either: it asks for a wider window.
+    // A pose at the edge is not accepted either: it asks for a wider window.
     if (!match.failed && !match.at_window_edge) ++believed;
   }
   std::printf("  %-13s believed %d of %d wrong guesses\n", GetParam().name.c_str(), believed, kTrials);

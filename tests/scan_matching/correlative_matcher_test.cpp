@@ -17,7 +17,7 @@ using test::scanAt;
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 
-/// A small step and a guess that does not know it.
+/// A small step and a guess that does not include it.
 Pose2 randomStep(common::RandomStream& random) {
   return {random.uniform(-0.08, 0.08), random.uniform(-0.08, 0.08), random.uniform(-0.015, 0.015)};
 }
@@ -175,7 +175,7 @@ TEST(CorrelativeMatcher, SaysWhichWayACorridorHides) {
     ASSERT_FALSE(match.failed);
     ASSERT_TRUE(match.unobservable_direction);
     EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
-    EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess stands.
+    EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess is returned.
     EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
     EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * kDeg);
     EXPECT_GT(match.covariance(0, 0), 0.09);
@@ -183,7 +183,7 @@ TEST(CorrelativeMatcher, SaysWhichWayACorridorHides) {
   }
 }
 
-/// A cupboard that the reference never showed faces the vehicle, and holds nothing.
+/// A cupboard that the reference never showed faces the vehicle; it has no effect.
 TEST(CorrelativeMatcher, WhatOnlyNowComesIntoViewHoldsNothing) {
   test::PlanarWorld furnished = test::corridor();
   furnished.addPolyline({{4.0, 1.0}, {4.0, 0.5}, {5.0, 0.5}, {5.0, 1.0}}, false);
@@ -197,7 +197,7 @@ TEST(CorrelativeMatcher, WhatOnlyNowComesIntoViewHoldsNothing) {
   EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);
 }
 
-/// The reference looked at a third of what is seen now: the rest does not speak against the pose.
+/// The reference covers a third of the present view: the rest does not count against the pose.
 TEST(CorrelativeMatcher, AThirdInViewIsEnough) {
   const test::PlanarWorld world = test::flat();
   ProjectedScan narrow = scanAt(world, {}, 0);

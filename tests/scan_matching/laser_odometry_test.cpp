@@ -128,7 +128,7 @@ TEST(LaserOdometry, ACorrectedEstimateIsNotCountedTwice) {
   EXPECT_EQ(odometry.counts().failures, 0U);
 }
 
-/// A covered laser is no new beginning, and one that was sure of its guess still widens its search.
+/// A covered laser does not restart the odometry, and an odometry with a certain guess still widens its search.
 TEST(LaserOdometry, ScansWithoutPointsAreNoRestarts) {
   const test::PlanarWorld world = test::flat();
   LaserOdometry odometry{{}};
@@ -152,8 +152,7 @@ TEST(LaserOdometry, AWindowOfNothingIsWidened) {
   EXPECT_LT(errorOf(relative->T_from_to, truth).head<2>().norm(), 0.01);
 }
 
-/// Whether a scan is found that was taken `offset_m` from where it was expected, with people before a third of the
-/// beams.
+/// Whether a scan taken `offset_m` from its expected place is matched, with people in front of a third of the beams.
 bool findsAmongPeople(double offset_m, const LaserOdometryConfig& config) {
   const test::PlanarWorld world = test::flat();
   LaserOdometry odometry(config);
@@ -193,13 +192,13 @@ TEST(LaserOdometry, TheOtherGuessIsTakenWhereItFitsBetter) {
   ASSERT_TRUE(relative);
   EXPECT_TRUE(relative->otherwise);
   EXPECT_LT(errorOf(relative->T_from_to, truth).head<2>().norm(), 0.01);
-  // The guess moves on from where the scan was found, by what the prediction says from there.
+  // The guess continues from the place of the match, by the prediction's motion.
   const auto next = odometry.add(scanWith(world, truth, other.T_odom_body, 3));
   ASSERT_TRUE(next);
   EXPECT_FALSE(next->otherwise);
 }
 
-/// Some more of the scan was taken there, but it lies six windows off.
+/// Slightly more of the scan fits there, but that place is six windows away.
 TEST(LaserOdometry, TheOtherGuessMustFitFarBetterFarOff) {
   const test::PlanarWorld world = test::flat();
   const Pose2 here{0.01, 0.0, 0.0}, there{0.4, 0.1, 0.1};
@@ -227,7 +226,7 @@ TEST(LaserOdometry, LosesItsWayAndStartsAnew) {
   config.max_failures = 5;
   LaserOdometry odometry(config);
   static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
-  // Carried to the other room and turned, with its eyes closed.
+  // Carried to the other room and turned, without scans.
   const Pose2 elsewhere{6.5, 2.0, 0.8};
   for (std::uint64_t frame = 1; frame <= 4; ++frame) EXPECT_FALSE(odometry.add(scanWith(world, elsewhere, {}, frame)));
   const auto anew = odometry.add(scanWith(world, elsewhere, {}, 5));

@@ -1,4 +1,4 @@
-// The matchers that follow the slope, held to the same laws as the one that looks everywhere.
+// The matchers by least squares, held to the same laws as the exhaustive one.
 #include <cmath>
 #include <limits>
 
@@ -44,7 +44,7 @@ struct Accuracy {
   int failed = 0;
 };
 
-/// Each trial is a room seen from somewhere, then from a step away; the guess does not know the step.
+/// Each trial is a room seen from one place, then from a step away; the guess does not include the step.
 template <typename Kind>
 Accuracy measureAccuracy(int trials, double distance_m, double turn_rad) {
   const test::PlanarWorld world = test::flat();
@@ -126,7 +126,7 @@ TYPED_TEST(LeastSquaresMatchers, SayWhichWayACorridorHides) {
     ASSERT_FALSE(match.failed);
     ASSERT_TRUE(match.unobservable_direction);
     EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
-    EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess stands.
+    EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess is returned.
     EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
     EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * kDeg);
     EXPECT_GT(match.covariance(0, 0), 0.09);
@@ -213,7 +213,7 @@ TYPED_TEST(LeastSquaresMatchers, AReferenceCanBeForgotten) {
 
 TYPED_TEST(LeastSquaresMatchers, SeveralScansAreOneReference) {
   const test::PlanarWorld world = test::flat();
-  // Neither scan sees all that the one between them sees.
+  // Neither scan sees everything that the one between them sees.
   const Pose2 west{0.5, 0.9, 3.1}, east{6.0, 0.9, 0.0}, truth{3.4, 0.95, 0.02};
   typename TypeParam::Matcher matcher{{}};
   matcher.addReference(scanAt(world, west, 0), west);

@@ -1,4 +1,4 @@
-// The parts below the matchers that solve least squares, each against the slow obvious way.
+// The parts of the least-squares matchers, each against a slow and simple computation.
 #include <cmath>
 #include <limits>
 
@@ -105,7 +105,7 @@ TEST(OrientedPoints, TheNearestIsTheNearest) {
   std::vector<OrientedPoint> all;
   for (int i = 0; i < 600; ++i) {
     const double angle = random.uniform(-3.0, 3.0);
-    // Farther apart than the spacing and of no one surface, so that none is left out and none added.
+    // Farther apart than the spacing and not on one surface, so that no point is removed or added.
     const Eigen::Vector2f at(static_cast<float>(random.uniform(-4.0, 4.0)),
                              static_cast<float>(random.uniform(-2.0, 2.0)));
     if (!all.empty() && (at - all.back().foot_m).norm() < 0.5F) continue;

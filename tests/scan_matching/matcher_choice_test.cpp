@@ -1,4 +1,4 @@
-// The laser odometry with each matcher that a profile may choose: who did the work, and how far off it is.
+// The laser odometry with each matcher that a profile may choose: which one did the work, and its error.
 #include "perception/scan_matching/matcher_choice.hpp"
 
 #include <algorithm>

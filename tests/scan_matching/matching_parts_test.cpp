@@ -1,4 +1,4 @@
-// The parts below the matcher, each against the slow obvious way.
+// The parts of the matcher, each against a slow and simple computation.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -141,13 +141,14 @@ TEST(LikelihoodField, GrowsWithoutLosingAnythingAndForgetsEverything) {
 
 TEST(ScanContour, JoinsSurfacesAndNotLeaps) {
   std::vector<Eigen::Vector2f> points;
-  for (int i = 0; i < 20; ++i) points.emplace_back(2.0F, -1.0F + 0.05F * static_cast<float>(i));  // A wall,
-  for (int i = 0; i < 20; ++i) points.emplace_back(2.25F, 0.0F + 0.05F * static_cast<float>(i));  // and one behind it.
+  for (int i = 0; i < 20; ++i) points.emplace_back(2.0F, -1.0F + 0.05F * static_cast<float>(i));  // A wall.
+  for (int i = 0; i < 20; ++i)
+    points.emplace_back(2.25F, 0.0F + 0.05F * static_cast<float>(i));  // A second wall behind the first.
   int leaps = 0;
   for (const ContourSegment& s : contourOf(points, 0.3, 20.0)) leaps += s.begin_m.x() != s.end_m.x() ? 1 : 0;
   EXPECT_EQ(leaps, 0);
   EXPECT_EQ(contourOf(points, 0.3, 20.0).size(), 38U);
-  // A grazing wall stretches step by step and stays one.
+  // A grazing wall stretches step by step and stays one contour.
   points.clear();
   for (float x = 1.0F, gap = 0.05F; x < 3.0F; x += gap, gap *= 1.15F) points.emplace_back(x, 1.0F);
   EXPECT_EQ(contourOf(points, 0.5, 20.0).size(), points.size() - 1);
@@ -156,8 +157,8 @@ TEST(ScanContour, JoinsSurfacesAndNotLeaps) {
 
 TEST(ScanContour, SpreadsPointsEvenly) {
   std::vector<Eigen::Vector2f> points;
-  for (int i = 0; i < 1000; ++i) points.emplace_back(0.001F * static_cast<float>(i), 1.0F);      // Dense,
-  for (int i = 1; i < 50; ++i) points.emplace_back(1.0F + 0.02F * static_cast<float>(i), 1.0F);  // sparse.
+  for (int i = 0; i < 1000; ++i) points.emplace_back(0.001F * static_cast<float>(i), 1.0F);      // Dense points.
+  for (int i = 1; i < 50; ++i) points.emplace_back(1.0F + 0.02F * static_cast<float>(i), 1.0F);  // Sparse points.
   const auto chosen = spreadPoints(points, 40, 20.0);
   EXPECT_LE(chosen.size(), 40U);
   EXPECT_GE(chosen.size(), 38U);
@@ -245,7 +246,8 @@ TEST(QuadraticPeak, WhereNothingIsSeenTheBetterKnownPartOfWhatWasExpectedStays) 
   EXPECT_NEAR(turned.offset.y(), -1.5, 0.05);
 }
 
-/// The best pose that is not beside the best: as if all were tried, and half a turn to the left is one to the right.
+/// The best pose that is not adjacent to the best: from a full search, with half a turn to the left equal to one to the
+/// right.
 TEST(BranchAndBound, SearchingElsewhereIsExhaustive) {
   const ProjectedScan scan = test::scanAt(test::flat(), {0.5, 0.3, 0.4}, 1);
   LikelihoodField field(0.05, 0.1);
@@ -254,7 +256,7 @@ TEST(BranchAndBound, SearchingElsewhereIsExhaustive) {
   const double step_rad = 4.0 * common::kRadPerDeg;
   BranchAndBound search(bestInstructions());
   for (const double turned_rad : {0.0, 1.0, std::numbers::pi}) {
-    // The best lies in the middle of the window, between, and at both of its ends.
+    // The best pose is in the middle of the window, between, and at both of its ends.
     const PoseGrid grid{-0.3, -0.3, turned_rad - 45 * step_rad, step_rad, 91, 13};
     const BestPose best = search.search(field, points, grid, {}, 0);
     const ExcludedPoses here{best, 3, 4};

@@ -20,7 +20,7 @@ namespace {
 
 using common::Pose2;
 
-/// How often a matcher answers, and how far from the one that looks everywhere when both answer.
+/// How often a matcher answers, and its distance from the exhaustive one if both answer.
 struct Agreement {
   int answered = 0, compared = 0, seen_whole = 0;
   double off2_m2 = 0.0;

@@ -28,7 +28,7 @@ inline PlanarWorld corridor() {
   return world;
 }
 
-/// A corridor with doors set back in their frames; out of the shadow of each comes what the reference has not seen.
+/// A corridor with doors set back in their frames; behind each frame is a surface that the reference has not seen.
 inline PlanarWorld corridorWithDoors() {
   PlanarWorld world;
   world.addPolyline({{-3.0, -1.0}, {-3.0, 1.0}}, false);

@@ -1,4 +1,5 @@
-// Every pose of a window scored at once, against looking up each point at each pose; and the matcher that uses it.
+// All poses of a window scored at once, against single lookups of each point at each pose; and the matcher that uses
+// it.
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Two vehicles with an autonomy each fly side by side in one small world: past each other and home again.
+// Two vehicles with an autonomy each fly at the same time in one small world: past each other and home again.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -54,7 +54,7 @@ class Flyer : private autonomy::FlightSink {
     const common::Pose3 T_map_body = vehicle_.T_world_map().inverse() * vehicle_.truth().T_world_body;
     farthest_m_ = std::max(farthest_m_, T_map_body.position_m.x());
   }
-  /// It is still advanced after its mission, or the other could not fly on.
+  /// It is still advanced after its mission, because the other could not fly on otherwise.
   bool over() const { return vehicle_.truth().crashed || autonomy_.finished(); }
 
   const simulation::SimulatedVehicle& vehicle() const { return vehicle_; }

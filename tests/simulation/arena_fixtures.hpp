@@ -31,7 +31,7 @@ struct Pair {
   explicit Pair(const Scenario& scenario, const WorldModel& world = boxRoom())
       : arena(std::make_shared<Arena>(world, scenario)), a(arena, 0), b(arena, 1), pilot_a(a), pilot_b(b) {}
 
-  /// Tick by tick, `a` before `b` or the other one first; one that has crashed is left out.
+  /// Tick by tick, `a` before `b` or in the other order; one that has crashed is left out.
   void fly(double seconds, bool a_first = true) {
     TruthPilot& first = a_first ? pilot_a : pilot_b;
     TruthPilot& second = a_first ? pilot_b : pilot_a;

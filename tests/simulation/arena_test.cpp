@@ -1,4 +1,4 @@
-// Two vehicles in one arena: what they share, what each has of its own, and how time passes for both.
+// Two vehicles in one arena: what they share, what each has alone, and how time passes for both.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

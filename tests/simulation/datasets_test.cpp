@@ -1,4 +1,4 @@
-// Worlds made by others, from the data sets: they load, and one can fly in them.
+// Worlds from the data sets: they load, and the vehicle can fly in them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

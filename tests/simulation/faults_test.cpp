@@ -1,4 +1,4 @@
-// Sensors that break.
+// Failing sensors.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -36,7 +36,7 @@ inline WorldModel boxRoom() {
   return world;
 }
 
-/// A folder that is gone after the test.
+/// A folder that is removed after the test.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& name)
@@ -83,7 +83,7 @@ class TruthPilot {
     }
     return true;
   }
-  /// The two halves of a control period, for who flies several vehicles.
+  /// The two halves of a control period, for tests with several vehicles.
   void steer() { vehicle_.apply(setpoint()); }
   bool advance() { return vehicle_.advanceTo(vehicle_.now() + common::kControlPeriod, events); }
 
@@ -97,7 +97,7 @@ class TruthPilot {
     Eigen::Vector3d velocity = 1.2 * error;
     if (velocity.norm() > max_speed_m_s) velocity *= max_speed_m_s / velocity.norm();
     Eigen::Vector3d acceleration = 2.0 * (velocity - truth.velocity_world_m_s);
-    if (truth.airborne) lift_m_s2_ += 0.01 * acceleration.z();  // What the sagging battery takes away.
+    if (truth.airborne) lift_m_s2_ += 0.01 * acceleration.z();  // The acceleration lost to the sagging battery.
     acceleration.z() += lift_m_s2_;
     const Eigen::Vector2d level =
         Eigen::Rotation2Dd(-common::yawOf(truth.T_world_body.rotation)) * acceleration.head<2>();

@@ -110,7 +110,7 @@ TEST(Quadrotor, MotorsFollowWithTheirLag) {
 TEST(Quadrotor, SpinsWithoutGainingMomentumInTheAir) {
   common::Pose3 pose = inTheAir();
   Quadrotor quadrotor(kVehicle, withoutDrag(), pose, 1.0);
-  // Spin it up unevenly, then let it tumble: the angular momentum in the world stays.
+  // Spun up unevenly, then left to tumble: the angular momentum in the world is constant.
   for (int i = 0; i < 100; ++i) quadrotor.step({0.6, 0.3, 0.2, 0.4}, Vector3d::Zero(), kNoFloor, kStep_s);
   const Vector3d inertia(kAirframe.inertia_xx_kg_m2, kAirframe.inertia_yy_kg_m2, kAirframe.inertia_zz_kg_m2);
   const auto momentum = [&]() -> Vector3d {

@@ -1,4 +1,4 @@
-// A robot on wheels that drives a way and looks around from a fixed height.
+// A robot on wheels that drives along a path and scans at a fixed height.
 #include "simulation/survey.hpp"
 #include "common/config.hpp"
 #include "common/config_check.hpp"

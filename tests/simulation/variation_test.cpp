@@ -1,4 +1,4 @@
-// What a seed varies.
+// The variation by a seed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ TEST(Variation, AStartAnywhereIsOnTheFloorWithRoomAboveAndAWayToTheNominalOne) {
   WorldModel world = boxRoom();
   world.shapes.push_back(boxShape("stage", {-5.0, -4.0, 0.0}, {-3.0, 4.0, 0.3}));
   world.shapes.push_back(boxShape("awning", {3.0, -4.0, 0.45}, {5.0, 4.0, 0.5}));
-  // A closet that nothing leads into.
+  // A closed room without a door.
   world.shapes.push_back(boxShape("closet_south", {-1.0, 2.0, 0.0}, {1.5, 2.1, 3.0}));
   world.shapes.push_back(boxShape("closet_west", {-1.1, 2.0, 0.0}, {-1.0, 4.0, 3.0}));
   world.shapes.push_back(boxShape("closet_east", {1.5, 2.0, 0.0}, {1.6, 4.0, 3.0}));

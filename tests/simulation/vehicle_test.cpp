@@ -1,4 +1,4 @@
-// One vehicle in a room: its time, its sensors, its flight and what ends it.
+// One vehicle in a room: its time, its sensors, its flight and the end of the flight.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -37,7 +37,7 @@ const std::string kBox = "<box><size>1 2 3</size></box>";
 class WorldFile : public ::testing::Test {
  protected:
   WorldModel load(const std::string& inside) { return loadWorld(folder_.write("w.sdf", world(inside))); }
-  /// What is said of a world that cannot be used; nothing goes to the terminal.
+  /// The message about a world that cannot be used; nothing goes to the terminal.
   std::string problem(const std::function<void()>& loading) {
     ::testing::internal::CaptureStderr();
     std::string text = "no error";
@@ -55,7 +55,7 @@ class WorldFile : public ::testing::Test {
   TemporaryFolder folder_{"swiftlet_world"};
 };
 
-double surfaceVolume(const Shape& shape) {  // Of a closed one, whatever the winding.
+double surfaceVolume(const Shape& shape) {  // For a closed shape, with either winding.
   const Eigen::Vector3f centre = shape.vertices_world_m[0];
   double volume = 0.0;
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();

@@ -1,6 +1,6 @@
-// A flight through a planar world, for tests: smooth motion along waypoints, tilt that goes with the acceleration, an
-// attitude that is wrong by about a degree, and a stand-in for the filter: the laser odometry bridged by a noisy
-// prediction between the scans. Nothing but the scoring sees the truth.
+// A flight through a planar world, for tests: smooth motion along waypoints, a tilt that follows the acceleration, an
+// attitude with an error of about a degree, and a substitute for the filter, which bridges the laser odometry by a
+// noisy prediction between the scans. Only the scoring sees the truth.
 #pragma once
 
 #include <algorithm>
@@ -66,7 +66,7 @@ class SmoothPath {
   double step_s_ = 0.02;
 };
 
-/// What the filter would say of a flight, scan by scan.
+/// The filter's outputs for a flight, scan by scan.
 class Flight {
  public:
   struct Step {

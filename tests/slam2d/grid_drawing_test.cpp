@@ -142,7 +142,7 @@ TEST(GridDrawing, LevelBeamsDoNotEraseWhatIsLower) {
   EXPECT_TRUE(common::occupancy::isFree(where()));
   map.draw(over(0.15, 1.0), {});  // A nod, one scan long.
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
-  // Long enough to be met again on the way there; a trace that never is goes in the end.
+  // Long enough to be met again on approach; a trace that is never met again fades.
   for (int i = 0; i < 50; ++i) map.draw(over(0.0, 1.0), {});
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
   for (int i = 0; i < 50; ++i) map.draw(over(0.0, 1.0), {});
@@ -207,7 +207,7 @@ TEST(GridDrawing, ThinsAndBoundsWhatItKeeps) {
   EXPECT_LT(drawn.hits_level_m.size(), 60U);
   ASSERT_EQ(drawn.free_level_m.size(), 3U);
   EXPECT_NEAR(drawn.free_level_m[0].norm(), config.max_hit_range_m, 1e-3);
-  EXPECT_NEAR(drawn.free_level_m[1].z(), config.max_height_above_m, 1e-6);  // Free as long as it was in the hull's way.
+  EXPECT_NEAR(drawn.free_level_m[1].z(), config.max_height_above_m, 1e-6);  // Free within the height of the hull.
   EXPECT_NEAR(drawn.free_level_m[1].x(), 3.0 * config.max_height_above_m / 1.5, 1e-6);
   EXPECT_NEAR(drawn.free_level_m[2].norm(), config.max_free_range_m, 1e-3);
   ASSERT_EQ(drawn.no_returns_level_m.size(), 1U);

@@ -14,7 +14,7 @@ using common::Duration;
 using common::Pose2;
 using common::Time;
 
-/// A robot in a flat, whose laser is seen through the front end.
+/// A robot in a flat; the front end reads its laser.
 class Robot {
  public:
   FollowedScan scanAt(const Pose2& truth, double at_s, Duration time_increment = {},

@@ -40,7 +40,7 @@ TEST(MotionPrediction, WithoutWheelsTheLastSpeedGoesOn) {
   EXPECT_LT(std::abs(error.yaw_rad), 0.001);
 }
 
-/// Wheels that lag by two scans foretell a winding way worse than its inertia does, and are not followed.
+/// Wheels that lag by two scans predict a winding path worse than constant velocity does, and are not followed.
 TEST(MotionPrediction, TheBetterSourceIsFollowed) {
   for (const int lag : {0, 2}) {
     MotionPrediction motion({});
@@ -84,7 +84,7 @@ TEST(MotionPrediction, TheOtherSourceTakesThePlaceOfThePrediction) {
   motion.takeAlternative();
   EXPECT_LT(std::abs(between(truth, motion.T_reference_robot()).yaw_rad), 0.02);
   EXPECT_LT(between(truth, motion.T_reference_robot()).position_m().norm(), 0.02);
-  // The step that was taken back is not in the uncertainty, nor in the speed.
+  // The rejected step is neither in the uncertainty nor in the speed.
   never_wrong.predict(std::nullopt, kDt_s);
   EXPECT_TRUE(motion.covariance().isApprox(never_wrong.covariance()));
 }

@@ -42,7 +42,7 @@ std::vector<KnownScan> scansOf(const fs::path& file, bool odometry) {
   return scans;
 }
 
-/// The way of the last `of_last` scans, by the map of all.
+/// The trajectory of the last `of_last` scans, from the map of all.
 common::Trajectory trackOf(LaserSlam& slam, const std::vector<KnownScan>& scans, std::size_t of_last) {
   test::TrackedPath way(slam);
   for (std::size_t i = 0; i < scans.size(); ++i) {
@@ -84,8 +84,8 @@ TEST(RecordedLog, IntelWithoutOdometry) { expectRelations("intel", false, 0.0229
 TEST(RecordedLog, Freiburg079WithOdometry) { expectRelations("fr079", true, 0.0353, 0.44); }
 TEST(RecordedLog, Freiburg079WithoutOdometry) { expectRelations("fr079", false, 0.0353, 0.44); }
 
-/// The log, and then the log from its end: the robot drives back as it came, backwards. It knows all it sees, and has
-/// never seen the walls that come up beside it.
+/// The log, and then the log from its end: the robot drives the same path back, backwards. It has seen the area before,
+/// but not the walls that appear at its side.
 TEST(RecordedLog, IntelThereAndBackwardsHome) {
   const auto log = test_support::dataSet("01-laser-slam/intel/intel.clf.bz2");
   const auto relations = test_support::dataSet("01-laser-slam/intel/intel.relations.gz");

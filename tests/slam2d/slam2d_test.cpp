@@ -17,7 +17,7 @@ using common::CellIndex;
 using common::Pose2;
 using common::Time;
 
-/// How a flight went, against the truth.
+/// The errors of a flight, against the truth.
 struct Score {
   double rms_m = 0.0, max_m = 0.0, end_m = 0.0;
   double odom_end_m = 0.0;

@@ -15,7 +15,7 @@ Eigen::Matrix3d covarianceOf(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
 }
 
-/// Key scans along a line, a metre apart, tied one to the next.
+/// Key scans along a line, a metre apart, connected in sequence.
 SlamGraph line(int keys) {
   SlamGraph graph;
   for (int i = 0; i < keys; ++i) graph.keys.push_back({nullptr, Pose2{1.0 * i, 0.0, 0.0}, {}, {}});
@@ -59,14 +59,14 @@ FoundLoop loopOf(int from, int to, const Pose2& T_from_to) {
   return loop;
 }
 
-/// There and back along a corridor, where the way back was closed a metre off. In truth the key scan i > 14 stands at
-/// 29 - i; it is believed to be at 30 - i.
+/// There and back along a corridor, where the return path was closed a metre off. In truth the key scan i > 14 is at 29
+/// - i; its estimate is 30 - i.
 SlamGraph closedAMetreOff() {
   SlamGraph graph = line(30);
   for (int i = 15; i < 30; ++i) graph.keys[static_cast<std::size_t>(i)].T_map_body.x_m = 30.0 - i;
   for (SlamEdge& edge : graph.edges)
     if (edge.from >= 15) edge.T_from_to.x_m = -1.0;
-  graph.edges[14].T_from_to.x_m = 0.5;  // From 14 to 15 nothing was to be seen along the corridor.
+  graph.edges[14].T_from_to.x_m = 0.5;  // Between 14 and 15 nothing was observable along the corridor.
   graph.edges[14].covariance = covarianceOf(1.0, 0.005);
   graph.add({6, 24, Pose2{0.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), true});
   graph.add({4, 26, Pose2{0.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), false});  // Matched there.

@@ -1,4 +1,4 @@
-// Which pieces of a track hold together, told scan by scan.
+// Which pieces of a track are connected, scan by scan.
 #include "perception/slam2d/track_pieces.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ class Track {
       ++keys_;
     }
   }
-  /// Four scans match nothing, the fourth begins anew.
+  /// Four scans match nothing; the odometry restarts at the fourth.
   void lose(double sigma_m = 1.0) {
     scans(3, Seen::kNothing, sigma_m);
     scans(1, Seen::kLostAndBegunAnew, sigma_m);

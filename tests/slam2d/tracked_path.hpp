@@ -8,8 +8,8 @@
 
 namespace swiftlet::test {
 
-/// Gives scans to a SLAM, and has the way by its map of all: the final pose of each scan that was matched, under the
-/// stamp it is known by.
+/// Gives scans to a SLAM, and returns the trajectory from its map of all: the final pose of each matched scan, with the
+/// stamp of the scan in the log.
 class TrackedPath {
  public:
   explicit TrackedPath(perception::LaserSlam& slam) : slam_(slam) {}
@@ -18,7 +18,7 @@ class TrackedPath {
     if (const auto scan = slam_.add(input)) track_.emplace_back(known_as, *scan);
   }
 
-  /// No more scans come.
+  /// Call it after the last scan.
   common::Trajectory finish() {
     slam_.finish();
     const std::vector<common::Pose2> keys = slam_.keyPoses();

@@ -1,4 +1,4 @@
-// Real data, where this machine has it.
+// Real data, if this machine has it.
 #pragma once
 
 #include <cstdlib>
@@ -10,15 +10,15 @@
 
 namespace swiftlet::test_support {
 
-/// Where the data sets are: SWIFTLET_DATASETS, or ../shared/datasets beside the source tree.
+/// The folder of the data sets: SWIFTLET_DATASETS, or ../shared/datasets beside the source tree.
 inline std::filesystem::path dataSetsFolder() {
   const char* told = std::getenv("SWIFTLET_DATASETS");
   if (told != nullptr && *told != '\0') return told;
   return std::filesystem::path(SWIFTLET_SOURCE_DIR) / "../shared/datasets";
 }
 
-/// A file or folder of the data sets. None where it is not on this machine: the test is then marked as skipped, with
-/// what it lacks, and has only to return.
+/// A file or folder of the data sets. If it is not on this machine, the result is none; the test is then marked as
+/// skipped with what it lacks, and only has to return.
 inline std::optional<std::filesystem::path> dataSet(const std::string& relative) {
   const std::filesystem::path path = dataSetsFolder() / relative;
   if (std::filesystem::exists(path)) return path;

@@ -1,4 +1,4 @@
-// How slow this build may be. Tests bound waiting in real time by it, never what they check.
+// How slow this build may be. It scales limits of real time in tests, never what they check.
 #pragma once
 
 #include <algorithm>

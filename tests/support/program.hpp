@@ -12,10 +12,10 @@
 namespace swiftlet::test_support {
 
 struct ProgramOptions {
-  std::chrono::seconds patience{240};              ///< In a release build; killed after it, which fails the test.
-  std::optional<std::size_t> largest_file_bytes;   ///< Writing beyond fails, as it would on a full disk.
-  std::optional<std::size_t> hang_up_after_bytes;  ///< Then nobody reads what it prints, as in `| head -1`.
-  std::string working_folder;                      ///< The source tree when empty.
+  std::chrono::seconds patience{240};  ///< Limit for a release build; then it is killed, which fails the test.
+  std::optional<std::size_t> largest_file_bytes;   ///< Writing beyond this size fails, as on a full disk.
+  std::optional<std::size_t> hang_up_after_bytes;  ///< Then its output is no longer read, as in `| head -1`.
+  std::string working_folder;                      ///< The source tree if empty.
   /// Called about every 20 ms while it runs, with its process and what it has printed.
   std::function<void(pid_t, const std::string& out)> while_running;
 };

@@ -1,4 +1,4 @@
-// Sequence, Fallback, their reactive kin and Parallel, tick by tick.
+// Sequence, Fallback, their reactive variants and Parallel, tick by tick.
 #include <gtest/gtest.h>
 
 #include "tests/tree/story.hpp"

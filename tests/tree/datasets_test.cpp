@@ -1,6 +1,5 @@
-// Trees that others wrote: BehaviorTree.CPP's examples and fuzzing corpus, Groot's, Nav2's, Aerostack2's. Those of
-// format 4 are read, with their node types registered as the problems name them; everything else is refused with a
-// place.
+// Trees of other projects: BehaviorTree.CPP's examples and fuzzing corpus, Groot's, Nav2's, Aerostack2's. Those of
+// format 4 are read, with their node types registered as the problems name them; all others are refused with a place.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -35,7 +34,7 @@ std::string textOf(const fs::path& path) {
   return text.str();
 }
 
-/// The text at a problem's place: what stands there must be what the problem is about.
+/// The text at a problem's place must be the subject of the problem.
 std::string lineAt(const Location& place) {
   std::ifstream file(place.file);
   std::string line;

@@ -1,5 +1,5 @@
-// A naive interpreter of trees: no node objects, only a map from the path of a node to the little it remembers. Letting
-// go takes no time here, and "would it be skipped?" is answered by trying it on a copy of the whole memory.
+// A naive interpreter of trees: no node objects, only a map from the path of a node to its state. Letting go takes no
+// time here, and "would it be skipped?" is answered by trying it on a copy of the whole state.
 #pragma once
 
 #include <map>
@@ -19,7 +19,8 @@ struct Shape {
   std::vector<Shape> children;
 };
 
-/// What every stand-in would say in one tick; kSkipped: it has nothing to do (if it is under way, it goes on running).
+/// The answer of every stand-in in one tick. kSkipped: it does not want the vehicle (if it is under way, it keeps
+/// running).
 using Answers = std::vector<Status>;
 
 /// Deliberately wrong variants, to see that the comparison notices.

@@ -47,7 +47,7 @@ void letSay(Story& story, const Answers& answers) {
   for (int i = 0; i < kLeaves; ++i) {
     const Status answer = answers[static_cast<std::size_t>(i)];
     const std::string actor(1, static_cast<char>('A' + i));
-    // A stand-in that is under way and has nothing to do goes on running, as the oracle's does.
+    // A running stand-in that is asked to skip keeps running, as in the oracle.
     story.says(actor, answer == Status::kSkipped ? "RUNNING, nothing" : toString(answer));
   }
 }

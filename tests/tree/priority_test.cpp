@@ -104,7 +104,7 @@ TEST(Priority, WhoAskedInVainDoesNotStartAndTheLowerGoesOn) {
   story.switches();
   EXPECT_EQ(story.says("A", "RUNNING").tick(), "RUNNING: B suspending");
   EXPECT_EQ(story.says("A", "nothing").tick(), "RUNNING: resume B");
-  EXPECT_THAT(story.switches(), ElementsAre("B lets go for A (A wants)", "B goes on (A asks no longer)"));
+  EXPECT_THAT(story.switches(), ElementsAre("B lets go for A (A wants)", "B goes on (A no longer asks)"));
   EXPECT_EQ(story.says("A", "RUNNING").tick(), "RUNNING: B suspending") << "it has to stop all over again";
 }
 

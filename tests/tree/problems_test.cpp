@@ -1,4 +1,4 @@
-// What is wrong in a file is said with line, column, the offending text and what was expected; all of it at once.
+// Errors in a file are reported with line, column, the offending text and what was expected; all of them at once.
 #include <chrono>
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// Trees told tick by tick. The leaves <A/> to <E/> are stand-ins that say what the test lets them say; each tick
-// returns the answer of the tree and what happened to the stand-ins in it, in order: "RUNNING: A, start B".
+// Stories of trees, tick by tick. The leaves <A/> to <E/> are stand-ins whose answers the test sets; each tick returns
+// the answer of the tree and what happened to the stand-ins in it, in order: "RUNNING: A, start B".
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace swiftlet::tree::testing {
 struct Actor {
   Status answer = Status::kRunning;
   bool wants = true;
-  int ticks_to_stop = 0;  ///< So often it answers "not yet" when asked to let go.
+  int ticks_to_stop = 0;  ///< How often it answers "not yet" when asked to let go.
 };
 
 struct Stage {

@@ -1,18 +1,22 @@
 #!/usr/bin/env bash
-# run_page.sh PAGE.md BUILD_DIR SCRATCH_DIR: does what a page of docs/tutorials tells its reader to do, in a scratch
-# folder that looks like the root of the source tree with the program in build/release, and compares what the page shows.
+# run_page.sh [--write] PAGE.md BUILD_DIR SCRATCH_DIR: does what a page of docs/tutorials tells its reader to do, in a
+# scratch folder that looks like the root of the source tree with the program in build/release, and compares what the page
+# shows with what was printed. With --write the page gets the figures that were printed; nobody types them.
 #
-# What a fenced block is, by the words behind its three back quotes:
-#   sh              commands. All blocks of a page run in one shell, in order; no command may fail,
-#   sh fails        but here one must.
-#   text            what the block of commands above it prints: every line, in order. `...` stands for any text, and alone
-#                   in a line for any lines. Other figures and other blanks will do, so that a page shows a real flight;
-#   text exact      here they will not.
-#   LANGUAGE FILE   a file the reader writes, as in "xml hop.xml".
-# Anything else fails, so that nothing on a page is left out. The page's port 8080 is a free one here.
+# The words after the three back quotes say what a fenced block is:
+#   sh               Commands. All blocks of a page run in one shell, in order. No command may fail.
+#   sh fails         Commands of which one must fail.
+#   text             What the block of commands above it prints, every line in order. `...` stands for any text, and alone
+#                    in a line for any lines. A figure may differ by a tenth (compare.awk has the details). What depends
+#                    on the machine, such as computing time, is shown as `...`.
+#   text within 50%  The same, with another tolerance.
+#   text exact       Every character counts.
+#   LANGUAGE FILE    A file that the reader writes, as in "xml hop.xml".
+# Any other block fails, so that nothing on a page is left out. The page's port 8080 is a free one here.
 set -euo pipefail
-shopt -s extglob
-page=$1 build=$2 scratch=$3
+write=0
+[ "$1" = --write ] && { write=1; shift; }
+page=$(realpath "$1") build=$(realpath "$2") scratch=$(realpath -m "$3")
 source_dir=$(cd "$(dirname "$0")/../.." && pwd)
 command -v curl >/dev/null || { echo 'curl is not installed'; exit 77; }
 export SWIFTLET_DATASETS=${SWIFTLET_DATASETS:-$source_dir/../shared/datasets}
@@ -40,26 +44,15 @@ sed "s/\b8080\b/$port/g" "$page" | awk -v blocks="$scratch.blocks" '
 
 fail() { echo "FAILED: $page:$((10#$line)): $*" >&2; exit 1; }
 
-comparable() {
-  if [ "$1" = 'text exact' ]; then cat; else sed -E 's/[0-9]+(\.[0-9]+)?/0/g; s/-{4,}/---/g; s/[[:blank:]]+/ /g'; fi |
-    sed -E 's/[[:space:]]+$//; s/^ //'
-}
-
-# compare WORDS EXPECTED PRINTED
+# compare WORDS SHOWN PRINTED: prints SHOWN with the figures of PRINTED.
 compare() {
-  local pattern='' want newline=$'\n'
-  while IFS= read -r want; do
-    if [ "$want" = '...' ]; then
-      pattern+='*'
-    else
-      want=$(printf '%s' "$want" | sed 's/[][\\*?()|!@+]/\\&/g')
-      pattern+=$newline${want//.../*([!$newline])}
-    fi
-  done < <(comparable "$1" <"$2")
-  # shellcheck disable=SC2053 -- it is a pattern
-  [[ $newline$(comparable "$1" <"$3") == $pattern ]] && return
-  diff <(comparable "$1" <"$2") <(comparable "$1" <"$3") || true
-  return 1
+  local within=0.1 exact=0
+  case $1 in
+    'text exact') exact=1 ;;
+    'text within '*%) within=$(awk -v share="${1#text within }" 'BEGIN { print share / 100 }') ;;
+  esac
+  [ $write = 1 ] && within=1e9
+  awk -v within="$within" -v exact="$exact" -f "$source_dir/tests/tutorials/compare.awk" "$2" "$3"
 }
 
 trap 'jobs -p | xargs -r kill 2>/dev/null || true' EXIT
@@ -82,8 +75,9 @@ for block in "$scratch.blocks"/[0-9]*; do
       [ "$words" = sh ] && [ $failed = 1 ] && { cat "$shown"; fail 'a command failed'; }
       [ "$words" = 'sh fails' ] && [ $failed = 0 ] && { cat "$shown"; fail 'no command failed'; }
       commands=$((commands + 1)) ;;
-    text | 'text exact')
-      compare "$words" "$block.body" "$shown" || { echo '--- printed'; cat "$shown"; fail 'prints something else'; } ;;
+    text | 'text exact' | 'text within '*%)
+      compare "$words" "$block.body" "$shown" >"$block.now" ||
+        { echo '--- printed'; cat "$shown"; fail 'prints something else'; } ;;
     *' '*)
       mkdir -p "$(dirname "${words#* }")"
       cp "$block.body" "${words#* }" ;;
@@ -92,5 +86,16 @@ for block in "$scratch.blocks"/[0-9]*; do
 done
 [ $commands -gt 0 ] || fail 'nothing was run'
 cd /
+if [ $write = 1 ]; then
+  awk -v blocks="$scratch.blocks" -v port="$port" '
+    /^```/ && shows { shows = 0 }
+    shows { next }
+    { print }
+    /^```text/ { shows = 1; file = sprintf("%s/%04d.now", blocks, NR)
+                 while ((getline line < file) > 0) { gsub(port, "8080", line); print line } }
+    ' "$page" >"$page.now"
+  cat "$page.now" >"$page"
+  rm "$page.now"
+fi
 rm -rf "$scratch" "$scratch.blocks"
 echo "$commands blocks of commands did what $(basename "$page") says."

@@ -52,7 +52,7 @@ TEST(TileCodecTest, RefusesMalformedBytes) {
   EXPECT_TRUE(decodeTile(std::string("\x0f\xff\xff", 3)).empty());
 }
 
-/// What a page makes of the messages.
+/// The state of a page after the messages.
 struct Page {
   std::map<std::pair<int, int>, std::vector<int>> tiles;
 

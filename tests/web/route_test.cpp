@@ -1,4 +1,4 @@
-// Every way a request can be refused, without a socket.
+// Every reason to refuse a request, without a socket.
 #include "web/server/route.hpp"
 
 #include <gmock/gmock.h>
@@ -105,7 +105,7 @@ TEST(RouteTest, CommandsNeedTheToken) {
   request = post("/api/hold?token=secret-token");
   request.authorization.clear();
   EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(request, kPolicy)));
-  // A server without a token obeys nobody.
+  // A server without a token accepts no commands.
   Policy open = kPolicy;
   open.token.clear();
   EXPECT_EQ(statusOf(route(post("/api/hold?token="), open)), 401);

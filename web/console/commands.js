@@ -1,4 +1,4 @@
-// What the operator asks for, with the token of the link that was printed at start.
+// Sends the operator's commands, with the token of the link that was printed at start.
 
 import { forVehicle } from './vehicle.js';
 

@@ -67,14 +67,14 @@ export class Link {
       setTimeout(() => this.connect(), this.delay_ms);
       this.delay_ms = Math.min(4000, this.delay_ms * 2);
     };
-    // A connection that died without a word (a tablet that left the network) would otherwise stay for minutes.
+    // A connection that died silently (a tablet that left the network) would otherwise stay for minutes.
     const opened_ms = performance.now();
     const watch = setInterval(() => {
       if (performance.now() - Math.max(opened_ms, this.lastMessage_ms ?? 0) > 6000) socket.close();
     }, 1000);
   }
 
-  /** Seconds since the server said something; null before the first time. */
+  /** Seconds since the last message of the server; null before the first. */
   silence_s() {
     return this.lastMessage_ms === null ? null : (performance.now() - this.lastMessage_ms) / 1000;
   }

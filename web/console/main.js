@@ -113,8 +113,8 @@ element('camera-toggle').addEventListener('click', ({ currentTarget: button }) =
   button.textContent = shown ? 'Show' : 'Hide';
   const camera = element('camera');
   camera.hidden = shown;
-  // Without the image nobody asks for pictures, and the camera is not rendered. An image that is only taken out keeps
-  // its connection, of which a browser has six for a page.
+  // Without the image no pictures are requested, and the camera is not rendered. An image that is only removed keeps
+  // its connection, and a browser has only six connections for a page.
   camera.querySelector('img')?.removeAttribute('src');
   camera.replaceChildren();
   if (shown) return;

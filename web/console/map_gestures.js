@@ -2,7 +2,7 @@
 
 const kTapSlack_px = 9;
 
-/** Two fingers: the middle moves the map, their distance zooms it. `last` and `next` are of the finger that moved. */
+/** Two fingers: the middle moves the map, their distance zooms it. `last` and `next` belong to the finger that moved. */
 function pinch(view, other, last, next) {
   const before = Math.hypot(last.x - other.x, last.y - other.y);
   const after = Math.hypot(next.x - other.x, next.y - other.y);

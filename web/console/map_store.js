@@ -1,4 +1,4 @@
-// What the page knows of the world, fed by the link's messages.
+// The page's copy of the world, updated by the link's messages.
 import { kTileSize } from './link.js';
 
 const kFarthest_m = 100;

@@ -1,4 +1,4 @@
-// What stands on the map at a fixed size: home, goal, vehicle and the scale. `view` is the MapView they are painted on.
+// Symbols of a fixed size on the map: home, goal, vehicle and the scale. `view` is the MapView they are painted on.
 
 export function paintHome(view, { x_m, y_m }) {
   const { context, colors } = view;

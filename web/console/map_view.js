@@ -4,7 +4,7 @@ import { readColors } from './map_colors.js';
 import { listenToGestures } from './map_gestures.js';
 import { paintGoal, paintHome, paintScale, paintVehicle } from './map_symbols.js';
 
-/** What lies over the map: the tools at the right, scale and legend at the bottom. */
+/** Space covered by the tools at the right, and by scale and legend at the bottom. */
 const kInsets_px = { left: 20, right: 68, top: 20, bottom: 52 };
 
 export class MapView {
@@ -15,7 +15,7 @@ export class MapView {
     this.center = { x_m: 0, y_m: 0 };
     this.scale = 60; // CSS pixels a metre.
     this.mode = 'fit';
-    this.marker = null; // What the operator asked for: {x_m, y_m, state: "asked" | "refused", since_ms}.
+    this.marker = null; // The goal that the operator asked for: {x_m, y_m, state: "asked" | "refused", since_ms}.
     this.colors = readColors();
     this.wanted = false;
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
@@ -95,7 +95,7 @@ export class MapView {
     if (this.mode === 'fit') this.fit();
     const pose = this.store.pose();
     if (this.mode === 'follow' && pose) this.center = { x_m: pose.x_m, y_m: pose.y_m };
-    // So that a program can find a place of the map on the screen: what is at the middle, and CSS pixels a metre.
+    // For programs that look for a place of the map on the screen: the point in the middle, and CSS pixels a metre.
     this.canvas.dataset.view = `${this.center.x_m} ${this.center.y_m} ${this.scale}`;
   }
 

@@ -1,4 +1,4 @@
-// Hands commands over and brings each answer back to who asked. On the thread of the event loop.
+// Hands commands over and brings each answer back to its sender. Runs on the thread of the event loop.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace swiftlet::web {
 class CommandDesk {
  public:
   using Kind = decltype(common::OperatorCommand::kind);
-  /// Nothing: no answer came in time; the command may still be carried out.
+  /// Nothing: no answer came in time. The command may still be executed.
   using Answer = std::function<void(std::uint64_t id, const std::optional<common::CommandResult>& result)>;
 
   /// `patience` in ticks.
@@ -22,9 +22,9 @@ class CommandDesk {
               common::LosslessQueue<common::CommandResult>& results, int patience)
       : commands_(commands), results_(results), patience_(patience) {}
 
-  /// False, and nothing is handed over, while too many wait for their answer.
+  /// False if too many commands wait for their answer; nothing is handed over then.
   [[nodiscard]] bool give(const Kind& kind, Answer answer);
-  /// Delivers what has come.
+  /// Delivers the answers that have come.
   void tick();
   bool waiting() const { return !waiting_.empty(); }
 

@@ -1,6 +1,6 @@
-// What all connections of one server share, and the tick that drives those that are sent something by themselves. It
-// runs only while there is one, so that a server nobody looks at costs nothing. Everything on the one thread of the
-// event loop, but for what WebServer says.
+// What all connections of one server share, and the tick that drives the connections that receive data without asking.
+// The tick runs only while there is such a connection, so that an unused server costs nothing. Everything runs on the
+// one thread of the event loop, except what WebServer says.
 #pragma once
 
 #include <atomic>
@@ -19,10 +19,10 @@
 namespace swiftlet::web {
 
 inline constexpr int kTicksPerSecond = 100;
-/// While nobody watches and nothing waits for an answer.
+/// Period without watchers and without pending answers.
 inline constexpr int kIdleTicksPerSecond = 4;
 
-/// A connection that can be closed from above and may want the tick.
+/// A connection that the server can close and that may receive the tick.
 class Connection {
  public:
   virtual ~Connection() = default;
@@ -50,7 +50,7 @@ class Core : public std::enable_shared_from_this<Core> {
 
   /// Counts a connection and closes it when the server stops.
   void add(const std::shared_ptr<Connection>& connection);
-  /// The connection gets the tick as long as it lives.
+  /// The connection receives the tick as long as it lives.
   void watch(const std::shared_ptr<Connection>& connection);
   /// Ticks at once if it idles; needed at the start and after a command was given.
   void wake();
@@ -79,8 +79,7 @@ class Core : public std::enable_shared_from_this<Core> {
   bool closed_ = false;
 };
 
-/// Something is due `per_second` times a second, at the same instants for everybody, so that what one is sent can be
-/// shared with the others.
+/// True `per_second` times a second, at the same instants for every connection, so that they can share what is sent.
 class Beat {
  public:
   explicit Beat(double per_second) : per_second_(per_second) {}
@@ -93,11 +92,11 @@ class Beat {
   std::int64_t last_ = -1;
 };
 
-/// Bytes that wait in the kernel for a client to take them.
+/// Bytes in the kernel that the client has not taken yet.
 int unsentBytes(int native_socket);
-/// A client with more than this waiting is not sent anything newer: it would only grow old there.
+/// A client with more bytes waiting gets nothing new, which would only grow old in the buffer.
 inline constexpr int kMostUnsentBytes = 32 * 1024;
-/// For the kernel's own buffer; without a bound it would hold seconds of old pictures.
+/// Bound of the kernel's own buffer; without it the buffer would hold seconds of old pictures.
 inline constexpr int kSendBufferBytes = 128 * 1024;
 
 }  // namespace swiftlet::web

@@ -21,7 +21,7 @@ rendering::MapView mapView(const PictureView& asked) {
   return view;
 }
 
-/// What a stream shows while there is nothing to show.
+/// What a stream shows before there is a picture.
 common::Image notice(int width_px, int height_px, rendering::Scheme scheme, std::string_view text) {
   const rendering::Theme& theme = rendering::themeOf(scheme);
   common::Image image{width_px, height_px, {}};
@@ -48,20 +48,21 @@ std::shared_ptr<const StreamFrame> FrameHub::frame(View& view, const std::shared
   const common::Time now = telemetry_.now();
   const std::uint64_t newest =
       view.asked_.source == PictureView::Source::kMap ? telemetry_.world().sequence : telemetry_.camera().sequence;
-  // A watcher that comes between the ticks of the others takes their picture unless it is older than its own period.
+  // A watcher that comes between the ticks of the others gets their picture, unless it is older than its own period.
   const bool due = view.frame_ && now - view.frame_->encoded_unix_time >= least_period_ &&
                    view.frame_->source_sequence != newest &&
                    (view.frame_ == last || now - view.frame_->encoded_unix_time > period);
   if (!view.frame_ || due) {
     view.frame_ = encode(view, now);
-    view.cost_s_ = std::clamp((telemetry_.now() - now).seconds(), 0.0, 1.0);  // The clock may have been set.
+    view.cost_s_ = std::clamp((telemetry_.now() - now).seconds(), 0.0,
+                              1.0);  // The clock may have been set, so the time is bounded.
     shareTime();
   }
   if (view.frame_ != last || now - sent > common::Duration::fromMilliseconds(1000)) return view.frame_;
   return nullptr;
 }
 
-/// Hold and Land never wait behind pictures: many views of different sizes are drawn less often.
+/// Hold and Land never wait for pictures: with many views of different sizes each is drawn less often.
 void FrameHub::shareTime() {
   constexpr double kShareOfThread = 0.5;
   double total_s = 0.0;

@@ -1,4 +1,4 @@
-// Pictures for the streams: each view that somebody watches is drawn and encoded once for all who watch it.
+// Pictures for the streams: each watched view is drawn and encoded once for all its watchers.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace swiftlet::web {
 
-/// One part of a multipart stream: its headers, the JPEG and the boundary that follows. The boundary goes with the
-/// picture it ends, because browsers show a picture only when they have read it.
+/// One part of a multipart stream: its headers, the JPEG and the boundary that follows. The boundary is sent with the
+/// picture it ends, because browsers show a picture only after reading it.
 struct StreamFrame {
   std::string bytes;
   std::uint64_t source_sequence = 0;
@@ -27,7 +27,7 @@ class FrameHub {
  public:
   FrameHub(Telemetry& telemetry, double hull_diameter_m) : telemetry_(telemetry), hull_diameter_m_(hull_diameter_m) {}
 
-  /// A watcher of a view; the view's caches live as long as one of them.
+  /// A watcher of a view. The caches of the view live until its last watcher is gone.
   class View;
   std::shared_ptr<View> watch(const PictureView& view);
 
@@ -47,7 +47,8 @@ class FrameHub {
   double hull_diameter_m_;
   rendering::JpegEncoder jpeg_;
   std::map<PictureView, std::weak_ptr<View>> views_;
-  common::Duration least_period_;  ///< Between two pictures of a view, so that all together take their share only.
+  common::Duration least_period_;  ///< Least period between two pictures of a view, so that all views together use a
+                                   ///< bounded share of the time.
 };
 
 class FrameHub::View {
@@ -59,7 +60,7 @@ class FrameHub::View {
   PictureView asked_;
   rendering::MapRenderer renderer_;
   std::shared_ptr<const StreamFrame> frame_;
-  double cost_s_ = 0.0;  ///< Of its last picture.
+  double cost_s_ = 0.0;  ///< Time to draw its last picture.
 };
 
 }  // namespace swiftlet::web

@@ -25,8 +25,8 @@ constexpr std::uint32_t kMostHeaderBytes = 8 * 1024;
 constexpr std::uint64_t kMostBodyBytes = std::uint64_t{4} * 1024;
 constexpr auto kRequestTimeout = std::chrono::seconds(15);
 
-/// Nothing from elsewhere is loaded, no other page may frame this one (a click on Land must be meant), and the token in
-/// the address is not passed on.
+/// Security headers: nothing is loaded from elsewhere, no other page may frame this one (a click on Land must be
+/// meant), and the token in the address is not passed on.
 constexpr const char* kContentPolicy =
     "default-src 'self'; img-src 'self' blob: data:; connect-src 'self' ws: wss:; frame-ancestors 'none'; "
     "base-uri 'none'; form-action 'none'";
@@ -188,8 +188,8 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     });
   }
 
-  /// Says that nothing more comes and waits for the client's end: closing with unread bytes in the socket would make
-  /// the kernel discard the answer.
+  /// Shuts down sending and waits for the client to close. If the socket were closed with unread bytes, the kernel
+  /// would discard the answer.
   void finish() {
     error_code ignored;
     stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);

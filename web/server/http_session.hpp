@@ -1,5 +1,5 @@
-// One HTTP connection: reads a request, lets route() decide, answers; hands the socket on where a stream or a WebSocket
-// begins. Requests are limited in size and time.
+// One HTTP connection: reads a request, calls route(), answers, and hands the socket to a stream or a WebSocket session
+// if needed. Requests are limited in size and time.
 #pragma once
 
 #include <memory>

@@ -122,7 +122,7 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
                         });
   }
 
-  /// Pages say nothing; reading answers pings and notices the end.
+  /// Pages send no messages; reading answers pings and detects the end.
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
       if (error) return self->close();

@@ -1,7 +1,7 @@
-// One page connected by WebSocket. Ten times a second it is sent what has changed since it was last sent something:
+// One page connected by WebSocket. Ten times a second it is sent what has changed since the last time:
 //   text   {"type": "hello" | "state" | "frontiers" | "levels" | "trail" | "events", ...}
 //   binary map tiles (see TileReader) and laser points (see Telemetry::laser)
-// A page that is slow misses states and gets the newest; nothing queues up for it.
+// A slow page skips states and gets the newest; nothing is queued for it.
 #pragma once
 
 #include <memory>

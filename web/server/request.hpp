@@ -1,4 +1,4 @@
-// What the routing needs of an HTTP request, free of any HTTP library.
+// The parts of an HTTP request that routing needs, without an HTTP library.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ struct Request {
   std::string method;  ///< "GET", "POST" ...
   std::string target;  ///< Path and query as sent: "/api/goal?token=x".
   std::string host;    ///< The Host header.
-  std::string origin;  ///< The Origin header; empty when there is none, as from a program that is no browser.
+  std::string origin;  ///< The Origin header; empty if there is none, as from a program that is not a browser.
   std::string authorization;
   std::string body;
   bool wants_websocket = false;

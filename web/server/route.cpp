@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kGreatestCoordinate_m = 1e5;
 
-/// The decision as soon as something speaks against the request.
+/// Holds the refusal as soon as a check fails.
 struct Refused {
   Refuse refuse;
 };
@@ -25,7 +25,7 @@ struct Refused {
   throw Refused{{status, std::move(reason), std::move(allow)}};
 }
 
-/// Text of a stranger, made fit to stand in a message.
+/// Text of an unknown client, made safe for a message.
 std::string shown(std::string_view text) {
   std::string result = "`";
   for (const char c : text.substr(0, 40))
@@ -33,7 +33,7 @@ std::string shown(std::string_view text) {
   return result + (text.size() > 40 ? "...`" : "`");
 }
 
-/// Takes as long for a wrong token as for the right one.
+/// Takes the same time for a wrong token as for the right one.
 bool sameSecret(std::string_view given, std::string_view secret) {
   unsigned char difference = given.size() == secret.size() ? 0 : 1;
   for (std::size_t i = 0; i < secret.size(); ++i)
@@ -53,7 +53,7 @@ void checkMethod(const Request& request, const std::string& wanted) {
   if (request.method != wanted) refuse(405, fmt::format("use {} here, not {}", wanted, shown(request.method)), wanted);
 }
 
-/// Browsers say where a page that posts or opens a socket came from; only our own page may.
+/// Browsers send the origin of a page that posts or opens a socket; only Swiftlet's own page may.
 void checkOrigin(const Request& request) {
   if (request.origin.empty() || request.origin == "http://" + request.host) return;
   refuse(403, fmt::format("a page of {} may not do this", shown(request.origin)));

@@ -1,4 +1,4 @@
-// What to do with a request: a pure function, so that every refusal can be tested and fuzzed without a socket.
+// Decides what to do with a request. A pure function, so that every refusal can be tested and fuzzed without a socket.
 #pragma once
 
 #include <string>
@@ -11,19 +11,19 @@
 
 namespace swiftlet::web {
 
-/// One picture as a client asked for it; equal views share one encoding.
+/// A picture requested by a client; equal views share one encoding.
 struct PictureView {
   enum class Source { kMap, kCamera };
   Source source = Source::kMap;
   int width_px = 640;
-  int height_px = 480;  ///< Of the map; the camera keeps its aspect.
+  int height_px = 480;  ///< Height of the map; the camera keeps its aspect ratio.
   rendering::Scheme scheme = rendering::Scheme::kLight;
 
   auto operator<=>(const PictureView&) const = default;
 };
 
 struct ServeFile {
-  std::string name;  ///< As embedded: "index.html".
+  std::string name;  ///< Name of the embedded file: "index.html".
 };
 // `vehicle`: the number of the one that is meant.
 struct StreamPictures {
@@ -48,7 +48,7 @@ struct GiveCommand {
 struct Refuse {
   int status = 400;  ///< 400, 401, 403, 404, 405, 426
   std::string reason;
-  std::string allow;  ///< For 405: the methods that would do.
+  std::string allow;  ///< For status 405: the allowed methods.
 };
 
 using Action = std::variant<ServeFile, StreamPictures, SendPicture, SendState, OpenSocket, GiveCommand, Refuse>;

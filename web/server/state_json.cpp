@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// nlohmann::json writes what is not finite as null.
+/// nlohmann::json writes null for numbers that are not finite.
 Json number(double value, int decimals = 3) { return common::rounded(value, decimals); }
 
 Json point(const Eigen::Vector2d& p) { return Json::array({number(p.x()), number(p.y())}); }

@@ -1,4 +1,4 @@
-// The world as JSON: for /api/state in one document, for the page in parts that are sent when they change.
+// The world as JSON: one document for /api/state, and for the page the parts that changed.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +19,22 @@ struct World;
 
 namespace swiftlet::web {
 
-/// What is known beside the world.
+/// Data of the server that are not in the world.
 struct Observation {
-  std::uint64_t sequence = 0;             ///< Of the world.
-  double world_age_s = 0.0;               ///< Since the server saw it first.
-  std::optional<double> camera_age_s;     ///< None: no camera picture yet.
+  std::uint64_t sequence = 0;             ///< Number of the world.
+  double world_age_s = 0.0;               ///< Time since the server first saw the world.
+  std::optional<double> camera_age_s;     ///< None if there is no camera picture yet.
   std::optional<double> realtime_factor;  ///< Simulated seconds per second; none until two worlds were seen.
 };
 
-/// An event and its place in the flight's list.
+/// An event with its number in the flight's list.
 struct NumberedEvent {
-  std::uint64_t number = 0;  ///< From 1.
+  std::uint64_t number = 0;  ///< Counted from 1.
   common::Event event;
 };
 
-/// Lengths in metres to the millimetre, angles in radians; what is not finite becomes null, and so does the explored
-/// area while nothing was explored. A vehicle is named, in the state and in its events, only when it has a name.
+/// Lengths are in metres to the millimetre, angles in radians. Numbers that are not finite become null, and so does the
+/// explored area while nothing was explored. A vehicle is named, in the state and in its events, only if it has a name.
 std::string stateJson(const common::World& world, const Observation& observation);
 std::string frontiersJson(const std::vector<common::Frontier>& frontiers, double resolution_m);
 std::string levelsJson(const common::LevelMap& levels);
@@ -42,7 +42,7 @@ std::string levelsJson(const common::LevelMap& levels);
 std::string trailJson(std::span<const Eigen::Vector2d> trail_map_m, std::size_t from);
 std::string eventsJson(std::span<const NumberedEvent> events);
 
-/// All of it in one object.
+/// The whole state in one object.
 std::string completeJson(const common::World& world, const Observation& observation,
                          std::span<const NumberedEvent> events);
 

@@ -78,7 +78,7 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
                              });
   }
 
-  /// A client says nothing more; a read ends when it goes away.
+  /// A client sends nothing more; the read ends when it goes away.
   void listen() {
     socket_.async_read_some(boost::asio::buffer(ignored_),
                             [self = shared_from_this()](const error_code& error, std::size_t) {
@@ -94,7 +94,7 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
   common::Duration period_;
   Beat beat_;
   bool watches_camera_;
-  std::shared_ptr<StreamSession> self_;  ///< Until it is closed.
+  std::shared_ptr<StreamSession> self_;  ///< Keeps the session alive until it is closed.
   std::string head_;
   std::shared_ptr<const StreamFrame> last_;
   common::Time sent_;

@@ -1,5 +1,5 @@
-// One client of a picture stream. At most one frame is under way; the newest is taken when it is due and the last one
-// has left the machine. A client that takes nothing for Options::stall_timeout_s is dropped.
+// One client of a picture stream. At most one frame is being sent. The newest frame is taken when it is due and the
+// last one has left the machine. A client that takes nothing for Options::stall_timeout_s is dropped.
 #pragma once
 
 #include <memory>

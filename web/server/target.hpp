@@ -1,4 +1,4 @@
-// The request target taken apart: path and query, percent-decoded.
+// Splits the request target into path and query, percent-decoded.
 #pragma once
 
 #include <map>
@@ -13,14 +13,14 @@ struct Target {
   std::map<std::string, std::string> query;
 };
 
-/// Nothing for a target that is not an absolute path, has a broken escape, a control character or a ".." segment, or
-/// names a query key twice.
+/// Nothing if the target is not an absolute path, has a broken escape, a control character or a ".." segment, or names
+/// a query key twice.
 std::optional<Target> parseTarget(std::string_view target);
 
 /// Lower case, without the port and the brackets of an IPv6 address: "[::1]:8080" is "::1". Nothing if malformed.
 std::optional<std::string> hostName(std::string_view host_header);
 
-/// An IPv4 or IPv6 address in digits, which no foreign name server can stand behind.
+/// An IPv4 or IPv6 address in digits, which no foreign name server can control.
 bool isAddressLiteral(std::string_view host_name);
 
 }  // namespace swiftlet::web

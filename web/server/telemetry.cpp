@@ -12,7 +12,7 @@ constexpr std::size_t kKeptEvents = 200;
 constexpr double kClockWindow_s = 3.0;
 constexpr double kLaserSpacing_m = 0.04;
 
-/// The scan thinned to what a page can show.
+/// The scan, thinned for the page.
 std::string laserBytes(const common::LaserPoints& laser) {
   std::string bytes(4, '\0');
   Eigen::Vector2f last = Eigen::Vector2f::Constant(1e9f);
@@ -40,10 +40,11 @@ void Telemetry::look() {
   camera_.look(sources_.camera, at);
   if (!world_.look(sources_.world, at) || !world_.value) return;
   const double unix_s = at.seconds();
-  // A world from before the last one is another flight.
+  // A world older than the last one belongs to another flight.
   if (!clock_.empty() && world_.value->stamp.seconds() < clock_.back().second) clock_.clear();
   if (clock_.empty() || unix_s - clock_.back().first > 0.05) clock_.emplace_back(unix_s, world_.value->stamp.seconds());
-  // The first one left is at least the window old: after a pause in looking there is something to compare with too.
+  // The first one that remains is at least as old as the window, so that after a pause there is still a world to
+  // compare with.
   while (clock_.size() > 2 && unix_s - clock_[1].first > kClockWindow_s) clock_.pop_front();
 }
 

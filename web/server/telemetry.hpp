@@ -1,5 +1,5 @@
-// What the server has seen of the flight: the newest world and camera frame with the time it saw them, the parts of the
-// world encoded once for all pages, the events. Only on the thread of the event loop, but for postEvent().
+// The server's view of the flight: the newest world and camera frame with the time they were seen, the parts of the
+// world encoded once for all pages, the events. Use it on the thread of the event loop only, except postEvent().
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace swiftlet::web {
 
-/// The newest value and when it was seen first.
+/// The newest value and the time when it was first seen.
 template <typename Value>
 struct Seen {
   std::shared_ptr<const Value> value;
@@ -34,7 +34,7 @@ struct Seen {
   }
 };
 
-/// A text for the pages and a number that rises when it changes.
+/// A text for the pages with a number that rises when it changes.
 struct Part {
   SharedText text;
   std::uint64_t version = 0;
@@ -52,14 +52,14 @@ class Telemetry {
       : sources_(sources), unix_time_(std::move(unix_time)) {}
 
   common::Time now() const { return unix_time_(); }
-  /// Looks for something new; cheap when there is nothing.
+  /// Checks for new values; cheap if there are none.
   void look();
 
   const Seen<common::World>& world() const { return world_; }
   const Seen<common::CameraFrame>& camera() const { return camera_; }
   Observation observe() const;
 
-  /// The parts below are brought up to date by encodeParts(), which a page's tick calls; null before the first world.
+  /// encodeParts(), which a page's tick calls, updates the parts below; null before the first world.
   void encodeParts();
   const SharedText& state() const { return state_; }
   const Part& frontiers() const { return frontiers_; }
@@ -67,11 +67,11 @@ class Telemetry {
   const TileFeed& tiles() const { return tiles_; }
   /// Little endian: u8 2, u8 0, u16 number of points, then i16 x, i16 y in centimetres; null: no scan.
   const Part& laser() const { return laser_; }
-  /// Rises when earlier points of the trail have moved.
+  /// Rises if earlier points of the trail have moved.
   std::uint64_t trailVersion() const { return trail_version_; }
 
   void postEvent(const common::Event& event);
-  /// Those after `number`, oldest first.
+  /// The events after `number`, oldest first.
   std::vector<NumberedEvent> eventsAfter(std::uint64_t number) const;
 
  private:
@@ -82,7 +82,7 @@ class Telemetry {
   std::function<common::Time()> unix_time_;
   Seen<common::World> world_;
   Seen<common::CameraFrame> camera_;
-  /// (unix, simulated) seconds of worlds of the last seconds.
+  /// (unix, simulated) seconds of the recent worlds.
   std::deque<std::pair<double, double>> clock_;
 
   std::uint64_t encoded_sequence_ = 0;

@@ -21,7 +21,7 @@ void append(std::string& bytes, int shade, int length) {
 
 int shadeOf(common::occupancy::Cell cell) {
   if (common::occupancy::isUnknown(cell)) return 0;
-  // Steps of log odds at which one is 73 %, 92 % and 99 % sure.
+  // Log odds that stand for 73 %, 92 % and 99 % confidence.
   const int certainty = cell < 0 ? -cell : cell;
   const int sure = certainty >= 92 ? 3 : certainty >= 50 ? 2 : certainty >= 20 ? 1 : 0;
   return common::occupancy::isOccupied(cell) ? 5 + sure : 4 - sure;

@@ -1,5 +1,5 @@
-// Map tiles as bytes for the page: nine shades, run-length coded. A tile that was seen compresses to some hundred
-// bytes, and observing again what is known changes nothing in it.
+// Map tiles as bytes for the page: nine shades, run-length coded. A seen tile compresses to some hundred bytes, and a
+// repeated observation of known cells changes nothing in it.
 #pragma once
 
 #include <string>

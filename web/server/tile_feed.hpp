@@ -1,5 +1,5 @@
-// The map for many pages: each tile is encoded once when it changes, each page gets the tiles that differ from what it
-// has.
+// The map for many pages. Each tile is encoded once when it changes, and each page gets the tiles that differ from its
+// own.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ class TileFeed {
   /// The encoded tile by its position in tiles. Equal pointers mean equal bytes.
   using Tiles = std::map<common::CellIndex, SharedText>;
 
-  /// Encodes what differs from the last grid.
+  /// Encodes the tiles that differ from the last grid.
   void update(const std::shared_ptr<const common::OccupancyGrid>& grid);
 
   const Tiles& tiles() const { return tiles_; }
@@ -29,7 +29,7 @@ class TileFeed {
   Tiles tiles_;
 };
 
-/// What one page has.
+/// The tiles that one page has.
 class TileReader {
  public:
   /// The next message of at most about `most_bytes`, or an empty text when the page has everything. Little endian:

@@ -104,7 +104,7 @@ struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
         startHttp(self->core, std::move(socket));
         return self->accept();
       }
-      // Out of descriptors, or the client was gone: it passes.
+      // Out of descriptors, or the client was gone. Both are temporary.
       self->retry.expires_after(std::chrono::milliseconds(100));
       self->retry.async_wait([self](const error_code& cancelled) {
         if (!cancelled && !self->core->closed()) self->accept();

@@ -1,12 +1,12 @@
 // The operator's page, its live state and the picture streams, over HTTP and WebSocket. It reads telemetry and hands
-// over commands; it can delay or change nothing in the flight.
+// over commands; it cannot delay or change anything in the flight.
 //
 //   GET  /                        the page, embedded in the program; no other host is needed
 //   GET  /stream/map.mjpg         ?width= &height= &fps= &scheme=light|dark; multipart/x-mixed-replace
 //   GET  /stream/camera.mjpg      ?width= &fps=
 //   GET  /api/state               everything as one JSON document
 //   GET  /api/map.png             the picture of the map; ?width= &height= &scheme=
-//   GET  /api/ws                  WebSocket: what /api/state has, in parts and only what changed, and the map's tiles
+//   GET  /api/ws                  WebSocket: the content of /api/state in parts, only changes, and the map's tiles
 //   POST /api/goal|hold|resume|home|land    `Authorization: Bearer TOKEN` or ?token=; goal: {"x_m": 1.0, "y_m": 2.0}
 //
 // Where several vehicles fly, ?vehicle=NAME says which one is meant, everywhere; without it the first.
@@ -32,7 +32,7 @@ class WebServer {
   using Options = WebServerOptions;
   using Sources = WebServerSources;
 
-  /// Listens at once. Throws common::InputError when the address cannot be used or the port is taken.
+  /// Starts to listen at once. Throws common::InputError if the address cannot be used or the port is taken.
   WebServer(IoContext& io, const Options& options, const Sources& sources);
   /// One for each vehicle, at least one; of several all have names.
   WebServer(IoContext& io, const Options& options, const std::vector<Sources>& sources);
@@ -42,8 +42,8 @@ class WebServer {
 
   /// The port it listens on.
   int port() const;
-  /// "http://127.0.0.1:8080/?token=...": what to open. For "0.0.0.0" and "::" with an address of this machine that
-  /// others can open, where it has one.
+  /// The link to open: "http://127.0.0.1:8080/?token=...". For "0.0.0.0" and "::" it has an address of this machine
+  /// that others can open, if there is one.
   std::string operatorUrl() const;
 
   /// Someone watches the vehicle's camera, so that it is worth rendering. Any thread.

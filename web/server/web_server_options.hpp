@@ -1,4 +1,4 @@
-// What the operator's page is served with.
+// Options of the server of the operator's page.
 #pragma once
 
 #include <functional>
@@ -16,14 +16,14 @@ namespace swiftlet::web {
 
 struct WebServerOptions {
   std::string address = "127.0.0.1";  ///< IPv4 or IPv6 to listen on; "0.0.0.0" is every interface.
-  int port = 8080;                    ///< 0: any free one.
-  std::string token;                  ///< What an operator must show; at least 8 characters of [A-Za-z0-9_-].
+  int port = 8080;                    ///< Port; 0 for any free one.
+  std::string token;                  ///< The token of an operator; at least 8 characters of [A-Za-z0-9_-].
   std::string title;                  ///< Shown on the page: "explore_and_return in unb_case1".
   double hull_diameter_m = 0.55;
   double command_timeout_s = 2.0;  ///< How long an answer waits for the CommandResult.
-  double stall_timeout_s = 10.0;   ///< A stream's client that takes nothing for so long is dropped.
+  double stall_timeout_s = 10.0;   ///< A stream's client that takes nothing for this long is dropped.
   int max_connections = 256;
-  /// The time now since 1970; for the age of frames only. Called from the thread that runs the IoContext.
+  /// The present time since 1970, for the age of frames only. Called from the thread that runs the IoContext.
   std::function<common::Time()> unix_time;
 };
 

@@ -17,7 +17,7 @@ Status Again::run(TickContext& context) {
     const Status status = child().tick(context);
     if (status != counted_) return status;
     ++done_;
-    // A round that began and ended in this tick ends the tick, so that none is endless.
+    // A round that began and ended in this tick ends the tick, so that no tick is endless.
     if (starts_now && goesOn()) return Status::kRunning;
   }
   return endWith(context, counted_);

@@ -1,4 +1,5 @@
-// What Repeat and RetryUntilSuccessful share: the child again and again, until it ended one way often enough.
+// What Repeat and RetryUntilSuccessful share: they run the child repeatedly, until it has ended in one result often
+// enough.
 #pragma once
 
 #include <string_view>
@@ -9,7 +10,8 @@ namespace swiftlet::tree {
 
 class Again : public Composite {
  protected:
-  /// The child ends with `counted` as often as the port `times` says (-1: for ever); that is how the node ends then.
+  /// When the child has ended with `counted` as often as the port `times` says (-1: never enough), the node ends with
+  /// it.
   Again(const NodeSetup& setup, std::string_view times, Status counted)
       : Composite(setup), times_(setup, times), counted_(counted) {}
 

@@ -1,4 +1,4 @@
-// What Sequence and Fallback share: the children one after the other; a child that ended is not asked again.
+// What Sequence and Fallback share: they run the children one after the other; a child that ended is not asked again.
 #pragma once
 
 #include "behaviors/tree/composite.hpp"
@@ -7,7 +7,7 @@ namespace swiftlet::tree {
 
 class Chain : public Composite {
  protected:
-  /// `goes_on` is the end of a child after which the next is asked (SKIPPED is another), and that of the whole chain.
+  /// After a child ends with `goes_on` or SKIPPED, the next is asked. `goes_on` is also the result of the whole chain.
   Chain(const NodeSetup& setup, Status goes_on) : Composite(setup), goes_on_(goes_on) {}
 
  private:

@@ -1,4 +1,4 @@
-// What decorators make of how their child ended.
+// How decorators change the result of their child.
 #pragma once
 
 #include "behaviors/tree/status.hpp"

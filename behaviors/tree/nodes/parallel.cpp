@@ -5,7 +5,7 @@
 namespace swiftlet::tree {
 namespace {
 
-/// How many children `asked` means; -1 is all of `children`.
+/// The number of children that `asked` means; -1 is all of `children`.
 std::size_t threshold(std::int64_t asked, std::size_t children) {
   const auto all = static_cast<std::int64_t>(children);
   return static_cast<std::size_t>(std::max<std::int64_t>(0, asked < 0 ? all + asked + 1 : asked));
@@ -80,7 +80,7 @@ Status Parallel::run(TickContext& context) {
           break;
       }
     }
-    if (skipped == i + 1) continue;  // Nothing to judge yet; all SKIPPED must not look like a result.
+    if (skipped == i + 1) continue;  // There is no result yet: if all are SKIPPED, no count may decide.
     if (successes_ >= needed || (*success_count < 0 && successes_ + skipped >= needed))
       return endWith(context, Status::kSuccess);
     if (count() - failures_ < needed || failures_ == bearable) return endWith(context, Status::kFailure);

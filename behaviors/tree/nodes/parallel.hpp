@@ -4,9 +4,9 @@
 //   failure_count children FAILURE, or too few are left -> FAILURE
 //   all children SKIPPED in this tick                   -> SKIPPED
 //   otherwise                                           -> RUNNING
-// A negative count is counted from the number of children: -1 is all of them, and SKIPPED then counts as SUCCESS.
-// The counts are looked at after each child; those under way are halted, which may take several ticks (RUNNING), and
-// then the result stands.
+// A negative count is relative to the number of children: -1 is all of them, and SKIPPED then counts as SUCCESS.
+// The counts are checked after each child. When they decide, the running children are halted, which may take several
+// ticks (RUNNING); then the result is returned.
 #pragma once
 
 #include <vector>

@@ -12,7 +12,7 @@ NodeManifest Priority::manifest() {
       .description = "The highest child that has something to do has the vehicle; lower ones are suspended meanwhile."};
 }
 
-void Priority::clear(TickContext&) { holder_ = asker_ = kNobody; }
+void Priority::clear(TickContext&) { holder_ = asker_ = kNone; }
 
 Status Priority::run(TickContext& context) {
   bool anything = false;
@@ -41,35 +41,36 @@ Status Priority::run(TickContext& context) {
 }
 
 bool Priority::lowerHaveLetGo(TickContext& context, std::size_t index) {
-  if (holder_ == kNobody || holder_ <= index || child(holder_).status() != Status::kRunning) return true;
+  if (holder_ == kNone || holder_ <= index || child(holder_).status() != Status::kRunning) return true;
   if (asker_ != index) {
     asker_ = index;
-    if (!isActive(child(index).status())) child(index).reset(context);  // It waits; SKIPPED would be wrong.
-    tell(context, Switch::Kind::kLetsGo, index, child(index).reason(context));
+    if (!isActive(child(index).status()))
+      child(index).reset(context);  // The child is waiting, and SKIPPED would be wrong.
+    report(context, Switch::Kind::kLetsGo, index, child(index).reason(context));
   }
   return child(holder_).suspend(context) == Release::kReleased;
 }
 
 void Priority::give(TickContext& context, std::size_t index) {
   if (holder_ != index) {
-    const bool from_above = holder_ != kNobody && holder_ < index;
-    tell(context, Switch::Kind::kTakes, index,
-         from_above ? child(holder_).name() + " ended with " + toString(child(holder_).status())
-                    : child(index).reason(context));
-  } else if (asker_ != kNobody) {
-    tell(context, Switch::Kind::kKeeps, index, child(asker_).name() + " asks no longer");
+    const bool from_above = holder_ != kNone && holder_ < index;
+    report(context, Switch::Kind::kTakes, index,
+           from_above ? child(holder_).name() + " ended with " + toString(child(holder_).status())
+                      : child(index).reason(context));
+  } else if (asker_ != kNone) {
+    report(context, Switch::Kind::kKeeps, index, child(asker_).name() + " no longer asks");
   }
   holder_ = index;
-  asker_ = kNobody;
+  asker_ = kNone;
 }
 
-void Priority::tell(TickContext& context, Switch::Kind kind, std::size_t to, std::string reason) const {
+void Priority::report(TickContext& context, Switch::Kind kind, std::size_t to, std::string reason) const {
   if (context.observer == nullptr) return;
   if (reason.empty())
-    reason = holder_ == kNobody ? "nothing above it asks for the vehicle" : "it stands above " + child(holder_).name();
+    reason = holder_ == kNone ? "nothing above it asks for the vehicle" : "it stands above " + child(holder_).name();
   context.observer->onSwitch({.kind = kind,
                               .priority = this,
-                              .from = holder_ == kNobody ? nullptr : &child(holder_),
+                              .from = holder_ == kNone ? nullptr : &child(holder_),
                               .to = &child(to),
                               .reason = std::move(reason)});
 }

@@ -1,19 +1,18 @@
-// Priority: who stands higher has the vehicle first. Ours; BehaviorTree.CPP has no such node.
+// Priority: the vehicle goes to the highest child that wants it. BehaviorTree.CPP has no such node.
 //
-// At each tick the children are asked from the top; the first that has something to do (does not answer SKIPPED) has
-// the vehicle:
+// At each tick the children are asked from the top; the first that does not answer SKIPPED has the vehicle:
 //   child SKIPPED  -> the next is asked, in the same tick
 //   child RUNNING  -> RUNNING
 //   child SUCCESS  -> the next is asked, in the same tick; the last child: SUCCESS
 //   child FAILURE  -> FAILURE (what is suspended below is dropped)
 //   all SKIPPED    -> SKIPPED
-// It ends with the status of its last child; when the last is SKIPPED after one above it ended with SUCCESS in the same
-// tick, that is SUCCESS.
+// It ends with the status of its last child. If the last child is SKIPPED after one above it ended with SUCCESS in the
+// same tick, the result is SUCCESS.
 //
-// A lower child that is under way when a higher one wants the vehicle is suspended, not reset. It is asked to let go
-// once a tick; until it has, the Priority is RUNNING and the higher one is not ticked. If meanwhile nobody above wants
-// the vehicle any more, the lower one goes on at once. After the higher one has ended, the lower one resumes where it
-// was. Asking (Node::wants) changes nothing and starts nobody. Every switch is reported with its reason
+// A lower child that is running when a higher one wants the vehicle is suspended, not reset. It is asked once a tick to
+// let go. Until it has, the Priority is RUNNING and the higher one is not ticked. If the higher one no longer wants the
+// vehicle meanwhile, the lower one continues at once. After the higher one has ended, the lower one resumes where it
+// was. Asking (Node::wants) changes nothing and starts no node. Every switch is reported with its reason
 // (Observer::onSwitch).
 #pragma once
 
@@ -31,15 +30,15 @@ class Priority final : public Composite {
   Status run(TickContext& context) override;
   void clear(TickContext&) override;
 
-  /// True when nobody below `index` has the vehicle.
+  /// True if no child below `index` has the vehicle.
   bool lowerHaveLetGo(TickContext& context, std::size_t index);
-  /// `index` has the vehicle from now on; tells it when that is news.
+  /// `index` has the vehicle from now on; reports the switch if it is one.
   void give(TickContext& context, std::size_t index);
-  void tell(TickContext& context, Switch::Kind kind, std::size_t to, std::string reason) const;
+  void report(TickContext& context, Switch::Kind kind, std::size_t to, std::string reason) const;
 
-  static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
-  std::size_t holder_ = kNobody;  ///< Has the vehicle, or had it last.
-  std::size_t asker_ = kNobody;   ///< Waits for the holder to let go.
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::size_t holder_ = kNone;  ///< Has the vehicle, or had it last.
+  std::size_t asker_ = kNone;   ///< Waits for the holder to let go.
 };
 
 }  // namespace swiftlet::tree

@@ -3,7 +3,7 @@
 namespace swiftlet::tree {
 
 Status Reactive::run(TickContext& context) {
-  if (running_ != kNobody && !haltOthers(context, running_)) return Status::kRunning;
+  if (running_ != kNone && !haltOthers(context, running_)) return Status::kRunning;
   bool all_skipped = true;
   for (std::size_t i = 0; i < count(); ++i) {
     const Status status = child(i).tick(context);

@@ -1,4 +1,4 @@
-// What ReactiveSequence and ReactiveFallback share: every child from the first, at every tick.
+// What ReactiveSequence and ReactiveFallback share: they ask every child from the first, at every tick.
 #pragma once
 
 #include "behaviors/tree/composite.hpp"
@@ -7,18 +7,18 @@ namespace swiftlet::tree {
 
 class Reactive : public Composite {
  protected:
-  /// `goes_on` is the end of a child after which the next is asked (SKIPPED is another), and that of the whole node;
-  /// `stops` is the other one, which ends the node.
+  /// After a child ends with `goes_on` or SKIPPED, the next is asked; `goes_on` is also the result of the whole node.
+  /// `stops` is the other result, which ends the node.
   Reactive(const NodeSetup& setup, Status goes_on, Status stops) : Composite(setup), goes_on_(goes_on), stops_(stops) {}
 
  private:
   Status run(TickContext& context) final;
-  void clear(TickContext&) final { running_ = kNobody; }
+  void clear(TickContext&) final { running_ = kNone; }
 
-  static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   Status goes_on_;
   Status stops_;
-  std::size_t running_ = kNobody;  ///< The child that answered RUNNING last.
+  std::size_t running_ = kNone;  ///< The child that answered RUNNING last.
 };
 
 }  // namespace swiftlet::tree

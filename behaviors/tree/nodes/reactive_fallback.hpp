@@ -4,7 +4,7 @@
 //   child RUNNING  -> RUNNING; any other child that is under way is halted
 //   child SUCCESS  -> what is under way is halted, then SUCCESS
 //   after the last: FAILURE, or SKIPPED when all were skipped in this tick.
-// While a halted child lets go (it may take several ticks) the node is RUNNING and ticks nobody; a SUCCESS stands.
+// While a halted child lets go (it may take several ticks) the node is RUNNING and ticks no child; a SUCCESS is kept.
 #pragma once
 
 #include "behaviors/tree/node_manifest.hpp"

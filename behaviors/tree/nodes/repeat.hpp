@@ -1,4 +1,4 @@
-// Repeat: the child again and again, num_cycles times; -1: for ever; 0: SUCCESS without asking it.
+// Repeat: runs the child num_cycles times; -1: forever; 0: SUCCESS without asking it.
 //   child SUCCESS  -> the next cycle; SUCCESS after the last
 //   child FAILURE  -> FAILURE
 //   child RUNNING  -> RUNNING

@@ -1,5 +1,5 @@
-// RetryUntilSuccessful: the child again after each failure, num_attempts times in all; -1: for ever; 0: FAILURE without
-// asking it.
+// RetryUntilSuccessful: runs the child again after each failure, at most num_attempts times; -1: forever; 0: FAILURE
+// without asking it.
 //   child FAILURE  -> the next attempt; FAILURE after the last
 //   child SUCCESS  -> SUCCESS
 //   child RUNNING  -> RUNNING

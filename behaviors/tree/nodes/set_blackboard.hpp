@@ -1,5 +1,5 @@
 // SetBlackboard: writes `value` to the entry `output_key` (`key` or `{key}`) and is SUCCESS. A value `{other}` is
-// copied as it stands; FAILURE when that entry is not set.
+// copied unchanged; FAILURE if that entry is not set.
 #pragma once
 
 #include "behaviors/tree/leaf.hpp"

@@ -1,5 +1,5 @@
-// SubTree: another tree in this place, with blackboard entries of its own; is what that tree is.
-// Which entries it shares is fixed when the tree is built, see builder.hpp.
+// SubTree: runs another tree in this place, with blackboard entries of its own, and has the status of that tree. The
+// shared entries are fixed when the tree is built, see builder.hpp.
 #pragma once
 
 #include "behaviors/tree/composite.hpp"

@@ -1,4 +1,4 @@
-// Timeout: the child, for no longer than msec; 0: no limit.
+// Timeout: runs the child for at most msec; 0: no limit.
 //   child ends or is SKIPPED in time -> the same
 //   child RUNNING, time left         -> RUNNING
 //   no time left at a tick           -> the child is halted without another tick (RUNNING while it lets go),

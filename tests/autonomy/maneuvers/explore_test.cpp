@@ -1,4 +1,4 @@
-// Explore: viewpoints, looks, what is left, and who stands in the way.
+// Explore: viewpoints, looks, what is left, and people who block the path.
 #include <algorithm>
 #include <numbers>
 #include <tuple>
@@ -28,12 +28,12 @@ class ExploreManeuver : public ManeuverInFlight {
     place(1.5, 2.0, std::numbers::pi);
     ManeuverInFlight::SetUp();
   }
-  /// A room of 5 m by 4 m whose door, when it has one, nobody has looked through yet.
+  /// A room of 5 m by 4 m. What is behind its door, if it has one, is unknown.
   void build(bool door) {
     grid_ = planning::test::room(100, 80);
     if (door) fill(grid_, {{100, 28}, {101, 52}}, kFreeCell);
   }
-  /// The same with a passage that turns: its end shows from inside only, and a person in it shuts it.
+  /// The room with a passage that turns: its end is visible from inside only, and a person in it blocks it.
   void buildPassage() {
     build(false);
     fill(grid_, {{100, 27}, {132, 49}}, kWallCell);
@@ -42,7 +42,7 @@ class ExploreManeuver : public ManeuverInFlight {
     fill(grid_, {{110, 48}, {131, 89}}, kFreeCell);
     fill(grid_, {{109, 70}, {110, 89}}, common::occupancy::kUnknown);
   }
-  planning::Disc personInThePassage() const { return {{5.4, 1.9}, 0.5}; }
+  common::Disc personInThePassage() const { return {{5.4, 1.9}, 0.5}; }
   int looks() const {
     int most = 0;
     for (const common::Frontier& frontier : *executor_.desk().frontiers()) most = std::max(most, frontier.attempts);
@@ -53,7 +53,8 @@ class ExploreManeuver : public ManeuverInFlight {
 TEST_F(ExploreManeuver, AViewpointIsFlownToAndCountsAfterALookOfHalfASecond) {
   build(true);
   want(common::ExploreIntent{});
-  runUntil([this] { return looks() == 1 && executor_.goal_map_m(); }, 5.0);  // The door shows from the take-off place.
+  runUntil([this] { return looks() == 1 && executor_.goal_map_m(); },
+           5.0);     // The door is visible from the take-off place.
   follows_ = false;  // The reference flies on alone; the vehicle stays where the test puts it.
   ASSERT_GT(distanceTo_m(*executor_.goal_map_m()), 1.0);
   run(0.1);
@@ -132,14 +133,14 @@ TEST_F(ExploreManeuver, WhoWalkedLatelyAndStandsInTheWayIsGivenRoom) {
   discs_ = {personInThePassage()};
   want(common::ExploreIntent{});
   run(2.0);
-  EXPECT_EQ(executor_.status().reason, "somebody may stand in the way");
+  EXPECT_EQ(executor_.status().reason, "a person may block the path");
   EXPECT_EQ(timesSaid("goes aside to make room"), 0);
   run(1.5);
   EXPECT_EQ(timesSaid("goes aside to make room"), 1);
   EXPECT_EQ(executor_.status().state, IntentState::kRunning);
   discs_.clear();
   runUntil([this] { return distanceTo_m({6.0, 2.0}) < 0.6; }, 20.0);
-  EXPECT_LT(distanceTo_m({6.0, 2.0}), 0.6) << "the way is free: " << executor_.status().reason;
+  EXPECT_LT(distanceTo_m({6.0, 2.0}), 0.6) << "the path is free: " << executor_.status().reason;
 }
 
 TEST_F(ExploreManeuver, WhoStaysInTheWayIsNotWaitedForForEver) {

@@ -1,4 +1,4 @@
-// GoTo: goals that are flown to, waited for, gone round for and given up.
+// GoTo: goals that are flown to, waited for, reached by a detour, and given up.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST_F(GoToManeuver, TheGoalIsFlownToThroughTheDoor) {
   run(0.5);
   EXPECT_TRUE(controller_.followsPath());
   EXPECT_FALSE(executor_.status().released);
-  EXPECT_GT(executor_.wishedVelocity_map_m_s().x(), 0.5);
+  EXPECT_GT(executor_.wantedVelocity_map_m_s().x(), 0.5);
   EXPECT_EQ(executor_.goal_map_m(), Eigen::Vector2d(6.0, 3.2));
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
   EXPECT_EQ(executor_.status().reason, "reached (6.00, 3.20)");
@@ -87,7 +87,7 @@ TEST_F(GoToManeuver, APathIsWaitedForAndADetourGoesToLook) {
   run(2.0);
   EXPECT_EQ(executor_.status().state, IntentState::kRunning);
   EXPECT_THAT(executor_.status().reason, StartsWith("waiting: goal (6.00, 2.00) is unreachable"));
-  EXPECT_EQ(timesSaid("no way to the goal at present"), 1);
+  EXPECT_EQ(timesSaid("no path to the goal at present"), 1);
   EXPECT_EQ(detours(), 0);
   EXPECT_LT(distanceTo_m({1.5, 2.0}), 0.05) << "meanwhile it stays";
   run(1.0);
@@ -161,7 +161,7 @@ TEST_F(GoToManeuver, APathLostWithTheEstimateIsSentAgain) {
   EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
 }
 
-/// The controller forgets it when the estimate is back: it starts from where it is then.
+/// The controller drops its path when the estimate is back, and starts from its present place.
 TEST_F(GoToManeuver, APathSentWhileTheEstimateIsLostIsSentAgain) {
   want(to(6.5, 2.0));
   run(1.0);
@@ -177,7 +177,7 @@ TEST_F(GoToManeuver, TheModeOfTheIntentIsFlown) {
   want(careful);
   runUntil([this] { return position_m().x() > 3.0; }, 15.0);
   EXPECT_NEAR(state_.velocity_odom_m_s.norm(), controller_.speed_m_s(common::FlightMode::kCareful), 0.02);
-  EXPECT_NEAR(executor_.wishedVelocity_map_m_s().norm(), controller_.speed_m_s(common::FlightMode::kCareful), 1e-9);
+  EXPECT_NEAR(executor_.wantedVelocity_map_m_s().norm(), controller_.speed_m_s(common::FlightMode::kCareful), 1e-9);
 }
 
 class GoToByWavefront : public ManeuverInFlight {

@@ -1,4 +1,4 @@
-// Land, from the air to the ground, whatever comes between.
+// Land, from the air to the ground, with interruptions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

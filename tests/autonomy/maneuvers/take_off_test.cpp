@@ -1,4 +1,4 @@
-// TakeOff, from the ground to the height, or to why not.
+// TakeOff: reaches its height, or says why not.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

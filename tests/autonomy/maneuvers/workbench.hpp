@@ -1,5 +1,5 @@
-// What parts of maneuvers are tried with, one by one: a vehicle in flight that nobody else moves, and a desk whose
-// answers come when the test says so.
+// Support for tests of single parts of maneuvers: a vehicle in flight that only the test moves, and a planning desk
+// whose answers come when the test says so.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace swiftlet::autonomy {
 class ManeuverWorkbench : public ManeuverInFlight {
  protected:
   void SetUp() override {
-    ManeuverInFlight::SetUp();  // The executor's intent is done: it asks the controller for nothing any more.
+    ManeuverInFlight::SetUp();  // The executor's intent is done: it no longer uses the controller.
     memory_.cruise_height_m = kHeight_m;
     look();
   }

@@ -1,0 +1,118 @@
+// The files that pages name exist, and so does the code that decisions name. The README types no figures.
+#include <fnmatch.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+
+#include "tests/repository/source_tree.hpp"
+
+namespace swiftlet::repository {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// The texts between back quotes.
+std::vector<std::string> quoted(const std::string& text) {
+  static const std::regex kQuoted("`([^`\n]+)`");
+  std::vector<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), kQuoted), end; match != end; ++match)
+    found.push_back((*match)[1]);
+  return found;
+}
+
+/// A path from the root of the tree; `*` stands for any text, and a file may be named without its ending.
+bool exists(std::string path, const Files& files) {
+  if (path.ends_with('/')) path.pop_back();
+  return std::any_of(files.begin(), files.end(), [&](const auto& file) {
+    const std::string& name = file.first;
+    return name.starts_with(path + "/") || name.starts_with(path + ".") || fnmatch(path.c_str(), name.c_str(), 0) == 0;
+  });
+}
+
+/// The quoted paths of a page that begin with a folder of the tree and name nothing in it.
+std::vector<std::string> missingPaths(const std::string& page, const Files& files) {
+  static const std::regex kPath("[A-Za-z0-9_][A-Za-z0-9_./*-]+");
+  std::set<std::string> folders;
+  for (const auto& [path, text] : files) folders.insert(topFolderOf(path));
+  std::vector<std::string> missing;
+  for (const std::string& path : quoted(page)) {
+    const bool is_path = path.find('/') != std::string::npos && std::regex_match(path, kPath);
+    if (is_path && folders.contains(topFolderOf(path)) && !exists(path, files)) missing.push_back(path);
+  }
+  return missing;
+}
+
+/// The quoted names under "Where it shows" of a decision that are not in the code.
+std::vector<std::string> missingNames(const std::string& page, const std::string& code) {
+  static const std::regex kName("[A-Za-z_][A-Za-z0-9_]+");
+  const auto begin = page.find("- Where it shows:");
+  if (begin == std::string::npos) return {"- Where it shows:"};
+  std::vector<std::string> missing;
+  for (const std::string& text : quoted(page.substr(begin, page.find("\n\n", begin) - begin))) {
+    if (text.find('/') != std::string::npos) continue;
+    for (std::sregex_iterator name(text.begin(), text.end(), kName), end; name != end; ++name)
+      if (code.find(name->str()) == std::string::npos) missing.push_back(name->str());
+  }
+  return missing;
+}
+
+TEST(Pages, NameFilesThatExist) {
+  for (const auto& [path, page] : trackedFiles()) {
+    if (!path.ends_with(".md") || path == "CHANGELOG.md") continue;
+    const auto missing = missingPaths(page, trackedFiles());
+    EXPECT_THAT(missing, IsEmpty()) << path << " names what is not there:\n" << joined(missing);
+  }
+}
+
+TEST(Pages, DecisionsNameCodeThatExists) {
+  std::string code;
+  for (const auto& [path, text] : trackedFiles())
+    if (!path.ends_with(".md") && path != "tests/repository/pages_test.cpp") code += text;
+  for (const auto& [path, page] : trackedFiles()) {
+    if (!path.starts_with("docs/decisions/0") || path.find("template") != std::string::npos) continue;
+    const auto missing = missingNames(page, code);
+    EXPECT_THAT(missing, IsEmpty()) << path << " names what is not in the code:\n" << joined(missing);
+  }
+}
+
+TEST(Pages, PlantedMistakesAreCaught) {
+  const Files files = {
+      {"common/jobs.hpp", ""}, {"common/world/map_layer.hpp", ""}, {"config/systems/swiftlet.yaml", ""}};
+  EXPECT_THAT(
+      missingPaths("`common/jobs`, `common/jobs.*`, `common/world/`, `runs/first`, `/api/state`, `a/b c`", files),
+      IsEmpty());
+  EXPECT_THAT(missingPaths("`common/job.hpp` and `config/systems/swift_*.yaml`", files),
+              ElementsAre("common/job.hpp", "config/systems/swift_*.yaml"));
+  const std::string page = "- Where it shows: `Jobs::submit`,\n  `common/jobs.hpp`\n\n## What\n\n`old_name`\n";
+  EXPECT_THAT(missingNames(page, "class Jobs { void submit(); };"), IsEmpty());
+  EXPECT_THAT(missingNames(page, "class Jobs { void post(); };"), ElementsAre("submit"));
+  EXPECT_THAT(missingNames("no such line", ""), ElementsAre("- Where it shows:"));
+}
+
+/// Figures with a unit outside of blocks: "0.014 m", "5.2 s", "90 %".
+std::vector<std::string> typedFigures(const std::string& page) {
+  static const std::regex kBlock("```[^`]*```");
+  static const std::regex kFigure(
+      "(?:^|[^A-Za-z0-9_.])([0-9]+(\\.[0-9]+)? ?(m|cm|mm|s|ms|m/s|deg|degrees|%|kB|scans)(?![A-Za-z0-9/-]))");
+  const std::string prose = std::regex_replace(page, kBlock, "");
+  std::vector<std::string> found;
+  for (std::sregex_iterator match(prose.begin(), prose.end(), kFigure), end; match != end; ++match)
+    found.push_back((*match)[1]);
+  return found;
+}
+
+// Figures belong into a block of a tutorial, where tests/tutorials/run_page.sh makes them.
+TEST(Pages, TheReadmeTypesNoFigures) {
+  const auto typed = typedFigures(trackedFiles().at("README.md"));
+  EXPECT_THAT(typed, IsEmpty()) << joined(typed);
+  EXPECT_THAT(
+      typedFigures("0.014 m on Intel, 20 % faster\n```sh\nsleep 5 s\n```\n6-DOF, 2D, corridor_40m, Debian 12 machine"),
+      ElementsAre("0.014 m", "20 %"));
+}
+
+}  // namespace
+}  // namespace swiftlet::repository
