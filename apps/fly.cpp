@@ -4,13 +4,11 @@
 
 #include <fmt/color.h>
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
 #include "apps/mission_limits.hpp"
-#include "apps/numbers.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/show.hpp"
 #include "apps/speed.hpp"
@@ -156,31 +154,25 @@ int fly(const FlyOptions& options) {
 
 }  // namespace
 
-void addFly(CLI::App& program, Run& run) {
+void addFly(Command& program) {
   auto options = std::make_shared<FlyOptions>();
-  auto* command = program.add_subcommand("fly", "Fly a mission in the simulator; the page shows it live.");
-  command->add_option("mission", options->mission, "Mission file (XML).")->required();
-  command->add_option("--world", options->world, "World to fly in (SDF).")->capture_default_str();
-  command->add_option("--map", options->map,
-                      "A map of the place (YAML of map_server): the flight finds out where it is in it.");
-  command->add_option("--system", options->system, "A profile of config/systems, or a file.")->capture_default_str();
-  command->add_option("--seed", options->seed, "Of all that is random.")
-      ->capture_default_str()
-      ->check(numberWithin(0, kGreatestSeed));
-  command->add_option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");
-  command->add_flag("--headless", options->headless, "Without the page.");
-  command->add_option("--listen", options->listen, "Address the page listens on; 0.0.0.0: of every network.")
-      ->capture_default_str();
-  command->add_option("--port", options->port, "Port of the page, 0 for any.")
-      ->capture_default_str()
-      ->check(numberWithin(0, 65535));
-  command->add_option("--out", options->out, "Folder of the run; default runs/<time>-<mission>.");
-  command->add_option("--time-limit", options->time_limit_s, "Simulated seconds after which the flight is stopped.")
-      ->capture_default_str()
-      ->check(numberWithin(0.01, 1e6));
-  command->add_flag("--json", options->json, "Print the outcome as JSON, nothing else.");
-  command->footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
-  command->callback([&run, options] { run = [options] { return fly(*options); }; });
+  Command command = program.command("fly", "Fly a mission in the simulator; the page shows it live.");
+  command.argument("mission", options->mission, "Mission file (XML).");
+  command.option("--world", options->world, "World to fly in (SDF).");
+  command.option("--map", options->map,
+                 "A map of the place (YAML of map_server): the flight finds out where it is in it.");
+  command.option("--system", options->system, "A profile of config/systems, or a file.");
+  command.option("--seed", options->seed, {0, kGreatestSeed}, "Seed of all random numbers.");
+  command.option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");
+  command.flag("--headless", options->headless, "Without the page.");
+  command.option("--listen", options->listen, "Address the page listens on; 0.0.0.0: of every network.");
+  command.option("--port", options->port, {0, 65535}, "Port of the page, 0 for any.");
+  command.option("--out", options->out, "Folder of the run; default runs/<time>-<mission>.");
+  command.option("--time-limit", options->time_limit_s, {0.01, 1e6},
+                 "Simulated seconds after which the flight is stopped.");
+  command.flag("--json", options->json, "Print the outcome as JSON, nothing else.");
+  command.footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
+  command.runs([options] { return fly(*options); });
 }
 
 }  // namespace swiftlet::apps

@@ -1,4 +1,4 @@
-// swiftlet: the only main(). Each subcommand is one file beside this one.
+// swiftlet: the only main(). Each command is one file beside this one.
 #include <fcntl.h>
 
 #include <cerrno>
@@ -7,11 +7,9 @@
 #include <exception>
 
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 
 #include "apps/command.hpp"
 #include "apps/show.hpp"
-#include "apps/usage.hpp"
 #include "common/error.hpp"
 
 namespace {
@@ -36,31 +34,24 @@ int main(int argc, char** argv) {
   using namespace swiftlet;
   openStandardStreams();
 
-  CLI::App program{"Explore, map and fly home indoors: autonomy for small quadrotors.", "swiftlet"};
-  program.require_subcommand(0, 1);  // At least one is required below, so that an unknown one is named first.
-  program.set_version_flag("--version", "swiftlet " SWIFTLET_VERSION, "Print the version.");
-  program.footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
-
-  apps::Run run;
-  apps::addFly(program, run);
-  apps::addCheck(program, run);
-  apps::addTrial(program, run);
-  apps::addMap(program, run);
-  apps::addLocalize(program, run);
-  apps::addConfig(program, run);
-  apps::addDoctor(program, run);
-  apps::addVersion(program, run);
-  apps::addEvaluate(program, run);
-  apps::addOptimize(program, run);
+  apps::Program program("swiftlet", SWIFTLET_VERSION,
+                        "Explore, map and fly home indoors: autonomy for small quadrotors.");
+  apps::Command& top = program.top();
+  top.footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
+  apps::addFly(top);
+  apps::addCheck(top);
+  apps::addTrial(top);
+  apps::addMap(top);
+  apps::addLocalize(top);
+  apps::addConfig(top);
+  apps::addDoctor(top);
+  apps::addVersion(top);
+  apps::addEvaluate(top);
+  apps::addOptimize(top);
 
   try {
-    program.parse(argc, argv);
-    if (program.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
-    return withOutput(run());
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return withOutput(program.exit(e));  // Help or the version was asked for.
-    apps::showError(apps::usageProblem(program, e));
-    return apps::kBadInput;
+    const auto [run, exit_code] = program.parse(argc, argv);
+    return withOutput(run ? run() : exit_code);
   } catch (const common::InputError& e) {
     apps::showError(fmt::format("{}\n", e.what()));
     return apps::kBadInput;

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
@@ -180,17 +179,15 @@ int map(const MapOptions& options) {
 
 }  // namespace
 
-void addMap(CLI::App& program, Run& run) {
+void addMap(Command& program) {
   auto options = std::make_shared<MapOptions>();
-  auto* command = program.add_subcommand("map", "Make the map of a recorded laser log; no odometry is needed.");
-  addLogOptions(*command, options->log, kSuffix);
-  command
-      ->add_option("--slam", options->slam,
-                   "graph: key scans tied by matches and loop closures. particles: trajectories with a map each.")
-      ->check(CLI::IsMember({"graph", "particles"}))
-      ->capture_default_str();
-  command->footer("Example: swiftlet map intel.clf.bz2 --out intel");
-  command->callback([&run, options] { run = [options] { return map(*options); }; });
+  Command command = program.command("map", "Make the map of a recorded laser log; no odometry is needed.");
+  addLogOptions(command, options->log, kSuffix);
+  command.choice(
+      "--slam", options->slam, {"graph", "particles"},
+      "graph: key scans, constraints between them and loop closures. particles: trajectories with a map each.");
+  command.footer("Example: swiftlet map intel.clf.bz2 --out intel");
+  command.runs([options] { return map(*options); });
 }
 
 }  // namespace swiftlet::apps

@@ -9,13 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "apps/command_line.hpp"
 #include "common/error.hpp"
 #include "interfaces/laser_log/laser_log.hpp"
 #include "perception/laser_odometry/laser_front_end.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace swiftlet::apps {
 
@@ -30,7 +27,7 @@ struct RecordedLogOptions {
 
 /// Adds the log, --sensor, --odometry, --system, --out and --json. `suffix` ends the name of the folder that is made
 /// when none is given.
-void addLogOptions(CLI::App& command, RecordedLogOptions& options, const std::string& suffix);
+void addLogOptions(Command& command, RecordedLogOptions& options, const std::string& suffix);
 
 /// The folder for the results. Where none is given, "logs/intel.clf.bz2" -> "intel-map".
 std::filesystem::path folderFor(const RecordedLogOptions& options, const std::string& suffix);
