@@ -2,7 +2,6 @@
 #include <memory>
 
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
@@ -44,14 +43,14 @@ int check(const CheckOptions& options) {
 
 }  // namespace
 
-void addCheck(CLI::App& program, Run& run) {
+void addCheck(Command& program) {
   auto options = std::make_shared<CheckOptions>();
-  auto* command = program.add_subcommand("check", "Validate missions without flying; every error with its place.");
-  command->add_option("missions", options->missions, "Mission files.")->required();
-  command->add_option("--system", options->system, "The profile they are to be flown with.")->capture_default_str();
-  command->add_flag("--json", options->json, "Print the problems as JSON.");
-  command->footer("Example: swiftlet check missions/*.xml");
-  command->callback([&run, options] { run = [options] { return check(*options); }; });
+  Command command = program.command("check", "Validate missions without flying; every error with its place.");
+  command.arguments("missions", options->missions, "Mission files.");
+  command.option("--system", options->system, "The profile they are to be flown with.");
+  command.flag("--json", options->json, "Print the problems as JSON.");
+  command.footer("Example: swiftlet check missions/*.xml");
+  command.runs([options] { return check(*options); });
 }
 
 }  // namespace swiftlet::apps

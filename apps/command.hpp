@@ -1,11 +1,7 @@
-// A subcommand of the program. It declares its options, and is run if it was chosen.
+// The commands of the program, one file each.
 #pragma once
 
-#include <functional>
-
-namespace CLI {
-class App;
-}
+#include "apps/command_line.hpp"
 
 namespace swiftlet::apps {
 
@@ -17,18 +13,16 @@ enum ExitCode : int {
   kBadInput = 2,  ///< Wrong usage or input that cannot be used, a mission that is not sound too.
 };
 
-/// Each function adds its subcommand. If it is chosen, `run` is set to a function that executes it and returns the exit
-/// code.
-using Run = std::function<int()>;
-void addFly(CLI::App& program, Run& run);
-void addCheck(CLI::App& program, Run& run);
-void addTrial(CLI::App& program, Run& run);
-void addMap(CLI::App& program, Run& run);
-void addLocalize(CLI::App& program, Run& run);
-void addConfig(CLI::App& program, Run& run);
-void addDoctor(CLI::App& program, Run& run);
-void addVersion(CLI::App& program, Run& run);
-void addEvaluate(CLI::App& program, Run& run);
-void addOptimize(CLI::App& program, Run& run);
+/// Each adds its command to `program`.
+void addFly(Command& program);
+void addCheck(Command& program);
+void addTrial(Command& program);
+void addMap(Command& program);
+void addLocalize(Command& program);
+void addConfig(Command& program);
+void addDoctor(Command& program);
+void addVersion(Command& program);
+void addEvaluate(Command& program);
+void addOptimize(Command& program);
 
 }  // namespace swiftlet::apps

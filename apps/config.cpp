@@ -3,7 +3,6 @@
 #include <string>
 
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 
 #include "apps/command.hpp"
 #include "apps/system.hpp"
@@ -34,7 +33,7 @@ std::string reference() {
 
 }  // namespace
 
-void addConfig(CLI::App& program, Run& run) {
+void addConfig(Command& program) {
   struct Options {
     std::string system = "swiftlet";
     bool plain = false;
@@ -42,23 +41,21 @@ void addConfig(CLI::App& program, Run& run) {
     bool reference = false;
   };
   auto options = std::make_shared<Options>();
-  auto* command = program.add_subcommand("config", "Print the effective configuration of a system profile.");
-  command->add_option("--system", options->system, "A profile of config/systems, or a file.")->capture_default_str();
-  command->add_flag("--plain", options->plain, "Without the comments.");
-  command->add_flag("--list", options->list, "Only the names of the profiles.");
-  command->add_flag("--reference", options->reference, "Every setting with its bounds, as Markdown.");
-  command->footer("Example: swiftlet config --system swiftlet > mine.yaml");
-  command->callback([&run, options] {
-    run = [options] {
-      if (options->reference) {
-        fmt::print("{}", reference());
-      } else if (options->list) {
-        for (const std::string& name : systemNames()) fmt::print("{}\n", common::printable(name));
-      } else {
-        fmt::print("{}", loadSystem(options->system).toYaml(!options->plain));
-      }
-      return kDone;
-    };
+  Command command = program.command("config", "Print the effective configuration of a system profile.");
+  command.option("--system", options->system, "A profile of config/systems, or a file.");
+  command.flag("--plain", options->plain, "Without the comments.");
+  command.flag("--list", options->list, "Only the names of the profiles.");
+  command.flag("--reference", options->reference, "Every setting with its bounds, as Markdown.");
+  command.footer("Example: swiftlet config --system swiftlet > mine.yaml");
+  command.runs([options] {
+    if (options->reference) {
+      fmt::print("{}", reference());
+    } else if (options->list) {
+      for (const std::string& name : systemNames()) fmt::print("{}\n", common::printable(name));
+    } else {
+      fmt::print("{}", loadSystem(options->system).toYaml(!options->plain));
+    }
+    return kDone;
   });
 }
 

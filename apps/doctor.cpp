@@ -6,7 +6,6 @@
 #include <thread>
 
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
@@ -103,12 +102,12 @@ int doctor(bool json) {
 
 }  // namespace
 
-void addDoctor(CLI::App& program, Run& run) {
+void addDoctor(Command& program) {
   auto json = std::make_shared<bool>(false);
-  auto* command = program.add_subcommand("doctor", "Say what is missing on this machine and how to get it.");
-  command->add_flag("--json", *json, "Print as JSON.");
-  command->footer("Example: swiftlet doctor");
-  command->callback([&run, json] { run = [json] { return doctor(*json); }; });
+  Command command = program.command("doctor", "Say what is missing on this machine and how to get it.");
+  command.flag("--json", *json, "Print as JSON.");
+  command.footer("Example: swiftlet doctor");
+  command.runs([json] { return doctor(*json); });
 }
 
 }  // namespace swiftlet::apps

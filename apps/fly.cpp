@@ -4,12 +4,10 @@
 
 #include <fmt/color.h>
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
-#include "apps/numbers.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/show.hpp"
 #include "apps/speed.hpp"
@@ -29,14 +27,15 @@
 namespace swiftlet::apps {
 namespace {
 
+const std::string kWorld = "worlds/unb_case1.sdf";
+
 struct FlyOptions {
   std::string mission;
-  std::string world = "worlds/unb_case1.sdf";
+  std::string world;
   std::string scenario;
   std::string map;
   std::string system = "swiftlet";
-  int seed = 1;
-  bool seed_given = false;
+  std::optional<int> seed;
   std::string speed;
   bool headless = false;
   std::string listen = "127.0.0.1";
@@ -50,14 +49,16 @@ FlightSetup setupOf(const FlyOptions& options) {
   FlightSetup setup;
   setup.system = loadSystem(options.system);
   setup.mission_file = common::findData(options.mission).string();
+  if (!options.scenario.empty() && !options.world.empty())
+    throw common::InputError(common::Problem{{}, "--scenario", "the scenario says which world", "leave out --world"});
   if (options.scenario.empty()) {
-    setup.scenario.world = common::findData(options.world).string();
+    setup.scenario.world = common::findData(options.world.empty() ? kWorld : options.world).string();
   } else {
     evaluation::TrialConfig trial = evaluation::readTrial(common::findData(options.scenario));
     findWorld(trial);
     setup.scenario = trial.scenario;
   }
-  if (options.scenario.empty() || options.seed_given) setup.scenario.seed = options.seed;
+  if (options.seed) setup.scenario.seed = *options.seed;
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
@@ -196,38 +197,28 @@ int fly(const FlyOptions& options) {
 
 }  // namespace
 
-void addFly(CLI::App& program, Run& run) {
+void addFly(Command& program) {
   auto options = std::make_shared<FlyOptions>();
-  auto* command = program.add_subcommand("fly", "Fly a mission in the simulator; the page shows it live.");
-  command->add_option("mission", options->mission, "Mission file (XML).")->required();
-  auto* world = command->add_option("--world", options->world, "World to fly in (SDF).")->capture_default_str();
-  command
-      ->add_option("--scenario", options->scenario,
-                   "A trial file whose scenario is flown: world, start, people, weather, several vehicles.")
-      ->excludes(world);
-  command->add_option("--map", options->map,
-                      "A map of the place (YAML of map_server): the flight finds out where it is in it.");
-  command->add_option("--system", options->system, "A profile of config/systems, or a file.")->capture_default_str();
-  command->add_option("--seed", options->seed, "Of all that is random.")
-      ->capture_default_str()
-      ->check(numberWithin(0, kGreatestSeed));
-  command->add_option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");
-  command->add_flag("--headless", options->headless, "Without the page.");
-  command->add_option("--listen", options->listen, "Address the page listens on; 0.0.0.0: of every network.")
-      ->capture_default_str();
-  command->add_option("--port", options->port, "Port of the page, 0 for any.")
-      ->capture_default_str()
-      ->check(numberWithin(0, 65535));
-  command->add_option("--out", options->out, "Folder of the run; default runs/<time>-<mission>.");
-  command->add_option("--time-limit", options->time_limit_s, "Simulated seconds after which the flight is stopped.")
-      ->capture_default_str()
-      ->check(numberWithin(0.01, 1e6));
-  command->add_flag("--json", options->json, "Print the outcome as JSON, nothing else.");
-  command->footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
-  command->callback([&run, options, command] {
-    options->seed_given = command->count("--seed") > 0;
-    run = [options] { return fly(*options); };
-  });
+  Command command = program.command("fly", "Fly a mission in the simulator; the page shows it live.");
+  command.argument("mission", options->mission, "Mission file (XML).");
+  command.option("--world", options->world, fmt::format("World to fly in (SDF). Default: {}.", kWorld));
+  command.option("--scenario", options->scenario,
+                 "A trial file whose scenario is flown: world, start, people, weather, several vehicles.");
+  command.option("--map", options->map,
+                 "A map of the place (YAML of map_server): the flight finds out where it is in it.");
+  command.option("--system", options->system, "A profile of config/systems, or a file.");
+  command.option("--seed", options->seed, {0, kGreatestSeed},
+                 "Seed of all random numbers. Default: the scenario's, or 1.");
+  command.option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");
+  command.flag("--headless", options->headless, "Without the page.");
+  command.option("--listen", options->listen, "Address the page listens on; 0.0.0.0: of every network.");
+  command.option("--port", options->port, {0, 65535}, "Port of the page, 0 for any.");
+  command.option("--out", options->out, "Folder of the run; default runs/<time>-<mission>.");
+  command.option("--time-limit", options->time_limit_s, {0.01, 1e6},
+                 "Simulated seconds after which the flight is stopped.");
+  command.flag("--json", options->json, "Print the outcome as JSON, nothing else.");
+  command.footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
+  command.runs([options] { return fly(*options); });
 }
 
 }  // namespace swiftlet::apps

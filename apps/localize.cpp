@@ -4,13 +4,11 @@
 #include <sstream>
 
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
 #include "apps/given_map.hpp"
 #include "apps/localize_outputs.hpp"
-#include "apps/numbers.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
@@ -34,7 +32,7 @@ constexpr const char* kSuffix = "localize";
 struct LocalizeOptions {
   RecordedLogOptions log;
   std::string map, start;
-  double seed = 1.0;
+  int seed = 1;
 };
 
 /// "x;y;yaw" in metres and degrees.
@@ -209,18 +207,16 @@ int localize(const LocalizeOptions& options) {
 
 }  // namespace
 
-void addLocalize(CLI::App& program, Run& run) {
+void addLocalize(Command& program) {
   auto options = std::make_shared<LocalizeOptions>();
-  auto* command = program.add_subcommand("localize", "Find and follow a recorded laser log in a given map.");
-  command->add_option("map", options->map, "The map's YAML, as map_server and swiftlet map write it.")->required();
-  addLogOptions(*command, options->log, kSuffix);
-  command->add_option("--start", options->start,
-                      "\"x;y;yaw\" where it begins, in metres and degrees; not known when not given.");
-  command->add_option("--seed", options->seed, "Of the particles.")
-      ->check(numberWithin(0.0, kGreatestSeed))
-      ->capture_default_str();
-  command->footer("Example: swiftlet localize intel/map.yaml intel.clf.bz2 --out intel-localize");
-  command->callback([&run, options] { run = [options] { return localize(*options); }; });
+  Command command = program.command("localize", "Find and follow a recorded laser log in a given map.");
+  command.argument("map", options->map, "The map's YAML, as map_server and swiftlet map write it.");
+  addLogOptions(command, options->log, kSuffix);
+  command.option("--start", options->start,
+                 "\"x;y;yaw\" where it begins, in metres and degrees; not known when not given.");
+  command.option("--seed", options->seed, {0, kGreatestSeed}, "Seed of the particles.");
+  command.footer("Example: swiftlet localize intel/map.yaml intel.clf.bz2 --out intel-localize");
+  command.runs([options] { return localize(*options); });
 }
 
 }  // namespace swiftlet::apps

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
@@ -186,18 +185,16 @@ int map(const MapOptions& options) {
 
 }  // namespace
 
-void addMap(CLI::App& program, Run& run) {
+void addMap(Command& program) {
   auto options = std::make_shared<MapOptions>();
-  auto* command = program.add_subcommand("map", "Make the map of a recorded laser log; no odometry is needed.");
-  addLogOptions(*command, options->log, kSuffix);
-  command
-      ->add_option(
-          "--slam", options->slam,
-          "graph: key scans with constraints between them, and loop closures. particles: trajectories with a map "
-          "each. scan_to_map: scans matched to one map, without loop closure. The profile's when not given.")
-      ->check(CLI::IsMember({"graph", "particles", "scan_to_map"}));
-  command->footer("Example: swiftlet map intel.clf.bz2 --out intel");
-  command->callback([&run, options] { run = [options] { return map(*options); }; });
+  Command command = program.command("map", "Make the map of a recorded laser log; no odometry is needed.");
+  addLogOptions(command, options->log, kSuffix);
+  command.choice(
+      "--slam", options->slam, {"graph", "particles", "scan_to_map"},
+      "graph: key scans with constraints between them, and loop closures. particles: trajectories with a map each. "
+      "scan_to_map: scans matched to one map, without loop closure. The profile's when not given.");
+  command.footer("Example: swiftlet map intel.clf.bz2 --out intel");
+  command.runs([options] { return map(*options); });
 }
 
 }  // namespace swiftlet::apps

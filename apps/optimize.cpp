@@ -8,11 +8,9 @@
 #include <system_error>
 
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
-#include "apps/numbers.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/required.hpp"
 #include "apps/results_folder.hpp"
@@ -201,29 +199,26 @@ int optimizeGraph(const OptimizeOptions& options) {
 
 }  // namespace
 
-void addOptimize(CLI::App& program, Run& run) {
+void addOptimize(Command& program) {
   auto options = std::make_shared<OptimizeOptions>();
-  auto* command = program.add_subcommand("optimize", "Find the poses that best satisfy a pose graph (g2o).");
-  command
-      ->add_option(
-          "graph", options->graph,
-          "Graph in the plane or in space (SE2 or SE3:QUAT), plain or compressed by gzip, bzip2 or xz. Without "
-          "vertices, the guess follows from the shortest chains of edges.")
-      ->required();
-  command->add_option(
-      "--out", options->out,
-      "Folder for the optimized graph, graph.g2o, and its figures, optimized.json; new, empty or with older ones.");
-  command->add_option("--max-iterations", options->max_iterations, "Of each start that is tried.")
-      ->capture_default_str()
-      ->check(numberWithin(1, 1000));
-  command->add_flag("--ignore-cross-terms", options->ignore_cross_terms,
-                    "Where the information of an edge is not positive definite, use its diagonal alone. Without this, "
-                    "such a graph is refused.");
-  command->add_flag("--json", options->json, "Print the result as JSON, nothing else.");
-  command->footer(
+  Command command = program.command("optimize", "Find the poses that best satisfy a pose graph (g2o).");
+  command.argument(
+      "graph", options->graph,
+      "Graph in the plane or in space (SE2 or SE3:QUAT), plain or compressed by gzip, bzip2 or xz. Without "
+      "vertices, the guess follows from the shortest chains of edges.");
+  command.option("--out", options->out,
+                 "Folder for the optimized graph, graph.g2o, and its figures, optimized.json; new, empty or with older "
+                 "ones.");
+  command.option("--max-iterations", options->max_iterations, {1, 1000}, "Of each start that is tried.");
+  command.flag(
+      "--ignore-cross-terms", options->ignore_cross_terms,
+      "Where the information of an edge is not positive definite, use its diagonal alone. Without this, such a "
+      "graph is refused.");
+  command.flag("--json", options->json, "Print the result as JSON, nothing else.");
+  command.footer(
       "chi2 is the sum of e' Omega e over the edges, with g2o's error e and no factor of 1/2; `iterations in all` are\n"
       "those of all starts that were tried.\n\nExample: swiftlet optimize sphere2500.g2o.xz --out optimized");
-  command->callback([&run, options] { run = [options] { return optimizeGraph(*options); }; });
+  command.runs([options] { return optimizeGraph(*options); });
 }
 
 }  // namespace swiftlet::apps

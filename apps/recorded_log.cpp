@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "apps/system.hpp"
 #include "interfaces/laser_log/open_laser_log.hpp"
@@ -29,21 +28,15 @@ std::string without(std::string name, std::initializer_list<std::string_view> en
 
 }  // namespace
 
-void addLogOptions(CLI::App& command, RecordedLogOptions& options, const std::string& suffix) {
-  command
-      .add_option("log", options.file, "CARMEN, BreezySLAM .dat or rosbag 1; plain, or packed by gzip, bzip2 or xz.")
-      ->required();
-  command.add_option("--sensor", options.sensor,
-                     "A data sheet of config/sensors or a file, where the log does not say what its laser is.");
-  command
-      .add_option("--odometry", options.odometry,
-                  "auto: the log's, as far as it proves right. none: as if it had none.")
-      ->check(CLI::IsMember({"auto", "none"}))
-      ->capture_default_str();
-  command.add_option("--system", options.system, "A profile of config/systems, or a file: its odometry and SLAM.")
-      ->capture_default_str();
-  command.add_option("--out", options.out, fmt::format("Folder for the results; LOG-{} when not given.", suffix));
-  command.add_flag("--json", options.json, "Print the figures as JSON.");
+void addLogOptions(Command& command, RecordedLogOptions& options, const std::string& suffix) {
+  command.argument("log", options.file, "CARMEN, BreezySLAM .dat or rosbag 1; plain, or packed by gzip, bzip2 or xz.");
+  command.option("--sensor", options.sensor,
+                 "A data sheet of config/sensors or a file, where the log does not say what its laser is.");
+  command.choice("--odometry", options.odometry, {"auto", "none"},
+                 "auto: the log's, as far as it proves right. none: as if it had none.");
+  command.option("--system", options.system, "A profile of config/systems, or a file: its odometry and SLAM.");
+  command.option("--out", options.out, fmt::format("Folder for the results; LOG-{} when not given.", suffix));
+  command.flag("--json", options.json, "Print the figures as JSON.");
 }
 
 fs::path folderFor(const RecordedLogOptions& options, const std::string& suffix) {

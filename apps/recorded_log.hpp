@@ -1,4 +1,4 @@
-// A recorded laser log as input of a subcommand: its options, its scans, and its oddities.
+// A recorded laser log as a subcommand takes it: its options, its scans, and what is odd about it.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "apps/command_line.hpp"
 #include "common/error.hpp"
 #include "interfaces/laser_log/laser_log.hpp"
 #include "perception/laser_odometry/laser_front_end.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace swiftlet::apps {
 
@@ -28,16 +25,17 @@ struct RecordedLogOptions {
   bool json = false;
 };
 
-/// Adds the log, --sensor, --odometry, --system, --out and --json. `suffix` ends the default name of the folder.
-void addLogOptions(CLI::App& command, RecordedLogOptions& options, const std::string& suffix);
+/// Adds the log, --sensor, --odometry, --system, --out and --json. `suffix` ends the name of the folder that is made
+/// when none is given.
+void addLogOptions(Command& command, RecordedLogOptions& options, const std::string& suffix);
 
-/// The folder for the results. If none is given, "logs/intel.clf.bz2" -> "intel-map".
+/// The folder for the results. Where none is given, "logs/intel.clf.bz2" -> "intel-map".
 std::filesystem::path folderFor(const RecordedLogOptions& options, const std::string& suffix);
 
 /// "1 range", "2 ranges".
 std::string plural(std::uint64_t count, const std::string& one, const std::string& more);
 
-/// The value for JSON, null if there is none.
+/// The value for JSON, null where there is none.
 template <typename Json, typename Value>
 Json orNull(const std::optional<Value>& value) {
   return value ? Json(*value) : Json();
@@ -46,30 +44,30 @@ Json orNull(const std::optional<Value>& value) {
 /// One thread at a time.
 class RecordedLog {
  public:
-  /// Throws InputError if there is no such log or sensor.
+  /// Throws InputError when there is no such log or sensor.
   explicit RecordedLog(const RecordedLogOptions& options);
 
-  /// None at the end, also if damage ends the log: the scans before it count. Throws InputError if there was not a
-  /// single scan.
+  /// None at the end, also at one that a damage makes: what came before it counts all the same. Throws InputError when
+  /// not a single scan did.
   std::optional<interfaces::LoggedScan> next();
-  /// Prepares `logged` for SLAM and localization; its odometry is removed if it must not be used. Refers to `logged`.
+  /// `logged` for SLAM and localization, without its odometry where that is not to be used. Refers to `logged`.
   perception::LaserSlamInput inputOf(const interfaces::LoggedScan& logged) const;
 
   const interfaces::LaserLog& reader() const { return *reader_; }
   std::uint64_t scans() const { return scans_; }
-  /// All scans so far have the same stamp, so stamps are useless.
+  /// All scans so far have the same stamp: it tells nothing.
   bool hasOneStamp() const { return scans_ > 1 && !stamps_differ_; }
-  /// Why the log could not be read to its end; empty if it could.
+  /// Why it could not be read to its end; empty when it could.
   const std::string& damage() const { return damage_; }
 
-  /// The first record that could not be read; none if all could, or if the format has no lines.
+  /// Of the first record that could not be read; none where all could, or the format has no lines.
   std::optional<int> firstSkippedLine() const;
 
-  /// Facts for people, label and value: format, scans and, if the stamps are useful, duration.
+  /// For people, label and value: format, scans and, where the stamps tell it, duration.
   std::vector<std::pair<std::string, std::string>> facts() const;
-  /// Oddities of the log for people, including those that the front end found.
+  /// For people: what is odd about it, with what the front end found.
   std::vector<std::string> warnings(const perception::LaserSlamCounts& found) const;
-  /// An error about the whole log, with the first record that could not be read.
+  /// An error about the log as a whole, with the first of its records that could not be read.
   common::InputError error(const std::string& message) const;
 
  private:
@@ -79,7 +77,7 @@ class RecordedLog {
   std::uint64_t scans_ = 0;
   std::optional<common::Time> first_stamp_;
   bool stamps_differ_ = false;
-  double duration_s_ = 0.0;  ///< Time from the first stamp to the last.
+  double duration_s_ = 0.0;  ///< From the first stamp to the last.
   std::string damage_;
 };
 

@@ -9,13 +9,11 @@
 #include <thread>
 
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
 #include "apps/given_map.hpp"
 #include "apps/mission_limits.hpp"
-#include "apps/numbers.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
@@ -39,7 +37,7 @@ using evaluation::TrialResults;
 
 struct TrialOptions {
   std::string trials;
-  int repeat = 0;
+  std::optional<int> repeat;  ///< Flights of each trial; none: what the trial says.
   int jobs = 1;
   std::optional<int> seed;  ///< Of the first flight; none: what the trial says.
   std::string system;
@@ -134,7 +132,7 @@ std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& 
 /// being flown at all ends the trial, and is thrown once `result` has the others.
 void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out, const std::atomic<bool>& stop,
             TrialResult& result) {
-  const int count = options.repeat > 0 ? options.repeat : trial.repeat;
+  const int count = options.repeat.value_or(trial.repeat);
   const int first_seed = options.seed.value_or(trial.scenario.seed);
   const std::shared_ptr<const FlightMap> map = givenMap(trial, out);
   std::vector<std::vector<evaluation::FlightScore>> scores(static_cast<std::size_t>(count));
@@ -257,22 +255,20 @@ int trial(const TrialOptions& options) {
 
 }  // namespace
 
-void addTrial(CLI::App& program, Run& run) {
+void addTrial(Command& program) {
   auto options = std::make_shared<TrialOptions>();
-  auto* command = program.add_subcommand("trial", "Fly scripted trials and score them against the truth.");
-  command->add_option("trial", options->trials, "Trial file (YAML), or a folder of them.")->required();
-  command->add_option("--repeat", options->repeat, "Flights of each trial, seeds S, S+1, ...; default: what it says.")
-      ->check(numberWithin(1, 10'000));
-  command->add_option("--jobs", options->jobs, "Flights at the same time.")
-      ->capture_default_str()
-      ->check(numberWithin(1, 64));
-  command->add_option("--seed", options->seed, "The first seed S; default: the trial's scenario.seed, or 1.")
-      ->check(numberWithin(0, kGreatestSeed));
-  command->add_option("--system", options->system, "Profile to fly them all with, instead of their own.");
-  command->add_option("--out", options->out, "Folder of the results; default runs/<time>-trial.");
-  command->add_flag("--json", options->json, "Print the results as JSON, nothing else.");
-  command->footer("Example: swiftlet trial trials/papers/unb_case1.yaml --repeat 20");
-  command->callback([&run, options] { run = [options] { return trial(*options); }; });
+  Command command = program.command("trial", "Fly scripted trials and score them against the truth.");
+  command.argument("trial", options->trials, "Trial file (YAML), or a folder of them.");
+  command.option("--repeat", options->repeat, {1, 10'000},
+                 "Flights of each trial, seeds S, S+1, ...; default: what it says.");
+  command.option("--jobs", options->jobs, {1, 64}, "Flights at the same time.");
+  command.option("--seed", options->seed, {0, kGreatestSeed},
+                 "The first seed S; default: the trial's scenario.seed, or 1.");
+  command.option("--system", options->system, "Profile to fly them all with, instead of their own.");
+  command.option("--out", options->out, "Folder of the results; default runs/<time>-trial.");
+  command.flag("--json", options->json, "Print the results as JSON, nothing else.");
+  command.footer("Example: swiftlet trial trials/papers/unb_case1.yaml --repeat 20");
+  command.runs([options] { return trial(*options); });
 }
 
 }  // namespace swiftlet::apps

@@ -7,7 +7,7 @@ set(SWIFTLET_PCH_STANDARD
   <unordered_map> <utility> <variant> <vector>)
 set(SWIFTLET_PCH_LIBRARY ${SWIFTLET_PCH_STANDARD} <Eigen/Dense> <fmt/format.h> <tl/expected.hpp>)
 set(SWIFTLET_PCH_WEB ${SWIFTLET_PCH_LIBRARY} <boost/beast/core.hpp> <boost/beast/http.hpp> <nlohmann/json.hpp>)
-set(SWIFTLET_PCH_PROGRAM ${SWIFTLET_PCH_LIBRARY} <CLI/CLI.hpp> <nlohmann/json.hpp>)
+set(SWIFTLET_PCH_PROGRAM ${SWIFTLET_PCH_LIBRARY} <nlohmann/json.hpp>)
 set(SWIFTLET_PCH_TEST ${SWIFTLET_PCH_LIBRARY} <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
 
 # swiftlet_precompile(TARGET HEADER...)

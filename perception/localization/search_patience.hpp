@@ -1,6 +1,6 @@
-// How far apart searches of the whole map come while the pose is not known. A vehicle that is in the map is found within
-// a few metres of path (docs/localization.md); in a map of elsewhere every search is as heavy as all else together, and
-// none can succeed.
+// How far apart searches of the whole map come while the pose is not known. A vehicle that is in the map is found
+// within a few metres of path (docs/localization.md); in a map of elsewhere every search is as heavy as all else
+// together, and none can succeed.
 #pragma once
 
 #include <algorithm>

@@ -1,0 +1,94 @@
+// The command line: commands with their arguments and options, each declared in one line, in the order of --help.
+//
+//   Command command = program.command("fly", "Fly a mission in the simulator.");
+//   command.option("--seed", options->seed, {0, 1e9}, "Seed of all random numbers.");
+//   command.runs([options] { return fly(*options); });
+//
+// CLI11 does the work, in command_line.cpp alone: it is all templates, and takes seconds to compile wherever it is
+// read.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace swiftlet::apps {
+
+/// What a chosen command does; returns the exit code of the program.
+using Run = std::function<int()>;
+
+/// Both ends belong to it; infinities and what is not a number never do.
+struct Within {
+  double low = 0.0, high = 0.0;
+};
+
+/// Seeds are bounded, so that counting on from them does not overflow.
+constexpr double kGreatestSeed = 1e9;
+
+/// A handle: copies are the same command. The variables named must live until what the command runs has run. What they
+/// hold at first is the default, which --help shows; that of an empty text or optional is for the description to say.
+class Command {
+ public:
+  /// A command below this one.
+  Command command(const std::string& name, const std::string& description);
+  /// One of the commands below is to be chosen; `what` is missing otherwise, for instance "A metric".
+  void requireCommand(const std::string& what);
+
+  /// Arguments have no dashes and are required.
+  void argument(const std::string& name, std::string& value, const std::string& description);
+  void arguments(const std::string& name, std::vector<std::string>& values, const std::string& description);
+
+  void option(const std::string& name, std::string& value, const std::string& description);
+  void option(const std::string& name, int& value, Within bounds, const std::string& description);
+  void option(const std::string& name, std::optional<int>& value, Within bounds, const std::string& description);
+  void option(const std::string& name, double& value, Within bounds, const std::string& description);
+  void choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
+              const std::string& description);
+  void flag(const std::string& name, bool& value, const std::string& description);
+
+  /// What --help says at its end, for instance an example.
+  void footer(const std::string& text);
+
+  void runs(Run run);
+
+ private:
+  friend class Program;
+  Command(CLI::App& app, Run& chosen) : app_(&app), chosen_(&chosen) {}
+  template <typename Number>
+  CLI::Option& number(const std::string& name, Number& value, Within bounds, const std::string& description);
+
+  CLI::App* app_;
+  Run* chosen_;
+};
+
+/// The program as the command above all others.
+class Program {
+ public:
+  Program(const std::string& name, const std::string& version, const std::string& description);
+  ~Program();
+
+  Command& top() { return top_; }
+
+  /// What is to be run. None when nothing is: then `exit_code` says how the program ends, and what is to be told (help,
+  /// the version, or what was wrong with the arguments and where help is) was told. A command or an option that does
+  /// not exist is told before anything else, with the one that was probably meant.
+  struct Parsed {
+    Run run;
+    int exit_code = 0;
+  };
+  Parsed parse(int argc, const char* const* argv);
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+  Run chosen_;
+  Command top_;
+};
+
+}  // namespace swiftlet::apps
