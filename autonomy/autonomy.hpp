@@ -79,7 +79,7 @@ class Autonomy {
   const perception::LaserOdometryCounts& odometryCounts() const { return estimator_.odometryCounts(); }
   const perception::SlamCounts& slamCounts() const { return estimator_.slamCounts(); }
   /// What is carried out since the last tick of the behaviours, and how it stands.
-  const common::Intent& intent() const { return wish_; }
+  const common::Intent& intent() const { return intent_; }
   const common::IntentStatus& intentStatus() const { return executor_.status(); }
 
   std::vector<common::Event> takeEvents();
