@@ -224,13 +224,13 @@ TEST(MultilevelFilter, TheFloorBehindClutterIsBelievedAgain) {
     flight.flyTo({2.5, 0.0}, 0.7);
     flight.acceleration_bias_m_s2 = flight.random.uniform(-0.03, 0.03);
     flight.flyTo({x_m + 1.5, 0.0}, 0.7);
-    untold += flight.last.measurement ? 0 : 1;
+    unmeasured += flight.last.measurement ? 0 : 1;
     wrong += std::abs(flight.filter.state().height_m - flight.z_m) < kAltitudeAtRest_m ? 0 : 1;
   }
   std::printf("floor behind clutter: %d of %d flights without a measurement, %d with a wrong height\n", unmeasured,
               kFlights, wrong);
   // The paper has no such figure. One in fifty is what is promised: clutter like this is met a few times in a flight.
-  EXPECT_LE(untold, kFlights / 50);
+  EXPECT_LE(unmeasured, kFlights / 50);
   EXPECT_LE(wrong, kFlights / 50);
 }
 
