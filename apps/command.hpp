@@ -5,14 +5,6 @@
 
 namespace swiftlet::apps {
 
-/// Exit codes of the program.
-enum ExitCode : int {
-  kDone = 0,
-  kFailed = 1,  ///< A flight did not pass, a log was never localized or not read to its end, something is missing, or a
-                ///< graph did not converge.
-  kBadInput = 2,  ///< Wrong usage or input that cannot be used, a mission that is not sound too.
-};
-
 /// Each adds its command to `program`.
 void addFly(Command& program);
 void addCheck(Command& program);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "apps/command.hpp"
 #include "apps/show.hpp"
 #include "common/error.hpp"
 

@@ -21,6 +21,14 @@ class Option;
 
 namespace swiftlet::apps {
 
+/// Exit codes of the program.
+enum ExitCode : int {
+  kDone = 0,
+  kFailed = 1,  ///< A flight did not pass, a log was never localized or not read to its end, something is missing, or a
+                ///< graph did not converge.
+  kBadInput = 2,  ///< Wrong usage or input that cannot be used, a mission that is not sound too.
+};
+
 /// What a chosen command does; returns the exit code of the program.
 using Run = std::function<int()>;
 

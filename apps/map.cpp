@@ -144,7 +144,7 @@ Facts factsOf(const RecordedLog& log, const MapRun& run) {
   Facts facts = log.facts();
   facts.insert(
       facts.end(),
-      {{"way", fmt::format("{:.1f} m", run.path_length_m)},
+      {{"path length", fmt::format("{:.1f} m", run.path_length_m)},
        {"not matched", fmt::format("{}", run.unmatched)},
        {"key scans", fmt::format("{}", run.slam.keyScans())},
        {"loops closed", run.slam.slam().hasGraph() ? fmt::format("{}", run.slam.slam().counts().loops_closed) : "-"},
