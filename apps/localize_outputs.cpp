@@ -4,13 +4,12 @@
 
 #include <fmt/core.h>
 
+#include "apps/map_png.hpp"
 #include "apps/required.hpp"
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/json_lines.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/report/report.hpp"
-#include "rendering/encode.hpp"
-#include "rendering/map_renderer.hpp"
 #include "rendering/map_svg.hpp"
 
 namespace swiftlet::apps {
@@ -19,7 +18,7 @@ namespace {
 using Paths = std::vector<std::vector<Eigen::Vector2d>>;
 
 /// A point of a path nearer than this to the one before is not drawn.
-constexpr double kDrawnStep_m = 0.05;
+constexpr double kDrawnPathStep_m = 0.05;
 
 /// Pictures are drawn in the grid's frame.
 Paths inGrid(const Paths& paths_map_m, const common::Pose2& T_map_grid) {
@@ -36,14 +35,6 @@ rendering::MapPicture pictureOf(const interfaces::StoredMap& map, const Paths& p
   for (const std::vector<Eigen::Vector2d>& path : paths_grid_m)
     picture.lines.push_back({"localized", path, rendering::LineStyle::kTrack});
   return picture;
-}
-
-std::string mapPng(const rendering::MapPicture& picture) {
-  rendering::MapView view;
-  view.width_px = 1280;
-  view.height_px = 960;
-  const rendering::Bytes png = rendering::encodePng(rendering::renderMap(picture, view));
-  return {png.begin(), png.end()};
 }
 
 /// Starts of the paths, numbered.
@@ -80,7 +71,7 @@ void LocalizedPaths::add(const perception::LocalizationEstimate& estimate) {
   const Eigen::Vector2d at = estimate.T_map_body.position_m();
   if (!open_)
     paths_.push_back({at});
-  else if ((at - paths_.back().back()).norm() >= kDrawnStep_m)
+  else if ((at - paths_.back().back()).norm() >= kDrawnPathStep_m)
     paths_.back().push_back(at);
   open_ = true;
 }

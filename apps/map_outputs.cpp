@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
+#include "apps/map_png.hpp"
 #include "apps/required.hpp"
 #include "common/read_bytes.hpp"
 #include "interfaces/files/atomic_file.hpp"
@@ -15,8 +16,6 @@
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/report/report.hpp"
-#include "rendering/encode.hpp"
-#include "rendering/map_renderer.hpp"
 #include "rendering/map_svg.hpp"
 #include "rendering/plot_svg.hpp"
 
@@ -77,14 +76,6 @@ std::vector<rendering::MapLine> loopsOf(std::span<const perception::SlamEdge> ed
     if (edge.loop)
       lines.push_back({"loop closures", {at_m(edge.from), at_m(edge.to)}, rendering::LineStyle::kReference});
   return lines;
-}
-
-std::string mapPng(const rendering::MapPicture& picture) {
-  rendering::MapView view;
-  view.width_px = 1280;
-  view.height_px = 960;
-  const rendering::Bytes png = rendering::encodePng(rendering::renderMap(picture, view));
-  return {png.begin(), png.end()};
 }
 
 }  // namespace

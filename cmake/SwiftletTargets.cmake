@@ -24,6 +24,7 @@ function(swiftlet_library name)
   else()
     swiftlet_share_precompiled(swiftlet_${name} swiftlet_common)
   endif()
+  swiftlet_unity(swiftlet_${name})
   swiftlet_publish(${name} "${folder}")
 endfunction()
 

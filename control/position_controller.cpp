@@ -10,8 +10,6 @@ namespace swiftlet::control {
 using common::config::kPositive;
 namespace {
 
-constexpr double kGravity_m_s2 = 9.81;
-
 bool finite(const common::VehicleState& state) {
   return common::isFinite(state.T_odom_body) && state.velocity_odom_m_s.allFinite();
 }

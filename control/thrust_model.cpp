@@ -9,9 +9,6 @@
 namespace swiftlet::control {
 
 using common::config::kPositive;
-namespace {
-constexpr double kGravity_m_s2 = 9.81;
-}
 
 ThrustModel::ThrustModel(const Config& config, const common::VehicleConfig& vehicle)
     : config_(config), vehicle_(vehicle), voltage_v_(vehicle.battery_full_v) {}

@@ -11,6 +11,8 @@
 
 namespace swiftlet::control {
 
+inline constexpr double kGravity_m_s2 = 9.81;
+
 class ThrustModel {
  public:
   struct Config {

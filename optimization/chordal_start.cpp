@@ -18,8 +18,6 @@ using common::Pose3;
 template <int kSize>
 using Square = Eigen::Matrix<double, kSize, kSize>;
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 Square<2> rotationOf(const Pose2& pose) { return Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix(); }
 Square<3> rotationOf(const Pose3& pose) { return pose.rotation.toRotationMatrix(); }
 Eigen::Vector2d positionOf(const Pose2& pose) { return pose.position_m(); }

@@ -11,8 +11,6 @@
 namespace swiftlet::optimization {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
 std::vector<int> fixedOf(const PoseGraph2D& graph) {
   std::vector<int> fixed = graph.also_fixed;
   fixed.push_back(graph.fixed);

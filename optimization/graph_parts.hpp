@@ -2,12 +2,16 @@
 // tree of edges gives.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "optimization/graph_2d.hpp"
 #include "optimization/graph_3d.hpp"
 
 namespace swiftlet::optimization {
+
+/// Poses and edges are numbered by int.
+inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The fixed poses, and the first pose of each connected part that has none; ascending.
 std::vector<int> anchorsOf(const PoseGraph2D& graph);

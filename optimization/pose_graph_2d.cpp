@@ -16,9 +16,9 @@ namespace {
 using common::Pose2;
 using RowMatrix3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-class EdgeCost final : public ceres::SizedCostFunction<3, 3, 3> {
+class EdgeCost2D final : public ceres::SizedCostFunction<3, 3, 3> {
  public:
-  explicit EdgeCost(const PoseEdge2D& edge)
+  explicit EdgeCost2D(const PoseEdge2D& edge)
       : T_from_to_(edge.T_from_to), sqrt_information_(edge.information.llt().matrixU()) {}
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
@@ -96,7 +96,7 @@ PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraphConfig& co
   for (const PoseEdge2D& edge : graph.edges) {
     SWIFTLET_CHECK(edge.from >= 0 && edge.from < size && edge.to >= 0 && edge.to < size && edge.from != edge.to,
                    edge.from, edge.to, size);
-    problem.AddResidualBlock(new EdgeCost(edge), edge.robust ? new ceres::CauchyLoss(config.robust_width) : nullptr,
+    problem.AddResidualBlock(new EdgeCost2D(edge), edge.robust ? new ceres::CauchyLoss(config.robust_width) : nullptr,
                              values[static_cast<std::size_t>(edge.from)].data(),
                              values[static_cast<std::size_t>(edge.to)].data());
   }

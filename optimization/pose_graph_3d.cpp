@@ -22,9 +22,9 @@ Pose3 poseOf(const double* block) {
   return {Eigen::Quaterniond(block + 3), Eigen::Vector3d(block[0], block[1], block[2])};
 }
 
-class EdgeCost final : public ceres::SizedCostFunction<6, 7, 7> {
+class EdgeCost3D final : public ceres::SizedCostFunction<6, 7, 7> {
  public:
-  explicit EdgeCost(const PoseEdge3D& edge)
+  explicit EdgeCost3D(const PoseEdge3D& edge)
       : T_from_to_(edge.T_from_to), sqrt_information_(edge.information.llt().matrixU()) {}
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
@@ -56,7 +56,7 @@ void addPoses(ceres::Problem& problem, const PoseGraph3D& graph, std::vector<Vec
 void addEdges(ceres::Problem& problem, const PoseGraph3D& graph, const PoseGraphConfig& config,
               std::vector<Vector7d>& values) {
   for (const PoseEdge3D& edge : graph.edges)
-    problem.AddResidualBlock(new EdgeCost(edge), edge.robust ? new ceres::CauchyLoss(config.robust_width) : nullptr,
+    problem.AddResidualBlock(new EdgeCost3D(edge), edge.robust ? new ceres::CauchyLoss(config.robust_width) : nullptr,
                              values[static_cast<std::size_t>(edge.from)].data(),
                              values[static_cast<std::size_t>(edge.to)].data());
 }

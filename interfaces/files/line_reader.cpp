@@ -11,7 +11,7 @@ namespace {
 using common::InputError;
 using common::Problem;
 
-constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
+constexpr std::size_t kReadBytes = std::size_t{1} << 16;
 /// The byte order mark that some editors write before UTF-8.
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
@@ -67,8 +67,8 @@ void LineReader::dropRestOfLine() {
 
 void LineReader::readBlock() {
   const std::size_t before = buffer_.size();
-  buffer_.resize(before + kBlockBytes);
-  const BytesRead count = stream_.read(buffer_.data() + before, kBlockBytes);
+  buffer_.resize(before + kReadBytes);
+  const BytesRead count = stream_.read(buffer_.data() + before, kReadBytes);
   buffer_.resize(before + count.value_or(0));
   if (!count) throw problemAt(0, "", "is cut or damaged, its end cannot be read", count.error());
   at_end_ = *count == 0;

@@ -17,7 +17,7 @@
 namespace swiftlet::interfaces {
 namespace {
 
-constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
+constexpr std::size_t kUnpackedBytes = std::size_t{1} << 16;
 /// Limit of nested packings: a crafted file can unpack to itself forever.
 constexpr int kMostGzipLayers = 20;
 
@@ -83,7 +83,7 @@ tl::expected<ByteSource, std::string> withoutGzip(ByteSource source) {
 /// The source from which the archive library reads.
 struct UnpackedStream::Feed {
   ByteSource source;
-  std::array<char, kBlockBytes> block;
+  std::array<char, kUnpackedBytes> block;
   std::int64_t packed_bytes = 0;      ///< Bytes taken from the file.
   std::int64_t bytes_to_archive = 0;  ///< Bytes given to the library, after gzip was unpacked.
 

@@ -6,7 +6,7 @@
 namespace swiftlet::interfaces {
 namespace {
 
-constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
+constexpr std::size_t kBagBlockBytes = std::size_t{1} << 16;
 
 }  // namespace
 
@@ -70,8 +70,8 @@ bool StreamCursor::atEnd() { return taken_ == buffer_.size() && !fill(); }
 bool StreamCursor::fill() {
   buffer_.erase(0, std::exchange(taken_, 0));
   const std::size_t before = buffer_.size();
-  buffer_.resize(before + kBlockBytes);
-  const BytesRead count = source_(buffer_.data() + before, kBlockBytes);
+  buffer_.resize(before + kBagBlockBytes);
+  const BytesRead count = source_(buffer_.data() + before, kBagBlockBytes);
   buffer_.resize(before + count.value_or(0));
   if (!count) throw StreamFailure{count.error()};
   return *count > 0;

@@ -15,8 +15,6 @@ namespace {
 
 using common::Pose2;
 
-constexpr double kPi = std::numbers::pi;
-
 // Data of the rover: see the format's own reader.
 constexpr double kTicksPerTurn = 2000.0;
 constexpr double kWheelRadius_m = 0.077;
@@ -25,7 +23,7 @@ constexpr double kLaserAhead_m = 0.145;
 
 // Data of the laser: 1,024 steps a turn, 10 turns a second, the beams spread evenly to both sides of straight ahead.
 // Readings below 20 mm are error codes.
-constexpr double kStep_rad = 2.0 * kPi / 1024.0;
+constexpr double kStep_rad = 2.0 * std::numbers::pi / 1024.0;
 constexpr common::Duration kStepTime = common::Duration::fromNanoseconds(100'000'000 / 1024);
 constexpr double kRangeMin_m = 0.02;
 constexpr double kRangeMax_m = 5.6;
@@ -35,7 +33,7 @@ constexpr int kFirstColumns = 4;   ///< Time, one unused column, ticks of both w
 constexpr int kOtherColumns = 20;  ///< Columns between the ticks and the ranges.
 constexpr double kMostTicks = 2147483648.0;
 constexpr double kFarthestStamp_us = 1e6 * common::kFarthestStamp_s;
-constexpr int kSurveyedLines = 1000;
+constexpr int kBreezySurveyedLines = 1000;
 
 /// Pose of the rover by its wheels.
 class WheelOdometry {
@@ -56,7 +54,7 @@ class WheelOdometry {
   }
 
  private:
-  static double metres(double ticks) { return ticks / kTicksPerTurn * 2.0 * kPi * kWheelRadius_m; }
+  static double metres(double ticks) { return ticks / kTicksPerTurn * 2.0 * std::numbers::pi * kWheelRadius_m; }
   bool begun_ = false;
   double left_ticks_ = 0.0, right_ticks_ = 0.0;
   Pose2 T_odom_robot_;
@@ -125,7 +123,7 @@ int surveyedBeams(const std::filesystem::path& file) {
   try {
     LineReader reader(file, kLogLimits);
     std::string_view line;
-    for (int i = 0; i < kSurveyedLines && reader.next(line); ++i)
+    for (int i = 0; i < kBreezySurveyedLines && reader.next(line); ++i)
       if (isBreezyLine(line)) ++lines_by_beams[static_cast<int>(wordsOf(line).size()) - kFirstColumns - kOtherColumns];
   } catch (const common::InputError&) {}
   int beams = 0, most_lines = 0;

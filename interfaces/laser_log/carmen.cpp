@@ -16,12 +16,11 @@ namespace {
 
 using common::Pose2;
 
-constexpr double kPi = std::numbers::pi;
 /// Old lines do not give the range of their laser: SICK and others write 50, 51.x, 81.8 or 81.9 for "nothing".
 constexpr double kOldRangeMax_m = 49.9;
 constexpr double kOldRangeMin_m = 0.05;
 /// The first records are searched within this many lines.
-constexpr int kSurveyedLines = 100'000;
+constexpr int kCarmenSurveyedLines = 100'000;
 
 /// The words at the end of every record. A wrong count of readings is detected here at the latest. All words are
 /// required, so that a cut line is detected too: a cut stamp alone may only have lost digits.
@@ -38,8 +37,8 @@ void readOldScan(LogFields& fields, CarmenScan& logged) {
   const int beams = fields.count("number of readings");
   fields.ranges(beams, 1.0, scan);
   // 180 or 360 beams omit the last one of the half turn; 181 or 361 include it.
-  scan.angle_min_rad = -0.5 * kPi;
-  scan.angle_increment_rad = beams > 1 ? kPi / (beams % 2 == 0 ? beams : beams - 1) : 0.0;
+  scan.angle_min_rad = -0.5 * std::numbers::pi;
+  scan.angle_increment_rad = beams > 1 ? std::numbers::pi / (beams % 2 == 0 ? beams : beams - 1) : 0.0;
   scan.range_min_m = kOldRangeMin_m;
   scan.range_max_m = kOldRangeMax_m;
   logged.T_odom_laser = fields.pose("laser pose");
@@ -85,7 +84,7 @@ LaserMount surveyedMount(const std::filesystem::path& file) {
   try {
     LineReader reader(file, kLogLimits);
     std::string_view line;
-    for (int i = 0; i < kSurveyedLines && !survey.decided() && reader.next(line); ++i)
+    for (int i = 0; i < kCarmenSurveyedLines && !survey.decided() && reader.next(line); ++i)
       if (const auto scan = parseCarmenLine(line); scan && *scan)
         survey.add((*scan)->T_odom_laser, (*scan)->T_odom_robot);
   } catch (const common::InputError&) {}

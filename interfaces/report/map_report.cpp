@@ -17,7 +17,7 @@ std::string warningsSection(const std::vector<std::string>& warnings) {
   return html::section("About the log", list + "</ul>");
 }
 
-std::string mapSection(const std::string& map_svg) {
+std::string mapPicture(const std::string& map_svg) {
   return html::section("Map", fmt::format("<figure class=\"map\">{}</figure>", map_svg));
 }
 
@@ -25,7 +25,7 @@ std::string mapSection(const std::string& map_svg) {
 
 std::string localizationReport(const LocalizationReport& report) {
   std::string body = html::section("Summary", html::facts(report.facts)) + warningsSection(report.warnings) +
-                     mapSection(report.map_svg);
+                     mapPicture(report.map_svg);
   body +=
       html::section("Events", report.events.rows.empty() ? "<p class=\"empty\">None.</p>" : html::table(report.events));
   if (!report.plots_svg.empty()) body += html::section("Along the path", html::plots(report.plots_svg));
@@ -36,7 +36,7 @@ std::string mapReport(const MapReport& report) {
   const std::string header = fmt::format("<h1>{}</h1>\n<p>{}</p>", escaped(report.title), escaped(report.subtitle));
   std::string body = html::section("Summary", html::facts(report.facts));
   body += warningsSection(report.warnings);
-  body += mapSection(report.map_svg);
+  body += mapPicture(report.map_svg);
   if (!report.plots_svg.empty()) body += html::section("Along the path", html::plots(report.plots_svg));
   return html::page(report.title, header, body);
 }

@@ -15,7 +15,7 @@ namespace {
 using common::kRadPerDeg;
 
 /// Windows are read 16 bytes at a time and two rows at once; the last may reach beyond the array.
-constexpr std::size_t kOverread = 64;
+constexpr std::size_t kSearchOverread = 64;
 /// Points farther than this from the vehicle move too much between two directions to be of use.
 constexpr double kMaxReach_m = 25.0;
 
@@ -69,7 +69,7 @@ void GlobalSearch::buildLevels() {
 
   const MapFieldConfig& field = map_->config();
   std::vector<std::uint8_t>& finest = fields_[0];
-  finest.assign(indexOf(0, height_, width_) + kOverread, 0);
+  finest.assign(indexOf(0, height_, width_) + kSearchOverread, 0);
   free_[0].assign(indexOf(0, rows_, columns_), 0);
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
@@ -88,7 +88,7 @@ void GlobalSearch::buildLevels() {
     std::vector<std::uint8_t>& coarse = fields_[static_cast<std::size_t>(k)];
     const int fine_width = width_ >> (k - 1), fine_height = height_ >> (k - 1);
     const int coarse_width = width_ >> k, coarse_height = height_ >> k;
-    coarse.assign(indexOf(0, coarse_height, coarse_width) + kOverread, 0);
+    coarse.assign(indexOf(0, coarse_height, coarse_width) + kSearchOverread, 0);
     for (int y = 0; y < coarse_height; ++y)
       for (int x = 0; x < coarse_width; ++x) {
         std::uint8_t most = 0;

@@ -10,7 +10,7 @@ namespace swiftlet::perception {
 namespace {
 
 /// Reading four bytes at once at the last cell stays within the array.
-constexpr std::size_t kOverread = 16;
+constexpr std::size_t kFieldOverread = 16;
 /// Cells among which a free one is looked for one by one.
 constexpr std::size_t kStretch = 256;
 
@@ -151,7 +151,7 @@ void MapField::fillValues() {
     by_distance[cm] = static_cast<std::uint8_t>(
         std::lround(255.0 * beamValue(0.01 * static_cast<double>(cm), sigma_m, config_.random_share)));
   const auto unknown = static_cast<std::uint8_t>(std::lround(255.0 * config_.unknown_value));
-  values_.assign(kinds_.size() + kOverread, unknown);
+  values_.assign(kinds_.size() + kFieldOverread, unknown);
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const std::uint8_t value = by_distance[distances_cm_[i]];
     values_[i] = kinds_[i] == kUnknown ? std::max(value, unknown) : value;

@@ -15,7 +15,7 @@ using common::Pose2;
 using common::occupancy::Cell;
 namespace occupancy = common::occupancy;
 
-constexpr std::uint8_t kCrossed = 1, kEnded = 2;
+constexpr std::uint8_t kViewCrossed = 1, kViewEnded = 2;
 constexpr double kOffsetsPerCell = 254.0;
 constexpr double kNormalLength = 127.0;
 /// A mean normal that is shorter than this share of one is of surfaces of many directions: the hits that it is the mean
@@ -134,19 +134,19 @@ void SurfaceMap::sketch(const SurfaceScan& scan, const Pose2& T_map_body, Drawin
   };
   const auto cross = [&](const Eigen::Vector2d& to) {
     visitCrossed(body, to, [&](const CellIndex& cell, double, double) {
-      markAt(cell) |= kCrossed;
+      markAt(cell) |= kViewCrossed;
       return true;
     });
   };
   for (const SurfaceScan::Hit& hit : scan.hits) {
     const Eigen::Vector2d to = inCells(hit.point_m);
     cross(to);
-    markAt(cellOf(to)) = kEnded;
+    markAt(cellOf(to)) = kViewEnded;
   }
   for (const Eigen::Vector2f& end : scan.free_m) cross(inCells(end));
   // A wall that is dark, or hit at a grazing angle, swallows beams: what is beyond it is not known to be free.
   const auto isWall = [&](const CellIndex& cell) {
-    return (markAt(cell) & kEnded) != 0 || grid_.at(cell).isOccupied();
+    return (markAt(cell) & kViewEnded) != 0 || grid_.at(cell).isOccupied();
   };
   for (const Eigen::Vector2f& end : scan.no_returns_m) cross(beforeWall(body, inCells(end), isWall));
 }
@@ -179,7 +179,7 @@ void SurfaceMap::draw(const SurfaceScan& scan, const Pose2& T_map_body, DrawingB
   for (int y = board.rect.begin.y; y < board.rect.end.y; ++y) {
     for (int x = board.rect.begin.x; x < board.rect.end.x; ++x, ++mark) {
       if (*mark == 0) continue;
-      update({x, y}, (*mark & kEnded) != 0 ? config_.grid.hit_steps : -config_.grid.free_steps);
+      update({x, y}, (*mark & kViewEnded) != 0 ? config_.grid.hit_steps : -config_.grid.free_steps);
     }
   }
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(T_map_body.yaw_rad).toRotationMatrix();

@@ -12,7 +12,7 @@ namespace {
 using Point = Eigen::Vector2d;
 using Points = std::vector<Point>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
 constexpr double kStep_s = 0.1;
 constexpr int kSteps = 20;
 /// Motion of people is extrapolated for at most this time. A contact sooner than `kTooSoon_s` cannot be changed any
@@ -57,7 +57,7 @@ class Retreat {
 
   Point best() const {
     const Prospect stop = prospectOf(courseAt(Point::Zero(), 0.0));
-    double best_score = -kInfinity;
+    double best_score = -kUnreached;
     Point best = Point::Zero();
     for (int i = 0; i < kDirections; ++i) {
       const double angle_rad = 2.0 * std::numbers::pi * i / kDirections;
@@ -118,7 +118,7 @@ class Retreat {
     // A gap beyond the one that ends a retreat is not worth moving for.
     const double enough_m =
         config_.release_factor * std::max(config_.retreat_distance_m, config_.contact_gap_m) + 2.0 * kWorth_m;
-    double seen_m = kInfinity, mapped_m = kInfinity, gap_m = enough_m, end_gap_m = enough_m, room_m = 0.0;
+    double seen_m = kUnreached, mapped_m = kUnreached, gap_m = enough_m, end_gap_m = enough_m, room_m = 0.0;
     double time_s = 0.0;
     for (const Point& place : course) {
       const double to_seen_m = toSeen_m(place), to_mapped_m = toMapped_m(place);
@@ -137,13 +137,13 @@ class Retreat {
   }
 
   double toSeen_m(const Point& place) const {
-    double squared = kInfinity;
+    double squared = kUnreached;
     for (const Point& p : near_) squared = std::min(squared, (p - place).squaredNorm());
     return std::sqrt(squared);
   }
 
   double toMapped_m(const Point& place) const {
-    if (input_.cost_map == nullptr) return kInfinity;
+    if (input_.cost_map == nullptr) return kUnreached;
     const common::CellIndex cell = input_.cost_map->cellAt(input_.T_map_level * place);
     return input_.cost_map->stateAt(cell) == CellState::kUnknown ? 0.0 : input_.cost_map->obstacleDistance_m(cell);
   }

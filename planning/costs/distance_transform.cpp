@@ -9,10 +9,10 @@
 namespace swiftlet::planning {
 namespace {
 
-constexpr int kTile = common::OccupancyGrid::kTileSize;
-constexpr int kMaxWidth = kTile + 2 * kMaxReachCells;
+constexpr int kTileCells = common::OccupancyGrid::kTileSize;
+constexpr int kMaxWidth = kTileCells + 2 * kMaxReachCells;
 using Row = std::array<std::int16_t, kMaxWidth>;
-using Block = std::array<Row, kTile>;
+using Block = std::array<Row, kTileCells>;
 
 /// One step of the column pass. `run` is the distance to the last cell of the state in each column.
 bool advance(const StateImage& image, int y, int x_begin, int x_end, int x_first, CellState which, std::int16_t cap,
@@ -31,19 +31,20 @@ bool advance(const StateImage& image, int y, int x_begin, int x_end, int x_first
 /// The distance within each column, cut at reach + 1. False if the state does not occur near the tile.
 bool columnPass(const StateImage& image, int x0, int y0, CellState which, int reach, Block& columns) {
   const auto cap = static_cast<std::int16_t>(reach + 1);
-  const int x_first = x0 - reach, x_begin = std::max(0, x_first), x_end = std::min(image.width, x0 + kTile + reach);
+  const int x_first = x0 - reach, x_begin = std::max(0, x_first),
+            x_end = std::min(image.width, x0 + kTileCells + reach);
   bool met = false;
   Row run;
   run.fill(cap);
   for (Row& row : columns) row.fill(cap);
-  for (int y = std::max(0, y0 - reach); y < y0 + kTile; ++y) {
+  for (int y = std::max(0, y0 - reach); y < y0 + kTileCells; ++y) {
     met |= advance(image, y, x_begin, x_end, x_first, which, cap, run);
     if (y >= y0) columns[static_cast<std::size_t>(y - y0)] = run;
   }
   run.fill(cap);
-  for (int y = std::min(image.height, y0 + kTile + reach) - 1; y >= y0; --y) {
+  for (int y = std::min(image.height, y0 + kTileCells + reach) - 1; y >= y0; --y) {
     met |= advance(image, y, x_begin, x_end, x_first, which, cap, run);
-    if (y >= y0 + kTile) continue;
+    if (y >= y0 + kTileCells) continue;
     Row& row = columns[static_cast<std::size_t>(y - y0)];
     for (std::size_t i = 0; i < run.size(); ++i) row[i] = std::min(row[i], run[i]);
   }
@@ -58,16 +59,16 @@ void tileDistances(const StateImage& image, int x0, int y0, CellState which, int
   const auto beyond = static_cast<std::int16_t>((reach + 1) * (reach + 1));
   Block columns;
   const bool met = columnPass(image, x0, y0, which, reach, columns);
-  for (int y = 0; y < kTile; ++y) {
+  for (int y = 0; y < kTileCells; ++y) {
     std::int16_t* out = squared.data() + static_cast<std::size_t>(y0 + y) * image.width + x0;
-    std::fill_n(out, kTile, beyond);
+    std::fill_n(out, kTileCells, beyond);
     if (!met) continue;
     Row& row = columns[static_cast<std::size_t>(y)];
     for (std::int16_t& d : row) d = static_cast<std::int16_t>(d * d);
     for (int dx = -reach; dx <= reach; ++dx) {
       const auto across = static_cast<std::int16_t>(dx * dx);
       const std::int16_t* in = row.data() + reach + dx;
-      for (int x = 0; x < kTile; ++x) out[x] = std::min(out[x], static_cast<std::int16_t>(in[x] + across));
+      for (int x = 0; x < kTileCells; ++x) out[x] = std::min(out[x], static_cast<std::int16_t>(in[x] + across));
     }
   }
 }

@@ -7,7 +7,7 @@
 namespace swiftlet::web {
 namespace {
 
-constexpr int kTile = common::OccupancyGrid::kTileSize;
+constexpr int kTileCells = common::OccupancyGrid::kTileSize;
 
 void appendInteger(std::string& bytes, std::uint32_t value, int count) {
   for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 255u);
@@ -21,11 +21,11 @@ void TileFeed::update(const std::shared_ptr<const common::OccupancyGrid>& grid) 
   if (grid == grid_) return;
   Tiles next;
   const common::CellRect extent = grid->extent();
-  for (int y = extent.begin.y; y < extent.end.y; y += kTile)
-    for (int x = extent.begin.x; x < extent.end.x; x += kTile) {
+  for (int y = extent.begin.y; y < extent.end.y; y += kTileCells)
+    for (int x = extent.begin.x; x < extent.end.x; x += kTileCells) {
       const void* identity = grid->tileIdentity({x, y});
       if (identity == nullptr) continue;
-      const common::CellIndex tile{x / kTile, y / kTile};
+      const common::CellIndex tile{x / kTileCells, y / kTileCells};
       const auto known = tiles_.find(tile);
       if (known != tiles_.end() && grid_ && grid_->tileIdentity({x, y}) == identity) {
         next.emplace(tile, known->second);
