@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,6 +60,14 @@ class Command {
   void option(const std::string& name, double& value, Within bounds, const std::string& description);
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
               const std::string& description);
+  /// One of the keys.
+  template <typename Meaning>
+  void choice(const std::string& name, std::string& value, const std::map<std::string, Meaning>& meanings,
+              const std::string& description) {
+    std::vector<std::string> choices;
+    for (const auto& [key, meaning] : meanings) choices.push_back(key);
+    choice(name, value, choices, description);
+  }
   void flag(const std::string& name, bool& value, const std::string& description);
 
   /// What --help says at its end, for instance an example.
@@ -84,9 +93,9 @@ class Program {
 
   Command& top() { return top_; }
 
-  /// What is to be run. None when nothing is: then `exit_code` says how the program ends, and what is to be told (help,
-  /// the version, or what was wrong with the arguments and where help is) was told. A command or an option that does
-  /// not exist is told before anything else, with the one that was probably meant.
+  /// The chosen command, or none. Without one, help, the version or the mistake in the arguments has been printed, and
+  /// the program ends with `exit_code`. A command or an option that does not exist is the first mistake to be printed,
+  /// with the most similar one.
   struct Parsed {
     Run run;
     int exit_code = 0;

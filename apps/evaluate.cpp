@@ -1,8 +1,6 @@
 // swiftlet evaluate: how good an estimated trajectory is, by the published metrics.
-#include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "apps/command.hpp"
 #include "apps/evaluation_metrics.hpp"
@@ -27,13 +25,6 @@ void addReference(Command& command, EvaluateOptions& options) {
                    "The reference: TUM, or reference poses of a laser log (ipc_timestamp scan_index x y theta).");
   command.option("--max-difference", options.max_difference_s, {0.0, 1e6},
                  "Poses are paired whose stamps are at most so many seconds apart.");
-}
-
-template <typename Value>
-std::vector<std::string> keysOf(const std::map<std::string, Value>& map) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : map) keys.push_back(key);
-  return keys;
 }
 
 }  // namespace
@@ -64,7 +55,7 @@ void addEvaluate(Command& program) {
       addMetric(command, options, evaluateAte, "ate", "Absolute trajectory error after alignment (Sturm et al. 2012).");
   addReference(ate, *options);
   ate.choice(
-      "--align", options->align, keysOf(kAlignments),
+      "--align", options->align, kAlignments,
       "How the estimate is laid on the reference: not, by the first pair, by least squares over x, y and yaw (and "
       "the mean z), or over all six (Umeyama 1991).");
   ate.flag("--scale", options->scale, "Fit the scale as well; with --align planar or spatial.");
@@ -74,7 +65,7 @@ void addEvaluate(Command& program) {
                           "Relative pose error over stretches (Sturm et al. 2012); alignment does not change it.");
   addReference(rpe, *options);
   rpe.option("--delta", options->delta, {1e-6, 1e9}, "From each pose to the first that is at least so far on.");
-  rpe.choice("--unit", options->unit, keysOf(kUnits), "Of --delta; metres are along the reference's path.");
+  rpe.choice("--unit", options->unit, kUnits, "Of --delta; metres are along the reference's path.");
   rpe.footer("Example: swiftlet evaluate rpe trajectory.tum groundtruth.txt.gz --delta 1 --unit seconds");
 }
 

@@ -57,7 +57,7 @@ class Flight {
   }
 
   FlightResult fly() {
-    for (const auto& vehicle : vehicles_) vehicle->tellWarnings();
+    for (const auto& vehicle : vehicles_) vehicle->reportWarnings();
     while (anyFlies()) {
       now_ += common::kControlPeriod;
       for (const auto& vehicle : vehicles_)

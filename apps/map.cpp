@@ -190,7 +190,7 @@ void addMap(Command& program) {
   Command command = program.command("map", "Make the map of a recorded laser log; no odometry is needed.");
   addLogOptions(command, options->log, kSuffix);
   command.choice(
-      "--slam", options->slam, {"graph", "particles", "scan_to_map"},
+      "--slam", options->slam, kSlamMethods,
       "graph: key scans with constraints between them, and loop closures. particles: trajectories with a map each. "
       "scan_to_map: scans matched to one map, without loop closure. The profile's when not given.");
   command.footer("Example: swiftlet map intel.clf.bz2 --out intel");

@@ -72,7 +72,7 @@ std::vector<autonomy::FlightSink*> VehicleFlight::sinks() {
   return all;
 }
 
-void VehicleFlight::tellWarnings() {
+void VehicleFlight::reportWarnings() {
   for (const std::string& warning : vehicle_->world().warnings)
     for (autonomy::FlightSink* sink : sinks())
       sink->event({loop_.now(), common::Severity::kWarning, "world", warning, "", name_});

@@ -31,8 +31,8 @@ class VehicleFlight {
   VehicleFlight(const VehicleFlight&) = delete;
   VehicleFlight& operator=(const VehicleFlight&) = delete;
 
-  /// What was skipped or replaced in the world, for its files and whoever listens.
-  void tellWarnings();
+  /// Reports what was skipped or replaced in the world, to every sink.
+  void reportWarnings();
   void step(common::Time now);
   /// Its mission has ended, it has crashed, or something ends it from outside.
   bool over();
@@ -52,7 +52,7 @@ class VehicleFlight {
 
   const FlightSetup& setup_;
   const FlightHooks& hooks_;
-  WebChannel* web_;  ///< Null: nobody watches.
+  WebChannel* web_;  ///< Null without a page.
   std::unique_ptr<simulation::SimulatedVehicle> vehicle_;
   std::string name_;  ///< Empty when it flies alone.
   evaluation::FlightRecorder recorder_;

@@ -29,7 +29,7 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
 
 /// In each slice, cells where beams end gain, cells that beams cross lose, each at most once a scan. A beam without
 /// return crosses cells only up to what is occupied at flight height, or where another beam of its scan ended: a wall
-/// that is dark, or seen at a grazing angle, swallows beams, and nobody has looked through it. Single-threaded; a
+/// that is dark, or hit at a grazing angle, swallows beams, so that nothing is known beyond it. Single-threaded; a
 /// snapshot may go to another thread.
 class SlicedMap {
  public:

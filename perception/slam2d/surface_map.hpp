@@ -24,7 +24,7 @@
 namespace swiftlet::perception {
 
 struct SurfaceMapConfig {
-  /// Cells and their confidence; whoever makes a SLAM method sets it to that of the published map.
+  /// Cells and their confidence. makeSlam() sets it to that of the published map.
   GridDrawingConfig grid;
   int max_hits = 10;
   double max_gap_m = 0.3;

@@ -65,7 +65,7 @@ void Core::tick() {
   // A watcher may close while it is told, and another may come.
   for (const std::weak_ptr<Connection>& weak : std::vector(watchers_))
     if (const auto watcher = weak.lock()) watcher->tick(now);
-  // With nobody there it still looks now and then, so that whoever comes is told at once how fast time passes.
+  // Without watchers it still ticks now and then, so that a new one learns at once how fast time passes.
   ticking_ = !watchers_.empty() || anyWaiting();
   timer_.expires_after(std::chrono::milliseconds(1000 / (ticking_ ? kTicksPerSecond : kIdleTicksPerSecond)));
   schedule();
