@@ -1,6 +1,5 @@
 // swiftlet map: the map of a recorded laser log.
 #include <cmath>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -23,18 +22,14 @@ namespace fs = std::filesystem;
 /// Ending of the folder's name for the results.
 constexpr const char* kSuffix = "map";
 
-const std::map<std::string, perception::SlamMethod> kSlamMethods{{"graph", perception::SlamMethod::kGraph},
-                                                                 {"particles", perception::SlamMethod::kParticles},
-                                                                 {"scan_to_map", perception::SlamMethod::kScanToMap}};
-
 struct MapOptions {
   RecordedLogOptions log;
-  std::string slam;  ///< One of kSlamMethods; empty: that of the profile.
+  std::string slam;  ///< One of perception::slamMethodNames(). Empty: that of the profile.
 };
 
 perception::LaserSlamConfig configOf(const MapOptions& options) {
   perception::LaserSlamConfig config = laserSlamOf(loadSystem(options.log.system));
-  if (!options.slam.empty()) config.slam.method = kSlamMethods.at(options.slam);
+  if (!options.slam.empty()) config.slam.method = perception::slamMethodOf(options.slam);
   return config;
 }
 
@@ -190,7 +185,7 @@ void addMap(Command& program) {
   Command command = program.command("map", "Make the map of a recorded laser log; no odometry is needed.");
   addLogOptions(command, options->log, kSuffix);
   command.choice(
-      "--slam", options->slam, kSlamMethods,
+      "--slam", options->slam, perception::slamMethodNames(),
       "graph: key scans with constraints between them, and loop closures. particles: trajectories with a map each. "
       "scan_to_map: scans matched to one map, without loop closure. The profile's when not given.");
   command.footer("Example: swiftlet map intel.clf.bz2 --out intel");

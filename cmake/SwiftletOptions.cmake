@@ -46,9 +46,9 @@ if(SWIFTLET_SANITIZE)
   add_link_options(-fsanitize=${SWIFTLET_SANITIZE})
 endif()
 
-# Compiles several sources of a library as one, which halves the time of a first build: scripts/demo and scripts/test do
+# Compiles several sources of a target as one, which halves the time of a first build: scripts/demo and scripts/test do
 # so where nothing is built yet. Off by default: a single edited source compiles faster alone.
-option(SWIFTLET_UNITY "Compile several sources of a library as one" OFF)
+option(SWIFTLET_UNITY "Compile several sources of a target as one" OFF)
 if(SWIFTLET_UNITY)
   add_compile_options(-Wno-subobject-linkage)  # It takes the sources included in a unity source for headers.
 endif()

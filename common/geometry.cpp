@@ -75,6 +75,11 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad) {
   return rotation * covariance * rotation.transpose();
 }
 
+Eigen::Matrix3d planarCovariance(double position_sigma_m, double yaw_sigma_rad) {
+  const double position_m2 = position_sigma_m * position_sigma_m;
+  return Eigen::Vector3d(position_m2, position_m2, yaw_sigma_rad * yaw_sigma_rad).asDiagonal();
+}
+
 Pose2 between(const Pose2& T_map_a, const Pose2& T_map_b) { return T_map_a.inverse() * T_map_b; }
 
 Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const Pose2& from, const Pose2& to,

@@ -60,6 +60,9 @@ Pose3 lifted(const Pose2& pose, double z_m);
 /// The covariance of an error (x_m, y_m, yaw_rad), given in frame b, in frame a; `yaw_rad` turns b into a.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad);
 
+/// Covariance of the additive errors (x_m, y_m, yaw_rad), independent of each other, of these standard deviations.
+Eigen::Matrix3d planarCovariance(double position_sigma_m, double yaw_sigma_rad);
+
 /// The pose of b in a.
 Pose2 between(const Pose2& T_map_a, const Pose2& T_map_b);
 /// The uncertainty after one more step from pose `from` to pose `to`: what was uncertain before swings about the step's

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "common/config_fields.hpp"
+#include "common/geometry.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -79,7 +80,7 @@ OdometryStep LaserPipeline::restart(const perception::RelativePose& relative, bo
   if (interrupted) {
     const double off_m = config_.odometry.max_window_m;
     const double off_rad = config_.odometry.max_window_deg * std::numbers::pi / 180.0;
-    step.covariance = Eigen::Vector3d(off_m * off_m, off_m * off_m, off_rad * off_rad).asDiagonal();
+    step.covariance = common::planarCovariance(off_m, off_rad);
   }
   return step;
 }
@@ -89,7 +90,7 @@ Eigen::Matrix3d LaserPipeline::tiltCovariance(const perception::ProjectedScan& s
   const double tilt_rad = std::acos(std::clamp(common::cosTilt(scan.T_odom_body.rotation), -1.0, 1.0));
   const double position_m = floor_m + config_.match_per_tilt_m_rad * tilt_rad;
   const double yaw_rad = (floor_deg + config_.match_per_tilt_deg_rad * tilt_rad) * std::numbers::pi / 180.0;
-  return Eigen::Vector3d(position_m * position_m, position_m * position_m, yaw_rad * yaw_rad).asDiagonal();
+  return common::planarCovariance(position_m, yaw_rad);
 }
 
 }  // namespace swiftlet::autonomy

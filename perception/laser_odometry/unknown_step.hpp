@@ -1,14 +1,14 @@
 // The uncertainty of a step of which nothing is known but that it was one of a robot or a vehicle between two scans.
 #pragma once
 
-#include <Eigen/Core>
+#include "common/geometry.hpp"
 
 namespace swiftlet::perception {
 
 /// Of the additive errors (x_m, y_m, yaw_rad).
 inline Eigen::Matrix3d unknownStepCovariance() {
   constexpr double kSigma_m = 0.5, kSigma_rad = 0.3;
-  return Eigen::Vector3d(kSigma_m * kSigma_m, kSigma_m * kSigma_m, kSigma_rad * kSigma_rad).asDiagonal();
+  return common::planarCovariance(kSigma_m, kSigma_rad);
 }
 
 /// A covariance that is none, with infinities or NaN, says nothing.

@@ -21,8 +21,7 @@ using common::Pose2;
 namespace {
 
 /// How far particles are spread about a place that was found: what its search left open.
-const Eigen::Matrix3d kPlaceCovariance =
-    Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 1.0 * kRadPerDeg * 1.0 * kRadPerDeg).asDiagonal();
+const Eigen::Matrix3d kPlaceCovariance = common::planarCovariance(0.05, 1.0 * kRadPerDeg);
 
 }  // namespace
 

@@ -78,6 +78,90 @@ class Surfaces {
   double sin_attitude_error_;
 };
 
+/// Places the beams of one sweep and sorts them by what they ended on.
+class BeamSorter {
+ public:
+  BeamSorter(const common::LaserScan& scan, const common::LaserConfig& laser, const std::vector<Pose3>& T_level_body,
+             const ScanProjectionConfig& config, ProjectedScan& result)
+      : scan_(scan),
+        laser_(laser),
+        config_(config),
+        result_(result),
+        laser_mount_(T_level_body, laser.mount.pose(), beams()),
+        mirror_mount_(T_level_body, laser.mirror_mount.pose(), beams()),
+        surfaces_(result.T_odom_body.position_m.z() + laser_mount_.at(beams() / 2).translation.z(), config) {}
+
+  void addMirrorBeam(int beam) {
+    endRun();
+    const double range_m = rangeOf(beam);
+    if (isTooShort(range_m) || range_m > scan_.range_max_m) {
+      ++result_.counts.mirror_invalid;
+      return;
+    }
+    const Affine mount = mirror_mount_.at(beam);
+    const Eigen::Vector3d end = mount.rotation * (range_m * laser_.direction(beam)) + mount.translation;
+    result_.mirror.push_back({static_cast<float>(end.x()), static_cast<float>(end.y()), static_cast<float>(end.z())});
+    ++result_.counts.mirror;
+  }
+
+  /// `direction` is the beam's in the laser's frame.
+  void addBeam(int beam, const Eigen::Vector3d& direction) {
+    const double range_m = rangeOf(beam);
+    if (isTooShort(range_m)) {
+      endRun();
+      ++result_.counts.invalid;
+      return;
+    }
+    const Affine mount = laser_mount_.at(beam);
+    const Eigen::Vector3d ray = mount.rotation * direction;
+    const auto pointAt = [&](double along_m) -> Eigen::Vector3f {
+      return (mount.translation + along_m * ray).cast<float>();
+    };
+    if (range_m > scan_.range_max_m) {
+      run_.push_back(pointAt(surfaces_.freeRange(ray.z(), scan_.range_max_m)));
+      ++result_.counts.no_returns;
+      return;
+    }
+    endRun();
+    const Eigen::Vector3d end = mount.translation + range_m * ray;
+    if (end.head<2>().squaredNorm() < config_.body_radius_m * config_.body_radius_m) {
+      ++result_.counts.invalid;
+    } else if (const double rise_m = range_m * ray.z(); surfaces_.onFloor(rise_m, range_m)) {
+      result_.misses_level_m.push_back(pointAt(surfaces_.freeRange(ray.z(), range_m)));
+      ++result_.counts.floor_hits;
+    } else if (surfaces_.onCeiling(rise_m, range_m)) {
+      result_.misses_level_m.push_back(pointAt(surfaces_.freeRange(ray.z(), range_m)));
+      ++result_.counts.ceiling_hits;
+    } else {
+      result_.points_level_m.push_back(end.head<2>().cast<float>());
+      result_.heights_level_m.push_back(static_cast<float>(end.z()));
+      ++result_.counts.hits;
+    }
+  }
+
+  /// Ends a run of beams without return. A short run is dropouts and is left out.
+  void endRun() {
+    if (static_cast<int>(run_.size()) >= config_.min_no_return_run)
+      result_.no_returns_level_m.insert(result_.no_returns_level_m.end(), run_.begin(), run_.end());
+    run_.clear();
+  }
+
+ private:
+  int beams() const { return static_cast<int>(scan_.ranges_m.size()); }
+  double rangeOf(int beam) const { return scan_.ranges_m[static_cast<std::size_t>(beam)]; }
+  /// True for NaN.
+  bool isTooShort(double range_m) const { return !(range_m >= scan_.range_min_m) || range_m <= 0.0; }
+
+  const common::LaserScan& scan_;
+  const common::LaserConfig& laser_;
+  const ScanProjectionConfig& config_;
+  ProjectedScan& result_;
+  SweptMount laser_mount_;
+  SweptMount mirror_mount_;
+  Surfaces surfaces_;
+  std::vector<Eigen::Vector3f> run_;  ///< Ends of the view along the present run of beams without return.
+};
+
 std::vector<Pose3> bodyDuringSweep(const common::LaserScan& scan, const PoseAt& pose_at, const Pose3& T_level_odom,
                                    int beams) {
   const int knots = scan.time_increment.nanoseconds() == 0 || beams < 2 ? 1 : kIntervals + 1;
@@ -128,74 +212,22 @@ ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& 
   result.points_level_m.reserve(static_cast<std::size_t>(beams));
   result.heights_level_m.reserve(static_cast<std::size_t>(beams));
 
-  const SweptMount laser_mount(T_level_body, laser.mount.pose(), beams);
-  const SweptMount mirror_mount(T_level_body, laser.mirror_mount.pose(), beams);
-  const Surfaces surfaces(result.T_odom_body.position_m.z() + laser_mount.at(beams / 2).translation.z(), config);
+  BeamSorter sorter(scan, laser, T_level_body, config, result);
   const bool has_mirror = beams == laser.beams && laser.mirror_beams > 0;
-  const double body_radius2_m2 = config.body_radius_m * config.body_radius_m;
-
   // The direction is turned from beam to beam; over thousands of beams this keeps 12 digits and saves the sines.
   double cos_beam = std::cos(scan.angle_min_rad), sin_beam = std::sin(scan.angle_min_rad);
   const double cos_step = std::cos(scan.angle_increment_rad), sin_step = std::sin(scan.angle_increment_rad);
-  std::vector<Eigen::Vector3f> run;  // Ends of the view along the present run of beams without return.
-  const auto endRun = [&] {
-    if (static_cast<int>(run.size()) >= config.min_no_return_run)
-      result.no_returns_level_m.insert(result.no_returns_level_m.end(), run.begin(), run.end());
-    run.clear();
-  };
-
   for (int beam = 0; beam < beams; ++beam) {
-    const Eigen::Vector3d direction(cos_beam, sin_beam, 0.0);
+    if (has_mirror && laser.isMirrorBeam(beam)) {
+      sorter.addMirrorBeam(beam);
+    } else {
+      sorter.addBeam(beam, {cos_beam, sin_beam, 0.0});
+    }
     const double next_cos = cos_beam * cos_step - sin_beam * sin_step;
     sin_beam = sin_beam * cos_step + cos_beam * sin_step;
     cos_beam = next_cos;
-    const double range_m = scan.ranges_m[static_cast<std::size_t>(beam)];
-    const bool too_short = !(range_m >= scan.range_min_m) || range_m <= 0.0;  // True for NaN.
-
-    if (has_mirror && laser.isMirrorBeam(beam)) {
-      endRun();
-      if (too_short || range_m > scan.range_max_m) {
-        ++result.counts.mirror_invalid;
-        continue;
-      }
-      const Affine mount = mirror_mount.at(beam);
-      const Eigen::Vector3d end = mount.rotation * (range_m * laser.direction(beam)) + mount.translation;
-      result.mirror.push_back({static_cast<float>(end.x()), static_cast<float>(end.y()), static_cast<float>(end.z())});
-      ++result.counts.mirror;
-      continue;
-    }
-    if (too_short) {
-      endRun();
-      ++result.counts.invalid;
-      continue;
-    }
-    const Affine mount = laser_mount.at(beam);
-    const Eigen::Vector3d ray = mount.rotation * direction;
-    const auto pointAt = [&](double along_m) -> Eigen::Vector3f {
-      return (mount.translation + along_m * ray).cast<float>();
-    };
-    if (range_m > scan.range_max_m) {
-      run.push_back(pointAt(surfaces.freeRange(ray.z(), scan.range_max_m)));
-      ++result.counts.no_returns;
-      continue;
-    }
-    endRun();
-    const Eigen::Vector3d end = mount.translation + range_m * ray;
-    if (end.head<2>().squaredNorm() < body_radius2_m2) {
-      ++result.counts.invalid;
-    } else if (const double rise_m = range_m * ray.z(); surfaces.onFloor(rise_m, range_m)) {
-      result.misses_level_m.push_back(pointAt(surfaces.freeRange(ray.z(), range_m)));
-      ++result.counts.floor_hits;
-    } else if (surfaces.onCeiling(rise_m, range_m)) {
-      result.misses_level_m.push_back(pointAt(surfaces.freeRange(ray.z(), range_m)));
-      ++result.counts.ceiling_hits;
-    } else {
-      result.points_level_m.push_back(end.head<2>().cast<float>());
-      result.heights_level_m.push_back(static_cast<float>(end.z()));
-      ++result.counts.hits;
-    }
   }
-  endRun();
+  sorter.endRun();
   return result;
 }
 

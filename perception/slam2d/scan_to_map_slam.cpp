@@ -21,11 +21,6 @@ using common::Time;
 /// A search window holds so many standard deviations of where the scan is expected.
 constexpr double kWindowSigmas = 3.0;
 
-Eigen::Matrix3d diagonal(double sigma_m, double sigma_deg) {
-  const double sigma_rad = sigma_deg * kRadPerDeg;
-  return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
-}
-
 }  // namespace
 
 void ScanToMapConfig::describe(common::config::Fields& fields) {
@@ -120,7 +115,7 @@ bool ScanToMapSlam::Impl::correct(const ProjectedScan& scan) {
     ++counts.local_failures;
     return false;
   }
-  const Eigen::Matrix3d of_map = diagonal(config.map_sigma_m, config.map_sigma_deg);
+  const Eigen::Matrix3d of_map = common::planarCovariance(config.map_sigma_m, config.map_sigma_deg * kRadPerDeg);
   pose = weightedMean(pose, {match.T_reference_body, match.covariance + of_map});
   // What the map is wrong by is the same in every match, so that the mean of many is not better.
   pose.covariance.diagonal() = pose.covariance.diagonal().cwiseMax(of_map.diagonal());

@@ -1,12 +1,27 @@
 #include "perception/slam2d/slam_method.hpp"
 
+#include <algorithm>
+
+#include "common/check.hpp"
 #include "common/config_fields.hpp"
 #include "perception/slam2d/slam2d.hpp"
 
 namespace swiftlet::perception {
 
+const std::vector<std::string>& slamMethodNames() {
+  static const std::vector<std::string> names{"graph", "particles", "scan_to_map"};
+  return names;
+}
+
+SlamMethod slamMethodOf(const std::string& name) {
+  const auto& names = slamMethodNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  SWIFTLET_CHECK(found != names.end(), name);
+  return static_cast<SlamMethod>(found - names.begin());
+}
+
 void SlamMethodConfig::describe(common::config::Fields& fields) {
-  fields.choice("method", method, {"graph", "particles", "scan_to_map"}, "Which method does the work.");
+  fields.choice("method", method, slamMethodNames(), "Which method does the work.");
   Slam2dConfig::describe(fields);
   fields.section("particles", particles, "Settings of the method particles.");
   fields.section("scan_to_map", scan_to_map, "Settings of the method scan_to_map.");

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "common/config_fwd.hpp"
 #include "perception/slam2d/particle_slam.hpp"
@@ -20,6 +22,12 @@ struct SlamMethodConfig : Slam2dConfig {
 
   void describe(common::config::Fields& fields);
 };
+
+/// Names of the methods in profiles and on the command line, in the order of SlamMethod.
+const std::vector<std::string>& slamMethodNames();
+
+/// The method of that name, which must be one of slamMethodNames().
+SlamMethod slamMethodOf(const std::string& name);
 
 /// Never null.
 std::unique_ptr<PlanarSlam> makeSlam(const SlamMethodConfig& config);

@@ -11,7 +11,6 @@
 namespace swiftlet::commands {
 namespace {
 
-using nlohmann::json;
 using test_support::describe;
 using test_support::ProgramEnd;
 using test_support::runSwiftlet;
@@ -37,12 +36,12 @@ class Evaluate : public test_support::Scratch {
     return write("log.relations", "1 2 1 0 0 0 0 1.57079633\n2.000000 3.000000 1.7 -0.4 0 0 0 0.1\n");
   }
 
-  json figures(std::vector<std::string> arguments) const {
+  nlohmann::json figures(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "evaluate");
     arguments.emplace_back("--json");
     const ProgramEnd end = runSwiftlet(arguments);
     EXPECT_EQ(end.exit_code, 0) << describe(end);
-    return json::parse(end.out, nullptr, false);
+    return nlohmann::json::parse(end.out, nullptr, false);
   }
   void expectRefused(std::vector<std::string> arguments, const std::string& says) const {
     arguments.insert(arguments.begin(), "evaluate");
@@ -54,7 +53,7 @@ class Evaluate : public test_support::Scratch {
 };
 
 TEST_F(Evaluate, Relations) {
-  const json found = figures({"relations", estimate(), relations()});
+  const nlohmann::json found = figures({"relations", estimate(), relations()});
   EXPECT_EQ(found.at("relations"), 2);
   EXPECT_EQ(found.at("missing"), 0);
   // 0 and 0.5 m, 0 and 0.1 rad = 5.729578 deg; of two values, the spread is half their difference.
@@ -75,8 +74,8 @@ TEST_F(Evaluate, RelationsWithoutTheirPosesAreCountedAndFail) {
   const std::string more = write("more.relations", "1 2 1 0 0 0 0 1.57079633\n2.5 3 0 0 0 0 0 0\n");
   const ProgramEnd end = runSwiftlet({"evaluate", "relations", estimate(), more, "--json"});
   EXPECT_EQ(end.exit_code, 1) << describe(end);
-  EXPECT_EQ(json::parse(end.out).at("missing"), 1);
-  EXPECT_EQ(json::parse(end.out).at("relations"), 1);
+  EXPECT_EQ(nlohmann::json::parse(end.out).at("missing"), 1);
+  EXPECT_EQ(nlohmann::json::parse(end.out).at("relations"), 1);
   EXPECT_THAT(end.err, HasSubstr("1 of 2 relations are missing"));
   EXPECT_THAT(end.err, HasSubstr("2.500000 to 3.000000"));
   EXPECT_EQ(figures({"relations", estimate(), more, "--allow-missing"}).at("missing"), 1);
@@ -89,7 +88,7 @@ TEST_F(Evaluate, StampsThatGoBackAndRepeatAreTold) {
                                   "1 9 9 9 0 0 0 1\n"
                                   "3 1 2 0 0 0 0.70710678 0.70710678\n"
                                   "1 0 0 0 0 0 0 1\n");
-  const json found = figures({"relations", stray, relations()});
+  const nlohmann::json found = figures({"relations", stray, relations()});
   EXPECT_NEAR(found.at("translational_mean_m"), 0.25, 1e-6) << "the last pose at 1 s is taken";
   EXPECT_EQ(found.at("estimate_stamps_back"), 2);
   EXPECT_EQ(found.at("estimate_stamps_repeated"), 1);
@@ -99,7 +98,7 @@ TEST_F(Evaluate, StampsThatGoBackAndRepeatAreTold) {
 }
 
 TEST_F(Evaluate, AbsoluteError) {
-  const json found = figures({"ate", estimate(), reference(), "--align", "none"});
+  const nlohmann::json found = figures({"ate", estimate(), reference(), "--align", "none"});
   EXPECT_EQ(found.at("pairs"), 3);
   EXPECT_NEAR(found.at("ate_rmse_m"), std::sqrt(0.25 / 3), 1e-6);
   EXPECT_NEAR(found.at("ate_mean_m"), 0.5 / 3, 1e-6);
@@ -113,11 +112,11 @@ TEST_F(Evaluate, AbsoluteError) {
 }
 
 TEST_F(Evaluate, RelativeError) {
-  const json frames = figures({"rpe", estimate(), reference()});
+  const nlohmann::json frames = figures({"rpe", estimate(), reference()});
   EXPECT_EQ(frames.at("stretches"), 2);
   EXPECT_NEAR(frames.at("rpe_translational_rmse_m"), std::sqrt(0.25 / 2), 1e-6);
   EXPECT_NEAR(frames.at("rpe_rotational_rmse_deg"), 0.0, 1e-5);
-  const json seconds = figures({"rpe", estimate(), reference(), "--delta", "2", "--unit", "seconds"});
+  const nlohmann::json seconds = figures({"rpe", estimate(), reference(), "--delta", "2", "--unit", "seconds"});
   EXPECT_EQ(seconds.at("stretches"), 1);
   EXPECT_NEAR(seconds.at("rpe_translational_max_m"), 0.5, 1e-6);
 }
@@ -158,7 +157,7 @@ TEST_F(Evaluate, HelpHasAnExampleEach) {
 TEST_F(Evaluate, TheBenchmarksOwnFiles) {
   const auto folder = test_support::dataSet("01-laser-slam/fr079");
   if (!folder) return;
-  const json found = figures(
+  const nlohmann::json found = figures(
       {"relations", "--allow-missing", *folder / "fr079.reference_poses.txt.gz", *folder / "fr079.relations.gz"});
   EXPECT_EQ(found.at("relations"), 1672);
   EXPECT_EQ(found.at("missing"), 13);

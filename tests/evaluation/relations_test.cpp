@@ -10,6 +10,7 @@
 #include "interfaces/files/line_fields.hpp"
 #include "interfaces/files/relations.hpp"
 #include "interfaces/files/trajectory_file.hpp"
+#include "tests/evaluation/random_poses.hpp"
 #include "tests/support/datasets.hpp"
 
 namespace swiftlet::evaluation {
@@ -93,21 +94,14 @@ TEST(RelationErrors, StampsAreMatchedToTheMicrosecond) {
   EXPECT_EQ(relationErrors(estimate, {{us(0), us(1005), at(1, 0)}}).missing.size(), 1u);
 }
 
-double draw(double low, double high) { return low + (high - low) * *rc::gen::inRange(0, 1'000'001) * 1e-6; }
-
-Pose3 drawPose(double size_m) {
-  return {common::expSO3({draw(-1, 1), draw(-1, 1), draw(-2, 2)}),
-          {draw(-size_m, size_m), draw(-size_m, size_m), draw(-size_m, size_m)}};
-}
-
 RC_GTEST_PROP(RelationErrors, DoNotDependOnTheFrame, ()) {
-  const Pose3 T = drawPose(10);
+  const Pose3 T = test::drawPose(10);
   Trajectory estimate, moved;
   std::vector<Relation> relations;
   for (int i = 0; i < 8; ++i) {
-    estimate.push_back({second(i), drawPose(3)});
+    estimate.push_back({second(i), test::drawPose(3)});
     moved.push_back({second(i), T * estimate.back().pose});
-    relations.push_back({second(*rc::gen::inRange(0, i + 1)), second(i), drawPose(3)});
+    relations.push_back({second(*rc::gen::inRange(0, i + 1)), second(i), test::drawPose(3)});
   }
   const RelationErrors a = relationErrors(estimate, relations), b = relationErrors(moved, relations);
   RC_ASSERT(std::abs(a.translation_m.mean - b.translation_m.mean) < 1e-9);
@@ -118,7 +112,7 @@ RC_GTEST_PROP(RelationErrors, AreNoneForWhatTheTrajectorySaysItself, ()) {
   Trajectory estimate;
   std::vector<Relation> relations;
   for (int i = 0; i < 8; ++i) {
-    estimate.push_back({second(i), drawPose(3)});
+    estimate.push_back({second(i), test::drawPose(3)});
     const int from = *rc::gen::inRange(0, i + 1);
     relations.push_back(
         {second(from), second(i), estimate[static_cast<std::size_t>(from)].pose.inverse() * estimate.back().pose});

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "interfaces/files/tum.hpp"
+#include "tests/evaluation/random_poses.hpp"
 #include "tests/support/datasets.hpp"
 
 namespace swiftlet::evaluation {
@@ -18,7 +19,7 @@ using common::Pose3;
 using common::Time;
 using common::Trajectory;
 
-Pose3 at(double x, double y, double z, double yaw_rad = 0.0) {
+Pose3 poseAt(double x, double y, double z, double yaw_rad = 0.0) {
   return {common::quaternionFrom({0, 0, yaw_rad}), {x, y, z}};
 }
 
@@ -28,13 +29,6 @@ std::vector<PosePair> pairsOf(const std::vector<Pose3>& estimate, const std::vec
   for (std::size_t i = 0; i < estimate.size(); ++i)
     pairs.push_back({Time::fromSeconds(static_cast<double>(i)), estimate[i], truth[i]});
   return pairs;
-}
-
-double draw(double low, double high) { return low + (high - low) * *rc::gen::inRange(0, 1'000'001) * 1e-6; }
-
-Pose3 drawPose(double size_m) {
-  const Eigen::Vector3d rotation(draw(-3, 3), draw(-1, 1), draw(-1, 1));
-  return {common::expSO3(rotation), {draw(-size_m, size_m), draw(-size_m, size_m), draw(-size_m, size_m)}};
 }
 
 TEST(Statistics, ByHand) {
@@ -54,7 +48,7 @@ TEST(Statistics, ByHand) {
 TEST(Associate, NearestInTimeAndEachOnce) {
   const auto trajectory = [](std::initializer_list<int> stamps_ms) {
     Trajectory poses;
-    for (const int ms : stamps_ms) poses.push_back({Time::fromSeconds(ms * 1e-3), at(ms, 0, 0)});
+    for (const int ms : stamps_ms) poses.push_back({Time::fromSeconds(ms * 1e-3), poseAt(ms, 0, 0)});
     return poses;
   };
   // 100 goes to 104 and not to 95; 108 is farther from 104 than 100 is... and so on.
@@ -70,9 +64,9 @@ TEST(Associate, NearestInTimeAndEachOnce) {
 }
 
 TEST(AbsoluteError, ByHandWithoutAlignment) {
-  const auto error = absoluteTrajectoryError(
-      pairsOf({at(0, 0, 0), at(1, 0.3, 0.4), at(2, 0, 0, 0.2)}, {at(0, 0, 0), at(1, 0, 0), at(2, 0, 0)}),
-      Alignment::kNone);
+  const auto error = absoluteTrajectoryError(pairsOf({poseAt(0, 0, 0), poseAt(1, 0.3, 0.4), poseAt(2, 0, 0, 0.2)},
+                                                     {poseAt(0, 0, 0), poseAt(1, 0, 0), poseAt(2, 0, 0)}),
+                                             Alignment::kNone);
   ASSERT_TRUE(error);
   EXPECT_DOUBLE_EQ(error->translation_m.max, 0.5);
   EXPECT_DOUBLE_EQ(error->translation_m.rmse, std::sqrt(0.25 / 3));
@@ -81,9 +75,10 @@ TEST(AbsoluteError, ByHandWithoutAlignment) {
 
 TEST(AbsoluteError, FirstPoseTurnsTheRestAlong) {
   // The estimate starts with a heading along y, so its whole path is along y.
-  const auto error = absoluteTrajectoryError(pairsOf({at(5, 5, 1, M_PI_2), at(5, 6, 1, M_PI_2), at(5, 7.1, 1, M_PI_2)},
-                                                     {at(0, 0, 0), at(1, 0, 0), at(2, 0, 0)}),
-                                             Alignment::kFirstPose);
+  const auto error =
+      absoluteTrajectoryError(pairsOf({poseAt(5, 5, 1, M_PI_2), poseAt(5, 6, 1, M_PI_2), poseAt(5, 7.1, 1, M_PI_2)},
+                                      {poseAt(0, 0, 0), poseAt(1, 0, 0), poseAt(2, 0, 0)}),
+                              Alignment::kFirstPose);
   ASSERT_TRUE(error);
   EXPECT_NEAR(error->translation_m.min, 0.0, 1e-12);
   EXPECT_NEAR(error->translation_m.max, 0.1, 1e-12);
@@ -93,7 +88,7 @@ TEST(AbsoluteError, FirstPoseTurnsTheRestAlong) {
 TEST(AbsoluteError, PlanarLeavesRollAndPitchAlone) {
   // A square with a small tilt: a turn about z cannot correct it, a turn in space can.
   const Pose3 tilt{common::quaternionFrom({0.1, 0, 0}), {1, 2, 3}};
-  std::vector<Pose3> truth = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0)}, estimate;
+  std::vector<Pose3> truth = {poseAt(0, 0, 0), poseAt(4, 0, 0), poseAt(4, 4, 0), poseAt(0, 4, 0)}, estimate;
   for (const Pose3& pose : truth) estimate.push_back(tilt * pose);
   EXPECT_NEAR(absoluteTrajectoryError(pairsOf(estimate, truth), Alignment::kSpatial)->translation_m.max, 0.0, 1e-9);
   // What is left is the tilt itself, sin(0.1) * 2 m up and down, and (1 - cos(0.1)) * 2 m sideways before the turn.
@@ -102,11 +97,11 @@ TEST(AbsoluteError, PlanarLeavesRollAndPitchAlone) {
 }
 
 RC_GTEST_PROP(AbsoluteError, AlignmentFindsTheTransform, ()) {
-  const Pose3 T_truth_estimate = drawPose(10);
+  const Pose3 T_truth_estimate = test::drawPose(10);
   const int count = *rc::gen::inRange(4, 40);
   std::vector<Pose3> estimate, truth;
   for (int i = 0; i < count; ++i) {
-    estimate.push_back(drawPose(5));
+    estimate.push_back(test::drawPose(5));
     truth.push_back(T_truth_estimate * estimate.back());
   }
   const auto error = absoluteTrajectoryError(pairsOf(estimate, truth), Alignment::kSpatial);
@@ -116,10 +111,10 @@ RC_GTEST_PROP(AbsoluteError, AlignmentFindsTheTransform, ()) {
 }
 
 RC_GTEST_PROP(AbsoluteError, PlanarAlignmentFindsTheTransform, ()) {
-  const Pose3 T_truth_estimate = at(draw(-9, 9), draw(-9, 9), draw(-2, 2), draw(-3.1, 3.1));
+  const Pose3 T_truth_estimate = poseAt(test::draw(-9, 9), test::draw(-9, 9), test::draw(-2, 2), test::draw(-3.1, 3.1));
   std::vector<Pose3> estimate, truth;
   for (int i = 0; i < 10; ++i) {
-    estimate.push_back(drawPose(5));
+    estimate.push_back(test::drawPose(5));
     truth.push_back(T_truth_estimate * estimate.back());
   }
   const auto error = absoluteTrajectoryError(pairsOf(estimate, truth), Alignment::kPlanar);
@@ -154,8 +149,8 @@ RC_GTEST_PROP(AbsoluteError, EqualsHornsSolution, ()) {
   const int count = *rc::gen::inRange(5, 40);
   std::vector<Pose3> estimate, truth;
   for (int i = 0; i < count; ++i) {
-    estimate.push_back(drawPose(5));
-    truth.push_back(drawPose(0.5) * estimate.back());
+    estimate.push_back(test::drawPose(5));
+    truth.push_back(test::drawPose(0.5) * estimate.back());
   }
   const auto pairs = pairsOf(estimate, truth);
   const auto error = absoluteTrajectoryError(pairs, Alignment::kSpatial);
@@ -164,7 +159,7 @@ RC_GTEST_PROP(AbsoluteError, EqualsHornsSolution, ()) {
 }
 
 TEST(AbsoluteError, NoneWhereTheRotationIsNotDetermined) {
-  const std::vector<Pose3> point(3, at(1, 1, 1)), line = {at(0, 0, 0), at(1, 0, 0), at(2, 0, 0)};
+  const std::vector<Pose3> point(3, poseAt(1, 1, 1)), line = {poseAt(0, 0, 0), poseAt(1, 0, 0), poseAt(2, 0, 0)};
   EXPECT_FALSE(align({}, Alignment::kNone));
   EXPECT_FALSE(align(pairsOf(point, point), Alignment::kPlanar));
   EXPECT_FALSE(align(pairsOf(line, line), Alignment::kSpatial)) << "it may turn about its own line";
@@ -176,9 +171,9 @@ TEST(RelativeError, DriftByHand) {
   std::vector<Pose3> truth, estimate;
   Pose3 pose;
   for (int i = 0; i < 11; ++i) {
-    truth.push_back(at(i, 0, 0));
+    truth.push_back(poseAt(i, 0, 0));
     estimate.push_back(pose);
-    pose = pose * at(1.01, 0, 0, 0.02);
+    pose = pose * poseAt(1.01, 0, 0, 0.02);
   }
   const auto frames = relativePoseError(pairsOf(estimate, truth), {});
   EXPECT_EQ(frames.translation_m.count, 10u);
@@ -192,12 +187,12 @@ TEST(RelativeError, DriftByHand) {
 }
 
 RC_GTEST_PROP(RelativeError, DoesNotDependOnTheFrame, ()) {
-  const Pose3 T = drawPose(10);
+  const Pose3 T = test::drawPose(10);
   std::vector<Pose3> estimate, moved, truth;
   for (int i = 0; i < 8; ++i) {
-    estimate.push_back(drawPose(2));
+    estimate.push_back(test::drawPose(2));
     moved.push_back(T * estimate.back());
-    truth.push_back(drawPose(2));
+    truth.push_back(test::drawPose(2));
   }
   const auto a = relativePoseError(pairsOf(estimate, truth), {}), b = relativePoseError(pairsOf(moved, truth), {});
   RC_ASSERT(std::abs(a.translation_m.rmse - b.translation_m.rmse) < 1e-9);
@@ -208,21 +203,22 @@ TEST(RelativeError, RoundingMakesNoStretchLonger) {
   // Ten poses a tenth of a second apart have seven stretches of three tenths, although 0.7 - 0.4 is less than 0.3.
   std::vector<PosePair> pairs;
   for (int i = 0; i < 10; ++i)
-    pairs.push_back({Time() + Duration::fromMilliseconds(100) * i, at(i, 0, 0), at(i, 0, 0)});
-  pairs[3].estimate = at(3, 0.5, 0);
+    pairs.push_back({Time() + Duration::fromMilliseconds(100) * i, poseAt(i, 0, 0), poseAt(i, 0, 0)});
+  pairs[3].estimate = poseAt(3, 0.5, 0);
   const auto error = relativePoseError(pairs, {Stretch::Unit::kSeconds, 0.3});
   EXPECT_EQ(error.translation_m.count, 7u);
   EXPECT_NEAR(error.translation_m.mean, 2 * 0.5 / 7, 1e-12) << "it begins one stretch and ends one";
 }
 
 RC_GTEST_PROP(AbsoluteError, DoesNotDependOnTheFrameOnceAligned, ()) {
-  const Pose3 T = drawPose(10), T_planar = at(draw(-9, 9), draw(-9, 9), draw(-2, 2), draw(-3.1, 3.1));
+  const Pose3 T = test::drawPose(10),
+              T_planar = poseAt(test::draw(-9, 9), test::draw(-9, 9), test::draw(-2, 2), test::draw(-3.1, 3.1));
   std::vector<Pose3> estimate, moved, moved_planar, truth;
   for (int i = 0; i < 8; ++i) {
-    estimate.push_back(drawPose(2));
+    estimate.push_back(test::drawPose(2));
     moved.push_back(T * estimate.back());
     moved_planar.push_back(T_planar * estimate.back());
-    truth.push_back(drawPose(0.3) * estimate.back());
+    truth.push_back(test::drawPose(0.3) * estimate.back());
   }
   const auto spatial = absoluteTrajectoryError(pairsOf(estimate, truth), Alignment::kSpatial);
   const auto spatial_moved = absoluteTrajectoryError(pairsOf(moved, truth), Alignment::kSpatial);
@@ -237,16 +233,17 @@ RC_GTEST_PROP(AbsoluteError, DoesNotDependOnTheFrameOnceAligned, ()) {
 TEST(Scale, ByHand) {
   // A square half as large, elsewhere and turned: twice fits. Its points are 1 m from its middle, those of the truth 2
   // m.
-  std::vector<Pose3> truth = {at(2, 0, 0), at(0, 2, 0), at(-2, 0, 0), at(0, -2, 0)}, estimate;
-  for (const Pose3& pose : truth) estimate.push_back(at(7, 8, 9, 0.5) * Pose3{pose.rotation, 0.5 * pose.position_m});
+  std::vector<Pose3> truth = {poseAt(2, 0, 0), poseAt(0, 2, 0), poseAt(-2, 0, 0), poseAt(0, -2, 0)}, estimate;
+  for (const Pose3& pose : truth)
+    estimate.push_back(poseAt(7, 8, 9, 0.5) * Pose3{pose.rotation, 0.5 * pose.position_m});
   for (const Alignment alignment : {Alignment::kPlanar, Alignment::kSpatial}) {
     const auto pairs = pairsOf(estimate, truth);
     ASSERT_NEAR(bestScale(pairs, alignment).value(), 2.0, 1e-12);
     EXPECT_NEAR(absoluteTrajectoryError(scaled(pairs, 2.0), alignment)->translation_m.max, 0.0, 1e-9);
     EXPECT_NEAR(absoluteTrajectoryError(pairs, alignment)->translation_m.rmse, 1.0, 1e-9);
   }
-  const std::vector<Pose3> spot(3, at(1, 1, 1)), up = {at(0, 0, 0), at(0.1, 0, 5)},
-                                                 down = {at(0, 0, 0), at(0.1, 0, -5)};
+  const std::vector<Pose3> spot(3, poseAt(1, 1, 1)), up = {poseAt(0, 0, 0), poseAt(0.1, 0, 5)},
+                                                     down = {poseAt(0, 0, 0), poseAt(0.1, 0, -5)};
   EXPECT_FALSE(bestScale(pairsOf(spot, spot), Alignment::kPlanar));
   EXPECT_FALSE(bestScale(pairsOf(up, down), Alignment::kPlanar)) << "only a negative one would fit";
 }
@@ -254,8 +251,8 @@ TEST(Scale, ByHand) {
 RC_GTEST_PROP(Scale, NoOtherFitsBetter, ()) {
   std::vector<Pose3> estimate, truth;
   for (int i = 0; i < 12; ++i) {
-    estimate.push_back(drawPose(5));
-    truth.push_back(drawPose(0.5) * estimate.back());
+    estimate.push_back(test::drawPose(5));
+    truth.push_back(test::drawPose(0.5) * estimate.back());
   }
   const auto pairs = pairsOf(estimate, truth);
   for (const Alignment alignment : {Alignment::kPlanar, Alignment::kSpatial}) {

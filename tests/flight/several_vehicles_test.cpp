@@ -20,13 +20,13 @@ using test_support::readText;
 using test_support::runSwiftlet;
 using testing::HasSubstr;
 
-const std::string kTwo = "trials/two_vehicles.yaml", kMission = "trials/missions/explore_and_come_home.xml";
+const std::string kTwo = "trials/two_vehicles.yaml", kExplore = "trials/missions/explore_and_come_home.xml";
 
 class SeveralVehicles : public test_support::Scratch {
  protected:
   /// The two of the shipped trial for some seconds.
   ProgramEnd fly(const std::string& out, const std::string& limit_s) const {
-    return runSwiftlet({"fly", kMission, "--scenario", kTwo, "--headless", "--seed", "7", "--time-limit", limit_s,
+    return runSwiftlet({"fly", kExplore, "--scenario", kTwo, "--headless", "--seed", "7", "--time-limit", limit_s,
                         "--json", "--out", path(out)});
   }
   /// A flight of two from these places; the hall's floor is there.
@@ -94,7 +94,7 @@ TEST_F(SeveralVehicles, AMissionOfItsOwnIsFlownAndOneThatEndsLeavesTheOtherFlyin
 TEST_F(SeveralVehicles, WhatCannotBeFlownIsRefusedBeforeAnythingIsWritten) {
   const auto refusal = [&](const std::string& alpha, const std::string& beta) {
     const ProgramEnd end =
-        runSwiftlet({"fly", kMission, "--scenario", twoFrom(alpha, beta), "--headless", "--out", path("run")});
+        runSwiftlet({"fly", kExplore, "--scenario", twoFrom(alpha, beta), "--headless", "--out", path("run")});
     EXPECT_EQ(end.exit_code, 2) << describe(end);
     EXPECT_FALSE(fs::exists(path("run")));
     return end.err;
@@ -108,7 +108,7 @@ TEST_F(SeveralVehicles, WhatCannotBeFlownIsRefusedBeforeAnythingIsWritten) {
 }
 
 TEST_F(SeveralVehicles, TheRunOfOneIsNotMixedWithThoseOfSeveral) {
-  (void)runSwiftlet({"fly", kMission, "--headless", "--time-limit", "1", "--out", path("run")});
+  (void)runSwiftlet({"fly", kExplore, "--headless", "--time-limit", "1", "--out", path("run")});
   ASSERT_TRUE(fs::exists(fs::path(path("run")) / "mission.json"));
   const ProgramEnd end = fly("run", "1");
   EXPECT_EQ(end.exit_code, 2) << describe(end);

@@ -20,8 +20,8 @@ using common::JobDelivery;
 using common::Time;
 
 /// One flight from the ground to the ground in lockstep, with an operator's command, flown once for all tests.
-struct Flown {
-  Flown() {
+struct Recorded {
+  Recorded() {
     const auto vehicle = makeVehicle(11);
     vehicle->setCameraConsumer(true);
     Autonomy autonomy = makeAutonomy(common::makeLockstepJobs(1));
@@ -41,8 +41,8 @@ struct Flown {
   bool finished = false;
 };
 
-const Flown& flown() {
-  static const Flown kFlown;
+const Recorded& flown() {
+  static const Recorded kFlown;
   return kFlown;
 }
 

@@ -14,8 +14,6 @@
 namespace swiftlet::interfaces {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 std::string oldScan(int beams, const std::string& range = "2.5", const std::string& stamp = "976052857.337530") {
   std::string line = "FLASER " + std::to_string(beams);
   for (int i = 0; i < beams; ++i) line += " " + range;
@@ -39,8 +37,8 @@ TEST(Carmen, AnOldScanIsAHalfTurnOfBeams) {
   for (const auto& [beams, step_deg] : {std::pair{180, 1.0}, {181, 1.0}, {360, 0.5}, {361, 0.5}}) {
     const CarmenScan scan = read(oldScan(beams));
     EXPECT_EQ(scan.scan.ranges_m.size(), static_cast<std::size_t>(beams));
-    EXPECT_DOUBLE_EQ(scan.scan.angle_min_rad, -0.5 * kPi);
-    EXPECT_NEAR(scan.scan.angle_increment_rad, step_deg * kPi / 180.0, 1e-12);
+    EXPECT_DOUBLE_EQ(scan.scan.angle_min_rad, -0.5 * std::numbers::pi);
+    EXPECT_NEAR(scan.scan.angle_increment_rad, step_deg * std::numbers::pi / 180.0, 1e-12);
   }
 }
 

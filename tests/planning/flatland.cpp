@@ -199,7 +199,7 @@ Flatland pocketRoom(std::uint64_t seed) {
 }
 
 FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_t seed) {
-  constexpr double kTick_s = 0.1;
+  constexpr double kStep_s = 0.1;
   constexpr int kTicksPerCall = 5;
   FlightReport report;
   common::RandomStream random(seed, "flight");
@@ -216,7 +216,7 @@ FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_
   for (int y = -8; y <= 8; ++y)
     for (int x = -8; x <= 8; ++x)
       if (std::hypot(x, y) <= 8) grid.set({x, y}, -40);
-  for (int tick = 0; report.time_s < config.limit_s; ++tick, report.time_s += kTick_s) {
+  for (int tick = 0; report.time_s < config.limit_s; ++tick, report.time_s += kStep_s) {
     scan(world, flyer.pose, config, random, grid);
     const bool arrived = current && flyer.arrived(*current);
     if (arrived) {
@@ -238,7 +238,7 @@ FlightReport fly(const Flatland& world, const FlightConfig& config, std::uint64_
       report.switches += flying && !report.last.kept_current && (current->target_map_m - before).norm() > 0.5;
       flyer.next = 1;
     }
-    flyer.step(*current, path, config, kTick_s, report);
+    flyer.step(*current, path, config, kStep_s, report);
     report.trail_map_m.push_back(flyer.pose.position_m());
     for (int i = 0; i < 24; ++i) {
       const double angle_rad = i * std::numbers::pi / 12;

@@ -10,14 +10,15 @@
 #include "common/random.hpp"
 #include "grid_builder.hpp"
 #include "planning/avoidance/retreat.hpp"
+#include "tests/planning/avoidance_story.hpp"
 
 namespace swiftlet::planning {
 namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double kHull_m = 0.275;
-constexpr double kTick_s = 0.025;
+using test::kHull_m;
+using test::kTick_s;
 
 Threat person(const Point& center_m, const Point& velocity_m_s) { return {center_m, 0.25, velocity_m_s, true, ""}; }
 

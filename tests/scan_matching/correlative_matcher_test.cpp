@@ -15,8 +15,6 @@ using test::errorOf;
 using test::poseInFlat;
 using test::scanAt;
 
-constexpr double kDeg = std::numbers::pi / 180.0;
-
 /// A small step and a guess that does not include it.
 Pose2 randomStep(common::RandomStream& random) {
   return {random.uniform(-0.08, 0.08), random.uniform(-0.08, 0.08), random.uniform(-0.015, 0.015)};
@@ -40,20 +38,22 @@ void expectTheExhaustiveAnswer(const CorrelativeMatcherConfig& config, const Sea
   }
 }
 
-TEST(CorrelativeMatcher, EqualsTheExhaustiveSearch) { expectTheExhaustiveAnswer({}, {0.15, 2.0 * kDeg}, 40); }
+TEST(CorrelativeMatcher, EqualsTheExhaustiveSearch) {
+  expectTheExhaustiveAnswer({}, {0.15, 2.0 * common::kRadPerDeg}, 40);
+}
 
 TEST(CorrelativeMatcher, EqualsTheExhaustiveSearchInAWideWindow) {
   CorrelativeMatcherConfig config;
   config.resolution_m = 0.04;
   config.sigma_m = 0.08;
   config.angular_resolution_deg = 1.0;
-  expectTheExhaustiveAnswer(config, {3.0, 20.0 * kDeg}, 6);
+  expectTheExhaustiveAnswer(config, {3.0, 20.0 * common::kRadPerDeg}, 6);
 }
 
 TEST(CorrelativeMatcher, EqualsTheExhaustiveSearchWithoutThePriorOfTheGuess) {
   CorrelativeMatcherConfig config;
   config.guess_weight = 0.0;
-  expectTheExhaustiveAnswer(config, {0.15, 2.0 * kDeg}, 20);
+  expectTheExhaustiveAnswer(config, {0.15, 2.0 * common::kRadPerDeg}, 20);
 }
 
 TEST(CorrelativeMatcher, AllInstructionsGiveTheSameBits) {
@@ -110,7 +110,7 @@ Accuracy measureAccuracy(const CorrelativeMatcherConfig& config, int trials) {
 TEST(CorrelativeMatcher, IsAccurateToAMillimetreOrTwoAndSaysSo) {
   const Accuracy surface = measureAccuracy({}, 200);
   EXPECT_LT(surface.translation_rms_m, 0.002);
-  EXPECT_LT(surface.rotation_rms_rad, 0.05 * kDeg);
+  EXPECT_LT(surface.rotation_rms_rad, 0.05 * common::kRadPerDeg);
   EXPECT_GT(surface.nees, 1.0);
   EXPECT_LT(surface.nees, 4.5);
   CorrelativeMatcherConfig config;
@@ -160,7 +160,7 @@ TEST(CorrelativeMatcher, ForwardIsTheInverseOfBackward) {
     const Pose2 back = from_b.match(scan_a, {}, {0.12, 0.03}).T_reference_body;
     const Pose2 loop = forth * back;
     EXPECT_LT(loop.position_m().norm(), 0.006);
-    EXPECT_LT(std::abs(loop.yaw_rad), 0.15 * kDeg);
+    EXPECT_LT(std::abs(loop.yaw_rad), 0.15 * common::kRadPerDeg);
   }
 }
 
@@ -177,7 +177,7 @@ TEST(CorrelativeMatcher, SaysWhichWayACorridorHides) {
     EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
     EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess is returned.
     EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
-    EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * kDeg);
+    EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * common::kRadPerDeg);
     EXPECT_GT(match.covariance(0, 0), 0.09);
     EXPECT_LT(match.covariance(1, 1), 1e-4);
   }

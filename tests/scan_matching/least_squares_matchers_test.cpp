@@ -17,8 +17,6 @@ using test::errorOf;
 using test::poseInFlat;
 using test::scanAt;
 
-constexpr double kDeg = std::numbers::pi / 180.0;
-
 template <typename Type>
 class LeastSquaresMatchers : public testing::Test {};
 
@@ -33,12 +31,12 @@ struct PointToLine {
 using Kinds = testing::Types<GaussNewton, PointToLine>;
 TYPED_TEST_SUITE(LeastSquaresMatchers, Kinds);
 
-Pose2 randomStep(common::RandomStream& random, double distance_m, double turn_rad) {
+Pose2 stepWithin(common::RandomStream& random, double distance_m, double turn_rad) {
   return {random.uniform(-distance_m, distance_m), random.uniform(-distance_m, distance_m),
           random.uniform(-turn_rad, turn_rad)};
 }
 
-struct Accuracy {
+struct MatchErrors {
   double translation_rms_m = 0.0, rotation_rms_rad = 0.0;
   double nees = 0.0;  ///< Mean of the normalized squared error; 3 when the covariance is honest.
   int failed = 0;
@@ -46,16 +44,16 @@ struct Accuracy {
 
 /// Each trial is a room seen from one place, then from a step away; the guess does not include the step.
 template <typename Kind>
-Accuracy measureAccuracy(int trials, double distance_m, double turn_rad) {
+MatchErrors measureAccuracy(int trials, double distance_m, double turn_rad) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(5, "accuracy");
-  Accuracy accuracy;
+  MatchErrors accuracy;
   for (int trial = 0; trial < trials; ++trial) {
     typename Kind::Matcher matcher{{}};
     const Pose2 reference = poseInFlat(random);
     const auto frame = 2 * static_cast<std::uint64_t>(trial);
     matcher.addReference(scanAt(world, reference, frame), reference);
-    const Pose2 truth = reference * randomStep(random, distance_m, turn_rad);
+    const Pose2 truth = reference * stepWithin(random, distance_m, turn_rad);
     const MatchResult match =
         matcher.match(scanAt(world, truth, frame + 1), reference, {1.5 * distance_m, 1.2 * turn_rad});
     if (match.failed) {
@@ -75,16 +73,16 @@ Accuracy measureAccuracy(int trials, double distance_m, double turn_rad) {
 }
 
 TYPED_TEST(LeastSquaresMatchers, AreAccurateToAMillimetreOrTwoAndSaySo) {
-  const Accuracy accuracy = measureAccuracy<TypeParam>(300, 0.08, 0.015);
+  const MatchErrors accuracy = measureAccuracy<TypeParam>(300, 0.08, 0.015);
   EXPECT_EQ(accuracy.failed, 0);
   EXPECT_LT(accuracy.translation_rms_m, 0.002);
-  EXPECT_LT(accuracy.rotation_rms_rad, 0.05 * kDeg);
+  EXPECT_LT(accuracy.rotation_rms_rad, 0.05 * common::kRadPerDeg);
   EXPECT_GT(accuracy.nees, 1.0);
   EXPECT_LT(accuracy.nees, 4.5);
 }
 
 TYPED_TEST(LeastSquaresMatchers, ComeFromAfar) {
-  const Accuracy accuracy = measureAccuracy<TypeParam>(100, 0.3, 0.15);
+  const MatchErrors accuracy = measureAccuracy<TypeParam>(100, 0.3, 0.15);
   EXPECT_EQ(accuracy.failed, 0);
   EXPECT_LT(accuracy.translation_rms_m, 0.003);
   EXPECT_LT(accuracy.nees, 4.5);
@@ -92,7 +90,7 @@ TYPED_TEST(LeastSquaresMatchers, ComeFromAfar) {
 
 TYPED_TEST(LeastSquaresMatchers, SayWhenTheyDidNotArrive) {
   // So far that the walls that face one way may fit while the others are out of reach.
-  const Accuracy accuracy = measureAccuracy<TypeParam>(150, 0.8, 0.4);
+  const MatchErrors accuracy = measureAccuracy<TypeParam>(150, 0.8, 0.4);
   EXPECT_LT(accuracy.failed, 15);
   EXPECT_LT(accuracy.translation_rms_m, 0.003);
   EXPECT_LT(accuracy.nees, 4.5);
@@ -102,7 +100,7 @@ TYPED_TEST(LeastSquaresMatchers, ForwardIsTheInverseOfBackward) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(9, "inverse");
   for (int trial = 0; trial < 20; ++trial) {
-    const Pose2 a = poseInFlat(random), b = a * randomStep(random, 0.08, 0.015);
+    const Pose2 a = poseInFlat(random), b = a * stepWithin(random, 0.08, 0.015);
     const ProjectedScan scan_a = scanAt(world, a, 10), scan_b = scanAt(world, b, 11);
     typename TypeParam::Matcher from_a{{}}, from_b{{}};
     from_a.addReference(scan_a, {});
@@ -111,7 +109,7 @@ TYPED_TEST(LeastSquaresMatchers, ForwardIsTheInverseOfBackward) {
     const Pose2 back = from_b.match(scan_a, {}, {0.12, 0.03}).T_reference_body;
     const Pose2 loop = forth * back;
     EXPECT_LT(loop.position_m().norm(), 0.006);
-    EXPECT_LT(std::abs(loop.yaw_rad), 0.15 * kDeg);
+    EXPECT_LT(std::abs(loop.yaw_rad), 0.15 * common::kRadPerDeg);
   }
 }
 
@@ -128,7 +126,7 @@ TYPED_TEST(LeastSquaresMatchers, SayWhichWayACorridorHides) {
     EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
     EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess is returned.
     EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
-    EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * kDeg);
+    EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * common::kRadPerDeg);
     EXPECT_GT(match.covariance(0, 0), 0.09);
     EXPECT_LT(match.covariance(1, 1), 1e-4);
   }
@@ -230,7 +228,7 @@ TYPED_TEST(LeastSquaresMatchers, AgreeWithTheOneThatLooksEverywhere) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(11, "agree");
   for (int trial = 0; trial < 40; ++trial) {
-    const Pose2 reference = poseInFlat(random), truth = reference * randomStep(random, 0.08, 0.015);
+    const Pose2 reference = poseInFlat(random), truth = reference * stepWithin(random, 0.08, 0.015);
     const auto frame = 2 * static_cast<std::uint64_t>(trial);
     const ProjectedScan first = scanAt(world, reference, frame), second = scanAt(world, truth, frame + 1);
     typename TypeParam::Matcher matcher{{}};

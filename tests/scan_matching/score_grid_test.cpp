@@ -27,7 +27,7 @@ CorrelativeMatcherConfig everyPose() {
   return config;
 }
 
-Pose2 randomStep(common::RandomStream& random) {
+Pose2 smallStep(common::RandomStream& random) {
   return {random.uniform(-0.06, 0.06), random.uniform(-0.06, 0.06), random.uniform(-0.01, 0.01)};
 }
 
@@ -71,7 +71,7 @@ TEST(ScoreGrid, TheMatchIsThatOfTheExhaustiveSearchWithAllInstructions) {
   for (std::uint64_t trial = 0; trial < 10; ++trial) {
     const Pose2 reference = poseInFlat(random);
     const ProjectedScan first = scanAt(world, reference, 2 * trial);
-    const ProjectedScan scan = scanAt(world, reference * randomStep(random), 2 * trial + 1);
+    const ProjectedScan scan = scanAt(world, reference * smallStep(random), 2 * trial + 1);
     const SearchWindow window{random.uniform(0.0, 0.09), random.uniform(0.0, 0.02)};
     std::optional<MatchResult> expected;
     for (const Instructions instructions : {Instructions::kScalar, Instructions::kSse41, Instructions::kAvx2}) {
@@ -100,7 +100,7 @@ TEST(ScoreGrid, TheMatchIsAccurateAndSaysSo) {
   double squares_m2 = 0.0, nees = 0.0;
   for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
     CorrelativeMatcher matcher(everyPose());
-    const Pose2 reference = poseInFlat(random), truth = reference * randomStep(random);
+    const Pose2 reference = poseInFlat(random), truth = reference * smallStep(random);
     matcher.addReference(scanAt(world, reference, 2 * trial), reference);
     const MatchResult match = matcher.match(scanAt(world, truth, 2 * trial + 1), reference, {0.09, 0.02});
     ASSERT_FALSE(match.failed);

@@ -11,13 +11,13 @@ namespace {
 
 using ::testing::StartsWith;
 
-constexpr double kHullRadius_m = 0.275;
+constexpr double kRadius_m = 0.275;
 
 TEST(Meeting, TheLaserSeesTheOtherHullWhereItIs) {
   Pair pair(scenarioOf({vehicleAt("a", -2, 0), vehicleAt("b", 1, 0, 180)}));
   pair.fly(0.5);
-  EXPECT_NEAR(rangeAhead_m(pair.pilot_a.events), 3.0 - kHullRadius_m, 0.05);
-  EXPECT_NEAR(rangeAhead_m(pair.pilot_b.events), 3.0 - kHullRadius_m, 0.05);
+  EXPECT_NEAR(rangeAhead_m(pair.pilot_a.events), 3.0 - kRadius_m, 0.05);
+  EXPECT_NEAR(rangeAhead_m(pair.pilot_b.events), 3.0 - kRadius_m, 0.05);
 
   pair.pilot_b.flyTo(1, 0, 1.2);
   pair.fly(4.0);
@@ -56,7 +56,7 @@ TEST(Meeting, TwoHullsThatTouchEndBoth) {
   EXPECT_FALSE(pair.a.truth().by_walker);
   EXPECT_EQ(pair.a.truth().min_vehicle_clearance_m, 0.0);
   const Eigen::Vector3d apart = pair.a.truth().T_world_body.position_m - pair.b.truth().T_world_body.position_m;
-  EXPECT_NEAR(apart.norm(), 2 * kHullRadius_m, 0.05);
+  EXPECT_NEAR(apart.norm(), 2 * kRadius_m, 0.05);
   std::vector<common::SensorEvent> more;
   EXPECT_FALSE(pair.a.advanceTo(common::Time::fromSeconds(60), more)) << "it stays crashed";
 }
@@ -99,7 +99,7 @@ TEST(Meeting, APersonFollowsTheVehicleItIsToldTo) {
   ASSERT_EQ(pair.arena->people().size(), 1U);
   const Eigen::Vector2d gap =
       pair.b.truth().T_world_body.position_m.head<2>() - pair.arena->people()[0].position_world_m;
-  EXPECT_NEAR(gap.norm(), 1.0 + kHullRadius_m + 0.25, 0.1);
+  EXPECT_NEAR(gap.norm(), 1.0 + kRadius_m + 0.25, 0.1);
   EXPECT_LT(pair.arena->people()[0].position_world_m.y(), -2.5);
 }
 

@@ -23,7 +23,7 @@ using common::RandomStream;
 // --- Maps. ---
 
 /// A scan of the world from a pose, by a level laser.
-ProjectedScan scanAt(const test::PlanarWorld& world, const Pose2& T_world_body, std::uint64_t seed,
+ProjectedScan scanOf(const test::PlanarWorld& world, const Pose2& T_world_body, std::uint64_t seed,
                      double range_max_m = 20.0) {
   common::LaserConfig laser;
   laser.mirror_beams = 0;
@@ -41,7 +41,7 @@ SurfaceMap mapOf(const test::PlanarWorld& world, const std::vector<Pose2>& poses
   SurfaceMap map(config);
   DrawingBoard board;
   std::uint64_t seed = 100;
-  for (const Pose2& pose : poses) map.draw(toDraw(scanAt(world, pose, ++seed, range_max_m), config), pose, board);
+  for (const Pose2& pose : poses) map.draw(toDraw(scanOf(world, pose, ++seed, range_max_m), config), pose, board);
   return map;
 }
 
@@ -212,7 +212,7 @@ TEST(MapMatch, FindsThePoseAndSaysHowWell) {
   for (std::uint64_t seed = 0; seed < kCases; ++seed) {
     RandomStream random(seed, "pose");
     const Pose2 truth{random.uniform(-0.2, 0.6), random.uniform(-0.2, 0.4), random.uniform(-0.3, 0.3)};
-    const auto points = pointsToMatch(scanAt(world, truth, seed), config, map_config.max_gap_m);
+    const auto points = pointsToMatch(scanOf(world, truth, seed), config, map_config.max_gap_m);
     const MotionPrior prior{
         {truth.x_m + random.gaussian(0.03), truth.y_m + random.gaussian(0.03), truth.yaw_rad + random.gaussian(0.01)},
         motionCovariance(0.03, 0.01)};
@@ -238,7 +238,7 @@ TEST(MapMatch, ASlipOfTheMotionIsNotBelieved) {
   const MapMatchConfig config;
   const SurfaceMap map = mapOf(world, {{0.0, 0.0, 0.0}, {0.3, 0.1, 0.2}, {0.5, 0.3, -0.2}}, map_config);
   const Pose2 truth{0.2, 0.1, 0.05};
-  const auto points = pointsToMatch(scanAt(world, truth, 7), config, map_config.max_gap_m);
+  const auto points = pointsToMatch(scanOf(world, truth, 7), config, map_config.max_gap_m);
   const MotionPrior slipped{{0.35, 0.0, 0.08}, motionCovariance(0.005, 0.002)};
   const MotionPrior right{truth, motionCovariance(0.005, 0.002)};
   const MapMatch match = matchToMap(map, points, slipped, config);
@@ -258,7 +258,7 @@ TEST(MapMatch, TheRightMapWeighsMoreThanAWrongOne) {
   const SurfaceMap right = mapOf(world, poses, map_config), wrong = mapOf(other, poses, map_config);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Pose2 truth{0.2, 0.05, 0.05};
-    const auto points = pointsToMatch(scanAt(world, truth, seed), config, map_config.max_gap_m);
+    const auto points = pointsToMatch(scanOf(world, truth, seed), config, map_config.max_gap_m);
     const MotionPrior prior{truth, motionCovariance(0.01, 0.005)};
     EXPECT_GT(matchToMap(right, points, prior, config).log_likelihood,
               matchToMap(wrong, points, prior, config).log_likelihood)
@@ -277,7 +277,7 @@ TEST(MapMatch, InACorridorTheMotionStandsAlongIt) {
   for (int i = 0; i < 10; ++i) poses.push_back({0.3 * i, 0.0, 0.0});
   const SurfaceMap map = mapOf(corridor, poses, map_config, 5.6);
   const Pose2 truth{2.5, 0.02, 0.01};
-  const auto points = pointsToMatch(scanAt(corridor, truth, 3, 5.6), config, map_config.max_gap_m);
+  const auto points = pointsToMatch(scanOf(corridor, truth, 3, 5.6), config, map_config.max_gap_m);
   const MotionPrior prior{{2.35, 0.0, 0.0}, motionCovariance(0.1, 0.02)};
   const MapMatch match = matchToMap(map, points, prior, config);
   EXPECT_NEAR(match.T_map_body.x_m, prior.T_map_body.x_m, 0.02);
@@ -291,7 +291,7 @@ TEST(MapMatch, WithoutSupportTheMotionStands) {
   const MapMatchConfig config;
   const SurfaceMap empty{SurfaceMapConfig{}};
   const MotionPrior prior{{1.0, 2.0, 0.5}, motionCovariance(0.02, 0.01)};
-  const auto points = pointsToMatch(scanAt(test::flat(), {}, 1), config, 0.3);
+  const auto points = pointsToMatch(scanOf(test::flat(), {}, 1), config, 0.3);
   for (const auto& some : {points, std::vector<OrientedPoint>{}}) {
     const MapMatch match = matchToMap(empty, some, prior, config);
     EXPECT_EQ(match.T_map_body.x_m, 1.0);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/slam2d/flight.hpp"
+#include "tests/slam2d/grid_bytes.hpp"
 #include "tests/slam2d/ring.hpp"
 
 namespace swiftlet::perception {
@@ -15,14 +16,6 @@ namespace {
 
 using common::CellIndex;
 using common::Pose2;
-
-std::vector<int> bytesOf(const common::OccupancyGrid& grid) {
-  std::vector<int> bytes;
-  grid.forEachCell([&](CellIndex c, common::occupancy::Cell value) {
-    if (value != grid.background()) bytes.insert(bytes.end(), {c.x, c.y, value});
-  });
-  return bytes;
-}
 
 ParticleSlamConfig someParticles(int count, int seed = 1) {
   ParticleSlamConfig config;
@@ -64,11 +57,11 @@ TEST(ParticleSlam, ALoopThroughTheFlat) {
 TEST(ParticleSlam, TheSameSeedGivesTheSameBytes) {
   ParticleSlam a(someParticles(8)), b(someParticles(8)), other(someParticles(8, 2));
   for (ParticleSlam* slam : {&a, &b, &other}) flyFlat(*slam, 150, 5);
-  EXPECT_EQ(bytesOf(a.snapshot()), bytesOf(b.snapshot()));
+  EXPECT_EQ(test::bytesOf(a.snapshot()), test::bytesOf(b.snapshot()));
   ASSERT_EQ(a.keyPoses().size(), b.keyPoses().size());
   for (std::size_t i = 0; i < a.keyPoses().size(); ++i)
     EXPECT_EQ(a.keyPoses()[i].T_map_body.x_m, b.keyPoses()[i].T_map_body.x_m);
-  EXPECT_NE(bytesOf(a.snapshot()), bytesOf(other.snapshot()));
+  EXPECT_NE(test::bytesOf(a.snapshot()), test::bytesOf(other.snapshot()));
 }
 
 struct RingScore {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/slam2d/flight.hpp"
+#include "tests/slam2d/grid_bytes.hpp"
 #include "tests/slam2d/ring.hpp"
 
 namespace swiftlet::perception {
@@ -78,14 +79,6 @@ test::Flight flatFlight(int loops, std::uint64_t seed) {
   return {test::flat(), test::SmoothPath(test::flatLoop(loops), 1.0), {}, seed};
 }
 
-std::vector<int> bytesOf(const common::OccupancyGrid& grid) {
-  std::vector<int> bytes;
-  grid.forEachCell([&](CellIndex c, common::occupancy::Cell value) {
-    if (value != grid.background()) bytes.insert(bytes.end(), {c.x, c.y, value});
-  });
-  return bytes;
-}
-
 TEST(Slam2d, ThreeLoopsThroughTheFlat) {
   for (const std::uint64_t seed : {1U, 2U}) {
     Slam2d slam{{}};
@@ -112,7 +105,7 @@ TEST(Slam2d, TheSameFlightGivesTheSameBytes) {
   Slam2d a{{}}, b{{}};
   fly(flatFlight(1, 5), a);
   fly(flatFlight(1, 5), b);
-  EXPECT_EQ(bytesOf(a.snapshot()), bytesOf(b.snapshot()));
+  EXPECT_EQ(test::bytesOf(a.snapshot()), test::bytesOf(b.snapshot()));
   ASSERT_EQ(a.keyPoses().size(), b.keyPoses().size());
   for (std::size_t i = 0; i < a.keyPoses().size(); ++i)
     EXPECT_EQ(a.keyPoses()[i].T_map_body.x_m, b.keyPoses()[i].T_map_body.x_m);
@@ -126,13 +119,13 @@ TEST(Slam2d, ASnapshotStaysAsItWas) {
     slam.addScan(step.scan, step.T_odom_body, step.covariance_since_last);
   }
   const common::OccupancyGrid snapshot = slam.snapshot();
-  const auto before = bytesOf(snapshot);
+  const auto before = test::bytesOf(snapshot);
   for (int i = 0; i < 100; ++i) {
     const auto step = flight.next();
     slam.addScan(step.scan, step.T_odom_body, step.covariance_since_last);
   }
-  EXPECT_EQ(bytesOf(snapshot), before);
-  EXPECT_NE(bytesOf(slam.snapshot()), before);
+  EXPECT_EQ(test::bytesOf(snapshot), before);
+  EXPECT_NE(test::bytesOf(slam.snapshot()), before);
 }
 
 double worstKey(const Slam2d& slam, const std::vector<std::pair<Time, Pose2>>& truth) {

@@ -17,6 +17,7 @@
 #include "interfaces/laser_log/laser_log.hpp"
 #include "interfaces/laser_log/open_laser_log.hpp"
 #include "tests/slam2d/flight.hpp"
+#include "tests/slam2d/grid_bytes.hpp"
 #include "tests/slam2d/tracked_path.hpp"
 #include "tests/support/datasets.hpp"
 #include "tests/support/laser_log_profile.hpp"
@@ -52,14 +53,6 @@ class EachSlamMethod : public testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(, EachSlamMethod, testing::Values("graph", "particles", "scan_to_map"),
                          [](const auto& method) { return method.param; });
-
-std::vector<int> bytesOf(const common::OccupancyGrid& grid) {
-  std::vector<int> bytes;
-  grid.forEachCell([&](CellIndex c, common::occupancy::Cell value) {
-    if (value != grid.background()) bytes.insert(bytes.end(), {c.x, c.y, value});
-  });
-  return bytes;
-}
 
 struct Flown {
   double rms_m = 0.0, max_m = 0.0;
@@ -122,7 +115,7 @@ TEST_P(EachSlamMethod, MakesTheMapOfTheFlat) {
 TEST_P(EachSlamMethod, GivesTheSameBytesAgain) {
   const auto one = makeSlam(configOf(GetParam())), other = makeSlam(configOf(GetParam()));
   for (PlanarSlam* slam : {one.get(), other.get()}) flyFlat(*slam, 5, 150, kNothing);
-  EXPECT_EQ(bytesOf(one->snapshot()), bytesOf(other->snapshot()));
+  EXPECT_EQ(test::bytesOf(one->snapshot()), test::bytesOf(other->snapshot()));
   const auto keys = one->keyPoses(), others = other->keyPoses();
   ASSERT_EQ(keys.size(), others.size());
   for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_EQ(keys[i].T_map_body.x_m, others[i].T_map_body.x_m);
