@@ -90,7 +90,7 @@ double ownFreeSpaceViolation(const SlamGraph& graph, std::vector<int> keys, doub
 /// Whether the newest key scans, moved by `T_map_believed`, and the reference violate each other's free space by more
 /// than each set violates its own.
 bool loopViolatesFreeSpace(const SlamGraph& graph, const std::vector<int>& newest, const Pose2& T_map_believed,
-                          const std::vector<int>& reference, const Slam2dConfig& config) {
+                           const std::vector<int>& reference, const Slam2dConfig& config) {
   const double max_range_m = config.matcher.max_range_m, most = config.loops.max_free_space_violation;
   const double share =
       freeSpaceViolation(placed(graph, newest, T_map_believed), placed(graph, reference, {}), max_range_m);

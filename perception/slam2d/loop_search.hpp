@@ -26,7 +26,7 @@ std::vector<LoopCandidate> loopCandidates(const SlamGraph& graph, int query, con
 
 /// A loop closure that a search has found.
 struct FoundLoop {
-  SlamEdge edge;  ///< From the candidate to the query.
+  SlamEdge edge;         ///< From the candidate to the query.
   double quality = 0.0;  ///< Of the fine match, in [0, 1].
   /// Distance between the matched pose of the query and its estimate.
   double shift_m = 0.0;

@@ -210,7 +210,7 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   if (const std::optional<int> near = keyNear(agreeing, pose.T_map_body)) {
     if (areOfTwoPasses(*near, anchor)) connectPasses(*near, match);
     setAnchor(*near, between(poseOf(*near), pose.T_map_body),
-            edgeCovariance(common::turned(pose.covariance, -poseOf(*near).yaw_rad), config));
+              edgeCovariance(common::turned(pose.covariance, -poseOf(*near).yaw_rad), config));
     search_due |= optimizationIsDue();
     return true;
   }
