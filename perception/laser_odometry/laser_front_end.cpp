@@ -11,16 +11,16 @@ namespace {
 
 using common::Pose2;
 
-/// How wide to search, in sigmas of the prediction.
+/// Half width of the search window, in sigmas of the prediction.
 constexpr double kWindowSigmas = 4.0;
 
-/// The part of a symmetric matrix that is positive.
+/// The positive semidefinite part of a symmetric matrix.
 Eigen::Matrix3d positivePart(const Eigen::Matrix3d& matrix) {
   const common::SymmetricEigen<3> eigen = common::symmetricEigen(matrix);
   return eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
 }
 
-/// A direction in the frame of the robot, with the axes of the reference.
+/// A direction in the axes of the robot, turned into the axes of the reference.
 std::optional<Eigen::Vector2d> atReference(const std::optional<Eigen::Vector2d>& direction_robot,
                                            const Pose2& T_reference_robot) {
   if (!direction_robot) return std::nullopt;
@@ -45,8 +45,8 @@ struct LaserFrontEnd::Impl {
   bool begun = false;
   common::Time last_time;
   Pose2 T_odom_robot;
-  Pose2 T_odom_reference;               ///< Of the scan that the odometry measures from.
-  std::optional<Pose2> T_odom_matched;  ///< At the last match.
+  Pose2 T_odom_reference;               ///< Of the key scan that the odometry is relative to.
+  std::optional<Pose2> T_odom_matched;  ///< The pose at the last match.
 };
 
 std::optional<RelativePose> LaserFrontEnd::Impl::match(const ProjectedScan& scan) {
@@ -61,9 +61,9 @@ std::optional<RelativePose> LaserFrontEnd::Impl::match(const ProjectedScan& scan
   return relative;
 }
 
-/// Takes the match in and says how uncertain the step from the scan before is, with the axes of the robot there. A
-/// match is relative to the odometry's reference: what it is uncertain of does not add up from scan to scan, only what
-/// the uncertainty has grown by counts.
+/// Takes in the match and returns the covariance of the step from the previous scan, in the axes of the robot there. A
+/// match is relative to the reference of the odometry, so its errors do not add up from scan to scan. The step
+/// therefore has only the covariance by which that of the pose has grown.
 Eigen::Matrix3d LaserFrontEnd::Impl::follow(const std::optional<RelativePose>& relative, bool lost, const Pose2& before,
                                             const Eigen::Matrix3d& covariance_before) {
   if (lost)
@@ -103,7 +103,8 @@ std::optional<FollowedScan> LaserFrontEnd::add(const LaserSlamInput& input, cons
   FollowedScan followed;
   common::LaserScan stamped = input.scan;
   stamped.stamps = {now, now};
-  stamped.time_increment = {};  // Projected as if taken at once, it has one stamp, whatever the log says.
+  // With all beams at one time, the projected scan has exactly the stamp of the clock.
+  stamped.time_increment = {};
   followed.scan = projectLevel(stamped, input.T_robot_laser, expected);
   const bool withheld = withhold && withhold(expected) && self.begun;
   const std::optional<RelativePose> relative = withheld ? std::nullopt : self.match(followed.scan);

@@ -1,5 +1,6 @@
-// What SLAM and localization with a laser that is carried level begin with: scans put in order of time, and the way
-// from one to the next, with its uncertainty, from the laser itself. Odometry is taken as a hint where there is some.
+// The first stage of SLAM and localization with a laser that is carried level. It orders the scans in time and
+// estimates the motion from one to the next, with its uncertainty, from the laser itself. Odometry is used as a hint if
+// the input has it.
 //
 //   scan --> ScanClock --> MotionPrediction --> LaserOdometry --> pose in odom, covariance of the step
 #pragma once
@@ -19,32 +20,33 @@
 
 namespace swiftlet::perception {
 
-/// For a robot that carries its laser level the shipped profile config/systems/laser_log.yaml sets the odometry.
+/// The shipped profile config/systems/laser_log.yaml has the settings for a robot that carries its laser level.
 struct LaserFrontEndConfig {
   LaserOdometryConfig odometry;
   MotionPredictionConfig motion;
 };
 
 struct LaserSlamInput {
-  const common::LaserScan& scan;  ///< Its stamp is the log's.
+  const common::LaserScan& scan;  ///< Stamped by the log.
   common::Pose2 T_robot_laser;
   std::optional<common::Pose2> T_odom_robot;
 };
 
 struct LaserSlamCounts {
-  std::uint64_t unreliable_stamps = 0;     ///< Not after the one before, or too soon after it.
-  std::uint64_t implausible_odometry = 0;  ///< Steps of the odometry that no robot makes.
+  std::uint64_t unreliable_stamps = 0;     ///< Stamps not after the one before, or too soon after it.
+  std::uint64_t implausible_odometry = 0;  ///< Odometry steps faster than MotionPredictionConfig::max_speed_m_s.
 };
 
-/// A scan and where it was taken. odom is the frame of the laser odometry: it begins at the first scan and is
-/// continuous except after a break.
+/// A scan and the pose at which it was taken. odom is the frame of the laser odometry: it begins at the first scan and
+/// is continuous except after a break.
 struct FollowedScan {
-  ProjectedScan scan;  ///< Its stamp grows from scan to scan.
+  ProjectedScan scan;  ///< Its stamp is later than that of every scan before.
   common::Pose2 T_odom_robot;
-  /// Of the step since the scan before: of the additive errors (x_m, y_m, yaw_rad) with the axes of the robot there.
+  /// Covariance of the step since the previous scan: of the additive errors (x_m, y_m, yaw_rad), axes of the robot at
+  /// the previous scan.
   Eigen::Matrix3d covariance_since_last = Eigen::Matrix3d::Zero();
-  bool matched = false;  ///< False: it stands where it was expected.
-  bool broken = false;   ///< How the robot came here from the scan before is not known.
+  bool matched = false;  ///< False: the pose is the predicted one.
+  bool broken = false;   ///< The odometry restarted: the motion since the previous scan is not known.
 };
 
 /// Not thread-safe. Deterministic.
@@ -53,12 +55,12 @@ class LaserFrontEnd {
   explicit LaserFrontEnd(const LaserFrontEndConfig& config);
   ~LaserFrontEnd();
 
-  /// Whether a scan that is expected at T_odom_robot is kept from the odometry, for what must not be judged by scans
-  /// that made it. It stands where it was expected then.
+  /// Whether to withhold a scan, predicted at T_odom_robot, from the odometry. The scan then keeps its predicted pose.
+  /// This serves evaluations, which must not use the scans that the odometry has used.
   using Withhold = std::function<bool(const common::Pose2& T_odom_robot)>;
 
-  /// None as long as no scan has had enough points to begin with; until then none is withheld. `withhold` is asked
-  /// once.
+  /// Takes in a scan. Returns nothing until a first scan has had enough points to start; until then none is withheld.
+  /// `withhold` is called once.
   std::optional<FollowedScan> add(const LaserSlamInput& input, const Withhold& withhold = {});
 
   const LaserOdometryCounts& odometryCounts() const;

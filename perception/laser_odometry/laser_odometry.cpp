@@ -16,8 +16,9 @@ using common::Pose2;
 
 namespace {
 
-/// A key scan does not err along what the map did not show when it joined: what it draws defines the map there. That
-/// the guess it stands at has drifted against the older key scans is not for those to say that are matched to this one.
+/// The covariance of a key scan without the part along its unobservable direction. Along that direction the key scan
+/// itself defines the map. Its guess may have drifted relative to older key scans there, but scans matched to this one
+/// are not affected.
 Eigen::Matrix3d seenPart(const MatchResult& match) {
   if (!match.unobservable_direction) return match.covariance;
   Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
@@ -39,10 +40,10 @@ void countSearch(LaserOdometryCounts& counts, MatcherKind kind) {
   }
 }
 
-/// So many times as far away as the window reaches, the guess says nothing for a match.
+/// At this many half windows from the guess, the guess no longer supports a match.
 constexpr double kFarWindows = 6.0;
 
-/// How far beyond its window something lies: 0 inside, 1 far away.
+/// How far an offset lies beyond its window: 0 inside, 1 far away.
 double shareBeyond(double off, double window, double greatest_window) {
   const double far = std::clamp(kFarWindows * window, 0.5 * greatest_window, greatest_window);
   return off > window ? std::min(1.0, (off - window) / std::max(far - window, 1e-9)) : 0.0;
@@ -104,15 +105,15 @@ struct LaserOdometry::Impl {
     common::Time stamp;
     ProjectedScan scan;
     Pose2 T_local_body;
-    Eigen::Matrix3d covariance_local;  ///< Of that pose against the map drawn before; zero for the first.
+    Eigen::Matrix3d covariance_local;  ///< Of the pose relative to the map drawn before; zero for the first.
   };
 
-  /// Where a scan is sought.
+  /// A pose around which a scan is searched.
   struct Guess {
     Pose2 T_local_body;
     SearchWindow window;
 
-    /// Whether a pose lies no farther off than the half window, in position so many times that.
+    /// Whether a pose lies within the half window; for its position the half window is scaled by `half_translations`.
     bool covers(const Pose2& pose_local, double half_translations = 1.0) const {
       const Pose2 off = between(T_local_body, pose_local);
       return off.position_m().norm() <= half_translations * window.half_translation_m &&
@@ -121,7 +122,8 @@ struct LaserOdometry::Impl {
   };
   struct Found {
     MatchResult match;
-    double margin = -1.0;  ///< Of its quality; below zero it is not believed.
+    double margin = -1.0;  ///< Quality above the required one; below zero the match is rejected.
+    /// The match was found from the other guess.
     bool otherwise = false;
   };
 
@@ -145,9 +147,9 @@ struct LaserOdometry::Impl {
   LaserOdometryCounts counts;
   std::deque<KeyScan> key_scans;  ///< The last one is the reference.
   common::Time last_stamp, last_match;
-  common::Time last_seen_whole;  ///< The last match that saw all directions.
-  Pose2 last_T_odom_body;        ///< As predicted, at the last match.
-  Pose2 last_T_local_body;       ///< As matched.
+  common::Time last_seen_whole;  ///< The last match that fixed the position in all directions.
+  Pose2 last_T_odom_body;        ///< The predicted pose at the last match.
+  Pose2 last_T_local_body;       ///< The matched pose at the last match.
   int failures = 0;
 };
 
@@ -164,7 +166,7 @@ void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_l
     matcher->addReference(scan, T_local_body);
     return;
   }
-  // Half of the map is forgotten at once, so that drawing it anew is rare.
+  // Half of the key scans are dropped at once, so that the map is rarely drawn anew.
   const auto kept = static_cast<std::size_t>(config.local_map_scans) / 2 + 1;
   while (key_scans.size() > kept) key_scans.pop_front();
   drawLocalMap();
@@ -185,11 +187,12 @@ std::optional<RelativePose> LaserOdometry::Impl::start(const ProjectedScan& scan
   return first;
 }
 
-/// Covers what the vehicle can have done against the prediction.
+/// The window that covers how far the vehicle may have moved from the prediction.
 SearchWindow LaserOdometry::Impl::usualWindow(common::Time now) const {
   const double elapsed_s = (now - last_match).seconds();
   const double half_dt2 = 0.5 * elapsed_s * elapsed_s;
-  // Along what was not seen, the guess has drifted since; seen again, the truth may be as far away.
+  // Along an unobservable direction the guess has drifted. Once it is observable again, the true pose may be that far
+  // off.
   const double unseen_m = config.unseen_drift_m_s * (now - last_seen_whole).seconds();
   return {config.guess_error_m + config.max_acceleration_m_s2 * half_dt2 + unseen_m,
           config.guess_error_deg * kRadPerDeg + config.max_angular_acceleration_rad_s2 * half_dt2};
@@ -201,8 +204,9 @@ LaserOdometry::Impl::Guess LaserOdometry::Impl::guessOf(const Pose2& T_last_now,
            std::min(config.max_window_deg * kRadPerDeg, window.half_rotation_rad)}};
 }
 
-/// By how much a match fits better than it must. Far from the guess it must fit better than beside it. Where it was not
-/// expected, the guess does not stand in for what the scene does not hold.
+/// By how much the quality of a match exceeds the required one, which grows with the distance from the guess. With
+/// `widened_must_hold`, a match beyond both windows is rejected if the scene leaves a direction unobservable, because
+/// the guess cannot fix the position there.
 double LaserOdometry::Impl::marginOf(const MatchResult& match, const Guess& guess, const Guess& about) const {
   if (match.failed) return -1.0;
   const auto isExpectedBy = [&](const Guess& by) { return by.covers(match.T_reference_body, std::numbers::sqrt2); };
@@ -233,8 +237,8 @@ SearchWindow LaserOdometry::Impl::widened(const SearchWindow& window) const {
                      config.max_window_deg * kRadPerDeg)};
 }
 
-/// Where the scan fits best for where it lies. A best pose at the window's edge asks for more, and so does one that
-/// does not fit: first about the other guess, then in wider windows about the better one.
+/// The match with the greatest margin. If the best pose lies at the edge of the window or does not fit, the search goes
+/// on: first around the other guess, then in wider windows around the better of the two.
 LaserOdometry::Impl::Found LaserOdometry::Impl::find(const ProjectedScan& scan, const Guess& guess,
                                                      const std::optional<Guess>& other) {
   const auto isFound = [&](const Found& found) {
@@ -261,7 +265,8 @@ LaserOdometry::Impl::Found LaserOdometry::Impl::find(const ProjectedScan& scan, 
   return best;
 }
 
-/// Both scans stand in the local map with their own errors; that of the reference's heading swings the way between.
+/// Both scans have errors of their own in the local map. The heading error of the reference also rotates the step
+/// between the two.
 RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const ProjectedScan& scan,
                                              const MatchResult& match) const {
   RelativePose relative;
@@ -276,7 +281,8 @@ RelativePose LaserOdometry::Impl::relativeTo(const KeyScan& reference, const Pro
   return relative;
 }
 
-/// A tilted scan is drawn with the error of its attitude; as long as the map still holds it, a level one is waited for.
+/// Whether a scan joins the local map. A tilted one brings the error of its attitude into the map, so it joins only if
+/// the overlap has become too small to wait for a level one.
 bool LaserOdometry::Impl::shouldJoin(const RelativePose& relative, const ProjectedScan& scan,
                                      const MatchResult& match) const {
   const bool far = relative.T_from_to.position_m().norm() > config.max_reference_distance_m ||

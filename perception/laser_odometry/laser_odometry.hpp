@@ -1,5 +1,6 @@
 // Odometry from the laser alone: each scan is matched to a local map of the last key scans. A scan joins the local map
-// only when it overlaps it insufficiently, so that hovering does not drift (Bachrach 2009, section 5.1).
+// only when it overlaps the map too little, fits it badly or is far from the reference, so that hovering does not drift
+// (Bachrach 2009, section 5.1).
 #pragma once
 
 #include <cstdint>
@@ -15,24 +16,25 @@
 
 namespace swiftlet::perception {
 
-/// Where the scan at `to` stands relative to the reference key scan at `from`.
+/// The pose of the scan at `to` relative to the reference key scan at `from`.
 ///
 /// The filter keeps a clone of its pose at `from`. When `reference_changed` is set, this measurement is still relative
 /// to `from`, and the scan at `to` is the reference from the next measurement on: apply this one, then clone the pose
-/// at `to`. The first scan, and the first after the odometry was lost, have from == to: nothing to apply, only to
-/// clone.
+/// at `to`. The first scan, and the first one after the odometry was lost, have from == to: there is nothing to apply,
+/// only a pose to clone.
 struct RelativePose {
   common::Time from;
   common::Time to;
   common::Pose2 T_from_to;                               ///< Between the level frames of the two scans.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x_m, y_m, yaw_rad) in the frame at `from`.
   bool reference_changed = false;
-  bool otherwise = false;  ///< It was found from the other guess.
-  /// Unit vector in the frame at `to` along which the scene did not hold the position: it is that of the guess.
+  bool otherwise = false;  ///< The match was found from the other guess.
+  /// Unit vector in the frame at `to` along which the scene does not fix the position. The position along it is that of
+  /// the guess.
   std::optional<Eigen::Vector2d> unseen_direction;
 };
 
-/// Where else a scan may have been taken, and how far around to look.
+/// Another pose at which a scan may have been taken, and how far around it to search.
 struct OtherGuess {
   common::Pose2 T_odom_body;
   SearchWindow window;
@@ -67,13 +69,13 @@ struct LaserOdometryConfig {
 struct LaserOdometryCounts {
   std::uint64_t scans = 0;
   std::uint64_t failures = 0;  ///< Scans that did not match.
-  /// Searches made by the matcher of each kind; several for a scan that is sought in wider windows.
+  /// Searches by each kind of matcher. A scan that is searched in wider windows takes several.
   std::uint64_t correlative_searches = 0;
   std::uint64_t gauss_newton_searches = 0;
   std::uint64_t point_to_line_searches = 0;
-  std::uint64_t references = 0;    ///< Key scans.
-  std::uint64_t restarts = 0;      ///< Times it was lost and started anew.
-  std::uint64_t out_of_order = 0;  ///< Scans not newer than the one before; ignored.
+  std::uint64_t references = 0;    ///< Key scans that joined the local map.
+  std::uint64_t restarts = 0;      ///< Times the odometry was lost and started anew.
+  std::uint64_t out_of_order = 0;  ///< Scans not newer than the previous one; ignored.
 };
 
 /// Not thread-safe.
@@ -84,12 +86,15 @@ class LaserOdometry {
   LaserOdometry(LaserOdometry&&) noexcept;
   LaserOdometry& operator=(LaserOdometry&&) noexcept;
 
-  /// Nothing is returned when the scan does not match. The guess is the last match moved by the change of T_odom_body
-  /// since then. `T_odom_last` is where the estimate that predicted this scan has the body at `lastMatch()`; a filter
-  /// that took in that match must give it, or its correction counts twice. Without it, the prediction of that scan
-  /// stands (wheels, a simulator: an odometry that nobody corrects). `first_window` replaces the least search
-  /// window where the caller knows how good its prediction is; a search that fails in it is widened all the same. Where
-  /// it fails and `other` fits better, `other` takes the place of the prediction.
+  /// Matches a scan to the local map. Returns nothing when it does not match. The guess is the pose of the last match,
+  /// moved by the change of T_odom_body since then.
+  ///
+  /// `T_odom_last`: the pose that the predicting estimate now has for the body at `lastMatch()`. A filter that has
+  /// taken in that match must give it, or its correction counts twice. The default is the prediction of that scan,
+  /// which suits an odometry that is never corrected (wheels, a simulator).
+  /// `first_window`: replaces the default window of the first search, for a caller that knows how good its prediction
+  /// is. If that search fails, the window is widened all the same.
+  /// `other`: tried when the first search fails. If it fits better, it replaces the prediction.
   [[nodiscard]] std::optional<RelativePose> add(const ProjectedScan& scan,
                                                 const std::optional<common::Pose2>& T_odom_last = std::nullopt,
                                                 const std::optional<SearchWindow>& first_window = std::nullopt,

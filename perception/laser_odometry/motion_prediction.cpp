@@ -17,11 +17,11 @@ using common::kRadPerDeg;
 using common::Pose2;
 using common::square;
 
-/// Errors of position and heading are compared as they move what is seen at this distance.
+/// The lever arm by which errors of heading are compared with errors of position.
 constexpr double kLever_m = 3.0;
-/// A single error counts as no more than this many sigmas, so that one slip is not remembered for long.
+/// A single error counts as at most this many sigmas, so that one slip does not widen the search for long.
 constexpr double kMaxSurprise = 4.0;
-/// A speed is believed for so long: over a longer pause, the robot has as likely stood.
+/// The velocity is extrapolated for at most this time: in a longer pause, the robot may as well have stopped.
 constexpr double kLongestCoast_s = 2.0;
 
 }  // namespace
@@ -103,11 +103,12 @@ void MotionPrediction::follow(const Source& source) {
   const Pose2& step = *source.step;
   pose_ = before_ * step;
   Matrix6d move = Matrix6d::Identity();
-  const Eigen::Vector2d way = pose_.position_m() - before_.position_m();
-  move.block<2, 1>(0, 2) = Eigen::Vector2d(-way.y(), way.x());
+  const Eigen::Vector2d moved_m = pose_.position_m() - before_.position_m();
+  move.block<2, 1>(0, 2) = Eigen::Vector2d(-moved_m.y(), moved_m.x());
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(before_.yaw_rad).toRotationMatrix();
-  Eigen::Matrix<double, 6, 3> by_step;  // How an error of the step enters.
+  // The Jacobian of the state by the step.
+  Eigen::Matrix<double, 6, 3> by_step;
   by_step << turn, Eigen::Matrix3d::Identity() / dt;
   if (&source == &wheels_) {
     velocity_ = Eigen::Vector3d(step.x_m, step.y_m, step.yaw_rad) / dt;

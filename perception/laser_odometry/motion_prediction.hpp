@@ -1,5 +1,5 @@
-// What the next step of a robot will be, before its scan is matched: that of its own odometry, or the last step once
-// more, whichever predicted the last steps better. How far it was off tells how wide to search.
+// Predicts the next step of a robot before its scan is matched. Two sources compete: the robot's own odometry, and
+// constant velocity. The one that predicted the last steps better is used, and its errors tell how wide to search.
 #pragma once
 
 #include <optional>
@@ -23,45 +23,48 @@ struct MotionPredictionConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// A filter of pose and velocity, relative to a scan that others are matched to. Not thread-safe.
+/// A filter of pose and velocity relative to a reference scan, to which the other scans are matched. Not thread-safe.
 class MotionPrediction {
  public:
   explicit MotionPrediction(const MotionPredictionConfig& config);
 
-  /// At a scan before the first step.
+  /// Starts at a scan, before the first step.
   void begin(const std::optional<common::Pose2>& T_odom_robot) { T_odom_robot_ = T_odom_robot; }
-  /// Moves on to a scan `elapsed_s` after the last one. `T_odom_robot` is that of the robot's own odometry at the scan.
+  /// Predicts the pose at a scan `elapsed_s` after the last one. `T_odom_robot`: the robot's own odometry at that scan.
   void predict(const std::optional<common::Pose2>& T_odom_robot, double elapsed_s);
-  /// What the other source predicts, if there are two.
+  /// The prediction of the other source.
   struct Alternative {
     common::Pose2 T_reference_robot;
     double step_sigma_m = 0.0, step_sigma_rad = 0.0;
   };
+  /// None when there is only one source.
   std::optional<Alternative> alternative() const;
-  /// It was right: the prediction is made anew from it.
+  /// Repeats the prediction with the other source, because it was right. There must be an alternative.
   void takeAlternative();
-  /// The scan's pose as it was matched, with the covariance of its errors.
+  /// Corrects the pose and the velocity by a match. `covariance` is that of the additive errors (x_m, y_m, yaw_rad) of
+  /// the matched pose, axes of the reference. `unseen_direction_reference`: unit vector along which the match does not
+  /// fix the position.
   void correct(const common::Pose2& T_reference_robot, const Eigen::Matrix3d& covariance,
                const std::optional<Eigen::Vector2d>& unseen_direction_reference);
-  /// It was not matched, though sought so far around: nothing is known of the speed any more, and of the step only what
-  /// the wheels say, where they are the better source.
+  /// Call when the scan did not match within this distance and rotation of the prediction. The velocity becomes
+  /// uncertain. The pose becomes uncertain by the searched range, unless the wheels are the better source.
   void lose(double sought_m, double sought_rad);
-  /// From now on, all is relative to where the robot is now.
+  /// Makes the robot's present pose the reference of all poses.
   void rebase();
 
   const common::Pose2& T_reference_robot() const { return pose_; }
-  /// Of its errors (x_m, y_m, yaw_rad), along the reference's axes.
+  /// The covariance of the additive errors (x_m, y_m, yaw_rad) of the pose, axes of the reference.
   Eigen::Matrix3d covariance() const { return covariance_.topLeftCorner<3, 3>(); }
-  /// By how much the last prediction may be wrong in each direction, as experience has it.
+  /// Standard deviation of the last prediction in each direction, from the errors of earlier ones.
   double stepSigma_m() const;
   double stepSigma_rad() const;
-  /// Steps of the odometry that no robot makes.
+  /// Odometry steps that were ignored because they were faster than `max_speed_m_s`.
   std::uint64_t implausibleSteps() const { return implausible_steps_; }
 
  private:
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
   struct Source {
-    std::optional<common::Pose2> step;  ///< What it says of the step, T_before_now.
+    std::optional<common::Pose2> step;  ///< The predicted step, T_before_now; none if not available.
     double variance_m2 = 0.0, variance_rad2 = 0.0;
   };
   const Source& best() const;
@@ -76,10 +79,10 @@ class MotionPrediction {
   std::optional<common::Pose2> T_odom_robot_;
   std::uint64_t implausible_steps_ = 0;
   double elapsed_s_ = 0.0;
-  common::Pose2 before_;  ///< The pose at the last scan.
+  common::Pose2 before_;  ///< The pose at the previous scan.
 
   common::Pose2 pose_;
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< (m/s, m/s, rad/s) with the axes of the robot.
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< (m/s, m/s, rad/s), axes of the robot.
   Matrix6d covariance_ = Matrix6d::Zero();              ///< Of pose and velocity.
   Eigen::Vector3d velocity_before_ = Eigen::Vector3d::Zero();
   Matrix6d covariance_before_ = Matrix6d::Zero();

@@ -9,16 +9,16 @@ namespace {
 
 using common::Duration;
 
-/// So many doubtful stamps make the others doubtful too.
+/// After this many unreliable stamps, no stamp is used any more.
 constexpr std::uint64_t kDistrusts = 3;
-/// No laser turns faster: of scans stamped nearer to each other, one was held up on its way.
+/// No laser turns faster. If stamps are closer to each other, one of the scans was delayed in transit.
 constexpr Duration kLeastInterval = Duration::fromMilliseconds(5);
-/// Between scans whose stamps are all the same: so long that no step of a robot is too far for it.
+/// The interval for stamps that are all the same. It is long enough for any step of a robot to be plausible.
 constexpr Duration kUnknownInterval = Duration::fromMilliseconds(1000);
-/// In a longer pause, or with stamps out of all bounds, a robot may have gone anywhere as well.
+/// Longer intervals are cut to this, also those of absurd stamps. In such a pause a robot may go anywhere in any case.
 constexpr double kLongestInterval_s = 3600.0;
 
-/// The difference of any two stamps, also of some that are too far apart to be subtracted.
+/// The difference of two stamps, cut to the longest interval. The stamps may be too far apart to be subtracted.
 Duration boundedInterval(common::Time from, common::Time to) {
   const double seconds = to.seconds() - from.seconds();
   if (std::abs(seconds) < kLongestInterval_s) return to - from;
@@ -43,12 +43,13 @@ common::Time ScanClock::tick(common::Time stamp) {
   return now_;
 }
 
-/// A laser keeps its rate: after a longer interval, one of less than half the usual was no scan's.
+/// Whether an interval is less than half of the usual one and of the one before. A laser keeps its rate, so the stamp
+/// of the scan before was late.
 bool ScanClock::isEarly(Duration interval) const {
   return interval * 2 < last_interval_ && interval * 2 < usualInterval();
 }
 
-/// The mean of the middle ones: late stamps and early ones make up for each other, a wrong one does not count.
+/// The trimmed mean of the last intervals. Late and early stamps cancel in the mean, and outliers are cut off.
 Duration ScanClock::usualInterval() const {
   std::array<Duration, kRemembered> sorted = intervals_;
   const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(ticks_, kRemembered));

@@ -1,6 +1,6 @@
-// A time that grows with every scan, of stamps that may not: those of old logs were taken when a message had come
-// through the network, or not kept at all. Where stamps go back, or come in bursts that no laser sends, they are no
-// measure of an interval, and the mean one is taken for each.
+// A clock that advances with every scan, even if the stamps do not. Scans in old logs were stamped when a message had
+// come through the network, or have no stamps. Stamps that go back, or that come in faster bursts than a laser sends,
+// do not measure an interval; the mean interval is used for each of them.
 #pragma once
 
 #include <array>
@@ -11,11 +11,12 @@
 
 namespace swiftlet::perception {
 
+/// Not thread-safe.
 class ScanClock {
  public:
-  /// The time of a scan with that stamp; after all before.
+  /// The time of a scan with that stamp; later than all times before.
   common::Time tick(common::Time stamp);
-  /// Stamps that did not come after the one before, or sooner than a laser turns.
+  /// Number of stamps that were not after the one before, or followed it sooner than a laser turns.
   std::uint64_t unreliable() const { return unreliable_; }
 
  private:
@@ -23,7 +24,7 @@ class ScanClock {
   common::Duration usualInterval() const;
 
   static constexpr std::size_t kRemembered = 128;
-  std::array<common::Duration, kRemembered> intervals_;  ///< The last ones, as stamped, in no order.
+  std::array<common::Duration, kRemembered> intervals_;  ///< The last intervals as stamped, in no order.
   std::uint64_t ticks_ = 0, unreliable_ = 0;
   common::Duration last_interval_;
   common::Time last_stamp_, now_;

@@ -1,5 +1,5 @@
-// The map as it was a while ago. A live map soon holds the person who walks through it; the map of some seconds ago
-// does not, so that the person stands out against it (background subtraction, Grzonka 2012, section IV-E).
+// The map as it was a while ago. A live map soon contains a person who walks through it. The map of some seconds ago
+// does not, so the person differs from it (background subtraction, Grzonka 2012, section IV-E).
 #pragma once
 
 #include <deque>
@@ -10,12 +10,14 @@
 
 namespace swiftlet::perception {
 
-/// One thread.
+/// A history of maps. Not thread-safe.
 class BackgroundMap {
  public:
   explicit BackgroundMap(common::Duration age) : age_(age) {}
-  /// Call at each new map; cheap, tiles are shared. Call restart() first when the map was corrected as a whole.
+  /// Adds a map. Call for each new map; cheap, because tiles are shared. Call restart() first if the whole map was
+  /// corrected.
   void add(common::Time stamp, std::shared_ptr<const common::OccupancyGrid> grid);
+  /// Forgets all maps.
   void restart() { history_.clear(); }
   /// The newest map that is at least `age` old, else the oldest; null when none was added.
   std::shared_ptr<const common::OccupancyGrid> at(common::Time now);

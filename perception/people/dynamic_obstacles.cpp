@@ -13,7 +13,7 @@ using common::Disc;
 using common::DynamicObstacle;
 using Point = Eigen::Vector2d;
 
-/// In space the background knows as free, with nothing occupied or unknown within `cells`.
+/// Whether a point lies in space that the background knows as free, with nothing occupied or unknown within `cells`.
 bool unexplained(const common::OccupancyGrid& background, const Point& point_m, int cells) {
   const CellIndex center = background.cellAt(point_m);
   for (int dy = -cells; dy <= cells; ++dy) {
@@ -25,7 +25,7 @@ bool unexplained(const common::OccupancyGrid& background, const Point& point_m, 
   return true;
 }
 
-/// Beams pass the middle of where it should be and end well behind it.
+/// Whether several beams pass near the middle of the obstacle's predicted place and end well behind it.
 bool violatesFreeSpace(const DynamicObstacle& obstacle, double age_s, std::span<const Eigen::Vector2f> points_map_m,
                        const Point& sensor_map_m) {
   constexpr int kBeams = 2;
@@ -150,7 +150,7 @@ void DynamicObstacles::update(common::Time stamp, std::span<const Eigen::Vector2
   for (const Track& track : tracks_) obstacles_.push_back(track.obstacle);
 }
 
-/// The critically damped alpha-beta filter of the time constant `smoothing_s`.
+/// The critically damped alpha-beta filter with the time constant `smoothing_s`.
 void DynamicObstacles::correct(Track& track, const Cluster& seen, common::Time stamp) const {
   DynamicObstacle& o = track.obstacle;
   const double dt_s = (stamp - o.last_seen).seconds();
@@ -167,14 +167,16 @@ void DynamicObstacles::correct(Track& track, const Cluster& seen, common::Time s
   judgeMotion(track);
 }
 
-/// What comes into view bit by bit seems to move for a moment, but soon stays where it is.
+/// Decides whether an obstacle is moving. An object that comes into view bit by bit seems to move for a moment, so
+/// motion counts only when it lasts.
 void DynamicObstacles::judgeMotion(Track& track) const {
   DynamicObstacle& o = track.obstacle;
   const double since_s = (o.last_seen - track.anchor_stamp).seconds();
   const bool moved = (o.center_map_m - track.anchor_map_m).norm() >= config_.moved_m;
   const bool followed = since_s >= config_.followed_s && track.sightings >= config_.followed_share * track.scans;
   if (!(moved && followed) && since_s < config_.moved_within_s) return;
-  o.moving = moved && (followed || o.moving);  // Who was followed before may have been hidden meanwhile.
+  // A moving obstacle may have been hidden meanwhile; it remains moving.
+  o.moving = moved && (followed || o.moving);
   track.anchor_map_m = o.center_map_m;
   track.anchor_stamp = o.last_seen;
   track.scans = track.sightings = 0;

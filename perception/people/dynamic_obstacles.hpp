@@ -1,5 +1,5 @@
-// What moves: end points that the known map does not explain (background subtraction, Grzonka 2012, section IV-E),
-// clustered and followed.
+// Detection and tracking of dynamic obstacles: end points that the known map does not explain (background subtraction,
+// Grzonka 2012, section IV-E) are clustered, and the clusters are tracked.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@
 
 namespace swiftlet::perception {
 
-/// Finds and follows them. One thread.
+/// Detects and tracks dynamic obstacles. Not thread-safe.
 class DynamicObstacles {
  public:
   struct Config {
@@ -41,17 +41,17 @@ class DynamicObstacles {
 
   explicit DynamicObstacles(const Config& config);
 
-  /// `points_map_m`: end points of one scan in order of bearing, seen from `sensor_map_m`. Points that are not finite
-  /// are left out. A point is unexplained when it lies in space the background knows as free, with nothing occupied
-  /// near; what lies in unknown space is new, not dynamic.
+  /// Takes in one scan. `points_map_m`: its end points in order of bearing, seen from `sensor_map_m`; points that are
+  /// not finite are ignored. A point is unexplained when it lies in space that the background knows as free, with
+  /// nothing occupied or unknown near. A point in unknown space is new, not dynamic.
   void update(common::Time stamp, std::span<const Eigen::Vector2f> points_map_m, const Eigen::Vector2d& sensor_map_m,
               const common::OccupancyGrid& background);
 
-  /// Those still believed in, by id.
+  /// The current obstacles, by id.
   const std::vector<common::DynamicObstacle>& obstacles() const { return obstacles_; }
-  /// Whether any of them has left the place where it was seen first.
+  /// Whether any obstacle is moving now.
   bool anyMoves() const;
-  /// For the cost map: where each is, and where it will be within `horizon_s` as it moves now.
+  /// Discs for the cost map: where each obstacle is, and where it will be within `horizon_s` at its present velocity.
   std::vector<common::Disc> discs(common::Time now, double horizon_s = 0.5) const;
 
  private:
@@ -61,13 +61,13 @@ class DynamicObstacles {
   };
   std::vector<Cluster> cluster(std::span<const Eigen::Vector2f> points_map_m, const Eigen::Vector2d& sensor_map_m,
                                const common::OccupancyGrid& background) const;
-  /// An obstacle, and what speaks for its motion.
+  /// An obstacle and the evidence for its motion.
   struct Track {
     common::DynamicObstacle obstacle;
-    Eigen::Vector2d anchor_map_m = Eigen::Vector2d::Zero();  ///< A place where it was seen.
-    common::Time anchor_stamp;                               ///< When it was seen there.
-    int scans = 0;                                           ///< Scans since then.
-    int sightings = 0;                                       ///< Those of them that saw it.
+    Eigen::Vector2d anchor_map_m = Eigen::Vector2d::Zero();  ///< The position its motion is measured from.
+    common::Time anchor_stamp;                               ///< When it was there.
+    int scans = 0;                                           ///< Scans since anchor_stamp.
+    int sightings = 0;                                       ///< Scans since anchor_stamp that saw it.
   };
   Track* nearestFree(const Cluster& seen, common::Time stamp, std::span<Track> tracks, const std::vector<bool>& taken);
   void correct(Track& track, const Cluster& seen, common::Time stamp) const;
@@ -76,7 +76,7 @@ class DynamicObstacles {
   Config config_;
   int next_id_ = 1;
   std::vector<Track> tracks_;
-  std::vector<common::DynamicObstacle> obstacles_;  ///< Of the tracks.
+  std::vector<common::DynamicObstacle> obstacles_;  ///< The obstacles of the tracks.
 };
 
 }  // namespace swiftlet::perception

@@ -11,16 +11,17 @@ namespace {
 using common::Disc;
 using common::Pose2;
 
-/// A map that moved by more was corrected as a whole: local corrections are millimetres, loop closures are not.
+/// When T_map_odom jumps by more, the whole map was corrected. Local corrections are millimetres, loop closures are
+/// more.
 constexpr double kCorrected_m = 0.05;
 constexpr double kCorrected_rad = 0.01;
 
-/// Older sightings are not predicted: six scans at 40 Hz.
+/// Obstacles with older sightings are not predicted. This is six scans at 40 Hz.
 constexpr double kJustSeen_s = 0.15;
-/// A body's outline beyond what was seen of it.
+/// Margin for the part of a person's outline that was not seen.
 constexpr double kAround_m = 0.20;
 
-/// The least share of a scan's points that must remain without people.
+/// Least share of a scan's points that must remain when points on people are removed.
 constexpr double kLeastShare = 0.4;
 
 }  // namespace
@@ -30,7 +31,7 @@ PeopleTracker::PeopleTracker(const Config& config, const HeightBand& band)
 
 void PeopleTracker::update(const ProjectedScan& scan, const Pose2& T_map_body, const Pose2& T_map_odom,
                            std::shared_ptr<const common::OccupancyGrid> grid) {
-  // A corrected map explains nothing that was seen against the old one.
+  // Scans placed in the corrected map cannot be compared with the maps before the correction.
   const Pose2 jump = T_map_odom_.inverse() * T_map_odom;
   if (jump.position_m().norm() > kCorrected_m || std::abs(jump.yaw_rad) > kCorrected_rad) background_.restart();
   T_map_odom_ = T_map_odom;

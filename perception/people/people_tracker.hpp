@@ -1,8 +1,9 @@
-// People around the vehicle, from its scans and its own map: what an earlier map does not explain is followed.
+// Tracks people around the vehicle from its scans and its own map: end points that an earlier map does not explain are
+// tracked.
 //
-//   scan, pose in the map --> points in the hull's height band --> against the map of a while ago --> DynamicObstacles
+//   scan, pose in the map --> points in the hull's height band --> compared with the earlier map --> DynamicObstacles
 //
-// The result is an input of matching (people carry a match along), of avoidance and of the planner's costs.
+// The result serves matching (points on moving people would bias a match), avoidance, and the planner's costs.
 #pragma once
 
 #include <memory>
@@ -20,30 +21,30 @@
 
 namespace swiftlet::perception {
 
-/// Heights over and under the body of which the map speaks: nothing outside can be told from the background.
+/// The heights above and below the body that the map covers. Points at other heights cannot be compared with it.
 struct HeightBand {
   double above_body_m = 0.25;
   double below_body_m = 0.25;
 };
 
-/// One thread; deterministic.
+/// Not thread-safe. Deterministic.
 class PeopleTracker {
  public:
   using Config = DynamicObstacles::Config;
   PeopleTracker(const Config& config, const HeightBand& band);
 
-  /// Takes a scan in at its pose in the map. `grid` is the map with this scan, `T_map_odom` its place: after a
-  /// correction of the map as a whole the background begins anew.
+  /// Takes in a scan at its pose in the map. `grid` is the map that includes this scan. When `T_map_odom` jumps, the
+  /// whole map was corrected, and the history of the background restarts.
   void update(const ProjectedScan& scan, const common::Pose2& T_map_body, const common::Pose2& T_map_odom,
               std::shared_ptr<const common::OccupancyGrid> grid);
 
-  /// Those still believed in, at their last sighting.
+  /// The current obstacles, each as at its last sighting.
   const std::vector<common::DynamicObstacle>& obstacles() const { return obstacles_.obstacles(); }
-  /// Whether somebody has left the place where he was seen first.
+  /// Whether any obstacle is moving now.
   bool anyMoves() const { return obstacles_.anyMoves(); }
-  /// Those seen just before `stamp`, predicted to it; each disc covers the whole outline.
+  /// The obstacles seen just before `stamp`, predicted to it. Each disc covers the whole outline of a person.
   std::vector<common::Disc> expectedAt(common::Time stamp) const;
-  /// Where they are and will soon be, for the cost map.
+  /// Discs for the cost map: where the obstacles are and will soon be.
   std::vector<common::Disc> discs(common::Time now) const { return obstacles_.discs(now); }
 
  private:
@@ -53,8 +54,8 @@ class PeopleTracker {
   DynamicObstacles obstacles_;
 };
 
-/// The scan without its end points on people, whose motion would bias a match; the whole scan where too few points
-/// would remain to match with. Beams without return and the mirror stay.
+/// The scan without its end points on people, whose motion would bias a match. If too few points would remain to match,
+/// the whole scan. Beams without return and mirror points stay.
 ProjectedScan withoutPeople(std::span<const common::Disc> people, const common::Pose2& T_map_body, ProjectedScan scan);
 
 }  // namespace swiftlet::perception

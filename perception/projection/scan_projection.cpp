@@ -11,6 +11,7 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose3;
 
+/// Number of intervals between the knots of a sweep.
 constexpr int kIntervals = 8;
 
 struct Affine {
@@ -20,8 +21,8 @@ struct Affine {
 
 Affine affine(const Pose3& pose) { return {pose.rotation.toRotationMatrix(), pose.position_m}; }
 
-/// T_level_sensor for any beam: exact at a few knots of the sweep, linear between them. Between two knots the body
-/// turns by milliradians, so that the matrix stays a rotation to 1e-5.
+/// T_level_sensor for any beam: exact at a few knots of the sweep, linear between them. The body turns by milliradians
+/// between two knots, so the interpolated matrix is a rotation to within 1e-5.
 class SweptMount {
  public:
   SweptMount(const std::vector<Pose3>& T_level_body, const Pose3& T_body_sensor, int beams) : beams_(beams) {
@@ -43,7 +44,7 @@ class SweptMount {
   int beams_;
 };
 
-/// Tells what a beam ended on by how far it rose or sank.
+/// Decides from its rise or fall whether a beam ended on the floor or the ceiling.
 class Surfaces {
  public:
   Surfaces(double sensor_height_odom_m, const ScanProjectionConfig& config)
@@ -54,7 +55,8 @@ class Surfaces {
                              : 0.0),
         sin_attitude_error_(std::sin(config.attitude_error_deg * kRadPerDeg)) {}
 
-  // The margin never takes more than half of the way, so that a level beam near the floor is never the floor's.
+  // The margin is at most half the height above the floor, so that a level beam near the floor never counts as a hit on
+  // it.
   bool onFloor(double rise_m, double range_m) const {
     return -rise_m > above_floor_m_ - std::min(margin(range_m), 0.5 * above_floor_m_);
   }
@@ -62,7 +64,7 @@ class Surfaces {
     return below_ceiling_m_ > 0.0 && rise_m > below_ceiling_m_ - std::min(margin(range_m), 0.5 * below_ceiling_m_);
   }
 
-  /// The range up to which a beam that hit no wall says "free" for the body's height.
+  /// The range up to which a beam that hit no wall shows free space at the body's height.
   double freeRange(double slope, double range_m) const {
     double band_m = std::min(config_.free_band_m, 0.5 * above_floor_m_);
     if (below_ceiling_m_ > 0.0) band_m = std::min(band_m, 0.5 * below_ceiling_m_);
@@ -214,7 +216,7 @@ ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& 
 
   BeamSorter sorter(scan, laser, T_level_body, config, result);
   const bool has_mirror = beams == laser.beams && laser.mirror_beams > 0;
-  // The direction is turned from beam to beam; over thousands of beams this keeps 12 digits and saves the sines.
+  // The direction is rotated from beam to beam. This saves the sines and keeps 12 digits over thousands of beams.
   double cos_beam = std::cos(scan.angle_min_rad), sin_beam = std::sin(scan.angle_min_rad);
   const double cos_step = std::cos(scan.angle_increment_rad), sin_step = std::sin(scan.angle_increment_rad);
   for (int beam = 0; beam < beams; ++beam) {
@@ -233,7 +235,8 @@ ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& 
 
 ProjectedScan projectLevel(const common::LaserScan& scan, const common::Pose2& T_robot_laser,
                            const common::Pose2& T_odom_robot) {
-  constexpr double kHeight_m = 1.0;  // Any, as long as no beam meets the floor.
+  // Any height above the floor serves, because no beam is tilted towards it.
+  constexpr double kHeight_m = 1.0;
   common::LaserConfig laser;
   laser.mirror_beams = 0;
   laser.mount.x_m = T_robot_laser.x_m;

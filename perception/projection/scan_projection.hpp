@@ -1,8 +1,8 @@
-// One sweep of the 2D laser, taken out of its motion and tilt: every beam is placed by the pose the body had when that
-// beam was fired and projected to the gravity-levelled frame of one reference time (Grzonka 2009, eq. 1 and 2).
+// Deskewing and levelling of one sweep of the 2D laser: every beam is placed by the pose that the body had when the
+// beam was fired, and projected to the gravity-levelled frame of one reference time (Grzonka 2009, eq. 1 and 2).
 //
-// The level frame: origin at the body, x and y horizontal, yaw that of the body, all at `stamp`, the middle of the
-// sweep (the time at which the errors of the motion used for deskewing are smallest and cancel to first order).
+// The level frame has its origin at the body, x and y horizontal, and the yaw of the body, all at `stamp`, the middle
+// of the sweep. At that time, errors of the motion used for deskewing have the least effect and cancel to first order.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace swiftlet::perception {
 /// T_odom_body at any time within the sweep, interpolated or predicted. z is the height above the take-off floor.
 using PoseAt = std::function<common::Pose3(common::Time)>;
 
-/// An end point of a beam that the mirror bent down; the altitude filter reads these.
+/// An end point of a beam that the mirror deflects down; for the altitude filter.
 struct MirrorPoint {
   float x_level_m = 0.0F;
   float y_level_m = 0.0F;
@@ -31,28 +31,30 @@ struct MirrorPoint {
   double belowBody_m() const { return -static_cast<double>(z_level_m); }
 };
 
-/// What became of the beams; the sum of all is the number of beams.
+/// The number of beams with each result; the sum is the number of beams.
 struct BeamCounts {
   int hits = 0;            ///< Ended on something that counts as a wall; in `points_level_m`.
-  int no_returns = 0;      ///< Infinite or beyond the laser's range.
+  int no_returns = 0;      ///< No return: the range is infinite or beyond the laser's.
   int invalid = 0;         ///< NaN, negative, too short, or on the vehicle itself.
-  int floor_hits = 0;      ///< Left out: ended on the floor.
-  int ceiling_hits = 0;    ///< Left out: ended on the ceiling.
+  int floor_hits = 0;      ///< Ended on the floor; not in `points_level_m`.
+  int ceiling_hits = 0;    ///< Ended on the ceiling; not in `points_level_m`.
   int mirror = 0;          ///< Valid beams on the mirror; in `mirror`.
   int mirror_invalid = 0;  ///< Beams on the mirror without a valid range.
   bool operator==(const BeamCounts&) const = default;
 };
 
+/// One sweep in the level frame.
 struct ProjectedScan {
   common::Time stamp;                           ///< The middle of the sweep.
   common::Pose3 T_odom_body;                    ///< At `stamp`, as predicted by `PoseAt`.
   std::vector<Eigen::Vector2f> points_level_m;  ///< End points, in beam order.
   std::vector<float> heights_level_m;           ///< Height of each end point relative to the body.
-  /// Where the view along a beam that ended on floor or ceiling leaves the height band in which "free" means free for
-  /// the body: everything from the body to there is free. The third coordinate is the height relative to the body.
+  /// For each beam that ended on floor or ceiling, the point where it leaves the height band in which "free" means free
+  /// for the body, or else its end. Everything from the body to there is free. The third coordinate is the height
+  /// relative to the body.
   std::vector<Eigen::Vector3f> misses_level_m;
-  /// The same for beams without return, at most at the greatest range. Nothing answered them: a dark or slanted wall
-  /// swallows a beam too, so that they say less.
+  /// The same points for beams without return, at most at the laser's greatest range. These beams say less, because a
+  /// dark or slanted wall gives no return either.
   std::vector<Eigen::Vector3f> no_returns_level_m;
   std::vector<MirrorPoint> mirror;
   BeamCounts counts;
@@ -70,13 +72,13 @@ struct ScanProjectionConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// Projects one sweep. Never fails: what cannot be used is counted. A scan whose number of beams differs from the
-/// laser's has its own angles used, and no mirror beams. Pure function; `pose_at` is called some ten times, in order of
-/// time.
+/// Projects one sweep. Never fails: beams that cannot be used are counted. A scan whose number of beams differs from
+/// the laser's is taken to have no mirror beams. A pure function. `pose_at` is called about ten times: for the middle
+/// of the sweep first, then from its beginning to its end.
 ProjectedScan project(const common::LaserScan& scan, const common::LaserConfig& laser, const PoseAt& pose_at,
                       const ScanProjectionConfig& config);
 
-/// The same for a laser that is carried level, on a robot of which the pose at the whole sweep is taken to be one.
+/// Projects the sweep of a laser that is carried level. The pose of the robot is taken as constant during the sweep.
 ProjectedScan projectLevel(const common::LaserScan& scan, const common::Pose2& T_robot_laser,
                            const common::Pose2& T_odom_robot);
 

@@ -17,12 +17,14 @@ namespace {
 
 using common::Pose2;
 
-/// Of one scan; more of them say the same.
+/// Number of points that are sampled from one scan; more of them add no information.
 constexpr int kPoints = 180;
-/// Walls are rough and poses err; the farther away, the more.
+/// A beam has crossed a point when it ends this far behind it. The margin covers rough walls and pose errors, and grows
+/// with the range.
 constexpr double kBehind_m = 0.3;
 constexpr double kBehindShare = 0.02;
-/// A direction was looked at where beams ended on both sides of it within this; at the edge of the view nobody knows.
+/// A direction was observed when beams end within this angle on both sides of it. At the edge of the field of view it
+/// was not.
 constexpr float kAside_rad = 1.5F * static_cast<float>(common::kRadPerDeg);
 
 struct Beam {
@@ -32,7 +34,7 @@ struct Beam {
 
 struct View {
   Pose2 T_body_map;
-  std::vector<Beam> beams;  ///< By angle; those near a half turn at both ends.
+  std::vector<Beam> beams;  ///< Sorted by angle; those near +-pi are listed at both ends.
 };
 
 View viewOf(const PlacedScan& placed) {
@@ -49,11 +51,12 @@ View viewOf(const PlacedScan& placed) {
   return view;
 }
 
-/// Where the beams beside a direction end; nothing where it was not looked at.
+/// Range of the ends of the beams beside a direction.
 struct Ends {
   float nearest_m, farthest_m;
 };
 
+/// Nothing when the direction was not observed.
 std::optional<Ends> endsBeside(const View& view, float angle_rad) {
   const auto first = std::lower_bound(view.beams.begin(), view.beams.end(), angle_rad - kAside_rad,
                                       [](const Beam& beam, float angle) { return beam.angle_rad < angle; });
@@ -68,13 +71,13 @@ std::optional<Ends> endsBeside(const View& view, float angle_rad) {
 }
 
 struct Counts {
-  int looked_at = 0, through = 0;
+  int observed = 0, crossed = 0;
 };
 
-/// Adds the points of a scan that the views looked at.
+/// Counts the points of a scan that the views observed, and those that lie in free space of a view.
 void count(const std::vector<View>& views, const PlacedScan& placed, double max_range_m, Counts& counts) {
   const std::vector<Eigen::Vector2f> points = spreadPoints(placed.scan->points_level_m, kPoints, max_range_m);
-  std::vector<char> looked_at(points.size(), 0), through(points.size(), 0);
+  std::vector<char> observed(points.size(), 0), crossed(points.size(), 0);
   for (const View& view : views) {
     const Pose2 T_view_scan = view.T_body_map * placed.T_map_body;
     const Eigen::Rotation2Dd turn(T_view_scan.yaw_rad);
@@ -83,12 +86,12 @@ void count(const std::vector<View>& views, const PlacedScan& placed, double max_
       const std::optional<Ends> ends = endsBeside(view, static_cast<float>(std::atan2(there_m.y(), there_m.x())));
       const double range_m = there_m.norm();
       if (!ends || range_m > ends->farthest_m + kBehind_m) continue;
-      looked_at[i] = 1;
-      if (range_m < ends->nearest_m - kBehind_m - kBehindShare * range_m) through[i] = 1;
+      observed[i] = 1;
+      if (range_m < ends->nearest_m - kBehind_m - kBehindShare * range_m) crossed[i] = 1;
     }
   }
-  counts.looked_at += static_cast<int>(std::count(looked_at.begin(), looked_at.end(), 1));
-  counts.through += static_cast<int>(std::count(through.begin(), through.end(), 1));
+  counts.observed += static_cast<int>(std::count(observed.begin(), observed.end(), 1));
+  counts.crossed += static_cast<int>(std::count(crossed.begin(), crossed.end(), 1));
 }
 
 }  // namespace
@@ -100,7 +103,7 @@ double freeSpaceViolation(std::span<const PlacedScan> one, std::span<const Place
     for (const PlacedScan& placed : seeing) views.push_back(viewOf(placed));
     for (const PlacedScan& placed : seen) count(views, placed, max_range_m, counts);
   }
-  return counts.looked_at > 0 ? static_cast<double>(counts.through) / counts.looked_at : 0.0;
+  return counts.observed > 0 ? static_cast<double>(counts.crossed) / counts.observed : 0.0;
 }
 
 }  // namespace swiftlet::perception

@@ -1,4 +1,4 @@
-// How scans are drawn into the grid map.
+// Configuration of the drawing of scans into the grid map.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace swiftlet::perception {
 
-/// How scans are drawn into the grid.
+/// How scans are drawn into the grid. Meaning and bounds of the fields are in describe().
 struct GridDrawingConfig {
   double resolution_m = 0.05;
   int hit_steps = 18;

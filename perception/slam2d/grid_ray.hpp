@@ -1,4 +1,4 @@
-// The cells a view passes through.
+// Traversal of the grid cells that a ray crosses.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,17 @@
 
 namespace swiftlet::perception {
 
-/// The cell of a point that is given in cells, with fractions.
+/// The cell that contains a point given in cells, with fractions.
 inline common::CellIndex cellOf(const Eigen::Vector2d& point_cells) {
   return {static_cast<int>(std::floor(point_cells.x())), static_cast<int>(std::floor(point_cells.y()))};
 }
 
-/// Calls visit(cell, enters, leaves) for every cell the line from `from` to `to` touches, up to, but without, that of
-/// its end, until that returns false; true when it never did (Amanatides and Woo 1987). Lines through cell centres only
-/// would leave pinholes between the rays, and each would be a frontier. Both points are in cells, with fractions;
-/// `enters` and `leaves` say between which shares of its length the line is in the cell.
+/// Calls visit(cell, enters, leaves) for each cell that the line from `from` to `to` touches, in order, but not for the
+/// cell of `to` (Amanatides and Woo 1987). Stops when visit returns false. Returns true if it never did.
+/// Both points are in cells, with fractions. `enters` and `leaves` are the fractions of the line's length at which it
+/// enters and leaves the cell.
+/// A simpler traversal that rasterizes the line by cell centres would leave unvisited cells between neighbouring rays,
+/// and each of these would become a frontier.
 template <typename Visit>
 bool visitCrossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Visit&& visit) {
   const common::CellIndex begin = cellOf(from), end = cellOf(to);
@@ -49,11 +51,12 @@ bool visitCrossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Visit&
   return true;
 }
 
-/// How far a view from `from` to `to` reaches when isWall(cell) ends it: to within the last cell before the first wall,
-/// or to `to`. In cells, with fractions.
+/// The farthest visible point of the line from `from` to `to` when cells with isWall(cell) block the view. It is `to`,
+/// or a point inside the last cell before the first wall. All points are in cells, with fractions.
 template <typename IsWall>
 Eigen::Vector2d beforeWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, IsWall&& isWall) {
-  constexpr double kCorner = 1e-6;  // A line that only touches the corner of a cell does not end safely within it.
+  // The result must not lie in a cell that the line touches only at a corner: rounding could move it to the next cell.
+  constexpr double kCorner = 1e-6;
   double reached = 0.0;
   const bool open = visitCrossed(from, to, [&](const common::CellIndex& cell, double enters, double leaves) {
     if (isWall(cell)) return false;

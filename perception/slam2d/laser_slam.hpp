@@ -1,7 +1,7 @@
-// SLAM from a laser that is carried level, and nothing else: a recorded log, a robot on wheels. Odometry is taken as a
-// hint where there is some; without, the last step is expected again.
+// SLAM with a laser that is carried level: for a recorded log or a wheeled robot. Needs no other sensor. Odometry is
+// used as a hint if the input has it; without it, the last motion is assumed to continue.
 //
-//   scan --> LaserFrontEnd --> PlanarSlam --> where the scan stands relative to a key scan
+//   scan --> LaserFrontEnd --> PlanarSlam --> pose of the scan relative to a key scan
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ struct LaserSlamConfig {
   SlamMethodConfig slam;
 };
 
-/// Where a scan was taken: follows its key scan when that one is corrected.
+/// The pose of a scan. It is relative to a key scan, so that it follows when the key scan is corrected.
 struct TrackedScan {
-  int key = 0;  ///< Into keyPoses().
+  int key = 0;  ///< Index into keyPoses().
   common::Pose2 T_key_robot;
-  bool matched = false;  ///< False: it stands where it was expected.
+  bool matched = false;  ///< False: the pose is the predicted one.
 
-  /// Throws std::out_of_range when `keys` are not those of its map.
+  /// The pose in the map, for the key poses `keys`. Throws std::out_of_range when `keys` has no entry for `key`.
   common::Pose2 T_map_robot(const std::vector<common::Pose2>& keys) const {
     return keys.at(static_cast<std::size_t>(key)) * T_key_robot;
   }
@@ -39,20 +39,20 @@ class LaserSlam {
   explicit LaserSlam(const LaserSlamConfig& config);
   ~LaserSlam();
 
-  /// None as long as no scan has had enough points to begin with.
+  /// Takes in one scan. Returns nothing until a first scan has had enough points to start the map.
   std::optional<TrackedScan> add(const LaserSlamInput& input);
 
-  /// When no more scans come: the best poses there are.
+  /// Call when no more scans come. Runs the last task of the method, if it has one; the poses are final afterwards.
   void finish();
 
-  /// T_map_robot of every key scan, at its best so far.
+  /// T_map_robot of every key scan, by the current estimate.
   std::vector<common::Pose2> keyPoses() const;
-  std::uint64_t keyScans() const;  ///< How many these are.
+  std::uint64_t keyScans() const;  ///< Number of key scans.
   common::OccupancyGrid map();
   const PlanarSlam& slam() const;
   const LaserOdometryCounts& odometryCounts() const;
   LaserSlamCounts counts() const;
-  /// Which pieces of the track hold together so far. A method without a graph closes no loops that it could know of.
+  /// Which pieces of the track are connected so far. A method without a graph has no loop closures that connect pieces.
   TrackConnection connection() const;
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 using common::Pose2;
 
-/// Two views nearer than this and turned less against each other show the same.
+/// Two poses that are closer than this, in position and in heading, have the same view.
 constexpr double kSameView_m = 0.7;
 constexpr double kSameView_rad = 40.0 * std::numbers::pi / 180.0;
 

@@ -1,4 +1,4 @@
-// The key scans a new one is matched to, drawn in the map frame.
+// The local reference: the key scans that a new scan is matched to, drawn in the map frame.
 #pragma once
 
 #include <vector>
@@ -9,23 +9,27 @@
 
 namespace swiftlet::perception {
 
-/// Key scans around T_map_body that are connected to `anchor`, in ascending order.
+/// Key scans near T_map_body (`local_radius_m`) whose projected uncertainty from `anchor` is at most `local_sigma_m`.
+/// In ascending order.
 std::vector<int> connectedKeys(const SlamGraph& graph, int anchor, const common::Pose2& T_map_body,
                                const Slam2dConfig& config);
 
-/// Of `connected`, the oldest of each view, since they carry no later drift, and the anchor. In ascending order.
+/// Of `connected`, one key scan per view, and the anchor. The oldest key scan of each view is chosen, because it
+/// carries the least drift. At most `local_scans`, those nearest to T_map_body. In ascending order.
 std::vector<int> localReferenceKeys(const SlamGraph& graph, const std::vector<int>& connected, int anchor,
                                     const common::Pose2& T_map_body, const Slam2dConfig& config);
 
-/// Keeps what is drawn between matches; draws anew only when a key scan left the reference or moved.
+/// Matches scans to a set of key scans. The drawing is kept between matches: new key scans are added to it, and it is
+/// drawn anew only when a key scan has left the set or has moved.
 class LocalReference {
  public:
   explicit LocalReference(const CorrelativeMatcherConfig& config) : matcher_(config) {}
 
-  /// The pose is that of the scan in the map.
+  /// Matches `scan` to the key scans `keys` (ascending) of `graph`. Guess and result are the pose of the scan in the
+  /// map.
   MatchResult match(const SlamGraph& graph, const std::vector<int>& keys, const ProjectedScan& scan,
                     const common::Pose2& guess_T_map_body, const SearchWindow& window);
-  /// The poses of the key scans changed.
+  /// Call when the poses of key scans have changed.
   void invalidate() { drawn_.clear(); }
 
  private:

@@ -11,16 +11,16 @@ namespace {
 
 using common::Pose2;
 
-/// So many closures must agree before they overrule the graph.
+/// At least this many rejected closures must agree to overrule the graph.
 constexpr int kLeastConsensus = 3;
 
-/// Squared, normalized; of a closure that fits.
+/// Greatest squared, normalized error of a closure that fits.
 double mostError(const Slam2dConfig& config) { return config.loops.max_edge_sigmas * config.loops.max_edge_sigmas; }
 
-/// A graph with closures that may be held, and what the edges of the problem are.
+/// The optimization problem of a graph with new closures. Keeps track of its edges while some are removed.
 struct Trial {
   optimization::PoseGraph2D problem;
-  std::vector<int> edge_of;  ///< Of the graph; after these, the new ones.
+  std::vector<int> edge_of;  ///< Index of each edge: first the graph's edges, then the new closures.
   int first_new = 0;
 
   Trial(const SlamGraph& graph, const std::vector<FoundLoop>& loops)

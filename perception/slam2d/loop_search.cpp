@@ -14,14 +14,14 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose2;
 
-/// The ellipse of the projected uncertainty that is searched, in sigmas.
+/// Size of the searched ellipse of the projected uncertainty, in sigmas.
 constexpr double kSigmas = 3.0;
-/// Within this distance two views overlap even without any uncertainty.
+/// Views within this distance of each other overlap, however certain their poses are.
 constexpr double kViewDistance_m = 2.0;
-/// The wide search's spread, in its cells.
+/// Standard deviation of the wide search's likelihood field, in its cells.
 constexpr double kWideSigmaCells = 2.0;
 
-/// Of the newest key scans up to the query those that are connected to it with little uncertainty, the newest first.
+/// Of the newest `count` key scans up to the query, those connected to it with little uncertainty; the newest first.
 std::vector<int> queryKeys(int query, const std::vector<ProjectedUncertainty>& connected_to_query, int count) {
   std::vector<int> keys;
   for (const ProjectedUncertainty& u : connected_to_query)
@@ -30,7 +30,7 @@ std::vector<int> queryKeys(int query, const std::vector<ProjectedUncertainty>& c
   return keys;
 }
 
-/// As one scan in the frame of the first.
+/// The key scans as one scan, in the frame of the first of them.
 ProjectedScan joined(const SlamGraph& graph, const std::vector<int>& keys) {
   const Pose2& T_map_query = graph.keys[static_cast<std::size_t>(keys.front())].T_map_body;
   ProjectedScan joined;
@@ -47,7 +47,8 @@ ProjectedScan joined(const SlamGraph& graph, const std::vector<int>& keys) {
   return joined;
 }
 
-/// Key scans around the candidate that are connected to it with little uncertainty, and not to the query.
+/// Key scans around the candidate that are connected to it with little uncertainty, but not to the query; the nearest
+/// first.
 std::vector<int> referenceKeys(const SlamGraph& graph, const std::vector<ProjectedUncertainty>& connected_to_query,
                                int candidate, const Slam2dConfig& config) {
   std::vector<char> of_query(graph.keys.size(), 0);
@@ -67,7 +68,7 @@ std::vector<int> referenceKeys(const SlamGraph& graph, const std::vector<Project
   return keys;
 }
 
-/// Key scans where they are believed to be, moved by `T_map_believed`.
+/// Key scans at their estimated poses, moved by `T_map_believed`.
 std::vector<PlacedScan> placed(const SlamGraph& graph, const std::vector<int>& keys, const Pose2& T_map_believed) {
   std::vector<PlacedScan> scans;
   for (const int key : keys) {
@@ -77,7 +78,8 @@ std::vector<PlacedScan> placed(const SlamGraph& graph, const std::vector<int>& k
   return scans;
 }
 
-/// What every second key scan and those between looked through of each other: people, leaves, a map that is bent.
+/// The free-space violation among the key scans themselves, between every second one and the others. Its causes are
+/// people, doors that moved, and distortions of the map.
 double ownFreeSpaceViolation(const SlamGraph& graph, std::vector<int> keys, double max_range_m) {
   std::sort(keys.begin(), keys.end());
   std::vector<int> one, other;
@@ -85,10 +87,10 @@ double ownFreeSpaceViolation(const SlamGraph& graph, std::vector<int> keys, doub
   return freeSpaceViolation(placed(graph, one, {}), placed(graph, other, {}), max_range_m);
 }
 
-/// Whether the newest key scans, moved by `T_map_believed`, and the reference look through each other by more than
-/// either looks through itself.
-bool lookThroughEachOther(const SlamGraph& graph, const std::vector<int>& newest, const Pose2& T_map_believed,
-                          const std::vector<int>& reference, const Slam2dConfig& config) {
+/// Whether the newest key scans, moved by `T_map_believed`, and the reference violate each other's free space by more
+/// than each set violates its own.
+bool loopViolatesFreeSpace(const SlamGraph& graph, const std::vector<int>& newest, const Pose2& T_map_believed,
+                           const std::vector<int>& reference, const Slam2dConfig& config) {
   const double max_range_m = config.matcher.max_range_m, most = config.loops.max_free_space_violation;
   const double share =
       freeSpaceViolation(placed(graph, newest, T_map_believed), placed(graph, reference, {}), max_range_m);
@@ -97,7 +99,7 @@ bool lookThroughEachOther(const SlamGraph& graph, const std::vector<int>& newest
                                  ownFreeSpaceViolation(graph, reference, max_range_m));
 }
 
-/// Contours of the reference scans in the map frame.
+/// Draws the contours of the reference scans, in the map frame.
 void drawReference(const SlamGraph& graph, const std::vector<int>& keys, const CorrelativeMatcherConfig& config,
                    LikelihoodField& field) {
   for (const int key : keys) {
@@ -106,8 +108,9 @@ void drawReference(const SlamGraph& graph, const std::vector<int>& keys, const C
   }
 }
 
-/// Where in the reach of the candidate's uncertainty the points fit the reference: the one place on the grid of the
-/// wide search, if there is one, inside the window, and no other nearly as good.
+/// The pose at which the points fit the reference, searched within the candidate's uncertainty on the coarse grid.
+/// Nothing when the fit is poor, when the best pose is at the edge of the window, or when a distinct pose scores nearly
+/// as high.
 std::optional<Pose2> searchWidely(const SlamGraph& graph, const std::vector<int>& reference,
                                   const std::vector<Eigen::Vector2f>& points, const Pose2& believed,
                                   const LoopCandidate& candidate, const Slam2dConfig& config) {
@@ -137,7 +140,7 @@ std::optional<Pose2> searchWidely(const SlamGraph& graph, const std::vector<int>
   const bool whole_turn = 2.0 * half_rad >= 2.0 * std::numbers::pi;
   if (atEdge(best.x, grid.translations) || atEdge(best.y, grid.translations) ||
       (atEdge(best.rotation, grid.rotations) && !whole_turn))
-    return std::nullopt;  // The best is beyond.
+    return std::nullopt;  // The true pose may lie beyond the window.
 
   const ExcludedPoses same_place{best, static_cast<int>(loops.distinct_m / loops.resolution_m),
                                  static_cast<int>(loops.distinct_deg * kRadPerDeg / step_rad)};
@@ -159,7 +162,8 @@ Eigen::Matrix3d edgeCovariance(const Eigen::Matrix3d& covariance, const Slam2dCo
 
 std::vector<LoopCandidate> loopCandidates(const SlamGraph& graph, int query, const Slam2dConfig& config) {
   const Pose2& here = graph.keys[static_cast<std::size_t>(query)].T_map_body;
-  std::vector<int> reachable;  // Most of a large map is not, and need not be walked to.
+  // The projection stops when it has reached these; most of a large map is out of reach.
+  std::vector<int> reachable;
   const double farthest_m = std::max(kViewDistance_m, kSigmas * config.loops.max_sigma_m);
   for (int key = 0; key < static_cast<int>(graph.keys.size()); ++key)
     if (distance(here, graph.keys[static_cast<std::size_t>(key)].T_map_body) <= farthest_m) reachable.push_back(key);
@@ -211,7 +215,7 @@ std::optional<FoundLoop> searchLoop(const SlamGraph& graph, int query, const Loo
   const double step_rad = loops.angular_resolution_deg * kRadPerDeg;
   const MatchResult match = fine.match(query_scan, *coarse, {1.5 * loops.resolution_m, 1.5 * step_rad});
   if (match.failed || match.quality < loops.min_fine_quality || match.unobservable_direction) return std::nullopt;
-  if (lookThroughEachOther(graph, newest, match.T_reference_body * believed.inverse(), reference, config))
+  if (loopViolatesFreeSpace(graph, newest, match.T_reference_body * believed.inverse(), reference, config))
     return std::nullopt;
 
   const Pose2& T_map_candidate = graph.keys[static_cast<std::size_t>(candidate.key)].T_map_body;

@@ -26,10 +26,10 @@ struct Particle {
   Pose2 T_map_body;  ///< At the last scan that was taken in.
   int node = AncestryTree::kNone;
   double log_weight = 0.0;      ///< Since the last resampling.
-  double log_likelihood = 0.0;  ///< Of all scans: how good the whole trajectory is.
+  double log_likelihood = 0.0;  ///< Sum over all scans: how good the whole trajectory is.
 };
 
-/// Additive errors with that covariance.
+/// Draws a pose from the Gaussian of additive errors with this covariance.
 Pose2 sample(const Pose2& mean, const Eigen::Matrix3d& covariance, RandomStream& random) {
   const double x = random.gaussian(), y = random.gaussian(), yaw = random.gaussian();
   const Eigen::Vector3d error = covariance.llt().matrixL() * Eigen::Vector3d(x, y, yaw);
@@ -81,14 +81,14 @@ struct ParticleSlam::Impl {
   std::optional<double> flight_height_m;
   SlamCounts counts;
 
-  // Since the last scan that was taken in: the same for all particles.
+  // The motion since the last scan that was taken in; the same for all particles.
   Pose2 T_anchor_body;
   Eigen::Matrix3d covariance_anchor = Eigen::Matrix3d::Zero();
   Pose2 T_odom_body;
   common::Time last_stamp;
 };
 
-/// All begin where odom does, with one map.
+/// Starts all particles at the pose in odom, with one common map.
 void ParticleSlam::Impl::begin(const ProjectedScan& scan, const Pose2& pose) {
   SurfaceMap map(config.map);
   if (!flight_height_m) flight_height_m = scan.T_odom_body.position_m.z();
@@ -103,7 +103,7 @@ void ParticleSlam::Impl::begin(const ProjectedScan& scan, const Pose2& pose) {
   ++counts.key_scans;
 }
 
-/// Moves the estimate by what the laser odometry says happened since the last scan.
+/// Moves the estimate by the motion that the laser odometry has measured since the last scan.
 void ParticleSlam::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& covariance_since_last) {
   const Pose2 moved = T_anchor_body * between(T_odom_body, T_odom_body_now);
   const Eigen::Matrix3d step_covariance = stepCovarianceOrUnknown(covariance_since_last);

@@ -1,14 +1,15 @@
-// SLAM by a Rao-Blackwellized particle filter: each particle is a trajectory with the map drawn along it. GMapping
-// (Grisetti, Stachniss and Burgard 2007) as modified for flight (Bachrach 2009, section 5.3): no wheels, but the motion
-// that the laser's own matcher measured, with the uncertainty it says, moves the particles; and the confidence of cells
-// is capped, so that the map follows what changes with the height.
+// SLAM by a Rao-Blackwellized particle filter: each particle is a trajectory with the map drawn along it. This is
+// GMapping (Grisetti, Stachniss and Burgard 2007), modified for flight (Bachrach 2009, section 5.3). Particles move by
+// the laser odometry and its covariance, since there are no wheels. The confidence of cells is capped, so that the map
+// follows what changes with the height.
 //
 //   scan --> far enough? --> for each particle: match to its map --> sample its pose, weigh it, draw --> resample
 //
-// The map is of one height band (SurfaceMap): what may touch the hull at flight height, as far as it was in the band
-// when it was drawn; a scan from outside the band is matched and weighed, but not drawn. Between two scans that are
-// taken in the map does not change. The maps share the tiles they have in common, the trajectories their common past.
-// T_map_odom jumps at a scan that is taken in, and all key scans may move then: another particle may be the best.
+// The map covers one height band (SurfaceMap): what may touch the hull at flight height. Each scan is drawn with the
+// band that is set at its time. A scan from outside the band is matched and weighed, but not drawn. The map changes
+// only when a scan is taken in.
+// Maps share the tiles they have in common, and trajectories share their common past.
+// T_map_odom jumps when a scan is taken in. All key scans may move then, because another particle may be the best.
 #pragma once
 
 #include <memory>
@@ -38,7 +39,7 @@ struct ParticleSlamConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// Key scans are those that were taken in; the poses are those of the best particle.
+/// Key scans are the scans that were taken in. Poses and map are those of the best particle.
 class ParticleSlam final : public PlanarSlam {
  public:
   explicit ParticleSlam(const ParticleSlamConfig& config);
@@ -54,13 +55,13 @@ class ParticleSlam final : public PlanarSlam {
   int anchor() const override;
   common::Pose2 T_anchor_body() const override;
   std::vector<KeyPose> keyPoses() const override;
-  /// Of the scans to come; false, for what is drawn stays.
+  /// Sets the height band for the scans to come. Returns false, because what is drawn already stays.
   bool setFlightHeight(double height_m) override;
   common::OccupancyGrid snapshot() override;
   const SlamCounts& counts() const override;
 
   common::Pose2 T_map_body() const;
-  /// Poses that are kept for all trajectories together.
+  /// Number of poses stored for all trajectories together.
   std::size_t keptPoses() const;
 
  private:

@@ -1,10 +1,10 @@
-// What every method of 2D SLAM offers: scans go in with the pose that the odometry has of them, out come the correction
-// of the odometry, the key scans and the map. slam_method.hpp makes the one that a profile names.
+// The interface of every method of 2D SLAM. Scans go in with their poses by odometry. The correction of the odometry,
+// the key scans and the map come out. slam_method.hpp creates the method that a profile names.
 //
 //   addScan --> takeTask() --> run(task) on any thread --> apply(result)     (a method without heavy work has no tasks)
 //
-// Frames: the poses given are T_odom_body, continuous. The map frame begins where odom does, at the first scan;
-// T_map_odom jumps when the method corrects the odometry.
+// Frames: the poses given are T_odom_body, which is continuous. The map frame equals odom at the first scan. T_map_odom
+// jumps when the method corrects the odometry.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@
 
 namespace swiftlet::perception {
 
-/// How a method works; see the header of each.
+/// The methods; the header of each explains how it works.
 enum class SlamMethod {
   kGraph,      ///< Slam2d: a graph of key scans with loop closures (Grzonka 2009, section V-D).
   kParticles,  ///< ParticleSlam: particles with a map each (Bachrach 2009, section 5.3).
@@ -32,27 +32,28 @@ enum class SlamMethod {
 
 /// What adding a scan did.
 struct SlamUpdate {
-  bool key_scan = false;     ///< It became a key scan; older ones may have moved.
+  bool key_scan = false;     ///< The scan became a key scan; older ones may have moved.
   bool drawn = false;        ///< The map changed.
-  common::Pose2 T_map_body;  ///< Of the scan, corrected.
+  common::Pose2 T_map_body;  ///< The corrected pose of the scan.
 };
 
 struct SlamCounts {
   std::uint64_t scans = 0;
-  std::uint64_t ignored_scans = 0;  ///< Out of order, or without a finite pose.
+  /// Scans that were out of order or without a finite pose, or had too few points to start the map.
+  std::uint64_t ignored_scans = 0;
   std::uint64_t key_scans = 0;
-  /// Matches of a scan to what the method keeps of those before; each method counts its own alone.
-  std::uint64_t graph_matches = 0;     ///< To key scans of the graph.
-  std::uint64_t particle_matches = 0;  ///< To the map of a particle; each scan to all of them.
-  std::uint64_t map_matches = 0;       ///< To the one map.
+  // Each method counts only its own kind of matches.
+  std::uint64_t graph_matches = 0;     ///< Matches of a scan to key scans of the graph.
+  std::uint64_t particle_matches = 0;  ///< Matches of a scan to the map of one particle.
+  std::uint64_t map_matches = 0;       ///< Matches of a scan to the one map.
   std::uint64_t local_failures = 0;    ///< Scans that should have matched older ones, but did not.
   std::uint64_t loop_candidates = 0;
   std::uint64_t loops_closed = 0;
-  std::uint64_t loops_rejected = 0;  ///< Of those, closures that later ones contradicted.
-  std::uint64_t resamplings = 0;     ///< Of the particles.
+  std::uint64_t loops_rejected = 0;  ///< Edges removed from the graph, since later closures contradict them.
+  std::uint64_t resamplings = 0;     ///< Times the particles were resampled.
 };
 
-/// Single-threaded, and deterministic: the same calls give the same bytes. The values it hands out are safe anywhere.
+/// Not thread-safe. Deterministic: the same calls give the same bytes. Tasks and snapshots may be used on any thread.
 class PlanarSlam {
  public:
   struct KeyPose {
@@ -64,38 +65,40 @@ class PlanarSlam {
 
   virtual SlamMethod method() const = 0;
 
-  /// `T_odom_body`: the filter's pose at the scan's stamp. `covariance_since_last`: of the motion since the last scan
-  /// given here, of the additive errors (x_m, y_m, yaw_rad) in the body frame of that last scan.
+  /// Takes in one scan. `T_odom_body`: the pose by odometry at the scan's stamp. `covariance_since_last`: covariance of
+  /// the motion since the previous scan given here, of the additive errors (x_m, y_m, yaw_rad) in the body frame of
+  /// that scan.
   virtual SlamUpdate addScan(const ProjectedScan& scan, const common::Pose2& T_odom_body,
                              const Eigen::Matrix3d& covariance_since_last) = 0;
 
-  /// Takes odom to map.
+  /// The correction of the odometry; takes coordinates in odom to map.
   virtual common::Pose2 T_map_odom() const = 0;
-  /// The key scan (of keyPoses()) that the last scan is known by, and where it stands relative to it; -1 before the
-  /// first.
+  /// The key scan, as an index into keyPoses(), to which the pose of the last scan is relative; -1 before the first
+  /// scan.
   virtual int anchor() const = 0;
+  /// The pose of the last scan relative to its anchor.
   virtual common::Pose2 T_anchor_body() const = 0;
   /// Every key scan at its best pose so far.
   virtual std::vector<KeyPose> keyPoses() const = 0;
 
-  /// The height over the take-off floor that the map shall be of; at first that of the body in the first scan.
-  /// True when the map is another one now.
+  /// Sets the height above the take-off floor for which the map is made. The initial one is the body's height in the
+  /// first scan. Returns true when the map has changed.
   virtual bool setFlightHeight(double height_m) = 0;
-  /// What may touch the hull at flight height, as known now; tiles are shared, cheap.
+  /// What may touch the hull at flight height, as known now. Shares its tiles with the method's own map.
   virtual common::OccupancyGrid snapshot() = 0;
 
   virtual const SlamCounts& counts() const = 0;
 
-  /// Whether key scans are held by constraints, which edges() gives, and loops are closed by them.
+  /// Whether the method has a pose graph: edges() gives its constraints, and loop closures correct its key scans.
   virtual bool hasGraph() const { return false; }
-  /// The constraints, as indices into keyPoses(). Valid until the next call that is not const.
+  /// The constraints of the pose graph, with indices into keyPoses(). Valid until the next call that is not const.
   virtual std::span<const SlamEdge> edges() const { return {}; }
 
-  /// Heavy work, when there is any and none is outstanding.
+  /// Heavy work, if there is any and no task is outstanding.
   [[nodiscard]] virtual std::optional<SlamTask> takeTask() { return std::nullopt; }
-  /// The last work, when no more scans come. None may be outstanding.
+  /// The last task, to be taken when no more scans come. None may be outstanding.
   [[nodiscard]] virtual std::optional<SlamTask> takeLastTask() { return std::nullopt; }
-  /// Takes the result of the outstanding task; true when T_map_odom or the map changed.
+  /// Applies the result of the outstanding task. Returns true when T_map_odom or the map has changed.
   virtual bool apply(const SlamResult& /*result*/) { return false; }
 };
 

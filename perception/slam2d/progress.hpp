@@ -1,4 +1,4 @@
-// Whether the vehicle has moved enough since something was done last for it to be done again.
+// Tells whether the vehicle has moved far enough, or enough time has passed, to do something again.
 #pragma once
 
 #include <cmath>
@@ -8,11 +8,12 @@
 
 namespace swiftlet::perception {
 
-/// Where and when it was done last.
+/// Where and when something was done last.
 struct Progress {
   common::Pose2 T_odom_body;
   common::Time stamp;
 
+  /// Whether the distance, the rotation or the time since then exceeds its limit.
   bool exceeds(const common::Pose2& T_odom_body_now, common::Time now, double distance_m, double rotation_deg,
                double time_s) const {
     const common::Pose2 step = between(T_odom_body, T_odom_body_now);

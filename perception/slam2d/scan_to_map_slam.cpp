@@ -18,7 +18,7 @@ using common::kRadPerDeg;
 using common::Pose2;
 using common::Time;
 
-/// A search window holds so many standard deviations of where the scan is expected.
+/// Half width of the search window, in standard deviations of the predicted pose.
 constexpr double kWindowSigmas = 3.0;
 
 }  // namespace
@@ -68,20 +68,20 @@ struct ScanToMapSlam::Impl {
   GaussNewtonMatcher matcher;
   SurfaceMap surfaces;
   DrawingBoard board;
-  bool reference_is_old = true;  ///< The surfaces changed since they were drawn for the matcher.
+  bool reference_is_old = true;  ///< The surfaces have changed since they were drawn for the matcher.
   SlicedMap map;
   std::optional<double> flight_height_m;
   std::vector<KeyPose> keys;
   SlamCounts counts;
 
-  UncertainPose pose{Pose2{}, Eigen::Matrix3d::Zero()};  ///< Of the last scan.
+  UncertainPose pose{Pose2{}, Eigen::Matrix3d::Zero()};  ///< Pose of the last scan.
   Pose2 T_odom_body;
   Pose2 T_map_odom;
   Time last_stamp;
   Progress last_match, last_key;
 };
 
-/// Moves the estimate by what the odometry says happened since the last scan.
+/// Moves the estimate by the motion that the odometry has measured since the last scan.
 void ScanToMapSlam::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& covariance_since_last) {
   const Pose2 moved = T_map_odom * T_odom_body_now;
   const Eigen::Matrix3d step_covariance = stepCovarianceOrUnknown(covariance_since_last);
@@ -97,7 +97,7 @@ SearchWindow ScanToMapSlam::Impl::window() const {
           std::clamp(kWindowSigmas * sigmas.z(), config.window_deg * kRadPerDeg, config.max_window_deg * kRadPerDeg)};
 }
 
-/// The surfaces that a scan from here can meet, as the reference of the matcher.
+/// Draws the surfaces that a scan from here can meet as the reference of the matcher, if they have changed.
 void ScanToMapSlam::Impl::drawReference() {
   if (!reference_is_old) return;
   reference_is_old = false;
@@ -106,7 +106,7 @@ void ScanToMapSlam::Impl::drawReference() {
       surfaces.contourAround(pose.T_map_body.position_m(), config.matcher.max_range_m + config.max_window_m));
 }
 
-/// False, and nothing learned, when the scan does not match the map.
+/// False when the scan does not match the map. The estimate is then unchanged.
 bool ScanToMapSlam::Impl::correct(const ProjectedScan& scan) {
   drawReference();
   const MatchResult match = matcher.match(scan, pose.T_map_body, window());
@@ -117,7 +117,7 @@ bool ScanToMapSlam::Impl::correct(const ProjectedScan& scan) {
   }
   const Eigen::Matrix3d of_map = common::planarCovariance(config.map_sigma_m, config.map_sigma_deg * kRadPerDeg);
   pose = weightedMean(pose, {match.T_reference_body, match.covariance + of_map});
-  // What the map is wrong by is the same in every match, so that the mean of many is not better.
+  // The error of the map is the same in every match, so the mean of many matches is not more certain.
   pose.covariance.diagonal() = pose.covariance.diagonal().cwiseMax(of_map.diagonal());
   T_map_odom = pose.T_map_body * T_odom_body.inverse();
   return true;
@@ -150,7 +150,8 @@ SlamUpdate ScanToMapSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom
   }
   self.last_stamp = scan.stamp;
   if (first) {
-    self.pose.T_map_body = self.T_odom_body = T_odom_body;  // The map begins where odom does.
+    // The map frame starts equal to odom.
+    self.pose.T_map_body = self.T_odom_body = T_odom_body;
   } else {
     self.follow(T_odom_body, covariance_since_last);
     if (!self.last_match.exceeds(T_odom_body, scan.stamp, config.match_distance_m, config.match_rotation_deg,
@@ -159,7 +160,7 @@ SlamUpdate ScanToMapSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom
   }
   self.last_match = {T_odom_body, scan.stamp};
   const bool matched = first || self.correct(scan);
-  // A scan of new area matches little. Where it is taken on the odometry's word, the map grows, and the next ones
+  // A scan of new area hardly matches. A key scan at its predicted pose lets the map grow there, so that the next scans
   // match.
   const bool is_key = first || self.last_key.exceeds(T_odom_body, scan.stamp, config.key_distance_m,
                                                      config.key_rotation_deg, config.key_time_s);

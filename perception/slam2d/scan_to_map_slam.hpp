@@ -1,22 +1,23 @@
-// SLAM by matching scans to the one map that they are drawn into (Saeedi, section III-B, after Kohlbrecher 2011). The
-// pose of a scan is
+// SLAM by matching each scan to the one map that the scans are drawn into (Saeedi, section III-B, after Kohlbrecher
+// 2011). The pose of a scan is
 //
-//   argmin over (x, y, psi) of the sum over the end points of (1 - M(S_i(x, y, psi)))^2                  (Saeedi, eq.
-//   1)
+//   argmin over (x, y, psi) of the sum over i of (1 - M(S_i(x, y, psi)))^2        (Saeedi, eq. 1)
 //
-// M being the map between its cells and S_i the end point i at the pose; the first-order expansion of M gives the
-// Gauss-Newton step (Kohlbrecher, eq. 7 to 13), repeated down a pyramid of maps from coarse to fine (section V-B
-// there). The work is that of GaussNewtonMatcher. Where the papers interpolate the occupancy of the cells, M here is 1
-// on the surfaces in the occupied cells (SurfaceMap) and falls linearly with the distance from them, so that a wall
-// pulls to where it is, not to the middle of its cells.
+// where S_i is the end point i at the pose, and M is the map, interpolated between its cells. The first-order expansion
+// of M gives the Gauss-Newton step (Kohlbrecher, eq. 7 to 13). It is repeated on a pyramid of maps from coarse to fine
+// (section V-B there). GaussNewtonMatcher implements this.
+// The papers interpolate the occupancy of the cells. Here M is 1 on the surfaces in the occupied cells (SurfaceMap) and
+// falls linearly with the distance from them. So a scan is pulled to the surface of a wall, not to the middle of its
+// cells.
 //
 //   scan --> far enough? --> match to the surfaces around --> weigh against the motion --> key scan? --> draw
 //
-// There is NO loop closure and nothing is ever optimized: a key scan stays where it was put. The error grows with the
-// distance from known area, and a loop that comes back farther off than the search window is not closed: the map then
-// has its walls twice. For rooms and short flights.
+// There is no loop closure and no optimization: a key scan keeps its first pose. The error grows with the distance from
+// known area. A loop whose error is larger than the search window is not closed, and the map then shows its walls
+// twice. The method is for rooms and short flights.
 //
-// T_map_odom changes with each scan that matches. One that does not match leaves it as it is: the odometry is followed.
+// T_map_odom changes with each scan that matches. A scan that does not match leaves it as it is, so that the pose
+// follows the odometry.
 #pragma once
 
 #include <memory>
@@ -49,8 +50,8 @@ struct ScanToMapConfig {
   std::vector<std::string> validate() const;
 };
 
-/// Key scans are those drawn into the surfaces that others are matched to. The published map is a SlicedMap, drawn with
-/// every scan that matches.
+/// Key scans are drawn into the surfaces that other scans are matched to. The published map is a SlicedMap, into which
+/// key scans and all scans that match are drawn.
 class ScanToMapSlam final : public PlanarSlam {
  public:
   explicit ScanToMapSlam(const ScanToMapConfig& config);
@@ -70,8 +71,9 @@ class ScanToMapSlam final : public PlanarSlam {
   common::OccupancyGrid snapshot() override;
   const SlamCounts& counts() const override;
 
-  /// Of the additive errors (x_m, y_m, yaw_rad) of the last scan's pose, axes of map, relative to the map around it:
-  /// how far that has drifted since the take-off is not in it. Never less than map_sigma.
+  /// The covariance of the additive errors (x_m, y_m, yaw_rad) of the last scan's pose, axes of the map. It is relative
+  /// to the map around the pose: the drift of that map since take-off is not included. After a match, no standard
+  /// deviation is below `map_sigma_m` or `map_sigma_deg`.
   const Eigen::Matrix3d& covariance() const;
 
  private:

@@ -20,16 +20,17 @@ using common::kRadPerDeg;
 using common::Pose2;
 using common::Time;
 
-/// A tilted scan carries the error of its attitude into the map: a level one is waited for, for half as far again.
+/// The limits before the next match are multiplied by this for a tilted scan, so that a level one may come first: a
+/// tilted scan brings the error of its attitude into the map.
 constexpr double kPatience = 1.5;
 
-/// The path length that must lie between two optimizations for each key scan of the graph.
+/// Path length that must lie between two optimizations, for each key scan of the graph.
 constexpr double kOptimizationPathPerKey_m = 0.02;
 
-/// A match to an earlier pass counts when this share of the scan lies on it.
+/// A match to an earlier pass is used when at least this share of the scan overlaps it.
 constexpr double kLeastOverlap = 0.75;
 
-/// Where in `keys`, ascending, those of the newest pass begin.
+/// The first of `keys` (ascending) that belongs to the newest pass.
 std::vector<int>::const_iterator newestPass(const std::vector<int>& keys) {
   auto begin = keys.end();
   while (begin != keys.begin() && (begin == keys.end() || !areOfTwoPasses(*(begin - 1), *begin))) --begin;
@@ -57,7 +58,7 @@ struct Slam2d::Impl {
   UncertainPose movedPose() const { return {T_map_body(), common::turned(covariance_anchor, poseOf(anchor).yaw_rad)}; }
   bool optimizationIsDue() const;
   void connectPasses(int other, const MatchResult& match);
-  void standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
+  void setAnchor(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
   std::optional<int> keyNear(std::span<const int> keys, const Pose2& pose) const;
   void draw(const ProjectedScan& scan);
   SlamTask makeTask(std::vector<LoopCandidate> candidates, bool is_last);
@@ -65,12 +66,13 @@ struct Slam2d::Impl {
   Slam2dConfig config;
   SlamGraph graph;
   LocalReference reference;
-  LocalReference earlier_reference;  ///< Of earlier passes, where more are in view; each keeps what is drawn.
+  /// Matches to earlier passes alone. Each reference keeps its own drawing.
+  LocalReference earlier_reference;
   SlicedMap map;
   std::optional<double> flight_height_m;
   SlamCounts counts;
 
-  // Where the vehicle is: relative to a key scan, so that a corrected graph takes it along.
+  // The pose of the vehicle. It is relative to a key scan, so that it follows when the graph is corrected.
   int anchor = -1;
   Pose2 T_anchor_body;
   Eigen::Matrix3d covariance_anchor = Eigen::Matrix3d::Zero();
@@ -81,17 +83,17 @@ struct Slam2d::Impl {
   Progress last_match, last_drawn;
   double path_length_since_search_m = 0.0, path_length_since_optimization_m = 0.0;
   bool search_due = false;
-  bool passes_connected = false;  ///< By an edge, since the last optimization.
+  bool passes_connected = false;  ///< An edge has connected two passes since the last optimization.
 
   std::uint64_t tasks = 0;
   bool task_outstanding = false;
-  std::vector<FoundLoop> rejected;  ///< Closures that were refused.
+  std::vector<FoundLoop> rejected;  ///< Loop closures that were rejected.
   std::size_t task_keys = 0;
-  int optimized_keys = 0;  ///< Those before this one existed at the last optimization.
+  int optimized_keys = 0;  ///< Key scans below this index were in the last optimization.
   std::vector<std::pair<int, AttachedScan>> drawn_since_task;
 };
 
-/// Moves the estimate by what the filter says happened since the last scan.
+/// Moves the estimate by the motion that the filter has measured since the last scan.
 void Slam2d::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& covariance_since_last) {
   const Pose2 step = between(T_odom_body, T_odom_body_now);
   const Pose2 moved = T_anchor_body * step;
@@ -104,13 +106,13 @@ void Slam2d::Impl::follow(const Pose2& T_odom_body_now, const Eigen::Matrix3d& c
   path_length_since_optimization_m += step.position_m().norm();
 }
 
-void Slam2d::Impl::standOn(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key) {
+void Slam2d::Impl::setAnchor(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key) {
   anchor = key;
   T_anchor_body = T_key_body;
   covariance_anchor = covariance_key;
 }
 
-/// A key scan among `keys` that stands where the vehicle does.
+/// The nearest of `keys` within the distance and rotation at which a key scan is reused.
 std::optional<int> Slam2d::Impl::keyNear(std::span<const int> keys, const Pose2& pose) const {
   std::optional<int> nearest;
   double nearest_m = config.reuse_distance_m;
@@ -128,13 +130,14 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& pose, cons
                               const MatchResult* match) {
   const int key = static_cast<int>(graph.keys.size());
   auto copy = std::make_shared<ProjectedScan>(scan);
-  copy->misses_level_m.clear();  // Kept where they are drawn.
+  // Matching needs only the end points; the drawn scan has the rest.
+  copy->misses_level_m.clear();
   copy->no_returns_level_m.clear();
   copy->mirror.clear();
   graph.keys.push_back({std::move(copy), pose, {}, {}});
   if (key > 0) graph.add({anchor, key, T_anchor_body, edgeCovariance(covariance_anchor, config), false});
   if (match != nullptr) {
-    // One match, two edges: to the nearest view and to the oldest, each with half the weight.
+    // One match gives two edges, to the oldest and to the nearest key scan, each with half the weight.
     const auto distance_m = [&](int other) { return between(poseOf(other), pose).position_m().norm(); };
     const int nearest = *std::min_element(matched_keys.begin(), matched_keys.end(),
                                           [&](int a, int b) { return distance_m(a) < distance_m(b); });
@@ -144,13 +147,14 @@ void Slam2d::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& pose, cons
       if (matched_keys.front() == nearest) break;
     }
   }
-  standOn(key, Pose2{}, Eigen::Matrix3d::Zero());
+  setAnchor(key, Pose2{}, Eigen::Matrix3d::Zero());
   ++counts.key_scans;
   if (path_length_since_search_m >= config.loops.spacing_m) search_due = true;
 }
 
-/// Matches to the earlier passes in view alone, if they show enough: joined to the newest, they would tear at the match
-/// as long as they do not agree. `keys` are those it was matched to.
+/// If `keys` are of several passes, matches the scan to the earlier passes alone when they show enough of it, otherwise
+/// to the newest pass alone. A match to passes that do not agree yet would be a compromise between them. On return,
+/// `keys` are those that were matched.
 MatchResult Slam2d::Impl::matchAround(const ProjectedScan& scan, std::vector<int>& keys) {
   const SearchWindow window{config.local_window_m, config.local_window_deg * kRadPerDeg};
   const auto newest = newestPass(keys);
@@ -165,8 +169,8 @@ MatchResult Slam2d::Impl::matchAround(const ProjectedScan& scan, std::vector<int
   return reference.match(graph, keys, scan, T_map_body(), window);
 }
 
-/// The motion since the anchor, and on to where the match has the vehicle beside a key scan of another pass. Once is
-/// enough: the graph does not grow in known area.
+/// Connects the anchor with a key scan of another pass: the edge is the motion since the anchor, continued by the
+/// match. Two key scans are connected once only, so that the graph does not grow in known area.
 void Slam2d::Impl::connectPasses(int other, const MatchResult& match) {
   const std::vector<int>& edges = graph.keys[static_cast<std::size_t>(anchor)].edges;
   if (std::any_of(edges.begin(), edges.end(), [&](int index) {
@@ -182,7 +186,7 @@ void Slam2d::Impl::connectPasses(int other, const MatchResult& match) {
   passes_connected = true;
 }
 
-/// The local match: pulls the estimate onto the older key scans around it. False: nothing to be learned from this scan.
+/// The local match: corrects the estimate by the older key scans around it. Returns false when the scan was of no use.
 bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   const std::vector<int> connected = connectedKeys(graph, anchor, T_map_body(), config);
   std::vector<int> keys = localReferenceKeys(graph, connected, anchor, T_map_body(), config);
@@ -199,14 +203,14 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   const UncertainPose pose =
       same_pass ? weightedMean(movedPose(), {match.T_reference_body, edgeCovariance(match.covariance, config)})
                 : UncertainPose{match.T_reference_body, match.covariance};
-  // Any of the passes it was matched to will do, and what the last optimization placed beside them.
+  // The new anchor may be of the matched passes, or be one that the last optimization has aligned with them.
   std::vector<int> agreeing;
   std::copy_if(connected.begin(), connected.end(), std::back_inserter(agreeing),
                [&](int key) { return key < optimized_keys || (key >= keys.front() && key <= keys.back()); });
   if (const std::optional<int> near = keyNear(agreeing, pose.T_map_body)) {
     if (areOfTwoPasses(*near, anchor)) connectPasses(*near, match);
-    standOn(*near, between(poseOf(*near), pose.T_map_body),
-            edgeCovariance(common::turned(pose.covariance, -poseOf(*near).yaw_rad), config));
+    setAnchor(*near, between(poseOf(*near), pose.T_map_body),
+              edgeCovariance(common::turned(pose.covariance, -poseOf(*near).yaw_rad), config));
     search_due |= optimizationIsDue();
     return true;
   }
@@ -246,7 +250,7 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
   bool learned = false;
   if (first) {
     self.T_odom_body = T_odom_body;
-    self.addKeyScan(scan, T_odom_body, {}, nullptr);  // The map begins where odom does.
+    self.addKeyScan(scan, T_odom_body, {}, nullptr);  // The map frame starts equal to odom.
     update.key_scan = learned = true;
   } else {
     self.follow(T_odom_body, covariance_since_last);
@@ -315,8 +319,8 @@ std::optional<SlamTask> Slam2d::takeLastTask() {
   return impl_->makeTask({}, true);
 }
 
-/// The larger the graph, the longer the path between two optimizations that no loop asked for: the work per metre is
-/// bounded.
+/// Whether an optimization is due that no loop closure asks for. The path length between two of them grows with the
+/// graph, so that the work per metre is bounded.
 bool Slam2d::Impl::optimizationIsDue() const {
   return passes_connected &&
          path_length_since_optimization_m >= kOptimizationPathPerKey_m * static_cast<double>(graph.keys.size());
@@ -354,7 +358,7 @@ bool Slam2d::apply(const SlamResult& result) {
   if (poses.empty()) return false;
 
   self.optimized_keys = static_cast<int>(self.task_keys);
-  // What came after the task moves along with what it was built on: its first edge comes from there.
+  // A key scan added after the task keeps its pose relative to the key scan that its first edge comes from.
   std::vector<Pose2> T_map_before;
   for (const KeyScan& key : self.graph.keys) T_map_before.push_back(key.T_map_body);
   for (std::size_t i = 0; i < self.graph.keys.size(); ++i) {

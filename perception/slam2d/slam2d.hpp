@@ -1,11 +1,12 @@
-// Graph SLAM in the plane (Grzonka 2009, section V-D): key scans are nodes, matches are edges, loops are sought where
-// the projected uncertainty allows, and the map is an occupancy grid drawn from the scans at their best poses.
+// Graph SLAM in the plane (Grzonka 2009, section V-D): key scans are nodes and matches are edges. Loop closures are
+// searched for where the projected uncertainty allows them. The map is an occupancy grid drawn from the scans at their
+// best poses.
 //
 // In flight each scan costs a fraction of a millisecond: a key scan is matched to the older key scans around it, which
-// bounds the drift inside known area, and drawn into the grid. What is heavy (loop search, optimization, drawing the
-// grid anew) is a value: `takeTask` hands it out, `run` computes it anywhere, `apply` takes the result in.
+// bounds the drift inside known area, and is drawn into the grid. The heavy work (loop search, optimization, drawing
+// the grid anew) is a value: takeTask() gives it out, run() computes it on any thread, apply() takes in the result.
 //
-// T_map_odom jumps with a local correction (millimetres, at a key scan) and with a loop closure (apply).
+// T_map_odom jumps with a local correction (by millimetres, at a key scan) and with a loop closure (in apply()).
 #pragma once
 
 #include <memory>
@@ -41,7 +42,7 @@ class Slam2d final : public PlanarSlam {
   std::span<const SlamEdge> edges() const override;
 
   [[nodiscard]] std::optional<SlamTask> takeTask() override;
-  /// Optimizes the graph as a whole.
+  /// A task that optimizes the whole graph.
   [[nodiscard]] std::optional<SlamTask> takeLastTask() override;
   bool apply(const SlamResult& result) override;
 

@@ -1,4 +1,4 @@
-// The configuration of graph SLAM: when scans become key scans, when loops are sought and believed.
+// Configuration of graph SLAM: when scans become key scans, and when loop closures are searched for and accepted.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace swiftlet::perception {
 
-/// When a loop is sought and when it is believed.
+/// When a loop closure is searched for, and when it is accepted.
 struct LoopClosureConfig {
   double spacing_m = 1.0;
   double max_sigma_m = 4.0;

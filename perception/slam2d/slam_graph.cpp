@@ -18,13 +18,13 @@ double largerSigma(const Eigen::Matrix3d& covariance) {
   return std::sqrt(std::max(0.0, 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + c * c)));
 }
 
-/// On from one end of an edge to the other.
+/// Continues the projection from one end of an edge to the other.
 ProjectedUncertainty projectedAlong(const SlamGraph& graph, const SlamEdge& edge, const ProjectedUncertainty& from) {
   const int other = edge.from == from.key ? edge.to : edge.from;
   const Pose2& here = graph.keys[static_cast<std::size_t>(from.key)].T_map_body;
   const Pose2& there = graph.keys[static_cast<std::size_t>(other)].T_map_body;
   const double edge_yaw_rad = graph.keys[static_cast<std::size_t>(edge.from)].T_map_body.yaw_rad;
-  // Walked backwards, the edge's own heading error swings the step as well.
+  // Against the direction of the edge, its own heading error rotates the step as well.
   Eigen::Matrix3d own = common::turned(edge.covariance, edge_yaw_rad);
   if (edge.to == from.key) own = propagated(own, here, there, Eigen::Matrix3d::Zero());
   const Eigen::Matrix3d covariance = propagated(from.covariance_map, here, there, own);
@@ -58,7 +58,8 @@ std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int
     bool done = false;
   };
   std::vector<Reached> reached;
-  std::vector<std::int32_t> index_of(graph.keys.size(), -1);  // Into `reached`, which holds the few that are near.
+  // Index into `reached`, which holds only the few key scans that are near.
+  std::vector<std::int32_t> index_of(graph.keys.size(), -1);
   std::vector<char> is_wanted(wanted.empty() ? 0 : graph.keys.size(), 0);
   for (const int key : wanted) is_wanted[static_cast<std::size_t>(key)] = 1;
   auto missing = std::count(is_wanted.begin(), is_wanted.end(), 1);

@@ -1,4 +1,4 @@
-// The graph of key scans, and how far the uncertainty between two of them reaches.
+// The graph of key scans, and the projection of uncertainty along it.
 #pragma once
 
 #include <cstdlib>
@@ -17,20 +17,21 @@
 
 namespace swiftlet::perception {
 
-/// A drawn scan and where it stands in the level frame of its key scan.
+/// A drawn scan and its pose in the level frame of its key scan.
 struct AttachedScan {
   std::shared_ptr<const DrawnScan> scan;
   common::Pose2 T_key_body;
 };
 
+/// A node of the graph.
 struct KeyScan {
   std::shared_ptr<const ProjectedScan> scan;
   common::Pose2 T_map_body;
   std::deque<AttachedScan> drawn;  ///< Oldest first.
-  std::vector<int> edges;          ///< Of the graph, that begin or end here.
+  std::vector<int> edges;          ///< Indices of the graph's edges that begin or end here.
 };
 
-/// Whether two key scans lie so far apart in the order in which they were taken that they are of two passes.
+/// Whether two key scans, given by index, count as of different passes: whether many others were taken between them.
 inline bool areOfTwoPasses(int a, int b) {
   constexpr int kOtherPass = 15;
   return std::abs(a - b) > kOtherPass;
@@ -41,26 +42,26 @@ struct SlamGraph {
   std::vector<SlamEdge> edges;
 
   void add(SlamEdge edge);
-  /// The edges after it move up by one.
+  /// Removes an edge. The index of each edge after it decreases by one.
   void remove(int edge);
 };
 
-/// The uncertainty of a key scan's pose as seen from another, along the most certain path.
+/// The uncertainty of a key scan's pose relative to another key scan, along the most certain path.
 struct ProjectedUncertainty {
   int key = 0;
   Eigen::Matrix3d covariance_map = Eigen::Matrix3d::Zero();  ///< Of (x_m, y_m, yaw_rad), axes of the map.
-  double sigma_m = 0.0;                                      ///< The larger axis of the position.
+  double sigma_m = 0.0;                                      ///< Standard deviation of the position, larger axis.
 };
 
-/// Dijkstra projection of the covariances from `start` (Grzonka 2009, section V-D), in order of growing sigma_m, up
-/// to `max_sigma_m`, or, where `wanted` keys are given, until all of those are reached.
+/// Dijkstra projection of the covariances from `start` (Grzonka 2009, section V-D). Returns key scans in order of
+/// growing sigma_m, up to `max_sigma_m`. If `wanted` key scans are given, it ends when all of them are reached.
 std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int start, double max_sigma_m,
                                                      std::span<const int> wanted = {});
 
-/// Between the places of two poses, in metres.
+/// The distance between the positions of two poses, in metres.
 double distance(const common::Pose2& a, const common::Pose2& b);
 
-/// Draws all attached scans at their key scans' poses, oldest first.
+/// Draws all attached scans at the poses of their key scans, oldest scan first.
 SlicedMap drawMap(const SlamGraph& graph, const GridDrawingConfig& config);
 
 optimization::PoseEdge2D toPoseEdge(const SlamEdge& edge);

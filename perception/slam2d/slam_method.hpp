@@ -1,4 +1,4 @@
-// Which method of 2D SLAM does the work, chosen by a profile, and the settings of each.
+// The choice of the 2D SLAM method by a profile, and the settings of each method.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,8 @@
 
 namespace swiftlet::perception {
 
-/// The settings of the graph, the default, stand beside `method`; those of the others in sections of their own. Only
-/// those of the chosen method have an effect, but for `grid`, which is that of every method's map.
+/// The settings of the graph, which is the default, are beside `method`. The other methods have sections of their own.
+/// Only the settings of the chosen method have an effect, except `grid`: every method draws its map by it.
 struct SlamMethodConfig : Slam2dConfig {
   SlamMethod method = SlamMethod::kGraph;
   ParticleSlamConfig particles;
@@ -29,7 +29,7 @@ const std::vector<std::string>& slamMethodNames();
 /// The method of that name, which must be one of slamMethodNames().
 SlamMethod slamMethodOf(const std::string& name);
 
-/// Never null.
+/// Creates the chosen method; never null.
 std::unique_ptr<PlanarSlam> makeSlam(const SlamMethodConfig& config);
 
 }  // namespace swiftlet::perception

@@ -8,19 +8,20 @@
 
 namespace swiftlet::perception {
 
-/// Work to be run elsewhere. Holds only shared immutable data; cheap to copy.
+/// Work that may run on any thread. Holds only shared immutable data, so it is cheap to copy.
 struct SlamTask {
   struct Data;
   std::shared_ptr<const Data> data;
 };
 
+/// The result of a task.
 struct SlamResult {
   struct Data;
   std::shared_ptr<const Data> data;
-  std::vector<LoopClosure> accepted;  ///< Loops closed, for the record.
+  std::vector<LoopClosure> accepted;  ///< Accepted loop closures, for the record.
 };
 
-/// Pure function of the task; safe on any thread.
+/// Computes a task. A pure function; may run on any thread.
 SlamResult run(const SlamTask& task);
 
 }  // namespace swiftlet::perception

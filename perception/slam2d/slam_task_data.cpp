@@ -11,16 +11,16 @@ namespace {
 
 using common::Pose2;
 
-/// A shift of less than this share of a cell does not show in the grid.
+/// A shift by less than this fraction of a cell is not visible in the grid.
 constexpr double kVisibleCells = 0.25;
-/// The newest rejected closures are kept, at most this many.
+/// Greatest number of rejected closures that are kept; the oldest are dropped.
 constexpr std::size_t kRejectedKept = 24;
 
 double greatestShift(const SlamGraph& graph, const std::vector<Pose2>& poses) {
   double greatest = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Pose2 step = between(graph.keys[i].T_map_body, poses[i]);
-    // A rotation moves what is seen some metres away.
+    // A rotation moves points some metres away.
     greatest = std::max(greatest, step.position_m().norm() + 3.0 * std::abs(step.yaw_rad));
   }
   return greatest;
@@ -49,7 +49,7 @@ SlamResult run(const SlamTask& task) {
         out->rejected.erase(out->rejected.begin(), out->rejected.end() - static_cast<std::ptrdiff_t>(kRejectedKept));
       }
     }
-    // What changes nothing is not worth a jump of the map.
+    // Without a reason to change them, the poses are kept: each change makes the map jump.
     if (in.is_last || in.optimize_graph || !consensus.accepted.empty() || !consensus.rejected_edges.empty())
       out->T_map_key = std::move(consensus.T_map_key);
     out->rejected_edges = std::move(consensus.rejected_edges);
@@ -62,7 +62,8 @@ SlamResult run(const SlamTask& task) {
       greatestShift(in.graph, out->T_map_key) > kVisibleCells * in.config.grid.resolution_m) {
     SlamGraph moved = in.graph;
     for (std::size_t i = 0; i < moved.keys.size(); ++i) moved.keys[i].T_map_body = out->T_map_key[i];
-    out->map = drawMap(moved, in.config.grid).snapshot();  // Its tiles are cloned before anybody writes.
+    // A write to the map clones its tiles first.
+    out->map = drawMap(moved, in.config.grid).snapshot();
   }
   result.data = std::move(out);
   return result;

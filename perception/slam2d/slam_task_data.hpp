@@ -1,4 +1,4 @@
-// What travels between the SLAM and the thread that runs its heavy work; private to slam2d.
+// Data passed between SLAM and the thread that runs its heavy work; private to slam2d.
 #pragma once
 
 #include <optional>
@@ -16,21 +16,21 @@ struct SlamTask::Data {
   SlamGraph graph;  ///< A copy; its scans are shared and immutable.
   int query = 0;
   std::vector<LoopCandidate> candidates;
-  std::vector<FoundLoop> rejected;  ///< Closures that the graph refused before.
-  /// An edge connected two passes: the graph is optimized, whether or not a loop is found.
+  std::vector<FoundLoop> rejected;  ///< Loop closures that were rejected before.
+  /// Optimize the graph even if no loop closure is found: an edge has connected two passes.
   bool optimize_graph = false;
-  /// No more scans come: the graph is optimized as a whole.
+  /// Optimize the graph as a whole: no more scans come.
   bool is_last = false;
   Slam2dConfig config;
 };
 
 struct SlamResult::Data {
   std::uint64_t id = 0;
-  std::vector<common::Pose2> T_map_key;  ///< Of every key scan of the task; empty when nothing was found.
+  std::vector<common::Pose2> T_map_key;  ///< Of every key scan of the task; empty when nothing changed.
   std::vector<SlamEdge> closures;
-  std::vector<FoundLoop> rejected;  ///< Closures refused, now and before.
-  std::vector<int> rejected_edges;  ///< Edges of the task's graph, ascending.
-  std::optional<SlicedMap> map;     ///< Drawn anew, when the poses moved by enough to be seen.
+  std::vector<FoundLoop> rejected;  ///< Loop closures rejected now and before; the newest.
+  std::vector<int> rejected_edges;  ///< Indices of edges of the task's graph, ascending.
+  std::optional<SlicedMap> map;     ///< Drawn anew, if the poses moved visibly.
 };
 
 }  // namespace swiftlet::perception

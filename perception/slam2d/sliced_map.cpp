@@ -13,13 +13,13 @@ using common::CellIndex;
 using common::occupancy::Cell;
 namespace occupancy = common::occupancy;
 
-/// A mark counts the beams that crossed a cell in its low half, those that ended there in its high half.
+/// A mark counts the beams that crossed a cell in its low half and the beams that ended there in its high half.
 constexpr std::uint32_t kCrossed = 1;
 constexpr std::uint32_t kEnded = 1 << 16;
-/// A flight height that differs by less is the same.
+/// A smaller change of the flight height is ignored.
 constexpr double kHeightHysteresis_m = 0.10;
 
-/// Of two slices: occupied where one is, free where none is and one was seen free.
+/// Two slices combined: occupied where one is, free where one is free and none is occupied.
 Cell merged(Cell a, Cell b) {
   if (occupancy::isUnknown(a) || occupancy::isUnknown(b)) return std::max(a, b);
   return occupancy::isFree(a) && occupancy::isFree(b) ? std::min(a, b) : std::max(a, b);
@@ -27,7 +27,7 @@ Cell merged(Cell a, Cell b) {
 
 bool rowByRow(const CellIndex& a, const CellIndex& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
 
-/// The part of the view that is within `share` of its length.
+/// The ray to `end`, cut to the fraction `share` of its length if that is below 1.
 Eigen::Vector3f shortened(const Eigen::Vector3f& end, float share) { return share < 1.0F ? end * share : end; }
 
 }  // namespace
@@ -49,7 +49,7 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
     const Eigen::Vector3f end(scan.points_level_m[i].x(), scan.points_level_m[i].y(), height_m);
     if (!end.allFinite()) continue;
     const double band_m = height_m > 0.0F ? config.max_height_above_m : config.max_height_below_m;
-    // A view that ended above or below the band says that it was free as long as it was within.
+    // A beam that ended above or below the band shows free space up to where it left the band.
     if (std::abs(height_m) > band_m)
       add(drawn.free_level_m,
           withinRange(shortened(end, static_cast<float>(band_m) / std::abs(height_m)), config.max_hit_range_m));
@@ -82,7 +82,7 @@ void SlicedMap::draw(const DrawnScan& scan, const common::Pose2& T_map_body) {
     if (!rays.empty()) drawSlice(slice, rays);
 }
 
-/// Slices are centred on multiples of their height, where missions like to fly.
+/// Slices are centred on multiples of their height, because missions usually fly at such heights.
 int SlicedMap::sliceAt(double height_m) const {
   return static_cast<int>(std::floor(height_m / config_.slice_height_m + 0.5));
 }
@@ -104,7 +104,7 @@ bool SlicedMap::setFlightHeight(double height_m) {
   return true;
 }
 
-/// Cuts each view where it passes from one slice into the next.
+/// Cuts each ray where it passes from one slice into the next.
 void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
   for (auto& [slice, rays] : rays_) rays.clear();
   const double c = std::cos(T_map_body.yaw_rad), s = std::sin(T_map_body.yaw_rad);
@@ -165,8 +165,9 @@ void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays) {
   apply(slice);
 }
 
-/// Where beams end and others pass, most decide: noise that puts some ends before or behind the wall does not thicken
-/// it. But a cell in which any ends is never called free, so that a wall seen at a grazing angle gets no holes.
+/// A cell in which some beams of a scan end and others cross gains confidence if at least as many end there, so that
+/// noise in range does not thicken walls. If any beam ends there, the cell does not lose confidence, so that a wall
+/// seen at a grazing angle gets no holes.
 void SlicedMap::apply(int slice) {
   common::OccupancyGrid& grid = sliceGrid(slice);
   const std::uint32_t* mark = marks_.data();
@@ -180,7 +181,7 @@ void SlicedMap::apply(int slice) {
       const int sum = (occupancy::isUnknown(old) ? 0 : old) + (ended > 0 ? config_.hit_steps : -config_.free_steps);
       const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
       if (ended == 0) fadeAround(slice, cell);
-      // Not writing what does not change leaves the tile shared with the snapshots.
+      // An unchanged cell is not written, so that its tile stays shared with the snapshots.
       if (value == old) continue;
       grid.set(cell, value);
       if (slice >= lowest_ && slice <= highest_) combine(cell, old, value);
@@ -188,10 +189,10 @@ void SlicedMap::apply(int slice) {
   }
 }
 
-/// Most things are upright: what is free says a little about what is above and below, so that a trace of somebody who
-/// passed goes in the end.
+/// Most things are upright: a free cell is weak evidence that the cells above and below it are free. This removes the
+/// traces of people who have passed.
 void SlicedMap::fadeAround(int slice, CellIndex cell) {
-  // What is not in the hull's way need not fade, and where nothing is in its way nothing is there to fade.
+  // Only a cell that is occupied at flight height matters to the hull, so only such a cell fades.
   if (!occupancy::isOccupied(combined_.at(cell))) return;
   const bool slow = drawn_ % config_.slow_fade_scans == 0;
   const double height_m = slow ? config_.slow_fade_height_m : config_.fade_height_m;
@@ -206,7 +207,8 @@ void SlicedMap::fadeAround(int slice, CellIndex cell) {
   if (faded) combine(cell);
 }
 
-/// After a cell of one slice changed from `before` to `now`. Only what has lost weight asks what the others say.
+/// Updates the combined cell after it changed in one slice from `before` to `now`. The other slices are read only if
+/// the cell lost confidence.
 void SlicedMap::combine(CellIndex cell, Cell before, Cell now) {
   const bool lost_weight = occupancy::isOccupied(before)
                                ? now < before

@@ -1,6 +1,6 @@
-// The occupancy map in horizontal slices. A beam of a tilted laser says something about the heights it passes, and only
-// about those: what stands a little lower than the level beams see (a sofa, a half-high wall) is met by a tilted beam
-// now and then, and level beams must not erase it. What may touch the hull is read off the slices at its height.
+// The occupancy map in horizontal slices. A beam of a tilted laser gives evidence for the heights it passes, and only
+// for those. An obstacle a little below the level beams (a sofa, a half-height wall) is hit by a tilted beam now and
+// then, and level beams must not erase it. The map at flight height combines the slices that the hull may touch.
 #pragma once
 
 #include <cstdint>
@@ -17,39 +17,41 @@
 
 namespace swiftlet::perception {
 
-/// What of a scan is drawn, thinned to the grid; (x, y, height over the body) in the level frame.
+/// The part of a scan that is drawn, thinned to the grid: points (x, y, height above the body) in the level frame.
 struct DrawnScan {
   common::Time stamp;
-  double body_height_m = 0.0;  ///< Over the take-off floor.
+  double body_height_m = 0.0;  ///< Above the take-off floor.
   std::vector<Eigen::Vector3f> hits_level_m;
-  std::vector<Eigen::Vector3f> free_level_m;        ///< Ends of views that ended on what is not drawn.
-  std::vector<Eigen::Vector3f> no_returns_level_m;  ///< Ends of views that nothing answered; drawn up to a wall.
+  std::vector<Eigen::Vector3f> free_level_m;        ///< Ends of beams' free parts, where the end itself is not drawn.
+  std::vector<Eigen::Vector3f> no_returns_level_m;  ///< Ends of beams without return; drawn up to a wall.
 };
+/// Thins a scan to the grid and cuts its beams to the height band and the ranges that are drawn.
 DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& config);
 
-/// In each slice, cells where beams end gain, cells that beams cross lose, each at most once a scan. A beam without
-/// return crosses cells only up to what is occupied at flight height, or where another beam of its scan ended: a wall
-/// that is dark, or hit at a grazing angle, swallows beams, so that nothing is known beyond it. Single-threaded; a
-/// snapshot may go to another thread.
+/// In each slice, cells where beams end gain confidence and cells that beams cross lose it, each at most once a scan. A
+/// beam without return crosses cells only up to the first one that is occupied at flight height, or in which another
+/// beam of its scan ended. A wall that is dark, or hit at a grazing angle, returns no beam, so nothing is known behind
+/// it. Not thread-safe; a snapshot may go to another thread.
 class SlicedMap {
  public:
   explicit SlicedMap(const GridDrawingConfig& config);
 
   void draw(const DrawnScan& scan, const common::Pose2& T_map_body);
 
-  /// The height over the take-off floor that the hull's middle is at or will be at; at first that of the first scan.
-  /// True when the map is another one now.
+  /// Sets the height of the hull's middle above the take-off floor. The initial one is that of the first scan. Small
+  /// changes are ignored. Returns true when the map has changed.
   bool setFlightHeight(double height_m);
-  /// What may touch the hull at flight height: occupied where any of the slices there is, free where any was seen free
-  /// and none is occupied.
+  /// What may touch the hull at flight height. A cell is occupied where any of the slices is, and free where at least
+  /// one is free and none is occupied.
   common::OccupancyGrid atFlightHeight() { return combined_.snapshot(); }
   /// A copy that shares its tiles.
   SlicedMap snapshot();
 
  private:
-  /// In cells, with fractions.
+  /// A beam's part in one slice, in cells, with fractions.
   struct Ray {
     Eigen::Vector2d from, to;
+    /// Whether the beam ended here on something.
     bool ended = false;
   };
 
@@ -72,12 +74,12 @@ class SlicedMap {
   std::map<int, common::OccupancyGrid> slices_;
   common::OccupancyGrid combined_;
   double flight_height_m_ = 0.0;
-  int lowest_ = 0;  ///< The slices that are combined.
+  int lowest_ = 0;  ///< Range of the slices that are combined; empty before the first scan.
   int highest_ = -1;
-  int drawn_ = 0;  ///< Scans.
-  // Of the scan being drawn.
+  int drawn_ = 0;  ///< Number of drawn scans.
+  // Working memory for the scan being drawn.
   std::map<int, std::vector<Ray>> rays_;
-  std::vector<common::CellIndex> ended_;  ///< Cells that its beams ended in, at any height; in order.
+  std::vector<common::CellIndex> ended_;  ///< Cells that its beams ended in, at any height; sorted.
   common::CellRect rect_;
   std::vector<std::uint32_t> marks_;
 };

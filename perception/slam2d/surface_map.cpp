@@ -18,17 +18,18 @@ namespace occupancy = common::occupancy;
 constexpr std::uint8_t kViewCrossed = 1, kViewEnded = 2;
 constexpr double kOffsetsPerCell = 254.0;
 constexpr double kNormalLength = 127.0;
-/// A mean normal that is shorter than this share of one is of surfaces of many directions: the hits that it is the mean
-/// of face as many degrees apart as two walls of a corner.
+/// A mean normal shorter than this share of a unit normal is not clear: the normals of its hits differ as much as those
+/// of two walls at a corner.
 constexpr double kClearNormal = 0.75;
 
-/// Of the values before, `count` counting the new one.
+/// The mean updated by a value; `count` includes that value.
 std::int8_t meanWith(std::int8_t mean, double value, int count) {
   const double moved = mean + (value - mean) / count;
   return static_cast<std::int8_t>(std::lround(std::clamp(moved, -127.0, 127.0)));
 }
 
-/// The share of a view that is within the band, from the body, which is, to an end so much higher than the body.
+/// The share of a ray within the band. The ray starts at the body, at height `body_m` within the band, and ends
+/// `height_m` above the body.
 double withinBand(const DrawnHeights& band, double body_m, double height_m) {
   if (band.contains(body_m + height_m)) return 1.0;
   return (height_m > 0.0 ? band.high_m - body_m : band.low_m - body_m) / height_m;
@@ -109,7 +110,7 @@ std::vector<ContourSegment> SurfaceMap::contourAround(const Eigen::Vector2d& mid
   return contour;
 }
 
-/// Marks the cells that the views cross and those they end in; where some do either, the end wins.
+/// Marks the cells that beams cross and the cells that they end in. A cell where beams do both is marked as an end.
 void SurfaceMap::sketch(const SurfaceScan& scan, const Pose2& T_map_body, DrawingBoard& board) const {
   const double scale = 1.0 / config_.grid.resolution_m;
   const Eigen::Vector2d body = scale * T_map_body.position_m();
@@ -144,14 +145,14 @@ void SurfaceMap::sketch(const SurfaceScan& scan, const Pose2& T_map_body, Drawin
     markAt(cellOf(to)) = kViewEnded;
   }
   for (const Eigen::Vector2f& end : scan.free_m) cross(inCells(end));
-  // A wall that is dark, or hit at a grazing angle, swallows beams: what is beyond it is not known to be free.
+  // A wall that is dark, or hit at a grazing angle, returns no beam: nothing is known behind it.
   const auto isWall = [&](const CellIndex& cell) {
     return (markAt(cell) & kViewEnded) != 0 || grid_.at(cell).isOccupied();
   };
   for (const Eigen::Vector2f& end : scan.no_returns_m) cross(beforeWall(body, inCells(end), isWall));
 }
 
-/// Not writing what does not change leaves the tile shared.
+/// Adds to the log-odds of a cell. An unchanged cell is not written, so that its tile stays shared.
 void SurfaceMap::update(CellIndex index, int steps) {
   const SurfaceCell old = grid_.at(index);
   const int sum = (occupancy::isUnknown(old.log_odds) ? 0 : old.log_odds) + steps;

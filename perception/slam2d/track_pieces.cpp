@@ -15,7 +15,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Sets that grow together (union-find).
+/// Disjoint sets (union-find).
 class Groups {
  public:
   explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
@@ -30,7 +30,7 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-/// A map of which more scans than one in so many matched nothing, or lost the track, is not believed.
+/// A map is not trusted when more than one in this many scans matched nothing, or lost the track.
 constexpr std::uint64_t kOneUnmatchedOf = 10;
 constexpr std::uint64_t kOneLostOf = 100;
 
@@ -66,7 +66,7 @@ void TrackPieces::add(const FollowedScan& followed, std::uint64_t keys_before, s
 }
 
 TrackConnection TrackPieces::connection(std::uint64_t keys, std::span<const SlamEdge> edges) const {
-  // First the pieces, then the key scans made while the track was lost: each of these stands for itself.
+  // The members are the pieces, then the key scans. A key scan made while the track was lost is a group of its own.
   const std::size_t pieces = breaks_.size() + 1;
   Groups groups(pieces + keys);
   std::vector<std::size_t> member_of(keys);

@@ -1,6 +1,6 @@
-// Which pieces of a track hold together. Each time the laser odometry is lost and starts anew, a new piece of the track
-// begins, and where it stands relative to the one before is a guess. Loop closures connect pieces, and so does a motion
-// over the gap that is known well enough (wheels). A piece that nothing connects may stand anywhere in the map.
+// Which pieces of a track are connected. Each time the laser odometry is lost and restarts, a new piece of the track
+// begins, and its pose relative to the piece before is a guess. Loop closures connect pieces, and so does a motion over
+// the gap that is known well enough (from wheels). A piece without a connection may be anywhere in the map.
 #pragma once
 
 #include <cstdint>
@@ -15,47 +15,48 @@ namespace swiftlet::perception {
 struct SlamEdge;
 struct FollowedScan;
 
-/// How certain the motion over a gap must be to connect what lies before and after it.
+/// How certain the motion over a gap must be to connect the pieces before and after it.
 struct BridgeConfig {
-  /// As certain as the local match asks for that follows it (Slam2dConfig::local_sigma_m).
+  /// As certain as the local match after the gap requires (Slam2dConfig::local_sigma_m).
   double max_sigma_m = 0.10;
   double max_sigma_deg = 3.0;
 };
 
-/// What holds together, among the pieces that have key scans.
+/// How the pieces that have key scans are connected.
 struct TrackConnection {
-  std::uint64_t breaks = 0;            ///< Times the track was lost and begun anew.
-  std::uint64_t bridged = 0;           ///< Of these, gaps over which the motion is known.
-  std::uint64_t pieces = 1;            ///< With key scans of their own.
-  std::uint64_t unconnected = 0;       ///< Of these, pieces that nothing connects to the largest group.
-  std::uint64_t unconnected_keys = 0;  ///< Key scans of those.
+  std::uint64_t breaks = 0;            ///< Times the track was lost and restarted.
+  std::uint64_t bridged = 0;           ///< Breaks over which the motion is known.
+  std::uint64_t pieces = 1;            ///< Pieces with key scans of their own.
+  std::uint64_t unconnected = 0;       ///< Pieces that nothing connects to the largest group.
+  std::uint64_t unconnected_keys = 0;  ///< Key scans of the unconnected pieces.
 };
 
-/// Why a map made of so many scans is probably wrong; empty when nothing says so. `unmatched` scans matched nothing.
+/// Why a map of this many scans is probably wrong; empty when there is no reason. `unmatched` scans matched nothing.
 std::string whyNotTrusted(std::uint64_t scans, std::uint64_t unmatched, const TrackConnection& track);
 
-/// Follows a track scan by scan. Not thread-safe.
+/// Records the pieces of a track, scan by scan. Not thread-safe.
 class TrackPieces {
  public:
   explicit TrackPieces(const BridgeConfig& config = {}) : config_(config) {}
 
-  /// The next scan; `keys_before` and `keys_after` are how many key scans there were before and after it was added.
+  /// Takes in the next scan. `keys_before` and `keys_after`: numbers of key scans before and after it was added.
   void add(const FollowedScan& followed, std::uint64_t keys_before, std::uint64_t keys_after);
 
-  /// What holds together with these edges between `keys` key scans. Of the edges only loop closures count: a match
-  /// to what lay around the last pose seeks no farther than that pose is uncertain only as long as it is not lost.
+  /// How the pieces are connected by these edges between `keys` key scans. Only loop closures count among the edges: a
+  /// local match searches around the predicted pose, which is wrong by more than the search window once the track is
+  /// lost.
   TrackConnection connection(std::uint64_t keys, std::span<const SlamEdge> edges) const;
 
  private:
   struct Break {
-    std::uint64_t lost_from = 0;  ///< Key scans from this one on are later than the last scan that matched.
-    std::uint64_t first_key = 0;  ///< Key scans from this one on belong to the new piece.
+    std::uint64_t lost_from = 0;  ///< The first key scan added after the last match.
+    std::uint64_t first_key = 0;  ///< The first key scan of the new piece.
     bool bridged = false;
   };
 
   BridgeConfig config_;
   std::vector<Break> breaks_;
-  std::uint64_t matched_keys_ = 0;                            ///< How many there were at the last match.
+  std::uint64_t matched_keys_ = 0;                            ///< Number of key scans at the last match.
   Eigen::Matrix3d gap_covariance_ = Eigen::Matrix3d::Zero();  ///< Of the motion since the last match.
 };
 

@@ -1,5 +1,5 @@
-// Exploration: what is left to see, why each rest is left, and where to look from next. An explorer chooses the
-// viewpoint; the path there is found by a planner.
+// Exploration: which frontiers there are, why some of them are not explored, and where to look from next. An explorer
+// chooses the viewpoint; a planner finds the path to it.
 #pragma once
 
 #include <memory>
@@ -16,47 +16,48 @@
 
 namespace swiftlet::planning {
 
-/// Where to look from.
+/// A pose to look from.
 struct Viewpoint {
   common::Pose2 pose_map;
-  Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();  ///< The unknown place it is for.
+  Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();  ///< The unknown place to be seen.
   double gain_m2 = 0.0;                                    ///< Unknown area expected to be seen.
-  double utility = 0.0;                                    ///< Of several viewpoints the greatest is chosen.
+  double utility = 0.0;                                    ///< The viewpoint with the greatest one is chosen.
 };
 
-/// A look at an unknown place that stayed unknown, and from where.
+/// An attempt to see an unknown place, and the place it was made from.
 struct ExplorationAttempt {
   Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
 };
 
 struct ExplorationInput {
-  std::shared_ptr<const CostMap> cost_map;  ///< Not null. Built at the clearance to be flown; holds the grid's states.
+  std::shared_ptr<const CostMap> cost_map;  ///< Not null. Built with the clearance to be flown; has the grid's states.
   common::Pose2 pose_map;
   std::optional<Viewpoint> current;  ///< The one being flown to; kept unless another is clearly better.
   std::vector<ExplorationAttempt> attempts;
-  std::optional<common::MapBounds> bounds;  ///< What lies outside is left.
+  std::optional<common::MapBounds> bounds;  ///< Frontiers outside are not explored.
 };
 
 struct ExplorationResult {
-  std::vector<common::Frontier> frontiers;  ///< All of them, each with its reason; open ones best first.
-  std::optional<Viewpoint> next;            ///< None when done, or when the vehicle itself is shut in.
-  bool done = false;                        ///< No frontier is open: each has its reason.
-  bool kept_current = false;                ///< `next` goes on with the viewpoint that was given as current.
-  double explored_area_m2 = 0.0;            ///< Of known free cells.
-  std::string reason;                       ///< For people: "4 open frontiers, next 3.2 m away".
+  std::vector<common::Frontier> frontiers;  ///< All, each with its reason; the open ones first, best first.
+  std::optional<Viewpoint> next;            ///< None when done, or when the vehicle cannot leave its place.
+  bool done = false;                        ///< No frontier is open.
+  bool kept_current = false;                ///< `next` is the viewpoint that was given as current.
+  double explored_area_m2 = 0.0;            ///< Area of the known free cells.
+  /// For people, such as "4 open frontiers, next viewpoint (3.2, 1.5) for 2.0 m2".
+  std::string reason;
 };
 
-/// Chooses viewpoints. Constant: what it answers follows from the input alone; run it as a job.
+/// Chooses viewpoints. The result depends on the input only. explore() changes nothing, so it can run as a job.
 class Explorer {
  public:
   virtual ~Explorer() = default;
   [[nodiscard]] virtual ExplorationResult explore(const ExplorationInput& input) const = 0;
-  /// "utility".
+  /// For people, such as "utility".
   virtual const char* name() const = 0;
 };
 
-/// The viewpoint was reached and what is seen from it is in the map.
+/// The attempt to record once the viewpoint was reached and what is seen from it is in the map.
 inline ExplorationAttempt attemptFrom(const Viewpoint& viewpoint) {
   return {viewpoint.target_map_m, viewpoint.pose_map.position_m()};
 }

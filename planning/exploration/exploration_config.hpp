@@ -1,4 +1,4 @@
-// What every explorer is set by.
+// The configuration of every explorer.
 #pragma once
 
 #include "common/config_fwd.hpp"

@@ -1,4 +1,4 @@
-// Which explorer chooses the viewpoints; a system profile chooses it.
+// The explorer that chooses the viewpoints, as a system profile chooses it.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace swiftlet::planning {
 
-/// By what is seen for the time it takes, or the nearest frontier (Yamauchi 1997).
+/// The viewpoint with the greatest gain for its travel time, or the nearest frontier (Yamauchi 1997).
 enum class ExplorerKind { kUtility, kNearestFrontier };
 
 struct ExplorerConfig {

@@ -36,7 +36,7 @@ FrontierSurvey::FrontierSurvey(const ExplorationInput& input, const ExplorationC
   if (escape) field_.spread(map_, escape->back());
 }
 
-/// The frontier with the reasons that can be told from its place alone.
+/// The frontier of a run, with the reasons that depend on its place alone.
 Frontier FrontierSurvey::described(const FrontierRun& run) const {
   Frontier frontier;
   frontier.cells = run.cells;

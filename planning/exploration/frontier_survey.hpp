@@ -1,5 +1,5 @@
-// What every explorer starts from: the frontiers of a map, each open or with the reason why it is left, and the places
-// they are seen from that the vehicle can reach.
+// What every explorer starts from: the frontiers of a map, each open or closed for a reason, and the reachable places
+// from which they are seen.
 #pragma once
 
 #include <optional>
@@ -14,19 +14,20 @@
 
 namespace swiftlet::planning {
 
-/// An open frontier with places that see it, as Scout::lookouts() gives them; at least one.
+/// An open frontier with the places from which it is seen, as Scout::lookouts() gives them; at least one.
 struct SeenFrontier {
   std::size_t number = 0;
   std::vector<Lookout> lookouts;
-  double nearest_m = 0.0;  ///< To the cheapest of them, in metres of open space.
+  double nearest_m = 0.0;  ///< Cost of reaching the cheapest of them, in metres of open space.
 };
 
-/// Of one call of an explorer; refers to its arguments, which must outlive it. One thread.
+/// The survey of one call of an explorer. It refers to the arguments of that call, which must outlive it. Not
+/// thread-safe.
 class FrontierSurvey {
  public:
   FrontierSurvey(const ExplorationInput& input, const ExplorationConfig& config);
 
-  /// There is no path out of where the vehicle is: nothing else may be asked but finish().
+  /// Whether the vehicle cannot leave its place. Then no other member but finish() may be called.
   bool shutIn() const { return shut_in_; }
 
   const CostMap& map() const { return map_; }
@@ -34,21 +35,25 @@ class FrontierSurvey {
   const CostField& field() const { return field_; }
   const FrontierRun& run(std::size_t number) const { return runs_[number]; }
 
-  /// The open frontiers that can be seen, the nearest first; the others are left as unreachable.
+  /// The open frontiers that are seen from a reachable place, the nearest first. The others are closed as unreachable.
   std::vector<SeenFrontier> seenBy(const Scout& scout);
+  /// Closes a frontier for a reason: it will not be explored.
   void leave(std::size_t number, common::FrontierReason reason, const std::string& detail);
+  /// Sets the score by which frontiers are sorted.
   void score(std::size_t number, double score) { frontiers_[number].score = score; }
 
-  /// The number of the frontier, among those given, that the viewpoint being flown to is for: it has a cell within
-  /// `attempt_radius_m` of the target. None when nothing is left there, or when the place cannot be reached any more.
+  /// Of the given frontiers, the one that the current viewpoint is for: the nearest with a cell within
+  /// `attempt_radius_m` of its target. None without a current viewpoint, without such a frontier, or when the viewpoint
+  /// cannot be reached any more.
   std::optional<std::size_t> ofCurrent(const std::vector<std::size_t>& numbers) const;
-  /// The viewpoint being flown to, as it is in this map; only after ofCurrent() gave its frontier.
+  /// The current viewpoint as a lookout in this map. Call it only after ofCurrent() has returned a frontier.
   Lookout currentLookout() const;
 
-  /// Whether one looked from about there already: another look promises more from elsewhere.
+  /// Whether an earlier attempt at the lookout's target was made from about the same place. A view from elsewhere then
+  /// promises more.
   bool lookedFrom(const Lookout& lookout) const;
 
-  /// The answer: the frontiers, what was chosen, the reason in words. The survey is used up.
+  /// The result: the frontiers, the chosen viewpoint, and the reason in words. The survey must not be used afterwards.
   ExplorationResult finish(std::optional<Viewpoint> next, bool kept_current);
 
  private:
@@ -61,7 +66,7 @@ class FrontierSurvey {
   const ExplorationConfig& config_;
   const CostMap& map_;
   std::vector<FrontierRun> runs_;
-  std::vector<common::Frontier> frontiers_;  ///< One for each run.
+  std::vector<common::Frontier> frontiers_;  ///< One for each of runs_.
   CostField field_;
   bool shut_in_ = false;
 };

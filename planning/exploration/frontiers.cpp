@@ -36,7 +36,7 @@ std::vector<CellIndex> flood(const CostMap& map, int seed, std::vector<bool>& wa
   return cells;
 }
 
-/// Sorted along the principal axis; the extent along it is returned, in cells.
+/// Sorts the cells along their principal axis and returns their extent along it, in cells.
 double sortAlongAxis(std::vector<CellIndex>& cells) {
   double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
   for (const CellIndex c : cells) {
@@ -75,7 +75,7 @@ void cut(std::vector<CellIndex> cells, double run_length_m, double segment_cells
 std::vector<FrontierRun> findFrontiers(const CostMap& map, double segment_m) {
   std::vector<bool> waiting(map.size(), false);
   std::vector<int> seeds;
-  // Free cells never lie on the outermost ring: the map has a margin of unknown ones.
+  // No free cell lies on the outermost ring, because the map has a margin of unknown cells.
   for (int index = 0; index < static_cast<int>(map.size()); ++index) {
     if (map.state(index) != CellState::kFree || !touchesUnknown(map, index)) continue;
     waiting[static_cast<std::size_t>(index)] = true;

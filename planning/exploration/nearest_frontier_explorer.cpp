@@ -8,10 +8,10 @@
 namespace swiftlet::planning {
 namespace {
 
-/// Greater for what is nearer, 1 where the vehicle is.
+/// 1 at the vehicle, and less the longer the path is.
 double nearness(double path_m) { return 1.0 / (1.0 + path_m); }
 
-/// The first lookout of a frontier is that of the ring nearest to it.
+/// Lookouts are ordered by rings around the frontier; the first one is in the nearest ring.
 const Lookout& nearestToIt(const SeenFrontier& seen) { return seen.lookouts.front(); }
 
 }  // namespace

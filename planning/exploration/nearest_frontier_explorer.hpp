@@ -1,6 +1,5 @@
-// The simple baseline: flies to the nearest frontier and looks from there (Yamauchi 1997, "A frontier-based approach
-// for autonomous exploration", section 3.2). What is gained there, and whether the laser fixes the pose, does not
-// count.
+// The baseline: it flies to the nearest frontier and looks from there (Yamauchi 1997, "A frontier-based approach for
+// autonomous exploration", section 3.2). It considers neither the gain there nor whether the laser fixes the pose.
 #pragma once
 
 #include "planning/exploration/exploration.hpp"
@@ -8,9 +7,9 @@
 
 namespace swiftlet::planning {
 
-/// The place is the cheapest to reach among those next to the frontier, or as near to it as the hull fits; the heading
-/// is that towards the unknown. A place is kept until it is reached or its frontier is gone. Of the configuration it
-/// uses what frontiers are and when one is left; the gains and weights are not for it.
+/// The viewpoint is the place next to a frontier, or as near to it as the hull fits, that is cheapest to reach. It
+/// faces the unknown. A viewpoint is kept until it is reached or its frontier is gone. Gains and weights of the
+/// configuration have no influence on the choice.
 class NearestFrontierExplorer final : public Explorer {
  public:
   explicit NearestFrontierExplorer(const ExplorationConfig& config) : config_(config) {}

@@ -21,7 +21,7 @@ struct Option {
   double utility = 0.0;
 };
 
-/// One call.
+/// One call of explore().
 class Choice {
  public:
   Choice(const ExplorationInput& input, const ExplorationConfig& config)
@@ -42,7 +42,7 @@ class Choice {
   }
 
  private:
-  /// Looks for viewpoints of the open frontiers, the nearest first.
+  /// Finds viewpoints for the open frontiers, the nearest first.
   void evaluate() {
     for (const SeenFrontier& seen : survey_.seenBy(scout_)) {
       if (static_cast<int>(options_.size()) >= config_.max_evaluated) break;
@@ -56,7 +56,7 @@ class Choice {
     }
   }
 
-  /// The best place to see it from, one from where nobody looked yet before all others.
+  /// The best place to see a frontier from. Places from which no attempt was made come before all others.
   std::optional<Option> bestOf(const SeenFrontier& seen, double& greatest_gain_m2) const {
     std::optional<Option> best;
     bool best_is_new = false;
@@ -72,7 +72,8 @@ class Choice {
     return best;
   }
 
-  /// None of the places that can be reached sees enough of it.
+  /// Closes a frontier of which no reachable place sees enough: as too small if even a view from the frontier itself
+  /// sees too little, otherwise as unreachable.
   void leaveUnseen(std::size_t frontier, double greatest_gain_m2) {
     const std::vector<common::CellIndex>& cells = survey_.run(frontier).cells;
     const double at_it_m2 = scout_.view(cells[cells.size() / 2], 0.0).gain_m2;
@@ -87,8 +88,8 @@ class Choice {
 
   Option optionAt(std::size_t frontier, const Lookout& lookout) const {
     Option option{frontier, lookout, {}, 0.0};
-    const Point travel_m = map_.centerOf(lookout.target) - map_.centerOf(lookout.place);
-    option.view = scout_.view(lookout.place, std::atan2(travel_m.y(), travel_m.x()));
+    const Point towards_target_m = map_.centerOf(lookout.target) - map_.centerOf(lookout.place);
+    option.view = scout_.view(lookout.place, std::atan2(towards_target_m.y(), towards_target_m.x()));
     const double trust = 1.0 - config_.localizability_weight * (1.0 - option.view.localizability);
     option.utility =
         trust * std::pow(option.view.gain_m2, config_.gain_exponent) /
@@ -101,7 +102,7 @@ class Choice {
     return std::max(path_m / config_.speed_m_s, turn_rad / config_.yaw_rate_rad_s);
   }
 
-  /// The viewpoint being flown to stays an option while there is something left to see at its target.
+  /// The current viewpoint stays an option while there is something left to see at its target.
   void reviewCurrent() {
     std::vector<std::size_t> numbers;
     for (const Option& option : options_) numbers.push_back(option.frontier);

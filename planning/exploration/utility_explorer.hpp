@@ -1,6 +1,6 @@
-// Looks where most is seen for the time it takes: frontiers (Yamauchi 1997, used by Saeedi, section III-F), each with
-// the best place to see it from, scored by the unknown area expected there, by the travel time and by how well the
-// laser fixes the pose there (Bachrach 2009, section 5.4).
+// Chooses the viewpoint that shows most for its travel time. Each frontier (Yamauchi 1997, used by Saeedi, section
+// III-F) is given the best place to see it from. Places are scored by the unknown area expected to be seen, by the
+// travel time, and by how well the laser fixes the pose there (Bachrach 2009, section 5.4).
 #pragma once
 
 #include "planning/exploration/exploration.hpp"

@@ -18,7 +18,7 @@ constexpr int kCoarse = 72, kFine = 144, kGainRays = 120;
 constexpr std::array<double, 5> kRings_m{0.6, 1.2, 2.4, 4.8, std::numeric_limits<double>::infinity()};
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
 
-/// The window of headings, as wide as the field of view, with the most gain; near equals are decided by the turn.
+/// The heading whose field of view covers the most gain. Of nearly equal headings the smaller turn decides.
 double bestHeading(const std::array<double, kGainRays>& gains, double field_of_view_rad, double preferred_yaw_rad,
                    double& gain) {
   constexpr double kSpacing_rad = 2.0 * std::numbers::pi / kGainRays, kTurnShare = 0.1;
@@ -83,7 +83,8 @@ View Scout::view(CellIndex place, double preferred_yaw_rad) const {
     const double step_m = ray.step_cells * resolution_m;
     const int max_steps = static_cast<int>(config_.laser_range_m / step_m);
     const int depth_steps = static_cast<int>(config_.gain_depth_m / step_m);
-    int beyond = 0;  // Steps since the known world ended.
+    // Steps since the ray left the known space.
+    int beyond = 0;
     castRay(map_, place, ray, max_steps, [&](int index, int step) {
       const CellState state = map_.state(index);
       if (state == CellState::kOccupied) {

@@ -1,4 +1,4 @@
-// Places from which a frontier is seen, and what a place would see.
+// Places from which a frontier is seen, and what is seen from a place.
 #pragma once
 
 #include <optional>
@@ -11,31 +11,32 @@
 
 namespace swiftlet::planning {
 
-/// What is expected at a place under the best heading.
+/// What is expected to be seen from a place with the best heading.
 struct View {
   double gain_m2 = 0.0;
   double localizability = 0.0;
   double yaw_map_rad = 0.0;
 };
 
-/// A place that sees a frontier, and the unknown cell it sees.
+/// A place from which a frontier is seen, and the unknown cell that is seen.
 struct Lookout {
   common::CellIndex place;
   common::CellIndex target;
-  double path_m = 0.0;  ///< In metres of open space, from the vehicle.
+  double path_m = 0.0;  ///< Cost of the path from the vehicle, in metres of open space.
 };
 
-/// Casts rays over one map. One thread.
+/// Casts rays over one map. Refers to its arguments, which must outlive it. Not thread-safe.
 class Scout {
  public:
   Scout(const CostMap& map, const CostField& from_vehicle, const ExplorationConfig& config);
 
-  /// The cheapest to reach in each of a few rings of distance from the frontier; empty when no place that can be
-  /// reached sees any of it. The laser looks through free cells only.
+  /// For each of a few rings of distance around the frontier, the place that is cheapest to reach. The nearest ring is
+  /// first. Empty when no reachable place sees any of it. A line of sight passes through free cells only.
   std::vector<Lookout> lookouts(const FrontierRun& frontier) const;
 
-  /// Unknown area that would be seen from the place, up to `gain_depth_m` into the unknown, and how well the pose is
-  /// fixed there. Of equal headings the one nearest to `preferred_yaw_rad`.
+  /// The unknown area that would be seen from the place, up to `gain_depth_m` into the unknown, how well the laser
+  /// fixes the pose there, and the best heading. Of nearly equal headings the one nearest to `preferred_yaw_rad` is
+  /// best.
   View view(common::CellIndex place, double preferred_yaw_rad) const;
 
  private:

@@ -1,4 +1,5 @@
-// The queue of D* Lite: a 4-ary heap whose vertices know their place, so that any of them can be moved or removed.
+// The priority queue of D* Lite: a 4-ary heap. Each vertex stores its position in the heap, so that it can be moved or
+// removed.
 #include <algorithm>
 
 #include "planning/search/dstar_lite.hpp"

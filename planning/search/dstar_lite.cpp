@@ -59,8 +59,8 @@ void DStarLite::restart(const CostMap& map, int goal) {
   insert(goal, keyOf(goal, vertex));
 }
 
-/// Figure 4, lines 25 to 38, for all edges of all changed cells at once: a changed cell changes its own edges and the
-/// diagonals beside it, all of which start or end among its neighbours.
+/// Figure 4, lines 25 to 38, for all edges of all changed cells at once. A changed cell changes its own edges and the
+/// diagonals beside it. All of these start or end among its neighbours.
 void DStarLite::adoptChanges(const CostMap& map) {
   std::vector<std::int32_t> affected;
   const auto add = [&](std::int32_t index) {

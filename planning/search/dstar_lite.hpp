@@ -1,5 +1,5 @@
-// D* Lite, optimized version (Koenig and Likhachev 2002, figure 4), as Grzonka 2012, section IV-E, plans with: the
-// search of the last plan is repaired where cells changed and when the vehicle has moved.
+// D* Lite, optimized version (Koenig and Likhachev 2002, figure 4), the planner of Grzonka 2012, section IV-E. When
+// cells have changed or the vehicle has moved, it repairs the search of the last plan.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,10 @@
 
 namespace swiftlet::planning {
 
-/// 8-connected, no corner cut, integer costs, everything in arrays over the dense rectangle of the cost map. The same
-/// goal cell keeps the search; another goal, rectangle or resolution starts anew. Costs are compared with those of the
-/// last call, so any map may be given at any time. Costs of paths must stay below 2^30, about 100 km of dear cells.
+/// Neighbours are 8-connected and no corner is cut. Costs are integers, kept in arrays over the dense rectangle of the
+/// cost map. The search is kept for the same goal cell; another goal, rectangle or resolution starts a new one. Each
+/// call compares the costs with those of the last call, so any map may be given at any time. The cost of a path must
+/// stay below 2^30, which is about 100 km of expensive cells.
 class DStarLite final : public Planner {
  public:
   [[nodiscard]] tl::expected<Path, PlanFailure> plan(const CostMap& map, const Eigen::Vector2d& start_map_m,
@@ -28,13 +29,13 @@ class DStarLite final : public Planner {
   static constexpr std::int32_t kInfinity = 1 << 30;
   using Key = std::uint64_t;  ///< (k1, k2) packed: compares as the pair does.
 
-  /// All that is known of a cell; 16 bytes, so that a row of neighbours shares a cache line.
+  /// The state of a cell. 16 bytes, so that a row of neighbours shares a cache line.
   struct Vertex {
     std::int32_t g = kInfinity;
     std::int32_t rhs = kInfinity;
-    std::int32_t place = -1;  ///< In the heap; -1: not in it.
+    std::int32_t place = -1;  ///< Position in the heap; -1: not in it.
     CostMap::Cost cost = CostMap::kLethal;
-    std::uint16_t generation = 0;  ///< Older than generation_: never touched since the restart.
+    std::uint16_t generation = 0;  ///< If older than generation_, not touched since the restart.
   };
   struct Entry {
     Key key;
@@ -76,11 +77,11 @@ class DStarLite final : public Planner {
   std::uint32_t key_offset_ = 0;  ///< k_m of the paper.
   std::uint16_t generation_ = 0;
   std::int32_t step_per_cm_ = 0;
-  std::vector<CostMap::Cost> cost_;      ///< As the search knows them.
-  std::vector<std::int16_t> height_cm_;  ///< The same; empty without levels.
+  std::vector<CostMap::Cost> cost_;      ///< The costs that the search is based on.
+  std::vector<std::int16_t> height_cm_;  ///< The heights that it is based on; empty without levels.
   std::vector<Vertex> vertices_;
   std::vector<Entry> heap_;
-  std::vector<std::uint8_t> marked_;  ///< All zero between calls.
+  std::vector<std::uint8_t> marked_;  ///< Working memory; all zero between calls.
   std::int32_t search_cost_ = 0;
   int expansions_ = 0;
 };

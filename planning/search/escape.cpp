@@ -1,5 +1,5 @@
-// Ways through what the planners must not cross: out of the lethal zone, and as far as it is free towards a goal behind
-// something. One Dijkstra over prices that keep off what cannot be crossed as long as there is another way.
+// Paths through cells that the planners must not cross: out of the lethal zone, and towards a goal behind an
+// obstruction. Both are a Dijkstra search with prices that avoid such cells as long as there is another path.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -14,8 +14,9 @@ namespace {
 using common::CellIndex;
 using common::CellRect;
 
-/// The cheapest chain within the window from the start to the first cell that is an end. `price` is that of a straight
-/// step from a cell to its neighbour; none: it may not be taken.
+/// The cheapest chain of cells within the window from the start to the first cell with isEnd(cell). `price` is that of
+/// a straight step from a cell to its neighbour; none: the step is forbidden. A diagonal step costs sqrt(2) times as
+/// much.
 std::optional<CellPath> cheapest(const CellRect& window, CellIndex start,
                                  const std::function<std::optional<double>(CellIndex, CellIndex)>& price,
                                  const std::function<bool(CellIndex)>& isEnd) {
@@ -72,7 +73,7 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
       case CellState::kUnknown:
         return kUnknown;
       case CellState::kOccupied:
-        // Where the hull is, nothing else can be: the map is wrong there.
+        // The hull is at this cell, so nothing else can be: the map is wrong.
         if (from_start_m <= map.footprint().hull_radius_m) return kOccupied;
     }
     return std::nullopt;
@@ -82,23 +83,25 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
 }
 
 std::optional<BlockedWay> blockedWay(const CostMap& map, CellIndex start, CellIndex goal) {
-  // Who squeezes past something, or waits for it to go, is nearer than who flies through a wall.
+  // A lethal cell that is not occupied is much cheaper than an occupied one: it may be a narrow gap, or a person who
+  // will leave.
   constexpr double kNarrow = 4.0, kOccupied = 200.0;
   const std::optional<CellPath> escape = escapeFrom(map, start);
   if (!escape || !map.contains(goal)) return std::nullopt;
   const auto isLethal = [&](CellIndex cell) { return map.costAt(cell) == CostMap::kLethal; };
   const auto price = [&](CellIndex from, CellIndex to) -> std::optional<double> {
     if (map.stateAt(to) == CellState::kUnknown) return std::nullopt;
-    const bool diagonal = from.x != to.x && from.y != to.y;  // The planners cut no corner either.
+    // Like the planners, this cuts no corner.
+    const bool diagonal = from.x != to.x && from.y != to.y;
     if (diagonal && (isLethal({from.x, to.y}) || isLethal({to.x, from.y}))) return std::nullopt;
     if (!isLethal(to)) return 1.0;
     return map.stateAt(to) == CellState::kOccupied ? kOccupied : kNarrow;
   };
-  const std::optional<CellPath> way =
+  const std::optional<CellPath> path =
       cheapest(map.rect(), escape->back(), price, [&](CellIndex cell) { return cell == goal; });
-  if (!way) return std::nullopt;
-  const auto lethal = std::find_if(way->begin(), way->end(), isLethal);
-  if (lethal == way->end()) return std::nullopt;
+  if (!path) return std::nullopt;
+  const auto lethal = std::find_if(path->begin(), path->end(), isLethal);
+  if (lethal == path->end()) return std::nullopt;
   return BlockedWay{*std::prev(lethal), *lethal};
 }
 

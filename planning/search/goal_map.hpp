@@ -1,4 +1,4 @@
-// The cost map as goals are judged by it (common/goal.hpp).
+// The cost map as the GoalMap by which goals are judged (common/goal.hpp).
 #pragma once
 
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace swiftlet::planning {
 
-/// A view: the cost map must outlive it. At the clearance the cost map was made for, a place is free exactly where the
-/// planners may go. At a smaller one only obstacles count, at a greater one obstacles farther than CostMap::reach_m()
-/// are not seen; what is accepted too easily there the planner refuses later.
+/// A view: the cost map must outlive it. At the clearance that the cost map was made for, a place is free exactly where
+/// the planners may go. At a smaller clearance only obstacles count. At a greater one, obstacles farther than
+/// CostMap::reach_m() are ignored. A goal accepted too easily in these cases is refused later by the planner.
 class CostGoalMap final : public common::GoalMap {
  public:
   explicit CostGoalMap(const CostMap& map) : map_(map) {}
@@ -22,7 +22,7 @@ class CostGoalMap final : public common::GoalMap {
   const CostMap& map_;
 };
 
-/// The same, which keeps the cost map. Null for null.
+/// A CostGoalMap that shares ownership of the cost map. Null for null.
 std::shared_ptr<const common::GoalMap> goalMapOf(std::shared_ptr<const CostMap> map);
 
 }  // namespace swiftlet::planning

@@ -1,4 +1,4 @@
-// From a chain of cells to a path: costs of segments and shortcuts that never raise the risk.
+// From a chain of cells to a path: costs of segments, and shortcuts that never raise the risk.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,11 +11,11 @@ namespace {
 using common::CellIndex;
 using Point = Eigen::Vector2d;
 
-/// The polyline of the cells with its cost up to each vertex; the ends are the exact start and goal.
+/// The polyline through the cells, with the cost up to each vertex. Its ends are the exact start and goal.
 struct Chain {
   std::vector<Point> points_m;
   std::vector<double> cost_m;            ///< From the first vertex to this one.
-  std::vector<CostMap::Cost> cell_cost;  ///< Greatest met on the segment that ends here.
+  std::vector<CostMap::Cost> cell_cost;  ///< Greatest cell cost on the segment that ends here.
 };
 
 Chain chainOf(const CostMap& map, std::vector<Point> points_m) {
@@ -37,7 +37,7 @@ bool mayShortcut(const CostMap& map, const Chain& chain, std::size_t from, std::
          *std::max_element(begin + static_cast<std::ptrdiff_t>(from) + 1, begin + static_cast<std::ptrdiff_t>(to) + 1);
 }
 
-/// The farthest vertex found by doubling and halving that `from` may go to straight.
+/// The farthest vertex found, by doubling and bisection, to which there is a straight shortcut from `from`.
 std::size_t farthest(const CostMap& map, const Chain& chain, std::size_t from) {
   const std::size_t last = chain.points_m.size() - 1;
   std::size_t good = from + 1, bad = last + 1;
@@ -69,7 +69,8 @@ std::vector<Point> pulled(const CostMap& map, const std::vector<Point>& points_m
 }  // namespace
 
 SegmentCost segmentCost(const CostMap& map, const Point& from_map_m, const Point& to_map_m) {
-  // Amanatides and Woo 1987: t runs from 0 to 1, `next` is where the segment crosses the next border in x and y.
+  // Amanatides and Woo 1987: t runs from 0 to 1; `next` is the t at which the segment crosses the next border in x and
+  // in y.
   constexpr double kInfinity = std::numeric_limits<double>::infinity(), kCorner = 1e-9;
   const Point step_m = to_map_m - from_map_m;
   const double length_m = step_m.norm(), resolution_m = map.resolution_m();
@@ -100,7 +101,7 @@ SegmentCost segmentCost(const CostMap& map, const Point& from_map_m, const Point
     t = std::max(t, t_next);
     const bool over_x = next.x() <= next.y() + kCorner, over_y = next.y() <= next.x() + kCorner;
     if (over_x && over_y) {
-      // Through a corner: the cells beside it are touched too.
+      // The segment crosses a corner, so it also touches the cells beside it.
       visit({cell.x + sign_x, cell.y}, 0.0);
       visit({cell.x, cell.y + sign_y}, 0.0);
     }

@@ -15,14 +15,15 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// The share of the way from a to b at the point nearest to p, in [0, 1].
+/// The fraction of the segment from a to b at which it is nearest to p, in [0, 1].
 double shareNearest(const Point& a, const Point& b, const Point& p) {
   const Point step = b - a;
   const double squared = step.squaredNorm();
   return squared > 0.0 ? std::clamp((p - a).dot(step) / squared, 0.0, 1.0) : 0.0;
 }
 
-/// The cost of what is left; the vehicle's own place and what it has to leave may be lethal, what comes after may not.
+/// The cost of the rest of a plan. It may begin in the lethal zone, which the vehicle must leave; after that, a lethal
+/// segment blocks it.
 struct Rest {
   double cost_m = 0.0;
   std::optional<Point> blocked_map_m;
@@ -98,8 +99,9 @@ bool PlanKeeper::offer(const Path& path, common::Time now, const CostMap& map, c
 
 void PlanKeeper::advanceTo(const Point& position_map_m) {
   const std::vector<Point>& points = path_->points_map_m;
-  constexpr double kSame_m = 1e-9;  // At a corner the segment after it counts.
-  // Only forwards, and not past a place that is farther off than where it stands: a path may pass itself.
+  // At a corner the later segment is chosen.
+  constexpr double kSame_m = 1e-9;
+  // Searches forwards only, and stops where the path leads away from the vehicle: a later part may come close again.
   double best_m = std::numeric_limits<double>::infinity();
   std::size_t best_segment = segment_;
   double best_along = along_;

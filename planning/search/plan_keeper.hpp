@@ -1,5 +1,6 @@
-// A plan is kept until it is invalid or 500 ms old (Grzonka 2012, section IV-E), and is replaced only by one that is
-// clearly better, so that the vehicle does not swing between two ways of equal length.
+// Keeps a plan as long as it is valid. When it is older than 500 ms, it is compared with a new one (Grzonka 2012,
+// section IV-E). It is replaced only by a clearly cheaper one, so that the vehicle does not alternate between two paths
+// of equal length.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,8 @@
 
 namespace swiftlet::planning {
 
-/// One thread. Usage each tick: `if (keeper.check(now, map, position).replan) keeper.offer(planner.plan(...), ...)`.
+/// Not thread-safe. Usage in each tick:
+/// `if (keeper.check(now, map, position).replan) keeper.offer(planner.plan(...), ...)`
 class PlanKeeper {
  public:
   struct Config {
@@ -33,18 +35,18 @@ class PlanKeeper {
 
   explicit PlanKeeper(const Config& config) : config_(config) {}
 
-  /// Looks at what is left of the plan on the present map (with the discs of what moves) and remembers how far the
-  /// vehicle has come along it.
+  /// Checks the rest of the plan on the present map (with the discs of dynamic obstacles), and records how far along it
+  /// the vehicle is.
   Check check(common::Time now, const CostMap& map, const Eigen::Vector2d& position_map_m);
 
-  /// True when the offered plan is taken: there was none, the old is invalid or for another goal, or the new is cheaper
-  /// by more than `better_by`. Either way the kept plan counts as fresh from `now`.
+  /// Offers a new plan. Returns true when it is taken: there was no plan, the old one is invalid or for another goal,
+  /// or the new one is cheaper by more than `better_by`. In any case the age of the kept plan counts from `now`.
   bool offer(const Path& path, common::Time now, const CostMap& map, const Eigen::Vector2d& position_map_m);
 
   void clear();
-  /// The plan as it was taken; null without one.
+  /// The plan as it was offered; null without one.
   const Path* plan() const { return path_ ? &*path_ : nullptr; }
-  /// From the point of the plan nearest to where the vehicle was last seen, to the goal.
+  /// The rest of the plan: from its point nearest to the vehicle's last position to the goal. Empty without a plan.
   std::vector<Eigen::Vector2d> remaining() const;
 
  private:

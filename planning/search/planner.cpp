@@ -31,7 +31,8 @@ const char* toString(PlanFailure::Reason reason) {
 
 std::optional<Point> nearestPlace(const CostMap& map, const Point& point_map_m, double reach_m,
                                   const std::function<bool(CellIndex)>& isSuch) {
-  constexpr double kWithinCell = 0.4;  // From its centre, on either side.
+  // Greatest distance of a place from its cell's centre in x and y, in cells.
+  constexpr double kWithinCell = 0.4;
   const CellIndex center = map.cellAt(point_map_m);
   const int reach = static_cast<int>(std::ceil(reach_m / map.resolution_m()));
   std::optional<Point> best;

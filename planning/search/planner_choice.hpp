@@ -1,4 +1,4 @@
-// Which planner finds the paths to goals and to viewpoints; a system profile chooses.
+// The planner that finds the paths to goals and to viewpoints, as a system profile chooses it.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace swiftlet::planning {
 
-/// D* Lite repairs its last search (Grzonka 2012), the wavefront spreads anew from the vehicle (Saeedi).
+/// D* Lite repairs its last search (Grzonka 2012). The wavefront starts a new search from the vehicle (Saeedi).
 enum class PlannerKind { kDStarLite, kWavefront };
 
 struct PlannerConfig {

@@ -1,5 +1,5 @@
-// The wavefront planner (Saeedi, section III-F): the cost of reaching every cell from one, optimal and without local
-// minima. Also gives exploration its distances.
+// The wavefront planner (Saeedi, section III-F). It computes the cost of reaching every cell from one cell, optimal and
+// without local minima. Exploration uses these costs as distances.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +9,25 @@
 
 namespace swiftlet::planning {
 
-/// The cheapest cost from a source cell to every cell it reaches, exact (equal to Dijkstra).
-/// Buckets as wide as the cheapest edge: cells in one bucket cannot improve each other, so no heap is needed.
+/// The least cost from a source cell to every cell that it reaches; exact (equal to Dijkstra). Cells wait in buckets as
+/// wide as the cheapest edge. Cells in one bucket cannot improve each other, so no heap is needed.
 class CostField {
  public:
   static constexpr std::int32_t kUnreached = INT32_MAX;
 
-  /// Spreads from `source` (not lethal) until everything reachable is settled, or until `until` is when given.
+  /// Computes the costs from `source` (not lethal) until every reachable cell is settled or, if given, `until` is.
   void spread(const CostMap& map, common::CellIndex source, std::optional<common::CellIndex> until = std::nullopt);
 
   std::int32_t at(int index) const { return cost_[static_cast<std::size_t>(index)]; }
   bool reached(int index) const { return at(index) != kUnreached; }
-  /// In metres of open space.
+  /// The cost of a reached cell in metres of open space.
   double cost_m(int index, double resolution_m) const { return at(index) * (resolution_m / CostMap::kStraightMin); }
-  /// From the source to a reached cell.
+  /// The cells of the cheapest path from the source to a reached cell.
   CellPath pathTo(const CostMap& map, common::CellIndex target) const;
 
  private:
   std::vector<std::int32_t> cost_;
-  std::vector<std::uint8_t> from_;  ///< Direction the cell was reached by.
+  std::vector<std::uint8_t> from_;  ///< Direction of the last step to each cell.
   std::vector<std::vector<std::int32_t>> buckets_;
 };
 

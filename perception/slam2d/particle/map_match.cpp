@@ -17,16 +17,17 @@ namespace {
 using common::CellIndex;
 using common::Pose2;
 
-/// Surfaces that face more than this cosine away from the point's own are others: the far side of a wall.
+/// Least cosine between the normals of a point and of its surface. Other surfaces are ignored: the far side of a wall.
 constexpr double kSameSide = 0.5;
-/// The reach shrinks by this factor a step, so that walls that fit at once do not shut out those that do not yet.
+/// The reach shrinks by this factor each step. It starts wide, so that walls that do not fit yet take part too.
 constexpr double kShrink = 0.6;
 /// Steps smaller than this end the search.
 constexpr double kSmallStep_m = 0.0005;
+/// Least lever arm by which rotations are compared with translations.
 constexpr double kLeastLever_m = 0.5;
 constexpr int kDimensions = 3;
 
-/// A surface in the map that a point lies on, or near.
+/// A surface of the map that a point lies on or near.
 struct Surface {
   Eigen::Vector2d point_m, normal;
 };
@@ -45,11 +46,11 @@ class Matching {
   MapMatch run() const;
 
  private:
-  /// How the scan lies on the map, seen from one pose.
+  /// How the scan fits the map at one pose.
   struct View {
     NormalEquations equations;
-    double log_sum = 0.0;          ///< Of the likelihoods of the points looked at.
-    double beams_per_point = 1.0;  ///< So many stand behind each.
+    double log_sum = 0.0;          ///< Of the log-likelihoods of the evaluated points.
+    double beams_per_point = 1.0;  ///< Beams that each evaluated point stands for.
   };
 
   std::optional<Surface> surfaceIn(CellIndex index, const Eigen::Vector2d& normal) const;
@@ -59,8 +60,8 @@ class Matching {
   Eigen::Vector3d offset(const Pose2& pose) const;
   double motionTrust(const Pose2& pose) const;
   Eigen::Matrix3d scanInformation(const NormalEquations& equations, double residual2_m2) const;
-  Pose2 settle(double reach_m) const;
-  MapMatch verdict(const Pose2& pose) const;
+  Pose2 refine(double reach_m) const;
+  MapMatch evaluate(const Pose2& pose) const;
 
   const SurfaceMap& map_;
   const std::vector<OrientedPoint>& points_;
@@ -78,7 +79,7 @@ std::optional<Surface> Matching::surfaceIn(CellIndex index, const Eigen::Vector2
   return Surface{map_.surface_m(index, cell), facing.normalized()};
 }
 
-/// The nearest one on the line through the point along its normal.
+/// The nearest surface on the line through the point along its normal.
 std::optional<Surface> Matching::surfaceAlong(const Eigen::Vector2d& at_m, const Eigen::Vector2d& normal,
                                               double reach_m) const {
   const double step_m = map_.resolution_m();
@@ -95,7 +96,7 @@ std::optional<Surface> Matching::surfaceAlong(const Eigen::Vector2d& at_m, const
   return std::nullopt;
 }
 
-/// The nearest one in the cell of the point and those around it.
+/// The nearest surface in the cell of the point and in the cells around it.
 std::optional<Surface> Matching::surfaceNear(const Eigen::Vector2d& at_m, const Eigen::Vector2d& normal) const {
   const CellIndex middle = map_.cellAt(at_m);
   std::optional<Surface> nearest;
@@ -141,14 +142,15 @@ Eigen::Vector3d Matching::offset(const Pose2& pose) const {
           common::wrapAngle(pose.yaw_rad - prior_.T_map_body.yaw_rad)};
 }
 
-/// The weight of the motion's Gaussian that stands in for its Student t: little, where it was evidently wrong.
+/// The weight of a Gaussian that replaces the motion's Student t distribution: small where the motion was clearly
+/// wrong.
 double Matching::motionTrust(const Pose2& pose) const {
   const Eigen::Vector3d off = offset(pose);
   const double freedom = config_.motion_freedom;
   return std::min(1.0, (freedom + kDimensions) / (freedom + off.dot(information_ * off)));
 }
 
-/// Of (x_m, y_m, yaw_rad), with points that are so far off the surfaces.
+/// The information of (x_m, y_m, yaw_rad) from points with this mean squared distance from the surfaces.
 Eigen::Matrix3d Matching::scanInformation(const NormalEquations& e, double residual2_m2) const {
   Eigen::Matrix3d curvature;
   curvature << e.xx, e.xy, e.xt, e.xy, e.yy, e.yt, e.xt, e.yt, e.tt;
@@ -156,8 +158,8 @@ Eigen::Matrix3d Matching::scanInformation(const NormalEquations& e, double resid
   return units.asDiagonal() * curvature * units.asDiagonal() / (residual2_m2 * config_.covariance_scale);
 }
 
-/// Gauss-Newton from where the motion leads, with a reach that shrinks.
-Pose2 Matching::settle(double reach_m) const {
+/// Gauss-Newton from the predicted pose, with a reach that shrinks.
+Pose2 Matching::refine(double reach_m) const {
   const double residual2_m2 = config_.residual_m * config_.residual_m;
   Pose2 pose = prior_.T_map_body;
   for (int i = 0; i < config_.iterations; ++i) {
@@ -176,7 +178,7 @@ Pose2 Matching::settle(double reach_m) const {
   return pose;
 }
 
-MapMatch Matching::verdict(const Pose2& pose) const {
+MapMatch Matching::evaluate(const Pose2& pose) const {
   const View view = viewFrom(pose, config_.support_m);
   const NormalEquations& e = view.equations;
   const double residual2_m2 = std::max(e.squares_m2 / std::max(e.count, 1), config_.residual_m * config_.residual_m);
@@ -192,11 +194,12 @@ MapMatch Matching::verdict(const Pose2& pose) const {
   return match;
 }
 
-/// Most often the motion is right. Where the scan then does not lie on the map it may have slipped, or the map is new.
+/// Usually the predicted motion is right, and a search near it is enough. If the scan then lacks support, the motion
+/// has slipped or the area is new: a wide search is tried too, and the likelier result is returned.
 MapMatch Matching::run() const {
-  MapMatch near = verdict(settle(config_.support_m));
+  MapMatch near = evaluate(refine(config_.support_m));
   if (near.support > config_.enough_support) return near;
-  const MapMatch far = verdict(settle(config_.reach_m));
+  const MapMatch far = evaluate(refine(config_.reach_m));
   return far.log_likelihood + far.log_motion > near.log_likelihood + near.log_motion ? far : near;
 }
 

@@ -1,7 +1,7 @@
-// A scan matched to the map of a particle, with what the motion before it says: the pose at which both together are
-// most likely, how uncertain it is, and how likely the scan is there. That is the Gaussian proposal and the weight of
-// the improved Rao-Blackwellized filter (Grisetti 2007, section III.B), with the covariance of the laser odometry for
-// the motion (Bachrach 2009, section 5.3).
+// The match of a scan to the map of a particle, fused with the motion before it: the pose at which both together are
+// most likely, its covariance, and the likelihood of the scan there. These are the Gaussian proposal and the weight of
+// the improved Rao-Blackwellized filter (Grisetti 2007, section III.B). The covariance of the motion is that of the
+// laser odometry (Bachrach 2009, section 5.3).
 #pragma once
 
 #include <string>
@@ -35,25 +35,25 @@ struct MapMatchConfig {
   std::vector<std::string> validate() const;
 };
 
-/// Where the scan is expected: T_map_body, and the covariance of its additive errors (x_m, y_m, yaw_rad), axes of map.
+/// The predicted pose of a scan, and the covariance of its additive errors (x_m, y_m, yaw_rad), axes of the map.
 struct MotionPrior {
   common::Pose2 T_map_body;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
 };
 
 struct MapMatch {
-  common::Pose2 T_map_body;                                  ///< The most likely one.
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< About it, of motion and scan together; axes of map.
-  double log_likelihood = 0.0;                               ///< Of the scan in the map there, up to a constant.
-  double log_motion = 0.0;                                   ///< Of the motion that led there; 0: just as expected.
+  common::Pose2 T_map_body;                                  ///< The most likely pose.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< Of the pose, from motion and scan; axes of the map.
+  double log_likelihood = 0.0;                               ///< Of the scan in the map at that pose, up to a constant.
+  double log_motion = 0.0;                                   ///< Of the motion to that pose; 0: exactly as predicted.
   double support = 0.0;                                      ///< Share of the points on a surface of the map.
 };
 
-/// The points of the scan that `matchToMap` takes.
+/// The points of the scan for `matchToMap`.
 std::vector<OrientedPoint> pointsToMatch(const ProjectedScan& scan, const MapMatchConfig& config, double max_gap_m);
 
-/// Without any support the pose is that of the prior. The points are those of `pointsToMatch`; the covariance of the
-/// prior must be positive definite.
+/// Matches a scan, by its points from `pointsToMatch`, to the map. Without support in the map the result is the pose of
+/// the prior. The covariance of the prior must be positive definite.
 MapMatch matchToMap(const SurfaceMap& map, const std::vector<OrientedPoint>& points, const MotionPrior& prior,
                     const MapMatchConfig& config);
 
