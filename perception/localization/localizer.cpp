@@ -94,10 +94,10 @@ struct Localizer::Impl {
   bool searching = false;
   std::uint64_t epoch = 0;  ///< Results of a search from an earlier epoch are discarded.
 
+  /// Accumulated odometry of the inputs that were skipped for lack of a pose.
   struct {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     bool interrupted = false;
-  /// Accumulated odometry of the inputs that were skipped for lack of a pose.
   } passed_over;
 
   std::optional<LocalizationEvent> event;

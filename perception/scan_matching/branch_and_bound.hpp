@@ -13,8 +13,8 @@
 
 namespace swiftlet::perception {
 
-/// Rotation k (0 <= k < rotations) is first_yaw_rad + k * step_yaw_rad. Translation (x, y) (0 <= x, y < translations) is
-/// (first_x_m + x * resolution, first_y_m + y * resolution) in the reference frame.
+/// Rotation k (0 <= k < rotations) is first_yaw_rad + k * step_yaw_rad. Translation (x, y) (0 <= x, y < translations)
+/// is (first_x_m + x * resolution, first_y_m + y * resolution) in the reference frame.
 struct PoseGrid {
   double first_x_m = 0.0;
   double first_y_m = 0.0;

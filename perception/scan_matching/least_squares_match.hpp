@@ -35,9 +35,8 @@ struct LeastSquaresMatcherConfig {
 /// Sums over the matched points at one pose. The unknown is (x, y, turn), each in metres of displacement of the points:
 /// `turn` is the rotation times a lever arm.
 struct NormalEquations {
-  double xx = 0.0, xy = 0.0, yy = 0.0, xt = 0.0, yt = 0.0,
-         /// Entries of J'J, where J is the derivative of a point's distance by the unknown.
-         tt = 0.0;
+  /// Entries of J'J, where J is the derivative of a point's distance by the unknown.
+  double xx = 0.0, xy = 0.0, yy = 0.0, xt = 0.0, yt = 0.0, tt = 0.0;
   double x = 0.0, y = 0.0, t = 0.0;  ///< Entries of J'd, where d are the distances.
   double squares_m2 = 0.0;  ///< Sum of d^2.
   int count = 0;
