@@ -29,7 +29,7 @@ struct BeamGroup {
   int beams = 0;
   double distance_below_m = 0.0;  ///< Mean.
   double height_m = 0.0;  ///< Height of the level before this scan.
-  double variance_m2 = 0.0;
+  double variance_m2 = 0.0;  ///< Variance of that height before this scan.
 };
 
 /// Variance of the mean of `averaged` distances to one surface.

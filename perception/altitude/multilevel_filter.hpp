@@ -21,8 +21,8 @@
 //
 // Heights are those of the body origin above the take-off floor, which is level 0, at height 0 without error. The state
 // is that of the time of the last scan. The vehicle's present height comes from the fusion filter, which uses the
-// virtual measurements, and whose estimate may replace the prediction of stage 1. Single-threaded. Deterministic: the
-// result depends only on the order of the given points. No heap use in the steady state.
+// virtual measurements, and whose estimate may replace the prediction of stage 1. Single-threaded. Deterministic for
+// a given order of the points. No heap use in the steady state.
 #pragma once
 
 #include <memory>
