@@ -28,8 +28,8 @@ struct BeamGroup {
   int level = kNoLevel;
   int beams = 0;
   double distance_below_m = 0.0;  ///< Mean.
-  double height_m = 0.0;  ///< Height of the level before this scan.
-  double variance_m2 = 0.0;  ///< Variance of that height before this scan.
+  double height_m = 0.0;          ///< Height of the level before this scan.
+  double variance_m2 = 0.0;       ///< Variance of that height before this scan.
 };
 
 /// Variance of the mean of `averaged` distances to one surface.
@@ -49,7 +49,7 @@ struct GroundScan {
   /// if there is none.
   std::optional<double> distanceToSurface_m(int needed_beams, double gap_m) const;
 
-  std::vector<Beam> beams;  ///< Shortest first.
+  std::vector<Beam> beams;        ///< Shortest first.
   std::vector<BeamGroup> groups;  ///< Sorted by level.
   common::CellIndex center;  ///< Cell at the mean of the measured points; when tilted, this is not below the vehicle.
 };

@@ -5,10 +5,10 @@
 
 namespace swiftlet::perception::altitude {
 namespace {
-constexpr double kBias_m_s2 = 0.08;  ///< Initial bias: the part of gravity that a wrong roll or pitch leaves.
+constexpr double kBias_m_s2 = 0.08;      ///< Initial bias: the part of gravity that a wrong roll or pitch leaves.
 constexpr double kBiasWalk_m_s2 = 0.01;  ///< Per square root of a second.
-constexpr double kRecall_s = 0.15;  ///< recall() goes back by once to twice this time.
-constexpr std::size_t kRing = 512;  ///< 2.5 s at 200 Hz. With later scans, part of the interval is missing.
+constexpr double kRecall_s = 0.15;       ///< recall() goes back by once to twice this time.
+constexpr std::size_t kRing = 512;       ///< 2.5 s at 200 Hz. With later scans, part of the interval is missing.
 /// In a longer gap between scans only the last 0.5 s are predicted; the noise covers the whole gap.
 constexpr double kMaxPrediction_s = 0.5;
 }  // namespace

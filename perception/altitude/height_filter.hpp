@@ -48,7 +48,7 @@ class HeightFilter {
     double up_m_s2 = 0.0;
   };
   struct Belief {
-    common::Time updated;  ///< Time of the last measurement included.
+    common::Time updated;                             ///< Time of the last measurement included.
     Eigen::Vector3d state = Eigen::Vector3d::Zero();  ///< (height_m, velocity_m_s, acceleration_bias_m_s2)
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   };

@@ -99,8 +99,8 @@ void FilterStep::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body
   const double variance = square(config_.ahrs_sigma_deg * kRadPerDeg);
   Linearized<2> m = upDirection(state, up_body, variance);
   if (mahalanobis2(state, m) > square(kAhrsGate)) {
-    // An AHRS is hardly ever wrong by that much, so the filter's attitude is wrong, and with it the bias. A wrong attitude
-    // moves a part of gravity into the horizontal axes and takes almost nothing from the vertical one.
+    // An AHRS is hardly ever wrong by that much, so the filter's attitude is wrong, and with it the bias. A wrong
+    // attitude moves a part of gravity into the horizontal axes and takes almost nothing from the vertical one.
     const double slipped2 = m.residual.squaredNorm();
     auto diagonal = state.covariance.diagonal();
     diagonal.segment<2>(kAttitude).array() += slipped2;

@@ -20,8 +20,8 @@ struct FusionHealth {
 enum class Insertion {
   kTaken,
   kInvalid,  ///< Not finite, covariance not positive definite, or time not after the reference.
-  kTooOld,  ///< Older than the history, or the history is full.
-  kTooNew,  ///< So far ahead of the IMU that the clocks must disagree.
+  kTooOld,   ///< Older than the history, or the history is full.
+  kTooNew,   ///< So far ahead of the IMU that the clocks must disagree.
   /// The reference was never cloned, or its clone was dropped for newer ones and is older than the history. A relative
   /// pose to a clone dropped within the history is kTaken, but has no effect.
   kUnknownReference,

@@ -20,7 +20,7 @@ enum class MeasurementKind : std::uint8_t { kHeight, kVerticalSpeed, kRelativePo
 struct Measurement {
   common::Time stamp;
   MeasurementKind kind = MeasurementKind::kClone;
-  common::Time from;  ///< kRelativePose: time of the cloned reference.
+  common::Time from;                                ///< kRelativePose: time of the cloned reference.
   common::Pose2 pose;                               ///< kRelativePose, kAbsolutePose.
   std::optional<Eigen::Vector2d> unseen_direction;  ///< kRelativePose: in the level frame at `from`.
   double value = 0;                                 ///< kHeight: m; kVerticalSpeed: m/s.

@@ -164,7 +164,7 @@ class GlobalSearch::Descent {
   double step_rad_ = 0.0;
   int distinct_cells_ = 0, distinct_directions_ = 0;
   std::vector<Direction> directions_;
-  std::vector<Block> blocks_;  // A heap; its first element is the next block to examine.
+  std::vector<Block> blocks_;   // A heap; its first element is the next block to examine.
   std::int32_t forgotten_ = 0;  // Highest bound among the blocks dropped for lack of memory.
   std::vector<Place> places_;
   bool complete_ = true;

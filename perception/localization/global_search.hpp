@@ -42,7 +42,7 @@ struct FittingPlace {
 
 struct GlobalSearchResult {
   std::vector<FittingPlace> places;  ///< Best first.
-  bool complete = true;  ///< False if there may be more places.
+  bool complete = true;              ///< False if there may be more places.
 };
 
 /// Immutable; may be called from any thread. Deterministic.

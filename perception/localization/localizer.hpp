@@ -51,8 +51,8 @@ struct LocalizationEstimate {
   common::Pose2 T_map_body;
   /// Covariance of T_map_body: (x_m, y_m, yaw_rad) along the map's axes.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double explained = 0.0;  ///< Share of the scan that the map explains at the pose.
-  int places = 0;  ///< Number of places that explain the scans; 1 when localized.
+  double explained = 0.0;                  ///< Share of the scan that the map explains at the pose.
+  int places = 0;                          ///< Number of places that explain the scans; 1 when localized.
   std::optional<LocalizationEvent> event;  ///< Set when the state changed.
 };
 

@@ -12,8 +12,8 @@ namespace swiftlet::perception {
 struct LikelyPlace {
   common::Pose2 T_grid_points;
   double log_likelihood = 0.0;  ///< In nats, relative to points that are far from every wall.
-  double probability = 0.0;  ///< Relative to the other places.
-  double explained = 0.0;  ///< Share of the points on known cells that have a wall nearby.
+  double probability = 0.0;     ///< Relative to the other places.
+  double explained = 0.0;       ///< Share of the points on known cells that have a wall nearby.
 };
 
 /// Log-likelihood of points at a pose. `point_weight` is the weight of one point; it is less than 1 because

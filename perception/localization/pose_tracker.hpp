@@ -60,7 +60,7 @@ class PoseTracker {
   double generation_path_length_m_ = 0.0, generation_turned_rad_ = 0.0;  ///< Odometer readings at the last generation.
 
   common::Pose2 T_grid_odom_;
-  common::Pose2 T_odom_generation_;  ///< Odometry pose at which the particles are.
+  common::Pose2 T_odom_generation_;                       ///< Odometry pose at which the particles are.
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  ///< Covariance of the particles.
   /// Covariance of the odometry since the last generation, along the axes of the body at that time.
   Eigen::Matrix3d step_covariance_ = Eigen::Matrix3d::Zero();

@@ -23,8 +23,8 @@ struct ScanSupportConfig {
 
 /// How many beams of a scan the map explains. Beams that end on unknown cells carry no information and are left out.
 struct ScanSupport {
-  int beams = 0;  ///< Number of beams examined.
-  int evidence = 0;  ///< Number of those beams that carry information.
+  int beams = 0;           ///< Number of beams examined.
+  int evidence = 0;        ///< Number of those beams that carry information.
   double explained = 0.0;  ///< Share of those beams that end on a wall of the map, with no wall before it.
 };
 

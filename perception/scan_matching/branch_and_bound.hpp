@@ -27,9 +27,9 @@ struct PoseGrid {
 /// The motion prior: the score that a pose loses for its distance from the guess, which is the middle of the grid. The
 /// loss saturates, so that a wrong guess cannot outvote the scene.
 struct GuessPenalty {
-  int greatest = 0;  ///< Upper limit, in units of the score.
+  int greatest = 0;                ///< Upper limit, in units of the score.
   double half_translations = 1.0;  ///< Distance, in grid steps, at which half of `greatest` is lost.
-  double half_rotations = 1.0;  ///< Rotation, in grid steps, at which half of `greatest` is lost.
+  double half_rotations = 1.0;     ///< Rotation, in grid steps, at which half of `greatest` is lost.
 
   int at(double translations2, double rotations) const {
     return greatest == 0 ? 0 : ofShares(translationShare(translations2), rotationShare(rotations));
@@ -112,7 +112,7 @@ class BranchAndBound {
 
   Instructions instructions_;
   const ExcludedPoses* excluded_ = nullptr;  // Set only during searchElsewhere().
-  int steps_per_turn_ = 0;  // Rotation steps in a full turn; valid with excluded_.
+  int steps_per_turn_ = 0;                   // Rotation steps in a full turn; valid with excluded_.
   GuessPenalty penalty_;
   std::vector<float> x_m_, y_m_;
   std::vector<Rotation> rotations_;

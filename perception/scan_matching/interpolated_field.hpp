@@ -10,7 +10,7 @@
 namespace swiftlet::perception {
 
 struct FieldSample {
-  double value = 0.0;  ///< In (0, 1]; 1 on a contour.
+  double value = 0.0;                                   ///< In (0, 1]; 1 on a contour.
   Eigen::Vector2d slope_1_m = Eigen::Vector2d::Zero();  ///< Exact derivative of `value`, per metre.
 };
 

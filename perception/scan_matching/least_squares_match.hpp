@@ -38,7 +38,7 @@ struct NormalEquations {
   /// Entries of J'J, where J is the derivative of a point's distance by the unknown.
   double xx = 0.0, xy = 0.0, yy = 0.0, xt = 0.0, yt = 0.0, tt = 0.0;
   double x = 0.0, y = 0.0, t = 0.0;  ///< Entries of J'd, where d are the distances.
-  double squares_m2 = 0.0;  ///< Sum of d^2.
+  double squares_m2 = 0.0;           ///< Sum of d^2.
   int count = 0;
   /// Derivative of J'd by the attitude error, per radian. The columns are for tilts that displace the points along the
   /// x and y axes of the reference. Needed only at the final pose.

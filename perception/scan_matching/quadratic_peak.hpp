@@ -23,8 +23,8 @@ struct PeakScale {
   /// (x_m, y_m, yaw_rad). One step along each axis moves the points by about the same distance.
   Eigen::Vector3d step = Eigen::Vector3d::Ones();
   double information_per_curvature = 1.0;  ///< In 1 / m^2, for a displacement of the points.
-  double unobservable_sigma_m = 0.0;  ///< A less certain direction is unobservable.
-  double reach_steps = 0.0;  ///< The quadratic is valid only this far from u = 0.
+  double unobservable_sigma_m = 0.0;       ///< A less certain direction is unobservable.
+  double reach_steps = 0.0;                ///< The quadratic is valid only this far from u = 0.
 };
 
 /// The peak relative to u = 0, along the axes of the reference frame.
@@ -32,7 +32,7 @@ struct Peak {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< (x_m, y_m, yaw_rad)
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   std::optional<Eigen::Vector2d> unobservable_direction;
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< Gradient of the quadratic, per step.
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();          ///< Gradient of the quadratic, per step.
   Eigen::Matrix3d peak_of_gradient = Eigen::Matrix3d::Zero();  ///< Derivative of the peak (m, m, rad) by that gradient.
 };
 

@@ -15,7 +15,7 @@ namespace swiftlet::perception {
 /// Computed from the scores of the finest level around the best pose of the search.
 class ResolutionMean {
  public:
-  static constexpr int kHalf = 7;  ///< Cells on either side of the best pose.
+  static constexpr int kHalf = 7;       ///< Cells on either side of the best pose.
   static constexpr int kRotations = 4;  ///< Rotation steps on either side of the best pose.
 
   /// To be filled in for each rotation k from -kRotations to kRotations, in the order of sumWindows: rows and columns

@@ -23,8 +23,8 @@ struct MatchResult {
   /// Large, but finite, along unobservable directions.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double quality = 0.0;  ///< Mean score of the matched points, in [0, 1]; 1: all lie on the reference.
-  double overlap = 0.0;         ///< Share of matched points with any support in the reference, in [0, 1].
-  bool failed = true;           ///< Do not use the pose.
+  double overlap = 0.0;  ///< Share of matched points with any support in the reference, in [0, 1].
+  bool failed = true;    ///< Do not use the pose.
   /// The best pose lies at the edge of the window; a wider window may contain a better one.
   bool at_window_edge = false;
   /// Unit vector in the reference frame along which the scene does not constrain the position (a corridor's axis).

@@ -53,7 +53,7 @@ class ScoreGrid {
 
   Instructions instructions_;
   PoseGrid window_;
-  int side_ = 0;  ///< Translations per side, with the margin.
+  int side_ = 0;    ///< Translations per side, with the margin.
   int stride_ = 0;  ///< side_ rounded up to whole strips of kWindowColumns.
   std::vector<std::uint32_t> scores_;
   std::vector<std::int32_t> x_cells_, y_cells_, offsets_;

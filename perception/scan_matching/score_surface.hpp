@@ -36,7 +36,7 @@ Quadratic fitQuadratic(const ScoreSurface& surface);
 /// Parameters that turn curvature into covariance.
 struct SurfaceScale {
   double supported = 1.0;  ///< Points with support at the middle pose.
-  double reach_m = 0.0;  ///< Distance beyond which a point has no support.
+  double reach_m = 0.0;    ///< Distance beyond which a point has no support.
   double covariance_scale = 1.0;
   double unobservable_sigma_m = 0.0;  ///< A less certain direction is unobservable.
 };
