@@ -1,4 +1,5 @@
-// The beams of one scan that met the ground, or what stands on it, and the levels they end on. Private to altitude.
+// The beams of one scan that hit the ground or an object on it, and the levels they are assigned to. Private to
+// altitude.
 #pragma once
 
 #include <optional>
@@ -22,32 +23,35 @@ struct Beam {
   int level = kNoLevel;
 };
 
-/// The beams of one scan that end on one level.
+/// The beams of one scan that are assigned to one level.
 struct BeamGroup {
   int level = kNoLevel;
   int beams = 0;
   double distance_below_m = 0.0;  ///< Mean.
-  double height_m = 0.0;          ///< Of the level, and its variance, as they were before this scan.
-  double variance_m2 = 0.0;
+  double height_m = 0.0;          ///< Height of the level before this scan.
+  double variance_m2 = 0.0;       ///< Variance of that height before this scan.
 };
 
-/// Of the mean of so many distances to one surface.
+/// Variance of the mean of `averaged` distances to one surface.
 double beamVariance_m2(const MultilevelConfig& config, int averaged);
 
-/// No heap use in the steady state: it is read anew for each scan.
+/// Reused for each scan, without heap use in the steady state.
 struct GroundScan {
-  /// Without what has no return. All on no level.
+  /// Reads the beams of a scan. Leaves out beams without a return or longer than 60 m. No beam is assigned to a level
+  /// yet.
   void read(const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points, const LevelStore& store);
-  /// One past the last beam of the surface that begins with this one: beams in order, without a gap between them.
+  /// One past the last beam of the surface that starts with beam `begin`: successive beams without a gap wider than
+  /// `gap_m`.
   std::size_t endOfSurface(std::size_t begin, double gap_m) const;
-  /// Of the beams as they are on levels now.
+  /// Fills `groups` from the present assignment of the beams to levels.
   void group(const LevelStore& store);
-  /// Down to the highest surface that so many beams agree on.
+  /// Distance down to the highest surface that `needed_beams` beams agree on, or all beams if there are fewer; nullopt
+  /// if there is none.
   std::optional<double> distanceToSurface_m(int needed_beams, double gap_m) const;
 
-  std::vector<Beam> beams;        ///< The shortest first.
-  std::vector<BeamGroup> groups;  ///< In order of their levels.
-  common::CellIndex center;       ///< Of what is measured; tilted, that is not below the vehicle.
+  std::vector<Beam> beams;        ///< Shortest first.
+  std::vector<BeamGroup> groups;  ///< Sorted by level.
+  common::CellIndex center;  ///< Cell at the mean of the measured points; when tilted, this is not below the vehicle.
 };
 
 }  // namespace swiftlet::perception::altitude

@@ -5,11 +5,12 @@
 
 namespace swiftlet::perception::altitude {
 namespace {
-constexpr double kBias_m_s2 = 0.08;       ///< Before anything is learned; what a wrong horizon leaves of gravity.
-constexpr double kBiasWalk_m_s2 = 0.01;   ///< Per square root of a second.
-constexpr double kRecall_s = 0.15;        ///< A belief that is recalled is once to twice this old.
-constexpr std::size_t kRing = 512;        ///< 2.5 s at 200 Hz: later scans find a shorter stretch.
-constexpr double kMaxPrediction_s = 0.5;  ///< Longer gaps between scans are predicted as if this long, with the noise.
+constexpr double kBias_m_s2 = 0.08;      ///< Initial bias: the part of gravity that a wrong roll or pitch leaves.
+constexpr double kBiasWalk_m_s2 = 0.01;  ///< Per square root of a second.
+constexpr double kRecall_s = 0.15;       ///< recall() goes back by once to twice this time.
+constexpr std::size_t kRing = 512;       ///< 2.5 s at 200 Hz. With later scans, part of the interval is missing.
+/// In a longer gap between scans only the last 0.5 s are predicted; the noise covers the whole gap.
+constexpr double kMaxPrediction_s = 0.5;
 }  // namespace
 
 HeightFilter::HeightFilter(double acceleration_noise_m_s2)
@@ -43,7 +44,7 @@ void HeightFilter::predictTo(common::Time time) {
   while (count_ > 0) {
     const Acceleration& next = ring_[first_];
     last_m_s2 = next.up_m_s2;
-    if (next.stamp > time) break;  // Kept: the next scan needs it again.
+    if (next.stamp > time) break;  // Kept, because the next scan needs it again.
     if (next.stamp > at) {
       predict((next.stamp - at).seconds(), next.up_m_s2);
       at = next.stamp;
@@ -52,7 +53,8 @@ void HeightFilter::predictTo(common::Time time) {
     --count_;
   }
   if (at < time) predict((time - at).seconds(), last_m_s2);
-  // One error for the whole stretch: accelerometer noise is white, what hurts is a wrong horizon and a wrong bias.
+  // One constant error for the whole interval: the white noise of the accelerometer matters less than a wrong roll,
+  // pitch or bias.
   const Eigen::Vector3d effect(0.5 * whole_s * whole_s, whole_s, 0.0);
   for (Belief* belief : {&now_, &before_, &long_before_}) {
     belief->covariance += acceleration_noise_m_s2_ * acceleration_noise_m_s2_ * effect * effect.transpose();
@@ -75,7 +77,8 @@ void HeightFilter::assume(common::Time time, double height_m, double velocity_m_
   now_.state << height_m, velocity_m_s, 0.0;
   now_.covariance.setZero();
   now_.covariance.topLeftCorner<2, 2>() = covariance;
-  // The error of the reference stands beside it. What is left must not be less than the velocity's error explains.
+  // The variance of the reference is kept separately, so it is subtracted. The rest must not be less than the
+  // correlation with the velocity implies.
   const double explained_m2 = covariance(1, 1) > 0.0 ? covariance(0, 1) * covariance(0, 1) / covariance(1, 1) : 0.0;
   now_.covariance(0, 0) = std::max(covariance(0, 0) - reference_variance_m2_, explained_m2);
   before_ = long_before_ = now_;

@@ -1,6 +1,6 @@
-// Stage 1 of Grzonka 2012, Algorithm 1: the Kalman filter over height and vertical speed (Grzonka 2009, eq. 6 to 8),
-// fed with accelerations that are kept until the late scan that needs them. Beyond the paper it learns the lasting
-// error of the acceleration, so that it need not follow every measurement.
+// Stage 1 of Grzonka 2012, Algorithm 1: the Kalman filter over height and vertical speed (Grzonka 2009, eq. 6 to 8).
+// Accelerations are kept until the scan that needs them arrives. Beyond the paper, the filter estimates the bias of the
+// acceleration, so that it need not follow every height measurement.
 #pragma once
 
 #include <vector>
@@ -17,20 +17,21 @@ class HeightFilter {
 
   void start(common::Time time, double height_m, double height_variance_m2);
   void addAcceleration(common::Time time, double acceleration_up_m_s2);
-  /// In place of predictTo(): what somebody who knows more believes at `time`.
+  /// Replaces the state by the estimate of a better filter at `time`. Call it instead of predictTo().
   void assume(common::Time time, double height_m, double velocity_m_s, const Eigen::Matrix2d& covariance);
-  /// The acceleration between two samples is that of the later one; without samples it is zero.
+  /// Predicts with the accelerations. Between two samples the later one is used; without samples the acceleration is
+  /// zero.
   void predictTo(common::Time time);
   void update(double height_m, double variance_m2);
   void updateVelocity(double velocity_m_s, double variance_m2_s2);
-  /// Back to what was believed some tenths of a second ago, moved on by the accelerations alone: for when the last
-  /// updates turn out to have been of something else.
+  /// Restores the estimate from some tenths of a second ago, predicted to now by the accelerations alone. For use when
+  /// the last updates were of a wrong surface.
   void recall();
-  /// The error of what the height is measured against: the same from update to update, so that averaging does not make
-  /// it smaller. It stands beside the filter's own covariance and does not make the filter follow.
+  /// Variance of the level that the height is measured against. Its error is the same in all updates, so averaging does
+  /// not reduce it. It is kept separately from the filter's own covariance and does not affect the gain.
   void setReferenceVariance(double variance_m2) { reference_variance_m2_ = variance_m2; }
 
-  /// Nothing is measured against it any more: its error is the filter's own.
+  /// Ends the measurement against a level: the variance of the reference becomes part of the filter's own.
   void dropReference();
 
   common::Time stamp() const { return stamp_; }
@@ -38,7 +39,7 @@ class HeightFilter {
   double velocity_m_s() const { return now_.state[1]; }
   double referenceVariance_m2() const { return reference_variance_m2_; }
   double ownVariance_m2() const { return now_.covariance(0, 0); }
-  /// The error of the reference included.
+  /// Covariance of (height_m, velocity_m_s), including the variance of the reference.
   Eigen::Matrix2d covariance() const;
 
  private:
@@ -47,8 +48,8 @@ class HeightFilter {
     double up_m_s2 = 0.0;
   };
   struct Belief {
-    common::Time updated;                             ///< Nothing measured later is in it.
-    Eigen::Vector3d state = Eigen::Vector3d::Zero();  ///< (height_m, velocity_m_s, error of the acceleration_m_s2)
+    common::Time updated;                             ///< Time of the last measurement included.
+    Eigen::Vector3d state = Eigen::Vector3d::Zero();  ///< (height_m, velocity_m_s, acceleration_bias_m_s2)
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   };
   void predict(double dt_s, double acceleration_up_m_s2);

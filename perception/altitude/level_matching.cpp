@@ -12,7 +12,8 @@ using common::square;
 
 namespace {
 
-constexpr double kFarBelow_sigma = 8.0;  // An unsure height is likelier than a step down from the floor.
+// Beyond the gate, an error of the height is likelier than a step down from the floor.
+constexpr double kFarBelow_sigma = 8.0;
 
 bool isBelow(const Neighbourhood& known, const LevelEstimate& level) {
   return level.seen && (known.now - level.last.stamp).seconds() <= known.config.enter_after_s &&
@@ -36,11 +37,11 @@ int likeliestLevel(const Neighbourhood& known, double distance_below_m, int aver
     const LevelEstimate& level = known.store.at(id);
     if (known_below && !isBelow(known, level)) continue;
     const double residual_m = height.height_m() - level.height_m - distance_below_m;
-    // The error of a level that the height is already measured against is in both.
+    // If the height is already measured against the level, both share the level's error.
     const double level_m2 = known_below ? std::max(0.0, level.variance_m2 - height.referenceVariance_m2())
                                         : level.variance_m2 + height.referenceVariance_m2();
     const double variance_m2 = height.ownVariance_m2() + level_m2 + beamVariance_m2(config, averaged);
-    // Nothing lies just below the take-off floor: what seems to is the floor, and the height is wrong.
+    // Nothing lies just below the take-off floor: a surface that seems to is the floor, and the height is wrong.
     const bool sunk_floor = !known_below && config.one_floor && id == kFloor && residual_m < 0.0 &&
                             residual_m > -std::max(config.least_step_down_m, kFarBelow_sigma * std::sqrt(variance_m2));
     if (square(residual_m) > best * variance_m2 && !(sunk_floor && likeliest == kNoLevel)) continue;

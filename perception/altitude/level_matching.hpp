@@ -1,4 +1,4 @@
-// Which of the known levels the beams of a scan met (Grzonka 2012, Algorithm 1, line 5). Private to altitude.
+// Assigns the beams of a scan to known levels (Grzonka 2012, Algorithm 1, line 5). Private to altitude.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace swiftlet::perception::altitude {
 
 inline constexpr int kFloor = 0;
 
-/// What is known about the place of a scan, for as long as a question takes.
+/// References to what is known at the place of a scan. Valid only during one call.
 struct Neighbourhood {
   const MultilevelConfig& config;
   const HeightFilter& height;
@@ -22,15 +22,16 @@ struct Neighbourhood {
   common::Time now;
 };
 
-/// The less sure the height is, the likelier is what lies within its gate something else.
+/// Whether a level explains a residual better than an unknown surface would. The more uncertain the height, the
+/// likelier an unknown surface within its gate.
 bool likelierThanUnknown(const MultilevelConfig& config, int id, double residual_m, double variance_m2);
 
-/// The likeliest of the levels nearby that could be what `averaged` beams met at this distance. `known_below`: of those
-/// that were below in the last scans already.
+/// The likeliest of the nearby levels that could have been hit by `averaged` beams at this mean distance; kNoLevel if
+/// there is none. With `known_below`, only levels that were below the vehicle in the last scans.
 int likeliestLevel(const Neighbourhood& known, double distance_below_m, int averaged, bool known_below);
 
-/// The levels below that could have generated a beam; each beam takes the likeliest. A surface whose middle is on no
-/// level is not on one with its edge either: over a slope, that edge would take the height along.
+/// Assigns each beam to the likeliest level below the vehicle. If the middle of a surface is on no level, none of its
+/// beams is assigned: over a slope, its edge would otherwise pull the height.
 void matchBeams(const Neighbourhood& known, GroundScan& scan);
 
 }  // namespace swiftlet::perception::altitude

@@ -1,4 +1,4 @@
-// The levels and the cells they cover, with a grid that answers which levels lie near a place.
+// Stores the levels and the cells they cover, with a grid for finding the levels near a place.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace swiftlet::perception::altitude {
 
-/// What the beams of one scan said of one level.
+/// The measurement of one level by the beams of one scan.
 struct LevelSight {
   common::Time stamp;
   double distance_below_m = 0.0;  ///< Mean over the beams.
@@ -25,7 +25,7 @@ struct LevelEstimate {
   std::vector<common::CellIndex> cells;  ///< Sorted.
   bool seen = false;
   LevelSight last;
-  // Since it was entered: whether what is measured here behaves as something flat would.
+  // Sums since the level was entered, to test whether the surface is flat.
   int innovations = 0;
   double innovation_sum_m = 0.0;
   double innovation_variance_m2 = 0.0;
@@ -42,19 +42,20 @@ class LevelStore {
   explicit LevelStore(double resolution_m);
 
   void clear();
-  /// The id is the order of creation.
+  /// Adds a level and returns its id; ids count up from 0.
   int add(double height_m, double variance_m2);
   LevelEstimate& at(int level) { return levels_[static_cast<std::size_t>(resolved(level))]; }
   const LevelEstimate& at(int level) const { return levels_[static_cast<std::size_t>(resolved(level))]; }
 
   common::CellIndex cellAt(const Eigen::Vector2d& position_map_m) const { return heads_.cellAt(position_map_m); }
-  /// True when the level did not cover the cell before.
+  /// Adds a cell to a level. True if the level did not cover the cell before.
   bool extend(int level, common::CellIndex cell);
-  /// The levels with a cell within the distance (square), ascending.
+  /// Finds the levels with a cell within `distance_m` of `center` (a square), in ascending order.
   void near(common::CellIndex center, double distance_m, std::vector<int>& levels) const;
-  /// Whether cells of both levels, within `distance_m` (square) of `center`, come as close as `gap_m`.
+  /// Whether cells of both levels, within `distance_m` (a square) of `center`, are at most `gap_m` apart.
   bool meet(int a, int b, common::CellIndex center, double distance_m, double gap_m) const;
-  /// Both become the older one: Gaussians multiplied, cells united (Grzonka 2012, IV-C).
+  /// Merges both levels into the older one and returns its id: multiplies the Gaussians and unites the cells (Grzonka
+  /// 2012, IV-C).
   int join(int a, int b);
 
   common::LevelMap snapshot() const;
@@ -70,9 +71,9 @@ class LevelStore {
 
   double resolution_m_;
   std::vector<LevelEstimate> levels_;
-  std::vector<int> joined_into_;  ///< Itself while it lives.
+  std::vector<int> joined_into_;  ///< For each id the level it was merged into, or itself.
   std::vector<Entry> entries_;
-  common::TiledGrid<std::int32_t> heads_;  ///< First entry of each cell, -1 for none.
+  common::TiledGrid<std::int32_t> heads_;  ///< First entry of each cell; -1 for none.
 };
 
 }  // namespace swiftlet::perception::altitude

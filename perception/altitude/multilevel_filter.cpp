@@ -21,13 +21,14 @@ using common::Time;
 
 namespace {
 
-/// What a level just entered says of the vehicle, until the one who gives the prior has heard of it.
-struct Claim {
+/// The correction of a prior by a level that was just entered. It is applied to each prior until the fusion filter,
+/// which provides the prior, has received the measurement itself.
+struct PriorCorrection {
   int level = kNoLevel;
   Time since;
-  double height_m = 0.0;  ///< To be added to the prior.
+  double height_m = 0.0;  ///< To be added to the prior's height.
   double velocity_m_s = 0.0;
-  Eigen::Matrix2d covariance;  ///< Of the two, once corrected.
+  Eigen::Matrix2d covariance;  ///< Of height and velocity after the correction.
 };
 
 }  // namespace
@@ -35,12 +36,12 @@ struct Claim {
 struct MultilevelFilter::Impl {
   explicit Impl(const Config& c) : config(c), height(c.acceleration_noise_m_s2), store(c.resolution_m) {}
 
-  // Algorithm 1, in its order.
+  // The steps of Algorithm 1, in its order.
   void matchBeams();
   bool leftALevel() const;
   void assume(const HeightState& prior);
-  void forgetTheLast();
-  std::optional<VirtualHeight> settled();
+  void undoLastUpdates();
+  std::optional<VirtualHeight> takeConfirmed();
   void distrustSlopes();
   std::optional<VirtualHeight> updateHeight();
   void addNewLevels(AltitudeUpdate& outcome);
@@ -59,13 +60,13 @@ struct MultilevelFilter::Impl {
   HeightFilter height;
   LevelStore store;
   std::vector<NewSurface> new_surfaces;
-  std::deque<VirtualHeight> settling;
-  std::optional<Claim> claimed;
+  std::deque<VirtualHeight> pending;
+  std::optional<PriorCorrection> correction;
   HeightState state;
   bool initialized = false;
   std::uint64_t version = 0;
 
-  // Of the present scan.
+  // State of the present scan.
   Time now;
   GroundScan scan;
   std::vector<int> near;
@@ -73,7 +74,7 @@ struct MultilevelFilter::Impl {
   bool changed = false;
 };
 
-/// Line 5: the levels below that could have generated a beam.
+/// Line 5: assigns the beams to the levels below.
 void MultilevelFilter::Impl::matchBeams() {
   store.near(scan.center, config.neighbourhood_m, near);
   if (config.one_floor && (near.empty() || near.front() != kFloor)) near.insert(near.begin(), kFloor);
@@ -87,43 +88,45 @@ bool MultilevelFilter::Impl::leftALevel() const {
   });
 }
 
-void MultilevelFilter::Impl::forgetTheLast() {
+void MultilevelFilter::Impl::undoLastUpdates() {
   height.recall();
-  settling.clear();
-  if (claimed) store.at(claimed->level).seen = false;  // To be entered anew.
-  claimed.reset();
+  pending.clear();
+  if (correction) store.at(correction->level).seen = false;  // Must be entered again.
+  correction.reset();
 }
 
 void MultilevelFilter::Impl::assume(const HeightState& prior) {
-  if (!claimed) return height.assume(now, prior.height_m, prior.velocity_m_s, prior.covariance);
-  const double since_s = (now - claimed->since).seconds();
+  if (!correction) return height.assume(now, prior.height_m, prior.velocity_m_s, prior.covariance);
+  const double since_s = (now - correction->since).seconds();
   Eigen::Matrix2d moved;
   moved << 1.0, since_s, 0.0, 1.0;
-  height.assume(now, prior.height_m + claimed->height_m + claimed->velocity_m_s * since_s,
-                prior.velocity_m_s + claimed->velocity_m_s, moved * claimed->covariance * moved.transpose());
+  height.assume(now, prior.height_m + correction->height_m + correction->velocity_m_s * since_s,
+                prior.velocity_m_s + correction->velocity_m_s, moved * correction->covariance * moved.transpose());
 }
 
-std::optional<VirtualHeight> MultilevelFilter::Impl::settled() {
-  if (settling.empty() || (now - settling.front().stamp).seconds() < config.publish_delay_s) return std::nullopt;
-  const VirtualHeight oldest = settling.front();
-  settling.pop_front();
-  if (claimed && oldest.stamp > claimed->since) claimed.reset();
+std::optional<VirtualHeight> MultilevelFilter::Impl::takeConfirmed() {
+  if (pending.empty() || (now - pending.front().stamp).seconds() < config.publish_delay_s) return std::nullopt;
+  const VirtualHeight oldest = pending.front();
+  pending.pop_front();
+  if (correction && oldest.stamp > correction->since) correction.reset();
   return oldest;
 }
 
-/// Over a level the innovations are noise. Over a slope they lean to one side, each within its gate, and the height
-/// would follow them: a level whose innovations add up to more than noise does is left alone for a while.
+/// Over a flat level the innovations are noise. Over a slope they all have one sign, each within its gate, and the
+/// height would follow them. A level is therefore not used for a while after the sum of its innovations exceeds what
+/// noise explains.
 void MultilevelFilter::Impl::distrustSlopes() {
   std::erase_if(scan.groups, [this](const BeamGroup& g) {
     LevelEstimate& level = store.at(g.level);
-    // The error of a claim is one and the same; that of a height that follows its measurements is not.
-    const double same = claimed ? 2.0 * level.innovations + 1.0 : 1.0;
+    // The error of a correction is the same in each innovation, so the variance of their sum grows with the square of
+    // their number. The errors of a height that follows its measurements are independent.
+    const double same = correction ? 2.0 * level.innovations + 1.0 : 1.0;
     ++level.innovations;
     level.innovation_sum_m += g.height_m + g.distance_below_m - height.height_m();
     level.innovation_variance_m2 += same * height.ownVariance_m2() + beamVariance(g.beams);
     if (square(level.innovation_sum_m) <= square(config.slope_sigma) * level.innovation_variance_m2) return false;
     level.forgetInnovations();
-    forgetTheLast();
+    undoLastUpdates();
     level.distrusted_until = now + common::Duration::fromSeconds(config.hold_off_s);
     for (Beam& beam : scan.beams)
       if (beam.level == g.level) beam.level = kNoLevel;
@@ -131,7 +134,7 @@ void MultilevelFilter::Impl::distrustSlopes() {
   });
 }
 
-/// Lines 6 to 11: one virtual measurement of all levels the vehicle is over.
+/// Lines 6 to 11: one virtual measurement from all levels below the vehicle.
 std::optional<VirtualHeight> MultilevelFilter::Impl::updateHeight() {
   if (scan.groups.empty()) return std::nullopt;
   double weights = 0.0, weighted_m = 0.0, white_weights = 0.0, surest_m2 = scan.groups.front().variance_m2;
@@ -148,14 +151,14 @@ std::optional<VirtualHeight> MultilevelFilter::Impl::updateHeight() {
   height.update(weighted_m / weights, white_m2);
   height.setReferenceVariance(surest_m2 + square(config.surface_noise_m));
   VirtualHeight measured{now, weighted_m / weights, white_m2, std::max(0.0, 1.0 / weights - white_m2), used, {}, 0.0};
-  if (claimed && settling.empty()) {
+  if (correction && pending.empty()) {
     measured.velocity_m_s = height.velocity_m_s();
-    measured.velocity_variance_m2_s2 = claimed->covariance(1, 1);
+    measured.velocity_variance_m2_s2 = correction->covariance(1, 1);
   }
   return measured;
 }
 
-/// One innovation, d - (z - h), corrects height and level, each by its own variance.
+/// Corrects height and level with one innovation, d - (z - h), each by its own variance.
 void MultilevelFilter::Impl::enter(int id, double distance_below_m, double variance_m2) {
   LevelEstimate& level = store.at(id);
   const double own_m = height.height_m() - distance_below_m;
@@ -165,25 +168,26 @@ void MultilevelFilter::Impl::enter(int id, double distance_below_m, double varia
 }
 
 void MultilevelFilter::Impl::learn(LevelEstimate& level, double height_m, double variance_m2) {
-  if (level.variance_m2 <= 0.0) return;  // The take-off floor is where heights begin.
+  if (level.variance_m2 <= 0.0) return;  // The take-off floor defines height 0.
   const double gain = level.variance_m2 / (level.variance_m2 + variance_m2);
   level.height_m += gain * (height_m - level.height_m);
-  // Levels learn from each other, which this bookkeeping takes for independent: it may not conclude more than a real
-  // surface is flat.
+  // Levels are corrected by each other, but this update treats them as independent. The variance is therefore limited
+  // by the flatness of real surfaces.
   level.variance_m2 = std::max((1.0 - gain) * level.variance_m2, square(config.surface_noise_m));
   changed = true;
 }
 
-/// What is flat and seems to rise says that the vehicle sinks.
+/// If a flat surface seems to rise, the vehicle is sinking.
 void MultilevelFilter::Impl::learnSpeed(const NewSurface& seen) {
-  // It is the mean of the time it was seen for: the speed's error changed since by what the acceleration is wrong.
+  // The rate is a mean over the time the surface was seen; meanwhile the error of the speed changed by the error of the
+  // acceleration.
   const double variance_m2_s2 = rateVariance_m2_s2(config, seen) +
                                 square(config.surface_noise_m / seen.seenFor_s(now)) +
                                 square(0.5 * config.acceleration_noise_m_s2 * seen.seenFor_s(now));
   height.updateVelocity(height.velocity_m_s() - seen.rate_m_s(), variance_m2_s2);
 }
 
-/// Line 14.
+/// Line 14: turns new surfaces that are flat into levels, or enters a known level.
 void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
   const bool alone = scan.groups.empty();
   const double height_before_m = height.height_m(), velocity_before_m_s = height.velocity_m_s();
@@ -191,10 +195,11 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
     const bool flat =
         isFlat(config, surface, now) || isFlatSeenFromAMovingPlace(config, surface, now, height.covariance()(1, 1));
     if (!flat) continue;
-    // The end of the line through all that was seen of it; at its ends a line is as sure as a quarter of its points.
+    // The present height on the line through all observations of the surface. At its ends, a line is as certain as the
+    // mean of a quarter of its points.
     const double below_m = height_before_m - surface.heightAt_m(now);
     const double below_variance_m2 = 4.0 * square(config.beam_noise_m) / surface.beams + square(config.surface_noise_m);
-    const bool first = alone && !claimed;
+    const bool first = alone && !correction;
     if (first) {
       height.dropReference();
       learnSpeed(surface);
@@ -208,8 +213,8 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
       ++outcome.levels_added;
     }
     if (first) {
-      claimed = Claim{id, now, height.height_m() - height_before_m, height.velocity_m_s() - velocity_before_m_s,
-                      height.covariance()};
+      correction = PriorCorrection{id, now, height.height_m() - height_before_m,
+                                   height.velocity_m_s() - velocity_before_m_s, height.covariance()};
     }
     for (const CellIndex& cell : surface.cells) store.extend(id, cell);
     LevelEstimate& level = store.at(id);
@@ -220,13 +225,13 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
     changed = true;
     surface.seen = false;
   }
-  // One that rises or falls is not a level; it may flatten out later.
+  // A surface that rises or falls is not a level. It is dropped, but may flatten out later.
   std::erase_if(new_surfaces,
                 [this](const NewSurface& c) { return !c.seen || c.seenFor_s(now) >= config.confirm_moving_s; });
 }
 
-/// Line 15, the leaving half: what was below in the last scan and is not any more is measured once more, against what
-/// is below now. Only that is independent of it.
+/// Line 15, for levels that are left: a level that was below in the last scan and no longer is gets one more
+/// measurement, relative to the levels below now. Only those are independent of it.
 void MultilevelFilter::Impl::updateLeftLevels() {
   for (const int left : present_before) {
     if (std::find(present.begin(), present.end(), left) != present.end()) continue;
@@ -244,13 +249,13 @@ void MultilevelFilter::Impl::updateLeftLevels() {
   }
 }
 
-/// Line 16.
+/// Line 16: extends the levels by the cells where they were measured.
 void MultilevelFilter::Impl::extendLevels() {
   for (const Beam& beam : scan.beams)
     if (beam.level != kNoLevel && store.extend(beam.level, beam.cell)) changed = true;
 }
 
-/// Line 17: levels that meet here and agree are one.
+/// Line 17: merges levels that meet here and agree.
 void MultilevelFilter::Impl::searchForLoopClosures(AltitudeUpdate& outcome) {
   if (!changed) return;
   for (std::size_t i = 0; i < near.size(); ++i)
@@ -293,8 +298,8 @@ void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map
   f.height.start(time, height_m, square(common::kStandingHeightSigma_m));
   f.store.clear();
   f.new_surfaces.clear();
-  f.settling.clear();
-  f.claimed.reset();
+  f.pending.clear();
+  f.correction.reset();
   f.present.clear();
   const int floor = f.store.add(0.0, 0.0);
   const CellIndex here = f.store.cellAt(position_map_m);
@@ -324,7 +329,7 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
   std::swap(f.present, f.present_before);
   f.present.clear();
 
-  // 1st stage: update height estimate.
+  // Stage 1: update the height estimate.
   if (prior)
     f.assume(*prior);
   else
@@ -332,15 +337,15 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
   f.scan.read(position_map_m, points, f.store);
   f.matchBeams();
   if (f.leftALevel()) {
-    // The last that was seen of it may have been the beginning of a slope.
-    f.forgetTheLast();
+    // The last measurements of the level that was left may have been the beginning of a slope.
+    f.undoLastUpdates();
     f.matchBeams();
   }
   f.distrustSlopes();
-  if (const auto measured = f.updateHeight()) f.settling.push_back(*measured);
-  outcome.measurement = f.settled();
+  if (const auto measured = f.updateHeight()) f.pending.push_back(*measured);
+  outcome.measurement = f.takeConfirmed();
 
-  // 2nd stage: update map.
+  // Stage 2: update the map of levels.
   for (const BeamGroup& g : f.scan.groups) f.present.push_back(g.level);
   seeNewSurfaces(f.new_surfaces, f.config, f.scan.beams, f.height.height_m(), time);
   f.addNewLevels(outcome);

@@ -1,27 +1,28 @@
-// The height of the vehicle and of the surfaces below it, from the laser beams a mirror bends down (Grzonka 2012,
-// section IV-C, Algorithm 1; Grzonka 2009, section V-E).
+// Estimates the height of the vehicle and of the surfaces below it, from the laser beams that a mirror deflects down
+// (Grzonka 2012, section IV-C, Algorithm 1; Grzonka 2009, section V-E).
 //
-// Stage 1, a Kalman filter over (z, v_z): predicted by the vertical acceleration; the levels known in the neighbourhood
-// that explain a beam give one virtual measurement of the height over the take-off floor, as if nothing were below.
-// Stage 2, one Kalman filter a level: what no level explains becomes a new level; a level is re-estimated only when the
-// vehicle enters or leaves it (else level and height would drag each other away); a level grows by the cells where it
-// was measured; two levels that meet and agree are joined:
+// Stage 1 is a Kalman filter over (z, v_z), predicted with the vertical acceleration. The known levels nearby that
+// explain a beam give one virtual measurement of the height above the take-off floor, as if nothing else were below.
+// Stage 2 is one Kalman filter per level. Surfaces that no level explains become new levels. A level is re-estimated
+// only when the vehicle enters or leaves it; otherwise the errors of level and height would drift together. A level
+// grows by the cells where it was measured. Two levels that meet and agree are merged:
 //   h = (s_j^2 h_i + s_i^2 h_j) / (s_i^2 + s_j^2),   s^2 = s_i^2 s_j^2 / (s_i^2 + s_j^2).
 //
-// Where the paper leaves a choice, this filter never uses the same information twice: a level that is entered and the
-// height learn from one innovation, each by its prior; while it is over a level the height is never surer than the
-// level.
+// Where the paper leaves a choice, this filter never uses the same information twice. When a level is entered, the
+// height and the level are corrected by one innovation, each according to its prior. While the vehicle is over a level,
+// the height is never more certain than the level.
 //
-// Not every surface is flat. Over a slope (the back of a sofa) each measurement lies within its gate and all lean to
-// one side. So a surface is believed when it was at one height for a while, a level is left alone when its innovations
-// add up, and a measurement is given out only when that did not happen soon after. What rises or falls evenly for
-// longer is flat, and the vertical speed was wrong: that is measured, too. Where the height has become unsure, a known
-// level is entered only if it is likelier than a surface not known yet (docs/decisions/008).
+// Not every surface is flat. Over a slope (the back of a sofa) each measurement lies within its gate, but all have an
+// error of the same sign. Therefore a new surface is accepted only after it stayed at one height for a while, a level
+// is not used for a while after its innovations add up, and a measurement is published only if no slope was detected
+// soon after it. A surface that rises or falls evenly for longer is flat, and the vertical speed was wrong; the speed
+// is then corrected, too. If the height has become uncertain, a known level is entered only if it is likelier than an
+// unknown surface (docs/decisions/008).
 //
-// Heights are of the body origin over the take-off floor, which is level 0 at height 0 without error. The filter lives
-// at the time of the last scan; the vehicle's present height comes from the fusion filter, which takes the virtual
-// measurement as one of its measurements, and may stand in for stage 1.
-// One thread. Deterministic: the order of the points given is the only order there is. No heap use in the steady state.
+// Heights are those of the body origin above the take-off floor, which is level 0, at height 0 without error. The state
+// is that of the time of the last scan. The vehicle's present height comes from the fusion filter, which uses the
+// virtual measurements, and whose estimate may replace the prediction of stage 1. Single-threaded. Deterministic for
+// a given order of the points. No heap use in the steady state.
 #pragma once
 
 #include <memory>
@@ -39,12 +40,13 @@
 
 namespace swiftlet::perception {
 
-/// What one scan did.
+/// The result of one scan.
 struct AltitudeUpdate {
-  /// Of a scan `publish_delay_s` ago: by then it is known whether it met a level or the beginning of a slope. None: no
-  /// beam was explained by a known level (line 10), or it was a slope.
+  /// The measurement of a scan `publish_delay_s` ago: by now it is known whether that scan was over a level or over the
+  /// beginning of a slope. nullopt if no known level explained a beam (line 10), or if it was a slope.
   std::optional<VirtualHeight> measurement;
-  std::optional<double> height_above_ground_m;  ///< Over the highest surface below that two beams agree on.
+  /// Above the highest surface below that `min_cluster_beams` beams agree on.
+  std::optional<double> height_above_ground_m;
   int levels_added = 0;
   int levels_joined = 0;
 };
@@ -58,26 +60,26 @@ class MultilevelFilter {
   MultilevelFilter(MultilevelFilter&&) noexcept;
   MultilevelFilter& operator=(MultilevelFilter&&) noexcept;
 
-  /// Starts anew, standing on the take-off floor: level 0 at the cells about `position_map_m`.
-  /// `height_m` is that of the body origin while standing (measured by the mirror, or known from the airframe).
+  /// Restarts, with the vehicle standing on the take-off floor: level 0 covers the cells around `position_map_m`.
+  /// `height_m` is the height of the body origin while standing (measured by the mirror, or known from the airframe).
   void initialize(common::Time time, const Eigen::Vector2d& position_map_m, double height_m);
   bool initialized() const;
 
-  /// The vertical acceleration over ENU (gravity and bias removed), at the IMU's rate. Kept until the scan that needs
-  /// it: scans come late. A non-finite or out-of-order one is left out.
+  /// Adds a vertical acceleration in ENU (gravity and bias removed), at the IMU's rate. It is kept until the scan that
+  /// needs it, because scans arrive late. Non-finite and out-of-order accelerations are left out.
   void addAcceleration(common::Time time, double acceleration_up_m_s2);
 
-  /// Algorithm 1 for one scan at `time`, the vehicle over `position_map_m`. Scans must come in order of time; an
-  /// earlier one is ignored. Without accelerations since the last scan the velocity is predicted constant.
-  /// `prior`, where given, is the height and vertical speed at `time` by a filter that knows more, the fusion filter
-  /// that is given the measurements: it takes the place of the prediction by accelerations.
+  /// Algorithm 1 for one scan at `time`, with the vehicle at `position_map_m`. Scans must be in order of time; an
+  /// earlier one is ignored. Without accelerations since the last scan the velocity is predicted as constant. `prior`,
+  /// if given, is the height and vertical speed at `time` from the fusion filter that receives the measurements; it
+  /// replaces the prediction by accelerations.
   AltitudeUpdate update(common::Time time, const Eigen::Vector2d& position_map_m, std::span<const GroundPoint> points,
                         const std::optional<HeightState>& prior = std::nullopt);
 
   const HeightState& state() const;
-  /// Copies of all levels with their cells.
+  /// A copy of all levels with their cells.
   common::LevelMap levels() const;
-  /// Counts every change of any level; levels() need not be asked while it stays.
+  /// A counter that changes with every change of a level; levels() need not be called while it stays the same.
   std::uint64_t levelsVersion() const;
 
  private:

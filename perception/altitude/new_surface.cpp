@@ -11,7 +11,7 @@ using common::Time;
 
 namespace {
 
-constexpr double kLineAfter_s = 0.15;  // A surface seen for less is taken to stay where it is.
+constexpr double kLineAfter_s = 0.15;  // A surface seen for a shorter time is assumed to stay at its height.
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// A surface that is new below the vehicle, until it was seen for long enough to be believed.
+// A new surface below the vehicle, until it was seen for long enough to be accepted.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace swiftlet::perception::altitude {
 
-/// The least-squares line through the heights it was met at, scan by scan.
+/// The least-squares line through the heights at which the surface was measured, scan by scan.
 class NewSurface {
  public:
   explicit NewSurface(common::Time first) : first_(first) {}
@@ -27,18 +27,19 @@ class NewSurface {
     th_m_s_ += time_s * surface_m;
   }
   double seenFor_s(common::Time now) const { return (now - first_).seconds(); }
-  double height_m() const { return h_m_ / scans; }  ///< Mean.
+  double height_m() const { return h_m_ / scans; }  ///< Mean over the scans.
   double rate_m_s() const { return spread_s2() > 0.0 ? (th_m_s_ - t_s_ * h_m_ / scans) / spread_s2() : 0.0; }
-  /// On the line.
+  /// Height of the line at `time`.
   double heightAt_m(common::Time time) const { return height_m() + rate_m_s() * (seenFor_s(time) - t_s_ / scans); }
-  /// The squared length of the time axis; the variance of the rate is that of one height over this.
+  /// Sum of the squared deviations of the times from their mean. The variance of the rate is that of one height divided
+  /// by this.
   double spread_s2() const { return tt_s2_ - t_s_ * t_s_ / scans; }
 
   int scans = 0;
-  int beams = 0;  ///< Of all scans.
+  int beams = 0;  ///< Over all scans.
   LevelSight last;
   std::vector<common::CellIndex> cells;
-  bool seen = true;  ///< In the present scan.
+  bool seen = true;  ///< Whether it was seen in the present scan.
 
  private:
   common::Time first_;
@@ -46,14 +47,15 @@ class NewSurface {
 };
 
 double rateVariance_m2_s2(const MultilevelConfig& config, const NewSurface& surface);
-/// A surface that is flat is met at one height; a slope is not.
+/// Whether the surface is measured at a constant height, unlike a slope.
 bool isFlat(const MultilevelConfig& config, const NewSurface& surface, common::Time now);
-/// One that rises or falls evenly may be a slope, or flat and the vertical speed is wrong. Slopes in rooms are short.
+/// Whether a surface that rises or falls evenly may be flat, with a wrong vertical speed. Seen for long enough, it is
+/// no slope: slopes in rooms are short.
 bool isFlatSeenFromAMovingPlace(const MultilevelConfig& config, const NewSurface& surface, common::Time now,
                                 double speed_variance_m2_s2);
 
-/// Algorithm 1, line 13: the beams that no level explains, in sets of neighbouring distance, for a vehicle at this
-/// height. Those sets are the surfaces afterwards; what is not seen again is forgotten.
+/// Algorithm 1, line 13: groups the beams that no level explains by neighbouring distance, for a vehicle at this
+/// height. Afterwards `surfaces` are these groups; surfaces that are not seen again are removed.
 void seeNewSurfaces(std::vector<NewSurface>& surfaces, const MultilevelConfig& config, const std::vector<Beam>& beams,
                     double height_m, common::Time now);
 

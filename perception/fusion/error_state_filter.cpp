@@ -1,5 +1,5 @@
-// What is handed in is checked here and what is asked answered; the history and its replay are in state_history, the
-// step from sample to sample in filter_step, the mathematics in imu_model and measurement_models.
+// Checks the input and answers the queries. The history and its replay are in state_history, the step from sample to
+// sample in filter_step, the models in imu_model and measurement_models.
 #include "perception/fusion/error_state_filter.hpp"
 
 #include <algorithm>
@@ -20,15 +20,15 @@ using common::Time;
 
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;  // NaN is beyond it.
+constexpr double kUnitTolerance = 1e-3;  // NaN fails the comparison.
 
 bool isCovariance(const Eigen::Matrix3d& m) {
   if (!m.allFinite() || !m.isApprox(m.transpose(), 1e-6)) return false;
   return common::symmetricEigenvalues(m).minCoeff() > 0.0;
 }
 
-/// Position and yaw are the origin by definition. Tilt and accelerometer bias share what gravity shows: start wide and
-/// let one gravity measurement correlate them.
+/// Position and yaw are zero by definition. Gravity shows only the sum of tilt and accelerometer bias: both start with
+/// a wide covariance, and one gravity measurement correlates them.
 FilterState stateAtRest(const ErrorStateFilter::Config& config, const RestEstimate& rest, Time now, double height_m) {
   FilterState state;
   state.stamp = now;

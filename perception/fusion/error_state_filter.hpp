@@ -1,24 +1,25 @@
-// Inertial measurements fused with late measurements of relative pose and height: an error-state Kalman filter
+// Fuses inertial measurements with delayed measurements of relative pose and height in an error-state Kalman filter
 // (Tomic 2012, "Data Fusion"; Bachrach 2009, 5.2). Direct state 19: position, velocity, attitude quaternion,
 // accelerometer and gyroscope bias, drag, wind; error state 18. Attitude errors are in the odom frame: R = exp(error) *
 // R_estimated.
 //
-// A laser odometry measures the pose of a scan relative to a reference scan that stays the same over many scans. The
-// pose at the reference is cloned into the state (stochastic cloning), so that its error and all correlations are kept.
+// Laser odometry measures the pose of a scan relative to a reference scan that stays the same for many scans. The pose
+// at the reference is cloned into the state (stochastic cloning), so that its error and all correlations are kept.
 //
 // Every measurement is applied at the time it was measured: the filter keeps a ring of IMU samples, states and
-// measurements, steps back, and replays everything after. The state is a function of what was measured when, not of
-// when it arrived: the same measurements late, on time or in another order give the same bits.
+// measurements, goes back to that time, and replays everything after it. The state depends on when something was
+// measured, not on when it arrived: the same measurements late, on time or in another order give the same bits.
 //
-// A multirotor's accelerometer feels in the body's x and y the drag of its rotors alone, which goes with the speed
-// through the air. So the velocity is known, if only as well as bias, drag and wind are, also where no scan holds it.
+// In the body's x and y axes, a multirotor's accelerometer measures only the drag of the rotors, which is proportional
+// to the airspeed. The velocity is therefore observable even where no scan constrains it, although only as well as
+// bias, drag and wind are known.
 //
-// Outliers are gated by their Mahalanobis distance. A gate that stays closed for `recovery_s` is opened by force, the
-// covariance widened by what the measurement says; doing so too often is a divergence. A divergence stays until
+// Outliers are gated by their Mahalanobis distance. A gate that stays closed for `recovery_s` is forced open: the
+// covariance is widened by the size of the residual. Too many of these recoveries are a divergence, which lasts until
 // initialize().
 //
-// One thread. No heap use after construction, except in poses(), in health() when it is not ok, and in initialize()
-// when it refuses. Non-finite or impossible input is counted and left out.
+// Single-threaded. No heap use after construction, except in poses(), in health() when it is not ok, and in
+// initialize() when it fails. Non-finite or impossible input is counted and left out.
 #pragma once
 
 #include <memory>
@@ -45,58 +46,60 @@ class ErrorStateFilter {
   ErrorStateFilter(ErrorStateFilter&&) noexcept;
   ErrorStateFilter& operator=(ErrorStateFilter&&) noexcept;
 
-  /// The strapdown step to the sample's time. Before initialize() samples are only gathered for it.
+  /// The strapdown step to the sample's time. Before initialize() the samples are only collected.
   void predict(const common::ImuSample& sample);
 
-  /// Starts at the newest IMU sample, at x = y = yaw = 0 and the given height: roll, pitch and the gyroscope bias from
-  /// the last `rest_s` of samples. Fails, with the reason, when there are too few or when the vehicle moved. Forgets
-  /// all.
+  /// Starts at the newest IMU sample, at x = y = yaw = 0 and the given height. Roll, pitch and the gyroscope bias come
+  /// from the last `rest_s` of samples. Fails, with the reason, if there are too few samples or if the vehicle moved.
+  /// Discards all earlier states and measurements.
   tl::expected<void, std::string> initialize(double height_m);
   bool initialized() const;
 
-  /// While true, the vehicle is known to stand still: zero velocity and rotation are measured from the next
+  /// While true, the vehicle is known to stand still: zero velocity and zero rotation are measured, from the next
   /// attitude update on.
   void setAtRest(bool at_rest);
 
-  /// Clones the pose at `time` (usually of a scan that becomes the reference). Up to four clones are kept; then the one
-  /// that was used longest ago is dropped.
+  /// Clones the pose at `time`, usually that of a scan that becomes the reference. Up to four clones are kept; beyond
+  /// that, the least recently used one is dropped.
   Insertion addClone(common::Time time);
-  /// T_from_to in the level frame of the body at `from`, which must be cloned: heading and planar displacement.
-  /// Covariance of (x, y, yaw). Along `unseen_direction`, a unit vector in the frame at `from`, nothing was measured
-  /// and nothing is taken in, whatever pose and covariance say there: a guess that comes back with each scan, however
-  /// uncertain, would soon be certain.
+  /// Adds a relative pose: T_from_to in the level frame of the body at `from`, which must be cloned, with the
+  /// covariance of (x, y, yaw). Along `unseen_direction`, a unit vector in the frame at `from`, nothing was measured
+  /// and nothing is used, whatever the pose and covariance say. Otherwise a guess repeated with each scan, however
+  /// uncertain, would soon count as certain.
   Insertion addRelativePose(common::Time from, common::Time to, const common::Pose2& T_from_to,
                             const Eigen::Matrix3d& covariance,
                             const std::optional<Eigen::Vector2d>& unseen_direction = std::nullopt);
-  /// Height of the body origin over the take-off floor. `common_variance_m2` is the part of the error that does not
-  /// change from one measurement to the next (of the level below); it is not averaged away.
+  /// Adds a height of the body origin above the take-off floor. `common_variance_m2` is the variance of the part of the
+  /// error that does not change from one measurement to the next (that of the level below); it is not averaged out.
   Insertion addHeight(common::Time time, double height_m, double variance_m2, double common_variance_m2 = 0.0);
-  /// Speed of the body origin along z of odom.
+  /// Adds a speed of the body origin along z of odom.
   Insertion addVerticalSpeed(common::Time time, double speed_m_s, double variance_m2_s2);
-  /// A landmark of known place, or a correction that shall move odom itself. SLAM's corrections stay outside, in
-  /// T_map_odom.
+  /// Adds a pose in odom, such as one from a landmark at a known place. It moves the estimate in odom. SLAM's
+  /// corrections do not belong here; they are in T_map_odom.
   Insertion addAbsolutePose2(common::Time time, const common::Pose2& T_odom_body, const Eigen::Matrix3d& covariance);
 
   bool hasClone(common::Time time) const;
 
-  /// At the newest IMU sample. T_map_odom is the identity and height_above_ground_m the height over the take-off floor;
-  /// who knows better fills them in.
+  /// The state at the newest IMU sample. T_map_odom is the identity, and height_above_ground_m is the height above the
+  /// take-off floor; a caller that knows them better must replace them.
   common::VehicleState state() const;
   common::Time newest() const;
-  /// Acceleration in odom, gravity and bias removed, at the newest sample: what MultilevelFilter wants.
+  /// Acceleration in odom at the newest sample, gravity and bias removed, as input for MultilevelFilter.
   Eigen::Vector3d accelerationOdom_m_s2() const;
   Eigen::Vector3d accelerometerBias_m_s2() const;
   Eigen::Vector3d gyroscopeBias_rad_s() const;
   double drag_1_s() const;
   Eigen::Vector2d wind_odom_m_s() const;
-  /// Of the errors (position, velocity, attitude, accelerometer bias, gyroscope bias).
+  /// Covariance of the errors (position, velocity, attitude, accelerometer bias, gyroscope bias).
   Eigen::Matrix<double, 15, 15> covariance() const;
 
-  /// Interpolated in the history; up to 20 ms after the newest sample extrapolated. None outside.
+  /// The pose at `time`: interpolated within the history, and extrapolated up to 20 ms past the newest sample. nullopt
+  /// outside.
   std::optional<common::Pose3> poseAt(common::Time time) const;
-  /// Of the body origin along z of odom, with the covariance of both; where poseAt() knows a pose.
+  /// Height and vertical speed of the body origin along z of odom; nullopt where poseAt() has no pose. The height is
+  /// interpolated; the speed and the covariance are those of the last IMU sample at or before `time`.
   std::optional<VerticalState> verticalAt(common::Time time) const;
-  /// The poses that cover [from, to] as far as the history goes; for many questions, as when a scan is deskewed.
+  /// The poses that cover [from, to], as far as the history goes. For many queries, as when a scan is deskewed.
   PoseHistory poses(common::Time from, common::Time to) const;
 
   FusionHealth health() const;

@@ -71,7 +71,7 @@ void FilterState::inject(const ErrorVector& error) {
 bool FilterState::finite() const {
   return position_odom_m.allFinite() && velocity_odom_m_s.allFinite() && rotation_odom_body.coeffs().allFinite() &&
          accelerometer_bias_m_s2.allFinite() && gyroscope_bias_rad_s.allFinite() && std::isfinite(drag_1_s) &&
-         wind_odom_m_s.allFinite() && std::isfinite(covariance.sum());  // Vectorized, which allFinite() is not.
+         wind_odom_m_s.allFinite() && std::isfinite(covariance.sum());  // sum() is vectorized, allFinite() is not.
 }
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& v) {

@@ -1,4 +1,4 @@
-// What the fusion filter estimates at one instant: direct state, clones, and the covariance of their errors. Plain
+// The estimate of the fusion filter at one instant: direct state, clones, and the covariance of their errors. Plain
 // data, copied into the history at each IMU sample.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace swiftlet::perception::fusion {
 
-// Places of the errors in the covariance; clones (position, attitude) follow the core.
+// Indices of the errors in the covariance. The clones (position, attitude) follow the core.
 inline constexpr int kPosition = 0;
 inline constexpr int kVelocity = 3;
 inline constexpr int kAttitude = 6;
@@ -25,7 +25,7 @@ inline constexpr int kCloneSize = 6;
 inline constexpr int kMaxClones = 4;
 inline constexpr int kMaxDimension = kCore + kCloneSize * kMaxClones;
 
-/// As large as the clones present ask, without heap use.
+/// Sized for the present clones, without heap use.
 using ErrorCovariance =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxDimension, kMaxDimension>;
 using ErrorVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxDimension, 1>;
@@ -36,7 +36,7 @@ struct ClonedPose {
   common::Pose3 T_odom_body;
 };
 
-/// What a gate remembers; part of the state, so that a replay comes to the same decisions.
+/// The memory of a gate. It is part of the state, so that a replay makes the same decisions.
 struct GateMemory {
   bool closed = false;
   common::Time closed_since;
@@ -44,7 +44,8 @@ struct GateMemory {
   std::uint64_t rejected = 0;
 };
 
-/// What was felt, and what was believed, since the drag was measured last: sums over time of the body's x and y.
+/// Sums since the last drag measurement: integrals over time of the specific force and of the estimated velocity, along
+/// the body's x and y.
 struct DragStretch {
   double seconds = 0.0;
   Eigen::Vector2d force_sum_m_s = Eigen::Vector2d::Zero();
@@ -58,7 +59,7 @@ struct FilterState {
   Eigen::Quaterniond rotation_odom_body = Eigen::Quaterniond::Identity();
   Eigen::Vector3d accelerometer_bias_m_s2 = Eigen::Vector3d::Zero();
   Eigen::Vector3d gyroscope_bias_rad_s = Eigen::Vector3d::Zero();
-  double drag_1_s = 0.0;  ///< Deceleration per speed through the air, in the body's x and y.
+  double drag_1_s = 0.0;  ///< Deceleration per airspeed, along the body's x and y.
   Eigen::Vector2d wind_odom_m_s = Eigen::Vector2d::Zero();
 
   DragStretch drag_stretch;
@@ -66,7 +67,7 @@ struct FilterState {
   int clone_count = 0;
   ErrorCovariance covariance = ErrorCovariance::Zero(kCore, kCore);
 
-  double height_common_variance_m2 = 0.0;  ///< Of the last height: what averaging does not reduce.
+  double height_common_variance_m2 = 0.0;  ///< Variance of the last height that averaging does not reduce.
   GateMemory relative_gate;
   GateMemory height_gate;
   std::uint64_t recoveries = 0;
@@ -77,7 +78,7 @@ struct FilterState {
   int dimension() const { return kCore + kCloneSize * clone_count; }
   /// Index of the clone taken at `time`, or -1.
   int cloneAt(common::Time time) const;
-  /// Appends a clone of the present pose; the one used longest ago makes room.
+  /// Appends a clone of the present pose. If there is no room, the least recently used clone is dropped.
   void clonePose();
   void dropClone(int index);
   /// Adds an estimated error to the direct state and the clones.

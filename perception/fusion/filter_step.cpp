@@ -12,9 +12,9 @@ using common::Time;
 
 namespace {
 
-/// Standard deviations that an AHRS may be off before it is believed more than the filter.
+/// Beyond this Mahalanobis distance the AHRS is trusted more than the filter.
 constexpr double kAhrsGate = 3.0;
-/// What was felt between two samples is not known over more than this.
+/// Across a longer gap between samples the specific force is unknown.
 constexpr double kLongestDragStep_s = 0.05;
 
 }  // namespace
@@ -44,9 +44,9 @@ void FilterStep::advance(const Slot& before, std::span<const Measurement> measur
     apply(state, measurement);
   }
   advanceTo(now.imu.stamp);
-  if (config_.use_drag) feelDrag(state, before, now);
+  if (config_.use_drag) accumulateDrag(state, before, now);
   applySlot(state, now);
-  // Rounding makes the two halves drift apart over many steps.
+  // Restores the symmetry that rounding errors destroy over many steps.
   state.covariance.triangularView<Eigen::StrictlyUpper>() = state.covariance.transpose();
   watch(state);
 }
@@ -68,7 +68,7 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
       return;
     case MeasurementKind::kRelativePose: {
       const int clone = state.cloneAt(m.from);
-      if (clone < 0) return;  // Dropped for newer ones since it was accepted.
+      if (clone < 0) return;  // The clone was dropped after the measurement was accepted.
       state.clones[static_cast<std::size_t>(clone)].last_used = m.stamp;
       if (m.unseen_direction)
         gatedUpdate(state, state.relative_gate,
@@ -99,22 +99,22 @@ void FilterStep::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body
   const double variance = square(config_.ahrs_sigma_deg * kRadPerDeg);
   Linearized<2> m = upDirection(state, up_body, variance);
   if (mahalanobis2(state, m) > square(kAhrsGate)) {
-    // The AHRS does not err that far: the filter's own horizon has slipped, and with it what it takes for bias: a wrong
-    // horizon moves gravity into the horizontal axes, and takes next to nothing from the vertical one.
+    // An AHRS is hardly ever wrong by that much, so the filter's attitude is wrong, and with it the bias. A wrong
+    // attitude moves a part of gravity into the horizontal axes and takes almost nothing from the vertical one.
     const double slipped2 = m.residual.squaredNorm();
     auto diagonal = state.covariance.diagonal();
     diagonal.segment<2>(kAttitude).array() += slipped2;
     diagonal.segment<2>(kAccelerometerBias).array() += square(config_.gravity_m_s2) * slipped2;
   } else {
-    // N samples of an error that keeps for tau are worth as much as white ones of this variance (integral of the
-    // autocorrelation).
+    // N samples whose error has the correlation time tau contain as much information as samples of white noise of this
+    // variance (integral of the autocorrelation).
     m.noise *= 1.0 + 2.0 * config_.ahrs_correlation_s * config_.attitude_rate_hz;
   }
   update(state, m);
 }
 
-/// The ground, too, pushes a vehicle that stands; then nothing is learned of the air.
-void FilterStep::feelDrag(FilterState& state, const Slot& before, const Slot& now) const {
+/// The ground also pushes a standing vehicle, so nothing is learned about drag at rest.
+void FilterStep::accumulateDrag(FilterState& state, const Slot& before, const Slot& now) const {
   DragStretch& stretch = state.drag_stretch;
   const double dt_s = (now.imu.stamp - before.imu.stamp).seconds();
   if (now.at_rest || dt_s > kLongestDragStep_s) {
@@ -127,7 +127,8 @@ void FilterStep::feelDrag(FilterState& state, const Slot& before, const Slot& no
   stretch.velocity_sum_m += dt_s * (state.rotation_odom_body.conjugate() * state.velocity_odom_m_s).head<2>();
 }
 
-/// Who is pushed or touches something feels more than the air: that is left out.
+/// If the vehicle is pushed or touches something, the force is not only drag: such measurements are rejected by the
+/// gate.
 void FilterStep::updateByDrag(FilterState& state) const {
   if (state.drag_stretch.seconds <= 0.0) return;
   const Linearized<2> m = drag(state, square(config_.drag_noise_m_s2_rthz) / state.drag_stretch.seconds);
@@ -137,7 +138,8 @@ void FilterStep::updateByDrag(FilterState& state) const {
 
 template <int K>
 void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& m) const {
-  const double limit2 = square(config_.gate_sigma) + 2.5 * (K - 1);  // About the same tail for K degrees of freedom.
+  // Approximately the same tail probability for K degrees of freedom.
+  const double limit2 = square(config_.gate_sigma) + 2.5 * (K - 1);
   if (mahalanobis2(state, m) > limit2) {
     if (!gate.closed) {
       gate.closed = true;
@@ -145,7 +147,7 @@ void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Lineari
     }
     ++gate.rejected;
     if ((state.stamp - gate.closed_since).seconds() < config_.recovery_s) return;
-    // The measurement has disagreed for too long to be an outlier: the estimate is wrong, by about the residual.
+    // The measurement has disagreed for too long to be an outlier: the estimate is wrong by about the residual.
     const double jump2 = m.residual.template head<std::max(1, K - 1)>().squaredNorm();
     auto diagonal = state.covariance.diagonal();
     if constexpr (K == 1) {
@@ -155,7 +157,7 @@ void FilterStep::gatedUpdate(FilterState& state, GateMemory& gate, const Lineari
       diagonal.segment<2>(kPosition).array() += jump2;
       diagonal.segment<2>(kVelocity).array() += jump2 / square(config_.recovery_s);
       diagonal(kAttitude + 2) += square(m.residual(K - 1));
-      // What carried the velocity away is most often a slipped horizon.
+      // The usual cause of a wrong velocity is a wrong roll or pitch.
       diagonal.segment<2>(kAttitude).array() += jump2 / square(square(config_.recovery_s) * config_.gravity_m_s2);
     }
     recover(state);

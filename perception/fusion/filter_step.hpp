@@ -14,29 +14,30 @@
 
 namespace swiftlet::perception::fusion {
 
-/// One IMU sample and the state after everything measured up to it.
+/// One IMU sample and the state after all measurements up to it.
 struct Slot {
   ImuValue imu;
-  Eigen::Vector3d up_body = Eigen::Vector3d::UnitZ();  ///< By the AHRS.
+  Eigen::Vector3d up_body = Eigen::Vector3d::UnitZ();  ///< From the AHRS.
   bool attitude_due = false;
   bool at_rest = false;
   FilterState state;
 };
 
-/// A function of the state before and what was measured since; it keeps nothing but its configuration.
+/// A pure function of the previous state and the measurements since; it holds only its configuration.
 class FilterStep {
  public:
   explicit FilterStep(const FusionConfig& config);
 
-  /// Makes now.state: strapdown from `before` on, each of `measured` (after `before`, until `now`, in this order) at
-  /// its time, at the end what the sample itself says. Outliers are gated; the state itself says when it has diverged.
+  /// Computes now.state: integrates the IMU from `before` to `now` and applies each of `measured` at its time; these
+  /// lie after `before` and up to `now`, in order. The measurements of the sample itself are applied at the end.
+  /// Outliers are gated; state.diverged says whether the filter has diverged.
   void advance(const Slot& before, std::span<const Measurement> measured, Slot& now) const;
 
  private:
   void apply(FilterState& state, const Measurement& measurement) const;
   void applySlot(FilterState& state, const Slot& slot) const;
   void updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const;
-  void feelDrag(FilterState& state, const Slot& before, const Slot& now) const;
+  void accumulateDrag(FilterState& state, const Slot& before, const Slot& now) const;
   void updateByDrag(FilterState& state) const;
   template <int K>
   void gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& measurement) const;

@@ -1,4 +1,4 @@
-// What the fusion filter says of itself and of what it was given.
+// The status and counters of the fusion filter.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,23 @@ struct FusionHealth {
   std::string reason;  ///< Empty when ok.
 };
 
-/// What became of a measurement that was handed in. Whether the gate lets it pass shows in the counts.
+/// The result of adding a measurement. Measurements rejected by the gate appear only in the counts.
 enum class Insertion {
   kTaken,
-  kInvalid,           ///< Not finite, covariance not positive, time before the reference.
-  kTooOld,            ///< Older than the history.
-  kTooNew,            ///< So far ahead of the IMU that clocks must be wrong.
-  kUnknownReference,  ///< The reference was never cloned, or was dropped for newer ones.
+  kInvalid,  ///< Not finite, covariance not positive definite, or time not after the reference.
+  kTooOld,   ///< Older than the history, or the history is full.
+  kTooNew,   ///< So far ahead of the IMU that the clocks must disagree.
+  /// The reference was never cloned, or its clone was dropped for newer ones and is older than the history. A relative
+  /// pose to a clone dropped within the history is kTaken, but has no effect.
+  kUnknownReference,
 };
 
 struct FusionCounts {
   std::uint64_t imu_dropped = 0;  ///< Non-finite, repeated or out of order.
   std::uint64_t measurements = 0;
-  std::uint64_t refused = 0;  ///< Not kTaken.
+  std::uint64_t refused = 0;  ///< Measurements that were not kTaken.
   std::uint64_t replays = 0;  ///< IMU steps computed again.
-  /// Along the present history: each measurement counts once however often it is replayed.
+  /// Counted along the present history: each measurement counts once, however often it is replayed.
   std::uint64_t relative_poses_gated = 0;
   std::uint64_t heights_gated = 0;
   std::uint64_t recoveries = 0;

@@ -7,16 +7,16 @@
 namespace swiftlet::perception::fusion {
 namespace {
 
-/// Longer than this between two samples is a gap: what happened inside is not known to the noise densities alone.
+/// A longer interval between two samples is a gap: the noise densities alone do not cover what happened inside it.
 constexpr double kGap_s = 0.05;
 constexpr double kGapAcceleration_m_s2 = 3.0;
 constexpr double kGapRotation_rad_s = 0.5;
 
-/// The non-trivial 3x3 blocks of the transition.
+/// The non-trivial 3x3 blocks of the state transition matrix.
 struct Blocks {
   double dt_s;
   Eigen::Matrix3d velocity_attitude;
-  Eigen::Matrix3d velocity_accelerometer;  ///< Also attitude by gyroscope: both are -R dt.
+  Eigen::Matrix3d velocity_accelerometer;  ///< The same block maps gyroscope to attitude: both are -R dt.
   Eigen::Matrix3d velocity_gyroscope;
 };
 
@@ -93,7 +93,7 @@ void propagate(FilterState& state, const ImuValue& begin, const ImuValue& end, c
   const Midpoint m = midpoint(state, begin, end);
   const Blocks f = blocks(m);
   applyToRows(f, state.covariance);
-  // F P is done; (F P) F^T = (F (F P)^T)^T, and P is symmetric, so the same rows of its transpose.
+  // F P is computed above. (F P) F^T = (F (F P)^T)^T and P is symmetric, so F is applied to the rows of the transpose.
   applyToRows(f, state.covariance.transpose());
   addNoise(state, m.dt_s, noise);
 

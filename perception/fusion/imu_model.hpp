@@ -1,4 +1,4 @@
-// The strapdown step and the growth of its error (Tomic 2012, "Data Fusion"). Attitude errors are in odom.
+// The strapdown step and the propagation of its error (Tomic 2012, "Data Fusion"). Attitude errors are in odom.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ struct ImuValue {
   Eigen::Vector3d specific_force_body_m_s2 = Eigen::Vector3d::Zero();
 };
 
-/// Between two samples, linearly; `time` must lie between them.
+/// Interpolates linearly between two samples; `time` must lie between them.
 ImuValue interpolate(const ImuValue& first, const ImuValue& second, common::Time time);
 
 struct ImuNoise {
@@ -22,16 +22,16 @@ struct ImuNoise {
   double gyroscope_rad_s_rthz = 0.0;
   double accelerometer_walk_m_s3_rthz = 0.0;
   double gyroscope_walk_rad_s2_rthz = 0.0;
-  double drag_walk_1_s_rts = 0.0;  ///< How the drag and the wind change.
-  double wind_walk_m_s_rts = 0.0;
+  double drag_walk_1_s_rts = 0.0;  ///< Random walk of the drag.
+  double wind_walk_m_s_rts = 0.0;  ///< Random walk of the wind.
   double gravity_m_s2 = 9.81;
 };
 
-/// From `begin` to `end` by the midpoint rule; the state must stand at begin.stamp. Clones keep still, their
-/// correlations follow.
+/// Propagates state and covariance from `begin` to `end` by the midpoint rule. state.stamp must be begin.stamp. The
+/// clones do not change; their correlations do.
 void propagate(FilterState& state, const ImuValue& begin, const ImuValue& end, const ImuNoise& noise);
 
-/// The transition of the core error that `propagate` applies, as a matrix; for tests.
+/// The transition matrix of the core error that `propagate` applies; for tests.
 Eigen::Matrix<double, kCore, kCore> transition(const FilterState& state, const ImuValue& begin, const ImuValue& end);
 
 }  // namespace swiftlet::perception::fusion

@@ -26,7 +26,7 @@ bool MeasurementHistory::insert(const Measurement& measurement) {
 void MeasurementHistory::dropUntil(common::Time time) {
   const auto first_kept =
       std::find_if(measurements_.begin(), measurements_.end(), [time](const Measurement& m) { return m.stamp > time; });
-  // In bulk: moving the rest for every IMU sample would cost more than the search.
+  // Erased in bulk: moving the rest for every IMU sample would cost more than the search.
   if (first_kept - measurements_.begin() >= 32) measurements_.erase(measurements_.begin(), first_kept);
 }
 

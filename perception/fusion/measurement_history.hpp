@@ -1,4 +1,5 @@
-// The measurements of the fusion filter's history in the order in which they are applied, whatever order they came in.
+// The measurements in the history of the fusion filter, in the order in which they are applied, which does not depend
+// on the order of arrival.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +14,13 @@
 
 namespace swiftlet::perception::fusion {
 
-/// The order at equal times is that of the kinds: a pose is cloned after everything known about it.
+/// At equal times, measurements are applied in the order of their kinds: a pose is cloned after all measurements of it.
 enum class MeasurementKind : std::uint8_t { kHeight, kVerticalSpeed, kRelativePose, kAbsolutePose, kClone };
 
 struct Measurement {
   common::Time stamp;
   MeasurementKind kind = MeasurementKind::kClone;
-  common::Time from;                                ///< kRelativePose: when the reference was cloned.
+  common::Time from;                                ///< kRelativePose: time of the cloned reference.
   common::Pose2 pose;                               ///< kRelativePose, kAbsolutePose.
   std::optional<Eigen::Vector2d> unseen_direction;  ///< kRelativePose: in the level frame at `from`.
   double value = 0;                                 ///< kHeight: m; kVerticalSpeed: m/s.
@@ -27,16 +28,19 @@ struct Measurement {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< kHeight, kVerticalSpeed: only (0, 0).
 };
 
-/// Two measurements of one kind and time are put in the order of their values, so that not even they depend on arrival.
+/// Measurements of the same kind and time are ordered by their values, so that their order does not depend on arrival
+/// either.
 class MeasurementHistory {
  public:
   explicit MeasurementHistory(std::size_t capacity);
 
   void clear() { measurements_.clear(); }
-  /// False when full; then nothing changed.
+  /// False if the history is full; nothing changes then.
   bool insert(const Measurement& measurement);
-  void dropUntil(common::Time time);                                                  ///< Those at or before.
-  std::span<const Measurement> within(common::Time after, common::Time until) const;  ///< after < stamp <= until.
+  /// Drops measurements at or before `time`. Up to 31 of them may stay until a later call.
+  void dropUntil(common::Time time);
+  /// The measurements with after < stamp <= until.
+  std::span<const Measurement> within(common::Time after, common::Time until) const;
   bool holdsClone(common::Time time) const;
 
  private:

@@ -26,7 +26,7 @@ Eigen::Matrix<double, K, K> innovationCovariance(const Linearized<K>& measuremen
   return innovation;
 }
 
-/// One component of the state, measured as it is.
+/// A direct measurement of one component of the state.
 Linearized<1> direct(int component, double residual, double variance) {
   Linearized<1> m;
   m.residual(0) = residual;

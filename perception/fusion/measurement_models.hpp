@@ -1,4 +1,4 @@
-// What the fusion filter measures, linearized: residual = measured - predicted = H * error + noise.
+// The measurement models of the fusion filter, linearized: residual = measured - predicted = H * error + noise.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace swiftlet::perception::fusion {
 
-/// K rows; the columns of H beyond the state's dimension are not read.
+/// A measurement with K rows. Columns of H beyond the state's dimension are not read.
 template <int K>
 struct Linearized {
   Eigen::Matrix<double, K, 1> residual = Eigen::Matrix<double, K, 1>::Zero();
@@ -19,35 +19,35 @@ struct Linearized {
 /// Planar pose of the body in the level frame of the body at a clone.
 Linearized<3> relativePose(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                            const Eigen::Matrix3d& covariance);
-/// The same where the scene did not hold the position along a direction (a unit vector in the level frame at the
-/// clone): the position across it, and the heading. Along it nothing is measured.
+/// Relative pose where the scene does not constrain the position along one direction (a unit vector in the level frame
+/// at the clone). Measures the position across it and the heading; along it nothing is measured.
 Linearized<2> relativePoseAcross(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                                  const Eigen::Matrix3d& covariance, const Eigen::Vector2d& unseen_direction_clone);
 Linearized<1> height(const FilterState& state, double height_m, double variance_m2);
 Linearized<1> verticalSpeed(const FilterState& state, double speed_m_s, double variance_m2_s2);
 Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom_body,
                            const Eigen::Matrix3d& covariance);
-/// Roll and pitch from the direction of "up" in the body frame; says nothing on yaw.
+/// Roll and pitch from the direction of "up" in the body frame; yaw is not measured.
 Linearized<2> upDirection(const FilterState& state, const Eigen::Vector3d& up_body, double variance_rad2);
-/// The specific force taken for gravity alone.
+/// The specific force, assumed to be due to gravity alone.
 Linearized<3> gravity(const FilterState& state, const Eigen::Vector3d& specific_force_body_m_s2, double gravity_m_s2,
                       double variance_m2_s4);
 Linearized<3> zeroVelocity(const FilterState& state, double variance_m2_s2);
 Linearized<3> zeroRotation(const FilterState& state, const Eigen::Vector3d& angular_velocity_body_rad_s,
                            double variance_rad2_s2);
 
-/// What an accelerometer feels in the body's x and y is the drag of rotors and frame alone, whatever the tilt: the
-/// thrust is along z, gravity is not felt (Martin and Salaun 2010; Leishman et al. 2014). Of the state's drag_stretch,
-/// whose means stand for its middle; it must not be empty.
+/// Along the body's x and y axes an accelerometer measures only the drag of rotors and frame, at any tilt: thrust is
+/// along z, and gravity is not measured (Martin and Salaun 2010; Leishman et al. 2014). Uses the means over the state's
+/// drag_stretch, which must not be empty.
 Linearized<2> drag(const FilterState& state, double variance_m2_s4);
 
-/// d yaw / d attitude error (in odom).
+/// Derivative of the yaw by the attitude error (in odom).
 Eigen::RowVector3d yawJacobian(const Eigen::Quaterniond& rotation);
 
 /// Squared Mahalanobis distance of the residual.
 template <int K>
 double mahalanobis2(const FilterState& state, const Linearized<K>& measurement);
-/// The Kalman update. False, and nothing changed, when the innovation covariance cannot be inverted.
+/// The Kalman update. Returns false and changes nothing if the innovation covariance is not positive definite.
 template <int K>
 bool update(FilterState& state, const Linearized<K>& measurement);
 

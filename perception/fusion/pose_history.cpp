@@ -8,8 +8,8 @@
 namespace swiftlet::perception {
 
 common::Pose3 interpolate(const common::Pose3& first, const common::Pose3& second, double share) {
-  // The arcs between two IMU samples are a few hundredths of a radian: the normalized chord is the arc to 1e-6 rad, and
-  // four times cheaper than slerp.
+  // The arc between two IMU samples is a few hundredths of a radian. The normalized linear interpolation differs from
+  // slerp by less than 1e-6 rad and is four times faster.
   const double sign = first.rotation.dot(second.rotation) < 0.0 ? -1.0 : 1.0;
   common::Pose3 pose;
   pose.rotation.coeffs() =

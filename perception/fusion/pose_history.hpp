@@ -1,5 +1,5 @@
-// A short stretch of estimated poses, interpolated: position linearly, rotation along the shortest arc. Made to deskew
-// a scan: a few segments, asked a thousand times in rising order of time.
+// A short sequence of estimated poses with interpolation: position linearly, rotation along the shortest arc. Made for
+// deskewing a scan: a few segments and a thousand queries in ascending order of time.
 #pragma once
 
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace swiftlet::perception {
 
-/// One thread: at() remembers where it looked.
+/// Not thread-safe, not even for reading: at() remembers the last segment.
 class PoseHistory {
  public:
   PoseHistory() = default;
-  /// `poses` in strictly rising order of time.
+  /// `poses` must be in strictly ascending order of time.
   explicit PoseHistory(std::vector<common::StampedPose> poses);
 
   const std::vector<common::StampedPose>& poses() const { return poses_; }
   bool covers(common::Time time) const;
 
-  /// None outside of the stretch. About 30 ns when asked in order.
+  /// nullopt outside the sequence. Takes about 30 ns when queried in ascending order.
   std::optional<common::Pose3> at(common::Time time) const;
 
  private:
   std::vector<common::StampedPose> poses_;
-  mutable std::size_t segment_ = 0;  ///< Where the last question fell; only speeds up the next one.
+  mutable std::size_t segment_ = 0;  ///< Segment of the last query; only speeds up the next one.
 };
 
 /// The pose between two others; `share` is 0 at the first and 1 at the second.

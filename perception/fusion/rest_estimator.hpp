@@ -1,4 +1,5 @@
-// What an IMU at rest shows: the direction of gravity and the gyroscope's bias. Tells when it does not rest.
+// Estimates the direction of gravity and the gyroscope's bias from an IMU at rest, and detects when the IMU is not at
+// rest.
 #pragma once
 
 #include <string>
@@ -20,7 +21,7 @@ struct RestEstimate {
   double accelerometer_mean_sigma_m_s2 = 0.0;
 };
 
-/// Keeps the last `rest_s` of samples, at most 1024.
+/// Uses the last `rest_s` of samples, at most 1024.
 class RestEstimator {
  public:
   struct Limits {
@@ -32,7 +33,7 @@ class RestEstimator {
   explicit RestEstimator(const Limits& limits);
 
   void add(const common::ImuSample& sample);
-  /// Or why not: too few samples, moving, or a force that is not gravity's.
+  /// The estimate, or the reason why there is none: too few samples, motion, or a specific force that is not gravity.
   tl::expected<RestEstimate, std::string> estimate() const;
 
  private:
@@ -42,7 +43,7 @@ class RestEstimator {
     Eigen::Vector3d specific_force_body_m_s2;
   };
   Limits limits_;
-  std::vector<Sample> samples_;  ///< Ring.
+  std::vector<Sample> samples_;  ///< A ring.
   std::size_t next_ = 0;
   std::size_t count_ = 0;
 };

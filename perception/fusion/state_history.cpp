@@ -16,11 +16,11 @@ namespace {
 
 constexpr double kMaxExtrapolation_s = 0.02;
 constexpr double kMaxAhead_s = 0.5;
-/// IMU samples a second that the history has room for; a faster IMU shortens it.
+/// IMU rate that the history has room for; a faster IMU shortens the history.
 constexpr double kRingRate_hz = 256.0;
 constexpr std::size_t kMeasurementCapacity = 1024;
 
-/// Forwards or backwards, turning and moving as at the slot.
+/// Extrapolates forwards or backwards with the velocity and angular velocity of the slot.
 common::Pose3 extrapolated(const Slot& slot, Time time) {
   const FilterState& state = slot.state;
   const double ahead_s = (time - state.stamp).seconds();
@@ -50,9 +50,10 @@ void StateHistory::start(const Slot& first) {
 
 void StateHistory::push(const common::ImuSample& sample, bool at_rest) {
   const Time now = sample.stamps.measured;
-  replay(count_);  // Before the ring may lose the oldest state.
+  replay(count_);  // The oldest state must be up to date before it may be dropped.
   if (count_ == ring_.size()) dropOldest();
-  // Too old by the configured length also when the ring has room: how late is late must not depend on the IMU's rate.
+  // Samples older than the configured length are dropped even if the ring has room, so that the greatest delay does not
+  // depend on the IMU's rate.
   while (count_ > 2 && now - slot(1).imu.stamp > length_ && dirty_from_ > 1) dropOldest();
   measurements_.dropUntil(slot(0).imu.stamp);
   Slot& s = slot(count_);
@@ -121,7 +122,8 @@ std::optional<common::Pose3> StateHistory::poseAt(Time time) {
   const FilterState& a = slot(low).state;
   const FilterState& b = slot(high).state;
   const common::Pose3 begin{a.rotation_odom_body, a.position_odom_m}, end{b.rotation_odom_body, b.position_odom_m};
-  // What was measured between the two made the estimate jump there: before it counts the one, from it on the other.
+  // A measurement between the two samples makes the estimate jump. Before the jump the pose is extrapolated from the
+  // earlier state, after it from the later one.
   const auto measured = measurements_.within(a.stamp, b.stamp);
   if (measured.empty())
     return perception::interpolate(begin, end, (time - a.stamp).seconds() / (b.stamp - a.stamp).seconds());

@@ -1,4 +1,4 @@
-// What the fusion filter has lately come through, to step back in and replay. Private to fusion.
+// The recent history of the fusion filter, which can be replayed from any time. Private to fusion.
 #pragma once
 
 #include <cstdint>
@@ -14,34 +14,35 @@
 
 namespace swiftlet::perception::fusion {
 
-/// A ring of IMU samples with their states, and the measurements between them. A late measurement makes all states
-/// after it out of date; they are computed again when they are asked for, no more of them than the question needs.
+/// A ring of IMU samples with their states, and the measurements between them. A late measurement invalidates all
+/// states after it. They are recomputed when they are needed, and only as far as needed.
 class StateHistory {
  public:
   explicit StateHistory(const FusionConfig& config);
 
-  /// Forgets all; this one is up to date.
+  /// Discards everything and starts with this slot, which is up to date.
   void start(const Slot& first);
   bool empty() const { return count_ == 0; }
 
-  /// The next sample, after start().
+  /// Adds the next sample. Only after start().
   void push(const common::ImuSample& sample, bool at_rest);
-  /// kTaken, kTooOld or kTooNew.
+  /// Returns kTaken, kTooOld (also if there is no room) or kTooNew.
   Insertion insert(const Measurement& measurement);
 
-  /// Up to date. Not when empty.
+  /// The newest slot, brought up to date. The history must not be empty.
   const Slot& newest();
-  /// Whether a pose cloned at `time` is there, or will be once all is up to date.
+  /// Whether a clone at `time` was requested within the history or is in the newest state. True also for a requested
+  /// clone that was dropped for newer ones.
   bool holdsClone(common::Time time) const;
 
-  // As ErrorStateFilter has them.
+  // As in ErrorStateFilter.
   std::optional<common::Pose3> poseAt(common::Time time);
   std::optional<VerticalState> verticalAt(common::Time time);
   PoseHistory poses(common::Time from, common::Time to);
 
-  /// Whether a state has diverged since start(), as far as they are up to date.
+  /// Whether any state computed since start() has diverged.
   bool diverged() const { return diverged_; }
-  /// Steps computed again, ever.
+  /// Total number of steps recomputed.
   std::uint64_t replays() const { return replays_; }
 
  private:
@@ -49,8 +50,8 @@ class StateHistory {
   const Slot& slot(std::size_t age_from_oldest) const { return ring_[(oldest_ + age_from_oldest) % ring_.size()]; }
   common::Time newestStamp() const { return slot(count_ - 1).imu.stamp; }
   void dropOldest();
-  /// Brings the first `until` slots up to date. Measurements of one scan come one after the other, at one instant: what
-  /// is later is computed once, after the last of them.
+  /// Brings the first `until` slots up to date. Recomputing lazily pays off, because the measurements of one scan
+  /// arrive together: later states are computed once, after the last of them.
   void replay(std::size_t until);
 
   FilterStep step_;
@@ -59,7 +60,8 @@ class StateHistory {
   std::vector<Slot> ring_;
   std::size_t oldest_ = 0, count_ = 0;
   MeasurementHistory measurements_;
-  std::size_t dirty_from_ = 0;  ///< First slot (from the oldest) whose state must be computed again; count: none.
+  /// Index of the first slot whose state must be recomputed, counted from the oldest; count_ if there is none.
+  std::size_t dirty_from_ = 0;
   common::Time last_attitude_;
   bool diverged_ = false;
   std::uint64_t replays_ = 0;

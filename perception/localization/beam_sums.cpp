@@ -12,7 +12,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// As _mm_min_ps and _mm_max_ps order their operands: what is not a number becomes the bound.
+/// Operands are ordered as in _mm_min_ps and _mm_max_ps, so that NaN becomes the upper bound.
 float clamped(float value, float high) {
   value = value < high ? value : high;
   return value > 0.0F ? value : 0.0F;
@@ -75,7 +75,8 @@ __attribute__((target("avx2"))) inline Lanes lanesAt(const CellPoses& poses, std
           _mm256_loadu_ps(&poses.y[i])};
 }
 
-/// The byte under one beam of eight poses; the gather reads four bytes, the field has room behind its end.
+/// The byte under one beam for eight poses. The gather reads four bytes per lane; the field has room for that past its
+/// end.
 __attribute__((target("avx2"))) inline __m256i bytesUnder(const FieldView& field, const Lanes& pose, __m256 bx,
                                                           __m256 by, __m256 high_x, __m256 high_y, __m256i width) {
   const __m256 zero = _mm256_setzero_ps();

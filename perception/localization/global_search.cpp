@@ -14,9 +14,9 @@ namespace {
 
 using common::kRadPerDeg;
 
-/// Windows are read 16 bytes at a time and two rows at once; the last may reach beyond the array.
+/// Windows are read 16 bytes at a time and two rows at once; the last read may extend past the array.
 constexpr std::size_t kSearchOverread = 64;
-/// Points farther than this from the vehicle move too much between two directions to be of use.
+/// Points farther than this from the vehicle are not used: they move too much from one searched direction to the next.
 constexpr double kMaxReach_m = 25.0;
 
 std::size_t indexOf(int x, int y, int width) {
@@ -50,8 +50,8 @@ GlobalSearch::GlobalSearch(std::shared_ptr<const MapField> map, const GlobalSear
   buildLevels();
 }
 
-/// Level k bounds what a point finds that is moved by 0 .. 2^k - 1 positions from any place in a block, as in
-/// LikelihoodField.
+/// Builds the pyramid. A value of level k bounds the value of a point anywhere in its block when it is moved by 0 ..
+/// 2^k - 1 positions, as in LikelihoodField.
 void GlobalSearch::buildLevels() {
   cell_m_ = std::max(config_.cell_m, map_->resolution_m());
   const Eigen::Vector2d size_m = map_->high_m() - map_->low_m();
@@ -63,7 +63,7 @@ void GlobalSearch::buildLevels() {
   columns_ = wholeBlocks(std::max(size_m.x(), cell_m_) / cell_m_);
   rows_ = wholeBlocks(std::max(size_m.y(), cell_m_) / cell_m_);
   border_ = wholeBlocks(reach_m_ / cell_m_ + 2.0);
-  // Windows of sums are 16 blocks wide; they may begin at the last block.
+  // Windows of sums are 16 blocks wide and may begin at the last block.
   width_ = columns_ + 2 * border_ + kWindowColumns * kBlock;
   height_ = rows_ + 2 * border_ + 2 * kBlock;
 
@@ -112,21 +112,21 @@ bool GlobalSearch::isFree(int level, int x, int y) const {
   return free_[static_cast<std::size_t>(level)][indexOf(x, y, columns_ >> level)] != 0;
 }
 
-/// The search for one set of points. Best first: the block of poses with the highest bound is divided until single
-/// poses come up. These come in the order of their scores, so that no place is ever bettered by one that comes later.
+/// The search for one set of points, best first: the block of poses with the highest bound is split until single poses
+/// are reached. Poses are reached in descending order of score, so no later place is better than an earlier one.
 class GlobalSearch::Descent {
  public:
   struct Place {
     std::int32_t score = 0, x = 0, y = 0, direction = 0;
   };
 
-  /// Points in the vehicle's frame; what scores `least` or less is of no interest, nor what scores less than the best
-  /// by `margin` or more.
+  /// Takes points in the vehicle's frame. Poses that score `least` or less are ignored, and so are poses that score
+  /// `margin` or more below the best.
   Descent(const GlobalSearch& search, const std::vector<float>& x_m, const std::vector<float>& y_m, std::int32_t least,
           std::int32_t margin);
 
   void run();
-  const std::vector<Place>& places() const { return places_; }  ///< The best first.
+  const std::vector<Place>& places() const { return places_; }  ///< Best first.
   bool complete() const { return complete_; }
   double step_rad() const { return step_rad_; }
 
@@ -135,7 +135,7 @@ class GlobalSearch::Descent {
     std::uint16_t bound = 0, direction = 0;
     std::int32_t level = 0, x = 0, y = 0;
 
-    /// Of equal bounds the coarser comes first: it may hold a pose that comes before the finer one.
+    /// Among equal bounds the coarser block comes first, because it may contain a pose that precedes the finer one.
     bool operator<(const Block& other) const {
       if (bound != other.bound) return bound < other.bound;
       if (level != other.level) return level < other.level;
@@ -155,17 +155,17 @@ class GlobalSearch::Descent {
   void divide(const Block& block);
   bool covered(const Block& block) const;
   int apart(int a, int b) const;
-  /// What scores no more than this is of no interest.
+  /// Poses that score no more than this are ignored.
   std::int32_t floor() const { return std::max(least_, best_ - margin_); }
 
   const GlobalSearch& search_;
   std::int32_t least_, margin_;
-  std::int32_t best_ = 0;  // Of the poses looked at so far.
+  std::int32_t best_ = 0;  // Best score so far.
   double step_rad_ = 0.0;
   int distinct_cells_ = 0, distinct_directions_ = 0;
   std::vector<Direction> directions_;
-  std::vector<Block> blocks_;   // A heap: the next to look at is its first.
-  std::int32_t forgotten_ = 0;  // The highest bound among the blocks that there was no room for.
+  std::vector<Block> blocks_;   // A heap; its first element is the next block to examine.
+  std::int32_t forgotten_ = 0;  // Highest bound among the blocks dropped for lack of memory.
   std::vector<Place> places_;
   bool complete_ = true;
 };
@@ -207,7 +207,7 @@ void GlobalSearch::Descent::run() {
   int divided = 0;
   while (!blocks_.empty()) {
     const Block block = blocks_.front();
-    // What was forgotten may be better than all that comes now.
+    // A dropped block may contain a better pose than all that remain.
     if (block.bound <= std::max(floor(), forgotten_)) break;
     std::pop_heap(blocks_.begin(), blocks_.end());
     blocks_.pop_back();
@@ -242,7 +242,7 @@ void GlobalSearch::Descent::boundTopBlocks() {
           if (bound <= least || !s.isFree(kTopLevel, x, y)) continue;
           blocks_.push_back({bound, static_cast<std::uint16_t>(k), kTopLevel, x, y});
           if (bound <= highest) continue;
-          // A good pose early leaves less to remember.
+          // A good pose found early lets more blocks be discarded.
           highest = bound;
           best_ = std::max(best_, scoreWithin(blocks_.back()));
           least = std::max(floor(), forgotten_);
@@ -256,7 +256,7 @@ void GlobalSearch::Descent::boundTopBlocks() {
   std::erase_if(blocks_, [&](const Block& block) { return block.bound <= least; });
 }
 
-/// As many as will ever be divided: of a large map there are hundreds of millions of blocks.
+/// Keeps as many blocks as can ever be divided: a large map has hundreds of millions of blocks.
 void GlobalSearch::Descent::keepTheBest() {
   std::vector<std::size_t> counts(std::numeric_limits<std::uint16_t>::max() + 1);
   for (const Block& block : blocks_) ++counts[block.bound];
@@ -272,7 +272,8 @@ int GlobalSearch::Descent::apart(int a, int b) const {
   return std::min(off, count - off);
 }
 
-/// Whether no pose of the block is a place distinct from one that was found. It is no better.
+/// Non-maximum suppression: whether all poses of the block are too near to a place already found to be distinct from
+/// it. Places found earlier score at least as high.
 bool GlobalSearch::Descent::covered(const Block& block) const {
   const int last = (1 << block.level) - 1, x = block.x << block.level, y = block.y << block.level;
   return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
@@ -282,7 +283,7 @@ bool GlobalSearch::Descent::covered(const Block& block) const {
   });
 }
 
-/// Those without a free position have the bound 0.
+/// Children without a free position get the bound 0.
 std::array<GlobalSearch::Descent::Block, 4> GlobalSearch::Descent::childrenOf(const Block& block) {
   const int finer = block.level - 1, stride = search_.width_ >> finer;
   std::array<std::uint16_t, std::size_t{2} * kWindowColumns> sums;
@@ -298,7 +299,7 @@ std::array<GlobalSearch::Descent::Block, 4> GlobalSearch::Descent::childrenOf(co
   return children;
 }
 
-/// That of a good pose of the block, not always its best.
+/// Greedy descent: the score of a good pose of the block, which need not be its best.
 std::int32_t GlobalSearch::Descent::scoreWithin(Block block) {
   while (block.level > 0) {
     const std::array<Block, 4> children = childrenOf(block);

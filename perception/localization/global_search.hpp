@@ -1,10 +1,10 @@
-// All places of a map where a set of points fits: branch and bound over every free position and direction (Olson 2009),
-// on a coarse likelihood field. From its answer particles are drawn: the sensor's own proposal of mixture Monte Carlo
-// localization (Thrun, Fox, Burgard, Dellaert 2001), which finds the pose where particles spread at random are too few
-// to lie near it. Since it finds every distinct place that fits about as well as the best, it also tells when a pose is
-// ambiguous.
+// Finds all places of a map where a set of points fits, by branch and bound over every free position and direction
+// (Olson 2009) on a coarse likelihood field. Particles are drawn from the result: this is the sensor-based proposal of
+// mixture Monte Carlo localization (Thrun, Fox, Burgard, Dellaert 2001). It finds the pose even when particles spread
+// at random are too few to lie near it. It returns every distinct place that fits about as well as the best, so it also
+// shows whether a pose is ambiguous.
 //
-// Frame: that of the map's grid.
+// Frame: the map's grid.
 #pragma once
 
 #include <array>
@@ -37,27 +37,28 @@ struct GlobalSearchConfig {
 
 struct FittingPlace {
   common::Pose2 T_grid_points;
-  double fit = 0.0;  ///< Mean value of the points, in [0, 1].
+  double fit = 0.0;  ///< Mean field value at the points, in [0, 1].
 };
 
 struct GlobalSearchResult {
-  std::vector<FittingPlace> places;  ///< The best first.
-  bool complete = true;              ///< False: there may be more.
+  std::vector<FittingPlace> places;  ///< Best first.
+  bool complete = true;              ///< False if there may be more places.
 };
 
-/// Immutable; may be asked from any thread. Deterministic.
+/// Immutable; may be called from any thread. Deterministic.
 class GlobalSearch {
  public:
   GlobalSearch(std::shared_ptr<const MapField> map, const GlobalSearchConfig& config,
                Instructions instructions = bestInstructions());
 
-  /// At most kMaxWindowPoints points in a frame whose origin was once the vehicle's: it lies on a free cell. Places
-  /// that fit worse than the best by `margin` (of the mean value) are left out. The places are what is left of all
-  /// poses that fit, the best first, when each takes away those after it that are no place distinct from it.
+  /// Takes at most kMaxWindowPoints points, in a frame whose origin is a former position of the vehicle and therefore
+  /// must lie on a free cell. Leaves out places whose mean value is lower than that of the best by `margin` or more.
+  /// The places are the local maxima of the fit, after non-maximum suppression with the distances of the configuration.
   GlobalSearchResult search(const std::vector<Eigen::Vector2f>& points_m, double margin) const;
 
  private:
-  static constexpr int kTopLevel = 2;  // Blocks of 4 positions a side: coarser ones bound too loosely to pay.
+  // Blocks of 4 positions per side: coarser blocks have bounds too loose to be worth their cost.
+  static constexpr int kTopLevel = 2;
   static constexpr int kLevels = kTopLevel + 1;
 
   class Descent;
@@ -69,11 +70,12 @@ class GlobalSearch {
   GlobalSearchConfig config_;
   Instructions instructions_;
   double cell_m_ = 0.1;
-  int columns_ = 0, rows_ = 0;               // Positions.
-  int border_ = 0, width_ = 0, height_ = 0;  // Of the field: as far as points reach beyond the positions.
+  int columns_ = 0, rows_ = 0;  // Number of positions searched.
+  // Size of the field. The border is as wide as points can reach beyond the positions.
+  int border_ = 0, width_ = 0, height_ = 0;
   double reach_m_ = 0.0;
   std::array<std::vector<std::uint8_t>, kLevels> fields_;
-  std::array<std::vector<std::uint8_t>, kLevels> free_;  // Whether any position of the block is free.
+  std::array<std::vector<std::uint8_t>, kLevels> free_;  // Whether any position of a block is free.
 };
 
 }  // namespace swiftlet::perception

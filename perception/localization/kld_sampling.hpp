@@ -1,4 +1,5 @@
-// How many particles a belief needs (Fox 2003, "Adapting the sample size in particle filters through KLD-sampling").
+// The number of particles that a belief needs (Fox 2003, "Adapting the sample size in particle filters through
+// KLD-sampling").
 #pragma once
 
 #include <algorithm>
@@ -10,8 +11,8 @@
 
 namespace swiftlet::perception {
 
-/// With so many samples the Kullback-Leibler distance between the true distribution over `occupied_bins` bins and the
-/// sampled one is below `error`, with the probability of which `quantile` is the upper standard normal quantile
+/// Number of samples at which the Kullback-Leibler distance between the true distribution over `occupied_bins` bins and
+/// the sampled one stays below `error`, with the probability whose upper standard normal quantile is `quantile`
 /// (equation 7 there, the Wilson-Hilferty approximation).
 inline double kldSampleSize(std::size_t occupied_bins, double error, double quantile) {
   if (occupied_bins < 2) return 1.0;
@@ -21,7 +22,7 @@ inline double kldSampleSize(std::size_t occupied_bins, double error, double quan
   return k / (2.0 * error) * b * b * b;
 }
 
-/// The bins of poses that samples have fallen into.
+/// The set of pose bins that contain at least one sample.
 class PoseBins {
  public:
   PoseBins(double bin_m, double bin_rad) : bin_m_(bin_m), bin_rad_(bin_rad) {}
@@ -30,7 +31,7 @@ class PoseBins {
     const auto bin = [](double value, double width) {
       constexpr double kHalf = 1 << 20;
       const double at = std::floor(value / width) + kHalf;
-      // What is no number, too, falls into a bin.
+      // NaN goes into bin 0.
       return at > 0.0 ? static_cast<std::uint64_t>(std::min(at, 2.0 * kHalf - 1.0)) : 0U;
     };
     bins_.insert(bin(x_m, bin_m_) << 42 | bin(y_m, bin_m_) << 21 | bin(yaw_rad, bin_rad_));

@@ -14,7 +14,7 @@ using common::Pose2;
 
 namespace {
 
-/// A vehicle that turns on the spot makes no way after which scans are forgotten.
+/// Limits the scans kept while the vehicle turns on the spot: its path length does not grow, so none would be dropped.
 constexpr std::size_t kMostScans = 200;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the localizer is given with each scan.
+// The input of the localizer for each scan.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,14 +9,14 @@
 namespace swiftlet::perception {
 
 struct LocalizationInput {
-  /// In the level frame of the body; its own T_odom_body is not read.
+  /// In the level frame of the body. Its own T_odom_body is not used.
   const ProjectedScan& scan;
-  common::Pose2 T_odom_body;  ///< An input without a finite one is passed over.
-  /// Of the odometry since the last input, (x_m, y_m, yaw_rad) with the axes of the body then. One that is not finite
-  /// says nothing: the step is taken for very uncertain.
+  common::Pose2 T_odom_body;  ///< An input with a non-finite pose is skipped.
+  /// Covariance of the odometry step since the last input: (x_m, y_m, yaw_rad) along the axes of the body at that
+  /// input. If it is not finite, the step counts as very uncertain.
   Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();
-  bool fresh = true;  ///< The odometry was not made of this scan: it may weigh.
-  /// The odometry does not know how the vehicle came here from where it was; what it may be off by is added.
+  bool fresh = true;  ///< The odometry did not use this scan, so it may weigh the particles.
+  /// The odometry lost track since the last input; the covariance of an unknown step is added.
   bool interrupted = false;
 };
 

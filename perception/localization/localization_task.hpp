@@ -1,12 +1,12 @@
-// The search of the whole map as a value.
+// The search of the whole map as a task that can run in another thread.
 #pragma once
 
 #include <memory>
 
 namespace swiftlet::perception {
 
-/// A search of the whole map; heavy. A pure function of what it was given and of the map, which never changes: for any
-/// thread.
+/// A search of the whole map. Running it is expensive. It is a pure function of its data and of the map, which never
+/// changes, so it may run in any thread.
 struct LocalizationTask {
   struct Data;
   std::shared_ptr<Data> data;

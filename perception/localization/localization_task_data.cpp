@@ -19,10 +19,10 @@ LocalizationResult run(const LocalizationTask& task) {
   const std::vector<Eigen::Vector2f>& points = result->whole.points_middle_m;
   result->enough_points = static_cast<int>(points.size()) >= config.local_map_least_points;
   if (!result->enough_points) return {std::move(result)};
-  // What cannot be told from the best must not be missing among the places: as many that fit worse still as there are
-  // in a large building are together less likely than the ambiguity allows.
+  // The margin keeps every place that the best cannot be distinguished from: kOthers places just outside it, as in a
+  // large building, are together less probable than `ambiguity`.
   constexpr double kOthers = 50.0;
-  constexpr double kCoarseness = 0.05;  // By how much the coarse field may misjudge a fit.
+  constexpr double kCoarseness = 0.05;  // Error of a fit on the coarse field.
   const double nats = std::log(kOthers / std::max(config.ambiguity, 1e-6));
   const double margin =
       kCoarseness + nats / (config.point_weight * data.map->topNats() * static_cast<double>(points.size()));

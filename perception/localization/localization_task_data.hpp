@@ -1,4 +1,4 @@
-// What travels between the localizer and the thread that searches the whole map; private to localization.
+// The data that the localizer and the thread that searches the map exchange. Private to localization.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace swiftlet::perception {
 
-/// As it was when the search was asked for.
+/// State at the time the search was requested.
 struct LocalizationTask::Data {
   std::uint64_t epoch = 0;
-  bool doubted = false;  ///< It is believed to be somewhere, and looked for elsewhere.
+  bool doubted = false;  ///< The vehicle is localized; the search looks for a better place.
   LocalMap local_map{0.0};
   std::vector<Eigen::Vector2f> scan_body_m;
   common::Pose2 T_odom_scan;

@@ -20,7 +20,7 @@ using common::Pose2;
 
 namespace {
 
-/// How far particles are spread about a place that was found: what its search left open.
+/// Spread of the particles about a place that was found: the remaining error of the search.
 const Eigen::Matrix3d kPlaceCovariance = common::planarCovariance(0.05, 1.0 * kRadPerDeg);
 
 }  // namespace
@@ -70,20 +70,20 @@ struct Localizer::Impl {
   double elapsed_s = 0.0;
   ScanSupport support;
   int places = 0;
-  double since_search_s = 0.0;  ///< While localized.
+  double since_search_s = 0.0;  ///< Used only while localized.
 
-  // While not.
+  // Used only while not localized.
   struct Candidate {
     Pose2 T_grid_odom;
-    double path_length_m = 0.0;  ///< Where it was first the only place.
+    double path_length_m = 0.0;  ///< Path length at which it first was the only place.
   };
   std::optional<Candidate> candidate;
-  std::optional<double> searched_path_length_m;  ///< At the last search.
+  std::optional<double> searched_path_length_m;  ///< Path length at the last search.
   SearchPatience patience;
-  double nowhere_path_length_m = 0.0;  ///< Since when the local map fits nowhere.
+  double nowhere_path_length_m = 0.0;  ///< Path length since which the local map fits nowhere.
   bool fits_nowhere = false;
 
-  // The search that is asked for, and the one that is under way.
+  // The requested search, and whether one is running.
   struct Question {
     std::vector<Eigen::Vector2f> scan_body_m;
     Pose2 T_odom_scan;
@@ -91,12 +91,13 @@ struct Localizer::Impl {
   };
   std::optional<Question> question;
   bool searching = false;
-  std::uint64_t epoch = 0;  ///< What was searched for in an earlier one no longer counts.
+  std::uint64_t epoch = 0;  ///< Results of a search from an earlier epoch are discarded.
 
+  /// Accumulated odometry of the inputs that were skipped for lack of a pose.
   struct {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     bool interrupted = false;
-  } passed_over;  ///< What the odometry did over inputs without a pose.
+  } passed_over;
 
   std::optional<LocalizationEvent> event;
 };
@@ -120,7 +121,7 @@ void Localizer::Impl::step(const LocalizationInput& input) {
   if (!first && input.interrupted) forgetAll();
 }
 
-/// What was seen from another place, or from where the odometry does not know the way, no longer counts.
+/// Discards all observations: they come from another place, or from before the odometry lost track.
 void Localizer::Impl::forgetAll() {
   local_map.clear();
   forgetSearches();
@@ -137,7 +138,8 @@ void Localizer::Impl::track(const LocalizationInput& input) {
     lose(fmt::format("the pose is uncertain by {:.1f} m", uncertain_m));
 }
 
-/// Once in doubt, what is seen from then on is kept and looked for in the whole map.
+/// Checks the pose against the scan. While the check fails, scans are collected in the local map and searched for in
+/// the whole map.
 void Localizer::Impl::doubt(const LocalizationInput& input) {
   support = supportOf(*map, input.scan.points_level_m, tracker.T_grid_body(), config.support);
   const bool doubted = lost_test.doubtful();
@@ -188,7 +190,7 @@ void Localizer::Impl::lose(std::string reason) {
   places = 0;
 }
 
-/// The local map grows; the particles are all the places where it fits.
+/// Extends the local map and requests a search of the whole map when it is due.
 void Localizer::Impl::find(const LocalizationInput& input) {
   if (!local_map.empty() && !tracker.generationDue(input.T_odom_body)) return;
   local_map.add(tracker.T_odom_body(), input.scan.points_level_m);
@@ -216,7 +218,7 @@ void Localizer::Impl::apply(const LocalizationResult::Data& found) {
   } else if (found.enough_points) {
     judge(found);
   } else {
-    searched_path_length_m.reset();  // Again, as soon as there is more.
+    searched_path_length_m.reset();  // Retry as soon as there are more points.
   }
 }
 
@@ -252,7 +254,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
   }
   places = 1;
   keepCandidate(best.T_grid_points * T_odom_middle.inverse(), found.task->path_length_m);
-  // The last scan alone must not speak against it, either.
+  // The last scan alone must agree as well.
   support = supportOf(*map, found.task->scan_body_m, candidate->T_grid_odom * found.task->T_odom_scan, config.support);
   if (found.task->path_length_m - candidate->path_length_m >= config.confirm_distance_m &&
       lost_test.logOdds(support) <= 0.0) {
@@ -268,7 +270,7 @@ void Localizer::Impl::fitsNowhere() {
   if (!fits_nowhere) nowhere_path_length_m = tracker.path_length_m();
   fits_nowhere = true;
   tracker.particles().spreadOverFreeSpace();
-  // It may have been carried away meanwhile: begin anew from here.
+  // The vehicle may have been carried elsewhere, so the local map starts again from here.
   if (tracker.path_length_m() - nowhere_path_length_m > config.confirm_distance_m) {
     local_map.clear();
     fits_nowhere = false;

@@ -1,17 +1,25 @@
-// Where a vehicle is in a given map: found globally, followed, and doubted.
+// Localization in a given map: finds the pose globally, tracks it, and detects when it is lost.
 //
-//               several places fit               one place, held over some way
-//   kGlobal  <---------------------> kAmbiguous -------------------------------> kLocalized
-//      |  (nothing fits, or too little was seen)      ^                              |
-//      +----------------------------------------------|----------------------->      | the map no longer explains what
-//                                                     |                              | is seen, or explains it much
-//                                                   kLost <--------------------------+ better elsewhere
+//                 1                     2
+//   kGlobal <------------> kAmbiguous -------> kLocalized
+//                 3           ^ |                  |
+//                           1 | | 4                | 5
+//                             | v                  |
+//                            kLost <---------------+
 //
-// Until it is localized, scans are kept in a local map and the whole of it is compared with the given map: the
-// particles are drawn from all places where it fits (GlobalSearch), in proportion to its likelihood. Once a single
-// place is left and holds while the vehicle goes on, particles follow it: a new generation per distance travelled, from
-// scans that the odometry was not made of (Grzonka 2009, section V-C). Every scan is looked at for how much of it the
-// map explains; that moves no particle.
+//   1  At least one place fits, but the pose is not confirmed.
+//   2  One place is left, has been the only one over `confirm_distance_m`, and agrees with the last scan.
+//   3  No place fits, and the vehicle was never localized.
+//   4  No place fits, and the vehicle was localized before.
+//   5  The map explains too little of the scans, another place explains them much better, or the pose is too uncertain.
+//
+// startAt() leads from any state to kLocalized.
+//
+// Until the vehicle is localized, its scans are collected in a local map. The whole local map is compared with the
+// given map, and the particles are drawn from all places where it fits (GlobalSearch), in proportion to the likelihood.
+// Once only one place is left and stays the only one over `confirm_distance_m`, particles track the pose: a new
+// generation is drawn per distance travelled, from scans that the odometry did not use (Grzonka 2009, section V-C).
+// Every scan is also checked for the share that the map explains; this check moves no particle.
 #pragma once
 
 #include <cstdint>
@@ -39,47 +47,48 @@ struct LocalizationEvent {
 
 struct LocalizationEstimate {
   LocalizationState state = LocalizationState::kGlobal;
-  common::Pose2 T_map_odom;  ///< Meaningful only when localized.
+  common::Pose2 T_map_odom;  ///< Valid only when localized.
   common::Pose2 T_map_body;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of T_map_body: (x_m, y_m, yaw_rad) along the map's axes.
-  double explained = 0.0;                                ///< Share of the scan that the map explains from there.
-  int places = 0;                                        ///< That explain what was seen; 1 when localized.
-  std::optional<LocalizationEvent> event;                ///< The state changed.
+  /// Covariance of T_map_body: (x_m, y_m, yaw_rad) along the map's axes.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  double explained = 0.0;                  ///< Share of the scan that the map explains at the pose.
+  int places = 0;                          ///< Number of places that explain the scans; 1 when localized.
+  std::optional<LocalizationEvent> event;  ///< Set when the state changed.
 };
 
-/// Deterministic. Not thread-safe. The work per scan is bounded, but a search of the whole map takes up to
-/// some hundred milliseconds. Where that must not hold up the loop, `follow` leaves it to a task:
+/// Deterministic. Not thread-safe. The work per scan is bounded, but a search of the whole map can take a few hundred
+/// milliseconds. To keep the search out of the loop, `follow` leaves it to a task:
 ///
 ///   follow(scan) --> takeTask() --> run(task), in a job --> apply(result), some scans later
 ///
 class Localizer {
  public:
-  /// `T_map_grid` places the grid in the map frame. The map must have walls and free cells: see `whyUnusable`.
+  /// `T_map_grid` is the pose of the grid in the map frame. The map must have walls and free cells: see `whyUnusable`.
   Localizer(const common::OccupancyGrid& map, const common::Pose2& T_map_grid, const LocalizerConfig& config,
             std::uint64_t seed);
   ~Localizer();
   Localizer(Localizer&&) noexcept;
   Localizer& operator=(Localizer&&) noexcept;
 
-  /// What makes a map useless for localization; empty when nothing does.
+  /// The reason why a map cannot be used for localization; empty if it can.
   static std::string whyUnusable(const common::OccupancyGrid& map);
 
-  /// It is believed to be there, until what is seen says otherwise.
+  /// Starts localized at a given pose, which later scans may refute.
   void startAt(const common::Pose2& T_map_body, const Eigen::Matrix3d& covariance);
 
-  /// Whether a scan taken at that pose should be kept from the odometry, to weigh particles. The local map is made of
-  /// any scans: it is compared with the given map, not with the odometry.
+  /// Whether a scan taken at that pose should be withheld from the odometry and weigh the particles instead. The local
+  /// map may use all scans, because it is compared with the given map and not with the odometry.
   bool wantsFreshScan(const common::Pose2& T_odom_body) const;
 
-  /// What one scan says, with the search it asks for.
+  /// Processes one scan, including the search it requests: follow(), run() and apply() in one call.
   LocalizationEstimate add(const LocalizationInput& input);
 
-  /// The same without the search.
+  /// Processes one scan without the search.
   LocalizationEstimate follow(const LocalizationInput& input);
-  /// The search that the last scan asks for; none while one that was taken has not been applied.
+  /// The search requested by the last scan; nullopt if there is none, or while the result of an earlier one is pending.
   std::optional<LocalizationTask> takeTask();
-  /// What became of the task, as of the last scan. One that no longer fits, as the vehicle was carried or told a place
-  /// meanwhile, changes nothing.
+  /// Applies the result of a search, to the state after the last scan. A result that is out of date, because the
+  /// vehicle was carried or given a pose in the meantime, is ignored.
   LocalizationEstimate apply(const LocalizationResult& result);
 
   LocalizationState state() const;

@@ -1,5 +1,5 @@
-// Localization in a recorded laser log, or on any robot that carries its laser level: LaserFrontEnd and Localizer in
-// one. Each scan serves either of the two: those that weigh particles are kept from the odometry.
+// Localization in a recorded laser log, or on any robot that carries its laser level: combines LaserFrontEnd and
+// Localizer. Each scan is used by only one of them: scans that weigh the particles are withheld from the odometry.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct LogLocalizerConfig {
 };
 
 struct LogLocalizerCounts {
-  std::uint64_t breaks = 0;  ///< Times the odometry lost the thread.
+  std::uint64_t breaks = 0;  ///< Number of times the odometry lost track.
   LaserSlamCounts front_end;
 };
 
@@ -28,7 +28,7 @@ class LogLocalizer {
                std::uint64_t seed);
 
   Localizer& localizer() { return localizer_; }
-  /// None as long as no scan has had enough points to begin with.
+  /// Processes one scan. nullopt until a scan has had enough points to start with.
   std::optional<LocalizationEstimate> add(const LaserSlamInput& input);
 
   LogLocalizerCounts counts() const;

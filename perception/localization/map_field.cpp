@@ -9,16 +9,16 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Reading four bytes at once at the last cell stays within the array.
+/// Room for reading four bytes at once at the last cell.
 constexpr std::size_t kFieldOverread = 16;
-/// Cells among which a free one is looked for one by one.
+/// Number of cells per entry of free_before_; within them a free cell is searched for one by one.
 constexpr std::size_t kStretch = 256;
 
-/// Cells up or down to the nearest occupied one, or no number that any map has.
+/// Marks a column without an occupied cell, in the distances of the first pass.
 constexpr std::uint16_t kNone = std::numeric_limits<std::uint16_t>::max();
 
 /// The second pass of the exact Euclidean distance transform (Felzenszwalb and Huttenlocher 2012): the lower envelope
-/// of the parabolas in[i] + (x - i)^2, squared distances in cells.
+/// of the parabolas in[i] + (x - i)^2, in squared cells.
 class DistancePass {
  public:
   explicit DistancePass(std::size_t length) : in_(length), roots_(length), borders_(length + 1) {}
@@ -121,7 +121,7 @@ Eigen::Vector2d MapField::freeCell_m(std::size_t n) const {
 void MapField::measureDistances() {
   constexpr float kFar = std::numeric_limits<float>::infinity();
   const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
-  // The first pass, along the columns, in whole cells.
+  // The first pass: distances along the columns, in whole cells.
   std::vector<std::uint16_t> along(kinds_.size(), kNone);
   const auto next = [](std::uint16_t cells) { return cells == kNone ? kNone : static_cast<std::uint16_t>(cells + 1); };
   for (std::size_t i = 0; i < along.size(); ++i)
@@ -144,7 +144,7 @@ void MapField::measureDistances() {
 
 void MapField::fillValues() {
   top_nats_ = std::log1p((1.0 - config_.random_share) / config_.random_share);
-  // A map of coarse cells places its walls no better than that.
+  // The walls of the map are only known to within one cell.
   const double sigma_m = std::max(config_.sigma_m, resolution_m_);
   std::vector<std::uint8_t> by_distance(256);
   for (std::size_t cm = 0; cm < by_distance.size(); ++cm)
@@ -170,10 +170,10 @@ double MapField::rayLength_m(const Eigen::Vector2d& from_m, const Eigen::Vector2
   const double length_m = (to_m - from_m).norm();
   const Eigen::Vector2d direction =
       length_m > 0.0 ? Eigen::Vector2d((to_m - from_m) / length_m) : Eigen::Vector2d(1, 0);
-  // A ray may be of any length; outside of the circle around the field there is nothing to meet.
+  // The ray may have any length; outside the circle around the field there are no cells.
   const double away_m = (0.5 * (low_m() + high_m()) - from_m).norm(), radius_m = 0.5 * (high_m() - low_m()).norm();
   const double end_m = std::min(length_m, away_m + radius_m);
-  // As far as the nearest wall is away, nothing can be met.
+  // Sphere tracing: no occupied cell is nearer than the nearest wall, so the ray can advance by that distance.
   for (double along_m = std::max(0.0, away_m - radius_m); along_m <= end_m;) {
     const Place place = at(from_m + along_m * direction);
     if (place.occupied) return along_m;

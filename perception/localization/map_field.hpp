@@ -1,12 +1,12 @@
-// A given map as localization reads it: how likely a beam ends in each cell, in bytes (the likelihood field of Thrun,
-// Burgard and Fox, Probabilistic Robotics, 6.4), how far the nearest wall is, and where the vehicle can be.
+// A given map in the form that localization needs: how likely a beam ends in each cell, in bytes (the likelihood field
+// of Thrun, Burgard and Fox, Probabilistic Robotics, 6.4), the distance to the nearest wall, and the free cells.
 //
-// A value is 255 ln(p(d) / p(far)) / ln(p(0) / p(far)), with p(d) a Gaussian of the distance d to the nearest occupied
-// cell over a constant share of beams that end anywhere: the sum over the beams of a scan is its log-likelihood. A
-// cell that was never seen says nothing for or against a pose: it has the value a beam has in the mean where the pose
-// is wrong.
+// A value is 255 ln(p(d) / p(far)) / ln(p(0) / p(far)). Here p(d) is a Gaussian of the distance d to the nearest
+// occupied cell plus a constant density of random beams. The sum of the values over the beams of a scan is its
+// log-likelihood, up to a factor and a constant. A cell that was never observed should be neutral, so its value is at
+// least the mean value of a beam at a wrong pose.
 //
-// Frame: that of the grid. Immutable; may be read from any thread.
+// Frame: the grid. Immutable; may be read from any thread.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct MapFieldConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// Bytes row by row, with a border all around so that a clamped look-up falls on it.
+/// Bytes row by row, with a border on all sides, so that a clamped look-up falls on the border.
 struct FieldView {
   const std::uint8_t* cells = nullptr;
   int width = 0;
@@ -40,33 +40,34 @@ struct FieldView {
 class MapField {
  public:
   static constexpr double kMaxDistance_m = 2.55;
-  /// Of the known part. Cells are counted in 32 bits; so many take, searched, 5 GB.
+  /// Limit on the cells of the known part. Cell counts have 32 bits; searching a map of this size takes 5 GB.
   static constexpr std::int64_t kMaxCells = 1'000'000'000;
 
   MapField(const common::OccupancyGrid& map, const MapFieldConfig& config);
 
   const MapFieldConfig& config() const { return config_; }
   FieldView view() const { return {values_.data(), width_, height_, resolution_m_, origin_m_}; }
-  /// The log-likelihood of a value of 255 over that of 0.
+  /// Difference in log-likelihood between a value of 255 and a value of 0.
   double topNats() const { return top_nats_; }
 
   struct Place {
-    double wall_distance_m = kMaxDistance_m;  ///< To the centre of the nearest occupied cell; capped.
+    double wall_distance_m = kMaxDistance_m;  ///< Distance to the centre of the nearest occupied cell, capped.
     bool known = false;
     bool occupied = false;
     bool free = false;
   };
   Place at(const Eigen::Vector2d& point_m) const;
 
-  /// The length of the ray from one point towards another until it meets an occupied cell; infinity if it meets none.
+  /// Distance along the ray from one point towards another at which it meets an occupied cell; infinity if it meets
+  /// none before the second point.
   double rayLength_m(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) const;
 
   double resolution_m() const { return resolution_m_; }
   std::size_t freeCells() const { return free_cells_; }
-  /// The centre of the n-th free cell, row by row; n < freeCells().
+  /// Centre of the n-th free cell, counted row by row; n < freeCells().
   Eigen::Vector2d freeCell_m(std::size_t n) const;
   bool hasWalls() const { return has_walls_; }
-  /// The known part.
+  /// Lower corner of the known part; high_m() is the upper one.
   Eigen::Vector2d low_m() const { return origin_m_ + Eigen::Vector2d::Constant(resolution_m_ * kBorder); }
   Eigen::Vector2d high_m() const {
     return origin_m_ + Eigen::Vector2d(width_ - kBorder, height_ - kBorder) * resolution_m_;
@@ -85,7 +86,7 @@ class MapField {
 
   MapFieldConfig config_;
   double resolution_m_;
-  common::CellIndex begin_;  ///< The map's cell that is the field's first.
+  common::CellIndex begin_;  ///< The cell of the map that is the first cell of the field.
   Eigen::Vector2d origin_m_ = Eigen::Vector2d::Zero();
   int width_ = 0, height_ = 0;
   double top_nats_ = 0.0;
@@ -94,12 +95,13 @@ class MapField {
   std::vector<std::uint8_t> kinds_;
   std::vector<std::uint8_t> distances_cm_;
   std::size_t free_cells_ = 0;
-  std::vector<std::uint32_t> free_before_;  ///< Free cells before each stretch of cells: of a large map the list of all
-                                            ///< would be larger than the field.
+  /// Number of free cells before each stretch of kStretch cells. For a large map, a list of all free cells would be
+  /// larger than the field.
+  std::vector<std::uint32_t> free_before_;
 };
 
-/// The log-likelihood of a beam that ends `distance_m` from a wall, over that of one far from any, as a share of the
-/// greatest.
+/// Log-likelihood ratio of a beam that ends `distance_m` from a wall and one that ends far from any, as a share of the
+/// greatest ratio.
 double beamValue(double distance_m, double sigma_m, double random_share);
 
 }  // namespace swiftlet::perception

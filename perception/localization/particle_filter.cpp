@@ -21,16 +21,17 @@ using common::Pose2;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Nearly Gaussian, never beyond 3.5: the sum of four uniform numbers. Probabilistic Robotics, Table 5.4, sums twelve.
+/// Approximately standard normal, always within 3.5: the sum of four uniform numbers. Probabilistic Robotics, Table
+/// 5.4, sums twelve.
 float noise(common::RandomStream& random) {
   const std::uint64_t bits = random.bits();
   const auto sum = static_cast<float>((bits & 0xffff) + (bits >> 16 & 0xffff) + (bits >> 32 & 0xffff) + (bits >> 48));
   constexpr float kMean = 4.0F * 32767.5F;
-  constexpr float kDeviation = 37837.2F;  // sqrt(4 / 12) of 65536.
+  constexpr float kDeviation = 37837.2F;  // 65536 sqrt(4 / 12).
   return (sum - kMean) * (1.0F / kDeviation);
 }
 
-/// A matrix L with L L^T = covariance; also where the covariance is singular.
+/// A matrix L with L L^T = covariance. The covariance may be singular.
 Eigen::Matrix3f rootOf(const Eigen::Matrix3d& covariance) {
   const common::SymmetricEigen<3> eigen = common::symmetricEigen(covariance);
   return (eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal()).cast<float>();
@@ -176,7 +177,7 @@ void ParticleFilter::weigh(std::span<const Eigen::Vector2f> points_body_m) {
     weights_[i] *= std::exp(nats * static_cast<float>(sums_[i] - best));
     all += static_cast<double>(weights_[i]);
   }
-  // Where all that is likely had lost its weight before, nothing is known.
+  // If every likely particle already had zero weight, nothing is known: all weights become equal.
   const bool vanished = !(all > 0.0);
   for (std::size_t i = 0; i < size(); ++i)
     weights_[i] = vanished ? 1.0F / static_cast<float>(size()) : static_cast<float>(weights_[i] / all);
@@ -202,8 +203,8 @@ void ParticleFilter::resampleAll(common::RandomStream& random) {
   keep(chosen_);
 }
 
-/// One by one until there are enough. The draws follow the golden section, so that any number of them is spread as
-/// evenly over the weights as the low-variance sampler's.
+/// Draws one by one until there are enough. The draws follow a golden-ratio sequence, so that any number of them is
+/// spread as evenly over the weights as with the low-variance sampler.
 void ParticleFilter::resampleAdaptively(common::RandomStream& random) {
   cumulated_.resize(size());
   double sum = 0.0;

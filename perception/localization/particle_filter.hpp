@@ -1,8 +1,8 @@
 // Monte Carlo localization (Dellaert, Fox, Burgard, Thrun 1999; Probabilistic Robotics, 8.3): particles are moved by
-// the odometry with its noise (Grzonka 2009, eq. 4), weighed by the likelihood field (eq. 5) and drawn anew. How many
-// there are follows the spread of the belief (Fox 2003).
+// the odometry with its noise (Grzonka 2009, eq. 4), weighted by the likelihood field (eq. 5) and resampled. Their
+// number depends on the spread of the belief (Fox 2003).
 //
-// Frame: that of the map's grid.
+// Frame: the map's grid.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct ParticleFilterConfig {
   std::vector<std::string> validate() const;
 };
 
-/// A place where the vehicle may be.
+/// A possible pose of the vehicle.
 struct PoseHypothesis {
   common::Pose2 T_grid_body;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of (x_m, y_m, yaw_rad), along the axes of the grid.
@@ -49,24 +49,25 @@ class ParticleFilter {
   ParticleFilter(std::shared_ptr<const MapField> map, const ParticleFilterConfig& config, std::uint64_t seed,
                  Instructions instructions = bestInstructions());
 
-  /// Anywhere on the free cells, in any direction: max_particles.
+  /// Spreads max_particles particles uniformly over the free cells, in any direction.
   void spreadOverFreeSpace();
-  /// In proportion to the probabilities, each as its covariance says. At least one hypothesis.
+  /// Draws max_particles particles around the hypotheses, in proportion to their probabilities and with their
+  /// covariances. Takes at least one hypothesis.
   void spreadAround(std::span<const PoseHypothesis> hypotheses);
 
-  /// Moves each by the step in its own frame, and by noise of that covariance (x_m, y_m, yaw_rad; axes of the body
-  /// before the step).
+  /// Moves each particle by the step, in its own frame, with noise of that covariance: (x_m, y_m, yaw_rad), along the
+  /// axes of the body before the step.
   void move(const common::Pose2& T_before_now, const Eigen::Matrix3d& covariance);
-  /// Multiplies the weights by the likelihood of end points in the body frame.
+  /// Multiplies the weights by the likelihood of a scan's end points, given in the body frame.
   void weigh(std::span<const Eigen::Vector2f> points_body_m);
-  /// Draws particles in proportion to their weights, with low variance; all weights are equal afterwards.
+  /// Resamples in proportion to the weights, with low variance; all weights are equal afterwards.
   void resample();
 
   struct Estimate {
     common::Pose2 T_grid_body;
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   };
-  /// The weighted mean.
+  /// The weighted mean and covariance of the particles.
   Estimate estimate() const;
 
   std::size_t size() const { return x_m_.size(); }
@@ -83,17 +84,17 @@ class ParticleFilter {
   ParticleFilterConfig config_;
   std::uint64_t seed_;
   Instructions instructions_;
-  std::uint64_t draws_ = 0;  ///< Names the random stream of the next draw.
+  std::uint64_t draws_ = 0;  ///< Index of the random stream for the next draw.
 
   std::vector<float> x_m_, y_m_, yaw_rad_, cosine_, sine_, weights_;
-  // Kept between calls.
+  // Buffers, kept between calls.
   std::vector<float> cells_x_, cells_y_, beams_x_, beams_y_, other_;
   std::vector<std::int32_t> sums_;
   std::vector<std::uint32_t> chosen_;
   std::vector<double> cumulated_;
 };
 
-/// Cosine and sine of angles in [-2 pi, 2 pi], good to 1e-6 and the same on every machine.
+/// Cosine and sine of angles in [-2 pi, 2 pi], accurate to 1e-6 and the same on every machine.
 void cosinesAndSines(std::span<const float> angles_rad, std::span<float> cosines, std::span<float> sines);
 
 }  // namespace swiftlet::perception

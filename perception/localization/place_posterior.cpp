@@ -11,19 +11,19 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose2;
 
-/// Poses around one, (2 * half + 1) in each coordinate.
+/// A grid of poses around one pose, with (2 * half + 1) poses in each coordinate.
 struct Neighbourhood {
   int half_positions = 1;
   double step_m = 0.05;
   int half_turns = 1;
   double step_rad = 0.01;
 };
-/// Covers what lies between the poses of the coarse search, then refines to what the field resolves.
+/// kCoarse covers the gaps between the poses of the coarse search; kFine refines to the resolution of the field.
 constexpr Neighbourhood kCoarse{2, 0.05, 3, 0.5 * kRadPerDeg};
 constexpr Neighbourhood kFine{1, 0.02, 1, 0.2 * kRadPerDeg};
 constexpr int kMostMoves = 4;
 
-/// Scores neighbourhoods of poses; keeps its buffers.
+/// Scores neighbourhoods of poses. Keeps its buffers between calls.
 class PoseScorer {
  public:
   PoseScorer(Instructions instructions, const MapField& map, const std::vector<Eigen::Vector2f>& points_m)
@@ -40,7 +40,7 @@ class PoseScorer {
     return sums()[0];
   }
 
-  /// The best of the neighbourhood of a pose; of equal ones the pose itself.
+  /// The best pose of the neighbourhood of a pose; the pose itself if others are only as good.
   Pose2 best(const Pose2& center, const Neighbourhood& around) {
     std::vector<Pose2> poses{center};
     for (int k = -around.half_turns; k <= around.half_turns; ++k)
@@ -88,8 +88,8 @@ Pose2 climbed(PoseScorer& scorer, Pose2 pose) {
   return pose;
 }
 
-/// Share of the points on known ground that end within `tolerance_m` of a wall; where that is less than half of the
-/// points, their share of half of the points.
+/// The share of the points on known cells that end within `tolerance_m` of a wall. If fewer than half of all points are
+/// on known cells, the share is taken of half of all points.
 double explainedShare(const MapField& map, const std::vector<Eigen::Vector2f>& points_m, const Pose2& T_grid_points,
                       double tolerance_m) {
   int known = 0, explained = 0;
@@ -99,7 +99,7 @@ double explainedShare(const MapField& map, const std::vector<Eigen::Vector2f>& p
     known += place.known || on_wall ? 1 : 0;
     explained += on_wall ? 1 : 0;
   }
-  // A few points on known ground do not speak for a place of which the map knows nothing.
+  // A few points on known cells are no evidence for a place where most of the map is unknown.
   const double asked = std::max<double>(known, 0.5 * static_cast<double>(points_m.size()));
   return asked > 0.0 ? explained / asked : 0.0;
 }

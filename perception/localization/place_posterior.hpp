@@ -1,4 +1,4 @@
-// The places that a coarse search found, at their best on the fine likelihood field, and how probable each is.
+// Refines the places found by a coarse search on the fine likelihood field, and computes how probable each of them is.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,13 @@ namespace swiftlet::perception {
 
 struct LikelyPlace {
   common::Pose2 T_grid_points;
-  double log_likelihood = 0.0;  ///< In nats, over that of points that are far from every wall.
-  double probability = 0.0;     ///< Among the places given.
-  double explained = 0.0;       ///< Share of the points on known ground that have a wall near.
+  double log_likelihood = 0.0;  ///< In nats, relative to points that are far from every wall.
+  double probability = 0.0;     ///< Relative to the other places.
+  double explained = 0.0;       ///< Share of the points on known cells that have a wall nearby.
 };
 
-/// Log-likelihood of points at a pose; `point_weight` is that of a single point, less than 1 as neighbours are not
-/// independent.
+/// Log-likelihood of points at a pose. `point_weight` is the weight of one point; it is less than 1 because
+/// neighbouring points are not independent.
 double logLikelihood(const MapField& map, const std::vector<Eigen::Vector2f>& points_m,
                      const common::Pose2& T_grid_points, double point_weight);
 
@@ -27,7 +27,7 @@ struct PlaceDistinction {
   bool same(const common::Pose2& a, const common::Pose2& b) const;
 };
 
-/// Each moved to its best pose near by; those that end up together are one. The most probable first.
+/// Moves each place to the best pose nearby and merges those that end up together. Most probable first.
 std::vector<LikelyPlace> likelyPlaces(Instructions instructions, const MapField& map,
                                       const std::vector<FittingPlace>& found,
                                       const std::vector<Eigen::Vector2f>& points_m, double point_weight,

@@ -13,10 +13,10 @@ using common::square;
 
 namespace {
 
-/// Particles never move all alike, or they would become one.
+/// Least noise of a particle step. Without noise, resampled copies of a particle would never separate.
 constexpr double kLeastNoise_m = 0.01;
 constexpr double kLeastNoise_rad = 0.2 * kRadPerDeg;
-/// Of the odometry's turns.
+/// Least error of the odometry's heading, as a share of the turn.
 constexpr double kTurnShare = 0.02;
 
 }  // namespace
@@ -26,7 +26,7 @@ PoseTracker::PoseTracker(const std::shared_ptr<const MapField>& map, const Local
 
 void PoseTracker::advance(const LocalizationInput& input) {
   const bool first = !begun();
-  way_.add(input.T_odom_body);
+  odometer_.add(input.T_odom_body);
   if (first) {
     T_odom_body_ = T_odom_generation_ = input.T_odom_body;
     if (!start_) return;
@@ -67,13 +67,13 @@ void PoseTracker::placeAt(const Pose2& T_grid_odom, const Eigen::Matrix3d& covar
 
 bool PoseTracker::generationDue(const Pose2& next_T_odom_body) const {
   return only_given_ ||
-         way_.path_length_m(next_T_odom_body) - generation_path_length_m_ >= config_.generation_distance_m ||
-         way_.turned_rad(next_T_odom_body) - generation_turned_rad_ >= config_.generation_turn_deg * kRadPerDeg;
+         odometer_.path_length_m(next_T_odom_body) - generation_path_length_m_ >= config_.generation_distance_m ||
+         odometer_.turned_rad(next_T_odom_body) - generation_turned_rad_ >= config_.generation_turn_deg * kRadPerDeg;
 }
 
 void PoseTracker::countGenerationsFromHere() {
-  generation_path_length_m_ = way_.path_length_m();
-  generation_turned_rad_ = way_.turned_rad();
+  generation_path_length_m_ = odometer_.path_length_m();
+  generation_turned_rad_ = odometer_.turned_rad();
 }
 
 void PoseTracker::generate(const ProjectedScan& scan) {

@@ -1,5 +1,5 @@
-// Follows a pose once it is found or given: by the odometry, and by particles that are weighed and drawn anew now and
-// then (Grzonka 2009, section V-C). Private to localization.
+// Tracks a pose that was found or given: by the odometry, and by particles that are weighted and resampled at intervals
+// (Grzonka 2009, section V-C). Private to localization.
 #pragma once
 
 #include <cstdint>
@@ -23,29 +23,29 @@ class PoseTracker {
  public:
   PoseTracker(const std::shared_ptr<const MapField>& map, const LocalizerConfig& config, std::uint64_t seed);
 
-  /// Odometry since the last input, with its errors. The first input says where the odometry begins.
+  /// Applies the odometry since the last input, with its errors. The first input defines where the odometry starts.
   void advance(const LocalizationInput& input);
-  bool begun() const { return way_.begun(); }
+  bool begun() const { return odometer_.begun(); }
 
-  /// The pose is believed to be this one, with particles about it. It is only roughly right until they are weighed.
+  /// Starts at a given pose with particles around it. The pose is only approximate until the particles are weighted.
   void startAt(const PoseHypothesis& given);
   bool onlyGiven() const { return only_given_; }
-  /// The pose was found; the particles are there.
+  /// Sets a pose that was found. The particles must already be around it.
   void placeAt(const common::Pose2& T_grid_odom, const Eigen::Matrix3d& covariance);
 
-  /// Whether way or turn since the last generation would ask for one at that pose.
+  /// Whether the distance or the turn since the last generation makes a new one due at that pose.
   bool generationDue(const common::Pose2& T_odom_body) const;
   void countGenerationsFromHere();
-  /// Predict, weigh, draw anew, take the mean.
+  /// One generation: moves, weighs and resamples the particles, and takes their mean as the pose.
   void generate(const ProjectedScan& scan);
 
   const common::Pose2& T_grid_odom() const { return T_grid_odom_; }
   common::Pose2 T_grid_body() const { return T_grid_odom_ * T_odom_body_; }
-  /// Of the pose that the odometry has led to since the particles were drawn; axes of the grid.
+  /// Covariance of the present pose, including the odometry since the last generation; along the axes of the grid.
   Eigen::Matrix3d covariance() const;
 
   const common::Pose2& T_odom_body() const { return T_odom_body_; }
-  double path_length_m() const { return way_.path_length_m(); }  ///< Travelled, by the odometry.
+  double path_length_m() const { return odometer_.path_length_m(); }  ///< Travelled, according to the odometry.
 
   ParticleFilter& particles() { return filter_; }
 
@@ -53,16 +53,17 @@ class PoseTracker {
   LocalizerConfig config_;
   ParticleFilter filter_;
   bool only_given_ = false;
-  std::optional<PoseHypothesis> start_;  ///< Given before the odometry began.
+  std::optional<PoseHypothesis> start_;  ///< A start pose that was given before the first odometry.
 
   common::Pose2 T_odom_body_;
-  Odometer way_;
-  double generation_path_length_m_ = 0.0, generation_turned_rad_ = 0.0;  ///< At the last generation.
+  Odometer odometer_;
+  double generation_path_length_m_ = 0.0, generation_turned_rad_ = 0.0;  ///< Odometer readings at the last generation.
 
   common::Pose2 T_grid_odom_;
-  common::Pose2 T_odom_generation_;                            ///< Where the particles are,
-  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();       ///< and how far spread.
-  Eigen::Matrix3d step_covariance_ = Eigen::Matrix3d::Zero();  ///< Since then, axes of the body then.
+  common::Pose2 T_odom_generation_;                       ///< Odometry pose at which the particles are.
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  ///< Covariance of the particles.
+  /// Covariance of the odometry since the last generation, along the axes of the body at that time.
+  Eigen::Matrix3d step_covariance_ = Eigen::Matrix3d::Zero();
 };
 
 }  // namespace swiftlet::perception

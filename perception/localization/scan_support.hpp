@@ -1,4 +1,4 @@
-// How much of what a scan saw the map explains from a pose, and what that says of the pose.
+// The share of a scan that the map explains at a pose, and what it says about that pose.
 #pragma once
 
 #include <span>
@@ -21,11 +21,11 @@ struct ScanSupportConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// Beams that end where the map knows nothing say nothing and are left out.
+/// How many beams of a scan the map explains. Beams that end on unknown cells carry no information and are left out.
 struct ScanSupport {
-  int beams = 0;           ///< Looked at.
-  int evidence = 0;        ///< Of these, that say something.
-  double explained = 0.0;  ///< Share of those that end on a wall of the map, with none before it.
+  int beams = 0;           ///< Number of beams examined.
+  int evidence = 0;        ///< Number of those beams that carry information.
+  double explained = 0.0;  ///< Share of those beams that end on a wall of the map, with no wall before it.
 };
 
 ScanSupport supportOf(const MapField& map, std::span<const Eigen::Vector2f> points_body_m,
@@ -43,21 +43,21 @@ struct LostTestConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// Page's cumulative sum test (1954): the sum of the log-odds of the scans, never below zero, so that it is soon
-/// noticed when the pose becomes wrong, however long it was right. Not thread-safe.
+/// Page's cumulative sum test (1954): adds up the log-odds of the scans, never below zero. It detects a wrong pose
+/// soon, however long the pose was right before. Not thread-safe.
 class LostTest {
  public:
   explicit LostTest(const LostTestConfig& config) : config_(config) {}
 
   void reset();
   void add(const ScanSupport& support, double elapsed_s);
-  /// That the pose is wrong, by this scan alone; 0 when it says too little.
+  /// Log-odds that the pose is wrong, from this scan alone; 0 if it has too few informative beams.
   double logOdds(const ScanSupport& support) const;
 
   bool lost() const { return sum_ >= config_.threshold; }
-  /// Something speaks against the pose.
+  /// Whether there is any evidence against the pose.
   bool doubtful() const { return sum_ > 0.0 || explained_ < config_.distrust_explained; }
-  /// Mean share explained, lately.
+  /// Moving average of the share explained.
   double explained() const { return explained_; }
 
  private:

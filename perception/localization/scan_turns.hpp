@@ -1,4 +1,4 @@
-// Each scan serves the odometry or weighs particles, never both: whose turn the next one is.
+// Decides whether the next scan is used by the odometry or weighs the particles. No scan is used for both.
 #pragma once
 
 #include "common/geometry.hpp"
@@ -8,15 +8,15 @@ namespace swiftlet::perception {
 
 class ScanTurns {
  public:
-  /// Whether the next scan, expected at that pose, is to be kept from the odometry. Never two in a row: the odometry
-  /// needs scans that overlap. To be asked once for each scan.
+  /// Whether the next scan, expected at that pose, is withheld from the odometry. Never two scans in a row, because the
+  /// odometry needs scans that overlap. Call it once for each scan.
   bool withholdNext(const Localizer& localizer, const common::Pose2& T_odom_body) {
     withheld_last_ = !withheld_last_ && localizer.wantsFreshScan(T_odom_body);
     return withheld_last_;
   }
 
  private:
-  bool withheld_last_ = true;  ///< The first scan is the odometry's.
+  bool withheld_last_ = true;  ///< The first scan goes to the odometry.
 };
 
 }  // namespace swiftlet::perception

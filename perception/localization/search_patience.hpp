@@ -1,6 +1,6 @@
-// How far apart searches of the whole map come while the pose is not known. A vehicle that is in the map is found
-// within a few metres of path (docs/localization.md); in a map of elsewhere every search is as heavy as all else
-// together, and none can succeed.
+// The spacing of searches of the whole map while the pose is not known. A vehicle that is in the map is found within a
+// few metres of path (docs/localization.md). With a map of another place, each search costs as much as everything else
+// together and cannot succeed.
 #pragma once
 
 #include <algorithm>
@@ -10,21 +10,21 @@
 
 namespace swiftlet::perception {
 
-/// Path lengths are those of the odometer, in metres.
+/// Path lengths are in metres, measured by the odometer.
 class SearchPatience {
  public:
-  /// Searching begins here.
+  /// Starts searching at this path length.
   void begin(double path_length_m) { hopeful_path_length_m_ = path_length_m; }
 
-  /// A search from here found all places there are, so many. Few of them are worth going on as before; in a wrong map
-  /// (fr079's log in the map of intel) no search came down to fewer than 59.
+  /// Reports a search at this path length that found all places, and their number. If they are few, searching continues
+  /// at the short spacing. With a wrong map (fr079's log in the map of intel) no search found fewer than 59.
   void found(double path_length_m, std::size_t places) {
     constexpr std::size_t kFewPlaces = 20;
     if (places <= kFewPlaces) hopeful_path_length_m_ = path_length_m;
   }
 
-  /// The search distance at first, then a share of the path searched in vain; at most the length of the local map, so
-  /// that every stretch of the path is still compared with the map.
+  /// The search distance at first, later a share of the path that was searched without success. At most the length of
+  /// the local map, so that every part of the path is still compared with the map.
   double spacing_m(double path_length_m, const LocalizerConfig& config) const {
     constexpr double kPatience_m = 8.0, kSpacingShare = 0.25;
     const double in_vain_m = path_length_m - hopeful_path_length_m_ - kPatience_m;

@@ -1,4 +1,4 @@
-// Which maps can be localized in.
+// The check whether a map can be used for localization.
 #include <string>
 
 #include <fmt/format.h>

@@ -14,7 +14,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Blocks a side at the coarsest level. More makes the first pass dearer, fewer makes its bounds loose.
+/// Blocks per side at the coarsest level. More blocks make the first pass slower; fewer make its bounds looser.
 constexpr int kTopBlocks = 8;
 
 int topLevelFor(int translations) {
@@ -23,7 +23,8 @@ int topLevelFor(int translations) {
   return level;
 }
 
-/// Squared, from the middle of the grid to a block of 2^level translations a side, in steps.
+/// Squared distance, in steps, from the middle of the grid to the nearest pose of a block of 2^level translations per
+/// side.
 double leastDistance2(const PoseGrid& grid, int x, int y, int level) {
   const double middle = 0.5 * (grid.translations - 1), size = (1 << level) - 1;
   const auto gap = [&](int first) { return std::max({0.0, first - middle, middle - first - size}); };
@@ -49,12 +50,13 @@ void BranchAndBound::cellsAt(const LikelihoodField& field, std::span<const float
                              double yaw_rad, double shift_x_m, double shift_y_m, int border,
                              std::vector<std::int32_t>& x_cells, std::vector<std::int32_t>& y_cells) {
   allCellsAt(field, x_m, y_m, yaw_rad, shift_x_m, shift_y_m, x_cells, y_cells);
-  // Without a branch, as most points are kept; negative cells are great ones here.
+  // Branchless, because most points are kept. The cast to unsigned makes negative cells large, so they fail the
+  // comparison.
   const auto end_x = static_cast<std::uint32_t>(std::max(field.width() - border, 0));
   const auto end_y = static_cast<std::uint32_t>(std::max(field.height() - border, 0));
   std::size_t kept = 0, i = 0;
 #if defined(__x86_64__)
-  // While all are, four at a time.
+  // Four points at a time, until one of the four is outside.
   const auto load = [](const std::int32_t& cell) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(&cell)); };
   const auto outside = [](__m128i cells, __m128i last) { return _mm_or_si128(cells, _mm_sub_epi32(last, cells)); };
   const __m128i last_x = _mm_set1_epi32(static_cast<std::int32_t>(end_x) - 1);
@@ -120,7 +122,7 @@ BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Ei
   if (points_m.empty() || field.empty() || grid.rotations <= 0 || grid.translations <= 0) return best;
   SWIFTLET_CHECK(grid.rotations < INT16_MAX && grid.translations < INT16_MAX, grid.rotations, grid.translations);
   const int top = topLevelFor(grid.translations);
-  // A block of the top level may begin inside the window and end beyond it.
+  // A block of the top level may begin inside the window and end outside it.
   const int border = grid.translations + (2 << top) + kWindowColumns;
   field.prepare(top, border);
 
@@ -146,7 +148,7 @@ BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Ei
   nodes_.clear();
   for (std::size_t i = 0; i < bounds_.size(); ++i)
     if (bounds_[i] > best.score) nodes_.push_back(nodeAt(i));
-  // A heap, as most are never looked at.
+  // A heap is cheaper than sorting, because most nodes are never examined.
   const auto isWorse = [](const Node& a, const Node& b) { return b.isBetter(a); };
   std::make_heap(nodes_.begin(), nodes_.end(), isWorse);
   while (!nodes_.empty() && nodes_.front().bound > best.score) {
@@ -157,7 +159,7 @@ BestPose BranchAndBound::searchFrom(LikelihoodField& field, const std::vector<Ei
   return best;
 }
 
-/// bounds_[(rotation * blocks + y) * blocks + x].
+/// Fills bounds_[(rotation * blocks + y) * blocks + x].
 void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid& grid, int top, int blocks,
                                    int border) {
   const auto size = static_cast<std::size_t>(blocks);
@@ -167,7 +169,7 @@ void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid&
     for (int x = 0; x < blocks; ++x)
       *share++ = penalty_.translationShare(leastDistance2(grid, x << top, y << top, top));
 
-  // In strips as wide as sumWindows adds.
+  // sumWindows adds strips of kWindowColumns columns.
   const LikelihoodField::Level level = field.level(top);
   std::vector<std::uint16_t> sums(size * kWindowColumns);
   bounds_.resize(static_cast<std::size_t>(grid.rotations) * size * size);
@@ -191,7 +193,7 @@ void BranchAndBound::boundTopLevel(const LikelihoodField& field, const PoseGrid&
   }
 }
 
-/// Whether all poses of the block are.
+/// Whether all poses of the block are excluded.
 bool BranchAndBound::isExcluded(const Node& node, int level) const {
   const int half = excluded_->half_translation, last = (1 << level) - 1;
   const int x = node.x << level, y = node.y << level;

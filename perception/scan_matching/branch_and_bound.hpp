@@ -1,5 +1,6 @@
-// The best of a grid of poses, found without looking at most of them: blocks of translations are bounded by the coarse
-// levels of the likelihood field and split only while their bound beats the best pose known.
+// Branch and bound over a grid of poses: finds the best pose without scoring most of them. The coarse levels of the
+// likelihood field bound the score of blocks of translations; a block is split only while its bound beats the best pose
+// known.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@
 
 namespace swiftlet::perception {
 
-/// The grid: rotation k in 0 .. rotations - 1 is first_yaw_rad + k * step_yaw_rad; translation (x, y), each in
-/// 0 .. translations - 1, is (first_x_m + x * resolution, ...), in the reference frame.
+/// Rotation k (0 <= k < rotations) is first_yaw_rad + k * step_yaw_rad. Translation (x, y) (0 <= x, y < translations)
+/// is (first_x_m + x * resolution, first_y_m + y * resolution) in the reference frame.
 struct PoseGrid {
   double first_x_m = 0.0;
   double first_y_m = 0.0;
@@ -23,17 +24,17 @@ struct PoseGrid {
   int translations = 0;
 };
 
-/// What a pose loses for its distance from the middle of the grid, the guess: the prior of the motion. It saturates, so
-/// that a wrong guess does not outvote the scene.
+/// The motion prior: the score that a pose loses for its distance from the guess, which is the middle of the grid. The
+/// loss saturates, so that a wrong guess cannot outvote the scene.
 struct GuessPenalty {
-  int greatest = 0;                ///< In units of the score.
-  double half_translations = 1.0;  ///< Half of it is lost at so many steps,
-  double half_rotations = 1.0;     ///< or at so many of rotation.
+  int greatest = 0;                ///< Upper limit, in units of the score.
+  double half_translations = 1.0;  ///< Distance, in grid steps, at which half of `greatest` is lost.
+  double half_rotations = 1.0;     ///< Rotation, in grid steps, at which half of `greatest` is lost.
 
   int at(double translations2, double rotations) const {
     return greatest == 0 ? 0 : ofShares(translationShare(translations2), rotationShare(rotations));
   }
-  /// The same from its two parts, for who needs many.
+  /// Translation part of the penalty, for callers that combine many of them with ofShares().
   double translationShare(double translations2) const {
     return translations2 / (half_translations * half_translations);
   }
@@ -45,13 +46,13 @@ struct GuessPenalty {
 };
 
 struct BestPose {
-  int score = -1;  ///< The sum less the penalty; -1: nothing was searched.
+  int score = -1;  ///< The sum minus the penalty; -1: nothing was searched.
   int x = 0;
   int y = 0;
   int rotation = 0;
 };
 
-/// Poses within these distances of one pose, in steps of the grid; rotations that differ by a turn are the same.
+/// The poses within these distances of one pose, in grid steps. Rotations that differ by a full turn are the same.
 struct ExcludedPoses {
   BestPose center;
   int half_translation = 0;
@@ -63,26 +64,26 @@ class BranchAndBound {
  public:
   explicit BranchAndBound(Instructions instructions) : instructions_(instructions) {}
 
-  /// The highest score of the grid, exactly; of equal ones any, but always the same. At most kMaxWindowPoints points,
-  /// in the level frame of the scan.
-  /// If none scores more than `floor`, the score is `floor` and found the sooner.
+  /// Finds exactly the highest score of the grid. If several poses have it, the choice is arbitrary but repeatable.
+  /// Takes at most kMaxWindowPoints points, in the level frame of the scan. If no pose scores more than `floor`, the
+  /// result has the score `floor`; a high floor makes the search faster.
   BestPose search(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
                   const GuessPenalty& penalty = {}, int floor = -1);
-  /// The same among the poses that are not excluded.
+  /// As search(), without a penalty, among the poses that are not excluded.
   BestPose searchElsewhere(LikelihoodField& field, const std::vector<Eigen::Vector2f>& points_m, const PoseGrid& grid,
                            const ExcludedPoses& excluded, int floor);
 
-  /// The cells of all points at one rotation and translation; some may lie outside the field.
+  /// The field cells of all points at one rotation and translation. Some may lie outside the field.
   static void allCellsAt(const LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m,
                          double yaw_rad, double shift_x_m, double shift_y_m, std::vector<std::int32_t>& x_cells,
                          std::vector<std::int32_t>& y_cells);
-  /// The cells of the points at one rotation and the first translation, for scoring around the best. Points that can
-  /// have no support anywhere in a window of `border` cells are left out.
+  /// The field cells of the points at one rotation and the first translation of a window, for scoring the whole window.
+  /// Points that have no support anywhere in a window of `border` cells are left out.
   static void cellsAt(const LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m,
                       double yaw_rad, double shift_x_m, double shift_y_m, int border,
                       std::vector<std::int32_t>& x_cells, std::vector<std::int32_t>& y_cells);
 
-  /// The least penalty in a block of 2^level translations a side.
+  /// The smallest penalty in a block of 2^level translations per side.
   static int leastPenalty(const GuessPenalty& penalty, const PoseGrid& grid, int x, int y, int rotation, int level);
 
  private:
@@ -110,12 +111,12 @@ class BranchAndBound {
   void descend(const LikelihoodField& field, const Node& node, int level, const PoseGrid& grid, BestPose& best);
 
   Instructions instructions_;
-  const ExcludedPoses* excluded_ = nullptr;  // During a search only.
-  int steps_per_turn_ = 0;                   // The same.
+  const ExcludedPoses* excluded_ = nullptr;  // Set only during searchElsewhere().
+  int steps_per_turn_ = 0;                   // Rotation steps in a full turn; valid with excluded_.
   GuessPenalty penalty_;
   std::vector<float> x_m_, y_m_;
   std::vector<Rotation> rotations_;
-  std::vector<double> block_shares_;  // Of the penalty.
+  std::vector<double> block_shares_;  // Translation part of the penalty of each top-level block.
   std::vector<std::int32_t> bounds_;
   std::vector<Node> nodes_;
 };

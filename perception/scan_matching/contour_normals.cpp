@@ -9,16 +9,16 @@
 namespace swiftlet::perception {
 namespace {
 
-/// A line is laid through the neighbours this near on either side, where the beams are that dense,
+/// Where beams are dense, the line is fitted through the neighbours within this distance on either side.
 constexpr float kReach_m = 0.15F;
-/// and through at least this many on either side where they are not.
+/// Where beams are sparse, the line is fitted through at least this many neighbours on either side.
 constexpr std::size_t kLeastNeighbours = 2;
-/// Shorter pieces have no direction.
+/// A shorter stretch has no reliable direction.
 constexpr float kLeastLength_m = 0.08F;
-/// How much of the spread along a line there may be across it; more at a corner.
+/// Largest ratio of the variance across a line to the variance along it. Corners exceed it.
 constexpr double kMaxFlatness = 0.05;
 
-/// Sums over the points before index i, so that the moments of any stretch are two look-ups.
+/// Sums over the points before index i, so that the moments of any stretch are the difference of two entries.
 struct Moments {
   double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
 };
@@ -37,7 +37,7 @@ struct Line {
   Eigen::Vector2f middle_m, normal;
 };
 
-/// The line through the points first .. last, if they lie on one.
+/// The line through the points first .. last; nullopt if they do not lie on one.
 std::optional<Line> lineThrough(const std::vector<Moments>& sums, std::size_t first, std::size_t last) {
   const Moments &a = sums[first], &b = sums[last + 1];
   const auto n = static_cast<double>(last + 1 - first);
@@ -47,7 +47,7 @@ std::optional<Line> lineThrough(const std::vector<Moments>& sums, std::size_t fi
   const double half_trace = 0.5 * (xx + yy), half_difference = 0.5 * (xx - yy);
   const double root = std::sqrt(half_difference * half_difference + xy * xy);
   if (half_trace - root > kMaxFlatness * (half_trace + root)) return std::nullopt;
-  // Along the line, from whichever of the two forms is not nearly zero.
+  // Direction of the line, from whichever of the two forms is not nearly zero.
   const Eigen::Vector2d along =
       half_difference > 0.0 ? Eigen::Vector2d(half_difference + root, xy) : Eigen::Vector2d(xy, root - half_difference);
   const double length = along.norm();
@@ -56,13 +56,13 @@ std::optional<Line> lineThrough(const std::vector<Moments>& sums, std::size_t fi
               Eigen::Vector2d(-along.y() / length, along.x() / length).cast<float>()};
 }
 
-/// The stretch of the contour around a point that its line is laid through; both ends only ever move on.
+/// The stretch of the contour around a point, through which its line is fitted. Both ends only move forward.
 class Stretch {
  public:
   Stretch(const std::vector<Eigen::Vector2f>& points, std::vector<bool> joins)
       : points_(points), joins_(std::move(joins)) {}
 
-  /// To a point behind all those before.
+  /// Moves to point i. The indices must not decrease.
   void moveTo(std::size_t i) {
     for (; at_ < i; ++at_)
       if (!joins_[at_]) first = at_ + 1;
@@ -94,7 +94,7 @@ std::vector<OrientedPoint> orientedPoints(const ProjectedScan& scan, int count, 
   points.reserve(scan.points_level_m.size());
   heights.reserve(scan.points_level_m.size());
   for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
-    if (!(scan.points_level_m[i].squaredNorm() <= max2)) continue;  // True for NaN.
+    if (!(scan.points_level_m[i].squaredNorm() <= max2)) continue;  // Also skips NaN.
     points.push_back(scan.points_level_m[i]);
     heights.push_back(with_heights ? scan.heights_level_m[i] : 0.0F);
   }

@@ -1,5 +1,4 @@
-// The end points of a scan with the normals of the contours they lie on: what a least-squares match needs to know about
-// the shape it matches.
+// The end points of a scan with the normals of the contours they lie on, as least-squares matchers need them.
 #pragma once
 
 #include <vector>
@@ -12,15 +11,16 @@ namespace swiftlet::perception {
 
 struct OrientedPoint {
   Eigen::Vector2f point_m;
-  Eigen::Vector2f normal;  ///< Unit vector towards the side the surface was seen from.
-  Eigen::Vector2f foot_m;  ///< The point moved along the normal to the line: with the noise of many beams, not of one.
-  float height_m = 0.0F;   ///< Over the body; 0 when the scan does not say.
+  Eigen::Vector2f normal;  ///< Unit vector, towards the side from which the surface was seen.
+  /// The point moved along the normal onto the fitted line. It has the averaged noise of several beams.
+  Eigen::Vector2f foot_m;
+  float height_m = 0.0F;  ///< Above the body origin; 0 if the scan has no heights.
 };
 
-/// At most `count` end points, spread evenly along the contour (all that are usable when `count` is 0), in beam order
-/// and the level frame of the scan. A normal is that of the line through the neighbours within some decimetres on the
-/// same contour, so that noise does not pose as structure; points without such a line (lone ones, the corner of two
-/// walls) are left out.
+/// At most `count` end points, spread evenly along the contour, or all usable ones when `count` is 0; in beam order and
+/// in the level frame of the scan. A normal is that of the line through the neighbours within some decimetres on the
+/// same contour, so that noise is not mistaken for structure. Points without such a line (lone points, the corner of
+/// two walls) are left out.
 std::vector<OrientedPoint> orientedPoints(const ProjectedScan& scan, int count, double max_gap_m, double max_range_m);
 
 }  // namespace swiftlet::perception

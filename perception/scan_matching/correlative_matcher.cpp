@@ -22,23 +22,25 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose2;
 
-/// Shapes whose least held direction is faced by a greater share of the contour hold it well enough.
+/// The profile of the scores widens the covariance only if the contour facing the least constrained direction is a
+/// smaller share than this.
 constexpr double kProfiledSpread = 0.25;
 constexpr double kTopValue = LikelihoodField::kTopValue;
-/// A window with more poses is searched with bounds, whatever the estimate: so many scores are 80 MB.
+/// Windows with more poses are searched by branch and bound even with kScoreGrid: this many scores take 80 MB.
 constexpr double kMostScores = 2e7;
 
-/// Points this near to where the view of the reference ends may lie beyond it: poses err, and scores blur.
+/// Points this close to the edge of the reference's view may lie outside it, because poses err and scores are blurred.
 constexpr double kViewMargin_m = 0.15;
-/// With a smaller share of the points in the view of the reference, the guess is as likely wrong as they are new.
+/// With a smaller share of the points in the view of the reference, the guess is probably wrong, so all points are
+/// used.
 constexpr double kLeastInView = 0.25;
-/// A match of a smaller share must fit better: chance is greater.
+/// A match of a smaller share must fit better, because chance matches are likelier.
 constexpr double kUsuallyInView = 0.5;
 
-/// Half a window is cut to so many steps.
+/// Limit on the half width of a window, in steps.
 constexpr double kMostSteps = 4000.0;
 
-/// How many steps cover a half width; none for what is not a width, NaN too.
+/// The steps that cover a half width; 0 for widths that are not positive, and for NaN.
 int stepsIn(double half, double step, double most) {
   return half > 0.0 ? static_cast<int>(std::min(std::ceil(half / step), most)) : 0;
 }
@@ -78,10 +80,10 @@ struct CorrelativeMatcher::Impl {
   bool scoresAll(const PoseGrid& grid) const {
     return config.estimate == PoseEstimate::kScoreGrid && ScoreGrid::poses(grid) <= kMostScores;
   }
-  /// Those that decide which pose of the grid is best.
+  /// The points that decide which pose of the grid is best.
   struct SearchPoints {
     std::vector<Eigen::Vector2f> level_m;
-    double share = 1.0;  ///< Of all points of the scan.
+    double share = 1.0;  ///< The points used, as a share of those spread over the scan.
   };
   SearchPoints searchPoints(const ProjectedScan& scan, const Pose2& guess, const SearchWindow& window,
                             const PoseGrid& grid) const;
@@ -108,11 +110,11 @@ struct CorrelativeMatcher::Impl {
   LikelihoodField field;
   ReferenceView view;
   BranchAndBound search;
-  ScoreGrid all_scores;  ///< Of the last match, when all poses were scored.
+  ScoreGrid all_scores;  ///< Scores of the last match in which all poses were scored.
   std::vector<std::int32_t> x_cells, y_cells, offsets;
 };
 
-/// What the reference looked at, if that is enough of the scan.
+/// The points in the view of the reference, or all points if too few are in it.
 CorrelativeMatcher::Impl::SearchPoints CorrelativeMatcher::Impl::searchPoints(const ProjectedScan& scan,
                                                                               const Pose2& guess,
                                                                               const SearchWindow& window,
@@ -130,8 +132,8 @@ CorrelativeMatcher::Impl::SearchPoints CorrelativeMatcher::Impl::searchPoints(co
   return {std::move(seen), share};
 }
 
-/// sums[row * 16 + column]: the scores of the translations from -half, in both directions, about `center` with its
-/// rotation replaced.
+/// Computes sums[row * 16 + column]: the scores of the translations from -half on, in x and y, about `center` with its
+/// rotation replaced by `yaw_rad`.
 void CorrelativeMatcher::Impl::addWindows(const SplitPoints& points, const Pose2& center, double yaw_rad, int half,
                                           int rows, std::vector<std::uint32_t>& sums) {
   sums.assign(static_cast<std::size_t>(rows) * kWindowColumns, 0);
@@ -162,7 +164,7 @@ ScoreSurface CorrelativeMatcher::Impl::surfaceAround(const SplitPoints& points, 
   return surface;
 }
 
-/// Which points lie on what was drawn.
+/// Marks the points that have support in the reference.
 std::vector<bool> CorrelativeMatcher::Impl::supportedAt(const SplitPoints& points, const Pose2& pose) {
   BranchAndBound::allCellsAt(field, points.x_m, points.y_m, pose.yaw_rad, pose.x_m, pose.y_m, x_cells, y_cells);
   std::vector<bool> supported(x_cells.size());
@@ -170,8 +172,8 @@ std::vector<bool> CorrelativeMatcher::Impl::supportedAt(const SplitPoints& point
   return supported;
 }
 
-/// A wrong attitude moves an end point sideways by its height over the body. All points move together, so that more of
-/// them do not help; how far the peak follows is tried out for an error about each axis.
+/// An attitude error moves each end point sideways by its height above the body times the error. The shift is common to
+/// all points, so more points do not average it out. For an error about each axis, the shift of the peak is computed.
 Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& points, const Pose2& center,
                                                              double step_rad, const Peak& peak) {
   constexpr float kLeastShift_m = 0.0005F;
@@ -209,8 +211,8 @@ BestPose CorrelativeMatcher::Impl::searchGrid(const std::vector<Eigen::Vector2f>
   return all_scores.best(penaltyFor(points.size()));
 }
 
-/// Likely poses elsewhere in the window make the covariance as wide as they lie; wider than what counts as seen, the
-/// guess stands.
+/// Widens the covariance by the likely poses elsewhere in the window. If a direction becomes less certain than
+/// `unobservable_sigma_m`, the pose keeps the guess along it.
 void CorrelativeMatcher::Impl::addSpreadElsewhere(const BestPose& best, double log_per_score,
                                                   const Eigen::Vector3d& step, const ExpectedPose& expected,
                                                   Peak& peak) const {
@@ -222,8 +224,8 @@ void CorrelativeMatcher::Impl::addSpreadElsewhere(const BestPose& best, double l
     holdAlong(spread.vectors.col(1), expected, peak);
 }
 
-/// The spread (m^2) about `center` of the places along `axis` that score about as well: a likelihood tempered so that a
-/// few points, which may be of something that moved or was seen from one side only, do not decide.
+/// Variance (m^2) about `center` of the positions along `axis` that score nearly as well. The likelihood is tempered,
+/// so that a few points on moving or partly seen objects do not decide.
 double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, const Pose2& center,
                                                  const Eigen::Vector2d& axis) {
   const double step_m = 2.0 * config.resolution_m;
@@ -249,7 +251,7 @@ double CorrelativeMatcher::Impl::profileVariance(const SplitPoints& points, cons
   return sum2 / weights;
 }
 
-/// The search's answer: what of the result does not come from the shape of the scores.
+/// The part of the result that does not depend on the shape of the scores.
 MatchResult CorrelativeMatcher::Impl::resultOf(const SearchPoints& points, const PoseGrid& grid,
                                                const BestPose& best) const {
   MatchResult result;
@@ -267,7 +269,8 @@ MatchResult CorrelativeMatcher::Impl::resultOf(const SearchPoints& points, const
   return result;
 }
 
-/// One step of rotation moves the points by about one cell, so that the surface is as wide in each direction.
+/// One rotation step moves the points by about one cell, so that the surface is about equally wide in all three
+/// directions.
 double CorrelativeMatcher::Impl::surfaceStep_rad(const std::vector<Eigen::Vector2f>& points) const {
   double lever2 = 0.0;
   for (const Eigen::Vector2f& p : points) lever2 += p.squaredNorm();
@@ -275,8 +278,8 @@ double CorrelativeMatcher::Impl::surfaceStep_rad(const std::vector<Eigen::Vector
   return config.resolution_m / std::max(lever_m, 10.0 * config.resolution_m);
 }
 
-/// A contour that faces one direction only holds the position across it. Along it, the guess stands, or at least the
-/// spread of what scores as well counts.
+/// A contour that faces only one direction constrains the position only across it. Along it the pose keeps the guess,
+/// or at least the covariance includes the spread of the positions that score as well.
 void CorrelativeMatcher::Impl::distrustUnfaced(const SplitPoints& all_points, const std::vector<bool>& seen,
                                                const SplitPoints& surface_points, const Pose2& finest,
                                                const ExpectedPose& expected, Peak& peak) {

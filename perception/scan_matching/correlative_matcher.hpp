@@ -1,6 +1,6 @@
-// Multi-resolution correlative scan matching: the best pose of a grid of poses by coarse-to-fine search with a bound,
-// so that the answer is that of the exhaustive search at the finest resolution (Olson 2009, as used by Grzonka 2012,
-// section IV-A, and Bachrach 2009, section 5.1). Scores are sums of bytes, the same on every machine.
+// Multi-resolution correlative scan matching: finds the best pose of a grid by a coarse-to-fine search with bounds, so
+// that the result is that of the exhaustive search at the finest resolution (Olson 2009, as used by Grzonka 2012,
+// section IV-A, and Bachrach 2009, section 5.1). Scores are sums of bytes and are the same on every machine.
 #pragma once
 
 #include <memory>
@@ -13,15 +13,16 @@
 
 namespace swiftlet::perception {
 
-/// How the pose is taken from the scores. The grid alone makes a hovering vehicle's estimate oscillate; both averages
-/// are without phase shift.
+/// How the pose is computed from the scores. With the best grid pose alone the estimate of a hovering vehicle
+/// oscillates. Both averages smooth it without a phase shift.
 enum class PoseEstimate {
-  kFinest,        ///< The best pose of the finest grid.
-  kWeightedMean,  ///< Mean of the best poses of all levels, weighted by a Gaussian about the finest (Grzonka 2012,
-                  ///< IV-A).
-  kSurface,       ///< The peak of a quadratic through the scores around the finest.
-  kScoreGrid,     ///< The same, and every pose of the window is scored: what is likely elsewhere in it adds to the
-                  ///< covariance (Bachrach 2009, 5.1.2 and 5.1.3). Scores all `surface_points`. For narrow windows.
+  kFinest,  ///< The best pose of the finest grid.
+  /// Mean of the best poses of all levels, weighted by a Gaussian about the finest (Grzonka 2012, IV-A).
+  kWeightedMean,
+  kSurface,  ///< The peak of a quadratic fitted to the scores around the best pose of the finest grid.
+  /// As kSurface, with every pose of the window scored from all `surface_points`: likely poses elsewhere in the window
+  /// add to the covariance (Bachrach 2009, 5.1.2 and 5.1.3). For narrow windows.
+  kScoreGrid,
 };
 
 struct CorrelativeMatcherConfig {
@@ -64,8 +65,8 @@ class CorrelativeMatcher final : public ScanMatcher {
   [[nodiscard]] MatchResult match(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,
                                   const SearchWindow& window) override;
 
-  /// The oracle of every estimate: every pose of the window at the finest resolution, one by one. Slow; `finest_*` are
-  /// those of `match`.
+  /// The test oracle: scores every pose of the window at the finest resolution, one by one. Slow. `finest_score` equals
+  /// that of `match`, and so does `finest_T_reference_body` unless several poses share the best score.
   [[nodiscard]] MatchResult matchExhaustively(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,
                                               const SearchWindow& window);
 

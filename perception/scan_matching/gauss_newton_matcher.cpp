@@ -12,9 +12,9 @@ namespace {
 using common::Pose2;
 
 constexpr int kLevelRatio = 4;
-/// Coarse levels only have to come near; every so many points do.
+/// Coarse levels only need an approximate pose, so they use every fourth point.
 constexpr std::size_t kCoarseStride = 4;
-/// Steps smaller than this share of a cell end a level; larger than this share of one at the end did not converge.
+/// A step smaller than this share of a cell ends a level.
 constexpr double kSmallStep_cells = 0.05;
 constexpr double kConverged_cells = 0.5;
 constexpr int kHalvings = 3;
@@ -49,7 +49,7 @@ struct GaussNewtonMatcher::Impl {
   MatchResult descend(const LeastSquaresMatch& match, Pose2 pose) const;
 
   GaussNewtonMatcherConfig config;
-  std::vector<LikelihoodField> fields;  ///< The finest first.
+  std::vector<LikelihoodField> fields;  ///< Finest level first.
 };
 
 namespace {
@@ -66,7 +66,7 @@ Pose2 halfway(const Pose2& a, const Pose2& b) {
 
 enum class Purpose { kStep, kVerdict };
 
-/// At a pose; for a step at a coarse level from every `stride`th point.
+/// Linearizes at a pose. Coarse levels use every `stride`th point.
 Linearized linearize(Purpose purpose, const LeastSquaresMatch& match, const LikelihoodField& field, const Pose2& pose,
                      std::size_t stride = 1) {
   const double cosine = std::cos(pose.yaw_rad), sine = std::sin(pose.yaw_rad);
@@ -82,27 +82,27 @@ Linearized linearize(Purpose purpose, const LeastSquaresMatch& match, const Like
     const Eigen::Vector2d arm_m = turned(p.point_m), normal = turned(p.normal);
     const std::optional<FieldSample> sample = sampleField(field, arm_m + pose.position_m());
     if (!sample) continue;
-    // 1 - value is (d / reach)^2; half its slope times reach^2 is the vector from the contour to the point.
+    // 1 - value is (d / reach)^2. Half its slope times reach^2 is the vector from the contour to the point.
     equations.add(arm_m, normal, -0.5 * reach2 * sample->slope_1_m, inverse_lever);
     quality_sum += sample->value;
     if (purpose == Purpose::kVerdict) equations.addTilt(arm_m, normal, static_cast<double>(p.height_m), inverse_lever);
   }
-  // Not from the slopes: between the cells that of a contour is less than its distance says.
+  // Computed from the values: between cells, the slope near a contour is smaller than the distance implies.
   equations.squares_m2 = reach2 * (equations.count - quality_sum);
   return {equations, quality_sum};
 }
 
 }  // namespace
 
-/// The finest level in which a point has support wherever in the window the truth is.
+/// The finest level whose support covers the search window, or the coarsest level if none does.
 std::size_t GaussNewtonMatcher::Impl::coarsestNeeded(const LeastSquaresMatch& match) const {
   std::size_t level = 0;
   while (level + 1 < fields.size() && fields[level].reach_m() < match.windowReach_m()) ++level;
   return level;
 }
 
-/// Follows the slope of one map; how long the last step was. Between cells the slope is rough: where a step leads down,
-/// half of it is tried, so that it does not swing about the place for ever.
+/// Iterates on one level and returns the length of the last step tried. Between cells the slope is rough: a step that
+/// lowers the score is halved a few times, so that the iteration does not oscillate.
 double GaussNewtonMatcher::Impl::climb(const LeastSquaresMatch& match, std::size_t level, Pose2& pose) const {
   const LikelihoodField& field = fields[level];
   const std::size_t stride = level == 0 ? 1 : kCoarseStride;

@@ -1,11 +1,11 @@
-// Scan to map by Gauss-Newton: the pose at which the sum of (1 - M)^2 over the end points is least, M being the map
-// between its cells by bilinear interpolation (Saeedi, eq. 1). It goes down a pyramid of maps, coarse ones to come from
-// afar and fine ones to be exact. It follows the slope, unlike the correlative matcher, which looks everywhere:
-// cheaper, but a guess too far off ends in the wrong place, and says `failed`.
+// Scan-to-map matching by Gauss-Newton: minimizes the sum of (1 - M)^2 over the end points, where M is the map
+// interpolated bilinearly between its cells (Saeedi, eq. 1). It descends a pyramid of maps: coarse ones for a large
+// basin of convergence, fine ones for accuracy. Unlike the correlative matcher, which searches the whole window, it
+// follows the gradient. It is cheaper, but from a guess too far off it converges to a wrong pose and reports `failed`.
 //
-// M falls linearly with the distance to the nearest contour, so that (1 - M)^2 is what a LikelihoodField holds, 1 minus
-// its value; the slope is that of the interpolated field, and the curvature follows from the normals of the scan's own
-// contour, which a point exactly on the reference has too.
+// M falls linearly with the distance to the nearest contour, so that (1 - M)^2 is 1 minus the value of a
+// LikelihoodField. The gradient is that of the interpolated field. The curvature comes from the normals of the scan's
+// own contour, which are known also for a point exactly on the reference.
 #pragma once
 
 #include <memory>
@@ -30,8 +30,8 @@ struct GaussNewtonMatcherConfig : LeastSquaresMatcherConfig {
   std::vector<std::string> validate() const;
 };
 
-/// The result is `failed` also when the steps did not become small, or led more than a centimetre or a tenth of a
-/// degree out of the window.
+/// The result is `failed` also if the steps did not become small, or led more than a centimetre or a tenth of a degree
+/// out of the window.
 class GaussNewtonMatcher final : public ScanMatcher {
  public:
   explicit GaussNewtonMatcher(const GaussNewtonMatcherConfig& config);
@@ -42,7 +42,7 @@ class GaussNewtonMatcher final : public ScanMatcher {
   MatcherKind kind() const override { return MatcherKind::kGaussNewton; }
   void clearReference() override;
   void addReference(const ProjectedScan& scan, const common::Pose2& T_reference_body) override;
-  /// Adds a shape that is no scan's, such as the surfaces of a map, in the reference frame.
+  /// Adds a contour that does not come from a scan, such as the surfaces of a map, in the reference frame.
   void addReference(std::span<const ContourSegment> contour_reference_m);
   [[nodiscard]] MatchResult match(const ProjectedScan& scan, const common::Pose2& guess_T_reference_body,
                                   const SearchWindow& window) override;

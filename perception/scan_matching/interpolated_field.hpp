@@ -1,4 +1,4 @@
-// A likelihood field read between its cells.
+// Bilinear interpolation of a likelihood field.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,12 @@
 namespace swiftlet::perception {
 
 struct FieldSample {
-  double value = 0.0;                                   ///< In (0, 1]; 1: on a contour.
-  Eigen::Vector2d slope_1_m = Eigen::Vector2d::Zero();  ///< Exactly the derivative of `value`, per metre.
+  double value = 0.0;                                   ///< In (0, 1]; 1 on a contour.
+  Eigen::Vector2d slope_1_m = Eigen::Vector2d::Zero();  ///< Exact derivative of `value`, per metre.
 };
 
-/// Bilinear between the centres of the four cells around a point of the reference frame. Nothing where the point has no
-/// support, outside the field, and for a point that is not finite. In the header, as
-/// it is the inner loop.
+/// Interpolates between the centres of the four cells around a point of the reference frame. Returns nullopt where the
+/// point has no support, outside the field, and for a point that is not finite. Inline because it is the inner loop.
 inline std::optional<FieldSample> sampleField(const LikelihoodField& field, const Eigen::Vector2d& point_m) {
   constexpr double kPerByte = 1.0 / LikelihoodField::kTopValue;
   const double per_metre = 1.0 / field.resolution_m();

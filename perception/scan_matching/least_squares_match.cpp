@@ -13,12 +13,13 @@ namespace {
 using common::kRadPerDeg;
 using common::Pose2;
 
-/// Least spread of the end points that is believed.
+/// Lower limit on the residual of the end points.
 constexpr double kMinResidual_m = 0.004;
-/// While under way the spread of the points is that of the misplaced scan; a direction is judged by this one instead.
+/// Residual assumed during the iterations to decide which directions are observable: the measured residual is then that
+/// of a misplaced scan.
 constexpr double kUnderwayResidual_m = 0.02;
 constexpr double kLeastLever_m = 0.1;
-/// A pose this near to the edge of the window, on either side, is at the edge; farther out it failed.
+/// A pose within this distance of the window's edge, on either side, is at the edge. Farther outside, the match failed.
 constexpr double kEdge_m = 0.01;
 constexpr double kEdge_rad = 0.1 * kRadPerDeg;
 constexpr double kScorePerPoint = 255.0;
@@ -109,7 +110,8 @@ void LeastSquaresMatch::judgeWindow(MatchResult& result) const {
   if (!is_inside) result.failed = true;
 }
 
-/// Of all directions that the scan holds the pose in, the least share of the contour facing it that has support.
+/// The share of the contour that has support, for the direction that has the least. Directions the scan does not
+/// constrain are left out.
 double LeastSquaresMatch::leastSupport(const NormalEquations& equations, double yaw_rad) const {
   Eigen::Matrix2d facing = Eigen::Matrix2d::Zero(), supported;
   for (const OrientedPoint& p : points_) {
@@ -148,7 +150,7 @@ MatchResult LeastSquaresMatch::finish(const NormalEquations& equations, double q
   scale.reach_steps = config_.support_m;
   const std::optional<Eigen::Vector2d> held = heldDirection(pose.yaw_rad);
   const Peak peak = findPeak(quadraticAt(equations, held), scale, expectedFrom(pose, guess_, window_));
-  // A wrong attitude moves all points together, so that more of them do not help.
+  // An attitude error moves all points together, so more points do not average it out.
   const Eigen::Matrix<double, 3, 2> shift =
       peak.peak_of_gradient * equations.tilt * (config_.attitude_error_deg * kRadPerDeg);
   result.covariance = peak.covariance + shift * shift.transpose();

@@ -1,5 +1,5 @@
-// What matchers have in common that move a scan by solving least squares of distances along normals: the normal
-// equations, the step they ask for, and the verdict on where the last step ended.
+// The common part of the matchers that minimize squared distances along normals: the normal equations, one solver step,
+// and the final result with its verdict.
 #pragma once
 
 #include <optional>
@@ -33,21 +33,22 @@ struct LeastSquaresMatcherConfig {
 };
 
 /// Sums over the matched points at one pose. The unknown is (x, y, turn), each in metres of displacement of the points:
-/// `turn` is the rotation times a lever.
+/// `turn` is the rotation times a lever arm.
 struct NormalEquations {
-  double xx = 0.0, xy = 0.0, yy = 0.0, xt = 0.0, yt = 0.0,
-         tt = 0.0;                   ///< Of J'J, J how the distance of a point changes.
-  double x = 0.0, y = 0.0, t = 0.0;  ///< Of J'd.
-  double squares_m2 = 0.0;           ///< Of d^2.
+  /// Entries of J'J, where J is the derivative of a point's distance by the unknown.
+  double xx = 0.0, xy = 0.0, yy = 0.0, xt = 0.0, yt = 0.0, tt = 0.0;
+  double x = 0.0, y = 0.0, t = 0.0;  ///< Entries of J'd, where d are the distances.
+  double squares_m2 = 0.0;           ///< Sum of d^2.
   int count = 0;
-  /// How J'd changes per radian of roll and pitch; only needed where the match ends.
+  /// Derivative of J'd by the attitude error, per radian. The columns are for tilts that displace the points along the
+  /// x and y axes of the reference. Needed only at the final pose.
   Eigen::Matrix<double, 3, 2> tilt = Eigen::Matrix<double, 3, 2>::Zero();
 
-  /// `arm_m` is the point relative to the body and `normal` that of its contour, along the reference axes; `pull_m` is
-  /// the vector from the contour to the point. In the header, as it is the inner loop.
+  /// Adds one point. `arm_m` is the point relative to the body and `normal` that of its contour, both along the
+  /// reference axes; `pull_m` is the vector from the contour to the point. Inline because it is the inner loop.
   void add(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, const Eigen::Vector2d& pull_m,
            double inverse_lever) {
-    // The point moves by (1, 0), (0, 1) and, turned by 1 / lever, by (-arm_y, arm_x) / lever.
+    // The point moves by (1, 0) per x, (0, 1) per y, and (-arm_y, arm_x) / lever per turn.
     const double turn_x = -arm_m.y() * inverse_lever, turn_y = arm_m.x() * inverse_lever;
     const double turn = normal.x() * turn_x + normal.y() * turn_y;
     xx += normal.x() * normal.x();
@@ -62,11 +63,11 @@ struct NormalEquations {
     squares_m2 += pull_m.squaredNorm();
     ++count;
   }
-  /// A wrong attitude moves a point by its height times the error.
+  /// Adds one point to `tilt`: an attitude error moves a point by its height times the error.
   void addTilt(const Eigen::Vector2d& arm_m, const Eigen::Vector2d& normal, double height_m, double inverse_lever);
 };
 
-/// The scan to be matched, the guess, and what holds for every step.
+/// The scan to be matched, the guess, and what is the same in every step.
 class LeastSquaresMatch {
  public:
   LeastSquaresMatch(const LeastSquaresMatcherConfig& config, std::vector<OrientedPoint> points,
@@ -74,22 +75,23 @@ class LeastSquaresMatch {
 
   const std::vector<OrientedPoint>& points() const { return points_; }
   bool hasEnoughPoints() const { return static_cast<int>(points_.size()) >= config_.min_points; }
-  /// The farthest a point of the scan can have moved within the window, about.
+  /// Approximately how far a point of the scan can move within the window.
   double windowReach_m() const { return window_.half_translation_m + window_.half_rotation_rad * lever_m_; }
   double inverseLever() const { return 1.0 / lever_m_; }
 
-  /// Moves the pose to the minimum, at most by `reach_m`, but not along what the scan does not hold, where it goes back
-  /// to the guess. How far the points moved; NaN when the equations cannot be solved.
+  /// Moves the pose to the minimum of the normal equations, by at most `reach_m` along each principal axis. Along
+  /// directions that the scan does not constrain, the pose returns to the guess. Returns how far the points moved; NaN
+  /// if the equations cannot be solved.
   double step(const NormalEquations& equations, double reach_m, common::Pose2& pose) const;
 
-  /// The result at the pose of the last step. `quality_sum` is the sum of the scores of all points, each in [0, 1];
-  /// `converged`: the last step was small.
+  /// The result at the pose of the last step. `quality_sum` is the sum of the scores of all points, each in [0, 1].
+  /// `converged` says that the last step was small.
   MatchResult finish(const NormalEquations& equations, double quality_sum, bool converged,
                      const common::Pose2& pose) const;
 
  private:
   Quadratic quadraticAt(const NormalEquations& equations, const std::optional<Eigen::Vector2d>& held) const;
-  /// The direction no contour faces, along the reference axes.
+  /// The direction that no contour faces, along the reference axes; nullopt if there is none.
   std::optional<Eigen::Vector2d> heldDirection(double yaw_rad) const;
   double leastSupport(const NormalEquations& equations, double yaw_rad) const;
   void judgeWindow(MatchResult& result) const;

@@ -13,7 +13,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Windows are read 16 bytes at a time; the last may reach beyond the array.
+/// Windows are read 16 bytes at a time; the last read may extend past the array.
 constexpr std::size_t kOverread = 64;
 
 int floorToMultiple(int value, int step) {
@@ -21,12 +21,12 @@ int floorToMultiple(int value, int step) {
   return value - (remainder < 0 ? remainder + step : remainder);
 }
 
-/// Of a cell in rows of `width`.
+/// Index of a cell in rows of `width`.
 std::size_t indexOf(int x, int y, int width) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }
 
-/// out = max(out, in), 16 bytes.
+/// out = max(out, in) for 16 bytes.
 void raiseRow(const std::uint8_t* in, std::uint8_t* out) {
 #if defined(__x86_64__)
   const __m128i a = _mm_loadu_si128(reinterpret_cast<const __m128i*>(in));
@@ -37,7 +37,7 @@ void raiseRow(const std::uint8_t* in, std::uint8_t* out) {
 #endif
 }
 
-/// out[i], of at most kTile / 2 + 1: the greatest of the nine cells of three rows from column 2 i on.
+/// out[i] is the maximum of the nine cells of three rows from column 2 i on. `count` is at most kTile / 2 + 1.
 void coarsen(const std::uint8_t* rows, std::ptrdiff_t stride, int count, std::uint8_t* out) {
   constexpr int kLane = 16;
   constexpr int kColumns = 5 * kLane;  // At least 2 (kTile / 2 + 1) + 1.
@@ -51,7 +51,7 @@ void coarsen(const std::uint8_t* rows, std::ptrdiff_t stride, int count, std::ui
     const __m128i top = _mm_max_epu8(_mm_max_epu8(load(in), load(in + stride)), load(in + 2 * stride));
     _mm_store_si128(reinterpret_cast<__m128i*>(&column_max[static_cast<std::size_t>(x)]), top);
   }
-  const auto widest = [&](int x) {  // In the lower byte of each pair.
+  const auto widest = [&](int x) {  // The maximum is in the lower byte of each pair.
     const std::uint8_t* in = &column_max[static_cast<std::size_t>(x)];
     const __m128i top = _mm_max_epu8(_mm_max_epu8(load(in), load(in + 1)), load(in + 2));
     return _mm_and_si128(top, _mm_set1_epi16(0xFF));
@@ -101,7 +101,7 @@ void LikelihoodField::clear() {
   for (const int tile : drawn_tiles_) {
     const int x0 = tile % tiles_x * kTile, y0 = tile / tiles_x * kTile;
     for (int k = 0; k <= prepared_top_; ++k) {
-      // One cell before the tile: coarse cells there look into it.
+      // Starts one cell before the tile, because coarse cells there overlap it.
       const int begin_x = std::max((x0 >> k) - 1, 0), begin_y = std::max((y0 >> k) - 1, 0);
       const int end_x = (x0 + kTile) >> k, end_y = (y0 + kTile) >> k;
       for (int y = begin_y; y < end_y; ++y)
@@ -136,7 +136,7 @@ void LikelihoodField::draw(std::span<const ContourSegment> segments) {
     const Eigen::Vector2d begin(s.begin_m.x() * scale - begin_x_, s.begin_m.y() * scale - begin_y_);
     const Eigen::Vector2d end(s.end_m.x() * scale - begin_x_, s.end_m.y() * scale - begin_y_);
     const int steps = static_cast<int>(std::ceil((end - begin).norm()));
-    // The beginning of a piece is most often the end of the one before.
+    // A segment usually begins where the one before ended.
     if (!stamped || begin != last) stamp(begin.x(), begin.y());
     for (int i = 1; i <= steps; ++i) {
       const Eigen::Vector2d at = begin + (end - begin) * (static_cast<double>(i) / steps);
@@ -186,13 +186,14 @@ void LikelihoodField::reserve(int min_x, int min_y, int max_x, int max_y, int bo
       max_y + border_ < begin_y_ + height_)
     return;
 
-  // Some slack, so that a vehicle under way does not make the array grow with every scan.
+  // Slack, so that the array does not grow with every scan of a moving vehicle.
   const int slack = 2 * kTile;
   const int begin_x = floorToMultiple(min_x - border_ - slack, kTile);
   const int begin_y = floorToMultiple(min_y - border_ - slack, kTile);
   const int width = floorToMultiple(max_x + border_ + slack, kTile) + kTile - begin_x;
   const int height = floorToMultiple(max_y + border_ + slack, kTile) + kTile - begin_y;
-  if (!drawn_ && width <= width_ && height <= height_) {  // All zero: it may lie anywhere.
+  // The cells are all zero, so the array can be placed anywhere.
+  if (!drawn_ && width <= width_ && height <= height_) {
     begin_x_ = begin_x;
     begin_y_ = begin_y;
     return;
@@ -247,7 +248,7 @@ void LikelihoodField::updateTile(int tile, int k) {
   const auto coarse_stride = static_cast<std::size_t>(width_ >> k);
   const std::vector<std::uint8_t>& fine = levels_[static_cast<std::size_t>(k - 1)];
   std::vector<std::uint8_t>& coarse = levels_[static_cast<std::size_t>(k)];
-  // A tile is never at the border of the array, so that the cells around it exist.
+  // A tile is never at the border of the array, so the cells around it exist.
   const int begin_x = (x0 >> k) - 1, end_x = (x0 + kTile) >> k;
   const int begin_y = (y0 >> k) - 1, end_y = (y0 + kTile) >> k;
   for (int y = begin_y; y < end_y; ++y) {

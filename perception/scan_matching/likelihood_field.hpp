@@ -1,10 +1,11 @@
-// The likelihood field: for each cell, how likely a beam ends there given the contours drawn so far, in bytes. A value
-// is 255 (1 - d^2 / (3 sigma)^2) for the distance d to the nearest contour, 0 beyond 3 sigma: the logarithm of a
-// Gaussian over a constant share of outliers. Only cells near contours are touched when drawing (Bachrach 2009,
+// The likelihood field: for each cell, how likely a beam ends there given the contours drawn so far, as a byte. A value
+// is 255 (1 - d^2 / (3 sigma)^2) for the distance d to the nearest contour and 0 beyond 3 sigma. This is the logarithm
+// of a Gaussian on top of a constant share of outliers. Drawing touches only cells near contours (Bachrach 2009,
 // section 5.1.1).
 //
-// Coarser levels hold upper bounds: cell X of level k covers the cells X 2^k .. X 2^k + 2^(k+1) - 2 of the finest, so
-// that one look-up bounds a point moved by 0 .. 2^k - 1 cells from any place in it (Olson 2009).
+// Coarser levels hold upper bounds: cell X of level k covers the cells X 2^k .. X 2^k + 2^(k+1) - 2 of the finest
+// level. One look-up therefore bounds the value of a point anywhere in the cell when it is moved by 0 .. 2^k - 1 cells
+// (Olson 2009).
 #pragma once
 
 #include <array>
@@ -16,28 +17,27 @@
 
 namespace swiftlet::perception {
 
-/// Not thread-safe. Reading through `level` is valid until the next call that is not const.
+/// Not thread-safe. A pointer from `level` is valid until the next non-const call.
 class LikelihoodField {
  public:
   static constexpr int kTopValue = 255;
   static constexpr int kLevels = 7;
   static constexpr int kTile = 64;
-  /// The widest kernel, in cells from its centre.
+  /// Half width of the widest kernel, in cells.
   static constexpr int kMaxKernelCells = 7;
 
   /// 3 sigma must be at most kMaxKernelCells cells.
   LikelihoodField(double resolution_m, double sigma_m);
 
   double resolution_m() const { return resolution_m_; }
-  /// The distance at which a point has no support.
+  /// The distance from a contour beyond which a point has no support.
   double reach_m() const { return 3.0 * sigma_m_; }
 
   void clear();
   void draw(std::span<const ContourSegment> segments_reference_m);
   bool empty() const { return !drawn_; }
 
-  /// Makes levels 0 .. top current, and sees to it that a window of `border` cells beside anything drawn is
-  /// addressable.
+  /// Brings levels 0 .. top_level up to date and makes a window of `border` cells beside anything drawn addressable.
   void prepare(int top_level, int border);
 
   struct Level {
@@ -45,13 +45,13 @@ class LikelihoodField {
     int stride = 0;
   };
   Level level(int k) const { return {levels_[static_cast<std::size_t>(k)].data(), width_ >> k}; }
-  /// The cell of the finest level at the array's beginning, relative to the reference frame's origin.
+  /// The first cell of the array at the finest level, relative to the origin of the reference frame.
   int beginX() const { return begin_x_; }
   int beginY() const { return begin_y_; }
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// The value at a finest cell of the array; 0 outside.
+  /// The value at a cell of the finest level; 0 outside the array.
   std::uint8_t at(int x, int y) const {
     if (x < 0 || y < 0 || x >= width_ || y >= height_) return 0;
     return levels_[0][static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
@@ -75,13 +75,14 @@ class LikelihoodField {
   int begin_x_ = 0, begin_y_ = 0;  // Multiples of kTile.
   int width_ = 0, height_ = 0;
   int border_ = kTile;
-  int min_x_ = 0, min_y_ = 0, max_x_ = 0, max_y_ = 0;  // Drawn cells, relative to the frame's origin.
+  // Extent of the drawn cells, relative to the origin of the reference frame.
+  int min_x_ = 0, min_y_ = 0, max_x_ = 0, max_y_ = 0;
   bool drawn_ = false;
-  int prepared_top_ = 0;  ///< No level above this was ever computed.
+  int prepared_top_ = 0;  ///< Highest level ever computed.
   std::array<std::vector<std::uint8_t>, kLevels> levels_;
-  std::array<std::vector<std::uint8_t>, kLevels> spare_levels_;  ///< Memory for the next time the array grows.
+  std::array<std::vector<std::uint8_t>, kLevels> spare_levels_;  ///< Buffers for the next time the array grows.
 
-  /// Of each tile of the finest level: levels below this are current; 0: never drawn.
+  /// For each tile of the finest level: levels below this are up to date; 0: never drawn.
   std::vector<std::uint8_t> tile_levels_;
   std::vector<int> drawn_tiles_;
 };

@@ -1,4 +1,4 @@
-// Which scan matcher does the work, chosen by a profile, and the settings of each.
+// The choice of the scan matcher, and the settings of each kind.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace swiftlet::perception {
 
-/// The settings of the correlative matcher, the default, stand beside `kind`; those of the others in sections of their
-/// own. Only those of the chosen kind have an effect.
+/// The settings of the correlative matcher, the default, are on the same level as `kind`; those of the other kinds are
+/// in sections of their own. Only the settings of the chosen kind have an effect.
 struct MatcherChoiceConfig : CorrelativeMatcherConfig {
   MatcherKind kind = MatcherKind::kCorrelative;
   GaussNewtonMatcherConfig gauss_newton;
@@ -19,12 +19,13 @@ struct MatcherChoiceConfig : CorrelativeMatcherConfig {
 
   void describe(common::config::Fields& fields);
 
-  /// Of the chosen kind: below this quality, or with fewer points, a match failed.
+  /// Quality of the chosen kind below which a match failed.
   double minQuality() const;
+  /// Number of points of the chosen kind below which a match failed.
   int minPoints() const;
 };
 
-/// A matcher of the chosen kind, without a reference; never null.
+/// Creates a matcher of the chosen kind, without a reference; never null.
 std::unique_ptr<ScanMatcher> makeMatcher(const MatcherChoiceConfig& config);
 
 }  // namespace swiftlet::perception

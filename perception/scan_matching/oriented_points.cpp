@@ -8,11 +8,11 @@ namespace {
 
 constexpr double kLeastCell_m = 0.1;
 constexpr double kMostCells = 200'000;
-constexpr double kSameWay_cos = 0.7071;
-/// Between two points whose normals are this alike there is a surface.
+constexpr double kSameSide_cos = 0.7071;
+/// Two neighbouring points whose normals agree at least this well belong to one surface.
 constexpr float kSmooth_cos = 0.95F;
 
-/// Whether the line between two neighbours may be filled: it runs along the surface of both.
+/// Whether the gap between two neighbours may be filled: the line between them runs along the surface of both.
 bool isOneSurface(const OrientedPoint& a, const OrientedPoint& b, float max_gap_m) {
   const Eigen::Vector2f step = b.foot_m - a.foot_m;
   const float length = step.norm();
@@ -62,7 +62,7 @@ void OrientedPoints::sort() {
   columns_ = static_cast<int>(size_m.x() / cell_m_) + 1;
   rows_ = static_cast<int>(size_m.y() / cell_m_) + 1;
 
-  // Counting sort, stable.
+  // Stable counting sort.
   const auto cellOf = [&](const Entry& p) {
     const Eigen::Vector2d cell = (p.point_m - begin_m_) / cell_m_;
     return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(cell.x());
@@ -80,7 +80,7 @@ void OrientedPoints::sort() {
 int OrientedPoints::nearest(const Eigen::Vector2d& at_m, const Eigen::Vector2d& normal, double radius_m) const {
   const double x = (at_m.x() - begin_m_.x()) / cell_m_, y = (at_m.y() - begin_m_.y()) / cell_m_;
   const double radius = radius_m / cell_m_;
-  // Also false for NaN.
+  // Also rejects NaN.
   if (!(x + radius >= 0.0 && y + radius >= 0.0 && x - radius < columns_ && y - radius < rows_)) return kNone;
   const int x0 = static_cast<int>(std::max(0.0, x - radius)), y0 = static_cast<int>(std::max(0.0, y - radius));
   const int x1 = static_cast<int>(std::min(x + radius, columns_ - 1.0));
@@ -93,7 +93,7 @@ int OrientedPoints::nearest(const Eigen::Vector2d& at_m, const Eigen::Vector2d& 
     for (int i = first_[begin + static_cast<std::size_t>(x0)]; i < end; ++i) {
       const Entry& p = points_[static_cast<std::size_t>(i)];
       const double distance2 = (p.point_m - at_m).squaredNorm();
-      if (distance2 >= least2 || p.normal.dot(normal) < kSameWay_cos) continue;
+      if (distance2 >= least2 || p.normal.dot(normal) < kSameSide_cos) continue;
       least2 = distance2;
       best = i;
     }

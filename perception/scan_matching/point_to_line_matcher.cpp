@@ -12,16 +12,16 @@ namespace {
 
 using common::Pose2;
 
-/// Of a Gaussian, the standard deviation over the median of the absolute value.
+/// Ratio of a Gaussian's standard deviation to the median of its absolute value.
 constexpr double kSigmaOfMedian = 1.4826;
-/// Steps smaller than this end the search; if the last is larger than `kConverged_m`, it did not converge.
+/// A step smaller than this ends the search. If the last step is larger than `kConverged_m`, it did not converge.
 constexpr double kSmallStep_m = 0.0002;
 constexpr double kConverged_m = 0.005;
-/// The reach shrinks by no more than this at once. Where most walls fit already, those that face another way are far
-/// off and would be taken for outliers before they have pulled.
+/// The pairing distance shrinks at most by this factor per iteration. Where most walls fit already, those that face
+/// another direction are still far off; a faster shrinking would reject them as outliers before they correct the pose.
 constexpr double kSlowest = 0.6;
 
-/// A point of the scan and the line it is pulled to, at one pose.
+/// A point of the scan and the line it is paired with, at one pose.
 struct Pair {
   Eigen::Vector2d arm_m, normal;
   double distance_m = 0.0;
@@ -71,7 +71,7 @@ void PointToLineMatcher::Impl::makePairs(const LeastSquaresMatch& match, const P
   }
 }
 
-/// The distance beyond which a pair is not believed: so many times the usual one.
+/// The distance beyond which a pair is an outlier: `trim_sigmas` standard deviations, estimated from the median.
 double PointToLineMatcher::Impl::trimAt() {
   if (pairs.empty()) return 0.0;
   distances.clear();

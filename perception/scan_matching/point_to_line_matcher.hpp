@@ -1,7 +1,7 @@
-// Iterative closest point with the distance to a line (Censi 2008, the laser odometry of Tomic 2012): each point of the
-// scan is pulled to the line through the nearest points of the reference, the worst pairs are left out, and the pose
-// that is best for all pairs is found in closed form; again until it stays. It needs no map: a reference costs little,
-// and there is no grid in the answer.
+// Iterative closest point with the point-to-line metric (Censi 2008, the laser odometry of Tomic 2012). Each iteration
+// pairs every point of the scan with the contour line at the nearest point of the reference, leaves out the worst
+// pairs, and takes one linear least-squares step; it ends when the pose no longer moves. It needs no map: a reference
+// costs little, and the pose is not quantized by a grid.
 #pragma once
 
 #include <memory>
@@ -23,8 +23,8 @@ struct PointToLineMatcherConfig : LeastSquaresMatcherConfig {
   std::vector<std::string> validate() const;
 };
 
-/// The result is `failed` also when the steps did not become small, or led more than a centimetre or a tenth of a
-/// degree out of the window.
+/// The result is `failed` also if the steps did not become small, or led more than a centimetre or a tenth of a degree
+/// out of the window.
 class PointToLineMatcher final : public ScanMatcher {
  public:
   explicit PointToLineMatcher(const PointToLineMatcherConfig& config);

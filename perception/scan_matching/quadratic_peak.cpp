@@ -7,16 +7,16 @@
 namespace swiftlet::perception {
 namespace {
 
-/// No pose is better than this, whatever the number of points.
+/// Lower limit on the standard deviation of a pose, whatever the number of points.
 constexpr double kFloorSigma_m = 0.0005;
 constexpr double kFloorSigma_rad = 0.0001;
-/// The uncertainty given along what is not seen.
+/// Standard deviation assigned along an unobservable direction.
 constexpr double kUnseenSigma_m = 1.0;
-/// No guess is better than this.
+/// Lower limit on the uncertainty of a guess.
 constexpr double kLeastSpread_m = 0.001;
 constexpr double kLeastSpread_rad = 0.001;
 
-/// What lies in the space that `unseen` projects to, nearest to `offset` in units of `spread`.
+/// The vector in the range of the projection `unseen` that is nearest to `offset`, in units of `spread`.
 Eigen::Vector3d mostExpected(const Eigen::Matrix3d& unseen, const Eigen::Vector3d& offset,
                              const Eigen::Vector3d& spread) {
   const Eigen::Matrix3d scaled = spread.cwiseInverse().asDiagonal() * unseen;
@@ -36,7 +36,7 @@ Peak findPeak(const Quadratic& q, const PeakScale& scale, const ExpectedPose& ex
   const double step2 = step.x() * step.x();
   const double unseen_information = 1.0 / (kUnseenSigma_m * kUnseenSigma_m);
 
-  // In units of one step, where all three axes move the points by about as much.
+  // In units of one step, so that all three axes move the points by about the same distance.
   const common::SymmetricEigen<3> eigen = common::symmetricEigen(Eigen::Matrix3d(-q.hessian));
   Eigen::Vector3d peak_steps = Eigen::Vector3d::Zero();
   Eigen::Matrix3d unseen = Eigen::Matrix3d::Zero();

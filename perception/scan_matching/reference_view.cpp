@@ -11,11 +11,11 @@ namespace {
 
 using common::Pose2;
 
-/// Between beams no farther apart than this was seen what is seen by both.
+/// Bins between two neighbouring beams count as seen if the beams are at most this far apart.
 constexpr int kJoinedBins = 5;
-/// Where no beam of so many degrees ends, the view ends.
+/// The view ends at a gap of this many degrees without an end point.
 constexpr int kEndBins = 20;
-/// What lies so far behind the end points was seen, too: walls are rough, and poses err.
+/// Points up to this far behind the end points count as seen, because walls are rough and poses err.
 constexpr double kBehind_m = 0.15;
 
 }  // namespace
@@ -49,13 +49,14 @@ void ReferenceView::add(const std::vector<Eigen::Vector2f>& points_body_m, const
     scan.seen_to_m[static_cast<std::size_t>(bin)] =
         std::max({ends_m[wrapped(bin - 1)], ends_m[wrapped(bin)], ends_m[wrapped(bin + 1)]});
 
-  // Twice round each way: the degrees to the last bin of a stretch that is empty.
+  // Distance, in bins, to the nearest gap of at least kEndBins, in both directions. Two rounds, because a gap may wrap
+  // around.
   std::array<int, kBins> to_end;
   to_end.fill(kBins);
-  for (const int way : {1, -1}) {
+  for (const int direction : {1, -1}) {
     int empty = 0, since_end = kBins;
     for (int k = 0; k < 2 * kBins; ++k) {
-      const std::size_t bin = wrapped(way * k % kBins);
+      const std::size_t bin = wrapped(direction * k % kBins);
       empty = ends_m[bin] > 0.0F ? 0 : empty + 1;
       since_end = empty >= kEndBins ? 0 : since_end + 1;
       to_end[bin] = std::min(to_end[bin], since_end);
@@ -88,7 +89,7 @@ std::vector<bool> ReferenceView::sees(std::span<const float> x_m, std::span<cons
   }
   std::vector<bool> seen(x_m.size(), false);
   for (std::size_t i = 0; i < x_m.size(); ++i) {
-    for (std::size_t k = scans_.size(); k-- > 0 && !seen[i];) {  // The newest sees most.
+    for (std::size_t k = scans_.size(); k-- > 0 && !seen[i];) {  // Newest first: it usually sees most.
       const Eigen::Vector2d there_m =
           T_scan_body[k].rotation * Eigen::Vector2d(x_m[i], y_m[i]) + T_scan_body[k].position_m;
       seen[i] = looksAt(scans_[k], there_m, margin_m);

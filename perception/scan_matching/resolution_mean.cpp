@@ -14,8 +14,8 @@ std::uint64_t ResolutionMean::blockScore(int x0, int y0, int k, int block) const
   return score;
 }
 
-/// The best pose of a coarser level is that of the mean scores of its blocks, blocks lying on the grid of the search: a
-/// likelihood field of that resolution, sampled at that resolution.
+/// The best pose of a coarser level is the block with the best mean score. Blocks lie on the grid of the search, which
+/// corresponds to a likelihood field of that resolution, sampled at that resolution.
 Eigen::Vector3d ResolutionMean::bestOfLevel(const BestPose& best, int block) const {
   std::uint64_t top = 0;
   Eigen::Vector3d estimate = Eigen::Vector3d::Zero();
@@ -36,7 +36,7 @@ Eigen::Vector3d ResolutionMean::bestOfLevel(const BestPose& best, int block) con
 }
 
 Eigen::Vector3d ResolutionMean::of(const BestPose& best, int levels, double resolution_m) const {
-  // Wider, the coarse levels' own quantization outweighs what their averaging gains.
+  // With a larger spread, the quantization of the coarse levels would outweigh the gain of averaging.
   const double spread_m = 0.5 * resolution_m;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double weights = 0.0;

@@ -12,18 +12,18 @@
 
 namespace swiftlet::perception {
 
-/// Made from the finest level's scores around the best pose of the search.
+/// Computed from the scores of the finest level around the best pose of the search.
 class ResolutionMean {
  public:
-  static constexpr int kHalf = 7;       ///< Cells on either side of the best pose,
-  static constexpr int kRotations = 4;  ///< and rotation steps.
+  static constexpr int kHalf = 7;       ///< Cells on either side of the best pose.
+  static constexpr int kRotations = 4;  ///< Rotation steps on either side of the best pose.
 
-  /// To be filled in for each rotation k from -kRotations to kRotations, as sumWindows orders them: rows and columns
+  /// To be filled in for each rotation k from -kRotations to kRotations, in the order of sumWindows: rows and columns
   /// from -kHalf to kHalf.
   std::vector<std::uint32_t>& scores(int k) { return scores_[static_cast<std::size_t>(k + kRotations)]; }
 
-  /// From the best pose of the finest level, in cells and rotation steps. Of `levels` resolutions, each half as fine as
-  /// the one before; the finest has cells of `resolution_m`.
+  /// Offset of the mean from the best pose of the finest level, in (cells, cells, rotation steps). There are `levels`
+  /// resolutions, each half as fine as the one before; the finest has cells of `resolution_m`.
   Eigen::Vector3d of(const BestPose& best, int levels, double resolution_m) const;
 
  private:

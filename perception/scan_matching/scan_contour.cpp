@@ -6,16 +6,16 @@
 namespace swiftlet::perception {
 namespace {
 
-/// How much longer than its neighbours a step along a surface may be, and by how much in any case (noise).
+/// A step along a surface may be this many times as long as its neighbours, plus kGapNoise_m for noise.
 constexpr float kMaxStretch = 2.5F;
 constexpr float kGapNoise_m = 0.05F;
-/// Longer gaps are bridged only along a straight line: a wall that ends in dots, far away and seen at a grazing angle.
-/// Dots would match the dots of the next scan wherever the vehicle moved along the wall.
+/// Longer gaps are bridged only along a straight line, as for a distant wall at a grazing angle that is seen as
+/// separate dots. Dots would match the dots of the next scan wherever the vehicle moved along the wall.
 constexpr float kShortGap_m = 0.3F;
 constexpr float kStraight_cos = 0.966F;  // 15 degrees.
-/// A leap between surfaces counts as this much contour, so that lone points are still chosen.
+/// A jump between surfaces counts as this length of contour, so that lone points are still chosen.
 constexpr float kLeap_m = 0.3F;
-/// Neighbours to either side over which the distance between points is taken.
+/// Neighbours on either side over which the spacing of points is averaged.
 constexpr int kSmoothedOver = 4;
 
 std::vector<Eigen::Vector2f> usable(std::span<const Eigen::Vector2f> points_m, double max_range_m) {
@@ -23,11 +23,11 @@ std::vector<Eigen::Vector2f> usable(std::span<const Eigen::Vector2f> points_m, d
   std::vector<Eigen::Vector2f> result;
   result.reserve(points_m.size());
   for (const Eigen::Vector2f& p : points_m)
-    if (p.squaredNorm() <= max2) result.push_back(p);  // False for NaN.
+    if (p.squaredNorm() <= max2) result.push_back(p);  // Drops NaN.
   return result;
 }
 
-/// Whether the step from point i to the next goes on as the one before and the one after.
+/// Whether the step from point i to the next has the direction of the steps before and after it.
 bool isStraight(std::span<const Eigen::Vector2f> points, std::size_t i) {
   if (i == 0 || i + 2 >= points.size()) return false;
   const Eigen::Vector2f before = points[i] - points[i - 1], step = points[i + 1] - points[i],
@@ -84,11 +84,11 @@ std::vector<ContourSegment> contourOf(std::span<const Eigen::Vector2f> points_m,
 std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int count, double max_range_m) {
   const auto max2 = static_cast<float>(max_range_m * max_range_m);
   std::vector<int> usable_points;
-  std::vector<Eigen::Vector2f> unrolled;  // The points with the leaps between them cut.
+  std::vector<Eigen::Vector2f> unrolled;  // The points with the jumps between them shortened.
   usable_points.reserve(points_m.size());
   unrolled.reserve(points_m.size());
   for (std::size_t i = 0; i < points_m.size(); ++i) {
-    if (!(points_m[i].squaredNorm() <= max2)) continue;  // True for NaN.
+    if (!(points_m[i].squaredNorm() <= max2)) continue;  // Also skips NaN.
     Eigen::Vector2f step(0.0F, 0.0F);
     if (!usable_points.empty()) step = points_m[i] - points_m[static_cast<std::size_t>(usable_points.back())];
     const float leap2 = step.squaredNorm();
@@ -98,8 +98,8 @@ std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int co
   }
   if (usable_points.size() <= static_cast<std::size_t>(count)) return usable_points;
 
-  // How far apart neighbours are is taken over some of them: a point that its own error moved away would be chosen more
-  // often otherwise, and errors that are chosen do not average out.
+  // The spacing is averaged over several neighbours. Otherwise a point displaced by noise would be chosen more often,
+  // and the noise of the chosen points would not average out.
   const int size = static_cast<int>(unrolled.size());
   std::vector<float> step(unrolled.size());
   float length = 0.0F;
@@ -117,7 +117,7 @@ std::vector<int> spreadIndices(std::span<const Eigen::Vector2f> points_m, int co
   for (std::size_t i = 0; i < usable_points.size() && chosen.size() < static_cast<std::size_t>(count); ++i) {
     along += step[i];
     if (along < spacing) continue;
-    // The difference is exact here, and a division less.
+    // In this case the difference is exact, and it saves a division.
     along = along < 2.0F * spacing ? along - spacing : std::fmod(along, spacing);
     chosen.push_back(usable_points[i]);
   }

@@ -7,7 +7,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Poses less likely than the best by this factor's exponential do not count.
+/// Poses that are less likely than the best by a factor of e to this power are ignored.
 constexpr double kNegligible_log = 20.0;
 
 int inStrips(int columns) { return (columns + kWindowColumns - 1) / kWindowColumns * kWindowColumns; }

@@ -1,6 +1,6 @@
-// The score of every pose of a window. With the rotation held, the scores of all translations are sums of one window of
-// the likelihood field per point (Bachrach 2009, section 5.1.2); knowing all of them, one also knows how likely the
-// pose is somewhere else (section 5.1.3).
+// The score of every pose of a window. At a fixed rotation, the scores of all translations are the sum of one window of
+// the likelihood field per point (Bachrach 2009, section 5.1.2). All scores together also tell how likely the pose is
+// elsewhere in the window (section 5.1.3).
 #pragma once
 
 #include <cstdint>
@@ -16,28 +16,28 @@
 
 namespace swiftlet::perception {
 
-/// Keeps its buffers. Not thread-safe.
+/// Keeps its buffers between calls. Not thread-safe.
 class ScoreGrid {
  public:
-  /// Poses scored beyond each side of the window, so that there is a surface around each pose in it.
+  /// Poses scored beyond each side of the window, so that every pose in it has a full surface around it.
   static constexpr int kMargin = ScoreSurface::kHalf;
 
   explicit ScoreGrid(Instructions instructions) : instructions_(instructions) {}
 
-  /// How many poses a window has with its margin.
+  /// The number of poses of a window with its margin.
   static double poses(const PoseGrid& window);
 
-  /// Any number of points, in the level frame of the scan.
+  /// Scores all poses of the window and its margin. Takes any number of points, in the level frame of the scan.
   void score(LikelihoodField& field, std::span<const float> x_m, std::span<const float> y_m, const PoseGrid& window);
 
-  /// The sum at a pose; each index from -kMargin to kMargin beyond the last.
+  /// The score of a pose. Each index is from -kMargin to the last of the window plus kMargin.
   std::uint32_t at(int x, int y, int rotation) const { return scores_[indexOf(x, y, rotation)]; }
-  /// The highest sum less penalty; of equal ones the first by rotation, y and x.
+  /// The highest score minus penalty. If several poses have it, the first by rotation, y and x.
   BestPose best(const GuessPenalty& penalty) const;
   ScoreSurface surfaceAround(const BestPose& pose) const;
 
-  /// The second moments about a pose, in steps, of the likelihood of all poses of the window that are not on the
-  /// surface around it; `log_per_score` is by how much the logarithm of the likelihood grows with the score.
+  /// Second moments about a pose, in steps, of the likelihood of the poses of the window outside the surface around it.
+  /// `log_per_score` is the derivative of the log-likelihood by the score.
   Eigen::Matrix3d spreadElsewhere(const BestPose& pose, double log_per_score) const;
 
  private:
@@ -46,15 +46,15 @@ class ScoreGrid {
                      static_cast<std::size_t>(y + kMargin);
     return row * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(x + kMargin);
   }
-  /// visit(row, y, rotation) with the scores of x = 0 .. translations - 1, for each row of the window.
+  /// Calls visit(row, y, rotation) for each row of the window, with the scores of x = 0 .. translations - 1.
   template <typename Visit>
   void forEachRow(const Visit& visit) const;
   void scoreRotation(const LikelihoodField& field, std::uint32_t* out);
 
   Instructions instructions_;
   PoseGrid window_;
-  int side_ = 0;    ///< Translations with the margin.
-  int stride_ = 0;  ///< The same in whole strips of kWindowColumns.
+  int side_ = 0;    ///< Translations per side, with the margin.
+  int stride_ = 0;  ///< side_ rounded up to whole strips of kWindowColumns.
   std::vector<std::uint32_t> scores_;
   std::vector<std::int32_t> x_cells_, y_cells_, offsets_;
   std::vector<std::uint16_t> part_;

@@ -7,7 +7,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Least spread of the end points that is believed; the field's bytes resolve no finer.
+/// Lower limit on the residual of the end points; the bytes of the field do not resolve a smaller one.
 constexpr double kMinResidual_m = 0.004;
 
 }  // namespace

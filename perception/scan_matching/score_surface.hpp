@@ -1,5 +1,5 @@
-// The scores around the best pose of the search. Their shape says where between the cells the pose lies and how
-// certain it is (Bachrach 2009, section 5.1.3).
+// The scores around the best pose of the search. Their shape gives the pose between the cells and its uncertainty
+// (Bachrach 2009, section 5.1.3).
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace swiftlet::perception {
 
-/// Scores over (x, y, rotation), in steps from -kHalf to +kHalf of each.
+/// Scores over (x, y, rotation), from -kHalf to +kHalf steps along each axis.
 struct ScoreSurface {
   static constexpr int kHalf = 3;
   static constexpr int kSize = 2 * kHalf + 1;
@@ -30,23 +30,25 @@ struct ScoreSurface {
   }
 };
 
-/// A quadratic through the surface by least squares.
+/// Fits a quadratic to the surface by least squares.
 Quadratic fitQuadratic(const ScoreSurface& surface);
 
-/// What turns curvature into covariance.
+/// Parameters that turn curvature into covariance.
 struct SurfaceScale {
-  double supported = 1.0;  ///< Points with support at the middle.
-  double reach_m = 0.0;    ///< Distance at which a point loses its support.
+  double supported = 1.0;  ///< Points with support at the middle pose.
+  double reach_m = 0.0;    ///< Distance beyond which a point has no support.
   double covariance_scale = 1.0;
-  double unobservable_sigma_m = 0.0;  ///< A direction less certain is not seen.
+  double unobservable_sigma_m = 0.0;  ///< A less certain direction is unobservable.
 };
 
-/// How much the logarithm of the likelihood of the middle pose grows with its score, by the same reasoning.
+/// Derivative of the log-likelihood by the score at the middle pose. The spread of the points' distances comes from the
+/// height of the peak.
 double logPerScore(const ScoreSurface& surface, const SurfaceScale& scale);
 
-/// Each supported point adds -(d / reach)^2 to the score, with d along the normal of its contour; the curvature is
-/// therefore the sum of n n', and with the spread of d, read off the height of the peak, the covariance follows as that
-/// of least squares. Along what is not seen, the peak is where it is expected.
+/// The peak of the surface with its covariance. Each supported point adds -(d / reach)^2 to the score, with d along the
+/// normal of its contour. The curvature is therefore proportional to the sum of n n', and with the spread of d, read
+/// off the height of the peak, the covariance is that of least squares. Along unobservable directions the peak keeps
+/// the expected pose.
 Peak findPeak(const ScoreSurface& surface, const SurfaceScale& scale, const ExpectedPose& expected);
 
 }  // namespace swiftlet::perception

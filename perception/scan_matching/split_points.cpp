@@ -8,7 +8,7 @@
 namespace swiftlet::perception {
 namespace {
 
-/// Fewer neighbours in a row that the reference has not seen are noise, or somebody.
+/// Shorter runs of points without support are noise or a person.
 constexpr std::size_t kLeastUnseen = 3;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The points of a scan that a match is made with, coordinate by coordinate.
+// The points of a scan used for a match, as one array per coordinate.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace swiftlet::perception {
 
-/// Points in the level frame of the scan, in the arrays that the transformation wants.
+/// Points in the level frame of the scan, in the layout that transformToCells takes.
 struct SplitPoints {
   std::vector<float> x_m, y_m;
-  std::vector<float> heights_m;  ///< Over the body; empty when not known.
+  std::vector<float> heights_m;  ///< Above the body origin; empty when not known.
 
   explicit SplitPoints(const std::vector<Eigen::Vector2f>& points_m);
 };
@@ -20,12 +20,13 @@ struct SplitPoints {
 /// At most `count` points of the scan, spread evenly along its contour, with their heights.
 SplitPoints spreadWithHeights(const ProjectedScan& scan, int count, double max_range_m);
 
-/// Which points lie on what was drawn (`seen`) and not beside what does not, as far as the field reaches. There a
-/// surface goes on beyond what was drawn of it; slid along itself, the scan would cover more of it. What comes out of a
-/// shadow while the vehicle goes by would pull it on, a little with each match.
+/// Marks the points that have support in the reference (`seen`) and have no run of unsupported neighbours within
+/// `reach_m` along the contour. Next to such a run a surface continues beyond the drawn part, and sliding the scan
+/// along the surface would give it more support. Surfaces that come into view while the vehicle passes would otherwise
+/// bias each match a little in the direction of motion.
 std::vector<bool> awayFromUnseen(const SplitPoints& points, const std::vector<bool>& seen, double reach_m);
 
-/// The marked points; all where less than half is marked.
+/// The marked points, or all points if fewer than half are marked.
 SplitPoints mostOf(const SplitPoints& points, const std::vector<bool>& marked);
 
 }  // namespace swiftlet::perception

@@ -46,7 +46,7 @@ __attribute__((target("avx2"))) __m256i widened(const std::uint8_t* bytes) {
   return _mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes)));
 }
 
-/// Four rows at once share the walk over the offsets.
+/// Four rows at once share one pass over the offsets.
 __attribute__((target("avx2"))) void sumAvx2(const std::uint8_t* cells, int stride,
                                              std::span<const std::int32_t> offsets, int rows, std::uint16_t* sums) {
   auto* out = reinterpret_cast<__m256i*>(sums);
