@@ -56,7 +56,7 @@ bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
   if (believed != battery_believed_)
     say(now, believed ? Severity::kInfo : Severity::kWarning,
         believed ? "the battery is measured again" : "the battery's last good values are kept",
-        believed ? "" : "it says something that is not a number");
+        believed ? "" : "its voltage or its charge is not a finite number");
   battery_believed_ = believed;
   return believed;
 }

@@ -1,6 +1,5 @@
-// What a behaviour wants of the vehicle, and the status of that. Behaviours emit an Intent each tick; the autonomy
-// carries it out and answers with the IntentStatus of that Intent. An Intent with the `id` of the previous one continues
-// it.
+// What a behaviour wants of the vehicle, and the status of that. Behaviours emit an Intent at each tick; the autonomy
+// carries it out and answers with the IntentStatus of that Intent. An Intent with the previous `id` continues it.
 #pragma once
 
 #include <cstdint>

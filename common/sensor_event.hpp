@@ -28,7 +28,7 @@ struct ImuSample {
   Eigen::Quaterniond rotation_ahrs_body = Eigen::Quaterniond::Identity();
 };
 
-/// One sweep of the 2D laser, in the laser frame. It includes the beams that a mirror deflects; LaserConfig tells which.
+/// One sweep of the 2D laser, in the laser frame. It includes the beams that a mirror deflects (see LaserConfig).
 struct LaserScan {
   Stamps stamps;
   double angle_min_rad = 0.0;
@@ -36,7 +36,7 @@ struct LaserScan {
   Duration time_increment;  ///< Between two beams; beam i was measured at stamps.measured + i * time_increment.
   double range_min_m = 0.0;
   double range_max_m = 0.0;
-  /// A range that is NaN or below range_min_m is invalid. One above range_max_m, or infinite, means no hit within range.
+  /// A range that is NaN or below range_min_m is invalid. A range above range_max_m, or infinite, means no hit.
   std::vector<float> ranges_m;
 };
 

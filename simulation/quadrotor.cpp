@@ -94,8 +94,8 @@ double Quadrotor::gearForce_n(double floor_world_m) const {
       0.0, vehicle_.mass_kg * frequency_rad_s * (frequency_rad_s * pressed_m - 2.0 * state_.velocity_world_m_s.z()));
 }
 
-// The feet stop a turn within some hundredths of a second and push the body level. This is a torque, so that the
-// gyroscopes still feel the motion of the body while the motors lean it against the floor.
+// The feet stop a turn within some hundredths of a second and push the body level. This is modelled as a torque, so
+// that the gyroscopes still measure the motion of the body while the motors lean it against the floor.
 Vector3d Quadrotor::gearTurning(double gear_n) const {
   constexpr double kFrequency_rad_s = 33.0;
   const double carried = std::min(1.0, gear_n / (vehicle_.mass_kg * kGravity_m_s2));

@@ -111,7 +111,7 @@ std::optional<Problem> placeStart(Drawn& drawn, const RayCaster& rays) {
                       "move the start");
 }
 
-/// The other vehicle whose hull would be touched.
+/// A problem if the hull would touch that of another vehicle.
 std::optional<Problem> meetsAnother(const Drawn& drawn, const std::vector<PlacedVehicle>& others) {
   const Eigen::Vector3d at = drawn.T_world_map.position_m;
   for (const PlacedVehicle& other : others) {
@@ -215,9 +215,9 @@ Drawn drawUntilItWillDo(const WorldModel& world, const PlacedVehicle& nominal,
     if (!problem) return drawn;
     if (!unreachable) unreachable = problem;
   }
-  // Report a start that was free but cut off rather than one that was blocked: it tells more.
+  // A start that was free but cut off from a goal is a better explanation than a blocked start.
   Problem problem = unreachable ? *unreachable : *blocked;
-  if (draws > 1) problem.message += fmt::format("; none of the {} draws of the seed's variation will do", draws);
+  if (draws > 1) problem.message += fmt::format("; none of the {} draws of the seed's variation is suitable", draws);
   throw InputError(problem);
 }
 

@@ -57,7 +57,7 @@ AttitudeMeasurement InertialUnit::attitude(std::uint64_t tick, const QuadrotorSt
   accel_bias_m_s2_ += gaussians(random, config_.accel_bias_walk_m_s2 * root_step);
   yaw_rad_ += step_s * yaw_drift_rad_s_ + random.gaussian(config_.yaw_walk_deg * kRadPerDeg * root_step);
 
-  // During forward acceleration (nose down) the accelerometers feel less tilt than there is.
+  // During forward acceleration (nose down) the accelerometers measure less tilt than there is.
   const Vector3d acceleration_world = (state.velocity_world_m_s - last_velocity_world_m_s_) / step_s;
   last_velocity_world_m_s_ = state.velocity_world_m_s;
   const double yaw = common::yawOf(state.T_world_body.rotation);

@@ -24,7 +24,7 @@ class InertialUnit {
  public:
   InertialUnit(const ImuConfig& config, std::uint64_t seed);
 
-  /// Call after each physics step: averages what is felt, as a sensor that integrates between its samples.
+  /// Call it after each physics step. It averages the measurements between two samples.
   void feel(const QuadrotorState& state);
 
   /// The AHRS at tick number `tick` of the attitude loop; advances its errors by step_s.
