@@ -212,9 +212,9 @@ common::Intent Autonomy::nextIntent(Time now) {
       mission_status_.state = supervisor_.landedByOperator() ? MissionState::kStopped : MissionState::kFailed;
       mission_status_.reason = "landed: " + supervision.land_reason;
       mission_status_.phase = "land";
-      lets_go_ = true;
+      releasing_mission_ = true;
     }
-    if (lets_go_) lets_go_ = !mission_.letGo(context_);
+    if (releasing_mission_) releasing_mission_ = !mission_.letGo(context_);
     collect(std::exchange(context_.events, {}));
     return {kSupervisorLand, common::LandIntent{}};
   }

@@ -125,7 +125,7 @@ class Autonomy {
   behaviors::Context context_;
   common::Intent intent_;
   common::MissionStatus mission_status_;
-  bool lets_go_ = false;  ///< The supervisor lands the vehicle, and the mission has not released it yet.
+  bool releasing_mission_ = false;  ///< The supervisor lands the vehicle, and the mission has not released it yet.
   bool prepared_ = false;
   std::optional<common::Time> last_behaviors_;
 

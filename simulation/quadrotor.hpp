@@ -73,8 +73,8 @@ class Quadrotor {
   void spinMotors(const std::array<double, 4>& throttles, double step_s);
   Eigen::Vector3d takePush(double step_s);
   double gearForce_n(double floor_world_m) const;
-  Eigen::Vector3d gearTurning(double gear_n) const;  ///< Angular acceleration by the gear.
-  void rub(double gear_n, double step_s);
+  Eigen::Vector3d gearAngularAcceleration(double gear_n) const;
+  void applyFriction(double gear_n, double step_s);
 
   common::VehicleConfig vehicle_;
   QuadrotorConfig config_;

@@ -45,9 +45,9 @@ class InertialUnit {
   double yaw_rad_;
   double yaw_drift_rad_s_;
   Eigen::Vector3d last_velocity_world_m_s_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d felt_sum_m_s2_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d specific_force_sum_m_s2_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate_sum_rad_s_ = Eigen::Vector3d::Zero();
-  int felt_count_ = 0;
+  int sum_count_ = 0;
 };
 
 }  // namespace swiftlet::simulation
