@@ -78,7 +78,7 @@ std::optional<common::Setpoint> Autonomy::process(const Input& input) {
   return std::nullopt;
 }
 
-/// A camera frame changes nothing here; it comes this way so that it is recorded with the rest.
+/// A camera frame changes nothing here. It is an input so that recordings contain it.
 void Autonomy::take(const common::SensorEvent& event) {
   const Time arrived = common::stampsOf(event).arrived;
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
@@ -127,7 +127,7 @@ common::Setpoint Autonomy::tick(Time now) {
   const common::Setpoint setpoint = controller_.tick(flight);
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
   estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying);
-  // Not while landing: the map stays that of the flight.
+  // Not while landing, so that the map stays at the flight height.
   if (controller_.state() == FlightState::kTakingOff || controller_.state() == FlightState::kFlying)
     estimator_.setFlightHeight(flight.state.T_odom_body.position_m.z());
   prepare();
@@ -212,9 +212,9 @@ common::Intent Autonomy::nextIntent(Time now) {
       mission_status_.state = supervisor_.landedByOperator() ? MissionState::kStopped : MissionState::kFailed;
       mission_status_.reason = "landed: " + supervision.land_reason;
       mission_status_.phase = "land";
-      lets_go_ = true;
+      releasing_mission_ = true;
     }
-    if (lets_go_) lets_go_ = !mission_.letGo(context_);
+    if (releasing_mission_) releasing_mission_ = !mission_.letGo(context_);
     collect(std::exchange(context_.events, {}));
     return {kSupervisorLand, common::LandIntent{}};
   }

@@ -1,5 +1,5 @@
-// The whole autonomy: takes one stamped input at a time and returns setpoints. This is the picture of
-// docs/architecture.md as code.
+// The whole autonomy: takes one stamped input at a time and returns setpoints. It is the data flow of
+// docs/architecture.md in code.
 #pragma once
 
 #include <memory>
@@ -26,7 +26,7 @@
 
 namespace swiftlet::autonomy {
 
-/// All settings of the autonomy; a system profile (config/systems) gives them.
+/// All settings of the autonomy, read from a system profile (config/systems).
 struct AutonomyConfig {
   EstimatorConfig estimator;
   ReactiveConfig reactive;
@@ -46,40 +46,42 @@ struct AutonomyConfig {
   std::vector<std::string> problemsWith(double clearance_m) const;
 };
 
-/// One thread; a function of its inputs in their order. The time of an input is never before that of the last one.
+/// One thread. The outputs depend only on the inputs and their order. The time of an input is never before that of the
+/// previous one.
 class Autonomy {
  public:
-  /// `given`: a map of the place, to find itself in; none: null. Read in the constructor alone. `vehicle_name` stands
-  /// in its snapshots and in the events that its loop tells; empty where there is only one vehicle.
+  /// `given` is a map to localize in, or null; it is read only in the constructor. `vehicle_name` appears in the
+  /// snapshots and in the events of its loop; it is empty if there is only one vehicle.
   Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
            behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given = nullptr,
            std::string vehicle_name = {});
   ~Autonomy();
 
-  /// Returns a setpoint for a tick, and nothing for any other input. The delivery of a job must be awaited.
+  /// Returns a setpoint for a tick, and nothing for any other input. The delivered job must be outstanding (awaits).
   std::optional<common::Setpoint> process(const Input& input);
 
-  /// The delivery of a job that is due at or before `now`, if there is one. Call it before each input of that time.
+  /// The next job that is due at or before `now`, if there is one. Call it before each input with that time.
   std::optional<common::JobDelivery> dueDelivery(common::Time now) const { return jobs_->nextDue(now); }
-  /// False for the delivery of a job that was never submitted or is delivered already: the inputs are then not those of
-  /// a flight of this autonomy.
+  /// False if the job was never submitted or has been delivered already. Then the inputs are not those of a flight of
+  /// this autonomy.
   bool awaits(const common::JobDelivery& delivery) const { return jobs_->awaits(delivery); }
   std::vector<common::JobTimes> jobTimes() const { return jobs_->times(); }
 
   /// The newest snapshot; never null.
   std::shared_ptr<const common::World> world() const { return world_; }
-  /// The mission has ended and the vehicle stands with its motors off.
+  /// True when the mission has ended and the vehicle stands with its motors off.
   bool finished() const;
   const std::string& vehicleName() const { return vehicle_name_; }
   const common::MissionStatus& missionStatus() const { return mission_status_; }
-  /// The mission ended by the operator's Land.
+  /// True if the mission ended by the operator's land command.
   bool landedByOperator() const { return supervisor_.landedByOperator(); }
   common::VehicleState state() const { return estimator_.state(); }
-  /// What the matcher and the SLAM method that the profile names have done.
+  /// Counts of the matches of the laser odometry and of the work of the SLAM method.
   const perception::LaserOdometryCounts& odometryCounts() const { return estimator_.odometryCounts(); }
   const perception::SlamCounts& slamCounts() const { return estimator_.slamCounts(); }
-  /// What is carried out since the last tick of the behaviours, and how it stands.
+  /// The intent since the last tick of the behaviours.
   const common::Intent& intent() const { return intent_; }
+  /// The status of that intent.
   const common::IntentStatus& intentStatus() const { return executor_.status(); }
 
   std::vector<common::Event> takeEvents();
@@ -102,7 +104,7 @@ class Autonomy {
   AutonomyConfig config_;
   common::VehicleConfig vehicle_;
   std::string vehicle_name_;
-  // Delivered results refer to the parts below, so the jobs go first when the autonomy ends.
+  // The results of jobs refer to these members. jobs_ follows them, so that it is destroyed first.
   Estimator estimator_;
   Reactive reactive_;
   control::FlightController controller_;
@@ -123,7 +125,7 @@ class Autonomy {
   behaviors::Context context_;
   common::Intent intent_;
   common::MissionStatus mission_status_;
-  bool lets_go_ = false;  ///< A landing from above the mission has begun, and the mission has not let go yet.
+  bool releasing_mission_ = false;  ///< The supervisor lands the vehicle, and the mission has not released it yet.
   bool prepared_ = false;
   std::optional<common::Time> last_behaviors_;
 

@@ -118,12 +118,12 @@ perception::ProjectedScan Estimator::project(const common::LaserScan& scan) cons
   return laser_.project(scan, [&](Time t) { return history.at(t).value_or(newest); });
 }
 
-/// Points on a moving person bias the match, so those of whom the last scans showed are removed.
+/// Points on a moving person bias the match, so points where the tracker predicts people are removed.
 perception::ProjectedScan Estimator::withoutPeople(const perception::ProjectedScan& scan, Time measured) const {
   return perception::withoutPeople(people_.expectedAt(measured), map_.T_map_odom() * planar(scan.T_odom_body), scan);
 }
 
-/// Whether a scan is kept from the odometry, so that it can weigh particles.
+/// Whether a scan is withheld from the odometry, so that it can weigh particles.
 bool Estimator::isWithheld(const perception::ProjectedScan& scan) {
   return localizer_ && at_flight_height_ && localizer_->wantsScan(planar(scan.T_odom_body));
 }
@@ -164,7 +164,8 @@ void Estimator::localize(const LocatedScan& located, Time now) {
     localizer_->passOver(located.step_covariance, located.interrupted);
 }
 
-/// As the filter has it now; as predicted, where its history does not reach.
+/// The filter's present estimate of the pose at the scan's stamp. If its history does not reach back that far, the pose
+/// by which the scan was projected.
 Pose3 Estimator::T_odom_bodyAt(const perception::ProjectedScan& scan) const {
   return filter_.poseAt(scan.stamp).value_or(scan.T_odom_body);
 }

@@ -1,4 +1,4 @@
-// From raw samples to a state, a map and the people around, one step after the other around one filter:
+// Estimates the state, the map and the people around from raw samples, with one filter:
 //
 //   IMU sample --> predict --------------------------------> error-state filter --> VehicleState
 //   scan --> project --> leave out people --> match --> fuse ---^   |
@@ -6,7 +6,7 @@
 //                 \--> map <-------------------------- pose at the scan --> localize in a given map
 //                       \--> people, for the next scan
 //
-// Each step is a small object that takes values and returns values; only the Estimator speaks with the filter.
+// Each step is a small object that takes values and returns values; only the Estimator uses the filter.
 #pragma once
 
 #include <memory>
@@ -37,7 +37,7 @@
 namespace swiftlet::autonomy {
 
 struct EstimatorConfig {
-  LaserPipelineConfig laser;  ///< Its keys stand among those of the estimator.
+  LaserPipelineConfig laser;  ///< Its keys are on the level of the estimator's own.
   perception::MultilevelFilter::Config altitude;
   perception::ErrorStateFilter::Config fusion;
   perception::PeopleTracker::Config people;
@@ -48,36 +48,37 @@ struct EstimatorConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// What one scan gave.
+/// The results of one scan.
 struct ScanOutcome {
   perception::ProjectedScan scan;
-  bool matched = false;                           ///< It matched and the filter took it in.
-  bool interrupted = false;                       ///< The odometry was lost, and begins anew with this scan.
+  bool matched = false;                           ///< It matched and the filter accepted it.
+  bool interrupted = false;                       ///< The odometry was lost and restarts with this scan.
   common::Pose2 T_map_body;                       ///< At the scan's stamp.
-  std::optional<common::KeyRelativePose> at_key;  ///< The same relative to a key scan of the map.
+  std::optional<common::KeyRelativePose> at_key;  ///< The same pose relative to a key scan of the map.
   std::optional<control::RawHeight> raw_height;
 };
 
-/// One thread; the jobs of SLAM and localization go to the runner it is given, which must not deliver after its end.
+/// One thread. The jobs of SLAM and localization are submitted to `jobs`, which must not deliver after its destruction.
 class Estimator {
  public:
-  /// `given` is a map to localize in; none: null.
+  /// `given` is a map to localize in, or null.
   Estimator(const EstimatorConfig& config, const common::LaserConfig& laser, const common::VehicleConfig& vehicle,
             const GivenMap* given, common::JobRunner& jobs);
 
   void addImu(const common::ImuSample& sample);
-  /// Before the filter is initialized a scan initializes it (the vehicle stands still) and gives nothing.
+  /// Processes a scan at `now`. The first scans, taken while the vehicle stands still, only initialize the filter and
+  /// return nothing.
   std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
 
   bool ready() const { return filter_.initialized(); }
-  /// The height over the take-off floor that the map is to be of.
+  /// See MapPipeline::setFlightHeight.
   void setFlightHeight(double height_m) { map_.setFlightHeight(height_m); }
-  /// While true the filter is told that the vehicle stands.
+  /// While true, the filter assumes that the vehicle stands still.
   void setAtRest(bool at_rest) { filter_.setAtRest(at_rest); }
-  /// Only while true scans are compared with the given map: near the floor they meet what stands there.
+  /// While false, scans are not compared with the given map, because near the floor the laser sees other objects.
   void setAtFlightHeight(bool is) { at_flight_height_ = is; }
 
-  /// At the newest IMU sample, with T_map_odom.
+  /// The state at the newest IMU sample, with T_map_odom.
   common::VehicleState state() const;
   perception::FusionHealth health() const { return filter_.health(); }
   const perception::LaserOdometryCounts& odometryCounts() const { return laser_.counts(); }
@@ -87,7 +88,7 @@ class Estimator {
   std::shared_ptr<const common::KeyPoses> keyPoses() { return map_.keyPoses(); }
   std::shared_ptr<const common::LevelMap> levels() { return altitude_.levels(); }
   const perception::PeopleTracker& people() const { return people_; }
-  /// None: no map was given.
+  /// None if no map was given.
   std::optional<common::Localization> localization() const;
 
   std::vector<common::Event> takeEvents();
@@ -105,13 +106,13 @@ class Estimator {
   void reportHealth(common::Time now);
   void say(common::Time now, common::Severity severity, std::string source, std::string text, std::string reason = {});
 
-  double standing_height_m_;  ///< Of the body, where the mirror shows no floor.
+  double standing_height_m_;  ///< Height of the body when standing, if the mirror sees no floor.
   perception::ErrorStateFilter filter_;
   perception::PeopleTracker people_;
   LaserPipeline laser_;
   AltitudePipeline altitude_;
   MapPipeline map_;
-  std::unique_ptr<FlightLocalizer> localizer_;  ///< Null: no map was given.
+  std::unique_ptr<FlightLocalizer> localizer_;  ///< Null if no map was given.
 
   std::optional<common::ImuSample> last_imu_;
   bool at_flight_height_ = false;

@@ -9,7 +9,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-/// The intent's own clearance, where it names one.
+/// The intent's own clearance, or `otherwise_m` if it has none.
 double clearanceOf(const common::IntentKind& kind, double otherwise_m) {
   return std::visit(
       [&](const auto& intent) {

@@ -29,7 +29,7 @@ class Executor {
   Executor& operator=(const Executor&) = delete;
   ~Executor();
 
-  /// Carries out the intent; the same id continues what is under way.
+  /// Carries out the intent. An intent with the id of the last one continues its maneuver.
   void tick(const common::Intent& intent, const ManeuverInput& input);
   /// Flies the retreat of the reactive layer, or returns the vehicle to the intent if there is none.
   void react(const planning::AvoidanceDecision& decision, const common::VehicleState& state);

@@ -2,7 +2,7 @@
 // It depends on neither a simulator nor a clock: the caller decides how fast time passes, and may step several loops in
 // turn.
 //
-//   step(now):  the vehicle's events up to now, each behind the jobs due at its arrival
+//   step(now):  the vehicle's events up to now, each after the jobs due at its arrival
 //               the operator's commands
 //               the jobs due now
 //               the tick  ==> setpoint --> vehicle

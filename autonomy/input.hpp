@@ -25,7 +25,7 @@ struct Tick {
 /// An immutable value; scans and camera frames are shared, not copied.
 using Input = std::variant<common::SensorEvent, CommandInput, common::JobDelivery, Tick>;
 
-/// The time when the autonomy gets it: the arrival of a sensor event, the delivery of a job.
+/// The time when the autonomy receives the input: the arrival of a sensor event, the delivery of a job.
 common::Time timeOf(const Input& input);
 
 }  // namespace swiftlet::autonomy

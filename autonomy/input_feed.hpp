@@ -18,14 +18,15 @@ namespace swiftlet::autonomy {
 class Autonomy;
 class FlightSink;
 
-/// One thread. Refers to the autonomy and the sinks, which must outlive it; the sinks are called in their order here.
+/// One thread. Refers to the autonomy and the sinks, which must outlive it. The sinks are called in the given order.
 class InputFeed {
  public:
   InputFeed(Autonomy& autonomy, std::vector<FlightSink*> sinks);
 
-  /// The answer of Autonomy::process.
+  /// Passes the input to the sinks and to the autonomy, and the outcome to the sinks. Returns the result of
+  /// Autonomy::process.
   std::optional<common::Setpoint> give(const Input& input);
-  /// An event, the autonomy's own or another of its vehicle; the sinks are told it with the vehicle's name.
+  /// Passes an event of the autonomy or of its vehicle to the sinks, with the vehicle's name added.
   void tell(common::Event event);
 
  private:

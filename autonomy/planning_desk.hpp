@@ -1,5 +1,5 @@
-// Where plans are asked for. One planning job is out at a time; each also brings the cost map up to date, which the
-// desk sees to by itself when nobody asks for anything.
+// Runs plans as jobs, one at a time. Each job also updates the cost map. If no plan is requested for a while, the desk
+// submits a job that only updates the cost map.
 #pragma once
 
 #include <cstdint>
@@ -18,35 +18,35 @@
 
 namespace swiftlet::autonomy {
 
-/// In whose name planning is asked for.
+/// The intent for which a plan is requested.
 struct PlanningClient {
   std::uint64_t intent_id = 0;
-  double clearance_m = 0.0;  ///< Between hull and obstacle; of the cost map too.
+  double clearance_m = 0.0;  ///< Between hull and obstacle; the cost map is computed for it.
 };
 
 /// One thread; outlives the jobs it submits.
 class PlanningDesk {
  public:
-  /// Told of every answer, inside JobRunner::deliverDue(), when the cost map is already the new one.
+  /// Called with every answer when its job is delivered; costMap() is then already the new one.
   using Deliver = std::function<void(const PlanningAnswer&, common::Time now)>;
 
   PlanningDesk(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
                common::JobRunner& jobs, Deliver deliver);
 
-  /// No job is out: ask() may be called.
+  /// True if no job is outstanding, so that ask() may be called.
   bool free() const { return jobs_.idle("planning"); }
   void ask(const ManeuverInput& input, const PlanningClient& client, PlanningQuestion question);
-  /// Once a tick, after everybody may have asked: keeps the cost map young.
+  /// Call it once a tick, after all calls of ask(). Updates the cost map if the last request is planning_period_s old.
   void refresh(const ManeuverInput& input, const PlanningClient& client);
 
-  /// The newest; null before the first answer.
+  /// The newest cost map; null before the first answer.
   std::shared_ptr<const planning::CostMap> costMap() const { return cost_map_; }
-  /// The same, for judging goals; null before the first answer.
+  /// The newest cost map for judging goals; null before the first answer.
   std::shared_ptr<const common::GoalMap> goalMap() const { return goal_map_; }
-  /// As the last exploration saw them; never null.
+  /// The frontiers found by the last exploration request; never null.
   std::shared_ptr<const std::vector<common::Frontier>> frontiers() const { return frontiers_; }
   double exploredArea_m2() const { return explored_area_m2_; }
-  /// Who found the paths and chose the viewpoints, by the answers so far.
+  /// The planner and the explorer in use, with the number of their results so far.
   const PlanningUse& use() const { return use_; }
 
  private:

@@ -94,7 +94,8 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
   return result;
 }
 
-/// The cheapest-to-reach field decides what is near; of what is within reach the widest and farthest place wins.
+/// The reachable place with the highest score: its path cost from here, at most kReach_m, plus kPerMetreOfWidth times
+/// its distance to the nearest obstacle.
 std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m) const {
   constexpr double kReach_m = 6.0, kPerMetreOfWidth = 3.0;
   const auto escape = planning::escapeFrom(map_, map_.cellAt(position_map_m));

@@ -1,5 +1,5 @@
 // The planning job: brings the cost map up to date and answers one request. It keeps the cost map and the planner's
-// search between jobs; while a job is out, the worker belongs to it.
+// search between jobs. While a job is outstanding, only that job may use the worker.
 #pragma once
 
 #include <memory>
@@ -22,20 +22,21 @@ namespace swiftlet::autonomy {
 
 struct GoalRequest {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
-  double tolerance_m = 0.0;  ///< Of a goal that is too close to something, a place this near will do.
+  double tolerance_m = 0.0;  ///< If the goal is not free, a free place within it may replace the goal.
 };
 struct ExploreRequest {
   std::optional<planning::Viewpoint> current;
   std::vector<planning::ExplorationAttempt> attempts;
   std::optional<common::MapBounds> bounds;
 };
-/// Where to go while there is no path to a goal. When somebody stands in it: far along free ground and wide, so that he
-/// can come past. Otherwise as far towards the goal as it is free, to see whether what the map holds is still there.
+/// Asks for a place to fly to while there is no path to a goal. If a person blocks the path, it is a wide place far
+/// away over free space, so that the person can pass. Otherwise it is the last free place before the blockage, to see
+/// whether the mapped obstacle is still there; if that is too near, it is a wide place, too.
 struct DetourRequest {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
 };
 
-/// Nothing: only the cost map is wanted.
+/// std::monostate requests only an update of the cost map.
 using PlanningQuestion = std::variant<std::monostate, GoalRequest, DetourRequest, ExploreRequest>;
 
 struct PlanningRequest {
@@ -53,10 +54,10 @@ struct DetourPlan {
   bool makes_room = false;
 };
 
-/// Who found the paths and chose the viewpoints, and how many.
+/// Names of the planner and the explorer, with the number of their results.
 struct PlanningUse {
   std::string planner;
-  int paths = 0;  ///< To goals, to viewpoints and of detours.
+  int paths = 0;  ///< Paths to goals, to viewpoints and of detours.
   std::string explorer;
   int viewpoints = 0;  ///< A viewpoint that was kept is not counted again.
 };
@@ -64,14 +65,14 @@ struct PlanningUse {
 struct PlanningAnswer {
   std::uint64_t intent_id = 0;
   std::shared_ptr<const planning::CostMap> cost_map;
-  /// For a GoalRequest, and to the viewpoint that an ExploreRequest found.
+  /// For a GoalRequest the path to the goal, for an ExploreRequest the path to the viewpoint it found.
   std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;
-  std::optional<DetourPlan> detour;                        ///< For a DetourRequest, when there is anywhere to go.
-  std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest; a `next` in it has its path.
-  PlanningUse use;                                         ///< So far, this answer included.
+  std::optional<DetourPlan> detour;                        ///< For a DetourRequest; none if no place was found.
+  std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest; `path` leads to its `next`.
+  PlanningUse use;                                         ///< Totals so far, including this answer.
 };
 
-/// One job at a time; a pure function of the requests so far.
+/// Used by one job at a time. An answer depends only on the requests so far.
 class PlanningWorker {
  public:
   PlanningWorker(const ExecutorConfig& config, double resolution_m)
@@ -92,11 +93,11 @@ class PlanningWorker {
   std::optional<Eigen::Vector2d> roomyPlace(const Eigen::Vector2d& position_map_m) const;
 
   planning::CostMap map_;
-  std::vector<Eigen::Vector2d> flown_map_m_;  ///< Where the vehicle was at the requests.
+  std::vector<Eigen::Vector2d> flown_map_m_;  ///< Positions of the vehicle at the requests, thinned.
   std::unique_ptr<planning::Explorer> explorer_;
   std::unique_ptr<planning::Planner> planner_;
-  int paths_ = 0;       ///< Found by the planner.
-  int viewpoints_ = 0;  ///< Chosen by the explorer.
+  int paths_ = 0;       ///< Number of paths that the planner found.
+  int viewpoints_ = 0;  ///< Number of viewpoints that the explorer chose.
 };
 
 }  // namespace swiftlet::autonomy

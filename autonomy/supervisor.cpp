@@ -52,13 +52,13 @@ void Supervisor::pilotArrived(Time now, bool takes_over) {
 }
 
 bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
-  const bool believed = std::isfinite(sample.voltage_v) && std::isfinite(sample.remaining);
-  if (believed != battery_believed_)
-    say(now, believed ? Severity::kInfo : Severity::kWarning,
-        believed ? "the battery is measured again" : "the battery's last good values are kept",
-        believed ? "" : "it says something that is not a number");
-  battery_believed_ = believed;
-  return believed;
+  const bool plausible = std::isfinite(sample.voltage_v) && std::isfinite(sample.remaining);
+  if (plausible != battery_plausible_)
+    say(now, plausible ? Severity::kInfo : Severity::kWarning,
+        plausible ? "the battery is measured again" : "the battery's last good values are kept",
+        plausible ? "" : "its voltage or its charge is not a finite number");
+  battery_plausible_ = plausible;
+  return plausible;
 }
 
 const Supervision& Supervisor::tick(Time now, bool airborne, const common::EnergyLayer& energy) {

@@ -67,7 +67,7 @@ class Supervisor {
   bool landed_by_operator_ = false;
   bool laser_holds_ = false;
   bool pilot_flies_ = false;
-  bool battery_believed_ = true;
+  bool battery_plausible_ = true;
   Supervision supervision_;
   std::vector<common::Event> events_;
 };

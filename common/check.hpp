@@ -1,5 +1,5 @@
-// SWIFTLET_CHECK(condition, values...): states what the code itself guarantees. A failed check is a bug: it prints the
-// condition, its place and the values given, and aborts. Never use it on sensor data or on anything a user wrote.
+// SWIFTLET_CHECK(condition, values...) states what the code itself guarantees. A failed check is a bug: it prints the
+// condition, file and line, and the values given, and aborts. Never use it on sensor data or on input of the user.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What an operator asks from the page or a tablet, and the answer. Hold and land always work; the others are refused
-// with a reason where the mission or the map has no place for them.
+// Commands of the operator, from the page or a tablet, and the answers. Hold and land are always accepted. The others
+// are refused, with a reason, when the mission or the map does not allow them.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Configs as files: reading YAML over their defaults and printing them. What a Config is says common/config_fields.hpp.
+// Configs as files: reads YAML over their defaults, and prints them. common/config_fields.hpp defines a Config.
 #pragma once
 
 #include <memory>
@@ -16,14 +16,14 @@ class YamlReader final : public Fields {
  public:
   /// Throws InputError when the file cannot be opened or is not YAML.
   static YamlReader fromFile(const std::string& file);
-  /// `name` stands for the file in messages.
+  /// Messages show `name` as the file's name. Throws InputError when the text is not YAML.
   static YamlReader fromText(const std::string& text, const std::string& name);
   ~YamlReader() override;
   YamlReader(YamlReader&&) noexcept;
 
   /// Throws InputError with every problem at once: unknown key (with "did you mean"), wrong type, out of bounds, failed
-  /// validation, each with file, line and column. Keys that are not in the file keep their value; one whose value is
-  /// out of its own bounds must be in the file.
+  /// validation, each with file, line and column. A setting that is not in the file keeps its value; if that value is
+  /// out of bounds, the missing key is a problem.
   template <typename Config>
   void read(Config& config) {
     config.describe(*this);
@@ -55,8 +55,8 @@ class YamlReader final : public Fields {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Prints a config as YAML that YamlReader reads back to the same values. The comment behind a value is its sentence
-/// and its bounds.
+/// Prints a config as YAML that YamlReader reads back to the same values. With Comments::kYes a comment behind each
+/// value gives its sentence and its bounds.
 class YamlPrinter final : public Fields {
  public:
   enum class Comments { kNo, kYes };
@@ -94,7 +94,7 @@ class YamlPrinter final : public Fields {
   bool item_starts_ = false;  ///< The next line opens a list item and gets the dash.
 };
 
-/// The whole file read over the defaults of Config.
+/// Reads a whole file over the defaults of Config. Throws InputError.
 template <typename Config>
 Config readFile(const std::string& file) {
   Config config;

@@ -1,4 +1,4 @@
-// The check of a Config that was made in code, as the reader of YAML does it for one that comes from a file.
+// Checks a Config that was made in code, in the same way as YamlReader checks one from a file.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace swiftlet::common::config {
 
-/// Every number against its bounds, and the relations between fields.
+/// Checks every number against its bounds, and the relations between fields.
 class Validator final : public Fields {
  public:
-  /// Every problem: "mount.x_m: nan is not within -2 and 2"; empty when the config may be used.
+  /// All problems, for example "mount.x_m: nan is not within -2 and 2"; empty when the config is valid.
   template <typename Config>
   std::vector<std::string> problems(Config config) {
     config.describe(*this);
@@ -43,7 +43,7 @@ class Validator final : public Fields {
   void check(std::string_view name, double value, const Bounds& bounds);
   void take(const std::vector<std::string>& problems);
 
-  std::vector<std::string> prefixes_;  ///< Of the sections that are open: "mount.".
+  std::vector<std::string> prefixes_;  ///< One for each open section: "mount.".
   std::vector<std::string> lists_;
   std::vector<std::string> problems_;
 };

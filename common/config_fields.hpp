@@ -1,6 +1,6 @@
 // Configuration: each class has a `struct Config` whose `describe` gives every setting one line: its name, which ends
-// in the unit, its bounds and a sentence that stands alone. The default is the member's. Reading YAML, refusing what is
-// out of bounds, printing the effective values and the reference page all follow from that line.
+// in the unit, its bounds and a sentence that can be read alone. The default is the member's. Reading YAML, checking
+// bounds, printing the effective values and the reference page all follow from that line.
 //
 //   struct Config {
 //     double max_speed_m_s = 1.0;
@@ -16,8 +16,8 @@
 //     }
 //   };
 //
-// Constructors take a Config that is within its bounds and change nothing of it. One that is made in code is checked by
-// common/config_check.hpp.
+// Constructors require a Config within its bounds and do not change it. common/config_check.hpp checks a Config that is
+// made in code.
 #pragma once
 
 #include <limits>
@@ -27,12 +27,12 @@
 
 namespace swiftlet::common::config {
 
-/// Which numbers a field may have, both ends included. NaN is never within.
+/// The range of numbers that a field may have. Both ends are included, unless `low_excluded`. NaN is always outside.
 struct Bounds {
   constexpr Bounds(double low_in, double high_in) : low(low_in), high(high_in) {}
 
   bool contain(double value) const;
-  /// For people: "0.05 to 20", "above 0", "at least 3"; empty when every finite number will do.
+  /// For people: "0.05 to 20", "above 0", "at least 3"; empty when every finite number is allowed.
   std::string text() const;
   /// What is wrong with a value that is not contained: "25 is not within 0.05 and 20".
   std::string problem(double value) const;
@@ -42,18 +42,18 @@ struct Bounds {
   bool low_excluded = false;
 };
 
-/// Infinity is at least `low`, too.
+/// Infinity is allowed.
 constexpr Bounds atLeast(double low) { return {low, std::numeric_limits<double>::infinity()}; }
 constexpr Bounds above(double low) {
   Bounds bounds = atLeast(low);
   bounds.low_excluded = true;
   return bounds;
 }
-/// More than 0; infinity is positive, too.
+/// Above 0; infinity is allowed.
 inline constexpr Bounds kPositive = above(0.0);
 inline constexpr Bounds kFinite{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
 
-/// What `describe` is handed. A field's value may be read, replaced or left as it is.
+/// The visitor that `describe` calls for each field. It may read the field's value, replace it or leave it as it is.
 class Fields {
  public:
   virtual ~Fields() = default;
@@ -61,7 +61,7 @@ class Fields {
   virtual void operator()(std::string_view name, int& value, const Bounds& bounds, std::string_view sentence) = 0;
   virtual void operator()(std::string_view name, bool& value, std::string_view sentence) = 0;
   virtual void operator()(std::string_view name, std::string& value, std::string_view sentence) = 0;
-  /// The bounds are those of each element.
+  /// The bounds apply to each element.
   virtual void operator()(std::string_view name, std::vector<double>& value, const Bounds& bounds,
                           std::string_view sentence) = 0;
   virtual void operator()(std::string_view name, std::vector<std::string>& value, std::string_view sentence) = 0;
@@ -77,7 +77,7 @@ class Fields {
     value = static_cast<Enum>(index);
   }
 
-  /// A nested Config; what is wrong with it is told with the section's name.
+  /// A nested Config; its problems are reported with the section's name.
   template <typename Config>
   void section(std::string_view name, Config& config, std::string_view sentence) {
     if (!beginSection(name, sentence)) return;
@@ -99,7 +99,7 @@ class Fields {
   }
 
  protected:
-  /// What is wrong between the fields of a Config; most have no such relations and no `validate`.
+  /// The problems between fields of a Config; most Configs have no such relations and no `validate`.
   template <typename Config>
   static std::vector<std::string> relationProblems(const Config& config) {
     if constexpr (requires { config.validate(); })
@@ -108,10 +108,10 @@ class Fields {
       return {};
   }
 
-  /// False: the section is passed over.
+  /// False if the section is to be skipped.
   virtual bool beginSection(std::string_view name, std::string_view sentence) = 0;
   virtual void endSection(std::vector<std::string> problems) = 0;
-  /// The number of items to describe, given how many there are.
+  /// The number of items to describe; `count` items exist.
   virtual int beginList(std::string_view name, int count, std::string_view sentence) = 0;
   virtual void beginItem(int index) = 0;
   virtual void endList() = 0;

@@ -1,5 +1,5 @@
-// What a header needs that declares a Config: `void describe(common::config::Fields& fields)` and, where fields depend
-// on each other, `std::vector<std::string> validate() const`. The source includes common/config_fields.hpp.
+// For headers that declare a Config with `void describe(common::config::Fields& fields)` and, if fields depend on each
+// other, `std::vector<std::string> validate() const`. The source includes common/config_fields.hpp.
 #pragma once
 
 #include <string>

@@ -6,7 +6,7 @@
 namespace swiftlet::common::config {
 namespace {
 
-/// The sentence, and what the value may be.
+/// The sentence of a setting, followed by its bounds.
 std::string comment(std::string_view sentence, const Bounds& bounds) {
   std::string range = bounds.text();
   if (range.empty()) return std::string(sentence);

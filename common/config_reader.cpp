@@ -52,14 +52,14 @@ struct YamlReader::Impl {
     return value;
   }
 
-  /// Leaves the value as it is when that in the file is not of its kind.
+  /// Reports a value of another type in the file, and then keeps `value`.
   template <typename Value>
   void scalar(std::string_view name, Value& value, const char* expected) {
     const auto node = find(name);
     if (node && !convert(*node, value)) report(*node, name, fmt::format("{} is not {}", textOf(*node), expected));
   }
 
-  /// Leaves the value as it is when that in the file is no number or out of bounds.
+  /// Reports a value in the file that is not a number or out of bounds, and then keeps `value`.
   template <typename Value>
   void number(std::string_view name, Value& value, const Bounds& bounds, const char* expected) {
     const auto node = find(name);
@@ -116,7 +116,7 @@ struct YamlReader::Impl {
     }
   }
 
-  /// "loops.max_sigma_m: what is wrong" at the place of that key, or of the last on the way to it that is in the file.
+  /// Reports "loops.max_sigma_m: what is wrong" at the place of that key, or of its innermost section in the file.
   void reportRelation(const YAML::Node& from, const std::string& text) {
     const std::size_t colon = text.find(": ");
     if (colon == std::string::npos) return report(from, "", text);

@@ -20,7 +20,7 @@ std::string ReferencePrinter::closed() {
   return text + section.sections;
 }
 
-/// The chapter's title is no part of a setting's path.
+/// The path of a setting, without the chapter's title.
 std::string ReferencePrinter::pathOf(std::string_view name) const {
   return open_.size() <= 1 ? std::string(name) : fmt::format("{}.{}", open_.back().path, name);
 }
@@ -73,7 +73,7 @@ int ReferencePrinter::beginList(std::string_view name, int, std::string_view sen
   return 1;
 }
 
-/// A list is one section; its item's settings are its rows.
+/// A list is one section, whose rows are the settings of an item.
 void ReferencePrinter::beginItem(int) {}
 void ReferencePrinter::endList() {}
 

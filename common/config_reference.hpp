@@ -1,4 +1,5 @@
-// The reference page of a Config in Markdown: a table a section, a row a setting, with default, bounds and sentence.
+// The reference page of a Config in Markdown. Each section has a table, and each setting a row with default, bounds and
+// sentence.
 #pragma once
 
 #include <string>
@@ -12,8 +13,8 @@ namespace swiftlet::common::config {
 
 class ReferencePrinter final : public Fields {
  public:
-  /// A chapter `title` with `sentence` below it; the defaults are the values `config` has. Of a list that is empty the
-  /// settings of an item are shown.
+  /// A chapter `title` with `sentence` below it. The values in `config` are shown as defaults. A list is shown as the
+  /// settings of one item, even if it is empty.
   template <typename Config>
   std::string print(std::string_view title, std::string_view sentence, Config config) {
     open(std::string(title), std::string(sentence));
@@ -42,12 +43,12 @@ class ReferencePrinter final : public Fields {
  private:
   struct Section {
     std::string path, sentence;
-    std::string rows;      ///< Of its own settings.
-    std::string sections;  ///< Those within, complete.
+    std::string rows;      ///< The table rows of its own settings.
+    std::string sections;  ///< The complete text of the sections nested in it.
   };
 
   void open(std::string path, std::string sentence);
-  /// The text of the innermost section that is open, below its heading.
+  /// Closes the innermost open section and returns its text without the heading.
   std::string closed();
   void row(std::string_view name, const std::string& value, const std::string& bounds, std::string_view sentence);
   std::string pathOf(std::string_view name) const;

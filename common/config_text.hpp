@@ -1,4 +1,4 @@
-// Values of a config as YAML writes them; for the printer and the reference page.
+// Values of a config as YAML text, for the printer and the reference page.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What stands beside the missing file, to tell a slip of the pen from a wrong folder.
+/// The files beside the missing file, to suggest a name when it was misspelled.
 std::vector<std::string> siblingsOf(const fs::path& name, const std::vector<fs::path>& folders) {
   std::vector<std::string> siblings;
   for (const fs::path& folder : folders) {

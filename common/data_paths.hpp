@@ -1,5 +1,5 @@
-// Finds what Swiftlet brings along: missions, worlds, profiles and trials, named as they stand in the source tree
-// ("missions/explore_and_return.xml"). Touches the file system only while called; safe from any thread.
+// Finds the data files of Swiftlet: missions, worlds, profiles and trials, named by their path in the source tree
+// ("missions/explore_and_return.xml"). Reads the file system only while called; safe from any thread.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,12 @@
 
 namespace swiftlet::common {
 
-/// Where findData looks, in order: the folder the user stands in, $SWIFTLET_DATA, share/swiftlet beside the bin/ of the
-/// running program (installed), and the source tree it was built from. Only those that exist.
+/// The folders that findData searches, in order: the current folder, $SWIFTLET_DATA, share/swiftlet beside the bin/ of
+/// the running program (installed), and the source tree it was built from. Only those that exist.
 std::vector<std::filesystem::path> dataFolders();
 
-/// The file or folder `name`, searched in dataFolders(); an absolute path is taken as it is.
-/// Throws InputError where there is none: with the folders it looked in and the most similar name that is there.
+/// The path of the file or folder `name`, searched in dataFolders(); an absolute path is used as it is.
+/// Throws InputError if it does not exist, with the folders searched and the most similar name that exists.
 std::filesystem::path findData(const std::filesystem::path& name);
 
 }  // namespace swiftlet::common

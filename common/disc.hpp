@@ -1,4 +1,4 @@
-// A round place in the plane of the map: where a person is, or a place that was tried and failed.
+// A disc in the plane of the map: the place of a person, or a place where an attempt failed.
 #pragma once
 
 #include <Eigen/Core>

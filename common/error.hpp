@@ -1,4 +1,4 @@
-// Input read at start (configuration, mission, world, map) that is wrong: one exception type that says where and what.
+// Errors in input that is read at start (configuration, mission, world, map): one exception type with place and cause.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,21 @@
 
 namespace swiftlet::common {
 
-/// Where in a file something stands. Lines and columns count from 1; 0 means unknown.
+/// A place in a file. Lines and columns count from 1; 0 means unknown.
 struct SourceLocation {
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-/// "file:line:column", leaving out what is unknown.
+/// "file:line:column" without the parts that are unknown.
 std::string toString(const SourceLocation& location);
 
-/// One problem of an input file, as the user reads it.
+/// One problem of an input file, as it is shown to the user.
 struct Problem {
   SourceLocation location;
   std::string element;  ///< The key, tag or field it is about; may be empty.
-  std::string message;  ///< What is wrong and what was expected, with the offending text.
+  std::string message;  ///< What is wrong and what was expected, with the text that caused it.
   std::string hint;     ///< "did you mean `x`?"; may be empty.
 };
 
@@ -42,7 +42,7 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// The candidate nearest to `word` by edit distance, if it is near enough to be what was meant.
+/// The candidate nearest to `word` by edit distance, if it is near enough to be a likely correction.
 std::optional<std::string> nearestWord(std::string_view word, std::span<const std::string> candidates);
 
 /// "did you mean `x`?" or an empty string.

@@ -1,4 +1,4 @@
-// Something worth telling: a state change, a priority switch, a refusal, a fault. Events go to the page, to the
+// A message for the operator: a state change, a priority switch, a refusal, a fault. Events go to the page, to the
 // terminal and to events.jsonl.
 #pragma once
 
@@ -14,10 +14,10 @@ const char* toString(Severity severity);
 struct Event {
   Time stamp;
   Severity severity = Severity::kInfo;
-  std::string source;        ///< The part that says it: "mission", "flight", "slam2d", "avoidance" ...
+  std::string source;        ///< The component that reports it: "mission", "flight", "slam2d", "avoidance" ...
   std::string text;          ///< What happened, with values.
   std::string reason;        ///< Why; may be empty.
-  std::string vehicle = {};  ///< Which one says it; empty while there is only one.
+  std::string vehicle = {};  ///< Name of the vehicle; empty if there is only one.
 };
 
 }  // namespace swiftlet::common

@@ -1,4 +1,5 @@
-// How boldly a path is flown (Tomic 2012, "Action"); the limits of each mode are the path follower's configuration.
+// How fast and how closely a path is flown (Tomic 2012, "Action"). The path follower's Config has the limits of each
+// mode.
 #pragma once
 
 namespace swiftlet::common {

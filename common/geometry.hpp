@@ -11,7 +11,7 @@ namespace swiftlet::common {
 
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
-/// The angle in (-pi, pi]. NaN and infinity stay as they are (NaN).
+/// The same angle in (-pi, pi]. NaN for NaN and infinity.
 double wrapAngle(double angle_rad);
 
 /// A pose in the plane, an element of SE(2).
@@ -46,7 +46,7 @@ struct RollPitchYaw {
 RollPitchYaw rollPitchYaw(const Eigen::Quaterniond& rotation);
 Eigen::Quaterniond quaternionFrom(const RollPitchYaw& angles);
 double yawOf(const Eigen::Quaterniond& rotation);
-/// Of the angle between the body's z axis and the vertical; rounding may take it just beyond 1.
+/// The cosine of the angle between the body's z axis and the vertical. Rounding may make it slightly greater than 1.
 double cosTilt(const Eigen::Quaterniond& rotation);
 
 bool isFinite(const Pose2& pose);
@@ -57,7 +57,7 @@ Pose2 planar(const Pose3& pose);
 /// The planar pose lifted to height z, without roll and pitch.
 Pose3 lifted(const Pose2& pose, double z_m);
 
-/// The covariance of an error (x_m, y_m, yaw_rad), given in frame b, in frame a; `yaw_rad` turns b into a.
+/// Converts the covariance of an error (x_m, y_m, yaw_rad) from frame b to frame a; `yaw_rad` is the yaw of b in a.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double yaw_rad);
 
 /// Covariance of the additive errors (x_m, y_m, yaw_rad), independent of each other, of these standard deviations.
@@ -65,12 +65,13 @@ Eigen::Matrix3d planarCovariance(double position_sigma_m, double yaw_sigma_rad);
 
 /// The pose of b in a.
 Pose2 between(const Pose2& T_map_a, const Pose2& T_map_b);
-/// The uncertainty after one more step from pose `from` to pose `to`: what was uncertain before swings about the step's
-/// beginning, and the step adds its own. All of (x_m, y_m, yaw_rad) with the axes of the frame of the two poses.
+/// The covariance of the pose after a step from `from` to `to`. The yaw error before the step displaces its end, and
+/// the step adds its own covariance. All covariances are of (x_m, y_m, yaw_rad), with the axes of the frame of both
+/// poses.
 Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const Pose2& from, const Pose2& to,
                            const Eigen::Matrix3d& step_covariance);
 
-/// The rotation vector v becomes a unit quaternion and back; small angles are exact to second order.
+/// Converts a rotation vector to a unit quaternion, and back; small angles are exact to second order.
 Eigen::Quaterniond expSO3(const Eigen::Vector3d& rotation_rad);
 Eigen::Vector3d logSO3(const Eigen::Quaterniond& rotation);
 

@@ -10,9 +10,9 @@ namespace {
 
 using Reason = GoalRefusal::Reason;
 
-/// No map is so large; beyond it the index of a cell would overflow.
+/// No map is this large. Far beyond it the index of a cell would overflow.
 constexpr double kFarthest_m = 1e5;
-/// Some of the tolerance is left to the controller.
+/// Share of the tolerance for a substitute place; the rest is left to the controller.
 constexpr double kShareOfTolerance = 0.8;
 constexpr double kReach_m = 3.0;
 

@@ -1,15 +1,15 @@
-// Whether the vehicle may be sent to a place: the one rule, for the operator's page, the behaviours, the planner and
+// Whether the vehicle may be sent to a place: one rule for the operator's page, the behaviours, the planner and
 // `swiftlet check`.
 //
-//   1. It is a place: its coordinates are finite, and it is no farther off than any map reaches.
-//   2. Its height, where it names one, is one to fly at.
+//   1. The coordinates of the goal are finite and within 100 km of the origin.
+//   2. Its height, if it has one, is within the limits of flight.
 //   3. It is inside the map.
-//   4. It was seen.
+//   4. It is in observed space.
 //   5. It is not in an obstacle.
-//   6. The hull and its clearance fit there, from obstacles, from people and from space never seen.
+//   6. The hull and its clearance fit there, clear of obstacles, people and unknown space.
 //
-// A goal that fails 3 to 6 is flown to all the same when a free place lies well within its tolerance: that place is
-// flown to. Without a map, 3 to 6 are not judged. Whether a path leads there only planning tells.
+// If a goal fails 3 to 6, but a free place lies well within its tolerance, the vehicle flies to that place instead.
+// Without a map, 3 to 6 are not checked. Only planning decides whether a path leads there.
 #pragma once
 
 #include <limits>
@@ -28,7 +28,7 @@ inline constexpr double kLeastFlightHeight_m = 0.3;
 
 struct Goal {
   Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
-  std::optional<double> height_m;  ///< Above the take-off floor; none: the height flown at.
+  std::optional<double> height_m;  ///< Above the take-off floor; none: the present flight height.
   double tolerance_m = 0.0;
   double clearance_m = 0.0;  ///< Between hull and obstacle.
 };
@@ -40,15 +40,15 @@ struct GoalLimits {
   double greatest_height_m = std::numeric_limits<double>::infinity();
 };
 
-/// What is known of a place, for a vehicle's centre at a clearance.
+/// The state of a place for the vehicle's centre, at a clearance.
 enum class PlaceState { kOutsideMap, kUnseen, kObstacle, kTooClose, kFree };
 
-/// A map that goals are judged by. Constant once it is made: any thread may ask.
+/// The map by which goals are judged. Immutable; safe from any thread.
 class GoalMap {
  public:
   virtual ~GoalMap() = default;
   virtual PlaceState stateAt(const Eigen::Vector2d& place_map_m, double clearance_m) const = 0;
-  /// The free place nearest to that one, none within `reach_m`.
+  /// The free place nearest to `place_map_m`; none if there is no free place within `reach_m`.
   virtual std::optional<Eigen::Vector2d> nearestFree(const Eigen::Vector2d& place_map_m, double reach_m,
                                                      double clearance_m) const = 0;
 };
@@ -57,7 +57,7 @@ struct GoalRefusal {
   enum class Reason { kNoPlace, kHeight, kOutsideMap, kUnseen, kObstacle, kTooClose };
   Reason reason = Reason::kNoPlace;
   std::string text;  ///< For people, with values.
-  /// Where the vehicle could be instead; none when there is no such place within 3 m.
+  /// The nearest place where the vehicle could be instead; none if there is no such place within 3 m.
   std::optional<Eigen::Vector2d> nearest_free_map_m;
 };
 

@@ -1,5 +1,5 @@
-// What a behaviour wants and how it stands. Behaviours emit an Intent each tick; the autonomy carries it out and
-// answers with the IntentStatus of that Intent. The same `id` means the same wish, still wanted.
+// What a behaviour wants of the vehicle, and the status of that. Behaviours emit an Intent at each tick; the autonomy
+// carries it out and answers with the IntentStatus of that Intent. An Intent with the previous `id` continues it.
 #pragma once
 
 #include <cstdint>
@@ -29,23 +29,23 @@ struct MapBounds {
 };
 struct ExploreIntent {
   double clearance_m = 0.10;        ///< Between hull and obstacle.
-  std::optional<MapBounds> bounds;  ///< What lies outside is left unexplored; none: the whole world.
+  std::optional<MapBounds> bounds;  ///< Space outside is left unexplored; none: no limit.
 };
 struct GoToIntent {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
   std::optional<double> height_m;  ///< Above the take-off floor; none: stay at the present height.
   std::optional<double> yaw_map_rad;
-  double tolerance_m = 0.05;  ///< Horizontal; arrived when nearer than this.
+  double tolerance_m = 0.05;  ///< Greatest horizontal distance at arrival.
   double clearance_m = 0.10;  ///< Between hull and obstacle.
   FlightMode mode = FlightMode::kFast;
 };
-/// Give the vehicle to the reactive layer until the danger is over.
+/// Leave the vehicle to the reactive layer until the danger is over.
 struct AvoidIntent {};
 
 using IntentKind = std::variant<HoldIntent, TakeOffIntent, LandIntent, ExploreIntent, GoToIntent, AvoidIntent>;
 
 struct Intent {
-  std::uint64_t id = 0;  ///< 0: nobody asked; the vehicle holds.
+  std::uint64_t id = 0;  ///< 0: no behaviour has emitted one; the vehicle holds.
   IntentKind kind;
 };
 
@@ -55,7 +55,7 @@ struct IntentStatus {
   std::uint64_t id = 0;
   IntentState state = IntentState::kRunning;
   std::string reason;  ///< For people: what it is doing, or why it failed.
-  /// The vehicle has stopped and may be handed over; for an intent that is being given up.
+  /// The vehicle has stopped, so that another behaviour may take it over.
   bool released = true;
 
   bool operator==(const IntentStatus&) const = default;

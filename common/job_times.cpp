@@ -5,7 +5,7 @@
 namespace swiftlet::common {
 namespace {
 
-/// The least value that at least `percent` of them reach or stay below.
+/// The least value that at least `percent` % of the sorted values do not exceed.
 Duration quantile(const std::vector<Duration>& sorted, std::size_t percent) {
   const std::size_t rank = (sorted.size() * percent + 99) / 100;
   return sorted[std::max<std::size_t>(rank, 1) - 1];

@@ -1,4 +1,4 @@
-// How long jobs took, beside how long they were declared to take.
+// How long jobs took, compared with their declared latency.
 #pragma once
 
 #include <map>
@@ -9,24 +9,24 @@
 
 namespace swiftlet::common {
 
-/// The jobs of one kind, from submission to the end of the work.
+/// The durations of the jobs of one kind, from submission to the end of the work.
 struct JobTimes {
   std::string kind;
   int count = 0;
-  int late = 0;       ///< How many took longer than was declared for them.
-  Duration declared;  ///< Of the last one.
+  int late = 0;       ///< Number of jobs that took longer than declared.
+  Duration declared;  ///< Declared latency of the last job.
   Duration median;
-  Duration p99;  ///< The least duration that at least 99 % of them kept.
+  Duration p99;  ///< The least duration that at least 99 % of the jobs did not exceed.
 
-  /// More than one in a hundred came later than the simulator promises.
+  /// True if more than 1 % of the jobs took longer than the declared latency, at which the simulator delivers them.
   bool tooSlow() const { return p99 > declared; }
 };
 
-/// Collects them. Not safe for several threads.
+/// Collects the durations of jobs. Not thread-safe.
 class JobStopwatch {
  public:
   void add(const std::string& kind, Duration declared, Duration took);
-  /// In alphabetical order of the kinds.
+  /// One entry for each kind, in alphabetical order.
   std::vector<JobTimes> times() const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 using Task = std::packaged_task<JobRunner::Deliver()>;
 
-/// Runs tasks in the order they come. Without threads, at once in the caller's.
+/// Runs tasks in the order of run(). Without threads, a task runs at once in the caller's thread.
 class Pool {
  public:
   explicit Pool(int threads) {
@@ -74,7 +74,7 @@ struct Outstanding {
   std::future<JobRunner::Deliver> result;
 };
 
-/// What both runners share: the jobs that are out, in order of submission.
+/// The part that both runners share: the outstanding jobs, in order of submission.
 class PooledJobs : public JobRunner {
  public:
   explicit PooledJobs(int threads) : pool_(threads) {}
@@ -109,7 +109,7 @@ class PooledJobs : public JobRunner {
   }
 
  protected:
-  /// The work of that job is done, and its result is about to be handed on.
+  /// Called when the work of the job is done, just before its result is applied.
   virtual void joined(std::uint64_t /*number*/) {}
   const std::vector<Outstanding>& outstanding() const { return outstanding_; }
   std::uint64_t submittedSoFar() const { return submitted_; }
@@ -121,7 +121,7 @@ class PooledJobs : public JobRunner {
 
   std::vector<Outstanding> outstanding_;
   std::uint64_t submitted_ = 0;
-  Pool pool_;  // Last: joined before what its tasks are part of goes.
+  Pool pool_;  // Last, so that its threads are joined before the other members are destroyed.
 };
 
 class LockstepJobs final : public PooledJobs {
@@ -136,14 +136,14 @@ class LockstepJobs final : public PooledJobs {
   }
 };
 
-/// Written by the pool, read by the loop.
+/// The jobs that are done; written by the pool, read by the loop.
 struct Done {
   std::mutex mutex;
-  std::vector<std::uint64_t> numbers;  ///< In the order in which they were done.
+  std::vector<std::uint64_t> numbers;  ///< In the order of completion.
   JobStopwatch stopwatch;
 };
 
-/// Says that a job is done when it goes, also when the work threw: that is thrown again where it is delivered.
+/// Its destructor marks a job as done, even if the work threw. deliver() then throws that exception again.
 struct DoneAtEnd {
   ~DoneAtEnd() {
     const Duration took = clock() - begin;

@@ -1,5 +1,5 @@
-// Heavy work beside the loop. A job is a pure function of what it was given; its result is delivered inside the loop.
-// One job of a kind is outstanding at a time.
+// Heavy work outside the loop's thread. A job is a pure function of its arguments; its result is delivered in the loop.
+// At most one job of each kind is outstanding.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,20 @@
 
 namespace swiftlet::common {
 
-/// All that a recording needs to know of a job: the work is pure, so that it can be done again.
+/// The delivery of a job's result. A recording needs no more of a job, because a replay computes its pure work again.
 struct JobDelivery {
   std::string kind;
-  std::uint64_t number = 0;  ///< Counts the jobs of a runner from 1, in order of submission.
+  std::uint64_t number = 0;  ///< Number of the job in its runner, from 1, in order of submission.
   Time submitted;
   Time delivered;
 };
 
-/// Runs jobs. The runner decides when a result is due (`nextDue`); the loop delivers it (`deliver`), and may record
-/// that it did. Called from the loop's thread only; the pool runs `work` alone.
+/// Runs jobs. The runner decides when a result is due (`nextDue`); the loop delivers it (`deliver`) and may record the
+/// delivery. All functions are called from the loop's thread; only `work` runs in the pool.
 class JobRunner {
  public:
-  /// Run on a pool thread; must touch nothing but its captures. Returns what is to be done in the loop with the result.
+  /// Work runs on a pool thread and may use nothing but its captures. It returns the function that applies the result,
+  /// which runs in the loop.
   using Deliver = std::function<void(Time delivered)>;
   using Work = std::function<Deliver()>;
 
@@ -34,18 +35,18 @@ class JobRunner {
 
   /// False when a job of that kind is still outstanding.
   [[nodiscard]] virtual bool idle(const std::string& kind) const = 0;
-  /// The kind must be idle.
+  /// `kind` must be idle; `latency` is its declared latency.
   virtual void submit(const std::string& kind, Time now, Duration latency, Work work) = 0;
 
-  /// What is to be delivered next, at or before `now`; none: nothing is due. The same until it is delivered.
+  /// The next delivery that is due at or before `now`, if there is one. It stays the next until it is delivered.
   [[nodiscard]] virtual std::optional<JobDelivery> nextDue(Time now) const = 0;
-  /// Whether that job was submitted, at that time, and is outstanding.
+  /// Whether a job with that kind, number and time of submission is outstanding.
   [[nodiscard]] virtual bool awaits(const JobDelivery& delivery) const = 0;
-  /// Waits for the work when it is not done, and hands on its result at `delivery.delivered`. A job that is awaited may
-  /// be delivered before or after it is due: a replay delivers when the recording says so.
+  /// Waits until the work is done, and applies its result as of `delivery.delivered`. An outstanding job may be
+  /// delivered before or after it is due: a replay delivers it at the time in the recording.
   virtual void deliver(const JobDelivery& delivery) = 0;
 
-  /// How long the work took, kind by kind in alphabetical order; empty for a runner that has no clock.
+  /// How long the work took, one entry for each kind in alphabetical order; empty for a runner without a clock.
   [[nodiscard]] virtual std::vector<JobTimes> times() const { return {}; }
 
   /// Delivers everything that is due at or before `now`.
@@ -54,17 +55,18 @@ class JobRunner {
   }
 };
 
-/// The lockstep runner with its own pool: the work starts on a pool thread at submit and is joined at submit time +
-/// latency, so that the outcome does not depend on how fast the machine is. Due are, in order of due time and then of
-/// submission, the jobs whose latency has passed. `threads` 0 runs the work at submit, in the caller's thread: same
-/// results. Also the runner of a replay, which never asks what is due.
+/// The lockstep runner with its own pool. The work starts on a pool thread at submit and is joined at submit time +
+/// latency, so that the outcome does not depend on the machine's speed. Jobs are due when their latency has passed, in
+/// order of due time and then of submission. With `threads` 0 the work runs at submit, in the caller's thread, with the
+/// same results. A replay uses this runner too, and takes the deliveries from the recording instead of `nextDue`.
 std::unique_ptr<JobRunner> makeLockstepJobs(int threads);
 
-/// The time of a flight, which passes by itself. Called from the loop's thread and from the pool's.
+/// The present time of a flight on the wall clock. Called from the loop's thread and from the pool's threads.
 using RunningClock = std::function<Time()>;
 
-/// For a vehicle that does not wait: due is what is done, in the order in which it was done, delivered at the time of
-/// asking. The declared latency is only compared with the time the work took (`times`). `threads` at least 1.
+/// For a vehicle that does not wait. A job is due as soon as its work is done, in the order of completion, and is
+/// delivered at the `now` of `nextDue`. The declared latency is only compared with the time the work took (`times`).
+/// `threads` must be at least 1.
 std::unique_ptr<JobRunner> makeWallClockJobs(int threads, RunningClock clock);
 
 }  // namespace swiftlet::common

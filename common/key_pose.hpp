@@ -1,8 +1,7 @@
-// What later measurements hang on: a key scan of the 2D map, and a pose relative to it.
+// Key scans of the 2D map, and poses relative to them.
 //
-// T_map_odom jumps when the map is corrected, so a pose kept in `map` would stay behind. A pose kept relative to a key
-// scan does not: a late correction (a loop closure) moves the key scans, and all that hangs on them moves along,
-// without being measured again.
+// A correction such as a loop closure moves the key scans in `map`. A pose stored in `map` would then be wrong. A pose
+// stored relative to a key scan moves with it and needs no new measurement.
 #pragma once
 
 #include <cstddef>
@@ -14,24 +13,24 @@
 
 namespace swiftlet::common {
 
-/// A pose of the body relative to a key scan. The frame of a key scan is its level frame, set down on the take-off
-/// floor: z of T_key_body is the height over that floor, and roll and pitch are those of the body.
+/// A pose of the body relative to a key scan. The frame of a key scan is level and its origin is on the take-off floor,
+/// so z of T_key_body is the height over that floor, and its roll and pitch are those of the body.
 struct KeyRelativePose {
   int key = 0;  ///< Index into KeyPoses::keys; a key scan keeps its index for the whole flight.
   Pose3 T_key_body;
 };
 
 struct KeyPose {
-  Time stamp;  ///< Of the scan.
+  Time stamp;  ///< Stamp of the scan.
   Pose2 T_map_key;
 };
 
-/// All key scans at their best poses so far. Immutable once published; a newer one replaces it.
+/// The poses of all key scans, as estimated so far. Immutable once published; a newer version replaces it.
 struct KeyPoses {
-  std::uint64_t version = 0;  ///< Grows when a key scan is added or a correction moves some.
+  std::uint64_t version = 0;  ///< Grows when a key scan is added or a correction moves key scans.
   std::vector<KeyPose> keys;
 
-  /// T_map_body by these key poses; the key scan must be among them.
+  /// T_map_body of `pose`, whose key scan must be in `keys`.
   Pose3 inMap(const KeyRelativePose& pose) const {
     return lifted(keys[static_cast<std::size_t>(pose.key)].T_map_key, 0.0) * pose.T_key_body;
   }

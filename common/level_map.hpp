@@ -1,4 +1,4 @@
-// The surfaces below the vehicle: piecewise constant levels, each a set of cells (Grzonka 2012, section IV-C).
+// The surfaces below the vehicle as levels of constant height, each a set of cells (Grzonka 2012, section IV-C).
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct Level {
 
 struct LevelMap {
   double resolution_m = 0.1;
-  std::vector<Level> levels;  ///< Ordered by id; several may cover one cell (a table above its floor).
+  std::vector<Level> levels;  ///< Ordered by id; several may cover one cell (a table above the floor).
 };
 
 }  // namespace swiftlet::common

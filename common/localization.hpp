@@ -1,4 +1,4 @@
-// Where the vehicle is in a map it was given, as all speak of it.
+// The localization of the vehicle in a given map: its state and the pose.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,23 +9,23 @@
 namespace swiftlet::common {
 
 enum class LocalizationState {
-  kGlobal,     ///< It may be anywhere.
-  kAmbiguous,  ///< Several places explain what was seen, or one does that has not yet been held for long.
+  kGlobal,     ///< The vehicle may be anywhere in the map.
+  kAmbiguous,  ///< Several places explain the scans, or a single one has not yet been confirmed for long enough.
   kLocalized,
-  kLost,  ///< It was localized, and the pose was wrong or became wrong.
+  kLost,  ///< It was localized, and the pose was found to be wrong.
 };
 const char* toString(LocalizationState state);
 
-/// The frame `given` is that of the given map's file. It and `odom` stand still against each other but for what either
-/// is wrong by; `map`, which this flight makes itself, is another.
+/// `given` is the frame of the given map's file. T_given_odom would be constant without errors of the odometry and of
+/// the map. The frame `map` belongs to the map that the flight itself makes, and differs from `given`.
 struct Localization {
   LocalizationState state = LocalizationState::kGlobal;
-  Time stamp;                                            ///< Of the scan that says so.
-  Pose2 T_given_odom;                                    ///< Meaningful only when localized; may jump.
-  Pose2 T_given_body;                                    ///< At the stamp; likewise.
+  Time stamp;                                            ///< Stamp of the last scan used.
+  Pose2 T_given_odom;                                    ///< Valid only when localized; may jump.
+  Pose2 T_given_body;                                    ///< At `stamp`; valid only when localized; may jump.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of T_given_body: (x_m, y_m, yaw_rad), axes of `given`.
-  double explained = 0.0;  ///< Share of the scan that the map explains from there, while localized.
-  int places = 0;          ///< That explain what was seen; 1 when localized.
+  double explained = 0.0;  ///< Share of the scan's beams that the map explains from T_given_body, while localized.
+  int places = 0;          ///< Number of places that explain the scans; 1 when localized.
 
   bool localized() const { return state == LocalizationState::kLocalized; }
 };

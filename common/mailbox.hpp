@@ -1,4 +1,4 @@
-// How threads talk: the newest value for telemetry, a queue that loses nothing for commands and their results.
+// Exchange between threads: the newest value for telemetry, a lossless queue for commands and their results.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class LatestValue {
     const std::scoped_lock lock(mutex_);
     return value_;
   }
-  /// How many values were posted; tells a reader whether there is a new one.
+  /// Number of values posted so far, by which a reader detects a new one.
   std::uint64_t sequence() const {
     const std::scoped_lock lock(mutex_);
     return sequence_;
@@ -45,7 +45,7 @@ class LosslessQueue {
     const std::scoped_lock lock(mutex_);
     values_.push_back(std::move(value));
   }
-  /// Everything that is waiting, oldest first.
+  /// Removes and returns all values in the queue, oldest first. Does not wait.
   std::vector<Value> takeAll() {
     const std::scoped_lock lock(mutex_);
     std::vector<Value> taken(std::make_move_iterator(values_.begin()), std::make_move_iterator(values_.end()));

@@ -6,7 +6,7 @@
 namespace swiftlet::common {
 namespace {
 
-/// The bytes of the UTF-8 character at the front of `text`; 0 when they are none.
+/// Length in bytes of the UTF-8 character at the front of `text`; 0 if there is no valid one.
 std::size_t characterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t first = byte(0);

@@ -6,7 +6,7 @@
 
 namespace swiftlet::common {
 
-/// Text as it may stand between tags and in quoted attributes. Bytes that are not UTF-8 become U+FFFD.
+/// The text escaped for use between tags and in quoted attributes. Bytes that are not UTF-8 become U+FFFD.
 std::string escaped(std::string_view text);
 
 }  // namespace swiftlet::common

@@ -1,4 +1,4 @@
-// The 2D occupancy map all parts speak: log odds in one byte, capped, in the `map` frame.
+// The 2D occupancy map that all folders share: log odds in one byte, capped, in the `map` frame.
 #pragma once
 
 #include <cstdint>

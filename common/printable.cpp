@@ -13,8 +13,8 @@ bool isContinuation(std::string_view text, std::size_t i) {
   return i < text.size() && (byteAt(text, i) & 0xC0U) == 0x80U;
 }
 
-/// How many bytes from `i` on are a character of UTF-8 that may be shown; 0 where they are none. Overlong forms,
-/// surrogates and what is beyond Unicode are none (RFC 3629).
+/// Length in bytes of the UTF-8 character at `i`; 0 if there is none that may be shown. Overlong forms, surrogates and
+/// values beyond Unicode are invalid (RFC 3629).
 std::size_t shownBytes(std::string_view text, std::size_t i) {
   const unsigned char first = byteAt(text, i);
   if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;

@@ -1,5 +1,5 @@
-// Text of an input (a file's name or content, an argument) as it may be shown: a terminal takes control characters for
-// commands, and what an input holds must not command it.
+// Makes text from an input (a file's name or content, an argument) safe to show. A terminal executes control
+// characters, and an input must not be able to control the terminal.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 namespace swiftlet::common {
 
 /// `text` with every control character (C0, DEL, C1) and every byte that is not valid UTF-8 as an escape: "\x1b", "\n".
-/// Other text is left as it is, backslashes too: what comes out is for people, not to be read back.
+/// Other text stays as it is, backslashes too, so the result is for people and cannot be parsed back.
 std::string printable(std::string_view text);
 
-/// The same, but lines end where they do, and tabs stay.
+/// Like printable(), but line ends and tabs stay.
 std::string printableLines(std::string_view text);
 
 }  // namespace swiftlet::common

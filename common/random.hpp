@@ -1,5 +1,5 @@
-// Counted random streams. A stream is named by (seed, name, frame), never shared: what one sensor draws shifts nothing
-// in another, and frame 812 of the laser draws the same numbers whether or not anybody looked at frame 811.
+// Random streams, each identified by (seed, name, frame) and never shared. The draws of one sensor do not change those
+// of another, and frame 812 of the laser draws the same numbers whether or not frame 811 was computed.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace swiftlet::common {
 
-/// A small generator (SplitMix64) with the distributions the simulator needs, equal on every machine.
-/// Not thread-safe; make one per use, construction costs a few nanoseconds.
+/// A small generator (SplitMix64) with the distributions that the simulator needs, equal on every machine.
+/// Not thread-safe. Make one for each use: construction costs a few nanoseconds.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name, std::uint64_t frame = 0);

@@ -33,7 +33,7 @@ std::string readBytes(const std::filesystem::path& file, std::size_t most_bytes)
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw problemWith(file, fmt::format("cannot be opened: {}", std::strerror(errno)));
 
-  // Block by block: what lies below /proc has a size of 0 and more bytes than any limit.
+  // Block by block, because files in /proc report a size of 0 and may hold any number of bytes.
   constexpr std::size_t kBlock = std::size_t{1} << 16;
   std::string bytes;
   while (stream && bytes.size() <= most_bytes) {

@@ -1,4 +1,4 @@
-// Whole files, for every reader of input.
+// Reads whole files, for every reader of input.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,13 @@
 
 namespace swiftlet::common {
 
-/// Throws InputError for a folder, a pipe or a device; the latter two could make a reader wait for ever.
+/// Throws InputError for a folder, a pipe or a device. A pipe or a device could block a reader forever.
 void requireFile(const std::filesystem::path& file);
 
-/// Larger files are not read into memory unless asked for.
+/// The default limit for the size of a file that is read into memory.
 inline constexpr std::size_t kMostFileBytes = std::size_t{1} << 30;
 
-/// The bytes of a file. Throws InputError when it is no regular file, cannot be read, or is larger than `most_bytes`.
+/// The bytes of a file. Throws InputError if it is not a regular file, cannot be read, or is larger than `most_bytes`.
 std::string readBytes(const std::filesystem::path& file, std::size_t most_bytes = kMostFileBytes);
 
 }  // namespace swiftlet::common

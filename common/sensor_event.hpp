@@ -1,5 +1,5 @@
-// What a vehicle reports. Every event has two stamps: when it was measured and when it arrived at the computer.
-// Events are immutable values; large ones are behind shared_ptr<const ...>.
+// The sensor events of a vehicle. Every event has two stamps: when it was measured and when it arrived at the computer.
+// Events are immutable values; large ones are held by shared_ptr<const ...>.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 namespace swiftlet::common {
 
 struct Stamps {
-  Time measured;  ///< Of the first beam or image row, for sensors that sweep.
-  Time arrived;   ///< When the autonomy may use it; never before `measured`.
+  Time measured;  ///< For sensors that sweep, the time of the first beam or image row.
+  Time arrived;   ///< Time from which the autonomy may use it; never before `measured`.
 };
 
 /// One inertial sample with the attitude of the vehicle's own AHRS.
@@ -28,7 +28,7 @@ struct ImuSample {
   Eigen::Quaterniond rotation_ahrs_body = Eigen::Quaterniond::Identity();
 };
 
-/// One sweep of the 2D laser, in the laser frame, all beams including those a mirror deflects (LaserConfig says which).
+/// One sweep of the 2D laser, in the laser frame. It includes the beams that a mirror deflects (see LaserConfig).
 struct LaserScan {
   Stamps stamps;
   double angle_min_rad = 0.0;
@@ -36,7 +36,7 @@ struct LaserScan {
   Duration time_increment;  ///< Between two beams; beam i was measured at stamps.measured + i * time_increment.
   double range_min_m = 0.0;
   double range_max_m = 0.0;
-  /// NaN: invalid. Above range_max_m or infinite: nothing was hit within range. Below range_min_m: invalid.
+  /// A range that is NaN or below range_min_m is invalid. A range above range_max_m, or infinite, means no hit.
   std::vector<float> ranges_m;
 };
 
@@ -46,7 +46,7 @@ struct BatterySample {
   double remaining = 1.0;  ///< In [0, 1], as the vehicle estimates it.
 };
 
-/// The pilot's sticks, each in [-1, 1]; thrust in [0, 1]. `takes_over` is the switch by which the pilot flies alone.
+/// The pilot's sticks, each in [-1, 1]; thrust in [0, 1]. While the switch `takes_over` is on, the pilot flies alone.
 struct PilotSample {
   Stamps stamps;
   double roll = 0.0;

@@ -1,4 +1,4 @@
-// For what is a name or an expression long enough not to be written twice.
+// The square of an expression that is too long to write twice.
 #pragma once
 
 namespace swiftlet::common {

@@ -8,7 +8,7 @@
 namespace swiftlet::common {
 namespace {
 
-/// Characters, not bytes, of UTF-8 text.
+/// Number of characters, not bytes, of UTF-8 text.
 std::size_t widthOf(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));

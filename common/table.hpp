@@ -12,7 +12,7 @@ enum class Mark { kNone, kGood, kBad };
 struct TableCell {
   std::string text;
   Mark mark = Mark::kNone;
-  std::string link = {};  ///< Relative to the report that shows it; may be empty.
+  std::string link = {};  ///< Path relative to the report that shows it; may be empty.
 };
 
 struct Table {
@@ -21,10 +21,10 @@ struct Table {
   std::vector<std::vector<TableCell>> rows;  ///< Each as long as `columns`.
 };
 
-/// Whether every cell of a column that holds anything begins as a number does. Such columns are aligned to the right.
+/// Whether every cell of a column that is not empty begins like a number. Such columns are aligned to the right.
 bool isNumeric(const Table& table, std::size_t column);
 
-/// Columns aligned by spaces; marks and links are left out.
+/// Text with columns aligned by spaces, without marks and links.
 std::string toText(const Table& table);
 
 }  // namespace swiftlet::common

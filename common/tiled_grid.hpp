@@ -1,4 +1,4 @@
-// A 2D grid that grows in all directions and copies in O(tiles): tiles are shared between copies until one writes.
+// A 2D grid that grows in all directions. A copy takes O(tiles): copies share their tiles until one of them writes.
 #pragma once
 
 #include <algorithm>
@@ -32,10 +32,10 @@ struct CellRect {
   bool operator==(const CellRect&) const = default;
 };
 
-/// The grid of values of type Cell. The cell size is fixed, the extent grows by whole tiles when a cell outside is
-/// written. Reading outside gives the background. Snapshots: `snapshot()` returns a copy that shares all tiles;
-/// afterwards a write to either grid first clones the tile it touches. Two copies may be used by two threads; one copy
-/// by one thread at a time.
+/// A grid of values of type Cell. The cell size is fixed; the extent grows by whole tiles when a cell outside it is
+/// written. Reading outside gives the background. `snapshot()` returns a copy that shares all tiles; afterwards a write
+/// to either grid first clones the tile it changes. Two threads may use two copies; one copy belongs to one thread at a
+/// time.
 template <typename Cell>
 class TiledGrid {
  public:
@@ -113,8 +113,8 @@ class TiledGrid {
 
  private:
   using Tile = std::array<Cell, static_cast<std::size_t>(kTileSize) * kTileSize>;
-  /// `shared` says that another grid may hold the same tile, so that it must be cloned before writing. It is set by
-  /// snapshot() alone and deliberately not read off use_count(), which other threads change.
+  /// `shared` means that another grid may hold the same tile, which must then be cloned before writing. Only snapshot()
+  /// sets it. It is not derived from use_count(), because other threads change that.
   struct Slot {
     std::shared_ptr<Tile> tile;
     bool shared = false;

@@ -1,4 +1,4 @@
-// Time and Duration: 64-bit nanoseconds as strong types, so that a stamp is never added to a stamp.
+// Time and Duration: 64-bit nanoseconds as strong types, so that two stamps cannot be added.
 // Values are plain data; safe to use from any thread.
 #pragma once
 
@@ -38,7 +38,7 @@ class Duration {
   std::int64_t ns_ = 0;
 };
 
-/// A point in time. The epoch is that of the source: the start of the run in the simulator, the log's own in a replay.
+/// A point in time. The epoch depends on the source: the start of the run in the simulator, that of the log for a log.
 class Time {
  public:
   constexpr Time() = default;
@@ -63,7 +63,8 @@ class Time {
   std::int64_t ns_ = 0;
 };
 
-/// What is read as a stamp lies within this of the epoch, either way: the Duration between any two then fits too.
+/// Greatest distance from the epoch, before or after it, of a stamp that is read from a file. The Duration between any
+/// two such stamps then fits 64 bits.
 inline constexpr double kFarthestStamp_s = 4.6e9;
 
 }  // namespace swiftlet::common

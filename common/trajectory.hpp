@@ -1,4 +1,4 @@
-// Poses in time and between times, as files and metrics take them.
+// Poses at a time and relative poses between two times, for files and metrics.
 #pragma once
 
 #include <cstddef>
@@ -17,15 +17,15 @@ struct StampedPose {
 /// Ordered by stamp, each stamp once.
 using Trajectory = std::vector<StampedPose>;
 
-/// The trajectory that poses in any order come to.
+/// A trajectory made from poses in any order.
 struct Ordered {
   Trajectory trajectory;
-  std::size_t went_back = 0;  ///< Poses whose stamp is before that of the pose they followed.
-  std::size_t repeated = 0;   ///< Poses left out because a later one has the same stamp: the last word counts.
+  std::size_t went_back = 0;  ///< Number of poses whose stamp is before that of the preceding input pose.
+  std::size_t repeated = 0;   ///< Number of poses left out because a later input pose has the same stamp.
 };
 Ordered ordered(std::vector<StampedPose> poses);
 
-/// Where something was at one time as seen from where it was at another.
+/// The relative pose of an object between two times: its pose at `to` in the frame of its pose at `from`.
 struct Relation {
   Time from;
   Time to;

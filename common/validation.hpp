@@ -1,5 +1,5 @@
-// What is wrong between the fields of one Config; what is wrong with each alone follows from its bounds:
-// `Validation().atMost("near_m", near_m, "far_m", far_m).problems()`.
+// Collects the problems between fields of one Config. The bounds of a single field are checked elsewhere
+// (common/config_fields.hpp). Example: `Validation().atMost("near_m", near_m, "far_m", far_m).problems()`.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace swiftlet::common {
 
 class Validation {
  public:
-  /// value <= limit, which is another field.
+  /// Requires value <= limit, where the limit is another field.
   Validation& atMost(std::string_view name, double value, std::string_view limit_name, double limit);
-  /// Any condition with its own words, after "name: ".
+  /// Requires any condition; the problem is reported as "name: message".
   Validation& require(bool condition, std::string_view name, std::string_view message);
 
   std::vector<std::string> problems() const { return problems_; }

@@ -9,33 +9,34 @@
 
 namespace swiftlet::common {
 
-/// Between two ticks of the autonomy, and two setpoints.
+/// The time between two ticks of the autonomy, and between two setpoints.
 inline constexpr Duration kControlPeriod = Duration::fromMilliseconds(10);
 
-/// What the autonomy asks of the autopilot's inner loop, once each kControlPeriod.
+/// The command of the autonomy to the autopilot's inner loop, once each kControlPeriod.
 struct Setpoint {
   Time stamp;
   bool motors_on = false;
   double roll_rad = 0.0;        ///< FLU: positive rolls to the right (left side up).
   double pitch_rad = 0.0;       ///< FLU: positive pitches nose down, the vehicle accelerates forwards.
   double yaw_rate_rad_s = 0.0;  ///< Positive counter-clockwise seen from above.
-  double thrust = 0.0;          ///< Collective, 0 to 1 of the greatest thrust at full battery.
+  double thrust = 0.0;          ///< Collective, from 0 to 1: share of the greatest thrust at full battery.
 };
 
-/// A vehicle in time. Called from one thread.
+/// A vehicle whose time is advanced step by step. Called from one thread.
 class Vehicle {
  public:
   virtual ~Vehicle() = default;
 
   virtual Time now() const = 0;
 
-  /// Lets time pass to `time` and appends the events that arrived since the last call, ordered by arrival; events that
-  /// arrive at the same instant come in a fixed order. Simulator and replay compute; a real vehicle waits.
-  /// Returns false when there is nothing more to come (crashed, end of the log, link closed); `stopReason` then says
-  /// why.
+  /// Advances to `time` and appends the events that arrived since the last call, ordered by arrival; events that arrive
+  /// at the same instant come in a fixed order. Simulator and replay compute; a real vehicle waits until `time`.
+  /// Returns false when no more events will come (crashed, end of the log, link closed); `stopReason` then gives the
+  /// reason.
   [[nodiscard]] virtual bool advanceTo(Time time, std::vector<SensorEvent>& events) = 0;
 
-  /// Hands a setpoint to the autopilot. The last one stays in force; the autopilot's own link-loss rule applies.
+  /// Sends a setpoint to the autopilot. It stays in force until the next one; the autopilot's rule for a lost link
+  /// applies.
   virtual void apply(const Setpoint& setpoint) = 0;
 
   /// Why advanceTo returned false; empty while it returns true.

@@ -1,6 +1,6 @@
-// What the autonomy and the simulator both know of a vehicle and its sensors: the data sheet. Loaded from
-// config/vehicles and config/sensors; what only nature knows (drag, lag, bias) is in simulation/; the laser's noise is
-// on its data sheet.
+// The data sheet of a vehicle and its sensors, known to both the autonomy and the simulator. It is loaded from
+// config/vehicles and config/sensors and includes the laser's noise. Properties that the autonomy does not know (drag,
+// lag, bias) are in simulation/.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct MountConfig {
   Pose3 pose() const;
 };
 
-/// A 2D laser and the mirror that bends some of its beams down.
+/// A 2D laser and the mirror that deflects some of its beams down.
 struct LaserConfig {
   std::string name = "utm_30lx";
   int beams = 1081;
@@ -39,7 +39,7 @@ struct LaserConfig {
   int mirror_beams = 0;
   double mirror_spread_deg = 2.0;
   MountConfig mount;         ///< T_body_laser.
-  MountConfig mirror_mount;  ///< T_body_mirror: origin of the deflected beams; beam k points along its -z, fanned about
+  MountConfig mirror_mount;  ///< T_body_mirror: origin of the deflected beams, which point along its -z, fanned about
                              ///< its x axis.
 
   void describe(config::Fields& fields);

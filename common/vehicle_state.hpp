@@ -1,4 +1,4 @@
-// Where the vehicle is, as the autonomy believes.
+// The estimated state of the vehicle.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace swiftlet::common {
 
-/// How well the height of the body origin is known while the vehicle stands on the take-off floor.
+/// Standard deviation of the height of the body origin while the vehicle stands on the take-off floor.
 inline constexpr double kStandingHeightSigma_m = 0.02;
 
 /// The estimate at one time. `T_odom_body` is continuous; `T_map_odom` may jump when the SLAM corrects.
@@ -23,7 +23,7 @@ struct VehicleState {
   Eigen::Matrix3d position_covariance_m2 = Eigen::Matrix3d::Zero();     ///< In odom.
   Eigen::Matrix3d velocity_covariance_m2_s2 = Eigen::Matrix3d::Zero();  ///< In odom.
 
-  double height_above_ground_m = 0.0;  ///< Over what is below right now (table, floor).
+  double height_above_ground_m = 0.0;  ///< Over the surface directly below (table, floor).
   bool horizontal_valid = false;       ///< x, y, yaw and their velocities may be used for control.
   bool vertical_valid = false;         ///< z and its velocity may be used for control.
 

@@ -1,6 +1,6 @@
-// The world as the autonomy knows it at one instant: an immutable snapshot that behaviours, the page and the files
-// read, in layers. A reader includes the header of each layer it reads (common/world/). A layer that did not change is
-// shared with the snapshot before: equal pointers mean equal layers. Safe to read from any thread.
+// The world as the autonomy knows it at one instant: an immutable snapshot in layers, read by behaviours, the page and
+// the files. A reader includes the header of each layer it reads (common/world/). A layer that did not change is shared
+// with the previous snapshot, so equal pointers mean equal layers. Safe to read from any thread.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ struct MapLayer;
 struct PeopleLayer;
 struct EnergyLayer;
 
-/// No layer is null in what the autonomy makes.
+/// No layer is null in a World that the autonomy made.
 struct World {
   Time stamp;
   std::shared_ptr<const VehicleLayer> vehicle;

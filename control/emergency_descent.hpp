@@ -13,7 +13,7 @@
 
 namespace swiftlet::control {
 
-/// One raw height over whatever is below.
+/// One raw height over the surface below.
 struct RawHeight {
   common::Time stamp;  ///< Time of the measurement.
   double height_m = 0.0;
@@ -64,7 +64,7 @@ class EmergencyDescent {
 
   /// Call it in every state, so that the filter is ready when it is needed.
   void observe(const RawHeight& raw) { filter_.update(raw); }
-  /// `standing_height_m` is what the mirror measured on the ground.
+  /// `standing_height_m` is the height that the mirror measured on the ground.
   void start(common::Time now, double standing_height_m);
   /// A level attitude with yaw rate zero.
   common::Setpoint tick(common::Time now, double dt_s, const ThrustModel& thrust);

@@ -1,9 +1,8 @@
-// From a path to a smooth reference (Tomic 2012, "Action": straight lines between waypoints, flown in modes, run
-// "Action": straight lines between waypoints, flown in modes, filtered by the vehicle's translational dynamics). A
-// carrot moves along the lines with a trapezoid of speed. A critically damped filter, fed with the carrot's own speed
-// and acceleration, pulls the reference after it: the reference lies on the carrot on a straight line and rounds the
-// corners. A change in flight (path, limit, frame) moves the carrot alone: the reference stays continuous in position
-// and velocity.
+// From a path to a smooth reference (Tomic 2012, "Action": straight lines between waypoints, flown in modes, filtered
+// by the vehicle's translational dynamics). A carrot moves along the lines with a trapezoidal speed profile. A
+// critically damped filter, fed with the carrot's velocity and acceleration, pulls the reference after it. The
+// reference lies on the carrot on a straight line and rounds the corners. A change in flight (path, limit, frame) moves
+// only the carrot; the reference stays continuous in position and velocity.
 #pragma once
 
 #include <optional>
@@ -50,7 +49,7 @@ class PathFollower {
 
   explicit PathFollower(const Config& config);
 
-  /// Places the reference at rest and forgets the path.
+  /// Places the reference at rest and discards the path.
   void reset(const Eigen::Vector3d& position_odom_m, double yaw_odom_rad);
 
   /// Replaces the path. The points are in odom, the last one is the goal; an empty path stops. If the reference is off
@@ -64,7 +63,7 @@ class PathFollower {
   void stop(std::optional<double> yaw_odom_rad = std::nullopt);
   /// Speed limit of the reactive layer: 0 halts on the path, infinity lifts the limit. It holds until it is changed.
   void setSpeedLimit(double speed_m_s);
-  /// The odom frame was re-expressed: the path (or the velocity) moves by T_new_old, the reference does not move.
+  /// Moves the path (or the velocity) by T_new_old, after T_map_odom has jumped. The reference does not move.
   void movePath(const common::Pose2& T_new_old);
 
   /// Advances by dt and returns the reference at that time.
@@ -92,7 +91,8 @@ class PathFollower {
   };
 
   void lay(std::vector<Eigen::Vector3d> points);
-  /// The path from where the reference is and as it moves. `turns`: its first corner is a turn at speed.
+  /// The path, joined to the reference's present position and velocity. `turns` is set if its first corner is flown at
+  /// speed.
   std::vector<Eigen::Vector3d> joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const;
   Carrot advanceAlongPath(double dt_s);
   static Carrot advanceToVelocity(VelocityTarget& target, double dt_s);

@@ -94,7 +94,7 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
   if (horizontal == Horizontal::kLevel) return missing_m_s;
 
   // State and reference are predicted to the time when the command has become a tilt. The integral is the part of the
-  // tilt that wind and a wrong horizon take up: it does not accelerate.
+  // tilt that balances wind and a wrong horizon, so it does not accelerate the vehicle.
   const Eigen::Vector2d acceleration_m_s2 = accelerationOfTilt(state.T_odom_body.rotation) - integral_m_s2_.head<2>();
   if (horizontal == Horizontal::kVelocity) {
     missing_m_s.head<2>() = -state.velocity_odom_m_s.head<2>() - lead_s * acceleration_m_s2;

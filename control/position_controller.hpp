@@ -49,10 +49,11 @@ class PositionController {
 
   PositionController(const Config& config, const common::VehicleConfig& vehicle);
 
-  /// Forgets the integrals; the learned hover command stays.
+  /// Resets the integrals; the learned hover command stays.
   void reset();
 
-  /// While `on_ground` the integrals do not change and the tilt stays zero.
+  /// While `on_ground` the tilt and the yaw rate stay zero, and neither the horizontal integrals nor the learned hover
+  /// command change.
   common::Setpoint tick(common::Time now, double dt_s, const common::VehicleState& state, const Reference& reference,
                         double battery_v, Horizontal horizontal = Horizontal::kPosition, bool on_ground = false);
 
@@ -60,7 +61,7 @@ class PositionController {
   const ThrustModel& thrust() const { return thrust_; }
 
  private:
-  /// The missing velocity, horizontal and vertical, that P, I and the lead act on.
+  /// The velocity error, including the correction for the position error, on which the velocity and integral gains act.
   Eigen::Vector3d missingVelocity(const common::VehicleState& state, const Reference& reference,
                                   Horizontal horizontal) const;
   void integrate(const Eigen::Vector3d& missing_m_s, const Eigen::Vector3d& wanted_m_s2,

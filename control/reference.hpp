@@ -1,4 +1,4 @@
-// What the controller follows: a point moving smoothly through the odom frame.
+// The reference of the controller: a point that moves smoothly in the odom frame.
 #pragma once
 
 #include <Eigen/Core>

@@ -16,9 +16,9 @@ ThrustModel::ThrustModel(const Config& config, const common::VehicleConfig& vehi
 void ThrustModel::observeVoltage(double voltage_v, double dt_s) {
   if (!std::isfinite(voltage_v) || voltage_v <= 0.0) return;
   // A voltmeter that is clearly wrong must not double the thrust.
-  const double believable_v = std::clamp(voltage_v, 0.8 * vehicle_.battery_empty_v, 1.05 * vehicle_.battery_full_v);
+  const double plausible_v = std::clamp(voltage_v, 0.8 * vehicle_.battery_empty_v, 1.05 * vehicle_.battery_full_v);
   const double share = voltage_seen_ ? std::min(1.0, dt_s / config_.voltage_filter_s) : 1.0;
-  voltage_v_ += share * (believable_v - voltage_v_);
+  voltage_v_ += share * (plausible_v - voltage_v_);
   voltage_seen_ = true;
 }
 

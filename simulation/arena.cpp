@@ -46,7 +46,7 @@ bool Arena::advance(std::size_t index, Time time, std::vector<common::SensorEven
   SWIFTLET_CHECK(seat.attended, index);
   if (seat.flown() && time > seat.now) {
     if (time > now_) stepTo(time);
-    SWIFTLET_CHECK(time == now_, index, time.seconds(), now_.seconds());  // The others are beyond it already.
+    SWIFTLET_CHECK(time == now_, index, time.seconds(), now_.seconds());  // The arena has passed it.
   }
   const Truth& truth = seat.model->truth();
   seat.now = truth.crashed ? truth.stamp : std::max(seat.now, time);
@@ -56,14 +56,14 @@ bool Arena::advance(std::size_t index, Time time, std::vector<common::SensorEven
 
 void Arena::apply(std::size_t index, const common::Setpoint& setpoint) {
   Seat& seat = seats_.at(index);
-  SWIFTLET_CHECK(!seat.flown() || seat.now == now_, index, seat.now.seconds(), now_.seconds());  // It would be late.
+  SWIFTLET_CHECK(!seat.flown() || seat.now == now_, index, seat.now.seconds(), now_.seconds());  // Too late.
   seat.model->apply(seat.now, setpoint);
 }
 
 void Arena::setCameraConsumer(std::size_t index, bool wanted) { seats_.at(index).model->setCameraConsumer(wanted); }
 
 void Arena::stepTo(Time time) {
-  for (const Seat& seat : seats_)  // Nobody is left behind: its next setpoint would come too late.
+  for (const Seat& seat : seats_)  // The next setpoint of a vehicle that is behind would come too late.
     SWIFTLET_CHECK(!seat.flown() || seat.now == now_, seat.model->placed().name, seat.now.seconds(), now_.seconds());
   while (anyFlown() && stepped_ + kStep <= time) step();
   now_ = time;

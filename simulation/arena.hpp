@@ -1,5 +1,5 @@
-// The arena: a world with its rays, its air, its people and its clock, and the vehicles in it. Time goes in one fixed
-// step after the other, for all of them together and each in the same order: air, flight, people, contacts, sensors.
+// The arena: a world with its rays, wind, people and clock, and the vehicles in it. Time advances in fixed steps for
+// all of them together, in the same order in each step: wind, flight, people, contacts, sensors.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@
 
 namespace swiftlet::simulation {
 
-/// Vehicles are numbered in the order of the scenario. A second one shifts nothing of the first until they meet: the
-/// world, the wind and the first vehicle's start and noise are drawn as if it were alone.
+/// Vehicles are numbered in the order of the scenario. A second vehicle changes nothing for the first until they meet:
+/// the world, the wind and the first vehicle's start and noise are drawn as if it were alone.
 ///
-/// Who advances: a vehicle that is attended has somebody who advances it and applies its setpoints; the others stand
-/// where they start. All attended vehicles pass through the same instants. The first that asks for an instant moves the
-/// arena there; the others must ask for the same one, in any order, before any of them asks for a later one. A setpoint
-/// is handed over between being advanced to an instant and anybody asking for a later one (SWIFTLET_CHECK, all of it).
-/// So each setpoint is known before the step that needs it, and the order of the vehicles changes nothing. A vehicle
-/// that has crashed, or that nobody attends any more, is not waited for.
+/// An attended vehicle has an owner that advances it and applies its setpoints; the others stay where they start. All
+/// attended vehicles pass through the same instants. The first that is advanced to an instant moves the arena there;
+/// the others must be advanced to the same instant, in any order, before any of them is advanced further. A setpoint
+/// must be applied before any vehicle is advanced further. SWIFTLET_CHECK enforces all of this. So each setpoint is
+/// known before the step that needs it, and the order of the vehicles changes nothing. The arena does not wait for a
+/// vehicle that has crashed or is no longer attended.
 ///
 /// Called from one thread.
 class Arena {
@@ -38,12 +38,12 @@ class Arena {
   Arena& operator=(const Arena&) = delete;
   ~Arena();
 
-  /// The last instant that was asked for; the physics has come to less than a step before it.
+  /// The last instant that a vehicle was advanced to. While any vehicle flies, the physics is less than a step behind.
   common::Time now() const { return now_; }
   /// The world after the seed's variation, and rays in it.
   const WorldModel& world() const { return world_; }
   const RayCaster& rays() const { return rays_; }
-  /// Where the people are now.
+  /// The present positions of the people.
   const std::vector<Actor>& people() const { return people_; }
 
   std::size_t vehicleCount() const { return seats_.size(); }
@@ -52,11 +52,11 @@ class Arena {
 
   // For SimulatedVehicle.
 
-  /// From the start on, until `leave`, the arena waits for this vehicle and its sensors measure. Nobody else attends
-  /// it.
+  /// Call it at time 0, once for a vehicle. From then until `leave` the arena waits for this vehicle and its sensors
+  /// measure.
   void attend(std::size_t index);
   void leave(std::size_t index);
-  /// The instant the vehicle was advanced to; that of its contact once it has crashed.
+  /// The instant that the vehicle was advanced to, or that of its contact once it has crashed.
   common::Time nowOf(std::size_t index) const { return seats_.at(index).now; }
   /// As common::Vehicle::advanceTo.
   [[nodiscard]] bool advance(std::size_t index, common::Time time, std::vector<common::SensorEvent>& events);
@@ -79,7 +79,7 @@ class Arena {
   void stepPeople();
   void judgeMeetings();
   bool anyFlown() const;
-  /// What the rays of a vehicle meet beside the world: people and other vehicles.
+  /// What the rays of a vehicle may hit besides the world: people and other vehicles.
   const std::vector<Actor>& aroundVehicle(std::size_t index);
 
   WorldModel world_;
@@ -87,10 +87,10 @@ class Arena {
   Wind wind_;
   std::vector<Seat> seats_;
   std::vector<Walker> walkers_;
-  std::vector<std::size_t> walked_around_;  ///< By walker: the vehicle that it crosses or follows.
+  std::vector<std::size_t> walked_around_;  ///< For each walker, the vehicle that it crosses or follows.
   std::vector<Actor> people_;
-  std::vector<Actor> around_;  ///< Kept between steps to spare the allocation.
-  common::Time stepped_;       ///< The last physics step.
+  std::vector<Actor> around_;  ///< Kept between steps to save the allocation.
+  common::Time stepped_;       ///< The end of the last physics step.
   common::Time now_;
   std::uint64_t step_ = 0;
 };

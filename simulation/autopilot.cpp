@@ -26,7 +26,7 @@ void AutopilotConfig::describe(common::config::Fields& fields) {
   fields("rate_gain_1_s", rate_gain_1_s, {0.1, 500}, "Angular acceleration per roll or pitch rate error.");
   fields("yaw_rate_gain_1_s", yaw_rate_gain_1_s, {0.1, 500}, "Angular acceleration per yaw rate error.");
   fields("rate_integral_1_s2", rate_integral_1_s2, {0, 500},
-         "Angular acceleration per integrated rate error, which takes out what leans the vehicle constantly.");
+         "Angular acceleration per integrated rate error, which removes a constant lean.");
   fields("link_timeout_s", link_timeout_s, {0.05, 10},
          "Without a new setpoint for this long the vehicle levels and descends.");
   fields("failsafe_thrust_share", failsafe_thrust_share, {0.5, 1}, "Thrust of that descent, as a share of the weight.");
@@ -47,7 +47,7 @@ bool Autopilot::linkLost(common::Time now) const { return (now - received_).seco
 common::Setpoint Autopilot::effective(common::Time now, const AttitudeMeasurement& measured) const {
   common::Setpoint setpoint = setpoint_;
   if (setpoint.motors_on && linkLost(now)) {
-    // The autopilot's own voltage meter tells it how much throttle makes up for the falling thrust.
+    // The autopilot's own voltmeter shows how much throttle makes up for the falling thrust.
     const double sag = measured.battery_voltage_v / vehicle_.battery_full_v;
     setpoint.roll_rad = setpoint.pitch_rad = setpoint.yaw_rate_rad_s = 0.0;
     setpoint.thrust = config_.failsafe_thrust_share * vehicle_.mass_kg * kGravity_m_s2 /

@@ -22,7 +22,7 @@ Battery::Battery(const common::VehicleConfig& vehicle, const Config& config, dou
       remaining_(std::clamp(remaining, 0.0, 1.0)),
       voltage_v_(openCircuit_v()) {}
 
-// The curve of a lithium-polymer cell: steep at both ends, a gentle slope between. 0 charge is the empty voltage.
+// The curve of a lithium-polymer cell: steep at both ends, flat between them. The empty voltage is that of charge 0.
 double Battery::openCircuit_v() const {
   const double s = remaining_;
   const double shape = 0.62 * s + 0.18 * (1.0 - std::exp(-20.0 * s)) + 0.20 * std::exp(-8.0 * (1.0 - s));
@@ -30,7 +30,7 @@ double Battery::openCircuit_v() const {
 }
 
 void Battery::draw(double power_w, double step_s) {
-  // P = U I and U = U0 - R I; the smaller root is the stable one, and beyond the greatest power it collapses to U0 / 2.
+  // P = U I and U = U0 - R I. The root with the smaller current is stable; beyond the greatest power U drops to U0 / 2.
   const double open_v = openCircuit_v(), r = config_.resistance_ohm;
   const double discriminant = std::max(0.0, open_v * open_v - 4.0 * r * (power_w + config_.electronics_w));
   voltage_v_ = 0.5 * (open_v + std::sqrt(discriminant));

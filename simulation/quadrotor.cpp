@@ -68,7 +68,7 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   Vector3d& omega = state_.angular_velocity_body_rad_s;
   const Vector3d angular_acceleration =
       (torque - config_.angular_drag_n_m_s * omega - omega.cross(inertia.cwiseProduct(omega))).cwiseQuotient(inertia) +
-      gearTurning(gear_n);
+      gearAngularAcceleration(gear_n);
 
   // Semi-implicit Euler: the new velocities move the pose.
   const Vector3d velocity_before = state_.velocity_world_m_s;
@@ -78,7 +78,7 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   state_.T_world_body.rotation = (R_world_body * common::expSO3(step_s * omega)).normalized();
 
   state_.standing = gear_n > 0.0;
-  if (state_.standing) rub(gear_n, step_s);
+  if (state_.standing) applyFriction(gear_n, step_s);
 
   const Vector3d felt_world =
       (state_.velocity_world_m_s - velocity_before) / step_s + kGravity_m_s2 * Vector3d::UnitZ();
@@ -94,9 +94,9 @@ double Quadrotor::gearForce_n(double floor_world_m) const {
       0.0, vehicle_.mass_kg * frequency_rad_s * (frequency_rad_s * pressed_m - 2.0 * state_.velocity_world_m_s.z()));
 }
 
-// The feet stop a turn within some hundredths of a second and push the body level. This is a torque, so that the
-// gyroscopes still feel the motion of the body while the motors lean it against the floor.
-Vector3d Quadrotor::gearTurning(double gear_n) const {
+// The feet stop a turn within some hundredths of a second and push the body level. This is modelled as a torque, so
+// that the gyroscopes still measure the motion of the body while the motors lean it against the floor.
+Vector3d Quadrotor::gearAngularAcceleration(double gear_n) const {
   constexpr double kFrequency_rad_s = 33.0;
   const double carried = std::min(1.0, gear_n / (vehicle_.mass_kg * kGravity_m_s2));
   const common::RollPitchYaw angles = common::rollPitchYaw(state_.T_world_body.rotation);
@@ -106,7 +106,7 @@ Vector3d Quadrotor::gearTurning(double gear_n) const {
 }
 
 // Dry friction holds the feet.
-void Quadrotor::rub(double gear_n, double step_s) {
+void Quadrotor::applyFriction(double gear_n, double step_s) {
   constexpr double kFriction = 0.8;
   auto slide = state_.velocity_world_m_s.head<2>();
   const double speed = slide.norm(), stopped = kFriction * gear_n / vehicle_.mass_kg * step_s;

@@ -42,7 +42,7 @@ struct QuadrotorState {
   common::Pose3 T_world_body;
   Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_velocity_body_rad_s = Eigen::Vector3d::Zero();
-  Eigen::Vector3d specific_force_body_m_s2 = Eigen::Vector3d::Zero();  ///< What an accelerometer feels.
+  Eigen::Vector3d specific_force_body_m_s2 = Eigen::Vector3d::Zero();  ///< As an accelerometer measures it.
   MotorThrusts thrusts_n{};                                            ///< Present thrusts, after the lag.
   bool standing = true;                                                ///< The feet carry the weight.
 };
@@ -73,8 +73,8 @@ class Quadrotor {
   void spinMotors(const std::array<double, 4>& throttles, double step_s);
   Eigen::Vector3d takePush(double step_s);
   double gearForce_n(double floor_world_m) const;
-  Eigen::Vector3d gearTurning(double gear_n) const;  ///< Angular acceleration by the gear.
-  void rub(double gear_n, double step_s);
+  Eigen::Vector3d gearAngularAcceleration(double gear_n) const;
+  void applyFriction(double gear_n, double step_s);
 
   common::VehicleConfig vehicle_;
   QuadrotorConfig config_;

@@ -71,8 +71,8 @@ class RayCaster {
   void castAll(std::span<const Ray> rays, double max_m, std::span<const Actor> actors, std::span<Hit> hits) const;
 
   /// The smallest horizontal distance between the static world and the hull while its centre moves along the segment
-  /// from one point to another, up to limit_m. The hull sweeps the union of its height bands, so that nothing thin
-  /// slips through between two steps.
+  /// from one point to another, up to limit_m. The hull sweeps the union of its height bands, so that no thin obstacle
+  /// is missed between two steps.
   Clearance sweep(const Hull& hull, const Eigen::Vector3d& from_world_m, const Eigen::Vector3d& to_world_m,
                   double limit_m) const;
 

@@ -22,7 +22,7 @@ class Referee {
   /// World and rays must outlive it.
   Referee(const WorldModel& world, const RayCaster& rays, const Scenario& scenario);
 
-  /// Highest floor under the feet at the last call of look(); -infinity if there is none.
+  /// Highest floor under the feet at the last call of lookDown(); -infinity if there is none.
   double floor_world_m() const { return floor_world_m_; }
 
   /// Finds the floor under the feet. Call at 100 Hz or more.
@@ -50,7 +50,7 @@ class Referee {
   double gear_radius_m_;
   double lowest_world_m_;
   double floor_world_m_;
-  double feet_apart_m_ = 0.0;  ///< Difference of the feet's floor heights at the last look.
+  double feet_apart_m_ = 0.0;  ///< Difference of the feet's floor heights at the last call of lookDown().
   int floor_shape_ = Hit::kNothing;
   Eigen::Vector3d last_position_world_m_;
   bool first_ = true;

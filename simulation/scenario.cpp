@@ -14,19 +14,19 @@ namespace swiftlet::simulation {
 namespace {
 
 constexpr double kAnywhere_m = 1e4;
-constexpr double kGreatestSeed = 1e9;  // A trial counts on from it.
+constexpr double kGreatestSeed = 1e9;  // A trial counts up from it.
 
 std::string noPairs(const std::vector<double>& values) {
-  return fmt::format("{} numbers are no list of x, y pairs", values.size());
+  return fmt::format("{} numbers are not a list of x, y pairs", values.size());
 }
 
-/// Each entry is later than the one before.
+/// Whether each entry is later than the previous one.
 bool inOrder(const std::vector<PilotConfig>& pilot) {
   const auto not_later = [](const PilotConfig& a, const PilotConfig& b) { return a.time_s >= b.time_s; };
   return std::adjacent_find(pilot.begin(), pilot.end(), not_later) == pilot.end();
 }
 
-/// Of the list of vehicles, and of who refers to it.
+/// Problems of the list of vehicles and of the settings that refer to it.
 std::vector<std::string> vehicleProblems(const Scenario& scenario) {
   common::Validation validation;
   std::vector<std::string> names;
@@ -41,7 +41,7 @@ std::vector<std::string> vehicleProblems(const Scenario& scenario) {
         fmt::format("there is no vehicle `{}`{}", walker.vehicle, common::didYouMean(walker.vehicle, names)));
   const auto alone = [&](const char* field, bool is_default) {
     validation.require(scenario.vehicles.empty() || is_default, field,
-                       "is of one vehicle; where `vehicles` lists several it stands there");
+                       "is for a single vehicle; with `vehicles`, give it for each vehicle there");
   };
   alone("start", scenario.start.from_world);
   alone("battery_remaining", scenario.battery_remaining == 1.0);
@@ -51,7 +51,7 @@ std::vector<std::string> vehicleProblems(const Scenario& scenario) {
   return validation.problems();
 }
 
-/// May stand in messages and in the name of a folder.
+/// Whether it can be used in messages and in the name of a folder.
 bool isName(const std::string& name) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
   return !name.empty() && name.size() <= 40 && std::all_of(name.begin(), name.end(), plain);
@@ -142,7 +142,7 @@ std::vector<std::string> FaultConfig::validate() const {
 }
 
 void PilotConfig::describe(common::config::Fields& fields) {
-  fields("time_s", time_s, {0, 1e6}, "Time from which these sticks hold, until the next entry.");
+  fields("time_s", time_s, {0, 1e6}, "Time from which these sticks apply, until the next entry.");
   fields("roll", roll, {-1, 1}, "Stick of the roll.");
   fields("pitch", pitch, {-1, 1}, "Stick of the pitch.");
   fields("yaw_rate", yaw_rate, {-1, 1}, "Stick of the yaw rate.");
@@ -152,7 +152,7 @@ void PilotConfig::describe(common::config::Fields& fields) {
 
 void ScenarioVehicle::describe(common::config::Fields& fields) {
   fields("name", name, "Name of the vehicle.");
-  fields("mission", mission, "Mission that it flies, a file as the trial's; empty for that of the trial.");
+  fields("mission", mission, "Mission file of this vehicle; empty for the trial's mission.");
   fields.section("start", start, "Where the vehicle stands.");
   fields("battery_remaining", battery_remaining, {0.01, 1}, "Charge at the start, as a share of the full one.");
   fields.list("pushes", pushes, "Pushes of the vehicle.");
@@ -168,7 +168,7 @@ std::vector<std::string> ScenarioVehicle::validate() const {
 }
 
 void Scenario::describe(common::config::Fields& fields) {
-  fields("seed", seed, {0, kGreatestSeed}, "Name of every random stream.");
+  fields("seed", seed, {0, kGreatestSeed}, "Seed of every random stream.");
   fields("world", world, "SDF file.");
   fields("model_paths", model_paths, "Folders that hold the models the world includes.");
   fields.section("start", start, "Where the vehicle stands.");
@@ -184,7 +184,7 @@ void Scenario::describe(common::config::Fields& fields) {
   fields.section("sensors", sensors, "Errors and delays of the sensors.");
   fields.list(
       "vehicles", vehicles,
-      "All vehicles where there are several; start, battery_remaining, pushes, faults and pilot then stand here.");
+      "The vehicles if there are several; each then has its own start, battery_remaining, pushes, faults and pilot.");
 }
 
 std::vector<std::string> Scenario::validate() const {

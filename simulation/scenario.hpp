@@ -1,6 +1,5 @@
-// One scripted flight: where, from where, with what weather, people, pushes and faults, of one vehicle or several; and
-// what a seed may vary.
-// The trial file's `scenario` section is read into it.
+// One scripted flight of one vehicle or several: world, starts, wind, people, pushes and faults, and what a seed
+// varies. It is the `scenario` section of a trial file.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +33,7 @@ struct WindConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// How far a seed may move things; all uniform in +- the value.
+/// What a seed varies. Shifts, turns and the wind are uniform within +- the value.
 struct Variation {
   double start_position_m = 0.0;
   double start_yaw_deg = 0.0;
@@ -52,8 +51,8 @@ struct Variation {
 
 enum class WalkerMode {
   kPath,       ///< Walks its points.
-  kCrossPath,  ///< Walks across the vehicle's way, some metres ahead, starting where the vehicle can see it.
-  kFollow,     ///< Walks after the vehicle in its trail.
+  kCrossPath,  ///< Walks across the vehicle's path, some metres ahead, starting where the vehicle can see it.
+  kFollow,     ///< Follows the vehicle along its trail.
 };
 enum class WalkerEnd { kStay, kLeave, kReturn, kLoop };
 
@@ -84,10 +83,10 @@ struct PushConfig {
 };
 
 enum class FaultKind {
-  kSilent,  ///< Nothing arrives.
+  kSilent,  ///< No measurement arrives.
   kNan,     ///< Every number is NaN.
-  kRepeat,  ///< The last good measurement again and again, with new stamps.
-  kLate,    ///< Arrives `late_s` later.
+  kRepeat,  ///< The last good measurement is repeated, with new stamps.
+  kLate,    ///< Measurements arrive `late_s` later.
 };
 
 struct FaultConfig {
@@ -101,7 +100,7 @@ struct FaultConfig {
   std::vector<std::string> validate() const;
 };
 
-/// The sticks from `time_s` until the next entry.
+/// The pilot's sticks from `time_s` until the next entry.
 struct PilotConfig {
   double time_s = 0.0;
   double roll = 0.0;
@@ -113,7 +112,7 @@ struct PilotConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// One vehicle of several: what the scenario itself says of a vehicle that flies alone.
+/// One vehicle of several. For a single vehicle these settings are those of the scenario itself.
 struct ScenarioVehicle {
   std::string name;
   StartConfig start;
@@ -142,11 +141,11 @@ struct Scenario {
   QuadrotorConfig quadrotor;
   AutopilotConfig autopilot;
   SensorsConfig sensors;
-  /// All that fly, in the order of their numbers. Empty: one vehicle without a name, of which `start`,
-  /// `battery_remaining`, `pushes`, `faults` and `pilot` speak; these are left at their defaults when it is not empty.
+  /// All vehicles, in the order of their numbers. If it is empty, there is one vehicle without a name, with the
+  /// `start`, `battery_remaining`, `pushes`, `faults` and `pilot` above; otherwise these must have their defaults.
   std::vector<ScenarioVehicle> vehicles;
 
-  /// The data sheets the autonomy knows too; they come from the system profile, not from the scenario's file.
+  /// The data sheets, which the autonomy also knows. They come from the system profile, not from the scenario's file.
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
 
@@ -154,7 +153,7 @@ struct Scenario {
   std::vector<std::string> validate() const;
 
   std::size_t vehicleCount() const { return vehicles.empty() ? 1 : vehicles.size(); }
-  /// The number of the vehicle with that name, which there must be; 0 for an empty name.
+  /// The number of the vehicle with that name, which must exist; 0 for an empty name.
   std::size_t vehicleNumber(const std::string& name) const;
   /// The same scenario with that vehicle alone: its start, charge, pushes, faults and pilot, and no `vehicles`.
   Scenario withVehicleAlone(std::size_t number) const;

@@ -50,7 +50,7 @@ class SimulatedVehicle final : public common::Vehicle {
   const RayCaster& rays() const;
   /// The scenario as flown by this vehicle: start, wind and battery after the variation.
   const Scenario& scenario() const;
-  /// How many draws of the variation were refused.
+  /// Number of draws of the variation that were refused.
   int redraws() const;
   /// Present positions of the walkers.
   std::vector<Actor> walkers() const;

@@ -25,7 +25,7 @@ void SurveyConfig::describe(common::config::Fields& fields) {
 
 std::vector<std::string> SurveyConfig::validate() const {
   const bool pairs = path_world_m.size() % 2 == 0 && path_world_m.size() != 2;
-  return common::Validation().require(pairs, "path_world_m", "is no list of two or more points x, y").problems();
+  return common::Validation().require(pairs, "path_world_m", "is not a list of two or more points x, y").problems();
 }
 
 SurveyDrive::SurveyDrive(const SurveyConfig& config, const common::LaserConfig& laser, const RayCaster& rays)

@@ -30,7 +30,7 @@ struct SurveyConfig {
 
 struct SurveyScan {
   common::LaserScan scan;      ///< Its stamp counts from the start of the drive.
-  common::Pose2 T_world_body;  ///< True pose at that stamp, for the scorer alone.
+  common::Pose2 T_world_body;  ///< True pose at that stamp, only for the scorer.
 };
 
 class SurveyDrive {

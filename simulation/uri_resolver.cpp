@@ -14,7 +14,7 @@ void addFolders(const char* list, std::vector<fs::path>& folders) {
     if (!folder.empty()) folders.emplace_back(folder);
 }
 
-/// The part after the scheme, without leading slashes where the scheme's path is always relative.
+/// The part after the scheme. The leading slashes of `model://` URIs, whose path is always relative, are removed.
 std::string pathOf(const std::string& uri) {
   const auto scheme_end = uri.find("://");
   if (scheme_end == std::string::npos) return uri;

@@ -1,4 +1,4 @@
-// Finds the files that `model://`, `file://` and relative URIs of an SDF file mean.
+// Finds the files to which `model://`, `file://` and relative URIs of an SDF file refer.
 #pragma once
 
 #include <filesystem>

@@ -111,8 +111,8 @@ std::optional<Problem> placeStart(Drawn& drawn, const RayCaster& rays) {
                       "move the start");
 }
 
-/// The other vehicle whose hull would be touched.
-std::optional<Problem> meetsAnother(const Drawn& drawn, const std::vector<PlacedVehicle>& others) {
+/// A problem if the hull would touch that of another vehicle.
+std::optional<Problem> touchesAnother(const Drawn& drawn, const std::vector<PlacedVehicle>& others) {
   const Eigen::Vector3d at = drawn.T_world_map.position_m;
   for (const PlacedVehicle& other : others) {
     const Eigen::Vector3d apart = other.T_world_map.position_m - at;
@@ -189,8 +189,8 @@ bool varies(const Variation& v) {
          (!v.obstacles.empty() && v.obstacle_m > 0.0);
 }
 
-/// The obstacles are drawn with the first vehicle.
-void takeAirAndObstaclesOf(const PlacedVehicle& first, Scenario& scenario) {
+/// The wind and the obstacles are those drawn with the first vehicle.
+void takeWindAndObstaclesOf(const PlacedVehicle& first, Scenario& scenario) {
   scenario.wind = first.scenario.wind;
   scenario.variation.wind_m_s = 0.0;
   scenario.variation.obstacles.clear();
@@ -205,7 +205,7 @@ Drawn drawUntilItWillDo(const WorldModel& world, const PlacedVehicle& nominal,
     const RayCaster rays(drawn.world);
     Reach reach(drawn, rays);
     auto problem = placeStart(drawn, rays);
-    if (!problem) problem = meetsAnother(drawn, others);
+    if (!problem) problem = touchesAnother(drawn, others);
     if (!problem) problem = badPlace(drawn, nominalStart(world, nominal.scenario), rays, reach);
     if (problem) {
       if (!blocked) blocked = problem;
@@ -215,9 +215,9 @@ Drawn drawUntilItWillDo(const WorldModel& world, const PlacedVehicle& nominal,
     if (!problem) return drawn;
     if (!unreachable) unreachable = problem;
   }
-  // Report a start that was free but cut off rather than one that was blocked: it tells more.
+  // A start that was free but cut off from a goal is a better explanation than a blocked start.
   Problem problem = unreachable ? *unreachable : *blocked;
-  if (draws > 1) problem.message += fmt::format("; none of the {} draws of the seed's variation will do", draws);
+  if (draws > 1) problem.message += fmt::format("; none of the {} draws of the seed's variation is suitable", draws);
   throw InputError(problem);
 }
 
@@ -239,7 +239,7 @@ Realization realize(const WorldModel& world, const Scenario& scenario) {
                           streamSeed(scenario.seed, i),
                           {},
                           0};
-    if (i > 0) takeAirAndObstaclesOf(placed.front(), nominal.scenario);
+    if (i > 0) takeWindAndObstaclesOf(placed.front(), nominal.scenario);
     Drawn drawn = drawUntilItWillDo(realization.world, nominal, placed);
     realization.world = std::move(drawn.world);
     placed.push_back(std::move(static_cast<PlacedVehicle&>(drawn)));

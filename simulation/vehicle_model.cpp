@@ -91,7 +91,7 @@ void VehicleModel::push(Time now) {
       quadrotor_.push({push.x_n_s, push.y_n_s, push.z_n_s});
 }
 
-// The truth stays at the contact; only the hull that others meet falls.
+// The truth stays at the contact; only the hull that other vehicles can hit falls.
 void VehicleModel::fall() {
   const double height_m = quadrotor_.state().T_world_body.position_m.z() - 0.5 * placed_.scenario.vehicle.hull_height_m;
   const double room_m = std::max(0.0, height_m - referee_.floor_world_m());

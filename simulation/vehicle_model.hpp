@@ -38,11 +38,11 @@ class VehicleModel {
   const PlacedVehicle& placed() const { return placed_; }
   /// The truth. It stays at the contact after a crash.
   const Truth& truth() const { return truth_; }
-  /// The hull as the rays of other vehicles meet it. A crashed one falls to the floor and stays there.
+  /// The hull that the rays of other vehicles hit. After a crash it falls to the floor and stays there.
   Actor hull() const;
   WalkedAround asWalkedAround() const;
 
-  // One step of the arena, in this order. `around` are the moving cylinders that its rays meet besides the world.
+  // One step of the arena, in this order. `around` are the moving cylinders that its rays may hit besides the world.
 
   /// The sensors' first measurements, before any step.
   void begin(const std::vector<Actor>& around);
@@ -55,7 +55,7 @@ class VehicleModel {
   void measure(common::Time now, const std::vector<Actor>& around, const RayCaster& rays);
 
   void take(common::Time until, std::vector<common::SensorEvent>& events) { sensors_.take(until, events); }
-  /// A setpoint handed over at `now`; it arrives after the latency of the link.
+  /// Sends a setpoint at `now`; it arrives after the latency of the link.
   void apply(common::Time now, const common::Setpoint& setpoint);
   void setCameraConsumer(bool wanted) { sensors_.setCameraConsumer(wanted); }
 

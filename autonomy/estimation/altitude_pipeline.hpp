@@ -1,4 +1,4 @@
-// From the mirror beams of a scan to the height over the take-off floor and the surfaces below.
+// Estimates the height over the take-off floor and the surfaces below from the mirror beams of a scan.
 //
 //   mirror beams --> points below, in the map --> levels --> virtual height --> AltitudeStep
 #pragma once
@@ -16,13 +16,13 @@
 
 namespace swiftlet::autonomy {
 
-/// Vertical distance from the body down to what is below: the median of the mirror beams; none without any.
+/// Vertical distance from the body down to the surface below: the median of the mirror beams; none if there are none.
 std::optional<double> medianBelow_m(const perception::ProjectedScan& scan);
 
-/// What one scan says of the height.
+/// The height information of one scan.
 struct AltitudeStep {
-  std::optional<double> below_m;                         ///< As measured: medianBelow_m of the scan.
-  std::optional<perception::VirtualHeight> measurement;  ///< For the filter; its stamp is that of an earlier scan.
+  std::optional<double> below_m;                         ///< The raw measurement: medianBelow_m of the scan.
+  std::optional<perception::VirtualHeight> measurement;  ///< For the filter, with the stamp of an earlier scan.
   int levels_joined = 0;
 };
 
@@ -31,14 +31,14 @@ class AltitudePipeline {
  public:
   explicit AltitudePipeline(const perception::MultilevelFilter::Config& config);
 
-  /// The vehicle stands on the take-off floor, at the origin of the map, its body `height_m` above it.
+  /// Starts with the vehicle standing at the origin of the map, and its body `height_m` above the take-off floor.
   void initialize(common::Time time, double height_m);
 
-  /// `vertical` is what the filter believes at the scan's stamp; where it knows nothing, the scan is left out.
+  /// `vertical` is the filter's estimate at the scan's stamp; without it the scan does not change the levels.
   AltitudeStep add(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
                    const std::optional<perception::VerticalState>& vertical);
 
-  /// Over what is below right now, table or floor; zero before the first scan that saw it.
+  /// Height over the surface directly below, table or floor; zero before the first scan that saw it.
   double heightAboveGround_m() const { return height_above_ground_m_; }
   /// Never null; the same object until a level changes.
   std::shared_ptr<const common::LevelMap> levels();

@@ -1,9 +1,10 @@
-// Where the flight is in a map it was given: perception::Localizer fed with the flight's scans, its searches as jobs.
+// Localizes the flight in a given map: feeds perception::Localizer with the flight's scans, and runs its searches as
+// jobs.
 //
-//   scan --> the odometry, or kept from it to weigh particles, never both
+//   scan --> used either by the odometry or to weigh particles, never for both
 //       \--> Localizer --> search of the whole map, a job --> common::Localization
 //
-// What is found steers nothing: the vehicle flies by the map it makes itself.
+// The vehicle does not fly by this pose, but by the map that it makes itself.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +24,11 @@
 
 namespace swiftlet::autonomy {
 
-/// A map of the place that was made before.
+/// A map of the place that was made before the flight.
 struct GivenMap {
-  std::shared_ptr<const common::OccupancyGrid> grid;  ///< Usable: see perception::Localizer::whyUnusable.
+  std::shared_ptr<const common::OccupancyGrid> grid;  ///< Must be usable (perception::Localizer::whyUnusable).
   common::Pose2 T_given_grid;                         ///< Places the grid in `given`, the frame of the map's file.
-  std::uint64_t seed = 1;                             ///< Of the particles.
+  std::uint64_t seed = 1;                             ///< Seed of the particles.
 };
 
 struct FlightLocalizerConfig {
@@ -37,25 +38,26 @@ struct FlightLocalizerConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// A scan as the estimator leaves it.
+/// A scan with the estimator's results for it.
 struct LocatedScan {
   const perception::ProjectedScan& scan;
-  common::Pose2 T_odom_body;  ///< At its stamp, by the filter.
-  /// Of the odometry since the scan before, (x_m, y_m, yaw_rad) with the axes of the body.
+  common::Pose2 T_odom_body;  ///< The filter's pose at its stamp.
+  /// Covariance of the odometry since the previous scan, (x_m, y_m, yaw_rad) with the axes of the body.
   Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();
-  bool withheld = false;     ///< From the odometry.
-  bool interrupted = false;  ///< The odometry lost the thread and began anew with this scan.
+  bool withheld = false;     ///< The odometry did not use it.
+  bool interrupted = false;  ///< The odometry was lost and restarts with this scan.
 };
 
-/// One thread; searches go to the runner it is given. Deterministic.
+/// One thread; searches are submitted to `jobs`. Deterministic.
 class FlightLocalizer {
  public:
   FlightLocalizer(const GivenMap& map, const FlightLocalizerConfig& config, common::JobRunner& jobs);
 
-  /// Whether the next scan, expected at that pose, is to be kept from the odometry; see perception::ScanTurns.
+  /// Whether the next scan, predicted at that pose, must be withheld from the odometry; see perception::ScanTurns.
   bool wantsScan(const common::Pose2& T_odom_body);
   void add(const LocatedScan& located, common::Time now);
-  /// A scan that is not looked at, as it was taken too low: what the odometry did meanwhile counts with the next.
+  /// For a scan that is not used because it was taken too low. Its covariance and interruption are added to the next
+  /// scan that is used.
   void passOver(const Eigen::Matrix3d& step_covariance, bool interrupted);
 
   const common::Localization& localization() const { return localization_; }
@@ -72,7 +74,7 @@ class FlightLocalizer {
   struct {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     bool interrupted = false;
-  } since_last_;  ///< Of the odometry, since the last scan that was looked at.
+  } since_last_;  ///< Accumulated from the odometry since the last scan that was used.
   common::Localization localization_;
   std::vector<common::Event> events_;
 };

@@ -69,8 +69,8 @@ OdometryStep LaserPipeline::match(const perception::ProjectedScan& scan, const F
   return step;
 }
 
-/// The scan is the first of a local map. After an interruption nothing says how far the vehicle came since the last
-/// match but the window in which a match was sought.
+/// Starts a local map with this scan. After an interruption the motion since the last match is unknown, so its
+/// covariance is taken from the size of the search window.
 OdometryStep LaserPipeline::restart(const perception::RelativePose& relative, bool interrupted) {
   track_ = {relative.to, {}};
   OdometryStep step;

@@ -1,8 +1,8 @@
-// From a sweep of the laser to what it says of the motion.
+// Computes the motion of the vehicle from sweeps of the laser.
 //
 //   sweep --> project by the filter's poses --> match to the local map --> relative pose since a clone --> OdometryStep
 //
-// It holds no filter: what it needs of it comes in as values, what it gives are values.
+// It does not refer to the filter. Its inputs and outputs are values.
 #pragma once
 
 #include <optional>
@@ -29,10 +29,10 @@ struct LaserPipelineConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// What the filter knows when a scan is to be matched.
+/// The filter's data that the match of a scan needs.
 struct FilterView {
-  std::optional<common::Pose2> T_odom_last;  ///< At LaserPipeline::lastMatch(), from the newest history.
-  bool has_clone = false;                    ///< Of LaserPipeline::clone().
+  std::optional<common::Pose2> T_odom_last;  ///< Pose at LaserPipeline::lastMatch(), from the newest history.
+  bool has_clone = false;                    ///< The filter still has the clone of LaserPipeline::clone().
 };
 
 /// One thread.
@@ -42,8 +42,8 @@ class LaserPipeline {
 
   perception::ProjectedScan project(const common::LaserScan& scan, const perception::PoseAt& pose_at) const;
 
-  /// Matches a scan that was projected by poses of the same history as `filter`, so that a correction since the last
-  /// match does not count as motion.
+  /// Matches a scan. It must have been projected by poses of the same history as `filter`, so that a correction since
+  /// the last match does not count as motion.
   OdometryStep match(const perception::ProjectedScan& scan, const FilterView& filter);
 
   /// The stamp of the last scan that matched; none before the first.
@@ -60,8 +60,8 @@ class LaserPipeline {
   common::LaserConfig laser_;
   perception::LaserOdometry odometry_;
 
-  /// The path of the laser odometry since a clone of the filter's pose. Its references are not cloned one after the
-  /// other: the error of a reference in the local map is that of all that is matched to it, and ends with it.
+  /// The pose of the odometry's reference scan relative to a clone of the filter's pose. A new reference gets no clone
+  /// of its own, because the error of a reference is shared by the scans matched to it and does not outlast it.
   struct Track {
     common::Time clone;
     common::Pose2 T_clone_reference;

@@ -79,7 +79,7 @@ void MapPipeline::take(const perception::SlamResult& result, Time delivered) {
   for (const auto& loop : result.accepted)
     events_.push_back({delivered, common::Severity::kInfo, "slam2d",
                        fmt::format("loop closed between key scans {} and {}", loop.from, loop.to),
-                       fmt::format("quality {:.2f}, {:.3f} m from what was believed", loop.quality, loop.shift_m)});
+                       fmt::format("quality {:.2f}, {:.3f} m from the predicted pose", loop.quality, loop.shift_m)});
 }
 
 }  // namespace swiftlet::autonomy

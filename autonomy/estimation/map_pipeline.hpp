@@ -1,5 +1,5 @@
-// From matched scans to the 2D map, the correction T_map_odom and the key scans: the SLAM method of the profile, its
-// heavy work, where it has any, as a job.
+// Makes the 2D map, the correction T_map_odom and the key scans from matched scans, with the SLAM method of the
+// profile. Heavy work of the method runs as a job.
 //
 //   scan, pose in odom, drift since the last one --> PlanarSlam --> MapStep
 //                                                         \--> loop search and optimization, a job --> late correction
@@ -27,21 +27,21 @@ struct SlamMethodConfig;
 
 namespace swiftlet::autonomy {
 
-/// A scan as the filter leaves it.
+/// A scan with the filter's results for it.
 struct MappedScan {
   const perception::ProjectedScan& scan;
-  common::Pose3 T_odom_body;                                  ///< At its stamp.
+  common::Pose3 T_odom_body;                                  ///< The filter's pose at its stamp.
   Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();  ///< OdometryStep::covariance.
-  bool matched = false;                                       ///< If not, it is not put into the map.
+  bool matched = false;                                       ///< An unmatched scan is not added to the map.
 };
 
 struct MapStep {
   common::Pose2 T_map_body;  ///< At the scan's stamp.
-  /// The same relative to a key scan, for what hangs on the map; none before the first scan in the map.
+  /// The same pose relative to a key scan, for data that must move with the map; none before the first scan in the map.
   std::optional<common::KeyRelativePose> at_key;
 };
 
-/// One thread; its jobs refer to it, so it stays where it is and outlives them.
+/// One thread. Its jobs refer to it, so it cannot be moved and must outlive them.
 class MapPipeline {
  public:
   MapPipeline(const perception::SlamMethodConfig& config, common::Duration job_latency, common::JobRunner& jobs);
@@ -50,9 +50,9 @@ class MapPipeline {
 
   MapStep add(const MappedScan& mapped, common::Time now);
 
-  /// Jumps when the method corrects the odometry: by millimetres with a match, by more with a loop closure.
+  /// It jumps when the method corrects the odometry: by millimetres at a match, by more at a loop closure.
   common::Pose2 T_map_odom() const { return slam_->T_map_odom(); }
-  /// The height over the take-off floor that the map is to be of.
+  /// Sets the height over the take-off floor at which grid() shows the map.
   void setFlightHeight(double height_m) { grid_version_ += slam_->setFlightHeight(height_m) ? 1 : 0; }
 
   /// Never null; the same object until the map changes.
@@ -71,8 +71,8 @@ class MapPipeline {
   common::JobRunner& jobs_;
   std::unique_ptr<perception::PlanarSlam> slam_;  ///< Never null.
 
-  Eigen::Matrix3d covariance_since_map_ = Eigen::Matrix3d::Zero();  ///< Of the odometry, since the last scan added.
-  common::Pose2 T_odom_mapped_;                                     ///< Of the body at that scan.
+  Eigen::Matrix3d covariance_since_map_ = Eigen::Matrix3d::Zero();  ///< Of the odometry since the last added scan.
+  common::Pose2 T_odom_mapped_;                                     ///< T_odom_body at the last added scan.
   std::uint64_t grid_version_ = 0, keys_version_ = 0, published_grid_version_ = 0;
   std::shared_ptr<const common::OccupancyGrid> published_grid_;
   std::shared_ptr<const common::KeyPoses> published_keys_;

@@ -1,4 +1,4 @@
-// What the reactive layer does, which acts at the laser rate below every intent.
+// The status of the reactive layer, which acts at the laser rate below every intent.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 namespace swiftlet::common {
 
 struct AvoidanceStatus {
-  bool braking = false;     ///< It asks for less than the speed that is flown or wanted.
-  bool retreating = false;  ///< It moves the vehicle away from something unmapped or closing.
+  bool braking = false;     ///< The speed limit is below the present or the wanted speed.
+  bool retreating = false;  ///< It moves the vehicle away from an obstacle that is unmapped or approaching.
   std::string reason;
   double nearest_m = 0.0;  ///< From the hull to the nearest return; infinity when there is none.
 };

@@ -1,4 +1,4 @@
-// What the vehicle is doing, as the state machine of the flight has it.
+// The states of the flight state machine.
 #pragma once
 
 namespace swiftlet::common {

@@ -1,4 +1,4 @@
-// Where the known free space ends, and why it was not explored further.
+// Frontiers: where known free space borders on unknown space, and why a frontier was not explored.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct Frontier {
   double length_m = 0.0;
   double score = 0.0;  ///< Higher is better; only for open ones.
   FrontierReason reason = FrontierReason::kOpen;
-  int attempts = 0;         ///< How often it was tried.
+  int attempts = 0;         ///< Number of attempts to explore it.
   std::string explanation;  ///< "unreachable at clearance 0.10 m", for people.
 };
 

@@ -1,4 +1,4 @@
-// The World's layer of the map seen from above: what is known of the place.
+// The World's layer of the map: grid, levels, frontiers, and the pose in a given map.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ struct MapLayer {
   std::shared_ptr<const OccupancyGrid> grid;
   std::shared_ptr<const LevelMap> levels;
   std::shared_ptr<const std::vector<Frontier>> frontiers;
-  double explored_area_m2 = 0.0;             ///< Of known free cells, when Explore looked last; 0: it never did.
+  double explored_area_m2 = 0.0;             ///< Area of known free cells at the last choice of a viewpoint; 0 before.
   std::optional<Localization> localization;  ///< None: the flight was given no map.
 };
 

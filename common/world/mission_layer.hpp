@@ -1,4 +1,4 @@
-// The World's layer of the mission: what is wanted, and how it stands.
+// The World's layer of the mission: its status, the present intent and goal, and the end of the flight.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace swiftlet::common {
 
-/// How a flight ended, in words: "done".
+/// How a flight ended, in words: outcome "done", with the reason.
 struct FlightEnding {
   std::string outcome;
   std::string reason;

@@ -1,4 +1,4 @@
-// How the mission and its tree stand.
+// The status of the mission and of its tree.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct TreeNodeView {
 };
 using TreeView = std::vector<TreeNodeView>;
 
-/// kStopped: landed by the operator before its end.
+/// kStopped: the operator landed the vehicle before the mission's end.
 enum class MissionState { kReady, kRunning, kHeld, kDone, kFailed, kStopped };
 const char* toString(MissionState state);
 bool isOver(MissionState state);

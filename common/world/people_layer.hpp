@@ -1,4 +1,4 @@
-// The World's layer of people: what moves near the vehicle.
+// The World's layer of people: moving objects near the vehicle.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace swiftlet::common {
 
-/// Somebody who was seen just before the snapshot, as a disc.
+/// A person who was seen just before the snapshot, as a disc.
 struct Person {
   Eigen::Vector2d position_map_m = Eigen::Vector2d::Zero();
   double radius_m = 0.0;

@@ -9,15 +9,15 @@
 
 namespace swiftlet::common {
 
-/// The points of a path, oldest first. Copies share the points; safe to read from any thread, also while the recorder
-/// adds points behind its last one.
+/// The points of a path, oldest first. Copies share the points. Safe to read from any thread, even while the recorder
+/// appends points.
 class Trail {
  public:
   Trail() = default;
   explicit Trail(const std::vector<Eigen::Vector2d>& points_map_m);
 
   std::span<const Eigen::Vector2d> points_map_m() const { return {points_map_m_.get(), size_}; }
-  /// Whether it begins with all points of `earlier`. At once when both share their points.
+  /// Whether it begins with all points of `earlier`. Constant time when both share their points.
   bool continues(const Trail& earlier) const;
 
  private:
@@ -30,12 +30,12 @@ class Trail {
 class TrailRecorder {
  public:
   TrailRecorder() = default;
-  TrailRecorder(const TrailRecorder&) = delete;  // Two that add behind the same points would overwrite each other's.
+  TrailRecorder(const TrailRecorder&) = delete;  // Two recorders would append to the same buffer.
   TrailRecorder& operator=(const TrailRecorder&) = delete;
   TrailRecorder(TrailRecorder&&) = default;
   TrailRecorder& operator=(TrailRecorder&&) = default;
 
-  /// Amortized constant time; the trails taken before keep what they have.
+  /// Amortized constant time. Trails that were returned before do not change.
   void add(const Eigen::Vector2d& point_map_m);
   const Trail& trail() const { return trail_; }
 

@@ -1,4 +1,4 @@
-// The World's layer of the vehicle: where it is, was and will be, and what it does. New at every snapshot.
+// The World's layer of the vehicle: its state, trail, plan and last scan. New at every snapshot.
 #pragma once
 
 #include <memory>
@@ -20,15 +20,15 @@ struct LaserPoints {
 };
 
 struct VehicleLayer {
-  std::string name;  ///< Empty while it is the only one.
+  std::string name;  ///< Empty if there is only one vehicle.
   VehicleState state;
   FlightState flight_state = FlightState::kPreparation;
-  double distance_flown_m = 0.0;  ///< By the estimate.
+  double distance_flown_m = 0.0;  ///< Length of the estimated path.
   AvoidanceStatus avoidance;
-  Pose2 home_map;                            ///< The take-off pose; the identity, as that is where `map` begins.
+  Pose2 home_map;                            ///< The take-off pose; the identity, because it defines `map`.
   Trail trail;                               ///< Where it has been, thinned.
-  std::vector<Eigen::Vector2d> plan_map_m;   ///< What is left of the path being flown.
-  std::shared_ptr<const LaserPoints> laser;  ///< May be null: the last projected scan.
+  std::vector<Eigen::Vector2d> plan_map_m;   ///< The rest of the path being flown.
+  std::shared_ptr<const LaserPoints> laser;  ///< The last projected scan; may be null.
 };
 
 }  // namespace swiftlet::common

@@ -143,7 +143,7 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
 double Avoidance::speedLimit(const Point& direction, const Points& points) const {
   double gap_m = kInfinity;
   for (const Point& p : points) gap_m = std::min(gap_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
-  // Outside the field of view only the map's walls are known; a person there is not.
+  // Outside the field of view only mapped obstacles are known, but no people.
   const double most_m_s = isSeen(direction) ? config_.max_speed_m_s : config_.blind_speed_m_s;
   return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed(gap_m)) : most_m_s;
 }
@@ -190,8 +190,8 @@ Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, cons
       {input.velocity_level_m_s, points, threats, last_retreat_level_, input.T_map_level, input.cost_map});
 }
 
-/// The laser does not see all around. A person outside its view is soon forgotten and then appears as a surprise, and
-/// flying backwards the vehicle may meet another one. So it turns.
+/// The turn that brings the nearest threat and the course of the retreat into the laser's field of view. Outside it, a
+/// person is soon lost by the tracker, and an obstacle on the course is not seen.
 double Avoidance::turnToSee(const std::vector<Threat>& threats, const Point& retreat_level_m_s) const {
   constexpr double kStep_rad = std::numbers::pi / 36.0, kDanger = 4.0, kCourse = 2.0, kLeast_m_s = 0.1;
   const Threat* nearest = nullptr;

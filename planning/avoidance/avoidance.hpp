@@ -1,6 +1,6 @@
 // The reactive layer at the laser rate, under every intent (Saeedi, section III-G). Beams are smoothed by a sliding
-// window and put into bins. The speed is limited so that the vehicle can stop. From what is unmapped or closing, the
-// vehicle retreats.
+// window and put into bins. The speed is limited so that the vehicle can stop. The vehicle retreats from obstacles that
+// are unmapped or approaching.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ namespace swiftlet::planning {
 
 struct Threat;
 
-/// One scan and what is known with it. The level frame is the body frame without roll and pitch.
+/// One scan, with the state at its time. The level frame is the body frame without roll and pitch.
 struct AvoidanceInput {
   common::Time stamp;
   std::span<const Eigen::Vector2f> points_level_m;  ///< In order of bearing; points that are not finite are ignored.
@@ -30,7 +30,7 @@ struct AvoidanceInput {
   Eigen::Vector2d wanted_level_m_s = Eigen::Vector2d::Zero();
   common::Pose2 T_map_level;
   const CostMap* cost_map = nullptr;                   ///< May be null: then nothing counts as mapped.
-  std::span<const common::DynamicObstacle> obstacles;  ///< What the map does not explain, usually people.
+  std::span<const common::DynamicObstacle> obstacles;  ///< Objects that the map does not explain, usually people.
 };
 
 struct AvoidanceDecision {
@@ -55,9 +55,9 @@ struct Bin {
 ///           danger: unmapped and near, or on a course to hit          gone for `calm_s`
 ///   calm ------------------------------------------------> retreating -----------------> calm
 ///
-/// A retreat is for situations that standing still does not solve: something unmapped within `retreat_distance_m` of
-/// the hull, or something moving that would come within `contact_gap_m` of the vehicle at rest before `contact_time_s`.
-/// For mapped things that do not move the vehicle only brakes. All distances are from the hull.
+/// The vehicle retreats when stopping is not enough: when an unmapped obstacle is within `retreat_distance_m` of the
+/// hull, or a moving one would come within `contact_gap_m` of the vehicle at rest before `contact_time_s`. For mapped,
+/// static obstacles it only brakes. All distances are from the hull.
 class Avoidance {
  public:
   using Config = AvoidanceConfig;

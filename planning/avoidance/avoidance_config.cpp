@@ -9,11 +9,11 @@ namespace swiftlet::planning {
 void AvoidanceConfig::describe(common::config::Fields& fields) {
   fields("bins", bins, {4, 1000}, "Sectors into which the field of view is divided.");
   fields("field_of_view_deg", field_of_view_deg, {10, 360},
-         "Angle centred on the nose in which the layer counts on the laser.");
-  fields.choice("bin_range", bin_range, {"mean", "robust_minimum"}, "Range that stands for the beams of a bin.");
+         "Angle centred on the nose in which the layer relies on the laser.");
+  fields.choice("bin_range", bin_range, {"mean", "robust_minimum"}, "Range that represents the beams of a bin.");
   fields("smoothing_window", smoothing_window, {1, 101}, "Beams of the sliding mean that `mean` smooths with.");
   fields("max_speed_m_s", max_speed_m_s, {0.05, 20}, "Speed limit where nothing is near.");
-  fields("deceleration_m_s2", deceleration_m_s2, {0.1, 20}, "Braking that can be counted on.");
+  fields("deceleration_m_s2", deceleration_m_s2, {0.1, 20}, "Deceleration that braking is planned with.");
   fields("blind_speed_m_s", blind_speed_m_s, {0.05, 20}, "Speed limit on a course that the laser does not see.");
   fields("latency_s", latency_s, {0, 2}, "Time from a return to its first effect on the speed.");
   fields("margin_m", margin_m, {0, 2}, "Distance between hull and obstacle when the vehicle has stopped.");
@@ -23,7 +23,7 @@ void AvoidanceConfig::describe(common::config::Fields& fields) {
          "Something moving that would arrive within this time makes the vehicle retreat.");
   fields("contact_gap_m", contact_gap_m, {0, 5}, "Passing nearer than this to the hull counts as arriving.");
   fields("closing_speed_m_s", closing_speed_m_s, {0.01, 5},
-         "What closes in more slowly than this does not count as moving.");
+         "An obstacle that approaches more slowly than this does not count as moving.");
   fields("mapped_within_m", mapped_within_m, {0, 1},
          "A return this near to something mapped or unknown is not unmapped.");
   fields("retreat_speed_m_s", retreat_speed_m_s, {0.05, 10}, "Greatest speed of a retreat.");

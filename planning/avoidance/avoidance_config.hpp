@@ -8,8 +8,8 @@
 
 namespace swiftlet::planning {
 
-/// kMean is the paper's; its mean over 5 deg hides a thin pole. kRobustMinimum takes the least of the medians of
-/// three neighbouring beams, which one stray return does not move.
+/// kMean is the rule of Saeedi, but its mean over 5 deg hides a thin pole. kRobustMinimum is the least of the medians
+/// of three neighbouring beams, which a single stray return does not change.
 enum class AvoidanceBinRange { kMean, kRobustMinimum };
 
 struct AvoidanceConfig {

@@ -34,7 +34,7 @@ struct Prospect {
   double mapped_m;   ///< Least distance of the centre to a mapped obstacle.
   double gap_m;      ///< Least gap to any person during the prediction.
   double end_gap_m;  ///< Gap to the nearest person at the end of the prediction.
-  double room_m;     ///< Distance of the centre to the nearest standing thing at the end, capped at the wanted margin.
+  double room_m;     ///< Distance of the centre to the nearest static obstacle at the end, capped at the wanted margin.
 
   double worth_m() const { return gap_m + 0.5 * end_gap_m + room_m; }
 };

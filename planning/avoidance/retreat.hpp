@@ -15,7 +15,7 @@
 
 namespace swiftlet::planning {
 
-/// Something unmapped or moving, in the level frame.
+/// An unmapped or moving obstacle, in the level frame.
 struct Threat {
   Eigen::Vector2d center_m;
   double radius_m;
@@ -23,7 +23,7 @@ struct Threat {
   bool dangerous;
   std::string why;
 
-  /// The gap between the two after that time, if the vehicle has moved by `moved_m`. Negative: they overlap.
+  /// The gap to the hull after `time_s`, if the vehicle has moved by `moved_m`. Negative if they overlap.
   double gapTo(double hull_radius_m, const Eigen::Vector2d& moved_m, double time_s) const {
     return (center_m + velocity_m_s * time_s - moved_m).norm() - radius_m - hull_radius_m;
   }
@@ -34,14 +34,14 @@ struct RetreatInput {
   Eigen::Vector2d velocity_level_m_s;
   std::span<const Eigen::Vector2d> points_level_m;  ///< Returns in order of bearing.
   std::span<const Threat> threats;
-  Eigen::Vector2d last_level_m_s;  ///< The answer at the scan before; zero at first.
+  Eigen::Vector2d last_level_m_s;  ///< The result at the previous scan; zero at first.
   common::Pose2 T_map_level;
   const CostMap* cost_map;  ///< The obstacles that the laser does not see; may be null.
 };
 
 /// The velocity to fly until the next scan, in the level frame; zero if stopping is best. If it is flown with the
-/// `deceleration_m_s2` of the configuration and computed anew at each scan, the vehicle comes no nearer to anything
-/// that stands than `retreat_margin_m` off the hull, or than stopping at once would have brought it. Pure.
+/// `deceleration_m_s2` of the configuration and computed anew at each scan, the hull comes no nearer to a static
+/// obstacle than `retreat_margin_m`, or than it would by stopping at once. A pure function.
 Eigen::Vector2d retreatVelocity(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input);
 
 }  // namespace swiftlet::planning

@@ -1,11 +1,11 @@
-// What is known of a cell of the cost map.
+// The state of a cell of the cost map.
 #pragma once
 
 #include <cstdint>
 
 namespace swiftlet::planning {
 
-/// What a cell is, after unknown slivers between beams were closed.
+/// In the states that CostMap returns, unknown slivers between beams count as free.
 enum class CellState : std::uint8_t { kUnknown, kFree, kOccupied };
 
 }  // namespace swiftlet::planning

@@ -20,8 +20,8 @@
 
 namespace swiftlet::planning {
 
-/// The body that must fit through: the hull is an upright cylinder, the clearance is kept between it and anything
-/// occupied.
+/// The body that must fit through passages: the hull, an upright cylinder, and the clearance between it and occupied
+/// cells.
 struct Footprint {
   double hull_radius_m = 0.275;
   double clearance_m = 0.10;
@@ -30,17 +30,17 @@ struct Footprint {
 
 /// The layers over the grid. Pointers may be null and are read during the call only.
 struct CostLayers {
-  /// Obstacles that are not in the grid: people, places that were tried and failed.
+  /// Obstacles that are not in the grid: people, and places where an attempt failed.
   std::span<const common::Disc> discs;
   const common::LevelMap* levels = nullptr;
-  /// The flown trail, in order, in the `map` frame. Near it half the clearance is enough, so that a door that was flown
-  /// through stays open even if the map of its frame grew by a cell.
+  /// The flown trail, in order, in the `map` frame. Near it half the clearance is enough, so that a door that the
+  /// vehicle has passed stays open even if its frame grows by a cell in the map.
   std::span<const Eigen::Vector2d> flown_map_m = {};
 };
 
-/// A dense copy of the grid's extent plus one tile of margin, in the `map` frame, on the grid's own cells. A value:
-/// copy it to give a job its snapshot. Reading is safe from any thread while the same object is not updated. Distances
-/// run from cell centre to cell centre and are exact up to the reach of the cost.
+/// A dense copy of the grid's extent plus one tile of margin, in the `map` frame, on the grid's own cells. It is a
+/// value: copy it to give a job a snapshot. Reading is safe from any thread while the object is not updated. Distances
+/// are from cell centre to cell centre and are exact up to the reach of the cost.
 class CostMap {
  public:
   struct Config {

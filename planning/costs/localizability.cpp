@@ -28,7 +28,7 @@ Eigen::Vector2d wallNormal(const CostMap& map, int index) {
   const Eigen::Matrix2d covariance = squares / count - sum * sum.transpose() / (static_cast<double>(count) * count);
   const double a = covariance(0, 0), b = covariance(0, 1), d = covariance(1, 1);
   const double root = std::hypot(0.5 * (a - d), b);
-  if (root < 0.2 * (a + d)) return Eigen::Vector2d::Zero();  // As wide as long: a corner or a blob has no normal.
+  if (root < 0.2 * (a + d)) return Eigen::Vector2d::Zero();  // About as wide as long: a corner or a blob has no normal.
   const double along_rad = 0.5 * std::atan2(2.0 * b, a - d);
   return {-std::sin(along_rad), std::cos(along_rad)};
 }

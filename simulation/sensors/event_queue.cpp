@@ -55,7 +55,7 @@ struct MakeNan {
     sample.roll = sample.pitch = sample.yaw_rate = sample.thrust = kNan;
     return sample;
   }
-  /// A picture has no NaN; it goes black.
+  /// A picture cannot hold NaN, so it becomes black.
   SensorEvent operator()(const std::shared_ptr<const common::CameraFrame>& frame) const {
     auto copy = std::make_shared<common::CameraFrame>(*frame);
     std::fill(copy->image.rgb.begin(), copy->image.rgb.end(), std::uint8_t{0});

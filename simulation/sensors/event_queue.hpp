@@ -20,7 +20,8 @@ class EventQueue {
   /// Sends measurement number `frame` of a sensor; its stamp `measured` is set.
   void send(Sensor sensor, std::uint64_t frame, common::Time ready, common::SensorEvent event);
 
-  /// Appends what has arrived by `until`, by time of arrival, then in the order of Sensor, then by frame.
+  /// Removes and appends the measurements that have arrived by `until`, ordered by arrival, then by Sensor, then by
+  /// frame.
   void take(common::Time until, std::vector<common::SensorEvent>& events);
 
  private:

@@ -12,7 +12,7 @@ using common::kRadPerDeg;
 using common::RandomStream;
 using Eigen::Vector3d;
 
-constexpr double kGreatestFelt_m_s2 = 157.0;  // 16 g.
+constexpr double kGreatestSpecificForce_m_s2 = 157.0;  // 16 g.
 
 Vector3d gaussians(RandomStream& random, double standard_deviation) {
   const double x = random.gaussian(standard_deviation), y = random.gaussian(standard_deviation);
@@ -31,9 +31,9 @@ InertialUnit::InertialUnit(const ImuConfig& config, std::uint64_t seed) : config
 }
 
 void InertialUnit::feel(const QuadrotorState& state) {
-  felt_sum_m_s2_ += state.specific_force_body_m_s2;
+  specific_force_sum_m_s2_ += state.specific_force_body_m_s2;
   rate_sum_rad_s_ += state.angular_velocity_body_rad_s;
-  ++felt_count_;
+  ++sum_count_;
 }
 
 Eigen::Quaterniond InertialUnit::withErrors(const QuadrotorState& state, const Vector3d& noise_rad) const {
@@ -57,7 +57,7 @@ AttitudeMeasurement InertialUnit::attitude(std::uint64_t tick, const QuadrotorSt
   accel_bias_m_s2_ += gaussians(random, config_.accel_bias_walk_m_s2 * root_step);
   yaw_rad_ += step_s * yaw_drift_rad_s_ + random.gaussian(config_.yaw_walk_deg * kRadPerDeg * root_step);
 
-  // During forward acceleration (nose down) the accelerometers feel less tilt than there is.
+  // During forward acceleration (nose down) the accelerometers measure less tilt than there is.
   const Vector3d acceleration_world = (state.velocity_world_m_s - last_velocity_world_m_s_) / step_s;
   last_velocity_world_m_s_ = state.velocity_world_m_s;
   const double yaw = common::yawOf(state.T_world_body.rotation);
@@ -74,18 +74,18 @@ AttitudeMeasurement InertialUnit::attitude(std::uint64_t tick, const QuadrotorSt
 
 common::ImuSample InertialUnit::sample(std::uint64_t frame, const QuadrotorState& state) {
   RandomStream random(seed_, "imu", frame);
-  const double share = felt_count_ > 0 ? 1.0 / felt_count_ : 0.0;
+  const double share = sum_count_ > 0 ? 1.0 / sum_count_ : 0.0;
   common::ImuSample sample;
   sample.angular_velocity_body_rad_s =
       share * rate_sum_rad_s_ + gyro_bias_rad_s_ + gaussians(random, config_.gyro_noise_rad_s);
   sample.specific_force_body_m_s2 =
-      (share * felt_sum_m_s2_ + accel_bias_m_s2_ + gaussians(random, config_.accel_noise_m_s2))
-          .cwiseMax(-kGreatestFelt_m_s2)
-          .cwiseMin(kGreatestFelt_m_s2);
+      (share * specific_force_sum_m_s2_ + accel_bias_m_s2_ + gaussians(random, config_.accel_noise_m_s2))
+          .cwiseMax(-kGreatestSpecificForce_m_s2)
+          .cwiseMin(kGreatestSpecificForce_m_s2);
   sample.rotation_ahrs_body = withErrors(state, gaussians(random, config_.tilt_noise_deg * kRadPerDeg));
-  felt_sum_m_s2_.setZero();
+  specific_force_sum_m_s2_.setZero();
   rate_sum_rad_s_.setZero();
-  felt_count_ = 0;
+  sum_count_ = 0;
   return sample;
 }
 

@@ -24,7 +24,7 @@ class InertialUnit {
  public:
   InertialUnit(const ImuConfig& config, std::uint64_t seed);
 
-  /// Call after each physics step: averages what is felt, as a sensor that integrates between its samples.
+  /// Call it after each physics step. It averages the measurements between two samples.
   void feel(const QuadrotorState& state);
 
   /// The AHRS at tick number `tick` of the attitude loop; advances its errors by step_s.
@@ -45,9 +45,9 @@ class InertialUnit {
   double yaw_rad_;
   double yaw_drift_rad_s_;
   Eigen::Vector3d last_velocity_world_m_s_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d felt_sum_m_s2_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d specific_force_sum_m_s2_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate_sum_rad_s_ = Eigen::Vector3d::Zero();
-  int felt_count_ = 0;
+  int sum_count_ = 0;
 };
 
 }  // namespace swiftlet::simulation

@@ -63,7 +63,7 @@ void LaserScanner::sweepRays(Time start, const std::vector<Moment>& track, const
 void LaserScanner::addNoise(std::uint64_t frame, std::vector<float>& ranges_m) const {
   common::RandomStream random(seed_, "laser", frame);
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    // Drawn for every beam alike, so that what one beam meets does not shift the noise of the next.
+    // Drawn for every beam, whatever it hits, so that the hit of one beam does not change the noise of the next.
     const bool dropped = random.chance(config_.dropout_rate);
     const double noise_m = random.gaussian(config_.range_noise_m);
     const double true_m = distances_m_[i];

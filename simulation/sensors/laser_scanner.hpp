@@ -1,5 +1,5 @@
-// The laser: beams swept in time along the vehicle's path, some bent down by the mirror, with range noise, millimetre
-// steps, dropouts, and a shortest and a longest range.
+// The laser: beams swept in time along the vehicle's path, some deflected down by the mirror, with range noise,
+// millimetre steps, dropouts, and a shortest and a longest range.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,9 @@ class LaserScanner {
 
   common::Duration sweep() const { return time_increment_ * (config_.beams - 1); }
 
-  /// Scan number `frame`, started at `start`. `track` is ordered in time and covers the whole sweep. Of the stamps,
-  /// `measured` is set. A beam without a return, or nearer than range_min_m, reads 0 (the device's error code); one
-  /// that meets nothing within range_max_m reads infinity.
+  /// Scan number `frame`, started at `start`. `track` is ordered in time and covers the whole sweep. Only the stamp
+  /// `measured` is set. A beam that drops out, or hits nearer than range_min_m, reads 0 (the device's error code). A
+  /// beam that hits nothing within range_max_m reads infinity.
   common::LaserScan scan(std::uint64_t frame, common::Time start, const std::vector<Moment>& track,
                          const RayCaster& rays);
 

@@ -15,8 +15,8 @@ class Link {
   /// `name` names the random stream.
   Link(const LinkConfig& config, std::uint64_t seed, std::string name);
 
-  /// The arrival time of measurement number `frame`, ready at `ready`; none if it is lost. Call in the order of frames;
-  /// leaving some out changes nothing for the others.
+  /// The arrival time of measurement number `frame`, ready at `ready`; none if it is lost. Call it in the order of
+  /// frames. Leaving out a frame does not change the random draws of the others.
   std::optional<common::Time> arrival(std::uint64_t frame, common::Time ready);
 
  private:

@@ -25,10 +25,10 @@ class SensorSuite {
   /// What the autopilot measures at its tick number `tick`.
   AttitudeMeasurement attitude(std::uint64_t tick, const QuadrotorState& state, const Battery& battery, double step_s);
 
-  /// The state at time 0, before the first step.
+  /// Call it at time 0, before the first step.
   void begin(const QuadrotorState& state, const std::vector<Actor>& actors);
 
-  /// After each physics step: measures what is due.
+  /// Call it after each physics step. It makes the measurements that are due.
   void step(common::Time now, const QuadrotorState& state, const Battery& battery, const std::vector<Actor>& actors,
             const RayCaster& rays);
 
@@ -39,7 +39,7 @@ class SensorSuite {
   const PilotConfig* sticks(common::Time now) const;
 
  private:
-  /// Counts the periods of a sensor; true once at or after each period.
+  /// Counts the periods of a sensor; frame number `frame` is due at next().
   struct Clock {
     explicit Clock(double rate_hz) : period(common::Duration::fromSeconds(1.0 / rate_hz)) {}
     common::Duration period;

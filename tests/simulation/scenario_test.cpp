@@ -72,7 +72,7 @@ TEST(Scenario, SaysWhatIsWrongWithItsVehicles) {
   EXPECT_THAT(problem("vehicles: [{start: {x_m: 1.0}}]\n"), HasSubstr("name: is not 1 to 40 letters"));
   EXPECT_THAT(problem("vehicles: [{name: a/b}]\n"), HasSubstr("name: is not 1 to 40 letters"));
   EXPECT_THAT(problem("start: {from_world: false}\nvehicles: [{name: alpha}]\n"),
-              HasSubstr("start: is of one vehicle; where `vehicles` lists several it stands there"));
+              HasSubstr("start: is for a single vehicle; with `vehicles`, give it for each vehicle there"));
   EXPECT_THAT(problem("battery_remaining: 0.5\nvehicles: [{name: alpha}]\n"), HasSubstr("battery_remaining"));
   EXPECT_THAT(problem("vehicles: [{name: alpha}]\nwalkers: [{mode: follow, vehicle: alpa}]\n"),
               HasSubstr("did you mean `alpha`?"));
