@@ -13,7 +13,7 @@ using common::KeyPoses;
 using common::Pose2;
 using common::Time;
 
-TEST(KeyPoses, WhatHangsOnAKeyScanMovesWithIt) {
+TEST(KeyPoses, APoseRelativeToAKeyScanMovesWithIt) {
   const common::KeyRelativePose seen{1, common::lifted(Pose2{0.5, 0.0, 0.0}, 1.2)};
   const KeyPoses before{1, {{Time{}, {0, 0, 0}}, {Time{}, {10, 0, 0}}}};
   EXPECT_TRUE(before.inMap(seen).position_m.isApprox(Eigen::Vector3d(10.5, 0, 1.2)));
@@ -22,7 +22,7 @@ TEST(KeyPoses, WhatHangsOnAKeyScanMovesWithIt) {
 }
 
 /// Once around a corridor with an odometry that bends and stretches.
-TEST(MapPipeline, ALoopClosureCorrectsWhatWasSeenBefore) {
+TEST(MapPipeline, ALoopClosureCorrectsEarlierScans) {
   const test::Ring ring;
   const auto jobs = common::makeLockstepJobs(0);
   MapPipeline map({}, common::Duration::fromSeconds(0.4), *jobs);
@@ -80,7 +80,7 @@ TEST(MapPipeline, AScanThatDidNotMatchIsPlacedButNotDrawn) {
   }
 }
 
-TEST(MapPipeline, BeforeTheFirstScanThereIsNoKeyScan) {
+TEST(MapPipeline, ThereIsNoKeyScanBeforeTheFirstScan) {
   const auto jobs = common::makeLockstepJobs(0);
   MapPipeline map({}, common::Duration::fromSeconds(0.4), *jobs);
   EXPECT_TRUE(map.keyPoses()->keys.empty());

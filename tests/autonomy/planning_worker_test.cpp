@@ -83,7 +83,7 @@ TEST_F(Worker, TheChosenPlannerFindsThePathToTheViewpoint) {
   }
 }
 
-TEST_F(Worker, AGoalJustTooCloseToTheWallIsReachedWithinItsTolerance) {
+TEST_F(Worker, ReachesAGoalTooCloseToTheWallWithinItsTolerance) {
   const Eigen::Vector2d goal(6.0, 0.38);  // The wall ends at 0.05 m; hull and clearance are 0.375 m.
   const auto strict = ask(GoalRequest{goal, 0.0});
   ASSERT_TRUE(strict.path && !*strict.path);
@@ -94,7 +94,7 @@ TEST_F(Worker, AGoalJustTooCloseToTheWallIsReachedWithinItsTolerance) {
   EXPECT_FALSE(ask(GoalRequest{{6.0, 0.1}, 0.15}).path->has_value());
 }
 
-TEST_F(Worker, ADoorThatWasFlownThroughDoesNotCloseBehindTheVehicle) {
+TEST_F(Worker, AFlownDoorStaysPassableWhenItsFrameGrowsSlightly) {
   build(16);
   for (; pose.x_m < 6.0; pose.x_m += 0.2) {
     const auto answer = ask(GoalRequest{{6.0, 2.0}, 0.05});
@@ -107,13 +107,13 @@ TEST_F(Worker, ADoorThatWasFlownThroughDoesNotCloseBehindTheVehicle) {
   EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value()) << "who has not flown there knows no better";
 }
 
-TEST_F(Worker, WhatStandsInTheFlownWayBlocksIt) {
+TEST_F(Worker, ANewObstacleBlocksAFlownPath) {
   for (; pose.x_m < 6.0; pose.x_m += 0.2) (void)ask(GoalRequest{{6.0, 2.0}, 0.05});
   build(11);  // An obstacle was added: less than half the clearance is left.
   EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value());
 }
 
-TEST_F(Worker, MakesRoomForWhoStandsInTheDoor) {
+TEST_F(Worker, MakesRoomForAPersonInTheDoor) {
   build(20);
   const Eigen::Vector2d door(4.0, 2.0);
   pose.x_m = 3.0;
@@ -123,7 +123,7 @@ TEST_F(Worker, MakesRoomForWhoStandsInTheDoor) {
   EXPECT_GT((answer.detour->path.points_map_m.back() - door).norm(), 1.5);
 }
 
-TEST_F(Worker, GoesToSeeWhetherTheDoorIsStillShut) {
+TEST_F(Worker, FliesToSeeWhetherTheDoorIsStillBlocked) {
   build(0);
   for (int y = 30; y <= 50; ++y) grid->set({80, y}, -common::occupancy::kMaxSteps);
   grid->set({80, 40}, common::occupancy::kMaxSteps);  // A door of 1 m at y = 2 m with something in its middle.
@@ -134,7 +134,7 @@ TEST_F(Worker, GoesToSeeWhetherTheDoorIsStillShut) {
   EXPECT_LT((answer.detour->path.points_map_m.back() - Eigen::Vector2d(4.0, 2.0)).norm(), 0.8);
 }
 
-TEST_F(Worker, ComesAsNearToABlockedGoalAsItMayAndThenMakesRoom) {
+TEST_F(Worker, ApproachesABlockedGoalAndThenMakesRoom) {
   const Eigen::Vector2d goal(6.0, 2.0);
   for (int y = 35; y <= 45; ++y)
     for (int x = 115; x <= 125; ++x) grid->set({x, y}, common::occupancy::kMaxSteps);

@@ -37,7 +37,7 @@ Pose3 drawPose(double size_m) {
   return {common::expSO3(rotation), {draw(-size_m, size_m), draw(-size_m, size_m), draw(-size_m, size_m)}};
 }
 
-TEST(Statistics, ByHand) {
+TEST(Statistics, EqualTheResultByHand) {
   const Statistics s = statisticsOf({3, 1, 2, 4});
   EXPECT_EQ(s.count, 4u);
   EXPECT_DOUBLE_EQ(s.mean, 2.5);
@@ -51,7 +51,7 @@ TEST(Statistics, ByHand) {
   EXPECT_DOUBLE_EQ(quantile({7}, 0.3), 7);
 }
 
-TEST(Associate, NearestInTimeAndEachOnce) {
+TEST(Associate, PairsTheNearestStampsAndUsesEachPoseOnce) {
   const auto trajectory = [](std::initializer_list<int> stamps_ms) {
     Trajectory poses;
     for (const int ms : stamps_ms) poses.push_back({Time::fromSeconds(ms * 1e-3), at(ms, 0, 0)});
@@ -69,7 +69,7 @@ TEST(Associate, NearestInTimeAndEachOnce) {
   EXPECT_TRUE(associate(trajectory({1}), {}).empty());
 }
 
-TEST(AbsoluteError, ByHandWithoutAlignment) {
+TEST(AbsoluteError, EqualsTheResultByHandWithoutAlignment) {
   const auto error = absoluteTrajectoryError(
       pairsOf({at(0, 0, 0), at(1, 0.3, 0.4), at(2, 0, 0, 0.2)}, {at(0, 0, 0), at(1, 0, 0), at(2, 0, 0)}),
       Alignment::kNone);
@@ -79,7 +79,7 @@ TEST(AbsoluteError, ByHandWithoutAlignment) {
   EXPECT_NEAR(error->rotation_rad.max, 0.2, 1e-12);
 }
 
-TEST(AbsoluteError, FirstPoseTurnsTheRestAlong) {
+TEST(AbsoluteError, AlignmentByTheFirstPoseRotatesTheWholeTrajectory) {
   // The estimate starts with a heading along y, so its whole path is along y.
   const auto error = absoluteTrajectoryError(pairsOf({at(5, 5, 1, M_PI_2), at(5, 6, 1, M_PI_2), at(5, 7.1, 1, M_PI_2)},
                                                      {at(0, 0, 0), at(1, 0, 0), at(2, 0, 0)}),
@@ -90,7 +90,7 @@ TEST(AbsoluteError, FirstPoseTurnsTheRestAlong) {
   EXPECT_NEAR(error->rotation_rad.max, 0.0, 1e-7);
 }
 
-TEST(AbsoluteError, PlanarLeavesRollAndPitchAlone) {
+TEST(AbsoluteError, PlanarAlignmentDoesNotChangeRollAndPitch) {
   // A square with a small tilt: a turn about z cannot correct it, a turn in space can.
   const Pose3 tilt{common::quaternionFrom({0.1, 0, 0}), {1, 2, 3}};
   std::vector<Pose3> truth = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0)}, estimate;
@@ -163,7 +163,7 @@ RC_GTEST_PROP(AbsoluteError, EqualsHornsSolution, ()) {
   RC_ASSERT(std::abs(error->translation_m.rmse - rmseByHorn(pairs)) < 1e-9);
 }
 
-TEST(AbsoluteError, NoneWhereTheRotationIsNotDetermined) {
+TEST(AbsoluteError, HasNoValueWhenTheRotationIsNotDetermined) {
   const std::vector<Pose3> point(3, at(1, 1, 1)), line = {at(0, 0, 0), at(1, 0, 0), at(2, 0, 0)};
   EXPECT_FALSE(align({}, Alignment::kNone));
   EXPECT_FALSE(align(pairsOf(point, point), Alignment::kPlanar));
@@ -171,7 +171,7 @@ TEST(AbsoluteError, NoneWhereTheRotationIsNotDetermined) {
   EXPECT_TRUE(align(pairsOf(line, line), Alignment::kPlanar));
 }
 
-TEST(RelativeError, DriftByHand) {
+TEST(RelativeError, EqualsTheDriftByHand) {
   // Each metre is estimated as 1.01 m, and each step has an additional turn of 0.02 rad.
   std::vector<Pose3> truth, estimate;
   Pose3 pose;
@@ -204,7 +204,7 @@ RC_GTEST_PROP(RelativeError, DoesNotDependOnTheFrame, ()) {
   RC_ASSERT(std::abs(a.rotation_rad.rmse - b.rotation_rad.rmse) < 1e-6);
 }
 
-TEST(RelativeError, RoundingMakesNoStretchLonger) {
+TEST(RelativeError, RoundingOfStampsDropsNoInterval) {
   // Ten poses a tenth of a second apart have seven stretches of three tenths, although 0.7 - 0.4 is less than 0.3.
   std::vector<PosePair> pairs;
   for (int i = 0; i < 10; ++i)
@@ -215,7 +215,7 @@ TEST(RelativeError, RoundingMakesNoStretchLonger) {
   EXPECT_NEAR(error.translation_m.mean, 2 * 0.5 / 7, 1e-12) << "it begins one stretch and ends one";
 }
 
-RC_GTEST_PROP(AbsoluteError, DoesNotDependOnTheFrameOnceAligned, ()) {
+RC_GTEST_PROP(AbsoluteError, DoesNotDependOnTheFrameAfterAlignment, ()) {
   const Pose3 T = drawPose(10), T_planar = at(draw(-9, 9), draw(-9, 9), draw(-2, 2), draw(-3.1, 3.1));
   std::vector<Pose3> estimate, moved, moved_planar, truth;
   for (int i = 0; i < 8; ++i) {
@@ -234,7 +234,7 @@ RC_GTEST_PROP(AbsoluteError, DoesNotDependOnTheFrameOnceAligned, ()) {
   RC_ASSERT(std::abs(spatial->rotation_rad.rmse - spatial_moved->rotation_rad.rmse) < 1e-5);
 }
 
-TEST(Scale, ByHand) {
+TEST(Scale, EqualsTheResultByHand) {
   // A square half as large, elsewhere and turned: twice fits. Its points are 1 m from its middle, those of the truth 2
   // m.
   std::vector<Pose3> truth = {at(2, 0, 0), at(0, 2, 0), at(-2, 0, 0), at(0, -2, 0)}, estimate;
@@ -251,7 +251,7 @@ TEST(Scale, ByHand) {
   EXPECT_FALSE(bestScale(pairsOf(up, down), Alignment::kPlanar)) << "only a negative one would fit";
 }
 
-RC_GTEST_PROP(Scale, NoOtherFitsBetter, ()) {
+RC_GTEST_PROP(Scale, MinimizesTheError, ()) {
   std::vector<Pose3> estimate, truth;
   for (int i = 0; i < 12; ++i) {
     estimate.push_back(drawPose(5));
@@ -284,7 +284,7 @@ class OnTheBenchmarksOwnFiles : public testing::Test {
   std::vector<PosePair> pairs_;
 };
 
-TEST_F(OnTheBenchmarksOwnFiles, AbsoluteError) {
+TEST_F(OnTheBenchmarksOwnFiles, AbsoluteErrorEqualsAnIndependentProgram) {
   const auto aligned = absoluteTrajectoryError(pairs_, Alignment::kSpatial);
   const Statistics& error = aligned->translation_m;
   EXPECT_NEAR(error.rmse, 0.013470089, 1e-8);
@@ -299,14 +299,14 @@ TEST_F(OnTheBenchmarksOwnFiles, AbsoluteError) {
   EXPECT_NEAR(absoluteTrajectoryError(pairs_, Alignment::kNone)->translation_m.rmse, 0.020079418, 1e-8);
 }
 
-TEST_F(OnTheBenchmarksOwnFiles, ScaledAbsoluteError) {
+TEST_F(OnTheBenchmarksOwnFiles, ScaledAbsoluteErrorEqualsAnIndependentProgram) {
   const auto scale = bestScale(pairs_, Alignment::kSpatial);
   EXPECT_NEAR(*scale, 1.008001390, 1e-8);
   EXPECT_NEAR(absoluteTrajectoryError(scaled(pairs_, *scale), Alignment::kSpatial)->translation_m.rmse, 0.013389385,
               1e-8);
 }
 
-TEST_F(OnTheBenchmarksOwnFiles, RelativeError) {
+TEST_F(OnTheBenchmarksOwnFiles, RelativeErrorEqualsAnIndependentProgram) {
   struct Expected {
     Stretch stretch;
     std::size_t count;

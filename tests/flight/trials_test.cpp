@@ -32,7 +32,7 @@ class TrialSeeds : public test_support::Scratch {
   }
 };
 
-TEST_F(TrialSeeds, CountFromTheScenariosUnlessTheCommandLineSaysOtherwise) {
+TEST_F(TrialSeeds, StartAtTheSeedOfTheScenarioOrOfTheCommandLine) {
   EXPECT_EQ(seedsOf("", {}), (std::vector<int>{1, 2}));
   EXPECT_EQ(seedsOf("  seed: 5\n", {}), (std::vector<int>{5, 6}));
   EXPECT_EQ(seedsOf("  seed: 5\n", {"--seed", "8"}), (std::vector<int>{8, 9}));

@@ -96,14 +96,14 @@ void expectMethods(const Flown& flown, bool graph, bool particles, bool scan_to_
   EXPECT_EQ((counts.graph_matches > 0) + (counts.particle_matches > 0) + (counts.map_matches > 0), 1);
 }
 
-TEST(ShippedProfile, SwiftletFliesByTheGraph) {
+TEST(ShippedProfile, SwiftletFliesWithGraphSlam) {
   const Flown flown = fly("swiftlet");
   expectGood(flown);
   expectMatchers(flown, true, false, false);
   expectMethods(flown, true, false, false);
 }
 
-TEST(ShippedProfile, ParticlesFlyAndTheSameAgain) {
+TEST(ShippedProfile, ParticlesFlyRepeatably) {
   const Flown flown = fly("swiftlet_particles");
   expectGood(flown);
   expectMatchers(flown, true, false, false);
@@ -112,7 +112,7 @@ TEST(ShippedProfile, ParticlesFlyAndTheSameAgain) {
   EXPECT_EQ(difference(flown.witness, fly("swiftlet_particles").witness), "");
 }
 
-TEST(ShippedProfile, ScanToMapFliesAndTheSameAgain) {
+TEST(ShippedProfile, ScanToMapFliesRepeatably) {
   const Flown flown = fly("swiftlet_scan_to_map");
   expectGood(flown);
   expectMatchers(flown, true, false, false);

@@ -52,7 +52,7 @@ double worst(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
   return distance;
 }
 
-TEST(PoseGraph2D, JacobiansAreThoseOfTheError) {
+TEST(PoseGraph2D, JacobiansAreTheNumericDerivativesOfTheError) {
   common::RandomStream random(1, "jacobians");
   constexpr double kStep = 1e-6;
   for (int trial = 0; trial < 100; ++trial) {
@@ -73,7 +73,7 @@ TEST(PoseGraph2D, JacobiansAreThoseOfTheError) {
   }
 }
 
-TEST(PoseGraph2D, ClosingTheRingTakesTheDriftOut) {
+TEST(PoseGraph2D, ClosingTheRingRemovesTheDrift) {
   std::vector<Pose2> truth;
   const PoseGraph2D graph = ring(100, 3, truth);
   const PoseGraph2DSolution solution = optimize(graph, {});
@@ -99,7 +99,7 @@ TEST(PoseGraph2D, AFalseClosureDoesNotBendTheMap) {
   EXPECT_GT(worst(optimize(graph, {}).poses, truth), 1.0);
 }
 
-TEST(PoseGraph2D, TheSameGraphGivesTheSameBits) {
+TEST(PoseGraph2D, TheSameGraphGivesIdenticalResults) {
   std::vector<Pose2> truth;
   const PoseGraph2D graph = ring(200, 5, truth);
   const auto a = optimize(graph, {}), b = optimize(graph, {});
@@ -110,7 +110,7 @@ TEST(PoseGraph2D, TheSameGraphGivesTheSameBits) {
   }
 }
 
-TEST(PoseGraph2D, PosesThatNothingTiesStay) {
+TEST(PoseGraph2D, PosesWithoutEdgesStay) {
   PoseGraph2D graph;
   graph.poses = {{0, 0, 0}, {1.2, 0, 0}, {7, 8, 1}};
   graph.edges.push_back({0, 1, {1, 0, 0}, Eigen::Matrix3d::Identity(), false});
@@ -120,7 +120,7 @@ TEST(PoseGraph2D, PosesThatNothingTiesStay) {
   EXPECT_TRUE(optimize({}, {}).poses.empty());
 }
 
-TEST(PoseGraph2D, StopsAfterItsIterations) {
+TEST(PoseGraph2D, StopsAfterTheIterationLimit) {
   std::vector<Pose2> truth;
   PoseGraphConfig config;
   config.max_iterations = 1;

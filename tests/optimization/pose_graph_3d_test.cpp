@@ -73,14 +73,14 @@ bool nearTurn(const Pose3& from, const Pose3& to, const Pose3& seen) {
   return edgeError(from, to, seen).error.tail<3>().norm() > 0.99;
 }
 
-RC_GTEST_PROP(PoseGraph3D, TheErrorIsThatOfG2o, ()) {
+RC_GTEST_PROP(PoseGraph3D, TheErrorEqualsTheDefinitionOfG2o, ()) {
   RandomStream random = anyStream();
   const Pose3 from = randomPose3(random, 2.0), to = randomPose3(random, 2.0), seen = randomPose3(random, 2.0);
   RC_PRE(!nearTurn(from, to, seen));
   RC_ASSERT((edgeError(from, to, seen).error - errorByMatrices(from, to, seen)).norm() < 1e-9);
 }
 
-RC_GTEST_PROP(PoseGraph3D, JacobiansAreThoseOfTheError, ()) {
+RC_GTEST_PROP(PoseGraph3D, JacobiansAreTheNumericDerivativesOfTheError, ()) {
   RandomStream random = anyStream();
   const Pose3 from = randomPose3(random, 2.0), to = randomPose3(random, 2.0), seen = randomPose3(random, 2.0);
   RC_PRE(!nearTurn(from, to, seen));
@@ -91,7 +91,7 @@ RC_GTEST_PROP(PoseGraph3D, JacobiansAreThoseOfTheError, ()) {
   RC_ASSERT((e.jacobian_to * numbersByStep(to) - by_to).norm() < 1e-6 * (1.0 + by_to.norm()));
 }
 
-RC_GTEST_PROP(PoseGraph3D, PosesAreAGroup, ()) {
+RC_GTEST_PROP(PoseGraph3D, PosesFormAGroup, ()) {
   RandomStream random = anyStream();
   const auto near = [](const Pose3& a, const Pose3& b) {
     return (a.position_m - b.position_m).norm() < 1e-9 && a.rotation.angularDistance(b.rotation) < 1e-7;
@@ -135,7 +135,7 @@ std::vector<Pose3> denseGaussNewton(const PoseGraph3D& graph) {
   return poses;
 }
 
-TEST(PoseGraph3D, TheOptimumIsThatOfDenseGaussNewton) {
+TEST(PoseGraph3D, TheOptimumEqualsThatOfDenseGaussNewton) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream random(seed, "dense");
     const PoseGraph3D graph = noisyGraph<Graph3D>(8, 0.05, 0.05, random);
@@ -199,7 +199,7 @@ TEST(PoseGraph3D, AFalseClosureDoesNotBendTheMap) {
   EXPECT_GT(worst(optimize(graph, {}).poses, truth), 1.0) << "without the kernel it does";
 }
 
-TEST(PoseGraph3D, TheSameGraphGivesTheSameBits) {
+TEST(PoseGraph3D, TheSameGraphGivesIdenticalResults) {
   RandomStream random(5, "ring");
   std::vector<Pose3> truth;
   const PoseGraph3D graph = ring(100, random, truth);
@@ -210,7 +210,7 @@ TEST(PoseGraph3D, TheSameGraphGivesTheSameBits) {
   }
 }
 
-TEST(PoseGraph3D, FixedPosesStayAndSoDoPosesThatNothingTies) {
+TEST(PoseGraph3D, FixedPosesAndPosesWithoutEdgesStay) {
   RandomStream random(6, "fixed");
   PoseGraph3D graph = noisyGraph<Graph3D>(6, 0.05, 0.05, random);
   graph.fixed = {2, 4};
@@ -224,7 +224,7 @@ TEST(PoseGraph3D, FixedPosesStayAndSoDoPosesThatNothingTies) {
   EXPECT_TRUE(optimize(PoseGraph3D{}, {}).poses.empty());
 }
 
-TEST(PoseGraph3D, StopsAfterItsIterations) {
+TEST(PoseGraph3D, StopsAfterTheIterationLimit) {
   RandomStream random(7, "stop");
   PoseGraphConfig config;
   config.max_iterations = 1;

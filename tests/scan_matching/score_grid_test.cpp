@@ -31,7 +31,7 @@ Pose2 randomStep(common::RandomStream& random) {
   return {random.uniform(-0.06, 0.06), random.uniform(-0.06, 0.06), random.uniform(-0.01, 0.01)};
 }
 
-TEST(ScoreGrid, EachScoreIsTheSumOfItsLookUps) {
+TEST(ScoreGrid, EachScoreEqualsTheSumOfItsLookUps) {
   common::RandomStream random(6, "grid");
   LikelihoodField field(0.01, 0.02);
   const ProjectedScan reference = scanAt(test::flat(), {0.2, 0.1, 0.3}, 0);
@@ -65,7 +65,7 @@ TEST(ScoreGrid, EachScoreIsTheSumOfItsLookUps) {
   }
 }
 
-TEST(ScoreGrid, TheMatchIsThatOfTheExhaustiveSearchWithAllInstructions) {
+TEST(ScoreGrid, TheMatchEqualsTheExhaustiveSearchWithEveryInstructionSet) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(3, "every_pose");
   for (std::uint64_t trial = 0; trial < 10; ++trial) {
@@ -93,7 +93,7 @@ TEST(ScoreGrid, TheMatchIsThatOfTheExhaustiveSearchWithAllInstructions) {
   }
 }
 
-TEST(ScoreGrid, TheMatchIsAccurateAndSaysSo) {
+TEST(ScoreGrid, TheMatchIsAccurateWithAMatchingCovariance) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(5, "accuracy");
   constexpr int kTrials = 150;
@@ -113,7 +113,7 @@ TEST(ScoreGrid, TheMatchIsAccurateAndSaysSo) {
   EXPECT_LT(nees, 4.5);
 }
 
-TEST(ScoreGrid, TheScoresAloneTellWhichWayACorridorHides) {
+TEST(ScoreGrid, TheScoresShowTheUnobservableDirectionOfACorridor) {
   CorrelativeMatcherConfig config = everyPose();
   config.min_normal_spread = 0.0;
   CorrelativeMatcher matcher(config);
@@ -127,7 +127,7 @@ TEST(ScoreGrid, TheScoresAloneTellWhichWayACorridorHides) {
   EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
 }
 
-TEST(ScoreGrid, TwoPlacesAlikeWidenTheCovariance) {
+TEST(ScoreGrid, TwoSimilarPosesWidenTheCovariance) {
   // Likelihood on the surface of the best and on a pose far away along x.
   LikelihoodField field(0.01, 0.02);
   std::vector<ContourSegment> posts;

@@ -23,7 +23,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.world; }
 
 class WorldByOthers : public ::testing::TestWithParam<Case> {};
 
-TEST_P(WorldByOthers, LoadsAndCanBeFlownIn) {
+TEST_P(WorldByOthers, LoadsAndAllowsAFlight) {
   const auto archive = test_support::dataSet(std::string("06-sim-worlds/") + GetParam().archive);
   if (!archive) return;
   const TemporaryFolder folder("swiftlet_datasets");

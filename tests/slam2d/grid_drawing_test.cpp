@@ -23,7 +23,7 @@ DrawnScan around(double radius_m, int beams) {
   return scan;
 }
 
-TEST(GridDrawing, FreeInsideOccupiedAtTheEndUnknownBeyond) {
+TEST(GridDrawing, BeamsDrawFreeThenOccupiedAndLeaveTheRestUnknown) {
   const GridDrawingConfig config;
   SlicedMap map(config);
   const Pose2 pose{0.51, -0.32, 0.4};
@@ -39,7 +39,7 @@ TEST(GridDrawing, FreeInsideOccupiedAtTheEndUnknownBeyond) {
   EXPECT_GT(occupied, 200);  // 2 pi 2 m / 5 cm = 251 cells.
 }
 
-TEST(GridDrawing, AWalkerIsClearedAgain) {
+TEST(GridDrawing, ClearsAWalkerWhoLeft) {
   const GridDrawingConfig config;
   SlicedMap map(config);
   DrawnScan person = around(3.0, 720);
@@ -70,7 +70,7 @@ DrawnScan ofDarkWall(double y_m) {
   return scan;
 }
 
-TEST(GridDrawing, ThereIsNoViewThroughADarkWall) {
+TEST(GridDrawing, BeamsWithoutReturnDoNotClearBehindADarkWall) {
   SlicedMap map{GridDrawingConfig{}};
   const auto at = [&](double x_m, double y_m) {
     return map.atFlightHeight().at(map.atFlightHeight().cellAt(x_m, y_m));
@@ -86,7 +86,7 @@ TEST(GridDrawing, ThereIsNoViewThroughADarkWall) {
   EXPECT_TRUE(common::occupancy::isFree(at(1.8, 0.0))) << "up to the wall they do clear";
 }
 
-TEST(GridDrawing, WhatAnotherBeamOfTheScanHitIsNoViewEither) {
+TEST(GridDrawing, BeamsWithoutReturnDoNotClearPastHitsOfNeighbouringBeams) {
   SlicedMap map{GridDrawingConfig{}};
   DrawnScan scan;
   for (int i = -20; i <= 20; ++i) {  // Of neighbouring beams, each second is swallowed.
@@ -103,7 +103,7 @@ TEST(GridDrawing, WhatAnotherBeamOfTheScanHitIsNoViewEither) {
   });
 }
 
-TEST(GridDrawing, WithNothingInTheirWayBeamsWithoutReturnClear) {
+TEST(GridDrawing, BeamsWithoutReturnClearOpenSpace) {
   SlicedMap map{GridDrawingConfig{}};
   DrawnScan scan = around(1.0, 720);
   std::erase_if(scan.hits_level_m, [](const Eigen::Vector3f& p) { return p.x() > 0.5F; });
@@ -114,7 +114,7 @@ TEST(GridDrawing, WithNothingInTheirWayBeamsWithoutReturnClear) {
     EXPECT_TRUE(common::occupancy::isFree(grid.at(grid.cellAt(x_m, 0.0)))) << x_m;
 }
 
-TEST(GridDrawing, WhatDoesNotChangeStaysShared) {
+TEST(GridDrawing, UnchangedTilesStayShared) {
   const GridDrawingConfig config;
   SlicedMap map(config);
   for (int i = 0; i < 30; ++i) map.draw(around(1.0, 360), {});
@@ -135,7 +135,7 @@ DrawnScan over(double below_m, double body_height_m) {
   return scan;
 }
 
-TEST(GridDrawing, LevelBeamsDoNotEraseWhatIsLower) {
+TEST(GridDrawing, LevelBeamsDoNotSoonEraseLowerObstacles) {
   SlicedMap map{GridDrawingConfig{}};
   const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
   for (int i = 0; i < 10; ++i) map.draw(over(0.0, 1.0), {});
@@ -155,7 +155,7 @@ TEST(GridDrawing, LevelBeamsDoNotEraseWhatIsLower) {
 }
 
 /// What was kept up cell by cell while drawing is what all slices give when they are combined anew.
-TEST(GridDrawing, TheMapAtFlightHeightIsThatOfItsSlices) {
+TEST(GridDrawing, TheMapAtFlightHeightEqualsItsCombinedSlices) {
   common::RandomStream random(1, "slices");
   SlicedMap map{GridDrawingConfig{}};
   for (int i = 0; i < 300; ++i) {
@@ -178,7 +178,7 @@ TEST(GridDrawing, TheMapAtFlightHeightIsThatOfItsSlices) {
   }
 }
 
-TEST(GridDrawing, WhatIsFarBelowTheHullIsNotInItsWayUntilItSinks) {
+TEST(GridDrawing, LowObstaclesCountOnlyNearTheFlightHeight) {
   SlicedMap map{GridDrawingConfig{}};
   const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
   for (int i = 0; i < 3; ++i) map.draw(over(0.0, 0.6), {});
@@ -193,7 +193,7 @@ TEST(GridDrawing, WhatIsFarBelowTheHullIsNotInItsWayUntilItSinks) {
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
 }
 
-TEST(GridDrawing, ThinsAndBoundsWhatItKeeps) {
+TEST(GridDrawing, ThinsAndBoundsItsPoints) {
   const GridDrawingConfig config;
   ProjectedScan scan;
   for (int i = 0; i < 1000; ++i) scan.points_level_m.emplace_back(1.0F, 0.001F * static_cast<float>(i));

@@ -37,7 +37,7 @@ class Robot {
 };
 
 /// The walls beside it are ever new, none of the scans before has seen them.
-TEST(LaserFrontEnd, ARobotThatDrivesBackwardsIsFollowed) {
+TEST(LaserFrontEnd, TracksARobotThatDrivesBackwards) {
   const test::PlanarWorld world = test::corridorWithDoors();
   common::LaserConfig laser;
   laser.beams = 181;
@@ -62,7 +62,7 @@ TEST(LaserFrontEnd, ARobotThatDrivesBackwardsIsFollowed) {
 }
 
 /// As in the log of MIT's CSAIL: 0.46 m and 87 degrees from one scan to the next, while the robot turns on slowly.
-TEST(LaserFrontEnd, OdometryThatJumpsIsNotFollowed) {
+TEST(LaserFrontEnd, IgnoresJumpsOfTheOdometry) {
   Robot robot;
   FollowedScan last;
   Pose2 truth, jump;
@@ -78,7 +78,7 @@ TEST(LaserFrontEnd, OdometryThatJumpsIsNotFollowed) {
 }
 
 /// It went on for a long while, or it stood: the speed before tells nothing.
-TEST(LaserFrontEnd, ALongPauseOfALogIsNoWay) {
+TEST(LaserFrontEnd, ALongPauseOfALogAddsNoMotion) {
   for (const double pause_s : {5.0, 30.0, 3500.0}) {
     Robot robot;
     Pose2 truth;
@@ -91,7 +91,7 @@ TEST(LaserFrontEnd, ALongPauseOfALogIsNoWay) {
 }
 
 /// A scan is followed as if taken at once: what the log says its beams took moves no stamp.
-TEST(LaserFrontEnd, StampsGrowWhateverTheBeamsAreSaidToTake) {
+TEST(LaserFrontEnd, StampsIncreaseWhateverTheTimePerBeam) {
   Robot robot;
   Time last;
   for (int i = 0; i < 30; ++i) {
@@ -105,7 +105,7 @@ TEST(LaserFrontEnd, StampsGrowWhateverTheBeamsAreSaidToTake) {
 }
 
 /// Carried elsewhere, it starts anew with a scan that stands where it was expected: no match.
-TEST(LaserFrontEnd, AScanItStartsAnewWithIsNotMatched) {
+TEST(LaserFrontEnd, AScanThatRestartsTheOdometryIsNotMatched) {
   Robot robot;
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(robot.scanAt({0.02 * i, 0.0, 0.0}, 0.1 * i).matched);
   int breaks = 0;

@@ -25,14 +25,14 @@ test::PlanarWorld room(bool divided) {
 
 PlacedScan placedAt(const ProjectedScan& scan, const Pose2& pose) { return {&scan, pose}; }
 
-TEST(FreeSpaceViolation, NothingWhereBothSawTheSame) {
+TEST(FreeSpaceViolation, IsZeroForScansOfTheSameRoom) {
   const Pose2 a{-1.0, 0.0, 0.3}, b{0.5, -1.0, -2.0};
   const ProjectedScan from_a = test::scanAt(room(true), a, 1), from_b = test::scanAt(room(true), b, 2);
   const PlacedScan one[] = {placedAt(from_a, a)}, other[] = {placedAt(from_b, b)};
   EXPECT_LT(freeSpaceViolation(one, other, 20.0), 0.01);
 }
 
-TEST(FreeSpaceViolation, AWallThatTheOtherDidNotMeet) {
+TEST(FreeSpaceViolation, CountsAWallThatOnlyOneScanSaw) {
   const Pose2 a{-1.0, 0.0, 0.3}, b{0.5, -1.0, -2.0};
   const ProjectedScan from_a = test::scanAt(room(true), a, 1), from_b = test::scanAt(room(false), b, 2);
   const PlacedScan one[] = {placedAt(from_a, a)}, other[] = {placedAt(from_b, b)};
@@ -43,7 +43,7 @@ TEST(FreeSpaceViolation, AWallThatTheOtherDidNotMeet) {
   EXPECT_EQ(freeSpaceViolation(one, other, 0.1), 0.0);
 }
 
-TEST(FreeSpaceViolation, WhereNeitherLookedNothingIsSaid) {
+TEST(FreeSpaceViolation, IsZeroWithoutOverlap) {
   const Pose2 pose{-1.0, 0.0, 0.3};
   const ProjectedScan scan = test::scanAt(room(false), pose, 1), empty;
   const PlacedScan here[] = {placedAt(scan, pose)}, nothing[] = {placedAt(empty, pose)};
@@ -63,14 +63,14 @@ ProjectedScan arc(double range_m, double from_deg, double to_deg) {
   return scan;
 }
 
-TEST(FreeSpaceViolation, BesideTheLastBeamNobodyLooked) {
+TEST(FreeSpaceViolation, IgnoresPointsBesideTheFieldOfView) {
   const ProjectedScan forward = arc(8.0, -90.0, 90.0), wider = arc(8.0, -90.0, 92.0), wall = arc(3.0, 90.5, 91.5);
   const PlacedScan seen[] = {placedAt(wall, {})};
   EXPECT_EQ(freeSpaceViolation(std::array{placedAt(forward, {})}, seen, 20.0), 0.0);
   EXPECT_EQ(freeSpaceViolation(std::array{placedAt(wider, {})}, seen, 20.0), 1.0);
 }
 
-TEST(FreeSpaceViolation, AViewAllAroundHasNoEdge) {
+TEST(FreeSpaceViolation, AFullTurnHasNoEdge) {
   const ProjectedScan around = arc(8.0, -179.5, 179.5), wall = arc(3.0, 179.0, 181.0);
   EXPECT_EQ(freeSpaceViolation(std::array{placedAt(around, {})}, std::array{placedAt(wall, {})}, 20.0), 1.0);
 }
@@ -103,14 +103,14 @@ struct TwoVisits {
   Slam2dConfig config;
 };
 
-TEST(LoopSearch, FindsTheRoomAgain) {
+TEST(LoopSearch, FindsARevisitedRoom) {
   const TwoVisits visits(room(false), room(false));
   const auto found = visits.search();
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->shift_m, 1.5, 0.05);
 }
 
-TEST(LoopSearch, ARoomWithAWallMoreIsAnother) {
+TEST(LoopSearch, RejectsARoomWithAnAdditionalWall) {
   TwoVisits visits(room(false), room(true));
   EXPECT_FALSE(visits.search());
   // That is what keeps it from being taken for the same.
@@ -118,7 +118,7 @@ TEST(LoopSearch, ARoomWithAWallMoreIsAnother) {
   EXPECT_TRUE(visits.search());
 }
 
-TEST(LoopSearch, WhatComesAndGoesTellsNoRoomFromAnother) {
+TEST(LoopSearch, AcceptsARoomDespiteTemporaryObstacles) {
   const test::PlanarWorld empty = room(false), divided = room(true);
   const TwoVisits visits([&](int key) -> const test::PlanarWorld& { return key == 3 || key == 8 ? divided : empty; });
   EXPECT_TRUE(visits.search());

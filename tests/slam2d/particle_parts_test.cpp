@@ -63,7 +63,7 @@ TEST(SurfaceMap, ConfidenceIsCapped) {
   EXPECT_LE(map.at(wall).hits, config.max_hits);
 }
 
-TEST(SurfaceMap, ThereIsNoViewThroughADarkWall) {
+TEST(SurfaceMap, BeamsWithoutReturnDoNotClearBehindADarkWall) {
   const SurfaceMapConfig config;
   SurfaceMap map(config);
   DrawingBoard board;
@@ -82,7 +82,7 @@ TEST(SurfaceMap, ThereIsNoViewThroughADarkWall) {
 }
 
 /// However long it stood there: a thousand scans of a wall are forgotten as fast as ten.
-TEST(SurfaceMap, APlaceThatChangedIsSoonMappedAnew) {
+TEST(SurfaceMap, AChangedPlaceIsSoonRemapped) {
   const SurfaceMapConfig config;
   DrawingBoard board;
   std::vector<int> scans_to_free, scans_to_occupied;
@@ -103,7 +103,7 @@ TEST(SurfaceMap, APlaceThatChangedIsSoonMappedAnew) {
   EXPECT_LE(scans_to_occupied[1], 4);
 }
 
-TEST(SurfaceMap, TheSurfaceIsKnownMoreFinelyThanTheCells) {
+TEST(SurfaceMap, SurfacesAreMoreAccurateThanTheCellSize) {
   DrawingBoard board;
   for (const double distance_m : {2.012, 2.021, 2.034}) {
     SurfaceMap fresh{SurfaceMapConfig{}};
@@ -124,7 +124,7 @@ std::vector<int> bytesOf(const SurfaceMap& map) {
   return bytes;
 }
 
-TEST(SurfaceMap, WhatOneDrawsTheOthersDoNotSee) {
+TEST(SurfaceMap, DrawingDoesNotAffectOtherCopies) {
   DrawingBoard board;
   SurfaceMap parent{SurfaceMapConfig{}};
   parent.draw(wallAhead(2.0), {}, board);
@@ -140,7 +140,7 @@ TEST(SurfaceMap, WhatOneDrawsTheOthersDoNotSee) {
   EXPECT_EQ(bytesOf(grandchild), before);
 }
 
-TEST(SurfaceMap, WhatIsNotDrawnToStaysShared) {
+TEST(SurfaceMap, TilesWithoutDrawingStayShared) {
   DrawingBoard board;
   SurfaceMap parent{SurfaceMapConfig{}};
   parent.draw(wallAhead(2.0), {}, board);
@@ -161,7 +161,7 @@ ProjectedScan nodding(double body_m) {
   return scan;
 }
 
-TEST(SurfaceMap, OnlyWhatIsInTheHeightBandIsDrawn) {
+TEST(SurfaceMap, DrawsOnlyTheHeightBand) {
   const SurfaceMapConfig config;
   const DrawnHeights heights = heightsAround(1.0, config.grid);  // 0.75 to 1.25 m.
   const SurfaceScan level = toDraw(nodding(1.0), config, heights);
@@ -180,7 +180,7 @@ TEST(SurfaceMap, OnlyWhatIsInTheHeightBandIsDrawn) {
   EXPECT_TRUE(from_the_floor.hits.empty() && from_the_floor.free_m.empty());
 }
 
-TEST(SurfaceMap, ItsContourLiesOnTheSurfaces) {
+TEST(SurfaceMap, TheContourLiesOnTheSurfaces) {
   DrawingBoard board;
   SurfaceMap map{SurfaceMapConfig{}};
   for (int i = 0; i < 5; ++i) map.draw(wallAhead(2.034), {}, board);
@@ -202,7 +202,7 @@ Eigen::Matrix3d motionCovariance(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
 }
 
-TEST(MapMatch, FindsThePoseAndSaysHowWell) {
+TEST(MapMatch, FindsThePoseWithAMatchingCovariance) {
   const test::PlanarWorld world = test::flat();
   const SurfaceMapConfig map_config;
   const MapMatchConfig config;
@@ -232,7 +232,7 @@ TEST(MapMatch, FindsThePoseAndSaysHowWell) {
 }
 
 /// The covariance of the motion does not know of a slip; the map does.
-TEST(MapMatch, ASlipOfTheMotionIsNotBelieved) {
+TEST(MapMatch, CorrectsASlipOfTheMotion) {
   const test::PlanarWorld world = test::flat();
   const SurfaceMapConfig map_config;
   const MapMatchConfig config;
@@ -247,7 +247,7 @@ TEST(MapMatch, ASlipOfTheMotionIsNotBelieved) {
   EXPECT_GT(matchToMap(map, points, right, config).log_motion, match.log_motion + 1.0);
 }
 
-TEST(MapMatch, TheRightMapWeighsMoreThanAWrongOne) {
+TEST(MapMatch, TheRightMapIsMoreLikelyThanAWrongOne) {
   const test::PlanarWorld world = test::flat();
   test::PlanarWorld other = world;
   other.addBox(2.2, -1.5, 0.5, 0.5);
@@ -267,7 +267,7 @@ TEST(MapMatch, TheRightMapWeighsMoreThanAWrongOne) {
 }
 
 /// Along a corridor the map says nothing: there the motion stands, with all its uncertainty.
-TEST(MapMatch, InACorridorTheMotionStandsAlongIt) {
+TEST(MapMatch, KeepsTheMotionAlongACorridor) {
   test::PlanarWorld corridor;
   corridor.addPolyline({{-50.0, -1.0}, {50.0, -1.0}}, false);
   corridor.addPolyline({{-50.0, 1.0}, {50.0, 1.0}}, false);
@@ -287,7 +287,7 @@ TEST(MapMatch, InACorridorTheMotionStandsAlongIt) {
   EXPECT_LT(std::sqrt(match.covariance(1, 1)), 0.01);
 }
 
-TEST(MapMatch, WithoutSupportTheMotionStands) {
+TEST(MapMatch, KeepsTheMotionWithoutSupport) {
   const MapMatchConfig config;
   const SurfaceMap empty{SurfaceMapConfig{}};
   const MotionPrior prior{{1.0, 2.0, 0.5}, motionCovariance(0.02, 0.01)};

@@ -22,7 +22,7 @@ Eigen::Vector3d errorOf(const Pose2& estimate, const Pose2& truth) {
 }
 
 /// Where it is relative to the last key scan, against the truth of both.
-TEST(ScanToMapSlam, ClaimsNoMoreThanItKnows) {
+TEST(ScanToMapSlam, ItsCovarianceAgreesWithItsErrors) {
   const ScanToMapConfig config;
   ScanToMapSlam slam(config);
   test::Flight flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, 1);
@@ -50,7 +50,7 @@ TEST(ScanToMapSlam, ClaimsNoMoreThanItKnows) {
   EXPECT_LT(nees / scans, 3.0) << "three when honest, less when cautious";
 }
 
-TEST(ScanToMapSlam, ARejectedMatchLeavesTheCorrection) {
+TEST(ScanToMapSlam, ARejectedMatchKeepsTheCorrection) {
   ScanToMapSlam slam{{}};
   test::Flight flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, 3);
   test::Flight::Step step;

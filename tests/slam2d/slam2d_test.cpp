@@ -86,7 +86,7 @@ std::vector<int> bytesOf(const common::OccupancyGrid& grid) {
   return bytes;
 }
 
-TEST(Slam2d, ThreeLoopsThroughTheFlat) {
+TEST(Slam2d, ThreeLoopsThroughTheFlatStayAccurate) {
   for (const std::uint64_t seed : {1U, 2U}) {
     Slam2d slam{{}};
     const Score score = fly(flatFlight(3, seed), slam);
@@ -118,7 +118,7 @@ TEST(Slam2d, TheSameFlightGivesTheSameBytes) {
     EXPECT_EQ(a.keyPoses()[i].T_map_body.x_m, b.keyPoses()[i].T_map_body.x_m);
 }
 
-TEST(Slam2d, ASnapshotStaysAsItWas) {
+TEST(Slam2d, ASnapshotDoesNotChange) {
   Slam2d slam{{}};
   test::Flight flight = flatFlight(1, 6);
   for (int i = 0; i < 100; ++i) {
@@ -145,7 +145,7 @@ double worstKey(const Slam2d& slam, const std::vector<std::pair<Time, Pose2>>& t
   return worst_m;
 }
 
-TEST(Slam2d, ClosesALoopAndDrawsTheMapAnew) {
+TEST(Slam2d, ClosesALoopAndRedrawsTheMap) {
   const test::Ring ring;
   Slam2dConfig deaf;
   deaf.loops.max_candidates = 0;
@@ -174,7 +174,7 @@ TEST(Slam2d, ClosesALoopAndDrawsTheMapAnew) {
   EXPECT_LT(closed_m, 0.35);
 }
 
-TEST(Slam2d, AReturnOntoKnownGroundSettlesTheGraph) {
+TEST(Slam2d, AReturnToKnownAreaOptimizesTheGraph) {
   // Too certain for a loop to be sought: the end of the round is known ground, and matched to it.
   const test::Ring ring;
   Slam2dConfig certain;
@@ -203,7 +203,7 @@ TEST(Slam2d, AReturnOntoKnownGroundSettlesTheGraph) {
   EXPECT_LT(after_m, 0.5 * before_m);
 }
 
-TEST(Slam2d, ATaskMayRunElsewhereAndArriveLate) {
+TEST(Slam2d, ATaskMayRunInTheBackgroundAndArriveLate) {
   const test::Ring ring;
   Slam2d at_once{{}}, late{{}};
   std::optional<SlamTask> pending;
@@ -235,7 +235,7 @@ TEST(Slam2d, ATaskMayRunElsewhereAndArriveLate) {
   EXPECT_LT((a.position_m() - b.position_m()).norm(), 0.15);
 }
 
-TEST(Slam2d, IgnoresWhatIsLateEmptyOrNotANumber) {
+TEST(Slam2d, IgnoresLateEmptyAndInvalidScans) {
   Slam2d slam{{}};
   EXPECT_FALSE(slam.addScan({}, {}, Eigen::Matrix3d::Zero()).key_scan);  // No points: the map does not begin here.
   test::Flight flight = flatFlight(1, 6);
@@ -250,7 +250,7 @@ TEST(Slam2d, IgnoresWhatIsLateEmptyOrNotANumber) {
 }
 
 /// It says nothing of the step, not that the step is certain.
-TEST(Slam2d, ACovarianceThatIsNotANumberMakesAWeakEdge) {
+TEST(Slam2d, AnInvalidCovarianceGivesAWeakEdge) {
   const auto firstEdge = [](bool known) {
     Slam2d slam{{}};
     test::Flight flight = flatFlight(1, 6);

@@ -101,7 +101,7 @@ Flown flyFlat(PlanarSlam& slam, std::uint64_t seed, int scans, Each&& each) {
 constexpr int kToTheEnd = std::numeric_limits<int>::max();
 constexpr auto kNothing = [](const auto&, const auto&) {};
 
-TEST_P(EachSlamMethod, MakesTheMapOfTheFlat) {
+TEST_P(EachSlamMethod, MapsTheFlat) {
   const auto slam = makeSlam(configOf(GetParam()));
   const Flown flown = flyFlat(*slam, 1, kToTheEnd, kNothing);
   const SlamCounts& counts = slam->counts();
@@ -119,7 +119,7 @@ TEST_P(EachSlamMethod, MakesTheMapOfTheFlat) {
   EXPECT_EQ(slam->edges().empty(), GetParam() != "graph");
 }
 
-TEST_P(EachSlamMethod, GivesTheSameBytesAgain) {
+TEST_P(EachSlamMethod, GivesTheSameBytesTwice) {
   const auto one = makeSlam(configOf(GetParam())), other = makeSlam(configOf(GetParam()));
   for (PlanarSlam* slam : {one.get(), other.get()}) flyFlat(*slam, 5, 150, kNothing);
   EXPECT_EQ(bytesOf(one->snapshot()), bytesOf(other->snapshot()));
@@ -129,7 +129,7 @@ TEST_P(EachSlamMethod, GivesTheSameBytesAgain) {
   EXPECT_EQ(one->T_map_odom().yaw_rad, other->T_map_odom().yaw_rad);
 }
 
-TEST_P(EachSlamMethod, KnowsTheLastScanByAKeyScan) {
+TEST_P(EachSlamMethod, PlacesTheLastScanRelativeToAKeyScan) {
   const auto slam = makeSlam(configOf(GetParam()));
   EXPECT_EQ(slam->anchor(), -1);
   EXPECT_TRUE(slam->keyPoses().empty());
@@ -139,7 +139,7 @@ TEST_P(EachSlamMethod, KnowsTheLastScanByAKeyScan) {
   });
 }
 
-TEST_P(EachSlamMethod, IgnoresWhatIsLateEmptyOrNotANumber) {
+TEST_P(EachSlamMethod, IgnoresLateEmptyAndInvalidScans) {
   const auto slam = makeSlam(configOf(GetParam()));
   EXPECT_FALSE(slam->addScan({}, {}, Eigen::Matrix3d::Zero()).key_scan);  // No points: the map does not begin here.
   test::Flight flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, 6);

@@ -14,7 +14,7 @@ using planning::test::fill;
 using planning::test::kFreeCell;
 using planning::test::kWallCell;
 
-TEST_F(ManeuverStory, OnTheGroundNothingIsExplored) {
+TEST_F(ManeuverStory, ExploreFailsOnTheGround) {
   want(common::ExploreIntent{});
   EXPECT_EQ(runToTheEnd(0.1), IntentState::kFailed);
   EXPECT_EQ(executor_.status().reason, "cannot explore while powered off");
@@ -50,7 +50,7 @@ class ExploreManeuver : public ManeuverInFlight {
   }
 };
 
-TEST_F(ExploreManeuver, AViewpointIsFlownToAndCountsAfterALookOfHalfASecond) {
+TEST_F(ExploreManeuver, AViewpointCountsAfterHalfASecondThere) {
   build(true);
   want(common::ExploreIntent{});
   runUntil([this] { return looks() == 1 && executor_.goal_map_m(); },
@@ -75,7 +75,7 @@ TEST_F(ExploreManeuver, AViewpointIsFlownToAndCountsAfterALookOfHalfASecond) {
   EXPECT_EQ(looks(), 2);
 }
 
-TEST_F(ExploreManeuver, WhatStaysUnknownIsLeftAfterThreeLooksAndSaid) {
+TEST_F(ExploreManeuver, GivesUpAFrontierAfterThreeLooksAndReportsTheReason) {
   build(true);
   fill(grid_, {{20, 80}, {23, 81}}, kFreeCell);  // A crack.
   want(common::ExploreIntent{});
@@ -92,7 +92,7 @@ class ExploreBy : public ExploreManeuver, public testing::WithParamInterface<std
   ExploreBy() : ExploreManeuver(std::get<Choices>(GetParam())) {}
 };
 
-TEST_P(ExploreBy, WhoWasChosenFindsTheViewpointsAndThePathsThere) {
+TEST_P(ExploreBy, UsesTheChosenExplorerAndPlanner) {
   const PlanningUse& expected = std::get<PlanningUse>(GetParam());
   build(true);
   want(common::ExploreIntent{});
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::tuple{Choices{planning::PlannerKind::kDStarLite, planning::ExplorerKind::kNearestFrontier},
                                PlanningUse{"D* Lite", 0, "nearest frontier", 0}}));
 
-TEST_F(ExploreManeuver, DoneIsBelievedWhenItIsSaidTwiceStandingStill) {
+TEST_F(ExploreManeuver, EndsWhenTheExplorerReportsDoneTwiceAtRest) {
   build(false);
   want(common::ExploreIntent{});
   runUntil([this] { return executor_.desk().exploredArea_m2() > 0.0; }, 1.0);
@@ -127,7 +127,7 @@ TEST_F(ExploreManeuver, DoneIsBelievedWhenItIsSaidTwiceStandingStill) {
   EXPECT_EQ(runToTheEnd(2.0), IntentState::kSucceeded);
 }
 
-TEST_F(ExploreManeuver, WhoWalkedLatelyAndStandsInTheWayIsGivenRoom) {
+TEST_F(ExploreManeuver, MakesRoomForAPersonWhoBlocksThePath) {
   buildPassage();
   anybody_walks_ = true;
   discs_ = {personInThePassage()};
@@ -143,7 +143,7 @@ TEST_F(ExploreManeuver, WhoWalkedLatelyAndStandsInTheWayIsGivenRoom) {
   EXPECT_LT(distanceTo_m({6.0, 2.0}), 0.6) << "the path is free: " << executor_.status().reason;
 }
 
-TEST_F(ExploreManeuver, WhoStaysInTheWayIsNotWaitedForForEver) {
+TEST_F(ExploreManeuver, DoesNotWaitForEverForAPersonWhoBlocksThePath) {
   buildPassage();
   anybody_walks_ = true;
   discs_ = {personInThePassage()};
@@ -153,7 +153,7 @@ TEST_F(ExploreManeuver, WhoStaysInTheWayIsNotWaitedForForEver) {
   EXPECT_EQ(runToTheEnd(30.0), IntentState::kSucceeded);
 }
 
-TEST_F(ExploreManeuver, WhereNobodyWalkedLatelyNobodyIsGivenRoom) {
+TEST_F(ExploreManeuver, MakesNoRoomWhenNobodyWalkedRecently) {
   buildPassage();
   discs_ = {personInThePassage()};
   anybody_walks_ = true;
@@ -166,7 +166,7 @@ TEST_F(ExploreManeuver, WhereNobodyWalkedLatelyNobodyIsGivenRoom) {
   EXPECT_EQ(timesSaid("goes aside to make room"), 0);
 }
 
-TEST_F(ExploreManeuver, WhatWasLookedAtInVainIsRememberedAfterAnInterruption) {
+TEST_F(ExploreManeuver, RemembersFruitlessLooksAfterAnInterruption) {
   build(true);
   want(common::ExploreIntent{});
   runUntil([this] { return looks() == 2; }, 30.0);
@@ -180,7 +180,7 @@ TEST_F(ExploreManeuver, WhatWasLookedAtInVainIsRememberedAfterAnInterruption) {
   EXPECT_EQ(looks(), 3) << "one more look, not three";
 }
 
-TEST_F(ExploreManeuver, GoesOnAfterARetreat) {
+TEST_F(ExploreManeuver, ContinuesAfterARetreat) {
   build(true);
   want(common::ExploreIntent{});
   runUntil([this] { return looks() == 1 && executor_.goal_map_m(); }, 5.0);
