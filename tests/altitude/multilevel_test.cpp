@@ -1,5 +1,5 @@
-// Stories of flights over furniture, after the figures of Grzonka 2012 (3 and 7). What is promised are the figures of
-// that paper: the heights of chair and table (V-C), and the altitude of the vehicle (V-D b).
+// Stories of flights over furniture, after the figures of Grzonka 2012 (3 and 7). The bounds are the figures of that
+// paper: the heights of chair and table (V-C), and the altitude of the vehicle (V-D b).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@ namespace {
 
 /// "The estimated heights of the chair and the tables were 48.6 cm +- 2.7 cm and 74.9 cm +- 2.8 cm" (48 and 77 cm).
 constexpr double kChairSigma_m = 0.027, kTableSigma_m = 0.028;
-/// "The desired height was kept by the vehicle up to an error of +-10 cm", over different elevations. The estimate has
-/// no more than half of it at rest, so that half is left to the control of the vehicle.
+/// "The desired height was kept by the vehicle up to an error of +-10 cm", over different elevations. At rest the
+/// estimate may use at most half of that, so that half is left to the control of the vehicle.
 constexpr double kAltitude_m = 0.10, kAltitudeAtRest_m = 0.05;
 
 const common::Level* levelNear(const common::LevelMap& map, double height_m, double tolerance_m = 0.08) {
@@ -29,7 +29,7 @@ TEST(MultilevelFilter, TracksClimbAndHoverOverAFlatFloor) {
   flight.flyTo({5.0, 0.0}, 1.0);
   EXPECT_EQ(flight.filter.levels().levels.size(), 1u);
   EXPECT_EQ(flight.filter.levels().levels[0].height_m, 0.0);
-  EXPECT_LE(flight.without_measurement, 7);  // Until the first has settled.
+  EXPECT_LE(flight.without_measurement, 7);  // Until the first level has settled.
   EXPECT_LT(flight.worst_error_m, kAltitudeAtRest_m);
   EXPECT_NEAR(flight.filter.state().velocity_m_s, flight.vz_m_s, 0.02);  // Bachrach 2009: 0.02 m/s against the truth.
   ASSERT_TRUE(flight.last.height_above_ground_m);
@@ -114,7 +114,7 @@ TEST(MultilevelFilter, StepsBelowDoNotDisturbTheHeightWhileClimbingOrSinking) {
   flight.boxes = {{0.8, 1.6, -1, 1, 0.30}, {1.6, 2.4, -1, 1, 0.60}, {2.4, 3.2, -1, 1, 0.90}};
   flight.start();
   flight.climbTo(1.2);
-  // Climbs the stairs as it goes.
+  // The vehicle climbs while it passes over the steps.
   flight.vz_m_s = 0.0;
   for (int i = 0; i < 400; ++i) {
     flight.position_m.x() += 0.01;
@@ -203,7 +203,7 @@ TEST(MultilevelFilter, SlopesDoNotDisturbTheHeight) {
 
 /// Boxes of all heights side by side, few of them wide enough to become a level, crossed with a wrong acceleration;
 /// then the floor. The filter must soon return to the floor, and not to a slope, a new level, or one of the boxes. Some
-/// seeds fail rightly: boxes that form a table, or drift that moves the floor to the height of the table.
+/// seeds are expected to fail: their boxes form a table, or drift moves the floor to the height of the table.
 TEST(MultilevelFilter, ReturnsToTheFloorBehindClutter) {
   constexpr int kFlights = 400;
   int unmeasured = 0, wrong = 0;
@@ -229,7 +229,8 @@ TEST(MultilevelFilter, ReturnsToTheFloorBehindClutter) {
   }
   std::printf("floor behind clutter: %d of %d flights without a measurement, %d with a wrong height\n", unmeasured,
               kFlights, wrong);
-  // The paper has no such figure. One in fifty is what is promised: clutter like this is met a few times in a flight.
+  // The paper has no such figure. At most one flight in fifty may fail, because a flight meets clutter like this only a
+  // few times.
   EXPECT_LE(unmeasured, kFlights / 50);
   EXPECT_LE(wrong, kFlights / 50);
 }

@@ -62,7 +62,7 @@ TEST_F(ExecutorInFlight, AFailedIntentLeavesTheVehicleHolding) {
 
 class ExecutorRetreating : public ManeuverInFlight {
  protected:
-  /// Half way to a goal to the left of where it took off.
+  /// The vehicle is halfway to a goal on the left of its take-off place when a retreat begins.
   void SetUp() override {
     ManeuverInFlight::SetUp();
     want(to(1.5, 3.4));
@@ -70,7 +70,7 @@ class ExecutorRetreating : public ManeuverInFlight {
     yaw_rad_ = state_.T_map_body_planar().yaw_rad;
     retreat({-0.5, 0.0}, 0.4);
   }
-  /// It has turned back by then; the retreat is behind the direction it faced at the beginning.
+  /// The vehicle has turned by then, but the retreat still goes backwards from its heading at the beginning.
   void expectRetreat() {
     run(1.5);
     const Eigen::Vector2d from_m = position_m();

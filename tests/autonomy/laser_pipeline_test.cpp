@@ -90,7 +90,7 @@ TEST_F(LaserStory, AnInterruptionHasTheUncertaintyOfTheWidestWindow) {
   EXPECT_DOUBLE_EQ(std::sqrt(step.covariance(2, 2)), config.odometry.max_window_deg * common::kRadPerDeg);
 }
 
-/// A tilted scan is placed by an attitude that is not exact.
+/// The attitude that projects a tilted scan has an error, so the match of such a scan is less certain.
 TEST_F(LaserStory, TiltIncreasesTheCovarianceOfTheMatch) {
   (void)see(flat, {0, 0, 0});
   filter.has_clone = true;

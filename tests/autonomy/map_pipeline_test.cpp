@@ -21,7 +21,7 @@ TEST(KeyPoses, APoseRelativeToAKeyScanMovesWithIt) {
   EXPECT_TRUE(after.inMap(seen).position_m.isApprox(Eigen::Vector3d(10, 1.5, 1.2)));
 }
 
-/// Once around a corridor with an odometry that bends and stretches.
+/// One round of a square corridor with an odometry that has errors of heading and scale.
 TEST(MapPipeline, ALoopClosureCorrectsEarlierScans) {
   const test::Ring ring;
   const auto jobs = common::makeLockstepJobs(0);
@@ -56,7 +56,7 @@ TEST(MapPipeline, ALoopClosureCorrectsEarlierScans) {
   EXPECT_EQ(map.keyPoses(), keys) << "the same object until a key scan is added or moved";
 }
 
-/// Whichever method is at work.
+/// This holds for every SLAM method.
 TEST(MapPipeline, AScanThatDidNotMatchIsPlacedButNotDrawn) {
   using perception::SlamMethod;
   for (const SlamMethod method : {SlamMethod::kGraph, SlamMethod::kParticles, SlamMethod::kScanToMap}) {

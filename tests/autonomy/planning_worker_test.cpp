@@ -28,7 +28,7 @@ struct Worker : testing::Test {
     request.question = std::move(question);
     return worker.answer(request);
   }
-  /// A wall at x = 4 m with a door so many cells wide about y = 2 m.
+  /// A wall at x = 4 m with a door of `door_cells` cells around y = 2 m.
   void build(int door_cells) {
     for (int y = 0; y < 80; ++y)
       if (y < 40 - door_cells / 2 || y >= 40 - door_cells / 2 + door_cells)
@@ -100,7 +100,7 @@ TEST_F(Worker, AFlownDoorStaysPassableWhenItsFrameGrowsSlightly) {
     const auto answer = ask(GoalRequest{{6.0, 2.0}, 0.05});
     ASSERT_TRUE(answer.path && *answer.path);
   }
-  build(14);  // Its frame has grown by a cell on each side.
+  build(14);  // The door frame has grown by a cell on each side.
   const auto back = ask(GoalRequest{{2.0, 2.0}, 0.05});
   ASSERT_TRUE(back.path && *back.path);
   worker = PlanningWorker{ExecutorConfig{}, 0.05};

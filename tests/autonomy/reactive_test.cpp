@@ -55,11 +55,11 @@ TEST_F(ReactiveStory, BeforeTheFirstScanNothingLimitsTheSpeed) {
 
 TEST_F(ReactiveStory, BrakesForAnObstacleAheadOnItsCourseInTheMap) {
   returnAt({0.8, 0.0});
-  fliesWith({0.0, 1.0});  // Along the nose.
+  fliesWith({0.0, 1.0});  // Forwards.
   const double towards_m_s = scanAt(0.0).speed_limit_m_s;
   EXPECT_LT(towards_m_s, 1.0);
   EXPECT_TRUE(reactive.decision().status.braking);
-  fliesWith({1.0, 0.0});  // To its right.
+  fliesWith({1.0, 0.0});  // To the right.
   EXPECT_GT(scanAt(0.025).speed_limit_m_s, towards_m_s + 0.3);
 }
 

@@ -122,7 +122,7 @@ TEST(GoHome, FollowsACorrectionOfHome) {
 constexpr const char* kMission =
     R"(<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><Explore/><Land/></Sequence></Priority>)";
 
-/// In the middle of Explore, which is intent 2.
+/// A flight in the middle of Explore, which has intent 2.
 Flight exploring() {
   Flight flight(kMission);
   flight.tick();

@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 constexpr const char* kOperator =
     R"(<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><OperatorCommand tolerance_m="0.1"/></Sequence></Priority>)";
 
-/// Taken off; OperatorCommand holds as intent 2.
+/// A flight after take-off in which OperatorCommand holds with intent 2.
 Flight waiting() {
   Flight flight(kOperator);
   flight.tick();

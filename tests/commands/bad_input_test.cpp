@@ -40,7 +40,7 @@ class BadInput : public test_support::Scratch {
     return runSwiftlet(arguments, options);
   }
 
-  /// Refused, with these words, before anything was written.
+  /// Expects a refusal with a message like this before anything was written.
   void expectRefused(const ProgramEnd& end, const std::string& pattern) const {
     EXPECT_EQ(end.exit_code, 2) << describe(end);
     EXPECT_THAT(end.err, ContainsRegex(pattern));

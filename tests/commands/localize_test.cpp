@@ -25,7 +25,7 @@ using test_support::readText;
 using test_support::runSwiftlet;
 using testing::HasSubstr;
 
-/// Which pose of a record is the odometry's.
+/// Which pose of a record contains the odometry.
 enum class Odometry { kOfBoth, kOfLaser };
 
 /// A walk of `steps` scans, five a second, as a CARMEN log; its odometry has an origin of its own.
@@ -73,7 +73,7 @@ class Localize : public test_support::Scratch {
                              "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
                              name, known.begin.x * 0.05, known.begin.y * 0.05));
   }
-  /// Refused, with nothing of it.
+  /// Expects a refusal with this message, and that nothing was written.
   void expectRefused(const std::vector<std::string>& arguments, const std::string& message) {
     const ProgramEnd end = runSwiftlet(arguments);
     EXPECT_EQ(end.exit_code, 2) << describe(end);

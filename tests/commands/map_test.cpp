@@ -51,7 +51,7 @@ class Map : public test_support::Scratch {
     return end.exit_code == 0 ? nlohmann::json::parse(end.out) : nlohmann::json();
   }
   std::string notesOf(const nlohmann::json& figures) const { return figures.at("notes").dump(); }
-  /// What cannot be mapped: exit 2, the message, and nothing is left.
+  /// Expects that the text is refused with exit code 2 and this message, and that no file is left.
   void refused(const std::string& log, const std::string& pattern, const std::vector<std::string>& more = {}) const {
     const ProgramEnd end = map(log, more);
     EXPECT_EQ(end.exit_code, 2) << describe(end);
@@ -68,7 +68,7 @@ class Map : public test_support::Scratch {
 TEST_F(Map, PathLengthIncludesMotionThroughKnownArea) {
   std::string log;
   for (int i = 0; i < 400; ++i) log += scan(-2.0 + 0.03 * std::abs(i % 200 - 100), 100.0 + 0.1 * i);
-  for (int i = 400; i < 440; ++i) log += scan(1.0, 100.0 + 0.1 * i);  // It stands.
+  for (int i = 400; i < 440; ++i) log += scan(1.0, 100.0 + 0.1 * i);  // The robot stands still.
   EXPECT_NEAR(mapped(log).at("path_length_m").get<double>(), 12.0, 0.4);
 }
 

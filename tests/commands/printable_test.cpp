@@ -30,7 +30,7 @@ bool isPrintable(const std::string& text) {
 
 class Printable : public test_support::Scratch {
  protected:
-  /// Refused, and what was wrong is shown with its control characters escaped.
+  /// Expects a refusal whose message shows the input with its control characters escaped.
   void refused(const std::vector<std::string>& arguments, const std::string& shown) const {
     const ProgramEnd end = runSwiftlet(arguments);
     EXPECT_EQ(end.exit_code, 2) << describe(end);

@@ -18,7 +18,7 @@ TEST(SymmetricEigen, ValuesAscendAndVectorsMatchThem) {
   EXPECT_TRUE((eigen.vectors.transpose() * eigen.vectors).isIdentity(1e-12));
 }
 
-// Computed alone they have the same bits, so that a caller of one gets the same flight as a caller of all.
+// Both functions return identical values, so that a flight does not depend on which one is called.
 TEST(SymmetricEigen, ValuesAloneAreIdenticalToValuesWithVectors) {
   const Eigen::Matrix2d two{{2.0, -0.7}, {-0.7, 0.3}};
   EXPECT_EQ(symmetricEigenvalues(two), symmetricEigen(two).values);

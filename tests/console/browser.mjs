@@ -1,4 +1,4 @@
-// Chromium and playwright-core for the browser tests; exit code 77 (skipped) where this machine has not got them.
+// Chromium and playwright-core for the browser tests; exit code 77 (skipped) if they are not installed.
 import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync } from 'node:fs';
 import { createRequire } from 'node:module';

@@ -86,7 +86,7 @@ TEST_F(FlightScoring, EveryMissedCriterionIsNamed) {
                           "estimate RMS, m: 0.030, at most 0.02 was asked for", "interruptions: 1 of 2 went on"));
 }
 
-// Without the wall in the north the flood runs out into the open.
+// Without the north wall the flood fill leaves the room.
 TEST_F(FlightScoring, AnOpenWorldHasNoCoverageAndNamesTheReason) {
   simulation::WorldModel open = smallWorld(1.0F);
   std::erase_if(open.shapes, [](const simulation::Shape& shape) { return shape.model == "north"; });

@@ -58,7 +58,7 @@ TEST(MarkerErrors, TheFirstLoopBeginsAtTakeOff) {
   EXPECT_NEAR(visits[0].open_loop_error_m->y(), -0.1, 1e-12);
 }
 
-// The odometry drifted and turned in the first loop; the second is judged by what it adds.
+// The odometry drifted and turned in the first loop. The second loop is judged only by the drift it adds.
 TEST(MarkerErrors, TheOpenLoopErrorOfEachLoopStartsAtZero) {
   const Pose2 drift{0.4, -0.2, 0.05}, truth_1{0.02, 0.01, -1.2}, truth_2{-0.03, 0.02, -1.1};
   const Pose2 added{truth_2.x_m + 0.07, truth_2.y_m - 0.02, truth_2.yaw_rad};

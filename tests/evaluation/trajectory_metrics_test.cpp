@@ -57,7 +57,7 @@ TEST(Associate, PairsTheNearestStampsAndUsesEachPoseOnce) {
     for (const int ms : stamps_ms) poses.push_back({Time::fromSeconds(ms * 1e-3), at(ms, 0, 0)});
     return poses;
   };
-  // 100 goes to 104 and not to 95; 108 is farther from 104 than 100 is... and so on.
+  // 100 is nearest to 104, but 104 is nearer to 106, so 100 stays without a partner.
   const auto pairs = associate(trajectory({100, 106, 200, 300}), trajectory({90, 104, 195, 400}));
   ASSERT_EQ(pairs.size(), 2u);
   EXPECT_EQ(pairs[0].estimate.position_m.x(), 106) << "106 is nearer to 104 than 100 is";

@@ -24,12 +24,12 @@ const std::string kTwo = "trials/two_vehicles.yaml", kMission = "trials/missions
 
 class SeveralVehicles : public test_support::Scratch {
  protected:
-  /// The two of the shipped trial for some seconds.
+  /// Flies the two vehicles of the shipped trial for some seconds.
   ProgramEnd fly(const std::string& out, const std::string& limit_s) const {
     return runSwiftlet({"fly", kMission, "--scenario", kTwo, "--headless", "--seed", "7", "--time-limit", limit_s,
                         "--json", "--out", path(out)});
   }
-  /// A flight of two from these places; the hall's floor is there.
+  /// A scenario of two vehicles that start at these places, where the hall has floor.
   std::string twoFrom(const std::string& alpha, const std::string& beta, const std::string& mission = kHop) const {
     return write("two.yaml", "mission: " + write("hop.xml", mission) +
                                  "\ntime_limit_s: 60\nscenario:\n  world: worlds/unb_case1.sdf\n  vehicles:\n" +

@@ -15,7 +15,7 @@ using test_support::runSwiftlet;
 
 class TrialSeeds : public test_support::Scratch {
  protected:
-  /// Of two flights of a second each.
+  /// The seeds of two flights of one second each.
   std::vector<int> seedsOf(const std::string& scenario, const std::vector<std::string>& options) {
     const std::string trial = write("short.yaml",
                                     "mission: missions/explore_and_return.xml\ntime_limit_s: 1\n"

@@ -238,7 +238,8 @@ TEST(ErrorStateFilter, ASilentLaserDegradesTheStatusUntilScansReturn) {
   EXPECT_TRUE(filter.state().horizontal_valid);
 }
 
-/// Half a second without a height and with a wrong acceleration: a measured speed, late, corrects the height too.
+/// After half a second without a height and with a wrong acceleration, a late measurement of the speed corrects the
+/// height too.
 TEST(ErrorStateFilter, AVerticalSpeedAlsoCorrectsTheHeight) {
   SyntheticFlight flight(13, 6.0);
   const auto imu = flight.imuSamples();

@@ -73,7 +73,7 @@ TEST_P(Jacobians, RelativePoseAcrossIsTheNumericDerivative) {
     return relativePoseAcross(s, 1, {0.3, -0.2, 0.1}, Eigen::Matrix3d::Identity(), {0.6, 0.8});
   });
 }
-/// With the stretch's mean velocity that of the state, as it is after each step.
+/// The mean velocity of the drag interval equals the state's velocity, as after each step.
 TEST_P(Jacobians, DragIsTheNumericDerivative) {
   expectJacobian<2>(state, [](FilterState s) {
     s.drag_stretch.seconds = 0.1;

@@ -59,7 +59,7 @@ TEST(ErrorStateFilter, DragBoundsTheErrorOfAnUnobservedSpeed) {
     double reference_x_m = 0.0;
     for (int i = 0; i <= 4600; ++i) {
       const double t = 0.005 * i, speed = speedAt(t), acceleration = (speedAt(t + 0.005) - speed) / 0.005;
-      // It leans just as far as drag and acceleration ask for.
+      // The vehicle tilts just as far as drag and acceleration require.
       const double lean_rad = std::asin((acceleration + kDrag_1_s * speed) / 9.81);
       const double lean_after_rad =
           std::asin(((speedAt(t + 0.01) - speedAt(t + 0.005)) / 0.005 + kDrag_1_s * speedAt(t + 0.005)) / 9.81);

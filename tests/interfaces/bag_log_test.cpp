@@ -1,4 +1,4 @@
-// Bags: the first topic with scans is read, from chunks of every packing; damaged parts are left out or reported.
+// Bags: the first topic with scans is read, from chunks of every compression; damaged parts are left out or reported.
 #include <cmath>
 
 #include <gmock/gmock.h>

@@ -28,7 +28,7 @@ CarmenScan read(const std::string& line) {
   return **scan;
 }
 
-/// As the log gives it, complete.
+/// The scan with mount and odometry, as the log reader returns it.
 std::optional<LoggedScan> logged(const std::string& line, const LaserLogOptions& options = {}) {
   const ScratchFolder folder;
   put(folder / "a.log", line + "\n");

@@ -29,7 +29,7 @@ std::vector<std::string> linesOf(LineReader reader) {
 
 std::vector<std::string> linesOfText(std::string_view text) { return linesOf(LineReader::fromBytes(text, "text")); }
 
-/// Cut by hand, for comparison.
+/// Splits the text with a simple loop, for comparison.
 std::vector<std::string> cutByHand(std::string text) {
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -103,7 +103,7 @@ TEST(LineReader, ReportsTruncatedAndDamagedFiles) {
   }
 }
 
-/// A gzip file of one stored block, which any byte can be changed in without making it undecodable.
+/// A gzip file of one stored block: it can still be decoded when any byte of its content changes.
 std::string storedByGzip(const std::string& text) {
   struct Byte {
     std::size_t value;

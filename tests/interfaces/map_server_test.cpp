@@ -131,7 +131,7 @@ TEST(MapServer, PlacesAMapByItsOrigin) {
   const auto shifted = readTwo(folder, pixels, "origin: [-1.5, 1.0, 0.0]\n");
   EXPECT_EQ(kind(shifted.grid.at({-3, 2})), '#');
   EXPECT_EQ(shifted.T_map_grid.x_m, 0.0);
-  // The lattice of cells does not hold this origin: grid and remainder together do.
+  // This origin is not on the lattice of cells, so the grid and the remaining transform give it together.
   const auto between = readTwo(folder, pixels, "origin: [-1.3, 1.0, 0.0]\n");
   EXPECT_EQ(kind(between.grid.at({-3, 2})), '#');
   EXPECT_NEAR((between.T_map_grid * between.grid.centerOf({-3, 2})).x(), -1.3 + 0.25, 1e-12);

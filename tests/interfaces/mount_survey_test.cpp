@@ -47,7 +47,7 @@ TEST(MountSurvey, WaitsForMotionBeforeItDecides) {
 
 TEST(MountSurvey, PosesWithDifferentOriginsGiveNoRigidMount) {
   MountSurvey survey;
-  // One is corrected, the other is raw odometry that drifts away from it.
+  // One pose is corrected, the other is raw odometry that drifts away from it.
   for (int i = 0; !survey.decided(); ++i) survey.add(poseAt(i) * Pose2{0.02 * i, 0, 0.01 * i}, poseAt(i));
   EXPECT_FALSE(survey.result().rigid);
   EXPECT_FALSE(survey.result().robot_stands);

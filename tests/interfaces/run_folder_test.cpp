@@ -63,7 +63,7 @@ struct Flight {
   }
   common::World world(MissionState mission, const std::string& phase) { return layers(mission, phase).world(); }
 
-  /// 10 s of it: two phases, estimates at 100 Hz, snapshots at 10 Hz.
+  /// Writes 10 s of the flight: two phases, estimates at 100 Hz, snapshots at 10 Hz.
   void flyInto(RunFolder& run) {
     for (int tick = 0; tick <= 1000; ++tick) {
       time_s = 0.01 * tick;

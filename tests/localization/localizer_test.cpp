@@ -116,7 +116,7 @@ TEST(Localizer, SearchesLessOftenOutsideTheMapAndLocalizesAfterReturning) {
               walked_m - home_m);
 }
 
-/// What the covariance claims is what the errors are, within a factor.
+/// The errors agree with the covariance, within a factor.
 TEST(Localizer, ItsCovarianceAgreesWithItsErrors) {
   Story story(test::offices(4), 4);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal());
@@ -130,7 +130,7 @@ TEST(Localizer, ItsCovarianceAgreesWithItsErrors) {
     normalized += error.dot(estimate.covariance.topLeftCorner<2, 2>().inverse() * error);
     ++count;
   }
-  EXPECT_LT(normalized / count, 3.0 * 2.0);  // The mean is 2 where it is exactly honest.
+  EXPECT_LT(normalized / count, 3.0 * 2.0);  // The mean is 2 if the covariance is exact.
   EXPECT_GT(normalized / count, 2.0 / 20.0);
 }
 
@@ -159,7 +159,7 @@ TEST(Localizer, WeighsOnlyWithScansThatTheOdometryDidNotUse) {
     const auto estimate = story.step(false);
     EXPECT_EQ(estimate.T_map_odom.x_m, first.T_map_odom.x_m) << "moved by a scan of the odometry";
   }
-  // One scan of its own moves the particles; where it stands still nothing new is seen, and none is due.
+  // A scan that the odometry did not use moves the particles. At rest nothing new is seen, so no further scan is due.
   EXPECT_NE(story.step(true).T_map_odom.x_m, first.T_map_odom.x_m);
   const Pose2 here = story.odometry_at_scan;
   EXPECT_FALSE(story.localizer.wantsFreshScan(here));
@@ -167,7 +167,7 @@ TEST(Localizer, WeighsOnlyWithScansThatTheOdometryDidNotUse) {
   EXPECT_TRUE(story.localizer.wantsFreshScan(here * Pose2{0.0, 0.0, 0.4}));
 }
 
-/// Without scans of its own the pose becomes less and less certain, until it is given up.
+/// Without scans that the odometry did not use the pose becomes less and less certain, until it is given up.
 TEST(Localizer, GivesUpAPoseAfterLongOdometryWithoutScans) {
   LocalizerConfig config;
   config.odometry_share = 0.5;
@@ -276,7 +276,7 @@ TEST(Localizer, IgnoresASearchFromBeforeItWasGivenAPose) {
   EXPECT_FALSE(story.localizer.takeTask()) << "nothing is asked for";
 }
 
-/// Localized or not: the path before it was given a start does not count.
+/// Whether it was localized before or not, the path before the given start does not count.
 TEST(Localizer, ContinuesFromAPoseGivenDuringTheWalk) {
   for (const int steps : {10, 150}) {
     Story story(test::offices(3), 3);
@@ -290,8 +290,7 @@ TEST(Localizer, ContinuesFromAPoseGivenDuringTheWalk) {
   }
 }
 
-/// Its odometry trembles, it sees one view repeatedly, and it has not moved a distance over which a place could have
-/// held.
+/// The odometry jitters and the view stays the same. The robot has not moved far enough to confirm a place.
 TEST(Localizer, IsNeverLocalizedAtRest) {
   for (const std::uint64_t seed : {1U, 2U, 6U, 7U}) {
     const test::Building building = test::offices(seed);
@@ -357,7 +356,7 @@ TEST(Localizer, ToleratesBadScans) {
   }
 }
 
-/// An odometry that is for a moment not a pose, or has an invalid covariance.
+/// An odometry that is briefly not a valid pose, or has an invalid covariance.
 TEST(Localizer, ToleratesBadOdometry) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
   Story story(test::offices(8), 8);

@@ -22,7 +22,7 @@ Pose2 added(const Pose2& pose, int axis, double step) {
   return moved;
 }
 
-/// A ring of poses, each seen from the one before with noise, and the ring closed.
+/// A ring of poses with a noisy edge from each to the next, and one edge that closes the ring.
 PoseGraph2D ring(int size, std::uint64_t seed, std::vector<Pose2>& truth) {
   common::RandomStream random(seed, "ring");
   truth.clear();
@@ -79,7 +79,7 @@ TEST(PoseGraph2D, ClosingTheRingRemovesTheDrift) {
   const PoseGraph2DSolution solution = optimize(graph, {});
   EXPECT_TRUE(solution.converged);
   EXPECT_LT(worst(solution.poses, truth), 0.5 * worst(graph.poses, truth));
-  // One loop of slack: three errors of freedom.
+  // With one loop, the errors have three degrees of freedom.
   double sum = 0.0;
   for (const double e : solution.squared_errors) sum += e;
   EXPECT_LT(sum, 20.0);
@@ -94,7 +94,7 @@ TEST(PoseGraph2D, AFalseClosureDoesNotBendTheMap) {
   const PoseGraph2DSolution robust = optimize(graph, {});
   EXPECT_LT(worst(robust.poses, truth), honest_m + 0.10);
   EXPECT_GT(robust.squared_errors.back(), 1000.0);
-  // Without the kernel it does.
+  // Without the robust kernel the false closure bends the map.
   graph.edges.back().robust = false;
   EXPECT_GT(worst(optimize(graph, {}).poses, truth), 1.0);
 }

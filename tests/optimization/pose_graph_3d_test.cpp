@@ -26,7 +26,7 @@ using test::sum;
 
 RandomStream anyStream() { return {*rc::gen::arbitrary<std::uint64_t>(), "pose graph"}; }
 
-/// By homogeneous matrices, as the definition reads.
+/// The error computed with homogeneous matrices, as in its definition.
 Vector6d errorByMatrices(const Pose3& from, const Pose3& to, const Pose3& seen) {
   const auto matrix = [](const Pose3& pose) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -47,7 +47,7 @@ Pose3 moved(const Pose3& pose, const Vector6d& step) {
   return {(pose.rotation * common::expSO3(step.tail<3>())).normalized(), pose.position_m + step.head<3>()};
 }
 
-/// How the seven numbers of a pose change with the step of `moved`.
+/// The derivative of the seven numbers of a pose with respect to the step of `moved`.
 Eigen::Matrix<double, 7, 6> numbersByStep(const Pose3& pose) {
   const auto& q = pose.rotation;
   Eigen::Matrix<double, 7, 6> matrix = Eigen::Matrix<double, 7, 6>::Zero();
@@ -68,7 +68,7 @@ Eigen::Matrix<double, 6, 6> derivative(Function&& function) {
   return matrix;
 }
 
-/// Poses that are not so far apart that the error's sign is about to change.
+/// Whether the rotation error is close to half a turn, where the sign of its quaternion changes.
 bool nearTurn(const Pose3& from, const Pose3& to, const Pose3& seen) {
   return edgeError(from, to, seen).error.tail<3>().norm() > 0.99;
 }
@@ -152,7 +152,7 @@ TEST(PoseGraph3D, TheOptimumEqualsThatOfDenseGaussNewton) {
   }
 }
 
-/// A ring in space that climbs and comes back, each pose seen from the one before, and closed.
+/// A closed ring in space that climbs and comes back, with an edge from each pose to the next.
 PoseGraph3D ring(int size, RandomStream& random, std::vector<Pose3>& truth) {
   PoseGraph3D graph;
   for (int i = 0; i < size; ++i) {

@@ -31,7 +31,7 @@ void expectExplored(const test::FlightReport& report, const std::string& name) {
   }
 }
 
-/// Kept in the test's record: the figures of a flight.
+/// Writes the figures of a flight into the test's record.
 void record(const test::FlightReport& r, const std::string& name) {
   testing::Test::RecordProperty(name, fmt::format("{:.1f} s {:.1f} m coverage {:.4f} {} calls {} frontiers left",
                                                   r.time_s, r.length_m, r.coverage, r.calls, r.last.frontiers.size()));

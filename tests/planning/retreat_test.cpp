@@ -107,7 +107,8 @@ TEST(Retreat, AllowsForItsTurningDistanceAtSpeed) {
 }
 
 TEST(Retreat, NeverFliesIntoObstacles) {
-  // Random walls and people: no nearer to a wall than the margin, or than stopping at once would have brought it.
+  // Random walls and people: the vehicle keeps the margin to walls, or the distance of an immediate stop if that is
+  // less.
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     common::RandomStream random(seed, "retreat");
     Flyer flyer, stopper;

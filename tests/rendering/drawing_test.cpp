@@ -175,8 +175,7 @@ struct BlankMap {
     view.height_px = 120;
     view.viewport = Viewport{{0.0, 0.0}, 10.0, 160, 120};
   }
-  /// Whether the pixels around the point differ from those of the blank map.
-  /// Whether a pixel at most `margin_px` beside the place is drawn on.
+  /// Whether any pixel within `margin_px` of the place differs from the blank map.
   bool isInkedAt(double x_m, double y_m, int margin_px = 1) const {
     MapPicture blank;
     blank.grid = picture.grid;

@@ -13,7 +13,7 @@ namespace {
 using common::Pose2;
 using test::errorOf;
 
-/// A scan taken at `truth` whose prediction says `predicted`.
+/// A scan taken at `truth` with the predicted pose `predicted`.
 ProjectedScan scanWith(const test::PlanarWorld& world, const Pose2& truth, const Pose2& predicted,
                        std::uint64_t frame) {
   ProjectedScan scan = test::scanAt(world, truth, frame);
@@ -172,7 +172,7 @@ TEST(LaserOdometry, APoseFarFromTheGuessMustFitBetter) {
   EXPECT_TRUE(findsAmongPeople(0.05, config));
 }
 
-/// Half of the walls fit where it was expected as well.
+/// Half of the walls also fit at the expected pose.
 TEST(LaserOdometry, SearchesFartherAfterAPoorFitAtTheGuess) {
   LaserOdometryConfig config;
   config.min_fit = 0.35;
@@ -198,7 +198,7 @@ TEST(LaserOdometry, UsesTheOtherGuessWhenItFitsBetter) {
   EXPECT_FALSE(next->otherwise);
 }
 
-/// Slightly more of the scan fits there, but that place is six windows away.
+/// Slightly more of the scan fits at the other guess, but that place is six windows away.
 TEST(LaserOdometry, AFarOtherGuessMustFitMuchBetter) {
   const test::PlanarWorld world = test::flat();
   const Pose2 here{0.01, 0.0, 0.0}, there{0.4, 0.1, 0.1};

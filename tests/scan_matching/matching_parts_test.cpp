@@ -90,7 +90,7 @@ TEST(LikelihoodField, DependsOnTheDistanceToTheNearestContour) {
     const Eigen::Vector2d center((field.beginX() + x + 0.5) * 0.01, (field.beginY() + y + 0.5) * 0.01);
     double distance_m = 1e9;
     for (const ContourSegment& segment : contour) distance_m = std::min(distance_m, distanceTo(segment, center));
-    // Contours are drawn as dots a cell apart, on a quarter of a cell.
+    // Contours are drawn as dots one cell apart, at positions rounded to a quarter of a cell.
     const double found_m =
         field.at(x, y) == 0 ? field.reach_m() : field.reach_m() * std::sqrt(1.0 - field.at(x, y) / 255.0);
     EXPECT_NEAR(found_m, std::min(distance_m, field.reach_m()), 0.006);

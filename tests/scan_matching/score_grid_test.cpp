@@ -122,7 +122,8 @@ TEST(ScoreGrid, TheScoresShowTheUnobservableDirectionOfACorridor) {
   matcher.addReference(scanAt(world, reference, 0), reference);
   const MatchResult match = matcher.match(scanAt(world, truth, 1), guess, {0.2, 0.02});
   ASSERT_FALSE(match.failed);
-  // Not along the whole window, as the dots of the walls far away are alike by chance, but far wider than in a room.
+  // The direction does not extend over the whole window, because dots on distant walls match by chance, but it is far
+  // longer than in a room.
   EXPECT_GT(match.covariance(0, 0), 20.0 * match.covariance(1, 1));
   EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
 }

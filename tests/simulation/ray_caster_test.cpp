@@ -41,7 +41,7 @@ WorldModel clutter(std::uint64_t seed, int triangles) {
   return world;
 }
 
-/// The slow obvious one: every triangle, in double precision.
+/// A slow and simple ray caster: it tests every triangle, in double precision.
 double bruteForce(const WorldModel& world, const Vector3d& origin, const Vector3d& direction) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Shape& shape : world.shapes) {

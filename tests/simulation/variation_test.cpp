@@ -1,4 +1,4 @@
-// The variation by a seed.
+// Variation of a scenario by its seed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -272,7 +272,7 @@ TEST(Worlds, TheShippedCaseHasItsPublishedFloorArea) {
   const WorldModel w = loadWorld(SWIFTLET_SOURCE_DIR "/worlds/unb_case1.sdf");
   EXPECT_THAT(w.warnings, IsEmpty());
   const RayCaster rays(w);
-  // Floor is where a plumb line from under the ceiling falls between walls; boxes and furniture stand on floor.
+  // All area between the walls counts as floor, also below boxes and furniture.
   WorldModel empty = w;
   std::erase_if(empty.shapes, [](const Shape& shape) {
     return shape.model == "box_1" || shape.model == "box_2" || shape.model == "table" || shape.model == "platform" ||

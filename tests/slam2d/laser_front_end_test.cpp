@@ -36,7 +36,7 @@ class Robot {
   std::uint64_t scans_ = 0;
 };
 
-/// The walls beside it are ever new, none of the scans before has seen them.
+/// The walls beside the robot are always new: no earlier scan has seen them.
 TEST(LaserFrontEnd, TracksARobotThatDrivesBackwards) {
   const test::PlanarWorld world = test::corridorWithDoors();
   common::LaserConfig laser;
@@ -77,7 +77,7 @@ TEST(LaserFrontEnd, IgnoresJumpsOfTheOdometry) {
   EXPECT_LT(std::abs(between(truth, last.T_odom_robot).yaw_rad), 0.02);
 }
 
-/// It went on for a long while, or it stood: the speed before tells nothing.
+/// During a long pause the robot may have driven on or stood still, so its earlier speed tells nothing.
 TEST(LaserFrontEnd, ALongPauseOfALogAddsNoMotion) {
   for (const double pause_s : {5.0, 30.0, 3500.0}) {
     Robot robot;
@@ -90,7 +90,7 @@ TEST(LaserFrontEnd, ALongPauseOfALogAddsNoMotion) {
   }
 }
 
-/// A scan is followed as if taken at once: what the log says its beams took moves no stamp.
+/// A scan is treated as taken at one instant, so the time per beam in the log does not change its stamp.
 TEST(LaserFrontEnd, StampsIncreaseWhateverTheTimePerBeam) {
   Robot robot;
   Time last;
@@ -104,7 +104,8 @@ TEST(LaserFrontEnd, StampsIncreaseWhateverTheTimePerBeam) {
   EXPECT_EQ(robot.counts().out_of_order, 0U);
 }
 
-/// Carried elsewhere, it starts anew with a scan that stands where it was expected: no match.
+/// After the robot is carried elsewhere, the odometry restarts with a scan placed at its expected pose. That scan was
+/// not matched.
 TEST(LaserFrontEnd, AScanThatRestartsTheOdometryIsNotMatched) {
   Robot robot;
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(robot.scanAt({0.02 * i, 0.0, 0.0}, 0.1 * i).matched);

@@ -14,7 +14,7 @@ namespace {
 
 using common::Pose2;
 
-/// A room no pose but one fits; with a corner of two walls in it, or without.
+/// A room without symmetry, so that a scan fits only one pose, with or without an inner corner of two walls.
 test::PlanarWorld room(bool divided) {
   test::PlanarWorld world;
   world.addPolyline(
@@ -39,7 +39,7 @@ TEST(FreeSpaceViolation, CountsAWallThatOnlyOneScanSaw) {
   const double share = freeSpaceViolation(one, other, 20.0);
   EXPECT_GT(share, 0.15);
   EXPECT_NEAR(freeSpaceViolation(other, one, 20.0), share, 1e-12);
-  // Beyond the greatest range a point is none.
+  // Points beyond the greatest range do not count.
   EXPECT_EQ(freeSpaceViolation(one, other, 0.1), 0.0);
 }
 
@@ -53,7 +53,7 @@ TEST(FreeSpaceViolation, IsZeroWithoutOverlap) {
   EXPECT_EQ(freeSpaceViolation({}, {}, 20.0), 0.0);
 }
 
-/// A scan of points all at one range, one a degree.
+/// A scan of points at one range, one point a degree.
 ProjectedScan arc(double range_m, double from_deg, double to_deg) {
   ProjectedScan scan;
   for (double angle_deg = from_deg; angle_deg <= to_deg; angle_deg += 1.0) {
@@ -113,7 +113,7 @@ TEST(LoopSearch, FindsARevisitedRoom) {
 TEST(LoopSearch, RejectsARoomWithAnAdditionalWall) {
   TwoVisits visits(room(false), room(true));
   EXPECT_FALSE(visits.search());
-  // That is what keeps it from being taken for the same.
+  // Without the limit on free-space violations the two rooms would be taken for the same.
   visits.config.loops.max_free_space_violation = 1.0;
   EXPECT_TRUE(visits.search());
 }

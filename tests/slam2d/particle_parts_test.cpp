@@ -167,7 +167,7 @@ TEST(SurfaceMap, DrawsOnlyTheHeightBand) {
   const SurfaceScan level = toDraw(nodding(1.0), config, heights);
   ASSERT_EQ(level.hits.size(), 1U);
   EXPECT_EQ(level.hits[0].point_m.x(), 2.0F);
-  // The other two left the band halfway; to there they saw nothing.
+  // The other two beams leave the band halfway; up to there the space is free.
   ASSERT_EQ(level.free_m.size(), 2U);
   for (const Eigen::Vector2f& end : level.free_m) EXPECT_NEAR(end.x(), 2.0F, 1e-5F);
   // The band is that of the flight, not of the body.
@@ -226,12 +226,13 @@ TEST(MapMatch, FindsThePoseWithAMatchingCovariance) {
   std::printf("  at most %.1f mm, %.2f deg; nees %.2f\n", 1e3 * worst_m, worst_rad / kRadPerDeg, nees);
   EXPECT_LT(worst_m, 0.02);
   EXPECT_LT(worst_rad, 0.3 * kRadPerDeg);
-  // Three when honest. It errs on the cautious side here: a real map is worse than the noise of its beams.
+  // The mean is 3 if the covariance is exact. Here it is cautious, because a real map is worse than the noise of its
+  // beams.
   EXPECT_GT(nees, 0.1);
   EXPECT_LT(nees, 3.0);
 }
 
-/// The covariance of the motion does not know of a slip; the map does.
+/// A slip is not in the covariance of the motion, so only the map can correct it.
 TEST(MapMatch, CorrectsASlipOfTheMotion) {
   const test::PlanarWorld world = test::flat();
   const SurfaceMapConfig map_config;
@@ -243,7 +244,7 @@ TEST(MapMatch, CorrectsASlipOfTheMotion) {
   const MotionPrior right{truth, motionCovariance(0.005, 0.002)};
   const MapMatch match = matchToMap(map, points, slipped, config);
   EXPECT_LT((match.T_map_body.position_m() - truth.position_m()).norm(), 0.01);
-  // But a particle that came there without one is the more likely.
+  // A particle that got there without a slip is more likely.
   EXPECT_GT(matchToMap(map, points, right, config).log_motion, match.log_motion + 1.0);
 }
 
@@ -266,7 +267,7 @@ TEST(MapMatch, TheRightMapIsMoreLikelyThanAWrongOne) {
   }
 }
 
-/// Along a corridor the map says nothing: there the motion stands, with all its uncertainty.
+/// The map does not constrain the pose along a corridor, so the motion and its whole uncertainty remain there.
 TEST(MapMatch, KeepsTheMotionAlongACorridor) {
   test::PlanarWorld corridor;
   corridor.addPolyline({{-50.0, -1.0}, {50.0, -1.0}}, false);

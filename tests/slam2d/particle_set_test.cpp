@@ -48,7 +48,7 @@ TEST(AncestryTree, ForgetsPosesWithoutDescendants) {
   tree.release(leaves[0]);
   EXPECT_EQ(tree.size(), 1001U);
   EXPECT_EQ(tree.pathTo(leaves[1]).size(), 1001U);
-  // The room of the dead line is used again.
+  // The memory of the extinct line is reused.
   const int other = tree.add(leaves[1], {});
   tree.release(leaves[1]);
   EXPECT_EQ(tree.pathTo(other).size(), 1002U);

@@ -121,7 +121,7 @@ TEST(ParticleSlam, IgnoresLateEmptyAndInvalidScans) {
   EXPECT_EQ(slam.anchor(), 1);
 }
 
-/// However often a place was seen.
+/// The confidence does not grow beyond its cap, however often a place was seen.
 TEST(ParticleSlam, TheConfidenceOfTheBestMapStaysCapped) {
   ParticleSlam slam(someParticles(5));
   flyFlat(slam, 200, 3);

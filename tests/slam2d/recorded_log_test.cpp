@@ -65,7 +65,7 @@ void expectErrors(const evaluation::RelationErrors& errors, const std::string& w
   EXPECT_LE(mean_deg, rotation_deg);
 }
 
-/// Nothing is expected where the data set is missing.
+/// Skips the test if the data set is missing.
 void expectRelations(const std::string& name, bool odometry, double translation_m, double rotation_deg,
                      SlamMethod method = SlamMethod::kGraph) {
   const std::string stem = "01-laser-slam/" + name + "/" + name;
@@ -108,8 +108,8 @@ TEST(RecordedLog, IntelIsMappedForwardsAndThenBackwards) {
   EXPECT_LT(slam.keyPoses().size(), alone.keyPoses().size() * 5 / 4) << "the graph grows in known area";
 }
 
-/// gmapping, run on the raw log with its odometry, is 0.042 m off; published, 0.070 m. Without odometry nothing is
-/// promised of particles (docs/tutorials/recorded_log.md): a corridor entered wrongly stays wrong (decision 023).
+/// The error of gmapping is 0.042 m on the raw log with its odometry; its published error is 0.070 m. Particles without
+/// odometry have no bound (docs/tutorials/recorded_log.md): a corridor entered wrongly stays wrong (decision 023).
 TEST(RecordedLog, IntelIsMappedByParticles) { expectRelations("intel", true, 0.042, 0.453, SlamMethod::kParticles); }
 
 }  // namespace

@@ -21,7 +21,7 @@ Eigen::Vector3d errorOf(const Pose2& estimate, const Pose2& truth) {
   return {estimate.x_m - truth.x_m, estimate.y_m - truth.y_m, common::wrapAngle(estimate.yaw_rad - truth.yaw_rad)};
 }
 
-/// Where it is relative to the last key scan, against the truth of both.
+/// Compares the pose relative to the last key scan with the truth.
 TEST(ScanToMapSlam, ItsCovarianceAgreesWithItsErrors) {
   const ScanToMapConfig config;
   ScanToMapSlam slam(config);
@@ -78,7 +78,7 @@ TEST(ScanToMapSlam, ARejectedMatchKeepsTheCorrection) {
   EXPECT_GT(slam.covariance()(0, 0), covariance(0, 0));
 }
 
-/// Along it the walls say nothing: the odometry stands there, with all its uncertainty.
+/// The walls do not constrain the pose along the corridor, so the odometry and its whole uncertainty remain there.
 TEST(ScanToMapSlam, InACorridorTheUncertaintyGrowsAlongIt) {
   test::PlanarWorld corridor;
   corridor.addPolyline({{-50.0, -1.0}, {50.0, -1.0}}, false);

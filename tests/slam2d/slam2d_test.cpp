@@ -175,7 +175,7 @@ TEST(Slam2d, ClosesALoopAndRedrawsTheMap) {
 }
 
 TEST(Slam2d, AReturnToKnownAreaOptimizesTheGraph) {
-  // Too certain for a loop to be sought: the end of the round is known ground, and matched to it.
+  // The graph is too certain for a loop search. The end of the round is known area, and its scans are matched to it.
   const test::Ring ring;
   Slam2dConfig certain;
   certain.loops.max_candidates = 0;
@@ -230,7 +230,7 @@ TEST(Slam2d, ATaskMayRunInTheBackgroundAndArriveLate) {
              pending.reset();
            });
   ASSERT_GE(late.counts().loops_closed, 1U);
-  // What was flown meanwhile went along with the correction.
+  // The correction also moved the part flown meanwhile.
   const Pose2 a = at_once.keyPoses().back().T_map_body, b = late.keyPoses().back().T_map_body;
   EXPECT_LT((a.position_m() - b.position_m()).norm(), 0.15);
 }
@@ -249,7 +249,7 @@ TEST(Slam2d, IgnoresLateEmptyAndInvalidScans) {
   EXPECT_TRUE(std::isfinite(slam.addScan(next.scan, next.T_odom_body, nan).T_map_body.x_m));
 }
 
-/// It says nothing of the step, not that the step is certain.
+/// An invalid covariance means that the step is unknown, not that it is certain.
 TEST(Slam2d, AnInvalidCovarianceGivesAWeakEdge) {
   const auto firstEdge = [](bool known) {
     Slam2d slam{{}};

@@ -1,5 +1,5 @@
-// The methods of 2D SLAM behind their one interface: each makes the map of the same flight, and says by its counters
-// that it was the one at work.
+// The methods of 2D SLAM behind their common interface: each maps the same flight, and its counters show that it did
+// the work.
 #include "perception/slam2d/slam_method.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace {
 using common::CellIndex;
 using common::Pose2;
 
-/// As a profile names it.
+/// The configuration with the method of that name, as in a profile.
 SlamMethodConfig configOf(const std::string& method) {
   SlamMethodConfig config;
   common::config::YamlReader::fromText("{method: " + method + ", particles: {count: 10}}", method).read(config);
@@ -66,7 +66,7 @@ struct Flown {
   double wall_median_m = 0.0, wall_p90_m = 0.0;
 };
 
-/// Once through the flat, or so many scans of it, with what `each(step, update)` says besides.
+/// Flies once through the flat, at most `scans` scans, and calls `each(step, update)` after each scan.
 template <typename Each>
 Flown flyFlat(PlanarSlam& slam, std::uint64_t seed, int scans, Each&& each) {
   test::Flight flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, seed);

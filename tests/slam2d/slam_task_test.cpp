@@ -35,7 +35,7 @@ SlamTask lastTaskOf(const SlamGraph& graph) {
 TEST(SlamTask, RejectsAClosureThatTheOthersContradict) {
   SlamGraph graph = line(12);
   graph.add({0, 11, Pose2{11.0, 0.05, 0.0}, covarianceOf(0.02, 0.005), true});
-  graph.add({1, 10, Pose2{6.0, 2.0, 0.3}, covarianceOf(0.02, 0.005), true});  // Of another corridor.
+  graph.add({1, 10, Pose2{6.0, 2.0, 0.3}, covarianceOf(0.02, 0.005), true});  // Of another corridor, so it is false.
   graph.add({2, 9, Pose2{7.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), true});
   const SlamResult result = run(lastTaskOf(graph));
   ASSERT_EQ(result.data->rejected_edges, std::vector<int>{12});
@@ -69,7 +69,7 @@ SlamGraph closedAMetreOff() {
   graph.edges[14].T_from_to.x_m = 0.5;  // Between 14 and 15 nothing was observable along the corridor.
   graph.edges[14].covariance = covarianceOf(1.0, 0.005);
   graph.add({6, 24, Pose2{0.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), true});
-  graph.add({4, 26, Pose2{0.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), false});  // Matched there.
+  graph.add({4, 26, Pose2{0.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), false});  // Matched to key scan 4.
   return graph;
 }
 

@@ -203,10 +203,10 @@ TEST(StateJsonTest, ContainsThePoseInTheGivenMapOnceItIsKnown) {
   EXPECT_EQ(known["explained"], 0.875);
 }
 
-/// A flight at some speed, looked at when a test says so.
+/// A flight at any speed that the telemetry observes only when the test asks for it.
 class RealtimeFactor : public ::testing::Test {
  protected:
-  /// What the state says after `unix_s` more, at `speed` times real time.
+  /// The realtime factor in the state after another `unix_s` seconds, flown at `speed` times real time.
   nlohmann::json after(double unix_s, double speed) {
     unix_time_ = unix_time_ + common::Duration::fromSeconds(unix_s);
     world_.post(flight_.advance(speed * unix_s));

@@ -93,7 +93,7 @@ TEST(ServerTest, AnswersACommandWithItsResult) {
   EXPECT_EQ(jsonOf(request(backend.port(), "GET", "/api/state"))["events"].size(), 6u);
 }
 
-/// What one of several vehicles hands to the server; the test carries its commands out.
+/// The data that one of several vehicles gives to the server. The test executes its commands.
 struct Flown {
   explicit Flown(std::string name_in) : name(std::move(name_in)) {
     flight.layers().vehicle.name = name;
@@ -216,7 +216,7 @@ TEST(ServerTest, TheCameraIsRequestedOnlyWhileAClientWatches) {
   EXPECT_TRUE(eventually([&] { return !backend.server().cameraWanted(); }));
 }
 
-/// Reads parts of a stream and returns the age of each frame when it was there, in seconds.
+/// Reads parts of a stream and returns the age of each frame at its arrival, in seconds.
 std::vector<double> frameAges(int port, const std::string& target, double duration_s) {
   RawClient client(port);
   client.send("GET " + target + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -326,7 +326,7 @@ TEST(WebServerTest, StopsWhileACommandWaitsAndReleasesEverything) {
   common::LatestValue<common::CameraFrame> camera;
   common::LosslessQueue<common::OperatorCommand> commands;
   common::LosslessQueue<common::CommandResult> results;
-  auto held = std::make_shared<int>();  // By all that the server shares, through the clock it is given.
+  auto held = std::make_shared<int>();  // Held by the server's clock.
   const std::weak_ptr<int> still_held = held;
   {
     web::WebServer::Options options;

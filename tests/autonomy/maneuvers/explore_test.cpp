@@ -23,7 +23,7 @@ TEST_F(ManeuverStory, ExploreFailsOnTheGround) {
 class ExploreManeuver : public ManeuverInFlight {
  protected:
   using ManeuverInFlight::ManeuverInFlight;
-  /// It takes off with its back to what there is to see.
+  /// The vehicle takes off facing away from the unexplored area.
   void SetUp() override {
     place(1.5, 2.0, std::numbers::pi);
     ManeuverInFlight::SetUp();
@@ -86,7 +86,7 @@ TEST_F(ExploreManeuver, GivesUpAFrontierAfterThreeLooksAndReportsTheReason) {
   EXPECT_EQ(reasonOf("frontier of 0.15 m"), "too small: 0.15 m long");
 }
 
-/// The default, another planner, another explorer: who was chosen did the work.
+/// The default, another planner and another explorer. The counters show which of them did the work.
 class ExploreBy : public ExploreManeuver, public testing::WithParamInterface<std::tuple<Choices, PlanningUse>> {
  protected:
   ExploreBy() : ExploreManeuver(std::get<Choices>(GetParam())) {}
