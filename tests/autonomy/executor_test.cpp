@@ -14,7 +14,7 @@ TEST_F(ManeuverStory, HoldsBeforeTheFirstIntent) {
   EXPECT_EQ(executor_.status().state, IntentState::kRunning);
   EXPECT_EQ(executor_.status().reason, "holding");
   EXPECT_TRUE(executor_.status().released);
-  EXPECT_TRUE(executor_.desk().costMap()) << "the cost map is refreshed although nobody asked for a path";
+  EXPECT_TRUE(executor_.desk().costMap()) << "the cost map is refreshed without a request for a path";
 }
 
 TEST_F(ExecutorInFlight, TheSameIntentContinuesAndANewIntentRestarts) {
@@ -24,7 +24,7 @@ TEST_F(ExecutorInFlight, TheSameIntentContinuesAndANewIntentRestarts) {
   want(to(6.0, 2.0));
   run(0.01);
   run(0.04);
-  EXPECT_FALSE(controller_.followsPath()) << "a new id stops what was under way";
+  EXPECT_FALSE(controller_.followsPath()) << "a new id stops the present path";
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty()) << "no plan outlives its intent";
   run(0.5);
   EXPECT_TRUE(controller_.followsPath());

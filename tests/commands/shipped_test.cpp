@@ -72,7 +72,7 @@ TEST(Shipped, EachDataSheetLoads) {
 
 TEST(Shipped, TheReferenceOfAllSettingsIsUpToDate) {
   EXPECT_EQ(test_support::readText(kRoot / "docs/configuration.md"), runSwiftlet({"config", "--reference"}).out)
-      << "write it anew: swiftlet config --reference > docs/configuration.md";
+      << "update it: swiftlet config --reference > docs/configuration.md";
 }
 
 class Profiles : public test_support::Scratch {};

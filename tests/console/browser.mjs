@@ -7,7 +7,7 @@ import { fileURLToPath } from 'node:url';
 
 const kHere = dirname(fileURLToPath(import.meta.url));
 
-/** How many times slower than a release build this one may be; ctest says it. */
+/** How many times slower than a release build this one may be; ctest sets it. */
 export const kPatience = Number(process.env.SWIFTLET_TEST_PATIENCE ?? 1);
 
 function skip(why) {

@@ -100,7 +100,7 @@ TEST_F(FlightScoring, AnOpenWorldHasNoCoverageAndNamesTheReason) {
   EXPECT_EQ(result.coverage_problem, "the world is not closed: the hull gets from the start to more than 2000 m2");
   EXPECT_THAT(result.failures, ElementsAre("coverage: not measured: the world is not closed: the hull gets from the "
                                            "start to more than 2000 m2, at least 0.99 was asked for"));
-  EXPECT_THAT(scoreOf(goodRecord(), world, {}, 7, 3.0).failures, IsEmpty()) << "where nobody asks, nothing is missed";
+  EXPECT_THAT(scoreOf(goodRecord(), world, {}, 7, 3.0).failures, IsEmpty()) << "without a criterion nothing is missed";
 }
 
 TEST_F(FlightScoring, TheWorstGoalCounts) {

@@ -44,7 +44,7 @@ TEST_F(Bag, ReadsScansFromChunksOfEveryCompression) {
     EXPECT_DOUBLE_EQ(logged->scan.angle_increment_rad, 0.5);
     EXPECT_NEAR(logged->scan.time_increment.seconds(), 1e-4, 1e-9);
     EXPECT_FLOAT_EQ(logged->scan.ranges_m[0], 1.0F);
-    EXPECT_TRUE(std::isinf(logged->scan.ranges_m[1])) << "as far as it sees";
+    EXPECT_TRUE(std::isinf(logged->scan.ranges_m[1])) << "its greatest range";
     EXPECT_TRUE(std::isnan(logged->scan.ranges_m[3])) << "negative";
     EXPECT_FLOAT_EQ(logged->scan.ranges_m[4], 0.05F);
     EXPECT_FALSE(logged->T_odom_robot);

@@ -78,7 +78,7 @@ TYPED_TEST(Starts, DoNotDependOnTheGuess) {
     const auto near = optimizeFromBestStart(graph, {});
     const auto far = optimizeFromBestStart(scrambled<TypeParam>(graph, random), {});
     EXPECT_NEAR(far.chi2, near.chi2, 1e-6 * near.chi2) << seed;
-    EXPECT_NEAR(near.chi2, chi2Of(graph, near.poses), 1e-9 * near.chi2) << "what is told is what the poses have";
+    EXPECT_NEAR(near.chi2, chi2Of(graph, near.poses), 1e-9 * near.chi2) << "the reported chi2 is that of the poses";
     EXPECT_GT(far.chi2_guess, near.chi2_guess);
   }
 }

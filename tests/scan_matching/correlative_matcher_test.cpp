@@ -82,7 +82,7 @@ TEST(CorrelativeMatcher, EveryInstructionSetGivesIdenticalResults) {
 struct Accuracy {
   double translation_rms_m = 0.0;
   double rotation_rms_rad = 0.0;
-  double nees = 0.0;  ///< Mean of the normalized squared error; 3 when the covariance is honest.
+  double nees = 0.0;  ///< Mean of the normalized squared error; 3 when the covariance is exact.
 };
 
 Accuracy measureAccuracy(const CorrelativeMatcherConfig& config, int trials) {

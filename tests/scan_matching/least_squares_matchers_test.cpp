@@ -40,7 +40,7 @@ Pose2 randomStep(common::RandomStream& random, double distance_m, double turn_ra
 
 struct Accuracy {
   double translation_rms_m = 0.0, rotation_rms_rad = 0.0;
-  double nees = 0.0;  ///< Mean of the normalized squared error; 3 when the covariance is honest.
+  double nees = 0.0;  ///< Mean of the normalized squared error; 3 when the covariance is exact.
   int failed = 0;
 };
 

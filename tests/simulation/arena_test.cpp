@@ -100,7 +100,7 @@ TEST(ArenaDeath, AVehicleHasOneUserFromTheStart) {
   EXPECT_DEATH(SimulatedVehicle(arena, 0), "attended");
   EXPECT_DEATH(SimulatedVehicle(arena, 2), "index");
   std::vector<common::SensorEvent> events;
-  ASSERT_TRUE(a.advanceTo(Time::fromSeconds(0.01), events)) << "nobody attends b";
+  ASSERT_TRUE(a.advanceTo(Time::fromSeconds(0.01), events)) << "b has no user";
   EXPECT_DEATH(SimulatedVehicle(arena, 1), "now_");
 }
 

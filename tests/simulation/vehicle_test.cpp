@@ -43,7 +43,7 @@ TEST(SimulatedVehicle, OnlyTheSameSeedGivesTheSameBytes) {
 TEST(SimulatedVehicle, ACameraConsumerChangesNoOtherByte) {
   const auto with = tour(7, true), without = tour(7, false);
   EXPECT_EQ(eventsOf<Frame>(with).size(), 40U);
-  EXPECT_TRUE(eventsOf<Frame>(without).empty()) << "what nobody looks at is not rendered";
+  EXPECT_TRUE(eventsOf<Frame>(without).empty()) << "pictures without a consumer are not rendered";
   EXPECT_EQ(bytesOf(with, false), bytesOf(without, false));
 }
 

@@ -44,7 +44,7 @@ TEST(Walkers, AWalkerCrossesAheadInSightAndLeaves) {
   TruthPilot pilot(vehicle);
   pilot.flyTo(-4, 0, 1);
   ASSERT_TRUE(pilot.fly(4));
-  EXPECT_TRUE(vehicle.walkers().empty()) << "nobody crosses the way of one that stands still";
+  EXPECT_TRUE(vehicle.walkers().empty()) << "nobody crosses ahead of a vehicle at rest";
   pilot.max_speed_m_s = 0.5;
   pilot.flyTo(0, 0, 1);
   double least_y = 9, greatest_y = -9;
@@ -63,7 +63,7 @@ TEST(Walkers, AWalkerCrossesAheadInSightAndLeaves) {
   EXPECT_TRUE(came);
   EXPECT_LT(least_y, -1.0);
   EXPECT_GT(greatest_y, 1.0);
-  EXPECT_TRUE(vehicle.walkers().empty()) << "it went on its way";
+  EXPECT_TRUE(vehicle.walkers().empty()) << "the walker has left";
 }
 
 TEST(Walkers, AFollowerStaysBehindOnTheVehiclesTrail) {

@@ -47,7 +47,7 @@ TEST(ScanToMapSlam, ItsCovarianceAgreesWithItsErrors) {
   }
   std::printf("  nees %.2f over %d matches, %d of them rejected\n", nees / scans, scans,
               static_cast<int>(slam.counts().local_failures));
-  EXPECT_LT(nees / scans, 3.0) << "three when honest, less when cautious";
+  EXPECT_LT(nees / scans, 3.0) << "3 when the covariance is exact, less when it is cautious";
 }
 
 TEST(ScanToMapSlam, ARejectedMatchKeepsTheCorrection) {

@@ -22,7 +22,7 @@ struct Score {
   double rms_m = 0.0, max_m = 0.0, end_m = 0.0;
   double odom_end_m = 0.0;
   double wall_median_m = 0.0, wall_p90_m = 0.0;
-  double odometry_nees = 0.0;  ///< Mean normalized squared error of the relative poses; 3 when honest.
+  double odometry_nees = 0.0;  ///< Mean normalized squared error of the relative poses; 3 when exact.
 };
 
 /// Distances of the occupied cells from the nearest wall, sorted.

@@ -111,7 +111,7 @@ TEST(ReactiveSequence, ARunningEarlierChildHaltsALaterOne) {
   EXPECT_EQ(story.tick(), "RUNNING: start A, B halting");
   EXPECT_EQ(story.tick(), "RUNNING: B halted, A");
   story.says("A", "SUCCESS");
-  EXPECT_EQ(story.tick(), "RUNNING: A, start B") << "B starts anew";
+  EXPECT_EQ(story.tick(), "RUNNING: A, start B") << "B restarts";
 }
 
 TEST(ReactiveSequence, IsSkippedWhenAllAreEvenAfterRunning) {
@@ -156,7 +156,7 @@ TEST(Parallel, AllMustSucceedByDefault) {
   story.says("A", "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: start A, start B, start C");
   story.says("B", "SUCCESS");
-  EXPECT_EQ(story.tick(), "RUNNING: B, C") << "who ended is not asked again";
+  EXPECT_EQ(story.tick(), "RUNNING: B, C") << "a child that ended is not ticked again";
   story.says("C", "SUCCESS");
   EXPECT_EQ(story.tick(), "SUCCESS: C");
 }

@@ -119,7 +119,7 @@ std::vector<Problem> readByLearning(const fs::path& path, bool& read) {
   return {};
 }
 
-TEST(OthersTrees, AreReadOrRefusedWithThePlace) {
+TEST(TreesOfOtherProjects, AreReadOrRefusedWithThePlace) {
   const auto folder = test_support::dataSet("08-behavior-trees");
   if (!folder) return;
   int read_count = 0, refused = 0;

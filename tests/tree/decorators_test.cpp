@@ -86,7 +86,7 @@ TEST(Timeout, HaltsTheChildWhenTheTimeIsOver) {
   EXPECT_EQ(story.tick(1), "RUNNING: A halting") << "not ticked once more";
   EXPECT_EQ(story.tick(), "FAILURE: A halted");
   EXPECT_THAT(story.failures(), ElementsAre("Timeout: timed out after 1 s"));
-  EXPECT_EQ(story.tick(), "RUNNING: start A") << "the clock starts anew";
+  EXPECT_EQ(story.tick(), "RUNNING: start A") << "the clock restarts";
 }
 
 TEST(Timeout, PassesOnAnAnswerInTime) {

@@ -87,12 +87,12 @@ TEST_F(ExploreManeuver, GivesUpAFrontierAfterThreeLooksAndReportsTheReason) {
 }
 
 /// The default, another planner and another explorer. The counters show which of them did the work.
-class ExploreBy : public ExploreManeuver, public testing::WithParamInterface<std::tuple<Choices, PlanningUse>> {
+class ExploreChoices : public ExploreManeuver, public testing::WithParamInterface<std::tuple<Choices, PlanningUse>> {
  protected:
-  ExploreBy() : ExploreManeuver(std::get<Choices>(GetParam())) {}
+  ExploreChoices() : ExploreManeuver(std::get<Choices>(GetParam())) {}
 };
 
-TEST_P(ExploreBy, UsesTheChosenExplorerAndPlanner) {
+TEST_P(ExploreChoices, UsesTheChosenExplorerAndPlanner) {
   const PlanningUse& expected = std::get<PlanningUse>(GetParam());
   build(true);
   want(common::ExploreIntent{});
@@ -102,11 +102,11 @@ TEST_P(ExploreBy, UsesTheChosenExplorerAndPlanner) {
   EXPECT_EQ(use.explorer, expected.explorer);
   EXPECT_GE(use.viewpoints, 3) << "one a look";
   EXPECT_EQ(use.planner, expected.planner);
-  EXPECT_GE(use.paths, use.viewpoints) << "every leg is planned, and planned anew while it is flown";
+  EXPECT_GE(use.paths, use.viewpoints) << "every leg is planned, and replanned while it is flown";
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Chosen, ExploreBy,
+    Chosen, ExploreChoices,
     testing::Values(std::tuple{Choices{}, PlanningUse{"D* Lite", 0, "utility", 0}},
                     std::tuple{Choices{planning::PlannerKind::kWavefront}, PlanningUse{"wavefront", 0, "utility", 0}},
                     std::tuple{Choices{planning::PlannerKind::kDStarLite, planning::ExplorerKind::kNearestFrontier},

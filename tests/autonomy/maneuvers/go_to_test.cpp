@@ -180,12 +180,12 @@ TEST_F(GoToManeuver, FliesInTheModeOfTheIntent) {
   EXPECT_NEAR(executor_.wantedVelocity_map_m_s().norm(), controller_.speed_m_s(common::FlightMode::kCareful), 1e-9);
 }
 
-class GoToByWavefront : public ManeuverInFlight {
+class GoToWithWavefront : public ManeuverInFlight {
  protected:
-  GoToByWavefront() : ManeuverInFlight(Choices{planning::PlannerKind::kWavefront}) {}
+  GoToWithWavefront() : ManeuverInFlight(Choices{planning::PlannerKind::kWavefront}) {}
 };
 
-TEST_F(GoToByWavefront, UsesThePlannerOfTheProfile) {
+TEST_F(GoToWithWavefront, UsesThePlannerOfTheProfile) {
   fill(grid_, {{80, 0}, {81, 80}}, kWallCell);
   fill(grid_, kDoor, kFreeCell);
   want(to(6.0, 3.2));
