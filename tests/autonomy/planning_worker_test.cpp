@@ -104,7 +104,8 @@ TEST_F(Worker, AFlownDoorStaysPassableWhenItsFrameGrowsSlightly) {
   const auto back = ask(GoalRequest{{2.0, 2.0}, 0.05});
   ASSERT_TRUE(back.path && *back.path);
   worker = PlanningWorker{ExecutorConfig{}, 0.05};
-  EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value()) << "a worker that has not flown through the door finds it too narrow";
+  EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value())
+      << "a worker that has not flown through the door finds it too narrow";
 }
 
 TEST_F(Worker, ANewObstacleBlocksAFlownPath) {

@@ -33,7 +33,9 @@ void expectFresh(const fs::path& shipped, const std::string& made) {
 
 TEST(Schema, IsUpToDate) { expectFresh(kMissions / "swiftlet.xsd", tree::writeSchema(missionRegistry())); }
 
-TEST(Palette, IsUpToDate) { expectFresh(kMissions / "groot2/palette.xml", tree::writeTreeNodesModel(missionRegistry())); }
+TEST(Palette, IsUpToDate) {
+  expectFresh(kMissions / "groot2/palette.xml", tree::writeTreeNodesModel(missionRegistry()));
+}
 
 TEST(Palette, IsValidInsideAMission) {
   const std::string palette = tree::writeTreeNodesModel(missionRegistry());

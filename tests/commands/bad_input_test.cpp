@@ -148,7 +148,9 @@ TEST_F(BadInput, AMissingWorldIsRefused) {
   expectRefused(fly({"--headless", hop(), "--world", "worlds/none.sdf"}), "worlds/none\\.sdf: no such file");
 }
 
-TEST_F(BadInput, AWorldThatIsNotXmlIsRefused) { expectWorldRefused("<sdf version=\"1.9\">\n<world>\n", "broken\\.sdf:[0-9]+"); }
+TEST_F(BadInput, AWorldThatIsNotXmlIsRefused) {
+  expectWorldRefused("<sdf version=\"1.9\">\n<world>\n", "broken\\.sdf:[0-9]+");
+}
 
 TEST_F(BadInput, AWorldWithAnInvalidShapeIsRefused) {
   expectWorldRefused(worldWith(floorBox() + box("wall", "2 0 1 0 0 0", "1 -1 wide")), "broken\\.sdf:[0-9]+");
