@@ -1,4 +1,4 @@
-# Language, warnings and how the result is made the same everywhere.
+# Language, warnings, and options that give the same results on every machine.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -22,7 +22,7 @@ find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
   if(SWIFTLET_PCH)
-    # ccache serves sources with a precompiled header only when told not to look into it for macros.
+    # ccache caches sources with a precompiled header only with this sloppiness setting.
     set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE_PROGRAM}")
     add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   endif()
@@ -50,7 +50,7 @@ endif()
 # so where nothing is built yet. Off by default: a single edited source compiles faster alone.
 option(SWIFTLET_UNITY "Compile several sources of a target as one" OFF)
 if(SWIFTLET_UNITY)
-  add_compile_options(-Wno-subobject-linkage)  # It takes the sources included in a unity source for headers.
+  add_compile_options(-Wno-subobject-linkage)  # The compiler takes sources in a unity source for headers.
 endif()
 
 function(swiftlet_unity target)

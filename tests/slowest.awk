@@ -1,6 +1,6 @@
 # Passes ctest's output on as it comes and puts a table of the slowest tests before its summary:
 #   ctest ... | awk -f tests/slowest.awk
-# Only where more tests ran than the table holds.
+# The table is left out when no more tests ran than it holds.
 BEGIN { most = 20 }
 
 # " 12/900 Test  #12: planning.Planner.EqualsDijkstra ......   Passed    0.05 sec"

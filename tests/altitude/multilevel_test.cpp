@@ -1,5 +1,5 @@
-// Stories of flights over furniture, after the figures of Grzonka 2012 (3 and 7). What is promised are the figures of
-// that paper: the heights of chair and table (V-C), and the altitude of the vehicle (V-D b).
+// Stories of flights over furniture, after the figures of Grzonka 2012 (3 and 7). The bounds are the figures of that
+// paper: the heights of chair and table (V-C), and the altitude of the vehicle (V-D b).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@ namespace {
 
 /// "The estimated heights of the chair and the tables were 48.6 cm +- 2.7 cm and 74.9 cm +- 2.8 cm" (48 and 77 cm).
 constexpr double kChairSigma_m = 0.027, kTableSigma_m = 0.028;
-/// "The desired height was kept by the vehicle up to an error of +-10 cm", over different elevations. The estimate has
-/// no more than half of it at rest, so that half is left to the control of the vehicle.
+/// "The desired height was kept by the vehicle up to an error of +-10 cm", over different elevations. At rest the
+/// estimate may use at most half of that, so that half is left to the control of the vehicle.
 constexpr double kAltitude_m = 0.10, kAltitudeAtRest_m = 0.05;
 
 const common::Level* levelNear(const common::LevelMap& map, double height_m, double tolerance_m = 0.08) {
@@ -29,7 +29,7 @@ TEST(MultilevelFilter, TracksClimbAndHoverOverAFlatFloor) {
   flight.flyTo({5.0, 0.0}, 1.0);
   EXPECT_EQ(flight.filter.levels().levels.size(), 1u);
   EXPECT_EQ(flight.filter.levels().levels[0].height_m, 0.0);
-  EXPECT_LE(flight.without_measurement, 7);  // Until the first has settled.
+  EXPECT_LE(flight.without_measurement, 7);  // Until the first level has settled.
   EXPECT_LT(flight.worst_error_m, kAltitudeAtRest_m);
   EXPECT_NEAR(flight.filter.state().velocity_m_s, flight.vz_m_s, 0.02);  // Bachrach 2009: 0.02 m/s against the truth.
   ASSERT_TRUE(flight.last.height_above_ground_m);
@@ -38,7 +38,7 @@ TEST(MultilevelFilter, TracksClimbAndHoverOverAFlatFloor) {
 
 // Fig. 3: a chair (level 1) and a table (level 2); the vehicle turns and meets the same table elsewhere (level 3);
 // flying on, level 3 reaches level 2 and both become one.
-TEST(MultilevelFilter, Figure3TheSameTableFoundTwiceBecomesOne) {
+TEST(MultilevelFilter, Figure3TheSameTableFoundTwiceIsMergedIntoOneLevel) {
   Overflight flight;
   flight.boxes = {{1.0, 1.5, -0.3, 0.3, 0.48}, {2.5, 3.7, -0.3, 3.5, 0.77}};
   flight.start();
@@ -70,7 +70,7 @@ TEST(MultilevelFilter, Figure3TheSameTableFoundTwiceBecomesOne) {
 }
 
 // Over 20 flights of the kind of the paper's. Its means are 0.6 cm and 2.1 cm off.
-TEST(MultilevelFilter, HeightsOfChairAndTableBeatThePaper) {
+TEST(MultilevelFilter, HeightsOfChairAndTableAreMoreAccurateThanInThePaper) {
   double chair_sum = 0, chair2 = 0, table_sum = 0, table2 = 0, worst_m = 0;
   constexpr int kFlights = 20;
   for (int seed = 1; seed <= kFlights; ++seed) {
@@ -109,12 +109,12 @@ TEST(MultilevelFilter, HeightsOfChairAndTableBeatThePaper) {
   EXPECT_LT(worst_m, kAltitude_m);
 }
 
-TEST(MultilevelFilter, StepsMetWhileClimbingAndSinkingDoNotMoveTheHeight) {
+TEST(MultilevelFilter, StepsBelowDoNotDisturbTheHeightWhileClimbingOrSinking) {
   Overflight flight;
   flight.boxes = {{0.8, 1.6, -1, 1, 0.30}, {1.6, 2.4, -1, 1, 0.60}, {2.4, 3.2, -1, 1, 0.90}};
   flight.start();
   flight.climbTo(1.2);
-  // Climbs the stairs as it goes.
+  // The vehicle climbs while it passes over the steps.
   flight.vz_m_s = 0.0;
   for (int i = 0; i < 400; ++i) {
     flight.position_m.x() += 0.01;
@@ -155,7 +155,7 @@ MultilevelFilter onlyNear() {
   return MultilevelFilter(config);
 }
 
-TEST(MultilevelFilter, TheFloorBehindAWideTableIsKnownAtOnce) {
+TEST(MultilevelFilter, RecognizesTheFloorBehindAWideTableAtOnce) {
   Overflight flight;
   flight.boxes = {{1.0, 4.0, -1.5, 1.5, 0.77}};
   flight.start();
@@ -165,7 +165,7 @@ TEST(MultilevelFilter, TheFloorBehindAWideTableIsKnownAtOnce) {
   EXPECT_LT(flight.worst_error_m, kAltitude_m);
 }
 
-TEST(MultilevelFilter, TheFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
+TEST(MultilevelFilter, ALevelBehindAWideTableIsMergedWithTheFloorAfterReturningToIt) {
   Overflight flight;
   flight.filter = onlyNear();
   flight.boxes = {{1.0, 4.0, -1.5, 1.5, 0.77}};
@@ -181,7 +181,7 @@ TEST(MultilevelFilter, TheFloorBehindAWideTableIsTheFloorAgainWhenItIsReached) {
 }
 
 /// The back and the seat of a sofa at many slopes: a surface that is not flat has no effect on the height.
-TEST(MultilevelFilter, SlopesDoNotCarryTheHeightAway) {
+TEST(MultilevelFilter, SlopesDoNotDisturbTheHeight) {
   for (const double speed_m_s : {0.3, 0.6, 0.9}) {
     for (const double length_m : {0.15, 0.3, 0.6}) {
       SCOPED_TRACE(testing::Message() << speed_m_s << " m/s over a slope of " << length_m << " m");
@@ -203,8 +203,8 @@ TEST(MultilevelFilter, SlopesDoNotCarryTheHeightAway) {
 
 /// Boxes of all heights side by side, few of them wide enough to become a level, crossed with a wrong acceleration;
 /// then the floor. The filter must soon return to the floor, and not to a slope, a new level, or one of the boxes. Some
-/// seeds fail rightly: boxes that form a table, or drift that moves the floor to the height of the table.
-TEST(MultilevelFilter, TheFloorBehindClutterIsBelievedAgain) {
+/// seeds are expected to fail: their boxes form a table, or drift moves the floor to the height of the table.
+TEST(MultilevelFilter, ReturnsToTheFloorBehindClutter) {
   constexpr int kFlights = 400;
   int unmeasured = 0, wrong = 0;
   for (int seed = 1; seed <= kFlights; ++seed) {
@@ -229,12 +229,13 @@ TEST(MultilevelFilter, TheFloorBehindClutterIsBelievedAgain) {
   }
   std::printf("floor behind clutter: %d of %d flights without a measurement, %d with a wrong height\n", unmeasured,
               kFlights, wrong);
-  // The paper has no such figure. One in fifty is what is promised: clutter like this is met a few times in a flight.
+  // The paper has no such figure. At most one flight in fifty may fail, because a flight meets clutter like this only a
+  // few times.
   EXPECT_LE(unmeasured, kFlights / 50);
   EXPECT_LE(wrong, kFlights / 50);
 }
 
-TEST(MultilevelFilter, OutliersAndDropoutsMakeNoLevels) {
+TEST(MultilevelFilter, OutliersAndDropoutsCreateNoLevels) {
   Overflight flight;
   flight.outlier_rate = 0.05;
   flight.dropout_rate = 0.3;
@@ -245,7 +246,7 @@ TEST(MultilevelFilter, OutliersAndDropoutsMakeNoLevels) {
   EXPECT_LT(flight.worst_error_m, kAltitudeAtRest_m);
 }
 
-TEST(MultilevelFilter, WithoutAnyReturnItPredictsAndSaysSo) {
+TEST(MultilevelFilter, PredictsWithoutReturnsAndReportsThatNothingWasMeasured) {
   Overflight flight;
   flight.start();
   flight.climbTo(1.5);
@@ -277,7 +278,7 @@ TEST(MultilevelFilter, ATableEdgeSplitsTheBeamsBetweenBothLevels) {
   EXPECT_NEAR(flight.filter.state().height_m, flight.z_m, kAltitudeAtRest_m);
 }
 
-TEST(MultilevelFilter, TheVarianceIsHonest) {
+TEST(MultilevelFilter, TheVarianceAgreesWithTheErrors) {
   // Over many flights the error of a level agrees with its variance.
   double nees = 0;
   constexpr int kFlights = 40;
@@ -298,7 +299,7 @@ TEST(MultilevelFilter, TheVarianceIsHonest) {
   EXPECT_LT(nees, 1.6);  // 99 % of the means of 40 squares of one degree of freedom.
 }
 
-TEST(MultilevelFilter, TheSameFlightGivesTheSameBits) {
+TEST(MultilevelFilter, TheSameFlightGivesIdenticalResults) {
   const auto run = [] {
     Overflight flight;
     flight.outlier_rate = 0.02;
@@ -319,7 +320,7 @@ TEST(MultilevelFilter, TheSameFlightGivesTheSameBits) {
   }
 }
 
-TEST(MultilevelFilter, JoinIsTheFormulaOfThePaper) {
+TEST(MultilevelFilter, MergesLevelsByTheFormulaOfThePaper) {
   // h = (s_j^2 h_i + s_i^2 h_j) / (s_i^2 + s_j^2): twice the same information halves the variance.
   Overflight flight;
   flight.filter = onlyNear();
@@ -333,7 +334,7 @@ TEST(MultilevelFilter, JoinIsTheFormulaOfThePaper) {
   EXPECT_GT(map.levels[2].variance_m2, 0.0);
 }
 
-TEST(MultilevelFilter, GarbageInNothingOut) {
+TEST(MultilevelFilter, IgnoresInvalidInput) {
   MultilevelFilter::Config config;
   config.publish_delay_s = 0.0;
   MultilevelFilter filter(config);

@@ -23,7 +23,7 @@ bool isScan(const common::SensorEvent& event) {
   return std::holds_alternative<std::shared_ptr<const common::LaserScan>>(event);
 }
 
-TEST(Autonomy, FliesItsMissionAndTellsItInOrder) {
+TEST(Autonomy, FliesItsMissionAndReportsItsEventsInOrder) {
   AutonomyStory story(kUpAndDown);
   EXPECT_NE(story.autonomy().world(), nullptr) << "there is a world before the first event";
   ASSERT_TRUE(story.until([&] { return story.autonomy().finished(); }, 40.0));
@@ -43,7 +43,7 @@ TEST(Autonomy, FliesItsMissionAndTellsItInOrder) {
   EXPECT_LT(story.world().vehicle->state.T_map_body().position_m.head<2>().norm(), 0.2) << "down where it rose";
 }
 
-TEST(Autonomy, ValuesThatAreNoNumbersChangeNothing) {
+TEST(Autonomy, SensorValuesThatAreNotNumbersChangeNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   AutonomyStory story(kUpAndDown);
   ASSERT_TRUE(story.isFlying());
@@ -90,7 +90,7 @@ TEST(Autonomy, TheOperatorHoldsAndResumes) {
   EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kRunning);
 }
 
-TEST(Autonomy, TheOperatorLandsAndAfterTheEndCommandsAreRefused) {
+TEST(Autonomy, TheOperatorLandsAndLaterCommandsAreRefused) {
   AutonomyStory story(kAcross);
   ASSERT_TRUE(story.isFlying());
   const common::CommandResult goal = story.order(common::GoalCommand{{1.0, 0.0}});
@@ -108,7 +108,7 @@ TEST(Autonomy, TheOperatorLandsAndAfterTheEndCommandsAreRefused) {
   EXPECT_FALSE(story.order(common::HomeCommand{}).accepted);
 }
 
-TEST(Autonomy, ADroppedLaserLeadsToHoldAndThenToLanding) {
+TEST(Autonomy, WithoutScansItHoldsAndThenLands) {
   AutonomyStory story(kAcross);
   ASSERT_TRUE(story.isFlying());
   ASSERT_TRUE(story.fly(1.0));
@@ -127,7 +127,7 @@ TEST(Autonomy, ADroppedLaserLeadsToHoldAndThenToLanding) {
   EXPECT_FALSE(story.autonomy().landedByOperator());
 }
 
-TEST(Autonomy, ScansThatComeBackEndTheHold) {
+TEST(Autonomy, HoldEndsWhenScansReturn) {
   AutonomyStory story(kAcross);
   ASSERT_TRUE(story.isFlying());
   ASSERT_TRUE(story.fly(1.0));

@@ -30,7 +30,7 @@ inline test::PlanarWorld den(const Eigen::Vector2d& center_m, double radius_m) {
   return world;
 }
 
-/// Rests for two seconds, then moves ever more about the origin.
+/// Rests for two seconds, then moves around the origin with growing amplitude.
 class EstimatorStory {
  public:
   explicit EstimatorStory(double seconds, const GivenMap* given = nullptr,

@@ -24,7 +24,7 @@ TEST(Estimator, WaitsUntilTheVehicleStandsStill) {
   EXPECT_EQ(standing.eventsThatBegin("initialized, body 0.1"), 1) << "by the mirror";
 }
 
-TEST(Estimator, MatchedScansHoldTheStateAndDrawTheMap) {
+TEST(Estimator, MatchedScansCorrectTheStateAndDrawTheMap) {
   EstimatorStory story(12.0);
   int scans = 0, matched = 0;
   double worst_m = 0.0;
@@ -45,7 +45,7 @@ TEST(Estimator, MatchedScansHoldTheStateAndDrawTheMap) {
   EXPECT_EQ(story.estimator.grid(), grid) << "the same object until the map changes";
 }
 
-TEST(Estimator, HeightsFromTheMirrorHoldTheHeight) {
+TEST(Estimator, MirrorBeamsCorrectTheHeight) {
   EstimatorStory story(12.0);
   double worst_m = 0.0;
   std::optional<control::RawHeight> raw;
@@ -62,7 +62,7 @@ TEST(Estimator, HeightsFromTheMirrorHoldTheHeight) {
   EXPECT_FALSE(story.estimator.levels()->levels.empty());
 }
 
-TEST(Estimator, SaysWhenTheLaserIsBlindAndWhenItIsBack) {
+TEST(Estimator, ReportsWhenTheLaserIsBlindAndWhenItRecovers) {
   EstimatorStory story(9.0);
   story.run(4.0);
   EXPECT_EQ(story.eventsThatBegin("estimate degraded"), 0);
@@ -78,7 +78,7 @@ TEST(Estimator, SaysWhenTheLaserIsBlindAndWhenItIsBack) {
   EXPECT_LT(story.positionError_m(), 0.3);
 }
 
-TEST(Estimator, AnInterruptedOdometryBeginsAnewAndSaysSo) {
+TEST(Estimator, ReportsAnInterruptionAndRestartsTheOdometry) {
   EstimatorStory story(6.0);
   story.run(4.0);
   // The room has changed completely.
@@ -94,7 +94,7 @@ TEST(Estimator, AnInterruptedOdometryBeginsAnewAndSaysSo) {
   EXPECT_NE(story.estimator.health().status, perception::FusionStatus::kDiverged) << "it goes on in the new place";
 }
 
-TEST(Estimator, EveryScanInTheMapHasItsPlaceAtAKeyScan) {
+TEST(Estimator, EveryScanInTheMapHasAPoseRelativeToAKeyScan) {
   EstimatorStory story(10.0);
   int placed = 0;
   story.run(9.5, [&](const std::optional<ScanOutcome>& outcome) {
@@ -113,7 +113,7 @@ TEST(Estimator, EveryScanInTheMapHasItsPlaceAtAKeyScan) {
 }
 
 /// The map of one flight is given to the next.
-TEST(Estimator, FindsItselfInAGivenMapWithScansThatItDoesNotMatch) {
+TEST(Estimator, LocalizesInAGivenMapWithScansThatItDoesNotMatch) {
   EstimatorStory before(16.0);
   before.run(15.5);
   const GivenMap given{before.estimator.grid(), {}, 1};

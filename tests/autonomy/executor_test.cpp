@@ -8,29 +8,29 @@ namespace {
 
 using ExecutorInFlight = ManeuverInFlight;
 
-TEST_F(ManeuverStory, BeforeAnythingIsWantedItHolds) {
+TEST_F(ManeuverStory, HoldsBeforeTheFirstIntent) {
   EXPECT_EQ(executor_.status().id, 0U);
   run(0.5);
   EXPECT_EQ(executor_.status().state, IntentState::kRunning);
   EXPECT_EQ(executor_.status().reason, "holding");
   EXPECT_TRUE(executor_.status().released);
-  EXPECT_TRUE(executor_.desk().costMap()) << "the cost map is refreshed although nobody asked for a path";
+  EXPECT_TRUE(executor_.desk().costMap()) << "the cost map is refreshed without a request for a path";
 }
 
-TEST_F(ExecutorInFlight, TheSameIdGoesOnAndAnotherBeginsAnew) {
+TEST_F(ExecutorInFlight, TheSameIntentContinuesAndANewIntentRestarts) {
   want(to(6.0, 2.0));
   run(1.0);
   ASSERT_TRUE(controller_.followsPath());
   want(to(6.0, 2.0));
   run(0.01);
   run(0.04);
-  EXPECT_FALSE(controller_.followsPath()) << "a new id stops what was under way";
+  EXPECT_FALSE(controller_.followsPath()) << "a new id stops the present path";
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty()) << "no plan outlives its intent";
   run(0.5);
   EXPECT_TRUE(controller_.followsPath());
 }
 
-TEST_F(ExecutorInFlight, AnEndedIntentStaysEndedAndItsPlanIsGone) {
+TEST_F(ExecutorInFlight, AnEndedIntentStaysEndedAndItsPlanIsDropped) {
   want(to(2.0, 2.0));
   ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty());
@@ -41,7 +41,7 @@ TEST_F(ExecutorInFlight, AnEndedIntentStaysEndedAndItsPlanIsGone) {
 }
 
 /// The job takes 60 ms: its answer comes when another intent is carried out.
-TEST_F(ExecutorInFlight, AnAnswerThatComesTooLateIsNotFlown) {
+TEST_F(ExecutorInFlight, ALateAnswerIsNotFlown) {
   want(to(6.0, 2.0));
   runUntil([this] { return !jobs_->idle("planning"); }, 1.0);
   want(common::HoldIntent{});
@@ -50,7 +50,7 @@ TEST_F(ExecutorInFlight, AnAnswerThatComesTooLateIsNotFlown) {
   EXPECT_TRUE(controller_.stopped());
 }
 
-TEST_F(ExecutorInFlight, AnIntentThatFailsLeavesTheVehicleHolding) {
+TEST_F(ExecutorInFlight, AFailedIntentLeavesTheVehicleHolding) {
   want(to(8.5, 2.0));
   ASSERT_EQ(runToTheEnd(10.0), IntentState::kFailed);
   EXPECT_EQ(timesSaid("go to (8.50, 2.00): failed"), 1);
@@ -62,7 +62,7 @@ TEST_F(ExecutorInFlight, AnIntentThatFailsLeavesTheVehicleHolding) {
 
 class ExecutorRetreating : public ManeuverInFlight {
  protected:
-  /// Half way to a goal to the left of where it took off.
+  /// The vehicle is halfway to a goal on the left of its take-off place when a retreat begins.
   void SetUp() override {
     ManeuverInFlight::SetUp();
     want(to(1.5, 3.4));
@@ -70,7 +70,7 @@ class ExecutorRetreating : public ManeuverInFlight {
     yaw_rad_ = state_.T_map_body_planar().yaw_rad;
     retreat({-0.5, 0.0}, 0.4);
   }
-  /// It has turned back by then; the retreat is behind the direction it faced at the beginning.
+  /// The vehicle has turned by then, but the retreat still goes backwards from its heading at the beginning.
   void expectRetreat() {
     run(1.5);
     const Eigen::Vector2d from_m = position_m();
@@ -85,13 +85,13 @@ class ExecutorRetreating : public ManeuverInFlight {
   double yaw_rad_ = 0.0;
 };
 
-TEST_F(ExecutorRetreating, ComesBeforeTheGoalUntilItIsOver) {
+TEST_F(ExecutorRetreating, ARetreatInterruptsTheGoalUntilItIsOver) {
   expectRetreat();
   calm();
   EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << "the goal is still wanted";
 }
 
-TEST_F(ExecutorRetreating, GoesOnUnderEveryIntent) {
+TEST_F(ExecutorRetreating, ARetreatContinuesUnderEveryIntent) {
   want(common::HoldIntent{});
   expectRetreat();
   calm();
@@ -99,7 +99,7 @@ TEST_F(ExecutorRetreating, GoesOnUnderEveryIntent) {
   EXPECT_TRUE(executor_.status().released) << "it has stopped";
 }
 
-TEST_F(ExecutorRetreating, ThePlanIsGoneAtOnce) {
+TEST_F(ExecutorRetreating, ARetreatDropsThePlanAtOnce) {
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty()) << "not only at the next tick";
   EXPECT_EQ(executor_.wantedVelocity_map_m_s(), Eigen::Vector2d::Zero());
 }

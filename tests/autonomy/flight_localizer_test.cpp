@@ -51,7 +51,7 @@ struct Story {
   double time_s = 0.0;
 };
 
-TEST(FlightLocalizer, FindsItselfAndSaysSo) {
+TEST(FlightLocalizer, LocalizesAndReportsIt) {
   Story story(1);
   for (int i = 0; i < 600; ++i) {
     story.step();
@@ -71,7 +71,7 @@ TEST(FlightLocalizer, FindsItselfAndSaysSo) {
   EXPECT_TRUE(story.localizer.takeEvents().empty());
 }
 
-TEST(FlightLocalizer, TheOutcomeDoesNotDependOnHowFastTheSearchIs) {
+TEST(FlightLocalizer, TheResultDoesNotDependOnTheSpeedOfTheSearch) {
   Story alone(2, 0), beside(2, 1);
   for (int i = 0; i < 500; ++i) {
     alone.step();

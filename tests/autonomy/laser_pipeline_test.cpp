@@ -22,7 +22,7 @@ struct LaserStory : testing::Test {
   const test::PlanarWorld flat = test::flat();
 };
 
-TEST_F(LaserStory, TheFirstScanIsClonedAndMeasuresNothing) {
+TEST_F(LaserStory, TheFirstScanIsClonedAndGivesNoMeasurement) {
   const OdometryStep first = see(flat, {0, 0, 0});
   EXPECT_TRUE(first.matched);
   EXPECT_FALSE(first.interrupted);
@@ -32,7 +32,7 @@ TEST_F(LaserStory, TheFirstScanIsClonedAndMeasuresNothing) {
   EXPECT_TRUE(first.covariance.isZero()) << "nothing has drifted yet";
 }
 
-TEST_F(LaserStory, TheNextScansAreMeasuredFromTheClone) {
+TEST_F(LaserStory, LaterScansAreMeasuredFromTheClone) {
   const common::Time clone = *see(flat, {0, 0, 0}).clone_after;
   filter.has_clone = true;
   for (int i = 1; i <= 5; ++i) {
@@ -47,7 +47,7 @@ TEST_F(LaserStory, TheNextScansAreMeasuredFromTheClone) {
   }
 }
 
-TEST_F(LaserStory, ANewReferenceDriftsAndStaysMeasuredFromTheClone) {
+TEST_F(LaserStory, ANewReferenceAddsDriftAndIsStillMeasuredFromTheClone) {
   const common::Time clone = *see(flat, {0, 0, 0}).clone_after;
   filter.has_clone = true;
   bool drifted = false;
@@ -61,7 +61,7 @@ TEST_F(LaserStory, ANewReferenceDriftsAndStaysMeasuredFromTheClone) {
   EXPECT_TRUE(drifted);
 }
 
-TEST_F(LaserStory, WhereTheFilterDroppedTheCloneItClonesTheReference) {
+TEST_F(LaserStory, ClonesTheReferenceWhenTheFilterDroppedTheClone) {
   const common::Time reference = *see(flat, {0, 0, 0}).clone_after;
   filter.has_clone = false;
   const OdometryStep step = see(flat, {0.02, 0, 0});
@@ -70,7 +70,7 @@ TEST_F(LaserStory, WhereTheFilterDroppedTheCloneItClonesTheReference) {
   EXPECT_EQ(step.measurement->from, reference);
 }
 
-TEST_F(LaserStory, AnInterruptionIsAsUncertainAsTheGreatestWindow) {
+TEST_F(LaserStory, AnInterruptionHasTheUncertaintyOfTheWidestWindow) {
   const LaserPipelineConfig config;
   (void)see(flat, {0, 0, 0});
   filter.has_clone = true;
@@ -90,8 +90,8 @@ TEST_F(LaserStory, AnInterruptionIsAsUncertainAsTheGreatestWindow) {
   EXPECT_DOUBLE_EQ(std::sqrt(step.covariance(2, 2)), config.odometry.max_window_deg * common::kRadPerDeg);
 }
 
-/// A tilted scan is placed by an attitude that is not exact.
-TEST_F(LaserStory, TiltWidensTheMatch) {
+/// The attitude that projects a tilted scan has an error, so the match of such a scan is less certain.
+TEST_F(LaserStory, TiltIncreasesTheCovarianceOfTheMatch) {
   (void)see(flat, {0, 0, 0});
   filter.has_clone = true;
   const OdometryStep level = see(flat, {0.01, 0, 0});

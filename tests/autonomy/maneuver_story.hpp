@@ -83,7 +83,7 @@ class ManeuverStory : public testing::Test {
     return executor_.status().id == intent_.id && executor_.status().state != IntentState::kRunning;
   }
 
-  /// The executor's react(), with what the reactive layer decides from now on.
+  /// Sets the decision of the reactive layer to a retreat from now on, and passes it to the executor.
   void retreat(const Eigen::Vector2d& velocity_level_m_s, double turn_rad = 0.0) {
     decision_.retreat_velocity_level_m_s = velocity_level_m_s;
     decision_.retreat_acceleration_m_s2 = 2.0;
@@ -97,7 +97,7 @@ class ManeuverStory : public testing::Test {
     executor_.react(decision_, state_);
   }
 
-  // Of events by how their text begins.
+  // The number of events whose text begins with `text`.
   long timesSaid(const std::string& text) const {
     return std::count_if(events_.begin(), events_.end(),
                          [&](const auto& event) { return event.text.starts_with(text); });

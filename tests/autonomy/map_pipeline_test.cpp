@@ -13,7 +13,7 @@ using common::KeyPoses;
 using common::Pose2;
 using common::Time;
 
-TEST(KeyPoses, WhatHangsOnAKeyScanMovesWithIt) {
+TEST(KeyPoses, APoseRelativeToAKeyScanMovesWithIt) {
   const common::KeyRelativePose seen{1, common::lifted(Pose2{0.5, 0.0, 0.0}, 1.2)};
   const KeyPoses before{1, {{Time{}, {0, 0, 0}}, {Time{}, {10, 0, 0}}}};
   EXPECT_TRUE(before.inMap(seen).position_m.isApprox(Eigen::Vector3d(10.5, 0, 1.2)));
@@ -21,8 +21,8 @@ TEST(KeyPoses, WhatHangsOnAKeyScanMovesWithIt) {
   EXPECT_TRUE(after.inMap(seen).position_m.isApprox(Eigen::Vector3d(10, 1.5, 1.2)));
 }
 
-/// Once around a corridor with an odometry that bends and stretches.
-TEST(MapPipeline, ALoopClosureCorrectsWhatWasSeenBefore) {
+/// One round of a square corridor with an odometry that has errors of heading and scale.
+TEST(MapPipeline, ALoopClosureCorrectsEarlierScans) {
   const test::Ring ring;
   const auto jobs = common::makeLockstepJobs(0);
   MapPipeline map({}, common::Duration::fromSeconds(0.4), *jobs);
@@ -56,7 +56,7 @@ TEST(MapPipeline, ALoopClosureCorrectsWhatWasSeenBefore) {
   EXPECT_EQ(map.keyPoses(), keys) << "the same object until a key scan is added or moved";
 }
 
-/// Whichever method is at work.
+/// This holds for every SLAM method.
 TEST(MapPipeline, AScanThatDidNotMatchIsPlacedButNotDrawn) {
   using perception::SlamMethod;
   for (const SlamMethod method : {SlamMethod::kGraph, SlamMethod::kParticles, SlamMethod::kScanToMap}) {
@@ -80,7 +80,7 @@ TEST(MapPipeline, AScanThatDidNotMatchIsPlacedButNotDrawn) {
   }
 }
 
-TEST(MapPipeline, BeforeTheFirstScanThereIsNoKeyScan) {
+TEST(MapPipeline, ThereIsNoKeyScanBeforeTheFirstScan) {
   const auto jobs = common::makeLockstepJobs(0);
   MapPipeline map({}, common::Duration::fromSeconds(0.4), *jobs);
   EXPECT_TRUE(map.keyPoses()->keys.empty());

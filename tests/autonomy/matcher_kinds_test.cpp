@@ -39,21 +39,21 @@ void expectHeld(const Flown& flown) {
   EXPECT_EQ(flown.counts.restarts, 0u);
 }
 
-TEST(MatcherOfTheProfile, Correlative) {
+TEST(MatcherOfTheProfile, CorrelativeHoldsTheEstimate) {
   const Flown flown = fly("correlative");
   expectHeld(flown);
   EXPECT_GE(flown.counts.correlative_searches, static_cast<std::uint64_t>(flown.matched - 1));
   EXPECT_EQ(flown.counts.gauss_newton_searches + flown.counts.point_to_line_searches, 0u);
 }
 
-TEST(MatcherOfTheProfile, GaussNewton) {
+TEST(MatcherOfTheProfile, GaussNewtonHoldsTheEstimate) {
   const Flown flown = fly("gauss_newton");
   expectHeld(flown);
   EXPECT_GE(flown.counts.gauss_newton_searches, static_cast<std::uint64_t>(flown.matched - 1));
   EXPECT_EQ(flown.counts.correlative_searches + flown.counts.point_to_line_searches, 0u);
 }
 
-TEST(MatcherOfTheProfile, PointToLine) {
+TEST(MatcherOfTheProfile, PointToLineHoldsTheEstimate) {
   const Flown flown = fly("point_to_line");
   expectHeld(flown);
   EXPECT_GE(flown.counts.point_to_line_searches, static_cast<std::uint64_t>(flown.matched - 1));

@@ -28,7 +28,7 @@ struct Worker : testing::Test {
     request.question = std::move(question);
     return worker.answer(request);
   }
-  /// A wall at x = 4 m with a door so many cells wide about y = 2 m.
+  /// A wall at x = 4 m with a door of `door_cells` cells around y = 2 m.
   void build(int door_cells) {
     for (int y = 0; y < 80; ++y)
       if (y < 40 - door_cells / 2 || y >= 40 - door_cells / 2 + door_cells)
@@ -83,7 +83,7 @@ TEST_F(Worker, TheChosenPlannerFindsThePathToTheViewpoint) {
   }
 }
 
-TEST_F(Worker, AGoalJustTooCloseToTheWallIsReachedWithinItsTolerance) {
+TEST_F(Worker, ReachesAGoalTooCloseToTheWallWithinItsTolerance) {
   const Eigen::Vector2d goal(6.0, 0.38);  // The wall ends at 0.05 m; hull and clearance are 0.375 m.
   const auto strict = ask(GoalRequest{goal, 0.0});
   ASSERT_TRUE(strict.path && !*strict.path);
@@ -94,26 +94,27 @@ TEST_F(Worker, AGoalJustTooCloseToTheWallIsReachedWithinItsTolerance) {
   EXPECT_FALSE(ask(GoalRequest{{6.0, 0.1}, 0.15}).path->has_value());
 }
 
-TEST_F(Worker, ADoorThatWasFlownThroughDoesNotCloseBehindTheVehicle) {
+TEST_F(Worker, AFlownDoorStaysPassableWhenItsFrameGrowsSlightly) {
   build(16);
   for (; pose.x_m < 6.0; pose.x_m += 0.2) {
     const auto answer = ask(GoalRequest{{6.0, 2.0}, 0.05});
     ASSERT_TRUE(answer.path && *answer.path);
   }
-  build(14);  // Its frame has grown by a cell on each side.
+  build(14);  // The door frame has grown by a cell on each side.
   const auto back = ask(GoalRequest{{2.0, 2.0}, 0.05});
   ASSERT_TRUE(back.path && *back.path);
   worker = PlanningWorker{ExecutorConfig{}, 0.05};
-  EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value()) << "who has not flown there knows no better";
+  EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value())
+      << "a worker that has not flown through the door finds it too narrow";
 }
 
-TEST_F(Worker, WhatStandsInTheFlownWayBlocksIt) {
+TEST_F(Worker, ANewObstacleBlocksAFlownPath) {
   for (; pose.x_m < 6.0; pose.x_m += 0.2) (void)ask(GoalRequest{{6.0, 2.0}, 0.05});
   build(11);  // An obstacle was added: less than half the clearance is left.
   EXPECT_FALSE(ask(GoalRequest{{2.0, 2.0}, 0.05}).path->has_value());
 }
 
-TEST_F(Worker, MakesRoomForWhoStandsInTheDoor) {
+TEST_F(Worker, MakesRoomForAPersonInTheDoor) {
   build(20);
   const Eigen::Vector2d door(4.0, 2.0);
   pose.x_m = 3.0;
@@ -123,7 +124,7 @@ TEST_F(Worker, MakesRoomForWhoStandsInTheDoor) {
   EXPECT_GT((answer.detour->path.points_map_m.back() - door).norm(), 1.5);
 }
 
-TEST_F(Worker, GoesToSeeWhetherTheDoorIsStillShut) {
+TEST_F(Worker, FliesToSeeWhetherTheDoorIsStillBlocked) {
   build(0);
   for (int y = 30; y <= 50; ++y) grid->set({80, y}, -common::occupancy::kMaxSteps);
   grid->set({80, 40}, common::occupancy::kMaxSteps);  // A door of 1 m at y = 2 m with something in its middle.
@@ -134,7 +135,7 @@ TEST_F(Worker, GoesToSeeWhetherTheDoorIsStillShut) {
   EXPECT_LT((answer.detour->path.points_map_m.back() - Eigen::Vector2d(4.0, 2.0)).norm(), 0.8);
 }
 
-TEST_F(Worker, ComesAsNearToABlockedGoalAsItMayAndThenMakesRoom) {
+TEST_F(Worker, ApproachesABlockedGoalAndThenMakesRoom) {
   const Eigen::Vector2d goal(6.0, 2.0);
   for (int y = 35; y <= 45; ++y)
     for (int x = 115; x <= 125; ++x) grid->set({x, y}, common::occupancy::kMaxSteps);

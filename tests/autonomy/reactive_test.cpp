@@ -53,17 +53,17 @@ TEST_F(ReactiveStory, BeforeTheFirstScanNothingLimitsTheSpeed) {
   EXPECT_FALSE(reactive.decision().retreat_velocity_level_m_s);
 }
 
-TEST_F(ReactiveStory, BrakesForWhatIsAheadOnItsCourseInTheMap) {
+TEST_F(ReactiveStory, BrakesForAnObstacleAheadOnItsCourseInTheMap) {
   returnAt({0.8, 0.0});
-  fliesWith({0.0, 1.0});  // Along the nose.
+  fliesWith({0.0, 1.0});  // Forwards.
   const double towards_m_s = scanAt(0.0).speed_limit_m_s;
   EXPECT_LT(towards_m_s, 1.0);
   EXPECT_TRUE(reactive.decision().status.braking);
-  fliesWith({1.0, 0.0});  // To its right.
+  fliesWith({1.0, 0.0});  // To the right.
   EXPECT_GT(scanAt(0.025).speed_limit_m_s, towards_m_s + 0.3);
 }
 
-TEST_F(ReactiveStory, RetreatsFromSomethingUnmappedThatIsNear) {
+TEST_F(ReactiveStory, RetreatsFromANearbyUnmappedObject) {
   returnAt({0.4, 0.0});
   const auto& decision = scanAt(0.0);
   ASSERT_TRUE(decision.retreat_velocity_level_m_s);
@@ -72,13 +72,13 @@ TEST_F(ReactiveStory, RetreatsFromSomethingUnmappedThatIsNear) {
   EXPECT_THAT(decision.status.reason, HasSubstr("something unmapped"));
 }
 
-TEST_F(ReactiveStory, OnlyBrakesForWhatTheMapHolds) {
+TEST_F(ReactiveStory, OnlyBrakesForMappedObstacles) {
   T_map_body = {9.6, 4.0, 0.0};  // 0.4 m before the wall.
   returnAt({0.4, 0.0});
   EXPECT_FALSE(scanAt(0.0).retreat_velocity_level_m_s);
 }
 
-TEST_F(ReactiveStory, RetreatsFromSomebodyWhoClosesInThoughStillFar) {
+TEST_F(ReactiveStory, RetreatsFromAnApproachingPersonWhoIsStillFar) {
   common::DynamicObstacle person;
   person.center_map_m = {5.0, 6.0};  // 2 m ahead of the nose.
   person.radius_m = 0.25;
@@ -93,7 +93,7 @@ TEST_F(ReactiveStory, RetreatsFromSomebodyWhoClosesInThoughStillFar) {
   EXPECT_THAT(decision.status.reason, HasSubstr("closing in"));
 }
 
-TEST_F(ReactiveStory, CalmsDownWhenTheDangerIsGone) {
+TEST_F(ReactiveStory, EndsTheRetreatWhenTheDangerIsGone) {
   returnAt({0.4, 0.0});
   ASSERT_TRUE(scanAt(0.0).retreat_velocity_level_m_s);
   scan.points_level_m.clear();

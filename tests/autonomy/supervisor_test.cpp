@@ -33,7 +33,7 @@ TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
   EXPECT_FALSE(at(61.0).hold);
 }
 
-TEST_F(SupervisorStory, ThePilotHoldsTheMissionWhileHeFlies) {
+TEST_F(SupervisorStory, TheMissionHoldsWhileThePilotFlies) {
   EXPECT_FALSE(at(0.0).hold);
   supervisor_.pilotArrived(Time::fromSeconds(1), true);
   supervisor_.pilotArrived(Time::fromSeconds(1.02), true);
@@ -45,7 +45,7 @@ TEST_F(SupervisorStory, ThePilotHoldsTheMissionWhileHeFlies) {
   EXPECT_EQ(supervisor_.takeEvents().size(), 2u);
 }
 
-TEST_F(SupervisorStory, ABatteryThatSaysNothingSensibleIsSaidOnce) {
+TEST_F(SupervisorStory, ReportsInvalidBatteryValuesOnce) {
   const auto sample = [](double remaining) { return common::BatterySample{{}, 11.1, remaining}; };
   EXPECT_TRUE(supervisor_.batteryArrived(Time::fromSeconds(1), sample(0.5)));
   EXPECT_FALSE(supervisor_.batteryArrived(Time::fromSeconds(2), sample(std::nan(""))));
@@ -54,7 +54,7 @@ TEST_F(SupervisorStory, ABatteryThatSaysNothingSensibleIsSaidOnce) {
   EXPECT_EQ(supervisor_.takeEvents().size(), 2u);
 }
 
-TEST_F(SupervisorStory, GoalsAreForTheMission) {
+TEST_F(SupervisorStory, LeavesGoalsToTheMission) {
   EXPECT_FALSE(supervisor_.take({1, common::GoalCommand{}}, Time{}).has_value());
   EXPECT_FALSE(supervisor_.take({2, common::HomeCommand{}}, Time{}).has_value());
 }
@@ -70,7 +70,7 @@ TEST_F(SupervisorStory, SilentLaserHoldsThenLandsForGood) {
   EXPECT_TRUE(at(2.3).land) << "landing is not taken back";
 }
 
-TEST_F(SupervisorStory, ShortSilenceHoldsOnly) {
+TEST_F(SupervisorStory, ShortSilenceOnlyHolds) {
   scanAt(1.0);
   EXPECT_TRUE(at(1.5).hold);
   scanAt(1.6);
@@ -78,7 +78,7 @@ TEST_F(SupervisorStory, ShortSilenceHoldsOnly) {
   EXPECT_FALSE(at(1.7).land);
 }
 
-TEST_F(SupervisorStory, SilenceOnTheGroundIsNoReasonToLand) {
+TEST_F(SupervisorStory, SilenceOnTheGroundDoesNotLand) {
   scanAt(1.0);
   EXPECT_FALSE(at(30.0, false).land);
   EXPECT_FALSE(at(30.0, false).hold);
@@ -92,7 +92,7 @@ TEST_F(SupervisorStory, EmptyBatteryLands) {
   EXPECT_FALSE(supervisor_.landedByOperator());
 }
 
-TEST_F(SupervisorStory, LandPressedTwiceIsStillTheOperators) {
+TEST_F(SupervisorStory, LandPressedTwiceIsStillALandingByTheOperator) {
   (void)supervisor_.take({1, common::LandCommand{}}, Time::fromSeconds(1.0));
   EXPECT_TRUE(at(1.1).land);
   (void)supervisor_.take({2, common::LandCommand{}}, Time::fromSeconds(1.2));

@@ -39,7 +39,7 @@ class WorldBuilderStory : public ::testing::Test {
   double time_s_ = 0.0;
 };
 
-TEST_F(WorldBuilderStory, WhileItHoversOnlyTheVehicleIsNew) {
+TEST_F(WorldBuilderStory, OnlyTheVehicleLayerIsNewWhileHovering) {
   const World before = snapshot(), after = snapshot();
   EXPECT_EQ(after->map, before->map);
   EXPECT_EQ(after->mission, before->mission);
@@ -49,7 +49,7 @@ TEST_F(WorldBuilderStory, WhileItHoversOnlyTheVehicleIsNew) {
   EXPECT_GT(after->stamp, before->stamp);
 }
 
-TEST_F(WorldBuilderStory, ALayerThatChangedIsNewAndTheOthersStay) {
+TEST_F(WorldBuilderStory, ReplacesOnlyTheLayersThatChanged) {
   const World first = snapshot();
   parts_.map.grid = std::make_shared<const common::OccupancyGrid>(*parts_.map.grid);
   const World mapped = snapshot();
@@ -71,7 +71,7 @@ TEST_F(WorldBuilderStory, ALayerThatChangedIsNewAndTheOthersStay) {
   EXPECT_TRUE(done->people->people.empty());
 }
 
-TEST_F(WorldBuilderStory, EveryPartOfTheMapLayerMakesItNew) {
+TEST_F(WorldBuilderStory, AChangeOfAnyPartReplacesTheMapLayer) {
   World last = snapshot();
   const auto isNew = [&] {
     const World next = snapshot();
@@ -120,7 +120,7 @@ TEST_F(WorldBuilderStory, TrailAndDistanceGrowWhileItIsAirborne) {
   EXPECT_EQ(begin->vehicle->trail.points_map_m().size(), 1u);
 }
 
-TEST_F(WorldBuilderStory, TheTrailIsInMapAndACorrectionOfTheMapIsNoDistance) {
+TEST_F(WorldBuilderStory, TheTrailIsInMapAndAMapCorrectionAddsNoDistance) {
   snapshotAt(0.0, 0.0);
   parts_.vehicle.state.T_map_odom = {0.0, 5.0, 0.0};
   const World corrected = snapshotAt(1.0, 0.0);
@@ -128,7 +128,7 @@ TEST_F(WorldBuilderStory, TheTrailIsInMapAndACorrectionOfTheMapIsNoDistance) {
   EXPECT_EQ(corrected->vehicle->trail.points_map_m().back(), Eigen::Vector2d(1.0, 5.0));
 }
 
-TEST_F(WorldBuilderStory, TheVehicleHasTheNameItWasGiven) {
+TEST_F(WorldBuilderStory, TheVehicleHasItsConfiguredName) {
   EXPECT_EQ(snapshot()->vehicle->name, "");
   EXPECT_EQ(WorldBuilder("second").build(Time{}, parts_)->vehicle->name, "second");
 }

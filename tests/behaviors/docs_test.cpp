@@ -84,7 +84,7 @@ void run(const Example& example) {
   }
 }
 
-TEST(Docs, EveryExampleIsTrue) {
+TEST(Docs, EveryExampleBehavesAsDocumented) {
   int stories = 0, problems = 0, sound = 0;
   for (const Example& example : examples()) {
     SCOPED_TRACE("docs/behaviors.md:" + std::to_string(example.line));

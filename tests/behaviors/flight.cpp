@@ -15,7 +15,7 @@ std::shared_ptr<const common::OccupancyGrid> someGrid() {
   return grid;
 }
 
-/// The same floor, as goals are judged by it.
+/// The same floor as a map that judges goals.
 class SomeGoalMap final : public common::GoalMap {
  public:
   common::PlaceState stateAt(const Eigen::Vector2d& place_map_m, double clearance_m) const override {

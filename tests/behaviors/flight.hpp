@@ -14,7 +14,7 @@ namespace swiftlet::behaviors::testing {
 
 class Flight {
  public:
-  /// `inside` stands in <BehaviorTree ID="M">.
+  /// `inside` is the content of <BehaviorTree ID="M">.
   explicit Flight(const std::string& inside, const std::string& more = {});
   explicit Flight(Mission flown);
 

@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(TakeOff, IsOneIntentUntilItIsDone) {
+TEST(TakeOff, KeepsOneIntentUntilItIsDone) {
   Flight flight(R"(<TakeOff height_m="1.5"/>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.50 m");
   EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.50 m") << "nobody has answered yet";
@@ -20,7 +20,7 @@ TEST(TakeOff, IsOneIntentUntilItIsDone) {
   EXPECT_THAT(flight.events(), ElementsAre("TakeOff starts", "TakeOff is done"));
 }
 
-TEST(TakeOff, AFailureEndsTheMissionWithItsReason) {
+TEST(TakeOff, ItsFailureEndsTheMissionWithTheReason) {
   Flight flight("<Sequence><TakeOff/><Land/></Sequence>");
   EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.00 m");
   EXPECT_EQ(flight.fails("the battery is empty").tick(), "FAILED");
@@ -28,7 +28,7 @@ TEST(TakeOff, AFailureEndsTheMissionWithItsReason) {
   EXPECT_THAT(flight.events(), ElementsAre("TakeOff starts", "TakeOff failed (the battery is empty)"));
 }
 
-TEST(Leaves, AnAnswerToAnOlderIntentIsNotMistakenForTheNewOne) {
+TEST(Leaves, IgnoreAnswersToAnOlderIntent) {
   Flight flight("<Sequence><TakeOff/><Land/></Sequence>");
   flight.tick();
   EXPECT_EQ(flight.succeeds().tick(), "RUNNING 2 land");
@@ -36,13 +36,13 @@ TEST(Leaves, AnAnswerToAnOlderIntentIsNotMistakenForTheNewOne) {
   EXPECT_EQ(flight.succeeds().tick(), "DONE");
 }
 
-TEST(Explore, HandsDownItsClearance) {
+TEST(Explore, PassesOnItsClearance) {
   Flight flight(R"(<Explore clearance_m="0.25"/>)");
   flight.tick();
   EXPECT_DOUBLE_EQ(std::get<common::ExploreIntent>(flight.context.intent->kind).clearance_m, 0.25);
 }
 
-TEST(Explore, HandsDownItsBoundsIfItHasSome) {
+TEST(Explore, PassesOnItsBoundsIfItHasSome) {
   Flight free("<Explore/>");
   free.tick();
   EXPECT_FALSE(std::get<common::ExploreIntent>(free.context.intent->kind).bounds);
@@ -54,7 +54,7 @@ TEST(Explore, HandsDownItsBoundsIfItHasSome) {
   EXPECT_EQ(bounds->max_map_m, Eigen::Vector2d(4, 5));
 }
 
-TEST(Localize, ExploresUntilItKnowsWhereItIs) {
+TEST(Localize, ExploresUntilTheVehicleIsLocalized) {
   Flight flight(R"(<Sequence><Localize clearance_m="0.25"/><Land/></Sequence>)");
   flight.localization(common::LocalizationState::kGlobal);
   EXPECT_EQ(flight.tick(), "RUNNING 1 explore");
@@ -63,7 +63,7 @@ TEST(Localize, ExploresUntilItKnowsWhereItIs) {
   EXPECT_EQ(flight.localization(common::LocalizationState::kLocalized).tick(), "RUNNING 2 land");
 }
 
-TEST(Localize, FailsWithoutAMapAndWhereNothingIsLeftToExplore) {
+TEST(Localize, FailsWithoutAMapOrWithNothingLeftToExplore) {
   Flight without("<Localize/>");
   EXPECT_EQ(without.tick(), "FAILED");
   EXPECT_EQ(without.last.reason, "Localize: the flight was given no map");
@@ -73,7 +73,7 @@ TEST(Localize, FailsWithoutAMapAndWhereNothingIsLeftToExplore) {
   EXPECT_EQ(flight.last.reason, "Localize: nothing is left to explore, and the place is still ambiguous");
 }
 
-TEST(MoveToGoal, HandsDownGoalHeightAndTolerance) {
+TEST(MoveToGoal, PassesOnGoalHeightAndTolerance) {
   Flight flight(R"(<MoveToGoal goal="3.0;-1.5;1.2" tolerance_m="0.2" clearance_m="0.3"/>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 go to (3.00, -1.50)");
   const auto intent = std::get<common::GoToIntent>(flight.context.intent->kind);
@@ -83,13 +83,13 @@ TEST(MoveToGoal, HandsDownGoalHeightAndTolerance) {
   EXPECT_FALSE(intent.yaw_map_rad);
 }
 
-TEST(MoveToGoal, StaysAtItsHeightWithoutZ) {
+TEST(MoveToGoal, KeepsTheHeightWithoutZ) {
   Flight flight(R"(<MoveToGoal goal="3.0;-1.5"/>)");
   flight.tick();
   EXPECT_FALSE(std::get<common::GoToIntent>(flight.context.intent->kind).height_m);
 }
 
-TEST(MoveToGoal, FailsForAHeightThatIsNotFlown) {
+TEST(MoveToGoal, FailsForAHeightOutsideTheLimits) {
   for (const auto& [goal, reason] : {std::pair("1;2;9", "MoveToGoal: 9 m is above the greatest height, 3 m"),
                                      std::pair("1;2;0.1", "MoveToGoal: 0.1 m is below the least height, 0.3 m")}) {
     Flight flight(std::string(R"(<Sequence><SetBlackboard value=")") + goal +
@@ -100,12 +100,12 @@ TEST(MoveToGoal, FailsForAHeightThatIsNotFlown) {
   }
 }
 
-TEST(MoveToGoal, WaitsForTheMapToSayWhetherItsGoalIsFree) {
+TEST(MoveToGoal, WaitsForTheMapBeforeItJudgesTheGoal) {
   Flight flight(R"(<MoveToGoal goal="4.05;0"/>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 go to (4.05, 0.00)");
 }
 
-TEST(MoveToGoal, ReadsItsGoalFromAnEntry) {
+TEST(MoveToGoal, ReadsItsGoalFromABlackboardEntry) {
   Flight flight(
       R"(<Sequence><SetBlackboard value="1;2" output_key="target"/><MoveToGoal goal="{target}"/></Sequence>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 go to (1.00, 2.00)");
@@ -122,7 +122,7 @@ TEST(GoHome, FollowsACorrectionOfHome) {
 constexpr const char* kMission =
     R"(<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><Explore/><Land/></Sequence></Priority>)";
 
-/// In the middle of Explore, which is intent 2.
+/// A flight in the middle of Explore, which has intent 2.
 Flight exploring() {
   Flight flight(kMission);
   flight.tick();
@@ -149,7 +149,7 @@ TEST(Hold, TakesOverOnlyWhenTheVehicleHasStopped) {
   EXPECT_THAT(flight.events(), ElementsAre("Explore resumes (Hold ended with SUCCESS)"));
 }
 
-TEST(Hold, GivenUpBeforeTheVehicleStopped) {
+TEST(Hold, ReleasedEarlyTheInterruptedBehaviourContinues) {
   Flight flight = exploring();
   flight.holds(true).tick();
   EXPECT_EQ(flight.runs().holds(false).tick(), "RUNNING 4 explore");
@@ -157,14 +157,14 @@ TEST(Hold, GivenUpBeforeTheVehicleStopped) {
               ElementsAre("Explore lets go for Hold (the operator holds)", "Explore goes on (Hold no longer asks)"));
 }
 
-TEST(Hold, AnswersForAnotherIntentDoNotReleaseTheVehicle) {
+TEST(Hold, IgnoresAnswersForAnotherIntent) {
   Flight flight = exploring();
   flight.stops().holds(true);
   EXPECT_EQ(flight.tick(), "HELD 3 hold") << "released is about Explore's intent, not about the hold";
   EXPECT_EQ(flight.tick(), "HELD 3 hold");
 }
 
-TEST(Hold, DuringTakeOffTheClimbIsResumed) {
+TEST(Hold, ResumesAnInterruptedTakeOff) {
   Flight flight(kMission);
   flight.is(common::FlightState::kTakingOff);
   EXPECT_EQ(flight.tick(), "RUNNING 1 take off to 1.00 m");
@@ -173,13 +173,13 @@ TEST(Hold, DuringTakeOffTheClimbIsResumed) {
   EXPECT_EQ(flight.holds(false).tick(), "RUNNING 4 take off to 1.00 m");
 }
 
-TEST(Hold, BeforeTheFirstTickTheMissionWaits) {
+TEST(Hold, DelaysTheStartOfTheMission) {
   Flight flight(kMission);
   EXPECT_EQ(flight.holds(true).tick(), "HELD 1 hold");
   EXPECT_EQ(flight.holds(false).tick(), "RUNNING 2 take off to 1.00 m");
 }
 
-TEST(AvoidObstacle, HasTheVehicleWhileTheReactiveLayerRetreats) {
+TEST(AvoidObstacle, ControlsTheVehicleWhileTheReactiveLayerRetreats) {
   Flight flight = exploring();
   flight.retreats(true, "0.31 m ahead, closing");
   EXPECT_EQ(flight.runs().tick(), "RUNNING 4 avoid obstacle")
@@ -221,7 +221,7 @@ TEST(Commands, AreRefusedWhereTheMissionHasNoOperatorCommand) {
                                             "2 refused: the mission M has no OperatorCommand: it flies its own goals"));
 }
 
-TEST(Mission, LetsGoForWhoeverStandsAboveIt) {
+TEST(Mission, HaltsAndStartsFromTheBeginningAgain) {
   Flight flight = exploring();
   EXPECT_FALSE(flight.mission.letGo(flight.context));
   EXPECT_EQ(toString(*flight.context.intent), "hold");
@@ -233,7 +233,7 @@ TEST(Mission, LetsGoForWhoeverStandsAboveIt) {
   EXPECT_EQ(flight.tick().substr(10), "take off to 1.00 m") << "it stands at its beginning";
 }
 
-TEST(Mission, NothingToDoIsNoIntent) {
+TEST(Mission, GivesNoIntentWhenThereIsNothingToDo) {
   Flight flight("<Priority><AvoidObstacle/><Hold/></Priority>");
   EXPECT_EQ(flight.tick(), "RUNNING");
   EXPECT_EQ(flight.last.phase, "nothing to do");

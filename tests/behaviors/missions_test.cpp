@@ -29,7 +29,7 @@ std::function<std::vector<std::string>(double)> notBelow(double least_m) {
   };
 }
 
-TEST(ShippedMissions, AreSound) {
+TEST(ShippedMissions, AreValid) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kMissions)) {
     if (entry.path().extension() != ".xml") continue;
@@ -76,7 +76,7 @@ TEST(FromFile, ThrowsEveryProblem) {
   EXPECT_THROW(Mission::fromFile("/nonexistent.xml"), common::InputError);
 }
 
-TEST(Check, NeverTakesOff) {
+TEST(Check, AMissionThatNeverTakesOffIsAProblem) {
   EXPECT_THAT(problemsOf("<Hold/>"), ElementsAre("m.xml:3:1: M: the mission never takes off, expected a TakeOff"));
   EXPECT_THAT(problemsOf("<Sequence>\n<Explore/>\n<TakeOff/></Sequence>"),
               ElementsAre("m.xml:4:1: Explore: the vehicle stands on the floor here, expected a TakeOff before it"));
@@ -84,7 +84,7 @@ TEST(Check, NeverTakesOff) {
               ElementsAre(HasSubstr("m.xml:4:1: GoHome: the vehicle stands on the floor")));
 }
 
-TEST(Check, FollowsWhereTheVehicleMayBe) {
+TEST(Check, FollowsWhereTheVehicleMayBeInEveryBranch) {
   for (const char* sound :
        {"<Sequence><TakeOff/><Land/><TakeOff/><Land/></Sequence>",
         "<Fallback><Sequence><TakeOff/><Explore/><Land/></Sequence><Sequence><GoHome/><Land/></Sequence></Fallback>",
@@ -103,7 +103,7 @@ TEST(Check, FollowsWhereTheVehicleMayBe) {
   EXPECT_EQ(problemsOf("<Sequence><Inverter><TakeOff/></Inverter><Land/></Sequence>").size(), 0U);
 }
 
-TEST(Check, ClearanceThatTheReactiveLayerForbids) {
+TEST(Check, AClearanceBelowTheReactiveMarginIsAProblem) {
   const MissionLimits limits{.clearance_problems = notBelow(0.2), .max_height_m = 3.0};
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/>\n<Explore clearance_m=\"0.15\"/></Sequence>", limits),
               ElementsAre("m.xml:4:10: Explore.clearance_m: 0.15 m cannot be flown with this system: it retreats, "
@@ -119,7 +119,7 @@ TEST(Check, ClearanceThatTheReactiveLayerForbids) {
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/><Explore clearance_m=\"0.2\"/></Sequence>", limits), ElementsAre());
 }
 
-TEST(Check, BoundsThatAreNoRectangle) {
+TEST(Check, BoundsThatAreNotARectangleAreAProblem) {
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/>\n<Explore bounds=\"4;0;-2;3\"/></Sequence>"),
               ElementsAre("m.xml:4:10: Explore.bounds: `4;0;-2;3` is not a rectangle `x_min;y_min;x_max;y_max` in "
                           "metres, each minimum below its maximum"));
@@ -132,24 +132,24 @@ TEST(Check, BoundsThatAreNoRectangle) {
       << "entries count";
 }
 
-TEST(Check, TooHigh) {
+TEST(Check, AHeightAboveTheGreatestIsAProblem) {
   EXPECT_THAT(
       problemsOf("<Sequence><TakeOff height_m=\"4\"/><MoveToGoal goal=\"1;2;9\"/></Sequence>", {.max_height_m = 3.0}),
       ElementsAre(HasSubstr("TakeOff.height_m: 4 m is above the greatest height, 3 m"),
                   HasSubstr("MoveToGoal.goal: 9 m is above the greatest height, 3 m")));
 }
 
-TEST(Check, TooLow) {
+TEST(Check, AHeightBelowTheLeastIsAProblem) {
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/><MoveToGoal goal=\"1;2;0.1\"/></Sequence>"),
               ElementsAre(HasSubstr("MoveToGoal.goal: 0.1 m is below the least height, 0.3 m")));
 }
 
-TEST(Check, AGoalThatNoMapReaches) {
+TEST(Check, AGoalBeyondEveryMapIsAProblem) {
   EXPECT_THAT(problemsOf("<Sequence><TakeOff/><MoveToGoal goal=\"1e9;2\"/></Sequence>"),
               ElementsAre(HasSubstr("MoveToGoal.goal: the goal is not a point of the map")));
 }
 
-TEST(Check, WhatNeverStepsBackStarvesWhatIsBelow) {
+TEST(Check, AChildThatIsNeverSkippedStarvesTheChildrenBelow) {
   EXPECT_THAT(
       problemsOf(
           "<Priority>\n<Sequence><TakeOff/><Land/></Sequence>\n<Sequence><TakeOff/><Land/></Sequence></Priority>"),

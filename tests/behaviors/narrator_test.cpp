@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(Narrator, TellsWhichBehaviourHasTheVehicleAndWhy) {
+TEST(Narrator, ReportsWhichBehaviourControlsTheVehicleAndWhy) {
   Flight flight("<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><Explore/><Land/></Sequence></Priority>");
   flight.tick();
   EXPECT_THAT(flight.events(),
@@ -21,7 +21,7 @@ TEST(Narrator, TellsWhichBehaviourHasTheVehicleAndWhy) {
                                            "AvoidObstacle takes over from Explore (a person 0.6 m ahead closing)"));
 }
 
-TEST(Narrator, TheBehaviourBelowANodeIsNamed) {
+TEST(Narrator, NamesTheBehaviourBelowANode) {
   Flight flight("<Priority><Fallback><Hold/></Fallback><Sequence><TakeOff/><Explore/></Sequence></Priority>");
   flight.tick();
   flight.succeeds().tick();
@@ -30,7 +30,7 @@ TEST(Narrator, TheBehaviourBelowANodeIsNamed) {
   EXPECT_THAT(flight.events(), ElementsAre("Explore lets go for Hold (the operator holds)"));
 }
 
-TEST(Narrator, ItsEndNamesTheFirstCause) {
+TEST(Narrator, NamesTheCausesOfAFailureInOrder) {
   Flight flight("<Fallback><Sequence><TakeOff/><Explore/></Sequence><Sequence><GoHome/><Land/></Sequence></Fallback>");
   flight.tick();
   flight.succeeds().tick();
@@ -39,7 +39,7 @@ TEST(Narrator, ItsEndNamesTheFirstCause) {
   EXPECT_EQ(flight.last.reason, "Explore: the vehicle is shut in, and then GoHome: goal (0.00, 0.00) is unreachable");
 }
 
-TEST(Narrator, WhatWasMadeGoodForIsNoCause) {
+TEST(Narrator, LeavesOutFailuresThatAFallbackHandled) {
   Flight flight("<Sequence><Fallback><Explore/><TakeOff/></Fallback><Land/></Sequence>");
   flight.tick();
   flight.fails("cannot explore while powered off").tick();

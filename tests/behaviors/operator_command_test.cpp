@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 constexpr const char* kOperator =
     R"(<Priority><AvoidObstacle/><Hold/><Sequence><TakeOff/><OperatorCommand tolerance_m="0.1"/></Sequence></Priority>)";
 
-/// Taken off; OperatorCommand holds as intent 2.
+/// A flight after take-off in which OperatorCommand holds with intent 2.
 Flight waiting() {
   Flight flight(kOperator);
   flight.tick();
@@ -23,7 +23,7 @@ Flight waiting() {
   return flight;
 }
 
-TEST(OperatorCommand, HoldsUntilAGoalComesAndAgainAfterIt) {
+TEST(OperatorCommand, HoldsBeforeAndAfterAGoal) {
   Flight flight = waiting();
   EXPECT_EQ(flight.stops().tick(), "RUNNING 2 hold");
   EXPECT_EQ(flight.goal(1.0, 2.0).tick(), "RUNNING 3 go to (1.00, 2.00)");
@@ -39,16 +39,16 @@ TEST(OperatorCommand, ANewGoalReplacesTheOldOne) {
   flight.goal(1.0, 2.0).tick();
   EXPECT_EQ(flight.runs().goal(-1.0, 0.0).tick(), "RUNNING 4 go to (-1.00, 0.00)");
   EXPECT_THAT(flight.events(), ElementsAre("goal (1.00, 2.00) given up (replaced by goal (-1.00, 0.00))"));
-  EXPECT_EQ(flight.tick(), "RUNNING 4 go to (-1.00, 0.00)") << "what is said of intent 3 does not matter";
+  EXPECT_EQ(flight.tick(), "RUNNING 4 go to (-1.00, 0.00)") << "answers to intent 3 do not matter";
 }
 
-TEST(OperatorCommand, OfSeveralGoalsInOneTickTheLastCounts) {
+TEST(OperatorCommand, FliesToTheLastOfSeveralGoalsInOneTick) {
   Flight flight = waiting();
   EXPECT_EQ(flight.goal(1.0, 2.0).goal(2.0, 2.0).tick(), "RUNNING 3 go to (2.00, 2.00)");
   EXPECT_THAT(flight.results(), ElementsAre("1 accepted", "2 accepted"));
 }
 
-TEST(OperatorCommand, AGoalThatCannotBeReachedIsToldAndTheMissionGoesOn) {
+TEST(OperatorCommand, ReportsAnUnreachableGoalAndTheMissionContinues) {
   Flight flight = waiting();
   flight.goal(1.0, 2.0).tick();
   EXPECT_EQ(flight.fails("no path at clearance 0.10 m").tick(), "RUNNING 4 hold");
@@ -62,7 +62,7 @@ TEST(OperatorCommand, GoesHome) {
   EXPECT_THAT(flight.events(), ElementsAre("home reached"));
 }
 
-TEST(OperatorCommand, RefusesWhatCannotBeAGoal) {
+TEST(OperatorCommand, RefusesInvalidGoals) {
   Flight flight = waiting();
   flight.goal(4.05, 0.0)
       .goal(20.0, 0.0)
@@ -88,7 +88,7 @@ TEST(OperatorCommand, AcceptsAGoalWithAFreePlaceWithinItsTolerance) {
   EXPECT_THAT(flight.results(), ElementsAre("1 accepted")) << "0.075 m beside, of a tolerance of 0.1 m";
 }
 
-TEST(OperatorCommand, ItsOwnClearanceJudges) {
+TEST(OperatorCommand, JudgesGoalsByItsOwnClearance) {
   Flight flight(R"(<Sequence><TakeOff/><OperatorCommand clearance_m="0.5"/></Sequence>)");
   flight.goal(3.4, 0.0).tick();
   EXPECT_THAT(flight.results(),
@@ -96,14 +96,14 @@ TEST(OperatorCommand, ItsOwnClearanceJudges) {
                           "0.50 m, the nearest free place is (3.23, 0.00)"));
 }
 
-TEST(OperatorCommand, WithoutAMapAGoalIsAcceptedForWhoFliesToIt) {
+TEST(OperatorCommand, AcceptsGoalsWithoutAMap) {
   Flight flight = waiting();
   flight.context.goal_map.reset();
   flight.goal(4.05, 0.0).goal(std::nan(""), 0.0).tick();
   EXPECT_THAT(flight.results(), ElementsAre("1 accepted", "2 refused: the goal is not a point of the map"));
 }
 
-TEST(OperatorCommand, AGoalGivenWhileHeldIsFlownAfterwards) {
+TEST(OperatorCommand, FliesToAGoalGivenDuringAHoldAfterwards) {
   Flight flight = waiting();
   flight.stops().holds(true).tick();
   EXPECT_EQ(flight.goal(1.0, 2.0).tick(), "HELD 3 hold");
@@ -111,7 +111,7 @@ TEST(OperatorCommand, AGoalGivenWhileHeldIsFlownAfterwards) {
   EXPECT_EQ(flight.holds(false).tick(), "RUNNING 4 go to (1.00, 2.00)");
 }
 
-TEST(OperatorCommand, AHoldInterruptsAGoalAndItIsResumed) {
+TEST(OperatorCommand, ResumesAGoalAfterAHold) {
   Flight flight = waiting();
   flight.goal(1.0, 2.0).tick();
   EXPECT_EQ(flight.runs().holds(true).tick(), "HELD 4 hold");
@@ -119,12 +119,12 @@ TEST(OperatorCommand, AHoldInterruptsAGoalAndItIsResumed) {
   EXPECT_EQ(flight.holds(false).tick(), "RUNNING 6 go to (1.00, 2.00)");
 }
 
-TEST(OperatorCommand, WhoHoldsAlreadyLetsGoAtOnce) {
+TEST(OperatorCommand, ReleasesTheVehicleAtOnceWhenItHoldsAlready) {
   Flight flight = waiting();
   EXPECT_EQ(flight.stops().holds(true).tick(), "HELD 3 hold");
 }
 
-TEST(OperatorCommand, AGoalGivenDuringTakeOffIsFlownAfterIt) {
+TEST(OperatorCommand, FliesToAGoalGivenDuringTakeOffAfterwards) {
   Flight flight(kOperator);
   flight.goal(1.0, 2.0).tick();
   EXPECT_THAT(flight.results(), ElementsAre("1 accepted"));

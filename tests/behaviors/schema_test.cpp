@@ -31,11 +31,13 @@ void expectFresh(const fs::path& shipped, const std::string& made) {
   EXPECT_TRUE(textOf(shipped) == made) << shipped << " is stale: cp " << fresh << " " << shipped;
 }
 
-TEST(Schema, IsFresh) { expectFresh(kMissions / "swiftlet.xsd", tree::writeSchema(missionRegistry())); }
+TEST(Schema, IsUpToDate) { expectFresh(kMissions / "swiftlet.xsd", tree::writeSchema(missionRegistry())); }
 
-TEST(Palette, IsFresh) { expectFresh(kMissions / "groot2/palette.xml", tree::writeTreeNodesModel(missionRegistry())); }
+TEST(Palette, IsUpToDate) {
+  expectFresh(kMissions / "groot2/palette.xml", tree::writeTreeNodesModel(missionRegistry()));
+}
 
-TEST(Palette, CanStandInAMission) {
+TEST(Palette, IsValidInsideAMission) {
   const std::string palette = tree::writeTreeNodesModel(missionRegistry());
   const std::size_t begin = palette.find("  <TreeNodesModel>"), end = palette.find("</root>");
   const std::string mission =

@@ -102,7 +102,7 @@ struct Loop {
   }
 };
 
-TEST(ClosedLoop, HoversOnItsOwnSensors) {
+TEST(ClosedLoop, HoversOnSimulatedSensors) {
   double worst_m = 0, worst_height_m = 0;
   for (int seed = 1; seed <= 3; ++seed) {
     Loop loop(seed);

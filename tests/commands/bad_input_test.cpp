@@ -40,7 +40,7 @@ class BadInput : public test_support::Scratch {
     return runSwiftlet(arguments, options);
   }
 
-  /// Refused, with these words, before anything was written.
+  /// Expects a refusal with a message like this before anything was written.
   void expectRefused(const ProgramEnd& end, const std::string& pattern) const {
     EXPECT_EQ(end.exit_code, 2) << describe(end);
     EXPECT_THAT(end.err, ContainsRegex(pattern));
@@ -58,64 +58,64 @@ class BadInput : public test_support::Scratch {
   }
 };
 
-TEST_F(BadInput, MissionThatIsNoXml) {
+TEST_F(BadInput, AMissionThatIsNotXmlIsRefused) {
   const std::string mission =
       write("broken.xml", "<root BTCPP_format=\"4\">\n  <BehaviorTree ID=\"Main\">\n    <Land/>\n</root>\n");
   expectRefused(runSwiftlet({"check", mission}), "broken\\.xml:4:[0-9]+: ");
   expectRefused(fly({"--headless", mission}), "broken\\.xml:4:[0-9]+: ");
 }
 
-TEST_F(BadInput, MissionThatIsEmpty) {
+TEST_F(BadInput, AnEmptyMissionIsRefused) {
   expectRefused(runSwiftlet({"check", write("broken.xml", "")}), "broken\\.xml:1");
 }
 
-TEST_F(BadInput, MissionThatIsMissing) {
+TEST_F(BadInput, AMissingMissionIsRefused) {
   expectRefused(runSwiftlet({"check", path("none.xml")}), "none\\.xml: ");
   expectRefused(fly({"--headless", path("none.xml")}), "none\\.xml: ");
 }
 
-TEST_F(BadInput, MissionWithTheNameOfAnother) {
+TEST_F(BadInput, AMisspeltMissionNameGetsASuggestion) {
   expectRefused(fly({"--headless", "missions/explore_and_retrun.xml"}),
                 "did you mean `missions/explore_and_return\\.xml`");
 }
 
-TEST_F(BadInput, UnknownNode) {
+TEST_F(BadInput, AnUnknownNodeIsRefused) {
   expectMissionRefused("      <Explor clearance_m=\"0.1\"/>\n", "broken\\.xml:4:7: .*Explor.*did you mean `Explore`");
 }
 
-TEST_F(BadInput, UnknownPort) {
+TEST_F(BadInput, AnUnknownPortIsRefused) {
   expectMissionRefused("      <TakeOff hight_m=\"1.0\"/>\n",
                        "broken\\.xml:4:[0-9]+: .*hight_m.*did you mean `height_m`");
 }
 
-TEST_F(BadInput, PortWithoutItsUnit) {
+TEST_F(BadInput, APortWithoutItsUnitIsRefused) {
   expectMissionRefused("      <TakeOff height=\"1.0\"/>\n", "broken\\.xml:4:[0-9]+: .*height.*did you mean `height_m`");
 }
 
-TEST_F(BadInput, PortOfTheWrongType) {
+TEST_F(BadInput, APortOfTheWrongTypeIsRefused) {
   expectMissionRefused("      <TakeOff height_m=\"high\"/>\n", "broken\\.xml:4:[0-9]+: .*height_m.*high");
 }
 
-TEST_F(BadInput, GoalThatIsNoPoint) {
+TEST_F(BadInput, AGoalThatIsNotAPointIsRefused) {
   expectMissionRefused("      <MoveToGoal goal=\"3.0;north\"/>\n", "broken\\.xml:4:[0-9]+: .*goal.*3\\.0;north");
 }
 
-TEST_F(BadInput, ClearanceThatTheReactiveLayerForbids) {
+TEST_F(BadInput, AClearanceBelowTheReactiveMarginIsRefused) {
   expectMissionRefused("      <TakeOff/>\n      <Explore clearance_m=\"0.04\"/>\n      <Land/>\n",
                        "broken\\.xml:5:16: Explore\\.clearance_m: 0\\.04 m cannot be flown with this system: "
                        "margin_m: 0\\.05 m forbids the clearance");
 }
 
-TEST_F(BadInput, BoundsThatAreNoRectangle) {
+TEST_F(BadInput, BoundsThatAreNotARectangleAreRefused) {
   expectMissionRefused("      <TakeOff/>\n      <Explore bounds=\"3;0;-2;1\"/>\n      <Land/>\n",
                        "broken\\.xml:5:16: Explore\\.bounds: `3;0;-2;1` is not a rectangle");
 }
 
-TEST_F(BadInput, MissionThatNeverTakesOff) {
+TEST_F(BadInput, AMissionThatNeverTakesOffIsRefused) {
   expectMissionRefused("      <Hold/>\n", "broken\\.xml:3:5: Main: the mission never takes off");
 }
 
-TEST_F(BadInput, MissionThatTheSystemCannotFly) {
+TEST_F(BadInput, AMissionThatTheSystemCannotFlyIsRefused) {
   const std::string system = write("low.yaml", "autonomy:\n  max_height_m: 0.8\n");
   const std::string says = "hop\\.xml:4:16: TakeOff\\.height_m: 1 m is above the greatest height, 0\\.8 m";
   expectRefused(runSwiftlet({"check", hop(), "--system", system}), says);
@@ -126,14 +126,14 @@ TEST_F(BadInput, MissionThatTheSystemCannotFly) {
   expectRefused(runSwiftlet({"trial", trial, "--out", path("run")}), says);
 }
 
-TEST_F(BadInput, ProfileWhoseDistancesForbidItsOwnClearance) {
+TEST_F(BadInput, AProfileWithContradictoryDistancesIsRefused) {
   const std::string system =
       write("shy.yaml", "autonomy:\n  reactive:\n    avoidance:\n      retreat_distance_m: 0.45\n");
   expectRefused(runSwiftlet({"check", hop(), "--system", system}),
                 "shy\\.yaml:4:27: autonomy\\.reactive\\.avoidance\\.retreat_distance_m: 0\\.45 m .*forbids passing");
 }
 
-TEST_F(BadInput, EveryMistakeIsNamedNotOnlyTheFirst) {
+TEST_F(BadInput, AllMistakesAreReportedTogether) {
   const std::string mission =
       write("broken.xml", missionWith("      <Explor/>\n      <TakeOff height_m=\"high\"/>\n      <Lend/>\n"));
   const ProgramEnd end = runSwiftlet({"check", mission});
@@ -144,46 +144,48 @@ TEST_F(BadInput, EveryMistakeIsNamedNotOnlyTheFirst) {
   EXPECT_EQ(json.at("problems")[1].at("line"), 5);
 }
 
-TEST_F(BadInput, WorldThatIsMissing) {
+TEST_F(BadInput, AMissingWorldIsRefused) {
   expectRefused(fly({"--headless", hop(), "--world", "worlds/none.sdf"}), "worlds/none\\.sdf: no such file");
 }
 
-TEST_F(BadInput, WorldThatIsNoXml) { expectWorldRefused("<sdf version=\"1.9\">\n<world>\n", "broken\\.sdf:[0-9]+"); }
+TEST_F(BadInput, AWorldThatIsNotXmlIsRefused) {
+  expectWorldRefused("<sdf version=\"1.9\">\n<world>\n", "broken\\.sdf:[0-9]+");
+}
 
-TEST_F(BadInput, WorldWithAShapeThatIsNone) {
+TEST_F(BadInput, AWorldWithAnInvalidShapeIsRefused) {
   expectWorldRefused(worldWith(floorBox() + box("wall", "2 0 1 0 0 0", "1 -1 wide")), "broken\\.sdf:[0-9]+");
 }
 
-TEST_F(BadInput, WorldWithoutAFloor) {
+TEST_F(BadInput, AWorldWithoutAFloorIsRefused) {
   expectWorldRefused(worldWith(box("wall", "3 0 1 0 0 0", "0.2 4 2")), "broken\\.sdf.*floor");
 }
 
-TEST_F(BadInput, WorldThatIsAPipe) {
+TEST_F(BadInput, AWorldThatIsAPipeIsRefused) {
   ASSERT_EQ(mkfifo(path("pipe.sdf").c_str(), 0600), 0);
   expectRefused(fly({"--headless", hop(), "--world", path("pipe.sdf")}), "pipe\\.sdf: is a pipe");
 }
 
-TEST_F(BadInput, WorldsThatIncludeEachOther) {
+TEST_F(BadInput, WorldsThatIncludeEachOtherAreRefused) {
   expectWorldRefused(worldWith("<include><uri>broken.sdf</uri></include>\n"), "broken\\.sdf:4:[0-9]+: .*each other");
 }
 
-TEST_F(BadInput, StartInsideAWall) {
+TEST_F(BadInput, AStartInsideAWallIsRefused) {
   expectWorldRefused(worldWith(floorBox() + box("pillar", "0.1 0 1 0 0 0", "0.3 0.3 2")),
                      "broken\\.sdf.*start.*`?pillar");
 }
 
-TEST_F(BadInput, UnknownConfigKey) {
+TEST_F(BadInput, AnUnknownConfigKeyIsRefused) {
   const std::string system = write("mine.yaml", "vehicle: cobra\nlasser: utm_30lx\n");
   expectRefused(fly({"--headless", hop(), "--system", system}), "mine\\.yaml:2:1: .*lasser.*did you mean `laser`");
   expectRefused(runSwiftlet({"config", "--system", system}), "mine\\.yaml:2:1: ");
 }
 
-TEST_F(BadInput, ConfigThatIsNoYaml) {
+TEST_F(BadInput, AConfigThatIsNotYamlIsRefused) {
   const std::string system = write("mine.yaml", "vehicle: cobra\n  laser: [utm\n");
   expectRefused(fly({"--headless", hop(), "--system", system}), "mine\\.yaml:2");
 }
 
-TEST_F(BadInput, UnknownSystem) {
+TEST_F(BadInput, AnUnknownSystemIsRefused) {
   expectRefused(fly({"--headless", hop(), "--system", "swiftled"}), "did you mean `(config/systems/)?swiftlet");
 }
 
@@ -196,7 +198,7 @@ TEST_F(BadInput, DataSheetsAreFoundBesideTheProfileThatNamesThem) {
   EXPECT_NE(found.out.find("mass_kg: 1.2"), std::string::npos);
 }
 
-TEST_F(BadInput, PortInUse) {
+TEST_F(BadInput, APortInUseIsRefused) {
   const int socket_in_use = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -211,12 +213,12 @@ TEST_F(BadInput, PortInUse) {
   close(socket_in_use);
 }
 
-TEST_F(BadInput, ListenAddressThatIsNone) {
+TEST_F(BadInput, AnInvalidListenAddressIsRefused) {
   expectRefused(fly({hop(), "--world", write("room.sdf", worldWith(room())), "--port", "0", "--listen", "300.1.1.1"}),
                 "300\\.1\\.1\\.1");
 }
 
-TEST_F(BadInput, OutIsAFile) {
+TEST_F(BadInput, AFileAsOutputFolderIsRefused) {
   write("taken", "mine");
   const ProgramEnd end =
       fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--out", path("taken")});
@@ -225,7 +227,7 @@ TEST_F(BadInput, OutIsAFile) {
   EXPECT_EQ(readText(path("taken")), "mine");
 }
 
-TEST_F(BadInput, OutIsSomebodyElsesFolder) {
+TEST_F(BadInput, AForeignOutputFolderIsRefused) {
   fs::create_directories(path("thesis"));
   write("thesis/chapter1.tex", "years of work");
   const ProgramEnd end =
@@ -235,7 +237,7 @@ TEST_F(BadInput, OutIsSomebodyElsesFolder) {
   EXPECT_EQ(readText(path("thesis/chapter1.tex")), "years of work");
 }
 
-TEST_F(BadInput, LastTrialOfAFolderIsToldBeforeTheFirstIsFlown) {
+TEST_F(BadInput, ABadTrialOfAFolderIsRefusedBeforeTheFirstFlight) {
   const std::string sound = "mission: missions/explore_and_return.xml\nscenario: {world: worlds/unb_case1.sdf}\n";
   fs::create_directories(path("trials"));
   write("trials/a.yaml", sound);
@@ -250,7 +252,7 @@ TEST_F(BadInput, LastTrialOfAFolderIsToldBeforeTheFirstIsFlown) {
   }
 }
 
-TEST_F(BadInput, ATrialWithoutItsMapIsToldBeforeAnyFlight) {
+TEST_F(BadInput, ATrialWithAMissingMapIsRefusedBeforeAnyFlight) {
   const std::string trial = write("t.yaml",
                                   "mission: missions/find_yourself.xml\nmap: {file: lost.yaml}\n"
                                   "scenario: {world: worlds/unb_case1.sdf}\n");
@@ -260,7 +262,7 @@ TEST_F(BadInput, ATrialWithoutItsMapIsToldBeforeAnyFlight) {
   EXPECT_THAT(runSwiftlet({"trial", trial, "--out", path("run")}).err, HasSubstr("nowhere.pgm")) << "beside the trial";
 }
 
-TEST_F(BadInput, ResultsOfOthersAreNotReplacedByATrials) {
+TEST_F(BadInput, ATrialDoesNotReplaceForeignResults) {
   fs::create_directories(path("thesis"));
   write("thesis/report.html", "a thesis");
   const std::string trial = write("t.yaml", "mission: " + hop() + "\nscenario: {world: worlds/unb_case1.sdf}\n");
@@ -268,14 +270,14 @@ TEST_F(BadInput, ResultsOfOthersAreNotReplacedByATrials) {
   EXPECT_EQ(readText(path("thesis/report.html")), "a thesis");
 }
 
-TEST_F(BadInput, NamesThatAreNoTextAreStillJson) {
+TEST_F(BadInput, InvalidTextInNamesStillGivesValidJson) {
   const ProgramEnd end = runSwiftlet({"check", "--json", write("odd\xff.xml", "<root>")});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_TRUE(nlohmann::json::accept(end.out)) << describe(end);
 }
 
 // The files of the flight matter; its lines on the terminal do not.
-TEST_F(BadInput, NobodyReadsTheLinesOfAFlight) {
+TEST_F(BadInput, AClosedTerminalDoesNotEndAFlight) {
   ProgramOptions options;
   options.hang_up_after_bytes = 1;
   const ProgramEnd end =
@@ -284,7 +286,7 @@ TEST_F(BadInput, NobodyReadsTheLinesOfAFlight) {
   EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), "done");
 }
 
-TEST_F(BadInput, NobodyReadsTheLinesOfATrial) {
+TEST_F(BadInput, AClosedTerminalDoesNotEndATrial) {
   const std::string trial =
       write("t.yaml", "mission: " + hop() + "\nscenario: {world: " + write("room.sdf", worldWith(room())) +
                           "}\ntime_limit_s: 60\n");
@@ -298,7 +300,7 @@ TEST_F(BadInput, NobodyReadsTheLinesOfATrial) {
 class FullDisk : public BadInput, public testing::WithParamInterface<std::size_t> {};
 
 // At whatever file the disk becomes full, the message names that file, and none is left half written.
-TEST_P(FullDisk, EndsTheFlight) {
+TEST_P(FullDisk, EndsTheFlightAndNamesTheFile) {
   ProgramOptions options;
   options.largest_file_bytes = GetParam();
   const ProgramEnd end =
@@ -325,7 +327,7 @@ TEST_P(FullDisk, EndsTheFlight) {
 // The configuration is written first and has about 20 kB; the first report has more than 40.
 INSTANTIATE_TEST_SUITE_P(AtTheStartAndInFlight, FullDisk, testing::Values(8'192, 40'960));
 
-TEST_F(BadInput, OutThatCannotBeMade) {
+TEST_F(BadInput, AnOutputFolderThatCannotBeCreatedIsRefused) {
   const ProgramEnd end =
       fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--out", "/dev/full/run"});
   EXPECT_EQ(end.exit_code, 2) << describe(end);

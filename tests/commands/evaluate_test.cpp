@@ -52,7 +52,7 @@ class Evaluate : public test_support::Scratch {
   }
 };
 
-TEST_F(Evaluate, Relations) {
+TEST_F(Evaluate, ReportsRelationErrors) {
   const nlohmann::json found = figures({"relations", estimate(), relations()});
   EXPECT_EQ(found.at("relations"), 2);
   EXPECT_EQ(found.at("missing"), 0);
@@ -70,7 +70,7 @@ TEST_F(Evaluate, Relations) {
   EXPECT_THAT(table.out, ContainsRegex("translation, m +0.250000 +0.250000"));
 }
 
-TEST_F(Evaluate, RelationsWithoutTheirPosesAreCountedAndFail) {
+TEST_F(Evaluate, CountsRelationsWithoutPosesAndFails) {
   const std::string more = write("more.relations", "1 2 1 0 0 0 0 1.57079633\n2.5 3 0 0 0 0 0 0\n");
   const ProgramEnd end = runSwiftlet({"evaluate", "relations", estimate(), more, "--json"});
   EXPECT_EQ(end.exit_code, 1) << describe(end);
@@ -82,7 +82,7 @@ TEST_F(Evaluate, RelationsWithoutTheirPosesAreCountedAndFail) {
   expectRefused({"relations", estimate(), write("other.relations", "7 8 0 0 0 0 0 0\n")}, "7.000000 and 8.000000");
 }
 
-TEST_F(Evaluate, StampsThatGoBackAndRepeatAreTold) {
+TEST_F(Evaluate, ReportsStampsThatGoBackOrRepeat) {
   const std::string stray = write("stray.tum",
                                   "2 1 0 0 0 0 0.70710678 0.70710678\n"
                                   "1 9 9 9 0 0 0 1\n"
@@ -97,7 +97,7 @@ TEST_F(Evaluate, StampsThatGoBackAndRepeatAreTold) {
   EXPECT_THAT(table.out, HasSubstr("stray.tum: 1 stamps occur again"));
 }
 
-TEST_F(Evaluate, AbsoluteError) {
+TEST_F(Evaluate, ReportsTheAbsoluteError) {
   const nlohmann::json found = figures({"ate", estimate(), reference(), "--align", "none"});
   EXPECT_EQ(found.at("pairs"), 3);
   EXPECT_NEAR(found.at("ate_rmse_m"), std::sqrt(0.25 / 3), 1e-6);
@@ -111,7 +111,7 @@ TEST_F(Evaluate, AbsoluteError) {
   EXPECT_GT(figures({"ate", estimate(), reference(), "--scale"}).at("scale"), 1.0);
 }
 
-TEST_F(Evaluate, RelativeError) {
+TEST_F(Evaluate, ReportsTheRelativeError) {
   const nlohmann::json frames = figures({"rpe", estimate(), reference()});
   EXPECT_EQ(frames.at("stretches"), 2);
   EXPECT_NEAR(frames.at("rpe_translational_rmse_m"), std::sqrt(0.25 / 2), 1e-6);
@@ -121,7 +121,7 @@ TEST_F(Evaluate, RelativeError) {
   EXPECT_NEAR(seconds.at("rpe_translational_max_m"), 0.5, 1e-6);
 }
 
-TEST_F(Evaluate, BadInputIsRefused) {
+TEST_F(Evaluate, RefusesBadInput) {
   const std::string broken = write("broken.relations", "1 2 0 0 0 0 0\n"), none = write("none", "# nothing\n");
   expectRefused({"relations", estimate(), broken}, "broken.relations:1:13: relation: 7 numbers instead of 8");
   expectRefused({"relations", estimate(), none}, "holds no relations");
@@ -145,7 +145,7 @@ TEST_F(Evaluate, BadInputIsRefused) {
   expectRefused({"swim"}, "swim");
 }
 
-TEST_F(Evaluate, HelpHasAnExampleEach) {
+TEST_F(Evaluate, HelpShowsAnExampleOfEach) {
   for (const std::string metric : {"relations", "ate", "rpe"}) {
     const ProgramEnd end = runSwiftlet({"evaluate", metric, "--help"});
     EXPECT_EQ(end.exit_code, 0) << describe(end);
@@ -154,7 +154,7 @@ TEST_F(Evaluate, HelpHasAnExampleEach) {
 }
 
 // 13 of the scans are not among the reference poses.
-TEST_F(Evaluate, TheBenchmarksOwnFiles) {
+TEST_F(Evaluate, TheBenchmarksFilesGiveTheKnownFigures) {
   const auto folder = test_support::dataSet("01-laser-slam/fr079");
   if (!folder) return;
   const nlohmann::json found = figures(

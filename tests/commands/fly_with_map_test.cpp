@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 class FlyWithMap : public test_support::Scratch {};
 
-TEST_F(FlyWithMap, FindsItselfWithinFiveMetresInAMapFromAnotherHeight) {
+TEST_F(FlyWithMap, FindsItsPoseWithinFiveMetresInAMapFromAnotherHeight) {
   const ProgramEnd end = runSwiftlet({"trial", "trials/papers/freiburg_localize.yaml", "--repeat", "1", "--seed",
                                       "8101", "--json", "--out", path("out")});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
@@ -46,7 +46,7 @@ TEST_F(FlyWithMap, AMissionThatNeedsAMapIsRefusedWithoutOne) {
   EXPECT_FALSE(std::filesystem::exists(path("run")));
 }
 
-TEST_F(FlyWithMap, WhatIsNoMapIsRefusedBeforeAnythingMoves) {
+TEST_F(FlyWithMap, AnInvalidMapIsRefusedBeforeAnythingMoves) {
   const std::string mission = "missions/find_yourself.xml";
   const ProgramEnd none = runSwiftlet({"fly", mission, "--headless", "--map", path("none.yaml"), "--out", path("run")});
   EXPECT_EQ(none.exit_code, 2) << describe(none);

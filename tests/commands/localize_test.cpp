@@ -25,7 +25,7 @@ using test_support::readText;
 using test_support::runSwiftlet;
 using testing::HasSubstr;
 
-/// Which pose of a record is the odometry's.
+/// Which pose of a record contains the odometry.
 enum class Odometry { kOfBoth, kOfLaser };
 
 /// A walk of `steps` scans, five a second, as a CARMEN log; its odometry has an origin of its own.
@@ -73,7 +73,7 @@ class Localize : public test_support::Scratch {
                              "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
                              name, known.begin.x * 0.05, known.begin.y * 0.05));
   }
-  /// Refused, with nothing of it.
+  /// Expects a refusal with this message, and that nothing was written.
   void expectRefused(const std::vector<std::string>& arguments, const std::string& message) {
     const ProgramEnd end = runSwiftlet(arguments);
     EXPECT_EQ(end.exit_code, 2) << describe(end);
@@ -82,7 +82,7 @@ class Localize : public test_support::Scratch {
   }
 };
 
-TEST_F(Localize, ALogIsFoundInItsMapAndWritten) {
+TEST_F(Localize, ALogIsLocalizedInItsMap) {
   const test::Building building = test::offices(21);
   const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(building, 21, 150));
   const ProgramEnd end = runSwiftlet({"localize", map, log, "--out", path("out"), "--json"});
@@ -115,13 +115,13 @@ TEST_F(Localize, ALogOfAnotherFloorIsNeverLocalized) {
   EXPECT_THAT(end.out, HasSubstr("never localized"));
 }
 
-TEST_F(Localize, ReadsWhatMapReads) {
+TEST_F(Localize, ReadsTheFormatsThatMapReads) {
   const std::string formats = "CARMEN, BreezySLAM .dat or rosbag 1; plain, or packed by";
   for (const std::string command : {"map", "localize"})
     EXPECT_THAT(runSwiftlet({command, "--help"}).out, HasSubstr(formats)) << command;
 }
 
-TEST_F(Localize, WhatIsOddAboutTheLogIsSaid) {
+TEST_F(Localize, ReportsOdditiesOfTheLog) {
   const test::Building building = test::offices(21);
   const std::string map = writeMapOf(building, "map");
   const std::string log = write("odd.log", walkThrough(building, 21, 150, Odometry::kOfLaser) + "FLASER 3 1.0 \xff\n");
@@ -136,7 +136,7 @@ TEST_F(Localize, WhatIsOddAboutTheLogIsSaid) {
   EXPECT_THAT(nlohmann::json::parse(figures.out).at("notes").dump(), HasSubstr("the robot's pose never changes"));
 }
 
-TEST_F(Localize, OfADamagedArchiveWhatCameBeforeIsLocalized) {
+TEST_F(Localize, LocalizesADamagedArchiveUpToTheDamage) {
   const test::Building building = test::offices(21);
   const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(building, 21, 200));
   ASSERT_EQ(std::system(("gzip -kf " + log).c_str()), 0);
@@ -153,7 +153,7 @@ TEST_F(Localize, OfADamagedArchiveWhatCameBeforeIsLocalized) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / name)) << name;
 }
 
-TEST_F(Localize, OlderResultsAreReplacedAndNothingElse) {
+TEST_F(Localize, ReplacesOnlyItsOwnOlderResults) {
   const test::Building building = test::offices(21);
   const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(building, 21, 100));
   const auto localize = [&](const std::string& out) { return runSwiftlet({"localize", map, log, "--out", path(out)}); };
@@ -184,7 +184,7 @@ TEST_F(Localize, OlderResultsAreReplacedAndNothingElse) {
   EXPECT_EQ(readText(path("mapped/report.html")), report);
 }
 
-TEST_F(Localize, AWrongStartThatIsNeverFoundAgainIsAFailure) {
+TEST_F(Localize, AWrongStartThatIsNotRecoveredIsAFailure) {
   const test::Building building = test::offices(21), other = test::offices(22);
   const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(other, 22, 100));
   const ProgramEnd end = runSwiftlet({"localize", map, log, "--start", "5;0;0", "--out", path("out"), "--json"});
@@ -194,7 +194,7 @@ TEST_F(Localize, AWrongStartThatIsNeverFoundAgainIsAFailure) {
   EXPECT_EQ(json.at("times_lost"), 1);
 }
 
-TEST_F(Localize, RefusesWhatItCannotUse) {
+TEST_F(Localize, RefusesUnusableInput) {
   const test::Building building = test::offices(21);
   const std::string map = writeMapOf(building, "map"), log = write("walk.log", walkThrough(building, 21, 2));
   expectRefused({"localize", path("none.yaml"), log}, "none.yaml");
@@ -222,7 +222,7 @@ TEST_F(Localize, ALogWithoutPointsIsNotLocalizedWhateverTheStart) {
   expectRefused({"localize", map, log, "--out", path("out")}, "not localized: none of its 20 scans");
 }
 
-TEST_F(Localize, WithoutStampsItsEventsAreToldByScan) {
+TEST_F(Localize, LabelsEventsByScanWhenThereAreNoStamps) {
   const test::Building building = test::offices(21);
   std::istringstream lines(walkThrough(building, 21, 120));
   std::string text;

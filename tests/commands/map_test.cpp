@@ -51,7 +51,7 @@ class Map : public test_support::Scratch {
     return end.exit_code == 0 ? nlohmann::json::parse(end.out) : nlohmann::json();
   }
   std::string notesOf(const nlohmann::json& figures) const { return figures.at("notes").dump(); }
-  /// What cannot be mapped: exit 2, the message, and nothing is left.
+  /// Expects that the text is refused with exit code 2 and this message, and that no file is left.
   void refused(const std::string& log, const std::string& pattern, const std::vector<std::string>& more = {}) const {
     const ProgramEnd end = map(log, more);
     EXPECT_EQ(end.exit_code, 2) << describe(end);
@@ -65,14 +65,14 @@ class Map : public test_support::Scratch {
   }
 };
 
-TEST_F(Map, TheWayIsThatOfTheRobotThroughKnownAreaToo) {
+TEST_F(Map, PathLengthIncludesMotionThroughKnownArea) {
   std::string log;
   for (int i = 0; i < 400; ++i) log += scan(-2.0 + 0.03 * std::abs(i % 200 - 100), 100.0 + 0.1 * i);
-  for (int i = 400; i < 440; ++i) log += scan(1.0, 100.0 + 0.1 * i);  // It stands.
+  for (int i = 400; i < 440; ++i) log += scan(1.0, 100.0 + 0.1 * i);  // The robot stands still.
   EXPECT_NEAR(mapped(log).at("path_length_m").get<double>(), 12.0, 0.4);
 }
 
-TEST_F(Map, ALogBecomesAMapATrajectoryAGraphAndAReport) {
+TEST_F(Map, WritesMapTrajectoryGraphAndReport) {
   const nlohmann::json figures = mapped(walk(100));
   EXPECT_EQ(figures.at("scans"), 100);
   EXPECT_EQ(figures.at("format"), "CARMEN");
@@ -105,7 +105,7 @@ std::string walkThroughTheDark() {
   return log;
 }
 
-TEST_F(Map, ATrackThatWasLostAndNeverConnectedIsProbablyWrong) {
+TEST_F(Map, ALostTrackThatStaysUnconnectedIsNotTrusted) {
   const nlohmann::json alone = mapped(walkThroughTheDark(), {"--odometry", "none"});
   EXPECT_TRUE(alone.at("complete").get<bool>()) << "the log was read to its end";
   EXPECT_FALSE(alone.at("trusted").get<bool>());
@@ -114,7 +114,7 @@ TEST_F(Map, ATrackThatWasLostAndNeverConnectedIsProbablyWrong) {
   EXPECT_THAT(readText(path("out/report.html")), HasSubstr("the map is probably wrong: the track was lost once"));
 }
 
-TEST_F(Map, NoOdometryIsNeeded) {
+TEST_F(Map, NeedsNoOdometry) {
   const nlohmann::json figures = mapped(walk(100), {"--odometry", "none"});
   EXPECT_EQ(figures.at("scans"), 100);
   const std::string trajectory = readText(path("out/trajectory.tum"));
@@ -130,7 +130,7 @@ TEST_F(Map, TheSameLogGivesTheSameBytes) {
     EXPECT_EQ(readText(folder_ / "one" / name), readText(folder_ / "two" / name)) << name;
 }
 
-TEST_F(Map, PeopleReadWhatIsOddBeforeTheFigures) {
+TEST_F(Map, PrintsNotesBeforeTheFigures) {
   const std::string log = write("b.log", walk(30) + "FLASER 3 1.0 2.0\n");
   const ProgramEnd end = runSwiftlet({"map", log, "--out", path("out")});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
@@ -143,7 +143,7 @@ TEST_F(Map, PeopleReadWhatIsOddBeforeTheFigures) {
   EXPECT_THAT(readText(path("out/report.html")), HasSubstr("b.log:33:17"));
 }
 
-TEST_F(Map, WhatIsNoLogIsRefused) {
+TEST_F(Map, RefusesFilesThatAreNotLogs) {
   refused(path("none.log"), "none\\.log: cannot be opened: No such file");
   refused(folder_.string(), "is a folder");
   refused(write("empty.log", ""), "empty\\.log: is empty, expected CARMEN");
@@ -165,13 +165,13 @@ TEST_F(Map, ALogWithoutScansOrWithoutPointsHasNoMap) {
   refused(write("e.log", "FLASER 2 nan -3 0 0 0 0 0 0 1.0 host 1.0\n"), "no map: none of its 1 scans");
 }
 
-TEST_F(Map, ASingleScanIsAMapToo) {
+TEST_F(Map, ASingleScanGivesAMap) {
   const nlohmann::json figures = mapped(scan(0.0, 1.0));
   EXPECT_EQ(figures.at("scans"), 1);
   for (const std::string& name : kOutputs) EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
 }
 
-TEST_F(Map, BadRecordsAreSkippedAndTheRestIsMapped) {
+TEST_F(Map, SkipsBadRecordsAndMapsTheRest) {
   std::string log = walk(30);
   log += "FLASER 180 1.0 garbage\n" + std::string(200'000, '\xff') + "\n" + std::string(3'000'000, 'F') + "\n";
   log += "FLASER 1e30 1\nFLASER -1 1\nFLASER 1 1 nan 0 0 0 0 0 1.0 host 1.0\nFLASER 1 1 1e300 0 0 0 0 0 1.0 host 1\n";
@@ -185,7 +185,7 @@ TEST_F(Map, BadRecordsAreSkippedAndTheRestIsMapped) {
   EXPECT_THAT(notesOf(figures), HasSubstr("`garbage` is not a number"));
 }
 
-TEST_F(Map, OddScansAreMapped) {
+TEST_F(Map, MapsScansOfChangingShapeAndTime) {
   std::string log;
   for (int i = 0; i < 60; ++i) {
     // Beams change; stamps repeat, go back and jump out of all bounds.
@@ -201,7 +201,7 @@ TEST_F(Map, OddScansAreMapped) {
   EXPECT_THAT(notesOf(figures), HasSubstr("time stamps do not follow the one before"));
 }
 
-TEST_F(Map, OfADamagedArchiveWhatCameBeforeIsMapped) {
+TEST_F(Map, MapsADamagedArchiveUpToTheDamage) {
   const std::string log = write("a.log", walk(200));
   ASSERT_EQ(std::system(("gzip -kf " + log).c_str()), 0);
   const std::string packed = readText(log + ".gz");
@@ -222,13 +222,13 @@ TEST_F(Map, ASensorOverridesTheGeometry) {
   EXPECT_EQ(mapped(walk(20), {"--sensor", "utm_30lx"}).at("scans"), 20);
 }
 
-TEST_F(Map, UnknownOdometryIsRefused) {
+TEST_F(Map, RefusesAnUnknownOdometry) {
   const ProgramEnd end = map(write("a.log", walk(5)), {"--odometry", "wheels"});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.err, HasSubstr("--odometry"));
 }
 
-TEST_F(Map, AnOlderMapIsReplacedAndNothingElse) {
+TEST_F(Map, ReplacesOnlyItsOwnOlderMap) {
   (void)mapped(walk(20));
   EXPECT_EQ(mapped(walk(40)).at("scans"), 40) << "an older map is replaced";
 
@@ -251,7 +251,7 @@ TEST_F(Map, AnOlderMapIsReplacedAndNothingElse) {
   EXPECT_THAT(end.err, HasSubstr("is not a folder"));
 }
 
-TEST_F(Map, ARunThatFailsLeavesTheOlderMapWhole) {
+TEST_F(Map, AFailedRunKeepsTheOlderMap) {
   (void)mapped(walk(20));
   const auto all = [&] {
     std::string text;
@@ -267,7 +267,7 @@ TEST_F(Map, ARunThatFailsLeavesTheOlderMapWhole) {
   EXPECT_EQ(namesIn("out"), std::set<std::string>(kOutputs.begin(), kOutputs.end()));
 }
 
-TEST_F(Map, LinksAmongOlderFilesAreReplacedNotFollowed) {
+TEST_F(Map, ReplacesLinksInsteadOfFollowingThem) {
   (void)mapped(walk(20));
   const std::vector<std::string> names{"trajectory.tum", "map.yaml", "report.html"};
   for (const std::string& name : names) {
@@ -287,7 +287,7 @@ TEST_F(Map, LinksAmongOlderFilesAreReplacedNotFollowed) {
   EXPECT_FALSE(fs::is_symlink(path("out/map.yaml")));
 }
 
-TEST_F(Map, WhatAKilledRunLeftDoesNotStandInTheWay) {
+TEST_F(Map, FilesOfAKilledRunDoNotBlockTheNext) {
   const std::string log = write("a.log", walk(60));
   test_support::ProgramOptions killed;
   killed.while_running = [](pid_t process, const std::string&) { kill(process, SIGKILL); };
@@ -306,7 +306,7 @@ TEST_F(Map, WhatAKilledRunLeftDoesNotStandInTheWay) {
   EXPECT_EQ(readText(path("theirs/unfinished.part/mine.txt")), "mine");
 }
 
-TEST_F(Map, AnOlderGraphDoesNotStayBesideTheMapOfAMethodWithoutOne) {
+TEST_F(Map, RemovesAnOlderGraphWhenTheMethodHasNone) {
   const std::string profile = write("mine.yaml", "autonomy: {estimator: {slam: {method: scan_to_map}}}\n");
   using Arguments = std::vector<std::string>;
   for (const Arguments& without :
@@ -319,7 +319,7 @@ TEST_F(Map, AnOlderGraphDoesNotStayBesideTheMapOfAMethodWithoutOne) {
   }
 }
 
-TEST_F(Map, AFolderThatCannotBeWrittenIsToldBeforeTheWork) {
+TEST_F(Map, AnUnwritableFolderIsRefusedBeforeMapping) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   fs::create_directories(path("out"));
   fs::permissions(path("out"), fs::perms::owner_read | fs::perms::owner_exec);
@@ -344,7 +344,7 @@ std::string jumps(int scans, double step_m) {
   return log;
 }
 
-TEST_F(Map, AMapThatNobodyCouldReadIsNotWritten) {
+TEST_F(Map, AMapTooLargeToReadIsNotWritten) {
   const ProgramEnd end = map(write("a.log", jumps(200, 9.0)));
   EXPECT_EQ(end.exit_code, 1) << describe(end);
   EXPECT_THAT(end.err, ContainsRegex("the map would be 3[0-9]{4} by [0-9]+ cells of 0\\.05 m: the log's odometry or "
@@ -353,11 +353,11 @@ TEST_F(Map, AMapThatNobodyCouldReadIsNotWritten) {
   EXPECT_EQ(namesIn("out"), (std::set<std::string>{"graph.g2o", "report.html", "trajectory.tum"}));
 }
 
-TEST_F(Map, AMapOfScansThatDoNotFitIsDistrusted) {
+TEST_F(Map, AMapOfScansThatDoNotMatchIsNotTrusted) {
   EXPECT_THAT(notesOf(mapped(jumps(30, 1.0))), HasSubstr("the map is probably wrong: the track was lost 7 times"));
 }
 
-TEST_F(Map, StampsThatTellNothingAreTold) {
+TEST_F(Map, ReportsStampsThatAreAllTheSame) {
   std::string log;
   for (int i = 0; i < 20; ++i) log += scan(-2.0 + 0.03 * i, 0.0);
   const std::string notes = notesOf(mapped(log));
@@ -365,7 +365,7 @@ TEST_F(Map, StampsThatTellNothingAreTold) {
   EXPECT_THAT(notes, Not(HasSubstr("time stamps do not follow")));
 }
 
-TEST_F(Map, ATemporaryFileThatCannotBeWrittenIsTold) {
+TEST_F(Map, ReportsAnUnwritableTemporaryFile) {
   test_support::ProgramOptions full_disk;
   full_disk.largest_file_bytes = 3000;
   // Few enough scans that all of them wait in memory until they are read.
@@ -374,7 +374,7 @@ TEST_F(Map, ATemporaryFileThatCannotBeWrittenIsTold) {
   EXPECT_THAT(end.err, HasSubstr("temporary file of the trajectory cannot be written"));
 }
 
-TEST_F(Map, TheFolderIsNamedAfterTheLogWithoutItsEndings) {
+TEST_F(Map, NamesTheFolderAfterTheLogWithoutItsExtensions) {
   test_support::ProgramOptions here;
   here.working_folder = folder_.string();
   for (const char* name : {"day.01.clf", "day.02.clf", "noending"}) write(name, walk(5));
@@ -385,7 +385,7 @@ TEST_F(Map, TheFolderIsNamedAfterTheLogWithoutItsEndings) {
     EXPECT_TRUE(fs::exists(folder_ / folder / "map.yaml")) << folder;
 }
 
-TEST_F(Map, AFullDiskIsTold) {
+TEST_F(Map, ReportsAFullDisk) {
   test_support::ProgramOptions full_disk;
   full_disk.largest_file_bytes = 3000;
   const ProgramEnd end = runSwiftlet({"map", write("a.log", walk(100)), "--out", path("out"), "--json"}, full_disk);

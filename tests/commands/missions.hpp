@@ -1,4 +1,4 @@
-// Small missions and worlds for bad input: each sound but for what a test plants.
+// Small missions and worlds for bad input: each is valid except for the mistake that a test adds.
 #pragma once
 
 #include <string>

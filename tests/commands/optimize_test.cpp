@@ -32,7 +32,7 @@ const std::string kSquare =
 
 class Optimize : public test_support::Scratch {};
 
-TEST_F(Optimize, TheGraphIsToldAndWrittenAndReadBack) {
+TEST_F(Optimize, ReportsAndWritesAGraphThatReadsBack) {
   const std::string graph = write("square.g2o", kSquare);
   const ProgramEnd end = runSwiftlet({"optimize", graph, "--out", path("a/b"), "--json"});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
@@ -56,7 +56,7 @@ TEST_F(Optimize, TheGraphIsToldAndWrittenAndReadBack) {
   EXPECT_NEAR(again.at("chi2_final").get<double>(), json.at("chi2_final").get<double>(), 1e-6);
 }
 
-TEST_F(Optimize, TheTableIsForPeopleAndTheSameGraphGivesTheSameBytes) {
+TEST_F(Optimize, PrintsATableAndTheSameGraphGivesTheSameBytes) {
   const std::string graph = write("square.g2o", kSquare + "VERTEX_XY 9 1 1\n");
   const ProgramEnd end = runSwiftlet({"optimize", graph, "--out", path("a")});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
@@ -68,7 +68,7 @@ TEST_F(Optimize, TheTableIsForPeopleAndTheSameGraphGivesTheSameBytes) {
   EXPECT_EQ(readText(path("a/graph.g2o")), readText(path("b/graph.g2o")));
 }
 
-TEST_F(Optimize, AGraphInSpaceIsOptimizedToo) {
+TEST_F(Optimize, OptimizesAGraphInSpace) {
   const std::string unit = " 100 0 0 0 0 0 100 0 0 0 0 100 0 0 0 100 0 0 100 0 100\n";
   const std::string graph = write("line.g2o",
                                   "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 1 2 1 0 0 0 0 1\n"
@@ -80,7 +80,7 @@ TEST_F(Optimize, AGraphInSpaceIsOptimizedToo) {
   EXPECT_NEAR(json.at("chi2_final").get<double>(), 100.0 * (0.25 + 0.25), 1e-6);
 }
 
-TEST_F(Optimize, WhatCannotBeUsedIsRefusedAndNothingIsWritten) {
+TEST_F(Optimize, RefusesUnusableInputAndWritesNothing) {
   const auto refused = [&](const std::string& graph, const std::string& pattern) {
     const ProgramEnd end = runSwiftlet({"optimize", graph, "--out", path("out")});
     EXPECT_EQ(end.exit_code, 2) << describe(end);
@@ -93,7 +93,7 @@ TEST_F(Optimize, WhatCannotBeUsedIsRefusedAndNothingIsWritten) {
   refused(folder_.string(), "is a folder");
 }
 
-TEST_F(Optimize, EdgesWithAnIndefiniteInformationAreCountedAndMayBeMended) {
+TEST_F(Optimize, CountsAndRepairsIndefiniteInformationMatrices) {
   // The cross term of the first two is greater than their diagonals.
   const std::string graph = write("cross.g2o", kSquare +
                                                    "EDGE_SE2 5 7 1 1 3.1415926 100 150 0 100 0 100\n"
@@ -114,7 +114,7 @@ TEST_F(Optimize, EdgesWithAnIndefiniteInformationAreCountedAndMayBeMended) {
   EXPECT_THAT(hopeless.err, HasSubstr("not even its diagonal; so it is for 1 of 5 edges\n"));
 }
 
-TEST_F(Optimize, TheGraphItselfIsNotOverwrittenAndABadFolderIsTold) {
+TEST_F(Optimize, DoesNotOverwriteItsInputAndRefusesABadFolder) {
   const std::string graph = write("graph.g2o", kSquare);
   const ProgramEnd same = runSwiftlet({"optimize", graph, "--out", folder_.string()});
   EXPECT_EQ(same.exit_code, 2) << describe(same);
@@ -129,7 +129,7 @@ TEST_F(Optimize, TheGraphItselfIsNotOverwrittenAndABadFolderIsTold) {
   EXPECT_FALSE(fs::exists(path("full"))) << "nothing half written";
 }
 
-TEST_F(Optimize, OnlyAnOlderGraphOfItsOwnIsReplaced) {
+TEST_F(Optimize, ReplacesOnlyItsOwnOlderGraph) {
   const std::string graph = write("square.g2o", kSquare);
   const std::vector<std::string> arguments{"optimize", graph, "--out", path("out")};
   EXPECT_EQ(runSwiftlet(arguments).exit_code, 0);
@@ -144,7 +144,7 @@ TEST_F(Optimize, OnlyAnOlderGraphOfItsOwnIsReplaced) {
   EXPECT_EQ(readText(path("theirs/graph.g2o")), "theirs");
 }
 
-TEST_F(Optimize, AChi2ThatIsNoNumberIsAFailure) {
+TEST_F(Optimize, AChi2ThatIsNotANumberIsAFailure) {
   const std::string graph = write("huge.g2o",
                                   "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1e7 0 0\n"
                                   "EDGE_SE2 0 1 -1e7 0 0 1e300 0 0 1e300 0 1\n"
@@ -155,7 +155,7 @@ TEST_F(Optimize, AChi2ThatIsNoNumberIsAFailure) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
-TEST_F(Optimize, PartsThatNothingTiesAreTold) {
+TEST_F(Optimize, ReportsPartsWithoutAnEdgeToTheFixedVertex) {
   const std::string graph = write("parts.g2o",
                                   "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_SE2 2 5 5 0\nVERTEX_SE2 3 6 5 0\n"
                                   "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n");
@@ -164,7 +164,7 @@ TEST_F(Optimize, PartsThatNothingTiesAreTold) {
   EXPECT_THAT(end.err, HasSubstr("note: 1 part of the graph is not tied to the fixed vertex"));
 }
 
-TEST_F(Optimize, WhatDoesNotConvergeIsToldByTheExitCode) {
+TEST_F(Optimize, TheExitCodeShowsThatItDidNotConverge) {
   const ProgramEnd end = runSwiftlet({"optimize", write("square.g2o", kSquare), "--max-iterations", "1"});
   EXPECT_EQ(end.exit_code, 1) << describe(end);
   EXPECT_THAT(end.out, HasSubstr("it did not converge"));

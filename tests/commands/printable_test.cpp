@@ -30,7 +30,7 @@ bool isPrintable(const std::string& text) {
 
 class Printable : public test_support::Scratch {
  protected:
-  /// Refused, and what was wrong is shown with its control characters escaped.
+  /// Expects a refusal whose message shows the input with its control characters escaped.
   void refused(const std::vector<std::string>& arguments, const std::string& shown) const {
     const ProgramEnd end = runSwiftlet(arguments);
     EXPECT_EQ(end.exit_code, 2) << describe(end);
@@ -39,7 +39,7 @@ class Printable : public test_support::Scratch {
   }
 };
 
-TEST_F(Printable, Arguments) {
+TEST_F(Printable, ControlCharactersInArgumentsAreEscaped) {
   refused({kEsc + "fly"}, "`\\x1b[31mfly` is not a command");
   refused({"map", "a.log", "--json" + kEsc}, "`--json\\x1b[31m` is not an option");
   refused({"map", "a.log", "--odometry", kEsc}, "\\x1b[31m");
@@ -47,7 +47,7 @@ TEST_F(Printable, Arguments) {
   refused({"fly", "missions/explore_and_return.xml", "--headless", "--system", kEsc}, "\\x1b[31m");
 }
 
-TEST_F(Printable, WhatIsInAMission) {
+TEST_F(Printable, ControlCharactersInAMissionAreEscaped) {
   // XML forbids ESC itself, but allows the control characters of Latin-1, which terminals of eight bits obey.
   refused({"check", write("esc.xml", missionWith("<Fly" + kEsc + "/>"))}, "esc.xml:");
   refused({"check", write("c1.xml", missionWith("<TakeOff height_m=\"\xc2\x9b"
@@ -55,19 +55,19 @@ TEST_F(Printable, WhatIsInAMission) {
           "\\xc2\\x9b31m");
 }
 
-TEST_F(Printable, WhatIsInALog) {
+TEST_F(Printable, ControlCharactersInALogAreEscaped) {
   const std::string log = write("b" + kEsc + ".log", "# message\nFLASER 1 " + kEsc + " 0 0 0 0 0 0 1 h 1\n");
   refused({"map", log, "--out", path("out")}, "b\\x1b[31m.log");
 }
 
-TEST_F(Printable, WhatIsInAMap) {
+TEST_F(Printable, ControlCharactersInAMapAreEscaped) {
   const std::string map = write("map.yaml",
                                 "image: \"\\e[31m.pgm\"\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n"
                                 "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
   refused({"localize", map, "a.log"}, "\\x1b[31m.pgm");
 }
 
-TEST_F(Printable, WhatIsInAWorld) {
+TEST_F(Printable, ControlCharactersInAWorldAreEscaped) {
   refused({"fly", "missions/explore_and_return.xml", "--headless", "--world",
            write("w.sdf",
                  "<sdf version=\"1.9\"><world name=\"\xc2\x9b\"><model name=\"\xc2\x9b\"><link name=\"l\">"
@@ -76,7 +76,7 @@ TEST_F(Printable, WhatIsInAWorld) {
           "w.sdf");
 }
 
-TEST_F(Printable, JsonStaysJson) {
+TEST_F(Printable, JsonStaysValid) {
   const ProgramEnd end = runSwiftlet({"check", path("no\x7f\xc2\x9bsuch.xml"), "--json"});
   EXPECT_TRUE(isPrintable(end.out)) << describe(end);
   EXPECT_EQ(end.out.find('\x9b'), std::string::npos);

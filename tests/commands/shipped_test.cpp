@@ -34,7 +34,7 @@ std::vector<std::string> shipped(const std::string& folder, const std::string& e
   return files;
 }
 
-TEST(Shipped, EachMissionIsSoundAndFoundFromAnywhere) {
+TEST(Shipped, EachMissionIsValidAndFoundFromAnyFolder) {
   test_support::ProgramOptions elsewhere;
   elsewhere.working_folder = "/";
   std::vector<std::string> missions = shipped("missions", ".xml", 2);
@@ -51,7 +51,7 @@ TEST(Shipped, EachWorldLoads) {
     EXPECT_FALSE(simulation::loadWorld((kRoot / world).string(), {}).shapes.empty()) << world;
 }
 
-TEST(Shipped, EachTrialLoadsAndNamesThingsThatAreThere) {
+TEST(Shipped, EachTrialLoadsAndNamesExistingFiles) {
   for (const std::string& file : shipped("trials", ".yaml", 1)) {
     const evaluation::TrialConfig trial = evaluation::readTrial(kRoot / file);
     EXPECT_TRUE(fs::exists(kRoot / trial.mission)) << file << ": " << trial.mission;
@@ -70,15 +70,15 @@ TEST(Shipped, EachDataSheetLoads) {
     EXPECT_NO_THROW(readFile<common::LaserConfig>((kRoot / file).string())) << file;
 }
 
-TEST(Shipped, TheReferenceOfAllSettingsIsOfThisVersion) {
+TEST(Shipped, TheReferenceOfAllSettingsIsUpToDate) {
   EXPECT_EQ(test_support::readText(kRoot / "docs/configuration.md"), runSwiftlet({"config", "--reference"}).out)
-      << "write it anew: swiftlet config --reference > docs/configuration.md";
+      << "update it: swiftlet config --reference > docs/configuration.md";
 }
 
 class Profiles : public test_support::Scratch {};
 
 // "swiftlet config > mine.yaml" is where one's own profile begins.
-TEST_F(Profiles, EachLoadsAndWhatConfigPrintsIsReadBack) {
+TEST_F(Profiles, EachLoadsAndReadsBackAsPrinted) {
   for (const std::string& file : shipped("config/systems", ".yaml", 1)) {
     const std::string name = fs::path(file).stem().string();
     const ProgramEnd printed = runSwiftlet({"config", "--system", name});

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 class Help : public testing::TestWithParam<std::string> {};
 
-TEST_P(Help, SaysWhatItDoesWithAnExample) {
+TEST_P(Help, DescribesTheCommandWithAnExample) {
   const ProgramEnd end = runSwiftlet({GetParam(), "--help"});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
   EXPECT_THAT(end.out, HasSubstr("Example: swiftlet " + GetParam()));
@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, Help,
                                          "localize", "evaluate"),
                          [](const auto& command) { return command.param; });
 
-TEST(Usage, HelpOfAllNamesEachCommand) {
+TEST(Usage, GeneralHelpNamesEachCommand) {
   const ProgramEnd end = runSwiftlet({"--help"});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
   for (const std::string command :
@@ -41,13 +41,13 @@ TEST(Usage, VersionAndDoctorAreJsonWhenAsked) {
   EXPECT_TRUE(nlohmann::json::accept(runSwiftlet({"doctor", "--json"}).out));
 }
 
-TEST(Usage, VersionIsAnOptionToo) {
+TEST(Usage, VersionIsAlsoAnOption) {
   const ProgramEnd option = runSwiftlet({"--version"});
   EXPECT_EQ(option.exit_code, 0) << describe(option);
   EXPECT_EQ(option.out, runSwiftlet({"version"}).out);
 }
 
-TEST(Usage, WhatWasProbablyMeantIsNamed) {
+TEST(Usage, SuggestsTheClosestName) {
   const auto told = [](const std::vector<std::string>& arguments, const std::string& message) {
     const ProgramEnd end = runSwiftlet(arguments);
     EXPECT_EQ(end.exit_code, 2) << describe(end);

@@ -78,7 +78,7 @@ std::string problemsOf(const std::string& yaml) {
   return "";
 }
 
-TEST(Config, ReadsOverDefaults) {
+TEST(Config, FileValuesReplaceDefaults) {
   LaserConfig laser;
   config::YamlReader::fromText("rate_hz: 10\nsweep_s: 0.05\nmount: {z_m: 0.1}\n", "t").read(laser);
   EXPECT_EQ(laser.rate_hz, 10);
@@ -86,12 +86,12 @@ TEST(Config, ReadsOverDefaults) {
   EXPECT_EQ(laser.beams, 1081);
 }
 
-TEST(Config, UnknownKeySaysWhereAndWhatWasMeant) {
+TEST(Config, UnknownKeyIsReportedWithItsPlaceAndASuggestion) {
   EXPECT_EQ(problemsOf<VehicleConfig>("mass_kg: 1.2\nhull_diametre_m: 0.5\n"),
             "test.yaml:2:1: unknown key `hull_diametre_m`, did you mean `hull_diameter_m`?");
 }
 
-TEST(Config, AKeyGivenTwiceIsSaid) {
+TEST(Config, ADuplicateKeyIsReported) {
   EXPECT_EQ(problemsOf<VehicleConfig>("mass_kg: 1.2\nhull_diameter_m: 0.5\nmass_kg: 1.6\n"),
             "test.yaml:3:1: key `mass_kg` is given twice");
 }
@@ -103,21 +103,21 @@ TEST(Config, WrongTypeAndRangeAreReportedTogether) {
   EXPECT_THAT(text, HasSubstr("test.yaml:3:9: mount: unknown key `roll`, did you mean `roll_deg`?"));
 }
 
-TEST(Config, NumbersAtTheEndOfTheirRange) {
+TEST(Config, NumbersAtTheEndsOfTheirRangeAreAccepted) {
   EXPECT_THAT(problemsOf<LaserConfig>("beams: -2147483648\nmirror_first_beam: 1\n"), HasSubstr("beams: -2147483648"));
   EXPECT_THAT(problemsOf<VehicleConfig>("mass_kg: 1e400\n"), HasSubstr("`1e400` is not a number"));
   EXPECT_EQ(problemsOf<Leaf>("share: 0\ncount: 9\n"), "") << "both ends are within";
   EXPECT_EQ(problemsOf<Leaf>("gain: 0\n"), "test.yaml:1:7: gain: 0 is not positive");
 }
 
-TEST(Config, NotANumberIsNeverWithin) {
+TEST(Config, NanIsNeverWithinBounds) {
   EXPECT_EQ(problemsOf<Leaf>("share: .nan\n"), "test.yaml:1:8: share: nan is not within 0 and 1");
   EXPECT_EQ(problemsOf<Leaf>("gain: .nan\n"), "test.yaml:1:7: gain: nan is not positive");
   EXPECT_EQ(problemsOf<Branch>("far_m: .nan\n"), "test.yaml:1:8: far_m: nan is not at least 0.5");
   EXPECT_THAT(problemsOf<LaserConfig>("mount: {roll_deg: .nan}\n"), HasSubstr("mount.roll_deg: nan is not within"));
 }
 
-TEST(Config, OutOfBoundsIsToldWhereItStandsInSectionsAndLists) {
+TEST(Config, OutOfBoundsIsReportedWithItsPlaceInSectionsAndLists) {
   EXPECT_EQ(problemsOf<Branch>("leaf:\n  count: 10\n"), "test.yaml:2:10: leaf.count: 10 is not within 1 and 9");
   EXPECT_EQ(problemsOf<Branch>("leaves:\n  - count: 2\n  - {count: 0}\n"),
             "test.yaml:3:13: leaves[1].count: 0 is not within 1 and 9");
@@ -126,14 +126,14 @@ TEST(Config, OutOfBoundsIsToldWhereItStandsInSectionsAndLists) {
             "test.yaml:2:7: corners_m[3]: nan is not within -10 and 10");
 }
 
-TEST(Config, ARelationIsToldAtTheFieldItNames) {
+TEST(Config, AViolatedRelationIsReportedAtTheFieldItNames) {
   EXPECT_EQ(problemsOf<Branch>("near_m: 5\nfar_m: 4\n"), "test.yaml:1:9: near_m: 5 is more than far_m, which is 4");
   EXPECT_EQ(problemsOf<Branch>("near_m: 1\nleaf: {count: 1, share: 0.95}\n"),
             "test.yaml:2:25: leaf.share: is too much for one");
   EXPECT_EQ(problemsOf<Branch>("near_m: 5\n"), "test.yaml:1:9: near_m: 5 is more than far_m, which is 2");
 }
 
-TEST(Config, WhatIsOutOfBoundsIsNotComparedWithOthers) {
+TEST(Config, AValueOutOfBoundsIsNotComparedWithOthers) {
   EXPECT_EQ(problemsOf<Branch>("far_m: -1\n"), "test.yaml:1:8: far_m: -1 is not at least 0.5");
 }
 
@@ -142,13 +142,13 @@ TEST(Config, ANumberWithoutADefaultMustBeGiven) {
   EXPECT_EQ(problemsOf<Required>("size_m: 0.2\n"), "");
 }
 
-TEST(Config, NotYamlAndMissingFile) {
+TEST(Config, InvalidYamlAndAMissingFileAreReported) {
   EXPECT_THAT(problemsOf<LaserConfig>("a: [1, 2"), HasSubstr("test.yaml:"));
   EXPECT_THROW(config::YamlReader::fromFile("/nowhere/x.yaml"), InputError);
   EXPECT_THAT(problemsOf<LaserConfig>("- 1\n- 2\n"), HasSubstr("a list where keys were expected"));
 }
 
-TEST(Config, OneThatIsMadeInCodeIsCheckedAsOneThatIsRead) {
+TEST(Config, AConfigMadeInCodeIsCheckedToo) {
   EXPECT_THAT(config::problemsOf(Branch()), IsEmpty());
   Branch branch;
   branch.near_m = std::nan("");
@@ -163,7 +163,7 @@ TEST(Config, OneThatIsMadeInCodeIsCheckedAsOneThatIsRead) {
                   "near_m: nan is more than far_m, which is 2"));
 }
 
-TEST(Config, CommentsHoldTheSentenceAndTheBounds) {
+TEST(Config, CommentsContainDescriptionAndBounds) {
   EXPECT_EQ(YamlPrinter(YamlPrinter::Comments::kYes).print(Branch()),
             "near_m: 1  # The near end. From 0 to 100.\n"
             "far_m: 2  # The far end. At least 0.5.\n"

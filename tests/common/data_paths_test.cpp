@@ -40,7 +40,7 @@ TEST_F(DataPaths, TheEnvironmentComesBeforeTheSourceTree) {
   fs::current_path(before);
 }
 
-TEST_F(DataPaths, WhatIsHereComesFirst) {
+TEST_F(DataPaths, TheCurrentFolderComesFirst) {
   const fs::path before = fs::current_path();
   fs::create_directories(folder_ / "here/missions");
   std::ofstream(folder_ / "here/missions/only_here.xml") << "<root/>";
@@ -49,7 +49,7 @@ TEST_F(DataPaths, WhatIsHereComesFirst) {
   fs::current_path(before);
 }
 
-TEST_F(DataPaths, TheSourceTreeIsFoundFromAnywhere) {
+TEST_F(DataPaths, TheSourceTreeIsFoundFromAnyFolder) {
   const fs::path before = fs::current_path();
   fs::current_path("/");
   EXPECT_TRUE(
@@ -57,12 +57,12 @@ TEST_F(DataPaths, TheSourceTreeIsFoundFromAnywhere) {
   fs::current_path(before);
 }
 
-TEST_F(DataPaths, AbsolutePathsAreTakenAsTheyAre) {
+TEST_F(DataPaths, AbsolutePathsAreNotChanged) {
   EXPECT_EQ(findData(folder_ / "missions"), folder_ / "missions");
   EXPECT_THROW(findData(folder_ / "missions/other.xml"), InputError);
 }
 
-TEST_F(DataPaths, AMissingFileNamesItsNeighbour) {
+TEST_F(DataPaths, AMissingFileGetsASuggestion) {
   try {
     findData("missions/only_hare.xml");
     FAIL() << "a file that does not exist was found";
@@ -74,7 +74,7 @@ TEST_F(DataPaths, AMissingFileNamesItsNeighbour) {
   }
 }
 
-TEST_F(DataPaths, AnEmptyNameIsNoFolder) { EXPECT_THROW(findData(""), InputError); }
+TEST_F(DataPaths, AnEmptyNameIsNotFound) { EXPECT_THROW(findData(""), InputError); }
 
 }  // namespace
 }  // namespace swiftlet::common

@@ -24,7 +24,7 @@ TEST(Time, DifferencesAreExact) {
   EXPECT_EQ(b + (a - b), a);
 }
 
-TEST(Geometry, WrapAngleStaysInHalfOpenTurn) {
+TEST(Geometry, WrapAngleStaysWithinMinusPiAndPi) {
   EXPECT_DOUBLE_EQ(wrapAngle(M_PI), M_PI);
   EXPECT_DOUBLE_EQ(wrapAngle(-M_PI), M_PI);
   EXPECT_NEAR(wrapAngle(7.0), 7.0 - 2 * M_PI, 1e-12);
@@ -99,7 +99,7 @@ TEST(Occupancy, ConfidenceIsCapped) {
   EXPECT_TRUE(occupancy::isFree(cell));
 }
 
-TEST(RandomStream, StreamsAreIndependentOfEachOtherAndRepeat) {
+TEST(RandomStream, StreamsAreIndependentAndRepeatable) {
   RandomStream a(7, "laser", 3), b(7, "laser", 3), c(7, "laser", 4), d(7, "imu", 3);
   const auto first = a.bits();
   EXPECT_EQ(first, b.bits());

@@ -36,9 +36,9 @@ struct GoalRule : testing::Test {
   Corridor map;
 };
 
-TEST_F(GoalRule, AFreePlaceIsFlownTo) { EXPECT_EQ(judge(9.0), Point(9.0, 1.0)); }
+TEST_F(GoalRule, AFreeGoalIsAccepted) { EXPECT_EQ(judge(9.0), Point(9.0, 1.0)); }
 
-TEST_F(GoalRule, WhatIsNoPlaceIsRefused) {
+TEST_F(GoalRule, AGoalThatIsNotAPointIsRefused) {
   for (const double x_m : {std::nan(""), HUGE_VAL, 1e300, -2e5}) {
     const auto verdict = judge(x_m);
     ASSERT_FALSE(verdict) << x_m;
@@ -47,7 +47,7 @@ TEST_F(GoalRule, WhatIsNoPlaceIsRefused) {
   }
 }
 
-TEST_F(GoalRule, OutsideTheMap) {
+TEST_F(GoalRule, AGoalOutsideTheMapIsRefused) {
   const auto verdict = judge(20.0);
   ASSERT_FALSE(verdict);
   EXPECT_EQ(verdict.error().reason, Reason::kOutsideMap);
@@ -55,7 +55,7 @@ TEST_F(GoalRule, OutsideTheMap) {
   EXPECT_FALSE(verdict.error().nearest_free_map_m) << "more than 3 m off";
 }
 
-TEST_F(GoalRule, NeverSeen) {
+TEST_F(GoalRule, AGoalInSpaceNeverSeenIsRefused) {
   const auto verdict = judge(11.5);
   ASSERT_FALSE(verdict);
   EXPECT_EQ(verdict.error().reason, Reason::kUnseen);
@@ -63,14 +63,14 @@ TEST_F(GoalRule, NeverSeen) {
             "goal (11.50, 1.00) is in space never seen at clearance 0.10 m, the nearest free place is (10.00, 1.00)");
 }
 
-TEST_F(GoalRule, InAnObstacle) {
+TEST_F(GoalRule, AGoalInAnObstacleIsRefused) {
   const auto verdict = judge(10.7);
   ASSERT_FALSE(verdict);
   EXPECT_EQ(verdict.error().reason, Reason::kObstacle);
   EXPECT_EQ(verdict.error().nearest_free_map_m, Point(10.0, 1.0));
 }
 
-TEST_F(GoalRule, TooClose) {
+TEST_F(GoalRule, AGoalTooCloseToAnObstacleIsRefused) {
   const auto verdict = judge(10.2);
   ASSERT_FALSE(verdict);
   EXPECT_EQ(verdict.error().reason, Reason::kTooClose);
@@ -79,12 +79,12 @@ TEST_F(GoalRule, TooClose) {
             "place is (10.00, 1.00)");
 }
 
-TEST_F(GoalRule, AFreePlaceWellWithinTheToleranceWillDo) {
+TEST_F(GoalRule, AFreePlaceWellWithinTheToleranceReplacesTheGoal) {
   EXPECT_EQ(judge(10.2, 0.26), Point(10.0, 1.0));
   EXPECT_FALSE(judge(10.2, 0.24)) << "a fifth of the tolerance is left to the controller";
 }
 
-TEST_F(GoalRule, AHeightIsJudgedWhereOneIsNamed) {
+TEST_F(GoalRule, AGivenHeightMustBeWithinItsLimits) {
   const GoalLimits limits{.greatest_height_m = 3.0};
   const auto at = [&](double height_m) { return judgeGoal({{1.0, 1.0}, height_m, 0.05, 0.1}, limits, nullptr); };
   EXPECT_TRUE(at(0.3));
@@ -97,11 +97,11 @@ TEST_F(GoalRule, AHeightIsJudgedWhereOneIsNamed) {
   EXPECT_EQ(at(0.1).error().text, "0.1 m is below the least height, 0.3 m");
 }
 
-TEST_F(GoalRule, WithoutAMapOnlyTheNumbersAreJudged) {
+TEST_F(GoalRule, OnlyTheNumbersAreJudgedWithoutAMap) {
   EXPECT_EQ(judgeGoal({{20.0, 1.0}, std::nullopt, 0.0, 0.1}, {}, nullptr), Point(20.0, 1.0));
 }
 
-TEST(GoalOf, TakesTheTermsOfTheIntent) {
+TEST(GoalOf, CopiesTheValuesOfTheIntent) {
   GoToIntent intent;
   intent.goal_map_m = {3.0, 4.0};
   intent.height_m = 1.5;

@@ -23,7 +23,7 @@ JobRunner::Work note(Delivered& delivered, int id) {
   };
 }
 
-TEST(LockstepJobs, AreDeliveredAtTheDeclaredTimeWhateverTheThreads) {
+TEST(LockstepJobs, AreDeliveredAtTheDeclaredTimeWithAnyNumberOfThreads) {
   for (const int threads : {0, 2}) {
     auto jobs = makeLockstepJobs(threads);
     Delivered delivered;
@@ -38,7 +38,7 @@ TEST(LockstepJobs, AreDeliveredAtTheDeclaredTimeWhateverTheThreads) {
   }
 }
 
-TEST(LockstepJobs, TwoThatAreDueTogetherComeInTheOrderOfSubmission) {
+TEST(LockstepJobs, AreDeliveredInTheOrderOfSubmissionWhenDueTogether) {
   auto jobs = makeLockstepJobs(2);
   Delivered delivered;
   jobs->submit("b", Time{}, Duration::fromSeconds(0.1), note(delivered, 1));
@@ -47,7 +47,7 @@ TEST(LockstepJobs, TwoThatAreDueTogetherComeInTheOrderOfSubmission) {
   EXPECT_EQ(delivered, (Delivered{{1, 100}, {2, 100}}));
 }
 
-TEST(LockstepJobs, AreDeliveredWhenARecordingSaysSo) {
+TEST(LockstepJobs, AreDeliveredAtTheTimesOfARecording) {
   auto jobs = makeLockstepJobs(1);
   Delivered delivered;
   jobs->submit("plan", Time::fromSeconds(1.0), Duration::fromSeconds(0.2), note(delivered, 1));
@@ -59,7 +59,7 @@ TEST(LockstepJobs, AreDeliveredWhenARecordingSaysSo) {
   EXPECT_FALSE(jobs->nextDue(Time::fromSeconds(9)));
 }
 
-TEST(LockstepJobs, ADeliveryOfAnotherJobIsNotAwaited) {
+TEST(LockstepJobs, DoNotWaitForARecordedDeliveryOfAnotherJob) {
   auto jobs = makeLockstepJobs(1);
   Delivered delivered;
   jobs->submit("plan", Time::fromSeconds(1.0), Duration::fromSeconds(0.2), note(delivered, 1));
@@ -89,7 +89,7 @@ JobDelivery awaited(const JobRunner& jobs, Time now) {
   }
 }
 
-TEST(WallClockJobs, AreDeliveredInTheOrderInWhichTheyAreDone) {
+TEST(WallClockJobs, AreDeliveredInTheOrderOfCompletion) {
   HandClock clock;
   auto jobs = makeWallClockJobs(2, clock.reader());
   Delivered delivered;
@@ -138,7 +138,7 @@ TEST(WallClockJobs, AreTimedFromSubmissionToTheEndOfTheWork) {
   EXPECT_TRUE(all[0].tooSlow());
 }
 
-TEST(WallClockJobs, WhatTheWorkThrowsComesOutWhereItIsDelivered) {
+TEST(WallClockJobs, RethrowExceptionsAtDelivery) {
   HandClock clock;
   auto jobs = makeWallClockJobs(1, clock.reader());
   jobs->submit("plan", Time{}, Duration::fromSeconds(0.1),
@@ -147,7 +147,7 @@ TEST(WallClockJobs, WhatTheWorkThrowsComesOutWhereItIsDelivered) {
   EXPECT_THROW(jobs->deliver(due), std::runtime_error);
 }
 
-TEST(JobStopwatch, OneInAHundredMayBeLate) {
+TEST(JobStopwatch, AllowsOneLateJobInAHundred) {
   JobStopwatch stopwatch;
   for (int i = 0; i < 99; ++i) stopwatch.add("slam", Duration::fromSeconds(0.4), Duration::fromSeconds(0.1));
   stopwatch.add("slam", Duration::fromSeconds(0.4), Duration::fromSeconds(2.0));

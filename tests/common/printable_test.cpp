@@ -8,7 +8,7 @@
 namespace swiftlet::common {
 namespace {
 
-TEST(Printable, TextStaysAsItIs) {
+TEST(Printable, PlainTextIsNotChanged) {
   for (const char* text : {"", "maps/ground floor.yaml", "Wände 2 µm, 日本, 🚁", "a\\b `c`"})
     EXPECT_EQ(printable(text), text);
 }
@@ -23,7 +23,7 @@ TEST(Printable, ControlCharactersAreEscaped) {
       << "the control sequence introducer of eight bits";
 }
 
-TEST(Printable, BytesThatAreNoTextAreEscaped) {
+TEST(Printable, InvalidUtf8IsEscaped) {
   EXPECT_EQ(printable("\x9b"
                       "2J"),
             "\\x9b2J");
@@ -32,7 +32,7 @@ TEST(Printable, BytesThatAreNoTextAreEscaped) {
   EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "half a surrogate pair";
 }
 
-TEST(Printable, LinesMayBeKept) { EXPECT_EQ(printableLines("a\n\tb\r\x1b"), "a\n\tb\\r\\x1b"); }
+TEST(Printable, LineBreaksCanBeKept) { EXPECT_EQ(printableLines("a\n\tb\r\x1b"), "a\n\tb\\r\\x1b"); }
 
 TEST(Printable, ProblemsAndTablesArePrintable) {
   const Problem problem{{"a\x1b.xml", 3, 4}, "Fly\x1b", "`\x1b[2J` is no\nnumber", "did you mean `\x07`?"};

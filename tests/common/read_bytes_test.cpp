@@ -31,7 +31,7 @@ class ReadBytes : public testing::Test {
   fs::path folder_ = fs::temp_directory_path() / ("swiftlet-read-bytes-" + std::to_string(::getpid()));
 };
 
-TEST_F(ReadBytes, GivesEveryByte) {
+TEST_F(ReadBytes, ReturnsEveryByte) {
   const std::string bytes("a\0\r\n\xff", 5);
   std::ofstream(folder_ / "f", std::ios::binary) << bytes;
   EXPECT_EQ(readBytes(folder_ / "f"), bytes);
@@ -39,7 +39,7 @@ TEST_F(ReadBytes, GivesEveryByte) {
   EXPECT_THAT(problemOf(folder_ / "f", 4), HasSubstr("f: is larger than 4 bytes"));
 }
 
-TEST_F(ReadBytes, RefusesWhatIsNoFile) {
+TEST_F(ReadBytes, RefusesAnythingButFiles) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(problemOf(folder_ / "pipe"), HasSubstr("pipe: is a pipe or a device"));
   EXPECT_THAT(problemOf("/dev/zero"), HasSubstr("is a pipe or a device"));
@@ -48,7 +48,7 @@ TEST_F(ReadBytes, RefusesWhatIsNoFile) {
   EXPECT_THAT(problemOf(folder_ / std::string(300, 'x')), HasSubstr("cannot be opened: File name too long"));
 }
 
-TEST_F(ReadBytes, KeepsToTheLimitWhateverTheSizeIsSaidToBe) {
+TEST_F(ReadBytes, KeepsToTheLimitWhenTheReportedSizeIsWrong) {
   EXPECT_THAT(problemOf("/proc/self/maps", 100), HasSubstr("is larger than 100 bytes"));
 }
 

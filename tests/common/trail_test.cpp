@@ -10,7 +10,7 @@ std::vector<Eigen::Vector2d> pointsOf(const Trail& trail) {
   return {trail.points_map_m().begin(), trail.points_map_m().end()};
 }
 
-TEST(Trail, KeepsWhatItHasWhileTheRecorderGoesOn) {
+TEST(Trail, DoesNotChangeWhileTheRecorderContinues) {
   TrailRecorder recorder;
   std::vector<Trail> taken{recorder.trail()};
   std::vector<Eigen::Vector2d> flown;
@@ -24,7 +24,7 @@ TEST(Trail, KeepsWhatItHasWhileTheRecorderGoesOn) {
               std::vector<Eigen::Vector2d>(flown.begin(), flown.begin() + static_cast<std::ptrdiff_t>(i)));
 }
 
-TEST(Trail, IsSeldomCopiedAsAWhole) {
+TEST(Trail, IsRarelyCopied) {
   TrailRecorder recorder;
   int copies = 0;
   for (int i = 0; i < 10'000; ++i) {
@@ -35,7 +35,7 @@ TEST(Trail, IsSeldomCopiedAsAWhole) {
   EXPECT_LE(copies, 10);
 }
 
-TEST(Trail, ContinuesWhatItBeginsWith) {
+TEST(Trail, ContinuesEveryTrailThatItBeginsWith) {
   TrailRecorder recorder;
   recorder.add({1, 2});
   const Trail one = recorder.trail();

@@ -14,7 +14,7 @@ std::vector<StampedPose> posesAt(std::initializer_list<int> stamps_s) {
   return poses;
 }
 
-TEST(Ordered, LeavesATrajectoryAlone) {
+TEST(Ordered, DoesNotChangeAnOrderedTrajectory) {
   const Ordered result = ordered(posesAt({1, 2, 5}));
   ASSERT_EQ(result.trajectory.size(), 3u);
   EXPECT_EQ(result.trajectory[2].pose.position_m.x(), 2);
@@ -23,7 +23,7 @@ TEST(Ordered, LeavesATrajectoryAlone) {
   EXPECT_TRUE(ordered({}).trajectory.empty());
 }
 
-TEST(Ordered, SortsAndTakesTheLastOfOneStamp) {
+TEST(Ordered, SortsAndKeepsTheLastPoseOfEachStamp) {
   // 2 after 3 and 1 after 3 go back; the second 3 and the second and third 2 repeat.
   const Ordered result = ordered(posesAt({2, 3, 2, 2, 3, 1}));
   ASSERT_EQ(result.trajectory.size(), 3u);

@@ -13,7 +13,7 @@
 namespace swiftlet::common {
 namespace {
 
-TEST(Rounding, LeavesNoMoreDecimalsThanAsked) {
+TEST(Rounding, KeepsAtMostTheRequestedDecimals) {
   EXPECT_EQ(fmt::format("{}", rounded(30.563146064540703)), "30.5631");
   EXPECT_EQ(fmt::format("{}", rounded(0.1 + 0.2, 3)), "0.3");
   EXPECT_FALSE(std::signbit(rounded(-0.00001))) << "no negative zero";
@@ -27,7 +27,7 @@ TEST(Rounding, LeavesNoMoreDecimalsThanAsked) {
   }));
 }
 
-TEST(Rounding, LeavesAloneWhatHasNoDecimals) {
+TEST(Rounding, DoesNotChangeTextWithoutDecimals) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(rounded(infinity), infinity);
   EXPECT_EQ(rounded(-infinity), -infinity);
@@ -35,7 +35,7 @@ TEST(Rounding, LeavesAloneWhatHasNoDecimals) {
   EXPECT_EQ(rounded(1.2345678901234567e15), 1.2345678901234567e15);
 }
 
-TEST(Markup, EscapesAndMendsText) {
+TEST(Markup, EscapesAndRepairsText) {
   EXPECT_EQ(escaped("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
   EXPECT_EQ(escaped("é \xE2\x82\xAC"), "é \xE2\x82\xAC");
   EXPECT_EQ(escaped("x\xff\xC3"), "x\xEF\xBF\xBD\xEF\xBF\xBD");

@@ -1,4 +1,4 @@
-// Chromium and playwright-core for the browser tests; exit code 77 (skipped) where this machine has not got them.
+// Chromium and playwright-core for the browser tests; exit code 77 (skipped) if they are not installed.
 import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -7,7 +7,7 @@ import { fileURLToPath } from 'node:url';
 
 const kHere = dirname(fileURLToPath(import.meta.url));
 
-/** How many times slower than a release build this one may be; ctest says it. */
+/** How many times slower than a release build this one may be; ctest sets it. */
 export const kPatience = Number(process.env.SWIFTLET_TEST_PATIENCE ?? 1);
 
 function skip(why) {

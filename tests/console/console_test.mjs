@@ -64,7 +64,7 @@ async function eventually(what, holds, timeout_s = 60) {
   assert.fail(`${what} did not happen within ${kPatience * timeout_s} s`);
 }
 
-/** What the page is told as its state goes through `change` first. */
+/** Opens the page and lets `change` modify every state before the page gets it. */
 async function openWith(change) {
   const context = await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true });
   await context.routeWebSocket('**/api/ws', (page) => {

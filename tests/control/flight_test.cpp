@@ -160,7 +160,7 @@ TEST(Flight, ACorrectionOfTheMapMovesTheHoldPointSmoothly) {
   EXPECT_LT(flight.greatest_tilt_rad * 57.3, 20.0);
 }
 
-TEST(Flight, LandsSoftlyAndKnowsIt) {
+TEST(Flight, LandsSoftlyAndDetectsIt) {
   Flight flight;
   flight.hover();
   ASSERT_TRUE(flight.controller.command(Land{}));
@@ -172,7 +172,7 @@ TEST(Flight, LandsSoftlyAndKnowsIt) {
   EXPECT_TRUE(flight.controller.stopped());
 }
 
-TEST(Flight, LandsOnATableBelow) {
+TEST(Flight, LandsOnATable) {
   Flight flight;
   flight.hover(1.5);
   flight.model.floor_m = 0.75;
@@ -182,7 +182,7 @@ TEST(Flight, LandsOnATableBelow) {
   EXPECT_LT(flight.model.hardest_touch_m_s, 0.35);
 }
 
-TEST(Flight, LandCancelsTakingOff) {
+TEST(Flight, LandCancelsATakeOff) {
   Flight flight;
   flight.tick();
   ASSERT_TRUE(flight.controller.command(Prepared{}));
@@ -195,7 +195,7 @@ TEST(Flight, LandCancelsTakingOff) {
   EXPECT_LT(flight.model.position_m.z(), 0.2);
 }
 
-TEST(Flight, DivergenceEndsInAnEmergencyLandingWithoutTheEstimate) {
+TEST(Flight, LandsInAnEmergencyWithoutTheEstimateAfterDivergence) {
   Flight flight;
   flight.hover(1.5);
   flight.diverged = true;
@@ -209,7 +209,7 @@ TEST(Flight, DivergenceEndsInAnEmergencyLandingWithoutTheEstimate) {
   EXPECT_FALSE(flight.model.in_force.motors_on);
 }
 
-TEST(Flight, EmergencyOverATableEdgeIsNotFooledByTheStep) {
+TEST(Flight, EmergencyLandingOverATableEdgeStaysSoft) {
   Flight flight;
   flight.hover(1.8);
   flight.diverged = true;
@@ -227,7 +227,7 @@ TEST(Flight, EmergencyOverATableEdgeIsNotFooledByTheStep) {
   EXPECT_LT(flight.model.hardest_touch_m_s, 0.6);
 }
 
-TEST(Flight, ComesDownBlindWhenNothingIsLeft) {
+TEST(Flight, LandsWithoutAnyMeasurement) {
   Flight flight;
   flight.hover(1.0);
   flight.diverged = true;
@@ -237,7 +237,7 @@ TEST(Flight, ComesDownBlindWhenNothingIsLeft) {
   EXPECT_LT(flight.model.hardest_touch_m_s, 1.5);
 }
 
-TEST(Flight, ASilentLaserMeansHoldThenLand) {
+TEST(Flight, ASilentLaserLeadsToHoldAndThenToLanding) {
   Flight flight;
   flight.hover();
   ASSERT_TRUE(flight.controller.follow({{{0, 0, 1}, {5, 0, 1}}, FlightMode::kFast, {}}));
@@ -251,7 +251,7 @@ TEST(Flight, ASilentLaserMeansHoldThenLand) {
   EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 10.0));
 }
 
-TEST(Flight, RefusesWhatTheStateDoesNotAllow) {
+TEST(Flight, RefusesCommandsThatTheStateDoesNotAllow) {
   Flight flight;
   flight.tick();
   EXPECT_FALSE(flight.controller.command(TakeOff{1.0}));

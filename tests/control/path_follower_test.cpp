@@ -46,7 +46,7 @@ struct Watch {
   }
 };
 
-TEST(PathFollower, AStraightLineIsATrapezoid) {
+TEST(PathFollower, AStraightLineHasATrapezoidalSpeedProfile) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {4, 0, 0}}, FlightMode::kFast);
   ASSERT_TRUE(watch.finish());
@@ -58,7 +58,7 @@ TEST(PathFollower, AStraightLineIsATrapezoid) {
   EXPECT_LT(watch.seconds, 5.6);
 }
 
-TEST(PathFollower, TheReferenceLiesOnAStraightLineWithoutLag) {
+TEST(PathFollower, TheReferenceDoesNotLagOnAStraightLine) {
   Watch watch({0, 0, 1});
   watch.follower.setPath({{0, 0, 1}, {3, 3, 1}}, FlightMode::kFast);
   const double whole_m = watch.follower.remaining_m();
@@ -91,7 +91,7 @@ TEST(PathFollower, CornersAreRoundedWithinTheModesDeviation) {
   }
 }
 
-TEST(PathFollower, ANewPathInFlightIsContinuousAndKeepsTheSpeed) {
+TEST(PathFollower, ANewPathInFlightKeepsPositionAndSpeedContinuous) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kFast);
   for (int i = 0; i < 250; ++i) watch.step();
@@ -134,7 +134,7 @@ TEST(PathFollower, StopTakesTheBrakingDistance) {
   EXPECT_LT(watch.worst_acceleration_m_s2, 1.3);
 }
 
-TEST(PathFollower, StopsAndTurns) {
+TEST(PathFollower, StopsAndTurnsToTheGivenYaw) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kCareful);
   for (int i = 0; i < 300; ++i) watch.step();
@@ -146,7 +146,7 @@ TEST(PathFollower, StopsAndTurns) {
   EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 1.2, 0.02) << "it holds that yaw";
 }
 
-TEST(PathFollower, ASpeedLimitActsWithinItsBraking) {
+TEST(PathFollower, ASpeedLimitTakesEffectWithinTheBrakingTime) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {20, 0, 0}}, FlightMode::kFast);
   for (int i = 0; i < 300; ++i) watch.step();
@@ -161,7 +161,7 @@ TEST(PathFollower, ASpeedLimitActsWithinItsBraking) {
   EXPECT_TRUE(watch.finish());
 }
 
-TEST(PathFollower, FacesWhereItFliesFarAndHoldsTheYawNear) {
+TEST(PathFollower, FacesItsCourseOnLongPathsAndKeepsTheYawOnShortOnes) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {0, 4, 0}}, FlightMode::kFast);
   ASSERT_TRUE(watch.finish());
@@ -173,7 +173,7 @@ TEST(PathFollower, FacesWhereItFliesFarAndHoldsTheYawNear) {
   EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, std::numbers::pi / 2, 0.02) << "sideways";
 }
 
-TEST(PathFollower, DoesNotFlyFastWhereTheLaserDoesNotSee) {
+TEST(PathFollower, FliesSlowlyOutsideTheViewOfTheLaser) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {-4, 0, 0}}, FlightMode::kFast);
   while (std::abs(watch.follower.reference().yaw_odom_rad) < 75 * std::numbers::pi / 180) {
@@ -183,7 +183,7 @@ TEST(PathFollower, DoesNotFlyFastWhereTheLaserDoesNotSee) {
   EXPECT_TRUE(watch.finish());
 }
 
-TEST(PathFollower, MovingTheMapMovesThePathNotTheReference) {
+TEST(PathFollower, AMapCorrectionMovesThePathButNotTheReference) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kFast);
   for (int i = 0; i < 300; ++i) watch.step();
@@ -195,7 +195,7 @@ TEST(PathFollower, MovingTheMapMovesThePathNotTheReference) {
   EXPECT_LT((watch.follower.reference().position_odom_m.head<2>() - goal).norm(), 2e-3);
 }
 
-TEST(PathFollower, AnyPathsAnyTimeStayContinuousAndEndAtTheGoal) {
+TEST(PathFollower, RandomPathsAtRandomTimesStayContinuousAndEndAtTheGoal) {
   rc::check([] {
     const auto seed = *rc::gen::inRange(1, 1'000'000);
     common::RandomStream random(static_cast<std::uint64_t>(seed), "paths");
@@ -232,7 +232,7 @@ TEST(PathShape, SimplifyingStaysWithinTheTolerance) {
   });
 }
 
-TEST(PathShape, NoPointIsPassedFasterThanWhatComesAllows) {
+TEST(PathShape, SpeedsAllowBrakingForTheNextPoint) {
   const Points points = rounded({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1.1, 1, 0}, {1.1, 0, 0}}, 0.05);
   const auto speeds = speedsAlong(points, {1.0, 1.0, 0.5, 0.12});
   const auto along = distancesAlong(points);
@@ -241,7 +241,7 @@ TEST(PathShape, NoPointIsPassedFasterThanWhatComesAllows) {
   EXPECT_EQ(speeds.back(), 0.0);
 }
 
-TEST(PathFollower, AVelocityIsReachedAlongAStraightLineAndTurnedBackAtOnce) {
+TEST(PathFollower, FollowsAVelocityCommandAndItsReversalAtOnce) {
   Watch watch({1, 2, 1});
   watch.follower.setVelocity({0.6, 0.0, 0.0}, 1.0, 0.4);
   for (int i = 0; i < 80; ++i) watch.step();
@@ -257,7 +257,7 @@ TEST(PathFollower, AVelocityIsReachedAlongAStraightLineAndTurnedBackAtOnce) {
   EXPECT_LE(watch.worst_jump_m, 1e-6);
 }
 
-TEST(PathFollower, FromAPathToAVelocityAndBackItIsSmooth) {
+TEST(PathFollower, SwitchesSmoothlyBetweenPathAndVelocity) {
   Watch watch({0, 0, 1});
   watch.follower.setPath({{0, 0, 1}, {5, 0, 1}}, FlightMode::kFast);
   for (int i = 0; i < 150; ++i) watch.step();

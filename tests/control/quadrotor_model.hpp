@@ -17,7 +17,7 @@ struct QuadrotorModel {
   static constexpr double kStep_s = 0.002;
   static constexpr double kStanding_m = 0.15;
 
-  // Differences between nature and the data sheet.
+  // Differences between the real vehicle and the data sheet.
   double attitude_sigma_deg = 1.0, attitude_correlation_s = 2.0;
   double motor_lag_s = 0.05, latency_s = 0.03, drag_1_s = 0.18;
   double position_sigma_m = 0.005, velocity_sigma_m_s = 0.02;

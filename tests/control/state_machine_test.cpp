@@ -47,7 +47,7 @@ std::map<FlightState, Path> reachable() {
   return paths;
 }
 
-TEST(FlightStateMachine, AnOrdinaryFlight) {
+TEST(FlightStateMachine, FollowsAnOrdinaryFlight) {
   FlightStateMachine machine;
   const std::pair<FlightInput, FlightState> story[] = {{FlightInput::kPrepared, FlightState::kPoweredOff},
                                                        {FlightInput::kEngageMotors, FlightState::kLanded},
@@ -59,7 +59,7 @@ TEST(FlightStateMachine, AnOrdinaryFlight) {
   for (const auto& [input, state] : story) EXPECT_EQ(machine.apply(input).value(), state);
 }
 
-TEST(FlightStateMachine, ExactlyTheArrowsOfTheDrawing) {
+TEST(FlightStateMachine, HasExactlyTheTransitionsOfTheFigure) {
   const auto paths = reachable();
   EXPECT_EQ(paths.size(), std::size(kStates));
   std::set<std::string> arrows;
@@ -78,7 +78,7 @@ TEST(FlightStateMachine, ExactlyTheArrowsOfTheDrawing) {
   EXPECT_EQ(arrows.size(), 14u) << testing::PrintToString(arrows);
 }
 
-TEST(FlightStateMachine, Table1) {
+TEST(FlightStateMachine, ActivationsAreThoseOfTable1) {
   const auto active = [](FlightState state) {
     const Activation a = activationOf(state);
     return std::tuple(a.fusion, a.control, a.waypoints);
@@ -92,7 +92,7 @@ TEST(FlightStateMachine, Table1) {
   EXPECT_EQ(active(FlightState::kEmergencyLanding), std::tuple(false, true, false));
 }
 
-TEST(FlightStateMachine, AnEmergencyIsPossibleFromEveryStateInTheAirAndLeftByTouchingDownOnly) {
+TEST(FlightStateMachine, AnEmergencyStartsInAnyStateInTheAirAndEndsOnlyAtTouchdown) {
   for (const auto& [state, path] : reachable()) {
     FlightStateMachine machine = after(path);
     const auto result = machine.apply(FlightInput::kEmergency);

@@ -48,7 +48,7 @@ common::World worldOf(double time_s, MissionState mission, const std::vector<std
   return layers.world();
 }
 
-TEST(FlightRecorder, ErrorsAreInTheTrueMapFrame) {
+TEST(FlightRecorder, MeasuresErrorsInTheTrueMapFrame) {
   FlightRecorder recorder(kTakeOff);
   recorder.tick(truthAt(0.0, {0, 0, 1}), estimateAt(0.0, {0.03, 0.04, 1}));
   recorder.tick(truthAt(0.1, {1, 0, 1}), estimateAt(0.1, {1.03, 0.04, 1.12}));
@@ -63,7 +63,7 @@ TEST(FlightRecorder, ErrorsAreInTheTrueMapFrame) {
   EXPECT_NEAR((record.truth_map[1].pose.position_m - Eigen::Vector3d(1, 0, 1)).norm(), 0, 1e-12);
 }
 
-TEST(FlightRecorder, ACorrectedMapFrameCounts) {
+TEST(FlightRecorder, IncludesTheCorrectionOfTheMapFrame) {
   FlightRecorder recorder(kTakeOff);
   common::VehicleState state = estimateAt(0.0, {2, 0, 1});
   state.T_map_odom = {0.0, 0.1, M_PI_2};  // odom has drifted; map puts it right.
@@ -72,7 +72,7 @@ TEST(FlightRecorder, ACorrectedMapFrameCounts) {
   EXPECT_NEAR(recorder.finish().yaw_errors_rad.at(0), M_PI_2, 1e-12);
 }
 
-TEST(FlightRecorder, AnEstimateIsComparedWithTheTruthOfItsOwnTime) {
+TEST(FlightRecorder, ComparesAnEstimateWithTheTruthAtItsStamp) {
   FlightRecorder recorder(kTakeOff);
   const auto along = [](double time_s) { return Eigen::Vector3d(time_s, 0, 1); };  // 1 m/s
   for (int i = 0; i <= 20; ++i) {
@@ -90,13 +90,13 @@ TEST(FlightRecorder, AnEstimateIsComparedWithTheTruthOfItsOwnTime) {
   EXPECT_EQ(early.finish().horizontal_errors_m.size(), 19u) << "the last two wait for a truth that did not come";
 }
 
-TEST(FlightRecorder, TheSameEstimateTwiceCountsOnce) {
+TEST(FlightRecorder, CountsARepeatedEstimateOnce) {
   FlightRecorder recorder(kTakeOff);
   for (int i = 0; i < 5; ++i) recorder.tick(truthAt(0.01 * i, {0, 0, 1}), estimateAt(0.0, {0, 0, 1}));
   EXPECT_EQ(recorder.finish().horizontal_errors_m.size(), 1u);
 }
 
-TEST(FlightRecorder, OnTheGroundNothingIsMeasured) {
+TEST(FlightRecorder, MeasuresNothingOnTheGround) {
   FlightRecorder recorder(kTakeOff);
   simulation::Truth truth = truthAt(0.0, {0, 0, 0});
   truth.airborne = false;
@@ -106,7 +106,7 @@ TEST(FlightRecorder, OnTheGroundNothingIsMeasured) {
 }
 
 /// At 1 m/s along x of `map`; the given map is shifted from `map` by (10, 20) m and turned by a quarter.
-TEST(FlightRecorder, FollowsHowTheFlightFindsItselfInTheGivenMap) {
+TEST(FlightRecorder, RecordsTheLocalizationInTheGivenMap) {
   const common::Pose2 T_map_given{10.0, 20.0, M_PI_2};
   FlightRecorder recorder(kTakeOff, common::planar(kTakeOff) * T_map_given);
   const auto snapshot = [&](double time_s, common::LocalizationState state, double off_m) {
@@ -136,13 +136,13 @@ TEST(FlightRecorder, FollowsHowTheFlightFindsItselfInTheGivenMap) {
   EXPECT_EQ(record.times_lost, 1);
 }
 
-TEST(FlightRecorder, AFlightWithoutAMapHasNoLocalization) {
+TEST(FlightRecorder, RecordsNoLocalizationWithoutAMap) {
   FlightRecorder recorder(kTakeOff);
   recorder.world(worldOf(0.0, MissionState::kRunning));
   EXPECT_FALSE(recorder.finish().localization);
 }
 
-TEST(FlightRecorder, AGoalIsMeasuredWhenItsSuccessIsReported) {
+TEST(FlightRecorder, MeasuresAGoalWhenItsSuccessIsReported) {
   FlightRecorder recorder(kTakeOff);
   const common::Intent to_goal{7, common::GoToIntent{{3.0, -1.5}, {}, {}, 0.05, 0.1}};
   const common::Intent to_home{8, common::GoToIntent{{0.0, 0.0}, {}, {}, 0.05, 0.1}};
@@ -165,7 +165,7 @@ TEST(FlightRecorder, AGoalIsMeasuredWhenItsSuccessIsReported) {
   EXPECT_NEAR(record.goals[1].error_m, 0.05, 1e-12);
 }
 
-TEST(FlightRecorder, AReachedGoalHasTheEstimateBesideTheTruthOfItsOwnTime) {
+TEST(FlightRecorder, ComparesTheEstimateAtAGoalWithTheTruthAtItsStamp) {
   FlightRecorder recorder(kTakeOff);
   common::VehicleState state = estimateAt(0.96, {2.0, 1.0, 1});  // Late by 40 ms, at 1 m/s.
   state.T_map_odom = {0.97, 0.0, 0.0};
@@ -180,7 +180,7 @@ TEST(FlightRecorder, AReachedGoalHasTheEstimateBesideTheTruthOfItsOwnTime) {
   EXPECT_NEAR(estimate.T_odom_body.x_m, 2.0, 1e-9);
 }
 
-TEST(FlightRecorder, AFailedGoalIsNoGoal) {
+TEST(FlightRecorder, DoesNotRecordAFailedGoal) {
   FlightRecorder recorder(kTakeOff);
   recorder.tick(truthAt(1.0, {0, 0, 1}), estimateAt(1.0, {0, 0, 1}));
   recorder.intent(Time::fromSeconds(1), {7, common::GoToIntent{{3, 0}, {}, {}, 0.05, 0.1}},
@@ -189,7 +189,7 @@ TEST(FlightRecorder, AFailedGoalIsNoGoal) {
   EXPECT_TRUE(recorder.finish().goals.empty());
 }
 
-TEST(FlightRecorder, InterruptionsAndTheirEnds) {
+TEST(FlightRecorder, RecordsInterruptionsAndTheirEnds) {
   FlightRecorder recorder(kTakeOff);
   const auto tree = [&](double time_s, const std::string& sequence, const std::string& explore) {
     recorder.world(worldOf(time_s, MissionState::kRunning, {{0, "RUNNING"}, {1, sequence}, {2, explore}}));

@@ -47,7 +47,7 @@ class FlightScoring : public testing::Test {
   simulation::RayCaster rays_{smallWorld(1.0F)};
 };
 
-TEST_F(FlightScoring, AGoodFlight) {
+TEST_F(FlightScoring, AGoodFlightPasses) {
   Criteria criteria;
   criteria.coverage_min = 0.99;
   criteria.goal_error_max_m = criteria.home_error_max_m = 0.16;
@@ -66,7 +66,7 @@ TEST_F(FlightScoring, AGoodFlight) {
   EXPECT_GT(result.reachable_area_m2, 8.0);
 }
 
-TEST_F(FlightScoring, EveryMissIsNamed) {
+TEST_F(FlightScoring, EveryMissedCriterionIsNamed) {
   FlightRecord record = goodRecord();
   record.mission = MissionState::kFailed;
   record.mission_reason = "goal unreachable";
@@ -86,8 +86,8 @@ TEST_F(FlightScoring, EveryMissIsNamed) {
                           "estimate RMS, m: 0.030, at most 0.02 was asked for", "interruptions: 1 of 2 went on"));
 }
 
-// Without the wall in the north the flood runs out into the open.
-TEST_F(FlightScoring, AnOpenWorldHasNoCoverageAndSaysSo) {
+// Without the north wall the flood fill leaves the room.
+TEST_F(FlightScoring, AnOpenWorldHasNoCoverageAndNamesTheReason) {
   simulation::WorldModel open = smallWorld(1.0F);
   std::erase_if(open.shapes, [](const simulation::Shape& shape) { return shape.model == "north"; });
   const simulation::RayCaster rays(open);
@@ -100,7 +100,7 @@ TEST_F(FlightScoring, AnOpenWorldHasNoCoverageAndSaysSo) {
   EXPECT_EQ(result.coverage_problem, "the world is not closed: the hull gets from the start to more than 2000 m2");
   EXPECT_THAT(result.failures, ElementsAre("coverage: not measured: the world is not closed: the hull gets from the "
                                            "start to more than 2000 m2, at least 0.99 was asked for"));
-  EXPECT_THAT(scoreOf(goodRecord(), world, {}, 7, 3.0).failures, IsEmpty()) << "where nobody asks, nothing is missed";
+  EXPECT_THAT(scoreOf(goodRecord(), world, {}, 7, 3.0).failures, IsEmpty()) << "without a criterion nothing is missed";
 }
 
 TEST_F(FlightScoring, TheWorstGoalCounts) {
@@ -109,7 +109,7 @@ TEST_F(FlightScoring, TheWorstGoalCounts) {
   EXPECT_EQ(score(record).goal_error_m, 0.2);
 }
 
-TEST_F(FlightScoring, MarkersAreHeldAgainstTheirBounds) {
+TEST_F(FlightScoring, MarkersAreJudgedByTheirBounds) {
   FlightRecord record = goodRecord();
   record.goals[0].estimate.T_map_body = {0.008, 0.0, 0.0};
   record.goals.push_back(record.goals[0]);
@@ -126,7 +126,7 @@ TEST_F(FlightScoring, MarkersAreHeldAgainstTheirBounds) {
   EXPECT_EQ(score(record, criteria).failures.size(), 2u) << "what was not measured is missed";
 }
 
-TEST_F(FlightScoring, ACollisionThatCouldBeAvoided) {
+TEST_F(FlightScoring, AnAvoidableCollisionFails) {
   FlightRecord record = goodRecord();
   record.last_truth.crashed = true;
   record.last_truth.crash_reason = "touched `north_wall`";
@@ -137,7 +137,7 @@ TEST_F(FlightScoring, ACollisionThatCouldBeAvoided) {
   EXPECT_THAT(result.failures, ElementsAre("mission: touched `north_wall`", "collision: touched `north_wall`"));
 }
 
-TEST_F(FlightScoring, AWalkerThatRanIntoAVehicleThatStoodStill) {
+TEST_F(FlightScoring, AWalkerIsBlamedForHittingAVehicleAtRest) {
   FlightRecord record = goodRecord();
   record.last_truth.crashed = record.last_truth.by_walker = record.last_truth.yielding = true;
   record.last_truth.crash_reason = "touched `walker_0`";
@@ -149,7 +149,7 @@ TEST_F(FlightScoring, AWalkerThatRanIntoAVehicleThatStoodStill) {
   EXPECT_EQ(score(record).avoidable_collisions, 1);
 }
 
-TEST_F(FlightScoring, AFlightThatNeverTookOff) {
+TEST_F(FlightScoring, AFlightThatNeverTookOffFails) {
   FlightRecord record;
   record.flight_time_s = 300;
   const FlightScore result = score(record);
@@ -158,7 +158,7 @@ TEST_F(FlightScoring, AFlightThatNeverTookOff) {
   EXPECT_FALSE(result.passed());
 }
 
-TEST(CriteriaConfig, NotANumberIsNotGoodEnough) {
+TEST(CriteriaConfig, NanMeetsNoCriterion) {
   FlightScore score;
   score.mission_done = true;
   score.estimate_rms_m = std::numeric_limits<double>::quiet_NaN();
@@ -167,7 +167,7 @@ TEST(CriteriaConfig, NotANumberIsNotGoodEnough) {
   EXPECT_EQ(missed(score, criteria).size(), 1u);
 }
 
-TEST(CriteriaConfig, IsChecked) {
+TEST(CriteriaConfig, OutOfBoundsCriteriaAreRefused) {
   Criteria criteria;
   EXPECT_THAT(common::config::problemsOf(criteria), IsEmpty());
   criteria.coverage_min = 99;  // Meant as per cent.

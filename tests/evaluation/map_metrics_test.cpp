@@ -16,7 +16,7 @@ simulation::FreeSpace freeSpaceOf(const simulation::RayCaster& rays) {
   return simulation::freeSpace(rays, query);
 }
 
-TEST(WallError, OfTheTrueMapIsHalfACell) {
+TEST(WallError, IsHalfACellForTheTrueMap) {
   const simulation::RayCaster rays(smallWorld(1.0F));
   const auto error = wallError(smallMap(), Pose2{}, rays, 1.0);
   ASSERT_TRUE(error);
@@ -39,7 +39,7 @@ TEST(WallError, MeasuresAShiftAndATurn) {
   EXPECT_NEAR(wallError(moved, T_world_map, rays, 1.0)->median_m, 0.025, 1e-4);
 }
 
-TEST(WallError, AGhostIsFarFromEverything) {
+TEST(WallError, AGhostObstacleHasALargeError) {
   const simulation::RayCaster rays(smallWorld(1.0F));
   common::OccupancyGrid ghost = common::makeOccupancyGrid(0.05);
   EXPECT_FALSE(wallError(ghost, Pose2{}, rays, 1.0));
@@ -49,7 +49,7 @@ TEST(WallError, AGhostIsFarFromEverything) {
   EXPECT_EQ(wallError(ghost, Pose2{}, rays, 1.0)->max_m, WallError::kLimit_m);
 }
 
-TEST(Coverage, CountsWhatIsKnownOfWhatCanBeCovered) {
+TEST(Coverage, IsTheKnownShareOfTheReachableArea) {
   const simulation::RayCaster rays(smallWorld(1.0F));
   const auto space = freeSpaceOf(rays);
   EXPECT_EQ(coverage(smallMap(), Pose2{}, space), 1.0);
@@ -60,7 +60,7 @@ TEST(Coverage, CountsWhatIsKnownOfWhatCanBeCovered) {
   EXPECT_NEAR(coverage(left_half, Pose2{}, space), 0.5, 0.02);
 }
 
-TEST(Coverage, WhatCannotBeReachedIsNotAskedFor) {
+TEST(Coverage, UnreachableAreaDoesNotCount) {
   const simulation::RayCaster rays(smallWorld(0.4F));  // The hull of 0.55 m does not fit through.
   const auto space = freeSpaceOf(rays);
   common::OccupancyGrid left_half = common::makeOccupancyGrid(0.05);

@@ -21,12 +21,12 @@ ReachedGoal reached(double time_s, const Eigen::Vector2d& goal_map_m, const Pose
   return goal;
 }
 
-TEST(MarkerErrors, WithoutGoalsThereIsNothingToMeasure) {
+TEST(MarkerErrors, AreNotMeasuredWithoutGoals) {
   const auto visits = markerVisits({});
   EXPECT_FALSE(markerError_m(visits) || relocalizationError_m(visits) || openLoopError_m(visits));
 }
 
-TEST(MarkerErrors, TheEstimateIsHeldAgainstTheTruthAndNotAgainstTheGoal) {
+TEST(MarkerErrors, CompareTheEstimateWithTheTruthAndNotWithTheGoal) {
   // 4 cm off the marker, with an estimate right within 5 mm.
   const auto visits = markerVisits({reached(9, {3, 0}, {2.96, 0, 0}, {2.963, 0.004, 0}, {2.963, 0.004, 0})});
   ASSERT_EQ(visits.size(), 1u);
@@ -36,7 +36,7 @@ TEST(MarkerErrors, TheEstimateIsHeldAgainstTheTruthAndNotAgainstTheGoal) {
   EXPECT_FALSE(openLoopError_m(visits)) << "no loop was flown";
 }
 
-TEST(MarkerErrors, RelocalizationIsBetweenLoopsOfTheSameMarkerWhereverItReallyStood) {
+TEST(MarkerErrors, RelocalizationComparesTheErrorsOfSeveralVisitsOfAMarker) {
   const auto visits = markerVisits({reached(10, {3, 0}, {3.00, 0.00, 0}, {3.010, 0.00, 0}, {}),
                                     reached(20, {0, 4}, {0.00, 4.00, 0}, {-0.02, 4.00, 0}, {}),
                                     reached(30, {3, 0}, {2.96, 0.03, 0}, {2.968, 0.03, 0}, {}),
@@ -45,7 +45,7 @@ TEST(MarkerErrors, RelocalizationIsBetweenLoopsOfTheSameMarkerWhereverItReallySt
   EXPECT_NEAR(*markerError_m(visits), 0.020, 1e-12);
 }
 
-TEST(MarkerErrors, HomeThatTheMapMovedByMillimetresIsTheSameMarker) {
+TEST(MarkerErrors, GoalsAFewMillimetresApartAreTheSameMarker) {
   const auto visits =
       markerVisits({reached(10, {0, 0}, {}, {0.002, 0, 0}, {}), reached(20, {0.004, 0.003}, {}, {0, 0.001, 0}, {})});
   EXPECT_NEAR(*relocalizationError_m(visits), std::hypot(0.002, 0.001), 1e-12);
@@ -58,8 +58,8 @@ TEST(MarkerErrors, TheFirstLoopBeginsAtTakeOff) {
   EXPECT_NEAR(visits[0].open_loop_error_m->y(), -0.1, 1e-12);
 }
 
-// The odometry drifted and turned in the first loop; the second is judged by what it adds.
-TEST(MarkerErrors, EachLoopIsOpenedAlone) {
+// The odometry drifted and turned in the first loop. The second loop is judged only by the drift it adds.
+TEST(MarkerErrors, TheOpenLoopErrorOfEachLoopStartsAtZero) {
   const Pose2 drift{0.4, -0.2, 0.05}, truth_1{0.02, 0.01, -1.2}, truth_2{-0.03, 0.02, -1.1};
   const Pose2 added{truth_2.x_m + 0.07, truth_2.y_m - 0.02, truth_2.yaw_rad};
   const auto visits = markerVisits(

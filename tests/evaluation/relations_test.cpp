@@ -30,7 +30,7 @@ Time second(double s) { return Time::fromSeconds(s); }
 
 constexpr double kQuarter = std::numbers::pi / 2;
 
-TEST(RelationErrors, ByHand) {
+TEST(RelationErrors, EqualTheResultByHand) {
   // 1 m ahead, a quarter turn to the left, 2 m ahead.
   const Trajectory estimate = {
       {second(1), turned(0, 0, 0)}, {second(2), turned(1, 0, kQuarter)}, {second(3), turned(1, 2, kQuarter)}};
@@ -55,7 +55,7 @@ TEST(RelationErrors, ByHand) {
   EXPECT_NEAR(errors.rotation_squared_rad2.standard_deviation, std::sqrt(0.0082 / 3 - 1.0 / 900), 1e-9);
 }
 
-TEST(RelationErrors, InSpaceTheWholeAngleCounts) {
+TEST(RelationErrors, UseTheWholeRotationAngleInSpace) {
   const Trajectory estimate = {{second(1), at(0, 0)}, {second(2), at(0, 0, 1)}};
   const RelationErrors errors = relationErrors(estimate, {{second(1), second(2), at(0, 0, 0.88, {0.3, 0.4, 0})}});
   EXPECT_NEAR(errors.translation_m.mean, 0.12, 1e-12);
@@ -63,13 +63,13 @@ TEST(RelationErrors, InSpaceTheWholeAngleCounts) {
   EXPECT_NEAR(errors.rotation_rad.mean, 2 * std::acos(std::cos(0.2) * std::cos(0.15)), 1e-9);
 }
 
-TEST(RelationErrors, AnglesAreTheShortWayRound) {
+TEST(RelationErrors, UseTheSmallerAngle) {
   const Trajectory estimate = {{second(1), turned(0, 0, 3.1)}, {second(2), turned(0, 0, 0)}};
   const RelationErrors errors = relationErrors(estimate, {{second(1), second(2), turned(0, 0, 3.1)}});
   EXPECT_NEAR(errors.rotation_rad.mean, 2 * std::numbers::pi - 6.2, 1e-9);
 }
 
-TEST(RelationErrors, WhatIsMissingIsSaidAndLeftOut) {
+TEST(RelationErrors, RelationsWithoutPosesAreReportedAndLeftOut) {
   const Trajectory estimate = {{second(1), at(0, 0)}, {second(2), at(1, 0)}};
   const std::vector<Relation> relations = {{second(1), second(3), at(5, 5)},
                                            {second(1), second(2), at(0.9, 0)},
@@ -108,7 +108,7 @@ RC_GTEST_PROP(RelationErrors, DoNotDependOnTheFrame, ()) {
   RC_ASSERT(std::abs(a.rotation_rad.mean - b.rotation_rad.mean) < 1e-6);
 }
 
-RC_GTEST_PROP(RelationErrors, AreNoneForWhatTheTrajectorySaysItself, ()) {
+RC_GTEST_PROP(RelationErrors, AreZeroForRelationsOfTheTrajectoryItself, ()) {
   Trajectory estimate;
   std::vector<Relation> relations;
   for (int i = 0; i < 8; ++i) {
@@ -171,7 +171,7 @@ void expectErrors(const RelationErrors& errors, std::size_t compared, double mea
   EXPECT_NEAR(errors.rotation_rad.standard_deviation / kRadPerDeg, std_deg, 1e-6);
 }
 
-TEST_F(OnTheBenchmark, ReferencePosesOfIntel) {
+TEST_F(OnTheBenchmark, RelationErrorsOfTheIntelReferencePosesAreKnown) {
   const auto errors = errorsOf("intel", referenceOf("intel"));
   if (!errors) return;
   expectErrors(*errors, 90, 0.036342502, 0.026629992, 0.416644659, 0.456804859);
@@ -181,7 +181,7 @@ TEST_F(OnTheBenchmark, ReferencePosesOfIntel) {
   EXPECT_NEAR(errors->rotation_squared_rad2.mean / kRadPerDeg / kRadPerDeg, 0.382263451, 1e-6);
 }
 
-TEST_F(OnTheBenchmark, ReferencePosesOfFreiburg079) {
+TEST_F(OnTheBenchmark, RelationErrorsOfTheFreiburg079ReferencePosesAreKnown) {
   Trajectory laser = referenceOf("fr079");
   const auto errors = errorsOf("fr079", laser);
   if (!errors) return;
@@ -192,7 +192,7 @@ TEST_F(OnTheBenchmark, ReferencePosesOfFreiburg079) {
   expectErrors(*errorsOf("fr079", laser), 1672, 0.045560788, 0.031790247, 0.703298189, 0.668915733);
 }
 
-TEST_F(OnTheBenchmark, PoseGraphsOfOthers) {
+TEST_F(OnTheBenchmark, RelationErrorsOfPublishedPoseGraphsAreKnown) {
   const auto intel = errorsOf("intel", loggedBy("intel/flirtlib-intel-lab.log.gz", Whose::kRobot));
   if (!intel) return;
   expectErrors(*intel, 301, 0.028654485, 0.019241750, 0.387784718, 0.339742378);

@@ -31,7 +31,7 @@ std::vector<PosePair> pairsOf(const std::vector<Pose3>& estimate, const std::vec
   return pairs;
 }
 
-TEST(Statistics, ByHand) {
+TEST(Statistics, EqualTheResultByHand) {
   const Statistics s = statisticsOf({3, 1, 2, 4});
   EXPECT_EQ(s.count, 4u);
   EXPECT_DOUBLE_EQ(s.mean, 2.5);
@@ -45,13 +45,13 @@ TEST(Statistics, ByHand) {
   EXPECT_DOUBLE_EQ(quantile({7}, 0.3), 7);
 }
 
-TEST(Associate, NearestInTimeAndEachOnce) {
+TEST(Associate, PairsTheNearestStampsAndUsesEachPoseOnce) {
   const auto trajectory = [](std::initializer_list<int> stamps_ms) {
     Trajectory poses;
     for (const int ms : stamps_ms) poses.push_back({Time::fromSeconds(ms * 1e-3), poseAt(ms, 0, 0)});
     return poses;
   };
-  // 100 goes to 104 and not to 95; 108 is farther from 104 than 100 is... and so on.
+  // 100 is nearest to 104, but 104 is nearer to 106, so 100 stays without a partner.
   const auto pairs = associate(trajectory({100, 106, 200, 300}), trajectory({90, 104, 195, 400}));
   ASSERT_EQ(pairs.size(), 2u);
   EXPECT_EQ(pairs[0].estimate.position_m.x(), 106) << "106 is nearer to 104 than 100 is";
@@ -63,7 +63,7 @@ TEST(Associate, NearestInTimeAndEachOnce) {
   EXPECT_TRUE(associate(trajectory({1}), {}).empty());
 }
 
-TEST(AbsoluteError, ByHandWithoutAlignment) {
+TEST(AbsoluteError, EqualsTheResultByHandWithoutAlignment) {
   const auto error = absoluteTrajectoryError(pairsOf({poseAt(0, 0, 0), poseAt(1, 0.3, 0.4), poseAt(2, 0, 0, 0.2)},
                                                      {poseAt(0, 0, 0), poseAt(1, 0, 0), poseAt(2, 0, 0)}),
                                              Alignment::kNone);
@@ -73,7 +73,7 @@ TEST(AbsoluteError, ByHandWithoutAlignment) {
   EXPECT_NEAR(error->rotation_rad.max, 0.2, 1e-12);
 }
 
-TEST(AbsoluteError, FirstPoseTurnsTheRestAlong) {
+TEST(AbsoluteError, AlignmentByTheFirstPoseRotatesTheWholeTrajectory) {
   // The estimate starts with a heading along y, so its whole path is along y.
   const auto error =
       absoluteTrajectoryError(pairsOf({poseAt(5, 5, 1, M_PI_2), poseAt(5, 6, 1, M_PI_2), poseAt(5, 7.1, 1, M_PI_2)},
@@ -85,7 +85,7 @@ TEST(AbsoluteError, FirstPoseTurnsTheRestAlong) {
   EXPECT_NEAR(error->rotation_rad.max, 0.0, 1e-7);
 }
 
-TEST(AbsoluteError, PlanarLeavesRollAndPitchAlone) {
+TEST(AbsoluteError, PlanarAlignmentDoesNotChangeRollAndPitch) {
   // A square with a small tilt: a turn about z cannot correct it, a turn in space can.
   const Pose3 tilt{common::quaternionFrom({0.1, 0, 0}), {1, 2, 3}};
   std::vector<Pose3> truth = {poseAt(0, 0, 0), poseAt(4, 0, 0), poseAt(4, 4, 0), poseAt(0, 4, 0)}, estimate;
@@ -158,7 +158,7 @@ RC_GTEST_PROP(AbsoluteError, EqualsHornsSolution, ()) {
   RC_ASSERT(std::abs(error->translation_m.rmse - rmseByHorn(pairs)) < 1e-9);
 }
 
-TEST(AbsoluteError, NoneWhereTheRotationIsNotDetermined) {
+TEST(AbsoluteError, HasNoValueWhenTheRotationIsNotDetermined) {
   const std::vector<Pose3> point(3, poseAt(1, 1, 1)), line = {poseAt(0, 0, 0), poseAt(1, 0, 0), poseAt(2, 0, 0)};
   EXPECT_FALSE(align({}, Alignment::kNone));
   EXPECT_FALSE(align(pairsOf(point, point), Alignment::kPlanar));
@@ -166,7 +166,7 @@ TEST(AbsoluteError, NoneWhereTheRotationIsNotDetermined) {
   EXPECT_TRUE(align(pairsOf(line, line), Alignment::kPlanar));
 }
 
-TEST(RelativeError, DriftByHand) {
+TEST(RelativeError, EqualsTheDriftByHand) {
   // Each metre is estimated as 1.01 m, and each step has an additional turn of 0.02 rad.
   std::vector<Pose3> truth, estimate;
   Pose3 pose;
@@ -199,7 +199,7 @@ RC_GTEST_PROP(RelativeError, DoesNotDependOnTheFrame, ()) {
   RC_ASSERT(std::abs(a.rotation_rad.rmse - b.rotation_rad.rmse) < 1e-6);
 }
 
-TEST(RelativeError, RoundingMakesNoStretchLonger) {
+TEST(RelativeError, RoundingOfStampsDropsNoInterval) {
   // Ten poses a tenth of a second apart have seven stretches of three tenths, although 0.7 - 0.4 is less than 0.3.
   std::vector<PosePair> pairs;
   for (int i = 0; i < 10; ++i)
@@ -210,7 +210,7 @@ TEST(RelativeError, RoundingMakesNoStretchLonger) {
   EXPECT_NEAR(error.translation_m.mean, 2 * 0.5 / 7, 1e-12) << "it begins one stretch and ends one";
 }
 
-RC_GTEST_PROP(AbsoluteError, DoesNotDependOnTheFrameOnceAligned, ()) {
+RC_GTEST_PROP(AbsoluteError, DoesNotDependOnTheFrameAfterAlignment, ()) {
   const Pose3 T = test::drawPose(10),
               T_planar = poseAt(test::draw(-9, 9), test::draw(-9, 9), test::draw(-2, 2), test::draw(-3.1, 3.1));
   std::vector<Pose3> estimate, moved, moved_planar, truth;
@@ -230,7 +230,7 @@ RC_GTEST_PROP(AbsoluteError, DoesNotDependOnTheFrameOnceAligned, ()) {
   RC_ASSERT(std::abs(spatial->rotation_rad.rmse - spatial_moved->rotation_rad.rmse) < 1e-5);
 }
 
-TEST(Scale, ByHand) {
+TEST(Scale, EqualsTheResultByHand) {
   // A square half as large, elsewhere and turned: twice fits. Its points are 1 m from its middle, those of the truth 2
   // m.
   std::vector<Pose3> truth = {poseAt(2, 0, 0), poseAt(0, 2, 0), poseAt(-2, 0, 0), poseAt(0, -2, 0)}, estimate;
@@ -248,7 +248,7 @@ TEST(Scale, ByHand) {
   EXPECT_FALSE(bestScale(pairsOf(up, down), Alignment::kPlanar)) << "only a negative one would fit";
 }
 
-RC_GTEST_PROP(Scale, NoOtherFitsBetter, ()) {
+RC_GTEST_PROP(Scale, MinimizesTheError, ()) {
   std::vector<Pose3> estimate, truth;
   for (int i = 0; i < 12; ++i) {
     estimate.push_back(test::drawPose(5));
@@ -281,7 +281,7 @@ class OnTheBenchmarksOwnFiles : public testing::Test {
   std::vector<PosePair> pairs_;
 };
 
-TEST_F(OnTheBenchmarksOwnFiles, AbsoluteError) {
+TEST_F(OnTheBenchmarksOwnFiles, AbsoluteErrorEqualsAnIndependentProgram) {
   const auto aligned = absoluteTrajectoryError(pairs_, Alignment::kSpatial);
   const Statistics& error = aligned->translation_m;
   EXPECT_NEAR(error.rmse, 0.013470089, 1e-8);
@@ -296,14 +296,14 @@ TEST_F(OnTheBenchmarksOwnFiles, AbsoluteError) {
   EXPECT_NEAR(absoluteTrajectoryError(pairs_, Alignment::kNone)->translation_m.rmse, 0.020079418, 1e-8);
 }
 
-TEST_F(OnTheBenchmarksOwnFiles, ScaledAbsoluteError) {
+TEST_F(OnTheBenchmarksOwnFiles, ScaledAbsoluteErrorEqualsAnIndependentProgram) {
   const auto scale = bestScale(pairs_, Alignment::kSpatial);
   EXPECT_NEAR(*scale, 1.008001390, 1e-8);
   EXPECT_NEAR(absoluteTrajectoryError(scaled(pairs_, *scale), Alignment::kSpatial)->translation_m.rmse, 0.013389385,
               1e-8);
 }
 
-TEST_F(OnTheBenchmarksOwnFiles, RelativeError) {
+TEST_F(OnTheBenchmarksOwnFiles, RelativeErrorEqualsAnIndependentProgram) {
   struct Expected {
     Stretch stretch;
     std::size_t count;

@@ -44,7 +44,7 @@ class Trials : public testing::Test {
 
 constexpr const char* kSmallest = "mission: missions/a.xml\nscenario: {world: worlds/w.sdf}\n";
 
-TEST_F(Trials, ReadAFile) {
+TEST_F(Trials, AreReadFromAFile) {
   const auto trials =
       readTrials(put("house.yaml", std::string(kSmallest) + "repeat: 10\ncriteria: {coverage_min: 0.99}\n"
                                                             "paper: [{figure: mission_time_median_s, value: 320}]\n"));
@@ -57,7 +57,7 @@ TEST_F(Trials, ReadAFile) {
   EXPECT_EQ(trials[0].system, "swiftlet");
 }
 
-TEST_F(Trials, ReadAFolderInOrder) {
+TEST_F(Trials, AreReadFromAFolderInOrder) {
   put("b.yaml", kSmallest);
   put("a.yaml", kSmallest);
   put("papers/c.yml", kSmallest);
@@ -68,18 +68,18 @@ TEST_F(Trials, ReadAFolderInOrder) {
   EXPECT_EQ(trials[2].name, "c");
 }
 
-TEST_F(Trials, TwoOfOneNameAreRefused) {
+TEST_F(Trials, OfTheSameNameAreRefused) {
   put("lab.yaml", kSmallest);
   put("papers/lab.yaml", kSmallest);
   EXPECT_THAT(problemOf(folder_), HasSubstr("name: `lab` is the name of "));
 }
 
-TEST_F(Trials, ANameThatNamesNoFolderIsRefused) {
+TEST_F(Trials, NamesThatAreNotFolderNamesAreRefused) {
   put("a.yaml", std::string(kSmallest) + "name: \"a\\0b\"\n");
   EXPECT_THAT(problemOf(folder_), HasSubstr("cannot be seen"));
 }
 
-TEST_F(Trials, MistakesOfAllFilesAreSaidAtOnce) {
+TEST_F(Trials, MistakesInAllFilesAreReportedTogether) {
   put("a.yaml", "mission: m.xml\nscenario: {wrold: w.sdf}\n");
   put("b.yaml", "scenario: {world: w.sdf}\ncriteria: {coverage_min: 99}\n");
   const std::string problem = problemOf(folder_);
@@ -90,7 +90,7 @@ TEST_F(Trials, MistakesOfAllFilesAreSaidAtOnce) {
   EXPECT_THAT(problem, HasSubstr("coverage_min: 99 is not within"));
 }
 
-TEST_F(Trials, OfSeveralVehiclesEachMayHaveItsOwnMission) {
+TEST_F(Trials, EachOfSeveralVehiclesMayHaveItsOwnMission) {
   put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: alpha}, {name: beta, mission: n.xml}]}\n");
   const TrialConfig trial = readTrials(folder_).at(0);
   ASSERT_EQ(trial.scenario.vehicles.size(), 2u);
@@ -98,14 +98,14 @@ TEST_F(Trials, OfSeveralVehiclesEachMayHaveItsOwnMission) {
   EXPECT_EQ(trial.scenario.vehicles[1].mission, "n.xml");
 }
 
-TEST_F(Trials, VehiclesOfOneNameOrWithASlashInItAreRefused) {
+TEST_F(Trials, VehiclesWithTheSameNameOrASlashInItAreRefused) {
   put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: alpha}, {name: alpha}]}\n");
   EXPECT_THAT(problemOf(folder_), HasSubstr("vehicles: two are called `alpha`"));
   put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: up/down}]}\n");
   EXPECT_THAT(problemOf(folder_), HasSubstr("name: is not 1 to 40 letters, digits, `_` and `-`"));
 }
 
-TEST(TrialOfTwo, AFlightPassesWhenBothVehiclesDo) {
+TEST(TrialOfTwo, PassesWhenBothVehiclesPass) {
   const auto score = [](int seed, const std::string& vehicle, bool passes) {
     FlightScore made;
     made.seed = seed;
@@ -127,12 +127,12 @@ TEST(TrialOfTwo, AFlightPassesWhenBothVehiclesDo) {
   EXPECT_TRUE(trial.met());
 }
 
-TEST_F(Trials, NothingThere) {
+TEST_F(Trials, MissingTrialsAreReported) {
   EXPECT_THAT(problemOf(folder_ / "papers"), HasSubstr("holds no trials"));
   EXPECT_THAT(problemOf(folder_ / "none.yaml"), HasSubstr("none.yaml: cannot be opened"));
 }
 
-TEST_F(Trials, PathsAreInTheArchiveOrWithTheSoftware) {
+TEST_F(Trials, PathsAreFoundInTheArchiveOrInTheSoftware) {
   put("papers/in_archive.world", "");
   TrialConfig trial;
   trial.scenario.world = "in_archive.world";
@@ -145,7 +145,7 @@ TEST_F(Trials, PathsAreInTheArchiveOrWithTheSoftware) {
   EXPECT_EQ(trial.scenario.world, "/software/trials/worlds/with_software.sdf");
 }
 
-TEST_F(Trials, ArchivesAreFoundOrAskedFor) {
+TEST_F(Trials, ArchivesAreFoundOrReportedMissing) {
   put("papers/w.tar.xz", "");
   ::unsetenv("SWIFTLET_DATASETS");
   EXPECT_EQ(dataSetsFolder("/software"), "/software/../shared/datasets");
@@ -161,7 +161,7 @@ TEST_F(Trials, ArchivesAreFoundOrAskedFor) {
   ::unsetenv("SWIFTLET_DATASETS");
 }
 
-TEST(ShippedTrials, AllLoad) {
+TEST(ShippedTrials, LoadWithoutProblems) {
   const auto trials = readTrials(fs::path(SWIFTLET_SOURCE_DIR) / "trials");
   EXPECT_GE(trials.size(), 7u);
   for (const TrialConfig& trial : trials) {
@@ -199,7 +199,7 @@ TrialResults results() {
   return {{trial}};
 }
 
-TEST(TrialResultsJson, HasTheFiguresOfAllFlights) {
+TEST(TrialResultsJson, ContainsTheFiguresOfAllFlights) {
   const json parsed = json::parse(toJson(results()));
   ASSERT_EQ(parsed["trials"].size(), 1u);
   const json& trial = parsed["trials"][0];
@@ -219,7 +219,7 @@ TEST(TrialResultsJson, HasTheFiguresOfAllFlights) {
   EXPECT_EQ(trial["flights"][4]["failures"][0], "collision: touched `box`");
 }
 
-TEST(TrialResultsJson, FiguresAreShortAndWhatWasNotExploredIsNull) {
+TEST(TrialResultsJson, RoundsFiguresAndWritesNullForUnexplored) {
   TrialResults all = results();
   FlightScore& first = all.trials[0].flights[0];
   first.goal_error_m = 0.1 + 0.2;
@@ -231,7 +231,7 @@ TEST(TrialResultsJson, FiguresAreShortAndWhatWasNotExploredIsNull) {
     EXPECT_THAT(text, HasSubstr(part));
 }
 
-TEST(TrialResultsJson, HasEachVisitOfAMarker) {
+TEST(TrialResultsJson, ContainsEachVisitOfAMarker) {
   TrialResults all = results();
   FlightScore& first = all.trials[0].flights[0];
   first.visits = {{common::Time::fromSeconds(61.5), {3.0, -1.5}, {0.004, -0.003}, {}},
@@ -245,7 +245,7 @@ TEST(TrialResultsJson, HasEachVisitOfAMarker) {
   EXPECT_EQ(visits[1]["open_loop_error_m"], json({0.2, -0.1}));
 }
 
-TEST(TrialResults, MarkersAreInTheTableWhereTheyAreAskedFor) {
+TEST(TrialResults, ShowMarkersWhenACriterionNeedsThem) {
   TrialResults all = results();
   EXPECT_THAT(toText(summaryTable(all)), testing::Not(HasSubstr("marker")));
   all.trials[0].criteria.marker_error_max_m = 0.01;
@@ -256,7 +256,7 @@ TEST(TrialResults, MarkersAreInTheTableWhereTheyAreAskedFor) {
   EXPECT_EQ(json::parse(toJson(all))["trials"][0]["marker_error_median_m"], 0.01);
 }
 
-TEST(TrialResults, CountFlightsThatFoundThemselvesInTimeAndRightly) {
+TEST(TrialResults, CountFlightsLocalizedInTimeAndCorrectly) {
   TrialResults all = results();
   EXPECT_THAT(toText(summaryTable(all)), testing::Not(HasSubstr("localized")));
   TrialResult& trial = all.trials[0];
@@ -277,7 +277,7 @@ TEST(TrialResults, CountFlightsThatFoundThemselvesInTimeAndRightly) {
   EXPECT_TRUE(written["flights"][4]["localization"]["path_length_m"].is_null());
 }
 
-TEST_F(Trials, AMapIsAFileOrDrivenForButNotBoth) {
+TEST_F(Trials, AMapIsEitherAFileOrASurvey) {
   const std::string survey = "map: {survey: {path_world_m: [0, 0, 1, 0]}}\n";
   EXPECT_TRUE(readTrial(put("a.yaml", kSmallest + survey)).map.surveyed());
   EXPECT_FALSE(readTrial(put("b.yaml", kSmallest)).map.given());
@@ -286,14 +286,14 @@ TEST_F(Trials, AMapIsAFileOrDrivenForButNotBoth) {
       HasSubstr("makes another map"));
 }
 
-TEST(TrialResultsJson, WithoutFlightsAllIsNull) {
+TEST(TrialResultsJson, HasNullFiguresWithoutFlights) {
   const json trial = json::parse(toJson(TrialResults{{{"empty", "swiftlet", {}, {}}}}))["trials"][0];
   EXPECT_EQ(trial["runs"], 0);
   EXPECT_TRUE(trial["coverage_min"].is_null());
   EXPECT_TRUE(trial["flights"].is_array());
 }
 
-TEST(TrialResults, PassWhenEveryFlightDoes) {
+TEST(TrialResults, PassWhenEveryFlightPasses) {
   TrialResults all = results();
   EXPECT_FALSE(all.passed());
   all.trials[0].flights.pop_back();
@@ -323,7 +323,7 @@ TEST(CriteriaOverAllFlights, AreEnforced) {
                                                            "mission time median, s: 75.000, at most 70 was asked for"));
 }
 
-TEST(CriteriaOverAllFlights, WhatWasNotMeasuredIsMissed) {
+TEST(CriteriaOverAllFlights, FailForFiguresThatWereNotMeasured) {
   Criteria criteria;
   criteria.map_wall_error_median_max_m = 0.05;
   EXPECT_EQ(fourWith(criteria).trials[0].missed().size(), 1u);
@@ -349,7 +349,7 @@ TEST(CriteriaOverAllFlights, AreInTheTablesAndTheJson) {
   EXPECT_EQ(trial["failures"][0], "mission time median, s: 75.000, at most 70 was asked for");
 }
 
-TEST(CriteriaOverAllFlights, OfTheShippedTrial) {
+TEST(CriteriaOverAllFlights, AreReadFromTheShippedTrial) {
   const Criteria criteria = readTrial(fs::path(SWIFTLET_SOURCE_DIR) / "trials/papers/unb_case1.yaml").criteria;
   EXPECT_EQ(criteria.mission_time_median_max_s, 90);
   EXPECT_EQ(criteria.goal_error_median_max_m, 0.08);
@@ -357,7 +357,7 @@ TEST(CriteriaOverAllFlights, OfTheShippedTrial) {
   EXPECT_EQ(criteria.estimate_rms_median_max_m, 0.05);
 }
 
-TEST(TrialResults, Tables) {
+TEST(TrialResults, ArePrintedAsTables) {
   const std::string summary = toText(summaryTable(results()));
   EXPECT_THAT(summary, HasSubstr("unb"));
   EXPECT_THAT(summary, HasSubstr("4/5"));

@@ -40,7 +40,7 @@ class SensorFault : public test_support::Scratch {
   std::string events() const { return readText(path("out/fault-001/events.jsonl")); }
 };
 
-TEST_F(SensorFault, NotANumberInScansDoesNotStopTheFlight) {
+TEST_F(SensorFault, NanInScansDoesNotStopTheFlight) {
   const auto flight = flyWith("{sensor: laser, kind: nan, from_s: 10.0, to_s: 10.2}");
   EXPECT_TRUE(flight.at("passed").get<bool>()) << flight.dump(2);
 
@@ -55,14 +55,14 @@ TEST_F(SensorFault, NotANumberInScansDoesNotStopTheFlight) {
     EXPECT_THAT(report, HasSubstr(words));
 }
 
-TEST_F(SensorFault, ABatteryThatIsNotANumberDoesNotStopTheFlight) {
+TEST_F(SensorFault, NanFromTheBatteryDoesNotStopTheFlight) {
   const auto flight = flyWith("{sensor: battery, kind: nan, from_s: 5.0, to_s: 20.0}");
   EXPECT_TRUE(flight.at("passed").get<bool>()) << flight.dump(2);
   EXPECT_THAT(events(), HasSubstr("the battery's last good values are kept"));
   EXPECT_THAT(events(), HasSubstr("the battery is measured again"));
 }
 
-TEST_F(SensorFault, ThePilotTakesOverAndGivesBack) {
+TEST_F(SensorFault, ThePilotTakesOverAndReturnsControl) {
   const auto flight = flyIn(
       "  pilot:\n"
       "    - {time_s: 0.0}\n"
@@ -73,7 +73,7 @@ TEST_F(SensorFault, ThePilotTakesOverAndGivesBack) {
   EXPECT_THAT(events(), HasSubstr("the pilot gave control back"));
 }
 
-TEST_F(SensorFault, ShortSilenceHoldsAndGoesOn) {
+TEST_F(SensorFault, ShortSilenceHoldsAndThenContinues) {
   const auto flight = flyWith("{sensor: laser, kind: silent, from_s: 12.0, to_s: 12.6}");
   EXPECT_TRUE(flight.at("passed").get<bool>()) << flight.dump(2);
   EXPECT_THAT(events(), HasSubstr("no scan for 0.3"));

@@ -53,7 +53,7 @@ const auto kByName = [](const auto& mission) { return mission.param; };
 class ShippedMission : public test_support::Scratch, public testing::WithParamInterface<std::string> {};
 
 // Scored against the truth, by the bounds of trials/papers/unb_case1.yaml for one flight.
-TEST_P(ShippedMission, FliesAccuratelyAndLeavesItsRun) {
+TEST_P(ShippedMission, FliesAccuratelyAndWritesItsRun) {
   const std::string trial = write(GetParam() + ".yaml", "mission: missions/" + GetParam() +
                                                             ".xml\n"
                                                             "time_limit_s: 300\n"
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Each, ShippedMission, testing::ValuesIn(missionsThat(fa
 
 class WaitingMission : public test_support::Scratch, public testing::WithParamInterface<std::string> {};
 
-TEST_P(WaitingMission, IsEndedByTheClock) {
+TEST_P(WaitingMission, IsEndedByTheTimeLimit) {
   const ProgramEnd end = runSwiftlet({"fly", "missions/" + GetParam() + ".xml", "--headless", "--speed", "max",
                                       "--seed", "3", "--json", "--out", path("run"), "--time-limit", "20"});
   ASSERT_EQ(end.exit_code, 1) << describe(end);
@@ -113,7 +113,7 @@ class ShortMission : public test_support::Scratch {
 };
 
 // A part of the first room: a frontier beyond it is left and reported as out of bounds, for every seed.
-TEST_F(ShortMission, WhatLiesOutsideItsBoundsIsLeftAndSaidToBe) {
+TEST_F(ShortMission, ReportsFrontiersOutsideItsBoundsAsLeft) {
   constexpr double kEast_m = 3.0, kSouth_m = -3.0;
   const ProgramEnd end = fly("<TakeOff/><Explore bounds=\"-3;-3;3;4\"/><GoHome/><Land/>", "300");
   ASSERT_EQ(end.exit_code, 0) << describe(end);
@@ -129,7 +129,7 @@ TEST_F(ShortMission, WhatLiesOutsideItsBoundsIsLeftAndSaidToBe) {
 }
 
 // No person blocks a path, so it does not wait for a minute.
-TEST_F(ShortMission, AGoalNeverSeenIsGivenUpAtOnce) {
+TEST_F(ShortMission, AGoalNeverSeenFailsAtOnce) {
   const ProgramEnd end = fly("<TakeOff/><MoveToGoal goal=\"40.0;40.0;1.0\"/><Land/>", "60");
   ASSERT_EQ(end.exit_code, 1) << describe(end);
   const auto events = readText(path("run/events.jsonl"));
@@ -138,7 +138,7 @@ TEST_F(ShortMission, AGoalNeverSeenIsGivenUpAtOnce) {
   EXPECT_LT(missionJson().at("mission_time_s").get<double>(), 15.0);
 }
 
-TEST_F(ShortMission, ExploringIsGivenUpWhereThereIsNoRoomToMove) {
+TEST_F(ShortMission, ExploringFailsWithoutRoomToMove) {
   const ProgramEnd end = fly("<TakeOff/><Explore clearance_m=\"1.9\"/><Land/>", "120");
   EXPECT_EQ(end.exit_code, 1) << describe(end);
   const auto mission_json = missionJson();
@@ -171,7 +171,7 @@ TEST_F(Determinism, TheSameSeedLeavesTheSameBytes) {
       << "the seed is ignored";
 }
 
-TEST_F(Determinism, ATabletThatWatchesChangesNothing) {
+TEST_F(Determinism, AWatchingTabletChangesNothing) {
   fly("alone", "11", {"--headless"});
   std::unique_ptr<Tablet> tablet;
   ProgramOptions options;
@@ -206,21 +206,21 @@ class CutShort : public test_support::Scratch {
   }
 };
 
-TEST_F(CutShort, AKilledProcessLeavesARunThatCanBeRead) {
+TEST_F(CutShort, AKilledProcessLeavesAReadableRun) {
   const ProgramEnd end = flyAndSend(SIGKILL, 40'000);
   EXPECT_EQ(end.signal, SIGKILL) << describe(end);
   expectSoundRun(path("run"));
   EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), "flying");
 }
 
-TEST_F(CutShort, AnInterruptEndsTheRunInOrder) {
+TEST_F(CutShort, AnInterruptEndsTheRunCleanly) {
   const ProgramEnd end = flyAndSend(SIGINT, 20'000);
   EXPECT_EQ(end.exit_code, 1) << describe(end);
   expectSoundRun(path("run"));
   EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), "stopped");
 }
 
-TEST_F(CutShort, TerminationOfTrialsKeepsWhatWasFlown) {
+TEST_F(CutShort, TerminationKeepsTheFinishedFlightsOfATrial) {
   ProgramOptions options;
   options.while_running = [&](pid_t process, const std::string& out) {
     if (out.find('\n') != std::string::npos) kill(process, SIGTERM);  // After the first flight's line.
@@ -234,7 +234,7 @@ TEST_F(CutShort, TerminationOfTrialsKeepsWhatWasFlown) {
   EXPECT_LT(flights.size(), 1000u);
 }
 
-TEST_F(CutShort, AnOlderRunIsReplacedAsAWhole) {
+TEST_F(CutShort, AnOlderRunIsReplacedCompletely) {
   const std::vector<std::string> fly = {"fly",          kMission, "--headless", "--speed",  "max",
                                         "--time-limit", "8",      "--out",      path("run")};
   runSwiftlet(fly);

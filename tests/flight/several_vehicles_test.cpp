@@ -24,12 +24,12 @@ const std::string kTwo = "trials/two_vehicles.yaml", kExplore = "trials/missions
 
 class SeveralVehicles : public test_support::Scratch {
  protected:
-  /// The two of the shipped trial for some seconds.
+  /// Flies the two vehicles of the shipped trial for some seconds.
   ProgramEnd fly(const std::string& out, const std::string& limit_s) const {
     return runSwiftlet({"fly", kExplore, "--scenario", kTwo, "--headless", "--seed", "7", "--time-limit", limit_s,
                         "--json", "--out", path(out)});
   }
-  /// A flight of two from these places; the hall's floor is there.
+  /// A scenario of two vehicles that start at these places, where the hall has floor.
   std::string twoFrom(const std::string& alpha, const std::string& beta, const std::string& mission = kHop) const {
     return write("two.yaml", "mission: " + write("hop.xml", mission) +
                                  "\ntime_limit_s: 60\nscenario:\n  world: worlds/unb_case1.sdf\n  vehicles:\n" +
@@ -39,7 +39,7 @@ class SeveralVehicles : public test_support::Scratch {
       R"(<root BTCPP_format="4"><BehaviorTree ID="Hop"><Sequence><TakeOff height_m="0.6"/><Land/></Sequence></BehaviorTree></root>)";
 };
 
-TEST_F(SeveralVehicles, LeaveARunEachAndTheSameOneTwice) {
+TEST_F(SeveralVehicles, WriteARunEachAndRepeatIt) {
   const ProgramEnd end = fly("run", "12");
   EXPECT_EQ(end.exit_code, 1) << describe(end);  // The time is over before the world is explored.
   const json outcome = json::parse(end.out);
@@ -61,7 +61,7 @@ TEST_F(SeveralVehicles, LeaveARunEachAndTheSameOneTwice) {
   EXPECT_FALSE(fs::exists(fs::path(path("run")) / "mission.json"));
 }
 
-TEST_F(SeveralVehicles, AreScoredEach) {
+TEST_F(SeveralVehicles, AreScoredSeparately) {
   const std::string trial = twoFrom("{name: low, start: {from_world: false, x_m: 2, y_m: 6.5}}",
                                     "{name: lower, start: {from_world: false, x_m: 2, y_m: 4.5}}");
   const ProgramEnd end = runSwiftlet({"trial", trial, "--json", "--out", path("out")});
@@ -75,7 +75,7 @@ TEST_F(SeveralVehicles, AreScoredEach) {
   EXPECT_TRUE(fs::exists(fs::path(path("out")) / "two-001" / "lower" / "report.html"));
 }
 
-TEST_F(SeveralVehicles, AMissionOfItsOwnIsFlownAndOneThatEndsLeavesTheOtherFlying) {
+TEST_F(SeveralVehicles, FlyTheirOwnMissionsAndContinueAfterOneEnds) {
   const std::string longer = write(
       "longer.xml",
       R"(<root BTCPP_format="4"><BehaviorTree ID="There"><Sequence><TakeOff height_m="0.8"/><MoveToGoal goal="0.8;0" tolerance_m="0.1"/><Land/></Sequence></BehaviorTree></root>)");
@@ -91,7 +91,7 @@ TEST_F(SeveralVehicles, AMissionOfItsOwnIsFlownAndOneThatEndsLeavesTheOtherFlyin
   EXPECT_EQ(json::parse(readText(fs::path(path("run")) / "long" / "mission.json")).at("mission"), "longer");
 }
 
-TEST_F(SeveralVehicles, WhatCannotBeFlownIsRefusedBeforeAnythingIsWritten) {
+TEST_F(SeveralVehicles, UnusableInputIsRefusedBeforeAnythingIsWritten) {
   const auto refusal = [&](const std::string& alpha, const std::string& beta) {
     const ProgramEnd end =
         runSwiftlet({"fly", kExplore, "--scenario", twoFrom(alpha, beta), "--headless", "--out", path("run")});
@@ -107,7 +107,7 @@ TEST_F(SeveralVehicles, WhatCannotBeFlownIsRefusedBeforeAnythingIsWritten) {
   EXPECT_THAT(refusal("{name: a, mission: none.xml, " + here + "}", "{name: b}"), HasSubstr("none.xml"));
 }
 
-TEST_F(SeveralVehicles, TheRunOfOneIsNotMixedWithThoseOfSeveral) {
+TEST_F(SeveralVehicles, RunsOfOneAndOfSeveralAreNotMixed) {
   (void)runSwiftlet({"fly", kExplore, "--headless", "--time-limit", "1", "--out", path("run")});
   ASSERT_TRUE(fs::exists(fs::path(path("run")) / "mission.json"));
   const ProgramEnd end = fly("run", "1");

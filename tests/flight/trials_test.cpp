@@ -15,7 +15,7 @@ using test_support::runSwiftlet;
 
 class TrialSeeds : public test_support::Scratch {
  protected:
-  /// Of two flights of a second each.
+  /// The seeds of two flights of one second each.
   std::vector<int> seedsOf(const std::string& scenario, const std::vector<std::string>& options) {
     const std::string trial = write("short.yaml",
                                     "mission: missions/explore_and_return.xml\ntime_limit_s: 1\n"
@@ -32,7 +32,7 @@ class TrialSeeds : public test_support::Scratch {
   }
 };
 
-TEST_F(TrialSeeds, CountFromTheScenariosUnlessTheCommandLineSaysOtherwise) {
+TEST_F(TrialSeeds, StartAtTheSeedOfTheScenarioOrOfTheCommandLine) {
   EXPECT_EQ(seedsOf("", {}), (std::vector<int>{1, 2}));
   EXPECT_EQ(seedsOf("  seed: 5\n", {}), (std::vector<int>{5, 6}));
   EXPECT_EQ(seedsOf("  seed: 5\n", {"--seed", "8"}), (std::vector<int>{8, 9}));

@@ -1,5 +1,5 @@
-// What a shipped profile chooses is what flies: each is flown by itself in the first world, and its counters say which
-// matcher and which SLAM method did the work.
+// Each shipped profile is flown alone in the first world, and its counters show that the matcher and the SLAM method it
+// chooses did the work.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -77,7 +77,7 @@ void expectGood(const Flown& flown) {
   EXPECT_LT(flown.walls.p95_m, 0.05);
 }
 
-/// As many matches of each matcher as scans, or none.
+/// The chosen matcher searched for the scans of the flight, and no other matcher did.
 void expectMatchers(const Flown& flown, bool correlative, bool gauss_newton, bool point_to_line) {
   EXPECT_EQ(flown.odometry.correlative_searches > 300, correlative);
   EXPECT_EQ(flown.odometry.gauss_newton_searches > 300, gauss_newton);
@@ -96,14 +96,14 @@ void expectMethods(const Flown& flown, bool graph, bool particles, bool scan_to_
   EXPECT_EQ((counts.graph_matches > 0) + (counts.particle_matches > 0) + (counts.map_matches > 0), 1);
 }
 
-TEST(ShippedProfile, SwiftletFliesByTheGraph) {
+TEST(ShippedProfile, SwiftletFliesWithGraphSlam) {
   const Flown flown = fly("swiftlet");
   expectGood(flown);
   expectMatchers(flown, true, false, false);
   expectMethods(flown, true, false, false);
 }
 
-TEST(ShippedProfile, ParticlesFlyAndTheSameAgain) {
+TEST(ShippedProfile, ParticlesFlyRepeatably) {
   const Flown flown = fly("swiftlet_particles");
   expectGood(flown);
   expectMatchers(flown, true, false, false);
@@ -112,7 +112,7 @@ TEST(ShippedProfile, ParticlesFlyAndTheSameAgain) {
   EXPECT_EQ(difference(flown.witness, fly("swiftlet_particles").witness), "");
 }
 
-TEST(ShippedProfile, ScanToMapFliesAndTheSameAgain) {
+TEST(ShippedProfile, ScanToMapFliesRepeatably) {
   const Flown flown = fly("swiftlet_scan_to_map");
   expectGood(flown);
   expectMatchers(flown, true, false, false);

@@ -61,7 +61,7 @@ int countOf(const Recording& recording) {
   }));
 }
 
-TEST(Recording, HoldsAFlightWithAllThatCanComeIn) {
+TEST(Recording, ContainsAFlightWithEveryKindOfInput) {
   ASSERT_TRUE(flown().finished);
   EXPECT_TRUE(flown().witness.heard("flying"));
   auto counts = deliveriesByKind(flown().recording);
@@ -78,7 +78,7 @@ TEST(Recording, HoldsAFlightWithAllThatCanComeIn) {
   }
 }
 
-TEST(Recording, GivesTheSameFlightAgain) {
+TEST(Recording, RepeatsTheFlight) {
   Autonomy again = makeAutonomy(common::makeLockstepJobs(0));
   Witness witness;
   const auto outcome = replay(flown().recording, again, {&witness});
@@ -104,7 +104,7 @@ Recording withOneDeliveryShifted(Recording recording, const std::string& kind) {
   return recording;
 }
 
-TEST(Recording, AShiftedDeliveryIsNoticed) {
+TEST(Recording, AShiftedDeliveryIsDetected) {
   for (const std::string kind : {"planning", "slam"}) {
     Autonomy again = makeAutonomy(common::makeLockstepJobs(0));
     Witness witness;
@@ -117,7 +117,7 @@ TEST(Recording, AShiftedDeliveryIsNoticed) {
   }
 }
 
-TEST(Recording, OfAnotherFlightIsRefusedWithItsPlace) {
+TEST(Recording, ARecordingOfAnotherFlightIsRefusedWithThePlace) {
   Autonomy fresh = makeAutonomy(common::makeLockstepJobs(0));
   const JobDelivery stray{"planning", 7, Time::fromSeconds(1), Time::fromSeconds(2)};
   const auto outcome = replay({Tick{Time::fromSeconds(0.01)}, stray}, fresh, {});

@@ -19,7 +19,7 @@ common::LaserConfig laserSheet() {
   return common::config::readFile<common::LaserConfig>(kRoot + "/config/sensors/utm_30lx.yaml");
 }
 
-/// Doubles by their bits: equal is not the same for 0 and -0, and NaN is the same as itself.
+/// Compares doubles by their bits: 0 and -0 differ, and NaN equals itself.
 template <typename... Values>
 bool sameBits(const Values&... values) {
   const auto same = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; };
@@ -63,7 +63,7 @@ bool same(const common::LevelMap& a, const common::LevelMap& b) {
                     });
 }
 
-/// The first index at which the lists differ, also by ending; none: they are the same.
+/// The first index at which the lists differ, or at which only one of them ends; none if they are equal.
 template <typename List, typename Same>
 std::optional<std::size_t> firstDifference(const List& a, const List& b, Same same) {
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)

@@ -15,7 +15,7 @@ namespace swiftlet::autonomy {
 
 std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(int seed);
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyConfig& config);
-/// Set so that it seeks loops already within the few metres of a short flight.
+/// Configured to search for loops within the few metres of a short flight.
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs);
 
 /// All outputs of the autonomy.

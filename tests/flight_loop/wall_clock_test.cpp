@@ -52,7 +52,7 @@ class PacedVehicle final : public common::Vehicle {
   const WallClock& clock_;
 };
 
-TEST(WallClock, TwentySecondsOfFlightThroughTheSameLoop) {
+TEST(WallClock, FliesTwentySecondsThroughTheSameLoop) {
   constexpr double kSpeed = 4.0, kFlight_s = 20.0;
   const auto simulated = makeVehicle(12);
   const WallClock clock(kSpeed);

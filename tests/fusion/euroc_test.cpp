@@ -156,7 +156,7 @@ struct Errors {
   }
 };
 
-TEST(Euroc, PlanarOdometryAndHeightHoldARealFlight) {
+TEST(Euroc, PlanarOdometryAndHeightKeepTheErrorOfARealFlightBounded) {
   const auto folder = test_support::dataSet("04-uav-logs/euroc-V1_01");
   if (!folder) return;
   const Recording recording = read(*folder);

@@ -23,7 +23,7 @@ void expectSameState(const ErrorStateFilter& a, const ErrorStateFilter& b, doubl
   EXPECT_LE((a.covariance() - b.covariance()).cwiseAbs().maxCoeff(), tolerance);
 }
 
-TEST(ErrorStateFilter, LateIsAsGoodAsOnTime) {
+TEST(ErrorStateFilter, LateMeasurementsGiveTheSameResultAsPunctualOnes) {
   SyntheticFlight flight(1, 12.0);
   const auto imu = flight.imuSamples();
   flight.delay_s = 0.0;
@@ -61,7 +61,7 @@ TEST(ErrorStateFilter, TheOrderOfArrivalDoesNotMatter) {
   }
 }
 
-TEST(ErrorStateFilter, TheSameInputGivesTheSameBits) {
+TEST(ErrorStateFilter, TheSameInputGivesIdenticalResults) {
   SyntheticFlight flight(3, 6.0);
   const auto imu = flight.imuSamples();
   const auto deliveries = flight.deliveries();
@@ -78,7 +78,7 @@ struct Consistency {
   double tilt_rad = 0;
 };
 
-TEST(ErrorStateFilter, ItsErrorsAreAsLargeAsItSays) {
+TEST(ErrorStateFilter, ItsErrorsAgreeWithItsCovariance) {
   constexpr int kRuns = 24;
   double nees_sum = 0;
   double velocity2 = 0, tilt2 = 0;
@@ -126,7 +126,7 @@ TEST(ErrorStateFilter, ItsErrorsAreAsLargeAsItSays) {
   EXPECT_LT(std::sqrt(tilt2 / samples), 0.01);
 }
 
-TEST(ErrorStateFilter, StartsLevelledAndKnowsItsGyroscope) {
+TEST(ErrorStateFilter, StartsLevelWithItsGyroscopeBiasEstimated) {
   SensorNoise noise;
   SyntheticFlight flight(5, 1.0, noise);
   ErrorStateFilter filter(withoutDrag());
@@ -176,7 +176,7 @@ TEST(ErrorStateFilter, OutliersAreGated) {
   EXPECT_LT(worst_m, 0.05);
 }
 
-TEST(ErrorStateFilter, AGateThatStaysShutIsForcedOpenAndReported) {
+TEST(ErrorStateFilter, AcceptsAMeasurementThatIsRejectedForLongAndReportsIt) {
   SyntheticFlight flight(8, 14.0);
   const auto imu = flight.imuSamples();
   auto deliveries = flight.deliveries();
@@ -200,7 +200,7 @@ TEST(ErrorStateFilter, AGateThatStaysShutIsForcedOpenAndReported) {
   EXPECT_EQ(filter.health().status, FusionStatus::kOk);
 }
 
-TEST(ErrorStateFilter, ContradictionWithoutEndIsADivergenceThatStays) {
+TEST(ErrorStateFilter, LastingContradictionIsAPermanentDivergence) {
   SyntheticFlight flight(9, 16.0);
   const auto imu = flight.imuSamples();
   auto deliveries = flight.deliveries();
@@ -217,7 +217,7 @@ TEST(ErrorStateFilter, ContradictionWithoutEndIsADivergenceThatStays) {
   EXPECT_FALSE(filter.state().vertical_valid);
 }
 
-TEST(ErrorStateFilter, ASilentLaserDegradesAndComesBack) {
+TEST(ErrorStateFilter, ASilentLaserDegradesTheStatusUntilScansReturn) {
   SyntheticFlight flight(10, 16.0);
   flight.silent_from_s = 8.0;
   flight.silent_until_s = 9.2;
@@ -238,8 +238,9 @@ TEST(ErrorStateFilter, ASilentLaserDegradesAndComesBack) {
   EXPECT_TRUE(filter.state().horizontal_valid);
 }
 
-/// Half a second without a height and with a wrong acceleration: a measured speed, late, corrects the height too.
-TEST(ErrorStateFilter, AVerticalSpeedCorrectsTheHeightAsWell) {
+/// After half a second without a height and with a wrong acceleration, a late measurement of the speed corrects the
+/// height too.
+TEST(ErrorStateFilter, AVerticalSpeedAlsoCorrectsTheHeight) {
   SyntheticFlight flight(13, 6.0);
   const auto imu = flight.imuSamples();
   auto deliveries = flight.deliveries();
@@ -263,7 +264,7 @@ TEST(ErrorStateFilter, AVerticalSpeedCorrectsTheHeightAsWell) {
   EXPECT_FALSE(told.verticalAt(at + Duration::fromSeconds(2.0)));
 }
 
-TEST(ErrorStateFilter, GarbageIsCountedAndLeftOut) {
+TEST(ErrorStateFilter, InvalidInputIsCountedAndIgnored) {
   SyntheticFlight flight(11, 6.0);
   const auto imu = flight.imuSamples();
   const auto deliveries = flight.deliveries();
@@ -318,7 +319,7 @@ TEST(ErrorStateFilter, SurvivesLostImuSamples) {
   EXPECT_EQ(filter.health().status, FusionStatus::kOk) << filter.health().reason;
 }
 
-TEST(ErrorStateFilter, ASlippedHorizonIsPulledBackByTheAhrs) {
+TEST(ErrorStateFilter, TheAhrsCorrectsAWrongTilt) {
   SyntheticFlight flight(15, 16.0);
   auto imu = flight.imuSamples();
   // A knock: the gyroscope reports five degrees of roll that did not happen.
@@ -339,7 +340,7 @@ TEST(ErrorStateFilter, ASlippedHorizonIsPulledBackByTheAhrs) {
   EXPECT_LT((state.velocity_odom_m_s - flight.motion.truth(state.stamp.seconds()).velocity_m_s).norm(), 0.1);
 }
 
-TEST(ErrorStateFilter, PosesInterpolateTheHistory) {
+TEST(ErrorStateFilter, InterpolatesPosesOfTheHistory) {
   SyntheticFlight flight(13, 8.0);
   ErrorStateFilter filter(withoutDrag());
   feed(filter, flight.imuSamples(), flight.deliveries(), flight.restUntil());

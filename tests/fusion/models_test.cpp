@@ -63,18 +63,18 @@ class Jacobians : public testing::TestWithParam<int> {
   FilterState state = randomState(random, 3);
 };
 
-TEST_P(Jacobians, RelativePose) {
+TEST_P(Jacobians, RelativePoseIsTheNumericDerivative) {
   expectJacobian<3>(state, [](const FilterState& s) {
     return relativePose(s, 1, {0.3, -0.2, 0.1}, Eigen::Matrix3d::Identity());
   });
 }
-TEST_P(Jacobians, RelativePoseAcross) {
+TEST_P(Jacobians, RelativePoseAcrossIsTheNumericDerivative) {
   expectJacobian<2>(state, [](const FilterState& s) {
     return relativePoseAcross(s, 1, {0.3, -0.2, 0.1}, Eigen::Matrix3d::Identity(), {0.6, 0.8});
   });
 }
-/// With the stretch's mean velocity that of the state, as it is after each step.
-TEST_P(Jacobians, Drag) {
+/// The mean velocity of the drag interval equals the state's velocity, as after each step.
+TEST_P(Jacobians, DragIsTheNumericDerivative) {
   expectJacobian<2>(state, [](FilterState s) {
     s.drag_stretch.seconds = 0.1;
     s.drag_stretch.force_sum_m_s = {0.02, -0.01};
@@ -82,30 +82,30 @@ TEST_P(Jacobians, Drag) {
     return drag(s, 0.01);
   });
 }
-TEST_P(Jacobians, Height) {
+TEST_P(Jacobians, HeightIsTheNumericDerivative) {
   expectJacobian<1>(state, [](const FilterState& s) { return height(s, 1.0, 0.01); });
 }
-TEST_P(Jacobians, AbsolutePose) {
+TEST_P(Jacobians, AbsolutePoseIsTheNumericDerivative) {
   expectJacobian<3>(state, [](const FilterState& s) {
     return absolutePose(s, {1.0, 2.0, 0.5}, Eigen::Matrix3d::Identity());
   });
 }
-TEST_P(Jacobians, Gravity) {
+TEST_P(Jacobians, GravityIsTheNumericDerivative) {
   expectJacobian<3>(state, [](const FilterState& s) { return gravity(s, {0.1, -0.2, 9.7}, 9.81, 1.0); });
 }
-TEST_P(Jacobians, ZeroVelocity) {
+TEST_P(Jacobians, ZeroVelocityIsTheNumericDerivative) {
   expectJacobian<3>(state, [](const FilterState& s) { return zeroVelocity(s, 0.01); });
 }
-TEST_P(Jacobians, ZeroRotation) {
+TEST_P(Jacobians, ZeroRotationIsTheNumericDerivative) {
   expectJacobian<3>(state, [](const FilterState& s) { return zeroRotation(s, {0.01, 0.02, 0.03}, 0.01); });
 }
-TEST_P(Jacobians, UpDirection) {
+TEST_P(Jacobians, UpDirectionIsTheNumericDerivative) {
   // Linearized where the measured direction is nearly the estimated one: the sine of a small angle.
   const Eigen::Vector3d up = state.rotation_odom_body.conjugate() * Eigen::Vector3d::UnitZ();
   expectJacobian<2>(state, [&](const FilterState& s) { return upDirection(s, up, 0.01); });
 }
 
-TEST_P(Jacobians, StrapdownStep) {
+TEST_P(Jacobians, StrapdownStepIsTheNumericDerivative) {
   ImuValue begin{state.stamp, vector(random, 0.5), Eigen::Vector3d(0, 0, 9.81) + vector(random, 1.0)};
   ImuValue end{state.stamp + common::Duration::fromMilliseconds(5), vector(random, 0.5),
                Eigen::Vector3d(0, 0, 9.81) + vector(random, 1.0)};
@@ -161,7 +161,7 @@ TEST_P(Jacobians, UpdateIsTheTextbookUpdate) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Jacobians, testing::Range(1, 9));
 
-TEST(Clones, ACloneIsTheSameRandomVariable) {
+TEST(Clones, ACloneHasTheCovariancesOfItsPose) {
   common::RandomStream random(3, "clones");
   FilterState state = randomState(random, 2);
   state.clonePose();
@@ -176,7 +176,7 @@ TEST(Clones, ACloneIsTheSameRandomVariable) {
   EXPECT_EQ(state.dimension(), n);
 }
 
-TEST(Clones, TheOneUsedLongestAgoMakesRoom) {
+TEST(Clones, TheLeastRecentlyUsedCloneIsDropped) {
   common::RandomStream random(4, "clones");
   FilterState state = randomState(random, kMaxClones);
   state.clones[0].last_used = common::Time::fromSeconds(0.95);

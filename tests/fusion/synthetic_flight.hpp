@@ -17,7 +17,7 @@ struct Truth {
   Eigen::Vector3d velocity_m_s;
 };
 
-/// Rests for two seconds, then moves ever more. Analytic position; attitude by angles.
+/// Rests for two seconds, then moves with growing amplitude. The position is analytic, the attitude is given by angles.
 struct Motion {
   double amplitude = 1.0;
 
@@ -63,7 +63,7 @@ inline ErrorStateFilter::Config withoutDrag() {
   return config;
 }
 
-/// A list of things to hand to a filter, each when it arrives.
+/// A measurement for the filter, delivered when it arrives.
 struct Delivery {
   common::Time arrives;
   int order = 0;
@@ -80,7 +80,7 @@ class SyntheticFlight {
   double delay_s = 0.02;
   double reference_every_s = 0.5;  ///< A new reference scan.
   double rest_until_s = 2.0;
-  /// The stretch without scans.
+  /// The interval without scans.
   double silent_from_s = 1e9, silent_until_s = 1e9;
   Eigen::Vector3d accelerometer_bias = Eigen::Vector3d::Zero(), gyroscope_bias = Eigen::Vector3d::Zero();
 

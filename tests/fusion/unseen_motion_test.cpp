@@ -13,7 +13,7 @@ using common::Time;
 
 /// In a corridor a matcher returns the guess. Used as a measurement, repeatedly, it would make an unobserved motion
 /// certain.
-TEST(ErrorStateFilter, WhatNoScanSawIsNotTakenIn) {
+TEST(ErrorStateFilter, IgnoresAMeasurementInItsUnobservableDirection) {
   const Time from = Time::fromSeconds(0.7);
   const auto fly = [&](double along_m, bool unseen) {
     ErrorStateFilter filter({});
@@ -46,7 +46,7 @@ TEST(ErrorStateFilter, WhatNoScanSawIsNotTakenIn) {
 
 /// 20 s at 0.7 m/s, of which the laser observes the first six: the drag learned there holds the speed afterwards. The
 /// accelerometer has an unknown bias.
-TEST(ErrorStateFilter, DragHoldsTheSpeedThatNoScanSees) {
+TEST(ErrorStateFilter, DragBoundsTheErrorOfAnUnobservedSpeed) {
   constexpr double kDrag_1_s = 0.18, kBias_m_s2 = 0.06, kSpeed_m_s = 0.7, kStart_s = 3.0, kSeen_s = 9.0;
   const auto speedAt = [&](double t) { return std::clamp(0.7 * (t - kStart_s), 0.0, kSpeed_m_s); };
   const auto errorAtEnd = [&](bool use_drag) {
@@ -59,7 +59,7 @@ TEST(ErrorStateFilter, DragHoldsTheSpeedThatNoScanSees) {
     double reference_x_m = 0.0;
     for (int i = 0; i <= 4600; ++i) {
       const double t = 0.005 * i, speed = speedAt(t), acceleration = (speedAt(t + 0.005) - speed) / 0.005;
-      // It leans just as far as drag and acceleration ask for.
+      // The vehicle tilts just as far as drag and acceleration require.
       const double lean_rad = std::asin((acceleration + kDrag_1_s * speed) / 9.81);
       const double lean_after_rad =
           std::asin(((speedAt(t + 0.01) - speedAt(t + 0.005)) / 0.005 + kDrag_1_s * speedAt(t + 0.005)) / 9.81);

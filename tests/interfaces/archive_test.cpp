@@ -41,7 +41,7 @@ void writeTar(const fs::path& file, const std::vector<Entry>& entries) {
   archive_write_free(writer);
 }
 
-TEST(Archive, UnpacksOnceBelowTheCache) {
+TEST(Archive, UnpacksOnceIntoTheCache) {
   const ScratchFolder folder;
   writeTar(folder / "house.tar.xz", {{"./models", "", AE_IFDIR}, {"./models/a/model.sdf", "<sdf/>"}, {"top.txt", ""}});
   const fs::path unpacked = unpackInto(folder / "cache", folder / "house.tar.xz");
@@ -56,7 +56,7 @@ TEST(Archive, UnpacksOnceBelowTheCache) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "cache"), fs::directory_iterator{}), 1);
 }
 
-TEST(Archive, AnotherContentGetsAnotherFolder) {
+TEST(Archive, DifferentContentGetsADifferentFolder) {
   const ScratchFolder folder;
   writeTar(folder / "w.tar.xz", {{"a", "1"}});
   const fs::path first = unpackInto(folder / "cache", folder / "w.tar.xz");
@@ -66,7 +66,7 @@ TEST(Archive, AnotherContentGetsAnotherFolder) {
   EXPECT_EQ(bytesOf(second / "a"), "2");
 }
 
-TEST(Archive, RefusesWhatLeadsOutAndLeavesNothing) {
+TEST(Archive, RefusesEntriesOutsideTheFolderAndLeavesNothing) {
   const ScratchFolder folder;
   const auto problem = [&](const Entry& bad) {
     writeTar(folder / "bad.tar.xz", {{"good", "content"}, bad});
@@ -83,7 +83,7 @@ TEST(Archive, RefusesWhatLeadsOutAndLeavesNothing) {
   EXPECT_FALSE(fs::exists(folder / "evil"));
 }
 
-TEST(Archive, RefusesDamagedAndMissingOnes) {
+TEST(Archive, RefusesDamagedAndMissingArchives) {
   const ScratchFolder folder;
   writeTar(folder / "w.tar.xz", {{"a", std::string(100'000, 'q')}, {"b", "content"}});
   const std::string whole = bytesOf(folder / "w.tar.xz");
@@ -97,14 +97,14 @@ TEST(Archive, RefusesDamagedAndMissingOnes) {
   EXPECT_THAT(problemOf([&] { unpackInto(folder / "cache", folder / "none.tar.xz"); }), HasSubstr("cannot be opened"));
 }
 
-TEST(Archive, ACacheThatCannotBeWrittenIsSaid) {
+TEST(Archive, ReportsAnUnwritableCache) {
   const ScratchFolder folder;
   writeTar(folder / "w.tar.xz", {{"a", "1"}});
   put(folder / "file", "");
   EXPECT_THAT(problemOf([&] { unpackInto(folder / "file", folder / "w.tar.xz"); }), HasSubstr("cannot be written"));
 }
 
-TEST(Archive, FullDiskIsSaidAndLeavesNothing) {
+TEST(Archive, ReportsAFullDiskAndLeavesNothing) {
   const ScratchFolder folder;
   writeTar(folder / "w.tar.xz", {{"a", std::string(100'000, 'q')}});
   EXPECT_TRUE(withFullDisk(50'000, [&] {
@@ -114,7 +114,7 @@ TEST(Archive, FullDiskIsSaidAndLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(folder / "cache"));
 }
 
-TEST(Archive, UnpacksTheWorldsByOthers) {
+TEST(Archive, UnpacksTheWorldsOfTheDataSets) {
   const auto worlds = test_support::dataSet("06-sim-worlds");
   if (!worlds) return;
   const ScratchFolder folder;

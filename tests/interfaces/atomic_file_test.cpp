@@ -25,14 +25,14 @@ TEST(AtomicFile, ReplacesTheWholeContent) {
   EXPECT_EQ(entriesIn(folder), 1u);
 }
 
-TEST(AtomicFile, SaysWhichFileAndWhy) {
+TEST(AtomicFile, ErrorsNameTheFileAndTheReason) {
   const ScratchFolder folder;
   const Written written = writeAtomically(folder / "missing" / "x", "bytes");
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error().message, HasSubstr("missing/x: No such file or directory"));
 }
 
-TEST(AtomicFile, FullDiskLeavesTheOldContentAndNothingElse) {
+TEST(AtomicFile, AFullDiskLeavesOnlyTheOldContent) {
   const ScratchFolder folder;
   ASSERT_TRUE(writeAtomically(folder / "x", "old"));
   EXPECT_TRUE(withFullDisk(1000, [&] { return !writeAtomically(folder / "x", std::string(5000, 'n')); }));
@@ -51,7 +51,7 @@ TEST(AppendFile, GrowsByWholeRecords) {
   EXPECT_EQ(bytesOf(folder / "x"), "one\ntwo\n");
 }
 
-TEST(AppendFile, FullDiskTakesTheRecordBack) {
+TEST(AppendFile, AFullDiskRemovesThePartialRecord) {
   const ScratchFolder folder;
   EXPECT_TRUE(withFullDisk(1000, [&] {
     auto file = AppendFile::create(folder / "x");

@@ -33,7 +33,8 @@ inline std::string record(char op, std::vector<Field> header, const std::string&
   return text(fields(header)) + text(data);
 }
 
-/// As left by a writer that was killed; with a number of chunks, as left by one that finished.
+/// The beginning of a bag: without a number of chunks as a killed writer leaves it, with one as a finished writer
+/// leaves it.
 inline std::string begin(std::uint32_t chunks = 0) {
   const std::string index_pos = u32(chunks == 0 ? 0 : 4096) + u32(0);
   return "#ROSBAG V2.0\n" + record(3, {{"index_pos", index_pos}, {"conn_count", u32(1)}, {"chunk_count", u32(chunks)}},
@@ -64,7 +65,7 @@ inline std::string scan(const std::vector<float>& ranges, const Fan& fan = {}) {
   return data + u32(0);
 }
 
-/// Packed as chunks are.
+/// Compresses the bytes like a chunk.
 inline std::string packed(const std::string& plain, const std::string& by) {
   if (by == "none") return plain;
   std::string bytes(plain.size() + 100'000, '\0');

@@ -1,4 +1,4 @@
-// Bags: the first topic with scans is read, from chunks of every packing; damaged parts are left out or reported.
+// Bags: the first topic with scans is read, from chunks of every compression; damaged parts are left out or reported.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ class Bag : public testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(Bag, AScanIsReadFromChunksOfEveryPacking) {
+TEST_F(Bag, ReadsScansFromChunksOfEveryCompression) {
   for (const char* by : {"none", "bz2", "lz4"}) {
     const std::string records = bag_bytes::connection(3, "/front", kLaserScan) +
                                 bag_bytes::message(3, 9, bag_bytes::scan({1.0F, 5.0F, NAN, -1.0F, 0.05F}));
@@ -44,7 +44,7 @@ TEST_F(Bag, AScanIsReadFromChunksOfEveryPacking) {
     EXPECT_DOUBLE_EQ(logged->scan.angle_increment_rad, 0.5);
     EXPECT_NEAR(logged->scan.time_increment.seconds(), 1e-4, 1e-9);
     EXPECT_FLOAT_EQ(logged->scan.ranges_m[0], 1.0F);
-    EXPECT_TRUE(std::isinf(logged->scan.ranges_m[1])) << "as far as it sees";
+    EXPECT_TRUE(std::isinf(logged->scan.ranges_m[1])) << "its greatest range";
     EXPECT_TRUE(std::isnan(logged->scan.ranges_m[3])) << "negative";
     EXPECT_FLOAT_EQ(logged->scan.ranges_m[4], 0.05F);
     EXPECT_FALSE(logged->T_odom_robot);
@@ -55,7 +55,7 @@ TEST_F(Bag, AScanIsReadFromChunksOfEveryPacking) {
   }
 }
 
-TEST_F(Bag, TheFirstTopicWithScansIsReadAndTheOthersAreNamed) {
+TEST_F(Bag, ReadsTheFirstTopicWithScansAndNamesTheOthers) {
   const std::string one = bag_bytes::scan({1.0F, 2.0F});
   const auto log =
       open(bag_bytes::begin() +
@@ -69,7 +69,7 @@ TEST_F(Bag, TheFirstTopicWithScansIsReadAndTheOthersAreNamed) {
   EXPECT_THAT(log->notes(), ElementsAre("1 scans of /rear are left out, /front came first"));
 }
 
-TEST_F(Bag, AFanThatRunsClockwiseIsTurnedRound) {
+TEST_F(Bag, ReversesClockwiseScans) {
   bag_bytes::Fan fan;
   fan.first_rad = 1.0F;
   fan.step_rad = -0.5F;
@@ -83,7 +83,7 @@ TEST_F(Bag, AFanThatRunsClockwiseIsTurnedRound) {
   EXPECT_THAT(logged->scan.ranges_m, ElementsAre(3.0F, 2.0F, 1.0F));
 }
 
-TEST_F(Bag, ScansThatCannotBeUsedAreSkippedAndCounted) {
+TEST_F(Bag, SkipsAndCountsUnusableScans) {
   bag_bytes::Fan wide, endless, nowhere;
   wide.step_rad = 4.0F;
   endless.range_max_m = INFINITY;
@@ -106,7 +106,7 @@ TEST_F(Bag, ScansThatCannotBeUsedAreSkippedAndCounted) {
       << "--sensor mends the geometry";
 }
 
-TEST_F(Bag, WhatIsDamagedWithinAChunkDoesNotConcernTheNext) {
+TEST_F(Bag, DamageWithinAChunkDoesNotAffectTheNextChunk) {
   const std::string connection = bag_bytes::connection(0, "/scan", kLaserScan);
   const std::string message = bag_bytes::message(0, 1, bag_bytes::scan({1.0F, 2.0F}));
   for (const std::string by : {"none", "bz2", "lz4"}) {
@@ -122,7 +122,7 @@ TEST_F(Bag, WhatIsDamagedWithinAChunkDoesNotConcernTheNext) {
   EXPECT_THAT(toString(log->counts().first_problems.at(0)), HasSubstr("packed by `zpaq`, which is not known"));
 }
 
-TEST_F(Bag, ABagThatIsCutIsReadAsFarAsItGoes) {
+TEST_F(Bag, ReadsATruncatedBagUpToItsEnd) {
   bag_bytes::Fan fine;
   fine.step_rad = 0.01F;
   const std::string records = bag_bytes::connection(0, "/scan", kLaserScan) +
@@ -140,7 +140,7 @@ TEST_F(Bag, ABagThatIsCutIsReadAsFarAsItGoes) {
   }
 }
 
-TEST_F(Bag, WhatCannotBeReadIsRefused) {
+TEST_F(Bag, RefusesUnreadableFiles) {
   EXPECT_THAT(problemOf([&] { open("#ROSBAG V1.2\n"); }), HasSubstr("is no bag of version 2.0"));
   EXPECT_THAT(problemOf([&] { (void)open(bag_bytes::begin())->next(); }), HasSubstr("no messages of type sensor_msgs"));
   const std::string encrypted = "#ROSBAG V2.0\n" + bag_bytes::record(3, {{"encryptor", "rosbag/AesCbcEncryptor"}}, "");
@@ -158,7 +158,7 @@ TEST_F(Bag, WhatCannotBeReadIsRefused) {
       ContainsRegex("LaserScan, a chunk at byte [0-9]+ is packed by `zpaq`, which is not known; it has /scan "));
 }
 
-TEST_F(Bag, ABagThatEndsBetweenTwoRecordsIsCutWhenItsHeaderTellsOfMoreChunks) {
+TEST_F(Bag, ReportsMissingChunksAsTruncation) {
   const std::string chunk = bag_bytes::chunk(bag_bytes::connection(0, "/scan", kLaserScan) +
                                              bag_bytes::message(0, 1, bag_bytes::scan({1.0F, 2.0F})));
   EXPECT_EQ(scansOf(*open(bag_bytes::begin(2) + chunk + chunk)), 2);
@@ -168,14 +168,14 @@ TEST_F(Bag, ABagThatEndsBetweenTwoRecordsIsCutWhenItsHeaderTellsOfMoreChunks) {
               ContainsRegex("is cut or damaged, its end cannot be read, it has 1 of the 2 chunks its header tells of"));
 }
 
-TEST_F(Bag, ManyRecordsTakeNoStack) {
+TEST_F(Bag, ManyRecordsDoNotExhaustTheStack) {
   std::string bytes = bag_bytes::begin();
   for (int i = 0; i < 200'000; ++i) bytes += bag_bytes::record(6, {}, "");
   EXPECT_THAT(problemOf([&] { (void)open(bytes)->next(); }), HasSubstr("no messages"));
 }
 
 // Recorded by hand-held laser; its indices have the wrong length that an old rosbag wrote.
-TEST_F(Bag, ARecordedBagIsReadPacked) {
+TEST_F(Bag, ReadsACompressedRecordedBag) {
   const auto file = test_support::dataSet("01-laser-slam/ccny-handheld/ccny_laser_scan_matcher_demo.bag.gz");
   if (!file) return;
   const auto log = openLaserLog(*file);

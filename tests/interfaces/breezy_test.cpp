@@ -23,7 +23,7 @@ std::string line(double time_us, int left, int right, const std::string& ranges)
   return text + "  " + ranges + " \n";
 }
 
-TEST(Breezy, ARecordIsAScanAndThePlaceByTheWheels) {
+TEST(Breezy, ARecordGivesAScanAndAWheelOdometryPose) {
   const ScratchFolder folder;
   // A turn of both wheels, then a turn on the spot by a quarter.
   const int quarter = static_cast<int>(std::lround(0.25 * kPi * 2.0 * 0.165 / (2.0 * kPi * 0.077) * 2000.0));
@@ -47,7 +47,7 @@ TEST(Breezy, ARecordIsAScanAndThePlaceByTheWheels) {
   EXPECT_NEAR(third->T_odom_robot->x_m, 2.0 * kPi * 0.077, 1e-9);
 }
 
-TEST(Breezy, BadRecordsAreSkippedWithTheirPlace) {
+TEST(Breezy, SkipsBadRecordsAndReportsTheirPlace) {
   const ScratchFolder folder;
   const std::string good = line(1e6, 0, 0, "1000 1000");
   std::string many;
@@ -64,7 +64,7 @@ TEST(Breezy, BadRecordsAreSkippedWithTheirPlace) {
   EXPECT_THAT(toString(log->counts().first_problems.at(3)), HasSubstr("more than a URG-04LX has"));
 }
 
-TEST(Breezy, ALineOfOtherThanTheUsualNumberOfRangesIsSkipped) {
+TEST(Breezy, SkipsLinesWithAnUnusualNumberOfRanges) {
   const ScratchFolder folder;
   const std::string whole = line(1e6, 0, 0, "1000 1000 1000 1000"), half = line(1e6, 0, 0, "1000 1000");
   for (const std::string& text : {half + whole + whole, whole + half + whole, whole + half}) {
@@ -77,7 +77,7 @@ TEST(Breezy, ALineOfOtherThanTheUsualNumberOfRangesIsSkipped) {
   }
 }
 
-TEST(Breezy, AStampIsWithinTheSameBoundsAsOthers) {
+TEST(Breezy, StampsHaveTheSameBoundsAsInOtherFormats) {
   const ScratchFolder folder;
   put(folder / "a", line(4.5e15, 0, 0, "1000 1000") + line(5e15, 0, 0, "1000 1000") + line(-5e15, 0, 0, "1000 1000"));
   const auto log = openLaserLog(folder / "a");
@@ -86,7 +86,7 @@ TEST(Breezy, AStampIsWithinTheSameBoundsAsOthers) {
   EXPECT_EQ(log->counts().skipped_records, 2U);
 }
 
-TEST(Breezy, ARecordedLogIsReadPacked) {
+TEST(Breezy, ReadsACompressedRecordedLog) {
   const auto file = test_support::dataSet("01-laser-slam/mines-exp1/exp1.dat.gz");
   if (!file) return;
   const auto log = openLaserLog(*file);

@@ -25,7 +25,7 @@ const std::string kUnit6 = " 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n";
 const std::string kSpace = "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 1 1 2 3 0 0 0 -2\n";
 const std::string kSpaceEdge = "EDGE_SE3:QUAT 0 1 1 2 3 0 0 1 1" + kUnit6;
 
-TEST(G2o, ReadsTheElementsOfThePlane) {
+TEST(G2o, ReadsPlanarElements) {
   const G2oFile file = parse("# a comment\n" + kPlaneEdge + "\n  " + kPlane + "FIX 7 10 # both\r\n");
   const auto& graph = std::get<G2oGraph2D>(file.graph);
   EXPECT_THAT(graph.ids, ElementsAre(10, 7));
@@ -41,7 +41,7 @@ TEST(G2o, ReadsTheElementsOfThePlane) {
   EXPECT_THAT(file.warnings, IsEmpty());
 }
 
-TEST(G2o, ReadsTheElementsOfSpaceWithUnitQuaternions) {
+TEST(G2o, ReadsSpatialElementsWithUnitQuaternions) {
   const auto graph = std::get<G2oGraph3D>(parse(kSpace + kSpaceEdge).graph);
   EXPECT_EQ(graph.poses[1].position_m, Eigen::Vector3d(1, 2, 3));
   EXPECT_DOUBLE_EQ(graph.poses[1].rotation.w(), -1.0);
@@ -58,14 +58,14 @@ TEST(G2o, AFileMayHaveOnlyEdges) {
   EXPECT_EQ(graph.edges[0].from, 2);
 }
 
-TEST(G2o, WhatIsNotUsedIsToldOnce) {
+TEST(G2o, ReportsEachUnusedElementTypeOnce) {
   const G2oFile file = parse(kPlane + "VERTEX_XY 3 0 0\nVERTEX_XY 4 0 0\n" + kPlaneEdge + "EDGE_SE22 what ever\n");
   EXPECT_THAT(file.warnings,
               ElementsAre("x.g2o:6: EDGE_SE22: unknown tag, 1 line is left out, did you mean `EDGE_SE2`?",
                           "x.g2o:3: VERTEX_XY: not used, 2 lines are left out"));
 }
 
-TEST(G2o, MistakesSayWhere) {
+TEST(G2o, ReportsThePlaceOfMistakes) {
   EXPECT_THAT(problem("VERTEX_SE2 1 0 0\n"), HasSubstr("x.g2o:1:16: VERTEX_SE2: 3 numbers instead of 4"));
   EXPECT_THAT(problem(kPlane + "VERTEX_SE2 x 0 0 0\n"), HasSubstr("x.g2o:3:12: VERTEX_SE2: `x` is not an id"));
   EXPECT_THAT(problem("VERTEX_SE2 -1 0 0 0\n"), HasSubstr("`-1` is not an id"));
@@ -96,7 +96,7 @@ TEST(G2o, FilesWithoutAGraphAreRefused) {
   EXPECT_THAT(problemOf([] { readG2o(fs::path("/nowhere/x.g2o")); }), HasSubstr("/nowhere/x.g2o: cannot be opened"));
 }
 
-TEST(G2o, ReadsCompressedFilesAndSaysWhenTheyAreCut) {
+TEST(G2o, ReadsCompressedFilesAndReportsTruncation) {
   const ScratchFolder folder;
   put(folder / "x.g2o", kPlane + kPlaneEdge);
   for (const char* tool : {"gzip", "bzip2", "xz"}) {

@@ -13,7 +13,7 @@ using common::Severity;
 using common::Time;
 using testing::HasSubstr;
 
-TEST(Events, OneLineOfJson) {
+TEST(Events, AreOneLineOfJsonEach) {
   EXPECT_EQ(toJson({Time::fromSeconds(12.5), Severity::kWarning, "flight", "held", "laser silent"}),
             R"({"t_s":12.5,"severity":"warning","source":"flight","text":"held","reason":"laser silent"})");
   for (int ms = 1; ms < 100'000; ms += 7)
@@ -33,7 +33,7 @@ TEST(Events, NameTheVehicleOnlyWhereThereAreSeveral) {
   EXPECT_EQ(events[1].vehicle, "");
 }
 
-TEST(Events, AnyTextStaysOnItsLine) {
+TEST(Events, StayOnOneLineWhateverTheirText) {
   const ScratchFolder folder;
   const std::string odd = "two\nlines, \"quoted\", \t tab, \xff no UTF-8, é";
   auto writer = EventWriter::create(folder / "e.jsonl");
@@ -48,14 +48,14 @@ TEST(Events, AnyTextStaysOnItsLine) {
   EXPECT_EQ(events[1].reason, "why");
 }
 
-TEST(Events, ALineThatWasCutOffIsLeftOut) {
+TEST(Events, LeaveOutATruncatedLastLine) {
   const ScratchFolder folder;
   const std::string line = toJson({Time::fromSeconds(1), Severity::kInfo, "a", "b", ""});
   put(folder / "e.jsonl", line + "\n" + line.substr(0, 20));
   EXPECT_EQ(readEvents(folder / "e.jsonl").size(), 1u);
 }
 
-TEST(Events, MistakesSayWhere) {
+TEST(Events, ReportThePlaceOfMistakes) {
   const ScratchFolder folder;
   const std::string line = toJson({Time::fromSeconds(1), Severity::kInfo, "a", "b", ""});
   const auto problem = [&](const std::string& second) {

@@ -26,14 +26,14 @@ CarmenScan read(const std::string& line) {
   return **scan;
 }
 
-/// As the log gives it, complete.
+/// The scan with mount and odometry, as the log reader returns it.
 std::optional<LoggedScan> logged(const std::string& line, const LaserLogOptions& options = {}) {
   const ScratchFolder folder;
   put(folder / "a.log", line + "\n");
   return openLaserLog(folder / "a.log", options)->next();
 }
 
-TEST(Carmen, AnOldScanIsAHalfTurnOfBeams) {
+TEST(Carmen, AnOldScanCoversHalfATurn) {
   for (const auto& [beams, step_deg] : {std::pair{180, 1.0}, {181, 1.0}, {360, 0.5}, {361, 0.5}}) {
     const CarmenScan scan = read(oldScan(beams));
     EXPECT_EQ(scan.scan.ranges_m.size(), static_cast<std::size_t>(beams));
@@ -42,14 +42,14 @@ TEST(Carmen, AnOldScanIsAHalfTurnOfBeams) {
   }
 }
 
-TEST(Carmen, SaysWhereTheLaserIsAndWhatTheRobotThinks) {
+TEST(Carmen, ReadsTheLaserMountTheOdometryAndTheStamp) {
   const auto scan = logged(oldScan(180));
   EXPECT_NEAR(scan->T_robot_laser.x_m, -0.04, 1e-12);
   EXPECT_DOUBLE_EQ(scan->T_odom_robot->x_m, 1.0);
   EXPECT_EQ(scan->scan.stamps.measured.nanoseconds(), 976052857'337530000);
 }
 
-TEST(Carmen, ANewScanSaysWhatItsLaserIs) {
+TEST(Carmen, ANewScanDescribesItsLaser) {
   const auto scan =
       logged("ROBOTLASER1 0 -1.0 2.0 0.5 50.0 0.1 0 3 1.0 50.0 2.0 1 7.0 1 2 0 1 2 0 0.1 0.2 0 0 0 12.5 host 1.0");
   EXPECT_DOUBLE_EQ(scan->scan.angle_min_rad, -1.0);
@@ -58,14 +58,14 @@ TEST(Carmen, ANewScanSaysWhatItsLaserIs) {
   EXPECT_DOUBLE_EQ(scan->scan.stamps.measured.seconds(), 12.5);
 }
 
-TEST(Carmen, WhatIsNoReturnIsInfiniteAndWhatIsWrongIsNotANumber) {
+TEST(Carmen, AMissingReturnIsInfiniteAndAnInvalidRangeIsNan) {
   for (const char* no_return : {"81.91", "81.83", "51.2", "50.00", "inf"})
     EXPECT_TRUE(std::isinf(logged(oldScan(3, no_return))->scan.ranges_m[1])) << no_return;
   for (const char* wrong : {"nan", "-1.0"})
     EXPECT_TRUE(std::isnan(logged(oldScan(3, wrong))->scan.ranges_m[1])) << wrong;
 }
 
-TEST(Carmen, OtherLinesAreNoScans) {
+TEST(Carmen, OtherLinesAreNotScans) {
   for (const char* line :
        {"", "# FLASER", "ODOM 1 2 3 0 0 0 1.0 host 1.0", "PARAM robot_width 0.4 1 host 1", "FLASERS 1"}) {
     const auto scan = parseCarmenLine(line);
@@ -74,7 +74,7 @@ TEST(Carmen, OtherLinesAreNoScans) {
   }
 }
 
-TEST(Carmen, ALineThatIsNotWholeSaysWhere) {
+TEST(Carmen, ReportsThePlaceOfATruncatedLine) {
   const auto cut = parseCarmenLine("FLASER 3 1.0 2.0");
   ASSERT_FALSE(cut);
   EXPECT_EQ(cut.error().element, "range");
@@ -87,7 +87,7 @@ TEST(Carmen, ALineThatIsNotWholeSaysWhere) {
   EXPECT_FALSE(parseCarmenLine("FLASER 1 1.0 nan 0 0 0 0 0 1.0 host 1.0"));
 }
 
-TEST(Carmen, ACountThatIsNotThatOfTheRangesIsSaid) {
+TEST(Carmen, ReportsAWrongCountOfRanges) {
   const std::string rest = " 1.0 1.0 1.0 1.0 1.0 1.0 0 0 0 0 0 0 976052857.3 host 1.0";
   EXPECT_TRUE(parseCarmenLine("FLASER 6" + rest));
   for (const char* wrong : {"0", "3", "4", "5", "7", "8", "9"})
@@ -101,7 +101,7 @@ TEST(Carmen, ACountThatIsNotThatOfTheRangesIsSaid) {
   EXPECT_THAT(more.error().message, testing::HasSubstr("goes on after it, is a number of readings wrong?"));
 }
 
-TEST(Carmen, ALineThatIsCutWithinItsStampsIsNoScan) {
+TEST(Carmen, ALineTruncatedWithinItsStampsIsNotAScan) {
   const std::string line = oldScan(3);
   for (const char* last : {"976052857.337530", "97605", "ho"})
     EXPECT_FALSE(parseCarmenLine(line.substr(0, line.find(last == std::string("97605") ? "2857" : last) + 2))) << last;
@@ -117,7 +117,7 @@ TEST(Carmen, ASensorOverridesTheGeometry) {
   EXPECT_DOUBLE_EQ(scan->T_robot_laser.x_m, 0.0);
 }
 
-TEST(LaserLog, BadRecordsAreSkippedAndCountedWithTheirPlace) {
+TEST(LaserLog, SkipsAndCountsBadRecordsWithTheirPlace) {
   const ScratchFolder folder;
   put(folder / "a.log", "# message\n" + oldScan(3) + "\nFLASER 3 1.0\n" + oldScan(4, "nan") + "\n");
   const auto log = openLaserLog(folder / "a.log");
@@ -132,7 +132,7 @@ TEST(LaserLog, BadRecordsAreSkippedAndCountedWithTheirPlace) {
   EXPECT_DOUBLE_EQ(log->progress(), 1.0);
 }
 
-TEST(Carmen, ALineThatNobodyWritesIsGarbled) {
+TEST(Carmen, TellsGarbledLinesFromKnownOnes) {
   for (const char* line : {"", "  \r", "# FLASER\x80", "ODOM 1 2 3\t0", "PARAM robot_width 0.4", "NEFF 4", "RLASER 1",
                            "LLASER 1", "FLASERS 1", "ROBOTLASER2 1", "VERTEX2 0 1 2 3", "GPS_2 $GPGGA,1"})
     EXPECT_FALSE(isGarbledCarmenLine(line)) << line;
@@ -143,7 +143,7 @@ TEST(Carmen, ALineThatNobodyWritesIsGarbled) {
     EXPECT_TRUE(isGarbledCarmenLine(line)) << line;
 }
 
-TEST(LaserLog, GarbledLinesAreCountedWithTheirPlace) {
+TEST(LaserLog, CountsGarbledLinesWithTheirPlace) {
   const ScratchFolder folder;
   std::string flipped = oldScan(3);
   flipped[2] ^= 0x10;
@@ -158,7 +158,7 @@ TEST(LaserLog, GarbledLinesAreCountedWithTheirPlace) {
   EXPECT_EQ(log->counts().first_problems[1].location.line, 3);
 }
 
-TEST(LaserLog, AWordIsToldShortAndPrintable) {
+TEST(LaserLog, MessagesQuoteWordsShortenedAndPrintable) {
   const ScratchFolder folder;
   put(folder / "a.log", "FLASER 1 \x1b[2J" + std::string(500, '\xff') + "\n");
   const auto log = openLaserLog(folder / "a.log");
@@ -167,7 +167,7 @@ TEST(LaserLog, AWordIsToldShortAndPrintable) {
               testing::EndsWith("a.log:1:10: range: `?[2J" + std::string(36, '?') + "...` is not a number, skipped"));
 }
 
-TEST(LaserLog, WhatNoLaserHasIsSkipped) {
+TEST(LaserLog, SkipsImpossibleLaserGeometry) {
   const ScratchFolder folder;
   const std::string rest = " 50.0 0.1 0 3 1.0 50.0 2.0 0 1 2 0 1 2 0 0.1 0.2 0 0 0 12.5 host 1.0\n";
   put(folder / "a.log", "ROBOTLASER1 0 -1.0 0.0 0.0" + rest + "ROBOTLASER1 0 -1.0 2.0 4.0" + rest +
@@ -180,7 +180,7 @@ TEST(LaserLog, WhatNoLaserHasIsSkipped) {
               testing::HasSubstr("a.log:2:1: no laser has 3 beams, 4 rad"));
 }
 
-TEST(LaserLog, WhatIsNoLogIsRefused) {
+TEST(LaserLog, RefusesFilesThatAreNotLogs) {
   const ScratchFolder folder;
   EXPECT_THROW((void)openLaserLog(folder / "missing.log"), common::InputError);
   for (const char* text : {"", "no log\nat all\n"}) {

@@ -29,7 +29,7 @@ std::vector<std::string> linesOf(LineReader reader) {
 
 std::vector<std::string> linesOfText(std::string_view text) { return linesOf(LineReader::fromBytes(text, "text")); }
 
-/// Cut by hand, for comparison.
+/// Splits the text with a simple loop, for comparison.
 std::vector<std::string> cutByHand(std::string text) {
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -49,19 +49,19 @@ std::string longText() {
   return text;
 }
 
-TEST(LineReader, LinesEndAsUnixAndAsWindowsEndThem) {
+TEST(LineReader, AcceptsUnixAndWindowsLineEndings) {
   EXPECT_THAT(linesOfText("one\ntwo\r\n\nlast"), ElementsAre("one", "two", "", "last"));
   EXPECT_THAT(linesOfText("one\n"), ElementsAre("one"));
   EXPECT_THAT(linesOfText("\n\n"), ElementsAre("", ""));
   EXPECT_THAT(linesOfText(""), ElementsAre());
 }
 
-RC_GTEST_PROP(LineReader, AnyTextIsCutAsByHand, ()) {
+RC_GTEST_PROP(LineReader, SplitsAnyTextLikeASimpleLoop, ()) {
   const auto text = *rc::gen::container<std::string>(rc::gen::element('\n', '\r', 'a', '\0', '#'));
   RC_ASSERT(linesOfText(text) == cutByHand(text));
 }
 
-TEST(LineReader, CompressedFilesHaveTheSameLines) {
+TEST(LineReader, CompressedFilesGiveTheSameLines) {
   const ScratchFolder folder;
   const std::string text = longText();
   put(folder / "plain", text);
@@ -84,7 +84,7 @@ std::string readUntilProblem(const fs::path& file, int& lines) {
   });
 }
 
-TEST(LineReader, CutAndDamagedFilesAreSaid) {
+TEST(LineReader, ReportsTruncatedAndDamagedFiles) {
   const ScratchFolder folder;
   put(folder / "plain", longText());
   int lines = 0;
@@ -103,7 +103,7 @@ TEST(LineReader, CutAndDamagedFilesAreSaid) {
   }
 }
 
-/// A gzip file of one stored block, which any byte can be changed in without making it undecodable.
+/// A gzip file of one stored block: it can still be decoded when any byte of its content changes.
 std::string storedByGzip(const std::string& text) {
   struct Byte {
     std::size_t value;
@@ -118,7 +118,7 @@ std::string storedByGzip(const std::string& text) {
   return packed;
 }
 
-TEST(LineReader, TheChecksumAndLengthOfGzipAreChecked) {
+TEST(LineReader, ChecksChecksumAndLengthOfGzip) {
   const ScratchFolder folder;
   const std::string packed = storedByGzip("the first line\nthe second line\n");
   int lines = 0;
@@ -136,7 +136,7 @@ TEST(LineReader, TheChecksumAndLengthOfGzipAreChecked) {
   }
 }
 
-TEST(LineReader, MembersOfGzipFollowEachOtherAndThenOnlyZeros) {
+TEST(LineReader, ReadsSeveralGzipMembersAndAllowsOnlyZerosAfterThem) {
   const ScratchFolder folder;
   const std::string one = storedByGzip("the first line\n"), two = storedByGzip("the second line\n"), zeros(600, '\0');
   put(folder / "x", one + two + zeros);
@@ -155,7 +155,7 @@ TEST(LineReader, MembersOfGzipFollowEachOtherAndThenOnlyZeros) {
   EXPECT_THAT(readUntilProblem(folder / "x", lines), HasSubstr("packed more than 20 times"));
 }
 
-TEST(LineReader, WhatFollowsBzip2IsSaid) {
+TEST(LineReader, ReportsDataAfterBzip2) {
   const ScratchFolder folder;
   put(folder / "plain", "one\ntwo\n");
   const auto packed = outputOf("bzip2 -c " + (folder / "plain").string());
@@ -168,7 +168,7 @@ TEST(LineReader, WhatFollowsBzip2IsSaid) {
   EXPECT_EQ(lines, 2);
 }
 
-TEST(LineReader, AByteOrderMarkIsNoPartOfTheFirstLine) {
+TEST(LineReader, SkipsAByteOrderMark) {
   EXPECT_THAT(linesOfText("\xef\xbb\xbf"
                           "one\n\xef\xbb\xbf"
                           "two"),
@@ -179,7 +179,7 @@ TEST(LineReader, AByteOrderMarkIsNoPartOfTheFirstLine) {
   EXPECT_THAT(linesOfText("\xef\xbb"), ElementsAre("\xef\xbb"));
 }
 
-TEST(LineReader, LinesBeforeTheCutAreReturned) {
+TEST(LineReader, ReturnsTheLinesBeforeATruncation) {
   const ScratchFolder folder;
   put(folder / "plain", longText());
   const auto packed = outputOf("gzip -c " + (folder / "plain").string());
@@ -191,7 +191,7 @@ TEST(LineReader, LinesBeforeTheCutAreReturned) {
   EXPECT_GT(lines, 30'000);
 }
 
-TEST(LineReader, LongLinesAndLongFilesAreRefused) {
+TEST(LineReader, RefusesLongLinesAndLongFiles) {
   const std::string text = "short\n" + std::string(100, 'x') + "\n" + std::string(101, 'y') + "\nnever";
   const auto read = [&](LineLimits limits) {
     return problemOf([&] { linesOf(LineReader::fromBytes(text, "file", limits)); });
@@ -204,7 +204,7 @@ TEST(LineReader, LongLinesAndLongFilesAreRefused) {
   EXPECT_THAT(problemOf([&] { linesOf(LineReader::fromBytes(endless, "file")); }), HasSubstr("file:1: a line of more"));
 }
 
-TEST(LineReader, WhatIsNoFileIsRefused) {
+TEST(LineReader, RefusesAnythingButFiles) {
   const ScratchFolder folder;
   EXPECT_THAT(problemOf([&] { LineReader reader(folder / "none"); }),
               HasSubstr("none: cannot be opened: No such file"));
@@ -213,7 +213,7 @@ TEST(LineReader, WhatIsNoFileIsRefused) {
   EXPECT_THAT(problemOf([&] { LineReader reader(folder / "pipe"); }), HasSubstr("is a pipe"));
 }
 
-TEST(LineReader, ProblemsSayWhere) {
+TEST(LineReader, ReportsThePlaceOfProblems) {
   LineReader reader = LineReader::fromBytes("a\nb c\n", "x.txt");
   std::string_view line;
   reader.next(line);
@@ -221,7 +221,7 @@ TEST(LineReader, ProblemsSayWhere) {
   EXPECT_STREQ(reader.problemAt(3, "word", "is wrong", "hint").what(), "x.txt:2:3: word: is wrong, hint");
 }
 
-RC_GTEST_PROP(LineReader, LongLinesAreCutAndTheirRestIsNotHeld, ()) {
+RC_GTEST_PROP(LineReader, TruncatesLongLinesInBoundedMemory, ()) {
   const auto text = *rc::gen::container<std::string>(rc::gen::element('\n', 'a', 'b'));
   LineReader reader = LineReader::fromBytes(text, "text", {3, 1 << 20, true});
   std::size_t i = 0;
@@ -234,7 +234,7 @@ RC_GTEST_PROP(LineReader, LongLinesAreCutAndTheirRestIsNotHeld, ()) {
   RC_ASSERT(i == lines.size());
 }
 
-TEST(LineReader, ALineOfManyBlocksIsCut) {
+TEST(LineReader, TruncatesALineOfManyBlocks) {
   const std::string text = "one\n" + std::string(3'000'000, 'x') + "\ntwo\n" + std::string(500'000, 'y');
   LineReader reader = LineReader::fromBytes(text, "text", {100, 1 << 30, true});
   std::vector<std::size_t> sizes;

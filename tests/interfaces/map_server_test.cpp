@@ -38,14 +38,14 @@ bool sameKinds(const OccupancyGrid& a, const OccupancyGrid& b) {
   return same;
 }
 
-TEST(MapServer, GoldenFiles) {
+TEST(MapServer, WritesTheExpectedFiles) {
   EXPECT_EQ(toPgm(smallGrid()), std::string("P5\n# swiftlet 0.05 m/pixel\n3 2\n255\n\xfe\xfe\x00\x00\xcd\xfe", 41));
   EXPECT_EQ(toMapYaml(smallGrid(), "map.pgm"),
             "image: map.pgm\nmode: trinary\nresolution: 0.050000\norigin: [-0.100000, 0.150000, 0.000000]\n"
             "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
 }
 
-TEST(MapServer, EmptyMapIsOneUnknownPixel) {
+TEST(MapServer, AnEmptyMapIsOneUnknownPixel) {
   const ScratchFolder folder;
   ASSERT_TRUE(writeMap(folder, "map", common::makeOccupancyGrid(0.1)));
   const StoredMap map = readMap(folder / "map.yaml");
@@ -109,7 +109,7 @@ StoredMap readTwo(const fs::path& folder, const std::string& pixels, const std::
   return readMap(folder / "m.yaml");
 }
 
-TEST(MapServer, ModesThresholdsAndNegate) {
+TEST(MapServer, FollowsModeThresholdsAndNegate) {
   const ScratchFolder folder;
   const std::string origin = "origin: [0, 0, 0]\n";
   const std::string grey = {static_cast<char>(40), static_cast<char>(128)};  // Probabilities 0.84 and 0.50.
@@ -131,7 +131,7 @@ TEST(MapServer, PlacesAMapByItsOrigin) {
   const auto shifted = readTwo(folder, pixels, "origin: [-1.5, 1.0, 0.0]\n");
   EXPECT_EQ(kind(shifted.grid.at({-3, 2})), '#');
   EXPECT_EQ(shifted.T_map_grid.x_m, 0.0);
-  // The lattice of cells does not hold this origin: grid and remainder together do.
+  // This origin is not on the lattice of cells, so the grid and the remaining transform give it together.
   const auto between = readTwo(folder, pixels, "origin: [-1.3, 1.0, 0.0]\n");
   EXPECT_EQ(kind(between.grid.at({-3, 2})), '#');
   EXPECT_NEAR((between.T_map_grid * between.grid.centerOf({-3, 2})).x(), -1.3 + 0.25, 1e-12);
@@ -139,13 +139,13 @@ TEST(MapServer, PlacesAMapByItsOrigin) {
   EXPECT_NEAR((turned.T_map_grid * turned.grid.centerOf({1, 0}) - Eigen::Vector2d(0.75, 2.75)).norm(), 0, 1e-12);
 }
 
-TEST(MapServer, AsciiPicturesAndSmallRanges) {
+TEST(MapServer, ReadsAsciiPicturesAndSmallGreyRanges) {
   const GreyImage image = parsePgm("P2 # comment\n2 # another\n2\n15\n0 15\n# third\n7 3\n", "p");
   EXPECT_EQ(image.width_px, 2);
   EXPECT_EQ(image.pixels, std::string("\x00\xff\x77\x33", 4));
 }
 
-TEST(MapServer, BadPicturesSayWhere) {
+TEST(MapServer, ReportsThePlaceOfMistakesInPictures) {
   const auto problem = [](const std::string& bytes) { return problemOf([&] { parsePgm(bytes, "m.pgm"); }); };
   EXPECT_THAT(problem(""), HasSubstr("m.pgm:1: PGM: begins with ``, P5 or P2 was expected"));
   EXPECT_THAT(problem("\x89PNG"), HasSubstr("P5 or P2 was expected"));
@@ -157,7 +157,7 @@ TEST(MapServer, BadPicturesSayWhere) {
   EXPECT_THAT(problem("P2\n2 2\n9\n1 2\n10 3\n"), HasSubstr("m.pgm:5: pixel: `10` is not a whole number from 0 to 9"));
 }
 
-TEST(MapServer, BadYamlSaysWhere) {
+TEST(MapServer, ReportsThePlaceOfMistakesInYaml) {
   const ScratchFolder folder;
   const auto problem = [&](const std::string& yaml) {
     put(folder / "m.yaml", yaml);
@@ -185,7 +185,7 @@ struct Counts {
 };
 
 // The counts were taken from the files by a histogram of their pixels.
-TEST(MapServer, ReadsMapsByOthers) {
+TEST(MapServer, ReadsMapsOfOtherTools) {
   const auto folder = test_support::dataSet("05-occupancy-maps");
   if (!folder) return;
   const std::map<std::string, Counts> expected = {

@@ -22,7 +22,7 @@ const Pose2 kMount{0.2, -0.1, 3.1};
 /// Along an arc of 0.1 m a step.
 Pose2 poseAt(int i) { return Pose2{3.0, 2.0, -3.0} * Pose2{std::sin(0.1 * i), 1.0 - std::cos(0.1 * i), 0.1 * i}; }
 
-TEST(MountSurvey, ARigidMountIsTheOneMostRecordsHave) {
+TEST(MountSurvey, TheMountIsTheOneOfMostRecords) {
   MountSurvey survey;
   for (int i = 0; !survey.decided(); ++i)
     survey.add(i == 3 ? Pose2{9, 9, 9} : poseAt(i) * kMount * Pose2{0.005 * std::cos(i), 0.0, 0.005}, poseAt(i));
@@ -35,7 +35,7 @@ TEST(MountSurvey, ARigidMountIsTheOneMostRecordsHave) {
   EXPECT_FALSE(agrees({9, 9, 9}, mount));
 }
 
-TEST(MountSurvey, ItWaitsUntilSomethingMoved) {
+TEST(MountSurvey, WaitsForMotionBeforeItDecides) {
   MountSurvey survey;
   for (int i = 0; i < 100; ++i) survey.add({}, {});
   EXPECT_FALSE(survey.decided());
@@ -45,16 +45,16 @@ TEST(MountSurvey, ItWaitsUntilSomethingMoved) {
   EXPECT_TRUE(MountSurvey().result().rigid) << "no records, nothing odd";
 }
 
-TEST(MountSurvey, PosesOfDifferentOriginsAreNoMount) {
+TEST(MountSurvey, PosesWithDifferentOriginsGiveNoRigidMount) {
   MountSurvey survey;
-  // One is corrected, the other is raw odometry that drifts away from it.
+  // One pose is corrected, the other is raw odometry that drifts away from it.
   for (int i = 0; !survey.decided(); ++i) survey.add(poseAt(i) * Pose2{0.02 * i, 0, 0.01 * i}, poseAt(i));
   EXPECT_FALSE(survey.result().rigid);
   EXPECT_FALSE(survey.result().robot_stands);
   EXPECT_DOUBLE_EQ(survey.result().T_robot_laser.x_m, 0.0);
 }
 
-TEST(MountSurvey, ARobotThatNeverMovesWasNeverFilledIn) {
+TEST(MountSurvey, ReportsRobotPosesThatNeverChange) {
   MountSurvey survey;
   for (int i = 0; !survey.decided(); ++i) survey.add(poseAt(i), {});
   EXPECT_FALSE(survey.result().rigid);
@@ -68,7 +68,7 @@ std::string record(const Pose2& laser, const Pose2& robot, int i) {
   return line + " " + std::to_string(i) + " host 1\n";
 }
 
-TEST(CarmenMount, IsOneForTheWholeLog) {
+TEST(CarmenMount, IsTheSameForTheWholeLog) {
   const ScratchFolder folder;
   std::string text;
   for (int i = 0; i < 40; ++i) text += record(i == 30 ? Pose2{} : poseAt(i) * Pose2{-0.04, 0, 0}, poseAt(i), i);
@@ -82,7 +82,7 @@ TEST(CarmenMount, IsOneForTheWholeLog) {
   EXPECT_THAT(log->notes(), ElementsAre(HasSubstr("1 of the records have the laser elsewhere on the robot")));
 }
 
-TEST(CarmenMount, WhereTheRobotStandsTheLaserIsTheOdometry) {
+TEST(CarmenMount, UsesTheLaserPoseAsOdometryWhenTheRobotPoseNeverChanges) {
   const ScratchFolder folder;
   std::string text;
   for (int i = 0; i < 40; ++i) text += record(poseAt(i), {}, i);
@@ -101,7 +101,7 @@ struct Known {
 };
 
 // In all available logs, corrected ones included, the mount is constant.
-TEST(CarmenMount, OfRecordedLogsIsRigid) {
+TEST(CarmenMount, IsRigidInRecordedLogs) {
   for (const Known& known :
        {Known{"acapulco/acapulco-corrected.log.gz", 861, 181, 0.0},
         Known{"edmonton/edmonton-corrected.log.gz", 340, 180, 0.0},

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 const std::string kRelation = "976052905.167303 976052911.885496 -0.056990 -0.128430 0.5 0.1 -0.2 -1.682210\n";
 
-TEST(Relations, AreReadToTheMicrosecond) {
+TEST(Relations, AreReadWithMicroseconds) {
   const auto relations = parseRelations("# a comment\n\n" + kRelation + "1 2 0 0 0 0 0 0", "r");
   ASSERT_EQ(relations.size(), 2u);
   EXPECT_EQ(relations[0].from, Time::fromNanoseconds(976'052'905'167'303'000));
@@ -28,7 +28,7 @@ TEST(Relations, AreReadToTheMicrosecond) {
   EXPECT_TRUE(parseRelations("", "r").empty());
 }
 
-TEST(Relations, MistakesSayWhere) {
+TEST(Relations, ReportThePlaceOfMistakes) {
   const auto problem = [](const std::string& text) { return problemOf([&] { parseRelations(text, "x.relations"); }); };
   EXPECT_THAT(problem(kRelation + "1 2 0 0 0\n"),
               HasSubstr("x.relations:2:9: relation: 5 numbers instead of 8, expected `t1 t2 x y z roll pitch yaw`"));
@@ -40,11 +40,11 @@ TEST(Relations, MistakesSayWhere) {
   EXPECT_THAT(problem(kRelation + "1 2 0"), HasSubstr("x.relations:2:5: relation: 3 numbers"));
 }
 
-TEST(Relations, MissingFileIsNamed) {
+TEST(Relations, NameAMissingFile) {
   EXPECT_THAT(problemOf([] { readRelations("none.relations.gz"); }), HasSubstr("none.relations.gz: "));
 }
 
-TEST(Relations, OfTheBenchmark) {
+TEST(Relations, OfTheBenchmarkAreRead) {
   const auto intel = test_support::dataSet("01-laser-slam/intel/intel.relations.gz");
   const auto fr079 = test_support::dataSet("01-laser-slam/fr079/fr079.relations.gz");
   if (!intel || !fr079) return;
@@ -52,7 +52,7 @@ TEST(Relations, OfTheBenchmark) {
   EXPECT_EQ(readRelations(*fr079).size(), 1685u);
 }
 
-TEST(Poses, AreToldByTheNumberOfWords) {
+TEST(Poses, FormatIsRecognizedByTheNumberOfWords) {
   const ScratchFolder folder;
   put(folder / "tum", "# t x y z qx qy qz qw\n2.5 1 2 3 0 0 0 1\n1.5 4 5 6 0 0 0 1\n");
   const auto tum = readPoses(folder / "tum");
@@ -68,7 +68,7 @@ TEST(Poses, AreToldByTheNumberOfWords) {
   EXPECT_NEAR(common::yawOf(reference[0].pose.rotation), -0.354665, 1e-12);
 }
 
-TEST(Poses, OfNeitherFormatAreRefused) {
+TEST(Poses, InAnUnknownFormatAreRefused) {
   const ScratchFolder folder;
   const auto problem = [&](const std::string& text) {
     put(folder / "x", text);

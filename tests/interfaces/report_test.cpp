@@ -70,7 +70,7 @@ TEST(FlightReport, ShowsTheFlight) {
   expectBalanced(page);
 }
 
-TEST(FlightReport, ShowsNothingThatIsNotThere) {
+TEST(FlightReport, LeavesOutMissingParts) {
   FlightSummary summary;
   summary.info.mission = "hold";
   const std::string page = flightReport(summary, {}, {}, "");
@@ -80,13 +80,13 @@ TEST(FlightReport, ShowsNothingThatIsNotThere) {
   expectBalanced(page);
 }
 
-TEST(FlightReport, NothingLeftIsSaidOnlyOfAFlightThatExplored) {
+TEST(FlightReport, ReportsNothingLeftOnlyForAFlightThatExplored) {
   FlightSummary summary;
   summary.explored_area_m2 = 12.5;
   EXPECT_THAT(flightReport(summary, {}, {}, ""), HasSubstr("nothing was left to explore"));
 }
 
-TEST(FlightReport, TextStaysText) {
+TEST(FlightReport, EscapesText) {
   const std::string evil = "</pre><script>alert('1')</script>\" onload=\"x";
   const std::string page = flightReport(summaryOf(evil), eventsOf(evil, 1), {}, evil);
   EXPECT_THAT(page, Not(HasSubstr("<script")));
@@ -95,19 +95,19 @@ TEST(FlightReport, TextStaysText) {
   expectBalanced(page);
 }
 
-TEST(FlightReport, LoadsNothingFromElsewhere) {
+TEST(FlightReport, LoadsNoOtherFiles) {
   const std::string page = flightReport(summaryOf("house"), eventsOf("x", 3), {"PNG", "<svg></svg>", {}}, "a: 1");
   EXPECT_THAT(page, Not(testing::ContainsRegex("(src|href)=\"(https?:)?//")));
   EXPECT_THAT(page, Not(HasSubstr("@import")));
   EXPECT_THAT(page, Not(HasSubstr("url(")));
 }
 
-TEST(FlightReport, AFloodOfEventsIsCutAndSaid) {
+TEST(FlightReport, ShortensAFloodOfEventsAndReportsIt) {
   const std::string page = flightReport(summaryOf("house"), eventsOf("again", 5000), {}, "");
   EXPECT_THAT(page, HasSubstr("3000 more are in events.jsonl"));
 }
 
-TEST(TrialReport, TablesLinksAndPictures) {
+TEST(TrialReport, ShowsTablesLinksAndPictures) {
   TrialReport report{"unb_case1", "20 flights", false, {}, {}};
   report.tables.push_back(
       {"Flights", {"seed", "passed"}, {{{"7", Mark::kNone, "flights/a b-7/report.html"}, {"no", Mark::kBad}}}});
@@ -119,7 +119,7 @@ TEST(TrialReport, TablesLinksAndPictures) {
   expectBalanced(page);
 }
 
-TEST(Table, NumbersStandToTheRightAndWordsToTheLeft) {
+TEST(Table, AlignsNumbersRightAndWordsLeft) {
   const common::Table table{"T", {"name", "x"}, {{{"é"}, {"-1.50"}}, {{"longer"}, {""}}, {{"z"}, {"12"}}}};
   EXPECT_TRUE(common::isNumeric(table, 1));
   EXPECT_FALSE(common::isNumeric(table, 0));

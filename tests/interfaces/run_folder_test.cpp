@@ -63,7 +63,7 @@ struct Flight {
   }
   common::World world(MissionState mission, const std::string& phase) { return layers(mission, phase).world(); }
 
-  /// 10 s of it: two phases, estimates at 100 Hz, snapshots at 10 Hz.
+  /// Writes 10 s of the flight: two phases, estimates at 100 Hz, snapshots at 10 Hz.
   void flyInto(RunFolder& run) {
     for (int tick = 0; tick <= 1000; ++tick) {
       time_s = 0.01 * tick;
@@ -76,7 +76,7 @@ struct Flight {
   }
 };
 
-TEST(RunFolder, LeavesEveryFile) {
+TEST(RunFolder, ContainsEveryFile) {
   const ScratchFolder folder;
   const fs::path path = folder / "deep/run";
   RunFolder run(path, kInfo, "speed: 1\n");
@@ -116,7 +116,7 @@ TEST(RunFolder, LeavesEveryFile) {
   EXPECT_EQ(run.summary().samples.size(), 51u) << "5 Hz for 10 s";
 }
 
-TEST(RunFolder, HasWhereTheFlightWasInTheMapItWasGiven) {
+TEST(RunFolder, ContainsTheTrajectoryInTheGivenMap) {
   const ScratchFolder folder;
   RunInfo info = kInfo;
   info.given_map = "maps/office.yaml";
@@ -145,7 +145,7 @@ TEST(RunFolder, HasWhereTheFlightWasInTheMapItWasGiven) {
   EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("after 4.0 m"));
 }
 
-TEST(RunFolder, SameFlightSameBytes) {
+TEST(RunFolder, TheSameFlightGivesTheSameBytes) {
   const ScratchFolder folder;
   for (const char* name : {"a", "b"}) {
     RunFolder run(folder / name, kInfo, "");
@@ -196,7 +196,7 @@ TEST(RunFolder, IsReadableAfterTheProcessWasKilled) {
   EXPECT_FALSE(fs::exists(folder / "run/map.pgm")) << "no map of another flight";
 }
 
-TEST(RunFolder, FullDiskIsSaidAndNothingIsHalfWritten) {
+TEST(RunFolder, ReportsAFullDiskAndLeavesNoPartialFile) {
   const ScratchFolder folder;
   EXPECT_TRUE(withFullDisk(15'000, [&] {
     RunFolder run(folder / "run", kInfo, "");
@@ -212,7 +212,7 @@ TEST(RunFolder, FullDiskIsSaidAndNothingIsHalfWritten) {
   for (const auto& entry : fs::directory_iterator(folder / "run")) EXPECT_NE(entry.path().extension(), ".part");
 }
 
-TEST(RunFolder, RefusesFoldersOfOthers) {
+TEST(RunFolder, RefusesForeignFolders) {
   const ScratchFolder folder;
   const auto problem = [&](const fs::path& path) { return problemOf([&] { RunFolder(path, kInfo, ""); }); };
   put(folder / "home/thesis.tex", "years of work");
@@ -229,7 +229,7 @@ TEST(RunFolder, RefusesFoldersOfOthers) {
   EXPECT_THAT(problem(folder / "file/below"), HasSubstr("cannot be used: Not a directory"));
 }
 
-TEST(RunFolder, AFolderIsWrittenByOneFlightAtATime) {
+TEST(RunFolder, IsWrittenByOneFlightAtATime) {
   const ScratchFolder folder;
   {
     const RunFolder first(folder / "run", kInfo, "");
@@ -239,7 +239,7 @@ TEST(RunFolder, AFolderIsWrittenByOneFlightAtATime) {
   EXPECT_NO_THROW(RunFolder(folder / "run", kInfo, ""));
 }
 
-TEST(RunFolder, FreshNames) {
+TEST(RunFolder, GivesEachRunANewName) {
   const ScratchFolder folder;
   const auto fresh = [&] { return freshRunFolder(folder, "2025-01-31T14:05:09", "explore and/return"); };
   const fs::path first = fresh();
@@ -249,7 +249,7 @@ TEST(RunFolder, FreshNames) {
   EXPECT_EQ(fresh().filename(), "2025-01-31T14-05-09-explore-and-return-2");
 }
 
-TEST(RunFolder, FiguresAreShortAndWhatWasNotExploredIsNull) {
+TEST(RunFolder, RoundsFiguresAndWritesNullForUnexplored) {
   const ScratchFolder folder;
   RunFolder run(folder / "run", kInfo, "");
   Flight flight;
@@ -262,7 +262,7 @@ TEST(RunFolder, FiguresAreShortAndWhatWasNotExploredIsNull) {
   EXPECT_THAT(bytesOf(folder / "run/mission.json"), HasSubstr("\"distance_m\": 30.5631,"));
 }
 
-TEST(RunFolder, NotFiniteEstimatesAreLeftOut) {
+TEST(RunFolder, LeavesOutEstimatesThatAreNotFinite) {
   const ScratchFolder folder;
   RunFolder run(folder / "run", kInfo, "");
   Flight flight;

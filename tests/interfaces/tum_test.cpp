@@ -20,13 +20,13 @@ common::StampedPose pose(std::int64_t ns, double x, double y, double z, const Ei
   return {Time::fromNanoseconds(ns), {q, {x, y, z}}};
 }
 
-TEST(Tum, WritesOneLineAPose) {
+TEST(Tum, WritesOneLinePerPose) {
   EXPECT_EQ(toTumLine(pose(1'305'031'102'160'407'000, 1.344379, -0.5, 0, {0.5, -0.5, 0.5, -0.5})),
             "1305031102.160407000 1.344379000 -0.500000000 0.000000000 -0.500000000 0.500000000 -0.500000000 "
             "0.500000000\n");
 }
 
-TEST(Tum, NegativeZeroIsZero) {
+TEST(Tum, WritesNegativeZeroAsZero) {
   EXPECT_EQ(toTumLine(pose(0, -0.0, -1e-12, 0, Eigen::Quaterniond::Identity())),
             toTumLine(pose(0, 0, 0, 0, Eigen::Quaterniond::Identity())));
 }
@@ -58,26 +58,26 @@ TEST(Tum, SkipsCommentsAndBlankLinesAndTakesExponents) {
   EXPECT_EQ(trajectory[1].stamp, Time::fromNanoseconds(2'000'000'000));
 }
 
-TEST(Tum, TheLastLineOfAKilledWriterIsSaid) {
+TEST(Tum, ReportsATruncatedLastLine) {
   EXPECT_THAT(problemOf([] { parseTum("1 0 0 0 0 0 0 1\n2 0 0", "x.tum"); }),
               HasSubstr("x.tum:2:5: pose: 3 numbers instead of 8"));
   EXPECT_EQ(parseTum("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1", "x.tum").size(), 2u) << "only its newline is missing";
 }
 
-TEST(Tum, StampsInAnyOrderWhereThatIsAskedFor) {
+TEST(Tum, ReadsStampsInAnyOrderOnRequest) {
   const auto poses = parseTum("2 1 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 3 0 0 0 0 0 1\n", "t", StampOrder::kAny);
   ASSERT_EQ(poses.size(), 3u) << "as they stand in the file";
   EXPECT_EQ(poses[1].stamp, Time::fromSeconds(1));
   EXPECT_EQ(poses[2].pose.position_m.x(), 3);
 }
 
-TEST(Tum, MayBeCompressed) {
+TEST(Tum, ReadsCompressedFiles) {
   const auto file = test_support::dataSet("03-rgbd/tum-trajectories/freiburg1_xyz-groundtruth.txt.gz");
   if (!file) return;
   EXPECT_EQ(readTum(*file).size(), 3000u);
 }
 
-TEST(Tum, MistakesSayWhere) {
+TEST(Tum, ReportsThePlaceOfMistakes) {
   const auto problem = [](const std::string& text) { return problemOf([&] { parseTum(text, "x.tum"); }); };
   const std::string good = "1 0 0 0 0 0 0 1\n";
   EXPECT_THAT(problem(good + "2 0 0 0 0 0 1\n"), HasSubstr("x.tum:2:13: pose: 7 numbers instead of 8"));
@@ -93,7 +93,7 @@ TEST(Tum, MistakesSayWhere) {
   EXPECT_THAT(problemOf([] { readTum("/nowhere/x.tum"); }), HasSubstr("/nowhere/x.tum: cannot be opened"));
 }
 
-TEST(Tum, WriterLeavesOutWhatIsNotFinite) {
+TEST(Tum, LeavesOutPosesThatAreNotFinite) {
   const ScratchFolder folder;
   auto writer = TumWriter::create(folder / "t.tum");
   ASSERT_TRUE(writer);
@@ -103,7 +103,7 @@ TEST(Tum, WriterLeavesOutWhatIsNotFinite) {
   EXPECT_EQ(readTum(folder / "t.tum").size(), 1u);
 }
 
-TEST(Tum, ReadsTheBenchmarksOwnFiles) {
+TEST(Tum, ReadsTheFilesOfTheBenchmark) {
   const auto folder = test_support::dataSet("03-rgbd/tum-trajectories");
   if (!folder) return;
   const auto read = [&](const char* name) {

@@ -71,7 +71,7 @@ Count count(double disturbed_share, int cases) {
   return count;
 }
 
-TEST(Found, WithinAFewMetresAndNeverAtAWrongPlace) {
+TEST(Found, LocalizesWithinAFewMetresAndNeverAtAWrongPlace) {
   const char* asked = std::getenv("SWIFTLET_FOUND_CASES");
   const int cases = asked ? std::atoi(asked) : 8;
   for (const double disturbed_share : {0.0, 0.20}) {

@@ -84,7 +84,7 @@ std::vector<FittingPlace> exhaustively(const MapField& map, const GlobalSearchCo
   return places;
 }
 
-TEST(GlobalSearch, FindsThePlacesThatLookingAtEveryPoseFinds) {
+TEST(GlobalSearch, EqualsTheExhaustiveSearch) {
   const test::Building building = test::hall(2);
   const auto field = fieldOf(building);
   const test::Walks walks(building);
@@ -112,7 +112,7 @@ TEST(GlobalSearch, FindsThePlacesThatLookingAtEveryPoseFinds) {
 }
 
 /// It may miss the best pose then, but its results are valid places, and it says that there may be more.
-TEST(GlobalSearch, WithRoomForFewBlocksItSaysThatThereMayBeMore) {
+TEST(GlobalSearch, ReportsAnIncompleteSearchWhenMemoryIsShort) {
   const test::Building building = test::hall(2);
   GlobalSearchConfig config;
   config.max_blocks = 1000;
@@ -124,7 +124,7 @@ TEST(GlobalSearch, WithRoomForFewBlocksItSaysThatThereMayBeMore) {
   for (const FittingPlace& place : found.places) EXPECT_GT(place.fit, config.least_fit);
 }
 
-TEST(GlobalSearch, FindsBothOfTwinPlaces) {
+TEST(GlobalSearch, FindsBothOfTwoIdenticalPlaces) {
   const test::Building building = test::twinWings(1);
   const GlobalSearch search(fieldOf(building), GlobalSearchConfig{});
   const Pose2 here{7.0, 0.2, 0.4}, twin = Pose2{0.0, 0.0, std::numbers::pi} * here;
@@ -137,7 +137,7 @@ TEST(GlobalSearch, FindsBothOfTwinPlaces) {
     })) << pose.x_m;
 }
 
-TEST(PlacePosterior, SharpensWhatTheSearchFound) {
+TEST(PlacePosterior, RefinesThePlacesOfTheSearch) {
   const test::Building building = test::offices(11);
   const auto field = fieldOf(building);
   const test::Walks walks(building);

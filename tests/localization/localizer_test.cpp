@@ -53,7 +53,7 @@ double errorOf(const LocalizationEstimate& estimate, const Pose2& truth) {
   return (estimate.T_map_body.position_m() - truth.position_m()).norm();
 }
 
-TEST(Localizer, FindsItselfWithinAFewMetresAndStaysFound) {
+TEST(Localizer, LocalizesWithinAFewMetresAndStaysLocalized) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Story story(test::offices(seed), seed);
     double found_m = -1.0, worst_m = 0.0;
@@ -73,7 +73,7 @@ TEST(Localizer, FindsItselfWithinAFewMetresAndStaysFound) {
 }
 
 /// A robot that comes into the mapped building from another one, of which it has no map.
-TEST(Localizer, InAMapOfElsewhereSearchesComeApartAndTheWayBackIsFound) {
+TEST(Localizer, SearchesLessOftenOutsideTheMapAndLocalizesAfterReturning) {
   const test::Building elsewhere = test::hall(3), mapped = test::offices(3);
   Localizer localizer(test::mapOf(mapped), Pose2{}, {}, 3);
   common::RandomStream noise(3, "elsewhere");
@@ -116,8 +116,8 @@ TEST(Localizer, InAMapOfElsewhereSearchesComeApartAndTheWayBackIsFound) {
               walked_m - home_m);
 }
 
-/// What the covariance claims is what the errors are, within a factor.
-TEST(Localizer, SaysHonestlyHowUncertainItIs) {
+/// The errors agree with the covariance, within a factor.
+TEST(Localizer, ItsCovarianceAgreesWithItsErrors) {
   Story story(test::offices(4), 4);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal());
   double normalized = 0.0;
@@ -130,11 +130,11 @@ TEST(Localizer, SaysHonestlyHowUncertainItIs) {
     normalized += error.dot(estimate.covariance.topLeftCorner<2, 2>().inverse() * error);
     ++count;
   }
-  EXPECT_LT(normalized / count, 3.0 * 2.0);  // The mean is 2 where it is exactly honest.
+  EXPECT_LT(normalized / count, 3.0 * 2.0);  // The mean is 2 if the covariance is exact.
   EXPECT_GT(normalized / count, 2.0 / 20.0);
 }
 
-TEST(Localizer, TellsOfTwinPlacesThatItIsAmbiguous) {
+TEST(Localizer, IsAmbiguousBetweenTwoIdenticalPlaces) {
   const test::Building building = test::twinWings(2);
   Story story(building, 2);
   // Up and down one wing: nothing distinguishes it from the other.
@@ -149,7 +149,7 @@ TEST(Localizer, TellsOfTwinPlacesThatItIsAmbiguous) {
   EXPECT_EQ(story.localizer.state(), LocalizationState::kAmbiguous);
 }
 
-TEST(Localizer, WeighsOnlyWithScansTheOdometryWasNotMadeOf) {
+TEST(Localizer, WeighsOnlyWithScansThatTheOdometryDidNotUse) {
   Story story(test::offices(5), 5);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
   EXPECT_FALSE(story.localizer.wantsFreshScan(story.odometry.pose())) << "nothing is known of the odometry yet";
@@ -159,7 +159,7 @@ TEST(Localizer, WeighsOnlyWithScansTheOdometryWasNotMadeOf) {
     const auto estimate = story.step(false);
     EXPECT_EQ(estimate.T_map_odom.x_m, first.T_map_odom.x_m) << "moved by a scan of the odometry";
   }
-  // One scan of its own moves the particles; where it stands still nothing new is seen, and none is due.
+  // A scan that the odometry did not use moves the particles. At rest nothing new is seen, so no further scan is due.
   EXPECT_NE(story.step(true).T_map_odom.x_m, first.T_map_odom.x_m);
   const Pose2 here = story.odometry_at_scan;
   EXPECT_FALSE(story.localizer.wantsFreshScan(here));
@@ -167,8 +167,8 @@ TEST(Localizer, WeighsOnlyWithScansTheOdometryWasNotMadeOf) {
   EXPECT_TRUE(story.localizer.wantsFreshScan(here * Pose2{0.0, 0.0, 0.4}));
 }
 
-/// Without scans of its own the pose becomes less and less certain, until it is given up.
-TEST(Localizer, GivesUpAPoseThatTheOdometryAloneLedTo) {
+/// Without scans that the odometry did not use the pose becomes less and less certain, until it is given up.
+TEST(Localizer, GivesUpAPoseAfterLongOdometryWithoutScans) {
   LocalizerConfig config;
   config.odometry_share = 0.5;
   config.max_sigma_m = 0.15;
@@ -184,7 +184,7 @@ TEST(Localizer, GivesUpAPoseThatTheOdometryAloneLedTo) {
 }
 
 /// Turned on the spot, unnoticed by its odometry: the distance alone would not show the error.
-TEST(Localizer, SaysByHowMuchItIsTurnedWhereItIsNotElsewhere) {
+TEST(Localizer, ReportsTheErrorOfTheHeadingWhenThePositionIsRight) {
   Story story(test::offices(5), 5);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.0001).asDiagonal());
   for (int i = 0; i < 20; ++i) story.step();
@@ -197,7 +197,7 @@ TEST(Localizer, SaysByHowMuchItIsTurnedWhereItIsNotElsewhere) {
   EXPECT_NE(estimate.event->reason.find("turned by 4"), std::string::npos) << estimate.event->reason;
 }
 
-TEST(Localizer, TheSameSeedGivesTheSameBytes) {
+TEST(Localizer, TheSameSeedGivesIdenticalResults) {
   std::vector<double> first;
   for (int run = 0; run < 2; ++run) {
     Story story(test::offices(6), 6);
@@ -240,7 +240,7 @@ struct LateSearches {
   std::vector<std::string> reasons;
 };
 
-TEST(Localizer, ASearchBesideTheLoopThatIsBackAtOnceChangesNothing) {
+TEST(Localizer, AnImmediateBackgroundSearchEqualsASearchInTheLoop) {
   Story one(test::offices(2), 2), other(test::offices(2), 2);
   LateSearches searches;
   for (int i = 0; i < 150; ++i) {
@@ -252,7 +252,7 @@ TEST(Localizer, ASearchBesideTheLoopThatIsBackAtOnceChangesNothing) {
   EXPECT_EQ(one.localizer.state(), LocalizationState::kLocalized);
 }
 
-TEST(Localizer, ASearchThatComesHalfASecondLateIsOfThePlaceWhereItIsNow) {
+TEST(Localizer, ALateSearchResultIsMovedToThePresentPose) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Story story(test::offices(seed), seed);
     LateSearches searches;
@@ -267,7 +267,7 @@ TEST(Localizer, ASearchThatComesHalfASecondLateIsOfThePlaceWhereItIsNow) {
   }
 }
 
-TEST(Localizer, ASearchFromBeforeItWasToldItsPlaceChangesNothing) {
+TEST(Localizer, IgnoresASearchFromBeforeItWasGivenAPose) {
   Story story(test::offices(3), 3);
   LateSearches searches;
   while (!searches.result) searches.step(story, 1000);
@@ -276,8 +276,8 @@ TEST(Localizer, ASearchFromBeforeItWasToldItsPlaceChangesNothing) {
   EXPECT_FALSE(story.localizer.takeTask()) << "nothing is asked for";
 }
 
-/// Localized or not: the path before it was given a start does not count.
-TEST(Localizer, ToldItsPlaceOnTheWayItGoesOnFromThere) {
+/// Whether it was localized before or not, the path before the given start does not count.
+TEST(Localizer, ContinuesFromAPoseGivenDuringTheWalk) {
   for (const int steps : {10, 150}) {
     Story story(test::offices(3), 3);
     for (int i = 0; i < steps; ++i) story.step(i < 100);
@@ -290,9 +290,8 @@ TEST(Localizer, ToldItsPlaceOnTheWayItGoesOnFromThere) {
   }
 }
 
-/// Its odometry trembles, it sees one view repeatedly, and it has not moved a distance over which a place could have
-/// held.
-TEST(Localizer, StandingStillItIsNeverLocalized) {
+/// The odometry jitters and the view stays the same. The robot has not moved far enough to confirm a place.
+TEST(Localizer, IsNeverLocalizedAtRest) {
   for (const std::uint64_t seed : {1U, 2U, 6U, 7U}) {
     const test::Building building = test::offices(seed);
     Story story(building, seed);
@@ -307,7 +306,7 @@ TEST(Localizer, StandingStillItIsNeverLocalized) {
   }
 }
 
-TEST(Localizer, PlacesAGridThatStandsTurnedInTheMap) {
+TEST(Localizer, SupportsAGridThatIsRotatedInTheMap) {
   const test::Building building = test::offices(7);
   const Pose2 T_map_grid{10.0, -4.0, 0.7};
   test::Walks walks(building);
@@ -327,7 +326,7 @@ TEST(Localizer, PlacesAGridThatStandsTurnedInTheMap) {
   }
 }
 
-TEST(Localizer, RefusesMapsInWhichNothingCanBe) {
+TEST(Localizer, RefusesMapsWithoutFreeCellsAndMapsThatAreTooLarge) {
   common::OccupancyGrid map = common::makeOccupancyGrid(0.05);
   EXPECT_NE(Localizer::whyUnusable(map), "");
   map.set({0, 0}, common::occupancy::kMaxSteps);
@@ -339,7 +338,7 @@ TEST(Localizer, RefusesMapsInWhichNothingCanBe) {
 }
 
 /// Scans without points, points that are not numbers, time that goes back: nothing breaks, and no pose is invented.
-TEST(Localizer, TakesBadScansCalmly) {
+TEST(Localizer, ToleratesBadScans) {
   Story story(test::offices(8), 8);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
   for (int i = 0; i < 30; ++i) story.step();
@@ -357,8 +356,8 @@ TEST(Localizer, TakesBadScansCalmly) {
   }
 }
 
-/// An odometry that is for a moment not a pose, or has an invalid covariance.
-TEST(Localizer, TakesBadOdometryCalmly) {
+/// An odometry that is briefly not a valid pose, or has an invalid covariance.
+TEST(Localizer, ToleratesBadOdometry) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
   Story story(test::offices(8), 8);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
@@ -385,7 +384,7 @@ TEST(Localizer, TakesBadOdometryCalmly) {
 }
 
 /// The odometry may be interrupted while inputs are skipped; the interruption must still take effect.
-TEST(Localizer, AnInterruptionThatCameWithoutAPoseCounts) {
+TEST(Localizer, AnInterruptionWithoutAPoseTakesEffect) {
   Story story(test::offices(8), 8);
   story.localizer.startAt(story.walker.pose(), Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
   for (int i = 0; i < 30; ++i) story.step();

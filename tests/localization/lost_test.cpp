@@ -40,7 +40,7 @@ struct Total {
   }
 };
 
-TEST(Lost, IsSaidWhenItIsSoAndOnlyThen) {
+TEST(Lost, IsReportedWhenThePoseIsWrongAndOnlyThen) {
   Total all;
   std::printf(
       "| case                         | cases | wrong | noticed | alarms | false | worst s | localized | falsely |\n");

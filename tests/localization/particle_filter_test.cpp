@@ -14,7 +14,7 @@ using common::Pose2;
 using test::fieldOf;
 using test::pointsAt;
 
-TEST(ParticleFilter, DrawsAsManyParticlesAsTheBeliefNeeds) {
+TEST(ParticleFilter, DrawsAsManyParticlesAsTheSpreadRequires) {
   const test::Building building = test::offices(6);
   ParticleFilter filter(fieldOf(building), ParticleFilterConfig{}, 1);
   filter.spreadOverFreeSpace();
@@ -27,7 +27,7 @@ TEST(ParticleFilter, DrawsAsManyParticlesAsTheBeliefNeeds) {
 }
 
 /// The mean and spread of resampled particles are those of the weighted ones.
-TEST(ParticleFilter, DrawingAnewKeepsTheBelief) {
+TEST(ParticleFilter, ResamplingKeepsMeanAndSpread) {
   const test::Building building = test::offices(7);
   for (const bool adaptive : {false, true}) {
     ParticleFilterConfig config;
@@ -45,7 +45,7 @@ TEST(ParticleFilter, DrawingAnewKeepsTheBelief) {
   }
 }
 
-TEST(ParticleFilter, MovesAsToldWithTheNoiseTold) {
+TEST(ParticleFilter, MovesByTheGivenMotionAndNoise) {
   ParticleFilter filter(fieldOf(test::offices(8)), ParticleFilterConfig{}, 3);
   const PoseHypothesis here{{5.0, 0.0, 0.5}, Eigen::Matrix3d::Zero(), 1.0};
   filter.spreadAround(std::span(&here, 1));

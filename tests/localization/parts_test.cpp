@@ -20,7 +20,7 @@ namespace {
 using common::Pose2;
 using test::fieldOf;
 
-TEST(MapField, DistancesAreThoseToTheNearestWall) {
+TEST(MapField, DistancesEqualTheDistanceToTheNearestWall) {
   const test::Building building = test::offices(3);
   const common::OccupancyGrid map = test::mapOf(building);
   const MapField field(map, MapFieldConfig{});
@@ -42,7 +42,7 @@ TEST(MapField, DistancesAreThoseToTheNearestWall) {
   EXPECT_FALSE(field.at({NAN, 0.0}).known);
 }
 
-TEST(MapField, CountsTheFreeCellsRowByRow) {
+TEST(MapField, IndexesTheFreeCellsRowByRow) {
   const common::OccupancyGrid map = test::mapOf(test::offices(3));
   const MapField field(map, MapFieldConfig{});
   const common::CellRect known = common::knownExtent(map);
@@ -55,7 +55,7 @@ TEST(MapField, CountsTheFreeCellsRowByRow) {
   EXPECT_EQ(field.freeCells(), n);
 }
 
-TEST(MapField, RaysEndWhereTheBeamsOfTheWorldDo) {
+TEST(MapField, RaysEndAtTheWallsOfTheWorld) {
   const test::Building building = test::offices(4);
   const auto field = fieldOf(building);
   const test::Walks walks(building);
@@ -75,7 +75,7 @@ TEST(MapField, RaysEndWhereTheBeamsOfTheWorldDo) {
   EXPECT_LE(shorter, 20);
 }
 
-TEST(BeamSums, EveryInstructionSetGivesTheBitsOfTheScalarOne) {
+TEST(BeamSums, EveryInstructionSetEqualsTheScalarCode) {
   const auto field = fieldOf(test::offices(5));
   common::RandomStream random(3, "sums");
   for (const std::size_t count : {1U, 7U, 16U, 100U}) {
@@ -106,7 +106,7 @@ TEST(BeamSums, EveryInstructionSetGivesTheBitsOfTheScalarOne) {
   }
 }
 
-TEST(CosinesAndSines, AreThoseOfTheLibrary) {
+TEST(CosinesAndSines, EqualTheStandardLibrary) {
   std::vector<float> angles, cosines, sines;
   for (int i = -6280; i <= 6280; ++i) angles.push_back(0.001F * static_cast<float>(i));
   cosines.resize(angles.size());
@@ -118,13 +118,13 @@ TEST(CosinesAndSines, AreThoseOfTheLibrary) {
   }
 }
 
-TEST(KldSampling, NeedsWhatFoxsTableSays) {
+TEST(KldSampling, SampleSizeIsThatOfFox2003) {
   // Equation 7 of Fox 2003 at 100 bins, error 0.05, 99 %: chi-square quantile 134.6 over 2 epsilon.
   EXPECT_NEAR(kldSampleSize(100, 0.05, 2.326), 134.64 / 0.1, 3.0);
   EXPECT_EQ(kldSampleSize(1, 0.05, 2.326), 1.0);
 }
 
-TEST(KldSampling, WhatIsNoPlaceFallsIntoABinAsWell) {
+TEST(KldSampling, NanAndHugeValuesFallIntoBins) {
   PoseBins bins(0.25, 0.17);
   for (const double value : {0.0, 1e300, -1e300, std::numeric_limits<double>::quiet_NaN()}) bins.add(value, 0.0, 0.0);
   bins.add(0.3, 0.0, 0.0);
@@ -132,7 +132,7 @@ TEST(KldSampling, WhatIsNoPlaceFallsIntoABinAsWell) {
   EXPECT_EQ(bins.occupied(), 5U);
 }
 
-TEST(ScanSupport, TellsExplainedFromContradictedAndFromUnknown) {
+TEST(ScanSupport, DistinguishesExplainedContradictedAndUnknownBeams) {
   common::OccupancyGrid map = common::makeOccupancyGrid(0.05);
   // A room of 4 m by 4 m, wall at x = 4; nothing is known behind x = 6.
   for (int y = -40; y < 40; ++y) {
@@ -154,7 +154,7 @@ TEST(ScanSupport, TellsExplainedFromContradictedAndFromUnknown) {
   EXPECT_EQ(supportOfPoint(0.0F, 7.0F).beams, 1);
 }
 
-TEST(LostTest, NoticesAChangeHoweverLongAllWasWell) {
+TEST(LostTest, DetectsAChangeSoonAfterALongGoodTime) {
   LostTest test{LostTestConfig{}};
   const ScanSupport good{90, 90, 0.95}, bad{90, 90, 0.2}, none{90, 3, 0.0};
   for (int i = 0; i < 10'000; ++i) test.add(good, 0.1);
@@ -171,13 +171,13 @@ TEST(LostTest, NoticesAChangeHoweverLongAllWasWell) {
   EXPECT_FALSE(test.lost());
 }
 
-TEST(LocalMap, OnTheSpotItKeepsTheLastScansOnly) {
+TEST(LocalMap, KeepsOnlyTheLastScansAtRest) {
   LocalMap map(2.0);
   for (int i = 0; i < 1000; ++i) map.add({0.0, 0.0, 0.26 * i}, {{1.0F, 0.0F}});
   EXPECT_EQ(map.whole(1e-6, 10'000).points_middle_m.size(), 200U);
 }
 
-TEST(Odometer, CountsNoTremblingAndEveryWay) {
+TEST(Odometer, IgnoresJitterAndCountsEveryMotion) {
   common::RandomStream tremble(5, "tremble");
   Odometer still, gone;
   for (int i = 0; i < 1000; ++i) {
@@ -192,7 +192,7 @@ TEST(Odometer, CountsNoTremblingAndEveryWay) {
   EXPECT_NEAR(gone.path_length_m(common::Pose2{11.0, 0.0, 0.0}) - gone.path_length_m(), 1.0, 0.1);
 }
 
-TEST(LocalMap, ForgetsWhatLiesFarBack) {
+TEST(LocalMap, ForgetsScansFarBack) {
   LocalMap map(2.0);
   const std::vector<Eigen::Vector2f> points{{1.0F, 0.0F}, {1.0F, 1.0F}, {1.01F, 1.01F}};
   for (int i = 0; i <= 10; ++i) map.add({0.5 * i, 0.0, 0.0}, points);

@@ -45,7 +45,7 @@ Mapped mapOf(const fs::path& file, std::size_t count) {
   return mapped;
 }
 
-TEST(RecordedLocalization, IntelIsFoundFollowedAndFoundAgainAfterItWasCarriedAway) {
+TEST(RecordedLocalization, LocalizesTracksAndRelocalizesInIntel) {
   const auto file = test_support::dataSet("01-laser-slam/intel/intel.clf.bz2");
   if (!file) return;
   const Mapped mapped = mapOf(*file, 4000);

@@ -21,7 +21,7 @@ inline common::Pose3 randomPose3(common::RandomStream& random, double size) {
   return {common::expSO3(vector()), position_m};
 }
 
-/// Symmetric positive definite, its axes not those of the frame.
+/// A random symmetric positive definite matrix whose axes are not those of the frame.
 template <int kSize>
 Eigen::Matrix<double, kSize, kSize> randomInformation(common::RandomStream& random) {
   Eigen::Matrix<double, kSize, kSize> root;
@@ -41,7 +41,7 @@ struct Graph3D {
   static Matrix6d information(common::RandomStream& random) { return randomInformation<6>(random); }
 };
 
-/// `size` poses, each seen from the one before and some from others, with noise; the guess is the truth disturbed.
+/// `size` poses. Noisy edges connect each pose to the one before and some to others. The guess is the disturbed truth.
 template <typename Kind>
 typename Kind::Graph noisyGraph(int size, double noise, double guess_noise, common::RandomStream& random) {
   typename Kind::Graph graph;

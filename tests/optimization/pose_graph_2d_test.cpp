@@ -22,7 +22,7 @@ Pose2 added(const Pose2& pose, int axis, double step) {
   return moved;
 }
 
-/// A ring of poses, each seen from the one before with noise, and the ring closed.
+/// A ring of poses with a noisy edge from each to the next, and one edge that closes the ring.
 PoseGraph2D ring(int size, std::uint64_t seed, std::vector<Pose2>& truth) {
   common::RandomStream random(seed, "ring");
   truth.clear();
@@ -52,7 +52,7 @@ double worst(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
   return distance;
 }
 
-TEST(PoseGraph2D, JacobiansAreThoseOfTheError) {
+TEST(PoseGraph2D, JacobiansAreTheNumericDerivativesOfTheError) {
   common::RandomStream random(1, "jacobians");
   constexpr double kStep = 1e-6;
   for (int trial = 0; trial < 100; ++trial) {
@@ -73,13 +73,13 @@ TEST(PoseGraph2D, JacobiansAreThoseOfTheError) {
   }
 }
 
-TEST(PoseGraph2D, ClosingTheRingTakesTheDriftOut) {
+TEST(PoseGraph2D, ClosingTheRingRemovesTheDrift) {
   std::vector<Pose2> truth;
   const PoseGraph2D graph = ring(100, 3, truth);
   const PoseGraph2DSolution solution = optimize(graph, {});
   EXPECT_TRUE(solution.converged);
   EXPECT_LT(worst(solution.poses, truth), 0.5 * worst(graph.poses, truth));
-  // One loop of slack: three errors of freedom.
+  // With one loop, the errors have three degrees of freedom.
   double sum = 0.0;
   for (const double e : solution.squared_errors) sum += e;
   EXPECT_LT(sum, 20.0);
@@ -94,12 +94,12 @@ TEST(PoseGraph2D, AFalseClosureDoesNotBendTheMap) {
   const PoseGraph2DSolution robust = optimize(graph, {});
   EXPECT_LT(worst(robust.poses, truth), honest_m + 0.10);
   EXPECT_GT(robust.squared_errors.back(), 1000.0);
-  // Without the kernel it does.
+  // Without the robust kernel the false closure bends the map.
   graph.edges.back().robust = false;
   EXPECT_GT(worst(optimize(graph, {}).poses, truth), 1.0);
 }
 
-TEST(PoseGraph2D, TheSameGraphGivesTheSameBits) {
+TEST(PoseGraph2D, TheSameGraphGivesIdenticalResults) {
   std::vector<Pose2> truth;
   const PoseGraph2D graph = ring(200, 5, truth);
   const auto a = optimize(graph, {}), b = optimize(graph, {});
@@ -110,7 +110,7 @@ TEST(PoseGraph2D, TheSameGraphGivesTheSameBits) {
   }
 }
 
-TEST(PoseGraph2D, PosesThatNothingTiesStay) {
+TEST(PoseGraph2D, PosesWithoutEdgesStay) {
   PoseGraph2D graph;
   graph.poses = {{0, 0, 0}, {1.2, 0, 0}, {7, 8, 1}};
   graph.edges.push_back({0, 1, {1, 0, 0}, Eigen::Matrix3d::Identity(), false});
@@ -120,7 +120,7 @@ TEST(PoseGraph2D, PosesThatNothingTiesStay) {
   EXPECT_TRUE(optimize({}, {}).poses.empty());
 }
 
-TEST(PoseGraph2D, StopsAfterItsIterations) {
+TEST(PoseGraph2D, StopsAfterTheIterationLimit) {
   std::vector<Pose2> truth;
   PoseGraphConfig config;
   config.max_iterations = 1;

@@ -26,7 +26,7 @@ using test::sum;
 
 RandomStream anyStream() { return {*rc::gen::arbitrary<std::uint64_t>(), "pose graph"}; }
 
-/// By homogeneous matrices, as the definition reads.
+/// The error computed with homogeneous matrices, as in its definition.
 Vector6d errorByMatrices(const Pose3& from, const Pose3& to, const Pose3& seen) {
   const auto matrix = [](const Pose3& pose) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -47,7 +47,7 @@ Pose3 moved(const Pose3& pose, const Vector6d& step) {
   return {(pose.rotation * common::expSO3(step.tail<3>())).normalized(), pose.position_m + step.head<3>()};
 }
 
-/// How the seven numbers of a pose change with the step of `moved`.
+/// The derivative of the seven numbers of a pose with respect to the step of `moved`.
 Eigen::Matrix<double, 7, 6> numbersByStep(const Pose3& pose) {
   const auto& q = pose.rotation;
   Eigen::Matrix<double, 7, 6> matrix = Eigen::Matrix<double, 7, 6>::Zero();
@@ -68,19 +68,19 @@ Eigen::Matrix<double, 6, 6> derivative(Function&& function) {
   return matrix;
 }
 
-/// Poses that are not so far apart that the error's sign is about to change.
+/// Whether the rotation error is close to half a turn, where the sign of its quaternion changes.
 bool nearTurn(const Pose3& from, const Pose3& to, const Pose3& seen) {
   return edgeError(from, to, seen).error.tail<3>().norm() > 0.99;
 }
 
-RC_GTEST_PROP(PoseGraph3D, TheErrorIsThatOfG2o, ()) {
+RC_GTEST_PROP(PoseGraph3D, TheErrorEqualsTheDefinitionOfG2o, ()) {
   RandomStream random = anyStream();
   const Pose3 from = randomPose3(random, 2.0), to = randomPose3(random, 2.0), seen = randomPose3(random, 2.0);
   RC_PRE(!nearTurn(from, to, seen));
   RC_ASSERT((edgeError(from, to, seen).error - errorByMatrices(from, to, seen)).norm() < 1e-9);
 }
 
-RC_GTEST_PROP(PoseGraph3D, JacobiansAreThoseOfTheError, ()) {
+RC_GTEST_PROP(PoseGraph3D, JacobiansAreTheNumericDerivativesOfTheError, ()) {
   RandomStream random = anyStream();
   const Pose3 from = randomPose3(random, 2.0), to = randomPose3(random, 2.0), seen = randomPose3(random, 2.0);
   RC_PRE(!nearTurn(from, to, seen));
@@ -91,7 +91,7 @@ RC_GTEST_PROP(PoseGraph3D, JacobiansAreThoseOfTheError, ()) {
   RC_ASSERT((e.jacobian_to * numbersByStep(to) - by_to).norm() < 1e-6 * (1.0 + by_to.norm()));
 }
 
-RC_GTEST_PROP(PoseGraph3D, PosesAreAGroup, ()) {
+RC_GTEST_PROP(PoseGraph3D, PosesFormAGroup, ()) {
   RandomStream random = anyStream();
   const auto near = [](const Pose3& a, const Pose3& b) {
     return (a.position_m - b.position_m).norm() < 1e-9 && a.rotation.angularDistance(b.rotation) < 1e-7;
@@ -135,7 +135,7 @@ std::vector<Pose3> denseGaussNewton(const PoseGraph3D& graph) {
   return poses;
 }
 
-TEST(PoseGraph3D, TheOptimumIsThatOfDenseGaussNewton) {
+TEST(PoseGraph3D, TheOptimumEqualsThatOfDenseGaussNewton) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream random(seed, "dense");
     const PoseGraph3D graph = noisyGraph<Graph3D>(8, 0.05, 0.05, random);
@@ -152,7 +152,7 @@ TEST(PoseGraph3D, TheOptimumIsThatOfDenseGaussNewton) {
   }
 }
 
-/// A ring in space that climbs and comes back, each pose seen from the one before, and closed.
+/// A closed ring in space that climbs and comes back, with an edge from each pose to the next.
 PoseGraph3D ring(int size, RandomStream& random, std::vector<Pose3>& truth) {
   PoseGraph3D graph;
   for (int i = 0; i < size; ++i) {
@@ -199,7 +199,7 @@ TEST(PoseGraph3D, AFalseClosureDoesNotBendTheMap) {
   EXPECT_GT(worst(optimize(graph, {}).poses, truth), 1.0) << "without the kernel it does";
 }
 
-TEST(PoseGraph3D, TheSameGraphGivesTheSameBits) {
+TEST(PoseGraph3D, TheSameGraphGivesIdenticalResults) {
   RandomStream random(5, "ring");
   std::vector<Pose3> truth;
   const PoseGraph3D graph = ring(100, random, truth);
@@ -210,7 +210,7 @@ TEST(PoseGraph3D, TheSameGraphGivesTheSameBits) {
   }
 }
 
-TEST(PoseGraph3D, FixedPosesStayAndSoDoPosesThatNothingTies) {
+TEST(PoseGraph3D, FixedPosesAndPosesWithoutEdgesStay) {
   RandomStream random(6, "fixed");
   PoseGraph3D graph = noisyGraph<Graph3D>(6, 0.05, 0.05, random);
   graph.fixed = {2, 4};
@@ -224,7 +224,7 @@ TEST(PoseGraph3D, FixedPosesStayAndSoDoPosesThatNothingTies) {
   EXPECT_TRUE(optimize(PoseGraph3D{}, {}).poses.empty());
 }
 
-TEST(PoseGraph3D, StopsAfterItsIterations) {
+TEST(PoseGraph3D, StopsAfterTheIterationLimit) {
   RandomStream random(7, "stop");
   PoseGraphConfig config;
   config.max_iterations = 1;

@@ -40,7 +40,7 @@ double apart(const Graph&, const typename decltype(Graph::poses)::value_type& a,
   return edgeError(a, b, {}).error.squaredNorm();
 }
 
-TYPED_TEST(Starts, WithoutNoiseTheyAreExactWhateverTheGuess) {
+TYPED_TEST(Starts, AreExactForAnyGuessWithoutNoise) {
   RandomStream random(1, "exact");
   const auto graph = scrambled<TypeParam>(noisyGraph<TypeParam>(30, 0.0, 0.0, random), random);
   EXPECT_GT(chi2Of(graph, graph.poses), 100.0);
@@ -52,7 +52,7 @@ TYPED_TEST(Starts, WithoutNoiseTheyAreExactWhateverTheGuess) {
 }
 
 /// A graph that is optimized again does not change, and is reported as optimized.
-TYPED_TEST(Starts, AGraphAtItsOptimumHasConverged) {
+TYPED_TEST(Starts, AGraphAtItsOptimumIsReportedAsConverged) {
   for (const double sigma : {0.0, 0.05}) {
     RandomStream random(2, "again");
     auto graph = noisyGraph<TypeParam>(30, sigma, sigma, random);
@@ -64,26 +64,26 @@ TYPED_TEST(Starts, AGraphAtItsOptimumHasConverged) {
   }
 }
 
-TYPED_TEST(Starts, WhereNothingMayMoveNoStepIsTried) {
+TYPED_TEST(Starts, NoStepIsTriedWhenAllPosesAreFixed) {
   RandomStream random(3, "fixed");
   auto graph = noisyGraph<TypeParam>(1, 0.0, 0.0, random);
   graph.edges.clear();
   EXPECT_EQ(optimizeFromBestStart(graph, {}).iterations, 0);
 }
 
-TYPED_TEST(Starts, TheGuessDoesNotMatter) {
+TYPED_TEST(Starts, DoNotDependOnTheGuess) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "guess");
     const auto graph = noisyGraph<TypeParam>(40, 0.05, 0.05, random);
     const auto near = optimizeFromBestStart(graph, {});
     const auto far = optimizeFromBestStart(scrambled<TypeParam>(graph, random), {});
     EXPECT_NEAR(far.chi2, near.chi2, 1e-6 * near.chi2) << seed;
-    EXPECT_NEAR(near.chi2, chi2Of(graph, near.poses), 1e-9 * near.chi2) << "what is told is what the poses have";
+    EXPECT_NEAR(near.chi2, chi2Of(graph, near.poses), 1e-9 * near.chi2) << "the reported chi2 is that of the poses";
     EXPECT_GT(far.chi2_guess, near.chi2_guess);
   }
 }
 
-TYPED_TEST(Starts, TheBestIsNeverWorseThanAnyStart) {
+TYPED_TEST(Starts, TheBestIsNeverWorseThanEachAlone) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "noise");
     const auto graph = noisyGraph<TypeParam>(40, 0.5, 0.5, random);
@@ -96,7 +96,7 @@ TYPED_TEST(Starts, TheBestIsNeverWorseThanAnyStart) {
   }
 }
 
-TYPED_TEST(Starts, PartsThatNothingTiesKeepTheirFirstPose) {
+TYPED_TEST(Starts, UnconnectedPartsKeepTheirFirstPose) {
   RandomStream random(4, "parts");
   auto graph = noisyGraph<TypeParam>(10, 0.02, 0.3, random);
   const auto other = noisyGraph<TypeParam>(10, 0.02, 0.3, random);
@@ -128,7 +128,7 @@ TYPED_TEST(Starts, FixedPosesStayInPlace) {
   EXPECT_LT(solution.chi2, solution.chi2_guess);
 }
 
-TYPED_TEST(Starts, TheSameGraphGivesTheSameBits) {
+TYPED_TEST(Starts, TheSameGraphGivesIdenticalResults) {
   RandomStream random(6, "bits");
   const auto graph = noisyGraph<TypeParam>(60, 0.3, 0.5, random);
   const auto a = optimizeFromBestStart(graph, {}), b = optimizeFromBestStart(graph, {});
@@ -137,7 +137,7 @@ TYPED_TEST(Starts, TheSameGraphGivesTheSameBits) {
   EXPECT_EQ(squaredErrors(graph, a.poses), squaredErrors(graph, b.poses));
 }
 
-TYPED_TEST(Starts, GraphsOfNothingAndOfOnePose) {
+TYPED_TEST(Starts, AcceptGraphsWithNoneOrOnePose) {
   typename TypeParam::Graph graph;
   graph.poses.resize(1);
   EXPECT_EQ(optimizeFromBestStart(graph, {}).chi2, 0.0);

@@ -9,7 +9,7 @@ namespace {
 using common::Duration;
 using common::Time;
 
-TEST(BackgroundMap, GivesTheNewestThatIsOldEnough) {
+TEST(BackgroundMap, ReturnsTheNewestMapThatIsOldEnough) {
   BackgroundMap background(Duration::fromSeconds(2));
   EXPECT_EQ(background.at(Time::fromSeconds(0)), nullptr);
   std::vector<std::shared_ptr<const common::OccupancyGrid>> grids;

@@ -22,14 +22,14 @@ std::vector<Eigen::Vector2f> front(const Point& center, double radius_m, const P
   return points;
 }
 
-struct Moving : testing::Test {
+struct MovingObjects : testing::Test {
   common::OccupancyGrid grid = planning::test::room(200, 160);
   DynamicObstacles tracker{DynamicObstacles::Config()};
   Point sensor{5, 4};
   static Time at(double s) { return Time::fromSeconds(s); }
 };
 
-TEST_F(Moving, WallsAreExplainedAndUnknownSpaceIsNotDynamic) {
+TEST_F(MovingObjects, WallsAndUnknownSpaceAreNotMoving) {
   planning::test::fill(grid, {{150, 100}, {190, 150}}, common::occupancy::kUnknown);
   std::vector<Eigen::Vector2f> points;
   for (int i = 0; i < 100; ++i) points.push_back({10.02f, 1.0f + 0.05f * static_cast<float>(i)});  // a wall
@@ -40,7 +40,7 @@ TEST_F(Moving, WallsAreExplainedAndUnknownSpaceIsNotDynamic) {
   EXPECT_TRUE(tracker.obstacles().empty());
 }
 
-TEST_F(Moving, APersonIsOneDiscWithAVelocity) {
+TEST_F(MovingObjects, APersonIsOneDiscWithAVelocity) {
   const int id = 1;
   for (int i = 0; i <= 40; ++i) {
     const double t = i * 0.025;
@@ -54,7 +54,7 @@ TEST_F(Moving, APersonIsOneDiscWithAVelocity) {
   EXPECT_NEAR(person.radius_m, 0.2, 0.1);
 }
 
-TEST_F(Moving, WhoWalksIsKnownWithinHalfASecondAlsoWhenHiddenForAWhile) {
+TEST_F(MovingObjects, DetectsAWalkerWithinHalfASecondAndAfterAnOcclusion) {
   const auto walk = [&](double from_s, double to_s) {
     double known_s = to_s;
     for (double t = from_s; t < to_s; t += 0.025) {
@@ -70,7 +70,7 @@ TEST_F(Moving, WhoWalksIsKnownWithinHalfASecondAlsoWhenHiddenForAWhile) {
 }
 
 /// A nodding laser hits a lower object: it appears in one scan of four, each time elsewhere.
-TEST_F(Moving, WhatComesAndGoesDoesNotWalk) {
+TEST_F(MovingObjects, AnIntermittentObjectIsNotAWalker) {
   for (int i = 0; i < 120; ++i) {
     const double t = i * 0.025;
     const std::vector<Eigen::Vector2f> met = front({7.5, 3.6 + 0.2 * (i / 4 % 4)}, 0.25, sensor);
@@ -80,7 +80,7 @@ TEST_F(Moving, WhatComesAndGoesDoesNotWalk) {
   EXPECT_FALSE(tracker.obstacles().empty()) << "it is there all the same";
 }
 
-TEST_F(Moving, DiscsRunAheadAndExpire) {
+TEST_F(MovingObjects, DiscsArePredictedAndExpire) {
   for (int i = 0; i <= 40; ++i) {
     const double t = i * 0.025;
     tracker.update(at(t), front({7.5, 2.5 + t}, 0.25, sensor), sensor, grid);
@@ -96,7 +96,7 @@ TEST_F(Moving, DiscsRunAheadAndExpire) {
   EXPECT_TRUE(tracker.discs(at(3.5)).empty());
 }
 
-TEST_F(Moving, BeamsThroughItsPlaceRefuteIt) {
+TEST_F(MovingObjects, BeamsThroughItsPlaceRemoveADisc) {
   for (int i = 0; i < 10; ++i) tracker.update(at(i * 0.025), front({7.5, 4}, 0.25, sensor), sensor, grid);
   ASSERT_EQ(tracker.obstacles().size(), 1u);
   std::vector<Eigen::Vector2f> wall;
@@ -105,7 +105,7 @@ TEST_F(Moving, BeamsThroughItsPlaceRefuteIt) {
   EXPECT_TRUE(tracker.obstacles().empty());
 }
 
-TEST_F(Moving, TwoPeopleApartAreTwo) {
+TEST_F(MovingObjects, TwoPeopleAreTwoDiscs) {
   std::vector<Eigen::Vector2f> points = front({7.5, 3.2}, 0.25, sensor);
   for (const auto& p : front({7.5, 4.8}, 0.25, sensor)) points.push_back(p);
   tracker.update(at(0), points, sensor, grid);

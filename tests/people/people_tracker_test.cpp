@@ -47,7 +47,7 @@ struct People : testing::Test {
   }
 };
 
-TEST_F(People, AWalkerIsFollowedInTheMapAndPredictedToTheNextScan) {
+TEST_F(People, AWalkerIsTrackedInTheMapAndPredictedToTheNextScan) {
   walk(0.0, 1.0);
   ASSERT_EQ(tracker.obstacles().size(), 1u);
   EXPECT_TRUE(tracker.anyMoves());
@@ -57,13 +57,13 @@ TEST_F(People, AWalkerIsFollowedInTheMapAndPredictedToTheNextScan) {
   EXPECT_TRUE(expected[0].covers(Point(5.1, 5.75))) << "the side that faces the laser";
 }
 
-TEST_F(People, AnOldSightingIsNotPredictedButStillAvoided) {
+TEST_F(People, AnOldDetectionIsStillAvoidedButNotPredicted) {
   walk(0.0, 1.0);
   EXPECT_TRUE(tracker.expectedAt(Time::fromSeconds(1.5)).empty());
   EXPECT_FALSE(tracker.discs(Time::fromSeconds(1.5)).empty());
 }
 
-TEST_F(People, WhatIsAboveOrBelowTheHullIsNotInTheMapAndNotFollowed) {
+TEST_F(People, PointsAboveOrBelowTheHullAreNotTracked) {
   for (const float height_m : {0.3F, -0.3F}) {
     ProjectedScan scan = scanAt(height_m > 0 ? 1.0 : 2.0);
     addPerson(scan, Point(2, 0), height_m);
@@ -73,7 +73,7 @@ TEST_F(People, WhatIsAboveOrBelowTheHullIsNotInTheMapAndNotFollowed) {
 }
 
 /// The old background shows free space where the corrected map has a wall.
-TEST_F(People, AfterALoopClosureTheBackgroundBeginsAnew) {
+TEST_F(People, ALoopClosureRestartsTheBackground) {
   common::OccupancyGrid with_wall = planning::test::room(200, 160);
   planning::test::fill(with_wall, {{70, 112}, {130, 130}}, planning::test::kWallCell);
   const auto corrected = std::make_shared<common::OccupancyGrid>(with_wall);
@@ -90,7 +90,7 @@ TEST_F(People, AfterALoopClosureTheBackgroundBeginsAnew) {
   EXPECT_EQ(without_jump.obstacles().size(), 1u) << "without the jump the background is still the old one";
 }
 
-TEST_F(People, PointsOnPeopleAreNotMatched) {
+TEST_F(People, PointsOnPeopleAreLeftOutOfTheMatch) {
   ProjectedScan scan = scanAt(0.0);
   for (int i = 0; i < 100; ++i) {
     scan.points_level_m.push_back({3.0F, 0.05F * static_cast<float>(i) - 2.5F});
@@ -105,7 +105,7 @@ TEST_F(People, PointsOnPeopleAreNotMatched) {
   EXPECT_EQ(withoutPeople({}, T_map_body, scan).points_level_m.size(), all);
 }
 
-TEST_F(People, WhereTooLittleWouldRemainPeopleAreMatchedAllTheSame) {
+TEST_F(People, PointsOnPeopleStayInTheMatchWhenTooFewWouldRemain) {
   ProjectedScan scan = scanAt(0.0);
   addPerson(scan, Point(2, 0));
   const Disc person{T_map_body * Point(2, 0), 0.45};

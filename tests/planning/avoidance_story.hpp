@@ -54,7 +54,7 @@ class Story {
     background_.add(now, snapshot_);
   }
 
-  /// What SLAM does all the time: a standing person gets into the map, and out again.
+  /// Draws standing people into the map and removes them again, as SLAM does all the time.
   void mapScan(const std::vector<Eigen::Vector2f>& points_map) {
     for (const auto& p : points_map) {
       const Point hit = p.cast<double>(), step = hit - pose.position_m();

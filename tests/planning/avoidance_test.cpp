@@ -19,7 +19,7 @@ using test::Point;
 using test::Story;
 using testing::HasSubstr;
 
-TEST(Avoidance, NothingNearNothingLimited) {
+TEST(Avoidance, DoesNotLimitTheSpeedInOpenSpace) {
   Story story;
   const AvoidanceDecision d = story.sense({0.5, 0});
   EXPECT_EQ(d.speed_limit_m_s, Avoidance::Config().max_speed_m_s);
@@ -28,7 +28,7 @@ TEST(Avoidance, NothingNearNothingLimited) {
   EXPECT_NEAR(d.status.nearest_m, 4.0 - kHull_m, 0.06);
 }
 
-TEST(Avoidance, FliesSlowlyWhereItDoesNotLook) {
+TEST(Avoidance, FliesSlowlyOutsideTheViewOfTheLaser) {
   Story story;
   const Avoidance::Config config;
   EXPECT_EQ(story.sense({0.8, 0.0}).speed_limit_m_s, config.max_speed_m_s);
@@ -36,7 +36,7 @@ TEST(Avoidance, FliesSlowlyWhereItDoesNotLook) {
   EXPECT_EQ(story.sense({-0.8, 0.1}).speed_limit_m_s, config.blind_speed_m_s);
 }
 
-TEST(Avoidance, FullSpeedAtAWallStopsBeforeIt) {
+TEST(Avoidance, StopsBeforeAWallFromFullSpeed) {
   Story story;
   for (int i = 0; i < 600; ++i) story.tick({1.5, 0});
   EXPECT_LT(story.velocity_map_m_s.norm(), 0.02);
@@ -45,7 +45,7 @@ TEST(Avoidance, FullSpeedAtAWallStopsBeforeIt) {
   EXPECT_EQ(story.retreats, 0);  // the wall is known
 }
 
-TEST(Avoidance, AWallAlongsideAtThePlannersClearanceDoesNotBrake) {
+TEST(Avoidance, AWallAtThePlannersClearanceDoesNotBrake) {
   Story story;
   story.pose.y_m = kHull_m + 0.10;
   const AvoidanceDecision d = story.sense({1.0, 0});
@@ -59,7 +59,7 @@ TEST(Avoidance, AWallAlongsideAtThePlannersClearanceDoesNotBrake) {
   EXPECT_EQ(story.sense({0, -1.0}).speed_limit_m_s, 0.0);
 }
 
-TEST(Avoidance, TheMeanHidesAThinPoleTheRobustMinimumDoesNot) {
+TEST(Avoidance, TheRobustMinimumSeesAThinPoleThatTheMeanHides) {
   Avoidance::Config mean, robust;
   mean.bin_range = Avoidance::BinRange::kMean;
   for (const double distance_m : {0.8, 1.2, 1.6}) {
@@ -83,7 +83,7 @@ TEST(Avoidance, TheMeanHidesAThinPoleTheRobustMinimumDoesNot) {
   }
 }
 
-TEST(Avoidance, BrakesWhoWouldBeFasterThanTheLimit) {
+TEST(Avoidance, BrakesOnlyIntentsFasterThanTheLimit) {
   Story story;
   story.pose = {5.0, 7.4, 0.0};  // 0.6 m from the wall.
   EXPECT_TRUE(story.sense({0, 1.0}).status.braking);
@@ -101,7 +101,7 @@ TEST(Avoidance, OneStrayReturnDoesNotBrake) {
   EXPECT_FALSE(d.status.braking);
 }
 
-TEST(Avoidance, SomethingUnmappedCloseMakesItRetreatStraightAway) {
+TEST(Avoidance, RetreatsDirectlyAwayFromACloseUnmappedObject) {
   Story story;
   story.people.push_back({{5.0 + kHull_m + 0.25 + 0.15, 4.0}, {0, 0}});
   AvoidanceDecision d;
@@ -127,7 +127,7 @@ TEST(Avoidance, ARetreatDoesNotBackIntoAWallTheLaserDoesNotSee) {
   EXPECT_GT(story.least_gap_m, 0.0);
 }
 
-TEST(Avoidance, APersonCrossingIsYieldedTo) {
+TEST(Avoidance, YieldsToAPersonWhoCrosses) {
   // Crossing 1.5 m ahead at 1 m/s, from either side, at any phase.
   for (const double side : {-1.0, 1.0}) {
     for (double phase_m = 0.5; phase_m <= 3.0; phase_m += 0.25) {
@@ -144,7 +144,7 @@ TEST(Avoidance, APersonCrossingIsYieldedTo) {
   }
 }
 
-TEST(Avoidance, APersonWalkingAtItIsAvoided) {
+TEST(Avoidance, AvoidsAPersonWhoWalksTowardsIt) {
   for (const double aside_m : {-0.3, -0.1, 0.0, 0.1, 0.3}) {
     Story story;
     story.beams = 361;
@@ -158,7 +158,7 @@ TEST(Avoidance, APersonWalkingAtItIsAvoided) {
   }
 }
 
-TEST(Avoidance, AFollowerWasSeenAndIsNotForgotten) {
+TEST(Avoidance, RemembersAPersonBehindIt) {
   // Seen while it passed from the front to the side, then in the rear 90 deg: the memory prevents a flight backwards.
   Story story;
   story.pose = {5.0, 4.0, 0.0};
@@ -179,7 +179,7 @@ double bearing_deg(const Story& story, const Point& direction_map) {
   return std::atan2(level.y(), level.x()) * 180.0 / std::numbers::pi;
 }
 
-TEST(Avoidance, TurnsUntilItSeesWhatItRetreatsFrom) {
+TEST(Avoidance, TurnsUntilItSeesTheObjectItRetreatsFrom) {
   // A person comes from the edge of the laser's view.
   Story story;
   const double from_rad = 125.0 * std::numbers::pi / 180.0;
@@ -199,7 +199,7 @@ TEST(Avoidance, TurnsUntilItSeesWhatItRetreatsFrom) {
   EXPECT_GT(story.least_gap_m, 0.05);
 }
 
-TEST(Avoidance, TurnsItsSideToWhoComesFromTheFrontToSeeTheWayOut) {
+TEST(Avoidance, TurnsItsSideToAnApproachingPersonToSeeItsEscape) {
   Story story;
   story.people.push_back({{7.5, 4.02}, {-0.5, 0}});
   int retreated = 0;
@@ -214,7 +214,7 @@ TEST(Avoidance, TurnsItsSideToWhoComesFromTheFrontToSeeTheWayOut) {
   EXPECT_GT(story.least_gap_m, 0.05);
 }
 
-TEST(Avoidance, WhatTheMapHoldsDoesNotMakeItRetreat) {
+TEST(Avoidance, DoesNotRetreatFromMappedObstacles) {
   Story story(60, 30);  // 3 m by 1.5 m
   for (double y = kHull_m + 0.10; y <= 1.5 - kHull_m - 0.10; y += 0.1) {
     story.pose = {1.5, y, 0.3};
@@ -222,7 +222,7 @@ TEST(Avoidance, WhatTheMapHoldsDoesNotMakeItRetreat) {
   }
 }
 
-TEST(Avoidance, DoesNotChatter) {
+TEST(Avoidance, DoesNotSwitchBackAndForthNearTheRetreatDistance) {
   Story story;
   story.people.push_back({{5.0 + kHull_m + 0.25 + 0.26, 4.0}, {0, 0}});
   for (int i = 0; i < 400; ++i) {
@@ -233,7 +233,7 @@ TEST(Avoidance, DoesNotChatter) {
   EXPECT_LE(story.retreats, 2);
 }
 
-TEST(Avoidance, WithoutAMapItStillBrakes) {
+TEST(Avoidance, BrakesWithoutAMap) {
   Story story;
   story.pose = {9.4, 4.0, 0.0};
   const auto points = story.scan();
@@ -245,7 +245,7 @@ TEST(Avoidance, WithoutAMapItStillBrakes) {
             Avoidance::Config().max_speed_m_s);
 }
 
-TEST(Avoidance, AMarginThatForbidsTheClearanceIsRefused) {
+TEST(Avoidance, RefusesMarginsThatForbidTheClearance) {
   Avoidance::Config config;
   EXPECT_TRUE(common::config::problemsOf(config).empty());
   EXPECT_TRUE(config.validateAgainst(0.10, 0.25).empty());

@@ -38,7 +38,7 @@ RC_GTEST_PROP(CostMap, DistancesEqualBruteForce, (std::uint64_t seed)) {
   }
 }
 
-RC_GTEST_PROP(CostMap, RepairedEqualsFresh, (std::uint64_t seed)) {
+RC_GTEST_PROP(CostMap, ARepairedMapEqualsAFreshOne, (std::uint64_t seed)) {
   common::RandomStream random(seed, "repair");
   common::OccupancyGrid grid = test::room(150, 100);
   CostMap map({}, grid.resolution_m());
@@ -82,7 +82,7 @@ TEST(CostMap, UnknownIsNotFree) {
   EXPECT_EQ(test::mapOf(grid, {}, bold).costAt({-10, 30}), CostMap::kOpenCost);
 }
 
-TEST(CostMap, SliversBetweenBeamsCloseButHolesDoNot) {
+TEST(CostMap, FillsThinUnknownLinesButNotHoles) {
   common::OccupancyGrid grid = test::room(100, 100);
   for (int i = 20; i < 80; ++i) grid.set({i, i / 2 + 10}, common::occupancy::kUnknown);
   test::fill(grid, {{60, 70}, {63, 73}}, common::occupancy::kUnknown);
@@ -93,7 +93,7 @@ TEST(CostMap, SliversBetweenBeamsCloseButHolesDoNot) {
   EXPECT_EQ(map.stateAt({-1, 50}), CellState::kUnknown);
 }
 
-TEST(CostMap, DiscsAreKeptClearOfAndLeaveNoTrace) {
+TEST(CostMap, DiscsAreInflatedAndLeaveNoTrace) {
   common::OccupancyGrid grid = test::room(100, 100);
   CostMap map = test::mapOf(grid);
   const auto before = map.costs();
@@ -106,7 +106,7 @@ TEST(CostMap, DiscsAreKeptClearOfAndLeaveNoTrace) {
   EXPECT_EQ(map.costs(), before);
 }
 
-TEST(CostMap, ConfigProblemsAreNamed) {
+TEST(CostMap, ReportsConfigProblems) {
   CostMap::Config config;
   config.comfort_distance_m = -1;
   EXPECT_EQ(common::config::problemsOf(config).size(), 1u);

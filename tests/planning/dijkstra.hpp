@@ -14,7 +14,7 @@ namespace swiftlet::planning::test {
 
 inline constexpr std::int64_t kNever = INT64_MAX;
 
-/// Cost from `source` to every cell, by the rules as the headers state them and nothing of their code.
+/// Cost from `source` to every cell, by the rules stated in the planners' headers. It shares no code with the planners.
 inline std::vector<std::int64_t> dijkstra(const CostMap& map, int source) {
   std::vector<std::int64_t> cost(map.size(), kNever);
   using Entry = std::pair<std::int64_t, int>;

@@ -31,7 +31,7 @@ void expectExplored(const test::FlightReport& report, const std::string& name) {
   }
 }
 
-/// Kept in the test's record: the figures of a flight.
+/// Writes the figures of a flight into the test's record.
 void record(const test::FlightReport& r, const std::string& name) {
   testing::Test::RecordProperty(name, fmt::format("{:.1f} s {:.1f} m coverage {:.4f} {} calls {} frontiers left",
                                                   r.time_s, r.length_m, r.coverage, r.calls, r.last.frontiers.size()));
@@ -48,7 +48,7 @@ int countOf(const ExplorationResult& result, FrontierReason reason) {
                                         [&](const common::Frontier& f) { return f.reason == reason; }));
 }
 
-TEST(Exploration, PocketsBehindBoxesAreSeen) {
+TEST(Exploration, PocketsBehindBoxesAreExplored) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const std::string name = fmt::format("pocket_{}", seed);
     const test::FlightReport report = test::fly(test::pocketRoom(seed), quick(), seed);
@@ -67,7 +67,7 @@ TEST(Exploration, RandomBuildingsAreExplored) {
   }
 }
 
-TEST(Exploration, ByTheNearestFrontierBuildingsAreExploredToo) {
+TEST(Exploration, TheNearestFrontierExplorerExploresBuildingsToo) {
   test::FlightConfig config = quick();
   config.explorer.kind = ExplorerKind::kNearestFrontier;
   for (const bool pockets : {true, false}) {
@@ -80,7 +80,7 @@ TEST(Exploration, ByTheNearestFrontierBuildingsAreExploredToo) {
 }
 
 /// Beside the vehicle a nook of half a metre, across the hall an unknown room.
-TEST(NearestFrontier, IsFlownToHoweverLittleIsThereAndKeptUntilItIsReached) {
+TEST(NearestFrontier, IsChosenWhateverItsSizeAndKeptUntilReached) {
   common::OccupancyGrid grid = test::room(200, 100);
   test::fill(grid, {{30, 100}, {50, 101}}, test::kFreeCell);
   test::fill(grid, {{25, 102}, {55, 103}}, test::kWallCell);
@@ -109,7 +109,7 @@ TEST(NearestFrontier, IsFlownToHoweverLittleIsThereAndKeptUntilItIsReached) {
   EXPECT_GT(last.next->target_map_m.x(), 9.0);
 }
 
-TEST(Exploration, AWallThatSwallowsBeamsDoesNotKeepItFlying) {
+TEST(Exploration, EndsBesideAWallThatReturnsNoBeams) {
   test::Flatland world = test::pocketRoom(3);
   world.black.push_back({{world.width - 2, 40}, {world.width, 90}});
   test::FlightConfig config = quick();
@@ -136,7 +136,7 @@ struct TwoRooms : testing::Test {
   }
 };
 
-TEST_F(TwoRooms, ADoorwayIsOpenAndLookedInto) {
+TEST_F(TwoRooms, ADoorwayIsAnOpenFrontierWithAViewpoint) {
   const ExplorationResult result = look(24);
   ASSERT_EQ(result.frontiers.size(), 1u);
   EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kOpen);
@@ -150,7 +150,7 @@ TEST_F(TwoRooms, ADoorwayIsOpenAndLookedInto) {
   EXPECT_NEAR(result.explored_area_m2, (100 * 100 + 24) * 0.0025, 1e-6);
 }
 
-TEST_F(TwoRooms, ACrackIsTooSmall) {
+TEST_F(TwoRooms, ACrackIsReportedAsTooSmall) {
   const ExplorationResult result = look(3);
   ASSERT_EQ(result.frontiers.size(), 1u);
   EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kTooSmall);
@@ -159,13 +159,13 @@ TEST_F(TwoRooms, ACrackIsTooSmall) {
   EXPECT_FALSE(result.next);
 }
 
-TEST_F(TwoRooms, OutOfBounds) {
+TEST_F(TwoRooms, AFrontierBeyondTheBoundsIsReportedAsOutOfBounds) {
   ExplorationInput input;
   input.bounds = common::MapBounds{{0, 0}, {4.5, 5}};
   EXPECT_EQ(look(24, input).frontiers[0].reason, FrontierReason::kOutOfBounds);
 }
 
-TEST_F(TwoRooms, BlacklistedAfterEnoughLooks) {
+TEST_F(TwoRooms, AFrontierIsBlacklistedAfterEnoughLooks) {
   ExplorationInput input;
   for (int i = 0; i < ExplorationConfig{}.max_attempts; ++i) {
     const ExplorationResult result = look(24, input);
@@ -188,7 +188,7 @@ TEST_F(TwoRooms, TheSameInputGivesTheSameAnswer) {
   EXPECT_EQ(a.next->utility, b.next->utility);
 }
 
-TEST_F(TwoRooms, TheViewpointIsKeptWhileItIsGoodEnough) {
+TEST_F(TwoRooms, KeepsTheViewpointWhileItIsGoodEnough) {
   ExplorationInput input;
   input.current = look(24).next;
   const Eigen::Vector2d place = input.current->pose_map.position_m();
@@ -201,7 +201,7 @@ TEST_F(TwoRooms, TheViewpointIsKeptWhileItIsGoodEnough) {
   EXPECT_FALSE(look(24, input).kept_current);
 }
 
-TEST(Exploration, BehindAPassageTooNarrowForTheHullIsUnreachable) {
+TEST(Exploration, FrontiersBehindANarrowPassageAreUnreachable) {
   // A passage 0.4 m wide that turns up; the room to the left of its end shows from inside the passage alone.
   common::OccupancyGrid grid = test::room(100, 100);
   test::fill(grid, {{100, 47}, {119, 57}}, test::kWallCell);
@@ -218,7 +218,7 @@ TEST(Exploration, BehindAPassageTooNarrowForTheHullIsUnreachable) {
   EXPECT_TRUE(result.done);
 }
 
-TEST(Exploration, AVehicleShutInSaysSo) {
+TEST(Exploration, ReportsAVehicleThatIsShutIn) {
   common::OccupancyGrid grid = test::room(40, 4);
   auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
   map->update(grid.snapshot(), {});
@@ -229,7 +229,7 @@ TEST(Exploration, AVehicleShutInSaysSo) {
   }
 }
 
-TEST(Frontiers, LongOnesAreCutAndCoverEveryBorderCell) {
+TEST(Frontiers, SplitLongOnesAndCoverEveryBorderCell) {
   common::OccupancyGrid grid = common::makeOccupancyGrid(0.05);
   test::fill(grid, {{0, 0}, {120, 80}}, test::kFreeCell);
   const CostMap map = test::mapOf(grid);

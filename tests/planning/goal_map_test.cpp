@@ -18,7 +18,7 @@ struct GoalMapTest : testing::Test {
   common::OccupancyGrid grid = test::room(160, 80);
 };
 
-TEST_F(GoalMapTest, TellsWhatIsAtAPlace) {
+TEST_F(GoalMapTest, GivesTheStateOfAPlace) {
   const CostMap map = test::mapOf(grid);
   const CostGoalMap goals(map);
   EXPECT_EQ(goals.stateAt({2.0, 2.0}, 0.10), PlaceState::kFree);
@@ -28,7 +28,7 @@ TEST_F(GoalMapTest, TellsWhatIsAtAPlace) {
   EXPECT_EQ(goals.stateAt({3.8, 2.0}, 0.10), PlaceState::kTooClose);
 }
 
-TEST_F(GoalMapTest, AgreesWithThePlannerEverywhere) {
+TEST_F(GoalMapTest, AgreesWithThePlannerInEveryCell) {
   test::fill(grid, {{20, 20}, {30, 30}}, common::occupancy::kUnknown);
   const std::vector<common::Disc> people{{{6.5, 2.0}, 0.4}};
   const CostMap map = test::mapOf(grid, {}, {}, {.discs = people});
@@ -43,7 +43,7 @@ TEST_F(GoalMapTest, AgreesWithThePlannerEverywhere) {
   }
 }
 
-TEST_F(GoalMapTest, AnotherClearanceThanTheMapsIsJudgedByTheObstacles) {
+TEST_F(GoalMapTest, JudgesOtherClearancesByTheObstacles) {
   const CostMap map = test::mapOf(grid);
   const CostGoalMap goals(map);
   EXPECT_EQ(goals.stateAt({3.5, 2.0}, 0.10), PlaceState::kFree);
@@ -65,7 +65,7 @@ TEST_F(GoalMapTest, FindsTheNearestFreePlaceForTheClearance) {
   EXPECT_FALSE(goals.nearestFree({90.0, 2.0}, 3.0, 0.10));
 }
 
-TEST_F(GoalMapTest, KeepsItsCostMap) {
+TEST_F(GoalMapTest, KeepsItsCostMapAlive) {
   EXPECT_EQ(goalMapOf(nullptr), nullptr);
   auto map = std::make_shared<const CostMap>(test::mapOf(grid));
   const auto goals = goalMapOf(map);

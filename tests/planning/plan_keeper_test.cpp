@@ -22,7 +22,7 @@ Path pathOf(const CostMap& map, std::vector<Point> points) {
   return path;
 }
 
-struct Keeping : testing::Test {
+struct PlanKeeping : testing::Test {
   common::OccupancyGrid grid = test::room(240, 160);
   CostMap map = test::mapOf(grid);
   PlanKeeper keeper{PlanKeeper::Config()};
@@ -31,14 +31,14 @@ struct Keeping : testing::Test {
   static Time at(double s) { return Time::fromSeconds(s); }
 };
 
-TEST_F(Keeping, WithoutAPlanItAsks) {
+TEST_F(PlanKeeping, RequestsAPlanWhenItHasNone) {
   const PlanKeeper::Check check = keeper.check(at(0), map, {2, 4});
   EXPECT_FALSE(check.valid);
   EXPECT_TRUE(check.replan);
   EXPECT_TRUE(keeper.remaining().empty());
 }
 
-TEST_F(Keeping, KeptForHalfASecondThenCompared) {
+TEST_F(PlanKeeping, KeepsAPlanForHalfASecondAndThenCompares) {
   ASSERT_TRUE(keeper.offer(straight, at(0), map, {2, 4}));
   EXPECT_FALSE(keeper.check(at(0.3), map, {2.3, 4}).replan);
   const PlanKeeper::Check old = keeper.check(at(0.5), map, {2.4, 4});
@@ -50,12 +50,12 @@ TEST_F(Keeping, KeptForHalfASecondThenCompared) {
   EXPECT_EQ(keeper.plan()->points_map_m, straight.points_map_m);
 }
 
-TEST_F(Keeping, AClearlyBetterPlanIsTaken) {
+TEST_F(PlanKeeping, AcceptsAClearlyBetterPlan) {
   keeper.offer(pathOf(map, {{2, 4}, {6, 6.5}, {10, 4}}), at(0), map, {2, 4});
   EXPECT_TRUE(keeper.offer(straight, at(0.5), map, {2, 4}));
 }
 
-TEST_F(Keeping, APersonOnItMakesItInvalid) {
+TEST_F(PlanKeeping, APersonOnThePlanMakesItInvalid) {
   keeper.offer(straight, at(0), map, {2, 4});
   const std::vector<common::Disc> discs{{{6, 4.2}, 0.25}};
   map.update(grid.snapshot(), {}, {discs, nullptr});
@@ -71,7 +71,7 @@ TEST_F(Keeping, APersonOnItMakesItInvalid) {
   EXPECT_TRUE(keeper.check(at(0.2), map, {2.1, 4}).valid);
 }
 
-TEST_F(Keeping, AWayRoundIsTakenAtOnceWhenTheOldOneIsBlocked) {
+TEST_F(PlanKeeping, AcceptsADetourAtOnceWhenThePlanIsBlocked) {
   keeper.offer(straight, at(0), map, {2, 4});
   const std::vector<common::Disc> discs{{{3, 4}, 0.25}};
   CostLayers layers;
@@ -81,7 +81,7 @@ TEST_F(Keeping, AWayRoundIsTakenAtOnceWhenTheOldOneIsBlocked) {
   EXPECT_TRUE(keeper.offer(round, at(0.1), map, {2, 4})) << "what is left before the block is short, but leads nowhere";
 }
 
-TEST_F(Keeping, WhatLiesBehindDoesNotMatter) {
+TEST_F(PlanKeeping, IgnoresObstaclesOnTheFlownPart) {
   keeper.offer(straight, at(0), map, {2, 4});
   ASSERT_TRUE(keeper.check(at(0.1), map, {6, 4}).valid);
   const std::vector<common::Disc> discs{{{4, 4}, 0.25}};
@@ -90,12 +90,12 @@ TEST_F(Keeping, WhatLiesBehindDoesNotMatter) {
   EXPECT_NEAR(keeper.remaining().front().x(), 6.0, 1e-9);
 }
 
-TEST_F(Keeping, PushedFarOffItReplans) {
+TEST_F(PlanKeeping, ReplansFarFromThePlan) {
   keeper.offer(straight, at(0), map, {2, 4});
   EXPECT_THAT(keeper.check(at(0.1), map, {3, 4.5}).reason, HasSubstr("0.50 m off the plan"));
 }
 
-TEST_F(Keeping, AnotherGoalReplacesWithoutComparison) {
+TEST_F(PlanKeeping, AnotherGoalReplacesWithoutComparison) {
   keeper.offer(straight, at(0), map, {2, 4});
   keeper.check(at(0.1), map, {2, 4});
   EXPECT_TRUE(keeper.offer(pathOf(map, {{2, 4}, {2, 7}, {9, 7}}), at(0.1), map, {2, 4}));
@@ -103,7 +103,7 @@ TEST_F(Keeping, AnotherGoalReplacesWithoutComparison) {
   EXPECT_EQ(keeper.plan(), nullptr);
 }
 
-TEST_F(Keeping, APlanOutOfTheInflatedZoneIsValid) {
+TEST_F(PlanKeeping, APlanThatLeavesTheInflatedZoneIsValid) {
   DStarLite planner;
   const Point pushed{0.3, 4};
   const auto path = planner.plan(map, pushed, {10, 4});
@@ -112,7 +112,7 @@ TEST_F(Keeping, APlanOutOfTheInflatedZoneIsValid) {
   EXPECT_TRUE(keeper.check(at(0.1), map, pushed).valid);
 }
 
-TEST_F(Keeping, TwoEqualWaysDoNotSwing) {
+TEST_F(PlanKeeping, DoesNotAlternateBetweenTwoEqualPaths) {
   // A box in the middle, paths of equal length on both sides, a map that flickers: one path is kept.
   test::fill(grid, {{110, 60}, {130, 100}}, test::kWallCell);
   DStarLite planner;

@@ -92,7 +92,7 @@ TEST(Planner, TheOracleCatchesAPlanThatWasNotRepaired) {
   EXPECT_GE(caught, 8);
 }
 
-TEST(Planner, PathStartsAndEndsExactlyAndKeepsClear) {
+TEST(Planner, APathStartsAndEndsExactlyAndKeepsItsClearance) {
   common::OccupancyGrid grid = test::room(200, 100);
   test::fill(grid, {{90, 0}, {94, 70}}, test::kWallCell);
   const CostMap map = test::mapOf(grid);
@@ -108,7 +108,7 @@ TEST(Planner, PathStartsAndEndsExactlyAndKeepsClear) {
   EXPECT_GE(path->cost_m, path->length_m - 1e-9);
 }
 
-TEST(Planner, AnEmptyHallIsCrossedInOneLine) {
+TEST(Planner, CrossesAnEmptyHallInAStraightLine) {
   common::OccupancyGrid grid = test::room(240, 160);
   const CostMap map = test::mapOf(grid);
   Wavefront planner;
@@ -129,7 +129,7 @@ TEST(Planner, KeepsToTheMiddleOfAPassage) {
   EXPECT_GT(greatest_y, 0.65);
 }
 
-TEST(Planner, RefusalsSayWhy) {
+TEST(Planner, RefusalsGiveAReason) {
   common::OccupancyGrid grid = test::room(100, 100);
   test::fill(grid, {{48, 0}, {52, 100}}, test::kWallCell);
   const CostMap map = test::mapOf(grid);
@@ -155,7 +155,7 @@ TEST(Planner, RefusalsSayWhy) {
   EXPECT_EQ(planner.plan(nothing, {0, 0}, {1, 1}).error().reason, PlanFailure::Reason::kOutsideMap);
 }
 
-TEST(Planner, AVehiclePushedToTheWallLeavesIt) {
+TEST(Planner, PlansAwayFromAWallThatTheVehicleWasPushedTo) {
   common::OccupancyGrid grid = test::room(100, 60);
   const CostMap map = test::mapOf(grid);
   for (const Eigen::Vector2d& start :
@@ -185,7 +185,7 @@ TEST(Planner, AVehiclePushedToTheWallLeavesIt) {
 struct PlannerOverSteps : testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(UpAndDown, PlannerOverSteps, testing::Values(0.75, -0.75));
 
-TEST_P(PlannerOverSteps, AStepOfTheFloorIsWorthADetour) {
+TEST_P(PlannerOverSteps, TakesADetourAroundAStepOfTheFloor) {
   common::OccupancyGrid grid = test::room(160, 160);
   common::LevelMap levels;
   levels.levels.push_back({1, GetParam(), 0.001, {}});

@@ -62,7 +62,7 @@ struct Flyer {
   double least_gap_m = std::numeric_limits<double>::infinity();
 };
 
-TEST(Retreat, GoesAwayFromWhoComesStraightOn) {
+TEST(Retreat, MovesAwayFromAPersonWhoComesStraightOn) {
   Flyer flyer;
   flyer.threats = {person({1.8, 0.0}, {-1.0, 0.0})};
   flyer.fly(1.0);
@@ -71,7 +71,7 @@ TEST(Retreat, GoesAwayFromWhoComesStraightOn) {
   EXPECT_GT(flyer.least_gap_m, 0.1);
 }
 
-TEST(Retreat, StepsOutOfTheWayOfWhoPassesInsteadOfRunningBeforeHim) {
+TEST(Retreat, MovesAsideForAPassingPerson) {
   Flyer flyer;
   flyer.threats = {person({0.45, 1.6}, {0.0, -1.0})};
   flyer.fly(3.0);
@@ -80,14 +80,14 @@ TEST(Retreat, StepsOutOfTheWayOfWhoPassesInsteadOfRunningBeforeHim) {
   EXPECT_GT(flyer.place_m.y(), -0.4);
 }
 
-TEST(Retreat, StandsWhenStandingIsEnough) {
+TEST(Retreat, StaysInPlaceWhenThatIsEnough) {
   Flyer flyer;
   flyer.threats = {person({1.2, 1.5}, {0.0, -1.0})};
   flyer.fly(3.0);
   EXPECT_EQ(flyer.fastest_m_s, 0.0);
 }
 
-TEST(Retreat, GoesNoFasterThanNeedBe) {
+TEST(Retreat, MovesNoFasterThanNecessary) {
   Flyer flyer;
   flyer.threats = {person({0.85, 0.0}, {0.0, 0.0})};
   flyer.fly(3.0);
@@ -95,7 +95,7 @@ TEST(Retreat, GoesNoFasterThanNeedBe) {
   EXPECT_LE(flyer.fastest_m_s, 0.5 * flyer.config.retreat_speed_m_s);
 }
 
-TEST(Retreat, AtSpeedItReckonsWithTheWayItTakesToTurn) {
+TEST(Retreat, AllowsForItsTurningDistanceAtSpeed) {
   // The collision that led to this rule: the vehicle flies along a wall beside it, and a person comes from the other
   // side.
   Flyer flyer;
@@ -107,8 +107,9 @@ TEST(Retreat, AtSpeedItReckonsWithTheWayItTakesToTurn) {
   EXPECT_GT(flyer.least_gap_m, 0.0);
 }
 
-TEST(Retreat, NeverFliesIntoWhatStands) {
-  // Random walls and people: no nearer to a wall than the margin, or than stopping at once would have brought it.
+TEST(Retreat, NeverFliesIntoObstacles) {
+  // Random walls and people: the vehicle keeps the margin to walls, or the distance of an immediate stop if that is
+  // less.
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     common::RandomStream random(seed, "retreat");
     Flyer flyer, stopper;
@@ -131,7 +132,7 @@ TEST(Retreat, NeverFliesIntoWhatStands) {
   }
 }
 
-TEST(Retreat, TheMapAnswersForWhatTheLaserDoesNotSee) {
+TEST(Retreat, UsesTheMapForWallsOutsideTheView) {
   common::OccupancyGrid grid = test::room(100, 100);
   test::fill(grid, {{0, 0}, {32, 100}}, test::kWallCell);
   CostMap map({}, 0.05);
@@ -144,7 +145,7 @@ TEST(Retreat, TheMapAnswersForWhatTheLaserDoesNotSee) {
   EXPECT_GT(flyer.place_m.x(), 1.6 + kHull_m + flyer.config.retreat_margin_m - 0.05);
 }
 
-TEST(Retreat, WithoutAnythingItStops) {
+TEST(Retreat, StopsWithoutAThreat) {
   Flyer flyer;
   flyer.velocity_m_s = {0.5, 0.2};
   flyer.fly(2.0);

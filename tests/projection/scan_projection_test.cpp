@@ -40,7 +40,7 @@ common::LaserScan scanOf(const std::vector<float>& ranges, const common::LaserCo
 
 const PoseAt kStill = [](Time) { return Pose3{Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.0}}; };
 
-TEST(ScanProjection, PlacesEachBeamAsTheSlowWayDoes) {
+TEST(ScanProjection, EqualsTheProjectionBeamByBeam) {
   common::LaserConfig laser = noiseless();
   laser.mount.x_m = 0.1;
   laser.mount.z_m = 0.05;
@@ -67,7 +67,7 @@ TEST(ScanProjection, PlacesEachBeamAsTheSlowWayDoes) {
   EXPECT_GT(next, 1000U);
 }
 
-TEST(ScanProjection, TakesMotionAndTiltOutOfTheWalls) {
+TEST(ScanProjection, CorrectsWallsForMotionAndTilt) {
   const common::LaserConfig laser = noiseless();
   common::RandomStream random(1, "projection");
   const test::PlanarWorld world = test::flat();
@@ -88,7 +88,7 @@ TEST(ScanProjection, TakesMotionAndTiltOutOfTheWalls) {
   EXPECT_GT(smeared_m, 0.02);
 }
 
-TEST(ScanProjection, LeavesOutWhatItSeesOfTheFloorAndTheCeiling) {
+TEST(ScanProjection, LeavesOutFloorAndCeiling) {
   const common::LaserConfig laser = noiseless();
   test::PlanarWorld world;
   world.addBox(0.0, 0.0, 30.0, 30.0);
@@ -113,7 +113,7 @@ TEST(ScanProjection, LeavesOutWhatItSeesOfTheFloorAndTheCeiling) {
   }
 }
 
-TEST(ScanProjection, ALevelBeamNearTheFloorIsAWall) {
+TEST(ScanProjection, KeepsALevelBeamNearTheFloorAsAWall) {
   const common::LaserConfig laser = noiseless();
   test::PlanarWorld world;
   world.addBox(0.0, 0.0, 30.0, 30.0);
@@ -124,7 +124,7 @@ TEST(ScanProjection, ALevelBeamNearTheFloorIsAWall) {
   EXPECT_EQ(project(scan, laser, [&](Time) { return standing; }, {}).counts.hits, laser.beams);
 }
 
-TEST(ScanProjection, CountsWhatCannotBeUsed) {
+TEST(ScanProjection, CountsUnusableBeams) {
   common::LaserConfig laser = noiseless();
   laser.beams = 12;
   const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
@@ -138,7 +138,7 @@ TEST(ScanProjection, CountsWhatCannotBeUsed) {
   EXPECT_NEAR(projected.no_returns_level_m[0].head<2>().norm(), laser.range_max_m, 1e-3);
 }
 
-TEST(ScanProjection, SurvivesGarbage) {
+TEST(ScanProjection, ToleratesInvalidInput) {
   const common::LaserConfig laser = noiseless();
   EXPECT_TRUE(project({}, laser, kStill, {}).points_level_m.empty());
   common::LaserScan scan = scanOf(std::vector<float>(1081, 2.0F), laser);

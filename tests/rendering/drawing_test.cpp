@@ -53,7 +53,7 @@ TEST(CanvasTest, ATranslucentLineHasNoDarkerJoints) {
   for (int x = 12; x < 88; ++x) EXPECT_EQ(image.rgb[3 * static_cast<std::size_t>(50 * 100 + x)], 100) << x;
 }
 
-TEST(CanvasTest, WhatIsOutsideOrNotFiniteIsClipped) {
+TEST(CanvasTest, ClipsPointsThatAreOutsideOrNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), far = 1e300;
   const bool held = rc::check("nothing is written outside", [&] {
     const auto coordinate = [&] {
@@ -75,7 +75,7 @@ TEST(CanvasTest, WhatIsOutsideOrNotFiniteIsClipped) {
   EXPECT_TRUE(held);
 }
 
-TEST(StrokeFontTest, EveryCharacterHasStrokesWithinItsLine) {
+TEST(StrokeFontTest, StrokesOfEveryCharacterStayWithinItsLine) {
   for (int c = 33; c < 127; ++c) {
     const std::string text(1, static_cast<char>(c));
     ASSERT_FALSE(textStrokes(text).empty()) << text;
@@ -122,7 +122,7 @@ TEST(GridLayerTest, APixelIsTheMeanOfTheCellsItCovers) {
   }
 }
 
-TEST(GridLayerTest, PiecesEqualTheWhole) {
+TEST(GridLayerTest, DrawingInPiecesEqualsDrawingAtOnce) {
   testing::ExampleFlight flight;
   const auto world = flight.advance(2.0);
   const Viewport viewport{{0.3, 1.1}, 37.0, 120, 90};
@@ -135,14 +135,14 @@ TEST(GridLayerTest, PiecesEqualTheWhole) {
   EXPECT_EQ(whole.rgb, pieces.rgb);
 }
 
-TEST(ViewportTest, ScreenAndMapAreInverse) {
+TEST(ViewportTest, ConversionsBetweenScreenAndMapAreInverse) {
   const Viewport viewport{{3.0, -2.0}, 42.0, 640, 480};
   const Eigen::Vector2d p(1.25, 0.5);
   EXPECT_TRUE(viewport.toMap(viewport.toPixel(p)).isApprox(p));
   EXPECT_LT(viewport.toPixel({0, 1}).y(), viewport.toPixel({0, 0}).y());
 }
 
-TEST(ViewportTest, ADivergedEstimateDoesNotEmptyThePicture) {
+TEST(ViewportTest, ADivergedEstimateKeepsTheMapInView) {
   testing::ExampleFlight flight;
   test::Layers layers(*flight.advance(1.0));
   const auto viewportOf = [](const MapPicture& picture) {
@@ -158,7 +158,7 @@ TEST(ViewportTest, ADivergedEstimateDoesNotEmptyThePicture) {
   }
 }
 
-TEST(MapRendererTest, AnEmptyMapIsAPictureToo) {
+TEST(MapRendererTest, AnEmptyMapGivesAPicture) {
   MapPicture picture;
   picture.grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
   MapView view;
@@ -175,8 +175,7 @@ struct BlankMap {
     view.height_px = 120;
     view.viewport = Viewport{{0.0, 0.0}, 10.0, 160, 120};
   }
-  /// Whether the pixels around the point differ from those of the blank map.
-  /// Whether a pixel at most `margin_px` beside the place is drawn on.
+  /// Whether any pixel within `margin_px` of the place differs from the blank map.
   bool isInkedAt(double x_m, double y_m, int margin_px = 1) const {
     MapPicture blank;
     blank.grid = picture.grid;
@@ -194,7 +193,7 @@ struct BlankMap {
   MapView view;
 };
 
-TEST(MapRendererTest, EveryStyleOfLineIsDrawnWhereItIs) {
+TEST(MapRendererTest, DrawsEveryLineStyleInItsPlace) {
   for (const LineStyle style : {LineStyle::kTrail, LineStyle::kTrack, LineStyle::kPlan, LineStyle::kReference}) {
     BlankMap map;
     map.picture.lines = {{"", {{-3.05, 2.05}, {3.05, 2.05}}, style}};
@@ -208,7 +207,7 @@ TEST(MapRendererTest, EveryStyleOfLineIsDrawnWhereItIs) {
   }
 }
 
-TEST(MapRendererTest, EveryMarkIsDrawnWhereItIs) {
+TEST(MapRendererTest, DrawsEveryMarkInItsPlace) {
   for (const MarkStyle style : {MarkStyle::kHome, MarkStyle::kGoal, MarkStyle::kVehicle}) {
     BlankMap map;
     map.picture.marks = {{"", {2.05, 1.05, 0.5}, style, 0.6}};
@@ -240,7 +239,7 @@ TEST(PictureOfWorldTest, TrailAndPlanMeetAtTheVehicle) {
   EXPECT_EQ(picture.in_view_map_m, (std::vector<Eigen::Vector2d>{{0.0, 0.0}, {2.0, 3.0}, {5.0, 6.0}}));
 }
 
-TEST(PictureOfWorldTest, WithoutAPlanThereIsNoLineOfIt) {
+TEST(PictureOfWorldTest, DrawsNoPlanWhenThereIsNone) {
   const MapPicture picture = pictureOf(test::Layers().world(), 0.55);
   ASSERT_EQ(picture.lines.size(), 1u);
   EXPECT_EQ(picture.lines[0].style, LineStyle::kTrail);

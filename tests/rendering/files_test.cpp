@@ -40,7 +40,7 @@ TEST(EncodeTest, PngReadsBackAsTheSamePicture) {
   EXPECT_EQ(encodePng(image), png);
 }
 
-TEST(EncodeTest, JpegStartsAndEndsAsOneAndIsTheSameEachTime) {
+TEST(EncodeTest, JpegHasItsMarkersAndIsRepeatable) {
   JpegEncoder encoder;
   const Bytes large = encoder.encode(pattern(200, 100), 80);
   EXPECT_EQ(large[0], 0xff);
@@ -51,7 +51,7 @@ TEST(EncodeTest, JpegStartsAndEndsAsOneAndIsTheSameEachTime) {
   EXPECT_EQ(encoder.encode(pattern(200, 100), 80), large);
 }
 
-TEST(EncodeTest, Base64AsTheStandardHasIt) {
+TEST(EncodeTest, Base64FollowsTheStandard) {
   const auto of = [](const std::string& text) { return base64(Bytes(text.begin(), text.end())); };
   EXPECT_EQ(of(""), "");
   EXPECT_EQ(of("f"), "Zg==");
@@ -85,7 +85,7 @@ Plot altitudePlot() {
   return plot;
 }
 
-TEST(PlotSvgTest, ThinsWithoutLosingAPeak) {
+TEST(PlotSvgTest, ThinningKeepsPeaks) {
   const std::string svg = plotSvg(altitudePlot());
   EXPECT_LT(svg.size(), 80'000u);
   EXPECT_THAT(svg, HasSubstr("prefers-color-scheme:dark"));
@@ -96,7 +96,7 @@ TEST(PlotSvgTest, ThinsWithoutLosingAPeak) {
   std::ofstream(std::string(SWIFTLET_BINARY_DIR) + "/plot.svg") << svg;
 }
 
-TEST(PlotSvgTest, BreaksTheLineAtNanAndSurvivesNothing) {
+TEST(PlotSvgTest, BreaksTheLineAtNanAndAcceptsNoData) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Plot plot{"t", "x", "y", {{"a", {{0, 1}, {1, 2}, {2, nan}, {3, 1}, {4, 1}}, false}}, {}, {}, {}, 400, 200};
   EXPECT_EQ(countOf(plotSvg(plot), "<polyline"), 2);
@@ -108,7 +108,7 @@ TEST(PlotSvgTest, BreaksTheLineAtNanAndSurvivesNothing) {
   EXPECT_THAT(plotSvg(plot), Not(HasSubstr("<script>")));
 }
 
-TEST(MapSvgTest, HasThePictureTheLinesAndTheMarks) {
+TEST(MapSvgTest, ContainsPictureLinesAndMarks) {
   testing::ExampleFlight flight;
   const auto world = flight.advance(6.0);
   MapPicture picture = pictureOf(*world, 0.55);
@@ -123,7 +123,7 @@ TEST(MapSvgTest, HasThePictureTheLinesAndTheMarks) {
   std::ofstream(std::string(SWIFTLET_BINARY_DIR) + "/map.svg") << svg;
 }
 
-TEST(MapSvgTest, LinesOfOneNameShareAColourAndAnEntryOfTheLegend) {
+TEST(MapSvgTest, LinesOfTheSameNameShareColourAndLegendEntry) {
   testing::ExampleFlight flight;
   MapPicture picture = pictureOf(*flight.advance(1.0), 0.55);
   picture.lines = {{"trajectory", {{0, 0}, {1, 1}}, LineStyle::kTrail}};
@@ -139,7 +139,7 @@ TEST(MapSvgTest, LinesOfOneNameShareAColourAndAnEntryOfTheLegend) {
   EXPECT_EQ(countOf(svg, ">loop closures<"), 1);
 }
 
-TEST(ThinnedCurveTest, TheGreatestStaysWhereverItIs) {
+TEST(ThinnedCurveTest, KeepsTheGreatestValue) {
   for (const int values : {1, 2000, 2001, 4000, 4001, 12345}) {
     for (const int peak : {0, 1, 999, 1999, 2000, 2001, 3999, 4000, 4001, 8000, 12344}) {
       if (peak >= values) continue;

@@ -10,7 +10,7 @@
 namespace swiftlet::rendering {
 namespace {
 
-TEST(MapRendererTest, CachedEqualsFreshWhileTheMapGrows) {
+TEST(MapRendererTest, ACachedPictureEqualsAFreshOneWhileTheMapGrows) {
   testing::ExampleFlight flight;
   MapRenderer renderer;
   MapView view;

@@ -45,14 +45,14 @@ std::vector<std::string> linesWith(const std::vector<std::string>& words, const 
   return found;
 }
 
-TEST(Files, NothingIsMarkedUnfinished) {
+TEST(Files, ContainNoMarksOfUnfinishedWork) {
   const auto marked = linesWith({"TODO", "FIXME", "XXX", "HACK", "TBD"}, {""});
   EXPECT_THAT(marked, IsEmpty()) << joined(marked);
   const auto said = linesWith({"not implemented", "not yet implemented", "placeholder", "for now"}, {".cpp", ".hpp"});
   EXPECT_THAT(said, IsEmpty()) << joined(said);
 }
 
-TEST(Files, NameNoPathOfAMachine) {
+TEST(Files, NameNoMachinePaths) {
   std::vector<std::string> found;
   for (const auto& [path, text] : trackedFiles()) {
     if (path == "tests/repository/habits_test.cpp") continue;
@@ -68,7 +68,7 @@ TEST(Files, NameNoPathOfAMachine) {
 }
 
 // Time and chance are injected, and only apps and the job pool own threads; otherwise a flight would not repeat.
-TEST(Files, LibrariesTakeNoTimeChanceOrThreadsOfTheirOwn) {
+TEST(Files, LibrariesUseNoClockRandomnessOrThreadsOfTheirOwn) {
   const std::vector<std::string> forbidden = {"_clock::now",  "std::rand",    "srand(",       "random_device",
                                               "std::thread(", "std::thread ", "std::jthread", "std::async",
                                               "sleep_for",    "sleep_until"};
@@ -110,7 +110,7 @@ std::vector<std::string> oddTestNames(const std::string& text) {
   return found;
 }
 
-TEST(Files, TestsAreNamedInOneCase) {
+TEST(Files, TestNamesUseOneCase) {
   for (const auto& [path, text] : trackedFiles()) {
     if (!path.starts_with("tests/") || !path.ends_with(".cpp") || path == "tests/repository/habits_test.cpp") continue;
     const std::vector<std::string> found = oddTestNames(text);
@@ -130,7 +130,7 @@ std::string withoutComments(std::string page) {
   return page;
 }
 
-TEST(Files, LinksBetweenThePagesLeadSomewhere) {
+TEST(Files, LinksBetweenPagesHaveTargets) {
   for (const auto& [path, page] : trackedFiles()) {
     if (!path.ends_with(".md")) continue;
     const std::string text = withoutComments(page);
@@ -144,7 +144,7 @@ TEST(Files, LinksBetweenThePagesLeadSomewhere) {
   }
 }
 
-TEST(Scripts, EachSaysWhatItDoes) {
+TEST(Scripts, EachHasAHelpText) {
   int count = 0;
   for (const auto& [path, text] : trackedFiles()) {
     if (!path.starts_with("scripts/") || path.ends_with(".txt")) continue;
@@ -159,7 +159,7 @@ TEST(Scripts, EachSaysWhatItDoes) {
   EXPECT_GE(count, 6);
 }
 
-TEST(Scripts, RefuseWhatTheyDoNotKnow) {
+TEST(Scripts, RefuseUnknownOptions) {
   for (const std::string script : {"setup", "build", "format", "tidy", "fuzz"}) {
     const Answer answer = run("scripts/" + script + " --frobnicate");
     EXPECT_EQ(answer.exit_code, 2) << script << ": " << answer.text;
@@ -167,7 +167,7 @@ TEST(Scripts, RefuseWhatTheyDoNotKnow) {
   }
 }
 
-TEST(Scripts, FuzzNamesFuzzersThatExistAndEachHasSeeds) {
+TEST(Scripts, FuzzListsExistingFuzzersAndEachHasSeeds) {
   std::istringstream example(run("scripts/fuzz --help").text);
   std::set<std::string> fuzzers;
   for (std::string word; example >> word;)

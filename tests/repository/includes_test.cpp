@@ -12,17 +12,17 @@ using testing::IsEmpty;
 
 Arrows arrowsOfTheRepository() { return readArrows(trackedFiles().at("docs/architecture.md")); }
 
-TEST(Includes, FollowTheArrowsOfTheArchitecture) {
+TEST(Includes, FollowTheTableOfTheArchitecture) {
   const auto found = forbiddenArrows(trackedFiles(), arrowsOfTheRepository());
   EXPECT_THAT(found, IsEmpty()) << joined(found);
 }
 
-TEST(Includes, RunInNoCircle) {
+TEST(Includes, HaveNoCycle) {
   const auto found = cycles(fileGraph(trackedFiles()));
   EXPECT_THAT(found, IsEmpty()) << joined(found);
 }
 
-TEST(Includes, TheArchitectureItselfHasNoCircle) { EXPECT_THAT(cycles(arrowsOfTheRepository()), IsEmpty()); }
+TEST(Includes, TheTableOfTheArchitectureHasNoCycle) { EXPECT_THAT(cycles(arrowsOfTheRepository()), IsEmpty()); }
 
 TEST(Includes, EveryFolderOfCodeIsInTheArchitecture) {
   const Arrows arrows = arrowsOfTheRepository();
@@ -41,7 +41,7 @@ TEST(Includes, NoTwoPartsIncludeEachOther) {
   EXPECT_THAT(found, IsEmpty()) << joined(found);
 }
 
-TEST(Includes, WhatOnlyNatureKnowsStaysWithTheSimulatorAndTheScorer) {
+TEST(Includes, OnlyTheScorerAndTheProgramsMayUseTheSimulator) {
   for (const auto& [folder, uses] : arrowsOfTheRepository()) {
     if (folder == "evaluation" || folder == "apps") continue;
     EXPECT_FALSE(uses.contains("simulation")) << folder << " would see the ground truth";
@@ -49,7 +49,7 @@ TEST(Includes, WhatOnlyNatureKnowsStaysWithTheSimulatorAndTheScorer) {
 }
 
 // Planted mistakes show that the checks above work.
-TEST(Includes, APlantedForbiddenArrowIsCaught) {
+TEST(Includes, APlantedForbiddenIncludeIsCaught) {
   const Arrows arrows = readArrows("| `common` | - |\n| `planning` | common |\n| `perception` | common |\n");
   const Files files = {{"common/time.hpp", "#pragma once\n"},
                        {"planning/path.hpp", "#include <vector>\n#include \"common/time.hpp\"\n"},
@@ -61,7 +61,7 @@ TEST(Includes, APlantedForbiddenArrowIsCaught) {
                           "planning/cost.cpp:3: planning may not use perception"));
 }
 
-TEST(Includes, APlantedArrowOutOfAnInnerFolderIsCaught) {
+TEST(Includes, APlantedForbiddenIncludeFromAnInnerFolderIsCaught) {
   const Arrows arrows =
       readArrows("| `common` | - |\n| `behaviors` | common, behaviors/tree |\n| `behaviors/tree` | - |\n");
   const Files files = {{"behaviors/hold.cpp", "#include \"behaviors/tree/node.hpp\"\n#include \"common/world.hpp\"\n"},
@@ -70,7 +70,7 @@ TEST(Includes, APlantedArrowOutOfAnInnerFolderIsCaught) {
               ElementsAre("behaviors/tree/node.cpp:1: behaviors/tree may not use common"));
 }
 
-TEST(Includes, APlantedCircleIsCaught) {
+TEST(Includes, APlantedCycleIsCaught) {
   const Files files = {{"a/one.hpp", "#include \"b/two.hpp\"\n"},
                        {"b/two.hpp", "#include \"c/three.hpp\"\n"},
                        {"c/three.hpp", "#include \"a/one.hpp\"\n"},

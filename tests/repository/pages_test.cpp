@@ -106,7 +106,7 @@ std::vector<std::string> typedFigures(const std::string& page) {
 }
 
 // Figures belong into a block of a tutorial, where tests/tutorials/run_page.sh makes them.
-TEST(Pages, TheReadmeTypesNoFigures) {
+TEST(Pages, TheReadmeContainsNoTypedFigures) {
   const auto typed = typedFigures(trackedFiles().at("README.md"));
   EXPECT_THAT(typed, IsEmpty()) << joined(typed);
   EXPECT_THAT(

@@ -42,21 +42,21 @@ class Setup : public testing::Test {
   fs::path bin_;
 };
 
-TEST_F(Setup, CheckNamesWhatIsMissingAndInstallsNothing) {
+TEST_F(Setup, CheckListsMissingPackagesAndInstallsNothing) {
   const Answer answer = setup("--check");
   EXPECT_EQ(answer.exit_code, 1);
   EXPECT_THAT(answer.text, HasSubstr("Missing packages: g++ cmake"));
   EXPECT_EQ(calls(), "");
 }
 
-TEST_F(Setup, NoInstallGoesOn) {
+TEST_F(Setup, NoInstallContinuesWithMissingPackages) {
   const Answer answer = setup("--no-install");
   EXPECT_EQ(answer.exit_code, 0);
   EXPECT_THAT(answer.text, HasSubstr("Missing packages, left alone: g++"));
   EXPECT_EQ(calls(), "");
 }
 
-TEST_F(Setup, DoesNothingWhenAllIsThere) {
+TEST_F(Setup, DoesNothingWhenEverythingIsInstalled) {
   program("dpkg-query", "shift 3; for package in \"$@\"; do echo installed $package; done");
   const Answer answer = setup("--tests --tools");
   EXPECT_EQ(answer.exit_code, 0);
@@ -69,13 +69,13 @@ TEST_F(Setup, APackageThatWasRemovedButNotPurgedIsMissing) {
   EXPECT_THAT(setup("--check").text, HasSubstr("Missing packages: g++ cmake"));
 }
 
-TEST_F(Setup, AProgramFromElsewhereWillDo) {
+TEST_F(Setup, AProgramFromAnotherSourceCountsAsInstalled) {
   EXPECT_THAT(setup("--tests --check").text, HasSubstr(" npm"));
   program("npm", "");
   EXPECT_THAT(setup("--tests --check").text, Not(HasSubstr(" npm")));
 }
 
-TEST_F(Setup, WithoutRootAndSudoItSaysWhatToType) {
+TEST_F(Setup, PrintsTheCommandWithoutRootAndSudo) {
   const Answer answer = setup("");
   EXPECT_EQ(answer.exit_code, 1);
   EXPECT_THAT(answer.text, HasSubstr("needs root or sudo"));
@@ -103,7 +103,7 @@ struct Failure {
 };
 class SetupFailure : public Setup, public testing::WithParamInterface<Failure> {};
 
-TEST_P(SetupFailure, IsNamed) {
+TEST_P(SetupFailure, NamesItsCause) {
   program("id", "echo 0");
   program("apt-get", "case \"$*\" in *install*) echo \"" + GetParam().apt_says + "\"; exit 100;; esac");
   const Answer answer = setup("");

@@ -35,7 +35,7 @@ std::string tableOf(const std::string& ctest_output) {
   return run("awk -f tests/slowest.awk <'" + file.string() + "'").text;
 }
 
-TEST(SlowestTests, StandBeforeTheSummaryWhichEndsTheOutput) {
+TEST(SlowestTests, AreListedBeforeTheSummary) {
   const std::string text = tableOf(ctestOutput(30));
   EXPECT_THAT(text, HasSubstr("The 20 slowest of 30 tests:\n   30.25 s  room.Story30\n   29.25 s  room.Story29\n"));
   EXPECT_THAT(text, HasSubstr("   11.25 s  room.Story11\n\n100% tests passed"));
@@ -44,7 +44,7 @@ TEST(SlowestTests, StandBeforeTheSummaryWhichEndsTheOutput) {
   EXPECT_THAT(text, EndsWith(kSummary.substr(1)));
 }
 
-TEST(SlowestTests, AFewTestsNeedNoTable) {
+TEST(SlowestTests, AreNotListedForFewTests) {
   const std::string output = ctestOutput(20);
   EXPECT_EQ(tableOf(output), output);
 }

@@ -97,7 +97,7 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-TEST_P(AllMatchers, AreAccurateInTheSameScenes) {
+TEST_P(AllMatchers, AreAccurateInEveryScene) {
   constexpr int kTrials = 200;
   for (const Scene& scene : scenes()) {
     SCOPED_TRACE(scene.name);
@@ -141,7 +141,7 @@ void expectRefused(const MatchResult& match) {
   EXPECT_TRUE(match.covariance.allFinite());
 }
 
-TEST_P(AllMatchers, RefuseWhatTheyCannotMatch) {
+TEST_P(AllMatchers, RefuseUnusableInput) {
   const ProjectedScan scan = scanAt(test::flat(), {}, 0);
   const SearchWindow window{0.1, 0.03};
   const auto empty = GetParam().make();
@@ -167,7 +167,7 @@ TEST_P(AllMatchers, RefuseWhatTheyCannotMatch) {
   EXPECT_FALSE(matcher->match(scan, {}, window).failed);  // None of this has left a trace.
 }
 
-TEST_P(AllMatchers, AWrongGuessIsRarelyBelieved) {
+TEST_P(AllMatchers, RarelyAcceptAWrongGuess) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(23, "wrong_guess");
   constexpr int kTrials = 200;

@@ -56,7 +56,7 @@ TEST(CorrelativeMatcher, EqualsTheExhaustiveSearchWithoutThePriorOfTheGuess) {
   expectTheExhaustiveAnswer(config, {0.15, 2.0 * common::kRadPerDeg}, 20);
 }
 
-TEST(CorrelativeMatcher, AllInstructionsGiveTheSameBits) {
+TEST(CorrelativeMatcher, EveryInstructionSetGivesIdenticalResults) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(4, "instructions");
   const Pose2 reference = poseInFlat(random);
@@ -82,7 +82,7 @@ TEST(CorrelativeMatcher, AllInstructionsGiveTheSameBits) {
 struct Accuracy {
   double translation_rms_m = 0.0;
   double rotation_rms_rad = 0.0;
-  double nees = 0.0;  ///< Mean of the normalized squared error; 3 when the covariance is honest.
+  double nees = 0.0;  ///< Mean of the normalized squared error; 3 when the covariance is exact.
 };
 
 Accuracy measureAccuracy(const CorrelativeMatcherConfig& config, int trials) {
@@ -107,7 +107,7 @@ Accuracy measureAccuracy(const CorrelativeMatcherConfig& config, int trials) {
   return accuracy;
 }
 
-TEST(CorrelativeMatcher, IsAccurateToAMillimetreOrTwoAndSaysSo) {
+TEST(CorrelativeMatcher, IsAccurateToTwoMillimetresWithAMatchingCovariance) {
   const Accuracy surface = measureAccuracy({}, 200);
   EXPECT_LT(surface.translation_rms_m, 0.002);
   EXPECT_LT(surface.rotation_rms_rad, 0.05 * common::kRadPerDeg);
@@ -118,7 +118,7 @@ TEST(CorrelativeMatcher, IsAccurateToAMillimetreOrTwoAndSaysSo) {
   EXPECT_LT(surface.translation_rms_m, 0.6 * measureAccuracy(config, 100).translation_rms_m);
 }
 
-TEST(CorrelativeMatcher, BothAveragesHoverSmootherThanTheGrid) {
+TEST(CorrelativeMatcher, BothAveragesReduceTheJitterOfTheGrid) {
   const test::PlanarWorld world = test::flat();
   const Pose2 reference{0.3, 0.2, 0.5};
   const auto jitter = [&](PoseEstimate estimate) {
@@ -164,7 +164,7 @@ TEST(CorrelativeMatcher, ForwardIsTheInverseOfBackward) {
   }
 }
 
-TEST(CorrelativeMatcher, SaysWhichWayACorridorHides) {
+TEST(CorrelativeMatcher, ReportsTheUnobservableDirectionOfACorridor) {
   const test::PlanarWorld world = test::corridor();
   for (const double yaw : {0.0, 0.7, -2.0}) {
     CorrelativeMatcher matcher{{}};
@@ -184,7 +184,7 @@ TEST(CorrelativeMatcher, SaysWhichWayACorridorHides) {
 }
 
 /// A cupboard that the reference never showed faces the vehicle; it has no effect.
-TEST(CorrelativeMatcher, WhatOnlyNowComesIntoViewHoldsNothing) {
+TEST(CorrelativeMatcher, NewSurfacesDoNotConstrainThePose) {
   test::PlanarWorld furnished = test::corridor();
   furnished.addPolyline({{4.0, 1.0}, {4.0, 0.5}, {5.0, 0.5}, {5.0, 1.0}}, false);
   CorrelativeMatcher matcher{{}};
@@ -198,7 +198,7 @@ TEST(CorrelativeMatcher, WhatOnlyNowComesIntoViewHoldsNothing) {
 }
 
 /// The reference covers a third of the present view: the rest does not count against the pose.
-TEST(CorrelativeMatcher, AThirdInViewIsEnough) {
+TEST(CorrelativeMatcher, MatchesWhenTheReferenceCoversAThirdOfTheView) {
   const test::PlanarWorld world = test::flat();
   ProjectedScan narrow = scanAt(world, {}, 0);
   std::erase_if(narrow.points_level_m,
@@ -212,7 +212,7 @@ TEST(CorrelativeMatcher, AThirdInViewIsEnough) {
   EXPECT_LT(errorOf(match.T_reference_body, truth).head<2>().norm(), 0.02);
 }
 
-TEST(CorrelativeMatcher, ARoomHidesNothing) {
+TEST(CorrelativeMatcher, ReportsNoUnobservableDirectionInARoom) {
   common::RandomStream random(10, "room");
   const test::PlanarWorld world = test::flat();
   for (int trial = 0; trial < 30; ++trial) {
@@ -223,7 +223,7 @@ TEST(CorrelativeMatcher, ARoomHidesNothing) {
   }
 }
 
-TEST(CorrelativeMatcher, TellsAFailedMatch) {
+TEST(CorrelativeMatcher, ReportsAFailedMatch) {
   CorrelativeMatcher matcher{{}};
   const test::PlanarWorld world = test::flat();
   matcher.addReference(scanAt(world, {0.0, 0.0, 0.0}, 0), {});
@@ -242,7 +242,7 @@ TEST(CorrelativeMatcher, TellsAFailedMatch) {
   EXPECT_TRUE(matcher.match(scanAt(world, {}, 6), {}, {0.1, 0.03}).failed);
 }
 
-TEST(CorrelativeMatcher, PointsThatAreNotFiniteAreNotUsed) {
+TEST(CorrelativeMatcher, IgnoresPointsThatAreNotFinite) {
   const test::PlanarWorld world = test::flat();
   CorrelativeMatcher clean{{}}, dirty{{}};
   ProjectedScan reference = scanAt(world, {}, 0), scan = scanAt(world, {0.02, 0.01, 0.0}, 1);
@@ -260,7 +260,7 @@ TEST(CorrelativeMatcher, PointsThatAreNotFiniteAreNotUsed) {
   EXPECT_EQ(dirty.match(scan, {}, {0.05, 0.02}).T_reference_body.x_m, expected.T_reference_body.x_m);
 }
 
-TEST(CorrelativeMatcher, AReferenceCanBeForgotten) {
+TEST(CorrelativeMatcher, ClearsItsReference) {
   const test::PlanarWorld world = test::flat();
   CorrelativeMatcher used{{}}, fresh{{}};
   used.addReference(scanAt(world, {6.5, 2.0, 0.8}, 0), {6.5, 2.0, 0.8});

@@ -13,7 +13,7 @@ namespace {
 using common::Pose2;
 using test::errorOf;
 
-/// A scan taken at `truth` whose prediction says `predicted`.
+/// A scan taken at `truth` with the predicted pose `predicted`.
 ProjectedScan scanWith(const test::PlanarWorld& world, const Pose2& truth, const Pose2& predicted,
                        std::uint64_t frame) {
   ProjectedScan scan = test::scanAt(world, truth, frame);
@@ -51,7 +51,7 @@ TEST(LaserOdometry, HoveringDoesNotDrift) {
   EXPECT_LT(worst_m, 0.006);
 }
 
-TEST(LaserOdometry, ChainsItsReferencesAcrossTheRoom) {
+TEST(LaserOdometry, DriftsLittleOverSeveralReferences) {
   const test::PlanarWorld world = test::flat();
   LaserOdometry odometry{{}};
   Pose2 T_start_reference, at_reference;
@@ -77,7 +77,7 @@ TEST(LaserOdometry, ChainsItsReferencesAcrossTheRoom) {
   EXPECT_EQ(odometry.counts().failures, 0U);
 }
 
-TEST(LaserOdometry, WhatComesOutOfShadowsDoesNotBendTheWay) {
+TEST(LaserOdometry, NewlyVisibleSurfacesDoNotBiasTheHeading) {
   const test::PlanarWorld world = test::corridorWithDoors();
   double turned_deg = 0.0, ahead_m = 0.0;
   constexpr int kWays = 4;
@@ -100,7 +100,7 @@ TEST(LaserOdometry, WhatComesOutOfShadowsDoesNotBendTheWay) {
   EXPECT_LT(std::abs(ahead_m), 0.010);
 }
 
-TEST(LaserOdometry, AGuessThatIsFarOffIsFoundByWidening) {
+TEST(LaserOdometry, WidensTheSearchForAGuessThatIsFarOff) {
   const test::PlanarWorld world = test::flat();
   LaserOdometry odometry{{}};
   static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
@@ -110,7 +110,7 @@ TEST(LaserOdometry, AGuessThatIsFarOffIsFoundByWidening) {
   EXPECT_LT(errorOf(relative->T_from_to, truth).head<2>().norm(), 0.01);
 }
 
-TEST(LaserOdometry, ACorrectedEstimateIsNotCountedTwice) {
+TEST(LaserOdometry, DoesNotApplyACorrectionTwice) {
   const test::PlanarWorld world = test::flat();
   LaserOdometryConfig narrow;
   narrow.guess_error_m = narrow.max_window_m = 0.05;
@@ -129,7 +129,7 @@ TEST(LaserOdometry, ACorrectedEstimateIsNotCountedTwice) {
 }
 
 /// A covered laser does not restart the odometry, and an odometry with a certain guess still widens its search.
-TEST(LaserOdometry, ScansWithoutPointsAreNoRestarts) {
+TEST(LaserOdometry, ScansWithoutPointsDoNotRestartIt) {
   const test::PlanarWorld world = test::flat();
   LaserOdometry odometry{{}};
   static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
@@ -142,7 +142,7 @@ TEST(LaserOdometry, ScansWithoutPointsAreNoRestarts) {
   EXPECT_EQ(odometry.counts().restarts, 0U);
 }
 
-TEST(LaserOdometry, AWindowOfNothingIsWidened) {
+TEST(LaserOdometry, WidensAnEmptyWindow) {
   const test::PlanarWorld world = test::flat();
   LaserOdometry odometry{{}};
   static_cast<void>(odometry.add(test::scanAt(world, {}, 0)));
@@ -163,7 +163,7 @@ bool findsAmongPeople(double offset_m, const LaserOdometryConfig& config) {
   return relative && std::abs(relative->T_from_to.x_m - offset_m) < 0.02;
 }
 
-TEST(LaserOdometry, WhatLiesFarFromTheGuessMustFitBetter) {
+TEST(LaserOdometry, APoseFarFromTheGuessMustFitBetter) {
   LaserOdometryConfig config;
   config.min_fit = 0.6;
   EXPECT_TRUE(findsAmongPeople(0.45, config));
@@ -172,8 +172,8 @@ TEST(LaserOdometry, WhatLiesFarFromTheGuessMustFitBetter) {
   EXPECT_TRUE(findsAmongPeople(0.05, config));
 }
 
-/// Half of the walls fit where it was expected as well.
-TEST(LaserOdometry, APoorFitWhereItWasExpectedIsSoughtFartherOff) {
+/// Half of the walls also fit at the expected pose.
+TEST(LaserOdometry, SearchesFartherAfterAPoorFitAtTheGuess) {
   LaserOdometryConfig config;
   config.min_fit = 0.35;
   EXPECT_FALSE(findsAmongPeople(0.45, config));
@@ -181,7 +181,7 @@ TEST(LaserOdometry, APoorFitWhereItWasExpectedIsSoughtFartherOff) {
   EXPECT_TRUE(findsAmongPeople(0.45, config));
 }
 
-TEST(LaserOdometry, TheOtherGuessIsTakenWhereItFitsBetter) {
+TEST(LaserOdometry, UsesTheOtherGuessWhenItFitsBetter) {
   const test::PlanarWorld world = test::flat();
   const Pose2 jump{0.4, 0.1, 1.5}, truth{0.1, 0.05, 0.1};
   const OtherGuess other{truth * Pose2{0.02, 0.0, 0.01}, SearchWindow{0.05, 0.05}};
@@ -198,8 +198,8 @@ TEST(LaserOdometry, TheOtherGuessIsTakenWhereItFitsBetter) {
   EXPECT_FALSE(next->otherwise);
 }
 
-/// Slightly more of the scan fits there, but that place is six windows away.
-TEST(LaserOdometry, TheOtherGuessMustFitFarBetterFarOff) {
+/// Slightly more of the scan fits at the other guess, but that place is six windows away.
+TEST(LaserOdometry, AFarOtherGuessMustFitMuchBetter) {
   const test::PlanarWorld world = test::flat();
   const Pose2 here{0.01, 0.0, 0.0}, there{0.4, 0.1, 0.1};
   LaserOdometryConfig config;
@@ -220,7 +220,7 @@ TEST(LaserOdometry, TheOtherGuessMustFitFarBetterFarOff) {
   EXPECT_FALSE(isFoundThere(0.75));
 }
 
-TEST(LaserOdometry, LosesItsWayAndStartsAnew) {
+TEST(LaserOdometry, RestartsAfterRepeatedFailures) {
   const test::PlanarWorld world = test::flat();
   LaserOdometryConfig config;
   config.max_failures = 5;
@@ -237,7 +237,7 @@ TEST(LaserOdometry, LosesItsWayAndStartsAnew) {
   EXPECT_TRUE(odometry.add(scanWith(world, elsewhere, {}, 6)));
 }
 
-TEST(LaserOdometry, IgnoresWhatIsLateEmptyOrNotANumber) {
+TEST(LaserOdometry, IgnoresLateEmptyAndInvalidScans) {
   const test::PlanarWorld world = test::flat();
   LaserOdometry odometry{{}};
   EXPECT_FALSE(odometry.add({}));

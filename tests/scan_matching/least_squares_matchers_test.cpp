@@ -38,7 +38,7 @@ Pose2 stepWithin(common::RandomStream& random, double distance_m, double turn_ra
 
 struct MatchErrors {
   double translation_rms_m = 0.0, rotation_rms_rad = 0.0;
-  double nees = 0.0;  ///< Mean of the normalized squared error; 3 when the covariance is honest.
+  double nees = 0.0;  ///< Mean of the normalized squared error; 3 when the covariance is exact.
   int failed = 0;
 };
 
@@ -72,7 +72,7 @@ MatchErrors measureAccuracy(int trials, double distance_m, double turn_rad) {
   return accuracy;
 }
 
-TYPED_TEST(LeastSquaresMatchers, AreAccurateToAMillimetreOrTwoAndSaySo) {
+TYPED_TEST(LeastSquaresMatchers, AreAccurateToTwoMillimetresWithAMatchingCovariance) {
   const MatchErrors accuracy = measureAccuracy<TypeParam>(300, 0.08, 0.015);
   EXPECT_EQ(accuracy.failed, 0);
   EXPECT_LT(accuracy.translation_rms_m, 0.002);
@@ -81,14 +81,14 @@ TYPED_TEST(LeastSquaresMatchers, AreAccurateToAMillimetreOrTwoAndSaySo) {
   EXPECT_LT(accuracy.nees, 4.5);
 }
 
-TYPED_TEST(LeastSquaresMatchers, ComeFromAfar) {
+TYPED_TEST(LeastSquaresMatchers, ConvergeFromFarGuesses) {
   const MatchErrors accuracy = measureAccuracy<TypeParam>(100, 0.3, 0.15);
   EXPECT_EQ(accuracy.failed, 0);
   EXPECT_LT(accuracy.translation_rms_m, 0.003);
   EXPECT_LT(accuracy.nees, 4.5);
 }
 
-TYPED_TEST(LeastSquaresMatchers, SayWhenTheyDidNotArrive) {
+TYPED_TEST(LeastSquaresMatchers, ReportWhenTheyDidNotConverge) {
   // So far that the walls that face one way may fit while the others are out of reach.
   const MatchErrors accuracy = measureAccuracy<TypeParam>(150, 0.8, 0.4);
   EXPECT_LT(accuracy.failed, 15);
@@ -113,7 +113,7 @@ TYPED_TEST(LeastSquaresMatchers, ForwardIsTheInverseOfBackward) {
   }
 }
 
-TYPED_TEST(LeastSquaresMatchers, SayWhichWayACorridorHides) {
+TYPED_TEST(LeastSquaresMatchers, ReportTheUnobservableDirectionOfACorridor) {
   const test::PlanarWorld world = test::corridor();
   for (const double yaw : {0.0, 0.7, -2.0}) {
     typename TypeParam::Matcher matcher{{}};
@@ -132,7 +132,7 @@ TYPED_TEST(LeastSquaresMatchers, SayWhichWayACorridorHides) {
   }
 }
 
-TYPED_TEST(LeastSquaresMatchers, ARoomHidesNothing) {
+TYPED_TEST(LeastSquaresMatchers, ReportNoUnobservableDirectionInARoom) {
   common::RandomStream random(10, "room");
   const test::PlanarWorld world = test::flat();
   for (int trial = 0; trial < 30; ++trial) {
@@ -143,7 +143,7 @@ TYPED_TEST(LeastSquaresMatchers, ARoomHidesNothing) {
   }
 }
 
-TYPED_TEST(LeastSquaresMatchers, TellAFailedMatch) {
+TYPED_TEST(LeastSquaresMatchers, ReportAFailedMatch) {
   typename TypeParam::Matcher matcher{{}};
   const test::PlanarWorld world = test::flat();
   const ProjectedScan here = scanAt(world, {}, 0);
@@ -176,7 +176,7 @@ TYPED_TEST(LeastSquaresMatchers, TellAFailedMatch) {
   EXPECT_TRUE(matcher.match(here, {}, {0.1, 0.03}).failed);
 }
 
-TYPED_TEST(LeastSquaresMatchers, PointsThatAreNotFiniteAreNotUsed) {
+TYPED_TEST(LeastSquaresMatchers, IgnorePointsThatAreNotFinite) {
   const test::PlanarWorld world = test::flat();
   typename TypeParam::Matcher clean{{}}, dirty{{}};
   ProjectedScan reference = scanAt(world, {}, 0), scan = scanAt(world, {0.02, 0.01, 0.0}, 1);
@@ -196,7 +196,7 @@ TYPED_TEST(LeastSquaresMatchers, PointsThatAreNotFiniteAreNotUsed) {
   EXPECT_EQ(match.covariance, expected.covariance);
 }
 
-TYPED_TEST(LeastSquaresMatchers, AReferenceCanBeForgotten) {
+TYPED_TEST(LeastSquaresMatchers, ClearTheirReference) {
   const test::PlanarWorld world = test::flat();
   typename TypeParam::Matcher used{{}}, fresh{{}};
   used.addReference(scanAt(world, {6.5, 2.0, 0.8}, 0), {6.5, 2.0, 0.8});
@@ -209,7 +209,7 @@ TYPED_TEST(LeastSquaresMatchers, AReferenceCanBeForgotten) {
   EXPECT_LT((errorOf(a.T_reference_body, b.T_reference_body)).norm(), 1e-9);
 }
 
-TYPED_TEST(LeastSquaresMatchers, SeveralScansAreOneReference) {
+TYPED_TEST(LeastSquaresMatchers, CombineSeveralScansIntoOneReference) {
   const test::PlanarWorld world = test::flat();
   // Neither scan sees everything that the one between them sees.
   const Pose2 west{0.5, 0.9, 3.1}, east{6.0, 0.9, 0.0}, truth{3.4, 0.95, 0.02};
@@ -224,7 +224,7 @@ TYPED_TEST(LeastSquaresMatchers, SeveralScansAreOneReference) {
   EXPECT_LT(errorOf(match.T_reference_body, truth).norm(), 0.006);
 }
 
-TYPED_TEST(LeastSquaresMatchers, AgreeWithTheOneThatLooksEverywhere) {
+TYPED_TEST(LeastSquaresMatchers, AgreeWithTheExhaustiveMatcher) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(11, "agree");
   for (int trial = 0; trial < 40; ++trial) {

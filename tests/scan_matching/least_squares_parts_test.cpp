@@ -46,7 +46,7 @@ TEST(InterpolatedField, TheSlopeIsTheDerivative) {
   for (const double x : {nan, 1e300, -1e300, 1e4, -1e4}) EXPECT_FALSE(sampleField(field, {x, 0.0}));
 }
 
-TEST(InterpolatedField, AtTheMiddleOfACellItIsTheCell) {
+TEST(InterpolatedField, EqualsTheCellAtItsMiddle) {
   LikelihoodField field(0.01, 0.02);
   const std::vector<ContourSegment> wall{{Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1.0, 0.3)}};
   field.draw(wall);
@@ -63,7 +63,7 @@ std::vector<OrientedPoint> seenFrom(const Pose2& pose, std::uint64_t frame) {
   return orientedPoints(test::scanAt(test::flat(), pose, frame), 0, 0.3, 20.0);
 }
 
-TEST(ContourNormals, AreThoseOfTheWalls) {
+TEST(ContourNormals, EqualTheNormalsOfTheWalls) {
   const Pose2 pose{0.3, 0.2, 0.5};
   const test::PlanarWorld world = test::flat();
   const auto points = seenFrom(pose, 3);
@@ -89,7 +89,7 @@ TEST(ContourNormals, AreThoseOfTheWalls) {
   EXPECT_LT(off2_foot_m2, 0.3 * off2_point_m2);  // The line has the noise of many beams.
 }
 
-TEST(ContourNormals, LonePointsAndEmptyScansHaveNone) {
+TEST(ContourNormals, DoNotExistForLonePointsAndEmptyScans) {
   ProjectedScan scan;
   EXPECT_TRUE(orientedPoints(scan, 0, 0.3, 20.0).empty());
   EXPECT_TRUE(orientedPoints(scan, 100, 0.3, 20.0).empty());
@@ -99,7 +99,7 @@ TEST(ContourNormals, LonePointsAndEmptyScansHaveNone) {
   EXPECT_TRUE(orientedPoints(scan, 2, 0.3, 20.0).empty());
 }
 
-TEST(OrientedPoints, TheNearestIsTheNearest) {
+TEST(OrientedPoints, FindTheNearestPoint) {
   common::RandomStream random(2, "nearest");
   OrientedPoints points;
   std::vector<OrientedPoint> all;
@@ -134,7 +134,7 @@ TEST(OrientedPoints, TheNearestIsTheNearest) {
     EXPECT_EQ(points.nearest({x, 0.0}, {1.0, 0.0}, 0.5), OrientedPoints::kNone);
 }
 
-TEST(LeastSquaresConfigs, TheDefaultsAreSoundAndNonsenseIsNamed) {
+TEST(LeastSquaresConfigs, DefaultsAreValidAndMistakesAreReported) {
   EXPECT_TRUE(problemsOf(GaussNewtonMatcherConfig{}).empty());
   EXPECT_TRUE(problemsOf(PointToLineMatcherConfig{}).empty());
   GaussNewtonMatcherConfig gauss_newton;

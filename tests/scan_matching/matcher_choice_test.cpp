@@ -27,14 +27,14 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EachMatcher,
                                          MatcherKind::kPointToLine),
                          [](const auto& kind) { return std::string(nameOf(kind.param)); });
 
-TEST_P(EachMatcher, IsMadeAsChosen) {
+TEST_P(EachMatcher, IsCreatedAsChosen) {
   MatcherChoiceConfig config;
   config.kind = GetParam();
   EXPECT_EQ(makeMatcher(config)->kind(), GetParam());
 }
 
 /// Seven metres through two rooms; the prediction is the truth with a drift of 4 cm/s.
-TEST_P(EachMatcher, LeadsTheOdometryThroughTheFlat) {
+TEST_P(EachMatcher, TracksAFlightThroughTheFlat) {
   const test::PlanarWorld world = test::flat();
   LaserOdometryConfig config;
   config.matcher.kind = GetParam();

@@ -23,7 +23,7 @@ namespace {
 
 using common::Pose2;
 
-RC_GTEST_PROP(WindowSums, AllInstructionsAddTheSame, ()) {
+RC_GTEST_PROP(WindowSums, EveryInstructionSetGivesTheSameSums, ()) {
   constexpr int kStride = 64, kRows = 40;
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
   const int count = *rc::gen::inRange(0, kMaxWindowPoints + 1), rows = *rc::gen::inRange(1, 18);
@@ -47,7 +47,7 @@ RC_GTEST_PROP(WindowSums, AllInstructionsAddTheSame, ()) {
   }
 }
 
-RC_GTEST_PROP(WindowSums, CellsAreFloors, ()) {
+RC_GTEST_PROP(WindowSums, CellsAreRoundedDown, ()) {
   common::RandomStream random(*rc::gen::arbitrary<std::uint64_t>(), "cells");
   const int size = *rc::gen::inRange(0, 23);
   std::vector<float> x, y;
@@ -79,7 +79,7 @@ double distanceTo(const ContourSegment& segment, const Eigen::Vector2d& p) {
   return (segment.begin_m + share * edge - p).norm();
 }
 
-TEST(LikelihoodField, HoldsTheDistanceToTheNearestContour) {
+TEST(LikelihoodField, DependsOnTheDistanceToTheNearestContour) {
   common::RandomStream random(2, "field");
   const auto contour = randomContour(random, 12);
   LikelihoodField field(0.01, 0.02);
@@ -90,14 +90,14 @@ TEST(LikelihoodField, HoldsTheDistanceToTheNearestContour) {
     const Eigen::Vector2d center((field.beginX() + x + 0.5) * 0.01, (field.beginY() + y + 0.5) * 0.01);
     double distance_m = 1e9;
     for (const ContourSegment& segment : contour) distance_m = std::min(distance_m, distanceTo(segment, center));
-    // Contours are drawn as dots a cell apart, on a quarter of a cell.
+    // Contours are drawn as dots one cell apart, at positions rounded to a quarter of a cell.
     const double found_m =
         field.at(x, y) == 0 ? field.reach_m() : field.reach_m() * std::sqrt(1.0 - field.at(x, y) / 255.0);
     EXPECT_NEAR(found_m, std::min(distance_m, field.reach_m()), 0.006);
   }
 }
 
-TEST(LikelihoodField, CoarseCellsBoundEveryPoseOfTheirBlock) {
+TEST(LikelihoodField, CoarseCellsAreUpperBoundsForTheirBlock) {
   common::RandomStream random(3, "bound");
   LikelihoodField field(0.01, 0.02);
   field.draw(randomContour(random, 6));
@@ -115,7 +115,7 @@ TEST(LikelihoodField, CoarseCellsBoundEveryPoseOfTheirBlock) {
   }
 }
 
-TEST(LikelihoodField, GrowsWithoutLosingAnythingAndForgetsEverything) {
+TEST(LikelihoodField, GrowsWithoutLossAndClears) {
   common::RandomStream random(4, "grow");
   auto near = randomContour(random, 6), far = near;
   for (ContourSegment& s : far) s = {s.begin_m + Eigen::Vector2d(-15.0, 9.0), s.end_m + Eigen::Vector2d(-15.0, 9.0)};
@@ -139,7 +139,7 @@ TEST(LikelihoodField, GrowsWithoutLosingAnythingAndForgetsEverything) {
   }
 }
 
-TEST(ScanContour, JoinsSurfacesAndNotLeaps) {
+TEST(ScanContour, JoinsSurfacesButNotJumpsInRange) {
   std::vector<Eigen::Vector2f> points;
   for (int i = 0; i < 20; ++i) points.emplace_back(2.0F, -1.0F + 0.05F * static_cast<float>(i));  // A wall.
   for (int i = 0; i < 20; ++i)
@@ -166,7 +166,7 @@ TEST(ScanContour, SpreadsPointsEvenly) {
   EXPECT_NEAR(static_cast<double>(dense), 20.0, 2.0);
 }
 
-TEST(ScanContour, PointsAreNotChosenForTheirErrors) {
+TEST(ScanContour, ThinningDoesNotBiasThePoints) {
   // A wall to the right and one to the left, seen in beam order: along one the ranges grow, along the other they
   // shrink.
   constexpr double kNoise_m = 0.01;
@@ -194,7 +194,7 @@ TEST(ScanContour, PointsAreNotChosenForTheirErrors) {
   EXPECT_LT(mean_m.cwiseAbs().maxCoeff(), 4.0 * kNoise_m / std::sqrt(count.minCoeff()));
 }
 
-TEST(ScanContour, NormalsTellACorridorFromARoom) {
+TEST(ScanContour, NormalsDistinguishACorridorFromARoom) {
   std::vector<float> x, y;
   common::RandomStream random(1, "normals");
   for (int side : {-1, 1})
@@ -210,7 +210,7 @@ TEST(ScanContour, NormalsTellACorridorFromARoom) {
   EXPECT_GT(normalSpread(x, y)(0, 0), 0.06);
 }
 
-TEST(ScoreSurface, AQuadraticIsFoundExactly) {
+TEST(ScoreSurface, FitsAQuadraticExactly) {
   Eigen::Matrix3d hessian;
   hessian << -40.0, 6.0, -4.0, 6.0, -30.0, 8.0, -4.0, 8.0, -20.0;
   const Eigen::Vector3d gradient(24.0, -18.0, 12.0);
@@ -229,7 +229,7 @@ TEST(ScoreSurface, AQuadraticIsFoundExactly) {
 }
 
 /// A cluster far ahead: the position may swing about it with the heading. The heading is hardly known, the position is.
-TEST(QuadraticPeak, WhereNothingIsSeenTheBetterKnownPartOfWhatWasExpectedStays) {
+TEST(QuadraticPeak, KeepsTheMoreCertainPartOfThePriorInAnUnobservableDirection) {
   Quadratic quadratic;
   const Eigen::Vector3d unseen = Eigen::Vector3d(0.0, 1.0, -1.0).normalized();
   quadratic.hessian = -100.0 * (Eigen::Matrix3d::Identity() - unseen * unseen.transpose());
@@ -248,7 +248,7 @@ TEST(QuadraticPeak, WhereNothingIsSeenTheBetterKnownPartOfWhatWasExpectedStays) 
 
 /// The best pose that is not adjacent to the best: from a full search, with half a turn to the left equal to one to the
 /// right.
-TEST(BranchAndBound, SearchingElsewhereIsExhaustive) {
+TEST(BranchAndBound, SearchAroundAnExclusionEqualsTheExhaustiveOne) {
   const ProjectedScan scan = test::scanAt(test::flat(), {0.5, 0.3, 0.4}, 1);
   LikelihoodField field(0.05, 0.1);
   field.draw(contourOf(scan.points_level_m, 0.3, 20.0));
@@ -283,7 +283,7 @@ TEST(BranchAndBound, SearchingElsewhereIsExhaustive) {
   }
 }
 
-TEST(ReferenceView, EndsBehindTheWallAndBesideTheLaser) {
+TEST(ReferenceView, EndsBehindWallsAndAtTheEdgeOfTheFieldOfView) {
   // A wall ahead at x = 4, seen over half a turn by a laser that stands at (1, 0) and looks along x.
   std::vector<Eigen::Vector2f> points;
   for (int deg = -89; deg <= 89; ++deg) {
@@ -308,7 +308,7 @@ TEST(ReferenceView, EndsBehindTheWallAndBesideTheLaser) {
   EXPECT_FALSE(sees(4.0F, 0.0F, {}, 0.0));
 }
 
-TEST(ReferenceView, OfAllRoundHasNoEnd) {
+TEST(ReferenceView, OverAFullTurnHasNoEdge) {
   std::vector<Eigen::Vector2f> points;
   for (int deg = 0; deg < 360; deg += 2) {
     const double angle_rad = deg * std::numbers::pi / 180.0;

@@ -1,4 +1,5 @@
-// The three matchers on real scans: consecutive ones of two logs of wheeled robots, with the wheels as the guess.
+// The three matchers on real scans: consecutive scans of two logs of wheeled robots, with the wheel odometry as the
+// guess.
 #include <array>
 #include <cmath>
 #include <optional>

@@ -31,7 +31,7 @@ Pose2 smallStep(common::RandomStream& random) {
   return {random.uniform(-0.06, 0.06), random.uniform(-0.06, 0.06), random.uniform(-0.01, 0.01)};
 }
 
-TEST(ScoreGrid, EachScoreIsTheSumOfItsLookUps) {
+TEST(ScoreGrid, EachScoreEqualsTheSumOfItsLookUps) {
   common::RandomStream random(6, "grid");
   LikelihoodField field(0.01, 0.02);
   const ProjectedScan reference = scanAt(test::flat(), {0.2, 0.1, 0.3}, 0);
@@ -65,7 +65,7 @@ TEST(ScoreGrid, EachScoreIsTheSumOfItsLookUps) {
   }
 }
 
-TEST(ScoreGrid, TheMatchIsThatOfTheExhaustiveSearchWithAllInstructions) {
+TEST(ScoreGrid, TheMatchEqualsTheExhaustiveSearchWithEveryInstructionSet) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(3, "every_pose");
   for (std::uint64_t trial = 0; trial < 10; ++trial) {
@@ -93,7 +93,7 @@ TEST(ScoreGrid, TheMatchIsThatOfTheExhaustiveSearchWithAllInstructions) {
   }
 }
 
-TEST(ScoreGrid, TheMatchIsAccurateAndSaysSo) {
+TEST(ScoreGrid, TheMatchIsAccurateWithAMatchingCovariance) {
   const test::PlanarWorld world = test::flat();
   common::RandomStream random(5, "accuracy");
   constexpr int kTrials = 150;
@@ -113,7 +113,7 @@ TEST(ScoreGrid, TheMatchIsAccurateAndSaysSo) {
   EXPECT_LT(nees, 4.5);
 }
 
-TEST(ScoreGrid, TheScoresAloneTellWhichWayACorridorHides) {
+TEST(ScoreGrid, TheScoresShowTheUnobservableDirectionOfACorridor) {
   CorrelativeMatcherConfig config = everyPose();
   config.min_normal_spread = 0.0;
   CorrelativeMatcher matcher(config);
@@ -122,12 +122,13 @@ TEST(ScoreGrid, TheScoresAloneTellWhichWayACorridorHides) {
   matcher.addReference(scanAt(world, reference, 0), reference);
   const MatchResult match = matcher.match(scanAt(world, truth, 1), guess, {0.2, 0.02});
   ASSERT_FALSE(match.failed);
-  // Not along the whole window, as the dots of the walls far away are alike by chance, but far wider than in a room.
+  // The direction does not extend over the whole window, because dots on distant walls match by chance, but it is far
+  // longer than in a room.
   EXPECT_GT(match.covariance(0, 0), 20.0 * match.covariance(1, 1));
   EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
 }
 
-TEST(ScoreGrid, TwoPlacesAlikeWidenTheCovariance) {
+TEST(ScoreGrid, TwoSimilarPosesWidenTheCovariance) {
   // Likelihood on the surface of the best and on a pose far away along x.
   LikelihoodField field(0.01, 0.02);
   std::vector<ContourSegment> posts;

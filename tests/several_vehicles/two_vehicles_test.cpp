@@ -73,7 +73,7 @@ class Flyer : private autonomy::FlightSink {
   std::string story_;
 };
 
-TEST(TwoVehicles, PassEachOtherAndComeHome) {
+TEST(TwoVehicles, PassEachOtherAndReturnHome) {
   const std::string there_and_back =
       sequence("<TakeOff/><MoveToGoal goal=\"5.0;0.0\" tolerance_m=\"0.15\"/><GoHome/><Land/>");
   const auto arena = std::make_shared<simulation::Arena>(furnishedRoom(), twoThatFaceEachOther());

@@ -47,7 +47,7 @@ struct Pair {
   TruthPilot pilot_a, pilot_b;
 };
 
-/// Straight ahead, at the end of the last scan.
+/// The range straight ahead in the last scan.
 inline float rangeAhead_m(const std::vector<common::SensorEvent>& events) {
   const std::vector<float>& ranges_m = eventsOf<Scan>(events).back()->ranges_m;
   return ranges_m[ranges_m.size() / 2];

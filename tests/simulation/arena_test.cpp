@@ -35,7 +35,7 @@ Scenario withEverything(Scenario scenario) {
   return scenario;
 }
 
-TEST(Arena, ASecondVehicleOutOfSightShiftsNothingOfTheFirst) {
+TEST(Arena, ASecondVehicleOutOfSightDoesNotAffectTheFirst) {
   Scenario alone = withEverything(scenarioOf({}));
   alone.start = vehicleAt("a", -2.5, 0).start;
   SimulatedVehicle vehicle(halvedRoom(), alone);
@@ -54,7 +54,7 @@ TEST(Arena, ASecondVehicleOutOfSightShiftsNothingOfTheFirst) {
   EXPECT_EQ(vehicle.truth().T_world_body.position_m, pair.a.truth().T_world_body.position_m);
 }
 
-TEST(Arena, EachVehicleHasNoiseAndAStartOfItsOwn) {
+TEST(Arena, EachVehicleHasItsOwnNoiseAndStart) {
   Pair pair(withEverything(scenarioOf({vehicleAt("a", -2.5, 0), vehicleAt("b", 2.5, 0)})), halvedRoom());
   pair.fly(0.5);
   const auto first = eventsOf<common::ImuSample>(pair.pilot_a.events);
@@ -69,7 +69,7 @@ TEST(Arena, EachVehicleHasNoiseAndAStartOfItsOwn) {
   EXPECT_EQ(pair.a.scenario().wind.mean_x_m_s, pair.b.scenario().wind.mean_x_m_s) << "there is one wind";
 }
 
-TEST(Arena, TheOrderInWhichTheyAreAdvancedChangesNothing) {
+TEST(Arena, TheOrderOfAdvancingChangesNothing) {
   const Scenario scenario = scenarioOf({vehicleAt("a", -2, 0), vehicleAt("b", 2, 0, 180)});
   Pair forth(scenario), back(scenario);
   for (Pair* pair : {&forth, &back}) {
@@ -83,7 +83,7 @@ TEST(Arena, TheOrderInWhichTheyAreAdvancedChangesNothing) {
   EXPECT_EQ(bytesOf(forth.pilot_b.events, true), bytesOf(back.pilot_b.events, true));
 }
 
-TEST(ArenaDeath, NobodyMayRunAhead) {
+TEST(ArenaDeath, NoVehicleMayAdvanceAheadOfTheOthers) {
   Pair pair(scenarioOf({vehicleAt("a", -2, 0), vehicleAt("b", 2, 0)}));
   std::vector<common::SensorEvent> events;
   ASSERT_TRUE(pair.a.advanceTo(Time::fromSeconds(0.01), events));
@@ -94,17 +94,17 @@ TEST(ArenaDeath, NobodyMayRunAhead) {
   EXPECT_TRUE(pair.a.advanceTo(Time::fromSeconds(0.02), events));
 }
 
-TEST(ArenaDeath, AVehicleIsAttendedOnceFromTheStart) {
+TEST(ArenaDeath, AVehicleHasOneUserFromTheStart) {
   const auto arena = std::make_shared<Arena>(boxRoom(), scenarioOf({vehicleAt("a", -2, 0), vehicleAt("b", 2, 0)}));
   SimulatedVehicle a(arena, 0);
   EXPECT_DEATH(SimulatedVehicle(arena, 0), "attended");
   EXPECT_DEATH(SimulatedVehicle(arena, 2), "index");
   std::vector<common::SensorEvent> events;
-  ASSERT_TRUE(a.advanceTo(Time::fromSeconds(0.01), events)) << "nobody attends b";
+  ASSERT_TRUE(a.advanceTo(Time::fromSeconds(0.01), events)) << "b has no user";
   EXPECT_DEATH(SimulatedVehicle(arena, 1), "now_");
 }
 
-TEST(Arena, AVehicleThatIsLeftIsNotWaitedForAndComesDownByItself) {
+TEST(Arena, AnAbandonedVehicleLandsAndBlocksNobody) {
   const auto arena = std::make_shared<Arena>(boxRoom(), scenarioOf({vehicleAt("a", -2, 0), vehicleAt("b", 2, 0)}));
   SimulatedVehicle a(arena, 0);
   std::optional<SimulatedVehicle> b(std::in_place, arena, 1);
@@ -131,7 +131,7 @@ TEST(Arena, StartsThatTouchAreRefused) {
   }
 }
 
-TEST(Arena, StartsAreDrawnAgainUntilTheyDoNotTouch) {
+TEST(Arena, StartsAreRedrawnUntilTheyDoNotTouch) {
   Scenario scenario = scenarioOf({vehicleAt("a", 0, 0), vehicleAt("b", 0.6, 0)});
   scenario.variation.start_position_m = 0.4;
   int redraws = 0;

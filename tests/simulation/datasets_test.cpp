@@ -21,9 +21,9 @@ struct Case {
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.world; }
 
-class WorldByOthers : public ::testing::TestWithParam<Case> {};
+class WorldOfDataSet : public ::testing::TestWithParam<Case> {};
 
-TEST_P(WorldByOthers, LoadsAndCanBeFlownIn) {
+TEST_P(WorldOfDataSet, LoadsAndAllowsAFlight) {
   const auto archive = test_support::dataSet(std::string("06-sim-worlds/") + GetParam().archive);
   if (!archive) return;
   const TemporaryFolder folder("swiftlet_datasets");
@@ -55,7 +55,7 @@ TEST_P(WorldByOthers, LoadsAndCanBeFlownIn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Datasets, WorldByOthers,
+    Datasets, WorldOfDataSet,
     ::testing::Values(
         Case{"turtlebot3_house_and_world/turtlebot3_house_and_world.tar.xz", "worlds/turtlebot3_house.world", -3.0, 1.0,
              60.0},

@@ -20,7 +20,7 @@ std::vector<common::SensorEvent> withFault(const FaultConfig& fault) {
   return events;
 }
 
-TEST(Faults, ASilentLaserSendsNothingAndTheOthersAreUntouched) {
+TEST(Faults, ASilentLaserSendsNothingAndOtherSensorsAreUnaffected) {
   const auto broken = withFault({Sensor::kLaser, FaultKind::kSilent, 1.0, 2.0});
   const auto sound = withFault({Sensor::kLaser, FaultKind::kSilent, 9.0, 9.0});
   EXPECT_EQ(eventsOf<Scan>(sound).size() - eventsOf<Scan>(broken).size(), 40U);
@@ -65,7 +65,7 @@ TEST(Faults, ALateScanArrivesLate) {
   EXPECT_EQ(late, 40);
 }
 
-TEST(Faults, ALossyLinkLosesItsShare) {
+TEST(Faults, ALossyLinkDropsItsShareOfMessages) {
   Scenario scenario;
   scenario.sensors.imu_link.loss_rate = 0.1;
   SimulatedVehicle vehicle(boxRoom(), scenario);

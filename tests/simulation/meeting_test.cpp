@@ -13,7 +13,7 @@ using ::testing::StartsWith;
 
 constexpr double kRadius_m = 0.275;
 
-TEST(Meeting, TheLaserSeesTheOtherHullWhereItIs) {
+TEST(Meeting, TheLaserMeasuresTheOtherHull) {
   Pair pair(scenarioOf({vehicleAt("a", -2, 0), vehicleAt("b", 1, 0, 180)}));
   pair.fly(0.5);
   EXPECT_NEAR(rangeAhead_m(pair.pilot_a.events), 3.0 - kRadius_m, 0.05);
@@ -40,7 +40,7 @@ TEST(Meeting, TheCameraSeesTheOtherHull) {
   EXPECT_NEAR(redness[1], 1.0, 0.15) << "a grey wall";
 }
 
-TEST(Meeting, TwoHullsThatTouchEndBoth) {
+TEST(Meeting, TouchingHullsEndBothFlights) {
   Pair pair(scenarioOf({vehicleAt("a", -2, 0), vehicleAt("b", 2, 0)}));
   pair.pilot_a.flyTo(-2, 0, 1);
   pair.pilot_b.flyTo(2, 0, 1);
@@ -61,7 +61,7 @@ TEST(Meeting, TwoHullsThatTouchEndBoth) {
   EXPECT_FALSE(pair.a.advanceTo(common::Time::fromSeconds(60), more)) << "it stays crashed";
 }
 
-TEST(Meeting, OneMayFlyOverTheOther) {
+TEST(Meeting, AVehicleMayFlyOverAnother) {
   Pair pair(scenarioOf({vehicleAt("a", -2, 0), vehicleAt("b", 0, 0)}));
   pair.pilot_a.flyTo(-2, 0, 1.5);
   pair.fly(4.0);
@@ -71,7 +71,7 @@ TEST(Meeting, OneMayFlyOverTheOther) {
   EXPECT_GT(pair.a.truth().T_world_body.position_m.x(), 1.5);
 }
 
-TEST(Meeting, AWreckFallsToTheFloorAndTheOtherFliesOn) {
+TEST(Meeting, ACrashedVehicleFallsAndTheOtherContinues) {
   Pair pair(scenarioOf({vehicleAt("a", -2, 0), vehicleAt("b", 3.5, 0)}));
   pair.pilot_a.flyTo(-2, 0, 1);
   pair.pilot_b.flyTo(3.5, 0, 1);
@@ -85,7 +85,7 @@ TEST(Meeting, AWreckFallsToTheFloorAndTheOtherFliesOn) {
   EXPECT_EQ(pair.a.now(), common::Time::fromSeconds(8.0));
 }
 
-TEST(Meeting, APersonFollowsTheVehicleItIsToldTo) {
+TEST(Meeting, APersonFollowsTheGivenVehicle) {
   Scenario scenario = scenarioOf({vehicleAt("a", -4, 3), vehicleAt("b", -4, -3)});
   WalkerConfig follower{.mode = WalkerMode::kFollow, .path_world_m = {}, .distance_m = 1.0};
   follower.vehicle = "b";
@@ -103,7 +103,7 @@ TEST(Meeting, APersonFollowsTheVehicleItIsToldTo) {
   EXPECT_LT(pair.arena->people()[0].position_world_m.y(), -2.5);
 }
 
-TEST(Meeting, APersonCrossesAheadOfTheVehicleItIsToldTo) {
+TEST(Meeting, APersonCrossesAheadOfTheGivenVehicle) {
   Scenario scenario = scenarioOf({vehicleAt("a", -4, 3), vehicleAt("b", -4, -1)});
   WalkerConfig crosser{.mode = WalkerMode::kCrossPath, .path_world_m = {}, .distance_m = 3.0};
   crosser.vehicle = "b";

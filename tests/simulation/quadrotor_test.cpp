@@ -52,7 +52,7 @@ TEST(Quadrotor, FallsFreelyWithMotorsOffAndNoDrag) {
   EXPECT_NEAR(quadrotor.state().specific_force_body_m_s2.norm(), 0.0, 1e-9) << "weightless";
 }
 
-TEST(Quadrotor, DragTakesEnergyOutOfAFallAndTheWindCarriesIt) {
+TEST(Quadrotor, DragSlowsAFallAndWindMovesIt) {
   Quadrotor quadrotor(kVehicle, kAirframe, inTheAir(), 1.0);
   double energy = kGravity_m_s2 * 10;
   for (int i = 0; i < 20'000; ++i) {
@@ -71,7 +71,7 @@ TEST(Quadrotor, DragTakesEnergyOutOfAFallAndTheWindCarriesIt) {
   EXPECT_NEAR(quadrotor.state().velocity_world_m_s.y(), -1.0, 0.02);
 }
 
-TEST(Quadrotor, HoversWhereThrustBalancesWeightAtThePresentVoltage) {
+TEST(Quadrotor, HoverThrottleBalancesTheWeightAtThePresentVoltage) {
   Quadrotor quadrotor(kVehicle, kAirframe, inTheAir(), 0.6);
   Autopilot autopilot(kVehicle, kAirframe, {});
   common::Setpoint setpoint{.stamp = {}, .motors_on = true};
@@ -107,7 +107,7 @@ TEST(Quadrotor, MotorsFollowWithTheirLag) {
   EXPECT_NEAR(quadrotor.state().thrusts_n[0] / (0.25 * kVehicle.max_thrust_n), 1 - std::exp(-1.0), 0.05);
 }
 
-TEST(Quadrotor, SpinsWithoutGainingMomentumInTheAir) {
+TEST(Quadrotor, KeepsItsAngularMomentumInTheAir) {
   common::Pose3 pose = inTheAir();
   Quadrotor quadrotor(kVehicle, withoutDrag(), pose, 1.0);
   // Spun up unevenly, then left to tumble: the angular momentum in the world is constant.
@@ -194,7 +194,7 @@ TEST(Autopilot, AStepInRollOvershootsLittleAndSettles) {
   EXPECT_LT(reached_s, 0.4);
 }
 
-TEST(Autopilot, LimitsWhatItIsAskedAndIgnoresNan) {
+TEST(Autopilot, LimitsCommandsAndIgnoresNan) {
   Quadrotor quadrotor(kVehicle, kAirframe, inTheAir(), 1.0);
   Autopilot autopilot(kVehicle, kAirframe, {});
   fly(quadrotor, autopilot, {.stamp = {}, .motors_on = true, .roll_rad = 3.0, .pitch_rad = NAN, .thrust = 0.56}, 1.0);
@@ -221,7 +221,7 @@ TEST(Autopilot, LevelsAndDescendsWhenTheLinkIsLost) {
   EXPECT_GT(quadrotor.state().velocity_world_m_s.z(), -4.0);
 }
 
-TEST(InertialUnit, TheAttitudeIsRightToAboutADegreeButYawDrifts) {
+TEST(InertialUnit, TheAttitudeIsAccurateToADegreeWhileYawDrifts) {
   InertialUnit unit({}, 5);
   QuadrotorState state;
   double sum = 0.0, least_yaw = 10, greatest_yaw = -10;
@@ -239,7 +239,7 @@ TEST(InertialUnit, TheAttitudeIsRightToAboutADegreeButYawDrifts) {
   EXPECT_GT(greatest_yaw - least_yaw, 0.005);
 }
 
-TEST(InertialUnit, ASampleIsTheMeanOverItsPeriodWithNoiseAndBias) {
+TEST(InertialUnit, ASampleIsTheMeanOverItsPeriodPlusNoiseAndBias) {
   ImuConfig quiet;
   quiet.gyro_noise_rad_s = quiet.gyro_bias_rad_s = quiet.accel_noise_m_s2 = quiet.accel_bias_m_s2 = 0.0;
   InertialUnit unit(quiet, 1);
@@ -264,7 +264,7 @@ TEST(InertialUnit, ASampleIsTheMeanOverItsPeriodWithNoiseAndBias) {
   EXPECT_GT(std::abs(mean), 1e-3) << "the bias stays";
 }
 
-TEST(Quadrotor, GyroscopesFeelNoTurnThatDoesNotHappenWhileMotorsLeanItAgainstTheFloor) {
+TEST(Quadrotor, GyroscopesMeasureNoTurnWhileTheFloorPreventsIt) {
   Quadrotor quadrotor(kVehicle, kAirframe, {Eigen::Quaterniond::Identity(), {0, 0, kAirframe.gear_height_m}}, 1.0);
   Eigen::Quaterniond felt = Eigen::Quaterniond::Identity();
   for (int i = 0; i < 2000; ++i) {

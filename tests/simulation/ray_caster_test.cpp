@@ -41,7 +41,7 @@ WorldModel clutter(std::uint64_t seed, int triangles) {
   return world;
 }
 
-/// The slow obvious one: every triangle, in double precision.
+/// A slow and simple ray caster: it tests every triangle, in double precision.
 double bruteForce(const WorldModel& world, const Vector3d& origin, const Vector3d& direction) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Shape& shape : world.shapes) {
@@ -101,7 +101,7 @@ TEST(RayCaster, EqualsTestingEveryTriangle) {
   EXPECT_GT(met, 300);
 }
 
-TEST(RayCaster, MeetsAPersonOnTheSideAndOnTheHead) {
+TEST(RayCaster, HitsAPersonFromTheSideAndFromAbove) {
   const RayCaster rays(boxRoom());
   const std::vector<Actor> people{{{2.0, 0.0}, 0.25, 0.0, 1.75}};
   const Hit side = rays.cast({0, 0, 1}, {1, 0, 0}, 30, people);
@@ -185,7 +185,7 @@ TEST(RayCaster, ClearanceEqualsSamplingTheTriangles) {
   }
 }
 
-TEST(TruthMap, FloodsTheRoomButNotThroughAGapThatIsTooNarrow) {
+TEST(TruthMap, FloodsTheRoomButNotThroughANarrowGap) {
   WorldModel world = boxRoom();
   // A wall of paper at x = 1 with a gap of 0.5 m, and later one of 0.7 m.
   world.shapes.push_back(boxShape("paper south", {1.0, -4.0, 0.0}, {1.001, -0.25, 3.0}));

@@ -58,7 +58,7 @@ TEST(Scenario, ListsSeveralVehicles) {
   EXPECT_EQ(beta.vehicleCount(), 1U);
 }
 
-TEST(Scenario, SaysWhatIsWrongWithItsVehicles) {
+TEST(Scenario, ReportsMistakesInItsVehicles) {
   const auto problem = [](const std::string& text) -> std::string {
     try {
       scenarioFrom(text);

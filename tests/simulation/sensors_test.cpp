@@ -32,7 +32,7 @@ double rangeInRoom(const Eigen::Vector2d& from, double angle_rad) {
   return std::min(to_x, to_y);
 }
 
-TEST(LaserScanner, MeasuresARoomAsGeometrySays) {
+TEST(LaserScanner, RangesEqualTheGeometryOfARoom) {
   LaserScanner laser(quietLaser(), 1);
   const RayCaster rays(boxRoom());
   const common::Pose3 pose{common::quaternionFrom({0, 0, 0.3}), {1, -1, 1}};
@@ -82,7 +82,7 @@ TEST(LaserScanner, MirrorBeamsMeasureTheHeight) {
   }
 }
 
-TEST(LaserScanner, HasItsNoiseDropoutsAndLimits) {
+TEST(LaserScanner, HasTheConfiguredNoiseDropoutsAndLimits) {
   common::LaserConfig config;
   config.range_max_m = 4.5;
   config.dropout_rate = 0.05;
@@ -121,7 +121,7 @@ TEST(LaserScanner, HasItsNoiseDropoutsAndLimits) {
   EXPECT_NEAR(std::sqrt(squares / within), config.range_noise_m, 0.0005);
 }
 
-TEST(LaserScanner, NoiseIsCountedByFrame) {
+TEST(LaserScanner, NoiseDependsOnlyOnTheFrame) {
   LaserScanner a({}, 3), b({}, 3);
   const RayCaster rays(boxRoom());
   const auto track = still({Eigen::Quaterniond::Identity(), {0, 0, 1}});
@@ -131,7 +131,7 @@ TEST(LaserScanner, NoiseIsCountedByFrame) {
   EXPECT_NE(a.scan(2, Time(), track, rays).ranges_m, b.scan(1, Time(), track, rays).ranges_m);
 }
 
-TEST(LaserScanner, SeesAPersonWalkOnDuringTheSweep) {
+TEST(LaserScanner, SeesAPersonMoveDuringTheSweep) {
   LaserScanner laser(quietLaser(), 1);
   const RayCaster rays(boxRoom());
   const common::Pose3 pose{Eigen::Quaterniond::Identity(), {0, 0, 1}};
@@ -146,7 +146,7 @@ TEST(LaserScanner, SeesAPersonWalkOnDuringTheSweep) {
   EXPECT_NEAR(scan.ranges_m[540], 2.0 - 50 * at_s - 0.25, 0.051);
 }
 
-TEST(Camera, ShowsColoursWhereThingsAre) {
+TEST(Camera, ShowsColoursInTheRightPlace) {
   WorldModel world = boxRoom();
   for (Shape& shape : world.shapes) shape.color = Color(0.5F, 0.5F, 0.5F);
   world.shapes.push_back(boxShape("red", {3.0, 0.5, 0.5}, {3.5, 2.0, 1.5}));
@@ -164,7 +164,7 @@ TEST(Camera, ShowsColoursWhereThingsAre) {
   EXPECT_NE(pixel(160, 5)[0], pixel(160, 120)[0]) << "the ceiling is shaded otherwise than the wall";
 }
 
-TEST(Link, DelaysInOrder) {
+TEST(Link, DelaysMessagesInOrder) {
   Link link({.latency_s = 0.01, .jitter_s = 0.05, .loss_rate = 0.0}, 1, "laser");
   Time last;
   for (std::uint64_t frame = 0; frame < 1000; ++frame) {

@@ -35,7 +35,7 @@ struct Survey : testing::Test {
   SurveyConfig config;
 };
 
-TEST_F(Survey, DrivesItsWayAndTurnsOnTheSpot) {
+TEST_F(Survey, DrivesItsPathAndTurnsOnTheSpot) {
   const std::vector<SurveyScan> all = scans();
   // 3 m and 2 m at 0.5 m/s, and a quarter turn: 12 s, ten scans a second.
   ASSERT_NEAR(static_cast<double>(all.size()), 120.0, 1.0);
@@ -46,7 +46,7 @@ TEST_F(Survey, DrivesItsWayAndTurnsOnTheSpot) {
   EXPECT_NEAR(all[30].scan.stamps.measured.seconds(), 3.0, 1e-9);
 }
 
-TEST_F(Survey, SeesWhatStandsAtItsHeight) {
+TEST_F(Survey, SeesObstaclesAtItsHeight) {
   const auto ahead = [&] { return static_cast<double>(scans()[0].scan.ranges_m[180]); };
   EXPECT_NEAR(ahead(), 7.0, 0.1) << "over the desk to the wall";
   config.laser_height_world_m = 0.5;
@@ -60,7 +60,7 @@ TEST_F(Survey, TheSameSeedGivesTheSameBytes) {
   EXPECT_NE(scans()[5].scan.ranges_m, first);
 }
 
-TEST(SurveyConfig, AWayHasTwoPointsOrMore) {
+TEST(SurveyConfig, APathHasAtLeastTwoPoints) {
   SurveyConfig config;
   EXPECT_TRUE(common::config::problemsOf(config).empty()) << "none is driven";
   config.path_world_m = {1.0, 2.0};

@@ -1,4 +1,4 @@
-// The variation by a seed.
+// Variation of a scenario by its seed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST(Variation, IsTheSameForASeedAndKeepsWithinItsBounds) {
   EXPECT_GT(xs.back(), 0.1);
 }
 
-TEST(Variation, DrawsAgainUntilStartIsFreeAndGoalReachable) {
+TEST(Variation, RedrawsUntilStartIsFreeAndGoalReachable) {
   WorldModel world = boxRoom();
   world.shapes.push_back(boxShape("crate", {0.35, -0.5, 0.0}, {1.35, 0.5, 1.5}));
   Scenario scenario;
@@ -72,7 +72,7 @@ TEST(Variation, DrawsAgainUntilStartIsFreeAndGoalReachable) {
   }
 }
 
-TEST(Variation, AStartAnywhereIsOnTheFloorWithRoomAboveAndAWayToTheNominalOne) {
+TEST(Variation, ARandomStartHasFloorHeadroomAndAPathToTheNominalStart) {
   WorldModel world = boxRoom();
   world.shapes.push_back(boxShape("stage", {-5.0, -4.0, 0.0}, {-3.0, 4.0, 0.3}));
   world.shapes.push_back(boxShape("awning", {3.0, -4.0, 0.45}, {5.0, 4.0, 0.5}));

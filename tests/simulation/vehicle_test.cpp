@@ -33,7 +33,7 @@ std::vector<common::SensorEvent> tour(int seed, bool camera) {
   return pilot.events;
 }
 
-TEST(SimulatedVehicle, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers) {
+TEST(SimulatedVehicle, OnlyTheSameSeedGivesTheSameBytes) {
   const std::string first = bytesOf(tour(7, true), true);
   EXPECT_GT(first.size(), 100'000U);
   EXPECT_EQ(first, bytesOf(tour(7, true), true));
@@ -43,11 +43,11 @@ TEST(SimulatedVehicle, TheSameSeedGivesTheSameBytesAndAnotherSeedOthers) {
 TEST(SimulatedVehicle, ACameraConsumerChangesNoOtherByte) {
   const auto with = tour(7, true), without = tour(7, false);
   EXPECT_EQ(eventsOf<Frame>(with).size(), 40U);
-  EXPECT_TRUE(eventsOf<Frame>(without).empty()) << "what nobody looks at is not rendered";
+  EXPECT_TRUE(eventsOf<Frame>(without).empty()) << "pictures without a consumer are not rendered";
   EXPECT_EQ(bytesOf(with, false), bytesOf(without, false));
 }
 
-TEST(SimulatedVehicle, HowFarEachCallAdvancesChangesNothing) {
+TEST(SimulatedVehicle, TheStepOfEachCallChangesNothing) {
   std::vector<common::SensorEvent> fine, coarse;
   SimulatedVehicle a(boxRoom(), Scenario()), b(boxRoom(), Scenario());
   for (int i = 1; i <= 1000; ++i) ASSERT_TRUE(a.advanceTo(Time::fromNanoseconds(i * 777'777), fine));
@@ -56,7 +56,7 @@ TEST(SimulatedVehicle, HowFarEachCallAdvancesChangesNothing) {
   EXPECT_EQ(a.now(), b.now());
 }
 
-TEST(SimulatedVehicle, SendsEachSensorAtItsRateOrderedByArrival) {
+TEST(SimulatedVehicle, SendsEachSensorAtItsRateInOrderOfArrival) {
   SimulatedVehicle vehicle(boxRoom(), Scenario());
   std::vector<common::SensorEvent> events;
   ASSERT_TRUE(vehicle.advanceTo(Time::fromSeconds(10.0), events));
@@ -114,7 +114,7 @@ TEST(SimulatedVehicle, FallingOntoTheFloorIsACrash) {
   EXPECT_THAT(vehicle.stopReason(), ::testing::AllOf(HasSubstr("touched `floor`"), HasSubstr("too fast")));
 }
 
-TEST(SimulatedVehicle, FlyingFastIntoASheetOfPaperIsACrashAtTheSheet) {
+TEST(SimulatedVehicle, FlyingFastIntoASheetOfPaperCrashesAtTheSheet) {
   WorldModel world = boxRoom();
   world.shapes.push_back(boxShape("paper", {2.0, -4.0, 0.0}, {2.0001, 4.0, 3.0}));
   Scenario scenario;
@@ -149,7 +149,7 @@ TEST(SimulatedVehicle, LosingTheLinkEndsInADescent) {
   EXPECT_LT(vehicle.truth().velocity_world_m_s.z(), -0.1);
 }
 
-TEST(SimulatedVehicle, ThePilotMayFlyAlone) {
+TEST(SimulatedVehicle, ThePilotCanFlyWithoutTheAutonomy) {
   Scenario scenario;
   scenario.pilot = {{0.0}, {3.0, 0.0, 0.0, 0.0, 0.7, true}};
   SimulatedVehicle vehicle(boxRoom(), scenario);
@@ -164,7 +164,7 @@ TEST(SimulatedVehicle, ThePilotMayFlyAlone) {
   EXPECT_TRUE(sticks.back().takes_over);
 }
 
-TEST(SimulatedVehicle, APushMovesItAndItStaysAlive) {
+TEST(SimulatedVehicle, APushMovesItWithoutACrash) {
   Scenario scenario;
   scenario.pushes.push_back({4.0, 1.6, 0, 0});
   SimulatedVehicle vehicle(boxRoom(), scenario);

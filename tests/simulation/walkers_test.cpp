@@ -8,7 +8,7 @@
 namespace swiftlet::simulation {
 namespace {
 
-TEST(Walkers, AWalkerThatRunsIntoAHoveringVehicleIsBlamed) {
+TEST(Walkers, AWalkerIsBlamedForHittingAHoveringVehicle) {
   Scenario scenario;
   scenario.walkers.push_back({WalkerMode::kPath, {3, 0, -3, 0}, WalkerEnd::kStay, 1.0, 0.25, 1.75, 4.0});
   SimulatedVehicle vehicle(boxRoom(), scenario);
@@ -23,7 +23,7 @@ TEST(Walkers, AWalkerThatRunsIntoAHoveringVehicleIsBlamed) {
   EXPECT_NEAR(vehicle.truth().contact_time.seconds(), 4.0 + 3.0 - 0.525, 0.3);
 }
 
-TEST(Walkers, FlyingIntoAStandingPersonIsTheVehiclesFault) {
+TEST(Walkers, TheVehicleIsBlamedForHittingAStandingPerson) {
   Scenario scenario;
   scenario.walkers.push_back({WalkerMode::kPath, {2, 0}, WalkerEnd::kStay});
   SimulatedVehicle vehicle(boxRoom(), scenario);
@@ -36,7 +36,7 @@ TEST(Walkers, FlyingIntoAStandingPersonIsTheVehiclesFault) {
   EXPECT_FALSE(vehicle.truth().yielding);
 }
 
-TEST(Walkers, AWalkerCrossesAheadInSightAndIsGone) {
+TEST(Walkers, AWalkerCrossesAheadInSightAndLeaves) {
   Scenario scenario;
   scenario.start = {false, -4.0, 0.0, 0.0, 0.0};
   scenario.walkers.push_back({.mode = WalkerMode::kCrossPath, .path_world_m = {}, .start_s = 1.0, .distance_m = 3.0});
@@ -44,7 +44,7 @@ TEST(Walkers, AWalkerCrossesAheadInSightAndIsGone) {
   TruthPilot pilot(vehicle);
   pilot.flyTo(-4, 0, 1);
   ASSERT_TRUE(pilot.fly(4));
-  EXPECT_TRUE(vehicle.walkers().empty()) << "nobody crosses the way of one that stands still";
+  EXPECT_TRUE(vehicle.walkers().empty()) << "nobody crosses ahead of a vehicle at rest";
   pilot.max_speed_m_s = 0.5;
   pilot.flyTo(0, 0, 1);
   double least_y = 9, greatest_y = -9;
@@ -63,10 +63,10 @@ TEST(Walkers, AWalkerCrossesAheadInSightAndIsGone) {
   EXPECT_TRUE(came);
   EXPECT_LT(least_y, -1.0);
   EXPECT_GT(greatest_y, 1.0);
-  EXPECT_TRUE(vehicle.walkers().empty()) << "it went on its way";
+  EXPECT_TRUE(vehicle.walkers().empty()) << "the walker has left";
 }
 
-TEST(Walkers, AFollowerKeepsBehindInTheVehiclesTrail) {
+TEST(Walkers, AFollowerStaysBehindOnTheVehiclesTrail) {
   Scenario scenario;
   scenario.start = {false, -4.0, -3.0, 0.0, 0.0};
   scenario.walkers.push_back({.mode = WalkerMode::kFollow, .path_world_m = {}, .distance_m = 1.0});

@@ -107,7 +107,7 @@ TEST_F(WorldFile, AppliesPosesOfModelsLinksAndFrames) {
   EXPECT_NEAR(common::yawOf(w.T_world_start->rotation), M_PI / 2, 1e-9);
 }
 
-TEST_F(WorldFile, TakesTheVisualWhereALinkHasNoCollisionAndItsColour) {
+TEST_F(WorldFile, UsesTheVisualAndItsColourWhenALinkHasNoCollision) {
   const WorldModel w =
       load(R"(<model name="m"><static>true</static><link name="l"><visual name="v"><geometry>)" + kBox +
            R"(</geometry><material><diffuse>0.1 0.2 0.3 1</diffuse></material></visual></link></model>)");
@@ -135,7 +135,7 @@ TEST_F(WorldFile, FindsIncludedModelsAndMeshesOnThePaths) {
               AllOf(HasSubstr("w.sdf:4: "), HasSubstr("model://crate"), HasSubstr("model path")));
 }
 
-TEST_F(WorldFile, FindsWhatIncludedModelsInclude) {
+TEST_F(WorldFile, FindsModelsIncludedByIncludedModels) {
   const auto sdf = [](const std::string& name, const std::string& inside) {
     return "<sdf version='1.9'>\n<model name='" + name + "'><static>1</static>" + inside + "</model></sdf>";
   };
@@ -169,19 +169,19 @@ TEST_F(WorldFile, PutsAFloorWhereTheWellKnownGroundPlaneIsMissing) {
                                       AllOf(HasSubstr("w.sdf:5: "), HasSubstr("sun"))));
 }
 
-TEST_F(WorldFile, WarnsOfUnknownElementsWithTheirLine) {
+TEST_F(WorldFile, WarnsOfUnknownElementsWithLineNumbers) {
   const WorldModel w = load("<frobnicate>3</frobnicate>\n" + model("box", kBox));
   EXPECT_THAT(w.warnings, ElementsAre(AllOf(HasSubstr("w.sdf:4: "), HasSubstr("frobnicate"))));
   const WorldModel odd = load(model("box", kBox) + model("odd", "<donut><size>1</size></donut>"));
   EXPECT_THAT(odd.warnings, Contains(AllOf(HasSubstr("w.sdf:5"), HasSubstr("donut"))));
 }
 
-TEST_F(WorldFile, TakesABareModelAsAWorld) {
+TEST_F(WorldFile, AcceptsASingleModelAsAWorld) {
   const std::string file = folder_.write("model.sdf", "<sdf version=\"1.9\">\n" + model("thing", kBox) + "</sdf>");
   EXPECT_THAT(loadWorld(file).modelNames(), ElementsAre("thing"));
 }
 
-TEST_F(WorldFile, SaysWhereABadWorldIsBad) {
+TEST_F(WorldFile, ReportsThePlaceOfMistakes) {
   EXPECT_THAT(problem([&] { loadWorld((folder_.path() / "none.sdf").string()); }),
               AllOf(HasSubstr("none.sdf"), HasSubstr("cannot be opened")));
   EXPECT_THAT(problem([&] { loadWorld(folder_.path().string()); }), HasSubstr("is a folder"));
@@ -208,7 +208,7 @@ TEST_F(WorldFile, SaysWhereABadWorldIsBad) {
   EXPECT_THAT(problemOf(""), HasSubstr("no geometry"));
 }
 
-TEST_F(WorldFile, IsLoadedOrRefusedWhateverIsInIt) {
+TEST_F(WorldFile, AnyContentIsLoadedOrRefusedWithoutACrash) {
   const std::string sound = world("<frame name=\"start\"><pose>1 2 0 0 0 0</pose></frame>\n" + model("box", kBox) +
                                   model("ball", "<sphere><radius>1</radius></sphere>"));
   int loaded = 0, refused = 0;
@@ -241,12 +241,12 @@ TEST_F(WorldFile, IsLoadedOrRefusedWhateverIsInIt) {
   EXPECT_GT(refused, 10);
 }
 
-TEST_F(WorldFile, RefusesSizesThatAreNoNumbers) {
+TEST_F(WorldFile, RefusesSizesThatAreNotNumbers) {
   EXPECT_THAT(problemOf(model("a", "<box><size>nan 1 1</size></box>")), HasSubstr("w.sdf:4"));
   EXPECT_THAT(problemOf(model("a", "<sphere><radius>inf</radius></sphere>")), HasSubstr("w.sdf:4"));
 }
 
-TEST_F(WorldFile, SaysWhereAStartIsBad) {
+TEST_F(WorldFile, ReportsAnInvalidStart) {
   const std::string floor = model("floor", "<box><size>4 4 0.1</size></box>", "0 0 -0.05 0 0 0");
   const auto start = [&](const std::string& inside) {
     return problem([&] { SimulatedVehicle(load(inside), Scenario()); });
@@ -268,11 +268,11 @@ double reachableSpaceArea(const RayCaster& rays, const FreeSpaceQuery& query) {
   return cells * query.resolution_m * query.resolution_m;
 }
 
-TEST(Worlds, TheShippedCaseHasTheFloorItClaims) {
+TEST(Worlds, TheShippedCaseHasItsPublishedFloorArea) {
   const WorldModel w = loadWorld(SWIFTLET_SOURCE_DIR "/worlds/unb_case1.sdf");
   EXPECT_THAT(w.warnings, IsEmpty());
   const RayCaster rays(w);
-  // Floor is where a plumb line from under the ceiling falls between walls; boxes and furniture stand on floor.
+  // All area between the walls counts as floor, also below boxes and furniture.
   WorldModel empty = w;
   std::erase_if(empty.shapes, [](const Shape& shape) {
     return shape.model == "box_1" || shape.model == "box_2" || shape.model == "table" || shape.model == "platform" ||

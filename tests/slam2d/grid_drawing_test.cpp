@@ -23,7 +23,7 @@ DrawnScan around(double radius_m, int beams) {
   return scan;
 }
 
-TEST(GridDrawing, FreeInsideOccupiedAtTheEndUnknownBeyond) {
+TEST(GridDrawing, BeamsDrawFreeThenOccupiedAndLeaveTheRestUnknown) {
   const GridDrawingConfig config;
   SlicedMap map(config);
   const Pose2 pose{0.51, -0.32, 0.4};
@@ -39,7 +39,7 @@ TEST(GridDrawing, FreeInsideOccupiedAtTheEndUnknownBeyond) {
   EXPECT_GT(occupied, 200);  // 2 pi 2 m / 5 cm = 251 cells.
 }
 
-TEST(GridDrawing, AWalkerIsClearedAgain) {
+TEST(GridDrawing, ClearsAWalkerWhoLeft) {
   const GridDrawingConfig config;
   SlicedMap map(config);
   DrawnScan person = around(3.0, 720);
@@ -47,14 +47,14 @@ TEST(GridDrawing, AWalkerIsClearedAgain) {
     if (std::abs(std::atan2(p.y(), p.x())) < 0.15F) p *= 0.5F;
   for (int i = 0; i < 50; ++i) map.draw(person, {});
   const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
-  EXPECT_EQ(where(), config.max_steps);  // Capped, however long they stood there.
+  EXPECT_EQ(where(), config.max_steps);  // The confidence is capped, however long the person stood there.
   int scans = 0;
   for (; common::occupancy::isOccupied(where()) && scans < 100; ++scans) map.draw(around(3.0, 720), {});
   EXPECT_LE(scans, 12);
 }
 
-/// What a laser at (0, y) sees of a wall along x = 2 m, from -3 m to 3 m, whose middle third is dark: seen at less than
-/// 45 degrees it swallows the beams.
+/// The scan of a laser at (0, y) that faces a wall along x = 2 m, from -3 m to 3 m. Its middle third is dark: beams
+/// that meet it at less than 45 degrees do not return.
 DrawnScan ofDarkWall(double y_m) {
   constexpr double kWall_m = 2.001;  // Within a cell.
   DrawnScan scan;
@@ -70,12 +70,12 @@ DrawnScan ofDarkWall(double y_m) {
   return scan;
 }
 
-TEST(GridDrawing, ThereIsNoViewThroughADarkWall) {
+TEST(GridDrawing, BeamsWithoutReturnDoNotClearBehindADarkWall) {
   SlicedMap map{GridDrawingConfig{}};
   const auto at = [&](double x_m, double y_m) {
     return map.atFlightHeight().at(map.atFlightHeight().cellAt(x_m, y_m));
   };
-  for (int i = 0; i < 3; ++i) map.draw(ofDarkWall(0.0), {});  // Head on, all of it answers.
+  for (int i = 0; i < 3; ++i) map.draw(ofDarkWall(0.0), {});  // Seen head on, all of the wall returns the beams.
   for (int i = 0; i < 50; ++i) map.draw(ofDarkWall(-2.5), {0.0, -2.5, 0.0});
   for (int i = 0; i < 50; ++i) map.draw(ofDarkWall(2.5), {0.0, 2.5, 0.0});
   for (double y_m = -2.9; y_m < 2.9; y_m += 0.05) {
@@ -86,10 +86,10 @@ TEST(GridDrawing, ThereIsNoViewThroughADarkWall) {
   EXPECT_TRUE(common::occupancy::isFree(at(1.8, 0.0))) << "up to the wall they do clear";
 }
 
-TEST(GridDrawing, WhatAnotherBeamOfTheScanHitIsNoViewEither) {
+TEST(GridDrawing, BeamsWithoutReturnDoNotClearPastHitsOfNeighbouringBeams) {
   SlicedMap map{GridDrawingConfig{}};
   DrawnScan scan;
-  for (int i = -20; i <= 20; ++i) {  // Of neighbouring beams, each second is swallowed.
+  for (int i = -20; i <= 20; ++i) {  // Every second beam does not return.
     const float y_m = 0.02F * static_cast<float>(i);
     if (i % 2 == 0)
       scan.hits_level_m.emplace_back(2.01F, y_m, 0.0F);
@@ -103,7 +103,7 @@ TEST(GridDrawing, WhatAnotherBeamOfTheScanHitIsNoViewEither) {
   });
 }
 
-TEST(GridDrawing, WithNothingInTheirWayBeamsWithoutReturnClear) {
+TEST(GridDrawing, BeamsWithoutReturnClearOpenSpace) {
   SlicedMap map{GridDrawingConfig{}};
   DrawnScan scan = around(1.0, 720);
   std::erase_if(scan.hits_level_m, [](const Eigen::Vector3f& p) { return p.x() > 0.5F; });
@@ -114,7 +114,7 @@ TEST(GridDrawing, WithNothingInTheirWayBeamsWithoutReturnClear) {
     EXPECT_TRUE(common::occupancy::isFree(grid.at(grid.cellAt(x_m, 0.0)))) << x_m;
 }
 
-TEST(GridDrawing, WhatDoesNotChangeStaysShared) {
+TEST(GridDrawing, UnchangedTilesStayShared) {
   const GridDrawingConfig config;
   SlicedMap map(config);
   for (int i = 0; i < 30; ++i) map.draw(around(1.0, 360), {});
@@ -123,7 +123,7 @@ TEST(GridDrawing, WhatDoesNotChangeStaysShared) {
   EXPECT_EQ(before.tileIdentity({0, 0}), map.atFlightHeight().tileIdentity({0, 0}));
 }
 
-/// A wall of 3 m around, and in front of it something lower, which beams meet that point `below_m` down.
+/// A round wall at 3 m, and in front of it a lower obstacle that is hit by beams which point `below_m` down.
 DrawnScan over(double below_m, double body_height_m) {
   DrawnScan scan = around(3.0, 720);
   scan.body_height_m = body_height_m;
@@ -135,27 +135,27 @@ DrawnScan over(double below_m, double body_height_m) {
   return scan;
 }
 
-TEST(GridDrawing, LevelBeamsDoNotEraseWhatIsLower) {
+TEST(GridDrawing, LevelBeamsDoNotSoonEraseLowerObstacles) {
   SlicedMap map{GridDrawingConfig{}};
   const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
   for (int i = 0; i < 10; ++i) map.draw(over(0.0, 1.0), {});
   EXPECT_TRUE(common::occupancy::isFree(where()));
-  map.draw(over(0.15, 1.0), {});  // A nod, one scan long.
+  map.draw(over(0.15, 1.0), {});  // The vehicle pitches for one scan.
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
-  // Long enough to be met again on approach; a trace that is never met again fades.
+  // The obstacle stays in the map long enough to be measured again on approach; if it is not measured again, it fades.
   for (int i = 0; i < 50; ++i) map.draw(over(0.0, 1.0), {});
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
   for (int i = 0; i < 50; ++i) map.draw(over(0.0, 1.0), {});
   EXPECT_TRUE(common::occupancy::isFree(where()));
-  // Just below the level beams it goes sooner: they dip there now and then.
+  // Just below the level beams an obstacle fades sooner, because those beams dip to that height now and then.
   map.draw(over(0.06, 1.0), {});
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
   for (int i = 0; i < 25; ++i) map.draw(over(0.0, 1.0), {});
   EXPECT_TRUE(common::occupancy::isFree(where()));
 }
 
-/// What was kept up cell by cell while drawing is what all slices give when they are combined anew.
-TEST(GridDrawing, TheMapAtFlightHeightIsThatOfItsSlices) {
+/// The map that is updated cell by cell while drawing equals the map that is combined afresh from all slices.
+TEST(GridDrawing, TheMapAtFlightHeightEqualsItsCombinedSlices) {
   common::RandomStream random(1, "slices");
   SlicedMap map{GridDrawingConfig{}};
   for (int i = 0; i < 300; ++i) {
@@ -178,14 +178,14 @@ TEST(GridDrawing, TheMapAtFlightHeightIsThatOfItsSlices) {
   }
 }
 
-TEST(GridDrawing, WhatIsFarBelowTheHullIsNotInItsWayUntilItSinks) {
+TEST(GridDrawing, LowObstaclesCountOnlyNearTheFlightHeight) {
   SlicedMap map{GridDrawingConfig{}};
   const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
   for (int i = 0; i < 3; ++i) map.draw(over(0.0, 0.6), {});
-  for (int i = 0; i < 3; ++i) map.draw(over(0.01, 0.6), {});  // Something as high as 0.6 m.
+  for (int i = 0; i < 3; ++i) map.draw(over(0.01, 0.6), {});  // An obstacle 0.6 m high.
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
   EXPECT_TRUE(map.setFlightHeight(1.4));
-  for (int i = 0; i < 3; ++i) map.draw(over(0.0, 1.4), {});  // From far above it.
+  for (int i = 0; i < 3; ++i) map.draw(over(0.0, 1.4), {});  // Seen from far above it.
   EXPECT_TRUE(common::occupancy::isFree(where()));
   map.draw(over(0.4, 1.4), {});  // A view that ends far below says that the hull's height is free.
   EXPECT_TRUE(common::occupancy::isFree(where()));
@@ -193,7 +193,7 @@ TEST(GridDrawing, WhatIsFarBelowTheHullIsNotInItsWayUntilItSinks) {
   EXPECT_TRUE(common::occupancy::isOccupied(where()));
 }
 
-TEST(GridDrawing, ThinsAndBoundsWhatItKeeps) {
+TEST(GridDrawing, ThinsAndBoundsItsPoints) {
   const GridDrawingConfig config;
   ProjectedScan scan;
   for (int i = 0; i < 1000; ++i) scan.points_level_m.emplace_back(1.0F, 0.001F * static_cast<float>(i));

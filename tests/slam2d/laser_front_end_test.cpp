@@ -36,8 +36,8 @@ class Robot {
   std::uint64_t scans_ = 0;
 };
 
-/// The walls beside it are ever new, none of the scans before has seen them.
-TEST(LaserFrontEnd, ARobotThatDrivesBackwardsIsFollowed) {
+/// The walls beside the robot are always new: no earlier scan has seen them.
+TEST(LaserFrontEnd, TracksARobotThatDrivesBackwards) {
   const test::PlanarWorld world = test::corridorWithDoors();
   common::LaserConfig laser;
   laser.beams = 181;
@@ -62,7 +62,7 @@ TEST(LaserFrontEnd, ARobotThatDrivesBackwardsIsFollowed) {
 }
 
 /// As in the log of MIT's CSAIL: 0.46 m and 87 degrees from one scan to the next, while the robot turns on slowly.
-TEST(LaserFrontEnd, OdometryThatJumpsIsNotFollowed) {
+TEST(LaserFrontEnd, IgnoresJumpsOfTheOdometry) {
   Robot robot;
   FollowedScan last;
   Pose2 truth, jump;
@@ -77,8 +77,8 @@ TEST(LaserFrontEnd, OdometryThatJumpsIsNotFollowed) {
   EXPECT_LT(std::abs(between(truth, last.T_odom_robot).yaw_rad), 0.02);
 }
 
-/// It went on for a long while, or it stood: the speed before tells nothing.
-TEST(LaserFrontEnd, ALongPauseOfALogIsNoWay) {
+/// During a long pause the robot may have driven on or stood still, so its earlier speed tells nothing.
+TEST(LaserFrontEnd, ALongPauseOfALogAddsNoMotion) {
   for (const double pause_s : {5.0, 30.0, 3500.0}) {
     Robot robot;
     Pose2 truth;
@@ -90,8 +90,8 @@ TEST(LaserFrontEnd, ALongPauseOfALogIsNoWay) {
   }
 }
 
-/// A scan is followed as if taken at once: what the log says its beams took moves no stamp.
-TEST(LaserFrontEnd, StampsGrowWhateverTheBeamsAreSaidToTake) {
+/// A scan is treated as taken at one instant, so the time per beam in the log does not change its stamp.
+TEST(LaserFrontEnd, StampsIncreaseWhateverTheTimePerBeam) {
   Robot robot;
   Time last;
   for (int i = 0; i < 30; ++i) {
@@ -104,8 +104,9 @@ TEST(LaserFrontEnd, StampsGrowWhateverTheBeamsAreSaidToTake) {
   EXPECT_EQ(robot.counts().out_of_order, 0U);
 }
 
-/// Carried elsewhere, it starts anew with a scan that stands where it was expected: no match.
-TEST(LaserFrontEnd, AScanItStartsAnewWithIsNotMatched) {
+/// After the robot is carried elsewhere, the odometry restarts with a scan placed at its expected pose. That scan was
+/// not matched.
+TEST(LaserFrontEnd, AScanThatRestartsTheOdometryIsNotMatched) {
   Robot robot;
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(robot.scanAt({0.02 * i, 0.0, 0.0}, 0.1 * i).matched);
   int breaks = 0;

@@ -14,7 +14,7 @@ namespace {
 
 using common::Pose2;
 
-/// A room no pose but one fits; with a corner of two walls in it, or without.
+/// A room without symmetry, so that a scan fits only one pose, with or without an inner corner of two walls.
 test::PlanarWorld room(bool divided) {
   test::PlanarWorld world;
   world.addPolyline(
@@ -25,25 +25,25 @@ test::PlanarWorld room(bool divided) {
 
 PlacedScan placedAt(const ProjectedScan& scan, const Pose2& pose) { return {&scan, pose}; }
 
-TEST(FreeSpaceViolation, NothingWhereBothSawTheSame) {
+TEST(FreeSpaceViolation, IsZeroForScansOfTheSameRoom) {
   const Pose2 a{-1.0, 0.0, 0.3}, b{0.5, -1.0, -2.0};
   const ProjectedScan from_a = test::scanAt(room(true), a, 1), from_b = test::scanAt(room(true), b, 2);
   const PlacedScan one[] = {placedAt(from_a, a)}, other[] = {placedAt(from_b, b)};
   EXPECT_LT(freeSpaceViolation(one, other, 20.0), 0.01);
 }
 
-TEST(FreeSpaceViolation, AWallThatTheOtherDidNotMeet) {
+TEST(FreeSpaceViolation, CountsAWallThatOnlyOneScanSaw) {
   const Pose2 a{-1.0, 0.0, 0.3}, b{0.5, -1.0, -2.0};
   const ProjectedScan from_a = test::scanAt(room(true), a, 1), from_b = test::scanAt(room(false), b, 2);
   const PlacedScan one[] = {placedAt(from_a, a)}, other[] = {placedAt(from_b, b)};
   const double share = freeSpaceViolation(one, other, 20.0);
   EXPECT_GT(share, 0.15);
   EXPECT_NEAR(freeSpaceViolation(other, one, 20.0), share, 1e-12);
-  // Beyond the greatest range a point is none.
+  // Points beyond the greatest range do not count.
   EXPECT_EQ(freeSpaceViolation(one, other, 0.1), 0.0);
 }
 
-TEST(FreeSpaceViolation, WhereNeitherLookedNothingIsSaid) {
+TEST(FreeSpaceViolation, IsZeroWithoutOverlap) {
   const Pose2 pose{-1.0, 0.0, 0.3};
   const ProjectedScan scan = test::scanAt(room(false), pose, 1), empty;
   const PlacedScan here[] = {placedAt(scan, pose)}, nothing[] = {placedAt(empty, pose)};
@@ -53,7 +53,7 @@ TEST(FreeSpaceViolation, WhereNeitherLookedNothingIsSaid) {
   EXPECT_EQ(freeSpaceViolation({}, {}, 20.0), 0.0);
 }
 
-/// A scan of points all at one range, one a degree.
+/// A scan of points at one range, one point a degree.
 ProjectedScan arc(double range_m, double from_deg, double to_deg) {
   ProjectedScan scan;
   for (double angle_deg = from_deg; angle_deg <= to_deg; angle_deg += 1.0) {
@@ -63,14 +63,14 @@ ProjectedScan arc(double range_m, double from_deg, double to_deg) {
   return scan;
 }
 
-TEST(FreeSpaceViolation, BesideTheLastBeamNobodyLooked) {
+TEST(FreeSpaceViolation, IgnoresPointsBesideTheFieldOfView) {
   const ProjectedScan forward = arc(8.0, -90.0, 90.0), wider = arc(8.0, -90.0, 92.0), wall = arc(3.0, 90.5, 91.5);
   const PlacedScan seen[] = {placedAt(wall, {})};
   EXPECT_EQ(freeSpaceViolation(std::array{placedAt(forward, {})}, seen, 20.0), 0.0);
   EXPECT_EQ(freeSpaceViolation(std::array{placedAt(wider, {})}, seen, 20.0), 1.0);
 }
 
-TEST(FreeSpaceViolation, AViewAllAroundHasNoEdge) {
+TEST(FreeSpaceViolation, AFullTurnHasNoEdge) {
   const ProjectedScan around = arc(8.0, -179.5, 179.5), wall = arc(3.0, 179.0, 181.0);
   EXPECT_EQ(freeSpaceViolation(std::array{placedAt(around, {})}, std::array{placedAt(wall, {})}, 20.0), 1.0);
 }
@@ -103,22 +103,22 @@ struct TwoVisits {
   Slam2dConfig config;
 };
 
-TEST(LoopSearch, FindsTheRoomAgain) {
+TEST(LoopSearch, FindsARevisitedRoom) {
   const TwoVisits visits(room(false), room(false));
   const auto found = visits.search();
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->shift_m, 1.5, 0.05);
 }
 
-TEST(LoopSearch, ARoomWithAWallMoreIsAnother) {
+TEST(LoopSearch, RejectsARoomWithAnAdditionalWall) {
   TwoVisits visits(room(false), room(true));
   EXPECT_FALSE(visits.search());
-  // That is what keeps it from being taken for the same.
+  // Without the limit on free-space violations the two rooms would be taken for the same.
   visits.config.loops.max_free_space_violation = 1.0;
   EXPECT_TRUE(visits.search());
 }
 
-TEST(LoopSearch, WhatComesAndGoesTellsNoRoomFromAnother) {
+TEST(LoopSearch, AcceptsARoomDespiteTemporaryObstacles) {
   const test::PlanarWorld empty = room(false), divided = room(true);
   const TwoVisits visits([&](int key) -> const test::PlanarWorld& { return key == 3 || key == 8 ? divided : empty; });
   EXPECT_TRUE(visits.search());

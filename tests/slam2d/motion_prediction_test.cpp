@@ -21,7 +21,7 @@ void step(MotionPrediction& motion, const Pose2& truth, const std::optional<Pose
   motion.correct(truth, matchCovariance(), std::nullopt);
 }
 
-TEST(MotionPrediction, TheFirstStepIsThatOfTheWheels) {
+TEST(MotionPrediction, TheFirstStepFollowsTheWheels) {
   MotionPrediction motion({});
   motion.begin(Pose2{5.0, 2.0, 0.5});
   motion.predict(Pose2{5.0, 2.0, 0.5} * Pose2{0.3, 0.0, 0.1}, kDt_s);
@@ -29,7 +29,7 @@ TEST(MotionPrediction, TheFirstStepIsThatOfTheWheels) {
   EXPECT_NEAR(motion.T_reference_robot().yaw_rad, 0.1, 1e-9);
 }
 
-TEST(MotionPrediction, WithoutWheelsTheLastSpeedGoesOn) {
+TEST(MotionPrediction, KeepsTheLastSpeedWithoutWheels) {
   MotionPrediction motion({});
   motion.begin(std::nullopt);
   Pose2 truth;
@@ -41,7 +41,7 @@ TEST(MotionPrediction, WithoutWheelsTheLastSpeedGoesOn) {
 }
 
 /// Wheels that lag by two scans predict a winding path worse than constant velocity does, and are not followed.
-TEST(MotionPrediction, TheBetterSourceIsFollowed) {
+TEST(MotionPrediction, FollowsTheBetterSource) {
   for (const int lag : {0, 2}) {
     MotionPrediction motion({});
     motion.begin(Pose2{});
@@ -59,7 +59,7 @@ TEST(MotionPrediction, TheBetterSourceIsFollowed) {
   }
 }
 
-TEST(MotionPrediction, AJumpOfTheWheelsIsNotFollowed) {
+TEST(MotionPrediction, IgnoresAJumpOfTheWheels) {
   MotionPrediction motion({});
   motion.begin(Pose2{});
   Pose2 truth;
@@ -69,7 +69,7 @@ TEST(MotionPrediction, AJumpOfTheWheelsIsNotFollowed) {
   EXPECT_LT(between(truth, motion.T_reference_robot()).position_m().norm(), 0.2);
 }
 
-TEST(MotionPrediction, TheOtherSourceTakesThePlaceOfThePrediction) {
+TEST(MotionPrediction, TheAlternativeReplacesThePrediction) {
   MotionPrediction motion({}), never_wrong({});
   for (MotionPrediction* one : {&motion, &never_wrong}) one->begin(Pose2{});
   Pose2 truth;
@@ -89,14 +89,14 @@ TEST(MotionPrediction, TheOtherSourceTakesThePlaceOfThePrediction) {
   EXPECT_TRUE(motion.covariance().isApprox(never_wrong.covariance()));
 }
 
-TEST(MotionPrediction, WithoutWheelsThereIsNoOtherSource) {
+TEST(MotionPrediction, HasNoAlternativeWithoutWheels) {
   MotionPrediction motion({});
   motion.begin(std::nullopt);
   motion.predict(std::nullopt, kDt_s);
   EXPECT_FALSE(motion.alternative());
 }
 
-TEST(MotionPrediction, OnceLostThePoseIsUncertainUnlessTheWheelsTell) {
+TEST(MotionPrediction, ThePoseAfterALossIsUncertainUnlessThereAreWheels) {
   const auto sigmaAfterLoss_m = [](bool wheels) {
     MotionPrediction motion({});
     motion.begin(wheels ? std::optional(Pose2{}) : std::nullopt);

@@ -63,7 +63,7 @@ TEST(SurfaceMap, ConfidenceIsCapped) {
   EXPECT_LE(map.at(wall).hits, config.max_hits);
 }
 
-TEST(SurfaceMap, ThereIsNoViewThroughADarkWall) {
+TEST(SurfaceMap, BeamsWithoutReturnDoNotClearBehindADarkWall) {
   const SurfaceMapConfig config;
   SurfaceMap map(config);
   DrawingBoard board;
@@ -82,7 +82,7 @@ TEST(SurfaceMap, ThereIsNoViewThroughADarkWall) {
 }
 
 /// However long it stood there: a thousand scans of a wall are forgotten as fast as ten.
-TEST(SurfaceMap, APlaceThatChangedIsSoonMappedAnew) {
+TEST(SurfaceMap, AChangedPlaceIsSoonRemapped) {
   const SurfaceMapConfig config;
   DrawingBoard board;
   std::vector<int> scans_to_free, scans_to_occupied;
@@ -103,7 +103,7 @@ TEST(SurfaceMap, APlaceThatChangedIsSoonMappedAnew) {
   EXPECT_LE(scans_to_occupied[1], 4);
 }
 
-TEST(SurfaceMap, TheSurfaceIsKnownMoreFinelyThanTheCells) {
+TEST(SurfaceMap, SurfacesAreMoreAccurateThanTheCellSize) {
   DrawingBoard board;
   for (const double distance_m : {2.012, 2.021, 2.034}) {
     SurfaceMap fresh{SurfaceMapConfig{}};
@@ -124,7 +124,7 @@ std::vector<int> bytesOf(const SurfaceMap& map) {
   return bytes;
 }
 
-TEST(SurfaceMap, WhatOneDrawsTheOthersDoNotSee) {
+TEST(SurfaceMap, DrawingDoesNotAffectOtherCopies) {
   DrawingBoard board;
   SurfaceMap parent{SurfaceMapConfig{}};
   parent.draw(wallAhead(2.0), {}, board);
@@ -140,7 +140,7 @@ TEST(SurfaceMap, WhatOneDrawsTheOthersDoNotSee) {
   EXPECT_EQ(bytesOf(grandchild), before);
 }
 
-TEST(SurfaceMap, WhatIsNotDrawnToStaysShared) {
+TEST(SurfaceMap, TilesWithoutDrawingStayShared) {
   DrawingBoard board;
   SurfaceMap parent{SurfaceMapConfig{}};
   parent.draw(wallAhead(2.0), {}, board);
@@ -161,13 +161,13 @@ ProjectedScan nodding(double body_m) {
   return scan;
 }
 
-TEST(SurfaceMap, OnlyWhatIsInTheHeightBandIsDrawn) {
+TEST(SurfaceMap, DrawsOnlyTheHeightBand) {
   const SurfaceMapConfig config;
   const DrawnHeights heights = heightsAround(1.0, config.grid);  // 0.75 to 1.25 m.
   const SurfaceScan level = toDraw(nodding(1.0), config, heights);
   ASSERT_EQ(level.hits.size(), 1U);
   EXPECT_EQ(level.hits[0].point_m.x(), 2.0F);
-  // The other two left the band halfway; to there they saw nothing.
+  // The other two beams leave the band halfway; up to there the space is free.
   ASSERT_EQ(level.free_m.size(), 2U);
   for (const Eigen::Vector2f& end : level.free_m) EXPECT_NEAR(end.x(), 2.0F, 1e-5F);
   // The band is that of the flight, not of the body.
@@ -180,7 +180,7 @@ TEST(SurfaceMap, OnlyWhatIsInTheHeightBandIsDrawn) {
   EXPECT_TRUE(from_the_floor.hits.empty() && from_the_floor.free_m.empty());
 }
 
-TEST(SurfaceMap, ItsContourLiesOnTheSurfaces) {
+TEST(SurfaceMap, TheContourLiesOnTheSurfaces) {
   DrawingBoard board;
   SurfaceMap map{SurfaceMapConfig{}};
   for (int i = 0; i < 5; ++i) map.draw(wallAhead(2.034), {}, board);
@@ -202,7 +202,7 @@ Eigen::Matrix3d motionCovariance(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
 }
 
-TEST(MapMatch, FindsThePoseAndSaysHowWell) {
+TEST(MapMatch, FindsThePoseWithAMatchingCovariance) {
   const test::PlanarWorld world = test::flat();
   const SurfaceMapConfig map_config;
   const MapMatchConfig config;
@@ -226,13 +226,14 @@ TEST(MapMatch, FindsThePoseAndSaysHowWell) {
   std::printf("  at most %.1f mm, %.2f deg; nees %.2f\n", 1e3 * worst_m, worst_rad / kRadPerDeg, nees);
   EXPECT_LT(worst_m, 0.02);
   EXPECT_LT(worst_rad, 0.3 * kRadPerDeg);
-  // Three when honest. It errs on the cautious side here: a real map is worse than the noise of its beams.
+  // The mean is 3 if the covariance is exact. Here it is cautious, because a real map is worse than the noise of its
+  // beams.
   EXPECT_GT(nees, 0.1);
   EXPECT_LT(nees, 3.0);
 }
 
-/// The covariance of the motion does not know of a slip; the map does.
-TEST(MapMatch, ASlipOfTheMotionIsNotBelieved) {
+/// A slip is not in the covariance of the motion, so only the map can correct it.
+TEST(MapMatch, CorrectsASlipOfTheMotion) {
   const test::PlanarWorld world = test::flat();
   const SurfaceMapConfig map_config;
   const MapMatchConfig config;
@@ -243,11 +244,11 @@ TEST(MapMatch, ASlipOfTheMotionIsNotBelieved) {
   const MotionPrior right{truth, motionCovariance(0.005, 0.002)};
   const MapMatch match = matchToMap(map, points, slipped, config);
   EXPECT_LT((match.T_map_body.position_m() - truth.position_m()).norm(), 0.01);
-  // But a particle that came there without one is the more likely.
+  // A particle that got there without a slip is more likely.
   EXPECT_GT(matchToMap(map, points, right, config).log_motion, match.log_motion + 1.0);
 }
 
-TEST(MapMatch, TheRightMapWeighsMoreThanAWrongOne) {
+TEST(MapMatch, TheRightMapIsMoreLikelyThanAWrongOne) {
   const test::PlanarWorld world = test::flat();
   test::PlanarWorld other = world;
   other.addBox(2.2, -1.5, 0.5, 0.5);
@@ -266,8 +267,8 @@ TEST(MapMatch, TheRightMapWeighsMoreThanAWrongOne) {
   }
 }
 
-/// Along a corridor the map says nothing: there the motion stands, with all its uncertainty.
-TEST(MapMatch, InACorridorTheMotionStandsAlongIt) {
+/// The map does not constrain the pose along a corridor, so the motion and its whole uncertainty remain there.
+TEST(MapMatch, KeepsTheMotionAlongACorridor) {
   test::PlanarWorld corridor;
   corridor.addPolyline({{-50.0, -1.0}, {50.0, -1.0}}, false);
   corridor.addPolyline({{-50.0, 1.0}, {50.0, 1.0}}, false);
@@ -287,7 +288,7 @@ TEST(MapMatch, InACorridorTheMotionStandsAlongIt) {
   EXPECT_LT(std::sqrt(match.covariance(1, 1)), 0.01);
 }
 
-TEST(MapMatch, WithoutSupportTheMotionStands) {
+TEST(MapMatch, KeepsTheMotionWithoutSupport) {
   const MapMatchConfig config;
   const SurfaceMap empty{SurfaceMapConfig{}};
   const MotionPrior prior{{1.0, 2.0, 0.5}, motionCovariance(0.02, 0.01)};

@@ -16,7 +16,7 @@ using common::RandomStream;
 
 // --- Trajectories. ---
 
-TEST(AncestryTree, RelativesShareTheirPast) {
+TEST(AncestryTree, ParticlesOfOneAncestorShareTheirPast) {
   AncestryTree tree;
   const int root = tree.add(AncestryTree::kNone, {0.0, 0.0, 0.0});
   const int parent = tree.add(root, {1.0, 0.0, 0.0});
@@ -31,7 +31,7 @@ TEST(AncestryTree, RelativesShareTheirPast) {
   EXPECT_EQ(tree.pathTo(b).back().y_m, -0.1);
 }
 
-TEST(AncestryTree, ForgetsWhatNobodyDescendsFrom) {
+TEST(AncestryTree, ForgetsPosesWithoutDescendants) {
   AncestryTree tree;
   const int root = tree.add(AncestryTree::kNone, {});
   std::vector<int> leaves{root, root};
@@ -48,7 +48,7 @@ TEST(AncestryTree, ForgetsWhatNobodyDescendsFrom) {
   tree.release(leaves[0]);
   EXPECT_EQ(tree.size(), 1001U);
   EXPECT_EQ(tree.pathTo(leaves[1]).size(), 1001U);
-  // The room of the dead line is used again.
+  // The memory of the extinct line is reused.
   const int other = tree.add(leaves[1], {});
   tree.release(leaves[1]);
   EXPECT_EQ(tree.pathTo(other).size(), 1002U);
@@ -58,7 +58,7 @@ TEST(AncestryTree, ForgetsWhatNobodyDescendsFrom) {
 
 // --- Resampling. ---
 
-TEST(Resampling, WeightsOfAnySizeSumUpToOne) {
+TEST(Resampling, NormalizesWeightsOfAnySize) {
   for (const double shift : {0.0, -1e5, 1e5}) {
     const std::vector<double> weights = normalizedWeights({shift, shift + std::log(3.0), shift - 1e4});
     EXPECT_NEAR(weights[0], 0.25, 1e-9);
@@ -79,7 +79,7 @@ std::vector<double> randomWeights(std::size_t count, RandomStream& random) {
   return normalizedWeights(logs);
 }
 
-TEST(Resampling, EachIsTakenAboutAsOftenAsItsWeightSays) {
+TEST(Resampling, EachIsDrawnInProportionToItsWeight) {
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     RandomStream random(seed, "weights");
     const std::vector<double> weights = randomWeights(30, random);
@@ -94,7 +94,7 @@ TEST(Resampling, EachIsTakenAboutAsOftenAsItsWeightSays) {
   }
 }
 
-TEST(Resampling, TheBestIsNeverLost) {
+TEST(Resampling, KeepsTheBestParticle) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     RandomStream random(seed, "weights");
     const std::vector<double> weights = randomWeights(20, random);

@@ -42,7 +42,7 @@ double flyFlat(ParticleSlam& slam, int scans, std::uint64_t seed) {
   return worst_m;
 }
 
-TEST(ParticleSlam, ALoopThroughTheFlat) {
+TEST(ParticleSlam, MapsALoopThroughTheFlat) {
   ParticleSlam slam(someParticles(15));
   const double worst_m = flyFlat(slam, std::numeric_limits<int>::max(), 1);
   std::printf("  worst %.3f m; %d updates, %d resamplings, %d poses kept\n", worst_m,
@@ -97,7 +97,7 @@ TEST(ParticleSlam, ClosesALoop) {
   }
 }
 
-TEST(ParticleSlam, IgnoresWhatIsLateEmptyOrNotANumber) {
+TEST(ParticleSlam, IgnoresLateEmptyAndInvalidScans) {
   ParticleSlam slam(someParticles(3));
   EXPECT_EQ(slam.anchor(), -1);
   EXPECT_TRUE(slam.keyPoses().empty());
@@ -114,8 +114,8 @@ TEST(ParticleSlam, IgnoresWhatIsLateEmptyOrNotANumber) {
   EXPECT_EQ(slam.anchor(), 1);
 }
 
-/// However often a place was seen.
-TEST(ParticleSlam, TheMapOfTheBestParticleStaysCapped) {
+/// The confidence does not grow beyond its cap, however often a place was seen.
+TEST(ParticleSlam, TheConfidenceOfTheBestMapStaysCapped) {
   ParticleSlam slam(someParticles(5));
   flyFlat(slam, 200, 3);
   const int cap = SurfaceMapConfig{}.grid.max_steps;

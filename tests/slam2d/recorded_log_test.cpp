@@ -65,7 +65,7 @@ void expectErrors(const evaluation::RelationErrors& errors, const std::string& w
   EXPECT_LE(mean_deg, rotation_deg);
 }
 
-/// Nothing is expected where the data set is missing.
+/// Skips the test if the data set is missing.
 void expectRelations(const std::string& name, bool odometry, double translation_m, double rotation_deg,
                      SlamMethod method = SlamMethod::kGraph) {
   const std::string stem = "01-laser-slam/" + name + "/" + name;
@@ -79,14 +79,14 @@ void expectRelations(const std::string& name, bool odometry, double translation_
                name + (odometry ? " with odometry" : " without odometry"), translation_m, rotation_deg);
 }
 
-TEST(RecordedLog, IntelWithOdometry) { expectRelations("intel", true, 0.0229, 0.453); }
-TEST(RecordedLog, IntelWithoutOdometry) { expectRelations("intel", false, 0.0229, 0.453); }
-TEST(RecordedLog, Freiburg079WithOdometry) { expectRelations("fr079", true, 0.0353, 0.44); }
-TEST(RecordedLog, Freiburg079WithoutOdometry) { expectRelations("fr079", false, 0.0353, 0.44); }
+TEST(RecordedLog, IntelIsMappedWithOdometry) { expectRelations("intel", true, 0.0229, 0.453); }
+TEST(RecordedLog, IntelIsMappedWithoutOdometry) { expectRelations("intel", false, 0.0229, 0.453); }
+TEST(RecordedLog, Freiburg079IsMappedWithOdometry) { expectRelations("fr079", true, 0.0353, 0.44); }
+TEST(RecordedLog, Freiburg079IsMappedWithoutOdometry) { expectRelations("fr079", false, 0.0353, 0.44); }
 
 /// The log, and then the log from its end: the robot drives the same path back, backwards. It has seen the area before,
 /// but not the walls that appear at its side.
-TEST(RecordedLog, IntelThereAndBackwardsHome) {
+TEST(RecordedLog, IntelIsMappedForwardsAndThenBackwards) {
   const auto log = test_support::dataSet("01-laser-slam/intel/intel.clf.bz2");
   const auto relations = test_support::dataSet("01-laser-slam/intel/intel.relations.gz");
   if (!log || !relations) return;
@@ -108,9 +108,9 @@ TEST(RecordedLog, IntelThereAndBackwardsHome) {
   EXPECT_LT(slam.keyPoses().size(), alone.keyPoses().size() * 5 / 4) << "the graph grows in known area";
 }
 
-/// gmapping, run on the raw log with its odometry, is 0.042 m off; published, 0.070 m. Without odometry nothing is
-/// promised of particles (docs/tutorials/recorded_log.md): a corridor entered wrongly stays wrong (decision 023).
-TEST(RecordedLog, IntelByParticles) { expectRelations("intel", true, 0.042, 0.453, SlamMethod::kParticles); }
+/// The error of gmapping is 0.042 m on the raw log with its odometry; its published error is 0.070 m. Particles without
+/// odometry have no bound (docs/tutorials/recorded_log.md): a corridor entered wrongly stays wrong (decision 023).
+TEST(RecordedLog, IntelIsMappedByParticles) { expectRelations("intel", true, 0.042, 0.453, SlamMethod::kParticles); }
 
 }  // namespace
 }  // namespace swiftlet::perception

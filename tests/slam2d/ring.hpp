@@ -1,4 +1,4 @@
-// A flight around a square corridor with an odometry that bends and stretches: a loop to close.
+// A flight around a square corridor with an odometry that has errors of heading and scale: a loop to close.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace swiftlet::test {
 
-/// A square corridor with niches, 112 m around, flown with an odometry that bends and stretches.
+/// A square corridor with niches, 112 m around, flown with an odometry that has errors of heading and scale.
 class Ring {
  public:
   Ring() {

@@ -10,14 +10,14 @@ namespace {
 
 using common::Time;
 
-TEST(ScanClock, KeepsStampsThatGrow) {
+TEST(ScanClock, KeepsIncreasingStamps) {
   ScanClock clock;
   for (const double stamp_s : {100.0, 100.2, 100.5, 107.0})
     EXPECT_EQ(clock.tick(Time::fromSeconds(stamp_s)), Time::fromSeconds(stamp_s));
   EXPECT_EQ(clock.unreliable(), 0U);
 }
 
-TEST(ScanClock, ALateStampIsMadeUpForWithTheUsualInterval) {
+TEST(ScanClock, ReplacesALateStampByTheUsualInterval) {
   ScanClock clock;
   for (int i = 0; i < 50; ++i) (void)clock.tick(Time::fromSeconds(0.2 * i));
   const Time repeated = clock.tick(Time::fromSeconds(0.2 * 49));
@@ -25,7 +25,7 @@ TEST(ScanClock, ALateStampIsMadeUpForWithTheUsualInterval) {
   EXPECT_NEAR(repeated.seconds(), 0.2 * 50, 0.01);
 }
 
-TEST(ScanClock, StampsThatAreAllTheSameLeaveTimeForAnyStep) {
+TEST(ScanClock, EqualStampsAdvanceByOneSecondEach) {
   ScanClock clock;
   Time last;
   for (int i = 0; i < 200; ++i) {
@@ -39,7 +39,7 @@ TEST(ScanClock, StampsThatAreAllTheSameLeaveTimeForAnyStep) {
 }
 
 /// Scans every 0.2 s, stamped up to half a second late, so that one in three stamps goes back.
-TEST(ScanClock, OfStampsThatGoBackTheMeanIntervalIsKept) {
+TEST(ScanClock, StampsThatGoBackKeepTheMeanInterval) {
   ScanClock clock;
   Time last;
   for (int i = 0; i < 2000; ++i) {
@@ -55,7 +55,7 @@ TEST(ScanClock, OfStampsThatGoBackTheMeanIntervalIsKept) {
 }
 
 /// Scans every 0.2 s, stamped when they came: every third is held up, until the next two come with it.
-TEST(ScanClock, OfStampsThatComeInBurstsTheMeanIntervalIsKept) {
+TEST(ScanClock, StampsInBurstsKeepTheMeanInterval) {
   ScanClock clock;
   Time last, last_stamp;
   for (int i = 0; i < 2000; ++i) {
@@ -72,7 +72,7 @@ TEST(ScanClock, OfStampsThatComeInBurstsTheMeanIntervalIsKept) {
 }
 
 /// Delays of up to 1.75 times the interval, but never a stamp before the one before it, or within 6 ms.
-TEST(ScanClock, LateStampsThatGrowAreDistrustedToo) {
+TEST(ScanClock, CorrectsLateStampsThatStillIncrease) {
   ScanClock clock;
   Time last;
   double stamp_s = -1.0;
@@ -87,7 +87,7 @@ TEST(ScanClock, LateStampsThatGrowAreDistrustedToo) {
   EXPECT_GT(clock.unreliable(), 200U);
 }
 
-TEST(ScanClock, PausesAndScansThatAreMissingAreNoReasonToDoubt) {
+TEST(ScanClock, KeepsStampsAcrossPausesAndMissingScans) {
   ScanClock clock;
   double stamp_s = 0.0;
   for (int i = 0; i < 1000; ++i) {
@@ -97,7 +97,7 @@ TEST(ScanClock, PausesAndScansThatAreMissingAreNoReasonToDoubt) {
   EXPECT_EQ(clock.unreliable(), 0U);
 }
 
-TEST(ScanClock, StampsOutOfAllBoundsArePausesOfAnHour) {
+TEST(ScanClock, LimitsExtremeStampsToPausesOfAnHour) {
   ScanClock clock;
   Time last = clock.tick(Time::fromSeconds(-4.5e9));
   for (const double stamp_s : {4.5e9, -4.5e9, 4.5e9, -4.5e9, 4.5e9, 4.5e9 + 0.2}) {

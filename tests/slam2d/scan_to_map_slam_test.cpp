@@ -21,8 +21,8 @@ Eigen::Vector3d errorOf(const Pose2& estimate, const Pose2& truth) {
   return {estimate.x_m - truth.x_m, estimate.y_m - truth.y_m, common::wrapAngle(estimate.yaw_rad - truth.yaw_rad)};
 }
 
-/// Where it is relative to the last key scan, against the truth of both.
-TEST(ScanToMapSlam, ClaimsNoMoreThanItKnows) {
+/// Compares the pose relative to the last key scan with the truth.
+TEST(ScanToMapSlam, ItsCovarianceAgreesWithItsErrors) {
   const ScanToMapConfig config;
   ScanToMapSlam slam(config);
   test::Flight flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, 1);
@@ -47,10 +47,10 @@ TEST(ScanToMapSlam, ClaimsNoMoreThanItKnows) {
   }
   std::printf("  nees %.2f over %d matches, %d of them rejected\n", nees / scans, scans,
               static_cast<int>(slam.counts().local_failures));
-  EXPECT_LT(nees / scans, 3.0) << "three when honest, less when cautious";
+  EXPECT_LT(nees / scans, 3.0) << "3 when the covariance is exact, less when it is cautious";
 }
 
-TEST(ScanToMapSlam, ARejectedMatchLeavesTheCorrection) {
+TEST(ScanToMapSlam, ARejectedMatchKeepsTheCorrection) {
   ScanToMapSlam slam{{}};
   test::Flight flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, 3);
   test::Flight::Step step;
@@ -78,7 +78,7 @@ TEST(ScanToMapSlam, ARejectedMatchLeavesTheCorrection) {
   EXPECT_GT(slam.covariance()(0, 0), covariance(0, 0));
 }
 
-/// Along it the walls say nothing: the odometry stands there, with all its uncertainty.
+/// The walls do not constrain the pose along the corridor, so the odometry and its whole uncertainty remain there.
 TEST(ScanToMapSlam, InACorridorTheUncertaintyGrowsAlongIt) {
   test::PlanarWorld corridor;
   corridor.addPolyline({{-50.0, -1.0}, {50.0, -1.0}}, false);

@@ -23,7 +23,7 @@ struct Score {
   double rms_m = 0.0, max_m = 0.0, end_m = 0.0;
   double odom_end_m = 0.0;
   double wall_median_m = 0.0, wall_p90_m = 0.0;
-  double odometry_nees = 0.0;  ///< Mean normalized squared error of the relative poses; 3 when honest.
+  double odometry_nees = 0.0;  ///< Mean normalized squared error of the relative poses; 3 when exact.
 };
 
 /// Distances of the occupied cells from the nearest wall, sorted.
@@ -79,7 +79,7 @@ test::Flight flatFlight(int loops, std::uint64_t seed) {
   return {test::flat(), test::SmoothPath(test::flatLoop(loops), 1.0), {}, seed};
 }
 
-TEST(Slam2d, ThreeLoopsThroughTheFlat) {
+TEST(Slam2d, ThreeLoopsThroughTheFlatStayAccurate) {
   for (const std::uint64_t seed : {1U, 2U}) {
     Slam2d slam{{}};
     const Score score = fly(flatFlight(3, seed), slam);
@@ -111,7 +111,7 @@ TEST(Slam2d, TheSameFlightGivesTheSameBytes) {
     EXPECT_EQ(a.keyPoses()[i].T_map_body.x_m, b.keyPoses()[i].T_map_body.x_m);
 }
 
-TEST(Slam2d, ASnapshotStaysAsItWas) {
+TEST(Slam2d, ASnapshotDoesNotChange) {
   Slam2d slam{{}};
   test::Flight flight = flatFlight(1, 6);
   for (int i = 0; i < 100; ++i) {
@@ -138,7 +138,7 @@ double worstKey(const Slam2d& slam, const std::vector<std::pair<Time, Pose2>>& t
   return worst_m;
 }
 
-TEST(Slam2d, ClosesALoopAndDrawsTheMapAnew) {
+TEST(Slam2d, ClosesALoopAndRedrawsTheMap) {
   const test::Ring ring;
   Slam2dConfig deaf;
   deaf.loops.max_candidates = 0;
@@ -167,8 +167,8 @@ TEST(Slam2d, ClosesALoopAndDrawsTheMapAnew) {
   EXPECT_LT(closed_m, 0.35);
 }
 
-TEST(Slam2d, AReturnOntoKnownGroundSettlesTheGraph) {
-  // Too certain for a loop to be sought: the end of the round is known ground, and matched to it.
+TEST(Slam2d, AReturnToKnownAreaOptimizesTheGraph) {
+  // The graph is too certain for a loop search. The end of the round is known area, and its scans are matched to it.
   const test::Ring ring;
   Slam2dConfig certain;
   certain.loops.max_candidates = 0;
@@ -196,7 +196,7 @@ TEST(Slam2d, AReturnOntoKnownGroundSettlesTheGraph) {
   EXPECT_LT(after_m, 0.5 * before_m);
 }
 
-TEST(Slam2d, ATaskMayRunElsewhereAndArriveLate) {
+TEST(Slam2d, ATaskMayRunInTheBackgroundAndArriveLate) {
   const test::Ring ring;
   Slam2d at_once{{}}, late{{}};
   std::optional<SlamTask> pending;
@@ -223,12 +223,12 @@ TEST(Slam2d, ATaskMayRunElsewhereAndArriveLate) {
              pending.reset();
            });
   ASSERT_GE(late.counts().loops_closed, 1U);
-  // What was flown meanwhile went along with the correction.
+  // The correction also moved the part flown meanwhile.
   const Pose2 a = at_once.keyPoses().back().T_map_body, b = late.keyPoses().back().T_map_body;
   EXPECT_LT((a.position_m() - b.position_m()).norm(), 0.15);
 }
 
-TEST(Slam2d, IgnoresWhatIsLateEmptyOrNotANumber) {
+TEST(Slam2d, IgnoresLateEmptyAndInvalidScans) {
   Slam2d slam{{}};
   EXPECT_FALSE(slam.addScan({}, {}, Eigen::Matrix3d::Zero()).key_scan);  // No points: the map does not begin here.
   test::Flight flight = flatFlight(1, 6);
@@ -242,8 +242,8 @@ TEST(Slam2d, IgnoresWhatIsLateEmptyOrNotANumber) {
   EXPECT_TRUE(std::isfinite(slam.addScan(next.scan, next.T_odom_body, nan).T_map_body.x_m));
 }
 
-/// It says nothing of the step, not that the step is certain.
-TEST(Slam2d, ACovarianceThatIsNotANumberMakesAWeakEdge) {
+/// An invalid covariance means that the step is unknown, not that it is certain.
+TEST(Slam2d, AnInvalidCovarianceGivesAWeakEdge) {
   const auto firstEdge = [](bool known) {
     Slam2d slam{{}};
     test::Flight flight = flatFlight(1, 6);

@@ -1,5 +1,5 @@
-// The methods of 2D SLAM behind their one interface: each makes the map of the same flight, and says by its counters
-// that it was the one at work.
+// The methods of 2D SLAM behind their common interface: each maps the same flight, and its counters show that it did
+// the work.
 #include "perception/slam2d/slam_method.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace {
 using common::CellIndex;
 using common::Pose2;
 
-/// As a profile names it.
+/// The configuration with the method of that name, as in a profile.
 SlamMethodConfig configOf(const std::string& method) {
   SlamMethodConfig config;
   common::config::YamlReader::fromText("{method: " + method + ", particles: {count: 10}}", method).read(config);
@@ -59,7 +59,7 @@ struct Flown {
   double wall_median_m = 0.0, wall_p90_m = 0.0;
 };
 
-/// Once through the flat, or so many scans of it, with what `each(step, update)` says besides.
+/// Flies once through the flat, at most `scans` scans, and calls `each(step, update)` after each scan.
 template <typename Each>
 Flown flyFlat(PlanarSlam& slam, std::uint64_t seed, int scans, Each&& each) {
   test::Flight flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, seed);
@@ -94,7 +94,7 @@ Flown flyFlat(PlanarSlam& slam, std::uint64_t seed, int scans, Each&& each) {
 constexpr int kToTheEnd = std::numeric_limits<int>::max();
 constexpr auto kNothing = [](const auto&, const auto&) {};
 
-TEST_P(EachSlamMethod, MakesTheMapOfTheFlat) {
+TEST_P(EachSlamMethod, MapsTheFlat) {
   const auto slam = makeSlam(configOf(GetParam()));
   const Flown flown = flyFlat(*slam, 1, kToTheEnd, kNothing);
   const SlamCounts& counts = slam->counts();
@@ -112,7 +112,7 @@ TEST_P(EachSlamMethod, MakesTheMapOfTheFlat) {
   EXPECT_EQ(slam->edges().empty(), GetParam() != "graph");
 }
 
-TEST_P(EachSlamMethod, GivesTheSameBytesAgain) {
+TEST_P(EachSlamMethod, GivesTheSameBytesTwice) {
   const auto one = makeSlam(configOf(GetParam())), other = makeSlam(configOf(GetParam()));
   for (PlanarSlam* slam : {one.get(), other.get()}) flyFlat(*slam, 5, 150, kNothing);
   EXPECT_EQ(test::bytesOf(one->snapshot()), test::bytesOf(other->snapshot()));
@@ -122,7 +122,7 @@ TEST_P(EachSlamMethod, GivesTheSameBytesAgain) {
   EXPECT_EQ(one->T_map_odom().yaw_rad, other->T_map_odom().yaw_rad);
 }
 
-TEST_P(EachSlamMethod, KnowsTheLastScanByAKeyScan) {
+TEST_P(EachSlamMethod, PlacesTheLastScanRelativeToAKeyScan) {
   const auto slam = makeSlam(configOf(GetParam()));
   EXPECT_EQ(slam->anchor(), -1);
   EXPECT_TRUE(slam->keyPoses().empty());
@@ -132,7 +132,7 @@ TEST_P(EachSlamMethod, KnowsTheLastScanByAKeyScan) {
   });
 }
 
-TEST_P(EachSlamMethod, IgnoresWhatIsLateEmptyOrNotANumber) {
+TEST_P(EachSlamMethod, IgnoresLateEmptyAndInvalidScans) {
   const auto slam = makeSlam(configOf(GetParam()));
   EXPECT_FALSE(slam->addScan({}, {}, Eigen::Matrix3d::Zero()).key_scan);  // No points: the map does not begin here.
   test::Flight flight(test::flat(), test::SmoothPath(test::flatLoop(1), 1.0), {}, 6);

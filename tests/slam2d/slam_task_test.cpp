@@ -32,10 +32,10 @@ SlamTask lastTaskOf(const SlamGraph& graph) {
   return SlamTask{std::move(data)};
 }
 
-TEST(SlamTask, AClosureThatTheOthersContradictIsTakenBack) {
+TEST(SlamTask, RejectsAClosureThatTheOthersContradict) {
   SlamGraph graph = line(12);
   graph.add({0, 11, Pose2{11.0, 0.05, 0.0}, covarianceOf(0.02, 0.005), true});
-  graph.add({1, 10, Pose2{6.0, 2.0, 0.3}, covarianceOf(0.02, 0.005), true});  // Of another corridor.
+  graph.add({1, 10, Pose2{6.0, 2.0, 0.3}, covarianceOf(0.02, 0.005), true});  // Of another corridor, so it is false.
   graph.add({2, 9, Pose2{7.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), true});
   const SlamResult result = run(lastTaskOf(graph));
   ASSERT_EQ(result.data->rejected_edges, std::vector<int>{12});
@@ -46,7 +46,7 @@ TEST(SlamTask, AClosureThatTheOthersContradictIsTakenBack) {
   }
 }
 
-TEST(SlamTask, ClosuresThatAgreeStay) {
+TEST(SlamTask, KeepsClosuresThatAgree) {
   SlamGraph graph = line(12);
   graph.add({0, 11, Pose2{11.03, 0.05, 0.0}, covarianceOf(0.02, 0.005), true});
   graph.add({2, 9, Pose2{7.01, 0.01, 0.002}, covarianceOf(0.02, 0.005), true});
@@ -69,11 +69,11 @@ SlamGraph closedAMetreOff() {
   graph.edges[14].T_from_to.x_m = 0.5;  // Between 14 and 15 nothing was observable along the corridor.
   graph.edges[14].covariance = covarianceOf(1.0, 0.005);
   graph.add({6, 24, Pose2{0.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), true});
-  graph.add({4, 26, Pose2{0.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), false});  // Matched there.
+  graph.add({4, 26, Pose2{0.0, 0.0, 0.0}, covarianceOf(0.02, 0.005), false});  // Matched to key scan 4.
   return graph;
 }
 
-TEST(LoopConsensus, EnoughClosuresThatAgreeTurnTheGraphOver) {
+TEST(LoopConsensus, EnoughAgreeingClosuresReplaceTheEdgesThatRejectedThem) {
   const SlamGraph graph = closedAMetreOff();
   std::vector<FoundLoop> rejected;
   for (const int key : {23, 25, 27}) {
@@ -90,14 +90,14 @@ TEST(LoopConsensus, EnoughClosuresThatAgreeTurnTheGraphOver) {
   for (int i = 15; i < 30; ++i) EXPECT_NEAR(over->T_map_key[static_cast<std::size_t>(i)].x_m, 29.0 - i, 0.05);
 }
 
-TEST(LoopConsensus, ClosuresThatDisagreeAmongThemselvesDoNot) {
+TEST(LoopConsensus, DisagreeingClosuresReplaceNothing) {
   const SlamGraph graph = closedAMetreOff();
   const std::vector<FoundLoop> rejected{loopOf(7, 22, Pose2{0.6, 0.3, 0.0}), loopOf(5, 24, Pose2{-0.8, 0.0, 0.2}),
                                         loopOf(3, 26, Pose2{2.0, 0.0, 0.0})};
   EXPECT_FALSE(consensusOfRejected(graph, rejected, {}));
 }
 
-TEST(SlamGraph, WhatIsWantedIsReachedAsIfAllWereWalked) {
+TEST(SlamGraph, UncertaintyToGivenKeysEqualsThatOfTheFullSearch) {
   SlamGraph graph = line(40);
   graph.add({3, 30, Pose2{27.0, 0.0, 0.0}, covarianceOf(0.03, 0.01), true});
   const std::vector<int> wanted{2, 5, 30};
@@ -113,7 +113,7 @@ TEST(SlamGraph, WhatIsWantedIsReachedAsIfAllWereWalked) {
   }
 }
 
-TEST(SlamGraph, AnEdgeRemovedIsNoWayAnyMore) {
+TEST(SlamGraph, RemovedEdgesCarryNoUncertainty) {
   SlamGraph graph = line(6);
   graph.add({0, 5, Pose2{5.0, 0.0, 0.0}, covarianceOf(0.001, 0.0001), true});
   graph.add({1, 4, Pose2{3.0, 0.0, 0.0}, covarianceOf(0.001, 0.0001), true});

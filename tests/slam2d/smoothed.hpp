@@ -7,7 +7,7 @@
 
 namespace swiftlet::test {
 
-/// Each point the mean of itself and of `half` neighbours to either side; at the ends the last one stands in.
+/// Each point becomes the mean of itself and `half` neighbours on either side; the last point is repeated at the ends.
 inline std::vector<Eigen::Vector2d> smoothed(const std::vector<Eigen::Vector2d>& in, int half) {
   std::vector<Eigen::Vector2d> out(in.size());
   for (int i = 0; i < static_cast<int>(in.size()); ++i) {

@@ -48,7 +48,7 @@ class Track {
   std::vector<SlamEdge> edges_;
 };
 
-TEST(TrackPieces, ATrackThatWasNeverLostIsOne) {
+TEST(TrackPieces, ATrackThatWasNeverLostIsOnePiece) {
   Track track;
   EXPECT_EQ(track.connection().unconnected, 0U);
   track.scans(10, Seen::kMatched);
@@ -62,7 +62,7 @@ TEST(TrackPieces, ATrackThatWasNeverLostIsOne) {
   EXPECT_EQ(whyNotTrusted(100, 3, connection), "");
 }
 
-TEST(TrackPieces, ALostTrackHoldsTogetherOnceALoopIsClosed) {
+TEST(TrackPieces, ALoopClosureConnectsALostTrack) {
   Track track;
   track.scans(50, Seen::kMatched);
   track.lose();
@@ -83,7 +83,7 @@ TEST(TrackPieces, ALostTrackHoldsTogetherOnceALoopIsClosed) {
   EXPECT_EQ(whyNotTrusted(1000, 4, track.connection()), "");
 }
 
-TEST(TrackPieces, PiecesMayBeConnectedByWayOfOthers) {
+TEST(TrackPieces, PiecesMayBeConnectedThroughOthers) {
   Track track;
   track.scans(30, Seen::kMatched);
   track.lose();
@@ -98,7 +98,7 @@ TEST(TrackPieces, PiecesMayBeConnectedByWayOfOthers) {
   EXPECT_EQ(track.connection().unconnected, 0U);
 }
 
-TEST(TrackPieces, OdometryThatKnowsTheGapConnects) {
+TEST(TrackPieces, AccurateOdometryConnectsAcrossAGap) {
   for (const auto& [sigma_m, unconnected] : {std::pair{0.02, 0U}, std::pair{0.2, 1U}}) {
     Track track;
     track.scans(30, Seen::kMatched);
@@ -109,7 +109,7 @@ TEST(TrackPieces, OdometryThatKnowsTheGapConnects) {
   }
 }
 
-TEST(TrackPieces, AMapOfWhichLittleMatchedIsNotTrusted) {
+TEST(TrackPieces, AMapWithFewMatchedScansIsNotTrusted) {
   EXPECT_THAT(whyNotTrusted(30, 29, {}), HasSubstr("29 of 30 scans matched nothing"));
   TrackConnection often;
   often.breaks = often.bridged = 11;

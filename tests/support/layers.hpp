@@ -21,7 +21,7 @@ struct Layers {
   common::PeopleLayer people;
   common::EnergyLayer energy;
 
-  /// All as by default; a map where nothing is known.
+  /// Default values, with a map in which everything is unknown.
   Layers() {
     map.grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
     map.levels = std::make_shared<const common::LevelMap>();

@@ -6,7 +6,7 @@
 namespace swiftlet::tree::testing {
 namespace {
 
-TEST(Sequence, GoesOnWithTheRunningChildAndToTheNextInTheSameTick) {
+TEST(Sequence, ContinuesWithTheRunningChildAndStartsTheNextInTheSameTick) {
   Story story("<Sequence><A/><B/></Sequence>");
   EXPECT_EQ(story.tick(), "RUNNING: start A");
   EXPECT_EQ(story.tick(), "RUNNING: A");
@@ -18,7 +18,7 @@ TEST(Sequence, GoesOnWithTheRunningChildAndToTheNextInTheSameTick) {
   EXPECT_EQ(story.view(), "Sequence SUCCESS, A SUCCESS, B SUCCESS");
 }
 
-TEST(Sequence, EndsAtTheFirstFailureAndStartsAnew) {
+TEST(Sequence, EndsAtTheFirstFailureAndRestarts) {
   Story story("<Sequence><A/><B/><C/></Sequence>");
   story.says("A", "SUCCESS").says("B", "FAILURE");
   EXPECT_EQ(story.tick(), "FAILURE: start A, start B");
@@ -35,7 +35,7 @@ TEST(Sequence, SkipsChildrenAndIsSkippedWhenAllAre) {
   EXPECT_EQ(story.view(), "Sequence SKIPPED, A SKIPPED, B SKIPPED");
 }
 
-TEST(Sequence, DoesNotAskASkippedChildAgain) {
+TEST(Sequence, DoesNotTickASkippedChildAgain) {
   Story story("<Sequence><A/><B/></Sequence>");
   story.says("A", "nothing");
   EXPECT_EQ(story.tick(), "RUNNING: start B");
@@ -43,7 +43,7 @@ TEST(Sequence, DoesNotAskASkippedChildAgain) {
   EXPECT_EQ(story.tick(), "RUNNING: B");
 }
 
-TEST(Sequence, HaltAsksOnlyWhoIsRunningAndForgets) {
+TEST(Sequence, HaltStopsOnlyTheRunningChildAndResets) {
   Story story("<Sequence><A/><B/></Sequence>");
   story.says("A", "SUCCESS").says("B", "stops in 2");
   EXPECT_EQ(story.tick(), "RUNNING: start A, start B");
@@ -82,7 +82,7 @@ TEST(Fallback, FailsAfterTheLastAndIsSkippedWhenAllAre) {
   EXPECT_EQ(story.tick(), "SKIPPED");
 }
 
-TEST(ReactiveSequence, AsksTheFirstChildAtEveryTick) {
+TEST(ReactiveSequence, TicksTheFirstChildEveryTime) {
   Story story("<ReactiveSequence><A/><B/></ReactiveSequence>");
   story.says("A", "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: start A, start B");
@@ -91,7 +91,7 @@ TEST(ReactiveSequence, AsksTheFirstChildAtEveryTick) {
   EXPECT_EQ(story.tick(), "SUCCESS: start A, B");
 }
 
-TEST(ReactiveSequence, AFailedConditionHaltsWhatRunsBeforeItFails) {
+TEST(ReactiveSequence, HaltsTheRunningChildBeforeAFailedConditionFailsIt) {
   Story story("<ReactiveSequence><A/><B/></ReactiveSequence>");
   story.says("A", "SUCCESS").says("B", "stops in 2");
   story.tick();
@@ -103,7 +103,7 @@ TEST(ReactiveSequence, AFailedConditionHaltsWhatRunsBeforeItFails) {
   EXPECT_EQ(story.view(), "ReactiveSequence FAILURE, A FAILURE, B IDLE");
 }
 
-TEST(ReactiveSequence, AnEarlierChildThatRunsHaltsALaterOne) {
+TEST(ReactiveSequence, ARunningEarlierChildHaltsALaterOne) {
   Story story("<ReactiveSequence><A/><B/></ReactiveSequence>");
   story.says("A", "SUCCESS").says("B", "stops in 1");
   story.tick();
@@ -111,10 +111,10 @@ TEST(ReactiveSequence, AnEarlierChildThatRunsHaltsALaterOne) {
   EXPECT_EQ(story.tick(), "RUNNING: start A, B halting");
   EXPECT_EQ(story.tick(), "RUNNING: B halted, A");
   story.says("A", "SUCCESS");
-  EXPECT_EQ(story.tick(), "RUNNING: A, start B") << "B starts anew";
+  EXPECT_EQ(story.tick(), "RUNNING: A, start B") << "B restarts";
 }
 
-TEST(ReactiveSequence, IsSkippedWhenAllAreEvenWhileItRan) {
+TEST(ReactiveSequence, IsSkippedWhenAllAreEvenAfterRunning) {
   Story story("<ReactiveSequence><A/><B/></ReactiveSequence>");
   story.says("A", "nothing").says("B", "RUNNING");
   EXPECT_EQ(story.tick(), "RUNNING: start B");
@@ -124,7 +124,7 @@ TEST(ReactiveSequence, IsSkippedWhenAllAreEvenWhileItRan) {
   EXPECT_EQ(story.tick(), "SKIPPED");
 }
 
-TEST(ReactiveFallback, PrefersTheEarliestThatCan) {
+TEST(ReactiveFallback, PrefersTheEarliestChildThatDoesNotFail) {
   Story story("<ReactiveFallback><A/><B/></ReactiveFallback>");
   story.says("A", "FAILURE").says("B", "stops in 1");
   EXPECT_EQ(story.tick(), "RUNNING: start A, start B");
@@ -142,7 +142,7 @@ TEST(ReactiveFallback, FailsWhenAllFailAndIsSkippedWhenAllAre) {
   EXPECT_EQ(story.tick(), "SKIPPED");
 }
 
-TEST(ReactiveFallback, AnEarlierChildThatRunsHaltsALaterOne) {
+TEST(ReactiveFallback, ARunningEarlierChildHaltsALaterOne) {
   Story story("<ReactiveFallback><A/><B/></ReactiveFallback>");
   story.says("A", "FAILURE").says("B", "stops in 1");
   story.tick();
@@ -151,12 +151,12 @@ TEST(ReactiveFallback, AnEarlierChildThatRunsHaltsALaterOne) {
   EXPECT_EQ(story.tick(), "RUNNING: B halted, A");
 }
 
-TEST(Parallel, AllMustSucceedUnlessToldOtherwise) {
+TEST(Parallel, AllMustSucceedByDefault) {
   Story story("<Parallel><A/><B/><C/></Parallel>");
   story.says("A", "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: start A, start B, start C");
   story.says("B", "SUCCESS");
-  EXPECT_EQ(story.tick(), "RUNNING: B, C") << "who ended is not asked again";
+  EXPECT_EQ(story.tick(), "RUNNING: B, C") << "a child that ended is not ticked again";
   story.says("C", "SUCCESS");
   EXPECT_EQ(story.tick(), "SUCCESS: C");
 }
@@ -170,7 +170,7 @@ TEST(Parallel, OneFailureHaltsTheOthers) {
   EXPECT_EQ(story.tick(), "FAILURE: A halted");
 }
 
-TEST(Parallel, EnoughSuccessesAreEnough) {
+TEST(Parallel, SucceedsAtTheGivenNumberOfSuccesses) {
   Story story(R"(<Parallel success_count="2" failure_count="2"><A/><B/><C/></Parallel>)");
   story.says("A", "FAILURE").says("B", "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: start A, start B, start C");
@@ -194,7 +194,7 @@ TEST(Parallel, SkippedCountsAsSuccessWhereAllMustSucceed) {
   EXPECT_EQ(story.tick(), "SKIPPED");
 }
 
-TEST(Parallel, AsksSkippedChildrenAgain) {
+TEST(Parallel, TicksSkippedChildrenAgain) {
   Story story(R"(<Parallel success_count="2"><A/><B/></Parallel>)");
   story.says("A", "nothing").says("B", "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: start B");

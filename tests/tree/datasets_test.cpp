@@ -98,7 +98,8 @@ class Learner {
   std::map<std::string, NodeManifest> manifests_;
 };
 
-/// Rounds of reading and registering, until it is read or what is left is not about registration.
+/// Reads the file and registers node types in turn, until it is read or the remaining problems are not about
+/// registration.
 std::vector<Problem> readByLearning(const fs::path& path, bool& read) {
   Learner learner;
   learner.options.limits.problems = 10'000;
@@ -118,7 +119,7 @@ std::vector<Problem> readByLearning(const fs::path& path, bool& read) {
   return {};
 }
 
-TEST(OthersTrees, AreReadOrRefusedWithAPlace) {
+TEST(TreesOfOtherProjects, AreReadOrRefusedWithThePlace) {
   const auto folder = test_support::dataSet("08-behavior-trees");
   if (!folder) return;
   int read_count = 0, refused = 0;

@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(Inverter, TurnsSuccessAndFailureRound) {
+TEST(Inverter, SwapsSuccessAndFailure) {
   Story story("<Inverter><A/></Inverter>");
   EXPECT_EQ(story.tick(), "RUNNING: start A");
   story.says("A", "SUCCESS");
@@ -20,7 +20,7 @@ TEST(Inverter, TurnsSuccessAndFailureRound) {
   EXPECT_EQ(story.tick(), "SKIPPED");
 }
 
-TEST(Force, IsWhatItsNameSays) {
+TEST(Force, GivesTheResultOfItsName) {
   Story success("<ForceSuccess><A/></ForceSuccess>"), failure("<ForceFailure><A/></ForceFailure>");
   for (Story* story : {&success, &failure}) EXPECT_EQ(story->tick(), "RUNNING: start A");
   for (const char* end : {"SUCCESS", "FAILURE"}) {
@@ -30,7 +30,7 @@ TEST(Force, IsWhatItsNameSays) {
   for (Story* story : {&success, &failure}) EXPECT_EQ(story->says("A", "nothing").tick(), "SKIPPED");
 }
 
-TEST(Repeat, CountsSuccessesOneCycleATickAtMost) {
+TEST(Repeat, CountsSuccessesWithAtMostOneCyclePerTick) {
   Story story(R"(<Repeat num_cycles="3"><A/></Repeat>)");
   story.says("A", "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: start A");
@@ -46,7 +46,7 @@ TEST(Repeat, ACycleThatEndsStartsTheNextInTheSameTick) {
   EXPECT_EQ(story.tick(), "SUCCESS: A, start A");
 }
 
-TEST(Repeat, AFailureEndsItAndSkippedPasses) {
+TEST(Repeat, EndsAtAFailureAndPassesOnSkipped) {
   Story story(R"(<Repeat num_cycles="3"><A/></Repeat>)");
   story.says("A", "FAILURE");
   EXPECT_EQ(story.tick(), "FAILURE: start A");
@@ -54,7 +54,7 @@ TEST(Repeat, AFailureEndsItAndSkippedPasses) {
   EXPECT_EQ(story.tick(), "SKIPPED");
 }
 
-TEST(Repeat, MinusOneIsForEverAndZeroNever) {
+TEST(Repeat, MinusOneRepeatsForEverAndZeroNever) {
   Story forever(R"(<Repeat num_cycles="-1"><A/></Repeat>)"), never(R"(<Repeat num_cycles="0"><A/></Repeat>)");
   forever.says("A", "SUCCESS");
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(forever.tick(), "RUNNING: start A");
@@ -71,7 +71,7 @@ TEST(Retry, CountsFailures) {
   EXPECT_EQ(story.tick(), "SUCCESS: start A");
 }
 
-TEST(Retry, ZeroNeverAsksAndSkippedPasses) {
+TEST(Retry, ZeroNeverTicksAndSkippedIsPassedOn) {
   Story zero(R"(<RetryUntilSuccessful num_attempts="0"><A/></RetryUntilSuccessful>)");
   EXPECT_EQ(zero.tick(), "FAILURE");
   Story story(R"(<RetryUntilSuccessful num_attempts="2"><A/></RetryUntilSuccessful>)");
@@ -86,10 +86,10 @@ TEST(Timeout, HaltsTheChildWhenTheTimeIsOver) {
   EXPECT_EQ(story.tick(1), "RUNNING: A halting") << "not ticked once more";
   EXPECT_EQ(story.tick(), "FAILURE: A halted");
   EXPECT_THAT(story.failures(), ElementsAre("Timeout: timed out after 1 s"));
-  EXPECT_EQ(story.tick(), "RUNNING: start A") << "the clock starts anew";
+  EXPECT_EQ(story.tick(), "RUNNING: start A") << "the clock restarts";
 }
 
-TEST(Timeout, IsWhatTheChildIsInTime) {
+TEST(Timeout, PassesOnAnAnswerInTime) {
   Story story(R"(<Timeout msec="1000"><A/></Timeout>)");
   story.tick();
   EXPECT_EQ(story.says("A", "SUCCESS").tick(500), "SUCCESS: A");
@@ -97,13 +97,13 @@ TEST(Timeout, IsWhatTheChildIsInTime) {
   EXPECT_EQ(story.says("A", "nothing").tick(), "SKIPPED");
 }
 
-TEST(Timeout, ZeroIsNoLimit) {
+TEST(Timeout, ZeroMeansNoLimit) {
   Story story(R"(<Timeout msec="0"><A/></Timeout>)");
   story.tick();
   EXPECT_EQ(story.tick(1'000'000), "RUNNING: A");
 }
 
-TEST(Delay, StartsTheChildLater) {
+TEST(Delay, StartsTheChildAfterTheDelay) {
   Story story(R"(<Delay delay_msec="1000"><A/></Delay>)");
   EXPECT_EQ(story.tick(), "RUNNING");
   EXPECT_EQ(story.tick(999), "RUNNING");
@@ -138,7 +138,7 @@ TEST(SetBlackboard, AnEntryThatIsNotSetYetFailsWithAReason) {
 constexpr const char* kThrice =
     R"(<BehaviorTree ID="Thrice"><Repeat num_cycles="{times}"><A/></Repeat></BehaviorTree>)";
 
-TEST(SubTree, TakesALiteralPort) {
+TEST(SubTree, AcceptsALiteralPort) {
   Story story(R"(<SubTree ID="Thrice" times="1"/>)", kThrice);
   story.says("A", "SUCCESS");
   EXPECT_EQ(story.tick(), "SUCCESS: start A");
@@ -151,7 +151,7 @@ TEST(SubTree, RemapsAnEntryOfTheOuterTree) {
   EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
 }
 
-TEST(SubTree, HasEntriesOfItsOwn) {
+TEST(SubTree, HasItsOwnEntries) {
   Story story(R"(<Sequence><SetBlackboard value="1" output_key="times"/><SubTree ID="Thrice"/></Sequence>)", kThrice);
   ASSERT_EQ(story.problems().size(), 1U);
   EXPECT_EQ(
@@ -160,7 +160,7 @@ TEST(SubTree, HasEntriesOfItsOwn) {
       "by times=\"{times}\" or _autoremap=\"true\" on the SubTree");
 }
 
-TEST(SubTree, AutoremapSharesAllButPrivateNames) {
+TEST(SubTree, AutoremapSharesAllNamesExceptPrivateOnes) {
   const char* autoremap =
       R"(<Sequence><SetBlackboard value="1" output_key="times"/><SubTree ID="Thrice" _autoremap="true"/></Sequence>)";
   EXPECT_EQ(Story(autoremap, kThrice).says("A", "SUCCESS").tick(), "SUCCESS: start A");
@@ -170,20 +170,20 @@ TEST(SubTree, AutoremapSharesAllButPrivateNames) {
   EXPECT_EQ(is_private.problems().size(), 1U);
 }
 
-TEST(SubTree, EqualSignIsTheSameName) {
+TEST(SubTree, AnEqualSignMeansTheSameName) {
   Story story(R"(<Sequence><SetBlackboard value="1" output_key="times"/><SubTree ID="Thrice" times="{=}"/></Sequence>)",
               kThrice);
   EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
 }
 
-TEST(SubTree, AnAtSignIsAnEntryOfTheMainTree) {
+TEST(SubTree, AnAtSignMeansAnEntryOfTheMainTree) {
   Story story(R"(<Sequence><SetBlackboard value="1" output_key="n"/><SubTree ID="Deep"/></Sequence>)",
               R"(<BehaviorTree ID="Deep"><Repeat num_cycles="{@n}"><A/></Repeat></BehaviorTree>)");
   ASSERT_EQ(toString(story.problems()), "");
   EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
 }
 
-TEST(SubTree, TakesTheDefaultOfItsModel) {
+TEST(SubTree, UsesTheDefaultOfItsModel) {
   Story story(
       R"(<SubTree ID="Thrice"/>)",
       std::string(kThrice) +
@@ -192,7 +192,7 @@ TEST(SubTree, TakesTheDefaultOfItsModel) {
   EXPECT_EQ(story.says("A", "SUCCESS").tick(), "SUCCESS: start A");
 }
 
-TEST(SubTree, TwoUsesOfOneTreeAreTwoTrees) {
+TEST(SubTree, TwoUsesOfATreeAreIndependent) {
   Story story(
       R"(<Sequence><SubTree ID="Thrice" times="1" name="first"/><SubTree ID="Thrice" times="2" name="second"/></Sequence>)",
       kThrice);
@@ -201,7 +201,7 @@ TEST(SubTree, TwoUsesOfOneTreeAreTwoTrees) {
   EXPECT_EQ(story.tick(), "SUCCESS: start A");
 }
 
-TEST(Tree, TheHostSetsTheEntriesItNamed) {
+TEST(Tree, TheHostSetsTheEntriesItDeclared) {
   Stage stage;
   const Registry registry = withStandIns(stage);
   ParseOptions options;

@@ -50,7 +50,7 @@ TEST(Includes, AreFoundBesideTheFileThatIncludesThem) {
   EXPECT_EQ(result.tree->tick(context), Status::kSuccess);
 }
 
-TEST(Includes, TheSameFileTwiceIsReadOnce) {
+TEST(Includes, ReadTheSameFileOnce) {
   EXPECT_THAT(problemsOf({{"dir/main.xml",
                            "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\"><include path=\"a.xml\"/><include "
                            "path=\"./a.xml\"/><BehaviorTree ID=\"M\"><SubTree ID=\"A\"/></BehaviorTree></root>"},
@@ -58,32 +58,32 @@ TEST(Includes, TheSameFileTwiceIsReadOnce) {
               ElementsAre());
 }
 
-TEST(Includes, EachOther) {
+TEST(Includes, OfEachOtherAreRefused) {
   EXPECT_THAT(
       problemsOf({{"dir/main.xml", tree("Main", "<AlwaysSuccess/>", "a.xml")},
                   {"dir/a.xml", tree("A", "<AlwaysSuccess/>", "../dir/main.xml")}}),
       ElementsAre("dir/a.xml:2:1: include: files include each other: dir/main.xml -> dir/a.xml -> dir/main.xml"));
 }
 
-TEST(Includes, ThatAreNotThere) {
+TEST(Includes, OfMissingFilesAreRefused) {
   EXPECT_THAT(problemsOf({{"dir/main.xml", tree("Main", "<AlwaysSuccess/>", "nope.xml")}}),
               ElementsAre("dir/main.xml:2:10: include: `dir/nope.xml` cannot be read"));
   EXPECT_THAT(problemsOf({}), ElementsAre("dir/main.xml: cannot be read"));
 }
 
-TEST(Includes, ProblemsNameTheirFile) {
+TEST(Includes, NameTheFileOfEachProblem) {
   EXPECT_THAT(
       problemsOf({{"dir/main.xml", tree("Main", "<SubTree ID=\"A\"/>", "a.xml")}, {"dir/a.xml", tree("A", "<Nope/>")}}),
       ElementsAre(HasSubstr("dir/a.xml:2:22: Nope: unknown node")));
 }
 
-TEST(Includes, SameIdInTwoFiles) {
+TEST(Includes, WithTheSameTreeIdAreRefused) {
   EXPECT_THAT(problemsOf({{"dir/main.xml", tree("A", "<AlwaysSuccess/>", "a.xml")},
                           {"dir/a.xml", tree("A", "<AlwaysSuccess/>")}}),
               ElementsAre("dir/main.xml:3:1: BehaviorTree: `A` is defined twice, first at dir/a.xml:2:1"));
 }
 
-TEST(Includes, TooManyFiles) {
+TEST(Includes, OfTooManyFilesAreRefused) {
   Files files;
   for (int i = 0; i < 100; ++i)
     files["dir/" + std::to_string(i) + ".xml"] =
@@ -91,7 +91,7 @@ TEST(Includes, TooManyFiles) {
   EXPECT_THAT(problemsOf(files, "dir/0.xml"), ElementsAre(HasSubstr("more than 64 files")));
 }
 
-TEST(Files, WhatIsNotAFileCannotBeRead) {
+TEST(Files, ThatAreNotRegularFilesCannotBeRead) {
   const Registry registry = Registry::standard();
   for (const char* path : {"/", "/dev/zero", "/nonexistent.xml"})
     EXPECT_EQ(toString(parseFile(path, registry).problems), std::string(path) + ": cannot be read\n");

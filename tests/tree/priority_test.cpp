@@ -12,7 +12,7 @@ using ::testing::IsEmpty;
 
 constexpr const char* kThree = "<Priority><A/><B/><C/></Priority>";
 
-TEST(Priority, TheFirstThatHasSomethingToDoHasTheVehicle) {
+TEST(Priority, TheFirstChildThatIsNotSkippedControlsTheVehicle) {
   Story story(kThree);
   story.says("A", "nothing");
   EXPECT_EQ(story.tick(), "RUNNING: start B");
@@ -22,7 +22,7 @@ TEST(Priority, TheFirstThatHasSomethingToDoHasTheVehicle) {
   EXPECT_THAT(story.switches(), IsEmpty());
 }
 
-TEST(Priority, AfterASuccessTheNextIsAskedInTheSameTick) {
+TEST(Priority, TicksTheNextChildInTheSameTickAfterASuccess) {
   Story story(kThree);
   story.says("A", "SUCCESS").says("B", "nothing");
   EXPECT_EQ(story.tick(), "RUNNING: start A, start C");
@@ -30,13 +30,13 @@ TEST(Priority, AfterASuccessTheNextIsAskedInTheSameTick) {
               ElementsAre("A takes over from nobody (A wants)", "C takes over from A (A ended with SUCCESS)"));
 }
 
-TEST(Priority, AnyFailureFailsIt) {
+TEST(Priority, FailsAtAnyFailure) {
   Story story(kThree);
   story.says("A", "nothing").says("B", "FAILURE");
   EXPECT_EQ(story.tick(), "FAILURE: start B");
 }
 
-TEST(Priority, AFailureAboveDropsWhatIsSuspendedBelow) {
+TEST(Priority, AFailureAboveHaltsASuspendedChildBelow) {
   Story story(kThree);
   story.says("A", "nothing").says("B", "nothing");
   story.tick();
@@ -49,7 +49,7 @@ TEST(Priority, AFailureAboveDropsWhatIsSuspendedBelow) {
   EXPECT_EQ(story.tick(), "RUNNING: start C") << "not resumed";
 }
 
-TEST(Priority, AllSkippedIsSkipped) {
+TEST(Priority, IsSkippedWhenAllChildrenAre) {
   Story story(kThree);
   story.says("A", "nothing").says("B", "nothing").says("C", "nothing");
   EXPECT_EQ(story.tick(), "SKIPPED");
@@ -63,13 +63,13 @@ TEST(Priority, EndsWithTheStatusOfItsLastChild) {
   EXPECT_EQ(story.tick(), "FAILURE: start C");
 }
 
-TEST(Priority, ASkippedLastChildLeavesTheSuccessAboveIt) {
+TEST(Priority, ASkippedLastChildKeepsTheSuccessAboveIt) {
   Story story(kThree);
   story.says("A", "SUCCESS").says("B", "nothing").says("C", "nothing");
   EXPECT_EQ(story.tick(), "SUCCESS: start A");
 }
 
-TEST(Priority, ALowerOneIsSuspendedNotReset) {
+TEST(Priority, ALowerChildIsSuspendedAndNotReset) {
   Story story("<Priority><A/><Sequence><B/><C/></Sequence></Priority>");
   story.says("A", "nothing").says("B", "SUCCESS");
   EXPECT_EQ(story.tick(), "RUNNING: start B, start C");
@@ -84,7 +84,7 @@ TEST(Priority, ALowerOneIsSuspendedNotReset) {
                           "A takes over from Sequence (A wants)", "Sequence takes over from A (A ended with SUCCESS)"));
 }
 
-TEST(Priority, TheUpperStartsOnlyWhenTheLowerHasLetGo) {
+TEST(Priority, TheUpperChildStartsOnlyWhenTheLowerHasLetGo) {
   Story story("<Priority><A/><B/></Priority>");
   story.says("A", "nothing").says("B", "stops in 2");
   story.tick();
@@ -97,7 +97,7 @@ TEST(Priority, TheUpperStartsOnlyWhenTheLowerHasLetGo) {
                                             "A takes over from B (A wants)"));
 }
 
-TEST(Priority, WhoAskedInVainDoesNotStartAndTheLowerGoesOn) {
+TEST(Priority, TheLowerChildContinuesWhenTheUpperNoLongerAsks) {
   Story story("<Priority><A/><B/></Priority>");
   story.says("A", "nothing").says("B", "stops in 3");
   story.tick();
@@ -108,7 +108,7 @@ TEST(Priority, WhoAskedInVainDoesNotStartAndTheLowerGoesOn) {
   EXPECT_EQ(story.says("A", "RUNNING").tick(), "RUNNING: B suspending") << "it has to stop all over again";
 }
 
-TEST(Priority, TheHighestOfSeveralAskersGetsIt) {
+TEST(Priority, TheHighestOfSeveralRequestsWins) {
   Story story(kThree);
   story.says("A", "nothing").says("B", "nothing").says("C", "stops in 1");
   story.tick();
@@ -121,7 +121,7 @@ TEST(Priority, TheHighestOfSeveralAskersGetsIt) {
   EXPECT_EQ(story.says("A", "nothing").says("B", "SUCCESS").tick(), "RUNNING: B, resume C");
 }
 
-TEST(Priority, AHigherOneInterruptsAnInterrupter) {
+TEST(Priority, AHigherChildInterruptsAnInterruptingOne) {
   Story story(kThree);
   story.says("A", "nothing").says("B", "nothing");
   story.tick();
@@ -145,7 +145,7 @@ TEST(Priority, ClocksStandStillWhileSuspended) {
   EXPECT_EQ(story.says("B", "stops in 0").tick(1), "FAILURE: B halted");
 }
 
-TEST(Priority, ADelayGoesOnWaitingWhereItWas) {
+TEST(Priority, ADelayContinuesWhereItWas) {
   Story story(R"(<Priority><A/><Delay delay_msec="1000"><B/></Delay></Priority>)");
   story.says("A", "nothing");
   EXPECT_EQ(story.tick(), "RUNNING");
@@ -157,7 +157,7 @@ TEST(Priority, ADelayGoesOnWaitingWhereItWas) {
   EXPECT_EQ(story.tick(1), "RUNNING: start B");
 }
 
-TEST(Priority, AClockAboveItRunsOn) {
+TEST(Priority, AClockAboveItKeepsRunning) {
   Story story(R"(<Timeout msec="1000"><Priority><A/><B/></Priority></Timeout>)");
   story.says("A", "nothing");
   story.tick();
@@ -184,7 +184,7 @@ TEST(Priority, SuspendsEveryRunningChildOfAParallel) {
   EXPECT_EQ(story.says("A", "SUCCESS").tick(), "RUNNING: A, resume B, resume C");
 }
 
-TEST(Priority, APrioritySuspendedAsAWholeAsksFromTheTopWhenResumed) {
+TEST(Priority, ASuspendedPriorityStartsFromTheTopWhenResumed) {
   Story story("<Priority><A/><Priority name='inner'><B/><C/></Priority></Priority>");
   story.says("A", "nothing").says("B", "nothing");
   EXPECT_EQ(story.tick(), "RUNNING: start C");
@@ -196,7 +196,7 @@ TEST(Priority, APrioritySuspendedAsAWholeAsksFromTheTopWhenResumed) {
   EXPECT_EQ(story.says("B", "SUCCESS").tick(), "RUNNING: B, resume C");
 }
 
-TEST(Priority, AnEndingThatIsSuspendedIsFinishedFirst) {
+TEST(Priority, AHaltInProgressIsFinishedBeforeSuspending) {
   Story story(R"(<Priority><A/><Timeout msec="100"><B/></Timeout></Priority>)");
   story.says("A", "nothing").says("B", "stops in 2");
   EXPECT_EQ(story.tick(), "RUNNING: start B");
@@ -206,7 +206,7 @@ TEST(Priority, AnEndingThatIsSuspendedIsFinishedFirst) {
   EXPECT_EQ(story.says("A", "SUCCESS").tick(), "FAILURE: A") << "the timeout stands";
 }
 
-TEST(Priority, HaltLetsGoOfWhoHasTheVehicleAndDropsTheRest) {
+TEST(Priority, HaltReleasesTheVehicleAndHaltsSuspendedChildren) {
   Story story("<Priority><A/><B/></Priority>");
   story.says("A", "nothing");
   story.tick();
@@ -217,7 +217,7 @@ TEST(Priority, HaltLetsGoOfWhoHasTheVehicleAndDropsTheRest) {
   EXPECT_EQ(story.view(), "Priority IDLE, A IDLE, B IDLE");
 }
 
-TEST(Priority, AskingLooksThroughEveryKindOfNode) {
+TEST(Priority, AsksThroughEveryKindOfNode) {
   for (const char* upper :
        {"<Sequence><A/><B/></Sequence>", "<Fallback><A/><B/></Fallback>",
         "<ReactiveSequence><A/><B/></ReactiveSequence>", "<ReactiveFallback><A/><B/></ReactiveFallback>",
@@ -234,7 +234,7 @@ TEST(Priority, AskingLooksThroughEveryKindOfNode) {
   }
 }
 
-TEST(Priority, WhatNeverSkipsAlwaysWants) {
+TEST(Priority, AChildThatIsNeverSkippedAlwaysAsks) {
   for (const char* upper : {"<Delay delay_msec='10'><A/></Delay>", "<Repeat num_cycles='0'><A/></Repeat>"}) {
     Story story("<Priority>" + std::string(upper) + "<C/></Priority>");
     story.says("A", "nothing");

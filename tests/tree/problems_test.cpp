@@ -45,7 +45,7 @@ std::vector<std::string> problemsIn(const std::string& inside, const std::string
   return problemsOf(file(inside, more));
 }
 
-TEST(Problems, ASoundFileHasNone) {
+TEST(Problems, AValidFileHasNone) {
   EXPECT_THAT(problemsIn(R"(<Sequence name="all of it" _description="x">
       <Fly goal="1;-2.5;3" clearance_m=" 0.1 " speed_m_s="1e0" tries="-3" careful="true" patience_s="1.5"/>
       <Action ID="Fly" goal="1;2" name="explicit"/> <Condition ID="IsDoorOpen"/> <IsDoorOpen/>
@@ -54,7 +54,7 @@ TEST(Problems, ASoundFileHasNone) {
               ElementsAre());
 }
 
-TEST(Problems, MalformedXml) {
+TEST(Problems, MalformedXmlIsReported) {
   EXPECT_THAT(
       problemsOf("<root BTCPP_format=\"4\">\n  <BehaviorTree ID=\"A\">\n    <Sequence>\n  </BehaviorTree>\n</root>"),
       ElementsAre("f.xml:4:5: <Sequence>: malformed XML: mismatched tag, <Sequence> was opened at line 3"));
@@ -66,7 +66,7 @@ TEST(Problems, MalformedXml) {
               ElementsAre(HasSubstr("duplicate attribute")));
 }
 
-TEST(Problems, UnknownNode) {
+TEST(Problems, AnUnknownNodeIsReported) {
   EXPECT_THAT(problemsIn("<Sequence>\n  <Flly goal=\"1;2\"/>\n  <sequence><AlwaysSuccess/></sequence>\n</Sequence>"),
               ElementsAre("f.xml:4:3: Flly: unknown node `Flly`, did you mean `Fly`?",
                           "f.xml:5:3: sequence: unknown node `sequence`, did you mean `Sequence`?"));
@@ -80,12 +80,12 @@ TEST(Problems, UnknownNode) {
               ElementsAre("f.xml:3:1: Sub: unknown node `Sub`, a tree is used as <SubTree ID=\"Sub\"/>"));
 }
 
-TEST(Problems, ExplicitFormOfTheWrongKind) {
+TEST(Problems, AnExplicitFormOfTheWrongKindIsReported) {
   EXPECT_THAT(problemsIn("<Condition ID=\"Fly\" goal=\"1;2\"/>"),
               ElementsAre("f.xml:3:1: Condition: `Fly` is not of this kind, write <Action ID=\"Fly\">"));
 }
 
-TEST(Problems, UnknownPortAndWrongUnit) {
+TEST(Problems, AnUnknownPortAndAWrongUnitAreReported) {
   EXPECT_THAT(
       problemsIn("<Fly goal=\"1;2\"\n     clearance_cm=\"10\"/>"),
       ElementsAre("f.xml:4:6: Fly: port `clearance_cm` is in centimetres, expected `clearance_m` in metres, did you "
@@ -101,12 +101,12 @@ TEST(Problems, UnknownPortAndWrongUnit) {
               ElementsAre("f.xml:3:16: AlwaysSuccess: unknown port `x`, expected no ports"));
 }
 
-TEST(Problems, MissingPort) {
+TEST(Problems, AMissingPortIsReported) {
   EXPECT_THAT(problemsIn("<Fly/>"),
               ElementsAre("f.xml:3:1: Fly: port `goal` is missing, expected a point `x;y` or `x;y;z` in metres"));
 }
 
-TEST(Problems, WrongTypeAndRange) {
+TEST(Problems, AWrongTypeOrRangeIsReported) {
   EXPECT_THAT(
       problemsIn(R"(<Fly goal="1,2" clearance_m="10cm" speed_m_s="nan" tries="1.5" careful="yes" patience_s="soon"/>)"),
       ElementsAre("f.xml:3:6: Fly.goal: `1,2` is not a point `x;y` or `x;y;z` in metres",
@@ -125,7 +125,7 @@ TEST(Problems, WrongTypeAndRange) {
     EXPECT_EQ(problemsIn("<Fly goal=\"" + std::string(goal) + "\"/>").size(), 1U) << goal;
 }
 
-TEST(Problems, OutputsNeedAnEntry) {
+TEST(Problems, AnOutputWithoutAnEntryIsReported) {
   EXPECT_THAT(problemsIn(R"(<Fly goal="1;2" flown_m="3"/>)"),
               ElementsAre("f.xml:3:17: Fly.flown_m: `3` is not an entry, expected `{name}`"));
   EXPECT_THAT(problemsIn(R"(<Fly goal="{}"/>)"),
@@ -133,7 +133,7 @@ TEST(Problems, OutputsNeedAnEntry) {
   EXPECT_THAT(problemsIn(R"(<Fly goal="{a b}"/>)"), ElementsAre(HasSubstr("does not name an entry")));
 }
 
-TEST(Problems, NumberOfChildren) {
+TEST(Problems, AWrongNumberOfChildrenIsReported) {
   EXPECT_THAT(problemsIn("<Sequence/>"), ElementsAre("f.xml:3:1: Sequence: has 0 children, expected at least 1"));
   EXPECT_THAT(problemsIn("<Inverter><AlwaysSuccess/><AlwaysSuccess/></Inverter>"),
               ElementsAre("f.xml:3:1: Inverter: has 2 children, expected exactly 1"));
@@ -146,12 +146,12 @@ TEST(Problems, NumberOfChildren) {
               ElementsAre("f.xml:3:1: Parallel: success_count is 3, but it has only 1 child"));
 }
 
-TEST(Problems, TextThatIsNotExpected) {
+TEST(Problems, UnexpectedTextIsReported) {
   EXPECT_THAT(problemsIn("<Sequence>\n go! <AlwaysSuccess/></Sequence>"),
               ElementsAre("f.xml:4:2: Sequence: text is not expected here"));
 }
 
-TEST(Problems, SubTrees) {
+TEST(Problems, MistakesInSubTreesAreReported) {
   EXPECT_THAT(problemsIn("<SubTree ID=\"Sbu\"/>", "<BehaviorTree ID=\"Sub\"><AlwaysSuccess/></BehaviorTree>"),
               ElementsAre("f.xml:3:10: SubTree: there is no <BehaviorTree ID=\"Sbu\">, did you mean `Sub`?"));
   EXPECT_THAT(problemsIn("<SubTree/>"), ElementsAre("f.xml:3:1: SubTree: the attribute `ID` is missing"));
@@ -171,7 +171,7 @@ TEST(Problems, SubTrees) {
               ElementsAre("f.xml:3:19: SubTree._autoremap: `maybe` is not true or false"));
 }
 
-TEST(Problems, Entries) {
+TEST(Problems, MistakesInEntriesAreReported) {
   EXPECT_THAT(problemsIn("<Fly goal=\"{target}\"/>"),
               ElementsAre("f.xml:3:6: Fly.goal: nothing sets the entry {target}"));
   EXPECT_THAT(
@@ -191,7 +191,7 @@ TEST(Problems, Entries) {
               ElementsAre(HasSubstr("Fly.goal: the entry {d} is written as number, expected a point")));
 }
 
-TEST(Problems, RootAndTrees) {
+TEST(Problems, MistakesInRootAndTreesAreReported) {
   EXPECT_THAT(problemsOf("<rot BTCPP_format=\"4\"/>"),
               ElementsAre("f.xml:1:1: rot: the outermost element must be <root BTCPP_format=\"4\">"));
   EXPECT_THAT(problemsOf("<root main_tree_to_execute=\"A\"/>"), ElementsAre(HasSubstr("BTCPP_format is missing")));
@@ -224,7 +224,7 @@ TEST(Problems, RootAndTrees) {
               ElementsAre(HasSubstr("`Fly` is the name of a node type")));
 }
 
-TEST(Problems, WhatIsNotSupportedIsRefusedNotIgnored) {
+TEST(Problems, UnsupportedFeaturesAreReportedAndNotIgnored) {
   EXPECT_THAT(problemsIn("<AlwaysSuccess _skipIf=\"x==1\"/>"),
               ElementsAre("f.xml:3:16: AlwaysSuccess._skipIf: scripted conditions are not supported"));
   EXPECT_THAT(problemsIn("<AlwaysSuccess _skipif=\"x==1\"/>"), ElementsAre(HasSubstr("unknown attribute `_skipif`")));
@@ -234,13 +234,13 @@ TEST(Problems, WhatIsNotSupportedIsRefusedNotIgnored) {
               ElementsAre(HasSubstr("ros_pkg is not supported")));
 }
 
-TEST(Problems, AllAreCollected) {
+TEST(Problems, AllAreReportedTogether) {
   EXPECT_THAT(problemsIn("<Sequence>\n<Flly/>\n<Fly/>\n<Inverter/>\n<SubTree ID=\"no\"/></Sequence>"),
               ElementsAre(HasSubstr(":4:1: Flly"), HasSubstr(":5:1: Fly"), HasSubstr(":6:1: Inverter"),
                           HasSubstr(":7:10: SubTree")));
 }
 
-TEST(Problems, ManyAreCutShort) {
+TEST(Problems, ALongListIsShortened) {
   std::string inside = "<Sequence>";
   for (int i = 0; i < 1000; ++i) inside += "<Nope/>";
   const auto problems = problemsIn(inside + "</Sequence>");
@@ -253,7 +253,7 @@ TEST(Problems, ColumnsCountCharacters) {
   EXPECT_THAT(problemsOf("\xEF\xBB\xBF<rot/>"), ElementsAre(HasSubstr("f.xml:1:1: rot")));
 }
 
-TEST(Limits, Depth) {
+TEST(Limits, TheDepthOfATreeIsLimited) {
   const auto nested = [](int depth) {
     std::string text;
     for (int i = 0; i < depth; ++i) text += "<Inverter>";
@@ -271,7 +271,7 @@ TEST(Limits, Depth) {
   EXPECT_THAT(problemsIn("<SubTree ID=\"T299\"/>", more), ElementsAre(HasSubstr("nodes are nested deeper than 200")));
 }
 
-TEST(Limits, SubTreesThatMultiply) {
+TEST(Limits, ExpandedSubTreesAreLimited) {
   std::string more = "<BehaviorTree ID=\"T0\"><AlwaysSuccess/></BehaviorTree>\n";
   for (int i = 1; i < 40; ++i) {
     const std::string use = "<SubTree ID=\"T" + std::to_string(i - 1) + "\"/>";
@@ -282,12 +282,12 @@ TEST(Limits, SubTreesThatMultiply) {
               ElementsAre(HasSubstr("more than 100000 nodes, subtrees included")));
 }
 
-TEST(Limits, FileSize) {
+TEST(Limits, TheSizeOfAFileIsLimited) {
   EXPECT_THAT(problemsOf(std::string((std::size_t{8} << 20) + 1, ' ')),
               ElementsAre("f.xml: `f.xml` is larger than 8388608 bytes"));
 }
 
-TEST(Suggestions, ComeByUnitCaseAndDistance) {
+TEST(Suggestions, ConsiderUnitCaseAndEditDistance) {
   const std::vector<std::string> names = {"clearance_m", "tolerance_m", "TakeOff", "goal"};
   EXPECT_EQ(didYouMean("clearance_mm", names), "did you mean `clearance_m`?");
   EXPECT_EQ(didYouMean("tolerance", names), "did you mean `tolerance_m`?");
@@ -297,7 +297,7 @@ TEST(Suggestions, ComeByUnitCaseAndDistance) {
   EXPECT_EQ(didYouMean("", names), "");
 }
 
-TEST(Values, UnitsOfNames) {
+TEST(Values, UnitsAreReadFromNames) {
   EXPECT_EQ(unitOf("speed_m_s"), "m_s");
   EXPECT_EQ(unitOf("msec"), "msec");
   EXPECT_EQ(unitOf("delay_msec"), "msec");
@@ -306,7 +306,7 @@ TEST(Values, UnitsOfNames) {
   EXPECT_EQ(withoutUnit("msec"), "msec");
 }
 
-TEST(Values, ReadAsTyped) {
+TEST(Values, AreReadByTheirType) {
   EXPECT_EQ(parseValue("1.5", PortType::kDuration, "s"), Value(Duration{1'500'000'000}));
   EXPECT_EQ(parseValue("2", PortType::kDuration, "min"), Value(Duration{120'000'000'000}));
   EXPECT_EQ(parseValue("1e30", PortType::kDuration, "s"), std::nullopt);

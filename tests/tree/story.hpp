@@ -29,7 +29,7 @@ Registry withStandIns(Stage& stage, const Registry& base = Registry::standard())
 
 class Story {
  public:
-  /// `inside` stands in <BehaviorTree ID="Main">; `more` beside it.
+  /// `inside` is the content of <BehaviorTree ID="Main">; `more` follows that element.
   explicit Story(std::string_view inside, std::string_view more = {});
   Story(std::string_view whole_file, const Registry& base);
 

@@ -69,7 +69,7 @@ TEST(PageSocketTest, SendsEverythingOnceAndThenWhatChanges) {
   EXPECT_EQ(page.json()["mission"]["tree"].size(), 9u);
 }
 
-TEST(PageSocketTest, ALateTabletHasTheWholeMapAtOnceAndStaysWithinItsBudget) {
+TEST(PageSocketTest, ALatePageGetsTheWholeMapWithinItsBudget) {
   FakeBackend backend({});
   PageClient page(backend.port(), "");
   int states = 0;

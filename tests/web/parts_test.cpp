@@ -36,7 +36,7 @@ TEST(TileCodecTest, DecodesToTheShadesOfEveryCell) {
   EXPECT_TRUE(held);
 }
 
-TEST(TileCodecTest, ShadesTellFreeFromOccupiedFromUnknown) {
+TEST(TileCodecTest, ShadesDistinguishFreeOccupiedAndUnknown) {
   EXPECT_EQ(shadeOf(common::occupancy::kUnknown), 0);
   for (int c = -100; c <= 100; ++c) {
     const int shade = shadeOf(static_cast<Cell>(c));
@@ -78,7 +78,7 @@ struct Page {
   }
 };
 
-TEST(TileFeedTest, APageThatTakesEveryMessageHasTheMapWheneverItCame) {
+TEST(TileFeedTest, APageThatReadsAllMessagesHasTheMapWheneverItJoins) {
   testing::ExampleFlight flight;
   TileFeed feed;
   TileReader early, late;
@@ -96,7 +96,7 @@ TEST(TileFeedTest, APageThatTakesEveryMessageHasTheMapWheneverItCame) {
   });
 }
 
-TEST(TileFeedTest, WhatVanishesFromTheMapVanishesFromThePage) {
+TEST(TileFeedTest, TilesRemovedFromTheMapAreRemovedFromThePage) {
   auto first = common::makeOccupancyGrid(0.05), second = common::makeOccupancyGrid(0.05);
   first.set({500, 3}, 50);
   second.set({0, 0}, 50);
@@ -113,7 +113,7 @@ TEST(TileFeedTest, WhatVanishesFromTheMapVanishesFromThePage) {
   EXPECT_TRUE(reader.next(feed, 1000).empty());
 }
 
-TEST(TileFeedTest, SeeingAgainWhatIsKnownCostsNothing) {
+TEST(TileFeedTest, UnchangedShadesSendNothing) {
   auto grid = common::makeOccupancyGrid(0.05);
   grid.set({3, 3}, 99);
   TileFeed feed;
@@ -125,7 +125,7 @@ TEST(TileFeedTest, SeeingAgainWhatIsKnownCostsNothing) {
   EXPECT_TRUE(reader.next(feed, 1000).empty());
 }
 
-TEST(CommandDeskTest, BringsEachAnswerToWhoAsked) {
+TEST(CommandDeskTest, ReturnsEachAnswerToItsSender) {
   common::LosslessQueue<common::OperatorCommand> commands;
   common::LosslessQueue<common::CommandResult> results;
   CommandDesk desk(commands, results, 3);
@@ -152,7 +152,7 @@ TEST(CommandDeskTest, BringsEachAnswerToWhoAsked) {
   EXPECT_EQ(log.size(), 3u);
 }
 
-TEST(CommandDeskTest, DoesNotLetStrangersPileUp) {
+TEST(CommandDeskTest, LimitsTheWaitingCommands) {
   common::LosslessQueue<common::OperatorCommand> commands;
   common::LosslessQueue<common::CommandResult> results;
   CommandDesk desk(commands, results, 1000);
@@ -163,7 +163,7 @@ TEST(CommandDeskTest, DoesNotLetStrangersPileUp) {
   EXPECT_EQ(commands.takeAll().size(), 64u);
 }
 
-TEST(StateJsonTest, HasEverythingAndIsValidJson) {
+TEST(StateJsonTest, ContainsEverythingAndIsValidJson) {
   testing::ExampleFlight flight;
   flight.flyTo({1.0, 0.5});
   const auto world = flight.advance(0.5);
@@ -182,7 +182,7 @@ TEST(StateJsonTest, HasEverythingAndIsValidJson) {
   EXPECT_TRUE(json["localization"].is_null());
 }
 
-TEST(StateJsonTest, HasWhereItIsInTheGivenMapAsSoonAsThatIsKnown) {
+TEST(StateJsonTest, ContainsThePoseInTheGivenMapOnceItIsKnown) {
   testing::ExampleFlight flight;
   test::Layers layers(*flight.advance(0.5));
   common::Localization& localization = layers.map.localization.emplace();
@@ -203,10 +203,10 @@ TEST(StateJsonTest, HasWhereItIsInTheGivenMapAsSoonAsThatIsKnown) {
   EXPECT_EQ(known["explained"], 0.875);
 }
 
-/// A flight at some speed, looked at when a test says so.
+/// A flight at any speed that the telemetry observes only when the test asks for it.
 class RealtimeFactor : public ::testing::Test {
  protected:
-  /// What the state says after `unix_s` more, at `speed` times real time.
+  /// The realtime factor in the state after another `unix_s` seconds, flown at `speed` times real time.
   nlohmann::json after(double unix_s, double speed) {
     unix_time_ = unix_time_ + common::Duration::fromSeconds(unix_s);
     world_.post(flight_.advance(speed * unix_s));
@@ -222,7 +222,7 @@ class RealtimeFactor : public ::testing::Test {
   Telemetry telemetry_{{world_, camera_, commands_, results_}, [this] { return unix_time_; }};
 };
 
-TEST_F(RealtimeFactor, IsNoneAtFirstAndThenThatOfTheLastSeconds) {
+TEST_F(RealtimeFactor, IsUnknownAtFirstAndThenThatOfTheLastSeconds) {
   EXPECT_TRUE(after(0.1, 4.0).is_null());
   for (int i = 0; i < 20; ++i) after(0.1, 4.0);
   EXPECT_NEAR(after(0.1, 4.0).get<double>(), 4.0, 0.01);
@@ -230,7 +230,7 @@ TEST_F(RealtimeFactor, IsNoneAtFirstAndThenThatOfTheLastSeconds) {
   EXPECT_NEAR(after(0.1, 0.5).get<double>(), 0.5, 0.01);
 }
 
-TEST_F(RealtimeFactor, IsThereRightAfterAPauseInLooking) {
+TEST_F(RealtimeFactor, IsKnownRightAfterAPauseBetweenRequests) {
   for (int i = 0; i < 20; ++i) after(0.1, 2.0);
   EXPECT_NEAR(after(10.0, 2.0).get<double>(), 2.0, 0.01);
   EXPECT_NEAR(after(0.1, 2.0).get<double>(), 2.0, 0.01);
@@ -250,7 +250,7 @@ TEST(StateJsonTest, NamesTheVehicleOnlyWhereThereAreSeveral) {
   EXPECT_EQ(named["events"][0]["vehicle"], "second");
 }
 
-TEST(StateJsonTest, SurvivesNumbersAndTextThatAreNone) {
+TEST(StateJsonTest, StaysValidWithNanAndInvalidText) {
   testing::ExampleFlight flight;
   test::Layers layers(*flight.advance(0.1));
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -41,7 +41,7 @@ TEST(RouteTest, ReadsStreamParameters) {
   EXPECT_DOUBLE_EQ(stream.fps, 5.0);
 }
 
-TEST(RouteTest, ReducesWhatIsTooMuchAndRefusesWhatIsNoNumber) {
+TEST(RouteTest, ClampsLargeParametersAndRefusesInvalidOnes) {
   const auto stream = std::get<StreamPictures>(route(get("/stream/map.mjpg?width=99999&fps=1e9"), kPolicy));
   EXPECT_EQ(stream.view.width_px, 1920);
   EXPECT_DOUBLE_EQ(stream.fps, 30.0);
@@ -51,7 +51,7 @@ TEST(RouteTest, ReducesWhatIsTooMuchAndRefusesWhatIsNoNumber) {
   EXPECT_THAT(reasonOf(route(get("/stream/map.mjpg?widht=3"), kPolicy)), ::testing::HasSubstr("did you mean `width`"));
 }
 
-TEST(RouteTest, OfSeveralVehiclesTheNamedOneIsMeant) {
+TEST(RouteTest, SelectsTheNamedVehicle) {
   Policy several = kPolicy;
   several.vehicles = {"alpha", "beta"};
   EXPECT_EQ(std::get<SendState>(route(get("/api/state"), several)).vehicle, 0u);
@@ -69,7 +69,7 @@ TEST(RouteTest, OfSeveralVehiclesTheNamedOneIsMeant) {
   EXPECT_EQ(std::get<ServeFile>(route(get("/?vehicle=beta"), several)).name, "index.html");
 }
 
-TEST(RouteTest, AVehicleThatIsNotThereIsNotFound) {
+TEST(RouteTest, AnUnknownVehicleIsNotFound) {
   Policy several = kPolicy;
   several.vehicles = {"alpha", "beta"};
   for (const char* target : {"/api/state?vehicle=bet", "/?vehicle=bet", "/stream/map.mjpg?vehicle=bet"})
@@ -136,7 +136,7 @@ TEST(RouteTest, GoalsAreReadStrictly) {
   EXPECT_EQ(statusOf(route(post("/api/goal", std::string(4000, '[')), kPolicy)), 400);
 }
 
-TEST(RouteTest, SaysWhichMethodWouldDo) {
+TEST(RouteTest, NamesTheAllowedMethod) {
   const Action action = route(get("/api/goal"), kPolicy);
   EXPECT_EQ(std::get<Refuse>(action).status, 405);
   EXPECT_EQ(std::get<Refuse>(action).allow, "POST");

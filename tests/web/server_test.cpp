@@ -61,13 +61,13 @@ TEST(ServerTest, AnswersStateAndMap) {
   EXPECT_EQ(map.body.substr(1, 3), "PNG");
 }
 
-TEST(ServerTest, TheFirstWhoAsksIsToldHowFastTimePasses) {
+TEST(ServerTest, TheFirstRequestGetsTheRealtimeFactor) {
   FakeBackend backend({});
   std::this_thread::sleep_for(1500ms);
   EXPECT_TRUE(jsonOf(request(backend.port(), "GET", "/api/state"))["realtime_factor"].is_number());
 }
 
-TEST(ServerTest, SaysSoBeforeTheFirstWorld) {
+TEST(ServerTest, AnswersUnavailableBeforeTheFirstWorld) {
   FakeBackend::Setup setup;
   setup.flies = false;
   FakeBackend backend(setup);
@@ -93,7 +93,7 @@ TEST(ServerTest, AnswersACommandWithItsResult) {
   EXPECT_EQ(jsonOf(request(backend.port(), "GET", "/api/state"))["events"].size(), 6u);
 }
 
-/// What one of several vehicles hands to the server; the test carries its commands out.
+/// The data that one of several vehicles gives to the server. The test executes its commands.
 struct Flown {
   explicit Flown(std::string name_in) : name(std::move(name_in)) {
     flight.layers().vehicle.name = name;
@@ -109,7 +109,7 @@ struct Flown {
   common::LosslessQueue<common::CommandResult> results;
 };
 
-TEST(ServerTest, OfSeveralVehiclesEachHasItsStateItsEventsAndItsCommands) {
+TEST(ServerTest, EachVehicleHasItsOwnStateEventsAndCommands) {
   Flown alpha("alpha"), beta("beta");
   web::WebServer::Options options;
   options.port = 0;
@@ -154,7 +154,7 @@ TEST(ServerTest, WithoutTheTokenNothingReachesTheVehicle) {
   EXPECT_TRUE(backend.commandsSeen().empty());
 }
 
-TEST(ServerTest, ACommandThatNobodyAnswersTimesOut) {
+TEST(ServerTest, AnUnansweredCommandTimesOut) {
   FakeBackend::Setup setup;
   setup.answers = false;
   FakeBackend backend(setup);
@@ -172,7 +172,7 @@ TEST(ServerTest, KeepsAConnectionForManyRequests) {
   }
 }
 
-TEST(ServerTest, BadRequestsGetAnAnswerAndHarmNothing) {
+TEST(ServerTest, BadRequestsGetAnAnswerAndTheServerContinues) {
   FakeBackend backend({});
   const std::pair<std::string, int> cases[] = {
       {"GARBAGE\r\n\r\n", 400},
@@ -192,7 +192,7 @@ TEST(ServerTest, BadRequestsGetAnAnswerAndHarmNothing) {
   EXPECT_EQ(request(backend.port(), "GET", "/").status, 200);
 }
 
-TEST(ServerTest, MoreConnectionsThanAllowedAreToldSo) {
+TEST(ServerTest, TooManyConnectionsAreRefusedWithAnAnswer) {
   FakeBackend::Setup setup;
   setup.max_connections = 8;
   FakeBackend backend(setup);
@@ -203,7 +203,7 @@ TEST(ServerTest, MoreConnectionsThanAllowedAreToldSo) {
   EXPECT_TRUE(eventually([&] { return request(backend.port(), "GET", "/").status == 200; }));
 }
 
-TEST(ServerTest, TheCameraIsWantedOnlyWhileSomebodyWatches) {
+TEST(ServerTest, TheCameraIsRequestedOnlyWhileAClientWatches) {
   FakeBackend backend({});
   EXPECT_FALSE(backend.server().cameraWanted());
   {
@@ -216,7 +216,7 @@ TEST(ServerTest, TheCameraIsWantedOnlyWhileSomebodyWatches) {
   EXPECT_TRUE(eventually([&] { return !backend.server().cameraWanted(); }));
 }
 
-/// Reads parts of a stream and returns the age of each frame when it was there, in seconds.
+/// Reads parts of a stream and returns the age of each frame at its arrival, in seconds.
 std::vector<double> frameAges(int port, const std::string& target, double duration_s) {
   RawClient client(port);
   client.send("GET " + target + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -235,7 +235,7 @@ std::vector<double> frameAges(int port, const std::string& target, double durati
   return ages;
 }
 
-TEST(StreamTest, SendsWholePicturesAtTheRateAsked) {
+TEST(StreamTest, SendsWholePicturesAtTheRequestedRate) {
   FakeBackend backend({});
   const int many = patience();
   const std::vector<double> ages = frameAges(backend.port(), "/stream/map.mjpg?width=320&fps=10", 1.5 * many);
@@ -243,7 +243,7 @@ TEST(StreamTest, SendsWholePicturesAtTheRateAsked) {
   EXPECT_LE(ages.size(), 18u * static_cast<unsigned>(many));
 }
 
-TEST(StreamTest, AClientThatReadsNothingDelaysNobodyAndIsDropped) {
+TEST(StreamTest, AClientThatReadsNothingDelaysNoOtherAndIsDropped) {
   FakeBackend::Setup setup;
   setup.stall_timeout_s = 0.5 * patience();
   FakeBackend backend(setup);
@@ -296,7 +296,7 @@ TEST(WebServerTest, BadOptionsAreClearErrors) {
   EXPECT_NE(web::makeToken(), web::makeToken());
 }
 
-TEST(WebServerTest, TheLinkOfAServerOnEveryInterfaceNamesAnAddressOfThisMachine) {
+TEST(WebServerTest, TheLinkOfAServerOnAllInterfacesNamesAnAddressOfTheMachine) {
   using boost::asio::ip::make_address;
   EXPECT_EQ(web::reachableAddress(make_address("192.0.2.7")), make_address("192.0.2.7"));
   EXPECT_FALSE(web::reachableAddress(make_address("::")).is_unspecified());
@@ -321,12 +321,12 @@ TEST(WebServerTest, StopsWithClientsConnected) {
   EXPECT_TRUE(idle.closed());
 }
 
-TEST(WebServerTest, StopsWhileACommandWaitsAndKeepsNothing) {
+TEST(WebServerTest, StopsWhileACommandWaitsAndReleasesEverything) {
   common::LatestValue<common::World> world;
   common::LatestValue<common::CameraFrame> camera;
   common::LosslessQueue<common::OperatorCommand> commands;
   common::LosslessQueue<common::CommandResult> results;
-  auto held = std::make_shared<int>();  // By all that the server shares, through the clock it is given.
+  auto held = std::make_shared<int>();  // Held by the server's clock.
   const std::weak_ptr<int> still_held = held;
   {
     web::WebServer::Options options;

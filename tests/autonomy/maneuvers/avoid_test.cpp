@@ -9,7 +9,7 @@ namespace {
 
 using AvoidManeuver = ManeuverInFlight;
 
-TEST_F(AvoidManeuver, TellsWhyAndReleasesTheVehicleOnlyWhenTheRetreatIsOver) {
+TEST_F(AvoidManeuver, ReportsItsReasonAndReleasesTheVehicleAfterTheRetreat) {
   retreat({-0.5, 0.0});
   want(common::AvoidIntent{});
   run(1.5);

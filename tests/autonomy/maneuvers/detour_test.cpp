@@ -19,14 +19,14 @@ class DetourTest : public ManeuverWorkbench {
   Detour detour_{setup_, flight_};
 };
 
-TEST_F(DetourTest, IsDueWhenThereHasBeenNoPathForAWhileAndNothingIsFlown) {
+TEST_F(DetourTest, IsDueAfterSomeTimeWithoutAPathOrAFlownPlan) {
   EXPECT_FALSE(detour_.due(now_, in(2.4)));
   EXPECT_TRUE(detour_.due(now_, in(2.6)));
   flight_.offer(straight(position_m(), {3.0, 2.0}), now_, state_);
   EXPECT_FALSE(detour_.due(now_, in(2.6)));
 }
 
-TEST_F(DetourTest, IsAskedForFromTheDeskAndNotAgainAtOnce) {
+TEST_F(DetourTest, IsRequestedFromTheDeskAndNotRepeatedAtOnce) {
   answers_.clear();
   detour_.ask(input(), {6.0, 2.0});
   EXPECT_FALSE(flight_.mayAsk());
@@ -38,7 +38,7 @@ TEST_F(DetourTest, IsAskedForFromTheDeskAndNotAgainAtOnce) {
   EXPECT_TRUE(detour_.due(now_, in(2.6)));
 }
 
-TEST_F(DetourTest, IsFlownAndEndsAtItsPlace) {
+TEST_F(DetourTest, IsFlownAndEndsAtItsTarget) {
   begin();
   EXPECT_TRUE(detour_.active());
   EXPECT_EQ(lastSaid(), "goes nearer to look");
@@ -54,7 +54,7 @@ TEST_F(DetourTest, IsFlownAndEndsAtItsPlace) {
   EXPECT_FALSE(detour_.due(now_, in(2.4))) << "the next one counts from its end";
 }
 
-TEST_F(DetourTest, EndsWhenItTakesTooLongOrItsPathIsGone) {
+TEST_F(DetourTest, EndsWhenItTakesTooLongOrLosesItsPath) {
   follows_ = false;
   begin();
   now_ += common::Duration::fromSeconds(15.1);
@@ -66,7 +66,7 @@ TEST_F(DetourTest, EndsWhenItTakesTooLongOrItsPathIsGone) {
   EXPECT_FALSE(detour_.active());
 }
 
-TEST_F(DetourTest, IsBrokenOffForAPathWithoutAStop) {
+TEST_F(DetourTest, SwitchesToAPathToTheGoalWithoutStopping) {
   begin();
   run(0.5);
   detour_.breakOff();

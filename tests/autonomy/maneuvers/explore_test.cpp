@@ -14,7 +14,7 @@ using planning::test::fill;
 using planning::test::kFreeCell;
 using planning::test::kWallCell;
 
-TEST_F(ManeuverStory, OnTheGroundNothingIsExplored) {
+TEST_F(ManeuverStory, ExploreFailsOnTheGround) {
   want(common::ExploreIntent{});
   EXPECT_EQ(runToTheEnd(0.1), IntentState::kFailed);
   EXPECT_EQ(executor_.status().reason, "cannot explore while powered off");
@@ -23,7 +23,7 @@ TEST_F(ManeuverStory, OnTheGroundNothingIsExplored) {
 class ExploreManeuver : public ManeuverInFlight {
  protected:
   using ManeuverInFlight::ManeuverInFlight;
-  /// It takes off with its back to what there is to see.
+  /// The vehicle takes off facing away from the unexplored area.
   void SetUp() override {
     place(1.5, 2.0, std::numbers::pi);
     ManeuverInFlight::SetUp();
@@ -50,7 +50,7 @@ class ExploreManeuver : public ManeuverInFlight {
   }
 };
 
-TEST_F(ExploreManeuver, AViewpointIsFlownToAndCountsAfterALookOfHalfASecond) {
+TEST_F(ExploreManeuver, AViewpointCountsAfterHalfASecondThere) {
   build(true);
   want(common::ExploreIntent{});
   runUntil([this] { return looks() == 1 && executor_.goal_map_m(); },
@@ -75,7 +75,7 @@ TEST_F(ExploreManeuver, AViewpointIsFlownToAndCountsAfterALookOfHalfASecond) {
   EXPECT_EQ(looks(), 2);
 }
 
-TEST_F(ExploreManeuver, WhatStaysUnknownIsLeftAfterThreeLooksAndSaid) {
+TEST_F(ExploreManeuver, GivesUpAFrontierAfterThreeLooksAndReportsTheReason) {
   build(true);
   fill(grid_, {{20, 80}, {23, 81}}, kFreeCell);  // A crack.
   want(common::ExploreIntent{});
@@ -86,13 +86,13 @@ TEST_F(ExploreManeuver, WhatStaysUnknownIsLeftAfterThreeLooksAndSaid) {
   EXPECT_EQ(reasonOf("frontier of 0.15 m"), "too small: 0.15 m long");
 }
 
-/// The default, another planner, another explorer: who was chosen did the work.
-class ExploreBy : public ExploreManeuver, public testing::WithParamInterface<std::tuple<Choices, PlanningUse>> {
+/// The default, another planner and another explorer. The counters show which of them did the work.
+class ExploreChoices : public ExploreManeuver, public testing::WithParamInterface<std::tuple<Choices, PlanningUse>> {
  protected:
-  ExploreBy() : ExploreManeuver(std::get<Choices>(GetParam())) {}
+  ExploreChoices() : ExploreManeuver(std::get<Choices>(GetParam())) {}
 };
 
-TEST_P(ExploreBy, WhoWasChosenFindsTheViewpointsAndThePathsThere) {
+TEST_P(ExploreChoices, UsesTheChosenExplorerAndPlanner) {
   const PlanningUse& expected = std::get<PlanningUse>(GetParam());
   build(true);
   want(common::ExploreIntent{});
@@ -102,17 +102,17 @@ TEST_P(ExploreBy, WhoWasChosenFindsTheViewpointsAndThePathsThere) {
   EXPECT_EQ(use.explorer, expected.explorer);
   EXPECT_GE(use.viewpoints, 3) << "one a look";
   EXPECT_EQ(use.planner, expected.planner);
-  EXPECT_GE(use.paths, use.viewpoints) << "every leg is planned, and planned anew while it is flown";
+  EXPECT_GE(use.paths, use.viewpoints) << "every leg is planned, and replanned while it is flown";
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Chosen, ExploreBy,
+    Chosen, ExploreChoices,
     testing::Values(std::tuple{Choices{}, PlanningUse{"D* Lite", 0, "utility", 0}},
                     std::tuple{Choices{planning::PlannerKind::kWavefront}, PlanningUse{"wavefront", 0, "utility", 0}},
                     std::tuple{Choices{planning::PlannerKind::kDStarLite, planning::ExplorerKind::kNearestFrontier},
                                PlanningUse{"D* Lite", 0, "nearest frontier", 0}}));
 
-TEST_F(ExploreManeuver, DoneIsBelievedWhenItIsSaidTwiceStandingStill) {
+TEST_F(ExploreManeuver, EndsWhenTheExplorerReportsDoneTwiceAtRest) {
   build(false);
   want(common::ExploreIntent{});
   runUntil([this] { return executor_.desk().exploredArea_m2() > 0.0; }, 1.0);
@@ -127,7 +127,7 @@ TEST_F(ExploreManeuver, DoneIsBelievedWhenItIsSaidTwiceStandingStill) {
   EXPECT_EQ(runToTheEnd(2.0), IntentState::kSucceeded);
 }
 
-TEST_F(ExploreManeuver, WhoWalkedLatelyAndStandsInTheWayIsGivenRoom) {
+TEST_F(ExploreManeuver, MakesRoomForAPersonWhoBlocksThePath) {
   buildPassage();
   anybody_walks_ = true;
   discs_ = {personInThePassage()};
@@ -143,7 +143,7 @@ TEST_F(ExploreManeuver, WhoWalkedLatelyAndStandsInTheWayIsGivenRoom) {
   EXPECT_LT(distanceTo_m({6.0, 2.0}), 0.6) << "the path is free: " << executor_.status().reason;
 }
 
-TEST_F(ExploreManeuver, WhoStaysInTheWayIsNotWaitedForForEver) {
+TEST_F(ExploreManeuver, DoesNotWaitForEverForAPersonWhoBlocksThePath) {
   buildPassage();
   anybody_walks_ = true;
   discs_ = {personInThePassage()};
@@ -153,7 +153,7 @@ TEST_F(ExploreManeuver, WhoStaysInTheWayIsNotWaitedForForEver) {
   EXPECT_EQ(runToTheEnd(30.0), IntentState::kSucceeded);
 }
 
-TEST_F(ExploreManeuver, WhereNobodyWalkedLatelyNobodyIsGivenRoom) {
+TEST_F(ExploreManeuver, MakesNoRoomWhenNobodyWalkedRecently) {
   buildPassage();
   discs_ = {personInThePassage()};
   anybody_walks_ = true;
@@ -166,7 +166,7 @@ TEST_F(ExploreManeuver, WhereNobodyWalkedLatelyNobodyIsGivenRoom) {
   EXPECT_EQ(timesSaid("goes aside to make room"), 0);
 }
 
-TEST_F(ExploreManeuver, WhatWasLookedAtInVainIsRememberedAfterAnInterruption) {
+TEST_F(ExploreManeuver, RemembersFruitlessLooksAfterAnInterruption) {
   build(true);
   want(common::ExploreIntent{});
   runUntil([this] { return looks() == 2; }, 30.0);
@@ -180,7 +180,7 @@ TEST_F(ExploreManeuver, WhatWasLookedAtInVainIsRememberedAfterAnInterruption) {
   EXPECT_EQ(looks(), 3) << "one more look, not three";
 }
 
-TEST_F(ExploreManeuver, GoesOnAfterARetreat) {
+TEST_F(ExploreManeuver, ContinuesAfterARetreat) {
   build(true);
   want(common::ExploreIntent{});
   runUntil([this] { return looks() == 1 && executor_.goal_map_m(); }, 5.0);

@@ -15,13 +15,13 @@ using testing::StartsWith;
 
 constexpr common::CellRect kDoor{{80, 28}, {81, 52}};  ///< 1.2 m wide, in the wall at x = 4 m, about y = 2 m.
 
-TEST_F(ManeuverStory, OnTheGroundNoGoalIsFlownTo) {
+TEST_F(ManeuverStory, GoToFailsOnTheGround) {
   want(to(6.0, 2.0));
   EXPECT_EQ(runToTheEnd(0.1), IntentState::kFailed);
   EXPECT_EQ(executor_.status().reason, "cannot fly to a goal while powered off");
 }
 
-TEST_F(ManeuverInFlight, AfterALandingAGoalNamesWhyItCameDown) {
+TEST_F(ManeuverInFlight, AGoalAfterALandingFailsWithTheReasonOfTheLanding) {
   state_.horizontal_valid = false;
   want(to(6.0, 2.0));
   EXPECT_EQ(runToTheEnd(5.0), IntentState::kFailed);
@@ -42,7 +42,7 @@ class GoToManeuver : public ManeuverInFlight {
   long detours() const { return timesSaid("goes nearer to look") + timesSaid("goes aside to make room"); }
 };
 
-TEST_F(GoToManeuver, TheGoalIsFlownToThroughTheDoor) {
+TEST_F(GoToManeuver, FliesThroughTheDoorToTheGoal) {
   build(true);
   want(to(6.0, 3.2));
   run(0.5);
@@ -56,7 +56,7 @@ TEST_F(GoToManeuver, TheGoalIsFlownToThroughTheDoor) {
   EXPECT_TRUE(executor_.remainingPlan_map_m().empty());
 }
 
-TEST_F(GoToManeuver, ReachedMeansNearAndSlowForAWhile) {
+TEST_F(GoToManeuver, SucceedsOnceNearAndSlowForAWhile) {
   follows_ = false;
   want(to(2.0, 2.0));
   const auto stillRuns = [this](double seconds) {
@@ -81,7 +81,7 @@ TEST_F(GoToManeuver, ReachedMeansNearAndSlowForAWhile) {
   EXPECT_EQ(executor_.status().state, IntentState::kSucceeded);
 }
 
-TEST_F(GoToManeuver, APathIsWaitedForAndADetourGoesToLook) {
+TEST_F(GoToManeuver, WaitsForAPathAndFliesADetourToLook) {
   build(false);
   want(to(6.0, 2.0));
   run(2.0);
@@ -103,7 +103,7 @@ TEST_F(GoToManeuver, APathIsWaitedForAndADetourGoesToLook) {
   EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
 }
 
-TEST_F(GoToManeuver, RoomIsMadeForWhoStandsInTheDoor) {
+TEST_F(GoToManeuver, MakesRoomForAPersonInTheDoor) {
   build(true);
   discs_ = {{{4.0, 2.0}, 0.5}};
   want(to(6.0, 2.0));
@@ -113,7 +113,7 @@ TEST_F(GoToManeuver, RoomIsMadeForWhoStandsInTheDoor) {
   EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
 }
 
-TEST_F(GoToManeuver, WithoutAPathItFailsInTheEndWithThePlannersWords) {
+TEST_F(GoToManeuver, FailsWithThePlannersReasonWhenNoPathAppears) {
   build(false);
   want(to(6.0, 2.0));
   EXPECT_NEAR(runUntil([this] { return ended(); }, 30.0), 12.1, 0.3);
@@ -122,7 +122,7 @@ TEST_F(GoToManeuver, WithoutAPathItFailsInTheEndWithThePlannersWords) {
   EXPECT_FALSE(controller_.followsPath());
 }
 
-TEST_F(GoToManeuver, ForAGoalNeverSeenItWaitsNoLongerThanAMapTakesToGrow) {
+TEST_F(GoToManeuver, FailsSoonForAGoalInSpaceNeverSeen) {
   want(to(8.5, 2.0));
   EXPECT_NEAR(runUntil([this] { return ended(); }, 30.0), 2.1, 0.3);
   EXPECT_EQ(executor_.status().state, IntentState::kFailed);
@@ -130,7 +130,7 @@ TEST_F(GoToManeuver, ForAGoalNeverSeenItWaitsNoLongerThanAMapTakesToGrow) {
   EXPECT_EQ(detours(), 0);
 }
 
-TEST_F(GoToManeuver, APlanThatBecameBlockedIsGivenUpAndTheVehicleHolds) {
+TEST_F(GoToManeuver, DropsABlockedPlanAndHolds) {
   build(true);
   want(to(6.0, 2.0));
   runUntil([this] { return position_m().x() > 2.0; }, 10.0);
@@ -148,7 +148,7 @@ TEST_F(GoToManeuver, APlanThatBecameBlockedIsGivenUpAndTheVehicleHolds) {
   EXPECT_EQ(timesSaid("plan given up"), 1);
 }
 
-TEST_F(GoToManeuver, APathLostWithTheEstimateIsSentAgain) {
+TEST_F(GoToManeuver, ResendsAPathThatWasDroppedWithTheEstimate) {
   want(to(6.5, 2.0));
   run(1.0);
   ASSERT_TRUE(controller_.followsPath());
@@ -162,7 +162,7 @@ TEST_F(GoToManeuver, APathLostWithTheEstimateIsSentAgain) {
 }
 
 /// The controller drops its path when the estimate is back, and starts from its present place.
-TEST_F(GoToManeuver, APathSentWhileTheEstimateIsLostIsSentAgain) {
+TEST_F(GoToManeuver, ResendsAPathThatWasSentWithoutAnEstimate) {
   want(to(6.5, 2.0));
   run(1.0);
   state_.horizontal_valid = false;
@@ -171,7 +171,7 @@ TEST_F(GoToManeuver, APathSentWhileTheEstimateIsLostIsSentAgain) {
   EXPECT_EQ(runToTheEnd(15.0), IntentState::kSucceeded) << executor_.status().reason;
 }
 
-TEST_F(GoToManeuver, TheModeOfTheIntentIsFlown) {
+TEST_F(GoToManeuver, FliesInTheModeOfTheIntent) {
   common::GoToIntent careful = to(6.5, 2.0);
   careful.mode = common::FlightMode::kCareful;
   want(careful);
@@ -180,12 +180,12 @@ TEST_F(GoToManeuver, TheModeOfTheIntentIsFlown) {
   EXPECT_NEAR(executor_.wantedVelocity_map_m_s().norm(), controller_.speed_m_s(common::FlightMode::kCareful), 1e-9);
 }
 
-class GoToByWavefront : public ManeuverInFlight {
+class GoToWithWavefront : public ManeuverInFlight {
  protected:
-  GoToByWavefront() : ManeuverInFlight(Choices{planning::PlannerKind::kWavefront}) {}
+  GoToWithWavefront() : ManeuverInFlight(Choices{planning::PlannerKind::kWavefront}) {}
 };
 
-TEST_F(GoToByWavefront, ThePlannerOfTheProfileFindsThePaths) {
+TEST_F(GoToWithWavefront, UsesThePlannerOfTheProfile) {
   fill(grid_, {{80, 0}, {81, 80}}, kWallCell);
   fill(grid_, kDoor, kFreeCell);
   want(to(6.0, 3.2));
@@ -195,14 +195,14 @@ TEST_F(GoToByWavefront, ThePlannerOfTheProfileFindsThePaths) {
   EXPECT_GT(executor_.desk().use().paths, 5) << "asked again while it flies";
 }
 
-TEST_F(GoToManeuver, DStarLiteFindsThePathsWhereNothingElseIsChosen) {
+TEST_F(GoToManeuver, UsesDStarLiteByDefault) {
   want(to(6.0, 3.2));
   ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
   EXPECT_EQ(executor_.desk().use().planner, "D* Lite");
   EXPECT_GT(executor_.desk().use().paths, 5);
 }
 
-TEST_F(GoToManeuver, AHeightIsFlownAtAndKeptForTheNextGoal) {
+TEST_F(GoToManeuver, FliesAtTheHeightOfAGoalAndKeepsItForTheNextGoal) {
   common::GoToIntent high = to(3.0, 2.0);
   high.height_m = 1.4;
   want(high);

@@ -9,7 +9,7 @@ namespace {
 
 using HoldManeuver = ManeuverInFlight;
 
-TEST_F(HoldManeuver, StopsThePathUnderWayAndReleasesTheVehicleWhenItHasStopped) {
+TEST_F(HoldManeuver, StopsThePresentPathAndReleasesTheVehicleAtRest) {
   want(to(6.0, 2.0));
   runUntil([this] { return position_m().x() > 2.5; }, 10.0);
   want(common::HoldIntent{});

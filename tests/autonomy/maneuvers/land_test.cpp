@@ -9,7 +9,7 @@ namespace {
 
 using LandManeuver = ManeuverInFlight;
 
-TEST_F(LandManeuver, SucceedsOnTheGroundHoweverOftenItIsWanted) {
+TEST_F(LandManeuver, SucceedsEveryTimeOnTheGround) {
   want(common::LandIntent{});
   run(0.5);
   want(common::LandIntent{});

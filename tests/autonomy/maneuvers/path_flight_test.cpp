@@ -14,7 +14,7 @@ class PathFlightTest : public ManeuverWorkbench {
   PathFlight flight_{setup_, common::FlightMode::kAccurate};
 };
 
-TEST_F(PathFlightTest, AsksInTheNameOfItsIntent) {
+TEST_F(PathFlightTest, RequestsCarryTheIdOfTheIntent) {
   answers_.clear();
   ASSERT_TRUE(flight_.mayAsk());
   flight_.ask(input(), GoalRequest{{6.0, 2.0}, 0.05});
@@ -26,7 +26,7 @@ TEST_F(PathFlightTest, AsksInTheNameOfItsIntent) {
   EXPECT_DOUBLE_EQ(desk_.costMap()->footprint().clearance_m, 0.10);
 }
 
-TEST_F(PathFlightTest, FliesAnOfferInItsModeAtTheFlightsHeight) {
+TEST_F(PathFlightTest, FliesAnOfferedPlanInItsModeAtTheFlightHeight) {
   memory_.cruise_height_m = 1.2;
   EXPECT_TRUE(flight_.keep(input())) << "without a plan one is wanted";
   flight_.offer(straight({1.5, 2.0}, {5.0, 2.0}), now_, state_);
@@ -41,7 +41,7 @@ TEST_F(PathFlightTest, FliesAnOfferInItsModeAtTheFlightsHeight) {
   EXPECT_NEAR(state_.T_odom_body.position_m.z(), 1.2, 0.02);
 }
 
-TEST_F(PathFlightTest, APlanIsKeptUnlessAnotherIsClearlyBetterOrItIsReleased) {
+TEST_F(PathFlightTest, KeepsAPlanUnlessAnotherIsClearlyBetterOrItIsReleased) {
   planning::Path path = straight({1.5, 2.0}, {5.0, 2.0});
   flight_.offer(path, now_, state_);
   const planning::Path* kept = flight_.plan();
@@ -55,7 +55,7 @@ TEST_F(PathFlightTest, APlanIsKeptUnlessAnotherIsClearlyBetterOrItIsReleased) {
   EXPECT_EQ(flight_.plan()->points_map_m.size(), 3U);
 }
 
-TEST_F(PathFlightTest, StopsBeforeWhatBlocksThePlanAndSaysSo) {
+TEST_F(PathFlightTest, StopsBeforeAnObstacleOnThePlanAndReportsIt) {
   flight_.offer(straight({1.5, 2.0}, {6.0, 2.0}), now_, state_);
   run(1.0);
   fill(grid_, {{80, 0}, {81, 80}}, kWallCell);
@@ -67,18 +67,18 @@ TEST_F(PathFlightTest, StopsBeforeWhatBlocksThePlanAndSaysSo) {
   EXPECT_TRUE(controller_.stopped());
 }
 
-TEST_F(PathFlightTest, WhatEndsThePathEndsThePlan) {
+TEST_F(PathFlightTest, DropsThePlanWhenTheControllerDropsThePath) {
   flight_.offer(straight({1.5, 2.0}, {6.0, 2.0}), now_, state_);
   controller_.hold();  // As a retreat or a lost estimate does.
   EXPECT_FALSE(flight_.plan());
   EXPECT_TRUE(flight_.remaining_map_m().empty());
   EXPECT_EQ(flight_.wantedVelocity_map_m_s(), Eigen::Vector2d::Zero());
-  EXPECT_EQ(lastSaid(), "nothing") << "who ended it says so";
+  EXPECT_EQ(lastSaid(), "nothing") << "the code that ended it reports it";
   flight_.offer(straight({1.5, 2.0}, {6.0, 2.0}), now_, state_);
   EXPECT_TRUE(flight_.plan()) << "the same path is flown again";
 }
 
-TEST_F(PathFlightTest, ArrivedIsNearAtTheHeightAndSlowForAWhile) {
+TEST_F(PathFlightTest, ArrivesOnceNearAtTheHeightAndSlowForAWhile) {
   const auto arrived = [this](double seconds) {
     now_ += common::Duration::fromSeconds(seconds);
     return flight_.arrived(input(), {1.5, 2.0}, 0.05);

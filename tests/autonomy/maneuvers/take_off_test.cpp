@@ -21,7 +21,7 @@ TEST_F(TakeOffManeuver, SucceedsAtTheHeight) {
   EXPECT_EQ(executor_.status().reason, "at the take-off height");
 }
 
-TEST_F(TakeOffManeuver, FailsWhenItIsRefusedOrBrokenOff) {
+TEST_F(TakeOffManeuver, FailsWhenItIsRefusedOrAborted) {
   want(common::TakeOffIntent{0.1});
   ASSERT_EQ(runToTheEnd(0.1), IntentState::kFailed);
   EXPECT_THAT(executor_.status().reason, HasSubstr("is not above"));
@@ -34,7 +34,7 @@ TEST_F(TakeOffManeuver, FailsWhenItIsRefusedOrBrokenOff) {
   EXPECT_EQ(executor_.status().reason, "cannot take off: landing because not hovering after 17 s");
 }
 
-TEST_F(TakeOffManeuver, AVehicleThatFliesIsDoneAtOnceAndKeepsItsHeight) {
+TEST_F(TakeOffManeuver, SucceedsAtOnceInFlightAndKeepsTheHeight) {
   want(common::TakeOffIntent{kHeight_m});
   ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
   want(common::TakeOffIntent{2.0});
@@ -44,7 +44,7 @@ TEST_F(TakeOffManeuver, AVehicleThatFliesIsDoneAtOnceAndKeepsItsHeight) {
   EXPECT_NEAR(state_.T_odom_body.position_m.z(), kHeight_m, 0.05);
 }
 
-TEST_F(TakeOffManeuver, GoesOnWhenItIsWantedAgainWhileClimbing) {
+TEST_F(TakeOffManeuver, ContinuesWhenItIsRequestedAgainDuringTheClimb) {
   want(common::TakeOffIntent{kHeight_m});
   run(2.0);
   ASSERT_EQ(controller_.state(), FlightState::kTakingOff);
