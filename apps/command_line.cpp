@@ -121,6 +121,11 @@ void Command::option(const std::string& name, std::optional<int>& value, Within 
   number(name, value, bounds, description);
 }
 
+void Command::option(const std::string& name, std::optional<double>& value, Within bounds,
+                     const std::string& description) {
+  number(name, value, bounds, description);
+}
+
 void Command::option(const std::string& name, double& value, Within bounds, const std::string& description) {
   number(name, value, bounds, description).capture_default_str();
 }

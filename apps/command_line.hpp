@@ -58,6 +58,7 @@ class Command {
   void option(const std::string& name, int& value, Within bounds, const std::string& description);
   void option(const std::string& name, std::optional<int>& value, Within bounds, const std::string& description);
   void option(const std::string& name, double& value, Within bounds, const std::string& description);
+  void option(const std::string& name, std::optional<double>& value, Within bounds, const std::string& description);
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
               const std::string& description);
   /// One of the keys.

@@ -23,6 +23,7 @@
 #include "common/world/mission_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 #include "evaluation/trial.hpp"
+#include "simulation/nature.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -35,6 +36,8 @@ struct FlyOptions {
   std::string scenario;
   std::string map;
   std::string system = "swiftlet";
+  std::string nature = "calm";
+  std::optional<double> battery;
   std::optional<int> seed;
   std::string speed;
   bool headless = false;
@@ -44,6 +47,16 @@ struct FlyOptions {
   double time_limit_s = 1800.0;
   bool json = false;
 };
+
+/// As if the scenario had written the charge out.
+void chargeBatteries(simulation::Scenario& scenario, double remaining) {
+  scenario.battery_remaining = remaining;
+  scenario.written.emplace_back("battery_remaining");
+  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
+    scenario.vehicles[i].battery_remaining = remaining;
+    scenario.written.push_back(fmt::format("vehicles[{}].battery_remaining", i));
+  }
+}
 
 FlightSetup setupOf(const FlyOptions& options) {
   FlightSetup setup;
@@ -59,6 +72,8 @@ FlightSetup setupOf(const FlyOptions& options) {
     setup.scenario = trial.scenario;
   }
   if (options.seed) setup.scenario.seed = *options.seed;
+  setup.scenario.nature = std::make_shared<const simulation::Nature>(simulation::Nature::load(options.nature));
+  if (options.battery) chargeBatteries(setup.scenario, *options.battery);
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
@@ -207,6 +222,9 @@ void addFly(Command& program) {
   command.option("--map", options->map,
                  "A map of the place (YAML of map_server): the flight finds out where it is in it.");
   command.option("--system", options->system, "A profile of config/systems, or a file.");
+  command.option("--nature", options->nature,
+                 "How far the vehicle is from its data sheet: calm, real, harsh, or a file.");
+  command.option("--battery", options->battery, {0.01, 1}, "Charge at the start, as a share of the full one.");
   command.option("--seed", options->seed, {0, kGreatestSeed},
                  "Seed of all random numbers. Default: the scenario's, or 1.");
   command.option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");

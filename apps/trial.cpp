@@ -26,6 +26,7 @@
 #include "interfaces/files/atomic_file.hpp"
 #include "interfaces/files/text_file.hpp"
 #include "interfaces/report/report.hpp"
+#include "simulation/nature.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -41,6 +42,7 @@ struct TrialOptions {
   int jobs = 1;
   std::optional<int> seed;  ///< Of the first flight; none: what the trial says.
   std::string system;
+  std::string nature;  ///< Empty: that of the trial.
   std::string out;
   bool json = false;
 };
@@ -188,7 +190,11 @@ void writeResults(const TrialResults& results, const fs::path& out) {
 /// is told before the first flight.
 std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   const fs::path file_or_folder = common::findData(options.trials);
-  auto trials = evaluation::readTrials(file_or_folder);
+  std::vector<TrialConfig> trials;
+  for (TrialConfig& trial : evaluation::readTrials(file_or_folder)) {
+    if (!options.nature.empty()) trial.natures = {options.nature};
+    for (TrialConfig& one : trial.byNature()) trials.push_back(std::move(one));
+  }
   std::vector<common::Problem> problems;
   for (TrialConfig& trial : trials) {
     if (!options.system.empty()) trial.system = options.system;
@@ -198,6 +204,7 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   }
   if (!problems.empty()) throw common::InputError(std::move(problems));
   for (TrialConfig& trial : trials) {
+    trial.scenario.nature = std::make_shared<const simulation::Nature>(simulation::Nature::load(trial.natures.front()));
     findMap(trial, file_or_folder);
     findWorld(trial);
   }
@@ -265,6 +272,7 @@ void addTrial(Command& program) {
   command.option("--seed", options->seed, {0, kGreatestSeed},
                  "The first seed S; default: the trial's scenario.seed, or 1.");
   command.option("--system", options->system, "Profile to fly them all with, instead of their own.");
+  command.option("--nature", options->nature, "Nature to fly them all in, instead of their own.");
   command.option("--out", options->out, "Folder of the results; default runs/<time>-trial.");
   command.flag("--json", options->json, "Print the results as JSON, nothing else.");
   command.footer("Example: swiftlet trial trials/papers/unb_case1.yaml --repeat 20");

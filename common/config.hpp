@@ -30,6 +30,9 @@ class YamlReader final : public Fields {
     finish(relationProblems(config));
   }
 
+  /// Paths of the values that the file gives, in the order they were read: "limits.speed_m_s", "walkers[0].mode".
+  const std::vector<std::string>& writtenKeys() const;
+
   using Fields::choice;
   void operator()(std::string_view name, double& value, const Bounds& bounds, std::string_view sentence) override;
   void operator()(std::string_view name, int& value, const Bounds& bounds, std::string_view sentence) override;

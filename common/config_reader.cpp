@@ -25,6 +25,7 @@ struct YamlReader::Impl {
   std::vector<YAML::Node> lists;
   std::vector<std::string> list_names;
   std::vector<Problem> problems;
+  std::vector<std::string> written;
 
   SourceLocation at(const YAML::Node& node) const {
     const YAML::Mark mark = node.Mark();
@@ -49,6 +50,7 @@ struct YamlReader::Impl {
     const YAML::Node& node = level.node;
     YAML::Node value = node[std::string(name)];
     if (!value.IsDefined()) return std::nullopt;
+    if (!value.IsMap()) written.push_back(pathOf(name));
     return value;
   }
 
@@ -164,6 +166,8 @@ YamlReader YamlReader::fromText(const std::string& text, const std::string& name
   }
   return YamlReader(std::move(impl));
 }
+
+const std::vector<std::string>& YamlReader::writtenKeys() const { return impl_->written; }
 
 void YamlReader::operator()(std::string_view name, double& value, const Bounds& bounds, std::string_view) {
   impl_->number(name, value, bounds, "a number");

@@ -57,6 +57,8 @@ void TrialConfig::describe(common::config::Fields& fields) {
   fields("description", description, "What is flown and why.");
   fields("mission", mission, "XML file, relative to the root of the software.");
   fields("system", system, "System profile.");
+  fields("natures", natures,
+         "How far the vehicle is from its data sheet: calm, real, harsh, or a file; each of them is flown.");
   fields("archive", archive,
          "The world's archive below the folder of data sets; empty when the world is with the software.");
   fields("repeat", repeat, {1, 10'000}, "Flights, each with the next seed.");
@@ -77,8 +79,19 @@ std::vector<std::string> TrialConfig::validate() const {
       .require(canBeSeen(name), "name", "is longer than 100 characters or holds some that cannot be seen")
       .require(!mission.empty(), "mission", "is missing")
       .require(!system.empty(), "system", "is missing")
+      .require(!natures.empty(), "natures", "is empty")
       .require(!scenario.world.empty(), "scenario", "names no `world`")
       .problems();
+}
+
+std::vector<TrialConfig> TrialConfig::byNature() const {
+  std::vector<TrialConfig> trials;
+  for (const std::string& nature : natures) {
+    trials.push_back(*this);
+    trials.back().natures = {nature};
+    if (natures.size() > 1) trials.back().name += "-" + fs::path(nature).stem().string();
+  }
+  return trials;
 }
 
 void TrialConfig::resolvePaths(const fs::path& unpacked, const fs::path& root) {
@@ -90,7 +103,12 @@ void TrialConfig::resolvePaths(const fs::path& unpacked, const fs::path& root) {
 }
 
 TrialConfig readTrial(const fs::path& file) {
-  TrialConfig trial = common::config::readFile<TrialConfig>(file.string());
+  TrialConfig trial;
+  auto reader = common::config::YamlReader::fromFile(file.string());
+  reader.read(trial);
+  constexpr std::string_view kScenario = "scenario.";
+  for (const std::string& key : reader.writtenKeys())
+    if (key.starts_with(kScenario)) trial.scenario.written.push_back(key.substr(kScenario.size()));
   if (trial.name.empty()) trial.name = file.stem().string();
   return trial;
 }

@@ -41,6 +41,7 @@ struct TrialConfig {
   std::string description;
   std::string mission;
   std::string system = "swiftlet";
+  std::vector<std::string> natures = {"calm"};
   std::string archive;
   int repeat = 1;
   double time_limit_s = 600.0;
@@ -53,6 +54,9 @@ struct TrialConfig {
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
+
+  /// One trial for each of its natures, which is then the only one and part of its name where there are several.
+  std::vector<TrialConfig> byNature() const;
 
   /// Makes `world` and `model_paths` of the scenario absolute: below `unpacked`, the content of the archive, if there
   /// is such a file, otherwise below `root`, the installed or source tree.

@@ -30,6 +30,8 @@ void AutopilotConfig::describe(common::config::Fields& fields) {
   fields("link_timeout_s", link_timeout_s, {0.05, 10},
          "Without a new setpoint for this long the vehicle levels and descends.");
   fields("failsafe_thrust_share", failsafe_thrust_share, {0.5, 1}, "Thrust of that descent, as a share of the weight.");
+  fields.choice("mixing", mixing, {"clamp_each", "attitude_first"},
+                "How motors at their limit are shared: each clamped, or roll and pitch first, then thrust, yaw last.");
 }
 
 Autopilot::Autopilot(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe,
@@ -104,9 +106,20 @@ std::array<double, 4> Autopilot::tick(common::Time now, const AttitudeMeasuremen
   const double pitch = airframe_.inertia_yy_kg_m2 * acceleration.y() / (4.0 * lever_m * motor_n);
   const double yaw = std::clamp(
       airframe_.inertia_zz_kg_m2 * acceleration.z() / (4.0 * airframe_.torque_per_thrust_m * motor_n), -0.15, 0.15);
-  const double collective = setpoint.thrust;
-  return {std::clamp(collective + roll - pitch + yaw, 0.0, 1.0), std::clamp(collective - roll - pitch - yaw, 0.0, 1.0),
-          std::clamp(collective - roll + pitch + yaw, 0.0, 1.0), std::clamp(collective + roll + pitch - yaw, 0.0, 1.0)};
+  return mixed(setpoint.thrust, roll, pitch, yaw);
+}
+
+std::array<double, 4> Autopilot::mixed(double thrust, double roll, double pitch, double yaw) const {
+  if (config_.mixing == Mixing::kAttitudeFirst) {
+    // The yaw torque takes what roll and pitch leave; then the thrust is lowered until the strongest motor can do it.
+    // It is never raised, so that a vehicle that lands does not hop.
+    const double attitude = std::min(std::abs(roll) + std::abs(pitch), 0.5);
+    const double left_for_yaw = std::max(0.0, std::min(0.5, 1.0 - thrust) - attitude);
+    yaw = std::clamp(yaw, -left_for_yaw, left_for_yaw);
+    thrust = std::min(thrust, 1.0 - attitude - std::abs(yaw));
+  }
+  return {std::clamp(thrust + roll - pitch + yaw, 0.0, 1.0), std::clamp(thrust - roll - pitch - yaw, 0.0, 1.0),
+          std::clamp(thrust - roll + pitch + yaw, 0.0, 1.0), std::clamp(thrust + roll + pitch - yaw, 0.0, 1.0)};
 }
 
 }  // namespace swiftlet::simulation

@@ -17,6 +17,12 @@
 
 namespace swiftlet::simulation {
 
+/// How torques and thrust share the motors where they ask for more than a motor can give.
+enum class Mixing {
+  kClampEach,      ///< Each motor is clamped by itself, so that thrust and all torques suffer alike.
+  kAttitudeFirst,  ///< Roll and pitch are kept, at the expense of the yaw torque, then of the thrust.
+};
+
 struct AutopilotConfig {
   double attitude_gain_1_s = 7.0;
   double max_rate_rad_s = 4.0;
@@ -26,6 +32,7 @@ struct AutopilotConfig {
   double rate_integral_1_s2 = 12.0;
   double link_timeout_s = 0.5;
   double failsafe_thrust_share = 0.93;
+  Mixing mixing = Mixing::kClampEach;
 
   void describe(common::config::Fields& fields);
 };
@@ -43,6 +50,8 @@ class Autopilot {
   bool linkLost(common::Time now) const;
 
  private:
+  /// The motors' throttles; all four arguments are shares of the full throttle.
+  std::array<double, 4> mixed(double thrust, double roll, double pitch, double yaw) const;
   void integrate(const Eigen::Vector3d& rate_error, double thrust, double step_s);
   common::Setpoint effective(common::Time now, const AttitudeMeasurement& measured) const;
 

@@ -13,6 +13,8 @@ void Battery::Config::describe(common::config::Fields& fields) {
   fields("electronics_w", electronics_w, {0, 1000}, "Power of computer and sensors.");
   fields("power_w_per_n15", power_w_per_n15, {0, 100},
          "Electrical power of one motor per thrust to the power of 1.5 (momentum theory of a hovering rotor).");
+  fields("voltage_exponent", voltage_exponent, {0, 4},
+         "The thrust of a throttle goes with (voltage / full voltage) to this power.");
 }
 
 Battery::Battery(const common::VehicleConfig& vehicle, const Config& config, double remaining)
@@ -40,7 +42,7 @@ void Battery::draw(double power_w, double step_s) {
 
 double Battery::thrustShare() const {
   const double ratio = voltage_v_ / full_v_;
-  return ratio * ratio;
+  return config_.voltage_exponent == 2.0 ? ratio * ratio : std::pow(ratio, config_.voltage_exponent);
 }
 
 }  // namespace swiftlet::simulation

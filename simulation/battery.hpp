@@ -16,6 +16,7 @@ class Battery {
     double resistance_ohm = 0.025;
     double electronics_w = 15.0;
     double power_w_per_n15 = 6.0;
+    double voltage_exponent = 2.0;
 
     void describe(common::config::Fields& fields);
   };
@@ -30,7 +31,7 @@ class Battery {
   double openCircuit_v() const;
   /// Share of the charge, in [0, 1].
   double remaining() const { return remaining_; }
-  /// (voltage / full voltage)^2, the factor by which the thrust falls.
+  /// (voltage / full voltage) to the power of `voltage_exponent`, the factor by which the thrust falls.
   double thrustShare() const;
 
  private:

@@ -23,24 +23,78 @@ void QuadrotorConfig::describe(common::config::Fields& fields) {
   fields("gear_height_m", gear_height_m, {0.01, 2},
          "Height of the body's origin over the feet, which are below the hull.");
   fields("gear_radius_m", gear_radius_m, {0.01, 2}, "Distance from the centre to a foot.");
+  fields("mass_share", mass_share, {0.5, 2}, "True mass over that of the data sheet.");
+  fields("thrust_share", thrust_share, {0.3, 2}, "True greatest thrust over that of the data sheet.");
+  fields("throttle_exponent", throttle_exponent, {0.5, 3}, "A motor's thrust goes with the throttle to this power.");
+  fields("weak_motor", weak_motor, {0, 4},
+         "Motor that is weaker than the others: 1 front left, 2 front right, 3 rear right, 4 rear left, 0 none.");
+  fields("weak_motor_share", weak_motor_share, {0.1, 1}, "Thrust of the weak motor over that of the others.");
+  fields("ground_effect_radius_m", ground_effect_radius_m, {0, 1},
+         "Rotor radius of the ground effect (Cheeseman and Bennett 1955); 0 without it.");
   fields.section("battery", battery, "The battery.");
+}
+
+namespace {
+
+double motorPower_w(const QuadrotorConfig& config, double thrust_n) {
+  return config.battery.power_w_per_n15 * thrust_n * std::sqrt(thrust_n);
+}
+
+/// A motor's greatest thrust at full battery; `motor` counts from 0.
+double fullThrust_n(const common::VehicleConfig& vehicle, const QuadrotorConfig& config, std::size_t motor) {
+  const double sound_n = 0.25 * vehicle.max_thrust_n * config.thrust_share;
+  return static_cast<int>(motor) + 1 == config.weak_motor ? sound_n * config.weak_motor_share : sound_n;
+}
+
+double throttleShare(const QuadrotorConfig& config, double throttle) {
+  const double share = std::clamp(throttle, 0.0, 1.0);
+  return config.throttle_exponent == 1.0 ? share : std::pow(share, config.throttle_exponent);
+}
+
+/// Thrust of a rotor in still air near the ground over that far from it (Cheeseman and Bennett 1955, equation 3).
+double groundEffectAt(double rotor_radius_m, double height_m) {
+  constexpr double kNearest = 0.5;  // In radii; below it the formula leaves its measurements.
+  const double height = std::max(height_m / rotor_radius_m, kNearest);
+  return 1.0 / (1.0 - 1.0 / (16.0 * height * height));
+}
+
+}  // namespace
+
+double thrustOverWeight(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe, double battery_remaining,
+                        double throttle) {
+  Battery battery(vehicle, airframe.battery, battery_remaining);
+  double thrust_n = 0.0;
+  for (int round = 0; round < 50; ++round) {  // Less thrust, less current, less sag: converges in a few rounds.
+    double power_w = 0.0;
+    thrust_n = 0.0;
+    for (std::size_t motor = 0; motor < 4; ++motor) {
+      const double one_n =
+          fullThrust_n(vehicle, airframe, motor) * battery.thrustShare() * throttleShare(airframe, throttle);
+      thrust_n += one_n;
+      power_w += motorPower_w(airframe, one_n);
+    }
+    battery.draw(power_w, 0.0);
+  }
+  return thrust_n / (vehicle.mass_kg * airframe.mass_share * kGravity_m_s2);
 }
 
 Quadrotor::Quadrotor(const common::VehicleConfig& vehicle, const QuadrotorConfig& config,
                      const common::Pose3& T_world_body, double battery_remaining)
     : vehicle_(vehicle), config_(config), battery_(vehicle, config.battery, battery_remaining) {
+  vehicle_.mass_kg *= config.mass_share;
   state_.T_world_body = T_world_body;
   state_.specific_force_body_m_s2 = kGravity_m_s2 * Vector3d::UnitZ();
 }
 
 void Quadrotor::spinMotors(const std::array<double, 4>& throttles, double step_s) {
-  const double most_n = 0.25 * vehicle_.max_thrust_n * battery_.thrustShare();
+  const double sag = battery_.thrustShare();
   const double blend = 1.0 - std::exp(-step_s / config_.motor_lag_s);
   double power_w = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     double& thrust_n = state_.thrusts_n[i];
-    thrust_n += blend * (most_n * std::clamp(throttles[i], 0.0, 1.0) - thrust_n);
-    power_w += config_.battery.power_w_per_n15 * thrust_n * std::sqrt(thrust_n);
+    const double wanted_n = fullThrust_n(vehicle_, config_, i) * sag * throttleShare(config_, throttles[i]);
+    thrust_n += blend * (wanted_n - thrust_n);
+    power_w += motorPower_w(config_, thrust_n);
   }
   battery_.draw(power_w, step_s);
 }
@@ -56,8 +110,9 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   const Vector3d drag_world =
       -(config_.linear_drag_n_s_m + config_.quadratic_drag_n_s2_m2 * airspeed_world.norm()) * airspeed_world;
   const double gear_n = gearForce_n(floor_world_m);
-  const Vector3d force_world = R_world_body * Vector3d(0.0, 0.0, f[0] + f[1] + f[2] + f[3]) + drag_world +
-                               Vector3d(0.0, 0.0, gear_n) + takePush(step_s);
+  const Vector3d force_world =
+      R_world_body * Vector3d(0.0, 0.0, groundEffect(floor_world_m) * (f[0] + f[1] + f[2] + f[3])) + drag_world +
+      Vector3d(0.0, 0.0, gear_n) + takePush(step_s);
   const Vector3d acceleration_world = force_world / vehicle_.mass_kg - kGravity_m_s2 * Vector3d::UnitZ();
 
   // Euler's equation in the body frame. Motors: front left, front right, rear right, rear left.
@@ -83,6 +138,11 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   const Vector3d felt_world =
       (state_.velocity_world_m_s - velocity_before) / step_s + kGravity_m_s2 * Vector3d::UnitZ();
   state_.specific_force_body_m_s2 = state_.T_world_body.rotation.conjugate() * felt_world;
+}
+
+double Quadrotor::groundEffect(double floor_world_m) const {
+  if (config_.ground_effect_radius_m <= 0.0 || !std::isfinite(floor_world_m)) return 1.0;
+  return groundEffectAt(config_.ground_effect_radius_m, state_.T_world_body.position_m.z() - floor_world_m);
 }
 
 // A critically damped spring that gives way by kGearSag_m under the vehicle's weight.

@@ -30,10 +30,20 @@ struct QuadrotorConfig {
   double angular_drag_n_m_s = 0.004;
   double gear_height_m = 0.15;
   double gear_radius_m = 0.15;
+  double mass_share = 1.0;
+  double thrust_share = 1.0;
+  double throttle_exponent = 1.0;
+  int weak_motor = 0;
+  double weak_motor_share = 1.0;
+  double ground_effect_radius_m = 0.0;
   Battery::Config battery;
 
   void describe(common::config::Fields& fields);
 };
+
+/// The steady thrust of all motors at the same throttle, the voltage sagging under its own load, over the weight.
+double thrustOverWeight(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe, double battery_remaining,
+                        double throttle);
 
 /// Thrusts by motor: front left, front right, rear right, rear left; front left and rear right turn clockwise.
 using MotorThrusts = std::array<double, 4>;
@@ -56,9 +66,9 @@ class Quadrotor {
   const QuadrotorState& state() const { return state_; }
   const Battery& battery() const { return battery_; }
 
-  /// One step. `throttles` are shares in [0, 1] of the greatest thrust of one motor at full battery; the real thrust
-  /// falls with the square of the voltage. `floor_world_m` is the height of the floor below the feet, -infinity for
-  /// none.
+  /// One step. `throttles` in [0, 1] are what the autopilot asks of each motor. A motor's thrust at full battery goes
+  /// with the throttle to the power of `throttle_exponent` and falls with the voltage. `floor_world_m` is the height of
+  /// the floor below the feet, -infinity for none.
   void step(const std::array<double, 4>& throttles, const Eigen::Vector3d& wind_world_m_s, double floor_world_m,
             double step_s);
 
@@ -71,6 +81,7 @@ class Quadrotor {
 
  private:
   void spinMotors(const std::array<double, 4>& throttles, double step_s);
+  double groundEffect(double floor_world_m) const;
   Eigen::Vector3d takePush(double step_s);
   double gearForce_n(double floor_world_m) const;
   Eigen::Vector3d gearAngularAcceleration(double gear_n) const;

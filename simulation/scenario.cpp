@@ -70,9 +70,11 @@ void StartConfig::describe(common::config::Fields& fields) {
 }
 
 void WindConfig::describe(common::config::Fields& fields) {
+  fields.choice("model", model, {"gauss_markov", "dryden"},
+                "Spectrum of the gusts: of first order and horizontal, or that of Dryden, vertical ones too.");
   fields("mean_x_m_s", mean_x_m_s, {-30, 30}, "Mean wind along the world's x.");
   fields("mean_y_m_s", mean_y_m_s, {-30, 30}, "Mean wind along the world's y.");
-  fields("gust_m_s", gust_m_s, {0, 30}, "Standard deviation of each horizontal component.");
+  fields("gust_m_s", gust_m_s, {0, 30}, "Standard deviation of each component of the gusts.");
   fields("gust_time_s", gust_time_s, {0.01, 1000}, "Correlation time of the gusts.");
 }
 
@@ -214,6 +216,9 @@ Scenario Scenario::withVehicleAlone(std::size_t number) const {
   alone.pushes = own.pushes;
   alone.faults = own.faults;
   alone.pilot = own.pilot;
+  const std::string own_keys = fmt::format("vehicles[{}].", number);
+  for (const std::string& key : written)
+    if (key.starts_with(own_keys)) alone.written.push_back(key.substr(own_keys.size()));
   return alone;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@
 
 namespace swiftlet::simulation {
 
+class Nature;
+
 struct StartConfig {
   bool from_world = true;
   double x_m = 0.0;
@@ -24,7 +27,13 @@ struct StartConfig {
   void describe(common::config::Fields& fields);
 };
 
+enum class GustModel {
+  kGaussMarkov,  ///< Each horizontal component of first order.
+  kDryden,       ///< MIL-F-8785C: x of first order, y and z of second order, in the world's frame.
+};
+
 struct WindConfig {
+  GustModel model = GustModel::kGaussMarkov;
   double mean_x_m_s = 0.0;
   double mean_y_m_s = 0.0;
   double gust_m_s = 0.0;
@@ -144,6 +153,11 @@ struct Scenario {
   /// All vehicles, in the order of their numbers. If it is empty, there is one vehicle without a name, with the
   /// `start`, `battery_remaining`, `pushes`, `faults` and `pilot` above; otherwise these must have their defaults.
   std::vector<ScenarioVehicle> vehicles;
+
+  /// What the plant is drawn from; null: it is that of the defaults. Not a key: the flight chooses it.
+  std::shared_ptr<const Nature> nature;
+  /// Keys that the scenario's file wrote out ("quadrotor.motor_lag_s"); a nature leaves them as they are.
+  std::vector<std::string> written;
 
   /// The data sheets, which the autonomy also knows. They come from the system profile, not from the scenario's file.
   common::VehicleConfig vehicle;

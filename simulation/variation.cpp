@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "common/random.hpp"
+#include "simulation/nature.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/truth_map.hpp"
 
@@ -234,9 +235,11 @@ Realization realize(const WorldModel& world, const Scenario& scenario) {
   Realization realization{world, {}};
   std::vector<PlacedVehicle>& placed = realization.vehicles;
   for (std::size_t i = 0; i < scenario.vehicleCount(); ++i) {
+    const std::uint64_t stream_seed = streamSeed(scenario.seed, i);
+    const Scenario alone = scenario.withVehicleAlone(i);
     PlacedVehicle nominal{scenario.vehicles.empty() ? "" : scenario.vehicles[i].name,
-                          scenario.withVehicleAlone(i),
-                          streamSeed(scenario.seed, i),
+                          scenario.nature ? scenario.nature->drawn(alone, stream_seed) : alone,
+                          stream_seed,
                           {},
                           0};
     if (i > 0) takeWindAndObstaclesOf(placed.front(), nominal.scenario);

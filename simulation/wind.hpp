@@ -1,4 +1,4 @@
-// A steady wind with gusts: each horizontal component a Gauss-Markov process about its mean.
+// A steady wind with gusts about its mean: Gauss-Markov processes, or Dryden's spectra.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,15 @@ class Wind {
   void step(std::uint64_t tick, double step_s);
 
  private:
+  void stepGaussMarkov(std::uint64_t tick, double step_s);
+  void stepDryden(std::uint64_t tick, double step_s);
+
   WindConfig config_;
   int seed_;
   Eigen::Vector3d velocity_world_m_s_;
-  Eigen::Vector2d gust_m_s_ = Eigen::Vector2d::Zero();
+  Eigen::Vector3d gust_m_s_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d driven_ = Eigen::Vector3d::Zero();    ///< Dryden: of first order, with variance 1.
+  Eigen::Vector3d followed_ = Eigen::Vector3d::Zero();  ///< Dryden: driven_ behind a low pass.
 };
 
 }  // namespace swiftlet::simulation

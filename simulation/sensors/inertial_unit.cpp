@@ -21,7 +21,8 @@ Vector3d gaussians(RandomStream& random, double standard_deviation) {
 
 }  // namespace
 
-InertialUnit::InertialUnit(const ImuConfig& config, std::uint64_t seed) : config_(config), seed_(seed) {
+InertialUnit::InertialUnit(const ImuConfig& config, double max_thrust_n, std::uint64_t seed)
+    : config_(config), max_thrust_n_(max_thrust_n), seed_(seed) {
   RandomStream random(seed, "inertial unit");
   gyro_bias_rad_s_ = gaussians(random, config.gyro_bias_rad_s);
   accel_bias_m_s2_ = gaussians(random, config.accel_bias_m_s2);
@@ -72,6 +73,14 @@ AttitudeMeasurement InertialUnit::attitude(std::uint64_t tick, const QuadrotorSt
   return measured;
 }
 
+/// The propellers shake the sensor with a force that goes with the square of their speed, as the thrust does.
+double InertialUnit::accelNoise_m_s2(const QuadrotorState& state) const {
+  if (config_.vibration_m_s2 <= 0.0) return config_.accel_noise_m_s2;
+  const MotorThrusts& f = state.thrusts_n;
+  const double thrust_share = (f[0] + f[1] + f[2] + f[3]) / max_thrust_n_;
+  return std::hypot(config_.accel_noise_m_s2, config_.vibration_m_s2 * thrust_share);
+}
+
 common::ImuSample InertialUnit::sample(std::uint64_t frame, const QuadrotorState& state) {
   RandomStream random(seed_, "imu", frame);
   const double share = sum_count_ > 0 ? 1.0 / sum_count_ : 0.0;
@@ -79,7 +88,7 @@ common::ImuSample InertialUnit::sample(std::uint64_t frame, const QuadrotorState
   sample.angular_velocity_body_rad_s =
       share * rate_sum_rad_s_ + gyro_bias_rad_s_ + gaussians(random, config_.gyro_noise_rad_s);
   sample.specific_force_body_m_s2 =
-      (share * specific_force_sum_m_s2_ + accel_bias_m_s2_ + gaussians(random, config_.accel_noise_m_s2))
+      (share * specific_force_sum_m_s2_ + accel_bias_m_s2_ + gaussians(random, accelNoise_m_s2(state)))
           .cwiseMax(-kGreatestSpecificForce_m_s2)
           .cwiseMin(kGreatestSpecificForce_m_s2);
   sample.rotation_ahrs_body = withErrors(state, gaussians(random, config_.tilt_noise_deg * kRadPerDeg));

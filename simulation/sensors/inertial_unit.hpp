@@ -22,7 +22,8 @@ struct AttitudeMeasurement {
 
 class InertialUnit {
  public:
-  InertialUnit(const ImuConfig& config, std::uint64_t seed);
+  /// `max_thrust_n`: of all motors together, for the vibration.
+  InertialUnit(const ImuConfig& config, double max_thrust_n, std::uint64_t seed);
 
   /// Call it after each physics step. It averages the measurements between two samples.
   void feel(const QuadrotorState& state);
@@ -36,7 +37,10 @@ class InertialUnit {
  private:
   Eigen::Quaterniond withErrors(const QuadrotorState& state, const Eigen::Vector3d& noise_rad) const;
 
+  double accelNoise_m_s2(const QuadrotorState& state) const;
+
   ImuConfig config_;
+  double max_thrust_n_;
   std::uint64_t seed_;
   Eigen::Vector3d gyro_bias_rad_s_;
   Eigen::Vector3d accel_bias_m_s2_;

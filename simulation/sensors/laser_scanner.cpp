@@ -7,6 +7,7 @@
 
 #include "common/check.hpp"
 #include "common/random.hpp"
+#include "simulation/world_model.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -21,13 +22,22 @@ constexpr double kNoiseGrowsFrom_m = 10.0;  // Range noise is constant up to her
 }  // namespace
 
 LaserScanner::LaserScanner(const common::LaserConfig& config, std::uint64_t seed)
+    : LaserScanner(config, {}, WorldModel(), seed) {}
+
+LaserScanner::LaserScanner(const common::LaserConfig& config, const LaserErrorsConfig& errors, const WorldModel& world,
+                           std::uint64_t seed)
     : config_(config),
+      errors_(errors),
       seed_(seed),
       time_increment_(
           Duration::fromNanoseconds(static_cast<std::int64_t>(std::floor(config.sweep_s * 1e9 / (config.beams - 1))))),
       rays_(static_cast<std::size_t>(config.beams)),
-      distances_m_(static_cast<std::size_t>(config.beams)) {
-  const common::Pose3 T_body_laser = config.mount.pose(), T_body_mirror = config.mirror_mount.pose();
+      distances_m_(static_cast<std::size_t>(config.beams)),
+      hits_(errors.needsSurfaces() ? static_cast<std::size_t>(config.beams) : 0) {
+  for (const Shape& shape : world.shapes) reflectances_.push_back(shape.color.mean());
+  const common::Pose3 T_true_sheet = errors.mount_error.pose();
+  const common::Pose3 T_body_laser = T_true_sheet * config.mount.pose();
+  const common::Pose3 T_body_mirror = T_true_sheet * config.mirror_mount.pose();
   for (int beam = 0; beam < config.beams; ++beam) {
     const common::Pose3& T_body_source = config.isMirrorBeam(beam) ? T_body_mirror : T_body_laser;
     beams_.push_back({T_body_source.position_m, T_body_source.rotation * config.direction(beam)});
@@ -54,9 +64,55 @@ void LaserScanner::sweepRays(Time start, const std::vector<Moment>& track, const
       rays_[beam] = {(p0 + share * dp + R * source.origin_body_m).cast<float>(),
                      (R * source.direction_body).normalized().cast<float>()};
     }
-    const auto count = beam - first;
-    rays.castAll(std::span(rays_).subspan(first, count), config_.range_max_m, b.actors,
-                 std::span(distances_m_).subspan(first, count));
+    castFrom(first, beam - first, b.actors, rays);
+  }
+}
+
+void LaserScanner::castFrom(std::size_t first, std::size_t count, const std::vector<Actor>& actors,
+                            const RayCaster& rays) {
+  const auto beams = std::span(rays_).subspan(first, count);
+  if (hits_.empty()) {
+    rays.castAll(beams, config_.range_max_m, actors, std::span(distances_m_).subspan(first, count));
+    return;
+  }
+  rays.castAll(beams, config_.range_max_m, actors, std::span(hits_).subspan(first, count));
+  for (std::size_t i = first; i < first + count; ++i) distances_m_[i] = static_cast<float>(hits_[i].distance_m);
+}
+
+/// The returned power goes with reflectance * cos(incidence) / range^2.
+double LaserScanner::seenRange_m(const Hit& hit, double cos_incidence) const {
+  constexpr double kBlack = 0.04, kSkinAndCloth = 0.4;  // Reflectances at 905 nm.
+  if (errors_.dark_range_m <= 0.0) return std::numeric_limits<double>::infinity();
+  const auto shape = static_cast<std::size_t>(hit.shape);
+  const double reflectance = shape < reflectances_.size() ? reflectances_[shape] : kSkinAndCloth;
+  return errors_.dark_range_m * std::sqrt(std::max(reflectance, kBlack) * cos_incidence / kBlack);
+}
+
+bool LaserScanner::towardsSun(const Ray& ray) const {
+  const double heading_rad = std::atan2(ray.direction_world.y(), ray.direction_world.x());
+  return std::abs(common::wrapAngle(heading_rad - errors_.sun_direction_deg * common::kRadPerDeg)) <
+         errors_.sun_width_deg * common::kRadPerDeg;
+}
+
+void LaserScanner::addSurfaceErrors(std::uint64_t frame) {
+  common::RandomStream random(seed_, "laser errors", frame);
+  constexpr float kNothing_m = std::numeric_limits<float>::infinity();
+  constexpr float kEdge_m = 0.10F;
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    if (!hits_[i]) continue;
+    const double cos_incidence = std::abs(static_cast<double>(rays_[i].direction_world.dot(hits_[i].normal_world)));
+    if (distances_m_[i] > seenRange_m(hits_[i], cos_incidence))
+      distances_m_[i] = kNothing_m;
+    else
+      distances_m_[i] += static_cast<float>(errors_.incidence_bias_m * (1.0 / std::max(0.1, cos_incidence) - 1.0));
+  }
+  for (std::size_t i = 0; i < distances_m_.size(); ++i) {
+    const bool mixes = random.chance(errors_.mixed_pixel_rate), blinded = random.chance(errors_.sun_dropout_rate);
+    const auto share = static_cast<float>(random.uniform());
+    if (blinded && towardsSun(rays_[i])) distances_m_[i] = kNothing_m;
+    if (!mixes || i + 1 == distances_m_.size()) continue;
+    const float step_m = distances_m_[i + 1] - distances_m_[i];
+    if (std::isfinite(step_m) && std::abs(step_m) > kEdge_m) distances_m_[i] += share * step_m;
   }
 }
 
@@ -79,11 +135,19 @@ void LaserScanner::addNoise(std::uint64_t frame, std::vector<float>& ranges_m) c
   }
 }
 
+/// By the laser's own clock, which is a little ahead or behind and gains or loses.
+Time LaserScanner::stampOf(Time start) const {
+  if (errors_.clock_offset_s == 0.0 && errors_.clock_drift_ppm == 0.0) return start;
+  return start + Duration::fromSeconds(errors_.clock_offset_s + errors_.clock_drift_ppm * 1e-6 * start.seconds());
+}
+
 common::LaserScan LaserScanner::scan(std::uint64_t frame, Time start, const std::vector<Moment>& track,
                                      const RayCaster& rays) {
   sweepRays(start, track, rays);
+  if (errors_.needsSurfaces() || errors_.mixed_pixel_rate > 0.0 || errors_.sun_dropout_rate > 0.0)
+    addSurfaceErrors(frame);
   common::LaserScan scan;
-  scan.stamps.measured = start;
+  scan.stamps.measured = stampOf(start);
   scan.angle_min_rad = config_.angleMin_rad();
   scan.angle_increment_rad = config_.angleIncrement_rad();
   scan.time_increment = time_increment_;

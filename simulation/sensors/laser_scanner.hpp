@@ -1,5 +1,6 @@
 // The laser: beams swept in time along the vehicle's path, some deflected down by the mirror, with range noise,
-// millimetre steps, dropouts, and a shortest and a longest range.
+// millimetre steps, dropouts, and a shortest and a longest range; and with the errors of LaserErrorsConfig, each of
+// which is off at 0.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include "common/sensor_event.hpp"
 #include "common/vehicle_config.hpp"
 #include "simulation/ray_caster.hpp"
+#include "simulation/sensors/sensor_config.hpp"
 
 namespace swiftlet::simulation {
 
@@ -24,7 +26,11 @@ struct Moment {
 
 class LaserScanner {
  public:
+  /// A laser as on its data sheet.
   LaserScanner(const common::LaserConfig& config, std::uint64_t seed);
+  /// With errors that depend on the colours of the world's shapes.
+  LaserScanner(const common::LaserConfig& config, const LaserErrorsConfig& errors, const WorldModel& world,
+               std::uint64_t seed);
 
   common::Duration sweep() const { return time_increment_ * (config_.beams - 1); }
 
@@ -39,15 +45,24 @@ class LaserScanner {
     Eigen::Vector3d origin_body_m;
     Eigen::Vector3d direction_body;
   };
+  common::Time stampOf(common::Time start) const;
   void sweepRays(common::Time start, const std::vector<Moment>& track, const RayCaster& rays);
+  void castFrom(std::size_t first, std::size_t count, const std::vector<Actor>& actors, const RayCaster& rays);
+  /// Puts what the surfaces do to the beams into distances_m_: lost returns, biases and mixed pixels.
+  void addSurfaceErrors(std::uint64_t frame);
+  double seenRange_m(const Hit& hit, double cos_incidence) const;
+  bool towardsSun(const Ray& ray) const;
   void addNoise(std::uint64_t frame, std::vector<float>& ranges_m) const;
 
   common::LaserConfig config_;
+  LaserErrorsConfig errors_;
   std::uint64_t seed_;
   common::Duration time_increment_;
   std::vector<Beam> beams_;
   std::vector<Ray> rays_;  // Kept between scans to save the allocation.
   std::vector<float> distances_m_;
+  std::vector<float> reflectances_;  ///< By shape of the world, in [0, 1].
+  std::vector<Hit> hits_;            ///< Of the beams, when their surfaces matter.
 };
 
 }  // namespace swiftlet::simulation

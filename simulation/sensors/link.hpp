@@ -1,4 +1,4 @@
-// The link from a sensor to the computer: latency, jitter, loss; first in, first out.
+// The link from a sensor to the computer: latency, jitter, loss and outages; first in, first out if it is in order.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,11 @@ class Link {
   LinkConfig config_;
   std::uint64_t seed_;
   std::string name_;
+  bool isOut(common::Time ready);
+
   common::Time last_;
+  std::uint64_t outage_ = 0;                 ///< Number of the next outage.
+  std::optional<common::Time> next_outage_;  ///< Its beginning; none before the first measurement.
 };
 
 }  // namespace swiftlet::simulation

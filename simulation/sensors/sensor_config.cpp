@@ -27,9 +27,12 @@ const char* toString(Sensor sensor) {
 
 void LinkConfig::describe(common::config::Fields& fields) {
   fields("latency_s", latency_s, {0, 10}, "Time from the end of the measurement to its arrival.");
-  fields("jitter_s", jitter_s, {0, 10},
-         "Greatest further delay, uniform from 0; measurements of one sensor never overtake each other.");
+  fields("jitter_s", jitter_s, {0, 10}, "Greatest further delay, uniform from 0.");
   fields("loss_rate", loss_rate, {0, 1}, "Share of measurements that never arrive.");
+  fields("in_order", in_order, "Whether measurements never overtake each other on the link.");
+  fields("outage_every_s", outage_every_s, {0, 1e6},
+         "Mean time between outages in which every measurement is lost; 0 without outages.");
+  fields("outage_s", outage_s, {0, 60}, "Length of an outage.");
 }
 
 void ImuConfig::describe(common::config::Fields& fields) {
@@ -50,6 +53,8 @@ void ImuConfig::describe(common::config::Fields& fields) {
   fields("tilt_accel_time_s", tilt_accel_time_s, kPositive, "Time constant of that lean.");
   fields("yaw_drift_deg_s", yaw_drift_deg_s, {0, 20}, "Standard deviation of the constant drift of yaw.");
   fields("yaw_walk_deg", yaw_walk_deg, {0, 20}, "Growth of yaw's standard deviation in one second.");
+  fields("vibration_m_s2", vibration_m_s2, {0, 50},
+         "Further standard deviation of an accelerometer sample at full thrust; it goes with the thrust.");
 }
 
 std::vector<std::string> ImuConfig::validate() const {
@@ -67,8 +72,26 @@ void CameraConfig::describe(common::config::Fields& fields) {
   fields.section("mount", mount, "Camera in the body frame; it looks along its +x.");
 }
 
+void LaserErrorsConfig::describe(common::config::Fields& fields) {
+  fields.section(
+      "mount_error", mount_error,
+      "Motion about the body's origin from the mounts of laser and mirror on the data sheet to the true ones.");
+  fields("incidence_bias_m", incidence_bias_m, {0, 0.5},
+         "Range that a beam at 60 deg to the surface's normal reads too much; the bias goes with 1 / cos - 1.");
+  fields("mixed_pixel_rate", mixed_pixel_rate, {0, 1},
+         "Share of beams at an edge that read a range between the two surfaces.");
+  fields("dark_range_m", dark_range_m, {0, 100},
+         "Range beyond which a black surface returns nothing; a white one is seen at any range. 0: all are seen.");
+  fields("sun_dropout_rate", sun_dropout_rate, {0, 1}, "Share of beams towards the sun that return nothing.");
+  fields("sun_direction_deg", sun_direction_deg, {-360, 360}, "Heading of the sun in the world's frame.");
+  fields("sun_width_deg", sun_width_deg, {0, 180}, "Angle to each side of the sun within which beams drop out.");
+  fields("clock_offset_s", clock_offset_s, {-0.1, 0.1}, "What the laser's clock is ahead of the computer's at first.");
+  fields("clock_drift_ppm", clock_drift_ppm, {-1000, 1000}, "What the laser's clock gains, in parts per million.");
+}
+
 void SensorsConfig::describe(common::config::Fields& fields) {
   fields.section("imu", imu, "Inertial sensors and attitude.");
+  fields.section("laser_errors", laser_errors, "Errors of the laser beyond its data sheet.");
   fields.section("camera", camera, "Camera.");
   fields("battery_rate_hz", battery_rate_hz, {0.1, 100}, "Battery samples a second.");
   fields("battery_noise_v", battery_noise_v, {0, 5}, "Standard deviation of the battery's voltage.");

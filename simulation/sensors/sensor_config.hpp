@@ -14,11 +14,14 @@ enum class Sensor { kImu, kLaser, kBattery, kPilot, kCamera };
 inline constexpr int kSensorCount = 5;
 const char* toString(Sensor sensor);
 
-/// The link from a sensor to the computer. Measurements of one sensor never overtake each other.
+/// The link from a sensor to the computer.
 struct LinkConfig {
   double latency_s = 0.001;
   double jitter_s = 0.0;
   double loss_rate = 0.0;
+  bool in_order = true;
+  double outage_every_s = 0.0;
+  double outage_s = 0.1;
 
   void describe(common::config::Fields& fields);
 };
@@ -39,6 +42,7 @@ struct ImuConfig {
   double tilt_accel_time_s = 1.5;
   double yaw_drift_deg_s = 0.05;
   double yaw_walk_deg = 0.05;
+  double vibration_m_s2 = 0.0;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -55,8 +59,26 @@ struct CameraConfig {
   void describe(common::config::Fields& fields);
 };
 
+/// How a laser's ranges differ from the distance to the nearest surface, beyond the noise on its data sheet.
+struct LaserErrorsConfig {
+  common::MountConfig mount_error;
+  double incidence_bias_m = 0.0;
+  double mixed_pixel_rate = 0.0;
+  double dark_range_m = 0.0;
+  double sun_dropout_rate = 0.0;
+  double sun_direction_deg = 0.0;
+  double sun_width_deg = 30.0;
+  double clock_offset_s = 0.0;
+  double clock_drift_ppm = 0.0;
+
+  void describe(common::config::Fields& fields);
+  /// Whether ranges depend on which surface was hit and at what angle.
+  bool needsSurfaces() const { return incidence_bias_m > 0.0 || dark_range_m > 0.0; }
+};
+
 struct SensorsConfig {
   ImuConfig imu;
+  LaserErrorsConfig laser_errors;
   CameraConfig camera;
   double battery_rate_hz = 5.0;
   double battery_noise_v = 0.02;

@@ -13,8 +13,8 @@ using common::Time;
 SensorSuite::SensorSuite(const Scenario& scenario, std::uint64_t seed, const WorldModel& world)
     : scenario_(scenario),
       seed_(seed),
-      inertial_(scenario.sensors.imu, seed),
-      laser_(scenario.laser, seed),
+      inertial_(scenario.sensors.imu, scenario.vehicle.max_thrust_n, seed),
+      laser_(scenario.laser, scenario.sensors.laser_errors, world, seed),
       camera_(scenario.sensors.camera, world, seed),
       queue_(scenario, seed),
       imu_clock_(scenario.sensors.imu.rate_hz),

@@ -1,0 +1,47 @@
+// A nature: how a real vehicle and its sensors differ from their data sheets. A file of config/nature has the keys of a
+// scenario, with a range [low, high] where a scenario has a number; each seed draws from the ranges. Only the simulator
+// reads natures: what the vehicle's owner believes is on the data sheets.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "simulation/scenario.hpp"
+
+namespace swiftlet::simulation {
+
+/// Immutable; safe to share between threads.
+class Nature {
+ public:
+  /// The plant of the defaults: nothing is drawn.
+  static Nature calm();
+  /// `name` is that of a file config/nature/NAME.yaml, or a file. Throws common::InputError for unknown keys (with "did
+  /// you mean"), values out of bounds and ranges that are upside down.
+  static Nature load(const std::string& name);
+  /// `name` stands for the file in messages.
+  static Nature fromText(const std::string& text, const std::string& name);
+
+  const std::string& name() const { return name_; }
+
+  /// The scenario of one vehicle with this nature's values in it. A key that the scenario's own file wrote out
+  /// (Scenario::written) keeps its value. Each key draws from a random stream of its own, so that a further key, or one
+  /// written out, shifts no other draw.
+  ///
+  /// The draw can fly: at kFullThrottle and the drawn charge the thrust is `least_thrust_over_weight` times the weight,
+  /// or the charge is raised until it is; where even a full battery is too weak, all is drawn anew. Throws
+  /// common::InputError when no draw can fly. A charge that the scenario wrote out is never raised.
+  Scenario drawn(const Scenario& scenario, std::uint64_t seed) const;
+
+  static constexpr double kFullThrottle = 0.95;
+
+ private:
+  struct Template;
+  Nature(std::string name, std::shared_ptr<const Template> values);
+  Scenario drawOnce(const Scenario& scenario, std::uint64_t seed, std::uint64_t draw) const;
+
+  std::string name_;
+  std::shared_ptr<const Template> template_;  ///< Null: nothing is drawn.
+};
+
+}  // namespace swiftlet::simulation
