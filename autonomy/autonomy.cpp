@@ -25,7 +25,7 @@ void AutonomyConfig::describe(common::config::Fields& fields) {
   fields.section("control", control, "State machine, trajectories and controllers.");
   fields.section("supervisor", supervisor, "Hold and landing above the mission.");
   fields("behavior_rate_hz", behavior_rate_hz, {1, 100}, "Ticks of the mission's tree a second.");
-  fields("scan_latency_s", scan_latency_s, {0, 0.2}, "Declared time for projecting and matching one scan.");
+  fields.section("scans", scans, "Scans that arrive late or out of order.");
   fields("max_height_m", max_height_m, {0.2, 100},
          "Greatest height over the take-off floor; a mission that asks for more is refused.");
 }
@@ -62,6 +62,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       supervisor_(config.supervisor),
       mission_(std::move(mission)),
       jobs_(std::move(jobs)),
+      scans_(config.scans, 1.0 / laser.rate_hz),
       world_builder_(vehicle_name_) {
   context_.goal_limits.greatest_height_m = config.max_height_m;
   mission_status_.accepts_goals = mission_.acceptsGoals();
@@ -84,7 +85,7 @@ void Autonomy::take(const common::SensorEvent& event) {
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
     estimator_.addImu(*imu);
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
-    scans_.push_back({*scan, arrived + common::Duration::fromSeconds(config_.scan_latency_s)});
+    scans_.add(*scan);
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     if (!supervisor_.batteryArrived(arrived, *battery)) return;
     energy_.battery_voltage_v = battery->voltage_v;
@@ -153,11 +154,7 @@ std::vector<common::CommandResult> Autonomy::takeResults() { return std::exchang
 // --------------------------------------------------------------------------------------------------- perception
 
 void Autonomy::processDueScans(Time now) {
-  while (!scans_.empty() && scans_.front().due <= now) {
-    const auto scan = scans_.front().scan;
-    scans_.erase(scans_.begin());
-    processScan(*scan, now);
-  }
+  while (const auto scan = scans_.take(now)) processScan(*scan, now);
 }
 
 void Autonomy::processScan(const common::LaserScan& scan, Time now) {

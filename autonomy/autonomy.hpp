@@ -11,6 +11,7 @@
 #include "autonomy/executor.hpp"
 #include "autonomy/input.hpp"
 #include "autonomy/reactive.hpp"
+#include "autonomy/scan_queue.hpp"
 #include "autonomy/supervisor.hpp"
 #include "autonomy/world_builder.hpp"
 #include "behaviors/mission.hpp"
@@ -34,7 +35,7 @@ struct AutonomyConfig {
   control::FlightController::Config control;
   SupervisorConfig supervisor;
   double behavior_rate_hz = 20.0;
-  double scan_latency_s = 0.004;
+  ScanQueueConfig scans;
   double max_height_m = 10.0;
 
   void describe(common::config::Fields& fields);
@@ -113,11 +114,7 @@ class Autonomy {
   behaviors::Mission mission_;
   std::unique_ptr<common::JobRunner> jobs_;
 
-  struct WaitingScan {
-    std::shared_ptr<const common::LaserScan> scan;
-    common::Time due;
-  };
-  std::vector<WaitingScan> scans_;
+  ScanQueue scans_;
   common::EnergyLayer energy_;
   std::optional<control::RawHeight> raw_height_;
   std::shared_ptr<const common::LaserPoints> laser_points_;

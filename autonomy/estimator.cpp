@@ -45,6 +45,8 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
     initialize(scan);
     return std::nullopt;
   }
+  // Scans that were under way when the filter started are of a time of which it knows no pose.
+  if (scan.stamps.measured < started_) return std::nullopt;
   ScanOutcome outcome;
   outcome.scan = project(scan);
   const perception::ProjectedScan standing = withoutPeople(outcome.scan, scan.stamps.measured);
@@ -93,8 +95,8 @@ std::vector<common::Event> Estimator::takeEvents() {
 void Estimator::initialize(const common::LaserScan& scan) {
   if (!last_imu_) return;
   const common::RollPitchYaw tilt = common::rollPitchYaw(last_imu_->rotation_ahrs_body);
-  const Pose3 T_level_body{common::quaternionFrom({tilt.roll_rad, tilt.pitch_rad, 0.0}), Eigen::Vector3d::Zero()};
-  const auto standing = laser_.project(scan, [&](Time) { return T_level_body; });
+  const Eigen::Quaterniond R_level_body = common::quaternionFrom({tilt.roll_rad, tilt.pitch_rad, 0.0});
+  const auto standing = laser_.project(scan, [&](Time) { return Pose3{R_level_body, Eigen::Vector3d::Zero()}; });
   const double height_m = medianBelow_m(standing).value_or(standing_height_m_);
 
   const auto initialized = filter_.initialize(height_m);
@@ -105,7 +107,8 @@ void Estimator::initialize(const common::LaserScan& scan) {
     waiting_said_ = true;
     return;
   }
-  altitude_.initialize(filter_.newest(), height_m);
+  started_ = filter_.newest();
+  altitude_.initialize(started_, height_m);
   say(scan.stamps.arrived, Severity::kInfo, "fusion",
       fmt::format("initialized, body {:.3f} m above the floor", height_m));
 }

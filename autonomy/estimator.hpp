@@ -115,6 +115,7 @@ class Estimator {
   std::unique_ptr<FlightLocalizer> localizer_;  ///< Null if no map was given.
 
   std::optional<common::ImuSample> last_imu_;
+  common::Time started_;  ///< Time at which the filter started.
   bool at_flight_height_ = false;
   bool waiting_said_ = false;
   perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;

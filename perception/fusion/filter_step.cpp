@@ -33,10 +33,12 @@ void FilterStep::advance(const Slot& before, std::span<const Measurement> measur
   FilterState& state = now.state;
   state = before.state;
   ImuValue at = before.imu;
+  ImuNoise noise = noise_;
+  noise.accelerometer_m_s2_rthz = std::max(noise.accelerometer_m_s2_rthz, now.accelerometer_noise_m_s2_rthz);
   const auto advanceTo = [&](Time time) {
     if (time <= at.stamp) return;
     const ImuValue next = interpolate(before.imu, now.imu, time);
-    propagate(state, at, next, noise_);
+    propagate(state, at, next, noise);
     at = next;
   };
   for (const Measurement& measurement : measured) {
@@ -83,7 +85,7 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
 void FilterStep::applySlot(FilterState& state, const Slot& s) const {
   if (!s.attitude_due) return;
   if (config_.use_ahrs) updateByAhrs(state, s.up_body);
-  if (config_.use_drag) updateByDrag(state);
+  if (config_.use_drag) updateByDrag(state, s.accelerometer_noise_m_s2_rthz);
   if (config_.use_gravity) {
     update(state,
            gravity(state, s.imu.specific_force_body_m_s2, config_.gravity_m_s2, square(config_.gravity_sigma_m_s2)));
@@ -129,9 +131,10 @@ void FilterStep::accumulateDrag(FilterState& state, const Slot& before, const Sl
 
 /// If the vehicle is pushed or touches something, the force is not only drag: such measurements are rejected by the
 /// gate.
-void FilterStep::updateByDrag(FilterState& state) const {
+void FilterStep::updateByDrag(FilterState& state, double accelerometer_noise_m_s2_rthz) const {
   if (state.drag_stretch.seconds <= 0.0) return;
-  const Linearized<2> m = drag(state, square(config_.drag_noise_m_s2_rthz) / state.drag_stretch.seconds);
+  const double noise_m_s2_rthz = std::max(config_.drag_noise_m_s2_rthz, accelerometer_noise_m_s2_rthz);
+  const Linearized<2> m = drag(state, square(noise_m_s2_rthz) / state.drag_stretch.seconds);
   if (mahalanobis2(state, m) <= square(config_.gate_sigma)) update(state, m);
   state.drag_stretch = {};
 }

@@ -20,6 +20,8 @@ struct Slot {
   Eigen::Vector3d up_body = Eigen::Vector3d::UnitZ();  ///< From the AHRS.
   bool attitude_due = false;
   bool at_rest = false;
+  /// As measured from the samples before; propellers shake some vehicles far more than others.
+  double accelerometer_noise_m_s2_rthz = 0.0;
   FilterState state;
 };
 
@@ -38,7 +40,7 @@ class FilterStep {
   void applySlot(FilterState& state, const Slot& slot) const;
   void updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const;
   void accumulateDrag(FilterState& state, const Slot& before, const Slot& now) const;
-  void updateByDrag(FilterState& state) const;
+  void updateByDrag(FilterState& state, double accelerometer_noise_m_s2_rthz) const;
   template <int K>
   void gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& measurement) const;
   void recover(FilterState& state) const;

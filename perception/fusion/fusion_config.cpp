@@ -10,7 +10,7 @@ void FusionConfig::describe(common::config::Fields& fields) {
   fields("history_s", history_s, {0.1, 10}, "Greatest delay with which a measurement may come.");
   fields("gravity_m_s2", gravity_m_s2, {9.7, 9.9}, "Magnitude of gravity.");
   fields("accelerometer_noise_m_s2_rthz", accelerometer_noise_m_s2_rthz, kPositive,
-         "Noise density of the accelerometer.");
+         "Least noise density of the accelerometer; what the samples show counts where it is more.");
   fields("gyroscope_noise_rad_s_rthz", gyroscope_noise_rad_s_rthz, kPositive, "Noise density of the gyroscope.");
   fields("accelerometer_bias_walk_m_s3_rthz", accelerometer_bias_walk_m_s3_rthz, kPositive,
          "Random walk of the accelerometer's bias.");

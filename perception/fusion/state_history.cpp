@@ -58,6 +58,8 @@ void StateHistory::push(const common::ImuSample& sample, bool at_rest) {
   measurements_.dropUntil(slot(0).imu.stamp);
   Slot& s = slot(count_);
   s.imu = {now, sample.angular_velocity_body_rad_s, sample.specific_force_body_m_s2};
+  measureNoise(slot(count_ - 1).imu, s.imu);
+  s.accelerometer_noise_m_s2_rthz = std::sqrt(accelerometer_noise2_m2_s3_);
   s.at_rest = at_rest;
   s.up_body = sample.rotation_ahrs_body.conjugate() * Eigen::Vector3d::UnitZ();
   s.attitude_due = (now - last_attitude_).seconds() >= attitude_period_s_ - 1e-6;
@@ -65,6 +67,17 @@ void StateHistory::push(const common::ImuSample& sample, bool at_rest) {
   dirty_from_ = std::min(dirty_from_, count_);
   ++count_;
   replay(count_);
+}
+
+/// The vehicle's own motion changes little from one sample to the next, so the differences between them are noise: the
+/// variance of a difference is twice that of a sample.
+void StateHistory::measureNoise(const ImuValue& before, const ImuValue& now) {
+  constexpr double kMean_s = 0.5, kLongestStep_s = 0.05;
+  const double step_s = (now.stamp - before.stamp).seconds();
+  if (!(step_s > 0.0) || step_s > kLongestStep_s) return;
+  const double variance_m2_s4 = (now.specific_force_body_m_s2 - before.specific_force_body_m_s2).squaredNorm() / 6.0;
+  accelerometer_noise2_m2_s3_ +=
+      std::min(1.0, step_s / kMean_s) * (variance_m2_s4 * step_s - accelerometer_noise2_m2_s3_);
 }
 
 void StateHistory::dropOldest() {

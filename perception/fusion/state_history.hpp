@@ -50,6 +50,7 @@ class StateHistory {
   const Slot& slot(std::size_t age_from_oldest) const { return ring_[(oldest_ + age_from_oldest) % ring_.size()]; }
   common::Time newestStamp() const { return slot(count_ - 1).imu.stamp; }
   void dropOldest();
+  void measureNoise(const ImuValue& before, const ImuValue& now);
   /// Brings the first `until` slots up to date. Recomputing lazily pays off, because the measurements of one scan
   /// arrive together: later states are computed once, after the last of them.
   void replay(std::size_t until);
@@ -63,6 +64,7 @@ class StateHistory {
   /// Index of the first slot whose state must be recomputed, counted from the oldest; count_ if there is none.
   std::size_t dirty_from_ = 0;
   common::Time last_attitude_;
+  double accelerometer_noise2_m2_s3_ = 0.0;  ///< Square of the noise density that the samples show.
   bool diverged_ = false;
   std::uint64_t replays_ = 0;
 };
