@@ -41,7 +41,10 @@ void setTilt(common::Setpoint& setpoint, const Eigen::Vector3d& acceleration_odo
 PositionController::PositionController(const Config& config, const common::VehicleConfig& vehicle)
     : config_(config), vehicle_(vehicle), thrust_(config.thrust, vehicle) {}
 
-void PositionController::reset() { integral_m_s2_.setZero(); }
+void PositionController::reset() {
+  integral_m_s2_.setZero();
+  delayed_.reset();
+}
 
 common::Setpoint PositionController::tick(common::Time now, double dt_s, const common::VehicleState& state,
                                           const Reference& reference, double battery_v, Horizontal horizontal,
@@ -55,6 +58,10 @@ common::Setpoint PositionController::tick(common::Time now, double dt_s, const c
     return setpoint;
   }
   if (on_ground) horizontal = Horizontal::kLevel;
+  if (horizontal == Horizontal::kPosition)
+    delay(reference, dt_s);
+  else
+    delayed_.reset();
   const Eigen::Vector3d missing_m_s = missingVelocity(state, reference, horizontal);
   const Eigen::Vector3d gain_1_s(config_.horizontal_v_1_s, config_.horizontal_v_1_s, config_.vertical_v_1_s);
   Eigen::Vector3d wanted_m_s2 = gain_1_s.cwiseProduct(missing_m_s) + integral_m_s2_;
@@ -84,7 +91,6 @@ common::Setpoint PositionController::tick(common::Time now, double dt_s, const c
 
 Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& state, const Reference& reference,
                                                     Horizontal horizontal) const {
-  const double lead_s = config_.latency_s + config_.attitude_lag_s;
   Eigen::Vector3d missing_m_s = Eigen::Vector3d::Zero();
   const double climb_error_m = reference.position_odom_m.z() - state.T_odom_body.position_m.z();
   const double climb_velocity_error_m_s = reference.velocity_odom_m_s.z() - state.velocity_odom_m_s.z();
@@ -93,23 +99,36 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
                                -config_.max_climb_m_s, config_.max_climb_m_s);
   if (horizontal == Horizontal::kLevel) return missing_m_s;
 
-  // State and reference are predicted to the time when the command has become a tilt. The integral is the part of the
-  // tilt that balances wind and a wrong horizon, so it does not accelerate the vehicle.
+  // State and reference are predicted by the latency. The integral is the part of the tilt that balances wind and a
+  // wrong horizon, so it does not accelerate the vehicle.
   const Eigen::Vector2d acceleration_m_s2 = accelerationOfTilt(state.T_odom_body.rotation) - integral_m_s2_.head<2>();
-  if (horizontal == Horizontal::kVelocity) {
-    missing_m_s.head<2>() = -state.velocity_odom_m_s.head<2>() - lead_s * acceleration_m_s2;
+  const Eigen::Vector2d velocity_then_m_s = state.velocity_odom_m_s.head<2>() + config_.latency_s * acceleration_m_s2;
+  if (!delayed_) {
+    missing_m_s.head<2>() = -velocity_then_m_s;
     return missing_m_s;
   }
-  const Eigen::Vector2d acceleration_error = reference.acceleration_odom_m_s2.head<2>() - acceleration_m_s2;
-  const Eigen::Vector2d velocity_error = (reference.velocity_odom_m_s - state.velocity_odom_m_s).head<2>();
-  const Eigen::Vector2d position_error = (reference.position_odom_m - state.T_odom_body.position_m).head<2>();
-  const Eigen::Vector2d position_error_then =
-      position_error + lead_s * velocity_error + 0.5 * lead_s * lead_s * acceleration_error;
-  const Eigen::Vector2d correction =
-      limited(config_.horizontal_p_1_s * position_error_then, config_.max_correction_m_s);
-  const Eigen::Vector2d asked = limited(reference.velocity_odom_m_s.head<2>() + correction, config_.max_speed_m_s);
-  missing_m_s.head<2>() = asked - state.velocity_odom_m_s.head<2>() + lead_s * acceleration_error;
+  const Eigen::Vector2d position_error =
+      delayed_->position_odom_m - state.T_odom_body.position_m.head<2>() +
+      config_.latency_s * (delayed_->velocity_odom_m_s - state.velocity_odom_m_s.head<2>());
+  const Eigen::Vector2d correction = limited(config_.horizontal_p_1_s * position_error, config_.max_correction_m_s);
+  missing_m_s.head<2>() = limited(delayed_->velocity_odom_m_s + correction, config_.max_speed_m_s) - velocity_then_m_s;
   return missing_m_s;
+}
+
+/// The reference's acceleration is fed forward at once, but the vehicle takes it up only as its attitude follows. The
+/// errors are those from the reference behind the same lag; otherwise each change of speed would look like an error.
+void PositionController::delay(const Reference& reference, double dt_s) {
+  constexpr double kJump_m = 0.3;  // A reference that was placed anew did not get there by flying.
+  const Eigen::Vector2d position_m = reference.position_odom_m.head<2>();
+  const Eigen::Vector2d velocity_m_s = reference.velocity_odom_m_s.head<2>();
+  const double lag_s = config_.attitude_lag_s;
+  if (!delayed_ || lag_s <= 0.0 ||
+      (delayed_->position_odom_m + lag_s * delayed_->velocity_odom_m_s - position_m).norm() > kJump_m)
+    delayed_ = Delayed{position_m, velocity_m_s};
+  if (lag_s <= 0.0) return;
+  const double share = 1.0 - std::exp(-dt_s / lag_s);
+  delayed_->position_odom_m += share * (position_m - delayed_->position_odom_m);
+  delayed_->velocity_odom_m_s += share * (velocity_m_s - delayed_->velocity_odom_m_s);
 }
 
 void PositionController::integrate(const Eigen::Vector3d& missing_m_s, const Eigen::Vector3d& wanted_m_s2,
@@ -141,8 +160,10 @@ void PositionController::Config::describe(common::config::Fields& fields) {
   fields("max_integral_m_s2", max_integral_m_s2, {0, 9}, "Greatest integral part of the acceleration.");
   fields("max_yaw_rate_deg_s", max_yaw_rate_deg_s, kPositive, "Greatest yaw rate.");
   fields("latency_s", latency_s, {0, 0.5}, "Time from measurement to command, by which the state is predicted.");
-  fields("attitude_lag_s", attitude_lag_s, {0, 0.5},
-         "Time the attitude takes to follow a command, by which the horizontal state is predicted further.");
+  fields(
+      "attitude_lag_s", attitude_lag_s, {0, 0.5},
+      "Time the attitude takes to follow a command, by which the reference is delayed before the vehicle is compared "
+      "with it.");
   fields.section("thrust", thrust, "Thrust by battery voltage.");
 }
 

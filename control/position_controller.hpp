@@ -2,6 +2,7 @@
 // 5; Saeedi, III-E). The reference's velocity and acceleration are fed forward.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,9 @@ namespace swiftlet::control {
 class PositionController {
  public:
   struct Config {
-    double horizontal_p_1_s = 2.2;
-    double horizontal_v_1_s = 5.0;
-    double horizontal_i_1_s2 = 2.5;
+    double horizontal_p_1_s = 1.1;
+    double horizontal_v_1_s = 2.6;
+    double horizontal_i_1_s2 = 0.6;
     double vertical_p_1_s = 1.8;
     double vertical_v_1_s = 4.5;
     double vertical_i_1_s2 = 2.0;
@@ -35,7 +36,7 @@ class PositionController {
     double max_integral_m_s2 = 2.0;
     double max_yaw_rate_deg_s = 90.0;
     double latency_s = 0.03;
-    double attitude_lag_s = 0.12;
+    double attitude_lag_s = 0.2;
     ThrustModel::Config thrust;
 
     void describe(common::config::Fields& fields);
@@ -61,6 +62,12 @@ class PositionController {
   const ThrustModel& thrust() const { return thrust_; }
 
  private:
+  /// Where a vehicle whose attitude follows with a lag is when it is given the reference's acceleration.
+  struct Delayed {
+    Eigen::Vector2d position_odom_m;
+    Eigen::Vector2d velocity_odom_m_s;
+  };
+  void delay(const Reference& reference, double dt_s);
   /// The velocity error, including the correction for the position error, on which the velocity and integral gains act.
   Eigen::Vector3d missingVelocity(const common::VehicleState& state, const Reference& reference,
                                   Horizontal horizontal) const;
@@ -71,6 +78,7 @@ class PositionController {
   common::VehicleConfig vehicle_;
   ThrustModel thrust_;
   Eigen::Vector3d integral_m_s2_ = Eigen::Vector3d::Zero();
+  std::optional<Delayed> delayed_;  ///< None while the horizontal position is not held.
 };
 
 }  // namespace swiftlet::control
