@@ -99,17 +99,18 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
                                -config_.max_climb_m_s, config_.max_climb_m_s);
   if (horizontal == Horizontal::kLevel) return missing_m_s;
 
-  // State and reference are predicted by the latency. The integral is the part of the tilt that balances wind and a
+  // The state is predicted by its tilt. The integral is the part of the tilt that balances wind and a
   // wrong horizon, so it does not accelerate the vehicle.
   const Eigen::Vector2d acceleration_m_s2 = accelerationOfTilt(state.T_odom_body.rotation) - integral_m_s2_.head<2>();
-  const Eigen::Vector2d velocity_then_m_s = state.velocity_odom_m_s.head<2>() + config_.latency_s * acceleration_m_s2;
+  const Eigen::Vector2d velocity_then_m_s =
+      state.velocity_odom_m_s.head<2>() + config_.horizontal_lead_s * acceleration_m_s2;
   if (!delayed_) {
     missing_m_s.head<2>() = -velocity_then_m_s;
     return missing_m_s;
   }
   const Eigen::Vector2d position_error =
       delayed_->position_odom_m - state.T_odom_body.position_m.head<2>() +
-      config_.latency_s * (delayed_->velocity_odom_m_s - state.velocity_odom_m_s.head<2>());
+      config_.horizontal_lead_s * (delayed_->velocity_odom_m_s - state.velocity_odom_m_s.head<2>());
   const Eigen::Vector2d correction = limited(config_.horizontal_p_1_s * position_error, config_.max_correction_m_s);
   missing_m_s.head<2>() = limited(delayed_->velocity_odom_m_s + correction, config_.max_speed_m_s) - velocity_then_m_s;
   return missing_m_s;
@@ -159,7 +160,10 @@ void PositionController::Config::describe(common::config::Fields& fields) {
   fields("max_acceleration_up_m_s2", max_acceleration_up_m_s2, {0.1, 9}, "Greatest vertical acceleration.");
   fields("max_integral_m_s2", max_integral_m_s2, {0, 9}, "Greatest integral part of the acceleration.");
   fields("max_yaw_rate_deg_s", max_yaw_rate_deg_s, kPositive, "Greatest yaw rate.");
-  fields("latency_s", latency_s, {0, 0.5}, "Time from measurement to command, by which the state is predicted.");
+  fields("latency_s", latency_s, {0, 0.5},
+         "Time from measurement to command, by which the vertical state is predicted.");
+  fields("horizontal_lead_s", horizontal_lead_s, {0, 0.5},
+         "Time by which the horizontal state is predicted with the present tilt, which damps the tilt.");
   fields(
       "attitude_lag_s", attitude_lag_s, {0, 0.5},
       "Time the attitude takes to follow a command, by which the reference is delayed before the vehicle is compared "

@@ -22,9 +22,9 @@ namespace swiftlet::control {
 class PositionController {
  public:
   struct Config {
-    double horizontal_p_1_s = 1.1;
-    double horizontal_v_1_s = 2.6;
-    double horizontal_i_1_s2 = 0.6;
+    double horizontal_p_1_s = 1.4;
+    double horizontal_v_1_s = 3.0;
+    double horizontal_i_1_s2 = 2.0;
     double vertical_p_1_s = 1.8;
     double vertical_v_1_s = 4.5;
     double vertical_i_1_s2 = 2.0;
@@ -36,6 +36,7 @@ class PositionController {
     double max_integral_m_s2 = 2.0;
     double max_yaw_rate_deg_s = 90.0;
     double latency_s = 0.03;
+    double horizontal_lead_s = 0.06;
     double attitude_lag_s = 0.2;
     ThrustModel::Config thrust;
 

@@ -45,7 +45,8 @@ class Maneuver {
   Maneuver& operator=(const Maneuver&) = delete;
   virtual ~Maneuver() = default;
 
-  /// Called at the behaviours' rate, from the tick in which the intent began.
+  /// Called at the behaviours' rate, from the tick in which the intent began. The vehicle was told to stop then (unless
+  /// it retreats), and may still be moving at the first steps.
   virtual Progress step(const ManeuverInput& input) = 0;
   /// The answer to its planning request. It is not called while the reactive layer retreats, because the answer is
   /// outdated then. `state` is the newest.

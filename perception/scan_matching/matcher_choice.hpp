@@ -19,6 +19,8 @@ struct MatcherChoiceConfig : CorrelativeMatcherConfig {
 
   void describe(common::config::Fields& fields);
 
+  // A kind without a setting of its own uses that of the correlative matcher.
+
   /// Quality of the chosen kind below which a match failed.
   double minQuality() const;
   /// Number of points of the chosen kind below which a match failed.

@@ -32,10 +32,10 @@ struct MatchResult {
   /// The best pose of the finest grid, or the last step of a least-squares match, before any averaging.
   common::Pose2 finest_T_reference_body;
   int finest_score = 0;  ///< Integer score of that pose.
-  int points_used = 0;
+  int points_used = 0;   ///< Points of the scan that were matched; 0: no search was made.
 };
 
-/// How a matcher works; see the header of each.
+/// How a matcher works; see the header of each. The order is that of the words in MatcherChoiceConfig::describe.
 enum class MatcherKind { kCorrelative, kGaussNewton, kPointToLine };
 
 /// Not thread-safe: one object per thread.

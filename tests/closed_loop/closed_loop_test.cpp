@@ -19,7 +19,8 @@ using common::FlightState;
 using common::Time;
 
 struct Loop {
-  explicit Loop(int seed, bool table = false) : vehicle(room(table), scenario(seed)) {}
+  explicit Loop(int seed, bool table = false) : Loop(scenario(seed), table) {}
+  explicit Loop(const simulation::Scenario& scenario, bool table = false) : vehicle(room(table), scenario) {}
 
   static simulation::WorldModel room(bool table) {
     simulation::WorldModel world = simulation::boxRoom();
@@ -128,6 +129,33 @@ TEST(ClosedLoop, HoversOnSimulatedSensors) {
   EXPECT_LT(worst_height_m, 0.10);
 }
 
+double greatestTiltOfAHover_deg(const simulation::Scenario& scenario) {
+  Loop loop(scenario);
+  EXPECT_TRUE(loop.hover()) << loop.vehicle.stopReason();
+  double greatest_rad = 0.0;
+  loop.until(
+      [&] {
+        const auto angles = common::rollPitchYaw(loop.vehicle.truth().T_world_body.rotation);
+        greatest_rad = std::max({greatest_rad, std::abs(angles.roll_rad), std::abs(angles.pitch_rad)});
+        return false;
+      },
+      15.0);
+  EXPECT_EQ(loop.controller.state(), FlightState::kFlying) << loop.vehicle.stopReason();
+  return greatest_rad / common::kRadPerDeg;
+}
+
+// With the gains of before the vehicle swayed by 15 deg at 57 ms, which at a low charge cost it the thrust to stay up.
+TEST(ClosedLoop, SlowMotorsOrALowChargeMakeNoLimitCycle) {
+  for (const double motor_lag_s : {0.025, 0.08}) {
+    for (const double charge : {1.0, 0.2}) {
+      simulation::Scenario scenario = Loop::scenario(5);
+      scenario.quadrotor.motor_lag_s = motor_lag_s;
+      scenario.battery_remaining = charge;
+      EXPECT_LT(greatestTiltOfAHover_deg(scenario), 6.0) << motor_lag_s << " s, charge " << charge;
+    }
+  }
+}
+
 TEST(ClosedLoop, FliesOverATableAndLands) {
   Loop loop(4, true);
   ASSERT_TRUE(loop.hover()) << loop.vehicle.stopReason();
@@ -156,7 +184,7 @@ TEST(ClosedLoop, FliesOverATableAndLands) {
   for (const auto& level : levels.levels)
     std::printf("  level %d: %.3f +- %.3f m, %zu cells\n", level.id, level.height_m, std::sqrt(level.variance_m2),
                 level.cells.size());
-  EXPECT_LT(worst_m, 0.25);
+  EXPECT_LT(worst_m, 0.35);  // Behind the reference by the lag of the attitude.
   EXPECT_LT(worst_height_m, 0.12);
   EXPECT_LT(home.head<2>().norm(), 0.12);
   ASSERT_GE(levels.levels.size(), 2u);
