@@ -33,11 +33,11 @@ enum class GustModel {
 };
 
 struct WindConfig {
-  GustModel model = GustModel::kGaussMarkov;
   double mean_x_m_s = 0.0;
   double mean_y_m_s = 0.0;
   double gust_m_s = 0.0;
   double gust_time_s = 2.0;
+  GustModel model = GustModel::kGaussMarkov;
 
   void describe(common::config::Fields& fields);
 };
