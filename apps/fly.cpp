@@ -72,7 +72,9 @@ FlightSetup setupOf(const FlyOptions& options) {
     setup.scenario = trial.scenario;
   }
   if (options.seed) setup.scenario.seed = *options.seed;
-  setup.scenario.nature = std::make_shared<const simulation::Nature>(simulation::Nature::load(options.nature));
+  // Who flies has charged before, unless the scenario or the option says otherwise.
+  setup.scenario.nature =
+      std::make_shared<const simulation::Nature>(simulation::Nature::load(options.nature).withCharge(0.9, 1.0));
   if (options.battery) chargeBatteries(setup.scenario, *options.battery);
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);

@@ -6,6 +6,7 @@
 #include "apps/web_link.hpp"
 #include "common/world.hpp"
 #include "common/world/mission_layer.hpp"
+#include "simulation/nature.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -22,17 +23,22 @@ autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& nam
                             common::makeLockstepJobs(1), given ? &*given : nullptr, name);
 }
 
-interfaces::RunInfo runInfo(const FlightSetup& setup, const std::string& name, const std::string& mission_file) {
+interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::SimulatedVehicle& vehicle,
+                            const std::string& mission_file) {
   interfaces::RunInfo info;
   info.mission = std::filesystem::path(mission_file).stem().string();
   info.mission_file = mission_file;
   info.world = setup.scenario.world;
   info.system = setup.system.name;
   if (setup.map) info.given_map = setup.map->name;
-  info.vehicle = name;
+  info.vehicle = vehicle.name();
   info.seed = setup.scenario.seed;
   info.version = SWIFTLET_VERSION;
   info.started = setup.started;
+  const simulation::Nature calm = simulation::Nature::calm();
+  const simulation::Nature& nature = setup.scenario.nature ? *setup.scenario.nature : calm;
+  info.nature = nature.name();
+  info.nature_yaml = nature.valuesIn(vehicle.scenario());
   return info;
 }
 
@@ -48,7 +54,7 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       name_(vehicle_->name()),
       recorder_(vehicle_->T_world_map(), setup.map ? setup.map->T_world_given : std::nullopt),
       autonomy_(makeAutonomy(setup, name_, std::move(mission.mission))),
-      folder_(folder, runInfo(setup, name_, mission.file), setup.system.toYaml(true)),
+      folder_(folder, runInfo(setup, *vehicle_, mission.file), setup.system.toYaml(true)),
       pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
       sinks_(makeSinks()),
       loop_(*vehicle_, autonomy_, web_ ? web_->commands() : no_commands_, sinks()) {}

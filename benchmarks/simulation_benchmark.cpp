@@ -3,19 +3,25 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <string>
 
 #include "common/config.hpp"
+#include "simulation/nature.hpp"
 #include "simulation/simulated_vehicle.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
-/// Hovers in the shipped world with the 1081-beam laser at 40 Hz, everything collected, with or without the camera.
-void simulatedSecond(benchmark::State& state, bool camera, bool walkers) {
+/// Hovers in the shipped world with the 1081-beam laser at 40 Hz, everything collected, with or without the camera, by
+/// the plant of a nature.
+void simulatedSecond(benchmark::State& state, bool camera, bool walkers, const char* nature) {
   const WorldModel world = loadWorld(SWIFTLET_SOURCE_DIR "/worlds/unb_case1.sdf");
   Scenario scenario;
   scenario.laser = common::config::readFile<common::LaserConfig>(SWIFTLET_SOURCE_DIR "/config/sensors/utm_30lx.yaml");
+  scenario.nature = std::make_shared<const Nature>(
+      Nature::load(std::string(SWIFTLET_SOURCE_DIR "/config/nature/") + nature + ".yaml"));
   if (walkers) scenario.walkers.push_back({WalkerMode::kPath, {0.5, 8.0, 8.0, 8.0}, WalkerEnd::kReturn});
   SimulatedVehicle vehicle(world, scenario);
   vehicle.setCameraConsumer(camera);
@@ -39,9 +45,10 @@ void simulatedSecond(benchmark::State& state, bool camera, bool walkers) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
 }
 
-BENCHMARK_CAPTURE(simulatedSecond, headless, false, false)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(simulatedSecond, walker, false, true)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(simulatedSecond, camera, true, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(simulatedSecond, headless, false, false, "calm")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(simulatedSecond, real, false, false, "real")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(simulatedSecond, walker, false, true, "calm")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(simulatedSecond, camera, true, false, "calm")->Unit(benchmark::kMillisecond);
 
 /// One sweep's rays alone.
 void castScan(benchmark::State& state) {

@@ -40,10 +40,12 @@ struct LaserScan {
   std::vector<float> ranges_m;
 };
 
+/// What the vehicle's power module and its fuel gauge measure.
 struct BatterySample {
   Stamps stamps;
-  double voltage_v = 0.0;
-  double remaining = 1.0;  ///< In [0, 1], as the vehicle estimates it.
+  double voltage_v = 0.0;  ///< At the terminals, under load.
+  double remaining = 1.0;  ///< In [0, 1]: the fuel gauge's estimate, which may be some percent off.
+  double current_a = 0.0;  ///< Drawn from the battery.
 };
 
 /// The pilot's sticks, each in [-1, 1]; thrust in [0, 1]. While the switch `takes_over` is on, the pilot flies alone.

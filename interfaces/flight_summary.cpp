@@ -89,6 +89,7 @@ std::string toJson(const FlightSummary& summary) {
         {"wall_time_s", orNull(summary.wall_time_s)},
         {"realtime_factor", orNull(summary.realtime_factor)}}},
   };
+  if (!summary.info.nature.empty()) json["nature"] = summary.info.nature;
   if (!summary.info.vehicle.empty()) json["vehicle"] = summary.info.vehicle;
   if (summary.localization) json["localization"] = localizationJson(summary.info.given_map, *summary.localization);
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

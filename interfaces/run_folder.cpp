@@ -34,9 +34,9 @@ constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(40);  ///< Bet
 constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Between two samples for plots.
 
 /// Every file that a run may leave; no other file is ever removed.
-constexpr std::array<const char*, 9> kFiles = {"mission.json", "events.jsonl", "trajectory.tum", "trajectory_given.tum",
-                                               "map.pgm",      "map.yaml",     "map.png",        "report.html",
-                                               "config.yaml"};
+constexpr std::array<const char*, 10> kFiles = {
+    "mission.json", "events.jsonl", "trajectory.tum", "trajectory_given.tum", "map.pgm",
+    "map.yaml",     "map.png",      "report.html",    "config.yaml",          "nature.yaml"};
 
 bool isRunFile(const std::string& name) {
   // A `.part` file is left of a Swiftlet file if the process was killed.
@@ -234,6 +234,7 @@ void RunFolder::Impl::localize(const common::World& world) {
 RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)
     : impl_(std::make_unique<Impl>(std::move(path), std::move(info), std::move(config_yaml))) {
   impl_->write("config.yaml", impl_->config_yaml);
+  if (!impl_->summary.info.nature_yaml.empty()) impl_->write("nature.yaml", impl_->summary.info.nature_yaml);
   impl_->writeSummary();
   if (impl_->failure) throw InputError(Problem{{}, "", *impl_->failure, ""});
 }

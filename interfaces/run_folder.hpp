@@ -7,6 +7,7 @@
 //   map.pgm, map.yaml, map.png    replaced whole every few seconds and at the end
 //   report.html      the same in one page
 //   config.yaml      the settings in force
+//   nature.yaml      what a simulated vehicle drew from its nature; none if it draws nothing
 #pragma once
 
 #include <filesystem>

@@ -36,8 +36,8 @@ void Battery::draw(double power_w, double step_s) {
   const double open_v = openCircuit_v(), r = config_.resistance_ohm;
   const double discriminant = std::max(0.0, open_v * open_v - 4.0 * r * (power_w + config_.electronics_w));
   voltage_v_ = 0.5 * (open_v + std::sqrt(discriminant));
-  const double current_a = r > 0.0 ? (open_v - voltage_v_) / r : (power_w + config_.electronics_w) / open_v;
-  remaining_ = std::max(0.0, remaining_ - current_a * step_s / (3600.0 * config_.capacity_ah));
+  current_a_ = r > 0.0 ? (open_v - voltage_v_) / r : (power_w + config_.electronics_w) / open_v;
+  remaining_ = std::max(0.0, remaining_ - current_a_ * step_s / (3600.0 * config_.capacity_ah));
 }
 
 double Battery::thrustShare() const {

@@ -29,6 +29,8 @@ class Battery {
   /// Voltage at the terminals under the present load.
   double voltage_v() const { return voltage_v_; }
   double openCircuit_v() const;
+  /// Current in the present step; 0 before the first.
+  double current_a() const { return current_a_; }
   /// Share of the charge, in [0, 1].
   double remaining() const { return remaining_; }
   /// (voltage / full voltage) to the power of `voltage_exponent`, the factor by which the thrust falls.
@@ -40,6 +42,7 @@ class Battery {
   double empty_v_;
   double remaining_;
   double voltage_v_;
+  double current_a_ = 0.0;
 };
 
 }  // namespace swiftlet::simulation

@@ -11,18 +11,23 @@
 
 namespace swiftlet::simulation {
 
+class NatureRanges;
+
 /// Immutable; safe to share between threads.
 class Nature {
  public:
   /// The plant of the defaults: nothing is drawn.
   static Nature calm();
-  /// `name` is that of a file config/nature/NAME.yaml, or a file. Throws common::InputError for unknown keys (with "did
-  /// you mean"), values out of bounds and ranges that are upside down.
+  /// `name` is that of a file config/nature/NAME.yaml, or a file. Throws common::InputError with file, line and key:
+  /// for unknown keys (with "did you mean"), values out of bounds and ranges that are upside down.
   static Nature load(const std::string& name);
   /// `name` stands for the file in messages.
   static Nature fromText(const std::string& text, const std::string& name);
 
   const std::string& name() const { return name_; }
+
+  /// The same with another range of the charge at the start, if this nature draws it.
+  Nature withCharge(double low, double high) const;
 
   /// The scenario of one vehicle with this nature's values in it. A key that the scenario's own file wrote out
   /// (Scenario::written) keeps its value. Each key draws from a random stream of its own, so that a further key, or one
@@ -35,13 +40,15 @@ class Nature {
 
   static constexpr double kFullThrottle = 0.95;
 
+  /// The nature's keys with the values that a drawn scenario has, itself a nature's file: a flight in it has the same
+  /// plant. Empty if this nature has no keys.
+  std::string valuesIn(const Scenario& drawn) const;
+
  private:
-  struct Template;
-  Nature(std::string name, std::shared_ptr<const Template> values);
-  Scenario drawOnce(const Scenario& scenario, std::uint64_t seed, std::uint64_t draw) const;
+  Nature(std::string name, std::shared_ptr<const NatureRanges> ranges);
 
   std::string name_;
-  std::shared_ptr<const Template> template_;  ///< Null: nothing is drawn.
+  std::shared_ptr<const NatureRanges> ranges_;  ///< Null: nothing is drawn.
 };
 
 }  // namespace swiftlet::simulation

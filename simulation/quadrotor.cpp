@@ -31,6 +31,10 @@ void QuadrotorConfig::describe(common::config::Fields& fields) {
   fields("weak_motor_share", weak_motor_share, {0.1, 1}, "Thrust of the weak motor over that of the others.");
   fields("ground_effect_radius_m", ground_effect_radius_m, {0, 1},
          "Rotor radius of the ground effect (Cheeseman and Bennett 1955); 0 without it.");
+  fields("wall_effect_share", wall_effect_share, {0, 0.5},
+         "Pull towards a wall that touches the hull, over the thrust; 0 without it.");
+  fields("wall_effect_range_m", wall_effect_range_m, {0.01, 2},
+         "Distance from the hull to a wall at which that pull has fallen to 1 / e.");
   fields.section("battery", battery, "The battery.");
 }
 
@@ -110,9 +114,9 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   const Vector3d drag_world =
       -(config_.linear_drag_n_s_m + config_.quadratic_drag_n_s2_m2 * airspeed_world.norm()) * airspeed_world;
   const double gear_n = gearForce_n(floor_world_m);
-  const Vector3d force_world =
-      R_world_body * Vector3d(0.0, 0.0, groundEffect(floor_world_m) * (f[0] + f[1] + f[2] + f[3])) + drag_world +
-      Vector3d(0.0, 0.0, gear_n) + takePush(step_s);
+  Vector3d force_world = R_world_body * Vector3d(0.0, 0.0, groundEffect(floor_world_m) * (f[0] + f[1] + f[2] + f[3])) +
+                         drag_world + Vector3d(0.0, 0.0, gear_n) + takePush(step_s);
+  if (config_.wall_effect_share > 0.0) force_world.head<2>() += (f[0] + f[1] + f[2] + f[3]) * wall_pull_world_;
   const Vector3d acceleration_world = force_world / vehicle_.mass_kg - kGravity_m_s2 * Vector3d::UnitZ();
 
   // Euler's equation in the body frame. Motors: front left, front right, rear right, rear left.
@@ -143,6 +147,13 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
 double Quadrotor::groundEffect(double floor_world_m) const {
   if (config_.ground_effect_radius_m <= 0.0 || !std::isfinite(floor_world_m)) return 1.0;
   return groundEffectAt(config_.ground_effect_radius_m, state_.T_world_body.position_m.z() - floor_world_m);
+}
+
+// The suction between rotors and wall grows with the thrust and falls with the distance (Yang 2025); that it falls
+// exponentially is a simplification.
+void Quadrotor::feelWall(const Eigen::Vector2d& towards_wall_world, double gap_m) {
+  const double share = config_.wall_effect_share * std::exp(-gap_m / config_.wall_effect_range_m);
+  wall_pull_world_ = share * towards_wall_world.normalized();
 }
 
 // A critically damped spring that gives way by kGearSag_m under the vehicle's weight.

@@ -36,6 +36,8 @@ struct QuadrotorConfig {
   int weak_motor = 0;
   double weak_motor_share = 1.0;
   double ground_effect_radius_m = 0.0;
+  double wall_effect_share = 0.0;
+  double wall_effect_range_m = 0.127;
   Battery::Config battery;
 
   void describe(common::config::Fields& fields);
@@ -72,6 +74,9 @@ class Quadrotor {
   void step(const std::array<double, 4>& throttles, const Eigen::Vector3d& wind_world_m_s, double floor_world_m,
             double step_s);
 
+  /// Tells where the nearest wall is, from now on: the direction to it, of any length, and the distance from the hull.
+  void feelWall(const Eigen::Vector2d& towards_wall_world, double gap_m);
+
   /// A push at the centre of mass, spread over kPush_s.
   void push(const Eigen::Vector3d& impulse_world_n_s);
   static constexpr double kPush_s = 0.1;
@@ -93,6 +98,8 @@ class Quadrotor {
   Battery battery_;
   Eigen::Vector3d push_world_n_s_ = Eigen::Vector3d::Zero();  ///< The part of the push that is still to come.
   double push_left_s_ = 0.0;
+  /// Pull of the wall, as a share of the thrust.
+  Eigen::Vector2d wall_pull_world_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace swiftlet::simulation

@@ -92,13 +92,12 @@ void Referee::judgeContacts(common::Time now, const QuadrotorState& state, std::
   last_position_world_m_ = state.T_world_body.position_m;
 }
 
-void Referee::judgeWorld(common::Time now, const QuadrotorState& state, Truth& truth) const {
-  const Clearance clearance =
-      rays_.sweep(hull_, last_position_world_m_, state.T_world_body.position_m, Truth::kClearanceLimit_m);
-  if (!state.standing) truth.min_clearance_m = std::min(truth.min_clearance_m, clearance.distance_m);
-  if (clearance.shape == Hit::kNothing || clearance.distance_m > 0.0) return;
-  const std::string name = nameOf(world_.shapes[static_cast<std::size_t>(clearance.shape)]);
-  crash(truth, now, name, touchedAt(name, clearance.point_world_m));
+void Referee::judgeWorld(common::Time now, const QuadrotorState& state, Truth& truth) {
+  clearance_ = rays_.sweep(hull_, last_position_world_m_, state.T_world_body.position_m, Truth::kClearanceLimit_m);
+  if (!state.standing) truth.min_clearance_m = std::min(truth.min_clearance_m, clearance_.distance_m);
+  if (clearance_.shape == Hit::kNothing || clearance_.distance_m > 0.0) return;
+  const std::string name = nameOf(world_.shapes[static_cast<std::size_t>(clearance_.shape)]);
+  crash(truth, now, name, touchedAt(name, clearance_.point_world_m));
 }
 
 void Referee::judgeWalker(common::Time now, const QuadrotorState& state, const Actor& walker, const std::string& name,

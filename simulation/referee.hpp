@@ -34,12 +34,15 @@ class Referee {
   /// Sweeps the hull from its place at the last call. Call at 100 Hz or more.
   void judgeContacts(common::Time now, const QuadrotorState& state, std::span<const Walker> walkers, Truth& truth);
 
+  /// The surface of the world nearest to the hull at the last call of judgeContacts(), within Truth::kClearanceLimit_m.
+  const Clearance& clearance() const { return clearance_; }
+
   /// Reports another vehicle: its hull, its name and the horizontal distance between the two hulls, 0 if they touch.
   void judgeMeeting(common::Time now, const QuadrotorState& state, double gap_m, const Actor& other,
                     const std::string& name, Truth& truth) const;
 
  private:
-  void judgeWorld(common::Time now, const QuadrotorState& state, Truth& truth) const;
+  void judgeWorld(common::Time now, const QuadrotorState& state, Truth& truth);
   void judgeWalker(common::Time now, const QuadrotorState& state, const Actor& walker, const std::string& name,
                    Truth& truth) const;
   Eigen::Vector3d hullPointTowards(const Eigen::Vector3d& position_world_m, const Eigen::Vector2d& direction) const;
@@ -47,6 +50,7 @@ class Referee {
   const WorldModel& world_;
   const RayCaster& rays_;
   Hull hull_;
+  Clearance clearance_;
   double gear_radius_m_;
   double lowest_world_m_;
   double floor_world_m_;

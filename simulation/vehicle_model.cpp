@@ -105,8 +105,16 @@ void VehicleModel::judge(Time now, std::uint64_t step, std::span<const Walker> w
   if (step % kStepsPerLook == 0) {
     referee_.lookDown(quadrotor_.state());
     referee_.judgeContacts(now, quadrotor_.state(), walkers, truth_);
+    feelWall();
   }
   updateTruth(now);
+}
+
+void VehicleModel::feelWall() {
+  const Clearance& wall = referee_.clearance();
+  const bool near = wall.shape != Hit::kNothing;
+  const Eigen::Vector2d towards = (wall.point_world_m - quadrotor_.state().T_world_body.position_m).head<2>();
+  quadrotor_.feelWall(near ? towards : Eigen::Vector2d::Zero(), wall.distance_m);
 }
 
 void VehicleModel::judgeMeeting(Time now, double gap_m, const VehicleModel& other) {

@@ -63,6 +63,7 @@ class VehicleModel {
   void receiveSetpoints(common::Time now);
   void stepAutopilot(common::Time now, std::uint64_t tick);
   void push(common::Time now);
+  void feelWall();
   void fall();
   void updateTruth(common::Time now);
 

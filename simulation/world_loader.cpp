@@ -83,6 +83,21 @@ std::optional<Color> colorOf(const sdf::Visual* visual) {
   return Color(diffuse.R(), diffuse.G(), diffuse.B());
 }
 
+/// What the material says of a geometry.
+struct Look {
+  std::optional<Color> color;
+  bool glass = false;
+};
+
+Look lookOf(const sdf::Visual* visual) {
+  constexpr float kHalf = 0.5F;
+  if (visual == nullptr) return {};
+  const sdf::Material* material = visual->Material();
+  const bool see_through = material != nullptr && material->Element() && material->Element()->HasElement("diffuse") &&
+                           material->Diffuse().A() <= kHalf;
+  return {colorOf(visual), see_through || visual->Transparency() >= kHalf};
+}
+
 /// A soft colour, different for each model, for models without a colour.
 Color colorByName(const std::string& name) {
   common::RandomStream random(0, name);
@@ -158,23 +173,23 @@ class Loader {
     for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
       const sdf::Collision& collision = *link.CollisionByIndex(i);
       const sdf::Visual* visual = i < link.VisualCount() ? link.VisualByIndex(i) : first_visual;
-      addGeometry(collision, T_world_link, top, part, colorOf(visual), kEndlessPlane_m);
+      addGeometry(collision, T_world_link, top, part, lookOf(visual), kEndlessPlane_m);
     }
     if (link.CollisionCount() > 0) return;
     for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
       const sdf::Visual& visual = *link.VisualByIndex(i);
-      addGeometry(visual, T_world_link, top, part, colorOf(&visual), 0.0);
+      addGeometry(visual, T_world_link, top, part, lookOf(&visual), 0.0);
     }
   }
 
   template <typename Item>
   void addGeometry(const Item& item, const common::Pose3& T_world_link, const std::string& top, const std::string& part,
-                   const std::optional<Color>& color, double least_plane_m) {
+                   const Look& look, double least_plane_m) {
     const auto T_link_item = resolve(item.SemanticPose(), item.Element());
     if (!T_link_item || item.Geom() == nullptr) return;
     const common::Pose3 T_world_item = T_world_link * *T_link_item;
     if (const sdf::Mesh* mesh = item.Geom()->MeshShape()) {
-      addMesh(*mesh, T_world_item, top, part, color);
+      addMesh(*mesh, T_world_item, top, part, look);
       return;
     }
     const Triangles triangles = solidTriangles(*item.Geom(), least_plane_m);
@@ -183,7 +198,7 @@ class Loader {
       return;
     }
     addShape(top, part, locationOf(item.Element(), world_.file), T_world_item, triangles,
-             color.value_or(colorByName(top)));
+             look.color.value_or(colorByName(top)), look.glass);
   }
 
   static Triangles solidTriangles(const sdf::Geometry& geometry, double least_plane_m) {
@@ -201,7 +216,7 @@ class Loader {
   }
 
   void addMesh(const sdf::Mesh& sdf_mesh, const common::Pose3& T_world_item, const std::string& top,
-               const std::string& part, const std::optional<Color>& color) {
+               const std::string& part, const Look& look) {
     const auto location = locationOf(sdf_mesh.Element(), world_.file);
     const auto path = resolver_.find(sdf_mesh.Uri(), sdf_mesh.FilePath());
     if (!path) {
@@ -220,7 +235,7 @@ class Loader {
     if (sdf_mesh.CenterSubmesh()) centre(triangles);
     const Eigen::Vector3f scale = toEigen(sdf_mesh.Scale()).cast<float>();
     for (Eigen::Vector3f& vertex : triangles.vertices_m) vertex = vertex.cwiseProduct(scale);
-    addShape(top, part, location, T_world_item, triangles, color.value_or(cached->second->color));
+    addShape(top, part, location, T_world_item, triangles, look.color.value_or(cached->second->color), look.glass);
   }
 
   static void centre(Triangles& triangles) {
@@ -230,8 +245,8 @@ class Loader {
   }
 
   void addShape(const std::string& top, const std::string& part, const common::SourceLocation& source,
-                const common::Pose3& T_world_item, const Triangles& triangles, const Color& color) {
-    Shape shape{top, part, source, color, {}, triangles.indices};
+                const common::Pose3& T_world_item, const Triangles& triangles, const Color& color, bool glass = false) {
+    Shape shape{top, part, source, color, {}, triangles.indices, glass};
     shape.vertices_world_m.reserve(triangles.vertices_m.size());
     for (const Eigen::Vector3f& vertex : triangles.vertices_m)
       shape.vertices_world_m.push_back((T_world_item * vertex.cast<double>()).cast<float>());

@@ -27,6 +27,7 @@ struct Shape {
   Color color = Color::Constant(0.7F);
   std::vector<Eigen::Vector3f> vertices_world_m;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into the vertices; either winding.
+  bool glass = false;                                   ///< Its material is transparent by half or more.
 };
 
 /// "model/part".
@@ -53,11 +54,12 @@ struct WorldModel {
 
 /// Reads an SDF world, or a bare `<model>` file as a world of that one model. Boxes, cylinders, spheres, capsules,
 /// ellipsoids, planes and meshes are triangulated. The collision geometry of a link is used, or its visual geometry if
-/// it has none. `model://` and `file://` URIs are searched for in `model_paths`, in the folders of SDF_PATH, and around
-/// the file itself (its folder, and the folders `models` and `media` beside and above it). An include that cannot be
-/// found and has no geometry that matters (Sun) is a warning; the well-known ground plane is replaced by one at z = 0.
-/// Throws common::InputError (file:line) if the file cannot be read, is malformed, or refers to something missing. Not
-/// thread-safe: libsdformat has global state.
+/// it has none. A visual with `<transparency>` of 0.5 or more, or with a diffuse alpha of 0.5 or less, is glass, as is
+/// the collision geometry that goes with it. `model://` and `file://` URIs are searched for in `model_paths`, in the
+/// folders of SDF_PATH, and around the file itself (its folder, and the folders `models` and `media` beside and above
+/// it). An include that cannot be found and has no geometry that matters (Sun) is a warning; the well-known ground
+/// plane is replaced by one at z = 0. Throws common::InputError (file:line) if the file cannot be read, is malformed,
+/// or refers to something missing. Not thread-safe: libsdformat has global state.
 WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths = {});
 
 }  // namespace swiftlet::simulation

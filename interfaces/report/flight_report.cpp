@@ -77,8 +77,9 @@ std::string header(const FlightSummary& summary) {
   if (!summary.reason.empty()) text += fmt::format("<p>{}</p>\n", escaped(summary.reason));
   if (summary.outcome == Outcome::kFlying)
     text += "<p>The flight goes on, or its program was ended before it could say how the flight ended.</p>\n";
-  text += fmt::format("<p>{} in {}, system {}, seed {}, version {}{}</p>", escaped(summary.info.mission_file),
-                      escaped(summary.info.world), escaped(summary.info.system), summary.info.seed,
+  text += fmt::format("<p>{} in {}, system {}{}, seed {}, version {}{}</p>", escaped(summary.info.mission_file),
+                      escaped(summary.info.world), escaped(summary.info.system),
+                      summary.info.nature.empty() ? "" : ", nature " + escaped(summary.info.nature), summary.info.seed,
                       escaped(summary.info.version),
                       summary.info.started.empty() ? "" : ", started " + escaped(html::moment(summary.info.started)));
   return text;

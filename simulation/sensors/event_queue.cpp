@@ -48,7 +48,7 @@ struct MakeNan {
     return std::shared_ptr<const common::LaserScan>(std::move(copy));
   }
   SensorEvent operator()(common::BatterySample sample) const {
-    sample.voltage_v = sample.remaining = kNan;
+    sample.voltage_v = sample.remaining = sample.current_a = kNan;
     return sample;
   }
   SensorEvent operator()(common::PilotSample sample) const {

@@ -34,7 +34,10 @@ LaserScanner::LaserScanner(const common::LaserConfig& config, const LaserErrorsC
       rays_(static_cast<std::size_t>(config.beams)),
       distances_m_(static_cast<std::size_t>(config.beams)),
       hits_(errors.needsSurfaces() ? static_cast<std::size_t>(config.beams) : 0) {
-  for (const Shape& shape : world.shapes) reflectances_.push_back(shape.color.mean());
+  for (const Shape& shape : world.shapes) {
+    reflectances_.push_back(shape.color.mean());
+    glass_.push_back(shape.glass);
+  }
   const common::Pose3 T_true_sheet = errors.mount_error.pose();
   const common::Pose3 T_body_laser = T_true_sheet * config.mount.pose();
   const common::Pose3 T_body_mirror = T_true_sheet * config.mirror_mount.pose();
@@ -76,7 +79,31 @@ void LaserScanner::castFrom(std::size_t first, std::size_t count, const std::vec
     return;
   }
   rays.castAll(beams, config_.range_max_m, actors, std::span(hits_).subspan(first, count));
-  for (std::size_t i = first; i < first + count; ++i) distances_m_[i] = static_cast<float>(hits_[i].distance_m);
+  for (std::size_t i = first; i < first + count; ++i) {
+    if (passesThrough(rays_[i], hits_[i])) hits_[i] = behindGlass(rays_[i], hits_[i], actors, rays);
+    distances_m_[i] = static_cast<float>(hits_[i].distance_m);
+  }
+}
+
+bool LaserScanner::passesThrough(const Ray& ray, const Hit& hit) const {
+  const auto shape = static_cast<std::size_t>(hit.shape);
+  if (errors_.glass_angle_deg <= 0.0 || !hit || shape >= glass_.size() || !glass_[shape]) return false;
+  const double cos_incidence = std::abs(static_cast<double>(ray.direction_world.dot(hit.normal_world)));
+  return cos_incidence < std::cos(errors_.glass_angle_deg * common::kRadPerDeg);
+}
+
+Hit LaserScanner::behindGlass(const Ray& ray, Hit hit, const std::vector<Actor>& actors, const RayCaster& rays) const {
+  constexpr int kMostSurfaces = 16;
+  constexpr double kStepBehind_m = 1e-3;  // Thinner than a pane.
+  const Eigen::Vector3d origin = ray.origin_world_m.cast<double>(), direction = ray.direction_world.cast<double>();
+  for (int surface = 0; surface < kMostSurfaces && passesThrough(ray, hit); ++surface) {
+    const double passed_m = hit.distance_m + kStepBehind_m;
+    hit = passed_m < config_.range_max_m
+              ? rays.cast(origin + passed_m * direction, direction, config_.range_max_m - passed_m, actors)
+              : Hit{};
+    hit.distance_m += passed_m;  // Stays infinite where nothing is hit.
+  }
+  return hit;
 }
 
 /// The returned power goes with reflectance * cos(incidence) / range^2.

@@ -28,7 +28,7 @@ class LaserScanner {
  public:
   /// A laser as on its data sheet.
   LaserScanner(const common::LaserConfig& config, std::uint64_t seed);
-  /// With errors that depend on the colours of the world's shapes.
+  /// With errors that depend on the materials of the world's shapes.
   LaserScanner(const common::LaserConfig& config, const LaserErrorsConfig& errors, const WorldModel& world,
                std::uint64_t seed);
 
@@ -48,6 +48,10 @@ class LaserScanner {
   common::Time stampOf(common::Time start) const;
   void sweepRays(common::Time start, const std::vector<Moment>& track, const RayCaster& rays);
   void castFrom(std::size_t first, std::size_t count, const std::vector<Actor>& actors, const RayCaster& rays);
+  /// Whether the beam goes through the surface, which is glass hit aslant (Foster 2013).
+  bool passesThrough(const Ray& ray, const Hit& hit) const;
+  /// The first hit behind the glass at `hit`.
+  Hit behindGlass(const Ray& ray, Hit hit, const std::vector<Actor>& actors, const RayCaster& rays) const;
   /// Puts what the surfaces do to the beams into distances_m_: lost returns, biases and mixed pixels.
   void addSurfaceErrors(std::uint64_t frame);
   double seenRange_m(const Hit& hit, double cos_incidence) const;
@@ -62,6 +66,7 @@ class LaserScanner {
   std::vector<Ray> rays_;  // Kept between scans to save the allocation.
   std::vector<float> distances_m_;
   std::vector<float> reflectances_;  ///< By shape of the world, in [0, 1].
+  std::vector<bool> glass_;          ///< By shape of the world.
   std::vector<Hit> hits_;            ///< Of the beams, when their surfaces matter.
 };
 

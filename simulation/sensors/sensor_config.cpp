@@ -85,8 +85,19 @@ void LaserErrorsConfig::describe(common::config::Fields& fields) {
   fields("sun_dropout_rate", sun_dropout_rate, {0, 1}, "Share of beams towards the sun that return nothing.");
   fields("sun_direction_deg", sun_direction_deg, {-360, 360}, "Heading of the sun in the world's frame.");
   fields("sun_width_deg", sun_width_deg, {0, 180}, "Angle to each side of the sun within which beams drop out.");
+  fields(
+      "glass_angle_deg", glass_angle_deg, {0, 90},
+      "Angle to its normal up to which glass returns a beam; at greater ones the beam goes through to what is behind. "
+      "0: glass is seen as a wall is.");
   fields("clock_offset_s", clock_offset_s, {-0.1, 0.1}, "What the laser's clock is ahead of the computer's at first.");
   fields("clock_drift_ppm", clock_drift_ppm, {-1000, 1000}, "What the laser's clock gains, in parts per million.");
+}
+
+void FuelGaugeConfig::describe(common::config::Fields& fields) {
+  fields("initial_error", initial_error, {-0.5, 0.5},
+         "Error of the charge that the gauge reads from the open-circuit voltage at the start, as a share of the full "
+         "one.");
+  fields("gain_error", gain_error, {-0.5, 0.5}, "Relative error of the current that the gauge measures and counts.");
 }
 
 void SensorsConfig::describe(common::config::Fields& fields) {
@@ -95,6 +106,7 @@ void SensorsConfig::describe(common::config::Fields& fields) {
   fields.section("camera", camera, "Camera.");
   fields("battery_rate_hz", battery_rate_hz, {0.1, 100}, "Battery samples a second.");
   fields("battery_noise_v", battery_noise_v, {0, 5}, "Standard deviation of the battery's voltage.");
+  fields.section("fuel_gauge", fuel_gauge, "Errors of the estimated charge.");
   fields("pilot_rate_hz", pilot_rate_hz, {1, 200}, "Samples of the pilot's sticks a second.");
   fields.section("imu_link", imu_link, "Link of inertial samples to the computer.");
   fields.section("laser_link", laser_link, "Link of scans to the computer.");

@@ -68,12 +68,21 @@ struct LaserErrorsConfig {
   double sun_dropout_rate = 0.0;
   double sun_direction_deg = 0.0;
   double sun_width_deg = 30.0;
+  double glass_angle_deg = 0.0;
   double clock_offset_s = 0.0;
   double clock_drift_ppm = 0.0;
 
   void describe(common::config::Fields& fields);
   /// Whether ranges depend on which surface was hit and at what angle.
-  bool needsSurfaces() const { return incidence_bias_m > 0.0 || dark_range_m > 0.0; }
+  bool needsSurfaces() const { return incidence_bias_m > 0.0 || dark_range_m > 0.0 || glass_angle_deg > 0.0; }
+};
+
+/// Errors of the fuel gauge, which counts the current from a charge that it guesses at the start.
+struct FuelGaugeConfig {
+  double initial_error = 0.0;
+  double gain_error = 0.0;
+
+  void describe(common::config::Fields& fields);
 };
 
 struct SensorsConfig {
@@ -82,6 +91,7 @@ struct SensorsConfig {
   CameraConfig camera;
   double battery_rate_hz = 5.0;
   double battery_noise_v = 0.02;
+  FuelGaugeConfig fuel_gauge;
   double pilot_rate_hz = 20.0;
   LinkConfig imu_link{.latency_s = 0.001};
   LinkConfig laser_link{.latency_s = 0.004, .jitter_s = 0.002, .loss_rate = 0.0};

@@ -16,6 +16,7 @@ SensorSuite::SensorSuite(const Scenario& scenario, std::uint64_t seed, const Wor
       inertial_(scenario.sensors.imu, scenario.vehicle.max_thrust_n, seed),
       laser_(scenario.laser, scenario.sensors.laser_errors, world, seed),
       camera_(scenario.sensors.camera, world, seed),
+      fuel_gauge_(scenario.sensors.fuel_gauge, scenario.battery_remaining),
       queue_(scenario, seed),
       imu_clock_(scenario.sensors.imu.rate_hz),
       laser_clock_(scenario.laser.rate_hz),
@@ -80,7 +81,8 @@ void SensorSuite::stepSlow(Time now, const Battery& battery) {
     common::BatterySample sample;
     sample.stamps.measured = now;
     sample.voltage_v = battery.voltage_v() + random.gaussian(scenario_.sensors.battery_noise_v);
-    sample.remaining = battery.remaining();
+    sample.remaining = fuel_gauge_.remaining(battery);
+    sample.current_a = fuel_gauge_.current_a(battery);
     queue_.send(Sensor::kBattery, battery_clock_.frame++, now, sample);
   }
   const PilotConfig* stick = sticks(now);

@@ -11,6 +11,7 @@
 #include "simulation/scenario.hpp"
 #include "simulation/sensors/camera.hpp"
 #include "simulation/sensors/event_queue.hpp"
+#include "simulation/sensors/fuel_gauge.hpp"
 #include "simulation/sensors/inertial_unit.hpp"
 #include "simulation/sensors/laser_scanner.hpp"
 #include "simulation/world_model.hpp"
@@ -59,6 +60,7 @@ class SensorSuite {
   InertialUnit inertial_;
   LaserScanner laser_;
   Camera camera_;
+  FuelGauge fuel_gauge_;
   EventQueue queue_;
   Clock imu_clock_, laser_clock_, battery_clock_, pilot_clock_, camera_clock_;
   std::vector<Moment> track_;  ///< The track since the start of the present sweep.

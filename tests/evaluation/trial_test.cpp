@@ -98,6 +98,31 @@ TEST_F(Trials, EachOfSeveralVehiclesMayHaveItsOwnMission) {
   EXPECT_EQ(trial.scenario.vehicles[1].mission, "n.xml");
 }
 
+TEST_F(Trials, WithSeveralNaturesAreOneTrialForEach) {
+  put("house.yaml", std::string(kSmallest) + "natures: [calm, real, my/own.yaml]\n");
+  const auto trials = readTrials(folder_).at(0).byNature();
+  ASSERT_EQ(trials.size(), 3u);
+  EXPECT_EQ(trials[0].name, "house-calm");
+  EXPECT_EQ(trials[1].name, "house-real");
+  EXPECT_EQ(trials[2].name, "house-own");
+  EXPECT_THAT(trials[1].natures, testing::ElementsAre("real"));
+
+  put("house.yaml", std::string(kSmallest) + "natures: [real]\n");
+  const auto alone = readTrials(folder_).at(0).byNature();
+  ASSERT_EQ(alone.size(), 1u);
+  EXPECT_EQ(alone[0].name, "house") << "of one nature alone the trial keeps its name";
+  put("house.yaml", kSmallest);
+  EXPECT_THAT(readTrials(folder_).at(0).natures, testing::ElementsAre("calm"));
+  put("house.yaml", std::string(kSmallest) + "natures: []\n");
+  EXPECT_THAT(problemOf(folder_), HasSubstr("natures: is empty"));
+}
+
+TEST_F(Trials, TheKeysOfTheScenarioThatAreWrittenOutAreKnown) {
+  put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, quadrotor: {motor_lag_s: 0.05}, battery_remaining: 1.0}\n");
+  EXPECT_THAT(readTrials(folder_).at(0).scenario.written,
+              testing::UnorderedElementsAre("world", "quadrotor.motor_lag_s", "battery_remaining"));
+}
+
 TEST_F(Trials, VehiclesWithTheSameNameOrASlashInItAreRefused) {
   put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, vehicles: [{name: alpha}, {name: alpha}]}\n");
   EXPECT_THAT(problemOf(folder_), HasSubstr("vehicles: two are called `alpha`"));

@@ -116,6 +116,28 @@ TEST(RunFolder, ContainsEveryFile) {
   EXPECT_EQ(run.summary().samples.size(), 51u) << "5 Hz for 10 s";
 }
 
+TEST(RunFolder, SaysWhichNatureWasFlownAndWhatWasDrawn) {
+  const ScratchFolder folder;
+  RunInfo info = kInfo;
+  info.nature = "real";
+  info.nature_yaml = "quadrotor: {mass_share: 1.07}\n";
+  {
+    RunFolder run(folder / "run", info, "");
+    EXPECT_EQ(bytesOf(folder / "run/nature.yaml"), info.nature_yaml) << "from the start of the flight";
+    run.finish({});
+  }
+  EXPECT_EQ(json::parse(bytesOf(folder / "run/mission.json"))["nature"], "real");
+  EXPECT_THAT(bytesOf(folder / "run/report.html"), HasSubstr("nature real"));
+
+  info.nature = "calm";
+  info.nature_yaml.clear();
+  RunFolder(folder / "run", info, "").finish({});
+  EXPECT_FALSE(fs::exists(folder / "run/nature.yaml")) << "the older run's is removed, and calm draws nothing";
+  EXPECT_EQ(json::parse(bytesOf(folder / "run/mission.json"))["nature"], "calm");
+  RunFolder(folder / "run", kInfo, "").finish({});
+  EXPECT_FALSE(json::parse(bytesOf(folder / "run/mission.json")).contains("nature")) << "a real vehicle has none";
+}
+
 TEST(RunFolder, ContainsTheTrajectoryInTheGivenMap) {
   const ScratchFolder folder;
   RunInfo info = kInfo;

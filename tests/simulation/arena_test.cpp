@@ -26,7 +26,7 @@ WorldModel halvedRoom() {
 
 Scenario withEverything(Scenario scenario) {
   scenario.seed = 7;
-  scenario.wind = {0.2, -0.1, 0.2, 1.0};
+  scenario.wind = {.mean_x_m_s = 0.2, .mean_y_m_s = -0.1, .gust_m_s = 0.2, .gust_time_s = 1.0};
   scenario.variation.start_position_m = 0.3;
   scenario.variation.start_yaw_deg = 10.0;
   scenario.variation.wind_m_s = 0.1;

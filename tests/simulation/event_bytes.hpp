@@ -31,6 +31,7 @@ inline std::string bytesOf(const common::SensorEvent& event) {
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     append(bytes, battery->voltage_v);
     append(bytes, battery->remaining);
+    append(bytes, battery->current_a);
   } else if (const auto* frame = std::get_if<Frame>(&event)) {
     append(bytes, (*frame)->image.rgb.data(), (*frame)->image.rgb.size());
   }

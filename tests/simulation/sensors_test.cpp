@@ -3,34 +3,13 @@
 #include <cmath>
 
 #include "fixtures.hpp"
+#include "laser_fixtures.hpp"
 #include "simulation/sensors/camera.hpp"
-#include "simulation/sensors/laser_scanner.hpp"
-#include "simulation/sensors/link.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
-using common::Duration;
 using common::Time;
-
-common::LaserConfig quietLaser() {
-  common::LaserConfig laser;
-  laser.range_noise_m = 0.0;
-  laser.dropout_rate = 0.0;
-  return laser;
-}
-
-std::vector<Moment> still(const common::Pose3& pose, const std::vector<Actor>& actors = {}) {
-  return {{Time(), pose, actors}, {Time::fromSeconds(0.2), pose, actors}};
-}
-
-/// Where a level ray meets the walls of boxRoom().
-double rangeInRoom(const Eigen::Vector2d& from, double angle_rad) {
-  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  const double to_x = c > 0 ? (5.0 - from.x()) / c : c < 0 ? (-5.0 - from.x()) / c : INFINITY;
-  const double to_y = s > 0 ? (4.0 - from.y()) / s : s < 0 ? (-4.0 - from.y()) / s : INFINITY;
-  return std::min(to_x, to_y);
-}
 
 TEST(LaserScanner, RangesEqualTheGeometryOfARoom) {
   LaserScanner laser(quietLaser(), 1);
@@ -162,19 +141,6 @@ TEST(Camera, ShowsColoursInTheRightPlace) {
   EXPECT_LT(pixel(80, 120)[1], 10);
   EXPECT_EQ(pixel(240, 120)[0], pixel(240, 120)[1]) << "the wall on the right is grey";
   EXPECT_NE(pixel(160, 5)[0], pixel(160, 120)[0]) << "the ceiling is shaded otherwise than the wall";
-}
-
-TEST(Link, DelaysMessagesInOrder) {
-  Link link({.latency_s = 0.01, .jitter_s = 0.05, .loss_rate = 0.0}, 1, "laser");
-  Time last;
-  for (std::uint64_t frame = 0; frame < 1000; ++frame) {
-    const Time ready = Time::fromSeconds(0.01 * static_cast<double>(frame));
-    const auto arrived = link.arrival(frame, ready);
-    ASSERT_TRUE(arrived);
-    EXPECT_GE(*arrived, ready + Duration::fromSeconds(0.01));
-    EXPECT_GE(*arrived, last) << "nothing overtakes";
-    last = *arrived;
-  }
 }
 
 }  // namespace

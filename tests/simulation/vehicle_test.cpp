@@ -17,7 +17,7 @@ using ::testing::StartsWith;
 std::vector<common::SensorEvent> tour(int seed, bool camera) {
   Scenario scenario;
   scenario.seed = seed;
-  scenario.wind = {0.3, -0.2, 0.2, 1.0};
+  scenario.wind = {.mean_x_m_s = 0.3, .mean_y_m_s = -0.2, .gust_m_s = 0.2, .gust_time_s = 1.0};
   scenario.sensors.camera.width_px = 32;
   scenario.sensors.camera.height_px = 24;
   scenario.walkers.push_back({WalkerMode::kPath, {3, -3, 3, 3}, WalkerEnd::kReturn});

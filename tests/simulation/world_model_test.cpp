@@ -69,6 +69,22 @@ double surfaceVolume(const Shape& shape) {  // For a closed shape, with either w
   return centre.allFinite() ? volume : NAN;
 }
 
+TEST_F(WorldFile, MaterialsThatAreHalfTransparentAreGlass) {
+  const auto pane = [](const std::string& name, const std::string& visual) {
+    return "<model name=\"" + name + "\"><static>true</static><link name=\"l\"><collision name=\"c\"><geometry>" +
+           kBox + "</geometry></collision><visual name=\"v\"><geometry>" + kBox + "</geometry>" + visual +
+           "</visual></link></model>\n";
+  };
+  const WorldModel w = load(pane("window", "<transparency>0.7</transparency>") +
+                            pane("door", "<material><diffuse>0.8 0.9 1 0.3</diffuse></material>") +
+                            pane("curtain", "<transparency>0.2</transparency>") +
+                            pane("wall", "<material><diffuse>0.8 0.9 1 1</diffuse></material>") + model("bare", kBox));
+  std::vector<std::string> glass;
+  for (const Shape& shape : w.shapes)
+    if (shape.glass) glass.push_back(shape.model);
+  EXPECT_THAT(glass, ElementsAre("window", "door"));
+}
+
 TEST_F(WorldFile, TriangulatesEverySolid) {
   const WorldModel w =
       load(model("box", kBox) + model("cylinder", "<cylinder><radius>1</radius><length>2</length></cylinder>") +

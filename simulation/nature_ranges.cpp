@@ -1,0 +1,160 @@
+#include "simulation/nature_ranges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include "common/config.hpp"
+#include "common/error.hpp"
+#include "simulation/whole_number_keys.hpp"
+
+namespace swiftlet::simulation {
+namespace {
+
+using common::InputError;
+using common::Problem;
+
+constexpr const char* kLeastThrust = "least_thrust_over_weight";
+
+/// What a nature's file may say: the parts of a scenario that are the plant.
+struct NatureKeys {
+  double least_thrust_over_weight = 1.05;
+  Scenario scenario;
+
+  void describe(common::config::Fields& fields) {
+    fields(kLeastThrust, least_thrust_over_weight, {0, 10}, "Thrust over weight that a draw must have.");
+    fields("battery_remaining", scenario.battery_remaining, {0.01, 1}, "Charge at the start.");
+    fields.section("wind", scenario.wind, "Wind.");
+    fields.section("quadrotor", scenario.quadrotor, "The airframe's physics.");
+    fields.section("autopilot", scenario.autopilot, "The inner loop.");
+    fields.section("sensors", scenario.sensors, "Errors and delays of the sensors.");
+  }
+};
+
+bool isWhole(double value) { return std::floor(value) == value; }
+
+/// The node below `root` at "quadrotor.battery.capacity_ah", made where there is none.
+YAML::Node nodeAt(const YAML::Node& root, const std::string& key) {
+  YAML::Node node = root;
+  for (std::size_t begin = 0; begin <= key.size();) {
+    const std::size_t end = std::min(key.find('.', begin), key.size());
+    YAML::Node next = node[key.substr(begin, end - begin)];
+    node.reset(next);
+    begin = end + 1;
+  }
+  return node;
+}
+
+/// Whether the key, or a section that it is in, is one of them.
+bool isAmong(const std::string& key, const std::vector<std::string>& keys) {
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const std::string& one) { return key == one || key.starts_with(one + "."); });
+}
+
+}  // namespace
+
+/// Reads the text once into entries and collects what is wrong with ranges.
+class NatureRanges::Reader {
+ public:
+  Reader(const std::string& text, const std::string& file) : text_(text), file_(file) {
+    try {
+      const YAML::Node root = YAML::Load(text);
+      if (root.IsMap()) readMap(root, "");
+    } catch (const YAML::Exception& e) {
+      throw InputError(Problem{{file, e.mark.line + 1, e.mark.column + 1}, "", "not YAML: " + e.msg, ""});
+    }
+    if (!problems_.empty()) throw InputError(problems_);
+  }
+
+  std::vector<Entry> entries;
+
+ private:
+  void readMap(const YAML::Node& map, const std::string& prefix) {
+    for (const auto& item : map) {
+      const std::string key = prefix + (item.first.IsScalar() ? item.first.Scalar() : "?");
+      if (item.second.IsMap()) readMap(item.second, key + ".");
+      if (item.second.IsSequence()) readRange(item.second, key);
+      if (item.second.IsScalar()) entries.push_back({.key = key, .value = item.second.Scalar()});
+    }
+  }
+
+  void readRange(const YAML::Node& node, const std::string& key) {
+    Entry entry{.key = key, .value = {}, .whole = whole_.contains(key)};
+    const auto number = [](const YAML::Node& end, double& value) {
+      return end.IsScalar() && YAML::convert<double>::decode(end, value) && std::isfinite(value);
+    };
+    entry.from = static_cast<std::size_t>(node.Mark().pos);
+    const std::size_t close = text_.find(']', entry.from);
+    if (node.size() != 2 || !number(node[0], entry.low) || !number(node[1], entry.high) || text_[entry.from] != '[')
+      return report(node, key, "is not a range [low, high] of two numbers", "a range is drawn from uniformly");
+    if (entry.low > entry.high)
+      return report(node, key, fmt::format("is upside down: {} is above {}", entry.low, entry.high),
+                    "the lower number stands first");
+    if (entry.whole && !(isWhole(entry.low) && isWhole(entry.high)))
+      return report(node, key, "is not a range of two whole numbers", "");
+    entry.size = close + 1 - entry.from;
+    entries.push_back(entry);
+  }
+
+  void report(const YAML::Node& node, const std::string& key, const std::string& message, const std::string& hint) {
+    problems_.push_back({{file_, node.Mark().line + 1, node.Mark().column + 1}, key, message, hint});
+  }
+
+  const std::string& text_;
+  std::string file_;
+  std::set<std::string> whole_ = WholeNumberKeys().of(NatureKeys());
+  std::vector<Problem> problems_;
+};
+
+std::string NatureRanges::Entry::drawn(const Choose& choose) const {
+  if (!isRange()) return value;
+  if (whole) return fmt::format("{}", std::min(high, std::floor(choose(key, low, high + 1.0))));
+  return fmt::format("{}", choose(key, low, high));
+}
+
+NatureRanges::NatureRanges(const std::string& text, const std::string& file)
+    : file_(file), entries_(Reader(text, file).entries) {
+  // The file is read with the lower and with the upper end of each range in its place, so that everything that is wrong
+  // is told now, with its line, and not in some draw.
+  for (const bool low : {true, false}) {
+    const auto end_of = [low](const std::string&, double a, double b) { return low ? a : b; };
+    std::string with_numbers = text;
+    for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry)  // From behind, so that places stay.
+      if (entry->isRange())
+        with_numbers.replace(entry->from, entry->size, fmt::format("{:<{}}", entry->drawn(end_of), entry->size));
+    NatureKeys keys;
+    common::config::YamlReader::fromText(with_numbers, file).read(keys);
+    least_thrust_over_weight_ = keys.least_thrust_over_weight;
+  }
+  std::erase_if(entries_, [](const Entry& entry) { return entry.key == kLeastThrust; });
+}
+
+void NatureRanges::narrow(const std::string& key, double low, double high) {
+  for (Entry& entry : entries_) {
+    if (entry.key != key || !entry.isRange()) continue;
+    entry.low = low;
+    entry.high = high;
+  }
+}
+
+void NatureRanges::apply(Scenario& scenario, const std::vector<std::string>& written, const Choose& choose) const {
+  YAML::Node values(YAML::NodeType::Map);
+  for (const Entry& entry : entries_)
+    if (!isAmong(entry.key, written)) nodeAt(values, entry.key) = entry.drawn(choose);
+  NatureKeys keys{.scenario = std::move(scenario)};
+  common::config::YamlReader::fromText(YAML::Dump(values), file_).read(keys);
+  scenario = std::move(keys.scenario);
+}
+
+std::string NatureRanges::valuesIn(const Scenario& scenario) const {
+  using common::config::YamlPrinter;
+  const YAML::Node all = YAML::Load(YamlPrinter(YamlPrinter::Comments::kNo).print(NatureKeys{.scenario = scenario}));
+  YAML::Node values(YAML::NodeType::Map);
+  for (const Entry& entry : entries_) nodeAt(values, entry.key) = nodeAt(all, entry.key).Scalar();
+  return YAML::Dump(values) + "\n";
+}
+
+}  // namespace swiftlet::simulation

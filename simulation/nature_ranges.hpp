@@ -1,0 +1,58 @@
+// The content of a nature's file: keys of a scenario, each with a value or with a range that a seed draws from.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "simulation/scenario.hpp"
+
+namespace swiftlet::simulation {
+
+/// Const calls are safe from several threads.
+class NatureRanges {
+ public:
+  /// `file` stands for the file in messages. Throws common::InputError with file, line and key: not YAML, unknown keys,
+  /// keys that describe the flight and not the plant (`world`, `walkers`), ranges that are upside down, values out of
+  /// bounds.
+  NatureRanges(const std::string& text, const std::string& file);
+
+  /// Nothing is drawn and nothing is set.
+  bool empty() const { return entries_.empty(); }
+  double leastThrustOverWeight() const { return least_thrust_over_weight_; }
+  const std::string& file() const { return file_; }
+
+  /// Replaces the range of a key that has one; other keys stay as they are.
+  void narrow(const std::string& key, double low, double high);
+
+  /// A number within [low, high) for the key, "quadrotor.mass_share".
+  using Choose = std::function<double(const std::string& key, double low, double high)>;
+
+  /// Sets every key in the scenario, but for those in `written` and those in a section that is in `written`. A key that
+  /// holds a whole number gets each of low, low + 1, ... high with the same chance.
+  void apply(Scenario& scenario, const std::vector<std::string>& written, const Choose& choose) const;
+
+  /// A nature's file with the same keys and, instead of the ranges, the values that the scenario has.
+  std::string valuesIn(const Scenario& scenario) const;
+
+ private:
+  struct Entry {
+    std::string key;
+    std::string value;  ///< As written; empty for a range.
+    double low = 0.0;
+    double high = 0.0;
+    bool whole = false;    ///< It draws whole numbers.
+    std::size_t from = 0;  ///< Where the range stands in the text.
+    std::size_t size = 0;
+
+    bool isRange() const { return value.empty(); }
+    std::string drawn(const Choose& choose) const;
+  };
+  class Reader;
+
+  std::string file_;
+  std::vector<Entry> entries_;
+  double least_thrust_over_weight_ = 0.0;
+};
+
+}  // namespace swiftlet::simulation

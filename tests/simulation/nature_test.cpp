@@ -1,0 +1,226 @@
+// What a nature draws: from which ranges, by which seed, what wins over it, and that the vehicle can fly.
+#include "simulation/nature.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <set>
+
+#include "arena_fixtures.hpp"
+#include "common/config.hpp"
+#include "common/error.hpp"
+#include "event_bytes.hpp"
+#include "simulation/variation.hpp"
+
+namespace swiftlet::simulation {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Ge;
+using ::testing::HasSubstr;
+using ::testing::Le;
+
+constexpr int kSeeds = 300;
+
+std::string text(const Scenario& scenario) {
+  using common::config::YamlPrinter;
+  return YamlPrinter(YamlPrinter::Comments::kNo).print(scenario);
+}
+
+Nature shipped(const std::string& name) { return Nature::load(SWIFTLET_SOURCE_DIR "/config/nature/" + name + ".yaml"); }
+
+std::string problemOf(const std::string& yaml) {
+  try {
+    (void)Nature::fromText(yaml, "odd.yaml");
+  } catch (const common::InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+/// A short flight by the truth.
+std::string flownBytes(const Scenario& scenario) {
+  SimulatedVehicle vehicle(boxRoom(), scenario);
+  TruthPilot pilot(vehicle);
+  pilot.flyTo(0.5, 0, 1);
+  EXPECT_TRUE(pilot.fly(1.5)) << vehicle.stopReason();
+  return bytesOf(pilot.events, false);
+}
+
+TEST(Nature, CalmChangesNothing) {
+  Scenario scenario;
+  scenario.battery_remaining = 0.6;
+  EXPECT_EQ(text(shipped("calm").drawn(scenario, 3)), text(scenario));
+  EXPECT_EQ(text(Nature::calm().drawn(scenario, 3)), text(scenario));
+  scenario.vehicle.mass_kg = 10.0;
+  EXPECT_EQ(shipped("calm").drawn(scenario, 3).battery_remaining, 0.6) << "even for a vehicle that cannot fly";
+}
+
+TEST(Nature, AFlightInCalmHasTheBytesOfOneWithoutNature) {
+  Scenario plain, calm;
+  calm.nature = std::make_shared<const Nature>(shipped("calm"));
+  EXPECT_EQ(flownBytes(plain), flownBytes(calm));
+  Scenario real;
+  real.nature = std::make_shared<const Nature>(shipped("real"));
+  EXPECT_NE(flownBytes(plain), flownBytes(real));
+}
+
+TEST(Nature, OnlyTheSameSeedDrawsTheSame) {
+  const Nature real = shipped("real");
+  EXPECT_EQ(text(real.drawn({}, 11)), text(real.drawn({}, 11)));
+  EXPECT_NE(text(real.drawn({}, 11)), text(real.drawn({}, 12)));
+}
+
+TEST(Nature, AWrittenKeyWinsAndShiftsNoOtherDraw) {
+  const Nature real = shipped("real");
+  Scenario written;
+  written.quadrotor.motor_lag_s = 0.08;
+  written.sensors.laser_link.latency_s = 0.2;
+  written.written = {"quadrotor.motor_lag_s", "sensors.laser_link.latency_s"};
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Scenario free = real.drawn({}, seed);
+    const Scenario bound = real.drawn(written, seed);
+    EXPECT_EQ(bound.quadrotor.motor_lag_s, 0.08);
+    EXPECT_EQ(bound.sensors.laser_link.latency_s, 0.2);
+    EXPECT_EQ(bound.sensors.laser_link.loss_rate, free.sensors.laser_link.loss_rate) << "its neighbour is drawn";
+    free.quadrotor.motor_lag_s = 0.08;
+    free.sensors.laser_link.latency_s = 0.2;
+    EXPECT_EQ(text(bound), text(free)) << "seed " << seed;
+  }
+}
+
+TEST(Nature, EveryDrawIsWithinItsRangeAndTheRangeIsUsed) {
+  const Nature nature = Nature::fromText(
+      "least_thrust_over_weight: 0\n"
+      "quadrotor: {mass_share: [0.9, 1.1], weak_motor: [1, 4]}\n"
+      "sensors:\n  laser_errors:\n    clock_offset_s: [-0.005, 0.005]\n",
+      "three.yaml");
+  double least = 2.0, greatest = 0.0;
+  std::array<int, 5> weak{};
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Scenario drawn = nature.drawn({}, seed);
+    ASSERT_THAT(drawn.quadrotor.mass_share, AllOf(Ge(0.9), Le(1.1)));
+    ASSERT_THAT(drawn.sensors.laser_errors.clock_offset_s, AllOf(Ge(-0.005), Le(0.005)));
+    ASSERT_THAT(drawn.quadrotor.weak_motor, AllOf(Ge(1), Le(4)));
+    least = std::min(least, drawn.quadrotor.mass_share);
+    greatest = std::max(greatest, drawn.quadrotor.mass_share);
+    ++weak[static_cast<std::size_t>(drawn.quadrotor.weak_motor)];
+    EXPECT_EQ(drawn.quadrotor.inertia_xx_kg_m2, Scenario{}.quadrotor.inertia_xx_kg_m2) << "it is not in the file";
+  }
+  EXPECT_LT(least, 0.905);
+  EXPECT_GT(greatest, 1.095);
+  for (const int motor : {1, 2, 3, 4}) EXPECT_NEAR(weak[static_cast<std::size_t>(motor)], kSeeds / 4, 25) << motor;
+}
+
+TEST(Nature, ADrawCanFly) {
+  for (const auto& [name, least] : {std::pair("real", 1.15), std::pair("harsh", 1.05)}) {
+    const Nature nature = shipped(name);
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+      const Scenario drawn = nature.drawn({}, seed);
+      EXPECT_GE(thrustOverWeight(drawn.vehicle, drawn.quadrotor, drawn.battery_remaining, Nature::kFullThrottle), least)
+          << name << ", seed " << seed;
+    }
+  }
+}
+
+TEST(Nature, ChargeIsRaisedUntilTheVehicleCanFlyButNotAWrittenOne) {
+  const Nature tired = Nature::fromText("least_thrust_over_weight: 1.3\nbattery_remaining: [0.02, 0.05]\n", "tired");
+  const Scenario drawn = tired.drawn({}, 1);
+  EXPECT_GT(drawn.battery_remaining, 0.05);
+  EXPECT_GE(thrustOverWeight(drawn.vehicle, drawn.quadrotor, drawn.battery_remaining, Nature::kFullThrottle), 1.3);
+  EXPECT_LT(thrustOverWeight(drawn.vehicle, drawn.quadrotor, drawn.battery_remaining - 0.011, Nature::kFullThrottle),
+            1.3)
+      << "and no further";
+
+  Scenario written;
+  written.battery_remaining = 0.03;
+  written.written = {"battery_remaining"};
+  EXPECT_EQ(tired.drawn(written, 1).battery_remaining, 0.03);
+  Scenario varied;
+  varied.written = {"variation.battery_remaining"};
+  EXPECT_EQ(tired.drawn(varied, 1).battery_remaining, 1.0) << "a scenario that varies the charge says what it is";
+}
+
+TEST(Nature, AnotherRangeOfTheChargeShiftsNoOtherDraw) {
+  const Nature real = shipped("real"), charged = real.withCharge(0.9, 1.0);
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Scenario drawn = charged.drawn({}, seed);
+    EXPECT_GE(drawn.battery_remaining, 0.9);
+    const Scenario before = real.drawn({}, seed);
+    drawn.battery_remaining = before.battery_remaining;
+    EXPECT_EQ(text(drawn), text(before)) << seed;
+  }
+  EXPECT_EQ(Nature::calm().withCharge(0.9, 1.0).drawn({}, 1).battery_remaining, 1.0);
+  const Nature windy = Nature::fromText("wind: {gust_m_s: 1}\n", "windy.yaml").withCharge(0.5, 0.6);
+  EXPECT_EQ(windy.drawn({}, 1).battery_remaining, 1.0) << "it draws no charge";
+}
+
+TEST(Nature, IsDrawnAnewWhenAFullBatteryIsTooWeak) {
+  const Nature heavy =
+      Nature::fromText("least_thrust_over_weight: 1.2\nquadrotor: {mass_share: [0.9, 1.9]}\n", "heavy.yaml");
+  for (std::uint64_t seed = 0; seed < 50; ++seed) EXPECT_LT(heavy.drawn({}, seed).quadrotor.mass_share, 1.4);
+  const Nature lead = Nature::fromText("quadrotor: {mass_share: [1.9, 2.0]}\n", "lead.yaml");
+  try {
+    (void)lead.drawn({}, 1);
+    FAIL() << "no draw can fly";
+  } catch (const common::InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("lead.yaml"), HasSubstr("least_thrust_over_weight")));
+  }
+}
+
+TEST(Nature, MistakesAreToldWithFileLineAndKey) {
+  EXPECT_THAT(problemOf("wind:\n  model: dryden\nquadrotor:\n  mass_shar: [0.9, 1.1]\n"),
+              AllOf(HasSubstr("odd.yaml:4:3: quadrotor: unknown key `mass_shar`"), HasSubstr("`mass_share`")));
+  EXPECT_THAT(problemOf("quadrotor:\n  mass_share: [1.1, 0.9]\n"),
+              HasSubstr("odd.yaml:2:15: quadrotor.mass_share: is upside down: 1.1 is above 0.9"));
+  EXPECT_THAT(problemOf("quadrotor:\n  mass_share: [0.9, 11]\n"),
+              HasSubstr("odd.yaml:2:15: quadrotor.mass_share: 11 is not within 0.5 and 2"));
+  EXPECT_THAT(problemOf("quadrotor:\n  # heavy\n  mass_share: [0.1, 1]\n"),
+              HasSubstr("odd.yaml:3:15: quadrotor.mass_share: 0.1 is not within 0.5 and 2"));
+  EXPECT_THAT(problemOf("quadrotor: {mass_share: [0.9, much]}\n"), HasSubstr("is not a range [low, high]"));
+  EXPECT_THAT(problemOf("quadrotor: {mass_share: [0.9, 1.0, 1.1]}\n"), HasSubstr("is not a range [low, high]"));
+  EXPECT_THAT(problemOf("quadrotor:\n  mass_share:\n    - 0.9\n    - 1.0\n"), HasSubstr("is not a range [low, high]"));
+  EXPECT_THAT(problemOf("quadrotor: {weak_motor: [1.5, 4]}\n"),
+              HasSubstr("quadrotor.weak_motor: is not a range of two whole numbers"));
+  EXPECT_THAT(problemOf("quadrotor: {weak_motor: [1, 5]}\n"), HasSubstr("quadrotor.weak_motor: 5 is not within"));
+  EXPECT_THAT(problemOf("autopilot: {mixing: [clamp_each, attitude_first]}\n"), HasSubstr("autopilot.mixing"));
+  EXPECT_THAT(problemOf("world: a.sdf\n"), HasSubstr("odd.yaml:1:1: unknown key `world`"))
+      << "a nature is the plant, not the flight";
+  EXPECT_THAT(problemOf("quadrotor: {mass_share: [0.9\n"), HasSubstr("odd.yaml"));
+}
+
+TEST(Nature, RecordsItsValuesAsANatureThatDrawsThemAgain) {
+  const Nature real = shipped("real");
+  EXPECT_EQ(Nature::calm().valuesIn({}), "");
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Scenario drawn = real.drawn({}, seed);
+    const std::string values = real.valuesIn(drawn);
+    EXPECT_EQ(values.find('['), std::string::npos) << values;
+    EXPECT_EQ(text(Nature::fromText(values, "nature.yaml").drawn({}, seed + 1000)), text(drawn)) << values;
+  }
+}
+
+TEST(Nature, EachOfSeveralVehiclesDrawsItsOwnAndWindIsShared) {
+  Scenario scenario = scenarioOf({vehicleAt("alpha", -2, 0), vehicleAt("beta", 2, 0)});
+  scenario.vehicles[1].battery_remaining = 0.77;
+  scenario.written = {"vehicles[1].battery_remaining"};
+  scenario.nature = std::make_shared<const Nature>(Nature::fromText(
+      "battery_remaining: [0.5, 0.7]\nquadrotor: {mass_share: [0.9, 1.1]}\nwind: {gust_m_s: [0, 1]}\n", "own.yaml"));
+  const Realization both = realize(boxRoom(), scenario);
+  const Scenario &alpha = both.vehicles.at(0).scenario, &beta = both.vehicles.at(1).scenario;
+  EXPECT_NE(alpha.quadrotor.mass_share, beta.quadrotor.mass_share);
+  EXPECT_THAT(alpha.battery_remaining, AllOf(Ge(0.5), Le(0.7)));
+  EXPECT_EQ(beta.battery_remaining, 0.77) << "it is written";
+  EXPECT_EQ(alpha.wind.gust_m_s, beta.wind.gust_m_s) << "there is one air";
+
+  Scenario first = scenario;
+  first.vehicles.pop_back();
+  EXPECT_EQ(realize(boxRoom(), first).vehicles.at(0).scenario.quadrotor.mass_share, alpha.quadrotor.mass_share)
+      << "a second vehicle changes nothing for the first";
+}
+
+}  // namespace
+}  // namespace swiftlet::simulation
