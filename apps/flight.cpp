@@ -103,11 +103,15 @@ class Flight {
     std::this_thread::sleep_until(due);
   }
 
-  /// So that the pages see how it ended.
+  /// So that the pages see how it ended. Who stops the flight in the air waits no longer than that takes.
   void linger() const {
+    constexpr double kEnoughForPages_s = 0.5;
     const Clock::time_point begin = Clock::now();
-    while (secondsSince(begin) < setup_.linger_s && !(hooks_.stop && *hooks_.stop))
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const auto enough_s = [&] {
+      const bool in_haste = hooks_.stop && *hooks_.stop;
+      return in_haste ? std::min(kEnoughForPages_s, setup_.linger_s) : setup_.linger_s;
+    };
+    while (secondsSince(begin) < enough_s()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 
   const FlightSetup& setup_;

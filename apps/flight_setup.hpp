@@ -48,7 +48,8 @@ struct FlightHooks {
   std::function<void(const FlightProgress&)> progress;  ///< About ten times a second of wall time.
   std::function<void(const common::Event&)> event;
   WebLink* web = nullptr;                   ///< With a channel for each vehicle.
-  const std::atomic<bool>* stop = nullptr;  ///< Ends the flight from outside.
+  const std::atomic<bool>* land = nullptr;  ///< Lands every vehicle, as the operator's command does.
+  const std::atomic<bool>* stop = nullptr;  ///< Ends the flight from outside, in the air too.
   /// At the end of each vehicle's flight, before the run's last files are written: adds to them what a scorer finds.
   std::function<void(const evaluation::FlightRecord&, const simulation::SimulatedVehicle&, interfaces::FlightEnd&)>
       score;

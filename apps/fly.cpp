@@ -180,7 +180,7 @@ int fly(const FlyOptions& options) {
   FlightSetup setup = setupOf(options);
   std::vector<FlightMission> missions = soundMissions(setup, !options.map.empty());
   if (!options.map.empty()) setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
-  const std::atomic<bool>& stop = stopOnSignals();
+  const StopSignals& signals = stopOnSignals();
   outliveReaders();
 
   std::unique_ptr<WebLink> web;
@@ -200,7 +200,8 @@ int fly(const FlyOptions& options) {
   hooks.progress = [&](const FlightProgress& progress) { terminal.progress(progress); };
   hooks.event = [&](const common::Event& event) { terminal.event(event); };
   hooks.web = web.get();
-  hooks.stop = &stop;
+  hooks.land = &signals.first;
+  hooks.stop = &signals.second;
 
   const FlightResult result = flySimulated(setup, std::move(missions), hooks);
   terminal.closeLine();

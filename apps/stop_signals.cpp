@@ -5,14 +5,19 @@
 namespace swiftlet::apps {
 namespace {
 
-std::atomic<bool> stop_requested{false};
-extern "C" void requestStop(int) { stop_requested = true; }
+StopSignals requested;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may use it");
+
+/// A closed terminal often follows a SIGTERM, so that it is never the second request.
+extern "C" void requestStop(int signal) {
+  if (requested.first.exchange(true) && signal != SIGHUP) requested.second = true;
+}
 
 }  // namespace
 
-const std::atomic<bool>& stopOnSignals() {
+const StopSignals& stopOnSignals() {
   for (const int stops : {SIGINT, SIGTERM, SIGHUP}) std::signal(stops, requestStop);
-  return stop_requested;
+  return requested;
 }
 
 }  // namespace swiftlet::apps

@@ -5,7 +5,13 @@
 
 namespace swiftlet::apps {
 
-/// After this call SIGINT, SIGTERM and SIGHUP raise this flag instead of ending the process.
-const std::atomic<bool>& stopOnSignals();
+/// Requests by signals; each flag stays up once it is raised.
+struct StopSignals {
+  std::atomic<bool> first{false};   ///< The first SIGINT, SIGTERM or SIGHUP has come.
+  std::atomic<bool> second{false};  ///< A second SIGINT or SIGTERM has come.
+};
+
+/// After this call these signals raise the flags instead of ending the process.
+const StopSignals& stopOnSignals();
 
 }  // namespace swiftlet::apps

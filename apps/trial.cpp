@@ -233,7 +233,7 @@ fs::path madeFolder(const TrialOptions& options) {
 }
 
 int trial(const TrialOptions& options) {
-  const std::atomic<bool>& stop = stopOnSignals();
+  const std::atomic<bool>& stop = stopOnSignals().first;
   outliveReaders();
   const std::vector<TrialConfig> trials = preparedTrials(options);
   const fs::path out = madeFolder(options);

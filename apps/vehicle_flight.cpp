@@ -57,7 +57,7 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       folder_(folder, runInfo(setup, *vehicle_, mission.file), setup.system.toYaml(true)),
       pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
       sinks_(makeSinks()),
-      loop_(*vehicle_, autonomy_, web_ ? web_->commands() : no_commands_, sinks()) {}
+      loop_(*vehicle_, autonomy_, web_ ? web_->commands() : own_commands_, sinks()) {}
 
 VehicleFlight::~VehicleFlight() = default;
 
@@ -79,13 +79,33 @@ std::vector<autonomy::FlightSink*> VehicleFlight::sinks() {
 }
 
 void VehicleFlight::reportWarnings() {
-  for (const std::string& warning : vehicle_->world().warnings)
-    for (autonomy::FlightSink* sink : sinks())
-      sink->event({loop_.now(), common::Severity::kWarning, "world", warning, "", name_});
+  for (const std::string& warning : vehicle_->world().warnings) tell(common::Severity::kWarning, "world", warning, "");
+}
+
+void VehicleFlight::tell(common::Severity severity, std::string source, std::string text, std::string reason) {
+  const common::Event event{loop_.now(), severity, std::move(source), std::move(text), std::move(reason), name_};
+  for (autonomy::FlightSink* sink : sinks()) sink->event(event);
+}
+
+/// The answer has no asker, so that its id is one that no page uses.
+void VehicleFlight::landIfAsked() {
+  if (asked_to_land_ || !hooks_.land || !*hooks_.land) return;
+  asked_to_land_ = true;
+  tell(common::Severity::kWarning, "program", "asked to end: landing", "asked again, it stops at once");
+  (web_ ? web_->commands() : own_commands_).push({0, common::LandCommand{}});
+}
+
+/// The flight goes on: what is lost is its record.
+void VehicleFlight::warnOfUnwrittenFiles() {
+  if (warned_of_unwritten_files_ || !folder_.failure()) return;
+  warned_of_unwritten_files_ = true;
+  tell(common::Severity::kWarning, "record", "the run is no longer recorded; the flight goes on", *folder_.failure());
 }
 
 void VehicleFlight::step(common::Time now) {
   if (web_) vehicle_->setCameraConsumer(web_->cameraWanted());
+  landIfAsked();
+  warnOfUnwrittenFiles();
   if (!loop_.step(now)) end(Outcome::kCrashed, vehicle_->stopReason());
 }
 
@@ -93,7 +113,6 @@ bool VehicleFlight::over() {
   if (outcome_ != Outcome::kFlying) return true;
   if (hooks_.stop && *hooks_.stop) return end(Outcome::kStopped, "stopped from outside");
   if (loop_.now().seconds() >= setup_.time_limit_s) return end(Outcome::kStopped, "the time limit is over");
-  if (folder_.failure()) return end(Outcome::kStopped, *folder_.failure());
   if (autonomy_.finished()) {
     const common::MissionStatus& mission = autonomy_.missionStatus();
     const bool done = mission.state == common::MissionState::kDone;

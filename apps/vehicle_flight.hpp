@@ -47,6 +47,9 @@ class VehicleFlight {
  private:
   std::vector<std::unique_ptr<autonomy::FlightSink>> makeSinks();
   std::vector<autonomy::FlightSink*> sinks();
+  void tell(common::Severity severity, std::string source, std::string text, std::string reason);
+  void landIfAsked();
+  void warnOfUnwrittenFiles();
   bool end(interfaces::Outcome outcome, std::string reason);
   void showEnd() const;
 
@@ -60,8 +63,10 @@ class VehicleFlight {
   interfaces::RunFolder folder_;
   PictureSink pictures_;
   std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
-  common::LosslessQueue<common::OperatorCommand> no_commands_;
+  common::LosslessQueue<common::OperatorCommand> own_commands_;  ///< Where there is no page.
   autonomy::FlightLoop loop_;
+  bool asked_to_land_ = false;
+  bool warned_of_unwritten_files_ = false;
   interfaces::Outcome outcome_ = interfaces::Outcome::kFlying;
   std::string reason_;
 };

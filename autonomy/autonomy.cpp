@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/config_fields.hpp"
+#include "common/check.hpp"
+#include "common/world/mission_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -15,39 +17,10 @@ namespace {
 /// Ids of the supervisor's own intents; those of the mission count from 1.
 constexpr std::uint64_t kSupervisorHold = 1ULL << 62;
 constexpr std::uint64_t kSupervisorLand = kSupervisorHold + 1;
+/// Of the first flight home; the next ones count on.
+constexpr std::uint64_t kSupervisorHome = kSupervisorHold + 2;
 
 }  // namespace
-
-void AutonomyConfig::describe(common::config::Fields& fields) {
-  fields.section("estimator", estimator, "From raw samples to a state and a map.");
-  fields.section("reactive", reactive, "Braking and retreat at the laser rate.");
-  fields.section("execution", execution, "Planning and exploring to carry out intents.");
-  fields.section("control", control, "State machine, trajectories and controllers.");
-  fields.section("supervisor", supervisor, "Hold and landing above the mission.");
-  fields("behavior_rate_hz", behavior_rate_hz, {1, 100}, "Ticks of the mission's tree a second.");
-  fields.section("scans", scans, "Scans that arrive late or out of order.");
-  fields("max_height_m", max_height_m, {0.2, 100},
-         "Greatest height over the take-off floor; a mission that asks for more is refused.");
-}
-
-std::vector<std::string> AutonomyConfig::validate() const {
-  std::vector<std::string> problems;
-  for (const std::string& problem : problemsWith(execution.clearance_m))
-    problems.push_back("reactive.avoidance." + problem);
-  return problems;
-}
-
-void AutonomyConfig::limitTo(const common::LaserConfig& laser) {
-  double& avoidance_deg = reactive.avoidance.field_of_view_deg;
-  planning::ExplorationConfig& exploration = execution.exploration;
-  avoidance_deg = std::min(avoidance_deg, laser.field_of_view_deg);
-  exploration.laser_field_of_view_deg = std::min(exploration.laser_field_of_view_deg, laser.field_of_view_deg);
-  exploration.laser_range_m = std::min(exploration.laser_range_m, laser.range_max_m);
-}
-
-std::vector<std::string> AutonomyConfig::problemsWith(double clearance_m) const {
-  return reactive.avoidance.validateAgainst(clearance_m, estimator.people.keep_out_m);
-}
 
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
                    behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given,
@@ -96,15 +69,27 @@ void Autonomy::take(const common::SensorEvent& event) {
 }
 
 void Autonomy::take(const common::OperatorCommand& command, Time now) {
+  if (!std::holds_alternative<common::LandCommand>(command.kind)) {
+    std::string refusal = supervisor_.refusal();
+    if (refusal.empty() && missionOver()) refusal = "the mission has ended";
+    if (!refusal.empty()) return answer(command, {command.id, false, std::move(refusal)}, now);
+  }
   if (auto result = supervisor_.take(command, now)) {
-    results_.push_back(std::move(*result));
-    return;
+    const auto next = mission_.waitingCommand();
+    if (result->accepted && next && std::holds_alternative<common::ResumeCommand>(command.kind))
+      result->reason = "next: " + toString(*next);
+    return answer(command, std::move(*result), now);
   }
-  if (missionOver()) {
-    results_.push_back({command.id, false, "the mission has ended"});
-    return;
-  }
+  if (std::holds_alternative<common::HomeCommand>(command.kind) && !mission_.acceptsGoals())
+    return answer(command, supervisor_.goHome(command), now);
   context_.commands.push_back(command);
+}
+
+/// Every command leaves an event, whether it was accepted or refused.
+void Autonomy::answer(const common::OperatorCommand& command, common::CommandResult result, Time now) {
+  events_.push_back({now, result.accepted ? common::Severity::kInfo : common::Severity::kWarning, "operator",
+                     toString(command) + (result.accepted ? " accepted" : " refused"), result.reason});
+  results_.push_back(std::move(result));
 }
 
 common::Setpoint Autonomy::tick(Time now) {
@@ -196,7 +181,7 @@ void Autonomy::tickBehaviors(Time now) {
 /// The supervisor's intent comes before the mission's.
 common::Intent Autonomy::nextIntent(Time now) {
   const bool airborne = control::isAirborne(controller_.state());
-  const Supervision& supervision = supervisor_.tick(now, airborne, energy_);
+  const Supervision& supervision = supervisor_.tick(now, controller_.state(), energy_);
   context_.world = world_;
   context_.goal_map = executor_.desk().goalMap();
   context_.status = executor_.status();
@@ -211,6 +196,8 @@ common::Intent Autonomy::nextIntent(Time now) {
       mission_status_.phase = "land";
       releasing_mission_ = true;
     }
+    for (const auto& command : std::exchange(context_.commands, {}))
+      answer(command, {command.id, false, "the vehicle is landing: " + supervision.land_reason}, now);
     if (releasing_mission_) releasing_mission_ = !mission_.letGo(context_);
     collect(std::exchange(context_.events, {}));
     return {kSupervisorLand, common::LandIntent{}};
@@ -218,16 +205,33 @@ common::Intent Autonomy::nextIntent(Time now) {
   if (missionOver()) return {kSupervisorLand, common::LandIntent{}};
   tickMission();
   if (missionOver() && airborne) return {kSupervisorLand, common::LandIntent{}};
+  if (supervision.home > 0 && airborne && (intent_.id >= kSupervisorHome || executor_.status().released))
+    return intentHome(supervision.home, now);
   if (supervision.hold && mission_status_.state != MissionState::kHeld && airborne)
     return {kSupervisorHold, common::HoldIntent{}};
   return context_.intent.value_or(common::Intent{});
 }
 
+/// The flight home begins when the vehicle has stopped for it. At its end the vehicle holds.
+common::Intent Autonomy::intentHome(unsigned number, Time now) {
+  common::GoToIntent home;
+  home.goal_map_m = world_->vehicle->home_map.position_m();
+  home.clearance_m = config_.execution.clearance_m;
+  const common::Intent intent{kSupervisorHome + number - 1, home};
+  const common::IntentStatus& status = executor_.status();
+  if (status.id != intent.id || status.state == common::IntentState::kRunning) return intent;
+  supervisor_.homeEnded(now, status.state == common::IntentState::kSucceeded, status.reason);
+  return {kSupervisorHold, common::HoldIntent{}};
+}
+
 void Autonomy::tickMission() {
   context_.intent.reset();
+  const std::vector<common::OperatorCommand> asked = context_.commands;
   const behaviors::TickResult result = mission_.tick(context_);
   collect(std::exchange(context_.events, {}));
-  for (auto& answer : std::exchange(context_.results, {})) results_.push_back(std::move(answer));
+  std::vector<common::CommandResult> answers = std::exchange(context_.results, {});
+  SWIFTLET_CHECK(answers.size() == asked.size(), answers.size(), asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) answer(asked[i], std::move(answers[i]), context_.now);
   mission_status_.state = result.state;
   mission_status_.phase = result.phase;
   mission_status_.reason = result.reason;
@@ -240,7 +244,8 @@ void Autonomy::takeSnapshot(Time now) {
   parts.vehicle.avoidance = reactive_.decision().status;
   parts.vehicle.plan_map_m = executor_.remainingPlan_map_m();
   parts.vehicle.laser = laser_points_;
-  parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}};
+  parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}, {}};
+  showWaiting(parts.mission);
   parts.mission.status.tree = mission_.view();
   parts.map = {estimator_.grid(), estimator_.levels(), executor_.desk().frontiers(), executor_.desk().exploredArea_m2(),
                estimator_.localization()};
@@ -248,6 +253,16 @@ void Autonomy::takeSnapshot(Time now) {
     parts.people.people.push_back({person.center_map_m, person.radius_m});
   parts.energy = energy_;
   world_ = world_builder_.build(now, std::move(parts));
+}
+
+/// What the mission flies to after the hold, as long as nothing else is flown to.
+void Autonomy::showWaiting(common::MissionLayer& layer) const {
+  const auto command = mission_.waitingCommand();
+  if (mission_status_.state != MissionState::kHeld || !command) return;
+  layer.waiting = toString(*command);
+  if (layer.goal_map_m) return;
+  const auto* goal = std::get_if<common::GoalCommand>(&command->kind);
+  layer.goal_map_m = goal != nullptr ? goal->goal_map_m : world_->vehicle->home_map.position_m();
 }
 
 void Autonomy::collect(std::vector<common::Event> events) {

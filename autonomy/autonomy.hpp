@@ -91,15 +91,18 @@ class Autonomy {
  private:
   void take(const common::SensorEvent& event);
   void take(const common::OperatorCommand& command, common::Time now);
+  void answer(const common::OperatorCommand& command, common::CommandResult result, common::Time now);
   common::Setpoint tick(common::Time now);
   void processDueScans(common::Time now);
   void processScan(const common::LaserScan& scan, common::Time now);
   void prepare();
   void tickBehaviors(common::Time now);
   common::Intent nextIntent(common::Time now);
+  common::Intent intentHome(unsigned number, common::Time now);
   bool missionOver() const { return common::isOver(mission_status_.state); }
   void tickMission();
   void takeSnapshot(common::Time now);
+  void showWaiting(common::MissionLayer& layer) const;
   void collect(std::vector<common::Event> events);
 
   AutonomyConfig config_;

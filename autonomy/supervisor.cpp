@@ -7,6 +7,7 @@
 
 #include "common/config_fields.hpp"
 #include "common/validation.hpp"
+#include "control/flight_state_machine.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -27,21 +28,49 @@ std::vector<std::string> SupervisorConfig::validate() const {
 std::optional<common::CommandResult> Supervisor::take(const common::OperatorCommand& command, Time now) {
   const common::CommandResult accepted{command.id, true, {}};
   if (std::holds_alternative<common::HoldCommand>(command.kind)) {
-    if (!operator_holds_) say(now, Severity::kInfo, "hold", "the operator asked for it");
     operator_holds_ = true;
+    goes_home_ = false;
     return accepted;
   }
-  if (std::holds_alternative<common::ResumeCommand>(command.kind)) {
-    if (operator_holds_) say(now, Severity::kInfo, "resume", "the operator asked for it");
-    operator_holds_ = false;
-    return accepted;
-  }
+  if (std::holds_alternative<common::ResumeCommand>(command.kind)) return resume(command.id);
   if (std::holds_alternative<common::LandCommand>(command.kind)) {
     if (!supervision_.land) landed_by_operator_ = true;
     land(now, "the operator asked for it");
     return accepted;
   }
   return std::nullopt;
+}
+
+common::CommandResult Supervisor::resume(std::uint64_t id) {
+  if (!operator_holds_ && !goes_home_) {
+    const std::string reason = holdReason();
+    return {id, false, reason.empty() ? "nothing is on hold" : reason + ": that hold ends by itself"};
+  }
+  operator_holds_ = goes_home_ = false;
+  return {id, true, {}};
+}
+
+common::CommandResult Supervisor::goHome(const common::OperatorCommand& command) {
+  if (flight_ != common::FlightState::kFlying)
+    return {command.id, false, fmt::format("the vehicle is not flying: {}", common::toString(flight_))};
+  goes_home_ = true;
+  operator_holds_ = false;
+  ++flights_home_;
+  return {command.id, true, "the mission holds meanwhile, and goes on after Resume"};
+}
+
+void Supervisor::homeEnded(Time now, bool reached, std::string reason) {
+  goes_home_ = false;
+  operator_holds_ = true;
+  say(now, reached ? Severity::kInfo : Severity::kWarning, reached ? "home reached" : "home not reached",
+      reached ? "the vehicle holds until Resume or Land" : std::move(reason));
+}
+
+std::string Supervisor::refusal() const {
+  if (!control::isAirborne(flight_)) return {};
+  if (supervision_.land) return "the vehicle is landing: " + supervision_.land_reason;
+  const bool landing = flight_ == common::FlightState::kLanding || flight_ == common::FlightState::kEmergencyLanding;
+  return landing ? "the vehicle is landing" : "";
 }
 
 void Supervisor::pilotArrived(Time now, bool takes_over) {
@@ -61,7 +90,9 @@ bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
   return plausible;
 }
 
-const Supervision& Supervisor::tick(Time now, bool airborne, const common::EnergyLayer& energy) {
+const Supervision& Supervisor::tick(Time now, common::FlightState flight, const common::EnergyLayer& energy) {
+  flight_ = flight;
+  const bool airborne = control::isAirborne(flight);
   const double silent_s = last_scan_ ? (now - *last_scan_).seconds() : 0.0;
   if (airborne && silent_s > config_.laser_land_s) land(now, fmt::format("no scan for {:.1f} s", silent_s));
   const bool laser_holds = airborne && silent_s > config_.laser_hold_s;
@@ -73,12 +104,18 @@ const Supervision& Supervisor::tick(Time now, bool airborne, const common::Energ
   if (airborne && energy.battery_remaining < config_.battery_land_share)
     land(now, fmt::format("{:.0f} % of the battery left", 100.0 * energy.battery_remaining));
 
-  supervision_.hold = operator_holds_ || laser_holds_ || pilot_flies_;
-  supervision_.hold_reason = pilot_flies_      ? "the pilot flies"
-                             : laser_holds_    ? "the laser is silent"
-                             : operator_holds_ ? "the operator holds"
-                                               : "";
+  supervision_.hold_reason = holdReason();
+  supervision_.hold = !supervision_.hold_reason.empty();
+  supervision_.home = goes_home_ && !laser_holds_ && !pilot_flies_ ? flights_home_ : 0;
   return supervision_;
+}
+
+/// Empty if nothing holds the mission.
+std::string Supervisor::holdReason() const {
+  if (pilot_flies_) return "the pilot flies";
+  if (laser_holds_) return "the laser is silent";
+  if (goes_home_) return "the operator wants it home";
+  return operator_holds_ ? "the operator holds" : "";
 }
 
 std::vector<common::Event> Supervisor::takeEvents() { return std::exchange(events_, {}); }

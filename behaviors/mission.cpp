@@ -112,12 +112,20 @@ common::TreeView Mission::view() const {
 
 bool Mission::acceptsGoals() const { return !impl_->takers.empty(); }
 
+std::optional<common::OperatorCommand> Mission::waitingCommand() const {
+  if (impl_->pending_command) return impl_->pending_command;
+  for (const OperatorCommand* taker : impl_->takers)
+    if (taker->present()) return taker->present();
+  return std::nullopt;
+}
+
 const std::string& Mission::name() const { return impl_->tree.name(); }
 
 void Mission::Impl::answerCommands(Context& context) {
   for (const common::OperatorCommand& command : std::exchange(context.commands, {})) {
     std::string reason = refusal(context, command);
     const bool accepted = reason.empty();
+    if (accepted && context.hold) reason = "flown after the hold: " + context.hold_reason;
     context.results.push_back({command.id, accepted, std::move(reason)});
     if (accepted) pending_command = command;
   }

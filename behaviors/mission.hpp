@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "behaviors/context.hpp"
@@ -42,6 +43,8 @@ class Mission {
   common::TreeView view() const;
   /// The mission has an OperatorCommand: goals and home commands are flown instead of refused.
   bool acceptsGoals() const;
+  /// The operator's goal or home command that the mission flies to, now or after what it does now.
+  std::optional<common::OperatorCommand> waitingCommand() const;
   /// The ID of the main tree.
   const std::string& name() const;
 

@@ -23,6 +23,9 @@ class OperatorCommand final : public FlightLeaf {
   /// The goal with the tolerance and clearance of this node.
   common::GoToIntent goalTo(const Eigen::Vector2d& place_map_m) const;
 
+  /// The command that it flies to, or goes on with after a suspension.
+  const std::optional<common::OperatorCommand>& present() const { return command_; }
+
  private:
   tree::Status act(tree::TickContext& context) override;
   void onStart(tree::TickContext& context) override;

@@ -1,5 +1,5 @@
-// Commands of the operator, from the page or a tablet, and the answers. Hold and land are always accepted. The others
-// are refused, with a reason, when the mission or the map does not allow them.
+// Commands of the operator, from the page or a tablet, and the answers. Land is always accepted. The others are
+// refused, with a reason, while the vehicle lands, and when the mission or the map does not allow them.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct OperatorCommand {
 struct CommandResult {
   std::uint64_t id = 0;
   bool accepted = false;
-  std::string reason;  ///< Why it was refused; empty when accepted.
+  std::string reason;  ///< Why it was refused; of an accepted one what comes before it or next, if anything does.
 };
 
 std::string toString(const OperatorCommand& command);

@@ -22,8 +22,9 @@ struct FlightEnding {
 struct MissionLayer {
   MissionStatus status;
   IntentStatus intent;
-  std::optional<Eigen::Vector2d> goal_map_m;
-  std::optional<FlightEnding> ending;  ///< Only in the last snapshot of a flight.
+  std::optional<Eigen::Vector2d> goal_map_m;  ///< While the mission is held also that of `waiting`.
+  std::optional<FlightEnding> ending;         ///< Only in the last snapshot of a flight.
+  std::string waiting;  ///< While the mission is held: the operator's command that it flies next; else empty.
 
   bool operator==(const MissionLayer&) const = default;
 };

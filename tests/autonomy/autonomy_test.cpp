@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/world/mission_layer.hpp"
 #include "tests/autonomy/autonomy_story.hpp"
 
 namespace swiftlet::autonomy {
@@ -106,6 +107,53 @@ TEST(Autonomy, TheOperatorLandsAndLaterCommandsAreRefused) {
   EXPECT_FALSE(late.accepted);
   EXPECT_THAT(late.reason, HasSubstr("the mission has ended"));
   EXPECT_FALSE(story.order(common::HomeCommand{}).accepted);
+}
+
+TEST(Autonomy, HoldDuringALandingIsRefusedWithItsReason) {
+  AutonomyStory story(kAcross);
+  ASSERT_TRUE(story.isFlying());
+  EXPECT_TRUE(story.order(common::LandCommand{}).accepted);
+  const common::CommandResult hold = story.order(common::HoldCommand{});
+  EXPECT_FALSE(hold.accepted);
+  EXPECT_THAT(hold.reason, HasSubstr("the vehicle is landing"));
+  EXPECT_NE(story.event("operator", "land accepted"), story.events.end());
+  const auto refused = story.event("operator", "hold refused");
+  ASSERT_NE(refused, story.events.end());
+  EXPECT_EQ(refused->reason, hold.reason);
+}
+
+TEST(Autonomy, HomeWorksInAMissionThatFliesItsOwnGoalsAndResumeContinuesIt) {
+  AutonomyStory story(kAcross);
+  ASSERT_TRUE(story.isFlying());
+  const auto fromHome_m = [&] { return story.world().vehicle->state.T_map_body().position_m.head<2>().norm(); };
+  ASSERT_TRUE(story.until([&] { return fromHome_m() > 1.0; }, 20.0));
+  EXPECT_TRUE(story.order(common::HomeCommand{}).accepted);
+  ASSERT_TRUE(story.until([&] { return story.event("supervisor", "home reached") != story.events.end(); }, 40.0));
+  EXPECT_LT(fromHome_m(), 0.1);
+  ASSERT_TRUE(story.fly(2.0));
+  EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kHeld);
+  EXPECT_LT(fromHome_m(), 0.15) << "it holds at home";
+
+  EXPECT_TRUE(story.order(common::ResumeCommand{}).accepted);
+  ASSERT_TRUE(story.until([&] { return story.autonomy().finished(); }, 60.0));
+  EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kDone);
+}
+
+TEST(Autonomy, AGoalGivenWhileHeldIsShownAndNamedByResume) {
+  AutonomyStory story(R"(<TakeOff/><OperatorCommand/>)");
+  ASSERT_TRUE(story.isFlying());
+  ASSERT_TRUE(story.fly(2.0));
+  EXPECT_TRUE(story.order(common::HoldCommand{}).accepted);
+  const common::CommandResult goal = story.order(common::GoalCommand{{1.5, 0.0}});
+  EXPECT_TRUE(goal.accepted) << goal.reason;
+  EXPECT_EQ(goal.reason, "flown after the hold: the operator holds");
+  ASSERT_TRUE(story.fly(1.0));
+  EXPECT_EQ(story.world().mission->waiting, "goal (1.50, 0.00)");
+  EXPECT_EQ(story.world().mission->goal_map_m, Eigen::Vector2d(1.5, 0.0));
+  EXPECT_EQ(story.order(common::ResumeCommand{}).reason, "next: goal (1.50, 0.00)");
+  ASSERT_TRUE(
+      story.until([&] { return story.event("mission", "goal (1.50, 0.00) reached") != story.events.end(); }, 20));
+  EXPECT_EQ(story.world().mission->waiting, "");
 }
 
 TEST(Autonomy, WithoutScansItHoldsAndThenLands) {

@@ -15,7 +15,10 @@ using testing::HasSubstr;
 class SupervisorStory : public testing::Test {
  protected:
   const Supervision& at(double t_s, bool airborne = true) {
-    return supervisor_.tick(Time::fromSeconds(t_s), airborne, energy_);
+    return during(t_s, airborne ? common::FlightState::kFlying : common::FlightState::kLanded);
+  }
+  const Supervision& during(double t_s, common::FlightState flight) {
+    return supervisor_.tick(Time::fromSeconds(t_s), flight, energy_);
   }
   void scanAt(double t_s) { supervisor_.scanArrived(Time::fromSeconds(t_s)); }
 
@@ -57,6 +60,49 @@ TEST_F(SupervisorStory, ReportsInvalidBatteryValuesOnce) {
 TEST_F(SupervisorStory, LeavesGoalsToTheMission) {
   EXPECT_FALSE(supervisor_.take({1, common::GoalCommand{}}, Time{}).has_value());
   EXPECT_FALSE(supervisor_.take({2, common::HomeCommand{}}, Time{}).has_value());
+}
+
+TEST_F(SupervisorStory, ResumeSaysWhyItChangesNothing) {
+  scanAt(1.0);
+  EXPECT_EQ(supervisor_.take({1, common::ResumeCommand{}}, Time{})->reason, "nothing is on hold");
+  at(1.4);
+  const auto refused = supervisor_.take({2, common::ResumeCommand{}}, Time{});
+  EXPECT_FALSE(refused->accepted);
+  EXPECT_THAT(refused->reason, HasSubstr("the laser is silent"));
+}
+
+TEST_F(SupervisorStory, RefusesEverythingButLandWhileTheVehicleLands) {
+  at(1.0);
+  EXPECT_EQ(supervisor_.refusal(), "");
+  during(2.0, common::FlightState::kLanding);
+  EXPECT_EQ(supervisor_.refusal(), "the vehicle is landing") << "the mission's own landing";
+  at(3.0);
+  (void)supervisor_.take({1, common::LandCommand{}}, Time::fromSeconds(3));
+  EXPECT_EQ(supervisor_.refusal(), "the vehicle is landing: the operator asked for it");
+  at(4.0, false);
+  EXPECT_EQ(supervisor_.refusal(), "") << "it stands";
+}
+
+TEST_F(SupervisorStory, GoesHomeAndHoldsThereUntilResume) {
+  at(0.0, false);
+  EXPECT_FALSE(supervisor_.goHome({1, common::HomeCommand{}}).accepted) << "it is not flying";
+  at(1.0);
+  EXPECT_TRUE(supervisor_.goHome({2, common::HomeCommand{}}).accepted);
+  EXPECT_EQ(at(1.1).home, 1u);
+  EXPECT_TRUE(at(1.1).hold) << "the mission holds";
+  supervisor_.homeEnded(Time::fromSeconds(9), true, {});
+  EXPECT_EQ(at(9.1).home, 0u);
+  EXPECT_EQ(at(9.1).hold_reason, "the operator holds");
+  ASSERT_TRUE(supervisor_.take({3, common::ResumeCommand{}}, Time::fromSeconds(10))->accepted);
+  EXPECT_FALSE(at(10.0).hold);
+}
+
+TEST_F(SupervisorStory, HoldStopsTheFlightHome) {
+  at(1.0);
+  EXPECT_TRUE(supervisor_.goHome({1, common::HomeCommand{}}).accepted);
+  ASSERT_TRUE(supervisor_.take({2, common::HoldCommand{}}, Time::fromSeconds(2))->accepted);
+  EXPECT_EQ(at(2.0).home, 0u);
+  EXPECT_TRUE(at(2.0).hold);
 }
 
 TEST_F(SupervisorStory, SilentLaserHoldsThenLandsForGood) {

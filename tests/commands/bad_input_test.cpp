@@ -299,14 +299,18 @@ TEST_F(BadInput, AClosedTerminalDoesNotEndATrial) {
 
 class FullDisk : public BadInput, public testing::WithParamInterface<std::size_t> {};
 
-// At whatever file the disk becomes full, the message names that file, and none is left half written.
-TEST_P(FullDisk, EndsTheFlightAndNamesTheFile) {
+// At whatever file the disk becomes full, the message names that file, and none is left half written. A flight that has
+// begun is flown to its end.
+TEST_P(FullDisk, IsReportedWithTheFileAndEndsNoFlight) {
   ProgramOptions options;
   options.largest_file_bytes = GetParam();
   const ProgramEnd end =
       fly({"--headless", hop(), "--world", write("room.sdf", worldWith(room())), "--time-limit", "60"}, options);
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.err, ContainsRegex("run/[a-z]+\\.[a-z]+: .*(too large|No space)"));
+  const bool began = GetParam() > 20'000;
+  EXPECT_EQ(end.out.find("the run is no longer recorded; the flight goes on") != std::string::npos, began);
+  EXPECT_EQ(end.out.find("\ndone after") != std::string::npos, began) << describe(end);
   for (const auto& entry : fs::directory_iterator(path("run"))) {
     const std::string name = entry.path().filename().string(), text = readText(entry.path());
     SCOPED_TRACE(name);
@@ -324,8 +328,8 @@ TEST_P(FullDisk, EndsTheFlightAndNamesTheFile) {
   }
 }
 
-// The configuration is written first and has about 20 kB; the first report has more than 40.
-INSTANTIATE_TEST_SUITE_P(AtTheStartAndInFlight, FullDisk, testing::Values(8'192, 40'960));
+// The configuration is written first and has about 50 kB; a report with pictures has more than 70.
+INSTANTIATE_TEST_SUITE_P(AtTheStartAndInFlight, FullDisk, testing::Values(8'192, 70'000));
 
 TEST_F(BadInput, AnOutputFolderThatCannotBeCreatedIsRefused) {
   const ProgramEnd end =

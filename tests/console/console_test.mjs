@@ -1,32 +1,13 @@
 // The operator's page in Chromium against a made-up flight: node console_test.mjs WEB_FIXTURE WORK_FOLDER
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
 import { readFileSync } from 'node:fs';
-import { createInterface } from 'node:readline';
 
-import { kPatience, launch } from './browser.mjs';
+import { eventually, kPatience, launch, onScreen, run, serve } from './browser.mjs';
 
 const [fixture, folder] = process.argv.slice(2);
 
-/** Starts the fixture; `stop` ends it. */
-async function serve(port = 0) {
-  const process = spawn(fixture, [String(port)], { stdio: ['pipe', 'pipe', 'inherit'] });
-  const lines = createInterface({ input: process.stdout });
-  const url = await new Promise((resolve, reject) => {
-    lines.once('line', resolve);
-    process.once('exit', () => reject(new Error('the fixture ended')));
-  });
-  return {
-    url: new URL(url),
-    stop: () => new Promise((resolve, reject) => {
-      process.once('exit', (code) => (code === 0 ? resolve() : reject(new Error(`the fixture ended with ${code}`))));
-      process.stdin.end();
-    }),
-  };
-}
-
 const browser = await launch(folder);
-let server = await serve();
+let server = await serve(fixture);
 const { origin } = server.url;
 
 async function open(url, { context, ...options } = {}) {
@@ -44,25 +25,7 @@ async function open(url, { context, ...options } = {}) {
   return page;
 }
 
-/** Where a point of the map is on the canvas, in CSS pixels from its corner. */
-async function onScreen(page, x_m, y_m) {
-  await page.waitForFunction(() => document.getElementById('map').dataset.view);
-  return page.locator('#map').evaluate((canvas, [x, y]) => {
-    const [centerX, centerY, scale] = canvas.dataset.view.split(' ').map(Number);
-    return { x: canvas.clientWidth / 2 + (x - centerX) * scale, y: canvas.clientHeight / 2 - (y - centerY) * scale };
-  }, [x_m, y_m]);
-}
-
 const state = async () => (await fetch(`${origin}/api/state`)).json();
-
-async function eventually(what, holds, timeout_s = 60) {
-  const end = Date.now() + 1000 * kPatience * timeout_s;
-  while (Date.now() < end) {
-    if (await holds()) return;
-    await new Promise((resolve) => setTimeout(resolve, 100));
-  }
-  assert.fail(`${what} did not happen within ${kPatience * timeout_s} s`);
-}
 
 /** Opens the page and lets `change` modify every state before the page gets it. */
 async function openWith(change) {
@@ -163,6 +126,7 @@ const tests = {
     assert.equal((await state()).camera_age_s, null);
     await page.locator('#camera-toggle').tap();
     await eventually('a picture', () => page.locator('#camera img').evaluate((image) => image.naturalWidth === 480));
+    await page.locator('.picture-age').getByText(/^0\.\d s$/).waitFor();
     await page.locator('#camera-toggle').tap();
     assert.equal(await page.locator('#camera img').count(), 0);
     return page;
@@ -259,8 +223,8 @@ const tests = {
     const page = await openWith((state) => { state.mission.accepts_goals = false; });
     let posts = 0;
     page.on('request', (request) => { posts += request.method() === 'POST'; });
-    await page.locator('[data-command=home]:disabled').waitFor();
-    assert.equal(await page.getByRole('button', { name: 'Hold' }).isDisabled(), false);
+    await page.locator('#goal-x:disabled').waitFor({ state: 'attached' });
+    for (const name of ['Hold', 'Home']) assert.equal(await page.getByRole('button', { name }).isDisabled(), false);
     await page.locator('#map').tap({ position: await onScreen(page, 1.2, 0.6) });
     await page.getByText('This mission flies its own goals.').waitFor();
     assert.equal(posts, 0);
@@ -290,25 +254,14 @@ const tests = {
     const port = Number(server.url.port);
     await server.stop();
     await page.getByText('Link lost').waitFor();
-    server = await serve(port);
+    server = await serve(fixture, port);
     await page.locator('#link[data-level=good]').waitFor();
     await page.getByText('Link lost').waitFor({ state: 'hidden' });
     return page;
   },
 };
 
-let failed = 0;
-for (const [name, test] of Object.entries(tests)) {
-  try {
-    const page = await test();
-    assert.deepEqual(page.problems, []);
-    await page.context().close();
-    console.log(`ok      ${name}`);
-  } catch (error) {
-    ++failed;
-    console.log(`FAILED  ${name}\n${error.stack}`);
-  }
-}
+const failed = await run(tests);
 await browser.close();
 await server.stop();
 process.exit(failed ? 1 : 0);

@@ -27,6 +27,7 @@ class FakeBackend {
     bool flies = true;    ///< If false, no world is ever posted.
     double stall_timeout_s = 10.0;
     int max_connections = 256;
+    double viewers_bytes_per_s = 16e6;
     double warm_up_s = 4.0;  ///< Flown time before the first world.
   };
 

@@ -1,6 +1,8 @@
-// Serves the operator's page with a made-up flight until its standard input ends: web_fixture [PORT [TOKEN]].
+// Serves the operator's page with a made-up flight until its standard input ends: web_fixture [PORT [TOKEN [silent]]].
+// `silent`: its commands are never answered.
 #include <cstdlib>
 #include <iostream>
+#include <string_view>
 
 #include "tests/console/fake_backend.hpp"
 
@@ -8,6 +10,7 @@ int main(int count, char** arguments) {
   swiftlet::testing::FakeBackend::Setup setup;
   if (count > 1) setup.port = std::atoi(arguments[1]);
   if (count > 2) setup.token = arguments[2];
+  setup.answers = count < 4 || std::string_view(arguments[3]) != "silent";
   swiftlet::testing::FakeBackend backend(setup);
   std::cout << backend.server().operatorUrl() << std::endl;
   std::string line;

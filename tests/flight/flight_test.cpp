@@ -188,11 +188,15 @@ TEST_F(Determinism, AWatchingTabletChangesNothing) {
 
 class CutShort : public test_support::Scratch {
  protected:
-  /// Flies until trajectory.tum holds `bytes`, then sends the signal.
-  ProgramEnd flyAndSend(int signal, std::uintmax_t bytes) {
-    bool sent = false;
+  /// Flies until trajectory.tum holds `bytes`, then sends the signal; the second one as soon as the first is answered.
+  ProgramEnd flyAndSend(int signal, std::uintmax_t bytes, bool twice = false) {
+    bool sent = false, sent_again = false;
     ProgramOptions options;
-    options.while_running = [&, signal, bytes](pid_t process, const std::string&) {
+    options.while_running = [&, signal, bytes](pid_t process, const std::string& out) {
+      if (twice && sent && !sent_again && out.find("asked to end: landing") != std::string::npos) {
+        sent_again = true;
+        kill(process, signal);
+      }
       std::error_code missing;
       const auto size = fs::file_size(path("run/trajectory.tum"), missing);
       if (sent || missing || size < bytes || !fs::exists(path("run/report.html"))) return;
@@ -213,11 +217,23 @@ TEST_F(CutShort, AKilledProcessLeavesAReadableRun) {
   EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), "flying");
 }
 
-TEST_F(CutShort, AnInterruptEndsTheRunCleanly) {
+TEST_F(CutShort, AnInterruptLandsAndEndsTheRunCleanly) {
   const ProgramEnd end = flyAndSend(SIGINT, 20'000);
   EXPECT_EQ(end.exit_code, 1) << describe(end);
   expectSoundRun(path("run"));
-  EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), "stopped");
+  const auto mission = nlohmann::json::parse(readText(path("run/mission.json")));
+  EXPECT_EQ(mission.at("outcome"), "stopped");
+  EXPECT_EQ(mission.at("reason"), "landed: the operator asked for it");
+  EXPECT_LT(readTum(path("run/trajectory.tum")).back().pose.position_m.z(), 0.1) << "it stands on the floor";
+}
+
+TEST_F(CutShort, ASecondTerminationStopsAtOnce) {
+  const ProgramEnd end = flyAndSend(SIGTERM, 20'000, true);
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  expectSoundRun(path("run"));
+  const auto mission = nlohmann::json::parse(readText(path("run/mission.json")));
+  EXPECT_EQ(mission.at("outcome"), "stopped");
+  EXPECT_EQ(mission.at("reason"), "stopped from outside");
 }
 
 TEST_F(CutShort, TerminationKeepsTheFinishedFlightsOfATrial) {

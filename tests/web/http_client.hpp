@@ -1,11 +1,15 @@
-// Blocking clients for the socket tests.
+// Blocking clients for the socket tests, and waiting for what the server does in its own thread.
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <string>
+#include <thread>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+
+#include "tests/support/patience.hpp"
 
 namespace swiftlet::testing {
 
@@ -37,6 +41,16 @@ class RawClient {
   boost::asio::ip::tcp::socket socket_;
   std::string buffer_;
 };
+
+/// True as soon as `holds` does, within five seconds of a release build.
+template <typename Holds>
+bool eventually(Holds holds) {
+  for (int i = 0; i < 500 * test_support::patience(); ++i) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
 
 /// One request on a new connection. `extra` are header lines with their ends.
 Reply request(int port, const std::string& method, const std::string& target, const std::string& extra = "",

@@ -51,6 +51,18 @@ TEST(RouteTest, ClampsLargeParametersAndRefusesInvalidOnes) {
   EXPECT_THAT(reasonOf(route(get("/stream/map.mjpg?widht=3"), kPolicy)), ::testing::HasSubstr("did you mean `width`"));
 }
 
+TEST(RouteTest, SaysWhoIsAnOperator) {
+  EXPECT_TRUE(std::holds_alternative<ConfirmToken>(route(get("/api/token?token=secret-token"), kPolicy)));
+  EXPECT_EQ(statusOf(route(get("/api/token?token=of-yesterday"), kPolicy)), 401);
+  EXPECT_EQ(statusOf(route(get("/api/token"), kPolicy)), 401);
+  EXPECT_EQ(statusOf(route(post("/api/token"), kPolicy)), 405);
+  EXPECT_TRUE(hasToken(get("/stream/map.mjpg?token=secret-token"), kPolicy));
+  EXPECT_TRUE(hasToken(post("/api/hold"), kPolicy));
+  EXPECT_FALSE(hasToken(get("/stream/map.mjpg?token=of-yesterday"), kPolicy)) << "it may still watch";
+  EXPECT_FALSE(hasToken(get("/stream/map.mjpg"), kPolicy));
+  EXPECT_FALSE(hasToken(get("/?token="), Policy{}));
+}
+
 TEST(RouteTest, SelectsTheNamedVehicle) {
   Policy several = kPolicy;
   several.vehicles = {"alpha", "beta"};

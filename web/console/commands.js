@@ -3,6 +3,8 @@
 import { forVehicle } from './vehicle.js';
 
 const kKey = 'swiftlet-token';
+/** The server answers within two seconds also if the vehicle does not; on a dead link nobody does. */
+const kPatience_ms = 2000;
 
 /** The token moves from the address to this tab's storage, so that it is not shared with a copied address. */
 function takeToken() {
@@ -19,29 +21,60 @@ function takeToken() {
 export class Commands {
   constructor() {
     this.token = takeToken();
+    /** The token was refused: the link is of another start of the program. */
+    this.refused = false;
   }
 
   get allowed() {
     return Boolean(this.token);
   }
 
-  /** `name`: goal, hold, resume, home or land. Resolves to {accepted, reason}; never rejects. */
+  /** Asks the server whether the token is the operator's. Without an answer nothing is known, and nothing changes. */
+  async check() {
+    if (!this.token) return;
+    try {
+      this.note(await this.ask('GET', '/api/token'));
+    } catch {
+      // The next hello asks again.
+    }
+  }
+
+  /**
+   * `name`: goal, hold, resume, home or land. Resolves to {outcome, reason}; never rejects. The outcome is "accepted",
+   * "refused" or "no answer".
+   */
   async give(name, body) {
     try {
-      const response = await fetch(forVehicle(`/api/${name}`), {
-        method: 'POST',
-        headers: { Authorization: `Bearer ${this.token}`, 'Content-Type': 'application/json' },
-        body: body ? JSON.stringify(body) : undefined,
-        signal: AbortSignal.timeout(6000),
-      });
-      const answer = await response.json();
-      if (response.status === 401) {
-        this.token = null;
-        sessionStorage.removeItem(kKey);
-      }
-      return { accepted: answer.accepted === true, reason: answer.reason ?? '' };
+      const response = await this.ask('POST', `/api/${name}`, body && JSON.stringify(body));
+      const { accepted, reason = '' } = await response.json();
+      this.note(response);
+      const outcome = accepted === true ? 'accepted' : response.status === 504 ? 'no answer' : 'refused';
+      return { outcome, reason };
     } catch {
-      return { accepted: false, reason: 'the vehicle’s computer did not answer; nothing is known to have happened' };
+      return { outcome: 'no answer', reason: 'the link is lost or slow; the vehicle may still carry it out' };
     }
+  }
+
+  ask(method, path, body) {
+    return fetch(forVehicle(path), {
+      method,
+      headers: { Authorization: `Bearer ${this.token}`, 'Content-Type': 'application/json' },
+      body,
+      signal: AbortSignal.timeout(kPatience_ms),
+    });
+  }
+
+  /** Forgets a token that is refused. */
+  note(response) {
+    if (response.status !== 401) return;
+    this.token = null;
+    this.refused = true;
+    sessionStorage.removeItem(kKey);
+  }
+
+  /** The path with the token, for what cannot send a header: the server keeps room for operators. */
+  withToken(path) {
+    if (!this.token) return path;
+    return `${path}${path.includes('?') ? '&' : '?'}token=${encodeURIComponent(this.token)}`;
   }
 }

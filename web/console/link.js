@@ -44,10 +44,17 @@ function decodeBinary(buffer) {
   return { type: 'tiles', forget: view.getUint8(1) === 1, resolution_m: view.getFloat32(4, true), tiles };
 }
 
+/** A connection that is silent for longer is given up: it may have died without a word. */
+const kMostSilence_ms = 6000;
+
 export class Link {
-  /** `onMessage` is given each decoded message; "hello" is the first after every (re)connection. */
-  constructor(onMessage) {
+  /**
+   * `onMessage` is given each decoded message; "hello" is the first after every (re)connection. `pathOf` may add to the
+   * path of the socket.
+   */
+  constructor(onMessage, pathOf) {
     this.onMessage = onMessage;
+    this.pathOf = pathOf;
     this.lastMessage_ms = null;
     this.delay_ms = 250;
     this.connect();
@@ -55,23 +62,26 @@ export class Link {
 
   connect() {
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-    const socket = new WebSocket(`${scheme}://${location.host}${forVehicle('/api/ws')}`);
+    const socket = new WebSocket(`${scheme}://${location.host}${this.pathOf(forVehicle('/api/ws'))}`);
     socket.binaryType = 'arraybuffer';
+    const opened_ms = performance.now();
     socket.onmessage = (event) => {
       this.lastMessage_ms = performance.now();
       this.delay_ms = 250;
       this.onMessage(typeof event.data === 'string' ? JSON.parse(event.data) : decodeBinary(event.data));
     };
-    socket.onclose = () => {
+    // Closing a dead connection waits for its other end, which may take a minute: it is left to itself.
+    const giveUp = () => {
       clearInterval(watch);
+      socket.onmessage = socket.onclose = null;
+      socket.close();
       setTimeout(() => this.connect(), this.delay_ms);
       this.delay_ms = Math.min(4000, this.delay_ms * 2);
     };
-    // A connection that died silently (a tablet that left the network) would otherwise stay for minutes.
-    const opened_ms = performance.now();
+    socket.onclose = giveUp;
     const watch = setInterval(() => {
-      if (performance.now() - Math.max(opened_ms, this.lastMessage_ms ?? 0) > 6000) socket.close();
-    }, 1000);
+      if (performance.now() - Math.max(opened_ms, this.lastMessage_ms ?? 0) > kMostSilence_ms) giveUp();
+    }, 500);
   }
 
   /** Seconds since the last message of the server; null before the first. */

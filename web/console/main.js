@@ -4,6 +4,7 @@ import { Link } from './link.js';
 import { MapStore } from './map_store.js';
 import { MapView } from './map_view.js';
 import { endText, fliesItsOwnGoals, hasEnded } from './mission.js';
+import { PictureStream } from './picture_stream.js';
 import { forgetEvents, showEvents, showFrontiers, showState, toast } from './panels.js';
 import { forVehicle, offerVehicles } from './vehicle.js';
 
@@ -27,6 +28,7 @@ const link = new Link((message) => {
     document.title = message.title ? `${message.title} – Swiftlet` : 'Swiftlet';
     offerVehicles(element('vehicle'), message.vehicles ?? [], message.vehicle);
     forgetEvents();
+    commands.check().then(showAccess);
   }
   if (message.type === 'state') {
     showState(message);
@@ -37,7 +39,7 @@ const link = new Link((message) => {
   if (message.type === 'frontiers') showFrontiers(message.frontiers);
   if (message.type === 'events') showEvents(message.events);
   view.draw();
-});
+}, (path) => commands.withToken(path));
 
 // --- commands -----------------------------------------------------------------------------------------------------
 
@@ -51,23 +53,31 @@ function disable(control, disabled, why) {
 
 function showAccess() {
   element('access').hidden = commands.allowed;
+  element('access').textContent = commands.refused ? 'View only: wrong or old token' : 'View only';
   const nothing = !commands.allowed || ended();
   const noGoals = nothing || !takesGoals();
   const why = takesGoals() ? '' : kOwnGoals;
-  for (const button of buttons)
-    if (button.dataset.command === 'home') disable(button, noGoals, why);
-    else disable(button, nothing, '');
+  for (const button of buttons) disable(button, nothing, '');
   for (const control of element('goal-form').elements) disable(control, noGoals, why);
   view.canvas.classList.toggle('no-goals', noGoals);
 }
 
 const kOwnGoals = 'This mission flies its own goals.';
+const kNoToken = 'Open the operator’s link, printed when the flight starts, to send goals.';
+const kOldToken = 'The token of this page is wrong, or of an earlier start: open the newest operator’s link.';
 const kTitles = { hold: 'Holding', resume: 'Resumed', home: 'Flying home', land: 'Landing' };
+
+/** What is not accepted stays on the page for long enough to be read, and "refused" is said only of an answer. */
+function showAnswer(name, title, { outcome, reason }) {
+  if (outcome === 'accepted') toast(title, reason, true);
+  else toast(outcome === 'refused' ? `${name} refused` : `${name}: no answer`, reason, false);
+  showAccess();
+}
 
 async function sendGoal(goal) {
   const where = `(${goal.x_m.toFixed(2)}, ${goal.y_m.toFixed(2)})`;
   if (!commands.allowed) {
-    toast('View only', 'Open the operator’s link, printed when the flight starts, to send goals.', false);
+    toast('View only', commands.refused ? kOldToken : kNoToken, false);
     return;
   }
   if (ended()) return;
@@ -77,10 +87,9 @@ async function sendGoal(goal) {
   }
   view.showMarker({ ...goal, state: 'asked' });
   const answer = await commands.give('goal', goal);
-  view.showMarker(answer.accepted ? null : { ...goal, state: 'refused' });
-  if (answer.accepted) toast('Goal accepted', where, true);
-  else toast('Goal refused', answer.reason, false);
-  showAccess();
+  view.showMarker(answer.outcome === 'accepted' ? null : { ...goal, state: 'refused' });
+  if (answer.outcome === 'accepted') answer.reason = [where, answer.reason].filter(Boolean).join(', ');
+  showAnswer('Goal', 'Goal accepted', answer);
 }
 
 for (const button of buttons) {
@@ -89,9 +98,7 @@ for (const button of buttons) {
     button.setAttribute('aria-busy', 'true');
     const answer = await commands.give(command);
     button.removeAttribute('aria-busy');
-    if (answer.accepted) toast(kTitles[command], '', true);
-    else toast(`${button.textContent.trim()} refused`, answer.reason, false);
-    showAccess();
+    showAnswer(button.textContent.trim(), kTitles[command], answer);
   });
 }
 
@@ -107,21 +114,18 @@ element('zoom-out').addEventListener('click', () => view.zoom(1 / 1.4));
 element('fit').addEventListener('click', () => view.setMode('fit'));
 element('follow').addEventListener('click', () => view.setMode(view.mode === 'follow' ? 'free' : 'follow'));
 
+let camera = null;
+
 element('camera-toggle').addEventListener('click', ({ currentTarget: button }) => {
   const shown = button.getAttribute('aria-expanded') === 'true';
   button.setAttribute('aria-expanded', String(!shown));
   button.textContent = shown ? 'Show' : 'Hide';
-  const camera = element('camera');
-  camera.hidden = shown;
-  // Without the image no pictures are requested, and the camera is not rendered. An image that is only removed keeps
-  // its connection, and a browser has only six connections for a page.
-  camera.querySelector('img')?.removeAttribute('src');
-  camera.replaceChildren();
-  if (shown) return;
-  const image = new Image();
-  image.alt = 'Picture of the onboard camera';
-  image.src = forVehicle(`/stream/camera.mjpg?width=480&fps=10&t=${Date.now()}`);
-  camera.append(image);
+  element('camera').hidden = shown;
+  // Without the stream no pictures are requested, and the camera is not rendered.
+  camera?.stop();
+  camera = shown ? null : new PictureStream(element('camera'), 'Picture of the onboard camera',
+    () => commands.withToken(forVehicle(`/stream/camera.mjpg?width=480&fps=10&t=${Date.now()}`)),
+    () => store.state?.camera_age_s ?? null);
 });
 
 // --- how old is what is shown -------------------------------------------------------------------------------------
@@ -138,7 +142,11 @@ function linkNow() {
   }
   if (!store.state) return { level: 'wait', text: 'Waiting for the vehicle' };
   const age = store.state.age_s + (performance.now() - store.stateReceived_ms) / 1000;
-  return age > 1.5 ? { level: 'warn', text: `No data for ${age.toFixed(0)} s` } : { level: 'good', text: 'Live' };
+  if (age > 1.5) {
+    const seconds = `${age.toFixed(0)} s`;
+    return { level: 'warn', text: `No data for ${seconds}`, banner: `The vehicle has sent nothing for ${seconds}.` };
+  }
+  return { level: 'good', text: 'Live' };
 }
 
 function showLink() {
@@ -149,7 +157,7 @@ function showLink() {
   over.hidden = !banner;
   if (over.dataset.level !== level) over.dataset.level = level;
   if (over.textContent !== banner) over.textContent = banner;
-  document.body.classList.toggle('lost-link', level === 'bad');
+  document.body.classList.toggle('stale', level === 'bad' || level === 'warn');
 }
 
 showAccess();

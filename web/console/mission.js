@@ -14,9 +14,13 @@ export function endText({ ending }) {
   return `The flight has ended: ${ending.outcome}${ending.reason ? ` (${ending.reason})` : ''}.`;
 }
 
-/** The reason of the mission, or else of its intent; then the cause of braking. Repeats nothing of the phase. */
+/**
+ * The reason of the mission, or else of its intent; what the mission flies to after a hold; the cause of braking.
+ * Repeats nothing of the phase.
+ */
 export function reasonText({ mission, intent, avoidance }, reacts) {
-  return [mission.reason || intent.reason, reacts && avoidance.reason]
+  const next = mission.waiting && `next, after Resume: ${mission.waiting}`;
+  return [mission.reason || intent.reason, next, reacts && avoidance.reason]
     .filter((text) => text && text !== mission.phase)
     .join(' · ');
 }

@@ -9,6 +9,14 @@
 #include <boost/asio/io_context.hpp>
 
 namespace swiftlet::web {
+namespace {
+
+/// Connections at the same time that only send requests; a browser opens six.
+constexpr std::ptrdiff_t kMostForRequests = 64;
+/// Viewers may save this much of their bandwidth, for a map or a picture at once.
+constexpr double kSavedBandwidth_s = 0.25;
+
+}  // namespace
 
 WatchedVehicle::WatchedVehicle(const WebServerOptions& options, const WebServerSources& sources)
     : name(sources.name),
@@ -19,7 +27,10 @@ WatchedVehicle::WatchedVehicle(const WebServerOptions& options, const WebServerS
 
 Core::Core(boost::asio::io_context& io, WebServerOptions options_in, const std::vector<WebServerSources>& sources,
            Policy policy_in)
-    : options(std::move(options_in)), policy(std::move(policy_in)), timer_(io) {
+    : options(std::move(options_in)),
+      policy(std::move(policy_in)),
+      timer_(io),
+      viewer_credit_bytes_(kSavedBandwidth_s * options.viewers_bytes_per_s) {
   for (const WebServerSources& vehicle : sources)
     vehicles_.push_back(std::make_unique<WatchedVehicle>(options, vehicle));
 }
@@ -27,12 +38,35 @@ Core::Core(boost::asio::io_context& io, WebServerOptions options_in, const std::
 void Core::add(const std::shared_ptr<Connection>& connection) {
   std::erase_if(connections_, [](const auto& known) { return known.expired(); });
   connections_.push_back(connection);
+  const auto asks = [](const auto& known) {
+    const auto alive = known.lock();
+    return alive && !alive->watches() && !alive->byOperator();
+  };
+  if (std::count_if(connections_.begin(), connections_.end(), asks) <= kMostForRequests) return;
+  const auto oldest = std::find_if(connections_.begin(), connections_.end(), asks);
+  const auto closing = oldest->lock();
+  connections_.erase(oldest);
+  closing->close();
 }
 
-bool Core::full() const {
-  const auto alive =
-      std::count_if(connections_.begin(), connections_.end(), [](const auto& c) { return !c.expired(); });
-  return alive >= options.max_connections;
+bool Core::roomForViewer() const {
+  const auto viewers = std::count_if(connections_.begin(), connections_.end(), [](const auto& known) {
+    const auto alive = known.lock();
+    return alive && alive->watches() && !alive->byOperator();
+  });
+  return viewers < options.max_connections;
+}
+
+void Core::sent(const Connection& to, std::size_t bytes) {
+  if (!to.byOperator()) viewer_credit_bytes_ -= static_cast<double>(bytes);
+}
+
+/// The clock may have been set, so the time is bounded.
+void Core::refill(common::Time now) {
+  const double elapsed_s = std::clamp((now - refilled_).seconds(), 0.0, kSavedBandwidth_s);
+  refilled_ = now;
+  const double rate = options.viewers_bytes_per_s;
+  viewer_credit_bytes_ = std::min(viewer_credit_bytes_ + elapsed_s * rate, kSavedBandwidth_s * rate);
 }
 
 void Core::watch(const std::shared_ptr<Connection>& connection) {
@@ -61,14 +95,28 @@ void Core::tick() {
     vehicle->desk.tick();
   }
   std::erase_if(watchers_, [](const auto& watcher) { return watcher.expired(); });
-  const common::Time now = this->now();
-  // A watcher may close while it is told, and another may come.
-  for (const std::weak_ptr<Connection>& weak : std::vector(watchers_))
-    if (const auto watcher = weak.lock()) watcher->tick(now);
+  tickWatchers(now());
   // Without watchers it still ticks now and then, so that a new one learns at once how fast time passes.
   ticking_ = !watchers_.empty() || anyWaiting();
   timer_.expires_after(std::chrono::milliseconds(1000 / (ticking_ ? kTicksPerSecond : kIdleTicksPerSecond)));
   schedule();
+}
+
+/// The operators first, then the viewers in turn until their bandwidth is used up. A watcher may close while it is
+/// told, and another may come.
+void Core::tickWatchers(common::Time now) {
+  refill(now);
+  std::vector<std::shared_ptr<Connection>> viewers;
+  for (const std::weak_ptr<Connection>& weak : std::vector(watchers_)) {
+    auto watcher = weak.lock();
+    if (!watcher) continue;
+    if (watcher->byOperator())
+      watcher->tick(now);
+    else
+      viewers.push_back(std::move(watcher));
+  }
+  for (std::size_t i = 0; i < viewers.size() && viewersMaySend(); ++i)
+    viewers[first_viewer_++ % viewers.size()]->tick(now);
 }
 
 void Core::close() {

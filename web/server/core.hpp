@@ -25,10 +25,26 @@ inline constexpr int kIdleTicksPerSecond = 4;
 /// A connection that the server can close and that may receive the tick.
 class Connection {
  public:
+  enum class Use { kRequests, kWatching };
+
+  Connection(Use use, bool by_operator) : use_(use), by_operator_(by_operator) {}
   virtual ~Connection() = default;
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
   virtual void close() = 0;
+  bool watches() const { return use_ == Use::kWatching; }
+  /// It has shown the operator's token.
+  bool byOperator() const { return by_operator_; }
   /// Every 10 ms, after Core::watch().
   virtual void tick(common::Time /*now*/) {}
+
+ protected:
+  void setByOperator() { by_operator_ = true; }
+
+ private:
+  Use use_;
+  bool by_operator_;
 };
 
 /// One vehicle as the pages see it and send commands to.
@@ -42,19 +58,27 @@ struct WatchedVehicle {
   std::atomic<int> camera_watchers = 0;
 };
 
+/// Slots and bandwidth are kept for the operator: viewers (who show no token) have `max_connections` slots and
+/// `viewers_bytes_per_s` together, operators have no limit and their turn comes first.
 class Core : public std::enable_shared_from_this<Core> {
  public:
   /// `sources`: one for each vehicle, at least one.
   Core(boost::asio::io_context& io, WebServerOptions options_in, const std::vector<WebServerSources>& sources,
        Policy policy_in);
 
-  /// Counts a connection and closes it when the server stops.
+  /// Counts a connection and closes it when the server stops. Of too many that only send requests the oldest one
+  /// without a token is closed, so that silent ones never lock others out.
   void add(const std::shared_ptr<Connection>& connection);
   /// The connection receives the tick as long as it lives.
   void watch(const std::shared_ptr<Connection>& connection);
   /// Ticks at once if it idles; needed at the start and after a command was given.
   void wake();
-  bool full() const;
+  /// True while a viewer may come to watch.
+  bool roomForViewer() const;
+  /// False while the viewers have used up their bandwidth.
+  bool viewersMaySend() const { return viewer_credit_bytes_ > 0.0; }
+  /// Counts what is sent to a connection.
+  void sent(const Connection& to, std::size_t bytes);
   void close();
   bool closed() const { return closed_; }
 
@@ -69,12 +93,17 @@ class Core : public std::enable_shared_from_this<Core> {
   void schedule();
   void tick();
 
+  void tickWatchers(common::Time now);
+  void refill(common::Time now);
   bool anyWaiting() const;
 
   std::vector<std::unique_ptr<WatchedVehicle>> vehicles_;
   boost::asio::steady_timer timer_;
   std::vector<std::weak_ptr<Connection>> connections_;
   std::vector<std::weak_ptr<Connection>> watchers_;
+  std::size_t first_viewer_ = 0;  ///< The one whose turn is next.
+  double viewer_credit_bytes_;
+  common::Time refilled_;
   bool ticking_ = false;
   bool closed_ = false;
 };

@@ -36,12 +36,13 @@ std::string text(beast::string_view view) { return {view.data(), view.size()}; }
 class HttpSession : public Connection, public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket)
-      : core_(std::move(core)), stream_(std::move(socket)), buffer_(kMostHeaderBytes + kMostBodyBytes) {}
+      : Connection(Use::kRequests, false),
+        core_(std::move(core)),
+        stream_(std::move(socket)),
+        buffer_(kMostHeaderBytes + kMostBodyBytes) {}
 
   void start() {
-    const bool full = core_->full();
     core_->add(shared_from_this());
-    if (full) return sendError(503, "too many connections; close some pages");
     read();
   }
 
@@ -84,6 +85,7 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     request.authorization = text(request_[http::field::authorization]);
     request.body = request_.body();
     request.wants_websocket = beast::websocket::is_upgrade(request_);
+    if (hasToken(request, core_->policy)) setByOperator();
     std::visit([this](const auto& action) { perform(action); }, route(request, core_->policy));
   }
 
@@ -110,16 +112,19 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
 
   void perform(const StreamPictures& stream) {
     if (request_.version() < 11) return sendError(400, "streams need HTTP/1.1");
-    startStream(core_, stream_.release_socket(), stream);
+    if (!mayWatch()) return;
+    startStream(core_, stream_.release_socket(), stream, byOperator());
   }
 
   void perform(const SendPicture& picture) {
     WatchedVehicle& vehicle = core_->vehicle(picture.vehicle);
     vehicle.telemetry.look();
     if (!vehicle.telemetry.world().value) return sendError(503, "there is no map yet");
+    if (!byOperator() && !core_->viewersMaySend()) return sendError(503, "too many viewers; try again");
     const rendering::Bytes png = vehicle.hub.png(picture.view);
     Response response = make(200, "image/png");
     response.body().assign(png.begin(), png.end());
+    core_->sent(*this, png.size());
     send(std::move(response));
   }
 
@@ -132,7 +137,18 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
     send(std::move(response));
   }
 
-  void perform(const OpenSocket& socket) { startPage(core_, socket.vehicle, stream_.release_socket(), request_); }
+  void perform(const OpenSocket& socket) {
+    if (mayWatch()) startPage(core_, socket.vehicle, stream_.release_socket(), request_, byOperator());
+  }
+
+  /// Otherwise the client is told.
+  bool mayWatch() {
+    const bool may = byOperator() || core_->roomForViewer();
+    if (!may) sendError(503, "too many viewers; close some pages, or use the operator's link");
+    return may;
+  }
+
+  void perform(const ConfirmToken&) { send(json(200, {{"accepted", true}, {"reason", ""}})); }
 
   void perform(const GiveCommand& command) {
     const bool given =

@@ -19,8 +19,11 @@ constexpr std::size_t kMostTileBytes = std::size_t{64} * 1024;
 
 class PageSession : public Connection, public std::enable_shared_from_this<PageSession> {
  public:
-  PageSession(std::shared_ptr<Core> core, std::size_t vehicle, boost::asio::ip::tcp::socket socket)
-      : core_(std::move(core)), vehicle_(core_->vehicle(vehicle)), stream_(std::move(socket)) {}
+  PageSession(std::shared_ptr<Core> core, std::size_t vehicle, boost::asio::ip::tcp::socket socket, bool by_operator)
+      : Connection(Use::kWatching, by_operator),
+        core_(std::move(core)),
+        vehicle_(core_->vehicle(vehicle)),
+        stream_(std::move(socket)) {}
 
   void start(const beast::http::request<beast::http::string_body>& upgrade) {
     error_code ignored;
@@ -114,6 +117,7 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
     writing_ = true;
     const Message message = queue_.front();
     queue_.pop_front();
+    core_->sent(*this, message.text->size());
     stream_.binary(message.binary);
     stream_.async_write(boost::asio::buffer(*message.text),
                         [self = shared_from_this(), message](const error_code& error, std::size_t) {
@@ -150,8 +154,8 @@ class PageSession : public Connection, public std::enable_shared_from_this<PageS
 }  // namespace
 
 void startPage(std::shared_ptr<Core> core, std::size_t vehicle, boost::asio::ip::tcp::socket socket,
-               const beast::http::request<beast::http::string_body>& upgrade) {
-  std::make_shared<PageSession>(std::move(core), vehicle, std::move(socket))->start(upgrade);
+               const beast::http::request<beast::http::string_body>& upgrade, bool by_operator) {
+  std::make_shared<PageSession>(std::move(core), vehicle, std::move(socket), by_operator)->start(upgrade);
 }
 
 }  // namespace swiftlet::web

@@ -15,6 +15,6 @@
 namespace swiftlet::web {
 
 void startPage(std::shared_ptr<Core> core, std::size_t vehicle, boost::asio::ip::tcp::socket socket,
-               const boost::beast::http::request<boost::beast::http::string_body>& upgrade);
+               const boost::beast::http::request<boost::beast::http::string_body>& upgrade, bool by_operator);
 
 }  // namespace swiftlet::web

@@ -59,17 +59,25 @@ void checkOrigin(const Request& request) {
   refuse(403, fmt::format("a page of {} may not do this", shown(request.origin)));
 }
 
-void checkToken(const Request& request, const Target& target, const Policy& policy) {
+/// Empty if the request shows none.
+std::string_view shownToken(const Request& request, const Target& target) {
   constexpr std::string_view kBearer = "Bearer ";
-  std::string_view given;
   if (request.authorization.compare(0, kBearer.size(), kBearer) == 0)
-    given = std::string_view(request.authorization).substr(kBearer.size());
-  else if (const auto it = target.query.find("token"); it != target.query.end())
-    given = it->second;
+    return std::string_view(request.authorization).substr(kBearer.size());
+  const auto it = target.query.find("token");
+  return it == target.query.end() ? std::string_view() : std::string_view(it->second);
+}
+
+bool isToken(std::string_view given, const Policy& policy) {
+  return !policy.token.empty() && sameSecret(given, policy.token);
+}
+
+void checkToken(const Request& request, const Target& target, const Policy& policy) {
+  const std::string_view given = shownToken(request, target);
   if (given.empty())
     refuse(401,
            "this needs the operator's token: open the link printed at start, or send `Authorization: Bearer TOKEN`");
-  if (policy.token.empty() || !sameSecret(given, policy.token))
+  if (!isToken(given, policy))
     refuse(401, "the operator's token is wrong: open the link printed at this program's start");
 }
 
@@ -205,6 +213,11 @@ Action decide(const Request& request, const Policy& policy) {
     checkToken(request, *target, policy);
     return command(request, target->path.substr(5), vehicle);
   }
+  if (target->path == "/api/token") {
+    checkMethod(request, "GET");
+    checkToken(request, *target, policy);
+    return ConfirmToken{};
+  }
   const std::string file = target->path == "/" ? "index.html" : target->path.substr(1);
   if (!in(policy.files, file)) refuse(404, fmt::format("there is no {} here", shown(target->path)));
   (void)vehicleOf(*target, policy);
@@ -213,6 +226,11 @@ Action decide(const Request& request, const Policy& policy) {
 }
 
 }  // namespace
+
+bool hasToken(const Request& request, const Policy& policy) {
+  const auto target = parseTarget(request.target);
+  return target && isToken(shownToken(request, *target), policy);
+}
 
 Action route(const Request& request, const Policy& policy) {
   try {

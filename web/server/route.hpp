@@ -45,13 +45,15 @@ struct GiveCommand {
   decltype(common::OperatorCommand::kind) kind;
   std::size_t vehicle = 0;
 };
+struct ConfirmToken {};
 struct Refuse {
   int status = 400;  ///< 400, 401, 403, 404, 405, 426
   std::string reason;
   std::string allow;  ///< For status 405: the allowed methods.
 };
 
-using Action = std::variant<ServeFile, StreamPictures, SendPicture, SendState, OpenSocket, GiveCommand, Refuse>;
+using Action =
+    std::variant<ServeFile, StreamPictures, SendPicture, SendState, OpenSocket, GiveCommand, ConfirmToken, Refuse>;
 
 struct Policy {
   std::string token;
@@ -63,5 +65,8 @@ struct Policy {
 /// Checked in this order: host (403), target (400), path (404), vehicle (404), method (405), origin (403), token (401),
 /// parameters and body (400). Widths, heights and rates that are too large are reduced to what is offered.
 Action route(const Request& request, const Policy& policy);
+
+/// The request shows the operator's token, in its header or its address.
+bool hasToken(const Request& request, const Policy& policy);
 
 }  // namespace swiftlet::web

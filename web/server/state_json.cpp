@@ -62,13 +62,15 @@ Json poseOf(const common::VehicleState& state) {
           {"pitch_rad", number(angles.pitch_rad, 4)}, {"yaw_rad", number(angles.yaw_rad, 4)}};
 }
 
-Json missionOf(const common::MissionStatus& mission) {
+Json missionOf(const common::MissionLayer& layer) {
+  const common::MissionStatus& mission = layer.status;
   Json tree = Json::array();
   for (const common::TreeNodeView& node : mission.tree)
     tree.push_back({{"id", node.id}, {"parent", node.parent}, {"name", node.name}, {"status", node.status}});
   return {{"state", common::toString(mission.state)},
           {"phase", mission.phase},
           {"reason", mission.reason},
+          {"waiting", layer.waiting.empty() ? Json(nullptr) : Json(layer.waiting)},
           {"accepts_goals", mission.accepts_goals},
           {"tree", tree}};
 }
@@ -124,7 +126,7 @@ Json stateOf(const common::World& world, const Observation& seen) {
       {"explored_area_m2", world.map->explored_area_m2 > 0 ? number(world.map->explored_area_m2, 2) : Json(nullptr)},
       {"avoidance", avoidanceOf(vehicle.avoidance)},
       {"intent", {{"state", word(mission.intent.state)}, {"reason", mission.intent.reason}}},
-      {"mission", missionOf(mission.status)},
+      {"mission", missionOf(mission)},
       {"ending",
        mission.ending ? Json{{"outcome", mission.ending->outcome}, {"reason", mission.ending->reason}} : Json(nullptr)},
       {"home", {{"x_m", number(vehicle.home_map.x_m)}, {"y_m", number(vehicle.home_map.y_m)}}},

@@ -13,8 +13,10 @@ using boost::system::error_code;
 
 class StreamSession : public Connection, public std::enable_shared_from_this<StreamSession> {
  public:
-  StreamSession(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket, const StreamPictures& asked)
-      : core_(std::move(core)),
+  StreamSession(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket, const StreamPictures& asked,
+                bool by_operator)
+      : Connection(Use::kWatching, by_operator),
+        core_(std::move(core)),
         vehicle_(core_->vehicle(asked.vehicle)),
         socket_(std::move(socket)),
         view_(vehicle_.hub.watch(asked.view)),
@@ -68,6 +70,7 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
     writing_ = true;
     last_ = frame;
     sent_ = now;
+    core_->sent(*this, frame->bytes.size());
     const std::array<boost::asio::const_buffer, 2> buffers{boost::asio::buffer(head_),
                                                            boost::asio::buffer(frame->bytes)};
     boost::asio::async_write(socket_, buffers,
@@ -105,8 +108,9 @@ class StreamSession : public Connection, public std::enable_shared_from_this<Str
 
 }  // namespace
 
-void startStream(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket, const StreamPictures& asked) {
-  std::make_shared<StreamSession>(std::move(core), std::move(socket), asked)->start();
+void startStream(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket, const StreamPictures& asked,
+                 bool by_operator) {
+  std::make_shared<StreamSession>(std::move(core), std::move(socket), asked, by_operator)->start();
 }
 
 }  // namespace swiftlet::web

@@ -10,6 +10,7 @@
 
 namespace swiftlet::web {
 
-void startStream(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket, const StreamPictures& asked);
+void startStream(std::shared_ptr<Core> core, boost::asio::ip::tcp::socket socket, const StreamPictures& asked,
+                 bool by_operator);
 
 }  // namespace swiftlet::web

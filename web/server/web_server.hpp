@@ -7,9 +7,13 @@
 //   GET  /api/state               everything as one JSON document
 //   GET  /api/map.png             the picture of the map; ?width= &height= &scheme=
 //   GET  /api/ws                  WebSocket: the content of /api/state in parts, only changes, and the map's tiles
+//   GET  /api/token               200 if the token shown is the operator's, else 401
 //   POST /api/goal|hold|resume|home|land    `Authorization: Bearer TOKEN` or ?token=; goal: {"x_m": 1.0, "y_m": 2.0}
 //
 // Where several vehicles fly, ?vehicle=NAME says which one is meant, everywhere; without it the first.
+//
+// Viewers (without the token) share bounded slots and bandwidth; operators come before them. A stream or a socket is
+// the operator's with ?token=.
 //
 // Streams: a picture is encoded once for all clients that asked for the same; each client has at most one frame under
 // way and gets the newest when it is ready again, so that a slow client costs and delays nobody, and its own picture

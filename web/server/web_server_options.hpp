@@ -20,9 +20,10 @@ struct WebServerOptions {
   std::string token;                  ///< The token of an operator; at least 8 characters of [A-Za-z0-9_-].
   std::string title;                  ///< Shown on the page: "explore_and_return in unb_case1".
   double hull_diameter_m = 0.55;
-  double command_timeout_s = 2.0;  ///< How long an answer waits for the CommandResult.
-  double stall_timeout_s = 10.0;   ///< A stream's client that takes nothing for this long is dropped.
-  int max_connections = 256;
+  double command_timeout_s = 2.0;     ///< How long an answer waits for the CommandResult.
+  double stall_timeout_s = 10.0;      ///< A stream's client that takes nothing for this long is dropped.
+  int max_connections = 256;          ///< Viewers that watch at the same time; operators are not counted.
+  double viewers_bytes_per_s = 16e6;  ///< For all viewers together, so that the operator's page is not starved.
   /// The present time since 1970, for the age of frames only. Called from the thread that runs the IoContext.
   std::function<common::Time()> unix_time;
 };

@@ -1,0 +1,40 @@
+// The configuration of the autonomy.
+#include <algorithm>
+
+#include "autonomy/autonomy.hpp"
+#include "common/config_fields.hpp"
+
+namespace swiftlet::autonomy {
+
+void AutonomyConfig::describe(common::config::Fields& fields) {
+  fields.section("estimator", estimator, "From raw samples to a state and a map.");
+  fields.section("reactive", reactive, "Braking and retreat at the laser rate.");
+  fields.section("execution", execution, "Planning and exploring to carry out intents.");
+  fields.section("control", control, "State machine, trajectories and controllers.");
+  fields.section("supervisor", supervisor, "Hold and landing above the mission.");
+  fields("behavior_rate_hz", behavior_rate_hz, {1, 100}, "Ticks of the mission's tree a second.");
+  fields.section("scans", scans, "Scans that arrive late or out of order.");
+  fields("max_height_m", max_height_m, {0.2, 100},
+         "Greatest height over the take-off floor; a mission that asks for more is refused.");
+}
+
+std::vector<std::string> AutonomyConfig::validate() const {
+  std::vector<std::string> problems;
+  for (const std::string& problem : problemsWith(execution.clearance_m))
+    problems.push_back("reactive.avoidance." + problem);
+  return problems;
+}
+
+void AutonomyConfig::limitTo(const common::LaserConfig& laser) {
+  double& avoidance_deg = reactive.avoidance.field_of_view_deg;
+  planning::ExplorationConfig& exploration = execution.exploration;
+  avoidance_deg = std::min(avoidance_deg, laser.field_of_view_deg);
+  exploration.laser_field_of_view_deg = std::min(exploration.laser_field_of_view_deg, laser.field_of_view_deg);
+  exploration.laser_range_m = std::min(exploration.laser_range_m, laser.range_max_m);
+}
+
+std::vector<std::string> AutonomyConfig::problemsWith(double clearance_m) const {
+  return reactive.avoidance.validateAgainst(clearance_m, estimator.people.keep_out_m);
+}
+
+}  // namespace swiftlet::autonomy
