@@ -185,7 +185,7 @@ TEST(Mixing, YawGetsWhatRollAndPitchLeave) {
 
 /// Gusts in steps of 0.01 s.
 std::vector<Vector3d> gusts(GustModel model, int ticks) {
-  Wind wind({.model = model, .mean_x_m_s = 1.0, .gust_m_s = 0.4, .gust_time_s = 0.5}, 3);
+  Wind wind({.mean_x_m_s = 1.0, .gust_m_s = 0.4, .gust_time_s = 0.5, .model = model}, 3);
   std::vector<Vector3d> velocities;
   for (int tick = 0; tick < ticks; ++tick) {
     wind.step(static_cast<std::uint64_t>(tick), 0.01);
