@@ -28,8 +28,8 @@ struct Recorded {
     common::LosslessQueue<common::OperatorCommand> commands;
     InputRecorder recorder;
     FlightLoop loop(*vehicle, autonomy, commands, {&recorder, &witness});
-    while (!autonomy.finished() && loop.now() < Time::fromSeconds(45)) {
-      if (loop.now() == Time::fromSeconds(9)) commands.push({1, common::HomeCommand{}});
+    while (!autonomy.finished() && loop.now() < Time::fromSeconds(60)) {
+      if (loop.now() == Time::fromSeconds(9)) commands.push({1, common::GoalCommand{{1.0, 0.0}}});
       if (!loop.step(loop.now() + common::kControlPeriod)) break;
     }
     finished = autonomy.finished();
