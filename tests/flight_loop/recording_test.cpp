@@ -29,7 +29,7 @@ struct Recorded {
     InputRecorder recorder;
     FlightLoop loop(*vehicle, autonomy, commands, {&recorder, &witness});
     while (!autonomy.finished() && loop.now() < Time::fromSeconds(45)) {
-      if (loop.now() == Time::fromSeconds(9)) commands.push({1, common::HomeCommand{}});
+      if (loop.now() == Time::fromSeconds(9)) commands.push({1, common::GoalCommand{}});
       if (!loop.step(loop.now() + common::kControlPeriod)) break;
     }
     finished = autonomy.finished();
