@@ -30,7 +30,7 @@ const state = async () => (await fetch(`${origin}/api/state`)).json();
 /** Opens the page and lets `change` modify every state before the page gets it. */
 async function openWith(change) {
   const context = await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true });
-  await context.routeWebSocket('**/api/ws', (page) => {
+  await context.routeWebSocket(/\/api\/ws/, (page) => {
     const vehicle = page.connectToServer();
     vehicle.onMessage((message) => {
       const state = typeof message === 'string' && message.includes('"type":"state"') ? JSON.parse(message) : null;
