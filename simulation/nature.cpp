@@ -16,7 +16,7 @@
 namespace swiftlet::simulation {
 namespace {
 
-constexpr std::uint64_t kMostDraws = 200;
+constexpr std::uint64_t kMostNatureDraws = 200;
 constexpr const char* kCharge = "battery_remaining";
 
 /// A scenario that varies the charge says itself what the charge is.
@@ -72,18 +72,18 @@ Scenario Nature::drawn(const Scenario& scenario, std::uint64_t seed) const {
   if (!ranges_) return scenario;
   const std::vector<std::string> written = writtenOf(scenario);
   const bool fixed_charge = std::find(written.begin(), written.end(), kCharge) != written.end();
-  for (std::uint64_t draw = 0; draw < kMostDraws; ++draw) {
+  for (std::uint64_t draw = 0; draw < kMostNatureDraws; ++draw) {
     Scenario result = scenario;
     ranges_->apply(result, written, [seed, draw](const std::string& key, double low, double high) {
       return common::RandomStream(seed, "nature " + key, draw).uniform(low, high);
     });
     if (fixed_charge || chargeUntilItFlies(result, ranges_->leastThrustOverWeight())) return result;
   }
-  throw common::InputError(
-      common::Problem{{ranges_->file()},
-                      "least_thrust_over_weight",
-                      fmt::format("none of {} draws can lift the vehicle `{}`", kMostDraws, scenario.vehicle.name),
-                      "draw a lighter vehicle, or more thrust"});
+  throw common::InputError(common::Problem{
+      {ranges_->file()},
+      "least_thrust_over_weight",
+      fmt::format("none of {} draws can lift the vehicle `{}`", kMostNatureDraws, scenario.vehicle.name),
+      "draw a lighter vehicle, or more thrust"});
 }
 
 std::string Nature::valuesIn(const Scenario& drawn) const { return ranges_ ? ranges_->valuesIn(drawn) : ""; }
