@@ -52,6 +52,7 @@ function(swiftlet_tests name)
   cmake_parse_arguments(ARG "" "QUICK;SLOW;TIMEOUT" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/${name}/*.cpp")
   add_executable(test_${name} ${sources})
+  swiftlet_unity(test_${name})
   target_link_libraries(test_${name} PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE SWIFTLET_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                              SWIFTLET_BINARY_DIR="${PROJECT_BINARY_DIR}")

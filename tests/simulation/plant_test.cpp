@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "fixtures.hpp"
+#include "quadrotor_fixtures.hpp"
 #include "simulation/autopilot.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/sensors/fuel_gauge.hpp"
@@ -16,21 +16,16 @@ namespace swiftlet::simulation {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kNoFloor = -std::numeric_limits<double>::infinity();
-
-const common::VehicleConfig kVehicle;
-const common::Pose3 kInTheAir{Eigen::Quaterniond::Identity(), {0, 0, 10}};
 
 /// Without drag, and with a battery that does not sag.
 QuadrotorConfig simple() {
-  QuadrotorConfig config;
-  config.linear_drag_n_s_m = config.quadratic_drag_n_s2_m2 = config.angular_drag_n_m_s = 0.0;
+  QuadrotorConfig config = withoutDrag();
   config.battery.resistance_ohm = 0.0;
   return config;
 }
 
 Quadrotor flown(const QuadrotorConfig& config, double throttle, int steps = 500, double floor_world_m = kNoFloor) {
-  Quadrotor quadrotor(kVehicle, config, kInTheAir, 1.0);
+  Quadrotor quadrotor(kVehicle, config, inTheAir(), 1.0);
   for (int i = 0; i < steps; ++i)
     quadrotor.step({throttle, throttle, throttle, throttle}, Vector3d::Zero(), floor_world_m, 0.001);
   return quadrotor;
@@ -76,14 +71,14 @@ TEST(Plant, AWeakMotorTurnsTheVehicleTowardsItself) {
 }
 
 TEST(Plant, NearTheFloorTheSameThrottleLiftsMore) {
-  constexpr double kRadius_m = 0.127;
+  constexpr double kRotorRadius_m = 0.127;
   QuadrotorConfig config = simple();
-  config.ground_effect_radius_m = kRadius_m;
+  config.ground_effect_radius_m = kRotorRadius_m;
   const auto felt = [&](double height_m) {
     return flown(config, 0.6, 1, 10.0 - height_m).state().specific_force_body_m_s2.z();
   };
   const double high = flown(config, 0.6, 1).state().specific_force_body_m_s2.z();
-  EXPECT_NEAR(felt(2.0 * kRadius_m) / high, 1.0 / (1.0 - 1.0 / 64.0), 1e-9);
+  EXPECT_NEAR(felt(2.0 * kRotorRadius_m) / high, 1.0 / (1.0 - 1.0 / 64.0), 1e-9);
   EXPECT_GT(felt(0.2), felt(0.4));
   EXPECT_NEAR(felt(2.0) / high, 1.0, 1e-3) << "gone two metres up";
   config.ground_effect_radius_m = 0.0;
@@ -139,7 +134,7 @@ TEST(Plant, ThrustOverWeightIsWhatTheMotorsGive) {
   config.weak_motor = 2;
   config.weak_motor_share = 0.96;
   for (const double charge : {1.0, 0.4, 0.1}) {
-    Quadrotor quadrotor(kVehicle, config, kInTheAir, charge);
+    Quadrotor quadrotor(kVehicle, config, inTheAir(), charge);
     for (int i = 0; i < 500; ++i) quadrotor.step({0.95, 0.95, 0.95, 0.95}, Vector3d::Zero(), kNoFloor, 0.001);
     EXPECT_NEAR(thrustOverWeight(kVehicle, config, charge, 0.95),
                 thrust_n(quadrotor) / (1.05 * kVehicle.mass_kg * kGravity_m_s2), 0.01)

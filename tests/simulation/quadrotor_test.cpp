@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "quadrotor_fixtures.hpp"
 #include "simulation/autopilot.hpp"
 #include "simulation/sensors/inertial_unit.hpp"
 #include "simulation/wind.hpp"
@@ -13,19 +13,9 @@ namespace swiftlet::simulation {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kNoFloor = -std::numeric_limits<double>::infinity();
 constexpr double kStep_s = 0.001;
 
-const common::VehicleConfig kVehicle;
 const QuadrotorConfig kAirframe;
-
-common::Pose3 inTheAir() { return {Eigen::Quaterniond::Identity(), {0, 0, 10}}; }
-
-QuadrotorConfig withoutDrag() {
-  QuadrotorConfig config;
-  config.linear_drag_n_s_m = config.quadratic_drag_n_s2_m2 = config.angular_drag_n_m_s = 0.0;
-  return config;
-}
 
 /// An autopilot on a perfect AHRS.
 AttitudeMeasurement perfect(const Quadrotor& quadrotor) {
