@@ -19,6 +19,8 @@ constexpr std::uint64_t kSupervisorHold = 1ULL << 62;
 constexpr std::uint64_t kSupervisorLand = kSupervisorHold + 1;
 /// Of the first flight home; the next ones count on.
 constexpr std::uint64_t kSupervisorHome = kSupervisorHold + 2;
+/// Of the first flight back along the trail.
+constexpr std::uint64_t kSupervisorBack = kSupervisorHome + (1ULL << 32);
 
 }  // namespace
 
@@ -36,6 +38,8 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       mission_(std::move(mission)),
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
+      imu_watch_(config.imu),
+      energy_monitor_(config.energy, vehicle.battery_capacity_ah),
       world_builder_(vehicle_name_) {
   context_.goal_limits.greatest_height_m = config.max_height_m;
   mission_status_.accepts_goals = mission_.acceptsGoals();
@@ -56,13 +60,14 @@ std::optional<common::Setpoint> Autonomy::process(const Input& input) {
 void Autonomy::take(const common::SensorEvent& event) {
   const Time arrived = common::stampsOf(event).arrived;
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
+    imu_watch_.add(*imu);
     estimator_.addImu(*imu);
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
     scans_.add(*scan);
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     if (!supervisor_.batteryArrived(arrived, *battery)) return;
-    energy_.battery_voltage_v = battery->voltage_v;
-    energy_.battery_remaining = battery->remaining;
+    battery_v_ = battery->voltage_v;
+    energy_monitor_.add(*battery, control::isAirborne(controller_.state()));
   } else if (const auto* pilot = std::get_if<common::PilotSample>(&event)) {
     supervisor_.pilotArrived(arrived, pilot->takes_over);
   }
@@ -107,9 +112,10 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.now = now;
   flight.state = estimator_.state();
   flight.raw_height = std::exchange(raw_height_, std::nullopt);
-  flight.battery_v = energy_.battery_voltage_v;
+  flight.battery_v = battery_v_;
   flight.pilot_flies = supervisor_.pilotFlies();
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
+  flight.inertial_fault = imu_watch_.fault(now);
   const common::Setpoint setpoint = controller_.tick(flight);
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
   estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying);
@@ -151,8 +157,9 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
 
   const common::VehicleState state = estimator_.state();
   const auto cost_map = executor_.desk().costMap();
-  const auto& decision = reactive_.update({outcome->scan, outcome->T_map_body, state, estimator_.people().obstacles(),
-                                           executor_.wantedVelocity_map_m_s(), cost_map.get()});
+  const auto& decision =
+      reactive_.update({outcome->scan, outcome->T_map_body, state, (now - outcome->scan.stamp).seconds(),
+                        estimator_.people().obstacles(), executor_.wantedVelocity_map_m_s(), cost_map.get()});
   executor_.react(decision, state);
 
   auto points = std::make_shared<common::LaserPoints>();
@@ -172,6 +179,7 @@ void Autonomy::prepare() {
 
 void Autonomy::tickBehaviors(Time now) {
   takeSnapshot(now);
+  if (knowsItsPlace(now)) known_trail_points_ = world_->vehicle->trail.points_map_m().size();
   if (prepared_) intent_ = nextIntent(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
   executor_.tick(intent_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(),
@@ -181,7 +189,7 @@ void Autonomy::tickBehaviors(Time now) {
 /// The supervisor's intent comes before the mission's.
 common::Intent Autonomy::nextIntent(Time now) {
   const bool airborne = control::isAirborne(controller_.state());
-  const Supervision& supervision = supervisor_.tick(now, controller_.state(), energy_);
+  const Supervision& supervision = supervisor_.tick(now, condition(now));
   context_.world = world_;
   context_.goal_map = executor_.desk().goalMap();
   context_.status = executor_.status();
@@ -205,8 +213,9 @@ common::Intent Autonomy::nextIntent(Time now) {
   if (missionOver()) return {kSupervisorLand, common::LandIntent{}};
   tickMission();
   if (missionOver() && airborne) return {kSupervisorLand, common::LandIntent{}};
-  if (supervision.home > 0 && airborne && (intent_.id >= kSupervisorHome || executor_.status().released))
-    return intentHome(supervision.home, now);
+  const bool stopped = intent_.id >= kSupervisorHome || executor_.status().released;
+  if (supervision.back > 0 && airborne && stopped) return intentBack(supervision.back, now);
+  if (supervision.home > 0 && airborne && stopped) return intentHome(supervision.home, now);
   if (supervision.hold && mission_status_.state != MissionState::kHeld && airborne)
     return {kSupervisorHold, common::HoldIntent{}};
   return context_.intent.value_or(common::Intent{});
@@ -222,6 +231,40 @@ common::Intent Autonomy::intentHome(unsigned number, Time now) {
   if (status.id != intent.id || status.state == common::IntentState::kRunning) return intent;
   supervisor_.homeEnded(now, status.state == common::IntentState::kSucceeded, status.reason);
   return {kSupervisorHold, common::HoldIntent{}};
+}
+
+/// True where the surface below is measured and the laser fixes the position.
+bool Autonomy::knowsItsPlace(common::Time now) const {
+  constexpr double kHeightSeen_s = 0.15;
+  const VehicleCondition now_is = condition(now);
+  return now_is.height_unseen_s < kHeightSeen_s && now_is.drift_m < 0.1 * config_.supervisor.drift_back_m;
+}
+
+/// The path back leads to where height and position were last known, and a little farther.
+common::Intent Autonomy::intentBack(unsigned number, common::Time now) {
+  constexpr std::size_t kFartherBack = 10;  // Points of the trail, half a metre.
+  const std::uint64_t id = kSupervisorBack + number - 1;
+  const common::IntentStatus& status = executor_.status();
+  if (status.id != id) {
+    const auto trail_map_m = world_->vehicle->trail.points_map_m();
+    const std::size_t known = std::min(known_trail_points_, trail_map_m.size());
+    common::RetraceIntent back;
+    back.path_map_m.assign(trail_map_m.rbegin(),
+                           trail_map_m.rend() - static_cast<std::ptrdiff_t>(known - std::min(known, kFartherBack)));
+    return {id, back};
+  }
+  if (status.state == common::IntentState::kRunning) return intent_;
+  supervisor_.backEnded(now);
+  return {kSupervisorHold, common::HoldIntent{}};
+}
+
+VehicleCondition Autonomy::condition(common::Time now) const {
+  VehicleCondition condition;
+  condition.flight = controller_.state();
+  condition.energy = energy_;
+  if (const auto seen = estimator_.heightSeen()) condition.height_unseen_s = (now - *seen).seconds();
+  condition.drift_m = estimator_.drift_m();
+  return condition;
 }
 
 void Autonomy::tickMission() {
@@ -244,6 +287,7 @@ void Autonomy::takeSnapshot(Time now) {
   parts.vehicle.avoidance = reactive_.decision().status;
   parts.vehicle.plan_map_m = executor_.remainingPlan_map_m();
   parts.vehicle.laser = laser_points_;
+  parts.vehicle.drift_m = estimator_.drift_m();
   parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}, {}};
   showWaiting(parts.mission);
   parts.mission.status.tree = mission_.view();
@@ -251,6 +295,8 @@ void Autonomy::takeSnapshot(Time now) {
                estimator_.localization()};
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
+  energy_ = energy_monitor_.layer(controller_.thrustMargin(), executor_.desk().home_m(),
+                                  config_.supervisor.battery_land_share);
   parts.energy = energy_;
   world_ = world_builder_.build(now, std::move(parts));
 }

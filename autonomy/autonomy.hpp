@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "autonomy/energy_monitor.hpp"
 #include "autonomy/estimator.hpp"
 #include "autonomy/executor.hpp"
+#include "autonomy/imu_watch.hpp"
 #include "autonomy/input.hpp"
 #include "autonomy/reactive.hpp"
 #include "autonomy/scan_queue.hpp"
@@ -34,8 +36,10 @@ struct AutonomyConfig {
   ExecutorConfig execution;
   control::FlightController::Config control;
   SupervisorConfig supervisor;
+  EnergyConfig energy;
   double behavior_rate_hz = 20.0;
   ScanQueueConfig scans;
+  ImuWatchConfig imu;
   double max_height_m = 10.0;
 
   void describe(common::config::Fields& fields);
@@ -99,6 +103,9 @@ class Autonomy {
   void tickBehaviors(common::Time now);
   common::Intent nextIntent(common::Time now);
   common::Intent intentHome(unsigned number, common::Time now);
+  common::Intent intentBack(unsigned number, common::Time now);
+  VehicleCondition condition(common::Time now) const;
+  bool knowsItsPlace(common::Time now) const;
   bool missionOver() const { return common::isOver(mission_status_.state); }
   void tickMission();
   void takeSnapshot(common::Time now);
@@ -118,7 +125,10 @@ class Autonomy {
   std::unique_ptr<common::JobRunner> jobs_;
 
   ScanQueue scans_;
-  common::EnergyLayer energy_;
+  ImuWatch imu_watch_;
+  EnergyMonitor energy_monitor_;
+  common::EnergyLayer energy_;  ///< Of the last tick of the behaviours.
+  double battery_v_ = 0.0;
   std::optional<control::RawHeight> raw_height_;
   std::shared_ptr<const common::LaserPoints> laser_points_;
 
@@ -127,6 +137,7 @@ class Autonomy {
   common::MissionStatus mission_status_;
   bool releasing_mission_ = false;  ///< The supervisor lands the vehicle, and the mission has not released it yet.
   bool prepared_ = false;
+  std::size_t known_trail_points_ = 0;  ///< Up to this point of the trail, height and position were known.
   std::optional<common::Time> last_behaviors_;
 
   WorldBuilder world_builder_;

@@ -1,7 +1,11 @@
 #include "autonomy/estimator.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
+
+#include <Eigen/Eigenvalues>
 
 #include <fmt/format.h>
 
@@ -54,6 +58,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   const OdometryStep odometry = withheld ? OdometryStep{} : match(standing);
   outcome.matched = fuse(odometry);
   outcome.interrupted = odometry.interrupted;
+  followDrift(outcome.matched && !(odometry.measurement && odometry.measurement->unseen_direction));
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));
   outcome.T_map_body = map_.T_map_odom() * T_odom_body;
@@ -61,7 +66,10 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
 
   const AltitudeStep altitude = altitude_.add(outcome.scan, outcome.T_map_body, filter_.verticalAt(outcome.scan.stamp));
   fuse(altitude, outcome.scan.stamp);
-  if (altitude.below_m) outcome.raw_height = control::RawHeight{outcome.scan.stamp, *altitude.below_m};
+  if (altitude.below_m) {
+    outcome.raw_height = control::RawHeight{outcome.scan.stamp, *altitude.below_m};
+    height_seen_ = now;
+  }
 
   const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), odometry.covariance, outcome.matched}, now);
   if (outcome.matched) outcome.T_map_body = map.T_map_body;
@@ -148,6 +156,14 @@ bool Estimator::fuse(const OdometryStep& step) {
             perception::Insertion::kTaken;
   if (step.clone_after) (void)filter_.addClone(*step.clone_after);
   return taken;
+}
+
+void Estimator::followDrift(bool fixed) {
+  const Eigen::Matrix2d covariance_m2 = filter_.state().position_covariance_m2.topLeftCorner<2, 2>();
+  if (fixed) fixed_covariance_m2_ = covariance_m2;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> grown(covariance_m2 - fixed_covariance_m2_,
+                                                             Eigen::EigenvaluesOnly);
+  drift_m_ = std::sqrt(std::max(0.0, grown.eigenvalues().maxCoeff()));
 }
 
 void Estimator::fuse(const AltitudeStep& step, Time stamp) {

@@ -78,6 +78,12 @@ class Estimator {
   /// While false, scans are not compared with the given map, because near the floor the laser sees other objects.
   void setAtFlightHeight(bool is) { at_flight_height_ = is; }
 
+  /// Standard deviation of the horizontal position in its weakest direction, as it has grown since a scan last fixed
+  /// the position in every direction: along a corridor without features, and while no scan matches.
+  double drift_m() const { return drift_m_; }
+  /// When the last scan that measured the surface below was processed; none before the first.
+  std::optional<common::Time> heightSeen() const { return height_seen_; }
+
   /// The state at the newest IMU sample, with T_map_odom.
   common::VehicleState state() const;
   perception::FusionHealth health() const { return filter_.health(); }
@@ -100,6 +106,7 @@ class Estimator {
   bool isWithheld(const perception::ProjectedScan& scan);
   OdometryStep match(const perception::ProjectedScan& scan);
   bool fuse(const OdometryStep& step);
+  void followDrift(bool fixed);
   void fuse(const AltitudeStep& step, common::Time stamp);
   void localize(const LocatedScan& located, common::Time now);
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
@@ -116,6 +123,9 @@ class Estimator {
 
   std::optional<common::ImuSample> last_imu_;
   common::Time started_;  ///< Time at which the filter started.
+  std::optional<common::Time> height_seen_;
+  Eigen::Matrix2d fixed_covariance_m2_ = Eigen::Matrix2d::Zero();  ///< Of the position when it was last fixed.
+  double drift_m_ = 0.0;
   bool at_flight_height_ = false;
   bool waiting_said_ = false;
   perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;

@@ -46,6 +46,7 @@ void PlanningDesk::receive(const PlanningAnswer& answer, Time now) {
     frontiers_ = std::make_shared<std::vector<common::Frontier>>(answer.exploration->frontiers);
     explored_area_m2_ = answer.exploration->explored_area_m2;
   }
+  home_m_ = answer.home_m;
   use_ = answer.use;
   deliver_(answer, now);
 }

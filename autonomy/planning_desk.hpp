@@ -46,6 +46,8 @@ class PlanningDesk {
   /// The frontiers found by the last exploration request; never null.
   std::shared_ptr<const std::vector<common::Frontier>> frontiers() const { return frontiers_; }
   double exploredArea_m2() const { return explored_area_m2_; }
+  /// Length of the path home, as planned a few answers ago; none while there is no path.
+  const std::optional<double>& home_m() const { return home_m_; }
   /// The planner and the explorer in use, with the number of their results so far.
   const PlanningUse& use() const { return use_; }
 
@@ -61,6 +63,7 @@ class PlanningDesk {
   std::shared_ptr<const common::GoalMap> goal_map_;
   std::shared_ptr<const std::vector<common::Frontier>> frontiers_;
   double explored_area_m2_ = 0.0;
+  std::optional<double> home_m_;
   PlanningUse use_;
 };
 

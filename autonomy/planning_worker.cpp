@@ -5,7 +5,6 @@
 
 #include "planning/search/admission.hpp"
 #include "planning/search/goal_map.hpp"
-#include "planning/search/wavefront.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -33,8 +32,20 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   } else if (const auto* explore_request = std::get_if<ExploreRequest>(&request.question)) {
     explore(request, *explore_request, answer);
   }
+  answer.home_m = pathHome_m(here);
   answer.use = {planner_->name(), paths_, explorer_->name(), viewpoints_};
   return answer;
+}
+
+/// The path to the origin of the map, where the vehicle took off. It is planned at every kEach-th answer, because the
+/// vehicle flies little between two answers.
+std::optional<double> PlanningWorker::pathHome_m(const Eigen::Vector2d& position_map_m) {
+  constexpr int kEach = 8;
+  if (answers_++ % kEach == 0) {
+    const auto path = home_planner_.plan(map_, position_map_m, Eigen::Vector2d::Zero());
+    home_m_ = path ? std::optional(path->length_m) : std::nullopt;
+  }
+  return home_m_;
 }
 
 void PlanningWorker::explore(const PlanningRequest& request, const ExploreRequest& question, PlanningAnswer& answer) {

@@ -17,6 +17,7 @@
 #include "planning/exploration/exploration.hpp"
 #include "planning/exploration/explorer_choice.hpp"
 #include "planning/search/planner.hpp"
+#include "planning/search/wavefront.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -69,6 +70,7 @@ struct PlanningAnswer {
   std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;
   std::optional<DetourPlan> detour;                        ///< For a DetourRequest; none if no place was found.
   std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest; `path` leads to its `next`.
+  std::optional<double> home_m;                            ///< Length of the path home; none if there is none.
   PlanningUse use;                                         ///< Totals so far, including this answer.
 };
 
@@ -91,11 +93,15 @@ class PlanningWorker {
                                    const Eigen::Vector2d& position_map_m);
   void explore(const PlanningRequest& request, const ExploreRequest& question, PlanningAnswer& answer);
   std::optional<Eigen::Vector2d> roomyPlace(const Eigen::Vector2d& position_map_m) const;
+  std::optional<double> pathHome_m(const Eigen::Vector2d& position_map_m);
 
   planning::CostMap map_;
   std::vector<Eigen::Vector2d> flown_map_m_;  ///< Positions of the vehicle at the requests, thinned.
   std::unique_ptr<planning::Explorer> explorer_;
   std::unique_ptr<planning::Planner> planner_;
+  planning::Wavefront home_planner_;
+  std::optional<double> home_m_;
+  int answers_ = 0;
   int paths_ = 0;       ///< Number of paths that the planner found.
   int viewpoints_ = 0;  ///< Number of viewpoints that the explorer chose.
 };

@@ -20,6 +20,7 @@ const planning::AvoidanceDecision& Reactive::update(const ReactiveInput& input) 
   const Eigen::Rotation2Dd level_from_map(-input.T_map_body.yaw_rad);
   planning::AvoidanceInput seen;
   seen.stamp = input.scan.stamp;
+  seen.age_s = input.age_s;
   seen.points_level_m = input.scan.points_level_m;
   seen.velocity_level_m_s = level_from_map * Eigen::Vector2d(input.state.velocity_map_m_s().head<2>());
   seen.wanted_level_m_s = level_from_map * input.wanted_map_m_s;

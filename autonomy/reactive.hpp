@@ -26,6 +26,7 @@ struct ReactiveInput {
   const perception::ProjectedScan& scan;
   common::Pose2 T_map_body;  ///< At the scan's stamp.
   const common::VehicleState& state;
+  double age_s = 0.0;  ///< Time since the scan's stamp.
   /// Objects that the map does not explain, usually people, after this scan.
   std::span<const common::DynamicObstacle> obstacles;
   /// The velocity that the intent asks for; zero if it holds.

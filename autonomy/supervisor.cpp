@@ -13,23 +13,39 @@ namespace swiftlet::autonomy {
 
 using common::Severity;
 using common::Time;
+using common::config::kPositive;
 
 void SupervisorConfig::describe(common::config::Fields& fields) {
   fields("laser_hold_s", laser_hold_s, {0.05, 10}, "Without a usable scan for this long the vehicle holds.");
   fields("laser_land_s", laser_land_s, {0.1, 10}, "Without a usable scan for this long the vehicle lands.");
   fields("battery_land_share", battery_land_share, {0, 0.9},
          "Remaining charge at which the vehicle lands where it is.");
+  fields("home_reserve_share", home_reserve_share, {0, 0.9},
+         "Charge over battery_land_share that is left at home when the vehicle turns back in time.");
+  fields("home_need_factor", home_need_factor, {1, 3}, "Safety factor of the charge that the flight home takes.");
+  fields("least_thrust_margin", least_thrust_margin, {1, 3},
+         "Greatest thrust over the weight below which the vehicle lands, while it can still climb.");
+  fields("thrust_margin_s", thrust_margin_s, {0, 60}, "The thrust margin must have been too small for this long.");
+  fields("height_back_s", height_back_s, kPositive,
+         "When the surface below has not been measured for this long the vehicle flies back along its trail.");
+  fields("drift_back_m", drift_back_m, kPositive,
+         "Standard deviation of the position, grown since the laser last fixed it, at which the vehicle flies back.");
+  fields("drift_land_m", drift_land_m, kPositive, "The same, at which it lands.");
+  fields("back_s", back_s, kPositive, "The vehicle lands if flying back has taken this long.");
 }
 
 std::vector<std::string> SupervisorConfig::validate() const {
-  return common::Validation().atMost("laser_hold_s", laser_hold_s, "laser_land_s", laser_land_s).problems();
+  return common::Validation()
+      .atMost("laser_hold_s", laser_hold_s, "laser_land_s", laser_land_s)
+      .atMost("drift_back_m", drift_back_m, "drift_land_m", drift_land_m)
+      .problems();
 }
 
 std::optional<common::CommandResult> Supervisor::take(const common::OperatorCommand& command, Time now) {
   const common::CommandResult accepted{command.id, true, {}};
   if (std::holds_alternative<common::HoldCommand>(command.kind)) {
     operator_holds_ = true;
-    goes_home_ = false;
+    goes_home_ = goes_home_ && !home_reason_.empty();
     return accepted;
   }
   if (std::holds_alternative<common::ResumeCommand>(command.kind)) return resume(command.id);
@@ -42,6 +58,7 @@ std::optional<common::CommandResult> Supervisor::take(const common::OperatorComm
 }
 
 common::CommandResult Supervisor::resume(std::uint64_t id) {
+  if (goes_home_ && !home_reason_.empty()) return {id, false, "it flies home: " + home_reason_};
   if (!operator_holds_ && !goes_home_) {
     const std::string reason = holdReason();
     return {id, false, reason.empty() ? "nothing is on hold" : reason + ": that hold ends by itself"};
@@ -61,6 +78,8 @@ common::CommandResult Supervisor::goHome(const common::OperatorCommand& command)
 
 void Supervisor::homeEnded(Time now, bool reached, std::string reason) {
   goes_home_ = false;
+  if (!home_reason_.empty())
+    return land(now, reached ? "home again, " + home_reason_ : home_reason_ + "; home not reached: " + reason);
   operator_holds_ = true;
   say(now, reached ? Severity::kInfo : Severity::kWarning, reached ? "home reached" : "home not reached",
       reached ? "the vehicle holds until Resume or Land" : std::move(reason));
@@ -90,9 +109,27 @@ bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
   return plausible;
 }
 
-const Supervision& Supervisor::tick(Time now, common::FlightState flight, const common::EnergyLayer& energy) {
-  flight_ = flight;
-  const bool airborne = control::isAirborne(flight);
+void Supervisor::backEnded(Time now) {
+  back_since_.reset();
+  if (!unknown_.empty()) land(now, unknown_ + ", also after flying back");
+}
+
+const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition) {
+  flight_ = condition.flight;
+  watchLaser(now);
+  watchEnergy(now, condition.energy);
+  watchPosition(now, condition);
+
+  supervision_.hold_reason = holdReason();
+  supervision_.hold = !supervision_.hold_reason.empty();
+  const bool may_fly = !laser_holds_ && !pilot_flies_;
+  supervision_.back = back_since_ && may_fly && !operator_holds_ ? flights_back_ : 0;
+  supervision_.home = goes_home_ && may_fly && !back_since_ ? flights_home_ : 0;
+  return supervision_;
+}
+
+void Supervisor::watchLaser(Time now) {
+  const bool airborne = control::isAirborne(flight_);
   const double silent_s = last_scan_ ? (now - *last_scan_).seconds() : 0.0;
   if (airborne && silent_s > config_.laser_land_s) land(now, fmt::format("no scan for {:.1f} s", silent_s));
   const bool laser_holds = airborne && silent_s > config_.laser_hold_s;
@@ -100,21 +137,63 @@ const Supervision& Supervisor::tick(Time now, common::FlightState flight, const 
     say(now, laser_holds ? Severity::kWarning : Severity::kInfo, laser_holds ? "hold" : "scans are back",
         laser_holds ? fmt::format("no scan for {:.2f} s", silent_s) : "");
   laser_holds_ = laser_holds;
+}
 
-  if (airborne && energy.battery_remaining < config_.battery_land_share)
+void Supervisor::watchEnergy(Time now, const common::EnergyLayer& energy) {
+  if (!control::isAirborne(flight_)) return;
+  for (const double share : {0.3, 0.2}) {
+    if (charge_said_ <= share || energy.battery_remaining > share) continue;
+    charge_said_ = share;
+    const std::string left =
+        energy.seconds_left ? fmt::format("{:.1f} min until it lands", *energy.seconds_left / 60.0) : "";
+    say(now, Severity::kWarning, fmt::format("{:.0f} % of the battery left", 100.0 * energy.battery_remaining), left);
+  }
+  if (energy.battery_remaining < config_.battery_land_share)
     land(now, fmt::format("{:.0f} % of the battery left", 100.0 * energy.battery_remaining));
 
-  supervision_.hold_reason = holdReason();
-  supervision_.hold = !supervision_.hold_reason.empty();
-  supervision_.home = goes_home_ && !laser_holds_ && !pilot_flies_ ? flights_home_ : 0;
-  return supervision_;
+  const bool weak = flight_ == common::FlightState::kFlying && energy.thrust_margin > 0.0 &&
+                    energy.thrust_margin < config_.least_thrust_margin;
+  if (!weak) weak_since_.reset();
+  if (weak && !weak_since_) weak_since_ = now;
+  if (weak && (now - *weak_since_).seconds() >= config_.thrust_margin_s)
+    land(now, fmt::format("the thrust is at most {:.2f} times the weight", energy.thrust_margin));
+
+  if (!energy.home_share || !home_reason_.empty() || flight_ != common::FlightState::kFlying) return;
+  const double needed = config_.home_need_factor * *energy.home_share;
+  if (energy.battery_remaining - config_.battery_land_share - config_.home_reserve_share > needed) return;
+  home_reason_ = fmt::format("turned back with {:.0f} % of the battery left, {:.0f} % to fly {:.1f} m home",
+                             100.0 * energy.battery_remaining, 100.0 * *energy.home_share, energy.home_m.value_or(0.0));
+  goes_home_ = true;
+  operator_holds_ = false;
+  ++flights_home_;
+  say(now, Severity::kWarning, "turn back", home_reason_);
+}
+
+void Supervisor::watchPosition(Time now, const VehicleCondition& condition) {
+  unknown_.clear();
+  if (flight_ != common::FlightState::kFlying) {
+    back_since_.reset();
+    return;
+  }
+  if (condition.height_unseen_s > config_.height_back_s && !laser_holds_)
+    unknown_ = fmt::format("the surface below is not measured for {:.1f} s", condition.height_unseen_s);
+  else if (condition.drift_m > config_.drift_back_m)
+    unknown_ = fmt::format("the position is uncertain by {:.1f} m", condition.drift_m);
+  if (condition.drift_m > config_.drift_land_m) land(now, unknown_);
+  if (!unknown_.empty() && !back_since_) {
+    back_since_ = now;
+    ++flights_back_;
+    say(now, Severity::kWarning, "fly back along the trail", unknown_);
+  }
+  if (back_since_ && (now - *back_since_).seconds() > config_.back_s) land(now, "flying back takes too long");
 }
 
 /// Empty if nothing holds the mission.
 std::string Supervisor::holdReason() const {
   if (pilot_flies_) return "the pilot flies";
   if (laser_holds_) return "the laser is silent";
-  if (goes_home_) return "the operator wants it home";
+  if (back_since_) return "it flies back along its trail";
+  if (goes_home_) return home_reason_.empty() ? "the operator wants it home" : home_reason_;
   return operator_holds_ ? "the operator holds" : "";
 }
 

@@ -1,5 +1,6 @@
-// The supervisor above the mission: hold and land from the operator, and the reactions to a silent laser and an empty
-// battery. These work whatever the mission does.
+// The supervisor above the mission: hold, home and land from the operator, and the reactions to a silent laser, a lost
+// height, an uncertain position, and a battery that just suffices for the flight home. These work whatever the mission
+// does.
 #pragma once
 
 #include <optional>
@@ -20,17 +21,36 @@ struct SupervisorConfig {
   double laser_hold_s = 0.3;
   double laser_land_s = 1.0;
   double battery_land_share = 0.12;
+  double home_reserve_share = 0.02;
+  double home_need_factor = 1.15;
+  double least_thrust_margin = 1.08;
+  double thrust_margin_s = 1.0;
+  double height_back_s = 0.5;
+  double drift_back_m = 1.0;
+  double drift_land_m = 2.0;
+  double back_s = 30.0;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
+};
+
+/// The condition of the vehicle at one tick.
+struct VehicleCondition {
+  common::FlightState flight = common::FlightState::kPreparation;
+  common::EnergyLayer energy;
+  double height_unseen_s = 0.0;  ///< Time since the surface below was last measured.
+  double drift_m = 0.0;          ///< Standard deviation of the position, grown since the laser last fixed it fully.
 };
 
 /// The request of the supervisor in one tick.
 struct Supervision {
   bool hold = false;
   std::string hold_reason;
-  /// The flight home that the operator asked for, counted from 1; the mission holds meanwhile. 0: none.
+  /// The flight home, counted from 1; the mission holds meanwhile. 0: none.
   unsigned home = 0;
+  /// The flight back along the trail to where the vehicle last knew its height and position, counted from 1; the
+  /// mission holds meanwhile. 0: none.
+  unsigned back = 0;
   bool land = false;  ///< Land for good: the mission is over.
   std::string land_reason;
 };
@@ -39,9 +59,13 @@ struct Supervision {
 ///
 ///             hold command, no scan for laser_hold_s, the pilot takes over
 ///   watching --------------------------------------------------------------> holding <-----------+
-///      ^  resume command, scans are back, the pilot gives control back          | home command   | home is reached,
-///      +------------------------------------------------------------------------+--> going home -+ or not, or hold
-///   any -- land command, no scan for laser_land_s, battery low --> landing (stays)
+///     |^  resume command, scans are back, the pilot gives control back          | home command   | home is reached,
+///     |+------------------------------------------------------------------------+--> going home -+ or not, or hold
+///     |+---------------------------------------------------+                             ^       |
+///     |  height unseen, position uncertain     known again |         the charge is what  |       | for the charge
+///     +-------------------------------------> flying back -+         the flight home takes       v
+///   any -- land command, no scan for laser_land_s, battery low, no thrust to spare, not known again --> landing
+///   (stays)
 class Supervisor {
  public:
   explicit Supervisor(const SupervisorConfig& config) : config_(config) {}
@@ -51,6 +75,8 @@ class Supervisor {
   /// Handles and answers home for a mission that does not fly it itself. At home the vehicle holds until resume.
   common::CommandResult goHome(const common::OperatorCommand& command);
   void homeEnded(common::Time now, bool reached, std::string reason);
+  /// The flight back along the trail has ended. The vehicle lands if it does not know its height or position there.
+  void backEnded(common::Time now);
   /// Why every command but land is refused while the vehicle lands; empty if it does not land.
   std::string refusal() const;
   void scanArrived(common::Time now) { last_scan_ = now; }
@@ -60,12 +86,15 @@ class Supervisor {
   bool pilotFlies() const { return pilot_flies_; }
 
   /// On the ground a fault does not cause a landing.
-  const Supervision& tick(common::Time now, common::FlightState flight, const common::EnergyLayer& energy);
+  const Supervision& tick(common::Time now, const VehicleCondition& condition);
 
   bool landedByOperator() const { return landed_by_operator_; }
   std::vector<common::Event> takeEvents();
 
  private:
+  void watchLaser(common::Time now);
+  void watchEnergy(common::Time now, const common::EnergyLayer& energy);
+  void watchPosition(common::Time now, const VehicleCondition& condition);
   common::CommandResult resume(std::uint64_t id);
   std::string holdReason() const;
   void land(common::Time now, std::string reason);
@@ -76,7 +105,13 @@ class Supervisor {
   std::optional<common::Time> last_scan_;
   bool operator_holds_ = false;
   bool goes_home_ = false;
+  std::string home_reason_;  ///< Why it turned back by itself; empty if the operator wants it home.
   unsigned flights_home_ = 0;
+  std::string unknown_;  ///< What the vehicle does not know about its place; empty if it knows it.
+  std::optional<common::Time> back_since_;
+  unsigned flights_back_ = 0;
+  std::optional<common::Time> weak_since_;  ///< Since when the thrust margin has been too small.
+  double charge_said_ = 1.0;                ///< The last charge of which an event told.
   bool landed_by_operator_ = false;
   bool laser_holds_ = false;
   bool pilot_flies_ = false;

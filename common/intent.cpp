@@ -14,6 +14,7 @@ struct Describe {
     return fmt::format("go to ({:.2f}, {:.2f})", i.goal_map_m.x(), i.goal_map_m.y());
   }
   std::string operator()(const AvoidIntent&) const { return "avoid obstacle"; }
+  std::string operator()(const RetraceIntent&) const { return "fly back along the trail"; }
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -41,8 +42,13 @@ struct GoToIntent {
 };
 /// Leave the vehicle to the reactive layer until the danger is over.
 struct AvoidIntent {};
+/// Fly back along a path that was flown before, without planning.
+struct RetraceIntent {
+  std::vector<Eigen::Vector2d> path_map_m;  ///< The nearest place first; the last one is the goal.
+};
 
-using IntentKind = std::variant<HoldIntent, TakeOffIntent, LandIntent, ExploreIntent, GoToIntent, AvoidIntent>;
+using IntentKind =
+    std::variant<HoldIntent, TakeOffIntent, LandIntent, ExploreIntent, GoToIntent, AvoidIntent, RetraceIntent>;
 
 struct Intent {
   std::uint64_t id = 0;  ///< 0: no behaviour has emitted one; the vehicle holds.

@@ -76,6 +76,7 @@ void VehicleConfig::describe(config::Fields& fields) {
   fields("max_tilt_deg", max_tilt_deg, {1, 60}, "Greatest commanded roll or pitch.");
   fields("battery_full_v", battery_full_v, {1, 100}, "Voltage of the full battery at rest.");
   fields("battery_empty_v", battery_empty_v, {1, 100}, "Voltage at which the vehicle must be on the ground.");
+  fields("battery_capacity_ah", battery_capacity_ah, {0.05, 1000}, "Charge of the full battery.");
 }
 
 std::vector<std::string> VehicleConfig::validate() const {

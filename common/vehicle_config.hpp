@@ -62,6 +62,7 @@ struct VehicleConfig {
   double max_tilt_deg = 20.0;
   double battery_full_v = 12.6;
   double battery_empty_v = 10.2;
+  double battery_capacity_ah = 5.0;
 
   void describe(config::Fields& fields);
   std::vector<std::string> validate() const;

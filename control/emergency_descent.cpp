@@ -48,7 +48,8 @@ void AlphaBetaFilter::update(const RawHeight& raw) {
 EmergencyDescent::EmergencyDescent(const Config& config)
     : config_(config), filter_(config.alpha, config.beta, config.jump_m) {}
 
-void EmergencyDescent::start(common::Time now, double standing_height_m) {
+void EmergencyDescent::start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s) {
+  velocity_left_m_s_ = velocity_level_m_s.allFinite() ? velocity_level_m_s : Eigen::Vector2d::Zero();
   last_seen_ = last_moving_ = now;
   standing_height_m_ = standing_height_m;
   integral_m_s2_ = 0.0;
@@ -61,11 +62,20 @@ common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const Thr
   setpoint.motors_on = !touched_down_;
   if (touched_down_) return setpoint;
 
+  const Eigen::Vector2d braking_m_s2 = -config_.brake_1_s * velocity_left_m_s_;
+  const Eigen::Vector2d given_m_s2 = braking_m_s2 / std::max(1.0, braking_m_s2.norm() / kMaxAcceleration_m_s2);
+  velocity_left_m_s_ += given_m_s2 * dt_s;
+  setpoint.pitch_rad = std::atan2(given_m_s2.x(), kGravity_m_s2);
+  setpoint.roll_rad = std::atan2(-given_m_s2.y(), kGravity_m_s2);
+  setpoint.thrust = verticalThrust(now, dt_s, thrust);
+  return setpoint;
+}
+
+double EmergencyDescent::verticalThrust(common::Time now, double dt_s, const ThrustModel& thrust) {
   const bool sees = filter_.ready() && (now - filter_.stamp()).seconds() <= config_.blind_after_s;
   if (!sees) {
-    setpoint.thrust = config_.blind_thrust * thrust.hoverCommand();
     touched_down_ = (now - last_seen_).seconds() > config_.blind_rest_s;
-    return setpoint;
+    return config_.blind_thrust * thrust.hoverCommand();
   }
   last_seen_ = now;
   const bool low = filter_.height_m() < standing_height_m_ + config_.touchdown_height_m;
@@ -75,13 +85,11 @@ common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const Thr
       std::clamp(integral_m_s2_ + config_.integral_1_s2 * error_m_s * dt_s, -kMaxIntegral_m_s2, kMaxIntegral_m_s2);
   const double acceleration_m_s2 =
       std::clamp(config_.gain_1_s * error_m_s + integral_m_s2_, -kMaxAcceleration_m_s2, kMaxAcceleration_m_s2);
-  setpoint.thrust = thrust.commandFor(acceleration_m_s2, 1.0);
-
   const bool may_stand =
       filter_.height_m() < standing_height_m_ + config_.rest_margin_m && std::abs(filter_.velocity_m_s()) < kStill_m_s;
   if (!may_stand) last_moving_ = now;
   touched_down_ = (now - last_moving_).seconds() >= config_.rest_s;
-  return setpoint;
+  return thrust.commandFor(acceleration_m_s2, 1.0);
 }
 
 void EmergencyDescent::Config::describe(common::config::Fields& fields) {
@@ -102,6 +110,7 @@ void EmergencyDescent::Config::describe(common::config::Fields& fields) {
   fields("rest_margin_m", rest_margin_m, {0, 1}, "Less than this above where it stood the vehicle may be standing.");
   fields("rest_s", rest_s, kPositive, "Low and still for this long the vehicle is on the ground.");
   fields("blind_rest_s", blind_rest_s, kPositive, "After sinking without a height for this long the motors stop.");
+  fields("brake_1_s", brake_1_s, {0, 10}, "Deceleration per last known velocity when no horizontal estimate is left.");
 }
 
 }  // namespace swiftlet::control

@@ -1,10 +1,12 @@
-// Comes down without the fused estimate (Tomic 2012, "Action"): level attitude, vertical speed from an alpha-beta
-// filter on the raw height the mirror measures.
+// Comes down without the fused estimate (Tomic 2012, "Action"): vertical speed from an alpha-beta filter on the raw
+// height the mirror measures, and a level attitude once the last known velocity has been braked.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "common/config_fwd.hpp"
 #include "common/time.hpp"
@@ -56,6 +58,7 @@ class EmergencyDescent {
     double rest_margin_m = 0.08;
     double rest_s = 0.5;
     double blind_rest_s = 12.0;
+    double brake_1_s = 2.0;
 
     void describe(common::config::Fields& fields);
   };
@@ -64,16 +67,20 @@ class EmergencyDescent {
 
   /// Call it in every state, so that the filter is ready when it is needed.
   void observe(const RawHeight& raw) { filter_.update(raw); }
-  /// `standing_height_m` is the height that the mirror measured on the ground.
-  void start(common::Time now, double standing_height_m);
-  /// A level attitude with yaw rate zero.
+  /// `standing_height_m` is the height that the mirror measured on the ground. `velocity_level_m_s` is the last known
+  /// horizontal velocity, in the body frame without roll and pitch; zero if none is known.
+  void start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s);
+  /// The yaw rate is zero. The tilt brakes the velocity given to start() without measuring it again.
   common::Setpoint tick(common::Time now, double dt_s, const ThrustModel& thrust);
   bool touchedDown() const { return touched_down_; }
   const AlphaBetaFilter& filter() const { return filter_; }
 
  private:
+  double verticalThrust(common::Time now, double dt_s, const ThrustModel& thrust);
+
   Config config_;
   AlphaBetaFilter filter_;
+  Eigen::Vector2d velocity_left_m_s_ = Eigen::Vector2d::Zero();  ///< What braking has not taken away yet.
   common::Time last_seen_;  ///< When the ground was last measured; at first, when the descent started.
   common::Time last_moving_;
   double standing_height_m_ = 0.0;

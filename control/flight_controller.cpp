@@ -66,6 +66,7 @@ tl::expected<void, std::string> FlightController::command(const FlightCommand& c
   const double least_m = last_state_.T_odom_body.position_m.z() + config_.hover_tolerance_m;
   if (!std::isfinite(height_m) || height_m < least_m)
     return tl::unexpected(fmt::format("a take-off height of {:.2f} m is not above {:.2f} m", height_m, least_m));
+  if (!inertial_fault_.empty()) return tl::unexpected("take off is not possible: " + inertial_fault_);
   if (!last_state_.horizontal_valid || !last_state_.vertical_valid)
     return tl::unexpected(std::string("take off is not possible without a valid estimate"));
   if (state() == FlightState::kPoweredOff) {
@@ -111,7 +112,9 @@ void FlightController::hold(std::optional<double> yaw_map_rad) {
 
 void FlightController::setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
 
-common::Setpoint FlightController::tick(const FlightTick& tick) {
+common::Setpoint FlightController::tick(const FlightTick& given) {
+  FlightTick tick = given;
+  if (!tick.inertial_fault.empty() || !isFinite(tick.state)) tick.state.horizontal_valid = false;
   // The first ticks after a pause must not integrate over it.
   constexpr double kPeriod_s = common::kControlPeriod.seconds();
   dt_s_ = ticked_ ? std::clamp((tick.now - now_).seconds(), 1e-3, 5.0 * kPeriod_s) : kPeriod_s;
@@ -146,10 +149,7 @@ common::Setpoint FlightController::setpointFor(const FlightTick& tick) {
     case FlightState::kLanding:
       return descend(tick);
     case FlightState::kEmergencyLanding:
-      position_.thrust().observeVoltage(tick.battery_v, dt_s_);
-      setpoint = emergency_.tick(now_, dt_s_, position_.thrust());
-      if (emergency_.touchedDown()) transition(FlightInput::kTouchedDown, "emergency landing ended on the ground");
-      return setpoint;
+      return descendInEmergency(tick);
   }
   return setpoint;
 }
@@ -210,6 +210,25 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
   return landed;
 }
 
+/// The thrust is the emergency descent's. A horizontal estimate that is still good holds the place.
+common::Setpoint FlightController::descendInEmergency(const FlightTick& tick) {
+  common::Setpoint setpoint = emergency_.tick(now_, dt_s_, position_.thrust());
+  if (emergency_.touchedDown()) {
+    transition(FlightInput::kTouchedDown, "emergency landing ended on the ground");
+  } else if (tick.state.horizontal_valid) {
+    // Without a vertical error the position controller leaves its hover command as it is.
+    height_reference_m_ = tick.state.T_odom_body.position_m.z();
+    climb_reference_m_s_ = tick.state.velocity_odom_m_s.z();
+    const common::Setpoint held = track(tick, follower_.advance(dt_s_));
+    setpoint.roll_rad = held.roll_rad;
+    setpoint.pitch_rad = held.pitch_rad;
+    setpoint.yaw_rate_rad_s = held.yaw_rate_rad_s;
+    return setpoint;
+  }
+  position_.thrust().observeVoltage(tick.battery_v, dt_s_);
+  return setpoint;
+}
+
 common::Setpoint FlightController::track(const FlightTick& tick, const Reference& reference, bool on_ground) {
   using Horizontal = PositionController::Horizontal;
   Reference target = reference;
@@ -248,6 +267,7 @@ bool FlightController::heldFor(bool condition, double seconds) {
 }
 
 void FlightController::watch(const FlightTick& tick) {
+  watchInertial(tick);
   const bool vertical = isFinite(tick.state) && tick.state.vertical_valid;
   if (vertical) {
     vertical_lost_.reset();
@@ -260,9 +280,22 @@ void FlightController::watch(const FlightTick& tick) {
     transition(FlightInput::kEmergency, "fusion diverged");
   } else if (vertical_lost_ && (now_ - *vertical_lost_).seconds() >= config_.vertical_loss_s) {
     transition(FlightInput::kEmergency, fmt::format("no valid height for {:.1f} s", config_.vertical_loss_s));
+  } else if (inertial_lost_ && (now_ - *inertial_lost_).seconds() >= config_.inertial_loss_s) {
+    transition(FlightInput::kEmergency, fmt::format("{} for {:.1f} s", inertial_fault_, config_.inertial_loss_s));
   } else {
     watchHorizontal(tick);
   }
+}
+
+void FlightController::watchInertial(const FlightTick& tick) {
+  if (tick.inertial_fault.empty()) {
+    if (inertial_lost_) say(Severity::kInfo, "inertial samples are good again");
+    inertial_lost_.reset();
+  } else if (!inertial_lost_) {
+    inertial_lost_ = now_;
+    say(Severity::kWarning, "inertial samples cannot be used", tick.inertial_fault);
+  }
+  inertial_fault_ = tick.inertial_fault;
 }
 
 void FlightController::watchHorizontal(const FlightTick& tick) {
@@ -335,7 +368,8 @@ void FlightController::enter(FlightState from, FlightState entered) {
       follower_.stop();
       return;
     case FlightState::kEmergencyLanding:
-      emergency_.start(now_, standing_raw_m_);
+      follower_.stop();
+      emergency_.start(now_, standing_raw_m_, velocityForBraking_m_s());
       return;
     case FlightState::kPreparation:
     case FlightState::kPoweredOff:
@@ -343,6 +377,14 @@ void FlightController::enter(FlightState from, FlightState entered) {
       follower_.reset(position_m, yaw_rad);
       return;
   }
+}
+
+/// The last horizontal velocity that can still be believed, in the body frame without roll and pitch.
+Eigen::Vector2d FlightController::velocityForBraking_m_s() const {
+  const double variance = last_state_.velocity_covariance_m2_s2.diagonal().head<2>().maxCoeff();
+  if (variance > kDampedVelocitySigma_m_s * kDampedVelocitySigma_m_s) return Eigen::Vector2d::Zero();
+  return Eigen::Rotation2Dd(-common::yawOf(last_state_.T_odom_body.rotation)) *
+         Eigen::Vector2d(last_state_.velocity_odom_m_s.head<2>());
 }
 
 bool FlightController::stopped() const {
@@ -382,6 +424,8 @@ void FlightController::Config::describe(common::config::Fields& fields) {
          "Without a horizontal estimate for this long the vehicle lands level.");
   fields("vertical_loss_s", vertical_loss_s, kPositive,
          "Without a vertical estimate for this long the emergency descent begins.");
+  fields("inertial_loss_s", inertial_loss_s, kPositive,
+         "The emergency descent begins when inertial samples that cannot be used have been noticed for this long.");
   fields.section("path", path, "References from paths.");
   fields.section("position", position, "Position controller.");
   fields.section("emergency", emergency, "Emergency descent.");

@@ -48,6 +48,9 @@ struct FlightTick {
   std::optional<RawHeight> raw_height;  ///< A height measured since the last tick, if there is one.
   double battery_v = 0.0;               ///< Latest voltage; 0 while unknown.
   bool fusion_diverged = false;
+  /// Why the inertial samples cannot be used, for example "the inertial samples repeat"; empty if they can. The state
+  /// is then too old to fly by.
+  std::string inertial_fault;
   /// The pilot has control: setpoints have no effect, and the references follow the vehicle.
   bool pilot_flies = false;
 };
@@ -71,6 +74,7 @@ class FlightController {
     double stopped_speed_m_s = 0.10;
     double horizontal_loss_s = 1.0;
     double vertical_loss_s = 0.3;
+    double inertial_loss_s = 0.2;
     PathFollower::Config path;
     PositionController::Config position;
     EmergencyDescent::Config emergency;
@@ -102,6 +106,8 @@ class FlightController {
   bool stopped() const;
   /// The last path is still being flown: no hold, no lost estimate and no pilot has interrupted it.
   bool followsPath() const { return follower_.followsPath(); }
+  /// See ThrustModel::margin().
+  double thrustMargin() const { return position_.thrust().margin(); }
   double speed_m_s(common::FlightMode mode) const { return config_.path.limits(mode).speed_m_s; }
   /// The reference has reached the goal of the last path.
   bool pathFinished() const;
@@ -116,14 +122,17 @@ class FlightController {
   void enter(common::FlightState from, common::FlightState entered);
   void say(common::Severity severity, std::string text, std::string reason = {});
   void watch(const FlightTick& tick);
+  void watchInertial(const FlightTick& tick);
   void watchHorizontal(const FlightTick& tick);
   void keepPathInMap(const common::VehicleState& state);
   common::Setpoint setpointFor(const FlightTick& tick);
   common::Setpoint takeOff(const FlightTick& tick);
   common::Setpoint fly(const FlightTick& tick);
   common::Setpoint descend(const FlightTick& tick);
+  common::Setpoint descendInEmergency(const FlightTick& tick);
   common::Setpoint track(const FlightTick& tick, const Reference& reference, bool on_ground = false);
   void moveVertically(double goal_m, double speed_m_s, double height_m);
+  Eigen::Vector2d velocityForBraking_m_s() const;
   bool heldFor(bool condition, double seconds);
 
   Config config_;
@@ -149,6 +158,8 @@ class FlightController {
   std::optional<common::Time> condition_since_;  ///< Since when the vehicle has hovered, or touched the ground.
   std::optional<common::Time> horizontal_lost_;
   std::optional<common::Time> vertical_lost_;
+  std::optional<common::Time> inertial_lost_;
+  std::string inertial_fault_;
 };
 
 }  // namespace swiftlet::control

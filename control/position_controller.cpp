@@ -70,8 +70,8 @@ common::Setpoint PositionController::tick(common::Time now, double dt_s, const c
 
   Eigen::Vector3d given_m_s2 = wanted_m_s2;
   given_m_s2.z() = std::clamp(wanted_m_s2.z(), -config_.max_acceleration_up_m_s2, config_.max_acceleration_up_m_s2);
-  given_m_s2.head<2>() = limited(
-      wanted_m_s2.head<2>(), std::tan(vehicle_.max_tilt_deg * common::kRadPerDeg) * (kGravity_m_s2 + given_m_s2.z()));
+  given_m_s2.head<2>() =
+      limited(wanted_m_s2.head<2>(), std::tan(greatestTilt_rad()) * (kGravity_m_s2 + given_m_s2.z()));
   if (on_ground) given_m_s2.head<2>().setZero();
 
   const double yaw_rad = common::yawOf(state.T_odom_body.rotation);
@@ -87,6 +87,13 @@ common::Setpoint PositionController::tick(common::Time now, double dt_s, const c
   integrate(missing_m_s, wanted_m_s2, given_m_s2, dt_s);
   if (!on_ground) integral_m_s2_.z() -= thrust_.learn(integral_m_s2_.z(), dt_s);
   return setpoint;
+}
+
+/// A tilt that the thrust could not carry would cost height.
+double PositionController::greatestTilt_rad() const {
+  constexpr double kLeast_rad = 3.0 * common::kRadPerDeg, kKeptForHeight = 1.03;
+  const double carried_rad = std::acos(std::clamp(kKeptForHeight / thrust_.margin(), 0.0, 1.0));
+  return std::min(vehicle_.max_tilt_deg * common::kRadPerDeg, std::max(kLeast_rad, carried_rad));
 }
 
 Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& state, const Reference& reference,

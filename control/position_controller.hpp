@@ -68,6 +68,7 @@ class PositionController {
     Eigen::Vector2d position_odom_m;
     Eigen::Vector2d velocity_odom_m_s;
   };
+  double greatestTilt_rad() const;
   void delay(const Reference& reference, double dt_s);
   /// The velocity error, including the correction for the position error, on which the velocity and integral gains act.
   Eigen::Vector3d missingVelocity(const common::VehicleState& state, const Reference& reference,

@@ -30,11 +30,17 @@ double ThrustModel::learn(double correction_m_s2, double dt_s) {
   return (correction_ / before - 1.0) * kGravity_m_s2;
 }
 
-double ThrustModel::commandFor(double acceleration_up_m_s2, double cos_tilt) const {
+double ThrustModel::unclampedCommand(double acceleration_up_m_s2, double cos_tilt) const {
   const double sag = std::pow(voltage_v_ / vehicle_.battery_full_v, config_.voltage_exponent);
   const double force_n = vehicle_.mass_kg * (kGravity_m_s2 + acceleration_up_m_s2) / std::max(0.5, cos_tilt);
-  return std::clamp(correction_ * force_n / (vehicle_.max_thrust_n * sag), config_.min_thrust, config_.max_thrust);
+  return correction_ * force_n / (vehicle_.max_thrust_n * sag);
 }
+
+double ThrustModel::commandFor(double acceleration_up_m_s2, double cos_tilt) const {
+  return std::clamp(unclampedCommand(acceleration_up_m_s2, cos_tilt), config_.min_thrust, config_.max_thrust);
+}
+
+double ThrustModel::margin() const { return config_.max_thrust / unclampedCommand(0.0, 1.0); }
 
 double ThrustModel::hoverCommand() const { return commandFor(0.0, 1.0); }
 

@@ -37,11 +37,15 @@ class ThrustModel {
 
   /// The command that carries the weight and adds `acceleration_up_m_s2` at the given tilt, clamped to the valid range.
   double commandFor(double acceleration_up_m_s2, double cos_tilt) const;
+  /// Greatest thrust over the weight at the present voltage, by what was learned.
+  double margin() const;
   /// The present C(U).
   double hoverCommand() const;
   double correction() const { return correction_; }
 
  private:
+  double unclampedCommand(double acceleration_up_m_s2, double cos_tilt) const;
+
   Config config_;
   common::VehicleConfig vehicle_;
   double voltage_v_;

@@ -7,6 +7,7 @@
 #include "autonomy/maneuvers/go_to.hpp"
 #include "autonomy/maneuvers/hold.hpp"
 #include "autonomy/maneuvers/land.hpp"
+#include "autonomy/maneuvers/retrace.hpp"
 #include "autonomy/maneuvers/take_off.hpp"
 
 namespace swiftlet::autonomy {
@@ -23,6 +24,7 @@ struct Made {
   Pointer operator()(const common::ExploreIntent& intent) const { return std::make_unique<Explore>(intent, setup); }
   Pointer operator()(const common::GoToIntent& intent) const { return std::make_unique<GoTo>(intent, setup); }
   Pointer operator()(const common::AvoidIntent& intent) const { return std::make_unique<Avoid>(intent, setup); }
+  Pointer operator()(const common::RetraceIntent& intent) const { return std::make_unique<Retrace>(intent, setup); }
 };
 
 }  // namespace

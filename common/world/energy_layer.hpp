@@ -1,11 +1,21 @@
-// The World's layer of energy: the battery.
+// The World's layer of energy: the battery, and what is left to fly with.
 #pragma once
+
+#include <optional>
 
 namespace swiftlet::common {
 
 struct EnergyLayer {
   double battery_voltage_v = 0.0;  ///< The last measurement; 0 before the first one.
   double battery_remaining = 1.0;  ///< In [0, 1].
+  double power_w = 0.0;            ///< Drawn from the battery, smoothed.
+  /// Greatest thrust over the weight at the present voltage, as learned in flight: at 1 the vehicle can only just
+  /// hover.
+  double thrust_margin = 0.0;
+  /// Time until the charge at which the vehicle lands, at the present consumption; none before the take-off.
+  std::optional<double> seconds_left;
+  std::optional<double> home_m;      ///< Length of the path home; none while there is no path.
+  std::optional<double> home_share;  ///< Charge, as a share of the full battery, that it takes to fly home and land.
 
   bool operator==(const EnergyLayer&) const = default;
 };

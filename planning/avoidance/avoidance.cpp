@@ -39,9 +39,11 @@ std::string bearingInWords(const Point& p) {
 
 }  // namespace
 
-Avoidance::Avoidance(const Config& config, double hull_radius_m) : config_(config), hull_radius_m_(hull_radius_m) {}
+Avoidance::Avoidance(const Config& config, double hull_radius_m)
+    : config_(config), command_latency_s_(config.latency_s), hull_radius_m_(hull_radius_m) {}
 
 AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
+  config_.latency_s = command_latency_s_ + std::max(0.0, input.age_s);
   const Points returns = smoothed(config_, input.points_level_m);
   const std::vector<Bin> sectors = bins(config_, returns);
   Points points = returns;

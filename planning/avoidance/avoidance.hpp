@@ -31,6 +31,7 @@ struct AvoidanceInput {
   common::Pose2 T_map_level;
   const CostMap* cost_map = nullptr;                   ///< May be null: then nothing counts as mapped.
   std::span<const common::DynamicObstacle> obstacles;  ///< Objects that the map does not explain, usually people.
+  double age_s = 0.0;  ///< Of the scan when it was processed; the vehicle has moved on since.
 };
 
 struct AvoidanceDecision {
@@ -84,7 +85,8 @@ class Avoidance {
   double turnToSee(const std::vector<Threat>& threats, const Eigen::Vector2d& retreat_level_m_s) const;
   bool isMapped(const AvoidanceInput& input, const Eigen::Vector2d& point_level_m) const;
 
-  Config config_;
+  Config config_;  ///< Its latency includes the age of the scan.
+  double command_latency_s_;
   double hull_radius_m_;
   bool retreating_ = false;
   common::Time danger_stamp_;

@@ -20,7 +20,7 @@ struct AvoidanceConfig {
   double max_speed_m_s = 1.5;
   double deceleration_m_s2 = 1.0;
   double blind_speed_m_s = 0.3;
-  double latency_s = 0.15;
+  double latency_s = 0.12;
   double margin_m = 0.05;
   double retreat_distance_m = 0.25;
   double contact_time_s = 1.8;

@@ -188,5 +188,39 @@ TEST(Autonomy, HoldEndsWhenScansReturn) {
   EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kRunning);
 }
 
+/// The descent begins within half a second, is named, and ends softly on the ground.
+void landsWithoutInertialSamples(const HandledVehicle::Hand& hand, const std::string& fault) {
+  AutonomyStory story(kAcross);
+  ASSERT_TRUE(story.isFlying());
+  ASSERT_TRUE(story.until([&] { return story.world().vehicle->state.velocity_odom_m_s.norm() > 0.3; }, 20.0));
+  const common::Time since = story.now();
+  story.hand = hand;
+  ASSERT_TRUE(story.until([&] { return story.world().vehicle->flight_state == FlightState::kEmergencyLanding; }, 0.5));
+  const auto noticed = story.event("flight", "inertial samples cannot be used");
+  ASSERT_NE(noticed, story.events.end());
+  EXPECT_LE((noticed->stamp - since).seconds(), 0.15);
+  EXPECT_EQ(noticed->reason, fault);
+  EXPECT_TRUE(story.until([&] { return story.autonomy().finished(); }, 20.0)) << "it crashes";
+}
+
+TEST(Autonomy, SilentInertialSensorsBeginAnEmergencyDescentWithinHalfASecond) {
+  landsWithoutInertialSamples(
+      [](common::SensorEvent& event) { return !std::holds_alternative<common::ImuSample>(event); },
+      "no inertial samples");
+}
+
+TEST(Autonomy, RepeatedInertialSamplesBeginAnEmergencyDescentWithinHalfASecond) {
+  landsWithoutInertialSamples(
+      [last = std::optional<common::ImuSample>()](common::SensorEvent& event) mutable {
+        if (auto* imu = std::get_if<common::ImuSample>(&event)) {
+          if (!last) last = *imu;
+          last->stamps = imu->stamps;
+          *imu = *last;
+        }
+        return true;
+      },
+      "the inertial samples repeat");
+}
+
 }  // namespace
 }  // namespace swiftlet::autonomy

@@ -35,13 +35,14 @@ struct ReactiveStory : testing::Test {
   }
   const planning::AvoidanceDecision& scanAt(double s) {
     scan.stamp = Time::fromSeconds(s);
-    return reactive.update({scan, T_map_body, state, obstacles, wanted_map_m_s, &cost_map});
+    return reactive.update({scan, T_map_body, state, age_s, obstacles, wanted_map_m_s, &cost_map});
   }
 
   common::OccupancyGrid grid = planning::test::room(200, 160);
   planning::CostMap cost_map;
   Pose2 T_map_body{5.0, 4.0, 0.5 * std::numbers::pi};
   common::VehicleState state;
+  double age_s = 0.0;
   perception::ProjectedScan scan;
   std::vector<common::DynamicObstacle> obstacles;
   Eigen::Vector2d wanted_map_m_s = Eigen::Vector2d::Zero();

@@ -18,12 +18,14 @@ class SupervisorStory : public testing::Test {
     return during(t_s, airborne ? common::FlightState::kFlying : common::FlightState::kLanded);
   }
   const Supervision& during(double t_s, common::FlightState flight) {
-    return supervisor_.tick(Time::fromSeconds(t_s), flight, energy_);
+    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, height_unseen_s_, drift_m_});
   }
   void scanAt(double t_s) { supervisor_.scanArrived(Time::fromSeconds(t_s)); }
 
   Supervisor supervisor_{SupervisorConfig{}};
   common::EnergyLayer energy_;
+  double height_unseen_s_ = 0.0;
+  double drift_m_ = 0.0;
 };
 
 TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
@@ -136,6 +138,65 @@ TEST_F(SupervisorStory, EmptyBatteryLands) {
   energy_.battery_remaining = 0.1;
   EXPECT_TRUE(at(1.1).land);
   EXPECT_FALSE(supervisor_.landedByOperator());
+}
+
+TEST_F(SupervisorStory, TurnsBackWhileTheChargeSufficesAndLandsAtHome) {
+  energy_.battery_remaining = 0.25;
+  energy_.home_m = 20.0;
+  energy_.home_share = 0.05;
+  EXPECT_EQ(at(1.0).home, 0u);
+  energy_.battery_remaining = 0.19;
+  EXPECT_EQ(at(2.0).home, 1u);
+  EXPECT_THAT(at(2.0).hold_reason, HasSubstr("turned back with 19 % of the battery left, 5 % to fly 20.0 m home"));
+  EXPECT_FALSE(supervisor_.take({1, common::ResumeCommand{}}, Time::fromSeconds(3))->accepted);
+  supervisor_.homeEnded(Time::fromSeconds(30), true, {});
+  EXPECT_TRUE(at(30.0).land);
+  EXPECT_THAT(at(30.0).land_reason, HasSubstr("home again, turned back"));
+}
+
+TEST_F(SupervisorStory, TheChargeIsTheSubjectOfTwoEvents) {
+  for (const double remaining : {0.5, 0.29, 0.28, 0.19, 0.18}) {
+    energy_.battery_remaining = remaining;
+    at(1.0);
+  }
+  const auto events = supervisor_.takeEvents();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].text, "29 % of the battery left");
+  EXPECT_EQ(events[1].text, "19 % of the battery left");
+}
+
+TEST_F(SupervisorStory, LandsWhileItCanStillClimb) {
+  energy_.thrust_margin = 1.05;
+  EXPECT_FALSE(at(1.0).land);
+  EXPECT_FALSE(at(1.5).land) << "a gust may take the margin for a moment";
+  EXPECT_TRUE(at(2.1).land);
+  EXPECT_THAT(at(2.1).land_reason, HasSubstr("1.05 times the weight"));
+}
+
+TEST_F(SupervisorStory, FliesBackWhenTheHeightIsUnseenAndGoesOnWhenItIsSeenAgain) {
+  height_unseen_s_ = 0.4;
+  EXPECT_EQ(at(1.0).back, 0u);
+  height_unseen_s_ = 0.6;
+  EXPECT_EQ(at(1.2).back, 1u);
+  EXPECT_EQ(at(1.2).hold_reason, "it flies back along its trail");
+  height_unseen_s_ = 0.0;
+  EXPECT_EQ(at(3.0).back, 1u) << "to the place where it was seen";
+  supervisor_.backEnded(Time::fromSeconds(4));
+  EXPECT_EQ(at(4.0).back, 0u);
+  EXPECT_FALSE(at(4.0).hold);
+}
+
+TEST_F(SupervisorStory, LandsWhereFlyingBackDidNotHelp) {
+  drift_m_ = 1.2;
+  EXPECT_EQ(at(1.0).back, 1u);
+  supervisor_.backEnded(Time::fromSeconds(9));
+  EXPECT_TRUE(at(9.0).land);
+  EXPECT_THAT(at(9.0).land_reason, HasSubstr("the position is uncertain by 1.2 m, also after flying back"));
+}
+
+TEST_F(SupervisorStory, LandsAtOnceWhenThePositionIsTooUncertain) {
+  drift_m_ = SupervisorConfig{}.drift_land_m + 0.1;
+  EXPECT_TRUE(at(1.0).land);
 }
 
 TEST_F(SupervisorStory, LandPressedTwiceIsStillALandingByTheOperator) {

@@ -20,6 +20,7 @@ struct Flight {
   FlightController controller{FlightController::Config{}, common::VehicleConfig{}};
   common::Pose2 T_map_odom;
   bool horizontal_valid = true, vertical_valid = true, diverged = false, mirror = true;
+  std::string inertial_fault;
   double greatest_tilt_rad = 0;
 
   void tick() {
@@ -30,6 +31,7 @@ struct Flight {
     tick.state.horizontal_valid = horizontal_valid && !diverged;
     tick.state.vertical_valid = vertical_valid && !diverged;
     tick.fusion_diverged = diverged;
+    tick.inertial_fault = inertial_fault;
     if (diverged) tick.state.velocity_odom_m_s.setConstant(std::numeric_limits<double>::quiet_NaN());
     const bool scan = (model.now.nanoseconds() / 10'000'000) % 3 == 0;
     if (scan && mirror)
@@ -238,6 +240,37 @@ TEST(Flight, EmergencyLandingOverATableEdgeStaysSoft) {
       },
       15.0));
   EXPECT_LT(flight.model.hardest_touch_m_s, 0.6);
+}
+
+TEST(Flight, WithoutAHeightItComesDownOverThePlaceThatItStillKnows) {
+  Flight flight;
+  flight.hover(1.5);
+  ASSERT_TRUE(flight.controller.follow({{{0, 0, 1.5}, {5, 0, 1.5}}, FlightMode::kFast, {}}));
+  flight.run(3.0);
+  flight.vertical_valid = false;
+  flight.run(0.5);
+  ASSERT_EQ(flight.controller.state(), FlightState::kEmergencyLanding);
+  flight.run(1.5);
+  const Eigen::Vector2d stopped_m = flight.model.position_m.head<2>();
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kPoweredOff; }, 20.0));
+  EXPECT_LT((flight.model.position_m.head<2>() - stopped_m).norm(), 0.15);
+  EXPECT_LT(flight.model.hardest_touch_m_s, 0.6);
+}
+
+TEST(Flight, WithoutInertialSamplesItBrakesAndComesDown) {
+  Flight flight;
+  flight.hover(1.5);
+  ASSERT_TRUE(flight.controller.follow({{{0, 0, 1.5}, {5, 0, 1.5}}, FlightMode::kFast, {}}));
+  flight.run(3.0);
+  const double begin_x_m = flight.model.position_m.x(), speed_m_s = flight.model.velocity_m_s.x();
+  ASSERT_GT(speed_m_s, 0.5);
+  flight.inertial_fault = "no inertial samples";
+  flight.run(0.3);
+  ASSERT_EQ(flight.controller.state(), FlightState::kEmergencyLanding);
+  EXPECT_EQ(flight.controller.groundedReason(), "no inertial samples for 0.2 s");
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kPoweredOff; }, 20.0));
+  EXPECT_LT(flight.model.position_m.x() - begin_x_m, 1.2 * speed_m_s);
+  EXPECT_FALSE(flight.controller.command(Prepared{}) && flight.controller.command(TakeOff{1.0}));
 }
 
 TEST(Flight, LandsWithoutAnyMeasurement) {

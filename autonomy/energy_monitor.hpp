@@ -1,0 +1,51 @@
+// Consumption and what it means: how long the battery lasts, and how much of it the path home takes.
+#pragma once
+
+#include <optional>
+
+#include "common/config_fwd.hpp"
+#include "common/sensor_event.hpp"
+#include "common/time.hpp"
+#include "common/world/energy_layer.hpp"
+
+namespace swiftlet::autonomy {
+
+struct EnergyConfig {
+  double power_filter_s = 20.0;
+  double home_speed_m_s = 0.4;
+  double home_speed_filter_s = 60.0;
+  double landing_s = 8.0;
+
+  void describe(common::config::Fields& fields);
+};
+
+/// One thread. A multirotor needs about the same power whether it flies or hovers, so the charge for a path is its
+/// duration times the consumption. The duration is predicted by the speed at which paths have been flown so far.
+class EnergyMonitor {
+ public:
+  /// `capacity_ah` is the battery's as its owner believes; it is corrected by what the fuel gauge says in flight.
+  EnergyMonitor(const EnergyConfig& config, double capacity_ah);
+
+  /// A plausible sample.
+  void add(const common::BatterySample& sample, bool airborne);
+  /// Once a tick: the estimated horizontal speed while the vehicle follows a path.
+  void followed(double speed_m_s, double dt_s);
+
+  /// `land_share` is the charge at which the vehicle lands.
+  common::EnergyLayer layer(double thrust_margin, const std::optional<double>& home_m, double land_share) const;
+
+ private:
+  double consumption_1_s() const;
+
+  EnergyConfig config_;
+  double capacity_as_;
+  double home_speed_m_s_;
+  std::optional<common::BatterySample> last_;
+  double current_a_ = 0.0;
+  double power_w_ = 0.0;
+  bool flown_ = false;               ///< The smoothed values are those of a flight.
+  double remaining_at_take_off_ = 0.0;
+  double drawn_as_ = 0.0;            ///< By the measured current, since the take-off.
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,34 @@
+#include "autonomy/maneuvers/retrace.hpp"
+
+#include <algorithm>
+
+namespace swiftlet::autonomy {
+
+Progress Retrace::step(const ManeuverInput& input) {
+  if (setup_.controller.state() != common::FlightState::kFlying) return cannot("fly back", setup_.controller);
+  if (setup_.retreat.active()) return Progress::running();
+  if (intent_.path_map_m.empty()) return Progress::done("it is there already");
+  if (following_ && setup_.controller.pathFinished()) return Progress::done("back where it came from");
+  if (!setup_.controller.followsPath()) follow(input);
+  return Progress::running("flying back along the trail");
+}
+
+/// A retreat or a lost estimate ends the path; what is left of it is flown from the nearest place on.
+void Retrace::follow(const ManeuverInput& input) {
+  auto& path = intent_.path_map_m;
+  const Eigen::Vector2d here = input.position_map_m();
+  path.erase(path.begin(), std::min_element(path.begin(), path.end(), [&](const auto& a, const auto& b) {
+               return (a - here).squaredNorm() < (b - here).squaredNorm();
+             }));
+  control::FlightPath flown;
+  flown.mode = common::FlightMode::kCareful;
+  for (const Eigen::Vector2d& point : path)
+    flown.points_map_m.emplace_back(point.x(), point.y(), setup_.memory.cruise_height_m);
+  following_ = setup_.controller.follow(flown).has_value();
+}
+
+std::optional<Eigen::Vector2d> Retrace::goal_map_m() const {
+  return intent_.path_map_m.empty() ? std::nullopt : std::optional(intent_.path_map_m.back());
+}
+
+}  // namespace swiftlet::autonomy

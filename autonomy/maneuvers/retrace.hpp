@@ -1,0 +1,25 @@
+// Retrace: flies back along a path that was flown before. It needs no map and no plan, so it works where the map or the
+// position cannot be trusted; the reactive layer brakes as everywhere.
+#pragma once
+
+#include <optional>
+
+#include "autonomy/maneuvers/maneuver.hpp"
+
+namespace swiftlet::autonomy {
+
+class Retrace final : public Maneuver {
+ public:
+  Retrace(const common::RetraceIntent& intent, const ManeuverSetup& setup) : setup_(setup), intent_(intent) {}
+  Progress step(const ManeuverInput& input) override;
+  std::optional<Eigen::Vector2d> goal_map_m() const override;
+
+ private:
+  void follow(const ManeuverInput& input);
+
+  ManeuverSetup setup_;
+  common::RetraceIntent intent_;
+  bool following_ = false;
+};
+
+}  // namespace swiftlet::autonomy

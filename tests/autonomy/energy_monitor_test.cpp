@@ -1,0 +1,68 @@
+// Consumption, the time it leaves, and the charge that the path home takes.
+#include "autonomy/energy_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+namespace swiftlet::autonomy {
+namespace {
+
+constexpr double kCapacity_ah = 5.0, kLandShare = 0.12;
+
+class EnergyStory : public testing::Test {
+ protected:
+  /// Samples at 10 Hz of a battery whose capacity may differ from the believed one.
+  void draw(double seconds, double current_a, bool airborne = true, double true_capacity_ah = kCapacity_ah) {
+    for (int i = 0; i < static_cast<int>(10 * seconds); ++i) {
+      now_s_ += 0.1;
+      remaining_ -= 0.1 * current_a / (3600.0 * true_capacity_ah);
+      const common::Time now = common::Time::fromSeconds(now_s_);
+      monitor_.add({{now, now}, 11.0, remaining_, current_a}, airborne);
+    }
+  }
+  common::EnergyLayer layer(std::optional<double> home_m = std::nullopt) const {
+    return monitor_.layer(1.5, home_m, kLandShare);
+  }
+
+  EnergyMonitor monitor_{EnergyConfig{}, kCapacity_ah};
+  double now_s_ = 0.0;
+  double remaining_ = 0.8;
+};
+
+TEST_F(EnergyStory, SaysNothingOfTheFutureBeforeTheTakeOff) {
+  EXPECT_FALSE(layer(5.0).home_share);
+  draw(5.0, 1.0, false);
+  EXPECT_FALSE(layer(5.0).seconds_left);
+  EXPECT_FALSE(layer(5.0).home_share);
+  EXPECT_DOUBLE_EQ(layer().battery_voltage_v, 11.0);
+}
+
+TEST_F(EnergyStory, TheTimeLeftEndsAtTheChargeOfTheLanding) {
+  draw(5.0, 1.0, false);
+  draw(10.0, 18.0);
+  const double expected_s = (remaining_ - kLandShare) * 3600.0 * kCapacity_ah / 18.0;
+  EXPECT_NEAR(layer().seconds_left.value(), expected_s, 0.01 * expected_s);
+  EXPECT_NEAR(layer().power_w, 198.0, 1.0);
+}
+
+TEST_F(EnergyStory, ThePathHomeTakesItsTimeAndALanding) {
+  const EnergyConfig config;
+  draw(10.0, 18.0);
+  EXPECT_FALSE(layer().home_share) << "no path is known";
+  const double expected = (20.0 / config.home_speed_m_s + config.landing_s) * 18.0 / (3600.0 * kCapacity_ah);
+  EXPECT_NEAR(layer(20.0).home_share.value(), expected, 0.01 * expected);
+}
+
+TEST_F(EnergyStory, TheSpeedFlownSoFarPredictsTheTime) {
+  draw(10.0, 18.0);
+  const double before = layer(20.0).home_share.value();
+  for (int i = 0; i < 30'000; ++i) monitor_.followed(0.8, 0.01);
+  EXPECT_LT(layer(20.0).home_share.value(), 0.7 * before);
+}
+
+TEST_F(EnergyStory, AWornBatteryIsNoticedByItsFuelGauge) {
+  draw(100.0, 18.0, true, 4.0);
+  EXPECT_NEAR(layer().seconds_left.value(), (remaining_ - kLandShare) * 3600.0 * 4.0 / 18.0, 10.0);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy
