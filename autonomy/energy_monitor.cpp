@@ -71,8 +71,7 @@ common::EnergyLayer EnergyMonitor::layer(double thrust_margin, const std::option
   if (!flown_ || !(consumption > 0.0)) return layer;
   layer.seconds_left = std::max(0.0, last_->remaining - land_share) / consumption;
   constexpr double kLeast_m_s = 0.1;
-  if (home_m)
-    layer.home_share = consumption * (*home_m / std::max(kLeast_m_s, home_speed_m_s_) + config_.landing_s);
+  if (home_m) layer.home_share = consumption * (*home_m / std::max(kLeast_m_s, home_speed_m_s_) + config_.landing_s);
   return layer;
 }
 

@@ -43,9 +43,9 @@ class EnergyMonitor {
   std::optional<common::BatterySample> last_;
   double current_a_ = 0.0;
   double power_w_ = 0.0;
-  bool flown_ = false;               ///< The smoothed values are those of a flight.
+  bool flown_ = false;  ///< The smoothed values are those of a flight.
   double remaining_at_take_off_ = 0.0;
-  double drawn_as_ = 0.0;            ///< By the measured current, since the take-off.
+  double drawn_as_ = 0.0;  ///< By the measured current, since the take-off.
 };
 
 }  // namespace swiftlet::autonomy

@@ -8,13 +8,14 @@
 
 namespace swiftlet::autonomy {
 
-using common::config::kPositive;
 using common::ImuSample;
 using common::Time;
+using common::config::kPositive;
 
 void ImuWatchConfig::describe(common::config::Fields& fields) {
   fields("silent_s", silent_s, kPositive, "Greatest age of the newest inertial sample.");
-  fields("repeats_s", repeats_s, kPositive, "Samples that are equal bit by bit for longer than this are repeated ones.");
+  fields("repeats_s", repeats_s, kPositive,
+         "Samples that are equal bit by bit for longer than this are repeated ones.");
   fields("ahrs_turn_deg", ahrs_turn_deg, kPositive,
          "An attitude that stays equal bit by bit while the gyroscopes turn by this much is that of a stopped AHRS.");
 }
@@ -39,7 +40,8 @@ std::string ImuWatch::fault(Time now) const {
   if ((now - last_->stamps.measured).seconds() > config_.silent_s) return "no inertial samples";
   if ((last_->stamps.measured - changed_).seconds() > config_.repeats_s) return "the inertial samples repeat";
   const bool gyroscopes_measure = changed_ == last_->stamps.measured;
-  if (gyroscopes_measure && turned_rad_ > config_.ahrs_turn_deg * common::kRadPerDeg) return "the AHRS gives the same attitude";
+  if (gyroscopes_measure && turned_rad_ > config_.ahrs_turn_deg * common::kRadPerDeg)
+    return "the AHRS gives the same attitude";
   return {};
 }
 

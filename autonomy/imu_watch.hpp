@@ -33,8 +33,8 @@ class ImuWatch {
  private:
   ImuWatchConfig config_;
   std::optional<common::ImuSample> last_;
-  common::Time changed_;           ///< Stamp of the last sample that differed from the one before.
-  double turned_rad_ = 0.0;        ///< By the gyroscopes, since the attitude last changed.
+  common::Time changed_;     ///< Stamp of the last sample that differed from the one before.
+  double turned_rad_ = 0.0;  ///< By the gyroscopes, since the attitude last changed.
 };
 
 }  // namespace swiftlet::autonomy

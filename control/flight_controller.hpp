@@ -94,7 +94,7 @@ class FlightController {
   /// Stops as fast as the flight mode allows and holds, at that yaw if one is given.
   void hold(std::optional<double> yaw_map_rad = std::nullopt);
   /// Speed limit of the reactive layer; infinity lifts it.
-  void setSpeedLimit(double speed_m_s);
+  void setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
 
   common::Setpoint tick(const FlightTick& tick);
 
@@ -110,7 +110,7 @@ class FlightController {
   double thrustMargin() const { return position_.thrust().margin(); }
   double speed_m_s(common::FlightMode mode) const { return config_.path.limits(mode).speed_m_s; }
   /// The reference has reached the goal of the last path.
-  bool pathFinished() const;
+  bool pathFinished() const { return follower_.finished(); }
   const Reference& reference() const { return follower_.reference(); }
   /// The events since the last call.
   std::vector<common::Event> takeEvents();
