@@ -21,7 +21,7 @@ void SupervisorConfig::describe(common::config::Fields& fields) {
   fields("battery_land_share", battery_land_share, {0, 0.9},
          "Remaining charge at which the vehicle lands where it is.");
   fields("home_reserve_share", home_reserve_share, {0, 0.9},
-         "Charge over battery_land_share that is left at home when the vehicle turns back in time.");
+         "Charge that is left at home, over that of the landing, when the vehicle turns back in time.");
   fields("home_need_factor", home_need_factor, {1, 3}, "Safety factor of the charge that the flight home takes.");
   fields("least_thrust_margin", least_thrust_margin, {1, 3},
          "Greatest thrust over the weight below which the vehicle lands, while it can still climb.");
