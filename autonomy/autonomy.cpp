@@ -22,6 +22,9 @@ constexpr std::uint64_t kSupervisorHome = kSupervisorHold + 2;
 /// Of the first flight back along the trail.
 constexpr std::uint64_t kSupervisorBack = kSupervisorHome + (1ULL << 32);
 
+/// The flight home ends this far above the thrust margin at which the vehicle has to land where it is.
+constexpr double kLandingMargin = 0.03;
+
 }  // namespace
 
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
@@ -67,7 +70,7 @@ void Autonomy::take(const common::SensorEvent& event) {
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     if (!supervisor_.batteryArrived(arrived, *battery)) return;
     battery_v_ = battery->voltage_v;
-    energy_monitor_.add(*battery, control::isAirborne(controller_.state()));
+    energy_monitor_.add(*battery, control::isAirborne(controller_.state()), controller_.thrustMargin());
   } else if (const auto* pilot = std::get_if<common::PilotSample>(&event)) {
     supervisor_.pilotArrived(arrived, pilot->takes_over);
   }
@@ -117,6 +120,8 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
   flight.inertial_fault = imu_watch_.fault(now);
   const common::Setpoint setpoint = controller_.tick(flight);
+  if (controller_.followsPath())
+    energy_monitor_.followed(flight.state.velocity_odom_m_s.head<2>().norm(), common::kControlPeriod.seconds());
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
   estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying);
   // Not while landing, so that the map stays at the flight height.
@@ -179,7 +184,6 @@ void Autonomy::prepare() {
 
 void Autonomy::tickBehaviors(Time now) {
   takeSnapshot(now);
-  if (knowsItsPlace(now)) known_trail_points_ = world_->vehicle->trail.points_map_m().size();
   if (prepared_) intent_ = nextIntent(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
   executor_.tick(intent_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(),
@@ -233,25 +237,13 @@ common::Intent Autonomy::intentHome(unsigned number, Time now) {
   return {kSupervisorHold, common::HoldIntent{}};
 }
 
-/// True where the surface below is measured and the laser fixes the position.
-bool Autonomy::knowsItsPlace(common::Time now) const {
-  constexpr double kHeightSeen_s = 0.15;
-  const VehicleCondition now_is = condition(now);
-  return now_is.height_unseen_s < kHeightSeen_s && now_is.drift_m < 0.1 * config_.supervisor.drift_back_m;
-}
-
-/// The path back leads to where height and position were last known, and a little farther.
+/// The path back is the whole trail; the supervisor ends the flight where height and position are known again.
 common::Intent Autonomy::intentBack(unsigned number, common::Time now) {
-  constexpr std::size_t kFartherBack = 10;  // Points of the trail, half a metre.
   const std::uint64_t id = kSupervisorBack + number - 1;
   const common::IntentStatus& status = executor_.status();
   if (status.id != id) {
     const auto trail_map_m = world_->vehicle->trail.points_map_m();
-    const std::size_t known = std::min(known_trail_points_, trail_map_m.size());
-    common::RetraceIntent back;
-    back.path_map_m.assign(trail_map_m.rbegin(),
-                           trail_map_m.rend() - static_cast<std::ptrdiff_t>(known - std::min(known, kFartherBack)));
-    return {id, back};
+    return {id, common::RetraceIntent{{trail_map_m.rbegin(), trail_map_m.rend()}}};
   }
   if (status.state == common::IntentState::kRunning) return intent_;
   supervisor_.backEnded(now);
@@ -295,8 +287,8 @@ void Autonomy::takeSnapshot(Time now) {
                estimator_.localization()};
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
-  energy_ = energy_monitor_.layer(controller_.thrustMargin(), executor_.desk().home_m(),
-                                  config_.supervisor.battery_land_share);
+  energy_ = energy_monitor_.layer(executor_.desk().home_m(), config_.supervisor.battery_land_share,
+                                  kLandingMargin + config_.supervisor.least_thrust_margin);
   parts.energy = energy_;
   world_ = world_builder_.build(now, std::move(parts));
 }

@@ -105,7 +105,6 @@ class Autonomy {
   common::Intent intentHome(unsigned number, common::Time now);
   common::Intent intentBack(unsigned number, common::Time now);
   VehicleCondition condition(common::Time now) const;
-  bool knowsItsPlace(common::Time now) const;
   bool missionOver() const { return common::isOver(mission_status_.state); }
   void tickMission();
   void takeSnapshot(common::Time now);
@@ -137,7 +136,6 @@ class Autonomy {
   common::MissionStatus mission_status_;
   bool releasing_mission_ = false;  ///< The supervisor lands the vehicle, and the mission has not released it yet.
   bool prepared_ = false;
-  std::size_t known_trail_points_ = 0;  ///< Up to this point of the trail, height and position were known.
   std::optional<common::Time> last_behaviors_;
 
   WorldBuilder world_builder_;

@@ -29,7 +29,9 @@ void EnergyConfig::describe(common::config::Fields& fields) {
 EnergyMonitor::EnergyMonitor(const EnergyConfig& config, double capacity_ah)
     : config_(config), capacity_as_(3600.0 * capacity_ah), home_speed_m_s_(config.home_speed_m_s) {}
 
-void EnergyMonitor::add(const common::BatterySample& sample, bool airborne) {
+void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, double thrust_margin) {
+  thrust_margin_ = thrust_margin;
+  if (airborne) margin_.add(sample.remaining, thrust_margin);
   const double dt_s = last_ ? std::max(0.0, (sample.stamps.measured - last_->stamps.measured).seconds()) : 0.0;
   const double power_w = sample.voltage_v * sample.current_a;
   if (airborne && !flown_) {
@@ -58,18 +60,19 @@ double EnergyMonitor::consumption_1_s() const {
   return current_a_ / capacity_as;
 }
 
-common::EnergyLayer EnergyMonitor::layer(double thrust_margin, const std::optional<double>& home_m,
-                                         double land_share) const {
+common::EnergyLayer EnergyMonitor::layer(const std::optional<double>& home_m, double land_share,
+                                         double least_margin) const {
   common::EnergyLayer layer;
   if (!last_) return layer;
   layer.battery_voltage_v = last_->voltage_v;
   layer.battery_remaining = last_->remaining;
   layer.power_w = power_w_;
-  layer.thrust_margin = thrust_margin;
+  layer.thrust_margin = thrust_margin_;
+  layer.land_share = std::max(land_share, margin_.chargeAt(least_margin).value_or(0.0));
   layer.home_m = home_m;
   const double consumption = consumption_1_s();
   if (!flown_ || !(consumption > 0.0)) return layer;
-  layer.seconds_left = std::max(0.0, last_->remaining - land_share) / consumption;
+  layer.seconds_left = std::max(0.0, last_->remaining - layer.land_share) / consumption;
   constexpr double kLeast_m_s = 0.1;
   if (home_m) layer.home_share = consumption * (*home_m / std::max(kLeast_m_s, home_speed_m_s_) + config_.landing_s);
   return layer;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "autonomy/margin_trend.hpp"
 #include "common/config_fwd.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
@@ -26,13 +27,13 @@ class EnergyMonitor {
   /// `capacity_ah` is the battery's as its owner believes; it is corrected by what the fuel gauge says in flight.
   EnergyMonitor(const EnergyConfig& config, double capacity_ah);
 
-  /// A plausible sample.
-  void add(const common::BatterySample& sample, bool airborne);
+  /// A plausible sample, with the thrust margin at its time.
+  void add(const common::BatterySample& sample, bool airborne, double thrust_margin);
   /// Once a tick: the estimated horizontal speed while the vehicle follows a path.
   void followed(double speed_m_s, double dt_s);
 
-  /// `land_share` is the charge at which the vehicle lands.
-  common::EnergyLayer layer(double thrust_margin, const std::optional<double>& home_m, double land_share) const;
+  /// The vehicle lands when the charge falls to `land_share` or the thrust margin to `least_margin`.
+  common::EnergyLayer layer(const std::optional<double>& home_m, double land_share, double least_margin) const;
 
  private:
   double consumption_1_s() const;
@@ -41,6 +42,8 @@ class EnergyMonitor {
   double capacity_as_;
   double home_speed_m_s_;
   std::optional<common::BatterySample> last_;
+  MarginTrend margin_;
+  double thrust_margin_ = 0.0;
   double current_a_ = 0.0;
   double power_w_ = 0.0;
   bool flown_ = false;  ///< The smoothed values are those of a flight.

@@ -55,6 +55,8 @@ void PlanningWorker::explore(const PlanningRequest& request, const ExploreReques
   input.current = question.current;
   input.attempts = question.attempts;
   input.bounds = question.bounds;
+  input.lost_map_m = question.lost_map_m;
+  input.leave_building = question.leave_building;
   planning::ExplorationResult result = explorer_->explore(input);
   if (result.next) {
     if (!result.kept_current) ++viewpoints_;

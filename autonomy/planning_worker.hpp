@@ -29,6 +29,8 @@ struct ExploreRequest {
   std::optional<planning::Viewpoint> current;
   std::vector<planning::ExplorationAttempt> attempts;
   std::optional<common::MapBounds> bounds;
+  std::vector<Eigen::Vector2d> lost_map_m = {};
+  bool leave_building = false;
 };
 /// Asks for a place to fly to while there is no path to a goal. If a person blocks the path, it is a wide place far
 /// away over free space, so that the person can pass. Otherwise it is the last free place before the blockage, to see

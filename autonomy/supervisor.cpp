@@ -1,5 +1,6 @@
 #include "autonomy/supervisor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,14 @@ namespace swiftlet::autonomy {
 
 using common::Severity;
 using common::Time;
+namespace {
+
+/// The surface below counts as measured for this long after a measurement.
+constexpr double kSeen_s = 0.15;
+/// The position counts as known well up to this share of the drift at which the vehicle flies back.
+constexpr double kKnownShare = 0.1;
+
+}  // namespace
 using common::config::kPositive;
 
 void SupervisorConfig::describe(common::config::Fields& fields) {
@@ -31,7 +40,8 @@ void SupervisorConfig::describe(common::config::Fields& fields) {
   fields("drift_back_m", drift_back_m, kPositive,
          "Standard deviation of the position, grown since the laser last fixed it, at which the vehicle flies back.");
   fields("drift_land_m", drift_land_m, kPositive, "The same, at which it lands.");
-  fields("back_s", back_s, kPositive, "The vehicle lands if flying back has taken this long.");
+  fields("back_known_s", back_known_s, {0, 60},
+         "Flying back ends when height and position have been known again for this long.");
 }
 
 std::vector<std::string> SupervisorConfig::validate() const {
@@ -110,7 +120,7 @@ bool Supervisor::batteryArrived(Time now, const common::BatterySample& sample) {
 }
 
 void Supervisor::backEnded(Time now) {
-  back_since_.reset();
+  flies_back_ = false;
   if (!unknown_.empty()) land(now, unknown_ + ", also after flying back");
 }
 
@@ -123,8 +133,8 @@ const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition)
   supervision_.hold_reason = holdReason();
   supervision_.hold = !supervision_.hold_reason.empty();
   const bool may_fly = !laser_holds_ && !pilot_flies_;
-  supervision_.back = back_since_ && may_fly && !operator_holds_ ? flights_back_ : 0;
-  supervision_.home = goes_home_ && may_fly && !back_since_ ? flights_home_ : 0;
+  supervision_.back = flies_back_ && may_fly && !operator_holds_ ? flights_back_ : 0;
+  supervision_.home = goes_home_ && may_fly && !flies_back_ ? flights_home_ : 0;
   return supervision_;
 }
 
@@ -160,9 +170,12 @@ void Supervisor::watchEnergy(Time now, const common::EnergyLayer& energy) {
 
   if (!energy.home_share || !home_reason_.empty() || flight_ != common::FlightState::kFlying) return;
   const double needed = config_.home_need_factor * *energy.home_share;
-  if (energy.battery_remaining - config_.battery_land_share - config_.home_reserve_share > needed) return;
-  home_reason_ = fmt::format("turned back with {:.0f} % of the battery left, {:.0f} % to fly {:.1f} m home",
-                             100.0 * energy.battery_remaining, 100.0 * *energy.home_share, energy.home_m.value_or(0.0));
+  const double land_share = std::max(config_.battery_land_share, energy.land_share);
+  if (energy.battery_remaining - land_share - config_.home_reserve_share > needed) return;
+  home_reason_ = fmt::format(
+      "turned back with {:.0f} % of the battery left, {:.0f} % to fly {:.1f} m home, and {:.0f} % at which {}",
+      100.0 * energy.battery_remaining, 100.0 * *energy.home_share, energy.home_m.value_or(0.0), 100.0 * land_share,
+      land_share > config_.battery_land_share ? "the thrust carries the weight no longer" : "it lands");
   goes_home_ = true;
   operator_holds_ = false;
   ++flights_home_;
@@ -172,7 +185,7 @@ void Supervisor::watchEnergy(Time now, const common::EnergyLayer& energy) {
 void Supervisor::watchPosition(Time now, const VehicleCondition& condition) {
   unknown_.clear();
   if (flight_ != common::FlightState::kFlying) {
-    back_since_.reset();
+    flies_back_ = false;
     return;
   }
   if (condition.height_unseen_s > config_.height_back_s && !laser_holds_)
@@ -180,19 +193,24 @@ void Supervisor::watchPosition(Time now, const VehicleCondition& condition) {
   else if (condition.drift_m > config_.drift_back_m)
     unknown_ = fmt::format("the position is uncertain by {:.1f} m", condition.drift_m);
   if (condition.drift_m > config_.drift_land_m) land(now, unknown_);
-  if (!unknown_.empty() && !back_since_) {
-    back_since_ = now;
+  const bool known = condition.height_unseen_s < kSeen_s && condition.drift_m < kKnownShare * config_.drift_back_m;
+  if (!known) known_since_.reset();
+  if (known && !known_since_) known_since_ = now;
+  if (!unknown_.empty() && !flies_back_) {
+    flies_back_ = true;
     ++flights_back_;
     say(now, Severity::kWarning, "fly back along the trail", unknown_);
+  } else if (flies_back_ && known && (now - *known_since_).seconds() >= config_.back_known_s) {
+    flies_back_ = false;
+    say(now, Severity::kInfo, "height and position are known again", "");
   }
-  if (back_since_ && (now - *back_since_).seconds() > config_.back_s) land(now, "flying back takes too long");
 }
 
 /// Empty if nothing holds the mission.
 std::string Supervisor::holdReason() const {
   if (pilot_flies_) return "the pilot flies";
   if (laser_holds_) return "the laser is silent";
-  if (back_since_) return "it flies back along its trail";
+  if (flies_back_) return "it flies back along its trail";
   if (goes_home_) return home_reason_.empty() ? "the operator wants it home" : home_reason_;
   return operator_holds_ ? "the operator holds" : "";
 }

@@ -28,7 +28,7 @@ struct SupervisorConfig {
   double height_back_s = 0.5;
   double drift_back_m = 1.0;
   double drift_land_m = 2.0;
-  double back_s = 30.0;
+  double back_known_s = 1.0;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -48,8 +48,8 @@ struct Supervision {
   std::string hold_reason;
   /// The flight home, counted from 1; the mission holds meanwhile. 0: none.
   unsigned home = 0;
-  /// The flight back along the trail to where the vehicle last knew its height and position, counted from 1; the
-  /// mission holds meanwhile. 0: none.
+  /// The flight back along the trail until the vehicle knows its height and position again, counted from 1; the mission
+  /// holds meanwhile. 0: none.
   unsigned back = 0;
   bool land = false;  ///< Land for good: the mission is over.
   std::string land_reason;
@@ -75,7 +75,8 @@ class Supervisor {
   /// Handles and answers home for a mission that does not fly it itself. At home the vehicle holds until resume.
   common::CommandResult goHome(const common::OperatorCommand& command);
   void homeEnded(common::Time now, bool reached, std::string reason);
-  /// The flight back along the trail has ended. The vehicle lands if it does not know its height or position there.
+  /// The flight back has reached the begin of the trail, or failed. The vehicle lands if it still does not know its
+  /// height or position.
   void backEnded(common::Time now);
   /// Why every command but land is refused while the vehicle lands; empty if it does not land.
   std::string refusal() const;
@@ -108,7 +109,8 @@ class Supervisor {
   std::string home_reason_;  ///< Why it turned back by itself; empty if the operator wants it home.
   unsigned flights_home_ = 0;
   std::string unknown_;  ///< What the vehicle does not know about its place; empty if it knows it.
-  std::optional<common::Time> back_since_;
+  bool flies_back_ = false;
+  std::optional<common::Time> known_since_;  ///< Since when height and position have been known well.
   unsigned flights_back_ = 0;
   std::optional<common::Time> weak_since_;  ///< Since when the thrust margin has been too small.
   double charge_said_ = 1.0;                ///< The last charge of which an event told.

@@ -31,6 +31,8 @@ struct MapBounds {
 struct ExploreIntent {
   double clearance_m = 0.10;        ///< Between hull and obstacle.
   std::optional<MapBounds> bounds;  ///< Space outside is left unexplored; none: no limit.
+  /// Fly also to where the laser would see too little to fix the position.
+  bool leave_building = false;
 };
 struct GoToIntent {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();

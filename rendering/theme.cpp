@@ -54,6 +54,8 @@ Color frontierColor(common::FrontierReason reason, Scheme scheme) {
       return light ? rgb(0x9c36b5) : rgb(0xda77f2);
     case common::FrontierReason::kBlacklisted:
       return light ? rgb(0xc92a2a) : rgb(0xff6b6b);
+    case common::FrontierReason::kPositionUncertain:
+      return light ? rgb(0xb08900) : rgb(0xffd43b);
   }
   SWIFTLET_CHECK(false, static_cast<int>(reason));
 }

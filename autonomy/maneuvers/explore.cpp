@@ -40,7 +40,8 @@ Progress Explore::fly(const ManeuverInput& input) {
     detour_.ask(input, *blocked_frontier_map_m_);
   } else {
     asked_ = input.now;
-    flight_.ask(input, ExploreRequest{viewpoint_, setup_.memory.exploration.attempts, intent_.bounds});
+    flight_.ask(input, ExploreRequest{viewpoint_, setup_.memory.exploration.attempts, intent_.bounds,
+                                      setup_.memory.exploration.lost_map_m, intent_.leave_building});
   }
   return Progress::running();
 }
@@ -87,6 +88,7 @@ void Explore::goOn(const PlanningAnswer& answer, Time now, const common::Vehicle
   done_since_.reset();
   blocked_frontier_map_m_.reset();
   detour_.breakOff();
+  setup_.memory.exploration.target_map_m = result.next->target_map_m;
   if (!result.kept_current) {
     viewpoint_ = result.next;
     looks_since_.reset();
@@ -123,6 +125,7 @@ Progress Explore::explored(const planning::ExplorationResult& result, Time now) 
                                   frontier.centroid_map_m.x(), frontier.centroid_map_m.y(), toString(frontier.reason)),
                       frontier.explanation);
   setup_.memory.exploration.attempts.clear();
+  setup_.memory.exploration.target_map_m.reset();
   return Progress::done(fmt::format("explored {:.1f} m2, {} frontiers left, each with a reason",
                                     result.explored_area_m2, result.frontiers.size()));
 }

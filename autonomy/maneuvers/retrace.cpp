@@ -4,6 +4,12 @@
 
 namespace swiftlet::autonomy {
 
+Retrace::Retrace(const common::RetraceIntent& intent, const ManeuverSetup& setup) : setup_(setup), intent_(intent) {
+  ExplorationMemory& exploration = setup_.memory.exploration;
+  if (exploration.target_map_m) exploration.lost_map_m.push_back(*exploration.target_map_m);
+  exploration.target_map_m.reset();
+}
+
 Progress Retrace::step(const ManeuverInput& input) {
   if (setup_.controller.state() != common::FlightState::kFlying) return cannot("fly back", setup_.controller);
   if (setup_.retreat.active()) return Progress::running();

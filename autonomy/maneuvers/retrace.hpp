@@ -10,7 +10,8 @@ namespace swiftlet::autonomy {
 
 class Retrace final : public Maneuver {
  public:
-  Retrace(const common::RetraceIntent& intent, const ManeuverSetup& setup) : setup_(setup), intent_(intent) {}
+  /// What was explored last is remembered as a place where the vehicle does not know its position.
+  Retrace(const common::RetraceIntent& intent, const ManeuverSetup& setup);
   Progress step(const ManeuverInput& input) override;
   std::optional<Eigen::Vector2d> goal_map_m() const override;
 

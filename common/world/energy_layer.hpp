@@ -12,7 +12,9 @@ struct EnergyLayer {
   /// Greatest thrust over the weight at the present voltage, as learned in flight: at 1 the vehicle can only just
   /// hover.
   double thrust_margin = 0.0;
-  /// Time until the charge at which the vehicle lands, at the present consumption; none before the take-off.
+  /// Charge at which the vehicle will have to land, because it is too low or carries the weight no longer.
+  double land_share = 0.0;
+  /// Time until that charge, at the present consumption; none before the take-off.
   std::optional<double> seconds_left;
   std::optional<double> home_m;      ///< Length of the path home; none while there is no path.
   std::optional<double> home_share;  ///< Charge, as a share of the full battery, that it takes to fly home and land.

@@ -16,6 +16,8 @@ const char* toString(FrontierReason reason) {
       return "out of bounds";
     case FrontierReason::kBlacklisted:
       return "blacklisted";
+    case FrontierReason::kPositionUncertain:
+      return "position uncertain";
   }
   SWIFTLET_CHECK(false, static_cast<int>(reason));
 }

@@ -11,7 +11,9 @@
 namespace swiftlet::common {
 
 /// Why a frontier is not (yet) explored.
-enum class FrontierReason { kOpen, kTooSmall, kUnreachable, kOutOfBounds, kBlacklisted };
+/// kPositionUncertain: too few walls are around it to know the position there, or the position became uncertain on an
+/// earlier flight there.
+enum class FrontierReason { kOpen, kTooSmall, kUnreachable, kOutOfBounds, kBlacklisted, kPositionUncertain };
 const char* toString(FrontierReason reason);
 
 /// A connected run of free cells that touch unknown ones.

@@ -55,6 +55,25 @@ double localizability(const std::vector<WallReturn>& returns, int beams) {
   return std::clamp(std::min(position_share, yaw_share), 0.0, 1.0);
 }
 
+double wallShareAt(const CostMap& map, common::CellIndex place, double range_m, double open_m, int beams) {
+  const Directions directions(beams);
+  int walls = 0, open = 0;
+  for (const Directions::Ray& ray : directions.rays()) {
+    const double step_m = ray.step_cells * map.resolution_m();
+    double free_m = 0.0;
+    bool wall = false;
+    castRay(map, place, ray, static_cast<int>(range_m / step_m), [&](int index, int step) {
+      wall = map.state(index) == CellState::kOccupied;
+      if (map.state(index) != CellState::kFree) return false;
+      free_m = step * step_m;
+      return true;
+    });
+    walls += wall ? 1 : 0;
+    open += !wall && free_m >= open_m ? 1 : 0;
+  }
+  return walls + open > 0 ? static_cast<double>(walls) / (walls + open) : 1.0;
+}
+
 double localizabilityAt(const CostMap& map, common::CellIndex place, double range_m, int beams) {
   const Directions directions(beams);
   std::vector<WallReturn> returns;

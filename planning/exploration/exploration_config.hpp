@@ -18,6 +18,10 @@ struct ExplorationConfig {
   double acceleration_m_s2 = 0.8;
   double hysteresis = 0.25;
   double localizability_weight = 0.3;
+  double least_wall_share = 0.4;
+  double hold_range_m = 25.0;
+  double open_m = 8.0;
+  double lost_radius_m = 4.0;
   int max_attempts = 3;
   double attempt_radius_m = 0.35;
   int max_evaluated = 30;

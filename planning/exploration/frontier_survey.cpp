@@ -52,6 +52,8 @@ Frontier FrontierSurvey::described(const FrontierRun& run) const {
     setReason(frontier, FrontierReason::kTooSmall, fmt::format("{:.2f} m long", run.run_length_m));
   } else if (!inside) {
     setReason(frontier, FrontierReason::kOutOfBounds, "outside the bounds of the mission");
+  } else if (isLost(frontier.centroid_map_m)) {
+    setReason(frontier, FrontierReason::kPositionUncertain, "the position became uncertain on the way there");
   } else if (frontier.attempts >= config_.max_attempts) {
     setReason(frontier, FrontierReason::kBlacklisted, fmt::format("looked at {} times", frontier.attempts));
   }
@@ -62,6 +64,10 @@ std::vector<SeenFrontier> FrontierSurvey::seenBy(const Scout& scout) {
   std::vector<SeenFrontier> seen;
   for (std::size_t i = 0; i < frontiers_.size(); ++i) {
     if (frontiers_[i].reason != FrontierReason::kOpen) continue;
+    if (!input_.leave_building && !scout.hasHold(runs_[i].cells[runs_[i].cells.size() / 2])) {
+      leave(i, FrontierReason::kPositionUncertain, "too few walls around it to know the position there");
+      continue;
+    }
     SeenFrontier frontier{i, scout.lookouts(runs_[i]), std::numeric_limits<double>::infinity()};
     if (frontier.lookouts.empty()) {
       leave(i, FrontierReason::kUnreachable,
@@ -117,6 +123,11 @@ bool FrontierSurvey::lookedFrom(const Lookout& lookout) const {
   return std::any_of(input_.attempts.begin(), input_.attempts.end(), [&](const auto& attempt) {
     return isAt(attempt, target_m) && (attempt.place_map_m - place_m).norm() <= as_near_m;
   });
+}
+
+bool FrontierSurvey::isLost(const Point& centroid_map_m) const {
+  return std::any_of(input_.lost_map_m.begin(), input_.lost_map_m.end(),
+                     [&](const Point& lost) { return (lost - centroid_map_m).norm() <= config_.lost_radius_m; });
 }
 
 double FrontierSurvey::freeArea_m2() const {

@@ -35,7 +35,8 @@ class FrontierSurvey {
   const CostField& field() const { return field_; }
   const FrontierRun& run(std::size_t number) const { return runs_[number]; }
 
-  /// The open frontiers that are seen from a reachable place, the nearest first. The others are closed as unreachable.
+  /// The open frontiers that are seen from a reachable place, the nearest first. The others are closed, as unreachable
+  /// or because there is nothing around them to match a scan with.
   std::vector<SeenFrontier> seenBy(const Scout& scout);
   /// Closes a frontier for a reason: it will not be explored.
   void leave(std::size_t number, common::FrontierReason reason, const std::string& detail);
@@ -59,6 +60,7 @@ class FrontierSurvey {
  private:
   common::Frontier described(const FrontierRun& run) const;
   bool isAt(const ExplorationAttempt& attempt, const Eigen::Vector2d& target_map_m) const;
+  bool isLost(const Eigen::Vector2d& centroid_map_m) const;
   int attemptsAt(const Eigen::Vector2d& target_map_m) const;
   double freeArea_m2() const;
 

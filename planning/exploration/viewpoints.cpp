@@ -72,6 +72,10 @@ void Scout::lookFrom(CellIndex unknown, const Directions& directions, std::vecto
   }
 }
 
+bool Scout::hasHold(CellIndex place) const {
+  return wallShareAt(map_, place, config_.hold_range_m, config_.open_m) >= config_.least_wall_share;
+}
+
 View Scout::view(CellIndex place, double preferred_yaw_rad) const {
   static_assert(kGainRays % 2 == 0);
   const Directions directions(kGainRays);

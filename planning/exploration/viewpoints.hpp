@@ -39,6 +39,10 @@ class Scout {
   /// best.
   View view(common::CellIndex place, double preferred_yaw_rad) const;
 
+  /// Whether there are enough walls around the place to match a scan with. They may fail to fix the position along one
+  /// direction, as those of a corridor do.
+  bool hasHold(common::CellIndex place) const;
+
  private:
   void lookFrom(common::CellIndex unknown, const Directions& directions, std::vector<Lookout>& rings) const;
 

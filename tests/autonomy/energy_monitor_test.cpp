@@ -6,7 +6,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
-constexpr double kCapacity_ah = 5.0, kLandShare = 0.12;
+constexpr double kCapacity_ah = 5.0, kLandShare = 0.12, kLeastMargin = 1.1;
 
 class EnergyStory : public testing::Test {
  protected:
@@ -16,16 +16,17 @@ class EnergyStory : public testing::Test {
       now_s_ += 0.1;
       remaining_ -= 0.1 * current_a / (3600.0 * true_capacity_ah);
       const common::Time now = common::Time::fromSeconds(now_s_);
-      monitor_.add({{now, now}, 11.0, remaining_, current_a}, airborne);
+      monitor_.add({{now, now}, 11.0, remaining_, current_a}, airborne, margin_);
     }
   }
   common::EnergyLayer layer(std::optional<double> home_m = std::nullopt) const {
-    return monitor_.layer(1.5, home_m, kLandShare);
+    return monitor_.layer(home_m, kLandShare, kLeastMargin);
   }
 
   EnergyMonitor monitor_{EnergyConfig{}, kCapacity_ah};
   double now_s_ = 0.0;
   double remaining_ = 0.8;
+  double margin_ = 1.5;
 };
 
 TEST_F(EnergyStory, SaysNothingOfTheFutureBeforeTheTakeOff) {
@@ -62,6 +63,19 @@ TEST_F(EnergyStory, TheSpeedFlownSoFarPredictsTheTime) {
 TEST_F(EnergyStory, AWornBatteryIsNoticedByItsFuelGauge) {
   draw(100.0, 18.0, true, 4.0);
   EXPECT_NEAR(layer().seconds_left.value(), (remaining_ - kLandShare) * 3600.0 * 4.0 / 18.0, 10.0);
+}
+
+TEST_F(EnergyStory, TheChargeOfTheLandingIsWhereTheThrustWillNotCarryTheWeight) {
+  for (int second = 0; second < 100; ++second) {
+    margin_ = 1.1 + 0.5 * (remaining_ - 0.3);
+    draw(1.0, 18.0);
+  }
+  EXPECT_NEAR(layer().land_share, 0.3, 0.01);
+}
+
+TEST_F(EnergyStory, WithThrustToSpareTheChargeOfTheLandingIsTheConfigured) {
+  draw(100.0, 18.0);
+  EXPECT_DOUBLE_EQ(layer().land_share, kLandShare);
 }
 
 }  // namespace

@@ -201,6 +201,45 @@ TEST_F(TwoRooms, KeepsTheViewpointWhileItIsGoodEnough) {
   EXPECT_FALSE(look(24, input).kept_current);
 }
 
+TEST_F(TwoRooms, AFrontierOnTheWayToWhichThePositionBecameUncertainIsLeft) {
+  ExplorationInput input;
+  input.lost_map_m = {{4.0, 2.5}};
+  const ExplorationResult result = look(24, input);
+  EXPECT_TRUE(result.done);
+  EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kPositionUncertain);
+  EXPECT_EQ(result.frontiers[0].explanation, "position uncertain: the position became uncertain on the way there");
+  input.lost_map_m = {{0.2, 2.5}};
+  EXPECT_EQ(look(24, input).frontiers[0].reason, FrontierReason::kOpen) << "a place far from it";
+}
+
+/// A room with a doorway that leads outside, where 12 m of free ground were seen and no wall.
+struct DoorToTheOutside : testing::Test {
+  ExplorationResult look(bool leave_building) {
+    common::OccupancyGrid grid = test::room(100, 100);
+    test::fill(grid, {{100, 45}, {101, 65}}, test::kFreeCell);
+    test::fill(grid, {{101, -200}, {340, 300}}, test::kFreeCell);
+    auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
+    map->update(grid.snapshot(), {});
+    ExplorationInput input;
+    input.cost_map = map;
+    input.pose_map = {4.0, 2.7, 0.0};
+    input.leave_building = leave_building;
+    return UtilityExplorer({}).explore(input);
+  }
+};
+
+TEST_F(DoorToTheOutside, IsNotLeftWhereNoWallTellsThePosition) {
+  const ExplorationResult result = look(false);
+  EXPECT_TRUE(result.done) << result.reason;
+  EXPECT_EQ(countOf(result, FrontierReason::kPositionUncertain), static_cast<int>(result.frontiers.size()));
+}
+
+TEST_F(DoorToTheOutside, IsLeftIfTheMissionAllowsIt) {
+  const ExplorationResult result = look(true);
+  EXPECT_TRUE(result.next);
+  EXPECT_EQ(countOf(result, FrontierReason::kPositionUncertain), 0);
+}
+
 TEST(Exploration, FrontiersBehindANarrowPassageAreUnreachable) {
   // A passage 0.4 m wide that turns up; the room to the left of its end shows from inside the passage alone.
   common::OccupancyGrid grid = test::room(100, 100);
@@ -254,6 +293,19 @@ TEST(Localizability, RoomsFixThePoseCorridorsDoNot) {
   EXPECT_GT(at_its_end, 0.1);
   EXPECT_LE(in_room, 1.0);
   EXPECT_EQ(localizability({}, 90), 0.0);
+}
+
+TEST(Localizability, TheShareOfWallsCountsOnlyDirectionsWhoseEndIsKnown) {
+  common::OccupancyGrid room = test::room(100, 100);
+  EXPECT_DOUBLE_EQ(wallShareAt(test::mapOf(room), {50, 50}, 25.0, 8.0), 1.0);
+  common::OccupancyGrid plain = common::makeOccupancyGrid(0.05);
+  test::fill(plain, {{0, 0}, {400, 400}}, test::kFreeCell);
+  EXPECT_DOUBLE_EQ(wallShareAt(test::mapOf(plain), {200, 200}, 25.0, 8.0), 0.0) << "free all around";
+  common::OccupancyGrid small = common::makeOccupancyGrid(0.05);
+  test::fill(small, {{0, 0}, {100, 100}}, test::kFreeCell);
+  EXPECT_DOUBLE_EQ(wallShareAt(test::mapOf(small), {50, 50}, 25.0, 8.0), 1.0) << "a wall may follow everywhere";
+  test::fill(plain, {{0, 0}, {400, 200}}, test::kWallCell);
+  EXPECT_NEAR(wallShareAt(test::mapOf(plain), {200, 220}, 25.0, 8.0), 0.5, 0.05) << "a wall on one side";
 }
 
 }  // namespace
