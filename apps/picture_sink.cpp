@@ -10,7 +10,8 @@
 namespace swiftlet::apps {
 namespace {
 
-constexpr double kPicturePeriod_s = 5.0;
+/// By the wall clock, for those who watch the report of a running flight.
+constexpr std::chrono::seconds kPicturePeriod{5};
 /// Drawing takes about as long as half a second of a flight at full speed.
 constexpr auto kPictureLatency = common::Duration::fromMilliseconds(1000);
 
@@ -26,8 +27,9 @@ void PictureSink::ticked(const autonomy::TickOutcome& outcome) {
 }
 
 void PictureSink::world(const std::shared_ptr<const common::World>& world) {
-  if ((now_ - drawn_).seconds() < kPicturePeriod_s || !jobs_->idle("pictures")) return;
-  drawn_ = now_;
+  const Clock::time_point now = Clock::now();
+  if (now - drawn_ < kPicturePeriod || !jobs_->idle("pictures")) return;
+  drawn_ = now;
   jobs_->submit("pictures", now_, kPictureLatency,
                 [this, world, summary = folder_.summary(), truth = recorder_.record().truth_map,
                  hull_m = hull_diameter_m_]() -> common::JobRunner::Deliver {

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "apps/wall_clock.hpp"
 #include "autonomy/flight_sink.hpp"
 #include "common/jobs.hpp"
 
@@ -31,7 +32,7 @@ class PictureSink final : public autonomy::FlightSink {
   const evaluation::FlightRecorder& recorder_;
   double hull_diameter_m_;
   common::Time now_;
-  common::Time drawn_;
+  Clock::time_point drawn_;
   std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(1);
 };
 

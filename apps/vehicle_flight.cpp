@@ -137,6 +137,7 @@ void VehicleFlight::finish(double wall_s) {
   end.outcome = outcome_;
   end.reason = reason_;
   end.wall_time_s = wall_s;
+  end.ground_truth_map = recorder_.record().truth_map;
   if (hooks_.score) hooks_.score(recorder_.finish(), *vehicle_, end);
   folder_.finish(end);
   if (web_) showEnd();

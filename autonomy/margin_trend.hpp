@@ -5,9 +5,9 @@
 
 namespace swiftlet::autonomy {
 
-/// One thread. The voltage of a lithium battery falls steeply from full, then about linearly with the charge, and so does
-/// the greatest thrust; so what was measured at higher charges counts less and less. The bend near the end of the charge
-/// is not foreseen.
+/// One thread. The voltage of a lithium battery falls steeply from full, then about linearly with the charge, and so
+/// does the greatest thrust; so what was measured at higher charges counts less and less. The bend near the end of the
+/// charge is not foreseen.
 class MarginTrend {
  public:
   void add(double remaining, double margin);

@@ -109,6 +109,9 @@ class FlightController {
   /// See ThrustModel::margin().
   double thrustMargin() const { return position_.thrust().margin(); }
   double speed_m_s(common::FlightMode mode) const { return config_.path.limits(mode).speed_m_s; }
+  double brakingDistance_m(common::FlightMode mode, double speed_m_s) const {
+    return 0.5 * speed_m_s * speed_m_s / config_.path.limits(mode).acceleration_m_s2;
+  }
   /// The reference has reached the goal of the last path.
   bool pathFinished() const { return follower_.finished(); }
   const Reference& reference() const { return follower_.reference(); }

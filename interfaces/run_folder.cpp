@@ -34,9 +34,9 @@ constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(40);  ///< Bet
 constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Between two samples for plots.
 
 /// Every file that a run may leave; no other file is ever removed.
-constexpr std::array<const char*, 10> kFiles = {
-    "mission.json", "events.jsonl", "trajectory.tum", "trajectory_given.tum", "map.pgm",
-    "map.yaml",     "map.png",      "report.html",    "config.yaml",          "nature.yaml"};
+constexpr std::array<const char*, 11> kFiles = {
+    "mission.json", "events.jsonl", "trajectory.tum", "trajectory_given.tum", "map.pgm",         "map.yaml",
+    "map.png",      "report.html",  "config.yaml",    "nature.yaml",          "ground_truth.tum"};
 
 bool isRunFile(const std::string& name) {
   // A `.part` file is left of a Swiftlet file if the process was killed.
@@ -170,6 +170,7 @@ struct RunFolder::Impl {
 
   void track(const common::World& world);
   void localize(const common::World& world);
+  void writeTruth(const common::Trajectory& truth_map);
 
   fs::path path;
   FolderLock lock;
@@ -268,6 +269,14 @@ void RunFolder::show(ReportPictures pictures) {
   if (!impl_->failure && !impl_->pictures.map_png.empty()) impl_->write("map.png", impl_->pictures.map_png);
 }
 
+/// Appends the bytes of the lines to one text, so that the file is written at once.
+void RunFolder::Impl::writeTruth(const common::Trajectory& truth_map) {
+  if (truth_map.empty()) return;
+  std::string lines;
+  for (const common::StampedPose& pose : truth_map) lines += toTumLine(pose);
+  write("ground_truth.tum", lines);
+}
+
 void RunFolder::finish(const FlightEnd& end) {
   Impl& run = *impl_;
   run.summary.outcome = end.outcome;
@@ -279,6 +288,7 @@ void RunFolder::finish(const FlightEnd& end) {
     run.summary.realtime_factor = run.last_snapshot.seconds() / *end.wall_time_s;
   if (run.grid) run.keep(writeMap(run.path, "map", *run.grid, Durability::kPower));
   if (!run.pictures.map_png.empty()) run.write("map.png", run.pictures.map_png, Durability::kPower);
+  run.writeTruth(end.ground_truth_map);
   run.writeSummary(Durability::kPower);
 }
 

@@ -3,6 +3,7 @@
 //   mission.json     outcome, times, distance, phases, frontiers with reasons, figures; "flying" until the end
 //   events.jsonl     every event as it happens
 //   trajectory.tum   the estimate in `map`
+//   ground_truth.tum   the true trajectory of a simulated vehicle in `map`, while airborne; written at the end
 //   trajectory_given.tum   the pose in the given map, if there is one, while localized
 //   map.pgm, map.yaml, map.png    replaced whole every few seconds and at the end
 //   report.html      the same in one page
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "common/event.hpp"
+#include "common/trajectory.hpp"
 #include "common/vehicle_state.hpp"
 #include "interfaces/flight_summary.hpp"
 #include "interfaces/report/report.hpp"
@@ -39,6 +41,7 @@ struct FlightEnd {
   std::optional<double> coverage;
   std::vector<Figure> figures;
   std::optional<double> wall_time_s;
+  common::Trajectory ground_truth_map;  ///< In the `map` frame; empty if nobody knows it.
 };
 
 /// Used by one thread. Nothing throws after the constructor. If something cannot be written (full disk), the reason is

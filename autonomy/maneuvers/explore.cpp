@@ -1,5 +1,6 @@
 #include "autonomy/maneuvers/explore.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -33,7 +34,7 @@ Progress Explore::fly(const ManeuverInput& input) {
   const bool replan = flight_.keep(input);
   const bool looked = look(input);
   detour_.endWhenOver(input);
-  const double period_s = detour_.active() ? Detour::kAskAgain_s : setup_.config.explore_period_s;
+  const double period_s = detour_.active() ? Detour::kAskAgain_s : reconsiderAfter_s();
   const bool due = !asked_ || (input.now - *asked_).seconds() >= period_s || looked || (replan && !flight_.plan());
   if (!due || !flight_.mayAsk()) return Progress::running();
   if (blocked_frontier_map_m_ && detour_.due(*done_since_, input.now)) {
@@ -44,6 +45,17 @@ Progress Explore::fly(const ManeuverInput& input) {
                                       setup_.memory.exploration.lost_map_m, intent_.leave_building});
   }
   return Progress::running();
+}
+
+/// A choice on a large map takes long, and a viewpoint far away seldom changes: it is chosen anew after a share of the
+/// time that its path takes.
+double Explore::reconsiderAfter_s() const {
+  constexpr double kShare = 0.15;
+  const std::vector<Eigen::Vector2d> rest_map_m = flight_.remaining_map_m();
+  double rest_m = 0.0;
+  for (std::size_t i = 1; i < rest_map_m.size(); ++i) rest_m += (rest_map_m[i] - rest_map_m[i - 1]).norm();
+  return std::max(setup_.config.explore_period_s,
+                  kShare * rest_m / setup_.controller.speed_m_s(common::FlightMode::kFast));
 }
 
 bool Explore::look(const ManeuverInput& input) {

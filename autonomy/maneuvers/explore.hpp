@@ -18,6 +18,7 @@ class Explore final : public PathManeuver {
 
  private:
   Progress fly(const ManeuverInput& input) override;
+  double reconsiderAfter_s() const;
   /// True if it has looked long enough from the viewpoint, which is then finished.
   bool look(const ManeuverInput& input);
   void goOn(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state);

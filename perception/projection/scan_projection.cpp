@@ -52,7 +52,7 @@ class Surfaces {
         above_floor_m_(std::max(sensor_height_odom_m - config.floor_height_odom_m, 0.05)),
         below_ceiling_m_(config.ceiling_height_odom_m > 0.0
                              ? std::max(config.ceiling_height_odom_m - sensor_height_odom_m, 0.05)
-                             : 0.0),
+                             : config.max_rise_m),
         sin_attitude_error_(std::sin(config.attitude_error_deg * kRadPerDeg)) {}
 
   // The margin is at most half the height above the floor, so that a level beam near the floor never counts as a hit on
@@ -61,13 +61,12 @@ class Surfaces {
     return -rise_m > above_floor_m_ - std::min(margin(range_m), 0.5 * above_floor_m_);
   }
   bool onCeiling(double rise_m, double range_m) const {
-    return below_ceiling_m_ > 0.0 && rise_m > below_ceiling_m_ - std::min(margin(range_m), 0.5 * below_ceiling_m_);
+    return rise_m > below_ceiling_m_ - std::min(margin(range_m), 0.5 * below_ceiling_m_);
   }
 
   /// The range up to which a beam that hit no wall shows free space at the body's height.
   double freeRange(double slope, double range_m) const {
-    double band_m = std::min(config_.free_band_m, 0.5 * above_floor_m_);
-    if (below_ceiling_m_ > 0.0) band_m = std::min(band_m, 0.5 * below_ceiling_m_);
+    const double band_m = std::min({config_.free_band_m, 0.5 * above_floor_m_, 0.5 * below_ceiling_m_});
     return std::abs(slope) * range_m > band_m ? band_m / std::abs(slope) : range_m;
   }
 
@@ -182,7 +181,9 @@ void ScanProjectionConfig::describe(common::config::Fields& fields) {
   fields("floor_height_odom_m", floor_height_odom_m, {-10, 10},
          "Height of the take-off floor; the origin of odom is on it.");
   fields("ceiling_height_odom_m", ceiling_height_odom_m, {0, 100},
-         "Height of the ceiling over the take-off floor; 0 when unknown, then nothing is left out as ceiling.");
+         "Height of the ceiling over the take-off floor; 0 when unknown.");
+  fields("max_rise_m", max_rise_m, {0.1, 100},
+         "Under an unknown ceiling, an end point this far above the laser counts as one on the ceiling.");
   fields("surface_margin_m", surface_margin_m, {0, 1}, "End points this near to floor or ceiling are left out.");
   fields("attitude_error_deg", attitude_error_deg, {0, 20},
          "Error of roll and pitch, which widens surface_margin_m with the range (up to 1 deg: Grzonka 2009).");

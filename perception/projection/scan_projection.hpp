@@ -63,6 +63,7 @@ struct ProjectedScan {
 struct ScanProjectionConfig {
   double floor_height_odom_m = 0.0;
   double ceiling_height_odom_m = 0.0;
+  double max_rise_m = 1.0;
   double surface_margin_m = 0.05;
   double attitude_error_deg = 1.0;
   double free_band_m = 0.30;

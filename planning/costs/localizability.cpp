@@ -5,8 +5,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "planning/costs/sight.hpp"
-
 namespace swiftlet::planning {
 
 Eigen::Vector2d wallNormal(const CostMap& map, int index) {
@@ -55,8 +53,8 @@ double localizability(const std::vector<WallReturn>& returns, int beams) {
   return std::clamp(std::min(position_share, yaw_share), 0.0, 1.0);
 }
 
-double wallShareAt(const CostMap& map, common::CellIndex place, double range_m, double open_m, int beams) {
-  const Directions directions(beams);
+double wallShareAt(const CostMap& map, common::CellIndex place, double range_m, double open_m,
+                   const Directions& directions) {
   int walls = 0, open = 0;
   for (const Directions::Ray& ray : directions.rays()) {
     const double step_m = ray.step_cells * map.resolution_m();

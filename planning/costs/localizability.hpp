@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "planning/costs/cost_map.hpp"
+#include "planning/costs/sight.hpp"
 
 namespace swiftlet::planning {
 
@@ -23,10 +24,11 @@ Eigen::Vector2d wallNormal(const CostMap& map, int index);
 /// beams, including those without return.
 double localizability(const std::vector<WallReturn>& returns, int beams);
 
-/// How much there is to match around a place: of `beams` rays up to `range_m`, the share that meets a wall, among those
-/// whose end is known. A ray that leaves the known space within `open_m` may yet meet a wall and does not count; one
-/// that crosses as much free space without a wall counts as open. 1 if the end of no ray is known.
-double wallShareAt(const CostMap& map, common::CellIndex place, double range_m, double open_m, int beams = 90);
+/// How much there is to match around a place: of the rays in `directions` up to `range_m`, the share that meets a wall,
+/// among those whose end is known. A ray that leaves the known space within `open_m` may yet meet a wall and does not
+/// count; one that crosses as much free space without a wall counts as open. 1 if the end of no ray is known.
+double wallShareAt(const CostMap& map, common::CellIndex place, double range_m, double open_m,
+                   const Directions& directions);
 
 /// The localizability of a place, from `beams` rays cast up to `range_m`.
 double localizabilityAt(const CostMap& map, common::CellIndex place, double range_m, int beams = 90);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -42,10 +43,11 @@ class Choice {
   }
 
  private:
-  /// Finds viewpoints for the open frontiers, the nearest first.
+  /// Finds viewpoints for the open frontiers, the nearest first, until none that is farther away can be better.
   void evaluate() {
     for (const SeenFrontier& seen : survey_.seenBy(scout_)) {
       if (static_cast<int>(options_.size()) >= config_.max_evaluated) break;
+      if (!options_.empty() && greatestUtility().utility >= bound(seen.nearest_m)) break;
       double greatest_gain_m2 = 0.0;
       if (const auto best = bestOf(seen, greatest_gain_m2)) {
         survey_.score(seen.number, best->utility);
@@ -91,11 +93,22 @@ class Choice {
     const Point towards_target_m = map_.centerOf(lookout.target) - map_.centerOf(lookout.place);
     option.view = scout_.view(lookout.place, std::atan2(towards_target_m.y(), towards_target_m.x()));
     const double trust = 1.0 - config_.localizability_weight * (1.0 - option.view.localizability);
-    option.utility =
-        trust * std::pow(option.view.gain_m2, config_.gain_exponent) /
-        (travelTime_s(lookout.path_m, option.view.yaw_map_rad) + config_.speed_m_s / config_.acceleration_m_s2);
+    option.utility = trust * std::pow(option.view.gain_m2, config_.gain_exponent) /
+                     (travelTime_s(lookout.path_m, option.view.yaw_map_rad) + brake_s());
     return option;
   }
+
+  /// The greatest utility that a viewpoint at least this far away can have: it sees the unknown at the end of its range
+  /// in the whole field of view.
+  double bound(double path_m) const {
+    const double field_of_view_rad = config_.laser_field_of_view_deg * std::numbers::pi / 180.0;
+    const double depth_m = config_.gain_depth_m + 2.0 * map_.resolution_m();
+    const double free_m = std::max(0.0, config_.laser_range_m - depth_m);
+    const double gain_m2 = 0.5 * field_of_view_rad * (config_.laser_range_m * config_.laser_range_m - free_m * free_m);
+    return std::pow(gain_m2, config_.gain_exponent) / (path_m / config_.speed_m_s + brake_s());
+  }
+
+  double brake_s() const { return config_.speed_m_s / config_.acceleration_m_s2; }
 
   double travelTime_s(double path_m, double yaw_map_rad) const {
     const double turn_rad = std::abs(common::wrapAngle(yaw_map_rad - input_.pose_map.yaw_rad));

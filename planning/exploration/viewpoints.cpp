@@ -14,7 +14,7 @@ namespace {
 
 using common::CellIndex;
 
-constexpr int kCoarse = 72, kFine = 144, kGainRays = 120;
+constexpr int kCoarse = 72, kFine = 144, kGainRays = 120, kHoldRays = 90;
 constexpr std::array<double, 5> kRings_m{0.6, 1.2, 2.4, 4.8, std::numeric_limits<double>::infinity()};
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
 
@@ -41,7 +41,13 @@ double bestHeading(const std::array<double, kGainRays>& gains, double field_of_v
 }  // namespace
 
 Scout::Scout(const CostMap& map, const CostField& from_vehicle, const ExplorationConfig& config)
-    : map_(map), field_(from_vehicle), config_(config), coarse_(kCoarse), fine_(kFine) {}
+    : map_(map),
+      field_(from_vehicle),
+      config_(config),
+      coarse_(kCoarse),
+      fine_(kFine),
+      gain_(kGainRays),
+      hold_(kHoldRays) {}
 
 std::vector<Lookout> Scout::lookouts(const FrontierRun& frontier) const {
   std::vector<Lookout> rings(kRings_m.size(), {{}, {}, kNoPlace});
@@ -73,17 +79,16 @@ void Scout::lookFrom(CellIndex unknown, const Directions& directions, std::vecto
 }
 
 bool Scout::hasHold(CellIndex place) const {
-  return wallShareAt(map_, place, config_.hold_range_m, config_.open_m) >= config_.least_wall_share;
+  return wallShareAt(map_, place, config_.hold_range_m, config_.open_m, hold_) >= config_.least_wall_share;
 }
 
 View Scout::view(CellIndex place, double preferred_yaw_rad) const {
   static_assert(kGainRays % 2 == 0);
-  const Directions directions(kGainRays);
   const double resolution_m = map_.resolution_m();
   std::array<double, kGainRays> gains{};
   std::vector<WallReturn> returns;
   for (int i = 0; i < kGainRays; ++i) {
-    const Directions::Ray& ray = directions.rays()[static_cast<std::size_t>(i)];
+    const Directions::Ray& ray = gain_.rays()[static_cast<std::size_t>(i)];
     const double step_m = ray.step_cells * resolution_m;
     const int max_steps = static_cast<int>(config_.laser_range_m / step_m);
     const int depth_steps = static_cast<int>(config_.gain_depth_m / step_m);
@@ -97,7 +102,7 @@ View Scout::view(CellIndex place, double preferred_yaw_rad) const {
         return false;
       }
       if (state == CellState::kUnknown)
-        gains[static_cast<std::size_t>(i)] += step * step_m * directions.spacing_rad() * step_m;
+        gains[static_cast<std::size_t>(i)] += step * step_m * gain_.spacing_rad() * step_m;
       if (state == CellState::kUnknown || beyond > 0) ++beyond;
       return beyond <= depth_steps;
     });

@@ -51,6 +51,8 @@ class Scout {
   const ExplorationConfig& config_;
   Directions coarse_;
   Directions fine_;
+  Directions gain_;
+  Directions hold_;
 };
 
 }  // namespace swiftlet::planning

@@ -57,7 +57,7 @@ void PlanKeeper::Config::describe(common::config::Fields& fields) {
   fields("max_age_s", max_age_s, kPositive, "An older plan is compared with a new one.");
   fields("better_by", better_by, {0, 1}, "A new plan replaces a valid one when it is cheaper by this share.");
   fields("max_deviation_m", max_deviation_m, {0.01, 10},
-         "A plan does not hold any longer when the vehicle is farther from it than this.");
+         "A plan does not hold any longer when the vehicle is farther from it than this and its braking distance.");
 }
 
 void PlanKeeper::clear() {
@@ -65,7 +65,8 @@ void PlanKeeper::clear() {
   valid_ = false;
 }
 
-PlanKeeper::Check PlanKeeper::check(common::Time now, const CostMap& map, const Point& position_map_m) {
+PlanKeeper::Check PlanKeeper::check(common::Time now, const CostMap& map, const Point& position_map_m,
+                                    double braking_m) {
   if (!path_) return {false, true, "no plan"};
   advanceTo(position_map_m);
   const std::vector<Point> rest = remaining();
@@ -74,7 +75,7 @@ PlanKeeper::Check PlanKeeper::check(common::Time now, const CostMap& map, const 
   if (const Rest left = costOf(map, rest); left.blocked_map_m) {
     result = {false, true,
               fmt::format("blocked before ({:.2f}, {:.2f})", left.blocked_map_m->x(), left.blocked_map_m->y())};
-  } else if (deviation_m > config_.max_deviation_m) {
+  } else if (deviation_m > config_.max_deviation_m + braking_m) {
     result = {false, true, fmt::format("{:.2f} m off the plan", deviation_m)};
   }
   valid_ = result.valid;

@@ -36,8 +36,8 @@ class PlanKeeper {
   explicit PlanKeeper(const Config& config) : config_(config) {}
 
   /// Checks the rest of the plan on the present map (with the discs of dynamic obstacles), and records how far along it
-  /// the vehicle is.
-  Check check(common::Time now, const CostMap& map, const Eigen::Vector2d& position_map_m);
+  /// the vehicle is. It may be off the plan by its braking distance more, as a plan may begin with a turn.
+  Check check(common::Time now, const CostMap& map, const Eigen::Vector2d& position_map_m, double braking_m = 0.0);
 
   /// Offers a new plan. Returns true when it is taken: there was no plan, the old one is invalid or for another goal,
   /// or the new one is cheaper by more than `better_by`. In any case the age of the kept plan counts from `now`.

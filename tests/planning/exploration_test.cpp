@@ -296,16 +296,18 @@ TEST(Localizability, RoomsFixThePoseCorridorsDoNot) {
 }
 
 TEST(Localizability, TheShareOfWallsCountsOnlyDirectionsWhoseEndIsKnown) {
+  const Directions directions(90);
   common::OccupancyGrid room = test::room(100, 100);
-  EXPECT_DOUBLE_EQ(wallShareAt(test::mapOf(room), {50, 50}, 25.0, 8.0), 1.0);
+  EXPECT_DOUBLE_EQ(wallShareAt(test::mapOf(room), {50, 50}, 25.0, 8.0, directions), 1.0);
   common::OccupancyGrid plain = common::makeOccupancyGrid(0.05);
   test::fill(plain, {{0, 0}, {400, 400}}, test::kFreeCell);
-  EXPECT_DOUBLE_EQ(wallShareAt(test::mapOf(plain), {200, 200}, 25.0, 8.0), 0.0) << "free all around";
+  EXPECT_DOUBLE_EQ(wallShareAt(test::mapOf(plain), {200, 200}, 25.0, 8.0, directions), 0.0) << "free all around";
   common::OccupancyGrid small = common::makeOccupancyGrid(0.05);
   test::fill(small, {{0, 0}, {100, 100}}, test::kFreeCell);
-  EXPECT_DOUBLE_EQ(wallShareAt(test::mapOf(small), {50, 50}, 25.0, 8.0), 1.0) << "a wall may follow everywhere";
+  EXPECT_DOUBLE_EQ(wallShareAt(test::mapOf(small), {50, 50}, 25.0, 8.0, directions), 1.0)
+      << "a wall may follow everywhere";
   test::fill(plain, {{0, 0}, {400, 200}}, test::kWallCell);
-  EXPECT_NEAR(wallShareAt(test::mapOf(plain), {200, 220}, 25.0, 8.0), 0.5, 0.05) << "a wall on one side";
+  EXPECT_NEAR(wallShareAt(test::mapOf(plain), {200, 220}, 25.0, 8.0, directions), 0.5, 0.05) << "a wall on one side";
 }
 
 }  // namespace
