@@ -59,8 +59,7 @@ void ConductRecorder::intent(const common::Intent& intent, const common::IntentS
   const bool begins = !home_ || home_->intent != intent.id;
   if (begins && status.state == common::IntentState::kRunning)
     home_ = FlightHome{intent.id, home_share_, last_->battery_remaining, false};
-  if (home_ && home_->intent == intent.id && status.id == intent.id &&
-      status.state == common::IntentState::kSucceeded)
+  if (home_ && home_->intent == intent.id && status.id == intent.id && status.state == common::IntentState::kSucceeded)
     home_->arrived = true;
 }
 

@@ -92,8 +92,8 @@ TEST(Conditions, EachBatteryIsFlownInEachNature) {
     EXPECT_EQ(one.scenario.variation.battery_remaining, 0.0);
     EXPECT_THAT(one.scenario.written, ElementsAre("battery_remaining"));
   }
-  EXPECT_THAT(names, ElementsAre("house-real-charge25", "house-real-charge80", "house-harsh-charge25",
-                                 "house-harsh-charge80"));
+  EXPECT_THAT(
+      names, ElementsAre("house-real-charge25", "house-real-charge80", "house-harsh-charge25", "house-harsh-charge80"));
   trial.natures = {"real"};
   trial.batteries = {0.25};
   EXPECT_EQ(trial.byCondition().at(0).name, "house");
