@@ -14,6 +14,11 @@ void FolderSink::ticked(const autonomy::TickOutcome& outcome) { folder_.state(ou
 void FolderSink::world(const WorldPtr& world) { folder_.world(*world); }
 void FolderSink::event(const common::Event& event) { folder_.event(event); }
 
+void TruthSink::input(const autonomy::Input& input) {
+  const auto* event = std::get_if<common::SensorEvent>(&input);
+  if (event == nullptr) return;
+  if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(event)) recorder_.scan((*scan)->stamps);
+}
 void TruthSink::ticked(const autonomy::TickOutcome& outcome) {
   recorder_.tick(vehicle_.truth(), outcome.state);
   recorder_.intent(outcome.now, outcome.intent, outcome.intent_status);

@@ -37,6 +37,7 @@ class TruthSink final : public autonomy::FlightSink {
  public:
   TruthSink(const simulation::SimulatedVehicle& vehicle, evaluation::FlightRecorder& recorder)
       : vehicle_(vehicle), recorder_(recorder) {}
+  void input(const autonomy::Input& input) override;
   void ticked(const autonomy::TickOutcome& outcome) override;
   void world(const std::shared_ptr<const common::World>& world) override;
 

@@ -48,16 +48,6 @@ struct FlyOptions {
   bool json = false;
 };
 
-/// As if the scenario had written the charge out.
-void chargeBatteries(simulation::Scenario& scenario, double remaining) {
-  scenario.battery_remaining = remaining;
-  scenario.written.emplace_back("battery_remaining");
-  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
-    scenario.vehicles[i].battery_remaining = remaining;
-    scenario.written.push_back(fmt::format("vehicles[{}].battery_remaining", i));
-  }
-}
-
 FlightSetup setupOf(const FlyOptions& options) {
   FlightSetup setup;
   setup.system = loadSystem(options.system);
@@ -75,7 +65,7 @@ FlightSetup setupOf(const FlyOptions& options) {
   // Who flies has charged before, unless the scenario or the option says otherwise.
   setup.scenario.nature =
       std::make_shared<const simulation::Nature>(simulation::Nature::load(options.nature).withCharge(0.9, 1.0));
-  if (options.battery) chargeBatteries(setup.scenario, *options.battery);
+  if (options.battery) setup.scenario.setCharge(*options.battery);
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;

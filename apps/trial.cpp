@@ -42,7 +42,8 @@ struct TrialOptions {
   int jobs = 1;
   std::optional<int> seed;  ///< Of the first flight; none: what the trial says.
   std::string system;
-  std::string nature;  ///< Empty: that of the trial.
+  std::string nature;             ///< Empty: those of the trial.
+  std::optional<double> battery;  ///< None: as the trial says.
   std::string out;
   bool json = false;
 };
@@ -91,6 +92,7 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
   truth.rays = &vehicle.rays();
   truth.vehicle = vehicle.scenario().vehicle;
   truth.laser = vehicle.scenario().laser;
+  truth.quadrotor = vehicle.scenario().quadrotor;
   truth.clearance_m = trial.clearance_m;
   truth.reachable_area_max_m2 = trial.reachable_area_max_m2;
   return evaluation::scoreOf(record, truth, trial.criteria, seed, wall_time_s);
@@ -173,6 +175,7 @@ interfaces::TrialReport reportOf(const TrialResults& results) {
   report.tables.push_back(failureTable(results));
   for (const TrialResult& trial : results.trials) {
     report.tables.push_back(flightTable(trial));
+    report.tables.push_back(conductTable(trial));
     for (const auto& flight : trial.flights)
       report.pictures.push_back({fmt::format("{} seed {} {}", trial.name, flight.seed, flight.vehicle),
                                  flight.folder + "/map.png", flight.folder + "/report.html", flight.passed()});
@@ -193,7 +196,8 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   std::vector<TrialConfig> trials;
   for (TrialConfig& trial : evaluation::readTrials(file_or_folder)) {
     if (!options.nature.empty()) trial.natures = {options.nature};
-    for (TrialConfig& one : trial.byNature()) trials.push_back(std::move(one));
+    if (options.battery) trial.batteries = {*options.battery};
+    for (TrialConfig& one : trial.byCondition()) trials.push_back(std::move(one));
   }
   std::vector<common::Problem> problems;
   for (TrialConfig& trial : trials) {
@@ -273,6 +277,8 @@ void addTrial(Command& program) {
                  "The first seed S; default: the trial's scenario.seed, or 1.");
   command.option("--system", options->system, "Profile to fly them all with, instead of their own.");
   command.option("--nature", options->nature, "Nature to fly them all in, instead of their own.");
+  command.option("--battery", options->battery, {0.01, 1},
+                 "Charge at the start to fly them all with, as a share of the full one.");
   command.option("--out", options->out, "Folder of the results; default runs/<time>-trial.");
   command.flag("--json", options->json, "Print the results as JSON, nothing else.");
   command.footer("Example: swiftlet trial trials/papers/unb_case1.yaml --repeat 20");

@@ -6,6 +6,7 @@
 #include "apps/web_link.hpp"
 #include "common/world.hpp"
 #include "common/world/mission_layer.hpp"
+#include "evaluation/knowable_frame.hpp"
 #include "simulation/nature.hpp"
 
 namespace swiftlet::apps {
@@ -52,7 +53,9 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       web_(hooks.web ? &hooks.web->channel(number) : nullptr),
       vehicle_(std::make_unique<simulation::SimulatedVehicle>(arena, number)),
       name_(vehicle_->name()),
-      recorder_(vehicle_->T_world_map(), setup.map ? setup.map->T_world_given : std::nullopt),
+      recorder_(vehicle_->T_world_map(),
+                evaluation::knowableFrame(vehicle_->T_world_map(), vehicle_->scenario().sensors.laser_errors),
+                setup.map ? setup.map->T_world_given : std::nullopt),
       autonomy_(makeAutonomy(setup, name_, std::move(mission.mission))),
       folder_(folder, runInfo(setup, *vehicle_, mission.file), setup.system.toYaml(true)),
       pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),

@@ -33,7 +33,9 @@ Pose3 interpolated(const simulation::Truth& before, const simulation::Truth& aft
 
 }  // namespace
 
-FlightRecorder::FlightRecorder(const Pose3& T_world_map, const std::optional<common::Pose2>& T_world_given) {
+FlightRecorder::FlightRecorder(const Pose3& T_world_start, const Pose3& T_world_map,
+                               const std::optional<common::Pose2>& T_world_given) {
+  record_.T_world_start = T_world_start;
   record_.T_world_map = T_world_map;
   if (!T_world_given) return;
   T_world_given_ = *T_world_given;
@@ -41,6 +43,7 @@ FlightRecorder::FlightRecorder(const Pose3& T_world_map, const std::optional<com
 }
 
 void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleState& estimate) {
+  conduct_.tick(truth);
   if (!first_tick_) first_tick_ = truth.stamp;
   if (!history_.empty() && truth.airborne)
     record_.true_distance_m +=
@@ -73,11 +76,19 @@ std::optional<Pose3> FlightRecorder::truthAt(Time stamp) const {
   return interpolated(*std::prev(after), *after, stamp);
 }
 
+/// The body has the axes of the mounted laser here, as the estimate has: at the take-off it is the identity.
+Pose3 FlightRecorder::truthInMap(const Pose3& T_world_body) const {
+  const Pose3 T_body_axes = record_.T_world_start.inverse() * record_.T_world_map;
+  return record_.T_world_map.inverse() * T_world_body * T_body_axes;
+}
+
 void FlightRecorder::compare(const common::VehicleState& estimate, const Pose3& T_world_body) {
   const Pose3 T_map_body = estimate.T_map_body();
-  const Pose3 T_map_truth = record_.T_world_map.inverse() * T_world_body;
+  const Pose3 T_map_truth = truthInMap(T_world_body);
+  const Pose3 T_start_truth = record_.T_world_start.inverse() * T_world_body;
   const Eigen::Vector3d error_m = T_map_body.position_m - T_map_truth.position_m;
   record_.horizontal_errors_m.push_back(error_m.head<2>().norm());
+  record_.horizontal_errors_raw_m.push_back((T_map_body.position_m - T_start_truth.position_m).head<2>().norm());
   record_.spatial_errors_m.push_back(error_m.norm());
   record_.yaw_errors_rad.push_back(
       std::abs(common::wrapAngle(common::yawOf(T_map_body.rotation) - common::yawOf(T_map_truth.rotation))));
@@ -88,22 +99,28 @@ void FlightRecorder::compare(const common::VehicleState& estimate, const Pose3& 
 
 ComparedEstimate FlightRecorder::compared(const common::VehicleState& estimate, const Pose3& T_world_body) const {
   return {common::planar(estimate.T_map_body()), common::planar(estimate.T_odom_body),
-          common::planar(record_.T_world_map.inverse() * T_world_body)};
+          common::planar(truthInMap(T_world_body))};
 }
 
 void FlightRecorder::intent(Time now, const common::Intent& intent, const common::IntentStatus& status) {
   const auto* go_to = std::get_if<common::GoToIntent>(&intent.kind);
+  const bool home = go_to != nullptr && (go_to->goal_map_m - home_map_m_).norm() < kSamePlace_m;
+  conduct_.intent(intent, status, home);
   if (go_to == nullptr || status.id != intent.id || status.state != common::IntentState::kSucceeded) return;
   if (counted_intent_ == intent.id) return;
   const std::optional<Pose3> T_world_body = truthAt(now);
   if (!T_world_body) return;
   counted_intent_ = intent.id;
-  const Eigen::Vector2d truth_map_m = (record_.T_world_map.inverse() * T_world_body->position_m).head<2>();
-  const bool home = (go_to->goal_map_m - home_map_m_).norm() < kSamePlace_m;
-  record_.goals.push_back({now, home, go_to->goal_map_m, (truth_map_m - go_to->goal_map_m).norm(), newest_});
+  const auto errorIn = [&](const Pose3& T_world_frame) {
+    const Eigen::Vector2d truth_m = (T_world_frame.inverse() * T_world_body->position_m).head<2>();
+    return (truth_m - go_to->goal_map_m).norm();
+  };
+  record_.goals.push_back(
+      {now, home, go_to->goal_map_m, errorIn(record_.T_world_map), newest_, errorIn(record_.T_world_start)});
 }
 
 void FlightRecorder::world(const common::World& world) {
+  conduct_.world(world);
   home_map_m_ = world.vehicle->home_map.position_m();
   record_.map = world.map->grid;
   record_.explored_area_m2 = world.map->explored_area_m2;
@@ -160,6 +177,7 @@ void FlightRecorder::followLocalization(const common::World& world) {
 
 FlightRecord FlightRecorder::finish() const {
   FlightRecord record = record_;
+  record.conduct = conduct_.finish();
   if (!heights_world_m_.empty()) record.cruise_height_world_m = quantile(heights_world_m_, 0.5);
   return record;
 }

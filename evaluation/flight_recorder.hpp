@@ -18,6 +18,7 @@
 #include "common/trajectory.hpp"
 #include "common/vehicle_state.hpp"
 #include "common/world/mission_status.hpp"
+#include "evaluation/conduct_recorder.hpp"
 #include "simulation/truth.hpp"
 
 namespace swiftlet::common {
@@ -30,7 +31,7 @@ namespace swiftlet::evaluation {
 struct ComparedEstimate {
   common::Pose2 T_map_body;   ///< The estimate in the corrected map.
   common::Pose2 T_odom_body;  ///< The estimate before the correction by the map.
-  common::Pose2 T_map_truth;  ///< The true pose in the true `map` frame.
+  common::Pose2 T_map_truth;  ///< The true pose in the vehicle's `map` frame.
 };
 
 /// A goal that the mission reported as reached, with the truth at that tick.
@@ -40,6 +41,7 @@ struct ReachedGoal {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
   double error_m = 0.0;       ///< Horizontal distance from the goal to the true position.
   ComparedEstimate estimate;  ///< The newest estimate at that tick.
+  double error_raw_m = 0.0;   ///< The same with the goal in FlightRecord::T_world_start.
 };
 
 /// How the flight localized in the map it was given. Times are those of snapshots.
@@ -63,7 +65,8 @@ struct LocalizationRecord {
 
 /// The record of a whole flight.
 struct FlightRecord {
-  common::Pose3 T_world_map;
+  common::Pose3 T_world_map;    ///< The vehicle's `map` frame as it can know it; see knowableFrame().
+  common::Pose3 T_world_start;  ///< The take-off place with the true heading of the body.
   /// None if no map was given, or if its pose in the world is not known.
   std::optional<LocalizationRecord> localization;
   std::vector<ReachedGoal> goals;
@@ -71,9 +74,10 @@ struct FlightRecord {
   std::vector<double> horizontal_errors_m;
   std::vector<double> spatial_errors_m;
   std::vector<double> yaw_errors_rad;
-  double true_distance_m = 0.0;        ///< Length of the horizontal path while airborne.
-  double true_speed_max_m_s = 0.0;     ///< Greatest horizontal speed while airborne.
-  double cruise_height_world_m = 0.0;  ///< Median height of the body while airborne.
+  std::vector<double> horizontal_errors_raw_m;  ///< In T_world_start.
+  double true_distance_m = 0.0;                 ///< Length of the horizontal path while airborne.
+  double true_speed_max_m_s = 0.0;              ///< Greatest horizontal speed while airborne.
+  double cruise_height_world_m = 0.0;           ///< Median height of the body while airborne.
   common::MissionState mission = common::MissionState::kReady;
   std::string mission_reason;
   double mission_time_s = 0.0;    ///< From the first tick of the mission to its end, or to the end of the flight.
@@ -81,6 +85,7 @@ struct FlightRecord {
   double explored_area_m2 = 0.0;  ///< 0 if nothing was explored.
   int interruptions = 0;          ///< How often a running behaviour of the mission was suspended.
   int resumed = 0;                ///< How many of the suspended behaviours resumed later.
+  ConductRecord conduct;
   simulation::Truth last_truth;
   std::shared_ptr<const common::OccupancyGrid> map;  ///< The last map; null if there was none.
   common::Trajectory truth_map;                      ///< In the `map` frame, 20 Hz while airborne, for pictures.
@@ -89,11 +94,17 @@ struct FlightRecord {
 /// The flight loop calls it; each call is cheap enough for every tick. Calls come in the order of time.
 class FlightRecorder {
  public:
-  /// The true pose of the `map` frame: at the take-off place on its floor. `T_world_given` is the true pose of the
-  /// given map, if there is one and its pose is known.
+  /// `T_world_start` is the true take-off place on its floor, and `T_world_map` the vehicle's frame there.
+  /// `T_world_given` is the true pose of the given map, if there is one and its pose is known.
+  FlightRecorder(const common::Pose3& T_world_start, const common::Pose3& T_world_map,
+                 const std::optional<common::Pose2>& T_world_given = std::nullopt);
+  /// With a laser that is mounted as its data sheet says.
   explicit FlightRecorder(const common::Pose3& T_world_map,
-                          const std::optional<common::Pose2>& T_world_given = std::nullopt);
+                          const std::optional<common::Pose2>& T_world_given = std::nullopt)
+      : FlightRecorder(T_world_map, T_world_map, T_world_given) {}
 
+  /// Call at every scan that arrives.
+  void scan(const common::Stamps& stamps) { conduct_.scan(stamps); }
   /// Call at every control tick. The estimate is compared with the truth at its own stamp, which may be up to a second
   /// old.
   void tick(const simulation::Truth& truth, const common::VehicleState& estimate);
@@ -108,12 +119,14 @@ class FlightRecorder {
 
  private:
   std::optional<common::Pose3> truthAt(common::Time stamp) const;
+  common::Pose3 truthInMap(const common::Pose3& T_world_body) const;
   void compare(const common::VehicleState& estimate, const common::Pose3& T_world_body);
   ComparedEstimate compared(const common::VehicleState& estimate, const common::Pose3& T_world_body) const;
   void followTree(const common::TreeView& tree);
   void followLocalization(const common::World& world);
 
   FlightRecord record_;
+  ConductRecorder conduct_;
   common::Pose2 T_world_given_;
   common::LocalizationState localization_ = common::LocalizationState::kGlobal;
   std::optional<common::Time> last_flown_;

@@ -5,15 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "common/config_fields.hpp"
 #include "evaluation/judge.hpp"
 #include "evaluation/map_metrics.hpp"
 #include "evaluation/statistics.hpp"
+#include "simulation/nature.hpp"
 #include "simulation/truth_map.hpp"
 
 namespace swiftlet::evaluation {
-
-using common::config::kPositive;
 namespace {
 
 using common::MissionState;
@@ -23,10 +21,10 @@ std::optional<double> rmsOf(const std::vector<double>& errors) {
   return statisticsOf(errors).rmse;
 }
 
-std::optional<double> worstOf(const std::vector<ReachedGoal>& goals, bool home) {
+std::optional<double> worstOf(const std::vector<ReachedGoal>& goals, bool home, double ReachedGoal::*error) {
   std::optional<double> worst;
   for (const ReachedGoal& goal : goals)
-    if (goal.home == home) worst = std::max(goal.error_m, worst.value_or(0.0));
+    if (goal.home == home) worst = std::max(goal.*error, worst.value_or(0.0));
   return worst;
 }
 
@@ -76,10 +74,13 @@ void scoreMap(const FlightRecord& record, const TrueWorld& world, FlightScore& s
     score.reachable_area_m2 = free_space.covered_area_m2;
   }
 
-  if (const auto error = wallError(*record.map, T_world_map, *world.rays, cruise_m + world.laser.mount.z_m)) {
+  const double laser_m = cruise_m + world.laser.mount.z_m;
+  if (const auto error = wallError(*record.map, T_world_map, *world.rays, laser_m)) {
     score.map_wall_error_median_m = error->median_m;
     score.map_wall_error_p95_m = error->p95_m;
   }
+  if (const auto error = wallError(*record.map, common::planar(record.T_world_start), *world.rays, laser_m))
+    score.map_wall_error_median_raw_m = error->median_m;
 }
 
 LocalizationScore scoreOf(const LocalizationRecord& record, double within_m) {
@@ -97,59 +98,54 @@ LocalizationScore scoreOf(const LocalizationRecord& record, double within_m) {
   return score;
 }
 
-}  // namespace
-
-void Criteria::describe(common::config::Fields& fields) {
-  fields("mission_done", mission_done, "Whether the mission must end well.");
-  fields("collisions_max", collisions_max, {0, 1},
-         "Greatest number of touches of anything, a walker that runs into the vehicle included; a flight ends with the "
-         "first.");
-  fields("coverage_min", coverage_min, {0, 1}, "Least share of the reachable free space that is in the map.");
-  fields("goal_error_max_m", goal_error_max_m, kPositive,
-         "Greatest distance of the vehicle from a goal that is reported as reached.");
-  fields("home_error_max_m", home_error_max_m, kPositive,
-         "Greatest distance of the vehicle from home when that is reported as reached.");
-  fields("marker_error_max_m", marker_error_max_m, kPositive,
-         "Greatest error of the estimate when a goal or home is reported as reached.");
-  fields("relocalization_error_max_m", relocalization_error_max_m, kPositive,
-         "Greatest difference between the estimate's errors at the same goal at different times.");
-  fields("mission_time_max_s", mission_time_max_s, kPositive, "Greatest simulated time of the mission.");
-  fields("estimate_rms_max_m", estimate_rms_max_m, kPositive, "Greatest RMS of the estimate's horizontal error.");
-  fields("map_wall_error_max_m", map_wall_error_max_m, kPositive,
-         "Greatest median distance of mapped walls to true ones.");
-  fields("localized_within_m", localized_within_m, kPositive,
-         "Path length within which a flight that is given a map must have found itself in it to count as localized.");
-  fields("wrong_time_share_max", wrong_time_share_max, kPositive,
-         "Greatest share of the time localized in which the estimate is farther than 0.5 m or 10 deg from the truth.");
-  fields("all_resumed", all_resumed, "Whether everything that was interrupted must have gone on.");
-  fields("goal_error_median_max_m", goal_error_median_max_m, kPositive, "Greatest median of all flights' goal errors.");
-  fields("home_error_median_max_m", home_error_median_max_m, kPositive, "Greatest median of all flights' home errors.");
-  fields("mission_time_median_max_s", mission_time_median_max_s, kPositive,
-         "Greatest median of the times of all missions that ended well.");
-  fields("estimate_rms_median_max_m", estimate_rms_median_max_m, kPositive,
-         "Greatest median of all flights' RMS errors.");
-  fields("map_wall_error_median_max_m", map_wall_error_median_max_m, kPositive,
-         "Greatest median of all flights' wall errors.");
-  fields("localized_flights_min", localized_flights_min, {0, 1}, "Least share of all flights that were localized.");
+ConductScore scoreOf(const ConductRecord& record, const TrueWorld& world) {
+  ConductScore score;
+  if (record.airborne_s > 0) {
+    score.tilted_share = record.tilted_s / record.airborne_s;
+    score.tilt_max_deg = record.tilt_max_rad / common::kRadPerDeg;
+  }
+  if (record.charge_min)
+    score.thrust_margin_min = simulation::thrustOverWeight(world.vehicle, world.quadrotor, *record.charge_min,
+                                                           simulation::Nature::kFullThrottle);
+  score.touch_down_speed_m_s = record.touch_down_speed_m_s;
+  score.safe_action_s = record.safe_action_s;
+  if (record.home_energy) {
+    const auto [predicted, needed] = *record.home_energy;
+    score.home_energy_predicted = predicted;
+    score.home_energy_needed = needed;
+    if (needed > 0) score.home_energy_error = std::abs(predicted - needed) / needed;
+  }
+  if (!record.laser_latencies_s.empty()) {
+    score.laser_latency_median_s = quantile(record.laser_latencies_s, 0.5);
+    score.laser_latency_p95_s = quantile(record.laser_latencies_s, 0.95);
+  }
+  return score;
 }
+
+}  // namespace
 
 FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
                     double wall_time_s) {
   FlightScore score;
   score.seed = seed;
   score.outcome = outcomeOf(record);
+  score.mission_begun = record.mission != MissionState::kReady;
   score.mission_done = record.mission == MissionState::kDone && !record.last_truth.crashed;
-  score.goal_error_m = worstOf(record.goals, false);
-  score.home_error_m = worstOf(record.goals, true);
+  score.goal_error_m = worstOf(record.goals, false, &ReachedGoal::error_m);
+  score.home_error_m = worstOf(record.goals, true, &ReachedGoal::error_m);
+  score.goal_error_raw_m = worstOf(record.goals, false, &ReachedGoal::error_raw_m);
+  score.home_error_raw_m = worstOf(record.goals, true, &ReachedGoal::error_raw_m);
   score.visits = markerVisits(record.goals);
   score.marker_error_m = markerError_m(score.visits);
   score.relocalization_error_m = relocalizationError_m(score.visits);
   score.open_loop_error_m = openLoopError_m(score.visits);
   score.estimate_rms_m = rmsOf(record.horizontal_errors_m);
+  score.estimate_rms_raw_m = rmsOf(record.horizontal_errors_raw_m);
   score.estimate_spatial_rms_m = rmsOf(record.spatial_errors_m);
   score.estimate_yaw_rms_rad = rmsOf(record.yaw_errors_rad);
   scoreCollision(record.last_truth, score);
   scoreMap(record, world, score);
+  score.conduct = scoreOf(record.conduct, world);
   if (record.localization) score.localization = scoreOf(*record.localization, criteria.localized_within_m);
   score.mission_time_s = record.mission_time_s;
   score.flight_time_s = record.flight_time_s;
@@ -161,6 +157,19 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   if (wall_time_s > 0) score.realtime_factor = record.flight_time_s / wall_time_s;
   score.failures = missed(score, criteria);
   return score;
+}
+
+std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const ConductScore& score) {
+  return {{"tilted_share", score.tilted_share},
+          {"tilt_max_deg", score.tilt_max_deg},
+          {"thrust_margin_min", score.thrust_margin_min},
+          {"touch_down_speed_m_s", score.touch_down_speed_m_s},
+          {"safe_action_s", score.safe_action_s},
+          {"home_energy_predicted", score.home_energy_predicted},
+          {"home_energy_needed", score.home_energy_needed},
+          {"home_energy_error", score.home_energy_error},
+          {"laser_latency_median_s", score.laser_latency_median_s},
+          {"laser_latency_p95_s", score.laser_latency_p95_s}};
 }
 
 std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) {
@@ -178,6 +187,10 @@ std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) 
   add("estimate_yaw_rms_rad", score.estimate_yaw_rms_rad);
   add("map_wall_error_median_m", score.map_wall_error_median_m);
   add("map_wall_error_p95_m", score.map_wall_error_p95_m);
+  add("goal_error_raw_m", score.goal_error_raw_m);
+  add("home_error_raw_m", score.home_error_raw_m);
+  add("estimate_rms_raw_m", score.estimate_rms_raw_m);
+  add("map_wall_error_median_raw_m", score.map_wall_error_median_raw_m);
   if (score.localization) {
     add("localization_path_length_m", score.localization->path_length_m);
     add("localization_error_m", score.localization->error_m);
@@ -188,6 +201,7 @@ std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) 
   add("min_clearance_m", score.min_clearance_m);
   if (score.reachable_area_m2 > 0) add("reachable_area_m2", score.reachable_area_m2);
   add("collisions", score.collisions);
+  for (const auto& [name, figure] : figuresOf(score.conduct)) add(name, figure);
   return figures;
 }
 
@@ -202,11 +216,19 @@ std::vector<std::string> missed(const FlightScore& score, const Criteria& criter
   judge.atMost("home error, m", score.home_error_m, criteria.home_error_max_m);
   judge.atMost("marker error, m", score.marker_error_m, criteria.marker_error_max_m);
   judge.atMost("relocalization error, m", score.relocalization_error_m, criteria.relocalization_error_max_m);
-  judge.atMost("mission time, s", score.mission_time_s, criteria.mission_time_max_s);
+  judge.atMost("mission time, s", score.mission_begun ? std::optional(score.mission_time_s) : std::nullopt,
+               criteria.mission_time_max_s);
   judge.atMost("estimate RMS, m", score.estimate_rms_m, criteria.estimate_rms_max_m);
   judge.atMost("map wall error, m", score.map_wall_error_median_m, criteria.map_wall_error_max_m);
-  if (score.localization)
-    judge.atMost("share of the time localized wrongly", score.localization->wrong_share, criteria.wrong_time_share_max);
+  judge.atMost("share of the time localized wrongly",
+               score.localization ? std::optional(score.localization->wrong_share) : std::nullopt,
+               criteria.wrong_time_share_max);
+  judge.atMost("share of the time tilted", score.conduct.tilted_share, criteria.tilted_share_max);
+  judge.atLeast("thrust margin", score.conduct.thrust_margin_min, criteria.thrust_margin_min);
+  judge.atMost("touch-down speed, m/s", score.conduct.touch_down_speed_m_s, criteria.touch_down_speed_max_m_s);
+  judge.atMost("time from fault to safe action, s", score.conduct.safe_action_s, criteria.safe_action_max_s);
+  judge.atMost("error of the energy for the flight home", score.conduct.home_energy_error,
+               criteria.home_energy_error_max);
   if (criteria.all_resumed && score.resumed < score.interruptions)
     judge.fail(fmt::format("interruptions: {} of {} went on", score.resumed, score.interruptions));
   return judge.failures;

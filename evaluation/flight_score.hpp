@@ -2,47 +2,19 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
+#include "evaluation/criteria.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "evaluation/marker_errors.hpp"
+#include "simulation/quadrotor.hpp"
 #include "simulation/ray_caster.hpp"
 
 namespace swiftlet::evaluation {
-
-/// What a flight, and all flights of a trial together, must reach to pass. Criteria at their default are not checked,
-/// except the first two.
-struct Criteria {
-  static constexpr double kAny = std::numeric_limits<double>::infinity();
-
-  bool mission_done = true;
-  int collisions_max = 0;
-  double coverage_min = 0.0;
-  double goal_error_max_m = kAny;
-  double home_error_max_m = kAny;
-  double marker_error_max_m = kAny;
-  double relocalization_error_max_m = kAny;
-  double mission_time_max_s = kAny;
-  double estimate_rms_max_m = kAny;
-  double map_wall_error_max_m = kAny;
-  double localized_within_m = kAny;
-  double wrong_time_share_max = kAny;
-  bool all_resumed = true;
-  double goal_error_median_max_m = kAny;
-  double home_error_median_max_m = kAny;
-  double mission_time_median_max_s = kAny;
-  double estimate_rms_median_max_m = kAny;
-  double map_wall_error_median_max_m = kAny;
-  double localized_flights_min = 0.0;
-
-  void describe(common::config::Fields& fields);
-};
 
 /// How a flight localized in the map it was given.
 struct LocalizationScore {
@@ -55,12 +27,27 @@ struct LocalizationScore {
   int times_lost = 0;
 };
 
+/// How the vehicle was flown.
+struct ConductScore {
+  std::optional<double> tilted_share;           ///< Share of the time in the air with a tilt of more than 10 degrees.
+  std::optional<double> tilt_max_deg;           ///< Greatest tilt in the air.
+  std::optional<double> thrust_margin_min;      ///< Thrust at 95 % throttle over the weight, at the least charge.
+  std::optional<double> touch_down_speed_m_s;   ///< Greatest speed of descent at a touch-down.
+  std::optional<double> safe_action_s;          ///< Longest time from a fault to holding, landing or standing.
+  std::optional<double> home_energy_predicted;  ///< Share of the full battery for the flight home, by the vehicle.
+  std::optional<double> home_energy_needed;     ///< The same by the truth.
+  std::optional<double> home_energy_error;      ///< Their difference over what was needed, without its sign.
+  std::optional<double> laser_latency_median_s;
+  std::optional<double> laser_latency_p95_s;
+};
+
 /// An optional figure is none if it could not be measured, for example if no goal was reached.
 struct FlightScore {
   std::int64_t seed = 0;
-  std::string vehicle;  ///< Its name among several that flew together; empty: it flew alone.
-  std::string folder;   ///< Of the run, relative to the trial's; set by the caller.
-  std::string outcome;  ///< "done", or why not.
+  std::string vehicle;         ///< Its name among several that flew together; empty: it flew alone.
+  std::string folder;          ///< Of the run, relative to the trial's; set by the caller.
+  std::string outcome;         ///< "done", or why not.
+  bool mission_begun = false;  ///< Otherwise there is no mission_time_s.
   bool mission_done = false;
 
   std::optional<double> coverage;      ///< Share of the free space that the hull can cover, at the mission's clearance.
@@ -72,11 +59,19 @@ struct FlightScore {
   std::optional<double> relocalization_error_m;  ///< Worst difference between visits of the same goal.
   /// Worst error of the odometry from one visit to the next of the same goal.
   std::optional<double> open_loop_error_m;
-  std::optional<double> estimate_rms_m;  ///< Horizontal, against the truth in the true map frame, without alignment.
+  /// Horizontal, against the truth in the frame that the vehicle can know, without alignment.
+  std::optional<double> estimate_rms_m;
   std::optional<double> estimate_spatial_rms_m;
   std::optional<double> estimate_yaw_rms_rad;
   std::optional<double> map_wall_error_median_m;
   std::optional<double> map_wall_error_p95_m;
+  /// The same figures in the frame of the take-off with the true heading of the body: the mount's yaw counts as an
+  /// error.
+  std::optional<double> goal_error_raw_m;
+  std::optional<double> home_error_raw_m;
+  std::optional<double> estimate_rms_raw_m;
+  std::optional<double> map_wall_error_median_raw_m;
+  ConductScore conduct;
   std::optional<LocalizationScore> localization;  ///< None if the flight was given no map.
 
   int collisions = 0;
@@ -110,6 +105,7 @@ struct TrueWorld {
   const simulation::RayCaster* rays = nullptr;
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
+  simulation::QuadrotorConfig quadrotor;
   double clearance_m = kClearance_m;  ///< Clearance of the mission. Places where the hull does not fit with it are not
                                       ///< expected to be reached.
   double reachable_area_max_m2 = kReachableAreaMax_m2;  ///< A world with a larger reachable area counts as open.
@@ -118,6 +114,9 @@ struct TrueWorld {
 /// `wall_time_s` is the computing time; 0 if not known.
 FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
                     double wall_time_s);
+
+/// The figures of how the vehicle was flown, by their names in results.json.
+std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const ConductScore& score);
 
 /// The measured figures by their names in results.json, for the report of the flight; coverage is stored separately
 /// there.

@@ -59,6 +59,8 @@ void TrialConfig::describe(common::config::Fields& fields) {
   fields("system", system, "System profile.");
   fields("natures", natures,
          "How far the vehicle is from its data sheet: calm, real, harsh, or a file; each of them is flown.");
+  fields("batteries", batteries, {0.01, 1},
+         "Charges at the start, as shares of the full one; each of them is flown. Empty: that of scenario and nature.");
   fields("archive", archive,
          "The world's archive below the folder of data sets; empty when the world is with the software.");
   fields("repeat", repeat, {1, 10'000}, "Flights, each with the next seed.");
@@ -84,12 +86,19 @@ std::vector<std::string> TrialConfig::validate() const {
       .problems();
 }
 
-std::vector<TrialConfig> TrialConfig::byNature() const {
+std::vector<TrialConfig> TrialConfig::byCondition() const {
   std::vector<TrialConfig> trials;
   for (const std::string& nature : natures) {
-    trials.push_back(*this);
-    trials.back().natures = {nature};
-    if (natures.size() > 1) trials.back().name += "-" + fs::path(nature).stem().string();
+    TrialConfig in_nature = *this;
+    in_nature.natures = {nature};
+    if (natures.size() > 1) in_nature.name += "-" + fs::path(nature).stem().string();
+    if (batteries.empty()) trials.push_back(in_nature);
+    for (const double remaining : batteries) {
+      trials.push_back(in_nature);
+      trials.back().batteries = {remaining};
+      trials.back().scenario.setCharge(remaining);
+      if (batteries.size() > 1) trials.back().name += fmt::format("-charge{:g}", 100.0 * remaining);
+    }
   }
   return trials;
 }

@@ -42,6 +42,7 @@ struct TrialConfig {
   std::string mission;
   std::string system = "swiftlet";
   std::vector<std::string> natures = {"calm"};
+  std::vector<double> batteries;
   std::string archive;
   int repeat = 1;
   double time_limit_s = 600.0;
@@ -55,8 +56,10 @@ struct TrialConfig {
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
 
-  /// One trial for each of its natures, which is then the only one and part of its name where there are several.
-  std::vector<TrialConfig> byNature() const;
+  /// One trial for each of its natures and, in each of them, for each of its batteries: these are then the only ones,
+  /// and part of its name where there are several. The charge is that of every vehicle, as if the scenario had written
+  /// it out.
+  std::vector<TrialConfig> byCondition() const;
 
   /// Makes `world` and `model_paths` of the scenario absolute: below `unpacked`, the content of the archive, if there
   /// is such a file, otherwise below `root`, the installed or source tree.

@@ -67,12 +67,17 @@ ordered_json flightJson(const FlightScore& flight) {
       {"estimate_yaw_rms_rad", orNull(flight.estimate_yaw_rms_rad)},
       {"map_wall_error_median_m", orNull(flight.map_wall_error_median_m)},
       {"map_wall_error_p95_m", orNull(flight.map_wall_error_p95_m)},
+      {"goal_error_raw_m", orNull(flight.goal_error_raw_m)},
+      {"home_error_raw_m", orNull(flight.home_error_raw_m)},
+      {"estimate_rms_raw_m", orNull(flight.estimate_rms_raw_m)},
+      {"map_wall_error_median_raw_m", orNull(flight.map_wall_error_median_raw_m)},
       {"localization", flight.localization ? localizationJson(*flight.localization) : ordered_json(nullptr)},
       {"min_clearance_m", orNull(flight.min_clearance_m)},
       {"min_walker_clearance_m", orNull(flight.min_walker_clearance_m)},
       {"interruptions", flight.interruptions},
       {"resumed", flight.resumed},
       {"realtime_factor", orNull(flight.realtime_factor)}});
+  for (const auto& [name, figure] : figuresOf(flight.conduct)) json[name] = orNull(figure);
   return json;
 }
 
@@ -103,6 +108,17 @@ ordered_json trialJson(const TrialResult& trial) {
           {"localization_path_length_median_m", orNull(trial.localizationPathLengthMedian_m())},
           {"localization_path_length_max_m", orNull(trial.localizationPathLengthMax_m())},
           {"wrong_time_share_max", orNull(trial.wrongTimeShareMax())},
+          {"tilted_share_max", orNull(trial.tiltedShareMax())},
+          {"thrust_margin_min", orNull(trial.thrustMarginMin())},
+          {"touch_down_speed_max_m_s", orNull(trial.touchDownSpeedMax_m_s())},
+          {"safe_action_max_s", orNull(trial.safeActionMax_s())},
+          {"home_energy_error_max", orNull(trial.homeEnergyErrorMax())},
+          {"goal_error_max_raw_m", orNull(trial.goalErrorMaxRaw_m())},
+          {"goal_error_median_raw_m", orNull(trial.goalErrorMedianRaw_m())},
+          {"home_error_max_raw_m", orNull(trial.homeErrorMaxRaw_m())},
+          {"home_error_median_raw_m", orNull(trial.homeErrorMedianRaw_m())},
+          {"estimate_rms_median_raw_m", orNull(trial.estimateRmsMedianRaw_m())},
+          {"map_wall_error_median_raw_m", orNull(trial.mapWallErrorMedianRaw_m())},
           {"realtime_factor_median", orNull(trial.realtimeFactorMedian())},
           {"paper", paper},
           {"flights", flights}};

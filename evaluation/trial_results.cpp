@@ -1,7 +1,11 @@
 #include "evaluation/trial_results.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
+
+#include <fmt/format.h>
 
 #include "evaluation/judge.hpp"
 #include "evaluation/statistics.hpp"
@@ -9,12 +13,20 @@
 namespace swiftlet::evaluation {
 namespace {
 
+template <typename Value>
+std::optional<double> valueOf(const FlightScore& flight, Value FlightScore::*member) {
+  return flight.*member;
+}
+std::optional<double> valueOf(const FlightScore& flight, std::optional<double> ConductScore::*member) {
+  return flight.conduct.*member;
+}
+
 /// The values of the flights that have the figure.
 template <typename Member>
 std::vector<double> figures(const std::vector<FlightScore>& flights, Member member) {
   std::vector<double> values;
   for (const FlightScore& flight : flights)
-    if (const std::optional<double> value = flight.*member) values.push_back(*value);
+    if (const std::optional<double> value = valueOf(flight, member)) values.push_back(*value);
   return values;
 }
 
@@ -31,6 +43,16 @@ std::vector<std::size_t> firstOfFlights(const std::vector<FlightScore>& scores) 
   for (std::size_t i = 0; i < scores.size(); ++i)
     if (i == 0 || scores[i].vehicle.empty() || scores[i].seed != scores[i - 1].seed) first.push_back(i);
   return first;
+}
+
+/// A flight that lacks the figure counts as worse than any that has it.
+std::optional<double> medianOverAll(const std::vector<FlightScore>& flights,
+                                    std::optional<double> FlightScore::*member) {
+  if (flights.empty()) return std::nullopt;
+  std::vector<double> values;
+  for (const FlightScore& flight : flights)
+    values.push_back((flight.*member).value_or(std::numeric_limits<double>::max()));
+  return quantile(values, 0.5);
 }
 
 constexpr double kMin = 0.0, kMedian = 0.5, kMax = 1.0;
@@ -61,11 +83,19 @@ int TrialResult::passed() const {
 
 std::vector<std::string> TrialResult::missed() const {
   Judge judge;
-  judge.atMost("goal error median, m", goalErrorMedian_m(), criteria.goal_error_median_max_m);
-  judge.atMost("home error median, m", homeErrorMedian_m(), criteria.home_error_median_max_m);
+  const auto median = [&](const char* figure, std::optional<double> FlightScore::*member, double bound) {
+    const std::size_t lacking = flights.size() - figures(flights, member).size();
+    if (!flights.empty() && 2 * lacking >= flights.size() && !std::isinf(bound))
+      judge.fail(fmt::format("{}: {} of {} flights lack the figure, at most {:g} was asked for", figure, lacking,
+                             flights.size(), bound));
+    else
+      judge.atMost(figure, medianOverAll(flights, member), bound);
+  };
+  median("goal error median, m", &FlightScore::goal_error_m, criteria.goal_error_median_max_m);
+  median("home error median, m", &FlightScore::home_error_m, criteria.home_error_median_max_m);
   judge.atMost("mission time median, s", missionTimeMedian_s(), criteria.mission_time_median_max_s);
-  judge.atMost("estimate RMS median, m", estimateRmsMedian_m(), criteria.estimate_rms_median_max_m);
-  judge.atMost("map wall error median, m", mapWallErrorMedian_m(), criteria.map_wall_error_median_max_m);
+  median("estimate RMS median, m", &FlightScore::estimate_rms_m, criteria.estimate_rms_median_max_m);
+  median("map wall error median, m", &FlightScore::map_wall_error_median_m, criteria.map_wall_error_median_max_m);
   judge.atLeast("flights localized", localizedFlights(), criteria.localized_flights_min, "no flight was given a map");
   return judge.failures;
 }
@@ -138,6 +168,41 @@ std::optional<double> TrialResult::wrongTimeShareMax() const {
   for (const FlightScore& flight : flights)
     if (flight.localization) greatest = std::max(flight.localization->wrong_share, greatest.value_or(0.0));
   return greatest;
+}
+
+std::optional<double> TrialResult::tiltedShareMax() const {
+  return atQuantile(flights, &ConductScore::tilted_share, kMax);
+}
+std::optional<double> TrialResult::thrustMarginMin() const {
+  return atQuantile(flights, &ConductScore::thrust_margin_min, kMin);
+}
+std::optional<double> TrialResult::touchDownSpeedMax_m_s() const {
+  return atQuantile(flights, &ConductScore::touch_down_speed_m_s, kMax);
+}
+std::optional<double> TrialResult::safeActionMax_s() const {
+  return atQuantile(flights, &ConductScore::safe_action_s, kMax);
+}
+std::optional<double> TrialResult::homeEnergyErrorMax() const {
+  return atQuantile(flights, &ConductScore::home_energy_error, kMax);
+}
+
+std::optional<double> TrialResult::goalErrorMaxRaw_m() const {
+  return atQuantile(flights, &FlightScore::goal_error_raw_m, kMax);
+}
+std::optional<double> TrialResult::goalErrorMedianRaw_m() const {
+  return atQuantile(flights, &FlightScore::goal_error_raw_m, kMedian);
+}
+std::optional<double> TrialResult::homeErrorMaxRaw_m() const {
+  return atQuantile(flights, &FlightScore::home_error_raw_m, kMax);
+}
+std::optional<double> TrialResult::homeErrorMedianRaw_m() const {
+  return atQuantile(flights, &FlightScore::home_error_raw_m, kMedian);
+}
+std::optional<double> TrialResult::estimateRmsMedianRaw_m() const {
+  return atQuantile(flights, &FlightScore::estimate_rms_raw_m, kMedian);
+}
+std::optional<double> TrialResult::mapWallErrorMedianRaw_m() const {
+  return atQuantile(flights, &FlightScore::map_wall_error_median_raw_m, kMedian);
 }
 
 bool TrialResults::passed() const {

@@ -47,6 +47,19 @@ struct TrialResult {
   std::optional<double> localizationPathLengthMedian_m() const;  ///< Median over the flights that reported a pose.
   std::optional<double> localizationPathLengthMax_m() const;
   std::optional<double> wrongTimeShareMax() const;
+  /// The worst of the flights that have the figure.
+  std::optional<double> tiltedShareMax() const;
+  std::optional<double> thrustMarginMin() const;
+  std::optional<double> touchDownSpeedMax_m_s() const;
+  std::optional<double> safeActionMax_s() const;
+  std::optional<double> homeEnergyErrorMax() const;
+  /// In the frame of the take-off with the true heading of the body; none of them is a criterion.
+  std::optional<double> goalErrorMaxRaw_m() const;
+  std::optional<double> goalErrorMedianRaw_m() const;
+  std::optional<double> homeErrorMaxRaw_m() const;
+  std::optional<double> homeErrorMedianRaw_m() const;
+  std::optional<double> estimateRmsMedianRaw_m() const;
+  std::optional<double> mapWallErrorMedianRaw_m() const;
 };
 
 struct TrialResults {
@@ -64,6 +77,9 @@ common::Table summaryTable(const TrialResults& results);
 
 /// One row for each flight, linked to the report in its folder.
 common::Table flightTable(const TrialResult& trial);
+
+/// How each flight was flown, and its errors in the raw frame.
+common::Table conductTable(const TrialResult& trial);
 
 /// Every criterion that was missed, by trial and seed ("all" for those over all flights); no rows if all passed.
 common::Table failureTable(const TrialResults& results);

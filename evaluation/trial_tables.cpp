@@ -31,9 +31,10 @@ struct SummaryColumn {
   const char* figure;
   std::string (*show)(const std::optional<double>&);
   std::optional<double> (TrialResult::*value)() const;
-  /// Its criterion, a lower bound for coverage and an upper bound otherwise; null if there is none.
+  /// Its criterion, which is a lower bound if its name says so (`isLowerBound`); null if there is none.
   double Criteria::*bound;
   bool where_asked = false;  ///< Shown only if a trial has the criterion, or its paper has a figure.
+  std::optional<double> (TrialResult::*raw)() const = nullptr;  ///< The same in the raw frame; null: it has none.
 };
 
 template <int kDecimals>
@@ -44,12 +45,14 @@ std::string decimals(const std::optional<double>& value) {
 const std::vector<SummaryColumn>& allColumns() {
   static const std::vector<SummaryColumn> columns = {
       {"coverage min", "coverage_min", percent, &TrialResult::coverageMin, &Criteria::coverage_min},
-      {"goal err max (m)", "goal_error_max_m", decimals<3>, &TrialResult::goalErrorMax_m, &Criteria::goal_error_max_m},
+      {"goal err max (m)", "goal_error_max_m", decimals<3>, &TrialResult::goalErrorMax_m, &Criteria::goal_error_max_m,
+       false, &TrialResult::goalErrorMaxRaw_m},
       {"median (m)", "goal_error_median_m", decimals<3>, &TrialResult::goalErrorMedian_m,
-       &Criteria::goal_error_median_max_m},
-      {"home err max (m)", "home_error_max_m", decimals<3>, &TrialResult::homeErrorMax_m, &Criteria::home_error_max_m},
+       &Criteria::goal_error_median_max_m, false, &TrialResult::goalErrorMedianRaw_m},
+      {"home err max (m)", "home_error_max_m", decimals<3>, &TrialResult::homeErrorMax_m, &Criteria::home_error_max_m,
+       false, &TrialResult::homeErrorMaxRaw_m},
       {"median (m)", "home_error_median_m", decimals<3>, &TrialResult::homeErrorMedian_m,
-       &Criteria::home_error_median_max_m},
+       &Criteria::home_error_median_max_m, false, &TrialResult::homeErrorMedianRaw_m},
       {"marker err max (m)", "marker_error_max_m", decimals<3>, &TrialResult::markerErrorMax_m,
        &Criteria::marker_error_max_m, true},
       {"relocalization max (m)", "relocalization_error_max_m", decimals<3>, &TrialResult::relocalizationErrorMax_m,
@@ -63,9 +66,19 @@ const std::vector<SummaryColumn>& allColumns() {
       {"time median (s)", "mission_time_median_s", decimals<1>, &TrialResult::missionTimeMedian_s,
        &Criteria::mission_time_median_max_s},
       {"RMS median (m)", "estimate_rms_median_m", decimals<3>, &TrialResult::estimateRmsMedian_m,
-       &Criteria::estimate_rms_median_max_m},
+       &Criteria::estimate_rms_median_max_m, false, &TrialResult::estimateRmsMedianRaw_m},
       {"wall err median (m)", "map_wall_error_median_m", decimals<3>, &TrialResult::mapWallErrorMedian_m,
-       &Criteria::map_wall_error_median_max_m},
+       &Criteria::map_wall_error_median_max_m, false, &TrialResult::mapWallErrorMedianRaw_m},
+      {"tilted, of its time", "tilted_share_max", percent, &TrialResult::tiltedShareMax, &Criteria::tilted_share_max,
+       true},
+      {"thrust margin min", "thrust_margin_min", decimals<2>, &TrialResult::thrustMarginMin,
+       &Criteria::thrust_margin_min, true},
+      {"touch-down max (m/s)", "touch_down_speed_max_m_s", decimals<2>, &TrialResult::touchDownSpeedMax_m_s,
+       &Criteria::touch_down_speed_max_m_s, true},
+      {"fault to safe max (s)", "safe_action_max_s", decimals<2>, &TrialResult::safeActionMax_s,
+       &Criteria::safe_action_max_s, true},
+      {"home energy err max", "home_energy_error_max", percent, &TrialResult::homeEnergyErrorMax,
+       &Criteria::home_energy_error_max, true},
       {"x real time", "realtime_factor_median", decimals<1>, &TrialResult::realtimeFactorMedian, nullptr},
   };
   return columns;
@@ -85,12 +98,16 @@ std::optional<double> boundOf(const SummaryColumn& column, const Criteria& crite
   return bound;
 }
 
+bool isLowerBound(double Criteria::*bound) {
+  return bound == &Criteria::coverage_min || bound == &Criteria::localized_flights_min ||
+         bound == &Criteria::thrust_margin_min;
+}
+
 Mark markOf(const SummaryColumn& column, const TrialResult& trial) {
   const auto bound = boundOf(column, trial.criteria), value = (trial.*column.value)();
   if (!bound) return Mark::kNone;
   if (!value) return Mark::kBad;
-  const bool at_least = column.bound == &Criteria::coverage_min || column.bound == &Criteria::localized_flights_min;
-  return (at_least ? *value >= *bound : *value <= *bound) ? Mark::kGood : Mark::kBad;
+  return (isLowerBound(column.bound) ? *value >= *bound : *value <= *bound) ? Mark::kGood : Mark::kBad;
 }
 
 std::vector<SummaryColumn> columnsFor(const std::vector<TrialResult>& trials) {
@@ -136,6 +153,24 @@ std::vector<TableCell> askedRow(const TrialResult& trial, const std::vector<Summ
   return rowBelow("  asked for", columns, [&](const SummaryColumn& column) { return boundOf(column, trial.criteria); });
 }
 
+/// Whether the frame that the vehicle can know differs from the raw one.
+bool isTurned(const TrialResult& trial) {
+  constexpr double kRounding_m = 1e-6;
+  const auto differ = [](const std::optional<double>& a, const std::optional<double>& b) {
+    return a && b && std::abs(*a - *b) > kRounding_m;
+  };
+  return std::any_of(trial.flights.begin(), trial.flights.end(), [&](const FlightScore& flight) {
+    return differ(flight.estimate_rms_m, flight.estimate_rms_raw_m) ||
+           differ(flight.goal_error_m, flight.goal_error_raw_m);
+  });
+}
+
+std::vector<TableCell> rawRow(const TrialResult& trial, const std::vector<SummaryColumn>& columns) {
+  return rowBelow("  in the raw frame", columns, [&](const SummaryColumn& column) -> std::optional<double> {
+    return column.raw == nullptr ? std::nullopt : (trial.*column.raw)();
+  });
+}
+
 std::vector<TableCell> paperRow(const TrialResult& trial, const std::vector<SummaryColumn>& columns) {
   return rowBelow("  the paper", columns, [&](const SummaryColumn& column) -> std::optional<double> {
     const PaperFigure* figure = paperFigure(column, trial);
@@ -152,6 +187,7 @@ Table summaryTable(const TrialResults& results) {
   for (const SummaryColumn& column : columns) table.columns.emplace_back(column.title);
   for (const TrialResult& trial : results.trials) {
     table.rows.push_back(summaryRow(trial, columns));
+    if (isTurned(trial)) table.rows.push_back(rawRow(trial, columns));
     if (asksForAny(trial.criteria)) table.rows.push_back(askedRow(trial, columns));
     if (!trial.paper.empty()) table.rows.push_back(paperRow(trial, columns));
   }
@@ -179,6 +215,33 @@ Table flightTable(const TrialResult& trial) {
                           {fmt::format("{}", flight.interruptions)},
                           {fmt::format("{}", flight.resumed)},
                           {shown(flight.realtime_factor, 1)}});
+  }
+  return table;
+}
+
+Table conductTable(const TrialResult& trial) {
+  Table table{"Conduct and raw errors of " + trial.name,
+              {"seed", "over 10 deg", "tilt max (deg)", "thrust margin", "touch-down (m/s)", "fault to safe (s)",
+               "home energy told", "needed", "laser latency (ms)", "95 % (ms)", "raw goal err (m)", "raw home err (m)",
+               "raw RMS (m)", "raw wall err (m)"},
+              {}};
+  const auto ms = [](const std::optional<double>& s) { return s ? fmt::format("{:.0f}", 1e3 * *s) : "-"; };
+  for (const FlightScore& flight : trial.flights) {
+    const ConductScore& conduct = flight.conduct;
+    table.rows.push_back({{flightName(flight)},
+                          {percent(conduct.tilted_share)},
+                          {shown(conduct.tilt_max_deg, 1)},
+                          {shown(conduct.thrust_margin_min, 2)},
+                          {shown(conduct.touch_down_speed_m_s, 2)},
+                          {shown(conduct.safe_action_s, 2)},
+                          {percent(conduct.home_energy_predicted)},
+                          {percent(conduct.home_energy_needed)},
+                          {ms(conduct.laser_latency_median_s)},
+                          {ms(conduct.laser_latency_p95_s)},
+                          {shown(flight.goal_error_raw_m, 3)},
+                          {shown(flight.home_error_raw_m, 3)},
+                          {shown(flight.estimate_rms_raw_m, 3)},
+                          {shown(flight.map_wall_error_median_raw_m, 3)}});
   }
   return table;
 }

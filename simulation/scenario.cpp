@@ -197,6 +197,16 @@ std::vector<std::string> Scenario::validate() const {
   return problems;
 }
 
+void Scenario::setCharge(double remaining) {
+  battery_remaining = remaining;
+  variation.battery_remaining = 0.0;
+  written.emplace_back("battery_remaining");
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    vehicles[i].battery_remaining = remaining;
+    written.push_back(fmt::format("vehicles[{}].battery_remaining", i));
+  }
+}
+
 std::size_t Scenario::vehicleNumber(const std::string& name) const {
   if (name.empty()) return 0;
   const auto found =

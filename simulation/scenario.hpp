@@ -166,6 +166,8 @@ struct Scenario {
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
 
+  /// Gives every vehicle that charge at the start, as if the scenario's file had written it out; nothing varies it.
+  void setCharge(double remaining);
   std::size_t vehicleCount() const { return vehicles.empty() ? 1 : vehicles.size(); }
   /// The number of the vehicle with that name, which must exist; 0 for an empty name.
   std::size_t vehicleNumber(const std::string& name) const;

@@ -15,6 +15,8 @@ struct Truth {
   common::Pose3 T_world_body;
   Eigen::Vector3d velocity_world_m_s = Eigen::Vector3d::Zero();
   bool airborne = false;
+  double battery_remaining = 1.0;  ///< True charge, as a share of the full one.
+  bool faulty = false;             ///< A fault of the scenario is active.
 
   /// Smallest horizontal distance from the hull so far, while airborne: to the static world, to a walker, and to the
   /// hull of another vehicle. They are capped at kClearanceLimit_m.

@@ -133,6 +133,11 @@ void VehicleModel::updateTruth(Time now) {
   truth_.T_world_body = state.T_world_body;
   truth_.velocity_world_m_s = state.velocity_world_m_s;
   truth_.airborne = !state.standing;
+  truth_.battery_remaining = quadrotor_.battery().remaining();
+  const std::vector<FaultConfig>& faults = placed_.scenario.faults;
+  truth_.faulty = std::any_of(faults.begin(), faults.end(), [now](const FaultConfig& fault) {
+    return now >= Time::fromSeconds(fault.from_s) && now < Time::fromSeconds(fault.to_s);
+  });
 }
 
 double gapBetween_m(const Actor& a, const Actor& b) {

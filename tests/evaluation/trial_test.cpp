@@ -100,7 +100,7 @@ TEST_F(Trials, EachOfSeveralVehiclesMayHaveItsOwnMission) {
 
 TEST_F(Trials, WithSeveralNaturesAreOneTrialForEach) {
   put("house.yaml", std::string(kSmallest) + "natures: [calm, real, my/own.yaml]\n");
-  const auto trials = readTrials(folder_).at(0).byNature();
+  const auto trials = readTrials(folder_).at(0).byCondition();
   ASSERT_EQ(trials.size(), 3u);
   EXPECT_EQ(trials[0].name, "house-calm");
   EXPECT_EQ(trials[1].name, "house-real");
@@ -108,7 +108,7 @@ TEST_F(Trials, WithSeveralNaturesAreOneTrialForEach) {
   EXPECT_THAT(trials[1].natures, testing::ElementsAre("real"));
 
   put("house.yaml", std::string(kSmallest) + "natures: [real]\n");
-  const auto alone = readTrials(folder_).at(0).byNature();
+  const auto alone = readTrials(folder_).at(0).byCondition();
   ASSERT_EQ(alone.size(), 1u);
   EXPECT_EQ(alone[0].name, "house") << "of one nature alone the trial keeps its name";
   put("house.yaml", kSmallest);

@@ -1,0 +1,52 @@
+#include "evaluation/criteria.hpp"
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::evaluation {
+
+using common::config::kPositive;
+
+void Criteria::describe(common::config::Fields& fields) {
+  fields("mission_done", mission_done, "Whether the mission must end well.");
+  fields("collisions_max", collisions_max, {0, 1},
+         "Greatest number of touches of anything, a walker that runs into the vehicle included; a flight ends with the "
+         "first.");
+  fields("coverage_min", coverage_min, {0, 1}, "Least share of the reachable free space that is in the map.");
+  fields("goal_error_max_m", goal_error_max_m, kPositive,
+         "Greatest distance of the vehicle from a goal that is reported as reached.");
+  fields("home_error_max_m", home_error_max_m, kPositive,
+         "Greatest distance of the vehicle from home when that is reported as reached.");
+  fields("marker_error_max_m", marker_error_max_m, kPositive,
+         "Greatest error of the estimate when a goal or home is reported as reached.");
+  fields("relocalization_error_max_m", relocalization_error_max_m, kPositive,
+         "Greatest difference between the estimate's errors at the same goal at different times.");
+  fields("mission_time_max_s", mission_time_max_s, kPositive, "Greatest simulated time of the mission.");
+  fields("estimate_rms_max_m", estimate_rms_max_m, kPositive, "Greatest RMS of the estimate's horizontal error.");
+  fields("map_wall_error_max_m", map_wall_error_max_m, kPositive,
+         "Greatest median distance of mapped walls to true ones.");
+  fields("localized_within_m", localized_within_m, kPositive,
+         "Path length within which a flight that is given a map must have found itself in it to count as localized.");
+  fields("wrong_time_share_max", wrong_time_share_max, kPositive,
+         "Greatest share of the time localized in which the estimate is farther than 0.5 m or 10 deg from the truth.");
+  fields("tilted_share_max", tilted_share_max, kPositive,
+         "Greatest share of the time in the air with a tilt of more than 10 deg.");
+  fields("thrust_margin_min", thrust_margin_min, {0, 10},
+         "Least thrust at 95 % throttle over the weight, at the least charge in the air.");
+  fields("touch_down_speed_max_m_s", touch_down_speed_max_m_s, kPositive, "Greatest speed of descent at a touch-down.");
+  fields("safe_action_max_s", safe_action_max_s, kPositive,
+         "Greatest time from the begin of a fault until the vehicle holds, lands or stands.");
+  fields("home_energy_error_max", home_energy_error_max, kPositive,
+         "Greatest relative error of the charge that the vehicle predicts for the flight home when that begins.");
+  fields("all_resumed", all_resumed, "Whether everything that was interrupted must have gone on.");
+  fields("goal_error_median_max_m", goal_error_median_max_m, kPositive, "Greatest median of all flights' goal errors.");
+  fields("home_error_median_max_m", home_error_median_max_m, kPositive, "Greatest median of all flights' home errors.");
+  fields("mission_time_median_max_s", mission_time_median_max_s, kPositive,
+         "Greatest median of the times of all missions that ended well.");
+  fields("estimate_rms_median_max_m", estimate_rms_median_max_m, kPositive,
+         "Greatest median of all flights' RMS errors.");
+  fields("map_wall_error_median_max_m", map_wall_error_median_max_m, kPositive,
+         "Greatest median of all flights' wall errors.");
+  fields("localized_flights_min", localized_flights_min, {0, 1}, "Least share of all flights that were localized.");
+}
+
+}  // namespace swiftlet::evaluation
