@@ -22,6 +22,9 @@ constexpr std::uint64_t kSupervisorHome = kSupervisorHold + 2;
 /// Of the first flight back along the trail.
 constexpr std::uint64_t kSupervisorBack = kSupervisorHome + (1ULL << 32);
 
+/// Nearer to the end of a path the vehicle brakes, so its speed there tells nothing of a long path.
+constexpr double kFarFromGoal_m = 1.0;
+
 /// The flight home ends this far above the thrust margin at which the vehicle has to land where it is.
 constexpr double kLandingMargin = 0.03;
 
@@ -42,7 +45,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
       imu_watch_(config.imu),
-      energy_monitor_(config.energy, vehicle.battery_capacity_ah),
+      energy_monitor_(config.energy, vehicle, config.control.position.thrust.voltage_exponent),
       world_builder_(vehicle_name_) {
   context_.goal_limits.greatest_height_m = config.max_height_m;
   mission_status_.accepts_goals = mission_.acceptsGoals();
@@ -120,7 +123,7 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
   flight.inertial_fault = imu_watch_.fault(now);
   const common::Setpoint setpoint = controller_.tick(flight);
-  if (controller_.followsPath())
+  if (controller_.followsPath() && controller_.pathRemaining_m() > kFarFromGoal_m)
     energy_monitor_.followed(flight.state.velocity_odom_m_s.head<2>().norm(), common::kControlPeriod.seconds());
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
   estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying);

@@ -112,6 +112,8 @@ class FlightController {
   double brakingDistance_m(common::FlightMode mode, double speed_m_s) const {
     return 0.5 * speed_m_s * speed_m_s / config_.path.limits(mode).acceleration_m_s2;
   }
+  /// Length of the rest of the last path.
+  double pathRemaining_m() const { return follower_.remaining_m(); }
   /// The reference has reached the goal of the last path.
   bool pathFinished() const { return follower_.finished(); }
   const Reference& reference() const { return follower_.reference(); }

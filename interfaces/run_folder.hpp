@@ -41,7 +41,7 @@ struct FlightEnd {
   std::optional<double> coverage;
   std::vector<Figure> figures;
   std::optional<double> wall_time_s;
-  common::Trajectory ground_truth_map;  ///< In the `map` frame; empty if nobody knows it.
+  common::Trajectory ground_truth_map = {};  ///< In the `map` frame; empty if nobody knows it.
 };
 
 /// Used by one thread. Nothing throws after the constructor. If something cannot be written (full disk), the reason is

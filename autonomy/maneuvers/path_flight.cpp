@@ -17,9 +17,9 @@ PathFlight::PathFlight(const ManeuverSetup& setup, common::FlightMode mode)
 bool PathFlight::keep(const ManeuverInput& input) {
   const auto cost_map = desk_.costMap();
   if (!cost_map || !plan()) return true;
-  const auto check = keeper_.check(
-      input.now, *cost_map, input.position_map_m(),
-      controller_.brakingDistance_m(mode_, input.state.velocity_odom_m_s.head<2>().norm()));
+  const auto check =
+      keeper_.check(input.now, *cost_map, input.position_map_m(),
+                    controller_.brakingDistance_m(mode_, input.state.velocity_odom_m_s.head<2>().norm()));
   if (!check.valid) {
     memory_.say(input.now, common::Severity::kInfo, "plan given up", check.reason);
     abandon();

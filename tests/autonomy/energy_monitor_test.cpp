@@ -1,6 +1,9 @@
 // Consumption, the time it leaves, and the charge that the path home takes.
 #include "autonomy/energy_monitor.hpp"
 
+#include <cmath>
+#include <optional>
+
 #include <gtest/gtest.h>
 
 namespace swiftlet::autonomy {
@@ -11,19 +14,20 @@ constexpr double kCapacity_ah = 5.0, kLandShare = 0.12, kLeastMargin = 1.1;
 class EnergyStory : public testing::Test {
  protected:
   /// Samples at 10 Hz of a battery whose capacity may differ from the believed one.
-  void draw(double seconds, double current_a, bool airborne = true, double true_capacity_ah = kCapacity_ah) {
+  void draw(double seconds, double current_a, bool airborne = true, double true_capacity_ah = kCapacity_ah,
+            double voltage_v = 11.0) {
     for (int i = 0; i < static_cast<int>(10 * seconds); ++i) {
       now_s_ += 0.1;
       remaining_ -= 0.1 * current_a / (3600.0 * true_capacity_ah);
       const common::Time now = common::Time::fromSeconds(now_s_);
-      monitor_.add({{now, now}, 11.0, remaining_, current_a}, airborne, margin_);
+      monitor_.add({{now, now}, voltage_v, remaining_, current_a}, airborne, margin_);
     }
   }
   common::EnergyLayer layer(std::optional<double> home_m = std::nullopt) const {
     return monitor_.layer(home_m, kLandShare, kLeastMargin);
   }
 
-  EnergyMonitor monitor_{EnergyConfig{}, kCapacity_ah};
+  EnergyMonitor monitor_{EnergyConfig{}, common::VehicleConfig{}, 2.0};
   double now_s_ = 0.0;
   double remaining_ = 0.8;
   double margin_ = 1.5;
@@ -49,7 +53,7 @@ TEST_F(EnergyStory, ThePathHomeTakesItsTimeAndALanding) {
   const EnergyConfig config;
   draw(10.0, 18.0);
   EXPECT_FALSE(layer().home_share) << "no path is known";
-  const double expected = (20.0 / config.home_speed_m_s + config.landing_s) * 18.0 / (3600.0 * kCapacity_ah);
+  const double expected = (20.0 / config.home_speed_m_s + config.home_stops_s) * 18.0 / (3600.0 * kCapacity_ah);
   EXPECT_NEAR(layer(20.0).home_share.value(), expected, 0.01 * expected);
 }
 
@@ -66,11 +70,31 @@ TEST_F(EnergyStory, AWornBatteryIsNoticedByItsFuelGauge) {
 }
 
 TEST_F(EnergyStory, TheChargeOfTheLandingIsWhereTheThrustWillNotCarryTheWeight) {
-  for (int second = 0; second < 100; ++second) {
-    margin_ = 1.1 + 0.5 * (remaining_ - 0.3);
-    draw(1.0, 18.0);
+  const BatteryCurve curve{common::VehicleConfig{}};
+  const auto loaded_v = [&] { return curve.openCircuit_v(remaining_) - 0.5; };
+  remaining_ = 1.0;
+  const double full_v = loaded_v();
+  std::optional<double> said, came;
+  for (int second = 0; second < 900; ++second) {
+    margin_ = 1.4 * std::pow(loaded_v() / full_v, 2);
+    if (margin_ <= kLeastMargin && !came) came = remaining_;
+    draw(1.0, 18.0, true, kCapacity_ah, loaded_v());
+    if (remaining_ < 0.9 && !said) said = layer().land_share;
   }
-  EXPECT_NEAR(layer().land_share, 0.3, 0.01);
+  ASSERT_TRUE(said && came);
+  EXPECT_GT(*came, 0.15);
+  EXPECT_NEAR(*said, *came, 0.04) << "said at nine tenths of the charge";
+}
+
+TEST_F(EnergyStory, ASteepFallNearFullDoesNotTurnTheVehicleBack) {
+  const BatteryCurve curve{common::VehicleConfig{}};
+  remaining_ = 1.0;
+  for (int second = 0; second < 60; ++second) {
+    const double voltage_v = curve.openCircuit_v(remaining_) - 0.5;
+    margin_ = 1.6 * std::pow(voltage_v / 12.1, 2);
+    draw(1.0, 18.0, true, kCapacity_ah, voltage_v);
+  }
+  EXPECT_LT(layer().land_share, 0.4);
 }
 
 TEST_F(EnergyStory, WithThrustToSpareTheChargeOfTheLandingIsTheConfigured) {

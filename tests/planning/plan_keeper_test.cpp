@@ -95,6 +95,13 @@ TEST_F(PlanKeeping, ReplansFarFromThePlan) {
   EXPECT_THAT(keeper.check(at(0.1), map, {3, 4.5}).reason, HasSubstr("0.50 m off the plan"));
 }
 
+TEST_F(PlanKeeping, BrakingBeforeATurnIsNotFarFromThePlan) {
+  keeper.offer(straight, at(0), map, {2, 4});
+  EXPECT_FALSE(keeper.check(at(0.1), map, {1.6, 4}, 0.05).valid);
+  keeper.offer(straight, at(0), map, {2, 4});
+  EXPECT_TRUE(keeper.check(at(0.1), map, {1.6, 4}, 0.33).valid);
+}
+
 TEST_F(PlanKeeping, AnotherGoalReplacesWithoutComparison) {
   keeper.offer(straight, at(0), map, {2, 4});
   keeper.check(at(0.1), map, {2, 4});

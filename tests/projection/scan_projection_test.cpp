@@ -113,6 +113,20 @@ TEST(ScanProjection, LeavesOutFloorAndCeiling) {
   }
 }
 
+TEST(ScanProjection, UnderAnUnknownCeilingLeavesOutWhatRisesFar) {
+  const common::LaserConfig laser = noiseless();
+  test::PlanarWorld world;
+  world.addBox(0.0, 0.0, 30.0, 30.0);
+  Pose3 tilted{common::quaternionFrom({0.0, 15.0 * kRadPerDeg, 0.0}), {0.0, 0.0, 1.0}};
+  common::RandomStream random(1, "projection");
+  const auto scan = test::sweep(
+      world, laser, [&](Time) { return tilted; }, Time{}, random);
+  const ProjectedScan projected = project(scan, laser, [&](Time) { return tilted; }, {});
+  EXPECT_GT(projected.counts.ceiling_hits, 100);
+  for (std::size_t i = 0; i < projected.points_level_m.size(); ++i)
+    EXPECT_LT(world.distanceToWall(projected.points_level_m[i].cast<double>()), 1e-3);
+}
+
 TEST(ScanProjection, KeepsALevelBeamNearTheFloorAsAWall) {
   const common::LaserConfig laser = noiseless();
   test::PlanarWorld world;
