@@ -94,6 +94,7 @@ TEST_P(WaitingMission, IsEndedByTheTimeLimit) {
   EXPECT_EQ(said.at("outcome"), "stopped") << said.dump(2);
   EXPECT_EQ(said.at("run"), path("run"));
   expectSoundRun(path("run"));
+  EXPECT_FALSE(readTum(path("run/ground_truth.tum")).empty());
   EXPECT_EQ(nlohmann::json::parse(readText(path("run/mission.json"))).at("outcome"), said.at("outcome"));
 }
 

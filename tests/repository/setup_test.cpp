@@ -98,6 +98,7 @@ TEST_F(Setup, RootNeedsNoSudo) {
 }
 
 struct Failure {
+  const char* name;
   std::string apt_says;
   std::string setup_says;
 };
@@ -114,10 +115,12 @@ TEST_P(SetupFailure, NamesItsCause) {
 
 INSTANTIATE_TEST_SUITE_P(
     Causes, SetupFailure,
-    testing::Values(Failure{"Err:1 http://deb.debian.org bookworm: Temporary failure resolving", "is there a network"},
-                    Failure{"E: Unable to locate package libsdformat-dev", "built for Debian 12"},
-                    Failure{"E: You don't have enough free space in /var/cache/apt/archives/.", "the disk is full"},
-                    Failure{"E: Sub-process /usr/bin/dpkg returned an error code (1)", "See for yourself: apt-get"}));
+    testing::Values(
+        Failure{"NoNetwork", "Err:1 http://deb.debian.org bookworm: Temporary failure resolving", "is there a network"},
+        Failure{"UnknownPackage", "E: Unable to locate package libsdformat-dev", "built for Debian 12"},
+        Failure{"FullDisk", "E: You don't have enough free space in /var/cache/apt/archives/.", "the disk is full"},
+        Failure{"Another", "E: Sub-process /usr/bin/dpkg returned an error code (1)", "See for yourself: apt-get"}),
+    [](const testing::TestParamInfo<Failure>& failure) { return failure.param.name; });
 
 TEST_F(Setup, OnAnotherSystemItListsThePackages) {
   fs::remove(bin_ / "apt-get");
