@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <atomic>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,19 +11,15 @@
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
-#include "apps/given_map.hpp"
-#include "apps/mission_limits.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
-#include "apps/trial_world.hpp"
+#include "apps/trial_flight.hpp"
 #include "common/data_paths.hpp"
 #include "common/table.hpp"
-#include "evaluation/flight_score.hpp"
 #include "evaluation/trial.hpp"
 #include "evaluation/trial_results.hpp"
 #include "interfaces/files/atomic_file.hpp"
-#include "interfaces/files/text_file.hpp"
 #include "interfaces/report/report.hpp"
 #include "simulation/nature.hpp"
 
@@ -47,80 +42,6 @@ struct TrialOptions {
   std::string out;
   bool json = false;
 };
-
-/// The file of the map that its flights are given: beside the trials, or where data is.
-void findMap(TrialConfig& trial, const fs::path& trials) {
-  if (trial.map.file.empty()) return;
-  const fs::path beside = (fs::is_directory(trials) ? trials : trials.parent_path()) / trial.map.file;
-  try {
-    trial.map.file = (fs::exists(beside) ? beside : common::findData(trial.map.file)).string();
-  } catch (const common::InputError& e) {
-    throw common::InputError(
-        common::Problem{{trials.string()}, fmt::format("trial {}: map", trial.name), e.what(), "or beside the trial"});
-  }
-}
-
-/// The map its flights are given; null when they are given none.
-std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::path& out) {
-  if (!trial.map.given()) return nullptr;
-  if (trial.map.surveyed()) {
-    const simulation::WorldModel world = simulation::loadWorld(trial.scenario.world, trial.scenario.model_paths);
-    return std::make_shared<const FlightMap>(surveyedMap(trial.map.survey, world, out / (trial.name + "-map")));
-  }
-  FlightMap map = readFlightMap(trial.map.file);
-  map.T_world_given = common::Pose2{trial.map.x_m, trial.map.y_m, trial.map.yaw_deg * common::kRadPerDeg};
-  return std::make_shared<const FlightMap>(std::move(map));
-}
-
-FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
-                    const fs::path& out) {
-  FlightSetup setup;
-  setup.map = map;
-  setup.system = loadSystem(trial.system);
-  setup.mission_file = trial.mission;
-  setup.scenario = trial.scenario;
-  setup.scenario.seed = seed;
-  setup.started = startedNow();
-  setup.time_limit_s = trial.time_limit_s;
-  setup.out = out / fmt::format("{}-{:03}", trial.name, seed);
-  return setup;
-}
-
-evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evaluation::FlightRecord& record,
-                                const simulation::SimulatedVehicle& vehicle, double wall_time_s) {
-  evaluation::TrueWorld truth;
-  truth.rays = &vehicle.rays();
-  truth.vehicle = vehicle.scenario().vehicle;
-  truth.laser = vehicle.scenario().laser;
-  truth.quadrotor = vehicle.scenario().quadrotor;
-  truth.clearance_m = trial.clearance_m;
-  truth.reachable_area_max_m2 = trial.reachable_area_max_m2;
-  return evaluation::scoreOf(record, truth, trial.criteria, seed, wall_time_s);
-}
-
-/// A score for each vehicle; they are in the flight's own files too.
-std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map,
-                                            int seed, const fs::path& out, const std::atomic<bool>& stop) {
-  std::map<std::string, evaluation::FlightScore> by_name;
-  FlightHooks hooks;
-  hooks.stop = &stop;
-  hooks.score = [&](const auto& record, const auto& vehicle, interfaces::FlightEnd& end) {
-    evaluation::FlightScore& score = by_name[vehicle.name()];
-    score = scoreOf(trial, seed, record, vehicle, end.wall_time_s.value_or(0.0));
-    score.vehicle = vehicle.name();
-    end.coverage = score.coverage;
-    for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
-  };
-  const FlightSetup setup = setupOf(trial, map, seed, out);
-  const FlightResult result = flySimulated(setup, soundMissions(setup, map != nullptr), hooks);
-  if (const auto failure = result.writeFailure()) throw common::InputError(common::Problem{{}, "", *failure, ""});
-  std::vector<evaluation::FlightScore> scores;
-  for (const VehicleResult& vehicle : result.vehicles) {
-    scores.push_back(std::move(by_name[vehicle.name]));
-    scores.back().folder = vehicle.folder.lexically_relative(out).string();
-  }
-  return scores;
-}
 
 std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& score) {
   const std::string vehicle = score.vehicle.empty() ? "" : fmt::format("{:<10} ", score.vehicle);
@@ -146,7 +67,8 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::pat
   const auto work = [&] {
     for (int i = next++; i < count && !stop; i = next++) {
       try {
-        auto flown = flyOne(trial, map, first_seed + i, out, stop);
+        const int seed = first_seed + i;
+        auto flown = flyOne(trial, map, seed, out / fmt::format("{}-{:03}", trial.name, seed), stop);
         const std::scoped_lock lock(mutex);
         if (!options.json)
           for (const evaluation::FlightScore& score : flown) show(flightLine(trial, score) + "\n");
@@ -199,48 +121,19 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
     if (options.battery) trial.batteries = {*options.battery};
     for (TrialConfig& one : trial.byCondition()) trials.push_back(std::move(one));
   }
-  std::vector<common::Problem> problems;
-  for (TrialConfig& trial : trials) {
-    if (!options.system.empty()) trial.system = options.system;
-    for (const std::string& mission : missionFiles(trial.scenario, trial.mission))
-      for (auto& problem : missionProblems(mission, loadSystem(trial.system), trial.map.given()))
-        problems.push_back(std::move(problem));
-  }
-  if (!problems.empty()) throw common::InputError(std::move(problems));
-  for (TrialConfig& trial : trials) {
+  if (!options.system.empty())
+    for (TrialConfig& trial : trials) trial.system = options.system;
+  prepare(trials, file_or_folder);
+  for (TrialConfig& trial : trials)
     trial.scenario.nature = std::make_shared<const simulation::Nature>(simulation::Nature::load(trial.natures.front()));
-    findMap(trial, file_or_folder);
-    findWorld(trial);
-  }
   return trials;
-}
-
-/// What another trial left there would look like this one's until its last flight; what is not a trial's is kept.
-void clearOfOlderResults(const fs::path& out) {
-  const fs::path results = out / "results.json", report = out / "report.html";
-  if (!fs::exists(results) && !fs::exists(report)) return;
-  if (!interfaces::saysAtStart(results, "\"trials\"", 16))
-    throw common::InputError(common::Problem{
-        {out.string()}, "--out", "holds a report or results of something else", "give an empty or new folder"});
-  fs::remove(results);
-  fs::remove(report);
-}
-
-fs::path madeFolder(const TrialOptions& options) {
-  fs::path out =
-      options.out.empty() ? interfaces::freshRunFolder("runs", startedNow(), "trial") : fs::path(options.out);
-  std::error_code failure;
-  fs::create_directories(out, failure);
-  if (failure) throw common::InputError(common::Problem{{out.string()}, "--out", failure.message(), ""});
-  clearOfOlderResults(out);
-  return out;
 }
 
 int trial(const TrialOptions& options) {
   const std::atomic<bool>& stop = stopOnSignals().first;
   outliveReaders();
   const std::vector<TrialConfig> trials = preparedTrials(options);
-  const fs::path out = madeFolder(options);
+  const fs::path out = trialFolder(options.out, "trial", {"results.json", "\"trials\""});
   TrialResults results;
   for (const TrialConfig& trial : trials) {
     if (stop) break;

@@ -1,0 +1,128 @@
+#include "apps/trial_flight.hpp"
+
+#include <map>
+
+#include <fmt/format.h>
+
+#include "apps/flight.hpp"
+#include "apps/mission_limits.hpp"
+#include "apps/trial_world.hpp"
+#include "common/data_paths.hpp"
+#include "common/error.hpp"
+#include "interfaces/files/text_file.hpp"
+#include "interfaces/run_folder.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using evaluation::TrialConfig;
+
+/// The file of the map that its flights are given: beside the trials, or where data is.
+void findMap(TrialConfig& trial, const fs::path& trials) {
+  if (trial.map.file.empty()) return;
+  const fs::path beside = (fs::is_directory(trials) ? trials : trials.parent_path()) / trial.map.file;
+  try {
+    trial.map.file = (fs::exists(beside) ? beside : common::findData(trial.map.file)).string();
+  } catch (const common::InputError& e) {
+    throw common::InputError(
+        common::Problem{{trials.string()}, fmt::format("trial {}: map", trial.name), e.what(), "or beside the trial"});
+  }
+}
+
+FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map, int seed,
+                    const fs::path& folder) {
+  FlightSetup setup;
+  setup.map = map;
+  setup.system = loadSystem(trial.system);
+  setup.mission_file = trial.mission;
+  setup.scenario = trial.scenario;
+  setup.scenario.seed = seed;
+  setup.started = startedNow();
+  setup.time_limit_s = trial.time_limit_s;
+  setup.out = folder;
+  return setup;
+}
+
+evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evaluation::FlightRecord& record,
+                                const simulation::SimulatedVehicle& vehicle, double wall_time_s) {
+  evaluation::TrueWorld truth;
+  truth.rays = &vehicle.rays();
+  truth.vehicle = vehicle.scenario().vehicle;
+  truth.laser = vehicle.scenario().laser;
+  truth.quadrotor = vehicle.scenario().quadrotor;
+  truth.clearance_m = trial.clearance_m;
+  truth.reachable_area_max_m2 = trial.reachable_area_max_m2;
+  return evaluation::scoreOf(record, truth, trial.criteria, seed, wall_time_s);
+}
+
+/// What another trial left there would look like this one's until its last flight; what is not a trial's is kept.
+void clearOfOlderResults(const fs::path& out, const TrialResultsProof& proof) {
+  const fs::path results = out / proof.file, report = out / "report.html";
+  if (!fs::exists(results) && !fs::exists(report)) return;
+  if (!interfaces::saysAtStart(results, proof.text, 16))
+    throw common::InputError(common::Problem{
+        {out.string()}, "--out", "holds a report or results of something else", "give an empty or new folder"});
+  fs::remove(results);
+  fs::remove(report);
+}
+
+}  // namespace
+
+void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
+  std::vector<common::Problem> problems;
+  for (const TrialConfig& trial : trials)
+    for (const std::string& mission : missionFiles(trial.scenario, trial.mission))
+      for (auto& problem : missionProblems(mission, loadSystem(trial.system), trial.map.given()))
+        problems.push_back(std::move(problem));
+  if (!problems.empty()) throw common::InputError(std::move(problems));
+  for (TrialConfig& trial : trials) {
+    findMap(trial, file_or_folder);
+    findWorld(trial);
+  }
+}
+
+std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::path& out) {
+  if (!trial.map.given()) return nullptr;
+  if (trial.map.surveyed()) {
+    const simulation::WorldModel world = simulation::loadWorld(trial.scenario.world, trial.scenario.model_paths);
+    return std::make_shared<const FlightMap>(surveyedMap(trial.map.survey, world, out / (trial.name + "-map")));
+  }
+  FlightMap map = readFlightMap(trial.map.file);
+  map.T_world_given = common::Pose2{trial.map.x_m, trial.map.y_m, trial.map.yaw_deg * common::kRadPerDeg};
+  return std::make_shared<const FlightMap>(std::move(map));
+}
+
+std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map,
+                                            int seed, const fs::path& folder, const std::atomic<bool>& stop) {
+  std::map<std::string, evaluation::FlightScore> by_name;
+  FlightHooks hooks;
+  hooks.stop = &stop;
+  hooks.score = [&](const auto& record, const auto& vehicle, interfaces::FlightEnd& end) {
+    evaluation::FlightScore& score = by_name[vehicle.name()];
+    score = scoreOf(trial, seed, record, vehicle, end.wall_time_s.value_or(0.0));
+    score.vehicle = vehicle.name();
+    end.coverage = score.coverage;
+    for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
+  };
+  const FlightSetup setup = setupOf(trial, map, seed, folder);
+  const FlightResult result = flySimulated(setup, soundMissions(setup, map != nullptr), hooks);
+  if (const auto failure = result.writeFailure()) throw common::InputError(common::Problem{{}, "", *failure, ""});
+  std::vector<evaluation::FlightScore> scores;
+  for (const VehicleResult& vehicle : result.vehicles) {
+    scores.push_back(std::move(by_name[vehicle.name]));
+    scores.back().folder = vehicle.folder.lexically_relative(folder.parent_path()).string();
+  }
+  return scores;
+}
+
+fs::path trialFolder(const std::string& given, const std::string& noun, const TrialResultsProof& proof) {
+  fs::path out = given.empty() ? interfaces::freshRunFolder("runs", startedNow(), noun) : fs::path(given);
+  std::error_code failure;
+  fs::create_directories(out, failure);
+  if (failure) throw common::InputError(common::Problem{{out.string()}, "--out", failure.message(), ""});
+  clearOfOlderResults(out, proof);
+  return out;
+}
+
+}  // namespace swiftlet::apps

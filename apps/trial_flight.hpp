@@ -1,0 +1,43 @@
+// The flights of trials: what must be found before the first, one flight with its scores, and the folder of the
+// results.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/given_map.hpp"
+#include "evaluation/flight_score.hpp"
+#include "evaluation/trial.hpp"
+
+namespace swiftlet::apps {
+
+/// Finds the maps and the worlds of trials that were read from `file_or_folder`, and checks their missions for the
+/// systems that fly them. Throws common::InputError with the problems of all missions.
+void prepare(std::vector<evaluation::TrialConfig>& trials, const std::filesystem::path& file_or_folder);
+
+/// The map that the flights of a trial are given; null if they are given none. One that a robot makes first lies in
+/// `out`.
+std::shared_ptr<const FlightMap> givenMap(const evaluation::TrialConfig& trial, const std::filesystem::path& out);
+
+/// Flies a prepared trial once and returns a score for each vehicle. The run lies in `folder`, and FlightScore::folder
+/// is relative to the folder above it. Safe from several threads. Throws common::InputError if the run cannot be
+/// written.
+std::vector<evaluation::FlightScore> flyOne(const evaluation::TrialConfig& trial,
+                                            const std::shared_ptr<const FlightMap>& map, int seed,
+                                            const std::filesystem::path& folder, const std::atomic<bool>& stop);
+
+/// How older results of the same command are recognized.
+struct TrialResultsProof {
+  std::string file;  ///< "results.json"
+  std::string text;  ///< Text near the beginning of that file.
+};
+
+/// Makes the folder for results: `given`, or if that is empty a new one, runs/TIME-NOUN. Older results and their report
+/// are removed, so that they are not mistaken for new ones. Throws common::InputError if the folder holds results of
+/// something else.
+std::filesystem::path trialFolder(const std::string& given, const std::string& noun, const TrialResultsProof& proof);
+
+}  // namespace swiftlet::apps
