@@ -1,6 +1,7 @@
 // Frontiers: where known free space borders on unknown space, and why a frontier was not explored.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace swiftlet::common {
 /// kPositionUncertain: too few walls are around it to know the position there, or the position became uncertain on an
 /// earlier flight there.
 enum class FrontierReason { kOpen, kTooSmall, kUnreachable, kOutOfBounds, kBlacklisted, kPositionUncertain };
+/// All of them, in their order.
+inline constexpr std::array kFrontierReasons{FrontierReason::kOpen,        FrontierReason::kTooSmall,
+                                             FrontierReason::kUnreachable, FrontierReason::kOutOfBounds,
+                                             FrontierReason::kBlacklisted, FrontierReason::kPositionUncertain};
 const char* toString(FrontierReason reason);
 
 /// A connected run of free cells that touch unknown ones.

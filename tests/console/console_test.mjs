@@ -219,6 +219,24 @@ const tests = {
     return page;
   },
 
+  async 'what is left to fly with, and how uncertain the position is, are shown'() {
+    let known = true;
+    const page = await openWith((state) => {
+      assert.ok(state.battery.left_s > 0 && state.thrust_margin > 1 && state.drift_m !== undefined);
+      state.battery.left_s = known ? 399 : null;
+      state.thrust_margin = known ? 1.345 : null;
+      state.drift_m = 0.42;
+    });
+    const shows = (id, text) => page.locator(`#${id}`).getByText(text, { exact: true }).waitFor();
+    await shows('left', '6.7 min');
+    await shows('margin', '1.34 ×');
+    await shows('drift', '0.42 m');
+    known = false;
+    await shows('left', '–');
+    await shows('margin', '–');
+    return page;
+  },
+
   async 'a mission that flies its own goals is sent none'() {
     const page = await openWith((state) => { state.mission.accepts_goals = false; });
     let posts = 0;

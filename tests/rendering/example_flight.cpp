@@ -119,6 +119,8 @@ void ExampleFlight::describe() {
   layers_.map.explored_area_m2 = static_cast<double>(known) * 0.0025;
   layers_.energy.battery_remaining = clearSeconds(1.0 - time_s_ / 900.0);
   layers_.energy.battery_voltage_v = 10.6 + 2.0 * layers_.energy.battery_remaining;
+  layers_.energy.seconds_left = 600.0 * layers_.energy.battery_remaining;
+  layers_.energy.thrust_margin = 1.2 + 0.3 * layers_.energy.battery_remaining;
   layers_.mission.intent = {3, common::IntentState::kRunning, "to the frontier at (6.20, 2.60), 2.4 m away", false};
   layers_.mission.status.phase = "explore";
   layers_.mission.status.tree = {

@@ -250,6 +250,23 @@ TEST(StateJsonTest, NamesTheVehicleOnlyWhereThereAreSeveral) {
   EXPECT_EQ(named["events"][0]["vehicle"], "second");
 }
 
+TEST(StateJsonTest, TellsWhatIsLeftToFlyWithOnceItIsKnown) {
+  testing::ExampleFlight flight;
+  test::Layers layers(*flight.advance(0.1));
+  layers.vehicle.drift_m = 0.42;
+  layers.energy.seconds_left = 399.2;
+  layers.energy.thrust_margin = 1.345;
+  auto state = nlohmann::json::parse(stateJson(layers.world(), {}));
+  EXPECT_DOUBLE_EQ(state["drift_m"].get<double>(), 0.42);
+  EXPECT_DOUBLE_EQ(state["battery"]["left_s"].get<double>(), 399.0);
+  EXPECT_NEAR(state["thrust_margin"].get<double>(), 1.345, 0.006);
+  layers.energy.seconds_left.reset();
+  layers.energy.thrust_margin = 0.0;
+  state = nlohmann::json::parse(stateJson(layers.world(), {}));
+  EXPECT_TRUE(state["battery"]["left_s"].is_null());
+  EXPECT_TRUE(state["thrust_margin"].is_null());
+}
+
 TEST(StateJsonTest, StaysValidWithNanAndInvalidText) {
   testing::ExampleFlight flight;
   test::Layers layers(*flight.advance(0.1));

@@ -16,7 +16,7 @@ export function readColors() {
     color[name] = style(`--map-${name}`);
   color.card = style('--card');
   color.frontier = Object.fromEntries(
-    ['open', 'too small', 'unreachable', 'out of bounds', 'blacklisted'].map((reason) => [
+    ['open', 'too small', 'unreachable', 'out of bounds', 'blacklisted', 'position uncertain'].map((reason) => [
       reason,
       style(`--frontier-${reason.replaceAll(' ', '-')}`),
     ]),

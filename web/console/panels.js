@@ -52,6 +52,9 @@ export function showState(state) {
   setText('speed', withUnit(state.speed_m_s, 2, 'm/s'));
   setText('height', withUnit(state.pose.z_m, 2, 'm'));
   setText('deviation', state.horizontal_valid ? withUnit(100 * state.position_deviation_m, 0, 'cm') : 'lost');
+  setText('left', state.battery.left_s === null ? '–' : `${(state.battery.left_s / 60).toFixed(1)} min`);
+  setText('margin', withUnit(state.thrust_margin, 2, '×'));
+  setText('drift', withUnit(state.drift_m, 2, 'm'));
   setText('realtime', state.realtime_factor === null ? '–' : `${state.realtime_factor.toFixed(1)} ×`);
   setText('age', `${Math.round(1000 * state.age_s)} ms`);
   showTree(mission.tree);
