@@ -140,6 +140,7 @@ bool Autonomy::finished() const {
 }
 
 std::vector<common::Event> Autonomy::takeEvents() {
+  collect(scan_watch_.takeEvents());
   collect(estimator_.takeEvents());
   collect(supervisor_.takeEvents());
   collect(executor_.takeEvents());
@@ -157,10 +158,11 @@ void Autonomy::processDueScans(Time now) {
 }
 
 void Autonomy::processScan(const common::LaserScan& scan, Time now) {
+  if (scan_watch_.repeats(scan)) return;
   auto outcome = estimator_.addScan(scan, now);
   if (!outcome) return;
   const int hits = outcome->scan.counts.hits + outcome->scan.counts.no_returns;
-  if (hits > 0) supervisor_.scanArrived(now);
+  if (hits > 0) supervisor_.surroundingsSeen(now);
   if (outcome->raw_height) raw_height_ = outcome->raw_height;
 
   const common::VehicleState state = estimator_.state();
@@ -257,7 +259,7 @@ VehicleCondition Autonomy::condition(common::Time now) const {
   VehicleCondition condition;
   condition.flight = controller_.state();
   condition.energy = energy_;
-  if (const auto seen = estimator_.heightSeen()) condition.height_unseen_s = (now - *seen).seconds();
+  condition.vertical_age_s = estimator_.state().verticalAge_s(now);
   condition.drift_m = estimator_.drift_m();
   return condition;
 }

@@ -14,6 +14,7 @@
 #include "autonomy/input.hpp"
 #include "autonomy/reactive.hpp"
 #include "autonomy/scan_queue.hpp"
+#include "autonomy/scan_watch.hpp"
 #include "autonomy/supervisor.hpp"
 #include "autonomy/world_builder.hpp"
 #include "behaviors/mission.hpp"
@@ -124,6 +125,7 @@ class Autonomy {
   std::unique_ptr<common::JobRunner> jobs_;
 
   ScanQueue scans_;
+  ScanWatch scan_watch_;
   ImuWatch imu_watch_;
   EnergyMonitor energy_monitor_;
   common::EnergyLayer energy_;  ///< Of the last tick of the behaviours.

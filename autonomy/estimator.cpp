@@ -41,7 +41,7 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
 
 void Estimator::addImu(const common::ImuSample& sample) {
   filter_.predict(sample);
-  last_imu_ = sample;
+  if (sample.rotation_ahrs_body.coeffs().allFinite()) last_imu_ = sample;
 }
 
 std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Time now) {
@@ -57,6 +57,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   const bool withheld = isWithheld(outcome.scan);
   const OdometryStep odometry = withheld ? OdometryStep{} : match(standing);
   outcome.matched = fuse(odometry);
+  if (outcome.matched) position_seen_ = now;
   outcome.interrupted = odometry.interrupted;
   followDrift(outcome.matched && !(odometry.measurement && odometry.measurement->unseen_direction));
 
@@ -82,7 +83,9 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
 common::VehicleState Estimator::state() const {
   common::VehicleState state = filter_.state();
   state.T_map_odom = map_.T_map_odom();
-  state.height_above_ground_m = altitude_.heightAboveGround_m();
+  state.height_above_ground_m = state.T_odom_body.position_m.z() - altitude_.surfaceHeight_m();
+  state.horizontal_supported = position_seen_;
+  state.vertical_supported = height_seen_;
   return state;
 }
 

@@ -81,9 +81,6 @@ class Estimator {
   /// Standard deviation of the horizontal position in its weakest direction, as it has grown since a scan last fixed
   /// the position in every direction: along a corridor without features, and while no scan matches.
   double drift_m() const { return drift_m_; }
-  /// When the last scan that measured the surface below was processed; none before the first.
-  std::optional<common::Time> heightSeen() const { return height_seen_; }
-
   /// The state at the newest IMU sample, with T_map_odom.
   common::VehicleState state() const;
   perception::FusionHealth health() const { return filter_.health(); }
@@ -122,8 +119,9 @@ class Estimator {
   std::unique_ptr<FlightLocalizer> localizer_;  ///< Null if no map was given.
 
   std::optional<common::ImuSample> last_imu_;
-  common::Time started_;  ///< Time at which the filter started.
-  std::optional<common::Time> height_seen_;
+  common::Time started_;        ///< Time at which the filter started.
+  common::Time position_seen_;  ///< When the last scan that matched was processed.
+  common::Time height_seen_;    ///< When the last scan that measured the surface below was.
   Eigen::Matrix2d fixed_covariance_m2_ = Eigen::Matrix2d::Zero();  ///< Of the position when it was last fixed.
   double drift_m_ = 0.0;
   bool at_flight_height_ = false;

@@ -1,10 +1,6 @@
 #include "autonomy/imu_watch.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "common/config_fields.hpp"
-#include "common/geometry.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -12,36 +8,42 @@ using common::ImuSample;
 using common::Time;
 using common::config::kPositive;
 
+namespace {
+
+bool isFinite(const ImuSample& sample) {
+  return sample.angular_velocity_body_rad_s.allFinite() && sample.specific_force_body_m_s2.allFinite() &&
+         sample.rotation_ahrs_body.coeffs().allFinite();
+}
+
+}  // namespace
+
 void ImuWatchConfig::describe(common::config::Fields& fields) {
-  fields("silent_s", silent_s, kPositive, "Greatest age of the newest inertial sample.");
+  fields("silent_s", silent_s, kPositive, "Without a finite inertial sample for this long the sensor is silent.");
+  fields("late_s", late_s, kPositive, "Greatest age of the newest inertial sample, by its time of measurement.");
   fields("repeats_s", repeats_s, kPositive,
-         "Samples that are equal bit by bit for longer than this are repeated ones.");
-  fields("ahrs_turn_deg", ahrs_turn_deg, kPositive,
-         "An attitude that stays equal bit by bit while the gyroscopes turn by this much is that of a stopped AHRS.");
+         "Samples, or attitudes alone, that are equal bit by bit for longer than this are repeated ones.");
 }
 
 void ImuWatch::add(const ImuSample& sample) {
+  finite_ = isFinite(sample);
+  if (!finite_) return;
   const bool first = !last_;
   if (first || sample.angular_velocity_body_rad_s != last_->angular_velocity_body_rad_s ||
       sample.specific_force_body_m_s2 != last_->specific_force_body_m_s2)
     changed_ = sample.stamps.measured;
-  if (first || sample.rotation_ahrs_body.coeffs() != last_->rotation_ahrs_body.coeffs()) {
-    turned_rad_ = 0.0;
-  } else {
-    const double step_s = std::max(0.0, (sample.stamps.measured - last_->stamps.measured).seconds());
-    const double rate_rad_s = sample.angular_velocity_body_rad_s.norm();
-    if (std::isfinite(rate_rad_s)) turned_rad_ += rate_rad_s * step_s;
-  }
+  if (first || sample.rotation_ahrs_body.coeffs() != last_->rotation_ahrs_body.coeffs())
+    attitude_changed_ = sample.stamps.measured;
   last_ = sample;
 }
 
 std::string ImuWatch::fault(Time now) const {
   if (!last_) return {};
-  if ((now - last_->stamps.measured).seconds() > config_.silent_s) return "no inertial samples";
-  if ((last_->stamps.measured - changed_).seconds() > config_.repeats_s) return "the inertial samples repeat";
-  const bool gyroscopes_measure = changed_ == last_->stamps.measured;
-  if (gyroscopes_measure && turned_rad_ > config_.ahrs_turn_deg * common::kRadPerDeg)
-    return "the AHRS gives the same attitude";
+  const common::Stamps& newest = last_->stamps;
+  if ((now - newest.arrived).seconds() > config_.silent_s)
+    return finite_ ? "no inertial samples" : "the inertial samples are not finite";
+  if ((now - newest.measured).seconds() > config_.late_s) return "the inertial samples are late";
+  if ((newest.measured - changed_).seconds() > config_.repeats_s) return "the inertial samples repeat";
+  if ((newest.measured - attitude_changed_).seconds() > config_.repeats_s) return "the AHRS gives the same attitude";
   return {};
 }
 

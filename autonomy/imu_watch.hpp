@@ -1,4 +1,4 @@
-// Notices inertial samples that cannot be used: none arrive, they are old, or they repeat.
+// Notices inertial samples that cannot be used: none arrive, they are not finite, they are old, or they repeat.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,17 @@
 namespace swiftlet::autonomy {
 
 struct ImuWatchConfig {
-  double silent_s = 0.1;
+  double silent_s = 0.08;
+  double late_s = 0.1;
   double repeats_s = 0.06;
-  double ahrs_turn_deg = 1.0;
 
   void describe(common::config::Fields& fields);
 };
 
-/// One thread. A sensor that measures never gives the same six numbers twice in a row for long, so samples that are
-/// equal bit by bit come from a driver that repeats its last one. An attitude that stays the same bit by bit while the
-/// gyroscopes turn is that of an AHRS that has stopped.
+/// One thread. A sample that is not finite counts as none. A sensor that measures never gives the same numbers many
+/// times in a row, so samples that are equal bit by bit come from a driver that repeats its last one. The same holds
+/// for the attitude alone, whose noise is about a degree: while the gyroscopes measure, an attitude that repeats is
+/// that of an AHRS that has stopped, in a hover too.
 class ImuWatch {
  public:
   explicit ImuWatch(const ImuWatchConfig& config) : config_(config) {}
@@ -32,9 +33,10 @@ class ImuWatch {
 
  private:
   ImuWatchConfig config_;
-  std::optional<common::ImuSample> last_;
-  common::Time changed_;     ///< Stamp of the last sample that differed from the one before.
-  double turned_rad_ = 0.0;  ///< By the gyroscopes, since the attitude last changed.
+  std::optional<common::ImuSample> last_;  ///< The last finite sample.
+  bool finite_ = true;                     ///< The last sample was.
+  common::Time changed_;                   ///< Stamp of the last sample that differed from the one before.
+  common::Time attitude_changed_;          ///< Stamp of the last sample whose attitude did.
 };
 
 }  // namespace swiftlet::autonomy

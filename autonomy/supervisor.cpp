@@ -16,7 +16,7 @@ using common::Severity;
 using common::Time;
 namespace {
 
-/// The surface below counts as measured for this long after a measurement.
+/// The height counts as known for this long after a measurement.
 constexpr double kSeen_s = 0.15;
 /// The position counts as known well up to this share of the drift at which the vehicle flies back.
 constexpr double kKnownShare = 0.1;
@@ -25,8 +25,10 @@ constexpr double kKnownShare = 0.1;
 using common::config::kPositive;
 
 void SupervisorConfig::describe(common::config::Fields& fields) {
-  fields("laser_hold_s", laser_hold_s, {0.05, 10}, "Without a usable scan for this long the vehicle holds.");
-  fields("laser_land_s", laser_land_s, {0.1, 10}, "Without a usable scan for this long the vehicle lands.");
+  fields("unseen_hold_s", unseen_hold_s, {0.05, 10},
+         "When no sensor has seen the surroundings for this long the vehicle holds.");
+  fields("unseen_land_s", unseen_land_s, {0.1, 10},
+         "When no sensor has seen the surroundings for this long the vehicle lands.");
   fields("battery_land_share", battery_land_share, {0, 0.9},
          "Remaining charge at which the vehicle lands where it is.");
   fields("home_reserve_share", home_reserve_share, {0, 0.9},
@@ -46,7 +48,7 @@ void SupervisorConfig::describe(common::config::Fields& fields) {
 
 std::vector<std::string> SupervisorConfig::validate() const {
   return common::Validation()
-      .atMost("laser_hold_s", laser_hold_s, "laser_land_s", laser_land_s)
+      .atMost("unseen_hold_s", unseen_hold_s, "unseen_land_s", unseen_land_s)
       .atMost("drift_back_m", drift_back_m, "drift_land_m", drift_land_m)
       .problems();
 }
@@ -126,27 +128,27 @@ void Supervisor::backEnded(Time now) {
 
 const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition) {
   flight_ = condition.flight;
-  watchLaser(now);
+  watchSight(now);
   watchEnergy(now, condition.energy);
   watchPosition(now, condition);
 
   supervision_.hold_reason = holdReason();
   supervision_.hold = !supervision_.hold_reason.empty();
-  const bool may_fly = !laser_holds_ && !pilot_flies_;
+  const bool may_fly = !blind_holds_ && !pilot_flies_;
   supervision_.back = flies_back_ && may_fly && !operator_holds_ ? flights_back_ : 0;
   supervision_.home = goes_home_ && may_fly && !flies_back_ ? flights_home_ : 0;
   return supervision_;
 }
 
-void Supervisor::watchLaser(Time now) {
+void Supervisor::watchSight(Time now) {
   const bool airborne = control::isAirborne(flight_);
-  const double silent_s = last_scan_ ? (now - *last_scan_).seconds() : 0.0;
-  if (airborne && silent_s > config_.laser_land_s) land(now, fmt::format("no scan for {:.1f} s", silent_s));
-  const bool laser_holds = airborne && silent_s > config_.laser_hold_s;
-  if (laser_holds != laser_holds_)
-    say(now, laser_holds ? Severity::kWarning : Severity::kInfo, laser_holds ? "hold" : "scans are back",
-        laser_holds ? fmt::format("no scan for {:.2f} s", silent_s) : "");
-  laser_holds_ = laser_holds;
+  const double unseen_s = last_sight_ ? (now - *last_sight_).seconds() : 0.0;
+  if (airborne && unseen_s > config_.unseen_land_s) land(now, fmt::format("no scan for {:.1f} s", unseen_s));
+  const bool blind_holds = airborne && unseen_s > config_.unseen_hold_s;
+  if (blind_holds != blind_holds_)
+    say(now, blind_holds ? Severity::kWarning : Severity::kInfo, blind_holds ? "hold" : "scans are back",
+        blind_holds ? fmt::format("no scan for {:.2f} s", unseen_s) : "");
+  blind_holds_ = blind_holds;
 }
 
 void Supervisor::watchEnergy(Time now, const common::EnergyLayer& energy) {
@@ -188,12 +190,12 @@ void Supervisor::watchPosition(Time now, const VehicleCondition& condition) {
     flies_back_ = false;
     return;
   }
-  if (condition.height_unseen_s > config_.height_back_s && !laser_holds_)
-    unknown_ = fmt::format("the surface below is not measured for {:.1f} s", condition.height_unseen_s);
+  if (condition.vertical_age_s > config_.height_back_s && !blind_holds_)
+    unknown_ = fmt::format("the surface below is not measured for {:.1f} s", condition.vertical_age_s);
   else if (condition.drift_m > config_.drift_back_m)
     unknown_ = fmt::format("the position is uncertain by {:.1f} m", condition.drift_m);
   if (condition.drift_m > config_.drift_land_m) land(now, unknown_);
-  const bool known = condition.height_unseen_s < kSeen_s && condition.drift_m < kKnownShare * config_.drift_back_m;
+  const bool known = condition.vertical_age_s < kSeen_s && condition.drift_m < kKnownShare * config_.drift_back_m;
   if (!known) known_since_.reset();
   if (known && !known_since_) known_since_ = now;
   if (!unknown_.empty() && !flies_back_) {
@@ -209,7 +211,7 @@ void Supervisor::watchPosition(Time now, const VehicleCondition& condition) {
 /// Empty if nothing holds the mission.
 std::string Supervisor::holdReason() const {
   if (pilot_flies_) return "the pilot flies";
-  if (laser_holds_) return "the laser is silent";
+  if (blind_holds_) return "the laser is silent";
   if (flies_back_) return "it flies back along its trail";
   if (goes_home_) return home_reason_.empty() ? "the operator wants it home" : home_reason_;
   return operator_holds_ ? "the operator holds" : "";

@@ -1,6 +1,6 @@
-// The supervisor above the mission: hold, home and land from the operator, and the reactions to a silent laser, a lost
-// height, an uncertain position, and a battery that just suffices for the flight home. These work whatever the mission
-// does.
+// The supervisor above the mission: hold, home and land from the operator, and the reactions to unseen surroundings, a
+// lost height, an uncertain position, and a battery that just suffices for the flight home. These work whatever the
+// mission does.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,8 @@
 namespace swiftlet::autonomy {
 
 struct SupervisorConfig {
-  double laser_hold_s = 0.3;
-  double laser_land_s = 1.0;
+  double unseen_hold_s = 0.3;
+  double unseen_land_s = 1.0;
   double battery_land_share = 0.12;
   double home_reserve_share = 0.02;
   double home_need_factor = 1.15;
@@ -38,8 +38,8 @@ struct SupervisorConfig {
 struct VehicleCondition {
   common::FlightState flight = common::FlightState::kPreparation;
   common::EnergyLayer energy;
-  double height_unseen_s = 0.0;  ///< Time since the surface below was last measured.
-  double drift_m = 0.0;          ///< Standard deviation of the position, grown since the laser last fixed it fully.
+  double vertical_age_s = 0.0;  ///< VehicleState::verticalAge_s.
+  double drift_m = 0.0;         ///< Standard deviation of the position, grown since the laser last fixed it fully.
 };
 
 /// The request of the supervisor in one tick.
@@ -57,14 +57,14 @@ struct Supervision {
 
 /// One thread.
 ///
-///             hold command, no scan for laser_hold_s, the pilot takes over
+///             hold command, unseen surroundings, the pilot takes over
 ///   watching --------------------------------------------------------------> holding <-----------+
-///     |^  resume command, scans are back, the pilot gives control back          | home command   | home is reached,
+///     |^  resume command, seen again, the pilot gives control back             | home command   | home is reached,
 ///     |+------------------------------------------------------------------------+--> going home -+ or not, or hold
 ///     |+---------------------------------------------------+                             ^       |
-///     |  height unseen, position uncertain     known again |         the charge is what  |       | for the charge
+///     |  height old, position uncertain        known again |         the charge is what  |       | for the charge
 ///     +-------------------------------------> flying back -+         the flight home takes       v
-///   any -- land command, no scan for laser_land_s, battery low, no thrust to spare, not known again --> landing
+///   any -- land command, unseen for unseen_land_s, battery low, no thrust to spare, not known again --> landing
 ///   (stays)
 class Supervisor {
  public:
@@ -80,7 +80,8 @@ class Supervisor {
   void backEnded(common::Time now);
   /// Why every command but land is refused while the vehicle lands; empty if it does not land.
   std::string refusal() const;
-  void scanArrived(common::Time now) { last_scan_ = now; }
+  /// A sensor of obstacles saw the surroundings: today a usable scan of the laser.
+  void surroundingsSeen(common::Time now) { last_sight_ = now; }
   void pilotArrived(common::Time now, bool takes_over);
   /// False if the sample is not plausible.
   bool batteryArrived(common::Time now, const common::BatterySample& sample);
@@ -93,7 +94,7 @@ class Supervisor {
   std::vector<common::Event> takeEvents();
 
  private:
-  void watchLaser(common::Time now);
+  void watchSight(common::Time now);
   void watchEnergy(common::Time now, const common::EnergyLayer& energy);
   void watchPosition(common::Time now, const VehicleCondition& condition);
   common::CommandResult resume(std::uint64_t id);
@@ -103,7 +104,7 @@ class Supervisor {
 
   SupervisorConfig config_;
   common::FlightState flight_ = common::FlightState::kPreparation;
-  std::optional<common::Time> last_scan_;
+  std::optional<common::Time> last_sight_;
   bool operator_holds_ = false;
   bool goes_home_ = false;
   std::string home_reason_;  ///< Why it turned back by itself; empty if the operator wants it home.
@@ -115,7 +116,7 @@ class Supervisor {
   std::optional<common::Time> weak_since_;  ///< Since when the thrust margin has been too small.
   double charge_said_ = 1.0;                ///< The last charge of which an event told.
   bool landed_by_operator_ = false;
-  bool laser_holds_ = false;
+  bool blind_holds_ = false;
   bool pilot_flies_ = false;
   bool battery_plausible_ = true;
   Supervision supervision_;

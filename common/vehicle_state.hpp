@@ -27,6 +27,16 @@ struct VehicleState {
   bool horizontal_valid = false;       ///< x, y, yaw and their velocities may be used for control.
   bool vertical_valid = false;         ///< z and its velocity may be used for control.
 
+  /// When a measurement of any sensor last supported x, y and yaw, or z; Time{} before the first. It is the time when
+  /// the measurement was processed, so the state does not age by a sensor that is late but keeps measuring.
+  Time horizontal_supported;
+  Time vertical_supported;
+
+  double horizontalAge_s(Time now) const { return (now - horizontal_supported).seconds(); }
+  double verticalAge_s(Time now) const { return (now - vertical_supported).seconds(); }
+  /// Time since the newest inertial sample, to which the state was propagated.
+  double inertialAge_s(Time now) const { return (now - stamp).seconds(); }
+
   Pose3 T_map_body() const { return lifted(T_map_odom, 0.0) * T_odom_body; }
   Pose2 T_map_body_planar() const { return planar(T_map_body()); }
   Eigen::Vector3d velocity_map_m_s() const { return lifted(T_map_odom, 0.0).rotation * velocity_odom_m_s; }

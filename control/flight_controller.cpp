@@ -108,6 +108,8 @@ void FlightController::hold(std::optional<double> yaw_map_rad) {
 
 common::Setpoint FlightController::tick(const FlightTick& given) {
   FlightTick tick = given;
+  if (tick.inertial_fault.empty() && tick.state.inertialAge_s(tick.now) > config_.inertial_age_s)
+    tick.inertial_fault = "the estimate is old";
   if (!tick.inertial_fault.empty() || !isFinite(tick.state)) tick.state.horizontal_valid = false;
   // The first ticks after a pause must not integrate over it.
   constexpr double kPeriod_s = common::kControlPeriod.seconds();
@@ -261,7 +263,7 @@ bool FlightController::heldFor(bool condition, double seconds) {
 }
 
 void FlightController::watch(const FlightTick& tick) {
-  watchInertial(tick);
+  watchInertial(tick.inertial_fault);
   const bool vertical = isFinite(tick.state) && tick.state.vertical_valid;
   if (vertical) {
     vertical_lost_.reset();
@@ -281,15 +283,15 @@ void FlightController::watch(const FlightTick& tick) {
   }
 }
 
-void FlightController::watchInertial(const FlightTick& tick) {
-  if (tick.inertial_fault.empty()) {
+void FlightController::watchInertial(const std::string& fault) {
+  if (fault.empty()) {
     if (inertial_lost_) say(Severity::kInfo, "inertial samples are good again");
     inertial_lost_.reset();
   } else if (!inertial_lost_) {
     inertial_lost_ = now_;
-    say(Severity::kWarning, "inertial samples cannot be used", tick.inertial_fault);
+    say(Severity::kWarning, "inertial samples cannot be used", fault);
   }
-  inertial_fault_ = tick.inertial_fault;
+  inertial_fault_ = fault;
 }
 
 void FlightController::watchHorizontal(const FlightTick& tick) {

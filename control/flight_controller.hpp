@@ -74,6 +74,7 @@ class FlightController {
     double stopped_speed_m_s = 0.10;
     double horizontal_loss_s = 1.0;
     double vertical_loss_s = 0.3;
+    double inertial_age_s = 0.1;
     double inertial_loss_s = 0.2;
     PathFollower::Config path;
     PositionController::Config position;
@@ -127,7 +128,7 @@ class FlightController {
   void enter(common::FlightState from, common::FlightState entered);
   void say(common::Severity severity, std::string text, std::string reason = {});
   void watch(const FlightTick& tick);
-  void watchInertial(const FlightTick& tick);
+  void watchInertial(const std::string& fault);
   void watchHorizontal(const FlightTick& tick);
   void keepPathInMap(const common::VehicleState& state);
   common::Setpoint setpointFor(const FlightTick& tick);

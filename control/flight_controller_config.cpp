@@ -28,6 +28,8 @@ void FlightController::Config::describe(common::config::Fields& fields) {
          "Without a horizontal estimate for this long the vehicle lands level.");
   fields("vertical_loss_s", vertical_loss_s, kPositive,
          "Without a vertical estimate for this long the emergency descent begins.");
+  fields("inertial_age_s", inertial_age_s, kPositive,
+         "An estimate whose newest inertial sample is older than this cannot be used.");
   fields("inertial_loss_s", inertial_loss_s, kPositive,
          "The emergency descent begins when inertial samples that cannot be used have been noticed for this long.");
   fields.section("path", path, "References from paths.");

@@ -33,7 +33,7 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
     ground.push_back({T_map_body * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
   const perception::HeightState prior{scan.stamp, vertical->height_m, vertical->velocity_m_s, vertical->covariance};
   const auto update = filter_.update(scan.stamp, T_map_body.position_m(), ground, prior);
-  if (update.height_above_ground_m) height_above_ground_m_ = *update.height_above_ground_m;
+  if (update.height_above_ground_m) surface_height_m_ = vertical->height_m - *update.height_above_ground_m;
   step.measurement = update.measurement;
   step.levels_joined = update.levels_joined;
   return step;

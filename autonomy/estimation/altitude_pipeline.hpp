@@ -38,14 +38,15 @@ class AltitudePipeline {
   AltitudeStep add(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
                    const std::optional<perception::VerticalState>& vertical);
 
-  /// Height over the surface directly below, table or floor; zero before the first scan that saw it.
-  double heightAboveGround_m() const { return height_above_ground_m_; }
+  /// Height of the surface directly below, table or floor, over the take-off floor, at the last scan that saw it; zero
+  /// before the first.
+  double surfaceHeight_m() const { return surface_height_m_; }
   /// Never null; the same object until a level changes.
   std::shared_ptr<const common::LevelMap> levels();
 
  private:
   perception::MultilevelFilter filter_;
-  double height_above_ground_m_ = 0.0;
+  double surface_height_m_ = 0.0;
   std::uint64_t published_version_ = 0;
   std::shared_ptr<const common::LevelMap> published_;
 };

@@ -167,8 +167,8 @@ TEST(Autonomy, WithoutScansItHoldsAndThenLands) {
   ASSERT_NE(hold, story.events.end());
   ASSERT_NE(land, story.events.end());
   const SupervisorConfig config;
-  EXPECT_NEAR((hold->stamp - dropped).seconds(), config.laser_hold_s, 0.1);
-  EXPECT_NEAR((land->stamp - dropped).seconds(), config.laser_land_s, 0.1);
+  EXPECT_NEAR((hold->stamp - dropped).seconds(), config.unseen_hold_s, 0.1);
+  EXPECT_NEAR((land->stamp - dropped).seconds(), config.unseen_land_s, 0.1);
   EXPECT_THAT(land->reason, HasSubstr("no scan"));
   EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kFailed);
   EXPECT_THAT(story.autonomy().missionStatus().reason, HasSubstr("no scan"));
@@ -220,6 +220,49 @@ TEST(Autonomy, RepeatedInertialSamplesBeginAnEmergencyDescentWithinHalfASecond) 
         return true;
       },
       "the inertial samples repeat");
+}
+
+TEST(Autonomy, InertialSamplesThatAreNotFiniteBeginAnEmergencyDescentWithinHalfASecond) {
+  landsWithoutInertialSamples(
+      [](common::SensorEvent& event) {
+        if (auto* imu = std::get_if<common::ImuSample>(&event)) imu->rotation_ahrs_body.coeffs().setConstant(NAN);
+        return true;
+      },
+      "the inertial samples are not finite");
+}
+
+TEST(Autonomy, AStoppedAhrsBeginsAnEmergencyDescentWithinHalfASecond) {
+  landsWithoutInertialSamples(
+      [last = std::optional<Eigen::Quaterniond>()](common::SensorEvent& event) mutable {
+        if (auto* imu = std::get_if<common::ImuSample>(&event)) {
+          if (!last) last = imu->rotation_ahrs_body;
+          imu->rotation_ahrs_body = *last;
+        }
+        return true;
+      },
+      "the AHRS gives the same attitude");
+}
+
+TEST(Autonomy, ALaserThatRepeatsItsScanIsASilentOne) {
+  AutonomyStory story(kAcross);
+  ASSERT_TRUE(story.isFlying());
+  ASSERT_TRUE(story.fly(1.0));
+  const common::Time since = story.now();
+  story.hand = [last = std::shared_ptr<const common::LaserScan>()](common::SensorEvent& event) mutable {
+    auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event);
+    if (scan == nullptr) return true;
+    if (!last) last = *scan;
+    auto copy = std::make_shared<common::LaserScan>(*last);
+    copy->stamps = (*scan)->stamps;
+    *scan = copy;
+    return true;
+  };
+  ASSERT_TRUE(story.until([&] { return story.autonomy().finished(); }, 30.0));
+  const auto said = story.event("laser", "the laser repeats its last scan"), land = story.event("supervisor", "land");
+  ASSERT_NE(said, story.events.end());
+  ASSERT_NE(land, story.events.end());
+  EXPECT_LT((said->stamp - since).seconds(), 0.15);
+  EXPECT_THAT(land->reason, HasSubstr("no scan"));
 }
 
 }  // namespace

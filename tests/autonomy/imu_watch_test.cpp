@@ -1,6 +1,8 @@
 // Inertial samples that cannot be used: silent, repeated, or with a stopped AHRS.
 #include "autonomy/imu_watch.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "common/geometry.hpp"
@@ -16,11 +18,12 @@ class ImuWatchStory : public testing::Test {
   void feed(double seconds, bool stopped = false, bool ahrs_stopped = false) {
     for (const double end_s = now_s_ + seconds; now_s_ < end_s - 1e-9;) {
       now_s_ += 0.005;
-      if (!stopped) {
+      if (!stopped && std::isfinite(turn_rad_s_)) {
         sample_.angular_velocity_body_rad_s = {turn_rad_s_ + 1e-4 * std::sin(900.0 * now_s_), 0, 0};
         sample_.specific_force_body_m_s2 = {0, 1e-3 * std::sin(700.0 * now_s_), 9.81};
         if (!ahrs_stopped) sample_.rotation_ahrs_body = common::quaternionFrom({1e-3 * std::sin(now_s_), 0, 0});
       }
+      if (!std::isfinite(turn_rad_s_)) sample_.angular_velocity_body_rad_s.x() = turn_rad_s_;
       sample_.stamps = {Time::fromSeconds(now_s_), Time::fromSeconds(now_s_ + 0.002)};
       watch_.add(sample_);
     }
@@ -57,12 +60,32 @@ TEST_F(ImuWatchStory, RepeatedSamplesAreNoticedWithinATenthOfASecond) {
   EXPECT_EQ(fault(), "");
 }
 
-TEST_F(ImuWatchStory, AnAttitudeThatStaysWhileTheVehicleTurnsIsThatOfAStoppedAhrs) {
+TEST_F(ImuWatchStory, SamplesThatAreNotFiniteCountAsNone) {
   feed(1.0);
-  feed(0.3, false, true);
-  EXPECT_EQ(fault(), "") << "a vehicle at rest has the same attitude";
-  turn_rad_s_ = 0.3;
-  feed(0.1, false, true);
+  turn_rad_s_ = std::nan("");
+  feed(0.05);
+  EXPECT_EQ(fault(), "") << "a few bad samples";
+  feed(0.05);
+  EXPECT_EQ(fault(), "the inertial samples are not finite");
+  turn_rad_s_ = 0.0;
+  feed(0.01);
+  EXPECT_EQ(fault(), "");
+}
+
+TEST_F(ImuWatchStory, SamplesThatArriveLateAreNotOfThePresent) {
+  feed(1.0);
+  sample_.angular_velocity_body_rad_s.x() += 1e-3;
+  sample_.rotation_ahrs_body = common::quaternionFrom({0.01, 0, 0});
+  sample_.stamps = {Time::fromSeconds(now_s_ + 0.005), Time::fromSeconds(now_s_ + 0.125)};
+  watch_.add(sample_);
+  EXPECT_EQ(fault(0.125), "the inertial samples are late");
+}
+
+TEST_F(ImuWatchStory, AnAttitudeWithoutItsNoiseIsThatOfAStoppedAhrsInAHoverToo) {
+  feed(1.0);
+  feed(0.04, false, true);
+  EXPECT_EQ(fault(), "") << "an AHRS that is slower than the gyroscopes";
+  feed(0.05, false, true);
   EXPECT_EQ(fault(), "the AHRS gives the same attitude");
   feed(0.01);
   EXPECT_EQ(fault(), "");

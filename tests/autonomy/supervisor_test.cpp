@@ -18,13 +18,13 @@ class SupervisorStory : public testing::Test {
     return during(t_s, airborne ? common::FlightState::kFlying : common::FlightState::kLanded);
   }
   const Supervision& during(double t_s, common::FlightState flight) {
-    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, height_unseen_s_, drift_m_});
+    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, vertical_age_s_, drift_m_});
   }
-  void scanAt(double t_s) { supervisor_.scanArrived(Time::fromSeconds(t_s)); }
+  void scanAt(double t_s) { supervisor_.surroundingsSeen(Time::fromSeconds(t_s)); }
 
   Supervisor supervisor_{SupervisorConfig{}};
   common::EnergyLayer energy_;
-  double height_unseen_s_ = 0.0;
+  double vertical_age_s_ = 0.0;
   double drift_m_ = 0.0;
 };
 
@@ -176,12 +176,12 @@ TEST_F(SupervisorStory, LandsWhileItCanStillClimb) {
 }
 
 TEST_F(SupervisorStory, FliesBackWhenTheHeightIsUnseenAndGoesOnWhenItIsSeenAgain) {
-  height_unseen_s_ = 0.4;
+  vertical_age_s_ = 0.4;
   EXPECT_EQ(at(1.0).back, 0u);
-  height_unseen_s_ = 0.6;
+  vertical_age_s_ = 0.6;
   EXPECT_EQ(at(1.2).back, 1u);
   EXPECT_EQ(at(1.2).hold_reason, "it flies back along its trail");
-  height_unseen_s_ = 0.0;
+  vertical_age_s_ = 0.0;
   EXPECT_EQ(at(3.0).back, 1u) << "well over the place where it was seen";
   EXPECT_EQ(at(4.1).back, 0u);
   EXPECT_FALSE(at(4.1).hold);

@@ -1,0 +1,27 @@
+// Notices a laser that repeats its last scan with new stamps.
+#pragma once
+
+#include <vector>
+
+#include "common/event.hpp"
+#include "common/sensor_event.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread. The noise of the ranges makes each scan differ from the one before, so a scan whose ranges are equal bit
+/// by bit comes from a driver that repeats its last one: it counts as none. A scan without a single return carries no
+/// noise; it is never a repeated one.
+class ScanWatch {
+ public:
+  /// Whether this scan repeats the one before it.
+  bool repeats(const common::LaserScan& scan);
+  /// The begin and the end of a run of repeated scans, since the last call.
+  std::vector<common::Event> takeEvents();
+
+ private:
+  std::vector<float> last_ranges_m_;
+  int repeated_ = 0;  ///< Scans in a row that repeat.
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy
