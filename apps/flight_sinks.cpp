@@ -15,8 +15,15 @@ void FolderSink::world(const WorldPtr& world) { folder_.world(*world); }
 void FolderSink::event(const common::Event& event) { folder_.event(event); }
 
 void TruthSink::input(const autonomy::Input& input) {
+  if (const auto* command = std::get_if<autonomy::CommandInput>(&input)) {
+    const bool ends = std::holds_alternative<common::LandCommand>(command->command.kind) ||
+                      std::holds_alternative<common::HomeCommand>(command->command.kind);
+    if (ends) recorder_.order(command->taken, "the operator's order: " + toString(command->command));
+  }
   const auto* event = std::get_if<common::SensorEvent>(&input);
   if (event == nullptr) return;
+  const auto* pilot = std::get_if<common::PilotSample>(event);
+  if (pilot != nullptr && pilot->takes_over) recorder_.order(pilot->stamps.arrived, "the pilot took over");
   if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(event)) recorder_.scan((*scan)->stamps);
 }
 void TruthSink::ticked(const autonomy::TickOutcome& outcome) {

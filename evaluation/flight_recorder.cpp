@@ -64,6 +64,7 @@ void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleS
     newest_ = compared(pending_.front(), *T_world_body);
     if (truth.airborne) compare(pending_.front(), *T_world_body);
   }
+  ending_.tick(truth, (newest_.T_map_body.position_m() - newest_.T_map_truth.position_m()).norm());
 }
 
 /// The truth at a time within the history; none before or after it.
@@ -106,6 +107,7 @@ void FlightRecorder::intent(Time now, const common::Intent& intent, const common
   const auto* go_to = std::get_if<common::GoToIntent>(&intent.kind);
   const bool home = go_to != nullptr && (go_to->goal_map_m - home_map_m_).norm() < kSamePlace_m;
   conduct_.intent(intent, status, home);
+  ending_.intent(intent, status);
   if (go_to == nullptr || status.id != intent.id || status.state != common::IntentState::kSucceeded) return;
   if (counted_intent_ == intent.id) return;
   const std::optional<Pose3> T_world_body = truthAt(now);
@@ -121,6 +123,7 @@ void FlightRecorder::intent(Time now, const common::Intent& intent, const common
 
 void FlightRecorder::world(const common::World& world) {
   conduct_.world(world);
+  ending_.world(world);
   home_map_m_ = world.vehicle->home_map.position_m();
   record_.map = world.map->grid;
   record_.explored_area_m2 = world.map->explored_area_m2;
@@ -178,6 +181,7 @@ void FlightRecorder::followLocalization(const common::World& world) {
 FlightRecord FlightRecorder::finish() const {
   FlightRecord record = record_;
   record.conduct = conduct_.finish();
+  record.ending = ending_.finish();
   if (!heights_world_m_.empty()) record.cruise_height_world_m = quantile(heights_world_m_, 0.5);
   return record;
 }

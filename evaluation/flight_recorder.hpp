@@ -19,6 +19,7 @@
 #include "common/vehicle_state.hpp"
 #include "common/world/mission_status.hpp"
 #include "evaluation/conduct_recorder.hpp"
+#include "evaluation/ending_recorder.hpp"
 #include "simulation/truth.hpp"
 
 namespace swiftlet::common {
@@ -86,6 +87,7 @@ struct FlightRecord {
   int interruptions = 0;          ///< How often a running behaviour of the mission was suspended.
   int resumed = 0;                ///< How many of the suspended behaviours resumed later.
   ConductRecord conduct;
+  EndingRecord ending;
   simulation::Truth last_truth;
   std::shared_ptr<const common::OccupancyGrid> map;  ///< The last map; null if there was none.
   common::Trajectory truth_map;                      ///< In the `map` frame, 20 Hz while airborne, for pictures.
@@ -110,6 +112,8 @@ class FlightRecorder {
   void tick(const simulation::Truth& truth, const common::VehicleState& estimate);
   /// Call at every tick of the mission's tree, with the intent that it emitted and the status that it saw.
   void intent(common::Time now, const common::Intent& intent, const common::IntentStatus& status);
+  /// Call when the operator or the pilot orders the end of the flight: landing, flying home, taking over.
+  void order(common::Time now, std::string text) { ending_.order(now, std::move(text)); }
   /// Call at every snapshot.
   void world(const common::World& world);
 
@@ -127,6 +131,7 @@ class FlightRecorder {
 
   FlightRecord record_;
   ConductRecorder conduct_;
+  EndingRecorder ending_;
   common::Pose2 T_world_given_;
   common::LocalizationState localization_ = common::LocalizationState::kGlobal;
   std::optional<common::Time> last_flown_;

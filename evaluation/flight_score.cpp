@@ -8,6 +8,7 @@
 #include "evaluation/judge.hpp"
 #include "evaluation/map_metrics.hpp"
 #include "evaluation/statistics.hpp"
+#include "evaluation/verdict_facts.hpp"
 #include "simulation/nature.hpp"
 #include "simulation/truth_map.hpp"
 
@@ -42,7 +43,8 @@ void scoreCollision(const simulation::Truth& truth, FlightScore& score) {
   if (!truth.crashed) return;
   score.collisions = 1;
   score.collision = truth.crash_reason;
-  score.avoidable_collisions = truth.by_walker && truth.yielding ? 0 : 1;
+  score.avoidable_collisions = acceptable(score.verdict) ? 0 : 1;
+  score.glass_contacts = score.verdict == Verdict::kUnseen ? 1 : 0;
 }
 
 /// The flood was stopped by its bound and not by walls, so the coverable area has no end. This is checked before the
@@ -143,6 +145,9 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   score.estimate_rms_raw_m = rmsOf(record.horizontal_errors_raw_m);
   score.estimate_spatial_rms_m = rmsOf(record.spatial_errors_m);
   score.estimate_yaw_rms_rad = rmsOf(record.yaw_errors_rad);
+  const Judgement judgement = judge(factsOf(record, world));
+  score.verdict = judgement.verdict;
+  score.verdict_reason = judgement.reason;
   scoreCollision(record.last_truth, score);
   scoreMap(record, world, score);
   score.conduct = scoreOf(record.conduct, world);

@@ -11,6 +11,7 @@
 #include "evaluation/criteria.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "evaluation/marker_errors.hpp"
+#include "evaluation/verdict.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/ray_caster.hpp"
 
@@ -49,6 +50,8 @@ struct FlightScore {
   std::string outcome;         ///< "done", or why not.
   bool mission_begun = false;  ///< Otherwise there is no mission_time_s.
   bool mission_done = false;
+  Verdict verdict = Verdict::kUnfinished;
+  std::string verdict_reason;  ///< What the truth says, with figures.
 
   std::optional<double> coverage;      ///< Share of the free space that the hull can cover, at the mission's clearance.
   std::string coverage_problem;        ///< Why there is no coverage: the world is not closed.
@@ -75,8 +78,10 @@ struct FlightScore {
   std::optional<LocalizationScore> localization;  ///< None if the flight was given no map.
 
   int collisions = 0;
-  /// All collisions except those where a walker ran into a vehicle that stood still or moved away.
+  /// Those that the verdict does not excuse: forced ones, glass that no beam had seen, and walkers that ran into a
+  /// vehicle that stood still or moved away.
   int avoidable_collisions = 0;
+  int glass_contacts = 0;        ///< Collisions with glass that had never returned a beam.
   std::string collision;         ///< What was touched; empty if nothing was.
   double min_clearance_m = 0.0;  ///< Least distance from the hull while airborne; capped by the simulator.
   double min_walker_clearance_m = 0.0;

@@ -83,20 +83,25 @@ void Referee::judgeTouchDown(common::Time now, const QuadrotorState& before, con
 }
 
 void Referee::judgeContacts(common::Time now, const QuadrotorState& state, std::span<const Walker> walkers,
-                            Truth& truth) {
+                            const std::vector<bool>& seen, Truth& truth) {
   if (first_) last_position_world_m_ = state.T_world_body.position_m;
   first_ = false;
-  judgeWorld(now, state, truth);
+  judgeWorld(now, state, seen, truth);
   for (std::size_t i = 0; i < walkers.size(); ++i)
     if (walkers[i].actor()) judgeWalker(now, state, *walkers[i].actor(), fmt::format("walker {}", i + 1), truth);
   last_position_world_m_ = state.T_world_body.position_m;
 }
 
-void Referee::judgeWorld(common::Time now, const QuadrotorState& state, Truth& truth) {
+void Referee::judgeWorld(common::Time now, const QuadrotorState& state, const std::vector<bool>& seen, Truth& truth) {
   clearance_ = rays_.sweep(hull_, last_position_world_m_, state.T_world_body.position_m, Truth::kClearanceLimit_m);
   if (!state.standing) truth.min_clearance_m = std::min(truth.min_clearance_m, clearance_.distance_m);
   if (clearance_.shape == Hit::kNothing || clearance_.distance_m > 0.0) return;
-  const std::string name = nameOf(world_.shapes[static_cast<std::size_t>(clearance_.shape)]);
+  const auto shape = static_cast<std::size_t>(clearance_.shape);
+  const std::string name = nameOf(world_.shapes[shape]);
+  if (!truth.crashed) {
+    truth.glass = world_.shapes[shape].glass;
+    truth.unseen_glass = truth.glass && shape < seen.size() && !seen[shape];
+  }
   crash(truth, now, name, touchedAt(name, clearance_.point_world_m));
 }
 

@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -31,8 +32,10 @@ class Referee {
   /// Call after each physics step. Judges whether a touch-down was a landing or a crash.
   void judgeTouchDown(common::Time now, const QuadrotorState& before, const QuadrotorState& after, Truth& truth) const;
 
-  /// Sweeps the hull from its place at the last call. Call at 100 Hz or more.
-  void judgeContacts(common::Time now, const QuadrotorState& state, std::span<const Walker> walkers, Truth& truth);
+  /// Sweeps the hull from its place at the last call. Call at 100 Hz or more. `seen` is LaserScanner::seen(); empty:
+  /// every shape is.
+  void judgeContacts(common::Time now, const QuadrotorState& state, std::span<const Walker> walkers,
+                     const std::vector<bool>& seen, Truth& truth);
 
   /// The surface of the world nearest to the hull at the last call of judgeContacts(), within Truth::kClearanceLimit_m.
   const Clearance& clearance() const { return clearance_; }
@@ -42,7 +45,7 @@ class Referee {
                     const std::string& name, Truth& truth) const;
 
  private:
-  void judgeWorld(common::Time now, const QuadrotorState& state, Truth& truth);
+  void judgeWorld(common::Time now, const QuadrotorState& state, const std::vector<bool>& seen, Truth& truth);
   void judgeWalker(common::Time now, const QuadrotorState& state, const Actor& walker, const std::string& name,
                    Truth& truth) const;
   Eigen::Vector3d hullPointTowards(const Eigen::Vector3d& position_world_m, const Eigen::Vector2d& direction) const;

@@ -1,12 +1,14 @@
 // The true state of the vehicle. For simulation and evaluation only.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
 #include "common/time.hpp"
+#include "simulation/sensors/sensor_config.hpp"
 
 namespace swiftlet::simulation {
 
@@ -17,6 +19,8 @@ struct Truth {
   bool airborne = false;
   double battery_remaining = 1.0;  ///< True charge, as a share of the full one.
   bool faulty = false;             ///< A fault of the scenario is active.
+  /// The IMU or the laser, if a fault of it is active: without them there is no flight.
+  std::optional<Sensor> failed_sensor;
 
   /// Smallest horizontal distance from the hull so far, while airborne: to the static world, to a walker, and to the
   /// hull of another vehicle. They are capped at kClearanceLimit_m.
@@ -32,6 +36,8 @@ struct Truth {
   bool by_walker = false;  ///< A walker was touched.
   /// The vehicle stood still (below 0.1 m/s) or moved away when the walker ran into it.
   bool yielding = false;
+  bool glass = false;         ///< Glass was touched,
+  bool unseen_glass = false;  ///< and no beam of the laser had ever returned from that pane.
 };
 
 }  // namespace swiftlet::simulation

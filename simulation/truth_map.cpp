@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <map>
+#include <queue>
+#include <utility>
 
 namespace swiftlet::simulation {
 namespace {
@@ -72,12 +75,42 @@ common::TiledGrid<std::uint8_t> reachableSpace(const RayCaster& rays, const Free
   return reachable;
 }
 
+double area_m2(const Grid& cells) {
+  return cells.resolution_m() * cells.resolution_m() * static_cast<double>(count(cells));
+}
+
+std::optional<double> pathLength_m(const Grid& cells, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) {
+  using Entry = std::pair<double, std::pair<int, int>>;
+  const CellIndex goal = cells.cellAt(to_m), start = cells.cellAt(from_m);
+  Grid done(cells.resolution_m());
+  std::map<std::pair<int, int>, double> best{{{start.x, start.y}, 0.0}};
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  if (cells.at(start) != 0) open.push({0.0, {start.x, start.y}});
+  while (!open.empty()) {
+    const auto [length_m, at] = open.top();
+    open.pop();
+    if (at.first == goal.x && at.second == goal.y) return length_m;
+    if (done.at({at.first, at.second}) != 0) continue;
+    done.set({at.first, at.second}, 1);
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const CellIndex next{at.first + dx, at.second + dy};
+        if ((dx == 0 && dy == 0) || cells.at(next) == 0 || done.at(next) != 0) continue;
+        const double next_m = length_m + cells.resolution_m() * std::hypot(dx, dy);
+        const auto [known, is_new] = best.try_emplace({next.x, next.y}, next_m);
+        if (!is_new && known->second <= next_m) continue;
+        known->second = next_m;
+        open.push({next_m, {next.x, next.y}});
+      }
+  }
+  return std::nullopt;
+}
+
 FreeSpace freeSpace(const RayCaster& rays, const FreeSpaceQuery& query) {
   FreeSpace space{reachableSpace(rays, query), Grid(query.resolution_m)};
   space.covered = dilated(space.reachable, query.hull_radius_m);
-  const double cell_m2 = query.resolution_m * query.resolution_m;
-  space.reachable_area_m2 = cell_m2 * static_cast<double>(count(space.reachable));
-  space.covered_area_m2 = cell_m2 * static_cast<double>(count(space.covered));
+  space.reachable_area_m2 = area_m2(space.reachable);
+  space.covered_area_m2 = area_m2(space.covered);
   return space;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -32,6 +33,14 @@ struct FreeSpace {
 /// The cells that the centre of the hull can reach from the start, by a flood. All are 0 if the hull does not fit at
 /// the start.
 common::TiledGrid<std::uint8_t> reachableSpace(const RayCaster& rays, const FreeSpaceQuery& query);
+
+/// Area of the cells that are 1.
+double area_m2(const common::TiledGrid<std::uint8_t>& cells);
+
+/// Length of the shortest path from the cell of one point to that of another through cells that are 1, with steps to
+/// the eight neighbours; none if there is no path.
+std::optional<double> pathLength_m(const common::TiledGrid<std::uint8_t>& cells, const Eigen::Vector2d& from_m,
+                                   const Eigen::Vector2d& to_m);
 
 FreeSpace freeSpace(const RayCaster& rays, const FreeSpaceQuery& query);
 

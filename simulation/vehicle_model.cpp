@@ -104,7 +104,7 @@ void VehicleModel::judge(Time now, std::uint64_t step, std::span<const Walker> w
   referee_.judgeTouchDown(now, before_step_, quadrotor_.state(), truth_);
   if (step % kStepsPerLook == 0) {
     referee_.lookDown(quadrotor_.state());
-    referee_.judgeContacts(now, quadrotor_.state(), walkers, truth_);
+    referee_.judgeContacts(now, quadrotor_.state(), walkers, sensors_.seenShapes(), truth_);
     feelWall();
   }
   updateTruth(now);
@@ -134,10 +134,13 @@ void VehicleModel::updateTruth(Time now) {
   truth_.velocity_world_m_s = state.velocity_world_m_s;
   truth_.airborne = !state.standing;
   truth_.battery_remaining = quadrotor_.battery().remaining();
-  const std::vector<FaultConfig>& faults = placed_.scenario.faults;
-  truth_.faulty = std::any_of(faults.begin(), faults.end(), [now](const FaultConfig& fault) {
-    return now >= Time::fromSeconds(fault.from_s) && now < Time::fromSeconds(fault.to_s);
-  });
+  truth_.faulty = false;
+  truth_.failed_sensor.reset();
+  for (const FaultConfig& fault : placed_.scenario.faults) {
+    if (now < Time::fromSeconds(fault.from_s) || now >= Time::fromSeconds(fault.to_s)) continue;
+    truth_.faulty = true;
+    if (fault.sensor == Sensor::kImu || fault.sensor == Sensor::kLaser) truth_.failed_sensor = fault.sensor;
+  }
 }
 
 double gapBetween_m(const Actor& a, const Actor& b) {

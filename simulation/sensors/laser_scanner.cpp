@@ -38,6 +38,8 @@ LaserScanner::LaserScanner(const common::LaserConfig& config, const LaserErrorsC
     reflectances_.push_back(shape.color.mean());
     glass_.push_back(shape.glass);
   }
+  if (errors.glass_angle_deg > 0.0)
+    for (const Shape& shape : world.shapes) seen_.push_back(!shape.glass);
   const common::Pose3 T_true_sheet = errors.mount_error.pose();
   const common::Pose3 T_body_laser = T_true_sheet * config.mount.pose();
   const common::Pose3 T_body_mirror = T_true_sheet * config.mirror_mount.pose();
@@ -143,6 +145,13 @@ void LaserScanner::addSurfaceErrors(std::uint64_t frame) {
   }
 }
 
+void LaserScanner::noteGlass() {
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    const auto shape = static_cast<std::size_t>(hits_[i].shape);
+    if (hits_[i] && shape < seen_.size() && std::isfinite(distances_m_[i])) seen_[shape] = true;
+  }
+}
+
 void LaserScanner::addNoise(std::uint64_t frame, std::vector<float>& ranges_m) const {
   common::RandomStream random(seed_, "laser", frame);
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
@@ -173,6 +182,7 @@ common::LaserScan LaserScanner::scan(std::uint64_t frame, Time start, const std:
   sweepRays(start, track, rays);
   if (errors_.needsSurfaces() || errors_.mixed_pixel_rate > 0.0 || errors_.sun_dropout_rate > 0.0)
     addSurfaceErrors(frame);
+  if (!seen_.empty()) noteGlass();
   common::LaserScan scan;
   scan.stamps.measured = stampOf(start);
   scan.angle_min_rad = config_.angleMin_rad();

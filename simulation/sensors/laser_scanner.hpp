@@ -40,6 +40,10 @@ class LaserScanner {
   common::LaserScan scan(std::uint64_t frame, common::Time start, const std::vector<Moment>& track,
                          const RayCaster& rays);
 
+  /// By shape of the world: whether a beam has ever returned from it; true for whatever is not glass. Empty if glass
+  /// returns every beam.
+  const std::vector<bool>& seen() const { return seen_; }
+
  private:
   struct Beam {
     Eigen::Vector3d origin_body_m;
@@ -56,6 +60,7 @@ class LaserScanner {
   void addSurfaceErrors(std::uint64_t frame);
   double seenRange_m(const Hit& hit, double cos_incidence) const;
   bool towardsSun(const Ray& ray) const;
+  void noteGlass();
   void addNoise(std::uint64_t frame, std::vector<float>& ranges_m) const;
 
   common::LaserConfig config_;
@@ -67,7 +72,8 @@ class LaserScanner {
   std::vector<float> distances_m_;
   std::vector<float> reflectances_;  ///< By shape of the world, in [0, 1].
   std::vector<bool> glass_;          ///< By shape of the world.
-  std::vector<Hit> hits_;            ///< Of the beams, when their surfaces matter.
+  std::vector<bool> seen_;
+  std::vector<Hit> hits_;  ///< Of the beams, when their surfaces matter.
 };
 
 }  // namespace swiftlet::simulation

@@ -36,6 +36,8 @@ class SensorSuite {
   void take(common::Time until, std::vector<common::SensorEvent>& events) { queue_.take(until, events); }
   void setCameraConsumer(bool wanted) { camera_wanted_ = wanted; }
 
+  /// As LaserScanner::seen().
+  const std::vector<bool>& seenShapes() const { return laser_.seen(); }
   /// The pilot's sticks now; null without a remote control.
   const PilotConfig* sticks(common::Time now) const;
 

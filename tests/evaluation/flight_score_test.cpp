@@ -18,7 +18,7 @@ using testing::IsEmpty;
 /// A flight in the small room that meets every criterion.
 FlightRecord goodRecord() {
   FlightRecord record;
-  record.T_world_map.position_m = {1.0, 1.0, 0.0};
+  record.T_world_start.position_m = record.T_world_map.position_m = {1.0, 1.0, 0.0};
   record.goals = {{common::Time::fromSeconds(60), false, {1.0, 0.5}, 0.06, {}},
                   {common::Time::fromSeconds(80), true, {0, 0}, 0.04, {}}};
   record.horizontal_errors_m = {0.03, 0.03};

@@ -1,0 +1,159 @@
+#include "evaluation/verdict_facts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+
+#include "simulation/nature.hpp"
+#include "simulation/truth_map.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kHome_m = 0.5;      // As near as the hull is wide.
+constexpr double kStepDown_m = 0.5;  // A floor that far below the take-off floor is another one.
+constexpr double kResolution_m = 0.05;
+constexpr double kStops_s = 20.0;     // Stopping, turning and landing on the way home.
+constexpr double kSlowest_m_s = 0.2;  // Slower flights home count as this fast.
+
+double marginAt(double charge, const TrueWorld& world) {
+  return simulation::thrustOverWeight(world.vehicle, world.quadrotor, charge, simulation::Nature::kFullThrottle);
+}
+
+/// The least charge in steps of 1 % whose thrust margin is kLowMargin; 1 if none is.
+double leastCharge(const TrueWorld& world) {
+  for (int percent = 1; percent < 100; ++percent)
+    if (marginAt(0.01 * percent, world) >= kLowMargin) return 0.01 * percent;
+  return 1.0;
+}
+
+/// Casts a horizontal ray in each of kDirections directions.
+constexpr int kDirections = 180;
+template <typename Use>
+void lookAround(const Vector3d& from_world_m, const TrueWorld& world, Use use) {
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi * i / kDirections;
+    const Vector3d direction(std::cos(angle_rad), std::sin(angle_rad), 0.0);
+    if (const simulation::Hit hit = world.rays->cast(from_world_m, direction, world.laser.range_max_m)) use(hit);
+  }
+}
+
+/// Whether the walls in sight fix the position in every direction: the least eigenvalue of the sum of their normals'
+/// outer products counts the beams that fix the weakest direction (Zhang, Kaess, Singh 2016, "On degeneracy of
+/// optimization-based state estimation problems").
+bool fixesPosition(const Vector3d& position_world_m, const TrueWorld& world) {
+  constexpr double kLeastBeams = 0.01 * kDirections;
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  lookAround(position_world_m + Vector3d(0, 0, world.laser.mount.z_m), world, [&](const simulation::Hit& hit) {
+    const Vector2d normal = hit.normal_world.head<2>().cast<double>();
+    information += normal * normal.transpose();
+  });
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(information).eigenvalues().minCoeff() >= kLeastBeams;
+}
+
+bool isEnclosed(const Vector3d& position_world_m, const TrueWorld& world) {
+  int walls = 0;
+  lookAround(position_world_m + Vector3d(0, 0, world.laser.mount.z_m), world, [&](const simulation::Hit&) { ++walls; });
+  return 2 * walls >= kDirections;
+}
+
+/// Whether a floor no more than kStepDown_m below that of the take-off is below.
+bool isAboveFloor(const Vector3d& position_world_m, const FlightRecord& record, const TrueWorld& world) {
+  const double down_m = position_world_m.z() - record.T_world_start.position_m.z() + kStepDown_m;
+  return down_m <= 0.0 || world.rays->cast(position_world_m, -Vector3d::UnitZ(), down_m);
+}
+
+void lookBack(const FlightRecord& record, const TrueWorld& world, VerdictFacts& facts) {
+  constexpr double kUnfixed_s = 3.0, kNoFloor_s = 0.9;
+  int unfixed = 0, no_floor = 0;
+  for (const Vector3d& position : record.ending.trail_world_m) {
+    unfixed += fixesPosition(position, world) ? 0 : 1;
+    no_floor += isAboveFloor(position, record, world) ? 0 : 1;
+  }
+  facts.position_seen = unfixed * EndingRecord::kTrailPeriod_s < kUnfixed_s;
+  facts.floor_seen = no_floor * EndingRecord::kTrailPeriod_s < kNoFloor_s;
+}
+
+simulation::FreeSpaceQuery queryOf(const FlightRecord& record, const TrueWorld& world) {
+  const double height_m = record.ending.flew ? record.cruise_height_world_m : record.T_world_start.position_m.z() + 1.0;
+  simulation::FreeSpaceQuery query;
+  query.start_world_m = record.T_world_start.position_m.head<2>();
+  query.hull_radius_m = world.vehicle.hullRadius_m();
+  query.bottom_m = height_m - 0.5 * world.vehicle.hull_height_m;
+  query.top_m = height_m + 0.5 * world.vehicle.hull_height_m;
+  query.resolution_m = kResolution_m;
+  query.max_area_m2 = world.reachable_area_max_m2;
+  return query;
+}
+
+/// Charge that the vehicle, as it flew until then, takes for the true path home.
+std::optional<double> homeShare(const FlightRecord& record, const std::optional<double>& path_m) {
+  const EndingRecord& ending = record.ending;
+  if (!path_m || ending.airborne_until_then_s <= 0.0) return std::nullopt;
+  const double speed_m_s = std::max(kSlowest_m_s, record.true_distance_m / ending.airborne_until_then_s);
+  const double share_per_s = (ending.charge_at_take_off - ending.then.battery_remaining) / ending.airborne_until_then_s;
+  return share_per_s * (*path_m / speed_m_s + kStops_s);
+}
+
+void lookForWays(const FlightRecord& record, const TrueWorld& world, VerdictFacts& facts) {
+  const simulation::FreeSpaceQuery query = queryOf(record, world);
+  const auto reachable = simulation::reachableSpace(*world.rays, query);
+  const bool open = simulation::area_m2(reachable) >= query.max_area_m2;
+  const Vector2d then_m = record.ending.then.T_world_body.position_m.head<2>();
+  facts.home_share = homeShare(record, simulation::pathLength_m(reachable, then_m, query.start_world_m));
+  if (const auto& goal_map_m = record.ending.failed_goal_map_m) {
+    const Vector3d goal_world_m = record.T_world_map * Vector3d(goal_map_m->x(), goal_map_m->y(), 0.0);
+    facts.goal_reachable = open || reachable.at(reachable.cellAt(goal_world_m.head<2>())) != 0;
+  }
+  facts.inside = !open || isEnclosed(record.last_truth.T_world_body.position_m, world);
+}
+
+void lookAtContact(const FlightRecord& record, const TrueWorld& world, VerdictFacts& facts) {
+  const simulation::Truth& truth = record.last_truth;
+  facts.contact = truth.crash_reason;
+  facts.by_person = truth.by_walker;
+  facts.yielding = truth.yielding;
+  facts.unseen_glass = truth.unseen_glass;
+  facts.contact_margin = marginAt(truth.battery_remaining, world);
+  facts.landing_margin = marginAt(record.ending.charge_before_end, world);
+  const Vector3d start = record.T_world_start.position_m, end = truth.T_world_body.position_m;
+  if (world.rays == nullptr || record.true_distance_m > world.vehicle.hull_diameter_m) return;  // It had taken off.
+  const simulation::Hull hull{world.vehicle.hullRadius_m(), 0.5 * world.vehicle.hull_height_m};
+  const Vector3d low = start + Vector3d(0, 0, world.quadrotor.gear_height_m);
+  facts.room_to_take_off = world.rays->sweep(hull, low, {low.x(), low.y(), std::max(low.z(), end.z())}, 1e-6).shape ==
+                           simulation::Hit::kNothing;
+}
+
+}  // namespace
+
+VerdictFacts factsOf(const FlightRecord& record, const TrueWorld& world) {
+  const EndingRecord& ending = record.ending;
+  const simulation::Truth& last = record.last_truth;
+  VerdictFacts facts;
+  facts.crashed = last.crashed;
+  facts.mission_done = record.mission == common::MissionState::kDone;
+  facts.flew = ending.flew;
+  facts.in_the_air = last.airborne;
+  facts.at_home = (last.T_world_body.position_m - record.T_world_start.position_m).head<2>().norm() <= kHome_m;
+  facts.order = ending.order;
+  facts.faulty_sensor = ending.faulty_sensor;
+  facts.charge = ending.then.battery_remaining;
+  facts.position_error_m = ending.position_error_m;
+  if (facts.crashed) {
+    lookAtContact(record, world, facts);
+  } else if (!facts.mission_done && !facts.in_the_air) {
+    facts.thrust_margin = marginAt(facts.charge, world);
+    facts.least_charge = leastCharge(world);
+    if (world.rays == nullptr) return facts;
+    lookBack(record, world, facts);
+    lookForWays(record, world, facts);
+  }
+  return facts;
+}
+
+}  // namespace swiftlet::evaluation

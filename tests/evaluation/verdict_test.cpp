@@ -1,0 +1,224 @@
+// The judge of flights that did not do their mission: from facts to a verdict, and from records to facts.
+#include "evaluation/verdict.hpp"
+
+#include <gmock/gmock.h>
+
+#include "evaluation/flight_score.hpp"
+#include "evaluation/verdict_facts.hpp"
+#include "small_world.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using common::MissionState;
+using testing::HasSubstr;
+
+TEST(Verdicts, OfADoneMissionIsDoneWhateverIsLeft) {
+  VerdictFacts facts;
+  facts.mission_done = facts.flew = true;
+  facts.charge = 0.05;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kDone);
+  facts.crashed = true;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kCrashed) << "a crash after the end is one all the same";
+}
+
+/// A vehicle that stands away from home with no reason for it.
+VerdictFacts landed() {
+  VerdictFacts facts;
+  facts.flew = true;
+  facts.charge = 0.8;
+  facts.home_share = 0.1;
+  facts.thrust_margin = 1.6;
+  facts.least_charge = 0.1;
+  return facts;
+}
+
+TEST(Verdicts, EveryReasonMustBeConfirmedByTheTruth) {
+  EXPECT_EQ(judge(landed()).verdict, Verdict::kNeedless);
+  EXPECT_THAT(judge(landed()).reason, HasSubstr("80 % of the battery left"));
+  const auto with = [](auto change) {
+    VerdictFacts facts = landed();
+    change(facts);
+    EXPECT_EQ(judge(facts).verdict, Verdict::kLanded);
+    return judge(facts).reason;
+  };
+  EXPECT_THAT(with([](VerdictFacts& f) { f.thrust_margin = 1.14; }), HasSubstr("1.14 times the weight"));
+  EXPECT_THAT(with([](VerdictFacts& f) { f.charge = 0.29; }), HasSubstr("29 % of the battery was left, 10 % to fly"));
+  EXPECT_THAT(with([](VerdictFacts& f) { f.least_charge = 0.71; }), HasSubstr("71 % to keep"));
+  EXPECT_EQ(with([](VerdictFacts& f) { f.order = "land"; }), "land");
+  EXPECT_EQ(with([](VerdictFacts& f) { f.faulty_sensor = "imu"; }), "imu failed");
+  EXPECT_EQ(with([](VerdictFacts& f) { f.goal_reachable = false; }), "there is no way to the goal");
+  EXPECT_THAT(with([](VerdictFacts& f) { f.position_error_m = 0.6; }), HasSubstr("0.60 m off"));
+  EXPECT_THAT(with([](VerdictFacts& f) { f.position_seen = false; }), HasSubstr("too little"));
+  EXPECT_THAT(with([](VerdictFacts& f) { f.floor_seen = false; }), HasSubstr("floor"));
+}
+
+TEST(Verdicts, DependOnWhereAVehicleWithAReasonStands) {
+  VerdictFacts facts = landed();
+  facts.charge = 0.25;
+  facts.at_home = true;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kHome);
+  facts.inside = false;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kOutside);
+  facts.in_the_air = true;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kUnfinished);
+}
+
+TEST(Verdicts, OfARefusedTakeOffNeedItsFigureToo) {
+  VerdictFacts facts = landed();
+  facts.flew = false;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kNeedless);
+  facts.thrust_margin = 1.05;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kRefused);
+}
+
+TEST(Verdicts, OnCrashesSayWhetherPhysicsForcedThem) {
+  VerdictFacts facts = landed();
+  facts.crashed = true;
+  facts.contact = "touched `wall`";
+  EXPECT_EQ(judge(facts).verdict, Verdict::kCrashed);
+  facts.contact_margin = 0.97;
+  facts.landing_margin = 1.05;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kCrashed) << "it flew on with too little to climb with";
+  facts.landing_margin = 1.2;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kForced);
+  facts.unseen_glass = true;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kUnseen);
+  facts.by_person = facts.yielding = true;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kStruck);
+  facts = landed();
+  facts.crashed = facts.by_person = true;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kCrashed) << "it flew into the person";
+  facts.room_to_take_off = false;
+  EXPECT_EQ(judge(facts).verdict, Verdict::kForced);
+}
+
+TEST(Verdicts, AreAcceptableWhenNothingBetterCouldBeDone) {
+  for (const Verdict good : {Verdict::kDone, Verdict::kHome, Verdict::kLanded, Verdict::kRefused, Verdict::kForced,
+                             Verdict::kStruck, Verdict::kUnseen})
+    EXPECT_TRUE(acceptable(good)) << toString(good);
+  for (const Verdict bad : {Verdict::kNeedless, Verdict::kCrashed, Verdict::kOutside, Verdict::kUnfinished})
+    EXPECT_FALSE(acceptable(bad)) << toString(bad);
+}
+
+/// A flight of a minute in the small room that took off at (1, 1), used a tenth of its battery and stands at (1, 2).
+class VerdictsOfRecords : public testing::Test {
+ protected:
+  VerdictsOfRecords() {
+    record_.T_world_start.position_m = record_.T_world_map.position_m = {1, 1, 0};
+    record_.cruise_height_world_m = 1.0;
+    record_.mission = MissionState::kFailed;
+    record_.true_distance_m = 30.0;
+    record_.last_truth.T_world_body.position_m = {1, 2, 0.1};
+    record_.last_truth.battery_remaining = 0.79;
+    EndingRecord& ending = record_.ending;
+    ending.flew = true;
+    ending.then = record_.last_truth;
+    ending.then.airborne = true;
+    ending.then.T_world_body.position_m.z() = 1.0;
+    ending.then.battery_remaining = ending.charge_before_end = 0.8;
+    ending.charge_at_take_off = 0.9;
+    ending.airborne_until_then_s = 60.0;
+    ending.trail_world_m.assign(20, {1, 2, 1});
+  }
+  Judgement judged(const simulation::WorldModel& model = smallWorld(1.0F)) const {
+    const simulation::RayCaster rays(model);
+    TrueWorld world;
+    world.rays = &rays;
+    world.quadrotor.mass_share = mass_share_;
+    return judge(factsOf(record_, world));
+  }
+  FlightRecord record_;
+  double mass_share_ = 1.0;
+};
+
+TEST_F(VerdictsOfRecords, WithoutAReasonIsNeedless) { EXPECT_EQ(judged().verdict, Verdict::kNeedless); }
+
+TEST_F(VerdictsOfRecords, ALowBatteryIsAReason) {
+  record_.ending.then.battery_remaining = 0.2;
+  EXPECT_EQ(judged().verdict, Verdict::kLanded);
+  record_.last_truth.T_world_body.position_m.y() = 1.2;
+  EXPECT_EQ(judged().verdict, Verdict::kHome);
+}
+
+// 0.1 of the battery for a minute of 0.5 m/s: the way round the wall, 4 m, and its stops take about 5 %.
+TEST_F(VerdictsOfRecords, TheTruePathHomeCounts) {
+  record_.ending.then.T_world_body.position_m = {3.2, 0.6, 1};
+  record_.ending.then.battery_remaining = 0.24;
+  record_.ending.charge_at_take_off = 0.34;
+  EXPECT_EQ(judged().verdict, Verdict::kLanded);
+  record_.ending.then.battery_remaining = 0.29;
+  record_.ending.charge_at_take_off = 0.39;
+  EXPECT_EQ(judged().verdict, Verdict::kNeedless);
+}
+
+TEST_F(VerdictsOfRecords, AWallRoundTheGoalIsAReason) {
+  record_.ending.failed_goal_map_m = {2, 0};
+  EXPECT_EQ(judged(smallWorld(1.0F)).verdict, Verdict::kNeedless) << "there is a gap";
+  EXPECT_EQ(judged(smallWorld(0.0F)).verdict, Verdict::kLanded);
+}
+
+TEST_F(VerdictsOfRecords, OutsideIsWhereNothingEncloses) {
+  simulation::WorldModel open = smallWorld(1.0F);
+  std::erase_if(open.shapes, [](const simulation::Shape& shape) { return shape.model == "north"; });
+  EXPECT_EQ(judged(open).verdict, Verdict::kNeedless) << "three walls enclose the room";
+  record_.last_truth.T_world_body.position_m = {2, 8, 0.1};
+  EXPECT_EQ(judged(open).verdict, Verdict::kOutside);
+}
+
+TEST_F(VerdictsOfRecords, WhatTheLaserCannotSeeIsAReason) {
+  simulation::WorldModel corridor;
+  corridor.shapes = {wall("left", -80, 0, 80, 0), wall("right", -80, 3, 80, 3), smallWorld(1.0F).shapes.back()};
+  EXPECT_EQ(judged(corridor).verdict, Verdict::kLanded);
+  EXPECT_THAT(judged(corridor).reason, HasSubstr("too little to fix"));
+  record_.ending.trail_world_m.resize(2);
+  EXPECT_EQ(judged(corridor).verdict, Verdict::kNeedless) << "one second is too short to matter";
+}
+
+TEST_F(VerdictsOfRecords, AMissingFloorIsAReason) {
+  record_.ending.trail_world_m.assign(4, {1, 6, 1});
+  for (Eigen::Vector3d& position : record_.ending.trail_world_m) position.y() = 2.9;
+  EXPECT_EQ(judged().verdict, Verdict::kNeedless);
+  simulation::WorldModel model = smallWorld(1.0F);
+  for (auto& vertex : model.shapes.back().vertices_world_m) vertex.z() = -3.0F;
+  EXPECT_THAT(judged(model).reason, HasSubstr("floor"));
+}
+
+TEST_F(VerdictsOfRecords, StillInTheAirIsUnfinished) {
+  record_.last_truth.airborne = true;
+  EXPECT_EQ(judged().verdict, Verdict::kUnfinished);
+}
+
+TEST_F(VerdictsOfRecords, ATakeOffThatPhysicsForbidsIsRefused) {
+  record_.ending = {};
+  record_.ending.then.battery_remaining = 0.9;
+  EXPECT_EQ(judged().verdict, Verdict::kNeedless);
+  record_.ending.then.battery_remaining = 0.05;
+  EXPECT_EQ(judged().verdict, Verdict::kRefused);
+}
+
+TEST_F(VerdictsOfRecords, AWallAboveTheTakeOffForcesTheCrash) {
+  record_.last_truth.crashed = true;
+  record_.last_truth.crash_reason = "touched `shelf`";
+  record_.last_truth.T_world_body.position_m = {1, 1, 0.8};
+  record_.true_distance_m = 0.1;
+  EXPECT_EQ(judged().verdict, Verdict::kCrashed);
+  simulation::WorldModel model = smallWorld(1.0F);
+  model.shapes.push_back(wall("shelf", 0.5, 1.2F, 1.5, 1.2F));
+  EXPECT_EQ(judged(model).verdict, Verdict::kForced);
+  record_.true_distance_m = 5.0;
+  EXPECT_EQ(judged(model).verdict, Verdict::kCrashed) << "it had taken off beside it";
+}
+
+TEST_F(VerdictsOfRecords, ABatteryThatBreaksDownForcesTheCrash) {
+  record_.last_truth.crashed = true;
+  record_.last_truth.battery_remaining = 0.0;
+  mass_share_ = 1.2;
+  record_.ending.charge_before_end = 0.8;
+  EXPECT_EQ(judged().verdict, Verdict::kForced);
+  record_.ending.charge_before_end = 0.01;
+  EXPECT_EQ(judged().verdict, Verdict::kCrashed) << "it was empty long before";
+}
+
+}  // namespace
+}  // namespace swiftlet::evaluation
