@@ -213,7 +213,7 @@ TEST_F(VerdictsOfRecords, AWallAboveTheTakeOffForcesTheCrash) {
 TEST_F(VerdictsOfRecords, ABatteryThatBreaksDownForcesTheCrash) {
   record_.last_truth.crashed = true;
   record_.last_truth.battery_remaining = 0.0;
-  mass_share_ = 1.2;
+  mass_share_ = 1.05;
   record_.ending.charge_before_end = 0.8;
   EXPECT_EQ(judged().verdict, Verdict::kForced);
   record_.ending.charge_before_end = 0.01;
