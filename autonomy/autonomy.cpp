@@ -164,6 +164,7 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   const int hits = outcome->scan.counts.hits + outcome->scan.counts.no_returns;
   if (hits > 0) supervisor_.surroundingsSeen(now);
   if (outcome->raw_height) raw_height_ = outcome->raw_height;
+  drift_m_ = outcome->drift_m;
 
   const common::VehicleState state = estimator_.state();
   const auto cost_map = executor_.desk().costMap();
@@ -205,6 +206,8 @@ common::Intent Autonomy::nextIntent(Time now) {
   context_.now = now;
   context_.hold = supervision.hold;
   context_.hold_reason = supervision.hold_reason;
+  const auto wanted_to_see = executor_.wantsToSee_map_m();
+  if (wanted_to_see || !supervision.hold) wanted_to_see_map_m_ = wanted_to_see;
 
   if (supervision.land) {
     if (!missionOver()) {
@@ -248,7 +251,7 @@ common::Intent Autonomy::intentBack(unsigned number, common::Time now) {
   const common::IntentStatus& status = executor_.status();
   if (status.id != id) {
     const auto trail_map_m = world_->vehicle->trail.points_map_m();
-    return {id, common::RetraceIntent{{trail_map_m.rbegin(), trail_map_m.rend()}}};
+    return {id, common::RetraceIntent{{trail_map_m.rbegin(), trail_map_m.rend()}, wanted_to_see_map_m_}};
   }
   if (status.state == common::IntentState::kRunning) return intent_;
   supervisor_.backEnded(now);
@@ -260,7 +263,7 @@ VehicleCondition Autonomy::condition(common::Time now) const {
   condition.flight = controller_.state();
   condition.energy = energy_;
   condition.vertical_age_s = estimator_.state().verticalAge_s(now);
-  condition.drift_m = estimator_.drift_m();
+  condition.drift_m = drift_m_;
   return condition;
 }
 
@@ -284,7 +287,7 @@ void Autonomy::takeSnapshot(Time now) {
   parts.vehicle.avoidance = reactive_.decision().status;
   parts.vehicle.plan_map_m = executor_.remainingPlan_map_m();
   parts.vehicle.laser = laser_points_;
-  parts.vehicle.drift_m = estimator_.drift_m();
+  parts.vehicle.drift_m = drift_m_;
   parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}, {}};
   showWaiting(parts.mission);
   parts.mission.status.tree = mission_.view();

@@ -131,6 +131,9 @@ class Autonomy {
   common::EnergyLayer energy_;  ///< Of the last tick of the behaviours.
   double battery_v_ = 0.0;
   std::optional<control::RawHeight> raw_height_;
+  double drift_m_ = 0.0;  ///< Of the last scan.
+  /// The unknown place that it explores, or explored when the supervisor began to hold the mission.
+  std::optional<Eigen::Vector2d> wanted_to_see_map_m_;
   std::shared_ptr<const common::LaserPoints> laser_points_;
 
   behaviors::Context context_;

@@ -1,11 +1,7 @@
 #include "autonomy/estimator.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <utility>
-
-#include <Eigen/Eigenvalues>
 
 #include <fmt/format.h>
 
@@ -59,7 +55,8 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   outcome.matched = fuse(odometry);
   if (outcome.matched) position_seen_ = now;
   outcome.interrupted = odometry.interrupted;
-  followDrift(outcome.matched && !(odometry.measurement && odometry.measurement->unseen_direction));
+  const bool fixed = outcome.matched && !(odometry.measurement && odometry.measurement->unseen_direction);
+  outcome.drift_m = drift_.add(filter_.state().position_covariance_m2.topLeftCorner<2, 2>(), fixed);
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));
   outcome.T_map_body = map_.T_map_odom() * T_odom_body;
@@ -159,14 +156,6 @@ bool Estimator::fuse(const OdometryStep& step) {
             perception::Insertion::kTaken;
   if (step.clone_after) (void)filter_.addClone(*step.clone_after);
   return taken;
-}
-
-void Estimator::followDrift(bool fixed) {
-  const Eigen::Matrix2d covariance_m2 = filter_.state().position_covariance_m2.topLeftCorner<2, 2>();
-  if (fixed) fixed_covariance_m2_ = covariance_m2;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> grown(covariance_m2 - fixed_covariance_m2_,
-                                                             Eigen::EigenvaluesOnly);
-  drift_m_ = std::sqrt(std::max(0.0, grown.eigenvalues().maxCoeff()));
 }
 
 void Estimator::fuse(const AltitudeStep& step, Time stamp) {

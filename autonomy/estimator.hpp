@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "autonomy/estimation/altitude_pipeline.hpp"
+#include "autonomy/estimation/drift_monitor.hpp"
 #include "autonomy/estimation/flight_localizer.hpp"
 #include "autonomy/estimation/laser_pipeline.hpp"
 #include "autonomy/estimation/map_pipeline.hpp"
@@ -55,7 +56,9 @@ struct ScanOutcome {
   bool interrupted = false;                       ///< The odometry was lost and restarts with this scan.
   common::Pose2 T_map_body;                       ///< At the scan's stamp.
   std::optional<common::KeyRelativePose> at_key;  ///< The same pose relative to a key scan of the map.
+  /// None if the scan did not measure the surface below.
   std::optional<control::RawHeight> raw_height;
+  double drift_m = 0.0;  ///< See DriftMonitor.
 };
 
 /// One thread. The jobs of SLAM and localization are submitted to `jobs`, which must not deliver after its destruction.
@@ -78,9 +81,6 @@ class Estimator {
   /// While false, scans are not compared with the given map, because near the floor the laser sees other objects.
   void setAtFlightHeight(bool is) { at_flight_height_ = is; }
 
-  /// Standard deviation of the horizontal position in its weakest direction, as it has grown since a scan last fixed
-  /// the position in every direction: along a corridor without features, and while no scan matches.
-  double drift_m() const { return drift_m_; }
   /// The state at the newest IMU sample, with T_map_odom.
   common::VehicleState state() const;
   perception::FusionHealth health() const { return filter_.health(); }
@@ -103,7 +103,6 @@ class Estimator {
   bool isWithheld(const perception::ProjectedScan& scan);
   OdometryStep match(const perception::ProjectedScan& scan);
   bool fuse(const OdometryStep& step);
-  void followDrift(bool fixed);
   void fuse(const AltitudeStep& step, common::Time stamp);
   void localize(const LocatedScan& located, common::Time now);
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
@@ -116,14 +115,13 @@ class Estimator {
   LaserPipeline laser_;
   AltitudePipeline altitude_;
   MapPipeline map_;
+  DriftMonitor drift_;
   std::unique_ptr<FlightLocalizer> localizer_;  ///< Null if no map was given.
 
   std::optional<common::ImuSample> last_imu_;
   common::Time started_;        ///< Time at which the filter started.
   common::Time position_seen_;  ///< When the last scan that matched was processed.
   common::Time height_seen_;    ///< When the last scan that measured the surface below was.
-  Eigen::Matrix2d fixed_covariance_m2_ = Eigen::Matrix2d::Zero();  ///< Of the position when it was last fixed.
-  double drift_m_ = 0.0;
   bool at_flight_height_ = false;
   bool waiting_said_ = false;
   perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;

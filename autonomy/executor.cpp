@@ -93,6 +93,10 @@ std::optional<Eigen::Vector2d> Executor::goal_map_m() const {
   return maneuver_ ? maneuver_->goal_map_m() : std::nullopt;
 }
 
+std::optional<Eigen::Vector2d> Executor::wantsToSee_map_m() const {
+  return maneuver_ ? maneuver_->wantsToSee_map_m() : std::nullopt;
+}
+
 std::vector<common::Event> Executor::takeEvents() { return std::exchange(memory_.events, {}); }
 
 }  // namespace swiftlet::autonomy

@@ -40,6 +40,8 @@ class Executor {
   std::vector<Eigen::Vector2d> remainingPlan_map_m() const;
   /// The place that the vehicle is flying to, if the intent has one.
   std::optional<Eigen::Vector2d> goal_map_m() const;
+  /// The unknown place that the vehicle explores, if the intent is to explore.
+  std::optional<Eigen::Vector2d> wantsToSee_map_m() const;
   /// The state of the planning.
   const PlanningDesk& desk() const { return desk_; }
 

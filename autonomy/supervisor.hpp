@@ -1,46 +1,22 @@
-// The supervisor above the mission: hold, home and land from the operator, and the reactions to unseen surroundings, a
-// lost height, an uncertain position, and a battery that just suffices for the flight home. These work whatever the
-// mission does.
+// The supervisor above the mission: hold, home and land from the operator, and the requests of its watches: of the
+// sight, of the energy, and of what is known of height and position. These work whatever the mission does.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "autonomy/supervisor_config.hpp"
+#include "autonomy/watches/energy_watch.hpp"
+#include "autonomy/watches/position_watch.hpp"
+#include "autonomy/watches/sight_watch.hpp"
+#include "autonomy/watches/watch_request.hpp"
 #include "common/command.hpp"
-#include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
-#include "common/world/energy_layer.hpp"
-#include "common/world/flight_state.hpp"
 
 namespace swiftlet::autonomy {
-
-struct SupervisorConfig {
-  double unseen_hold_s = 0.3;
-  double unseen_land_s = 1.0;
-  double battery_land_share = 0.12;
-  double home_reserve_share = 0.02;
-  double home_need_factor = 1.15;
-  double least_thrust_margin = 1.08;
-  double thrust_margin_s = 1.0;
-  double height_back_s = 0.5;
-  double drift_back_m = 1.0;
-  double drift_land_m = 2.0;
-  double back_known_s = 1.0;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
-};
-
-/// The condition of the vehicle at one tick.
-struct VehicleCondition {
-  common::FlightState flight = common::FlightState::kPreparation;
-  common::EnergyLayer energy;
-  double vertical_age_s = 0.0;  ///< VehicleState::verticalAge_s.
-  double drift_m = 0.0;         ///< Standard deviation of the position, grown since the laser last fixed it fully.
-};
 
 /// The request of the supervisor in one tick.
 struct Supervision {
@@ -57,31 +33,30 @@ struct Supervision {
 
 /// One thread.
 ///
-///             hold command, unseen surroundings, the pilot takes over
+///             hold command, SightWatch, the pilot takes over
 ///   watching --------------------------------------------------------------> holding <-----------+
-///     |^  resume command, seen again, the pilot gives control back             | home command   | home is reached,
+///     |^  resume command, seen again, the pilot gives control back              | home command   | home is reached,
 ///     |+------------------------------------------------------------------------+--> going home -+ or not, or hold
 ///     |+---------------------------------------------------+                             ^       |
-///     |  height old, position uncertain        known again |         the charge is what  |       | for the charge
-///     +-------------------------------------> flying back -+         the flight home takes       v
-///   any -- land command, unseen for unseen_land_s, battery low, no thrust to spare, not known again --> landing
-///   (stays)
+///     |  PositionWatch                         known again |                 EnergyWatch |       | for the charge
+///     +-------------------------------------> flying back -+                             |       v
+///   any -- land command, any watch, not known again after flying back -------------------------> landing (stays)
 class Supervisor {
  public:
-  explicit Supervisor(const SupervisorConfig& config) : config_(config) {}
+  explicit Supervisor(const SupervisorConfig& config) : sight_(config), energy_(config), position_(config) {}
 
   /// Handles and answers hold, resume and land; every other command is for the mission.
   std::optional<common::CommandResult> take(const common::OperatorCommand& command, common::Time now);
   /// Handles and answers home for a mission that does not fly it itself. At home the vehicle holds until resume.
   common::CommandResult goHome(const common::OperatorCommand& command);
   void homeEnded(common::Time now, bool reached, std::string reason);
-  /// The flight back has reached the begin of the trail, or failed. The vehicle lands if it still does not know its
+  /// The flight back has reached the start of the trail, or failed. The vehicle lands if it still does not know its
   /// height or position.
   void backEnded(common::Time now);
   /// Why every command but land is refused while the vehicle lands; empty if it does not land.
   std::string refusal() const;
   /// A sensor of obstacles saw the surroundings: today a usable scan of the laser.
-  void surroundingsSeen(common::Time now) { last_sight_ = now; }
+  void surroundingsSeen(common::Time now) { sight_.surroundingsSeen(now); }
   void pilotArrived(common::Time now, bool takes_over);
   /// False if the sample is not plausible.
   bool batteryArrived(common::Time now, const common::BatterySample& sample);
@@ -94,30 +69,33 @@ class Supervisor {
   std::vector<common::Event> takeEvents();
 
  private:
-  void watchSight(common::Time now);
-  void watchEnergy(common::Time now, const common::EnergyLayer& energy);
-  void watchPosition(common::Time now, const VehicleCondition& condition);
+  /// A flight home, wanted by the operator or, with a reason, by the EnergyWatch. One with a reason ends in a landing.
+  struct FlightHome {
+    bool active = false;
+    std::string reason;
+    unsigned count = 0;
+
+    bool forced() const { return active && !reason.empty(); }
+  };
+  /// Does what a request asks for at once, and returns it for the rest.
+  WatchRequest obey(common::Time now, WatchRequest request);
+  void startHome(std::string reason);
   common::CommandResult resume(std::uint64_t id);
+  /// Empty if nothing holds the mission.
   std::string holdReason() const;
   void land(common::Time now, std::string reason);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason);
 
-  SupervisorConfig config_;
+  SightWatch sight_;
+  EnergyWatch energy_;
+  PositionWatch position_;
   common::FlightState flight_ = common::FlightState::kPreparation;
-  std::optional<common::Time> last_sight_;
   bool operator_holds_ = false;
-  bool goes_home_ = false;
-  std::string home_reason_;  ///< Why it turned back by itself; empty if the operator wants it home.
-  unsigned flights_home_ = 0;
-  std::string unknown_;  ///< What the vehicle does not know about its place; empty if it knows it.
-  bool flies_back_ = false;
-  std::optional<common::Time> known_since_;  ///< Since when height and position have been known well.
-  unsigned flights_back_ = 0;
-  std::optional<common::Time> weak_since_;  ///< Since when the thrust margin has been too small.
-  double charge_said_ = 1.0;                ///< The last charge of which an event told.
-  bool landed_by_operator_ = false;
-  bool blind_holds_ = false;
   bool pilot_flies_ = false;
+  FlightHome home_;
+  unsigned back_ = 0;  ///< The flight back that the PositionWatch asks for.
+  std::string blind_;  ///< Why the SightWatch holds; empty if it does not.
+  bool landed_by_operator_ = false;
   bool battery_plausible_ = true;
   Supervision supervision_;
   std::vector<common::Event> events_;

@@ -47,6 +47,8 @@ struct AvoidIntent {};
 /// Fly back along a path that was flown before, without planning.
 struct RetraceIntent {
   std::vector<Eigen::Vector2d> path_map_m;  ///< The nearest place first; the last one is the goal.
+  /// The unknown place that the vehicle wanted to see when it became uncertain of its position: exploring leaves it.
+  std::optional<Eigen::Vector2d> lost_on_the_way_to_map_m;
 };
 
 using IntentKind =

@@ -28,6 +28,10 @@ std::optional<Eigen::Vector2d> Explore::goal_map_m() const {
   return viewpoint_ ? std::optional(viewpoint_->pose_map.position_m()) : std::nullopt;
 }
 
+std::optional<Eigen::Vector2d> Explore::wantsToSee_map_m() const {
+  return viewpoint_ ? std::optional(viewpoint_->target_map_m) : std::nullopt;
+}
+
 Progress Explore::fly(const ManeuverInput& input) {
   if (shut_in_since_ && (input.now - *shut_in_since_).seconds() > setup_.config.give_up_s)
     return Progress::failed(reason_);
@@ -100,7 +104,6 @@ void Explore::goOn(const PlanningAnswer& answer, Time now, const common::Vehicle
   done_since_.reset();
   blocked_frontier_map_m_.reset();
   detour_.breakOff();
-  setup_.memory.exploration.target_map_m = result.next->target_map_m;
   if (!result.kept_current) {
     viewpoint_ = result.next;
     looks_since_.reset();
@@ -137,7 +140,6 @@ Progress Explore::explored(const planning::ExplorationResult& result, Time now) 
                                   frontier.centroid_map_m.x(), frontier.centroid_map_m.y(), toString(frontier.reason)),
                       frontier.explanation);
   setup_.memory.exploration.attempts.clear();
-  setup_.memory.exploration.target_map_m.reset();
   return Progress::done(fmt::format("explored {:.1f} m2, {} frontiers left, each with a reason",
                                     result.explored_area_m2, result.frontiers.size()));
 }

@@ -15,6 +15,7 @@ class Explore final : public PathManeuver {
   Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
   /// The viewpoint.
   std::optional<Eigen::Vector2d> goal_map_m() const override;
+  std::optional<Eigen::Vector2d> wantsToSee_map_m() const override;
 
  private:
   Progress fly(const ManeuverInput& input) override;

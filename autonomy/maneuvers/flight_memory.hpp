@@ -17,7 +17,6 @@ namespace swiftlet::autonomy {
 struct ExplorationMemory {
   std::vector<planning::ExplorationAttempt> attempts;  ///< Kept until everything is explored.
   std::optional<common::Time> people_seen;             ///< When a moving person was last seen.
-  std::optional<Eigen::Vector2d> target_map_m;         ///< The unknown place of the last viewpoint that was flown to.
   std::vector<Eigen::Vector2d> lost_map_m;             ///< Targets on the way to which the position became uncertain.
 };
 

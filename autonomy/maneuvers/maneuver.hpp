@@ -54,6 +54,8 @@ class Maneuver {
 
   /// The place it is flying to, in `map`, for display.
   virtual std::optional<Eigen::Vector2d> goal_map_m() const { return std::nullopt; }
+  /// The unknown place that it explores, in `map`.
+  virtual std::optional<Eigen::Vector2d> wantsToSee_map_m() const { return std::nullopt; }
   /// The path it flies; null for a maneuver without paths.
   virtual const PathFlight* path() const { return nullptr; }
 };

@@ -5,9 +5,7 @@
 namespace swiftlet::autonomy {
 
 Retrace::Retrace(const common::RetraceIntent& intent, const ManeuverSetup& setup) : setup_(setup), intent_(intent) {
-  ExplorationMemory& exploration = setup_.memory.exploration;
-  if (exploration.target_map_m) exploration.lost_map_m.push_back(*exploration.target_map_m);
-  exploration.target_map_m.reset();
+  if (intent.lost_on_the_way_to_map_m) setup_.memory.exploration.lost_map_m.push_back(*intent.lost_on_the_way_to_map_m);
 }
 
 Progress Retrace::step(const ManeuverInput& input) {

@@ -10,7 +10,7 @@ namespace swiftlet::autonomy {
 
 class Retrace final : public Maneuver {
  public:
-  /// What was explored last is remembered as a place where the vehicle does not know its position.
+  /// The intent's lost_on_the_way_to_map_m is remembered, so that exploring leaves it.
   Retrace(const common::RetraceIntent& intent, const ManeuverSetup& setup);
   Progress step(const ManeuverInput& input) override;
   std::optional<Eigen::Vector2d> goal_map_m() const override;

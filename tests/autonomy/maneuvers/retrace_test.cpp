@@ -13,7 +13,7 @@ using common::IntentState;
 TEST_F(ManeuverInFlight, RetraceFliesThePathToItsEnd) {
   const Eigen::Vector2d here = state_.T_map_body_planar().position_m();
   const Eigen::Vector2d corner = here + Eigen::Vector2d(0.6, 0.0), end = corner + Eigen::Vector2d(0.0, 0.5);
-  want(common::RetraceIntent{{here, corner, end}});
+  want(common::RetraceIntent{{here, corner, end}, {}});
   ASSERT_EQ(runToTheEnd(15.0), IntentState::kSucceeded);
   EXPECT_LT(distanceTo_m(end), 0.05);
 }
@@ -24,7 +24,7 @@ TEST_F(ManeuverInFlight, ARetraceWithoutAPathIsDoneAtOnce) {
 }
 
 TEST_F(ManeuverStory, RetraceFailsOnTheGround) {
-  want(common::RetraceIntent{{{1.0, 1.0}}});
+  want(common::RetraceIntent{{{1.0, 1.0}}, {}});
   EXPECT_EQ(runToTheEnd(0.1), IntentState::kFailed);
   EXPECT_EQ(executor_.status().reason, "cannot fly back while powered off");
 }

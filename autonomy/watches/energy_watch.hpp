@@ -1,0 +1,32 @@
+// Watches charge and thrust: tells of 30 and 20 %, turns back while the charge suffices for the flight home, and lands
+// before the charge or the thrust gives out.
+#pragma once
+
+#include <optional>
+
+#include "autonomy/supervisor_config.hpp"
+#include "autonomy/watches/watch_request.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread. On the ground it asks for nothing.
+class EnergyWatch {
+ public:
+  explicit EnergyWatch(const SupervisorConfig& config) : config_(config) {}
+
+  /// It asks to go home at one tick only, and only once.
+  WatchRequest watch(common::Time now, const VehicleCondition& condition);
+
+ private:
+  void tellCharge(common::Time now, const common::EnergyLayer& energy, WatchRequest& request);
+  void watchHome(common::Time now, const common::EnergyLayer& energy, WatchRequest& request);
+  void watchThrust(common::Time now, const VehicleCondition& condition, WatchRequest& request);
+
+  SupervisorConfig config_;
+  double charge_said_ = 1.0;                ///< The last charge of which an event told.
+  std::optional<common::Time> weak_since_;  ///< Since when the thrust margin has been too small.
+  bool turned_back_ = false;
+};
+
+}  // namespace swiftlet::autonomy

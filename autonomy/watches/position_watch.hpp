@@ -1,0 +1,41 @@
+// Watches whether the vehicle knows its height and position.
+//
+//           height unseen for height_back_s, drift over drift_back_m
+//   known ------------------------------------------------------------> flying back along the trail
+//     ^---------------- known again for back_known_s --------------------+        |
+//                                                                                 v
+//          drift over drift_land_m, or at the end of the trail still unknown --> land
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "autonomy/supervisor_config.hpp"
+#include "autonomy/watches/watch_request.hpp"
+#include "common/time.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread. It watches while the vehicle flies; take-off and landing have rules of their own.
+class PositionWatch {
+ public:
+  explicit PositionWatch(const SupervisorConfig& config) : config_(config) {}
+
+  /// While it is `blind`, the rules of the SightWatch come first.
+  WatchRequest watch(common::Time now, const VehicleCondition& condition, bool blind);
+  /// The flight back has reached the start of the trail, or failed. Asks to land if that did not help.
+  WatchRequest backEnded();
+
+ private:
+  /// What the vehicle does not know about its place; empty if it knows it.
+  std::string unknownOf(const VehicleCondition& condition, bool blind) const;
+  bool knownAgain(common::Time now, const VehicleCondition& condition);
+
+  SupervisorConfig config_;
+  std::string unknown_;
+  bool flies_back_ = false;
+  unsigned flights_back_ = 0;
+  std::optional<common::Time> known_since_;  ///< Since when height and position have been known well.
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,35 @@
+// What a watch asks of the supervisor.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/event.hpp"
+#include "common/world/energy_layer.hpp"
+#include "common/world/flight_state.hpp"
+
+namespace swiftlet::autonomy {
+
+/// The condition of the vehicle at one tick.
+struct VehicleCondition {
+  common::FlightState flight = common::FlightState::kPreparation;
+  common::EnergyLayer energy;
+  double vertical_age_s = 0.0;  ///< VehicleState::verticalAge_s.
+  double drift_m = 0.0;         ///< Standard deviation of the position, grown since the laser last fixed it fully.
+};
+
+/// The answer of a watch to one tick. Each reason is for people; it is empty if the watch does not ask for that.
+struct WatchRequest {
+  std::string hold;                   ///< Why the vehicle must stop, in this tick.
+  unsigned back = 0;                  ///< The present flight back along the trail, counted from 1; 0: none.
+  std::string home;                   ///< Why a flight home begins, in one tick only.
+  std::string land;                   ///< Why it must land. It is not taken back.
+  std::vector<common::Event> events;  ///< What has changed since the last tick.
+
+  void say(common::Time now, common::Severity severity, std::string text, std::string why = {}) {
+    events.push_back({now, severity, "supervisor", std::move(text), std::move(why)});
+  }
+};
+
+}  // namespace swiftlet::autonomy
