@@ -1,0 +1,135 @@
+#include "mapping3d/voxels/voxel_mapper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "common/check.hpp"
+#include "mapping3d/voxels/ray_walk.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using common::VoxelBlock;
+using common::VoxelIndex;
+using common::VoxelMap;
+
+int steps(double log_odds) { return static_cast<int>(std::lround(log_odds / VoxelMap::kLogOddsStep)); }
+
+bool isOnPerson(const Eigen::Vector3d& point_map_m, std::span<const common::Disc> people) {
+  return std::any_of(people.begin(), people.end(),
+                     [&](const common::Disc& person) { return person.covers(point_map_m.head<2>()); });
+}
+
+}  // namespace
+
+VoxelMapper::VoxelMapper(const VoxelConfig& config)
+    : config_(config),
+      hit_(steps(config.hit_log_odds)),
+      miss_(steps(config.miss_log_odds)),
+      least_(steps(config.least_log_odds)),
+      greatest_(steps(config.greatest_log_odds)),
+      map_(config.resolution_m),
+      window_(static_cast<int>(std::ceil(config.range_max_m / config.resolution_m))),
+      carving_(config.range_max_m, config.resolution_m) {}
+
+InsertionCounts VoxelMapper::insert(const common::DepthImage& depth, const common::PinholeCamera& camera,
+                                    const common::Pose3& T_map_camera, std::span<const common::Disc> people) {
+  SWIFTLET_CHECK(depth.width_px == camera.width_px && depth.height_px == camera.height_px, depth.width_px,
+                 camera.width_px);
+  window_.moveTo(map_.voxelAt(T_map_camera.position_m));
+  InsertionCounts counts;
+  free_m_.assign(depth.depth_m.size(), 0.0F);
+  const Eigen::Matrix3d rotation = T_map_camera.rotation.toRotationMatrix();
+  std::size_t pixel = 0;
+  for (int v = 0; v < camera.height_px; ++v) {
+    for (int u = 0; u < camera.width_px; ++u, ++pixel) {
+      const float depth_m = depth.depth_m[pixel];
+      const bool too_far = depth_m == common::DepthImage::kTooFar;
+      if (!too_far && !common::isMeasured(depth_m)) {
+        ++counts.unknown;
+        continue;
+      }
+      const Eigen::Vector3d ray_camera = camera.point_camera_m(u, v, 1.0);
+      const auto range_depth_m = static_cast<float>(config_.range_max_m / ray_camera.norm());
+      free_m_[pixel] = std::min(depth_m, range_depth_m);
+      if (depth_m > range_depth_m) {
+        ++counts.too_far;
+        continue;
+      }
+      const Eigen::Vector3d end_map_m = T_map_camera.position_m + rotation * ray_camera * static_cast<double>(depth_m);
+      const bool on_person = isOnPerson(end_map_m, people);
+      ++(on_person ? counts.ignored : counts.hits);
+      if (!on_person) markHit(map_.voxelAt(end_map_m));
+    }
+  }
+  carving_.carve(free_m_, camera, T_map_camera, window_);
+  apply();
+  counts.forgotten = forgetFarBlocks(T_map_camera.position_m);
+  return counts;
+}
+
+InsertionCounts VoxelMapper::insert(const Eigen::Vector3d& origin_map_m,
+                                    std::span<const Eigen::Vector3d> points_map_m) {
+  window_.moveTo(map_.voxelAt(origin_map_m));
+  InsertionCounts counts;
+  for (const Eigen::Vector3d& point_map_m : points_map_m) {
+    const Eigen::Vector3d ray_m = point_map_m - origin_map_m;
+    const double length_m = ray_m.norm();
+    if (!std::isfinite(length_m)) {
+      ++counts.unknown;
+      continue;
+    }
+    const bool hit = length_m <= config_.range_max_m;
+    ++(hit ? counts.hits : counts.too_far);
+    addRay(origin_map_m, hit ? point_map_m : Eigen::Vector3d(origin_map_m + ray_m * (config_.range_max_m / length_m)),
+           hit);
+  }
+  apply();
+  counts.forgotten = forgetFarBlocks(origin_map_m);
+  return counts;
+}
+
+/// As OctoMap's computeRayKeys: every voxel of the ray but its last.
+void VoxelMapper::addRay(const Eigen::Vector3d& origin_map_m, const Eigen::Vector3d& end_map_m, bool hit) {
+  RayWalk walk(origin_map_m / config_.resolution_m, end_map_m / config_.resolution_m);
+  for (; !walk.atEnd(); walk.advance())
+    window_.at(VoxelMap::blockOf(walk.cell())).crossed.set(VoxelBlock::offsetOf(walk.cell()));
+  if (hit) markHit(walk.cell());
+}
+
+void VoxelMapper::markHit(VoxelIndex voxel) {
+  window_.at(VoxelMap::blockOf(voxel)).hit.set(VoxelBlock::offsetOf(voxel));
+}
+
+void VoxelMapper::apply() {
+  for (const SeenBlock& seen : window_.seen())
+    if (seen.crossed.any() || seen.hit.any()) applyTo(map_.mutableBlock(seen.block), seen);
+}
+
+void VoxelMapper::applyTo(VoxelBlock& block, const SeenBlock& seen) const {
+  for (int offset = 0; offset < VoxelBlock::kVoxels; ++offset) {
+    const bool hit = seen.hit.has(offset);
+    if (!hit && !seen.crossed.has(offset)) continue;
+    std::int8_t& evidence = block.evidence[static_cast<std::size_t>(offset)];
+    const int before = evidence == VoxelBlock::kUnknown ? 0 : evidence;
+    evidence = static_cast<std::int8_t>(std::clamp(before + (hit ? hit_ : miss_), least_, greatest_));
+  }
+}
+
+/// Down to nine tenths of the limit, so that it does not have to be done for every frame.
+int VoxelMapper::forgetFarBlocks(const Eigen::Vector3d& origin_map_m) {
+  const auto limit = static_cast<std::size_t>(config_.blocks_max);
+  if (map_.blockCount() <= limit) return 0;
+  std::vector<VoxelIndex> blocks = map_.blocks();
+  const auto distance_m2 = [&](VoxelIndex block) {
+    return (map_.centerOf(VoxelMap::firstOf(block)) - origin_map_m).squaredNorm();
+  };
+  std::stable_sort(blocks.begin(), blocks.end(),
+                   [&](VoxelIndex a, VoxelIndex b) { return distance_m2(a) > distance_m2(b); });
+  const std::size_t forgotten = blocks.size() - limit * 9 / 10;
+  for (std::size_t i = 0; i < forgotten; ++i) map_.remove(blocks[i]);
+  return static_cast<int>(forgotten);
+}
+
+}  // namespace swiftlet::mapping3d

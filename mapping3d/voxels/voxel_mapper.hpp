@@ -1,0 +1,60 @@
+// Draws depth images and laser beams into a voxel map.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/disc.hpp"
+#include "common/geometry.hpp"
+#include "common/rgbd_frame.hpp"
+#include "common/voxel_map.hpp"
+#include "mapping3d/voxels/depth_carving.hpp"
+#include "mapping3d/voxels/scan_window.hpp"
+#include "mapping3d/voxels/voxel_config.hpp"
+
+namespace swiftlet::mapping3d {
+
+/// What one frame changed.
+struct InsertionCounts {
+  int hits = 0;       ///< Rays that ended on a surface within range.
+  int too_far = 0;    ///< Rays without a surface within range: free up to the range.
+  int unknown = 0;    ///< Pixels about which nothing is known.
+  int ignored = 0;    ///< Rays that ended on a person.
+  int forgotten = 0;  ///< Blocks that were removed because the map was full.
+};
+
+/// Holds the map and draws into it. All rays of a frame together change each voxel once: voxels in which one of them
+/// ends gain log odds, others that they cross lose some (Hornung et al. 2013, section 4.1). The voxels are those that
+/// OctoMap's insertPointCloud finds for the same points. One thread; not const.
+class VoxelMapper {
+ public:
+  explicit VoxelMapper(const VoxelConfig& config);
+
+  /// The depth image must have the size of `camera`. Rays that end within one of the discs (a person, at any height)
+  /// only clear the space before it.
+  InsertionCounts insert(const common::DepthImage& depth, const common::PinholeCamera& camera,
+                         const common::Pose3& T_map_camera, std::span<const common::Disc> people = {});
+  /// End points of rays, in the frame of the map. Points beyond the range only clear the space before it.
+  InsertionCounts insert(const Eigen::Vector3d& origin_map_m, std::span<const Eigen::Vector3d> points_map_m);
+
+  const common::VoxelMap& map() const { return map_; }
+  common::VoxelMap snapshot() { return map_.snapshot(); }
+
+ private:
+  void addRay(const Eigen::Vector3d& origin_map_m, const Eigen::Vector3d& end_map_m, bool hit);
+  void markHit(common::VoxelIndex voxel);
+  void apply();
+  void applyTo(common::VoxelBlock& block, const SeenBlock& seen) const;
+  int forgetFarBlocks(const Eigen::Vector3d& origin_map_m);
+
+  VoxelConfig config_;
+  int hit_, miss_, least_, greatest_;  ///< In steps of VoxelMap::kLogOddsStep.
+  common::VoxelMap map_;
+  ScanWindow window_;
+  DepthCarving carving_;
+  std::vector<float> free_m_;  ///< Of the present image: the depth up to which each ray is free.
+};
+
+}  // namespace swiftlet::mapping3d

@@ -1,0 +1,28 @@
+// Depth images of a box-shaped room with boxes in it, computed exactly.
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "common/geometry.hpp"
+#include "common/rgbd_frame.hpp"
+
+namespace swiftlet::mapping3d {
+
+struct Room {
+  Eigen::AlignedBox3d walls{Eigen::Vector3d(-3, -2, 0), Eigen::Vector3d(4, 3, 2.5)};
+  std::vector<Eigen::AlignedBox3d> boxes;
+};
+
+/// As Xtion and Kinect at a quarter of their resolution.
+common::PinholeCamera smallCamera();
+Room randomRoom(std::mt19937& random);
+/// A pose in free space, looking anywhere.
+common::Pose3 randomView(const Room& room, std::mt19937& random);
+/// Some pixels are unknown and some report that they are too far, at random with these shares.
+common::DepthImage depthImage(const Room& room, const common::PinholeCamera& camera, const common::Pose3& T_map_camera,
+                              std::mt19937& random, double unknown_share = 0.0, double too_far_share = 0.0);
+
+}  // namespace swiftlet::mapping3d

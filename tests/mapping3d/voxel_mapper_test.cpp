@@ -1,0 +1,191 @@
+// Drawing depth images against the slow, obvious way: every ray cell by cell into a dense grid.
+#include "mapping3d/voxels/voxel_mapper.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "mapping3d/voxels/ray_walk.hpp"
+#include "tests/mapping3d/rooms.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using common::DepthImage;
+using common::Pose3;
+using common::VoxelBlock;
+using common::VoxelIndex;
+
+/// The log odds of voxels in steps of 0.05, one by one, within 8 m of the origin.
+class DenseGrid {
+ public:
+  explicit DenseGrid(double range_m, bool clears_unknown_pixels = false)
+      : range_m_(range_m), clears_unknown_pixels_(clears_unknown_pixels) {
+    evidence_.assign(kSide * kSide * kSide, VoxelBlock::kUnknown);
+    seen_.assign(evidence_.size(), Seen::kNot);
+  }
+
+  void insert(const DepthImage& depth, const common::PinholeCamera& camera, const Pose3& T_map_camera) {
+    for (int v = 0; v < camera.height_px; ++v) {
+      for (int u = 0; u < camera.width_px; ++u) {
+        float depth_m = depth.at(u, v);
+        if (depth_m == DepthImage::kUnknown && clears_unknown_pixels_) depth_m = DepthImage::kTooFar;
+        if (depth_m == DepthImage::kUnknown) continue;
+        const bool too_far = depth_m == DepthImage::kTooFar;
+        Eigen::Vector3d ray_m = T_map_camera.rotation * camera.point_camera_m(u, v, too_far ? 1.0 : depth_m);
+        const bool hit = !too_far && ray_m.norm() <= range_m_;
+        if (!hit) ray_m *= range_m_ / ray_m.norm();
+        const Eigen::Vector3d origin = T_map_camera.position_m / 0.05;
+        RayWalk walk(origin, (T_map_camera.position_m + ray_m) / 0.05);
+        for (; !walk.atEnd(); walk.advance())
+          if (Seen& seen = seen_[at(walk.cell())]; seen == Seen::kNot) seen = Seen::kCrossed;
+        if (hit) seen_[at(walk.cell())] = Seen::kHit;
+      }
+    }
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      if (seen_[i] == Seen::kNot) continue;
+      const int before = evidence_[i] == VoxelBlock::kUnknown ? 0 : evidence_[i];
+      evidence_[i] = static_cast<std::int8_t>(std::clamp(before + (seen_[i] == Seen::kHit ? 17 : -8), -40, 70));
+      seen_[i] = Seen::kNot;
+    }
+  }
+
+  int differences(const common::VoxelMap& map) const {
+    int different = 0;
+    for (int z = -kSide / 2; z < kSide / 2; ++z)
+      for (int y = -kSide / 2; y < kSide / 2; ++y)
+        for (int x = -kSide / 2; x < kSide / 2; ++x) different += map.evidence({x, y, z}) != evidence_[at({x, y, z})];
+    return different;
+  }
+
+ private:
+  enum class Seen : std::uint8_t { kNot, kCrossed, kHit };
+  static constexpr int kSide = 320;
+
+  static std::size_t at(VoxelIndex voxel) {
+    return static_cast<std::size_t>(((voxel.z + kSide / 2) * kSide + voxel.y + kSide / 2) * kSide + voxel.x +
+                                    kSide / 2);
+  }
+
+  double range_m_;
+  bool clears_unknown_pixels_;
+  std::vector<std::int8_t> evidence_;
+  std::vector<Seen> seen_;
+};
+
+/// Draws some frames in a random room in both ways.
+int differencesAfterFrames(unsigned seed, DenseGrid dense, const VoxelConfig& config = {}) {
+  std::mt19937 random(seed);
+  const Room room = randomRoom(random);
+  VoxelMapper mapper(config);
+  for (int frame = 0; frame < 3; ++frame) {
+    const Pose3 T_map_camera = randomView(room, random);
+    const DepthImage depth = depthImage(room, smallCamera(), T_map_camera, random, 0.02, 0.02);
+    mapper.insert(depth, smallCamera(), T_map_camera);
+    dense.insert(depth, smallCamera(), T_map_camera);
+  }
+  return dense.differences(mapper.map());
+}
+
+/// Of some 200,000 voxels: those whose edge a ray touches within the rounding of single precision.
+constexpr int kTouched = 50;
+
+TEST(VoxelMapper, EqualsADenseGrid) {
+  for (unsigned seed = 1; seed <= 3; ++seed) EXPECT_LE(differencesAfterFrames(seed, DenseGrid(5.0)), kTouched) << seed;
+}
+
+TEST(VoxelMapper, EqualsADenseGridWhereSurfacesAreBeyondTheRange) {
+  VoxelConfig config;
+  config.range_max_m = 2.0;
+  for (unsigned seed = 11; seed <= 12; ++seed)
+    EXPECT_LE(differencesAfterFrames(seed, DenseGrid(2.0), config), kTouched) << seed;
+}
+
+TEST(VoxelMapper, TheComparisonFindsAPlantedMistake) {
+  EXPECT_GT(differencesAfterFrames(1, DenseGrid(5.0, true)), 100);
+  EXPECT_GT(differencesAfterFrames(1, DenseGrid(4.9)), 100);
+}
+
+/// A camera at (0, 0, 1) that looks along x at a wall 2 m away.
+struct WallView {
+  common::PinholeCamera camera = smallCamera();
+  Pose3 T_map_camera{Eigen::Quaterniond::Identity(), {0.01, 0.01, 1.01}};
+  DepthImage depth{160, 120, std::vector<float>(160 * 120, 2.0F)};
+};
+
+TEST(VoxelMapper, ASurfaceIsOccupiedAndTheSpaceBeforeItFree) {
+  WallView view;
+  VoxelMapper mapper(VoxelConfig{});
+  const InsertionCounts counts = mapper.insert(view.depth, view.camera, view.T_map_camera);
+  EXPECT_EQ(counts.hits, 160 * 120);
+  EXPECT_TRUE(mapper.map().isOccupied(mapper.map().voxelAt({2.01, 0.0, 1.0})));
+  EXPECT_TRUE(mapper.map().isFree(mapper.map().voxelAt({1.0, 0.0, 1.0})));
+  EXPECT_FALSE(mapper.map().isKnown(mapper.map().voxelAt({2.2, 0.0, 1.0})));
+  EXPECT_FALSE(mapper.map().isKnown(mapper.map().voxelAt({-0.5, 0.0, 1.0})));
+}
+
+TEST(VoxelMapper, PixelsWithoutDepthClearNothing) {
+  WallView view;
+  view.depth.depth_m.assign(view.depth.depth_m.size(), DepthImage::kUnknown);
+  VoxelMapper mapper(VoxelConfig{});
+  EXPECT_EQ(mapper.insert(view.depth, view.camera, view.T_map_camera).unknown, 160 * 120);
+  EXPECT_EQ(mapper.map().blockCount(), 0u);
+}
+
+TEST(VoxelMapper, PixelsThatAreTooFarClearUpToTheRange) {
+  WallView view;
+  view.depth.depth_m.assign(view.depth.depth_m.size(), DepthImage::kTooFar);
+  VoxelMapper mapper(VoxelConfig{});
+  mapper.insert(view.depth, view.camera, view.T_map_camera);
+  EXPECT_TRUE(mapper.map().isFree(mapper.map().voxelAt({4.9, 0.0, 1.0})));
+  EXPECT_FALSE(mapper.map().isKnown(mapper.map().voxelAt({5.1, 0.0, 1.0})));
+}
+
+TEST(VoxelMapper, WhatIsGoneFades) {
+  WallView near, far;
+  far.depth.depth_m.assign(far.depth.depth_m.size(), 3.0F);
+  VoxelMapper mapper(VoxelConfig{});
+  const VoxelIndex wall = mapper.map().voxelAt({2.01, 0.0, 1.0});
+  for (int i = 0; i < 10; ++i) mapper.insert(near.depth, near.camera, near.T_map_camera);
+  EXPECT_TRUE(mapper.map().isOccupied(wall));
+  // From 3.5 down in steps of 0.4.
+  for (int i = 0; i < 9; ++i) mapper.insert(far.depth, far.camera, far.T_map_camera);
+  EXPECT_FALSE(mapper.map().isOccupied(wall));
+}
+
+TEST(VoxelMapper, APersonIsNotDrawn) {
+  WallView view;
+  VoxelMapper mapper(VoxelConfig{});
+  const std::vector<common::Disc> people = {{{2.0, 0.0}, 0.3}};
+  EXPECT_GT(mapper.insert(view.depth, view.camera, view.T_map_camera, people).ignored, 1000);
+  EXPECT_FALSE(mapper.map().isKnown(mapper.map().voxelAt({2.01, 0.0, 1.0})));
+  EXPECT_TRUE(mapper.map().isFree(mapper.map().voxelAt({1.5, 0.0, 1.0})));
+  EXPECT_TRUE(mapper.map().isOccupied(mapper.map().voxelAt({2.01, 0.7, 1.0})));
+}
+
+TEST(VoxelMapper, AFullMapForgetsTheFarthestBlocks) {
+  WallView view;
+  VoxelConfig config;
+  config.blocks_max = 100;
+  VoxelMapper mapper(config);
+  EXPECT_GT(mapper.insert(view.depth, view.camera, view.T_map_camera).forgotten, 0);
+  EXPECT_LE(mapper.map().blockCount(), 100u);
+  EXPECT_TRUE(mapper.map().isKnown(mapper.map().voxelAt({0.3, 0.0, 1.0})));
+}
+
+TEST(VoxelMapper, BeamsOfALaserAreDrawnAsPixelsAre) {
+  VoxelMapper mapper(VoxelConfig{});
+  const std::vector<Eigen::Vector3d> points_map_m = {{2.01, 0.01, 1.01}, {0.01, 9.0, 1.01}, {NAN, 0, 0}};
+  const InsertionCounts counts = mapper.insert(Eigen::Vector3d(0.01, 0.01, 1.01), points_map_m);
+  EXPECT_EQ(counts.hits, 1);
+  EXPECT_EQ(counts.too_far, 1);
+  EXPECT_EQ(counts.unknown, 1);
+  EXPECT_TRUE(mapper.map().isOccupied(mapper.map().voxelAt(points_map_m[0])));
+  EXPECT_TRUE(mapper.map().isFree(mapper.map().voxelAt({0.01, 4.9, 1.01})));
+}
+
+}  // namespace
+}  // namespace swiftlet::mapping3d
