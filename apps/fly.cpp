@@ -36,7 +36,7 @@ struct FlyOptions {
   std::string scenario;
   std::string map;
   std::string system = "swiftlet";
-  std::string nature = "calm";
+  std::string nature;  ///< Empty: the first of the scenario, or real.
   std::optional<double> battery;
   std::optional<int> seed;
   std::string speed;
@@ -52,6 +52,7 @@ FlightSetup setupOf(const FlyOptions& options) {
   FlightSetup setup;
   setup.system = loadSystem(options.system);
   setup.mission_file = common::findData(options.mission).string();
+  std::string nature = "real";
   if (!options.scenario.empty() && !options.world.empty())
     throw common::InputError(common::Problem{{}, "--scenario", "the scenario says which world", "leave out --world"});
   if (options.scenario.empty()) {
@@ -60,11 +61,13 @@ FlightSetup setupOf(const FlyOptions& options) {
     evaluation::TrialConfig trial = evaluation::readTrial(common::findData(options.scenario));
     findWorld(trial);
     setup.scenario = trial.scenario;
+    nature = trial.natures.front();
   }
+  if (!options.nature.empty()) nature = options.nature;
   if (options.seed) setup.scenario.seed = *options.seed;
   // Who flies has charged before, unless the scenario or the option says otherwise.
   setup.scenario.nature =
-      std::make_shared<const simulation::Nature>(simulation::Nature::load(options.nature).withCharge(0.9, 1.0));
+      std::make_shared<const simulation::Nature>(simulation::Nature::load(nature).withCharge(0.9, 1.0));
   if (options.battery) setup.scenario.setCharge(*options.battery);
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
@@ -216,7 +219,7 @@ void addFly(Command& program) {
                  "A map of the place (YAML of map_server): the flight finds out where it is in it.");
   command.option("--system", options->system, "A profile of config/systems, or a file.");
   command.option("--nature", options->nature,
-                 "How far the vehicle is from its data sheet: calm, real, harsh, or a file.");
+                 "How far the vehicle is from its data sheet: calm, real, harsh, or a file. Default: the scenario's, or real.");
   command.option("--battery", options->battery, {0.01, 1}, "Charge at the start, as a share of the full one.");
   command.option("--seed", options->seed, {0, kGreatestSeed},
                  "Seed of all random numbers. Default: the scenario's, or 1.");

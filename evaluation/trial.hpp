@@ -41,7 +41,7 @@ struct TrialConfig {
   std::string description;
   std::string mission;
   std::string system = "swiftlet";
-  std::vector<std::string> natures = {"calm"};
+  std::vector<std::string> natures = {"real"};
   std::vector<double> batteries;
   std::string archive;
   int repeat = 1;

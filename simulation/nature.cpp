@@ -19,14 +19,6 @@ namespace {
 constexpr std::uint64_t kMostNatureDraws = 200;
 constexpr const char* kCharge = "battery_remaining";
 
-/// A scenario that varies the charge says itself what the charge is.
-std::vector<std::string> writtenOf(const Scenario& scenario) {
-  std::vector<std::string> written = scenario.written;
-  if (std::find(written.begin(), written.end(), "variation.battery_remaining") != written.end())
-    written.emplace_back(kCharge);
-  return written;
-}
-
 /// Raises the charge until the thrust suffices; false if it does not at a full battery either.
 bool chargeUntilItFlies(Scenario& scenario, double thrust_over_weight) {
   constexpr double kStep = 0.01;
@@ -70,10 +62,12 @@ Nature Nature::withCharge(double low, double high) const {
 
 Scenario Nature::drawn(const Scenario& scenario, std::uint64_t seed) const {
   if (!ranges_) return scenario;
-  const std::vector<std::string> written = writtenOf(scenario);
+  const std::vector<std::string>& written = scenario.written;
   const bool fixed_charge = std::find(written.begin(), written.end(), kCharge) != written.end();
+  const bool draws_charge = !fixed_charge && ranges_->has(kCharge);
   for (std::uint64_t draw = 0; draw < kMostNatureDraws; ++draw) {
     Scenario result = scenario;
+    if (draws_charge) result.variation.battery_remaining = 0.0;
     ranges_->apply(result, written, [seed, draw](const std::string& key, double low, double high) {
       return common::RandomStream(seed, "nature " + key, draw).uniform(low, high);
     });

@@ -33,6 +33,8 @@ class Nature {
   /// (Scenario::written) keeps its value. Each key draws from a random stream of its own, so that a further key, or one
   /// written out, shifts no other draw.
   ///
+  /// A nature that draws the charge replaces the scenario's `variation.battery_remaining`, which then lowers nothing.
+  ///
   /// The draw can fly: at kFullThrottle and the drawn charge the thrust is `least_thrust_over_weight` times the weight,
   /// or the charge is raised until it is; where even a full battery is too weak, all is drawn anew. Throws
   /// common::InputError when no draw can fly. A charge that the scenario wrote out is never raised.

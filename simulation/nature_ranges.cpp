@@ -132,6 +132,10 @@ NatureRanges::NatureRanges(const std::string& text, const std::string& file)
   std::erase_if(entries_, [](const Entry& entry) { return entry.key == kLeastThrust; });
 }
 
+bool NatureRanges::has(const std::string& key) const {
+  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.key == key; });
+}
+
 void NatureRanges::narrow(const std::string& key, double low, double high) {
   for (Entry& entry : entries_) {
     if (entry.key != key || !entry.isRange()) continue;

@@ -22,6 +22,8 @@ class NatureRanges {
   double leastThrustOverWeight() const { return least_thrust_over_weight_; }
   const std::string& file() const { return file_; }
 
+  bool has(const std::string& key) const;
+
   /// Replaces the range of a key that has one; other keys stay as they are.
   void narrow(const std::string& key, double low, double high);
 

@@ -112,7 +112,7 @@ TEST_F(Trials, WithSeveralNaturesAreOneTrialForEach) {
   ASSERT_EQ(alone.size(), 1u);
   EXPECT_EQ(alone[0].name, "house") << "of one nature alone the trial keeps its name";
   put("house.yaml", kSmallest);
-  EXPECT_THAT(readTrials(folder_).at(0).natures, testing::ElementsAre("calm"));
+  EXPECT_THAT(readTrials(folder_).at(0).natures, testing::ElementsAre("real"));
   put("house.yaml", std::string(kSmallest) + "natures: []\n");
   EXPECT_THAT(problemOf(folder_), HasSubstr("natures: is empty"));
 }

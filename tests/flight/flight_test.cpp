@@ -167,6 +167,11 @@ TEST_F(Determinism, TheSameSeedLeavesTheSameBytes) {
   ASSERT_GE(readTum(path("first/trajectory.tum")).size(), 500u) << describe(first);
   fly("second", "11", {"--headless"});
   expectSame("first", "second");
+  const auto said = nlohmann::json::parse(readText(path("first/mission.json")));
+  EXPECT_EQ(said.at("nature"), "real") << "without --nature";
+  EXPECT_EQ(readText(path("first/nature.yaml")), readText(path("second/nature.yaml")));
+  fly("drawn", "11", {"--headless", "--nature", path("first/nature.yaml")});
+  expectSame("first", "drawn");
   fly("other", "12", {"--headless"});
   EXPECT_FALSE(readText(path("first/trajectory.tum")) == readText(path("other/trajectory.tum")))
       << "the seed is ignored";

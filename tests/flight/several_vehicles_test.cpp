@@ -55,9 +55,11 @@ TEST_F(SeveralVehicles, WriteARunEachAndRepeatIt) {
     EXPECT_THAT(readText(run / "report.html"), HasSubstr("explore_and_come_home, " + name));
     EXPECT_THAT(readText(run / "events.jsonl"), HasSubstr("\"vehicle\":\"" + name + "\""));
     EXPECT_GT(readTum(run / "trajectory.tum").back().position_m[2], 0.8) << "it flies";
-    for (const char* file : {"trajectory.tum", "map.pgm", "events.jsonl"})
+    EXPECT_EQ(json::parse(readText(run / "mission.json")).at("nature"), "real") << "without --nature";
+    for (const char* file : {"trajectory.tum", "map.pgm", "events.jsonl", "nature.yaml"})
       EXPECT_EQ(readText(run / file), readText(again / file)) << file;
   }
+  EXPECT_NE(readText(path("run/alpha/nature.yaml")), readText(path("run/beta/nature.yaml"))) << "each draws for itself";
   EXPECT_FALSE(fs::exists(fs::path(path("run")) / "mission.json"));
 }
 
@@ -105,6 +107,21 @@ TEST_F(SeveralVehicles, UnusableInputIsRefusedBeforeAnythingIsWritten) {
   EXPECT_THAT(refusal("{name: a, " + here + "}", "{name: b, start: {from_world: false, x_m: 2.3, y_m: 6.5}}"),
               HasSubstr("touches the vehicle `a`"));
   EXPECT_THAT(refusal("{name: a, mission: none.xml, " + here + "}", "{name: b}"), HasSubstr("none.xml"));
+}
+
+TEST_F(SeveralVehicles, FlyInTheNatureOfTheirScenarioUnlessAnotherIsNamed) {
+  const std::string trial = twoFrom("{name: low, start: {from_world: false, x_m: 2, y_m: 6.5}}",
+                                    "{name: lower, start: {from_world: false, x_m: 2, y_m: 4.5}}");
+  write("two.yaml", readText(trial) + "natures: [calm, harsh]\n");
+  const auto flown = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"fly",          kExplore, "--scenario", trial,      "--headless",
+                                          "--time-limit", "1",      "--out",      path("run")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    (void)runSwiftlet(arguments);
+    return json::parse(readText(path("run/low/mission.json"))).at("nature").get<std::string>();
+  };
+  EXPECT_EQ(flown({}), "calm");
+  EXPECT_EQ(flown({"--nature", "real"}), "real");
 }
 
 TEST_F(SeveralVehicles, RunsOfOneAndOfSeveralAreNotMixed) {

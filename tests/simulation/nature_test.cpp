@@ -139,9 +139,22 @@ TEST(Nature, ChargeIsRaisedUntilTheVehicleCanFlyButNotAWrittenOne) {
   written.battery_remaining = 0.03;
   written.written = {"battery_remaining"};
   EXPECT_EQ(tired.drawn(written, 1).battery_remaining, 0.03);
+}
+
+TEST(Nature, ThatDrawsTheChargeReplacesTheScenariosVariationOfIt) {
   Scenario varied;
+  varied.variation.battery_remaining = 0.1;
   varied.written = {"variation.battery_remaining"};
-  EXPECT_EQ(tired.drawn(varied, 1).battery_remaining, 1.0) << "a scenario that varies the charge says what it is";
+  const Scenario drawn = shipped("real").drawn(varied, 4);
+  EXPECT_EQ(drawn.battery_remaining, shipped("real").drawn({}, 4).battery_remaining);
+  EXPECT_EQ(drawn.variation.battery_remaining, 0.0);
+  EXPECT_EQ(shipped("calm").drawn(varied, 4).variation.battery_remaining, 0.1) << "it draws no charge";
+
+  varied.battery_remaining = 0.6;
+  varied.written.emplace_back("battery_remaining");
+  const Scenario written = shipped("real").drawn(varied, 4);
+  EXPECT_EQ(written.battery_remaining, 0.6);
+  EXPECT_EQ(written.variation.battery_remaining, 0.1) << "it varies the charge that is written out";
 }
 
 TEST(Nature, AnotherRangeOfTheChargeShiftsNoOtherDraw) {
