@@ -218,8 +218,9 @@ void addFly(Command& program) {
   command.option("--map", options->map,
                  "A map of the place (YAML of map_server): the flight finds out where it is in it.");
   command.option("--system", options->system, "A profile of config/systems, or a file.");
-  command.option("--nature", options->nature,
-                 "How far the vehicle is from its data sheet: calm, real, harsh, or a file. Default: the scenario's, or real.");
+  command.option(
+      "--nature", options->nature,
+      "How far the vehicle is from its data sheet: calm, real, harsh, or a file. Default: the scenario's, or real.");
   command.option("--battery", options->battery, {0.01, 1}, "Charge at the start, as a share of the full one.");
   command.option("--seed", options->seed, {0, kGreatestSeed},
                  "Seed of all random numbers. Default: the scenario's, or 1.");

@@ -87,7 +87,8 @@ void Variation::describe(common::config::Fields& fields) {
   fields("obstacles", obstacles, "Models that are shifted.");
   fields("obstacle_m", obstacle_m, {0, 100}, "Greatest shift of each of these models, in x and in y.");
   fields("wind_m_s", wind_m_s, {0, 30}, "Greatest change of each component of the mean wind.");
-  fields("battery_remaining", battery_remaining, {0, 1}, "Greatest loss of the start charge, unless the nature draws the charge.");
+  fields("battery_remaining", battery_remaining, {0, 1},
+         "Greatest loss of the start charge, unless the nature draws the charge.");
   fields("reachable_map_m", reachable_map_m, {-kAnywhere_m, kAnywhere_m},
          "Goals x, y, x, y in `map`: a draw is taken only if the vehicle can get to all of them.");
   fields("flight_height_m", flight_height_m, {0.1, 100},

@@ -376,8 +376,8 @@ TEST(CriteriaOverAllFlights, AreInTheTablesAndTheJson) {
 
 TEST(CriteriaOverAllFlights, AreReadFromTheShippedTrial) {
   const Criteria criteria = readTrial(fs::path(SWIFTLET_SOURCE_DIR) / "trials/papers/unb_case1.yaml").criteria;
-  EXPECT_EQ(criteria.mission_time_median_max_s, 90);
-  EXPECT_EQ(criteria.goal_error_median_max_m, 0.08);
+  EXPECT_EQ(criteria.mission_time_median_max_s, 70);
+  EXPECT_EQ(criteria.goal_error_median_max_m, 0.05);
   EXPECT_EQ(criteria.home_error_median_max_m, 0.08);
   EXPECT_EQ(criteria.estimate_rms_median_max_m, 0.05);
 }
