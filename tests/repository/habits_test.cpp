@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -98,14 +99,15 @@ TEST(Files, AreNotLong) {
 
 /// What is wrong with the names of the tests in a file: "line: text".
 std::vector<std::string> oddTestNames(const std::string& text) {
-  static const std::regex kBegins("^(TEST(_F|_P)?|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\\(.*");
-  static const std::regex kNamed("^[A-Z_]+\\([A-Z][A-Za-z0-9]*, ?([A-Z][A-Za-z0-9]*[,)].*|$)");
+  static const std::regex kBegins("^(TEST(_F|_P)?|TYPED_TEST(_P)?|RC_GTEST_(FIXTURE_|TYPED_FIXTURE_)?PROP)\\(.*");
+  static const std::regex kNamed("^[A-Z_]+\\( *[A-Z][A-Za-z0-9]*, *[A-Z][A-Za-z0-9]*[,)].*");
+  const std::vector<std::string> lines = linesOf(text);
   std::vector<std::string> found;
-  int number = 0;
-  for (const std::string& line : linesOf(text)) {
-    ++number;
-    if (std::regex_match(line, kBegins) && !std::regex_match(line, kNamed))
-      found.push_back(std::to_string(number) + ": " + line);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!std::regex_match(lines[i], kBegins)) continue;
+    std::string head = lines[i];  // The suite and the name may each be on a line of their own.
+    for (std::size_t j = i + 1; j < std::min(i + 3, lines.size()); ++j) head += lines[j];
+    if (!std::regex_match(head, kNamed)) found.push_back(std::to_string(i + 1) + ": " + lines[i]);
   }
   return found;
 }
@@ -119,7 +121,11 @@ TEST(Files, TestNamesUseOneCase) {
 }
 
 TEST(Files, APlantedTestNameInAnotherCaseIsCaught) {
-  EXPECT_THAT(oddTestNames("TEST(Room, SaysSo) {\nRC_GTEST_PROP(Room, SaysSo, ()) {\nTEST_F(Room,\n"), IsEmpty());
+  EXPECT_THAT(oddTestNames("TEST(Room, SaysSo) {\nRC_GTEST_PROP(Room, SaysSo, ()) {\n"), IsEmpty());
+  EXPECT_THAT(oddTestNames("TEST_F(Room,\n       SaysSo) {\nTYPED_TEST(\n    Room,\n    SaysSo) {\n"), IsEmpty());
+  EXPECT_THAT(oddTestNames("TYPED_TEST(Room, says) {\n"), SizeIs(1));
+  EXPECT_THAT(oddTestNames("\nTEST_F(Room,\n       Says_so) {\n"), ElementsAre("2: TEST_F(Room,"));
+  EXPECT_THAT(oddTestNames("RC_GTEST_FIXTURE_PROP(\n    Room,\n    says, ()) {\n"), SizeIs(1));
   EXPECT_THAT(oddTestNames("TEST(Room, saysSo) {\n"), SizeIs(1));
   EXPECT_THAT(oddTestNames("\nTEST_P(Room, Says_so) {\n"), ElementsAre("2: TEST_P(Room, Says_so) {"));
 }
