@@ -88,22 +88,30 @@ TEST(ScanProjection, CorrectsWallsForMotionAndTilt) {
   EXPECT_GT(smeared_m, 0.02);
 }
 
-TEST(ScanProjection, LeavesOutFloorAndCeiling) {
-  const common::LaserConfig laser = noiseless();
+/// A large room seen from a height of 1 m with the nose 15 degrees down.
+struct TiltedView : testing::Test {
+  TiltedView() { world.addBox(0.0, 0.0, 30.0, 30.0); }
+  ProjectedScan view(const ScanProjectionConfig& config) const {
+    common::RandomStream random(1, "projection");
+    const PoseAt tilted = [](Time) {
+      return Pose3{common::quaternionFrom({0.0, 15.0 * kRadPerDeg, 0.0}), {0.0, 0.0, 1.0}};
+    };
+    return project(test::sweep(world, noiseless(), tilted, Time{}, random), noiseless(), tilted, config);
+  }
+  void expectOnlyWalls(const ProjectedScan& projected) const {
+    for (const Eigen::Vector2f& point : projected.points_level_m)
+      EXPECT_LT(world.distanceToWall(point.cast<double>()), 1e-3);
+  }
   test::PlanarWorld world;
-  world.addBox(0.0, 0.0, 30.0, 30.0);
-  Pose3 tilted{common::quaternionFrom({0.0, 15.0 * kRadPerDeg, 0.0}), {0.0, 0.0, 1.0}};
-  common::RandomStream random(1, "projection");
-  const auto scan = test::sweep(
-      world, laser, [&](Time) { return tilted; }, Time{}, random);
+};
+
+TEST_F(TiltedView, LeavesOutFloorAndCeiling) {
   ScanProjectionConfig config;
   config.ceiling_height_odom_m = world.ceiling_m;
-  const ProjectedScan projected = project(
-      scan, laser, [&](Time) { return tilted; }, config);
+  const ProjectedScan projected = view(config);
   EXPECT_GT(projected.counts.floor_hits, 300);
   EXPECT_GT(projected.counts.ceiling_hits, 100);
-  for (std::size_t i = 0; i < projected.points_level_m.size(); ++i)
-    EXPECT_LT(world.distanceToWall(projected.points_level_m[i].cast<double>()), 1e-3);
+  expectOnlyWalls(projected);
   // The cells that they crossed near the height of the body are still free.
   EXPECT_EQ(projected.misses_level_m.size(),
             static_cast<std::size_t>(projected.counts.floor_hits + projected.counts.ceiling_hits));
@@ -113,18 +121,10 @@ TEST(ScanProjection, LeavesOutFloorAndCeiling) {
   }
 }
 
-TEST(ScanProjection, UnderAnUnknownCeilingLeavesOutWhatRisesFar) {
-  const common::LaserConfig laser = noiseless();
-  test::PlanarWorld world;
-  world.addBox(0.0, 0.0, 30.0, 30.0);
-  Pose3 tilted{common::quaternionFrom({0.0, 15.0 * kRadPerDeg, 0.0}), {0.0, 0.0, 1.0}};
-  common::RandomStream random(1, "projection");
-  const auto scan = test::sweep(
-      world, laser, [&](Time) { return tilted; }, Time{}, random);
-  const ProjectedScan projected = project(scan, laser, [&](Time) { return tilted; }, {});
+TEST_F(TiltedView, UnderAnUnknownCeilingLeavesOutWhatRisesFar) {
+  const ProjectedScan projected = view({});
   EXPECT_GT(projected.counts.ceiling_hits, 100);
-  for (std::size_t i = 0; i < projected.points_level_m.size(); ++i)
-    EXPECT_LT(world.distanceToWall(projected.points_level_m[i].cast<double>()), 1e-3);
+  expectOnlyWalls(projected);
 }
 
 TEST(ScanProjection, KeepsALevelBeamNearTheFloorAsAWall) {

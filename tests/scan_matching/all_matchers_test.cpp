@@ -29,6 +29,7 @@ using test::scanAt;
 struct Tolerance {
   double median_m = 0.002, most_m = 0.005;  ///< `most`: of 95 %.
   double median_deg = 0.05, most_deg = 0.15;
+  double loop_m = 0.006;  ///< Of the motion there and back.
 };
 /// An average over poses of a grid of 1 cm and 0.1 degrees is exact to half a cell; 95 % are within two.
 constexpr Tolerance kOfTheGrid{0.005, 0.02, 0.05, 0.2};
@@ -132,6 +133,39 @@ TEST_P(AllMatchers, AreAccurateInEveryScene) {
     EXPECT_LT(quantile(off_m, 0.95), tolerance.most_m);
     EXPECT_LT(quantile(off_deg, 0.5), tolerance.median_deg);
     EXPECT_LT(quantile(off_deg, 0.95), tolerance.most_deg);
+  }
+}
+
+TEST_P(AllMatchers, ForwardIsTheInverseOfBackward) {
+  const test::PlanarWorld world = test::flat();
+  common::RandomStream random(9, "inverse");
+  for (int trial = 0; trial < 20; ++trial) {
+    const Pose2 a = poseInFlat(random);
+    const Pose2 b = a * Pose2{random.uniform(-0.08, 0.08), random.uniform(-0.08, 0.08), random.uniform(-0.015, 0.015)};
+    const ProjectedScan scan_a = scanAt(world, a, 10), scan_b = scanAt(world, b, 11);
+    const Pose2 forth = matcherAt(scan_a, {})->match(scan_b, {}, {0.12, 0.03}).T_reference_body;
+    const Pose2 back = matcherAt(scan_b, {})->match(scan_a, {}, {0.12, 0.03}).T_reference_body;
+    const Pose2 loop = forth * back;
+    EXPECT_LT(loop.position_m().norm(), GetParam().tolerance.loop_m);
+    EXPECT_LT(std::abs(loop.yaw_rad), 0.15 * kRadPerDeg);
+  }
+}
+
+TEST_P(AllMatchers, ReportTheUnobservableDirectionOfACorridor) {
+  const test::PlanarWorld world = test::corridor();
+  for (const double yaw : {0.0, 0.7, -2.0}) {
+    const Pose2 reference{0.0, 0.1, yaw};
+    const Pose2 truth{0.06, 0.13, yaw + 0.01}, guess{0.03, 0.10, yaw};
+    const MatchResult match =
+        matcherAt(scanAt(world, reference, 0), reference)->match(scanAt(world, truth, 1), guess, {0.1, 0.03});
+    ASSERT_FALSE(match.failed);
+    ASSERT_TRUE(match.unobservable_direction);
+    EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
+    EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess is returned.
+    EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
+    EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * kRadPerDeg);
+    EXPECT_GT(match.covariance(0, 0), 0.09);
+    EXPECT_LT(match.covariance(1, 1), 1e-4);
   }
 }
 

@@ -147,42 +147,6 @@ TEST(CorrelativeMatcher, BothAveragesReduceTheJitterOfTheGrid) {
   EXPECT_LT(jitter(PoseEstimate::kSurface), 0.5 * finest);
 }
 
-TEST(CorrelativeMatcher, ForwardIsTheInverseOfBackward) {
-  const test::PlanarWorld world = test::flat();
-  common::RandomStream random(9, "inverse");
-  for (int trial = 0; trial < 20; ++trial) {
-    const Pose2 a = poseInFlat(random), b = a * randomStep(random);
-    const ProjectedScan scan_a = scanAt(world, a, 10), scan_b = scanAt(world, b, 11);
-    CorrelativeMatcher from_a{{}}, from_b{{}};
-    from_a.addReference(scan_a, {});
-    from_b.addReference(scan_b, {});
-    const Pose2 forth = from_a.match(scan_b, {}, {0.12, 0.03}).T_reference_body;
-    const Pose2 back = from_b.match(scan_a, {}, {0.12, 0.03}).T_reference_body;
-    const Pose2 loop = forth * back;
-    EXPECT_LT(loop.position_m().norm(), 0.006);
-    EXPECT_LT(std::abs(loop.yaw_rad), 0.15 * common::kRadPerDeg);
-  }
-}
-
-TEST(CorrelativeMatcher, ReportsTheUnobservableDirectionOfACorridor) {
-  const test::PlanarWorld world = test::corridor();
-  for (const double yaw : {0.0, 0.7, -2.0}) {
-    CorrelativeMatcher matcher{{}};
-    const Pose2 reference{0.0, 0.1, yaw};
-    matcher.addReference(scanAt(world, reference, 0), reference);
-    const Pose2 truth{0.06, 0.13, yaw + 0.01}, guess{0.03, 0.10, yaw};
-    const MatchResult match = matcher.match(scanAt(world, truth, 1), guess, {0.1, 0.03});
-    ASSERT_FALSE(match.failed);
-    ASSERT_TRUE(match.unobservable_direction);
-    EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
-    EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess is returned.
-    EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
-    EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * common::kRadPerDeg);
-    EXPECT_GT(match.covariance(0, 0), 0.09);
-    EXPECT_LT(match.covariance(1, 1), 1e-4);
-  }
-}
-
 /// A cupboard that the reference never showed faces the vehicle; it has no effect.
 TEST(CorrelativeMatcher, NewSurfacesDoNotConstrainThePose) {
   test::PlanarWorld furnished = test::corridor();

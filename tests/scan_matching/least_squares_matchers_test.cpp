@@ -96,42 +96,6 @@ TYPED_TEST(LeastSquaresMatchers, ReportWhenTheyDidNotConverge) {
   EXPECT_LT(accuracy.nees, 4.5);
 }
 
-TYPED_TEST(LeastSquaresMatchers, ForwardIsTheInverseOfBackward) {
-  const test::PlanarWorld world = test::flat();
-  common::RandomStream random(9, "inverse");
-  for (int trial = 0; trial < 20; ++trial) {
-    const Pose2 a = poseInFlat(random), b = a * stepWithin(random, 0.08, 0.015);
-    const ProjectedScan scan_a = scanAt(world, a, 10), scan_b = scanAt(world, b, 11);
-    typename TypeParam::Matcher from_a{{}}, from_b{{}};
-    from_a.addReference(scan_a, {});
-    from_b.addReference(scan_b, {});
-    const Pose2 forth = from_a.match(scan_b, {}, {0.12, 0.03}).T_reference_body;
-    const Pose2 back = from_b.match(scan_a, {}, {0.12, 0.03}).T_reference_body;
-    const Pose2 loop = forth * back;
-    EXPECT_LT(loop.position_m().norm(), 0.006);
-    EXPECT_LT(std::abs(loop.yaw_rad), 0.15 * common::kRadPerDeg);
-  }
-}
-
-TYPED_TEST(LeastSquaresMatchers, ReportTheUnobservableDirectionOfACorridor) {
-  const test::PlanarWorld world = test::corridor();
-  for (const double yaw : {0.0, 0.7, -2.0}) {
-    typename TypeParam::Matcher matcher{{}};
-    const Pose2 reference{0.0, 0.1, yaw};
-    matcher.addReference(scanAt(world, reference, 0), reference);
-    const Pose2 truth{0.06, 0.13, yaw + 0.01}, guess{0.03, 0.10, yaw};
-    const MatchResult match = matcher.match(scanAt(world, truth, 1), guess, {0.1, 0.03});
-    ASSERT_FALSE(match.failed);
-    ASSERT_TRUE(match.unobservable_direction);
-    EXPECT_GT(std::abs(match.unobservable_direction->x()), 0.99);
-    EXPECT_NEAR(match.T_reference_body.x_m, guess.x_m, 0.005);  // The guess is returned.
-    EXPECT_NEAR(match.T_reference_body.y_m, truth.y_m, 0.004);
-    EXPECT_NEAR(match.T_reference_body.yaw_rad, truth.yaw_rad, 0.1 * common::kRadPerDeg);
-    EXPECT_GT(match.covariance(0, 0), 0.09);
-    EXPECT_LT(match.covariance(1, 1), 1e-4);
-  }
-}
-
 TYPED_TEST(LeastSquaresMatchers, ReportNoUnobservableDirectionInARoom) {
   common::RandomStream random(10, "room");
   const test::PlanarWorld world = test::flat();
