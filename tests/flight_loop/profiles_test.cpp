@@ -1,5 +1,5 @@
-// Each shipped profile is flown alone in the first world, and its counters show that the matcher and the SLAM method it
-// chooses did the work.
+// Each shipped profile is flown alone in the first world. Counters show that the matcher, the SLAM method, the planner
+// and the explorer that it chooses did the work.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -38,6 +38,7 @@ struct Flown {
   evaluation::WallError walls;
   perception::LaserOdometryCounts odometry;
   perception::SlamCounts slam;
+  PlanningUse planning;
   Witness witness;
 };
 
@@ -61,11 +62,13 @@ Flown fly(const std::string& name, int seed = 11) {
   flown.finished = autonomy.finished() && !vehicle->truth().crashed;
   flown.odometry = autonomy.odometryCounts();
   flown.slam = autonomy.slamCounts();
+  flown.planning = autonomy.planningUse();
   const auto walls =
       evaluation::wallError(*flown.witness.last_world->map->grid, planar(vehicle->T_world_map()), vehicle->rays(), 1.0);
   if (walls) flown.walls = *walls;
-  std::printf("  %-22s worst %.3f m; walls median %.3f m, p95 %.3f m; %d key scans\n", name.c_str(), flown.worst_m,
-              flown.walls.median_m, flown.walls.p95_m, static_cast<int>(flown.slam.key_scans));
+  std::printf("  %-22s worst %.3f m; walls median %.3f m, p95 %.3f m; %d key scans, %d viewpoints, %d paths\n",
+              name.c_str(), flown.worst_m, flown.walls.median_m, flown.walls.p95_m,
+              static_cast<int>(flown.slam.key_scans), flown.planning.viewpoints, flown.planning.paths);
   return flown;
 }
 
@@ -96,11 +99,32 @@ void expectMethods(const Flown& flown, bool graph, bool particles, bool scan_to_
   EXPECT_EQ((counts.graph_matches > 0) + (counts.particle_matches > 0) + (counts.map_matches > 0), 1);
 }
 
+/// The counters are those of the planner and the explorer of these names, and each had results that were flown.
+void expectPlanning(const Flown& flown, const std::string& planner, const std::string& explorer) {
+  EXPECT_EQ(flown.planning.planner, planner);
+  EXPECT_EQ(flown.planning.explorer, explorer);
+  EXPECT_GE(flown.planning.viewpoints, 2);
+  EXPECT_GE(flown.planning.paths, flown.planning.viewpoints);
+}
+
 TEST(ShippedProfile, SwiftletFliesWithGraphSlam) {
   const Flown flown = fly("swiftlet");
   expectGood(flown);
   expectMatchers(flown, true, false, false);
   expectMethods(flown, true, false, false);
+  expectPlanning(flown, "D* Lite", "utility");
+}
+
+TEST(ShippedProfile, TheWavefrontPlannerFlies) {
+  const Flown flown = fly("swiftlet_wavefront");
+  expectGood(flown);
+  expectPlanning(flown, "wavefront", "utility");
+}
+
+TEST(ShippedProfile, TheNearestFrontierExplorerFlies) {
+  const Flown flown = fly("swiftlet_nearest_frontier");
+  expectGood(flown);
+  expectPlanning(flown, "D* Lite", "nearest frontier");
 }
 
 TEST(ShippedProfile, ParticlesFlyRepeatably) {
