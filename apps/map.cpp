@@ -184,10 +184,8 @@ void addMap(Command& program) {
   auto options = std::make_shared<MapOptions>();
   Command command = program.command("map", "Make the map of a recorded laser log; no odometry is needed.");
   addLogOptions(command, options->log, kSuffix);
-  command.choice(
-      "--slam", options->slam, perception::slamMethodNames(),
-      "graph: key scans with constraints between them, and loop closures. particles: trajectories with a map each. "
-      "scan_to_map: scans matched to one map, without loop closure. The profile's when not given.");
+  command.choice("--slam", options->slam, perception::slamMethodNames(),
+                 perception::slamMethodHelp() + " The profile's when not given.");
   command.footer("Example: swiftlet map intel.clf.bz2 --out intel");
   command.runs([options] { return map(*options); });
 }

@@ -1,16 +1,42 @@
 #include "perception/slam2d/slam_method.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "common/check.hpp"
 #include "common/config_fields.hpp"
 #include "perception/slam2d/slam2d.hpp"
 
 namespace swiftlet::perception {
+namespace {
+
+struct NamedMethod {
+  const char* name;
+  const char* sentence;
+};
+/// In the order of SlamMethod.
+constexpr std::array<NamedMethod, 3> kMethods{{
+    {"graph", "key scans with constraints between them, and loop closures."},
+    {"particles", "trajectories with a map each."},
+    {"scan_to_map", "scans matched to one map, without loop closure."},
+}};
+
+}  // namespace
 
 const std::vector<std::string>& slamMethodNames() {
-  static const std::vector<std::string> names{"graph", "particles", "scan_to_map"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const NamedMethod& method : kMethods) all.emplace_back(method.name);
+    return all;
+  }();
   return names;
+}
+
+std::string slamMethodHelp() {
+  std::string help;
+  for (const NamedMethod& method : kMethods)
+    help += (help.empty() ? "" : " ") + std::string(method.name) + ": " + method.sentence;
+  return help;
 }
 
 SlamMethod slamMethodOf(const std::string& name) {

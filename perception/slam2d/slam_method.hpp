@@ -26,6 +26,9 @@ struct SlamMethodConfig : Slam2dConfig {
 /// Names of the methods in profiles and on the command line, in the order of SlamMethod.
 const std::vector<std::string>& slamMethodNames();
 
+/// Each method's name and one sentence about it, for help texts: "graph: ... particles: ...".
+std::string slamMethodHelp();
+
 /// The method of that name, which must be one of slamMethodNames().
 SlamMethod slamMethodOf(const std::string& name);
 
