@@ -103,7 +103,8 @@ class Flight {
     std::this_thread::sleep_until(due);
   }
 
-  /// So that the pages see how it ended. Who stops the flight in the air waits no longer than that takes.
+  /// Keeps the server up, so that the pages show how the flight ended. After a stop by the user it does so only
+  /// briefly.
   void linger() const {
     constexpr double kEnoughForPages_s = 0.5;
     const Clock::time_point begin = Clock::now();

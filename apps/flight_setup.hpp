@@ -1,4 +1,4 @@
-// What a simulated flight is set up with, who listens to it, and what comes of each vehicle.
+// The settings of a simulated flight, its observers, and the result of each vehicle.
 #pragma once
 
 #include <atomic>

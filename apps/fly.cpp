@@ -65,7 +65,7 @@ FlightSetup setupOf(const FlyOptions& options) {
   }
   if (!options.nature.empty()) nature = options.nature;
   if (options.seed) setup.scenario.seed = *options.seed;
-  // Who flies has charged before, unless the scenario or the option says otherwise.
+  // A battery is charged before a flight, unless the scenario or the option says otherwise.
   setup.scenario.nature =
       std::make_shared<const simulation::Nature>(simulation::Nature::load(nature).withCharge(0.9, 1.0));
   if (options.battery) setup.scenario.setCharge(*options.battery);

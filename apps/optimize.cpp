@@ -187,7 +187,7 @@ int optimizeGraph(const OptimizeOptions& options) {
     return kFailed;
   }
   if (report.loose_parts > 0)
-    fmt::print(stderr, "note: {} not tied to the fixed vertex by edges, and may lie anywhere to it\n",
+    fmt::print(stderr, "note: {} not connected to the fixed vertex, so its place relative to that is arbitrary\n",
                plural(report.loose_parts, "part of the graph is", "parts of the graph are"));
   if (folder) write(*folder, file, options, report);
   if (options.json)

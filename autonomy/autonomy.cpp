@@ -16,16 +16,19 @@ using common::Time;
 namespace {
 /// Ids of the supervisor's own intents; those of the mission count from 1.
 constexpr std::uint64_t kSupervisorHold = 1ULL << 62;
+/// Of the landing, which is for good: there is one.
 constexpr std::uint64_t kSupervisorLand = kSupervisorHold + 1;
 /// Of the first flight home; the next ones count on.
 constexpr std::uint64_t kSupervisorHome = kSupervisorHold + 2;
 /// Of the first flight back along the trail.
 constexpr std::uint64_t kSupervisorBack = kSupervisorHome + (1ULL << 32);
 
-/// Nearer to the end of a path the vehicle brakes, so its speed there tells nothing of a long path.
+/// Nearer to the end of a path the vehicle brakes, so its speed there tells nothing of a long path. The shipped
+/// profiles brake within v^2 / (2 a) = 0.33 m; the rest is margin for faster ones.
 constexpr double kFarFromGoal_m = 1.0;
 
-/// The flight home ends this far above the thrust margin at which the vehicle has to land where it is.
+/// The flight home ends this far above the thrust margin at which the vehicle has to land where it is: 3 % of the
+/// weight, as much as the position controller keeps for the height when it tilts (kKeptForHeight).
 constexpr double kLandingMargin = 0.03;
 
 }  // namespace

@@ -16,8 +16,9 @@ void ExecutorConfig::describe(common::config::Fields& fields) {
   fields("planning_latency_s", planning_latency_s, {0.0, 2.0}, "Declared time of a planning job.");
   fields("planning_period_s", planning_period_s, {0.05, 5.0},
          "Time between updates of the cost map, which is never older than this plus the latency.");
-  fields("explore_period_s", explore_period_s, {0.1, 10.0},
-         "Least time between choices of the next viewpoint; on long paths more.");
+  fields("explore_period_s", explore_period_s, {0.1, 10.0}, "Least time between choices of the next viewpoint.");
+  fields("explore_period_share", explore_period_share, {0.0, 1.0},
+         "Least time between choices of the next viewpoint as a share of the flight time to the present one.");
   fields("clearance_m", clearance_m, {0.0, 2.0}, "Distance between hull and obstacle where an intent names none.");
   fields("arrival_speed_m_s", arrival_speed_m_s, kPositive,
          "A goal is reached only when the vehicle is slower than this.");

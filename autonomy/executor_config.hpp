@@ -19,6 +19,7 @@ struct ExecutorConfig {
   double planning_latency_s = 0.06;
   double planning_period_s = 0.25;
   double explore_period_s = 0.5;
+  double explore_period_share = 0.15;
   double clearance_m = 0.10;
   double arrival_speed_m_s = 0.15;
   double arrival_s = 0.25;

@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "common/config_fwd.hpp"
 #include "common/sensor_event.hpp"

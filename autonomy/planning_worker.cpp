@@ -9,6 +9,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
+/// Two cells of the shipped map. The trail passes through every cell between two points (CostMap::applyFlown).
 constexpr double kFlownSpacing_m = 0.1;
 
 }  // namespace
@@ -37,8 +38,8 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   return answer;
 }
 
-/// The path to the origin of the map, where the vehicle took off. It is planned at every kEach-th answer, because the
-/// vehicle flies little between two answers.
+/// The path to the origin of the map, where the vehicle took off. It is planned at every kEach-th answer: with
+/// the default planning_period_s that is at least every 2 s, in which the vehicle flies less than 1.5 m.
 std::optional<double> PlanningWorker::pathHome_m(const Eigen::Vector2d& position_map_m) {
   constexpr int kEach = 8;
   if (answers_++ % kEach == 0) {
@@ -87,15 +88,16 @@ tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const G
 
 std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, const std::vector<common::Disc>& people,
                                                  const Eigen::Vector2d& position_map_m) {
+  // Nearer, the laser has seen the blockage as well as it can: flying there shows nothing new (decision 005).
   constexpr double kWorth_m = 1.5;
-  const auto blocked = planning::blockedWay(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
-  const bool somebody = blocked && std::any_of(people.begin(), people.end(), [&](const common::Disc& disc) {
-                          const double off_m = (map_.centerOf(blocked->first_lethal) - disc.center_map_m).norm();
-                          return off_m <= disc.radius_m + map_.footprint().radius_m() + map_.resolution_m();
-                        });
+  const auto blocked = planning::blockedPath(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
+  const bool person_blocks = blocked && std::any_of(people.begin(), people.end(), [&](const common::Disc& disc) {
+                               const double off_m = (map_.centerOf(blocked->first_lethal) - disc.center_map_m).norm();
+                               return off_m <= disc.radius_m + map_.footprint().radius_m() + map_.resolution_m();
+                             });
   DetourPlan result;
   std::optional<Eigen::Vector2d> place;
-  if (blocked && !somebody) place = map_.centerOf(blocked->last_free);
+  if (blocked && !person_blocks) place = map_.centerOf(blocked->last_free);
   if (!place || (*place - position_map_m).norm() < kWorth_m) {
     place = roomyPlace(position_map_m);
     result.makes_room = true;
@@ -108,7 +110,8 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
 }
 
 /// The reachable place with the highest score: its path cost from here, at most kReach_m, plus kPerMetreOfWidth times
-/// its distance to the nearest obstacle.
+/// its distance to the nearest obstacle (decision 005). Beyond the length of a room a place is no better for being
+/// farther, and half a metre of width is worth 1.5 m of path.
 std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m) const {
   constexpr double kReach_m = 6.0, kPerMetreOfWidth = 3.0;
   const auto escape = planning::escapeFrom(map_, map_.cellAt(position_map_m));

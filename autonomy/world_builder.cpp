@@ -7,6 +7,7 @@
 namespace swiftlet::autonomy {
 namespace {
 
+/// One cell of the shipped map: a denser trail shows nothing more on the page.
 constexpr double kTrailStep_m = 0.05;
 
 bool same(const common::Pose2& a, const common::Pose2& b) {

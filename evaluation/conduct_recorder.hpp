@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/geometry.hpp"
 #include "common/intent.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
@@ -28,12 +29,13 @@ struct ConductRecord {
   double tilt_max_rad = 0.0;  ///< Greatest tilt while airborne.
   std::optional<double> touch_down_speed_m_s;  ///< Greatest speed of descent at a touch-down; none without one.
   std::optional<double> charge_min;            ///< Least true charge while airborne; none if it never was.
-  /// Longest time from the begin of a fault to the first snapshot in which the vehicle holds, lands or stands; none
+  /// Longest time from the beginning of a fault to the first snapshot in which the vehicle holds, lands or stands; none
   /// without a fault, and infinite if it did none of these.
   std::optional<double> safe_action_s;
   std::optional<HomeEnergy> home_energy;  ///< Of the last flight home that arrived and ended on the ground.
   std::vector<double> laser_latencies_s;  ///< From the first beam, by the laser's stamp, to the arrival.
 
+  /// The bound that the criterion `tilted_share_max` names.
   static constexpr double kTilted_rad = 10.0 * common::kRadPerDeg;
 };
 

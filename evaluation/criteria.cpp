@@ -34,7 +34,7 @@ void Criteria::describe(common::config::Fields& fields) {
          "Least thrust at 95 % throttle over the weight, at the least charge in the air.");
   fields("touch_down_speed_max_m_s", touch_down_speed_max_m_s, kPositive, "Greatest speed of descent at a touch-down.");
   fields("safe_action_max_s", safe_action_max_s, kPositive,
-         "Greatest time from the begin of a fault until the vehicle holds, lands or stands.");
+         "Greatest time from the beginning of a fault until the vehicle holds, lands or stands.");
   fields("home_energy_error_max", home_energy_error_max, kPositive,
          "Greatest relative error of the charge that the vehicle predicts for the flight home when that begins.");
   fields("all_resumed", all_resumed, "Whether everything that was interrupted must have gone on.");

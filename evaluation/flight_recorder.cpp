@@ -19,7 +19,9 @@ using common::MissionState;
 using common::Pose3;
 using common::Time;
 
+/// The truth is kept for as long as an estimate may come late.
 constexpr Duration kHistory = Duration::fromMilliseconds(1000);
+/// 20 Hz: at 1 m/s a pose every 5 cm.
 constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(50);
 /// A goal this near to home counts as home.
 constexpr double kSamePlace_m = 1e-3;

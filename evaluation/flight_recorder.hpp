@@ -60,6 +60,7 @@ struct LocalizationRecord {
   double wrong_s = 0.0;  ///< Time localized, but farther from the truth than kWrong_m or more turned than kWrong_rad.
   int times_lost = 0;
 
+  /// The bounds that the criterion `wrong_time_share_max` names.
   static constexpr double kWrong_m = 0.5;
   static constexpr double kWrong_rad = 10.0 * common::kRadPerDeg;
 };

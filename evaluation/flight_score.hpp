@@ -103,6 +103,7 @@ struct FlightScore {
 
 /// Clearance and bound of the reachable area for trials that give none.
 inline constexpr double kClearance_m = 0.10;
+/// A larger area means that the world is open.
 inline constexpr double kReachableAreaMax_m2 = 2000.0;
 
 /// The world of this flight, after the seed's variation, as the scorer needs it.

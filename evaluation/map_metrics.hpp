@@ -23,6 +23,7 @@ struct WallError {
   double p95_m = 0.0;
   double max_m = 0.0;  ///< Distances are capped at kLimit_m.
   std::size_t cells = 0;
+  /// Farther, a cell has no wall to be compared with.
   static constexpr double kLimit_m = 1.0;
 };
 

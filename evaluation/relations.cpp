@@ -9,6 +9,7 @@ using common::Duration;
 using common::Pose3;
 using common::StampedPose;
 
+/// Logs have stamps with six decimals of a second; equal ones differ by half a microsecond at most.
 constexpr Duration kSameStamp = Duration::fromNanoseconds(500);
 
 /// Null if there is none.

@@ -34,8 +34,8 @@ struct BestStartSolution {
 };
 
 /// chi2 is the sum of e' * information * e; no edge is robust here, whatever it says. It is never above that of the
-/// guess. Of several poses that no edge ties to a fixed one, the first stays. Indices must be valid. Deterministic; one
-/// thread.
+/// guess. Of several poses that no edge connects to a fixed one, the first stays. Indices must be valid. Deterministic;
+/// one thread.
 BestStartSolution<common::Pose2> optimizeFromBestStart(PoseGraph2D graph, const BestStartConfig& config);
 BestStartSolution<common::Pose3> optimizeFromBestStart(PoseGraph3D graph, const BestStartConfig& config);
 

@@ -37,7 +37,7 @@ class EdgeCost2D final : public ceres::SizedCostFunction<3, 3, 3> {
   Eigen::Matrix3d sqrt_information_;
 };
 
-/// Holds poses that nothing else holds; too weak to be felt by those that edges tie.
+/// A weak prior that keeps poses without edges in place. Beside the edges of connected poses it is negligible.
 class PriorCost final : public ceres::SizedCostFunction<3, 3> {
  public:
   explicit PriorCost(const Pose2& pose) : prior_(pose.x_m, pose.y_m, pose.yaw_rad) {}
@@ -50,7 +50,7 @@ class PriorCost final : public ceres::SizedCostFunction<3, 3> {
   }
 
  private:
-  static constexpr double kWeight = 1e-6;
+  static constexpr double kWeight = 1e-6;  ///< A standard deviation of 1,000 km: nothing beside any edge.
   Eigen::Vector3d prior_;
 };
 

@@ -19,7 +19,8 @@ struct PoseGraph2DSolution {
   bool converged = false;  ///< False: stopped by max_iterations or not solvable; `poses` are the best found.
 };
 
-/// Poses that no edge ties to the fixed one stay where they were (a slight prior holds them). Indices must be valid.
+/// Poses that no edge connects to the fixed one stay where they were (a slight prior holds them). Indices must be
+/// valid.
 PoseGraph2DSolution optimize(const PoseGraph2D& graph, const PoseGraphConfig& config);
 
 /// The error of an edge, (R_from' (t_to - t_from) - t, yaw), and its Jacobians with respect to (x, y, yaw) of each

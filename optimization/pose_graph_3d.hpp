@@ -24,8 +24,8 @@ struct PoseGraph3DSolution {
   bool converged = false;  ///< False: stopped by max_iterations or not solvable; `poses` are the best found.
 };
 
-/// Of several poses that no edge ties to a fixed one, the first stays where it is and the others find their place to
-/// it. Indices must be valid.
+/// If no edge connects a group of poses to a fixed one, the first of the group stays where it is and the others are
+/// placed relative to it. Indices must be valid.
 PoseGraph3DSolution optimize(const PoseGraph3D& graph, const PoseGraphConfig& config);
 
 }  // namespace swiftlet::optimization

@@ -11,7 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Below this thrust command the vehicle stands, and the integral is cleared, as PX4 and ArduPilot do on the ground.
 constexpr double kThrustOnGround = 0.2;
+/// Anti-windup: only small rate errors are integrated, and the integral is limited.
 constexpr double kSmallRateError_rad_s = 0.3;
 constexpr double kMostIntegral_rad = 0.3;
 

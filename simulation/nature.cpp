@@ -16,7 +16,7 @@
 namespace swiftlet::simulation {
 namespace {
 
-constexpr std::uint64_t kMostNatureDraws = 200;
+constexpr std::uint64_t kMostNatureDraws = 200;  // As kMostDraws of variation.hpp.
 constexpr const char* kCharge = "battery_remaining";
 
 /// Raises the charge until the thrust suffices; false if it does not at a full battery either.

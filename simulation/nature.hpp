@@ -40,6 +40,7 @@ class Nature {
   /// common::InputError when no draw can fly. A charge that the scenario wrote out is never raised.
   Scenario drawn(const Scenario& scenario, std::uint64_t seed) const;
 
+  /// The greatest throttle that the position controller commands (ThrustModel): the rest is left to the attitude.
   static constexpr double kFullThrottle = 0.95;
 
   /// The nature's keys with the values that a drawn scenario has, itself a nature's file: a flight in it has the same

@@ -168,6 +168,7 @@ double Quadrotor::gearForce_n(double floor_world_m) const {
 // The feet stop a turn within some hundredths of a second and push the body level. This is modelled as a torque, so
 // that the gyroscopes still measure the motion of the body while the motors lean it against the floor.
 Vector3d Quadrotor::gearAngularAcceleration(double gear_n) const {
+  // Critically damped; 1 / 33 s = 0.03 s.
   constexpr double kFrequency_rad_s = 33.0;
   const double carried = std::min(1.0, gear_n / (vehicle_.mass_kg * kGravity_m_s2));
   const common::RollPitchYaw angles = common::rollPitchYaw(state_.T_world_body.rotation);
@@ -176,7 +177,7 @@ Vector3d Quadrotor::gearAngularAcceleration(double gear_n) const {
          (kFrequency_rad_s * kFrequency_rad_s * lean_rad + 2.0 * kFrequency_rad_s * state_.angular_velocity_body_rad_s);
 }
 
-// Dry friction holds the feet.
+// Dry friction holds the feet; the coefficient is that of rubber on a smooth floor.
 void Quadrotor::applyFriction(double gear_n, double step_s) {
   constexpr double kFriction = 0.8;
   auto slide = state_.velocity_world_m_s.head<2>();

@@ -43,7 +43,7 @@ struct QuadrotorConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// The steady thrust of all motors at the same throttle, the voltage sagging under its own load, over the weight.
+/// Thrust over weight in steady state: all motors at the same throttle, at the voltage that their current leaves.
 double thrustOverWeight(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe, double battery_remaining,
                         double throttle);
 
@@ -77,7 +77,7 @@ class Quadrotor {
   /// Tells where the nearest wall is, from now on: the direction to it, of any length, and the distance from the hull.
   void feelWall(const Eigen::Vector2d& towards_wall_world, double gap_m);
 
-  /// A push at the centre of mass, spread over kPush_s.
+  /// A push at the centre of mass, spread over kPush_s, as long as the touch of a hand.
   void push(const Eigen::Vector3d& impulse_world_n_s);
   static constexpr double kPush_s = 0.1;
 

@@ -13,12 +13,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kLandingSpeed_m_s = 1.0;  // Above this speed the gear breaks.
-constexpr double kLandingTilt_rad = 25.0 * std::numbers::pi / 180.0;
+constexpr double kLandingSpeed_m_s = 1.0;                             // Above this speed the gear breaks.
+constexpr double kLandingTilt_rad = 25.0 * std::numbers::pi / 180.0;  // A touch-down with more tilt is a crash.
 constexpr double kSkidSpeed_m_s = 1.0;  // Above this speed along the floor the vehicle tumbles.
 constexpr double kTipOver_m = 0.05;     // Above this height difference of the feet the vehicle tips over.
-constexpr double kStill_m_s = 0.1;
-constexpr double kDeepest_m = 1000.0;
+constexpr double kStill_m_s = 0.1;      // A slower vehicle stands: it did not fly into the person.
+constexpr double kDeepest_m = 1000.0;   // Range of the ray to the floor; deeper than any world.
 
 void crash(Truth& truth, common::Time now, const std::string& name, const std::string& reason) {
   if (truth.crashed) return;

@@ -13,7 +13,7 @@
 namespace swiftlet::simulation {
 namespace {
 
-constexpr double kAnywhere_m = 1e4;
+constexpr double kAnywhere_m = 1e4;    // Farther, single-precision rays are coarser than a millimetre.
 constexpr double kGreatestSeed = 1e9;  // A trial counts up from it.
 
 std::string noPairs(const std::vector<double>& values) {

@@ -154,7 +154,7 @@ struct Scenario {
   /// `start`, `battery_remaining`, `pushes`, `faults` and `pilot` above; otherwise these must have their defaults.
   std::vector<ScenarioVehicle> vehicles;
 
-  /// What the plant is drawn from; null: it is that of the defaults. Not a key: the flight chooses it.
+  /// The ranges that the plant is drawn from; null: the plant has the default values. It is not read from the file.
   std::shared_ptr<const Nature> nature;
   /// Keys that the scenario's file wrote out ("quadrotor.motor_lag_s"); a nature leaves them as they are.
   std::vector<std::string> written;

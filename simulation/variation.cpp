@@ -20,9 +20,10 @@ using common::InputError;
 using common::kRadPerDeg;
 using common::Problem;
 
-constexpr double kSearchFloorFrom_m = 0.5;  // Height above the start from which the floor is searched.
-constexpr double kSearchFloorDown_m = 20.0;
-constexpr double kUnevenFloor_m = 0.03;
+constexpr double kSearchFloorFrom_m = 0.5;   // Height above the start from which the floor is searched.
+constexpr double kSearchFloorDown_m = 20.0;  // A start farther above a floor is a mistake.
+constexpr double kUnevenFloor_m =
+    0.03;  // Greatest height difference of the feet; the vehicle tips at 0.05 (referee.cpp).
 constexpr double kSameFloor_m = 0.05;  // A drawn start must be on the same floor as the nominal one, not on a crate.
 
 StartConfig nominalStart(const WorldModel& world, const Scenario& scenario) {

@@ -27,7 +27,8 @@ namespace swiftlet::simulation {
 /// Period of a physics step.
 inline constexpr common::Duration kStep = common::Duration::fromMilliseconds(1);
 inline constexpr double kStep_s = 0.001;
-inline constexpr std::uint64_t kStepsPerLook = 10;  ///< 100 Hz: referee and wind.
+/// Physics steps between two looks of the referee, and between two updates of the wind: 100 Hz.
+inline constexpr std::uint64_t kStepsPerLook = 10;
 
 class VehicleModel {
  public:

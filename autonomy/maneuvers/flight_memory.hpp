@@ -17,7 +17,7 @@ namespace swiftlet::autonomy {
 struct ExplorationMemory {
   std::vector<planning::ExplorationAttempt> attempts;  ///< Kept until everything is explored.
   std::optional<common::Time> people_seen;             ///< When a moving person was last seen.
-  std::vector<Eigen::Vector2d> lost_map_m;             ///< Targets on the way to which the position became uncertain.
+  std::vector<Eigen::Vector2d> lost_map_m;             ///< Targets during whose approach the position became uncertain.
 };
 
 struct FlightMemory {

@@ -44,11 +44,11 @@ class Walk : public tree::Leaf {
   double walked_s_ = 0.0;
 };
 
-/// Has something to do only while somebody calls: from second 2 to 4.
+/// Has something to do only while a person calls: from second 2 to 4.
 class Answer : public tree::Leaf {
  public:
   static tree::NodeManifest manifest() {
-    return {.id = "Answer", .description = "Answers whoever calls.", .may_skip = true};
+    return {.id = "Answer", .description = "Answers a person who calls.", .may_skip = true};
   }
   using Leaf::Leaf;
 

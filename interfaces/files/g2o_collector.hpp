@@ -58,7 +58,7 @@ class G2oCollector {
 
   Graph finish(const std::string& file, const std::map<std::int64_t, common::SourceLocation>& fixed) {
     if (graph_.edges.empty())
-      throw common::InputError(common::Problem{{file}, "", "holds vertices but no edges, nothing ties them", ""});
+      throw common::InputError(common::Problem{{file}, "", "holds vertices, but no edges connect them", ""});
     if (first_problem_) throw indefiniteError();
     if (graph_.ids.empty()) takeVerticesFromEdges();
     for (std::size_t i = 0; i < ends_.size(); ++i) {

@@ -12,6 +12,7 @@ using common::square;
 
 namespace {
 
+/// Twice the range of the laser that the shipped profiles have (UTM-30LX: 30 m). Farther is a defective value.
 constexpr double kFarthest_m = 60.0;
 
 }  // namespace

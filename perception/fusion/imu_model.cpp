@@ -9,6 +9,8 @@ namespace {
 
 /// A longer interval between two samples is a gap: the noise densities alone do not cover what happened inside it.
 constexpr double kGap_s = 0.05;
+/// Change of the specific force and of the angular rate that a gap may hide: a gust or a correction at the limits of an
+/// indoor flight (30 % of g, 30 deg/s).
 constexpr double kGapAcceleration_m_s2 = 3.0;
 constexpr double kGapRotation_rad_s = 0.5;
 

@@ -10,9 +10,13 @@
 namespace swiftlet::perception::fusion {
 namespace {
 
+/// Samples that are kept: 5 s at the autopilot's 200 Hz.
 constexpr std::size_t kCapacity = 1024;
+/// With fewer samples a standard deviation is uncertain by more than 16 %, 1 / sqrt(2 n).
 constexpr std::size_t kFewest = 20;
+/// Ten times the usual accelerometer bias of a MEMS IMU; more is another axis or unit, or a vehicle that moves.
 constexpr double kGravityTolerance_m_s2 = 1.0;
+/// Ten times the usual gyroscope bias of a MEMS IMU (1 deg/s).
 constexpr double kGyroscopeBiasLimit_rad_s = 0.2;
 
 }  // namespace

@@ -14,10 +14,13 @@ using common::Time;
 
 namespace {
 
+/// Beyond the newest sample a pose is extrapolated for up to four periods of the autopilot's IMU (200 Hz).
 constexpr double kMaxExtrapolation_s = 0.02;
+/// A measurement farther ahead of the IMU has a wrong stamp: no sensor of the field arrives half a second before it.
 constexpr double kMaxAhead_s = 0.5;
 /// IMU rate that the history has room for; a faster IMU shortens the history.
 constexpr double kRingRate_hz = 256.0;
+/// Room for the measurements within the history: 25 for each scan of a 40 Hz laser in the default history of 1 s.
 constexpr std::size_t kMeasurementCapacity = 1024;
 
 /// Extrapolates forwards or backwards with the velocity and angular velocity of the slot.
@@ -72,6 +75,7 @@ void StateHistory::push(const common::ImuSample& sample, bool at_rest) {
 /// The vehicle's own motion changes little from one sample to the next, so the differences between them are noise: the
 /// variance of a difference is twice that of a sample.
 void StateHistory::measureNoise(const ImuValue& before, const ImuValue& now) {
+  // The noise is averaged over 100 samples of the autopilot's IMU. A longer step is a gap, whose difference is motion.
   constexpr double kMean_s = 0.5, kLongestStep_s = 0.05;
   const double step_s = (now.stamp - before.stamp).seconds();
   if (!(step_s > 0.0) || step_s > kLongestStep_s) return;

@@ -7,6 +7,7 @@ namespace swiftlet::perception {
 
 /// Covariance of the additive errors (x_m, y_m, yaw_rad).
 inline Eigen::Matrix3d unknownStepCovariance() {
+  // As far as an indoor vehicle moves and turns between two scans of a slow log: 1 m/s and 35 deg/s for half a second.
   constexpr double kSigma_m = 0.5, kSigma_rad = 0.3;
   return common::planarCovariance(kSigma_m, kSigma_rad);
 }

@@ -39,6 +39,7 @@ struct FieldView {
 
 class MapField {
  public:
+  /// Greatest distance to a wall that is kept: 255 steps of 1 cm fit into a byte.
   static constexpr double kMaxDistance_m = 2.55;
   /// Limit on the cells of the known part. Cell counts have 32 bits; searching a map of this size takes 5 GB.
   static constexpr std::int64_t kMaxCells = 1'000'000'000;

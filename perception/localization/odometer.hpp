@@ -34,6 +34,7 @@ class Odometer {
   double turned_rad(const common::Pose2& next) const { return turned_rad_ + turn_rad(next); }
 
  private:
+  /// The path is measured in chords of this length and turn, so that the jitter of a hovering vehicle adds nothing.
   static constexpr double kChord_m = 0.05;
   static constexpr double kTurn_rad = 3.0 * common::kRadPerDeg;
 

@@ -21,6 +21,7 @@ struct Neighbourhood {
 /// kCoarse covers the gaps between the poses of the coarse search; kFine refines to the resolution of the field.
 constexpr Neighbourhood kCoarse{2, 0.05, 3, 0.5 * kRadPerDeg};
 constexpr Neighbourhood kFine{1, 0.02, 1, 0.2 * kRadPerDeg};
+/// Bounds the moves of the neighbourhood, each as far as it is wide: together 0.4 m with kCoarse.
 constexpr int kMostMoves = 4;
 
 /// Scores neighbourhoods of poses. Keeps its buffers between calls.

@@ -28,6 +28,7 @@ bool unexplained(const common::OccupancyGrid& background, const Point& point_m, 
 /// Whether several beams pass near the middle of the obstacle's predicted place and end well behind it.
 bool violatesFreeSpace(const DynamicObstacle& obstacle, double age_s, std::span<const Eigen::Vector2f> points_map_m,
                        const Point& sensor_map_m) {
+  // One beam may slip past an edge. 0.2 m is the depth of a person's body behind the outline that the laser sees.
   constexpr int kBeams = 2;
   constexpr double kBehind_m = 0.2;
   const Point to = obstacle.center_map_m + obstacle.velocity_map_m_s * age_s - sensor_map_m;

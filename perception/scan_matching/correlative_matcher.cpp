@@ -176,6 +176,7 @@ std::vector<bool> CorrelativeMatcher::Impl::supportedAt(const SplitPoints& point
 /// all points, so more points do not average it out. For an error about each axis, the shift of the peak is computed.
 Eigen::Matrix3d CorrelativeMatcher::Impl::attitudeCovariance(const SplitPoints& points, const Pose2& center,
                                                              double step_rad, const Peak& peak) {
+  // A smaller shift is below the least standard deviation of a match (quadratic_peak.cpp, kFloorSigma_m).
   constexpr float kLeastShift_m = 0.0005F;
   const auto error_rad = static_cast<float>(config.attitude_error_deg * kRadPerDeg);
   float greatest_m = 0.0F;

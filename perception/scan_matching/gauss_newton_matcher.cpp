@@ -11,12 +11,16 @@ namespace {
 
 using common::Pose2;
 
+/// Resolution of a level relative to the next finer one. Hector SLAM (Kohlbrecher 2011, section IV-C) halves it; a
+/// ratio of four needs half the levels.
 constexpr int kLevelRatio = 4;
 /// Coarse levels only need an approximate pose, so they use every fourth point.
 constexpr std::size_t kCoarseStride = 4;
 /// A step smaller than this share of a cell ends a level.
 constexpr double kSmallStep_cells = 0.05;
+/// A last step larger than this share of a cell means that the search did not converge.
 constexpr double kConverged_cells = 0.5;
+/// A step that lowers the score is halved up to so often. If an eighth of it lowers the score too, the level ends.
 constexpr int kHalvings = 3;
 
 }  // namespace

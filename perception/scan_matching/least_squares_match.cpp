@@ -18,11 +18,12 @@ constexpr double kMinResidual_m = 0.004;
 /// Residual assumed during the iterations to decide which directions are observable: the measured residual is then that
 /// of a misplaced scan.
 constexpr double kUnderwayResidual_m = 0.02;
+/// Least lever arm by which rotations are compared with translations, where all points are at the vehicle itself.
 constexpr double kLeastLever_m = 0.1;
 /// A pose within this distance of the window's edge, on either side, is at the edge. Farther outside, the match failed.
 constexpr double kEdge_m = 0.01;
 constexpr double kEdge_rad = 0.1 * kRadPerDeg;
-constexpr double kScorePerPoint = 255.0;
+constexpr double kScorePerPoint = 255.0;  ///< LikelihoodField::kTopValue, so that scores compare with the search's.
 
 }  // namespace
 

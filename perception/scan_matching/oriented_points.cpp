@@ -6,9 +6,11 @@
 namespace swiftlet::perception {
 namespace {
 
+/// Cell size of the look-up grid, at least: about three points of kSpacing_m lie in a cell along a wall. In large
+/// scenes the cells grow, so that the grid stays within a few megabytes.
 constexpr double kLeastCell_m = 0.1;
 constexpr double kMostCells = 200'000;
-constexpr double kSameSide_cos = 0.7071;
+constexpr double kSameSide_cos = 0.7071;  ///< 45 degrees: the other side and the walls at a corner do not pair.
 /// Two neighbouring points whose normals agree at least this well belong to one surface.
 constexpr float kSmooth_cos = 0.95F;
 

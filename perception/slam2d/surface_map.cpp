@@ -16,6 +16,7 @@ using common::occupancy::Cell;
 namespace occupancy = common::occupancy;
 
 constexpr std::uint8_t kViewCrossed = 1, kViewEnded = 2;
+/// Offsets within a cell and components of unit normals are stored in signed bytes.
 constexpr double kOffsetsPerCell = 254.0;
 constexpr double kNormalLength = 127.0;
 /// A mean normal shorter than this share of a unit normal is not clear: the normals of its hits differ as much as those

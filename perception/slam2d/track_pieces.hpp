@@ -15,9 +15,10 @@ namespace swiftlet::perception {
 struct SlamEdge;
 struct FollowedScan;
 
-/// How certain the motion over a gap must be to connect the pieces before and after it.
+/// How certain the motion over a gap must be to connect the pieces before and after it (decision 026): as certain as
+/// the local match after the gap requires (Slam2dConfig::local_sigma_m). It is no setting: the word "trusted" in a
+/// report means the same for every profile.
 struct BridgeConfig {
-  /// As certain as the local match after the gap requires (Slam2dConfig::local_sigma_m).
   double max_sigma_m = 0.10;
   double max_sigma_deg = 3.0;
 };

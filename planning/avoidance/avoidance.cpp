@@ -15,8 +15,11 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Step of predictions: at 1.5 m/s a person moves by 15 cm, less than the outline of a body.
 constexpr double kTimeStep_s = 0.1;
+/// A slower velocity has no direction.
 constexpr double kStill_m_s = 1e-3;
+/// A return this near to the outline of a tracked person is the person: an arm, or half a stride ahead of the track.
 constexpr double kSameBody_m = 0.3;
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -163,6 +166,7 @@ double Avoidance::stoppingSpeed(double gap_m) const {
 
 double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double intended_m_s,
                                 const std::vector<Threat>& threats) const {
+  // Within the horizon a person at 1.5 m/s walks 3.75 m.
   constexpr double kStep_m_s = 0.1, kHorizon_s = 2.5;
   const double a = config_.deceleration_m_s2;
   const auto leastGap = [&](const Threat& threat, double v) {
@@ -195,6 +199,7 @@ Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, cons
 /// The turn that brings the nearest threat and the course of the retreat into the laser's field of view. Outside it, a
 /// person is soon lost by the tracker, and an obstacle on the course is not seen.
 double Avoidance::turnToSee(const std::vector<Threat>& threats, const Point& retreat_level_m_s) const {
+  // Decision 009: losing sight of the danger costs more than losing sight of the course, and each more than turning.
   constexpr double kStep_rad = std::numbers::pi / 36.0, kDanger = 4.0, kCourse = 2.0, kLeast_m_s = 0.1;
   const Threat* nearest = nullptr;
   for (const Threat& threat : threats) {

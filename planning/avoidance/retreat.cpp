@@ -13,17 +13,20 @@ using Point = Eigen::Vector2d;
 using Points = std::vector<Point>;
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
+/// A course is predicted for 2 s: the latency, the longest flight (kGoing_s) and the time to brake to rest.
 constexpr double kStep_s = 0.1;
 constexpr int kSteps = 20;
 /// Motion of people is extrapolated for at most this time. A contact sooner than `kTooSoon_s` cannot be changed any
 /// more.
 constexpr double kForesight_s = 1.5, kTooSoon_s = 0.3;
+/// The courses of decision 004.
 constexpr int kDirections = 36;
 constexpr std::array<double, 3> kShareOfSpeed{0.25, 0.5, 1.0};
 constexpr std::array<double, 3> kGoing_s{0.2, 0.5, 0.9};
 /// Preferences that are weighed against the gap, in metres of gap: flying straight away, keeping the direction, flying
 /// slowly, and moving at all.
 constexpr double kAway_m = 0.06, kSame_m = 0.05, kSlow_m = 0.06, kWorth_m = 0.02;
+/// Returns denser than a cell of the shipped map are left out.
 constexpr double kThinned_m = 0.05;
 
 /// Position of the vehicle at every step, from the origin.
@@ -86,6 +89,7 @@ class Retreat {
   /// Prefers a course across the path of a person who passes to one along it, and straight away from a person who comes
   /// straight on.
   static Point awayFrom(const Threat& threat) {
+    // Two half widths of a person and the vehicle: a person whose line passes farther off does not meet the vehicle.
     constexpr double kPasses_m = 0.5;
     Point straight = -threat.center_m.normalized();
     if (threat.velocity_m_s.isZero()) return straight;

@@ -8,6 +8,8 @@
 namespace swiftlet::planning {
 namespace {
 
+/// Greatest step of the surface, so that the cost of an edge is bounded: levels are taken as within 2.5 m of the
+/// take-off floor.
 constexpr double kMaxStep_m = 5.0;
 
 }  // namespace
@@ -33,6 +35,7 @@ void CostMap::applyLayers(const CostLayers& layers) {
 }
 
 void CostMap::applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
+  // Decision 010. A longer step is a correction of the map and not a flight.
   constexpr double kWithin_m = 0.075, kJump_m = 1.0;
   const Eigen::Vector2d step = to_map_m - from_map_m;
   if (!step.allFinite() || step.norm() > kJump_m) return;

@@ -8,6 +8,7 @@
 namespace swiftlet::planning {
 
 Eigen::Vector2d wallNormal(const CostMap& map, int index) {
+  // 5 x 5 cells: 25 cm of wall in the shipped map, which give a normal and do not reach round a corner.
   constexpr int kHalf = 2;
   const common::CellIndex center = map.cellOf(index);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();

@@ -36,9 +36,9 @@ struct ExplorationInput {
   std::optional<Viewpoint> current;  ///< The one being flown to; kept unless another is clearly better.
   std::vector<ExplorationAttempt> attempts;
   std::optional<common::MapBounds> bounds;  ///< Frontiers outside are not explored.
-  /// Targets on the way to which the position became uncertain; frontiers near them are not explored.
+  /// Targets during whose approach the position became uncertain; frontiers near them are not explored.
   std::vector<Eigen::Vector2d> lost_map_m = {};
-  /// Frontiers where too few walls are around to know the position are explored as well.
+  /// Whether frontiers with too few walls around to know the position there are explored as well.
   bool leave_building = false;
 };
 

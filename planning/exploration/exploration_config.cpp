@@ -23,10 +23,10 @@ void ExplorationConfig::describe(common::config::Fields& fields) {
   fields("least_wall_share", least_wall_share, {0, 1},
          "A frontier around which a smaller share of the directions ends at walls is not explored, as outside an open "
          "door.");
-  fields("hold_range_m", hold_range_m, {0.5, 100}, "Range within which such walls count.");
+  fields("wall_range_m", wall_range_m, {0.5, 100}, "Range within which such walls count.");
   fields("open_m", open_m, {0.5, 100}, "A direction that is free as far as this without a wall counts as open.");
   fields("lost_radius_m", lost_radius_m, {0, 100},
-         "Frontiers this near to one on the way to which the position became uncertain are not explored.");
+         "Frontiers this near to a target during whose approach the position became uncertain are not explored.");
   fields("max_attempts", max_attempts, {1, 100}, "A frontier that remains after this many views is not tried again.");
   fields("attempt_radius_m", attempt_radius_m, {0, 5}, "Views from this near to a frontier count as attempts at it.");
   fields("max_evaluated", max_evaluated, {1, 1000},

@@ -19,7 +19,7 @@ struct ExplorationConfig {
   double hysteresis = 0.25;
   double localizability_weight = 0.3;
   double least_wall_share = 0.4;
-  double hold_range_m = 25.0;
+  double wall_range_m = 25.0;
   double open_m = 8.0;
   double lost_radius_m = 4.0;
   int max_attempts = 3;

@@ -8,7 +8,7 @@
 namespace swiftlet::planning {
 
 void ExplorerConfig::describe(common::config::Fields& fields) {
-  fields.choice("kind", kind, {"utility", "nearest_frontier"}, "Who chooses the next viewpoint.");
+  fields.choice("kind", kind, {"utility", "nearest_frontier"}, "How the next viewpoint is chosen.");
 }
 
 std::unique_ptr<Explorer> makeExplorer(const ExplorerConfig& config, const ExplorationConfig& exploration) {

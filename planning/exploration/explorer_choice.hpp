@@ -1,4 +1,4 @@
-// The explorer that chooses the viewpoints, as a system profile chooses it.
+// The choice of the explorer by a system profile.
 #pragma once
 
 #include <memory>

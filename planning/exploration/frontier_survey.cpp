@@ -53,7 +53,7 @@ Frontier FrontierSurvey::described(const FrontierRun& run) const {
   } else if (!inside) {
     setReason(frontier, FrontierReason::kOutOfBounds, "outside the bounds of the mission");
   } else if (isLost(frontier.centroid_map_m)) {
-    setReason(frontier, FrontierReason::kPositionUncertain, "the position became uncertain on the way there");
+    setReason(frontier, FrontierReason::kPositionUncertain, "the position became uncertain during an earlier approach");
   } else if (frontier.attempts >= config_.max_attempts) {
     setReason(frontier, FrontierReason::kBlacklisted, fmt::format("looked at {} times", frontier.attempts));
   }
@@ -64,7 +64,7 @@ std::vector<SeenFrontier> FrontierSurvey::seenBy(const Scout& scout) {
   std::vector<SeenFrontier> seen;
   for (std::size_t i = 0; i < frontiers_.size(); ++i) {
     if (frontiers_[i].reason != FrontierReason::kOpen) continue;
-    if (!input_.leave_building && !scout.hasHold(runs_[i].cells[runs_[i].cells.size() / 2])) {
+    if (!input_.leave_building && !scout.hasWallsToMatch(runs_[i].cells[runs_[i].cells.size() / 2])) {
       leave(i, FrontierReason::kPositionUncertain, "too few walls around it to know the position there");
       continue;
     }

@@ -14,13 +14,17 @@ namespace {
 
 using common::CellIndex;
 
-constexpr int kCoarse = 72, kFine = 144, kGainRays = 120, kHoldRays = 90;
+/// Rays around a place: for lookouts every 5 degrees, and every 2.5 where these find none; for the gain every 3
+/// degrees, which are 0.6 m at the range of 12 m; for walls every 4 degrees.
+constexpr int kCoarse = 72, kFine = 144, kGainRays = 120, kWallRays = 90;
+/// Outer radii of the rings of lookouts around a frontier: each doubles, so that near and far views compete.
 constexpr std::array<double, 5> kRings_m{0.6, 1.2, 2.4, 4.8, std::numeric_limits<double>::infinity()};
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
 
 /// The heading whose field of view covers the most gain. Of nearly equal headings the smaller turn decides.
 double bestHeading(const std::array<double, kGainRays>& gains, double field_of_view_rad, double preferred_yaw_rad,
                    double& gain) {
+  // Turning by half a circle must gain a tenth of the area.
   constexpr double kSpacing_rad = 2.0 * std::numbers::pi / kGainRays, kTurnShare = 0.1;
   const int half = std::min(kGainRays / 2, static_cast<int>(0.5 * field_of_view_rad / kSpacing_rad));
   double best_score = -1.0, best_yaw_rad = preferred_yaw_rad;
@@ -47,7 +51,7 @@ Scout::Scout(const CostMap& map, const CostField& from_vehicle, const Exploratio
       coarse_(kCoarse),
       fine_(kFine),
       gain_(kGainRays),
-      hold_(kHoldRays) {}
+      wall_(kWallRays) {}
 
 std::vector<Lookout> Scout::lookouts(const FrontierRun& frontier) const {
   std::vector<Lookout> rings(kRings_m.size(), {{}, {}, kNoPlace});
@@ -78,8 +82,8 @@ void Scout::lookFrom(CellIndex unknown, const Directions& directions, std::vecto
   }
 }
 
-bool Scout::hasHold(CellIndex place) const {
-  return wallShareAt(map_, place, config_.hold_range_m, config_.open_m, hold_) >= config_.least_wall_share;
+bool Scout::hasWallsToMatch(CellIndex place) const {
+  return wallShareAt(map_, place, config_.wall_range_m, config_.open_m, wall_) >= config_.least_wall_share;
 }
 
 View Scout::view(CellIndex place, double preferred_yaw_rad) const {

@@ -41,7 +41,7 @@ class Scout {
 
   /// Whether there are enough walls around the place to match a scan with. They may fail to fix the position along one
   /// direction, as those of a corridor do.
-  bool hasHold(common::CellIndex place) const;
+  bool hasWallsToMatch(common::CellIndex place) const;
 
  private:
   void lookFrom(common::CellIndex unknown, const Directions& directions, std::vector<Lookout>& rings) const;
@@ -52,7 +52,7 @@ class Scout {
   Directions coarse_;
   Directions fine_;
   Directions gain_;
-  Directions hold_;
+  Directions wall_;
 };
 
 }  // namespace swiftlet::planning

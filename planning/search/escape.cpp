@@ -61,6 +61,8 @@ std::optional<CellPath> cheapest(const CellRect& window, CellIndex start,
 }  // namespace
 
 std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double reach_m) {
+  // Prices by what is likely there: away from obstacles first, through unknown cells only where no free path of twenty
+  // times the length exists, and through occupied ones last, as these are noise only where the hull itself stands.
   constexpr double kNearness = 4.0, kUnknown = 20.0, kOccupied = 50.0;
   if (!map.contains(start)) return std::nullopt;
   const int reach = static_cast<int>(std::ceil(reach_m / map.resolution_m()));
@@ -82,7 +84,7 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
                   [&](CellIndex cell) { return map.costAt(cell) != CostMap::kLethal; });
 }
 
-std::optional<BlockedWay> blockedWay(const CostMap& map, CellIndex start, CellIndex goal) {
+std::optional<BlockedPath> blockedPath(const CostMap& map, CellIndex start, CellIndex goal) {
   // A lethal cell that is not occupied is much cheaper than an occupied one: it may be a narrow gap, or a person who
   // will leave.
   constexpr double kNarrow = 4.0, kOccupied = 200.0;
@@ -102,7 +104,7 @@ std::optional<BlockedWay> blockedWay(const CostMap& map, CellIndex start, CellIn
   if (!path) return std::nullopt;
   const auto lethal = std::find_if(path->begin(), path->end(), isLethal);
   if (lethal == path->end()) return std::nullopt;
-  return BlockedWay{*std::prev(lethal), *lethal};
+  return BlockedPath{*std::prev(lethal), *lethal};
 }
 
 }  // namespace swiftlet::planning

@@ -52,12 +52,12 @@ std::optional<CellPath> escapeFrom(const CostMap& map, common::CellIndex start, 
 
 /// Where the path to a goal is blocked. Of the path that would be taken without the obstruction, this is the last cell
 /// before the first lethal one, and that lethal cell.
-struct BlockedWay {
+struct BlockedPath {
   common::CellIndex last_free, first_lethal;
 };
-/// None when the start cannot escape, when nothing blocks the path, or when even without the obstruction there is no
-/// path.
-std::optional<BlockedWay> blockedWay(const CostMap& map, common::CellIndex start, common::CellIndex goal);
+/// Returns nothing when the start cannot escape, when nothing blocks the path, or when there is no path even without
+/// the obstruction.
+std::optional<BlockedPath> blockedPath(const CostMap& map, common::CellIndex start, common::CellIndex goal);
 
 /// The place nearest to a point, within `reach_m`, that lies in a cell with isSuch(cell).
 std::optional<Eigen::Vector2d> nearestPlace(const CostMap& map, const Eigen::Vector2d& point_map_m, double reach_m,

@@ -9,6 +9,7 @@
 namespace swiftlet::simulation {
 namespace {
 
+/// Farther surfaces are not drawn.
 constexpr double kSight_m = 60.0;
 
 Color sky(const Eigen::Vector3f& direction_world) {

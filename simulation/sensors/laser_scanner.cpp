@@ -95,6 +95,7 @@ bool LaserScanner::passesThrough(const Ray& ray, const Hit& hit) const {
 }
 
 Hit LaserScanner::behindGlass(const Ray& ray, Hit hit, const std::vector<Actor>& actors, const RayCaster& rays) const {
+  // More panes one behind the other than a building has; bounds the work of a ray.
   constexpr int kMostSurfaces = 16;
   constexpr double kStepBehind_m = 1e-3;  // Thinner than a pane.
   const Eigen::Vector3d origin = ray.origin_world_m.cast<double>(), direction = ray.direction_world.cast<double>();
@@ -126,6 +127,7 @@ bool LaserScanner::towardsSun(const Ray& ray) const {
 void LaserScanner::addSurfaceErrors(std::uint64_t frame) {
   common::RandomStream random(seed_, "laser errors", frame);
   constexpr float kNothing_m = std::numeric_limits<float>::infinity();
+  // Mixed pixels arise where neighbouring beams differ by more than this; a slanted wall differs by less.
   constexpr float kEdge_m = 0.10F;
   for (std::size_t i = 0; i < hits_.size(); ++i) {
     if (!hits_[i]) continue;

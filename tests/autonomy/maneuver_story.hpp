@@ -88,7 +88,7 @@ class ManeuverStory : public testing::Test {
     decision_.retreat_velocity_level_m_s = velocity_level_m_s;
     decision_.retreat_acceleration_m_s2 = 2.0;
     decision_.turn_rad = turn_rad;
-    decision_.status.reason = "somebody comes";
+    decision_.status.reason = "a person approaches";
     executor_.react(decision_, state_);
   }
   void calm() {

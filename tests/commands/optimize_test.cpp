@@ -161,7 +161,7 @@ TEST_F(Optimize, ReportsPartsWithoutAnEdgeToTheFixedVertex) {
                                   "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n");
   const ProgramEnd end = runSwiftlet({"optimize", graph});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
-  EXPECT_THAT(end.err, HasSubstr("note: 1 part of the graph is not tied to the fixed vertex"));
+  EXPECT_THAT(end.err, HasSubstr("note: 1 part of the graph is not connected to the fixed vertex"));
 }
 
 TEST_F(Optimize, TheExitCodeShowsThatItDidNotConverge) {

@@ -201,13 +201,14 @@ TEST_F(TwoRooms, KeepsTheViewpointWhileItIsGoodEnough) {
   EXPECT_FALSE(look(24, input).kept_current);
 }
 
-TEST_F(TwoRooms, AFrontierOnTheWayToWhichThePositionBecameUncertainIsLeft) {
+TEST_F(TwoRooms, AFrontierDuringWhoseApproachThePositionBecameUncertainIsLeft) {
   ExplorationInput input;
   input.lost_map_m = {{4.0, 2.5}};
   const ExplorationResult result = look(24, input);
   EXPECT_TRUE(result.done);
   EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kPositionUncertain);
-  EXPECT_EQ(result.frontiers[0].explanation, "position uncertain: the position became uncertain on the way there");
+  EXPECT_EQ(result.frontiers[0].explanation,
+            "position uncertain: the position became uncertain during an earlier approach");
   input.lost_map_m = {{0.2, 2.5}};
   EXPECT_EQ(look(24, input).frontiers[0].reason, FrontierReason::kOpen) << "a place far from it";
 }

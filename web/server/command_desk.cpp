@@ -3,6 +3,7 @@
 namespace swiftlet::web {
 namespace {
 
+/// Commands without an answer yet. More than operators give by hand: a flood is refused.
 constexpr std::size_t kMostWaiting = 64;
 
 }  // namespace

@@ -125,7 +125,8 @@ void Core::close() {
   for (const std::weak_ptr<Connection>& weak : std::exchange(connections_, {}))
     if (const auto connection = weak.lock()) connection->close();
   watchers_.clear();
-  // Who waits for an answer is held by the desk and holds this: told that none comes, they let each other go.
+  // A pending request and this object own each other through the desk. The last ticks answer all of them, which ends
+  // that cycle.
   for (const auto& vehicle : vehicles_)
     while (vehicle->desk.waiting()) vehicle->desk.tick();
 }

@@ -71,7 +71,7 @@ class Core : public std::enable_shared_from_this<Core> {
   void add(const std::shared_ptr<Connection>& connection);
   /// The connection receives the tick as long as it lives.
   void watch(const std::shared_ptr<Connection>& connection);
-  /// Ticks at once if it idles; needed at the start and after a command was given.
+  /// Makes the next tick come at once instead of at the idle rate. Call it at the start and after a command was given.
   void wake();
   /// True while a viewer may come to watch.
   bool roomForViewer() const;
@@ -82,7 +82,7 @@ class Core : public std::enable_shared_from_this<Core> {
   void close();
   bool closed() const { return closed_; }
 
-  /// By its number, as route() gives it. They stay as long as this.
+  /// The vehicle with that number, as route() gives it. The reference stays valid as long as this object.
   WatchedVehicle& vehicle(std::size_t number) { return *vehicles_[number]; }
   common::Time now() const { return options.unix_time(); }
 

@@ -10,6 +10,7 @@
 namespace swiftlet::web {
 namespace {
 
+/// JPEG qualities: lines and text of a map show artefacts sooner than photographs, for which 75 is the usual default.
 constexpr int kMapQuality = 85;
 constexpr int kCameraQuality = 75;
 
@@ -62,7 +63,8 @@ std::shared_ptr<const StreamFrame> FrameHub::frame(View& view, const std::shared
   return nullptr;
 }
 
-/// Hold and Land never wait for pictures: with many views of different sizes each is drawn less often.
+/// Half of the thread's time is kept for everything else, so that Hold and Land never wait for pictures. With many
+/// views of different sizes each is drawn less often.
 void FrameHub::shareTime() {
   constexpr double kShareOfThread = 0.5;
   double total_s = 0.0;

@@ -21,6 +21,7 @@ namespace http = beast::http;
 using boost::system::error_code;
 using Response = http::response<http::string_body>;
 
+/// Limits against clients that send without end. The longest command has some hundred bytes.
 constexpr std::uint32_t kMostHeaderBytes = 8 * 1024;
 constexpr std::uint64_t kMostBodyBytes = std::uint64_t{4} * 1024;
 constexpr auto kRequestTimeout = std::chrono::seconds(15);

@@ -13,8 +13,10 @@ namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using boost::system::error_code;
 
+/// The page moves smoothly at 10 Hz. The map may lag a little more, as its tiles are most of the traffic.
 constexpr double kStatesPerSecond = 10.0;
 constexpr double kMapsPerSecond = 4.0;
+/// Of one message, so that a state waits for at most 64 KiB of map on a slow link.
 constexpr std::size_t kMostTileBytes = std::size_t{64} * 1024;
 
 class PageSession : public Connection, public std::enable_shared_from_this<PageSession> {

@@ -14,6 +14,7 @@
 namespace swiftlet::web {
 namespace {
 
+/// Larger numbers are mistakes: no map is 100 km wide.
 constexpr double kGreatestCoordinate_m = 1e5;
 
 /// Holds the refusal as soon as a check fails.

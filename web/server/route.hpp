@@ -25,7 +25,7 @@ struct PictureView {
 struct ServeFile {
   std::string name;  ///< Name of the embedded file: "index.html".
 };
-// `vehicle`: the number of the one that is meant.
+// In the actions below, `vehicle` is the number of the vehicle that the request names.
 struct StreamPictures {
   PictureView view;
   double fps = 10.0;
@@ -66,7 +66,7 @@ struct Policy {
 /// parameters and body (400). Widths, heights and rates that are too large are reduced to what is offered.
 Action route(const Request& request, const Policy& policy);
 
-/// The request shows the operator's token, in its header or its address.
+/// Whether the request carries the operator's token, in its header or its address.
 bool hasToken(const Request& request, const Policy& policy);
 
 }  // namespace swiftlet::web

@@ -8,8 +8,11 @@
 namespace swiftlet::web {
 namespace {
 
+/// Events that a new page gets: more than it shows without scrolling.
 constexpr std::size_t kKeptEvents = 200;
+/// The real-time factor is that of the last three seconds: steady, and soon right after a pause.
 constexpr double kClockWindow_s = 3.0;
+/// Denser end points of a scan are not sent: they fall on one pixel of the page.
 constexpr double kLaserSpacing_m = 0.04;
 
 /// The scan, thinned for the page.

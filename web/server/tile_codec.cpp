@@ -4,6 +4,7 @@ namespace swiftlet::web {
 namespace {
 
 constexpr int kTile = common::OccupancyGrid::kTileSize;
+/// A run of this or more has its length in the bytes that follow; the low half of a byte holds the shorter ones.
 constexpr int kLongRun = 15;
 
 void append(std::string& bytes, int shade, int length) {

@@ -26,6 +26,7 @@ namespace {
 using boost::asio::ip::tcp;
 using boost::system::error_code;
 
+/// The shortest password that NIST SP 800-63B allows.
 constexpr std::size_t kLeastTokenLength = 8;
 
 [[noreturn]] void fail(const std::string& element, const std::string& message, const std::string& hint) {

@@ -38,7 +38,7 @@ class WebServer {
 
   /// Starts to listen at once. Throws common::InputError if the address cannot be used or the port is taken.
   WebServer(IoContext& io, const Options& options, const Sources& sources);
-  /// One for each vehicle, at least one; of several all have names.
+  /// Serves several vehicles: one of `sources` each, at least one. If there are several, each must have a name.
   WebServer(IoContext& io, const Options& options, const std::vector<Sources>& sources);
   ~WebServer();
   WebServer(const WebServer&) = delete;
@@ -50,7 +50,7 @@ class WebServer {
   /// that others can open, if there is one.
   std::string operatorUrl() const;
 
-  /// Someone watches the vehicle's camera, so that it is worth rendering. Any thread.
+  /// Whether any client watches the vehicle's camera. Otherwise it need not be rendered. Any thread.
   bool cameraWanted(std::size_t vehicle = 0) const;
   /// Shown in the list of the vehicle's page; the last 200 are kept. Any thread.
   void postEvent(const common::Event& event, std::size_t vehicle = 0);

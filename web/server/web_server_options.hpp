@@ -35,7 +35,7 @@ struct WebServerSources {
   const common::LatestValue<common::CameraFrame>& camera;
   common::LosslessQueue<common::OperatorCommand>& commands;
   common::LosslessQueue<common::CommandResult>& results;
-  std::string name = {};  ///< Of one of several vehicles, each another; empty for one that flies alone.
+  std::string name = {};  ///< Unique among several vehicles; empty for a single one.
 };
 
 }  // namespace swiftlet::web

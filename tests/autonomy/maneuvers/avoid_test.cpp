@@ -1,4 +1,4 @@
-// Avoid: the reactive layer has the vehicle.
+// Avoid: the reactive layer controls the vehicle.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,10 +13,10 @@ TEST_F(AvoidManeuver, ReportsItsReasonAndReleasesTheVehicleAfterTheRetreat) {
   retreat({-0.5, 0.0});
   want(common::AvoidIntent{});
   run(1.5);
-  EXPECT_EQ(executor_.status().reason, "somebody comes");
+  EXPECT_EQ(executor_.status().reason, "a person approaches");
   retreat(Eigen::Vector2d::Zero());
   run(1.5);
-  EXPECT_FALSE(executor_.status().released) << "it stands, but the layer still has it";
+  EXPECT_FALSE(executor_.status().released) << "it stands, but the layer still controls it";
   calm();
   run(1.5);
   EXPECT_TRUE(executor_.status().released) << "it has stopped";
