@@ -32,7 +32,7 @@ struct Tolerance {
   double loop_m = 0.006;  ///< Of the motion there and back.
 };
 /// An average over poses of a grid of 1 cm and 0.1 degrees is exact to half a cell; 95 % are within two.
-constexpr Tolerance kOfTheGrid{0.005, 0.02, 0.05, 0.2};
+constexpr Tolerance kOfTheGrid{0.005, 0.02, 0.05, 0.2, 0.02};
 
 struct Kind {
   std::string name;
