@@ -15,7 +15,7 @@ using common::LaserScan;
 /// A whole turn, plus one beam that some lasers repeat.
 constexpr double kWidestFan_rad = 2.0 * std::numbers::pi + 0.1;
 /// No laser has a longer range. Logs that claim one mean that nothing was seen.
-constexpr double kFarthest_m = 1000.0;
+constexpr double kGreatestRange_m = 1000.0;
 
 void useSensor(const common::LaserConfig& sensor, LoggedScan& logged) {
   LaserScan& scan = logged.scan;
@@ -44,7 +44,7 @@ std::optional<std::string> completeScan(const std::optional<common::LaserConfig>
   if (sensor) useSensor(*sensor, logged);
   LaserScan& scan = logged.scan;
   if (auto problem = geometryProblem(scan)) return "no laser has " + *problem + ", give its data sheet by --sensor";
-  scan.range_max_m = std::min(scan.range_max_m, kFarthest_m);
+  scan.range_max_m = std::min(scan.range_max_m, kGreatestRange_m);
   const auto farthest_m = static_cast<float>(scan.range_max_m);
   for (float& range_m : scan.ranges_m) {
     if (range_m < 0.0F) range_m = std::numeric_limits<float>::quiet_NaN();

@@ -1,0 +1,39 @@
+// Octrees in the two file formats of OctoMap 1.x: .bt (a voxel is free, occupied or unknown) and .ot (log odds).
+// Source: Hornung et al. 2013, section 4.3, and the files that OctoMap 1.9 writes.
+//
+// A codec of our own instead of OctoMap's: it goes straight between blocks and bytes, where a tree of nodes would take
+// forty times the memory, and its recursion is bounded whatever the file holds. Tests let OctoMap read what is written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "common/voxel_map.hpp"
+#include "interfaces/files/atomic_file.hpp"
+
+namespace swiftlet::interfaces {
+
+enum class OctreeFormat {
+  kBinary,   ///< .bt
+  kLogOdds,  ///< .ot
+};
+
+/// By the ending of the name. Throws InputError for any other ending than .bt and .ot.
+OctreeFormat octreeFormatOf(const std::filesystem::path& file);
+
+/// Eight equal voxels, or cubes of them, become one leaf, as OctoMap prunes its trees. In a .ot file an inner node has
+/// the greatest log odds of its children. Throws InputError if a known voxel lies beyond the tree's 2^15 voxels.
+std::string toOctree(const common::VoxelMap& map, OctreeFormat format);
+
+/// Writes the map in one step, in the format of the name's ending.
+[[nodiscard]] Written writeOctree(const std::filesystem::path& file, const common::VoxelMap& map);
+
+/// Reads either format, plain or compressed by gzip. Voxels of a .bt file get the least or the greatest log odds of
+/// OctoMap's sensor model, those of a .ot file theirs, rounded to steps of common::VoxelMap::kLogOddsStep. Throws
+/// InputError, also for a tree that fills more than `most_blocks` blocks of the map.
+common::VoxelMap readOctree(const std::filesystem::path& file, std::size_t most_blocks = 2'000'000);
+/// The same for bytes. Messages use `name` as the file.
+common::VoxelMap parseOctree(std::string_view bytes, const std::string& name, std::size_t most_blocks = 2'000'000);
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,170 @@
+// Octrees that OctoMap itself reads and writes.
+#include "interfaces/files/octomap.hpp"
+
+#include <octomap/octomap.h>
+
+#include <cstdlib>
+#include <memory>
+#include <random>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::VoxelBlock;
+using common::VoxelIndex;
+using common::VoxelMap;
+using testing::HasSubstr;
+
+/// Cubes of one value, so that something can be pruned, and single voxels, on all sides of the origin.
+VoxelMap randomMap(unsigned seed) {
+  VoxelMap map(0.05);
+  std::mt19937 random(seed);
+  const auto number = [&](int low, int high) { return low + static_cast<int>(random() % static_cast<unsigned>(high - low)); };
+  for (int cube = 0; cube < 40; ++cube) {
+    const int side = 1 << number(0, 6);
+    const auto evidence = static_cast<std::int8_t>(number(-40, 70));
+    const VoxelIndex first{number(-60, 60) / side * side, number(-60, 60) / side * side, number(-20, 20) / side * side};
+    for (int z = 0; z < side; ++z)
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) map.set({first.x + x, first.y + y, first.z + z}, evidence);
+  }
+  return map;
+}
+
+std::unique_ptr<octomap::OcTree> asOctomapReads(const std::string& bytes, OctreeFormat format) {
+  std::istringstream stream(bytes);
+  if (format == OctreeFormat::kLogOdds)
+    return std::unique_ptr<octomap::OcTree>(dynamic_cast<octomap::OcTree*>(octomap::AbstractOcTree::read(stream)));
+  auto tree = std::make_unique<octomap::OcTree>(0.05);
+  return tree->readBinary(stream) ? std::move(tree) : nullptr;
+}
+
+/// Every voxel of the map, and as many of the tree.
+void expectSame(const VoxelMap& map, octomap::OcTree& tree, OctreeFormat format) {
+  tree.expand();
+  std::size_t known = 0;
+  for (const VoxelIndex block : map.blocks()) {
+    const VoxelIndex first = VoxelMap::firstOf(block);
+    for (int i = 0; i < VoxelBlock::kVoxels; ++i) {
+      const VoxelIndex voxel{first.x + i % 8, first.y + i / 8 % 8, first.z + i / 64};
+      const Eigen::Vector3d center_m = map.centerOf(voxel);
+      const octomap::OcTreeNode* node = tree.search(center_m.x(), center_m.y(), center_m.z());
+      ASSERT_EQ(node != nullptr, map.isKnown(voxel));
+      if (node == nullptr) continue;
+      ++known;
+      ASSERT_EQ(node->getLogOdds() > 0.0F, map.isOccupied(voxel));
+      if (format == OctreeFormat::kLogOdds) {
+        ASSERT_NEAR(node->getLogOdds(), map.evidence(voxel) * VoxelMap::kLogOddsStep, 1e-6);
+      }
+    }
+  }
+  EXPECT_EQ(tree.getNumLeafNodes(), known);
+}
+
+class OctreeFile : public testing::TestWithParam<OctreeFormat> {};
+INSTANTIATE_TEST_SUITE_P(Formats, OctreeFile, testing::Values(OctreeFormat::kBinary, OctreeFormat::kLogOdds));
+
+TEST_P(OctreeFile, IsReadByOctomap) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const VoxelMap map = randomMap(seed);
+    const auto tree = asOctomapReads(toOctree(map, GetParam()), GetParam());
+    ASSERT_TRUE(tree);
+    const std::size_t leaves = tree->getNumLeafNodes();
+    tree->prune();
+    EXPECT_EQ(tree->getNumLeafNodes(), leaves) << "it was pruned already";
+    expectSame(map, *tree, GetParam());
+  }
+}
+
+TEST_P(OctreeFile, IsReadAgainAsItWas) {
+  for (unsigned seed = 11; seed <= 15; ++seed) {
+    const VoxelMap map = randomMap(seed);
+    const VoxelMap again = parseOctree(toOctree(map, GetParam()), "again");
+    EXPECT_EQ(again.blocks(), map.blocks());
+    for (const VoxelIndex block : map.blocks()) {
+      for (std::size_t i = 0; i < VoxelBlock::kVoxels; ++i) {
+        const std::int8_t before = map.block(block)->evidence[i], after = again.block(block)->evidence[i];
+        if (GetParam() == OctreeFormat::kLogOdds || before == VoxelBlock::kUnknown)
+          ASSERT_EQ(after, before);
+        else
+          ASSERT_EQ(after, before > 0 ? 70 : -40);
+      }
+    }
+  }
+}
+
+TEST_P(OctreeFile, IsWrittenAsOctomapWritesIt) {
+  const VoxelMap map = randomMap(21);
+  const std::string bytes = toOctree(map, GetParam());
+  const auto tree = asOctomapReads(bytes, GetParam());
+  ASSERT_TRUE(tree);
+  std::ostringstream stream;
+  if (GetParam() == OctreeFormat::kBinary)
+    ASSERT_TRUE(tree->writeBinaryConst(stream));
+  else
+    ASSERT_TRUE(tree->write(stream));
+  const std::string theirs = stream.str();
+  EXPECT_EQ(bytes.substr(bytes.find("\ndata\n")), theirs.substr(theirs.find("\ndata\n")));
+  EXPECT_EQ(bytes.substr(bytes.find("\nid ")), theirs.substr(theirs.find("\nid ")));
+}
+
+TEST_P(OctreeFile, AnEmptyMapIsAnEmptyTree) {
+  const std::string bytes = toOctree(VoxelMap(0.05), GetParam());
+  EXPECT_THAT(bytes, HasSubstr("\nsize 0\n"));
+  EXPECT_EQ(parseOctree(bytes, "empty").blockCount(), 0u);
+}
+
+TEST_P(OctreeFile, ThatIsCutIsRefusedWithItsPlace) {
+  const std::string bytes = toOctree(randomMap(1), GetParam());
+  for (const std::size_t length : {std::size_t{0}, std::size_t{20}, bytes.size() / 2, bytes.size() - 1}) {
+    try {
+      (void)parseOctree(bytes.substr(0, length), "cut.bt");
+      ADD_FAILURE() << length;
+    } catch (const common::InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("cut.bt: byte "));
+    }
+  }
+}
+
+/// Where the message of the error for those bytes has this text.
+void expectRefused(const std::string& bytes, const std::string& text) {
+  try {
+    (void)parseOctree(bytes, "bad.bt", 1000);
+    ADD_FAILURE() << text;
+  } catch (const common::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(text));
+  }
+}
+
+TEST(BadOctree, NamesWhatIsWrong) {
+  const std::string header = "# Octomap OcTree binary file\nid OcTree\nsize 1\nres 0.05\ndata\n";
+  expectRefused("ply\n", "begins with `ply`");
+  expectRefused("# Octomap OcTree binary file\nid ColorOcTree\nres 0.05\ndata\n", "`ColorOcTree`");
+  expectRefused("# Octomap OcTree binary file\nid OcTree\nres zero\ndata\n", "`zero` is not a number");
+  expectRefused("# Octomap OcTree binary file\nid OcTree\nsize 1\ndata\n", "no resolution");
+  expectRefused(header + std::string(100'000, '\xff'), "deeper than 16 levels");
+  expectRefused(header + std::string("\x02\x00", 2), "fills more than 1000 blocks");
+  expectRefused(header + std::string("\x00\x00\x00", 3), "1 bytes follow the tree");
+}
+
+TEST(OctreeFiles, OfOthersKeepTheirLeaves) {
+  const char* folder = std::getenv("SWIFTLET_DATASETS");
+  const std::filesystem::path data = folder ? folder : std::string(SWIFTLET_SOURCE_DIR) + "/../shared/datasets";
+  const std::filesystem::path file = data / "07-octomap/slambook-dense/octomap.bt.gz";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no data set " << file << "; set SWIFTLET_DATASETS";
+  const VoxelMap map = readOctree(file);
+  const std::string bytes = toOctree(map, OctreeFormat::kBinary);
+  EXPECT_THAT(bytes, HasSubstr("\nsize 146768\n"));  // As the file's own header says.
+  const auto tree = asOctomapReads(bytes, OctreeFormat::kBinary);
+  ASSERT_TRUE(tree);
+  expectSame(map, *tree, OctreeFormat::kBinary);
+}
+
+}  // namespace
+}  // namespace swiftlet::interfaces
