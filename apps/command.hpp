@@ -16,5 +16,6 @@ void addDoctor(Command& program);
 void addVersion(Command& program);
 void addEvaluate(Command& program);
 void addOptimize(Command& program);
+void addConvert(Command& program);
 
 }  // namespace swiftlet::apps

@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   apps::addVersion(top);
   apps::addEvaluate(top);
   apps::addOptimize(top);
+  apps::addConvert(top);
 
   try {
     const auto [run, exit_code] = program.parse(argc, argv);

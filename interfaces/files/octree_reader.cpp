@@ -93,7 +93,8 @@ class OctreeReader {
   void readBinary(VoxelIndex first, int side) {
     if (side == 1) fail(fmt::format("the tree is deeper than {} levels", kDepth));
     const std::string_view two = take(2);
-    const unsigned codes = static_cast<unsigned char>(two[0]) | static_cast<unsigned>(static_cast<unsigned char>(two[1])) << 8;
+    const unsigned codes =
+        static_cast<unsigned char>(two[0]) | static_cast<unsigned>(static_cast<unsigned char>(two[1])) << 8;
     const int half = side / 2;
     for (int child = 0; child < 8; ++child) {
       const VoxelIndex below = octree::childOf(first, half, child);
@@ -133,7 +134,8 @@ class OctreeReader {
       fail(fmt::format("the tree fills more than {} blocks of 8 x 8 x 8 voxels", most_blocks_));
     for (int z = 0; z < blocks; ++z)
       for (int y = 0; y < blocks; ++y)
-        for (int x = 0; x < blocks; ++x) map_.mutableBlock({from.x + x, from.y + y, from.z + z}).evidence.fill(evidence);
+        for (int x = 0; x < blocks; ++x)
+          map_.mutableBlock({from.x + x, from.y + y, from.z + z}).evidence.fill(evidence);
   }
 
   void fillWithin(VoxelBlock& block, VoxelIndex first, int side, std::int8_t evidence) const {

@@ -51,8 +51,8 @@ class OctreeWriter {
       const VoxelIndex shifted{block.x + kShift, block.y + kShift, block.z + kShift};
       for (const int number : {shifted.x, shifted.y, shifted.z})
         if (number < 0 || number >= 2 * kShift)
-          throw InputError(Problem{{}, "octree", fmt::format("the map reaches beyond {:.0f} m",
-                                                             octree::kMiddle * map.resolution_m()), ""});
+          throw InputError(Problem{
+              {}, "octree", fmt::format("the map reaches beyond {:.0f} m", octree::kMiddle * map.resolution_m()), ""});
       blocks_.push_back({mortonCode(shifted), map.block(block)});
     }
     std::sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) { return a.code < b.code; });
@@ -63,9 +63,10 @@ class OctreeWriter {
     // A tree of one leaf has no place in the .bt format; OctoMap never prunes that far in practice.
     const bool any = root.kind != Node::Kind::kUnknown;
     const bool binary = format_ == OctreeFormat::kBinary;
-    return fmt::format("{}\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid OcTree\n"
-                       "size {}\nres {}\ndata\n",
-                       binary ? octree::kBinaryMagic : octree::kLogOddsMagic, any ? nodes_ : 0, map_.resolution_m()) +
+    return fmt::format(
+               "{}\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid OcTree\n"
+               "size {}\nres {}\ndata\n",
+               binary ? octree::kBinaryMagic : octree::kLogOddsMagic, any ? nodes_ : 0, map_.resolution_m()) +
            (any ? bytes_ : std::string());
   }
 
@@ -178,8 +179,8 @@ OctreeFormat octreeFormatOf(const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
   if (ending == ".bt") return OctreeFormat::kBinary;
   if (ending == ".ot") return OctreeFormat::kLogOdds;
-  throw InputError(Problem{{file.string()}, "", fmt::format("the ending `{}` is not one of an octree", ending),
-                           "name it .bt or .ot"});
+  throw InputError(Problem{
+      {file.string()}, "", fmt::format("the ending `{}` is not one of an octree", ending), "name it .bt or .ot"});
 }
 
 std::string toOctree(const VoxelMap& map, OctreeFormat format) { return OctreeWriter(map, format).write(); }

@@ -25,7 +25,9 @@ using testing::HasSubstr;
 VoxelMap randomMap(unsigned seed) {
   VoxelMap map(0.05);
   std::mt19937 random(seed);
-  const auto number = [&](int low, int high) { return low + static_cast<int>(random() % static_cast<unsigned>(high - low)); };
+  const auto number = [&](int low, int high) {
+    return low + static_cast<int>(random() % static_cast<unsigned>(high - low));
+  };
   for (int cube = 0; cube < 40; ++cube) {
     const int side = 1 << number(0, 6);
     const auto evidence = static_cast<std::int8_t>(number(-40, 70));
