@@ -13,6 +13,7 @@
 #include "apps/system.hpp"
 #include "behaviors/mission.hpp"
 #include "evaluation/flight_recorder.hpp"
+#include "evaluation/operator_script.hpp"
 #include "interfaces/flight_summary.hpp"
 #include "interfaces/run_folder.hpp"
 #include "simulation/simulated_vehicle.hpp"
@@ -26,6 +27,8 @@ struct FlightSetup {
   std::string mission_file;              ///< Of every vehicle that names none of its own.
   simulation::Scenario scenario;         ///< World, starts, weather, seed; vehicle and laser are taken from the system.
   std::shared_ptr<const FlightMap> map;  ///< To find itself in; null: it is given none.
+  std::vector<evaluation::OperatorStep> operator_steps = {};
+  std::vector<evaluation::PhaseConfig> phases = {};
   std::filesystem::path out;
   std::string started;           ///< For the run's records.
   double speed = 0.0;            ///< Times real time; 0: as fast as the machine can.

@@ -3,6 +3,8 @@
 #include "apps/web_link.hpp"
 #include "common/world.hpp"
 #include "evaluation/flight_recorder.hpp"
+#include "evaluation/operator_script.hpp"
+#include "evaluation/phase_words.hpp"
 #include "interfaces/run_folder.hpp"
 #include "simulation/simulated_vehicle.hpp"
 
@@ -30,7 +32,17 @@ void TruthSink::ticked(const autonomy::TickOutcome& outcome) {
   recorder_.tick(vehicle_.truth(), outcome.state);
   recorder_.intent(outcome.now, outcome.intent, outcome.intent_status);
 }
-void TruthSink::world(const WorldPtr& world) { recorder_.world(*world); }
+void TruthSink::world(const WorldPtr& world) {
+  recorder_.world(*world);
+  vehicle_.tellPhase(evaluation::phaseWords(*world));
+}
+
+void OperatorSink::ticked(const autonomy::TickOutcome& outcome) {
+  script_.intent(outcome.intent, outcome.intent_status);
+}
+void OperatorSink::world(const WorldPtr& world) { script_.world(*world); }
+void OperatorSink::event(const common::Event& event) { script_.event(event); }
+void OperatorSink::result(const common::CommandResult& result) { script_.result(result); }
 
 void PageSink::input(const autonomy::Input& input) {
   const auto* event = std::get_if<common::SensorEvent>(&input);

@@ -8,7 +8,8 @@
 
 namespace swiftlet::evaluation {
 class FlightRecorder;
-}
+class OperatorScript;
+}  // namespace swiftlet::evaluation
 namespace swiftlet::interfaces {
 class RunFolder;
 }
@@ -32,18 +33,31 @@ class FolderSink final : public autonomy::FlightSink {
   interfaces::RunFolder& folder_;
 };
 
-/// Records the truth together with the estimates.
+/// Records the truth together with the estimates, and tells the simulation what the vehicle does.
 class TruthSink final : public autonomy::FlightSink {
  public:
-  TruthSink(const simulation::SimulatedVehicle& vehicle, evaluation::FlightRecorder& recorder)
+  TruthSink(simulation::SimulatedVehicle& vehicle, evaluation::FlightRecorder& recorder)
       : vehicle_(vehicle), recorder_(recorder) {}
   void input(const autonomy::Input& input) override;
   void ticked(const autonomy::TickOutcome& outcome) override;
   void world(const std::shared_ptr<const common::World>& world) override;
 
  private:
-  const simulation::SimulatedVehicle& vehicle_;
+  simulation::SimulatedVehicle& vehicle_;
   evaluation::FlightRecorder& recorder_;
+};
+
+/// Shows the flight to the scripted operator.
+class OperatorSink final : public autonomy::FlightSink {
+ public:
+  explicit OperatorSink(evaluation::OperatorScript& script) : script_(script) {}
+  void ticked(const autonomy::TickOutcome& outcome) override;
+  void world(const std::shared_ptr<const common::World>& world) override;
+  void event(const common::Event& event) override;
+  void result(const common::CommandResult& result) override;
+
+ private:
+  evaluation::OperatorScript& script_;
 };
 
 class PageSink final : public autonomy::FlightSink {

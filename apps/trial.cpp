@@ -98,6 +98,7 @@ interfaces::TrialReport reportOf(const TrialResults& results) {
   for (const TrialResult& trial : results.trials) {
     report.tables.push_back(flightTable(trial));
     report.tables.push_back(conductTable(trial));
+    if (common::Table phases = phaseTable(trial); !phases.rows.empty()) report.tables.push_back(std::move(phases));
     for (const auto& flight : trial.flights)
       report.pictures.push_back({fmt::format("{} seed {} {}", trial.name, flight.seed, flight.vehicle),
                                  flight.folder + "/map.png", flight.folder + "/report.html", flight.passed()});

@@ -40,6 +40,8 @@ FlightSetup setupOf(const TrialConfig& trial, const std::shared_ptr<const Flight
   setup.scenario.seed = seed;
   setup.started = startedNow();
   setup.time_limit_s = trial.time_limit_s;
+  setup.operator_steps = trial.operator_steps;
+  setup.phases = trial.phases;
   setup.out = folder;
   return setup;
 }

@@ -56,11 +56,14 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       recorder_(vehicle_->T_world_map(),
                 evaluation::knowableFrame(vehicle_->T_world_map(), vehicle_->scenario().sensors.laser_errors),
                 setup.map ? setup.map->T_world_given : std::nullopt),
+      script_(setup.operator_steps, name_),
       autonomy_(makeAutonomy(setup, name_, std::move(mission.mission))),
       folder_(folder, runInfo(setup, *vehicle_, mission.file), setup.system.toYaml(true)),
       pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
       sinks_(makeSinks()),
-      loop_(*vehicle_, autonomy_, web_ ? web_->commands() : own_commands_, sinks()) {}
+      loop_(*vehicle_, autonomy_, commands(), sinks()) {
+  recorder_.watch(setup.phases);
+}
 
 VehicleFlight::~VehicleFlight() = default;
 
@@ -68,6 +71,7 @@ std::vector<std::unique_ptr<autonomy::FlightSink>> VehicleFlight::makeSinks() {
   std::vector<std::unique_ptr<autonomy::FlightSink>> sinks;
   sinks.push_back(std::make_unique<FolderSink>(folder_));
   sinks.push_back(std::make_unique<TruthSink>(*vehicle_, recorder_));
+  sinks.push_back(std::make_unique<OperatorSink>(script_));
   if (hooks_.event) sinks.push_back(std::make_unique<EventSink>(hooks_.event));
   if (web_) sinks.push_back(std::make_unique<PageSink>(*web_));
   return sinks;
@@ -90,12 +94,16 @@ void VehicleFlight::tell(common::Severity severity, std::string source, std::str
   for (autonomy::FlightSink* sink : sinks()) sink->event(event);
 }
 
+common::LosslessQueue<common::OperatorCommand>& VehicleFlight::commands() {
+  return web_ ? web_->commands() : own_commands_;
+}
+
 /// The answer has no asker, so that its id is one that no page uses.
 void VehicleFlight::landIfAsked() {
   if (asked_to_land_ || !hooks_.land || !*hooks_.land) return;
   asked_to_land_ = true;
   tell(common::Severity::kWarning, "program", "asked to end: landing", "asked again, it stops at once");
-  (web_ ? web_->commands() : own_commands_).push({0, common::LandCommand{}});
+  commands().push({0, common::LandCommand{}});
 }
 
 /// The flight goes on: what is lost is its record.
@@ -108,6 +116,7 @@ void VehicleFlight::warnOfUnwrittenFiles() {
 void VehicleFlight::step(common::Time now) {
   if (web_) vehicle_->setCameraConsumer(web_->cameraWanted());
   landIfAsked();
+  for (const common::OperatorCommand& command : script_.due(now)) commands().push(command);
   warnOfUnwrittenFiles();
   if (!loop_.step(now)) end(Outcome::kCrashed, vehicle_->stopReason());
 }
@@ -141,7 +150,9 @@ void VehicleFlight::finish(double wall_s) {
   end.reason = reason_;
   end.wall_time_s = wall_s;
   end.ground_truth_map = recorder_.record().truth_map;
-  if (hooks_.score) hooks_.score(recorder_.finish(), *vehicle_, end);
+  evaluation::FlightRecord record = recorder_.finish();
+  record.operator_answers = script_.answers();
+  if (hooks_.score) hooks_.score(record, *vehicle_, end);
   folder_.finish(end);
   if (web_) showEnd();
   vehicle_.reset();

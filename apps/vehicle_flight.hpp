@@ -48,6 +48,7 @@ class VehicleFlight {
   std::vector<std::unique_ptr<autonomy::FlightSink>> makeSinks();
   std::vector<autonomy::FlightSink*> sinks();
   void tell(common::Severity severity, std::string source, std::string text, std::string reason);
+  common::LosslessQueue<common::OperatorCommand>& commands();
   void landIfAsked();
   void warnOfUnwrittenFiles();
   bool end(interfaces::Outcome outcome, std::string reason);
@@ -59,6 +60,7 @@ class VehicleFlight {
   std::unique_ptr<simulation::SimulatedVehicle> vehicle_;
   std::string name_;  ///< Empty when it flies alone.
   evaluation::FlightRecorder recorder_;
+  evaluation::OperatorScript script_;
   autonomy::Autonomy autonomy_;
   interfaces::RunFolder folder_;
   PictureSink pictures_;

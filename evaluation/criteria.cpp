@@ -8,9 +8,20 @@ using common::config::kPositive;
 
 void Criteria::describe(common::config::Fields& fields) {
   fields("mission_done", mission_done, "Whether the mission must end well.");
-  fields("collisions_max", collisions_max, {0, 1},
-         "Greatest number of touches of anything, a walker that runs into the vehicle included; a flight ends with the "
-         "first.");
+  fields(
+      "collisions_max", collisions_max, {0, 1},
+      "Greatest number of collisions that the vehicle could have avoided; a flight ends with the first. A person who "
+      "walks into a vehicle that stands or moves away, and glass that never returned a beam, do not count.");
+  fields(
+      "verdicts", verdicts,
+      "Whether a flight that did not do its mission is judged by the truth: it passes if it came home, landed inside, "
+      "or refused to take off. Figures of the mission are then asked only of flights that did it.");
+  fields(
+      "needless_share_max", needless_share_max, {0, 1},
+      "With verdicts, greatest share of all flights that landed or refused without a reason that the truth confirms.");
+  fields("crashes_max", crashes_max, {0, 10'000},
+         "With verdicts, greatest number of flights that crashed, where physics did not force it.");
+  fields("done_share_min", done_share_min, {0, 1}, "Least share of all flights that did their mission.");
   fields("coverage_min", coverage_min, {0, 1}, "Least share of the reachable free space that is in the map.");
   fields("goal_error_max_m", goal_error_max_m, kPositive,
          "Greatest distance of the vehicle from a goal that is reported as reached.");

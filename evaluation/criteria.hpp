@@ -14,6 +14,10 @@ struct Criteria {
 
   bool mission_done = true;
   int collisions_max = 0;
+  bool verdicts = false;
+  double needless_share_max = 0.05;
+  int crashes_max = 0;
+  double done_share_min = 0.0;
   double coverage_min = 0.0;
   double goal_error_max_m = kAny;
   double home_error_max_m = kAny;

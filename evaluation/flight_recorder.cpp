@@ -44,8 +44,15 @@ FlightRecorder::FlightRecorder(const Pose3& T_world_start, const Pose3& T_world_
   record_.localization.emplace();
 }
 
+void FlightRecorder::watch(const std::vector<PhaseConfig>& phases) {
+  for (const PhaseConfig& phase : phases) phases_.emplace_back(phase);
+}
+
 void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleState& estimate) {
   conduct_.tick(truth);
+  for (PhaseRecorder& phase : phases_)
+    phase.tick(truth.stamp, truthInMap(truth.T_world_body),
+               record_.T_world_map.rotation.conjugate() * truth.velocity_world_m_s, estimate);
   if (!first_tick_) first_tick_ = truth.stamp;
   if (!history_.empty() && truth.airborne)
     record_.true_distance_m +=
@@ -126,6 +133,7 @@ void FlightRecorder::intent(Time now, const common::Intent& intent, const common
 void FlightRecorder::world(const common::World& world) {
   conduct_.world(world);
   ending_.world(world);
+  for (PhaseRecorder& phase : phases_) phase.world(world);
   home_map_m_ = world.vehicle->home_map.position_m();
   record_.map = world.map->grid;
   record_.explored_area_m2 = world.map->explored_area_m2;
@@ -184,6 +192,7 @@ FlightRecord FlightRecorder::finish() const {
   FlightRecord record = record_;
   record.conduct = conduct_.finish();
   record.ending = ending_.finish();
+  for (const PhaseRecorder& phase : phases_) record.phases.push_back(phase.finish());
   if (!heights_world_m_.empty()) record.cruise_height_world_m = quantile(heights_world_m_, 0.5);
   return record;
 }

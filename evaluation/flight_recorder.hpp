@@ -20,6 +20,8 @@
 #include "common/world/mission_status.hpp"
 #include "evaluation/conduct_recorder.hpp"
 #include "evaluation/ending_recorder.hpp"
+#include "evaluation/operator_script.hpp"
+#include "evaluation/phase_metrics.hpp"
 #include "simulation/truth.hpp"
 
 namespace swiftlet::common {
@@ -89,6 +91,8 @@ struct FlightRecord {
   int resumed = 0;                ///< How many of the suspended behaviours resumed later.
   ConductRecord conduct;
   EndingRecord ending;
+  std::vector<PhaseScore> phases;
+  std::vector<OperatorAnswer> operator_answers;  ///< Of the trial's script; filled in by the flight.
   simulation::Truth last_truth;
   std::shared_ptr<const common::OccupancyGrid> map;  ///< The last map; null if there was none.
   common::Trajectory truth_map;                      ///< In the `map` frame, 20 Hz while airborne, for pictures.
@@ -106,6 +110,8 @@ class FlightRecorder {
                           const std::optional<common::Pose2>& T_world_given = std::nullopt)
       : FlightRecorder(T_world_map, T_world_map, T_world_given) {}
 
+  /// Call before the first tick: the parts of the flight that have figures of their own.
+  void watch(const std::vector<PhaseConfig>& phases);
   /// Call at every scan that arrives.
   void scan(const common::Stamps& stamps) { conduct_.scan(stamps); }
   /// Call at every control tick. The estimate is compared with the truth at its own stamp, which may be up to a second
@@ -133,6 +139,7 @@ class FlightRecorder {
   FlightRecord record_;
   ConductRecorder conduct_;
   EndingRecorder ending_;
+  std::vector<PhaseRecorder> phases_;
   common::Pose2 T_world_given_;
   common::LocalizationState localization_ = common::LocalizationState::kGlobal;
   std::optional<common::Time> last_flown_;

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "evaluation/judge.hpp"
 #include "evaluation/map_metrics.hpp"
 #include "evaluation/statistics.hpp"
 #include "evaluation/verdict_facts.hpp"
@@ -152,6 +151,8 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   scoreMap(record, world, score);
   score.conduct = scoreOf(record.conduct, world);
   if (record.localization) score.localization = scoreOf(*record.localization, criteria.localized_within_m);
+  score.phases = record.phases;
+  score.operator_answers = record.operator_answers;
   score.mission_time_s = record.mission_time_s;
   score.flight_time_s = record.flight_time_s;
   score.distance_m = record.true_distance_m;
@@ -207,36 +208,9 @@ std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) 
   if (score.reachable_area_m2 > 0) add("reachable_area_m2", score.reachable_area_m2);
   add("collisions", score.collisions);
   for (const auto& [name, figure] : figuresOf(score.conduct)) add(name, figure);
+  for (const PhaseScore& phase : score.phases)
+    for (const auto& [name, figure] : phase.figures) figures.emplace_back(phase.name + "." + name, figure);
   return figures;
-}
-
-std::vector<std::string> missed(const FlightScore& score, const Criteria& criteria) {
-  Judge judge;
-  if (criteria.mission_done && !score.mission_done) judge.fail(fmt::format("mission: {}", score.outcome));
-  if (score.collisions > criteria.collisions_max)
-    judge.fail(
-        fmt::format("collision: {}{}", score.collision, score.avoidable_collisions == 0 ? ", not avoidable" : ""));
-  judge.atLeast("coverage", score.coverage, criteria.coverage_min, score.coverage_problem);
-  judge.atMost("goal error, m", score.goal_error_m, criteria.goal_error_max_m);
-  judge.atMost("home error, m", score.home_error_m, criteria.home_error_max_m);
-  judge.atMost("marker error, m", score.marker_error_m, criteria.marker_error_max_m);
-  judge.atMost("relocalization error, m", score.relocalization_error_m, criteria.relocalization_error_max_m);
-  judge.atMost("mission time, s", score.mission_begun ? std::optional(score.mission_time_s) : std::nullopt,
-               criteria.mission_time_max_s);
-  judge.atMost("estimate RMS, m", score.estimate_rms_m, criteria.estimate_rms_max_m);
-  judge.atMost("map wall error, m", score.map_wall_error_median_m, criteria.map_wall_error_max_m);
-  judge.atMost("share of the time localized wrongly",
-               score.localization ? std::optional(score.localization->wrong_share) : std::nullopt,
-               criteria.wrong_time_share_max);
-  judge.atMost("share of the time tilted", score.conduct.tilted_share, criteria.tilted_share_max);
-  judge.atLeast("thrust margin", score.conduct.thrust_margin_min, criteria.thrust_margin_min);
-  judge.atMost("touch-down speed, m/s", score.conduct.touch_down_speed_m_s, criteria.touch_down_speed_max_m_s);
-  judge.atMost("time from fault to safe action, s", score.conduct.safe_action_s, criteria.safe_action_max_s);
-  judge.atMost("error of the energy for the flight home", score.conduct.home_energy_error,
-               criteria.home_energy_error_max);
-  if (criteria.all_resumed && score.resumed < score.interruptions)
-    judge.fail(fmt::format("interruptions: {} of {} went on", score.resumed, score.interruptions));
-  return judge.failures;
 }
 
 }  // namespace swiftlet::evaluation

@@ -92,6 +92,8 @@ struct FlightScore {
   double speed_max_m_s = 0.0;              ///< True horizontal speed.
   std::optional<double> explored_area_m2;  ///< None if the mission did not explore.
   double reachable_area_m2 = 0.0;          ///< Area that the hull can cover; `coverage` is a share of it.
+  std::vector<PhaseScore> phases;
+  std::vector<OperatorAnswer> operator_answers;
   int interruptions = 0;
   int resumed = 0;
   double realtime_factor = 0.0;

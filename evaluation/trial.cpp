@@ -72,6 +72,8 @@ void TrialConfig::describe(common::config::Fields& fields) {
   fields.section("criteria", criteria, "What each flight, and all of them together, must reach to pass.");
   fields.list("paper", paper, "Figures of the paper that is flown again.");
   fields.section("map", map, "Map that the flights are given to find themselves in; without one they make their own.");
+  fields.list("operator", operator_steps, "An operator who follows a script; its commands come one after the other.");
+  fields.list("phases", phases, "Parts of the flight that have figures of their own, and criteria on them.");
   fields.section("scenario", scenario, "World, start, weather, people, faults, and what the seed varies.");
 }
 

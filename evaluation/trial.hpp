@@ -7,6 +7,8 @@
 
 #include "common/config_fwd.hpp"
 #include "evaluation/flight_score.hpp"
+#include "evaluation/operator_script.hpp"
+#include "evaluation/phase_metrics.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/survey.hpp"
 
@@ -51,6 +53,8 @@ struct TrialConfig {
   Criteria criteria;
   std::vector<PaperFigure> paper;
   TrialMap map;
+  std::vector<OperatorStep> operator_steps;
+  std::vector<PhaseConfig> phases;
   simulation::Scenario scenario;
 
   void describe(common::config::Fields& fields);

@@ -34,6 +34,23 @@ ordered_json localizationJson(const LocalizationScore& score) {
           {"times_lost", score.times_lost}};
 }
 
+ordered_json phasesJson(const FlightScore& flight) {
+  ordered_json json = ordered_json::object();
+  for (const PhaseScore& phase : flight.phases)
+    for (const auto& [name, figure] : phase.figures) json[phase.name][name] = orNull(figure);
+  return json;
+}
+
+ordered_json operatorJson(const FlightScore& flight) {
+  ordered_json json = ordered_json::array();
+  for (const OperatorAnswer& answer : flight.operator_answers)
+    json.push_back({{"command", answer.command},
+                    {"time_s", answer.given ? orNull(answer.given->seconds()) : ordered_json(nullptr)},
+                    {"accepted", answer.accepted ? ordered_json(*answer.accepted) : ordered_json(nullptr)},
+                    {"reason", answer.reason}});
+  return json;
+}
+
 ordered_json flightJson(const FlightScore& flight) {
   ordered_json visits = ordered_json::array();
   for (const MarkerVisit& visit : flight.visits) visits.push_back(visitJson(visit));
@@ -81,6 +98,18 @@ ordered_json flightJson(const FlightScore& flight) {
       {"resumed", flight.resumed},
       {"realtime_factor", orNull(flight.realtime_factor)}});
   for (const auto& [name, figure] : figuresOf(flight.conduct)) json[name] = orNull(figure);
+  if (!flight.phases.empty()) json["phases"] = phasesJson(flight);
+  if (!flight.operator_answers.empty()) json["operator"] = operatorJson(flight);
+  return json;
+}
+
+/// Only those that a flight got.
+ordered_json verdictsJson(const TrialResult& trial) {
+  ordered_json json = ordered_json::object();
+  for (int i = 0; i <= static_cast<int>(Verdict::kUnfinished); ++i) {
+    const auto verdict = static_cast<Verdict>(i);
+    if (const int count = trial.count(verdict); count > 0) json[toString(verdict)] = count;
+  }
   return json;
 }
 
@@ -88,43 +117,19 @@ ordered_json trialJson(const TrialResult& trial) {
   ordered_json flights = ordered_json::array(), paper = ordered_json::object();
   for (const FlightScore& flight : trial.flights) flights.push_back(flightJson(flight));
   for (const PaperFigure& figure : trial.paper) paper[figure.figure] = figure.value;
-  return {{"name", trial.name},
-          {"system", trial.system},
-          {"runs", trial.flown()},
-          {"passed", trial.passed()},
-          {"met", trial.met()},
-          {"failures", trial.missed()},
-          {"collisions", trial.collisions()},
-          {"coverage_min", orNull(trial.coverageMin())},
-          {"goal_error_max_m", orNull(trial.goalErrorMax_m())},
-          {"goal_error_median_m", orNull(trial.goalErrorMedian_m())},
-          {"home_error_max_m", orNull(trial.homeErrorMax_m())},
-          {"home_error_median_m", orNull(trial.homeErrorMedian_m())},
-          {"marker_error_max_m", orNull(trial.markerErrorMax_m())},
-          {"marker_error_median_m", orNull(trial.markerErrorMedian_m())},
-          {"relocalization_error_max_m", orNull(trial.relocalizationErrorMax_m())},
-          {"relocalization_error_median_m", orNull(trial.relocalizationErrorMedian_m())},
-          {"mission_time_median_s", orNull(trial.missionTimeMedian_s())},
-          {"estimate_rms_median_m", orNull(trial.estimateRmsMedian_m())},
-          {"map_wall_error_median_m", orNull(trial.mapWallErrorMedian_m())},
-          {"localized_flights", orNull(trial.localizedFlights())},
-          {"localization_path_length_median_m", orNull(trial.localizationPathLengthMedian_m())},
-          {"localization_path_length_max_m", orNull(trial.localizationPathLengthMax_m())},
-          {"wrong_time_share_max", orNull(trial.wrongTimeShareMax())},
-          {"tilted_share_max", orNull(trial.tiltedShareMax())},
-          {"thrust_margin_min", orNull(trial.thrustMarginMin())},
-          {"touch_down_speed_max_m_s", orNull(trial.touchDownSpeedMax_m_s())},
-          {"safe_action_max_s", orNull(trial.safeActionMax_s())},
-          {"home_energy_error_max", orNull(trial.homeEnergyErrorMax())},
-          {"goal_error_max_raw_m", orNull(trial.goalErrorMaxRaw_m())},
-          {"goal_error_median_raw_m", orNull(trial.goalErrorMedianRaw_m())},
-          {"home_error_max_raw_m", orNull(trial.homeErrorMaxRaw_m())},
-          {"home_error_median_raw_m", orNull(trial.homeErrorMedianRaw_m())},
-          {"estimate_rms_median_raw_m", orNull(trial.estimateRmsMedianRaw_m())},
-          {"map_wall_error_median_raw_m", orNull(trial.mapWallErrorMedianRaw_m())},
-          {"realtime_factor_median", orNull(trial.realtimeFactorMedian())},
-          {"paper", paper},
-          {"flights", flights}};
+  ordered_json json = {{"name", trial.name},
+                       {"system", trial.system},
+                       {"runs", trial.flown()},
+                       {"passed", trial.passed()},
+                       {"met", trial.met()},
+                       {"failures", trial.missed()},
+                       {"collisions", trial.collisions()},
+                       {"glass_contacts", trial.glassContacts()},
+                       {"verdicts", verdictsJson(trial)}};
+  for (const TrialFigure& figure : trialFigures()) json[figure.name] = orNull(valueOf(figure, trial.flights));
+  json["paper"] = paper;
+  json["flights"] = flights;
+  return json;
 }
 
 }  // namespace

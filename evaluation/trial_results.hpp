@@ -3,11 +3,13 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/table.hpp"
 #include "evaluation/flight_score.hpp"
 #include "evaluation/trial.hpp"
+#include "evaluation/trial_figures.hpp"
 
 namespace swiftlet::evaluation {
 
@@ -27,39 +29,12 @@ struct TrialResult {
   std::vector<std::string> missed() const;
   /// Every flight passed, at least one flew, and no criterion over all of them is missed.
   bool met() const;
-  int collisions() const;
-  /// Statistics over the flights that have the figure; none if none has it.
-  std::optional<double> coverageMin() const;
-  std::optional<double> goalErrorMax_m() const;
-  std::optional<double> goalErrorMedian_m() const;
-  std::optional<double> homeErrorMax_m() const;
-  std::optional<double> homeErrorMedian_m() const;
-  std::optional<double> markerErrorMax_m() const;
-  std::optional<double> markerErrorMedian_m() const;
-  std::optional<double> relocalizationErrorMax_m() const;
-  std::optional<double> relocalizationErrorMedian_m() const;
-  std::optional<double> missionTimeMedian_s() const;  ///< Median over the missions that succeeded.
-  std::optional<double> estimateRmsMedian_m() const;
-  std::optional<double> mapWallErrorMedian_m() const;
-  std::optional<double> realtimeFactorMedian() const;
-  /// Share of the flights with a given map that were localized in time and rightly.
-  std::optional<double> localizedFlights() const;
-  std::optional<double> localizationPathLengthMedian_m() const;  ///< Median over the flights that reported a pose.
-  std::optional<double> localizationPathLengthMax_m() const;
-  std::optional<double> wrongTimeShareMax() const;
-  /// The worst of the flights that have the figure.
-  std::optional<double> tiltedShareMax() const;
-  std::optional<double> thrustMarginMin() const;
-  std::optional<double> touchDownSpeedMax_m_s() const;
-  std::optional<double> safeActionMax_s() const;
-  std::optional<double> homeEnergyErrorMax() const;
-  /// In the frame of the take-off with the true heading of the body; none of them is a criterion.
-  std::optional<double> goalErrorMaxRaw_m() const;
-  std::optional<double> goalErrorMedianRaw_m() const;
-  std::optional<double> homeErrorMaxRaw_m() const;
-  std::optional<double> homeErrorMedianRaw_m() const;
-  std::optional<double> estimateRmsMedianRaw_m() const;
-  std::optional<double> mapWallErrorMedianRaw_m() const;
+  int collisions() const;  ///< All of them, the unavoidable ones included.
+  int glassContacts() const;
+  /// How many flights got that verdict.
+  int count(Verdict verdict) const;
+  /// One of trialFigures() by its name, which must exist: over the flights that have it, none if none has.
+  std::optional<double> figure(std::string_view figure_name) const { return trialFigure(figure_name, flights); }
 };
 
 struct TrialResults {
@@ -80,6 +55,9 @@ common::Table flightTable(const TrialResult& trial);
 
 /// How each flight was flown, and its errors in the raw frame.
 common::Table conductTable(const TrialResult& trial);
+
+/// The figures of the trial's phases, one row for each flight and phase; no rows if it has none.
+common::Table phaseTable(const TrialResult& trial);
 
 /// Every criterion that was missed, by trial and seed ("all" for those over all flights); no rows if all passed.
 common::Table failureTable(const TrialResults& results);

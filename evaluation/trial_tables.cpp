@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "evaluation/table_cells.hpp"
 #include "evaluation/trial_results.hpp"
 
 namespace swiftlet::evaluation {
@@ -14,12 +15,6 @@ namespace {
 using common::Mark;
 using common::Table;
 using common::TableCell;
-
-std::string shown(const std::optional<double>& value, int decimals) {
-  return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
-}
-
-std::string percent(const std::optional<double>& value) { return value ? fmt::format("{:.1f} %", 100 * *value) : "-"; }
 
 TableCell counted(int good, int all) {
   return {fmt::format("{}/{}", good, all), good == all ? Mark::kGood : Mark::kBad};
@@ -30,11 +25,10 @@ struct SummaryColumn {
   const char* title;
   const char* figure;
   std::string (*show)(const std::optional<double>&);
-  std::optional<double> (TrialResult::*value)() const;
   /// Its criterion, which is a lower bound if its name says so (`isLowerBound`); null if there is none.
   double Criteria::*bound;
-  bool where_asked = false;  ///< Shown only if a trial has the criterion, or its paper has a figure.
-  std::optional<double> (TrialResult::*raw)() const = nullptr;  ///< The same in the raw frame; null: it has none.
+  bool where_asked = false;   ///< Shown only if a trial has the criterion, or its paper has a figure.
+  const char* raw = nullptr;  ///< The figure in the raw frame; null: it has none.
 };
 
 template <int kDecimals>
@@ -44,42 +38,32 @@ std::string decimals(const std::optional<double>& value) {
 
 const std::vector<SummaryColumn>& allColumns() {
   static const std::vector<SummaryColumn> columns = {
-      {"coverage min", "coverage_min", percent, &TrialResult::coverageMin, &Criteria::coverage_min},
-      {"goal err max (m)", "goal_error_max_m", decimals<3>, &TrialResult::goalErrorMax_m, &Criteria::goal_error_max_m,
-       false, &TrialResult::goalErrorMaxRaw_m},
-      {"median (m)", "goal_error_median_m", decimals<3>, &TrialResult::goalErrorMedian_m,
-       &Criteria::goal_error_median_max_m, false, &TrialResult::goalErrorMedianRaw_m},
-      {"home err max (m)", "home_error_max_m", decimals<3>, &TrialResult::homeErrorMax_m, &Criteria::home_error_max_m,
-       false, &TrialResult::homeErrorMaxRaw_m},
-      {"median (m)", "home_error_median_m", decimals<3>, &TrialResult::homeErrorMedian_m,
-       &Criteria::home_error_median_max_m, false, &TrialResult::homeErrorMedianRaw_m},
-      {"marker err max (m)", "marker_error_max_m", decimals<3>, &TrialResult::markerErrorMax_m,
-       &Criteria::marker_error_max_m, true},
-      {"relocalization max (m)", "relocalization_error_max_m", decimals<3>, &TrialResult::relocalizationErrorMax_m,
-       &Criteria::relocalization_error_max_m, true},
-      {"localized", "localized_flights", percent, &TrialResult::localizedFlights, &Criteria::localized_flights_min,
+      {"done", "done_share", percent, &Criteria::done_share_min, true},
+      {"needless", "needless_share", percent, &Criteria::needless_share_max, true},
+      {"coverage min", "coverage_min", percent, &Criteria::coverage_min},
+      {"goal err max (m)", "goal_error_max_m", decimals<3>, &Criteria::goal_error_max_m, false, "goal_error_max_raw_m"},
+      {"median (m)", "goal_error_median_m", decimals<3>, &Criteria::goal_error_median_max_m, false,
+       "goal_error_median_raw_m"},
+      {"home err max (m)", "home_error_max_m", decimals<3>, &Criteria::home_error_max_m, false, "home_error_max_raw_m"},
+      {"median (m)", "home_error_median_m", decimals<3>, &Criteria::home_error_median_max_m, false,
+       "home_error_median_raw_m"},
+      {"marker err max (m)", "marker_error_max_m", decimals<3>, &Criteria::marker_error_max_m, true},
+      {"relocalization max (m)", "relocalization_error_max_m", decimals<3>, &Criteria::relocalization_error_max_m,
        true},
-      {"after, median (m)", "localization_path_length_median_m", decimals<1>,
-       &TrialResult::localizationPathLengthMedian_m, nullptr, true},
-      {"wrongly, of its time", "wrong_time_share_max", percent, &TrialResult::wrongTimeShareMax,
-       &Criteria::wrong_time_share_max, true},
-      {"time median (s)", "mission_time_median_s", decimals<1>, &TrialResult::missionTimeMedian_s,
-       &Criteria::mission_time_median_max_s},
-      {"RMS median (m)", "estimate_rms_median_m", decimals<3>, &TrialResult::estimateRmsMedian_m,
-       &Criteria::estimate_rms_median_max_m, false, &TrialResult::estimateRmsMedianRaw_m},
-      {"wall err median (m)", "map_wall_error_median_m", decimals<3>, &TrialResult::mapWallErrorMedian_m,
-       &Criteria::map_wall_error_median_max_m, false, &TrialResult::mapWallErrorMedianRaw_m},
-      {"tilted, of its time", "tilted_share_max", percent, &TrialResult::tiltedShareMax, &Criteria::tilted_share_max,
-       true},
-      {"thrust margin min", "thrust_margin_min", decimals<2>, &TrialResult::thrustMarginMin,
-       &Criteria::thrust_margin_min, true},
-      {"touch-down max (m/s)", "touch_down_speed_max_m_s", decimals<2>, &TrialResult::touchDownSpeedMax_m_s,
-       &Criteria::touch_down_speed_max_m_s, true},
-      {"fault to safe max (s)", "safe_action_max_s", decimals<2>, &TrialResult::safeActionMax_s,
-       &Criteria::safe_action_max_s, true},
-      {"home energy err max", "home_energy_error_max", percent, &TrialResult::homeEnergyErrorMax,
-       &Criteria::home_energy_error_max, true},
-      {"x real time", "realtime_factor_median", decimals<1>, &TrialResult::realtimeFactorMedian, nullptr},
+      {"localized", "localized_flights", percent, &Criteria::localized_flights_min, true},
+      {"after, median (m)", "localization_path_length_median_m", decimals<1>, nullptr, true},
+      {"wrongly, of its time", "wrong_time_share_max", percent, &Criteria::wrong_time_share_max, true},
+      {"time median (s)", "mission_time_median_s", decimals<1>, &Criteria::mission_time_median_max_s},
+      {"RMS median (m)", "estimate_rms_median_m", decimals<3>, &Criteria::estimate_rms_median_max_m, false,
+       "estimate_rms_median_raw_m"},
+      {"wall err median (m)", "map_wall_error_median_m", decimals<3>, &Criteria::map_wall_error_median_max_m, false,
+       "map_wall_error_median_raw_m"},
+      {"tilted, of its time", "tilted_share_max", percent, &Criteria::tilted_share_max, true},
+      {"thrust margin min", "thrust_margin_min", decimals<2>, &Criteria::thrust_margin_min, true},
+      {"touch-down max (m/s)", "touch_down_speed_max_m_s", decimals<2>, &Criteria::touch_down_speed_max_m_s, true},
+      {"fault to safe max (s)", "safe_action_max_s", decimals<2>, &Criteria::safe_action_max_s, true},
+      {"home energy err max", "home_energy_error_max", percent, &Criteria::home_energy_error_max, true},
+      {"x real time", "realtime_factor_median", decimals<1>, nullptr},
   };
   return columns;
 }
@@ -93,6 +77,7 @@ const PaperFigure* paperFigure(const SummaryColumn& column, const TrialResult& t
 /// None if there is no criterion.
 std::optional<double> boundOf(const SummaryColumn& column, const Criteria& criteria) {
   if (column.bound == nullptr) return std::nullopt;
+  if (column.bound == &Criteria::needless_share_max && !criteria.verdicts) return std::nullopt;
   const double bound = criteria.*column.bound;
   if (std::isinf(bound) || bound <= 0) return std::nullopt;
   return bound;
@@ -100,11 +85,11 @@ std::optional<double> boundOf(const SummaryColumn& column, const Criteria& crite
 
 bool isLowerBound(double Criteria::*bound) {
   return bound == &Criteria::coverage_min || bound == &Criteria::localized_flights_min ||
-         bound == &Criteria::thrust_margin_min;
+         bound == &Criteria::thrust_margin_min || bound == &Criteria::done_share_min;
 }
 
 Mark markOf(const SummaryColumn& column, const TrialResult& trial) {
-  const auto bound = boundOf(column, trial.criteria), value = (trial.*column.value)();
+  const auto bound = boundOf(column, trial.criteria), value = trial.figure(column.figure);
   if (!bound) return Mark::kNone;
   if (!value) return Mark::kBad;
   return (isLowerBound(column.bound) ? *value >= *bound : *value <= *bound) ? Mark::kGood : Mark::kBad;
@@ -124,7 +109,7 @@ std::vector<TableCell> summaryRow(const TrialResult& trial, const std::vector<Su
   std::vector<TableCell> row = {{trial.name}, counted(trial.passed(), trial.flown())};
   row.push_back({fmt::format("{}", trial.collisions()), trial.collisions() == 0 ? Mark::kGood : Mark::kBad});
   for (const SummaryColumn& column : columns)
-    row.push_back({column.show((trial.*column.value)()), markOf(column, trial)});
+    row.push_back({column.show(trial.figure(column.figure)), markOf(column, trial)});
   return row;
 }
 
@@ -137,11 +122,6 @@ std::vector<TableCell> rowBelow(const char* title, const std::vector<SummaryColu
     row.push_back({figure ? column.show(figure) : ""});
   }
   return row;
-}
-
-/// "7", or "7 beta" of several vehicles.
-std::string flightName(const FlightScore& flight) {
-  return fmt::format("{}{}{}", flight.seed, flight.vehicle.empty() ? "" : " ", flight.vehicle);
 }
 
 bool asksForAny(const Criteria& criteria) {
@@ -167,7 +147,7 @@ bool isTurned(const TrialResult& trial) {
 
 std::vector<TableCell> rawRow(const TrialResult& trial, const std::vector<SummaryColumn>& columns) {
   return rowBelow("  in the raw frame", columns, [&](const SummaryColumn& column) -> std::optional<double> {
-    return column.raw == nullptr ? std::nullopt : (trial.*column.raw)();
+    return column.raw == nullptr ? std::nullopt : trial.figure(column.raw);
   });
 }
 
@@ -190,58 +170,6 @@ Table summaryTable(const TrialResults& results) {
     if (isTurned(trial)) table.rows.push_back(rawRow(trial, columns));
     if (asksForAny(trial.criteria)) table.rows.push_back(askedRow(trial, columns));
     if (!trial.paper.empty()) table.rows.push_back(paperRow(trial, columns));
-  }
-  return table;
-}
-
-Table flightTable(const TrialResult& trial) {
-  Table table{"Flights of " + trial.name,
-              {"seed", "passed", "outcome", "coverage", "goal err (m)", "home err (m)", "time (s)", "distance (m)",
-               "estimate RMS (m)", "wall err (m)", "clearance (m)", "interrupted", "resumed", "x real time"},
-              {}};
-  for (const FlightScore& flight : trial.flights) {
-    const std::string link = flight.folder.empty() ? "" : flight.folder + "/report.html";
-    table.rows.push_back({{flightName(flight), Mark::kNone, link},
-                          {flight.passed() ? "yes" : "no", flight.passed() ? Mark::kGood : Mark::kBad},
-                          {flight.outcome},
-                          {flight.coverage_problem.empty() ? percent(flight.coverage) : "open world"},
-                          {shown(flight.goal_error_m, 3)},
-                          {shown(flight.home_error_m, 3)},
-                          {shown(flight.mission_time_s, 1)},
-                          {shown(flight.distance_m, 1)},
-                          {shown(flight.estimate_rms_m, 3)},
-                          {shown(flight.map_wall_error_median_m, 3)},
-                          {shown(flight.min_clearance_m, 2)},
-                          {fmt::format("{}", flight.interruptions)},
-                          {fmt::format("{}", flight.resumed)},
-                          {shown(flight.realtime_factor, 1)}});
-  }
-  return table;
-}
-
-Table conductTable(const TrialResult& trial) {
-  Table table{"Conduct and raw errors of " + trial.name,
-              {"seed", "over 10 deg", "tilt max (deg)", "thrust margin", "touch-down (m/s)", "fault to safe (s)",
-               "home energy told", "needed", "laser latency (ms)", "95 % (ms)", "raw goal err (m)", "raw home err (m)",
-               "raw RMS (m)", "raw wall err (m)"},
-              {}};
-  const auto ms = [](const std::optional<double>& s) { return s ? fmt::format("{:.0f}", 1e3 * *s) : "-"; };
-  for (const FlightScore& flight : trial.flights) {
-    const ConductScore& conduct = flight.conduct;
-    table.rows.push_back({{flightName(flight)},
-                          {percent(conduct.tilted_share)},
-                          {shown(conduct.tilt_max_deg, 1)},
-                          {shown(conduct.thrust_margin_min, 2)},
-                          {shown(conduct.touch_down_speed_m_s, 2)},
-                          {shown(conduct.safe_action_s, 2)},
-                          {percent(conduct.home_energy_predicted)},
-                          {percent(conduct.home_energy_needed)},
-                          {ms(conduct.laser_latency_median_s)},
-                          {ms(conduct.laser_latency_p95_s)},
-                          {shown(flight.goal_error_raw_m, 3)},
-                          {shown(flight.home_error_raw_m, 3)},
-                          {shown(flight.estimate_rms_raw_m, 3)},
-                          {shown(flight.map_wall_error_median_raw_m, 3)}});
   }
   return table;
 }

@@ -60,6 +60,10 @@ void Arena::apply(std::size_t index, const common::Setpoint& setpoint) {
   seat.model->apply(seat.now, setpoint);
 }
 
+void Arena::tellPhase(std::size_t index, std::vector<std::string> words) {
+  seats_.at(index).model->tellPhase(std::move(words));
+}
+
 void Arena::setCameraConsumer(std::size_t index, bool wanted) { seats_.at(index).model->setCameraConsumer(wanted); }
 
 void Arena::stepTo(Time time) {

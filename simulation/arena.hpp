@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/sensor_event.hpp"
@@ -61,6 +62,7 @@ class Arena {
   /// As common::Vehicle::advanceTo.
   [[nodiscard]] bool advance(std::size_t index, common::Time time, std::vector<common::SensorEvent>& events);
   void apply(std::size_t index, const common::Setpoint& setpoint);
+  void tellPhase(std::size_t index, std::vector<std::string> words);
   void setCameraConsumer(std::size_t index, bool wanted);
 
  private:

@@ -132,18 +132,6 @@ void PushConfig::describe(common::config::Fields& fields) {
   fields("z_n_s", z_n_s, {-1000, 1000}, "Impulse upwards.");
 }
 
-void FaultConfig::describe(common::config::Fields& fields) {
-  fields.choice("sensor", sensor, {"imu", "laser", "battery", "pilot", "camera"}, "Which sensor fails.");
-  fields.choice("kind", kind, {"silent", "nan", "repeat", "late"}, "What goes wrong.");
-  fields("from_s", from_s, {0, 1e6}, "Time at which the fault begins.");
-  fields("to_s", to_s, {0, 1e6}, "Time at which the fault ends; at least from_s.");
-  fields("late_s", late_s, {0, 100}, "Delay of measurements, for kind late.");
-}
-
-std::vector<std::string> FaultConfig::validate() const {
-  return common::Validation().atMost("from_s", from_s, "to_s", to_s).problems();
-}
-
 void PilotConfig::describe(common::config::Fields& fields) {
   fields("time_s", time_s, {0, 1e6}, "Time from which these sticks apply, until the next entry.");
   fields("roll", roll, {-1, 1}, "Stick of the roll.");

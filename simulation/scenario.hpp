@@ -10,6 +10,7 @@
 #include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
 #include "simulation/autopilot.hpp"
+#include "simulation/fault_config.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/sensors/sensor_config.hpp"
 
@@ -89,24 +90,6 @@ struct PushConfig {
   double z_n_s = 0.0;
 
   void describe(common::config::Fields& fields);
-};
-
-enum class FaultKind {
-  kSilent,  ///< No measurement arrives.
-  kNan,     ///< Every number is NaN.
-  kRepeat,  ///< The last good measurement is repeated, with new stamps.
-  kLate,    ///< Measurements arrive `late_s` later.
-};
-
-struct FaultConfig {
-  Sensor sensor = Sensor::kLaser;
-  FaultKind kind = FaultKind::kSilent;
-  double from_s = 0.0;
-  double to_s = 0.0;
-  double late_s = 0.5;
-
-  void describe(common::config::Fields& fields);
-  std::vector<std::string> validate() const;
 };
 
 /// The pilot's sticks from `time_s` until the next entry.

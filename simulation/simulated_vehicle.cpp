@@ -20,6 +20,7 @@ bool SimulatedVehicle::advanceTo(common::Time time, std::vector<common::SensorEv
 }
 void SimulatedVehicle::apply(const common::Setpoint& setpoint) { arena_->apply(index_, setpoint); }
 std::string SimulatedVehicle::stopReason() const { return truth().crash_reason; }
+void SimulatedVehicle::tellPhase(std::vector<std::string> words) { arena_->tellPhase(index_, std::move(words)); }
 void SimulatedVehicle::setCameraConsumer(bool wanted) { arena_->setCameraConsumer(index_, wanted); }
 const std::string& SimulatedVehicle::name() const { return arena_->vehicle(index_).placed().name; }
 const Truth& SimulatedVehicle::truth() const { return arena_->vehicle(index_).truth(); }

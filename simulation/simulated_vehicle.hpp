@@ -40,6 +40,10 @@ class SimulatedVehicle final : public common::Vehicle {
   /// Whether camera frames are rendered and delivered from now on; initially they are not.
   void setCameraConsumer(bool wanted);
 
+  /// What an observer says about the flight from now on, for faults that begin in a phase: the flight's state, the
+  /// mission's phase, the running behaviours.
+  void tellPhase(std::vector<std::string> words);
+
   /// The scenario's name for the vehicle; empty for a single vehicle without a name.
   const std::string& name() const;
   const Truth& truth() const;

@@ -22,11 +22,12 @@ common::Pose3 standingPose(const PlacedVehicle& placed) {
 
 VehicleModel::VehicleModel(PlacedVehicle placed, const WorldModel& world, const RayCaster& rays)
     : placed_(std::move(placed)),
+      faults_(placed_.scenario.faults),
       quadrotor_(placed_.scenario.vehicle, placed_.scenario.quadrotor, standingPose(placed_),
                  placed_.scenario.battery_remaining),
       autopilot_(placed_.scenario.vehicle, placed_.scenario.quadrotor, placed_.scenario.autopilot),
       referee_(world, rays, placed_.scenario),
-      sensors_(placed_.scenario, placed_.stream_seed, world),
+      sensors_(placed_.scenario, faults_, placed_.stream_seed, world),
       command_link_(placed_.scenario.sensors.command_link, placed_.stream_seed, "command") {
   referee_.lookDown(quadrotor_.state());
   updateTruth(Time());
@@ -134,13 +135,9 @@ void VehicleModel::updateTruth(Time now) {
   truth_.velocity_world_m_s = state.velocity_world_m_s;
   truth_.airborne = !state.standing;
   truth_.battery_remaining = quadrotor_.battery().remaining();
-  truth_.faulty = false;
-  truth_.failed_sensor.reset();
-  for (const FaultConfig& fault : placed_.scenario.faults) {
-    if (now < Time::fromSeconds(fault.from_s) || now >= Time::fromSeconds(fault.to_s)) continue;
-    truth_.faulty = true;
-    if (fault.sensor == Sensor::kImu || fault.sensor == Sensor::kLaser) truth_.failed_sensor = fault.sensor;
-  }
+  faults_.step(now, state.T_world_body.position_m.head<2>());
+  truth_.faulty = faults_.anyActive(now);
+  truth_.failed_sensor = faults_.failedForFlight(now);
 }
 
 double gapBetween_m(const Actor& a, const Actor& b) {

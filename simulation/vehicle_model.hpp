@@ -13,6 +13,7 @@
 #include "common/sensor_event.hpp"
 #include "common/vehicle.hpp"
 #include "simulation/autopilot.hpp"
+#include "simulation/fault_schedule.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/referee.hpp"
@@ -34,6 +35,8 @@ class VehicleModel {
  public:
   /// World and rays must outlive it.
   VehicleModel(PlacedVehicle placed, const WorldModel& world, const RayCaster& rays);
+  VehicleModel(const VehicleModel&) = delete;
+  VehicleModel& operator=(const VehicleModel&) = delete;
 
   /// The scenario, name and start as drawn.
   const PlacedVehicle& placed() const { return placed_; }
@@ -58,6 +61,8 @@ class VehicleModel {
   void take(common::Time until, std::vector<common::SensorEvent>& events) { sensors_.take(until, events); }
   /// Sends a setpoint at `now`; it arrives after the latency of the link.
   void apply(common::Time now, const common::Setpoint& setpoint);
+  /// As FaultSchedule::tellPhase().
+  void tellPhase(std::vector<std::string> words) { faults_.tellPhase(std::move(words)); }
   void setCameraConsumer(bool wanted) { sensors_.setCameraConsumer(wanted); }
 
  private:
@@ -69,6 +74,7 @@ class VehicleModel {
   void updateTruth(common::Time now);
 
   PlacedVehicle placed_;
+  FaultSchedule faults_;
   Quadrotor quadrotor_;
   Autopilot autopilot_;
   Referee referee_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/sensor_event.hpp"
+#include "simulation/fault_schedule.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/sensors/link.hpp"
 
@@ -14,8 +15,8 @@ namespace swiftlet::simulation {
 
 class EventQueue {
  public:
-  /// `seed` names the random streams of the links.
-  EventQueue(const Scenario& scenario, std::uint64_t seed);
+  /// `seed` names the random streams of the links. The schedule must outlive it.
+  EventQueue(const Scenario& scenario, const FaultSchedule& faults, std::uint64_t seed);
 
   /// Sends measurement number `frame` of a sensor; its stamp `measured` is set.
   void send(Sensor sensor, std::uint64_t frame, common::Time ready, common::SensorEvent event);
@@ -31,9 +32,9 @@ class EventQueue {
     std::uint64_t frame;
     common::SensorEvent event;
   };
-  const FaultConfig* activeFault(Sensor sensor, common::Time measured) const;
 
-  std::vector<FaultConfig> faults_;
+  const FaultSchedule& faults_;
+  common::LaserConfig laser_;
   std::vector<Link> links_;  ///< One link per Sensor.
   std::array<std::optional<common::SensorEvent>, kSensorCount> last_good_;
   std::vector<Entry> under_way_;

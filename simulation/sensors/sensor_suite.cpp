@@ -10,14 +10,15 @@ namespace swiftlet::simulation {
 
 using common::Time;
 
-SensorSuite::SensorSuite(const Scenario& scenario, std::uint64_t seed, const WorldModel& world)
+SensorSuite::SensorSuite(const Scenario& scenario, const FaultSchedule& faults, std::uint64_t seed,
+                         const WorldModel& world)
     : scenario_(scenario),
       seed_(seed),
       inertial_(scenario.sensors.imu, scenario.vehicle.max_thrust_n, seed),
       laser_(scenario.laser, scenario.sensors.laser_errors, world, seed),
       camera_(scenario.sensors.camera, world, seed),
       fuel_gauge_(scenario.sensors.fuel_gauge, scenario.battery_remaining),
-      queue_(scenario, seed),
+      queue_(scenario, faults, seed),
       imu_clock_(scenario.sensors.imu.rate_hz),
       laser_clock_(scenario.laser.rate_hz),
       battery_clock_(scenario.sensors.battery_rate_hz),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/sensor_event.hpp"
+#include "simulation/fault_schedule.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/scenario.hpp"
@@ -20,8 +21,8 @@ namespace swiftlet::simulation {
 
 class SensorSuite {
  public:
-  /// `seed` names the random streams of all sensors.
-  SensorSuite(const Scenario& scenario, std::uint64_t seed, const WorldModel& world);
+  /// `seed` names the random streams of all sensors. The schedule must outlive it.
+  SensorSuite(const Scenario& scenario, const FaultSchedule& faults, std::uint64_t seed, const WorldModel& world);
 
   /// What the autopilot measures at its tick number `tick`.
   AttitudeMeasurement attitude(std::uint64_t tick, const QuadrotorState& state, const Battery& battery, double step_s);

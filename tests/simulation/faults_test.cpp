@@ -1,8 +1,10 @@
 // Failing sensors.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "common/config_check.hpp"
 #include "event_bytes.hpp"
 #include "fixtures.hpp"
 
@@ -63,6 +65,129 @@ TEST(Faults, ALateScanArrivesLate) {
   for (const Scan& scan : eventsOf<Scan>(withFault({Sensor::kLaser, FaultKind::kLate, 1.0, 2.0, 0.5})))
     late += (scan->stamps.arrived - scan->stamps.measured).seconds() > 0.5 ? 1 : 0;
   EXPECT_EQ(late, 40);
+}
+
+/// The samples of a fault in the second second.
+template <typename Event>
+std::vector<Event> inFault(const FaultConfig& fault) {
+  std::vector<Event> within;
+  for (const Event& event : eventsOf<Event>(withFault(fault))) {
+    const double t = common::stampsOf(common::SensorEvent(event)).measured.seconds();
+    if (t >= 1.0 && t < 2.0) within.push_back(event);
+  }
+  return within;
+}
+
+TEST(Faults, AStuckAttitudeStaysWhileTheRatesLive) {
+  const auto sound = inFault<common::ImuSample>({Sensor::kImu, FaultKind::kStuck, 9.0, 9.0});
+  const auto stuck = inFault<common::ImuSample>({Sensor::kImu, FaultKind::kStuck, 1.0, 2.0});
+  ASSERT_EQ(stuck.size(), sound.size());
+  for (std::size_t i = 0; i < stuck.size(); ++i) {
+    EXPECT_EQ(stuck[i].rotation_ahrs_body.coeffs(), stuck[0].rotation_ahrs_body.coeffs());
+    EXPECT_EQ(stuck[i].angular_velocity_body_rad_s, sound[i].angular_velocity_body_rad_s);
+  }
+  EXPECT_NE(sound.back().rotation_ahrs_body.coeffs(), sound[0].rotation_ahrs_body.coeffs());
+}
+
+TEST(Faults, ABiasShiftsEveryAxis) {
+  FaultConfig fault{Sensor::kImu, FaultKind::kBias, 1.0, 2.0};
+  const auto sound = inFault<common::ImuSample>(fault);
+  fault.gyro_bias_deg_s = 10.0;
+  fault.accel_bias_m_s2 = -0.5;
+  const auto biased = inFault<common::ImuSample>(fault);
+  ASSERT_EQ(biased.size(), sound.size());
+  for (std::size_t i = 0; i < biased.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(biased[i].angular_velocity_body_rad_s[axis] - sound[i].angular_velocity_body_rad_s[axis],
+                  10.0 * common::kRadPerDeg, 1e-9);
+      EXPECT_NEAR(biased[i].specific_force_body_m_s2[axis] - sound[i].specific_force_body_m_s2[axis], -0.5, 1e-9);
+    }
+}
+
+TEST(Faults, OnlyTheBeamsOfTheMirrorOrOfASectorAreLost) {
+  Scenario scenario;
+  scenario.laser.mirror_first_beam = 1000;
+  scenario.laser.mirror_beams = 40;
+  const auto lost = [&](const FaultConfig& fault) {
+    scenario.faults = {fault};
+    SimulatedVehicle vehicle(boxRoom(), scenario);
+    std::vector<common::SensorEvent> events;
+    EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(0.5), events));
+    std::vector<int> beams;
+    const Scan last = eventsOf<Scan>(events).back();
+    for (int beam = 0; beam < scenario.laser.beams; ++beam)
+      if (last->ranges_m[static_cast<std::size_t>(beam)] == 0.0F) beams.push_back(beam);
+    return beams;
+  };
+  scenario.laser.dropout_rate = 0.0;
+  ASSERT_TRUE(lost({Sensor::kLaser, FaultKind::kMirror, 9.0, 9.0}).empty());
+  const std::vector<int> mirror = lost({Sensor::kLaser, FaultKind::kMirror, 0.0, 9.0});
+  ASSERT_EQ(mirror.size(), 40U);
+  EXPECT_EQ(mirror.front(), 1000);
+  FaultConfig blocked{Sensor::kLaser, FaultKind::kBlocked, 0.0, 9.0};
+  blocked.from_deg = -10.0;
+  blocked.to_deg = 10.0;
+  const std::vector<int> sector = lost(blocked);
+  EXPECT_NEAR(static_cast<double>(sector.size()), 81.0, 1.0);
+  EXPECT_NEAR(sector.front() + sector.back(), 1080, 2) << "about straight ahead";
+}
+
+/// The seconds in which no scan was measured.
+std::vector<int> silentSeconds(const std::vector<common::SensorEvent>& events) {
+  std::vector<int> silent;
+  const std::vector<Scan> scans = eventsOf<Scan>(events);
+  for (int second = 0; second < 5; ++second)
+    if (std::none_of(scans.begin(), scans.end(), [second](const Scan& scan) {
+          return static_cast<int>(scan->stamps.measured.seconds()) == second;
+        }))
+      silent.push_back(second);
+  return silent;
+}
+
+TEST(Faults, BeginAtAPlace) {
+  FaultConfig fault;
+  fault.lasts_s = 2.0;
+  fault.from_s = 1.0;
+  Scenario scenario;
+  const Eigen::Vector3d start = SimulatedVehicle(boxRoom(), scenario).truth().T_world_body.position_m;
+  fault.place_world_m = {start.x() + 0.5, start.y()};
+  EXPECT_EQ(silentSeconds(withFault(fault)), (std::vector<int>{1, 2})) << "not before from_s";
+  fault.within_m = 0.4;
+  EXPECT_TRUE(silentSeconds(withFault(fault)).empty());
+}
+
+TEST(Faults, BeginInAPhaseThatAnObserverTells) {
+  FaultConfig fault;
+  fault.phase = "go to";
+  fault.lasts_s = 1.0;
+  Scenario scenario;
+  scenario.faults.push_back(fault);
+  SimulatedVehicle vehicle(boxRoom(), scenario);
+  std::vector<common::SensorEvent> events;
+  vehicle.tellPhase({"flying", "explore", "Explore"});
+  EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(1.99), events));
+  EXPECT_FALSE(vehicle.truth().failed_sensor);
+  vehicle.tellPhase({"flying", "go to (1.00, 2.00)"});
+  EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(2.5), events));
+  EXPECT_EQ(vehicle.truth().failed_sensor, Sensor::kLaser);
+  vehicle.tellPhase({"flying", "hold"});
+  EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(4.0), events));
+  vehicle.tellPhase({"flying", "go to (1.00, 2.00)"});
+  EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(5.0), events));
+  EXPECT_EQ(silentSeconds(events), (std::vector<int>{2})) << "once, and its time";
+}
+
+TEST(Faults, ContradictionsAreRefused) {
+  FaultConfig fault;
+  EXPECT_TRUE(common::config::problemsOf(fault).empty());
+  fault.phase = "explore";
+  EXPECT_EQ(common::config::problemsOf(fault).size(), 1U) << "how long?";
+  fault.lasts_s = 1.0;
+  EXPECT_TRUE(common::config::problemsOf(fault).empty());
+  fault.to_s = 3.0;
+  EXPECT_EQ(common::config::problemsOf(fault).size(), 1U);
+  EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kStuck, 1.0, 2.0}).size(), 1U);
+  EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kImu, FaultKind::kMirror, 1.0, 2.0}).size(), 1U);
 }
 
 TEST(Faults, ALossyLinkDropsItsShareOfMessages) {

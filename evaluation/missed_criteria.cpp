@@ -1,0 +1,68 @@
+// The criteria of one flight.
+#include <fmt/format.h>
+
+#include "evaluation/flight_score.hpp"
+#include "evaluation/judge.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using Figure = std::optional<double>;
+
+/// What became of the flight. Where verdicts are asked for, crashes and needless landings are judged over all flights,
+/// see TrialResult::missed().
+void judgeEnding(const FlightScore& score, const Criteria& criteria, Judge& judge) {
+  if (criteria.mission_done && !score.mission_done) judge.fail(fmt::format("mission: {}", score.outcome));
+  if (!criteria.verdicts) {
+    if (score.avoidable_collisions > criteria.collisions_max) judge.fail(fmt::format("collision: {}", score.collision));
+  } else if (score.verdict == Verdict::kOutside || score.verdict == Verdict::kUnfinished) {
+    judge.fail(fmt::format("verdict {}: {}", toString(score.verdict), score.verdict_reason));
+  }
+}
+
+/// What a mission that was done must have reached.
+void judgeMission(const FlightScore& score, const Criteria& criteria, Judge& judge) {
+  judge.atLeast("coverage", score.coverage, criteria.coverage_min, score.coverage_problem);
+  judge.atMost("goal error, m", score.goal_error_m, criteria.goal_error_max_m);
+  judge.atMost("home error, m", score.home_error_m, criteria.home_error_max_m);
+  judge.atMost("marker error, m", score.marker_error_m, criteria.marker_error_max_m);
+  judge.atMost("relocalization error, m", score.relocalization_error_m, criteria.relocalization_error_max_m);
+  judge.atMost("mission time, s", score.mission_begun ? Figure(score.mission_time_s) : std::nullopt,
+               criteria.mission_time_max_s);
+  judge.atMost("estimate RMS, m", score.estimate_rms_m, criteria.estimate_rms_max_m);
+  judge.atMost("map wall error, m", score.map_wall_error_median_m, criteria.map_wall_error_max_m);
+  judge.atMost("share of the time localized wrongly",
+               score.localization ? Figure(score.localization->wrong_share) : std::nullopt,
+               criteria.wrong_time_share_max);
+  if (criteria.all_resumed && score.resumed < score.interruptions)
+    judge.fail(fmt::format("interruptions: {} of {} went on", score.resumed, score.interruptions));
+  for (const PhaseScore& phase : score.phases)
+    for (std::string& failure : phase.missed()) judge.fail(std::move(failure));
+}
+
+void judgeConduct(const ConductScore& conduct, const Criteria& criteria, bool lacking_counts, Judge& judge) {
+  const auto atMost = [&](const char* name, const Figure& value, double bound) {
+    if (value || lacking_counts) judge.atMost(name, value, bound);
+  };
+  atMost("share of the time tilted", conduct.tilted_share, criteria.tilted_share_max);
+  if (conduct.thrust_margin_min || lacking_counts)
+    judge.atLeast("thrust margin", conduct.thrust_margin_min, criteria.thrust_margin_min);
+  atMost("touch-down speed, m/s", conduct.touch_down_speed_m_s, criteria.touch_down_speed_max_m_s);
+  atMost("time from fault to safe action, s", conduct.safe_action_s, criteria.safe_action_max_s);
+  atMost("error of the energy for the flight home", conduct.home_energy_error, criteria.home_energy_error_max);
+}
+
+}  // namespace
+
+std::vector<std::string> missed(const FlightScore& score, const Criteria& criteria) {
+  Judge judge;
+  judgeEnding(score, criteria, judge);
+  const bool asked_of_mission = score.mission_done || !criteria.verdicts;
+  if (asked_of_mission) judgeMission(score, criteria, judge);
+  judgeConduct(score.conduct, criteria, asked_of_mission, judge);
+  for (const OperatorAnswer& answer : score.operator_answers)
+    if (std::string failure = answer.failure(); !failure.empty() && asked_of_mission) judge.fail(std::move(failure));
+  return judge.failures;
+}
+
+}  // namespace swiftlet::evaluation

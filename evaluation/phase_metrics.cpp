@@ -1,0 +1,147 @@
+#include "evaluation/phase_metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/config_fields.hpp"
+#include "common/validation.hpp"
+#include "common/world.hpp"
+#include "common/world/map_layer.hpp"
+#include "evaluation/phase_words.hpp"
+#include "evaluation/statistics.hpp"
+
+namespace swiftlet::evaluation {
+
+using common::Time;
+
+void PhaseBound::describe(common::config::Fields& fields) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  fields("figure", figure, "Name of the phase's figure, as in the results: position_std_m, level_1_height_m.");
+  fields("min", min, {-kInfinity, kInfinity}, "Least value.");
+  fields("max", max, {-kInfinity, kInfinity}, "Greatest value.");
+}
+
+std::vector<std::string> PhaseBound::validate() const {
+  return common::Validation()
+      .require(!figure.empty(), "figure", "is missing")
+      .require(std::isfinite(min) || std::isfinite(max), "max", "is missing, and so is min")
+      .atMost("min", min, "max", max)
+      .problems();
+}
+
+void PhaseConfig::describe(common::config::Fields& fields) {
+  fields("name", name, "Name of the phase in the results.");
+  fields("from_s", from_s, {0, 1e6}, "Time of the flight before which nothing counts.");
+  fields("to_s", to_s, {0, 1e6}, "Time of the flight from which nothing counts.");
+  fields("phase", phase,
+         "Only while the flight's state, the mission's phase or a running behaviour begins with this text: `flying`, "
+         "`hold`, `GoHome`; empty for the whole flight.");
+  fields("settle_s", settle_s, {0, 1e6}, "Time after each begin of the phase that does not count.");
+  fields("place_map_m", place_map_m, {-1e4, 1e4},
+         "Place x, y in the vehicle's frame `map` from which the RMS of the position is taken; empty for no RMS.");
+  fields.list("criteria", criteria, "Bounds of the phase's figures.");
+}
+
+std::vector<std::string> PhaseConfig::validate() const {
+  return common::Validation()
+      .require(!name.empty(), "name", "is missing")
+      .require(place_map_m.empty() || place_map_m.size() == 2, "place_map_m", "is not one place x, y")
+      .atMost("from_s", from_s, "to_s", to_s)
+      .problems();
+}
+
+std::optional<double> PhaseScore::figure(const std::string& figure) const {
+  for (const auto& [known, value] : figures)
+    if (known == figure) return value;
+  return std::nullopt;
+}
+
+std::vector<std::string> PhaseScore::missed() const {
+  std::vector<std::string> failures;
+  for (const PhaseBound& bound : criteria) {
+    const std::optional<double> value = figure(bound.figure);
+    const std::string asked = !std::isfinite(bound.min)   ? fmt::format("at most {:g}", bound.max)
+                              : !std::isfinite(bound.max) ? fmt::format("at least {:g}", bound.min)
+                                                          : fmt::format("{:g} to {:g}", bound.min, bound.max);
+    if (!value)
+      failures.push_back(fmt::format("phase {}: {}: not measured, {} was asked for", name, bound.figure, asked));
+    else if (!(*value >= bound.min && *value <= bound.max))
+      failures.push_back(fmt::format("phase {}: {}: {:.4f}, {} was asked for", name, bound.figure, *value, asked));
+  }
+  return failures;
+}
+
+void PhaseRecorder::world(const common::World& world) {
+  in_phase_ = anyBeginsWith(phaseWords(world), config_.phase);
+  if (!in_phase_) since_.reset();
+  if (!last_ || !since_ || world.map->levels == nullptr) return;
+  level_heights_m_.clear();
+  for (const common::Level& level : world.map->levels->levels) level_heights_m_.push_back(level.height_m);
+  std::sort(level_heights_m_.begin(), level_heights_m_.end());
+}
+
+void PhaseRecorder::tick(Time now, const common::Pose3& T_map_truth, const Eigen::Vector3d& velocity_map_m_s,
+                         const common::VehicleState& estimate) {
+  if (!in_phase_ || now.seconds() < config_.from_s || now.seconds() >= config_.to_s) {
+    since_.reset();
+    return;
+  }
+  if (!since_) {
+    since_ = now;
+    last_.reset();
+  }
+  if ((now - *since_).seconds() < config_.settle_s) return;
+  if (last_) time_s_ += (now - *last_).seconds();
+  last_ = now;
+  x_m_.push_back(T_map_truth.position_m.x());
+  y_m_.push_back(T_map_truth.position_m.y());
+  height_m_.push_back(T_map_truth.position_m.z());
+  speed_m_s_.push_back(velocity_map_m_s.head<2>().norm());
+  yaw_rad_.push_back(common::yawOf(T_map_truth.rotation));
+  velocity_error_m_s_.push_back((estimate.velocity_map_m_s() - velocity_map_m_s).norm());
+}
+
+/// Yaw is unwrapped about its circular mean.
+void PhaseRecorder::addPlaces(PhaseFigures& figures) const {
+  const Statistics x = statisticsOf(x_m_), y = statisticsOf(y_m_), speed = statisticsOf(speed_m_s_);
+  const Statistics height = statisticsOf(height_m_), velocity_error = statisticsOf(velocity_error_m_s_);
+  double sine = 0.0, cosine = 0.0;
+  for (const double yaw : yaw_rad_) sine += std::sin(yaw), cosine += std::cos(yaw);
+  const double yaw_mean = std::atan2(sine, cosine);
+  std::vector<double> yaw_off;
+  for (const double yaw : yaw_rad_) yaw_off.push_back(common::wrapAngle(yaw - yaw_mean));
+  const PhaseFigures all = {{"position_mean_x_m", x.mean},
+                            {"position_mean_y_m", y.mean},
+                            {"position_std_m", std::hypot(x.standard_deviation, y.standard_deviation)},
+                            {"speed_mean_m_s", speed.mean},
+                            {"speed_std_m_s", speed.standard_deviation},
+                            {"yaw_mean_rad", yaw_mean},
+                            {"yaw_std_rad", statisticsOf(yaw_off).standard_deviation},
+                            {"height_mean_m", height.mean},
+                            {"height_std_m", height.standard_deviation},
+                            {"velocity_error_rms_m_s", velocity_error.rmse}};
+  figures.insert(figures.end(), all.begin(), all.end());
+  if (config_.place_map_m.empty()) return;
+  std::vector<double> off_m;
+  for (std::size_t i = 0; i < x_m_.size(); ++i)
+    off_m.push_back(std::hypot(x_m_[i] - config_.place_map_m[0], y_m_[i] - config_.place_map_m[1]));
+  figures.emplace_back("position_rms_m", statisticsOf(off_m).rmse);
+}
+
+void PhaseRecorder::addLevels(PhaseFigures& figures) const {
+  figures.emplace_back("levels", static_cast<double>(level_heights_m_.size()));
+  for (std::size_t i = 0; i < level_heights_m_.size(); ++i)
+    figures.emplace_back(fmt::format("level_{}_height_m", i), level_heights_m_[i]);
+}
+
+PhaseScore PhaseRecorder::finish() const {
+  PhaseScore score{config_.name, {{"time_s", time_s_}}, config_.criteria};
+  if (x_m_.empty()) return score;
+  addPlaces(score.figures);
+  addLevels(score.figures);
+  return score;
+}
+
+}  // namespace swiftlet::evaluation

@@ -1,0 +1,85 @@
+// Figures over a part of a flight: between two times, in a phase of the mission, while a behaviour runs; with criteria
+// on them by name.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/config_fwd.hpp"
+#include "common/geometry.hpp"
+#include "common/level_map.hpp"
+#include "common/time.hpp"
+#include "common/vehicle_state.hpp"
+
+namespace swiftlet::common {
+struct World;
+}
+
+namespace swiftlet::evaluation {
+
+/// The bounds of one figure of a phase.
+struct PhaseBound {
+  std::string figure = {};
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+struct PhaseConfig {
+  std::string name = {};
+  double from_s = 0.0;
+  double to_s = 1e6;
+  std::string phase = {};
+  double settle_s = 0.0;
+  std::vector<double> place_map_m = {};
+  std::vector<PhaseBound> criteria = {};
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+/// By their names: position_mean_x_m, height_std_m ...
+using PhaseFigures = std::vector<std::pair<std::string, double>>;
+
+/// What a phase has of a flight. A phase without a tick has no figures but its time.
+struct PhaseScore {
+  std::string name;
+  PhaseFigures figures;
+  std::vector<PhaseBound> criteria;
+
+  std::optional<double> figure(const std::string& figure) const;
+  /// The criteria that are missed, in words; a figure that the phase lacks is a miss.
+  std::vector<std::string> missed() const;
+};
+
+/// Collects the ticks of one phase, and computes its figures from the truth.
+class PhaseRecorder {
+ public:
+  explicit PhaseRecorder(PhaseConfig config) : config_(std::move(config)) {}
+
+  /// Call at every snapshot: what the vehicle does from now on.
+  void world(const common::World& world);
+  /// Call at every control tick, with the true pose and velocity in the vehicle's frame `map`, and the estimate.
+  void tick(common::Time now, const common::Pose3& T_map_truth, const Eigen::Vector3d& velocity_map_m_s,
+            const common::VehicleState& estimate);
+
+  PhaseScore finish() const;
+
+ private:
+  void addPlaces(PhaseFigures& figures) const;
+  void addLevels(PhaseFigures& figures) const;
+
+  PhaseConfig config_;
+  bool in_phase_ = false;  ///< By the last snapshot.
+  std::optional<common::Time> since_, last_;
+  double time_s_ = 0.0;
+  std::vector<double> x_m_, y_m_, height_m_, speed_m_s_, yaw_rad_, velocity_error_m_s_;
+  std::vector<double> level_heights_m_;  ///< Of the last map in the phase, ascending.
+};
+
+}  // namespace swiftlet::evaluation

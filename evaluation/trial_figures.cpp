@@ -1,0 +1,113 @@
+#include "evaluation/trial_figures.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "common/check.hpp"
+#include "evaluation/statistics.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+/// A figure of a flight by the pointer to its member.
+template <auto kMember>
+std::optional<double> of(const FlightScore& flight) {
+  if constexpr (requires { flight.*kMember; })
+    return flight.*kMember;
+  else
+    return flight.conduct.*kMember;
+}
+
+std::optional<double> timeIfDone_s(const FlightScore& flight) {
+  return flight.mission_done ? std::optional(flight.mission_time_s) : std::nullopt;
+}
+std::optional<double> localizedInTime(const FlightScore& flight) {
+  return flight.localization ? std::optional(flight.localization->in_time ? 1.0 : 0.0) : std::nullopt;
+}
+std::optional<double> localizationPathLength_m(const FlightScore& flight) {
+  return flight.localization ? flight.localization->path_length_m : std::nullopt;
+}
+std::optional<double> wrongShare(const FlightScore& flight) {
+  return flight.localization ? std::optional(flight.localization->wrong_share) : std::nullopt;
+}
+template <Verdict kVerdict>
+std::optional<double> is(const FlightScore& flight) {
+  return flight.verdict == kVerdict ? 1.0 : 0.0;
+}
+
+}  // namespace
+
+const std::vector<TrialFigure>& trialFigures() {
+  using Score = FlightScore;
+  using Conduct = ConductScore;
+  using enum Statistic;
+  static const std::vector<TrialFigure> figures = {
+      {"done_share", kMean, is<Verdict::kDone>},
+      {"needless_share", kMean, is<Verdict::kNeedless>},
+      {"coverage_min", kMin, of<&Score::coverage>},
+      {"goal_error_max_m", kMax, of<&Score::goal_error_m>},
+      {"goal_error_median_m", kMedian, of<&Score::goal_error_m>},
+      {"home_error_max_m", kMax, of<&Score::home_error_m>},
+      {"home_error_median_m", kMedian, of<&Score::home_error_m>},
+      {"marker_error_max_m", kMax, of<&Score::marker_error_m>},
+      {"marker_error_median_m", kMedian, of<&Score::marker_error_m>},
+      {"relocalization_error_max_m", kMax, of<&Score::relocalization_error_m>},
+      {"relocalization_error_median_m", kMedian, of<&Score::relocalization_error_m>},
+      {"mission_time_median_s", kMedian, timeIfDone_s},
+      {"estimate_rms_median_m", kMedian, of<&Score::estimate_rms_m>},
+      {"map_wall_error_median_m", kMedian, of<&Score::map_wall_error_median_m>},
+      {"localized_flights", kMean, localizedInTime},
+      {"localization_path_length_median_m", kMedian, localizationPathLength_m},
+      {"localization_path_length_max_m", kMax, localizationPathLength_m},
+      {"wrong_time_share_max", kMax, wrongShare},
+      {"tilted_share_max", kMax, of<&Conduct::tilted_share>},
+      {"thrust_margin_min", kMin, of<&Conduct::thrust_margin_min>},
+      {"touch_down_speed_max_m_s", kMax, of<&Conduct::touch_down_speed_m_s>},
+      {"safe_action_max_s", kMax, of<&Conduct::safe_action_s>},
+      {"home_energy_error_max", kMax, of<&Conduct::home_energy_error>},
+      {"goal_error_max_raw_m", kMax, of<&Score::goal_error_raw_m>},
+      {"goal_error_median_raw_m", kMedian, of<&Score::goal_error_raw_m>},
+      {"home_error_max_raw_m", kMax, of<&Score::home_error_raw_m>},
+      {"home_error_median_raw_m", kMedian, of<&Score::home_error_raw_m>},
+      {"estimate_rms_median_raw_m", kMedian, of<&Score::estimate_rms_raw_m>},
+      {"map_wall_error_median_raw_m", kMedian, of<&Score::map_wall_error_median_raw_m>},
+      {"realtime_factor_median", kMedian, of<&Score::realtime_factor>},
+  };
+  return figures;
+}
+
+std::optional<double> valueOf(const TrialFigure& figure, const std::vector<FlightScore>& flights) {
+  std::vector<double> values;
+  for (const FlightScore& flight : flights)
+    if (const std::optional<double> value = figure.of(flight)) values.push_back(*value);
+  if (values.empty()) return std::nullopt;
+  switch (figure.statistic) {
+    case Statistic::kMin:
+      return quantile(values, 0.0);
+    case Statistic::kMedian:
+      return quantile(values, 0.5);
+    case Statistic::kMax:
+      return quantile(values, 1.0);
+    case Statistic::kMean:
+      return statisticsOf(values).mean;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> trialFigure(std::string_view name, const std::vector<FlightScore>& flights) {
+  for (const TrialFigure& figure : trialFigures())
+    if (name == figure.name) return valueOf(figure, flights);
+  SWIFTLET_CHECK(false, std::string(name));
+}
+
+std::optional<double> medianOverAll(std::optional<double> FlightScore::*figure,
+                                    const std::vector<FlightScore>& flights) {
+  if (flights.empty()) return std::nullopt;
+  std::vector<double> values;
+  for (const FlightScore& flight : flights)
+    values.push_back((flight.*figure).value_or(std::numeric_limits<double>::max()));
+  return quantile(values, 0.5);
+}
+
+}  // namespace swiftlet::evaluation

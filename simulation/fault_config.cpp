@@ -1,0 +1,43 @@
+#include "simulation/fault_config.hpp"
+
+#include "common/config_fields.hpp"
+#include "common/validation.hpp"
+
+namespace swiftlet::simulation {
+
+void FaultConfig::describe(common::config::Fields& fields) {
+  fields.choice("sensor", sensor, {"imu", "laser", "battery", "pilot", "camera"}, "Which sensor fails.");
+  fields.choice("kind", kind, {"silent", "nan", "repeat", "late", "stuck", "bias", "mirror", "blocked"},
+                "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser.");
+  fields("from_s", from_s, {0, 1e6}, "Time at which the fault begins; with place or phase, before which it does not.");
+  fields("to_s", to_s, {0, 1e6}, "Time at which the fault ends; at least from_s. Not with place or phase.");
+  fields("late_s", late_s, {0, 100}, "Delay of measurements, for kind late.");
+  fields("place_world_m", place_world_m, {-1e4, 1e4},
+         "Place x, y in the world: the fault begins when the vehicle first comes there; empty for anywhere.");
+  fields("within_m", within_m, {0.01, 1000}, "Horizontal distance from the place at which the fault begins.");
+  fields("phase", phase,
+         "The fault begins when the flight's state, the mission's phase or a running behaviour first begins with this "
+         "text: `taking off`, `explore`, `GoHome`; empty for any.");
+  fields("lasts_s", lasts_s, {0, 1e6}, "Duration of a fault that begins at a place or in a phase.");
+  fields("gyro_bias_deg_s", gyro_bias_deg_s, {-500, 500}, "For kind bias: error of the rate about each axis.");
+  fields("accel_bias_m_s2", accel_bias_m_s2, {-50, 50}, "For kind bias: error of the specific force on each axis.");
+  fields("from_deg", from_deg, {-180, 180}, "For kind blocked: angle of the first blocked beam, to the left of ahead.");
+  fields("to_deg", to_deg, {-180, 180}, "For kind blocked: angle of the last blocked beam; at least from_deg.");
+}
+
+std::vector<std::string> FaultConfig::validate() const {
+  const bool of_imu = kind == FaultKind::kStuck || kind == FaultKind::kBias;
+  const bool of_laser = kind == FaultKind::kMirror || kind == FaultKind::kBlocked;
+  common::Validation validation;
+  if (!isTriggered()) validation.atMost("from_s", from_s, "to_s", to_s);
+  return validation.atMost("from_deg", from_deg, "to_deg", to_deg)
+      .require(place_world_m.empty() || place_world_m.size() == 2, "place_world_m", "is not one point x, y")
+      .require(!isTriggered() || lasts_s > 0.0, "lasts_s", "is missing: a fault with place or phase needs it")
+      .require(!isTriggered() || to_s == 0.0, "to_s", "is for a fault without place or phase; give lasts_s instead")
+      .require(isTriggered() || lasts_s == 0.0, "lasts_s", "is for a fault with place or phase; give to_s instead")
+      .require(!of_imu || sensor == Sensor::kImu, "kind", "stuck and bias are faults of the imu alone")
+      .require(!of_laser || sensor == Sensor::kLaser, "kind", "mirror and blocked are faults of the laser alone")
+      .problems();
+}
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,45 @@
+// A fault of a sensor: what goes wrong, and when: between two times, at a place, or in a phase of the flight.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/config_fwd.hpp"
+#include "simulation/sensors/sensor_config.hpp"
+
+namespace swiftlet::simulation {
+
+enum class FaultKind {
+  kSilent,   ///< No measurement arrives.
+  kNan,      ///< Every number is NaN.
+  kRepeat,   ///< The last good measurement is repeated, with new stamps.
+  kLate,     ///< Measurements arrive `late_s` later.
+  kStuck,    ///< Of the IMU: the attitude of the AHRS stays as it was, rates and specific force live.
+  kBias,     ///< Of the IMU: rates and specific force are off by a constant on every axis.
+  kMirror,   ///< Of the laser: the beams that the mirror deflects down return nothing.
+  kBlocked,  ///< Of the laser: the beams between two angles return nothing.
+};
+
+struct FaultConfig {
+  Sensor sensor = Sensor::kLaser;
+  FaultKind kind = FaultKind::kSilent;
+  double from_s = 0.0;
+  double to_s = 0.0;
+  double late_s = 0.5;
+  std::vector<double> place_world_m = {};
+  double within_m = 1.0;
+  std::string phase = {};
+  double lasts_s = 0.0;
+  double gyro_bias_deg_s = 0.0;
+  double accel_bias_m_s2 = 0.0;
+  double from_deg = -45.0;
+  double to_deg = 45.0;
+
+  /// Begins at a place or in a phase, and not at a time.
+  bool isTriggered() const { return !place_world_m.empty() || !phase.empty(); }
+
+  void describe(common::config::Fields& fields);
+  std::vector<std::string> validate() const;
+};
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,63 @@
+#include "simulation/fault_schedule.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace swiftlet::simulation {
+
+using common::Time;
+
+FaultSchedule::FaultSchedule(std::vector<FaultConfig> faults) {
+  for (FaultConfig& fault : faults) {
+    Scheduled scheduled{std::move(fault), {}, {}};
+    if (scheduled.config.isTriggered()) {
+      any_waits_ = true;
+    } else {
+      scheduled.begin = Time::fromSeconds(scheduled.config.from_s);
+      scheduled.end = Time::fromSeconds(scheduled.config.to_s);
+    }
+    faults_.push_back(std::move(scheduled));
+  }
+}
+
+void FaultSchedule::step(Time now, const Eigen::Vector2d& position_world_m) {
+  if (!any_waits_) return;
+  any_waits_ = false;
+  for (Scheduled& fault : faults_) {
+    if (fault.begin) continue;
+    if (isDue(fault.config, now, position_world_m)) {
+      fault.begin = now;
+      fault.end = now + common::Duration::fromSeconds(fault.config.lasts_s);
+    } else {
+      any_waits_ = true;
+    }
+  }
+}
+
+bool FaultSchedule::isDue(const FaultConfig& fault, Time now, const Eigen::Vector2d& position_world_m) const {
+  if (now.seconds() < fault.from_s) return false;
+  if (!fault.place_world_m.empty()) {
+    const Eigen::Vector2d place(fault.place_world_m[0], fault.place_world_m[1]);
+    if ((position_world_m - place).norm() > fault.within_m) return false;
+  }
+  return fault.phase.empty() || std::any_of(phase_.begin(), phase_.end(),
+                                            [&](const std::string& word) { return word.starts_with(fault.phase); });
+}
+
+const FaultConfig* FaultSchedule::of(Sensor sensor, Time time) const {
+  for (const Scheduled& fault : faults_)
+    if (fault.config.sensor == sensor && fault.activeAt(time)) return &fault.config;
+  return nullptr;
+}
+
+bool FaultSchedule::anyActive(Time time) const {
+  return std::any_of(faults_.begin(), faults_.end(), [time](const Scheduled& fault) { return fault.activeAt(time); });
+}
+
+std::optional<Sensor> FaultSchedule::failedForFlight(Time time) const {
+  for (const Sensor sensor : {Sensor::kImu, Sensor::kLaser})
+    if (of(sensor, time) != nullptr) return sensor;
+  return std::nullopt;
+}
+
+}  // namespace swiftlet::simulation

@@ -1,0 +1,45 @@
+// When the faults of a vehicle are active. Those with a place or a phase begin when it first comes there, and last
+// their time from then on; each begins once.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/time.hpp"
+#include "simulation/fault_config.hpp"
+
+namespace swiftlet::simulation {
+
+class FaultSchedule {
+ public:
+  explicit FaultSchedule(std::vector<FaultConfig> faults);
+
+  /// What an observer says about the flight from now on: its state, the mission's phase, the running behaviours.
+  void tellPhase(std::vector<std::string> words) { phase_ = std::move(words); }
+  /// Call at each step, in the order of time.
+  void step(common::Time now, const Eigen::Vector2d& position_world_m);
+
+  /// The first fault of the sensor that is active at this time; null if there is none.
+  const FaultConfig* of(Sensor sensor, common::Time time) const;
+  bool anyActive(common::Time time) const;
+  /// The IMU or the laser, if one of their faults is active.
+  std::optional<Sensor> failedForFlight(common::Time time) const;
+
+ private:
+  struct Scheduled {
+    FaultConfig config;
+    std::optional<common::Time> begin, end;  ///< None: its place or phase has not come.
+
+    bool activeAt(common::Time time) const { return begin && time >= *begin && time < *end; }
+  };
+  bool isDue(const FaultConfig& fault, common::Time now, const Eigen::Vector2d& position_world_m) const;
+
+  std::vector<Scheduled> faults_;
+  std::vector<std::string> phase_;
+  bool any_waits_ = false;
+};
+
+}  // namespace swiftlet::simulation

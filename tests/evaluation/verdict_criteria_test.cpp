@@ -1,0 +1,102 @@
+// Trials that judge flights by their verdict: what counts over all of them.
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "evaluation/trial_results.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+FlightScore flight(Verdict verdict) {
+  FlightScore score;
+  score.verdict = verdict;
+  score.mission_done = verdict == Verdict::kDone;
+  score.collisions = verdict == Verdict::kCrashed || verdict == Verdict::kForced || verdict == Verdict::kUnseen ? 1 : 0;
+  score.avoidable_collisions = verdict == Verdict::kCrashed ? 1 : 0;
+  score.glass_contacts = verdict == Verdict::kUnseen ? 1 : 0;
+  if (score.mission_done) score.goal_error_m = 0.02;
+  return score;
+}
+
+Criteria byVerdict() {
+  Criteria criteria;
+  criteria.mission_done = false;
+  criteria.verdicts = true;
+  criteria.goal_error_max_m = 0.1;
+  criteria.touch_down_speed_max_m_s = 0.5;
+  return criteria;
+}
+
+/// `done` flights that did their mission, and the others.
+TrialResult trial(int done, std::vector<Verdict> others, const Criteria& criteria = byVerdict()) {
+  TrialResult result{"lab", "swiftlet", {}, {}, criteria};
+  others.insert(others.end(), static_cast<std::size_t>(done), Verdict::kDone);
+  for (const Verdict verdict : others) {
+    FlightScore score = flight(verdict);
+    score.conduct.touch_down_speed_m_s = 0.3;
+    score.seed = static_cast<std::int64_t>(result.flights.size());
+    score.failures = missed(score, criteria);
+    result.flights.push_back(score);
+  }
+  return result;
+}
+
+TEST(VerdictCriteria, AFlightThatEndedWithAReasonPassesWithoutTheFiguresOfItsMission) {
+  for (const Verdict good :
+       {Verdict::kHome, Verdict::kLanded, Verdict::kRefused, Verdict::kForced, Verdict::kStruck, Verdict::kUnseen})
+    EXPECT_THAT(missed(flight(good), byVerdict()), IsEmpty()) << toString(good);
+  FlightScore hard = flight(Verdict::kLanded);
+  hard.conduct.touch_down_speed_m_s = 0.8;
+  EXPECT_THAT(missed(hard, byVerdict()), ElementsAre(HasSubstr("touch-down"))) << "what it did is judged";
+  FlightScore inaccurate = flight(Verdict::kDone);
+  inaccurate.goal_error_m.reset();
+  inaccurate.conduct.touch_down_speed_m_s = 0.3;
+  EXPECT_THAT(missed(inaccurate, byVerdict()), ElementsAre(HasSubstr("goal error"))) << "of a done one all is asked";
+}
+
+TEST(VerdictCriteria, OneNeedlessLandingOfTwentyIsAllowed) {
+  EXPECT_TRUE(trial(19, {Verdict::kNeedless}).met());
+  EXPECT_THAT(trial(18, {Verdict::kNeedless, Verdict::kNeedless}).missed(),
+              ElementsAre(HasSubstr("needlessly: 0.100")));
+  EXPECT_FALSE(trial(9, {Verdict::kNeedless}).met());
+}
+
+TEST(VerdictCriteria, NoCrashIsAllowedUnlessAsked) {
+  EXPECT_THAT(trial(19, {Verdict::kCrashed}).missed(), ElementsAre("crashes: 1.000, at most 0 was asked for"));
+  Criteria criteria = byVerdict();
+  criteria.crashes_max = 1;
+  EXPECT_TRUE(trial(19, {Verdict::kCrashed}, criteria).met());
+  EXPECT_TRUE(trial(18, {Verdict::kForced, Verdict::kUnseen}).met());
+  EXPECT_EQ(trial(18, {Verdict::kForced, Verdict::kUnseen}).glassContacts(), 1);
+}
+
+TEST(VerdictCriteria, WhoLeavesTheBuildingOrIsStillUpFails) {
+  EXPECT_THAT(missed(flight(Verdict::kOutside), byVerdict()), ElementsAre(HasSubstr("verdict outside")));
+  EXPECT_THAT(missed(flight(Verdict::kUnfinished), byVerdict()), ElementsAre(HasSubstr("verdict unfinished")));
+}
+
+TEST(VerdictCriteria, TheShareThatMustBeDoneCounts) {
+  Criteria criteria = byVerdict();
+  criteria.done_share_min = 0.9;
+  EXPECT_TRUE(trial(18, {Verdict::kHome, Verdict::kLanded}, criteria).met());
+  EXPECT_THAT(trial(17, {Verdict::kHome, Verdict::kHome, Verdict::kLanded}, criteria).missed(),
+              ElementsAre(HasSubstr("share of flights done: 0.8500")));
+}
+
+TEST(VerdictCriteria, ResultsAndTablesCountTheVerdicts) {
+  const TrialResults results{{trial(2, {Verdict::kHome, Verdict::kUnseen})}};
+  const auto json = nlohmann::json::parse(toJson(results)).at("trials").at(0);
+  EXPECT_EQ(json.at("verdicts"), (nlohmann::json{{"done", 2}, {"home", 1}, {"unseen", 1}}));
+  EXPECT_EQ(json.at("done_share"), 0.5);
+  EXPECT_EQ(json.at("glass_contacts"), 1);
+  EXPECT_EQ(json.at("flights").at(0).at("verdict"), "home");
+  EXPECT_THAT(toText(summaryTable(results)), HasSubstr("needless"));
+  EXPECT_THAT(toText(flightTable(results.trials[0])), HasSubstr("verdict"));
+}
+
+}  // namespace
+}  // namespace swiftlet::evaluation
