@@ -7,13 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "common/vehicle_config.hpp"
 #include "evaluation/criteria.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "evaluation/marker_errors.hpp"
+#include "evaluation/true_world.hpp"
 #include "evaluation/verdict.hpp"
-#include "simulation/quadrotor.hpp"
-#include "simulation/ray_caster.hpp"
 
 namespace swiftlet::evaluation {
 
@@ -101,22 +99,6 @@ struct FlightScore {
   /// Every criterion that was missed, with figure and bound; empty if the flight passed.
   std::vector<std::string> failures;
   bool passed() const { return failures.empty(); }
-};
-
-/// Clearance and bound of the reachable area for trials that give none.
-inline constexpr double kClearance_m = 0.10;
-/// A larger area means that the world is open.
-inline constexpr double kReachableAreaMax_m2 = 2000.0;
-
-/// The world of this flight, after the seed's variation, as the scorer needs it.
-struct TrueWorld {
-  const simulation::RayCaster* rays = nullptr;
-  common::VehicleConfig vehicle;
-  common::LaserConfig laser;
-  simulation::QuadrotorConfig quadrotor;
-  double clearance_m = kClearance_m;  ///< Clearance of the mission. Places where the hull does not fit with it are not
-                                      ///< expected to be reached.
-  double reachable_area_max_m2 = kReachableAreaMax_m2;  ///< A world with a larger reachable area counts as open.
 };
 
 /// `wall_time_s` is the computing time; 0 if not known.

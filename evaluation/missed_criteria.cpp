@@ -36,8 +36,14 @@ void judgeMission(const FlightScore& score, const Criteria& criteria, Judge& jud
                criteria.wrong_time_share_max);
   if (criteria.all_resumed && score.resumed < score.interruptions)
     judge.fail(fmt::format("interruptions: {} of {} went on", score.resumed, score.interruptions));
+}
+
+/// What was asked for step by step is asked of every flight, however it ended.
+void judgeSteps(const FlightScore& score, Judge& judge) {
   for (const PhaseScore& phase : score.phases)
     for (std::string& failure : phase.missed()) judge.fail(std::move(failure));
+  for (const OperatorAnswer& answer : score.operator_answers)
+    if (std::string failure = answer.failure(); !failure.empty()) judge.fail(std::move(failure));
 }
 
 void judgeConduct(const ConductScore& conduct, const Criteria& criteria, bool lacking_counts, Judge& judge) {
@@ -60,8 +66,7 @@ std::vector<std::string> missed(const FlightScore& score, const Criteria& criter
   const bool asked_of_mission = score.mission_done || !criteria.verdicts;
   if (asked_of_mission) judgeMission(score, criteria, judge);
   judgeConduct(score.conduct, criteria, asked_of_mission, judge);
-  for (const OperatorAnswer& answer : score.operator_answers)
-    if (std::string failure = answer.failure(); !failure.empty() && asked_of_mission) judge.fail(std::move(failure));
+  judgeSteps(score, judge);
   return judge.failures;
 }
 

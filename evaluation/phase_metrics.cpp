@@ -38,7 +38,7 @@ void PhaseConfig::describe(common::config::Fields& fields) {
   fields("phase", phase,
          "Only while the flight's state, the mission's phase or a running behaviour begins with this text: `flying`, "
          "`hold`, `GoHome`; empty for the whole flight.");
-  fields("settle_s", settle_s, {0, 1e6}, "Time after each begin of the phase that does not count.");
+  fields("settle_s", settle_s, {0, 1e6}, "Time after each beginning of the phase that does not count.");
   fields("place_map_m", place_map_m, {-1e4, 1e4},
          "Place x, y in the vehicle's frame `map` from which the RMS of the position is taken; empty for no RMS.");
   fields.list("criteria", criteria, "Bounds of the phase's figures.");

@@ -15,11 +15,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kHome_m = 0.5;      // As near as the hull is wide.
-constexpr double kStepDown_m = 0.5;  // A floor that far below the take-off floor is another one.
-constexpr double kResolution_m = 0.05;
-constexpr double kStops_s = 20.0;     // Stopping, turning and landing on the way home.
-constexpr double kSlowest_m_s = 0.2;  // Slower flights home count as this fast.
+constexpr double kHome_m = 0.5;         // As near as the hull is wide.
+constexpr double kStepDown_m = 0.5;     // A floor that far below the take-off floor is another one.
+constexpr double kResolution_m = 0.05;  // As fine as the vehicle's own map.
+constexpr double kStops_s = 20.0;       // Stopping, turning and landing on the way home.
+constexpr double kSlowest_m_s = 0.2;    // Slower flights home count as this fast.
 
 double marginAt(double charge, const TrueWorld& world) {
   return simulation::thrustOverWeight(world.vehicle, world.quadrotor, charge, simulation::Nature::kFullThrottle);

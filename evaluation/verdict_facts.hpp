@@ -1,7 +1,8 @@
 // What the truth knows about the end of a flight, from its record and the true world.
 #pragma once
 
-#include "evaluation/flight_score.hpp"
+#include "evaluation/flight_recorder.hpp"
+#include "evaluation/true_world.hpp"
 #include "evaluation/verdict.hpp"
 
 namespace swiftlet::evaluation {

@@ -79,6 +79,18 @@ TEST(VerdictCriteria, WhoLeavesTheBuildingOrIsStillUpFails) {
   EXPECT_THAT(missed(flight(Verdict::kUnfinished), byVerdict()), ElementsAre(HasSubstr("verdict unfinished")));
 }
 
+TEST(VerdictCriteria, PhasesAndTheOperatorAreJudgedHoweverTheFlightEnded) {
+  FlightScore score = flight(Verdict::kLanded);
+  PhaseBound bound;
+  bound.figure = "position_std_m";
+  bound.max = 0.05;
+  score.phases = {{"hover", {{"time_s", 0.0}}, {bound}}};
+  score.operator_answers = {{"hold", ExpectedAnswer::kAccepted, common::Time::fromSeconds(3), false, "it lands"}};
+  EXPECT_THAT(missed(score, byVerdict()),
+              ElementsAre("phase hover: position_std_m: not measured, at most 0.05 was asked for",
+                          "operator: hold at 3.0 s: refused, it lands"));
+}
+
 TEST(VerdictCriteria, TheShareThatMustBeDoneCounts) {
   Criteria criteria = byVerdict();
   criteria.done_share_min = 0.9;
@@ -89,11 +101,11 @@ TEST(VerdictCriteria, TheShareThatMustBeDoneCounts) {
 
 TEST(VerdictCriteria, ResultsAndTablesCountTheVerdicts) {
   const TrialResults results{{trial(2, {Verdict::kHome, Verdict::kUnseen})}};
-  const auto json = nlohmann::json::parse(toJson(results)).at("trials").at(0);
-  EXPECT_EQ(json.at("verdicts"), (nlohmann::json{{"done", 2}, {"home", 1}, {"unseen", 1}}));
-  EXPECT_EQ(json.at("done_share"), 0.5);
-  EXPECT_EQ(json.at("glass_contacts"), 1);
-  EXPECT_EQ(json.at("flights").at(0).at("verdict"), "home");
+  const auto results_json = nlohmann::json::parse(toJson(results)).at("trials").at(0);
+  EXPECT_EQ(results_json.at("verdicts"), (nlohmann::json{{"done", 2}, {"home", 1}, {"unseen", 1}}));
+  EXPECT_EQ(results_json.at("done_share"), 0.5);
+  EXPECT_EQ(results_json.at("glass_contacts"), 1);
+  EXPECT_EQ(results_json.at("flights").at(0).at("verdict"), "home");
   EXPECT_THAT(toText(summaryTable(results)), HasSubstr("needless"));
   EXPECT_THAT(toText(flightTable(results.trials[0])), HasSubstr("verdict"));
 }
