@@ -27,7 +27,7 @@ constexpr double kStart_m = 0.3;
 constexpr double kStart_deg = 10.0;
 
 /// Ending of the folder's name for the results.
-constexpr const char* kSuffix = "localize";
+constexpr const char* kLocalizeSuffix = "localize";
 
 struct LocalizeOptions {
   RecordedLogOptions log;
@@ -174,7 +174,7 @@ int localize(const LocalizeOptions& options) {
         T_map_start, Eigen::Vector3d(kStart_m * kStart_m, kStart_m * kStart_m, yaw_rad * yaw_rad).asDiagonal());
   }
   RecordedLog log(options.log);
-  ResultsFolder folder(folderFor(options.log, kSuffix), kLocalizeResults);
+  ResultsFolder folder(folderFor(options.log, kLocalizeSuffix), kLocalizeResults);
   const fs::path& out = folder.path();
   LocalizeRun run;
   localizeLog(log, options, localizer, run);
@@ -211,7 +211,7 @@ void addLocalize(Command& program) {
   auto options = std::make_shared<LocalizeOptions>();
   Command command = program.command("localize", "Find and follow a recorded laser log in a given map.");
   command.argument("map", options->map, "The map's YAML, as map_server and swiftlet map write it.");
-  addLogOptions(command, options->log, kSuffix);
+  addLogOptions(command, options->log, kLocalizeSuffix);
   command.option("--start", options->start,
                  "\"x;y;yaw\" where it begins, in metres and degrees; not known when not given.");
   command.option("--seed", options->seed, {0, kGreatestSeed}, "Seed of the particles.");

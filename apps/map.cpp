@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Ending of the folder's name for the results.
-constexpr const char* kSuffix = "map";
+constexpr const char* kMapSuffix = "map";
 
 struct MapOptions {
   RecordedLogOptions log;
@@ -150,7 +150,7 @@ Facts factsOf(const RecordedLog& log, const MapRun& run) {
 
 int map(const MapOptions& options) {
   RecordedLog log(options.log);
-  ResultsFolder folder(folderFor(options.log, kSuffix), kMapResults);
+  ResultsFolder folder(folderFor(options.log, kMapSuffix), kMapResults);
   const fs::path& out = folder.path();
   MapRun run(options);
   mapLog(log, options, run);
@@ -183,7 +183,7 @@ int map(const MapOptions& options) {
 void addMap(Command& program) {
   auto options = std::make_shared<MapOptions>();
   Command command = program.command("map", "Make the map of a recorded laser log; no odometry is needed.");
-  addLogOptions(command, options->log, kSuffix);
+  addLogOptions(command, options->log, kMapSuffix);
   command.choice("--slam", options->slam, perception::slamMethodNames(),
                  perception::slamMethodHelp() + " The profile's when not given.");
   command.footer("Example: swiftlet map intel.clf.bz2 --out intel");

@@ -10,12 +10,14 @@
 #include <fmt/core.h>
 
 #include "apps/command.hpp"
+#include "apps/envelope.hpp"
 #include "apps/flight.hpp"
 #include "apps/required.hpp"
 #include "apps/show.hpp"
 #include "apps/stop_signals.hpp"
 #include "apps/trial_flight.hpp"
 #include "common/data_paths.hpp"
+#include "common/error.hpp"
 #include "common/table.hpp"
 #include "evaluation/trial.hpp"
 #include "evaluation/trial_results.hpp"
@@ -41,7 +43,20 @@ struct TrialOptions {
   std::optional<double> battery;  ///< None: as the trial says.
   std::string out;
   bool json = false;
+  bool envelope = false;
+  std::string quantities = EnvelopeOptions().quantities;
+  std::string only;
+  std::string write;
 };
+
+/// The envelope pins what these options choose.
+EnvelopeOptions envelopeOptions(const TrialOptions& options) {
+  if (!options.nature.empty() || options.battery)
+    throw common::InputError(common::Problem{
+        {}, options.battery ? "--battery" : "--nature", "does not go with --envelope, which pins the plant", ""});
+  return {options.trials, options.quantities, options.only, options.repeat, options.seed,
+          options.jobs,   options.system,     options.out,  options.write,  options.json};
+}
 
 std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& score) {
   const std::string vehicle = score.vehicle.empty() ? "" : fmt::format("{:<10} ", score.vehicle);
@@ -175,8 +190,15 @@ void addTrial(Command& program) {
                  "Charge at the start to fly them all with, as a share of the full one.");
   command.option("--out", options->out, "Folder of the results; default runs/<time>-trial.");
   command.flag("--json", options->json, "Print the results as JSON, nothing else.");
-  command.footer("Example: swiftlet trial trials/papers/unb_case1.yaml --repeat 20");
-  command.runs([options] { return trial(*options); });
+  command.flag("--envelope", options->envelope,
+               "Turn up each quantity of the plant alone until flights fail; --repeat is then flights at each value.");
+  command.option("--quantities", options->quantities, "With --envelope: what is turned up, and how far.");
+  command.option("--only", options->only, "With --envelope: keys of the quantities to turn up, separated by commas.");
+  command.option("--write", options->write, "With --envelope: page (Markdown) that gets the table and the picture.");
+  command.footer(
+      "Examples: swiftlet trial trials/papers/unb_case1.yaml --repeat 20\n"
+      "          swiftlet trial trials/papers/unb_case1.yaml --envelope --jobs 2");
+  command.runs([options] { return options->envelope ? flyEnvelope(envelopeOptions(*options)) : trial(*options); });
 }
 
 }  // namespace swiftlet::apps

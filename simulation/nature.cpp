@@ -60,6 +60,10 @@ Nature Nature::withCharge(double low, double high) const {
   return {name_, std::move(ranges)};
 }
 
+std::optional<Nature::Range> Nature::rangeOf(const std::string& key) const {
+  return ranges_ ? ranges_->rangeOf(key) : std::nullopt;
+}
+
 Scenario Nature::drawn(const Scenario& scenario, std::uint64_t seed) const {
   if (!ranges_) return scenario;
   const std::vector<std::string>& written = scenario.written;

@@ -9,6 +9,7 @@
 
 #include "common/config.hpp"
 #include "common/error.hpp"
+#include "simulation/plant_keys.hpp"
 #include "simulation/whole_number_keys.hpp"
 
 namespace swiftlet::simulation {
@@ -26,11 +27,7 @@ struct NatureKeys {
 
   void describe(common::config::Fields& fields) {
     fields(kLeastThrust, least_thrust_over_weight, {0, 10}, "Thrust over weight that a draw must have.");
-    fields("battery_remaining", scenario.battery_remaining, {0.01, 1}, "Charge at the start.");
-    fields.section("wind", scenario.wind, "Wind.");
-    fields.section("quadrotor", scenario.quadrotor, "The airframe's physics.");
-    fields.section("autopilot", scenario.autopilot, "The inner loop.");
-    fields.section("sensors", scenario.sensors, "Errors and delays of the sensors.");
+    describePlant(scenario, fields);
   }
 };
 
@@ -142,6 +139,16 @@ void NatureRanges::narrow(const std::string& key, double low, double high) {
     entry.low = low;
     entry.high = high;
   }
+}
+
+std::optional<Nature::Range> NatureRanges::rangeOf(const std::string& key) const {
+  for (const Entry& entry : entries_) {
+    if (entry.key != key) continue;
+    if (entry.isRange()) return Nature::Range{entry.low, entry.high};
+    double value = 0.0;
+    if (YAML::convert<double>::decode(YAML::Node(entry.value), value)) return Nature::Range{value, value};
+  }
+  return std::nullopt;
 }
 
 void NatureRanges::apply(Scenario& scenario, const std::vector<std::string>& written, const Choose& choose) const {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "simulation/nature.hpp"
 #include "simulation/scenario.hpp"
 
 namespace swiftlet::simulation {
@@ -26,6 +28,10 @@ class NatureRanges {
 
   /// Replaces the range of a key that has one; other keys stay as they are.
   void narrow(const std::string& key, double low, double high);
+
+  /// What the number of a key is drawn from; both ends are equal if it is fixed. None for keys that the file does not
+  /// have, or that are not numbers.
+  std::optional<Nature::Range> rangeOf(const std::string& key) const;
 
   /// A number within [low, high) for the key, "quadrotor.mass_share".
   using Choose = std::function<double(const std::string& key, double low, double high)>;

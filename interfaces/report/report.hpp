@@ -2,6 +2,7 @@
 // Pictures are arguments; nothing is drawn here.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,9 +35,10 @@ struct TrialPicture {
 struct TrialReport {
   std::string title;
   std::string subtitle;
-  bool passed = false;
+  std::optional<bool> passed;  ///< None: there was nothing to pass.
   std::vector<common::Table> tables;
   std::vector<TrialPicture> pictures;
+  std::vector<std::string> plots_svg = {};  ///< Above the tables.
 };
 std::string trialReport(const TrialReport& report);
 

@@ -21,10 +21,13 @@ std::string pictureOf(const TrialPicture& picture) {
 }  // namespace
 
 std::string trialReport(const TrialReport& report) {
-  const std::string verdict = report.passed ? html::pill("passed", Mark::kGood) : html::pill("not passed", Mark::kBad);
+  std::string verdict;
+  if (report.passed)
+    verdict = *report.passed ? html::pill("passed", Mark::kGood) : html::pill("not passed", Mark::kBad);
   const std::string header =
       fmt::format("<h1>{} {}</h1>\n<p>{}</p>", escaped(report.title), verdict, escaped(html::moment(report.subtitle)));
   std::string body;
+  for (const std::string& svg : report.plots_svg) body += svg;
   for (const common::Table& table : report.tables) body += html::section(table.title, html::table(table));
   if (!report.pictures.empty()) {
     std::string pictures = "<div class=\"pictures\">\n";

@@ -115,6 +115,18 @@ TEST(Nature, EveryDrawIsWithinItsRangeAndTheRangeIsUsed) {
   for (const int motor : {1, 2, 3, 4}) EXPECT_NEAR(weak[static_cast<std::size_t>(motor)], kSeeds / 4, 25) << motor;
 }
 
+TEST(Nature, TellsWhatAKeyIsDrawnFrom) {
+  const Nature nature =
+      Nature::fromText("quadrotor: {mass_share: [0.9, 1.1]}\nwind: {gust_m_s: 0.3, model: dryden}\n", "n");
+  EXPECT_EQ(nature.rangeOf("quadrotor.mass_share")->low, 0.9);
+  EXPECT_EQ(nature.rangeOf("quadrotor.mass_share")->high, 1.1);
+  EXPECT_EQ(nature.rangeOf("wind.gust_m_s")->low, 0.3);
+  EXPECT_EQ(nature.rangeOf("wind.gust_m_s")->high, 0.3);
+  EXPECT_FALSE(nature.rangeOf("wind.model")) << "it is no number";
+  EXPECT_FALSE(nature.rangeOf("quadrotor.thrust_share")) << "it is not drawn";
+  EXPECT_FALSE(Nature::calm().rangeOf("quadrotor.mass_share"));
+}
+
 TEST(Nature, ADrawCanFly) {
   for (const auto& [name, least] : {std::pair("real", 1.15), std::pair("harsh", 1.05)}) {
     const Nature nature = shipped(name);

@@ -1,0 +1,272 @@
+#include "apps/envelope.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/command_line.hpp"
+#include "apps/envelope_page.hpp"
+#include "apps/flight.hpp"
+#include "apps/progress_line.hpp"
+#include "apps/required.hpp"
+#include "apps/show.hpp"
+#include "apps/stop_signals.hpp"
+#include "apps/trial_flight.hpp"
+#include "apps/wall_clock.hpp"
+#include "common/data_paths.hpp"
+#include "common/error.hpp"
+#include "evaluation/envelope_results.hpp"
+#include "simulation/plant_keys.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using evaluation::EnvelopeEntry;
+using evaluation::EnvelopeFinding;
+using evaluation::EnvelopeFlight;
+using evaluation::EnvelopeStep;
+using evaluation::TrialConfig;
+
+/// Keeps the quantities with one of the keys. A key of none is a mistake.
+void keepOnly(const std::string& keys, evaluation::EnvelopeConfig& config) {
+  std::vector<std::string> known, wanted;
+  for (const auto& quantity : config.quantities) known.push_back(quantity.key);
+  for (std::size_t begin = 0; begin <= keys.size();) {
+    const std::size_t end = std::min(keys.find(',', begin), keys.size());
+    wanted.push_back(keys.substr(begin, end - begin));
+    begin = end + 1;
+    if (std::find(known.begin(), known.end(), wanted.back()) == known.end())
+      throw common::InputError(common::Problem{{},
+                                               "--only",
+                                               fmt::format("no quantity has the key `{}`", wanted.back()),
+                                               common::didYouMean(wanted.back(), known)});
+  }
+  std::erase_if(config.quantities, [&wanted](const auto& quantity) {
+    return std::find(wanted.begin(), wanted.end(), quantity.key) == wanted.end();
+  });
+}
+
+/// The trial with everything pinned, ready to be flown.
+TrialConfig pinnedTrial(const EnvelopeOptions& options, const simulation::Nature& base) {
+  const fs::path file = common::findData(options.trial);
+  if (fs::is_directory(file))
+    throw common::InputError(
+        common::Problem{{file.string()}, "--envelope", "is a folder", "give the file of one trial"});
+  std::vector<TrialConfig> trials = {evaluation::readTrial(file)};
+  if (!options.system.empty()) trials.front().system = options.system;
+  prepare(trials, file);
+  TrialConfig trial = std::move(trials.front());
+  trial.scenario = evaluation::pinned(trial.scenario, base);
+  return trial;
+}
+
+evaluation::EnvelopeResults emptyResults(const EnvelopeOptions& options, evaluation::EnvelopeConfig config,
+                                         const TrialConfig& trial) {
+  const simulation::Nature real = simulation::Nature::load("real"), harsh = simulation::Nature::load("harsh");
+  evaluation::EnvelopeResults results;
+  results.trial = trial.name;
+  results.system = trial.system;
+  results.mission = trial.mission;
+  results.version = SWIFTLET_VERSION;
+  results.first_seed = options.seed.value_or(trial.scenario.seed);
+  for (const auto& quantity : config.quantities) {
+    EnvelopeEntry& entry = results.entries.emplace_back();
+    entry.finding.quantity = quantity;
+    entry.finding.from = baseValue(quantity, trial.scenario);
+    entry.real = real.rangeOf(quantity.key);
+    entry.harsh = harsh.rangeOf(quantity.key);
+  }
+  results.config = std::move(config);
+  return results;
+}
+
+/// Flies an envelope. Each thread takes one quantity after the other, so that the values of a quantity, of which each
+/// depends on those before it, are the same however many threads there are.
+class EnvelopeRun {
+ public:
+  EnvelopeRun(TrialConfig trial, evaluation::EnvelopeResults results, fs::path out, const EnvelopeOptions& options,
+              const std::atomic<bool>& stop)
+      : trial_(std::move(trial)),
+        results_(std::move(results)),
+        out_(std::move(out)),
+        started_(startedNow()),
+        options_(options),
+        stop_(stop),
+        progress_(options.json),
+        map_(givenMap(trial_, out_)) {}
+
+  /// What keeps a flight from being flown at all ends the search, and is thrown once the files have what was flown.
+  void run() {
+    onThreads(static_cast<std::size_t>(results_.config.seeds), [this](std::size_t i) { flyBase(i); });
+    for (auto& flown : base_)
+      if (flown) results_.base.flights.push_back(std::move(*flown));
+    for (EnvelopeEntry& entry : results_.entries) entry.finding.steps = {at(entry.finding.from)};
+    if (results_.base.acceptable() && !stop_ && !failure_)
+      onThreads(results_.entries.size(), [this](std::size_t i) { search(results_.entries[i].finding); });
+    progress_.close();
+    write();
+    removeEmptyFolders();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  const evaluation::EnvelopeResults& results() const { return results_; }
+
+ private:
+  /// Calls `work` for 0 to `count` - 1, as many at a time as there are jobs.
+  template <typename Work>
+  void onThreads(std::size_t count, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    const auto loop = [&] {
+      for (std::size_t i = next++; i < count && !ended(); i = next++) {
+        try {
+          work(i);
+        } catch (...) {
+          const std::scoped_lock lock(mutex_);
+          failure_ = std::current_exception();
+          failed_ = true;
+        }
+      }
+    };
+    std::vector<std::thread> threads;
+    for (int i = 1; i < options_.jobs; ++i) threads.emplace_back(loop);
+    loop();
+    for (std::thread& thread : threads) thread.join();
+  }
+
+  bool ended() const { return stop_ || failed_; }
+
+  EnvelopeStep at(double value) const { return {value, results_.base.flights}; }
+
+  /// None if it was stopped from outside.
+  std::optional<EnvelopeFlight> fly(const TrialConfig& trial, int seed, const fs::path& folder) const {
+    EnvelopeFlight flight = envelopeFlight(flyOne(trial, map_, seed, folder, stop_));
+    if (stop_) return std::nullopt;
+    flight.folder = flight.acceptable ? "" : folder.lexically_relative(out_).string();
+    if (flight.acceptable) fs::remove_all(folder);  // Hundreds of them; they can be flown again.
+    return flight;
+  }
+
+  void flyBase(std::size_t number) {
+    const int seed = results_.first_seed + static_cast<int>(number);
+    auto flight = fly(trial_, seed, out_ / "base" / fmt::format("{}", seed));
+    const std::scoped_lock lock(mutex_);
+    base_.resize(static_cast<std::size_t>(results_.config.seeds));
+    base_[number] = std::move(flight);
+    ++flown_;
+    progress_.update(fmt::format("base: {} of {} flights", flown_, results_.config.seeds), secondsSince(begin_));
+  }
+
+  void search(EnvelopeFinding& finding) {
+    while (const auto value = nextValue(finding, results_.config)) {
+      auto step = flyAt(finding.quantity.key, *value);
+      const std::scoped_lock lock(mutex_);
+      if (!step) return;
+      finding.add(std::move(*step));
+      writeJson();
+    }
+    const std::scoped_lock lock(mutex_);
+    finding.complete = true;
+    ++searched_;
+    showFound(finding);
+    write();
+  }
+
+  std::optional<EnvelopeStep> flyAt(const std::string& key, double value) {
+    TrialConfig trial = trial_;
+    setPlantKey(trial.scenario, key, value);
+    EnvelopeStep step{value, {}};
+    for (int i = 0; i < results_.config.seeds; ++i) {
+      const int seed = results_.first_seed + i;
+      const auto flight = fly(trial, seed, out_ / key / fmt::format("{:.6g}-{}", value, seed));
+      if (!flight) return std::nullopt;
+      step.flights.push_back(*flight);
+      const std::scoped_lock lock(mutex_);
+      ++flown_;
+      progress_.update(fmt::format("{} of {} quantities, {} flights; {} at {}", searched_, results_.entries.size(),
+                                   flown_, key, evaluation::shownValue(key, value)),
+                       secondsSince(begin_));
+      if (!flight->acceptable) break;
+    }
+    return step;
+  }
+
+  void showFound(const EnvelopeFinding& finding) {
+    if (options_.json) return;
+    const EnvelopeStep* failing = finding.firstFailing();
+    const auto shown = [&](double value) { return evaluation::shownValue(finding.quantity.key, value); };
+    progress_.close();
+    show(fmt::format("{:<30} acceptable to {:<11} {:<22} {}\n", finding.quantity.name,
+                     shown(finding.acceptableTo().value_or(finding.from)),
+                     failing != nullptr ? "fails at " + shown(failing->value) : "does not fail", endingText(finding)));
+  }
+
+  void removeEmptyFolders() const {
+    std::error_code not_empty;
+    fs::remove(out_ / "base", not_empty);
+    for (const EnvelopeEntry& entry : results_.entries) fs::remove(out_ / entry.finding.quantity.key, not_empty);
+  }
+
+  void writeJson() const { required(interfaces::writeAtomically(out_ / "envelope.json", toJson(results_))); }
+
+  void write() const {
+    writeJson();
+    required(interfaces::writeAtomically(out_ / "report.html", envelopeReport(results_, started_)));
+  }
+
+  TrialConfig trial_;
+  evaluation::EnvelopeResults results_;
+  fs::path out_;
+  std::string started_;
+  const EnvelopeOptions& options_;
+  const std::atomic<bool>& stop_;
+  ProgressLine progress_;
+  std::shared_ptr<const FlightMap> map_;
+  const Clock::time_point begin_ = Clock::now();
+  std::mutex mutex_;  ///< Of results, progress and failure.
+  std::vector<std::optional<EnvelopeFlight>> base_;
+  int flown_ = 0;
+  int searched_ = 0;
+  std::exception_ptr failure_;
+  std::atomic<bool> failed_{false};
+};
+
+void showEnd(const evaluation::EnvelopeResults& results, const fs::path& out) {
+  if (!results.base.acceptable())
+    show("The base itself fails, so that nothing was turned up.\n" + toText(failedFlightTable(results)));
+  else
+    show(fmt::format("\n{}\n", toText(envelopeTable(results))));
+  show(fmt::format("results {}\nreport  {}\n", (out / "envelope.json").string(), (out / "report.html").string()));
+}
+
+}  // namespace
+
+int flyEnvelope(const EnvelopeOptions& options) {
+  const std::atomic<bool>& stop = stopOnSignals().first;
+  outliveReaders();
+  evaluation::EnvelopeConfig config = evaluation::readEnvelope(common::findData(options.quantities));
+  if (!options.only.empty()) keepOnly(options.only, config);
+  config.seeds = options.repeat.value_or(config.seeds);
+  if (!options.write.empty()) checkPage(options.write);
+  TrialConfig trial = pinnedTrial(options, simulation::Nature::load(config.base));
+  evaluation::EnvelopeResults results = emptyResults(options, std::move(config), trial);
+  const fs::path out = trialFolder(options.out, "envelope", {"envelope.json", "\"envelope\""});
+  EnvelopeRun run(std::move(trial), std::move(results), out, options, stop);
+  run.run();
+  if (options.json)
+    showJson(toJson(run.results()));
+  else
+    showEnd(run.results(), out);
+  if (!options.write.empty() && run.results().base.acceptable()) writePage(options.write, run.results());
+  return run.results().complete() ? kDone : kFailed;
+}
+
+}  // namespace swiftlet::apps

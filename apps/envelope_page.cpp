@@ -1,0 +1,130 @@
+#include "apps/envelope_page.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "apps/required.hpp"
+#include "common/error.hpp"
+#include "common/read_bytes.hpp"
+#include "interfaces/report/report.hpp"
+#include "rendering/envelope_svg.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using evaluation::EnvelopeEntry;
+using evaluation::EnvelopeResults;
+using evaluation::EnvelopeStep;
+
+/// Without a nature's range there is no multiple of it; then the end of the axis is that of the range that was flown.
+double positionOf(const EnvelopeEntry& entry, double value) {
+  return entry.harshMultiple(value).value_or(rendering::kEnvelopeAxisEnd * entry.finding.share(value));
+}
+
+rendering::EnvelopeBar barOf(const EnvelopeEntry& entry) {
+  const evaluation::EnvelopeFinding& finding = entry.finding;
+  const auto shown = [&](double value) { return evaluation::shownValue(finding.quantity.key, value); };
+  const double acceptable = finding.acceptableTo().value_or(finding.from);
+  const EnvelopeStep* failing = finding.firstFailing();
+  rendering::EnvelopeBar bar;
+  bar.name = finding.quantity.name;
+  bar.outer = entry.worstOf(entry.harsh).has_value();
+  bar.acceptable = positionOf(entry, acceptable);
+  bar.acceptable_text = fmt::format("acceptable from {} to {}", shown(finding.from), shown(acceptable));
+  if (const auto real = entry.worstOf(entry.real)) {
+    bar.inner = positionOf(entry, *real);
+    bar.inner_text = shown(*real);
+  }
+  if (failing == nullptr) {
+    bar.text = fmt::format("no failure up to {}", shown(acceptable));
+  } else {
+    bar.fails = positionOf(entry, failing->value);
+    bar.text = fmt::format("{}: {}", shown(failing->value), failing->flights.back().verdict);
+  }
+  return bar;
+}
+
+std::string markdownOf(const common::Table& table) {
+  const auto row = [](const auto& cells, auto&& textOf) {
+    std::string line = "|";
+    for (const auto& cell : cells) {
+      std::string text = textOf(cell);
+      for (std::size_t bar = text.find('|'); bar != std::string::npos; bar = text.find('|', bar + 2))
+        text.replace(bar, 1, "\\|");
+      line += " " + text + " |";
+    }
+    return line + "\n";
+  };
+  std::string text = row(table.columns, [](const std::string& column) { return column; });
+  text += row(table.columns, [](const std::string&) { return std::string("---"); });
+  for (const auto& cells : table.rows) text += row(cells, [](const common::TableCell& cell) { return cell.text; });
+  return text;
+}
+
+std::string conditionsOf(const EnvelopeResults& results) {
+  return fmt::format(
+      "Trial `{}`, system `{}`, base `{}`: {} flights at each value (seeds {} to {}), {} flights in all, version {}.",
+      results.trial, results.system, results.config.base, results.config.seeds, results.first_seed,
+      results.first_seed + results.config.seeds - 1, results.flights(), results.version);
+}
+
+std::string blockOf(const EnvelopeResults& results, const std::string& picture) {
+  std::string block = fmt::format("\n{}\n\n![{}]({})\n\n", conditionsOf(results), "What fails first", picture);
+  block += markdownOf(evaluation::envelopeTable(results));
+  const common::Table ragged = evaluation::raggedTable(results);
+  if (!ragged.rows.empty()) block += "\n" + ragged.title + ":\n\n" + markdownOf(ragged);
+  return block + "\n";
+}
+
+/// Where the block begins and ends in the text of the page.
+std::pair<std::size_t, std::size_t> placeIn(const std::string& text, const fs::path& page) {
+  const std::size_t begin = text.find(kPageBegin);
+  const std::size_t end = begin == std::string::npos ? begin : text.find(kPageEnd, begin);
+  if (end == std::string::npos)
+    throw common::InputError(common::Problem{{page.string()},
+                                             "--write",
+                                             "the page has no place for the results",
+                                             fmt::format("it needs the lines `{}` and `{}`", kPageBegin, kPageEnd)});
+  return {begin + std::string_view(kPageBegin).size() + 1, end};
+}
+
+std::string readPage(const fs::path& page) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+  return common::readBytes(page.string(), kMostBytes);
+}
+
+}  // namespace
+
+std::string envelopePicture(const EnvelopeResults& results) {
+  rendering::EnvelopePicture picture{fmt::format("What fails first: {}", results.trial), "real", "harsh", {}};
+  for (const EnvelopeEntry* entry : results.byReserve())
+    if (entry->finding.steps.size() > 1) picture.bars.push_back(barOf(*entry));
+  return rendering::envelopeSvg(picture);
+}
+
+std::string envelopeReport(const EnvelopeResults& results, const std::string& started) {
+  interfaces::TrialReport report;
+  report.title = fmt::format("Envelope of {}", results.trial);
+  report.subtitle = started;
+  report.plots_svg.push_back(envelopePicture(results));
+  report.tables = {evaluation::envelopeTable(results), evaluation::raggedTable(results),
+                   evaluation::failedFlightTable(results)};
+  return interfaces::trialReport(report);
+}
+
+void checkPage(const fs::path& page) { placeIn(readPage(page), page); }
+
+void writePage(const fs::path& page, const EnvelopeResults& results) {
+  const fs::path picture = fs::path("images") / page.stem().concat(".svg");
+  std::error_code failure;  // Told by the write below.
+  fs::create_directories(page.parent_path() / "images", failure);
+  required(interfaces::writeAtomically(page.parent_path() / picture, envelopePicture(results)));
+  std::string text = readPage(page);
+  const auto [begin, end] = placeIn(text, page);
+  text.replace(begin, end - begin, blockOf(results, picture.string()));
+  required(interfaces::writeAtomically(page, text));
+}
+
+}  // namespace swiftlet::apps
