@@ -8,6 +8,7 @@
 #include "apps/system.hpp"
 #include "common/config_reference.hpp"
 #include "common/printable.hpp"
+#include "evaluation/envelope.hpp"
 #include "evaluation/trial.hpp"
 
 namespace swiftlet::apps {
@@ -28,7 +29,9 @@ std::string reference() {
                  SystemConfig()) +
          chapter("Vehicle", "A file of `config/vehicles`.", common::VehicleConfig()) +
          chapter("Laser", "A file of `config/sensors`.", common::LaserConfig()) +
-         chapter("Trial", "A file of `trials`, see [trials](tutorials/trials.md).", evaluation::TrialConfig());
+         chapter("Trial", "A file of `trials`, see [trials](tutorials/trials.md).", evaluation::TrialConfig()) +
+         chapter("Envelope", "A file such as `config/envelope.yaml`, see [envelope](envelope.md).",
+                 evaluation::EnvelopeConfig());
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ namespace swiftlet::commands {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 using test_support::describe;
 using test_support::ProgramEnd;
 using test_support::ProgramOptions;
@@ -50,8 +49,8 @@ TEST_F(Envelope, FindsWhatFailsFirstAndWritesItAsTableAndPicture) {
                                  "<!-- end of what is written -->\nkept\n");
   const ProgramEnd end = fly({"--out", path("run"), "--jobs", "2", "--write", page});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
-  const json read = json::parse(readText(path("run/envelope.json")));
-  const json thrust = read.at("quantities")[0], latency = read.at("quantities")[1];
+  const auto read = nlohmann::json::parse(readText(path("run/envelope.json")));
+  const auto thrust = read.at("quantities")[0], latency = read.at("quantities")[1];
   EXPECT_EQ(read.at("complete"), true);
   EXPECT_NEAR(thrust.at("base"), 1.0, 1e-12);
   EXPECT_LT(thrust.at("fails_at"), thrust.at("acceptable_to"));
@@ -59,7 +58,7 @@ TEST_F(Envelope, FindsWhatFailsFirstAndWritesItAsTableAndPicture) {
   EXPECT_EQ(latency.at("fails_at"), nullptr);
   EXPECT_EQ(latency.at("acceptable_to"), 0.01);
 
-  const json failed = thrust.at("steps").back().at("flights")[0];
+  const auto failed = thrust.at("steps").back().at("flights")[0];
   EXPECT_TRUE(fs::exists(path("run/" + failed.at("folder").get<std::string>() + "/report.html"))) << failed;
   EXPECT_FALSE(fs::exists(path("run/base"))) << "runs that are acceptable are not kept";
   EXPECT_THAT(readText(path("run/report.html")), HasSubstr("<svg"));
@@ -67,7 +66,7 @@ TEST_F(Envelope, FindsWhatFailsFirstAndWritesItAsTableAndPicture) {
   EXPECT_TRUE(fs::exists(path("images/page.svg")));
 
   const ProgramEnd alone = fly({"--out", path("again"), "--json"});
-  EXPECT_EQ(json::parse(alone.out), read) << "one job or two";
+  EXPECT_EQ(nlohmann::json::parse(alone.out), read) << "one job or two";
 }
 
 TEST_F(Envelope, AnInterruptionLeavesWhatIsDone) {
@@ -79,7 +78,7 @@ TEST_F(Envelope, AnInterruptionLeavesWhatIsDone) {
                                       quantities(), "--repeat", "2", "--out", path("run")},
                                      options);
   EXPECT_EQ(end.exit_code, 1) << describe(end);
-  const json read = json::parse(readText(path("run/envelope.json")));
+  const auto read = nlohmann::json::parse(readText(path("run/envelope.json")));
   EXPECT_EQ(read.at("complete"), false);
   EXPECT_EQ(read.at("base_flights").at("flights").size(), 1u);
 }

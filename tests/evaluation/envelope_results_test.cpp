@@ -7,7 +7,6 @@
 namespace swiftlet::evaluation {
 namespace {
 
-using nlohmann::json;
 using testing::ElementsAre;
 
 EnvelopeStep step(double value, bool acceptable) {
@@ -76,13 +75,13 @@ TEST(EnvelopeResults, AsJsonHaveEveryStep) {
   EnvelopeResults results = example();
   results.entries[1].finding.add(step(0.8, true));
   results.entries[2].finding.complete = false;
-  const json read = json::parse(toJson(results));
+  const auto read = nlohmann::json::parse(toJson(results));
   EXPECT_EQ(read.at("envelope"), "lab");
   EXPECT_EQ(read.at("complete"), false);
-  const json b = read.at("quantities")[1];
+  const auto b = read.at("quantities")[1];
   EXPECT_EQ(b.at("acceptable_to"), 0.4);
   EXPECT_EQ(b.at("fails_at"), 0.5);
-  EXPECT_EQ(b.at("acceptable_beyond"), json({0.8}));
+  EXPECT_EQ(b.at("acceptable_beyond"), nlohmann::json({0.8}));
   EXPECT_EQ(b.at("harsh"), nullptr);
   EXPECT_EQ(b.at("steps").size(), 4u);
   EXPECT_EQ(b.at("steps")[2].at("flights")[0].at("ending"), "touched box_1");

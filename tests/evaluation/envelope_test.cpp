@@ -27,8 +27,10 @@ using Plant = std::function<bool(double value, int seed)>;
 EnvelopeStep flownAt(double value, int seeds, const Plant& plant) {
   EnvelopeStep step{value, {}};
   for (int seed = 1; seed <= seeds; ++seed) {
-    step.flights.push_back({.seed = seed, .acceptable = plant(value, seed)});
-    if (!step.flights.back().acceptable) break;
+    EnvelopeFlight& flight = step.flights.emplace_back();
+    flight.seed = seed;
+    flight.acceptable = plant(value, seed);
+    if (!flight.acceptable) break;
   }
   return step;
 }
@@ -140,7 +142,8 @@ RC_GTEST_PROP(EnvelopeSearch, IsHonestAboutNoise, (std::uint32_t noise)) {
   while (good < result.finding.steps.size() && result.finding.steps[good].acceptable()) ++good;
   RC_ASSERT(*result.finding.acceptableTo() == result.finding.steps[good - 1].value);
   const EnvelopeStep* failing = result.finding.firstFailing();
-  RC_ASSERT(good == result.finding.steps.size() ? failing == nullptr : failing == &result.finding.steps[good]);
+  const bool all = good == result.finding.steps.size();
+  RC_ASSERT(failing == (all ? nullptr : &result.finding.steps[good]));
   std::size_t beyond = 0;
   for (std::size_t i = good; i < result.finding.steps.size(); ++i) beyond += result.finding.steps[i].acceptable();
   RC_ASSERT(beyond == result.finding.acceptableBeyond().size());

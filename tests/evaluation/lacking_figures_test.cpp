@@ -64,13 +64,13 @@ TEST(RawFrame, HasItsRowAndFiguresWhereItDiffers) {
   TrialResults results{{turnedTrial()}};
   const std::string text = toText(summaryTable(results));
   EXPECT_THAT(text, testing::ContainsRegex("  in the raw frame +0.073 +0.073 +0.094"));
-  const auto json = nlohmann::json::parse(toJson(results))["trials"][0];
-  EXPECT_EQ(json["goal_error_max_m"], 0.02);
-  EXPECT_EQ(json["goal_error_max_raw_m"], 0.073);
-  EXPECT_EQ(json["flights"][0]["estimate_rms_raw_m"], 0.094);
-  EXPECT_EQ(json["tilted_share_max"], 0.035);
-  EXPECT_EQ(json["flights"][0]["tilted_share"], 0.035);
-  EXPECT_TRUE(json["flights"][0]["safe_action_s"].is_null());
+  const auto trial = nlohmann::json::parse(toJson(results))["trials"][0];
+  EXPECT_EQ(trial["goal_error_max_m"], 0.02);
+  EXPECT_EQ(trial["goal_error_max_raw_m"], 0.073);
+  EXPECT_EQ(trial["flights"][0]["estimate_rms_raw_m"], 0.094);
+  EXPECT_EQ(trial["tilted_share_max"], 0.035);
+  EXPECT_EQ(trial["flights"][0]["tilted_share"], 0.035);
+  EXPECT_TRUE(trial["flights"][0]["safe_action_s"].is_null());
   EXPECT_THAT(toText(conductTable(results.trials[0])), HasSubstr("3.5 %"));
   for (FlightScore& flight : results.trials[0].flights) {
     flight.goal_error_raw_m = flight.goal_error_m;

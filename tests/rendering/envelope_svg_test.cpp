@@ -16,30 +16,30 @@ EnvelopeBar bar(const std::string& name, double acceptable, std::optional<double
   return {name, 0.7, true, acceptable, fails, "60 ms", "69 ms", "", "80 ms: crash"};
 }
 
-std::string pictureOf(const EnvelopeBar& one) { return envelopeSvg({"What fails first", "real", "harsh", {one}}); }
+std::string envelopeWith(const EnvelopeBar& one) { return envelopeSvg({"What fails first", "real", "harsh", {one}}); }
 
 /// The rectangle of the bar itself; the legend shows the colours, too.
-std::string barOf(const std::string& color) { return "<rect class=\"" + color + "\" x=\"210.0\" y=\"71.0\""; }
+std::string rectangleOf(const std::string& color) { return "<rect class=\"" + color + "\" x=\"210.0\" y=\"71.0\""; }
 
 TEST(EnvelopeSvgTest, TheColourSaysWithinWhatItFails) {
-  EXPECT_THAT(pictureOf(bar("lag", 0.5, 0.6)), HasSubstr(barOf("bad")));
-  EXPECT_THAT(pictureOf(bar("lag", 0.7, 0.9)), HasSubstr(barOf("poor")));
-  EXPECT_THAT(pictureOf(bar("lag", 0.9, 1.1)), HasSubstr(barOf("good")));
-  EXPECT_THAT(pictureOf(bar("lag", 0.5, std::nullopt)), HasSubstr(barOf("good")));
+  EXPECT_THAT(envelopeWith(bar("lag", 0.5, 0.6)), HasSubstr(rectangleOf("bad")));
+  EXPECT_THAT(envelopeWith(bar("lag", 0.7, 0.9)), HasSubstr(rectangleOf("poor")));
+  EXPECT_THAT(envelopeWith(bar("lag", 0.9, 1.1)), HasSubstr(rectangleOf("good")));
+  EXPECT_THAT(envelopeWith(bar("lag", 0.5, std::nullopt)), HasSubstr(rectangleOf("good")));
 }
 
 TEST(EnvelopeSvgTest, OnlyWhatFailedHasAnEnd) {
-  EXPECT_THAT(pictureOf(bar("lag", 2.0, 2.2)), HasSubstr("class=\"fails\""));
-  EXPECT_THAT(pictureOf(bar("lag", 2.0, std::nullopt)), Not(HasSubstr("class=\"fails\"")));
-  EXPECT_THAT(pictureOf(bar("lag", 5.0, 6.0)), Not(HasSubstr("class=\"fails\""))) << "beyond the axis";
+  EXPECT_THAT(envelopeWith(bar("lag", 2.0, 2.2)), HasSubstr("class=\"fails\""));
+  EXPECT_THAT(envelopeWith(bar("lag", 2.0, std::nullopt)), Not(HasSubstr("class=\"fails\"")));
+  EXPECT_THAT(envelopeWith(bar("lag", 5.0, 6.0)), Not(HasSubstr("class=\"fails\""))) << "beyond the axis";
 }
 
 TEST(EnvelopeSvgTest, WhatNoNatureDrawsIsMarked) {
   EnvelopeBar one = bar("late <setpoints>", 1.0, 1.5);
   one.outer = false;
-  EXPECT_THAT(pictureOf(one), HasSubstr("late &lt;setpoints&gt; *"));
-  EXPECT_THAT(pictureOf(one), HasSubstr("not drawn by harsh"));
-  EXPECT_THAT(pictureOf(bar("lag", 1.0, 1.5)), Not(HasSubstr("not drawn by harsh")));
+  EXPECT_THAT(envelopeWith(one), HasSubstr("late &lt;setpoints&gt; *"));
+  EXPECT_THAT(envelopeWith(one), HasSubstr("not drawn by harsh"));
+  EXPECT_THAT(envelopeWith(bar("lag", 1.0, 1.5)), Not(HasSubstr("not drawn by harsh")));
 }
 
 TEST(EnvelopeSvgTest, WritesAPictureToLookAt) {
