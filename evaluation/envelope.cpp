@@ -109,9 +109,9 @@ EnvelopeFlight envelopeFlight(const std::vector<FlightScore>& scores) {
     flight.seed = score.seed;
     flight.goal_error_m = score.goal_error_m;
     flight.folder = score.folder;
-    flight.ending = score.outcome;
-    flight.acceptable = score.mission_done && score.collisions == 0;
-    flight.verdict = score.collisions > 0 ? "crash" : score.mission_done ? "done" : "not done";
+    flight.ending = score.verdict_reason.empty() ? score.outcome : score.verdict_reason;
+    flight.acceptable = evaluation::acceptable(score.verdict);
+    flight.verdict = toString(score.verdict);
   }
   return flight;
 }

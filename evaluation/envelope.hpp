@@ -55,14 +55,14 @@ double baseValue(const EnvelopeQuantity& quantity, const simulation::Scenario& p
 struct EnvelopeFlight {
   std::int64_t seed = 0;
   bool acceptable = false;
-  std::string verdict;                 ///< In a word or two: "done", "crash".
+  std::string verdict;                 ///< As in results.json: "done", "crashed".
   std::string ending;                  ///< In words, with what was touched or why.
   std::optional<double> goal_error_m;  ///< None if no goal was reached.
   std::string folder;                  ///< Of its run, relative to the report; empty if it was not kept.
 };
 
-/// `scores` has one for each vehicle. The flight is acceptable if all are; otherwise the first that is not tells how it
-/// ended.
+/// `scores` has one for each vehicle. The flight is acceptable if the verdict on each vehicle is; otherwise the first
+/// that is not tells how it ended.
 EnvelopeFlight envelopeFlight(const std::vector<FlightScore>& scores);
 
 /// The flights at one value, in the order of their seeds. After the first that is not acceptable no more are flown.

@@ -149,6 +149,22 @@ RC_GTEST_PROP(EnvelopeSearch, IsHonestAboutNoise, (std::uint32_t noise)) {
   RC_ASSERT(beyond == result.finding.acceptableBeyond().size());
 }
 
+TEST(EnvelopeFlightTest, IsAsAcceptableAsItsWorstVehicle) {
+  FlightScore landed, crashed;
+  landed.seed = crashed.seed = 7;
+  landed.verdict = Verdict::kLanded;
+  landed.verdict_reason = "the battery is low";
+  crashed.verdict = Verdict::kCrashed;
+  crashed.outcome = "touched box_1";
+  EXPECT_TRUE(envelopeFlight({landed}).acceptable);
+  EXPECT_EQ(envelopeFlight({landed}).ending, "the battery is low");
+  for (const auto& scores : {std::vector{landed, crashed}, {crashed, landed}}) {
+    EXPECT_FALSE(envelopeFlight(scores).acceptable);
+    EXPECT_EQ(envelopeFlight(scores).verdict, "crashed");
+    EXPECT_EQ(envelopeFlight(scores).ending, "touched box_1");
+  }
+}
+
 class EnvelopeFile : public testing::Test {
  protected:
   void TearDown() override { fs::remove(file_); }
