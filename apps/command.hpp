@@ -10,6 +10,7 @@ void addFly(Command& program);
 void addCheck(Command& program);
 void addTrial(Command& program);
 void addMap(Command& program);
+void addMap3d(Command& program);
 void addLocalize(Command& program);
 void addConfig(Command& program);
 void addDoctor(Command& program);

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   apps::addCheck(top);
   apps::addTrial(top);
   apps::addMap(top);
+  apps::addMap3d(top);
   apps::addLocalize(top);
   apps::addConfig(top);
   apps::addDoctor(top);

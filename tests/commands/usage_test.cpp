@@ -24,14 +24,14 @@ TEST_P(Help, DescribesTheCommandWithAnExample) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("fly", "check", "trial", "config", "doctor", "version", "optimize", "map",
-                                         "localize", "evaluate"),
+                                         "map3d", "localize", "evaluate"),
                          [](const auto& command) { return command.param; });
 
 TEST(Usage, GeneralHelpNamesEachCommand) {
   const ProgramEnd end = runSwiftlet({"--help"});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
   for (const std::string command :
-       {"fly", "check", "trial", "config", "doctor", "version", "optimize", "map", "localize", "evaluate"})
+       {"fly", "check", "trial", "config", "doctor", "version", "optimize", "map", "map3d", "localize", "evaluate"})
     EXPECT_THAT(end.out, HasSubstr("\n  " + command));
 }
 

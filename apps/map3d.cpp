@@ -1,0 +1,210 @@
+// swiftlet map3d: the trajectory and the coloured cloud of a recorded RGB-D camera.
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.hpp"
+#include "apps/map3d_outputs.hpp"
+#include "apps/pose_seeds.hpp"
+#include "apps/progress_line.hpp"
+#include "apps/recorded_log.hpp"
+#include "apps/show.hpp"
+#include "apps/wall_clock.hpp"
+#include "common/config.hpp"
+#include "interfaces/rgbd/rgbd_folder.hpp"
+#include "mapping3d/odometry/rgbd_odometry.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using common::Pose3;
+using interfaces::FrameFault;
+
+/// The cloud has a point for each cube of this size.
+constexpr double kCloudCube_m = 0.02;
+/// Farther points are too noisy for a cloud: 2.3 cm at 4 m.
+constexpr double kCloudFarthest_m = 4.0;
+/// Every so many tracked frames add to the cloud: what lies between shows the same surfaces again.
+constexpr std::uint64_t kCloudStep = 3;
+/// A map of which more than this part was lost is probably not one map.
+constexpr double kMostLost = 0.1;
+
+struct Map3dOptions {
+  std::string folder;
+  std::string poses = "none";
+  std::string intrinsics;
+  std::string out;
+  bool json = false;
+};
+
+struct Map3dRun {
+  mapping3d::RgbdOdometry odometry{mapping3d::RgbdOdometryConfig()};
+  CloudGrid cloud{kCloudCube_m};
+  common::Trajectory trajectory;
+  rendering::ThinnedCurve milliseconds, disagreement;
+  std::vector<double> frame_ms;
+  std::uint64_t frames = 0, lost = 0, found_again = 0, key_frames = 0;
+  double path_length_m = 0.0;
+  double wall_s = 0.0;
+
+  double medianMs() {
+    std::sort(frame_ms.begin(), frame_ms.end());
+    return frame_ms.empty() ? 0.0 : frame_ms[frame_ms.size() / 2];
+  }
+};
+
+/// Converts between the map of the odometry, whose axes are those of `camera`, and the recorder's camera with the axes
+/// of image processing. The first pose is the origin of either.
+struct RecordedCamera {
+  explicit RecordedCamera(const interfaces::RgbdCalibration& calibration)
+      : T_camera_recorded(interfaces::T_camera_optical() * calibration.T_recorded_color().inverse()) {}
+
+  Pose3 recorded(const Pose3& T_map_camera) const {
+    return interfaces::T_camera_optical().inverse() * T_map_camera * T_camera_recorded;
+  }
+  Pose3 camera(const Pose3& T_world_recorded) const { return T_world_recorded * T_camera_recorded.inverse(); }
+
+  Pose3 T_camera_recorded;
+};
+
+void addFrame(const common::RgbdFrame& frame, const RecordedCamera& camera, const std::optional<Pose3>& seed,
+              Map3dRun& run) {
+  const auto begin = Clock::now();
+  const mapping3d::RgbdPose pose =
+      run.odometry.process(frame, seed ? std::optional(camera.camera(*seed)) : std::nullopt);
+  run.frame_ms.push_back(1e3 * secondsSince(begin));
+  const auto index = static_cast<double>(run.frames++);
+  run.milliseconds.add(index, run.frame_ms.back());
+  run.key_frames += pose.became_key_frame ? 1 : 0;
+  if (!pose.isTracked()) {
+    ++run.lost;
+    return;
+  }
+  if (run.frames > 1) run.disagreement.add(index, 1.0 - pose.fit.agreement);
+  run.found_again += pose.state == mapping3d::TrackState::kFoundAgain ? 1 : 0;
+  const Pose3 T_map_recorded = camera.recorded(pose.T_map_camera);
+  if (!run.trajectory.empty())
+    run.path_length_m += (T_map_recorded.position_m - run.trajectory.back().pose.position_m).norm();
+  run.trajectory.push_back({pose.stamp, T_map_recorded});
+  if (run.trajectory.size() % kCloudStep == 1 || pose.became_key_frame)
+    run.cloud.add(frame, interfaces::T_camera_optical().inverse() * pose.T_map_camera, kCloudFarthest_m);
+}
+
+void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3dRun& run) {
+  std::optional<PoseSeeds> seeds;
+  if (options.poses != "none") seeds.emplace(options.poses);
+  const RecordedCamera camera(folder.calibration());
+  const auto begin = Clock::now();
+  ProgressLine line(options.json);
+  while (const auto frame = folder.next()) {
+    addFrame(*frame, camera, seeds ? seeds->at(frame->stamps.measured) : std::nullopt, run);
+    line.update(
+        fmt::format("{:3.0f} %  {}, {}, {} lost",
+                    100.0 * static_cast<double>(folder.passed()) / static_cast<double>(folder.listing().pairs.size()),
+                    plural(run.frames, "frame", "frames"), plural(run.key_frames, "key frame", "key frames"), run.lost),
+        secondsSince(begin));
+  }
+  run.wall_s = secondsSince(begin);
+  line.close();
+}
+
+std::vector<std::string> warningsOf(const interfaces::RgbdFolder& folder, const Map3dRun& run) {
+  std::vector<std::string> warnings;
+  if (static_cast<double>(run.lost) > kMostLost * static_cast<double>(run.frames))
+    warnings.push_back("the map is probably wrong: much of the track was lost");
+  if (run.lost > 0)
+    warnings.push_back(fmt::format("the track was lost for {} and found again {}", plural(run.lost, "frame", "frames"),
+                                   plural(run.found_again, "time", "times")));
+  if (folder.listing().unpaired > 0)
+    warnings.push_back(plural(folder.listing().unpaired, "image has", "images have") + " no partner of the same time");
+  for (std::size_t i = 0; i < interfaces::kFrameFaults; ++i) {
+    const auto fault = static_cast<FrameFault>(i);
+    if (folder.skipped(fault) > 0)
+      warnings.push_back(fmt::format("{} skipped: {}; the first: {}",
+                                     plural(folder.skipped(fault), "frame was", "frames were"),
+                                     interfaces::toString(fault), folder.firstDetail(fault)));
+  }
+  return warnings;
+}
+
+nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::RgbdFolder& folder, Map3dRun& run,
+                                 const std::vector<std::string>& notes, const fs::path& out) {
+  return {{"folder", options.folder},
+          {"format", folder.listing().format},
+          {"out", out.string()},
+          {"frames", run.frames},
+          {"skipped_frames", folder.skipped()},
+          {"unpaired_images", folder.listing().unpaired},
+          {"lost_frames", run.lost},
+          {"found_again", run.found_again},
+          {"key_frames", run.key_frames},
+          {"path_length_m", run.path_length_m},
+          {"milliseconds_a_frame", run.medianMs()},
+          {"seconds", run.wall_s},
+          {"notes", notes}};
+}
+
+int map3d(const Map3dOptions& options) {
+  std::optional<interfaces::RgbdCalibration> calibration;
+  if (!options.intrinsics.empty())
+    calibration = common::config::readFile<interfaces::RgbdCalibration>(options.intrinsics);
+  interfaces::RgbdFolder folder(options.folder, calibration);
+  fs::path name = fs::path(options.folder).lexically_normal();
+  if (!name.has_filename()) name = name.parent_path();
+  ResultsFolder results(options.out.empty() ? fs::path(name.filename().string() + "-map3d") : fs::path(options.out),
+                        kMap3dResults);
+  Map3dRun run;
+  mapFolder(folder, options, run);
+  Map3dFigures shown{options.folder, {}, warningsOf(folder, run), run.milliseconds, run.disagreement};
+  if (run.trajectory.empty()) {
+    for (const std::string& warning : shown.warnings) showError(warning + "\n");
+    throw common::InputError(common::Problem{{options.folder}, "", "none of its frames can be used", ""});
+  }
+  shown.facts = {{"format", folder.listing().format},
+                 {"frames", fmt::format("{}", run.frames)},
+                 {"skipped", fmt::format("{}", folder.skipped())},
+                 {"lost", fmt::format("{}", run.lost)},
+                 {"key frames", fmt::format("{}", run.key_frames)},
+                 {"path length", fmt::format("{:.2f} m", run.path_length_m)},
+                 {"time a frame", fmt::format("{:.1f} ms", run.medianMs())},
+                 {"computing time", fmt::format("{:.1f} s", run.wall_s)}};
+  writeMap3dOutputs(results.unfinished(), run.trajectory, run.cloud, shown);
+  results.publish();
+  if (options.json) {
+    const auto figures = figuresOf(options, folder, run, shown.warnings, results.path());
+    showJson(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    return kDone;
+  }
+  for (const std::string& warning : shown.warnings) show("note: " + warning + "\n");
+  for (const auto& [label, value] : shown.facts) show(fmt::format("{:<14} {}\n", label, value));
+  show(fmt::format("{}\n", (results.path() / "report.html").string()));
+  return kDone;
+}
+
+}  // namespace
+
+void addMap3d(Command& program) {
+  auto options = std::make_shared<Map3dOptions>();
+  Command command = program.command("map3d", "Make the 3D map of a recorded RGB-D camera.");
+  command.argument("folder", options->folder,
+                   "Frames in the format of TUM RGB-D (rgb.txt and depth.txt, or associations.txt) or of 7-Scenes "
+                   "(frame-000000.color.png, .depth.png).");
+  command.option("--poses", options->poses,
+                 "Poses of the camera from other sensors, to begin each alignment with: TUM (t x y z qx qy qz qw), or "
+                 "none.");
+  command.option("--intrinsics", options->intrinsics,
+                 "Calibration of the camera (YAML). Without it, the usual one of the format.");
+  command.option("--out", options->out, "Folder for the results. NAME-map3d when not given.");
+  command.flag("--json", options->json, "Print the figures as JSON.");
+  command.footer(
+      "trajectory.tum has the poses of the camera with x right, y down and z along the view, as the ground truth of\n"
+      "both formats has them; the map begins at the first pose of the colour camera.\n"
+      "Example: swiftlet map3d rgbd_dataset_freiburg1_desk --out desk");
+  command.runs([options] { return map3d(*options); });
+}
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,58 @@
+#include "apps/map3d_outputs.hpp"
+
+#include "apps/required.hpp"
+#include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/tum.hpp"
+#include "interfaces/report/report.hpp"
+#include "rendering/plot_svg.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string plotOverFrames(const std::string& title, const std::string& label, const rendering::ThinnedCurve& curve) {
+  rendering::Plot plot;
+  plot.title = title;
+  plot.x_label = "frame";
+  plot.y_label = label;
+  plot.series = {{"greatest of each stretch", curve.points(), false}};
+  plot.y_min = 0.0;
+  return rendering::plotSvg(plot);
+}
+
+/// The three coordinates over time.
+std::string positionPlot(const common::Trajectory& trajectory) {
+  rendering::Plot plot;
+  plot.title = "Position of the camera";
+  plot.x_label = "time (s)";
+  plot.y_label = "m";
+  plot.series = {{"x", {}, false}, {"y", {}, false}, {"z", {}, false}};
+  for (const common::StampedPose& at : trajectory) {
+    const double time_s = (at.stamp - trajectory.front().stamp).seconds();
+    for (int i = 0; i < 3; ++i)
+      plot.series[static_cast<std::size_t>(i)].points.emplace_back(time_s, at.pose.position_m[i]);
+  }
+  return rendering::plotSvg(plot);
+}
+
+}  // namespace
+
+void writeMap3dOutputs(const fs::path& out, const common::Trajectory& trajectory, const CloudGrid& cloud,
+                       const Map3dFigures& figures) {
+  auto writer = required(interfaces::TumWriter::create(out / "trajectory.tum"));
+  for (const common::StampedPose& at : trajectory) required(writer.write(at));
+  required(interfaces::writeAtomically(out / "cloud.ply", interfaces::toPly(cloud.points())));
+
+  interfaces::MapReport report;
+  report.title = kMap3dTitle + fs::path(figures.folder).filename().string();
+  report.subtitle = figures.folder;
+  report.facts = figures.facts;
+  report.warnings = figures.warnings;
+  report.map_svg = positionPlot(trajectory);
+  report.plots_svg = {plotOverFrames("Time per frame", "ms", figures.milliseconds),
+                      plotOverFrames("Points that do not agree with the map", "part", figures.disagreement)};
+  required(interfaces::writeAtomically(out / "report.html", interfaces::mapReport(report)));
+}
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,33 @@
+// The results of `swiftlet map3d`: trajectory.tum, cloud.ply and report.html.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/cloud_grid.hpp"
+#include "apps/results_folder.hpp"
+#include "common/trajectory.hpp"
+#include "rendering/thinned_curve.hpp"
+
+namespace swiftlet::apps {
+
+inline const std::string kMap3dTitle = "3D map of ";
+inline const ResultsKind kMap3dResults{
+    "3D map", "report.html", "<title>" + kMap3dTitle, {"report.html", "trajectory.tum", "cloud.ply"}};
+
+struct Map3dFigures {
+  std::string folder;
+  std::vector<std::pair<std::string, std::string>> facts;
+  std::vector<std::string> warnings;
+  rendering::ThinnedCurve milliseconds;  ///< Over the index of the frame.
+  rendering::ThinnedCurve disagreement;  ///< Part of the points that do not agree with the map, the same.
+};
+
+/// `trajectory` has the poses of the recorder's camera (axes of image processing) in the map. Throws InputError if a
+/// file cannot be written.
+void writeMap3dOutputs(const std::filesystem::path& out, const common::Trajectory& trajectory, const CloudGrid& cloud,
+                       const Map3dFigures& figures);
+
+}  // namespace swiftlet::apps

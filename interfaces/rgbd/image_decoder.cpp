@@ -1,0 +1,150 @@
+#include "interfaces/rgbd/image_decoder.hpp"
+
+#include <png.h>
+#include <turbojpeg.h>
+
+#include <algorithm>
+#include <csetjmp>
+#include <cstring>
+#include <memory>
+#include <optional>
+
+namespace swiftlet::interfaces {
+namespace {
+
+using tl::unexpected;
+
+bool isPng(std::string_view bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n"); }
+bool isJpeg(std::string_view bytes) { return bytes.starts_with("\xff\xd8"); }
+
+std::size_t samples(int width_px, int height_px) {
+  return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+}
+
+bool isSizeAllowed(int width_px, int height_px) {
+  return width_px > 0 && height_px > 0 && width_px <= kMostImageSide_px && height_px <= kMostImageSide_px;
+}
+
+// --- PNG ------------------------------------------------------------------------------------------------------------
+
+enum class Wanted { kRgb, kGray16 };
+
+/// A PNG while it is read. libpng leaves by longjmp to `readPng`, which has no objects with destructors.
+struct PngRead {
+  std::string_view bytes;
+  std::size_t at = 0;
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  int width_px = 0, height_px = 0;
+  std::vector<std::uint8_t> pixels;
+  std::vector<png_bytep> rows;
+  std::string problem;
+
+  explicit PngRead(std::string_view all) : bytes(all) {}
+  PngRead(const PngRead&) = delete;
+  PngRead& operator=(const PngRead&) = delete;
+  ~PngRead() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+void onError(png_structp png, png_const_charp message) {
+  static_cast<PngRead*>(png_get_error_ptr(png))->problem = message;
+  png_longjmp(png, 1);
+}
+void onWarning(png_structp, png_const_charp) {}
+
+void onRead(png_structp png, png_bytep out, std::size_t count) {
+  PngRead& read = *static_cast<PngRead*>(png_get_io_ptr(png));
+  if (read.bytes.size() - read.at < count) png_error(png, "is cut off");
+  std::memcpy(out, read.bytes.data() + read.at, count);
+  read.at += count;
+}
+
+void convertTo(PngRead& read, Wanted wanted) {
+  const int depth = png_get_bit_depth(read.png, read.info), type = png_get_color_type(read.png, read.info);
+  if (wanted == Wanted::kGray16) {
+    if (depth != 16 || type != PNG_COLOR_TYPE_GRAY) png_error(read.png, "is not a 16-bit grey image");
+    png_set_swap(read.png);
+    return;
+  }
+  png_set_expand(read.png);
+  png_set_strip_16(read.png);
+  png_set_strip_alpha(read.png);
+  if (!(type & PNG_COLOR_MASK_COLOR)) png_set_gray_to_rgb(read.png);
+}
+
+void placeRows(PngRead& read) {
+  const std::size_t row_bytes = png_get_rowbytes(read.png, read.info);
+  read.pixels.resize(row_bytes * static_cast<std::size_t>(read.height_px));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(read.height_px); ++i)
+    read.rows.push_back(read.pixels.data() + i * row_bytes);
+}
+
+/// False with `read.problem`.
+bool readPng(PngRead& read, Wanted wanted) {
+  read.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &read, onError, onWarning);
+  if (read.png == nullptr) return false;
+  if (setjmp(png_jmpbuf(read.png)) != 0) return false;
+  read.info = png_create_info_struct(read.png);
+  png_set_user_limits(read.png, kMostImageSide_px, kMostImageSide_px);
+  png_set_read_fn(read.png, &read, onRead);
+  png_read_info(read.png, read.info);
+  convertTo(read, wanted);
+  png_set_interlace_handling(read.png);
+  png_read_update_info(read.png, read.info);
+  read.width_px = static_cast<int>(png_get_image_width(read.png, read.info));
+  read.height_px = static_cast<int>(png_get_image_height(read.png, read.info));
+  placeRows(read);
+  png_read_image(read.png, read.rows.data());
+  png_read_end(read.png, nullptr);
+  return true;
+}
+
+tl::expected<common::Image, std::string> colorFromPng(std::string_view bytes) {
+  PngRead read(bytes);
+  if (!readPng(read, Wanted::kRgb)) return unexpected(read.problem);
+  if (read.pixels.size() != 3 * samples(read.width_px, read.height_px))
+    return unexpected(std::string("is not an 8-bit RGB image"));
+  return common::Image{read.width_px, read.height_px, std::move(read.pixels)};
+}
+
+// --- JPEG -----------------------------------------------------------------------------------------------------------
+
+struct DestroyJpeg {
+  void operator()(void* handle) const { tjDestroy(handle); }
+};
+
+tl::expected<common::Image, std::string> colorFromJpeg(std::string_view bytes) {
+  const std::unique_ptr<void, DestroyJpeg> handle(tjInitDecompress());
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+  int width_px = 0, height_px = 0, subsampling = 0, color_space = 0;
+  if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width_px, &height_px, &subsampling, &color_space) != 0)
+    return unexpected(std::string(tjGetErrorStr2(handle.get())));
+  if (!isSizeAllowed(width_px, height_px)) return unexpected(std::string("is larger than an image may be"));
+  common::Image image{width_px, height_px, std::vector<std::uint8_t>(3 * samples(width_px, height_px))};
+  // The accurate transform gives the same bytes with and without the CPU's vector instructions. A warning, such as a
+  // premature end, counts as an error: what is missing would be grey.
+  if (tjDecompress2(handle.get(), data, bytes.size(), image.rgb.data(), width_px, 0, height_px, TJPF_RGB,
+                    TJFLAG_ACCURATEDCT) != 0)
+    return unexpected(std::string(tjGetErrorStr2(handle.get())));
+  return image;
+}
+
+}  // namespace
+
+tl::expected<common::Image, std::string> decodeColor(std::string_view bytes) {
+  if (isPng(bytes)) return colorFromPng(bytes);
+  if (isJpeg(bytes)) return colorFromJpeg(bytes);
+  return unexpected(std::string("is neither PNG nor JPEG"));
+}
+
+tl::expected<DepthCodes, std::string> decodeDepth(std::string_view bytes) {
+  if (!isPng(bytes)) return unexpected(std::string("is not a PNG"));
+  PngRead read(bytes);
+  if (!readPng(read, Wanted::kGray16)) return unexpected(read.problem);
+  DepthCodes depth{read.width_px, read.height_px, {}};
+  depth.codes.resize(samples(read.width_px, read.height_px));
+  std::memcpy(depth.codes.data(), read.pixels.data(), read.pixels.size());
+  return depth;
+}
+
+}  // namespace swiftlet::interfaces

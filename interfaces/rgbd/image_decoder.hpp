@@ -1,0 +1,30 @@
+// Decodes the images of recorded frames: colour from PNG or JPEG, depth from 16-bit PNG. Bytes may be anything; what is
+// not a whole image is an error with its reason, never a crash.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "common/sensor_event.hpp"
+
+namespace swiftlet::interfaces {
+
+/// The numbers of a depth image as they are stored, row by row from the top left.
+struct DepthCodes {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint16_t> codes;
+};
+
+/// Images wider or higher than this are refused.
+inline constexpr int kMostImageSide_px = 8192;
+
+/// The reason of an error is for people: "is cut off".
+tl::expected<common::Image, std::string> decodeColor(std::string_view bytes);
+tl::expected<DepthCodes, std::string> decodeDepth(std::string_view bytes);
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,68 @@
+// The frames of a folder, one after another. Frames that cannot be used are skipped and counted.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/rgbd_frame.hpp"
+#include "interfaces/rgbd/rgbd_listing.hpp"
+
+namespace swiftlet::interfaces {
+
+/// Why a frame was skipped.
+enum class FrameFault {
+  kMissing,     ///< One of its files is not there, or cannot be opened.
+  kUnreadable,  ///< An image is cut off, damaged or of another kind.
+  kOtherSize,   ///< Its images have not the shape of the calibration.
+  kNoDepth,     ///< Hardly a pixel was measured.
+  kOtherScale,  ///< Depths that no camera measures: the scale is another one.
+  kBlack,
+  kWhite,
+  kRepeated,       ///< The same pictures as the frame before.
+  kStampRepeated,  ///< Not later than the frame before.
+};
+inline constexpr std::size_t kFrameFaults = 9;
+
+/// For people: "an image is damaged or cut off".
+const char* toString(FrameFault fault);
+
+struct SkippedFrame {
+  FrameFault fault;
+  std::string detail;  ///< The file and the reason.
+};
+
+class RgbdFolder {
+ public:
+  /// Without a calibration, that of the format is used. Throws InputError, see listRgbdFolder.
+  explicit RgbdFolder(const std::filesystem::path& folder,
+                      const std::optional<RgbdCalibration>& calibration = std::nullopt);
+
+  /// The next usable frame, in the order of the stamps; none at the end.
+  std::optional<common::RgbdFrame> next();
+
+  const RgbdListing& listing() const { return listing_; }
+  const RgbdCalibration& calibration() const { return listing_.calibration; }
+  /// Pairs passed so far, skipped ones included.
+  std::size_t passed() const { return at_; }
+  std::uint64_t skipped(FrameFault fault) const { return skipped_[static_cast<std::size_t>(fault)]; }
+  std::uint64_t skipped() const;
+  /// The first frame that was skipped for this reason.
+  const std::string& firstDetail(FrameFault fault) const { return first_[static_cast<std::size_t>(fault)]; }
+
+ private:
+  /// A frame or why it is none.
+  std::optional<common::RgbdFrame> read(const RgbdListing::Pair& pair, SkippedFrame& skipped);
+
+  RgbdListing listing_;
+  std::size_t at_ = 0;
+  std::optional<common::Time> last_stamp_;
+  std::uint64_t last_hash_ = 0;
+  std::array<std::uint64_t, kFrameFaults> skipped_{};
+  std::array<std::string, kFrameFaults> first_;
+};
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,36 @@
+// What a folder of recorded RGB-D frames holds: the pairs of image files in the order of their stamps.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/time.hpp"
+#include "interfaces/rgbd/rgbd_calibration.hpp"
+
+namespace swiftlet::interfaces {
+
+struct RgbdListing {
+  struct Pair {
+    common::Time stamp;
+    std::filesystem::path color, depth;
+  };
+
+  std::string format;           ///< For people: "TUM RGB-D".
+  RgbdCalibration calibration;  ///< That of the format.
+  std::vector<Pair> pairs;
+  std::uint64_t unpaired = 0;  ///< Images of which the other one is not listed, or not at the same time.
+};
+
+/// Recognizes folders in the format of TUM RGB-D (associations.txt, or rgb.txt and depth.txt) and of 7-Scenes
+/// (frame-XXXXXX.color.png or .jpg, .depth.png). Throws InputError for any other folder, for a list that cannot be read
+/// (with file, line and column), and for a folder without a single pair.
+RgbdListing listRgbdFolder(const std::filesystem::path& folder);
+
+/// TUM: two images are a pair if their stamps are at most this apart, as in the benchmark's associate.py.
+inline constexpr double kPairedWithin_s = 0.02;
+/// 7-Scenes has no stamps: the camera's frame rate numbers its frames.
+inline constexpr double kSevenScenesRate_Hz = 30.0;
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,241 @@
+#include "mapping3d/odometry/alignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "common/config_fields.hpp"
+#include "mapping3d/odometry/exposure_equations.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Tukey's biweight reaches zero at so many standard deviations (95 % efficiency for a Gaussian).
+constexpr double kTukey = 4.685;
+/// Steps below these are smaller than the noise, and end the iterations.
+constexpr double kSmallStep_m = 5e-5;
+constexpr double kSmallStep_rad = 5e-5;
+/// The standard deviation of grey values that is assumed first, and at most, in those of an exact fit: where the views
+/// differ, texture does not repeat.
+constexpr double kWidest = 5.0;
+/// Fewer textured points do not tell a right pose from a wrong one.
+constexpr int kLeastTextured = 50;
+/// A surface point counts as agreeing within so many standard deviations.
+constexpr double kAgreeing = 3.0;
+
+double tukeyWeight(double residual_sigmas) {
+  const double ratio = residual_sigmas / kTukey;
+  if (std::abs(ratio) >= 1.0) return 0.0;
+  const double inside = 1.0 - ratio * ratio;
+  return inside * inside;
+}
+
+/// The correlation of pairs of numbers.
+class CorrelationSums {
+ public:
+  void add(double a, double b) {
+    ++count_;
+    a_ += a;
+    b_ += b;
+    aa_ += a * a;
+    bb_ += b * b;
+    ab_ += a * b;
+  }
+  int count() const { return count_; }
+  double value() const {
+    const double variance_a = aa_ - a_ * a_ / count_, variance_b = bb_ - b_ * b_ / count_;
+    if (!(variance_a > 0.0 && variance_b > 0.0)) return 0.0;
+    return (ab_ - a_ * b_ / count_) / std::sqrt(variance_a * variance_b);
+  }
+
+ private:
+  int count_ = 0;
+  double a_ = 0.0, b_ = 0.0, aa_ = 0.0, bb_ = 0.0, ab_ = 0.0;
+};
+
+/// Sums over the points of one iteration.
+struct Sums {
+  ExposureEquations equations;
+  int points = 0, visible = 0, measured = 0, agreeing = 0;
+  double gray_squared = 0.0, gray_weight = 0.0, surface_squared_m2 = 0.0, surface_weight = 0.0;
+  double absolute_gray = 0.0;
+  CorrelationSums grays;
+};
+
+/// One level of a frame at one pose.
+class LevelErrors {
+ public:
+  LevelErrors(const PyramidLevel& level, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config)
+      : level_(level), noise_(noise), config_(config) {}
+
+  void add(std::span<const ReferencePoint> points, const common::Pose3& T_camera_key, const Exposure& exposure,
+           double sigma, Sums& sums) const {
+    const Eigen::Matrix3d rotation = T_camera_key.rotation.toRotationMatrix();
+    for (const ReferencePoint& reference : points) {
+      ++sums.points;
+      const Eigen::Vector3d point = rotation * reference.point_camera_m.cast<double>() + T_camera_key.position_m;
+      if (point.x() < noise_.nearest_m) continue;
+      const Eigen::Vector2d pixel = level_.camera.pixel(point);
+      if (!(pixel.x() >= 1.0 && pixel.y() >= 1.0 && pixel.x() < level_.camera.width_px - 2 &&
+            pixel.y() < level_.camera.height_px - 2))
+        continue;
+      ++sums.visible;
+      if (!addSurface(reference, rotation, point, pixel, sums)) continue;
+      if (reference.is_textured) addGray(reference, point, pixel, exposure, sigma, sums);
+    }
+  }
+
+ private:
+  /// False if the frame sees another surface there, which hides the point or has appeared behind it.
+  bool addSurface(const ReferencePoint& reference, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& point,
+                  const Eigen::Vector2d& pixel, Sums& sums) const {
+    const auto u = static_cast<int>(pixel.x() + 0.5), v = static_cast<int>(pixel.y() + 0.5);
+    const float depth_m = level_.depth.at(u, v);
+    if (!noise_.isUsable(depth_m)) return true;
+    ++sums.measured;
+    const Eigen::Vector3d seen = level_.camera.point_camera_m(u, v, static_cast<double>(depth_m));
+    if (std::abs(seen.x() - point.x()) > config_.surface_gate_m) return false;
+    const double sigma_m = config_.surface_sigma_factor * noise_.sigma_m(point.x());
+    if (!reference.hasNormal()) {
+      const bool agrees = std::abs(seen.x() - point.x()) < kAgreeing * sigma_m + kSlope * point.x();
+      sums.agreeing += agrees ? 1 : 0;
+      return agrees;
+    }
+    const Eigen::Vector3d normal = rotation * reference.normal_camera.cast<double>();
+    const double residual_m = normal.dot(point - seen);
+    const double weight = tukeyWeight(residual_m / sigma_m);
+    sums.agreeing += std::abs(residual_m) < kAgreeing * sigma_m ? 1 : 0;
+    if (weight == 0.0) return false;
+    Vector6d jacobian;
+    jacobian << -normal, normal.cross(seen);
+    sums.equations.addSurface(jacobian, residual_m, weight / (sigma_m * sigma_m));
+    sums.surface_squared_m2 += weight * residual_m * residual_m;
+    sums.surface_weight += weight;
+    return true;
+  }
+
+  void addGray(const ReferencePoint& reference, const Eigen::Vector3d& point, const Eigen::Vector2d& pixel,
+               const Exposure& exposure, double sigma, Sums& sums) const {
+    const auto u = static_cast<int>(pixel.x()), v = static_cast<int>(pixel.y());
+    const double fu = pixel.x() - u, fv = pixel.y() - v;
+    const std::uint8_t *upper = level_.gray.row(v) + u, *lower = level_.gray.row(v + 1) + u;
+    const double top = upper[0] + fu * (upper[1] - upper[0]), bottom = lower[0] + fu * (lower[1] - lower[0]);
+    const double gray = top + fv * (bottom - top);
+    const double du = (1.0 - fv) * (upper[1] - upper[0]) + fv * (lower[1] - lower[0]), dv = bottom - top;
+    const auto reference_gray = static_cast<double>(reference.gray);
+    const double residual = gray - exposure.gain * reference_gray - exposure.offset;
+    sums.absolute_gray += std::min(std::abs(residual), 4.0 * sigma);
+    sums.grays.add(gray, reference_gray);
+    const double weight = tukeyWeight(residual / sigma);
+    if (weight == 0.0) return;
+    const double inverse_depth = 1.0 / point.x();
+    const double along_u = du * level_.camera.fx_px * inverse_depth, along_v = dv * level_.camera.fy_px * inverse_depth;
+    // The gradient of the grey value with respect to the point in the camera frame.
+    const Eigen::Vector3d gradient((along_u * point.y() + along_v * point.z()) * inverse_depth, -along_u, -along_v);
+    ExposureEquations::Vector8d jacobian;
+    jacobian << -gradient, gradient.cross(point), -reference_gray, -1.0;
+    sums.equations.addGray(jacobian, residual, weight / (sigma * sigma));
+    sums.gray_squared += weight * residual * residual;
+    sums.gray_weight += weight;
+  }
+
+  /// A point without a normal may be seen on a slope, a pixel beside its place.
+  static constexpr double kSlope = 0.02;
+
+  const PyramidLevel& level_;
+  const vision::DepthNoiseConfig& noise_;
+  const AlignmentConfig& config_;
+};
+
+Sums sumsAt(const LevelErrors& errors, std::span<const ReferenceView> views, std::size_t level,
+            const common::Pose3& T_map_camera, const Exposure& exposure, double sigma) {
+  Sums sums;
+  const common::Pose3 T_camera_map = T_map_camera.inverse();
+  for (const ReferenceView& view : views)
+    errors.add((*view.levels)[level], T_camera_map * view.T_map_key, exposure, sigma, sums);
+  return sums;
+}
+
+common::Pose3 moved(const common::Pose3& T_map_camera, const ExposureEquations::Vector8d& step) {
+  common::Pose3 increment;
+  increment.position_m = step.head<3>();
+  increment.rotation = common::expSO3(step.segment<3>(3));
+  common::Pose3 pose = T_map_camera * increment;
+  pose.rotation.normalize();
+  return pose;
+}
+
+Vector6d errorOf(const common::Pose3& T_map_camera, const PosePrior& prior) {
+  const common::Pose3 error = prior.T_map_camera.inverse() * T_map_camera;
+  Vector6d vector;
+  vector << error.position_m, common::logSO3(error.rotation);
+  return vector;
+}
+
+Alignment summary(const common::Pose3& T_map_camera, const Sums& sums) {
+  const auto part = [](double some, double all) { return all > 0.0 ? some / all : 0.0; };
+  Alignment alignment;
+  alignment.T_map_camera = T_map_camera;
+  alignment.information = sums.equations.poseInformation();
+  alignment.overlap = part(sums.visible, sums.points);
+  alignment.agreement = part(sums.agreeing, sums.measured);
+  alignment.gray_rms = std::sqrt(part(sums.gray_squared, sums.gray_weight));
+  alignment.surface_rms_m = std::sqrt(part(sums.surface_squared_m2, sums.surface_weight));
+  if (sums.grays.count() >= kLeastTextured) alignment.correlation = sums.grays.value();
+  alignment.points = sums.agreeing;
+  return alignment;
+}
+
+/// The mean absolute value of a Gaussian is 0.8 of its standard deviation.
+double spreadOf(const Sums& sums, double least) {
+  if (sums.grays.count() == 0) return least;
+  return std::clamp(1.25 * sums.absolute_gray / sums.grays.count(), least, kWidest * least);
+}
+
+}  // namespace
+
+void AlignmentConfig::describe(common::config::Fields& fields) {
+  fields("iterations", iterations, {1, 50}, "Gauss-Newton steps at a level of the pyramid, at most.");
+  fields("gray_sigma", gray_sigma, {0.5, 50},
+         "Standard deviation of a grey value, at least; it is measured in every picture.");
+  fields("surface_sigma_factor", surface_sigma_factor, {0.1, 20},
+         "Standard deviation of a point's distance from the surface, in those of the depth.");
+  fields("surface_gate_m", surface_gate_m, {0.01, 1}, "Points whose depths differ by more are on different surfaces.");
+}
+
+Alignment judgePose(const FramePyramid& frame, std::span<const ReferenceView> views, const common::Pose3& T_map_camera,
+                    const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config) {
+  const std::size_t level = frame.size() - 1;
+  const LevelErrors errors(frame[level], noise, config);
+  return summary(T_map_camera, sumsAt(errors, views, level, T_map_camera, exposure, kWidest * config.gray_sigma));
+}
+
+Alignment align(const FramePyramid& frame, std::span<const ReferenceView> views, const PosePrior& prior,
+                const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config) {
+  common::Pose3 pose = prior.T_map_camera;
+  Exposure estimate = exposure;
+  double sigma = kWidest * config.gray_sigma;
+  Sums sums;
+  for (std::size_t level = frame.size(); level-- > 0;) {
+    const LevelErrors errors(frame[level], noise, config);
+    const std::span<const ReferenceView> used = level > 1 ? views.first(1) : views;
+    for (int i = 0; i < config.iterations; ++i) {
+      sums = sumsAt(errors, used, level, pose, estimate, sigma);
+      sigma = spreadOf(sums, config.gray_sigma);
+      sums.equations.addPose(prior.information, errorOf(pose, prior));
+      const ExposureEquations::Vector8d step = sums.equations.solve();
+      pose = moved(pose, step);
+      estimate.gain += step[6];
+      estimate.offset += step[7];
+      if (step.head<3>().norm() < kSmallStep_m && step.segment<3>(3).norm() < kSmallStep_rad) break;
+    }
+  }
+  Alignment alignment = summary(pose, sums);
+  alignment.exposure = estimate;
+  return alignment;
+}
+
+}  // namespace swiftlet::mapping3d

@@ -1,0 +1,28 @@
+#include "mapping3d/odometry/frame_pyramid.hpp"
+
+#include "common/check.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+/// The coarsest level has at least this height.
+constexpr int kLeastHeight_px = 24;
+
+PyramidLevel halvedLevel(const PyramidLevel& level) {
+  return {vision::halved(level.camera), vision::halved(level.gray), vision::halved(level.depth)};
+}
+
+}  // namespace
+
+FramePyramid makePyramid(const common::RgbdFrame& frame, int greatest_width_px, int levels) {
+  const auto pixels = static_cast<std::size_t>(frame.camera.pixels());
+  SWIFTLET_CHECK(frame.color.rgb.size() == 3 * pixels && frame.depth.depth_m.size() == pixels);
+  PyramidLevel finest{frame.camera, vision::grayOf(frame.color), frame.depth};
+  while (finest.camera.width_px > greatest_width_px) finest = halvedLevel(finest);
+  FramePyramid pyramid{std::move(finest)};
+  while (static_cast<int>(pyramid.size()) < levels && pyramid.back().camera.height_px >= 2 * kLeastHeight_px)
+    pyramid.push_back(halvedLevel(pyramid.back()));
+  return pyramid;
+}
+
+}  // namespace swiftlet::mapping3d

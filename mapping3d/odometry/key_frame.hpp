@@ -1,0 +1,35 @@
+// A key frame: what later frames are aligned to, and what it is recognized by when the track was lost.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "mapping3d/odometry/reference_points.hpp"
+#include "vision/binary_descriptor.hpp"
+
+namespace swiftlet::mapping3d {
+
+/// A point that can be recognized by its surroundings in the picture.
+struct DescribedPoint {
+  Eigen::Vector3d point_camera_m;
+  vision::BinaryDescriptor descriptor;
+};
+
+struct KeyFrame {
+  common::Time stamp;
+  common::Pose3 T_map_key;
+  std::vector<std::vector<ReferencePoint>> levels;  ///< As those of the pyramid.
+  std::vector<DescribedPoint> described;
+  double median_depth_m = 0.0;
+};
+
+/// Described are those features whose patch lies in the picture.
+std::vector<DescribedPoint> describedPoints(const vision::GrayImage& gray,
+                                            const std::vector<vision::Feature>& features);
+
+/// `level` must have points; their median depth.
+double medianDepth_m(const std::vector<ReferencePoint>& level);
+
+}  // namespace swiftlet::mapping3d

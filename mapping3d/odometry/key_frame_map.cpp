@@ -1,0 +1,96 @@
+#include "mapping3d/odometry/key_frame_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+/// Every so many points of the coarsest level tell the overlap.
+constexpr std::size_t kSampleStep = 8;
+/// Key frames that see a smaller part of the picture do not help.
+constexpr double kLeastOverlap = 0.25;
+
+double overlapOf(const std::vector<ReferencePoint>& points, const common::Pose3& T_camera_key,
+                 const common::PinholeCamera& camera) {
+  int seen = 0, all = 0;
+  const Eigen::Matrix3d rotation = T_camera_key.rotation.toRotationMatrix();
+  for (std::size_t i = 0; i < points.size(); i += kSampleStep) {
+    ++all;
+    const Eigen::Vector3d point = rotation * points[i].point_camera_m.cast<double>() + T_camera_key.position_m;
+    if (point.x() <= 0.0) continue;
+    const Eigen::Vector2d pixel = camera.pixel(point);
+    if (pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < camera.width_px && pixel.y() < camera.height_px) ++seen;
+  }
+  return all > 0 ? static_cast<double>(seen) / all : 0.0;
+}
+
+double turnBetween_rad(const common::Pose3& a, const common::Pose3& b) {
+  return a.rotation.angularDistance(b.rotation);
+}
+
+}  // namespace
+
+void KeyFrameConfig::describe(common::config::Fields& fields) {
+  fields("greatest_number", greatest_number, {2, 10'000}, "Key frames that are kept, at most.");
+  fields("views", views, {1, 10}, "Key frames that a frame is aligned to, at most.");
+  fields("least_overlap", least_overlap, {0.1, 0.95},
+         "A key frame is added where the nearest one's points are seen to a smaller part.");
+  fields("greatest_turn_rad", greatest_turn_rad, {0.02, 2}, "Or where it was turned by more.");
+  fields("greatest_step", greatest_step, {0.01, 2}, "Or where it is farther away than this part of its median depth.");
+}
+
+void KeyFrameMap::add(std::shared_ptr<const KeyFrame> key) {
+  if (static_cast<int>(keys_.size()) >= config_.greatest_number)
+    keys_.erase(
+        std::min_element(keys_.begin(), keys_.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; }));
+  keys_.push_back({std::move(key), ++clock_});
+}
+
+std::vector<std::size_t> KeyFrameMap::overlapping(const common::PinholeCamera& coarsest,
+                                                  const common::Pose3& T_map_camera) const {
+  struct Ranked {
+    std::size_t index;
+    double score;
+  };
+  std::vector<Ranked> ranked;
+  const common::Pose3 T_camera_map = T_map_camera.inverse();
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    const KeyFrame& key = *keys_[i].frame;
+    const double overlap = overlapOf(key.levels.back(), T_camera_map * key.T_map_key, coarsest);
+    if (overlap < kLeastOverlap) continue;
+    // Of views that overlap alike, the one from nearer by looks more alike.
+    const double distance =
+        (key.T_map_key.position_m - T_map_camera.position_m).norm() / std::max(key.median_depth_m, 0.3);
+    ranked.push_back({i, overlap - 0.5 * distance - 0.3 * turnBetween_rad(key.T_map_key, T_map_camera)});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.score > b.score; });
+  ranked.resize(std::min(ranked.size(), static_cast<std::size_t>(config_.views)));
+  std::vector<std::size_t> indices;
+  for (const Ranked& one : ranked) indices.push_back(one.index);
+  return indices;
+}
+
+std::vector<ReferenceView> KeyFrameMap::views(const std::vector<std::size_t>& indices) const {
+  std::vector<ReferenceView> views;
+  for (const std::size_t index : indices) views.push_back({at(index).T_map_key, &at(index).levels});
+  return views;
+}
+
+void KeyFrameMap::markUsed(const std::vector<std::size_t>& indices) {
+  ++clock_;
+  for (const std::size_t index : indices) keys_[index].used = clock_;
+}
+
+bool KeyFrameMap::needsNew(const std::vector<std::size_t>& overlapping, const common::Pose3& T_map_camera,
+                           double overlap) const {
+  if (overlapping.empty() || overlap < config_.least_overlap) return true;
+  const KeyFrame& nearest = at(overlapping.front());
+  const double step_m = (nearest.T_map_key.position_m - T_map_camera.position_m).norm();
+  return turnBetween_rad(nearest.T_map_key, T_map_camera) > config_.greatest_turn_rad ||
+         step_m > config_.greatest_step * nearest.median_depth_m;
+}
+
+}  // namespace swiftlet::mapping3d

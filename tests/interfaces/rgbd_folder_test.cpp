@@ -1,0 +1,213 @@
+// Folders of recorded RGB-D frames, and every way in which they can be damaged: skipped, counted, said.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <png.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/random.hpp"
+#include "interfaces/files/ply.hpp"
+#include "interfaces/rgbd/rgbd_folder.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr int kWidth_px = 64, kHeight_px = 48;
+
+std::string png(const std::vector<std::uint8_t>& bytes, int width_px, int height_px, int bits, int type) {
+  std::string out;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(
+      png, &out,
+      [](png_structp p, png_bytep data, std::size_t size) {
+        static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<const char*>(data), size);
+      },
+      nullptr);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width_px), static_cast<png_uint_32>(height_px), bits, type,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  const std::size_t row_bytes = bytes.size() / static_cast<std::size_t>(height_px);
+  for (std::size_t v = 0; v < static_cast<std::size_t>(height_px); ++v)
+    png_write_row(png, bytes.data() + v * row_bytes);
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &info);
+  return out;
+}
+
+std::string colorPng(std::uint64_t seed, int width_px = kWidth_px, int height_px = kHeight_px) {
+  common::RandomStream random(seed, "color");
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(3 * width_px * height_px));
+  for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.uniform(0.0, 256.0));
+  return png(bytes, width_px, height_px, 8, PNG_COLOR_TYPE_RGB);
+}
+std::string plainPng(std::uint8_t value) {
+  return png(std::vector<std::uint8_t>(3 * kWidth_px * kHeight_px, value), kWidth_px, kHeight_px, 8,
+             PNG_COLOR_TYPE_RGB);
+}
+std::string depthPng(int code, int width_px = kWidth_px, int height_px = kHeight_px) {
+  std::vector<std::uint8_t> bytes;
+  for (int i = 0; i < width_px * height_px; ++i) {
+    bytes.push_back(static_cast<std::uint8_t>(code / 256));
+    bytes.push_back(static_cast<std::uint8_t>(code % 256));
+  }
+  return png(bytes, width_px, height_px, 16, PNG_COLOR_TYPE_GRAY);
+}
+
+class RgbdFolders : public test_support::Scratch {
+ protected:
+  void SetUp() override {
+    Scratch::SetUp();
+    fs::create_directories(folder_ / "rgb");
+    fs::create_directories(folder_ / "depth");
+  }
+  /// A frame of TUM's format, with its lines in the lists.
+  void addFrame(double stamp_s, const std::string& color, const std::string& depth, double depth_later_s = 0.005) {
+    const std::string name = fmt::format("{:.6f}.png", stamp_s);
+    if (!color.empty()) write("rgb/" + name, color);
+    if (!depth.empty()) write("depth/" + name, depth);
+    colors_ += fmt::format("{:.6f} rgb/{}\n", stamp_s, name);
+    depths_ += fmt::format("{:.6f} depth/{}\n", stamp_s + depth_later_s, name);
+    write("rgb.txt", colors_);
+    write("depth.txt", depths_);
+  }
+  RgbdFolder open() const { return RgbdFolder(folder_); }
+  static int countFrames(RgbdFolder& folder) {
+    int count = 0;
+    while (folder.next()) ++count;
+    return count;
+  }
+  std::string colors_ = "# color images\n", depths_ = "# depth maps\n";
+};
+
+TEST_F(RgbdFolders, ReadsTumInMetresInTheOrderOfTheStamps) {
+  addFrame(2.0, colorPng(2), depthPng(10'000));
+  addFrame(1.0, colorPng(1), depthPng(5'000));
+  RgbdFolder folder = open();
+  const auto first = folder.next(), second = folder.next();
+  ASSERT_TRUE(first && second);
+  EXPECT_FALSE(folder.next());
+  EXPECT_EQ(first->stamps.measured, common::Time::fromSeconds(1.0));
+  EXPECT_FLOAT_EQ(first->depth.at(10, 10), 1.0F);
+  EXPECT_FLOAT_EQ(second->depth.at(10, 10), 2.0F);
+  // The benchmark's intrinsics, at a tenth of the resolution.
+  EXPECT_NEAR(first->camera.fx_px, 52.5, 1e-9);
+  EXPECT_NEAR(first->camera.cx_px, 31.5, 1e-9);
+  EXPECT_EQ(folder.skipped(), 0u);
+}
+
+TEST_F(RgbdFolders, CountsWhatCannotBeUsedByItsReason) {
+  addFrame(1.0, colorPng(1), depthPng(5'000));
+  addFrame(2.0, "", depthPng(5'000));
+  addFrame(3.0, colorPng(3), depthPng(5'000).substr(0, 60));
+  addFrame(4.0, colorPng(4, 64, 64), depthPng(5'000, 64, 64));
+  addFrame(5.0, colorPng(5), depthPng(5'000, 32, 24));
+  addFrame(6.0, colorPng(6), depthPng(0));
+  addFrame(7.0, colorPng(7), depthPng(250));
+  addFrame(8.0, plainPng(1), depthPng(5'000));
+  addFrame(9.0, plainPng(255), depthPng(5'000));
+  addFrame(10.0, colorPng(10), depthPng(5'000));
+  addFrame(11.0, colorPng(10), depthPng(5'000));
+  addFrame(12.0, "no image", depthPng(5'000));
+  addFrame(13.0, colorPng(13), colorPng(13));
+  RgbdFolder folder = open();
+  EXPECT_EQ(countFrames(folder), 2);
+  const std::map<FrameFault, std::uint64_t> expected{
+      {FrameFault::kMissing, 1}, {FrameFault::kUnreadable, 3}, {FrameFault::kOtherSize, 2},
+      {FrameFault::kNoDepth, 1}, {FrameFault::kOtherScale, 1}, {FrameFault::kBlack, 1},
+      {FrameFault::kWhite, 1},   {FrameFault::kRepeated, 1},   {FrameFault::kStampRepeated, 0}};
+  for (const auto& [fault, count] : expected) EXPECT_EQ(folder.skipped(fault), count) << toString(fault);
+  EXPECT_THAT(folder.firstDetail(FrameFault::kUnreadable), HasSubstr("3.000000.png: is cut off"));
+}
+
+TEST_F(RgbdFolders, StampsThatDoNotPairAreCounted) {
+  addFrame(1.0, colorPng(1), depthPng(5'000));
+  addFrame(2.0, colorPng(2), depthPng(5'000), 0.1);
+  RgbdFolder folder = open();
+  EXPECT_EQ(countFrames(folder), 1);
+  EXPECT_EQ(folder.listing().unpaired, 2u);
+}
+
+TEST_F(RgbdFolders, EachDepthImageBelongsToTheNearestColour) {
+  addFrame(1.0, colorPng(1), depthPng(5'000), 0.015);
+  addFrame(1.018, colorPng(2), depthPng(6'000), 0.5);
+  RgbdFolder folder = open();
+  const auto frame = folder.next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->stamps.measured, common::Time::fromSeconds(1.018));
+  EXPECT_FALSE(folder.next());
+}
+
+TEST_F(RgbdFolders, ReadsSevenScenesWithItsDepthRegistered) {
+  for (const int number : {0, 2}) {
+    write(fmt::format("frame-{:06}.color.png", number), colorPng(static_cast<std::uint64_t>(number)));
+    write(fmt::format("frame-{:06}.depth.png", number), depthPng(number == 0 ? 2'000 : 65'535));
+  }
+  write("frame-000004.color.png", colorPng(4));
+  RgbdFolder folder = open();
+  EXPECT_EQ(folder.listing().format, "7-Scenes");
+  EXPECT_EQ(folder.listing().unpaired, 1u);
+  const auto frame = folder.next();
+  ASSERT_TRUE(frame);
+  // A wall across the view stays one, 2 mm and a turn of half a degree aside; the borders see nothing.
+  EXPECT_NEAR(static_cast<double>(frame->depth.at(32, 24)), 2.0, 0.02);
+  EXPECT_FALSE(folder.next());
+  EXPECT_EQ(folder.skipped(FrameFault::kNoDepth), 1u);
+}
+
+TEST_F(RgbdFolders, NamesTheLineOfAListThatCannotBeRead) {
+  const auto message = [&] {
+    try {
+      open();
+    } catch (const common::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message(), HasSubstr("holds no RGB-D frames of a known format"));
+  write("depth.txt", "1.0 depth/1.png\n");
+  write("rgb.txt", "# color\n1.0 rgb/1.png\nsoon rgb/2.png\n");
+  EXPECT_THAT(message(), HasSubstr("rgb.txt:3:1: stamp: `soon` is not a time in seconds"));
+  write("rgb.txt", "1.0\n");
+  EXPECT_THAT(message(), HasSubstr("rgb.txt:1: expected `stamp file`, this line has 1 words"));
+  write("rgb.txt", "9.0 rgb/1.png\n");
+  EXPECT_THAT(message(), HasSubstr("holds no pair of a colour and a depth image, 2 images are unpaired"));
+}
+
+TEST(ImageDecoder, NoCutAndNoFlippedByteCrashes) {
+  const std::string color = colorPng(1), depth = depthPng(3'000);
+  common::RandomStream random(1, "damage");
+  for (int i = 0; i < 2'000; ++i) {
+    std::string damaged = i % 2 == 0 ? color : depth;
+    damaged[static_cast<std::size_t>(random.uniform() * static_cast<double>(damaged.size()))] ^=
+        static_cast<char>(1 << (i % 8));
+    damaged.resize(static_cast<std::size_t>(random.uniform(0.5, 1.0) * static_cast<double>(damaged.size())));
+    (void)decodeColor(damaged);
+    EXPECT_FALSE(decodeDepth(damaged).has_value());
+  }
+}
+
+TEST(Ply, HasAHeaderAndFifteenBytesAPoint) {
+  const std::vector<ColoredPoint> points{{{1.0F, 2.0F, 3.0F}, 10, 20, 30}, {{-1.0F, 0.0F, 0.5F}, 255, 0, 1}};
+  const std::string ply = toPly(points);
+  EXPECT_THAT(ply, HasSubstr("format binary_little_endian 1.0\n"));
+  EXPECT_THAT(ply, HasSubstr("element vertex 2\n"));
+  const std::size_t body = ply.find("end_header\n") + 11;
+  ASSERT_EQ(ply.size() - body, 30u);
+  EXPECT_EQ(ply.substr(body, 4), std::string("\0\0\x80\x3f", 4));
+  EXPECT_EQ(ply.substr(body + 12, 3), "\x0a\x14\x1e");
+}
+
+}  // namespace
+}  // namespace swiftlet::interfaces

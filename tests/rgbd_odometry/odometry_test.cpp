@@ -1,0 +1,115 @@
+// The odometry in a rendered room, whose motion is known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "mapping3d/odometry/rgbd_odometry.hpp"
+#include "tests/rgbd_odometry/textured_room.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using common::Pose3;
+
+constexpr double kRate_Hz = 15.0;
+
+/// A walk in the room with turns of up to 40 deg/s.
+Pose3 walk(double time_s) {
+  const double yaw_rad = 0.9 * std::sin(0.75 * time_s), pitch_rad = 0.15 * std::sin(1.3 * time_s);
+  return {common::quaternionFrom({0.1 * std::sin(0.9 * time_s), pitch_rad, yaw_rad}),
+          {0.4 * std::sin(0.6 * time_s), 0.5 * std::sin(0.5 * time_s), 0.2 * std::sin(0.8 * time_s)}};
+}
+
+double distance_m(const Pose3& a, const Pose3& b) { return (a.position_m - b.position_m).norm(); }
+double turn_deg(const Pose3& a, const Pose3& b) { return a.rotation.angularDistance(b.rotation) / common::kRadPerDeg; }
+
+TEST(RgbdOdometry, TracksAWalkWithChangingExposure) {
+  const TexturedRoom room;
+  RgbdOdometry odometry({});
+  const Pose3 start = walk(0.0);
+  for (int i = 0; i < 60; ++i) {
+    const double time_s = i / kRate_Hz;
+    const RgbdPose pose = odometry.process(room.seen(walk(time_s), time_s, 1.0 + 0.2 * std::sin(time_s)));
+    ASSERT_EQ(pose.state, TrackState::kTracked) << i;
+    const Pose3 truth = start.inverse() * walk(time_s);
+    ASSERT_LT(distance_m(pose.T_map_camera, truth), 0.008) << i;
+    ASSERT_LT(turn_deg(pose.T_map_camera, truth), 0.25) << i;
+  }
+  EXPECT_GT(odometry.keyFrames().size(), 2u);
+  EXPECT_LT(odometry.keyFrames().size(), 25u);
+}
+
+TEST(RgbdOdometry, StepsOfFourDegreesAtFiveFramesASecond) {
+  const TexturedRoom room;
+  RgbdOdometry odometry({});
+  for (int i = 0; i < 25; ++i) {
+    const Pose3 pose = walk(0.1 * i);
+    const RgbdPose found = odometry.process(room.seen(pose, i / 5.0));
+    ASSERT_TRUE(found.isTracked()) << i;
+    ASSERT_LT(distance_m(found.T_map_camera, walk(0.0).inverse() * pose), 0.015) << i;
+  }
+}
+
+TEST(RgbdOdometry, WhatIsTooFastIsLostAndNeverWrong) {
+  const TexturedRoom room;
+  RgbdOdometry odometry({});
+  int tracked = 0;
+  for (int i = 0; i < 25; ++i) {
+    const Pose3 pose = walk(0.45 * i);
+    const RgbdPose found = odometry.process(room.seen(pose, i / 5.0));
+    if (!found.isTracked()) continue;
+    ++tracked;
+    ASSERT_LT(distance_m(found.T_map_camera, walk(0.0).inverse() * pose), 0.03) << i;
+  }
+  EXPECT_GT(tracked, 5);
+}
+
+TEST(RgbdOdometry, ASeedCarriesItOverAGapThatIsTooLongToPredict) {
+  const TexturedRoom room;
+  RgbdOdometry odometry({});
+  const Pose3 T_seed_map{common::expSO3({0.0, 0.0, 0.3}), {1.0, 2.0, 0.0}};
+  const auto seed = [&](double time_s) { return T_seed_map * walk(time_s); };
+  RgbdPose pose = odometry.process(room.seen(walk(0.0), 0.0), seed(0.0));
+  EXPECT_LT(distance_m(pose.T_map_camera, seed(0.0)), 1e-12);
+  pose = odometry.process(room.seen(walk(1.1), 1.1), seed(1.1));
+  ASSERT_EQ(pose.state, TrackState::kTracked);
+  EXPECT_LT(distance_m(pose.T_map_camera, seed(1.1)), 0.01);
+}
+
+TEST(RgbdOdometry, ElsewhereItIsLostAndIsFoundAgainWhereItWasBefore) {
+  const TexturedRoom room;
+  TexturedRoom other;
+  other.walls = 100;
+  other.half_size_m = {1.3, 3.0, 1.1};
+  RgbdOdometry odometry({});
+  double time_s = 0.0;
+  for (; time_s < 2.0; time_s += 1.0 / kRate_Hz)
+    ASSERT_TRUE(odometry.process(room.seen(walk(time_s), time_s)).isTracked());
+  const std::size_t keys = odometry.keyFrames().size();
+  for (int i = 0; i < 5; ++i) {
+    time_s += 1.0 / kRate_Hz;
+    EXPECT_EQ(odometry.process(other.seen({}, time_s)).state, TrackState::kLost);
+  }
+  EXPECT_EQ(odometry.keyFrames().size(), keys);
+  // Back near the first place, seen from a little aside.
+  const Pose3 there = walk(0.0) * Pose3{common::expSO3({0.03, -0.02, 0.05}), {0.05, -0.04, 0.03}};
+  const RgbdPose pose = odometry.process(room.seen(there, time_s + 1.0));
+  EXPECT_EQ(pose.state, TrackState::kFoundAgain);
+  EXPECT_LT(distance_m(pose.T_map_camera, walk(0.0).inverse() * there), 0.01);
+}
+
+TEST(RgbdOdometry, EqualFramesGiveEqualBits) {
+  const TexturedRoom room;
+  RgbdOdometry one({}), other({});
+  for (int i = 0; i < 12; ++i) {
+    const common::RgbdFrame frame = room.seen(walk(0.2 * i), 0.2 * i);
+    const Pose3 pose = one.process(frame).T_map_camera, again = other.process(frame).T_map_camera;
+    EXPECT_EQ(pose.position_m, again.position_m);
+    EXPECT_EQ(pose.rotation.coeffs(), again.rotation.coeffs());
+  }
+}
+
+}  // namespace
+}  // namespace swiftlet::mapping3d
