@@ -7,7 +7,7 @@ namespace swiftlet::apps {
 
 behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
   behaviors::MissionLimits limits;
-  limits.max_height_m = system.config.autonomy.max_height_m;
+  limits.max_height_m = system.vehicle.max_height_m;
   limits.clearance_problems = [autonomy = system.config.autonomy](double clearance_m) {
     return autonomy.problemsWith(clearance_m);
   };

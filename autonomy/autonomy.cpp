@@ -50,7 +50,9 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       imu_watch_(config.imu),
       energy_monitor_(config.energy, vehicle, config.control.position.thrust.voltage_exponent),
       world_builder_(vehicle_name_) {
-  context_.goal_limits.greatest_height_m = config.max_height_m;
+  const double max_height_m = mission_.maxHeight_m().value_or(vehicle.max_height_m);
+  context_.goal_limits.greatest_height_m = max_height_m;
+  controller_.setMaxHeight(max_height_m);
   mission_status_.accepts_goals = mission_.acceptsGoals();
   takeSnapshot(Time{});
 }
@@ -130,11 +132,17 @@ common::Setpoint Autonomy::tick(Time now) {
     energy_monitor_.followed(flight.state.velocity_odom_m_s.head<2>().norm(), common::kControlPeriod.seconds());
   estimator_.setAtRest(!control::isAirborne(controller_.state()));
   estimator_.setAtFlightHeight(controller_.state() == FlightState::kFlying);
-  // Not while landing, so that the map stays at the flight height.
-  if (controller_.state() == FlightState::kTakingOff || controller_.state() == FlightState::kFlying)
-    estimator_.setFlightHeight(flight.state.T_odom_body.position_m.z());
+  followMapHeight(flight.state.T_odom_body.position_m.z());
   prepare();
   return setpoint;
+}
+
+/// The height of flight is that of the reference: a vehicle that sinks does not move the slice of the map that is
+/// shown, and neither does a landing.
+void Autonomy::followMapHeight(double height_m) {
+  if (controller_.state() == FlightState::kTakingOff) map_height_m_ = height_m;
+  if (controller_.state() == FlightState::kFlying) map_height_m_ = controller_.reference().position_odom_m.z();
+  if (control::isAirborne(controller_.state())) estimator_.setFlightHeight(map_height_m_);
 }
 
 bool Autonomy::finished() const {
@@ -195,7 +203,10 @@ void Autonomy::tickBehaviors(Time now) {
   takeSnapshot(now);
   if (prepared_) intent_ = nextIntent(now);
   if (missionOver()) takeSnapshot(now);  // So that the last snapshot shows how the mission ended.
-  executor_.tick(intent_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(),
+  std::shared_ptr<const common::LevelMap> surfaces;
+  if (std::holds_alternative<common::LandIntent>(intent_.kind) && controller_.state() == FlightState::kFlying)
+    surfaces = std::make_shared<common::LevelMap>(estimator_.seenSurfaces());
+  executor_.tick(intent_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(), std::move(surfaces),
                            estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision()});
 }
 

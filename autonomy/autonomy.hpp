@@ -41,7 +41,6 @@ struct AutonomyConfig {
   double behavior_rate_hz = 20.0;
   ScanQueueConfig scans;
   ImuWatchConfig imu;
-  double max_height_m = 10.0;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
@@ -82,6 +81,8 @@ class Autonomy {
   /// True if the mission ended by the operator's land command.
   bool landedByOperator() const { return supervisor_.landedByOperator(); }
   common::VehicleState state() const { return estimator_.state(); }
+  /// Height over the take-off floor of the slice of the map that is shown.
+  double mapHeight_m() const { return map_height_m_; }
   /// Counts of the matches of the laser odometry and of the work of the SLAM method.
   const perception::LaserOdometryCounts& odometryCounts() const { return estimator_.odometryCounts(); }
   const perception::SlamCounts& slamCounts() const { return estimator_.slamCounts(); }
@@ -102,6 +103,7 @@ class Autonomy {
   common::Setpoint tick(common::Time now);
   void processDueScans(common::Time now);
   void processScan(const common::LaserScan& scan, common::Time now);
+  void followMapHeight(double height_m);
   void prepare();
   void tickBehaviors(common::Time now);
   common::Intent nextIntent(common::Time now);
@@ -143,6 +145,7 @@ class Autonomy {
   common::MissionStatus mission_status_;
   bool releasing_mission_ = false;  ///< The supervisor lands the vehicle, and the mission has not released it yet.
   bool prepared_ = false;
+  double map_height_m_ = 0.0;
   std::optional<common::Time> last_behaviors_;
 
   WorldBuilder world_builder_;

@@ -16,8 +16,6 @@ void AutonomyConfig::describe(common::config::Fields& fields) {
   fields("behavior_rate_hz", behavior_rate_hz, {1, 100}, "Ticks of the mission's tree a second.");
   fields.section("scans", scans, "Scans that arrive late or out of order.");
   fields.section("imu", imu, "Inertial samples that cannot be used.");
-  fields("max_height_m", max_height_m, {0.2, 100},
-         "Greatest height over the take-off floor; a mission that asks for more is refused.");
 }
 
 std::vector<std::string> AutonomyConfig::validate() const {

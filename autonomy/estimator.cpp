@@ -31,7 +31,7 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       filter_(config.fusion),
       people_(config.people, {config.slam.grid.max_height_above_m, config.slam.grid.max_height_below_m}),
       laser_(config.laser, laser),
-      altitude_(config.altitude),
+      altitude_(config.altitude, vehicle.hullRadius_m()),
       map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs),
       localizer_(given ? std::make_unique<FlightLocalizer>(*given, config.localization, jobs) : nullptr) {}
 

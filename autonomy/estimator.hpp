@@ -90,6 +90,8 @@ class Estimator {
   std::shared_ptr<const common::OccupancyGrid> grid() { return map_.grid(); }
   std::shared_ptr<const common::KeyPoses> keyPoses() { return map_.keyPoses(); }
   std::shared_ptr<const common::LevelMap> levels() { return altitude_.levels(); }
+  /// See AltitudePipeline::seenSurfaces.
+  common::LevelMap seenSurfaces() const { return altitude_.seenSurfaces(); }
   const perception::PeopleTracker& people() const { return people_; }
   /// None if no map was given.
   std::optional<common::Localization> localization() const;

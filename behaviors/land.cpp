@@ -3,7 +3,10 @@
 namespace swiftlet::behaviors {
 
 tree::NodeManifest Land::manifest() {
-  return {.id = "Land", .kind = tree::NodeKind::kAction, .ports = {}, .description = "Descends where it is and stops."};
+  return {.id = "Land",
+          .kind = tree::NodeKind::kAction,
+          .ports = {},
+          .description = "Descends and stops, at the nearest place where the hull stands on one level."};
 }
 
 }  // namespace swiftlet::behaviors

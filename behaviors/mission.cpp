@@ -110,6 +110,8 @@ common::TreeView Mission::view() const {
   return view;
 }
 
+std::optional<double> Mission::maxHeight_m() const { return maxHeightOf_m(impl_->tree); }
+
 bool Mission::acceptsGoals() const { return !impl_->takers.empty(); }
 
 std::optional<common::OperatorCommand> Mission::waitingCommand() const {

@@ -140,9 +140,13 @@ class Walk {
   bool takes_off_ = false;
 };
 
+constexpr const char* kHeightHint =
+    "in a building that is high enough, TakeOff's max_height_m or the vehicle's max_height_m allows more";
+
 std::string metres(double value) { return tree::toString(tree::Value(value)) + " m"; }
 
 void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vector<tree::Problem>& problems) {
+  const double max_height_m = maxHeightOf_m(tree).value_or(limits.max_height_m);
   const auto report = [&](const tree::Node& node, const tree::NodeManifest& manifest, const char* port,
                           std::string message, const char* hint) {
     problems.push_back({tree.locationOf(node.id(), port), manifest.id + "." + port, std::move(message), hint});
@@ -161,8 +165,9 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
                  "raise it, or change that distance in the system profile");
     // Goals, and the place above the floor where it takes off: all that can be judged without a map.
     const auto checkGoal = [&](const char* port, const common::Goal& goal) {
-      const auto verdict = common::judgeGoal(goal, {.greatest_height_m = limits.max_height_m}, nullptr);
-      if (!verdict) report(*record.node, *record.manifest, port, verdict.error().text, "");
+      const auto verdict = common::judgeGoal(goal, {.greatest_height_m = max_height_m}, nullptr);
+      const bool height = !verdict && verdict.error().reason == common::GoalRefusal::Reason::kHeight;
+      if (!verdict) report(*record.node, *record.manifest, port, verdict.error().text, height ? kHeightHint : "");
     };
     for (const tree::Value& value : tree.knownValues(id, "height_m"))
       if (const auto* height_m = std::get_if<double>(&value)) checkGoal("height_m", {.height_m = *height_m});
@@ -187,6 +192,17 @@ std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems
                       problem.message,
                       problem.hint});
   return result;
+}
+
+std::optional<double> maxHeightOf_m(const tree::Tree& tree) {
+  std::optional<double> greatest_m;
+  for (const tree::NodeRecord& record : tree.nodes()) {
+    if (record.manifest == nullptr || record.manifest->id != "TakeOff") continue;
+    for (const tree::Value& value : tree.knownValues(record.node->id(), "max_height_m"))
+      if (const auto* height_m = std::get_if<double>(&value))
+        greatest_m = std::max(greatest_m.value_or(*height_m), *height_m);
+  }
+  return greatest_m;
 }
 
 std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const MissionLimits& limits) {

@@ -1,6 +1,7 @@
 // Finds what cannot work in flight, from the tree alone.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems
 /// - A child of a Priority, other than the last, that is never SKIPPED: the children below it would never get the
 ///   vehicle.
 std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const MissionLimits& limits);
+
+/// The greatest `max_height_m` of the tree's TakeOffs; nullopt if none names one.
+std::optional<double> maxHeightOf_m(const tree::Tree& tree);
 
 /// Every problem of a mission file, without flying it: those of the XML, and what cannot work in flight (a node that
 /// flies before the take-off, a clearance the reactive layer forbids, a branch that never gets the vehicle). Empty if

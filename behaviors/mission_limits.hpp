@@ -12,8 +12,8 @@ struct MissionLimits {
   /// Why the reactive layer would not let the vehicle fly with a clearance (m, between hull and obstacle); empty if it
   /// would. Without a function every clearance is accepted.
   std::function<std::vector<std::string>(double clearance_m)> clearance_problems = {};
-  /// Heights above the take-off floor.
-  double max_height_m = 10.0;
+  /// Above the take-off floor; a TakeOff with `max_height_m` replaces it.
+  double max_height_m = 2.0;
   bool has_map = true;  ///< A map of the place is given; nodes that localize need one.
 };
 

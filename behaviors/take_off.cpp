@@ -12,7 +12,14 @@ tree::NodeManifest TakeOff::manifest() {
                      .default_value = "1.0",
                      .minimum = common::kLeastFlightHeight_m,
                      .maximum = 100.0,
-                     .description = "Above the take-off floor."}},
+                     .description = "Above the take-off floor."},
+                    {.name = "max_height_m",
+                     .type = tree::PortType::kDouble,
+                     .required = false,
+                     .minimum = common::kLeastFlightHeight_m,
+                     .maximum = 100.0,
+                     .description = "Greatest height of the whole mission, for a building that is high enough; "
+                                    "without it that of the vehicle."}},
           .description = "Climbs from the floor to a height and hovers."};
 }
 

@@ -77,6 +77,8 @@ void VehicleConfig::describe(config::Fields& fields) {
   fields("battery_full_v", battery_full_v, {1, 100}, "Voltage of the full battery at rest.");
   fields("battery_empty_v", battery_empty_v, {1, 100}, "Voltage at which the vehicle must be on the ground.");
   fields("battery_capacity_ah", battery_capacity_ah, {0.05, 1000}, "Charge of the full battery.");
+  fields("max_height_m", max_height_m, {0.3, 100},
+         "Greatest height over the take-off floor, as no sensor looks up; a mission's TakeOff may name another.");
 }
 
 std::vector<std::string> VehicleConfig::validate() const {

@@ -63,6 +63,7 @@ struct VehicleConfig {
   double battery_full_v = 12.6;
   double battery_empty_v = 10.2;
   double battery_capacity_ah = 5.0;
+  double max_height_m = 2.0;
 
   void describe(config::Fields& fields);
   std::vector<std::string> validate() const;

@@ -13,6 +13,17 @@ namespace {
 constexpr double kStill_m_s = 0.10;
 constexpr double kMaxAcceleration_m_s2 = 2.0;
 constexpr double kMaxIntegral_m_s2 = 2.0;
+/// The descent is slow from this much higher, for each second without a height: what an accelerometer's bias of
+/// 0.02 m/s^2 makes in ten seconds.
+constexpr double kBlindMargin_per_s = 0.1;
+/// Growth of the error of a speed that the thrust model carries: its hover command is good to about 1 % of gravity.
+constexpr double kModelSpeed_m_s2 = 0.08;
+/// Slower than this share of the wanted speed the vehicle does not sink as it should.
+constexpr double kSinkingShare = 0.7;
+/// Below the ground by this much the thrust model must have missed the touch-down.
+constexpr double kMissed_m = 0.3;
+/// Less thrust by this is not followed only on the ground. Without inertial samples nobody would see the fall.
+constexpr double kGreatestPush_m_s2 = 3.0, kUncertainPush_m_s2 = 0.4;
 
 }  // namespace
 
@@ -52,11 +63,13 @@ void EmergencyDescent::start(common::Time now, double standing_height_m, const E
   velocity_left_m_s_ = velocity_level_m_s.allFinite() ? velocity_level_m_s : Eigen::Vector2d::Zero();
   last_seen_ = last_moving_ = now;
   standing_height_m_ = standing_height_m;
-  integral_m_s2_ = 0.0;
+  integral_m_s2_ = given_m_s2_ = pushed_m_s2_ = 0.0;
   touched_down_ = false;
+  motion_ = {filter_.ready() ? filter_.height_m() : standing_height_m_, filter_.velocity_m_s()};
 }
 
-common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const ThrustModel& thrust) {
+common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const ThrustModel& thrust,
+                                        const std::optional<VerticalMotion>& carried) {
   common::Setpoint setpoint;
   setpoint.stamp = now;
   setpoint.motors_on = !touched_down_;
@@ -67,29 +80,60 @@ common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const Thr
   velocity_left_m_s_ += given_m_s2 * dt_s;
   setpoint.pitch_rad = std::atan2(given_m_s2.x(), kGravity_m_s2);
   setpoint.roll_rad = std::atan2(-given_m_s2.y(), kGravity_m_s2);
-  setpoint.thrust = verticalThrust(now, dt_s, thrust);
+  const bool sees = filter_.ready() && (now - filter_.stamp()).seconds() <= config_.blind_after_s;
+  given_m_s2_ = sees ? seenAcceleration_m_s2(now, dt_s) : blindAcceleration_m_s2(now, dt_s, carried);
+  setpoint.thrust = thrust.commandFor(given_m_s2_, 1.0);
   return setpoint;
 }
 
-double EmergencyDescent::verticalThrust(common::Time now, double dt_s, const ThrustModel& thrust) {
-  const bool sees = filter_.ready() && (now - filter_.stamp()).seconds() <= config_.blind_after_s;
-  if (!sees) {
-    touched_down_ = (now - last_seen_).seconds() > config_.blind_rest_s;
-    return config_.blind_thrust * thrust.hoverCommand();
-  }
-  last_seen_ = now;
-  const bool low = filter_.height_m() < standing_height_m_ + config_.touchdown_height_m;
-  const double wanted_m_s = low ? -config_.touchdown_descent_m_s : -config_.descent_m_s;
-  const double error_m_s = wanted_m_s - filter_.velocity_m_s();
+double EmergencyDescent::wantedVelocity_m_s(double margin_m) const {
+  const bool low = motion_.height_m < standing_height_m_ + config_.touchdown_height_m + margin_m;
+  return low ? -config_.touchdown_descent_m_s : -config_.descent_m_s;
+}
+
+double EmergencyDescent::accelerationFor(double wanted_m_s, double dt_s) {
+  const double error_m_s = wanted_m_s - motion_.velocity_m_s;
   integral_m_s2_ =
       std::clamp(integral_m_s2_ + config_.integral_1_s2 * error_m_s * dt_s, -kMaxIntegral_m_s2, kMaxIntegral_m_s2);
-  const double acceleration_m_s2 =
-      std::clamp(config_.gain_1_s * error_m_s + integral_m_s2_, -kMaxAcceleration_m_s2, kMaxAcceleration_m_s2);
+  return std::clamp(config_.gain_1_s * error_m_s + integral_m_s2_, -kMaxAcceleration_m_s2, kMaxAcceleration_m_s2);
+}
+
+double EmergencyDescent::seenAcceleration_m_s2(common::Time now, double dt_s) {
+  last_seen_ = now;
+  pushed_m_s2_ = 0.0;
+  motion_ = {filter_.height_m(), filter_.velocity_m_s()};
   const bool may_stand =
-      filter_.height_m() < standing_height_m_ + config_.rest_margin_m && std::abs(filter_.velocity_m_s()) < kStill_m_s;
+      motion_.height_m < standing_height_m_ + config_.rest_margin_m && std::abs(motion_.velocity_m_s) < kStill_m_s;
   if (!may_stand) last_moving_ = now;
   touched_down_ = (now - last_moving_).seconds() >= config_.rest_s;
-  return thrust.commandFor(acceleration_m_s2, 1.0);
+  return accelerationFor(wantedVelocity_m_s(0.0), dt_s);
+}
+
+/// A vehicle on the ground cannot follow less thrust. So while the carried speed does not sink as wanted, more and more
+/// thrust is taken away: in the air the vehicle sinks then, on the ground it stays.
+double EmergencyDescent::blindAcceleration_m_s2(common::Time now, double dt_s,
+                                                const std::optional<VerticalMotion>& carried) {
+  const double blind_s = (now - last_seen_).seconds();
+  if (carried) {
+    motion_ = *carried;
+  } else {
+    motion_.velocity_m_s += given_m_s2_ * dt_s;
+    motion_.height_m += motion_.velocity_m_s * dt_s;
+    integral_m_s2_ = 0.0;  // The model agrees with its own commands, so there is nothing to learn.
+  }
+  // Faster by what the carried speed may be wrong, so that the vehicle sinks in any case.
+  const double wrong_m_s = blind_s * (carried ? kCarriedSpeed_m_s2 : kModelSpeed_m_s2);
+  const double wanted_m_s = wantedVelocity_m_s(kBlindMargin_per_s * blind_s) - wrong_m_s;
+  const bool sinks =
+      carried ? motion_.velocity_m_s < kSinkingShare * wanted_m_s : motion_.height_m > standing_height_m_ - kMissed_m;
+  const double step_m_s2 = config_.blind_push_m_s3 * dt_s;
+  pushed_m_s2_ = std::clamp(pushed_m_s2_ + (sinks ? -2.0 * step_m_s2 : step_m_s2), 0.0, kGreatestPush_m_s2);
+  if (!carried) pushed_m_s2_ = std::min(pushed_m_s2_, kUncertainPush_m_s2);
+  const bool rests = carried && !sinks && pushed_m_s2_ >= kGreatestPush_m_s2;
+  if (!rests) last_moving_ = now;
+  touched_down_ =
+      (now - last_moving_).seconds() >= config_.rest_s || blind_s > (carried ? 2.0 : 1.0) * config_.blind_rest_s;
+  return accelerationFor(wanted_m_s, dt_s) - pushed_m_s2_;
 }
 
 void EmergencyDescent::Config::describe(common::config::Fields& fields) {
@@ -104,12 +148,12 @@ void EmergencyDescent::Config::describe(common::config::Fields& fields) {
          "Share of the residual that corrects the vertical speed (alpha-beta filter, Tomic 2012).");
   fields("jump_m", jump_m, kPositive, "A residual larger than this is a step of the ground.");
   fields("blind_after_s", blind_after_s, kPositive,
-         "Without a raw height for this long the vehicle sinks by thrust alone.");
-  fields("blind_thrust", blind_thrust, {0.5, 1},
-         "Thrust of sinking without a height, as a share of the hover command.");
+         "Without a raw height for this long the last height and speed are carried on.");
+  fields("blind_push_m_s3", blind_push_m_s3, kPositive,
+         "Rate at which thrust is taken away while a descent without a height does not sink.");
   fields("rest_margin_m", rest_margin_m, {0, 1}, "Less than this above where it stood the vehicle may be standing.");
   fields("rest_s", rest_s, kPositive, "Low and still for this long the vehicle is on the ground.");
-  fields("blind_rest_s", blind_rest_s, kPositive, "After sinking without a height for this long the motors stop.");
+  fields("blind_rest_s", blind_rest_s, kPositive, "After a descent without a height for this long the motors stop.");
   fields("brake_1_s", brake_1_s, {0, 10}, "Deceleration per last known velocity when no horizontal estimate is left.");
 }
 

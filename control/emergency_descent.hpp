@@ -1,5 +1,6 @@
 // Comes down without the fused estimate (Tomic 2012, "Action"): vertical speed from an alpha-beta filter on the raw
-// height the mirror measures, and a level attitude once the last known velocity has been braked.
+// height the mirror measures, and a level attitude once the last known velocity has been braked. Without raw heights
+// the last height and speed are carried on, by the inertial samples or, without those, by the thrust model.
 #pragma once
 
 #include <optional>
@@ -42,6 +43,16 @@ class AlphaBetaFilter {
   int samples_ = 0;
 };
 
+/// Growth of the error of a vertical speed that inertial samples carry without a measured height: the bias of an
+/// accelerometer after its calibration in flight.
+inline constexpr double kCarriedSpeed_m_s2 = 0.03;
+
+/// Height over the surface below, and vertical speed.
+struct VerticalMotion {
+  double height_m = 0.0;
+  double velocity_m_s = 0.0;
+};
+
 class EmergencyDescent {
  public:
   struct Config {
@@ -54,7 +65,7 @@ class EmergencyDescent {
     double beta = 0.08;
     double jump_m = 0.15;
     double blind_after_s = 0.5;
-    double blind_thrust = 0.95;
+    double blind_push_m_s3 = 1.0;
     double rest_margin_m = 0.08;
     double rest_s = 0.5;
     double blind_rest_s = 12.0;
@@ -71,12 +82,17 @@ class EmergencyDescent {
   /// horizontal velocity, in the body frame without roll and pitch; zero if none is known.
   void start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s);
   /// The yaw rate is zero. The tilt brakes the velocity given to start() without measuring it again.
-  common::Setpoint tick(common::Time now, double dt_s, const ThrustModel& thrust);
+  /// `carried` is the motion by the inertial samples, used while no raw height is fresh; none if it is not known.
+  common::Setpoint tick(common::Time now, double dt_s, const ThrustModel& thrust,
+                        const std::optional<VerticalMotion>& carried = std::nullopt);
   bool touchedDown() const { return touched_down_; }
   const AlphaBetaFilter& filter() const { return filter_; }
 
  private:
-  double verticalThrust(common::Time now, double dt_s, const ThrustModel& thrust);
+  double wantedVelocity_m_s(double margin_m) const;
+  double accelerationFor(double wanted_m_s, double dt_s);
+  double seenAcceleration_m_s2(common::Time now, double dt_s);
+  double blindAcceleration_m_s2(common::Time now, double dt_s, const std::optional<VerticalMotion>& carried);
 
   Config config_;
   AlphaBetaFilter filter_;
@@ -85,6 +101,9 @@ class EmergencyDescent {
   common::Time last_moving_;
   double standing_height_m_ = 0.0;
   double integral_m_s2_ = 0.0;
+  VerticalMotion motion_;     ///< The last one that was seen, carried on by the thrust model.
+  double given_m_s2_ = 0.0;   ///< The vertical acceleration of the last command.
+  double pushed_m_s2_ = 0.0;  ///< Downward acceleration added while a blind descent does not sink.
   bool touched_down_ = false;
 };
 

@@ -7,6 +7,8 @@
 
 #include <fmt/core.h>
 
+#include "control/usable_state.hpp"
+
 namespace swiftlet::control {
 
 using common::FlightState;
@@ -19,13 +21,15 @@ constexpr double kSpoolShare = 0.6;       ///< Share of the hover command given 
 constexpr double kReferenceLead_m = 0.3;  ///< Greatest lead of the height reference over the vehicle.
 constexpr double kTouchdownSpeed_m_s = 0.10;
 constexpr double kTouchdownMargin_m = 0.20;
+constexpr double kCarried_s = 0.5;  ///< Age from which the height counts as carried by inertial samples.
+/// A speed that was carried is off by the bias of the accelerometer; in the air so little thrust would change it by
+/// more than this within touchdown_s.
+constexpr double kCarriedTouchdownSpeed_m_s = 0.35;
+constexpr double kCarriedLimit_s = 10.0;  ///< Beyond this age a carried speed counts as no worse.
+/// Deviation up to which a carried vertical speed is better than that of the thrust model.
+constexpr double kCarriedSpeedSigma_m_s = 0.5;
 /// When the position is unknown, a velocity with at most this deviation is still damped.
 constexpr double kDampedVelocitySigma_m_s = 0.6;
-
-bool isFinite(const common::VehicleState& state) {
-  return common::isFinite(state.T_odom_body) && state.velocity_odom_m_s.allFinite() &&
-         state.velocity_covariance_m2_s2.allFinite();
-}
 
 Eigen::Vector3d inFrame(const common::Pose2& T, const Eigen::Vector3d& point_m) {
   const Eigen::Vector2d planar_m = T * Eigen::Vector2d(point_m.head<2>());
@@ -39,7 +43,8 @@ FlightController::FlightController(const Config& config, const common::VehicleCo
       follower_(config.path),
       position_(config.position, vehicle),
       emergency_(config.emergency),
-      dt_s_(common::kControlPeriod.seconds()) {}
+      dt_s_(common::kControlPeriod.seconds()),
+      max_height_m_(vehicle.max_height_m) {}
 
 tl::expected<void, std::string> FlightController::command(const FlightCommand& command) {
   const auto apply = [this](FlightInput input, const std::string& reason) -> tl::expected<void, std::string> {
@@ -62,6 +67,9 @@ tl::expected<void, std::string> FlightController::command(const FlightCommand& c
   const double least_m = last_state_.T_odom_body.position_m.z() + config_.hover_tolerance_m;
   if (!std::isfinite(height_m) || height_m < least_m)
     return tl::unexpected(fmt::format("a take-off height of {:.2f} m is not above {:.2f} m", height_m, least_m));
+  if (height_m > max_height_m_)
+    return tl::unexpected(
+        fmt::format("a take-off height of {:.2f} m is above the greatest height, {:.2f} m", height_m, max_height_m_));
   if (!inertial_fault_.empty()) return tl::unexpected("take off is not possible: " + inertial_fault_);
   if (!last_state_.horizontal_valid || !last_state_.vertical_valid)
     return tl::unexpected(std::string("take off is not possible without a valid estimate"));
@@ -83,7 +91,10 @@ tl::expected<void, std::string> FlightController::follow(const FlightPath& path)
   const common::Pose2 T_odom_map = T_map_odom_.inverse();
   std::vector<Eigen::Vector3d> points_odom_m;
   points_odom_m.reserve(path.points_map_m.size());
-  for (const Eigen::Vector3d& point : path.points_map_m) points_odom_m.push_back(inFrame(T_odom_map, point));
+  for (Eigen::Vector3d point : path.points_map_m) {
+    point.z() = std::min(point.z(), max_height_m_);
+    points_odom_m.push_back(inFrame(T_odom_map, point));
+  }
   std::optional<double> yaw_odom_rad;
   if (path.goal_yaw_map_rad) yaw_odom_rad = common::wrapAngle(*path.goal_yaw_map_rad + T_odom_map.yaw_rad);
   follower_.setPath(std::move(points_odom_m), path.mode, yaw_odom_rad);
@@ -190,15 +201,22 @@ common::Setpoint FlightController::fly(const FlightTick& tick) {
 common::Setpoint FlightController::descend(const FlightTick& tick) {
   const double height_m = last_state_.T_odom_body.position_m.z();
   const double over_ground_m = last_state_.height_above_ground_m;
-  const bool near = over_ground_m < standing_raw_m_ + config_.touchdown_height_m;
-  moveVertically(-std::numeric_limits<double>::infinity(), near ? config_.touchdown_descent_m_s : config_.descent_m_s,
-                 height_m);
+  // Without a measurement of it the height is carried by the inertial samples, and as uncertain as they make it.
+  const bool carried = last_state_.verticalAge_s(now_) > kCarried_s;
+  const double uncertain_m = carried ? 2.0 * std::sqrt(std::max(0.0, last_state_.position_covariance_m2(2, 2))) : 0.0;
+  const bool near = over_ground_m < standing_raw_m_ + config_.touchdown_height_m + uncertain_m;
+  // Faster by what the carried speed may be wrong, so that the vehicle sinks in any case.
+  const double wrong_m_s =
+      carried ? kCarriedSpeed_m_s2 * std::min(kCarriedLimit_s, last_state_.verticalAge_s(now_)) : 0.0;
+  const double descent_m_s = near ? config_.touchdown_descent_m_s : config_.descent_m_s;
+  moveVertically(-std::numeric_limits<double>::infinity(), descent_m_s + wrong_m_s, height_m);
   const common::Setpoint setpoint = track(tick, follower_.advance(dt_s_));
 
   // If the vehicle is pushed up while the controller wants down, it stands on the ground.
-  const bool rests = setpoint.thrust < config_.touchdown_thrust * position_.thrust().hoverCommand() &&
-                     std::abs(last_state_.velocity_odom_m_s.z()) < kTouchdownSpeed_m_s &&
-                     over_ground_m < standing_raw_m_ + kTouchdownMargin_m;
+  const bool rests =
+      setpoint.thrust < config_.touchdown_thrust * position_.thrust().hoverCommand() &&
+      std::abs(last_state_.velocity_odom_m_s.z()) < (carried ? kCarriedTouchdownSpeed_m_s : kTouchdownSpeed_m_s) &&
+      over_ground_m < standing_raw_m_ + kTouchdownMargin_m + uncertain_m;
   if (!heldFor(rests, config_.touchdown_s)) return setpoint;
   transition(FlightInput::kTouchedDown, fmt::format("{:.2f} m over the ground", over_ground_m));
   common::Setpoint landed;
@@ -208,7 +226,12 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
 
 /// The thrust is the emergency descent's. A horizontal estimate that is still good holds the place.
 common::Setpoint FlightController::descendInEmergency(const FlightTick& tick) {
-  common::Setpoint setpoint = emergency_.tick(now_, dt_s_, position_.thrust());
+  std::optional<VerticalMotion> carried;
+  const double variance = last_state_.velocity_covariance_m2_s2(2, 2);
+  if (tick.inertial_fault.empty() && !tick.fusion_diverged && isFinite(tick.state) &&
+      variance < kCarriedSpeedSigma_m_s * kCarriedSpeedSigma_m_s)
+    carried = VerticalMotion{last_state_.height_above_ground_m, last_state_.velocity_odom_m_s.z()};
+  common::Setpoint setpoint = emergency_.tick(now_, dt_s_, position_.thrust(), carried);
   if (emergency_.touchedDown()) {
     transition(FlightInput::kTouchedDown, "emergency landing ended on the ground");
   } else if (tick.state.horizontal_valid) {
@@ -260,67 +283,6 @@ bool FlightController::heldFor(bool condition, double seconds) {
   }
   if (!condition_since_) condition_since_ = now_;
   return (now_ - *condition_since_).seconds() >= seconds;
-}
-
-void FlightController::watch(const FlightTick& tick) {
-  watchInertial(tick.inertial_fault);
-  const bool vertical = isFinite(tick.state) && tick.state.vertical_valid;
-  if (vertical) {
-    vertical_lost_.reset();
-  } else if (!vertical_lost_) {
-    vertical_lost_ = now_;
-  }
-  if (tick.fusion_diverged && state() == FlightState::kLanded) transition(FlightInput::kEmergency, "fusion diverged");
-  if (!isAirborne(state()) || state() == FlightState::kEmergencyLanding) return;
-  if (tick.fusion_diverged) {
-    transition(FlightInput::kEmergency, "fusion diverged");
-  } else if (vertical_lost_ && (now_ - *vertical_lost_).seconds() >= config_.vertical_loss_s) {
-    transition(FlightInput::kEmergency, fmt::format("no valid height for {:.1f} s", config_.vertical_loss_s));
-  } else if (inertial_lost_ && (now_ - *inertial_lost_).seconds() >= config_.inertial_loss_s) {
-    transition(FlightInput::kEmergency, fmt::format("{} for {:.1f} s", inertial_fault_, config_.inertial_loss_s));
-  } else {
-    watchHorizontal(tick);
-  }
-}
-
-void FlightController::watchInertial(const std::string& fault) {
-  if (fault.empty()) {
-    if (inertial_lost_) say(Severity::kInfo, "inertial samples are good again");
-    inertial_lost_.reset();
-  } else if (!inertial_lost_) {
-    inertial_lost_ = now_;
-    say(Severity::kWarning, "inertial samples cannot be used", fault);
-  }
-  inertial_fault_ = fault;
-}
-
-void FlightController::watchHorizontal(const FlightTick& tick) {
-  if (tick.state.horizontal_valid) {
-    if (horizontal_lost_) {
-      // The present height, not the reference, which may be far away.
-      Eigen::Vector3d here = last_state_.T_odom_body.position_m;
-      here.z() = follower_.reference().position_odom_m.z();
-      follower_.reset(here, common::yawOf(last_state_.T_odom_body.rotation));
-      say(Severity::kInfo, "horizontal estimate is back");
-    }
-    horizontal_lost_.reset();
-    return;
-  }
-  if (!horizontal_lost_) {
-    horizontal_lost_ = now_;
-    follower_.stop();
-    say(Severity::kWarning, "horizontal estimate lost", "holding the velocity");
-  }
-  if (state() != FlightState::kLanding && (now_ - *horizontal_lost_).seconds() >= config_.horizontal_loss_s)
-    transition(FlightInput::kLand, fmt::format("no horizontal estimate for {:.1f} s", config_.horizontal_loss_s));
-}
-
-void FlightController::keepPathInMap(const common::VehicleState& state) {
-  const common::Pose2& now = state.T_map_odom;
-  const bool same = now.x_m == T_map_odom_.x_m && now.y_m == T_map_odom_.y_m && now.yaw_rad == T_map_odom_.yaw_rad;
-  if (same) return;
-  follower_.movePath(now.inverse() * T_map_odom_);
-  T_map_odom_ = now;
 }
 
 void FlightController::transition(FlightInput input, const std::string& reason) {

@@ -97,6 +97,9 @@ class FlightController {
   /// Speed limit of the reactive layer; infinity lifts it.
   void setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
 
+  /// Greatest height over the take-off floor. A take-off to more is refused, and paths stay below.
+  void setMaxHeight(double height_m) { max_height_m_ = height_m; }
+
   common::Setpoint tick(const FlightTick& tick);
 
   common::FlightState state() const { return machine_.state(); }
@@ -157,6 +160,7 @@ class FlightController {
   double standing_height_m_ = 0.0;  ///< Height of the body origin over the take-off floor while standing.
   double standing_raw_m_ = 0.0;     ///< Height that the mirror measures while standing.
   double take_off_height_m_ = 1.0;
+  double max_height_m_;
   double height_reference_m_ = 0.0;  ///< Moved by the controller itself during take-off and landing.
   double climb_reference_m_s_ = 0.0;
   bool lifted_ = false;

@@ -15,11 +15,12 @@ std::optional<double> medianBelow_m(const perception::ProjectedScan& scan) {
   return *middle;
 }
 
-AltitudePipeline::AltitudePipeline(const perception::MultilevelFilter::Config& config)
-    : filter_(config), published_(std::make_shared<common::LevelMap>()) {}
+AltitudePipeline::AltitudePipeline(const perception::MultilevelFilter::Config& config, double hull_radius_m)
+    : filter_(config), hull_radius_m_(hull_radius_m), published_(std::make_shared<common::LevelMap>()) {}
 
 void AltitudePipeline::initialize(common::Time time, double height_m) {
   filter_.initialize(time, Eigen::Vector2d::Zero(), height_m);
+  seen_.stood(Eigen::Vector2d::Zero(), hull_radius_m_, 0.0);
 }
 
 AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const common::Pose2& T_map_body,
@@ -31,6 +32,8 @@ AltitudeStep AltitudePipeline::add(const perception::ProjectedScan& scan, const 
   ground.reserve(scan.mirror.size());
   for (const auto& point : scan.mirror)
     ground.push_back({T_map_body * Eigen::Vector2d(point.x_level_m, point.y_level_m), point.belowBody_m()});
+  for (const perception::GroundPoint& point : ground)
+    seen_.add(point.position_map_m, vertical->height_m - point.distance_below_m);
   const perception::HeightState prior{scan.stamp, vertical->height_m, vertical->velocity_m_s, vertical->covariance};
   const auto update = filter_.update(scan.stamp, T_map_body.position_m(), ground, prior);
   if (update.height_above_ground_m) surface_height_m_ = vertical->height_m - *update.height_above_ground_m;

@@ -11,6 +11,7 @@
 #include "common/level_map.hpp"
 #include "common/time.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
+#include "perception/altitude/seen_surfaces.hpp"
 #include "perception/fusion/error_state_filter.hpp"
 #include "perception/projection/scan_projection.hpp"
 
@@ -29,7 +30,7 @@ struct AltitudeStep {
 /// One thread.
 class AltitudePipeline {
  public:
-  explicit AltitudePipeline(const perception::MultilevelFilter::Config& config);
+  AltitudePipeline(const perception::MultilevelFilter::Config& config, double hull_radius_m);
 
   /// Starts with the vehicle standing at the origin of the map, and its body `height_m` above the take-off floor.
   void initialize(common::Time time, double height_m);
@@ -41,11 +42,15 @@ class AltitudePipeline {
   /// Height of the surface directly below, table or floor, over the take-off floor, at the last scan that saw it; zero
   /// before the first.
   double surfaceHeight_m() const { return surface_height_m_; }
+  /// Every surface that was seen, also those that are no level.
+  common::LevelMap seenSurfaces() const { return seen_.surfaces(); }
   /// Never null; the same object until a level changes.
   std::shared_ptr<const common::LevelMap> levels();
 
  private:
   perception::MultilevelFilter filter_;
+  perception::SeenSurfaces seen_;
+  double hull_radius_m_;
   double surface_height_m_ = 0.0;
   std::uint64_t published_version_ = 0;
   std::shared_ptr<const common::LevelMap> published_;

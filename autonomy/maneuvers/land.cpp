@@ -1,14 +1,87 @@
 #include "autonomy/maneuvers/land.hpp"
 
-namespace swiftlet::autonomy {
+#include <fmt/format.h>
 
-Land::Land(const common::LandIntent&, const ManeuverSetup& setup) : controller_(setup.controller) {
-  if (control::isAirborne(controller_.state())) commanded_ = controller_.command(control::Land{});
+#include "planning/costs/landing_place.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+constexpr double kStopping_s = 1.5;
+/// Nearer than this the place is reached: the margin of the place is larger.
+constexpr double kTolerance_m = 0.08;
+/// Time for the flight of at most LandingNeeds::reach_m at careful speed, a plan and an arrival.
+constexpr double kApproach_s = 15.0;
+
+}  // namespace
+
+using common::FlightState;
+using common::Severity;
+using common::Time;
+
+Land::Land(const common::LandIntent&, const ManeuverSetup& setup)
+    : setup_(setup), flight_(setup, common::FlightMode::kCareful) {}
+
+Progress Land::step(const ManeuverInput& input) {
+  if (!since_) since_ = input.now;
+  if (!control::isAirborne(setup_.controller.state())) return Progress::done("on the ground");
+  if (setup_.controller.state() != FlightState::kFlying) {
+    if (!descends_) descend(input.now, {});
+    return commanded_ ? Progress::running() : Progress::failed(commanded_.error());
+  }
+  if (!place_map_m_ && !descends_) choose(input);
+  if (place_map_m_ && !descends_ && !approaches(input)) descend(input.now, {});
+  return commanded_ ? Progress::running() : Progress::failed(commanded_.error());
 }
 
-Progress Land::step(const ManeuverInput&) {
-  if (!commanded_) return Progress::failed(commanded_.error());
-  return control::isAirborne(controller_.state()) ? Progress::running() : Progress::done("on the ground");
+/// A place is chosen where the vehicle stops. Without a position it is where the vehicle is.
+void Land::choose(const ManeuverInput& input) {
+  const auto cost_map = setup_.desk.costMap();
+  const bool knows = input.state.horizontal_valid && input.surfaces && !input.surfaces->levels.empty() && cost_map;
+  if (!knows || setup_.retreat.active()) return descend(input.now, {});
+  if (!setup_.controller.stopped() && (input.now - *since_).seconds() < kStopping_s) return;
+
+  planning::LandingNeeds needs;
+  needs.hull_radius_m = cost_map->footprint().hull_radius_m;
+  const Eigen::Vector2d here_map_m = input.position_map_m();
+  place_map_m_ = planning::landingPlace(*cost_map, *input.surfaces, here_map_m, needs);
+  if (!place_map_m_)
+    return descend(input.now, fmt::format("no level place for the hull is known within {:.0f} m", needs.reach_m));
+  const double distance_m = (*place_map_m_ - here_map_m).norm();
+  if (distance_m > kTolerance_m)
+    setup_.memory.say(input.now, Severity::kInfo,
+                      fmt::format("landing at ({:.2f}, {:.2f})", place_map_m_->x(), place_map_m_->y()),
+                      fmt::format("the surface here is not level, {:.1f} m aside it is", distance_m));
+}
+
+/// False when the flight to the place is over.
+bool Land::approaches(const ManeuverInput& input) {
+  if ((*place_map_m_ - input.position_map_m()).norm() < kTolerance_m && setup_.controller.stopped()) return false;
+  const bool late = (input.now - *since_).seconds() > kApproach_s;
+  if (late || !input.state.horizontal_valid || !no_path_.empty()) {
+    descend(input.now, "the level place was not reached" + (no_path_.empty() ? "" : ": " + no_path_));
+    return true;
+  }
+  if (setup_.retreat.active()) return true;
+  if (flight_.keep(input) && flight_.mayAsk()) flight_.ask(input, GoalRequest{*place_map_m_, kTolerance_m});
+  return true;
+}
+
+Progress Land::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
+  if (!answer.path || descends_) return Progress::running();
+  if (*answer.path)
+    flight_.offer(**answer.path, now, state);
+  else
+    no_path_ = answer.path->error().text;
+  return Progress::running();
+}
+
+/// Where the vehicle is; `reason` says why not at a better place.
+void Land::descend(Time now, const std::string& reason) {
+  descends_ = true;
+  if (!reason.empty()) setup_.memory.say(now, Severity::kWarning, "landing where it is", reason);
+  if (setup_.controller.state() != FlightState::kLanding && setup_.controller.state() != FlightState::kEmergencyLanding)
+    commanded_ = setup_.controller.command(control::Land{});
 }
 
 }  // namespace swiftlet::autonomy

@@ -1,11 +1,19 @@
-// Land: lands where the vehicle is; done when it stands on the ground. In the air it cannot fail.
+// Land: done when the vehicle stands on the ground. In the air it cannot fail.
+//
+//   stop --> choose a place --> fly there --> descend
+//             |  none, or no position      ^ or where it is, if it does not get there
+//             +----------------------------+
+//
+// The place is the nearest one where the hull stands on one level, clear of the edges of tables and steps
+// (planning/costs/landing_place.hpp).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <tl/expected.hpp>
 
-#include "autonomy/maneuvers/maneuver.hpp"
+#include "autonomy/maneuvers/path_flight.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -13,10 +21,22 @@ class Land final : public Maneuver {
  public:
   Land(const common::LandIntent& intent, const ManeuverSetup& setup);
   Progress step(const ManeuverInput& input) override;
+  Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
+  std::optional<Eigen::Vector2d> goal_map_m() const override { return place_map_m_; }
+  const PathFlight* path() const override { return &flight_; }
 
  private:
-  control::FlightController& controller_;
+  void choose(const ManeuverInput& input);
+  bool approaches(const ManeuverInput& input);
+  void descend(common::Time now, const std::string& reason);
+
+  ManeuverSetup setup_;
+  PathFlight flight_;
   tl::expected<void, std::string> commanded_;
+  std::optional<common::Time> since_;  ///< When the landing began.
+  bool descends_ = false;
+  std::optional<Eigen::Vector2d> place_map_m_;  ///< Where it flies to; none before it is chosen.
+  std::string no_path_;                         ///< Why there is no path to the place; empty if there is one.
 };
 
 }  // namespace swiftlet::autonomy

@@ -19,7 +19,9 @@ struct ManeuverInput {
   common::VehicleState state;
   std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null; a snapshot that is not written to any more.
   std::shared_ptr<const common::LevelMap> levels;     ///< May be null.
-  std::vector<common::Disc> discs;                    ///< Present and predicted places of people, in `map`.
+  /// Every surface that was seen below, for landing; null while no landing is wanted.
+  std::shared_ptr<const common::LevelMap> surfaces;
+  std::vector<common::Disc> discs;  ///< Present and predicted places of people, in `map`.
   bool anybody_walks = false;
   const planning::AvoidanceDecision& avoidance;
 

@@ -26,12 +26,14 @@ namespace swiftlet::autonomy {
 using common::FlightState;
 using common::MissionState;
 
-/// A vehicle with a hook on its sensor events. The hook may change an event, or drop it (false).
+/// A vehicle with a hook on its sensor events and one on its setpoints. The hook may change an event, or drop it
+/// (false).
 class HandledVehicle final : public common::Vehicle {
  public:
   using Hand = std::function<bool(common::SensorEvent&)>;
   /// Refers to both arguments.
-  HandledVehicle(common::Vehicle& vehicle, const Hand& hand) : vehicle_(vehicle), hand_(hand) {}
+  HandledVehicle(common::Vehicle& vehicle, const Hand& hand, const double& thrust_share)
+      : vehicle_(vehicle), hand_(hand), thrust_share_(thrust_share) {}
 
   common::Time now() const override { return vehicle_.now(); }
   bool advanceTo(common::Time time, std::vector<common::SensorEvent>& events) override {
@@ -39,12 +41,17 @@ class HandledVehicle final : public common::Vehicle {
     std::erase_if(events, [this](common::SensorEvent& event) { return !hand_(event); });
     return alive;
   }
-  void apply(const common::Setpoint& setpoint) override { vehicle_.apply(setpoint); }
+  void apply(const common::Setpoint& setpoint) override {
+    common::Setpoint weaker = setpoint;
+    weaker.thrust *= thrust_share_;
+    vehicle_.apply(weaker);
+  }
   std::string stopReason() const override { return vehicle_.stopReason(); }
 
  private:
   common::Vehicle& vehicle_;
   const Hand& hand_;
+  const double& thrust_share_;
 };
 
 class AutonomyStory {
@@ -55,6 +62,7 @@ class AutonomyStory {
         autonomy_({}, vehicle_.scenario().vehicle, vehicle_.scenario().laser, mission(leaves),
                   common::makeLockstepJobs(0)) {}
 
+  double thrust_share = 1.0;  ///< Of each commanded thrust that reaches the motors.
   /// Is called with every sensor event before the autonomy gets it; false drops the event.
   HandledVehicle::Hand hand = [](common::SensorEvent&) { return true; };
 
@@ -132,7 +140,7 @@ class AutonomyStory {
   };
 
   simulation::SimulatedVehicle vehicle_;
-  HandledVehicle handled_{vehicle_, hand};
+  HandledVehicle handled_{vehicle_, hand, thrust_share};
   Autonomy autonomy_;
   common::LosslessQueue<common::OperatorCommand> commands_;
   Listener listener_{*this};

@@ -265,5 +265,26 @@ TEST(Autonomy, ALaserThatRepeatsItsScanIsASilentOne) {
   EXPECT_THAT(land->reason, HasSubstr("no scan"));
 }
 
+TEST(Autonomy, AVehicleThatSinksDoesNotMoveTheSliceOfTheMap) {
+  AutonomyStory story(kAcross);
+  ASSERT_TRUE(story.isFlying());
+  ASSERT_TRUE(story.fly(3.0));
+  EXPECT_NEAR(story.autonomy().mapHeight_m(), 1.0, 0.01);
+  story.thrust_share = 0.55;
+  const auto height_m = [&] { return story.world().vehicle->state.T_odom_body.position_m.z(); };
+  ASSERT_TRUE(story.until([&] { return height_m() < 0.75; }, 5.0));
+  EXPECT_EQ(story.world().vehicle->flight_state, FlightState::kFlying);
+  EXPECT_NEAR(story.autonomy().mapHeight_m(), 1.0, 0.01);
+}
+
+TEST(Autonomy, ATakeOffAboveTheVehiclesGreatestHeightFailsUnlessTheMissionAllowsIt) {
+  AutonomyStory high(R"(<TakeOff height_m="2.2"/><Land/>)");
+  ASSERT_TRUE(high.until([&] { return high.autonomy().missionStatus().state == MissionState::kFailed; }, 10.0));
+  EXPECT_THAT(high.autonomy().missionStatus().reason, HasSubstr("above the greatest height, 2.00 m"));
+  EXPECT_TRUE(high.autonomy().finished());
+  AutonomyStory allowed(R"(<TakeOff height_m="2.2" max_height_m="2.3"/><Land/>)");
+  EXPECT_TRUE(allowed.isFlying());
+}
+
 }  // namespace
 }  // namespace swiftlet::autonomy

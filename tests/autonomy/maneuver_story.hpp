@@ -109,7 +109,8 @@ class ManeuverStory : public testing::Test {
   }
 
   ManeuverInput input() {
-    return {now_,           state_,   std::make_shared<const common::OccupancyGrid>(grid_.snapshot()), nullptr, discs_,
+    return {now_,           state_,    std::make_shared<const common::OccupancyGrid>(grid_.snapshot()),
+            nullptr,        surfaces_, discs_,
             anybody_walks_, decision_};
   }
 
@@ -117,6 +118,7 @@ class ManeuverStory : public testing::Test {
   control::FlightController controller_{{}, {}};
   common::VehicleState state_;
   common::OccupancyGrid grid_ = planning::test::room(160, 80);  ///< 8 m by 4 m.
+  std::shared_ptr<const common::LevelMap> surfaces_;
   std::vector<common::Disc> discs_;
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;

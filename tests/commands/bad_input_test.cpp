@@ -116,11 +116,12 @@ TEST_F(BadInput, AMissionThatNeverTakesOffIsRefused) {
 }
 
 TEST_F(BadInput, AMissionThatTheSystemCannotFlyIsRefused) {
-  const std::string system = write("low.yaml", "autonomy:\n  max_height_m: 0.8\n");
+  write("low_cobra.yaml", "max_height_m: 0.8\n");
+  const std::string system = write("low.yaml", "vehicle: low_cobra.yaml\n");
   const std::string says = "hop\\.xml:4:16: TakeOff\\.height_m: 1 m is above the greatest height, 0\\.8 m";
   expectRefused(runSwiftlet({"check", hop(), "--system", system}), says);
   expectRefused(fly({"--headless", hop(), "--system", system}), says);
-  EXPECT_EQ(runSwiftlet({"check", hop()}).exit_code, 0) << "the default profile flies it";
+  EXPECT_EQ(runSwiftlet({"check", hop()}).exit_code, 0) << "the default vehicle flies it";
   const std::string trial =
       write("high.yaml", "mission: " + hop() + "\nsystem: " + system + "\nscenario: {world: worlds/unb_case1.sdf}\n");
   expectRefused(runSwiftlet({"trial", trial, "--out", path("run")}), says);

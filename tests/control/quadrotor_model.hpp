@@ -92,6 +92,7 @@ struct QuadrotorModel {
     state.velocity_covariance_m2_s2 *= velocity_sigma_m_s * velocity_sigma_m_s;
     state.height_above_ground_m = position_m.z() - floor_m;
     state.horizontal_valid = state.vertical_valid = true;
+    state.horizontal_supported = state.vertical_supported = now;
     return state;
   }
 

@@ -23,6 +23,49 @@ TEST_F(LandManeuver, SucceedsEveryTimeOnTheGround) {
   EXPECT_EQ(runToTheEnd(0.1), IntentState::kSucceeded);
 }
 
+/// A floor that was seen along a strip through the room, up to the edge of a platform at x = 2 m.
+std::shared_ptr<const common::LevelMap> edgeAt2() {
+  auto levels = std::make_shared<common::LevelMap>();
+  levels->levels = {{0, 0.0, 1e-4, {}}, {1, 0.2, 1e-4, {}}};
+  for (int x = 2; x < 26; ++x)
+    for (int y = 18; y < 22; ++y) levels->levels[x < 20 ? 0 : 1].cells.push_back({x, y});
+  return levels;
+}
+
+TEST_F(LandManeuver, FliesAwayFromAnEdgeBeforeItDescends) {
+  want(to(2.05, 2.0));
+  ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+  surfaces_ = edgeAt2();
+  want(common::LandIntent{});
+  ASSERT_EQ(runToTheEnd(25.0), IntentState::kSucceeded);
+  EXPECT_LT(position_m().x(), 2.0 - 0.275) << "the hull is off the edge";
+  EXPECT_GT(position_m().x(), 1.2);
+  EXPECT_EQ(timesSaid("landing at"), 1);
+  EXPECT_EQ(timesSaid("landing where it is"), 0);
+}
+
+TEST_F(LandManeuver, LandsWhereItIsIfNoLevelPlaceIsKnown) {
+  want(to(6.0, 2.0));
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  auto levels = std::make_shared<common::LevelMap>();
+  levels->levels = {{0, 0.0, 1e-4, {{60, 20}}}, {1, 0.2, 1e-4, {{61, 20}}}};
+  surfaces_ = levels;
+  want(common::LandIntent{});
+  ASSERT_EQ(runToTheEnd(15.0), IntentState::kSucceeded);
+  EXPECT_LT(distanceTo_m({6.0, 2.0}), 0.1);
+  EXPECT_EQ(reasonOf("landing where it is"), "no level place for the hull is known within 4 m");
+}
+
+TEST_F(LandManeuver, WithoutAPositionItDescendsAtOnce) {
+  want(to(2.05, 2.0));
+  ASSERT_EQ(runToTheEnd(10.0), IntentState::kSucceeded);
+  surfaces_ = edgeAt2();
+  state_.horizontal_valid = false;
+  want(common::LandIntent{});
+  run(0.2);
+  EXPECT_EQ(controller_.state(), FlightState::kLanding);
+}
+
 TEST_F(LandManeuver, EndsARetreat) {
   retreat({-0.5, 0.0});
   run(0.5);

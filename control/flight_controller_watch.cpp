@@ -1,0 +1,73 @@
+// What the flight controller does about an estimate that can be used no longer.
+#include <fmt/core.h>
+
+#include "control/flight_controller.hpp"
+#include "control/usable_state.hpp"
+
+namespace swiftlet::control {
+
+using common::FlightState;
+using common::Severity;
+
+void FlightController::watch(const FlightTick& tick) {
+  watchInertial(tick.inertial_fault);
+  const bool vertical = isFinite(tick.state) && tick.state.vertical_valid;
+  if (vertical) {
+    vertical_lost_.reset();
+  } else if (!vertical_lost_) {
+    vertical_lost_ = now_;
+  }
+  if (tick.fusion_diverged && state() == FlightState::kLanded) transition(FlightInput::kEmergency, "fusion diverged");
+  if (!isAirborne(state()) || state() == FlightState::kEmergencyLanding) return;
+  if (tick.fusion_diverged) {
+    transition(FlightInput::kEmergency, "fusion diverged");
+  } else if (vertical_lost_ && (now_ - *vertical_lost_).seconds() >= config_.vertical_loss_s) {
+    transition(FlightInput::kEmergency, fmt::format("no valid height for {:.1f} s", config_.vertical_loss_s));
+  } else if (inertial_lost_ && (now_ - *inertial_lost_).seconds() >= config_.inertial_loss_s) {
+    transition(FlightInput::kEmergency, fmt::format("{} for {:.1f} s", inertial_fault_, config_.inertial_loss_s));
+  } else {
+    watchHorizontal(tick);
+  }
+}
+
+void FlightController::watchInertial(const std::string& fault) {
+  if (fault.empty()) {
+    if (inertial_lost_) say(Severity::kInfo, "inertial samples are good again");
+    inertial_lost_.reset();
+  } else if (!inertial_lost_) {
+    inertial_lost_ = now_;
+    say(Severity::kWarning, "inertial samples cannot be used", fault);
+  }
+  inertial_fault_ = fault;
+}
+
+void FlightController::watchHorizontal(const FlightTick& tick) {
+  if (tick.state.horizontal_valid) {
+    if (horizontal_lost_) {
+      // The present height, not the reference, which may be far away.
+      Eigen::Vector3d here = last_state_.T_odom_body.position_m;
+      here.z() = follower_.reference().position_odom_m.z();
+      follower_.reset(here, common::yawOf(last_state_.T_odom_body.rotation));
+      say(Severity::kInfo, "horizontal estimate is back");
+    }
+    horizontal_lost_.reset();
+    return;
+  }
+  if (!horizontal_lost_) {
+    horizontal_lost_ = now_;
+    follower_.stop();
+    say(Severity::kWarning, "horizontal estimate lost", "holding the velocity");
+  }
+  if (state() != FlightState::kLanding && (now_ - *horizontal_lost_).seconds() >= config_.horizontal_loss_s)
+    transition(FlightInput::kLand, fmt::format("no horizontal estimate for {:.1f} s", config_.horizontal_loss_s));
+}
+
+void FlightController::keepPathInMap(const common::VehicleState& state) {
+  const common::Pose2& now = state.T_map_odom;
+  const bool same = now.x_m == T_map_odom_.x_m && now.y_m == T_map_odom_.y_m && now.yaw_rad == T_map_odom_.yaw_rad;
+  if (same) return;
+  follower_.movePath(now.inverse() * T_map_odom_);
+  T_map_odom_ = now;
+}
+
+}  // namespace swiftlet::control

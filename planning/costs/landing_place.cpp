@@ -1,0 +1,135 @@
+#include "planning/costs/landing_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace swiftlet::planning {
+namespace {
+
+using common::CellIndex;
+using Eigen::Vector2d;
+
+constexpr double kUnseen_m = std::numeric_limits<double>::quiet_NaN();
+
+/// The heights of the highest surfaces below, on the levels' own cells around a place.
+class SurfaceWindow {
+ public:
+  SurfaceWindow(const common::LevelMap& levels, const Vector2d& center_map_m, double half_m)
+      : resolution_m_(levels.resolution_m),
+        begin_{static_cast<int>(std::floor((center_map_m.x() - half_m) / resolution_m_)),
+               static_cast<int>(std::floor((center_map_m.y() - half_m) / resolution_m_))},
+        side_(static_cast<int>(std::ceil(2.0 * half_m / resolution_m_)) + 1),
+        heights_m_(static_cast<std::size_t>(side_) * side_, kUnseen_m) {
+    for (const common::Level& level : levels.levels)
+      for (const CellIndex cell : level.cells)
+        if (contains(cell)) {
+          double& height_m = heights_m_[indexOf(cell)];
+          if (!(height_m >= level.height_m)) height_m = level.height_m;
+        }
+  }
+
+  double heightAt(const Vector2d& place_map_m) const { return heightOf(cellAt(place_map_m)); }
+
+  /// Whether a disc lies on one surface of that height, as far as it was seen; `across_m` is the extent of what was.
+  bool isLevel(const Vector2d& center_map_m, double radius_m, double height_m, double step_m, double& across_m) const {
+    const CellIndex center = cellAt(center_map_m);
+    const int reach = static_cast<int>(std::ceil(radius_m / resolution_m_)) + 1;
+    Vector2d least = center_map_m, most = center_map_m;
+    for (int y = center.y - reach; y <= center.y + reach; ++y) {
+      for (int x = center.x - reach; x <= center.x + reach; ++x) {
+        const double seen_m = heightOf({x, y});
+        if (std::isnan(seen_m)) continue;
+        // By the nearest point of the cell: a surface begins somewhere in it.
+        const Vector2d low(x * resolution_m_, y * resolution_m_), high = low.array() + resolution_m_;
+        if ((center_map_m.cwiseMax(low).cwiseMin(high) - center_map_m).norm() > radius_m) continue;
+        if (std::abs(seen_m - height_m) > step_m) return false;
+        least = least.cwiseMin(low);
+        most = most.cwiseMax(high);
+      }
+    }
+    across_m = (most - least).maxCoeff();
+    return true;
+  }
+
+ private:
+  bool contains(CellIndex c) const {
+    return c.x >= begin_.x && c.x < begin_.x + side_ && c.y >= begin_.y && c.y < begin_.y + side_;
+  }
+  std::size_t indexOf(CellIndex c) const {
+    return static_cast<std::size_t>(c.y - begin_.y) * side_ + static_cast<std::size_t>(c.x - begin_.x);
+  }
+  double heightOf(CellIndex c) const { return contains(c) ? heights_m_[indexOf(c)] : kUnseen_m; }
+  CellIndex cellAt(const Vector2d& p) const {
+    return {static_cast<int>(std::floor(p.x() / resolution_m_)), static_cast<int>(std::floor(p.y() / resolution_m_))};
+  }
+
+  double resolution_m_;
+  CellIndex begin_;
+  int side_;
+  std::vector<double> heights_m_;
+};
+
+/// The length of the flight to a place, with what a raised surface adds; nullopt where the vehicle cannot stand.
+std::optional<double> costOf(const SurfaceWindow& surfaces, const Vector2d& place_map_m, double length_m,
+                             const LandingNeeds& needs) {
+  const double height_m = surfaces.heightAt(place_map_m);
+  if (std::isnan(height_m)) return std::nullopt;
+  double across_m = 0.0;
+  if (!surfaces.isLevel(place_map_m, needs.hull_radius_m + needs.margin_m, height_m, needs.step_m, across_m))
+    return std::nullopt;
+  const bool raised = height_m >= needs.step_m, unseen = across_m < 2.0 * needs.hull_radius_m;
+  if (raised && unseen) return std::nullopt;
+  return length_m + (raised ? needs.upper_cost_m : 0.0) + (unseen ? needs.unseen_cost_m : 0.0);
+}
+
+}  // namespace
+
+std::optional<Vector2d> landingPlace(const CostMap& map, const common::LevelMap& levels, const Vector2d& from_map_m,
+                                     const LandingNeeds& needs) {
+  const CellIndex start = map.cellAt(from_map_m);
+  if (!map.contains(start) || levels.levels.empty()) return std::nullopt;
+  const SurfaceWindow surfaces(levels, from_map_m, needs.reach_m + needs.hull_radius_m + needs.margin_m);
+
+  // Dijkstra by length. Where the vehicle is already it may be nearer to an obstacle than a plan would go.
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  std::vector<double> length_m(map.size(), std::numeric_limits<double>::infinity());
+  std::vector<bool> closed(map.size(), false);
+  const auto reach = [&](CellIndex cell, double to_m) {
+    if (!map.contains(cell)) return;
+    const int index = map.indexOf(cell);
+    const bool escapes = to_m <= needs.hull_radius_m && map.state(index) == CellState::kFree;
+    if ((map.isLethal(index) && !escapes && cell != start) || to_m > needs.reach_m) return;
+    if (to_m >= length_m[static_cast<std::size_t>(index)]) return;
+    length_m[static_cast<std::size_t>(index)] = to_m;
+    open.emplace(to_m, index);
+  };
+  reach(start, 0.0);
+
+  std::optional<Vector2d> best;
+  double best_m = std::numeric_limits<double>::infinity();
+  while (!open.empty()) {
+    const auto [here_m, index] = open.top();
+    open.pop();
+    if (here_m >= best_m) break;
+    if (closed[static_cast<std::size_t>(index)]) continue;
+    closed[static_cast<std::size_t>(index)] = true;
+    const CellIndex cell = map.cellOf(index);
+    const Vector2d place = cell == start ? from_map_m : map.centerOf(cell);
+    const auto cost_m = costOf(surfaces, place, here_m, needs);
+    if (cost_m && *cost_m < best_m && (!map.isLethal(index) || cell == start)) {
+      best = place;
+      best_m = *cost_m;
+    }
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if (dx != 0 || dy != 0) reach({cell.x + dx, cell.y + dy}, here_m + std::hypot(dx, dy) * map.resolution_m());
+  }
+  return best;
+}
+
+}  // namespace swiftlet::planning

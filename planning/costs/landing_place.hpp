@@ -1,0 +1,32 @@
+// Where the vehicle can set down: the surfaces below are known only along the flown trail, from the beams that look
+// down, and the edge of a table or a step beside the place tips the vehicle over.
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "common/level_map.hpp"
+#include "planning/costs/cost_map.hpp"
+
+namespace swiftlet::planning {
+
+struct LandingNeeds {
+  double hull_radius_m = 0.275;
+  double margin_m = 0.15;     ///< Between the hull and the nearest surface of another height.
+  double step_m = 0.06;       ///< Surfaces whose heights differ by less are one floor, for the noise of the heights.
+  double reach_m = 4.0;       ///< Greatest length of the flight to the place.
+  double upper_cost_m = 1.5;  ///< A raised surface is chosen only if the floor is farther away by this path length.
+  /// The end of the trail, beyond which nothing was seen, is chosen only if floor that was seen across the hull is
+  /// farther away by this path length.
+  double unseen_cost_m = 1.0;
+};
+
+/// `levels` are the surfaces that were seen; a cell may be in several of them.
+/// The place nearest to `from_map_m`, by a path through free cells of `map`, where the surface below was seen, and
+/// where no surface of another height was seen within the hull's radius and the margin. A surface above the take-off
+/// floor must have been seen across the whole hull. nullopt without such a place within reach.
+std::optional<Eigen::Vector2d> landingPlace(const CostMap& map, const common::LevelMap& levels,
+                                            const Eigen::Vector2d& from_map_m, const LandingNeeds& needs);
+
+}  // namespace swiftlet::planning
