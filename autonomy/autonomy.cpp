@@ -78,7 +78,8 @@ void Autonomy::take(const common::SensorEvent& event) {
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     if (!supervisor_.batteryArrived(arrived, *battery)) return;
     battery_v_ = battery->voltage_v;
-    energy_monitor_.add(*battery, control::isAirborne(controller_.state()), controller_.thrustMargin());
+    energy_monitor_.add(*battery, control::isAirborne(controller_.state()), controller_.thrustMargin(),
+                        estimator_.state().velocity_odom_m_s.head<2>().norm());
   } else if (const auto* pilot = std::get_if<common::PilotSample>(&event)) {
     supervisor_.pilotArrived(arrived, pilot->takes_over);
   }
@@ -207,7 +208,8 @@ void Autonomy::tickBehaviors(Time now) {
   if (std::holds_alternative<common::LandIntent>(intent_.kind) && controller_.state() == FlightState::kFlying)
     surfaces = std::make_shared<common::LevelMap>(estimator_.seenSurfaces());
   executor_.tick(intent_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(), std::move(surfaces),
-                           estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision()});
+                           estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(), drift_m_,
+                           supervisor_.takeOffRefusal(energy_)});
 }
 
 /// The supervisor's intent comes before the mission's.
@@ -247,14 +249,19 @@ common::Intent Autonomy::nextIntent(Time now) {
   return context_.intent.value_or(common::Intent{});
 }
 
-/// The flight home begins when the vehicle has stopped for it. At its end the vehicle holds.
+/// The flight home begins when the vehicle has stopped for it. Where no path is known it is the whole trail. At its end
+/// the vehicle holds.
 common::Intent Autonomy::intentHome(unsigned number, Time now) {
-  common::GoToIntent home;
-  home.goal_map_m = world_->vehicle->home_map.position_m();
-  home.clearance_m = config_.execution.clearance_m;
-  const common::Intent intent{kSupervisorHome + number - 1, home};
+  const std::uint64_t id = kSupervisorHome + number - 1;
   const common::IntentStatus& status = executor_.status();
-  if (status.id != intent.id || status.state == common::IntentState::kRunning) return intent;
+  if (status.id != id) {
+    if (!executor_.desk().home_m()) return {id, common::RetraceIntent{trailBack_map_m(), std::nullopt}};
+    common::GoToIntent home;
+    home.goal_map_m = world_->vehicle->home_map.position_m();
+    home.clearance_m = config_.execution.clearance_m;
+    return {id, home};
+  }
+  if (status.state == common::IntentState::kRunning) return intent_;
   supervisor_.homeEnded(now, status.state == common::IntentState::kSucceeded, status.reason);
   return {kSupervisorHold, common::HoldIntent{}};
 }
@@ -263,13 +270,15 @@ common::Intent Autonomy::intentHome(unsigned number, Time now) {
 common::Intent Autonomy::intentBack(unsigned number, common::Time now) {
   const std::uint64_t id = kSupervisorBack + number - 1;
   const common::IntentStatus& status = executor_.status();
-  if (status.id != id) {
-    const auto trail_map_m = world_->vehicle->trail.points_map_m();
-    return {id, common::RetraceIntent{{trail_map_m.rbegin(), trail_map_m.rend()}, wanted_to_see_map_m_}};
-  }
+  if (status.id != id) return {id, common::RetraceIntent{trailBack_map_m(), wanted_to_see_map_m_}};
   if (status.state == common::IntentState::kRunning) return intent_;
   supervisor_.backEnded(now);
   return {kSupervisorHold, common::HoldIntent{}};
+}
+
+std::vector<Eigen::Vector2d> Autonomy::trailBack_map_m() const {
+  const auto trail_map_m = world_->vehicle->trail.points_map_m();
+  return {trail_map_m.rbegin(), trail_map_m.rend()};
 }
 
 VehicleCondition Autonomy::condition(common::Time now) const {
@@ -278,6 +287,7 @@ VehicleCondition Autonomy::condition(common::Time now) const {
   condition.energy = energy_;
   condition.vertical_age_s = estimator_.state().verticalAge_s(now);
   condition.drift_m = drift_m_;
+  if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.wallsAround(estimator_.state());
   return condition;
 }
 
@@ -309,7 +319,13 @@ void Autonomy::takeSnapshot(Time now) {
                estimator_.localization()};
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
-  energy_ = energy_monitor_.layer(executor_.desk().home_m(), config_.supervisor.battery_land_share,
+  WayHome home{executor_.desk().home_m(), 0.0, 0.0};
+  if (world_) {
+    home.straight_m =
+        (parts.vehicle.state.T_map_body_planar().position_m() - world_->vehicle->home_map.position_m()).norm();
+    home.flown_m = world_->vehicle->distance_flown_m;
+  }
+  energy_ = energy_monitor_.layer(home, config_.supervisor.battery_land_share,
                                   kLandingMargin + config_.supervisor.least_thrust_margin);
   parts.energy = energy_;
   world_ = world_builder_.build(now, std::move(parts));

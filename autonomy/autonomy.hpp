@@ -109,6 +109,7 @@ class Autonomy {
   common::Intent nextIntent(common::Time now);
   common::Intent intentHome(unsigned number, common::Time now);
   common::Intent intentBack(unsigned number, common::Time now);
+  std::vector<Eigen::Vector2d> trailBack_map_m() const;
   VehicleCondition condition(common::Time now) const;
   bool missionOver() const { return common::isOver(mission_status_.state); }
   void tickMission();

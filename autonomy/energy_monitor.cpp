@@ -34,7 +34,7 @@ EnergyMonitor::EnergyMonitor(const EnergyConfig& config, const common::VehicleCo
       curve_(vehicle),
       voltage_exponent_(voltage_exponent) {}
 
-void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, double thrust_margin) {
+void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, double thrust_margin, double speed_m_s) {
   thrust_margin_ = thrust_margin;
   const double dt_s = last_ ? std::max(0.0, (sample.stamps.measured - last_->stamps.measured).seconds()) : 0.0;
   const double power_w = sample.voltage_v * sample.current_a;
@@ -53,23 +53,26 @@ void EnergyMonitor::add(const common::BatterySample& sample, bool airborne, doub
     voltage_v_ = smoothed(voltage_v_, sample.voltage_v, dt_s, config_.power_filter_s);
     drawn_as_ += sample.current_a * dt_s;
   }
+  if (airborne) current_model_.add(sample.current_a, speed_m_s, dt_s);
   last_ = sample;
 }
 
 void EnergyMonitor::followed(double speed_m_s, double dt_s) {
-  if (std::isfinite(speed_m_s))
-    home_speed_m_s_ = smoothed(home_speed_m_s_, speed_m_s, dt_s, config_.home_speed_filter_s);
+  if (!std::isfinite(speed_m_s)) return;
+  // Exploring stops and turns at every viewpoint, a path home does not: a mean would be too slow. This follows the
+  // quantile: it rests where the speed is exceeded in a share of 1 - kCruise of the time.
+  constexpr double kCruise = 0.7, kRange_m_s = 0.5;
+  const double step_m_s = kRange_m_s * std::min(1.0, dt_s / config_.home_speed_filter_s);
+  home_speed_m_s_ += speed_m_s > home_speed_m_s_ ? kCruise * step_m_s : (kCruise - 1.0) * step_m_s;
 }
 
-/// Share of the full battery a second.
-double EnergyMonitor::consumption_1_s() const {
+/// As the fuel gauge has shown it in this flight; before that, as believed.
+double EnergyMonitor::capacity_as() const {
   const double drop = last_ ? remaining_at_take_off_ - last_->remaining : 0.0;
-  const double capacity_as = drop > kTellingDrop && drawn_as_ > 0.0 ? drawn_as_ / drop : capacity_as_;
-  return current_a_ / capacity_as;
+  return drop > kTellingDrop && drawn_as_ > 0.0 ? drawn_as_ / drop : capacity_as_;
 }
 
-common::EnergyLayer EnergyMonitor::layer(const std::optional<double>& home_m, double land_share,
-                                         double least_margin) const {
+common::EnergyLayer EnergyMonitor::layer(const WayHome& home, double land_share, double least_margin) const {
   common::EnergyLayer layer;
   if (!last_) return layer;
   layer.battery_voltage_v = last_->voltage_v;
@@ -80,13 +83,21 @@ common::EnergyLayer EnergyMonitor::layer(const std::optional<double>& home_m, do
   if (flown_)
     layer.land_share = std::max(
         land_share, curve_.chargeAtMargin({last_->remaining, voltage_v_, margin_}, least_margin, voltage_exponent_));
-  layer.home_m = home_m;
-  const double consumption = consumption_1_s();
-  if (!flown_ || !(consumption > 0.0)) return layer;
-  layer.seconds_left = std::max(0.0, last_->remaining - layer.land_share) / consumption;
-  constexpr double kLeast_m_s = 0.1;
-  if (home_m) layer.home_share = consumption * (*home_m / std::max(kLeast_m_s, home_speed_m_s_) + config_.home_stops_s);
+  if (!flown_ || !(current_a_ > 0.0)) return layer;
+  layer.seconds_left = std::max(0.0, last_->remaining - layer.land_share) * capacity_as() / current_a_;
+  tellHome(home, layer);
   return layer;
+}
+
+/// Without a path the length is the trail's, which can be flown, or that of a path with detours if that is shorter.
+void EnergyMonitor::tellHome(const WayHome& home, common::EnergyLayer& layer) const {
+  constexpr double kDetours = 3.0, kLeast_m_s = 0.1;
+  layer.home_planned = home.planned_m.has_value();
+  layer.home_m = home.planned_m.value_or(std::min(home.flown_m, kDetours * home.straight_m));
+  const double fly_s = *layer.home_m / std::max(kLeast_m_s, home_speed_m_s_);
+  const double drawn_as =
+      current_model_.drawn_as(fly_s, *layer.home_m) + current_model_.drawn_as(config_.home_stops_s, 0.0);
+  layer.home_share = drawn_as / capacity_as();
 }
 
 }  // namespace swiftlet::autonomy

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "autonomy/battery_curve.hpp"
+#include "autonomy/current_model.hpp"
 #include "common/config_fwd.hpp"
 #include "common/sensor_event.hpp"
 #include "common/time.hpp"
@@ -20,30 +21,39 @@ struct EnergyConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// One thread. A multirotor needs about the same power whether it flies or hovers, so the charge for a path is its
-/// duration times the consumption. The duration is predicted by the speed at which paths have been flown so far.
+/// How far it is home.
+struct WayHome {
+  std::optional<double> planned_m;  ///< Length of the planned path; none while there is none.
+  double straight_m = 0.0;          ///< The straight line.
+  double flown_m = 0.0;             ///< Along the trail.
+};
+
+/// One thread. The current is measured as that of hovering plus some for each metre a second, by least squares over the
+/// last minutes; the duration of a path is predicted by the speed at which paths have been flown so far.
 class EnergyMonitor {
  public:
   /// The capacity is the battery's as its owner believes; it is corrected by what the fuel gauge says in flight. The
   /// thrust goes with the voltage to the power of `voltage_exponent`.
   EnergyMonitor(const EnergyConfig& config, const common::VehicleConfig& vehicle, double voltage_exponent);
 
-  /// A plausible sample, with the thrust margin at its time.
-  void add(const common::BatterySample& sample, bool airborne, double thrust_margin);
+  /// A plausible sample, with the thrust margin and the estimated horizontal speed at its time.
+  void add(const common::BatterySample& sample, bool airborne, double thrust_margin, double speed_m_s);
   /// Once a tick: the estimated horizontal speed while the vehicle follows a path whose end is not near.
   void followed(double speed_m_s, double dt_s);
 
   /// The vehicle lands when the charge falls to `land_share` or the thrust margin to `least_margin`.
-  common::EnergyLayer layer(const std::optional<double>& home_m, double land_share, double least_margin) const;
+  common::EnergyLayer layer(const WayHome& home, double land_share, double least_margin) const;
 
  private:
-  double consumption_1_s() const;
+  double capacity_as() const;
+  void tellHome(const WayHome& home, common::EnergyLayer& layer) const;
 
   EnergyConfig config_;
   double capacity_as_;
   double home_speed_m_s_;
   std::optional<common::BatterySample> last_;
   BatteryCurve curve_;
+  CurrentModel current_model_;
   double voltage_exponent_;
   double thrust_margin_ = 0.0;
   /// Smoothed.

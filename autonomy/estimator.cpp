@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include <fmt/format.h>
 
 #include "common/config_fields.hpp"
@@ -55,8 +57,6 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   outcome.matched = fuse(odometry);
   if (outcome.matched) position_seen_ = now;
   outcome.interrupted = odometry.interrupted;
-  const bool fixed = outcome.matched && !(odometry.measurement && odometry.measurement->unseen_direction);
-  outcome.drift_m = drift_.add(filter_.state().position_covariance_m2.topLeftCorner<2, 2>(), fixed);
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));
   outcome.T_map_body = map_.T_map_odom() * T_odom_body;
@@ -72,6 +72,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), odometry.covariance, outcome.matched}, now);
   if (outcome.matched) outcome.T_map_body = map.T_map_body;
   outcome.at_key = map.at_key;
+  outcome.drift_m = drift_.add(positionFix(odometry, outcome.matched, T_odom_body, map));
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid());
   reportHealth(now);
   return outcome;
@@ -165,6 +166,24 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
   }
   if (step.levels_joined > 0)
     say(stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", step.levels_joined));
+}
+
+/// What the scan told of the position, for the drift.
+PositionFix Estimator::positionFix(const OdometryStep& step, bool matched, const Pose2& T_odom_body,
+                                   const MapStep& map) const {
+  PositionFix fix;
+  fix.stamp = filter_.newest();
+  fix.covariance_odom_m2 = filter_.state().position_covariance_m2.topLeftCorner<2, 2>();
+  // A restart of the odometry has nothing to tell of the motion before it.
+  fix.matched = matched && !step.interrupted;
+  if (step.measurement && step.measurement->unseen_direction) {
+    const double yaw_rad = T_odom_body.yaw_rad - step.measurement->T_from_to.yaw_rad;
+    fix.unseen_direction_odom = Eigen::Rotation2Dd(yaw_rad) * *step.measurement->unseen_direction;
+  }
+  fix.new_reference = matched && !step.covariance.isZero();
+  if (map.at_key) fix.newest_key = map.at_key->key;
+  fix.known_key = map.known_key;
+  return fix;
 }
 
 void Estimator::localize(const LocatedScan& located, Time now) {

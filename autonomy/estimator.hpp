@@ -106,6 +106,8 @@ class Estimator {
   OdometryStep match(const perception::ProjectedScan& scan);
   bool fuse(const OdometryStep& step);
   void fuse(const AltitudeStep& step, common::Time stamp);
+  PositionFix positionFix(const OdometryStep& step, bool matched, const common::Pose2& T_odom_body,
+                          const MapStep& map) const;
   void localize(const LocatedScan& located, common::Time now);
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
   void reportHealth(common::Time now);

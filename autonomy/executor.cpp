@@ -5,6 +5,7 @@
 
 #include "autonomy/maneuvers/path_flight.hpp"
 #include "autonomy/maneuvers/table.hpp"
+#include "planning/exploration/held_path.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -95,6 +96,11 @@ std::optional<Eigen::Vector2d> Executor::goal_map_m() const {
 
 std::optional<Eigen::Vector2d> Executor::wantsToSee_map_m() const {
   return maneuver_ ? maneuver_->wantsToSee_map_m() : std::nullopt;
+}
+
+bool Executor::wallsAround(const common::VehicleState& state) const {
+  const auto map = desk_.costMap();
+  return !map || planning::isHeld(*map, state.T_map_body_planar().position_m(), config_.exploration);
 }
 
 std::vector<common::Event> Executor::takeEvents() { return std::exchange(memory_.events, {}); }

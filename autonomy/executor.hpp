@@ -42,6 +42,8 @@ class Executor {
   std::optional<Eigen::Vector2d> goal_map_m() const;
   /// The unknown place that the vehicle explores, if the intent is to explore.
   std::optional<Eigen::Vector2d> wantsToSee_map_m() const;
+  /// Whether the map has enough walls around the vehicle to know the position there; true without a map.
+  bool wallsAround(const common::VehicleState& state) const;
   /// The state of the planning.
   const PlanningDesk& desk() const { return desk_; }
 

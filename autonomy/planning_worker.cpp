@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "planning/exploration/held_path.hpp"
 #include "planning/search/admission.hpp"
 #include "planning/search/goal_map.hpp"
 
@@ -58,14 +59,23 @@ void PlanningWorker::explore(const PlanningRequest& request, const ExploreReques
   input.bounds = question.bounds;
   input.lost_map_m = question.lost_map_m;
   input.leave_building = question.leave_building;
-  planning::ExplorationResult result = explorer_->explore(input);
-  if (result.next) {
-    if (!result.kept_current) ++viewpoints_;
+  // A viewpoint whose path leads through the open is left for another one.
+  constexpr int kTries = 3;
+  planning::ExplorationResult result;
+  for (int i = 0; i < kTries; ++i) {
+    result = explorer_->explore(input);
+    if (!result.next) break;
     answer.path = plan(input.pose_map.position_m(), result.next->pose_map.position_m());
-    if (!*answer.path) {
-      result.reason = "no path to the viewpoint: " + answer.path->error().text;
-      result.next.reset();
-    }
+    if (!*answer.path || input.leave_building ||
+        planning::staysHeld(map_, answer.path->value().points_map_m, exploration_))
+      break;
+    input.lost_map_m.push_back(result.next->target_map_m);
+    input.current.reset();
+  }
+  if (result.next && !result.kept_current) ++viewpoints_;
+  if (result.next && !*answer.path) {
+    result.reason = "no path to the viewpoint: " + answer.path->error().text;
+    result.next.reset();
   }
   answer.exploration = std::move(result);
 }

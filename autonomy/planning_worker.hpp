@@ -82,7 +82,8 @@ class PlanningWorker {
   PlanningWorker(const ExecutorConfig& config, double resolution_m)
       : map_(config.cost_map, resolution_m),
         explorer_(planning::makeExplorer(config.explorer, config.exploration)),
-        planner_(planning::makePlanner(config.planner)) {}
+        planner_(planning::makePlanner(config.planner)),
+        exploration_(config.exploration) {}
 
   PlanningAnswer answer(const PlanningRequest& request);
 
@@ -101,6 +102,7 @@ class PlanningWorker {
   std::vector<Eigen::Vector2d> flown_map_m_;  ///< Positions of the vehicle at the requests, thinned.
   std::unique_ptr<planning::Explorer> explorer_;
   std::unique_ptr<planning::Planner> planner_;
+  planning::ExplorationConfig exploration_;
   planning::Wavefront home_planner_;
   std::optional<double> home_m_;
   int answers_ = 0;

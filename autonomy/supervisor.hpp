@@ -55,6 +55,8 @@ class Supervisor {
   void backEnded(common::Time now);
   /// Why every command but land is refused while the vehicle lands; empty if it does not land.
   std::string refusal() const;
+  /// Why the vehicle must not take off, with the figure; empty if it may.
+  std::string takeOffRefusal(const common::EnergyLayer& energy) const { return energy_.takeOffRefusal(energy); }
   /// A sensor of obstacles saw the surroundings: today a usable scan of the laser.
   void surroundingsSeen(common::Time now) { sight_.surroundingsSeen(now); }
   void pilotArrived(common::Time now, bool takes_over);

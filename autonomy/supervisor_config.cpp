@@ -22,9 +22,11 @@ void SupervisorConfig::describe(common::config::Fields& fields) {
   fields("thrust_margin_s", thrust_margin_s, {0, 60}, "The thrust margin must have been too small for this long.");
   fields("height_back_s", height_back_s, kPositive,
          "When the surface below has not been measured for this long the vehicle flies back along its trail.");
-  fields("drift_back_m", drift_back_m, kPositive,
-         "Standard deviation of the position, grown since the laser last fixed it, at which the vehicle flies back.");
-  fields("drift_land_m", drift_land_m, kPositive, "The same, at which it lands.");
+  fields(
+      "drift_back_m", drift_back_m, kPositive,
+      "Standard deviation of the position, gathered where the laser did not fix it, at which the vehicle flies back.");
+  fields("drift_land_m", drift_land_m, kPositive,
+         "The same, at which it lands; where there are no walls around it flies back up to twice as much.");
   fields("back_known_s", back_known_s, {0, 60},
          "Flying back ends when height and position have been known again for this long.");
 }

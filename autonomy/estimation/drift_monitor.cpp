@@ -6,12 +6,62 @@
 #include <Eigen/Eigenvalues>
 
 namespace swiftlet::autonomy {
+namespace {
 
-double DriftMonitor::add(const Eigen::Matrix2d& covariance_m2, bool fixed) {
-  if (fixed) fixed_covariance_m2_ = covariance_m2;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> grown(covariance_m2 - fixed_covariance_m2_,
-                                                             Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, grown.eigenvalues().maxCoeff()));
+/// One good scan may be a chance match, so error is taken back only when every scan has fixed the position for this
+/// long.
+constexpr double kHeld_s = 0.5;
+
+using Eigensolver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>;
+
+/// What is left of a difference of covariances when no direction may shrink.
+Eigen::Matrix2d positivePart(const Eigen::Matrix2d& difference_m2) {
+  const Eigensolver solver(difference_m2);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
+}
+
+double greatestSigma_m(const Eigen::Matrix2d& covariance_m2) {
+  return std::sqrt(std::max(0.0, Eigensolver(covariance_m2, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff()));
+}
+
+}  // namespace
+
+double DriftMonitor::add(const PositionFix& fix) {
+  const bool fixed = fix.matched && !fix.unseen_direction_odom;
+  if (isHeld(fix)) {
+    recall(fix.known_key);
+    drift_m2_ = reference_drift_m2_;
+  } else if (!fixed) {
+    drift_m2_ = reference_drift_m2_ + grownSince(fix);
+  }
+  if (fixed || fix.new_reference) covariance_m2_ = fix.covariance_odom_m2;
+  if (fix.new_reference) reference_drift_m2_ = drift_m2_;
+  while (static_cast<int>(key_drift_m2_.size()) <= fix.newest_key) key_drift_m2_.push_back(drift_m2_);
+  return greatestSigma_m(drift_m2_);
+}
+
+/// The growth of the filter's covariance, in the directions that the scan does not fix.
+Eigen::Matrix2d DriftMonitor::grownSince(const PositionFix& fix) const {
+  const Eigen::Matrix2d difference_m2 = fix.covariance_odom_m2 - covariance_m2_;
+  if (!fix.matched) return positivePart(difference_m2);
+  const Eigen::Vector2d& along = *fix.unseen_direction_odom;
+  return std::max(0.0, along.dot(difference_m2 * along)) * along * along.transpose();
+}
+
+bool DriftMonitor::isHeld(const PositionFix& fix) {
+  if (!fix.matched || fix.unseen_direction_odom) {
+    fixed_since_.reset();
+    return false;
+  }
+  if (!fixed_since_) fixed_since_ = fix.stamp;
+  return (fix.stamp - *fixed_since_).seconds() >= kHeld_s;
+}
+
+/// A scan that was matched to an earlier key scan is as uncertain as that one.
+void DriftMonitor::recall(int key) {
+  if (key < 0 || key >= static_cast<int>(key_drift_m2_.size())) return;
+  const Eigen::Matrix2d& then_m2 = key_drift_m2_[static_cast<std::size_t>(key)];
+  if (then_m2.trace() < reference_drift_m2_.trace()) reference_drift_m2_ = then_m2;
 }
 
 }  // namespace swiftlet::autonomy

@@ -1,20 +1,50 @@
-// How far the position has become uncertain since a scan last fixed it in every direction.
+// How far the position has become uncertain since the take-off, where scans did not fix it.
+//
+// Along a corridor without features, and while no scan matches, the error grows. A scan that sees every direction again
+// stops the growth, but it tells where the vehicle is relative to what it saw before, not relative to the take-off: the
+// error that was gathered remains. It is taken back only where the vehicle sees again what it mapped when it knew its
+// position better: then it is as uncertain as it was there.
 #pragma once
+
+#include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include "common/time.hpp"
+
 namespace swiftlet::autonomy {
 
-/// One thread.
+/// What one scan tells of the position.
+struct PositionFix {
+  common::Time stamp;
+  Eigen::Matrix2d covariance_odom_m2;  ///< The filter's, of the horizontal position, after the scan.
+  bool matched = false;
+  /// Unit vector along which a match does not fix the position; none if it fixes every direction.
+  std::optional<Eigen::Vector2d> unseen_direction_odom;
+  /// Later scans are matched to this one, so its error is theirs.
+  bool new_reference = false;
+  /// The key scan of the map to which the pose is relative, and one of an earlier pass to which alone it was matched in
+  /// every direction; -1: none. Key scans count up from 0.
+  int newest_key = -1, known_key = -1;
+};
+
+/// One thread. The ordinary error of matches that fix every direction, about a centimetre for each metre, is left out.
 class DriftMonitor {
  public:
-  /// After each scan, with the filter's covariance of the horizontal position; `fixed` says whether the scan fixed the
-  /// position in every direction. Returns the standard deviation in the weakest direction, as it has grown since the
-  /// last scan that did: along a corridor without features, and while no scan matches.
-  double add(const Eigen::Matrix2d& covariance_m2, bool fixed);
+  /// Returns the standard deviation in the weakest direction, in metres.
+  double add(const PositionFix& fix);
 
  private:
-  Eigen::Matrix2d fixed_covariance_m2_ = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d grownSince(const PositionFix& fix) const;
+  bool isHeld(const PositionFix& fix);
+  void recall(int key);
+
+  Eigen::Matrix2d drift_m2_ = Eigen::Matrix2d::Zero();            ///< Since the take-off, in odom.
+  Eigen::Matrix2d reference_drift_m2_ = Eigen::Matrix2d::Zero();  ///< Of the scan to which scans are matched.
+  Eigen::Matrix2d covariance_m2_ = Eigen::Matrix2d::Zero();       ///< The filter's, from which the growth counts.
+  std::optional<common::Time> fixed_since_;                       ///< Every scan since then fixed every direction.
+  std::vector<Eigen::Matrix2d> key_drift_m2_;                     ///< Of each key scan.
 };
 
 }  // namespace swiftlet::autonomy

@@ -28,6 +28,7 @@ MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
     covariance_since_map_.setZero();
     T_odom_mapped_ = T_odom_body;
     step.T_map_body = update.T_map_body;
+    step.known_key = update.known_key;
     if (update.drawn) ++grid_version_;
     if (update.key_scan) ++keys_version_;
     submitTask(now);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/disc.hpp"
@@ -24,6 +25,8 @@ struct ManeuverInput {
   std::vector<common::Disc> discs;  ///< Present and predicted places of people, in `map`.
   bool anybody_walks = false;
   const planning::AvoidanceDecision& avoidance;
+  double drift_m = 0.0;               ///< See DriftMonitor.
+  std::string take_off_refusal = {};  ///< Why the vehicle must not take off; empty if it may.
 
   Eigen::Vector2d position_map_m() const { return state.T_map_body_planar().position_m(); }
 };

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace swiftlet::autonomy {
 
 PathManeuver::PathManeuver(const ManeuverSetup& setup, std::string purpose, common::FlightMode mode)
@@ -9,7 +11,18 @@ PathManeuver::PathManeuver(const ManeuverSetup& setup, std::string purpose, comm
 
 Progress PathManeuver::step(const ManeuverInput& input) {
   if (setup_.controller.state() != common::FlightState::kFlying) return cannot(purpose_, setup_.controller);
-  return setup_.retreat.active() ? Progress::running() : fly(input);
+  if (setup_.retreat.active()) return Progress::running();
+  Progress progress = fly(input);
+  if (progress.state == common::IntentState::kFailed) progress.reason = doubt(input.drift_m) + progress.reason;
+  return progress;
+}
+
+/// An error of the position as large as the room that the vehicle needs can close a door in the map, so the planner's
+/// reason would blame the goal.
+std::string PathManeuver::doubt(double drift_m) const {
+  const auto cost_map = setup_.desk.costMap();
+  if (!cost_map || drift_m < cost_map->footprint().radius_m()) return {};
+  return fmt::format("the position is uncertain by {:.1f} m: ", drift_m);
 }
 
 }  // namespace swiftlet::autonomy

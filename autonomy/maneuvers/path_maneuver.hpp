@@ -20,6 +20,8 @@ class PathManeuver : public Maneuver {
 
   /// A step in flight without a retreat.
   virtual Progress fly(const ManeuverInput& input) = 0;
+  /// Names an uncertain position as the cause before the reason of a failure; empty if the position is known.
+  std::string doubt(double drift_m) const;
 
   ManeuverSetup setup_;
   PathFlight flight_;

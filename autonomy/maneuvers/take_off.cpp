@@ -4,13 +4,15 @@ namespace swiftlet::autonomy {
 
 using common::FlightState;
 
-TakeOff::TakeOff(const common::TakeOffIntent& intent, const ManeuverSetup& setup) : controller_(setup.controller) {
-  if (controller_.state() == FlightState::kFlying || controller_.state() == FlightState::kTakingOff) return;
-  setup.memory.cruise_height_m = intent.height_m;
-  commanded_ = controller_.command(control::TakeOff{intent.height_m});
-}
+TakeOff::TakeOff(const common::TakeOffIntent& intent, const ManeuverSetup& setup)
+    : intent_(intent), controller_(setup.controller), memory_(setup.memory) {}
 
-Progress TakeOff::step(const ManeuverInput&) {
+Progress TakeOff::step(const ManeuverInput& input) {
+  if (!begun_) {
+    if (!control::isAirborne(controller_.state()) && !input.take_off_refusal.empty())
+      return Progress::failed("take-off refused: " + input.take_off_refusal);
+    begin();
+  }
   if (!commanded_)
     return control::isAirborne(controller_.state()) ? cannot("take off", controller_)
                                                     : Progress::failed(commanded_.error());
@@ -27,6 +29,13 @@ Progress TakeOff::step(const ManeuverInput&) {
       break;
   }
   return cannot("take off", controller_);
+}
+
+void TakeOff::begin() {
+  begun_ = true;
+  if (controller_.state() == FlightState::kFlying || controller_.state() == FlightState::kTakingOff) return;
+  memory_.cruise_height_m = intent_.height_m;
+  commanded_ = controller_.command(control::TakeOff{intent_.height_m});
 }
 
 }  // namespace swiftlet::autonomy

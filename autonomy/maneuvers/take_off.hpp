@@ -1,4 +1,5 @@
-// TakeOff: climbs to the intent's height; done when it hovers there. A vehicle that flies already is done at once.
+// TakeOff: climbs to the intent's height; done when it hovers there. A vehicle that flies already is done at once; one
+// whose thrust or charge does not suffice fails with the figure.
 #pragma once
 
 #include <string>
@@ -15,7 +16,12 @@ class TakeOff final : public Maneuver {
   Progress step(const ManeuverInput& input) override;
 
  private:
+  void begin();
+
+  common::TakeOffIntent intent_;
   control::FlightController& controller_;
+  FlightMemory& memory_;
+  bool begun_ = false;
   tl::expected<void, std::string> commanded_;
 };
 

@@ -23,6 +23,17 @@ WatchRequest EnergyWatch::watch(Time now, const VehicleCondition& condition) {
   return request;
 }
 
+std::string EnergyWatch::takeOffRefusal(const common::EnergyLayer& energy) const {
+  if (energy.thrust_margin > 0.0 && energy.thrust_margin < config_.least_thrust_margin)
+    return fmt::format("the thrust is at most {:.2f} times the weight; {:.2f} is needed", energy.thrust_margin,
+                       config_.least_thrust_margin);
+  const double least = config_.battery_land_share + config_.home_reserve_share;
+  if (energy.battery_remaining < least)
+    return fmt::format("{:.0f} % of the battery are left; {:.0f} % are needed, and it lands at {:.0f} %",
+                       100.0 * energy.battery_remaining, 100.0 * least, 100.0 * config_.battery_land_share);
+  return {};
+}
+
 void EnergyWatch::tellCharge(Time now, const common::EnergyLayer& energy, WatchRequest& request) {
   for (const double share : {0.3, 0.2}) {
     if (charge_said_ <= share || energy.battery_remaining > share) continue;
@@ -35,16 +46,30 @@ void EnergyWatch::tellCharge(Time now, const common::EnergyLayer& energy, WatchR
 }
 
 void EnergyWatch::watchHome(Time now, const common::EnergyLayer& energy, WatchRequest& request) {
-  if (turned_back_ || !energy.home_share) return;
+  if (!energy.home_share) return;
+  if (turned_back_) return watchReach(now, energy, request);
   const double needed = config_.home_need_factor * *energy.home_share;
   const double land_share = std::max(config_.battery_land_share, energy.land_share);
   if (energy.battery_remaining - land_share - config_.home_reserve_share > needed) return;
   turned_back_ = true;
   request.home = fmt::format(
-      "turned back with {:.0f} % of the battery left, {:.0f} % to fly {:.1f} m home, and {:.0f} % at which {}",
-      100.0 * energy.battery_remaining, 100.0 * *energy.home_share, energy.home_m.value_or(0.0), 100.0 * land_share,
+      "turned back with {:.0f} % of the battery left, {:.0f} % to fly {:.1f} m home{}, and {:.0f} % at which {}",
+      100.0 * energy.battery_remaining, 100.0 * *energy.home_share, energy.home_m.value_or(0.0),
+      energy.home_planned ? "" : " at most, as no path is known", 100.0 * land_share,
       land_share > config_.battery_land_share ? "the thrust carries the weight no longer" : "it lands");
   request.say(now, Severity::kWarning, "turn back", request.home);
+}
+
+/// On the way home: the vehicle flies as far as the charge goes, and lands there.
+void EnergyWatch::watchReach(Time now, const common::EnergyLayer& energy, WatchRequest& request) {
+  // Predictions differ from the truth by some percent, and so do two of them from each other.
+  constexpr double kClearly = 0.8;
+  const double left = energy.battery_remaining - std::max(config_.battery_land_share, energy.land_share);
+  if (out_of_reach_said_ || !energy.home_planned || left > kClearly * *energy.home_share) return;
+  out_of_reach_said_ = true;
+  request.say(now, Severity::kWarning, "home is out of reach",
+              fmt::format("{:.0f} % to fly {:.1f} m home, {:.0f} % left to fly with: it lands on the way",
+                          100.0 * *energy.home_share, energy.home_m.value_or(0.0), 100.0 * std::max(0.0, left)));
 }
 
 /// A gust may take the margin for a moment.

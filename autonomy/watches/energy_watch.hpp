@@ -1,5 +1,5 @@
 // Watches charge and thrust: tells of 30 and 20 %, turns back while the charge suffices for the flight home, and lands
-// before the charge or the thrust gives out.
+// before the charge or the thrust gives out. Before the take-off it refuses what would end so at once.
 #pragma once
 
 #include <optional>
@@ -17,16 +17,20 @@ class EnergyWatch {
 
   /// It asks to go home at one tick only, and only once.
   WatchRequest watch(common::Time now, const VehicleCondition& condition);
+  /// Why the vehicle must not take off, with the figure; empty if it may.
+  std::string takeOffRefusal(const common::EnergyLayer& energy) const;
 
  private:
   void tellCharge(common::Time now, const common::EnergyLayer& energy, WatchRequest& request);
   void watchHome(common::Time now, const common::EnergyLayer& energy, WatchRequest& request);
+  void watchReach(common::Time now, const common::EnergyLayer& energy, WatchRequest& request);
   void watchThrust(common::Time now, const VehicleCondition& condition, WatchRequest& request);
 
   SupervisorConfig config_;
   double charge_said_ = 1.0;                ///< The last charge of which an event told.
   std::optional<common::Time> weak_since_;  ///< Since when the thrust margin has been too small.
   bool turned_back_ = false;
+  bool out_of_reach_said_ = false;
 };
 
 }  // namespace swiftlet::autonomy

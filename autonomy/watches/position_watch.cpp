@@ -3,6 +3,12 @@
 #include <fmt/format.h>
 
 namespace swiftlet::autonomy {
+namespace {
+
+/// In the open the vehicle flies back until its drift is this many times that at which it lands inside.
+constexpr double kFurtherInTheOpen = 2.0;
+
+}  // namespace
 
 using common::Severity;
 using common::Time;
@@ -25,7 +31,9 @@ WatchRequest PositionWatch::watch(Time now, const VehicleCondition& condition, b
     request.say(now, Severity::kInfo, "height and position are known again");
   }
   if (flies_back_) request.back = flights_back_;
-  if (condition.drift_m > config_.drift_land_m) request.land = unknown_;
+  // A flight back leads inside, where it can be found and where the floor is known.
+  const double land_m = config_.drift_land_m * (condition.walls_around ? 1.0 : kFurtherInTheOpen);
+  if (condition.drift_m > land_m) request.land = unknown_;
   return request;
 }
 
@@ -48,7 +56,7 @@ bool PositionWatch::knownAgain(Time now, const VehicleCondition& condition) {
   // The height counts as known for this long after a measurement.
   constexpr double kSeen_s = 0.15;
   // The position counts as known well up to this share of the drift at which the vehicle flies back.
-  constexpr double kKnownShare = 0.1;
+  constexpr double kKnownShare = 0.5;
   const bool known = condition.vertical_age_s < kSeen_s && condition.drift_m < kKnownShare * config_.drift_back_m;
   if (!known) known_since_.reset();
   if (known && !known_since_) known_since_ = now;

@@ -4,7 +4,7 @@
 //   known ------------------------------------------------------------> flying back along the trail
 //     ^---------------- known again for back_known_s --------------------+        |
 //                                                                                 v
-//          drift over drift_land_m, or at the end of the trail still unknown --> land
+//          drift over drift_land_m (in the open: twice as much), or at the end of the trail still unknown --> land
 #pragma once
 
 #include <optional>

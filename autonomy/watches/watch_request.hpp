@@ -16,7 +16,9 @@ struct VehicleCondition {
   common::FlightState flight = common::FlightState::kPreparation;
   common::EnergyLayer energy;
   double vertical_age_s = 0.0;  ///< VehicleState::verticalAge_s.
-  double drift_m = 0.0;         ///< Standard deviation of the position, grown since the laser last fixed it fully.
+  double drift_m = 0.0;         ///< See DriftMonitor.
+  /// Whether the map has walls around the vehicle, by which the position may be found again: not so in the open.
+  bool walls_around = true;
 };
 
 /// The answer of a watch to one tick. Each reason is for people; it is empty if the watch does not ask for that.

@@ -35,6 +35,9 @@ struct SlamUpdate {
   bool key_scan = false;     ///< The scan became a key scan; older ones may have moved.
   bool drawn = false;        ///< The map changed.
   common::Pose2 T_map_body;  ///< The corrected pose of the scan.
+  /// The newest of the key scans of an earlier pass to which alone the scan was matched, in every direction; -1: none.
+  /// The scan is then as uncertain relative to the first one as that key scan is.
+  int known_key = -1;
 };
 
 struct SlamCounts {

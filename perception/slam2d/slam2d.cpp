@@ -199,6 +199,8 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
     update.key_scan = true;
     return true;
   }
+  if (!match.unobservable_direction && areOfTwoPasses(keys.back(), static_cast<int>(graph.keys.size()) - 1))
+    update.known_key = keys.back();
   const bool same_pass = !areOfTwoPasses(keys.back(), anchor);
   const UncertainPose pose =
       same_pass ? weightedMean(movedPose(), {match.T_reference_body, edgeCovariance(match.covariance, config)})

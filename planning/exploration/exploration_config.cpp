@@ -25,6 +25,8 @@ void ExplorationConfig::describe(common::config::Fields& fields) {
          "door.");
   fields("wall_range_m", wall_range_m, {0.5, 100}, "Range within which such walls count.");
   fields("open_m", open_m, {0.5, 100}, "A direction that is free as far as this without a wall counts as open.");
+  fields("max_unheld_m", max_unheld_m, {0.5, 1000},
+         "Longest stretch of a path with too few such walls around it; a viewpoint behind a longer one is not chosen.");
   fields("lost_radius_m", lost_radius_m, {0, 100},
          "Frontiers this near to a target during whose approach the position became uncertain are not explored.");
   fields("max_attempts", max_attempts, {1, 100}, "A frontier that remains after this many views is not tried again.");

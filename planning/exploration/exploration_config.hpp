@@ -21,6 +21,7 @@ struct ExplorationConfig {
   double least_wall_share = 0.4;
   double wall_range_m = 25.0;
   double open_m = 8.0;
+  double max_unheld_m = 4.0;
   double lost_radius_m = 4.0;
   int max_attempts = 3;
   double attempt_radius_m = 0.35;

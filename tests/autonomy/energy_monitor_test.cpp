@@ -20,17 +20,19 @@ class EnergyStory : public testing::Test {
       now_s_ += 0.1;
       remaining_ -= 0.1 * current_a / (3600.0 * true_capacity_ah);
       const common::Time now = common::Time::fromSeconds(now_s_);
-      monitor_.add({{now, now}, voltage_v, remaining_, current_a}, airborne, margin_);
+      monitor_.add({{now, now}, voltage_v, remaining_, current_a}, airborne, margin_, speed_m_s_);
     }
   }
   common::EnergyLayer layer(std::optional<double> home_m = std::nullopt) const {
-    return monitor_.layer(home_m, kLandShare, kLeastMargin);
+    return monitor_.layer({home_m, straight_m_, flown_m_}, kLandShare, kLeastMargin);
   }
 
   EnergyMonitor monitor_{EnergyConfig{}, common::VehicleConfig{}, 2.0};
   double now_s_ = 0.0;
   double remaining_ = 0.8;
   double margin_ = 1.5;
+  double speed_m_s_ = 0.5;
+  double straight_m_ = 0.0, flown_m_ = 0.0;
 };
 
 TEST_F(EnergyStory, SaysNothingOfTheFutureBeforeTheTakeOff) {
@@ -52,9 +54,21 @@ TEST_F(EnergyStory, TheTimeLeftEndsAtTheChargeOfTheLanding) {
 TEST_F(EnergyStory, ThePathHomeTakesItsTimeAndALanding) {
   const EnergyConfig config;
   draw(10.0, 18.0);
-  EXPECT_FALSE(layer().home_share) << "no path is known";
   const double expected = (20.0 / config.home_speed_m_s + config.home_stops_s) * 18.0 / (3600.0 * kCapacity_ah);
   EXPECT_NEAR(layer(20.0).home_share.value(), expected, 0.01 * expected);
+}
+
+TEST_F(EnergyStory, WithoutAPathTheLengthHomeIsConservative) {
+  draw(10.0, 18.0);
+  straight_m_ = 5.0;
+  flown_m_ = 12.0;
+  EXPECT_DOUBLE_EQ(layer().home_m.value(), 12.0) << "back along the trail";
+  EXPECT_FALSE(layer().home_planned);
+  EXPECT_NEAR(layer().home_share.value(), layer(12.0).home_share.value(), 1e-9);
+  flown_m_ = 200.0;
+  EXPECT_DOUBLE_EQ(layer().home_m.value(), 15.0) << "the straight line with detours";
+  EXPECT_DOUBLE_EQ(layer(6.0).home_m.value(), 6.0);
+  EXPECT_TRUE(layer(6.0).home_planned);
 }
 
 TEST_F(EnergyStory, TheSpeedFlownSoFarPredictsTheTime) {
@@ -62,6 +76,17 @@ TEST_F(EnergyStory, TheSpeedFlownSoFarPredictsTheTime) {
   const double before = layer(20.0).home_share.value();
   for (int i = 0; i < 30'000; ++i) monitor_.followed(0.8, 0.01);
   EXPECT_LT(layer(20.0).home_share.value(), 0.7 * before);
+}
+
+TEST_F(EnergyStory, StopsBetweenViewpointsDoNotSlowThePathHome) {
+  draw(10.0, 18.0);
+  const EnergyConfig config;
+  for (int leg = 0; leg < 100; ++leg) {
+    for (int i = 0; i < 100; ++i) monitor_.followed(0.3, 0.01);
+    for (int i = 0; i < 300; ++i) monitor_.followed(0.8, 0.01);
+  }
+  const double expected = (20.0 / 0.8 + config.home_stops_s) * 18.0 / (3600.0 * kCapacity_ah);
+  EXPECT_NEAR(layer(20.0).home_share.value(), expected, 0.03 * expected);
 }
 
 TEST_F(EnergyStory, AWornBatteryIsNoticedByItsFuelGauge) {

@@ -18,7 +18,7 @@ class SupervisorStory : public testing::Test {
     return during(t_s, airborne ? common::FlightState::kFlying : common::FlightState::kLanded);
   }
   const Supervision& during(double t_s, common::FlightState flight) {
-    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, vertical_age_s_, drift_m_});
+    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, vertical_age_s_, drift_m_, walls_around_});
   }
   void scanAt(double t_s) { supervisor_.surroundingsSeen(Time::fromSeconds(t_s)); }
 
@@ -26,6 +26,7 @@ class SupervisorStory : public testing::Test {
   common::EnergyLayer energy_;
   double vertical_age_s_ = 0.0;
   double drift_m_ = 0.0;
+  bool walls_around_ = true;
 };
 
 TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
@@ -144,6 +145,7 @@ TEST_F(SupervisorStory, TurnsBackWhileTheChargeSufficesAndLandsAtHome) {
   energy_.battery_remaining = 0.25;
   energy_.home_m = 20.0;
   energy_.home_share = 0.05;
+  energy_.home_planned = true;
   EXPECT_EQ(at(1.0).home, 0u);
   energy_.battery_remaining = 0.19;
   EXPECT_EQ(at(2.0).home, 1u);
@@ -154,6 +156,40 @@ TEST_F(SupervisorStory, TurnsBackWhileTheChargeSufficesAndLandsAtHome) {
   supervisor_.homeEnded(Time::fromSeconds(30), true, {});
   EXPECT_TRUE(at(30.0).land);
   EXPECT_THAT(at(30.0).land_reason, HasSubstr("home again, turned back"));
+}
+
+TEST_F(SupervisorStory, TurnsBackWithoutAKnownPathAndSaysSo) {
+  energy_.battery_remaining = 0.19;
+  energy_.home_m = 20.0;
+  energy_.home_share = 0.05;
+  EXPECT_EQ(at(2.0).home, 1u);
+  EXPECT_THAT(at(2.0).hold_reason, HasSubstr("5 % to fly 20.0 m home at most, as no path is known"));
+}
+
+TEST_F(SupervisorStory, TellsOnceThatHomeIsOutOfReach) {
+  energy_.battery_remaining = 0.19;
+  energy_.home_m = 20.0;
+  energy_.home_share = 0.05;
+  energy_.home_planned = true;
+  at(2.0);
+  EXPECT_EQ(supervisor_.takeEvents().size(), 2u) << "20 % and turn back";
+  energy_.home_share = 0.10;
+  at(3.0);
+  at(4.0);
+  const auto events = supervisor_.takeEvents();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].text, "home is out of reach");
+  EXPECT_EQ(events[0].reason, "10 % to fly 20.0 m home, 7 % left to fly with: it lands on the way");
+}
+
+TEST_F(SupervisorStory, TheTakeOffIsRefusedWithTheFigure) {
+  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "") << "nothing is measured yet";
+  energy_.thrust_margin = 1.02;
+  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "the thrust is at most 1.02 times the weight; 1.08 is needed");
+  energy_.thrust_margin = 1.3;
+  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "");
+  energy_.battery_remaining = 0.13;
+  EXPECT_EQ(supervisor_.takeOffRefusal(energy_), "13 % of the battery are left; 14 % are needed, and it lands at 12 %");
 }
 
 TEST_F(SupervisorStory, TheChargeIsTheSubjectOfTwoEvents) {
@@ -197,6 +233,22 @@ TEST_F(SupervisorStory, LandsWhereFlyingBackToTheStartDidNotHelp) {
 
 TEST_F(SupervisorStory, LandsAtOnceWhenThePositionIsTooUncertain) {
   drift_m_ = SupervisorConfig{}.drift_land_m + 0.1;
+  EXPECT_TRUE(at(1.0).land);
+}
+
+TEST_F(SupervisorStory, InTheOpenItFliesBackInsideBeforeItLands) {
+  vertical_age_s_ = 0.0;
+  walls_around_ = false;
+  drift_m_ = SupervisorConfig{}.drift_land_m + 0.1;
+  EXPECT_FALSE(at(1.0).land);
+  EXPECT_EQ(at(1.0).back, 1u);
+  walls_around_ = true;
+  EXPECT_TRUE(at(9.0).land);
+}
+
+TEST_F(SupervisorStory, ALostVehicleInTheOpenLandsInTheEnd) {
+  walls_around_ = false;
+  drift_m_ = 2.0 * SupervisorConfig{}.drift_land_m + 0.1;
   EXPECT_TRUE(at(1.0).land);
 }
 

@@ -1,0 +1,39 @@
+#include "planning/exploration/held_path.hpp"
+
+#include "planning/costs/localizability.hpp"
+#include "planning/costs/sight.hpp"
+
+namespace swiftlet::planning {
+namespace {
+
+constexpr int kRays = 36;
+/// Places along the path that are judged. The walls around change little within it.
+constexpr double kSpacing_m = 1.0;
+
+}  // namespace
+
+bool isHeld(const CostMap& map, const Eigen::Vector2d& place_map_m, const ExplorationConfig& config) {
+  static const Directions kDirections(kRays);
+  const common::CellIndex place = map.cellAt(place_map_m);
+  return !map.contains(place) ||
+         wallShareAt(map, place, config.hold_range_m, config.open_m, kDirections) >= config.least_wall_share;
+}
+
+bool staysHeld(const CostMap& map, std::span<const Eigen::Vector2d> path_map_m, const ExplorationConfig& config) {
+  double unheld_m = 0.0, to_judge_m = kSpacing_m;  // Up to the next place that is judged.
+  bool left_start = false;
+  for (std::size_t i = 1; i < path_map_m.size(); ++i) {
+    const Eigen::Vector2d leg = path_map_m[i] - path_map_m[i - 1];
+    const double leg_m = leg.norm();
+    for (; to_judge_m <= leg_m; to_judge_m += kSpacing_m) {
+      const bool held = isHeld(map, path_map_m[i - 1] + leg * (to_judge_m / leg_m), config);
+      left_start |= held;
+      unheld_m = held ? 0.0 : unheld_m + kSpacing_m;
+      if (left_start && unheld_m > config.max_unheld_m) return false;
+    }
+    to_judge_m -= leg_m;
+  }
+  return true;
+}
+
+}  // namespace swiftlet::planning

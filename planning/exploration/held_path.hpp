@@ -1,0 +1,21 @@
+// Whether a path stays where there are walls around, by which the laser knows the position.
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "planning/costs/cost_map.hpp"
+#include "planning/exploration/exploration_config.hpp"
+
+namespace swiftlet::planning {
+
+/// Whether the share of walls around a place is at least `least_wall_share`; see wallShareAt. A place outside the map
+/// is held: nothing is known of it.
+bool isHeld(const CostMap& map, const Eigen::Vector2d& place_map_m, const ExplorationConfig& config);
+
+/// False if a stretch of the path of more than `max_unheld_m` is not held. The stretch that the vehicle is in at its
+/// start does not count, because it has to leave it.
+bool staysHeld(const CostMap& map, std::span<const Eigen::Vector2d> path_map_m, const ExplorationConfig& config);
+
+}  // namespace swiftlet::planning
