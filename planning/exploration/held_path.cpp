@@ -16,7 +16,7 @@ bool isHeld(const CostMap& map, const Eigen::Vector2d& place_map_m, const Explor
   static const Directions kDirections(kRays);
   const common::CellIndex place = map.cellAt(place_map_m);
   return !map.contains(place) ||
-         wallShareAt(map, place, config.hold_range_m, config.open_m, kDirections) >= config.least_wall_share;
+         wallShareAt(map, place, config.wall_range_m, config.open_m, kDirections) >= config.least_wall_share;
 }
 
 bool staysHeld(const CostMap& map, std::span<const Eigen::Vector2d> path_map_m, const ExplorationConfig& config) {
