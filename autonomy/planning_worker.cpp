@@ -64,6 +64,7 @@ void PlanningWorker::explore(const PlanningRequest& request, const ExploreReques
   planning::ExplorationResult result;
   for (int i = 0; i < kTries; ++i) {
     result = explorer_->explore(input);
+    answer.path.reset();
     if (!result.next) break;
     answer.path = plan(input.pose_map.position_m(), result.next->pose_map.position_m());
     if (!*answer.path || input.leave_building ||

@@ -53,7 +53,8 @@ Frontier FrontierSurvey::described(const FrontierRun& run) const {
   } else if (!inside) {
     setReason(frontier, FrontierReason::kOutOfBounds, "outside the bounds of the mission");
   } else if (isLost(frontier.centroid_map_m)) {
-    setReason(frontier, FrontierReason::kPositionUncertain, "the position became uncertain during an earlier approach");
+    setReason(frontier, FrontierReason::kPositionUncertain,
+              "the position became, or would become, uncertain during the approach");
   } else if (frontier.attempts >= config_.max_attempts) {
     setReason(frontier, FrontierReason::kBlacklisted, fmt::format("looked at {} times", frontier.attempts));
   }

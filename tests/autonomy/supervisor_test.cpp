@@ -172,7 +172,7 @@ TEST_F(SupervisorStory, TellsOnceThatHomeIsOutOfReach) {
   energy_.home_share = 0.05;
   energy_.home_planned = true;
   at(2.0);
-  EXPECT_EQ(supervisor_.takeEvents().size(), 2u) << "20 % and turn back";
+  EXPECT_EQ(supervisor_.takeEvents().size(), 3u) << "below 30 %, below 20 %, turn back";
   energy_.home_share = 0.10;
   at(3.0);
   at(4.0);

@@ -208,7 +208,7 @@ TEST_F(TwoRooms, AFrontierDuringWhoseApproachThePositionBecameUncertainIsLeft) {
   EXPECT_TRUE(result.done);
   EXPECT_EQ(result.frontiers[0].reason, FrontierReason::kPositionUncertain);
   EXPECT_EQ(result.frontiers[0].explanation,
-            "position uncertain: the position became uncertain during an earlier approach");
+            "position uncertain: the position became, or would become, uncertain during the approach");
   input.lost_map_m = {{0.2, 2.5}};
   EXPECT_EQ(look(24, input).frontiers[0].reason, FrontierReason::kOpen) << "a place far from it";
 }

@@ -10,7 +10,7 @@
 namespace swiftlet::planning {
 namespace {
 
-using Path = std::vector<Eigen::Vector2d>;
+using Points = std::vector<Eigen::Vector2d>;
 
 /// A room of 5 m by 5 m with a doorway to the right, outside of which 12 m of free ground were seen and no wall.
 class RoomWithADoor : public testing::Test {
@@ -21,7 +21,7 @@ class RoomWithADoor : public testing::Test {
     test::fill(grid, {{101, -200}, {340, 300}}, test::kFreeCell);
     map_.update(grid.snapshot(), {});
   }
-  bool staysHeld(const Path& path_map_m) const { return planning::staysHeld(map_, path_map_m, ExplorationConfig{}); }
+  bool staysHeld(const Points& path_map_m) const { return planning::staysHeld(map_, path_map_m, ExplorationConfig{}); }
 
   CostMap map_{CostMap::Config{}, 0.05};
 };
