@@ -149,10 +149,10 @@ class EnvelopeRun {
   /// None if it was stopped from outside.
   std::optional<EnvelopeFlight> fly(const TrialConfig& trial, int seed, const fs::path& folder) const {
     EnvelopeFlight flight = envelopeFlight(flyOne(trial, map_, seed, folder, stop_));
-    if (stop_) return std::nullopt;
-    flight.folder = flight.acceptable ? "" : folder.lexically_relative(out_).string();
-    if (flight.acceptable) fs::remove_all(folder);  // Hundreds of them; they can be flown again.
-    return flight;
+    const bool stopped = stop_, kept = !stopped && !flight.acceptable;
+    flight.folder = kept ? folder.lexically_relative(out_).string() : "";
+    if (!kept) fs::remove_all(folder);  // Hundreds of them; they can be flown again.
+    return stopped ? std::nullopt : std::optional(std::move(flight));
   }
 
   void flyBase(std::size_t number) {

@@ -38,7 +38,7 @@ rendering::EnvelopeBar barOf(const EnvelopeEntry& entry) {
     bar.inner_text = shown(*real);
   }
   if (failing == nullptr) {
-    bar.text = fmt::format("no failure up to {}", shown(acceptable));
+    bar.text = fmt::format("{} {}", finding.complete ? "no failure up to" : "not flown beyond", shown(acceptable));
   } else {
     bar.fails = positionOf(entry, failing->value);
     bar.text = fmt::format("{}: {}", shown(failing->value), failing->flights.back().verdict);

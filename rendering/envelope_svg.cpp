@@ -13,7 +13,7 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-constexpr double kWidth_px = 860, kLeft_px = 210, kBars_px = 330, kTop_px = 64, kRow_px = 26, kBarHeight_px = 12;
+constexpr double kWidth_px = 860, kLeft_px = 210, kBars_px = 330, kTop_px = 70, kRow_px = 26, kBarHeight_px = 12;
 constexpr double kBottom_px = 44, kArrow_px = 7;
 
 double xOf(double multiple) {

@@ -19,7 +19,7 @@ EnvelopeBar bar(const std::string& name, double acceptable, std::optional<double
 std::string envelopeWith(const EnvelopeBar& one) { return envelopeSvg({"What fails first", "real", "harsh", {one}}); }
 
 /// The rectangle of the bar itself; the legend shows the colours, too.
-std::string rectangleOf(const std::string& color) { return "<rect class=\"" + color + "\" x=\"210.0\" y=\"71.0\""; }
+std::string rectangleOf(const std::string& color) { return "<rect class=\"" + color + "\" x=\"210.0\" y=\"77.0\""; }
 
 TEST(EnvelopeSvgTest, TheColourSaysWithinWhatItFails) {
   EXPECT_THAT(envelopeWith(bar("lag", 0.5, 0.6)), HasSubstr(rectangleOf("bad")));
