@@ -190,7 +190,7 @@ TEST_F(EnvelopeFile, SaysWhereAMistakeStands) {
         {list + "  - {key: walkers, to: 0.1}\n", ":3:11: .*key: the plant has no number `walkers`"},
         {list + "  - {key: quadrotor.weak_motor, to: 4}\n", ":3:11: .*key: .* counts"},
         {list + "  - {key: quadrotor.motor_lag_s, to: 5}\n",
-         ":3:39: .*to: 5 is not within 0.005 and 0.5, the bounds of `quadrotor.motor_lag_s`"},
+         ":3:38: .*to: 5 is not within 0.005 and 0.5, the bounds of `quadrotor.motor_lag_s`"},
         {list + "  - {key: quadrotor.motor_lag_s}\n", ":3:5: .*to: is missing"},
         {list + "  - {to: 5}\n", ":3:5: .*key: is missing"},
         {list + "  - {key: battery_remaining, to: 0.2}\n  - {key: battery_remaining, to: 0.2}\n", "is listed twice"},
