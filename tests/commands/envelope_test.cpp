@@ -29,11 +29,11 @@ class Envelope : public test_support::Scratch {
                                  "\ntime_limit_s: 20\nscenario: {world: " + write("room.sdf", worldWith(room())) +
                                  "}\n");
   }
-  /// A vehicle of half the thrust cannot lift itself; scans that are a little late harm nobody.
+  /// Motors that lag by 400 ms cannot be flown; scans that are a little late harm nobody.
   std::string quantities() const {
     return write("quantities.yaml",
                  "seeds: 1\nsteps: 2\nbisections: 1\nquantities:\n"
-                 "  - {name: less thrust, key: quadrotor.thrust_share, to: 0.4}\n"
+                 "  - {name: motor lag, key: quadrotor.motor_lag_s, to: 0.4}\n"
                  "  - {key: sensors.laser_link.latency_s, to: 0.01}\n");
   }
   ProgramEnd fly(std::vector<std::string> more, const ProgramOptions& options = {}) const {
@@ -50,19 +50,19 @@ TEST_F(Envelope, FindsWhatFailsFirstAndWritesItAsTableAndPicture) {
   const ProgramEnd end = fly({"--out", path("run"), "--jobs", "2", "--write", page});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const auto read = nlohmann::json::parse(readText(path("run/envelope.json")));
-  const auto thrust = read.at("quantities")[0], latency = read.at("quantities")[1];
+  const auto lag = read.at("quantities")[0], latency = read.at("quantities")[1];
   EXPECT_EQ(read.at("complete"), true);
-  EXPECT_NEAR(thrust.at("base"), 1.0, 1e-12);
-  EXPECT_LT(thrust.at("fails_at"), thrust.at("acceptable_to"));
-  EXPECT_EQ(thrust.at("steps").size(), 4u) << "the base, two steps, one bisection";
+  EXPECT_EQ(lag.at("base"), 0.035);
+  EXPECT_GT(lag.at("fails_at"), lag.at("acceptable_to"));
+  EXPECT_EQ(lag.at("steps").size(), 4u) << "the base, two steps, one bisection";
   EXPECT_EQ(latency.at("fails_at"), nullptr);
   EXPECT_EQ(latency.at("acceptable_to"), 0.01);
 
-  const auto failed = thrust.at("steps").back().at("flights")[0];
+  const auto failed = lag.at("steps").back().at("flights")[0];
   EXPECT_TRUE(fs::exists(path("run/" + failed.at("folder").get<std::string>() + "/report.html"))) << failed;
   EXPECT_FALSE(fs::exists(path("run/base"))) << "runs that are acceptable are not kept";
   EXPECT_THAT(readText(path("run/report.html")), HasSubstr("<svg"));
-  EXPECT_THAT(readText(page), testing::AllOf(HasSubstr("| less thrust |"), HasSubstr("kept"), Not(HasSubstr("old"))));
+  EXPECT_THAT(readText(page), testing::AllOf(HasSubstr("| motor lag |"), HasSubstr("kept"), Not(HasSubstr("old"))));
   EXPECT_TRUE(fs::exists(path("images/page.svg")));
 
   const ProgramEnd alone = fly({"--out", path("again"), "--json"});
@@ -92,7 +92,7 @@ TEST_F(Envelope, WhatCannotBeTurnedUpIsRefusedBeforeAnyFlight) {
     EXPECT_THAT(end.err, ContainsRegex(pattern));
     EXPECT_FALSE(fs::exists(path("run"))) << describe(end);
   };
-  expectRefused({"--only", "quadrotor.thrust"}, "--only: no quantity has the key `quadrotor.thrust`, did you mean");
+  expectRefused({"--only", "quadrotor.motor_lag"}, "--only: no quantity has the key `quadrotor.motor_lag`, did you mean");
   expectRefused({"--nature", "real"}, "--nature: does not go with --envelope");
   expectRefused({"--battery", "0.5"}, "--battery: does not go with --envelope");
   expectRefused({"--write", write("empty.md", "# Mine\n")}, "empty.md: --write: the page has no place");
