@@ -17,7 +17,9 @@ constexpr double kMaxIntegral_m_s2 = 2.0;
 /// 0.02 m/s^2 makes in ten seconds.
 constexpr double kBlindMargin_per_s = 0.1;
 /// Growth of the error of a speed that the thrust model carries: its hover command is good to about 1 % of gravity.
-constexpr double kModelSpeed_m_s2 = 0.08;
+constexpr double kModelSpeed_m_s2 = 0.05;
+/// Of the speed of a descent, for one that the thrust model carries: its error adds to the speed.
+constexpr double kModelShare = 0.6;
 /// Slower than this share of the wanted speed the vehicle does not sink as it should.
 constexpr double kSinkingShare = 0.7;
 /// Below the ground by this much the thrust model must have missed the touch-down.
@@ -59,7 +61,9 @@ void AlphaBetaFilter::update(const RawHeight& raw) {
 EmergencyDescent::EmergencyDescent(const Config& config)
     : config_(config), filter_(config.alpha, config.beta, config.jump_m) {}
 
-void EmergencyDescent::start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s) {
+void EmergencyDescent::start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s,
+                             const Eigen::Vector2d& trim_level_m_s2) {
+  trim_level_m_s2_ = trim_level_m_s2.allFinite() ? trim_level_m_s2 : Eigen::Vector2d::Zero();
   velocity_left_m_s_ = velocity_level_m_s.allFinite() ? velocity_level_m_s : Eigen::Vector2d::Zero();
   last_seen_ = last_moving_ = now;
   standing_height_m_ = standing_height_m;
@@ -78,8 +82,9 @@ common::Setpoint EmergencyDescent::tick(common::Time now, double dt_s, const Thr
   const Eigen::Vector2d braking_m_s2 = -config_.brake_1_s * velocity_left_m_s_;
   const Eigen::Vector2d given_m_s2 = braking_m_s2 / std::max(1.0, braking_m_s2.norm() / kMaxAcceleration_m_s2);
   velocity_left_m_s_ += given_m_s2 * dt_s;
-  setpoint.pitch_rad = std::atan2(given_m_s2.x(), kGravity_m_s2);
-  setpoint.roll_rad = std::atan2(-given_m_s2.y(), kGravity_m_s2);
+  const Eigen::Vector2d tilt_m_s2 = given_m_s2 + trim_level_m_s2_;
+  setpoint.pitch_rad = std::atan2(tilt_m_s2.x(), kGravity_m_s2);
+  setpoint.roll_rad = std::atan2(-tilt_m_s2.y(), kGravity_m_s2);
   const bool sees = filter_.ready() && (now - filter_.stamp()).seconds() <= config_.blind_after_s;
   given_m_s2_ = sees ? seenAcceleration_m_s2(now, dt_s) : blindAcceleration_m_s2(now, dt_s, carried);
   setpoint.thrust = thrust.commandFor(given_m_s2_, 1.0);
@@ -123,7 +128,8 @@ double EmergencyDescent::blindAcceleration_m_s2(common::Time now, double dt_s,
   }
   // Faster by what the carried speed may be wrong, so that the vehicle sinks in any case.
   const double wrong_m_s = blind_s * (carried ? kCarriedSpeed_m_s2 : kModelSpeed_m_s2);
-  const double wanted_m_s = wantedVelocity_m_s(kBlindMargin_per_s * blind_s) - wrong_m_s;
+  const double share = carried ? 1.0 : kModelShare;
+  const double wanted_m_s = share * wantedVelocity_m_s(kBlindMargin_per_s * blind_s) - wrong_m_s;
   const bool sinks =
       carried ? motion_.velocity_m_s < kSinkingShare * wanted_m_s : motion_.height_m > standing_height_m_ - kMissed_m;
   const double step_m_s2 = config_.blind_push_m_s3 * dt_s;

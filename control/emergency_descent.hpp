@@ -56,9 +56,9 @@ struct VerticalMotion {
 class EmergencyDescent {
  public:
   struct Config {
-    double descent_m_s = 0.4;
-    double touchdown_descent_m_s = 0.2;
-    double touchdown_height_m = 0.4;
+    double descent_m_s = 0.6;
+    double touchdown_descent_m_s = 0.3;
+    double touchdown_height_m = 0.35;
     double gain_1_s = 2.5;
     double integral_1_s2 = 0.8;
     double alpha = 0.4;
@@ -79,8 +79,10 @@ class EmergencyDescent {
   /// Call it in every state, so that the filter is ready when it is needed.
   void observe(const RawHeight& raw) { filter_.update(raw); }
   /// `standing_height_m` is the height that the mirror measured on the ground. `velocity_level_m_s` is the last known
-  /// horizontal velocity, in the body frame without roll and pitch; zero if none is known.
-  void start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s);
+  /// horizontal velocity, in the body frame without roll and pitch; zero if none is known. `trim_level_m_s2`, in the
+  /// same frame, balances wind and a wrong horizon: a horizon off by 1 deg would carry the vehicle 0.8 m in 3 s.
+  void start(common::Time now, double standing_height_m, const Eigen::Vector2d& velocity_level_m_s,
+             const Eigen::Vector2d& trim_level_m_s2 = Eigen::Vector2d::Zero());
   /// The yaw rate is zero. The tilt brakes the velocity given to start() without measuring it again.
   /// `carried` is the motion by the inertial samples, used while no raw height is fresh; none if it is not known.
   common::Setpoint tick(common::Time now, double dt_s, const ThrustModel& thrust,
@@ -97,6 +99,7 @@ class EmergencyDescent {
   Config config_;
   AlphaBetaFilter filter_;
   Eigen::Vector2d velocity_left_m_s_ = Eigen::Vector2d::Zero();  ///< What braking has not taken away yet.
+  Eigen::Vector2d trim_level_m_s2_ = Eigen::Vector2d::Zero();
   common::Time last_seen_;  ///< When the ground was last measured; at first, when the descent started.
   common::Time last_moving_;
   double standing_height_m_ = 0.0;

@@ -26,6 +26,8 @@ constexpr double kCarried_s = 0.5;  ///< Age from which the height counts as car
 /// more than this within touchdown_s.
 constexpr double kCarriedTouchdownSpeed_m_s = 0.35;
 constexpr double kCarriedLimit_s = 10.0;  ///< Beyond this age a carried speed counts as no worse.
+/// Slower than this the drag is less than the error of the horizon.
+constexpr double kTrimmedSpeed_m_s = 0.3;
 /// Deviation up to which a carried vertical speed is better than that of the thrust model.
 constexpr double kCarriedSpeedSigma_m_s = 0.5;
 /// When the position is unknown, a velocity with at most this deviation is still damped.
@@ -224,7 +226,7 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
   return landed;
 }
 
-/// The thrust is the emergency descent's. A horizontal estimate that is still good holds the place.
+/// The thrust is the emergency descent's. A horizontal estimate that is still good holds the place, or its velocity.
 common::Setpoint FlightController::descendInEmergency(const FlightTick& tick) {
   std::optional<VerticalMotion> carried;
   const double variance = last_state_.velocity_covariance_m2_s2(2, 2);
@@ -234,8 +236,9 @@ common::Setpoint FlightController::descendInEmergency(const FlightTick& tick) {
   common::Setpoint setpoint = emergency_.tick(now_, dt_s_, position_.thrust(), carried);
   if (emergency_.touchedDown()) {
     transition(FlightInput::kTouchedDown, "emergency landing ended on the ground");
-  } else if (tick.state.horizontal_valid) {
-    // Without a vertical error the position controller leaves its hover command as it is.
+  } else if (tick.state.horizontal_valid || carried) {
+    // Without a position the velocity that inertial samples carry is damped. Without a vertical error the position
+    // controller leaves its hover command as it is.
     height_reference_m_ = tick.state.T_odom_body.position_m.z();
     climb_reference_m_s_ = tick.state.velocity_odom_m_s.z();
     const common::Setpoint held = track(tick, follower_.advance(dt_s_));
@@ -262,6 +265,8 @@ common::Setpoint FlightController::track(const FlightTick& tick, const Reference
     horizontal = variance < kDampedVelocitySigma_m_s * kDampedVelocitySigma_m_s && !tick.fusion_diverged
                      ? Horizontal::kVelocity
                      : Horizontal::kLevel;
+    // A velocity that is measured no longer would be damped beyond its end.
+    if (!tick.inertial_fault.empty()) horizontal = Horizontal::kLevel;
   }
   return position_.tick(now_, dt_s_, tick.state, target, tick.battery_v, horizontal, on_ground);
 }
@@ -327,7 +332,11 @@ void FlightController::enter(FlightState from, FlightState entered) {
       return;
     case FlightState::kEmergencyLanding:
       follower_.stop();
-      emergency_.start(now_, standing_raw_m_, velocityForBraking_m_s());
+      // The trim of a vehicle that flies fast balances drag, which ends with the braking.
+      emergency_.start(now_, standing_raw_m_, velocityForBraking_m_s(),
+                       last_state_.velocity_odom_m_s.head<2>().norm() < kTrimmedSpeed_m_s
+                           ? Eigen::Vector2d(Eigen::Rotation2Dd(-yaw_rad) * position_.trim_odom_m_s2())
+                           : Eigen::Vector2d(Eigen::Vector2d::Zero()));
       return;
     case FlightState::kPreparation:
     case FlightState::kPoweredOff:

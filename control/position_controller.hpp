@@ -59,6 +59,8 @@ class PositionController {
   common::Setpoint tick(common::Time now, double dt_s, const common::VehicleState& state, const Reference& reference,
                         double battery_v, Horizontal horizontal = Horizontal::kPosition, bool on_ground = false);
 
+  /// The horizontal acceleration that balances wind and a wrong horizon, as learned so far.
+  Eigen::Vector2d trim_odom_m_s2() const { return integral_m_s2_.head<2>(); }
   ThrustModel& thrust() { return thrust_; }
   const ThrustModel& thrust() const { return thrust_; }
 
