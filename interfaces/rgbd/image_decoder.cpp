@@ -82,7 +82,10 @@ void placeRows(PngRead& read) {
 /// False with `read.problem`.
 bool readPng(PngRead& read, Wanted wanted) {
   read.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &read, onError, onWarning);
-  if (read.png == nullptr) return false;
+  if (read.png == nullptr) {
+    read.problem = "cannot be read for lack of memory";
+    return false;
+  }
   if (setjmp(png_jmpbuf(read.png)) != 0) return false;
   read.info = png_create_info_struct(read.png);
   png_set_user_limits(read.png, kMostImageSide_px, kMostImageSide_px);

@@ -1,0 +1,75 @@
+// swiftlet map3d as users meet it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "interfaces/files/archive.hpp"
+#include "interfaces/files/tum.hpp"
+#include "tests/support/datasets.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace swiftlet::commands {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::describe;
+using test_support::ProgramEnd;
+using test_support::readText;
+using test_support::runSwiftlet;
+using testing::HasSubstr;
+
+class Map3d : public test_support::Scratch {};
+
+TEST_F(Map3d, RefusesAFolderWithoutFramesAndLeavesNothing) {
+  fs::create_directories(folder_ / "empty");
+  const ProgramEnd end = runSwiftlet({"map3d", path("empty"), "--out", path("out")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("empty: holds no RGB-D frames of a known format, expected associations.txt"));
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
+TEST_F(Map3d, NamesTheSettingOfACalibrationThatIsWrong) {
+  fs::create_directories(folder_ / "empty");
+  const std::string file = write("lens.yaml", "color: {fx_pix: 500}\n");
+  const ProgramEnd end = runSwiftlet({"map3d", path("empty"), "--intrinsics", file, "--out", path("out")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("did you mean `fx_px`?"));
+}
+
+TEST_F(Map3d, MapsARecordedFolderAndSaysWhatItSkipped) {
+  const auto archive = test_support::dataSet("03-rgbd/7scenes-redkitchen-a/redkitchen_000-598_step2.tar");
+  if (!archive) return;
+  const fs::path all = interfaces::unpackInto(folder_, *archive);
+  const fs::path some = folder_ / "some";
+  fs::create_directories(some);
+  for (int i = 0; i < 40; i += 2)
+    for (const char* kind : {"color.jpg", "depth.png"}) {
+      const std::string name = fmt::format("frame-{:06}.{}", i, kind);
+      fs::copy_file(all / name, some / name);
+    }
+  fs::resize_file(some / "frame-000010.depth.png", 5'000);
+  const ProgramEnd end = runSwiftlet({"map3d", some.string(), "--out", path("out"), "--json"});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const nlohmann::json figures = nlohmann::json::parse(end.out);
+  EXPECT_EQ(figures.at("format"), "7-Scenes");
+  EXPECT_EQ(figures.at("frames"), 19);
+  EXPECT_EQ(figures.at("skipped_frames"), 1);
+  EXPECT_EQ(figures.at("lost_frames"), 0);
+  EXPECT_THAT(figures.at("notes").dump(), HasSubstr("frame-000010.depth.png: is cut off"));
+  EXPECT_EQ(interfaces::readTum(path("out/trajectory.tum")).size(), 19u);
+  EXPECT_GT(fs::file_size(path("out/cloud.ply")), 100'000u);
+  EXPECT_THAT(readText(path("out/report.html")), HasSubstr("<title>3D map of some"));
+  // Its own poses as a seed give the same map.
+  const ProgramEnd seeded =
+      runSwiftlet({"map3d", some.string(), "--poses", path("out/trajectory.tum"), "--out", path("seeded"), "--json"});
+  ASSERT_EQ(seeded.exit_code, 0) << describe(seeded);
+  EXPECT_EQ(nlohmann::json::parse(seeded.out).at("lost_frames"), 0);
+}
+
+}  // namespace
+}  // namespace swiftlet::commands
