@@ -21,10 +21,9 @@ fs::path cacheFolder() {
 
 void findWorld(evaluation::TrialConfig& trial) {
   const fs::path root = common::findData("worlds").parent_path();
-  fs::path unpacked = root;
+  fs::path unpacked = evaluation::dataSetsFolder(root);  // Models that are there as they are need no archive.
   if (!trial.archive.empty())
-    unpacked =
-        interfaces::unpackInto(cacheFolder(), evaluation::findArchive(trial.archive, evaluation::dataSetsFolder(root)));
+    unpacked = interfaces::unpackInto(cacheFolder(), evaluation::findArchive(trial.archive, unpacked));
   trial.resolvePaths(unpacked, root);
   trial.scenario.world = common::findData(trial.scenario.world).string();
 }

@@ -48,6 +48,10 @@ void Criteria::describe(common::config::Fields& fields) {
          "Greatest time from the beginning of a fault until the vehicle holds, lands or stands.");
   fields("home_energy_error_max", home_energy_error_max, kPositive,
          "Greatest relative error of the charge that the vehicle predicts for the flight home when that begins.");
+  fields("end_distance_max_m", end_distance_max_m, kPositive,
+         "Greatest horizontal distance from the take-off place at which the vehicle is at the end.");
+  fields("unfinished_distance_min_m", unfinished_distance_min_m, {0, 1e5},
+         "Least distance flown by a vehicle that ends without having done its mission.");
   fields("all_resumed", all_resumed, "Whether everything that was interrupted must have gone on.");
   fields("goal_error_median_max_m", goal_error_median_max_m, kPositive, "Greatest median of all flights' goal errors.");
   fields("home_error_median_max_m", home_error_median_max_m, kPositive, "Greatest median of all flights' home errors.");

@@ -33,6 +33,8 @@ struct Criteria {
   double touch_down_speed_max_m_s = kAny;
   double safe_action_max_s = kAny;
   double home_energy_error_max = kAny;
+  double end_distance_max_m = kAny;
+  double unfinished_distance_min_m = 0.0;
   bool all_resumed = true;
   double goal_error_median_max_m = kAny;
   double home_error_median_max_m = kAny;

@@ -156,6 +156,7 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   score.mission_time_s = record.mission_time_s;
   score.flight_time_s = record.flight_time_s;
   score.distance_m = record.true_distance_m;
+  score.end_distance_m = (record.last_truth.T_world_body.position_m - record.T_world_start.position_m).head<2>().norm();
   score.speed_max_m_s = record.true_speed_max_m_s;
   if (record.explored_area_m2 > 0) score.explored_area_m2 = record.explored_area_m2;
   score.interruptions = record.interruptions;

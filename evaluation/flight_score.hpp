@@ -87,6 +87,7 @@ struct FlightScore {
   double mission_time_s = 0.0;
   double flight_time_s = 0.0;              ///< Simulated time.
   double distance_m = 0.0;                 ///< True distance.
+  double end_distance_m = 0.0;             ///< True horizontal distance from the take-off place at the end.
   double speed_max_m_s = 0.0;              ///< True horizontal speed.
   std::optional<double> explored_area_m2;  ///< None if the mission did not explore.
   double reachable_area_m2 = 0.0;          ///< Area that the hull can cover; `coverage` is a share of it.

@@ -58,6 +58,13 @@ void judgeConduct(const ConductScore& conduct, const Criteria& criteria, bool la
   atMost("error of the energy for the flight home", conduct.home_energy_error, criteria.home_energy_error_max);
 }
 
+void judgeDistances(const FlightScore& score, const Criteria& criteria, Judge& judge) {
+  judge.atMost("distance from the take-off place at the end, m", score.end_distance_m, criteria.end_distance_max_m);
+  if (!score.mission_done)
+    judge.atLeast("distance flown without having done the mission, m", score.distance_m,
+                  criteria.unfinished_distance_min_m);
+}
+
 }  // namespace
 
 std::vector<std::string> missed(const FlightScore& score, const Criteria& criteria) {
@@ -66,6 +73,7 @@ std::vector<std::string> missed(const FlightScore& score, const Criteria& criter
   const bool asked_of_mission = score.mission_done || !criteria.verdicts;
   if (asked_of_mission) judgeMission(score, criteria, judge);
   judgeConduct(score.conduct, criteria, asked_of_mission, judge);
+  judgeDistances(score, criteria, judge);
   judgeSteps(score, judge);
   return judge.failures;
 }

@@ -79,6 +79,7 @@ ordered_json flightJson(const FlightScore& flight) {
       {"mission_time_s", orNull(flight.mission_time_s)},
       {"flight_time_s", orNull(flight.flight_time_s)},
       {"distance_m", orNull(flight.distance_m)},
+      {"end_distance_m", orNull(flight.end_distance_m)},
       {"speed_max_m_s", orNull(flight.speed_max_m_s)},
       {"explored_area_m2", orNull(flight.explored_area_m2)},
       {"reachable_area_m2", orNull(flight.reachable_area_m2)},

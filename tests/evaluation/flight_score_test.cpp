@@ -126,6 +126,27 @@ TEST_F(FlightScoring, MarkersAreJudgedByTheirBounds) {
   EXPECT_EQ(score(record, criteria).failures.size(), 2u) << "what was not measured is missed";
 }
 
+TEST_F(FlightScoring, AVehicleThatComesHomeUndoneMustHaveFlownFarEnough) {
+  FlightRecord record = goodRecord();
+  record.mission = MissionState::kFailed;
+  record.mission_reason = "landed: home again";
+  record.last_truth.T_world_body.position_m = {1.3, 1.4, 0.15};
+  Criteria criteria;
+  criteria.mission_done = false;
+  criteria.end_distance_max_m = 0.51;
+  criteria.unfinished_distance_min_m = 40.0;
+  EXPECT_THAT(score(record, criteria).failures, IsEmpty());
+  EXPECT_NEAR(score(record, criteria).end_distance_m, 0.5, 1e-9);
+
+  criteria.end_distance_max_m = 0.49;
+  criteria.unfinished_distance_min_m = 41.0;
+  EXPECT_THAT(score(record, criteria).failures,
+              ElementsAre(HasSubstr("distance from the take-off place at the end, m: 0.5"),
+                          HasSubstr("distance flown without having done the mission, m: 40")));
+  record.mission = MissionState::kDone;
+  EXPECT_THAT(score(record, criteria).failures, ElementsAre(HasSubstr("at the end, m")));
+}
+
 TEST_F(FlightScoring, AnAvoidableCollisionFails) {
   FlightRecord record = goodRecord();
   record.last_truth.crashed = true;
