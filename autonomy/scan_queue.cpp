@@ -16,15 +16,16 @@ void ScanQueueConfig::describe(common::config::Fields& fields) {
          "Greatest wait of a scan for one that was measured before it and has not arrived.");
 }
 
-void ScanQueue::add(std::shared_ptr<const common::LaserScan> scan) {
+bool ScanQueue::add(std::shared_ptr<const common::LaserScan> scan) {
   const Time measured = scan->stamps.measured;
   if (any_taken_ && measured <= last_measured_) {
     ++late_scans_;
-    return;
+    return false;
   }
   const auto later = std::find_if(waiting_.begin(), waiting_.end(),
                                   [measured](const auto& other) { return measured < other->stamps.measured; });
   waiting_.insert(later, std::move(scan));
+  return true;
 }
 
 bool ScanQueue::followsAtOnce(Time measured) const {

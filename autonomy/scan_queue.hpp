@@ -25,12 +25,14 @@ class ScanQueue {
   /// `period_s`: time from one scan of the laser to the next.
   ScanQueue(const ScanQueueConfig& config, double period_s) : config_(config), period_s_(period_s) {}
 
-  /// A scan that was measured before the last one taken is counted and left out.
-  void add(std::shared_ptr<const common::LaserScan> scan);
+  /// A scan that was measured before the last one taken is counted and left out; then it returns false.
+  bool add(std::shared_ptr<const common::LaserScan> scan);
   /// The oldest scan that is due at `now`; null without one. A scan that follows the last one without a gap is due
   /// `latency_s` after its arrival. After a gap it waits for the missing scan, for at most `reorder_wait_s` more.
   std::shared_ptr<const common::LaserScan> take(common::Time now);
 
+  /// When the last scan that was taken was measured.
+  common::Time lastMeasured() const { return last_measured_; }
   std::uint64_t lateScans() const { return late_scans_; }
 
  private:

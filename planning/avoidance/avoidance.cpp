@@ -42,11 +42,11 @@ std::string bearingInWords(const Point& p) {
 
 }  // namespace
 
-Avoidance::Avoidance(const Config& config, double hull_radius_m)
-    : config_(config), command_latency_s_(config.latency_s), hull_radius_m_(hull_radius_m) {}
+Avoidance::Avoidance(const Config& config, double hull_radius_m) : config_(config), hull_radius_m_(hull_radius_m) {}
 
 AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
-  config_.latency_s = command_latency_s_ + std::max(0.0, input.age_s);
+  // Since the scan the vehicle has flown on, as it will until the command acts.
+  const double latency_s = config_.latency_s + std::max(0.0, input.age_s);
   const Points returns = smoothed(config_, input.points_level_m);
   const std::vector<Bin> sectors = bins(config_, returns);
   Points points = returns;
@@ -74,13 +74,13 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   const Point& course = moves ? input.wanted_level_m_s : input.velocity_level_m_s;
   decision.speed_limit_m_s = config_.max_speed_m_s;
   if (course.norm() > kStill_m_s) {
-    decision.speed_limit_m_s = speedLimit(course.normalized(), points);
+    decision.speed_limit_m_s = speedLimit(course.normalized(), points, latency_s);
     const double intended_m_s = std::min(course.norm(), decision.speed_limit_m_s);
-    const double yielding_m_s = yieldingSpeed(course.normalized(), speed_m_s, intended_m_s, around);
+    const double yielding_m_s = yieldingSpeed(course.normalized(), speed_m_s, intended_m_s, around, latency_s);
     if (yielding_m_s < intended_m_s) decision.speed_limit_m_s = yielding_m_s;
   }
   if (retreating_) {
-    last_retreat_level_ = retreat(input, points, around);
+    last_retreat_level_ = retreat(input, points, around, latency_s);
     decision.retreat_velocity_level_m_s = last_retreat_level_;
     decision.retreat_acceleration_m_s2 = config_.deceleration_m_s2;
     decision.turn_rad = turnToSee(around, last_retreat_level_);
@@ -145,12 +145,12 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
   return result;
 }
 
-double Avoidance::speedLimit(const Point& direction, const Points& points) const {
+double Avoidance::speedLimit(const Point& direction, const Points& points, double latency_s) const {
   double gap_m = kInfinity;
   for (const Point& p : points) gap_m = std::min(gap_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
   // Outside the field of view only mapped obstacles are known, but no people.
   const double most_m_s = isSeen(direction) ? config_.max_speed_m_s : config_.blind_speed_m_s;
-  return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed(gap_m)) : most_m_s;
+  return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed(gap_m, latency_s)) : most_m_s;
 }
 
 bool Avoidance::isSeen(const Point& direction) const {
@@ -158,14 +158,14 @@ bool Avoidance::isSeen(const Point& direction) const {
          0.5 * config_.field_of_view_deg * std::numbers::pi / 180.0;
 }
 
-double Avoidance::stoppingSpeed(double gap_m) const {
+double Avoidance::stoppingSpeed(double gap_m, double latency_s) const {
   // v t + v^2 / (2 a) = gap
-  const double a = config_.deceleration_m_s2, t = config_.latency_s;
+  const double a = config_.deceleration_m_s2, t = latency_s;
   return std::sqrt(a * a * t * t + 2.0 * a * gap_m) - a * t;
 }
 
 double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double intended_m_s,
-                                const std::vector<Threat>& threats) const {
+                                const std::vector<Threat>& threats, double latency_s) const {
   // Within the horizon a person at 1.5 m/s walks 3.75 m.
   constexpr double kStep_m_s = 0.1, kHorizon_s = 2.5;
   const double a = config_.deceleration_m_s2;
@@ -173,7 +173,7 @@ double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double
     double moved_m = 0.0, now_m_s = speed_m_s, least_m = kInfinity;
     for (double time_s = 0.0; time_s <= kHorizon_s; time_s += kTimeStep_s) {
       least_m = std::min(least_m, threat.gapTo(hull_radius_m_, moved_m * direction, time_s));
-      if (time_s >= config_.latency_s) now_m_s += std::clamp(v - now_m_s, -a * kTimeStep_s, a * kTimeStep_s);
+      if (time_s >= latency_s) now_m_s += std::clamp(v - now_m_s, -a * kTimeStep_s, a * kTimeStep_s);
       moved_m += now_m_s * kTimeStep_s;
     }
     return least_m;
@@ -188,12 +188,13 @@ double Avoidance::yieldingSpeed(const Point& direction, double speed_m_s, double
   return std::max(0.0, result_m_s);
 }
 
-Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const {
+Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats,
+                         double latency_s) const {
   // The danger may have passed only for a moment, so the state lasts until it has been gone for `calm_s`.
   if (std::none_of(threats.begin(), threats.end(), [](const Threat& t) { return t.dangerous; })) return Point::Zero();
   return retreatVelocity(
       config_, hull_radius_m_,
-      {input.velocity_level_m_s, points, threats, last_retreat_level_, input.T_map_level, input.cost_map});
+      {input.velocity_level_m_s, points, threats, last_retreat_level_, input.T_map_level, input.cost_map, latency_s});
 }
 
 /// The turn that brings the nearest threat and the course of the retreat into the laser's field of view. Outside it, a

@@ -76,17 +76,17 @@ class Avoidance {
   using Points = std::vector<Eigen::Vector2d>;
 
   std::vector<Threat> threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
-  double speedLimit(const Eigen::Vector2d& direction, const Points& points) const;
+  double speedLimit(const Eigen::Vector2d& direction, const Points& points, double latency_s) const;
   bool isSeen(const Eigen::Vector2d& direction) const;
-  double stoppingSpeed(double gap_m) const;
+  double stoppingSpeed(double gap_m, double latency_s) const;
   double yieldingSpeed(const Eigen::Vector2d& direction, double speed_m_s, double intended_m_s,
-                       const std::vector<Threat>& threats) const;
-  Eigen::Vector2d retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats) const;
+                       const std::vector<Threat>& threats, double latency_s) const;
+  Eigen::Vector2d retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats,
+                          double latency_s) const;
   double turnToSee(const std::vector<Threat>& threats, const Eigen::Vector2d& retreat_level_m_s) const;
   bool isMapped(const AvoidanceInput& input, const Eigen::Vector2d& point_level_m) const;
 
-  Config config_;  ///< Its latency includes the age of the scan.
-  double command_latency_s_;
+  Config config_;
   double hull_radius_m_;
   bool retreating_ = false;
   common::Time danger_stamp_;

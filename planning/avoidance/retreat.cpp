@@ -47,7 +47,7 @@ class Retreat {
   Retreat(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input)
       : config_(config), hull_radius_m_(hull_radius_m), input_(input) {
     const double reach_m =
-        input.velocity_level_m_s.norm() * config.latency_s + config.retreat_speed_m_s * kSteps * kStep_s;
+        input.velocity_level_m_s.norm() * input.latency_s + config.retreat_speed_m_s * kSteps * kStep_s;
     for (const Point& p : input.points_level_m) {
       const bool far = p.norm() > reach_m + safe_m();
       if (!far && (near_.empty() || (p - near_.back()).norm() > kThinned_m)) near_.push_back(p);
@@ -108,7 +108,7 @@ class Retreat {
     Point place = Point::Zero(), velocity = input_.velocity_level_m_s;
     for (int i = 0; i <= kSteps; ++i) {
       course[static_cast<std::size_t>(i)] = place;
-      const double since_s = i * kStep_s - config_.latency_s;
+      const double since_s = i * kStep_s - input_.latency_s;
       if (since_s >= 0.0) {
         const Point change = (since_s < going_s ? wanted_m_s : Point::Zero()) - velocity;
         velocity += change.norm() > most_m_s ? Point(change.normalized() * most_m_s) : change;

@@ -37,6 +37,7 @@ struct RetreatInput {
   Eigen::Vector2d last_level_m_s;  ///< The result at the previous scan; zero at first.
   common::Pose2 T_map_level;
   const CostMap* cost_map;  ///< The obstacles that the laser does not see; may be null.
+  double latency_s;         ///< From the scan to the moment when a command acts.
 };
 
 /// The velocity to fly until the next scan, in the level frame; zero if stopping is best. If it is flown with the

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "common/check.hpp"
-#include "common/random.hpp"
 #include "simulation/world_model.hpp"
 
 namespace swiftlet::simulation {
@@ -18,6 +17,14 @@ using common::Time;
 constexpr float kErrorCode_m = 0.0F;
 constexpr double kStep_m = 0.001;           // The device counts millimetres.
 constexpr double kNoiseGrowsFrom_m = 10.0;  // Range noise is constant up to here, then proportional to the range.
+
+/// The returned power goes with reflectance * cos(incidence) / range^2, so this times cos(incidence) is the square of
+/// the range at which the beam is lost.
+float seenSquared_m2(const LaserErrorsConfig& errors, double reflectance) {
+  constexpr double kBlack = 0.04;  // At 905 nm.
+  if (errors.dark_range_m <= 0.0) return std::numeric_limits<float>::infinity();
+  return static_cast<float>(errors.dark_range_m * errors.dark_range_m * std::max(reflectance, kBlack) / kBlack);
+}
 
 }  // namespace
 
@@ -35,9 +42,11 @@ LaserScanner::LaserScanner(const common::LaserConfig& config, const LaserErrorsC
       distances_m_(static_cast<std::size_t>(config.beams)),
       hits_(errors.needsSurfaces() ? static_cast<std::size_t>(config.beams) : 0) {
   for (const Shape& shape : world.shapes) {
-    reflectances_.push_back(shape.color.mean());
+    seen_m2_.push_back(seenSquared_m2(errors, shape.color.mean()));
     glass_.push_back(shape.glass);
   }
+  constexpr double kSkinAndCloth = 0.4;  // Reflectance at 905 nm.
+  seen_m2_.push_back(seenSquared_m2(errors, kSkinAndCloth));
   if (errors.glass_angle_deg > 0.0)
     for (const Shape& shape : world.shapes) seen_.push_back(!shape.glass);
   const common::Pose3 T_true_sheet = errors.mount_error.pose();
@@ -109,41 +118,46 @@ Hit LaserScanner::behindGlass(const Ray& ray, Hit hit, const std::vector<Actor>&
   return hit;
 }
 
-/// The returned power goes with reflectance * cos(incidence) / range^2.
-double LaserScanner::seenRange_m(const Hit& hit, double cos_incidence) const {
-  constexpr double kBlack = 0.04, kSkinAndCloth = 0.4;  // Reflectances at 905 nm.
-  if (errors_.dark_range_m <= 0.0) return std::numeric_limits<double>::infinity();
-  const auto shape = static_cast<std::size_t>(hit.shape);
-  const double reflectance = shape < reflectances_.size() ? reflectances_[shape] : kSkinAndCloth;
-  return errors_.dark_range_m * std::sqrt(std::max(reflectance, kBlack) * cos_incidence / kBlack);
-}
-
 bool LaserScanner::towardsSun(const Ray& ray) const {
   const double heading_rad = std::atan2(ray.direction_world.y(), ray.direction_world.x());
   return std::abs(common::wrapAngle(heading_rad - errors_.sun_direction_deg * common::kRadPerDeg)) <
          errors_.sun_width_deg * common::kRadPerDeg;
 }
 
-void LaserScanner::addSurfaceErrors(std::uint64_t frame) {
-  common::RandomStream random(seed_, "laser errors", frame);
-  constexpr float kNothing_m = std::numeric_limits<float>::infinity();
+common::RandomStream LaserScanner::randomOf(const char* what, std::uint64_t frame, std::size_t beam) const {
+  return {seed_, what, frame * distances_m_.size() + beam};
+}
+
+void LaserScanner::addSurfaceErrors() {
+  constexpr float kLeastCos = 0.1F;
+  const auto bias_m = static_cast<float>(errors_.incidence_bias_m);
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    const Hit& hit = hits_[i];
+    if (!hit) continue;
+    const float cos_incidence = std::abs(rays_[i].direction_world.dot(hit.normal_world));
+    const float seen_m2 = seen_m2_[std::min(static_cast<std::size_t>(hit.shape), seen_m2_.size() - 1)];
+    float& distance_m = distances_m_[i];
+    if (distance_m * distance_m > seen_m2 * cos_incidence)
+      distance_m = std::numeric_limits<float>::infinity();
+    else
+      distance_m += bias_m * (1.0F / std::max(kLeastCos, cos_incidence) - 1.0F);
+  }
+}
+
+void LaserScanner::blindBySun(std::uint64_t frame) {
+  for (std::size_t i = 0; i < distances_m_.size(); ++i)
+    if (towardsSun(rays_[i]) && randomOf("sun", frame, i).chance(errors_.sun_dropout_rate))
+      distances_m_[i] = std::numeric_limits<float>::infinity();
+}
+
+void LaserScanner::mixPixels(std::uint64_t frame) {
   // Mixed pixels arise where neighbouring beams differ by more than this; a slanted wall differs by less.
   constexpr float kEdge_m = 0.10F;
-  for (std::size_t i = 0; i < hits_.size(); ++i) {
-    if (!hits_[i]) continue;
-    const double cos_incidence = std::abs(static_cast<double>(rays_[i].direction_world.dot(hits_[i].normal_world)));
-    if (distances_m_[i] > seenRange_m(hits_[i], cos_incidence))
-      distances_m_[i] = kNothing_m;
-    else
-      distances_m_[i] += static_cast<float>(errors_.incidence_bias_m * (1.0 / std::max(0.1, cos_incidence) - 1.0));
-  }
-  for (std::size_t i = 0; i < distances_m_.size(); ++i) {
-    const bool mixes = random.chance(errors_.mixed_pixel_rate), blinded = random.chance(errors_.sun_dropout_rate);
-    const auto share = static_cast<float>(random.uniform());
-    if (blinded && towardsSun(rays_[i])) distances_m_[i] = kNothing_m;
-    if (!mixes || i + 1 == distances_m_.size()) continue;
+  for (std::size_t i = 0; i + 1 < distances_m_.size(); ++i) {
     const float step_m = distances_m_[i + 1] - distances_m_[i];
-    if (std::isfinite(step_m) && std::abs(step_m) > kEdge_m) distances_m_[i] += share * step_m;
+    if (!std::isfinite(step_m) || std::abs(step_m) <= kEdge_m) continue;
+    common::RandomStream random = randomOf("mixed pixel", frame, i);
+    if (random.chance(errors_.mixed_pixel_rate)) distances_m_[i] += static_cast<float>(random.uniform()) * step_m;
   }
 }
 
@@ -182,8 +196,9 @@ Time LaserScanner::stampOf(Time start) const {
 common::LaserScan LaserScanner::scan(std::uint64_t frame, Time start, const std::vector<Moment>& track,
                                      const RayCaster& rays) {
   sweepRays(start, track, rays);
-  if (errors_.needsSurfaces() || errors_.mixed_pixel_rate > 0.0 || errors_.sun_dropout_rate > 0.0)
-    addSurfaceErrors(frame);
+  if (errors_.needsSurfaces()) addSurfaceErrors();
+  if (errors_.sun_dropout_rate > 0.0) blindBySun(frame);
+  if (errors_.mixed_pixel_rate > 0.0) mixPixels(frame);
   if (!seen_.empty()) noteGlass();
   common::LaserScan scan;
   scan.stamps.measured = stampOf(start);

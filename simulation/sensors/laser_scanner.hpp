@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "common/geometry.hpp"
+#include "common/random.hpp"
 #include "common/sensor_event.hpp"
 #include "common/vehicle_config.hpp"
 #include "simulation/ray_caster.hpp"
@@ -56,11 +57,14 @@ class LaserScanner {
   bool passesThrough(const Ray& ray, const Hit& hit) const;
   /// The first hit behind the glass at `hit`.
   Hit behindGlass(const Ray& ray, Hit hit, const std::vector<Actor>& actors, const RayCaster& rays) const;
-  /// Puts what the surfaces do to the beams into distances_m_: lost returns, biases and mixed pixels.
-  void addSurfaceErrors(std::uint64_t frame);
-  double seenRange_m(const Hit& hit, double cos_incidence) const;
+  /// Puts what the surfaces do to the beams into distances_m_: lost returns and biases.
+  void addSurfaceErrors();
+  void blindBySun(std::uint64_t frame);
+  void mixPixels(std::uint64_t frame);
   bool towardsSun(const Ray& ray) const;
   void noteGlass();
+  /// Numbers that only this beam of this scan draws, so that beams that need none cost none.
+  common::RandomStream randomOf(const char* what, std::uint64_t frame, std::size_t beam) const;
   void addNoise(std::uint64_t frame, std::vector<float>& ranges_m) const;
 
   common::LaserConfig config_;
@@ -70,8 +74,10 @@ class LaserScanner {
   std::vector<Beam> beams_;
   std::vector<Ray> rays_;  // Kept between scans to save the allocation.
   std::vector<float> distances_m_;
-  std::vector<float> reflectances_;  ///< By shape of the world, in [0, 1].
-  std::vector<bool> glass_;          ///< By shape of the world.
+  /// Squared range at which a surface hit along its normal is still seen, by shape of the world; the last one is that
+  /// of people and vehicles.
+  std::vector<float> seen_m2_;
+  std::vector<bool> glass_;  ///< By shape of the world.
   std::vector<bool> seen_;
   std::vector<Hit> hits_;  ///< Of the beams, when their surfaces matter.
 };

@@ -64,6 +64,29 @@ TEST_F(ReactiveStory, BrakesForAnObstacleAheadOnItsCourseInTheMap) {
   EXPECT_GT(scanAt(0.025).speed_limit_m_s, towards_m_s + 0.3);
 }
 
+TEST_F(ReactiveStory, BrakesEarlierForAnObstacleInAnOldScan) {
+  returnAt({1.1, 0.0});
+  fliesWith({0.0, 1.0});
+  const double fresh_m_s = scanAt(0.0).speed_limit_m_s;
+  age_s = 0.2;
+  const double old_m_s = scanAt(0.025).speed_limit_m_s;
+  EXPECT_LT(old_m_s, fresh_m_s - 0.1);
+  age_s = 0.0;
+  EXPECT_EQ(scanAt(0.05).speed_limit_m_s, fresh_m_s) << "the age is that of one scan";
+}
+
+TEST_F(ReactiveStory, AnOldScanKeepsADoorOfEightyCentimetresOpen) {
+  for (const double ahead_m : {1.0, 0.5, 0.2})
+    for (const double side_m : {-0.4, 0.4})
+      for (int i = 0; i < 5; ++i)
+        scan.points_level_m.push_back(Eigen::Vector2f(static_cast<float>(ahead_m), static_cast<float>(side_m)));
+  fliesWith({0.0, 0.6});
+  for (const double age : {0.0, 0.1, 0.2}) {
+    age_s = age;
+    EXPECT_GT(scanAt(age).speed_limit_m_s, 0.6) << age;
+  }
+}
+
 TEST_F(ReactiveStory, RetreatsFromANearbyUnmappedObject) {
   returnAt({0.4, 0.0});
   const auto& decision = scanAt(0.0);

@@ -66,8 +66,10 @@ TEST(ScanQueue, AScanOlderThanTheLastOneIsCountedAndLeftOut) {
   Queue q;
   q.queue.add(scan(3, 0.080));
   EXPECT_EQ(q.takeUntil(0.085), std::vector{3});
-  q.queue.add(scan(2, 0.086));
-  q.queue.add(scan(3, 0.087));
+  EXPECT_FALSE(q.queue.add(scan(2, 0.086)));
+  EXPECT_FALSE(q.queue.add(scan(3, 0.087)));
+  EXPECT_TRUE(q.queue.add(scan(4, 1.5)));
+  EXPECT_NEAR(q.queue.lastMeasured().seconds(), 3 * kPeriod_s, 1e-9);
   EXPECT_TRUE(q.takeUntil(1.0).empty());
   EXPECT_EQ(q.queue.lateScans(), 2u);
 }

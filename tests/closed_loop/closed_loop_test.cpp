@@ -156,6 +156,29 @@ TEST(ClosedLoop, SlowMotorsOrALowChargeMakeNoLimitCycle) {
   }
 }
 
+TEST(ClosedLoop, ALaserThatIsLateFromTheStartTakesOffHoversAndFlies) {
+  for (const double latency_s : {0.1, 0.2}) {
+    simulation::Scenario scenario = Loop::scenario(6);
+    scenario.sensors.laser_link.latency_s = latency_s;
+    scenario.sensors.laser_link.jitter_s = 0.0;
+    Loop loop(scenario);
+    ASSERT_TRUE(loop.hover()) << latency_s << " s: " << loop.vehicle.stopReason();
+    ASSERT_TRUE(loop.controller.follow({{{0, 0, 1}, {2, 0, 1}, {2, -2, 1}}, common::FlightMode::kCareful, {}}));
+    double worst_m = 0;
+    ASSERT_TRUE(loop.until(
+        [&] {
+          const Eigen::Vector3d off = loop.T_map_body().position_m - loop.controller.reference().position_odom_m;
+          worst_m = std::max(worst_m, off.norm());
+          return loop.controller.pathFinished();
+        },
+        30.0))
+        << latency_s << " s: " << loop.vehicle.stopReason();
+    EXPECT_LT(worst_m, 0.3) << latency_s;
+    loop.until([] { return false; }, 2.0);
+    EXPECT_LT((loop.T_map_body().position_m - Eigen::Vector3d(2, -2, 1)).norm(), 0.15) << latency_s;
+  }
+}
+
 TEST(ClosedLoop, FliesOverATableAndLands) {
   Loop loop(4, true);
   ASSERT_TRUE(loop.hover()) << loop.vehicle.stopReason();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -92,16 +93,18 @@ class Story {
     return points;
   }
 
-  /// One scan at the present instant; `wanted_map_m_s` is the velocity the intent asks for, in the map frame.
+  /// One scan, taken `age_s` ago; `wanted_map_m_s` is the velocity the intent asks for, in the map frame.
   AvoidanceDecision sense(const Point& wanted_map_m_s) {
-    const std::vector<Eigen::Vector2f> points = scan();
+    on_the_way_.push_back({now, pose, scan()});
+    while (on_the_way_.size() > 1 && (now - on_the_way_[1].stamp).seconds() >= age_s - 1e-9) on_the_way_.pop_front();
+    const auto& [stamp, at, points] = on_the_way_.front();
     std::vector<Eigen::Vector2f> points_map;
-    for (const auto& p : points) points_map.push_back((pose * Point(p.cast<double>())).cast<float>());
+    for (const auto& p : points) points_map.push_back((at * Point(p.cast<double>())).cast<float>());
     if (live_map && ++scans_ % 4 == 0) mapScan(points_map);
-    dynamic_.update(now, points_map, pose.position_m(), *background_.at(now));
-    const Eigen::Rotation2Dd to_level(-pose.yaw_rad);
-    return avoidance_.update(
-        {now, points, to_level * velocity_map_m_s, to_level * wanted_map_m_s, pose, &map_, dynamic_.obstacles()});
+    dynamic_.update(stamp, points_map, at.position_m(), *background_.at(stamp));
+    const Eigen::Rotation2Dd to_level(-at.yaw_rad);
+    return avoidance_.update({stamp, points, to_level * velocity_map_m_s, to_level * wanted_map_m_s, at, &map_,
+                              dynamic_.obstacles(), (now - stamp).seconds()});
   }
 
   /// Senses, obeys with its acceleration, and lets time pass. Returns the smallest gap to any person.
@@ -138,6 +141,7 @@ class Story {
   int retreats = 0;
   bool live_map = false;
   int beams = 1081;
+  double age_s = 0.0;
   const CostMap& map() const { return map_; }
 
  private:
@@ -156,6 +160,12 @@ class Story {
   Avoidance::Config config_;
   perception::BackgroundMap background_;
   perception::DynamicObstacles dynamic_{perception::DynamicObstacles::Config()};
+  struct Seen {
+    Time stamp;
+    Pose2 pose;
+    std::vector<Eigen::Vector2f> points;
+  };
+  std::deque<Seen> on_the_way_;  ///< Scans that have not arrived, after the one that has.
   std::vector<Point> delayed_;
   bool was_retreating_ = false;
   int scans_ = 0;

@@ -45,6 +45,66 @@ TEST(Avoidance, StopsBeforeAWallFromFullSpeed) {
   EXPECT_EQ(story.retreats, 0);  // the wall is known
 }
 
+TEST(Avoidance, StopsBeforeAWallWithScansThatAreLate) {
+  for (const double age_s : {0.1, 0.2}) {
+    Story story;
+    story.age_s = age_s;
+    for (int i = 0; i < 600; ++i) story.tick({1.5, 0});
+    EXPECT_LT(story.velocity_map_m_s.norm(), 0.02) << age_s;
+    EXPECT_GT(10.0 - story.pose.x_m - kHull_m, 0.005) << age_s;
+    EXPECT_LT(10.0 - story.pose.x_m - kHull_m, 0.15) << age_s;
+    EXPECT_EQ(story.retreats, 0) << age_s;
+  }
+}
+
+TEST(Avoidance, ALateScanTakesSpeedAheadButNoRoomAtTheSides) {
+  double last_m_s = 10.0;
+  for (const double age_s : {0.0, 0.1, 0.2}) {
+    Story story;
+    Avoidance avoidance({}, kHull_m);
+    story.pose = {8.9, 4.0, 0.0};
+    const auto points = story.scan();
+    const auto limit = [&](const Point& wanted) {
+      return avoidance.update({story.now, points, wanted, wanted, story.pose, &story.map(), {}, age_s}).speed_limit_m_s;
+    };
+    const double ahead_m_s = limit({0.6, 0.0});
+    EXPECT_LT(ahead_m_s, last_m_s) << age_s;
+    // v (latency + age) + v^2 / 2a is the free distance ahead.
+    const Avoidance::Config config;
+    const double free_m =
+        ahead_m_s * (config.latency_s + age_s) + 0.5 * ahead_m_s * ahead_m_s / config.deceleration_m_s2;
+    EXPECT_NEAR(free_m, 10.0 - 8.9 - kHull_m - config.margin_m, 0.06) << age_s;
+    last_m_s = ahead_m_s;
+  }
+}
+
+/// A wall across the room with a door of 0.8 m in its middle, 0.125 m wider on each side than the hull.
+void addDoor(Story& story) {
+  story.addWall({{140, 0}, {142, 72}});
+  story.addWall({{140, 88}, {142, 160}});
+}
+
+TEST(Avoidance, FliesThroughADoorOfEightyCentimetresWithLateScans) {
+  for (const double age_s : {0.0, 0.2}) {
+    for (const double off_m : {-0.05, 0.05}) {
+      Story story;
+      addDoor(story);
+      story.age_s = age_s;
+      story.pose.y_m += off_m;
+      double slowest_m_s = 10.0;
+      for (int i = 0; i < 240; ++i) {
+        story.tick({0.6, 0});
+        if (story.pose.x_m > 6.5 && story.pose.x_m < 7.5)
+          slowest_m_s = std::min(slowest_m_s, story.velocity_map_m_s.x());
+      }
+      EXPECT_GT(story.pose.x_m, 8.0) << age_s << " s, " << off_m << " m";
+      EXPECT_GT(slowest_m_s, 0.45) << age_s << " s, " << off_m << " m";
+      EXPECT_EQ(story.retreats, 0) << age_s << " s, " << off_m << " m";
+      EXPECT_GT(story.least_wall_m, 0.04) << age_s << " s, " << off_m << " m";
+    }
+  }
+}
+
 TEST(Avoidance, AWallAtThePlannersClearanceDoesNotBrake) {
   Story story;
   story.pose.y_m = kHull_m + 0.10;

@@ -29,8 +29,9 @@ struct Flyer {
     for (const Point& p : walls_m) seen.push_back(p - place_m);
     std::vector<Threat> around = threats;
     for (Threat& threat : around) threat.center_m -= place_m;
-    answer_m_s = retreatVelocity(config, kHull_m,
-                                 {velocity_m_s, seen, around, answer_m_s, {place_m.x(), place_m.y(), 0.0}, map});
+    answer_m_s = retreatVelocity(
+        config, kHull_m,
+        {velocity_m_s, seen, around, answer_m_s, {place_m.x(), place_m.y(), 0.0}, map, config.latency_s});
     fastest_m_s = std::max(fastest_m_s, answer_m_s.norm());
     late.push_back(answer_m_s);
     const Point wanted = late.size() > 4 ? late.front() : velocity_m_s;
