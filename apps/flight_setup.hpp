@@ -11,6 +11,7 @@
 
 #include "apps/given_map.hpp"
 #include "apps/system.hpp"
+#include "apps/vehicle_memory_file.hpp"
 #include "behaviors/mission.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "evaluation/operator_script.hpp"
@@ -29,6 +30,7 @@ struct FlightSetup {
   std::shared_ptr<const FlightMap> map;  ///< To find itself in; null: it is given none.
   std::vector<evaluation::OperatorStep> operator_steps = {};
   std::vector<evaluation::PhaseConfig> phases = {};
+  VehicleMemorySetup memory;
   std::filesystem::path out;
   std::string started;           ///< For the run's records.
   double speed = 0.0;            ///< Times real time; 0: as fast as the machine can.

@@ -39,6 +39,7 @@ struct FlyOptions {
   std::string nature;  ///< Empty: the first of the scenario, or real.
   std::optional<double> battery;
   std::optional<int> seed;
+  std::string vehicle_memory;
   std::string speed;
   bool headless = false;
   std::string listen = "127.0.0.1";
@@ -69,6 +70,9 @@ FlightSetup setupOf(const FlyOptions& options) {
   setup.scenario.nature =
       std::make_shared<const simulation::Nature>(simulation::Nature::load(nature).withCharge(0.9, 1.0));
   if (options.battery) setup.scenario.setCharge(*options.battery);
+  if (!options.vehicle_memory.empty())
+    setup.memory = setupOfMemory(options.vehicle_memory, setup.system.vehicle, setup.scenario.vehicles.size(),
+                                 MemoryUse::kReadAndWrite);
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
@@ -222,6 +226,8 @@ void addFly(Command& program) {
       "--nature", options->nature,
       "How far the vehicle is from its data sheet: calm, real, harsh, or a file. Default: the scenario's, or real.");
   command.option("--battery", options->battery, {0.01, 1}, "Charge at the start, as a share of the full one.");
+  command.option("--vehicle-memory", options->vehicle_memory,
+                 "File with what earlier flights learned of the vehicle: read at the start, written at the end.");
   command.option("--seed", options->seed, {0, kGreatestSeed},
                  "Seed of all random numbers. Default: the scenario's, or 1.");
   command.option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");

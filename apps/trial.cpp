@@ -40,6 +40,7 @@ struct TrialOptions {
   std::optional<int> seed;  ///< Of the first flight; none: what the trial says.
   std::string system;
   std::string nature;             ///< Empty: those of the trial.
+  std::string vehicle_memory;     ///< Empty: each flight starts from the data sheet.
   std::optional<double> battery;  ///< None: as the trial says.
   std::string out;
   bool json = false;
@@ -70,8 +71,8 @@ std::string flightLine(const TrialConfig& trial, const evaluation::FlightScore& 
 
 /// All flights of one trial, `jobs` at a time; the order of the results is that of the seeds. What stops a flight from
 /// being flown at all ends the trial, and is thrown once `result` has the others.
-void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::path& out, const std::atomic<bool>& stop,
-            TrialResult& result) {
+void flyAll(const TrialConfig& trial, const TrialOptions& options, const VehicleMemorySetup& memory,
+            const fs::path& out, const std::atomic<bool>& stop, TrialResult& result) {
   const int count = options.repeat.value_or(trial.repeat);
   const int first_seed = options.seed.value_or(trial.scenario.seed);
   const std::shared_ptr<const FlightMap> map = givenMap(trial, out);
@@ -83,7 +84,7 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const fs::pat
     for (int i = next++; i < count && !stop; i = next++) {
       try {
         const int seed = first_seed + i;
-        auto flown = flyOne(trial, map, seed, out / fmt::format("{}-{:03}", trial.name, seed), stop);
+        auto flown = flyOne(trial, map, seed, out / fmt::format("{}-{:03}", trial.name, seed), stop, memory);
         const std::scoped_lock lock(mutex);
         if (!options.json)
           for (const evaluation::FlightScore& score : flown) show(flightLine(trial, score) + "\n");
@@ -145,17 +146,28 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   return trials;
 }
 
+/// The memory that every flight starts from; the vehicle of every trial must be the one it is of.
+VehicleMemorySetup memoryFor(const std::vector<TrialConfig>& trials, const TrialOptions& options) {
+  VehicleMemorySetup memory;
+  if (options.vehicle_memory.empty()) return memory;
+  for (const TrialConfig& trial : trials)
+    memory = setupOfMemory(options.vehicle_memory, loadSystem(trial.system).vehicle, trial.scenario.vehicles.size(),
+                           MemoryUse::kRead);
+  return memory;
+}
+
 int trial(const TrialOptions& options) {
   const std::atomic<bool>& stop = stopOnSignals().first;
   outliveReaders();
   const std::vector<TrialConfig> trials = preparedTrials(options);
+  const VehicleMemorySetup memory = memoryFor(trials, options);
   const fs::path out = trialFolder(options.out, "trial", {"results.json", "\"trials\""});
   TrialResults results;
   for (const TrialConfig& trial : trials) {
     if (stop) break;
     results.trials.push_back({trial.name, trial.system, trial.paper, {}, trial.criteria});
     try {
-      flyAll(trial, options, out, stop, results.trials.back());
+      flyAll(trial, options, memory, out, stop, results.trials.back());
     } catch (...) {
       writeResults(results, out);
       throw;
@@ -185,6 +197,8 @@ void addTrial(Command& program) {
   command.option("--seed", options->seed, {0, kGreatestSeed},
                  "The first seed S; default: the trial's scenario.seed, or 1.");
   command.option("--system", options->system, "Profile to fly them all with, instead of their own.");
+  command.option("--vehicle-memory", options->vehicle_memory,
+                 "File with what earlier flights learned of the vehicle: each flight starts from it, none writes it.");
   command.option("--nature", options->nature, "Nature to fly them all in, instead of their own.");
   command.option("--battery", options->battery, {0.01, 1},
                  "Charge at the start to fly them all with, as a share of the full one.");

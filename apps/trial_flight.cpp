@@ -96,7 +96,8 @@ std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::pa
 }
 
 std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map,
-                                            int seed, const fs::path& folder, const std::atomic<bool>& stop) {
+                                            int seed, const fs::path& folder, const std::atomic<bool>& stop,
+                                            const VehicleMemorySetup& memory) {
   std::map<std::string, evaluation::FlightScore> by_name;
   FlightHooks hooks;
   hooks.stop = &stop;
@@ -107,7 +108,8 @@ std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std:
     end.coverage = score.coverage;
     for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
   };
-  const FlightSetup setup = setupOf(trial, map, seed, folder);
+  FlightSetup setup = setupOf(trial, map, seed, folder);
+  setup.memory = memory;
   const FlightResult result = flySimulated(setup, soundMissions(setup, map != nullptr), hooks);
   if (const auto failure = result.writeFailure()) throw common::InputError(common::Problem{{}, "", *failure, ""});
   std::vector<evaluation::FlightScore> scores;

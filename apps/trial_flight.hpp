@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/given_map.hpp"
+#include "apps/vehicle_memory_file.hpp"
 #include "evaluation/flight_score.hpp"
 #include "evaluation/trial.hpp"
 
@@ -27,7 +28,8 @@ std::shared_ptr<const FlightMap> givenMap(const evaluation::TrialConfig& trial, 
 /// written.
 std::vector<evaluation::FlightScore> flyOne(const evaluation::TrialConfig& trial,
                                             const std::shared_ptr<const FlightMap>& map, int seed,
-                                            const std::filesystem::path& folder, const std::atomic<bool>& stop);
+                                            const std::filesystem::path& folder, const std::atomic<bool>& stop,
+                                            const VehicleMemorySetup& memory = {});
 
 /// How older results of the same command are recognized.
 struct TrialResultsProof {

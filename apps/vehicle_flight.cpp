@@ -21,7 +21,7 @@ autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& nam
     given->seed = static_cast<std::uint64_t>(setup.scenario.seed);
   }
   return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
-                            common::makeLockstepJobs(1), given ? &*given : nullptr, name);
+                            common::makeLockstepJobs(1), given ? &*given : nullptr, name, setup.memory.read.get());
 }
 
 interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::SimulatedVehicle& vehicle,
@@ -40,6 +40,7 @@ interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::Simulate
   const simulation::Nature& nature = setup.scenario.nature ? *setup.scenario.nature : calm;
   info.nature = nature.name();
   info.nature_yaml = nature.valuesIn(vehicle.scenario());
+  if (setup.memory.read) info.vehicle_memory_yaml = toYaml(*setup.memory.read);
   return info;
 }
 
@@ -87,6 +88,8 @@ std::vector<autonomy::FlightSink*> VehicleFlight::sinks() {
 
 void VehicleFlight::reportWarnings() {
   for (const std::string& warning : vehicle_->world().warnings) tell(common::Severity::kWarning, "world", warning, "");
+  if (setup_.memory.read)
+    tell(common::Severity::kInfo, "memory", "starts from what earlier flights learned of its thrust", "");
 }
 
 void VehicleFlight::tell(common::Severity severity, std::string source, std::string text, std::string reason) {
@@ -153,9 +156,21 @@ void VehicleFlight::finish(double wall_s) {
   evaluation::FlightRecord record = recorder_.finish();
   record.operator_answers = script_.answers();
   if (hooks_.score) hooks_.score(record, *vehicle_, end);
+  end.figures.push_back({"late_scans", static_cast<double>(autonomy_.lateScans())});
+  keepMemory(end);
   folder_.finish(end);
   if (web_) showEnd();
   vehicle_.reset();
+}
+
+/// A crash teaches nothing of the vehicle that flies next.
+void VehicleFlight::keepMemory(interfaces::FlightEnd& end) {
+  if (!setup_.memory.kept) return;
+  const autonomy::VehicleMemory learned = autonomy_.learned();
+  end.vehicle_memory_yaml = toYaml(learned);
+  if (setup_.memory.file.empty() || outcome_ == Outcome::kCrashed) return;
+  if (const auto written = writeVehicleMemory(setup_.memory.file, learned); !written)
+    memory_failure_ = written.error().message;
 }
 
 void VehicleFlight::showEnd() const {
@@ -166,6 +181,8 @@ void VehicleFlight::showEnd() const {
   web_->world().post(std::move(last));
 }
 
-VehicleResult VehicleFlight::result() const { return {name_, folder_.summary(), folder_.path(), folder_.failure()}; }
+VehicleResult VehicleFlight::result() const {
+  return {name_, folder_.summary(), folder_.path(), memory_failure_ ? memory_failure_ : folder_.failure()};
+}
 
 }  // namespace swiftlet::apps

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,7 @@ class VehicleFlight {
   common::LosslessQueue<common::OperatorCommand>& commands();
   void landIfAsked();
   void warnOfUnwrittenFiles();
+  void keepMemory(interfaces::FlightEnd& end);
   bool end(interfaces::Outcome outcome, std::string reason);
   void showEnd() const;
 
@@ -69,6 +71,7 @@ class VehicleFlight {
   autonomy::FlightLoop loop_;
   bool asked_to_land_ = false;
   bool warned_of_unwritten_files_ = false;
+  std::optional<std::string> memory_failure_;  ///< Why the vehicle's memory could not be written.
   interfaces::Outcome outcome_ = interfaces::Outcome::kFlying;
   std::string reason_;
 };

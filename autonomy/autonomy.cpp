@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "common/check.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
@@ -35,7 +37,7 @@ constexpr double kLandingMargin = 0.03;
 
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
                    behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given,
-                   std::string vehicle_name)
+                   std::string vehicle_name, const VehicleMemory* memory)
     : config_(config),
       vehicle_(vehicle),
       vehicle_name_(std::move(vehicle_name)),
@@ -48,8 +50,9 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
       imu_watch_(config.imu),
-      energy_monitor_(config.energy, vehicle, config.control.position.thrust.voltage_exponent),
+      energy_monitor_(config.energy, vehicle, config.control.position.thrust.table.voltage_exponent),
       world_builder_(vehicle_name_) {
+  if (memory != nullptr) controller_.recallThrust(memory->thrust);
   const double max_height_m = mission_.maxHeight_m().value_or(vehicle.max_height_m);
   context_.goal_limits.greatest_height_m = max_height_m;
   controller_.setMaxHeight(max_height_m);
@@ -74,7 +77,7 @@ void Autonomy::take(const common::SensorEvent& event) {
     imu_watch_.add(*imu);
     estimator_.addImu(*imu);
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
-    scans_.add(*scan);
+    take(*scan);
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     if (!supervisor_.batteryArrived(arrived, *battery)) return;
     battery_v_ = battery->voltage_v;
@@ -83,6 +86,17 @@ void Autonomy::take(const common::SensorEvent& event) {
   } else if (const auto* pilot = std::get_if<common::PilotSample>(&event)) {
     supervisor_.pilotArrived(arrived, pilot->takes_over);
   }
+}
+
+/// The first scan that is left out leaves an event, all of them a figure of the run.
+void Autonomy::take(const std::shared_ptr<const common::LaserScan>& scan) {
+  if (scans_.add(scan) || scans_.lateScans() > 1) return;
+  const common::Stamps& stamps = scan->stamps;
+  events_.push_back(
+      {stamps.arrived, common::Severity::kWarning, "laser", "a scan came too late to be used",
+       fmt::format("{:.0f} ms after it was measured, {:.0f} ms behind a later one; further ones are only counted",
+                   1e3 * (stamps.arrived - stamps.measured).seconds(),
+                   1e3 * (scans_.lastMeasured() - stamps.measured).seconds())});
 }
 
 void Autonomy::take(const common::OperatorCommand& command, Time now) {
@@ -159,6 +173,10 @@ std::vector<common::Event> Autonomy::takeEvents() {
   collect(controller_.takeEvents());
   std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   return std::exchange(events_, {});
+}
+
+VehicleMemory Autonomy::learned() const {
+  return {VehicleMemory::kVersion, vehicle_.name, controller_.learnedThrust()};
 }
 
 std::vector<common::CommandResult> Autonomy::takeResults() { return std::exchange(results_, {}); }

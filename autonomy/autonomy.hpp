@@ -16,6 +16,7 @@
 #include "autonomy/scan_queue.hpp"
 #include "autonomy/scan_watch.hpp"
 #include "autonomy/supervisor.hpp"
+#include "autonomy/vehicle_memory.hpp"
 #include "autonomy/world_builder.hpp"
 #include "behaviors/mission.hpp"
 #include "common/command.hpp"
@@ -56,10 +57,11 @@ struct AutonomyConfig {
 class Autonomy {
  public:
   /// `given` is a map to localize in, or null; it is read only in the constructor. `vehicle_name` appears in the
-  /// snapshots and in the events of its loop; it is empty if there is only one vehicle.
+  /// snapshots and in the events of its loop; it is empty if there is only one vehicle. `memory` is what earlier
+  /// flights of this vehicle have learned, or null; it too is read only in the constructor.
   Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
            behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given = nullptr,
-           std::string vehicle_name = {});
+           std::string vehicle_name = {}, const VehicleMemory* memory = nullptr);
   ~Autonomy();
 
   /// Returns a setpoint for a tick, and nothing for any other input. The delivered job must be outstanding (awaits).
@@ -83,6 +85,10 @@ class Autonomy {
   common::VehicleState state() const { return estimator_.state(); }
   /// Height over the take-off floor of the slice of the map that is shown.
   double mapHeight_m() const { return map_height_m_; }
+  /// Scans that came after a later one had been used, and were left out.
+  std::uint64_t lateScans() const { return scans_.lateScans(); }
+  /// What is known of the vehicle now: what it was given, and what the flight has learned.
+  VehicleMemory learned() const;
   /// Counts of the matches of the laser odometry and of the work of the SLAM method.
   const perception::LaserOdometryCounts& odometryCounts() const { return estimator_.odometryCounts(); }
   const perception::SlamCounts& slamCounts() const { return estimator_.slamCounts(); }
@@ -98,6 +104,7 @@ class Autonomy {
 
  private:
   void take(const common::SensorEvent& event);
+  void take(const std::shared_ptr<const common::LaserScan>& scan);
   void take(const common::OperatorCommand& command, common::Time now);
   void answer(const common::OperatorCommand& command, common::CommandResult result, common::Time now);
   common::Setpoint tick(common::Time now);

@@ -18,6 +18,7 @@
 #include "common/world/flight_state.hpp"
 #include "control/emergency_descent.hpp"
 #include "control/flight_state_machine.hpp"
+#include "control/margin_limits.hpp"
 #include "control/path_follower.hpp"
 #include "control/position_controller.hpp"
 
@@ -76,6 +77,7 @@ class FlightController {
     double vertical_loss_s = 0.3;
     double inertial_age_s = 0.1;
     double inertial_loss_s = 0.2;
+    MarginLimits::Config margin;
     PathFollower::Config path;
     PositionController::Config position;
     EmergencyDescent::Config emergency;
@@ -112,9 +114,13 @@ class FlightController {
   bool followsPath() const { return follower_.followsPath(); }
   /// See ThrustModel::margin().
   double thrustMargin() const { return position_.thrust().margin(); }
-  double speed_m_s(common::FlightMode mode) const { return config_.path.limits(mode).speed_m_s; }
+  /// What an earlier flight of this vehicle has learned, to be called before the first tick; and what is known now.
+  void recallThrust(const ThrustPoints& points) { position_.thrust().table().recall(points); }
+  ThrustPoints learnedThrust() const { return position_.thrust().table().points(); }
+  /// With the present thrust margin.
+  double speed_m_s(common::FlightMode mode) const { return margin_.speed() * config_.path.limits(mode).speed_m_s; }
   double brakingDistance_m(common::FlightMode mode, double speed_m_s) const {
-    return 0.5 * speed_m_s * speed_m_s / config_.path.limits(mode).acceleration_m_s2;
+    return 0.5 * speed_m_s * speed_m_s / (margin_.acceleration() * config_.path.limits(mode).acceleration_m_s2);
   }
   /// Length of the rest of the last path.
   double pathRemaining_m() const { return follower_.remaining_m(); }
@@ -140,12 +146,16 @@ class FlightController {
   common::Setpoint descend(const FlightTick& tick);
   common::Setpoint descendInEmergency(const FlightTick& tick);
   common::Setpoint track(const FlightTick& tick, const Reference& reference, bool on_ground = false);
+  void limitByMargin();
+  bool learnsThrust() const;
+  bool nearGround() const;
   void moveVertically(double goal_m, double speed_m_s, double height_m);
   Eigen::Vector2d velocityForBraking_m_s() const;
   bool heldFor(bool condition, double seconds);
 
   Config config_;
   FlightStateMachine machine_;
+  MarginLimits margin_;
   PathFollower follower_;
   PositionController position_;
   EmergencyDescent emergency_;

@@ -32,6 +32,7 @@ void FlightController::Config::describe(common::config::Fields& fields) {
          "An estimate whose newest inertial sample is older than this cannot be used.");
   fields("inertial_loss_s", inertial_loss_s, kPositive,
          "The emergency descent begins when inertial samples that cannot be used have been noticed for this long.");
+  fields.section("margin", margin, "How speeds and accelerations shrink with the thrust that is left.");
   fields.section("path", path, "References from paths.");
   fields.section("position", position, "Position controller.");
   fields.section("emergency", emergency, "Emergency descent.");

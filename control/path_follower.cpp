@@ -30,7 +30,10 @@ constexpr double kLeastLook_m = 0.05;
 }  // namespace
 
 PathFollower::PathFollower(const Config& config)
-    : config_(config), limits_(config.careful), speed_limit_m_s_(std::numeric_limits<double>::infinity()) {
+    : config_(config),
+      limits_(config.careful),
+      speed_limit_m_s_(std::numeric_limits<double>::infinity()),
+      laid_acceleration_m_s2_(limits_.acceleration_m_s2) {
   reset(Eigen::Vector3d::Zero(), 0.0);
 }
 
@@ -40,15 +43,15 @@ void PathFollower::reset(const Eigen::Vector3d& position_odom_m, double yaw_odom
   reference_.yaw_odom_rad = hold_yaw_odom_rad_ = yaw_odom_rad;
   goal_yaw_odom_rad_.reset();
   faces_travel_ = false;
-  lay({position_odom_m});
+  lay({position_odom_m}, limits_.acceleration_m_s2);
   carrot_speed_m_s_ = 0.0;
 }
 
-void PathFollower::lay(std::vector<Eigen::Vector3d> points) {
+void PathFollower::lay(std::vector<Eigen::Vector3d> points, double acceleration_m_s2) {
   points_ = std::move(points);
+  laid_acceleration_m_s2_ = acceleration_m_s2;
   distances_m_ = distancesAlong(points_);
-  speeds_m_s_ =
-      speedsAlong(points_, {limits_.speed_m_s, limits_.acceleration_m_s2, config_.climb_speed_m_s, kKink_m_s});
+  speeds_m_s_ = speedsAlong(points_, {limits_.speed_m_s, acceleration_m_s2, climbSpeed_m_s(), kKink_m_s});
   carrot_m_ = 0.0;
   follows_path_ = false;
   velocity_target_.reset();
@@ -64,7 +67,7 @@ void PathFollower::setPath(std::vector<Eigen::Vector3d> points, FlightMode mode,
   points = simplified(points, config_.simplify_tolerance_m);
   bool turns = false;
   points = joined(points, turns);
-  lay(rounded(points, limits_.corner_deviation_m, turns));
+  lay(rounded(points, limits_.corner_deviation_m, turns), acceleration_share_ * limits_.acceleration_m_s2);
   follows_path_ = true;
   carrot_speed_m_s_ = 0.0;
   if (points_.size() > 1) {
@@ -118,7 +121,7 @@ std::vector<Eigen::Vector3d> PathFollower::joined(const std::vector<Eigen::Vecto
 void PathFollower::setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double acceleration_m_s2,
                                double yaw_odom_rad) {
   if (!velocity_target_) {
-    lay({reference_.position_odom_m});
+    lay({reference_.position_odom_m}, limits_.acceleration_m_s2);
     carrot_speed_m_s_ = 0.0;
     velocity_target_ =
         VelocityTarget{{}, 0.0, {reference_.position_odom_m, reference_.velocity_odom_m_s, Eigen::Vector3d::Zero()}};
@@ -135,7 +138,7 @@ void PathFollower::stop(std::optional<double> yaw_odom_rad) {
   std::vector<Eigen::Vector3d> points{reference_.position_odom_m};
   if (speed > kAtRest_m_s)
     points.push_back(reference_.position_odom_m + velocity * (0.5 * speed / limits_.acceleration_m_s2));
-  lay(std::move(points));
+  lay(std::move(points), limits_.acceleration_m_s2);
   carrot_speed_m_s_ = points_.size() > 1 ? speed : 0.0;
   goal_yaw_odom_rad_ = yaw_odom_rad;
   faces_travel_ = false;
@@ -144,6 +147,11 @@ void PathFollower::stop(std::optional<double> yaw_odom_rad) {
 
 void PathFollower::setSpeedLimit(double speed_m_s) {
   speed_limit_m_s_ = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s);
+}
+
+void PathFollower::setShares(double speed, double acceleration) {
+  speed_share_ = speed;
+  acceleration_share_ = acceleration;
 }
 
 void PathFollower::movePath(const common::Pose2& T_new_old) {
@@ -175,9 +183,9 @@ PathFollower::Carrot PathFollower::advanceToVelocity(VelocityTarget& target, dou
 
 PathFollower::Carrot PathFollower::advanceAlongPath(double dt_s) {
   const double before = carrot_speed_m_s_, most = 1.2 * limits_.acceleration_m_s2;
-  const double step = limits_.acceleration_m_s2 * dt_s;
   // Curves are sampled: braking for them may be a little firmer than planned.
-  carrot_speed_m_s_ = std::clamp(allowedSpeed(dt_s), std::max(0.0, before - 1.2 * step), before + step);
+  carrot_speed_m_s_ =
+      std::clamp(allowedSpeed(dt_s), std::max(0.0, before - most * dt_s), before + laid_acceleration_m_s2_ * dt_s);
   carrot_m_ += 0.5 * (before + carrot_speed_m_s_) * dt_s;
   const double end_m = distances_m_.back();
   if (carrot_m_ >= end_m - 1e-5) {
@@ -194,19 +202,19 @@ PathFollower::Carrot PathFollower::advanceAlongPath(double dt_s) {
 }
 
 double PathFollower::allowedSpeed(double dt_s) const {
-  double speed = std::min(limits_.speed_m_s, speed_limit_m_s_);
+  double speed = std::min(speed_share_ * limits_.speed_m_s, speed_limit_m_s_);
   if (points_.size() < 2) return 0.0;
   const std::size_t segment = segmentAt(carrot_m_);
   const double to_next_m = distances_m_[segment + 1] - carrot_m_;
   const double next = speeds_m_s_[segment + 1];
   // v^2 = next^2 + 2 a (distance left after this step), solved for the speed at the end of the step, so that braking
   // never needs more than a.
-  const double a = limits_.acceleration_m_s2, half = 0.5 * a * dt_s;
+  const double a = laid_acceleration_m_s2_, half = 0.5 * a * dt_s;
   const double left2 = next * next + 2.0 * a * std::max(0.0, to_next_m) - a * dt_s * carrot_speed_m_s_;
   speed = std::min(speed, std::max(0.0, std::sqrt(std::max(0.0, half * half + left2)) - half));
   const Eigen::Vector3d along = points_[segment + 1] - points_[segment];
   const double length_m = along.norm();
-  if (std::abs(along.z()) > 1e-6) speed = std::min(speed, config_.climb_speed_m_s * length_m / std::abs(along.z()));
+  if (std::abs(along.z()) > 1e-6) speed = std::min(speed, climbSpeed_m_s() * length_m / std::abs(along.z()));
   const double planar_m = along.head<2>().norm();
   if (faces_travel_ && planar_m > 0.5 * length_m) {
     const double off_nose = common::wrapAngle(std::atan2(along.y(), along.x()) - reference_.yaw_odom_rad);

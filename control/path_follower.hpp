@@ -63,6 +63,9 @@ class PathFollower {
   void stop(std::optional<double> yaw_odom_rad = std::nullopt);
   /// Speed limit of the reactive layer: 0 halts on the path, infinity lifts the limit. It holds until it is changed.
   void setSpeedLimit(double speed_m_s);
+  /// Shares in (0, 1] of the mode's speed, from now on, and of the acceleration that paths are planned with, from the
+  /// next path on. Braking for the reactive layer, and stopping, keep the mode's whole acceleration.
+  void setShares(double speed, double acceleration);
   /// Moves the path (or the velocity) by T_new_old, after T_map_odom has jumped. The reference does not move.
   void movePath(const common::Pose2& T_new_old);
 
@@ -90,7 +93,8 @@ class PathFollower {
     Carrot carrot;
   };
 
-  void lay(std::vector<Eigen::Vector3d> points);
+  void lay(std::vector<Eigen::Vector3d> points, double acceleration_m_s2);
+  double climbSpeed_m_s() const { return speed_share_ * config_.climb_speed_m_s; }
   /// The path, joined to the reference's present position and velocity. `turns` is set if its first corner is flown at
   /// speed.
   std::vector<Eigen::Vector3d> joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const;
@@ -104,6 +108,8 @@ class PathFollower {
   Config config_;
   Limits limits_;
   double speed_limit_m_s_;
+  double speed_share_ = 1.0, acceleration_share_ = 1.0;
+  double laid_acceleration_m_s2_;  ///< With which the present lines are flown.
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> distances_m_;  ///< Distance of each point along the path.
   std::vector<double> speeds_m_s_;   ///< Greatest speed at each point at which all later ones can still be met.

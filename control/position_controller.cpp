@@ -69,7 +69,11 @@ common::Setpoint PositionController::tick(common::Time now, double dt_s, const c
   if (horizontal == Horizontal::kPosition) wanted_m_s2.head<2>() += reference.acceleration_odom_m_s2.head<2>();
 
   Eigen::Vector3d given_m_s2 = wanted_m_s2;
-  given_m_s2.z() = std::clamp(wanted_m_s2.z(), -config_.max_acceleration_up_m_s2, config_.max_acceleration_up_m_s2);
+  // More than the motors can give would only wind up the integral. A vehicle that still stands may be much weaker than
+  // is known, so that it is given whatever lifts it.
+  const double available_m_s2 = std::max(0.0, kGravity_m_s2 * (thrust_.margin() - 1.0));
+  const double most_up_m_s2 = on_ground ? available_m_s2 : std::min(available_m_s2, config_.max_acceleration_up_m_s2);
+  given_m_s2.z() = std::clamp(wanted_m_s2.z(), -config_.max_acceleration_up_m_s2, most_up_m_s2);
   given_m_s2.head<2>() =
       limited(wanted_m_s2.head<2>(), std::tan(greatestTilt_rad()) * (kGravity_m_s2 + given_m_s2.z()));
   if (on_ground) given_m_s2.head<2>().setZero();

@@ -1,6 +1,5 @@
-// From a wanted vertical acceleration to the collective command: the offset C(U) of Grzonka 2012, equation 5. The
-// thrust of the same command falls with the battery's voltage; C(U) starts from the data sheet and is learned in
-// flight.
+// From a wanted vertical acceleration to the collective command, and the thrust that is left. The command that carries
+// the weight is learned in flight, by battery voltage.
 #pragma once
 
 #include <string>
@@ -8,20 +7,20 @@
 
 #include "common/config_fwd.hpp"
 #include "common/vehicle_config.hpp"
+#include "control/thrust_table.hpp"
 
 namespace swiftlet::control {
 
-inline constexpr double kGravity_m_s2 = 9.81;
-
+/// The thrust counts as proportional to the command. Motors whose thrust grows faster than their command have more left
+/// than margin() says, never less.
 class ThrustModel {
  public:
   struct Config {
-    double voltage_exponent = 2.0;
     double voltage_filter_s = 0.5;
     double learning_time_s = 2.0;
-    double max_correction = 0.35;
     double min_thrust = 0.10;
     double max_thrust = 0.95;
+    ThrustTable::Config table;
 
     void describe(common::config::Fields& fields);
     std::vector<std::string> validate() const;
@@ -34,23 +33,29 @@ class ThrustModel {
   /// Learns from the integral part: `correction_m_s2` is the constant acceleration that the controller had to add.
   /// Returns how much of it (m/s^2) has moved into the model; the controller subtracts that from its integral.
   double learn(double correction_m_s2, double dt_s);
+  /// Near the ground nothing may be learned, because it carries a part of the weight.
+  void setLearning(bool learns) { learns_ = learns; }
 
   /// The command that carries the weight and adds `acceleration_up_m_s2` at the given tilt, clamped to the valid range.
   double commandFor(double acceleration_up_m_s2, double cos_tilt) const;
   /// Greatest thrust over the weight at the present voltage, by what was learned.
-  double margin() const;
+  double margin() const { return marginAt(voltage_v_); }
+  double marginAt(double voltage_v) const { return config_.max_thrust / table_.hoverCommand(voltage_v); }
   /// The present C(U).
   double hoverCommand() const;
-  double correction() const { return correction_; }
+  /// The present hover command over that of the data sheet.
+  double correction() const { return table_.hoverCommand(voltage_v_) / table_.sheetCommand(voltage_v_); }
+
+  ThrustTable& table() { return table_; }
+  const ThrustTable& table() const { return table_; }
 
  private:
-  double unclampedCommand(double acceleration_up_m_s2, double cos_tilt) const;
-
   Config config_;
   common::VehicleConfig vehicle_;
+  ThrustTable table_;
   double voltage_v_;
   bool voltage_seen_ = false;
-  double correction_ = 1.0;
+  bool learns_ = true;
 };
 
 }  // namespace swiftlet::control

@@ -34,9 +34,12 @@ constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(40);  ///< Bet
 constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Between two samples for plots.
 
 /// Every file that a run may leave; no other file is ever removed.
-constexpr std::array<const char*, 11> kFiles = {
-    "mission.json", "events.jsonl", "trajectory.tum", "trajectory_given.tum", "map.pgm",         "map.yaml",
-    "map.png",      "report.html",  "config.yaml",    "nature.yaml",          "ground_truth.tum"};
+constexpr const char* kMemoryRead = "vehicle_memory_read.yaml";
+constexpr const char* kMemoryLearned = "vehicle_memory_learned.yaml";
+constexpr std::array<const char*, 13> kFiles = {
+    "mission.json", "events.jsonl", "trajectory.tum",  "trajectory_given.tum", "map.pgm",
+    "map.yaml",     "map.png",      "report.html",     "config.yaml",          "nature.yaml",
+    kMemoryRead,    kMemoryLearned, "ground_truth.tum"};
 
 bool isRunFile(const std::string& name) {
   // A `.part` file is left of a Swiftlet file if the process was killed.
@@ -236,6 +239,8 @@ RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)
     : impl_(std::make_unique<Impl>(std::move(path), std::move(info), std::move(config_yaml))) {
   impl_->write("config.yaml", impl_->config_yaml);
   if (!impl_->summary.info.nature_yaml.empty()) impl_->write("nature.yaml", impl_->summary.info.nature_yaml);
+  if (!impl_->summary.info.vehicle_memory_yaml.empty())
+    impl_->write(kMemoryRead, impl_->summary.info.vehicle_memory_yaml);
   impl_->writeSummary();
   if (impl_->failure) throw InputError(Problem{{}, "", *impl_->failure, ""});
 }
@@ -289,6 +294,7 @@ void RunFolder::finish(const FlightEnd& end) {
   if (run.grid) run.keep(writeMap(run.path, "map", *run.grid, Durability::kPower));
   if (!run.pictures.map_png.empty()) run.write("map.png", run.pictures.map_png, Durability::kPower);
   run.writeTruth(end.ground_truth_map);
+  if (!end.vehicle_memory_yaml.empty()) run.write(kMemoryLearned, end.vehicle_memory_yaml);
   run.writeSummary(Durability::kPower);
 }
 

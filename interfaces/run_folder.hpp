@@ -8,6 +8,7 @@
 //   map.pgm, map.yaml, map.png    replaced whole every few seconds and at the end
 //   report.html      the same in one page
 //   config.yaml      the settings in force
+//   vehicle_memory_read.yaml, vehicle_memory_learned.yaml    of a flight with a vehicle's memory: before and after it
 //   nature.yaml      what a simulated vehicle drew from its nature; none if it draws nothing
 #pragma once
 
@@ -42,6 +43,7 @@ struct FlightEnd {
   std::vector<Figure> figures;
   std::optional<double> wall_time_s;
   common::Trajectory ground_truth_map = {};  ///< In the `map` frame; empty if nobody knows it.
+  std::string vehicle_memory_yaml = {};      ///< What is known of the vehicle now; empty: nothing is to be kept.
 };
 
 /// Used by one thread. Nothing throws after the constructor. If something cannot be written (full disk), the reason is

@@ -156,6 +156,29 @@ TEST(Autonomy, AGoalGivenWhileHeldIsShownAndNamedByResume) {
   EXPECT_EQ(story.world().mission->waiting, "");
 }
 
+TEST(Autonomy, TheFirstScanThatComesTooLateIsAnEventAndAllAreCounted) {
+  AutonomyStory story(R"(<TakeOff height_m="1.0"/>)");
+  ASSERT_TRUE(story.isFlying());
+  int late = 0;
+  story.hand = [&](common::SensorEvent& event) {
+    auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event);
+    if (scan == nullptr || late == 3) return true;
+    auto older = std::make_shared<common::LaserScan>(**scan);
+    older->stamps.measured = older->stamps.measured - common::Duration::fromMilliseconds(100);
+    *scan = std::move(older);
+    ++late;
+    return true;
+  };
+  ASSERT_TRUE(story.until([&] { return late == 3; }, 1.0));
+  ASSERT_TRUE(story.until([&] { return story.event("laser", "a scan came too late") != story.events.end(); }, 0.5));
+  EXPECT_EQ(story.autonomy().lateScans(), 3u);
+  EXPECT_EQ(std::count_if(story.events.begin(), story.events.end(),
+                          [](const auto& e) { return e.text.starts_with("a scan came too late"); }),
+            1);
+  const std::string& reason = story.event("laser", "a scan came too late")->reason;
+  EXPECT_NE(reason.find(" ms after it was measured"), std::string::npos) << reason;
+}
+
 TEST(Autonomy, WithoutScansItHoldsAndThenLands) {
   AutonomyStory story(kAcross);
   ASSERT_TRUE(story.isFlying());

@@ -117,6 +117,32 @@ TEST(Recording, AShiftedDeliveryIsDetected) {
   }
 }
 
+/// The first seconds of a flight that starts from what another one has learned.
+TEST(Recording, RepeatsAFlightWithAVehiclesMemoryOnlyWithThatMemory) {
+  VehicleMemory memory{VehicleMemory::kVersion, "cobra", {{10.0, 0.98, 30.0}, {12.6, 0.62, 30.0}}};
+  Witness witness;
+  InputRecorder recorder;
+  Autonomy autonomy = makeAutonomy(common::makeLockstepJobs(1), {}, &memory);
+  {
+    const auto vehicle = makeVehicle(12);
+    common::LosslessQueue<common::OperatorCommand> commands;
+    FlightLoop loop(*vehicle, autonomy, commands, {&recorder, &witness});
+    while (loop.now() < Time::fromSeconds(8)) ASSERT_TRUE(loop.step(loop.now() + common::kControlPeriod));
+  }
+  Witness with, without;
+  Autonomy again = makeAutonomy(common::makeLockstepJobs(0), {}, &memory);
+  ASSERT_TRUE(replay(recorder.recording(), again, {&with}));
+  EXPECT_EQ(difference(witness, with), "");
+  const auto known = autonomy.learned().thrust, known_again = again.learned().thrust;
+  ASSERT_EQ(known.size(), known_again.size());
+  for (std::size_t i = 0; i < known.size(); ++i) EXPECT_EQ(known[i].hover_command, known_again[i].hover_command);
+
+  Autonomy fresh = makeAutonomy(common::makeLockstepJobs(0), AutonomyConfig{});
+  if (replay(recorder.recording(), fresh, {&without})) {
+    EXPECT_NE(difference(witness, without), "");
+  }
+}
+
 TEST(Recording, ARecordingOfAnotherFlightIsRefusedWithThePlace) {
   Autonomy fresh = makeAutonomy(common::makeLockstepJobs(0));
   const JobDelivery stray{"planning", 7, Time::fromSeconds(1), Time::fromSeconds(2)};

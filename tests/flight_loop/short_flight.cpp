@@ -83,14 +83,15 @@ std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(int seed) {
                                                         scenario);
 }
 
-Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyConfig& config) {
+Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyConfig& config,
+                      const VehicleMemory* memory) {
   auto mission = behaviors::Mission::fromText(R"(<root BTCPP_format="4"><BehaviorTree ID="Short"><Sequence>
       <TakeOff height_m="1.0"/>
       <ForceSuccess><Timeout msec="9000"><Explore clearance_m="0.10"/></Timeout></ForceSuccess>
       <Land/>
     </Sequence></BehaviorTree></root>)",
                                               "short.xml");
-  return Autonomy(config, vehicleSheet(), laserSheet(), std::move(mission), std::move(jobs));
+  return Autonomy(config, vehicleSheet(), laserSheet(), std::move(mission), std::move(jobs), nullptr, "", memory);
 }
 
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs) {

@@ -14,7 +14,8 @@
 namespace swiftlet::autonomy {
 
 std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(int seed);
-Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyConfig& config);
+Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyConfig& config,
+                      const VehicleMemory* memory = nullptr);
 /// Configured to search for loops within the few metres of a short flight.
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs);
 

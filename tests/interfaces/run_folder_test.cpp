@@ -116,6 +116,23 @@ TEST(RunFolder, ContainsEveryFile) {
   EXPECT_EQ(run.summary().samples.size(), 51u) << "5 Hz for 10 s";
 }
 
+TEST(RunFolder, KeepsAVehiclesMemoryAsItWasReadAndAsItWasLearned) {
+  const ScratchFolder folder;
+  RunInfo info = kInfo;
+  info.vehicle_memory_yaml = "version: 1\n";
+  {
+    RunFolder run(folder / "run", info, "");
+    EXPECT_EQ(bytesOf(folder / "run/vehicle_memory_read.yaml"), "version: 1\n") << "from the start of the flight";
+    FlightEnd end;
+    end.vehicle_memory_yaml = "version: 1\nthrust: []\n";
+    run.finish(end);
+  }
+  EXPECT_EQ(bytesOf(folder / "run/vehicle_memory_learned.yaml"), "version: 1\nthrust: []\n");
+  RunFolder(folder / "run", kInfo, "").finish({});
+  EXPECT_FALSE(fs::exists(folder / "run/vehicle_memory_read.yaml")) << "the older run's are removed";
+  EXPECT_FALSE(fs::exists(folder / "run/vehicle_memory_learned.yaml"));
+}
+
 TEST(RunFolder, SaysWhichNatureWasFlownAndWhatWasDrawn) {
   const ScratchFolder folder;
   RunInfo info = kInfo;

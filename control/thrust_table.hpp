@@ -1,0 +1,79 @@
+// The command that carries the weight, by battery voltage, learned in flight: the offset C(U) of Grzonka 2012,
+// equation 5, as a table.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "common/config_fwd.hpp"
+#include "common/vehicle_config.hpp"
+
+namespace swiftlet::control {
+
+inline constexpr double kGravity_m_s2 = 9.81;
+
+/// One row of a learned table.
+struct ThrustPoint {
+  double voltage_v = 0.0;
+  double hover_command = 0.0;  ///< Share of the full command that carries the weight; above 1 it cannot hover.
+  double seen_s = 0.0;         ///< Time of flight near this voltage, less what has been forgotten.
+
+  void describe(common::config::Fields& fields);
+};
+using ThrustPoints = std::vector<ThrustPoint>;
+
+/// What is wrong with rows of a table for one vehicle: voltages that do not rise, or a command that rises with the
+/// voltage.
+std::vector<std::string> problemsOf(const ThrustPoints& points);
+
+/// Between its knots the logarithm of the command is linear in the voltage; beyond them it follows the data sheet's
+/// power law. The command never rises with the voltage. A value: not thread-safe.
+class ThrustTable {
+ public:
+  struct Config {
+    double voltage_exponent = 2.0;
+    double max_correction = 0.6;
+    double familiar_s = 10.0;
+    double forget_s = 900.0;
+
+    void describe(common::config::Fields& fields);
+  };
+
+  ThrustTable(const Config& config, const common::VehicleConfig& vehicle);
+
+  /// Takes over the rows of an earlier flight; the knots between and beyond them follow the law above. Values outside
+  /// the bounds about the data sheet are brought to the bound. No rows change nothing.
+  void recall(const ThrustPoints& points);
+  /// Every knot, also those that only followed the learned ones.
+  ThrustPoints points() const;
+
+  /// Moves the command at this voltage by the factor exp(`log_step`), as far as the bounds allow, after `dt_s` near it.
+  /// A knot follows the less, the longer the vehicle has flown near its own voltage. Returns the logarithm of the
+  /// factor by which the command at this voltage has really changed.
+  double learn(double voltage_v, double log_step, double dt_s);
+
+  double hoverCommand(double voltage_v) const;
+  /// That of the data sheet.
+  double sheetCommand(double voltage_v) const;
+
+ private:
+  static constexpr std::size_t kKnots = 9;
+  struct Place {
+    std::size_t below;  ///< The knot below the voltage.
+    double share;       ///< Of the way from it to the next one, in [0, 1].
+  };
+  Place placeOf(double voltage_v) const;
+  double logAt(double voltage_v) const;
+  double bounded(std::size_t knot, double log_command) const;
+  void remember(const Place& place, double dt_s);
+  void keepFalling(std::size_t from);
+
+  Config config_;
+  common::VehicleConfig vehicle_;
+  std::array<double, kKnots> voltages_v_{};
+  std::array<double, kKnots> log_commands_{};
+  std::array<double, kKnots> seen_s_{};
+};
+
+}  // namespace swiftlet::control

@@ -1,0 +1,93 @@
+// Stories of whole flights: the flight controller in closed loop with the small model.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "control/flight_controller.hpp"
+#include "tests/control/quadrotor_model.hpp"
+
+namespace swiftlet::control {
+
+using common::FlightMode;
+using common::FlightState;
+
+struct Flight {
+  QuadrotorModel model;
+  FlightController controller{FlightController::Config{}, common::VehicleConfig{}};
+  common::Pose2 T_map_odom;
+  bool horizontal_valid = true, vertical_valid = true, diverged = false, mirror = true;
+  std::string inertial_fault;
+  double greatest_tilt_rad = 0;
+  /// Without measurements of the height, inertial samples carry it and gather the error of this bias.
+  bool vertical_measured = true;
+  double carried_bias_m_s2 = 0.0;
+  double carried_s = 0.0;
+
+  void tick() {
+    FlightTick tick;
+    tick.now = model.now;
+    tick.state = model.estimate();
+    tick.state.T_map_odom = T_map_odom;
+    tick.state.horizontal_valid = horizontal_valid && !diverged;
+    tick.state.vertical_valid = vertical_valid && !diverged;
+    if (!vertical_measured || !vertical_valid) {
+      carried_s += 0.01;
+      tick.state.vertical_supported = model.now - common::Duration::fromSeconds(carried_s);
+      tick.state.velocity_odom_m_s.z() += carried_bias_m_s2 * carried_s;
+      const double error_m = 0.5 * carried_bias_m_s2 * carried_s * carried_s;
+      tick.state.T_odom_body.position_m.z() += error_m;
+      tick.state.height_above_ground_m += error_m;
+      tick.state.position_covariance_m2(2, 2) = error_m * error_m;
+    }
+    tick.fusion_diverged = diverged;
+    tick.inertial_fault = inertial_fault;
+    if (diverged) tick.state.velocity_odom_m_s.setConstant(std::numeric_limits<double>::quiet_NaN());
+    const bool scan = (model.now.nanoseconds() / 10'000'000) % 3 == 0;
+    if (scan && mirror)
+      tick.raw_height = RawHeight{model.now, model.position_m.z() - model.floor_m + model.random.gaussian(0.01)};
+    tick.battery_v = model.voltage_v;
+    model.apply(controller.tick(tick));
+    model.advance(0.01);
+    greatest_tilt_rad = std::max({greatest_tilt_rad, std::abs(model.roll_rad), std::abs(model.pitch_rad)});
+  }
+  template <typename Condition>
+  bool until(Condition&& condition, double at_most_s) {
+    for (int i = 0; i < static_cast<int>(at_most_s * 100); ++i) {
+      if (condition()) return true;
+      tick();
+    }
+    return condition();
+  }
+  void run(double seconds) {
+    until([] { return false; }, seconds);
+  }
+  void hover(double height_m = 1.0) {
+    tick();
+    ASSERT_TRUE(controller.command(Prepared{}));
+    ASSERT_TRUE(controller.command(TakeOff{height_m}));
+    ASSERT_TRUE(until([&] { return controller.state() == FlightState::kFlying; }, 12.0));
+  }
+};
+
+struct Rms {
+  double horizontal_m, vertical_m, worst_vertical_m;
+};
+inline Rms hoverFor(Flight& flight, double seconds, const Eigen::Vector3d& at) {
+  double horizontal2 = 0, vertical2 = 0, worst = 0;
+  const int n = static_cast<int>(seconds * 100);
+  for (int i = 0; i < n; ++i) {
+    flight.tick();
+    const Eigen::Vector3d error = flight.model.position_m - at;
+    horizontal2 += error.head<2>().squaredNorm();
+    vertical2 += error.z() * error.z();
+    worst = std::max(worst, std::abs(error.z()));
+  }
+  return {std::sqrt(horizontal2 / n), std::sqrt(vertical2 / n), worst};
+}
+
+}  // namespace swiftlet::control

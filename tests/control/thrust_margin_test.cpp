@@ -1,0 +1,120 @@
+// What the controller learns of its vehicle's thrust, and how it flies with little of it: stories of whole flights.
+#include <algorithm>
+#include <cstdio>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/control/flight_story.hpp"
+
+namespace swiftlet::control {
+namespace {
+
+TEST(ThrustMargin, LearnsTheHoverThrustOfAWeakAndSaggingVehicle) {
+  Flight flight;
+  flight.model.thrust_factor = 0.88;
+  flight.model.voltage_drop_v_s = 0.02;  // 1.2 V in a minute.
+  flight.hover();
+  flight.run(20.0);
+  const Rms rms = hoverFor(flight, 40.0, flight.controller.reference().position_odom_m);
+  EXPECT_LT(rms.worst_vertical_m, 0.05);
+  EXPECT_NEAR(flight.controller.positionController().thrust().correction(), 1.0 / 0.88, 0.05);
+}
+
+/// A flight there and back on a line of 8 m with a battery of that voltage.
+struct LineFlight {
+  double seconds = 0, fastest_m_s = 0, greatest_command = 0, lowest_m = 10, margin = 0;
+};
+LineFlight flyLine(double voltage_v) {
+  LineFlight result;
+  Flight flight;
+  flight.model.voltage_v = voltage_v;
+  flight.model.voltage_drop_v_s = 0.0;
+  flight.hover();
+  flight.run(5.0);
+  const double begin_s = flight.model.now.seconds();
+  for (const double goal_m : {8.0, 0.0}) {
+    EXPECT_TRUE(
+        flight.controller.follow({{{flight.model.position_m.x(), 0, 1}, {goal_m, 0, 1}}, FlightMode::kFast, {}}));
+    EXPECT_TRUE(flight.until(
+        [&] {
+          result.fastest_m_s = std::max(result.fastest_m_s, flight.model.velocity_m_s.head<2>().norm());
+          result.greatest_command = std::max(result.greatest_command, flight.model.in_force.thrust);
+          result.lowest_m = std::min(result.lowest_m, flight.model.position_m.z());
+          return flight.controller.pathFinished();
+        },
+        60.0));
+  }
+  result.seconds = flight.model.now.seconds() - begin_s;
+  result.margin = flight.controller.thrustMargin();
+  return result;
+}
+
+TEST(ThrustMargin, ATiredBatteryFliesSlowerAndNeverSaturates) {
+  const LineFlight fresh = flyLine(12.4), tired = flyLine(10.05);
+  EXPECT_GT(fresh.margin, 1.5);
+  EXPECT_GT(fresh.fastest_m_s, 0.95);
+  EXPECT_LT(tired.margin, 1.12);
+  EXPECT_GT(tired.margin, 1.05);
+  EXPECT_LT(tired.fastest_m_s, 0.85 * fresh.fastest_m_s);
+  EXPECT_GT(tired.seconds, 1.2 * fresh.seconds);
+  EXPECT_LT(tired.greatest_command, 0.95) << "there is always some thrust left";
+  EXPECT_GT(tired.lowest_m, 0.9);
+  std::printf("fresh: %.2f m/s, margin %.2f; tired: %.2f m/s, margin %.2f, greatest command %.2f\n", fresh.fastest_m_s,
+              fresh.margin, tired.fastest_m_s, tired.margin, tired.greatest_command);
+}
+
+TEST(ThrustMargin, WithoutThrustLeftTheIntegralDoesNotWindUp) {
+  Flight flight;
+  flight.model.thrust_factor = 0.9;
+  flight.hover();
+  flight.run(10.0);
+  flight.model.thrust_factor = 0.56;  // Cannot hover.
+  flight.run(1.5);
+  flight.model.thrust_factor = 0.9;
+  flight.run(3.0);
+  const Rms rms = hoverFor(flight, 5.0, flight.controller.reference().position_odom_m);
+  EXPECT_LT(rms.worst_vertical_m, 0.1);
+}
+
+TEST(ThrustMargin, StartsFromWhatAnEarlierFlightLearned) {
+  const auto worstHeight = [](const ThrustPoints& recalled) {
+    Flight flight;
+    flight.model.thrust_factor = 0.68;
+    flight.controller.recallThrust(recalled);
+    flight.hover();
+    const Rms rms = hoverFor(flight, 5.0, {0, 0, 1});
+    return std::pair{rms.vertical_m, flight.controller.learnedThrust()};
+  };
+  const auto [first_m, learned] = worstHeight({});
+  const auto [second_m, relearned] = worstHeight(learned);
+  EXPECT_LT(second_m, 0.6 * first_m);
+  std::printf("height error after take-off: %.3f m RMS, %.3f m with memory\n", first_m, second_m);
+  for (std::size_t i = 0; i < learned.size(); ++i)
+    EXPECT_NEAR(relearned[i].hover_command, learned[i].hover_command, 0.05 * learned[i].hover_command);
+}
+
+TEST(ThrustMargin, AVehicleThatItsThrustDoesNotLiftGivesUpTheTakeOff) {
+  Flight flight;
+  flight.model.thrust_factor = 0.6;
+  flight.model.voltage_v = 10.6;
+  flight.tick();
+  ASSERT_TRUE(flight.controller.command(Prepared{}));
+  ASSERT_TRUE(flight.controller.command(TakeOff{1.0}));
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanding; }, 6.0));
+  EXPECT_THAT(flight.controller.groundedReason(), testing::HasSubstr("95 % of the thrust for 2.0 s"));
+  EXPECT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 6.0));
+}
+
+TEST(ThrustMargin, TheGroundTeachesNothing) {
+  Flight flight;
+  flight.hover();
+  flight.run(10.0);
+  const double hover = flight.controller.positionController().thrust().hoverCommand();
+  ASSERT_TRUE(flight.controller.command(Land{}));
+  ASSERT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 10.0));
+  EXPECT_NEAR(flight.controller.positionController().thrust().hoverCommand(), hover, 0.01 * hover);
+}
+
+}  // namespace
+}  // namespace swiftlet::control
