@@ -28,6 +28,8 @@ void GridDrawingConfig::describe(common::config::Fields& fields) {
   fields("slow_fade_height_m", slow_fade_height_m, {0, 10},
          "Height difference up to which it makes it fade slowly; at least fade_height_m.");
   fields("slow_fade_scans", slow_fade_scans, {1, 1000}, "Scans of which one lets slices fade slowly.");
+  fields("glass_fade_scans", glass_fade_scans, {1, 100'000},
+         "Scans of which one clears what may be glass at angles at which beams go through it; 1: it is never kept.");
 }
 
 std::vector<std::string> GridDrawingConfig::validate() const {

@@ -30,6 +30,28 @@ bool rowByRow(const CellIndex& a, const CellIndex& b) { return a.y != b.y ? a.y 
 /// The ray to `end`, cut to the fraction `share` of its length if that is below 1.
 Eigen::Vector3f shortened(const Eigen::Vector3f& end, float share) { return share < 1.0F ? end * share : end; }
 
+/// How beam `i` met the surface on which the returns beside it lie as well. Its direction is that of the line between
+/// the outermost of them within reach, as long as none is farther from the next than a step in depth.
+Incidence incidenceAt(const std::vector<Eigen::Vector2f>& points_level_m, std::size_t i) {
+  // With the ranges' noise of a centimetre, such a line is right within some 5 deg.
+  constexpr float kReach_m = 0.10F, kLeast_m = 0.12F, kStep_m = 0.06F;
+  constexpr float kAlong = 0.985F, kAslant = 0.87F;  // Cosines of 10 and 30 deg.
+  constexpr std::size_t kMostBeams = 40;
+  const Eigen::Vector2f& hit = points_level_m[i];
+  const auto near = [&](std::size_t from, std::size_t to) {
+    return (points_level_m[to] - points_level_m[from]).squaredNorm() < kStep_m * kStep_m &&
+           (points_level_m[to] - hit).squaredNorm() < kReach_m * kReach_m;
+  };
+  std::size_t low = i, high = i;
+  while (low > 0 && i - low < kMostBeams && near(low, low - 1)) --low;
+  while (high + 1 < points_level_m.size() && high - i < kMostBeams && near(high, high + 1)) ++high;
+  const Eigen::Vector2f along = points_level_m[high] - points_level_m[low];
+  const float length_m = along.norm(), range_m = hit.norm();
+  if (!(length_m >= kLeast_m) || !(range_m > 0.0F)) return Incidence::kUnknown;
+  const float cosine = std::abs(along.x() * hit.y() - along.y() * hit.x()) / (length_m * range_m);
+  return cosine > kAlong ? Incidence::kAlongNormal : cosine < kAslant ? Incidence::kAslant : Incidence::kUnknown;
+}
+
 }  // namespace
 
 DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& config) {
@@ -38,7 +60,9 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
   drawn.body_height_m = scan.T_odom_body.position_m.z();
   const auto spacing = static_cast<float>(0.4 * config.resolution_m);
   const auto add = [&](std::vector<Eigen::Vector3f>& list, const Eigen::Vector3f& p) {
-    if (list.empty() || (p - list.back()).head<2>().squaredNorm() > spacing * spacing) list.push_back(p);
+    const bool apart = list.empty() || (p - list.back()).head<2>().squaredNorm() > spacing * spacing;
+    if (apart) list.push_back(p);
+    return apart;
   };
   const auto range = [](const Eigen::Vector3f& p) { return p.head<2>().norm(); };
   const auto withinRange = [&](const Eigen::Vector3f& p, double range_m) {
@@ -55,8 +79,8 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
           withinRange(shortened(end, static_cast<float>(band_m) / std::abs(height_m)), config.max_hit_range_m));
     else if (range(end) > static_cast<float>(config.max_hit_range_m))
       add(drawn.free_level_m, withinRange(end, config.max_hit_range_m));
-    else
-      add(drawn.hits_level_m, end);
+    else if (add(drawn.hits_level_m, end))
+      drawn.incidences.push_back(incidenceAt(scan.points_level_m, i));
   }
   for (const Eigen::Vector3f& end : scan.misses_level_m)
     if (end.allFinite()) add(drawn.free_level_m, withinRange(end, config.max_free_range_m));
@@ -66,11 +90,12 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
 }
 
 SlicedMap::SlicedMap(const GridDrawingConfig& config)
-    : config_(config), combined_(common::makeOccupancyGrid(config.resolution_m)) {}
+    : config_(config), combined_(common::makeOccupancyGrid(config.resolution_m)), glass_(config.resolution_m) {}
 
 SlicedMap SlicedMap::snapshot() {
   for (auto& [slice, grid] : slices_) grid = grid.snapshot();
   combined_ = combined_.snapshot();
+  glass_ = glass_.snapshot();
   return *this;
 }
 
@@ -108,29 +133,31 @@ bool SlicedMap::setFlightHeight(double height_m) {
 void SlicedMap::split(const DrawnScan& scan, const common::Pose2& T_map_body) {
   for (auto& [slice, rays] : rays_) rays.clear();
   const double c = std::cos(T_map_body.yaw_rad), s = std::sin(T_map_body.yaw_rad);
-  const Eigen::Vector2d body = T_map_body.position_m() / config_.resolution_m;
+  const Eigen::Vector2d body = body_ = T_map_body.position_m() / config_.resolution_m;
   const int body_slice = sliceAt(scan.body_height_m);
   const auto inCells = [&](const Eigen::Vector3f& end) {
     return Eigen::Vector2d((T_map_body.x_m + c * end.x() - s * end.y()) / config_.resolution_m,
                            (T_map_body.y_m + s * end.x() + c * end.y()) / config_.resolution_m);
   };
-  const auto add = [&](const Eigen::Vector2d& to, double rise_m, bool ended) {
+  const auto add = [&](const Eigen::Vector2d& to, double rise_m, bool ended,
+                       Incidence incidence = Incidence::kUnknown) {
     const int last = sliceAt(scan.body_height_m + rise_m);
     const int step = last > body_slice ? 1 : -1;
     Eigen::Vector2d from = body;
     for (int slice = body_slice; slice != last; slice += step) {
       const double boundary_m = (slice + 0.5 * step) * config_.slice_height_m - scan.body_height_m;
       const Eigen::Vector2d cut = body + (to - body) * std::clamp(boundary_m / rise_m, 0.0, 1.0);
-      rays_[slice].push_back({from, cut, false});
+      rays_[slice].push_back({from, cut});
       from = cut;
     }
-    rays_[last].push_back({from, to, ended});
+    rays_[last].push_back({from, to, ended, incidence});
   };
   for (const Eigen::Vector3f& end : scan.free_level_m) add(inCells(end), end.z(), false);
   ended_.clear();
-  for (const Eigen::Vector3f& end : scan.hits_level_m) {
+  for (std::size_t i = 0; i < scan.hits_level_m.size(); ++i) {
+    const Eigen::Vector3f& end = scan.hits_level_m[i];
     const Eigen::Vector2d to = inCells(end);
-    add(to, end.z(), true);
+    add(to, end.z(), true, i < scan.incidences.size() ? scan.incidences[i] : Incidence::kUnknown);
     ended_.push_back(cellOf(to));
   }
   std::sort(ended_.begin(), ended_.end(), rowByRow);
@@ -161,6 +188,7 @@ void SlicedMap::drawSlice(int slice, const std::vector<Ray>& rays) {
       return true;
     });
     markAt(cellOf(ray.to)) += ray.ended ? kEnded : kCrossed;
+    if (ray.ended) glass_.hit(cellOf(ray.to), ray.to - body_, ray.incidence);
   }
   apply(slice);
 }
@@ -177,6 +205,7 @@ void SlicedMap::apply(int slice) {
       const std::uint32_t ended = *mark >> 16, crossed = *mark & 0xFFFF;
       if (ended > 0 && ended < crossed) continue;
       const CellIndex cell{x, y};
+      if (ended == 0 && isGlass(cell)) continue;
       const Cell old = grid.at(cell);
       const int sum = (occupancy::isUnknown(old) ? 0 : old) + (ended > 0 ? config_.hit_steps : -config_.free_steps);
       const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
@@ -187,6 +216,13 @@ void SlicedMap::apply(int slice) {
       if (slice >= lowest_ && slice <= highest_) combine(cell, old, value);
     }
   }
+}
+
+/// Whether what the cell holds is kept from the beams of this scan that cross it. What is no glass, such as a person
+/// who has left, is cleared by beams along its normal, and slowly by all others.
+bool SlicedMap::isGlass(CellIndex cell) const {
+  if (drawn_ % config_.glass_fade_scans == 0 || !occupancy::isOccupied(combined_.at(cell))) return false;
+  return glass_.passesThrough(cell, Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5) - body_);
 }
 
 /// Most things are upright: a free cell is weak evidence that the cells above and below it are free. This removes the

@@ -13,6 +13,7 @@
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 #include "perception/projection/scan_projection.hpp"
+#include "perception/slam2d/glass_memory.hpp"
 #include "perception/slam2d/grid_drawing_config.hpp"
 
 namespace swiftlet::perception {
@@ -22,6 +23,7 @@ struct DrawnScan {
   common::Time stamp;
   double body_height_m = 0.0;  ///< Above the take-off floor.
   std::vector<Eigen::Vector3f> hits_level_m;
+  std::vector<Incidence> incidences;                ///< Of the hits; those that are missing are unknown.
   std::vector<Eigen::Vector3f> free_level_m;        ///< Ends of beams' free parts, where the end itself is not drawn.
   std::vector<Eigen::Vector3f> no_returns_level_m;  ///< Ends of beams without return; drawn up to a wall.
 };
@@ -31,7 +33,8 @@ DrawnScan thinForDrawing(const ProjectedScan& scan, const GridDrawingConfig& con
 /// In each slice, cells where beams end gain confidence and cells that beams cross lose it, each at most once a scan. A
 /// beam without return crosses cells only up to the first one that is occupied at flight height, or in which another
 /// beam of its scan ended. A wall that is dark, or hit at a grazing angle, returns no beam, so nothing is known behind
-/// it. Not thread-safe; a snapshot may go to another thread.
+/// it. What may be glass is cleared only slowly by beams that would go through it. Not thread-safe; a snapshot may go
+/// to another thread.
 class SlicedMap {
  public:
   explicit SlicedMap(const GridDrawingConfig& config);
@@ -53,6 +56,7 @@ class SlicedMap {
     Eigen::Vector2d from, to;
     /// Whether the beam ended here on something.
     bool ended = false;
+    Incidence incidence = Incidence::kUnknown;
   };
 
   int sliceAt(double height_m) const;
@@ -60,6 +64,7 @@ class SlicedMap {
   bool isWall(common::CellIndex cell) const;
   void drawSlice(int slice, const std::vector<Ray>& rays);
   void apply(int slice);
+  bool isGlass(common::CellIndex cell) const;
   void fadeAround(int slice, common::CellIndex cell);
   void combine(common::CellIndex cell);
   void combineAll();
@@ -73,13 +78,15 @@ class SlicedMap {
   GridDrawingConfig config_;
   std::map<int, common::OccupancyGrid> slices_;
   common::OccupancyGrid combined_;
+  GlassMemory glass_;
   double flight_height_m_ = 0.0;
   int lowest_ = 0;  ///< Range of the slices that are combined; empty before the first scan.
   int highest_ = -1;
   int drawn_ = 0;  ///< Number of drawn scans.
   // Working memory for the scan being drawn.
   std::map<int, std::vector<Ray>> rays_;
-  std::vector<common::CellIndex> ended_;  ///< Cells that its beams ended in, at any height; sorted.
+  std::vector<common::CellIndex> ended_;            ///< Cells that its beams ended in, at any height; sorted.
+  Eigen::Vector2d body_ = Eigen::Vector2d::Zero();  ///< In cells, with fractions.
   common::CellRect rect_;
   std::vector<std::uint32_t> marks_;
 };

@@ -92,11 +92,11 @@ Flown flyFlat(PlanarSlam& slam, std::uint64_t seed, int scans, Each&& each) {
 }
 
 constexpr int kToTheEnd = std::numeric_limits<int>::max();
-constexpr auto kNothing = [](const auto&, const auto&) {};
+constexpr auto kUnreported = [](const auto&, const auto&) {};
 
 TEST_P(EachSlamMethod, MapsTheFlat) {
   const auto slam = makeSlam(configOf(GetParam()));
-  const Flown flown = flyFlat(*slam, 1, kToTheEnd, kNothing);
+  const Flown flown = flyFlat(*slam, 1, kToTheEnd, kUnreported);
   const SlamCounts& counts = slam->counts();
   std::printf("  %-11s rms %.1f mm, max %.1f; walls median %.1f, p90 %.1f mm; %d key scans, %d rejected matches\n",
               GetParam().c_str(), 1e3 * flown.rms_m, 1e3 * flown.max_m, 1e3 * flown.wall_median_m,
@@ -114,7 +114,7 @@ TEST_P(EachSlamMethod, MapsTheFlat) {
 
 TEST_P(EachSlamMethod, GivesTheSameBytesTwice) {
   const auto one = makeSlam(configOf(GetParam())), other = makeSlam(configOf(GetParam()));
-  for (PlanarSlam* slam : {one.get(), other.get()}) flyFlat(*slam, 5, 150, kNothing);
+  for (PlanarSlam* slam : {one.get(), other.get()}) flyFlat(*slam, 5, 150, kUnreported);
   EXPECT_EQ(test::bytesOf(one->snapshot()), test::bytesOf(other->snapshot()));
   const auto keys = one->keyPoses(), others = other->keyPoses();
   ASSERT_EQ(keys.size(), others.size());
