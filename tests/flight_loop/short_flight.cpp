@@ -87,7 +87,7 @@ Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyCon
                       const VehicleMemory* memory) {
   auto mission = behaviors::Mission::fromText(R"(<root BTCPP_format="4"><BehaviorTree ID="Short"><Sequence>
       <TakeOff height_m="1.0"/>
-      <ForceSuccess><Timeout msec="9000"><Explore clearance_m="0.10"/></Timeout></ForceSuccess>
+      <ForceSuccess><Timeout msec="13000"><Explore clearance_m="0.10"/></Timeout></ForceSuccess>
       <Land/>
     </Sequence></BehaviorTree></root>)",
                                               "short.xml");
