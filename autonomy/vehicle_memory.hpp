@@ -14,7 +14,7 @@ struct VehicleMemory {
   static constexpr int kVersion = 1;
 
   int version = 0;
-  std::string vehicle;          ///< Name on the data sheet of the vehicle it is of.
+  std::string vehicle;           ///< Name on the data sheet of the vehicle it is of.
   control::ThrustPoints thrust;  ///< By rising voltage.
 
   void describe(common::config::Fields& fields);
