@@ -27,16 +27,16 @@ struct ConvertOptions {
 
 void writePlan(const common::VoxelMap& map, const ConvertOptions& options) {
   if (!options.low_m || !options.high_m)
-    throw common::InputError(common::Problem{{}, "convert", "a floor plan needs the heights that it shows",
-                                             "for instance --low 0.8 --high 1.2"});
+    throw common::InputError(common::Problem{
+        {}, "convert", "a floor plan needs the heights that it shows", "for instance --low 0.8 --high 1.2"});
   if (*options.low_m > *options.high_m)
-    throw common::InputError(common::Problem{{}, "--low", fmt::format("{} is above --high {}", *options.low_m,
-                                                                      *options.high_m), ""});
+    throw common::InputError(
+        common::Problem{{}, "--low", fmt::format("{} is above --high {}", *options.low_m, *options.high_m), ""});
   const fs::path yaml = options.to;
   const common::OccupancyGrid plan = mapping3d::floorPlan(map, {*options.low_m, *options.high_m});
   if (knownExtent(plan).empty())
-    throw common::InputError(common::Problem{{options.from}, "", fmt::format("nothing is known from {} to {} m",
-                                                                             *options.low_m, *options.high_m), ""});
+    throw common::InputError(common::Problem{
+        {options.from}, "", fmt::format("nothing is known from {} to {} m", *options.low_m, *options.high_m), ""});
   required(interfaces::writeMap(yaml.has_parent_path() ? yaml.parent_path() : ".", yaml.stem().string(), plan));
 }
 

@@ -210,8 +210,8 @@ void addTrial(Command& program) {
   command.option("--only", options->only, "With --envelope: keys of the quantities to turn up, separated by commas.");
   command.option("--write", options->write, "With --envelope: page (Markdown) that gets the table and the picture.");
   command.footer(
-      "Examples: swiftlet trial trials/papers/unb_case1.yaml --repeat 20\n"
-      "          swiftlet trial trials/papers/unb_case1.yaml --envelope --jobs 2");
+      "Example: swiftlet trial trials/papers/unb_case1.yaml --repeat 20\n"
+      "Example: swiftlet trial trials/papers/unb_case1.yaml --envelope --jobs 2");
   command.runs([options] { return options->envelope ? flyEnvelope(envelopeOptions(*options)) : trial(*options); });
 }
 

@@ -226,8 +226,8 @@ void Autonomy::tickBehaviors(Time now) {
   if (std::holds_alternative<common::LandIntent>(intent_.kind) && controller_.state() == FlightState::kFlying)
     surfaces = std::make_shared<common::LevelMap>(estimator_.seenSurfaces());
   executor_.tick(intent_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(), std::move(surfaces),
-                           estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(), drift_m_,
-                           supervisor_.takeOffRefusal(energy_)});
+                           estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(),
+                           drift_m_, supervisor_.takeOffRefusal(energy_)});
 }
 
 /// The supervisor's intent comes before the mission's.

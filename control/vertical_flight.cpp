@@ -92,8 +92,7 @@ void FlightController::moveVertically(double goal_m, double speed_m_s, double he
   const double left_m = goal_m - height_reference_m_;
   const double acceleration_m_s2 = margin_.acceleration() * config_.climb_acceleration_m_s2;
   const double stoppable = std::sqrt(2.0 * acceleration_m_s2 * std::abs(left_m));
-  const double wanted =
-      std::copysign(std::min({speed_m_s, stoppable, std::abs(left_m) / dt_s_}), left_m);
+  const double wanted = std::copysign(std::min({speed_m_s, stoppable, std::abs(left_m) / dt_s_}), left_m);
   const double step = acceleration_m_s2 * dt_s_;
   climb_reference_m_s_ = std::clamp(wanted, climb_reference_m_s_ - 1.2 * step, climb_reference_m_s_ + 1.2 * step);
   height_reference_m_ = std::clamp(height_reference_m_ + climb_reference_m_s_ * dt_s_, height_m - kReferenceLead_m,

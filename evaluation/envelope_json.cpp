@@ -23,7 +23,7 @@ Json figureOrNull(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(figure(*value)) : Json(nullptr);
 }
 
-Json rangeJson(const std::optional<simulation::Nature::Range>& range) {
+Json rangeJson(const std::optional<simulation::NatureRange>& range) {
   return range ? Json{figure(range->low), figure(range->high)} : Json(nullptr);
 }
 

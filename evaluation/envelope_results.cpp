@@ -36,7 +36,7 @@ std::tuple<int, double> reserveOf(const EnvelopeEntry& entry) {
 
 }  // namespace
 
-std::optional<double> EnvelopeEntry::worstOf(const std::optional<Nature::Range>& nature) const {
+std::optional<double> EnvelopeEntry::worstOf(const std::optional<simulation::NatureRange>& nature) const {
   if (!nature) return std::nullopt;
   const double worst = finding.quantity.to > finding.from ? nature->high : nature->low;
   return finding.share(worst) > 0.0 ? std::optional(worst) : std::nullopt;

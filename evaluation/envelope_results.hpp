@@ -13,12 +13,12 @@ namespace swiftlet::evaluation {
 /// What was flown for one quantity beside what the natures draw for it.
 struct EnvelopeEntry {
   EnvelopeFinding finding;
-  std::optional<simulation::Nature::Range> real;
-  std::optional<simulation::Nature::Range> harsh;
+  std::optional<simulation::NatureRange> real;
+  std::optional<simulation::NatureRange> harsh;
 
   /// The value farthest from the base, in the direction in which it was turned, that a nature draws; none if it draws
   /// nothing in that direction.
-  std::optional<double> worstOf(const std::optional<simulation::Nature::Range>& nature) const;
+  std::optional<double> worstOf(const std::optional<simulation::NatureRange>& nature) const;
   /// Distance of a value from the base, as a multiple of that of the worst value that `harsh` draws; none if `harsh`
   /// draws nothing in that direction.
   std::optional<double> harshMultiple(double value) const;

@@ -60,7 +60,7 @@ Nature Nature::withCharge(double low, double high) const {
   return {name_, std::move(ranges)};
 }
 
-std::optional<Nature::Range> Nature::rangeOf(const std::string& key) const {
+std::optional<NatureRange> Nature::rangeOf(const std::string& key) const {
   return ranges_ ? ranges_->rangeOf(key) : std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "simulation/nature_range.hpp"
 #include "simulation/scenario.hpp"
 
 namespace swiftlet::simulation {
@@ -30,13 +31,9 @@ class Nature {
   /// The same with another range of the charge at the start, if this nature draws it.
   Nature withCharge(double low, double high) const;
 
-  struct Range {
-    double low = 0.0;
-    double high = 0.0;
-  };
   /// What the number of a key ("quadrotor.mass_share") is drawn from; both ends are equal if it is fixed. None if this
   /// nature leaves it as it is.
-  std::optional<Range> rangeOf(const std::string& key) const;
+  std::optional<NatureRange> rangeOf(const std::string& key) const;
 
   /// The scenario of one vehicle with this nature's values in it. A key that the scenario's own file wrote out
   /// (Scenario::written) keeps its value. Each key draws from a random stream of its own, so that a further key, or one

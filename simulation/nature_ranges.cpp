@@ -141,12 +141,12 @@ void NatureRanges::narrow(const std::string& key, double low, double high) {
   }
 }
 
-std::optional<Nature::Range> NatureRanges::rangeOf(const std::string& key) const {
+std::optional<NatureRange> NatureRanges::rangeOf(const std::string& key) const {
   for (const Entry& entry : entries_) {
     if (entry.key != key) continue;
-    if (entry.isRange()) return Nature::Range{entry.low, entry.high};
+    if (entry.isRange()) return NatureRange{entry.low, entry.high};
     double value = 0.0;
-    if (YAML::convert<double>::decode(YAML::Node(entry.value), value)) return Nature::Range{value, value};
+    if (YAML::convert<double>::decode(YAML::Node(entry.value), value)) return NatureRange{value, value};
   }
   return std::nullopt;
 }

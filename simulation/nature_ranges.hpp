@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/nature.hpp"
+#include "simulation/nature_range.hpp"
 #include "simulation/scenario.hpp"
 
 namespace swiftlet::simulation {
@@ -31,7 +31,7 @@ class NatureRanges {
 
   /// What the number of a key is drawn from; both ends are equal if it is fixed. None for keys that the file does not
   /// have, or that are not numbers.
-  std::optional<Nature::Range> rangeOf(const std::string& key) const;
+  std::optional<NatureRange> rangeOf(const std::string& key) const;
 
   /// A number within [low, high) for the key, "quadrotor.mass_share".
   using Choose = std::function<double(const std::string& key, double low, double high)>;

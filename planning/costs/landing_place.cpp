@@ -14,6 +14,8 @@ using common::CellIndex;
 using Eigen::Vector2d;
 
 constexpr double kUnseen_m = std::numeric_limits<double>::quiet_NaN();
+/// A cell counts from this much overlap on, far above the rounding of its place.
+constexpr double kTouching_m = 1e-6;
 
 /// The heights of the highest surfaces below, on the levels' own cells around a place.
 class SurfaceWindow {
@@ -43,9 +45,10 @@ class SurfaceWindow {
       for (int x = center.x - reach; x <= center.x + reach; ++x) {
         const double seen_m = heightOf({x, y});
         if (std::isnan(seen_m)) continue;
-        // By the nearest point of the cell: a surface begins somewhere in it.
+        // By the nearest point of the cell: a surface begins somewhere in it. A cell that the disc only touches is not
+        // in it.
         const Vector2d low(x * resolution_m_, y * resolution_m_), high = low.array() + resolution_m_;
-        if ((center_map_m.cwiseMax(low).cwiseMin(high) - center_map_m).norm() > radius_m) continue;
+        if ((center_map_m.cwiseMax(low).cwiseMin(high) - center_map_m).norm() > radius_m - kTouching_m) continue;
         if (std::abs(seen_m - height_m) > step_m) return false;
         least = least.cwiseMin(low);
         most = most.cwiseMax(high);

@@ -92,7 +92,8 @@ TEST_F(Envelope, WhatCannotBeTurnedUpIsRefusedBeforeAnyFlight) {
     EXPECT_THAT(end.err, ContainsRegex(pattern));
     EXPECT_FALSE(fs::exists(path("run"))) << describe(end);
   };
-  expectRefused({"--only", "quadrotor.motor_lag"}, "--only: no quantity has the key `quadrotor.motor_lag`, did you mean");
+  expectRefused({"--only", "quadrotor.motor_lag"},
+                "--only: no quantity has the key `quadrotor.motor_lag`, did you mean");
   expectRefused({"--nature", "real"}, "--nature: does not go with --envelope");
   expectRefused({"--battery", "0.5"}, "--battery: does not go with --envelope");
   expectRefused({"--write", write("empty.md", "# Mine\n")}, "empty.md: --write: the page has no place");

@@ -20,7 +20,7 @@ EnvelopeEntry entry(const std::string& key, double acceptable_to, std::optional<
   entry.finding.quantity = {key, 1.0, "name of " + key};
   entry.finding.steps = {step(0.0, true), step(acceptable_to, true)};
   if (fails_at) entry.finding.steps.push_back(step(*fails_at, false));
-  if (harsh) entry.harsh = simulation::Nature::Range{-*harsh, *harsh};
+  if (harsh) entry.harsh = simulation::NatureRange{-*harsh, *harsh};
   entry.finding.complete = true;
   return entry;
 }
@@ -56,7 +56,7 @@ TEST(EnvelopeResults, ListEveryFailedFlight) {
 
 TEST(EnvelopeResults, ARangeInOneDirectionCountsInThatDirectionOnly) {
   EnvelopeEntry down = entry("e_s", 0.2, 0.3, std::nullopt);
-  down.harsh = simulation::Nature::Range{-2.0, 0.0};
+  down.harsh = simulation::NatureRange{-2.0, 0.0};
   EXPECT_FALSE(down.worstOf(down.harsh)) << "it is turned up, and harsh only draws below the base";
   down.finding.quantity.to = -4.0;
   EXPECT_EQ(down.harshMultiple(-4.0), 2.0);

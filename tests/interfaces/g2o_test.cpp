@@ -92,7 +92,7 @@ TEST(G2o, ReportsThePlaceOfMistakes) {
 TEST(G2o, FilesWithoutAGraphAreRefused) {
   EXPECT_THAT(problem(""), HasSubstr("x.g2o: holds no pose graph"));
   EXPECT_THAT(problem("# only a comment\nVERTEX_XY 1 0 0\n"), HasSubstr("x.g2o: holds no pose graph"));
-  EXPECT_THAT(problem(kPlane), HasSubstr("x.g2o: holds vertices but no edges"));
+  EXPECT_THAT(problem(kPlane), HasSubstr("x.g2o: holds vertices, but no edges connect them"));
   EXPECT_THAT(problemOf([] { readG2o(fs::path("/nowhere/x.g2o")); }), HasSubstr("/nowhere/x.g2o: cannot be opened"));
 }
 
