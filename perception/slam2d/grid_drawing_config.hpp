@@ -23,7 +23,7 @@ struct GridDrawingConfig {
   double fade_height_m = 0.10;
   double slow_fade_height_m = 0.25;
   int slow_fade_scans = 4;
-  int glass_fade_scans = 100;
+  int glass_fade_scans = 1;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
