@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -10,7 +11,6 @@
 #include "common/config.hpp"
 #include "common/error.hpp"
 #include "simulation/plant_keys.hpp"
-#include "simulation/whole_number_keys.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -30,6 +30,14 @@ struct NatureKeys {
     describePlant(scenario, fields);
   }
 };
+
+/// The keys of a plant that count something.
+std::set<std::string> wholeNumberKeys() {
+  std::set<std::string> keys;
+  for (PlantKey& one : plantKeys(Scenario{}))
+    if (one.whole) keys.insert(std::move(one.key));
+  return keys;
+}
 
 bool isWhole(double value) { return std::floor(value) == value; }
 
@@ -102,7 +110,7 @@ class NatureRanges::Reader {
 
   const std::string& text_;
   std::string file_;
-  std::set<std::string> whole_ = WholeNumberKeys().of(NatureKeys());
+  std::set<std::string> whole_ = wholeNumberKeys();
   std::vector<Problem> problems_;
 };
 

@@ -20,11 +20,6 @@ void ScanWindow::moveTo(VoxelIndex sensor) {
   first_ = {block.x - reach_blocks_, block.y - reach_blocks_, block.z - reach_blocks_};
 }
 
-bool ScanWindow::contains(VoxelIndex block) const {
-  const auto within = [this](int number, int first) { return number >= first && number < first + side_; };
-  return within(block.x, first_.x) && within(block.y, first_.y) && within(block.z, first_.z);
-}
-
 SeenBlock& ScanWindow::make(VoxelIndex block) {
   slots_[slotOf(block)] = static_cast<int>(seen_.size());
   seen_.emplace_back();

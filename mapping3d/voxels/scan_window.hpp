@@ -40,8 +40,6 @@ class ScanWindow {
   /// Forgets the last frame; the sensor is in that voxel now.
   void moveTo(common::VoxelIndex sensor);
 
-  /// Whether the block is in the window.
-  bool contains(common::VoxelIndex block) const;
   /// The block, which must be in the window. Valid until the next call.
   SeenBlock& at(common::VoxelIndex block) {
     const int slot = slots_[slotOf(block)];

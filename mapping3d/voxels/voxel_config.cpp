@@ -15,6 +15,4 @@ void VoxelConfig::describe(common::config::Fields& fields) {
          "Blocks of 8 x 8 x 8 voxels that the map holds; beyond, those farthest from the sensor are forgotten.");
 }
 
-std::vector<std::string> VoxelConfig::validate() const { return {}; }
-
 }  // namespace swiftlet::mapping3d
