@@ -9,6 +9,7 @@
 
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
+#include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/people_layer.hpp"
@@ -24,6 +25,7 @@ struct WorldParts {
   common::MapLayer map;
   common::PeopleLayer people;
   common::EnergyLayer energy;
+  std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without an RGB-D camera.
 };
 
 /// One thread; any thread may read the snapshots.

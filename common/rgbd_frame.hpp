@@ -10,7 +10,8 @@
 
 #include <Eigen/Core>
 
-#include "common/sensor_event.hpp"
+#include "common/image.hpp"
+#include "common/stamps.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::common {

@@ -1,6 +1,6 @@
 #include "common/sensor_event.hpp"
 
-#include <type_traits>
+#include "common/rgbd_frame.hpp"
 
 namespace swiftlet::common {
 

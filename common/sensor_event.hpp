@@ -10,14 +10,13 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "common/image.hpp"
+#include "common/stamps.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::common {
 
-struct Stamps {
-  Time measured;  ///< For sensors that sweep, the time of the first beam or image row.
-  Time arrived;   ///< Time from which the autonomy may use it; never before `measured`.
-};
+struct RgbdFrame;  // common/rgbd_frame.hpp
 
 /// One inertial sample with the attitude of the vehicle's own AHRS.
 struct ImuSample {
@@ -58,13 +57,6 @@ struct PilotSample {
   bool takes_over = false;
 };
 
-/// An 8-bit RGB picture, row by row from the top left.
-struct Image {
-  int width_px = 0;
-  int height_px = 0;
-  std::vector<std::uint8_t> rgb;  ///< 3 * width_px * height_px bytes.
-};
-
 /// One frame of the onboard camera, for the operator's stream.
 struct CameraFrame {
   Stamps stamps;
@@ -72,7 +64,7 @@ struct CameraFrame {
 };
 
 using SensorEvent = std::variant<ImuSample, std::shared_ptr<const LaserScan>, BatterySample, PilotSample,
-                                 std::shared_ptr<const CameraFrame>>;
+                                 std::shared_ptr<const CameraFrame>, std::shared_ptr<const RgbdFrame>>;
 
 const Stamps& stampsOf(const SensorEvent& event);
 

@@ -14,8 +14,9 @@ struct MissionLayer;
 struct MapLayer;
 struct PeopleLayer;
 struct EnergyLayer;
+struct Map3dLayer;
 
-/// No layer is null in a World that the autonomy made.
+/// Only `map3d` is ever null in a World that the autonomy made.
 struct World {
   Time stamp;
   std::shared_ptr<const VehicleLayer> vehicle;
@@ -23,6 +24,7 @@ struct World {
   std::shared_ptr<const MapLayer> map;
   std::shared_ptr<const PeopleLayer> people;
   std::shared_ptr<const EnergyLayer> energy;
+  std::shared_ptr<const Map3dLayer> map3d;  ///< Null in a flight without an RGB-D camera.
 };
 
 }  // namespace swiftlet::common

@@ -1,0 +1,16 @@
+// A colour picture in memory.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace swiftlet::common {
+
+/// An 8-bit RGB picture, row by row from the top left.
+struct Image {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint8_t> rgb;  ///< 3 * width_px * height_px bytes.
+};
+
+}  // namespace swiftlet::common

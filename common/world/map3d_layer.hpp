@@ -1,0 +1,29 @@
+// The World's layer of the 3D map: what the RGB-D camera has mapped.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "common/key_pose.hpp"
+#include "common/rgbd_frame.hpp"
+#include "common/submap3d.hpp"
+#include "common/time.hpp"
+#include "common/voxel_map.hpp"
+
+namespace swiftlet::common {
+
+/// Only `fused` and `frame` may be null.
+struct Map3dLayer {
+  /// In the order of their making; the last one still grows, so that it is another object at each change.
+  std::shared_ptr<const std::vector<Submap3d>> submaps;
+  std::shared_ptr<const KeyPoses> keys;  ///< That `submaps` refer to.
+  /// All submaps in the frame `map`, made in the background; null before the first.
+  std::shared_ptr<const VoxelMap> fused;
+  Time fused_stamp;                        ///< When the submaps and poses of `fused` were those of the flight.
+  std::shared_ptr<const RgbdFrame> frame;  ///< The newest that was processed.
+  Pose3 T_map_camera;                      ///< At its stamp.
+  bool tracked = false;                    ///< Whether that frame was aligned to the map; else its pose is predicted.
+};
+
+}  // namespace swiftlet::common
