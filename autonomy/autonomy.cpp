@@ -16,15 +16,6 @@ using common::MissionState;
 using common::Time;
 
 namespace {
-/// Ids of the supervisor's own intents; those of the mission count from 1.
-constexpr std::uint64_t kSupervisorHold = 1ULL << 62;
-/// Of the landing, which is for good: there is one.
-constexpr std::uint64_t kSupervisorLand = kSupervisorHold + 1;
-/// Of the first flight home; the next ones count on.
-constexpr std::uint64_t kSupervisorHome = kSupervisorHold + 2;
-/// Of the first flight back along the trail.
-constexpr std::uint64_t kSupervisorBack = kSupervisorHome + (1ULL << 32);
-
 /// Nearer to the end of a path the vehicle brakes, so its speed there tells nothing of a long path. The shipped
 /// profiles brake within v^2 / (2 a) = 0.33 m; the rest is margin for faster ones.
 constexpr double kFarFromGoal_m = 1.0;
@@ -46,6 +37,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       controller_(config.control, vehicle),
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
       supervisor_(config.supervisor),
+      supervisor_intents_(config.execution.clearance_m),
       mission_(std::move(mission)),
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
@@ -234,69 +226,47 @@ void Autonomy::tickBehaviors(Time now) {
 common::Intent Autonomy::nextIntent(Time now) {
   const bool airborne = control::isAirborne(controller_.state());
   const Supervision& supervision = supervisor_.tick(now, condition(now));
+  fillContext(supervision, now);
+  if (const auto wanted_to_see = executor_.wantsToSee_map_m())
+    supervisor_intents_.remember(*wanted_to_see);
+  else if (!supervision.hold)
+    supervisor_intents_.forget();
+
+  if (supervision.land) {
+    endMission(supervision.land_reason, now);
+    return SupervisorIntents::land();
+  }
+  if (missionOver()) return SupervisorIntents::land();
+  tickMission();
+  if (!airborne) return context_.intent.value_or(common::Intent{});
+  if (missionOver()) return SupervisorIntents::land();
+  const SupervisedFlight flight{now, *world_, intent_, executor_.status(), executor_.desk().home_m().has_value()};
+  if (auto intent = supervisor_intents_.flight(supervision, flight, supervisor_)) return *intent;
+  if (supervision.hold && mission_status_.state != MissionState::kHeld) return SupervisorIntents::hold();
+  return context_.intent.value_or(common::Intent{});
+}
+
+void Autonomy::fillContext(const Supervision& supervision, Time now) {
   context_.world = world_;
   context_.goal_map = executor_.desk().goalMap();
   context_.status = executor_.status();
   context_.now = now;
   context_.hold = supervision.hold;
   context_.hold_reason = supervision.hold_reason;
-  const auto wanted_to_see = executor_.wantsToSee_map_m();
-  if (wanted_to_see || !supervision.hold) wanted_to_see_map_m_ = wanted_to_see;
+}
 
-  if (supervision.land) {
-    if (!missionOver()) {
-      mission_status_.state = supervisor_.landedByOperator() ? MissionState::kStopped : MissionState::kFailed;
-      mission_status_.reason = "landed: " + supervision.land_reason;
-      mission_status_.phase = "land";
-      releasing_mission_ = true;
-    }
-    for (const auto& command : std::exchange(context_.commands, {}))
-      answer(command, {command.id, false, "the vehicle is landing: " + supervision.land_reason}, now);
-    if (releasing_mission_) releasing_mission_ = !mission_.letGo(context_);
-    collect(std::exchange(context_.events, {}));
-    return {kSupervisorLand, common::LandIntent{}};
+/// The supervisor lands the vehicle for good. The mission may need several ticks to let go of it.
+void Autonomy::endMission(const std::string& reason, Time now) {
+  if (!missionOver()) {
+    mission_status_.state = supervisor_.landedByOperator() ? MissionState::kStopped : MissionState::kFailed;
+    mission_status_.reason = "landed: " + reason;
+    mission_status_.phase = "land";
+    releasing_mission_ = true;
   }
-  if (missionOver()) return {kSupervisorLand, common::LandIntent{}};
-  tickMission();
-  if (missionOver() && airborne) return {kSupervisorLand, common::LandIntent{}};
-  const bool stopped = intent_.id >= kSupervisorHome || executor_.status().released;
-  if (supervision.back > 0 && airborne && stopped) return intentBack(supervision.back, now);
-  if (supervision.home > 0 && airborne && stopped) return intentHome(supervision.home, now);
-  if (supervision.hold && mission_status_.state != MissionState::kHeld && airborne)
-    return {kSupervisorHold, common::HoldIntent{}};
-  return context_.intent.value_or(common::Intent{});
-}
-
-/// The flight home begins when the vehicle has stopped for it. Where no path is known it is the whole trail. At its end
-/// the vehicle holds.
-common::Intent Autonomy::intentHome(unsigned number, Time now) {
-  const std::uint64_t id = kSupervisorHome + number - 1;
-  const common::IntentStatus& status = executor_.status();
-  if (status.id != id) {
-    if (!executor_.desk().home_m()) return {id, common::RetraceIntent{trailBack_map_m(), std::nullopt}};
-    common::GoToIntent home;
-    home.goal_map_m = world_->vehicle->home_map.position_m();
-    home.clearance_m = config_.execution.clearance_m;
-    return {id, home};
-  }
-  if (status.state == common::IntentState::kRunning) return intent_;
-  supervisor_.homeEnded(now, status.state == common::IntentState::kSucceeded, status.reason);
-  return {kSupervisorHold, common::HoldIntent{}};
-}
-
-/// The path back is the whole trail; the supervisor ends the flight where height and position are known again.
-common::Intent Autonomy::intentBack(unsigned number, common::Time now) {
-  const std::uint64_t id = kSupervisorBack + number - 1;
-  const common::IntentStatus& status = executor_.status();
-  if (status.id != id) return {id, common::RetraceIntent{trailBack_map_m(), wanted_to_see_map_m_}};
-  if (status.state == common::IntentState::kRunning) return intent_;
-  supervisor_.backEnded(now);
-  return {kSupervisorHold, common::HoldIntent{}};
-}
-
-std::vector<Eigen::Vector2d> Autonomy::trailBack_map_m() const {
-  const auto trail_map_m = world_->vehicle->trail.points_map_m();
-  return {trail_map_m.rbegin(), trail_map_m.rend()};
+  for (const auto& command : std::exchange(context_.commands, {}))
+    answer(command, {command.id, false, "the vehicle is landing: " + reason}, now);
+  if (releasing_mission_) releasing_mission_ = !mission_.letGo(context_);
+  collect(std::exchange(context_.events, {}));
 }
 
 VehicleCondition Autonomy::condition(common::Time now) const {

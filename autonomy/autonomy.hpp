@@ -16,6 +16,7 @@
 #include "autonomy/scan_queue.hpp"
 #include "autonomy/scan_watch.hpp"
 #include "autonomy/supervisor.hpp"
+#include "autonomy/supervisor_intents.hpp"
 #include "autonomy/vehicle_memory.hpp"
 #include "autonomy/world_builder.hpp"
 #include "behaviors/mission.hpp"
@@ -114,9 +115,8 @@ class Autonomy {
   void prepare();
   void tickBehaviors(common::Time now);
   common::Intent nextIntent(common::Time now);
-  common::Intent intentHome(unsigned number, common::Time now);
-  common::Intent intentBack(unsigned number, common::Time now);
-  std::vector<Eigen::Vector2d> trailBack_map_m() const;
+  void fillContext(const Supervision& supervision, common::Time now);
+  void endMission(const std::string& reason, common::Time now);
   VehicleCondition condition(common::Time now) const;
   bool missionOver() const { return common::isOver(mission_status_.state); }
   void tickMission();
@@ -133,6 +133,7 @@ class Autonomy {
   control::FlightController controller_;
   Executor executor_;
   Supervisor supervisor_;
+  SupervisorIntents supervisor_intents_;
   behaviors::Mission mission_;
   std::unique_ptr<common::JobRunner> jobs_;
 
@@ -144,8 +145,6 @@ class Autonomy {
   double battery_v_ = 0.0;
   std::optional<control::RawHeight> raw_height_;
   double drift_m_ = 0.0;  ///< Of the last scan.
-  /// The unknown place that it explores, or explored when the supervisor began to hold the mission.
-  std::optional<Eigen::Vector2d> wanted_to_see_map_m_;
   std::shared_ptr<const common::LaserPoints> laser_points_;
 
   behaviors::Context context_;

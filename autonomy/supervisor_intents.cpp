@@ -1,0 +1,60 @@
+#include "autonomy/supervisor_intents.hpp"
+
+#include <vector>
+
+#include "common/world/vehicle_layer.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+/// Ids of the supervisor's intents; those of the mission count from 1.
+constexpr std::uint64_t kHold = 1ULL << 62;
+/// Of the landing, which is for good: there is one.
+constexpr std::uint64_t kLand = kHold + 1;
+/// Of the first flight home; the next ones count on.
+constexpr std::uint64_t kHome = kHold + 2;
+/// Of the first flight back along the trail.
+constexpr std::uint64_t kBack = kHome + (1ULL << 32);
+
+std::vector<Eigen::Vector2d> trailBack_map_m(const common::World& world) {
+  const auto trail_map_m = world.vehicle->trail.points_map_m();
+  return {trail_map_m.rbegin(), trail_map_m.rend()};
+}
+
+}  // namespace
+
+common::Intent SupervisorIntents::hold() { return {kHold, common::HoldIntent{}}; }
+common::Intent SupervisorIntents::land() { return {kLand, common::LandIntent{}}; }
+
+std::optional<common::Intent> SupervisorIntents::flight(const Supervision& asked, const SupervisedFlight& flight,
+                                                        Supervisor& supervisor) const {
+  const bool stopped = flight.present.id >= kHome || flight.status.released;
+  if (!stopped) return std::nullopt;
+  if (asked.back > 0) return back(kBack + asked.back - 1, flight, supervisor);
+  if (asked.home > 0) return home(kHome + asked.home - 1, flight, supervisor);
+  return std::nullopt;
+}
+
+/// Where no path is known, the path home is the whole trail. At its end the vehicle holds.
+common::Intent SupervisorIntents::home(std::uint64_t id, const SupervisedFlight& flight, Supervisor& supervisor) const {
+  if (flight.status.id != id) {
+    if (!flight.home_planned) return {id, common::RetraceIntent{trailBack_map_m(flight.world), std::nullopt}};
+    common::GoToIntent to_home;
+    to_home.goal_map_m = flight.world.vehicle->home_map.position_m();
+    to_home.clearance_m = clearance_m_;
+    return {id, to_home};
+  }
+  if (flight.status.state == common::IntentState::kRunning) return flight.present;
+  supervisor.homeEnded(flight.now, flight.status.state == common::IntentState::kSucceeded, flight.status.reason);
+  return hold();
+}
+
+/// The path back is the whole trail; the supervisor ends the flight where height and position are known again.
+common::Intent SupervisorIntents::back(std::uint64_t id, const SupervisedFlight& flight, Supervisor& supervisor) const {
+  if (flight.status.id != id) return {id, common::RetraceIntent{trailBack_map_m(flight.world), wanted_to_see_map_m_}};
+  if (flight.status.state == common::IntentState::kRunning) return flight.present;
+  supervisor.backEnded(flight.now);
+  return hold();
+}
+
+}  // namespace swiftlet::autonomy
