@@ -26,8 +26,8 @@ struct SurfacePoint {
 
 /// Immutable once published. Coordinates are those of the frame `submap`, whose z axis is vertical.
 struct Submap3d {
-  int key = 0;         ///< Index into KeyPoses::keys.
-  Pose3 T_key_submap;  ///< Relative to the level frame of that key scan.
+  int key = 0;                                              ///< Index into KeyPoses::keys.
+  Pose3 T_key_submap;                                       ///< Relative to the level frame of that key scan.
   std::shared_ptr<const std::vector<SurfacePoint>> points;  ///< Never null.
   std::shared_ptr<const VoxelMap> voxels;                   ///< Never null.
 
