@@ -61,6 +61,8 @@ void TrialConfig::describe(common::config::Fields& fields) {
          "How far the vehicle is from its data sheet: calm, real, harsh, or a file; each of them is flown.");
   fields("batteries", batteries, {0.01, 1},
          "Charges at the start, as shares of the full one; each of them is flown. Empty: that of scenario and nature.");
+  fields("each_fault", each_fault,
+         "Whether each fault of the scenario is flown by itself, instead of all of them in every flight.");
   fields("archive", archive,
          "The world's archive below the folder of data sets; empty when the world is with the software.");
   fields("repeat", repeat, {1, 10'000}, "Flights, each with the next seed.");
@@ -84,23 +86,48 @@ std::vector<std::string> TrialConfig::validate() const {
       .require(!mission.empty(), "mission", "is missing")
       .require(!system.empty(), "system", "is missing")
       .require(!natures.empty(), "natures", "is empty")
+      .require(!each_fault || !scenario.faults.empty(), "each_fault", "is set, but the scenario has no faults")
       .require(!scenario.world.empty(), "scenario", "names no `world`")
       .problems();
 }
 
 std::vector<TrialConfig> TrialConfig::byCondition() const {
   std::vector<TrialConfig> trials;
+  for (const TrialConfig& in_nature : byNature())
+    for (const TrialConfig& with_charge : in_nature.byCharge())
+      for (TrialConfig& with_fault : with_charge.byFault()) trials.push_back(std::move(with_fault));
+  return trials;
+}
+
+std::vector<TrialConfig> TrialConfig::byNature() const {
+  std::vector<TrialConfig> trials;
   for (const std::string& nature : natures) {
-    TrialConfig in_nature = *this;
-    in_nature.natures = {nature};
-    if (natures.size() > 1) in_nature.name += "-" + fs::path(nature).stem().string();
-    if (batteries.empty()) trials.push_back(in_nature);
-    for (const double remaining : batteries) {
-      trials.push_back(in_nature);
-      trials.back().batteries = {remaining};
-      trials.back().scenario.setCharge(remaining);
-      if (batteries.size() > 1) trials.back().name += fmt::format("-charge{:g}", 100.0 * remaining);
-    }
+    trials.push_back(*this);
+    trials.back().natures = {nature};
+    if (natures.size() > 1) trials.back().name += "-" + fs::path(nature).stem().string();
+  }
+  return trials;
+}
+
+std::vector<TrialConfig> TrialConfig::byCharge() const {
+  if (batteries.empty()) return {*this};
+  std::vector<TrialConfig> trials;
+  for (const double remaining : batteries) {
+    trials.push_back(*this);
+    trials.back().batteries = {remaining};
+    trials.back().scenario.setCharge(remaining);
+    if (batteries.size() > 1) trials.back().name += fmt::format("-charge{:g}", 100.0 * remaining);
+  }
+  return trials;
+}
+
+std::vector<TrialConfig> TrialConfig::byFault() const {
+  if (!each_fault) return {*this};
+  std::vector<TrialConfig> trials;
+  for (const simulation::FaultConfig& fault : scenario.faults) {
+    trials.push_back(*this);
+    trials.back().scenario.faults = {fault};
+    if (scenario.faults.size() > 1) trials.back().name += "-" + nameOf(fault);
   }
   return trials;
 }

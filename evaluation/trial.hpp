@@ -45,6 +45,7 @@ struct TrialConfig {
   std::string system = "swiftlet";
   std::vector<std::string> natures = {"real"};
   std::vector<double> batteries;
+  bool each_fault = false;
   std::string archive;
   int repeat = 1;
   double time_limit_s = 600.0;
@@ -60,14 +61,19 @@ struct TrialConfig {
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
 
-  /// One trial for each of its natures and, in each of them, for each of its batteries: these are then the only ones,
-  /// and part of its name where there are several. The charge is that of every vehicle, as if the scenario had written
-  /// it out.
+  /// One trial for each of its natures, in each of them for each of its batteries and, with `each_fault`, for each of
+  /// these for each fault: these are then the only ones, and part of its name where there are several. The charge is
+  /// that of every vehicle, as if the scenario had written it out.
   std::vector<TrialConfig> byCondition() const;
 
   /// Makes `world` and `model_paths` of the scenario absolute: below `unpacked`, the content of the archive, if there
   /// is such a file, otherwise below `root`, the installed or source tree.
   void resolvePaths(const std::filesystem::path& unpacked, const std::filesystem::path& root);
+
+ private:
+  std::vector<TrialConfig> byNature() const;
+  std::vector<TrialConfig> byCharge() const;
+  std::vector<TrialConfig> byFault() const;
 };
 
 /// Throws common::InputError.

@@ -1,13 +1,23 @@
 #include "simulation/fault_config.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "common/config_fields.hpp"
 #include "common/validation.hpp"
 
 namespace swiftlet::simulation {
+namespace {
+
+/// In the order of FaultKind.
+const std::vector<std::string> kKinds{"silent", "nan", "repeat", "late", "stuck", "bias", "mirror", "blocked"};
+
+}  // namespace
 
 void FaultConfig::describe(common::config::Fields& fields) {
   fields.choice("sensor", sensor, {"imu", "laser", "battery", "pilot", "camera", "rgbd"}, "Which sensor fails.");
-  fields.choice("kind", kind, {"silent", "nan", "repeat", "late", "stuck", "bias", "mirror", "blocked"},
+  fields.choice("kind", kind, kKinds,
                 "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser.");
   fields("from_s", from_s, {0, 1e6}, "Time at which the fault begins; with place or phase, before which it does not.");
   fields("to_s", to_s, {0, 1e6}, "Time at which the fault ends; at least from_s. Not with place or phase.");
@@ -38,6 +48,13 @@ std::vector<std::string> FaultConfig::validate() const {
       .require(!of_imu || sensor == Sensor::kImu, "kind", "stuck and bias are faults of the imu alone")
       .require(!of_laser || sensor == Sensor::kLaser, "kind", "mirror and blocked are faults of the laser alone")
       .problems();
+}
+
+std::string nameOf(const FaultConfig& fault) {
+  std::string when = fault.phase;
+  if (when.empty()) when = fault.place_world_m.empty() ? fmt::format("{:g}s", fault.from_s) : "place";
+  std::replace(when.begin(), when.end(), ' ', '_');
+  return fmt::format("{}-{}-{}", toString(fault.sensor), kKinds.at(static_cast<std::size_t>(fault.kind)), when);
 }
 
 }  // namespace swiftlet::simulation

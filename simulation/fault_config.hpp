@@ -42,4 +42,8 @@ struct FaultConfig {
   std::vector<std::string> validate() const;
 };
 
+/// What goes wrong and when, for tables and names of folders: "imu-silent-taking_off", "laser-nan-15s",
+/// "imu-nan-place".
+std::string nameOf(const FaultConfig& fault);
+
 }  // namespace swiftlet::simulation

@@ -117,6 +117,27 @@ TEST_F(Trials, WithSeveralNaturesAreOneTrialForEach) {
   EXPECT_THAT(problemOf(folder_), HasSubstr("natures: is empty"));
 }
 
+TEST_F(Trials, WithEachFaultAreOneTrialForEach) {
+  const std::string faults =
+      "mission: m.xml\nscenario:\n  world: w.sdf\n  faults:\n"
+      "    - {sensor: imu, kind: silent, phase: taking off, lasts_s: 9}\n"
+      "    - {sensor: laser, kind: nan, from_s: 1.5, to_s: 9}\n";
+  put("bad.yaml", faults + "each_fault: true\n");
+  const auto trials = readTrials(folder_).at(0).byCondition();
+  ASSERT_EQ(trials.size(), 2u);
+  EXPECT_EQ(trials[0].name, "bad-imu-silent-taking_off");
+  EXPECT_EQ(trials[1].name, "bad-laser-nan-1.5s");
+  for (const TrialConfig& trial : trials) EXPECT_EQ(trial.scenario.faults.size(), 1u);
+  EXPECT_EQ(trials[1].scenario.faults[0].sensor, simulation::Sensor::kLaser);
+
+  put("bad.yaml", faults);
+  const auto together = readTrials(folder_).at(0).byCondition();
+  ASSERT_EQ(together.size(), 1u);
+  EXPECT_EQ(together[0].scenario.faults.size(), 2u);
+  put("bad.yaml", std::string(kSmallest) + "each_fault: true\n");
+  EXPECT_THAT(problemOf(folder_), HasSubstr("each_fault: is set, but the scenario has no faults"));
+}
+
 TEST_F(Trials, TheKeysOfTheScenarioThatAreWrittenOutAreKnown) {
   put("a.yaml", "mission: m.xml\nscenario: {world: w.sdf, quadrotor: {motor_lag_s: 0.05}, battery_remaining: 1.0}\n");
   EXPECT_THAT(readTrials(folder_).at(0).scenario.written,
