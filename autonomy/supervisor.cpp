@@ -87,7 +87,7 @@ const Supervision& Supervisor::tick(Time now, const VehicleCondition& condition)
   flight_ = condition.flight;
   blind_ = obey(now, sight_.watch(now, condition)).hold;
   obey(now, energy_.watch(now, condition));
-  back_ = obey(now, position_.watch(now, condition, !blind_.empty())).back;
+  back_ = supervision_.land ? 0 : obey(now, position_.watch(now, condition, !blind_.empty())).back;
 
   supervision_.hold_reason = holdReason();
   supervision_.hold = !supervision_.hold_reason.empty();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "behaviors/tree/composite.hpp"
+#include "behaviors/tree/conditions.hpp"
 #include "behaviors/tree/elements.hpp"
 #include "behaviors/tree/nodes/subtree.hpp"
 
@@ -51,6 +52,7 @@ std::unique_ptr<Node> Builder::makeSubTree(const Place& place, Scope& scope) {
   const std::string* name = place.element->attribute("name");
   const int record = addRecord(place, nullptr);
   tree_->setups[static_cast<std::size_t>(record)].name = name == nullptr ? id : *name;
+  tree_->setups[static_cast<std::size_t>(record)].conditions = makeConditions(place, scope, "SubTree");
   auto node = std::make_unique<SubTree>(tree_->setups[static_cast<std::size_t>(record)]);
   finishRecord(record, *node);
 
@@ -80,7 +82,8 @@ void Builder::bindSubTree(const Place& place, Scope& outer, Scope& inner) {
     inner.names[port] = slot;
   };
   for (const XmlAttribute& attribute : place.element->attributes)
-    if (!isStructural(*place.element, attribute.name)) bind(attribute.name, attribute.value);
+    if (!isStructural(*place.element, attribute.name) && !conditionOf(attribute.name))
+      bind(attribute.name, attribute.value);
   const auto model = documents_.subtree_models.find(*place.element->attribute("ID"));
   if (model == documents_.subtree_models.end()) return;
   for (const auto& [port, text] : model->second)
@@ -107,6 +110,7 @@ std::unique_ptr<Node> Builder::makeTyped(const Place& place, Scope& scope) {
   const int record = addRecord(place, &type.manifest);
   NodeSetup setup;
   setup.name = name == nullptr || name->empty() ? type.manifest.id : *name;
+  setup.conditions = makeConditions(place, scope, type.manifest.id);
   bindPorts(place, scope, type.manifest, setup);
   recordFlow(originOf(place), type.manifest, setup);
   auto node = type.build(setup);
@@ -134,7 +138,9 @@ void Builder::bindPorts(const Place& place, Scope& scope, const NodeManifest& ma
     const std::string* text = place.element->attribute(port.name);
     if (text == nullptr && port.default_value) text = &*port.default_value;
     if (text == nullptr) continue;
-    if (const auto entry = entryOf(*text, port.name))
+    if (port.type == PortType::kScript)
+      binding.script = makeScript(place, scope, manifest.id, port, *text);
+    else if (const auto entry = entryOf(*text, port.name))
       binding.slot = find(scope, *entry);
     else if (port.direction == Direction::kOutput)
       binding.slot = find(scope, *text);
@@ -151,7 +157,7 @@ void Builder::recordFlow(const NodeOrigin& origin, const NodeManifest& manifest,
   for (const PortBinding& binding : setup.ports) {
     if (binding.slot == nullptr) continue;
     if (binding.manifest->direction != Direction::kOutput)
-      recordRead(binding.slot->id, origin, manifest, *binding.manifest);
+      recordRead(binding.slot->id, origin, manifest.id, *binding.manifest);
     if (binding.manifest->direction == Direction::kInput) continue;
     EntryFlow& flow = tree_->flows[binding.slot->id];
     if (binding.manifest->type != PortType::kAny || anything == nullptr)
@@ -163,12 +169,52 @@ void Builder::recordFlow(const NodeOrigin& origin, const NodeManifest& manifest,
   }
 }
 
-void Builder::recordRead(std::size_t slot, const NodeOrigin& origin, const NodeManifest& manifest,
+std::shared_ptr<Conditions> Builder::makeConditions(const Place& place, Scope& scope, const std::string& owner) {
+  std::shared_ptr<Conditions> conditions;
+  for (const XmlAttribute& attribute : place.element->attributes) {
+    const auto kind = conditionOf(attribute.name);
+    if (!kind) continue;
+    if (conditions == nullptr) conditions = std::make_shared<Conditions>();
+    conditions->scripts[static_cast<std::size_t>(*kind)] =
+        makeScript(place, scope, owner, portOf(*kind), attribute.value);
+  }
+  return conditions;
+}
+
+/// The text compiles, because Checker has compiled it before.
+std::shared_ptr<Script> Builder::makeScript(const Place& place, Scope& scope, const std::string& owner,
+                                            const PortManifest& port, std::string_view text) {
+  ScriptResult result = Script::compile(text, registry_.constants());
+  if (!result.script) return nullptr;
+  auto script = std::make_shared<Script>(std::move(*result.script));
+  for (std::size_t i = 0; i < script->entries().size(); ++i) {
+    Slot* slot = find(scope, script->entries()[i].name);
+    script->bind(i, slot);
+    if (script->entries()[i].read) recordRead(slot->id, originOf(place), owner, port);
+  }
+  recordWrites(*script, originOf(place), port.name);
+  return script;
+}
+
+void Builder::recordWrites(const Script& script, const NodeOrigin& origin, const std::string& attribute) {
+  for (const ScriptWrite& write : script.writes()) {
+    EntryFlow& flow = tree_->flows[script.entries()[write.entry].slot->id];
+    flow.changes += write.makes ? 0 : 1;
+    if (write.literal)
+      flow.literals.push_back({*write.literal, origin, attribute});
+    else if (write.copied)
+      flow.copied_from.push_back(script.entries()[*write.copied].slot->id);
+    else
+      flow.typed_writes.push_back(write.type);
+  }
+}
+
+void Builder::recordRead(std::size_t slot, const NodeOrigin& origin, const std::string& owner,
                          const PortManifest& port) {
   auto& reads = tree_->flows[slot].reads;
   const auto known =
       std::find_if(reads.begin(), reads.end(), [&](const EntryRead& read) { return read.port == &port; });
-  if (known == reads.end()) reads.push_back({&port, manifest.id, origin});
+  if (known == reads.end()) reads.push_back({&port, owner, origin});
 }
 
 int Builder::addRecord(const Place& place, const NodeManifest* manifest) {

@@ -43,7 +43,11 @@ class Builder {
   void checkUnused(const Place& place, const Scope& inner, const std::set<std::string>& passed);
   void bindPorts(const Place& place, Scope& scope, const NodeManifest& manifest, NodeSetup& setup);
   void recordFlow(const NodeOrigin& origin, const NodeManifest& manifest, const NodeSetup& setup);
-  void recordRead(std::size_t slot, const NodeOrigin& origin, const NodeManifest& manifest, const PortManifest& port);
+  void recordRead(std::size_t slot, const NodeOrigin& origin, const std::string& owner, const PortManifest& port);
+  std::shared_ptr<Conditions> makeConditions(const Place& place, Scope& scope, const std::string& owner);
+  std::shared_ptr<Script> makeScript(const Place& place, Scope& scope, const std::string& owner,
+                                     const PortManifest& port, std::string_view text);
+  void recordWrites(const Script& script, const NodeOrigin& origin, const std::string& attribute);
   int addRecord(const Place& place, const NodeManifest* manifest);
   void finishRecord(int id, Node& node);
   Slot* find(Scope& scope, const std::string& name);

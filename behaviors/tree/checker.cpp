@@ -4,22 +4,18 @@
 #include <array>
 #include <utility>
 
+#include "behaviors/tree/conditions.hpp"
 #include "behaviors/tree/elements.hpp"
 
 namespace swiftlet::tree {
 namespace {
 
-/// Types of BehaviorTree.CPP that this engine does not have, so that the message can say so.
-constexpr std::array<std::string_view, 27> kElsewhere = {
-    "AsyncFallback",     "AsyncSequence",   "ConsumeQueue",
-    "EntryUpdated",      "IfThenElse",      "KeepRunningUntilFailure",
-    "LoopBool",          "LoopDouble",      "LoopInt",
-    "LoopString",        "ManualSelector",  "ParallelAll",
-    "Precondition",      "RunOnce",         "Script",
-    "ScriptCondition",   "SequenceStar",    "SequenceWithMemory",
-    "SkipUnlessUpdated", "Sleep",           "Switch2",
-    "Switch3",           "Switch4",         "TestNode",
-    "UnsetBlackboard",   "WaitValueUpdate", "WhileDoElse"};
+/// Types of BehaviorTree.CPP that this engine does not have, with what to write instead.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kElsewhere = {
+    {{"ConsumeQueue", "use LoopDouble, LoopInt, LoopBool or LoopString"},
+     {"EntryUpdated", "use WasEntryUpdated"},
+     {"ManualSelector", "use OperatorCommand"},
+     {"SequenceStar", "use SequenceWithMemory"}}};
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -141,8 +137,11 @@ void Checker::checkUnknown(const Document& document, const XmlElement& element) 
   std::string hint = didYouMean(*id, node_names_);
   if (documents_.trees.contains(*id)) {
     hint = "a tree is used as <SubTree ID=\"" + *id + "\"/>";
-  } else if (std::find(kElsewhere.begin(), kElsewhere.end(), *id) != kElsewhere.end()) {
+  } else if (const auto* other = std::find_if(kElsewhere.begin(), kElsewhere.end(),
+                                              [&](const auto& known) { return known.first == *id; });
+             other != kElsewhere.end()) {
     message = "`" + *id + "` is a node of BehaviorTree.CPP that this engine does not have";
+    hint = other->second;
   }
   problems_.add({is_explicit ? document.at(element, "ID") : document.at(element), element.name, std::move(message),
                  std::move(hint)});
@@ -158,16 +157,17 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
       problems_.add({place(), owner + "." + name, "`" + attribute.value + "` is not true or false", {}});
     return;
   }
-  if (isScripted(name)) {
-    problems_.add({place(), owner + "." + name, "scripted conditions are not supported", {}});
+  if (const auto condition = conditionOf(name)) {
+    checkScript(place(), owner + "." + name, attribute.value, isAsked(*condition));
     return;
   }
-  if (const auto entry = entryOf(attribute.value, name); entry && !isEntryName(*entry)) {
+  const PortManifest* port = manifest == nullptr ? nullptr : manifest->findPort(name);
+  const bool script = port != nullptr && port->type == PortType::kScript;
+  if (const auto entry = entryOf(attribute.value, name); entry && !script && !isEntryName(*entry)) {
     problems_.add(
         {place(), owner + "." + name, "`" + attribute.value + "` does not name an entry, expected `{name}`", {}});
     return;
   }
-  const PortManifest* port = manifest == nullptr ? nullptr : manifest->findPort(name);
   if (port != nullptr) {
     checkPort(document, element, attribute, *port);
   } else if (name.starts_with('_')) {
@@ -184,10 +184,14 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
 
 void Checker::checkPort(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                         const PortManifest& port) {
-  if (entryOf(attribute.value, port.name)) return;
   const auto where = [&] {
     return (explicitKind(element.name) ? *element.attribute("ID") : element.name) + "." + port.name;
   };
+  if (port.type == PortType::kScript) {
+    checkScript(document.at(element, port.name), where(), attribute.value, port.name == "if");
+    return;
+  }
+  if (entryOf(attribute.value, port.name)) return;
   if (port.direction == Direction::kOutput) {
     // The key of SetBlackboard may be written without braces.
     if (port.type == PortType::kAny && isEntryName(attribute.value)) return;
@@ -197,6 +201,15 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
   }
   std::string problem = readValue(port, attribute.value).problem;
   if (!problem.empty()) problems_.add({document.at(element, port.name), where(), std::move(problem), {}});
+}
+
+/// A script that is asked before a node starts must not assign, because a Priority asks without starting it.
+void Checker::checkScript(const Location& place, std::string owner, std::string_view text, bool asked) {
+  const ScriptResult result = Script::compile(text, registry_.constants());
+  if (!result.script)
+    problems_.add({place, std::move(owner), result.problem, {}});
+  else if (asked && result.script->assigns())
+    problems_.add({place, std::move(owner), "it assigns to an entry, but is only asked", "use == to compare"});
 }
 
 void Checker::checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest) {

@@ -32,12 +32,6 @@ bool isStructural(const XmlElement& element, std::string_view attribute) {
   return isOneOf(attribute, kEverywhere);
 }
 
-bool isScripted(std::string_view attribute) {
-  constexpr std::array<std::string_view, 8> kConditions = {"_skipIf",    "_successIf", "_failureIf", "_while",
-                                                           "_onSuccess", "_onFailure", "_onHalted",  "_post"};
-  return isOneOf(attribute, kConditions);
-}
-
 bool isAutoremapped(const XmlElement& element) {
   const std::string* value = element.attribute("_autoremap");
   return value != nullptr && (*value == "true" || *value == "1");

@@ -19,8 +19,6 @@ const NodeType* typeOf(const XmlElement& element, const Registry& registry);
 
 /// An attribute of the format itself: name, ID of the explicit form, _description and attributes of editors.
 bool isStructural(const XmlElement& element, std::string_view attribute);
-/// A pre- or postcondition of the format, which needs scripting.
-bool isScripted(std::string_view attribute);
 /// `_autoremap="true"` of a SubTree.
 bool isAutoremapped(const XmlElement& element);
 

@@ -8,12 +8,14 @@ namespace swiftlet::tree {
 namespace {
 
 bool fits(PortType written, PortType read) {
-  const auto isText = [](PortType type) { return type == PortType::kAny || type == PortType::kString; };
+  const auto isText = [](PortType type) {
+    return type == PortType::kAny || type == PortType::kString || type == PortType::kScript;
+  };
   return isText(written) || isText(read) || written == read || (written == PortType::kInt && read == PortType::kDouble);
 }
 
 bool isSet(const EntryFlow& flow) {
-  return flow.by_host || !flow.literals.empty() || !flow.copied_from.empty() || !flow.typed_writes.empty();
+  return flow.by_host || flow.literals.size() + flow.copied_from.size() + flow.typed_writes.size() > flow.changes;
 }
 
 std::vector<std::string> namesOfSet(const TreeParts& tree) {
@@ -49,7 +51,7 @@ void checkEntry(const TreeParts& tree, std::size_t slot, Problems& problems) {
              reader,
              "the entry " + entry + " is written as " + toString(written) + ", expected " + expectedOf(*read.port),
              {}});
-    if (read.port->type == PortType::kAny) continue;
+    if (read.port->type == PortType::kAny || read.port->type == PortType::kScript) continue;
     for (const LiteralWrite* literal : tree.literalsOf(slot))
       if (const ReadValue value = readValue(*read.port, literal->text); !value.value)
         problems.add({tree.locate(literal->origin, literal->attribute),

@@ -32,6 +32,7 @@ const char* editorType(PortType type) {
     case PortType::kAny:
       return "AnyTypeAllowed";
     case PortType::kString:
+    case PortType::kScript:
     case PortType::kPoint:
     case PortType::kRectangle:
       return "std::string";

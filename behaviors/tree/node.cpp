@@ -1,11 +1,16 @@
 #include "behaviors/tree/node.hpp"
 
 #include <cassert>
+#include <utility>
+
+#include "behaviors/tree/conditions.hpp"
 
 namespace swiftlet::tree {
 
 Status Node::tick(TickContext& context) {
   if (letting_go_ == LettingGo::kHalting && halt(context) == Release::kLettingGo) return Status::kRunning;
+  if (conditions_ != nullptr)
+    if (const auto decided = decidedBefore(context)) return end(context, *decided);
   if (!isActive(status_)) {
     onStart(context);
   } else if (status_ == Status::kSuspended || letting_go_ == LettingGo::kSuspending) {
@@ -14,8 +19,35 @@ Status Node::tick(TickContext& context) {
   }
   const Status status = onTick(context);
   assert(status != Status::kIdle && status != Status::kSuspended);
+  return end(context, status);
+}
+
+/// The status that the conditions decide without the node's own rule, if they do.
+std::optional<Status> Node::decidedBefore(TickContext& context) {
+  Conditions& conditions = *conditions_;
+  if (conditions.leaving) return std::exchange(conditions.leaving, std::nullopt);
+  if (!isActive(status_)) {
+    const StartDecision decision = conditions.atStart();
+    return decision.failed ? fail(context, conditions.problem()) : decision.status;
+  }
+  const auto goes_on = conditions.goesOn();
+  if (goes_on && *goes_on) return std::nullopt;
+  const Status ending = goes_on ? Status::kSkipped : fail(context, conditions.problem());
+  if (halt(context) == Release::kReleased) return ending;
+  conditions.leaving = ending;
+  return Status::kRunning;
+}
+
+Status Node::end(TickContext& context, Status status) {
+  if (conditions_ != nullptr && !conditions_->afterwards(status)) status = fail(context, conditions_->problem());
   setStatus(context, status);
   return status;
+}
+
+bool Node::wants(const TickContext& context) const {
+  if (isActive(status_)) return true;
+  const auto decided = conditions_ == nullptr ? StartDecision{} : conditions_->atStart();
+  return decided.status ? *decided.status != Status::kSkipped : onAsked(context);
 }
 
 Release Node::suspend(TickContext& context) {
@@ -33,6 +65,10 @@ Release Node::halt(TickContext& context) {
     letting_go_ = LettingGo::kHalting;
     if (onHalt(context) == Release::kLettingGo) return Release::kLettingGo;
     letting_go_ = LettingGo::kNo;
+  }
+  if (conditions_ != nullptr && isActive(status_)) {
+    conditions_->leaving.reset();
+    if (!conditions_->afterHalt()) (void)fail(context, conditions_->problem());
   }
   reset(context);
   return Release::kReleased;

@@ -12,6 +12,8 @@
 // and hands the vehicle to no other node before. suspend() keeps the progress, halt() drops it. A node that is ticked
 // while it lets go for a suspension continues (onResume); one that is being halted finishes that first.
 //
+// Scripted conditions of the file (see conditions.hpp) come before and after the node's own rule.
+//
 // Each tick brings the time; no node reads a clock. Single-threaded.
 #pragma once
 
@@ -68,7 +70,7 @@ class TickContext {
 
 class Node {
  public:
-  explicit Node(const NodeSetup& setup) : name_(setup.name) {}
+  explicit Node(const NodeSetup& setup) : name_(setup.name), conditions_(setup.conditions) {}
   virtual ~Node() = default;
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
@@ -83,7 +85,7 @@ class Node {
 
   /// Whether a tick now would answer something other than SKIPPED. Changes nothing. A running node always wants the
   /// vehicle.
-  bool wants(const TickContext& context) const { return isActive(status_) || onAsked(context); }
+  bool wants(const TickContext& context) const;
   /// Why it wants the vehicle, for people; may be empty.
   virtual std::string reason(const TickContext& context) const;
 
@@ -118,9 +120,12 @@ class Node {
 
  private:
   enum class LettingGo : unsigned char { kNo, kSuspending, kHalting };
+  std::optional<Status> decidedBefore(TickContext& context);
+  Status end(TickContext& context, Status status);
   void setStatus(TickContext& context, Status status);
 
   std::string name_;
+  std::shared_ptr<Conditions> conditions_;  ///< Null without scripted conditions.
   int id_ = -1;
   Status status_ = Status::kIdle;
   LettingGo letting_go_ = LettingGo::kNo;

@@ -1,6 +1,7 @@
 #include "behaviors/tree/port.hpp"
 
 #include <cassert>
+#include <cmath>
 #include <type_traits>
 
 namespace swiftlet::tree {
@@ -24,13 +25,27 @@ bool inRange(const PortManifest& port, const Value& value) {
   return !number || ((!port.minimum || *number >= *port.minimum) && (!port.maximum || *number <= *port.maximum));
 }
 
-/// The value of an entry in the type of this port: a whole number is also a number, and text is parsed.
+/// The value of an entry in the type of this port: a whole number is also a number, text is parsed, and numbers are
+/// also text.
 template <typename T>
 std::optional<T> converted(const PortManifest& port, const Value& value) {
   if (const T* exact = std::get_if<T>(&value)) return inRange(port, value) ? std::optional<T>(*exact) : std::nullopt;
   if constexpr (std::is_same_v<T, double>)
     if (const auto* whole = std::get_if<std::int64_t>(&value); whole != nullptr && inRange(port, value))
       return static_cast<double>(*whole);
+  // Scripts compute with numbers: 3.0 is a whole number, and 0 and 1 are truth values.
+  const auto* number = std::get_if<double>(&value);
+  if constexpr (std::is_same_v<T, std::int64_t>)
+    if (number != nullptr && std::trunc(*number) == *number && std::abs(*number) < 9e15 && inRange(port, value))
+      return static_cast<std::int64_t>(*number);
+  if constexpr (std::is_same_v<T, bool>) {
+    const auto* whole = std::get_if<std::int64_t>(&value);
+    const double bit = number != nullptr ? *number : whole != nullptr ? static_cast<double>(*whole) : -1.0;
+    if (bit == 0.0 || bit == 1.0) return bit == 1.0;
+  }
+  if constexpr (std::is_same_v<T, std::string>)
+    if (number != nullptr || std::holds_alternative<std::int64_t>(value) || std::holds_alternative<bool>(value))
+      return toString(value);
   if (const auto* text = std::get_if<std::string>(&value)) {
     const ReadValue read = readValue(port, *text);
     if (read.value)
@@ -59,6 +74,8 @@ std::string expectedOf(const PortManifest& port) {
       return "a point `x;y` or `x;y;z` in metres";
     case PortType::kRectangle:
       return "a rectangle `x_min;y_min;x_max;y_max` in metres, each minimum below its maximum";
+    case PortType::kScript:
+      return "a script";
     case PortType::kDuration:
       text = "a time";
       break;
@@ -83,6 +100,13 @@ ReadValue readValue(const PortManifest& port, std::string_view text) {
     read.problem = "`" + std::string(text) + "` is out of range, expected " + expectedOf(port);
   }
   return read;
+}
+
+void Slot::writeText(std::string_view text) {
+  auto* held = value ? std::get_if<std::string>(&*value) : nullptr;
+  if (held == nullptr) return write(std::string(text));
+  held->assign(text);
+  ++writes;
 }
 
 const PortBinding& NodeSetup::port(std::string_view port_name) const {

@@ -1,6 +1,7 @@
 // Ports: what a node type declares, what an XML attribute binds to it, and how a node reads and writes it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,19 +40,32 @@ struct Slot {
   std::string name;
   std::size_t id = 0;  ///< Unique in its tree.
   std::optional<Value> value;
+  std::uint64_t writes = 0;  ///< How often it was written, for nodes that wait for news.
+
+  void write(Value next) {
+    value = std::move(next);
+    ++writes;
+  }
+  /// Uses the memory of the text that it holds.
+  void writeText(std::string_view text);
 };
 
-/// The binding of a port of one node: a literal, a blackboard entry, or nothing.
+class Script;
+struct Conditions;
+
+/// The binding of a port of one node: a literal, a blackboard entry, a script, or nothing.
 struct PortBinding {
   const PortManifest* manifest = nullptr;
   std::optional<Value> literal;
   Slot* slot = nullptr;
+  std::shared_ptr<Script> script;  ///< Of a port of the type kScript.
 };
 
 /// What a node is constructed from. It lives only during construction, so nodes copy what they need.
 struct NodeSetup {
   std::string name;  ///< The attribute `name`, or the type.
   std::vector<PortBinding> ports;
+  std::shared_ptr<Conditions> conditions;  ///< Null without any.
 
   const PortBinding& port(std::string_view port_name) const;
 };
@@ -81,7 +95,7 @@ class Output {
   Output(const NodeSetup& setup, std::string_view port_name) : binding_(setup.port(port_name)) {}
   /// Does nothing if the port is not given.
   void set(Value value) const {
-    if (binding_.slot != nullptr) binding_.slot->value = std::move(value);
+    if (binding_.slot != nullptr) binding_.slot->write(std::move(value));
   }
 
  private:

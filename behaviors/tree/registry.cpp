@@ -3,20 +3,37 @@
 #include <utility>
 
 #include "behaviors/tree/nodes/always.hpp"
+#include "behaviors/tree/nodes/async_fallback.hpp"
+#include "behaviors/tree/nodes/async_sequence.hpp"
 #include "behaviors/tree/nodes/delay.hpp"
+#include "behaviors/tree/nodes/entry_updated.hpp"
 #include "behaviors/tree/nodes/fallback.hpp"
 #include "behaviors/tree/nodes/force_failure.hpp"
 #include "behaviors/tree/nodes/force_success.hpp"
+#include "behaviors/tree/nodes/if_then_else.hpp"
 #include "behaviors/tree/nodes/inverter.hpp"
+#include "behaviors/tree/nodes/keep_running_until_failure.hpp"
+#include "behaviors/tree/nodes/loop.hpp"
 #include "behaviors/tree/nodes/parallel.hpp"
+#include "behaviors/tree/nodes/parallel_all.hpp"
+#include "behaviors/tree/nodes/precondition.hpp"
 #include "behaviors/tree/nodes/priority.hpp"
 #include "behaviors/tree/nodes/reactive_fallback.hpp"
 #include "behaviors/tree/nodes/reactive_sequence.hpp"
 #include "behaviors/tree/nodes/repeat.hpp"
 #include "behaviors/tree/nodes/retry_until_successful.hpp"
+#include "behaviors/tree/nodes/run_once.hpp"
+#include "behaviors/tree/nodes/script_nodes.hpp"
 #include "behaviors/tree/nodes/sequence.hpp"
+#include "behaviors/tree/nodes/sequence_with_memory.hpp"
 #include "behaviors/tree/nodes/set_blackboard.hpp"
+#include "behaviors/tree/nodes/sleep.hpp"
+#include "behaviors/tree/nodes/switch_node.hpp"
+#include "behaviors/tree/nodes/test_node.hpp"
 #include "behaviors/tree/nodes/timeout.hpp"
+#include "behaviors/tree/nodes/try_catch.hpp"
+#include "behaviors/tree/nodes/unset_blackboard.hpp"
+#include "behaviors/tree/nodes/while_do_else.hpp"
 
 namespace swiftlet::tree {
 
@@ -26,11 +43,30 @@ Registry Registry::standard() {
   registry.add<Fallback>();
   registry.add<ReactiveSequence>();
   registry.add<ReactiveFallback>();
+  registry.add<SequenceWithMemory>();
+  registry.add<AsyncSequence>();
+  registry.add<AsyncFallback>();
   registry.add<Parallel>();
+  registry.add<ParallelAll>();
+  registry.add<IfThenElse>();
+  registry.add<WhileDoElse>();
+  registry.add<TryCatch>();
   registry.add<Priority>();
+  for (std::size_t cases = 2; cases <= 6; ++cases)
+    registry.add(SwitchNode::manifest(cases),
+                 [cases](const NodeSetup& setup) { return std::make_unique<SwitchNode>(setup, cases); });
   registry.add<Inverter>();
   registry.add<ForceSuccess>();
   registry.add<ForceFailure>();
+  registry.add<KeepRunningUntilFailure>();
+  registry.add<RunOnce>();
+  registry.add<Precondition>();
+  registry.add<SkipUnlessUpdated>();
+  registry.add<WaitValueUpdate>();
+  for (const auto& [id, element] : {std::pair{"LoopDouble", PortType::kDouble}, std::pair{"LoopInt", PortType::kInt},
+                                    std::pair{"LoopBool", PortType::kBool}, std::pair{"LoopString", PortType::kString}})
+    registry.add(Loop::manifest(id, element),
+                 [element](const NodeSetup& setup) { return std::make_unique<Loop>(setup, element); });
   registry.add<Repeat>();
   registry.add<RetryUntilSuccessful>();
   registry.add<Timeout>();
@@ -38,6 +74,12 @@ Registry Registry::standard() {
   registry.add<AlwaysSuccess>();
   registry.add<AlwaysFailure>();
   registry.add<SetBlackboard>();
+  registry.add<UnsetBlackboard>();
+  registry.add<WasEntryUpdated>();
+  registry.add<ScriptNode>();
+  registry.add<ScriptCondition>();
+  registry.add<Sleep>();
+  registry.add<TestNode>();
   return registry;
 }
 

@@ -6,10 +6,12 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "behaviors/tree/node.hpp"
 #include "behaviors/tree/node_manifest.hpp"
+#include "behaviors/tree/script/script.hpp"
 
 namespace swiftlet::tree {
 
@@ -35,12 +37,17 @@ class Registry {
     add(T::manifest(), [](const NodeSetup& setup) { return std::make_unique<T>(setup); });
   }
 
+  /// A name that scripts may use for a number, as an enumerator of a port.
+  void addConstant(std::string name, std::int64_t value) { constants_.insert_or_assign(std::move(name), value); }
+  const Constants& constants() const { return constants_; }
+
   const NodeType* find(std::string_view id) const;
   const std::map<std::string, NodeType, std::less<>>& types() const { return types_; }
   std::vector<std::string> ids() const;
 
  private:
   std::map<std::string, NodeType, std::less<>> types_;
+  Constants constants_;
 };
 
 /// The palette that an editor (Groot2) loads: <root><TreeNodesModel> with every type of the registry that the editor

@@ -41,6 +41,14 @@ constexpr const char* kHead = R"(<?xml version="1.0" encoding="UTF-8"?>
     <xs:attribute name="_uid" type="xs:string"/>
     <xs:attribute name="_fullpath" type="xs:string"/>
     <xs:attribute name="_fullPath" type="xs:string"/>
+    <xs:attribute name="_failureIf" type="xs:string"/>
+    <xs:attribute name="_successIf" type="xs:string"/>
+    <xs:attribute name="_skipIf" type="xs:string"/>
+    <xs:attribute name="_while" type="xs:string"/>
+    <xs:attribute name="_onSuccess" type="xs:string"/>
+    <xs:attribute name="_onFailure" type="xs:string"/>
+    <xs:attribute name="_onHalted" type="xs:string"/>
+    <xs:attribute name="_post" type="xs:string"/>
   </xs:attributeGroup>
   <xs:simpleType name="entry">
     <xs:restriction base="xs:string"><xs:pattern value="\{ *[^ {}]+ *\}"/></xs:restriction>
@@ -88,6 +96,7 @@ std::string typeOf(const PortManifest& port) {
   switch (port.type) {
     case PortType::kAny:
     case PortType::kString:
+    case PortType::kScript:
       return {};
     case PortType::kBool:
       return withEntry("boolean entry", {});

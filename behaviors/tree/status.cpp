@@ -20,4 +20,15 @@ const char* toString(Status status) {
   return "?";
 }
 
+std::optional<Status> answerFrom(std::string_view text) {
+  for (const Status answer : {Status::kSuccess, Status::kFailure, Status::kRunning, Status::kSkipped})
+    if (text == toString(answer)) return answer;
+  return std::nullopt;
+}
+
+std::string notAnAnswer(std::string_view port, std::string_view text) {
+  if (answerFrom(text)) return {};
+  return std::string(port) + " is `" + std::string(text) + "`, expected SUCCESS, FAILURE, RUNNING or SKIPPED";
+}
+
 }  // namespace swiftlet::tree

@@ -1,6 +1,10 @@
 // The words of the engine: the status of a node, and whether it has let go of what it held.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
+
 namespace swiftlet::tree {
 
 /// kIdle: not ticked since its parent started. kSuccess, kFailure and kSkipped: its last result. kRunning and
@@ -9,6 +13,11 @@ enum class Status : unsigned char { kIdle, kRunning, kSuccess, kFailure, kSkippe
 
 /// "IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED", "SUSPENDED".
 const char* toString(Status status);
+
+/// The answer that a port names: SUCCESS, FAILURE, RUNNING or SKIPPED; nothing for any other text.
+std::optional<Status> answerFrom(std::string_view text);
+/// "else is `YES`, expected SUCCESS, FAILURE, RUNNING or SKIPPED"; empty if the text names an answer.
+std::string notAnAnswer(std::string_view port, std::string_view text);
 
 /// Under way: it keeps its progress, and a tick continues it instead of starting anew.
 constexpr bool isActive(Status status) { return status == Status::kRunning || status == Status::kSuspended; }

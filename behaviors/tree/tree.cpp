@@ -18,7 +18,7 @@ Release Tree::halt(TickContext& context) { return parts_->root->halt(context); }
 bool Tree::set(std::string_view entry, Value value) {
   for (Slot& slot : parts_->slots) {
     if (slot.name != entry || !parts_->flows[slot.id].by_host) continue;
-    slot.value = std::move(value);
+    slot.write(std::move(value));
     return true;
   }
   return false;

@@ -38,6 +38,7 @@ struct EntryFlow {
   std::vector<EntryRead> reads;          ///< One for each port manifest.
   std::vector<std::size_t> copied_from;  ///< Slots whose value SetBlackboard copies here.
   std::vector<PortType> typed_writes;    ///< Types that output ports of leaves write.
+  std::size_t changes = 0;  ///< How many of these sources only change an entry that something else has set.
   bool by_host = false;
 };
 

@@ -146,6 +146,8 @@ const char* toString(PortType type) {
       return "rectangle";
     case PortType::kDuration:
       return "duration";
+    case PortType::kScript:
+      return "script";
   }
   return "?";
 }
@@ -173,6 +175,7 @@ std::optional<Value> parseValue(std::string_view text, PortType type, std::strin
   switch (type) {
     case PortType::kAny:
     case PortType::kString:
+    case PortType::kScript:
       return Value(std::string(text));
     case PortType::kDouble:
       return parseNumber<double>(text);

@@ -35,7 +35,7 @@ struct Duration {
 /// Text from SetBlackboard or a literal stays text until a typed port reads it.
 using Value = std::variant<std::string, double, std::int64_t, bool, Point, Rectangle, Duration>;
 
-enum class PortType : unsigned char { kAny, kString, kDouble, kInt, kBool, kPoint, kRectangle, kDuration };
+enum class PortType : unsigned char { kAny, kString, kDouble, kInt, kBool, kPoint, kRectangle, kDuration, kScript };
 
 /// "number", "whole number", "point" ...: for messages.
 const char* toString(PortType type);

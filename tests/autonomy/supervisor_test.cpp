@@ -229,6 +229,9 @@ TEST_F(SupervisorStory, LandsWhereFlyingBackToTheStartDidNotHelp) {
   supervisor_.backEnded(Time::fromSeconds(9));
   EXPECT_TRUE(at(9.0).land);
   EXPECT_THAT(at(9.0).land_reason, HasSubstr("the position is uncertain by 1.2 m, also after flying back"));
+  (void)supervisor_.takeEvents();
+  EXPECT_EQ(at(9.5).back, 0u) << "it lands, wherever it is";
+  EXPECT_THAT(supervisor_.takeEvents(), testing::IsEmpty());
 }
 
 TEST_F(SupervisorStory, LandsAtOnceWhenThePositionIsTooUncertain) {

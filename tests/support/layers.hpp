@@ -41,7 +41,8 @@ struct Layers {
             std::make_shared<const common::MissionLayer>(mission),
             std::make_shared<const common::MapLayer>(map),
             std::make_shared<const common::PeopleLayer>(people),
-            std::make_shared<const common::EnergyLayer>(energy)};
+            std::make_shared<const common::EnergyLayer>(energy),
+            nullptr};
   }
 };
 

@@ -31,6 +31,8 @@ std::string toXml(const Shape& shape) {
   if (shape.type == "Parallel")
     text += " success_count=\"" + std::to_string(shape.number) + "\" failure_count=\"" + std::to_string(shape.number2) +
             "\"";
+  if (shape.type == "ParallelAll") text += " max_failures=\"" + std::to_string(shape.number) + "\"";
+  if (shape.type == "RunOnce") text += shape.number > 0 ? " then_skip=\"true\"" : " then_skip=\"false\"";
   text += ">";
   for (const Shape& child : shape.children) text += toXml(child);
   return text + "</" + shape.type + ">";
@@ -46,6 +48,14 @@ Status Oracle::tick(const Shape& shape, const Answers& answers, std::vector<std:
 Status Oracle::eval(const Shape& shape, const std::string& path) {
   Status status = Status::kFailure;
   if (shape.type == "Leaf") status = evalLeaf(shape, path);
+  if (shape.type == "SequenceWithMemory") status = evalWithMemory(shape, path);
+  if (shape.type == "ParallelAll") status = evalParallelAll(shape, path);
+  if (shape.type == "IfThenElse") status = evalChoice(shape, path, false);
+  if (shape.type == "WhileDoElse") status = evalChoice(shape, path, true);
+  if (shape.type == "TryCatch") status = evalTryCatch(shape, path);
+  if (shape.type == "RunOnce") status = evalOnce(shape, path);
+  if (shape.type == "AsyncSequence") status = evalChain(shape, path, Status::kSuccess);
+  if (shape.type == "AsyncFallback") status = evalChain(shape, path, Status::kFailure);
   if (shape.type == "Sequence") status = evalChain(shape, path, Status::kSuccess);
   if (shape.type == "Fallback") status = evalChain(shape, path, Status::kFailure);
   if (shape.type == "ReactiveSequence") status = evalReactive(shape, path, Status::kSuccess);
@@ -54,6 +64,10 @@ Status Oracle::eval(const Shape& shape, const std::string& path) {
   if (shape.type == "Repeat") status = evalLoop(shape, path, Status::kSuccess);
   if (shape.type == "RetryUntilSuccessful") status = evalLoop(shape, path, Status::kFailure);
   if (shape.type == "Priority") status = evalPriority(shape, path);
+  if (shape.type == "KeepRunningUntilFailure") {
+    status = eval(shape.children[0], childPath(path, 0));
+    if (status == Status::kSuccess) status = Status::kRunning;
+  }
   if (shape.type == "Inverter" || shape.type.starts_with("Force")) {
     status = eval(shape.children[0], childPath(path, 0));
     const bool ended = status == Status::kSuccess || status == Status::kFailure;
@@ -83,11 +97,14 @@ Status Oracle::evalChain(const Shape& shape, const std::string& path, Status goe
   if (bug_ == Bug::kSequenceRestarts && goes_on == Status::kSuccess) position = skipped = 0;
   for (; position < static_cast<int>(shape.children.size()); ++position) {
     const auto i = static_cast<std::size_t>(position);
+    const bool fresh = !memory_.under_way.contains(childPath(path, i));
     const Status status = eval(shape.children[i], childPath(path, i));
     if (status == Status::kSkipped)
       ++skipped;
     else if (status != goes_on)
       return status;
+    else if (shape.type.starts_with("Async") && fresh && i + 1 < shape.children.size())
+      return ++position, Status::kRunning;
   }
   return skipped == static_cast<int>(shape.children.size()) ? Status::kSkipped : goes_on;
 }
@@ -131,6 +148,85 @@ Status Oracle::evalParallel(const Shape& shape, const std::string& path) {
     if (all - failures < needed || failures == bearable) return Status::kFailure;
   }
   return skipped == all ? Status::kSkipped : Status::kRunning;
+}
+
+Status Oracle::evalParallelAll(const Shape& shape, const std::string& path) {
+  const std::size_t all = shape.children.size();
+  std::size_t skipped = 0, failures = 0;
+  bool running = false;
+  for (std::size_t i = 0; i < all; ++i) {
+    const std::string child = childPath(path, i);
+    if (!memory_.ended.contains(child)) {
+      const Status status = eval(shape.children[i], child);
+      if (status == Status::kSkipped) ++skipped;
+      if (status == Status::kRunning) running = true;
+      if (status == Status::kSuccess || status == Status::kFailure) memory_.ended[child] = status;
+    }
+    const auto ended = memory_.ended.find(child);
+    if (ended != memory_.ended.end() && ended->second == Status::kFailure) ++failures;
+  }
+  if (skipped == all) return Status::kSkipped;
+  if (running) return Status::kRunning;
+  const int bearable = shape.number < 0 ? static_cast<int>(all) + shape.number + 1 : shape.number;
+  return static_cast<int>(failures) >= std::max(0, bearable) ? Status::kFailure : Status::kSuccess;
+}
+
+Status Oracle::evalChoice(const Shape& shape, const std::string& path, bool at_every_tick) {
+  int& chosen = memory_.number[path];
+  if (chosen == 0 || at_every_tick) {
+    const Status condition = eval(shape.children[0], childPath(path, 0));
+    if (condition == Status::kRunning) return condition;
+    const bool ends = condition == Status::kSkipped || (condition == Status::kFailure && shape.children.size() == 2);
+    if (ends) return condition;
+    const int now = condition == Status::kSuccess ? 1 : 2;
+    if (chosen != 0 && chosen != now) forget(childPath(path, static_cast<std::size_t>(chosen)));
+    chosen = now;
+  }
+  const auto i = static_cast<std::size_t>(chosen);
+  return eval(shape.children[i], childPath(path, i));
+}
+
+Status Oracle::evalWithMemory(const Shape& shape, const std::string& path) {
+  int& position = memory_.kept[path];
+  int& skipped = memory_.kept[path + "skipped"];
+  for (; position < static_cast<int>(shape.children.size()); ++position) {
+    const auto i = static_cast<std::size_t>(position);
+    const Status status = eval(shape.children[i], childPath(path, i));
+    if (status == Status::kSkipped) {
+      ++skipped;
+    } else if (status != Status::kSuccess) {
+      if (bug_ == Bug::kMemoryForgets && status == Status::kFailure) position = skipped = 0;
+      return status;
+    }
+  }
+  const bool all_skipped = skipped == static_cast<int>(shape.children.size());
+  position = skipped = 0;
+  return all_skipped ? Status::kSkipped : Status::kSuccess;
+}
+
+Status Oracle::evalTryCatch(const Shape& shape, const std::string& path) {
+  const int tried = static_cast<int>(shape.children.size()) - 1;
+  int& position = memory_.number[path];
+  int& skipped = memory_.number[path + "skipped"];
+  for (; position < tried; ++position) {
+    const auto i = static_cast<std::size_t>(position);
+    const Status status = eval(shape.children[i], childPath(path, i));
+    if (status == Status::kRunning) return status;
+    if (status == Status::kFailure) position = tried;  // From now on only the last child.
+    if (status == Status::kSkipped) ++skipped;
+    if (status == Status::kFailure) break;
+    if (position + 1 == tried) return skipped == tried ? Status::kSkipped : Status::kSuccess;
+  }
+  const auto last = static_cast<std::size_t>(tried);
+  return eval(shape.children[last], childPath(path, last)) == Status::kRunning ? Status::kRunning : Status::kFailure;
+}
+
+Status Oracle::evalOnce(const Shape& shape, const std::string& path) {
+  const auto ended = memory_.kept.find(path);
+  if (ended != memory_.kept.end()) return shape.number > 0 ? Status::kSkipped : static_cast<Status>(ended->second);
+  const Status status = eval(shape.children[0], childPath(path, 0));
+  if (status == Status::kSuccess || status == Status::kFailure) memory_.kept[path] = static_cast<int>(status);
+  return status;
 }
 
 Status Oracle::evalLoop(const Shape& shape, const std::string& path, Status counted) {

@@ -13,7 +13,7 @@ namespace swiftlet::tree::testing {
 
 struct Shape {
   std::string type;  ///< A node type, or "Leaf".
-  int number = 0;    ///< num_cycles, num_attempts, success_count.
+  int number = 0;    ///< num_cycles, num_attempts, success_count, max_failures, then_skip.
   int number2 = 0;   ///< failure_count.
   int leaf = 0;      ///< Which stand-in.
   std::vector<Shape> children;
@@ -24,7 +24,7 @@ struct Shape {
 using Answers = std::vector<Status>;
 
 /// Deliberately wrong variants, to see that the comparison notices.
-enum class Bug { kNone, kSequenceRestarts, kPriorityResets, kReactiveRemembers };
+enum class Bug { kNone, kSequenceRestarts, kPriorityResets, kReactiveRemembers, kMemoryForgets };
 
 class Oracle {
  public:
@@ -38,6 +38,7 @@ class Oracle {
     std::set<std::string> suspended;      ///< Leaves that let go.
     std::map<std::string, int> number;    ///< Position of a Sequence, count of a Repeat.
     std::map<std::string, Status> ended;  ///< Children of a Parallel.
+    std::map<std::string, int> kept;      ///< What outlasts the end of a node, by its path.
   };
 
   Status eval(const Shape& shape, const std::string& path);
@@ -45,6 +46,11 @@ class Oracle {
   Status evalChain(const Shape& shape, const std::string& path, Status goes_on);
   Status evalReactive(const Shape& shape, const std::string& path, Status goes_on);
   Status evalParallel(const Shape& shape, const std::string& path);
+  Status evalParallelAll(const Shape& shape, const std::string& path);
+  Status evalChoice(const Shape& shape, const std::string& path, bool at_every_tick);
+  Status evalWithMemory(const Shape& shape, const std::string& path);
+  Status evalTryCatch(const Shape& shape, const std::string& path);
+  Status evalOnce(const Shape& shape, const std::string& path);
   Status evalLoop(const Shape& shape, const std::string& path, Status counted);
   Status evalPriority(const Shape& shape, const std::string& path);
   bool wants(const Shape& shape, const std::string& path);

@@ -14,22 +14,28 @@ constexpr int kTicks = 25;
 
 Shape randomShape(int depth) {
   Shape shape;
-  const int kind = depth <= 0 ? 0 : *rc::gen::inRange(0, 14);
-  static const std::vector<std::string> kControls = {"Sequence",         "Fallback", "ReactiveSequence",
-                                                     "ReactiveFallback", "Parallel", "Priority"};
-  static const std::vector<std::string> kDecorators = {"Inverter", "ForceSuccess", "ForceFailure", "Repeat",
-                                                       "RetryUntilSuccessful"};
-  if (kind < 3) {
+  static const std::vector<std::string> kControls = {
+      "Sequence",      "Fallback",           "ReactiveSequence", "ReactiveFallback", "Parallel",
+      "Priority",      "SequenceWithMemory", "IfThenElse",       "WhileDoElse",      "AsyncSequence",
+      "AsyncFallback", "ParallelAll",        "TryCatch"};
+  static const std::vector<std::string> kDecorators = {"Inverter", "ForceSuccess",         "ForceFailure",
+                                                       "Repeat",   "RetryUntilSuccessful", "KeepRunningUntilFailure",
+                                                       "RunOnce"};
+  constexpr int kLeafWeight = 6;
+  const auto controls = static_cast<int>(kControls.size()), decorators = static_cast<int>(kDecorators.size());
+  const int kind = depth <= 0 ? 0 : *rc::gen::inRange(0, kLeafWeight + controls + decorators);
+  if (kind < kLeafWeight) {
     shape.type = "Leaf";
     shape.leaf = *rc::gen::inRange(0, kLeaves);
     return shape;
   }
-  const bool control = kind < 9;
-  shape.type =
-      control ? kControls[static_cast<std::size_t>(kind - 3)] : kDecorators[static_cast<std::size_t>(kind - 9)];
-  const int children = control ? *rc::gen::inRange(1, 4) : 1;
+  const bool control = kind < kLeafWeight + controls;
+  shape.type = control ? kControls[static_cast<std::size_t>(kind - kLeafWeight)]
+                       : kDecorators[static_cast<std::size_t>(kind - kLeafWeight - controls)];
+  const bool two = shape.type == "IfThenElse" || shape.type == "WhileDoElse" || shape.type == "TryCatch";
+  const int children = control ? *rc::gen::inRange(two ? 2 : 1, 4) : 1;
   for (int i = 0; i < children; ++i) shape.children.push_back(randomShape(depth - 1));
-  const bool parallel = shape.type == "Parallel";
+  const bool parallel = shape.type.starts_with("Parallel");
   shape.number = parallel ? *rc::gen::inRange(-children, children + 1) : *rc::gen::inRange(-1, 4);
   shape.number2 = parallel ? *rc::gen::inRange(-children, children + 1) : 0;
   return shape;
@@ -112,6 +118,7 @@ TEST(Engine, PlantedBugsAreNoticed) {
   EXPECT_TRUE(isNoticed(Bug::kSequenceRestarts, "Sequence"));
   EXPECT_TRUE(isNoticed(Bug::kPriorityResets, "Priority"));
   EXPECT_TRUE(isNoticed(Bug::kReactiveRemembers, "ReactiveSequence"));
+  EXPECT_TRUE(isNoticed(Bug::kMemoryForgets, "SequenceWithMemory"));
 }
 
 }  // namespace

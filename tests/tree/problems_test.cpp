@@ -71,8 +71,9 @@ TEST(Problems, AnUnknownNodeIsReported) {
               ElementsAre("f.xml:4:3: Flly: unknown node `Flly`, did you mean `Fly`?",
                           "f.xml:5:3: sequence: unknown node `sequence`, did you mean `Sequence`?"));
   EXPECT_THAT(problemsIn("<Zzzzzz/>"), ElementsAre("f.xml:3:1: Zzzzzz: unknown node `Zzzzzz`"));
-  EXPECT_THAT(problemsIn("<Script code=\"x:=1\"/>"),
-              ElementsAre("f.xml:3:1: Script: `Script` is a node of BehaviorTree.CPP that this engine does not have"));
+  EXPECT_THAT(problemsIn("<SequenceStar/>"),
+              ElementsAre("f.xml:3:1: SequenceStar: `SequenceStar` is a node of BehaviorTree.CPP that this engine does "
+                          "not have, use SequenceWithMemory"));
   EXPECT_THAT(problemsIn("<Action ID=\"Flyy\"/>"),
               ElementsAre("f.xml:3:9: Action: unknown node `Flyy`, did you mean `Fly`?"));
   EXPECT_THAT(problemsIn("<Action/>"), ElementsAre("f.xml:3:1: Action: the attribute `ID` is missing"));
@@ -225,8 +226,6 @@ TEST(Problems, MistakesInRootAndTreesAreReported) {
 }
 
 TEST(Problems, UnsupportedFeaturesAreReportedAndNotIgnored) {
-  EXPECT_THAT(problemsIn("<AlwaysSuccess _skipIf=\"x==1\"/>"),
-              ElementsAre("f.xml:3:16: AlwaysSuccess._skipIf: scripted conditions are not supported"));
   EXPECT_THAT(problemsIn("<AlwaysSuccess _skipif=\"x==1\"/>"), ElementsAre(HasSubstr("unknown attribute `_skipif`")));
   EXPECT_THAT(problemsOf("<!DOCTYPE root [<!ENTITY a \"b\">]><root BTCPP_format=\"4\"/>"),
               ElementsAre("f.xml:1:16: <!DOCTYPE>: a DOCTYPE is not supported"));

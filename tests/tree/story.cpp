@@ -82,6 +82,13 @@ Registry withStandIns(Stage& stage, const Registry& base) {
   return registry;
 }
 
+std::string problemText(std::string_view inside) {
+  std::string text;
+  const Story story(inside);
+  for (const Problem& problem : story.problems()) text += toString(problem) + "\n";
+  return text;
+}
+
 std::string file(std::string_view inside, std::string_view more) {
   return "<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\">\n<BehaviorTree ID=\"Main\">\n" + std::string(inside) +
          "\n</BehaviorTree>\n" + std::string(more) + "</root>\n";

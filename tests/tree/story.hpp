@@ -70,6 +70,8 @@ class Story {
   std::int64_t now_ns_ = 0;
 };
 
+/// The problems of a tree with that content, one line each.
+std::string problemText(std::string_view inside);
 std::string file(std::string_view inside, std::string_view more = {});
 
 }  // namespace swiftlet::tree::testing

@@ -3,12 +3,15 @@
 namespace swiftlet::tree {
 
 Status Chain::run(TickContext& context) {
-  for (; current_ < count(); ++current_) {
+  while (current_ < count()) {
+    const bool starts_now = !isActive(child(current_).status());
     const Status status = child(current_).tick(context);
+    if (status != goes_on_ && status != Status::kSkipped) return status;
+    ++current_;
     if (status == Status::kSkipped)
       ++skipped_;
-    else if (status != goes_on_)
-      return status;
+    else if (asynchronous_ && starts_now && current_ < count())
+      return Status::kRunning;
   }
   return skipped_ == count() ? Status::kSkipped : goes_on_;
 }

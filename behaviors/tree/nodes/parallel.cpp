@@ -1,23 +1,8 @@
 #include "behaviors/tree/nodes/parallel.hpp"
 
-#include <algorithm>
+#include "behaviors/tree/nodes/threshold.hpp"
 
 namespace swiftlet::tree {
-namespace {
-
-/// The number of children that `asked` means; -1 is all of `children`.
-std::size_t threshold(std::int64_t asked, std::size_t children) {
-  const auto all = static_cast<std::int64_t>(children);
-  return static_cast<std::size_t>(std::max<std::int64_t>(0, asked < 0 ? all + asked + 1 : asked));
-}
-
-std::string tooMany(const char* port, const std::optional<std::int64_t>& asked, std::size_t children) {
-  if (!asked || *asked <= static_cast<std::int64_t>(children)) return {};
-  return std::string(port) + " is " + std::to_string(*asked) + ", but it has only " + std::to_string(children) +
-         (children == 1 ? " child" : " children");
-}
-
-}  // namespace
 
 NodeManifest Parallel::manifest() {
   return {.id = "Parallel",

@@ -1,0 +1,29 @@
+#include "behaviors/tree/nodes/if_then_else.hpp"
+
+namespace swiftlet::tree {
+
+std::string notTwoOrThree(std::size_t children) {
+  if (children == 2 || children == 3) return {};
+  return "has " + std::to_string(children) + (children == 1 ? " child" : " children") + ", expected 2 or 3";
+}
+
+NodeManifest IfThenElse::manifest() {
+  return {.id = "IfThenElse",
+          .kind = NodeKind::kControl,
+          .ports = {},
+          .description = "The second child if the first succeeds, else the third, if there is one."};
+}
+
+std::string IfThenElse::checkBuilt() const { return notTwoOrThree(count()); }
+
+Status IfThenElse::run(TickContext& context) {
+  if (chosen_ == 0) {
+    const Status condition = child().tick(context);
+    if (condition == Status::kRunning || condition == Status::kSkipped) return condition;
+    if (condition == Status::kFailure && count() == 2) return Status::kFailure;
+    chosen_ = condition == Status::kSuccess ? 1 : 2;
+  }
+  return child(chosen_).tick(context);
+}
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,29 @@
+// Switch2 to Switch6: the child of the first case that equals the variable, else the last child. Numbers are compared
+// as numbers (1 and 1.0 are equal), everything else as text; a name of Constants is its number. The variable is read at
+// every tick: when another case becomes true, the child that runs is halted first. The answer is that of the child.
+#pragma once
+
+#include <vector>
+
+#include "behaviors/tree/composite.hpp"
+#include "behaviors/tree/node_manifest.hpp"
+
+namespace swiftlet::tree {
+
+class SwitchNode final : public Composite {
+ public:
+  SwitchNode(const NodeSetup& setup, std::size_t cases);
+  static NodeManifest manifest(std::size_t cases);
+  std::string checkBuilt() const override;
+
+ private:
+  Status run(TickContext& context) override;
+  bool onAsked(const TickContext& context) const override;
+  /// The child that the variable chooses now; nothing if an entry is not set.
+  std::optional<std::size_t> chosen() const;
+
+  Input<std::string> variable_;
+  std::vector<Input<std::string>> cases_;
+};
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,15 @@
+// Numbers of children in a port: negative ones are counted from the end, -1 is all of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace swiftlet::tree {
+
+/// The number of children that `asked` means.
+std::size_t threshold(std::int64_t asked, std::size_t children);
+/// "failure_count is 5, but it has only 3 children"; empty if there are enough of them, or the port is not known yet.
+std::string tooMany(const char* port, const std::optional<std::int64_t>& asked, std::size_t children);
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,21 @@
+#include "behaviors/tree/nodes/unset_blackboard.hpp"
+
+namespace swiftlet::tree {
+
+NodeManifest UnsetBlackboard::manifest() {
+  return {.id = "UnsetBlackboard",
+          .kind = NodeKind::kAction,
+          .ports = {{.name = "key",
+                     .type = PortType::kAny,
+                     .direction = Direction::kOutput,
+                     .required = true,
+                     .description = "The entry that loses its value."}},
+          .description = "Takes the value of a blackboard entry away."};
+}
+
+Status UnsetBlackboard::act(TickContext&) {
+  key_->value.reset();
+  return Status::kSuccess;
+}
+
+}  // namespace swiftlet::tree

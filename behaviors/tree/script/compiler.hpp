@@ -1,0 +1,59 @@
+// Compiles the text of a script: recursive descent over its tokens, one function for each level of precedence.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "behaviors/tree/script/lexer.hpp"
+#include "behaviors/tree/script/script.hpp"
+
+namespace swiftlet::tree {
+
+class ScriptCompiler {
+ public:
+  ScriptCompiler(std::string_view text, const Constants& constants)
+      : text_(text), constants_(constants), tokens_(tokensOf(text)) {}
+
+  ScriptResult compile();
+
+ private:
+  using Op = Script::Op;
+  using Index = std::uint32_t;
+  using Signs = std::initializer_list<std::pair<std::string_view, Op>>;
+
+  Index statement();
+  Index choice();
+  Index logic(std::size_t level);
+  Index comparison();
+  Index binary(std::size_t level);
+  Index unary();
+  Index operand();
+  Index number(const Token& token);
+  Index name(const Token& token);
+
+  Index add(Script::Expression expression);
+  Index constant(Value value);
+  std::size_t entry(std::string_view name, bool read);
+  Index assignment(std::string_view name, std::string_view sign);
+  void recordWrite(std::size_t entry, bool makes, const Script::Expression& value);
+
+  const Token& next() const { return tokens_[position_]; }
+  bool at(std::string_view sign) const { return next().kind == TokenKind::kSign && next().text == sign; }
+  bool take(std::string_view sign);
+  /// Keeps the first problem and ends the text, so that every function above returns.
+  Index fail(const Token& token, std::string_view expected);
+
+  std::string_view text_;
+  const Constants& constants_;
+  std::vector<Token> tokens_;
+  std::size_t position_ = 0;
+  int depth_ = 0;
+  std::string problem_;
+  Script script_;
+};
+
+}  // namespace swiftlet::tree

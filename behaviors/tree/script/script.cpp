@@ -1,0 +1,191 @@
+#include "behaviors/tree/script/script.hpp"
+
+#include <utility>
+
+namespace swiftlet::tree {
+namespace {
+
+/// Whole numbers stay whole while they fit.
+std::optional<std::int64_t> wholeResult(char op, std::int64_t a, std::int64_t b) {
+  std::int64_t result = 0;
+  const bool too_large = op == '+'   ? __builtin_add_overflow(a, b, &result)
+                         : op == '-' ? __builtin_sub_overflow(a, b, &result)
+                                     : __builtin_mul_overflow(a, b, &result);
+  return too_large ? std::nullopt : std::optional(result);
+}
+
+void append(std::string& text, const Operand& operand) {
+  if (const auto* words = std::get_if<std::string_view>(&operand))
+    text += *words;
+  else
+    text += toString(valueOf(operand));
+}
+
+}  // namespace
+
+std::optional<Operand> Script::run() {
+  std::optional<Operand> last;
+  for (const std::uint32_t statement : statements_) {
+    last = evaluate(statement);
+    if (!last) return std::nullopt;
+  }
+  return last;
+}
+
+std::optional<bool> Script::holds() {
+  const auto value = run();
+  if (!value) return std::nullopt;
+  const auto truth = truthOf(*value);
+  if (!truth) return fail(std::string("is ") + kindOf(*value) + ", expected true or false");
+  return truth;
+}
+
+std::nullopt_t Script::fail(std::string problem) {
+  problem_ = std::move(problem);
+  return std::nullopt;
+}
+
+std::optional<Operand> Script::evaluate(std::uint32_t index) {
+  const Expression& expression = expressions_[index];
+  switch (expression.op) {
+    case Op::kConstant:
+      return operandOf(constants_[expression.of]);
+    case Op::kEntry: {
+      const ScriptEntry& entry = entries_[expression.of];
+      if (!entry.slot->value) return fail("the entry {" + entry.name + "} is not set");
+      return operandOf(*entry.slot->value);
+    }
+    case Op::kAnd:
+    case Op::kOr: {
+      const auto a = truth(expression.a);
+      if (!a) return std::nullopt;
+      if (*a == (expression.op == Op::kOr)) return *a;
+      const auto b = truth(expression.b);
+      return b ? std::optional<Operand>(*b) : std::nullopt;
+    }
+    case Op::kChoice: {
+      const auto a = truth(expression.a);
+      if (!a) return std::nullopt;
+      return evaluate(*a ? expression.b : expression.c);
+    }
+    case Op::kMake:
+    case Op::kAssign:
+      return assign(expression);
+    case Op::kNegate:
+    case Op::kNot:
+    case Op::kInvertBits: {
+      const auto a = evaluate(expression.a);
+      return a ? evaluateUnary(expression, *a) : std::nullopt;
+    }
+    default: {
+      const auto a = evaluate(expression.a);
+      if (!a) return std::nullopt;
+      const auto b = evaluate(expression.b);
+      return b ? evaluateBinary(expression, *a, *b) : std::nullopt;
+    }
+  }
+}
+
+std::optional<bool> Script::truth(std::uint32_t index) {
+  const auto value = evaluate(index);
+  if (!value) return std::nullopt;
+  const auto truth = truthOf(*value);
+  if (!truth) return fail(std::string(kindOf(*value)) + " is neither true nor false");
+  return truth;
+}
+
+std::optional<Operand> Script::evaluateUnary(const Expression& expression, const Operand& a) {
+  if (expression.op == Op::kNot) {
+    const auto truth = truthOf(a);
+    if (!truth) return fail(std::string(kindOf(a)) + " is neither true nor false");
+    return !*truth;
+  }
+  if (expression.op == Op::kInvertBits) {
+    const auto whole = wholeOf(a);
+    return whole ? std::optional<Operand>(~*whole) : fail("`~` needs a whole number");
+  }
+  return arithmetic(Op::kSubtract, std::int64_t{0}, a);
+}
+
+std::optional<Operand> Script::evaluateBinary(const Expression& expression, const Operand& a, const Operand& b) {
+  switch (expression.op) {
+    case Op::kAdd:
+    case Op::kSubtract:
+    case Op::kMultiply:
+    case Op::kDivide:
+      return arithmetic(expression.op, a, b);
+    case Op::kAndBits:
+    case Op::kXorBits:
+    case Op::kOrBits:
+      return bits(expression.op, a, b);
+    case Op::kJoin:
+      return join(expression.of, a, b);
+    default:
+      return comparison(expression.op, a, b);
+  }
+}
+
+std::optional<Operand> Script::arithmetic(Op op, const Operand& a, const Operand& b) {
+  const auto* whole_a = std::get_if<std::int64_t>(&a);
+  const auto* whole_b = std::get_if<std::int64_t>(&b);
+  if (whole_a != nullptr && whole_b != nullptr && op != Op::kDivide) {
+    const char sign = op == Op::kAdd ? '+' : op == Op::kSubtract ? '-' : '*';
+    if (const auto whole = wholeResult(sign, *whole_a, *whole_b)) return *whole;
+  }
+  const auto number_a = numberOf(a), number_b = numberOf(b);
+  if (!number_a || !number_b) return fail(std::string(kindOf(number_a ? b : a)) + " is not a number");
+  switch (op) {
+    case Op::kAdd:
+      return *number_a + *number_b;
+    case Op::kSubtract:
+      return *number_a - *number_b;
+    case Op::kMultiply:
+      return *number_a * *number_b;
+    default:
+      return *number_b == 0.0 ? fail("division by zero") : std::optional<Operand>(*number_a / *number_b);
+  }
+}
+
+std::optional<Operand> Script::bits(Op op, const Operand& a, const Operand& b) {
+  const auto whole_a = wholeOf(a), whole_b = wholeOf(b);
+  if (!whole_a || !whole_b) return fail("`&`, `|` and `^` need whole numbers");
+  if (op == Op::kAndBits) return *whole_a & *whole_b;
+  return op == Op::kXorBits ? *whole_a ^ *whole_b : *whole_a | *whole_b;
+}
+
+std::optional<Operand> Script::comparison(Op op, const Operand& a, const Operand& b) {
+  const auto order = compare(a, b);
+  if (op == Op::kEqual) return order && *order == 0;
+  if (op == Op::kUnequal) return !order || *order != 0;
+  if (!order || *order == std::partial_ordering::unordered)
+    return fail(std::string(kindOf(a)) + " and " + kindOf(b) + " have no order");
+  if (op == Op::kLess) return *order < 0;
+  if (op == Op::kLessEqual) return *order <= 0;
+  return op == Op::kGreater ? *order > 0 : *order >= 0;
+}
+
+std::optional<Operand> Script::join(std::uint32_t buffer, const Operand& a, const Operand& b) {
+  std::string& text = joined_[buffer];
+  text.clear();
+  append(text, a);
+  append(text, b);
+  constexpr std::size_t kLongest = 65'536;  // A tree that joins at every tick must not fill the memory.
+  if (text.size() > kLongest) return fail("a text grew longer than 65536 characters");
+  return std::string_view(text);
+}
+
+std::optional<Operand> Script::assign(const Expression& expression) {
+  const auto value = evaluate(expression.a);
+  if (!value) return std::nullopt;
+  const ScriptEntry& entry = entries_[expression.of];
+  if (expression.op == Op::kAssign && !entry.slot->value)
+    return fail("the entry {" + entry.name + "} is not set; `:=` makes it");
+  const auto* words = std::get_if<std::string_view>(&*value);
+  if (words != nullptr)
+    entry.slot->writeText(*words);
+  else
+    entry.slot->write(valueOf(*value));
+  return operandOf(*entry.slot->value);
+}
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,243 @@
+// Nodes with memory, choices, loops and news, tick by tick.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/tree/story.hpp"
+
+namespace swiftlet::tree::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(SequenceWithMemory, StartsAgainWithTheChildThatFailed) {
+  Story story("<SequenceWithMemory><A/><B/></SequenceWithMemory>");
+  story.says("A", "SUCCESS").says("B", "FAILURE");
+  EXPECT_EQ(story.tick(), "FAILURE: start A, start B");
+  story.says("B", "SUCCESS");
+  EXPECT_EQ(story.tick(), "SUCCESS: start B");
+  EXPECT_EQ(story.tick(), "SUCCESS: start A, start B") << "forgotten after the last";
+}
+
+TEST(SequenceWithMemory, StartsAgainWithTheChildThatWasHalted) {
+  Story story("<SequenceWithMemory><A/><B/></SequenceWithMemory>");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, start B");
+  EXPECT_EQ(story.halt(), "let go: B halted");
+  EXPECT_EQ(story.tick(), "RUNNING: start B");
+}
+
+TEST(AsyncSequence, StartsOneChildATick) {
+  Story story("<AsyncSequence><A/><B/><C/></AsyncSequence>");
+  story.says("A", "SUCCESS").says("B", "SUCCESS").says("C", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "RUNNING: start B");
+  EXPECT_EQ(story.tick(), "SUCCESS: start C");
+}
+
+TEST(AsyncFallback, StartsOneChildATick) {
+  Story story("<AsyncFallback><A/><B/></AsyncFallback>");
+  story.says("A", "FAILURE").says("B", "FAILURE");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "FAILURE: start B");
+}
+
+TEST(ParallelAll, WaitsForAllAndCountsTheFailures) {
+  Story story("<ParallelAll max_failures=\"2\"><A/><B/><C/></ParallelAll>");
+  story.says("A", "FAILURE").says("B", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, start B, start C");
+  story.says("C", "SUCCESS");
+  EXPECT_EQ(story.tick(), "SUCCESS: C");
+  Story strict("<ParallelAll><A/><B/></ParallelAll>");
+  strict.says("A", "FAILURE");
+  EXPECT_EQ(strict.tick(), "RUNNING: start A, start B");
+  strict.says("B", "SUCCESS");
+  EXPECT_EQ(strict.tick(), "FAILURE: B");
+  EXPECT_THAT(problemText("<ParallelAll max_failures=\"3\"><A/><B/></ParallelAll>"),
+              HasSubstr("max_failures is 3, but it has only 2 children"));
+}
+
+TEST(IfThenElse, AsksOnce) {
+  Story story("<IfThenElse><A/><B/><C/></IfThenElse>");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, start B");
+  story.says("A", "FAILURE");
+  EXPECT_EQ(story.tick(), "RUNNING: B");
+  story.says("B", "FAILURE");
+  EXPECT_EQ(story.tick(), "FAILURE: B");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, start C");
+  Story two("<IfThenElse><A/><B/></IfThenElse>");
+  two.says("A", "FAILURE");
+  EXPECT_EQ(two.tick(), "FAILURE: start A");
+  EXPECT_THAT(problemText("<IfThenElse><A/></IfThenElse>"), HasSubstr("has 1 child, expected 2 or 3"));
+}
+
+TEST(WhileDoElse, AsksAtEveryTickAndHaltsWhatRan) {
+  Story story("<WhileDoElse><A/><B/><C/></WhileDoElse>");
+  story.says("A", "SUCCESS").says("B", "RUNNING, stops in 1");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, start B");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, B");
+  story.says("A", "FAILURE");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, B halting");
+  EXPECT_EQ(story.tick(), "RUNNING: B halted, start A, start C");
+  story.says("C", "SUCCESS");
+  EXPECT_EQ(story.tick(), "SUCCESS: start A, C");
+  Story two("<WhileDoElse><A/><B/></WhileDoElse>");
+  two.says("A", "SUCCESS");
+  EXPECT_EQ(two.tick(), "RUNNING: start A, start B");
+  two.says("A", "FAILURE");
+  EXPECT_EQ(two.tick(), "FAILURE: start A, B halted");
+}
+
+TEST(Switch, RunsTheChildOfTheCase) {
+  Story story(
+      "<Sequence><Script code=\"n := 2\"/><Switch2 variable=\"{n}\" case_1=\"1\" case_2=\"2.0\"><A/><B/><C/></Switch2>"
+      "</Sequence>");
+  EXPECT_EQ(story.tick(), "RUNNING: start B");
+  Story other("<Switch2 variable=\"left\" case_1=\"right\" case_2=\"up\"><A/><B/><C/></Switch2>");
+  EXPECT_EQ(other.tick(), "RUNNING: start C");
+  EXPECT_THAT(problemText("<Switch2 variable=\"1\" case_1=\"1\" case_2=\"2\"><A/><B/></Switch2>"),
+              HasSubstr("has 2 children, expected 3: one for each case, and one for all else"));
+}
+
+TEST(Switch, HaltsTheChildOfTheFormerCase) {
+  Story story(
+      "<Sequence><Script code=\"n := 1\"/><Parallel><Switch2 variable=\"{n}\" case_1=\"1\" case_2=\"2\">"
+      "<A/><B/><AlwaysSuccess/></Switch2><Sequence><C/><Script code=\"n = 2\"/><D/></Sequence></Parallel>"
+      "</Sequence>");
+  story.says("A", "RUNNING, stops in 1");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, start C");
+  story.says("C", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: A, C, start D");
+  EXPECT_EQ(story.tick(), "RUNNING: A halting, D");
+  EXPECT_EQ(story.tick(), "RUNNING: A halted, start B, D");
+}
+
+TEST(KeepRunningUntilFailure, EndsOnlyThen) {
+  Story story("<KeepRunningUntilFailure><A/></KeepRunningUntilFailure>");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  story.says("A", "FAILURE");
+  EXPECT_EQ(story.tick(), "FAILURE: start A");
+}
+
+TEST(RunOnce, IsSkippedAfterwards) {
+  Story story("<RunOnce><A/></RunOnce>");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  story.says("A", "FAILURE");
+  EXPECT_EQ(story.tick(), "FAILURE: A");
+  EXPECT_EQ(story.tick(), "SKIPPED");
+  Story same("<RunOnce then_skip=\"false\"><A/></RunOnce>");
+  same.says("A", "FAILURE");
+  EXPECT_EQ(same.tick(), "FAILURE: start A");
+  EXPECT_EQ(same.tick(), "FAILURE");
+}
+
+TEST(Precondition, AsksWhileTheChildIsNotUnderWay) {
+  Story story(
+      "<Sequence><Script code=\"n := 0\"/><Precondition if=\"n == 0\" else=\"SKIPPED\"><A/></Precondition></Sequence>");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  Story other("<Precondition if=\"1 > 2\" else=\"SUCCESS\"><A/></Precondition>");
+  EXPECT_EQ(other.tick(), "SUCCESS");
+  EXPECT_EQ(Story("<Priority><Precondition if=\"false\" else=\"SKIPPED\"><A/></Precondition><B/></Priority>").tick(),
+            "RUNNING: start B");
+  EXPECT_THAT(problemText("<Precondition if=\"true\" else=\"NO\"><A/></Precondition>"),
+              HasSubstr("else is `NO`, expected SUCCESS, FAILURE, RUNNING or SKIPPED"));
+}
+
+TEST(Loop, RunsTheChildOnceForEachElement) {
+  Story story(
+      "<LoopInt queue=\"3;4\" value=\"{n}\"><Sequence><A/><ScriptCondition code=\"n >= 3\"/></Sequence></LoopInt>");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A") << "the queue of the file starts anew";
+  Story empty("<LoopString queue=\"\" if_empty=\"FAILURE\" value=\"{n}\"><A/></LoopString>");
+  EXPECT_EQ(empty.tick(), "FAILURE");
+}
+
+TEST(Loop, TakesTheElementsOutOfAnEntry) {
+  Story story(
+      "<Sequence><SetBlackboard value=\"1.5;2\" output_key=\"q\"/><LoopDouble queue=\"{q}\" value=\"{n}\"><A/>"
+      "</LoopDouble><ScriptCondition code=\"q == ''\"/></Sequence>");
+  story.says("A", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.tick(), "SUCCESS");
+  Story wrong("<LoopInt queue=\"1;x\" value=\"{n}\"><A/></LoopInt>");
+  wrong.says("A", "SUCCESS");
+  EXPECT_EQ(wrong.tick(), "RUNNING: start A");
+  EXPECT_EQ(wrong.tick(), "FAILURE");
+  EXPECT_THAT(wrong.failures(), ElementsAre("LoopInt: the element `x` is not a whole number"));
+}
+
+TEST(EntryUpdated, NoticesEachWriteOnce) {
+  Story story(
+      "<Sequence><Script code=\"n := 1\"/><Repeat num_cycles=\"3\"><Sequence><ForceSuccess><Sequence>"
+      "<WasEntryUpdated entry=\"{n}\"/><A/></Sequence></ForceSuccess><B/></Sequence></Repeat></Sequence>");
+  story.says("A", "SUCCESS").says("B", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, start B");
+  EXPECT_EQ(story.tick(), "RUNNING: start B") << "not written since";
+  Story wait(
+      "<Sequence><SetBlackboard value=\"1\" output_key=\"n\"/><WaitValueUpdate entry=\"{n}\"><A/></WaitValueUpdate>"
+      "<WaitValueUpdate entry=\"{n}\" name=\"again\"><B/></WaitValueUpdate></Sequence>");
+  wait.says("A", "SUCCESS").says("B", "SUCCESS");
+  EXPECT_EQ(wait.tick(), "SUCCESS: start A, start B") << "each node has its own memory";
+  Story skip(
+      "<Repeat num_cycles=\"2\"><Sequence><ForceSuccess><RunOnce><SetBlackboard value=\"1\" output_key=\"n\"/>"
+      "</RunOnce></ForceSuccess><SkipUnlessUpdated entry=\"{n}\"><A/></SkipUnlessUpdated><B/></Sequence></Repeat>");
+  skip.says("A", "SUCCESS").says("B", "SUCCESS");
+  EXPECT_EQ(skip.tick(), "RUNNING: start A, start B");
+  EXPECT_EQ(skip.tick(), "SUCCESS: start B");
+  EXPECT_THAT(problemText("<WasEntryUpdated entry=\"n\"/>"), HasSubstr("entry is text, expected an entry {name}"));
+}
+
+TEST(TryCatch, RunsTheLastChildWhenOneFails) {
+  Story story("<TryCatch><A/><B/><C/></TryCatch>");
+  story.says("A", "SUCCESS").says("B", "FAILURE");
+  EXPECT_EQ(story.tick(), "RUNNING: start A, start B, start C");
+  story.says("C", "SUCCESS");
+  EXPECT_EQ(story.tick(), "FAILURE: C");
+  story.says("B", "SUCCESS");
+  EXPECT_EQ(story.tick(), "SUCCESS: start A, start B");
+}
+
+TEST(TryCatch, RunsTheLastChildOnAHaltIfWanted) {
+  Story story("<TryCatch catch_on_halt=\"true\"><A/><B/></TryCatch>");
+  story.says("A", "RUNNING, stops in 1").says("B", "SUCCESS");
+  EXPECT_EQ(story.tick(), "RUNNING: start A");
+  EXPECT_EQ(story.halt(), "not yet: A halting");
+  EXPECT_EQ(story.halt(), "let go: A halted, start B");
+  Story plain("<TryCatch><A/><B/></TryCatch>");
+  EXPECT_EQ(plain.tick(), "RUNNING: start A");
+  EXPECT_EQ(plain.halt(), "let go: A halted");
+}
+
+TEST(Sleep, TakesItsTime) {
+  Story story("<Sequence><Sleep msec=\"250\"/><A/></Sequence>");
+  EXPECT_EQ(story.tick(), "RUNNING");
+  EXPECT_EQ(story.tick(249), "RUNNING");
+  EXPECT_EQ(story.tick(1), "RUNNING: start A");
+}
+
+TEST(UnsetBlackboard, TakesTheValueAway) {
+  Story story(
+      "<Sequence><Script code=\"n := 1\"/><UnsetBlackboard key=\"n\"/><ScriptCondition code=\"n == 1\"/></Sequence>");
+  EXPECT_EQ(story.tick(), "FAILURE");
+  EXPECT_THAT(story.failures(), ElementsAre("ScriptCondition: code: the entry {n} is not set"));
+}
+
+TEST(TestNode, AnswersWhatItIsToldTo) {
+  Story story(
+      "<Sequence><TestNode async_delay_msec=\"100\" success_script=\"n := 3\"/><ScriptCondition code=\"n == "
+      "3\"/></Sequence>");
+  EXPECT_EQ(story.tick(), "RUNNING");
+  EXPECT_EQ(story.tick(100), "SUCCESS");
+  EXPECT_EQ(Story("<TestNode return_status=\"FAILURE\"/>").tick(), "FAILURE");
+  EXPECT_EQ(Story("<TestNode return_status=\"SKIPPED\"/>").tick(), "SKIPPED");
+}
+
+}  // namespace
+}  // namespace swiftlet::tree::testing

@@ -1,0 +1,183 @@
+// The script language: values, precedence, entries, and what is wrong with a text.
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "behaviors/tree/script/script.hpp"
+
+namespace swiftlet::tree {
+namespace {
+
+using testing::HasSubstr;
+
+/// Entries by name, and scripts that are run on them.
+class Board {
+ public:
+  Board& set(const std::string& name, Value value) {
+    slot(name).write(std::move(value));
+    return *this;
+  }
+  /// The value as text, or "! " and the problem.
+  std::string run(std::string_view text) {
+    ScriptResult result = Script::compile(text, constants);
+    if (!result.script) return "! " + result.problem;
+    for (std::size_t i = 0; i < result.script->entries().size(); ++i)
+      result.script->bind(i, &slot(result.script->entries()[i].name));
+    const auto value = result.script->run();
+    return value ? toString(valueOf(*value)) : "! " + result.script->problem();
+  }
+  std::string at(const std::string& name) {
+    return slot(name).value ? toString(*slot(name).value) : std::string("nothing");
+  }
+  Slot& slot(const std::string& name) {
+    const auto known = names_.find(name);
+    if (known != names_.end()) return *known->second;
+    Slot& slot = slots_.emplace_back();
+    slot.name = name;
+    names_[name] = &slot;
+    return slot;
+  }
+
+  Constants constants{{"RED", 1}, {"GREEN", 2}};
+
+ private:
+  std::deque<Slot> slots_;
+  std::map<std::string, Slot*> names_;
+};
+
+std::string valueOfText(std::string_view text) { return Board().run(text); }
+
+TEST(Script, ComputesWithTheRulesOfPrecedence) {
+  EXPECT_EQ(valueOfText("1 + 2 * 3"), "7");
+  EXPECT_EQ(valueOfText("(1 + 2) * 3"), "9");
+  EXPECT_EQ(valueOfText("7 - 2 - 1"), "4") << "from the left";
+  EXPECT_EQ(valueOfText("-2 * -3"), "6");
+  EXPECT_EQ(valueOfText("1 + 2 == 3 && 4 > 3"), "true");
+  EXPECT_EQ(valueOfText("1 | 6 & 3"), "3");
+  EXPECT_EQ(valueOfText("6 ^ 3"), "5");
+  EXPECT_EQ(valueOfText("~0"), "-1");
+  EXPECT_EQ(valueOfText("false || true && false"), "false");
+  EXPECT_EQ(valueOfText("!true || true"), "true");
+  EXPECT_EQ(valueOfText("1 < 2 ? 'a' : 'b'"), "a");
+  EXPECT_EQ(valueOfText("false ? 1 : true ? 2 : 3"), "2");
+}
+
+TEST(Script, KnowsNumbersTextsAndConstants) {
+  EXPECT_EQ(valueOfText("0x2A"), "42");
+  EXPECT_EQ(valueOfText("1.5e-1"), "0.15");
+  EXPECT_EQ(valueOfText("5 / 2"), "2.5") << "a quotient is no whole number";
+  EXPECT_EQ(valueOfText("9223372036854775807 + 1"), "9223372036854775808") << "too large for a whole number";
+  EXPECT_EQ(valueOfText("'a' .. \"b\" .. 3"), "ab3");
+  EXPECT_EQ(valueOfText("1 .. 2"), "12");
+  EXPECT_EQ(valueOfText("GREEN - RED"), "1");
+  EXPECT_EQ(valueOfText("true == 1"), "true");
+  EXPECT_EQ(valueOfText("'2.0' == 2"), "true") << "text that is a number";
+  EXPECT_EQ(valueOfText("'a' < 'b'"), "true");
+  EXPECT_EQ(valueOfText("'a' == 1"), "false");
+}
+
+TEST(Script, ChainsComparisons) {
+  EXPECT_EQ(valueOfText("1 < 2 < 3"), "true");
+  EXPECT_EQ(valueOfText("1 < 3 < 2"), "false");
+  EXPECT_EQ(valueOfText("0 <= 0 <= 1 != 2"), "true");
+}
+
+TEST(Script, AssignsToEntries) {
+  Board board;
+  EXPECT_EQ(board.run("x := 3; y := x * 2; x += y; x"), "9");
+  EXPECT_EQ(board.at("y"), "6");
+  EXPECT_EQ(board.run("x -= 1; x *= 3; x /= 4"), "6");
+  EXPECT_EQ(board.run("text := 'hello'; text = text .. ' ' .. x"), "hello 6");
+  EXPECT_EQ(board.run("z = 1"), "! the entry {z} is not set; `:=` makes it");
+  EXPECT_EQ(board.run("@flag := RED == 1"), "true");
+  EXPECT_EQ(board.at("@flag"), "true");
+  EXPECT_EQ(board.run("u"), "! the entry {u} is not set");
+}
+
+TEST(Script, CopiesAndComparesOtherValues) {
+  Board board;
+  board.set("door", Point{1.0, 2.0, {}})
+      .set("same", Point{1.0, 2.0, {}})
+      .set("other", Point{3.0, 2.0, {}})
+      .set("limit", Duration{2'000'000'000});
+  EXPECT_EQ(board.run("goal := door; goal == same"), "true");
+  EXPECT_EQ(board.at("goal"), "1;2");
+  EXPECT_EQ(board.run("door == limit"), "false");
+  EXPECT_THAT(board.run("door < other"), HasSubstr("a point and a point have no order"));
+  EXPECT_THAT(board.run("door + 1"), HasSubstr("a point is not a number"));
+}
+
+TEST(Script, EvaluatesTheRightSideOnlyIfItDecides) {
+  Board board;
+  EXPECT_EQ(board.run("false && nothing"), "false");
+  EXPECT_EQ(board.run("true || nothing"), "true");
+  EXPECT_EQ(board.run("true ? 1 : nothing"), "1");
+  EXPECT_EQ(board.run("true && nothing"), "! the entry {nothing} is not set");
+}
+
+TEST(Script, SaysWhatCannotBeEvaluated) {
+  EXPECT_EQ(valueOfText("1 / 0"), "! division by zero");
+  EXPECT_EQ(valueOfText("'a' + 1"), "! text is not a number");
+  EXPECT_EQ(valueOfText("'a' < 1"), "! text and a number have no order");
+  EXPECT_EQ(valueOfText("1.5 & 1"), "! `&`, `|` and `^` need whole numbers");
+  EXPECT_EQ(valueOfText("!'maybe'"), "! text is neither true nor false");
+  Board board;
+  board.run("x := 'aaaaaaaaaaaaaaaa'");
+  std::string last;
+  for (int i = 0; i < 20; ++i) last = board.run("x = x .. x");
+  EXPECT_EQ(last, "! a text grew longer than 65536 characters");
+}
+
+TEST(Script, SaysWhatIsWrongWithAText) {
+  EXPECT_EQ(valueOfText(""), "! it has no statement");
+  EXPECT_EQ(valueOfText(" ; "), "! it has no statement");
+  EXPECT_EQ(valueOfText("1 +"), "! expected a value at the end of `1 +`");
+  EXPECT_EQ(valueOfText("1 2"), "! expected an operator or `;` at `2`");
+  EXPECT_EQ(valueOfText("(1"), "! expected `)` at the end of `(1`");
+  EXPECT_EQ(valueOfText("a ? b"), "! expected `:` at the end of `a ? b`");
+  EXPECT_EQ(valueOfText("x := 'open"), "! expected a value at `'open`, a text without an end");
+  EXPECT_EQ(valueOfText("x # y"), "! expected an operator or `;` at `#`");
+  EXPECT_EQ(valueOfText("RED := 3"), "! expected the name of an entry before `:=`, but it is a constant at `RED`");
+  EXPECT_THAT(valueOfText(std::string(200, '(') + "1"), HasSubstr("fewer than 100 levels"));
+  EXPECT_THAT(valueOfText(std::string(200, '-') + "1"), HasSubstr("fewer than 100 levels"));
+  std::string longer = "1";
+  for (int i = 0; i < 5000; ++i) longer += "+1";
+  EXPECT_EQ(valueOfText(longer), "! it is longer than 2000 words");
+}
+
+TEST(Script, TellsWhichEntriesItReadsAndSets) {
+  const ScriptResult result = Script::compile("a := b + 1; c = a; d := 'x'; e := b", {});
+  ASSERT_TRUE(result.script);
+  std::string text;
+  for (const ScriptEntry& entry : result.script->entries())
+    text += entry.name + (entry.read ? " read" : "") + (entry.set ? " set" : "") + ", ";
+  EXPECT_EQ(text, "b read, a set, c read set, d set, e set, ");
+  const auto& writes = result.script->writes();
+  ASSERT_EQ(writes.size(), 4u);
+  EXPECT_EQ(writes[2].literal, "x");
+  EXPECT_TRUE(writes[3].copied.has_value());
+}
+
+RC_GTEST_PROP(Script, SumsAreThoseOfWholeNumbers, (std::int16_t a, std::int16_t b, std::int16_t c)) {
+  const auto text = [](std::int16_t n) { return "(" + std::to_string(n) + ")"; };
+  RC_ASSERT(valueOfText(text(a) + "+" + text(b) + "*" + text(c)) ==
+            std::to_string(std::int64_t{a} + std::int64_t{b} * c));
+  RC_ASSERT(valueOfText(text(a) + "<" + text(b)) == (a < b ? "true" : "false"));
+}
+
+RC_GTEST_PROP(Script, AnyTextEndsWithAValueOrAProblem, ()) {
+  const auto word = rc::gen::element<std::string>("x", "y", "1", "0", "'t'", "+", "-", "*", "/", "(", ")", ":=", "=",
+                                                  "?", ":", "&&", "||", "!", "..", "<", "==", ";", "~", "|", "true");
+  const auto words = *rc::gen::container<std::vector<std::string>>(word);
+  std::string text;
+  for (const std::string& w : words) text += w + " ";
+  RC_ASSERT(!Board().run(text).empty() || text.find("''") == std::string::npos);
+}
+
+}  // namespace
+}  // namespace swiftlet::tree
