@@ -25,7 +25,7 @@ Color colorOf(float depth_m) {
 void drawScale(Canvas& canvas) {
   const double width = canvas.width_px(), height_px = std::max(6.0, width / 40.0),
                bottom = canvas.height_px() - height_px;
-  const double x0 = 0.3 * width, x1 = 0.7 * width;
+  const double x0 = 0.5 * width, x1 = 0.85 * width;
   const Color text = rgb(0xffffff), halo = rgb(0x000000).withAlpha(160);
   for (double x = x0; x < x1; x += 1.0) {
     const double share = (x - x0) / (x1 - x0);

@@ -17,6 +17,11 @@ struct World;
 
 namespace swiftlet::rendering {
 
+enum class PointColor {
+  kMeasured,  ///< The colour that the camera saw.
+  kNormal,    ///< By the direction of the surface: x red, y green, z blue.
+};
+
 /// Points of a surface in a frame of their own.
 struct PlacedSurface {
   std::shared_ptr<const std::vector<common::SurfacePoint>> points;  ///< Never null.

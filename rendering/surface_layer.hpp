@@ -9,11 +9,6 @@
 
 namespace swiftlet::rendering {
 
-enum class PointColor {
-  kMeasured,  ///< The colour that the camera saw.
-  kNormal,    ///< By the direction of the surface: x red, y green, z blue.
-};
-
 /// Draws the points in front of the eye. A surface that is seen from its back is left out, so that one looks into a
 /// room from outside; a point without a normal is drawn from everywhere.
 void drawSurface(const PlacedSurface& surface, const Eye& eye, PointColor coloring, DepthBuffer& buffer);

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "common/error.hpp"
+#include "common/geometry.hpp"
 #include "web/server/target.hpp"
 
 namespace swiftlet::web {
@@ -116,6 +120,26 @@ class Parameters {
     return std::min(value, greatest);
   }
 
+  bool has(const std::string& key) const { return query_.contains(key); }
+
+  /// Refuses what is outside of the bounds.
+  double within(const std::string& key, double otherwise, double bound_low, double bound_high, const char* unit) const {
+    const double value = number(key, otherwise, bound_low, std::numeric_limits<double>::infinity(), unit);
+    if (!(value <= bound_high))
+      refuse(400, fmt::format("{}: {:g} is not at most {:g}{}", key, value, bound_high, unit));
+    return value;
+  }
+
+  /// The place of the word among `words`; 0 when it is not given.
+  std::size_t word(const std::string& key, const std::vector<std::string>& words) const {
+    const auto it = query_.find(key);
+    if (it == query_.end()) return 0;
+    const auto found = std::find(words.begin(), words.end(), it->second);
+    if (found == words.end())
+      refuse(400, fmt::format("{}: {} is none of {}", key, shown(it->second), fmt::join(words, ", ")));
+    return static_cast<std::size_t>(found - words.begin());
+  }
+
   rendering::Scheme scheme() const {
     const auto it = query_.find("scheme");
     if (it == query_.end()) return rendering::Scheme::kLight;
@@ -159,6 +183,55 @@ Action cameraStream(const Target& target, std::size_t vehicle) {
   return StreamPictures{view, framesPerSecond(parameters), vehicle};
 }
 
+Action depthStream(const Target& target, std::size_t vehicle) {
+  const Parameters parameters(target, {"width", "fps"});
+  PictureView view;
+  view.source = PictureView::Source::kDepth;
+  view.width_px = static_cast<int>(parameters.number("width", 640, 32, 1920, " pixels"));
+  view.height_px = 0;
+  return StreamPictures{view, framesPerSecond(parameters), vehicle};
+}
+
+/// What a kind of viewpoint has no use for is refused, so that nobody wonders why it changes nothing.
+void refuseUnused(const Parameters& parameters, std::initializer_list<const char*> keys, const char* needs) {
+  for (const char* key : keys)
+    if (parameters.has(key)) refuse(400, fmt::format("{}: only for {}", key, needs));
+}
+
+rendering::Viewpoint3d viewpoint(const Parameters& parameters) {
+  using Kind = rendering::Viewpoint3d::Kind;
+  rendering::Viewpoint3d view;
+  view.kind = static_cast<Kind>(parameters.word("view", {"whole", "orbit", "follow", "camera"}));
+  if (view.kind != Kind::kOrbit) refuseUnused(parameters, {"x", "y", "z"}, "view=orbit");
+  if (view.kind == Kind::kWhole || view.kind == Kind::kCamera)
+    refuseUnused(parameters, {"distance"}, "view=orbit and view=follow");
+  if (view.kind == Kind::kCamera) refuseUnused(parameters, {"azimuth", "elevation"}, "other views than view=camera");
+  const auto coordinate = [&](const char* key) {
+    return parameters.within(key, 0.0, -kGreatestCoordinate_m, kGreatestCoordinate_m, " m");
+  };
+  view.target_x_map_m = coordinate("x");
+  view.target_y_map_m = coordinate("y");
+  view.target_z_map_m = coordinate("z");
+  view.distance_m = parameters.within("distance", view.distance_m, 0.2, 1000.0, " m");
+  const auto angle_rad = [&](const char* key, double otherwise_rad, double bound_deg) {
+    return parameters.within(key, otherwise_rad / common::kRadPerDeg, -bound_deg, bound_deg, " degrees") *
+           common::kRadPerDeg;
+  };
+  view.azimuth_rad = angle_rad("azimuth", view.azimuth_rad, 360.0);
+  view.elevation_rad = angle_rad("elevation", view.elevation_rad, 89.0);
+  return view;
+}
+
+Action map3dStream(const Target& target, std::size_t vehicle) {
+  const Parameters parameters(
+      target, {"width", "height", "fps", "scheme", "color", "view", "x", "y", "z", "distance", "azimuth", "elevation"});
+  PictureView view = mapView(parameters);
+  view.source = PictureView::Source::kMap3d;
+  view.coloring = static_cast<rendering::PointColor>(parameters.word("color", {"measured", "normal"}));
+  view.viewpoint = viewpoint(parameters);
+  return StreamPictures{view, framesPerSecond(parameters), vehicle};
+}
+
 double coordinate(const nlohmann::json& body, const char* key) {
   const auto it = body.find(key);
   if (it == body.end() || !it->is_number())
@@ -189,16 +262,24 @@ Action read(const Request& request, const Target& target, std::size_t vehicle) {
   checkMethod(request, "GET");
   if (target.path == "/stream/map.mjpg") return mapStream(target, vehicle);
   if (target.path == "/stream/camera.mjpg") return cameraStream(target, vehicle);
+  if (target.path == "/stream/map3d.mjpg") return map3dStream(target, vehicle);
+  if (target.path == "/stream/depth.mjpg") return depthStream(target, vehicle);
   if (target.path == "/api/map.png") return mapPicture(target, vehicle);
   if (target.path == "/api/state") return SendState{vehicle};
   checkOrigin(request);
   if (!request.wants_websocket) refuse(426, "this is a WebSocket: connect with `Upgrade: websocket`");
-  return OpenSocket{vehicle};
+  return OpenSocket{target.path == "/api/map3d" ? OpenSocket::Feed::kMap3d : OpenSocket::Feed::kPage, vehicle};
 }
 
 Action decide(const Request& request, const Policy& policy) {
-  static const std::vector<std::string> kReads{"/stream/map.mjpg", "/stream/camera.mjpg", "/api/map.png", "/api/state",
-                                               "/api/ws"};
+  static const std::vector<std::string> kReads{"/stream/map.mjpg",
+                                               "/stream/camera.mjpg",
+                                               "/stream/map3d.mjpg",
+                                               "/stream/depth.mjpg",
+                                               "/api/map.png",
+                                               "/api/state",
+                                               "/api/ws",
+                                               "/api/map3d"};
   static const std::vector<std::string> kCommands{"/api/goal", "/api/hold", "/api/resume", "/api/home", "/api/land"};
   const auto in = [](const std::vector<std::string>& list, const std::string& item) {
     return std::find(list.begin(), list.end(), item) != list.end();
