@@ -74,8 +74,8 @@ struct RecordedCamera {
 void addFrame(const common::RgbdFrame& frame, const RecordedCamera& camera, const std::optional<Pose3>& seed,
               Map3dRun& run) {
   const auto begin = Clock::now();
-  const mapping3d::RgbdPose pose =
-      run.odometry.process(frame, seed ? std::optional(camera.camera(*seed)) : std::nullopt);
+  const mapping3d::RgbdPose pose = run.odometry.process(
+      frame, seed ? std::optional(mapping3d::CameraSeed{camera.camera(*seed), 0, false}) : std::nullopt);
   run.frame_ms.push_back(1e3 * secondsSince(begin));
   const auto index = static_cast<double>(run.frames++);
   run.milliseconds.add(index, run.frame_ms.back());

@@ -21,7 +21,8 @@ autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& nam
     given->seed = static_cast<std::uint64_t>(setup.scenario.seed);
   }
   return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
-                            common::makeLockstepJobs(1), given ? &*given : nullptr, name, setup.memory.read.get());
+                            common::makeLockstepJobs(1), given ? &*given : nullptr, name, setup.memory.read.get(),
+                            setup.system.rgbd_camera ? &*setup.system.rgbd_camera : nullptr);
 }
 
 interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::SimulatedVehicle& vehicle,

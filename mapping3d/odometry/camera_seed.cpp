@@ -27,8 +27,6 @@ Matrix6d inMapAxes(const Matrix6d& covariance_camera, const Eigen::Quaterniond& 
 }  // namespace
 
 void CameraSeedConfig::describe(common::config::Fields& fields) {
-  fields("is_in_map", is_in_map,
-         "Whether seeds are poses in the map, which the key frames keep to. Otherwise only their changes are used.");
   fields("sigma_m", sigma_m, {0.001, 10}, "Standard deviation of the position of a seed.");
   fields("sigma_rad", sigma_rad, {0.0001, 1}, "Standard deviation of the attitude of a seed, about each axis.");
   fields("gate_m", gate_m, {0.01, 100}, "An alignment that ends farther from its seed is rejected.");

@@ -17,10 +17,12 @@ namespace swiftlet::mapping3d {
 struct CameraSeed {
   common::Pose3 T_map_camera;
   int scan = 0;  ///< The key scan on which a key frame that is made here hangs.
+  /// Whether it is a pose in the map, to which the key frames then keep. Otherwise only its change since the last frame
+  /// is used.
+  bool is_in_map = true;
 };
 
 struct CameraSeedConfig {
-  bool is_in_map = false;
   double sigma_m = 0.03;
   double sigma_rad = 0.0175;
   double gate_m = 0.3;

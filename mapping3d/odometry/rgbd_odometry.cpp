@@ -19,6 +19,8 @@ constexpr double kLongestPrediction_s = 0.5;
 /// Key frames that are tried for each frame while lost: each costs a millisecond or two.
 constexpr std::size_t kTriedPerFrame = 8;
 
+bool isInMap(const std::optional<CameraSeed>& seed) { return seed && seed->is_in_map; }
+
 std::vector<vision::Feature> featuresOf(const FramePyramid& pyramid, const vision::FeatureConfig& config) {
   return vision::findFeatures(pyramid.front().gray, pyramid.front().depth, pyramid.front().camera, config);
 }
@@ -55,7 +57,7 @@ void RgbdOdometry::moveTo(std::shared_ptr<const common::KeyPoses> scans) {
   if (!T_scan_map) return;
   const Pose3 moved = keys_.T_map_scan(last_->scan) * *T_scan_map;
   last_->T_map_camera = moved * last_->T_map_camera;
-  if (last_->T_seed_camera && config_.seed.is_in_map) last_->T_seed_camera = moved * *last_->T_seed_camera;
+  if (isInMap(last_->seed)) last_->seed->T_map_camera = moved * last_->seed->T_map_camera;
 }
 
 RgbdPose RgbdOdometry::process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed) {
@@ -85,8 +87,8 @@ std::vector<Pose3> RgbdOdometry::predictions(common::Time stamp, const std::opti
   if (gap_s > 0.0 && gap_s < kLongestPrediction_s)
     poses.push_back(last_->T_map_camera *
                     Pose3{common::expSO3(gap_s * last_->rate_camera_rad_s), gap_s * last_->velocity_camera_m_s});
-  if (seed && last_->T_seed_camera)
-    poses.push_back(last_->T_map_camera * (last_->T_seed_camera->inverse() * seed->T_map_camera));
+  if (seed && last_->seed)
+    poses.push_back(last_->T_map_camera * (last_->seed->T_map_camera.inverse() * seed->T_map_camera));
   if (isInMap(seed)) poses.push_back(seed->T_map_camera);
   poses.push_back(last_->T_map_camera);
   return poses;
@@ -229,9 +231,7 @@ void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place,
 }
 
 void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed) {
-  Last next{pose.stamp,        pose.T_map_camera, pose.scan,      std::nullopt,
-            pose.fit.exposure, {0.0, 0.0, 0.0},   {0.0, 0.0, 0.0}};
-  if (seed) next.T_seed_camera = seed->T_map_camera;
+  Last next{pose.stamp, pose.T_map_camera, pose.scan, seed, pose.fit.exposure, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   if (last_ && pose.state == TrackState::kTracked) {
     const double gap_s = (pose.stamp - last_->stamp).seconds();
     const Pose3 step = last_->T_map_camera.inverse() * pose.T_map_camera;

@@ -75,7 +75,7 @@ class RgbdOdometry {
   void moveTo(std::shared_ptr<const common::KeyPoses> scans);
 
   /// Frames come in the order of their stamps. The seed is what other sensors give at the frame's time. The first one
-  /// places the map. If the seeds are not those of the map, only their changes from frame to frame are used.
+  /// places the map.
   RgbdPose process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed = std::nullopt);
 
   const KeyFrameMap& keyFrames() const { return keys_; }
@@ -85,7 +85,7 @@ class RgbdOdometry {
     common::Time stamp;
     common::Pose3 T_map_camera;
     int scan = 0;
-    std::optional<common::Pose3> T_seed_camera;
+    std::optional<CameraSeed> seed;
     Exposure exposure;
     Eigen::Vector3d velocity_camera_m_s = Eigen::Vector3d::Zero();
     Eigen::Vector3d rate_camera_rad_s = Eigen::Vector3d::Zero();
@@ -109,7 +109,6 @@ class RgbdOdometry {
   void lose(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
   void addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place, const FramePyramid& pyramid);
   void remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed);
-  bool isInMap(const std::optional<CameraSeed>& seed) const { return seed && config_.seed.is_in_map; }
 
   RgbdOdometryConfig config_;
   KeyFrameMap keys_;

@@ -36,12 +36,6 @@ std::shared_ptr<const KeyPoses> scansAt(std::uint64_t version, const std::vector
   return scans;
 }
 
-Mapper3dConfig flightConfig() {
-  Mapper3dConfig config;
-  config.odometry.seed.is_in_map = true;
-  return config;
-}
-
 /// The distance of a point inside the room from its walls.
 double offWall_m(const TexturedRoom& room, const Vector3d& point_m) {
   return (room.half_size_m - point_m.cwiseAbs()).cwiseAbs().minCoeff();
@@ -59,7 +53,7 @@ CameraSeed noisySeed(double time_s, int scan) {
 
 TEST(Mapper3d, MapsTheWallsFromNoisySeeds) {
   const TexturedRoom room;
-  Mapper3d mapper(flightConfig());
+  Mapper3d mapper{Mapper3dConfig()};
   const auto scans = scansAt(1, {{}});
   for (int i = 0; i < 60; ++i) {
     const double time_s = i / kRate_Hz;
@@ -176,7 +170,7 @@ TEST(SubmapFusion, WithoutACorrectionNothingIsLost) {
 
 TEST(Mapper3d, AfterACorrectionItTracksOnAgainstTheMovedKeyFrames) {
   const TexturedRoom room;
-  Mapper3d mapper(flightConfig());
+  Mapper3d mapper{Mapper3dConfig()};
   const auto before = scansAt(1, {{}}), after = scansAt(2, {{0.4, -0.3, 0.2}});
   const Pose3 moved = common::lifted(after->keys[0].T_map_key, 0.0);
   for (int i = 0; i < 8; ++i) {
@@ -193,7 +187,7 @@ TEST(Mapper3d, AFrameThatDoesNotFitIsLeftOutAndTheMapBeginsAnewAfterSeveral) {
   TexturedRoom other;
   other.walls = 100;
   other.half_size_m = {1.3, 3.0, 1.1};
-  Mapper3d mapper(flightConfig());
+  Mapper3d mapper{Mapper3dConfig()};
   const auto scans = scansAt(1, {{}});
   for (int i = 0; i < 10; ++i)
     ASSERT_TRUE(
@@ -211,7 +205,7 @@ TEST(Mapper3d, AFrameThatDoesNotFitIsLeftOutAndTheMapBeginsAnewAfterSeveral) {
 
 TEST(Mapper3d, PeopleAreCutOut) {
   const TexturedRoom room;
-  Mapper3d mapper(flightConfig());
+  Mapper3d mapper{Mapper3dConfig()};
   const auto scans = scansAt(1, {{}});
   const Pose3 pose;
   common::RgbdFrame frame = room.seen(pose, 0.0);
@@ -229,7 +223,7 @@ TEST(Mapper3d, PeopleAreCutOut) {
 
 TEST(SubmapStore, StaysWithinItsPoints) {
   const TexturedRoom room;
-  Mapper3dConfig config = flightConfig();
+  Mapper3dConfig config;
   config.submaps.reach_m = 0.5;
   config.submaps.points_max = 30'000;
   Mapper3d mapper(config);
