@@ -31,6 +31,9 @@ void CameraSeedConfig::describe(common::config::Fields& fields) {
   fields("sigma_rad", sigma_rad, {0.0001, 1}, "Standard deviation of the attitude of a seed, about each axis.");
   fields("gate_m", gate_m, {0.01, 100}, "An alignment that ends farther from its seed is rejected.");
   fields("gate_rad", gate_rad, {0.01, 3.2}, "An alignment that is turned by more against its seed is rejected.");
+  fields("speed_sigma_m_s", speed_sigma_m_s, {0.0001, 10},
+         "Standard deviation of the speed that a step from seed to seed has.");
+  fields("rate_sigma_rad_s", rate_sigma_rad_s, {0.0001, 10}, "Standard deviation of its angular rate.");
   fields("step_sigma_m", step_sigma_m, {0.0001, 1},
          "Error of the position that an alignment adds from key frame to key frame, at least.");
   fields("step_sigma_rad", step_sigma_rad, {0.00001, 1},
@@ -45,6 +48,23 @@ bool agrees(const common::Pose3& T_map_camera, const CameraSeed& seed, const Cam
 }
 
 Matrix6d seedCovariance(const CameraSeedConfig& config) { return diagonal(config.sigma_m, config.sigma_rad); }
+
+PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double gap_s, const CameraSeedConfig& config) {
+  PosePrior prior;
+  prior.T_map_camera = last.T_map_camera * (last.seed.T_map_camera.inverse() * seed.T_map_camera);
+  const Matrix6d predicted =
+      last.covariance + diagonal(gap_s * config.speed_sigma_m_s, gap_s * config.rate_sigma_rad_s);
+  prior.information = predicted.inverse();
+  if (!seed.is_in_map) return prior;
+  const common::Pose3 error = prior.T_map_camera.inverse() * seed.T_map_camera;
+  Vector6d innovation;
+  innovation << error.position_m, common::logSO3(error.rotation);
+  const Matrix6d measured = seedCovariance(config);
+  const Vector6d correction = predicted * (predicted + measured).llt().solve(innovation);
+  prior.T_map_camera = prior.T_map_camera * common::Pose3{common::expSO3(correction.tail<3>()), correction.head<3>()};
+  prior.information += measured.inverse();
+  return prior;
+}
 
 KeyFramePlace placeOfNew(const KeyFramePlace& from, const Alignment& fit, const CameraSeed& seed,
                          const CameraSeedConfig& config) {

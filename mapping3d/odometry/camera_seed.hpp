@@ -1,7 +1,8 @@
-// What other sensors know of the camera's pose (UNB's Algorithm 1, line 1), and how it keeps the key frames near the 2D
-// map.
+// What other sensors know of the camera's pose (UNB's Algorithm 1, line 1), and how it keeps frames and key frames near
+// the 2D map.
 //
-// From key frame to key frame the errors of the alignment add up, so that a 3D map of its own would leave the 2D map,
+// A bare wall tells nothing of the motion along it. There the frames follow the motion of the seeds, which is known
+// much better than their place. From key frame to key frame the errors of the alignment add up, so that a 3D map of its own would leave the 2D map,
 // whose loop closures correct it. Each new key frame is therefore placed by a Kalman update: the alignment predicts
 // its pose, with an uncertainty that grew since the last seed, and the seed measures it.
 #pragma once
@@ -27,6 +28,8 @@ struct CameraSeedConfig {
   double sigma_rad = 0.0175;
   double gate_m = 0.3;
   double gate_rad = 0.2;
+  double speed_sigma_m_s = 0.03;
+  double rate_sigma_rad_s = 0.02;
   double step_sigma_m = 0.005;
   double step_sigma_rad = 0.002;
   int unfit_frames = 5;
@@ -39,6 +42,17 @@ bool agrees(const common::Pose3& T_map_camera, const CameraSeed& seed, const Cam
 
 /// The covariance of a seed, as KeyFramePlace::covariance.
 Matrix6d seedCovariance(const CameraSeedConfig& config);
+
+/// A frame that was aligned, or begins a track.
+struct AlignedFrame {
+  common::Pose3 T_map_camera;
+  Matrix6d covariance;  ///< With the axes of the camera.
+  CameraSeed seed;
+};
+
+/// What is known of a frame's pose before it is aligned: the last frame's pose with the motion of the seeds since then,
+/// and the seed itself if it is a pose in the map.
+PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double gap_s, const CameraSeedConfig& config);
 
 /// The place of a new key frame. `from` is the key frame that it was aligned to.
 KeyFramePlace placeOfNew(const KeyFramePlace& from, const Alignment& fit, const CameraSeed& seed,

@@ -70,8 +70,9 @@ RgbdPose RgbdOdometry::process(const common::RgbdFrame& frame, const std::option
     begin(pose, pyramid, seed);
     return pose;
   }
-  pose.T_map_camera = bestOf(predictions(pose.stamp, seed), pyramid);
-  if (const auto fit = findPose(pyramid, pose.T_map_camera, pose.stamp, seed))
+  const PosePrior prior = predicted(pyramid, pose.stamp, seed);
+  pose.T_map_camera = prior.T_map_camera;
+  if (const auto fit = findPose(pyramid, prior, seed))
     take(*fit, pose, pyramid, seed);
   else
     lose(pose, pyramid, seed);
@@ -82,7 +83,6 @@ RgbdPose RgbdOdometry::process(const common::RgbdFrame& frame, const std::option
 
 std::vector<Pose3> RgbdOdometry::predictions(common::Time stamp, const std::optional<CameraSeed>& seed) const {
   std::vector<Pose3> poses;
-  if (isInMap(seed) && is_lost_) return {seed->T_map_camera};
   const double gap_s = (stamp - last_->stamp).seconds();
   if (gap_s > 0.0 && gap_s < kLongestPrediction_s)
     poses.push_back(last_->T_map_camera *
@@ -128,11 +128,20 @@ PosePrior RgbdOdometry::motionPrior(common::Time stamp, const Pose3& predicted) 
   return prior;
 }
 
-std::optional<RgbdOdometry::Fit> RgbdOdometry::findPose(const FramePyramid& pyramid, const Pose3& predicted,
-                                                        common::Time stamp, const std::optional<CameraSeed>& seed) {
-  if (isInMap(seed) && is_lost_) return tracked(pyramid, {predicted, seedCovariance(config_.seed).inverse()}, seed);
+PosePrior RgbdOdometry::predicted(const FramePyramid& pyramid, common::Time stamp,
+                                  const std::optional<CameraSeed>& seed) const {
+  if (isInMap(seed) && is_lost_) return {seed->T_map_camera, seedCovariance(config_.seed).inverse()};
+  const double gap_s = (stamp - last_->stamp).seconds();
+  if (isInMap(seed) && isInMap(last_->seed) && gap_s > 0.0)
+    return seededPrior({last_->T_map_camera, last_->covariance, *last_->seed}, *seed, gap_s, config_.seed);
+  return motionPrior(stamp, bestOf(predictions(stamp, seed), pyramid));
+}
+
+std::optional<RgbdOdometry::Fit> RgbdOdometry::findPose(const FramePyramid& pyramid, const PosePrior& prior,
+                                                        const std::optional<CameraSeed>& seed) {
+  if (isInMap(seed)) return tracked(pyramid, prior, seed);
   if (!is_lost_)
-    if (auto fit = tracked(pyramid, motionPrior(stamp, predicted), seed)) return fit;
+    if (auto fit = tracked(pyramid, prior, seed)) return fit;
   return recognized(pyramid, seed);
 }
 
@@ -231,7 +240,7 @@ void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place,
 }
 
 void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed) {
-  Last next{pose.stamp, pose.T_map_camera, pose.scan, seed, pose.fit.exposure, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  Last next{pose.stamp, pose.T_map_camera, pose.covariance, pose.scan, seed, pose.fit.exposure, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   if (last_ && pose.state == TrackState::kTracked) {
     const double gap_s = (pose.stamp - last_->stamp).seconds();
     const Pose3 step = last_->T_map_camera.inverse() * pose.T_map_camera;

@@ -84,6 +84,7 @@ class RgbdOdometry {
   struct Last {
     common::Time stamp;
     common::Pose3 T_map_camera;
+    Matrix6d covariance;  ///< With the axes of the camera.
     int scan = 0;
     std::optional<CameraSeed> seed;
     Exposure exposure;
@@ -97,7 +98,8 @@ class RgbdOdometry {
   std::vector<common::Pose3> predictions(common::Time stamp, const std::optional<CameraSeed>& seed) const;
   common::Pose3 bestOf(const std::vector<common::Pose3>& poses, const FramePyramid& pyramid) const;
   PosePrior motionPrior(common::Time stamp, const common::Pose3& predicted) const;
-  std::optional<Fit> findPose(const FramePyramid& pyramid, const common::Pose3& predicted, common::Time stamp,
+  PosePrior predicted(const FramePyramid& pyramid, common::Time stamp, const std::optional<CameraSeed>& seed) const;
+  std::optional<Fit> findPose(const FramePyramid& pyramid, const PosePrior& prior,
                               const std::optional<CameraSeed>& seed);
   std::optional<Fit> tracked(const FramePyramid& pyramid, const PosePrior& prior,
                              const std::optional<CameraSeed>& seed) const;
