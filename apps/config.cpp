@@ -29,6 +29,7 @@ std::string reference() {
                  SystemConfig()) +
          chapter("Vehicle", "A file of `config/vehicles`.", common::VehicleConfig()) +
          chapter("Laser", "A file of `config/sensors`.", common::LaserConfig()) +
+         chapter("RGB-D camera", "A file of `config/sensors`.", common::RgbdCameraConfig()) +
          chapter("Trial", "A file of `trials`, see [trials](tutorials/trials.md).", evaluation::TrialConfig()) +
          chapter("Envelope", "A file such as `config/envelope.yaml`, see [envelope](envelope.md).",
                  evaluation::EnvelopeConfig());

@@ -2,6 +2,7 @@
 
 #include "apps/required.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/octomap.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/report/report.hpp"
 #include "rendering/plot_svg.hpp"
@@ -38,11 +39,12 @@ std::string positionPlot(const common::Trajectory& trajectory) {
 
 }  // namespace
 
-void writeMap3dOutputs(const fs::path& out, const common::Trajectory& trajectory, const CloudGrid& cloud,
+void writeMap3dOutputs(const fs::path& out, const common::Trajectory& trajectory, const Map3dMap& map,
                        const Map3dFigures& figures) {
   auto writer = required(interfaces::TumWriter::create(out / "trajectory.tum"));
   for (const common::StampedPose& at : trajectory) required(writer.write(at));
-  required(interfaces::writeAtomically(out / "cloud.ply", interfaces::toPly(cloud.points())));
+  required(interfaces::writeAtomically(out / "cloud.ply", interfaces::toPly(map.cloud)));
+  required(interfaces::writeOctree(out / "map.bt", map.voxels));
 
   interfaces::MapReport report;
   report.title = kMap3dTitle + fs::path(figures.folder).filename().string();

@@ -52,6 +52,8 @@ std::string asComment(const std::string& yaml) {
 void SystemConfig::describe(common::config::Fields& fields) {
   fields("vehicle", vehicle, "A file of config/vehicles, without .yaml, or a path.");
   fields("laser", laser, "A file of config/sensors, without .yaml, or a path.");
+  fields("rgbd_camera", rgbd_camera,
+         "A file of config/sensors, without .yaml, or a path; empty without such a camera.");
   fields.section("autonomy", autonomy, "How the autonomy is set.");
   fields.section("log_motion", log_motion, "Recorded logs: what the next step of the robot is expected to be.");
 }
@@ -60,8 +62,10 @@ std::string System::toYaml(bool comments) const {
   using common::config::YamlPrinter;
   if (!comments) return YamlPrinter(YamlPrinter::Comments::kNo).print(config);
   const auto print = [](const auto& any) { return YamlPrinter(YamlPrinter::Comments::kYes).print(any); };
-  return print(config) + "\n# The data sheets these name:\n#\n# vehicle " + config.vehicle + "\n" +
-         asComment(print(vehicle)) + "#\n# laser " + config.laser + "\n" + asComment(print(laser));
+  std::string sheets = "\n# The data sheets these name:\n#\n# vehicle " + config.vehicle + "\n" +
+                       asComment(print(vehicle)) + "#\n# laser " + config.laser + "\n" + asComment(print(laser));
+  if (rgbd_camera) sheets += "#\n# rgbd_camera " + config.rgbd_camera + "\n" + asComment(print(*rgbd_camera));
+  return print(config) + sheets;
 }
 
 System loadSystem(const std::string& name) {
@@ -74,6 +78,9 @@ System loadSystem(const std::string& name) {
   };
   system.vehicle = common::config::readFile<common::VehicleConfig>(sheet(system.config.vehicle, "vehicles", "vehicle"));
   system.laser = common::config::readFile<common::LaserConfig>(sheet(system.config.laser, "sensors", "laser"));
+  if (!system.config.rgbd_camera.empty())
+    system.rgbd_camera =
+        common::config::readFile<common::RgbdCameraConfig>(sheet(system.config.rgbd_camera, "sensors", "rgbd_camera"));
   system.config.autonomy.limitTo(system.laser);
   return system;
 }

@@ -1,11 +1,13 @@
 // A system profile: vehicle, laser, and the settings of the autonomy. config/systems/NAME.yaml.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "autonomy/autonomy.hpp"
 #include "common/config_fwd.hpp"
+#include "common/rgbd_camera_config.hpp"
 #include "common/vehicle_config.hpp"
 #include "perception/laser_odometry/motion_prediction.hpp"
 
@@ -18,6 +20,7 @@ namespace swiftlet::apps {
 struct SystemConfig {
   std::string vehicle = "cobra";
   std::string laser = "utm_30lx";
+  std::string rgbd_camera = {};
   autonomy::AutonomyConfig autonomy;
   perception::MotionPredictionConfig log_motion;
 
@@ -29,6 +32,7 @@ struct System {
   SystemConfig config;
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
+  std::optional<common::RgbdCameraConfig> rgbd_camera;
 
   /// The effective profile as YAML that loadSystem can read; with comments, it includes the data sheets that it names.
   std::string toYaml(bool comments) const;

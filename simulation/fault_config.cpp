@@ -6,7 +6,7 @@
 namespace swiftlet::simulation {
 
 void FaultConfig::describe(common::config::Fields& fields) {
-  fields.choice("sensor", sensor, {"imu", "laser", "battery", "pilot", "camera"}, "Which sensor fails.");
+  fields.choice("sensor", sensor, {"imu", "laser", "battery", "pilot", "camera", "rgbd"}, "Which sensor fails.");
   fields.choice("kind", kind, {"silent", "nan", "repeat", "late", "stuck", "bias", "mirror", "blocked"},
                 "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser.");
   fields("from_s", from_s, {0, 1e6}, "Time at which the fault begins; with place or phase, before which it does not.");

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/config_fwd.hpp"
+#include "common/rgbd_camera_config.hpp"
 #include "common/vehicle_config.hpp"
 #include "simulation/autopilot.hpp"
 #include "simulation/fault_config.hpp"
@@ -145,6 +147,7 @@ struct Scenario {
   /// The data sheets, which the autonomy also knows. They come from the system profile, not from the scenario's file.
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
+  std::optional<common::RgbdCameraConfig> rgbd_camera;  ///< Of vehicles that carry one.
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

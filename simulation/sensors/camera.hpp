@@ -4,12 +4,12 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "common/geometry.hpp"
 #include "common/sensor_event.hpp"
 #include "simulation/ray_caster.hpp"
 #include "simulation/sensors/sensor_config.hpp"
+#include "simulation/sensors/surface_shader.hpp"
 #include "simulation/world_model.hpp"
 
 namespace swiftlet::simulation {
@@ -23,12 +23,10 @@ class Camera {
                        const RayCaster& rays) const;
 
  private:
-  Color shade(const Hit& hit, const Eigen::Vector3f& direction_world, std::span<const Actor> actors) const;
-
   CameraConfig config_;
   std::uint64_t seed_;
   common::Pose3 T_body_camera_;
-  std::vector<Color> colors_;
+  SurfaceShader shader_;
 };
 
 }  // namespace swiftlet::simulation

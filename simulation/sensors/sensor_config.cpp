@@ -21,6 +21,8 @@ const char* toString(Sensor sensor) {
       return "pilot";
     case Sensor::kCamera:
       return "camera";
+    case Sensor::kRgbd:
+      return "rgbd";
   }
   return "?";
 }
@@ -93,6 +95,13 @@ void LaserErrorsConfig::describe(common::config::Fields& fields) {
   fields("clock_drift_ppm", clock_drift_ppm, {-1000, 1000}, "What the laser's clock gains, in parts per million.");
 }
 
+void RgbdErrorsConfig::describe(common::config::Fields& fields) {
+  fields.section("mount_error", mount_error,
+                 "Motion about the body's origin from the camera's mount on the data sheet to the true one.");
+  fields("clock_offset_s", clock_offset_s, {-0.1, 0.1}, "What the camera's clock is ahead of the computer's at first.");
+  fields("clock_drift_ppm", clock_drift_ppm, {-1000, 1000}, "What the camera's clock gains, in parts per million.");
+}
+
 void FuelGaugeConfig::describe(common::config::Fields& fields) {
   fields("initial_error", initial_error, {-0.5, 0.5},
          "Error of the charge that the gauge reads from the open-circuit voltage at the start, as a share of the full "
@@ -103,7 +112,8 @@ void FuelGaugeConfig::describe(common::config::Fields& fields) {
 void SensorsConfig::describe(common::config::Fields& fields) {
   fields.section("imu", imu, "Inertial sensors and attitude.");
   fields.section("laser_errors", laser_errors, "Errors of the laser beyond its data sheet.");
-  fields.section("camera", camera, "Camera.");
+  fields.section("camera", camera, "The camera of the operator's stream.");
+  fields.section("rgbd_errors", rgbd_errors, "Errors of the RGB-D camera beyond its data sheet.");
   fields("battery_rate_hz", battery_rate_hz, {0.1, 100}, "Battery samples a second.");
   fields("battery_noise_v", battery_noise_v, {0, 5}, "Standard deviation of the battery's voltage.");
   fields.section("fuel_gauge", fuel_gauge, "Errors of the estimated charge.");
@@ -113,6 +123,7 @@ void SensorsConfig::describe(common::config::Fields& fields) {
   fields.section("battery_link", battery_link, "Link of battery samples to the computer.");
   fields.section("pilot_link", pilot_link, "Link of the sticks to the computer.");
   fields.section("camera_link", camera_link, "Link of camera frames to the computer.");
+  fields.section("rgbd_link", rgbd_link, "Link of RGB-D frames to the computer.");
   fields.section("command_link", command_link, "Link of setpoints to the autopilot.");
 }
 

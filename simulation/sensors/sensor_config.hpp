@@ -10,8 +10,8 @@
 namespace swiftlet::simulation {
 
 /// The order in which measurements that arrive at the same instant are delivered.
-enum class Sensor { kImu, kLaser, kBattery, kPilot, kCamera };
-inline constexpr int kSensorCount = 5;
+enum class Sensor { kImu, kLaser, kBattery, kPilot, kCamera, kRgbd };
+inline constexpr int kSensorCount = 6;
 const char* toString(Sensor sensor);
 
 /// The link from a sensor to the computer.
@@ -77,6 +77,15 @@ struct LaserErrorsConfig {
   bool needsSurfaces() const { return incidence_bias_m > 0.0 || dark_range_m > 0.0 || glass_angle_deg > 0.0; }
 };
 
+/// How an RGB-D camera differs from its data sheet.
+struct RgbdErrorsConfig {
+  common::MountConfig mount_error;
+  double clock_offset_s = 0.0;
+  double clock_drift_ppm = 0.0;
+
+  void describe(common::config::Fields& fields);
+};
+
 /// Errors of the fuel gauge, which counts the current from a charge that it guesses at the start.
 struct FuelGaugeConfig {
   double initial_error = 0.0;
@@ -89,6 +98,7 @@ struct SensorsConfig {
   ImuConfig imu;
   LaserErrorsConfig laser_errors;
   CameraConfig camera;
+  RgbdErrorsConfig rgbd_errors;
   double battery_rate_hz = 5.0;
   double battery_noise_v = 0.02;
   FuelGaugeConfig fuel_gauge;
@@ -98,6 +108,7 @@ struct SensorsConfig {
   LinkConfig battery_link{.latency_s = 0.010};
   LinkConfig pilot_link{.latency_s = 0.020};
   LinkConfig camera_link{.latency_s = 0.030};
+  LinkConfig rgbd_link{.latency_s = 0.030};
   LinkConfig command_link{.latency_s = 0.004};
 
   void describe(common::config::Fields& fields);

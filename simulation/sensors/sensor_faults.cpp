@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/geometry.hpp"
+#include "common/rgbd_frame.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -47,6 +48,12 @@ struct MakeNan {
     auto copy = std::make_shared<common::CameraFrame>(*frame);
     std::fill(copy->image.rgb.begin(), copy->image.rgb.end(), std::uint8_t{0});
     return std::shared_ptr<const common::CameraFrame>(std::move(copy));
+  }
+  SensorEvent operator()(const std::shared_ptr<const common::RgbdFrame>& frame) const {
+    auto copy = std::make_shared<common::RgbdFrame>(*frame);
+    std::fill(copy->color.rgb.begin(), copy->color.rgb.end(), std::uint8_t{0});
+    std::fill(copy->depth.depth_m.begin(), copy->depth.depth_m.end(), std::numeric_limits<float>::quiet_NaN());
+    return std::shared_ptr<const common::RgbdFrame>(std::move(copy));
   }
 };
 

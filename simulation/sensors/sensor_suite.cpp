@@ -23,7 +23,9 @@ SensorSuite::SensorSuite(const Scenario& scenario, const FaultSchedule& faults, 
       laser_clock_(scenario.laser.rate_hz),
       battery_clock_(scenario.sensors.battery_rate_hz),
       pilot_clock_(scenario.sensors.pilot_rate_hz),
-      camera_clock_(scenario.sensors.camera.rate_hz) {
+      camera_clock_(scenario.sensors.camera.rate_hz),
+      rgbd_clock_(scenario.rgbd_camera.value_or(common::RgbdCameraConfig()).rate_hz) {
+  if (scenario.rgbd_camera) rgbd_.emplace(*scenario.rgbd_camera, scenario.sensors.rgbd_errors, world, seed);
   imu_clock_.frame = 1;  // The first sample is the mean of the first period.
 }
 
@@ -49,6 +51,7 @@ void SensorSuite::step(Time now, const QuadrotorState& state, const Battery& bat
   stepLaser(now, state, actors, rays);
   stepSlow(now, battery);
   stepCamera(now, state, actors, rays);
+  stepRgbd(now, state, actors, rays);
 }
 
 void SensorSuite::stepLaser(Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
@@ -74,6 +77,14 @@ void SensorSuite::stepCamera(Time now, const QuadrotorState& state, const std::v
   frame->stamps.measured = now;
   frame->image = camera_.render(number, state.T_world_body, actors, rays);
   queue_.send(Sensor::kCamera, number, now, std::shared_ptr<const common::CameraFrame>(std::move(frame)));
+}
+
+void SensorSuite::stepRgbd(Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
+                           const RayCaster& rays) {
+  if (!rgbd_ || !rgbd_clock_.due(now)) return;
+  const std::uint64_t number = rgbd_clock_.frame++;
+  auto frame = std::make_shared<common::RgbdFrame>(rgbd_->frame(number, now, state.T_world_body, actors, rays));
+  queue_.send(Sensor::kRgbd, number, now, std::shared_ptr<const common::RgbdFrame>(std::move(frame)));
 }
 
 void SensorSuite::stepSlow(Time now, const Battery& battery) {

@@ -1,8 +1,9 @@
-// All sensors of the vehicle with their clocks. Camera frames are rendered only if they are consumed; this changes no
-// other byte.
+// All sensors of the vehicle with their clocks. Frames of the operator's camera are rendered only if they are consumed;
+// this changes no other byte.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/sensor_event.hpp"
@@ -15,6 +16,7 @@
 #include "simulation/sensors/fuel_gauge.hpp"
 #include "simulation/sensors/inertial_unit.hpp"
 #include "simulation/sensors/laser_scanner.hpp"
+#include "simulation/sensors/rgbd_camera.hpp"
 #include "simulation/world_model.hpp"
 
 namespace swiftlet::simulation {
@@ -56,6 +58,7 @@ class SensorSuite {
                  const RayCaster& rays);
   void stepCamera(common::Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
                   const RayCaster& rays);
+  void stepRgbd(common::Time now, const QuadrotorState& state, const std::vector<Actor>& actors, const RayCaster& rays);
   void stepSlow(common::Time now, const Battery& battery);
 
   Scenario scenario_;
@@ -63,9 +66,10 @@ class SensorSuite {
   InertialUnit inertial_;
   LaserScanner laser_;
   Camera camera_;
+  std::optional<RgbdCamera> rgbd_;
   FuelGauge fuel_gauge_;
   EventQueue queue_;
-  Clock imu_clock_, laser_clock_, battery_clock_, pilot_clock_, camera_clock_;
+  Clock imu_clock_, laser_clock_, battery_clock_, pilot_clock_, camera_clock_, rgbd_clock_;
   std::vector<Moment> track_;  ///< The track since the start of the present sweep.
   bool camera_wanted_ = false;
 };

@@ -34,6 +34,9 @@ inline std::string bytesOf(const common::SensorEvent& event) {
     append(bytes, battery->current_a);
   } else if (const auto* frame = std::get_if<Frame>(&event)) {
     append(bytes, (*frame)->image.rgb.data(), (*frame)->image.rgb.size());
+  } else if (const auto* rgbd = std::get_if<Rgbd>(&event)) {
+    append(bytes, (*rgbd)->color.rgb.data(), (*rgbd)->color.rgb.size());
+    append(bytes, (*rgbd)->depth.depth_m.data(), (*rgbd)->depth.depth_m.size() * sizeof(float));
   }
   return bytes;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/rgbd_frame.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/simulated_vehicle.hpp"
 #include "simulation/triangulate.hpp"
@@ -124,5 +125,6 @@ std::vector<Event> eventsOf(const std::vector<common::SensorEvent>& events) {
 }
 using Scan = std::shared_ptr<const common::LaserScan>;
 using Frame = std::shared_ptr<const common::CameraFrame>;
+using Rgbd = std::shared_ptr<const common::RgbdFrame>;
 
 }  // namespace swiftlet::simulation

@@ -1,0 +1,46 @@
+#include "common/rgbd_camera_config.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/config_fields.hpp"
+#include "common/validation.hpp"
+
+namespace swiftlet::common {
+
+void RgbdCameraConfig::describe(config::Fields& fields) {
+  fields("name", name, "Name of the camera, for messages.");
+  fields("width_px", width_px, {16, 4096}, "Columns of a frame.");
+  fields("height_px", height_px, {16, 4096}, "Rows of a frame.");
+  fields("rate_hz", rate_hz, {0.1, 100}, "Frames a second.");
+  fields("field_of_view_deg", field_of_view_deg, {10, 150}, "Horizontal angle of view; pixels are square.");
+  fields("row_time_s", row_time_s, {0, 0.01},
+         "Time from one row to the next of a rolling shutter; 0 for a global one. A frame takes at most one period.");
+  fields("range_min_m", range_min_m, {0, 100}, "Least depth that is measured.");
+  fields("range_max_m", range_max_m, {0.1, 100}, "Greatest depth that is measured; beyond it a pixel is too far.");
+  fields("baseline_m", baseline_m, {0, 1},
+         "Distance of the pattern's projector to the right of the camera. What the projector does not see has no "
+         "depth.");
+  fields("inverse_depth_noise_1_m", inverse_depth_noise_1_m, {0, 0.1},
+         "Standard deviation of an inverse depth. The noise of a depth is this times the depth squared.");
+  fields("inverse_depth_step_1_m", inverse_depth_step_1_m, {0, 0.1},
+         "Step of the inverse depth. The step of a depth is this times the depth squared.");
+  fields("depth_step_m", depth_step_m, {0, 0.1}, "Step in which depths are sent.");
+  fields.section("mount", mount, "Pose of the camera in the body frame; it looks along its +x.");
+}
+
+std::vector<std::string> RgbdCameraConfig::validate() const {
+  return Validation()
+      .require(row_time_s * height_px <= 1.0 / rate_hz, "row_time_s",
+               fmt::format("{} rows take more than one period of rate_hz", height_px))
+      .atMost("range_min_m", range_min_m, "range_max_m", range_max_m)
+      .problems();
+}
+
+PinholeCamera RgbdCameraConfig::camera() const {
+  const double focal_px = 0.5 * width_px / std::tan(0.5 * field_of_view_deg * kRadPerDeg);
+  return {width_px, height_px, focal_px, focal_px, 0.5 * (width_px - 1), 0.5 * (height_px - 1)};
+}
+
+}  // namespace swiftlet::common

@@ -1,0 +1,38 @@
+// The data sheet of an RGB-D camera, known to both the autonomy and the simulator. It is loaded from config/sensors.
+// How a real camera differs from its data sheet is in simulation/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/config_fwd.hpp"
+#include "common/rgbd_frame.hpp"
+#include "common/vehicle_config.hpp"
+
+namespace swiftlet::common {
+
+/// A camera that measures depth by the disparity of a projected pattern. Disparity is proportional to the inverse
+/// depth, so its steps and its noise are given as inverse depths, which hold for every image size.
+struct RgbdCameraConfig {
+  std::string name = "xtion";
+  int width_px = 320;
+  int height_px = 240;
+  double rate_hz = 15.0;
+  double field_of_view_deg = 58.0;
+  double row_time_s = 0.0;
+  double range_min_m = 0.8;
+  double range_max_m = 5.0;
+  double baseline_m = 0.075;
+  double inverse_depth_noise_1_m = 0.0014;
+  double inverse_depth_step_1_m = 0.0028;
+  double depth_step_m = 0.001;
+  MountConfig mount{.x_m = 0.1, .z_m = 0.05};  ///< T_body_camera; it looks along its +x.
+
+  void describe(config::Fields& fields);
+  std::vector<std::string> validate() const;
+
+  /// Square pixels, and the optical axis through the middle of the image.
+  PinholeCamera camera() const;
+};
+
+}  // namespace swiftlet::common
