@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
-#include "apps/map3d_files.hpp"
 #include "apps/map3d_outputs.hpp"
 #include "apps/pose_seeds.hpp"
 #include "apps/progress_line.hpp"
@@ -16,6 +15,7 @@
 #include "apps/wall_clock.hpp"
 #include "common/config.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
+#include "mapping3d/cloud/cloud.hpp"
 #include "mapping3d/model/mapper3d.hpp"
 #include "mapping3d/model/submap_fusion.hpp"
 
@@ -112,7 +112,7 @@ Map3dMap recordedMap(Map3dRun& run) {
   for (common::Submap3d& submap : submaps)
     submap.T_key_submap = interfaces::T_camera_optical().inverse() * submap.T_key_submap;
   const double resolution_m = mapping3d::VoxelConfig().resolution_m;
-  return {cloudOf(submaps, *run.scans), mapping3d::fuse(submaps, *run.scans, resolution_m)};
+  return {mapping3d::cloudOf(submaps, *run.scans), mapping3d::fuse(submaps, *run.scans, resolution_m)};
 }
 
 std::vector<std::string> warningsOf(const interfaces::RgbdFolder& folder, const Map3dRun& run) {

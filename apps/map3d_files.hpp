@@ -1,10 +1,6 @@
 // The 3D map of a flight as files.
 #pragma once
 
-#include <vector>
-
-#include "common/submap3d.hpp"
-#include "interfaces/files/ply.hpp"
 #include "interfaces/run_folder.hpp"
 
 namespace swiftlet::common {
@@ -12,10 +8,6 @@ struct Map3dLayer;
 }
 
 namespace swiftlet::apps {
-
-/// The points of all submaps in the frame `map`.
-std::vector<interfaces::ColoredPoint> cloudOf(const std::vector<common::Submap3d>& submaps,
-                                              const common::KeyPoses& keys);
 
 /// The cloud, and the voxels of all submaps in the frame `map`. A pure function, which takes seconds for a long flight.
 interfaces::Map3dFiles map3dFiles(const common::Map3dLayer& layer);

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/results_folder.hpp"
+#include "common/submap3d.hpp"
 #include "common/trajectory.hpp"
 #include "common/voxel_map.hpp"
-#include "interfaces/files/ply.hpp"
 #include "rendering/thinned_curve.hpp"
 
 namespace swiftlet::apps {
@@ -20,7 +20,7 @@ inline const ResultsKind kMap3dResults{
 
 /// With the axes of the recorder's camera.
 struct Map3dMap {
-  std::vector<interfaces::ColoredPoint> cloud;
+  std::vector<common::SurfacePoint> cloud;
   common::VoxelMap voxels;
 };
 
