@@ -34,6 +34,7 @@ struct Hit {
   double distance_m = std::numeric_limits<double>::infinity();
   int shape = kNothing;  ///< Index into WorldModel::shapes; shapes.size() + k for actor k.
   Eigen::Vector3f normal_world = Eigen::Vector3f::Zero();  ///< Unit, facing the origin of the ray.
+  int triangle = 0;                                        ///< Index into the shape's triangles; 0 of an actor.
 
   explicit operator bool() const { return shape != kNothing; }
 };

@@ -39,6 +39,7 @@ common::RgbdFrame RgbdCamera::frame(std::uint64_t number, common::Time time, con
   frame.depth = {width, height, {}};
   frame.color.rgb.reserve(static_cast<std::size_t>(3 * width * height));
   frame.depth.depth_m.reserve(static_cast<std::size_t>(width * height));
+  const auto pixel_rad = static_cast<float>(1.0 / frame.camera.fx_px);
   PixelNoise noise(kPixelNoise, common::RandomStream(seed_, "rgbd color", number));
   std::vector<Ray> row(static_cast<std::size_t>(width));
   std::vector<Hit> hits(row.size());
@@ -52,7 +53,7 @@ common::RgbdFrame RgbdCamera::frame(std::uint64_t number, common::Time time, con
     }
     rays.castAll(row, kSight_m, actors, hits);
     for (std::size_t u = 0; u < row.size(); ++u) {
-      const Color color = 255.0F * shader_.shade(hits[u], row[u].direction_world, actors);
+      const Color color = 255.0F * shader_.shade(row[u], hits[u], pixel_rad, actors);
       const float grey = noise.next();
       for (int channel = 0; channel < 3; ++channel) frame.color.rgb.push_back(toPixelByte(color[channel] + grey));
       frame.depth.depth_m.push_back(cosines[u] * static_cast<float>(hits[u].distance_m));

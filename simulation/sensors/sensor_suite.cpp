@@ -13,10 +13,10 @@ using common::Time;
 SensorSuite::SensorSuite(const Scenario& scenario, const FaultSchedule& faults, std::uint64_t seed,
                          const WorldModel& world)
     : scenario_(scenario),
+      world_(world),
       seed_(seed),
       inertial_(scenario.sensors.imu, scenario.vehicle.max_thrust_n, seed),
       laser_(scenario.laser, scenario.sensors.laser_errors, world, seed),
-      camera_(scenario.sensors.camera, world, seed),
       fuel_gauge_(scenario.sensors.fuel_gauge, scenario.battery_remaining),
       queue_(scenario, faults, seed),
       imu_clock_(scenario.sensors.imu.rate_hz),
@@ -73,9 +73,10 @@ void SensorSuite::stepCamera(Time now, const QuadrotorState& state, const std::v
   if (!camera_clock_.due(now)) return;
   const std::uint64_t number = camera_clock_.frame++;
   if (!camera_wanted_) return;
+  if (!camera_) camera_.emplace(scenario_.sensors.camera, world_, seed_);
   auto frame = std::make_shared<common::CameraFrame>();
   frame->stamps.measured = now;
-  frame->image = camera_.render(number, state.T_world_body, actors, rays);
+  frame->image = camera_->render(number, state.T_world_body, actors, rays);
   queue_.send(Sensor::kCamera, number, now, std::shared_ptr<const common::CameraFrame>(std::move(frame)));
 }
 
