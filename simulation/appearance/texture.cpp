@@ -1,7 +1,7 @@
 #include "simulation/appearance/texture.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "common/check.hpp"
 
@@ -31,6 +31,17 @@ Eigen::Array4f valueOf(const Texel& texel) {
           static_cast<float>(texel.paint)};
 }
 
+// The functions of the standard library for these two are calls at the baseline instruction set.
+
+/// For numbers that an int can hold.
+int floorOf(float value) {
+  const int truncated = static_cast<int>(value);
+  return truncated - (value < static_cast<float>(truncated) ? 1 : 0);
+}
+
+/// The least n with value < 2^n, of a normal positive number; very small for 0.
+int exponentOf(float value) { return static_cast<int>(std::bit_cast<std::uint32_t>(value) >> 23U) - 126; }
+
 }  // namespace
 
 Texture::Texture(int side, std::vector<Texel> texels) {
@@ -42,21 +53,19 @@ Texture::Texture(int side, std::vector<Texel> texels) {
 
 /// The largest version whose texels are not smaller than 0.7 of the footprint.
 const Texture::Level& Texture::levelFor(float footprint) const {
-  int exponent = 0;
-  std::frexp(footprint * static_cast<float>(levels_.front().side) * 0.7F, &exponent);
-  return levels_[static_cast<std::size_t>(std::clamp(exponent, 0, static_cast<int>(levels_.size()) - 1))];
+  const float texels = footprint * static_cast<float>(levels_.front().side) * 0.7F;
+  return levels_[static_cast<std::size_t>(std::clamp(exponentOf(texels), 0, static_cast<int>(levels_.size()) - 1))];
 }
 
 Eigen::Vector3f Texture::on(const Eigen::Vector3f& color, float u, float v, float footprint) const {
   const Level& level = levelFor(footprint);
   const auto side = static_cast<float>(level.side);
-  const float x = (u - std::floor(u)) * side - 0.5F, y = (v - std::floor(v)) * side - 0.5F;
-  const float column = std::floor(x), row = std::floor(y), right = x - column, below = y - row;
-  const int mask = level.side - 1, left_column = static_cast<int>(column) & mask,
-            right_column = (left_column + 1) & mask;
-  const Texel* upper = level.texels.data() + static_cast<std::ptrdiff_t>(static_cast<int>(row) & mask) * level.side;
-  const Texel* lower =
-      level.texels.data() + static_cast<std::ptrdiff_t>((static_cast<int>(row) + 1) & mask) * level.side;
+  const float x = u * side - 0.5F, y = v * side - 0.5F;
+  const int column = floorOf(x), row = floorOf(y), mask = level.side - 1;
+  const float right = x - static_cast<float>(column), below = y - static_cast<float>(row);
+  const int left_column = column & mask, right_column = (column + 1) & mask;
+  const Texel* upper = level.texels.data() + static_cast<std::ptrdiff_t>(row & mask) * level.side;
+  const Texel* lower = level.texels.data() + static_cast<std::ptrdiff_t>((row + 1) & mask) * level.side;
   const Eigen::Array4f above = valueOf(upper[left_column]) * (1.0F - right) + valueOf(upper[right_column]) * right;
   const Eigen::Array4f under = valueOf(lower[left_column]) * (1.0F - right) + valueOf(lower[right_column]) * right;
   const Eigen::Array4f texel = above * (1.0F - below) + under * below;

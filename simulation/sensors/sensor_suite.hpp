@@ -71,7 +71,8 @@ class SensorSuite {
   FuelGauge fuel_gauge_;
   EventQueue queue_;
   Clock imu_clock_, laser_clock_, battery_clock_, pilot_clock_, camera_clock_, rgbd_clock_;
-  std::vector<Moment> track_;  ///< The track since the start of the present sweep.
+  std::vector<Moment> track_;       ///< The track since the start of the present sweep.
+  std::vector<Moment> rgbd_track_;  ///< The track since the present frame of the RGB-D camera began to be exposed.
   bool camera_wanted_ = false;
 };
 

@@ -57,8 +57,8 @@ Color SurfaceShader::colorAt(const Surfaces& surfaces, const Ray& ray, const Hit
 }
 
 // Lambert twice: a lamp on the vehicle and a soft light from above, so that the walls of a corner differ.
-Color SurfaceShader::shade(const Ray& ray, const Hit& hit, float pixel_rad, std::span<const Actor> actors) const {
-  if (!hit) return sky(ray.direction_world);
+SeenSurface SurfaceShader::see(const Ray& ray, const Hit& hit, float pixel_rad, std::span<const Actor> actors) const {
+  if (!hit) return {sky(ray.direction_world)};
   static const Eigen::Vector3f kLight = Eigen::Vector3f(0.35F, 0.55F, 0.76F).normalized();
   const auto shape = static_cast<std::size_t>(hit.shape);
   const Color color = shape < surfaces_.size() ? colorAt(surfaces_[shape], ray, hit, pixel_rad)
@@ -66,7 +66,7 @@ Color SurfaceShader::shade(const Ray& ray, const Hit& hit, float pixel_rad, std:
   const float lamp = std::max(0.0F, -hit.normal_world.dot(ray.direction_world));
   const float light = 0.5F + 0.5F * hit.normal_world.dot(kLight);
   const float fade = 1.0F / (1.0F + 0.004F * static_cast<float>(hit.distance_m * hit.distance_m));
-  return color * (0.3F + 0.4F * light + 0.4F * lamp * fade);
+  return {color * (0.3F + 0.4F * light + 0.4F * lamp * fade), color.mean(), lamp};
 }
 
 }  // namespace swiftlet::simulation

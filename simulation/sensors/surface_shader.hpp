@@ -18,14 +18,20 @@ namespace swiftlet::simulation {
 /// Farther surfaces are not drawn.
 inline constexpr double kSight_m = 60.0;
 
+struct SeenSurface {
+  Color light = Color::Zero();  ///< White under the lamp is about 1.
+  float reflectance = 1.0F;     ///< Mean of the surface's colour.
+  float cos_incidence = 1.0F;   ///< Of the angle between the ray and the surface's normal.
+};
+
 /// Const calls are safe from several threads.
 class SurfaceShader {
  public:
   /// Makes the textures, which takes some milliseconds each.
   explicit SurfaceShader(const WorldModel& world);
 
-  /// What a pixel of `pixel_rad` sees along a ray; without a hit it sees the sky. White under the lamp is about 1.
-  Color shade(const Ray& ray, const Hit& hit, float pixel_rad, std::span<const Actor> actors) const;
+  /// What a pixel of `pixel_rad` sees along a ray; without a hit it sees the sky.
+  SeenSurface see(const Ray& ray, const Hit& hit, float pixel_rad, std::span<const Actor> actors) const;
 
  private:
   /// The surfaces of one shape, by where they face in the shape's own frame.

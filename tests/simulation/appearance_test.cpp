@@ -97,7 +97,7 @@ TEST(Covering, MovesWithItsModel) {
   const auto seen = [&](const Eigen::Vector3d& from) {
     const RayCaster rays(world);
     const Ray ray{from.cast<float>(), Eigen::Vector3f::UnitX()};
-    return SurfaceShader(world).shade(ray, rays.cast(from, Eigen::Vector3d::UnitX(), 10.0), 0.001F, {});
+    return SurfaceShader(world).see(ray, rays.cast(from, Eigen::Vector3d::UnitX(), 10.0), 0.001F, {}).light;
   };
   const Color before = seen({0.5, 1.21, 0.43}), elsewhere = seen({0.5, 1.21, 0.475});
   world.moveModel("box", {0.31, -0.17});
