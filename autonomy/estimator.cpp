@@ -98,6 +98,7 @@ void Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
 void Estimator::mapFrames(Time now) {
   if (!rgbd_) return;
   rgbd_->watch(now);
+  if (const auto step = rgbd_->takeStep()) fuse(*step, now);
   const auto time = rgbd_->next();
   if (!time || !filter_.initialized() || filter_.newest() < *time) return;
   if (scanned_ < *time && now < rgbd_->waitUntil()) return;
@@ -201,6 +202,16 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
   }
   if (step.levels_joined > 0)
     say(stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", step.levels_joined));
+}
+
+void Estimator::fuse(const CameraStep& step, Time now) {
+  using perception::Insertion;
+  if (const auto& m = step.measurement) {
+    const Insertion taken = filter_.addRelativePose3(m->from, m->to, m->T_from_to, m->covariance);
+    if (taken == Insertion::kTaken) position_seen_ = height_seen_ = now;
+    if (taken == Insertion::kUnknownReference) return rgbd_->forgetClone();
+  }
+  if (step.clone_after) (void)filter_.addClone(*step.clone_after);
 }
 
 /// What the scan told of the position, for the drift.

@@ -120,6 +120,7 @@ class Estimator {
   PositionFix positionFix(const OdometryStep& step, bool matched, const common::Pose2& T_odom_body,
                           const MapStep& map) const;
   void localize(const LocatedScan& located, common::Time now);
+  void fuse(const CameraStep& step, common::Time now);
   std::optional<common::KeyRelativePose> atKey(common::Time time) const;
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
   void reportHealth(common::Time now);

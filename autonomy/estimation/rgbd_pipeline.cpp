@@ -26,6 +26,23 @@ bool isWhole(const common::RgbdFrame& frame) {
          frame.depth.width_px == width_px && frame.depth.height_px == height_px && frame.depth.depth_m.size() == pixels;
 }
 
+/// The middle row of a rolling shutter stands for all.
+Time timeOf(const common::RgbdFrame& frame) {
+  return frame.stamps.measured + frame.row_time * (frame.camera.height_px / 2);
+}
+
+/// From errors of the camera's pose to those of the body's, each in its own axes (the adjoint of T_body_camera).
+mapping3d::Matrix6d ofBody(const mapping3d::Matrix6d& covariance_camera, const common::Pose3& T_body_camera) {
+  const Eigen::Matrix3d rotation = T_body_camera.rotation.toRotationMatrix();
+  const Eigen::Vector3d& p = T_body_camera.position_m;
+  Eigen::Matrix3d cross;
+  cross << 0.0, -p.z(), p.y(), p.z(), 0.0, -p.x(), -p.y(), p.x(), 0.0;
+  mapping3d::Matrix6d adjoint = mapping3d::Matrix6d::Zero();
+  adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = rotation;
+  adjoint.topRightCorner<3, 3>() = cross * rotation;
+  return adjoint * covariance_camera * adjoint.transpose();
+}
+
 }  // namespace
 
 RgbdPipeline::RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdCameraConfig& camera,
@@ -58,8 +75,7 @@ void RgbdPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
 
 std::optional<Time> RgbdPipeline::next() const {
   if (!waiting_ || !jobs_.idle(kMapping3d)) return std::nullopt;
-  // The middle row of a rolling shutter stands for all.
-  return waiting_->stamps.measured + waiting_->row_time * (waiting_->camera.height_px / 2);
+  return timeOf(*waiting_);
 }
 
 void RgbdPipeline::map(const FrameSituation& situation, Time now) {
@@ -77,7 +93,7 @@ void RgbdPipeline::map(const FrameSituation& situation, Time now) {
                [this, mapper = mapper_, frame, context, people = situation.people,
                 publish]() mutable -> common::JobRunner::Deliver {
                  context.people = people;
-                 Outcome outcome{frame, mapper->add(*frame, context), std::nullopt};
+                 Outcome outcome{frame, timeOf(*frame), context.scans, mapper->add(*frame, context), {}};
                  if (publish) outcome.submaps = mapper->submaps();
                  return [this, outcome = std::move(outcome)](Time delivered) { take(outcome, delivered); };
                });
@@ -88,6 +104,7 @@ void RgbdPipeline::take(Outcome outcome, Time delivered) {
   const bool tracked = outcome.mapped.pose.isTracked();
   ++(tracked ? counts_.mapped : counts_.lost);
   reportTrack(tracked, delivered);
+  if (tracked && config_.measure) step_ = stepOf(outcome);
   if (!layer_) {
     layer_ = std::make_shared<common::Map3dLayer>();
     layer_->submaps = std::make_shared<const std::vector<common::Submap3d>>();
@@ -99,6 +116,24 @@ void RgbdPipeline::take(Outcome outcome, Time delivered) {
   scan_ = outcome.mapped.pose.scan;
   T_scan_camera_ = outcome.mapped.T_scan_camera;
   changed_ = true;
+}
+
+CameraStep RgbdPipeline::stepOf(const Outcome& outcome) {
+  const mapping3d::RgbdPose& pose = outcome.mapped.pose;
+  CameraStep step;
+  if (reference_ && pose.measured) {
+    const common::Pose3 T_map_scan =
+        common::lifted(outcome.scans->keys[static_cast<std::size_t>(reference_->scan)].T_map_key, 0.0);
+    const common::Pose3 T_reference_camera =
+        (T_map_scan * reference_->T_scan_camera).inverse() * pose.measured->T_map_camera;
+    step.measurement = {reference_->time, outcome.time, T_body_camera_ * T_reference_camera * T_body_camera_.inverse(),
+                        ofBody(pose.measured->covariance, T_body_camera_)};
+  }
+  if (pose.became_key_frame || !reference_) {
+    step.clone_after = outcome.time;
+    reference_ = Reference{outcome.time, pose.scan, outcome.mapped.T_scan_camera};
+  }
+  return step;
 }
 
 std::shared_ptr<const common::Map3dLayer> RgbdPipeline::layer(const std::shared_ptr<const common::KeyPoses>& keys) {

@@ -11,8 +11,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "autonomy/estimation/odometry_step.hpp"
 #include "autonomy/estimation/rgbd_pipeline_config.hpp"
 #include "common/disc.hpp"
 #include "common/event.hpp"
@@ -59,6 +61,10 @@ class RgbdPipeline {
   common::Time waitUntil() const { return waiting_->stamps.arrived + common::Duration::fromSeconds(config_.wait_s); }
   /// Maps the next frame.
   void map(const FrameSituation& situation, common::Time now);
+  /// What the last frame tells the filter; none if that was asked before, or if there is nothing new.
+  std::optional<CameraStep> takeStep() { return std::exchange(step_, std::nullopt); }
+  /// The filter no longer has the clone from which the measurements start.
+  void forgetClone() { reference_.reset(); }
   /// Notices that the camera is silent. To be called at every tick.
   void watch(common::Time now);
 
@@ -71,10 +77,13 @@ class RgbdPipeline {
   /// The outcome of the job of a frame.
   struct Outcome {
     std::shared_ptr<const common::RgbdFrame> frame;
+    common::Time time;  ///< That of its pose.
+    std::shared_ptr<const common::KeyPoses> scans;
     mapping3d::MappedFrame mapped;
     std::optional<std::vector<common::Submap3d>> submaps;  ///< If they were to be published.
   };
   void take(Outcome outcome, common::Time delivered);
+  CameraStep stepOf(const Outcome& outcome);
   void reportTrack(bool tracked, common::Time now);
   void fuse(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {});
@@ -95,6 +104,14 @@ class RgbdPipeline {
   bool changed_ = false;
   int scan_ = 0;
   common::Pose3 T_scan_camera_;
+  /// The frame from which measurements start: it became a key frame, so that later frames are aligned to it.
+  struct Reference {
+    common::Time time;
+    int scan = 0;
+    common::Pose3 T_scan_camera;
+  };
+  std::optional<Reference> reference_;
+  std::optional<CameraStep> step_;
   std::optional<common::Time> submaps_stamp_;  ///< When the submaps of the layer were taken.
   std::optional<common::Time> fused_from_;     ///< The same, of those that are fused.
   RgbdCounts counts_;

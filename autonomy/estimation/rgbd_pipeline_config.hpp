@@ -8,6 +8,7 @@ namespace swiftlet::autonomy {
 
 struct RgbdPipelineConfig {
   mapping3d::Mapper3dConfig mapper;
+  bool measure = true;
   double latency_s = 0.06;
   double wait_s = 0.05;
   double publish_period_s = 0.4;

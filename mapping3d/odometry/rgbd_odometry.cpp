@@ -45,6 +45,7 @@ void RgbdOdometryConfig::describe(common::config::Fields& fields) {
   fields.section("key_frames", key_frames, "Choice of key frames.");
   fields.section("recognition", recognition, "Finding the place again after the track was lost.");
   fields.section("seed", seed, "Poses of the camera by other sensors.");
+  fields.section("measured", measured, "What a frame alone tells of its pose.");
 }
 
 RgbdOdometry::RgbdOdometry(const RgbdOdometryConfig& config) : config_(config), keys_(config.key_frames) {}
@@ -148,6 +149,7 @@ std::optional<RgbdOdometry::Fit> RgbdOdometry::findPose(const FramePyramid& pyra
 std::optional<RgbdOdometry::Fit> RgbdOdometry::tracked(const FramePyramid& pyramid, const PosePrior& prior,
                                                        const std::optional<CameraSeed>& seed) const {
   Fit fit;
+  fit.prior = prior;
   fit.keys = keys_.overlapping(pyramid.back().camera, prior.T_map_camera);
   if (fit.keys.empty()) return std::nullopt;
   fit.alignment =
@@ -198,6 +200,8 @@ void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyra
   pose.fit = fit.alignment;
   pose.T_map_camera = fit.alignment.T_map_camera;
   pose.covariance = fit.alignment.information.inverse();
+  const double depth_m = keys_.at(fit.keys.front()).median_depth_m;
+  pose.measured = withoutPrior(fit.alignment, fit.prior, depth_m, config_.measured);
   keys_.markUsed(fit.keys);
   if (keys_.needsNew(fit.keys, pose.T_map_camera, fit.alignment.overlap)) {
     const KeyFramePlace place = newPlace(fit, pose, seed);
@@ -240,7 +244,8 @@ void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place,
 }
 
 void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed) {
-  Last next{pose.stamp, pose.T_map_camera, pose.covariance, pose.scan, seed, pose.fit.exposure, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  Last next{pose.stamp, pose.T_map_camera, pose.covariance, pose.scan,
+            seed,       pose.fit.exposure, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   if (last_ && pose.state == TrackState::kTracked) {
     const double gap_s = (pose.stamp - last_->stamp).seconds();
     const Pose3 step = last_->T_map_camera.inverse() * pose.T_map_camera;

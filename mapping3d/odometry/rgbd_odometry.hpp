@@ -25,6 +25,7 @@
 #include "mapping3d/odometry/alignment.hpp"
 #include "mapping3d/odometry/camera_seed.hpp"
 #include "mapping3d/odometry/key_frame_map.hpp"
+#include "mapping3d/odometry/measured_pose.hpp"
 #include "mapping3d/odometry/point_registration.hpp"
 #include "vision/features.hpp"
 
@@ -44,6 +45,7 @@ struct RgbdOdometryConfig {
   KeyFrameConfig key_frames;
   PointRegistrationConfig recognition;
   CameraSeedConfig seed;
+  MeasuredPoseConfig measured;
 
   void describe(common::config::Fields& fields);
 };
@@ -61,6 +63,8 @@ struct RgbdPose {
   /// Covariance of the error (x, y, z, rotation vector), in the axes of the camera; meaningless while lost.
   Matrix6d covariance = Matrix6d::Zero();
   int scan = 0;  ///< The key scan next to it; see CameraSeed.
+  /// What the frame alone tells of its pose; none if it was not aligned.
+  std::optional<MeasuredPose> measured;
   Alignment fit;
   bool became_key_frame = false;
 
@@ -93,6 +97,7 @@ class RgbdOdometry {
   };
   struct Fit {
     Alignment alignment;
+    PosePrior prior;
     std::vector<std::size_t> keys;  ///< The key frames it was aligned to, the best first.
   };
   std::vector<common::Pose3> predictions(common::Time stamp, const std::optional<CameraSeed>& seed) const;
