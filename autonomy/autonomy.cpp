@@ -306,9 +306,13 @@ VehicleCondition Autonomy::condition(common::Time now) const {
   VehicleCondition condition;
   condition.flight = controller_.state();
   condition.energy = energy_;
-  condition.vertical_age_s = estimator_.state().verticalAge_s(now);
+  const common::VehicleState state = estimator_.state();
+  condition.vertical_age_s = state.verticalAge_s(now);
+  const double age_s = std::max(state.horizontalAge_s(now), condition.vertical_age_s);
+  condition.position_measured =
+      state.horizontal_valid && state.vertical_valid && age_s < config_.supervisor.unseen_hold_s;
   condition.drift_m = drift_m_;
-  if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.wallsAround(estimator_.state());
+  if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.wallsAround(state);
   return condition;
 }
 

@@ -18,8 +18,8 @@ using common::Time;
 
 namespace {
 
-/// The position counts as measured for this long after a measurement: six scans of a laser with 40 Hz, and more than
-/// one of the slowest, 10 Hz, even if it is late.
+/// The place in the map counts as measured for this long after a scan that matched: six scans of a laser with 40 Hz,
+/// and more than one of the slowest, 10 Hz, even if it is late.
 constexpr double kSupported_s = 0.15;
 
 }  // namespace
@@ -66,7 +66,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   const bool withheld = isWithheld(outcome.scan);
   const OdometryStep odometry = withheld ? OdometryStep{} : match(standing);
   outcome.matched = fuse(odometry);
-  if (outcome.matched) position_seen_ = now;
+  if (outcome.matched) position_seen_ = map_seen_ = now;
   outcome.interrupted = odometry.interrupted;
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));
@@ -84,7 +84,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   if (outcome.matched) outcome.T_map_body = map.T_map_body;
   outcome.at_key = map.at_key;
   scanned_ = outcome.scan.stamp;
-  scanned_at_key_ = map.at_key;
+  if (map.at_key) odom_at_key_ = {map.at_key->key, map.at_key->T_key_body * T_odom_bodyAt(outcome.scan).inverse()};
   outcome.drift_m = drift_.add(positionFix(odometry, outcome.matched, T_odom_body, map));
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid());
   reportHealth(now);
@@ -104,7 +104,7 @@ void Estimator::mapFrames(Time now) {
   if (scanned_ < *time && now < rgbd_->waitUntil()) return;
   FrameSituation situation;
   situation.at_key = atKey(*time);
-  situation.supported = (now - position_seen_).seconds() < kSupported_s;
+  situation.supported = (now - map_seen_).seconds() < kSupported_s;
   situation.keys = map_.keyPoses();
   situation.people = people_.expectedAt(*time);
   rgbd_->map(situation, now);
@@ -240,13 +240,11 @@ void Estimator::localize(const LocatedScan& located, Time now) {
     localizer_->passOver(located.step_covariance, located.interrupted);
 }
 
-/// The pose at a time near the last scan: that at the scan, and the filter's motion from it.
+/// The pose at a time, by the place of the last scan in the map and the filter's motion since then.
 std::optional<common::KeyRelativePose> Estimator::atKey(Time time) const {
-  if (!scanned_at_key_) return std::nullopt;
-  const auto T_odom_scanned = filter_.poseAt(scanned_), T_odom_body = filter_.poseAt(time);
-  if (!T_odom_scanned || !T_odom_body) return std::nullopt;
-  return common::KeyRelativePose{scanned_at_key_->key,
-                                 scanned_at_key_->T_key_body * (T_odom_scanned->inverse() * *T_odom_body)};
+  const auto T_odom_body = filter_.poseAt(time);
+  if (!odom_at_key_ || !T_odom_body) return std::nullopt;
+  return common::KeyRelativePose{odom_at_key_->key, odom_at_key_->T_key_body * *T_odom_body};
 }
 
 /// The filter's present estimate of the pose at the scan's stamp. If its history does not reach back that far, the pose

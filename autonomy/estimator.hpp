@@ -140,8 +140,9 @@ class Estimator {
   common::Time started_;        ///< Time at which the filter started.
   common::Time position_seen_;  ///< When the last scan that matched was processed.
   common::Time scanned_;        ///< The stamp of the last scan that was processed.
-  /// The pose at that scan, once there is a map.
-  std::optional<common::KeyRelativePose> scanned_at_key_;
+  common::Time map_seen_;       ///< When the last scan that matched was processed: it tells the place in the map.
+  /// The frame `odom` as of the last scan relative to a key scan, once there is a map.
+  std::optional<common::KeyRelativePose> odom_at_key_;
   common::Time height_seen_;  ///< When the last scan that measured the surface below was.
   bool at_flight_height_ = false;
   bool waiting_said_ = false;
