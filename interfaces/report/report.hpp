@@ -17,9 +17,8 @@ namespace swiftlet::interfaces {
 struct ReportPictures {
   std::string map_png;  ///< The bytes of a PNG: map.png of the run.
   std::string map_svg;  ///< The map of the report.
-  /// The 3D map: a JPEG in base64.
-  std::string map3d_jpeg = {};
   std::vector<std::string> plots_svg;
+  std::string map3d_jpeg = {};  ///< The 3D map: a JPEG in base64.
 };
 
 /// `config_yaml` has the settings of the flight.
@@ -50,9 +49,9 @@ struct MapReport {
   std::string subtitle;
   std::vector<std::pair<std::string, std::string>> facts;  ///< Label and value.
   std::vector<std::string> warnings;                       ///< Problems of the log.
-  std::string map3d_jpeg = {};                             ///< The 3D map: a JPEG in base64; may be empty.
   std::string map_svg;
   std::vector<std::string> plots_svg;
+  std::string map3d_jpeg = {};  ///< The 3D map: a JPEG in base64; may be empty.
 };
 std::string mapReport(const MapReport& report);
 

@@ -9,7 +9,7 @@
 #include "rendering/encode.hpp"
 #include "rendering/map3d_renderer.hpp"
 #include "rendering/map_renderer.hpp"
-#include "web/server/route.hpp"
+#include "web/server/picture_view.hpp"
 #include "web/server/telemetry.hpp"
 
 namespace swiftlet::web {
