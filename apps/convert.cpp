@@ -11,27 +11,54 @@
 #include "common/error.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/octomap.hpp"
+#include "interfaces/files/point_cloud.hpp"
 #include "mapping3d/voxels/floor_plan.hpp"
+#include "mapping3d/voxels/point_voxels.hpp"
 
 namespace swiftlet::apps {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// A voxel's side where a cloud becomes an octree, the one of the maps that flights leave.
+constexpr double kUsualResolution_m = 0.05;
+
 struct ConvertOptions {
   std::string from;
   std::string to;
   std::optional<double> low_m;
   std::optional<double> high_m;
+  std::optional<double> resolution_m;
 };
 
+enum class Kind { kOctree, kCloud, kFloorPlan };
+
+/// Throws InputError for a name with another ending.
+Kind kindOf(const fs::path& file, bool may_be_plan) {
+  if (file.extension() == ".bt" || file.extension() == ".ot") return Kind::kOctree;
+  if (interfaces::cloudFormatOf(file)) return Kind::kCloud;
+  if (may_be_plan && file.extension() == ".yaml") return Kind::kFloorPlan;
+  throw common::InputError(common::Problem{
+      {file.string()},
+      "",
+      fmt::format("`{}` is not a kind of 3D map", file.extension().string()),
+      may_be_plan ? "name it .bt, .ot, .ply, .pcd, or .yaml for a floor plan" : "it must be .bt, .ot, .ply or .pcd"});
+}
+
+/// The name of a packed octree without the ending of its compression.
+fs::path unpackedName(const fs::path& file) {
+  for (const char* packed : {".gz", ".bz2", ".xz"})
+    if (file.extension() == packed) return file.stem();
+  return file;
+}
+
+common::VoxelMap readVoxels(const ConvertOptions& options, Kind from) {
+  if (from == Kind::kOctree) return interfaces::readOctree(options.from);
+  return mapping3d::voxelsAround(interfaces::readCloud(options.from),
+                                 options.resolution_m.value_or(kUsualResolution_m));
+}
+
 void writePlan(const common::VoxelMap& map, const ConvertOptions& options) {
-  if (!options.low_m || !options.high_m)
-    throw common::InputError(common::Problem{
-        {}, "convert", "a floor plan needs the heights that it shows", "for instance --low 0.8 --high 1.2"});
-  if (*options.low_m > *options.high_m)
-    throw common::InputError(
-        common::Problem{{}, "--low", fmt::format("{} is above --high {}", *options.low_m, *options.high_m), ""});
   const fs::path yaml = options.to;
   const common::OccupancyGrid plan = mapping3d::floorPlan(map, {*options.low_m, *options.high_m});
   if (knownExtent(plan).empty())
@@ -40,16 +67,32 @@ void writePlan(const common::VoxelMap& map, const ConvertOptions& options) {
   required(interfaces::writeMap(yaml.has_parent_path() ? yaml.parent_path() : ".", yaml.stem().string(), plan));
 }
 
+/// Before the work.
+void checkOptions(const ConvertOptions& options, Kind from, Kind to) {
+  const auto refuse = [](const std::string& option, const std::string& message, const std::string& hint) {
+    throw common::InputError(common::Problem{{}, option, message, hint});
+  };
+  if (options.resolution_m && (from != Kind::kCloud || to == Kind::kCloud))
+    refuse("--resolution", "only a cloud that becomes voxels has a resolution to choose", "");
+  if (to != Kind::kFloorPlan && (options.low_m || options.high_m))
+    refuse("--low", "heights are those of a floor plan", "name it .yaml");
+  if (to == Kind::kFloorPlan && (!options.low_m || !options.high_m))
+    refuse("convert", "a floor plan needs the heights that it shows", "for instance --low 0.8 --high 1.2");
+  if (to == Kind::kFloorPlan && *options.low_m > *options.high_m)
+    refuse("--low", fmt::format("{} is above --high {}", *options.low_m, *options.high_m), "");
+}
+
 int convert(const ConvertOptions& options) {
-  const bool plan = fs::path(options.to).extension() == ".yaml";
-  if (!plan) (void)interfaces::octreeFormatOf(options.to);  // Before the work.
-  if (!plan && (options.low_m || options.high_m))
-    throw common::InputError(common::Problem{{}, "--low", "heights are those of a floor plan", "name it .yaml"});
-  const common::VoxelMap map = interfaces::readOctree(options.from);
-  if (plan)
-    writePlan(map, options);
+  const Kind from = kindOf(unpackedName(options.from), false), to = kindOf(options.to, true);
+  checkOptions(options, from, to);
+  if (to == Kind::kFloorPlan)
+    writePlan(readVoxels(options, from), options);
+  else if (to == Kind::kOctree)
+    required(interfaces::writeOctree(options.to, readVoxels(options, from)));
   else
-    required(interfaces::writeOctree(options.to, map));
+    required(interfaces::writeCloud(
+        options.to, from == Kind::kCloud ? interfaces::readCloud(options.from)
+                                         : mapping3d::occupiedCenters(interfaces::readOctree(options.from))));
   show(fmt::format("written {}\n", options.to));
   return kDone;
 }
@@ -59,11 +102,17 @@ int convert(const ConvertOptions& options) {
 void addConvert(Command& program) {
   auto options = std::make_shared<ConvertOptions>();
   Command command = program.command("convert", "Convert a 3D map to another format, or to a floor plan.");
-  command.argument("from", options->from, "Octree of OctoMap: .bt or .ot, also compressed by gzip, bzip2 or xz.");
-  command.argument("to", options->to,
-                   ".bt or .ot: an octree; .yaml: a floor plan as map_server reads it, with a .pgm beside it.");
+  command.argument(
+      "from", options->from,
+      "Octree of OctoMap (.bt or .ot, also compressed by gzip, bzip2 or xz), or a cloud of points (.ply or .pcd).");
+  command.argument(
+      "to", options->to,
+      ".bt or .ot: an octree; .ply or .pcd: a cloud, with a point in each occupied voxel of an octree; .yaml: a "
+      "floor plan as map_server reads it, with a .pgm beside it.");
   command.option("--low", options->low_m, {-1e4, 1e4}, "Lower end of the heights of a floor plan, in metres.");
   command.option("--high", options->high_m, {-1e4, 1e4}, "Upper end.");
+  command.option("--resolution", options->resolution_m, {0.001, 10.0},
+                 "Side of the voxels that a cloud becomes, in metres. 0.05 when not given.");
   command.footer("Example: swiftlet convert runs/first/map.bt plan.yaml --low 0.8 --high 1.2");
   command.runs([options] { return convert(*options); });
 }

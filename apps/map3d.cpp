@@ -15,7 +15,9 @@
 #include "apps/wall_clock.hpp"
 #include "common/config.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
-#include "mapping3d/odometry/rgbd_odometry.hpp"
+#include "mapping3d/cloud/cloud.hpp"
+#include "mapping3d/model/mapper3d.hpp"
+#include "mapping3d/model/submap_fusion.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -24,12 +26,6 @@ namespace fs = std::filesystem;
 using common::Pose3;
 using interfaces::FrameFault;
 
-/// The cloud has a point for each cube of this size.
-constexpr double kCloudCube_m = 0.02;
-/// Farther points are too noisy for a cloud: 2.3 cm at 4 m.
-constexpr double kCloudFarthest_m = 4.0;
-/// Every so many tracked frames add to the cloud: what lies between shows the same surfaces again.
-constexpr std::uint64_t kCloudStep = 3;
 /// A map of which more than this part was lost is probably not one map.
 constexpr double kMostLost = 0.1;
 
@@ -42,8 +38,8 @@ struct Map3dOptions {
 };
 
 struct Map3dRun {
-  mapping3d::RgbdOdometry odometry{mapping3d::RgbdOdometryConfig()};
-  CloudGrid cloud{kCloudCube_m};
+  mapping3d::Mapper3d mapper{mapping3d::Mapper3dConfig()};
+  std::shared_ptr<const common::KeyPoses> scans = mapping3d::noScans();
   common::Trajectory trajectory;
   rendering::ThinnedCurve milliseconds, disagreement;
   std::vector<double> frame_ms;
@@ -74,8 +70,8 @@ struct RecordedCamera {
 void addFrame(const common::RgbdFrame& frame, const RecordedCamera& camera, const std::optional<Pose3>& seed,
               Map3dRun& run) {
   const auto begin = Clock::now();
-  const mapping3d::RgbdPose pose =
-      run.odometry.process(frame, seed ? std::optional(camera.camera(*seed)) : std::nullopt);
+  const auto at = seed ? std::optional(mapping3d::CameraSeed{camera.camera(*seed), 0, false}) : std::nullopt;
+  const mapping3d::RgbdPose pose = run.mapper.add(frame, {at, run.scans, {}}).pose;
   run.frame_ms.push_back(1e3 * secondsSince(begin));
   const auto index = static_cast<double>(run.frames++);
   run.milliseconds.add(index, run.frame_ms.back());
@@ -90,8 +86,6 @@ void addFrame(const common::RgbdFrame& frame, const RecordedCamera& camera, cons
   if (!run.trajectory.empty())
     run.path_length_m += (T_map_recorded.position_m - run.trajectory.back().pose.position_m).norm();
   run.trajectory.push_back({pose.stamp, T_map_recorded});
-  if (run.trajectory.size() % kCloudStep == 1 || pose.became_key_frame)
-    run.cloud.add(frame, interfaces::T_camera_optical().inverse() * pose.T_map_camera, kCloudFarthest_m);
 }
 
 void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3dRun& run) {
@@ -110,6 +104,15 @@ void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3
   }
   run.wall_s = secondsSince(begin);
   line.close();
+}
+
+/// In the axes of the recorder's camera, which the trajectory has too.
+Map3dMap recordedMap(Map3dRun& run) {
+  std::vector<common::Submap3d> submaps = run.mapper.submaps();
+  for (common::Submap3d& submap : submaps)
+    submap.T_key_submap = interfaces::T_camera_optical().inverse() * submap.T_key_submap;
+  const double resolution_m = mapping3d::VoxelConfig().resolution_m;
+  return {mapping3d::cloudOf(submaps, *run.scans), mapping3d::fuse(submaps, *run.scans, resolution_m)};
 }
 
 std::vector<std::string> warningsOf(const interfaces::RgbdFolder& folder, const Map3dRun& run) {
@@ -172,7 +175,7 @@ int map3d(const Map3dOptions& options) {
                  {"path length", fmt::format("{:.2f} m", run.path_length_m)},
                  {"time a frame", fmt::format("{:.1f} ms", run.medianMs())},
                  {"computing time", fmt::format("{:.1f} s", run.wall_s)}};
-  writeMap3dOutputs(results.unfinished(), run.trajectory, run.cloud, shown);
+  writeMap3dOutputs(results.unfinished(), run.trajectory, recordedMap(run), shown);
   results.publish();
   if (options.json) {
     const auto figures = figuresOf(options, folder, run, shown.warnings, results.path());

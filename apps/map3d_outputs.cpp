@@ -1,9 +1,14 @@
 #include "apps/map3d_outputs.hpp"
 
+#include "apps/pictures.hpp"
 #include "apps/required.hpp"
 #include "interfaces/files/atomic_file.hpp"
+#include "interfaces/files/octomap.hpp"
+#include "interfaces/files/point_cloud.hpp"
 #include "interfaces/files/tum.hpp"
 #include "interfaces/report/report.hpp"
+#include "interfaces/rgbd/rgbd_calibration.hpp"
+#include "rendering/picture3d.hpp"
 #include "rendering/plot_svg.hpp"
 
 namespace swiftlet::apps {
@@ -36,19 +41,32 @@ std::string positionPlot(const common::Trajectory& trajectory) {
   return rendering::plotSvg(plot);
 }
 
+/// The cloud and the path of the camera from above at a slant. Vertical in the picture is vertical in the first image.
+std::string pictureOf(const Map3dMap& map, const common::Trajectory& trajectory) {
+  const common::Pose3 T_shown_recorded = interfaces::T_camera_optical();
+  rendering::Picture3d picture;
+  picture.surfaces.push_back({std::make_shared<const std::vector<common::SurfacePoint>>(map.cloud), T_shown_recorded});
+  picture.lines.emplace_back();
+  for (const common::StampedPose& at : trajectory)
+    picture.lines.back().points_map_m.push_back(T_shown_recorded * at.pose.position_m);
+  return map3dPicture(picture);
+}
+
 }  // namespace
 
-void writeMap3dOutputs(const fs::path& out, const common::Trajectory& trajectory, const CloudGrid& cloud,
+void writeMap3dOutputs(const fs::path& out, const common::Trajectory& trajectory, const Map3dMap& map,
                        const Map3dFigures& figures) {
   auto writer = required(interfaces::TumWriter::create(out / "trajectory.tum"));
   for (const common::StampedPose& at : trajectory) required(writer.write(at));
-  required(interfaces::writeAtomically(out / "cloud.ply", interfaces::toPly(cloud.points())));
+  required(interfaces::writeCloud(out / "cloud.ply", map.cloud));
+  required(interfaces::writeOctree(out / "map.bt", map.voxels));
 
   interfaces::MapReport report;
   report.title = kMap3dTitle + fs::path(figures.folder).filename().string();
   report.subtitle = figures.folder;
   report.facts = figures.facts;
   report.warnings = figures.warnings;
+  report.map3d_jpeg = pictureOf(map, trajectory);
   report.map_svg = positionPlot(trajectory);
   report.plots_svg = {plotOverFrames("Time per frame", "ms", figures.milliseconds),
                       plotOverFrames("Points that do not agree with the map", "part", figures.disagreement)};

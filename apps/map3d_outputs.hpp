@@ -1,4 +1,4 @@
-// The results of `swiftlet map3d`: trajectory.tum, cloud.ply and report.html.
+// The results of `swiftlet map3d`: trajectory.tum, cloud.ply, map.bt and report.html.
 #pragma once
 
 #include <filesystem>
@@ -6,16 +6,23 @@
 #include <utility>
 #include <vector>
 
-#include "apps/cloud_grid.hpp"
 #include "apps/results_folder.hpp"
+#include "common/submap3d.hpp"
 #include "common/trajectory.hpp"
+#include "common/voxel_map.hpp"
 #include "rendering/thinned_curve.hpp"
 
 namespace swiftlet::apps {
 
 inline const std::string kMap3dTitle = "3D map of ";
 inline const ResultsKind kMap3dResults{
-    "3D map", "report.html", "<title>" + kMap3dTitle, {"report.html", "trajectory.tum", "cloud.ply"}};
+    "3D map", "report.html", "<title>" + kMap3dTitle, {"report.html", "trajectory.tum", "cloud.ply", "map.bt"}};
+
+/// With the axes of the recorder's camera.
+struct Map3dMap {
+  std::vector<common::SurfacePoint> cloud;
+  common::VoxelMap voxels;
+};
 
 struct Map3dFigures {
   std::string folder;
@@ -27,7 +34,7 @@ struct Map3dFigures {
 
 /// `trajectory` has the poses of the recorder's camera (axes of image processing) in the map. Throws InputError if a
 /// file cannot be written.
-void writeMap3dOutputs(const std::filesystem::path& out, const common::Trajectory& trajectory, const CloudGrid& cloud,
+void writeMap3dOutputs(const std::filesystem::path& out, const common::Trajectory& trajectory, const Map3dMap& map,
                        const Map3dFigures& figures);
 
 }  // namespace swiftlet::apps

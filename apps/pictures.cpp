@@ -7,6 +7,7 @@
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
 #include "rendering/encode.hpp"
+#include "rendering/map3d_renderer.hpp"
 #include "rendering/map_picture.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/map_svg.hpp"
@@ -95,8 +96,18 @@ interfaces::ReportPictures reportPictures(const common::World& world, const inte
   interfaces::ReportPictures pictures;
   pictures.map_png.assign(png.begin(), png.end());
   pictures.map_svg = rendering::mapSvg(picture);
+  if (world.map3d) pictures.map3d_jpeg = map3dPicture(rendering::picture3dOf(world, hull_diameter_m));
   pictures.plots_svg = plotsOf(summary);
   return pictures;
+}
+
+std::string map3dPicture(const rendering::Picture3d& picture) {
+  constexpr int kQuality = 85;  // As the map's stream, whose lines would blur below.
+  rendering::Map3dView view;
+  view.width_px = 960;
+  view.height_px = 720;
+  view.scheme = rendering::Scheme::kLight;
+  return rendering::base64(rendering::JpegEncoder().encode(rendering::renderMap3d(picture, view), kQuality));
 }
 
 }  // namespace swiftlet::apps

@@ -21,7 +21,8 @@ autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& nam
     given->seed = static_cast<std::uint64_t>(setup.scenario.seed);
   }
   return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
-                            common::makeLockstepJobs(1), given ? &*given : nullptr, name, setup.memory.read.get());
+                            common::makeLockstepJobs(1), given ? &*given : nullptr, name, setup.memory.read.get(),
+                            setup.system.rgbd_camera ? &*setup.system.rgbd_camera : nullptr);
 }
 
 interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::SimulatedVehicle& vehicle,
@@ -61,6 +62,7 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       autonomy_(makeAutonomy(setup, name_, std::move(mission.mission))),
       folder_(folder, runInfo(setup, *vehicle_, mission.file), setup.system.toYaml(true)),
       pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
+      map3d_(folder_),
       sinks_(makeSinks()),
       loop_(*vehicle_, autonomy_, commands(), sinks()) {
   recorder_.watch(setup.phases);
@@ -83,6 +85,7 @@ std::vector<autonomy::FlightSink*> VehicleFlight::sinks() {
   std::vector<autonomy::FlightSink*> all;
   for (const auto& sink : sinks_) all.push_back(sink.get());
   all.push_back(&pictures_);
+  all.push_back(&map3d_);
   return all;
 }
 
@@ -148,6 +151,7 @@ bool VehicleFlight::end(Outcome outcome, std::string reason) {
 void VehicleFlight::finish(double wall_s) {
   loop_.finish();
   pictures_.drawNow(*autonomy_.world());
+  map3d_.writeNow(*autonomy_.world());
   interfaces::FlightEnd end;
   end.outcome = outcome_;
   end.reason = reason_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/flight_setup.hpp"
+#include "apps/map3d_sink.hpp"
 #include "apps/picture_sink.hpp"
 #include "autonomy/autonomy.hpp"
 #include "autonomy/flight_loop.hpp"
@@ -66,6 +67,7 @@ class VehicleFlight {
   autonomy::Autonomy autonomy_;
   interfaces::RunFolder folder_;
   PictureSink pictures_;
+  Map3dSink map3d_;
   std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
   common::LosslessQueue<common::OperatorCommand> own_commands_;  ///< Where there is no page.
   autonomy::FlightLoop loop_;

@@ -28,11 +28,11 @@ constexpr double kLandingMargin = 0.03;
 
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
                    behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given,
-                   std::string vehicle_name, const VehicleMemory* memory)
+                   std::string vehicle_name, const VehicleMemory* memory, const common::RgbdCameraConfig* camera)
     : config_(config),
       vehicle_(vehicle),
       vehicle_name_(std::move(vehicle_name)),
-      estimator_(config.estimator, laser, vehicle, given, *jobs),
+      estimator_(config.estimator, laser, vehicle, given, *jobs, camera),
       reactive_(config_.reactive, vehicle.hullRadius_m()),
       controller_(config.control, vehicle),
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
@@ -62,7 +62,7 @@ std::optional<common::Setpoint> Autonomy::process(const Input& input) {
   return std::nullopt;
 }
 
-/// A camera frame changes nothing here. It is an input so that recordings contain it.
+/// A frame of the observing camera changes nothing here. It is an input so that recordings contain it.
 void Autonomy::take(const common::SensorEvent& event) {
   const Time arrived = common::stampsOf(event).arrived;
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
@@ -70,6 +70,8 @@ void Autonomy::take(const common::SensorEvent& event) {
     estimator_.addImu(*imu);
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
     take(*scan);
+  } else if (const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(&event)) {
+    estimator_.addFrame(*frame);
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     if (!supervisor_.batteryArrived(arrived, *battery)) return;
     battery_v_ = battery->voltage_v;
@@ -117,6 +119,7 @@ void Autonomy::answer(const common::OperatorCommand& command, common::CommandRes
 
 common::Setpoint Autonomy::tick(Time now) {
   processDueScans(now);
+  estimator_.mapFrames(now);
 
   const double period_s = 1.0 / config_.behavior_rate_hz;
   if (!last_behaviors_ || (now - *last_behaviors_).seconds() >= period_s - 1e-6) {
@@ -273,9 +276,13 @@ VehicleCondition Autonomy::condition(common::Time now) const {
   VehicleCondition condition;
   condition.flight = controller_.state();
   condition.energy = energy_;
-  condition.vertical_age_s = estimator_.state().verticalAge_s(now);
+  const common::VehicleState state = estimator_.state();
+  condition.vertical_age_s = state.verticalAge_s(now);
+  const double age_s = std::max(state.horizontalAge_s(now), condition.vertical_age_s);
+  condition.position_measured =
+      state.horizontal_valid && state.vertical_valid && age_s < config_.supervisor.unseen_hold_s;
   condition.drift_m = drift_m_;
-  if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.wallsAround(estimator_.state());
+  if (drift_m_ > config_.supervisor.drift_land_m) condition.walls_around = executor_.wallsAround(state);
   return condition;
 }
 
@@ -313,6 +320,7 @@ void Autonomy::takeSnapshot(Time now) {
         (parts.vehicle.state.T_map_body_planar().position_m() - world_->vehicle->home_map.position_m()).norm();
     home.flown_m = world_->vehicle->distance_flown_m;
   }
+  parts.map3d = estimator_.map3d();
   energy_ = energy_monitor_.layer(home, config_.supervisor.battery_land_share,
                                   kLandingMargin + config_.supervisor.least_thrust_margin);
   parts.energy = energy_;

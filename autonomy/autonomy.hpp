@@ -59,10 +59,12 @@ class Autonomy {
  public:
   /// `given` is a map to localize in, or null; it is read only in the constructor. `vehicle_name` appears in the
   /// snapshots and in the events of its loop; it is empty if there is only one vehicle. `memory` is what earlier
-  /// flights of this vehicle have learned, or null; it too is read only in the constructor.
+  /// flights of this vehicle have learned, or null; `camera` is the data sheet of an RGB-D camera, or null without one.
+  /// Both are read only in the constructor.
   Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
            behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given = nullptr,
-           std::string vehicle_name = {}, const VehicleMemory* memory = nullptr);
+           std::string vehicle_name = {}, const VehicleMemory* memory = nullptr,
+           const common::RgbdCameraConfig* camera = nullptr);
   ~Autonomy();
 
   /// Returns a setpoint for a tick, and nothing for any other input. The delivered job must be outstanding (awaits).

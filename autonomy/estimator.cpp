@@ -16,6 +16,14 @@ using common::Pose3;
 using common::Severity;
 using common::Time;
 
+namespace {
+
+/// The place in the map counts as measured for this long after a scan that matched: six scans of a laser with 40 Hz,
+/// and more than one of the slowest, 10 Hz, even if it is late.
+constexpr double kSupported_s = 0.15;
+
+}  // namespace
+
 void EstimatorConfig::describe(common::config::Fields& fields) {
   laser.describe(fields);
   fields.section("altitude", altitude, "Height and levels from the mirror beams.");
@@ -23,19 +31,22 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
   fields.section("people", people, "People and other things that move.");
   fields.section("slam", slam, "SLAM and the map.");
   fields.section("localization", localization, "Localization in a map that the flight was given.");
+  fields.section("rgbd", rgbd, "The 3D map from the frames of an RGB-D camera.");
   fields("slam_latency_s", slam_latency_s, {0.01, 10},
          "Declared time of a SLAM job, of the method graph: loop search, optimization and redrawing the map.");
 }
 
 Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& laser,
-                     const common::VehicleConfig& vehicle, const GivenMap* given, common::JobRunner& jobs)
+                     const common::VehicleConfig& vehicle, const GivenMap* given, common::JobRunner& jobs,
+                     const common::RgbdCameraConfig* camera)
     : standing_height_m_(0.5 * vehicle.hull_height_m),
       filter_(config.fusion),
       people_(config.people, {config.slam.grid.max_height_above_m, config.slam.grid.max_height_below_m}),
       laser_(config.laser, laser),
       altitude_(config.altitude, vehicle.hullRadius_m()),
       map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs),
-      localizer_(given ? std::make_unique<FlightLocalizer>(*given, config.localization, jobs) : nullptr) {}
+      localizer_(given ? std::make_unique<FlightLocalizer>(*given, config.localization, jobs) : nullptr),
+      rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs) : nullptr) {}
 
 void Estimator::addImu(const common::ImuSample& sample) {
   filter_.predict(sample);
@@ -55,7 +66,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   const bool withheld = isWithheld(outcome.scan);
   const OdometryStep odometry = withheld ? OdometryStep{} : match(standing);
   outcome.matched = fuse(odometry);
-  if (outcome.matched) position_seen_ = now;
+  if (outcome.matched) position_seen_ = map_seen_ = now;
   outcome.interrupted = odometry.interrupted;
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));
@@ -72,11 +83,34 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), odometry.covariance, outcome.matched}, now);
   if (outcome.matched) outcome.T_map_body = map.T_map_body;
   outcome.at_key = map.at_key;
+  scanned_ = outcome.scan.stamp;
+  if (map.at_key) odom_at_key_ = {map.at_key->key, map.at_key->T_key_body * T_odom_bodyAt(outcome.scan).inverse()};
   outcome.drift_m = drift_.add(positionFix(odometry, outcome.matched, T_odom_body, map));
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid());
   reportHealth(now);
   return outcome;
 }
+
+void Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
+  if (rgbd_) rgbd_->add(std::move(frame));
+}
+
+void Estimator::mapFrames(Time now) {
+  if (!rgbd_) return;
+  rgbd_->watch(now);
+  if (const auto step = rgbd_->takeStep()) fuse(*step, now);
+  const auto time = rgbd_->next();
+  if (!time || !filter_.initialized() || filter_.newest() < *time) return;
+  if (scanned_ < *time && now < rgbd_->waitUntil()) return;
+  FrameSituation situation;
+  situation.at_key = atKey(*time);
+  situation.supported = (now - map_seen_).seconds() < kSupported_s;
+  situation.keys = map_.keyPoses();
+  situation.people = people_.expectedAt(*time);
+  rgbd_->map(situation, now);
+}
+
+std::shared_ptr<const common::Map3dLayer> Estimator::map3d() { return rgbd_ ? rgbd_->layer(map_.keyPoses()) : nullptr; }
 
 common::VehicleState Estimator::state() const {
   common::VehicleState state = filter_.state();
@@ -96,6 +130,8 @@ std::vector<common::Event> Estimator::takeEvents() {
   for (common::Event& event : std::exchange(events_, {})) events.push_back(std::move(event));
   if (localizer_)
     for (common::Event& event : localizer_->takeEvents()) events.push_back(std::move(event));
+  if (rgbd_)
+    for (common::Event& event : rgbd_->takeEvents()) events.push_back(std::move(event));
   return events;
 }
 
@@ -168,6 +204,16 @@ void Estimator::fuse(const AltitudeStep& step, Time stamp) {
     say(stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", step.levels_joined));
 }
 
+void Estimator::fuse(const CameraStep& step, Time now) {
+  using perception::Insertion;
+  if (const auto& m = step.measurement) {
+    const Insertion taken = filter_.addRelativePose3(m->from, m->to, m->T_from_to, m->covariance);
+    if (taken == Insertion::kTaken) position_seen_ = height_seen_ = now;
+    if (taken == Insertion::kUnknownReference) return rgbd_->forgetClone();
+  }
+  if (step.clone_after) (void)filter_.addClone(*step.clone_after);
+}
+
 /// What the scan told of the position, for the drift.
 PositionFix Estimator::positionFix(const OdometryStep& step, bool matched, const Pose2& T_odom_body,
                                    const MapStep& map) const {
@@ -192,6 +238,13 @@ void Estimator::localize(const LocatedScan& located, Time now) {
     localizer_->add(located, now);
   else
     localizer_->passOver(located.step_covariance, located.interrupted);
+}
+
+/// The pose at a time, by the place of the last scan in the map and the filter's motion since then.
+std::optional<common::KeyRelativePose> Estimator::atKey(Time time) const {
+  const auto T_odom_body = filter_.poseAt(time);
+  if (!odom_at_key_ || !T_odom_body) return std::nullopt;
+  return common::KeyRelativePose{odom_at_key_->key, odom_at_key_->T_key_body * *T_odom_body};
 }
 
 /// The filter's present estimate of the pose at the scan's stamp. If its history does not reach back that far, the pose

@@ -5,6 +5,7 @@
 //                \--> altitude over levels -----------> fuse ---^   v
 //                 \--> map <-------------------------- pose at the scan --> localize in a given map
 //                       \--> people, for the next scan
+//   RGB-D frame --> 3D map, at the pose of its own time
 //
 // Each step is a small object that takes values and returns values; only the Estimator uses the filter.
 #pragma once
@@ -19,12 +20,14 @@
 #include "autonomy/estimation/flight_localizer.hpp"
 #include "autonomy/estimation/laser_pipeline.hpp"
 #include "autonomy/estimation/map_pipeline.hpp"
+#include "autonomy/estimation/rgbd_pipeline.hpp"
 #include "common/config_fwd.hpp"
 #include "common/event.hpp"
 #include "common/jobs.hpp"
 #include "common/key_pose.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/rgbd_camera_config.hpp"
 #include "common/sensor_event.hpp"
 #include "common/vehicle_config.hpp"
 #include "common/vehicle_state.hpp"
@@ -44,6 +47,7 @@ struct EstimatorConfig {
   perception::PeopleTracker::Config people;
   perception::SlamMethodConfig slam;
   FlightLocalizerConfig localization;
+  RgbdPipelineConfig rgbd;
   double slam_latency_s = 0.4;
 
   void describe(common::config::Fields& fields);
@@ -64,14 +68,19 @@ struct ScanOutcome {
 /// One thread. The jobs of SLAM and localization are submitted to `jobs`, which must not deliver after its destruction.
 class Estimator {
  public:
-  /// `given` is a map to localize in, or null.
+  /// `given` is a map to localize in, or null; `camera` makes the 3D map, or is null. Both are read only here.
   Estimator(const EstimatorConfig& config, const common::LaserConfig& laser, const common::VehicleConfig& vehicle,
-            const GivenMap* given, common::JobRunner& jobs);
+            const GivenMap* given, common::JobRunner& jobs, const common::RgbdCameraConfig* camera = nullptr);
 
   void addImu(const common::ImuSample& sample);
   /// Processes a scan at `now`. The first scans, taken while the vehicle stands still, only initialize the filter and
   /// return nothing.
   std::optional<ScanOutcome> addScan(const common::LaserScan& scan, common::Time now);
+
+  /// Without a camera the frame is ignored.
+  void addFrame(std::shared_ptr<const common::RgbdFrame> frame);
+  /// Maps the frame that waits as soon as the pose at its time is known. To be called after the scans of every tick.
+  void mapFrames(common::Time now);
 
   bool ready() const { return filter_.initialized(); }
   /// See MapPipeline::setFlightHeight.
@@ -92,6 +101,8 @@ class Estimator {
   std::shared_ptr<const common::LevelMap> levels() { return altitude_.levels(); }
   /// See AltitudePipeline::seenSurfaces.
   common::LevelMap seenSurfaces() const { return altitude_.seenSurfaces(); }
+  /// Null without a camera, and before its first frame.
+  std::shared_ptr<const common::Map3dLayer> map3d();
   const perception::PeopleTracker& people() const { return people_; }
   /// None if no map was given.
   std::optional<common::Localization> localization() const;
@@ -109,6 +120,8 @@ class Estimator {
   PositionFix positionFix(const OdometryStep& step, bool matched, const common::Pose2& T_odom_body,
                           const MapStep& map) const;
   void localize(const LocatedScan& located, common::Time now);
+  void fuse(const CameraStep& step, common::Time now);
+  std::optional<common::KeyRelativePose> atKey(common::Time time) const;
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
   void reportHealth(common::Time now);
   void say(common::Time now, common::Severity severity, std::string source, std::string text, std::string reason = {});
@@ -121,11 +134,16 @@ class Estimator {
   MapPipeline map_;
   DriftMonitor drift_;
   std::unique_ptr<FlightLocalizer> localizer_;  ///< Null if no map was given.
+  std::unique_ptr<RgbdPipeline> rgbd_;          ///< Null without a camera.
 
   std::optional<common::ImuSample> last_imu_;
   common::Time started_;        ///< Time at which the filter started.
   common::Time position_seen_;  ///< When the last scan that matched was processed.
-  common::Time height_seen_;    ///< When the last scan that measured the surface below was.
+  common::Time scanned_;        ///< The stamp of the last scan that was processed.
+  common::Time map_seen_;       ///< When the last scan that matched was processed: it tells the place in the map.
+  /// The frame `odom` as of the last scan relative to a key scan, once there is a map.
+  std::optional<common::KeyRelativePose> odom_at_key_;
+  common::Time height_seen_;  ///< When the last scan that measured the surface below was.
   bool at_flight_height_ = false;
   bool waiting_said_ = false;
   perception::FusionStatus last_health_ = perception::FusionStatus::kNotInitialized;

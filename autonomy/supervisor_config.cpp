@@ -12,6 +12,8 @@ void SupervisorConfig::describe(common::config::Fields& fields) {
          "When no sensor has seen the surroundings for this long the vehicle holds.");
   fields("unseen_land_s", unseen_land_s, {0.1, 10},
          "When no sensor has seen the surroundings for this long the vehicle lands.");
+  fields("unseen_known_land_s", unseen_known_land_s, {0.1, 600},
+         "The same, while other sensors measure its position: what comes near is not seen.");
   fields("battery_land_share", battery_land_share, {0, 0.9},
          "Remaining charge at which the vehicle lands where it is.");
   fields("home_reserve_share", home_reserve_share, {0, 0.9},
@@ -34,6 +36,7 @@ void SupervisorConfig::describe(common::config::Fields& fields) {
 std::vector<std::string> SupervisorConfig::validate() const {
   return common::Validation()
       .atMost("unseen_hold_s", unseen_hold_s, "unseen_land_s", unseen_land_s)
+      .atMost("unseen_land_s", unseen_land_s, "unseen_known_land_s", unseen_known_land_s)
       .atMost("drift_back_m", drift_back_m, "drift_land_m", drift_land_m)
       .problems();
 }

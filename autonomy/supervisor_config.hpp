@@ -11,6 +11,7 @@ namespace swiftlet::autonomy {
 struct SupervisorConfig {
   double unseen_hold_s = 0.3;
   double unseen_land_s = 1.0;
+  double unseen_known_land_s = 10.0;
   double battery_land_share = 0.12;
   double home_reserve_share = 0.02;
   double home_need_factor = 1.15;

@@ -1,8 +1,12 @@
 // links: rendering fake_backend
 // A 640 pixel view of a flat of about 250 x 190 cells, from a snapshot to bytes.
+#include <algorithm>
+#include <memory>
+
 #include <benchmark/benchmark.h>
 
 #include "rendering/encode.hpp"
+#include "rendering/map3d_renderer.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/resize.hpp"
 #include "tests/rendering/example_flight.hpp"
@@ -72,6 +76,38 @@ void shrinkCamera(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(shrinkToWidth(frame.image, 480));
 }
 BENCHMARK(shrinkCamera)->Unit(benchmark::kMillisecond);
+
+/// The whole flat from one of many directions: 500,000 points, 640 x 480.
+void map3d(benchmark::State& state) {
+  Picture3d picture;
+  auto points = testing::ExampleFlight::room().surface(0.024);
+  points.resize(std::min<std::size_t>(points.size(), 500'000));
+  picture.surfaces.push_back({std::make_shared<const std::vector<common::SurfacePoint>>(std::move(points)), {}});
+  Map3dView view;
+  view.viewpoint.kind = static_cast<Viewpoint3d::Kind>(state.range(0));
+  view.viewpoint.distance_m = 3.0;
+  for (auto _ : state) {
+    view.viewpoint.azimuth_rad += 0.3;
+    benchmark::DoNotOptimize(renderMap3d(picture, view));
+  }
+}
+BENCHMARK(map3d)->ArgName("view")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+/// A stream of a map of 500,000 points whose last submap of 20,000 grows while the viewpoint stays.
+void map3dStreamed(benchmark::State& state) {
+  auto points = testing::ExampleFlight::room().surface(0.024);
+  points.resize(std::min<std::size_t>(points.size(), 500'000));
+  Picture3d picture;
+  for (std::size_t begin = 0; begin < points.size(); begin += 20'000)
+    picture.surfaces.push_back(
+        {std::make_shared<const std::vector<common::SurfacePoint>>(
+             points.begin() + static_cast<std::ptrdiff_t>(begin),
+             points.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), begin + 20'000))),
+         {}});
+  Map3dRenderer renderer;
+  for (auto _ : state) benchmark::DoNotOptimize(renderer.render(picture, {}));
+}
+BENCHMARK(map3dStreamed)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace swiftlet::rendering

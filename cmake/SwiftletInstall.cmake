@@ -20,6 +20,7 @@ set(SWIFTLET_FOUND_BY
   "nlohmann_json::nlohmann_json|nlohmann_json"
   "sdformat12::sdformat12|sdformat12"
   "yaml-cpp|yaml-cpp"
+  "PkgConfig::PCL|pkg-config PCL pcl_common"
   "PkgConfig::TURBOJPEG|pkg-config TURBOJPEG libturbojpeg")
 
 # The libraries from outside that `library` links, itself and through others of ours, into `result`.

@@ -128,6 +128,7 @@ void PhaseRecorder::addPlaces(PhaseFigures& figures) const {
   for (std::size_t i = 0; i < x_m_.size(); ++i)
     off_m.push_back(std::hypot(x_m_[i] - config_.place_map_m[0], y_m_[i] - config_.place_map_m[1]));
   figures.emplace_back("position_rms_m", statisticsOf(off_m).rmse);
+  if (!off_m.empty()) figures.emplace_back("position_max_m", *std::max_element(off_m.begin(), off_m.end()));
 }
 
 void PhaseRecorder::addLevels(PhaseFigures& figures) const {

@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
+#include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
@@ -36,10 +37,11 @@ constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Bet
 /// Every file that a run may leave; no other file is ever removed.
 constexpr const char* kMemoryRead = "vehicle_memory_read.yaml";
 constexpr const char* kMemoryLearned = "vehicle_memory_learned.yaml";
-constexpr std::array<const char*, 13> kFiles = {
-    "mission.json", "events.jsonl", "trajectory.tum",  "trajectory_given.tum", "map.pgm",
-    "map.yaml",     "map.png",      "report.html",     "config.yaml",          "nature.yaml",
-    kMemoryRead,    kMemoryLearned, "ground_truth.tum"};
+constexpr std::array<const char*, 17> kFiles = {
+    "mission.json", "events.jsonl", "trajectory.tum",   "trajectory_given.tum", "trajectory_camera.tum",
+    "map.pgm",      "map.yaml",     "map.png",          "map.bt",               "map.ot",
+    "cloud.ply",    "report.html",  "config.yaml",      "nature.yaml",          kMemoryRead,
+    kMemoryLearned, "ground_truth.tum"};
 
 bool isRunFile(const std::string& name) {
   // A `.part` file is left of a Swiftlet file if the process was killed.
@@ -173,6 +175,7 @@ struct RunFolder::Impl {
 
   void track(const common::World& world);
   void localize(const common::World& world);
+  void followCamera(const common::World& world);
   void writeTruth(const common::Trajectory& truth_map);
 
   fs::path path;
@@ -180,7 +183,8 @@ struct RunFolder::Impl {
   std::string config_yaml;
   EventWriter events_file;
   TumWriter trajectory_file;
-  std::optional<TumWriter> given_trajectory_file;
+  std::optional<TumWriter> given_trajectory_file, camera_trajectory_file;
+  Time camera_stamp;  ///< Of the last frame in its file.
   Every trajectory_due, sample_due, map_due;
   FlightSummary summary;
   std::vector<common::Event> events;
@@ -235,6 +239,20 @@ void RunFolder::Impl::localize(const common::World& world) {
     keep(given_trajectory_file->write({world.vehicle->state.stamp, T_given_odom * world.vehicle->state.T_odom_body}));
 }
 
+/// A frame is a snapshot's news once; one that did not fit has no pose of its own.
+void RunFolder::Impl::followCamera(const common::World& world) {
+  if (!world.map3d || !world.map3d->tracked || failure) return;
+  const Time stamp = world.map3d->frame->stamps.measured;
+  if (camera_trajectory_file && stamp <= camera_stamp) return;
+  if (!camera_trajectory_file) {
+    auto writer = TumWriter::create(path / "trajectory_camera.tum");
+    if (!writer) return keep(tl::unexpected(writer.error()));
+    camera_trajectory_file = std::move(*writer);
+  }
+  camera_stamp = stamp;
+  keep(camera_trajectory_file->write({stamp, world.map3d->T_map_camera}));
+}
+
 RunFolder::RunFolder(fs::path path, RunInfo info, std::string config_yaml)
     : impl_(std::make_unique<Impl>(std::move(path), std::move(info), std::move(config_yaml))) {
   impl_->write("config.yaml", impl_->config_yaml);
@@ -262,6 +280,7 @@ void RunFolder::event(const common::Event& event) {
 void RunFolder::world(const common::World& world) {
   impl_->track(world);
   impl_->localize(world);
+  impl_->followCamera(world);
   impl_->last_snapshot = world.stamp;
   if (impl_->sample_due.due(world.stamp)) impl_->summary.samples.push_back(sampleOf(world));
   if (impl_->failure || !impl_->map_due.due(world.stamp)) return;
@@ -272,6 +291,13 @@ void RunFolder::world(const common::World& world) {
 void RunFolder::show(ReportPictures pictures) {
   impl_->pictures = std::move(pictures);
   if (!impl_->failure && !impl_->pictures.map_png.empty()) impl_->write("map.png", impl_->pictures.map_png);
+}
+
+void RunFolder::show(const Map3dFiles& map) {
+  if (impl_->failure) return;
+  if (!map.cloud_ply.empty()) impl_->write("cloud.ply", map.cloud_ply);
+  if (!map.map_bt.empty()) impl_->write("map.bt", map.map_bt);
+  if (!map.map_ot.empty()) impl_->write("map.ot", map.map_ot);
 }
 
 /// Appends the bytes of the lines to one text, so that the file is written at once.

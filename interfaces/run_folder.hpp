@@ -5,6 +5,8 @@
 //   trajectory.tum   the estimate in `map`
 //   ground_truth.tum   the true trajectory of a simulated vehicle in `map`, while airborne; written at the end
 //   trajectory_given.tum   the pose in the given map, if there is one, while localized
+//   trajectory_camera.tum   with an RGB-D camera: the poses in `map` of the frames that were aligned to the 3D map
+//   cloud.ply, map.bt, map.ot     with an RGB-D camera: the 3D map, replaced every few seconds and at the end
 //   map.pgm, map.yaml, map.png    replaced whole every few seconds and at the end
 //   report.html      the same in one page
 //   config.yaml      the settings in force
@@ -46,6 +48,13 @@ struct FlightEnd {
   std::string vehicle_memory_yaml = {};      ///< What is known of the vehicle now; empty: nothing is to be kept.
 };
 
+/// The 3D map as the bytes of its files; an empty one is not written.
+struct Map3dFiles {
+  std::string cloud_ply;
+  std::string map_bt;
+  std::string map_ot;
+};
+
 /// Used by one thread. Nothing throws after the constructor. If something cannot be written (full disk), the reason is
 /// kept in `failure`, writing stops, and the caller decides; no file is left half written.
 class RunFolder {
@@ -65,6 +74,8 @@ class RunFolder {
   void world(const common::World& world);
   /// The pictures of the next report and map.png; may be called repeatedly.
   void show(ReportPictures pictures);
+  /// Replaces the files of the 3D map; may be called repeatedly.
+  void show(const Map3dFiles& map);
   /// Writes the last map, mission.json and report, safe from a power cut. Call it once, as the last call. It tries
   /// everything even if something failed before.
   void finish(const FlightEnd& end);

@@ -5,6 +5,9 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include <algorithm>
+#include <limits>
+
 #include <fmt/format.h>
 
 namespace swiftlet::simulation {
@@ -23,6 +26,14 @@ Color diffuseOf(const aiScene& scene, const aiMesh& part) {
   return Color(diffuse.r, diffuse.g, diffuse.b).cwiseMax(0.0F).cwiseMin(1.0F);
 }
 
+/// The index of the colour among `colors`, to which it is added if it is new.
+std::uint16_t numberOf(const Color& color, std::vector<Color>& colors) {
+  auto found = std::find(colors.begin(), colors.end(), color);
+  constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
+  if (found == colors.end() && colors.size() < kMost) found = colors.insert(found, color);
+  return static_cast<std::uint16_t>(std::min<std::ptrdiff_t>(found - colors.begin(), kMost - 1));
+}
+
 void addPart(const aiScene& scene, const aiMesh& part, const aiMatrix4x4& T_root_node, Collected& out) {
   Triangles& triangles = out.mesh.triangles;
   const auto first = static_cast<std::uint32_t>(triangles.vertices_m.size());
@@ -31,10 +42,12 @@ void addPart(const aiScene& scene, const aiMesh& part, const aiMatrix4x4& T_root
     triangles.vertices_m.emplace_back(point.x, point.y, point.z);
   }
   const Color color = diffuseOf(scene, part);
+  const std::uint16_t number = numberOf(color, out.mesh.colors);
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
     if (face.mNumIndices != 3) continue;  // Points and lines have no surface.
     triangles.indices.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+    out.mesh.color_of_triangle.push_back(number);
     out.color_sum += color;
   }
 }

@@ -1,7 +1,9 @@
 // Triangles of a mesh file, through assimp.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -13,6 +15,8 @@ namespace swiftlet::simulation {
 struct Mesh {
   Triangles triangles;
   Color color = Color::Constant(0.7F);  ///< Colour of the materials, averaged over the triangles.
+  std::vector<Color> colors;            ///< Of the materials, one or more.
+  std::vector<std::uint16_t> color_of_triangle;
 };
 
 /// In metres: a COLLADA file's unit is applied. Its `<up_axis>` is not, because Gazebo, for which these files were

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sdf/Box.hh>
 #include <sdf/Capsule.hh>
 #include <sdf/Collision.hh>
@@ -83,20 +84,27 @@ std::optional<Color> colorOf(const sdf::Visual* visual) {
   return Color(diffuse.R(), diffuse.G(), diffuse.B());
 }
 
+/// Patterns of the most common material scripts of Gazebo.
+std::optional<Pattern> scriptPattern(const std::string& script) {
+  static const std::array<std::pair<const char*, Pattern>, 5> kPatterns{{{"Gazebo/Wood", Pattern::kWood},
+                                                                         {"Gazebo/WoodFloor", Pattern::kWood},
+                                                                         {"Gazebo/WoodPallet", Pattern::kWood},
+                                                                         {"Gazebo/Bricks", Pattern::kBrick},
+                                                                         {"Gazebo/CeilingTiled", Pattern::kTiles}}};
+  for (const auto& [name, pattern] : kPatterns)
+    if (script == name) return pattern;
+  return std::nullopt;
+}
+
+/// The element of ours in a material, which other readers of SDF ignore.
+constexpr const char* kTextureElement = "swiftlet:texture";
+
 /// What the material says of a geometry.
 struct Look {
   std::optional<Color> color;
   bool glass = false;
+  std::optional<Pattern> pattern = {};
 };
-
-Look lookOf(const sdf::Visual* visual) {
-  constexpr float kHalf = 0.5F;
-  if (visual == nullptr) return {};
-  const sdf::Material* material = visual->Material();
-  const bool see_through = material != nullptr && material->Element() && material->Element()->HasElement("diffuse") &&
-                           material->Diffuse().A() <= kHalf;
-  return {colorOf(visual), see_through || visual->Transparency() >= kHalf};
-}
 
 /// A soft colour, different for each model, for models without a colour.
 Color colorByName(const std::string& name) {
@@ -182,6 +190,30 @@ class Loader {
     }
   }
 
+  Look lookOf(const sdf::Visual* visual) {
+    constexpr float kHalf = 0.5F;
+    if (visual == nullptr) return {};
+    const sdf::Material* material = visual->Material();
+    const bool see_through = material != nullptr && material->Element() && material->Element()->HasElement("diffuse") &&
+                             material->Diffuse().A() <= kHalf;
+    return {colorOf(visual), see_through || visual->Transparency() >= kHalf, patternOf(material)};
+  }
+
+  std::optional<Pattern> patternOf(const sdf::Material* material) {
+    if (material == nullptr) return std::nullopt;
+    if (!material->Element() || !material->Element()->HasElement(kTextureElement))
+      return scriptPattern(material->ScriptName());
+    const auto word = material->Element()->Get<std::string>(kTextureElement);
+    const std::optional<Pattern> pattern = patternFrom(word);
+    if (!pattern) {
+      const std::string similar = common::didYouMean(word, patternWords());
+      problems_.push_back(
+          {locationOf(material->Element(), world_.file), kTextureElement, fmt::format("there is no texture `{}`", word),
+           similar.empty() ? fmt::format("expected is one of {}", fmt::join(patternWords(), ", ")) : similar});
+    }
+    return pattern;
+  }
+
   template <typename Item>
   void addGeometry(const Item& item, const common::Pose3& T_world_link, const std::string& top, const std::string& part,
                    const Look& look, double least_plane_m) {
@@ -198,7 +230,7 @@ class Loader {
       return;
     }
     addShape(top, part, locationOf(item.Element(), world_.file), T_world_item, triangles,
-             look.color.value_or(colorByName(top)), look.glass);
+             look.color.value_or(colorByName(top)), look);
   }
 
   static Triangles solidTriangles(const sdf::Geometry& geometry, double least_plane_m) {
@@ -235,7 +267,10 @@ class Loader {
     if (sdf_mesh.CenterSubmesh()) centre(triangles);
     const Eigen::Vector3f scale = toEigen(sdf_mesh.Scale()).cast<float>();
     for (Eigen::Vector3f& vertex : triangles.vertices_m) vertex = vertex.cwiseProduct(scale);
-    addShape(top, part, location, T_world_item, triangles, look.color.value_or(cached->second->color), look.glass);
+    addShape(top, part, location, T_world_item, triangles, look.color.value_or(cached->second->color), look);
+    if (look.color || cached->second->colors.size() < 2) return;
+    world_.shapes.back().colors = cached->second->colors;
+    world_.shapes.back().color_of_triangle = cached->second->color_of_triangle;
   }
 
   static void centre(Triangles& triangles) {
@@ -245,8 +280,10 @@ class Loader {
   }
 
   void addShape(const std::string& top, const std::string& part, const common::SourceLocation& source,
-                const common::Pose3& T_world_item, const Triangles& triangles, const Color& color, bool glass = false) {
-    Shape shape{top, part, source, color, {}, triangles.indices, glass};
+                const common::Pose3& T_world_item, const Triangles& triangles, const Color& color,
+                const Look& look = {}) {
+    Shape shape{top, part, source, color, {}, triangles.indices, look.glass, look.pattern};
+    shape.T_world_shape = T_world_item;
     shape.vertices_world_m.reserve(triangles.vertices_m.size());
     for (const Eigen::Vector3f& vertex : triangles.vertices_m)
       shape.vertices_world_m.push_back((T_world_item * vertex.cast<double>()).cast<float>());

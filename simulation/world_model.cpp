@@ -19,9 +19,11 @@ bool WorldModel::hasModel(const std::string& model) const {
 
 void WorldModel::moveModel(const std::string& model, const Eigen::Vector2d& shift_world_m) {
   const Eigen::Vector3f shift(static_cast<float>(shift_world_m.x()), static_cast<float>(shift_world_m.y()), 0.0F);
-  for (Shape& shape : shapes)
-    if (shape.model == model)
-      for (Eigen::Vector3f& vertex : shape.vertices_world_m) vertex += shift;
+  for (Shape& shape : shapes) {
+    if (shape.model != model) continue;
+    for (Eigen::Vector3f& vertex : shape.vertices_world_m) vertex += shift;
+    shape.T_world_shape.position_m.head<2>() += shift_world_m;
+  }
 }
 
 Eigen::AlignedBox3f WorldModel::bounds_world_m() const {

@@ -13,6 +13,7 @@
 
 #include "common/error.hpp"
 #include "common/geometry.hpp"
+#include "simulation/appearance/patterns.hpp"
 
 namespace swiftlet::simulation {
 
@@ -28,6 +29,10 @@ struct Shape {
   std::vector<Eigen::Vector3f> vertices_world_m;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into the vertices; either winding.
   bool glass = false;                                   ///< Its material is transparent by half or more.
+  std::optional<Pattern> pattern = {};                  ///< That its material names.
+  std::vector<Color> colors = {};                     ///< Of a mesh with several materials; empty: `color` everywhere.
+  std::vector<std::uint16_t> color_of_triangle = {};  ///< Indices into `colors`.
+  common::Pose3 T_world_shape = {};                   ///< Of the frame in which patterns keep their place on it.
 };
 
 /// "model/part".
@@ -55,11 +60,12 @@ struct WorldModel {
 /// Reads an SDF world, or a bare `<model>` file as a world of that one model. Boxes, cylinders, spheres, capsules,
 /// ellipsoids, planes and meshes are triangulated. The collision geometry of a link is used, or its visual geometry if
 /// it has none. A visual with `<transparency>` of 0.5 or more, or with a diffuse alpha of 0.5 or less, is glass, as is
-/// the collision geometry that goes with it. `model://` and `file://` URIs are searched for in `model_paths`, in the
-/// folders of SDF_PATH, and around the file itself (its folder, and the folders `models` and `media` beside and above
-/// it). An include that cannot be found and has no geometry that matters (Sun) is a warning; the well-known ground
-/// plane is replaced by one at z = 0. Throws common::InputError (file:line) if the file cannot be read, is malformed,
-/// or refers to something missing. Not thread-safe: libsdformat has global state.
+/// the collision geometry that goes with it. A material's `<swiftlet:texture>` names a Pattern. `model://` and
+/// `file://` URIs are searched for in `model_paths`, in the folders of SDF_PATH, and around the file itself (its
+/// folder, and the folders `models` and `media` beside and above it). An include that cannot be found and has no
+/// geometry that matters (Sun) is a warning; the well-known ground plane is replaced by one at z = 0. Throws
+/// common::InputError (file:line) if the file cannot be read, is malformed, or refers to something missing. Not
+/// thread-safe: libsdformat has global state.
 WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths = {});
 
 }  // namespace swiftlet::simulation

@@ -19,6 +19,21 @@ struct RelativePoseMeasurement {
   std::optional<Eigen::Vector2d> unseen_direction;       ///< Direction without information, in the frame at `from`.
 };
 
+/// The same in space, of a camera; see perception::ErrorStateFilter::addRelativePose3.
+struct SpatialPoseMeasurement {
+  common::Time from;
+  common::Time to;
+  common::Pose3 T_from_to;
+  /// Of the error (position, rotation vector) in the axes of the body at `to`.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
+};
+
+/// What a camera tells the filter with one frame: a measurement, then the clone from which the next ones start.
+struct CameraStep {
+  std::optional<SpatialPoseMeasurement> measurement;
+  std::optional<common::Time> clone_after;
+};
+
 /// The filter applies it in the order clone_before, measurement, clone_after. A scan that did not match gives an empty
 /// step.
 struct OdometryStep {

@@ -2,6 +2,9 @@
 //
 //   seen --unseen_hold_s without sight--> hold --unseen_land_s without sight--> land
 //     ^-------------- sight ---------------+
+//
+// As long as something else measures the position, the vehicle can hold its place, and lands later: after
+// unseen_known_land_s.
 #pragma once
 
 #include <optional>

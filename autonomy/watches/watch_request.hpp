@@ -19,6 +19,8 @@ struct VehicleCondition {
   double drift_m = 0.0;         ///< See DriftMonitor.
   /// Whether the map has walls around the vehicle, by which the position may be found again: not so in the open.
   bool walls_around = true;
+  /// Whether the state is valid and some sensor has just measured the position and the height.
+  bool position_measured = false;
 };
 
 /// The answer of a watch to one tick. Each reason is for people; it is empty if the watch does not ask for that.

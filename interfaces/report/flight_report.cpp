@@ -205,7 +205,8 @@ std::string settingsSection(const std::string& config_yaml) {
 
 std::string flightReport(const FlightSummary& summary, const std::vector<common::Event>& events,
                          const ReportPictures& pictures, const std::string& config_yaml) {
-  const std::string body = summarySection(summary) + mapSection(pictures.map_svg) + phasesSection(summary.phases) +
+  const std::string body = summarySection(summary) + mapSection(pictures.map_svg) +
+                           html::map3dSection(pictures.map3d_jpeg) + phasesSection(summary.phases) +
                            plotsSection(pictures.plots_svg) + figuresSection(summary.figures) +
                            frontiersSection(summary) + eventsSection(events) + settingsSection(config_yaml);
   return html::page(titleOf(summary) + ": " + toString(summary.outcome), header(summary), body);

@@ -70,6 +70,13 @@ std::string facts(const std::vector<std::pair<std::string, std::string>>& facts)
   return body + "</dl>";
 }
 
+std::string map3dSection(const std::string& jpeg_base64) {
+  if (jpeg_base64.empty()) return "";
+  return section("3D map", fmt::format("<figure class=\"map\"><img alt=\"The 3D map with the path of the vehicle\" "
+                                       "src=\"data:image/jpeg;base64,{}\"></figure>",
+                                       jpeg_base64));
+}
+
 std::string plots(const std::vector<std::string>& svg) {
   std::string body = "<div class=\"plots\">\n";
   for (const std::string& plot : svg) body += fmt::format("<figure>{}</figure>\n", plot);

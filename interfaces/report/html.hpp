@@ -24,6 +24,9 @@ std::string section(const std::string& title, const std::string& body);
 /// Small facts in a row, each with label and value.
 std::string facts(const std::vector<std::pair<std::string, std::string>>& facts);
 
+/// The section of the 3D map with its picture, a JPEG in base64; nothing without a picture.
+std::string map3dSection(const std::string& jpeg_base64);
+
 /// Plots, as many in a row as fit.
 std::string plots(const std::vector<std::string>& svg);
 

@@ -36,6 +36,7 @@ std::string mapReport(const MapReport& report) {
   const std::string header = fmt::format("<h1>{}</h1>\n<p>{}</p>", escaped(report.title), escaped(report.subtitle));
   std::string body = html::section("Summary", html::facts(report.facts));
   body += warningsSection(report.warnings);
+  body += html::map3dSection(report.map3d_jpeg);
   body += mapPicture(report.map_svg);
   if (!report.plots_svg.empty()) body += html::section("Along the path", html::plots(report.plots_svg));
   return html::page(report.title, header, body);

@@ -18,6 +18,7 @@ struct ReportPictures {
   std::string map_png;  ///< The bytes of a PNG: map.png of the run.
   std::string map_svg;  ///< The map of the report.
   std::vector<std::string> plots_svg;
+  std::string map3d_jpeg = {};  ///< The 3D map: a JPEG in base64.
 };
 
 /// `config_yaml` has the settings of the flight.
@@ -50,6 +51,7 @@ struct MapReport {
   std::vector<std::string> warnings;                       ///< Problems of the log.
   std::string map_svg;
   std::vector<std::string> plots_svg;
+  std::string map3d_jpeg = {};  ///< The 3D map: a JPEG in base64; may be empty.
 };
 std::string mapReport(const MapReport& report);
 

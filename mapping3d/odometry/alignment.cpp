@@ -219,12 +219,14 @@ Alignment align(const FramePyramid& frame, std::span<const ReferenceView> views,
   Exposure estimate = exposure;
   double sigma = kWidest * config.gray_sigma;
   Sums sums;
+  ExposureEquations measured;
   for (std::size_t level = frame.size(); level-- > 0;) {
     const LevelErrors errors(frame[level], noise, config);
     const std::span<const ReferenceView> used = level > 1 ? views.first(1) : views;
     for (int i = 0; i < config.iterations; ++i) {
       sums = sumsAt(errors, used, level, pose, estimate, sigma);
       sigma = spreadOf(sums, config.gray_sigma);
+      measured = sums.equations;
       sums.equations.addPose(prior.information, errorOf(pose, prior));
       const ExposureEquations::Vector8d step = sums.equations.solve();
       pose = moved(pose, step);
@@ -234,6 +236,7 @@ Alignment align(const FramePyramid& frame, std::span<const ReferenceView> views,
     }
   }
   Alignment alignment = summary(pose, sums);
+  alignment.measured_information = measured.poseInformation();
   alignment.exposure = estimate;
   return alignment;
 }

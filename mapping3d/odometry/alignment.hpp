@@ -53,6 +53,8 @@ struct Alignment {
   Exposure exposure;
   /// Inverse covariance of the error (x, y, z, rotation vector) in the axes of the camera, in m and rad.
   Matrix6d information = Matrix6d::Zero();
+  /// The part of it that the frame itself gives, without the prior.
+  Matrix6d measured_information = Matrix6d::Zero();
   double overlap = 0.0;    ///< Part of the points that lie in the picture.
   double agreement = 0.0;  ///< Part of those, where the depth was measured, whose depth agrees with it.
   double gray_rms = 0.0;   ///< Of the grey values that agree, in levels.

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "mapping3d/odometry/reference_points.hpp"
 #include "vision/binary_descriptor.hpp"
@@ -17,9 +16,9 @@ struct DescribedPoint {
   vision::BinaryDescriptor descriptor;
 };
 
+/// What was seen; where it was seen from is in the KeyFrameMap.
 struct KeyFrame {
   common::Time stamp;
-  common::Pose3 T_map_key;
   std::vector<std::vector<ReferencePoint>> levels;  ///< As those of the pyramid.
   std::vector<DescribedPoint> described;
   double median_depth_m = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/config_fields.hpp"
 
@@ -42,11 +43,20 @@ void KeyFrameConfig::describe(common::config::Fields& fields) {
   fields("greatest_step", greatest_step, {0.01, 2}, "Or where it is farther away than this part of its median depth.");
 }
 
-void KeyFrameMap::add(std::shared_ptr<const KeyFrame> key) {
+void KeyFrameMap::add(std::shared_ptr<const KeyFrame> key, const KeyFramePlace& place) {
   if (static_cast<int>(keys_.size()) >= config_.greatest_number)
     keys_.erase(
         std::min_element(keys_.begin(), keys_.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; }));
-  keys_.push_back({std::move(key), ++clock_});
+  keys_.push_back({std::move(key), place, T_map_scan(place.scan).inverse() * place.T_map_key, ++clock_});
+}
+
+common::Pose3 KeyFrameMap::T_map_scan(int scan) const {
+  return scans_ ? common::lifted(scans_->keys[static_cast<std::size_t>(scan)].T_map_key, 0.0) : common::Pose3{};
+}
+
+void KeyFrameMap::moveTo(std::shared_ptr<const common::KeyPoses> scans) {
+  scans_ = std::move(scans);
+  for (Kept& kept : keys_) kept.place.T_map_key = T_map_scan(kept.place.scan) * kept.T_scan_key;
 }
 
 std::vector<std::size_t> KeyFrameMap::overlapping(const common::PinholeCamera& coarsest,
@@ -57,25 +67,28 @@ std::vector<std::size_t> KeyFrameMap::overlapping(const common::PinholeCamera& c
   };
   std::vector<Ranked> ranked;
   const common::Pose3 T_camera_map = T_map_camera.inverse();
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
+  // Of equal ones the newest.
+  for (std::size_t i = keys_.size(); i-- > 0;) {
     const KeyFrame& key = *keys_[i].frame;
-    const double overlap = overlapOf(key.levels.back(), T_camera_map * key.T_map_key, coarsest);
+    const common::Pose3& T_map_key = keys_[i].place.T_map_key;
+    const double overlap = overlapOf(key.levels.back(), T_camera_map * T_map_key, coarsest);
     if (overlap < kLeastOverlap) continue;
     // Of views that overlap alike, the one from nearer by looks more alike.
-    const double distance =
-        (key.T_map_key.position_m - T_map_camera.position_m).norm() / std::max(key.median_depth_m, 0.3);
-    ranked.push_back({i, overlap - 0.5 * distance - 0.3 * turnBetween_rad(key.T_map_key, T_map_camera)});
+    const double distance = (T_map_key.position_m - T_map_camera.position_m).norm() / std::max(key.median_depth_m, 0.3);
+    ranked.push_back({i, overlap - 0.5 * distance - 0.3 * turnBetween_rad(T_map_key, T_map_camera)});
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.score > b.score; });
-  ranked.resize(std::min(ranked.size(), static_cast<std::size_t>(config_.views)));
   std::vector<std::size_t> indices;
-  for (const Ranked& one : ranked) indices.push_back(one.index);
+  for (const Ranked& one : ranked)
+    if (static_cast<int>(indices.size()) < config_.views &&
+        placeOf(one.index).track == placeOf(ranked.front().index).track)
+      indices.push_back(one.index);
   return indices;
 }
 
 std::vector<ReferenceView> KeyFrameMap::views(const std::vector<std::size_t>& indices) const {
   std::vector<ReferenceView> views;
-  for (const std::size_t index : indices) views.push_back({at(index).T_map_key, &at(index).levels});
+  for (const std::size_t index : indices) views.push_back({placeOf(index).T_map_key, &at(index).levels});
   return views;
 }
 
@@ -87,10 +100,10 @@ void KeyFrameMap::markUsed(const std::vector<std::size_t>& indices) {
 bool KeyFrameMap::needsNew(const std::vector<std::size_t>& overlapping, const common::Pose3& T_map_camera,
                            double overlap) const {
   if (overlapping.empty() || overlap < config_.least_overlap) return true;
-  const KeyFrame& nearest = at(overlapping.front());
-  const double step_m = (nearest.T_map_key.position_m - T_map_camera.position_m).norm();
-  return turnBetween_rad(nearest.T_map_key, T_map_camera) > config_.greatest_turn_rad ||
-         step_m > config_.greatest_step * nearest.median_depth_m;
+  const common::Pose3& T_map_nearest = placeOf(overlapping.front()).T_map_key;
+  const double step_m = (T_map_nearest.position_m - T_map_camera.position_m).norm();
+  return turnBetween_rad(T_map_nearest, T_map_camera) > config_.greatest_turn_rad ||
+         step_m > config_.greatest_step * at(overlapping.front()).median_depth_m;
 }
 
 }  // namespace swiftlet::mapping3d

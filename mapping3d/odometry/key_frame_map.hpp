@@ -1,4 +1,7 @@
 // The key frames of a map and the choice of those that a frame is aligned to. Their number is bounded.
+//
+// Each key frame hangs on a key scan of the 2D map. When a loop closure moves the key scans, the key frames move with
+// them. Without key scans every key frame hangs on the origin of the map.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +9,8 @@
 #include <vector>
 
 #include "common/config_fwd.hpp"
+#include "common/geometry.hpp"
+#include "common/key_pose.hpp"
 #include "mapping3d/odometry/alignment.hpp"
 #include "mapping3d/odometry/key_frame.hpp"
 
@@ -21,17 +26,33 @@ struct KeyFrameConfig {
   void describe(common::config::Fields& fields);
 };
 
+/// Where a key frame was seen from.
+struct KeyFramePlace {
+  common::Pose3 T_map_key;
+  int scan = 0;  ///< The key scan on which it hangs: index into common::KeyPoses::keys.
+  /// Key frames of different tracks were not aligned to each other, so a frame is aligned only to those of one.
+  int track = 0;
+  /// Of the error (x, y, z, rotation vector) against the map, with the axes of the map.
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
 class KeyFrameMap {
  public:
   explicit KeyFrameMap(const KeyFrameConfig& config) : config_(config) {}
 
   /// Beyond the greatest number, the one that was used longest ago is dropped.
-  void add(std::shared_ptr<const KeyFrame> key);
+  void add(std::shared_ptr<const KeyFrame> key, const KeyFramePlace& place);
   bool isEmpty() const { return keys_.empty(); }
   std::size_t size() const { return keys_.size(); }
   const KeyFrame& at(std::size_t index) const { return *keys_[index].frame; }
+  const KeyFramePlace& placeOf(std::size_t index) const { return keys_[index].place; }
 
-  /// Up to `views` key frames that overlap most with what the camera would see, the best first.
+  /// Moves the key frames with the key scans that they hang on.
+  void moveTo(std::shared_ptr<const common::KeyPoses> scans);
+  /// The identity without key scans.
+  common::Pose3 T_map_scan(int scan) const;
+
+  /// Up to `views` key frames of one track that overlap most with what the camera would see, the best first.
   std::vector<std::size_t> overlapping(const common::PinholeCamera& coarsest, const common::Pose3& T_map_camera) const;
   /// As views of an alignment. They are valid until the next add().
   std::vector<ReferenceView> views(const std::vector<std::size_t>& indices) const;
@@ -44,9 +65,12 @@ class KeyFrameMap {
  private:
   struct Kept {
     std::shared_ptr<const KeyFrame> frame;
+    KeyFramePlace place;
+    common::Pose3 T_scan_key;
     std::uint64_t used = 0;
   };
   KeyFrameConfig config_;
+  std::shared_ptr<const common::KeyPoses> scans_;  ///< Null without a 2D map.
   std::vector<Kept> keys_;
   std::uint64_t clock_ = 0;
 };

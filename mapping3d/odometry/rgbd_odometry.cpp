@@ -19,6 +19,12 @@ constexpr double kLongestPrediction_s = 0.5;
 /// Key frames that are tried for each frame while lost: each costs a millisecond or two.
 constexpr std::size_t kTriedPerFrame = 8;
 
+bool isInMap(const std::optional<CameraSeed>& seed) { return seed && seed->is_in_map; }
+
+std::vector<vision::Feature> featuresOf(const FramePyramid& pyramid, const vision::FeatureConfig& config) {
+  return vision::findFeatures(pyramid.front().gray, pyramid.front().depth, pyramid.front().camera, config);
+}
+
 }  // namespace
 
 void RgbdOdometryConfig::describe(common::config::Fields& fields) {
@@ -38,24 +44,60 @@ void RgbdOdometryConfig::describe(common::config::Fields& fields) {
   fields.section("alignment", alignment, "Alignment of a frame to key frames.");
   fields.section("key_frames", key_frames, "Choice of key frames.");
   fields.section("recognition", recognition, "Finding the place again after the track was lost.");
+  fields.section("seed", seed, "Poses of the camera by other sensors.");
+  fields.section("measured", measured, "What a frame alone tells of its pose.");
 }
 
 RgbdOdometry::RgbdOdometry(const RgbdOdometryConfig& config) : config_(config), keys_(config.key_frames) {}
 
-std::vector<Pose3> RgbdOdometry::predictions(common::Time stamp, const std::optional<Pose3>& T_seed_camera) const {
+void RgbdOdometry::moveTo(std::shared_ptr<const common::KeyPoses> scans) {
+  if (scans->version == scans_version_ && !keys_.isEmpty()) return;
+  scans_version_ = scans->version;
+  const std::optional<Pose3> T_scan_map = last_ ? std::optional(keys_.T_map_scan(last_->scan).inverse()) : std::nullopt;
+  keys_.moveTo(std::move(scans));
+  if (!T_scan_map) return;
+  const Pose3 moved = keys_.T_map_scan(last_->scan) * *T_scan_map;
+  last_->T_map_camera = moved * last_->T_map_camera;
+  if (isInMap(last_->seed)) last_->seed->T_map_camera = moved * last_->seed->T_map_camera;
+}
+
+RgbdPose RgbdOdometry::process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed) {
+  ++frames_;
+  const FramePyramid pyramid = makePyramid(frame, config_.greatest_width_px, config_.levels);
+  RgbdPose pose;
+  pose.stamp = frame.stamps.measured;
+  pose.scan = seed ? seed->scan : last_ ? last_->scan : 0;
+  if (keys_.isEmpty()) {
+    begin(pose, pyramid, seed);
+    return pose;
+  }
+  const PosePrior prior = predicted(pyramid, pose.stamp, seed);
+  pose.T_map_camera = prior.T_map_camera;
+  if (const auto fit = findPose(pyramid, prior, seed))
+    take(*fit, pose, pyramid, seed);
+  else
+    lose(pose, pyramid, seed);
+  return pose;
+}
+
+// ------------------------------------------------------------------------------------------- the pose of a frame
+
+std::vector<Pose3> RgbdOdometry::predictions(common::Time stamp, const std::optional<CameraSeed>& seed) const {
   std::vector<Pose3> poses;
   const double gap_s = (stamp - last_->stamp).seconds();
   if (gap_s > 0.0 && gap_s < kLongestPrediction_s)
     poses.push_back(last_->T_map_camera *
                     Pose3{common::expSO3(gap_s * last_->rate_camera_rad_s), gap_s * last_->velocity_camera_m_s});
-  if (T_seed_camera && last_->T_seed_camera)
-    poses.push_back(last_->T_map_camera * (last_->T_seed_camera->inverse() * *T_seed_camera));
+  if (seed && last_->seed)
+    poses.push_back(last_->T_map_camera * (last_->seed->T_map_camera.inverse() * seed->T_map_camera));
+  if (isInMap(seed)) poses.push_back(seed->T_map_camera);
   poses.push_back(last_->T_map_camera);
   return poses;
 }
 
 Pose3 RgbdOdometry::bestOf(const std::vector<Pose3>& poses, const FramePyramid& pyramid) const {
   Pose3 best = poses.front();
+  if (poses.size() == 1) return best;
   double best_score = -std::numeric_limits<double>::infinity();
   for (const Pose3& pose : poses) {
     const auto views = keys_.views(keys_.overlapping(pyramid.back().camera, pose));
@@ -70,7 +112,8 @@ Pose3 RgbdOdometry::bestOf(const std::vector<Pose3>& poses, const FramePyramid& 
   return best;
 }
 
-bool RgbdOdometry::isGood(const Alignment& fit) const {
+bool RgbdOdometry::isGood(const Alignment& fit, const std::optional<CameraSeed>& seed) const {
+  if (isInMap(seed) && !agrees(fit.T_map_camera, *seed, config_.seed)) return false;
   return fit.agreement >= config_.least_agreement && fit.points >= config_.least_points &&
          fit.correlation >= config_.least_correlation;
 }
@@ -86,19 +129,38 @@ PosePrior RgbdOdometry::motionPrior(common::Time stamp, const Pose3& predicted) 
   return prior;
 }
 
-std::optional<Alignment> RgbdOdometry::tracked(const FramePyramid& pyramid, const PosePrior& prior,
-                                               std::vector<std::size_t>& keys) const {
-  keys = keys_.overlapping(pyramid.back().camera, prior.T_map_camera);
-  if (keys.empty()) return std::nullopt;
-  const Alignment fit =
-      align(pyramid, keys_.views(keys), prior, last_->exposure, config_.features.depth_noise, config_.alignment);
-  if (!isGood(fit)) return std::nullopt;
+PosePrior RgbdOdometry::predicted(const FramePyramid& pyramid, common::Time stamp,
+                                  const std::optional<CameraSeed>& seed) const {
+  if (isInMap(seed) && is_lost_) return {seed->T_map_camera, seedCovariance(config_.seed).inverse()};
+  const double gap_s = (stamp - last_->stamp).seconds();
+  if (isInMap(seed) && isInMap(last_->seed) && gap_s > 0.0)
+    return seededPrior({last_->T_map_camera, last_->covariance, *last_->seed}, *seed, gap_s, config_.seed);
+  return motionPrior(stamp, bestOf(predictions(stamp, seed), pyramid));
+}
+
+std::optional<RgbdOdometry::Fit> RgbdOdometry::findPose(const FramePyramid& pyramid, const PosePrior& prior,
+                                                        const std::optional<CameraSeed>& seed) {
+  if (isInMap(seed)) return tracked(pyramid, prior, seed);
+  if (!is_lost_)
+    if (auto fit = tracked(pyramid, prior, seed)) return fit;
+  return recognized(pyramid, seed);
+}
+
+std::optional<RgbdOdometry::Fit> RgbdOdometry::tracked(const FramePyramid& pyramid, const PosePrior& prior,
+                                                       const std::optional<CameraSeed>& seed) const {
+  Fit fit;
+  fit.prior = prior;
+  fit.keys = keys_.overlapping(pyramid.back().camera, prior.T_map_camera);
+  if (fit.keys.empty()) return std::nullopt;
+  fit.alignment =
+      align(pyramid, keys_.views(fit.keys), prior, last_->exposure, config_.features.depth_noise, config_.alignment);
+  if (!isGood(fit.alignment, seed)) return std::nullopt;
   return fit;
 }
 
-std::optional<Alignment> RgbdOdometry::recognized(const FramePyramid& pyramid,
-                                                  const std::vector<DescribedPoint>& points,
-                                                  std::vector<std::size_t>& keys) {
+std::optional<RgbdOdometry::Fit> RgbdOdometry::recognized(const FramePyramid& pyramid,
+                                                          const std::optional<CameraSeed>& seed) {
+  const auto points = describedPoints(pyramid.front().gray, featuresOf(pyramid, config_.features));
   // The newest first, then the others in turn, so that each is tried within some frames.
   std::vector<std::size_t> order;
   const std::size_t newest = std::min<std::size_t>(keys_.size(), kTriedPerFrame / 2);
@@ -106,32 +168,84 @@ std::optional<Alignment> RgbdOdometry::recognized(const FramePyramid& pyramid,
   for (std::size_t i = newest; i < std::min(keys_.size(), kTriedPerFrame); ++i)
     order.push_back(next_tried_++ % (keys_.size() - newest));
   for (const std::size_t index : order) {
-    const KeyFrame& key = keys_.at(index);
-    const auto found = registerPoints(key.described, points, frames_, config_.recognition);
+    const auto found = registerPoints(keys_.at(index).described, points, frames_, config_.recognition);
     if (!found) continue;
-    const PosePrior prior{key.T_map_key * found->T_a_b, Matrix6d::Zero()};
-    if (auto fit = tracked(pyramid, prior, keys)) return fit;
+    const PosePrior prior{keys_.placeOf(index).T_map_key * found->T_a_b, Matrix6d::Zero()};
+    if (auto fit = tracked(pyramid, prior, seed)) return fit;
   }
   return std::nullopt;
 }
 
-void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const FramePyramid& pyramid,
-                               const std::vector<vision::Feature>& features) {
+// ----------------------------------------------------------------------------------------------- the model grows
+
+void RgbdOdometry::begin(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed) {
+  pose.state = keys_.isEmpty() ? TrackState::kTracked : TrackState::kFoundAgain;
+  if (seed) pose.T_map_camera = seed->T_map_camera;
+  pose.fit.T_map_camera = pose.T_map_camera;
+  if (last_) pose.fit.exposure = last_->exposure;
+  KeyFramePlace place{pose.T_map_camera, pose.scan, tracks_++, Matrix6d::Zero()};
+  if (isInMap(seed)) place.covariance = pose.covariance = seedCovariance(config_.seed);
+  addKeyFrame(pose, place, pyramid);
+  pose.became_key_frame = true;
+  is_lost_ = false;
+  unfit_frames_ = 0;
+  remember(pose, seed);
+}
+
+void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyramid,
+                        const std::optional<CameraSeed>& seed) {
+  pose.state = is_lost_ ? TrackState::kFoundAgain : TrackState::kTracked;
+  is_lost_ = false;
+  unfit_frames_ = 0;
+  pose.fit = fit.alignment;
+  pose.T_map_camera = fit.alignment.T_map_camera;
+  pose.covariance = fit.alignment.information.inverse();
+  const double depth_m = keys_.at(fit.keys.front()).median_depth_m;
+  pose.measured = withoutPrior(fit.alignment, fit.prior, depth_m, config_.measured);
+  keys_.markUsed(fit.keys);
+  if (keys_.needsNew(fit.keys, pose.T_map_camera, fit.alignment.overlap)) {
+    const KeyFramePlace place = newPlace(fit, pose, seed);
+    pose.T_map_camera = place.T_map_key;
+    addKeyFrame(pose, place, pyramid);
+    pose.became_key_frame = true;
+  }
+  remember(pose, seed);
+}
+
+KeyFramePlace RgbdOdometry::newPlace(const Fit& fit, const RgbdPose& pose,
+                                     const std::optional<CameraSeed>& seed) const {
+  const KeyFramePlace& from = keys_.placeOf(fit.keys.front());
+  if (!isInMap(seed)) return {pose.T_map_camera, pose.scan, from.track, Matrix6d::Zero()};
+  return placeOfNew(from, fit.alignment, *seed, config_.seed);
+}
+
+/// Where the seed tells the place, a part of the map that has changed must not keep it lost for good.
+void RgbdOdometry::lose(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed) {
+  is_lost_ = true;
+  ++unfit_frames_;
+  if (!isInMap(seed)) return;
+  pose.T_map_camera = seed->T_map_camera;
+  if (unfit_frames_ <= config_.seed.unfit_frames) return;
+  const auto points = referencePoints(pyramid.front(), config_.features.depth_noise, config_.reference);
+  if (static_cast<int>(points.size()) >= config_.least_points) begin(pose, pyramid, seed);
+}
+
+void RgbdOdometry::addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place, const FramePyramid& pyramid) {
   auto key = std::make_shared<KeyFrame>();
   key->stamp = pose.stamp;
-  key->T_map_key = pose.T_map_camera;
   const auto gain = static_cast<float>(pose.fit.exposure.gain), offset = static_cast<float>(pose.fit.exposure.offset);
   for (const PyramidLevel& level : pyramid) {
     key->levels.push_back(referencePoints(level, config_.features.depth_noise, config_.reference));
     for (ReferencePoint& point : key->levels.back()) point.gray = (point.gray - offset) / gain;
   }
-  key->described = describedPoints(pyramid.front().gray, features);
+  key->described = describedPoints(pyramid.front().gray, featuresOf(pyramid, config_.features));
   key->median_depth_m = medianDepth_m(key->levels.back());
-  keys_.add(std::move(key));
+  keys_.add(std::move(key), place);
 }
 
-void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<Pose3>& T_seed_camera) {
-  Last next{pose.stamp, pose.T_map_camera, T_seed_camera, pose.fit.exposure, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed) {
+  Last next{pose.stamp, pose.T_map_camera, pose.covariance, pose.scan,
+            seed,       pose.fit.exposure, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   if (last_ && pose.state == TrackState::kTracked) {
     const double gap_s = (pose.stamp - last_->stamp).seconds();
     const Pose3 step = last_->T_map_camera.inverse() * pose.T_map_camera;
@@ -141,46 +255,6 @@ void RgbdOdometry::remember(const RgbdPose& pose, const std::optional<Pose3>& T_
     }
   }
   last_ = next;
-}
-
-RgbdPose RgbdOdometry::process(const common::RgbdFrame& frame, const std::optional<Pose3>& T_seed_camera) {
-  ++frames_;
-  const FramePyramid pyramid = makePyramid(frame, config_.greatest_width_px, config_.levels);
-  const auto features = [&] {
-    return vision::findFeatures(pyramid.front().gray, pyramid.front().depth, pyramid.front().camera, config_.features);
-  };
-  RgbdPose pose;
-  pose.stamp = frame.stamps.measured;
-  if (keys_.isEmpty()) {
-    pose.state = TrackState::kTracked;
-    if (T_seed_camera) pose.T_map_camera = *T_seed_camera;
-    addKeyFrame(pose, pyramid, features());
-    pose.became_key_frame = true;
-    remember(pose, T_seed_camera);
-    return pose;
-  }
-  std::vector<std::size_t> keys;
-  std::optional<Alignment> fit;
-  const Pose3 predicted = bestOf(predictions(pose.stamp, T_seed_camera), pyramid);
-  if (!is_lost_) fit = tracked(pyramid, motionPrior(pose.stamp, predicted), keys);
-  if (!fit) fit = recognized(pyramid, describedPoints(pyramid.front().gray, features()), keys);
-  if (!fit) {
-    is_lost_ = true;
-    pose.T_map_camera = predicted;
-    return pose;
-  }
-  pose.state = is_lost_ ? TrackState::kFoundAgain : TrackState::kTracked;
-  is_lost_ = false;
-  pose.fit = *fit;
-  pose.T_map_camera = fit->T_map_camera;
-  pose.covariance = fit->information.inverse();
-  keys_.markUsed(keys);
-  if (keys_.needsNew(keys, pose.T_map_camera, fit->overlap)) {
-    addKeyFrame(pose, pyramid, features());
-    pose.became_key_frame = true;
-  }
-  remember(pose, T_seed_camera);
-  return pose;
 }
 
 }  // namespace swiftlet::mapping3d

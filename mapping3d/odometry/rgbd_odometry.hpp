@@ -8,18 +8,24 @@
 //                 v   |
 //                lost +
 //
-// While lost, the model does not change. Deterministic; one thread.
+// While lost, the model does not change, unless seeds in the map tell where the camera is: then key frames begin anew
+// there. Deterministic; one thread.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
+#include "common/key_pose.hpp"
 #include "common/rgbd_frame.hpp"
 #include "mapping3d/odometry/alignment.hpp"
+#include "mapping3d/odometry/camera_seed.hpp"
 #include "mapping3d/odometry/key_frame_map.hpp"
+#include "mapping3d/odometry/measured_pose.hpp"
 #include "mapping3d/odometry/point_registration.hpp"
 #include "vision/features.hpp"
 
@@ -38,6 +44,8 @@ struct RgbdOdometryConfig {
   AlignmentConfig alignment;
   KeyFrameConfig key_frames;
   PointRegistrationConfig recognition;
+  CameraSeedConfig seed;
+  MeasuredPoseConfig measured;
 
   void describe(common::config::Fields& fields);
 };
@@ -45,7 +53,7 @@ struct RgbdOdometryConfig {
 enum class TrackState {
   kTracked,
   kFoundAgain,  ///< Tracked, after it was lost.
-  kLost,        ///< The pose is only predicted.
+  kLost,        ///< The pose is only predicted, or that of the seed.
 };
 
 struct RgbdPose {
@@ -54,6 +62,9 @@ struct RgbdPose {
   common::Pose3 T_map_camera;
   /// Covariance of the error (x, y, z, rotation vector), in the axes of the camera; meaningless while lost.
   Matrix6d covariance = Matrix6d::Zero();
+  int scan = 0;  ///< The key scan next to it; see CameraSeed.
+  /// What the frame alone tells of its pose; none if it was not aligned.
+  std::optional<MeasuredPose> measured;
   Alignment fit;
   bool became_key_frame = false;
 
@@ -64,10 +75,12 @@ class RgbdOdometry {
  public:
   explicit RgbdOdometry(const RgbdOdometryConfig& config);
 
-  /// Frames come in the order of their stamps. `T_seed_camera` is the pose that other sensors give at the frame's time,
-  /// in any frame that moves little against the map: only its change since the last frame with a seed is used, and the
-  /// first seed places the map.
-  RgbdPose process(const common::RgbdFrame& frame, const std::optional<common::Pose3>& T_seed_camera = std::nullopt);
+  /// Moves the model with the key scans of the 2D map. Where there are any, it must be called before the first frame.
+  void moveTo(std::shared_ptr<const common::KeyPoses> scans);
+
+  /// Frames come in the order of their stamps. The seed is what other sensors give at the frame's time. The first one
+  /// places the map.
+  RgbdPose process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed = std::nullopt);
 
   const KeyFrameMap& keyFrames() const { return keys_; }
 
@@ -75,26 +88,42 @@ class RgbdOdometry {
   struct Last {
     common::Time stamp;
     common::Pose3 T_map_camera;
-    std::optional<common::Pose3> T_seed_camera;
+    Matrix6d covariance;  ///< With the axes of the camera.
+    int scan = 0;
+    std::optional<CameraSeed> seed;
     Exposure exposure;
     Eigen::Vector3d velocity_camera_m_s = Eigen::Vector3d::Zero();
     Eigen::Vector3d rate_camera_rad_s = Eigen::Vector3d::Zero();
   };
-  std::vector<common::Pose3> predictions(common::Time stamp, const std::optional<common::Pose3>& T_seed_camera) const;
+  struct Fit {
+    Alignment alignment;
+    PosePrior prior;
+    std::vector<std::size_t> keys;  ///< The key frames it was aligned to, the best first.
+  };
+  std::vector<common::Pose3> predictions(common::Time stamp, const std::optional<CameraSeed>& seed) const;
   common::Pose3 bestOf(const std::vector<common::Pose3>& poses, const FramePyramid& pyramid) const;
   PosePrior motionPrior(common::Time stamp, const common::Pose3& predicted) const;
-  std::optional<Alignment> tracked(const FramePyramid& pyramid, const PosePrior& prior,
-                                   std::vector<std::size_t>& keys) const;
-  std::optional<Alignment> recognized(const FramePyramid& pyramid, const std::vector<DescribedPoint>& points,
-                                      std::vector<std::size_t>& keys);
-  bool isGood(const Alignment& fit) const;
-  void addKeyFrame(const RgbdPose& pose, const FramePyramid& pyramid, const std::vector<vision::Feature>& features);
-  void remember(const RgbdPose& pose, const std::optional<common::Pose3>& T_seed_camera);
+  PosePrior predicted(const FramePyramid& pyramid, common::Time stamp, const std::optional<CameraSeed>& seed) const;
+  std::optional<Fit> findPose(const FramePyramid& pyramid, const PosePrior& prior,
+                              const std::optional<CameraSeed>& seed);
+  std::optional<Fit> tracked(const FramePyramid& pyramid, const PosePrior& prior,
+                             const std::optional<CameraSeed>& seed) const;
+  std::optional<Fit> recognized(const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
+  bool isGood(const Alignment& fit, const std::optional<CameraSeed>& seed) const;
+  void begin(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
+  void take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
+  KeyFramePlace newPlace(const Fit& fit, const RgbdPose& pose, const std::optional<CameraSeed>& seed) const;
+  void lose(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
+  void addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place, const FramePyramid& pyramid);
+  void remember(const RgbdPose& pose, const std::optional<CameraSeed>& seed);
 
   RgbdOdometryConfig config_;
   KeyFrameMap keys_;
   std::optional<Last> last_;
+  std::uint64_t scans_version_ = 0;
   bool is_lost_ = false;
+  int unfit_frames_ = 0;        ///< In a row, just before.
+  int tracks_ = 0;              ///< How often key frames began anew.
   std::size_t next_tried_ = 0;  ///< While lost, key frames are tried in turn.
   std::uint64_t frames_ = 0;
 };

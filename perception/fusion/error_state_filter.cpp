@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <fmt/core.h>
+#include <Eigen/Cholesky>
 
 #include "common/small_matrices.hpp"
 #include "common/square.hpp"
@@ -95,12 +96,14 @@ Insertion ErrorStateFilter::Impl::insertVertical(MeasurementKind kind, Time time
 
 bool ErrorStateFilter::Impl::horizontalFresh(const Slot& newest) const {
   const FilterState& s = newest.state;
-  return newest.at_rest || (s.stamp - s.relative_gate.last_accepted).seconds() <= config.horizontal_timeout_s;
+  const Time last = std::max(s.relative_gate.last_accepted, s.spatial_gate.last_accepted);
+  return newest.at_rest || (s.stamp - last).seconds() <= config.horizontal_timeout_s;
 }
 
 bool ErrorStateFilter::Impl::verticalFresh(const Slot& newest) const {
   const FilterState& s = newest.state;
-  return newest.at_rest || (s.stamp - s.height_gate.last_accepted).seconds() <= config.vertical_timeout_s;
+  const Time last = std::max(s.height_gate.last_accepted, s.spatial_gate.last_accepted);
+  return newest.at_rest || (s.stamp - last).seconds() <= config.vertical_timeout_s;
 }
 
 ErrorStateFilter::ErrorStateFilter(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
@@ -161,6 +164,21 @@ Insertion ErrorStateFilter::addRelativePose(Time from, Time to, const common::Po
   m.pose = T_from_to;
   m.covariance = covariance;
   m.unseen_direction = unseen_direction;
+  return impl_->insert(m);
+}
+
+Insertion ErrorStateFilter::addRelativePose3(Time from, Time to, const common::Pose3& T_from_to,
+                                             const Eigen::Matrix<double, 6, 6>& covariance) {
+  const bool valid = isFinite(T_from_to) && to > from && covariance.allFinite() &&
+                     covariance.isApprox(covariance.transpose(), 1e-6) && covariance.llt().info() == Eigen::Success;
+  if (!valid) return impl_->counted(Insertion::kInvalid);
+  if (!hasClone(from)) return impl_->counted(Insertion::kUnknownReference);
+  Measurement m;
+  m.stamp = to;
+  m.kind = MeasurementKind::kRelativePose3;
+  m.from = from;
+  m.pose3 = T_from_to;
+  m.covariance6 = covariance;
   return impl_->insert(m);
 }
 

@@ -69,6 +69,11 @@ class ErrorStateFilter {
   Insertion addRelativePose(common::Time from, common::Time to, const common::Pose2& T_from_to,
                             const Eigen::Matrix3d& covariance,
                             const std::optional<Eigen::Vector2d>& unseen_direction = std::nullopt);
+  /// Adds a relative pose in space: T_from_to of the body, whose pose at `from` must be cloned, with the covariance of
+  /// its error (position, rotation vector) in the axes of the body at `to`. A direction in which nothing was measured
+  /// has a large variance.
+  Insertion addRelativePose3(common::Time from, common::Time to, const common::Pose3& T_from_to,
+                             const Eigen::Matrix<double, 6, 6>& covariance);
   /// Adds a height of the body origin above the take-off floor. `common_variance_m2` is the variance of the part of the
   /// error that does not change from one measurement to the next (that of the level below); it is not averaged out.
   Insertion addHeight(common::Time time, double height_m, double variance_m2, double common_variance_m2 = 0.0);

@@ -70,6 +70,7 @@ struct FilterState {
   double height_common_variance_m2 = 0.0;  ///< Variance of the last height that averaging does not reduce.
   GateMemory relative_gate;
   GateMemory height_gate;
+  GateMemory spatial_gate;  ///< Of relative poses in space.
   std::uint64_t recoveries = 0;
   int recent_recoveries = 0;
   common::Time last_recovery;

@@ -68,11 +68,14 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
     case MeasurementKind::kAbsolutePose:
       update(state, absolutePose(state, m.pose, m.covariance));
       return;
-    case MeasurementKind::kRelativePose: {
+    case MeasurementKind::kRelativePose:
+    case MeasurementKind::kRelativePose3: {
       const int clone = state.cloneAt(m.from);
       if (clone < 0) return;  // The clone was dropped after the measurement was accepted.
       state.clones[static_cast<std::size_t>(clone)].last_used = m.stamp;
-      if (m.unseen_direction)
+      if (m.kind == MeasurementKind::kRelativePose3)
+        updateBySpatialPose(state, clone, m);
+      else if (m.unseen_direction)
         gatedUpdate(state, state.relative_gate,
                     relativePoseAcross(state, clone, m.pose, m.covariance, *m.unseen_direction));
       else
@@ -80,6 +83,30 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
       return;
     }
   }
+}
+
+/// Its gate has no memory of how long it disagrees: whatever else measures the position decides then. Only where
+/// nothing else does, the estimate is wrong by about the residual.
+void FilterStep::updateBySpatialPose(FilterState& state, int clone, const Measurement& m) const {
+  const Linearized<6> pose = relativePose3(state, clone, m.pose3, m.covariance6);
+  GateMemory& gate = state.spatial_gate;
+  if (mahalanobis2(state, pose) > square(config_.gate_sigma) + 2.5 * (6 - 1)) {
+    if (!gate.closed) gate.closed_since = state.stamp;
+    gate.closed = true;
+    ++gate.rejected;
+    const auto age_s = [&](Time time) { return (state.stamp - time).seconds(); };
+    if (age_s(gate.closed_since) < config_.recovery_s) return;
+    if (age_s(state.relative_gate.last_accepted) < config_.recovery_s) return;
+    auto diagonal = state.covariance.diagonal();
+    const double jump2 = pose.residual.head<3>().squaredNorm(), turn2 = pose.residual.tail<3>().squaredNorm();
+    diagonal.segment<3>(kPosition).array() += jump2;
+    diagonal.segment<3>(kVelocity).array() += jump2 / square(config_.recovery_s);
+    diagonal.segment<3>(kAttitude).array() += turn2;
+    recover(state);
+  }
+  if (!update(state, pose)) return;
+  gate.closed = false;
+  gate.last_accepted = state.stamp;
 }
 
 void FilterStep::applySlot(FilterState& state, const Slot& s) const {

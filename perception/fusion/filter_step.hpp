@@ -43,6 +43,7 @@ class FilterStep {
   void updateByDrag(FilterState& state, double accelerometer_noise_m_s2_rthz) const;
   template <int K>
   void gatedUpdate(FilterState& state, GateMemory& gate, const Linearized<K>& measurement) const;
+  void updateBySpatialPose(FilterState& state, int clone, const Measurement& measurement) const;
   void recover(FilterState& state) const;
   void watch(FilterState& state) const;
 

@@ -8,7 +8,8 @@ namespace {
 
 bool before(const Measurement& a, const Measurement& b) {
   const auto key = [](const Measurement& m) {
-    return std::tuple(m.stamp, m.kind, m.from, m.pose.x_m, m.pose.y_m, m.pose.yaw_rad, m.value, m.covariance(0, 0));
+    return std::tuple(m.stamp, m.kind, m.from, m.pose.x_m, m.pose.y_m, m.pose.yaw_rad, m.value, m.covariance(0, 0),
+                      m.pose3.position_m.x(), m.pose3.position_m.y(), m.pose3.position_m.z());
   };
   return key(a) < key(b);
 }

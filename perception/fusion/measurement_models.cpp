@@ -78,6 +78,25 @@ Linearized<2> relativePoseAcross(const FilterState& state, int clone, const comm
   return m;
 }
 
+Linearized<6> relativePose3(const FilterState& state, int clone, const common::Pose3& T_clone_body,
+                            const Eigen::Matrix<double, 6, 6>& covariance) {
+  const common::Pose3& from = state.clones[static_cast<std::size_t>(clone)].T_odom_body;
+  const Eigen::Matrix3d to_body = state.rotation_odom_body.conjugate().toRotationMatrix();
+  const Eigen::Vector3d moved_odom_m = state.position_odom_m - from.position_m;
+  const int at = kCore + kCloneSize * clone;
+
+  Linearized<6> m;
+  m.residual.head<3>() = to_body * (from.rotation * T_clone_body.position_m - moved_odom_m);
+  m.residual.tail<3>() = common::logSO3(state.rotation_odom_body.conjugate() * (from.rotation * T_clone_body.rotation));
+  m.jacobian.block<3, 3>(0, kPosition) = to_body;
+  m.jacobian.block<3, 3>(0, at) = -to_body;
+  m.jacobian.block<3, 3>(0, at + 3) = to_body * skew(moved_odom_m);
+  m.jacobian.block<3, 3>(3, kAttitude) = to_body;
+  m.jacobian.block<3, 3>(3, at + 3) = -to_body;
+  m.noise = covariance;
+  return m;
+}
+
 Linearized<1> height(const FilterState& state, double height_m, double variance_m2) {
   return direct(kPosition + 2, height_m - state.position_odom_m.z(), variance_m2);
 }
@@ -183,8 +202,10 @@ bool update(FilterState& state, const Linearized<K>& measurement) {
 template double mahalanobis2<1>(const FilterState&, const Linearized<1>&);
 template double mahalanobis2<2>(const FilterState&, const Linearized<2>&);
 template double mahalanobis2<3>(const FilterState&, const Linearized<3>&);
+template double mahalanobis2<6>(const FilterState&, const Linearized<6>&);
 template bool update<1>(FilterState&, const Linearized<1>&);
 template bool update<2>(FilterState&, const Linearized<2>&);
 template bool update<3>(FilterState&, const Linearized<3>&);
+template bool update<6>(FilterState&, const Linearized<6>&);
 
 }  // namespace swiftlet::perception::fusion

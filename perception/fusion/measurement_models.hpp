@@ -23,6 +23,10 @@ Linearized<3> relativePose(const FilterState& state, int clone, const common::Po
 /// at the clone). Measures the position across it and the heading; along it nothing is measured.
 Linearized<2> relativePoseAcross(const FilterState& state, int clone, const common::Pose2& T_clone_body,
                                  const Eigen::Matrix3d& covariance, const Eigen::Vector2d& unseen_direction_clone);
+/// Pose of the body relative to that at a clone. Residual and noise are errors (position, rotation vector) with the
+/// axes of the body now: T_clone_body * exp(error).
+Linearized<6> relativePose3(const FilterState& state, int clone, const common::Pose3& T_clone_body,
+                            const Eigen::Matrix<double, 6, 6>& covariance);
 Linearized<1> height(const FilterState& state, double height_m, double variance_m2);
 Linearized<1> verticalSpeed(const FilterState& state, double speed_m_s, double variance_m2_s2);
 Linearized<3> absolutePose(const FilterState& state, const common::Pose2& T_odom_body,

@@ -32,7 +32,7 @@ common::Image Camera::render(std::uint64_t frame, const common::Pose3& T_world_b
     }
     rays.castAll(row, kSight_m, actors, hits);
     for (std::size_t u = 0; u < width; ++u) {
-      const Color color = shader_.shade(hits[u], row[u].direction_world, actors);
+      const Color color = shader_.see(row[u], hits[u], 1.0F / focal_px, actors).light;
       const float grey = noise.next();
       for (std::size_t channel = 0; channel < 3; ++channel)
         image.rgb[3 * (v * width + u) + channel] = toPixelByte(255.0F * color[static_cast<int>(channel)] + grey);

@@ -14,16 +14,10 @@
 #include "common/sensor_event.hpp"
 #include "common/vehicle_config.hpp"
 #include "simulation/ray_caster.hpp"
+#include "simulation/sensors/moment.hpp"
 #include "simulation/sensors/sensor_config.hpp"
 
 namespace swiftlet::simulation {
-
-/// The poses of the vehicle and the walkers at one instant.
-struct Moment {
-  common::Time time;
-  common::Pose3 T_world_body;
-  std::vector<Actor> actors;
-};
 
 class LaserScanner {
  public:

@@ -1,16 +1,42 @@
 #include "simulation/sensors/rgbd_camera.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "common/random.hpp"
-#include "simulation/sensors/pixel_noise.hpp"
+#include "common/check.hpp"
 
 namespace swiftlet::simulation {
 namespace {
 
-/// Standard deviation of a pixel, in grey levels of 255.
-constexpr double kPixelNoise = 2.0;
+using common::Duration;
+using common::Pose3;
+using common::Time;
+
+/// Between two moments the pose is blended linearly, which is exact to a microradian over a millisecond.
+Pose3 poseAt(Time time, std::span<const Moment> track) {
+  const auto after =
+      std::find_if(track.begin(), track.end(), [time](const Moment& moment) { return moment.time >= time; });
+  if (after == track.begin()) return after->T_world_body;
+  if (after == track.end()) return track.back().T_world_body;
+  const Pose3 &a = (after - 1)->T_world_body, &b = after->T_world_body;
+  const double share = (time - (after - 1)->time).seconds() / (after->time - (after - 1)->time).seconds();
+  const double sign = a.rotation.dot(b.rotation) < 0.0 ? -1.0 : 1.0;
+  const Eigen::Vector4d blend = (1.0 - share) * a.rotation.coeffs() + share * sign * b.rotation.coeffs();
+  return {Eigen::Quaterniond(blend.normalized()), (1.0 - share) * a.position_m + share * b.position_m};
+}
+
+Eigen::Isometry3f isometry(const Pose3& pose) {
+  Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
+  T.linear() = pose.rotation.toRotationMatrix().cast<float>();
+  T.translation() = pose.position_m.cast<float>();
+  return T;
+}
+
+common::PinholeCamera withFocalShare(common::PinholeCamera camera, double share) {
+  camera.fx_px *= share;
+  camera.fy_px *= share;
+  return camera;
+}
 
 }  // namespace
 
@@ -18,62 +44,91 @@ RgbdCamera::RgbdCamera(const common::RgbdCameraConfig& config, const RgbdErrorsC
                        std::uint64_t seed)
     : config_(config),
       errors_(errors),
-      seed_(seed),
+      true_camera_(withFocalShare(config.camera(), errors.focal_share)),
       T_body_camera_(errors.mount_error.pose() * config.mount.pose()),
-      shader_(world) {}
-
-common::Time RgbdCamera::stampOf(common::Time time) const {
-  return time + common::Duration::fromSeconds(errors_.clock_offset_s + errors_.clock_drift_ppm * 1e-6 * time.seconds());
+      shader_(world),
+      color_(errors, 1.0 / config.rate_hz, seed),
+      depth_(config, errors, seed),
+      row_(static_cast<std::size_t>(config.width_px)),
+      hits_(row_.size()) {
+  for (int v = 0; v < config.height_px; ++v)
+    for (int u = 0; u < config.width_px; ++u) along_.push_back(true_camera_.point_camera_m(u, v, 1.0).cast<float>());
+  const std::size_t pixels = along_.size();
+  seen_ = {config.width_px,
+           config.height_px,
+           std::vector<float>(pixels),
+           std::vector<std::uint8_t>(pixels),
+           std::vector<Eigen::Array4f>(pixels, Eigen::Array4f::Zero()),
+           std::vector<Eigen::Vector2f>(errors.exposure_s > 0.0 ? pixels : 0)};
 }
 
-common::RgbdFrame RgbdCamera::frame(std::uint64_t number, common::Time time, const common::Pose3& T_world_body,
-                                    std::span<const Actor> actors, const RayCaster& rays) const {
-  const common::Pose3 T_world_camera = T_world_body * T_body_camera_;
-  const Eigen::Matrix3f R_world_camera = T_world_camera.rotation.toRotationMatrix().cast<float>();
+Duration RgbdCamera::before() const { return Duration::fromSeconds(0.5 * errors_.exposure_s); }
+Duration RgbdCamera::after() const {
+  return Duration::fromSeconds(0.5 * errors_.exposure_s + (config_.height_px - 1) * config_.row_time_s);
+}
+
+Time RgbdCamera::stampOf(Time time) const {
+  return time + Duration::fromSeconds(errors_.clock_offset_s + errors_.clock_drift_ppm * 1e-6 * time.seconds());
+}
+
+common::RgbdFrame RgbdCamera::frame(std::uint64_t number, Time time, std::span<const Moment> track,
+                                    const RayCaster& rays) {
+  SWIFTLET_CHECK(!track.empty() && track.back().time >= time + after());
+  const Duration row_time = Duration::fromSeconds(config_.row_time_s);
+  const std::vector<Actor>& actors = track[track.size() / 2].actors;
+  Exposure exposure = exposureAt(time, track);
+  for (int v = 0; v < config_.height_px; ++v) {
+    if (v > 0 && config_.row_time_s > 0.0) exposure = exposureAt(time + row_time * v, track);
+    seeRow(v, exposure, actors, rays);
+  }
   common::RgbdFrame frame;
   frame.stamps.measured = stampOf(time);
-  frame.row_time = common::Duration::fromSeconds(config_.row_time_s);
+  frame.row_time = row_time;
   frame.camera = config_.camera();
-  const int width = frame.camera.width_px, height = frame.camera.height_px;
-  frame.color = {width, height, {}};
-  frame.depth = {width, height, {}};
-  frame.color.rgb.reserve(static_cast<std::size_t>(3 * width * height));
-  frame.depth.depth_m.reserve(static_cast<std::size_t>(width * height));
-  PixelNoise noise(kPixelNoise, common::RandomStream(seed_, "rgbd color", number));
-  std::vector<Ray> row(static_cast<std::size_t>(width));
-  std::vector<Hit> hits(row.size());
-  std::vector<float> cosines(row.size());
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const Eigen::Vector3f along = frame.camera.point_camera_m(u, v, 1.0).cast<float>();
-      const float cosine = 1.0F / along.norm();
-      cosines[static_cast<std::size_t>(u)] = cosine;
-      row[static_cast<std::size_t>(u)] = {T_world_camera.position_m.cast<float>(), R_world_camera * along * cosine};
-    }
-    rays.castAll(row, kSight_m, actors, hits);
-    for (std::size_t u = 0; u < row.size(); ++u) {
-      const Color color = 255.0F * shader_.shade(hits[u], row[u].direction_world, actors);
-      const float grey = noise.next();
-      for (int channel = 0; channel < 3; ++channel) frame.color.rgb.push_back(toPixelByte(color[channel] + grey));
-      frame.depth.depth_m.push_back(cosines[u] * static_cast<float>(hits[u].distance_m));
-    }
-  }
-  measureDepths(number, frame.depth);
+  frame.color = color_.take(number, seen_);
+  frame.depth = depth_.measure(number, seen_);
   return frame;
 }
 
-void RgbdCamera::measureDepths(std::uint64_t number, common::DepthImage& depth) const {
-  PixelNoise noise(config_.inverse_depth_noise_1_m, common::RandomStream(seed_, "rgbd depth", number));
-  const auto step_1_m = static_cast<float>(config_.inverse_depth_step_1_m),
-             step_m = static_cast<float>(config_.depth_step_m);
-  for (float& depth_m : depth.depth_m) {
-    float inverse_1_m = 1.0F / depth_m + noise.next();
-    if (step_1_m > 0.0F) inverse_1_m = step_1_m * std::round(inverse_1_m / step_1_m);
-    depth_m = inverse_1_m > 0.0F ? 1.0F / inverse_1_m : common::DepthImage::kTooFar;
-    if (step_m > 0.0F) depth_m = step_m * std::round(depth_m / step_m);
-    if (depth_m < static_cast<float>(config_.range_min_m)) depth_m = common::DepthImage::kUnknown;
-    if (depth_m > static_cast<float>(config_.range_max_m)) depth_m = common::DepthImage::kTooFar;
+RgbdCamera::Exposure RgbdCamera::exposureAt(Time time, std::span<const Moment> track) const {
+  const Pose3 T_world_camera = poseAt(time, track) * T_body_camera_;
+  const Pose3 T_world_begin = poseAt(time - before(), track) * T_body_camera_;
+  const Pose3 T_world_end = poseAt(time + before(), track) * T_body_camera_;
+  return {isometry(T_world_camera), isometry(T_world_begin.inverse() * T_world_camera),
+          isometry(T_world_end.inverse() * T_world_camera)};
+}
+
+void RgbdCamera::seeRow(int v, const Exposure& exposure, std::span<const Actor> actors, const RayCaster& rays) {
+  const Eigen::Matrix3f R_world_camera = exposure.T_world_camera.linear();
+  const Eigen::Vector3f origin = exposure.T_world_camera.translation();
+  const std::size_t first = static_cast<std::size_t>(v) * row_.size();
+  for (std::size_t u = 0; u < row_.size(); ++u) row_[u] = {origin, R_world_camera * along_[first + u].normalized()};
+  rays.castAll(row_, kSight_m, actors, hits_);
+  for (std::size_t u = 0; u < row_.size(); ++u) {
+    const std::size_t pixel = first + u;
+    seePixel(pixel, row_[u], hits_[u], along_[pixel], actors);
+    if (seen_.motion_px.empty()) continue;
+    const float depth_m = std::min(seen_.depth_m[pixel], static_cast<float>(kSight_m));
+    seen_.motion_px[pixel] = motion_px(exposure, along_[pixel] * depth_m);
   }
+}
+
+void RgbdCamera::seePixel(std::size_t pixel, const Ray& ray, const Hit& hit, const Eigen::Vector3f& along,
+                          std::span<const Actor> actors) {
+  const auto pixel_rad = static_cast<float>(1.0 / true_camera_.fx_px);
+  const SeenSurface surface = shader_.see(ray, hit, pixel_rad, actors);
+  const auto range_m = static_cast<float>(hit.distance_m);
+  seen_.light[pixel].head<3>() = surface.light.array();
+  seen_.depth_m[pixel] = range_m / along.norm();
+  seen_.is_weak[pixel] = depth_.isWeak(range_m, surface) ? 1 : 0;
+}
+
+/// From the begin of the exposure to its end, in a world that stands still.
+Eigen::Vector2f RgbdCamera::motion_px(const Exposure& exposure, const Eigen::Vector3f& point_camera_m) const {
+  const Eigen::Vector3f begin = exposure.T_begin_camera * point_camera_m, end = exposure.T_end_camera * point_camera_m;
+  if (begin.x() <= 0.0F || end.x() <= 0.0F) return Eigen::Vector2f::Zero();
+  return static_cast<float>(true_camera_.fx_px) *
+         (begin.tail<2>() * (1.0F / begin.x()) - end.tail<2>() * (1.0F / end.x()));
 }
 
 }  // namespace swiftlet::simulation

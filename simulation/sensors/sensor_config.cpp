@@ -98,6 +98,20 @@ void LaserErrorsConfig::describe(common::config::Fields& fields) {
 void RgbdErrorsConfig::describe(common::config::Fields& fields) {
   fields.section("mount_error", mount_error,
                  "Motion about the body's origin from the camera's mount on the data sheet to the true one.");
+  fields("focal_share", focal_share, {0.5, 2}, "True focal length over that of the data sheet.");
+  fields("inverse_depth_bias_1_m", inverse_depth_bias_1_m, {-0.1, 0.1},
+         "What every inverse depth reads too much. The error of a depth is this times the depth squared.");
+  fields(
+      "dark_range_m", dark_range_m, {0, 100},
+      "Distance beyond which a black surface across the view has no depth; others are seen from farther, by the root "
+      "of their reflectance and of the cosine of the incidence. 0: all have depth.");
+  fields("glancing_deg", glancing_deg, {0, 90}, "Incidence, from the normal, beyond which a surface has no depth.");
+  fields("edge_hole_rate", edge_hole_rate, {0, 1}, "Share of pixels at the far side of an edge that have no depth.");
+  fields("pixel_noise", pixel_noise, {0, 100},
+         "Standard deviation of a pixel, in grey levels of 255; it grows with the exposure's gain.");
+  fields("exposure_s", exposure_s, {0, 0.1}, "How long the shutter is open, which blurs what moves.");
+  fields("exposure_lag_s", exposure_lag_s, {0, 60},
+         "Time constant in which the exposure follows the brightness of the view; 0: the exposure is fixed.");
   fields("clock_offset_s", clock_offset_s, {-0.1, 0.1}, "What the camera's clock is ahead of the computer's at first.");
   fields("clock_drift_ppm", clock_drift_ppm, {-1000, 1000}, "What the camera's clock gains, in parts per million.");
 }

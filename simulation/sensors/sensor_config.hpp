@@ -77,9 +77,17 @@ struct LaserErrorsConfig {
   bool needsSurfaces() const { return incidence_bias_m > 0.0 || dark_range_m > 0.0 || glass_angle_deg > 0.0; }
 };
 
-/// How an RGB-D camera differs from its data sheet.
+/// How an RGB-D camera differs from its data sheet, and how it sees colours.
 struct RgbdErrorsConfig {
   common::MountConfig mount_error;
+  double focal_share = 1.0;
+  double inverse_depth_bias_1_m = 0.0;
+  double dark_range_m = 0.0;
+  double glancing_deg = 90.0;
+  double edge_hole_rate = 0.0;
+  double pixel_noise = 2.0;
+  double exposure_s = 0.0;
+  double exposure_lag_s = 0.0;
   double clock_offset_s = 0.0;
   double clock_drift_ppm = 0.0;
 

@@ -10,13 +10,20 @@ namespace swiftlet::simulation {
 
 using common::Time;
 
+namespace {
+
+/// A track begins this long before it is needed: more than a physics step, so that it can be interpolated.
+constexpr auto kTrackMargin = common::Duration::fromMilliseconds(2);
+
+}  // namespace
+
 SensorSuite::SensorSuite(const Scenario& scenario, const FaultSchedule& faults, std::uint64_t seed,
                          const WorldModel& world)
     : scenario_(scenario),
+      world_(world),
       seed_(seed),
       inertial_(scenario.sensors.imu, scenario.vehicle.max_thrust_n, seed),
       laser_(scenario.laser, scenario.sensors.laser_errors, world, seed),
-      camera_(scenario.sensors.camera, world, seed),
       fuel_gauge_(scenario.sensors.fuel_gauge, scenario.battery_remaining),
       queue_(scenario, faults, seed),
       imu_clock_(scenario.sensors.imu.rate_hz),
@@ -73,18 +80,25 @@ void SensorSuite::stepCamera(Time now, const QuadrotorState& state, const std::v
   if (!camera_clock_.due(now)) return;
   const std::uint64_t number = camera_clock_.frame++;
   if (!camera_wanted_) return;
+  if (!camera_) camera_.emplace(scenario_.sensors.camera, world_, seed_);
   auto frame = std::make_shared<common::CameraFrame>();
   frame->stamps.measured = now;
-  frame->image = camera_.render(number, state.T_world_body, actors, rays);
+  frame->image = camera_->render(number, state.T_world_body, actors, rays);
   queue_.send(Sensor::kCamera, number, now, std::shared_ptr<const common::CameraFrame>(std::move(frame)));
 }
 
+// A frame is made when the exposure of its last row has ended; until then the vehicle's track is kept.
 void SensorSuite::stepRgbd(Time now, const QuadrotorState& state, const std::vector<Actor>& actors,
                            const RayCaster& rays) {
-  if (!rgbd_ || !rgbd_clock_.due(now)) return;
-  const std::uint64_t number = rgbd_clock_.frame++;
-  auto frame = std::make_shared<common::RgbdFrame>(rgbd_->frame(number, now, state.T_world_body, actors, rays));
+  if (!rgbd_) return;
+  const auto begin = [this] { return rgbd_clock_.next() - rgbd_->before() - kTrackMargin; };
+  if (now >= begin()) rgbd_track_.push_back({now, state.T_world_body, actors});
+  if (now < rgbd_clock_.next() + rgbd_->after()) return;
+  const std::uint64_t number = rgbd_clock_.frame;
+  auto frame = std::make_shared<common::RgbdFrame>(rgbd_->frame(number, rgbd_clock_.next(), rgbd_track_, rays));
+  ++rgbd_clock_.frame;
   queue_.send(Sensor::kRgbd, number, now, std::shared_ptr<const common::RgbdFrame>(std::move(frame)));
+  std::erase_if(rgbd_track_, [next = begin()](const Moment& moment) { return moment.time < next; });
 }
 
 void SensorSuite::stepSlow(Time now, const Battery& battery) {

@@ -23,7 +23,7 @@ namespace swiftlet::simulation {
 
 class SensorSuite {
  public:
-  /// `seed` names the random streams of all sensors. The schedule must outlive it.
+  /// `seed` names the random streams of all sensors. Schedule and world must outlive it.
   SensorSuite(const Scenario& scenario, const FaultSchedule& faults, std::uint64_t seed, const WorldModel& world);
 
   /// What the autopilot measures at its tick number `tick`.
@@ -62,15 +62,17 @@ class SensorSuite {
   void stepSlow(common::Time now, const Battery& battery);
 
   Scenario scenario_;
+  const WorldModel& world_;
   std::uint64_t seed_;
   InertialUnit inertial_;
   LaserScanner laser_;
-  Camera camera_;
+  std::optional<Camera> camera_;  ///< Made for the first frame that is wanted.
   std::optional<RgbdCamera> rgbd_;
   FuelGauge fuel_gauge_;
   EventQueue queue_;
   Clock imu_clock_, laser_clock_, battery_clock_, pilot_clock_, camera_clock_, rgbd_clock_;
-  std::vector<Moment> track_;  ///< The track since the start of the present sweep.
+  std::vector<Moment> track_;       ///< The track since the start of the present sweep.
+  std::vector<Moment> rgbd_track_;  ///< The track since the present frame of the RGB-D camera began to be exposed.
   bool camera_wanted_ = false;
 };
 

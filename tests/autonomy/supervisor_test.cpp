@@ -18,7 +18,8 @@ class SupervisorStory : public testing::Test {
     return during(t_s, airborne ? common::FlightState::kFlying : common::FlightState::kLanded);
   }
   const Supervision& during(double t_s, common::FlightState flight) {
-    return supervisor_.tick(Time::fromSeconds(t_s), {flight, energy_, vertical_age_s_, drift_m_, walls_around_});
+    return supervisor_.tick(Time::fromSeconds(t_s),
+                            {flight, energy_, vertical_age_s_, drift_m_, walls_around_, measured_});
   }
   void scanAt(double t_s) { supervisor_.surroundingsSeen(Time::fromSeconds(t_s)); }
 
@@ -27,6 +28,7 @@ class SupervisorStory : public testing::Test {
   double vertical_age_s_ = 0.0;
   double drift_m_ = 0.0;
   bool walls_around_ = true;
+  bool measured_ = false;
 };
 
 TEST_F(SupervisorStory, OperatorHoldsUntilResume) {
@@ -117,6 +119,23 @@ TEST_F(SupervisorStory, SilentLaserHoldsThenLandsForGood) {
   EXPECT_THAT(at(2.1).land_reason, HasSubstr("no scan for 1.1 s"));
   scanAt(2.2);
   EXPECT_TRUE(at(2.3).land) << "landing is not taken back";
+}
+
+TEST_F(SupervisorStory, ASilentLaserOnlyHoldsWhileOtherSensorsMeasureThePosition) {
+  measured_ = true;
+  scanAt(1.0);
+  EXPECT_TRUE(at(1.4).hold);
+  EXPECT_THAT(supervisor_.takeEvents().back().reason, HasSubstr("other sensors measure the position"));
+  EXPECT_FALSE(at(6.0).land);
+  measured_ = false;
+  EXPECT_TRUE(at(6.1).land) << "the position is lost too";
+}
+
+TEST_F(SupervisorStory, NobodyHoldsBlindForLong) {
+  measured_ = true;
+  scanAt(1.0);
+  EXPECT_FALSE(at(10.9).land);
+  EXPECT_TRUE(at(11.1).land);
 }
 
 TEST_F(SupervisorStory, ShortSilenceOnlyHolds) {

@@ -5,6 +5,7 @@
 #include "common/voxel_map.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/octomap.hpp"
+#include "interfaces/files/point_cloud.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -56,6 +57,29 @@ TEST_F(Convert, ABandOfHeightsIsAFloorPlan) {
   EXPECT_TRUE(common::occupancy::isUnknown(at(2.55, 0.55)));
 }
 
+TEST_F(Convert, OccupiedVoxelsAreAPointEachAndPointsAreOccupiedVoxels) {
+  const std::string from = room("room.ot");
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    const ProgramEnd end = runSwiftlet(arguments);
+    ASSERT_EQ(end.exit_code, 0) << describe(end);
+  };
+  run({"convert", from, path("room.ply")});
+  run({"convert", path("room.ply"), path("room.pcd")});
+  run({"convert", path("room.pcd"), path("again.bt"), "--resolution", "0.1"});
+  const auto points = interfaces::readCloud(path("room.pcd"));
+  EXPECT_EQ(points.size(), 20U * 10 + 10 * 14);
+  const common::VoxelMap map = interfaces::readOctree(from), again = interfaces::readOctree(path("again.bt"));
+  for (int x = -1; x < 21; ++x)
+    for (int y = -1; y < 11; ++y)
+      for (int z = -1; z < 16; ++z) ASSERT_EQ(again.isOccupied({x, y, z}), map.isOccupied({x, y, z}));
+  run({"convert", path("room.ply"), path("plan.yaml"), "--low", "0.5", "--high", "1.0", "--resolution", "0.1"});
+  const interfaces::StoredMap plan = interfaces::readMap(path("plan.yaml"));
+  int occupied = 0;
+  plan.grid.forEachCell(
+      [&](common::CellIndex, common::occupancy::Cell c) { occupied += common::occupancy::isOccupied(c); });
+  EXPECT_EQ(occupied, 10) << "the wall";
+}
+
 TEST_F(Convert, WhatCannotBeConvertedIsSaid) {
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& text) {
     const ProgramEnd end = runSwiftlet(arguments);
@@ -68,6 +92,10 @@ TEST_F(Convert, WhatCannotBeConvertedIsSaid) {
   refused({"convert", from, path("plan.yaml"), "--low", "2", "--high", "1"}, "is above --high");
   refused({"convert", from, path("plan.yaml"), "--low", "5", "--high", "6"}, "nothing is known");
   refused({"convert", from, path("room.ot"), "--low", "1"}, "name it .yaml");
+  refused({"convert", from, path("room.ot"), "--resolution", "0.1"}, "only a cloud");
+  refused({"convert", write("room.obj", "v 0 0 0\n"), path("room.ot")}, "it must be .bt, .ot, .ply or .pcd");
+  refused({"convert", write("text.ply", "hello\n"), path("room.ot")}, "does not begin with `ply`");
+  refused({"convert", path("none.pcd"), path("room.ot")}, "none.pcd");
   refused({"convert", path("none.bt"), path("room.ot")}, "none.bt");
   refused({"convert", write("text.bt", "hello\n"), path("room.ot")}, "begins with `hello`");
   EXPECT_FALSE(std::filesystem::exists(path("room.ot")));

@@ -30,6 +30,7 @@ FakeBackend::FakeBackend(Setup setup) : setup_(std::move(setup)) {
   options.unix_time = unixTime;
   server_ =
       std::make_unique<web::WebServer>(io_, options, web::WebServer::Sources{world_, camera_, commands_, results_});
+  if (setup_.maps3d) flight_.carryCamera();
   if (setup_.flies) {
     flight_.layers().mission.status.state = common::MissionState::kRunning;
     world_.post(flight_.advance(setup_.warm_up_s));

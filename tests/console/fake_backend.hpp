@@ -25,6 +25,7 @@ class FakeBackend {
     double worlds_per_second = 20.0;
     bool answers = true;  ///< If false, commands are not answered.
     bool flies = true;    ///< If false, no world is ever posted.
+    bool maps3d = false;  ///< If true, the vehicle carries an RGB-D camera.
     double stall_timeout_s = 10.0;
     int max_connections = 256;
     double viewers_bytes_per_s = 16e6;

@@ -73,6 +73,14 @@ TEST_P(Jacobians, RelativePoseAcrossIsTheNumericDerivative) {
     return relativePoseAcross(s, 1, {0.3, -0.2, 0.1}, Eigen::Matrix3d::Identity(), {0.6, 0.8});
   });
 }
+/// At the pose that the state predicts: elsewhere the error of a rotation is not linear.
+TEST_P(Jacobians, RelativePose3IsTheNumericDerivative) {
+  const common::Pose3 T_clone_body =
+      state.clones[1].T_odom_body.inverse() * common::Pose3{state.rotation_odom_body, state.position_odom_m};
+  expectJacobian<6>(state, [&](const FilterState& s) {
+    return relativePose3(s, 1, T_clone_body, Eigen::Matrix<double, 6, 6>::Identity());
+  });
+}
 /// The mean velocity of the drag interval equals the state's velocity, as after each step.
 TEST_P(Jacobians, DragIsTheNumericDerivative) {
   expectJacobian<2>(state, [](FilterState s) {

@@ -102,6 +102,20 @@ TEST(FlightReport, LoadsNoOtherFiles) {
   EXPECT_THAT(page, Not(HasSubstr("url(")));
 }
 
+TEST(FlightReport, ShowsThe3dMapInside) {
+  ReportPictures pictures;
+  EXPECT_THAT(flightReport(summaryOf("house"), {}, pictures, ""), Not(HasSubstr("3D map")));
+  pictures.map3d_jpeg = "/9j/4AAQ";
+  const std::string page = flightReport(summaryOf("house"), {}, pictures, "");
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/jpeg;base64,/9j/4AAQ\""));
+  EXPECT_THAT(page, HasSubstr("<h2>3D map</h2>"));
+  expectBalanced(page);
+  MapReport report;
+  EXPECT_THAT(mapReport(report), Not(HasSubstr("3D map")));
+  report.map3d_jpeg = "/9j/4AAQ";
+  EXPECT_THAT(mapReport(report), HasSubstr("src=\"data:image/jpeg;base64,/9j/4AAQ\""));
+}
+
 TEST(FlightReport, ShortensAFloodOfEventsAndReportsIt) {
   const std::string page = flightReport(summaryOf("house"), eventsOf("again", 5000), {}, "");
   EXPECT_THAT(page, HasSubstr("3000 more are in events.jsonl"));

@@ -13,7 +13,6 @@
 
 #include "common/error.hpp"
 #include "common/random.hpp"
-#include "interfaces/files/ply.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -196,17 +195,6 @@ TEST(ImageDecoder, NoCutAndNoFlippedByteCrashes) {
     (void)decodeColor(damaged);
     EXPECT_FALSE(decodeDepth(damaged).has_value());
   }
-}
-
-TEST(Ply, HasAHeaderAndFifteenBytesAPoint) {
-  const std::vector<ColoredPoint> points{{{1.0F, 2.0F, 3.0F}, 10, 20, 30}, {{-1.0F, 0.0F, 0.5F}, 255, 0, 1}};
-  const std::string ply = toPly(points);
-  EXPECT_THAT(ply, HasSubstr("format binary_little_endian 1.0\n"));
-  EXPECT_THAT(ply, HasSubstr("element vertex 2\n"));
-  const std::size_t body = ply.find("end_header\n") + 11;
-  ASSERT_EQ(ply.size() - body, 30u);
-  EXPECT_EQ(ply.substr(body, 4), std::string("\0\0\x80\x3f", 4));
-  EXPECT_EQ(ply.substr(body + 12, 3), "\x0a\x14\x1e");
 }
 
 }  // namespace

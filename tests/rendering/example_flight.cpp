@@ -52,6 +52,17 @@ ExampleFlight::ExampleFlight() {
   describe();
 }
 
+ExampleRoom ExampleFlight::room() {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (std::size_t i = 0; i < kWalls.size(); ++i) {
+    const Box& wall = kWalls[i];
+    // The furniture: a cupboard, a table and a chest.
+    const double height_m = i == 10 ? 1.7 : i == 11 ? 0.76 : i == 12 ? 1.1 : 2.4;
+    boxes.emplace_back(Eigen::Vector3d(wall.x0, wall.y0, 0.0), Eigen::Vector3d(wall.x1, wall.y1, height_m));
+  }
+  return ExampleRoom(std::move(boxes));
+}
+
 bool ExampleFlight::isWall(const Vector2d& p) const {
   for (const Box& wall : kWalls)
     if (p.x() >= wall.x0 && p.x() < wall.x1 && p.y() >= wall.y0 && p.y() < wall.y1) return true;
@@ -156,12 +167,20 @@ void ExampleFlight::describe() {
   layers_.map.frontiers = frontiers;
 }
 
+/// Five frames a second.
+void ExampleFlight::lookInDepth() {
+  mapped_s_ = time_s_;
+  layers_.map3d =
+      mapper_->look(common::lifted(pose_, 1.0 + 0.02 * std::sin(time_s_)), common::Time::fromSeconds(time_s_));
+}
+
 std::shared_ptr<const common::World> ExampleFlight::advance(double seconds) {
   for (double left = seconds; left > 1e-9; left -= 0.1) {
     const double step = std::min(left, 0.1);
     time_s_ += step;
     move(step);
     look();
+    if (mapper_ && (time_s_ - mapped_s_ > 0.19)) lookInDepth();
   }
   describe();
   return std::make_shared<const common::World>(layers_.world());

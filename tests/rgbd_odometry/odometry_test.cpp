@@ -70,12 +70,12 @@ TEST(RgbdOdometry, ASeedCarriesItOverAGapThatIsTooLongToPredict) {
   const TexturedRoom room;
   RgbdOdometry odometry({});
   const Pose3 T_seed_map{common::expSO3({0.0, 0.0, 0.3}), {1.0, 2.0, 0.0}};
-  const auto seed = [&](double time_s) { return T_seed_map * walk(time_s); };
+  const auto seed = [&](double time_s) { return CameraSeed{T_seed_map * walk(time_s), 0, false}; };
   RgbdPose pose = odometry.process(room.seen(walk(0.0), 0.0), seed(0.0));
-  EXPECT_LT(distance_m(pose.T_map_camera, seed(0.0)), 1e-12);
+  EXPECT_LT(distance_m(pose.T_map_camera, seed(0.0).T_map_camera), 1e-12);
   pose = odometry.process(room.seen(walk(1.1), 1.1), seed(1.1));
   ASSERT_EQ(pose.state, TrackState::kTracked);
-  EXPECT_LT(distance_m(pose.T_map_camera, seed(1.1)), 0.01);
+  EXPECT_LT(distance_m(pose.T_map_camera, seed(1.1).T_map_camera), 0.01);
 }
 
 TEST(RgbdOdometry, ElsewhereItIsLostAndIsFoundAgainWhereItWasBefore) {

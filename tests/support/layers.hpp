@@ -20,6 +20,7 @@ struct Layers {
   common::MapLayer map;
   common::PeopleLayer people;
   common::EnergyLayer energy;
+  std::shared_ptr<const common::Map3dLayer> map3d;
 
   /// Default values, with a map in which everything is unknown.
   Layers() {
@@ -33,7 +34,8 @@ struct Layers {
         mission(*world.mission),
         map(*world.map),
         people(*world.people),
-        energy(*world.energy) {}
+        energy(*world.energy),
+        map3d(world.map3d) {}
 
   common::World world() const {
     return {stamp,
@@ -42,7 +44,7 @@ struct Layers {
             std::make_shared<const common::MapLayer>(map),
             std::make_shared<const common::PeopleLayer>(people),
             std::make_shared<const common::EnergyLayer>(energy),
-            nullptr};
+            map3d};
   }
 };
 

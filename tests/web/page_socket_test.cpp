@@ -1,4 +1,5 @@
 // The WebSocket as a page uses it.
+#include <array>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -17,12 +18,12 @@ namespace beast = boost::beast;
 
 class PageClient {
  public:
-  PageClient(int port, const std::string& origin) : socket_(io_) {
+  PageClient(int port, const std::string& origin, const std::string& path = "/api/ws") : socket_(io_) {
     socket_.next_layer().connect({boost::asio::ip::address_v4::loopback(), static_cast<unsigned short>(port)});
     socket_.set_option(beast::websocket::stream_base::decorator([origin](beast::websocket::request_type& request) {
       if (!origin.empty()) request.set(beast::http::field::origin, origin);
     }));
-    socket_.handshake("127.0.0.1:" + std::to_string(port), "/api/ws", error_);
+    socket_.handshake("127.0.0.1:" + std::to_string(port), path, error_);
   }
   bool open() const { return !error_; }
 
@@ -32,7 +33,8 @@ class PageClient {
     socket_.read(buffer);
     const std::string text = beast::buffers_to_string(buffer.data());
     bytes_ += text.size();
-    if (socket_.got_binary()) return text.at(0) == 1 ? "tiles" : "laser";
+    if (socket_.got_binary())
+      return std::array{"", "tiles", "laser", "points", "poses", "camera"}.at(static_cast<std::size_t>(text.at(0)));
     json_ = nlohmann::json::parse(text);
     return json_["type"].get<std::string>();
   }
@@ -81,6 +83,21 @@ TEST(PageSocketTest, ALatePageGetsTheWholeMapWithinItsBudget) {
   EXPECT_LT(page.bytes() - first, 300'000u);
   RecordProperty("bytes_per_second", static_cast<int>((page.bytes() - first) / 3));
   std::printf("page socket: %zu bytes to begin, %zu bytes/s flying\n", first, (page.bytes() - first) / 3);
+}
+
+TEST(PageSocketTest, ThePointsOfThe3dMapComeByASocketOfTheirOwn) {
+  FakeBackend::Setup setup;
+  setup.maps3d = true;
+  FakeBackend backend(setup);
+  PageClient page(backend.port(), "", "/api/map3d");
+  ASSERT_TRUE(page.open());
+  EXPECT_EQ(page.next(), "poses");
+  std::map<std::string, int> counts;
+  while (counts["camera"] < 5) ++counts[page.next()];
+  EXPECT_GE(counts["points"], 5);
+  EXPECT_GT(page.bytes(), 20'000U * 12);
+  EXPECT_LE(counts["poses"], 3);
+  EXPECT_FALSE(PageClient(backend.port(), "http://evil.example", "/api/map3d").open());
 }
 
 TEST(PageSocketTest, RefusesForeignPages) {

@@ -1,6 +1,7 @@
 // The operator's page: wires the link, the map, the panels and the commands.
 import { Commands } from './commands.js';
 import { Link } from './link.js';
+import { Map3dPanel } from './map3d_panel.js';
 import { MapStore } from './map_store.js';
 import { MapView } from './map_view.js';
 import { endText, fliesItsOwnGoals, hasEnded } from './mission.js';
@@ -15,11 +16,10 @@ const buttons = [...document.querySelectorAll('[data-command]')];
 
 const view = new MapView(element('map'), store, {
   onTap: sendGoal,
-  onMode: (mode) => {
-    element('fit').setAttribute('aria-pressed', String(mode === 'fit'));
-    element('follow').setAttribute('aria-pressed', String(mode === 'follow'));
-  },
+  onMode: () => showMode(),
 });
+
+const map3d = new Map3dPanel(element('map3d'), store, (path) => commands.withToken(path));
 
 const link = new Link((message) => {
   store.take(message);
@@ -32,6 +32,7 @@ const link = new Link((message) => {
   }
   if (message.type === 'state') {
     showState(message);
+    offer3d(message.map3d !== null);
     const held = message.mission.state === 'held';
     document.querySelector('[data-command=hold]').setAttribute('aria-pressed', String(held));
   }
@@ -39,6 +40,7 @@ const link = new Link((message) => {
   if (message.type === 'frontiers') showFrontiers(message.frontiers);
   if (message.type === 'events') showEvents(message.events);
   view.draw();
+  map3d.draw();
 }, (path) => commands.withToken(path));
 
 // --- commands -----------------------------------------------------------------------------------------------------
@@ -109,24 +111,57 @@ element('goal-form').addEventListener('submit', (event) => {
 
 // --- the map's tools and the camera -------------------------------------------------------------------------------
 
-element('zoom-in').addEventListener('click', () => view.zoom(1.4));
-element('zoom-out').addEventListener('click', () => view.zoom(1 / 1.4));
-element('fit').addEventListener('click', () => view.setMode('fit'));
-element('follow').addEventListener('click', () => view.setMode(view.mode === 'follow' ? 'free' : 'follow'));
-
-let camera = null;
-
-element('camera-toggle').addEventListener('click', ({ currentTarget: button }) => {
-  const shown = button.getAttribute('aria-expanded') === 'true';
-  button.setAttribute('aria-expanded', String(!shown));
-  button.textContent = shown ? 'Show' : 'Hide';
-  element('camera').hidden = shown;
-  // Without the stream no pictures are requested, and the camera is not rendered.
-  camera?.stop();
-  camera = shown ? null : new PictureStream(element('camera'), 'Picture of the onboard camera',
-    () => commands.withToken(forVehicle(`/stream/camera.mjpg?width=480&fps=10&t=${Date.now()}`)),
-    () => store.state?.camera_age_s ?? null);
+/** The tools work on the map that is shown. */
+const zoom = (factor) => (map3d.open ? map3d.orbit.zoom(factor) : view.zoom(factor));
+element('zoom-in').addEventListener('click', () => zoom(1.4));
+element('zoom-out').addEventListener('click', () => zoom(1 / 1.4));
+element('fit').addEventListener('click', () => (map3d.open ? map3d.orbit.setKind('whole') : view.setMode('fit')));
+element('follow').addEventListener('click', () => {
+  if (map3d.open) map3d.orbit.setKind(map3d.orbit.kind === 'follow' ? 'orbit' : 'follow');
+  else view.setMode(view.mode === 'follow' ? 'free' : 'follow');
 });
+
+function showMode() {
+  const mode = map3d.open ? { whole: 'fit', follow: 'follow' }[map3d.orbit.kind] : view.mode;
+  element('fit').setAttribute('aria-pressed', String(mode === 'fit'));
+  element('follow').setAttribute('aria-pressed', String(mode === 'follow'));
+}
+map3d.onMode = showMode;
+
+element('show3d').addEventListener('click', () => {
+  if (map3d.open) map3d.hide();
+  else map3d.show();
+  element('show3d').setAttribute('aria-pressed', String(map3d.open));
+  element('by-normal').hidden = !map3d.open;
+  showMode();
+});
+element('by-normal').addEventListener('click', ({ currentTarget: button }) => {
+  map3d.setByNormal(!map3d.byNormal);
+  button.setAttribute('aria-pressed', String(map3d.byNormal));
+});
+
+/** A vehicle without an RGB-D camera has neither a 3D map nor depth images. */
+function offer3d(available) {
+  element('show3d').hidden = !available;
+  element('depth-card').hidden = !available;
+}
+
+/** A card whose button shows and hides a stream. Without the stream nothing is requested, and a camera is not rendered. */
+function offerStream(name, alt, path, age_s) {
+  const box = element(name);
+  let stream = null;
+  element(`${name}-toggle`).addEventListener('click', ({ currentTarget: button }) => {
+    const shown = button.getAttribute('aria-expanded') === 'true';
+    button.setAttribute('aria-expanded', String(!shown));
+    button.textContent = shown ? 'Show' : 'Hide';
+    box.hidden = shown;
+    stream?.stop();
+    stream = shown ? null : new PictureStream(box, alt, () => commands.withToken(forVehicle(`${path}?width=480&fps=10&t=${Date.now()}`)), age_s);
+  });
+}
+
+offerStream('camera', 'Picture of the onboard camera', '/stream/camera.mjpg', () => store.state?.camera_age_s ?? null);
+offerStream('depth', 'Picture of the depth camera, near in red, far in blue', '/stream/depth.mjpg', () => store.state?.depth_age_s ?? null);
 
 // --- how old is what is shown -------------------------------------------------------------------------------------
 

@@ -58,6 +58,12 @@ export class PictureStream {
     this.box.replaceChildren();
   }
 
+  /** Asks for the path again, at once. */
+  reconnect() {
+    this.delay_ms = 0;
+    this.reader?.abort();
+  }
+
   async run() {
     while (!this.stopped) {
       try {
@@ -67,7 +73,7 @@ export class PictureStream {
       }
       if (this.stopped) return;
       await new Promise((done) => setTimeout(done, this.delay_ms));
-      this.delay_ms = Math.min(4000, 2 * this.delay_ms);
+      this.delay_ms = Math.min(4000, Math.max(500, 2 * this.delay_ms));
     }
   }
 

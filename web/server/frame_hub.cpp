@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "common/check.hpp"
+#include "common/world/map3d_layer.hpp"
 #include "rendering/canvas.hpp"
+#include "rendering/depth_picture.hpp"
 #include "rendering/resize.hpp"
 
 namespace swiftlet::web {
@@ -13,6 +16,8 @@ namespace {
 /// JPEG qualities: lines and text of a map show artefacts sooner than photographs, for which 75 is the usual default.
 constexpr int kMapQuality = 85;
 constexpr int kCameraQuality = 75;
+
+constexpr const char* kNoCamera = "this flight has no RGB-D camera";
 
 rendering::MapView mapView(const PictureView& asked) {
   rendering::MapView view;
@@ -34,6 +39,14 @@ common::Image notice(int width_px, int height_px, rendering::Scheme scheme, std:
   return canvas.take();
 }
 
+common::Image cameraNotice(const PictureView& asked, std::string_view text) {
+  return notice(asked.width_px, asked.width_px * 3 / 4, rendering::Scheme::kDark, text);
+}
+
+rendering::Map3dView map3dView(const PictureView& asked) {
+  return {asked.width_px, asked.height_px, asked.scheme, asked.coloring, asked.viewpoint};
+}
+
 }  // namespace
 
 std::shared_ptr<FrameHub::View> FrameHub::watch(const PictureView& asked) {
@@ -47,11 +60,9 @@ std::shared_ptr<FrameHub::View> FrameHub::watch(const PictureView& asked) {
 std::shared_ptr<const StreamFrame> FrameHub::frame(View& view, const std::shared_ptr<const StreamFrame>& last,
                                                    common::Duration period, common::Time sent) {
   const common::Time now = telemetry_.now();
-  const std::uint64_t newest =
-      view.asked_.source == PictureView::Source::kMap ? telemetry_.world().sequence : telemetry_.camera().sequence;
   // A watcher that comes between the ticks of the others gets their picture, unless it is older than its own period.
   const bool due = view.frame_ && now - view.frame_->encoded_unix_time >= least_period_ &&
-                   view.frame_->source_sequence != newest &&
+                   view.frame_->source_sequence != newest(view.asked_.source) &&
                    (view.frame_ == last || now - view.frame_->encoded_unix_time > period);
   if (!view.frame_ || due) {
     view.frame_ = encode(view, now);
@@ -73,35 +84,26 @@ void FrameHub::shareTime() {
   least_period_ = common::Duration::fromSeconds(total_s / kShareOfThread);
 }
 
-std::shared_ptr<const StreamFrame> FrameHub::encode(View& view, common::Time now) {
-  const PictureView& asked = view.asked_;
-  auto frame = std::make_shared<StreamFrame>();
-  rendering::Bytes jpeg;
-  common::Time stamp, seen = now;
-  if (asked.source == PictureView::Source::kMap) {
-    const auto& world = telemetry_.world();
-    frame->source_sequence = world.sequence;
-    if (world.value) {
-      stamp = world.value->stamp;
-      seen = world.unix_time;
-    }
-    jpeg = jpeg_.encode(
-        world.value ? view.renderer_.render(rendering::pictureOf(*world.value, hull_diameter_m_), mapView(asked))
-                    : notice(asked.width_px, asked.height_px, asked.scheme, "waiting for the first map"),
-        kMapQuality);
-  } else {
-    const auto& camera = telemetry_.camera();
-    frame->source_sequence = camera.sequence;
-    const bool whole = camera.value && camera.value->image.width_px > 0 && camera.value->image.height_px > 0;
-    if (whole) {
-      stamp = camera.value->stamps.measured;
-      seen = camera.unix_time;
-    }
-    jpeg = jpeg_.encode(
-        whole ? rendering::shrinkToWidth(camera.value->image, asked.width_px)
-              : notice(asked.width_px, asked.width_px * 3 / 4, rendering::Scheme::kDark, "waiting for the camera"),
-        kCameraQuality);
+std::uint64_t FrameHub::newest(PictureView::Source source) const {
+  const auto& world = telemetry_.world();
+  switch (source) {
+    case PictureView::Source::kMap:
+      return world.sequence;
+    case PictureView::Source::kCamera:
+      return telemetry_.camera().sequence;
+    case PictureView::Source::kMap3d:
+      // A flight without a 3D map shows one notice, whose number is 1.
+      return !world.value ? 0 : !world.value->map3d ? 1 : world.sequence + 1;
+    case PictureView::Source::kDepth:
+      return telemetry_.depth().sequence;
   }
+  SWIFTLET_CHECK(false, static_cast<int>(source));
+}
+
+std::shared_ptr<const StreamFrame> FrameHub::encode(View& view, common::Time now) {
+  auto frame = std::make_shared<StreamFrame>();
+  frame->source_sequence = newest(view.asked_.source);
+  const auto [jpeg, stamp, seen] = draw(view, now);
   frame->encoded_unix_time = now;
   frame->bytes = fmt::format(
       "Content-Type: image/jpeg\r\nContent-Length: {}\r\nX-Timestamp: {:.6f}\r\nX-Flight-Time: {:.6f}\r\n\r\n",
@@ -109,6 +111,64 @@ std::shared_ptr<const StreamFrame> FrameHub::encode(View& view, common::Time now
   frame->bytes.append(jpeg.begin(), jpeg.end());
   frame->bytes += fmt::format("\r\n--{}\r\n", kStreamBoundary);
   return frame;
+}
+
+FrameHub::Drawn FrameHub::draw(View& view, common::Time now) {
+  switch (view.asked_.source) {
+    case PictureView::Source::kMap:
+      return drawMap(view, now);
+    case PictureView::Source::kCamera:
+      return drawCamera(view.asked_, now);
+    case PictureView::Source::kMap3d:
+      return drawMap3d(view, now);
+    case PictureView::Source::kDepth:
+      return drawDepth(view.asked_, now);
+  }
+  SWIFTLET_CHECK(false, static_cast<int>(view.asked_.source));
+}
+
+FrameHub::Drawn FrameHub::drawMap(View& view, common::Time now) {
+  const PictureView& asked = view.asked_;
+  const auto& world = telemetry_.world();
+  if (!world.value)
+    return {
+        jpeg_.encode(notice(asked.width_px, asked.height_px, asked.scheme, "waiting for the first map"), kMapQuality),
+        {},
+        now};
+  const rendering::MapPicture picture = rendering::pictureOf(*world.value, hull_diameter_m_);
+  return {jpeg_.encode(view.renderer_.render(picture, mapView(asked)), kMapQuality), world.value->stamp,
+          world.unix_time};
+}
+
+FrameHub::Drawn FrameHub::drawCamera(const PictureView& asked, common::Time now) {
+  const auto& camera = telemetry_.camera();
+  if (!camera.value || camera.value->image.width_px <= 0 || camera.value->image.height_px <= 0)
+    return {jpeg_.encode(cameraNotice(asked, "waiting for the camera"), kCameraQuality), {}, now};
+  return {jpeg_.encode(rendering::shrinkToWidth(camera.value->image, asked.width_px), kCameraQuality),
+          camera.value->stamps.measured, camera.unix_time};
+}
+
+FrameHub::Drawn FrameHub::drawMap3d(View& view, common::Time now) {
+  const PictureView& asked = view.asked_;
+  const auto& world = telemetry_.world();
+  if (!world.value || !world.value->map3d)
+    return {jpeg_.encode(notice(asked.width_px, asked.height_px, asked.scheme,
+                                world.value ? kNoCamera : "waiting for the first map"),
+                         kCameraQuality),
+            {},
+            now};
+  const rendering::Picture3d picture = rendering::picture3dOf(*world.value, hull_diameter_m_);
+  return {jpeg_.encode(view.renderer3d_.render(picture, map3dView(asked)), kCameraQuality), world.value->stamp,
+          world.unix_time};
+}
+
+FrameHub::Drawn FrameHub::drawDepth(const PictureView& asked, common::Time now) {
+  const auto& depth = telemetry_.depth();
+  const bool camera = !telemetry_.world().value || telemetry_.world().value->map3d;
+  if (!depth.value || depth.value->depth.width_px <= 0 || depth.value->depth.height_px <= 0)
+    return {jpeg_.encode(cameraNotice(asked, camera ? "waiting for the camera" : kNoCamera), kCameraQuality), {}, now};
+  return {jpeg_.encode(rendering::depthPicture(depth.value->depth, asked.width_px), kCameraQuality),
+          depth.value->stamps.measured, depth.unix_time};
 }
 
 rendering::Bytes FrameHub::png(const PictureView& view) const {

@@ -7,8 +7,9 @@
 #include <string>
 
 #include "rendering/encode.hpp"
+#include "rendering/map3d_renderer.hpp"
 #include "rendering/map_renderer.hpp"
-#include "web/server/route.hpp"
+#include "web/server/picture_view.hpp"
 #include "web/server/telemetry.hpp"
 
 namespace swiftlet::web {
@@ -40,7 +41,21 @@ class FrameHub {
   rendering::Bytes png(const PictureView& view) const;
 
  private:
+  /// A picture and the times that its part of the stream says.
+  struct Drawn {
+    rendering::Bytes jpeg;
+    common::Time stamp;  ///< Of the flight.
+    common::Time seen;   ///< When the server first saw the source, since 1970.
+  };
+
   std::shared_ptr<const StreamFrame> encode(View& view, common::Time now);
+  /// Rises when there is something new to show.
+  std::uint64_t newest(PictureView::Source source) const;
+  Drawn draw(View& view, common::Time now);
+  Drawn drawMap(View& view, common::Time now);
+  Drawn drawCamera(const PictureView& asked, common::Time now);
+  Drawn drawMap3d(View& view, common::Time now);
+  Drawn drawDepth(const PictureView& asked, common::Time now);
   void shareTime();
 
   Telemetry& telemetry_;
@@ -59,6 +74,7 @@ class FrameHub::View {
   friend class FrameHub;
   PictureView asked_;
   rendering::MapRenderer renderer_;
+  rendering::Map3dRenderer renderer3d_;
   std::shared_ptr<const StreamFrame> frame_;
   double cost_s_ = 0.0;  ///< Time to draw its last picture.
 };

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "web/server/assets.hpp"
+#include "web/server/map3d_session.hpp"
 #include "web/server/page_session.hpp"
 #include "web/server/stream_session.hpp"
 
@@ -139,7 +140,11 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   }
 
   void perform(const OpenSocket& socket) {
-    if (mayWatch()) startPage(core_, socket.vehicle, stream_.release_socket(), request_, byOperator());
+    if (!mayWatch()) return;
+    if (socket.feed == OpenSocket::Feed::kMap3d)
+      startMap3d(core_, socket.vehicle, stream_.release_socket(), request_, byOperator());
+    else
+      startPage(core_, socket.vehicle, stream_.release_socket(), request_, byOperator());
   }
 
   /// Otherwise the client is told.

@@ -4,17 +4,11 @@
 // A slow page skips states and gets the newest; nothing is queued for it.
 #pragma once
 
-#include <memory>
-
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/http/message.hpp>
-#include <boost/beast/http/string_body.hpp>
-
-#include "web/server/core.hpp"
+#include "web/server/web_socket.hpp"
 
 namespace swiftlet::web {
 
 void startPage(std::shared_ptr<Core> core, std::size_t vehicle, boost::asio::ip::tcp::socket socket,
-               const boost::beast::http::request<boost::beast::http::string_body>& upgrade, bool by_operator);
+               const WebSocket::Upgrade& upgrade, bool by_operator);
 
 }  // namespace swiftlet::web

@@ -1,14 +1,14 @@
 #include "web/server/route.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "common/error.hpp"
+#include "web/server/picture_query.hpp"
+#include "web/server/refusal.hpp"
 #include "web/server/target.hpp"
 
 namespace swiftlet::web {
@@ -16,23 +16,6 @@ namespace {
 
 /// Larger numbers are mistakes: no map is 100 km wide.
 constexpr double kGreatestCoordinate_m = 1e5;
-
-/// Holds the refusal as soon as a check fails.
-struct Refused {
-  Refuse refuse;
-};
-
-[[noreturn]] void refuse(int status, std::string reason, std::string allow = {}) {
-  throw Refused{{status, std::move(reason), std::move(allow)}};
-}
-
-/// Text of an unknown client, made safe for a message.
-std::string shown(std::string_view text) {
-  std::string result = "`";
-  for (const char c : text.substr(0, 40))
-    result += static_cast<unsigned char>(c) >= 32 && static_cast<unsigned char>(c) < 127 ? c : '?';
-  return result + (text.size() > 40 ? "...`" : "`");
-}
 
 /// Takes the same time for a wrong token as for the right one.
 bool sameSecret(std::string_view given, std::string_view secret) {
@@ -92,73 +75,6 @@ std::size_t vehicleOf(const Target& target, const Policy& policy) {
   refuse(404, fmt::format("there is no vehicle {}{}{}", shown(named->second), hint.empty() ? "" : ", ", hint));
 }
 
-class Parameters {
- public:
-  Parameters(const Target& target, std::vector<std::string> known) : query_(target.query) {
-    for (const auto& [key, value] : query_) {
-      // Pages add `t` or `_` to get past a cache.
-      if (key == "token" || key == "vehicle" || key == "t" || key == "_") continue;
-      if (std::find(known.begin(), known.end(), key) == known.end()) {
-        const std::string hint = common::didYouMean(key, known);
-        refuse(400, fmt::format("unknown parameter {}{}{}", shown(key), hint.empty() ? "" : ", ", hint));
-      }
-    }
-  }
-
-  double number(const std::string& key, double otherwise, double least, double greatest, const char* unit) const {
-    const auto it = query_.find(key);
-    if (it == query_.end()) return otherwise;
-    double value = 0.0;
-    const char* end = it->second.data() + it->second.size();
-    const auto [stop, error] = std::from_chars(it->second.data(), end, value);
-    if (error != std::errc() || stop != end || !(value >= least))
-      refuse(400, fmt::format("{}: {} is not a number of at least {:g}{}", key, shown(it->second), least, unit));
-    return std::min(value, greatest);
-  }
-
-  rendering::Scheme scheme() const {
-    const auto it = query_.find("scheme");
-    if (it == query_.end()) return rendering::Scheme::kLight;
-    const auto scheme = rendering::schemeFrom(it->second);
-    if (!scheme) refuse(400, fmt::format("scheme: {} is neither `light` nor `dark`", shown(it->second)));
-    return *scheme;
-  }
-
- private:
-  const std::map<std::string, std::string>& query_;
-};
-
-PictureView mapView(const Parameters& parameters) {
-  PictureView view;
-  view.width_px = static_cast<int>(parameters.number("width", 640, 64, 1920, " pixels"));
-  view.height_px =
-      static_cast<int>(parameters.number("height", std::max(64, view.width_px * 3 / 4), 64, 1920, " pixels"));
-  view.scheme = parameters.scheme();
-  return view;
-}
-
-double framesPerSecond(const Parameters& parameters) {
-  return parameters.number("fps", 10.0, 0.1, 30.0, " per second");
-}
-
-Action mapStream(const Target& target, std::size_t vehicle) {
-  const Parameters parameters(target, {"width", "height", "fps", "scheme"});
-  return StreamPictures{mapView(parameters), framesPerSecond(parameters), vehicle};
-}
-
-Action mapPicture(const Target& target, std::size_t vehicle) {
-  return SendPicture{mapView(Parameters(target, {"width", "height", "scheme"})), vehicle};
-}
-
-Action cameraStream(const Target& target, std::size_t vehicle) {
-  const Parameters parameters(target, {"width", "fps"});
-  PictureView view;
-  view.source = PictureView::Source::kCamera;
-  view.width_px = static_cast<int>(parameters.number("width", 640, 32, 1920, " pixels"));
-  view.height_px = 0;
-  return StreamPictures{view, framesPerSecond(parameters), vehicle};
-}
-
 double coordinate(const nlohmann::json& body, const char* key) {
   const auto it = body.find(key);
   if (it == body.end() || !it->is_number())
@@ -187,18 +103,27 @@ Action command(const Request& request, const std::string& name, std::size_t vehi
 
 Action read(const Request& request, const Target& target, std::size_t vehicle) {
   checkMethod(request, "GET");
-  if (target.path == "/stream/map.mjpg") return mapStream(target, vehicle);
-  if (target.path == "/stream/camera.mjpg") return cameraStream(target, vehicle);
-  if (target.path == "/api/map.png") return mapPicture(target, vehicle);
+  const auto stream = [&](const PictureQuery& asked) { return StreamPictures{asked.view, asked.fps, vehicle}; };
+  if (target.path == "/stream/map.mjpg") return stream(mapStream(target));
+  if (target.path == "/stream/camera.mjpg") return stream(cameraStream(target));
+  if (target.path == "/stream/map3d.mjpg") return stream(map3dStream(target));
+  if (target.path == "/stream/depth.mjpg") return stream(depthStream(target));
+  if (target.path == "/api/map.png") return SendPicture{mapPicture(target), vehicle};
   if (target.path == "/api/state") return SendState{vehicle};
   checkOrigin(request);
   if (!request.wants_websocket) refuse(426, "this is a WebSocket: connect with `Upgrade: websocket`");
-  return OpenSocket{vehicle};
+  return OpenSocket{target.path == "/api/map3d" ? OpenSocket::Feed::kMap3d : OpenSocket::Feed::kPage, vehicle};
 }
 
 Action decide(const Request& request, const Policy& policy) {
-  static const std::vector<std::string> kReads{"/stream/map.mjpg", "/stream/camera.mjpg", "/api/map.png", "/api/state",
-                                               "/api/ws"};
+  static const std::vector<std::string> kReads{"/stream/map.mjpg",
+                                               "/stream/camera.mjpg",
+                                               "/stream/map3d.mjpg",
+                                               "/stream/depth.mjpg",
+                                               "/api/map.png",
+                                               "/api/state",
+                                               "/api/ws",
+                                               "/api/map3d"};
   static const std::vector<std::string> kCommands{"/api/goal", "/api/hold", "/api/resume", "/api/home", "/api/land"};
   const auto in = [](const std::vector<std::string>& list, const std::string& item) {
     return std::find(list.begin(), list.end(), item) != list.end();
@@ -237,7 +162,7 @@ Action route(const Request& request, const Policy& policy) {
   try {
     return decide(request, policy);
   } catch (const Refused& refused) {
-    return refused.refuse;
+    return Refuse{refused.status, refused.reason, refused.allow};
   }
 }
 

@@ -6,21 +6,10 @@
 #include <vector>
 
 #include "common/command.hpp"
-#include "rendering/theme.hpp"
+#include "web/server/picture_view.hpp"
 #include "web/server/request.hpp"
 
 namespace swiftlet::web {
-
-/// A picture requested by a client; equal views share one encoding.
-struct PictureView {
-  enum class Source { kMap, kCamera };
-  Source source = Source::kMap;
-  int width_px = 640;
-  int height_px = 480;  ///< Height of the map; the camera keeps its aspect ratio.
-  rendering::Scheme scheme = rendering::Scheme::kLight;
-
-  auto operator<=>(const PictureView&) const = default;
-};
 
 struct ServeFile {
   std::string name;  ///< Name of the embedded file: "index.html".
@@ -39,6 +28,8 @@ struct SendState {
   std::size_t vehicle = 0;
 };
 struct OpenSocket {
+  enum class Feed { kPage, kMap3d };
+  Feed feed = Feed::kPage;
   std::size_t vehicle = 0;
 };
 struct GiveCommand {
@@ -63,7 +54,8 @@ struct Policy {
 };
 
 /// Checked in this order: host (403), target (400), path (404), vehicle (404), method (405), origin (403), token (401),
-/// parameters and body (400). Widths, heights and rates that are too large are reduced to what is offered.
+/// parameters and body (400). Widths, heights and rates that are too large are reduced to what is offered. A viewpoint
+/// outside its bounds is refused.
 Action route(const Request& request, const Policy& policy);
 
 /// Whether the request carries the operator's token, in its header or its address.

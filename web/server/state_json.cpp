@@ -8,6 +8,7 @@
 #include "common/rounding.hpp"
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
+#include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
@@ -96,6 +97,13 @@ Json avoidanceOf(const common::AvoidanceStatus& avoidance) {
           {"nearest_m", number(avoidance.nearest_m, 2)}};
 }
 
+Json map3dOf(const std::shared_ptr<const common::Map3dLayer>& map3d) {
+  if (!map3d) return nullptr;
+  std::size_t points = 0;
+  for (const common::Submap3d& submap : *map3d->submaps) points += submap.points->size();
+  return {{"submaps", map3d->submaps->size()}, {"points", points}, {"tracked", map3d->tracked}};
+}
+
 Json stateOf(const common::World& world, const Observation& seen) {
   const common::VehicleLayer& vehicle = *world.vehicle;
   const common::VehicleState& state = vehicle.state;
@@ -108,6 +116,8 @@ Json stateOf(const common::World& world, const Observation& seen) {
       {"stamp_s", number(world.stamp.seconds())},
       {"age_s", number(seen.world_age_s)},
       {"camera_age_s", optional(seen.camera_age_s)},
+      {"depth_age_s", optional(seen.depth_age_s)},
+      {"map3d", map3dOf(world.map3d)},
       {"realtime_factor", optional(seen.realtime_factor)},
       {"pose", poseOf(state)},
       {"velocity_m_s", {number(velocity.x()), number(velocity.y()), number(velocity.z())}},

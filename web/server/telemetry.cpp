@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 
 namespace swiftlet::web {
@@ -42,6 +43,7 @@ void Telemetry::look() {
   const common::Time at = now();
   camera_.look(sources_.camera, at);
   if (!world_.look(sources_.world, at) || !world_.value) return;
+  lookAtDepth(at);
   const double unix_s = at.seconds();
   // A world older than the last one belongs to another flight.
   if (!clock_.empty() && world_.value->stamp.seconds() < clock_.back().second) clock_.clear();
@@ -51,12 +53,22 @@ void Telemetry::look() {
   while (clock_.size() > 2 && unix_s - clock_[1].first > kClockWindow_s) clock_.pop_front();
 }
 
+void Telemetry::lookAtDepth(common::Time at) {
+  const auto& map3d = world_.value->map3d;
+  const auto newest = map3d ? map3d->frame : nullptr;
+  if (depth_.sequence > 0 && newest == depth_.value) return;
+  ++depth_.sequence;
+  depth_.value = newest;
+  depth_.unix_time = at;
+}
+
 Observation Telemetry::observe() const {
   Observation seen;
   const common::Time at = now();
   seen.sequence = world_.sequence;
   if (world_.value) seen.world_age_s = (at - world_.unix_time).seconds();
   if (camera_.value) seen.camera_age_s = (at - camera_.unix_time).seconds();
+  if (depth_.value) seen.depth_age_s = (at - depth_.unix_time).seconds();
   if (clock_.size() >= 2 && clock_.back().first - clock_.front().first > 0.5)
     seen.realtime_factor =
         (clock_.back().second - clock_.front().second) / (clock_.back().first - clock_.front().first);
@@ -87,6 +99,10 @@ void Telemetry::encodeMap(const common::MapLayer& map) {
   if (!encoded_map_ || encoded_map_->levels != map.levels) levels_.set(levelsJson(*map.levels));
   tiles_.update(map.grid);
   encoded_map_ = world_.value->map;
+}
+
+void Telemetry::encodeMap3d() {
+  if (world_.value && world_.value->map3d) submaps_.update(*world_.value->map3d);
 }
 
 void Telemetry::postEvent(const common::Event& event) {

@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "common/rgbd_frame.hpp"
 #include "common/world.hpp"
 #include "common/world/vehicle_layer.hpp"
 #include "web/server/state_json.hpp"
+#include "web/server/submap_feed.hpp"
 #include "web/server/tile_feed.hpp"
 #include "web/server/web_server.hpp"
 
@@ -57,6 +59,9 @@ class Telemetry {
 
   const Seen<common::World>& world() const { return world_; }
   const Seen<common::CameraFrame>& camera() const { return camera_; }
+  /// The newest depth image of the RGB-D camera; its number rises with the first world too, which says whether there is
+  /// a camera.
+  const Seen<common::RgbdFrame>& depth() const { return depth_; }
   Observation observe() const;
 
   /// encodeParts(), which a page's tick calls, updates the parts below; null before the first world.
@@ -65,6 +70,9 @@ class Telemetry {
   const Part& frontiers() const { return frontiers_; }
   const Part& levels() const { return levels_; }
   const TileFeed& tiles() const { return tiles_; }
+  /// encodeMap3d(), which the tick of a page with a 3D view calls, updates it.
+  void encodeMap3d();
+  const SubmapFeed& submaps() const { return submaps_; }
   /// Little endian: u8 2, u8 0, u16 number of points, then i16 x, i16 y in centimetres; null: no scan.
   const Part& laser() const { return laser_; }
   /// Rises if earlier points of the trail have moved.
@@ -75,6 +83,7 @@ class Telemetry {
   std::vector<NumberedEvent> eventsAfter(std::uint64_t number) const;
 
  private:
+  void lookAtDepth(common::Time at);
   void encodeMap(const common::MapLayer& map);
   void followTrail();
 
@@ -82,6 +91,7 @@ class Telemetry {
   std::function<common::Time()> unix_time_;
   Seen<common::World> world_;
   Seen<common::CameraFrame> camera_;
+  Seen<common::RgbdFrame> depth_;
   /// (unix, simulated) seconds of the recent worlds.
   std::deque<std::pair<double, double>> clock_;
 
@@ -91,6 +101,7 @@ class Telemetry {
   std::shared_ptr<const common::MapLayer> encoded_map_;
   std::shared_ptr<const common::LaserPoints> encoded_laser_;
   TileFeed tiles_;
+  SubmapFeed submaps_;
   common::Trail trail_;
   std::uint64_t trail_version_ = 1;
 

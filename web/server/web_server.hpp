@@ -4,9 +4,18 @@
 //   GET  /                        the page, embedded in the program; no other host is needed
 //   GET  /stream/map.mjpg         ?width= &height= &fps= &scheme=light|dark; multipart/x-mixed-replace
 //   GET  /stream/camera.mjpg      ?width= &fps=
+//   GET  /stream/map3d.mjpg       ?width= &height= &fps= &scheme= &color=measured|normal, and from where it is seen:
+//                                 &view=whole   &azimuth= &elevation=                   (when no view is given)
+//                                 &view=orbit   &x= &y= &z= &distance= &azimuth= &elevation=
+//                                 &view=follow  &distance= &azimuth= &elevation=        around the vehicle
+//                                 &view=camera                                          as the RGB-D camera sees
+//                                 x, y, z in metres of `map`; distance 0.2 to 1000 m; azimuth -360 to 360 degrees
+//                                 from the x axis; elevation -89 to 89 degrees above the horizon
+//   GET  /stream/depth.mjpg       ?width= &fps=; depth in colours, see rendering/depth_picture.hpp
 //   GET  /api/state               everything as one JSON document
 //   GET  /api/map.png             the picture of the map; ?width= &height= &scheme=
 //   GET  /api/ws                  WebSocket: the content of /api/state in parts, only changes, and the map's tiles
+//   GET  /api/map3d               WebSocket: the points of the 3D map and their poses, see web/server/submap_feed.hpp
 //   GET  /api/token               200 if the token shown is the operator's, else 401
 //   POST /api/goal|hold|resume|home|land    `Authorization: Bearer TOKEN` or ?token=; goal: {"x_m": 1.0, "y_m": 2.0}
 //

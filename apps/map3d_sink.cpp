@@ -1,0 +1,38 @@
+#include "apps/map3d_sink.hpp"
+
+#include <utility>
+
+#include "apps/map3d_files.hpp"
+#include "common/world.hpp"
+#include "common/world/map3d_layer.hpp"
+#include "interfaces/run_folder.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+/// By the wall clock: what a killed process may lose of the 3D map.
+constexpr std::chrono::seconds kPeriod{15};
+/// A long flight's map takes a few seconds to fuse and to write.
+constexpr auto kLatency = common::Duration::fromMilliseconds(5000);
+
+}  // namespace
+
+void Map3dSink::ticked(const autonomy::TickOutcome& outcome) {
+  now_ = outcome.now;
+  jobs_->deliverDue(now_);
+}
+
+void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
+  const Clock::time_point now = Clock::now();
+  if (!world->map3d || now - written_ < kPeriod || !jobs_->idle("map3d")) return;
+  written_ = now;
+  jobs_->submit("map3d", now_, kLatency, [this, layer = world->map3d]() -> common::JobRunner::Deliver {
+    return [this, files = map3dFiles(*layer)](common::Time) { folder_.show(files); };
+  });
+}
+
+void Map3dSink::writeNow(const common::World& world) {
+  if (world.map3d) folder_.show(map3dFiles(*world.map3d));
+}
+
+}  // namespace swiftlet::apps

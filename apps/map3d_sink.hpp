@@ -1,0 +1,33 @@
+// Writes the 3D map of a flight into its run folder: every few seconds, and at the end.
+#pragma once
+
+#include <memory>
+
+#include "apps/wall_clock.hpp"
+#include "autonomy/flight_sink.hpp"
+#include "common/jobs.hpp"
+
+namespace swiftlet::interfaces {
+class RunFolder;
+}
+
+namespace swiftlet::apps {
+
+/// Refers to the folder, which must outlive it. Without an RGB-D camera it does nothing.
+class Map3dSink final : public autonomy::FlightSink {
+ public:
+  explicit Map3dSink(interfaces::RunFolder& folder) : folder_(folder) {}
+
+  void ticked(const autonomy::TickOutcome& outcome) override;
+  void world(const std::shared_ptr<const common::World>& world) override;
+  /// Writes the map of the end at once.
+  void writeNow(const common::World& world);
+
+ private:
+  interfaces::RunFolder& folder_;
+  common::Time now_;
+  Clock::time_point written_;
+  std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(1);
+};
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,190 @@
+#include "autonomy/estimation/rgbd_pipeline.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/vehicle_config.hpp"
+#include "mapping3d/model/submap_fusion.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::Duration;
+using common::Severity;
+using common::Time;
+
+constexpr const char* kMapping3d = "mapping3d";
+constexpr const char* kFusion3d = "mapping3d fusion";
+
+/// Whether its images have the size of its camera.
+bool isWhole(const common::RgbdFrame& frame) {
+  const auto& [width_px, height_px, fx_px, fy_px, cx_px, cy_px] = frame.camera;
+  const auto pixels = static_cast<std::size_t>(frame.camera.pixels());
+  return width_px > 0 && height_px > 0 && fx_px > 0.0 && fy_px > 0.0 && frame.color.width_px == width_px &&
+         frame.color.height_px == height_px && frame.color.rgb.size() == 3 * pixels &&
+         frame.depth.width_px == width_px && frame.depth.height_px == height_px && frame.depth.depth_m.size() == pixels;
+}
+
+/// The middle row of a rolling shutter stands for all.
+Time timeOf(const common::RgbdFrame& frame) {
+  return frame.stamps.measured + frame.row_time * (frame.camera.height_px / 2);
+}
+
+/// From errors of the camera's pose to those of the body's, each in its own axes (the adjoint of T_body_camera).
+mapping3d::Matrix6d ofBody(const mapping3d::Matrix6d& covariance_camera, const common::Pose3& T_body_camera) {
+  const Eigen::Matrix3d rotation = T_body_camera.rotation.toRotationMatrix();
+  const Eigen::Vector3d& p = T_body_camera.position_m;
+  Eigen::Matrix3d cross;
+  cross << 0.0, -p.z(), p.y(), p.z(), 0.0, -p.x(), -p.y(), p.x(), 0.0;
+  mapping3d::Matrix6d adjoint = mapping3d::Matrix6d::Zero();
+  adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = rotation;
+  adjoint.topRightCorner<3, 3>() = cross * rotation;
+  return adjoint * covariance_camera * adjoint.transpose();
+}
+
+}  // namespace
+
+RgbdPipeline::RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdCameraConfig& camera,
+                           common::JobRunner& jobs)
+    : config_(config),
+      T_body_camera_(camera.mount.pose()),
+      silence_(Duration::fromSeconds(config.silent_s)),
+      jobs_(jobs),
+      mapper_(std::make_shared<mapping3d::Mapper3d>(config.mapper)) {}
+
+void RgbdPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
+  const common::Stamps& stamps = frame->stamps;
+  last_arrived_ = stamps.arrived;
+  if (silent_) say(stamps.arrived, Severity::kInfo, "camera sends again");
+  silent_ = false;
+  const bool is_newer = !last_measured_ || stamps.measured > *last_measured_;
+  if (!is_newer || !isWhole(*frame)) {
+    ++counts_.skipped;
+    if (!std::exchange(fault_said_, true))
+      say(stamps.arrived, Severity::kWarning, "a frame cannot be used",
+          std::string(is_newer ? "its images do not have the size of the camera"
+                               : "it was not measured after the last") +
+              "; further ones are only counted");
+    return;
+  }
+  ++counts_.frames;
+  last_measured_ = stamps.measured;
+  waiting_ = std::move(frame);
+}
+
+std::optional<Time> RgbdPipeline::next() const {
+  if (!waiting_ || !jobs_.idle(kMapping3d)) return std::nullopt;
+  return timeOf(*waiting_);
+}
+
+void RgbdPipeline::map(const FrameSituation& situation, Time now) {
+  const std::shared_ptr<const common::RgbdFrame> frame = std::exchange(waiting_, nullptr);
+  // The key frames hang on key scans, so there is no 3D map before the 2D map.
+  if (situation.keys->keys.empty()) return;
+  mapping3d::FrameContext context;
+  context.scans = situation.keys;
+  if (situation.at_key)
+    context.seed = mapping3d::CameraSeed{situation.keys->inMap(*situation.at_key) * T_body_camera_,
+                                         situation.at_key->key, situation.supported};
+  const bool publish = !submaps_stamp_ || (now - *submaps_stamp_).seconds() >= config_.publish_period_s;
+  if (publish) submaps_stamp_ = now;
+  jobs_.submit(kMapping3d, now, Duration::fromSeconds(config_.latency_s),
+               [this, mapper = mapper_, frame, context, people = situation.people,
+                publish]() mutable -> common::JobRunner::Deliver {
+                 context.people = people;
+                 Outcome outcome{frame, timeOf(*frame), context.scans, mapper->add(*frame, context), {}};
+                 if (publish) outcome.submaps = mapper->submaps();
+                 return [this, outcome = std::move(outcome)](Time delivered) { take(outcome, delivered); };
+               });
+  fuse(situation.keys, now);
+}
+
+void RgbdPipeline::take(Outcome outcome, Time delivered) {
+  const bool tracked = outcome.mapped.pose.isTracked();
+  ++(tracked ? counts_.mapped : counts_.lost);
+  reportTrack(tracked, delivered);
+  if (tracked && config_.measure) step_ = stepOf(outcome);
+  if (!layer_) {
+    layer_ = std::make_shared<common::Map3dLayer>();
+    layer_->submaps = std::make_shared<const std::vector<common::Submap3d>>();
+  }
+  if (outcome.submaps)
+    layer_->submaps = std::make_shared<const std::vector<common::Submap3d>>(std::move(*outcome.submaps));
+  layer_->frame = outcome.frame;
+  layer_->tracked = tracked;
+  scan_ = outcome.mapped.pose.scan;
+  T_scan_camera_ = outcome.mapped.T_scan_camera;
+  changed_ = true;
+}
+
+CameraStep RgbdPipeline::stepOf(const Outcome& outcome) {
+  const mapping3d::RgbdPose& pose = outcome.mapped.pose;
+  CameraStep step;
+  if (reference_ && pose.measured) {
+    const common::Pose3 T_map_scan =
+        common::lifted(outcome.scans->keys[static_cast<std::size_t>(reference_->scan)].T_map_key, 0.0);
+    const common::Pose3 T_reference_camera =
+        (T_map_scan * reference_->T_scan_camera).inverse() * pose.measured->T_map_camera;
+    step.measurement = {reference_->time, outcome.time, T_body_camera_ * T_reference_camera * T_body_camera_.inverse(),
+                        ofBody(pose.measured->covariance, T_body_camera_)};
+  }
+  if (pose.became_key_frame || !reference_) {
+    step.clone_after = outcome.time;
+    reference_ = Reference{outcome.time, pose.scan, outcome.mapped.T_scan_camera};
+  }
+  return step;
+}
+
+std::shared_ptr<const common::Map3dLayer> RgbdPipeline::layer(const std::shared_ptr<const common::KeyPoses>& keys) {
+  if (!layer_ || (!changed_ && published_ && published_->keys == keys)) return published_;
+  changed_ = false;
+  layer_->keys = keys;
+  layer_->T_map_camera = common::lifted(keys->keys[static_cast<std::size_t>(scan_)].T_map_key, 0.0) * T_scan_camera_;
+  published_ = std::make_shared<const common::Map3dLayer>(*layer_);
+  return published_;
+}
+
+/// All submaps are fused again where one has grown or a key scan has moved.
+void RgbdPipeline::fuse(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
+  if (!layer_ || layer_->submaps->empty() || !jobs_.idle(kFusion3d)) return;
+  if (fused_from_ && (now - *fused_from_).seconds() < config_.fusion_period_s) return;
+  fused_from_ = now;
+  jobs_.submit(kFusion3d, now, Duration::fromSeconds(config_.fusion_latency_s),
+               [this, submaps = layer_->submaps, keys, now,
+                resolution_m = config_.mapper.voxels.resolution_m]() -> common::JobRunner::Deliver {
+                 auto fused = std::make_shared<const common::VoxelMap>(mapping3d::fuse(*submaps, *keys, resolution_m));
+                 return [this, fused, now](Time) {
+                   layer_->fused = fused;
+                   layer_->fused_stamp = now;
+                   changed_ = true;
+                 };
+               });
+}
+
+void RgbdPipeline::watch(Time now) {
+  if (silent_ || !last_arrived_ || now - *last_arrived_ < silence_) return;
+  silent_ = true;
+  say(now, Severity::kWarning, "camera is silent", fmt::format("no frame for {:.1f} s", config_.silent_s));
+}
+
+void RgbdPipeline::reportTrack(bool tracked, Time now) {
+  if (tracked) {
+    if (lost_said_) say(now, Severity::kInfo, "3D track found again");
+    lost_since_.reset();
+    lost_said_ = false;
+    return;
+  }
+  if (!lost_since_) lost_since_ = now;
+  if (lost_said_ || (now - *lost_since_).seconds() < config_.lost_s) return;
+  lost_said_ = true;
+  say(now, Severity::kWarning, "3D track lost", "frames do not fit the map, and are left out");
+}
+
+void RgbdPipeline::say(Time now, Severity severity, std::string text, std::string reason) {
+  events_.push_back({now, severity, "mapping3d", std::move(text), std::move(reason)});
+}
+
+std::vector<common::Event> RgbdPipeline::takeEvents() { return std::exchange(events_, {}); }
+
+}  // namespace swiftlet::autonomy

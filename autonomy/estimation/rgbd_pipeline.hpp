@@ -1,0 +1,121 @@
+// Makes the 3D map from the frames of an RGB-D camera. The heavy work is a job, a function of the frame, its seed and
+// the mapper's past.
+//
+//   frame --> waits until the pose at its time is known --> Mapper3d, a job --> Map3dLayer
+//                 ^--- a newer frame replaces it                 \--> all submaps fused, a job of its own
+//
+// At most one frame is being mapped and one waits, so frames are left out where the work takes longer than the camera.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "autonomy/estimation/odometry_step.hpp"
+#include "autonomy/estimation/rgbd_pipeline_config.hpp"
+#include "common/disc.hpp"
+#include "common/event.hpp"
+#include "common/jobs.hpp"
+#include "common/key_pose.hpp"
+#include "common/rgbd_camera_config.hpp"
+#include "common/rgbd_frame.hpp"
+#include "common/world/map3d_layer.hpp"
+#include "mapping3d/model/mapper3d.hpp"
+
+namespace swiftlet::autonomy {
+
+/// What the estimator knows at the time of a frame.
+struct FrameSituation {
+  /// Pose of the body; none if it is not known.
+  std::optional<common::KeyRelativePose> at_key;
+  /// Whether a measurement has just supported the position, so that it is a pose in the map and not only predicted.
+  bool supported = false;
+  std::shared_ptr<const common::KeyPoses> keys;  ///< Never null.
+  std::vector<common::Disc> people;
+};
+
+struct RgbdCounts {
+  std::uint64_t frames = 0;   ///< That arrived and could be used.
+  std::uint64_t skipped = 0;  ///< Repeated, late, or without images of the camera's size.
+  std::uint64_t mapped = 0;   ///< That were aligned to the map and drawn.
+  std::uint64_t lost = 0;     ///< That did not fit and were left out.
+};
+
+/// One thread. Its jobs refer to it, so it cannot be moved and must outlive them.
+class RgbdPipeline {
+ public:
+  RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdCameraConfig& camera, common::JobRunner& jobs);
+  RgbdPipeline(const RgbdPipeline&) = delete;
+  RgbdPipeline& operator=(const RgbdPipeline&) = delete;
+
+  /// A frame that was not measured after the last one is counted and left out.
+  void add(std::shared_ptr<const common::RgbdFrame> frame);
+
+  /// The time at which the frame that is next to be mapped was measured; none while there is no such frame, or while
+  /// another one is being mapped.
+  std::optional<common::Time> next() const;
+  /// Until then it is worth waiting for a scan of its time. Only if there is a next one.
+  common::Time waitUntil() const { return waiting_->stamps.arrived + common::Duration::fromSeconds(config_.wait_s); }
+  /// Maps the next frame.
+  void map(const FrameSituation& situation, common::Time now);
+  /// What the last frame tells the filter; none if that was asked before, or if there is nothing new.
+  std::optional<CameraStep> takeStep() { return std::exchange(step_, std::nullopt); }
+  /// The filter no longer has the clone from which the measurements start.
+  void forgetClone() { reference_.reset(); }
+  /// Notices that the camera is silent. To be called at every tick.
+  void watch(common::Time now);
+
+  /// The layer with these key scans; null before the first frame. The same object until something changes.
+  std::shared_ptr<const common::Map3dLayer> layer(const std::shared_ptr<const common::KeyPoses>& keys);
+  const RgbdCounts& counts() const { return counts_; }
+  std::vector<common::Event> takeEvents();
+
+ private:
+  /// The outcome of the job of a frame.
+  struct Outcome {
+    std::shared_ptr<const common::RgbdFrame> frame;
+    common::Time time;  ///< That of its pose.
+    std::shared_ptr<const common::KeyPoses> scans;
+    mapping3d::MappedFrame mapped;
+    std::optional<std::vector<common::Submap3d>> submaps;  ///< If they were to be published.
+  };
+  void take(Outcome outcome, common::Time delivered);
+  CameraStep stepOf(const Outcome& outcome);
+  void reportTrack(bool tracked, common::Time now);
+  void fuse(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
+  void say(common::Time now, common::Severity severity, std::string text, std::string reason = {});
+
+  RgbdPipelineConfig config_;
+  common::Pose3 T_body_camera_;
+  common::Duration silence_;
+  common::JobRunner& jobs_;
+  std::shared_ptr<mapping3d::Mapper3d> mapper_;  ///< Belongs to the job while one is outstanding.
+
+  std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
+  std::optional<common::Time> last_measured_, last_arrived_;
+  bool silent_ = false, fault_said_ = false, lost_said_ = false;
+  std::optional<common::Time> lost_since_;
+
+  std::shared_ptr<common::Map3dLayer> layer_;  ///< The next one to be published; null before the first frame.
+  std::shared_ptr<const common::Map3dLayer> published_;
+  bool changed_ = false;
+  int scan_ = 0;
+  common::Pose3 T_scan_camera_;
+  /// The frame from which measurements start: it became a key frame, so that later frames are aligned to it.
+  struct Reference {
+    common::Time time;
+    int scan = 0;
+    common::Pose3 T_scan_camera;
+  };
+  std::optional<Reference> reference_;
+  std::optional<CameraStep> step_;
+  std::optional<common::Time> submaps_stamp_;  ///< When the submaps of the layer were taken.
+  std::optional<common::Time> fused_from_;     ///< The same, of those that are fused.
+  RgbdCounts counts_;
+  std::vector<common::Event> events_;
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,23 @@
+// The settings of 3D mapping in flight.
+#pragma once
+
+#include "common/config_fwd.hpp"
+#include "mapping3d/model/mapper3d.hpp"
+
+namespace swiftlet::autonomy {
+
+struct RgbdPipelineConfig {
+  mapping3d::Mapper3dConfig mapper;
+  bool measure = true;
+  double latency_s = 0.06;
+  double wait_s = 0.05;
+  double publish_period_s = 0.4;
+  double fusion_period_s = 10.0;
+  double fusion_latency_s = 2.0;
+  double silent_s = 1.0;
+  double lost_s = 0.5;
+
+  void describe(common::config::Fields& fields);
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,84 @@
+#include "interfaces/files/point_cloud.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "common/check.hpp"
+#include "common/read_bytes.hpp"
+#include "interfaces/files/pcd_reader.hpp"
+#include "interfaces/files/ply_reader.hpp"
+
+namespace swiftlet::interfaces {
+namespace {
+
+using common::SurfacePoint;
+
+void append(std::string& bytes, std::uint32_t value) {
+  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(value >> shift & 0xffU));
+}
+
+void append(std::string& bytes, const Eigen::Vector3f& vector) {
+  for (const float value : {vector.x(), vector.y(), vector.z()}) append(bytes, std::bit_cast<std::uint32_t>(value));
+}
+
+std::string plyHeader(std::size_t points, bool normals) {
+  return fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment metres\nelement vertex {}\nproperty float x\nproperty float y\n"
+      "property float z\n{}property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
+      points, normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "");
+}
+
+std::string pcdHeader(std::size_t points, bool normals) {
+  return fmt::format(
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z{}rgb\nSIZE 4 4 4{}4\n"
+      "TYPE F F F{}U\nCOUNT 1 1 1{}1\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
+      normals ? " normal_x normal_y normal_z " : " ", normals ? " 4 4 4 " : " ", normals ? " F F F " : " ",
+      normals ? " 1 1 1 " : " ", points, points);
+}
+
+}  // namespace
+
+std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file) {
+  if (file.extension() == ".ply") return CloudFormat::kPly;
+  if (file.extension() == ".pcd") return CloudFormat::kPcd;
+  return std::nullopt;
+}
+
+std::string toCloud(std::span<const SurfacePoint> points, CloudFormat format) {
+  const bool normals =
+      std::any_of(points.begin(), points.end(), [](const SurfacePoint& point) { return !point.normal.isZero(); });
+  std::string bytes =
+      format == CloudFormat::kPly ? plyHeader(points.size(), normals) : pcdHeader(points.size(), normals);
+  bytes.reserve(bytes.size() + 28 * points.size());
+  for (const SurfacePoint& point : points) {
+    append(bytes, point.position_m);
+    if (normals) append(bytes, point.normal);
+    const auto& [red, green, blue] = point.rgb;
+    if (format == CloudFormat::kPcd)
+      append(bytes, static_cast<std::uint32_t>(red << 16 | green << 8 | blue));
+    else
+      for (const std::uint8_t color : point.rgb) bytes.push_back(static_cast<char>(color));
+  }
+  return bytes;
+}
+
+Written writeCloud(const std::filesystem::path& file, std::span<const SurfacePoint> points) {
+  const auto format = cloudFormatOf(file);
+  SWIFTLET_CHECK(format.has_value(), file.string());
+  return writeAtomically(file, toCloud(points, *format));
+}
+
+std::vector<SurfacePoint> parseCloud(std::string_view bytes, const std::string& name, CloudFormat format) {
+  return format == CloudFormat::kPly ? parsePly(bytes, name) : parsePcd(bytes, name);
+}
+
+std::vector<SurfacePoint> readCloud(const std::filesystem::path& file) {
+  const auto format = cloudFormatOf(file);
+  SWIFTLET_CHECK(format.has_value(), file.string());
+  return parseCloud(common::readBytes(file), file.string(), *format);
+}
+
+}  // namespace swiftlet::interfaces

@@ -1,0 +1,40 @@
+// Clouds of coloured points with normals in two file formats that other tools open:
+//   .ply  Polygon File Format, as MeshLab, CloudCompare, Blender and Open3D open it
+//   .pcd  of the Point Cloud Library, version 0.7
+//
+// Codecs of our own instead of PCL's: they need neither VTK nor a temporary file, and whatever a file holds, the memory
+// they take is bounded by its size. Tests let PCL read what is written, and read what PCL writes.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/submap3d.hpp"
+#include "interfaces/files/atomic_file.hpp"
+
+namespace swiftlet::interfaces {
+
+enum class CloudFormat { kPly, kPcd };
+
+/// By the ending of the name; none for any other ending.
+std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
+
+/// The bytes of a file, binary and little-endian. Normals are written if any is known. Equal points give equal bytes on
+/// every machine.
+std::string toCloud(std::span<const common::SurfacePoint> points, CloudFormat format);
+
+/// Writes the file in one step, in the format of the name's ending, which must be one of the two.
+[[nodiscard]] Written writeCloud(const std::filesystem::path& file, std::span<const common::SurfacePoint> points);
+
+/// Reads text and binary files of either format, those of PCL compressed too. Points whose position is not finite are
+/// left out, which PCL writes where nothing was measured. Colours and normals that a file does not have are grey and
+/// unknown; faces are left out. Throws InputError for anything that is not such a file.
+std::vector<common::SurfacePoint> readCloud(const std::filesystem::path& file);
+/// The same for bytes. Messages use `name` as the file.
+std::vector<common::SurfacePoint> parseCloud(std::string_view bytes, const std::string& name, CloudFormat format);
+
+}  // namespace swiftlet::interfaces

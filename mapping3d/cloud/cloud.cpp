@@ -1,0 +1,145 @@
+#include "mapping3d/cloud/cloud.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <tuple>
+
+#include <pcl/common/centroid.h>
+#include <pcl/common/eigen.h>
+#include <pcl/filters/statistical_outlier_removal.h>
+#include <pcl/filters/voxel_grid.h>
+#include <pcl/kdtree/kdtree_flann.h>
+#include <pcl/point_types.h>
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using common::SurfacePoint;
+using Eigen::Vector3f;
+using PclPoint = pcl::PointXYZRGBNormal;
+using PclCloud = pcl::PointCloud<PclPoint>;
+
+/// PCL counts the cubes of a box in 31 bits, so it is given tiles of so many cubes in each direction.
+constexpr std::int64_t kTileCubes = 1024;
+/// Farther points are errors: no building is 100 km wide. It also keeps the numbers of the cubes in range.
+constexpr float kFarthest_m = 1e5F;
+/// A plane has three points; more make its direction certain.
+constexpr int kPlaneNeighbours = 10;
+
+PclPoint pclPoint(const SurfacePoint& point) {
+  PclPoint result;
+  result.getVector3fMap() = point.position_m;
+  result.getNormalVector3fMap() = point.normal;
+  std::tie(result.r, result.g, result.b) = std::tie(point.rgb[0], point.rgb[1], point.rgb[2]);
+  return result;
+}
+
+SurfacePoint surfacePoint(const PclPoint& point) {
+  return {point.getVector3fMap(), point.getNormalVector3fMap(), {point.r, point.g, point.b}};
+}
+
+bool isKnown(const Vector3f& normal) { return normal.squaredNorm() > 0.5F; }
+
+/// The points by tiles whose borders are borders of cubes.
+std::map<std::array<std::int64_t, 3>, PclCloud::Ptr> tilesOf(const std::vector<SurfacePoint>& points, float cube_m) {
+  const float per_m = 1.0F / cube_m;  // As PCL computes a cube's number.
+  std::map<std::array<std::int64_t, 3>, PclCloud::Ptr> tiles;
+  for (const SurfacePoint& point : points) {
+    if (!point.position_m.allFinite() || !point.normal.allFinite()) continue;
+    if (point.position_m.cwiseAbs().maxCoeff() > kFarthest_m) continue;
+    std::array<std::int64_t, 3> tile{};
+    for (int axis = 0; axis < 3; ++axis)
+      tile[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(
+          std::floor(std::floor(point.position_m[axis] * per_m) / static_cast<float>(kTileCubes)));
+    PclCloud::Ptr& cloud = tiles[tile];
+    if (!cloud) cloud = pcl::make_shared<PclCloud>();
+    cloud->push_back(pclPoint(point));
+  }
+  return tiles;
+}
+
+/// One point a cube. Opposite normals of a thin wall may cancel each other: the point has none then.
+PclCloud::Ptr thinned(const std::vector<SurfacePoint>& points, float cube_m) {
+  auto all = pcl::make_shared<PclCloud>();
+  for (const auto& [index, tile] : tilesOf(points, cube_m)) {
+    pcl::VoxelGrid<PclPoint> grid;
+    grid.setLeafSize(cube_m, cube_m, cube_m);
+    grid.setDownsampleAllData(true);
+    grid.setInputCloud(tile);
+    PclCloud kept;
+    grid.filter(kept);
+    *all += kept;
+  }
+  for (PclPoint& point : *all)
+    if (!point.getNormalVector3fMap().allFinite() || !isKnown(point.getNormalVector3fMap()))
+      point.getNormalVector3fMap().setZero();
+  return all;
+}
+
+PclCloud::Ptr withoutOutliers(const PclCloud::Ptr& cloud, const CloudConfig& config) {
+  if (cloud->size() <= static_cast<std::size_t>(config.neighbours)) return cloud;
+  pcl::StatisticalOutlierRemoval<PclPoint> filter;
+  filter.setInputCloud(cloud);
+  filter.setMeanK(config.neighbours);
+  filter.setStddevMulThresh(config.deviations);
+  auto kept = pcl::make_shared<PclCloud>();
+  filter.filter(*kept);
+  return kept;
+}
+
+/// The direction of least spread of the points, on the side of `side`.
+Vector3f planeNormal(const PclCloud& cloud, const pcl::Indices& indices, const Vector3f& side) {
+  Eigen::Matrix3f covariance;
+  Eigen::Vector4f centroid;
+  if (pcl::computeMeanAndCovarianceMatrix(cloud, indices, covariance, centroid) < 3) return Vector3f::Zero();
+  float least = 0.0F;
+  Vector3f normal;
+  pcl::eigen33(covariance, least, normal);
+  if (!normal.allFinite()) return Vector3f::Zero();
+  return normal.dot(side) < 0.0F ? Vector3f(-normal) : normal;
+}
+
+void addMissingNormals(const PclCloud::Ptr& cloud) {
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < cloud->size(); ++i)
+    if (!isKnown((*cloud)[i].getNormalVector3fMap())) missing.push_back(i);
+  if (missing.empty() || missing.size() == cloud->size()) return;
+  pcl::KdTreeFLANN<PclPoint> tree;
+  tree.setInputCloud(cloud);
+  const PclCloud measured = *cloud;
+  pcl::Indices indices;
+  std::vector<float> squares_m2;
+  for (const std::size_t i : missing) {
+    tree.nearestKSearch(measured[i], kPlaneNeighbours, indices, squares_m2);
+    Vector3f side = Vector3f::Zero();
+    for (const auto neighbour : indices) side += measured[static_cast<std::size_t>(neighbour)].getNormalVector3fMap();
+    if (side.squaredNorm() > 0.0F) (*cloud)[i].getNormalVector3fMap() = planeNormal(measured, indices, side);
+  }
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> cleanCloud(const std::vector<SurfacePoint>& points, const CloudConfig& config) {
+  const PclCloud::Ptr cloud = withoutOutliers(thinned(points, static_cast<float>(config.cube_m)), config);
+  addMissingNormals(cloud);
+  std::vector<SurfacePoint> kept;
+  kept.reserve(cloud->size());
+  for (const PclPoint& point : *cloud) kept.push_back(surfacePoint(point));
+  return kept;
+}
+
+std::vector<SurfacePoint> cloudOf(const std::vector<common::Submap3d>& submaps, const common::KeyPoses& keys,
+                                  const CloudConfig& config) {
+  std::vector<SurfacePoint> all;
+  for (const common::Submap3d& submap : submaps) {
+    const common::Pose3 T_map_submap = submap.T_map_submap(keys);
+    const Eigen::Matrix3f rotation = T_map_submap.rotation.toRotationMatrix().cast<float>();
+    const Vector3f origin_m = T_map_submap.position_m.cast<float>();
+    for (const SurfacePoint& point : *submap.points)
+      all.push_back({rotation * point.position_m + origin_m, rotation * point.normal, point.rgb});
+  }
+  return cleanCloud(all, config);
+}
+
+}  // namespace swiftlet::mapping3d

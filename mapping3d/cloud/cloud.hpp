@@ -1,0 +1,32 @@
+// The cloud of a 3D map: the points of all submaps in `map`, thinned, without specks. By the Point Cloud Library (PCL),
+// whose headers only cloud.cpp includes.
+#pragma once
+
+#include <vector>
+
+#include "common/key_pose.hpp"
+#include "common/submap3d.hpp"
+
+namespace swiftlet::mapping3d {
+
+struct CloudConfig {
+  /// One point is kept in a cube of this size: the mean of positions, normals and colours of all that fell into it.
+  double cube_m = 0.02;
+  /// Statistical outlier removal (Rusu 2008): the mean distance of a point to so many nearest neighbours is compared
+  /// with that of all points. On a plane with a point in each cube, 20 neighbours are within three cubes.
+  int neighbours = 20;
+  /// A point is an outlier where it is farther than the mean by so many standard deviations: the usual three.
+  double deviations = 3.0;
+};
+
+/// The points must be in `map`, or in any one frame. Points that are not finite are left out. A normal that is not
+/// known becomes that of the plane through its neighbours, on the side of their known normals; it stays unknown where
+/// they have none. Equal arguments give equal bytes; one thread.
+std::vector<common::SurfacePoint> cleanCloud(const std::vector<common::SurfacePoint>& points,
+                                             const CloudConfig& config = {});
+
+/// The same of the submaps where their key scans are. Takes some seconds for a million points.
+std::vector<common::SurfacePoint> cloudOf(const std::vector<common::Submap3d>& submaps, const common::KeyPoses& keys,
+                                          const CloudConfig& config = {});
+
+}  // namespace swiftlet::mapping3d

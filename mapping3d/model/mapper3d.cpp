@@ -1,0 +1,62 @@
+#include "mapping3d/model/mapper3d.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using common::Pose3;
+using common::RgbdFrame;
+
+/// The frame without the depths that lie on people: what moves with them must not align later frames.
+RgbdFrame withoutPeople(RgbdFrame frame, const Pose3& T_map_camera, std::span<const common::Disc> people) {
+  const Eigen::Matrix3d rotation = T_map_camera.rotation.toRotationMatrix();
+  std::size_t pixel = 0;
+  for (int v = 0; v < frame.camera.height_px; ++v)
+    for (int u = 0; u < frame.camera.width_px; ++u, ++pixel) {
+      float& depth_m = frame.depth.depth_m[pixel];
+      if (!common::isMeasured(depth_m)) continue;
+      const Eigen::Vector3d point_map_m =
+          rotation * frame.camera.point_camera_m(u, v, static_cast<double>(depth_m)) + T_map_camera.position_m;
+      if (std::any_of(people.begin(), people.end(),
+                      [&](const common::Disc& person) { return person.covers(point_map_m.head<2>()); }))
+        depth_m = common::DepthImage::kUnknown;
+    }
+  return frame;
+}
+
+}  // namespace
+
+void Mapper3dConfig::describe(common::config::Fields& fields) {
+  fields.section("odometry", odometry, "The pose of a frame.");
+  fields.section("voxels", voxels, "Occupancy.");
+  fields.section("submaps", submaps, "Pieces of the map, which move with the key scans of the 2D map.");
+}
+
+Mapper3d::Mapper3d(const Mapper3dConfig& config)
+    : config_(config),
+      odometry_(config.odometry),
+      submaps_(config.submaps, config.voxels, config.odometry.features.depth_noise) {}
+
+MappedFrame Mapper3d::add(const RgbdFrame& frame, const FrameContext& context) {
+  odometry_.moveTo(context.scans);
+  const bool mask = !context.people.empty() && context.seed;
+  const RgbdFrame masked = mask ? withoutPeople(frame, context.seed->T_map_camera, context.people) : RgbdFrame{};
+  const RgbdFrame& still = mask ? masked : frame;
+  MappedFrame mapped;
+  mapped.pose = odometry_.process(still, context.seed);
+  const RgbdPose& pose = mapped.pose;
+  if (pose.isTracked())
+    submaps_.draw({frame, still, pose.T_map_camera, pose.scan, context.people, pose.became_key_frame}, *context.scans);
+  mapped.T_scan_camera = odometry_.keyFrames().T_map_scan(pose.scan).inverse() * pose.T_map_camera;
+  return mapped;
+}
+
+std::shared_ptr<const common::KeyPoses> noScans() {
+  return std::make_shared<const common::KeyPoses>(common::KeyPoses{1, {common::KeyPose{}}});
+}
+
+}  // namespace swiftlet::mapping3d

@@ -1,0 +1,69 @@
+// Makes the 3D map from RGB-D frames: finds the pose of each frame against what was seen before, and draws it.
+//
+//   frame, seed, key scans --> RgbdOdometry (persistent key frames) --> pose --> SubmapStore (points, voxels)
+//                                     \-- does not fit: left out
+//
+// Key frames and submaps hang on the key scans of the 2D map, so a loop closure moves them and draws nothing again.
+// Source: Saeedi et al., Algorithm 1.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/config_fwd.hpp"
+#include "common/disc.hpp"
+#include "common/key_pose.hpp"
+#include "common/rgbd_frame.hpp"
+#include "common/submap3d.hpp"
+#include "mapping3d/model/submap_config.hpp"
+#include "mapping3d/model/submap_store.hpp"
+#include "mapping3d/odometry/rgbd_odometry.hpp"
+#include "mapping3d/voxels/voxel_config.hpp"
+
+namespace swiftlet::mapping3d {
+
+struct Mapper3dConfig {
+  RgbdOdometryConfig odometry;
+  VoxelConfig voxels;
+  SubmapConfig submaps;
+
+  void describe(common::config::Fields& fields);
+};
+
+/// What other parts know at a frame's time.
+struct FrameContext {
+  std::optional<CameraSeed> seed;
+  /// Never null and with at least one key scan; without a 2D map a single one at the origin.
+  std::shared_ptr<const common::KeyPoses> scans;
+  std::span<const common::Disc> people;  ///< In `map`. What is seen of them is left out.
+};
+
+struct MappedFrame {
+  RgbdPose pose;                ///< T_map_camera is in the map of FrameContext::scans.
+  common::Pose3 T_scan_camera;  ///< Relative to the key scan `pose.scan`: moves with the map.
+};
+
+/// One thread. A function of its frames and their contexts.
+class Mapper3d {
+ public:
+  explicit Mapper3d(const Mapper3dConfig& config);
+
+  /// Frames come in the order of their stamps, and later contexts have the same or later versions of the key scans.
+  MappedFrame add(const common::RgbdFrame& frame, const FrameContext& context);
+
+  /// See SubmapStore::snapshot. It copies the points of the submap that grows.
+  std::vector<common::Submap3d> submaps() { return submaps_.snapshot(); }
+  const KeyFrameMap& keyFrames() const { return odometry_.keyFrames(); }
+
+ private:
+  Mapper3dConfig config_;
+  RgbdOdometry odometry_;
+  SubmapStore submaps_;
+};
+
+/// A single key scan at the origin, for maps without a 2D map.
+std::shared_ptr<const common::KeyPoses> noScans();
+
+}  // namespace swiftlet::mapping3d

@@ -1,0 +1,92 @@
+#include "mapping3d/odometry/camera_seed.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+Matrix6d diagonal(double sigma_m, double sigma_rad) {
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.diagonal().head<3>().setConstant(sigma_m * sigma_m);
+  covariance.diagonal().tail<3>().setConstant(sigma_rad * sigma_rad);
+  return covariance;
+}
+
+/// From the axes of the camera to those of the map.
+Matrix6d inMapAxes(const Matrix6d& covariance_camera, const Eigen::Quaterniond& R_map_camera) {
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = R_map_camera.toRotationMatrix();
+  return turn * covariance_camera * turn.transpose();
+}
+
+}  // namespace
+
+void CameraSeedConfig::describe(common::config::Fields& fields) {
+  fields("sigma_m", sigma_m, {0.001, 10}, "Standard deviation of the position of a seed.");
+  fields("sigma_rad", sigma_rad, {0.0001, 1}, "Standard deviation of the attitude of a seed, about each axis.");
+  fields("gate_m", gate_m, {0.01, 100}, "An alignment that ends farther from its seed is rejected.");
+  fields("gate_rad", gate_rad, {0.01, 3.2}, "An alignment that is turned by more against its seed is rejected.");
+  fields("speed_sigma_m_s", speed_sigma_m_s, {0.0001, 10},
+         "Standard deviation of the speed that a step from seed to seed has.");
+  fields("rate_sigma_rad_s", rate_sigma_rad_s, {0.0001, 10}, "Standard deviation of its angular rate.");
+  fields("step_sigma_m", step_sigma_m, {0.0001, 1},
+         "Error of the position that an alignment adds from key frame to key frame, at least.");
+  fields("step_sigma_rad", step_sigma_rad, {0.00001, 1},
+         "Error of the attitude that an alignment adds from key frame to key frame, at least.");
+  fields("unfit_frames", unfit_frames, {1, 1000},
+         "After so many frames that do not fit, the key frames begin anew at the seed.");
+}
+
+bool agrees(const common::Pose3& T_map_camera, const CameraSeed& seed, const CameraSeedConfig& config) {
+  return (T_map_camera.position_m - seed.T_map_camera.position_m).norm() <= config.gate_m &&
+         T_map_camera.rotation.angularDistance(seed.T_map_camera.rotation) <= config.gate_rad;
+}
+
+Matrix6d seedCovariance(const CameraSeedConfig& config) { return diagonal(config.sigma_m, config.sigma_rad); }
+
+PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double gap_s, const CameraSeedConfig& config) {
+  PosePrior prior;
+  prior.T_map_camera = last.T_map_camera * (last.seed.T_map_camera.inverse() * seed.T_map_camera);
+  const Matrix6d predicted =
+      last.covariance + diagonal(gap_s * config.speed_sigma_m_s, gap_s * config.rate_sigma_rad_s);
+  prior.information = predicted.inverse();
+  if (!seed.is_in_map) return prior;
+  const common::Pose3 error = prior.T_map_camera.inverse() * seed.T_map_camera;
+  Vector6d innovation;
+  innovation << error.position_m, common::logSO3(error.rotation);
+  const Matrix6d measured = seedCovariance(config);
+  const Vector6d correction = predicted * (predicted + measured).llt().solve(innovation);
+  prior.T_map_camera = prior.T_map_camera * common::Pose3{common::expSO3(correction.tail<3>()), correction.head<3>()};
+  prior.information += measured.inverse();
+  return prior;
+}
+
+KeyFramePlace placeOfNew(const KeyFramePlace& from, const Alignment& fit, const CameraSeed& seed,
+                         const CameraSeedConfig& config) {
+  const common::Pose3& T_map_camera = fit.T_map_camera;
+  const Matrix6d step = inMapAxes(fit.measured_information.inverse(), T_map_camera.rotation) +
+                        diagonal(config.step_sigma_m, config.step_sigma_rad);
+  const Matrix6d predicted = from.covariance + step;
+  Vector6d innovation;
+  innovation << seed.T_map_camera.position_m - T_map_camera.position_m,
+      common::logSO3(seed.T_map_camera.rotation * T_map_camera.rotation.conjugate());
+  const Matrix6d sum = predicted + seedCovariance(config);
+  const Matrix6d gain = sum.llt().solve(predicted).transpose();
+  const Vector6d correction = gain * innovation;
+  KeyFramePlace place;
+  place.scan = seed.scan;
+  place.track = from.track;
+  place.T_map_key.position_m = T_map_camera.position_m + correction.head<3>();
+  place.T_map_key.rotation = common::expSO3(correction.tail<3>()) * T_map_camera.rotation;
+  place.T_map_key.rotation.normalize();
+  place.covariance = predicted - gain * predicted;
+  place.covariance = 0.5 * (place.covariance + place.covariance.transpose()).eval();
+  return place;
+}
+
+}  // namespace swiftlet::mapping3d

@@ -1,0 +1,61 @@
+// What other sensors know of the camera's pose (UNB's Algorithm 1, line 1), and how it keeps frames and key frames near
+// the 2D map.
+//
+// A bare wall tells nothing of the motion along it. There the frames follow the motion of the seeds, which is known
+// much better than their place. From key frame to key frame the errors of the alignment add up, so that a 3D map of its own would leave the 2D map,
+// whose loop closures correct it. Each new key frame is therefore placed by a Kalman update: the alignment predicts
+// its pose, with an uncertainty that grew since the last seed, and the seed measures it.
+#pragma once
+
+#include "common/config_fwd.hpp"
+#include "common/geometry.hpp"
+#include "mapping3d/odometry/alignment.hpp"
+#include "mapping3d/odometry/key_frame_map.hpp"
+
+namespace swiftlet::mapping3d {
+
+/// The pose of the camera at a frame's time.
+struct CameraSeed {
+  common::Pose3 T_map_camera;
+  int scan = 0;  ///< The key scan on which a key frame that is made here hangs.
+  /// Whether it is a pose in the map, to which the key frames then keep. Otherwise only its change since the last frame
+  /// is used.
+  bool is_in_map = true;
+};
+
+struct CameraSeedConfig {
+  double sigma_m = 0.03;
+  double sigma_rad = 0.0175;
+  double gate_m = 0.3;
+  double gate_rad = 0.2;
+  double speed_sigma_m_s = 0.03;
+  double rate_sigma_rad_s = 0.02;
+  double step_sigma_m = 0.005;
+  double step_sigma_rad = 0.002;
+  int unfit_frames = 5;
+
+  void describe(common::config::Fields& fields);
+};
+
+/// Whether an aligned pose is as near to the seed as the gate demands.
+bool agrees(const common::Pose3& T_map_camera, const CameraSeed& seed, const CameraSeedConfig& config);
+
+/// The covariance of a seed, as KeyFramePlace::covariance.
+Matrix6d seedCovariance(const CameraSeedConfig& config);
+
+/// A frame that was aligned, or begins a track.
+struct AlignedFrame {
+  common::Pose3 T_map_camera;
+  Matrix6d covariance;  ///< With the axes of the camera.
+  CameraSeed seed;
+};
+
+/// What is known of a frame's pose before it is aligned: the last frame's pose with the motion of the seeds since then,
+/// and the seed itself if it is a pose in the map.
+PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double gap_s, const CameraSeedConfig& config);
+
+/// The place of a new key frame. `from` is the key frame that it was aligned to.
+KeyFramePlace placeOfNew(const KeyFramePlace& from, const Alignment& fit, const CameraSeed& seed,
+                         const CameraSeedConfig& config);
+
+}  // namespace swiftlet::mapping3d

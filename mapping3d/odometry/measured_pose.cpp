@@ -1,0 +1,62 @@
+#include "mapping3d/odometry/measured_pose.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Standard deviation along a direction that was not seen: as good as none against any state in flight.
+constexpr double kUnseenSigma_m = 100.0;
+
+}  // namespace
+
+void MeasuredPoseConfig::describe(common::config::Fields& fields) {
+  fields("least_share", least_share, {0.0, 1.0},
+         "A direction counts as seen with this share of the information of the one seen best. On a wall the noise of "
+         "normals seems to tell 0.3 % of it along the wall.");
+  fields("sigma_factor", sigma_factor, {0.1, 100},
+         "Standard deviation of a measured pose, in those that follow from independent points.");
+  fields("floor_m", floor_m, {0, 1}, "Least standard deviation of a measured position.");
+  fields("floor_rad", floor_rad, {0, 1}, "Least standard deviation of a measured attitude, about each axis.");
+}
+
+MeasuredPose withoutPrior(const Alignment& fit, const PosePrior& prior, double depth_m,
+                          const MeasuredPoseConfig& config) {
+  // In these units the six unknowns move points equally far.
+  Vector6d unit;
+  unit << 1.0, 1.0, 1.0, Eigen::Vector3d::Constant(1.0 / depth_m);
+  const Matrix6d information = unit.asDiagonal() * fit.measured_information * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information);
+  const common::Pose3 error = prior.T_map_camera.inverse() * fit.T_map_camera;
+  Vector6d from_prior;
+  from_prior << error.position_m, common::logSO3(error.rotation);
+  const Vector6d pulled = unit.asDiagonal() * (prior.information * from_prior);
+
+  const double least = config.least_share * solver.eigenvalues()[5];
+  Vector6d shift = Vector6d::Zero();
+  Matrix6d covariance = Matrix6d::Zero();
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d direction = solver.eigenvectors().col(i);
+    const double seen = solver.eigenvalues()[i];
+    if (seen <= least) {
+      covariance += kUnseenSigma_m * kUnseenSigma_m * direction * direction.transpose();
+      continue;
+    }
+    shift += direction * (direction.dot(pulled) / seen);
+    covariance += config.sigma_factor * config.sigma_factor / seen * direction * direction.transpose();
+  }
+  shift = unit.asDiagonal() * shift;
+  MeasuredPose measured;
+  measured.T_map_camera = fit.T_map_camera * common::Pose3{common::expSO3(shift.tail<3>()), shift.head<3>()};
+  measured.covariance = unit.asDiagonal() * covariance * unit.asDiagonal();
+  measured.covariance.diagonal().head<3>().array() += config.floor_m * config.floor_m;
+  measured.covariance.diagonal().tail<3>().array() += config.floor_rad * config.floor_rad;
+  measured.covariance = 0.5 * (measured.covariance + measured.covariance.transpose()).eval();
+  return measured;
+}
+
+}  // namespace swiftlet::mapping3d

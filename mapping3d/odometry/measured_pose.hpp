@@ -1,0 +1,37 @@
+// What a frame itself tells of its pose, for a filter that the prior came from.
+//
+// A prior from a filter must not return to it as a measurement: its information would count twice. An alignment with a
+// prior solves (H + L) x = H m + L p, with the information H of the frame and L of the prior p. So the measurement is
+// m = x + H^-1 L (x - p), with the covariance H^-1. In directions that the frame hardly sees, H cannot be inverted;
+// there nothing was measured.
+#pragma once
+
+#include <optional>
+
+#include "common/config_fwd.hpp"
+#include "common/geometry.hpp"
+#include "mapping3d/odometry/alignment.hpp"
+
+namespace swiftlet::mapping3d {
+
+struct MeasuredPoseConfig {
+  double least_share = 0.02;
+  double sigma_factor = 1.0;
+  double floor_m = 0.004;
+  double floor_rad = 0.002;
+
+  void describe(common::config::Fields& fields);
+};
+
+/// The pose against the key frames alone.
+struct MeasuredPose {
+  common::Pose3 T_map_camera;
+  /// Of the error (x, y, z, rotation vector) in the axes of the camera; very large in directions that were not seen.
+  Matrix6d covariance = Matrix6d::Identity();
+};
+
+/// `depth_m` is a typical depth of what is seen: so far away a turn moves points as much as a step does.
+MeasuredPose withoutPrior(const Alignment& fit, const PosePrior& prior, double depth_m,
+                          const MeasuredPoseConfig& config);
+
+}  // namespace swiftlet::mapping3d

@@ -1,0 +1,40 @@
+#include "mapping3d/voxels/point_voxels.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+/// The greatest log odds of OctoMap's sensor model, 3.5.
+constexpr auto kOccupied = static_cast<std::int8_t>(3.5 / common::VoxelMap::kLogOddsStep);
+/// Half the voxels along an axis of OctoMap's trees.
+constexpr double kReachVoxels = 32768.0;
+
+}  // namespace
+
+std::vector<common::SurfacePoint> occupiedCenters(const common::VoxelMap& map) {
+  using common::VoxelBlock;
+  std::vector<common::SurfacePoint> points;
+  for (const common::VoxelIndex index : map.blocks()) {
+    const common::VoxelIndex first = common::VoxelMap::firstOf(index);
+    const VoxelBlock& block = *map.block(index);
+    for (int i = 0; i < VoxelBlock::kVoxels; ++i) {
+      if (block.evidence[static_cast<std::size_t>(i)] <= 0) continue;
+      const int mask = VoxelBlock::kSide - 1;
+      const common::VoxelIndex voxel{first.x + (i & mask), first.y + (i >> VoxelBlock::kSideBits & mask),
+                                     first.z + (i >> 2 * VoxelBlock::kSideBits)};
+      points.push_back({map.centerOf(voxel).cast<float>(), Eigen::Vector3f::Zero(), {160, 160, 160}});
+    }
+  }
+  return points;
+}
+
+common::VoxelMap voxelsAround(const std::vector<common::SurfacePoint>& points, double resolution_m) {
+  common::VoxelMap map(resolution_m);
+  for (const common::SurfacePoint& point : points) {
+    const Eigen::Vector3d position_m = point.position_m.cast<double>();
+    if (position_m.allFinite() && position_m.cwiseAbs().maxCoeff() < (kReachVoxels - 1.0) * resolution_m)
+      map.set(map.voxelAt(position_m), kOccupied);
+  }
+  return map;
+}
+
+}  // namespace swiftlet::mapping3d

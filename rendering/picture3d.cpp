@@ -1,0 +1,44 @@
+#include "rendering/picture3d.hpp"
+
+#include "common/world.hpp"
+#include "common/world/map3d_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
+
+namespace swiftlet::rendering {
+namespace {
+
+Line3d atHeight(std::span<const Eigen::Vector2d> points_map_m, double z_m, Line3dStyle style) {
+  Line3d line;
+  line.style = style;
+  line.points_map_m.reserve(points_map_m.size() + 1);
+  for (const Eigen::Vector2d& point : points_map_m) line.points_map_m.emplace_back(point.x(), point.y(), z_m);
+  return line;
+}
+
+void addMap(const common::Map3dLayer& map3d, Picture3d& picture) {
+  for (const common::Submap3d& submap : *map3d.submaps)
+    picture.surfaces.push_back({submap.points, submap.T_map_submap(*map3d.keys)});
+  if (map3d.frame) picture.camera = PlacedCamera{map3d.T_map_camera, map3d.frame->camera};
+}
+
+}  // namespace
+
+Picture3d picture3dOf(const common::World& world, double hull_diameter_m) {
+  const common::VehicleLayer& vehicle = *world.vehicle;
+  const common::Pose3 T_map_body = vehicle.state.T_map_body();
+  Picture3d picture;
+  if (world.map3d) addMap(*world.map3d, picture);
+  picture.vehicle = PlacedVehicle{T_map_body, hull_diameter_m};
+
+  Line3d trail = atHeight(vehicle.trail.points_map_m(), 0.0, Line3dStyle::kTrail);
+  trail.points_map_m.emplace_back(T_map_body.position_m.x(), T_map_body.position_m.y(), 0.0);
+  picture.lines.push_back(std::move(trail));
+  if (!vehicle.plan_map_m.empty()) {
+    Line3d plan = atHeight(vehicle.plan_map_m, T_map_body.position_m.z(), Line3dStyle::kPlan);
+    plan.points_map_m.insert(plan.points_map_m.begin(), T_map_body.position_m);
+    picture.lines.push_back(std::move(plan));
+  }
+  return picture;
+}
+
+}  // namespace swiftlet::rendering

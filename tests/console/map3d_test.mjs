@@ -1,0 +1,192 @@
+// The 3D view of the operator's page in Chromium: node map3d_test.mjs WEB_FIXTURE WORK_FOLDER
+import assert from 'node:assert/strict';
+
+import { eventually, kPatience, launch, run, serve } from './browser.mjs';
+
+const [fixture, folder] = process.argv.slice(2);
+
+const browser = await launch(folder);
+const server = await serve(fixture, 0, 'operator-token', 'map3d');
+const { origin } = server.url;
+
+/** `prepare(context)` before the page is loaded. */
+async function open(prepare = async () => {}, url = server.url) {
+  const context = await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true });
+  await prepare(context);
+  const page = await context.newPage();
+  page.setDefaultTimeout(120_000 * kPatience);
+  page.problems = [];
+  page.on('pageerror', (error) => page.problems.push(error.message));
+  await page.goto(String(url));
+  await page.locator('#link[data-level=good]').waitFor();
+  return page;
+}
+
+const drawnPoints = (page) => page.locator('#map3d canvas').evaluate((canvas) => Number(canvas.dataset.points ?? 0));
+
+async function shown3d(page) {
+  await page.locator('#show3d').tap();
+  await eventually('the points', async () => (await drawnPoints(page)) > 20_000);
+}
+
+/** Of the middle of the view, each pixel's colour as a number. */
+async function pixels(page) {
+  const box = await page.locator('#map3d').boundingBox();
+  const clip = { x: box.x + box.width / 4, y: box.y + box.height / 4, width: box.width / 2, height: box.height / 2 };
+  const png = (await page.screenshot({ clip })).toString('base64');
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    const { data: bytes } = context.getImageData(0, 0, image.width, image.height);
+    return Array.from({ length: bytes.length / 4 }, (_, i) => (bytes[4 * i] << 16) | (bytes[4 * i + 1] << 8) | bytes[4 * i + 2]);
+  }, png);
+}
+
+/** The share of pixels that differ. */
+const difference = (a, b) => a.filter((value, i) => value !== b[i]).length / a.length;
+
+async function drag(page, dx, dy) {
+  const box = await page.locator('#map3d').boundingBox();
+  await page.mouse.move(box.x + 300, box.y + 300);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 300 + dx, box.y + 300 + dy, { steps: 5 });
+  await page.mouse.up();
+}
+
+const streamed = (page) => page.locator('.map3d-stream img').evaluateAll(([image]) => image?.naturalWidth > 100);
+
+/** Shows the 3D map and measures how long the stream takes to come. */
+async function fallsBack(page) {
+  const begin = Date.now();
+  await page.locator('#show3d').tap();
+  await eventually('the stream', () => streamed(page));
+  const took_s = (Date.now() - begin) / 1000;
+  assert.ok(took_s < 2.5 * kPatience, `the stream took ${took_s} s`);
+  await page.locator('.map3d-note').getByText('Drawn by the vehicle').waitFor();
+  assert.equal(await page.locator('#map3d canvas').isVisible(), false);
+}
+
+const tests = {
+  async 'the page draws the 3D map, and a hand turns it'() {
+    const page = await open();
+    await shown3d(page);
+    await page.locator('[data-command=hold]').tap(); // The vehicle and its map stand still.
+    await page.locator('[data-command=hold][aria-pressed=true]').waitFor();
+    await new Promise((done) => setTimeout(done, 1000));
+    const before = await pixels(page);
+    // The flat is checkered: background, two colours of the floor and those of the walls.
+    const counts = new Map();
+    for (const value of before) counts.set(value, (counts.get(value) ?? 0) + 1);
+    const often = [...counts].filter(([, count]) => count > before.length / 100);
+    assert.ok(often.length >= 4, `${often.length} colours`);
+    assert.ok(often.some(([value]) => value === 0xc4b296), 'the light squares of the floor');
+    assert.ok(difference(before, await pixels(page)) < 0.05, 'it stands still');
+    await drag(page, 180, 20);
+    await eventually('the turn', async () => difference(before, await pixels(page)) > 0.2);
+    await page.locator('#by-normal').tap();
+    await eventually('the colours of directions', async () => (await pixels(page)).filter((value) => value === 0x8080ff).length > 1000);
+    await page.locator('[data-command=resume]').tap();
+    return page;
+  },
+
+  async 'zooming leaves the whole map, fit and follow come back to it and to the vehicle'() {
+    const page = await open();
+    await shown3d(page);
+    await page.locator('#fit[aria-pressed=true]').waitFor();
+    await page.locator('#zoom-in').tap();
+    await page.locator('#fit[aria-pressed=false]').waitFor();
+    await page.locator('#follow').tap();
+    await page.locator('#follow[aria-pressed=true]').waitFor();
+    await page.locator('#map3d').press('f');
+    await page.locator('#fit[aria-pressed=true]').waitFor();
+    await page.locator('#show3d').tap();
+    assert.equal(await page.locator('#map3d').isVisible(), false);
+    await page.locator('#zoom-in').tap(); // The flat map again.
+    return page;
+  },
+
+  async 'submaps that have settled are sent once'() {
+    const page = await open();
+    const versions = new Map();
+    page.on('websocket', (socket) => {
+      if (!socket.url().includes('/api/map3d')) return;
+      socket.on('framereceived', ({ payload }) => {
+        if (payload[0] !== 3 || payload.readUInt32LE(8) !== 0) return;
+        const number = payload.readUInt16LE(2);
+        versions.set(number, [...(versions.get(number) ?? []), payload.readUInt32LE(4)]);
+      });
+    });
+    await shown3d(page);
+    await new Promise((done) => setTimeout(done, 2500));
+    assert.equal(versions.get(0).length, 1);
+    for (const list of versions.values()) assert.equal(new Set(list).size, list.length, 'a version came twice');
+    return page;
+  },
+
+  async 'without WebGL the stream shows the same within two seconds, and a hand turns it'() {
+    const page = await open((context) => context.addInitScript(() => {
+      const { getContext } = HTMLCanvasElement.prototype;
+      HTMLCanvasElement.prototype.getContext = function (type, ...more) {
+        return type.startsWith('webgl') ? null : getContext.call(this, type, ...more);
+      };
+    }));
+    await fallsBack(page);
+    const asked = page.waitForRequest((request) => request.url().includes('/stream/map3d.mjpg') && !request.url().includes('azimuth=-114.6'));
+    await drag(page, 180, 20);
+    await asked;
+    return page;
+  },
+
+  async 'without points the stream is shown within two seconds'() {
+    await fallsBack(await open((context) => context.routeWebSocket(/\/api\/map3d/, () => {})));
+  },
+
+  async 'where the graphics memory is full the stream is shown'() {
+    const page = await open((context) => context.addInitScript(() => {
+      WebGLRenderingContext.prototype.getError = () => WebGLRenderingContext.prototype.OUT_OF_MEMORY;
+    }));
+    await fallsBack(page);
+    await page.locator('.map3d-note').getByText('memory is full').waitFor();
+    return page;
+  },
+
+  async 'a lost graphics context brings the stream'() {
+    const page = await open();
+    await shown3d(page);
+    await page.locator('#map3d canvas').evaluate((canvas) => canvas.getContext('webgl').getExtension('WEBGL_lose_context').loseContext());
+    await eventually('the stream', () => streamed(page));
+    await page.locator('#show3d').tap(); // Closed and opened again it is drawn by the page again.
+    await shown3d(page);
+    return page;
+  },
+
+  async 'depth images are shown on demand'() {
+    const page = await open();
+    await page.locator('#depth-toggle').tap();
+    await eventually('a picture', () => page.locator('#depth img').evaluate((image) => image.naturalWidth === 160));
+    await page.locator('#depth .picture-age').getByText(/^\d\.\d s$/).waitFor();
+    await page.locator('#depth-toggle').tap();
+    assert.equal(await page.locator('#depth img').count(), 0);
+    return page;
+  },
+
+  async 'a flight without an RGB-D camera offers no 3D'() {
+    const other = await serve(fixture);
+    const page = await open(undefined, other.url);
+    assert.equal((await (await fetch(`${other.url.origin}/api/state`)).json()).map3d, null);
+    assert.equal(await page.locator('#show3d').isVisible(), false);
+    assert.equal(await page.locator('#depth-card').isVisible(), false);
+    assert.ok((await (await fetch(`${origin}/api/state`)).json()).map3d.points > 0);
+    await page.context().close();
+    await other.stop();
+  },
+};
+
+const failed = await run(tests);
+await browser.close();
+await server.stop();
+process.exit(failed === 0 ? 0 : 1);

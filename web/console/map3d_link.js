@@ -1,0 +1,33 @@
+// The connection that brings the 3D map; it exists only while a 3D view is shown.
+import { forVehicle } from './vehicle.js';
+
+export class Map3dLink {
+  /** `onMessage` is given each message as bytes, `onOpen` is called before the first of each connection. */
+  constructor(onMessage, onOpen, pathOf) {
+    Object.assign(this, { onMessage, onOpen, pathOf, delay_ms: 250, closed: false });
+    this.connect();
+  }
+
+  connect() {
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    this.socket = new WebSocket(`${scheme}://${location.host}${this.pathOf(forVehicle('/api/map3d'))}`);
+    this.socket.binaryType = 'arraybuffer';
+    this.socket.onopen = () => this.onOpen();
+    this.socket.onmessage = (event) => {
+      this.delay_ms = 250;
+      this.onMessage(event.data);
+    };
+    this.socket.onclose = () => {
+      if (this.closed) return;
+      this.retry = setTimeout(() => this.connect(), this.delay_ms);
+      this.delay_ms = Math.min(4000, this.delay_ms * 2);
+    };
+  }
+
+  close() {
+    this.closed = true;
+    clearTimeout(this.retry);
+    this.socket.onmessage = null;
+    this.socket.close();
+  }
+}
