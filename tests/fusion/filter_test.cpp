@@ -78,7 +78,8 @@ struct Consistency {
   double tilt_rad = 0;
 };
 
-TEST(ErrorStateFilter, ItsErrorsAgreeWithItsCovariance) {
+/// NEES for each degree of freedom over many flights.
+void expectConsistent(double camera_hz) {
   constexpr int kRuns = 24;
   double nees_sum = 0;
   double velocity2 = 0, tilt2 = 0;
@@ -89,6 +90,7 @@ TEST(ErrorStateFilter, ItsErrorsAgreeWithItsCovariance) {
     SensorNoise noise;
     noise.accelerometer_bias = {random.gaussian(0.1), random.gaussian(0.1), random.gaussian(0.1)};
     SyntheticFlight flight(static_cast<std::uint64_t>(100 + run), 16.0, noise);
+    flight.camera_hz = camera_hz;
     const auto imu = flight.imuSamples();
     const Eigen::Vector3d accelerometer_bias = flight.accelerometer_bias, gyroscope_bias = flight.gyroscope_bias;
     ErrorStateFilter::Config config = withoutDrag();
@@ -124,6 +126,50 @@ TEST(ErrorStateFilter, ItsErrorsAgreeWithItsCovariance) {
   EXPECT_LT(nees, 1.35);
   EXPECT_LT(std::sqrt(velocity2 / samples), 0.025);
   EXPECT_LT(std::sqrt(tilt2 / samples), 0.01);
+}
+
+TEST(ErrorStateFilter, ItsErrorsAgreeWithItsCovariance) { expectConsistent(0.0); }
+
+TEST(ErrorStateFilter, ItsErrorsAgreeWithItsCovarianceWithACameraToo) { expectConsistent(15.0); }
+
+/// The laser is blind for 5 s in mid-flight. Without the camera the position is lost.
+TEST(ErrorStateFilter, ACameraCarriesTheStateWhileTheLaserIsBlind) {
+  for (const double camera_hz : {15.0, 0.0}) {
+    SyntheticFlight flight(31, 14.0);
+    flight.camera_hz = camera_hz;
+    flight.silent_from_s = 7.0;
+    flight.silent_until_s = 12.0;
+    ErrorStateFilter filter(withoutDrag());
+    bool valid = true;
+    double greatest_m = 0.0;
+    feed(filter, flight.imuSamples(), flight.deliveries(), flight.restUntil(), [&](double t) {
+      if (t < 7.2 || t > 12.0) return;
+      const auto state = filter.state();
+      valid = valid && state.horizontal_valid && state.vertical_valid;
+      const Truth truth = flight.motion.truth(state.stamp.seconds());
+      greatest_m = std::max(greatest_m, (truth.T_odom_body.position_m - state.T_odom_body.position_m).norm());
+    });
+    EXPECT_EQ(valid, camera_hz > 0.0);
+    if (camera_hz > 0.0) EXPECT_LT(greatest_m, 0.12);
+    EXPECT_NE(filter.health().status, FusionStatus::kDiverged);
+  }
+}
+
+TEST(ErrorStateFilter, AWrongCameraDoesNotMoveItWhileTheLaserSees) {
+  SyntheticFlight flight(32, 10.0);
+  const auto imu = flight.imuSamples();
+  auto deliveries = flight.deliveries();
+  // From 6 s on a camera claims that the vehicle moves a metre to the side.
+  const Time from = Time::fromSeconds(6.0), to = Time::fromSeconds(7.0);
+  deliveries.push_back({from, 3, [=](ErrorStateFilter& f) { (void)f.addClone(from); }});
+  const common::Pose3 wrong{Eigen::Quaterniond::Identity(), {0.0, 1.5, 0.0}};
+  deliveries.push_back({to, 3, [=](ErrorStateFilter& f) {
+                          (void)f.addRelativePose3(from, to, wrong, 1e-4 * Eigen::Matrix<double, 6, 6>::Identity());
+                        }});
+  ErrorStateFilter with(withoutDrag()), without(withoutDrag());
+  feed(with, imu, deliveries, flight.restUntil());
+  feed(without, imu, flight.deliveries(), flight.restUntil());
+  EXPECT_LT((with.state().T_odom_body.position_m - without.state().T_odom_body.position_m).norm(), 0.05);
 }
 
 TEST(ErrorStateFilter, StartsLevelWithItsGyroscopeBiasEstimated) {

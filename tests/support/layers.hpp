@@ -6,6 +6,7 @@
 
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
+#include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/people_layer.hpp"
@@ -20,6 +21,7 @@ struct Layers {
   common::MapLayer map;
   common::PeopleLayer people;
   common::EnergyLayer energy;
+  std::shared_ptr<const common::Map3dLayer> map3d;
 
   /// Default values, with a map in which everything is unknown.
   Layers() {
@@ -33,7 +35,8 @@ struct Layers {
         mission(*world.mission),
         map(*world.map),
         people(*world.people),
-        energy(*world.energy) {}
+        energy(*world.energy),
+        map3d(world.map3d) {}
 
   common::World world() const {
     return {stamp,
@@ -41,7 +44,8 @@ struct Layers {
             std::make_shared<const common::MissionLayer>(mission),
             std::make_shared<const common::MapLayer>(map),
             std::make_shared<const common::PeopleLayer>(people),
-            std::make_shared<const common::EnergyLayer>(energy)};
+            std::make_shared<const common::EnergyLayer>(energy),
+            map3d};
   }
 };
 
