@@ -338,8 +338,8 @@ TEST(RunFolder, KeepsThe3DMapAndTheCamerasTrajectory) {
   seen(0.1, true);  // The same frame in the next snapshot.
   seen(0.2, false);
   seen(0.3, true);
-  run.show(Map3dFiles{"ply bytes", "bt bytes", ""});
-  run.show(Map3dFiles{"newer bytes", "", ""});
+  run.showMap3d({"ply bytes", "bt bytes", ""});
+  run.showMap3d({"newer bytes", "", ""});
   run.finish({});
   const common::Trajectory trajectory = readTum(folder / "run/trajectory_camera.tum");
   ASSERT_EQ(trajectory.size(), 2u);
