@@ -27,12 +27,12 @@ void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
   if (!world->map3d || now - written_ < kPeriod || !jobs_->idle("map3d")) return;
   written_ = now;
   jobs_->submit("map3d", now_, kLatency, [this, layer = world->map3d]() -> common::JobRunner::Deliver {
-    return [this, files = map3dFiles(*layer)](common::Time) { folder_.show(files); };
+    return [this, files = map3dFiles(*layer)](common::Time) { folder_.showMap3d(files); };
   });
 }
 
 void Map3dSink::writeNow(const common::World& world) {
-  if (world.map3d) folder_.show(map3dFiles(*world.map3d));
+  if (world.map3d) folder_.showMap3d(map3dFiles(*world.map3d));
 }
 
 }  // namespace swiftlet::apps

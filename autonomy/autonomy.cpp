@@ -20,6 +20,10 @@ namespace {
 /// profiles brake within v^2 / (2 a) = 0.33 m; the rest is margin for faster ones.
 constexpr double kFarFromGoal_m = 1.0;
 
+/// The reactive layer acts on what is near: at 1.5 m/s and 1 m/s^2 the vehicle stops within 1.1 m, and the hull is 0.3
+/// m.
+constexpr double kCameraReach_m = 2.0;
+
 /// The flight home ends this far above the thrust margin at which the vehicle has to land where it is: 3 % of the
 /// weight, as much as the position controller keeps for the height when it tilts (kKeptForHeight).
 constexpr double kLandingMargin = 0.03;
@@ -42,6 +46,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
       imu_watch_(config.imu),
+      camera_obstacles_(vehicle.hull_height_m),
       energy_monitor_(config.energy, vehicle, config.control.position.thrust.table.voltage_exponent),
       world_builder_(vehicle_name_) {
   if (memory != nullptr) controller_.recallThrust(memory->thrust);
@@ -195,7 +200,8 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   const auto cost_map = executor_.desk().costMap();
   const auto& decision =
       reactive_.update({outcome->scan, outcome->T_map_body, state, (now - outcome->scan.stamp).seconds(),
-                        estimator_.people().obstacles(), executor_.wantedVelocity_map_m_s(), cost_map.get()});
+                        estimator_.people().obstacles(), executor_.wantedVelocity_map_m_s(), cost_map.get(),
+                        camera_obstacles_.pointsNear_level_m(outcome->T_map_body, kCameraReach_m)});
   executor_.react(decision, state);
 
   auto points = std::make_shared<common::LaserPoints>();
@@ -220,7 +226,8 @@ void Autonomy::tickBehaviors(Time now) {
   std::shared_ptr<const common::LevelMap> surfaces;
   if (std::holds_alternative<common::LandIntent>(intent_.kind) && controller_.state() == FlightState::kFlying)
     surfaces = std::make_shared<common::LevelMap>(estimator_.seenSurfaces());
-  executor_.tick(intent_, {now, estimator_.state(), estimator_.grid(), estimator_.levels(), std::move(surfaces),
+  camera_obstacles_.update(estimator_.map3d(), estimator_.grid(), estimator_.state().T_odom_body.position_m.z());
+  executor_.tick(intent_, {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
                            estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(),
                            drift_m_, supervisor_.takeOffRefusal(energy_)});
 }

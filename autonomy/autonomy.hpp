@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "autonomy/camera_obstacles.hpp"
 #include "autonomy/energy_monitor.hpp"
 #include "autonomy/estimator.hpp"
 #include "autonomy/executor.hpp"
@@ -142,6 +143,7 @@ class Autonomy {
   ScanQueue scans_;
   ScanWatch scan_watch_;
   ImuWatch imu_watch_;
+  CameraObstacles camera_obstacles_;
   EnergyMonitor energy_monitor_;
   common::EnergyLayer energy_;  ///< Of the last tick of the behaviours.
   double battery_v_ = 0.0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -32,6 +33,8 @@ struct ReactiveInput {
   /// The velocity that the intent asks for; zero if it holds.
   Eigen::Vector2d wanted_map_m_s = Eigen::Vector2d::Zero();
   const planning::CostMap* cost_map = nullptr;  ///< Null before the first plan.
+  /// Obstacles that only a camera has seen, in the level frame of the body.
+  std::vector<Eigen::Vector2f> camera_points_level_m = {};
 };
 
 /// One thread; update() once a scan.

@@ -37,11 +37,23 @@ constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Bet
 /// Every file that a run may leave; no other file is ever removed.
 constexpr const char* kMemoryRead = "vehicle_memory_read.yaml";
 constexpr const char* kMemoryLearned = "vehicle_memory_learned.yaml";
-constexpr std::array<const char*, 17> kFiles = {
-    "mission.json", "events.jsonl", "trajectory.tum",   "trajectory_given.tum", "trajectory_camera.tum",
-    "map.pgm",      "map.yaml",     "map.png",          "map.bt",               "map.ot",
-    "cloud.ply",    "report.html",  "config.yaml",      "nature.yaml",          kMemoryRead,
-    kMemoryLearned, "ground_truth.tum"};
+constexpr std::array<const char*, 17> kFiles = {"mission.json",
+                                                "events.jsonl",
+                                                "trajectory.tum",
+                                                "trajectory_given.tum",
+                                                "trajectory_camera.tum",
+                                                "map.pgm",
+                                                "map.yaml",
+                                                "map.png",
+                                                "map.bt",
+                                                "map.ot",
+                                                "cloud.ply",
+                                                "report.html",
+                                                "config.yaml",
+                                                "nature.yaml",
+                                                kMemoryRead,
+                                                kMemoryLearned,
+                                                "ground_truth.tum"};
 
 bool isRunFile(const std::string& name) {
   // A `.part` file is left of a Swiftlet file if the process was killed.
@@ -293,7 +305,7 @@ void RunFolder::show(ReportPictures pictures) {
   if (!impl_->failure && !impl_->pictures.map_png.empty()) impl_->write("map.png", impl_->pictures.map_png);
 }
 
-void RunFolder::show(const Map3dFiles& map) {
+void RunFolder::showMap3d(const Map3dFiles& map) {
   if (impl_->failure) return;
   if (!map.cloud_ply.empty()) impl_->write("cloud.ply", map.cloud_ply);
   if (!map.map_bt.empty()) impl_->write("map.bt", map.map_bt);

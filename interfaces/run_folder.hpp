@@ -75,7 +75,7 @@ class RunFolder {
   /// The pictures of the next report and map.png; may be called repeatedly.
   void show(ReportPictures pictures);
   /// Replaces the files of the 3D map; may be called repeatedly.
-  void show(const Map3dFiles& map);
+  void showMap3d(const Map3dFiles& map);
   /// Writes the last map, mission.json and report, safe from a power cut. Call it once, as the last call. It tries
   /// everything even if something failed before.
   void finish(const FlightEnd& end);

@@ -10,6 +10,8 @@
 
 #include "autonomy/flight_loop.hpp"
 #include "common/mailbox.hpp"
+#include "common/rgbd_frame.hpp"
+#include "common/world/map3d_layer.hpp"
 #include "tests/flight_loop/short_flight.hpp"
 
 namespace swiftlet::autonomy {
@@ -114,6 +116,36 @@ TEST(Recording, AShiftedDeliveryIsDetected) {
     } else {
       EXPECT_NE(difference(flown().witness, witness), "") << kind;
     }
+  }
+}
+
+/// The first seconds of a flight with an RGB-D camera, whose poses enter the state.
+TEST(Recording, RepeatsAFlightThatMapsIn3D) {
+  common::RgbdCameraConfig camera;
+  camera.width_px = 160;
+  camera.height_px = 120;
+  Witness witness;
+  InputRecorder recorder;
+  const auto vehicle = makeVehicle(12, &camera);
+  Autonomy autonomy = makeAutonomy(common::makeLockstepJobs(1), {}, nullptr, &camera);
+  common::LosslessQueue<common::OperatorCommand> commands;
+  FlightLoop loop(*vehicle, autonomy, commands, {&recorder, &witness});
+  while (loop.now() < Time::fromSeconds(7))
+    if (!loop.step(loop.now() + common::kControlPeriod)) break;
+  ASSERT_TRUE(autonomy.world()->map3d);
+  EXPECT_GT(countOf<common::RgbdFrame>(recorder.recording()), 80);
+  EXPECT_GT(deliveriesByKind(recorder.recording())["mapping3d"], 70);
+
+  Autonomy again = makeAutonomy(common::makeLockstepJobs(0), {}, nullptr, &camera);
+  Witness repeated;
+  ASSERT_TRUE(replay(recorder.recording(), again, {&repeated}));
+  EXPECT_EQ(difference(witness, repeated), "");
+  const auto &submaps = *autonomy.world()->map3d->submaps, &same = *again.world()->map3d->submaps;
+  ASSERT_EQ(submaps.size(), same.size());
+  for (std::size_t i = 0; i < submaps.size(); ++i) {
+    ASSERT_EQ(submaps[i].points->size(), same[i].points->size());
+    for (std::size_t k = 0; k < submaps[i].points->size(); ++k)
+      ASSERT_EQ((*submaps[i].points)[k].position_m, (*same[i].points)[k].position_m);
   }
 }
 

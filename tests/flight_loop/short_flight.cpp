@@ -74,24 +74,26 @@ std::optional<std::size_t> firstDifference(const List& a, const List& b, Same sa
 
 }  // namespace
 
-std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(int seed) {
+std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(int seed, const common::RgbdCameraConfig* camera) {
   simulation::Scenario scenario;
   scenario.seed = seed;
   scenario.vehicle = vehicleSheet();
   scenario.laser = laserSheet();
+  if (camera != nullptr) scenario.rgbd_camera = *camera;
   return std::make_unique<simulation::SimulatedVehicle>(simulation::loadWorld(kRoot + "/worlds/unb_case1.sdf"),
                                                         scenario);
 }
 
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyConfig& config,
-                      const VehicleMemory* memory) {
+                      const VehicleMemory* memory, const common::RgbdCameraConfig* camera) {
   auto mission = behaviors::Mission::fromText(R"(<root BTCPP_format="4"><BehaviorTree ID="Short"><Sequence>
       <TakeOff height_m="1.0"/>
       <ForceSuccess><Timeout msec="13000"><Explore clearance_m="0.10"/></Timeout></ForceSuccess>
       <Land/>
     </Sequence></BehaviorTree></root>)",
                                               "short.xml");
-  return Autonomy(config, vehicleSheet(), laserSheet(), std::move(mission), std::move(jobs), nullptr, "", memory);
+  return Autonomy(config, vehicleSheet(), laserSheet(), std::move(mission), std::move(jobs), nullptr, "", memory,
+                  camera);
 }
 
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs) {

@@ -13,9 +13,9 @@
 
 namespace swiftlet::autonomy {
 
-std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(int seed);
+std::unique_ptr<simulation::SimulatedVehicle> makeVehicle(int seed, const common::RgbdCameraConfig* camera = nullptr);
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs, const AutonomyConfig& config,
-                      const VehicleMemory* memory = nullptr);
+                      const VehicleMemory* memory = nullptr, const common::RgbdCameraConfig* camera = nullptr);
 /// Configured to search for loops within the few metres of a short flight.
 Autonomy makeAutonomy(std::unique_ptr<common::JobRunner> jobs);
 

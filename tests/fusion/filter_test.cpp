@@ -71,61 +71,6 @@ TEST(ErrorStateFilter, TheSameInputGivesIdenticalResults) {
   expectSameState(a, b, 0.0);
 }
 
-/// Error and covariance of what is observable: height, velocity, tilt, biases.
-struct Consistency {
-  double nees = 0;
-  double velocity_m_s = 0;
-  double tilt_rad = 0;
-};
-
-TEST(ErrorStateFilter, ItsErrorsAgreeWithItsCovariance) {
-  constexpr int kRuns = 24;
-  double nees_sum = 0;
-  double velocity2 = 0, tilt2 = 0;
-  int samples = 0;
-  const std::vector<int> rows = {2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14};
-  for (int run = 0; run < kRuns; ++run) {
-    common::RandomStream random(static_cast<std::uint64_t>(run), "bias");
-    SensorNoise noise;
-    noise.accelerometer_bias = {random.gaussian(0.1), random.gaussian(0.1), random.gaussian(0.1)};
-    SyntheticFlight flight(static_cast<std::uint64_t>(100 + run), 16.0, noise);
-    const auto imu = flight.imuSamples();
-    const Eigen::Vector3d accelerometer_bias = flight.accelerometer_bias, gyroscope_bias = flight.gyroscope_bias;
-    ErrorStateFilter::Config config = withoutDrag();
-    config.accelerometer_bias_sigma_m_s2 = 0.1;
-    ErrorStateFilter filter(config);
-    feed(filter, imu, flight.deliveries(), flight.restUntil());
-    const auto state = filter.state();
-    const Truth truth = flight.motion.truth(state.stamp.seconds());
-    Eigen::Matrix<double, 15, 1> error;
-    error << truth.T_odom_body.position_m - state.T_odom_body.position_m, truth.velocity_m_s - state.velocity_odom_m_s,
-        common::logSO3(truth.T_odom_body.rotation * state.T_odom_body.rotation.conjugate()),
-        accelerometer_bias - filter.accelerometerBias_m_s2(), gyroscope_bias - filter.gyroscopeBias_rad_s();
-    const auto covariance = filter.covariance();
-    const auto n = static_cast<Eigen::Index>(rows.size());
-    Eigen::VectorXd e(n);
-    Eigen::MatrixXd p(n, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      e(i) = error(rows[static_cast<std::size_t>(i)]);
-      for (Eigen::Index j = 0; j < n; ++j)
-        p(i, j) = covariance(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
-    }
-    // The attitude error in odom depends on the (drifting) yaw only in the second order.
-    nees_sum += e.dot(p.ldlt().solve(e));
-    velocity2 += error.segment<3>(3).squaredNorm() / 3;
-    tilt2 += error.segment<2>(6).squaredNorm() / 2;
-    ++samples;
-  }
-  const double nees = nees_sum / (kRuns * static_cast<double>(rows.size()));
-  std::printf("consistency: NEES %.2f per degree of freedom over %d runs, velocity %.4f m/s, tilt %.3f deg RMS\n", nees,
-              kRuns, std::sqrt(velocity2 / samples), std::sqrt(tilt2 / samples) * 57.3);
-  // 24 runs of 12 degrees of freedom: one standard deviation of the mean is 0.08.
-  EXPECT_GT(nees, 0.6);
-  EXPECT_LT(nees, 1.35);
-  EXPECT_LT(std::sqrt(velocity2 / samples), 0.025);
-  EXPECT_LT(std::sqrt(tilt2 / samples), 0.01);
-}
-
 TEST(ErrorStateFilter, StartsLevelWithItsGyroscopeBiasEstimated) {
   SensorNoise noise;
   SyntheticFlight flight(5, 1.0, noise);

@@ -54,6 +54,7 @@ struct SensorNoise {
   Eigen::Vector3d accelerometer_bias{0.08, -0.06, 0.10}, gyroscope_bias{0.004, -0.003, 0.005};
   double ahrs_sigma_rad = 1.0 * std::numbers::pi / 180.0, ahrs_correlation_s = 10.0;
   double scan_m = 0.01, scan_rad = 0.2 * std::numbers::pi / 180.0, height_m = 0.01;
+  double camera_m = 0.01, camera_rad = 0.004;
 };
 
 /// The artificial flight tilts independently of its motion, so its accelerometer shows no drag.
@@ -77,6 +78,7 @@ class SyntheticFlight {
 
   Motion motion;
   double imu_hz = 200.0, scan_hz = 40.0;
+  double camera_hz = 0.0;  ///< 0: without a camera.
   double delay_s = 0.02;
   double reference_every_s = 0.5;  ///< A new reference scan.
   double rest_until_s = 2.0;
@@ -135,6 +137,7 @@ class SyntheticFlight {
         reference_s = t;
       }
     }
+    if (camera_hz > 0.0) addCamera(out);
     return out;
   }
 
@@ -142,6 +145,28 @@ class SyntheticFlight {
   double restUntil() const { return rest_until_s; }
 
  private:
+  /// Poses in space relative to a key frame, which is another one every second; late by the time of alignment.
+  void addCamera(std::vector<Delivery>& out) {
+    constexpr double kLate_s = 0.12, kKeyFrame_s = 1.0;
+    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+    covariance.diagonal().head<3>().setConstant(noise_.camera_m * noise_.camera_m);
+    covariance.diagonal().tail<3>().setConstant(noise_.camera_rad * noise_.camera_rad);
+    double key_s = -1.0;
+    for (double t = 0.7307; t < seconds_ - 0.15; t += 1.0 / camera_hz) {
+      const common::Time to = common::Time::fromSeconds(t), arrives = common::Time::fromSeconds(t + kLate_s);
+      if (key_s >= 0.0) {
+        const common::Time from = common::Time::fromSeconds(key_s);
+        const Eigen::Vector3d moved = vector(noise_.camera_m), turned = vector(noise_.camera_rad);
+        const common::Pose3 pose =
+            motion.pose(key_s).inverse() * motion.pose(t) * common::Pose3{common::expSO3(turned), moved};
+        out.push_back({arrives, 3, [=](ErrorStateFilter& f) { (void)f.addRelativePose3(from, to, pose, covariance); }});
+      }
+      if (key_s < 0.0 || t - key_s >= kKeyFrame_s) {
+        out.push_back({arrives, 4, [=](ErrorStateFilter& f) { (void)f.addClone(to); }});
+        key_s = t;
+      }
+    }
+  }
   Eigen::Vector3d vector(double sigma) {
     const double x = random_.gaussian(sigma), y = random_.gaussian(sigma), z = random_.gaussian(sigma);
     return {x, y, z};

@@ -318,5 +318,37 @@ TEST(RunFolder, LeavesOutEstimatesThatAreNotFinite) {
   EXPECT_TRUE(json::parse(bytesOf(folder / "run/mission.json"))["distance_m"].is_null());
 }
 
+TEST(RunFolder, KeepsThe3DMapAndTheCamerasTrajectory) {
+  const ScratchFolder folder;
+  Flight flight;
+  RunFolder run(folder / "run", kInfo, "");
+  const auto seen = [&](double frame_s, bool tracked) {
+    auto layers = flight.layers(MissionState::kRunning, "explore");
+    auto map3d = std::make_shared<common::Map3dLayer>();
+    auto frame = std::make_shared<common::RgbdFrame>();
+    frame->stamps.measured = Time::fromSeconds(frame_s);
+    map3d->frame = frame;
+    map3d->tracked = tracked;
+    map3d->T_map_camera.position_m.x() = frame_s;
+    layers.map3d = map3d;
+    run.world(layers.world());
+    flight.time_s += 0.05;
+  };
+  seen(0.1, true);
+  seen(0.1, true);  // The same frame in the next snapshot.
+  seen(0.2, false);
+  seen(0.3, true);
+  run.showMap3d({"ply bytes", "bt bytes", ""});
+  run.showMap3d({"newer bytes", "", ""});
+  run.finish({});
+  const common::Trajectory trajectory = readTum(folder / "run/trajectory_camera.tum");
+  ASSERT_EQ(trajectory.size(), 2u);
+  EXPECT_EQ(trajectory[1].stamp, Time::fromSeconds(0.3));
+  EXPECT_NEAR(trajectory[1].pose.position_m.x(), 0.3, 1e-9);
+  EXPECT_EQ(bytesOf(folder / "run/cloud.ply"), "newer bytes");
+  EXPECT_EQ(bytesOf(folder / "run/map.bt"), "bt bytes");
+  EXPECT_FALSE(std::filesystem::exists(folder / "run/map.ot"));
+}
+
 }  // namespace
 }  // namespace swiftlet::interfaces

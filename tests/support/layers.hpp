@@ -6,6 +6,7 @@
 
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
+#include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/people_layer.hpp"

@@ -1,0 +1,52 @@
+// Obstacles at the height of the hull that the 3D map has and the plane of the laser misses: table tops, lamps, beams.
+// They are added to the grid that paths are planned on, and to the points that the reactive layer brakes for.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/world/map3d_layer.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread. Without a 3D map the grid stays the same object.
+class CameraObstacles {
+ public:
+  explicit CameraObstacles(double hull_height_m) : half_hull_m_(0.5 * hull_height_m) {}
+
+  /// `layer` may be null. `height_m` is that of the body over the take-off floor.
+  void update(const std::shared_ptr<const common::Map3dLayer>& layer,
+              const std::shared_ptr<const common::OccupancyGrid>& grid, double height_m);
+
+  /// The grid of the last update with the obstacles; null before it.
+  std::shared_ptr<const common::OccupancyGrid> grid() const { return grid_; }
+  /// The centres of the cells that were added to it.
+  const std::vector<Eigen::Vector2d>& cells_map_m() const { return cells_map_m_; }
+  /// Those up to `range_m` away, in the level frame of the body.
+  std::vector<Eigen::Vector2f> pointsNear_level_m(const common::Pose2& T_map_body, double range_m) const;
+
+ private:
+  /// Where a submap has something at the height of the hull.
+  struct Columns {
+    std::shared_ptr<const common::VoxelMap> voxels;
+    std::vector<Eigen::Vector2d> centers_submap_m;
+  };
+  void followHeight(double height_m);
+  void readColumns(const std::vector<common::Submap3d>& submaps);
+  void overlay(const common::Map3dLayer& layer);
+
+  double half_hull_m_;
+  std::optional<double> height_m_;  ///< That of the columns.
+  std::vector<Columns> columns_;    ///< Of each submap.
+  std::shared_ptr<const common::Map3dLayer> layer_;
+  std::shared_ptr<const common::OccupancyGrid> laser_grid_, grid_;
+  std::vector<Eigen::Vector2d> cells_map_m_;
+};
+
+}  // namespace swiftlet::autonomy

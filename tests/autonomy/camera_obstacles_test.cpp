@@ -1,0 +1,93 @@
+// What the camera sees at the height of the hull becomes an obstacle, if the laser does not see it.
+#include "autonomy/camera_obstacles.hpp"
+
+#include <gtest/gtest.h>
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::occupancy::isOccupied;
+
+/// One submap that is turned and shifted against the map.
+class CameraObstaclesStory : public testing::Test {
+ protected:
+  void mark(const Eigen::Vector3d& point_map_m, int evidence = 40) {
+    const Eigen::Vector3d point_m = T_map_submap_.inverse() * point_map_m;
+    voxels_.set(voxels_.voxelAt(point_m), static_cast<std::int8_t>(evidence));
+  }
+  void update(double height_m = 1.0) {
+    auto layer = std::make_shared<common::Map3dLayer>();
+    auto keys = std::make_shared<common::KeyPoses>();
+    keys->keys.push_back({{}, {1.0, -2.0, 0.4}});
+    common::Submap3d submap{0, common::lifted(keys->keys[0].T_map_key, 0.0).inverse() * T_map_submap_,
+                            std::make_shared<const std::vector<common::SurfacePoint>>(),
+                            std::make_shared<const common::VoxelMap>(voxels_.snapshot())};
+    layer->submaps = std::make_shared<const std::vector<common::Submap3d>>(1, submap);
+    layer->keys = keys;
+    obstacles_.update(layer, std::make_shared<const common::OccupancyGrid>(grid_.snapshot()), height_m);
+  }
+
+  common::Pose3 T_map_submap_{common::expSO3({0.0, 0.0, 0.7}), {0.5, 0.2, 0.0}};
+  common::VoxelMap voxels_{0.05};
+  common::OccupancyGrid grid_ = common::makeOccupancyGrid(0.05);
+  CameraObstacles obstacles_{0.25};
+};
+
+TEST_F(CameraObstaclesStory, ALampAtTheHeightOfTheHullIsOne) {
+  mark({2.0, 1.0, 1.2});
+  update();
+  ASSERT_EQ(obstacles_.cells_map_m().size(), 1u);
+  const Eigen::Vector2d cell_map_m = obstacles_.cells_map_m()[0];
+  EXPECT_LT((cell_map_m - Eigen::Vector2d(2.0, 1.0)).norm(), 0.07) << "half a voxel and half a cell";
+  EXPECT_TRUE(isOccupied(obstacles_.grid()->at(obstacles_.grid()->cellAt(cell_map_m))));
+}
+
+TEST_F(CameraObstaclesStory, WhatIsAboveOrBelowTheHullIsNone) {
+  mark({2.0, 1.0, 1.35});
+  mark({2.0, 2.0, 0.65});
+  update();
+  EXPECT_TRUE(obstacles_.cells_map_m().empty());
+  // Lower down the vehicle would meet the second one.
+  update(0.8);
+  EXPECT_EQ(obstacles_.cells_map_m().size(), 1u);
+}
+
+TEST_F(CameraObstaclesStory, TheFloorIsNone) {
+  mark({2.0, 1.0, 0.02});
+  update(0.2);
+  EXPECT_TRUE(obstacles_.cells_map_m().empty());
+}
+
+TEST_F(CameraObstaclesStory, OneFrameIsNotEnough) {
+  mark({2.0, 1.0, 1.0}, 17);
+  update();
+  EXPECT_TRUE(obstacles_.cells_map_m().empty());
+}
+
+TEST_F(CameraObstaclesStory, AWallThatTheLaserSeesTooIsNotWidened) {
+  grid_.set(grid_.cellAt(2.05, 1.0), 60);
+  mark({2.0, 1.0, 1.0});
+  mark({2.0, 2.0, 1.0});
+  update();
+  EXPECT_EQ(obstacles_.cells_map_m().size(), 1u);
+  EXPECT_NEAR(obstacles_.cells_map_m()[0].y(), 2.0, 0.06);
+}
+
+TEST_F(CameraObstaclesStory, NearOnesAreGivenToTheReactiveLayer) {
+  mark({2.0, 1.0, 1.0});
+  mark({6.0, 1.0, 1.0});
+  update();
+  const auto points = obstacles_.pointsNear_level_m({1.0, 1.0, 0.0}, 2.0);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_NEAR(points[0].x(), 1.0F, 0.06F);
+}
+
+TEST(CameraObstacles, WithoutA3DMapTheGridIsTheSameObject) {
+  CameraObstacles obstacles(0.25);
+  const auto grid = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+  obstacles.update(nullptr, grid, 1.0);
+  EXPECT_EQ(obstacles.grid(), grid);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy

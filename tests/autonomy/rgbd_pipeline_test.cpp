@@ -1,0 +1,145 @@
+// Frames on their way into the 3D map: when they are mapped, what they leave, and what is said.
+#include "autonomy/estimation/rgbd_pipeline.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/rgbd_odometry/textured_room.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::Time;
+
+class RgbdStory : public testing::Test {
+ protected:
+  static common::RgbdCameraConfig camera() {
+    common::RgbdCameraConfig camera;
+    camera.mount = {};
+    return camera;
+  }
+  static std::shared_ptr<const common::KeyPoses> keysAt(std::uint64_t version, const common::Pose2& pose) {
+    return std::make_shared<const common::KeyPoses>(common::KeyPoses{version, {{{}, pose}}});
+  }
+  std::shared_ptr<const common::RgbdFrame> frameAt(double time_s) const {
+    return std::make_shared<const common::RgbdFrame>(room_.seen({}, time_s));
+  }
+  /// The vehicle stands at the origin.
+  FrameSituation situation() const {
+    FrameSituation situation;
+    situation.at_key = common::KeyRelativePose{0, {}};
+    situation.supported = true;
+    situation.keys = keys_;
+    return situation;
+  }
+  /// A frame arrives and is mapped, and its job is delivered.
+  void see(double time_s) {
+    pipeline_.add(frameAt(time_s));
+    ASSERT_TRUE(pipeline_.next());
+    pipeline_.map(situation(), Time::fromSeconds(time_s));
+    jobs_->deliverDue(Time::fromSeconds(time_s + 0.065));
+  }
+  std::vector<std::string> texts() {
+    std::vector<std::string> texts;
+    for (const common::Event& event : pipeline_.takeEvents()) texts.push_back(event.text);
+    return texts;
+  }
+
+  mapping3d::TexturedRoom room_;
+  std::shared_ptr<const common::KeyPoses> keys_ = keysAt(1, {});
+  std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(0);
+  RgbdPipeline pipeline_{RgbdPipelineConfig(), camera(), *jobs_};
+};
+
+TEST_F(RgbdStory, ANewerFrameReplacesTheOneThatWaits) {
+  pipeline_.add(frameAt(1.0));
+  pipeline_.map(situation(), Time::fromSeconds(1.0));
+  EXPECT_FALSE(pipeline_.next()) << "nothing waits";
+  pipeline_.add(frameAt(1.02));
+  pipeline_.add(frameAt(1.04));
+  EXPECT_FALSE(pipeline_.next()) << "one is being mapped";
+  jobs_->deliverDue(Time::fromSeconds(1.07));
+  ASSERT_TRUE(pipeline_.next());
+  EXPECT_EQ(*pipeline_.next(), Time::fromSeconds(1.04));
+  EXPECT_EQ(pipeline_.counts().frames, 3u);
+  EXPECT_EQ(pipeline_.counts().mapped, 1u);
+}
+
+TEST_F(RgbdStory, TheLayerMovesWithTheKeyScans) {
+  EXPECT_EQ(pipeline_.layer(keys_), nullptr);
+  see(1.0);
+  const auto first = pipeline_.layer(keys_);
+  ASSERT_TRUE(first);
+  EXPECT_TRUE(first->tracked);
+  EXPECT_EQ(first->submaps->size(), 1u);
+  EXPECT_EQ(pipeline_.layer(keys_), first) << "nothing has changed";
+  const auto moved = pipeline_.layer(keysAt(2, {0.5, 0.0, 0.0}));
+  EXPECT_NE(moved, first);
+  EXPECT_EQ(moved->submaps, first->submaps) << "nothing is drawn again";
+  EXPECT_NEAR(moved->T_map_camera.position_m.x() - first->T_map_camera.position_m.x(), 0.5, 1e-9);
+}
+
+TEST_F(RgbdStory, TheFilterGetsAMeasurementFromFrameToFrame) {
+  see(1.0);
+  auto step = pipeline_.takeStep();
+  ASSERT_TRUE(step);
+  EXPECT_FALSE(step->measurement);
+  EXPECT_EQ(step->clone_after, Time::fromSeconds(1.0));
+  see(1.1);
+  step = pipeline_.takeStep();
+  ASSERT_TRUE(step && step->measurement);
+  EXPECT_EQ(step->measurement->from, Time::fromSeconds(1.0));
+  EXPECT_LT(step->measurement->T_from_to.position_m.norm(), 0.01);
+  EXPECT_FALSE(pipeline_.takeStep()) << "it counts once";
+  // The filter has dropped its clone: the next frame begins a new one.
+  pipeline_.forgetClone();
+  see(1.2);
+  step = pipeline_.takeStep();
+  ASSERT_TRUE(step);
+  EXPECT_FALSE(step->measurement);
+  EXPECT_EQ(step->clone_after, Time::fromSeconds(1.2));
+}
+
+TEST_F(RgbdStory, ASilentCameraIsReportedOnceAndSoIsItsReturn) {
+  see(1.0);
+  pipeline_.watch(Time::fromSeconds(1.9));
+  pipeline_.watch(Time::fromSeconds(2.1));
+  pipeline_.watch(Time::fromSeconds(2.2));
+  EXPECT_THAT(texts(), testing::ElementsAre("camera is silent"));
+  see(3.0);
+  EXPECT_THAT(texts(), testing::ElementsAre("camera sends again"));
+}
+
+TEST_F(RgbdStory, ATrackThatIsLostAndFoundIsReported) {
+  for (int i = 0; i < 3; ++i) see(1.0 + 0.1 * i);
+  room_.walls = 100;
+  room_.half_size_m = {1.3, 3.0, 1.1};
+  for (int i = 0; i < 5; ++i) see(2.0 + 0.2 * i);
+  EXPECT_THAT(texts(), testing::ElementsAre("3D track lost"));
+  EXPECT_EQ(pipeline_.counts().lost, 5u);
+  // The seeds tell the place, so the map begins anew there.
+  see(3.0);
+  EXPECT_THAT(texts(), testing::ElementsAre("3D track found again"));
+}
+
+TEST_F(RgbdStory, FramesThatCannotBeUsedAreCountedAndSaidOnce) {
+  see(1.0);
+  pipeline_.add(frameAt(1.0));
+  common::RgbdFrame torn = *frameAt(1.1);
+  torn.depth.depth_m.pop_back();
+  pipeline_.add(std::make_shared<const common::RgbdFrame>(torn));
+  EXPECT_FALSE(pipeline_.next());
+  EXPECT_EQ(pipeline_.counts().skipped, 2u);
+  EXPECT_THAT(texts(), testing::ElementsAre("a frame cannot be used"));
+}
+
+TEST_F(RgbdStory, NothingIsMappedBeforeThe2DMap) {
+  keys_ = std::make_shared<const common::KeyPoses>();
+  pipeline_.add(frameAt(1.0));
+  pipeline_.map(situation(), Time::fromSeconds(1.0));
+  EXPECT_TRUE(jobs_->idle("mapping3d"));
+  EXPECT_EQ(pipeline_.layer(keys_), nullptr);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy
