@@ -5,10 +5,18 @@
 
 namespace swiftlet::simulation {
 
+bool isOfPictures(FaultKind kind) {
+  return kind == FaultKind::kBlack || kind == FaultKind::kWhite || kind == FaultKind::kFlipped ||
+         kind == FaultKind::kOtherSize;
+}
+
 void FaultConfig::describe(common::config::Fields& fields) {
   fields.choice("sensor", sensor, {"imu", "laser", "battery", "pilot", "camera", "rgbd"}, "Which sensor fails.");
-  fields.choice("kind", kind, {"silent", "nan", "repeat", "late", "stuck", "bias", "mirror", "blocked"},
-                "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser.");
+  fields.choice("kind", kind,
+                {"silent", "nan", "repeat", "late", "stuck", "bias", "mirror", "blocked", "black", "white", "flipped",
+                 "other_size"},
+                "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser, the last four for "
+                "camera and rgbd.");
   fields("from_s", from_s, {0, 1e6}, "Time at which the fault begins; with place or phase, before which it does not.");
   fields("to_s", to_s, {0, 1e6}, "Time at which the fault ends; at least from_s. Not with place or phase.");
   fields("late_s", late_s, {0, 100}, "Delay of measurements, for kind late.");
@@ -28,6 +36,7 @@ void FaultConfig::describe(common::config::Fields& fields) {
 std::vector<std::string> FaultConfig::validate() const {
   const bool of_imu = kind == FaultKind::kStuck || kind == FaultKind::kBias;
   const bool of_laser = kind == FaultKind::kMirror || kind == FaultKind::kBlocked;
+  const bool has_pictures = sensor == Sensor::kCamera || sensor == Sensor::kRgbd;
   common::Validation validation;
   if (!isTriggered()) validation.atMost("from_s", from_s, "to_s", to_s);
   return validation.atMost("from_deg", from_deg, "to_deg", to_deg)
@@ -37,6 +46,8 @@ std::vector<std::string> FaultConfig::validate() const {
       .require(isTriggered() || lasts_s == 0.0, "lasts_s", "is for a fault with place or phase; give to_s instead")
       .require(!of_imu || sensor == Sensor::kImu, "kind", "stuck and bias are faults of the imu alone")
       .require(!of_laser || sensor == Sensor::kLaser, "kind", "mirror and blocked are faults of the laser alone")
+      .require(!isOfPictures(kind) || has_pictures, "kind",
+               "black, white, flipped and other_size are faults of camera and rgbd alone")
       .problems();
 }
 

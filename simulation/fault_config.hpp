@@ -10,15 +10,21 @@
 namespace swiftlet::simulation {
 
 enum class FaultKind {
-  kSilent,   ///< No measurement arrives.
-  kNan,      ///< Every number is NaN.
-  kRepeat,   ///< The last good measurement is repeated, with new stamps.
-  kLate,     ///< Measurements arrive `late_s` later.
-  kStuck,    ///< Of the IMU: the attitude of the AHRS stays as it was, rates and specific force live.
-  kBias,     ///< Of the IMU: rates and specific force are off by a constant on every axis.
-  kMirror,   ///< Of the laser: the beams that the mirror deflects down return nothing.
-  kBlocked,  ///< Of the laser: the beams between two angles return nothing.
+  kSilent,     ///< No measurement arrives.
+  kNan,        ///< Every number is NaN.
+  kRepeat,     ///< The last good measurement is repeated, with new stamps.
+  kLate,       ///< Measurements arrive `late_s` later.
+  kStuck,      ///< Of the IMU: the attitude of the AHRS stays as it was, rates and specific force live.
+  kBias,       ///< Of the IMU: rates and specific force are off by a constant on every axis.
+  kMirror,     ///< Of the laser: the beams that the mirror deflects down return nothing.
+  kBlocked,    ///< Of the laser: the beams between two angles return nothing.
+  kBlack,      ///< Of a camera: colours are black, as without light; depth stays.
+  kWhite,      ///< Of a camera: colours are white and nothing has depth, as in the sun.
+  kFlipped,    ///< Of a camera: left and right of the pictures are exchanged.
+  kOtherSize,  ///< Of a camera: pictures have half the width and half the height that they should have.
 };
+/// Whether it is a fault of a camera's pictures.
+bool isOfPictures(FaultKind kind);
 
 struct FaultConfig {
   Sensor sensor = Sensor::kLaser;

@@ -8,6 +8,7 @@
 
 #include "common/geometry.hpp"
 #include "common/rgbd_frame.hpp"
+#include "simulation/sensors/picture_faults.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -119,6 +120,11 @@ std::optional<SensorEvent> withFault(const FaultConfig& fault, const SensorEvent
         const double angle_deg = (laser.angleMin_rad() + beam * laser.angleIncrement_rad()) / common::kRadPerDeg;
         return !laser.isMirrorBeam(beam) && angle_deg >= fault.from_deg && angle_deg <= fault.to_deg;
       });
+    case FaultKind::kBlack:
+    case FaultKind::kWhite:
+    case FaultKind::kFlipped:
+    case FaultKind::kOtherSize:
+      return withPictureFault(fault.kind, event);
   }
   return event;
 }

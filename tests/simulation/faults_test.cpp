@@ -177,6 +177,62 @@ TEST(Faults, BeginInAPhaseThatAnObserverTells) {
   EXPECT_EQ(silentSeconds(events), (std::vector<int>{2})) << "once, and its time";
 }
 
+/// Frames of an RGB-D camera before and in a fault of the second second.
+std::pair<Rgbd, Rgbd> beforeAndIn(FaultKind kind) {
+  Scenario scenario;
+  scenario.rgbd_camera = common::RgbdCameraConfig();
+  scenario.rgbd_camera->width_px = 64;
+  scenario.rgbd_camera->height_px = 48;
+  scenario.rgbd_camera->range_min_m = 0.1;
+  scenario.faults = {{Sensor::kRgbd, kind, 1.0, 2.0}};
+  SimulatedVehicle vehicle(boxRoom(), scenario);
+  std::vector<common::SensorEvent> events;
+  EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(2.0), events));
+  Rgbd before, in;
+  for (const Rgbd& frame : eventsOf<Rgbd>(events)) (frame->stamps.measured.seconds() < 1.0 ? before : in) = frame;
+  return {before, in};
+}
+
+TEST(Faults, PicturesTurnBlackOrWhite) {
+  const auto [before, black] = beforeAndIn(FaultKind::kBlack);
+  EXPECT_EQ(std::count(black->color.rgb.begin(), black->color.rgb.end(), 0), 3 * 64 * 48);
+  EXPECT_TRUE(common::isMeasured(black->depth.at(32, 40))) << "the pattern is its own light";
+  const Rgbd white = beforeAndIn(FaultKind::kWhite).second;
+  EXPECT_EQ(std::count(white->color.rgb.begin(), white->color.rgb.end(), 255), 3 * 64 * 48);
+  EXPECT_EQ(std::count(white->depth.depth_m.begin(), white->depth.depth_m.end(), common::DepthImage::kUnknown),
+            64 * 48);
+  EXPECT_LT(std::count(before->color.rgb.begin(), before->color.rgb.end(), 0), 100);
+}
+
+TEST(Faults, PicturesAreFlippedOrOfAnotherSize) {
+  const auto [before, flipped] = beforeAndIn(FaultKind::kFlipped);
+  int near = 0;
+  for (int v = 0; v < 48; ++v)
+    for (int u = 0; u < 64; ++u) {
+      const auto red = [&](const Rgbd& frame, int column) {
+        return static_cast<int>(frame->color.rgb[static_cast<std::size_t>(3 * (v * 64 + column))]);
+      };
+      near += std::abs(red(flipped, u) - red(before, 63 - u)) < 15 ? 1 : 0;
+    }
+  EXPECT_GT(near, 64 * 48 * 9 / 10);
+  const Rgbd small = beforeAndIn(FaultKind::kOtherSize).second;
+  EXPECT_EQ(small->color.width_px, 32);
+  EXPECT_EQ(small->depth.height_px, 24);
+  EXPECT_EQ(small->depth.depth_m.size(), 32U * 24U);
+  EXPECT_EQ(small->camera.width_px, 64) << "the camera says what it always said";
+}
+
+TEST(Faults, ARepeatedLateOrSilentRgbdFrame) {
+  const auto [before, repeated] = beforeAndIn(FaultKind::kRepeat);
+  EXPECT_EQ(repeated->color.rgb, before->color.rgb);
+  EXPECT_EQ(repeated->depth.depth_m, before->depth.depth_m);
+  EXPECT_GT(repeated->stamps.measured, before->stamps.measured);
+  const Rgbd late = beforeAndIn(FaultKind::kLate).second;
+  EXPECT_GT((late->stamps.arrived - late->stamps.measured).seconds(), 0.5);
+  EXPECT_EQ(beforeAndIn(FaultKind::kSilent).second, nullptr);
+  EXPECT_TRUE(std::isnan(beforeAndIn(FaultKind::kNan).second->depth.at(3, 3)));
+}
+
 TEST(Faults, ContradictionsAreRefused) {
   FaultConfig fault;
   EXPECT_TRUE(common::config::problemsOf(fault).empty());
@@ -188,6 +244,7 @@ TEST(Faults, ContradictionsAreRefused) {
   EXPECT_EQ(common::config::problemsOf(fault).size(), 1U);
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kStuck, 1.0, 2.0}).size(), 1U);
   EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kImu, FaultKind::kMirror, 1.0, 2.0}).size(), 1U);
+  EXPECT_EQ(common::config::problemsOf(FaultConfig{Sensor::kLaser, FaultKind::kBlack, 1.0, 2.0}).size(), 1U);
 }
 
 TEST(Faults, ALossyLinkDropsItsShareOfMessages) {
