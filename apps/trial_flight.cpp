@@ -52,6 +52,8 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
   truth.rays = &vehicle.rays();
   truth.vehicle = vehicle.scenario().vehicle;
   truth.laser = vehicle.scenario().laser;
+  if (truth.rgbd_camera = vehicle.scenario().rgbd_camera; truth.rgbd_camera)
+    truth.T_body_camera = vehicle.scenario().sensors.rgbd_errors.mount_error.pose() * truth.rgbd_camera->mount.pose();
   truth.quadrotor = vehicle.scenario().quadrotor;
   truth.clearance_m = trial.clearance_m;
   truth.reachable_area_max_m2 = trial.reachable_area_max_m2;

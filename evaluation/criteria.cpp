@@ -35,6 +35,14 @@ void Criteria::describe(common::config::Fields& fields) {
   fields("estimate_rms_max_m", estimate_rms_max_m, kPositive, "Greatest RMS of the estimate's horizontal error.");
   fields("map_wall_error_max_m", map_wall_error_max_m, kPositive,
          "Greatest median distance of mapped walls to true ones.");
+  fields("map3d_error_max_m", map3d_error_max_m, kPositive,
+         "Greatest median distance of the 3D map's points to true surfaces, the map as it stands.");
+  fields("map3d_aligned_error_max_m", map3d_aligned_error_max_m, kPositive,
+         "Greatest median distance of the 3D map's points to true surfaces, after one rigid motion of all of them.");
+  fields("map3d_aligned_p95_max_m", map3d_aligned_p95_max_m, kPositive,
+         "Greatest distance within which 95 % of the 3D map's points are, after one rigid motion of all of them.");
+  fields("map3d_coverage_min", map3d_coverage_min, {0, 1},
+         "Least share of the surfaces in view of the RGB-D camera that have points of the 3D map within 10 cm.");
   fields("localized_within_m", localized_within_m, kPositive,
          "Path length within which a flight that is given a map must have found itself in it to count as localized.");
   fields("wrong_time_share_max", wrong_time_share_max, kPositive,

@@ -26,6 +26,10 @@ struct Criteria {
   double mission_time_max_s = kAny;
   double estimate_rms_max_m = kAny;
   double map_wall_error_max_m = kAny;
+  double map3d_error_max_m = kAny;
+  double map3d_aligned_error_max_m = kAny;
+  double map3d_aligned_p95_max_m = kAny;
+  double map3d_coverage_min = 0.0;
   double localized_within_m = kAny;
   double wrong_time_share_max = kAny;
   double tilted_share_max = kAny;

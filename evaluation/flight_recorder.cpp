@@ -23,6 +23,8 @@ using common::Time;
 constexpr Duration kHistory = Duration::fromMilliseconds(1000);
 /// 20 Hz: at 1 m/s a pose every 5 cm.
 constexpr Duration kTrajectoryPeriod = Duration::fromMilliseconds(50);
+/// Slow enough that two views differ, fast enough that nothing is in view for less.
+constexpr Duration kViewPeriod = Duration::fromMilliseconds(200);
 /// A goal this near to home counts as home.
 constexpr double kSamePlace_m = 1e-3;
 
@@ -60,6 +62,10 @@ void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleS
   if (truth.airborne)
     record_.true_speed_max_m_s = std::max(record_.true_speed_max_m_s, truth.velocity_world_m_s.head<2>().norm());
   if (truth.airborne) heights_world_m_.push_back(truth.T_world_body.position_m.z());
+  if (truth.airborne && truth.stamp >= next_view_) {
+    record_.T_world_body_views.push_back(truth.T_world_body);
+    next_view_ = truth.stamp + kViewPeriod;
+  }
   history_.push_back(truth);
   while (truth.stamp - history_.front().stamp > kHistory) history_.pop_front();
   record_.last_truth = truth;
@@ -136,6 +142,7 @@ void FlightRecorder::world(const common::World& world) {
   for (PhaseRecorder& phase : phases_) phase.world(world);
   home_map_m_ = world.vehicle->home_map.position_m();
   record_.map = world.map->grid;
+  record_.map3d = world.map3d;
   record_.explored_area_m2 = world.map->explored_area_m2;
   followLocalization(world);
   const common::MissionStatus& mission = world.mission->status;

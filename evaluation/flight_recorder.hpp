@@ -25,8 +25,9 @@
 #include "simulation/truth.hpp"
 
 namespace swiftlet::common {
+struct Map3dLayer;
 struct World;
-}
+}  // namespace swiftlet::common
 
 namespace swiftlet::evaluation {
 
@@ -95,6 +96,8 @@ struct FlightRecord {
   std::vector<OperatorAnswer> operator_answers;  ///< Of the trial's script; filled in by the flight.
   simulation::Truth last_truth;
   std::shared_ptr<const common::OccupancyGrid> map;  ///< The last map; null if there was none.
+  std::shared_ptr<const common::Map3dLayer> map3d;   ///< The last 3D map; null if there was none.
+  std::vector<common::Pose3> T_world_body_views;     ///< True poses, 5 Hz while airborne: where the camera looked.
   common::Trajectory truth_map;                      ///< In the `map` frame, 20 Hz while airborne, for pictures.
 };
 
@@ -147,6 +150,7 @@ class FlightRecorder {
   std::deque<common::VehicleState> pending_;  ///< Estimates whose stamp is newer than the truth so far.
   ComparedEstimate newest_;
   std::optional<common::Time> first_tick_, last_estimate_, mission_begin_, next_trajectory_;
+  common::Time next_view_;
   std::vector<double> heights_world_m_;
   Eigen::Vector2d home_map_m_ = Eigen::Vector2d::Zero();
   std::uint64_t counted_intent_ = 0;

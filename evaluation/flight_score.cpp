@@ -149,6 +149,7 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   score.verdict_reason = judgement.reason;
   scoreCollision(record.last_truth, score);
   scoreMap(record, world, score);
+  score.map3d = scoreMap3d(record, world);
   score.conduct = scoreOf(record.conduct, world);
   if (record.localization) score.localization = scoreOf(*record.localization, criteria.localized_within_m);
   score.phases = record.phases;
@@ -198,6 +199,13 @@ std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) 
   add("home_error_raw_m", score.home_error_raw_m);
   add("estimate_rms_raw_m", score.estimate_rms_raw_m);
   add("map_wall_error_median_raw_m", score.map_wall_error_median_raw_m);
+  if (score.map3d) {
+    add("map3d_error_median_m", score.map3d->error_median_m);
+    add("map3d_error_p95_m", score.map3d->error_p95_m);
+    add("map3d_aligned_median_m", score.map3d->aligned_median_m);
+    add("map3d_aligned_p95_m", score.map3d->aligned_p95_m);
+    add("map3d_coverage", score.map3d->coverage);
+  }
   if (score.localization) {
     add("localization_path_length_m", score.localization->path_length_m);
     add("localization_error_m", score.localization->error_m);

@@ -9,6 +9,7 @@
 
 #include "evaluation/criteria.hpp"
 #include "evaluation/flight_recorder.hpp"
+#include "evaluation/map3d_score.hpp"
 #include "evaluation/marker_errors.hpp"
 #include "evaluation/true_world.hpp"
 #include "evaluation/verdict.hpp"
@@ -74,6 +75,7 @@ struct FlightScore {
   std::optional<double> map_wall_error_median_raw_m;
   ConductScore conduct;
   std::optional<LocalizationScore> localization;  ///< None if the flight was given no map.
+  std::optional<Map3dScore> map3d;                ///< None if it made no 3D map.
 
   int collisions = 0;
   /// Those that the verdict does not excuse: forced ones, glass that no beam had seen, and walkers that ran into a

@@ -20,6 +20,14 @@ void judgeEnding(const FlightScore& score, const Criteria& criteria, Judge& judg
   }
 }
 
+void judgeMap3d(const std::optional<Map3dScore>& map, const Criteria& criteria, Judge& judge) {
+  const auto figure = [&](double Map3dScore::*member) { return map ? Figure((*map).*member) : std::nullopt; };
+  judge.atMost("3D map error, m", figure(&Map3dScore::error_median_m), criteria.map3d_error_max_m);
+  judge.atMost("3D map error aligned, m", figure(&Map3dScore::aligned_median_m), criteria.map3d_aligned_error_max_m);
+  judge.atMost("3D map error aligned of 95 %, m", figure(&Map3dScore::aligned_p95_m), criteria.map3d_aligned_p95_max_m);
+  judge.atLeast("3D map coverage", map ? map->coverage : std::nullopt, criteria.map3d_coverage_min);
+}
+
 /// What a mission that was done must have reached.
 void judgeMission(const FlightScore& score, const Criteria& criteria, Judge& judge) {
   judge.atLeast("coverage", score.coverage, criteria.coverage_min, score.coverage_problem);
@@ -31,6 +39,7 @@ void judgeMission(const FlightScore& score, const Criteria& criteria, Judge& jud
                criteria.mission_time_max_s);
   judge.atMost("estimate RMS, m", score.estimate_rms_m, criteria.estimate_rms_max_m);
   judge.atMost("map wall error, m", score.map_wall_error_median_m, criteria.map_wall_error_max_m);
+  judgeMap3d(score.map3d, criteria, judge);
   judge.atMost("share of the time localized wrongly",
                score.localization ? Figure(score.localization->wrong_share) : std::nullopt,
                criteria.wrong_time_share_max);

@@ -31,6 +31,13 @@ std::optional<double> localizationPathLength_m(const FlightScore& flight) {
 std::optional<double> wrongShare(const FlightScore& flight) {
   return flight.localization ? std::optional(flight.localization->wrong_share) : std::nullopt;
 }
+template <auto kMember>
+std::optional<double> ofMap3d(const FlightScore& flight) {
+  return flight.map3d ? std::optional((*flight.map3d).*kMember) : std::nullopt;
+}
+std::optional<double> map3dCoverage(const FlightScore& flight) {
+  return flight.map3d ? flight.map3d->coverage : std::nullopt;
+}
 template <Verdict kVerdict>
 std::optional<double> is(const FlightScore& flight) {
   return flight.verdict == kVerdict ? 1.0 : 0.0;
@@ -57,6 +64,11 @@ const std::vector<TrialFigure>& trialFigures() {
       {"mission_time_median_s", kMedian, timeIfDone_s},
       {"estimate_rms_median_m", kMedian, of<&Score::estimate_rms_m>},
       {"map_wall_error_median_m", kMedian, of<&Score::map_wall_error_median_m>},
+      {"map3d_error_median_m", kMedian, ofMap3d<&Map3dScore::error_median_m>},
+      {"map3d_error_max_m", kMax, ofMap3d<&Map3dScore::error_median_m>},
+      {"map3d_aligned_error_max_m", kMax, ofMap3d<&Map3dScore::aligned_median_m>},
+      {"map3d_aligned_p95_max_m", kMax, ofMap3d<&Map3dScore::aligned_p95_m>},
+      {"map3d_coverage_min", kMin, map3dCoverage},
       {"localized_flights", kMean, localizedInTime},
       {"localization_path_length_median_m", kMedian, localizationPathLength_m},
       {"localization_path_length_max_m", kMax, localizationPathLength_m},

@@ -34,6 +34,15 @@ ordered_json localizationJson(const LocalizationScore& score) {
           {"times_lost", score.times_lost}};
 }
 
+ordered_json map3dJson(const Map3dScore& score) {
+  return {{"points", score.points},
+          {"error_median_m", orNull(score.error_median_m)},
+          {"error_p95_m", orNull(score.error_p95_m)},
+          {"aligned_median_m", orNull(score.aligned_median_m)},
+          {"aligned_p95_m", orNull(score.aligned_p95_m)},
+          {"coverage", orNull(score.coverage)}};
+}
+
 ordered_json phasesJson(const FlightScore& flight) {
   ordered_json json = ordered_json::object();
   for (const PhaseScore& phase : flight.phases)
@@ -99,6 +108,7 @@ ordered_json flightJson(const FlightScore& flight) {
       {"resumed", flight.resumed},
       {"realtime_factor", orNull(flight.realtime_factor)}});
   for (const auto& [name, figure] : figuresOf(flight.conduct)) json[name] = orNull(figure);
+  if (flight.map3d) json["map3d"] = map3dJson(*flight.map3d);
   if (!flight.phases.empty()) json["phases"] = phasesJson(flight);
   if (!flight.operator_answers.empty()) json["operator"] = operatorJson(flight);
   return json;

@@ -58,6 +58,10 @@ const std::vector<SummaryColumn>& allColumns() {
        "estimate_rms_median_raw_m"},
       {"wall err median (m)", "map_wall_error_median_m", decimals<3>, &Criteria::map_wall_error_median_max_m, false,
        "map_wall_error_median_raw_m"},
+      {"3D map err max (m)", "map3d_error_max_m", decimals<3>, &Criteria::map3d_error_max_m, true},
+      {"aligned (m)", "map3d_aligned_error_max_m", decimals<3>, &Criteria::map3d_aligned_error_max_m, true},
+      {"aligned 95 % (m)", "map3d_aligned_p95_max_m", decimals<3>, &Criteria::map3d_aligned_p95_max_m, true},
+      {"3D coverage min", "map3d_coverage_min", percent, &Criteria::map3d_coverage_min, true},
       {"tilted, of its time", "tilted_share_max", percent, &Criteria::tilted_share_max, true},
       {"thrust margin min", "thrust_margin_min", decimals<2>, &Criteria::thrust_margin_min, true},
       {"touch-down max (m/s)", "touch_down_speed_max_m_s", decimals<2>, &Criteria::touch_down_speed_max_m_s, true},
@@ -85,7 +89,8 @@ std::optional<double> boundOf(const SummaryColumn& column, const Criteria& crite
 
 bool isLowerBound(double Criteria::*bound) {
   return bound == &Criteria::coverage_min || bound == &Criteria::localized_flights_min ||
-         bound == &Criteria::thrust_margin_min || bound == &Criteria::done_share_min;
+         bound == &Criteria::thrust_margin_min || bound == &Criteria::map3d_coverage_min ||
+         bound == &Criteria::done_share_min;
 }
 
 Mark markOf(const SummaryColumn& column, const TrialResult& trial) {

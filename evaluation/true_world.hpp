@@ -1,6 +1,10 @@
 // The true world of a flight, as its scorer needs it.
 #pragma once
 
+#include <optional>
+
+#include "common/geometry.hpp"
+#include "common/rgbd_camera_config.hpp"
 #include "common/vehicle_config.hpp"
 #include "simulation/quadrotor.hpp"
 #include "simulation/ray_caster.hpp"
@@ -17,6 +21,8 @@ struct TrueWorld {
   const simulation::RayCaster* rays = nullptr;
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
+  std::optional<common::RgbdCameraConfig> rgbd_camera;  ///< Of a vehicle that carries one.
+  common::Pose3 T_body_camera;                          ///< Its true mount.
   simulation::QuadrotorConfig quadrotor;
   double clearance_m = kClearance_m;  ///< Clearance of the mission. Places where the hull does not fit with it are not
                                       ///< expected to be reached.

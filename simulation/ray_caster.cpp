@@ -7,8 +7,11 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "common/check.hpp"
 #include "simulation/hull_geometry.hpp"
+#include "simulation/nearest_point.hpp"
 #include "simulation/world_model.hpp"
 
 namespace swiftlet::simulation {
@@ -23,8 +26,17 @@ struct Geometry {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-struct SweepQuery {
+/// What a query of Embree asks of each triangle near its point.
+struct TriangleQuery {
+  using Consider = bool (*)(TriangleQuery&, RTCPointQueryFunctionArguments&);
+  explicit TriangleQuery(Consider consider_in, const std::vector<Geometry>& geometries_in)
+      : consider(consider_in), geometries(&geometries_in) {}
+  Consider consider;
   const std::vector<Geometry>* geometries;
+};
+
+struct SweepQuery : TriangleQuery {
+  using TriangleQuery::TriangleQuery;
   Segment2d segment;
   double bottom_m, top_m;
   double radius_m;
@@ -46,18 +58,44 @@ float queryRadius(const SweepQuery& query, double distance_m) {
 }
 
 bool considerTriangle(RTCPointQueryFunctionArguments* arguments) {
-  auto& query = *static_cast<SweepQuery*>(arguments->userPtr);
-  const Slice slice(corners((*query.geometries)[arguments->geomID], arguments->primID), query.bottom_m, query.top_m);
+  auto& query = *static_cast<TriangleQuery*>(arguments->userPtr);
+  return query.consider(query, *arguments);
+}
+
+bool considerForSweep(TriangleQuery& any_query, RTCPointQueryFunctionArguments& arguments) {
+  auto& query = static_cast<SweepQuery&>(any_query);
+  const Slice slice(corners((*query.geometries)[arguments.geomID], arguments.primID), query.bottom_m, query.top_m);
   if (slice.empty()) return false;
   const Nearest2d nearest = slice.nearestTo(query.segment);
   const double distance_m = std::max(0.0, nearest.distance_m - query.radius_m);
   // Equal distances are ordered by number, so that the answer does not depend on the order of the tree.
-  const int shape = static_cast<int>(arguments->geomID);
+  const int shape = static_cast<int>(arguments.geomID);
   if (distance_m > query.best.distance_m ||
       (distance_m == query.best.distance_m && query.best.shape != Hit::kNothing && shape >= query.best.shape))
     return false;
   query.best = {distance_m, shape, {nearest.point_m.x(), nearest.point_m.y(), slice.height_m()}};
-  arguments->query->radius = queryRadius(query, distance_m);
+  arguments.query->radius = queryRadius(query, distance_m);
+  return true;
+}
+
+struct NearestQuery : TriangleQuery {
+  using TriangleQuery::TriangleQuery;
+  Eigen::Vector3d point_world_m;
+  NearestSurface best;
+};
+
+bool considerForNearest(TriangleQuery& any_query, RTCPointQueryFunctionArguments& arguments) {
+  auto& query = static_cast<NearestQuery&>(any_query);
+  const auto triangle = corners((*query.geometries)[arguments.geomID], arguments.primID);
+  const Eigen::Vector3d nearest = nearestPoint(triangle, query.point_world_m);
+  const double distance_m = (nearest - query.point_world_m).norm();
+  const int shape = static_cast<int>(arguments.geomID);
+  if (distance_m > query.best.distance_m ||
+      (distance_m == query.best.distance_m && query.best.shape != Hit::kNothing && shape >= query.best.shape))
+    return false;
+  const Eigen::Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  query.best = {distance_m, shape, nearest, normal.normalized()};
+  arguments.query->radius = static_cast<float>(distance_m * (1.0 + 1e-5) + 1e-5);
   return true;
 }
 
@@ -250,8 +288,7 @@ void RayCaster::castAll(std::span<const Ray> rays, double max_m, std::span<const
 Clearance RayCaster::sweep(const Hull& hull, const Eigen::Vector3d& from_world_m, const Eigen::Vector3d& to_world_m,
                            double limit_m) const {
   const Eigen::Vector3d middle = 0.5 * (from_world_m + to_world_m);
-  SweepQuery query;
-  query.geometries = &impl_->geometries;
+  SweepQuery query(considerForSweep, impl_->geometries);
   query.segment = {from_world_m.head<2>(), to_world_m.head<2>()};
   query.bottom_m = std::min(from_world_m.z(), to_world_m.z()) - hull.half_height_m;
   query.top_m = std::max(from_world_m.z(), to_world_m.z()) + hull.half_height_m;
@@ -264,7 +301,19 @@ Clearance RayCaster::sweep(const Hull& hull, const Eigen::Vector3d& from_world_m
                       0.0F, queryRadius(query, limit_m)};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(impl_->scene, &point, &context, nullptr, &query);
+  rtcPointQuery(impl_->scene, &point, &context, nullptr, static_cast<TriangleQuery*>(&query));
+  return query.best;
+}
+
+NearestSurface RayCaster::nearest(const Eigen::Vector3d& point_world_m, double limit_m) const {
+  NearestQuery query(considerForNearest, impl_->geometries);
+  query.point_world_m = point_world_m;
+  query.best.distance_m = limit_m;
+  const Eigen::Vector3f at = point_world_m.cast<float>();
+  RTCPointQuery point{at.x(), at.y(), at.z(), 0.0F, static_cast<float>(limit_m * (1.0 + 1e-5) + 1e-5)};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(impl_->scene, &point, &context, nullptr, static_cast<TriangleQuery*>(&query));
   return query.best;
 }
 

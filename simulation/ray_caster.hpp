@@ -52,6 +52,14 @@ struct Clearance {
   Eigen::Vector3d point_world_m = Eigen::Vector3d::Zero();  ///< Nearest point; valid if `shape` is.
 };
 
+/// The surface nearest to a point, in all directions.
+struct NearestSurface {
+  double distance_m = 0.0;  ///< The limit of the query if nothing is nearer.
+  int shape = Hit::kNothing;
+  Eigen::Vector3d point_world_m = Eigen::Vector3d::Zero();  ///< Valid if `shape` is, as is the normal.
+  Eigen::Vector3d normal_world = Eigen::Vector3d::UnitZ();  ///< Of its triangle; either side.
+};
+
 /// Const and without state: safe to use from several threads at once.
 class RayCaster {
  public:
@@ -76,6 +84,9 @@ class RayCaster {
   /// is missed between two steps.
   Clearance sweep(const Hull& hull, const Eigen::Vector3d& from_world_m, const Eigen::Vector3d& to_world_m,
                   double limit_m) const;
+
+  /// The static surface nearest to a point, up to limit_m.
+  NearestSurface nearest(const Eigen::Vector3d& point_world_m, double limit_m) const;
 
  private:
   struct Impl;

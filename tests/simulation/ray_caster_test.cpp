@@ -203,5 +203,36 @@ TEST(TruthMap, FloodsTheRoomButNotThroughANarrowGap) {
   EXPECT_NEAR(distanceToSurface2d(RayCaster(world), {0.0, -1.0}, 1.0, 2.0), 1.0, 1e-5);
 }
 
+// Compared with the nearest of many points spread over every triangle.
+TEST(RayCaster, TheNearestSurfaceIsAsNearAsTheNearestOfItsPoints) {
+  WorldModel world = boxRoom();
+  world.shapes.push_back(boxShape("post", {1.0, 1.0, 0.0}, {1.3, 1.2, 2.0}));
+  const RayCaster rays(world);
+  std::vector<Eigen::Vector3d> points;
+  constexpr int kSteps = 60;
+  for (const Shape& shape : world.shapes)
+    for (const auto& triangle : shape.triangles)
+      for (int i = 0; i <= kSteps; ++i)
+        for (int j = 0; i + j <= kSteps; ++j) {
+          const Eigen::Vector3f a = shape.vertices_world_m[triangle[0]], b = shape.vertices_world_m[triangle[1]];
+          const Eigen::Vector3f c = shape.vertices_world_m[triangle[2]];
+          const float s = static_cast<float>(i) / kSteps, t = static_cast<float>(j) / kSteps;
+          points.emplace_back((a + s * (b - a) + t * (c - a)).cast<double>());
+        }
+  common::RandomStream random(1, "nearest");
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector3d from(random.uniform(-6, 6), random.uniform(-5, 5), random.uniform(-1, 4));
+    double least_m = 100.0;
+    for (const Eigen::Vector3d& point : points) least_m = std::min(least_m, (point - from).norm());
+    const NearestSurface nearest = rays.nearest(from, 10.0);
+    ASSERT_NE(nearest.shape, Hit::kNothing);
+    EXPECT_LE(nearest.distance_m, least_m + 1e-5);
+    EXPECT_GT(nearest.distance_m, least_m - 0.12) << "points are 0.18 m apart";
+    EXPECT_NEAR((nearest.point_world_m - from).norm(), nearest.distance_m, 1e-9);
+  }
+  EXPECT_EQ(rays.nearest({0, 0, 1.5}, 0.5).shape, Hit::kNothing);
+  EXPECT_EQ(rays.nearest({0, 0, 1.5}, 0.5).distance_m, 0.5);
+}
+
 }  // namespace
 }  // namespace swiftlet::simulation

@@ -1,0 +1,164 @@
+#include "evaluation/cloud_metrics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "evaluation/statistics.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+using common::Pose3;
+
+/// Every n-th point, so that at most `most` remain.
+Cloud thinned(const Cloud& cloud, std::size_t most) {
+  const std::size_t step = (cloud.size() + most - 1) / most;
+  Cloud some;
+  for (std::size_t i = 0; i < cloud.size(); i += std::max<std::size_t>(1, step)) some.push_back(cloud[i]);
+  return some;
+}
+
+/// Points by the cube of kSpacing_m that they are in.
+class Cubes {
+ public:
+  using Key = std::array<std::int32_t, 3>;
+  static Key of(const Eigen::Vector3d& point_m) {
+    const Eigen::Vector3d cube = (point_m / kSpacing_m).array().floor();
+    return {static_cast<std::int32_t>(cube.x()), static_cast<std::int32_t>(cube.y()),
+            static_cast<std::int32_t>(cube.z())};
+  }
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      std::uint64_t hash = 0;
+      for (const std::int32_t part : key) hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9e3779b97f4a7c15U;
+      return static_cast<std::size_t>(hash ^ (hash >> 29U));
+    }
+  };
+  template <typename Value>
+  using Map = std::unordered_map<Key, Value, Hash>;
+};
+
+/// The normal equations of one pull towards the surfaces, about the middle of the cloud.
+struct Pull {
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
+
+  void add(const Eigen::Vector3d& arm_m, const Eigen::Vector3d& normal, double residual_m) {
+    Eigen::Matrix<double, 6, 1> jacobian;
+    jacobian << arm_m.cross(normal), normal;
+    information += jacobian * jacobian.transpose();
+    gradient += jacobian * residual_m;
+  }
+  /// Whether the surfaces hold the cloud in all directions.
+  bool isHeld() const {
+    constexpr double kLeastShare = 1e-4;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(information, Eigen::EigenvaluesOnly);
+    return solver.eigenvalues()[0] > kLeastShare * solver.eigenvalues()[5];
+  }
+};
+
+Eigen::Quaterniond rotationBy(const Eigen::Vector3d& vector_rad) {
+  const double angle_rad = vector_rad.norm();
+  if (angle_rad < 1e-12) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, vector_rad / angle_rad));
+}
+
+}  // namespace
+
+CloudError cloudError(const Cloud& cloud_world_m, const simulation::RayCaster& rays) {
+  std::vector<double> distances_m;
+  for (const Eigen::Vector3d& point : thinned(cloud_world_m, kMostPoints))
+    distances_m.push_back(rays.nearest(point, CloudError::kLimit_m).distance_m);
+  return {quantile(distances_m, 0.5), quantile(distances_m, 0.95)};
+}
+
+Pose3 alignment(const Cloud& cloud_world_m, const simulation::RayCaster& rays) {
+  constexpr int kIterations = 20;
+  constexpr std::size_t kPoints = 5000;
+  constexpr double kReach_m = 0.5, kOutlier = 3.0, kLeastReach_m = 0.03;
+  const Cloud cloud = thinned(cloud_world_m, kPoints);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : cloud) middle += point / static_cast<double>(cloud.size());
+  Pose3 T;
+  double reach_m = kReach_m;
+  for (int i = 0; i < kIterations; ++i) {
+    Pull pull;
+    std::vector<double> distances_m;
+    const Eigen::Vector3d moved_middle = T * middle;
+    for (const Eigen::Vector3d& point : cloud) {
+      const Eigen::Vector3d moved = T * point;
+      const simulation::NearestSurface surface = rays.nearest(moved, reach_m);
+      if (surface.shape == simulation::Hit::kNothing) continue;
+      distances_m.push_back(surface.distance_m);
+      pull.add(moved - moved_middle, surface.normal_world, surface.normal_world.dot(moved - surface.point_world_m));
+    }
+    if (distances_m.size() < cloud.size() / 2 || !pull.isHeld()) return Pose3{};
+    const Eigen::Matrix<double, 6, 1> step = -pull.information.ldlt().solve(pull.gradient);
+    const Eigen::Quaterniond turn = rotationBy(step.head<3>());
+    T = Pose3{turn, moved_middle + step.tail<3>() - turn * moved_middle} * T;
+    reach_m = std::clamp(kOutlier * quantile(distances_m, 0.5), kLeastReach_m, kReach_m);
+    if (step.norm() < 1e-6) break;
+  }
+  return T;
+}
+
+Cloud surfacesInView(const common::RgbdCameraConfig& camera, const std::vector<Pose3>& T_world_camera,
+                     const simulation::RayCaster& rays) {
+  constexpr int kColumns = 40, kRows = 30;  // A ray each 1.5 deg: 13 cm apart at 5 m.
+  const common::PinholeCamera pinhole = camera.camera();
+  const double least_cos = std::cos(kGlancing_deg * common::kRadPerDeg);
+  struct Seen {
+    Eigen::Vector3d point;
+    std::size_t last_pose = 0;
+    int poses = 0;
+  };
+  Cubes::Map<Seen> seen;
+  std::vector<Cubes::Key> order;  // The map's own order differs between libraries.
+  for (std::size_t pose = 0; pose < T_world_camera.size(); ++pose)
+    for (int ray = 0; ray < kColumns * kRows; ++ray) {
+      const double u_px = (ray % kColumns + 0.5) / kColumns * pinhole.width_px - 0.5;
+      const double v_px = (ray / kColumns + 0.5) / kRows * pinhole.height_px - 0.5;
+      const Eigen::Vector3d along = pinhole.point_camera_m(u_px, v_px, 1.0);
+      const Eigen::Vector3d direction = T_world_camera[pose].rotation * along.normalized();
+      const simulation::Hit hit =
+          rays.cast(T_world_camera[pose].position_m, direction, camera.range_max_m * along.norm());
+      if (!hit || hit.distance_m < camera.range_min_m * along.norm()) continue;
+      if (-hit.normal_world.cast<double>().dot(direction) < least_cos) continue;
+      const Eigen::Vector3d point = T_world_camera[pose].position_m + hit.distance_m * direction;
+      const auto [entry, is_new] = seen.try_emplace(Cubes::of(point), Seen{point, pose, 1});
+      if (is_new) order.push_back(entry->first);
+      if (std::exchange(entry->second.last_pose, pose) != pose) ++entry->second.poses;
+    }
+  Cloud places;
+  for (const Cubes::Key& key : order)
+    if (const Seen& one = seen.at(key); one.poses >= 2) places.push_back(one.point);
+  return places;
+}
+
+double shareCovered(const Cloud& places_m, const Cloud& cloud_m) {
+  if (places_m.empty()) return 1.0;
+  Cubes::Map<Cloud> cubes;
+  for (const Eigen::Vector3d& point : cloud_m) cubes[Cubes::of(point)].push_back(point);
+  const auto isCovered = [&](const Eigen::Vector3d& place) {
+    const Cubes::Key at = Cubes::of(place);
+    for (int i = 0; i < 27; ++i) {
+      const auto cube = cubes.find({at[0] + i % 3 - 1, at[1] + i / 3 % 3 - 1, at[2] + i / 9 - 1});
+      if (cube == cubes.end()) continue;
+      for (const Eigen::Vector3d& point : cube->second)
+        if ((point - place).squaredNorm() <= kSpacing_m * kSpacing_m) return true;
+    }
+    return false;
+  };
+  const auto covered = std::count_if(places_m.begin(), places_m.end(), isCovered);
+  return static_cast<double>(covered) / static_cast<double>(places_m.size());
+}
+
+}  // namespace swiftlet::evaluation

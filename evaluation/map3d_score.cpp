@@ -1,0 +1,44 @@
+#include "evaluation/map3d_score.hpp"
+
+#include "common/world/map3d_layer.hpp"
+#include "evaluation/cloud_metrics.hpp"
+#include "evaluation/flight_recorder.hpp"
+
+namespace swiftlet::evaluation {
+namespace {
+
+Cloud cloudOf(const common::Map3dLayer& map, const common::Pose3& T_world_map) {
+  Cloud cloud_world_m;
+  for (const common::Submap3d& submap : *map.submaps) {
+    const common::Pose3 T_world_submap = T_world_map * submap.T_map_submap(*map.keys);
+    for (const common::SurfacePoint& point : *submap.points)
+      cloud_world_m.push_back(T_world_submap * Eigen::Vector3d(point.position_m.cast<double>()));
+  }
+  return cloud_world_m;
+}
+
+}  // namespace
+
+std::optional<Map3dScore> scoreMap3d(const FlightRecord& record, const TrueWorld& world) {
+  if (record.map3d == nullptr) return std::nullopt;
+  Cloud cloud = cloudOf(*record.map3d, record.T_world_map);
+  if (cloud.empty()) return std::nullopt;
+  Map3dScore score;
+  score.points = cloud.size();
+  const CloudError as_it_stands = cloudError(cloud, *world.rays);
+  score.error_median_m = as_it_stands.median_m;
+  score.error_p95_m = as_it_stands.p95_m;
+  const common::Pose3 T = alignment(cloud, *world.rays);
+  for (Eigen::Vector3d& point : cloud) point = T * point;
+  const CloudError aligned = cloudError(cloud, *world.rays);
+  score.aligned_median_m = aligned.median_m;
+  score.aligned_p95_m = aligned.p95_m;
+  if (!world.rgbd_camera) return score;
+  std::vector<common::Pose3> T_world_camera;
+  for (const common::Pose3& T_world_body : record.T_world_body_views)
+    T_world_camera.push_back(T_world_body * world.T_body_camera);
+  score.coverage = shareCovered(surfacesInView(*world.rgbd_camera, T_world_camera, *world.rays), cloud);
+  return score;
+}
+
+}  // namespace swiftlet::evaluation

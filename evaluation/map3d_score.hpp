@@ -1,0 +1,28 @@
+// The 3D map at the end of a flight against the true world.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "evaluation/true_world.hpp"
+
+namespace swiftlet::evaluation {
+
+struct FlightRecord;
+
+struct Map3dScore {
+  std::size_t points = 0;
+  /// Distance of the cloud's points to the nearest surface, the map where the vehicle can know it to be.
+  double error_median_m = 0.0;
+  double error_p95_m = 0.0;
+  /// The same after one rigid motion of the whole cloud.
+  double aligned_median_m = 0.0;
+  double aligned_p95_m = 0.0;
+  /// Share of the surfaces in view of the camera that are in the aligned cloud.
+  std::optional<double> coverage;
+};
+
+/// None if the flight has no 3D map, or one without a point.
+std::optional<Map3dScore> scoreMap3d(const FlightRecord& record, const TrueWorld& world);
+
+}  // namespace swiftlet::evaluation
