@@ -37,6 +37,16 @@ SurfaceMaterial materialOf(const aiScene& scene, const aiMesh& part) {
   return material;
 }
 
+/// Assimp counts v upwards.
+Eigen::Vector2f imagePlaceOf(const aiMesh& part, unsigned vertex) {
+  if (!part.HasTextureCoords(0)) return Eigen::Vector2f::Zero();
+  const aiVector3D& place = part.mTextureCoords[0][vertex];
+  constexpr float kMostRepetitions = 1e4F;  // A place must stay exact to a texel.
+  const Eigen::Vector2f at(place.x, 1.0F - place.y);
+  if (!(at.cwiseAbs().maxCoeff() <= kMostRepetitions)) return Eigen::Vector2f::Zero();
+  return at.allFinite() ? at : Eigen::Vector2f(Eigen::Vector2f::Zero());
+}
+
 /// The index of the material among `materials`, to which it is added if it is new.
 std::uint16_t numberOf(const SurfaceMaterial& material, std::vector<SurfaceMaterial>& materials) {
   auto found = std::find(materials.begin(), materials.end(), material);
@@ -51,9 +61,7 @@ void addPart(const aiScene& scene, const aiMesh& part, const aiMatrix4x4& T_root
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D point = T_root_node * part.mVertices[i];
     triangles.vertices_m.emplace_back(point.x, point.y, point.z);
-    // Assimp counts v upwards.
-    const aiVector3D place = part.HasTextureCoords(0) ? part.mTextureCoords[0][i] : aiVector3D(0.0F, 1.0F, 0.0F);
-    out.mesh.image_places.emplace_back(place.x, 1.0F - place.y);
+    out.mesh.image_places.push_back(imagePlaceOf(part, i));
   }
   const SurfaceMaterial material = materialOf(scene, part);
   const std::uint16_t number = numberOf(material, out.mesh.materials);
