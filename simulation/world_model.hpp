@@ -71,10 +71,10 @@ struct WorldModel {
 /// ellipsoids, planes and meshes are triangulated. The collision geometry of a link is used, or its visual geometry if
 /// it has none. A visual with `<transparency>` of 0.5 or more, or with a diffuse alpha of 0.5 or less, is glass, as is
 /// the collision geometry that goes with it. A material's `<swiftlet:texture>` names a Pattern, and
-/// its albedo map or the textures of a mesh are pictures for the cameras; a picture that is not there is left out. `model://` and
-/// `file://` URIs are searched for in `model_paths`, in the folders of SDF_PATH, and around the file itself (its
-/// folder, and the folders `models` and `media` beside and above it). An include that cannot be found and has no
-/// geometry that matters (Sun) is a warning; the well-known ground plane is replaced by one at z = 0. Throws
+/// its albedo map or the textures of a mesh are pictures for the cameras; a picture that is not there is left out.
+/// `model://` and `file://` URIs are searched for in `model_paths`, in the folders of SDF_PATH, and around the file
+/// itself (its folder, and the folders `models` and `media` beside and above it). An include that cannot be found and
+/// has no geometry that matters (Sun) is a warning; the well-known ground plane is replaced by one at z = 0. Throws
 /// common::InputError (file:line) if the file cannot be read, is malformed, or refers to something missing. Not
 /// thread-safe: libsdformat has global state.
 WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths = {});

@@ -108,7 +108,8 @@ TEST(SurfaceImages, AnAlbedoMapIsStretchedOverEachSideOfABox) {
 TEST(SurfaceImages, AnImageOfAnyShapeBecomesATexture) {
   const common::Image image{3, 2, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255}};
   const Texture texture = Texture::of(image);
-  const Color left = texture.on(Color::Ones(), 0.13F, 0.5F, 0.0F), right = texture.on(Color::Ones(), 0.875F, 0.5F, 0.0F);
+  const Color left = texture.on(Color::Ones(), 0.13F, 0.5F, 0.0F),
+              right = texture.on(Color::Ones(), 0.875F, 0.5F, 0.0F);
   EXPECT_NEAR(left.x(), 1.0F, 0.05F);
   EXPECT_NEAR(right.z(), 1.0F, 0.05F);
 }
