@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "interfaces/rgbd/image_decoder.hpp"
+#include "common/image_decoder.hpp"
 
 namespace {
 
@@ -17,12 +17,12 @@ std::size_t pixels(int width_px, int height_px) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace swiftlet;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  if (const auto color = interfaces::decodeColor(bytes)) {
+  if (const auto color = common::decodeColor(bytes)) {
     if (color->rgb.size() != 3 * pixels(color->width_px, color->height_px)) std::abort();
   } else if (color.error().empty()) {
     std::abort();
   }
-  if (const auto depth = interfaces::decodeDepth(bytes)) {
+  if (const auto depth = common::decodeDepth(bytes)) {
     if (depth->codes.size() != pixels(depth->width_px, depth->height_px)) std::abort();
   } else if (depth.error().empty()) {
     std::abort();

@@ -26,12 +26,33 @@ Color diffuseOf(const aiScene& scene, const aiMesh& part) {
   return Color(diffuse.r, diffuse.g, diffuse.b).cwiseMax(0.0F).cwiseMin(1.0F);
 }
 
-/// The index of the colour among `colors`, to which it is added if it is new.
-std::uint16_t numberOf(const Color& color, std::vector<Color>& colors) {
-  auto found = std::find(colors.begin(), colors.end(), color);
+SurfaceMaterial materialOf(const aiScene& scene, const aiMesh& part) {
+  SurfaceMaterial material{diffuseOf(scene, part), {}};
+  if (part.mMaterialIndex >= scene.mNumMaterials || !part.HasTextureCoords(0)) return material;
+  aiString image;
+  for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})
+    if (material.image.empty() &&
+        scene.mMaterials[part.mMaterialIndex]->GetTexture(type, 0, &image) == aiReturn_SUCCESS)
+      material.image = image.C_Str();
+  return material;
+}
+
+/// Assimp counts v upwards.
+Eigen::Vector2f imagePlaceOf(const aiMesh& part, unsigned vertex) {
+  if (!part.HasTextureCoords(0)) return Eigen::Vector2f::Zero();
+  const aiVector3D& place = part.mTextureCoords[0][vertex];
+  constexpr float kMostRepetitions = 1e4F;  // A place must stay exact to a texel.
+  const Eigen::Vector2f at(place.x, 1.0F - place.y);
+  if (!(at.cwiseAbs().maxCoeff() <= kMostRepetitions)) return Eigen::Vector2f::Zero();
+  return at.allFinite() ? at : Eigen::Vector2f(Eigen::Vector2f::Zero());
+}
+
+/// The index of the material among `materials`, to which it is added if it is new.
+std::uint16_t numberOf(const SurfaceMaterial& material, std::vector<SurfaceMaterial>& materials) {
+  auto found = std::find(materials.begin(), materials.end(), material);
   constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
-  if (found == colors.end() && colors.size() < kMost) found = colors.insert(found, color);
-  return static_cast<std::uint16_t>(std::min<std::ptrdiff_t>(found - colors.begin(), kMost - 1));
+  if (found == materials.end() && materials.size() < kMost) found = materials.insert(found, material);
+  return static_cast<std::uint16_t>(std::min<std::ptrdiff_t>(found - materials.begin(), kMost - 1));
 }
 
 void addPart(const aiScene& scene, const aiMesh& part, const aiMatrix4x4& T_root_node, Collected& out) {
@@ -40,15 +61,16 @@ void addPart(const aiScene& scene, const aiMesh& part, const aiMatrix4x4& T_root
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D point = T_root_node * part.mVertices[i];
     triangles.vertices_m.emplace_back(point.x, point.y, point.z);
+    out.mesh.image_places.push_back(imagePlaceOf(part, i));
   }
-  const Color color = diffuseOf(scene, part);
-  const std::uint16_t number = numberOf(color, out.mesh.colors);
+  const SurfaceMaterial material = materialOf(scene, part);
+  const std::uint16_t number = numberOf(material, out.mesh.materials);
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
     if (face.mNumIndices != 3) continue;  // Points and lines have no surface.
     triangles.indices.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
-    out.mesh.color_of_triangle.push_back(number);
-    out.color_sum += color;
+    out.mesh.material_of_triangle.push_back(number);
+    out.color_sum += material.color;
   }
 }
 

@@ -14,9 +14,12 @@ namespace swiftlet::simulation {
 
 struct Mesh {
   Triangles triangles;
-  Color color = Color::Constant(0.7F);  ///< Colour of the materials, averaged over the triangles.
-  std::vector<Color> colors;            ///< Of the materials, one or more.
-  std::vector<std::uint16_t> color_of_triangle;
+  Color color = Color::Constant(0.7F);     ///< Colour of the materials, averaged over the triangles.
+  std::vector<SurfaceMaterial> materials;  ///< One or more. An image is named as in the file.
+  std::vector<std::uint16_t> material_of_triangle;
+  /// Of the vertices in their images: (0, 0) is the top left corner and (1, 1) the bottom right one; (0, 0) where none
+  /// is given.
+  std::vector<Eigen::Vector2f> image_places;
 };
 
 /// In metres: a COLLADA file's unit is applied. Its `<up_axis>` is not, because Gazebo, for which these files were

@@ -128,11 +128,18 @@ ActorHit castOnActor(const Actor& actor, const Eigen::Vector3d& origin, const Ei
   return hit;
 }
 
-Hit makeHit(float distance_m, unsigned shape, unsigned triangle, const Eigen::Vector3f& normal,
-            const Eigen::Vector3f& direction_world) {
-  const Eigen::Vector3f unit = normal.normalized();
-  return {distance_m, static_cast<int>(shape), unit.dot(direction_world) > 0.0F ? -unit : unit,
-          static_cast<int>(triangle)};
+/// What Embree says of a hit.
+struct RawHit {
+  float distance_m;
+  unsigned shape, triangle;
+  Eigen::Vector3f normal;
+  Eigen::Vector2f corner_shares;
+};
+
+Hit makeHit(const RawHit& raw, const Eigen::Vector3f& direction_world) {
+  const Eigen::Vector3f unit = raw.normal.normalized();
+  return {raw.distance_m, static_cast<int>(raw.shape), unit.dot(direction_world) > 0.0F ? -unit : unit,
+          static_cast<int>(raw.triangle), raw.corner_shares};
 }
 
 /// Calls take(index of the ray, packet, place in the packet) for each ray.
@@ -248,7 +255,11 @@ Hit RayCaster::cast(const Eigen::Vector3d& origin_world_m, const Eigen::Vector3d
 
   Hit hit;
   if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-    hit = makeHit(query.ray.tfar, query.hit.geomID, query.hit.primID, {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z},
+    hit = makeHit({query.ray.tfar,
+                   query.hit.geomID,
+                   query.hit.primID,
+                   {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z},
+                   {query.hit.u, query.hit.v}},
                   direction);
   for (std::size_t i = 0; i < actors.size(); ++i) {
     const ActorHit on_actor = castOnActor(actors[i], origin_world_m, direction_world);
@@ -276,8 +287,12 @@ void RayCaster::castAll(std::span<const Ray> rays, double max_m, std::span<const
   castPackets(impl_->scene, rays, max_m, [&](std::size_t i, const RTCRayHit4& packet, std::size_t k) {
     hits[i] = Hit{};
     if (packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) return;
-    hits[i] = makeHit(packet.ray.tfar[k], packet.hit.geomID[k], packet.hit.primID[k],
-                      {packet.hit.Ng_x[k], packet.hit.Ng_y[k], packet.hit.Ng_z[k]}, rays[i].direction_world);
+    hits[i] = makeHit({packet.ray.tfar[k],
+                       packet.hit.geomID[k],
+                       packet.hit.primID[k],
+                       {packet.hit.Ng_x[k], packet.hit.Ng_y[k], packet.hit.Ng_z[k]},
+                       {packet.hit.u[k], packet.hit.v[k]}},
+                      rays[i].direction_world);
   });
   forEachActorHit(rays, max_m, actors, [&](std::size_t i, std::size_t actor, const ActorHit& hit) {
     if (hit.distance_m < hits[i].distance_m)

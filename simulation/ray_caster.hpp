@@ -35,6 +35,8 @@ struct Hit {
   int shape = kNothing;  ///< Index into WorldModel::shapes; shapes.size() + k for actor k.
   Eigen::Vector3f normal_world = Eigen::Vector3f::Zero();  ///< Unit, facing the origin of the ray.
   int triangle = 0;                                        ///< Index into the shape's triangles; 0 of an actor.
+  /// The shares of the triangle's second and third corner in the point that was hit.
+  Eigen::Vector2f corner_shares = Eigen::Vector2f::Zero();
 
   explicit operator bool() const { return shape != kNothing; }
 };

@@ -19,6 +19,7 @@
 #include <sdf/Material.hh>
 #include <sdf/Mesh.hh>
 #include <sdf/Model.hh>
+#include <sdf/Pbr.hh>
 #include <sdf/Plane.hh>
 #include <sdf/Sphere.hh>
 #include <sdf/Visual.hh>
@@ -104,6 +105,7 @@ struct Look {
   std::optional<Color> color;
   bool glass = false;
   std::optional<Pattern> pattern = {};
+  std::string image = {};  ///< A file; empty if there is none.
 };
 
 /// A soft colour, different for each model, for models without a colour.
@@ -196,7 +198,18 @@ class Loader {
     const sdf::Material* material = visual->Material();
     const bool see_through = material != nullptr && material->Element() && material->Element()->HasElement("diffuse") &&
                              material->Diffuse().A() <= kHalf;
-    return {colorOf(visual), see_through || visual->Transparency() >= kHalf, patternOf(material)};
+    return {colorOf(visual), see_through || visual->Transparency() >= kHalf, patternOf(material), imageOf(material)};
+  }
+
+  /// The albedo map, if its file is there.
+  std::string imageOf(const sdf::Material* material) const {
+    if (material == nullptr || material->PbrMaterial() == nullptr) return {};
+    for (const auto type : {sdf::PbrWorkflowType::METAL, sdf::PbrWorkflowType::SPECULAR})
+      if (const sdf::PbrWorkflow* workflow = material->PbrMaterial()->Workflow(type))
+        return resolver_.find(workflow->AlbedoMap(), locationOf(material->Element(), world_.file).file)
+            .value_or("")
+            .string();
+    return {};
   }
 
   std::optional<Pattern> patternOf(const sdf::Material* material) {
@@ -268,9 +281,22 @@ class Loader {
     const Eigen::Vector3f scale = toEigen(sdf_mesh.Scale()).cast<float>();
     for (Eigen::Vector3f& vertex : triangles.vertices_m) vertex = vertex.cwiseProduct(scale);
     addShape(top, part, location, T_world_item, triangles, look.color.value_or(cached->second->color), look);
-    if (look.color || cached->second->colors.size() < 2) return;
-    world_.shapes.back().colors = cached->second->colors;
-    world_.shapes.back().color_of_triangle = cached->second->color_of_triangle;
+    addMaterials(*cached->second, *path, look, world_.shapes.back());
+  }
+
+  /// A colour or an image of the world's file replaces those of the mesh. Images that are not there are left out:
+  /// without them the surface has its colour.
+  void addMaterials(const Mesh& mesh, const std::filesystem::path& mesh_file, const Look& look, Shape& shape) const {
+    shape.materials = mesh.materials;
+    shape.material_of_triangle = mesh.material_of_triangle;
+    shape.image_places = mesh.image_places;
+    for (SurfaceMaterial& material : shape.materials) {
+      if (!look.image.empty() || look.color || material.image.empty())
+        material.image = look.image;
+      else
+        material.image = resolver_.find(material.image, mesh_file).value_or("").string();
+      if (look.color) material.color = *look.color;
+    }
   }
 
   static void centre(Triangles& triangles) {
@@ -284,6 +310,7 @@ class Loader {
                 const Look& look = {}) {
     Shape shape{top, part, source, color, {}, triangles.indices, look.glass, look.pattern};
     shape.T_world_shape = T_world_item;
+    shape.image = look.image;
     shape.vertices_world_m.reserve(triangles.vertices_m.size());
     for (const Eigen::Vector3f& vertex : triangles.vertices_m)
       shape.vertices_world_m.push_back((T_world_item * vertex.cast<double>()).cast<float>());

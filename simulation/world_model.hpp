@@ -20,6 +20,14 @@ namespace swiftlet::simulation {
 /// Linear red, green, blue in [0, 1].
 using Color = Eigen::Vector3f;
 
+/// A material of a mesh.
+struct SurfaceMaterial {
+  Color color = Color::Constant(0.7F);
+  std::string image = {};  ///< A file with the picture of the surface, PNG or JPEG; empty if there is none.
+
+  bool operator==(const SurfaceMaterial& other) const = default;
+};
+
 /// One rigid piece of a model: a triangle soup.
 struct Shape {
   std::string model;  ///< Name of the top-level model it belongs to.
@@ -30,9 +38,11 @@ struct Shape {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into the vertices; either winding.
   bool glass = false;                                   ///< Its material is transparent by half or more.
   std::optional<Pattern> pattern = {};                  ///< That its material names.
-  std::vector<Color> colors = {};                     ///< Of a mesh with several materials; empty: `color` everywhere.
-  std::vector<std::uint16_t> color_of_triangle = {};  ///< Indices into `colors`.
-  common::Pose3 T_world_shape = {};                   ///< Of the frame in which patterns keep their place on it.
+  std::string image = {};  ///< Stretched over each side of it, as `materials` are not; empty if there is none.
+  std::vector<SurfaceMaterial> materials = {};           ///< Of a mesh; empty: `color` everywhere.
+  std::vector<std::uint16_t> material_of_triangle = {};  ///< Indices into `materials`.
+  std::vector<Eigen::Vector2f> image_places = {};  ///< Of the vertices in the images of their materials, see Mesh.
+  common::Pose3 T_world_shape = {};                ///< Of the frame in which patterns keep their place on it.
 };
 
 /// "model/part".
@@ -60,10 +70,11 @@ struct WorldModel {
 /// Reads an SDF world, or a bare `<model>` file as a world of that one model. Boxes, cylinders, spheres, capsules,
 /// ellipsoids, planes and meshes are triangulated. The collision geometry of a link is used, or its visual geometry if
 /// it has none. A visual with `<transparency>` of 0.5 or more, or with a diffuse alpha of 0.5 or less, is glass, as is
-/// the collision geometry that goes with it. A material's `<swiftlet:texture>` names a Pattern. `model://` and
-/// `file://` URIs are searched for in `model_paths`, in the folders of SDF_PATH, and around the file itself (its
-/// folder, and the folders `models` and `media` beside and above it). An include that cannot be found and has no
-/// geometry that matters (Sun) is a warning; the well-known ground plane is replaced by one at z = 0. Throws
+/// the collision geometry that goes with it. A material's `<swiftlet:texture>` names a Pattern, and
+/// its albedo map or the textures of a mesh are pictures for the cameras; a picture that is not there is left out.
+/// `model://` and `file://` URIs are searched for in `model_paths`, in the folders of SDF_PATH, and around the file
+/// itself (its folder, and the folders `models` and `media` beside and above it). An include that cannot be found and
+/// has no geometry that matters (Sun) is a warning; the well-known ground plane is replaced by one at z = 0. Throws
 /// common::InputError (file:line) if the file cannot be read, is malformed, or refers to something missing. Not
 /// thread-safe: libsdformat has global state.
 WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths = {});

@@ -74,7 +74,7 @@ DepthImage undistorted(const LensCalibration& lens, const PinholeCamera& camera,
   return straight;
 }
 
-DepthImage inMetres(const DepthCodes& codes, double units_per_m) {
+DepthImage inMetres(const common::DepthCodes& codes, double units_per_m) {
   DepthImage depth{codes.width_px, codes.height_px, {}};
   depth.depth_m.reserve(codes.codes.size());
   for (const std::uint16_t code : codes.codes) {
@@ -124,8 +124,8 @@ DepthImage registered(const DepthImage& depth, const PinholeCamera& depth_camera
 }  // namespace
 
 void LensCalibration::describe(common::config::Fields& fields) {
-  fields("width_px", width_px, {16, kMostImageSide_px}, "Width of the images that the other numbers are for.");
-  fields("height_px", height_px, {16, kMostImageSide_px}, "Height of those images.");
+  fields("width_px", width_px, {16, common::kMostImageSide_px}, "Width of the images that the other numbers are for.");
+  fields("height_px", height_px, {16, common::kMostImageSide_px}, "Height of those images.");
   fields("fx_px", fx_px, {1, 1e5}, "Focal length across.");
   fields("fy_px", fy_px, {1, 1e5}, "Focal length down.");
   fields("cx_px", cx_px, {-1e4, 1e4}, "Principal point across; the centre of the top left pixel is 0.");
@@ -184,7 +184,7 @@ bool hasShapeOf(const LensCalibration& lens, int width_px, int height_px) {
          static_cast<std::int64_t>(width_px) * lens.height_px == static_cast<std::int64_t>(height_px) * lens.width_px;
 }
 
-common::RgbdFrame makeFrame(const RgbdCalibration& calibration, common::Image color, const DepthCodes& depth) {
+common::RgbdFrame makeFrame(const RgbdCalibration& calibration, common::Image color, const common::DepthCodes& depth) {
   common::RgbdFrame frame;
   frame.camera = cameraOf(calibration.color, color.width_px, color.height_px);
   frame.color =

@@ -4,8 +4,8 @@
 
 #include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
+#include "common/image_decoder.hpp"
 #include "common/rgbd_frame.hpp"
-#include "interfaces/rgbd/image_decoder.hpp"
 
 namespace swiftlet::interfaces {
 
@@ -60,7 +60,7 @@ bool hasShapeOf(const LensCalibration& lens, int width_px, int height_px);
 
 /// The colour image and its depth in metres, without distortion; the depth is in the colour camera's view. Both sizes
 /// must have the shape of their lens. Stamps are left to the caller.
-common::RgbdFrame makeFrame(const RgbdCalibration& calibration, common::Image color, const DepthCodes& depth);
+common::RgbdFrame makeFrame(const RgbdCalibration& calibration, common::Image color, const common::DepthCodes& depth);
 
 /// The axes of image processing (x right, y down, z along the view) in the frame `camera`.
 common::Pose3 T_camera_optical();

@@ -31,7 +31,7 @@ double meanOf(const common::Image& image) {
   return static_cast<double>(sum) / static_cast<double>(image.rgb.size());
 }
 
-std::optional<FrameFault> faultOf(const DepthCodes& depth, double units_per_m) {
+std::optional<FrameFault> faultOf(const common::DepthCodes& depth, double units_per_m) {
   std::size_t measured = 0, implausible = 0;
   for (const std::uint16_t code : depth.codes) {
     if (code == 0 || code == 65535) continue;
@@ -106,12 +106,12 @@ std::optional<common::RgbdFrame> RgbdFolder::read(const RgbdListing::Pair& pair,
     skipped = {FrameFault::kRepeated, pair.color.string()};
     return std::nullopt;
   }
-  auto color = decodeColor(*color_bytes);
+  auto color = common::decodeColor(*color_bytes);
   if (!color) {
     skipped = {FrameFault::kUnreadable, fmt::format("{}: {}", pair.color.string(), color.error())};
     return std::nullopt;
   }
-  const auto depth = decodeDepth(*depth_bytes);
+  const auto depth = common::decodeDepth(*depth_bytes);
   if (!depth) {
     skipped = {FrameFault::kUnreadable, fmt::format("{}: {}", pair.depth.string(), depth.error())};
     return std::nullopt;

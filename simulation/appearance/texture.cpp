@@ -1,6 +1,7 @@
 #include "simulation/appearance/texture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "common/check.hpp"
@@ -49,6 +50,31 @@ Texture::Texture(int side, std::vector<Texel> texels) {
   SWIFTLET_CHECK(texels.size() == static_cast<std::size_t>(side) * static_cast<std::size_t>(side), texels.size());
   levels_.push_back({side, std::move(texels)});
   for (; side > 1; side /= 2) levels_.push_back({side / 2, halved(levels_.back().texels, side)});
+}
+
+// Each texel is the mean of the pixels in it, or the pixel that it is in.
+Texture Texture::of(const common::Image& image) {
+  constexpr int kMostSide = 1024;
+  int side = 1;
+  while (side < std::max(image.width_px, image.height_px) && side < kMostSide) side *= 2;
+  const auto begin = [side](int texel, int pixels) { return static_cast<int>(std::int64_t{texel} * pixels / side); };
+  std::vector<Texel> texels;
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column) {
+      const int top = begin(row, image.height_px), bottom = std::max(top + 1, begin(row + 1, image.height_px));
+      const int left = begin(column, image.width_px), right = std::max(left + 1, begin(column + 1, image.width_px));
+      std::array<int, 3> sum{};
+      for (int v = top; v < bottom; ++v)
+        for (int u = left; u < right; ++u)
+          for (std::size_t channel = 0; channel < 3; ++channel)
+            sum[channel] += image.rgb[3 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width_px) +
+                                           static_cast<std::size_t>(u)) +
+                                      channel];
+      const int count = (bottom - top) * (right - left);
+      const auto mean = [&](std::size_t channel) { return static_cast<std::uint8_t>(sum[channel] / count); };
+      texels.push_back({mean(0), mean(1), mean(2), 255});
+    }
+  return {side, std::move(texels)};
 }
 
 /// The largest version whose texels are not smaller than 0.7 of the footprint.

@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "common/image.hpp"
+
 namespace swiftlet::simulation {
 
 /// What a texel does to the colour of its surface. With `paint` 0 it darkens or lightens it: 128 leaves a channel as it
@@ -23,6 +25,9 @@ class Texture {
  public:
   /// `texels` are row by row; `side` is their number in a row and in a column, a power of two.
   Texture(int side, std::vector<Texel> texels);
+
+  /// The image as the surface's own colours, at most 1024 texels wide and high.
+  static Texture of(const common::Image& image);
 
   /// The colour of a surface at (u, v), where the picture covers [0, 1) x [0, 1). `footprint` is the width of a
   /// camera's pixel on the surface, in the same measure.

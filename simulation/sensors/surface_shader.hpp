@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,27 +28,31 @@ struct SeenSurface {
 /// Const calls are safe from several threads.
 class SurfaceShader {
  public:
-  /// Makes the textures, which takes some milliseconds each.
+  /// Makes or reads the textures, which takes some milliseconds each. A picture that cannot be read is left out. The
+  /// world must outlive it and stay as it is.
   explicit SurfaceShader(const WorldModel& world);
 
   /// What a pixel of `pixel_rad` sees along a ray; without a hit it sees the sky.
   SeenSurface see(const Ray& ray, const Hit& hit, float pixel_rad, std::span<const Actor> actors) const;
 
  private:
-  /// The surfaces of one shape, by where they face in the shape's own frame.
+  /// The surfaces of one shape.
   struct Surfaces {
-    Color color;
+    const Shape* shape = nullptr;
     Eigen::Matrix3f R_shape_world;
     Eigen::Vector3f origin_world_m;
-    std::array<const Texture*, 3> textures{};  ///< Facing down, sideways, up; null if blank.
-    std::vector<Color> colors;                 ///< Of a mesh with several materials.
-    std::vector<std::uint16_t> color_of_triangle;
+    std::array<const Texture*, 3> patterns{};  ///< Of what faces down, sideways, up in its own frame; null if blank.
+    const Texture* image = nullptr;            ///< Stretched over each side; null if there is none.
+    Eigen::Vector3f low_m, size_m;             ///< Of the box around it, in its own frame.
+    std::vector<const Texture*> images;        ///< Of the materials; null without a picture.
   };
-  const Texture* textureOf(Pattern pattern, std::uint64_t variant);
+  const Texture* patternTexture(Pattern pattern, std::uint64_t variant);
+  const Texture* imageTexture(const std::string& file);
   Color colorAt(const Surfaces& surfaces, const Ray& ray, const Hit& hit, float pixel_rad) const;
 
-  std::map<std::pair<Pattern, std::uint64_t>, std::unique_ptr<const Texture>> textures_;
-  std::vector<Surfaces> surfaces_;  ///< By shape of the world.
+  std::map<std::pair<Pattern, std::uint64_t>, std::unique_ptr<const Texture>> patterns_;
+  std::map<std::string, std::unique_ptr<const Texture>> images_;  ///< By file; null if it cannot be read.
+  std::vector<Surfaces> surfaces_;                                ///< By shape of the world.
 };
 
 }  // namespace swiftlet::simulation

@@ -192,8 +192,8 @@ TEST(ImageDecoder, NoCutAndNoFlippedByteCrashes) {
     damaged[static_cast<std::size_t>(random.uniform() * static_cast<double>(damaged.size()))] ^=
         static_cast<char>(1 << (i % 8));
     damaged.resize(static_cast<std::size_t>(random.uniform(0.5, 1.0) * static_cast<double>(damaged.size())));
-    (void)decodeColor(damaged);
-    EXPECT_FALSE(decodeDepth(damaged).has_value());
+    (void)common::decodeColor(damaged);
+    EXPECT_FALSE(common::decodeDepth(damaged).has_value());
   }
 }
 

@@ -1,4 +1,4 @@
-#include "interfaces/rgbd/image_decoder.hpp"
+#include "common/image_decoder.hpp"
 
 #include <png.h>
 #include <turbojpeg.h>
@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-namespace swiftlet::interfaces {
+namespace swiftlet::common {
 namespace {
 
 using tl::unexpected;
@@ -102,12 +102,12 @@ bool readPng(PngRead& read, Wanted wanted) {
   return true;
 }
 
-tl::expected<common::Image, std::string> colorFromPng(std::string_view bytes) {
+tl::expected<Image, std::string> colorFromPng(std::string_view bytes) {
   PngRead read(bytes);
   if (!readPng(read, Wanted::kRgb)) return unexpected(read.problem);
   if (read.pixels.size() != 3 * samples(read.width_px, read.height_px))
     return unexpected(std::string("is not an 8-bit RGB image"));
-  return common::Image{read.width_px, read.height_px, std::move(read.pixels)};
+  return Image{read.width_px, read.height_px, std::move(read.pixels)};
 }
 
 // --- JPEG -----------------------------------------------------------------------------------------------------------
@@ -116,14 +116,14 @@ struct DestroyJpeg {
   void operator()(void* handle) const { tjDestroy(handle); }
 };
 
-tl::expected<common::Image, std::string> colorFromJpeg(std::string_view bytes) {
+tl::expected<Image, std::string> colorFromJpeg(std::string_view bytes) {
   const std::unique_ptr<void, DestroyJpeg> handle(tjInitDecompress());
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
   int width_px = 0, height_px = 0, subsampling = 0, color_space = 0;
   if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width_px, &height_px, &subsampling, &color_space) != 0)
     return unexpected(std::string(tjGetErrorStr2(handle.get())));
   if (!isSizeAllowed(width_px, height_px)) return unexpected(std::string("is larger than an image may be"));
-  common::Image image{width_px, height_px, std::vector<std::uint8_t>(3 * samples(width_px, height_px))};
+  Image image{width_px, height_px, std::vector<std::uint8_t>(3 * samples(width_px, height_px))};
   // The accurate transform gives the same bytes with and without the CPU's vector instructions. A warning, such as a
   // premature end, counts as an error: what is missing would be grey.
   if (tjDecompress2(handle.get(), data, bytes.size(), image.rgb.data(), width_px, 0, height_px, TJPF_RGB,
@@ -134,7 +134,7 @@ tl::expected<common::Image, std::string> colorFromJpeg(std::string_view bytes) {
 
 }  // namespace
 
-tl::expected<common::Image, std::string> decodeColor(std::string_view bytes) {
+tl::expected<Image, std::string> decodeColor(std::string_view bytes) {
   if (isPng(bytes)) return colorFromPng(bytes);
   if (isJpeg(bytes)) return colorFromJpeg(bytes);
   return unexpected(std::string("is neither PNG nor JPEG"));
@@ -150,4 +150,4 @@ tl::expected<DepthCodes, std::string> decodeDepth(std::string_view bytes) {
   return depth;
 }
 
-}  // namespace swiftlet::interfaces
+}  // namespace swiftlet::common

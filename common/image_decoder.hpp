@@ -1,5 +1,5 @@
-// Decodes the images of recorded frames: colour from PNG or JPEG, depth from 16-bit PNG. Bytes may be anything; what is
-// not a whole image is an error with its reason, never a crash.
+// Decodes images of recorded frames and of textures: colour from PNG or JPEG, depth from 16-bit PNG. Bytes may be
+// anything; what is not a whole image is an error with its reason, never a crash.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 #include <tl/expected.hpp>
 
-#include "common/sensor_event.hpp"
+#include "common/image.hpp"
 
-namespace swiftlet::interfaces {
+namespace swiftlet::common {
 
 /// The numbers of a depth image as they are stored, row by row from the top left.
 struct DepthCodes {
@@ -24,7 +24,7 @@ struct DepthCodes {
 inline constexpr int kMostImageSide_px = 8192;
 
 /// The reason of an error is for people: "is cut off".
-tl::expected<common::Image, std::string> decodeColor(std::string_view bytes);
+tl::expected<Image, std::string> decodeColor(std::string_view bytes);
 tl::expected<DepthCodes, std::string> decodeDepth(std::string_view bytes);
 
-}  // namespace swiftlet::interfaces
+}  // namespace swiftlet::common
