@@ -98,7 +98,8 @@ class LevelErrors {
     ++sums.measured;
     const Eigen::Vector3d seen = level_.camera.point_camera_m(u, v, static_cast<double>(depth_m));
     if (std::abs(seen.x() - point.x()) > config_.surface_gate_m) return false;
-    const double sigma_m = config_.surface_sigma_factor * noise_.sigma_m(point.x());
+    const double sigma_m =
+        std::hypot(config_.surface_sigma_factor * noise_.sigma_m(point.x()), config_.surface_floor_m);
     if (!reference.hasNormal()) {
       const bool agrees = std::abs(seen.x() - point.x()) < kAgreeing * sigma_m + kSlope * point.x();
       sums.agreeing += agrees ? 1 : 0;
@@ -186,6 +187,8 @@ Alignment summary(const common::Pose3& T_map_camera, const Sums& sums) {
   alignment.surface_rms_m = std::sqrt(part(sums.surface_squared_m2, sums.surface_weight));
   if (sums.grays.count() >= kLeastTextured) alignment.correlation = sums.grays.value();
   alignment.points = sums.agreeing;
+  alignment.measured = sums.measured;
+  alignment.textured = sums.grays.count();
   return alignment;
 }
 
@@ -203,6 +206,8 @@ void AlignmentConfig::describe(common::config::Fields& fields) {
          "Standard deviation of a grey value, at least; it is measured in every picture.");
   fields("surface_sigma_factor", surface_sigma_factor, {0.1, 20},
          "Standard deviation of a point's distance from the surface, in those of the depth.");
+  fields("surface_floor_m", surface_floor_m, {0.0, 1},
+         "The same, at least: key frames do not fit each other better than this, however near the surface is.");
   fields("surface_gate_m", surface_gate_m, {0.01, 1}, "Points whose depths differ by more are on different surfaces.");
 }
 

@@ -24,6 +24,7 @@ struct AlignmentConfig {
   int iterations = 8;
   double gray_sigma = 4.0;
   double surface_sigma_factor = 2.0;
+  double surface_floor_m = 0.0;
   double surface_gate_m = 0.15;
 
   void describe(common::config::Fields& fields);
@@ -62,7 +63,9 @@ struct Alignment {
   /// wrong one, whatever the exposure. 1 if too few are textured to tell.
   double correlation = 1.0;
   double surface_rms_m = 0.0;
-  int points = 0;  ///< Points that counted, at the finest level.
+  int points = 0;    ///< Points whose depth agrees, at the finest level.
+  int measured = 0;  ///< Points of which the frame measured a depth, the same.
+  int textured = 0;  ///< Points whose grey values were compared, the same.
 };
 
 /// How well a pose fits at the coarsest level; no optimization. For the choice among predictions.

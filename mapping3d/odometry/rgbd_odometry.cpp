@@ -18,6 +18,9 @@ using common::Pose3;
 constexpr double kLongestPrediction_s = 0.5;
 /// Key frames that are tried for each frame while lost: each costs a millisecond or two.
 constexpr std::size_t kTriedPerFrame = 8;
+/// Where nothing but the texture tells whether a pose is right, it must fit well: right ones correlate by 0.9 and more,
+/// wrong ones by less than 0.5.
+constexpr double kLeastCorrelationAlone = 0.8;
 
 bool isInMap(const std::optional<CameraSeed>& seed) { return seed && seed->is_in_map; }
 
@@ -114,8 +117,11 @@ Pose3 RgbdOdometry::bestOf(const std::vector<Pose3>& poses, const FramePyramid& 
 
 bool RgbdOdometry::isGood(const Alignment& fit, const std::optional<CameraSeed>& seed) const {
   if (isInMap(seed) && !agrees(fit.T_map_camera, *seed, config_.seed)) return false;
-  return fit.agreement >= config_.least_agreement && fit.points >= config_.least_points &&
-         fit.correlation >= config_.least_correlation;
+  if (fit.correlation < config_.least_correlation) return false;
+  // Nearer than its least distance the camera measures no depth, but the points of the key frames have theirs.
+  if (fit.measured < config_.least_points)
+    return fit.textured >= config_.least_points && fit.correlation >= kLeastCorrelationAlone;
+  return fit.agreement >= config_.least_agreement && fit.points >= config_.least_points;
 }
 
 PosePrior RgbdOdometry::motionPrior(common::Time stamp, const Pose3& predicted) const {
@@ -203,7 +209,8 @@ void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyra
   const double depth_m = keys_.at(fit.keys.front()).median_depth_m;
   pose.measured = withoutPrior(fit.alignment, fit.prior, depth_m, config_.measured);
   keys_.markUsed(fit.keys);
-  if (keys_.needsNew(fit.keys, pose.T_map_camera, fit.alignment.overlap)) {
+  const bool has_depth = fit.alignment.measured >= config_.least_points;
+  if (has_depth && keys_.needsNew(fit.keys, pose.T_map_camera, fit.alignment.overlap)) {
     const KeyFramePlace place = newPlace(fit, pose, seed);
     pose.T_map_camera = place.T_map_key;
     addKeyFrame(pose, place, pyramid);
