@@ -83,7 +83,7 @@ TEST(RunFolder, ContainsEveryFile) {
   run.event({Time::fromSeconds(0.5), Severity::kInfo, "mission", "ready", ""});
   Flight flight;
   flight.flyInto(run);
-  run.show({kPng, "", {"<svg></svg>"}});
+  run.show(ReportPictures{kPng, "", {"<svg></svg>"}});
   FlightEnd end{Outcome::kDone, "", 0.995, {{"goal_error_m", 0.05}}, 0.5};
   run.finish(end);
   ASSERT_EQ(run.failure(), std::nullopt);
