@@ -30,8 +30,10 @@ class DiscTable {
   int halfWidth(int twice_radius_px, int row) const { return half_widths_[index(twice_radius_px, row)]; }
 
  private:
-  static std::size_t index(int twice, int row) { return static_cast<std::size_t>(twice * (kMostRadius_px + 1) + row); }
-  std::array<std::int8_t, static_cast<std::size_t>((2 * kMostRadius_px + 1) * (kMostRadius_px + 1))> half_widths_{};
+  static std::size_t index(int twice, int row) {
+    return static_cast<std::size_t>(twice) * (kMostRadius_px + 1) + static_cast<std::size_t>(row);
+  }
+  std::array<std::int8_t, std::size_t{2 * kMostRadius_px + 1} * (kMostRadius_px + 1)> half_widths_{};
 };
 
 void drawDisc(int u_px, int v_px, int twice_radius_px, std::uint64_t key, DepthBuffer& buffer) {

@@ -178,7 +178,7 @@ void readBinary(Cursor& cursor, const PcdHeader& header, Builder& builder) {
 void readCompressed(Cursor& cursor, const PcdHeader& header, Builder& builder) {
   const auto size = [&] { return static_cast<std::size_t>(valueOf(cursor.take(4).data(), Scalar::kUint32, kSwapped)); };
   const std::size_t packed_size = size(), unpacked_size = size(), row_bytes = header.rowBytes();
-  if (unpacked_size % row_bytes != 0 || unpacked_size / row_bytes != header.points)
+  if (row_bytes == 0 || unpacked_size % row_bytes != 0 || unpacked_size / row_bytes != header.points)
     cursor.fail("the compressed points are not as many as the header says");
   const std::string_view packed = cursor.take(packed_size);
   // Three bytes stand for at most 264.

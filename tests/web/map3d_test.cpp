@@ -143,7 +143,6 @@ TEST_F(HubStory, ADepthImageIsSentOnceHoweverManyWorldsHoldIt) {
 /// What a page has after the messages.
 struct Map3dPage {
   struct Submap {
-    std::uint32_t version = 0;
     std::vector<Eigen::Vector3f> points_m, normals;
     std::vector<std::array<std::uint8_t, 3>> colors;
   };
@@ -170,20 +169,24 @@ struct Map3dPage {
   }
 
   void takePoints(const std::string& m) {
-    Submap& submap = submaps[at<std::uint16_t>(m, 2)];
-    const auto version = at<std::uint32_t>(m, 4);
-    if (version != submap.version) submap = {};
-    submap.version = version;
-    ASSERT_EQ(at<std::uint32_t>(m, 8), submap.points_m.size()) << "the parts come in order";
-    const Eigen::Vector3f origin(at<float>(m, 16), at<float>(m, 20), at<float>(m, 24));
-    for (std::size_t i = 32; i < m.size(); i += 12) {
-      const Eigen::Vector3f steps(at<std::uint16_t>(m, i), at<std::uint16_t>(m, i + 2), at<std::uint16_t>(m, i + 4));
-      submap.points_m.emplace_back(origin + at<float>(m, 28) * steps);
-      submap.normals.emplace_back(at<std::int8_t>(m, i + 6), at<std::int8_t>(m, i + 7), at<std::int8_t>(m, i + 8));
-      submap.colors.push_back({at<std::uint8_t>(m, i + 9), at<std::uint8_t>(m, i + 10), at<std::uint8_t>(m, i + 11)});
+    const int number = at<std::uint16_t>(m, 2);
+    const auto first = at<std::uint32_t>(m, 8), count = at<std::uint32_t>(m, 12);
+    if (m[1] == 0 && first == 0) arriving = {};
+    Submap& into = m[1] == 0 ? arriving : submaps[number];
+    ASSERT_EQ(first, into.points_m.size()) << "the parts come in order";
+    const auto step_m = at<float>(m, 16);
+    for (std::size_t i = 20; i < m.size(); i += 12) {
+      const Eigen::Vector3f steps(at<std::int16_t>(m, i), at<std::int16_t>(m, i + 2), at<std::int16_t>(m, i + 4));
+      into.points_m.emplace_back(step_m * steps);
+      into.normals.emplace_back(at<std::int8_t>(m, i + 6), at<std::int8_t>(m, i + 7), at<std::int8_t>(m, i + 8));
+      into.colors.push_back({at<std::uint8_t>(m, i + 9), at<std::uint8_t>(m, i + 10), at<std::uint8_t>(m, i + 11)});
     }
+    ++(m[1] == 0 ? replacing : adding);
+    if (m[1] == 0 && into.points_m.size() == count) submaps[number] = std::move(arriving);
   }
 
+  Submap arriving;
+  int adding = 0, replacing = 0;
   std::map<int, Submap> submaps;
   std::vector<Eigen::Vector3f> poses;
   std::map<char, int> counts;
@@ -207,7 +210,7 @@ void expectSame(const Map3dPage& page, const common::Map3dLayer& map3d) {
     ASSERT_EQ(shown.points_m.size(), submap.points->size());
     for (std::size_t k = 0; k < shown.points_m.size(); ++k) {
       const common::SurfacePoint& point = (*submap.points)[k];
-      ASSERT_LT((shown.points_m[k] - point.position_m).norm(), 2e-4F);
+      ASSERT_LT((shown.points_m[k] - point.position_m).norm(), 5e-4F);
       ASSERT_LT((shown.normals[k] / 127.0F - point.normal).norm(), 0.01F);
       ASSERT_EQ(shown.colors[k], point.rgb);
     }
@@ -226,7 +229,7 @@ TEST(SubmapFeedTest, APageHasTheMapWheneverItJoinsAndASettledSubmapIsSentOnce) {
     feed.update(*world->map3d);
     readAll(early, feed, 100.0 * i, early_page);
   }
-  for (int k = 0; k < 5; ++k) readAll(early, feed, 600.0 + 10.0 * k, early_page);
+  for (int k = 0; k < 5; ++k) readAll(early, feed, 600.0 + 10.0 * k, early_page);  // What has moved since.
   readAll(late, feed, 600.0, late_page);
   expectSame(early_page, *world->map3d);
   expectSame(late_page, *world->map3d);
@@ -256,38 +259,93 @@ TEST(SubmapFeedTest, ALoopClosureSendsPosesOnly) {
   expectSame(page, *world->map3d);
 }
 
-TEST(SubmapFeedTest, ASubmapThatGrowsWithEachFrameTakesABoundedShareOfTheLink) {
-  testing::ExampleFlight flight;
-  flight.carryCamera();
-  flight.advance(1.0);
+/// A map of submaps with these points, at the origin.
+common::Map3dLayer layerOf(const std::vector<std::vector<common::SurfacePoint>>& submaps) {
+  common::Map3dLayer map3d;
+  std::vector<common::Submap3d> made;
+  for (const auto& points : submaps) {
+    made.emplace_back();
+    made.back().points = std::make_shared<const std::vector<common::SurfacePoint>>(points);
+  }
+  map3d.submaps = std::make_shared<const std::vector<common::Submap3d>>(made);
+  map3d.keys = std::make_shared<const common::KeyPoses>(common::KeyPoses{1, {{}}});
+  return map3d;
+}
+
+std::vector<common::SurfacePoint> row(std::size_t count, float y_m, float apart_m = 0.03F) {
+  std::vector<common::SurfacePoint> points(count);
+  for (std::size_t i = 0; i < count; ++i) points[i].position_m = {apart_m * static_cast<float>(i % 400), y_m, 0.0F};
+  return points;
+}
+
+TEST(SubmapFeedTest, APointIsSentOnceWhileItsSubmapGrowsAndOnceMoreWhenItHasSettled) {
   SubmapFeed feed;
   SubmapReader reader;
   Map3dPage page;
-  for (int i = 0; i < 20; ++i) {
-    feed.update(*flight.advance(0.2)->map3d);
-    readAll(reader, feed, 0.2 * i, page);
+  const auto next = [&](double now_s, const common::Map3dLayer& map3d) {
+    feed.update(map3d);
+    readAll(reader, feed, now_s, page);
+    page.bytes = 0;
+    readAll(reader, feed, now_s, page);
+    EXPECT_EQ(page.bytes, 0U);
+  };
+  std::vector<common::SurfacePoint> growing;
+  for (int i = 1; i <= 20; ++i) {
+    growing = row(300 * static_cast<std::size_t>(i), 0.001F * static_cast<float>(i));  // Averaging moves all of them.
+    next(0.2 * i, layerOf({growing}));
+    EXPECT_EQ(page.submaps.at(0).points_m.size(), growing.size());
   }
-  double whole = 0.0;
-  for (const auto& [number, submap] : page.submaps) whole += 12.0 * static_cast<double>(submap.points_m.size());
-  EXPECT_GE(page.counts[3], 2);
-  EXPECT_LT(static_cast<double>(page.bytes), 4.0 * SubmapReader::kRefreshBytesPerSecond + 1.1 * whole);
+  EXPECT_EQ(page.adding, 20);
+  EXPECT_EQ(page.replacing, 0);
+  next(10.0, layerOf({growing, row(10, 1.0F)}));
+  EXPECT_EQ(page.replacing, 2) << "6000 points in two parts";
+  expectSame(page, layerOf({growing, row(10, 1.0F)}));
+}
+
+TEST(SubmapFeedTest, ASubmapThatWasThinnedReplacesTheOldOne) {
+  SubmapFeed feed;
+  SubmapReader reader;
+  Map3dPage page;
+  const auto before = layerOf({row(5000, 0.0F), row(5, 1.0F)}), after = layerOf({row(2000, 0.0F, 0.07F), row(5, 1.0F)});
+  feed.update(before);
+  readAll(reader, feed, 0.0, page);
+  feed.update(after);
+  readAll(reader, feed, 0.0, page);
+  expectSame(page, after);
+}
+
+TEST(SubmapFeedTest, SendingAgainTakesABoundedShareOfTheLink) {
+  SubmapFeed feed;
+  SubmapReader reader;
+  Map3dPage page;
+  for (int i = 0; i < 40; ++i) {
+    // Ten submaps, all with other points each time.
+    std::vector<std::vector<common::SurfacePoint>> submaps(10, row(2000, static_cast<float>(i)));
+    feed.update(layerOf(submaps));
+    readAll(reader, feed, 0.1 * i, page);
+  }
+  EXPECT_LT(static_cast<double>(page.bytes), 4.0 * SubmapReader::kRefreshBytesPerSecond + 12.0 * 22'000 + 10'000);
+}
+
+TEST(SubmapFeedTest, ALargeSubmapHasALargerStep) {
+  SubmapFeed feed;
+  SubmapReader reader;
+  Map3dPage page;
+  const auto map3d =
+      layerOf({{{{40.0F, -50.0F, 3.0F}, {0, 0, 1}, {1, 2, 3}}, {{0.0F, 0.0F, 0.0F}, {0, 0, 1}, {1, 2, 3}}}});
+  feed.update(map3d);
+  readAll(reader, feed, 0.0, page);
+  EXPECT_LT((page.submaps.at(0).points_m.at(0) - Eigen::Vector3f(40, -50, 3)).norm(), 2e-3F);
 }
 
 TEST(SubmapFeedTest, AnEmptySubmapAndPointsThatAreNotFiniteDoNoHarm) {
-  common::Map3dLayer map3d;
   const float nan = std::nanf("");
-  common::Submap3d empty, broken;
-  empty.points = std::make_shared<const std::vector<common::SurfacePoint>>();
-  broken.points = std::make_shared<const std::vector<common::SurfacePoint>>(
-      std::vector<common::SurfacePoint>{{{nan, 1.0F, INFINITY}, {nan, 0.0F, 0.0F}, {1, 2, 3}}});
-  map3d.submaps = std::make_shared<const std::vector<common::Submap3d>>(std::vector{empty, broken});
-  map3d.keys = std::make_shared<const common::KeyPoses>(common::KeyPoses{1, {{}}});
   SubmapFeed feed;
-  feed.update(map3d);
+  feed.update(layerOf({{}, {{{nan, 1.0F, INFINITY}, {nan, 0.0F, 0.0F}, {1, 2, 3}}}}));
   SubmapReader reader;
   Map3dPage page;
   readAll(reader, feed, 0.0, page);
-  EXPECT_EQ(page.submaps.at(0).points_m.size(), 0U);
+  EXPECT_EQ(page.submaps.count(0), 0U);
   EXPECT_EQ(page.submaps.at(1).points_m.size(), 1U);
 }
 

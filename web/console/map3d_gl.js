@@ -8,11 +8,11 @@ const kDiscDiameter_m = 0.035;
 const kPointVertex = `
 attribute vec3 steps, normal, color;
 uniform mat4 clip_from_submap, map_from_submap;
-uniform vec3 origin, eye;
+uniform vec3 eye;
 uniform float step, disc_px, by_normal;
 varying vec3 shown;
 void main() {
-  vec3 position = origin + step * steps;
+  vec3 position = step * steps;
   gl_Position = clip_from_submap * vec4(position, 1.0);
   gl_PointSize = clamp(disc_px / gl_Position.w, 1.0, 32.0);
   shown = mix(color, 0.5 + 0.5 * mat3(map_from_submap) * normal, by_normal);
@@ -66,13 +66,18 @@ export class Map3dGl {
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  /** Copies the points of a submap to the graphics memory. */
-  upload(number, submap) {
+  /** Copies the points of a submap from `first` on to the graphics memory. */
+  upload(number, submap, first) {
     const { gl } = this;
-    const buffer = this.buffers.get(number) ?? gl.createBuffer();
-    this.buffers.set(number, buffer);
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, submap.bytes, gl.STATIC_DRAW);
+    const known = this.buffers.get(number) ?? { buffer: gl.createBuffer(), bytes: 0 };
+    this.buffers.set(number, known);
+    gl.bindBuffer(gl.ARRAY_BUFFER, known.buffer);
+    if (known.bytes < submap.bytes.length || first === 0) {
+      gl.bufferData(gl.ARRAY_BUFFER, submap.bytes, gl.STATIC_DRAW);
+      known.bytes = submap.bytes.length;
+    } else {
+      gl.bufferSubData(gl.ARRAY_BUFFER, first * 12, submap.bytes.subarray(first * 12, submap.count * 12));
+    }
     if (gl.getError() === gl.OUT_OF_MEMORY) throw new Error('the graphics memory is full');
   }
 
@@ -97,11 +102,10 @@ export class Map3dGl {
       const mapFromSubmap = poseMatrix(pose);
       gl.uniformMatrix4fv(uniform.clip_from_submap, false, product(clipFromMap, mapFromSubmap));
       gl.uniformMatrix4fv(uniform.map_from_submap, false, mapFromSubmap);
-      gl.uniform3fv(uniform.origin, submap.origin);
       gl.uniform3fv(uniform.eye, inFrame(mapFromSubmap, eye));
       gl.uniform1f(uniform.step, submap.step);
-      gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers.get(number));
-      gl.vertexAttribPointer(at.steps, 3, gl.UNSIGNED_SHORT, false, 12, 0);
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers.get(number).buffer);
+      gl.vertexAttribPointer(at.steps, 3, gl.SHORT, false, 12, 0);
       gl.vertexAttribPointer(at.normal, 3, gl.BYTE, true, 12, 6);
       gl.vertexAttribPointer(at.color, 3, gl.UNSIGNED_BYTE, true, 12, 9);
       gl.drawArrays(gl.POINTS, 0, submap.count);
@@ -134,7 +138,7 @@ export class Map3dGl {
 
   /** Frees the memory at once instead of when the page collects it. */
   dispose() {
-    for (const buffer of this.buffers.values()) this.gl.deleteBuffer(buffer);
+    for (const { buffer } of this.buffers.values()) this.gl.deleteBuffer(buffer);
     this.gl.getExtension('WEBGL_lose_context')?.loseContext();
   }
 }

@@ -65,8 +65,8 @@ export class Map3dPanel {
   take(bytes) {
     clearTimeout(this.patience);
     try {
-      const number = this.map3d.take(bytes);
-      if (number !== null) this.view?.upload(number);
+      const news = this.map3d.take(bytes);
+      if (news) this.view?.upload(news);
     } catch (error) {
       return this.fallBack(error.message);
     }

@@ -1,23 +1,39 @@
 // The page's copy of the 3D map, from the messages that web/server/submap_feed.hpp describes.
 
 const kPointBytes = 12;
-const kHeadBytes = 32;
+const kHeadBytes = 20;
 
 function poseAt(view, at) {
   const values = Array.from({ length: 7 }, (_, i) => view.getFloat32(at + 4 * i, true));
   return { position: values.slice(0, 3), quaternion: values.slice(3) };
 }
 
-/** The lower and the upper corner of quantized points, in steps. */
-function stepBounds(steps, count) {
-  const low = [65535, 65535, 65535], high = [0, 0, 0];
-  for (let i = 0; i < count; ++i)
-    for (let axis = 0; axis < 3; ++axis) {
-      const value = steps[(kPointBytes / 2) * i + axis];
-      if (value < low[axis]) low[axis] = value;
-      if (value > high[axis]) high[axis] = value;
+/** A list of points that grows. */
+class Points {
+  constructor(step, capacity) {
+    this.step = step;
+    this.count = 0;
+    this.low = [Infinity, Infinity, Infinity];
+    this.high = [-Infinity, -Infinity, -Infinity];
+    this.bytes = new Uint8Array(capacity * kPointBytes);
+  }
+
+  add(bytes) {
+    const end = this.count * kPointBytes + bytes.length;
+    if (end > this.bytes.length) {
+      const larger = new Uint8Array(Math.max(end, 2 * this.bytes.length));
+      larger.set(this.bytes);
+      this.bytes = larger;
     }
-  return { low, high };
+    this.bytes.set(bytes, this.count * kPointBytes);
+    const steps = new Int16Array(this.bytes.buffer);
+    for (; this.count * kPointBytes < end; ++this.count)
+      for (let axis = 0; axis < 3; ++axis) {
+        const value = this.step * steps[(kPointBytes / 2) * this.count + axis];
+        this.low[axis] = Math.min(this.low[axis], value);
+        this.high[axis] = Math.max(this.high[axis], value);
+      }
+  }
 }
 
 export class Map3dStore {
@@ -26,13 +42,13 @@ export class Map3dStore {
   }
 
   reset() {
-    this.submaps = new Map(); // Number -> {version, bytes, count, origin, step, low, high}; the points of whole versions.
+    this.submaps = new Map(); // Number -> Points.
     this.poses = [];
     this.camera = null; // {pose, tracked, across, up}
     this.arriving = null;
   }
 
-  /** Takes a message; a number when the points of this submap are whole and new. Throws where memory fails. */
+  /** Takes a message; {number, first} where a submap has new points from `first` on, else null. Throws where memory fails. */
   take(buffer) {
     const view = new DataView(buffer);
     const type = view.getUint8(0);
@@ -52,20 +68,18 @@ export class Map3dStore {
   }
 
   takePoints(view, buffer) {
-    const number = view.getUint16(2, true), version = view.getUint32(4, true);
-    const first = view.getUint32(8, true), count = view.getUint32(12, true);
-    if (first === 0) this.arriving = { number, version, bytes: new Uint8Array(count * kPointBytes), filled: 0 };
-    const part = this.arriving;
-    if (!part || part.number !== number || part.version !== version || part.filled !== first) return null;
-    part.bytes.set(new Uint8Array(buffer, kHeadBytes), first * kPointBytes);
-    part.filled += (buffer.byteLength - kHeadBytes) / kPointBytes;
-    if (part.filled < count) return null;
+    const added = view.getUint8(1) === 1, number = view.getUint16(2, true);
+    const first = view.getUint32(8, true), count = view.getUint32(12, true), step = view.getFloat32(16, true);
+    if (added && first === 0) this.submaps.set(number, new Points(step, count));
+    if (!added && first === 0) this.arriving = new Points(step, count);
+    const into = added ? this.submaps.get(number) : this.arriving;
+    if (!into || into.count !== first) return null;
+    into.add(new Uint8Array(buffer, kHeadBytes));
+    if (added) return { number, first };
+    if (into.count < count) return null;
+    this.submaps.set(number, into);
     this.arriving = null;
-    const origin = [16, 20, 24].map((at) => view.getFloat32(at, true)), step = view.getFloat32(28, true);
-    const { low, high } = stepBounds(new Uint16Array(part.bytes.buffer), count);
-    const corner = (steps) => steps.map((value, axis) => origin[axis] + step * value);
-    this.submaps.set(number, { version, bytes: part.bytes, count, origin, step, low: corner(low), high: corner(high) });
-    return number;
+    return { number, first: 0 };
   }
 
   get points() {

@@ -61,9 +61,9 @@ export class Map3dView {
     this.gl.dispose();
   }
 
-  /** The points of this submap are new. */
-  upload(number) {
-    this.gl.upload(number, this.map3d.submaps.get(number));
+  /** The points of this submap are new from `first` on. */
+  upload({ number, first }) {
+    this.gl.upload(number, this.map3d.submaps.get(number), first);
   }
 
   /** Draws soon. */

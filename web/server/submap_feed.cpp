@@ -4,16 +4,19 @@
 #include <bit>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 namespace swiftlet::web {
 namespace {
 
-using Eigen::Vector3f;
-
 /// Points of one message: 48 KiB, so that nothing waits long behind it on a slow link.
 constexpr std::size_t kPartPoints = 4096;
-constexpr float kSteps = 65535.0F;
+constexpr std::size_t kPointBytes = 12;
+/// Positions are exact to half of this as long as the submap reaches no farther than 16 m; else the step is doubled.
+constexpr float kLeastStep_m = 0.0005F;
+constexpr float kMostSteps = 32767.0F;
+/// Averaging moves a point within its cube, and cubes are smaller than this.
+constexpr float kSamePoint_m = 0.05F;
+/// So many points are compared to tell whether a list continues another.
+constexpr std::size_t kCompared = 64;
 
 void put(std::string& bytes, std::uint32_t value, int count) {
   for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 255U);
@@ -27,56 +30,38 @@ void put(std::string& bytes, const common::Pose3& pose) {
     put(bytes, value);
 }
 
-/// Positions as steps from the lower corner of a box.
-struct Quantized {
-  Vector3f origin_m = Vector3f::Zero();
-  float step_m = 1.0F;
-
-  explicit Quantized(const std::vector<common::SurfacePoint>& points) {
-    Eigen::AlignedBox3f box;
-    for (const common::SurfacePoint& point : points)
-      if (point.position_m.allFinite()) box.extend(point.position_m);
-    if (box.isEmpty()) return;
-    origin_m = box.min();
-    step_m = std::max(1e-6F, box.sizes().maxCoeff() / kSteps);
-  }
-  std::uint32_t steps(const Vector3f& position_m, int axis) const {
-    const float steps = (position_m[axis] - origin_m[axis]) / step_m;
-    return steps > 0.0F ? static_cast<std::uint32_t>(std::min(kSteps, std::round(steps))) : 0;
-  }
-};
-
-/// 0 for NaN.
-long normalStep(float component) {
-  return component >= -1.0F && component <= 1.0F ? std::lround(127.0F * component) : 0;
+float stepFor(float reach_m) {
+  float step_m = kLeastStep_m;
+  while (reach_m > kMostSteps * step_m) step_m *= 2.0F;
+  return step_m;
 }
 
-void put(std::string& bytes, const common::SurfacePoint& point, const Quantized& quantized) {
-  for (int axis = 0; axis < 3; ++axis) put(bytes, quantized.steps(point.position_m, axis), 2);
-  for (int axis = 0; axis < 3; ++axis) put(bytes, static_cast<std::uint32_t>(normalStep(point.normal[axis])), 1);
+/// 0 for NaN.
+std::uint32_t steps(float value, float step, float most) {
+  const float count = value / step;
+  return count == count ? static_cast<std::uint32_t>(std::lround(std::clamp(count, -most, most))) : 0U;
+}
+
+void put(std::string& bytes, const common::SurfacePoint& point, float step_m) {
+  for (int axis = 0; axis < 3; ++axis) put(bytes, steps(point.position_m[axis], step_m, kMostSteps), 2);
+  for (int axis = 0; axis < 3; ++axis) put(bytes, steps(point.normal[axis], 1.0F / 127.0F, 127.0F), 1);
   for (const std::uint8_t channel : point.rgb) put(bytes, channel, 1);
 }
 
-std::vector<SharedText> partsOf(std::size_t submap, const SubmapFeed::Entry& entry) {
-  const auto& points = *entry.points;
-  const Quantized quantized(points);
-  std::vector<SharedText> parts;
-  std::size_t begin = 0;
-  do {
-    const std::size_t end = std::min(points.size(), begin + kPartPoints);
-    std::string bytes;
-    bytes.reserve(32 + 12 * (end - begin));
-    put(bytes, 3, 2);
-    put(bytes, static_cast<std::uint32_t>(submap), 2);
-    put(bytes, entry.version, 4);
-    put(bytes, static_cast<std::uint32_t>(begin), 4);
-    put(bytes, static_cast<std::uint32_t>(points.size()), 4);
-    for (int axis = 0; axis < 3; ++axis) put(bytes, static_cast<double>(quantized.origin_m[axis]));
-    put(bytes, static_cast<double>(quantized.step_m));
-    for (; begin < end; ++begin) put(bytes, points[begin], quantized);
-    parts.push_back(std::make_shared<const std::string>(std::move(bytes)));
-  } while (begin < points.size());
-  return parts;
+/// The greatest finite coordinate of the points from `begin` on.
+float reachOf(const std::vector<common::SurfacePoint>& points, std::size_t begin) {
+  float reach_m = 0.0F;
+  for (std::size_t i = begin; i < points.size(); ++i)
+    if (points[i].position_m.allFinite()) reach_m = std::max(reach_m, points[i].position_m.cwiseAbs().maxCoeff());
+  return reach_m;
+}
+
+bool continues(const std::vector<common::SurfacePoint>& next, const std::vector<common::SurfacePoint>& last) {
+  if (next.size() < last.size()) return false;
+  const std::size_t step = last.size() / kCompared + 1;
+  for (std::size_t i = 0; i < last.size(); i += step)
+    if (!((next[i].position_m - last[i].position_m).norm() < kSamePoint_m)) return false;
+  return true;
 }
 
 SharedText cameraMessage(const common::Map3dLayer& map3d) {
@@ -94,11 +79,17 @@ SharedText cameraMessage(const common::Map3dLayer& map3d) {
 
 void SubmapFeed::update(const common::Map3dLayer& map3d) {
   const auto& submaps = *map3d.submaps;
-  entries_.resize(submaps.size());
+  submaps_.resize(submaps.size());
   std::string pose_bytes;
   for (std::size_t i = 0; i < submaps.size(); ++i) {
-    if (entries_[i].points != submaps[i].points) entries_[i] = {submaps[i].points, ++last_version_, {}};
+    Submap& known = submaps_[i];
     put(pose_bytes, submaps[i].T_map_submap(*map3d.keys));
+    if (known.points == submaps[i].points) continue;
+    Submap next{submaps[i].points, ++last_version_, last_version_, 0.0F};
+    const bool same = known.points && continues(*next.points, *known.points);
+    next.reach_m = std::max(same ? known.reach_m : 0.0F, reachOf(*next.points, same ? known.points->size() : 0));
+    if (same && stepFor(next.reach_m) == stepFor(known.reach_m)) next.lineage = known.lineage;
+    known = std::move(next);
   }
   if (!poses_ || pose_bytes != pose_bytes_) {
     pose_bytes_ = std::move(pose_bytes);
@@ -113,47 +104,60 @@ void SubmapFeed::update(const common::Map3dLayer& map3d) {
   if (!camera_ || *camera != *camera_) camera_ = std::move(camera);
 }
 
-const std::vector<SharedText>& SubmapFeed::encoded(std::size_t submap) const {
-  Entry& entry = entries_[submap];
-  if (entry.parts.empty()) entry.parts = partsOf(submap, entry);
-  return entry.parts;
-}
-
-std::optional<std::size_t> SubmapReader::choose(const SubmapFeed& feed, common::Time now) const {
-  for (std::size_t i = feed.size(); i-- > 0;)
-    if (versions_[i] == 0) return i;
+std::optional<SubmapReader::Transfer> SubmapReader::choose(const SubmapFeed& feed, common::Time now) {
+  const auto& submaps = feed.submaps();
+  for (std::size_t i = submaps.size(); i-- > 0;) {
+    Has& has = has_[i];
+    if (has.lineage == 0) has = {submaps[i].lineage, submaps[i].version, 0};
+    if (has.lineage == submaps[i].lineage && has.points < submaps[i].points->size())
+      return Transfer{submaps[i], i, has.points, true};
+  }
   if (now < refresh_) return std::nullopt;
-  // The oldest first, or one that changes with every frame would keep the others waiting for ever.
-  for (std::size_t i = 0; i < feed.size(); ++i)
-    if (versions_[i] != feed.version(i)) return i;
+  for (std::size_t i = 0; i < submaps.size(); ++i) {
+    const bool settled = i + 1 < submaps.size();
+    if (has_[i].lineage == submaps[i].lineage && !(settled && has_[i].version != submaps[i].version)) continue;
+    const double bytes = static_cast<double>(kPointBytes * submaps[i].points->size());
+    refresh_ = now + common::Duration::fromSeconds(bytes / kRefreshBytesPerSecond);
+    has_[i] = {submaps[i].lineage, submaps[i].version, 0};
+    return Transfer{submaps[i], i, 0, false};
+  }
   return std::nullopt;
 }
 
-bool SubmapReader::begin(const SubmapFeed& feed, common::Time now) {
-  const auto submap = choose(feed, now);
-  if (!submap) return false;
-  const std::vector<SharedText>& parts = feed.encoded(*submap);
-  sending_.assign(parts.rbegin(), parts.rend());
-  std::size_t bytes = 0;
-  for (const SharedText& part : parts) bytes += part->size();
-  refresh_ = now + common::Duration::fromSeconds(static_cast<double>(bytes) / kRefreshBytesPerSecond);
-  versions_[*submap] = feed.version(*submap);
-  return true;
+SharedText SubmapReader::nextPart() {
+  const auto& points = *transfer_->submap.points;
+  const std::size_t begin = transfer_->sent, end = std::min(points.size(), begin + kPartPoints);
+  const float step_m = stepFor(transfer_->submap.reach_m);
+  std::string bytes;
+  bytes.reserve(20 + kPointBytes * (end - begin));
+  put(bytes, 3, 1);
+  put(bytes, transfer_->added ? 1 : 0, 1);
+  put(bytes, static_cast<std::uint32_t>(transfer_->number), 2);
+  put(bytes, transfer_->submap.version, 4);
+  put(bytes, static_cast<std::uint32_t>(begin), 4);
+  put(bytes, static_cast<std::uint32_t>(points.size()), 4);
+  put(bytes, static_cast<double>(step_m));
+  for (std::size_t i = begin; i < end; ++i) put(bytes, points[i], step_m);
+  transfer_->sent = has_[transfer_->number].points = end;
+  if (end == points.size()) transfer_.reset();
+  return std::make_shared<const std::string>(std::move(bytes));
 }
 
 std::vector<SharedText> SubmapReader::next(const SubmapFeed& feed, common::Time now, std::size_t most_bytes) {
   std::vector<SharedText> messages;
-  versions_.resize(feed.size());
+  has_.resize(feed.submaps().size());
+  if (transfer_ && transfer_->number >= has_.size()) transfer_.reset();
   for (const auto& [newest, had] : {std::pair(&feed.poses(), &poses_), std::pair(&feed.camera(), &camera_)}) {
     if (!*newest || *newest == *had) continue;
     *had = *newest;
     messages.push_back(*newest);
   }
   std::size_t bytes = 0;
-  while (bytes < most_bytes && (!sending_.empty() || begin(feed, now))) {
-    bytes += sending_.back()->size();
-    messages.push_back(std::move(sending_.back()));
-    sending_.pop_back();
+  while (bytes < most_bytes) {
+    if (!transfer_) transfer_ = choose(feed, now);
+    if (!transfer_) break;
+    messages.push_back(nextPart());
+    bytes += messages.back()->size();
   }
   return messages;
 }

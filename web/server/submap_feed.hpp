@@ -1,11 +1,12 @@
-// The 3D map for pages that draw it themselves: the points of each submap are encoded and sent once, and again only
-// when the submap has grown. Where the submaps are is sent apart, so that a loop closure costs poses only.
+// The 3D map for pages that draw it themselves: each point of a submap is sent once, when it is new. Where the submaps
+// are is sent apart, so that a loop closure costs poses only.
 //
 // Messages, little endian; submaps are counted from 0:
-//   points  u8 3, u8 0, u16 submap, u32 version, u32 number of the first point, u32 points of the submap,
-//           f32 x, y, z, f32 step, then for each point of this part: u16 x, y, z, i8 nx, ny, nz, u8 r, g, b.
-//           A position in the submap's frame is (x, y, z) + step * (u16 x, y, z) in metres. A normal is in units of
-//           1/127, zero if not known. All parts of a version come one after the other.
+//   points  u8 3, u8 added, u16 submap, u32 version, u32 number of the first point, u32 points of the submap, f32 step,
+//           then for each point of this part: i16 x, y, z, i8 nx, ny, nz, u8 r, g, b. A position in the submap's frame
+//           is step * (x, y, z) in metres, a normal is in units of 1/127, zero if not known. `added` is 1 where the
+//           points follow those that the page has of this submap. Where it is 0 they replace them, once all parts of
+//           this version have come.
 //   poses   u8 4, u8 0, u16 number of submaps, u32 version, then for each f32 x, y, z, qx, qy, qz, qw of
 //           T_map_submap. A submap with a higher number than these is no longer part of the map.
 //   camera  u8 5, u8 tracked, u16 0, f32 x, y, z, qx, qy, qz, qw of T_map_camera, f32 tangents of half the field of
@@ -28,19 +29,19 @@ class SubmapFeed {
  public:
   using Points = std::shared_ptr<const std::vector<common::SurfacePoint>>;
 
-  struct Entry {
+  struct Submap {
     Points points;
-    std::uint32_t version = 0;      ///< Rises when the points change; never 0.
-    std::vector<SharedText> parts;  ///< Empty before encoded() made them.
+    std::uint32_t version = 0;  ///< Rises when the points change; never 0.
+    /// The version that began the present list of points. Since then points were added behind it, and those before have
+    /// moved by no more than averaging moves them.
+    std::uint32_t lineage = 0;
+    float reach_m = 0.0F;  ///< The greatest coordinate.
   };
 
-  /// Cheap if little has changed. Encodes no points.
+  /// Looks at points that are new only.
   void update(const common::Map3dLayer& map3d);
 
-  std::size_t size() const { return entries_.size(); }
-  std::uint32_t version(std::size_t submap) const { return entries_[submap].version; }
-  /// The messages of a submap, encoded when they are first asked for.
-  const std::vector<SharedText>& encoded(std::size_t submap) const;
+  const std::vector<Submap>& submaps() const { return submaps_; }
   /// Null before the first update; another object for other poses.
   const SharedText& poses() const { return poses_; }
   /// Null as long as there is no frame.
@@ -48,14 +49,15 @@ class SubmapFeed {
 
  private:
   std::uint32_t last_version_ = 0;
-  mutable std::vector<Entry> entries_;
+  std::vector<Submap> submaps_;
   std::uint32_t poses_version_ = 0;
   std::string pose_bytes_;
   SharedText poses_, camera_;
 };
 
-/// What one page has. Submaps that it has not yet come first, the newest of them at once. Changed ones are sent again
-/// so seldom that they take at most kRefreshBytesPerSecond, however often they change.
+/// What one page has. New points come at once, those of the newest submap first. The points of a submap that has
+/// settled are sent once more when they have moved since, and so are those of one that was thinned; that takes at most
+/// kRefreshBytesPerSecond.
 class SubmapReader {
  public:
   static constexpr double kRefreshBytesPerSecond = 200e3;
@@ -64,14 +66,27 @@ class SubmapReader {
   std::vector<SharedText> next(const SubmapFeed& feed, common::Time now, std::size_t most_bytes);
 
  private:
-  /// The submap to send next.
-  std::optional<std::size_t> choose(const SubmapFeed& feed, common::Time now) const;
-  bool begin(const SubmapFeed& feed, common::Time now);
+  /// Of the points of a submap.
+  struct Has {
+    std::uint32_t lineage = 0;
+    std::uint32_t version = 0;  ///< When the first of them was sent.
+    std::size_t points = 0;
+  };
+  /// Keeps the points alive until they are sent, although the submap may have changed.
+  struct Transfer {
+    SubmapFeed::Submap submap;
+    std::size_t number = 0;
+    std::size_t sent = 0;
+    bool added = false;
+  };
 
-  std::vector<std::uint32_t> versions_;  ///< Of the submaps that it has; 0: none.
-  common::Time refresh_;                 ///< From then on a changed submap may be sent.
+  std::optional<Transfer> choose(const SubmapFeed& feed, common::Time now);
+  SharedText nextPart();
+
+  std::vector<Has> has_;
   SharedText poses_, camera_;
-  std::vector<SharedText> sending_;  ///< Parts that have not been sent, in reverse.
+  std::optional<Transfer> transfer_;
+  common::Time refresh_;  ///< From then on points may be sent again.
 };
 
 }  // namespace swiftlet::web
