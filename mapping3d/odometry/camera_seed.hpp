@@ -2,9 +2,9 @@
 // the 2D map.
 //
 // A bare wall tells nothing of the motion along it. There the frames follow the motion of the seeds, which is known
-// much better than their place. From key frame to key frame the errors of the alignment add up, so that a 3D map of its own would leave the 2D map,
-// whose loop closures correct it. Each new key frame is therefore placed by a Kalman update: the alignment predicts
-// its pose, with an uncertainty that grew since the last seed, and the seed measures it.
+// much better than their place. From key frame to key frame the errors of the alignment add up, so that a 3D map of its
+// own would leave the 2D map, whose loop closures correct it. Each new key frame is therefore placed by a Kalman
+// update: the alignment predicts its pose, with an uncertainty that grew since the last seed, and the seed measures it.
 #pragma once
 
 #include "common/config_fwd.hpp"
