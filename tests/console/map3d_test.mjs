@@ -46,8 +46,39 @@ async function pixels(page) {
   }, png);
 }
 
+/** The mean difference of a channel between the pictures, of blocks of pixels, so that single edges do not count. */
+function blockDifference(a, b, width, side = 12) {
+  const height = a.length / width;
+  let sum = 0, count = 0;
+  for (let y = 0; y + side <= height; y += side)
+    for (let x = 0; x + side <= width; x += side)
+      for (const shift of [0, 8, 16]) {
+        let difference = 0;
+        for (let dy = 0; dy < side; ++dy)
+          for (let dx = 0; dx < side; ++dx) {
+            const i = (y + dy) * width + x + dx;
+            difference += ((a[i] >> shift) & 255) - ((b[i] >> shift) & 255);
+          }
+        sum += Math.abs(difference) / (side * side);
+        ++count;
+      }
+  return sum / count;
+}
+
 /** The share of pixels that differ. */
 const difference = (a, b) => a.filter((value, i) => value !== b[i]).length / a.length;
+
+/** The picture when it no longer changes. */
+async function still(page) {
+  let last = await pixels(page);
+  await eventually('a still picture', async () => {
+    await new Promise((done) => setTimeout(done, 400));
+    const next = await pixels(page), changed = difference(last, next);
+    last = next;
+    return changed < 0.02;
+  });
+  return last;
+}
 
 async function drag(page, dx, dy) {
   const box = await page.locator('#map3d').boundingBox();
@@ -59,14 +90,22 @@ async function drag(page, dx, dy) {
 
 const streamed = (page) => page.locator('.map3d-stream img').evaluateAll(([image]) => image?.naturalWidth > 100);
 
-/** Shows the 3D map and measures how long the stream takes to come. */
+/**
+ * Shows the 3D map, where the stream must come instead. The page decides within two seconds by its own clock; a machine
+ * with other work may need longer for the picture.
+ */
 async function fallsBack(page) {
-  const begin = Date.now();
+  const decided = page.evaluate(() => new Promise((done) => {
+    const note = document.querySelector('.map3d-note');
+    let begin;
+    document.getElementById('show3d').addEventListener('click', () => { begin = performance.now(); }, { once: true, capture: true });
+    new MutationObserver(() => note.textContent && done(performance.now() - begin)).observe(note, { childList: true });
+  }));
   await page.locator('#show3d').tap();
+  const took_ms = await decided;
+  assert.ok(took_ms < 2000 * kPatience, `the decision took ${took_ms} ms`);
   await eventually('the stream', () => streamed(page));
-  const took_s = (Date.now() - begin) / 1000;
-  assert.ok(took_s < 2.5 * kPatience, `the stream took ${took_s} s`);
-  await page.locator('.map3d-note').getByText('Drawn by the vehicle').waitFor();
+  assert.match(await page.locator('.map3d-note').textContent(), /Drawn by the vehicle/);
   assert.equal(await page.locator('#map3d canvas').isVisible(), false);
 }
 
@@ -76,15 +115,13 @@ const tests = {
     await shown3d(page);
     await page.locator('[data-command=hold]').tap(); // The vehicle and its map stand still.
     await page.locator('[data-command=hold][aria-pressed=true]').waitFor();
-    await new Promise((done) => setTimeout(done, 1000));
-    const before = await pixels(page);
+    const before = await still(page);
     // The flat is checkered: background, two colours of the floor and those of the walls.
     const counts = new Map();
     for (const value of before) counts.set(value, (counts.get(value) ?? 0) + 1);
     const often = [...counts].filter(([, count]) => count > before.length / 100);
     assert.ok(often.length >= 4, `${often.length} colours`);
     assert.ok(often.some(([value]) => value === 0xc4b296), 'the light squares of the floor');
-    assert.ok(difference(before, await pixels(page)) < 0.05, 'it stands still');
     await drag(page, 180, 20);
     await eventually('the turn', async () => difference(before, await pixels(page)) > 0.2);
     await page.locator('#by-normal').tap();
@@ -123,8 +160,10 @@ const tests = {
     });
     await shown3d(page);
     await new Promise((done) => setTimeout(done, 2500));
-    const sent = [...points.values()].reduce((sum, count) => sum + count);
-    assert.ok(Math.abs(sent - (await drawnPoints(page))) < 0.2 * sent, `${sent} points sent, ${await drawnPoints(page)} drawn`);
+    await eventually('as many points drawn as sent', async () => {
+      const sent = [...points.values()].reduce((sum, count) => sum + count);
+      return Math.abs(sent - (await drawnPoints(page))) < 0.1 * sent;
+    });
     return page;
   },
 
@@ -142,8 +181,16 @@ const tests = {
     return page;
   },
 
-  async 'without points the stream is shown within two seconds'() {
-    await fallsBack(await open((context) => context.routeWebSocket(/\/api\/map3d/, () => {})));
+  async 'while the points do not come the stream is shown within two seconds'() {
+    let late;
+    const page = await open((context) => context.routeWebSocket(/\/api\/map3d/, (socket) => { late = socket; }));
+    await fallsBack(page);
+    const server3d = late.connectToServer();
+    server3d.onMessage((message) => late.send(message));
+    await eventually('the points', async () => (await drawnPoints(page)) > 20_000);
+    assert.equal(await page.locator('#map3d canvas').isVisible(), true);
+    assert.equal(await page.locator('.map3d-stream img').count(), 0);
+    return page;
   },
 
   async 'where the graphics memory is full the stream is shown'() {
@@ -155,11 +202,23 @@ const tests = {
     return page;
   },
 
-  async 'a lost graphics context brings the stream'() {
+  async 'a lost graphics context brings the stream, which shows the same from the same place'() {
     const page = await open();
     await shown3d(page);
+    await page.locator('[data-command=hold]').tap();
+    await page.locator('[data-command=hold][aria-pressed=true]').waitFor();
+    await drag(page, 100, 30);
+    await page.locator('#zoom-in').tap();
+    const drawn = await still(page);
+    const { width } = await page.locator('#map3d').boundingBox();
     await page.locator('#map3d canvas').evaluate((canvas) => canvas.getContext('webgl').getExtension('WEBGL_lose_context').loseContext());
     await eventually('the stream', () => streamed(page));
+    const columns = Math.round(width / 2), same = blockDifference(drawn, await still(page), columns);
+    console.log(`        the pictures differ by ${same.toFixed(1)} of 255`);
+    assert.ok(same < 12, `the pictures differ by ${same}`);
+    await drag(page, 60, 0);
+    await eventually('the turned stream', async () => blockDifference(drawn, await pixels(page), columns) > 2 * same);
+    await page.locator('[data-command=resume]').tap();
     await page.locator('#show3d').tap(); // Closed and opened again it is drawn by the page again.
     await shown3d(page);
     return page;

@@ -7,7 +7,7 @@ import { Map3dView } from './map3d_view.js';
 import { listenToOrbit, Orbit } from './orbit.js';
 import { PictureStream } from './picture_stream.js';
 
-/** Without a first message after this time the page shows the stream. */
+/** Without a first message after this time the page shows the stream until it comes. */
 const kPatience_ms = 1200;
 /** While a hand turns the stream's view, it is asked for so often. */
 const kStreamRestart_ms = 250;
@@ -15,7 +15,7 @@ const kStreamRestart_ms = 250;
 export class Map3dPanel {
   /** `box` holds a canvas, a place for the stream and a note. `withToken(path)` adds the token to a path. */
   constructor(box, store, withToken) {
-    Object.assign(this, { box, store, withToken, view: null, stream: null, byNormal: false });
+    Object.assign(this, { box, store, withToken, view: null, stream: null, bridging: false, byNormal: false });
     this.canvas = box.querySelector('canvas');
     this.streamBox = box.querySelector('.map3d-stream');
     this.note = box.querySelector('.map3d-note');
@@ -44,14 +44,19 @@ export class Map3dPanel {
       return this.fallBack(error.message);
     }
     this.link = new Map3dLink((bytes) => this.take(bytes), () => this.map3d.reset(), this.withToken);
-    this.patience = setTimeout(() => this.fallBack('the points do not come'), kPatience_ms);
+    this.patience = setTimeout(() => this.bridge(), kPatience_ms);
+  }
+
+  /** Shows the stream until the first points come. */
+  bridge() {
+    this.bridging = true;
+    this.showStream('the points have not come yet');
   }
 
   hide() {
     this.box.hidden = true;
     this.stopDrawing();
-    this.stream?.stop();
-    this.stream = null;
+    this.endStream();
   }
 
   stopDrawing() {
@@ -64,6 +69,7 @@ export class Map3dPanel {
 
   take(bytes) {
     clearTimeout(this.patience);
+    if (this.bridging) this.endStream();
     try {
       const news = this.map3d.take(bytes);
       if (news) this.view?.upload(news);
@@ -73,13 +79,26 @@ export class Map3dPanel {
     this.view?.draw();
   }
 
-  /** Shows the stream, and says why. */
+  /** Shows the stream from now on, and says why. */
   fallBack(reason) {
-    if (this.stream || !this.open) return;
+    if (!this.open) return;
     this.stopDrawing();
+    this.endStream();
+    this.showStream(reason);
+  }
+
+  showStream(reason) {
     this.canvas.hidden = true;
     this.note.textContent = `Drawn by the vehicle’s computer: ${reason}`;
     this.stream = new PictureStream(this.streamBox, 'Picture of the 3D map', () => this.streamPath(), () => this.store.state?.age_s ?? null);
+  }
+
+  endStream() {
+    this.stream?.stop();
+    this.stream = null;
+    this.bridging = false;
+    this.canvas.hidden = false;
+    this.note.textContent = '';
   }
 
   streamPath() {
