@@ -110,6 +110,7 @@ std::vector<common::SurfacePoint> ExampleRoom::surface(double spacing_m) const {
 
 std::shared_ptr<const common::Map3dLayer> ExampleMapper::look(const common::Pose3& T_map_body, common::Time stamp) {
   if (submaps_.empty() || (stamp - keys_.keys.back().stamp).seconds() > kSubmap_s) {
+    cubes_.clear();
     growing_.clear();
     keys_.keys.push_back({stamp, common::planar(T_map_body)});
     ++keys_.version;
@@ -130,13 +131,10 @@ std::shared_ptr<const common::Map3dLayer> ExampleMapper::look(const common::Pose
       const Vector3d p = T_submap_map * found->point_map_m;
       const Cube cube{std::lround(p.x() / kThinned_m), std::lround(p.y() / kThinned_m),
                       std::lround(p.z() / kThinned_m)};
-      growing_.try_emplace(
-          cube,
-          common::SurfacePoint{p.cast<float>(), (T_submap_map.rotation * found->normal_map).cast<float>(), found->rgb});
+      if (cubes_.try_emplace(cube, growing_.size()).second)
+        growing_.push_back({p.cast<float>(), (T_submap_map.rotation * found->normal_map).cast<float>(), found->rgb});
     }
-  std::vector<common::SurfacePoint> points;
-  for (const auto& [cube, point] : growing_) points.push_back(point);
-  submaps_.back().points = std::make_shared<const std::vector<common::SurfacePoint>>(std::move(points));
+  submaps_.back().points = std::make_shared<const std::vector<common::SurfacePoint>>(growing_);
   layer_.frame = frame;
   layer_.tracked = true;
   return publish();

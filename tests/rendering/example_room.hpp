@@ -55,7 +55,8 @@ class ExampleMapper {
   ExampleRoom room_;
   common::KeyPoses keys_;
   std::vector<common::Submap3d> submaps_;
-  std::map<Cube, common::SurfacePoint> growing_;
+  std::map<Cube, std::size_t> cubes_;          ///< The number of the point in each cube.
+  std::vector<common::SurfacePoint> growing_;  ///< In the order in which their cubes were first seen.
   common::Map3dLayer layer_;
 };
 
