@@ -1,6 +1,7 @@
 // The results of trials: verdicts over all flights, JSON and tables.
 #include "evaluation/trial_results.hpp"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 namespace swiftlet::evaluation {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
 
