@@ -183,7 +183,8 @@ Status Oracle::evalChoice(const Shape& shape, const std::string& path, bool at_e
     chosen = now;
   }
   const auto i = static_cast<std::size_t>(chosen);
-  return eval(shape.children[i], childPath(path, i));
+  const Status status = eval(shape.children[i], childPath(path, i));
+  return status == Status::kSkipped ? Status::kSuccess : status;
 }
 
 Status Oracle::evalWithMemory(const Shape& shape, const std::string& path) {

@@ -1,5 +1,7 @@
 #include "behaviors/tree/nodes/if_then_else.hpp"
 
+#include "behaviors/tree/nodes/ended_as.hpp"
+
 namespace swiftlet::tree {
 
 std::string notTwoOrThree(std::size_t children) {
@@ -23,7 +25,7 @@ Status IfThenElse::run(TickContext& context) {
     if (condition == Status::kFailure && count() == 2) return Status::kFailure;
     chosen_ = condition == Status::kSuccess ? 1 : 2;
   }
-  return child(chosen_).tick(context);
+  return skippedAsSuccess(child(chosen_).tick(context));
 }
 
 }  // namespace swiftlet::tree

@@ -3,7 +3,8 @@
 //   condition RUNNING                  -> RUNNING
 //   condition SKIPPED                  -> SKIPPED
 //   condition FAILURE, no third child  -> FAILURE
-//   else                               -> the status of the second or third child
+//   else                               -> the status of the second or third child; SUCCESS where that is SKIPPED,
+//                                         because the condition has been ticked
 #pragma once
 
 #include "behaviors/tree/composite.hpp"

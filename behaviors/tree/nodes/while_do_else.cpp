@@ -1,5 +1,6 @@
 #include "behaviors/tree/nodes/while_do_else.hpp"
 
+#include "behaviors/tree/nodes/ended_as.hpp"
 #include "behaviors/tree/nodes/if_then_else.hpp"
 
 namespace swiftlet::tree {
@@ -27,7 +28,7 @@ Status WhileDoElse::run(TickContext& context) {
     chosen_ = 0;
     return Status::kRunning;
   }
-  return child(wanted).tick(context);
+  return skippedAsSuccess(child(wanted).tick(context));
 }
 
 }  // namespace swiftlet::tree

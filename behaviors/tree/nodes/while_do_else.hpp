@@ -3,7 +3,8 @@
 //   condition RUNNING                  -> RUNNING
 //   condition SKIPPED                  -> SKIPPED, what runs is halted
 //   condition FAILURE, no third child  -> FAILURE, what runs is halted
-//   else                               -> the status of the second or third child
+//   else                               -> the status of the second or third child; SUCCESS where that is SKIPPED,
+//                                         because the condition has been ticked
 // While a halted child lets go (it may take several ticks) the node is RUNNING and ticks no other child.
 #pragma once
 
