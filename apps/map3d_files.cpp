@@ -8,15 +8,26 @@
 
 namespace swiftlet::apps {
 
-interfaces::Map3dFiles map3dFiles(const common::Map3dLayer& layer) {
+namespace {
+
+interfaces::Map3dFiles filesOf(const common::Map3dLayer& layer, const common::VoxelMap& fused) {
   interfaces::Map3dFiles files;
-  if (layer.submaps->empty()) return files;
   files.cloud_ply = interfaces::toCloud(mapping3d::cloudOf(*layer.submaps, *layer.keys), interfaces::CloudFormat::kPly);
-  const common::VoxelMap fused =
-      mapping3d::fuse(*layer.submaps, *layer.keys, layer.submaps->front().voxels->resolution_m());
   files.map_bt = interfaces::toOctree(fused, interfaces::OctreeFormat::kBinary);
   files.map_ot = interfaces::toOctree(fused, interfaces::OctreeFormat::kLogOdds);
   return files;
+}
+
+}  // namespace
+
+interfaces::Map3dFiles map3dFiles(const common::Map3dLayer& layer) {
+  if (layer.submaps->empty()) return {};
+  const double resolution_m = layer.submaps->front().voxels->resolution_m();
+  return filesOf(layer, mapping3d::fuse(*layer.submaps, *layer.keys, resolution_m));
+}
+
+interfaces::Map3dFiles map3dFilesInFlight(const common::Map3dLayer& layer) {
+  return layer.fused ? filesOf(layer, *layer.fused) : map3dFiles(layer);
 }
 
 }  // namespace swiftlet::apps

@@ -9,7 +9,10 @@ struct Map3dLayer;
 
 namespace swiftlet::apps {
 
-/// The cloud, and the voxels of all submaps in the frame `map`. A pure function, which takes seconds for a long flight.
+/// The cloud and the voxels of all submaps in the frame `map`; nothing before there are submaps. Pure functions, which
+/// take seconds for a long flight. The first fuses the voxels as they are now; the second takes those that the flight
+/// has fused last, if it has.
 interfaces::Map3dFiles map3dFiles(const common::Map3dLayer& layer);
+interfaces::Map3dFiles map3dFilesInFlight(const common::Map3dLayer& layer);
 
 }  // namespace swiftlet::apps

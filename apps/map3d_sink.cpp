@@ -27,7 +27,7 @@ void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
   if (!world->map3d || now - written_ < kPeriod || !jobs_->idle("map3d")) return;
   written_ = now;
   jobs_->submit("map3d", now_, kLatency, [this, layer = world->map3d]() -> common::JobRunner::Deliver {
-    return [this, files = map3dFiles(*layer)](common::Time) { folder_.showMap3d(files); };
+    return [this, files = map3dFilesInFlight(*layer)](common::Time) { folder_.showMap3d(files); };
   });
 }
 

@@ -105,4 +105,10 @@ Eigen::Vector3d logSO3(const Eigen::Quaterniond& rotation) {
   return (2.0 * std::atan2(n, q.w()) / n) * q.vec();
 }
 
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
 }  // namespace swiftlet::common

@@ -74,5 +74,7 @@ Eigen::Matrix3d propagated(const Eigen::Matrix3d& covariance, const Pose2& from,
 /// Converts a rotation vector to a unit quaternion, and back; small angles are exact to second order.
 Eigen::Quaterniond expSO3(const Eigen::Vector3d& rotation_rad);
 Eigen::Vector3d logSO3(const Eigen::Quaterniond& rotation);
+/// skew(v) * u = v x u.
+Eigen::Matrix3d skew(const Eigen::Vector3d& v);
 
 }  // namespace swiftlet::common

@@ -30,10 +30,10 @@ struct KeyPoses {
   std::uint64_t version = 0;  ///< Grows when a key scan is added or a correction moves key scans.
   std::vector<KeyPose> keys;
 
+  /// The level frame of a key scan, which must be in `keys`; see KeyRelativePose.
+  Pose3 T_map_level(int key) const { return lifted(keys[static_cast<std::size_t>(key)].T_map_key, 0.0); }
   /// T_map_body of `pose`, whose key scan must be in `keys`.
-  Pose3 inMap(const KeyRelativePose& pose) const {
-    return lifted(keys[static_cast<std::size_t>(pose.key)].T_map_key, 0.0) * pose.T_key_body;
-  }
+  Pose3 inMap(const KeyRelativePose& pose) const { return T_map_level(pose.key) * pose.T_key_body; }
 };
 
 }  // namespace swiftlet::common

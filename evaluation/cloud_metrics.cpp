@@ -65,12 +65,6 @@ struct Pull {
   }
 };
 
-Eigen::Quaterniond rotationBy(const Eigen::Vector3d& vector_rad) {
-  const double angle_rad = vector_rad.norm();
-  if (angle_rad < 1e-12) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, vector_rad / angle_rad));
-}
-
 }  // namespace
 
 CloudError cloudError(const Cloud& cloud_world_m, const simulation::RayCaster& rays) {
@@ -102,7 +96,7 @@ Pose3 alignment(const Cloud& cloud_world_m, const simulation::RayCaster& rays) {
     }
     if (distances_m.size() < cloud.size() / 2 || !pull.isHeld()) return Pose3{};
     const Eigen::Matrix<double, 6, 1> step = -pull.information.ldlt().solve(pull.gradient);
-    const Eigen::Quaterniond turn = rotationBy(step.head<3>());
+    const Eigen::Quaterniond turn = common::expSO3(step.head<3>());
     T = Pose3{turn, moved_middle + step.tail<3>() - turn * moved_middle} * T;
     reach_m = std::clamp(kOutlier * quantile(distances_m, 0.5), kLeastReach_m, kReach_m);
     if (step.norm() < 1e-6) break;

@@ -34,12 +34,9 @@ Time timeOf(const common::RgbdFrame& frame) {
 /// From errors of the camera's pose to those of the body's, each in its own axes (the adjoint of T_body_camera).
 mapping3d::Matrix6d ofBody(const mapping3d::Matrix6d& covariance_camera, const common::Pose3& T_body_camera) {
   const Eigen::Matrix3d rotation = T_body_camera.rotation.toRotationMatrix();
-  const Eigen::Vector3d& p = T_body_camera.position_m;
-  Eigen::Matrix3d cross;
-  cross << 0.0, -p.z(), p.y(), p.z(), 0.0, -p.x(), -p.y(), p.x(), 0.0;
   mapping3d::Matrix6d adjoint = mapping3d::Matrix6d::Zero();
   adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = rotation;
-  adjoint.topRightCorner<3, 3>() = cross * rotation;
+  adjoint.topRightCorner<3, 3>() = common::skew(T_body_camera.position_m) * rotation;
   return adjoint * covariance_camera * adjoint.transpose();
 }
 
@@ -122,10 +119,8 @@ CameraStep RgbdPipeline::stepOf(const Outcome& outcome) {
   const mapping3d::RgbdPose& pose = outcome.mapped.pose;
   CameraStep step;
   if (reference_ && pose.measured) {
-    const common::Pose3 T_map_scan =
-        common::lifted(outcome.scans->keys[static_cast<std::size_t>(reference_->scan)].T_map_key, 0.0);
-    const common::Pose3 T_reference_camera =
-        (T_map_scan * reference_->T_scan_camera).inverse() * pose.measured->T_map_camera;
+    const common::Pose3 T_map_reference = outcome.scans->T_map_level(reference_->scan) * reference_->T_scan_camera;
+    const common::Pose3 T_reference_camera = T_map_reference.inverse() * pose.measured->T_map_camera;
     step.measurement = {reference_->time, outcome.time, T_body_camera_ * T_reference_camera * T_body_camera_.inverse(),
                         ofBody(pose.measured->covariance, T_body_camera_)};
   }
@@ -140,7 +135,7 @@ std::shared_ptr<const common::Map3dLayer> RgbdPipeline::layer(const std::shared_
   if (!layer_ || (!changed_ && published_ && published_->keys == keys)) return published_;
   changed_ = false;
   layer_->keys = keys;
-  layer_->T_map_camera = common::lifted(keys->keys[static_cast<std::size_t>(scan_)].T_map_key, 0.0) * T_scan_camera_;
+  layer_->T_map_camera = keys->T_map_level(scan_) * T_scan_camera_;
   published_ = std::make_shared<const common::Map3dLayer>(*layer_);
   return published_;
 }

@@ -158,7 +158,7 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
     return;
   }
   if (const auto condition = conditionOf(name)) {
-    checkScript(place(), owner + "." + name, attribute.value, isAsked(*condition));
+    checkScript(place(), owner + "." + name, attribute.value, portOf(*condition));
     return;
   }
   const PortManifest* port = manifest == nullptr ? nullptr : manifest->findPort(name);
@@ -188,7 +188,7 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
     return (explicitKind(element.name) ? *element.attribute("ID") : element.name) + "." + port.name;
   };
   if (port.type == PortType::kScript) {
-    checkScript(document.at(element, port.name), where(), attribute.value, port.name == "if");
+    checkScript(document.at(element, port.name), where(), attribute.value, port);
     return;
   }
   if (entryOf(attribute.value, port.name)) return;
@@ -203,12 +203,11 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
   if (!problem.empty()) problems_.add({document.at(element, port.name), where(), std::move(problem), {}});
 }
 
-/// A script that is asked before a node starts must not assign, because a Priority asks without starting it.
-void Checker::checkScript(const Location& place, std::string owner, std::string_view text, bool asked) {
+void Checker::checkScript(const Location& place, std::string owner, std::string_view text, const PortManifest& port) {
   const ScriptResult result = Script::compile(text, registry_.constants());
   if (!result.script)
     problems_.add({place, std::move(owner), result.problem, {}});
-  else if (asked && result.script->assigns())
+  else if (port.asked && result.script->assigns())
     problems_.add({place, std::move(owner), "it assigns to an entry, but is only asked", "use == to compare"});
 }
 

@@ -26,7 +26,7 @@ class Checker {
                       const NodeManifest* manifest);
   void checkPort(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                  const PortManifest& port);
-  void checkScript(const Location& place, std::string owner, std::string_view text, bool asked);
+  void checkScript(const Location& place, std::string owner, std::string_view text, const PortManifest& port);
   void checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest);
   void checkRecursion();
 

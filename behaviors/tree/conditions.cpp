@@ -17,7 +17,9 @@ const PortManifest& portOf(ConditionKind kind) {
   static const std::array<PortManifest, kConditionKinds> kPorts = [] {
     std::array<PortManifest, kConditionKinds> ports;
     for (std::size_t i = 0; i < ports.size(); ++i)
-      ports[i] = {.name = std::string(kAttributes[i]), .type = PortType::kScript};
+      ports[i] = {.name = std::string(kAttributes[i]),
+                  .type = PortType::kScript,
+                  .asked = static_cast<ConditionKind>(i) <= ConditionKind::kWhile};
     return ports;
   }();
   return kPorts[static_cast<std::size_t>(kind)];

@@ -39,8 +39,6 @@ std::string_view attributeOf(ConditionKind kind);
 const PortManifest& portOf(ConditionKind kind);
 /// Nothing if the attribute is no condition.
 std::optional<ConditionKind> conditionOf(std::string_view attribute);
-/// Whether it is asked before the node's own rule, and may not assign.
-constexpr bool isAsked(ConditionKind kind) { return kind <= ConditionKind::kWhile; }
 
 /// What the conditions say before a node starts: the status that it has without starting, if there is one.
 struct StartDecision {

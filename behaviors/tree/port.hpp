@@ -23,6 +23,8 @@ struct PortManifest {
   std::optional<double> minimum = std::nullopt;             ///< Inclusive; numbers and durations (in the port's unit).
   std::optional<double> maximum = std::nullopt;
   std::string description = {};  ///< One sentence.
+  /// Of a script: it is asked before a node starts and must not assign, because a Priority asks without starting it.
+  bool asked = false;
 };
 
 /// "a number in metres from 0 to 5", for messages and documents.

@@ -11,10 +11,6 @@ namespace {
 using common::Pose3;
 using common::Submap3d;
 
-Pose3 T_map_scan(const common::KeyPoses& scans, int scan) {
-  return common::lifted(scans.keys[static_cast<std::size_t>(scan)].T_map_key, 0.0);
-}
-
 /// The discs in the frame of a submap, which is level.
 std::vector<common::Disc> inSubmap(std::span<const common::Disc> people, const Pose3& T_submap_map) {
   std::vector<common::Disc> discs;
@@ -32,12 +28,11 @@ SubmapStore::SubmapStore(const SubmapConfig& config, const VoxelConfig& voxels, 
 
 void SubmapStore::draw(const PlacedFrame& placed, const common::KeyPoses& scans) {
   if (growing_) {
-    const Pose3 T_map_submap = T_map_scan(scans, growing_->scan) * growing_->T_scan_submap;
-    const Eigen::Vector3d away_m = placed.T_map_camera.position_m - T_map_submap.position_m;
+    const Eigen::Vector3d away_m = placed.T_map_camera.position_m - growing_->T_map_submap(scans).position_m;
     if (away_m.head<2>().norm() > config_.reach_m) leave();
   }
   if (!growing_) begin(placed, scans);
-  const Pose3 T_submap_map = (T_map_scan(scans, growing_->scan) * growing_->T_scan_submap).inverse();
+  const Pose3 T_submap_map = growing_->T_map_submap(scans).inverse();
   const Pose3 T_submap_camera = T_submap_map * placed.T_map_camera;
   growing_->voxels.insert(placed.frame.depth, placed.frame.camera, T_submap_camera,
                           inSubmap(placed.people, T_submap_map));
@@ -63,7 +58,7 @@ void SubmapStore::begin(const PlacedFrame& placed, const common::KeyPoses& scans
   for (int i = 0; i < 2; ++i)
     T_map_submap.position_m[i] =
         std::round(placed.T_map_camera.position_m[i] / voxels_.resolution_m) * voxels_.resolution_m;
-  growing_.emplace(Growing{placed.scan, T_map_scan(scans, placed.scan).inverse() * T_map_submap, VoxelMapper(voxels_),
+  growing_.emplace(Growing{placed.scan, scans.T_map_level(placed.scan).inverse() * T_map_submap, VoxelMapper(voxels_),
                            PointGrid(config_.cube_m)});
 }
 

@@ -45,6 +45,8 @@ class SubmapStore {
     VoxelMapper voxels;
     PointGrid points;
     std::uint64_t frames = 0;
+
+    common::Pose3 T_map_submap(const common::KeyPoses& scans) const { return scans.T_map_level(scan) * T_scan_submap; }
   };
   struct Left {
     common::Submap3d submap;

@@ -50,9 +50,7 @@ void KeyFrameMap::add(std::shared_ptr<const KeyFrame> key, const KeyFramePlace& 
   keys_.push_back({std::move(key), place, T_map_scan(place.scan).inverse() * place.T_map_key, ++clock_});
 }
 
-common::Pose3 KeyFrameMap::T_map_scan(int scan) const {
-  return scans_ ? common::lifted(scans_->keys[static_cast<std::size_t>(scan)].T_map_key, 0.0) : common::Pose3{};
-}
+common::Pose3 KeyFrameMap::T_map_scan(int scan) const { return scans_ ? scans_->T_map_level(scan) : common::Pose3{}; }
 
 void KeyFrameMap::moveTo(std::shared_ptr<const common::KeyPoses> scans) {
   scans_ = std::move(scans);

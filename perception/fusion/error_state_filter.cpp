@@ -27,6 +27,9 @@ bool isCovariance(const Eigen::Matrix3d& m) {
   if (!m.allFinite() || !m.isApprox(m.transpose(), 1e-6)) return false;
   return common::symmetricEigenvalues(m).minCoeff() > 0.0;
 }
+bool isCovariance(const Eigen::Matrix<double, 6, 6>& m) {
+  return m.allFinite() && m.isApprox(m.transpose(), 1e-6) && m.llt().info() == Eigen::Success;
+}
 
 /// Position and yaw are zero by definition. Gravity shows only the sum of tilt and accelerometer bias: both start with
 /// a wide covariance, and one gravity measurement correlates them.
@@ -169,9 +172,7 @@ Insertion ErrorStateFilter::addRelativePose(Time from, Time to, const common::Po
 
 Insertion ErrorStateFilter::addRelativePose3(Time from, Time to, const common::Pose3& T_from_to,
                                              const Eigen::Matrix<double, 6, 6>& covariance) {
-  const bool valid = isFinite(T_from_to) && to > from && covariance.allFinite() &&
-                     covariance.isApprox(covariance.transpose(), 1e-6) && covariance.llt().info() == Eigen::Success;
-  if (!valid) return impl_->counted(Insertion::kInvalid);
+  if (!isFinite(T_from_to) || to <= from || !isCovariance(covariance)) return impl_->counted(Insertion::kInvalid);
   if (!hasClone(from)) return impl_->counted(Insertion::kUnknownReference);
   Measurement m;
   m.stamp = to;

@@ -74,10 +74,4 @@ bool FilterState::finite() const {
          wind_odom_m_s.allFinite() && std::isfinite(covariance.sum());  // sum() is vectorized, allFinite() is not.
 }
 
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
 }  // namespace swiftlet::perception::fusion

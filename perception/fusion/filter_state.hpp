@@ -87,7 +87,4 @@ struct FilterState {
   bool finite() const;
 };
 
-/// skew(v) * u = v x u.
-Eigen::Matrix3d skew(const Eigen::Vector3d& v);
-
 }  // namespace swiftlet::perception::fusion

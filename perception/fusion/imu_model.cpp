@@ -59,7 +59,7 @@ Midpoint midpoint(const FilterState& state, const ImuValue& begin, const ImuValu
 
 Blocks blocks(const Midpoint& m) {
   const Eigen::Matrix3d rotation = m.rotation_odom_body.toRotationMatrix();
-  const Eigen::Matrix3d force = skew(m.force_odom_m_s2);
+  const Eigen::Matrix3d force = common::skew(m.force_odom_m_s2);
   return {m.dt_s, -m.dt_s * force, -m.dt_s * rotation, 0.5 * m.dt_s * m.dt_s * force * rotation};
 }
 

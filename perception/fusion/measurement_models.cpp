@@ -90,7 +90,7 @@ Linearized<6> relativePose3(const FilterState& state, int clone, const common::P
   m.residual.tail<3>() = common::logSO3(state.rotation_odom_body.conjugate() * (from.rotation * T_clone_body.rotation));
   m.jacobian.block<3, 3>(0, kPosition) = to_body;
   m.jacobian.block<3, 3>(0, at) = -to_body;
-  m.jacobian.block<3, 3>(0, at + 3) = to_body * skew(moved_odom_m);
+  m.jacobian.block<3, 3>(0, at + 3) = to_body * common::skew(moved_odom_m);
   m.jacobian.block<3, 3>(3, kAttitude) = to_body;
   m.jacobian.block<3, 3>(3, at + 3) = -to_body;
   m.noise = covariance;
@@ -167,7 +167,7 @@ Linearized<2> drag(const FilterState& state, double variance_m2_s4) {
       stretch.force_sum_m_s / stretch.seconds + state.drag_1_s * airspeed_m_s - state.accelerometer_bias_m_s2.head<2>();
   m.jacobian.block<2, 3>(0, kVelocity) = -state.drag_1_s * to_body_xy;
   // R^T (I - [error x]) v = R^T v + R^T [v x] error.
-  m.jacobian.block<2, 3>(0, kAttitude) = -state.drag_1_s * to_body_xy * skew(airspeed_odom_m_s);
+  m.jacobian.block<2, 3>(0, kAttitude) = -state.drag_1_s * to_body_xy * common::skew(airspeed_odom_m_s);
   m.jacobian.block<2, 2>(0, kAccelerometerBias).setIdentity();
   m.jacobian.block<2, 1>(0, kDrag) = -airspeed_m_s;
   m.jacobian.block<2, 2>(0, kWind) = state.drag_1_s * to_body_xy.leftCols<2>();

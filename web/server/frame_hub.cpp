@@ -17,6 +17,7 @@ namespace {
 constexpr int kMapQuality = 85;
 constexpr int kCameraQuality = 75;
 
+constexpr const char* kNoMapYet = "waiting for the first map";
 constexpr const char* kNoCamera = "this flight has no RGB-D camera";
 
 rendering::MapView mapView(const PictureView& asked) {
@@ -37,6 +38,10 @@ common::Image notice(int width_px, int height_px, rendering::Scheme scheme, std:
   canvas.text(text, {0.5 * width_px, 0.5 * height_px}, std::max(6.0, width_px / 32.0), theme.text,
               rendering::Align::kCenter);
   return canvas.take();
+}
+
+common::Image mapNotice(const PictureView& asked, std::string_view text) {
+  return notice(asked.width_px, asked.height_px, asked.scheme, text);
 }
 
 common::Image cameraNotice(const PictureView& asked, std::string_view text) {
@@ -130,11 +135,7 @@ FrameHub::Drawn FrameHub::draw(View& view, common::Time now) {
 FrameHub::Drawn FrameHub::drawMap(View& view, common::Time now) {
   const PictureView& asked = view.asked_;
   const auto& world = telemetry_.world();
-  if (!world.value)
-    return {
-        jpeg_.encode(notice(asked.width_px, asked.height_px, asked.scheme, "waiting for the first map"), kMapQuality),
-        {},
-        now};
+  if (!world.value) return {jpeg_.encode(mapNotice(asked, kNoMapYet), kMapQuality), {}, now};
   const rendering::MapPicture picture = rendering::pictureOf(*world.value, hull_diameter_m_);
   return {jpeg_.encode(view.renderer_.render(picture, mapView(asked)), kMapQuality), world.value->stamp,
           world.unix_time};
@@ -152,11 +153,7 @@ FrameHub::Drawn FrameHub::drawMap3d(View& view, common::Time now) {
   const PictureView& asked = view.asked_;
   const auto& world = telemetry_.world();
   if (!world.value || !world.value->map3d)
-    return {jpeg_.encode(notice(asked.width_px, asked.height_px, asked.scheme,
-                                world.value ? kNoCamera : "waiting for the first map"),
-                         kCameraQuality),
-            {},
-            now};
+    return {jpeg_.encode(mapNotice(asked, world.value ? kNoCamera : kNoMapYet), kCameraQuality), {}, now};
   const rendering::Picture3d picture = rendering::picture3dOf(*world.value, hull_diameter_m_);
   return {jpeg_.encode(view.renderer3d_.render(picture, map3dView(asked)), kCameraQuality), world.value->stamp,
           world.unix_time};

@@ -71,8 +71,11 @@ std::optional<Operand> Script::evaluate(std::uint32_t index) {
     case Op::kMake:
     case Op::kAssign:
       return assign(expression);
+    case Op::kNot: {
+      const auto a = truth(expression.a);
+      return a ? std::optional<Operand>(!*a) : std::nullopt;
+    }
     case Op::kNegate:
-    case Op::kNot:
     case Op::kInvertBits: {
       const auto a = evaluate(expression.a);
       return a ? evaluateUnary(expression, *a) : std::nullopt;
@@ -95,11 +98,6 @@ std::optional<bool> Script::truth(std::uint32_t index) {
 }
 
 std::optional<Operand> Script::evaluateUnary(const Expression& expression, const Operand& a) {
-  if (expression.op == Op::kNot) {
-    const auto truth = truthOf(a);
-    if (!truth) return fail(std::string(kindOf(a)) + " is neither true nor false");
-    return !*truth;
-  }
   if (expression.op == Op::kInvertBits) {
     const auto whole = wholeOf(a);
     return whole ? std::optional<Operand>(~*whole) : fail("`~` needs a whole number");
