@@ -19,12 +19,6 @@ Eigen::Vector2d limited(const Eigen::Vector2d& v, double most) {
   return norm > most ? Eigen::Vector2d(v * (most / norm)) : v;
 }
 
-/// Horizontal acceleration of the present tilt at hover thrust.
-Eigen::Vector2d accelerationOfTilt(const Eigen::Quaterniond& rotation) {
-  const Eigen::Vector3d up = rotation * Eigen::Vector3d::UnitZ();
-  return kGravity_m_s2 * up.head<2>() / std::max(0.5, up.z());
-}
-
 /// The attitude whose thrust points along the wanted force; FLU, in the frame of the heading.
 void setTilt(common::Setpoint& setpoint, const Eigen::Vector3d& acceleration_odom_m_s2, double yaw_rad) {
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
@@ -111,20 +105,14 @@ Eigen::Vector3d PositionController::missingVelocity(const common::VehicleState& 
                                -config_.max_climb_m_s, config_.max_climb_m_s);
   if (horizontal == Horizontal::kLevel) return missing_m_s;
 
-  // The state is predicted by its tilt. The integral is the part of the tilt that balances wind and a
-  // wrong horizon, so it does not accelerate the vehicle.
-  const Eigen::Vector2d acceleration_m_s2 = accelerationOfTilt(state.T_odom_body.rotation) - integral_m_s2_.head<2>();
-  const Eigen::Vector2d velocity_then_m_s =
-      state.velocity_odom_m_s.head<2>() + config_.horizontal_lead_s * acceleration_m_s2;
+  const Eigen::Vector2d velocity_m_s = state.velocity_odom_m_s.head<2>();
   if (!delayed_) {
-    missing_m_s.head<2>() = -velocity_then_m_s;
+    missing_m_s.head<2>() = -velocity_m_s;
     return missing_m_s;
   }
-  const Eigen::Vector2d position_error =
-      delayed_->position_odom_m - state.T_odom_body.position_m.head<2>() +
-      config_.horizontal_lead_s * (delayed_->velocity_odom_m_s - state.velocity_odom_m_s.head<2>());
-  const Eigen::Vector2d correction = limited(config_.horizontal_p_1_s * position_error, config_.max_correction_m_s);
-  missing_m_s.head<2>() = limited(delayed_->velocity_odom_m_s + correction, config_.max_speed_m_s) - velocity_then_m_s;
+  const Eigen::Vector2d position_error_m = delayed_->position_odom_m - state.T_odom_body.position_m.head<2>();
+  const Eigen::Vector2d correction = limited(config_.horizontal_p_1_s * position_error_m, config_.max_correction_m_s);
+  missing_m_s.head<2>() = limited(delayed_->velocity_odom_m_s + correction, config_.max_speed_m_s) - velocity_m_s;
   return missing_m_s;
 }
 
@@ -174,8 +162,6 @@ void PositionController::Config::describe(common::config::Fields& fields) {
   fields("max_yaw_rate_deg_s", max_yaw_rate_deg_s, kPositive, "Greatest yaw rate.");
   fields("latency_s", latency_s, {0, 0.5},
          "Time from measurement to command, by which the vertical state is predicted.");
-  fields("horizontal_lead_s", horizontal_lead_s, {0, 0.5},
-         "Time by which the horizontal state is predicted with the present tilt, which damps the tilt.");
   fields(
       "attitude_lag_s", attitude_lag_s, {0, 0.5},
       "Time the attitude takes to follow a command, by which the reference is delayed before the vehicle is compared "

@@ -36,7 +36,6 @@ class PositionController {
     double max_integral_m_s2 = 2.0;
     double max_yaw_rate_deg_s = 90.0;
     double latency_s = 0.03;
-    double horizontal_lead_s = 0.06;
     double attitude_lag_s = 0.2;
     ThrustModel::Config thrust;
 

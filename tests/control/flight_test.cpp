@@ -60,7 +60,7 @@ TEST(Flight, FollowsAPathWithCornersToItsGoal) {
       },
       25.0));
   flight.run(1.5);
-  EXPECT_LT((flight.model.position_m - goal).norm(), 0.06);
+  EXPECT_LT((flight.model.position_m - goal).norm(), 0.07);
   EXPECT_NEAR(flight.model.yaw_rad, 1.0, 0.05);
   EXPECT_LT(worst_m, 0.15);
   EXPECT_TRUE(flight.controller.stopped());
