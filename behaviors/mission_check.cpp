@@ -1,6 +1,7 @@
 #include "behaviors/mission_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -67,11 +68,12 @@ class Walk {
       takes_off_ = true;
       return {{false, true}, {entry.ground, true}};
     }
-    if (id == "AlwaysSuccess" || id == "SetBlackboard") return {entry, {}};
+    if (id == "AlwaysSuccess" || id == "SetBlackboard" || id == "LogEvent") return {entry, {}};
     if (id == "AlwaysFailure") return {{}, entry};
     const bool lands = id == "Land";
-    const bool flies =
-        lands || id == "Explore" || id == "Localize" || id == "MoveToGoal" || id == "GoHome" || id == "OperatorCommand";
+    constexpr std::array kFlying{"Explore",    "Localize", "MoveToGoal", "TurnTo",
+                                 "FollowPath", "Patrol",   "GoHome",     "OperatorCommand"};
+    const bool flies = lands || std::find(kFlying.begin(), kFlying.end(), id) != kFlying.end();
     if (flies && !entry.air)
       problems_.push_back({tree_.locationOf(node.id()),
                            std::string(id),

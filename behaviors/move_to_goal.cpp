@@ -1,23 +1,40 @@
 #include "behaviors/move_to_goal.hpp"
 
 #include "behaviors/ports.hpp"
+#include "common/geometry.hpp"
 
 namespace swiftlet::behaviors {
 
 tree::NodeManifest MoveToGoal::manifest() {
-  return {.id = "MoveToGoal",
-          .kind = tree::NodeKind::kAction,
-          .ports = {{.name = "goal",
-                     .type = tree::PortType::kPoint,
-                     .required = true,
-                     .description = "In the map frame, whose origin is the take-off pose; z above the take-off floor."},
-                    tolerancePort(),
-                    clearancePort()},
-          .description = "Flies to a point of the map."};
+  return {
+      .id = "MoveToGoal",
+      .kind = tree::NodeKind::kAction,
+      .ports = {{.name = "goal",
+                 .type = tree::PortType::kPoint,
+                 .required = true,
+                 .description = "In the map frame, whose origin is the take-off pose; z above the take-off floor."},
+                tolerancePort(),
+                clearancePort(),
+                {.name = "height_m",
+                 .type = tree::PortType::kDouble,
+                 .description = "Above the take-off floor, where the goal has no z. Not given: the present height."},
+                {.name = "yaw_deg",
+                 .type = tree::PortType::kDouble,
+                 .minimum = -360.0,
+                 .maximum = 360.0,
+                 .description = "Heading at the goal in the map frame, counter-clockwise. Not given: any."},
+                modePort()},
+      .description = "Flies to a point of the map."};
 }
 
 MoveToGoal::MoveToGoal(const tree::NodeSetup& setup)
-    : IntentLeaf(setup), goal_(setup, "goal"), tolerance_m_(setup, "tolerance_m"), clearance_m_(setup, "clearance_m") {}
+    : IntentLeaf(setup),
+      goal_(setup, "goal"),
+      tolerance_m_(setup, "tolerance_m"),
+      clearance_m_(setup, "clearance_m"),
+      height_m_(setup, "height_m"),
+      yaw_deg_(setup, "yaw_deg"),
+      mode_(setup, "mode") {}
 
 IntentLeaf::IntentOrProblem MoveToGoal::makeIntent(const FlightTick& tick) {
   const auto goal = goal_.get();
@@ -25,10 +42,18 @@ IntentLeaf::IntentOrProblem MoveToGoal::makeIntent(const FlightTick& tick) {
   const auto clearance_m = clearance_m_.get();
   if (!goal) return {std::nullopt, goal_.problem()};
   if (!tolerance_m) return {std::nullopt, tolerance_m_.problem()};
+  const auto height_m = height_m_.get();
+  const auto yaw_deg = yaw_deg_.get();
+  const auto mode = mode_.get();
   if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
+  if (height_m_.given() && !height_m) return {std::nullopt, height_m_.problem()};
+  if (yaw_deg_.given() && !yaw_deg) return {std::nullopt, yaw_deg_.problem()};
+  if (!mode) return {std::nullopt, mode_.problem()};
   common::GoToIntent intent;
   intent.goal_map_m = {goal->x, goal->y};
-  intent.height_m = goal->z;
+  intent.height_m = goal->z ? goal->z : height_m;
+  if (yaw_deg) intent.yaw_map_rad = *yaw_deg * common::kRadPerDeg;
+  intent.mode = flightModeOf(*mode);
   intent.tolerance_m = *tolerance_m;
   intent.clearance_m = *clearance_m;
   // The goal is not judged by the map here, because the map may be about to grow: the executor does that, and waits.

@@ -1,5 +1,5 @@
-// MoveToGoal: SUCCESS when the vehicle is within tolerance_m of `goal` (in `map`: x;y at the present height, or x;y;z
-// with z above the take-off floor).
+// MoveToGoal: SUCCESS when the vehicle is within tolerance_m of `goal` (in `map`: x;y at the present height or at
+// `height_m`, or x;y;z with z above the take-off floor) and, where `yaw_deg` is given, looks there.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"
@@ -17,6 +17,9 @@ class MoveToGoal final : public IntentLeaf {
   tree::Input<tree::Point> goal_;
   tree::Input<double> tolerance_m_;
   tree::Input<double> clearance_m_;
+  tree::Input<double> height_m_;
+  tree::Input<double> yaw_deg_;
+  tree::Input<std::string> mode_;
 };
 
 }  // namespace swiftlet::behaviors

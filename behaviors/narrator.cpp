@@ -36,7 +36,7 @@ void Narrator::onStatus(const Node& node, Status from, Status to) {
       break;
     case Status::kFailure:
       if (failed_node_ != node.id()) break;  // A parent that fails because its child did adds no information.
-      say(common::Severity::kWarning, node.name() + " failed", failure_reason_);
+      if (!isCondition(node)) say(common::Severity::kWarning, node.name() + " failed", failure_reason_);
       failed_node_ = -1;
       break;
     case Status::kIdle:
@@ -89,6 +89,12 @@ void Narrator::forgiveBelow(const Node& node) {
     return id == node.id();
   };
   std::erase_if(failures_, [&](const Failure& failure) { return isBelow(failure.node); });
+}
+
+/// A condition that answers no has not failed at anything: it is asked again at each tick.
+bool Narrator::isCondition(const Node& node) const {
+  const tree::NodeManifest* manifest = tree_.nodes()[static_cast<std::size_t>(node.id())].manifest;
+  return manifest != nullptr && manifest->kind == tree::NodeKind::kCondition;
 }
 
 /// A child of a Priority: its event already says who has the vehicle.

@@ -32,6 +32,7 @@ class Narrator final : public tree::Observer {
   };
 
   void forgiveBelow(const tree::Node& node);
+  bool isCondition(const tree::Node& node) const;
   bool isReportedBySwitches(const tree::Node& node) const;
   void say(common::Severity severity, std::string text, std::string reason);
 

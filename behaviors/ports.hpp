@@ -2,6 +2,7 @@
 #pragma once
 
 #include "behaviors/tree/port.hpp"
+#include "common/flight_mode.hpp"
 
 namespace swiftlet::behaviors {
 
@@ -21,6 +22,21 @@ inline tree::PortManifest tolerancePort() {
           .minimum = 0.01,
           .maximum = 5.0,
           .description = "Arrived when nearer to the goal than this."};
+}
+
+inline tree::PortManifest modePort() {
+  return {.name = "mode",
+          .type = tree::PortType::kString,
+          .default_value = "fast",
+          .description = "How fast and how closely the path is flown.",
+          .choices = {"fast", "careful", "accurate"}};
+}
+
+/// The mode of a text that fits modePort().
+inline common::FlightMode flightModeOf(const std::string& text) {
+  using common::FlightMode;
+  if (text == "careful") return FlightMode::kCareful;
+  return text == "accurate" ? FlightMode::kAccurate : FlightMode::kFast;
 }
 
 }  // namespace swiftlet::behaviors

@@ -2,13 +2,17 @@
 
 #include "behaviors/avoid_obstacle.hpp"
 #include "behaviors/explore.hpp"
+#include "behaviors/flight_conditions.hpp"
+#include "behaviors/follow_path.hpp"
 #include "behaviors/go_home.hpp"
 #include "behaviors/hold.hpp"
 #include "behaviors/land.hpp"
 #include "behaviors/localize.hpp"
+#include "behaviors/log_event.hpp"
 #include "behaviors/move_to_goal.hpp"
 #include "behaviors/operator_command.hpp"
 #include "behaviors/take_off.hpp"
+#include "behaviors/turn_to.hpp"
 
 namespace swiftlet::behaviors {
 
@@ -21,9 +25,20 @@ const tree::Registry& missionRegistry() {
     registry.add<Explore>();
     registry.add<Localize>();
     registry.add<MoveToGoal>();
+    registry.add<TurnTo>();
+    registry.add<FollowPath>();
+    registry.add<Patrol>();
     registry.add<GoHome>();
     registry.add<AvoidObstacle>();
     registry.add<OperatorCommand>();
+    registry.add<LogEvent>();
+    registry.add<IsBatteryLow>();
+    registry.add<IsHomeReachable>();
+    registry.add<IsLost>();
+    registry.add<IsOperatorHolding>();
+    registry.add<IsPersonNear>();
+    registry.add<IsExplored>();
+    registry.add<IsAt>();
     return registry;
   }();
   return kRegistry;

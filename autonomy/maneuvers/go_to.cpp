@@ -1,6 +1,10 @@
 #include "autonomy/maneuvers/go_to.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
+
+#include "common/geometry.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -24,8 +28,14 @@ GoTo::GoTo(const common::GoToIntent& intent, const ManeuverSetup& setup)
   flight_.setGoalYaw(intent.yaw_map_rad);
 }
 
+bool GoTo::looksAsAsked(const common::VehicleState& state) const {
+  constexpr double kNear_rad = 3.0 * common::kRadPerDeg;
+  if (!intent_.yaw_map_rad) return true;
+  return std::abs(common::wrapAngle(state.T_map_body_planar().yaw_rad - *intent_.yaw_map_rad)) < kNear_rad;
+}
+
 Progress GoTo::fly(const ManeuverInput& input) {
-  if (flight_.arrived(input, intent_.goal_map_m, intent_.tolerance_m))
+  if (flight_.arrived(input, intent_.goal_map_m, intent_.tolerance_m) && looksAsAsked(input.state))
     return Progress::done(fmt::format("reached ({:.2f}, {:.2f})", intent_.goal_map_m.x(), intent_.goal_map_m.y()));
   const bool replan = flight_.keep(input);
   if (no_path_) {

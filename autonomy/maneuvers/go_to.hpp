@@ -22,6 +22,7 @@ class GoTo final : public PathManeuver {
     planning::PlanFailure failure;
   };
 
+  bool looksAsAsked(const common::VehicleState& state) const;
   Progress fly(const ManeuverInput& input) override;
   Progress waitFor(const planning::PlanFailure& failure, common::Time now);
 

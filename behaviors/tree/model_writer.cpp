@@ -34,6 +34,7 @@ const char* editorType(PortType type) {
     case PortType::kString:
     case PortType::kScript:
     case PortType::kPoint:
+    case PortType::kPoints:
     case PortType::kRectangle:
       return "std::string";
   }

@@ -1,5 +1,6 @@
 #include "behaviors/tree/port.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <type_traits>
@@ -58,6 +59,8 @@ std::optional<T> converted(const PortManifest& port, const Value& value) {
 
 std::string expectedOf(const PortManifest& port) {
   std::string text;
+  for (const std::string& choice : port.choices) text += (text.empty() ? "" : " or ") + choice;
+  if (!text.empty()) return text;
   switch (port.type) {
     case PortType::kAny:
     case PortType::kString:
@@ -72,6 +75,8 @@ std::string expectedOf(const PortManifest& port) {
       return "true or false";
     case PortType::kPoint:
       return "a point `x;y` or `x;y;z` in metres";
+    case PortType::kPoints:
+      return "points `x;y | x;y;z | ...` in metres";
     case PortType::kRectangle:
       return "a rectangle `x_min;y_min;x_max;y_max` in metres, each minimum below its maximum";
     case PortType::kScript:
@@ -94,6 +99,9 @@ ReadValue readValue(const PortManifest& port, std::string_view text) {
   ReadValue read;
   read.value = parseValue(text, port.type, unitOf(port.name));
   if (!read.value) {
+    read.problem = "`" + std::string(text) + "` is not " + expectedOf(port);
+  } else if (!port.choices.empty() && std::find(port.choices.begin(), port.choices.end(), text) == port.choices.end()) {
+    read.value.reset();
     read.problem = "`" + std::string(text) + "` is not " + expectedOf(port);
   } else if (!inRange(port, *read.value)) {
     read.value.reset();
@@ -142,6 +150,7 @@ template class Input<double>;
 template class Input<std::int64_t>;
 template class Input<bool>;
 template class Input<Point>;
+template class Input<Points>;
 template class Input<Rectangle>;
 template class Input<Duration>;
 

@@ -23,6 +23,8 @@ struct PortManifest {
   std::optional<double> minimum = std::nullopt;             ///< Inclusive; numbers and durations (in the port's unit).
   std::optional<double> maximum = std::nullopt;
   std::string description = {};  ///< One sentence.
+  /// The texts that are allowed; empty: any of the type.
+  std::vector<std::string> choices = {};
   /// Of a script: it is asked before a node starts and must not assign, because a Priority asks without starting it.
   bool asked = false;
 };
@@ -72,8 +74,8 @@ struct NodeSetup {
   const PortBinding& port(std::string_view port_name) const;
 };
 
-/// A port read as T (std::string, double, std::int64_t, bool, Point, Rectangle or Duration). A text entry is parsed
-/// when it is read.
+/// A port read as T (std::string, double, std::int64_t, bool, Point, Points, Rectangle or Duration). A text entry is
+/// parsed when it is read.
 template <typename T>
 class Input {
  public:

@@ -61,6 +61,9 @@ constexpr const char* kHead = R"(<?xml version="1.0" encoding="UTF-8"?>
       <xs:pattern value=" *-?[0-9.]+([eE][+\-]?[0-9]+)? *(; *-?[0-9.]+([eE][+\-]?[0-9]+)? *){1,2}"/>
     </xs:restriction>
   </xs:simpleType>
+  <xs:simpleType name="points">
+    <xs:restriction base="xs:string"><xs:pattern value="[-+0-9.eE ;|]+"/></xs:restriction>
+  </xs:simpleType>
   <xs:simpleType name="rectangle">
     <xs:restriction base="xs:string">
       <xs:pattern value=" *-?[0-9.]+([eE][+\-]?[0-9]+)? *(; *-?[0-9.]+([eE][+\-]?[0-9]+)? *){3}"/>
@@ -88,6 +91,12 @@ std::string numberType(const PortManifest& port, const char* base) {
   return text + "</xs:restriction></xs:simpleType>";
 }
 
+std::string choicesOf(const PortManifest& port) {
+  std::string text = "<xs:simpleType><xs:restriction base=\"xs:string\">";
+  for (const std::string& choice : port.choices) text += "<xs:enumeration value=\"" + escaped(choice) + "\"/>";
+  return text + "</xs:restriction></xs:simpleType>";
+}
+
 /// A union of the values of the port and an entry `{x}`; empty for any text.
 std::string typeOf(const PortManifest& port) {
   const auto withEntry = [](const std::string& members, const std::string& inner) {
@@ -97,11 +106,13 @@ std::string typeOf(const PortManifest& port) {
     case PortType::kAny:
     case PortType::kString:
     case PortType::kScript:
-      return {};
+      return port.choices.empty() ? std::string() : withEntry("entry", choicesOf(port));
     case PortType::kBool:
       return withEntry("boolean entry", {});
     case PortType::kPoint:
       return withEntry("point entry", {});
+    case PortType::kPoints:
+      return withEntry("points entry", {});
     case PortType::kRectangle:
       return withEntry("rectangle entry", {});
     case PortType::kDouble:

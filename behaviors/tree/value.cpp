@@ -87,6 +87,18 @@ std::optional<Value> parsePoint(std::string_view text) {
   return Point{(*numbers)[0], (*numbers)[1], numbers->size() == 3 ? std::optional((*numbers)[2]) : std::nullopt};
 }
 
+std::optional<Value> parsePoints(std::string_view text) {
+  Points path;
+  while (true) {
+    const std::size_t end = text.find('|');
+    const auto point = parsePoint(text.substr(0, end));
+    if (!point) return std::nullopt;
+    path.points.push_back(std::get<Point>(*point));
+    if (end == std::string_view::npos) return path;
+    text.remove_prefix(end + 1);
+  }
+}
+
 std::optional<Value> parseRectangle(std::string_view text) {
   const auto numbers = parseNumbers(text, 4);
   if (!numbers || numbers->size() != 4) return std::nullopt;
@@ -119,6 +131,11 @@ struct ToText {
   std::string operator()(const Point& point) const {
     return numberText(point.x) + ";" + numberText(point.y) + (point.z ? ";" + numberText(*point.z) : std::string());
   }
+  std::string operator()(const Points& path) const {
+    std::string text;
+    for (const Point& point : path.points) text += (text.empty() ? "" : " | ") + (*this)(point);
+    return text;
+  }
   std::string operator()(const Rectangle& r) const {
     return numberText(r.x_min) + ";" + numberText(r.y_min) + ";" + numberText(r.x_max) + ";" + numberText(r.y_max);
   }
@@ -142,6 +159,8 @@ const char* toString(PortType type) {
       return "true or false";
     case PortType::kPoint:
       return "point";
+    case PortType::kPoints:
+      return "points";
     case PortType::kRectangle:
       return "rectangle";
     case PortType::kDuration:
@@ -185,6 +204,8 @@ std::optional<Value> parseValue(std::string_view text, PortType type, std::strin
       return parseBool(text);
     case PortType::kPoint:
       return parsePoint(text);
+    case PortType::kPoints:
+      return parsePoints(text);
     case PortType::kRectangle:
       return parseRectangle(text);
     case PortType::kDuration:

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace swiftlet::tree {
 
@@ -15,6 +16,12 @@ struct Point {
   double y = 0.0;
   std::optional<double> z;
   bool operator==(const Point&) const = default;
+};
+
+/// "x;y | x;y;z | ...", at least one point.
+struct Points {
+  std::vector<Point> points;
+  bool operator==(const Points&) const = default;
 };
 
 /// "x_min;y_min;x_max;y_max", each minimum below its maximum.
@@ -33,9 +40,20 @@ struct Duration {
 };
 
 /// Text from SetBlackboard or a literal stays text until a typed port reads it.
-using Value = std::variant<std::string, double, std::int64_t, bool, Point, Rectangle, Duration>;
+using Value = std::variant<std::string, double, std::int64_t, bool, Point, Points, Rectangle, Duration>;
 
-enum class PortType : unsigned char { kAny, kString, kDouble, kInt, kBool, kPoint, kRectangle, kDuration, kScript };
+enum class PortType : unsigned char {
+  kAny,
+  kString,
+  kDouble,
+  kInt,
+  kBool,
+  kPoint,
+  kPoints,
+  kRectangle,
+  kDuration,
+  kScript
+};
 
 /// "number", "whole number", "point" ...: for messages.
 const char* toString(PortType type);

@@ -118,6 +118,13 @@ Flight& Flight::home(double x_m, double y_m) {
   return change([&](Layers& layers) { layers.vehicle.home_map = {x_m, y_m, 0.0}; });
 }
 
+Flight& Flight::at(double x_m, double y_m) {
+  return change([&](Layers& layers) {
+    layers.vehicle.state.T_odom_body.position_m.head<2>() = Eigen::Vector2d(x_m, y_m);
+    layers.vehicle.state.horizontal_valid = true;
+  });
+}
+
 Flight& Flight::goal(double x_m, double y_m) { return command({0, common::GoalCommand{{x_m, y_m}}}); }
 
 Flight& Flight::homeCommand() { return command({0, common::HomeCommand{}}); }

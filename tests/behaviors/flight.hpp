@@ -32,6 +32,9 @@ class Flight {
   /// The pose in the given map; none if no map was given.
   Flight& localization(std::optional<common::LocalizationState> state);
   Flight& home(double x_m, double y_m);
+  /// The vehicle is there, at its present height.
+  Flight& at(double x_m, double y_m);
+  Flight& change(const std::function<void(test::Layers&)>& change);
   /// A goal, or home, from the operator; the id of the command counts from 1.
   Flight& goal(double x_m, double y_m);
   Flight& homeCommand();
@@ -49,7 +52,6 @@ class Flight {
 
  private:
   using Layers = test::Layers;
-  Flight& change(const std::function<void(Layers&)>& change);
   std::uint64_t commands_ = 0;
 };
 

@@ -311,6 +311,11 @@ TEST(Values, AreReadByTheirType) {
   EXPECT_EQ(parseValue("1e30", PortType::kDuration, "s"), std::nullopt);
   EXPECT_EQ(parseValue("1", PortType::kDuration, ""), std::nullopt);
   EXPECT_EQ(parseValue(" -1.5;2 ; 3e0", PortType::kPoint, ""), Value(Point{-1.5, 2.0, 3.0}));
+  EXPECT_EQ(parseValue("1;2|3;4;5 | -6;7", PortType::kPoints, ""),
+            Value(Points{{{1.0, 2.0, std::nullopt}, {3.0, 4.0, 5.0}, {-6.0, 7.0, std::nullopt}}}));
+  for (const char* wrong : {"", "|", "1;2|", "1;2||3;4", "1;2|3", "1;2,3;4"})
+    EXPECT_EQ(parseValue(wrong, PortType::kPoints, ""), std::nullopt) << wrong;
+  EXPECT_EQ(toString(Value(Points{{{1.0, 2.0, std::nullopt}, {3.0, 4.0, 5.0}}})), "1;2 | 3;4;5");
   EXPECT_EQ(parseValue("-2; 0;3 ;1.5", PortType::kRectangle, ""), Value(Rectangle{-2.0, 0.0, 3.0, 1.5}));
   for (const char* wrong : {"", "1;2;3", "0;0;1;1;1", "0;0;1;", "3;0;-2;1", "0;1;1;1", "0;0;inf;1", "0,0,1,1"})
     EXPECT_EQ(parseValue(wrong, PortType::kRectangle, ""), std::nullopt) << wrong;

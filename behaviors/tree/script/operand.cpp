@@ -35,6 +35,7 @@ const char* kindOf(const Operand& operand) {
   if (operand.index() < std::size(kKinds)) return kKinds[operand.index()];
   const Value& value = *std::get<const Value*>(operand);
   if (std::holds_alternative<Point>(value)) return "a point";
+  if (std::holds_alternative<Points>(value)) return "points";
   return std::holds_alternative<Rectangle>(value) ? "a rectangle" : "a time";
 }
 

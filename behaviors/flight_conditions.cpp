@@ -1,0 +1,169 @@
+#include "behaviors/flight_conditions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "common/world.hpp"
+#include "common/world/energy_layer.hpp"
+#include "common/world/map_layer.hpp"
+#include "common/world/people_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
+
+namespace swiftlet::behaviors {
+
+using tree::NodeKind;
+using tree::PortType;
+
+tree::Status Condition::act(tree::TickContext& context) {
+  const std::string why_not = objection(flightTick(context));
+  return why_not.empty() ? tree::Status::kSuccess : fail(context, why_not);
+}
+
+tree::NodeManifest IsBatteryLow::manifest() {
+  return {.id = "IsBatteryLow",
+          .kind = NodeKind::kCondition,
+          .ports = {{.name = "share",
+                     .type = PortType::kDouble,
+                     .default_value = "0.30",
+                     .minimum = 0.0,
+                     .maximum = 1.0,
+                     .description = "Charge, as a share of the full battery."}},
+          .description = "The battery has at most this charge left."};
+}
+
+std::string IsBatteryLow::objection(const FlightTick& tick) const {
+  const auto share = share_.get();
+  if (!share) return share_.problem();
+  const double left = tick.flight.world->energy->battery_remaining;
+  return left <= *share ? std::string() : fmt::format("{:.0f} % of the battery left", 100.0 * left);
+}
+
+tree::NodeManifest IsHomeReachable::manifest() {
+  return {.id = "IsHomeReachable",
+          .kind = NodeKind::kCondition,
+          .ports = {{.name = "reserve_share",
+                     .type = PortType::kDouble,
+                     .default_value = "0.05",
+                     .minimum = 0.0,
+                     .maximum = 1.0,
+                     .description = "Charge to spare, as a share of the full battery."}},
+          .description = "The charge suffices to fly home and land."};
+}
+
+std::string IsHomeReachable::objection(const FlightTick& tick) const {
+  const auto reserve_share = reserve_share_.get();
+  if (!reserve_share) return reserve_share_.problem();
+  const common::EnergyLayer& energy = *tick.flight.world->energy;
+  if (!energy.home_share) return "the consumption is not known yet";
+  const double left = energy.battery_remaining - energy.land_share - *reserve_share;
+  if (left >= *energy.home_share) return {};
+  return fmt::format("home takes {:.0f} % of the battery, {:.0f} % are left for it", 100.0 * *energy.home_share,
+                     100.0 * std::max(0.0, left));
+}
+
+tree::NodeManifest IsLost::manifest() {
+  return {.id = "IsLost",
+          .kind = NodeKind::kCondition,
+          .ports = {{.name = "drift_m",
+                     .type = PortType::kDouble,
+                     .default_value = "0.50",
+                     .minimum = 0.0,
+                     .maximum = 100.0,
+                     .description = "Standard deviation of the position from which on it counts as lost."}},
+          .description = "The vehicle does not know where it is."};
+}
+
+std::string IsLost::objection(const FlightTick& tick) const {
+  const auto drift_m = drift_m_.get();
+  if (!drift_m) return drift_m_.problem();
+  const common::World& world = *tick.flight.world;
+  if (!world.vehicle->state.horizontal_valid || world.vehicle->drift_m > *drift_m) return {};
+  const auto& localization = world.map->localization;
+  if (localization && localization->state == common::LocalizationState::kLost) return {};
+  return fmt::format("the position is known to {:.2f} m", world.vehicle->drift_m);
+}
+
+tree::NodeManifest IsOperatorHolding::manifest() {
+  return {.id = "IsOperatorHolding",
+          .kind = NodeKind::kCondition,
+          .description = "The operator holds the mission, or an emergency does."};
+}
+
+std::string IsOperatorHolding::objection(const FlightTick& tick) const {
+  return tick.flight.hold ? std::string() : "nobody holds";
+}
+
+tree::NodeManifest IsPersonNear::manifest() {
+  return {.id = "IsPersonNear",
+          .kind = NodeKind::kCondition,
+          .ports = {{.name = "distance_m",
+                     .type = PortType::kDouble,
+                     .default_value = "2.0",
+                     .minimum = 0.0,
+                     .maximum = 30.0,
+                     .description = "From the vehicle's centre to the edge of the person."}},
+          .description = "The laser sees a moving person near the vehicle."};
+}
+
+std::string IsPersonNear::objection(const FlightTick& tick) const {
+  const auto distance_m = distance_m_.get();
+  if (!distance_m) return distance_m_.problem();
+  const common::World& world = *tick.flight.world;
+  const Eigen::Vector2d here_map_m = world.vehicle->state.T_map_body_planar().position_m();
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const common::Person& person : world.people->people)
+    nearest_m = std::min(nearest_m, (person.position_map_m - here_map_m).norm() - person.radius_m);
+  if (nearest_m < *distance_m) return {};
+  return std::isfinite(nearest_m) ? fmt::format("the nearest person is {:.1f} m away", nearest_m) : "nobody is seen";
+}
+
+tree::NodeManifest IsExplored::manifest() {
+  return {.id = "IsExplored",
+          .kind = NodeKind::kCondition,
+          .description = "Explore has left no frontier open: every remaining one has a reason."};
+}
+
+std::string IsExplored::objection(const FlightTick& tick) const {
+  const common::MapLayer& map = *tick.flight.world->map;
+  if (!(map.explored_area_m2 > 0.0)) return "nothing has been explored yet";
+  const auto open = std::count_if(map.frontiers->begin(), map.frontiers->end(), [](const common::Frontier& frontier) {
+    return frontier.reason == common::FrontierReason::kOpen;
+  });
+  return open == 0 ? std::string() : fmt::format("{} {} open", open, open == 1 ? "frontier is" : "frontiers are");
+}
+
+tree::NodeManifest IsAt::manifest() {
+  return {.id = "IsAt",
+          .kind = NodeKind::kCondition,
+          .ports = {{.name = "place",
+                     .type = PortType::kPoint,
+                     .required = true,
+                     .description = "In the map frame, whose origin is the take-off pose; z above the take-off floor."},
+                    {.name = "tolerance_m",
+                     .type = PortType::kDouble,
+                     .default_value = "0.30",
+                     .minimum = 0.01,
+                     .maximum = 100.0,
+                     .description = "Greatest horizontal distance, and greatest difference in height."}},
+          .description = "The vehicle is near a place."};
+}
+
+std::string IsAt::objection(const FlightTick& tick) const {
+  const auto place = place_.get();
+  const auto tolerance_m = tolerance_m_.get();
+  if (!place) return place_.problem();
+  if (!tolerance_m) return tolerance_m_.problem();
+  const common::VehicleState& state = tick.flight.world->vehicle->state;
+  if (!state.horizontal_valid) return "the position is not known";
+  const Eigen::Vector3d here_map_m = state.T_map_body().position_m;
+  const double distance_m = std::hypot(here_map_m.x() - place->x, here_map_m.y() - place->y);
+  if (distance_m > *tolerance_m) return fmt::format("it is {:.2f} m away", distance_m);
+  const double above_m = place->z ? here_map_m.z() - *place->z : 0.0;
+  return std::abs(above_m) <= *tolerance_m ? std::string()
+                                           : fmt::format("it is {:.2f} m higher or lower", std::abs(above_m));
+}
+
+}  // namespace swiftlet::behaviors

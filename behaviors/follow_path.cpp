@@ -1,0 +1,191 @@
+#include "behaviors/follow_path.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "behaviors/ports.hpp"
+#include "common/world.hpp"
+#include "common/world/vehicle_layer.hpp"
+
+namespace swiftlet::behaviors {
+
+using tree::PortType;
+using tree::Status;
+
+namespace {
+
+tree::PortManifest pointsPort() {
+  return {.name = "points",
+          .type = PortType::kPoints,
+          .required = true,
+          .description =
+              "In the map frame, whose origin is the take-off pose; z above the take-off floor, or none: the "
+              "present height."};
+}
+
+}  // namespace
+
+PointsLeaf::PointsLeaf(const tree::NodeSetup& setup)
+    : FlightLeaf(setup),
+      points_(setup, "points"),
+      tolerance_m_(setup, "tolerance_m"),
+      clearance_m_(setup, "clearance_m"),
+      mode_(setup, "mode") {}
+
+void PointsLeaf::onStart(tree::TickContext& context) {
+  FlightLeaf::onStart(context);
+  at_ = 0;
+  leg_.reset();
+}
+
+void PointsLeaf::onResume(tree::TickContext& context) {
+  FlightLeaf::onResume(context);
+  leg_.reset();
+}
+
+void PointsLeaf::endLeg() {
+  leg_.reset();
+  renewIntent();
+}
+
+double PointsLeaf::distanceTo_m(const FlightTick& tick, const tree::Point& point) const {
+  const Eigen::Vector2d here_map_m = tick.flight.world->vehicle->state.T_map_body_planar().position_m();
+  return std::hypot(here_map_m.x() - point.x, here_map_m.y() - point.y);
+}
+
+PointsLeaf::Leg PointsLeaf::flyTo(FlightTick& tick, const tree::Point& point) {
+  const auto failed = [this](const std::string& problem) {
+    return Leg{Status::kFailure, fmt::format("point {}: {}", at_ + 1, problem)};
+  };
+  if (!leg_) {
+    const auto tolerance_m = tolerance_m_.get();
+    const auto clearance_m = clearance_m_.get();
+    const auto mode = mode_.get();
+    if (!tolerance_m) return failed(tolerance_m_.problem());
+    if (!clearance_m) return failed(clearance_m_.problem());
+    if (!mode) return failed(mode_.problem());
+    common::GoToIntent leg;
+    leg.goal_map_m = {point.x, point.y};
+    leg.height_m = point.z;
+    leg.tolerance_m = *tolerance_m;
+    leg.clearance_m = *clearance_m;
+    leg.mode = flightModeOf(*mode);
+    const auto verdict = common::judgeGoal(common::goalOf(leg), tick.flight.goal_limits, nullptr);
+    if (!verdict) return failed(verdict.error().text);
+    leg_ = leg;
+  }
+  emitIntent(tick, *leg_);
+  switch (intentState(tick)) {
+    case common::IntentState::kRunning:
+      return {};
+    case common::IntentState::kSucceeded:
+      return {Status::kSuccess, {}};
+    case common::IntentState::kFailed:
+      return failed(tick.flight.status.reason);
+  }
+  return {};
+}
+
+tree::NodeManifest FollowPath::manifest() {
+  return {.id = "FollowPath",
+          .kind = tree::NodeKind::kAction,
+          .ports = {pointsPort(),
+                    tolerancePort(),
+                    clearancePort(),
+                    modePort(),
+                    {.name = "corner_m",
+                     .type = PortType::kDouble,
+                     .default_value = "0.30",
+                     .minimum = 0.01,
+                     .maximum = 5.0,
+                     .description = "A point before the last one is passed when nearer than this."}},
+          .description = "Flies through points to the last one."};
+}
+
+Status FollowPath::act(tree::TickContext& context) {
+  FlightTick& tick = flightTick(context);
+  const auto path = points_.get();
+  const auto corner_m = corner_m_.get();
+  if (!path) return fail(context, points_.problem());
+  if (!corner_m) return fail(context, corner_m_.problem());
+  const std::size_t last = path->points.size() - 1;
+  while (at_ < last && distanceTo_m(tick, path->points[at_]) < *corner_m) {
+    ++at_;
+    endLeg();
+  }
+  at_ = std::min(at_, last);
+  Leg leg = flyTo(tick, path->points[at_]);
+  if (leg.status == Status::kSuccess && at_ < last) {
+    ++at_;
+    endLeg();
+    leg = flyTo(tick, path->points[at_]);
+  }
+  return leg.status == Status::kFailure ? fail(context, leg.problem) : leg.status;
+}
+
+tree::NodeManifest Patrol::manifest() {
+  return {.id = "Patrol",
+          .kind = tree::NodeKind::kAction,
+          .ports = {pointsPort(),
+                    tolerancePort(),
+                    clearancePort(),
+                    modePort(),
+                    {.name = "rounds",
+                     .type = PortType::kInt,
+                     .default_value = "0",
+                     .minimum = 0.0,
+                     .maximum = 9999.0,
+                     .description = "How often all points are visited; 0: until something above it ends it."},
+                    {.name = "pause_s",
+                     .type = PortType::kDuration,
+                     .default_value = "2",
+                     .minimum = 0.0,
+                     .maximum = 3600.0,
+                     .description = "Time at each point."}},
+          .description = "Visits points in turn, again and again."};
+}
+
+void Patrol::onStart(tree::TickContext& context) {
+  PointsLeaf::onStart(context);
+  flown_rounds_ = 0;
+  left_out_ = 0;
+  arrived_.reset();
+}
+
+bool Patrol::next(std::size_t points, std::int64_t rounds) {
+  arrived_.reset();
+  endLeg();
+  if (++at_ < points) return false;
+  at_ = 0;
+  return ++flown_rounds_ == rounds;
+}
+
+Status Patrol::act(tree::TickContext& context) {
+  FlightTick& tick = flightTick(context);
+  const auto path = points_.get();
+  const auto rounds = rounds_.get();
+  const auto pause = pause_s_.get();
+  if (!path) return fail(context, points_.problem());
+  if (!rounds) return fail(context, rounds_.problem());
+  if (!pause) return fail(context, pause_s_.problem());
+  at_ = std::min(at_, path->points.size() - 1);
+  if (!arrived_) {
+    const Leg leg = flyTo(tick, path->points[at_]);
+    if (leg.status == Status::kRunning) return leg.status;
+    if (leg.status == Status::kFailure) {
+      if (++left_out_ == path->points.size()) return fail(context, leg.problem);
+      tick.flight.events.push_back(
+          {tick.flight.now, common::Severity::kWarning, "mission", name() + " leaves out a point", leg.problem});
+      emitHold(tick);
+      return next(path->points.size(), *rounds) ? Status::kSuccess : Status::kRunning;
+    }
+    left_out_ = 0;
+    arrived_ = tick.flight.now;
+  }
+  emitHold(tick);
+  if ((tick.flight.now - *arrived_).nanoseconds() < pause->nanoseconds) return Status::kRunning;
+  return next(path->points.size(), *rounds) ? Status::kSuccess : Status::kRunning;
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,75 @@
+// FollowPath and Patrol: fly from point to point. Each leg is planned like any flight to a goal, so what is in the way
+// is flown around. After an interruption the leg that was being flown is flown again.
+//
+// FollowPath is SUCCESS at the last point; the others are passed within corner_m, without a stop. Patrol visits every
+// point, waits there, and begins anew: SUCCESS after `rounds` rounds, never if `rounds` is 0. It leaves out a point
+// that cannot be reached, with an event, and is FAILURE after a round in which none could be.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "behaviors/flight_leaf.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::behaviors {
+
+/// What both share: the points, one leg after the other.
+class PointsLeaf : public FlightLeaf {
+ public:
+  explicit PointsLeaf(const tree::NodeSetup& setup);
+
+ protected:
+  struct Leg {
+    tree::Status status = tree::Status::kRunning;
+    std::string problem;  ///< Why it is FAILURE: "point 2: no path".
+  };
+  /// Flies to the point: RUNNING, SUCCESS on arrival, FAILURE.
+  Leg flyTo(FlightTick& tick, const tree::Point& point);
+  /// The leg ends; the next one begins at the next tick.
+  void endLeg();
+  double distanceTo_m(const FlightTick& tick, const tree::Point& point) const;
+  void onStart(tree::TickContext& context) override;
+  void onResume(tree::TickContext& context) override;
+
+  tree::Input<tree::Points> points_;
+  std::size_t at_ = 0;  ///< The point that is being flown to.
+
+ private:
+  std::optional<common::GoToIntent> leg_;
+  tree::Input<double> tolerance_m_;
+  tree::Input<double> clearance_m_;
+  tree::Input<std::string> mode_;
+};
+
+class FollowPath final : public PointsLeaf {
+ public:
+  explicit FollowPath(const tree::NodeSetup& setup) : PointsLeaf(setup), corner_m_(setup, "corner_m") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  tree::Status act(tree::TickContext& context) override;
+  tree::Input<double> corner_m_;
+};
+
+class Patrol final : public PointsLeaf {
+ public:
+  explicit Patrol(const tree::NodeSetup& setup)
+      : PointsLeaf(setup), rounds_(setup, "rounds"), pause_s_(setup, "pause_s") {}
+  static tree::NodeManifest manifest();
+
+ private:
+  tree::Status act(tree::TickContext& context) override;
+  void onStart(tree::TickContext& context) override;
+  /// Whether the patrol is over.
+  bool next(std::size_t points, std::int64_t rounds);
+
+  tree::Input<std::int64_t> rounds_;
+  tree::Input<tree::Duration> pause_s_;
+  std::int64_t flown_rounds_ = 0;
+  std::size_t left_out_ = 0;  ///< One after the other.
+  std::optional<common::Time> arrived_;
+};
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,32 @@
+#include "behaviors/turn_to.hpp"
+
+#include "common/geometry.hpp"
+#include "common/world.hpp"
+#include "common/world/vehicle_layer.hpp"
+
+namespace swiftlet::behaviors {
+
+tree::NodeManifest TurnTo::manifest() {
+  return {.id = "TurnTo",
+          .kind = tree::NodeKind::kAction,
+          .ports = {{.name = "yaw_deg",
+                     .type = tree::PortType::kDouble,
+                     .required = true,
+                     .minimum = -360.0,
+                     .maximum = 360.0,
+                     .description = "Heading in the map frame, counter-clockwise; 0 is that of the take-off."}},
+          .description = "Turns on the spot."};
+}
+
+IntentLeaf::IntentOrProblem TurnTo::makeIntent(const FlightTick& tick) {
+  const auto yaw_deg = yaw_deg_.get();
+  if (!yaw_deg) return {std::nullopt, yaw_deg_.problem()};
+  common::GoToIntent intent;
+  intent.goal_map_m = tick.flight.world->vehicle->state.T_map_body_planar().position_m();
+  intent.yaw_map_rad = *yaw_deg * common::kRadPerDeg;
+  intent.tolerance_m = 0.15;  // A gust may push the vehicle while it turns.
+  intent.clearance_m = 0.0;   // It stands here already.
+  return {intent, {}};
+}
+
+}  // namespace swiftlet::behaviors
