@@ -16,8 +16,10 @@ constexpr double kTellingVariance = 0.02;
 void CurrentModel::add(double current_a, double speed_m_s, double dt_s) {
   if (!std::isfinite(current_a) || !std::isfinite(speed_m_s)) return;
   const double keep = std::exp(-std::max(0.0, dt_s) / kMemory_s);
-  // The first sample of a flight comes without a duration.
-  const double weight = weight_ > 0.0 ? 1.0 - keep : 1.0;
+  // The first sample of a flight may come without a duration. It must count for little: it is that of motors that have
+  // only begun to carry the vehicle.
+  constexpr double kFirst = 1e-6;
+  const double weight = weight_ > 0.0 ? 1.0 - keep : std::max(kFirst, 1.0 - keep);
   const auto average = [&](double& sum, double next) { sum = keep * sum + weight * next; };
   average(weight_, 1.0);
   average(speed_, speed_m_s);

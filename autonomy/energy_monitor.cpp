@@ -24,7 +24,7 @@ void EnergyConfig::describe(common::config::Fields& fields) {
   fields("home_speed_m_s", home_speed_m_s, {0.05, 10}, "Speed along paths before one has been flown.");
   fields("home_speed_filter_s", home_speed_filter_s, kPositive, "Time constant of the speed along paths.");
   fields("home_stops_s", home_stops_s, {0, 120},
-         "Time for the turn before the flight home, for setting off and stopping, and for the landing after it.");
+         "Time that the flight home takes beyond its path: mostly the landing.");
 }
 
 EnergyMonitor::EnergyMonitor(const EnergyConfig& config, const common::VehicleConfig& vehicle, double voltage_exponent)

@@ -16,7 +16,7 @@ struct EnergyConfig {
   double power_filter_s = 20.0;
   double home_speed_m_s = 0.5;
   double home_speed_filter_s = 30.0;
-  double home_stops_s = 11.0;
+  double home_stops_s = 4.0;
 
   void describe(common::config::Fields& fields);
 };
