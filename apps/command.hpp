@@ -8,6 +8,7 @@ namespace swiftlet::apps {
 /// Each adds its command to `program`.
 void addFly(Command& program);
 void addCheck(Command& program);
+void addNodes(Command& program);
 void addTrial(Command& program);
 void addMap(Command& program);
 void addMap3d(Command& program);

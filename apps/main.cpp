@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   top.footer("Example: swiftlet fly missions/explore_and_return.xml --world worlds/unb_case1.sdf --seed 7");
   apps::addFly(top);
   apps::addCheck(top);
+  apps::addNodes(top);
   apps::addTrial(top);
   apps::addMap(top);
   apps::addMap3d(top);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <string_view>
 
 #include "behaviors/registry.hpp"
+#include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "common/goal.hpp"
 
@@ -184,7 +186,48 @@ std::vector<common::Problem> check(tree::ParseResult parsed, const MissionLimits
   return toCommon(semanticProblems(*parsed.tree, limits));
 }
 
+/// "3 of the engine: Sequence, Timeout", one line for each owner that has a node in the tree.
+std::vector<std::string> ownersOf(const tree::Tree& tree, const std::vector<tree::Mock>& mocks) {
+  struct Owner {
+    const char* title;
+    int nodes = 0;
+    std::map<std::string, std::string> types = {};  ///< With a remark.
+  };
+  std::array<Owner, 3> owners = {{{"of the engine"}, {"of Swiftlet"}, {"mocks"}}};
+  const tree::Registry engine = tree::Registry::standard();
+  for (const tree::NodeRecord& record : tree.nodes()) {
+    const std::string id = record.manifest == nullptr ? "SubTree" : record.manifest->id;
+    const auto mock = std::find_if(mocks.begin(), mocks.end(), [&](const tree::Mock& known) { return known.id == id; });
+    Owner& owner = owners[mock != mocks.end() ? 2 : record.manifest == nullptr || engine.find(id) != nullptr ? 0 : 1];
+    ++owner.nodes;
+    std::string& remark = owner.types[id];
+    if (mock == mocks.end()) continue;
+    if (!mock->instead_of_port.empty())
+      remark = " (Swiftlet's has no port `" + mock->instead_of_port + "`)";
+    else if (!record.node->children().empty())
+      remark = " (as a Sequence)";
+  }
+  std::vector<std::string> lines;
+  for (const Owner& owner : owners) {
+    if (owner.nodes == 0) continue;
+    std::string line = std::to_string(owner.nodes) + " " + owner.title + ":";
+    for (const auto& [id, remark] : owner.types) line += (line.ends_with(':') ? " " : ", ") + std::string(id) + remark;
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
 }  // namespace
+
+MockedCheck checkMissionWithMocks(const std::string& path, const MissionLimits& limits) {
+  const tree::MockedRegistry mocked = tree::withMocks(path, missionRegistry());
+  const tree::ParseResult parsed = tree::parseFile(path, mocked.registry);
+  if (!parsed.tree) return {toCommon(parsed.problems), {}};
+  if (mocked.mocks.empty())
+    if (const auto problems = semanticProblems(*parsed.tree, limits); !problems.empty())
+      return {toCommon(problems), {}};
+  return {{}, ownersOf(*parsed.tree, mocked.mocks)};
+}
 
 std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems) {
   std::vector<common::Problem> result;

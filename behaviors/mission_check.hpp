@@ -29,6 +29,18 @@ std::optional<double> maxHeightOf_m(const tree::Tree& tree);
 /// flies before the take-off, a clearance the reactive layer forbids, a branch that never gets the vehicle). Empty if
 /// the mission is sound.
 std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits = {});
+
+/// A mission of which some types are mocks (behaviors/tree/mocks.hpp).
+struct MockedCheck {
+  std::vector<common::Problem> problems;
+  /// How many nodes of the tree are whose, and which types: "3 of the engine: Sequence, Timeout"; "1 of Swiftlet:
+  /// Land"; "2 mocks: GoTo, TakeOff (its port `height` is not one of Swiftlet's)". Empty if there are problems.
+  std::vector<std::string> whose;
+};
+/// Types that Swiftlet does not have are mocks. With one in the tree only the XML is judged, because nobody knows how a
+/// mock moves the vehicle. Such a mission cannot be flown.
+MockedCheck checkMissionWithMocks(const std::string& path, const MissionLimits& limits = {});
+
 std::vector<common::Problem> checkMissionText(const std::string& text, const std::string& name,
                                               const MissionLimits& limits = {});
 

@@ -55,5 +55,7 @@ class Registry {
 std::string writeTreeNodesModel(const Registry& registry);
 /// An XML Schema 1.0 of tree files for this registry: elements, ports, types, ranges and numbers of children.
 std::string writeSchema(const Registry& registry);
+/// A Markdown table of every type: kind, sentence, and its ports with bounds and defaults.
+std::string writeNodeTable(const Registry& registry);
 
 }  // namespace swiftlet::tree

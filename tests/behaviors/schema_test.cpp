@@ -33,6 +33,10 @@ void expectFresh(const fs::path& shipped, const std::string& made) {
 
 TEST(Schema, IsUpToDate) { expectFresh(kMissions / "swiftlet.xsd", tree::writeSchema(missionRegistry())); }
 
+TEST(NodeTable, IsUpToDate) {
+  expectFresh(fs::path(SWIFTLET_SOURCE_DIR) / "docs" / "nodes.md", tree::writeNodeTable(missionRegistry()));
+}
+
 TEST(Palette, IsUpToDate) {
   expectFresh(kMissions / "groot2/palette.xml", tree::writeTreeNodesModel(missionRegistry()));
 }

@@ -1,0 +1,39 @@
+// Mocks of node types that a registry does not have, so that trees of other programs can be read and ticked. A mock has
+// the ports that the file gives it, in <TreeNodesModel> or where it is used. What the file tells about neither its
+// ports' directions nor its rule is assumed: every port may read and write its entry, a mock with children is a
+// Sequence.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "behaviors/tree/parse_options.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::tree {
+
+/// The answer of a mock without children at each tick, by its name: RUNNING, SUCCESS, FAILURE or SKIPPED. SKIPPED of a
+/// mock that is RUNNING counts as RUNNING.
+using MockAnswer = std::function<Status(const std::string& name)>;
+
+struct Mock {
+  std::string id;
+  NodeKind kind = NodeKind::kAction;
+  /// The registry has a type of this name, but without this port of the file; empty if it has none of this name.
+  std::string instead_of_port;
+};
+
+struct MockedRegistry {
+  Registry registry;
+  std::vector<Mock> mocks;  ///< By id.
+};
+
+/// `base` and a mock for each type that the file and what it includes use and `base` does not have. Types of `base`
+/// that are not of the engine are mocked too where the file gives them a port that they do not have. Files that cannot
+/// be read add nothing; the parser reports them. A null `answer` is SUCCESS. Kind of a mock: that of its model, of the
+/// explicit form, or by its children: Control with several, Decorator with one, Action with none.
+MockedRegistry withMocks(const std::string& path, const Registry& base, const ParseOptions& options = {},
+                         const MockAnswer& answer = {});
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,61 @@
+// swiftlet check --mock-leaves and swiftlet nodes as users meet them.
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/commands/missions.hpp"
+#include "tests/support/program.hpp"
+
+namespace swiftlet::commands {
+namespace {
+
+using test_support::describe;
+using test_support::ProgramEnd;
+using test_support::runSwiftlet;
+using testing::HasSubstr;
+
+std::string mockedMission(const std::string& leaves) {
+  const std::string path = testing::TempDir() + "mocked_mission.xml";
+  std::ofstream(path) << missionWith(leaves);
+  return path;
+}
+
+TEST(MockLeaves, SaysWhoseTheNodesAre) {
+  const std::string path = mockedMission(
+      "      <TakeOff height=\"2\"/>\n      <GoTo pose=\"5;5\"/>\n      <GoTo pose=\"0;0\"/>\n      <Land/>\n");
+  const ProgramEnd strict = runSwiftlet({"check", path});
+  EXPECT_EQ(strict.exit_code, 2) << describe(strict);
+  const ProgramEnd mocked = runSwiftlet({"check", "--mock-leaves", path});
+  EXPECT_EQ(mocked.exit_code, 0) << describe(mocked);
+  EXPECT_EQ(mocked.out, path + ": 1 of the engine: Sequence\n" + path + ": 1 of Swiftlet: Land\n" + path +
+                            ": 3 mocks: GoTo, TakeOff (Swiftlet's has no port `height`)\n1 mission is sound\n");
+  const ProgramEnd json = runSwiftlet({"check", "--mock-leaves", "--json", path});
+  EXPECT_EQ(nlohmann::json::parse(json.out)["nodes"][path].size(), 3U) << describe(json);
+}
+
+TEST(MockLeaves, JudgesAMissionWithoutMocksAsAlways) {
+  const std::string path = mockedMission("      <Explore/>\n      <TakeOff/>\n");
+  const ProgramEnd end = runSwiftlet({"check", "--mock-leaves", path});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("expected a TakeOff before it"));
+}
+
+TEST(MockLeaves, AreNotFlown) {
+  const ProgramEnd end = runSwiftlet({"fly", mockedMission(kHop), "--mock-leaves"});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("--mock-leaves"));
+}
+
+TEST(Nodes, PrintsExactlyOneForm) {
+  EXPECT_THAT(runSwiftlet({"nodes", "--xml"}).out, HasSubstr("<Action ID=\"TakeOff\">"));
+  EXPECT_THAT(runSwiftlet({"nodes", "--xsd"}).out, HasSubstr("<xs:element name=\"TakeOff\">"));
+  EXPECT_THAT(runSwiftlet({"nodes", "--markdown"}).out, HasSubstr("| `TakeOff` | Action |"));
+  EXPECT_EQ(runSwiftlet({"nodes"}).exit_code, 2);
+  EXPECT_EQ(runSwiftlet({"nodes", "--xml", "--xsd"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace swiftlet::commands
