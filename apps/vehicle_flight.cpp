@@ -161,6 +161,13 @@ void VehicleFlight::finish(double wall_s) {
   record.operator_answers = script_.answers();
   if (hooks_.score) hooks_.score(record, *vehicle_, end);
   end.figures.push_back({"late_scans", static_cast<double>(autonomy_.lateScans())});
+  if (const auto radio = autonomy_.radioCounts()) {
+    const double kB_s = 1e-3 / loop_.now().seconds();
+    end.figures.push_back({"radio_kB_s", kB_s * static_cast<double>(radio->bytes)});
+    end.figures.push_back({"radio_raw_kB_s", kB_s * static_cast<double>(radio->raw_bytes)});
+    end.figures.push_back({"radio_frames", static_cast<double>(radio->sent)});
+    end.figures.push_back({"radio_frames_dropped", static_cast<double>(radio->replaced + radio->late)});
+  }
   keepMemory(end);
   folder_.finish(end);
   if (web_) showEnd();

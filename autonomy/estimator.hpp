@@ -82,6 +82,9 @@ class Estimator {
   /// Maps the frame that waits as soon as the pose at its time is known. To be called after the scans of every tick.
   void mapFrames(common::Time now);
 
+  /// None without a camera whose frames come over a radio.
+  std::optional<mapping3d::RadioCounts> radioCounts() const { return rgbd_ ? rgbd_->radioCounts() : std::nullopt; }
+
   bool ready() const { return filter_.initialized(); }
   /// See MapPipeline::setFlightHeight.
   void setFlightHeight(double height_m) { map_.setFlightHeight(height_m); }

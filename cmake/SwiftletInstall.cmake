@@ -21,7 +21,8 @@ set(SWIFTLET_FOUND_BY
   "sdformat12::sdformat12|sdformat12"
   "yaml-cpp|yaml-cpp"
   "PkgConfig::PCL|pkg-config PCL pcl_common"
-  "PkgConfig::TURBOJPEG|pkg-config TURBOJPEG libturbojpeg")
+  "PkgConfig::TURBOJPEG|pkg-config TURBOJPEG libturbojpeg"
+  "PkgConfig::ZSTD|pkg-config ZSTD libzstd")
 
 # The libraries from outside that `library` links, itself and through others of ours, into `result`.
 function(swiftlet_outside_libraries library result)

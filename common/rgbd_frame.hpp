@@ -25,6 +25,7 @@ struct PinholeCamera {
   double cx_px = 0.0;
   double cy_px = 0.0;
 
+  bool operator==(const PinholeCamera&) const = default;
   int pixels() const { return width_px * height_px; }
   /// The point at pixel (u_px, v_px) whose distance along the view is `depth_m`.
   Eigen::Vector3d point_camera_m(double u_px, double v_px, double depth_m) const {

@@ -84,10 +84,12 @@ class VoxelMap {
 
   VoxelMap snapshot();
 
- private:
+  /// For tables of blocks.
   struct Hash {
     std::size_t operator()(const VoxelIndex& block) const;
   };
+
+ private:
   /// `shared` means that another map may hold the same block, which must then be cloned before writing. Only
   /// snapshot() sets it. It is not derived from use_count(), because other threads change that.
   struct Slot {

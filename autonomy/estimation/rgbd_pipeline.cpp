@@ -48,7 +48,9 @@ RgbdPipeline::RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdC
       T_body_camera_(camera.mount.pose()),
       silence_(Duration::fromSeconds(config.silent_s)),
       jobs_(jobs),
-      mapper_(std::make_shared<mapping3d::Mapper3d>(config.mapper)) {}
+      mapper_(std::make_shared<mapping3d::Mapper3d>(config.mapper)) {
+  if (config.radio.isUsed()) radio_.emplace(config.radio);
+}
 
 void RgbdPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
   const common::Stamps& stamps = frame->stamps;
@@ -67,7 +69,10 @@ void RgbdPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
   }
   ++counts_.frames;
   last_measured_ = stamps.measured;
-  waiting_ = std::move(frame);
+  if (radio_)
+    radio_->offer(std::move(frame));
+  else
+    waiting_ = std::move(frame);
 }
 
 std::optional<Time> RgbdPipeline::next() const {
@@ -158,6 +163,8 @@ void RgbdPipeline::fuse(const std::shared_ptr<const common::KeyPoses>& keys, Tim
 }
 
 void RgbdPipeline::watch(Time now) {
+  if (radio_)
+    while (auto frame = radio_->take(now)) waiting_ = std::move(frame);
   if (silent_ || !last_arrived_ || now - *last_arrived_ < silence_) return;
   silent_ = true;
   say(now, Severity::kWarning, "camera is silent", fmt::format("no frame for {:.1f} s", config_.silent_s));

@@ -65,12 +65,16 @@ class RgbdPipeline {
   std::optional<CameraStep> takeStep() { return std::exchange(step_, std::nullopt); }
   /// The filter no longer has the clone from which the measurements start.
   void forgetClone() { reference_.reset(); }
-  /// Notices that the camera is silent. To be called at every tick.
+  /// Notices that the camera is silent, and takes what has come over the radio. To be called at every tick.
   void watch(common::Time now);
 
   /// The layer with these key scans; null before the first frame. The same object until something changes.
   std::shared_ptr<const common::Map3dLayer> layer(const std::shared_ptr<const common::KeyPoses>& keys);
   const RgbdCounts& counts() const { return counts_; }
+  /// None without a radio.
+  std::optional<mapping3d::RadioCounts> radioCounts() const {
+    return radio_ ? std::optional(radio_->counts()) : std::nullopt;
+  }
   std::vector<common::Event> takeEvents();
 
  private:
@@ -94,6 +98,7 @@ class RgbdPipeline {
   common::JobRunner& jobs_;
   std::shared_ptr<mapping3d::Mapper3d> mapper_;  ///< Belongs to the job while one is outstanding.
 
+  std::optional<mapping3d::RadioLink> radio_;
   std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
   std::optional<common::Time> last_measured_, last_arrived_;
   bool silent_ = false, fault_said_ = false, lost_said_ = false;

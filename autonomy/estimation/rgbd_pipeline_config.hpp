@@ -2,12 +2,14 @@
 #pragma once
 
 #include "common/config_fwd.hpp"
+#include "mapping3d/link/radio_link.hpp"
 #include "mapping3d/model/mapper3d.hpp"
 
 namespace swiftlet::autonomy {
 
 struct RgbdPipelineConfig {
   mapping3d::Mapper3dConfig mapper;
+  mapping3d::RadioLinkConfig radio;
   bool measure = true;
   double latency_s = 0.06;
   double wait_s = 0.05;

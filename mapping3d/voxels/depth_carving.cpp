@@ -192,7 +192,10 @@ bool DepthCarving::anyRayCrosses(VoxelIndex voxel, const Rectangle& pixels, floa
   const Eigen::Array4f least = lanes(least_m.cast<float>(), -1e9F);
   const Eigen::Array4f greatest = lanes((least_m.array() + resolution_m_).matrix().cast<float>(), 1e9F);
   const Eigen::Array4f per_u = lanes(-rotation_camera_map_.row(1).transpose() / fx_px_, 0.0F);
-  for (int v = pixels.v_first; v <= pixels.v_last; ++v) {
+  // From the middle row outwards, as rays through the middle of the voxel cross it most likely.
+  const int rows = pixels.v_last - pixels.v_first + 1, middle = pixels.v_first + rows / 2;
+  for (int row = 0; row < rows; ++row) {
+    const int v = middle + (row % 2 == 0 ? row / 2 : -(row + 1) / 2);
     const Vector3f ray_camera(1.0F, (cx_px_ - static_cast<float>(pixels.u_first)) / fx_px_,
                               (cy_px_ - static_cast<float>(v)) / fy_px_);
     Eigen::Array4f ray = lanes(rotation_camera_map_.transpose() * ray_camera, 1.0F);

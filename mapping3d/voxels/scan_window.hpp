@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,13 @@ class VoxelBits {
     std::uint64_t all = 0;
     for (const std::uint64_t word : words_) all |= word;
     return all != 0;
+  }
+  /// Calls visit(offset) for each bit that is set, in ascending order.
+  template <typename Visit>
+  void forEach(Visit&& visit) const {
+    for (std::size_t i = 0; i < words_.size(); ++i)
+      for (std::uint64_t word = words_[i]; word != 0; word &= word - 1)
+        visit(static_cast<int>(64 * i) + std::countr_zero(word));
   }
 
  private:

@@ -43,6 +43,7 @@ class VoxelMapper {
   common::VoxelMap snapshot() { return map_.snapshot(); }
 
  private:
+  void followCamera(const common::PinholeCamera& camera);
   void addRay(const Eigen::Vector3d& origin_map_m, const Eigen::Vector3d& end_map_m, bool hit);
   void markHit(common::VoxelIndex voxel);
   void apply();
@@ -54,7 +55,9 @@ class VoxelMapper {
   common::VoxelMap map_;
   ScanWindow window_;
   DepthCarving carving_;
-  std::vector<float> free_m_;  ///< Of the present image: the depth up to which each ray is free.
+  common::PinholeCamera camera_;       ///< Of the last image.
+  std::vector<float> range_depths_m_;  ///< Of each of its pixels: the depth at the end of the range.
+  std::vector<float> free_m_;          ///< Of the present image: the depth up to which each ray is free.
 };
 
 }  // namespace swiftlet::mapping3d

@@ -65,6 +65,20 @@ TEST_F(RgbdStory, ANewerFrameReplacesTheOneThatWaits) {
   EXPECT_EQ(pipeline_.counts().mapped, 1u);
 }
 
+TEST_F(RgbdStory, OverARadioAFrameIsMappedWhenItHasComeThrough) {
+  RgbdPipelineConfig config;
+  config.radio.link_kB_s = 2000.0;  // The room has exact depths, which take four bytes a pixel.
+  RgbdPipeline pipeline(config, camera(), *jobs_);
+  pipeline.add(frameAt(1.0));
+  pipeline.watch(Time::fromSeconds(1.001));
+  EXPECT_FALSE(pipeline.next()) << "it is on the way";
+  pipeline.watch(Time::fromSeconds(1.3));
+  ASSERT_TRUE(pipeline.next());
+  EXPECT_EQ(*pipeline.next(), Time::fromSeconds(1.0)) << "its own time";
+  EXPECT_EQ(pipeline.radioCounts()->sent, 1u);
+  EXPECT_FALSE(pipeline_.radioCounts());
+}
+
 TEST_F(RgbdStory, TheLayerMovesWithTheKeyScans) {
   EXPECT_EQ(pipeline_.layer(keys_), nullptr);
   see(1.0);

@@ -1,0 +1,57 @@
+#include "mapping3d/link/radio_link.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/config_fields.hpp"
+#include "mapping3d/link/frame_packet.hpp"
+
+namespace swiftlet::mapping3d {
+
+using common::Duration;
+using common::RgbdFrame;
+using common::Time;
+
+void RadioLinkConfig::describe(common::config::Fields& fields) {
+  fields(
+      "link_kB_s", link_kB_s, {0, 1e6},
+      "Kilobytes a second that the radio between camera and computer carries; 0: no radio, frames come as they are.");
+  fields("jpeg_quality", jpeg_quality, {1, 100}, "Quality of the colours that go over the radio; depths lose nothing.");
+  fields("oldest_s", oldest_s, {0.01, 10}, "Frames that were measured longer ago when they come through are dropped.");
+}
+
+void RadioLink::offer(std::shared_ptr<const RgbdFrame> frame) {
+  ++counts_.offered;
+  counts_.raw_bytes += rawBytes(*frame);
+  if (waiting_) ++counts_.replaced;
+  waiting_ = std::move(frame);
+  if (!on_the_way_ && waiting_->stamps.arrived >= free_from_) send(waiting_->stamps.arrived);
+}
+
+std::shared_ptr<const RgbdFrame> RadioLink::take(Time now) {
+  for (;;) {
+    if (!on_the_way_ && waiting_ && std::max(free_from_, waiting_->stamps.arrived) <= now)
+      send(std::max(free_from_, waiting_->stamps.arrived));
+    if (!on_the_way_ || on_the_way_->arrives > now) return nullptr;
+    std::shared_ptr<const RgbdFrame> frame = std::move(on_the_way_->frame);
+    on_the_way_.reset();
+    if ((frame->stamps.arrived - frame->stamps.measured).seconds() <= config_.oldest_s) {
+      ++counts_.sent;
+      return frame;
+    }
+    ++counts_.late;
+  }
+}
+
+/// What arrives is unpacked from what was sent, so that the losses of the colours are those of a real link.
+void RadioLink::send(Time start) {
+  const FramePacket packet = packed(*std::exchange(waiting_, nullptr), config_.jpeg_quality);
+  counts_.bytes += packet.bytes();
+  free_from_ = start + Duration::fromSeconds(static_cast<double>(packet.bytes()) / (1000.0 * config_.link_kB_s));
+  auto frame = unpacked(packet);
+  if (!frame) return;
+  frame->stamps.arrived = free_from_;
+  on_the_way_ = {std::make_shared<const RgbdFrame>(std::move(*frame)), free_from_};
+}
+
+}  // namespace swiftlet::mapping3d
