@@ -72,7 +72,7 @@ void Autonomy::take(const common::SensorEvent& event) {
   const Time arrived = common::stampsOf(event).arrived;
   if (const auto* imu = std::get_if<common::ImuSample>(&event)) {
     imu_watch_.add(*imu);
-    estimator_.addImu(*imu);
+    if (!imu_watch_.repeats()) estimator_.addImu(*imu);
   } else if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(&event)) {
     take(*scan);
   } else if (const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(&event)) {

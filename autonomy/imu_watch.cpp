@@ -36,13 +36,15 @@ void ImuWatch::add(const ImuSample& sample) {
   last_ = sample;
 }
 
+bool ImuWatch::repeats() const { return last_ && (last_->stamps.measured - changed_).seconds() > config_.repeats_s; }
+
 std::string ImuWatch::fault(Time now) const {
   if (!last_) return {};
   const common::Stamps& newest = last_->stamps;
   if ((now - newest.arrived).seconds() > config_.silent_s)
     return finite_ ? "no inertial samples" : "the inertial samples are not finite";
   if ((now - newest.measured).seconds() > config_.late_s) return "the inertial samples are late";
-  if ((newest.measured - changed_).seconds() > config_.repeats_s) return "the inertial samples repeat";
+  if (repeats()) return "the inertial samples repeat";
   if ((newest.measured - attitude_changed_).seconds() > config_.repeats_s) return "the AHRS gives the same attitude";
   return {};
 }

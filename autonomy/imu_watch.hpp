@@ -27,6 +27,9 @@ class ImuWatch {
   explicit ImuWatch(const ImuWatchConfig& config) : config_(config) {}
 
   void add(const common::ImuSample& sample);
+  /// The newest samples are an old one that a driver repeats: they say nothing of the motion, and must not be
+  /// integrated.
+  bool repeats() const;
   /// What is wrong at `now`, for people; empty if nothing is, and before the first sample.
   std::string fault(common::Time now) const;
 
