@@ -24,7 +24,7 @@ using common::Time;
 /// One flight from the ground to the ground in lockstep, with an operator's command, flown once for all tests.
 struct Recorded {
   Recorded() {
-    const auto vehicle = makeVehicle(11);
+    const auto vehicle = makeVehicle(12);
     vehicle->setCameraConsumer(true);
     Autonomy autonomy = makeAutonomy(common::makeLockstepJobs(1));
     common::LosslessQueue<common::OperatorCommand> commands;
@@ -90,32 +90,39 @@ TEST(Recording, RepeatsTheFlight) {
   EXPECT_TRUE(again.finished());
 }
 
+/// Where the deliveries of a kind are.
+std::vector<std::size_t> deliveriesOf(const Recording& recording, const std::string& kind) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < recording.size(); ++i)
+    if (const auto* one = std::get_if<JobDelivery>(&recording[i]); one && one->kind == kind) found.push_back(i);
+  return found;
+}
+
 /// The same inputs, but one delivery comes a second later.
-Recording withOneDeliveryShifted(Recording recording, const std::string& kind) {
-  const auto delivery = std::find_if(recording.begin(), recording.end(), [&](const Input& input) {
-    const auto* one = std::get_if<JobDelivery>(&input);
-    return one && one->kind == kind && one->delivered > Time::fromSeconds(6);
-  });
-  EXPECT_NE(delivery, recording.end());
-  JobDelivery shifted = std::get<JobDelivery>(*delivery);
+Recording withOneDeliveryShifted(Recording recording, std::size_t at) {
+  JobDelivery shifted = std::get<JobDelivery>(recording[at]);
   shifted.delivered += Duration::fromSeconds(1);
-  recording.erase(delivery);
+  recording.erase(recording.begin() + static_cast<std::ptrdiff_t>(at));
   const auto later = std::find_if(recording.begin(), recording.end(),
                                   [&](const Input& input) { return timeOf(input) >= shifted.delivered; });
   recording.insert(later, shifted);
   return recording;
 }
 
+bool isDetected(std::size_t shifted_delivery) {
+  Autonomy again = makeAutonomy(common::makeLockstepJobs(0));
+  Witness witness;
+  const auto outcome = replay(withOneDeliveryShifted(flown().recording, shifted_delivery), again, {&witness});
+  if (outcome) return !difference(flown().witness, witness).empty();
+  EXPECT_THAT(outcome.error(), testing::HasSubstr("not outstanding"));
+  return true;
+}
+
+/// A job of the SLAM whose result changes nothing may come at any time, so the first one that matters is sought.
 TEST(Recording, AShiftedDeliveryIsDetected) {
   for (const std::string kind : {"planning", "slam"}) {
-    Autonomy again = makeAutonomy(common::makeLockstepJobs(0));
-    Witness witness;
-    const auto outcome = replay(withOneDeliveryShifted(flown().recording, kind), again, {&witness});
-    if (!outcome) {
-      EXPECT_THAT(outcome.error(), testing::HasSubstr("not outstanding")) << kind;
-    } else {
-      EXPECT_NE(difference(flown().witness, witness), "") << kind;
-    }
+    const std::vector<std::size_t> deliveries = deliveriesOf(flown().recording, kind);
+    EXPECT_TRUE(std::any_of(deliveries.begin(), deliveries.end(), isDetected)) << kind;
   }
 }
 
