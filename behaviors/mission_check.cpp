@@ -42,10 +42,11 @@ class Walk {
     const tree::NodeManifest* manifest = manifestOf(node);
     const std::string_view id = manifest == nullptr ? std::string_view("SubTree") : std::string_view(manifest->id);
     if (node.children().empty()) return walkLeaf(node, id, entry);
-    if (id == "Sequence" || id == "ReactiveSequence") return walkChain(node, entry, true);
-    if (id == "Fallback" || id == "ReactiveFallback") return walkChain(node, entry, false);
+    // AsyncSequence, ReactiveSequence and SequenceWithMemory differ only in when they tick their children again.
+    if (id.find("Sequence") != std::string_view::npos) return walkChain(node, entry, true);
+    if (id.find("Fallback") != std::string_view::npos) return walkChain(node, entry, false);
     if (id == "Priority") return walkPriority(node, entry);
-    if (id == "Parallel") return walkParallel(node, entry);
+    if (node.children().size() > 1) return walkAnyOrder(node, entry);
     return walkDecorator(node, id, entry);
   }
 
@@ -117,7 +118,8 @@ class Walk {
     return exits;
   }
 
-  Exits walkParallel(const tree::Node& node, Whereabouts entry) {
+  /// Parallel, IfThenElse, Switch ...: a child may begin where the node began, or where any child before it has ended.
+  Exits walkAnyOrder(const tree::Node& node, Whereabouts entry) {
     Exits all;
     Whereabouts anywhere = entry;
     for (const auto& child : node.children()) {

@@ -103,6 +103,18 @@ TEST(LogEvent, WritesItsText) {
   EXPECT_THAT(flight.events(), ::testing::Contains("halfway"));
 }
 
+TEST(Check, LooksIntoEveryChildOfEveryNode) {
+  for (const std::string node :
+       {"Sequence", "AsyncSequence", "SequenceWithMemory", "IfThenElse", "WhileDoElse", "TryCatch", "ParallelAll"}) {
+    const std::string early = "<" + node + "><AlwaysSuccess/><MoveToGoal goal=\"1;0\"/></" + node + ">";
+    const std::string text = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence>" + early +
+                             "<TakeOff/><Land/></Sequence></BehaviorTree></root>";
+    std::string all;
+    for (const common::Problem& problem : checkMissionText(text, "m.xml", {})) all += toString(problem) + "\n";
+    EXPECT_THAT(all, HasSubstr("MoveToGoal: the vehicle stands on the floor here")) << node;
+  }
+}
+
 TEST(Check, ChoicesAndPointsAreCheckedBeforeTheFlight) {
   const auto problems = [](const std::string& leaf) {
     const std::string text = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence><TakeOff/>" + leaf +
