@@ -2,8 +2,9 @@
 //
 // Read: <root main_tree_to_execute>, <BehaviorTree ID>, <include path>, <SubTree ID> with ports and _autoremap,
 // <TreeNodesModel> (checked; defaults of SubTree ports are used), nodes in compact form (<TakeOff height_m="1"/>) and
-// explicit form (<Action ID="TakeOff" height_m="1"/>), the attributes name, _description, _uid and _fullpath.
-// Refused with a message that says so: format 3, scripted conditions (_skipIf ...), DOCTYPE, ros_pkg.
+// explicit form (<Action ID="TakeOff" height_m="1"/>), the attributes name, _description, _uid and _fullpath, scripted
+// conditions (_skipIf ...).
+// Refused with a message that says so: format 3, DOCTYPE, ros_pkg.
 //
 // All problems of all files are collected, each with line and column; a tree is returned only if there is none.
 #pragma once
