@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "behaviors/ports.hpp"
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
 #include "common/world/map_layer.hpp"
@@ -138,10 +139,7 @@ std::string IsExplored::objection(const FlightTick& tick) const {
 tree::NodeManifest IsAt::manifest() {
   return {.id = "IsAt",
           .kind = NodeKind::kCondition,
-          .ports = {{.name = "place",
-                     .type = PortType::kPoint,
-                     .required = true,
-                     .description = "In the map frame, whose origin is the take-off pose; z above the take-off floor."},
+          .ports = {placePort("place"),
                     {.name = "tolerance_m",
                      .type = PortType::kDouble,
                      .default_value = "0.30",

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "behaviors/context.hpp"
 #include "behaviors/tree/node.hpp"
@@ -19,6 +21,11 @@ class FlightTick final : public tree::TickContext {
 
   std::uint64_t newIntentId() { return ++last_intent_id_; }
   void emit(std::uint64_t id, common::IntentKind kind) { flight.intent = common::Intent{id, std::move(kind)}; }
+
+  /// An event of the mission, now.
+  void say(common::Severity severity, std::string text, std::string reason) {
+    flight.events.push_back({flight.now, severity, "mission", std::move(text), std::move(reason)});
+  }
 
   Context& flight;
   /// The newest accepted goal or home command that no OperatorCommand has taken yet.

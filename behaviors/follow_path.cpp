@@ -1,5 +1,6 @@
 #include "behaviors/follow_path.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -24,14 +25,14 @@ tree::PortManifest pointsPort() {
               "present height."};
 }
 
+double distanceTo_m(const FlightTick& tick, const tree::Point& point) {
+  const Eigen::Vector2d here_map_m = tick.flight.world->vehicle->state.T_map_body_planar().position_m();
+  return std::hypot(here_map_m.x() - point.x, here_map_m.y() - point.y);
+}
+
 }  // namespace
 
-PointsLeaf::PointsLeaf(const tree::NodeSetup& setup)
-    : FlightLeaf(setup),
-      points_(setup, "points"),
-      tolerance_m_(setup, "tolerance_m"),
-      clearance_m_(setup, "clearance_m"),
-      mode_(setup, "mode") {}
+PointsLeaf::PointsLeaf(const tree::NodeSetup& setup) : FlightLeaf(setup), points_(setup, "points"), go_to_(setup) {}
 
 void PointsLeaf::onStart(tree::TickContext& context) {
   FlightLeaf::onStart(context);
@@ -49,31 +50,16 @@ void PointsLeaf::endLeg() {
   renewIntent();
 }
 
-double PointsLeaf::distanceTo_m(const FlightTick& tick, const tree::Point& point) const {
-  const Eigen::Vector2d here_map_m = tick.flight.world->vehicle->state.T_map_body_planar().position_m();
-  return std::hypot(here_map_m.x() - point.x, here_map_m.y() - point.y);
-}
-
 PointsLeaf::Leg PointsLeaf::flyTo(FlightTick& tick, const tree::Point& point) {
   const auto failed = [this](const std::string& problem) {
     return Leg{Status::kFailure, fmt::format("point {}: {}", at_ + 1, problem)};
   };
   if (!leg_) {
-    const auto tolerance_m = tolerance_m_.get();
-    const auto clearance_m = clearance_m_.get();
-    const auto mode = mode_.get();
-    if (!tolerance_m) return failed(tolerance_m_.problem());
-    if (!clearance_m) return failed(clearance_m_.problem());
-    if (!mode) return failed(mode_.problem());
-    common::GoToIntent leg;
-    leg.goal_map_m = {point.x, point.y};
-    leg.height_m = point.z;
-    leg.tolerance_m = *tolerance_m;
-    leg.clearance_m = *clearance_m;
-    leg.mode = flightModeOf(*mode);
-    const auto verdict = common::judgeGoal(common::goalOf(leg), tick.flight.goal_limits, nullptr);
+    const auto leg = go_to_.intentTo(point);
+    if (!leg) return failed(leg.error());
+    const auto verdict = common::judgeGoal(common::goalOf(*leg), tick.flight.goal_limits, nullptr);
     if (!verdict) return failed(verdict.error().text);
-    leg_ = leg;
+    leg_ = *leg;
   }
   emitIntent(tick, *leg_);
   switch (intentState(tick)) {
@@ -175,8 +161,7 @@ Status Patrol::act(tree::TickContext& context) {
     if (leg.status == Status::kRunning) return leg.status;
     if (leg.status == Status::kFailure) {
       if (++left_out_ == path->points.size()) return fail(context, leg.problem);
-      tick.flight.events.push_back(
-          {tick.flight.now, common::Severity::kWarning, "mission", name() + " leaves out a point", leg.problem});
+      tick.say(common::Severity::kWarning, name() + " leaves out a point", leg.problem);
       emitHold(tick);
       return next(path->points.size(), *rounds) ? Status::kSuccess : Status::kRunning;
     }

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "behaviors/flight_leaf.hpp"
+#include "behaviors/go_to_ports.hpp"
 #include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::behaviors {
@@ -29,7 +30,6 @@ class PointsLeaf : public FlightLeaf {
   Leg flyTo(FlightTick& tick, const tree::Point& point);
   /// The leg ends; the next one begins at the next tick.
   void endLeg();
-  double distanceTo_m(const FlightTick& tick, const tree::Point& point) const;
   void onStart(tree::TickContext& context) override;
   void onResume(tree::TickContext& context) override;
 
@@ -38,9 +38,7 @@ class PointsLeaf : public FlightLeaf {
 
  private:
   std::optional<common::GoToIntent> leg_;
-  tree::Input<double> tolerance_m_;
-  tree::Input<double> clearance_m_;
-  tree::Input<std::string> mode_;
+  GoToPorts go_to_;
 };
 
 class FollowPath final : public PointsLeaf {

@@ -1,19 +1,16 @@
 #include "behaviors/log_event.hpp"
 
+#include "behaviors/ports.hpp"
+
 namespace swiftlet::behaviors {
 
-using common::Severity;
 using tree::PortType;
 
 tree::NodeManifest LogEvent::manifest() {
   return {.id = "LogEvent",
           .kind = tree::NodeKind::kAction,
           .ports = {{.name = "text", .type = PortType::kString, .required = true, .description = "What happened."},
-                    {.name = "severity",
-                     .type = PortType::kString,
-                     .default_value = "info",
-                     .description = "How it is shown.",
-                     .choices = {"info", "warning", "error"}}},
+                    choicePort("severity", common::kSeverities, "How it is shown.")},
           .description = "Writes an event."};
 }
 
@@ -22,11 +19,7 @@ tree::Status LogEvent::act(tree::TickContext& context) {
   const auto severity = severity_.get();
   if (!text) return fail(context, text_.problem());
   if (!severity) return fail(context, severity_.problem());
-  FlightTick& tick = flightTick(context);
-  const Severity shown = *severity == "error"     ? Severity::kError
-                         : *severity == "warning" ? Severity::kWarning
-                                                  : Severity::kInfo;
-  tick.flight.events.push_back({tick.flight.now, shown, "mission", *text, {}});
+  flightTick(context).say(chosenOf(common::kSeverities, *severity), *text, {});
   return tree::Status::kSuccess;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "behaviors/flight_leaf.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
@@ -73,16 +74,14 @@ class Walk {
     }
     if (id == "AlwaysSuccess" || id == "SetBlackboard" || id == "LogEvent") return {entry, {}};
     if (id == "AlwaysFailure") return {{}, entry};
-    const bool lands = id == "Land";
-    constexpr std::array kFlying{"Explore",    "Localize", "MoveToGoal", "TurnTo",
-                                 "FollowPath", "Patrol",   "GoHome",     "OperatorCommand"};
-    const bool flies = lands || std::find(kFlying.begin(), kFlying.end(), id) != kFlying.end();
+    // Leaves that may be SKIPPED ask for the vehicle only in flight.
+    const bool flies = dynamic_cast<const FlightLeaf*>(&node) != nullptr && !maySkip(node);
     if (flies && !entry.air)
       problems_.push_back({tree_.locationOf(node.id()),
                            std::string(id),
                            "the vehicle stands on the floor here, expected a TakeOff before it",
                            {}});
-    if (lands) return {{true, false}, entry};
+    if (id == "Land") return {{true, false}, entry};
     if (id == "OperatorCommand") return {{}, entry};
     return {entry, entry};
   }

@@ -33,8 +33,8 @@ std::vector<common::Problem> checkMission(const std::string& path, const Mission
 /// A mission of which some types are mocks (behaviors/tree/mocks.hpp).
 struct MockedCheck {
   std::vector<common::Problem> problems;
-  /// How many nodes of the tree are whose, and which types: "3 of the engine: Sequence, Timeout"; "1 of Swiftlet:
-  /// Land"; "2 mocks: GoTo, TakeOff (its port `height` is not one of Swiftlet's)". Empty if there are problems.
+  /// Whose the nodes of the tree are, a line an owner: "3 of the engine: Sequence, Timeout", "1 of Swiftlet: Land" or
+  /// "2 mocks: GoTo, TakeOff (Swiftlet's has no port `height`)". Empty if there are problems.
   std::vector<std::string> whose;
 };
 /// Types that Swiftlet does not have are mocks. With one in the tree only the XML is judged, because nobody knows how a

@@ -9,10 +9,7 @@ tree::NodeManifest MoveToGoal::manifest() {
   return {
       .id = "MoveToGoal",
       .kind = tree::NodeKind::kAction,
-      .ports = {{.name = "goal",
-                 .type = tree::PortType::kPoint,
-                 .required = true,
-                 .description = "In the map frame, whose origin is the take-off pose; z above the take-off floor."},
+      .ports = {placePort("goal"),
                 tolerancePort(),
                 clearancePort(),
                 {.name = "height_m",
@@ -30,36 +27,25 @@ tree::NodeManifest MoveToGoal::manifest() {
 MoveToGoal::MoveToGoal(const tree::NodeSetup& setup)
     : IntentLeaf(setup),
       goal_(setup, "goal"),
-      tolerance_m_(setup, "tolerance_m"),
-      clearance_m_(setup, "clearance_m"),
+      go_to_(setup),
       height_m_(setup, "height_m"),
-      yaw_deg_(setup, "yaw_deg"),
-      mode_(setup, "mode") {}
+      yaw_deg_(setup, "yaw_deg") {}
 
 IntentLeaf::IntentOrProblem MoveToGoal::makeIntent(const FlightTick& tick) {
   const auto goal = goal_.get();
-  const auto tolerance_m = tolerance_m_.get();
-  const auto clearance_m = clearance_m_.get();
   if (!goal) return {std::nullopt, goal_.problem()};
-  if (!tolerance_m) return {std::nullopt, tolerance_m_.problem()};
+  auto intent = go_to_.intentTo(*goal);
+  if (!intent) return {std::nullopt, intent.error()};
   const auto height_m = height_m_.get();
   const auto yaw_deg = yaw_deg_.get();
-  const auto mode = mode_.get();
-  if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
   if (height_m_.given() && !height_m) return {std::nullopt, height_m_.problem()};
   if (yaw_deg_.given() && !yaw_deg) return {std::nullopt, yaw_deg_.problem()};
-  if (!mode) return {std::nullopt, mode_.problem()};
-  common::GoToIntent intent;
-  intent.goal_map_m = {goal->x, goal->y};
-  intent.height_m = goal->z ? goal->z : height_m;
-  if (yaw_deg) intent.yaw_map_rad = *yaw_deg * common::kRadPerDeg;
-  intent.mode = flightModeOf(*mode);
-  intent.tolerance_m = *tolerance_m;
-  intent.clearance_m = *clearance_m;
+  if (!intent->height_m) intent->height_m = height_m;
+  if (yaw_deg) intent->yaw_map_rad = *yaw_deg * common::kRadPerDeg;
   // The goal is not judged by the map here, because the map may be about to grow: the executor does that, and waits.
-  const auto verdict = common::judgeGoal(common::goalOf(intent), tick.flight.goal_limits, nullptr);
+  const auto verdict = common::judgeGoal(common::goalOf(*intent), tick.flight.goal_limits, nullptr);
   if (!verdict) return {std::nullopt, verdict.error().text};
-  return {intent, {}};
+  return {*intent, {}};
 }
 
 }  // namespace swiftlet::behaviors

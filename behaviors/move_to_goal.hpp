@@ -3,6 +3,7 @@
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"
+#include "behaviors/go_to_ports.hpp"
 #include "behaviors/tree/registry.hpp"
 
 namespace swiftlet::behaviors {
@@ -15,11 +16,9 @@ class MoveToGoal final : public IntentLeaf {
  private:
   IntentOrProblem makeIntent(const FlightTick& tick) override;
   tree::Input<tree::Point> goal_;
-  tree::Input<double> tolerance_m_;
-  tree::Input<double> clearance_m_;
+  GoToPorts go_to_;
   tree::Input<double> height_m_;
   tree::Input<double> yaw_deg_;
-  tree::Input<std::string> mode_;
 };
 
 }  // namespace swiftlet::behaviors

@@ -106,9 +106,7 @@ bool Narrator::isReportedBySwitches(const Node& node) const {
 }
 
 void Narrator::say(common::Severity severity, std::string text, std::string reason) {
-  if (tick_ == nullptr) return;
-  Context& context = tick_->flight;
-  context.events.push_back({context.now, severity, "mission", std::move(text), std::move(reason)});
+  if (tick_ != nullptr) tick_->say(severity, std::move(text), std::move(reason));
 }
 
 }  // namespace swiftlet::behaviors

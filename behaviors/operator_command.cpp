@@ -40,7 +40,7 @@ tree::Status OperatorCommand::act(tree::TickContext& context) {
 void OperatorCommand::take(FlightTick& tick) {
   if (!tick.pending_command) return;
   const common::OperatorCommand next = *std::exchange(tick.pending_command, std::nullopt);
-  if (command_) say(tick, common::Severity::kInfo, toString(*command_) + " given up", "replaced by " + toString(next));
+  if (command_) tick.say(common::Severity::kInfo, toString(*command_) + " given up", "replaced by " + toString(next));
   command_ = next;
   const auto* point = std::get_if<common::GoalCommand>(&next.kind);
   goal_ = goalTo(point != nullptr ? point->goal_map_m : tick.flight.world->vehicle->home_map.position_m());
@@ -54,10 +54,10 @@ void OperatorCommand::finish(FlightTick& tick) {
     case common::IntentState::kRunning:
       return;
     case common::IntentState::kSucceeded:
-      say(tick, common::Severity::kInfo, toString(*command_) + " reached", {});
+      tick.say(common::Severity::kInfo, toString(*command_) + " reached", {});
       break;
     case common::IntentState::kFailed:
-      say(tick, common::Severity::kWarning, toString(*command_) + " not reached", tick.flight.status.reason);
+      tick.say(common::Severity::kWarning, toString(*command_) + " not reached", tick.flight.status.reason);
       break;
   }
   command_.reset();
@@ -70,10 +70,6 @@ common::GoToIntent OperatorCommand::goalTo(const Eigen::Vector2d& place_map_m) c
   goal.tolerance_m = tolerance_m_.get().value_or(goal.tolerance_m);
   goal.clearance_m = clearance_m_.get().value_or(goal.clearance_m);
   return goal;
-}
-
-void OperatorCommand::say(FlightTick& tick, common::Severity severity, std::string text, std::string reason) const {
-  tick.flight.events.push_back({tick.flight.now, severity, "mission", std::move(text), std::move(reason)});
 }
 
 }  // namespace swiftlet::behaviors

@@ -31,7 +31,6 @@ class OperatorCommand final : public FlightLeaf {
   void onStart(tree::TickContext& context) override;
   void take(FlightTick& tick);
   void finish(FlightTick& tick);
-  void say(FlightTick& tick, common::Severity severity, std::string text, std::string reason) const;
 
   tree::Input<double> tolerance_m_;
   tree::Input<double> clearance_m_;

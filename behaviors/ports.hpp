@@ -1,6 +1,12 @@
 // Ports that several behaviours share, so that they mean the same in all of them.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+
 #include "behaviors/tree/port.hpp"
 #include "common/flight_mode.hpp"
 
@@ -24,19 +30,32 @@ inline tree::PortManifest tolerancePort() {
           .description = "Arrived when nearer to the goal than this."};
 }
 
-inline tree::PortManifest modePort() {
-  return {.name = "mode",
-          .type = tree::PortType::kString,
-          .default_value = "fast",
-          .description = "How fast and how closely the path is flown.",
-          .choices = {"fast", "careful", "accurate"}};
+/// A place that must be given.
+inline tree::PortManifest placePort(std::string name) {
+  return {.name = std::move(name),
+          .type = tree::PortType::kPoint,
+          .required = true,
+          .description = "In the map frame, whose origin is the take-off pose; z above the take-off floor."};
 }
 
-/// The mode of a text that fits modePort().
-inline common::FlightMode flightModeOf(const std::string& text) {
-  using common::FlightMode;
-  if (text == "careful") return FlightMode::kCareful;
-  return text == "accurate" ? FlightMode::kAccurate : FlightMode::kFast;
+/// A port that takes the names of `values`; chosenOf() reads it.
+template <typename Enum, std::size_t N>
+tree::PortManifest choicePort(std::string name, const std::array<Enum, N>& values, std::string description) {
+  tree::PortManifest port{.name = std::move(name),
+                          .type = tree::PortType::kString,
+                          .default_value = toString(values.front()),
+                          .description = std::move(description)};
+  for (const Enum value : values) port.choices.emplace_back(toString(value));
+  return port;
+}
+/// The value of a text of that port, which is one of the names.
+template <typename Enum, std::size_t N>
+Enum chosenOf(const std::array<Enum, N>& values, const std::string& text) {
+  return *std::find_if(values.begin(), values.end() - 1, [&](Enum value) { return text == toString(value); });
+}
+
+inline tree::PortManifest modePort() {
+  return choicePort("mode", common::kFlightModes, "How fast and how closely the path is flown.");
 }
 
 }  // namespace swiftlet::behaviors

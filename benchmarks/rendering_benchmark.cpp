@@ -5,6 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "common/jpeg_encoder.hpp"
 #include "rendering/encode.hpp"
 #include "rendering/map3d_renderer.hpp"
 #include "rendering/map_renderer.hpp"
@@ -56,7 +57,7 @@ BENCHMARK(streamed)->Unit(benchmark::kMillisecond);
 
 void jpeg(benchmark::State& state) {
   const common::Image image = renderMap(pictureOf(wholeMap().world(), 0.55), {});
-  JpegEncoder encoder;
+  common::JpegEncoder encoder;
   std::size_t bytes = 0;
   for (auto _ : state) bytes = encoder.encode(image, 85).size();
   state.counters["bytes"] = static_cast<double>(bytes);

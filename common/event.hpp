@@ -2,6 +2,7 @@
 // terminal and to events.jsonl.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "common/time.hpp"
@@ -9,6 +10,7 @@
 namespace swiftlet::common {
 
 enum class Severity { kInfo, kWarning, kError };
+inline constexpr std::array kSeverities{Severity::kInfo, Severity::kWarning, Severity::kError};
 const char* toString(Severity severity);
 
 struct Event {

@@ -2,9 +2,12 @@
 // mode.
 #pragma once
 
+#include <array>
+
 namespace swiftlet::common {
 
 enum class FlightMode { kFast, kCareful, kAccurate };
+inline constexpr std::array kFlightModes{FlightMode::kFast, FlightMode::kCareful, FlightMode::kAccurate};
 const char* toString(FlightMode mode);
 
 }  // namespace swiftlet::common

@@ -61,6 +61,13 @@ class VoxelMap {
   static VoxelIndex firstOf(VoxelIndex block) {
     return {block.x * VoxelBlock::kSide, block.y * VoxelBlock::kSide, block.z * VoxelBlock::kSide};
   }
+  /// The voxel of a block whose VoxelBlock::offsetOf is `offset`.
+  static VoxelIndex voxelOf(VoxelIndex block, int offset) {
+    constexpr int kMask = VoxelBlock::kSide - 1;
+    const VoxelIndex first = firstOf(block);
+    return {first.x + (offset & kMask), first.y + (offset >> VoxelBlock::kSideBits & kMask),
+            first.z + (offset >> 2 * VoxelBlock::kSideBits)};
+  }
 
   /// The log odds in steps of kLogOddsStep; VoxelBlock::kUnknown where nothing is known.
   std::int8_t evidence(VoxelIndex voxel) const;

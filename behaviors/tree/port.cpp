@@ -97,11 +97,10 @@ std::string expectedOf(const PortManifest& port) {
 
 ReadValue readValue(const PortManifest& port, std::string_view text) {
   ReadValue read;
-  read.value = parseValue(text, port.type, unitOf(port.name));
+  const auto& choices = port.choices;
+  if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end())
+    read.value = parseValue(text, port.type, unitOf(port.name));
   if (!read.value) {
-    read.problem = "`" + std::string(text) + "` is not " + expectedOf(port);
-  } else if (!port.choices.empty() && std::find(port.choices.begin(), port.choices.end(), text) == port.choices.end()) {
-    read.value.reset();
     read.problem = "`" + std::string(text) + "` is not " + expectedOf(port);
   } else if (!inRange(port, *read.value)) {
     read.value.reset();

@@ -13,8 +13,8 @@
 
 namespace swiftlet::mapping3d {
 
-/// Images whose depths are whole millimetres, as those of structured light are, take two bytes a pixel before packing,
-/// others the four of their numbers. Every bit is kept in either case, those of NaN too. A pure function.
+/// Before zstd, a pixel takes two bytes if all depths are whole millimetres, as those of structured light are; else
+/// four. Every bit is kept in either case, those of NaN too. A pure function.
 std::vector<std::uint8_t> encodeDepth(const common::DepthImage& depth);
 
 /// An image of that size. Bytes may be anything; what is not such an image is an error with its reason, for people.

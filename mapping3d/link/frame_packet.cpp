@@ -1,42 +1,19 @@
 #include "mapping3d/link/frame_packet.hpp"
 
-#include <memory>
 #include <string_view>
 #include <utility>
 
-#include <turbojpeg.h>
-
 #include "common/check.hpp"
 #include "common/image_decoder.hpp"
+#include "common/jpeg_encoder.hpp"
 #include "mapping3d/link/depth_codec.hpp"
 
 namespace swiftlet::mapping3d {
-namespace {
-
-struct DestroyEncoder {
-  void operator()(void* handle) const { tjDestroy(handle); }
-};
-
-/// Colours at half the resolution, as cameras give them too.
-std::vector<std::uint8_t> jpegOf(const common::Image& image, int quality) {
-  const std::unique_ptr<void, DestroyEncoder> handle(tjInitCompress());
-  SWIFTLET_CHECK(handle != nullptr);
-  std::vector<std::uint8_t> bytes(tjBufSize(image.width_px, image.height_px, TJSAMP_420));
-  unsigned char* to = bytes.data();
-  unsigned long size = bytes.size();
-  const int failed = tjCompress2(handle.get(), image.rgb.data(), image.width_px, 0, image.height_px, TJPF_RGB, &to,
-                                 &size, TJSAMP_420, quality, TJFLAG_NOREALLOC);
-  SWIFTLET_CHECK(failed == 0, tjGetErrorStr2(handle.get()));
-  bytes.resize(size);
-  return bytes;
-}
-
-}  // namespace
-
 FramePacket packed(const common::RgbdFrame& frame, int jpeg_quality) {
   const auto pixels = static_cast<std::size_t>(frame.camera.pixels());
   SWIFTLET_CHECK(pixels > 0 && frame.color.rgb.size() == 3 * pixels && frame.depth.depth_m.size() == pixels, pixels);
-  return {frame.stamps, frame.row_time, frame.camera, jpegOf(frame.color, jpeg_quality), encodeDepth(frame.depth)};
+  common::JpegEncoder jpeg(common::JpegContent::kPhoto);
+  return {frame.stamps, frame.row_time, frame.camera, jpeg.encode(frame.color, jpeg_quality), encodeDepth(frame.depth)};
 }
 
 tl::expected<common::RgbdFrame, std::string> unpacked(const FramePacket& packet) {

@@ -25,13 +25,12 @@ void RadioLink::offer(std::shared_ptr<const RgbdFrame> frame) {
   counts_.raw_bytes += rawBytes(*frame);
   if (waiting_) ++counts_.replaced;
   waiting_ = std::move(frame);
-  if (!on_the_way_ && waiting_->stamps.arrived >= free_from_) send(waiting_->stamps.arrived);
+  sendIfFree(waiting_->stamps.arrived);
 }
 
 std::shared_ptr<const RgbdFrame> RadioLink::take(Time now) {
   for (;;) {
-    if (!on_the_way_ && waiting_ && std::max(free_from_, waiting_->stamps.arrived) <= now)
-      send(std::max(free_from_, waiting_->stamps.arrived));
+    sendIfFree(now);
     if (!on_the_way_ || on_the_way_->arrives > now) return nullptr;
     std::shared_ptr<const RgbdFrame> frame = std::move(on_the_way_->frame);
     on_the_way_.reset();
@@ -44,7 +43,10 @@ std::shared_ptr<const RgbdFrame> RadioLink::take(Time now) {
 }
 
 /// What arrives is unpacked from what was sent, so that the losses of the colours are those of a real link.
-void RadioLink::send(Time start) {
+void RadioLink::sendIfFree(Time now) {
+  if (on_the_way_ || !waiting_) return;
+  const Time start = std::max(free_from_, waiting_->stamps.arrived);
+  if (start > now) return;
   const FramePacket packet = packed(*std::exchange(waiting_, nullptr), config_.jpeg_quality);
   counts_.bytes += packet.bytes();
   free_from_ = start + Duration::fromSeconds(static_cast<double>(packet.bytes()) / (1000.0 * config_.link_kB_s));

@@ -52,7 +52,8 @@ class RadioLink {
     std::shared_ptr<const common::RgbdFrame> frame;
     common::Time arrives;
   };
-  void send(common::Time start);
+  /// Sends the waiting frame if the radio is free for it by `now`.
+  void sendIfFree(common::Time now);
 
   RadioLinkConfig config_;
   std::shared_ptr<const common::RgbdFrame> waiting_;

@@ -87,12 +87,9 @@ double ClearanceField::nearestIn(VoxelIndex block, const Vector3d& center_m, con
                : distance_m(center_m, hull, cornerOf(block, map_->blockSide_m()), map_->blockSide_m());
   const Obstacles& obstacles = obstaclesOf(block, *content);
   const VoxelBits& bits = unknown == UnknownSpace::kFree ? obstacles.occupied : obstacles.not_free;
-  const VoxelIndex first = VoxelMap::firstOf(block);
   double nearest_m = limit_m;
   bits.forEach([&](int offset) {
-    constexpr int kMask = VoxelBlock::kSide - 1;
-    const VoxelIndex voxel{first.x + (offset & kMask), first.y + (offset >> VoxelBlock::kSideBits & kMask),
-                           first.z + (offset >> 2 * VoxelBlock::kSideBits)};
+    const VoxelIndex voxel = VoxelMap::voxelOf(block, offset);
     nearest_m =
         std::min(nearest_m, distance_m(center_m, hull, cornerOf(voxel, map_->resolution_m()), map_->resolution_m()));
   });

@@ -14,13 +14,10 @@ std::vector<common::SurfacePoint> occupiedCenters(const common::VoxelMap& map) {
   using common::VoxelBlock;
   std::vector<common::SurfacePoint> points;
   for (const common::VoxelIndex index : map.blocks()) {
-    const common::VoxelIndex first = common::VoxelMap::firstOf(index);
     const VoxelBlock& block = *map.block(index);
     for (int i = 0; i < VoxelBlock::kVoxels; ++i) {
       if (block.evidence[static_cast<std::size_t>(i)] <= 0) continue;
-      const int mask = VoxelBlock::kSide - 1;
-      const common::VoxelIndex voxel{first.x + (i & mask), first.y + (i >> VoxelBlock::kSideBits & mask),
-                                     first.z + (i >> 2 * VoxelBlock::kSideBits)};
+      const common::VoxelIndex voxel = common::VoxelMap::voxelOf(index, i);
       points.push_back({map.centerOf(voxel).cast<float>(), Eigen::Vector3f::Zero(), {160, 160, 160}});
     }
   }

@@ -14,6 +14,15 @@ TEST(VoxelMap, IsUnknownWhereNothingWasWritten) {
   EXPECT_EQ(map.blockCount(), 1u);
 }
 
+TEST(VoxelMap, TheVoxelsOfABlockAreThoseOfItsOffsets) {
+  const VoxelIndex block{-2, 0, 3};
+  for (int offset = 0; offset < VoxelBlock::kVoxels; ++offset) {
+    const VoxelIndex voxel = VoxelMap::voxelOf(block, offset);
+    EXPECT_EQ(VoxelMap::blockOf(voxel), block);
+    EXPECT_EQ(VoxelBlock::offsetOf(voxel), offset);
+  }
+}
+
 TEST(VoxelMap, NegativeCoordinatesHaveVoxelsOfTheirOwn) {
   VoxelMap map(0.1);
   EXPECT_EQ(map.voxelAt({-0.05, 0.05, -0.15}), (VoxelIndex{-1, 0, -2}));

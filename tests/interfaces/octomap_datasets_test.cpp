@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "interfaces/files/octomap.hpp"
+#include "tests/interfaces/octomap_reader.hpp"
 #include "tests/support/datasets.hpp"
 
 namespace swiftlet::interfaces {
@@ -25,14 +26,6 @@ std::string unpacked(const fs::path& file) {
   std::array<char, 65536> part{};
   while (const std::size_t read = std::fread(part.data(), 1, part.size(), pipe.get())) bytes.append(part.data(), read);
   return bytes;
-}
-
-std::unique_ptr<octomap::OcTree> byOctomap(const std::string& bytes, OctreeFormat format) {
-  std::istringstream stream(bytes);
-  if (format == OctreeFormat::kLogOdds)
-    return std::unique_ptr<octomap::OcTree>(dynamic_cast<octomap::OcTree*>(octomap::AbstractOcTree::read(stream)));
-  auto tree = std::make_unique<octomap::OcTree>(0.1);
-  return tree->readBinary(stream) ? std::move(tree) : nullptr;
 }
 
 /// The leaves of both, one after the other: place, size and value, which ours rounds to steps of kLogOddsStep.
@@ -56,12 +49,12 @@ TEST(OctreesOfOthers, KeepLeavesAndValues) {
     if (!name.ends_with(".bt.gz") && !name.ends_with(".bt")) continue;
     ++files;
     SCOPED_TRACE(name);
-    const auto theirs = byOctomap(unpacked(entry.path()), OctreeFormat::kBinary);
+    const auto theirs = asOctomapReads(unpacked(entry.path()), OctreeFormat::kBinary);
     ASSERT_TRUE(theirs);
     theirs->prune();
     const common::VoxelMap map = readOctree(entry.path());
     for (const OctreeFormat format : {OctreeFormat::kBinary, OctreeFormat::kLogOdds}) {
-      const auto ours = byOctomap(toOctree(map, format), format);
+      const auto ours = asOctomapReads(toOctree(map, format), format);
       ASSERT_TRUE(ours);
       expectSameLeaves(*theirs, *ours);
       // Saved, read and converted again: the same bytes.

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
+#include "tests/interfaces/octomap_reader.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -39,22 +40,13 @@ VoxelMap randomMap(unsigned seed) {
   return map;
 }
 
-std::unique_ptr<octomap::OcTree> asOctomapReads(const std::string& bytes, OctreeFormat format) {
-  std::istringstream stream(bytes);
-  if (format == OctreeFormat::kLogOdds)
-    return std::unique_ptr<octomap::OcTree>(dynamic_cast<octomap::OcTree*>(octomap::AbstractOcTree::read(stream)));
-  auto tree = std::make_unique<octomap::OcTree>(0.05);
-  return tree->readBinary(stream) ? std::move(tree) : nullptr;
-}
-
 /// Every voxel of the map, and as many of the tree.
 void expectSame(const VoxelMap& map, octomap::OcTree& tree, OctreeFormat format) {
   tree.expand();
   std::size_t known = 0;
   for (const VoxelIndex block : map.blocks()) {
-    const VoxelIndex first = VoxelMap::firstOf(block);
     for (int i = 0; i < VoxelBlock::kVoxels; ++i) {
-      const VoxelIndex voxel{first.x + i % 8, first.y + i / 8 % 8, first.z + i / 64};
+      const VoxelIndex voxel = VoxelMap::voxelOf(block, i);
       const Eigen::Vector3d center_m = map.centerOf(voxel);
       const octomap::OcTreeNode* node = tree.search(center_m.x(), center_m.y(), center_m.z());
       ASSERT_EQ(node != nullptr, map.isKnown(voxel));

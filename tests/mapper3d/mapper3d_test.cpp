@@ -136,8 +136,7 @@ double partNear(const common::VoxelMap& a, const common::VoxelMap& b) {
   int near = 0, all = 0;
   for (const common::VoxelIndex block : a.blocks())
     for (int i = 0; i < common::VoxelBlock::kVoxels; ++i) {
-      const common::VoxelIndex first = common::VoxelMap::firstOf(block);
-      const common::VoxelIndex voxel{first.x + (i & 7), first.y + (i >> 3 & 7), first.z + (i >> 6)};
+      const common::VoxelIndex voxel = common::VoxelMap::voxelOf(block, i);
       if (!a.isOccupied(voxel)) continue;
       ++all;
       near += occupiedNear(b, voxel) ? 1 : 0;

@@ -37,9 +37,8 @@ Agreement agreementOf(const VoxelMap& map, octomap::OcTree& tree) {
   Agreement agreement;
   std::size_t in_tree = 0;
   for (const VoxelIndex block : map.blocks()) {
-    const VoxelIndex first = VoxelMap::firstOf(block);
     for (int i = 0; i < VoxelBlock::kVoxels; ++i) {
-      const VoxelIndex voxel{first.x + i % 8, first.y + i / 8 % 8, first.z + i / 64};
+      const VoxelIndex voxel = VoxelMap::voxelOf(block, i);
       const Eigen::Vector3d center_m = map.centerOf(voxel);
       const octomap::OcTreeNode* node = tree.search(center_m.x(), center_m.y(), center_m.z());
       in_tree += node != nullptr;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "common/jpeg_encoder.hpp"
 #include "rendering/encode.hpp"
 #include "rendering/map_renderer.hpp"
 #include "rendering/map_svg.hpp"
@@ -41,7 +42,7 @@ TEST(EncodeTest, PngReadsBackAsTheSamePicture) {
 }
 
 TEST(EncodeTest, JpegHasItsMarkersAndIsRepeatable) {
-  JpegEncoder encoder;
+  common::JpegEncoder encoder;
   const Bytes large = encoder.encode(pattern(200, 100), 80);
   EXPECT_EQ(large[0], 0xff);
   EXPECT_EQ(large[1], 0xd8);

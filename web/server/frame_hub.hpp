@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "common/jpeg_encoder.hpp"
 #include "rendering/encode.hpp"
 #include "rendering/map3d_renderer.hpp"
 #include "rendering/map_renderer.hpp"
@@ -60,7 +61,7 @@ class FrameHub {
 
   Telemetry& telemetry_;
   double hull_diameter_m_;
-  rendering::JpegEncoder jpeg_;
+  common::JpegEncoder jpeg_;
   std::map<PictureView, std::weak_ptr<View>> views_;
   common::Duration least_period_;  ///< Least period between two pictures of a view, so that all views together use a
                                    ///< bounded share of the time.

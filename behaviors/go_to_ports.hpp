@@ -1,0 +1,42 @@
+// The ports of a leaf that flies to places: how near, how clear of obstacles and in which mode.
+#pragma once
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "behaviors/ports.hpp"
+#include "common/intent.hpp"
+
+namespace swiftlet::behaviors {
+
+class GoToPorts {
+ public:
+  /// The manifest must have tolerancePort(), clearancePort() and modePort().
+  explicit GoToPorts(const tree::NodeSetup& setup)
+      : tolerance_m_(setup, "tolerance_m"), clearance_m_(setup, "clearance_m"), mode_(setup, "mode") {}
+
+  /// The intent to fly there, or which port has no value. The place is not judged.
+  tl::expected<common::GoToIntent, std::string> intentTo(const tree::Point& place) const {
+    const auto tolerance_m = tolerance_m_.get();
+    const auto clearance_m = clearance_m_.get();
+    const auto mode = mode_.get();
+    if (!tolerance_m) return tl::unexpected(tolerance_m_.problem());
+    if (!clearance_m) return tl::unexpected(clearance_m_.problem());
+    if (!mode) return tl::unexpected(mode_.problem());
+    common::GoToIntent intent;
+    intent.goal_map_m = {place.x, place.y};
+    intent.height_m = place.z;
+    intent.tolerance_m = *tolerance_m;
+    intent.clearance_m = *clearance_m;
+    intent.mode = chosenOf(common::kFlightModes, *mode);
+    return intent;
+  }
+
+ private:
+  tree::Input<double> tolerance_m_;
+  tree::Input<double> clearance_m_;
+  tree::Input<std::string> mode_;
+};
+
+}  // namespace swiftlet::behaviors
