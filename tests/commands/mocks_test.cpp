@@ -1,6 +1,4 @@
 // swiftlet check --mock-leaves and swiftlet nodes as users meet them.
-#include <fstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 
 #include "tests/commands/missions.hpp"
 #include "tests/support/program.hpp"
+#include "tests/support/scratch.hpp"
 
 namespace swiftlet::commands {
 namespace {
@@ -17,13 +16,12 @@ using test_support::ProgramEnd;
 using test_support::runSwiftlet;
 using testing::HasSubstr;
 
-std::string mockedMission(const std::string& leaves) {
-  const std::string path = testing::TempDir() + "mocked_mission.xml";
-  std::ofstream(path) << missionWith(leaves);
-  return path;
-}
+class MockLeaves : public test_support::Scratch {
+ protected:
+  std::string mockedMission(const std::string& leaves) const { return write("mission.xml", missionWith(leaves)); }
+};
 
-TEST(MockLeaves, SaysWhoseTheNodesAre) {
+TEST_F(MockLeaves, SaysWhoseTheNodesAre) {
   const std::string path = mockedMission(
       "      <TakeOff height=\"2\"/>\n      <GoTo pose=\"5;5\"/>\n      <GoTo pose=\"0;0\"/>\n      <Land/>\n");
   const ProgramEnd strict = runSwiftlet({"check", path});
@@ -36,14 +34,14 @@ TEST(MockLeaves, SaysWhoseTheNodesAre) {
   EXPECT_EQ(nlohmann::json::parse(json.out)["nodes"][path].size(), 3U) << describe(json);
 }
 
-TEST(MockLeaves, JudgesAMissionWithoutMocksAsAlways) {
+TEST_F(MockLeaves, JudgesAMissionWithoutMocksAsAlways) {
   const std::string path = mockedMission("      <Explore/>\n      <TakeOff/>\n");
   const ProgramEnd end = runSwiftlet({"check", "--mock-leaves", path});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.err, HasSubstr("expected a TakeOff before it"));
 }
 
-TEST(MockLeaves, AreNotFlown) {
+TEST_F(MockLeaves, AreNotFlown) {
   const ProgramEnd end = runSwiftlet({"fly", mockedMission(kHop), "--mock-leaves"});
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.err, HasSubstr("--mock-leaves"));
