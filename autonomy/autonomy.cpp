@@ -321,7 +321,7 @@ void Autonomy::takeSnapshot(Time now) {
                estimator_.localization()};
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
-  WayHome home{executor_.desk().home_m(), 0.0, 0.0};
+  WayHome home{executor_.desk().home_m(), 0.0, 0.0, controller_.landing_s()};
   if (world_) {
     home.straight_m =
         (parts.vehicle.state.T_map_body_planar().position_m() - world_->vehicle->home_map.position_m()).norm();

@@ -24,7 +24,7 @@ void EnergyConfig::describe(common::config::Fields& fields) {
   fields("home_speed_m_s", home_speed_m_s, {0.05, 10}, "Speed along paths before one has been flown.");
   fields("home_speed_filter_s", home_speed_filter_s, kPositive, "Time constant of the speed along paths.");
   fields("home_stops_s", home_stops_s, {0, 120},
-         "Time that the flight home takes beyond its path: mostly the landing.");
+         "Time that the flight home takes beyond its path and its landing: turning, slowing down, stopping.");
 }
 
 EnergyMonitor::EnergyMonitor(const EnergyConfig& config, const common::VehicleConfig& vehicle, double voltage_exponent)
@@ -95,8 +95,8 @@ void EnergyMonitor::tellHome(const WayHome& home, common::EnergyLayer& layer) co
   layer.home_planned = home.planned_m.has_value();
   layer.home_m = home.planned_m.value_or(std::min(home.flown_m, kDetours * home.straight_m));
   const double fly_s = *layer.home_m / std::max(kLeast_m_s, home_speed_m_s_);
-  const double drawn_as =
-      current_model_.drawn_as(fly_s, *layer.home_m) + current_model_.drawn_as(config_.home_stops_s, 0.0);
+  const double drawn_as = current_model_.drawn_as(fly_s, *layer.home_m) +
+                          current_model_.drawn_as(config_.home_stops_s + home.landing_s, 0.0);
   layer.home_share = drawn_as / capacity_as();
 }
 

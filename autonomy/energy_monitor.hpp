@@ -14,9 +14,9 @@ namespace swiftlet::autonomy {
 
 struct EnergyConfig {
   double power_filter_s = 20.0;
-  double home_speed_m_s = 0.5;
+  double home_speed_m_s = 0.75;
   double home_speed_filter_s = 30.0;
-  double home_stops_s = 4.0;
+  double home_stops_s = 2.0;
 
   void describe(common::config::Fields& fields);
 };
@@ -26,6 +26,7 @@ struct WayHome {
   std::optional<double> planned_m;  ///< Length of the planned path; none while there is none.
   double straight_m = 0.0;          ///< The straight line.
   double flown_m = 0.0;             ///< Along the trail.
+  double landing_s = 0.0;           ///< From the height of the flight to the ground.
 };
 
 /// One thread. The current is measured as that of hovering plus some for each metre a second, by least squares over the

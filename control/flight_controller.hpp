@@ -122,6 +122,8 @@ class FlightController {
   double brakingDistance_m(common::FlightMode mode, double speed_m_s) const {
     return 0.5 * speed_m_s * speed_m_s / (margin_.acceleration() * config_.path.limits(mode).acceleration_m_s2);
   }
+  /// Duration of a landing from the present height onto the take-off floor.
+  double landing_s() const;
   /// Length of the rest of the last path.
   double pathRemaining_m() const { return follower_.remaining_m(); }
   /// The reference has reached the goal of the last path.

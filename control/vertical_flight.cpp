@@ -88,6 +88,14 @@ common::Setpoint FlightController::descend(const FlightTick& tick) {
   return landed;
 }
 
+double FlightController::landing_s() const {
+  const double slow_m = config_.touchdown_height_m;
+  const double fast_m = std::max(0.0, last_state_.T_odom_body.position_m.z() - standing_raw_m_ - slow_m);
+  const double ramp_s = config_.descent_m_s / config_.climb_acceleration_m_s2;
+  return (fast_m / config_.descent_m_s + slow_m / config_.touchdown_descent_m_s) / margin_.speed() + ramp_s +
+         config_.touchdown_s;
+}
+
 void FlightController::moveVertically(double goal_m, double speed_m_s, double height_m) {
   const double left_m = goal_m - height_reference_m_;
   const double acceleration_m_s2 = margin_.acceleration() * config_.climb_acceleration_m_s2;

@@ -24,7 +24,7 @@ class EnergyStory : public testing::Test {
     }
   }
   common::EnergyLayer layer(std::optional<double> home_m = std::nullopt) const {
-    return monitor_.layer({home_m, straight_m_, flown_m_}, kLandShare, kLeastMargin);
+    return monitor_.layer({home_m, straight_m_, flown_m_, landing_s_}, kLandShare, kLeastMargin);
   }
 
   EnergyMonitor monitor_{EnergyConfig{}, common::VehicleConfig{}, 2.0};
@@ -33,6 +33,7 @@ class EnergyStory : public testing::Test {
   double margin_ = 1.5;
   double speed_m_s_ = 0.5;
   double straight_m_ = 0.0, flown_m_ = 0.0;
+  double landing_s_ = 0.0;
 };
 
 TEST_F(EnergyStory, SaysNothingOfTheFutureBeforeTheTakeOff) {
@@ -53,8 +54,9 @@ TEST_F(EnergyStory, TheTimeLeftEndsAtTheChargeOfTheLanding) {
 
 TEST_F(EnergyStory, ThePathHomeTakesItsTimeAndALanding) {
   const EnergyConfig config;
+  landing_s_ = 5.0;
   draw(10.0, 18.0);
-  const double expected = (20.0 / config.home_speed_m_s + config.home_stops_s) * 18.0 / (3600.0 * kCapacity_ah);
+  const double expected = (20.0 / config.home_speed_m_s + config.home_stops_s + 5.0) * 18.0 / (3600.0 * kCapacity_ah);
   EXPECT_NEAR(layer(20.0).home_share.value(), expected, 0.01 * expected);
 }
 
@@ -74,7 +76,7 @@ TEST_F(EnergyStory, WithoutAPathTheLengthHomeIsConservative) {
 TEST_F(EnergyStory, TheSpeedFlownSoFarPredictsTheTime) {
   draw(10.0, 18.0);
   const double before = layer(20.0).home_share.value();
-  for (int i = 0; i < 30'000; ++i) monitor_.followed(0.8, 0.01);
+  for (int i = 0; i < 30'000; ++i) monitor_.followed(1.2, 0.01);
   EXPECT_LT(layer(20.0).home_share.value(), 0.7 * before);
 }
 
