@@ -29,6 +29,7 @@ struct PriorCorrection {
   double height_m = 0.0;  ///< To be added to the prior's height.
   double velocity_m_s = 0.0;
   Eigen::Matrix2d covariance;  ///< Of height and velocity after the correction.
+  bool confirmed = false;      ///< The level was seen for so long before that leaving it does not call it in question.
 };
 
 }  // namespace
@@ -213,8 +214,12 @@ void MultilevelFilter::Impl::addNewLevels(AltitudeUpdate& outcome) {
       ++outcome.levels_added;
     }
     if (first) {
-      correction = PriorCorrection{id, now, height.height_m() - height_before_m,
-                                   height.velocity_m_s() - velocity_before_m_s, height.covariance()};
+      correction = PriorCorrection{id,
+                                   now,
+                                   height.height_m() - height_before_m,
+                                   height.velocity_m_s() - velocity_before_m_s,
+                                   height.covariance(),
+                                   surface.seenFor_s(now) >= config.confirm_moving_s};
     }
     for (const CellIndex& cell : surface.cells) store.extend(id, cell);
     LevelEstimate& level = store.at(id);
@@ -336,7 +341,7 @@ AltitudeUpdate MultilevelFilter::update(Time time, const Eigen::Vector2d& positi
     f.height.predictTo(time);
   f.scan.read(position_map_m, points, f.store);
   f.matchBeams();
-  if (f.leftALevel()) {
+  if (f.leftALevel() && !(f.correction && f.correction->confirmed)) {
     // The last measurements of the level that was left may have been the beginning of a slope.
     f.undoLastUpdates();
     f.matchBeams();
