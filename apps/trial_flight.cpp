@@ -89,7 +89,8 @@ void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
 std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::path& out) {
   if (!trial.map.given()) return nullptr;
   if (trial.map.surveyed()) {
-    const simulation::WorldModel world = simulation::loadWorld(trial.scenario.world, trial.scenario.model_paths);
+    const std::string& driven = trial.map.survey.world.empty() ? trial.scenario.world : trial.map.survey.world;
+    const simulation::WorldModel world = simulation::loadWorld(driven, trial.scenario.model_paths);
     return std::make_shared<const FlightMap>(surveyedMap(trial.map.survey, world, out / (trial.name + "-map")));
   }
   FlightMap map = readFlightMap(trial.map.file);

@@ -26,6 +26,7 @@ void findWorld(evaluation::TrialConfig& trial) {
     unpacked = interfaces::unpackInto(cacheFolder(), evaluation::findArchive(trial.archive, unpacked));
   trial.resolvePaths(unpacked, root);
   trial.scenario.world = common::findData(trial.scenario.world).string();
+  if (!trial.map.survey.world.empty()) trial.map.survey.world = common::findData(trial.map.survey.world).string();
 }
 
 }  // namespace swiftlet::apps

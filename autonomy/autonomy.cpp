@@ -46,6 +46,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
       imu_watch_(config.imu),
+      given_map_(given),
       camera_obstacles_(vehicle.hull_height_m),
       energy_monitor_(config.energy, vehicle, config.control.position.thrust.table.voltage_exponent),
       world_builder_(vehicle_name_) {
@@ -226,7 +227,7 @@ void Autonomy::tickBehaviors(Time now) {
   std::shared_ptr<const common::LevelMap> surfaces;
   if (std::holds_alternative<common::LandIntent>(intent_.kind) && controller_.state() == FlightState::kFlying)
     surfaces = std::make_shared<common::LevelMap>(estimator_.seenSurfaces());
-  camera_obstacles_.update(estimator_.map3d(), estimator_.grid(), estimator_.state().T_odom_body.position_m.z());
+  camera_obstacles_.update(estimator_.map3d(), given_map_.grid(), estimator_.state().T_odom_body.position_m.z());
   executor_.tick(intent_, {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
                            estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(),
                            drift_m_, supervisor_.takeOffRefusal(energy_)});
@@ -307,6 +308,8 @@ void Autonomy::tickMission() {
 }
 
 void Autonomy::takeSnapshot(Time now) {
+  const common::VehicleState& state = estimator_.state();
+  given_map_.update(now, state.T_map_body_planar(), state.T_map_odom, estimator_.localization(), estimator_.grid());
   WorldParts parts;
   parts.vehicle.state = estimator_.state();
   parts.vehicle.flight_state = controller_.state();
@@ -317,8 +320,12 @@ void Autonomy::takeSnapshot(Time now) {
   parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}, {}};
   showWaiting(parts.mission);
   parts.mission.status.tree = mission_.view();
-  parts.map = {estimator_.grid(), estimator_.levels(), executor_.desk().frontiers(), executor_.desk().exploredArea_m2(),
-               estimator_.localization()};
+  parts.map = {given_map_.grid(),
+               estimator_.levels(),
+               executor_.desk().frontiers(),
+               executor_.desk().exploredArea_m2(),
+               estimator_.localization(),
+               given_map_.T_map_given()};
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
   WayHome home{executor_.desk().home_m(), 0.0, 0.0, controller_.landing_s()};

@@ -11,6 +11,7 @@
 #include "autonomy/energy_monitor.hpp"
 #include "autonomy/estimator.hpp"
 #include "autonomy/executor.hpp"
+#include "autonomy/given_map_overlay.hpp"
 #include "autonomy/imu_watch.hpp"
 #include "autonomy/input.hpp"
 #include "autonomy/reactive.hpp"
@@ -145,6 +146,7 @@ class Autonomy {
   ScanQueue scans_;
   ScanWatch scan_watch_;
   ImuWatch imu_watch_;
+  GivenMapOverlay given_map_;
   CameraObstacles camera_obstacles_;
   EnergyMonitor energy_monitor_;
   common::EnergyLayer energy_;  ///< Of the last tick of the behaviours.

@@ -1,5 +1,5 @@
 // Localize: explores until the vehicle is localized in the given map, which is SUCCESS. FAILURE if there is no such
-// map, or if nothing is left to explore.
+// map, if it is found to be that of another place, or if nothing is left to explore.
 #pragma once
 
 #include "behaviors/flight_leaf.hpp"

@@ -1,6 +1,9 @@
 // MoveToGoal: SUCCESS when the vehicle is within tolerance_m of `goal` (in `map`: x;y at the present height or at
-// `height_m`, or x;y;z with z above the take-off floor) and, where `yaw_deg` is given, looks there.
+// `height_m`, or x;y;z with z above the take-off floor) and, where `yaw_deg` is given, looks there. In a flight that
+// was given a map, both are those of that map, and FAILURE while the vehicle does not know its place in it.
 #pragma once
+
+#include <Eigen/Core>
 
 #include "behaviors/flight_leaf.hpp"
 #include "behaviors/go_to_ports.hpp"
@@ -15,10 +18,12 @@ class MoveToGoal final : public IntentLeaf {
 
  private:
   IntentOrProblem makeIntent(const FlightTick& tick) override;
+  bool isOutdated(const FlightTick& tick) const override;
   tree::Input<tree::Point> goal_;
   GoToPorts go_to_;
   tree::Input<double> height_m_;
   tree::Input<double> yaw_deg_;
+  Eigen::Vector2d emitted_map_m_ = Eigen::Vector2d::Zero();  ///< The goal of the present intent.
 };
 
 }  // namespace swiftlet::behaviors

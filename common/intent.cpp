@@ -11,7 +11,8 @@ struct Describe {
   std::string operator()(const LandIntent&) const { return "land"; }
   std::string operator()(const ExploreIntent&) const { return "explore"; }
   std::string operator()(const GoToIntent& i) const {
-    return fmt::format("go to ({:.2f}, {:.2f})", i.goal_map_m.x(), i.goal_map_m.y());
+    const Eigen::Vector2d& named_m = i.goal_given_m ? *i.goal_given_m : i.goal_map_m;
+    return fmt::format("go to ({:.2f}, {:.2f}){}", named_m.x(), named_m.y(), i.goal_given_m ? " in the given map" : "");
   }
   std::string operator()(const AvoidIntent&) const { return "avoid obstacle"; }
   std::string operator()(const RetraceIntent&) const { return "fly back along the trail"; }

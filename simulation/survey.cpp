@@ -16,6 +16,7 @@ using common::Time;
 void SurveyConfig::describe(common::config::Fields& fields) {
   fields("path_world_m", path_world_m, {-1e4, 1e4},
          "Points x, y, x, y of the path it drives, turning on the spot at each; empty when no map is made.");
+  fields("world", world, "World of the drive, such as another day's of the same place; empty: that of the flights.");
   fields("laser", laser, "A file of config/sensors, without .yaml.");
   fields("laser_height_world_m", laser_height_world_m, {-100, 100}, "Height of its beams in the world's frame.");
   fields("speed_m_s", speed_m_s, {0.05, 5}, "Speed between the points.");

@@ -18,6 +18,7 @@ namespace swiftlet::simulation {
 
 struct SurveyConfig {
   std::vector<double> path_world_m;
+  std::string world;
   std::string laser = "sick_lms_291";
   double laser_height_world_m = 0.80;
   double speed_m_s = 0.8;

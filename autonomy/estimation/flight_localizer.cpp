@@ -45,6 +45,9 @@ void FlightLocalizer::take(const perception::LocalizationEstimate& estimate, Tim
   localization_.covariance = estimate.covariance;
   localization_.explained = estimate.explained;
   localization_.places = estimate.places;
+  if (!std::exchange(localization_.refuted, estimate.refuted) && estimate.refuted)
+    events_.push_back({now, common::Severity::kWarning, "localization", "this is not the map of this place",
+                       "what is seen fits nowhere in it, again and again"});
   if (!estimate.event) return;
   const bool lost = estimate.event->state == LocalizationState::kLost;
   std::string text = toString(estimate.event->state);

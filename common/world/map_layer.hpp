@@ -14,11 +14,14 @@ namespace swiftlet::common {
 
 /// The pointers are null only in a layer under construction, never in a World of the autonomy.
 struct MapLayer {
+  /// Made by the flight; while the vehicle is localized, over the given map.
   std::shared_ptr<const OccupancyGrid> grid;
   std::shared_ptr<const LevelMap> levels;
   std::shared_ptr<const std::vector<Frontier>> frontiers;
   double explored_area_m2 = 0.0;             ///< Area of known free cells at the last choice of a viewpoint; 0 before.
   std::optional<Localization> localization;  ///< None: the flight was given no map.
+  /// The frame of the given map. None without one, and while the vehicle is not localized in it.
+  std::optional<Pose2> T_map_given;
 };
 
 }  // namespace swiftlet::common

@@ -83,6 +83,7 @@ struct Localizer::Impl {
   SearchPatience patience;
   double nowhere_path_length_m = 0.0;  ///< Path length since which the local map fits nowhere.
   bool fits_nowhere = false;
+  int times_nowhere = 0;  ///< How often what was seen ceased to fit anywhere, since the vehicle was last localized.
 
   // The requested search, and whether one is running.
   struct Question {
@@ -268,7 +269,10 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
 void Localizer::Impl::fitsNowhere() {
   places = 0;
   candidate.reset();
-  if (!fits_nowhere) nowhere_path_length_m = tracker.path_length_m();
+  if (!fits_nowhere) {
+    nowhere_path_length_m = tracker.path_length_m();
+    ++times_nowhere;
+  }
   fits_nowhere = true;
   tracker.particles().spreadOverFreeSpace();
   // The vehicle may have been carried elsewhere, so the local map starts again from here.
@@ -293,6 +297,7 @@ void Localizer::Impl::localize(const LikelyPlace& place, const Pose2& T_odom_mid
   enter(LocalizationState::kLocalized, fmt::format("one place explains {:.0f} % of what was seen over {:.1f} m",
                                                    100.0 * place.explained, local_map.length_m()));
   was_localized = true;
+  times_nowhere = 0;
   local_map.clear();
   question.reset();
   lost_test.reset();
@@ -305,6 +310,7 @@ LocalizationEstimate Localizer::Impl::estimate() {
   estimate.explained = support.explained;
   estimate.event = std::exchange(event, std::nullopt);
   if (estimate.event) estimate.event->stamp = now;
+  estimate.refuted = times_nowhere >= config.refuted_after;
   estimate.places = state == LocalizationState::kLocalized ? 1 : places;
   if (state != LocalizationState::kLocalized) return estimate;
   estimate.T_map_odom = T_map_grid * tracker.T_grid_odom();

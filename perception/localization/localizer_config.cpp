@@ -36,6 +36,8 @@ void LocalizerConfig::describe(common::config::Fields& fields) {
          "A pose is not believed while the map explains a smaller share of the local map.");
   fields("confirm_distance_m", confirm_distance_m, {0, 100},
          "Distance over which a pose must hold before it is believed.");
+  fields("refuted_after", refuted_after, {1, 1000},
+         "The given map is called that of another place when what is seen has ceased to fit anywhere so many times.");
   fields("distrust_search_s", distrust_search_s, {0, 100},
          "Time between searches of the whole map while the pose explains too little.");
   fields("elsewhere_nats", elsewhere_nats, {0, 1000},

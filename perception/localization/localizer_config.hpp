@@ -35,6 +35,7 @@ struct LocalizerConfig {
   double ambiguity = 0.01;
   double least_explained = 0.70;
   double confirm_distance_m = 1.0;
+  int refuted_after = 3;
   double distrust_search_s = 0.5;
   double elsewhere_nats = 10.0;
 

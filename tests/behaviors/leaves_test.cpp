@@ -73,6 +73,36 @@ TEST(Localize, FailsWithoutAMapOrWithNothingLeftToExplore) {
   EXPECT_EQ(flight.last.reason, "Localize: nothing is left to explore, and the place is still ambiguous");
 }
 
+TEST(Localize, FailsInTheMapOfAnotherPlace) {
+  Flight flight("<Localize/>");
+  flight.localization(common::LocalizationState::kGlobal).tick();
+  flight.runs().change([](auto& layers) { layers.map.localization->refuted = true; });
+  EXPECT_EQ(flight.tick(), "FAILED");
+  EXPECT_EQ(flight.last.reason, "Localize: the given map is not that of this place");
+}
+
+TEST(MoveToGoal, ItsGoalIsInTheMapThatWasGiven) {
+  Flight flight(R"(<MoveToGoal goal="3.0;-1.0" yaw_deg="10"/>)");
+  const auto placed = [&](double x_m) {
+    flight.localization(common::LocalizationState::kLocalized).change([x_m](auto& layers) {
+      layers.map.T_map_given = common::Pose2{x_m, 2.0, 90.0 * common::kRadPerDeg};
+    });
+  };
+  const auto goal_map_m = [&] { return std::get<common::GoToIntent>(flight.context.intent->kind).goal_map_m; };
+  placed(1.0);
+  EXPECT_EQ(flight.tick(), "RUNNING 1 go to (3.00, -1.00) in the given map");
+  EXPECT_TRUE(goal_map_m().isApprox(Eigen::Vector2d(2.0, 5.0)));
+  EXPECT_NEAR(*std::get<common::GoToIntent>(flight.context.intent->kind).yaw_map_rad, 100.0 * common::kRadPerDeg, 1e-9);
+  placed(1.02);
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 1 go to (3.00, -1.00) in the given map") << "a centimetre is no news";
+  placed(1.05);
+  EXPECT_EQ(flight.runs().tick(), "RUNNING 2 go to (3.00, -1.00) in the given map");
+  EXPECT_NEAR(goal_map_m().x(), 2.05, 1e-9);
+  flight.localization(common::LocalizationState::kLost).change([](auto& layers) { layers.map.T_map_given.reset(); });
+  EXPECT_EQ(flight.tick(), "FAILED");
+  EXPECT_EQ(flight.last.reason, "MoveToGoal: its place in the given map is not known");
+}
+
 TEST(MoveToGoal, PassesOnGoalHeightAndTolerance) {
   Flight flight(R"(<MoveToGoal goal="3.0;-1.5;1.2" tolerance_m="0.2" clearance_m="0.3"/>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 go to (3.00, -1.50)");

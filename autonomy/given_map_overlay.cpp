@@ -1,0 +1,116 @@
+#include "autonomy/given_map_overlay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::CellIndex;
+using common::OccupancyGrid;
+using common::Pose2;
+namespace occupancy = common::occupancy;
+
+/// The localization is a mean of particles and varies by one to three centimetres from generation to generation.
+constexpr double kSmoothing_s = 3.0;
+/// The frame is moved when it is so far off at the vehicle: less than half of what a goal may be missed by.
+constexpr double kMoved_m = 0.02;
+/// More than noise: the map of the flight was corrected, or the place found anew.
+constexpr double kJumped_m = 0.20;
+/// A turn moves what is far away: 1 deg is 9 cm at 5 m.
+constexpr double kTurned_rad = 0.5 * common::kRadPerDeg;
+/// The same wall in both maps differs by as much: 1 deg at 10 m is 17 cm. What the flight has seen counts, and its
+/// double must not narrow a door. Less than the radius of a hull, so that nothing opens that was shut.
+constexpr double kSameWall_m = 0.20;
+
+/// The pose that lies between two, a share of the way from `a` to `b`.
+Pose2 between(const Pose2& a, const Pose2& b, double share) {
+  return {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m),
+          common::wrapAngle(a.yaw_rad + share * common::wrapAngle(b.yaw_rad - a.yaw_rad))};
+}
+
+bool occupiedNear(const OccupancyGrid& grid, CellIndex cell) {
+  const int around = static_cast<int>(std::lround(kSameWall_m / grid.resolution_m()));
+  for (int dy = -around; dy <= around; ++dy)
+    for (int dx = -around; dx <= around; ++dx)
+      if (occupancy::isOccupied(grid.at({cell.x + dx, cell.y + dy}))) return true;
+  return false;
+}
+
+/// A grid in the cells of another frame: each cell that the corners of the source reach takes the value at its centre.
+OccupancyGrid resampled(const OccupancyGrid& source, const Pose2& T_target_source, double resolution_m) {
+  OccupancyGrid target = common::makeOccupancyGrid(resolution_m);
+  const common::CellRect known = common::knownExtent(source);
+  if (known.empty()) return target;
+  Eigen::Vector2d low_m = T_target_source * (source.resolution_m() * Eigen::Vector2d(known.begin.x, known.begin.y));
+  Eigen::Vector2d high_m = low_m;
+  for (const CellIndex corner : {CellIndex{known.begin.x, known.end.y}, {known.end.x, known.begin.y}, known.end}) {
+    const Eigen::Vector2d at_m = T_target_source * (source.resolution_m() * Eigen::Vector2d(corner.x, corner.y));
+    low_m = low_m.cwiseMin(at_m);
+    high_m = high_m.cwiseMax(at_m);
+  }
+  const Pose2 T_source_target = T_target_source.inverse();
+  const CellIndex begin = target.cellAt(low_m), end = target.cellAt(high_m);
+  for (int y = begin.y; y <= end.y; ++y)
+    for (int x = begin.x; x <= end.x; ++x) {
+      const auto value = source.at(source.cellAt(T_source_target * target.centerOf({x, y})));
+      if (!occupancy::isUnknown(value)) target.set({x, y}, value);
+    }
+  return target;
+}
+
+}  // namespace
+
+GivenMapOverlay::GivenMapOverlay(const GivenMap* given) : laid_(common::makeOccupancyGrid(1.0)) {
+  if (given != nullptr) given_ = *given;
+}
+
+void GivenMapOverlay::update(common::Time now, const Pose2& T_map_body, const Pose2& T_map_odom,
+                             const std::optional<common::Localization>& localization,
+                             const std::shared_ptr<const OccupancyGrid>& flown) {
+  bool changed = std::exchange(flown_, flown) != flown;
+  if (localization && localization->localized()) {
+    if (follow(now, T_map_body, T_map_odom * localization->T_given_odom.inverse())) {
+      laid_ = resampled(*given_->grid, *T_map_given_ * given_->T_given_grid, flown->resolution_m());
+      changed = true;
+    }
+  } else {
+    smoothed_.reset();
+    changed |= std::exchange(T_map_given_, std::nullopt).has_value();
+  }
+  updated_ = now;
+  if (changed) lay();
+}
+
+/// True if the frame has moved.
+bool GivenMapOverlay::follow(common::Time now, const Pose2& T_map_body, const Pose2& T_map_given) {
+  const double share = smoothed_ ? std::min(1.0, (now - updated_).seconds() / kSmoothing_s) : 1.0;
+  // At the vehicle, where the localization is measured: far from the origin of `given` a turn would shift it.
+  const Pose2 T_given_body = T_map_given.inverse() * T_map_body;
+  const Pose2 before = smoothed_.value_or(T_map_given) * T_given_body;
+  const bool jumped = common::between(before, T_map_body).position_m().norm() > kJumped_m;
+  smoothed_ = between(before, T_map_body, jumped ? 1.0 : share) * T_given_body.inverse();
+  if (T_map_given_) {
+    const Pose2 off = common::between(*T_map_given_ * T_given_body, *smoothed_ * T_given_body);
+    if (off.position_m().norm() <= kMoved_m && std::abs(off.yaw_rad) <= kTurned_rad) return false;
+  }
+  T_map_given_ = smoothed_;
+  return true;
+}
+
+void GivenMapOverlay::lay() {
+  grid_ = flown_;
+  if (!T_map_given_) return;
+  auto both = std::make_shared<OccupancyGrid>(laid_.snapshot());
+  laid_.forEachCell([&](CellIndex cell, occupancy::Cell value) {
+    if (occupancy::isOccupied(value) && occupancy::isUnknown(flown_->at(cell)) && occupiedNear(*flown_, cell))
+      both->set(cell, 0);
+  });
+  flown_->forEachCell([&](CellIndex cell, occupancy::Cell value) {
+    if (!occupancy::isUnknown(value)) both->set(cell, value);
+  });
+  grid_ = std::move(both);
+}
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,102 @@
+// The given map under the map of the flight.
+#include "autonomy/given_map_overlay.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace swiftlet::autonomy {
+namespace {
+
+using common::Pose2;
+using common::occupancy::isFree;
+using common::occupancy::isOccupied;
+using common::occupancy::isUnknown;
+
+constexpr double kCell_m = 0.05;
+
+/// A given room of 6 m by 4 m with a wall at x = 5 m, in a frame that is turned and shifted against `map`.
+class GivenMapOverlayStory : public testing::Test {
+ protected:
+  GivenMapOverlayStory() {
+    auto room = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(kCell_m));
+    for (double y_m = 0.02; y_m < 4.0; y_m += kCell_m)
+      for (double x_m = 0.02; x_m < 6.0; x_m += kCell_m)
+        room->set(room->cellAt(x_m, y_m), std::abs(x_m - 5.0) < 0.06 ? 100 : -100);
+    given_.grid = room;
+    given_.T_given_grid = {0.3, -0.2, 0.1};
+    overlay_.emplace(&given_);
+  }
+
+  void step(const std::optional<Pose2>& T_map_given, double seconds = 0.1) {
+    now_ += common::Duration::fromSeconds(seconds);
+    common::Localization localization;
+    if (T_map_given) {
+      localization.state = common::LocalizationState::kLocalized;
+      localization.T_given_odom = T_map_given->inverse() * T_map_odom_;
+    }
+    overlay_->update(now_, {1.0, 1.0, 0.0}, T_map_odom_, localization,
+                     std::make_shared<const common::OccupancyGrid>(flown_.snapshot()));
+  }
+  common::occupancy::Cell at(const Pose2& T_map_given, double x_m, double y_m) const {
+    return overlay_->grid()->at(flown_.cellAt(T_map_given * (given_.T_given_grid * Eigen::Vector2d(x_m, y_m))));
+  }
+
+  GivenMap given_;
+  Pose2 T_map_odom_{0.1, 0.2, 0.05};
+  common::OccupancyGrid flown_ = common::makeOccupancyGrid(kCell_m);
+  std::optional<GivenMapOverlay> overlay_;
+  common::Time now_;
+};
+
+TEST_F(GivenMapOverlayStory, LiesInTheMapOnceThePlaceIsKnown) {
+  const Pose2 T_map_given{2.0, -1.0, 0.7};
+  step(std::nullopt);
+  EXPECT_FALSE(overlay_->T_map_given());
+  EXPECT_TRUE(isUnknown(at(T_map_given, 2.0, 2.0)));
+  step(T_map_given);
+  EXPECT_TRUE(isFree(at(T_map_given, 2.0, 2.0)));
+  EXPECT_TRUE(isOccupied(at(T_map_given, 5.0, 2.0)));
+  EXPECT_TRUE(isUnknown(at(T_map_given, 6.5, 2.0)));
+  step(std::nullopt);
+  EXPECT_FALSE(overlay_->T_map_given());
+  EXPECT_TRUE(isUnknown(at(T_map_given, 2.0, 2.0))) << "a place that is lost explains nothing";
+}
+
+TEST_F(GivenMapOverlayStory, WhatTheFlightHasSeenCounts) {
+  const Pose2 T_map_given{0.0, 0.0, 0.0};
+  const auto place = [&](double x_m, double y_m) {
+    return flown_.cellAt(T_map_given * (given_.T_given_grid * Eigen::Vector2d(x_m, y_m)));
+  };
+  flown_.set(place(2.0, 2.0), 100);   // A new piece of furniture.
+  flown_.set(place(5.0, 3.0), -100);  // A wall that is gone.
+  flown_.set(place(4.85, 1.0), 100);  // The same wall, seen 15 cm off.
+  step(T_map_given);
+  EXPECT_TRUE(isOccupied(at(T_map_given, 2.0, 2.0)));
+  EXPECT_TRUE(isFree(at(T_map_given, 5.0, 3.0)));
+  EXPECT_TRUE(isOccupied(at(T_map_given, 4.85, 1.0)));
+  EXPECT_FALSE(isOccupied(at(T_map_given, 5.0, 1.0))) << "not a wall behind the wall";
+  EXPECT_TRUE(isOccupied(at(T_map_given, 5.0, 2.0))) << "where nothing was seen";
+}
+
+TEST_F(GivenMapOverlayStory, NoiseOfTheLocalizationDoesNotMoveIt) {
+  step(Pose2{2.0, -1.0, 0.7});
+  const Pose2 before = *overlay_->T_map_given();
+  const auto grid = overlay_->grid();
+  for (int i = 0; i < 100; ++i) step(Pose2{2.0 + (i % 2 == 0 ? 0.03 : -0.03), -1.0, 0.7});
+  EXPECT_EQ(overlay_->T_map_given()->x_m, before.x_m);
+  for (int i = 0; i < 100; ++i) step(Pose2{2.1, -1.0, 0.7});
+  EXPECT_NEAR(overlay_->T_map_given()->x_m, 2.1, 0.02);
+  step(Pose2{4.0, -1.0, 0.7});
+  EXPECT_NEAR(overlay_->T_map_given()->x_m, 4.0, 1e-6) << "found elsewhere: at once";
+}
+
+TEST(GivenMapOverlay, WithoutAMapTheGridStaysTheSame) {
+  GivenMapOverlay overlay(nullptr);
+  const auto flown = std::make_shared<const common::OccupancyGrid>(common::makeOccupancyGrid(kCell_m));
+  overlay.update({}, {}, {}, std::nullopt, flown);
+  EXPECT_EQ(overlay.grid(), flown);
+}
+
+}  // namespace
+}  // namespace swiftlet::autonomy
