@@ -84,6 +84,10 @@ void RgbdPipeline::map(const FrameSituation& situation, Time now) {
   const std::shared_ptr<const common::RgbdFrame> frame = std::exchange(waiting_, nullptr);
   // The key frames hang on key scans, so there is no 3D map before the 2D map.
   if (situation.keys->keys.empty()) return;
+  // The first frame places the 3D map in the 2D map. Without a measured pose it would lie at the origin, and all later
+  // frames would be aligned to it.
+  if (!has_begun_ && !(situation.at_key && situation.supported)) return;
+  has_begun_ = true;
   mapping3d::FrameContext context;
   context.scans = situation.keys;
   if (situation.at_key)

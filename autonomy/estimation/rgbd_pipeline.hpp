@@ -101,6 +101,7 @@ class RgbdPipeline {
   std::optional<mapping3d::RadioLink> radio_;
   std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
   std::optional<common::Time> last_measured_, last_arrived_;
+  bool has_begun_ = false;  ///< The first frame was placed.
   bool silent_ = false, fault_said_ = false, lost_said_ = false;
   std::optional<common::Time> lost_since_;
 
