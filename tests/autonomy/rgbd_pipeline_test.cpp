@@ -28,6 +28,7 @@ class RgbdStory : public testing::Test {
   FrameSituation situation() const {
     FrameSituation situation;
     situation.at_key = common::KeyRelativePose{0, {}};
+    situation.body = mapping3d::MovingBody{};
     situation.supported = true;
     situation.keys = keys_;
     return situation;
