@@ -10,9 +10,11 @@ namespace swiftlet::apps {
 
 namespace {
 
-interfaces::Map3dFiles filesOf(const common::Map3dLayer& layer, const common::VoxelMap& fused) {
+interfaces::Map3dFiles filesOf(const common::Map3dLayer& layer, const common::VoxelMap& fused,
+                               const mapping3d::CloudConfig& cloud) {
   interfaces::Map3dFiles files;
-  files.cloud_ply = interfaces::toCloud(mapping3d::cloudOf(*layer.submaps, *layer.keys), interfaces::CloudFormat::kPly);
+  files.cloud_ply =
+      interfaces::toCloud(mapping3d::cloudOf(*layer.submaps, *layer.keys, cloud), interfaces::CloudFormat::kPly);
   files.map_bt = interfaces::toOctree(fused, interfaces::OctreeFormat::kBinary);
   files.map_ot = interfaces::toOctree(fused, interfaces::OctreeFormat::kLogOdds);
   return files;
@@ -23,11 +25,14 @@ interfaces::Map3dFiles filesOf(const common::Map3dLayer& layer, const common::Vo
 interfaces::Map3dFiles map3dFiles(const common::Map3dLayer& layer) {
   if (layer.submaps->empty()) return {};
   const double resolution_m = layer.submaps->front().voxels->resolution_m();
-  return filesOf(layer, mapping3d::fuse(*layer.submaps, *layer.keys, resolution_m));
+  return filesOf(layer, mapping3d::fuse(*layer.submaps, *layer.keys, resolution_m), {});
 }
 
 interfaces::Map3dFiles map3dFilesInFlight(const common::Map3dLayer& layer) {
-  return layer.fused ? filesOf(layer, *layer.fused) : map3dFiles(layer);
+  if (!layer.fused) return map3dFiles(layer);
+  mapping3d::CloudConfig quick;
+  quick.neighbours = 0;
+  return filesOf(layer, *layer.fused, quick);
 }
 
 }  // namespace swiftlet::apps

@@ -1,6 +1,6 @@
 #include "apps/map3d_sink.hpp"
 
-#include <utility>
+#include <algorithm>
 
 #include "apps/map3d_files.hpp"
 #include "common/world.hpp"
@@ -10,8 +10,10 @@
 namespace swiftlet::apps {
 namespace {
 
-/// By the wall clock: what a killed process may lose of the 3D map.
+/// By the wall clock: what a killed process may lose of the 3D map, at least.
 constexpr std::chrono::seconds kPeriod{15};
+/// Of a large map it may lose more, so that writing takes at most a twentieth of a core.
+constexpr int kLeastPause = 20;
 /// A long flight's map takes a few seconds to fuse and to write.
 constexpr auto kLatency = common::Duration::fromMilliseconds(5000);
 
@@ -24,10 +26,15 @@ void Map3dSink::ticked(const autonomy::TickOutcome& outcome) {
 
 void Map3dSink::world(const std::shared_ptr<const common::World>& world) {
   const Clock::time_point now = Clock::now();
-  if (!world->map3d || now - written_ < kPeriod || !jobs_->idle("map3d")) return;
-  written_ = now;
+  if (!world->map3d || now < next_ || !jobs_->idle("map3d")) return;
+  next_ = now + kPeriod;
   jobs_->submit("map3d", now_, kLatency, [this, layer = world->map3d]() -> common::JobRunner::Deliver {
-    return [this, files = map3dFilesInFlight(*layer)](common::Time) { folder_.showMap3d(files); };
+    const Clock::time_point begin = Clock::now();
+    const interfaces::Map3dFiles files = map3dFilesInFlight(*layer);
+    return [this, files, took = Clock::now() - begin](common::Time) {
+      folder_.showMap3d(files);
+      next_ = std::max(next_, Clock::now() + kLeastPause * took);
+    };
   });
 }
 

@@ -26,7 +26,7 @@ class Map3dSink final : public autonomy::FlightSink {
  private:
   interfaces::RunFolder& folder_;
   common::Time now_;
-  Clock::time_point written_;
+  Clock::time_point next_;  ///< Not earlier is the map written again.
   std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(1);
 };
 

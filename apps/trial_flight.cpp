@@ -52,8 +52,11 @@ evaluation::FlightScore scoreOf(const TrialConfig& trial, int seed, const evalua
   truth.rays = &vehicle.rays();
   truth.vehicle = vehicle.scenario().vehicle;
   truth.laser = vehicle.scenario().laser;
-  if (truth.rgbd_camera = vehicle.scenario().rgbd_camera; truth.rgbd_camera)
-    truth.T_body_camera = vehicle.scenario().sensors.rgbd_errors.mount_error.pose() * truth.rgbd_camera->mount.pose();
+  if (truth.rgbd_camera = vehicle.scenario().rgbd_camera; truth.rgbd_camera) {
+    const simulation::RgbdErrorsConfig& errors = vehicle.scenario().sensors.rgbd_errors;
+    truth.T_body_camera = errors.mount_error.pose() * truth.rgbd_camera->mount.pose();
+    truth.camera_clock_offset_s = errors.clock_offset_s + 1e-6 * errors.clock_drift_ppm * record.flight_time_s;
+  }
   truth.quadrotor = vehicle.scenario().quadrotor;
   truth.clearance_m = trial.clearance_m;
   truth.reachable_area_max_m2 = trial.reachable_area_max_m2;

@@ -5,6 +5,7 @@
 #include "apps/flight_sinks.hpp"
 #include "apps/web_link.hpp"
 #include "common/world.hpp"
+#include "common/world/map3d_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "evaluation/knowable_frame.hpp"
 #include "simulation/nature.hpp"
@@ -23,6 +24,21 @@ autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& nam
   return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
                             common::makeLockstepJobs(1), given ? &*given : nullptr, name, setup.memory.read.get(),
                             setup.system.rgbd_camera ? &*setup.system.rgbd_camera : nullptr);
+}
+
+/// Where the camera was found to be mounted and how late its clock is.
+void addCameraFigures(const common::CameraEstimate& camera, std::vector<interfaces::Figure>& figures) {
+  const common::RollPitchYaw mount = common::rollPitchYaw(camera.T_body_camera.rotation);
+  const Eigen::Vector3d& sigma_rad = camera.mount_sigma_rad;
+  const auto add = [&](const char* name, double value) { figures.push_back({name, value}); };
+  add("camera_roll_deg", mount.roll_rad / common::kRadPerDeg);
+  add("camera_roll_sigma_deg", sigma_rad.x() / common::kRadPerDeg);
+  add("camera_pitch_deg", mount.pitch_rad / common::kRadPerDeg);
+  add("camera_pitch_sigma_deg", sigma_rad.y() / common::kRadPerDeg);
+  add("camera_yaw_deg", mount.yaw_rad / common::kRadPerDeg);
+  add("camera_yaw_sigma_deg", sigma_rad.z() / common::kRadPerDeg);
+  add("camera_clock_offset_s", camera.clock_offset_s);
+  add("camera_clock_sigma_s", camera.clock_sigma_s);
 }
 
 interfaces::RunInfo runInfo(const FlightSetup& setup, const simulation::SimulatedVehicle& vehicle,
@@ -168,6 +184,7 @@ void VehicleFlight::finish(double wall_s) {
     end.figures.push_back({"radio_frames", static_cast<double>(radio->sent)});
     end.figures.push_back({"radio_frames_dropped", static_cast<double>(radio->replaced + radio->late)});
   }
+  if (const auto& map3d = autonomy_.world()->map3d) addCameraFigures(map3d->camera, end.figures);
   keepMemory(end);
   folder_.finish(end);
   if (web_) showEnd();

@@ -21,6 +21,9 @@ namespace {
 /// The place in the map counts as measured for this long after a scan that matched: six scans of a laser with 40 Hz,
 /// and more than one of the slowest, 10 Hz, even if it is late.
 constexpr double kSupported_s = 0.15;
+/// Velocities are differences over two samples of the IMU to each side: shorter ones have more noise, and the vehicle's
+/// turns last longer.
+constexpr double kHalfDifference_s = 0.01;
 
 }  // namespace
 
@@ -104,6 +107,7 @@ void Estimator::mapFrames(Time now) {
   if (scanned_ < *time && now < rgbd_->waitUntil()) return;
   FrameSituation situation;
   situation.at_key = atKey(*time);
+  situation.body = movingBody(*time);
   situation.supported = (now - map_seen_).seconds() < kSupported_s;
   situation.keys = map_.keyPoses();
   situation.people = people_.expectedAt(*time);
@@ -245,6 +249,16 @@ std::optional<common::KeyRelativePose> Estimator::atKey(Time time) const {
   const auto T_odom_body = filter_.poseAt(time);
   if (!odom_at_key_ || !T_odom_body) return std::nullopt;
   return common::KeyRelativePose{odom_at_key_->key, odom_at_key_->T_key_body * *T_odom_body};
+}
+
+/// The filter's pose at a time and its change around it.
+std::optional<mapping3d::MovingBody> Estimator::movingBody(Time time) const {
+  const common::Duration half = common::Duration::fromSeconds(kHalfDifference_s);
+  const auto before = filter_.poseAt(time - half), at = filter_.poseAt(time), after = filter_.poseAt(time + half);
+  if (!before || !at || !after) return std::nullopt;
+  const Pose3 step = before->inverse() * *after;
+  return mapping3d::MovingBody{time, *at, step.position_m / (2.0 * kHalfDifference_s),
+                               common::logSO3(step.rotation) / (2.0 * kHalfDifference_s)};
 }
 
 /// The filter's present estimate of the pose at the scan's stamp. If its history does not reach back that far, the pose

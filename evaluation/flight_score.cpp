@@ -205,6 +205,11 @@ std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) 
     add("map3d_aligned_median_m", score.map3d->aligned_median_m);
     add("map3d_aligned_p95_m", score.map3d->aligned_p95_m);
     add("map3d_coverage", score.map3d->coverage);
+    if (const auto& camera = score.map3d->camera) {
+      add("camera_mount_error_rad", camera->mount_rad);
+      add("camera_mount_error_of_data_sheet_rad", camera->sheet_rad);
+      add("camera_clock_error_s", camera->clock_s);
+    }
   }
   if (score.localization) {
     add("localization_path_length_m", score.localization->path_length_m);

@@ -1,5 +1,7 @@
 #include "evaluation/map3d_score.hpp"
 
+#include <cmath>
+
 #include "common/world/map3d_layer.hpp"
 #include "evaluation/cloud_metrics.hpp"
 #include "evaluation/flight_recorder.hpp"
@@ -15,6 +17,15 @@ Cloud cloudOf(const common::Map3dLayer& map, const common::Pose3& T_world_map) {
       cloud_world_m.push_back(T_world_submap * Eigen::Vector3d(point.position_m.cast<double>()));
   }
   return cloud_world_m;
+}
+
+Map3dScore::CameraErrors cameraErrors(const FlightRecord& record, const TrueWorld& world) {
+  const common::CameraEstimate& estimate = record.map3d->camera;
+  const Eigen::Quaterniond R_known_body = record.T_world_map.rotation.conjugate() * record.T_world_start.rotation;
+  const Eigen::Quaterniond truth = R_known_body * world.T_body_camera.rotation;
+  return {truth.angularDistance(estimate.T_body_camera.rotation),
+          truth.angularDistance(world.rgbd_camera->mount.pose().rotation),
+          std::abs(estimate.clock_offset_s - world.camera_clock_offset_s)};
 }
 
 }  // namespace
@@ -34,6 +45,7 @@ std::optional<Map3dScore> scoreMap3d(const FlightRecord& record, const TrueWorld
   score.aligned_median_m = aligned.median_m;
   score.aligned_p95_m = aligned.p95_m;
   if (!world.rgbd_camera) return score;
+  score.camera = cameraErrors(record, world);
   std::vector<common::Pose3> T_world_camera;
   for (const common::Pose3& T_world_body : record.T_world_body_views)
     T_world_camera.push_back(T_world_body * world.T_body_camera);

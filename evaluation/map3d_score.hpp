@@ -20,6 +20,14 @@ struct Map3dScore {
   double aligned_p95_m = 0.0;
   /// Share of the surfaces in view of the camera that are in the aligned cloud.
   std::optional<double> coverage;
+  /// What the flight knew at its end of the camera's mount and clock. The body has the axes of the mounted laser here,
+  /// as in knowableFrame().
+  struct CameraErrors {
+    double mount_rad = 0.0;  ///< Angle between the attitude of the mount as estimated and as it is.
+    double sheet_rad = 0.0;  ///< The same of the data sheet.
+    double clock_s = 0.0;    ///< Of the clock as estimated, without its sign.
+  };
+  std::optional<CameraErrors> camera;
 };
 
 /// None if the flight has no 3D map, or one without a point.

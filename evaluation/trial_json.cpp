@@ -35,12 +35,17 @@ ordered_json localizationJson(const LocalizationScore& score) {
 }
 
 ordered_json map3dJson(const Map3dScore& score) {
-  return {{"points", score.points},
-          {"error_median_m", orNull(score.error_median_m)},
-          {"error_p95_m", orNull(score.error_p95_m)},
-          {"aligned_median_m", orNull(score.aligned_median_m)},
-          {"aligned_p95_m", orNull(score.aligned_p95_m)},
-          {"coverage", orNull(score.coverage)}};
+  ordered_json json = {{"points", score.points},
+                       {"error_median_m", orNull(score.error_median_m)},
+                       {"error_p95_m", orNull(score.error_p95_m)},
+                       {"aligned_median_m", orNull(score.aligned_median_m)},
+                       {"aligned_p95_m", orNull(score.aligned_p95_m)},
+                       {"coverage", orNull(score.coverage)}};
+  if (score.camera)
+    json["camera"] = {{"mount_rad", orNull(score.camera->mount_rad)},
+                      {"sheet_rad", orNull(score.camera->sheet_rad)},
+                      {"clock_s", orNull(score.camera->clock_s)}};
+  return json;
 }
 
 ordered_json phasesJson(const FlightScore& flight) {

@@ -1,5 +1,6 @@
 #include "autonomy/estimation/rgbd_pipeline.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,26 +27,12 @@ bool isWhole(const common::RgbdFrame& frame) {
          frame.depth.width_px == width_px && frame.depth.height_px == height_px && frame.depth.depth_m.size() == pixels;
 }
 
-/// The middle row of a rolling shutter stands for all.
-Time timeOf(const common::RgbdFrame& frame) {
-  return frame.stamps.measured + frame.row_time * (frame.camera.height_px / 2);
-}
-
-/// From errors of the camera's pose to those of the body's, each in its own axes (the adjoint of T_body_camera).
-mapping3d::Matrix6d ofBody(const mapping3d::Matrix6d& covariance_camera, const common::Pose3& T_body_camera) {
-  const Eigen::Matrix3d rotation = T_body_camera.rotation.toRotationMatrix();
-  mapping3d::Matrix6d adjoint = mapping3d::Matrix6d::Zero();
-  adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = rotation;
-  adjoint.topRightCorner<3, 3>() = common::skew(T_body_camera.position_m) * rotation;
-  return adjoint * covariance_camera * adjoint.transpose();
-}
-
 }  // namespace
 
 RgbdPipeline::RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdCameraConfig& camera,
                            common::JobRunner& jobs)
     : config_(config),
-      T_body_camera_(camera.mount.pose()),
+      calibration_(config.calibration, camera.mount.pose()),
       silence_(Duration::fromSeconds(config.silent_s)),
       jobs_(jobs),
       mapper_(std::make_shared<mapping3d::Mapper3d>(config.mapper)) {
@@ -75,6 +62,12 @@ void RgbdPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
     waiting_ = std::move(frame);
 }
 
+/// By the flight's clock. The middle row of a rolling shutter stands for all.
+Time RgbdPipeline::timeOf(const common::RgbdFrame& frame) const {
+  return frame.stamps.measured + frame.row_time * (frame.camera.height_px / 2) -
+         Duration::fromSeconds(calibration_.clockOffset_s());
+}
+
 std::optional<Time> RgbdPipeline::next() const {
   if (!waiting_ || !jobs_.idle(kMapping3d)) return std::nullopt;
   return timeOf(*waiting_);
@@ -84,18 +77,24 @@ void RgbdPipeline::map(const FrameSituation& situation, Time now) {
   const std::shared_ptr<const common::RgbdFrame> frame = std::exchange(waiting_, nullptr);
   // The key frames hang on key scans, so there is no 3D map before the 2D map.
   if (situation.keys->keys.empty()) return;
+  // The first frame places the 3D map in the 2D map. Without a measured pose it would lie at the origin, and all later
+  // frames would be aligned to it.
+  if (!has_begun_ && !(situation.at_key && situation.supported)) return;
+  has_begun_ = true;
   mapping3d::FrameContext context;
   context.scans = situation.keys;
   if (situation.at_key)
-    context.seed = mapping3d::CameraSeed{situation.keys->inMap(*situation.at_key) * T_body_camera_,
+    context.seed = mapping3d::CameraSeed{situation.keys->inMap(*situation.at_key) * calibration_.T_body_camera(),
                                          situation.at_key->key, situation.supported};
   const bool publish = !submaps_stamp_ || (now - *submaps_stamp_).seconds() >= config_.publish_period_s;
   if (publish) submaps_stamp_ = now;
+  std::optional<mapping3d::MovingBody> body = situation.body;
+  if (body) body->clock_offset_s = calibration_.clockOffset_s();
   jobs_.submit(kMapping3d, now, Duration::fromSeconds(config_.latency_s),
-               [this, mapper = mapper_, frame, context, people = situation.people,
+               [this, mapper = mapper_, frame, time = timeOf(*frame), body, context, people = situation.people,
                 publish]() mutable -> common::JobRunner::Deliver {
                  context.people = people;
-                 Outcome outcome{frame, timeOf(*frame), context.scans, mapper->add(*frame, context), {}};
+                 Outcome outcome{frame, time, body, context.scans, mapper->add(*frame, context), {}};
                  if (publish) outcome.submaps = mapper->submaps();
                  return [this, outcome = std::move(outcome)](Time delivered) { take(outcome, delivered); };
                });
@@ -106,10 +105,14 @@ void RgbdPipeline::take(Outcome outcome, Time delivered) {
   const bool tracked = outcome.mapped.pose.isTracked();
   ++(tracked ? counts_.mapped : counts_.lost);
   reportTrack(tracked, delivered);
-  if (tracked && config_.measure) step_ = stepOf(outcome);
   if (!layer_) {
     layer_ = std::make_shared<common::Map3dLayer>();
     layer_->submaps = std::make_shared<const std::vector<common::Submap3d>>();
+    layer_->camera.T_body_camera = calibration_.T_body_camera();
+  }
+  if (tracked) {
+    const CameraStep step = stepOf(outcome, delivered);
+    if (config_.measure) step_ = step;
   }
   if (outcome.submaps)
     layer_->submaps = std::make_shared<const std::vector<common::Submap3d>>(std::move(*outcome.submaps));
@@ -120,20 +123,44 @@ void RgbdPipeline::take(Outcome outcome, Time delivered) {
   changed_ = true;
 }
 
-CameraStep RgbdPipeline::stepOf(const Outcome& outcome) {
+CameraStep RgbdPipeline::stepOf(const Outcome& outcome, Time now) {
   const mapping3d::RgbdPose& pose = outcome.mapped.pose;
   CameraStep step;
-  if (reference_ && pose.measured) {
+  if (reference_ && pose.measured && outcome.body && reference_->body) {
     const common::Pose3 T_map_reference = outcome.scans->T_map_level(reference_->scan) * reference_->T_scan_camera;
-    const common::Pose3 T_reference_camera = T_map_reference.inverse() * pose.measured->T_map_camera;
-    step.measurement = {reference_->time, outcome.time, T_body_camera_ * T_reference_camera * T_body_camera_.inverse(),
-                        ofBody(pose.measured->covariance, T_body_camera_)};
+    const mapping3d::CameraMotion motion{T_map_reference.inverse() * pose.measured->T_map_camera,
+                                         pose.measured->covariance, *reference_->body, *outcome.body};
+    step.measurement = {reference_->time, outcome.time, calibration_.bodyMotion(motion.T_from_to_camera),
+                        calibration_.bodyCovariance(motion)};
+    // Frames against the same key frame share its errors, so only the last of them counts.
+    if (pose.became_key_frame) calibrate(motion, now);
   }
   if (pose.became_key_frame || !reference_) {
     step.clone_after = outcome.time;
-    reference_ = Reference{outcome.time, pose.scan, outcome.mapped.T_scan_camera};
+    reference_ = Reference{outcome.time, pose.scan, outcome.mapped.T_scan_camera, outcome.body};
   }
   return step;
+}
+
+void RgbdPipeline::calibrate(const mapping3d::CameraMotion& motion, Time now) {
+  calibration_.add(motion);
+  const mapping3d::CameraErrors& errors = calibration_.errors();
+  const auto sigma = [&](int i) { return std::sqrt(errors.covariance(i, i)); };
+  layer_->camera = {
+      calibration_.T_body_camera(), {sigma(3), sigma(4), sigma(5)}, calibration_.clockOffset_s(), sigma(6)};
+  const auto degrees = [&](int i) {
+    return fmt::format("{:.2f} +- {:.2f}", errors.mean[i] / common::kRadPerDeg, sigma(i) / common::kRadPerDeg);
+  };
+  if (!mount_said_ && calibration_.isKnown(3) && calibration_.isKnown(4) && calibration_.isKnown(5)) {
+    mount_said_ = true;
+    say(now, Severity::kInfo, "mount of the camera estimated",
+        fmt::format("turned by {}, {}, {} deg about x, y, z of the body", degrees(3), degrees(4), degrees(5)));
+  }
+  if (!clock_said_ && calibration_.isKnown(6)) {
+    clock_said_ = true;
+    say(now, Severity::kInfo, "clock of the camera estimated",
+        fmt::format("{:.1f} +- {:.1f} ms late", 1e3 * errors.mean[6], 1e3 * sigma(6)));
+  }
 }
 
 std::shared_ptr<const common::Map3dLayer> RgbdPipeline::layer(const std::shared_ptr<const common::KeyPoses>& keys) {

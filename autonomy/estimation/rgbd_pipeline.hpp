@@ -2,7 +2,8 @@
 // the mapper's past.
 //
 //   frame --> waits until the pose at its time is known --> Mapper3d, a job --> Map3dLayer
-//                 ^--- a newer frame replaces it                 \--> all submaps fused, a job of its own
+//                 ^--- a newer frame replaces it       |         \--> all submaps fused, a job of its own
+//                 \-- mount and clock <-- calibration <-/
 //
 // At most one frame is being mapped and one waits, so frames are left out where the work takes longer than the camera.
 #pragma once
@@ -24,6 +25,7 @@
 #include "common/rgbd_frame.hpp"
 #include "common/world/map3d_layer.hpp"
 #include "mapping3d/model/mapper3d.hpp"
+#include "mapping3d/odometry/camera_calibration.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -31,6 +33,7 @@ namespace swiftlet::autonomy {
 struct FrameSituation {
   /// Pose of the body; none if it is not known.
   std::optional<common::KeyRelativePose> at_key;
+  std::optional<mapping3d::MovingBody> body;  ///< Its motion, the same.
   /// Whether a measurement has just supported the position, so that it is a pose in the map and not only predicted.
   bool supported = false;
   std::shared_ptr<const common::KeyPoses> keys;  ///< Never null.
@@ -82,18 +85,22 @@ class RgbdPipeline {
   struct Outcome {
     std::shared_ptr<const common::RgbdFrame> frame;
     common::Time time;  ///< That of its pose.
+    std::optional<mapping3d::MovingBody> body;
     std::shared_ptr<const common::KeyPoses> scans;
     mapping3d::MappedFrame mapped;
     std::optional<std::vector<common::Submap3d>> submaps;  ///< If they were to be published.
   };
   void take(Outcome outcome, common::Time delivered);
-  CameraStep stepOf(const Outcome& outcome);
+  common::Time timeOf(const common::RgbdFrame& frame) const;
+  CameraStep stepOf(const Outcome& outcome, common::Time now);
+  void calibrate(const mapping3d::CameraMotion& motion, common::Time now);
   void reportTrack(bool tracked, common::Time now);
   void fuse(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {});
 
   RgbdPipelineConfig config_;
-  common::Pose3 T_body_camera_;
+  mapping3d::CameraCalibration calibration_;
+  bool mount_said_ = false, clock_said_ = false;
   common::Duration silence_;
   common::JobRunner& jobs_;
   std::shared_ptr<mapping3d::Mapper3d> mapper_;  ///< Belongs to the job while one is outstanding.
@@ -101,6 +108,7 @@ class RgbdPipeline {
   std::optional<mapping3d::RadioLink> radio_;
   std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
   std::optional<common::Time> last_measured_, last_arrived_;
+  bool has_begun_ = false;  ///< The first frame was placed.
   bool silent_ = false, fault_said_ = false, lost_said_ = false;
   std::optional<common::Time> lost_since_;
 
@@ -114,6 +122,7 @@ class RgbdPipeline {
     common::Time time;
     int scan = 0;
     common::Pose3 T_scan_camera;
+    std::optional<mapping3d::MovingBody> body;
   };
   std::optional<Reference> reference_;
   std::optional<CameraStep> step_;

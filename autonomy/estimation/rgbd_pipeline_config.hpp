@@ -4,12 +4,14 @@
 #include "common/config_fwd.hpp"
 #include "mapping3d/link/radio_link.hpp"
 #include "mapping3d/model/mapper3d.hpp"
+#include "mapping3d/odometry/camera_calibration.hpp"
 
 namespace swiftlet::autonomy {
 
 struct RgbdPipelineConfig {
   mapping3d::Mapper3dConfig mapper;
   mapping3d::RadioLinkConfig radio;
+  mapping3d::CameraCalibrationConfig calibration;
   bool measure = true;
   double latency_s = 0.06;
   double wait_s = 0.05;

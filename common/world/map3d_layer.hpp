@@ -13,9 +13,17 @@
 
 namespace swiftlet::common {
 
+/// Mount and clock of the camera, as the flight has estimated them.
+struct CameraEstimate {
+  Pose3 T_body_camera;                                        ///< Of the data sheet, except for what is known better.
+  Eigen::Vector3d mount_sigma_rad = Eigen::Vector3d::Zero();  ///< Of its attitude, about the axes of the body.
+  double clock_offset_s = 0.0;                                ///< Its stamps are so much later than the flight's clock.
+  double clock_sigma_s = 0.0;
+};
+
 /// Only `fused` and `frame` may be null.
 struct Map3dLayer {
-  /// In the order of their making; the last one still grows, so that it is another object at each change.
+  /// In the order of their making; the one that grows is another object at each change.
   std::shared_ptr<const std::vector<Submap3d>> submaps;
   std::shared_ptr<const KeyPoses> keys;  ///< That `submaps` refer to.
   /// All submaps in the frame `map`, made in the background; null before the first.
@@ -23,7 +31,8 @@ struct Map3dLayer {
   Time fused_stamp;                        ///< When the submaps and poses of `fused` were those of the flight.
   std::shared_ptr<const RgbdFrame> frame;  ///< The newest that was processed.
   Pose3 T_map_camera;                      ///< At its stamp.
-  bool tracked = false;                    ///< Whether that frame was aligned to the map; else its pose is predicted.
+  CameraEstimate camera;
+  bool tracked = false;  ///< Whether that frame was aligned to the map; else its pose is predicted.
 };
 
 }  // namespace swiftlet::common

@@ -1,5 +1,6 @@
 #include "mapping3d/cloud/cloud.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -26,6 +27,8 @@ constexpr std::int64_t kTileCubes = 1024;
 constexpr float kFarthest_m = 1e5F;
 /// A plane has three points; more make its direction certain.
 constexpr int kPlaneNeighbours = 10;
+/// Cubes that must grow do so by at least this factor, so that it does not take many trials.
+constexpr double kLeastGrowth = 1.1;
 
 PclPoint pclPoint(const SurfacePoint& point) {
   PclPoint result;
@@ -77,6 +80,18 @@ PclCloud::Ptr thinned(const std::vector<SurfacePoint>& points, float cube_m) {
   return all;
 }
 
+/// Surfaces have a quarter of the points in cubes of twice the size.
+PclCloud::Ptr thinned(const std::vector<SurfacePoint>& points, const CloudConfig& config) {
+  auto cube_m = static_cast<float>(config.cube_m);
+  PclCloud::Ptr cloud = thinned(points, cube_m);
+  while (cloud->size() > config.points_max) {
+    const double surplus = static_cast<double>(cloud->size()) / static_cast<double>(config.points_max);
+    cube_m *= static_cast<float>(std::max(kLeastGrowth, std::sqrt(surplus)));
+    cloud = thinned(points, cube_m);
+  }
+  return cloud;
+}
+
 PclCloud::Ptr withoutOutliers(const PclCloud::Ptr& cloud, const CloudConfig& config) {
   if (cloud->size() <= static_cast<std::size_t>(config.neighbours)) return cloud;
   pcl::StatisticalOutlierRemoval<PclPoint> filter;
@@ -121,8 +136,11 @@ void addMissingNormals(const PclCloud::Ptr& cloud) {
 }  // namespace
 
 std::vector<SurfacePoint> cleanCloud(const std::vector<SurfacePoint>& points, const CloudConfig& config) {
-  const PclCloud::Ptr cloud = withoutOutliers(thinned(points, static_cast<float>(config.cube_m)), config);
-  addMissingNormals(cloud);
+  PclCloud::Ptr cloud = thinned(points, config);
+  if (config.neighbours > 0) {
+    cloud = withoutOutliers(cloud, config);
+    addMissingNormals(cloud);
+  }
   std::vector<SurfacePoint> kept;
   kept.reserve(cloud->size());
   for (const PclPoint& point : *cloud) kept.push_back(surfacePoint(point));

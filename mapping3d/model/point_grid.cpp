@@ -23,7 +23,12 @@ void PointGrid::add(std::span<const SeenPoint> points, const common::Pose3& T_su
     add(rotation * point.position_m + origin_m, rotation * point.normal, point.rgb, point.weight);
 }
 
-void PointGrid::add(const common::SurfacePoint& point) { add(point.position_m, point.normal, point.rgb, 1.0F); }
+void PointGrid::add(const WeightedPoints& points) {
+  for (std::size_t i = 0; i < points.points->size(); ++i) {
+    const common::SurfacePoint& point = (*points.points)[i];
+    add(point.position_m, point.normal, point.rgb, points.weights[i]);
+  }
+}
 
 void PointGrid::add(const Eigen::Vector3f& position_m, const Eigen::Vector3f& normal,
                     const std::array<std::uint8_t, 3>& rgb, float weight) {
@@ -52,10 +57,17 @@ std::vector<common::SurfacePoint> PointGrid::points() const {
   return points;
 }
 
-std::vector<common::SurfacePoint> thinned(const std::vector<common::SurfacePoint>& points, double cube_m) {
+WeightedPoints PointGrid::weightedPoints() const {
+  WeightedPoints weighted{std::make_shared<const std::vector<common::SurfacePoint>>(points()), {}};
+  weighted.weights.reserve(sums_.size());
+  for (const Sums& sums : sums_) weighted.weights.push_back(sums.weight);
+  return weighted;
+}
+
+WeightedPoints thinned(const WeightedPoints& points, double cube_m) {
   PointGrid grid(cube_m);
-  for (const common::SurfacePoint& point : points) grid.add(point);
-  return grid.points();
+  grid.add(points);
+  return grid.weightedPoints();
 }
 
 }  // namespace swiftlet::mapping3d

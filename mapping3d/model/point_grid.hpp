@@ -1,6 +1,7 @@
 // Points of surfaces, thinned: one for each cube, the mean of all that fell into it.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -13,18 +14,24 @@
 
 namespace swiftlet::mapping3d {
 
+/// Points of a grid with the weights by which their means continue.
+struct WeightedPoints {
+  std::shared_ptr<const std::vector<common::SurfacePoint>> points;  ///< Never null.
+  std::vector<float> weights;                                       ///< One for each point.
+};
+
 /// One thread. The same points in the same order give the same bits.
 class PointGrid {
  public:
   explicit PointGrid(double cube_m) : cube_m_(cube_m) {}
 
   void add(std::span<const SeenPoint> points, const common::Pose3& T_submap_camera);
-  /// A point again that points() gave; it counts as if it was seen once from 1 m.
-  void add(const common::SurfacePoint& point);
+  /// Points of another grid again, with the weights that they had in it.
+  void add(const WeightedPoints& points);
 
   /// In the order in which their cubes were first seen.
   std::vector<common::SurfacePoint> points() const;
-  std::size_t size() const { return sums_.size(); }
+  WeightedPoints weightedPoints() const;
 
  private:
   struct Sums {
@@ -42,6 +49,6 @@ class PointGrid {
 };
 
 /// The same points, one for each cube of that size.
-std::vector<common::SurfacePoint> thinned(const std::vector<common::SurfacePoint>& points, double cube_m);
+WeightedPoints thinned(const WeightedPoints& points, double cube_m);
 
 }  // namespace swiftlet::mapping3d

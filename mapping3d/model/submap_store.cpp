@@ -11,6 +11,9 @@ namespace {
 using common::Pose3;
 using common::Submap3d;
 
+/// Key scans are up to a metre apart, and over some ten metres the 2D map drifts by no more than a voxel.
+constexpr int kNeighbouringScans = 10;
+
 /// The discs in the frame of a submap, which is level.
 std::vector<common::Disc> inSubmap(std::span<const common::Disc> people, const Pose3& T_submap_map) {
   std::vector<common::Disc> discs;
@@ -21,18 +24,29 @@ std::vector<common::Disc> inSubmap(std::span<const common::Disc> people, const P
   return discs;
 }
 
+double awayFrom(const Submap3d& submap, const Eigen::Vector3d& position_map_m, const common::KeyPoses& scans) {
+  return (position_map_m - submap.T_map_submap(scans).position_m).head<2>().norm();
+}
+
+bool hasNeighbour(const std::set<int>& scans, int scan) {
+  const auto at = scans.lower_bound(scan - kNeighbouringScans);
+  return at != scans.end() && *at <= scan + kNeighbouringScans;
+}
+
 }  // namespace
 
 SubmapStore::SubmapStore(const SubmapConfig& config, const VoxelConfig& voxels, const vision::DepthNoiseConfig& noise)
     : config_(config), voxels_(voxels), noise_(noise) {}
 
 void SubmapStore::draw(const PlacedFrame& placed, const common::KeyPoses& scans) {
-  if (growing_) {
-    const Eigen::Vector3d away_m = placed.T_map_camera.position_m - growing_->T_map_submap(scans).position_m;
-    if (away_m.head<2>().norm() > config_.reach_m) leave();
+  if (growing_ && awayFrom(kept_[growing_->index].submap, placed.T_map_camera.position_m, scans) > config_.reach_m)
+    leave();
+  if (!growing_) {
+    const auto at = known(placed, scans);
+    grow(at ? *at : add(placed, scans));
   }
-  if (!growing_) begin(placed, scans);
-  const Pose3 T_submap_map = growing_->T_map_submap(scans).inverse();
+  kept_[growing_->index].scans.insert(placed.scan);
+  const Pose3 T_submap_map = kept_[growing_->index].submap.T_map_submap(scans).inverse();
   const Pose3 T_submap_camera = T_submap_map * placed.T_map_camera;
   growing_->voxels.insert(placed.frame.depth, placed.frame.camera, T_submap_camera,
                           inSubmap(placed.people, T_submap_map));
@@ -44,43 +58,73 @@ void SubmapStore::draw(const PlacedFrame& placed, const common::KeyPoses& scans)
 
 std::vector<Submap3d> SubmapStore::snapshot() {
   std::vector<Submap3d> submaps;
-  for (const Left& left : left_) submaps.push_back(left.submap);
-  if (growing_)
-    submaps.push_back({growing_->scan, growing_->T_scan_submap,
-                       std::make_shared<const std::vector<common::SurfacePoint>>(growing_->points.points()),
-                       std::make_shared<const common::VoxelMap>(growing_->voxels.snapshot())});
+  submaps.reserve(kept_.size());
+  for (const Kept& kept : kept_) submaps.push_back(kept.submap);
+  if (growing_) {
+    Submap3d& submap = submaps[growing_->index];
+    submap.points = std::make_shared<const std::vector<common::SurfacePoint>>(growing_->points.points());
+    submap.voxels = std::make_shared<const common::VoxelMap>(growing_->voxels.snapshot());
+  }
   return submaps;
 }
 
-/// The voxels of a new submap are those of the map as long as no correction moves it, so that fusing loses nothing.
-void SubmapStore::begin(const PlacedFrame& placed, const common::KeyPoses& scans) {
+/// The nearest within reach of those whose key scans place the frame.
+std::optional<std::size_t> SubmapStore::known(const PlacedFrame& placed, const common::KeyPoses& scans) const {
+  std::optional<std::size_t> nearest;
+  double least_m = config_.reach_m;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    if (!hasNeighbour(kept_[i].scans, placed.scan)) continue;
+    const double away_m = awayFrom(kept_[i].submap, placed.T_map_camera.position_m, scans);
+    if (away_m > least_m) continue;
+    least_m = away_m;
+    nearest = i;
+  }
+  return nearest;
+}
+
+/// An empty one. Its voxels are those of the map as long as no correction moves it, so that fusing loses nothing.
+std::size_t SubmapStore::add(const PlacedFrame& placed, const common::KeyPoses& scans) {
+  if (static_cast<int>(kept_.size()) >= config_.submaps_max) kept_.erase(kept_.begin());
   Pose3 T_map_submap;
   for (int i = 0; i < 2; ++i)
     T_map_submap.position_m[i] =
         std::round(placed.T_map_camera.position_m[i] / voxels_.resolution_m) * voxels_.resolution_m;
-  growing_.emplace(Growing{placed.scan, scans.T_map_level(placed.scan).inverse() * T_map_submap, VoxelMapper(voxels_),
-                           PointGrid(config_.cube_m)});
+  Submap3d submap{placed.scan, scans.T_map_level(placed.scan).inverse() * T_map_submap,
+                  std::make_shared<const std::vector<common::SurfacePoint>>(),
+                  std::make_shared<const common::VoxelMap>(voxels_.resolution_m)};
+  kept_.push_back({std::move(submap), {}, config_.cube_m, {}});
+  return kept_.size() - 1;
+}
+
+void SubmapStore::grow(std::size_t index) {
+  const Kept& kept = kept_[index];
+  growing_.emplace(Growing{index, VoxelMapper(voxels_, *kept.submap.voxels), PointGrid(kept.cube_m)});
+  growing_->points.add(WeightedPoints{kept.submap.points, kept.weights});
 }
 
 void SubmapStore::leave() {
-  left_.push_back({std::move(snapshot().back()), config_.cube_m});
+  Kept& kept = kept_[growing_->index];
+  WeightedPoints points = growing_->points.weightedPoints();
+  kept.submap.points = std::move(points.points);
+  kept.weights = std::move(points.weights);
+  kept.submap.voxels = std::make_shared<const common::VoxelMap>(growing_->voxels.snapshot());
   growing_.reset();
-  if (static_cast<int>(left_.size()) >= config_.submaps_max) left_.erase(left_.begin());
   thinOldest();
 }
 
 void SubmapStore::thinOldest() {
   std::size_t points = 0;
-  for (const Left& left : left_) points += left.submap.points->size();
+  for (const Kept& kept : kept_) points += kept.submap.points->size();
   while (points > static_cast<std::size_t>(config_.points_max)) {
     // The first of those with the smallest cubes.
     const auto dense =
-        std::min_element(left_.begin(), left_.end(), [](const Left& a, const Left& b) { return a.cube_m < b.cube_m; });
+        std::min_element(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) { return a.cube_m < b.cube_m; });
+    const std::size_t before = dense->submap.points->size();
     dense->cube_m *= 2.0;
-    auto fewer =
-        std::make_shared<const std::vector<common::SurfacePoint>>(thinned(*dense->submap.points, dense->cube_m));
-    points -= dense->submap.points->size() - fewer->size();
-    dense->submap.points = std::move(fewer);
+    WeightedPoints fewer = thinned({dense->submap.points, std::move(dense->weights)}, dense->cube_m);
+    points -= before - fewer.points->size();
+    dense->submap.points = std::move(fewer.points);
+    dense->weights = std::move(fewer.weights);
   }
 }
 

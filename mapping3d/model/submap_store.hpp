@@ -1,9 +1,13 @@
-// The submaps of a 3D map: one that grows, and those that were left.
+// The submaps of a 3D map: one that grows, and those that were left. Where one was left it goes on when the camera
+// comes back, so that the map grows with the building and not with the flight. It does so only while the 2D map places
+// the frame by the submap's own key scans or by neighbours of them: after a long way the drift would be drawn into it,
+// where no loop closure could take it out again.
 //
 // Each frame is drawn into one submap only, so that the evidence of all submaps can be added.
 #pragma once
 
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -35,32 +39,34 @@ class SubmapStore {
   SubmapStore(const SubmapConfig& config, const VoxelConfig& voxels, const vision::DepthNoiseConfig& noise);
 
   void draw(const PlacedFrame& placed, const common::KeyPoses& scans);
-  /// All submaps as they are now, in the order of their making. Those that were left are the same objects as before.
+  /// All submaps as they are now, in the order of their making. Those that do not grow are the same objects as before.
   std::vector<common::Submap3d> snapshot();
 
  private:
+  struct Kept {
+    common::Submap3d submap;     ///< As it was when it was left.
+    std::vector<float> weights;  ///< Of its points.
+    double cube_m = 0.0;
+    std::set<int> scans;  ///< The key scans of the frames that were drawn into it.
+  };
+  /// One of those that are kept, while it grows.
   struct Growing {
-    int scan = 0;
-    common::Pose3 T_scan_submap;
+    std::size_t index = 0;
     VoxelMapper voxels;
     PointGrid points;
     std::uint64_t frames = 0;
-
-    common::Pose3 T_map_submap(const common::KeyPoses& scans) const { return scans.T_map_level(scan) * T_scan_submap; }
   };
-  struct Left {
-    common::Submap3d submap;
-    double cube_m = 0.0;
-  };
-  void begin(const PlacedFrame& placed, const common::KeyPoses& scans);
+  std::optional<std::size_t> known(const PlacedFrame& placed, const common::KeyPoses& scans) const;
+  std::size_t add(const PlacedFrame& placed, const common::KeyPoses& scans);
+  void grow(std::size_t index);
   void leave();
   void thinOldest();
 
   SubmapConfig config_;
   VoxelConfig voxels_;
   vision::DepthNoiseConfig noise_;
+  std::vector<Kept> kept_;
   std::optional<Growing> growing_;
-  std::vector<Left> left_;
 };
 
 }  // namespace swiftlet::mapping3d

@@ -29,15 +29,19 @@ bool isOnPerson(const Eigen::Vector3d& point_map_m, std::span<const common::Disc
 
 }  // namespace
 
-VoxelMapper::VoxelMapper(const VoxelConfig& config)
+VoxelMapper::VoxelMapper(const VoxelConfig& config) : VoxelMapper(config, common::VoxelMap(config.resolution_m)) {}
+
+VoxelMapper::VoxelMapper(const VoxelConfig& config, const common::VoxelMap& map)
     : config_(config),
       hit_(steps(config.hit_log_odds)),
       miss_(steps(config.miss_log_odds)),
       least_(steps(config.least_log_odds)),
       greatest_(steps(config.greatest_log_odds)),
-      map_(config.resolution_m),
+      map_(map),
       window_(static_cast<int>(std::ceil(config.range_max_m / config.resolution_m))),
-      carving_(config.range_max_m, config.resolution_m) {}
+      carving_(config.range_max_m, config.resolution_m) {
+  SWIFTLET_CHECK(map.resolution_m() == config.resolution_m, map.resolution_m(), config.resolution_m);
+}
 
 InsertionCounts VoxelMapper::insert(const common::DepthImage& depth, const common::PinholeCamera& camera,
                                     const common::Pose3& T_map_camera, std::span<const common::Disc> people) {

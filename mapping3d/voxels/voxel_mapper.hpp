@@ -31,6 +31,8 @@ struct InsertionCounts {
 class VoxelMapper {
  public:
   explicit VoxelMapper(const VoxelConfig& config);
+  /// Draws on into a map of the same resolution; a snapshot(), whose blocks are cloned before they are written.
+  VoxelMapper(const VoxelConfig& config, const common::VoxelMap& map);
 
   /// The depth image must have the size of `camera`. Rays that end within one of the discs (a person, at any height)
   /// only clear the space before it.

@@ -28,6 +28,7 @@ class RgbdStory : public testing::Test {
   FrameSituation situation() const {
     FrameSituation situation;
     situation.at_key = common::KeyRelativePose{0, {}};
+    situation.body = mapping3d::MovingBody{};
     situation.supported = true;
     situation.keys = keys_;
     return situation;
@@ -153,6 +154,29 @@ TEST_F(RgbdStory, NothingIsMappedBeforeThe2DMap) {
   pipeline_.map(situation(), Time::fromSeconds(1.0));
   EXPECT_TRUE(jobs_->idle("mapping3d"));
   EXPECT_EQ(pipeline_.layer(keys_), nullptr);
+}
+
+TEST_F(RgbdStory, TheFirstFrameWaitsForAMeasuredPose) {
+  FrameSituation unknown = situation();
+  unknown.at_key.reset();
+  FrameSituation predicted = situation();
+  predicted.supported = false;
+  for (const FrameSituation& early : {unknown, predicted}) {
+    pipeline_.add(frameAt(1.0 + 0.1 * static_cast<double>(pipeline_.counts().frames)));
+    pipeline_.map(early, Time::fromSeconds(1.2));
+    EXPECT_TRUE(jobs_->idle("mapping3d"));
+  }
+  pipeline_.add(frameAt(2.0));
+  FrameSituation there = situation();
+  there.at_key->T_key_body.position_m = {1.0, 2.0, 0.5};
+  pipeline_.map(there, Time::fromSeconds(2.0));
+  jobs_->deliverDue(Time::fromSeconds(2.1));
+  ASSERT_TRUE(pipeline_.layer(keys_));
+  EXPECT_TRUE(pipeline_.layer(keys_)->T_map_camera.position_m.isApprox(there.at_key->T_key_body.position_m));
+  // Later frames are aligned to the map, so they need none.
+  pipeline_.add(frameAt(2.2));
+  pipeline_.map(unknown, Time::fromSeconds(2.2));
+  EXPECT_FALSE(jobs_->idle("mapping3d"));
 }
 
 }  // namespace

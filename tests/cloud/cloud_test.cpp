@@ -1,6 +1,7 @@
 // The cloud of a 3D map: one point a cube, without specks, in `map`.
 #include "mapping3d/cloud/cloud.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -31,6 +32,28 @@ using Cube = std::tuple<int, int, int>;
 Cube cubeOf(const Vector3f& p, float cube_m) {
   const auto index = [&](float value) { return static_cast<int>(std::floor(value / cube_m)); };
   return {index(p.x()), index(p.y()), index(p.z())};
+}
+
+TEST(CleanCloudTest, HasNoMorePointsThanItMay) {
+  std::mt19937 random(1);
+  CloudConfig config;
+  const std::size_t all = cleanCloud(wall(random), config).size();
+  config.points_max = all / 5;
+  const std::size_t some = cleanCloud(wall(random), config).size();
+  EXPECT_LE(some, config.points_max);
+  EXPECT_GT(some, config.points_max / 3) << "no more is left out than must be";
+}
+
+TEST(CleanCloudTest, TheQuickOneKeepsSpecks) {
+  std::mt19937 random(1);
+  std::vector<SurfacePoint> points = wall(random);
+  const std::size_t without = cleanCloud(points).size();
+  points.push_back({Vector3f(-3.0F, 0.0F, 0.0F), Vector3f::Zero(), {}});
+  CloudConfig quick;
+  quick.neighbours = 0;
+  const std::vector<SurfacePoint> cloud = cleanCloud(points, quick);
+  EXPECT_GT(cloud.size(), without);
+  EXPECT_TRUE(std::any_of(cloud.begin(), cloud.end(), [](const SurfacePoint& p) { return p.position_m.x() < 0.0F; }));
 }
 
 TEST(CleanCloudTest, KeepsTheMeanOfEachCube) {

@@ -1,0 +1,107 @@
+// Where the camera is mounted and how late its clock is, estimated in flight.
+//
+// The camera's motion between two key frames and the body's motion between the same times are the same motion, seen in
+// two frames (hand-eye calibration): B X = X C, with the mount X = T_body_camera. A wrong mount turns and shifts X C
+// X^-1 against B; a clock that is late by tau gives the body's poses of another time. A Kalman filter of these seven
+// unknowns takes each pair of key frames once. Turns about the vertical tell roll and pitch of the mount, its x and y,
+// and, where they begin and end, the clock. Straight flight tells its yaw. What no motion has told keeps the spread of
+// the prior.
+//
+// Sources: R. Tsai, R. Lenz, "A new technique for fully autonomous and efficient 3D robotics hand/eye calibration", TRA
+// 1989 (rotation about its axis); M. Li, A. Mourikis, "Online temporal calibration for camera-IMU systems", IJRR 2014
+// (the clock as a state).
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "common/config_fwd.hpp"
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "mapping3d/odometry/alignment.hpp"
+
+namespace swiftlet::mapping3d {
+
+struct CameraCalibrationConfig {
+  bool enabled = true;
+  double mount_sigma_m = 0.01;
+  double mount_sigma_rad = 0.015;
+  double clock_sigma_s = 0.005;
+  double clock_walk_s_rts = 0.0002;
+  double step_sigma_m = 0.01;
+  double step_sigma_rad = 0.004;
+  double gate_sigma = 4.0;
+  double known_share = 0.5;
+  double limit_sigma = 4.0;
+
+  void describe(common::config::Fields& fields);
+};
+
+/// The body at the time of a frame, by the other sensors.
+struct MovingBody {
+  common::Time time;
+  common::Pose3 T_odom_body;
+  Eigen::Vector3d velocity_body_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rate_body_rad_s = Eigen::Vector3d::Zero();
+  /// The offset of the camera's clock that was taken off the frame's stamp to get this time.
+  double clock_offset_s = 0.0;
+};
+
+/// The motion from one frame to another.
+struct CameraMotion {
+  common::Pose3 T_from_to_camera;  ///< As the camera measured it.
+  /// Of its error (position, rotation vector), in the axes of the camera at `to`.
+  Matrix6d covariance = Matrix6d::Zero();
+  MovingBody from, to;
+};
+
+/// How a camera differs from its data sheet.
+struct CameraErrors {
+  using Vector7d = Eigen::Matrix<double, 7, 1>;
+  using Matrix7d = Eigen::Matrix<double, 7, 7>;
+
+  /// Position of the mount in the body (m), its rotation vector in the body (rad), and how much later than the flight's
+  /// clock its own is (s).
+  Vector7d mean = Vector7d::Zero();
+  Matrix7d covariance = Matrix7d::Zero();
+};
+
+/// One thread. The same motions in the same order give the same bits.
+class CameraCalibration {
+ public:
+  CameraCalibration(const CameraCalibrationConfig& config, const common::Pose3& T_body_camera_sheet);
+
+  void add(const CameraMotion& motion);
+
+  const CameraErrors& errors() const { return errors_; }
+  /// Whether a component of the errors is known well enough to be used.
+  bool isKnown(int component) const;
+  /// The mount with those components that are known.
+  common::Pose3 T_body_camera() const;
+  /// The same of the clock; 0 while it is not known.
+  double clockOffset_s() const;
+
+  /// The motion of the body that the camera measured, by the mount that is used.
+  common::Pose3 bodyMotion(const common::Pose3& T_from_to_camera) const;
+  /// The covariance of its error (position, rotation vector) in the axes of the body at `to`: that of the camera's
+  /// measurement, and what the uncertain mount and clock add to it.
+  Matrix6d bodyCovariance(const CameraMotion& motion) const;
+
+ private:
+  using Vector6d = Eigen::Matrix<double, 6, 1>;
+  using Jacobian = Eigen::Matrix<double, 6, 7>;
+  void letClockDrift(common::Time now);
+  common::Pose3 mountWith(const CameraErrors::Vector7d& errors) const;
+  CameraErrors::Vector7d used() const;
+  Vector6d residual(const CameraMotion& motion, const CameraErrors::Vector7d& errors) const;
+  Jacobian jacobian(const CameraMotion& motion, const CameraErrors::Vector7d& at) const;
+
+  CameraCalibrationConfig config_;
+  common::Pose3 T_body_camera_sheet_;
+  CameraErrors errors_;
+  CameraErrors::Vector7d prior_sigma_;
+  std::optional<common::Time> newest_;  ///< Of the motions.
+};
+
+}  // namespace swiftlet::mapping3d
