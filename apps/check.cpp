@@ -1,10 +1,12 @@
 // swiftlet check: validates missions without flying.
+#include <map>
 #include <memory>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
+#include "apps/dry_run.hpp"
 #include "apps/mission_limits.hpp"
 #include "apps/show.hpp"
 #include "behaviors/mission_check.hpp"
@@ -16,59 +18,104 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> missions;
   std::string system = "swiftlet";
+  std::string dry_run;  ///< The script; empty: none.
   bool mock_leaves = false;
   bool json = false;
 };
 
-/// With --mock-leaves, whose nodes they are too; a file that cannot be found is a problem.
-behaviors::MockedCheck checkOne(const std::string& mission, const CheckOptions& options, const System& system) {
-  if (!options.mock_leaves) return {missionProblems(mission, system), {}};
+/// A file that cannot be found is a problem.
+behaviors::MissionVerdict judge(const std::string& mission, const CheckOptions& options, const System& system) {
   try {
-    return behaviors::checkMissionWithMocks(common::findData(mission).string(), missionLimits(system, true));
+    const std::string file = common::findData(mission).string();
+    const behaviors::MissionLimits limits = missionLimits(system, true);
+    return options.mock_leaves ? behaviors::judgeMissionWithMocks(file, limits) : behaviors::judgeMission(file, limits);
   } catch (const common::InputError& missing) {
-    return {missing.problems(), {}};
+    behaviors::MissionVerdict verdict;
+    for (const common::Problem& problem : missing.problems())
+      verdict.problems.push_back({{problem.location.file, 0, 0}, problem.element, problem.message, problem.hint, {}});
+    return verdict;
   }
 }
 
-int check(const CheckOptions& options) {
+/// "m.xml:4:7: warning: Land: is never reached ... [M/Sequence/Land]".
+std::string lineOf(tree::Problem problem, bool warning) {
+  if (warning) problem.element = "warning" + (problem.element.empty() ? "" : ": " + problem.element);
+  return toString(problem) + (problem.path.empty() ? "" : " [" + problem.path + "]") + "\n";
+}
+
+nlohmann::json jsonOf(const std::vector<tree::Problem>& problems) {
+  auto list = nlohmann::json::array();
+  for (const tree::Problem& problem : problems)
+    list.push_back({{"file", problem.location.file},
+                    {"line", problem.location.line},
+                    {"column", problem.location.column},
+                    {"element", problem.element},
+                    {"message", problem.message},
+                    {"hint", problem.hint},
+                    {"path", problem.path}});
+  return list;
+}
+
+struct CheckReport {
+  std::vector<tree::Problem> problems;
+  std::vector<tree::Problem> warnings;
+  std::map<std::string, std::vector<std::string>> nodes;  ///< By mission: whose they are.
+};
+
+CheckReport reportOn(const CheckOptions& options) {
   const System system = loadSystem(options.system);
-  auto report = nlohmann::json::array();
-  auto nodes = nlohmann::json::object();
-  std::size_t count = 0;
+  CheckReport report;
   for (const std::string& mission : options.missions) {
-    const behaviors::MockedCheck checked = checkOne(mission, options, system);
-    for (const std::string& line : checked.whose) {
-      nodes[mission].push_back(line);
-      if (!options.json) show(fmt::format("{}: {}\n", mission, line));
-    }
-    for (const common::Problem& problem : checked.problems) {
-      ++count;
-      report.push_back({{"file", problem.location.file},
-                        {"line", problem.location.line},
-                        {"column", problem.location.column},
-                        {"element", problem.element},
-                        {"message", problem.message},
-                        {"hint", problem.hint}});
-      if (!options.json) showError(toString(problem) + "\n");
-    }
+    behaviors::MissionVerdict verdict = judge(mission, options, system);
+    report.problems.insert(report.problems.end(), verdict.problems.begin(), verdict.problems.end());
+    report.warnings.insert(report.warnings.end(), verdict.warnings.begin(), verdict.warnings.end());
+    if (!verdict.whose.empty()) report.nodes[mission] = std::move(verdict.whose);
+  }
+  return report;
+}
+
+void print(const CheckReport& report, std::size_t missions) {
+  for (const auto& [mission, lines] : report.nodes)
+    for (const std::string& line : lines) show(fmt::format("{}: {}\n", mission, line));
+  for (const tree::Problem& problem : report.problems) showError(lineOf(problem, false));
+  for (const tree::Problem& warning : report.warnings) showError(lineOf(warning, true));
+  if (!report.problems.empty()) return;
+  const std::string warnings = report.warnings.empty() ? ""
+                                                       : fmt::format(", with {} warning{}", report.warnings.size(),
+                                                                     report.warnings.size() == 1 ? "" : "s");
+  fmt::print("{} mission{} sound{}\n", missions, missions == 1 ? " is" : "s are", warnings);
+}
+
+int check(const CheckOptions& options) {
+  if (!options.dry_run.empty() && options.missions.size() != 1)
+    throw common::InputError(common::Problem{{}, "--dry-run", "the script is of one mission", "name that one alone"});
+  const CheckReport report = reportOn(options);
+  if (!options.dry_run.empty() && report.problems.empty()) {
+    if (!options.json) print(report, 1);
+    showDryRun({options.missions.front(), options.dry_run, options.mock_leaves, options.json});
+    return kDone;
   }
   if (options.json) {
-    nlohmann::json all = {{"problems", report}};
-    if (options.mock_leaves) all["nodes"] = nodes;
+    nlohmann::json all = {{"problems", jsonOf(report.problems)}, {"warnings", jsonOf(report.warnings)}};
+    if (options.mock_leaves) all["nodes"] = report.nodes;
     showJson(all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  } else if (count == 0) {
-    fmt::print("{} mission{} sound\n", options.missions.size(), options.missions.size() == 1 ? " is" : "s are");
+  } else {
+    print(report, options.missions.size());
   }
-  return count == 0 ? kDone : kBadInput;
+  return report.problems.empty() ? kDone : kBadInput;
 }
 
 }  // namespace
 
 void addCheck(Command& program) {
   auto options = std::make_shared<CheckOptions>();
-  Command command = program.command("check", "Validate missions without flying; every error with its place.");
+  Command command =
+      program.command("check", "Validate missions without flying; every error and every warning with its place.");
   command.arguments("missions", options->missions, "Mission files.");
   command.option("--system", options->system, "The profile they are to be flown with.");
+  command.option("--dry-run", options->dry_run,
+                 "Also tick the mission, with answers of its leaves from this script, and print what happens: lines as "
+                 "`TakeOff: RUNNING x3, SUCCESS`.");
   command.flag(
       "--mock-leaves", options->mock_leaves,
       "Let nodes that Swiftlet does not have be mocks, and say whose each node is; such a mission cannot be flown.");

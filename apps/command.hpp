@@ -19,5 +19,6 @@ void addVersion(Command& program);
 void addEvaluate(Command& program);
 void addOptimize(Command& program);
 void addConvert(Command& program);
+void addMigrate(Command& program);
 
 }  // namespace swiftlet::apps

@@ -21,6 +21,7 @@
 
 namespace swiftlet::apps {
 
+class GrootLink;
 class WebLink;
 
 struct FlightSetup {
@@ -33,6 +34,7 @@ struct FlightSetup {
   VehicleMemorySetup memory;
   std::filesystem::path out;
   std::string started;           ///< For the run's records.
+  bool wait = false;             ///< On the ground, until the operator starts a mission.
   double speed = 0.0;            ///< Times real time; 0: as fast as the machine can.
   double time_limit_s = 1800.0;  ///< Of simulated time.
   double linger_s = 0.0;         ///< Time on the wall clock to wait after the end, so that a page sees it.
@@ -53,6 +55,7 @@ struct FlightHooks {
   std::function<void(const FlightProgress&)> progress;  ///< About ten times a second of wall time.
   std::function<void(const common::Event&)> event;
   WebLink* web = nullptr;                   ///< With a channel for each vehicle.
+  GrootLink* groot = nullptr;               ///< Shows the tree of the first vehicle.
   const std::atomic<bool>* land = nullptr;  ///< Lands every vehicle, as the operator's command does.
   const std::atomic<bool>* stop = nullptr;  ///< Ends the flight from outside, in the air too.
   /// At the end of each vehicle's flight, before the run's last files are written: adds to them what a scorer finds.

@@ -8,12 +8,15 @@
 
 #include "apps/command.hpp"
 #include "apps/flight.hpp"
+#include "apps/groot_link.hpp"
+#include "apps/mission_shelf.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/show.hpp"
 #include "apps/speed.hpp"
 #include "apps/stop_signals.hpp"
 #include "apps/trial_world.hpp"
 #include "apps/web_link.hpp"
+#include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
 #include "common/printable.hpp"
 #include "common/rounding.hpp"
@@ -42,8 +45,10 @@ struct FlyOptions {
   std::string vehicle_memory;
   std::string speed;
   bool headless = false;
+  bool wait = false;
   std::string listen = "127.0.0.1";
   int port = 8080;
+  std::optional<int> groot;
   std::string out;
   double time_limit_s = 1800.0;
   bool json = false;
@@ -78,6 +83,9 @@ FlightSetup setupOf(const FlyOptions& options) {
   setup.time_limit_s = options.time_limit_s;
   setup.linger_s = options.headless ? 0.0 : 2.0;
   setup.out = options.out;
+  setup.wait = options.wait;
+  if (options.wait && options.headless)
+    throw common::InputError(common::Problem{{}, "--wait", "without the page nobody can start the mission", ""});
   return setup;
 }
 
@@ -173,9 +181,21 @@ void printEnd(const FlightResult& result, bool json) {
   for (const VehicleResult& vehicle : result.vehicles) printEnd(vehicle);
 }
 
+/// What `check` warns of does not keep the vehicle on the ground.
+void showWarnings(const std::vector<FlightMission>& missions) {
+  for (const FlightMission& mission : missions) {
+    const behaviors::MissionVerdict verdict = behaviors::judgeMission(mission.file);
+    for (tree::Problem warning : verdict.warnings) {
+      warning.element = "warning: " + warning.element;
+      showError(toString(warning) + "\n");
+    }
+  }
+}
+
 int fly(const FlyOptions& options) {
   FlightSetup setup = setupOf(options);
   std::vector<FlightMission> missions = soundMissions(setup, !options.map.empty());
+  showWarnings(missions);
   if (!options.map.empty()) setup.map = std::make_shared<const FlightMap>(readFlightMap(options.map));
   const StopSignals& signals = stopOnSignals();
   outliveReaders();
@@ -185,18 +205,29 @@ int fly(const FlyOptions& options) {
     const auto title = fmt::format("{} in {}", std::filesystem::path(options.mission).stem().string(),
                                    std::filesystem::path(setup.scenario.world).stem().string());
     web = std::make_unique<WebLink>(options.listen, options.port, title, setup.system.vehicle.hull_diameter_m,
-                                    vehicleNames(setup.scenario));
+                                    vehicleNames(setup.scenario),
+                                    std::make_unique<FolderShelf>(setup.mission_file, shippedMissions()));
     const std::string page = fmt::format("page    {}\n\n", web->operatorUrl());
     if (options.json)
       showError(page);  // The token is in it, and standard output is the outcome alone.
     else
       show(page);
   }
+  std::unique_ptr<GrootLink> groot;
+  if (options.groot) {
+    groot = std::make_unique<GrootLink>(options.listen, *options.groot);
+    const std::string line = fmt::format("groot   {}:{}\n", options.listen, groot->port());
+    if (options.json)
+      showError(line);
+    else
+      show(line);
+  }
   Terminal terminal(options.json);
   FlightHooks hooks;
   hooks.progress = [&](const FlightProgress& progress) { terminal.progress(progress); };
   hooks.event = [&](const common::Event& event) { terminal.event(event); };
   hooks.web = web.get();
+  hooks.groot = groot.get();
   hooks.land = &signals.first;
   hooks.stop = &signals.second;
 
@@ -232,8 +263,13 @@ void addFly(Command& program) {
                  "Seed of all random numbers. Default: the scenario's, or 1.");
   command.option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");
   command.flag("--headless", options->headless, "Without the page.");
+  command.flag("--wait", options->wait,
+               "Stay on the ground until a mission is started on the page: this one, or another.");
   command.option("--listen", options->listen, "Address the page listens on; 0.0.0.0: of every network.");
   command.option("--port", options->port, {0, 65535}, "Port of the page, 0 for any.");
+  command.option(
+      "--groot", options->groot, {0, 65535},
+      "Let Groot2 watch the mission's tree at this port (1667 is its own; 0: any), on the address of --listen.");
   command.option("--out", options->out, "Folder of the run; default runs/<time>-<mission>.");
   command.option("--time-limit", options->time_limit_s, {0.01, 1e6},
                  "Simulated seconds after which the flight is stopped.");

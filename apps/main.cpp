@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   apps::addFly(top);
   apps::addCheck(top);
   apps::addNodes(top);
+  apps::addMigrate(top);
   apps::addTrial(top);
   apps::addMap(top);
   apps::addMap3d(top);

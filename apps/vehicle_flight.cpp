@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "apps/flight_sinks.hpp"
+#include "apps/groot_link.hpp"
 #include "apps/web_link.hpp"
 #include "common/world.hpp"
 #include "common/world/map3d_layer.hpp"
@@ -68,6 +69,7 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
                              const std::filesystem::path& folder)
     : setup_(setup),
       hooks_(hooks),
+      number_(number),
       web_(hooks.web ? &hooks.web->channel(number) : nullptr),
       vehicle_(std::make_unique<simulation::SimulatedVehicle>(arena, number)),
       name_(vehicle_->name()),
@@ -81,6 +83,7 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       map3d_(folder_),
       sinks_(makeSinks()),
       loop_(*vehicle_, autonomy_, commands(), sinks()) {
+  if (setup.wait) autonomy_.waitForStart();
   recorder_.watch(setup.phases);
 }
 
@@ -93,6 +96,7 @@ std::vector<std::unique_ptr<autonomy::FlightSink>> VehicleFlight::makeSinks() {
   sinks.push_back(std::make_unique<OperatorSink>(script_));
   if (hooks_.event) sinks.push_back(std::make_unique<EventSink>(hooks_.event));
   if (web_) sinks.push_back(std::make_unique<PageSink>(*web_));
+  if (hooks_.groot && number_ == 0) sinks.push_back(std::make_unique<GrootSink>(*hooks_.groot));
   return sinks;
 }
 

@@ -59,6 +59,7 @@ class VehicleFlight {
 
   const FlightSetup& setup_;
   const FlightHooks& hooks_;
+  std::size_t number_;
   WebChannel* web_;  ///< Null without a page.
   std::unique_ptr<simulation::SimulatedVehicle> vehicle_;
   std::string name_;  ///< Empty when it flies alone.

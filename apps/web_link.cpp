@@ -14,7 +14,8 @@ common::Time unixTime() {
 }  // namespace
 
 WebLink::WebLink(const std::string& address, int port, const std::string& title, double hull_diameter_m,
-                 const std::vector<std::string>& vehicles) {
+                 const std::vector<std::string>& vehicles, std::unique_ptr<web::MissionShelf> missions)
+    : missions_(std::move(missions)) {
   std::vector<web::WebServer::Sources> sources;
   for (std::size_t i = 0; i < std::max<std::size_t>(vehicles.size(), 1); ++i) {
     WebChannel& channel = *channels_.emplace_back(std::make_unique<WebChannel>());
@@ -28,6 +29,7 @@ WebLink::WebLink(const std::string& address, int port, const std::string& title,
   options.title = title;
   options.hull_diameter_m = hull_diameter_m;
   options.unix_time = unixTime;
+  options.missions = missions_.get();
   server_ = std::make_unique<web::WebServer>(io_, options, sources);
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     channels_[i]->server_ = server_.get();

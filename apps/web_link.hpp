@@ -10,6 +10,7 @@
 #include "common/event.hpp"
 #include "common/mailbox.hpp"
 #include "common/sensor_event.hpp"
+#include "web/server/mission_shelf.hpp"
 #include "web/server/web_server.hpp"
 
 namespace swiftlet::apps {
@@ -38,9 +39,9 @@ class WebChannel {
 class WebLink {
  public:
   /// Listens at once; throws common::InputError when it cannot. `vehicles`: the names of several; empty for one that
-  /// flies alone.
+  /// flies alone. `missions`: those that a page may start; null: none.
   WebLink(const std::string& address, int port, const std::string& title, double hull_diameter_m,
-          const std::vector<std::string>& vehicles);
+          const std::vector<std::string>& vehicles, std::unique_ptr<web::MissionShelf> missions = nullptr);
   ~WebLink();
 
   std::string operatorUrl() const { return server_->operatorUrl(); }
@@ -49,6 +50,7 @@ class WebLink {
 
  private:
   std::vector<std::unique_ptr<WebChannel>> channels_;
+  std::unique_ptr<web::MissionShelf> missions_;
   web::IoContext io_;
   std::unique_ptr<web::WebServer> server_;
   std::thread thread_;

@@ -28,6 +28,15 @@ constexpr double kCameraReach_m = 2.0;
 /// weight, as much as the position controller keeps for the height when it tilts (kKeptForHeight).
 constexpr double kLandingMargin = 0.03;
 
+/// Of the missions that the operator starts in flight, as `fly` checks the first one.
+behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::VehicleConfig& vehicle, bool has_map) {
+  behaviors::MissionLimits limits;
+  limits.clearance_problems = [config](double clearance_m) { return config.problemsWith(clearance_m); };
+  limits.max_height_m = vehicle.max_height_m;
+  limits.has_map = has_map;
+  return limits;
+}
+
 }  // namespace
 
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
@@ -42,7 +51,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
       supervisor_(config.supervisor),
       supervisor_intents_(config.execution.clearance_m),
-      mission_(std::move(mission)),
+      missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr)),
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
       imu_watch_(config.imu),
@@ -51,14 +60,21 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       energy_monitor_(config.energy, vehicle, config.control.position.thrust.table.voltage_exponent),
       world_builder_(vehicle_name_) {
   if (memory != nullptr) controller_.recallThrust(memory->thrust);
-  const double max_height_m = mission_.maxHeight_m().value_or(vehicle.max_height_m);
-  context_.goal_limits.greatest_height_m = max_height_m;
-  controller_.setMaxHeight(max_height_m);
-  mission_status_.accepts_goals = mission_.acceptsGoals();
+  followMission();
   takeSnapshot(Time{});
 }
 
 Autonomy::~Autonomy() = default;
+
+/// What the rest of the autonomy knows of the mission; another one may have taken its place.
+void Autonomy::followMission() {
+  const behaviors::Mission& mission = missions_.mission();
+  const double max_height_m = mission.maxHeight_m().value_or(vehicle_.max_height_m);
+  context_.goal_limits.greatest_height_m = max_height_m;
+  controller_.setMaxHeight(max_height_m);
+  mission_status_.accepts_goals = mission.acceptsGoals();
+  mission_status_.name = mission.name();
+}
 
 std::optional<common::Setpoint> Autonomy::process(const Input& input) {
   if (const auto* timer = std::get_if<Tick>(&input)) return tick(timer->now);
@@ -105,13 +121,14 @@ void Autonomy::take(const common::OperatorCommand& command, Time now) {
     if (refusal.empty() && missionOver()) refusal = "the mission has ended";
     if (!refusal.empty()) return answer(command, {command.id, false, std::move(refusal)}, now);
   }
+  if (auto result = missions_.take(command)) return answer(command, std::move(*result), now);
   if (auto result = supervisor_.take(command, now)) {
-    const auto next = mission_.waitingCommand();
+    const auto next = missions_.mission().waitingCommand();
     if (result->accepted && next && std::holds_alternative<common::ResumeCommand>(command.kind))
       result->reason = "next: " + toString(*next);
     return answer(command, std::move(*result), now);
   }
-  if (std::holds_alternative<common::HomeCommand>(command.kind) && !mission_.acceptsGoals())
+  if (std::holds_alternative<common::HomeCommand>(command.kind) && !missions_.mission().acceptsGoals())
     return answer(command, supervisor_.goHome(command), now);
   context_.commands.push_back(command);
 }
@@ -253,7 +270,8 @@ common::Intent Autonomy::nextIntent(Time now) {
   if (missionOver()) return SupervisorIntents::land();
   const SupervisedFlight flight{now, *world_, intent_, executor_.status(), executor_.desk().home_m().has_value()};
   if (auto intent = supervisor_intents_.flight(supervision, flight, supervisor_)) return *intent;
-  if (supervision.hold && mission_status_.state != MissionState::kHeld) return SupervisorIntents::hold();
+  if (missions_.waits() || (supervision.hold && mission_status_.state != MissionState::kHeld))
+    return SupervisorIntents::hold();
   return context_.intent.value_or(common::Intent{});
 }
 
@@ -276,7 +294,7 @@ void Autonomy::endMission(const std::string& reason, Time now) {
   }
   for (const auto& command : std::exchange(context_.commands, {}))
     answer(command, {command.id, false, "the vehicle is landing: " + reason}, now);
-  if (releasing_mission_) releasing_mission_ = !mission_.letGo(context_);
+  if (releasing_mission_) releasing_mission_ = !missions_.mission().letGo(context_);
   collect(std::exchange(context_.events, {}));
 }
 
@@ -297,11 +315,12 @@ VehicleCondition Autonomy::condition(common::Time now) const {
 void Autonomy::tickMission() {
   context_.intent.reset();
   const std::vector<common::OperatorCommand> asked = context_.commands;
-  const behaviors::TickResult result = mission_.tick(context_);
+  const behaviors::TickResult result = missions_.tick(context_);
   collect(std::exchange(context_.events, {}));
   std::vector<common::CommandResult> answers = std::exchange(context_.results, {});
   SWIFTLET_CHECK(answers.size() == asked.size(), answers.size(), asked.size());
   for (std::size_t i = 0; i < asked.size(); ++i) answer(asked[i], std::move(answers[i]), context_.now);
+  followMission();
   mission_status_.state = result.state;
   mission_status_.phase = result.phase;
   mission_status_.reason = result.reason;
@@ -319,7 +338,7 @@ void Autonomy::takeSnapshot(Time now) {
   parts.vehicle.drift_m = drift_m_;
   parts.mission = {mission_status_, executor_.status(), executor_.goal_map_m(), {}, {}};
   showWaiting(parts.mission);
-  parts.mission.status.tree = mission_.view();
+  parts.mission.status.tree = missions_.mission().view();
   parts.map = {given_map_.grid(),
                estimator_.levels(),
                executor_.desk().frontiers(),
@@ -343,7 +362,7 @@ void Autonomy::takeSnapshot(Time now) {
 
 /// What the mission flies to after the hold, as long as nothing else is flown to.
 void Autonomy::showWaiting(common::MissionLayer& layer) const {
-  const auto command = mission_.waitingCommand();
+  const auto command = missions_.mission().waitingCommand();
   if (mission_status_.state != MissionState::kHeld || !command) return;
   layer.waiting = toString(*command);
   if (layer.goal_map_m) return;

@@ -14,6 +14,7 @@
 #include "autonomy/given_map_overlay.hpp"
 #include "autonomy/imu_watch.hpp"
 #include "autonomy/input.hpp"
+#include "autonomy/mission_desk.hpp"
 #include "autonomy/reactive.hpp"
 #include "autonomy/scan_queue.hpp"
 #include "autonomy/scan_watch.hpp"
@@ -68,6 +69,9 @@ class Autonomy {
            std::string vehicle_name = {}, const VehicleMemory* memory = nullptr,
            const common::RgbdCameraConfig* camera = nullptr);
   ~Autonomy();
+
+  /// The mission begins when the operator starts it, or another one. Call it before the first input.
+  void waitForStart() { missions_.waitForStart(); }
 
   /// Returns a setpoint for a tick, and nothing for any other input. The delivered job must be outstanding (awaits).
   std::optional<common::Setpoint> process(const Input& input);
@@ -126,6 +130,7 @@ class Autonomy {
   VehicleCondition condition(common::Time now) const;
   bool missionOver() const { return common::isOver(mission_status_.state); }
   void tickMission();
+  void followMission();
   void takeSnapshot(common::Time now);
   void showWaiting(common::MissionLayer& layer) const;
   void collect(std::vector<common::Event> events);
@@ -140,7 +145,7 @@ class Autonomy {
   Executor executor_;
   Supervisor supervisor_;
   SupervisorIntents supervisor_intents_;
-  behaviors::Mission mission_;
+  MissionDesk missions_;
   std::unique_ptr<common::JobRunner> jobs_;
 
   ScanQueue scans_;

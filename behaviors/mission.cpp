@@ -4,10 +4,12 @@
 #include <utility>
 
 #include "behaviors/flight_tick.hpp"
+#include "behaviors/live_tree.hpp"
 #include "behaviors/mission_check.hpp"
 #include "behaviors/narrator.hpp"
 #include "behaviors/operator_command.hpp"
 #include "behaviors/registry.hpp"
+#include "behaviors/tree/observers.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "common/check.hpp"
 #include "common/world.hpp"
@@ -19,7 +21,8 @@ using common::MissionState;
 using tree::Status;
 
 struct Mission::Impl {
-  explicit Impl(tree::Tree parsed) : tree(std::move(parsed)), narrator(tree) {}
+  explicit Impl(tree::Tree parsed)
+      : tree(std::move(parsed)), narrator(tree), live(tree), observers({&narrator, &live}) {}
 
   void answerCommands(Context& context);
   std::string refusal(const Context& context, const common::OperatorCommand& command) const;
@@ -29,6 +32,8 @@ struct Mission::Impl {
 
   tree::Tree tree;
   Narrator narrator;
+  LiveTree live;
+  tree::Observers observers;
   std::uint64_t last_intent_id = 0;
   std::optional<common::OperatorCommand> pending_command;
   std::vector<const OperatorCommand*> takers;  ///< The nodes that take goals and home commands.
@@ -41,6 +46,14 @@ namespace {
 tree::Tree sound(tree::ParseResult parsed) {
   if (!parsed.tree) throw common::InputError(toCommon(parsed.problems));
   return std::move(*parsed.tree);
+}
+
+/// Throws also for what cannot work in flight.
+tree::Tree flyable(tree::ParseResult parsed, const MissionLimits& limits) {
+  tree::Tree tree = sound(std::move(parsed));
+  if (const auto problems = semanticProblems(tree, limits); !problems.empty())
+    throw common::InputError(toCommon(problems));
+  return tree;
 }
 
 }  // namespace
@@ -59,10 +72,11 @@ Mission Mission::fromFile(const std::string& path) {
 }
 
 Mission Mission::fromFile(const std::string& path, const MissionLimits& limits) {
-  tree::Tree tree = sound(tree::parseFile(path, missionRegistry()));
-  if (const auto problems = semanticProblems(tree, limits); !problems.empty())
-    throw common::InputError(toCommon(problems));
-  return Mission(std::make_unique<Impl>(std::move(tree)));
+  return Mission(std::make_unique<Impl>(flyable(tree::parseFile(path, missionRegistry()), limits)));
+}
+
+Mission Mission::fromText(const std::string& text, const std::string& name, const MissionLimits& limits) {
+  return Mission(std::make_unique<Impl>(flyable(tree::parseText(text, name, missionRegistry()), limits)));
 }
 
 Mission Mission::fromText(const std::string& text, const std::string& name) {
@@ -77,8 +91,9 @@ TickResult Mission::tick(Context& context) {
   if (common::isOver(self.result.state)) return self.result;
 
   FlightTick tick(context, self.last_intent_id, self.pending_command);
-  tick.observer = &self.narrator;
+  tick.observer = &self.observers;
   self.narrator.listen(&tick);
+  self.live.setNow(context.now);
   const Status status = self.tree.tick(tick);
   self.narrator.listen(nullptr);
   if (status != Status::kRunning) context.intent.reset();  // A leaf that ended in this tick has no intent any more.
@@ -91,8 +106,9 @@ bool Mission::letGo(Context& context) {
   Impl& self = *impl_;
   context.intent.reset();
   FlightTick tick(context, self.last_intent_id, self.pending_command);
-  tick.observer = &self.narrator;
+  tick.observer = &self.observers;
   self.narrator.listen(&tick);
+  self.live.setNow(context.now);
   const bool released = self.tree.halt(tick) == tree::Release::kReleased;
   self.narrator.listen(nullptr);
   if (released) {
@@ -103,12 +119,9 @@ bool Mission::letGo(Context& context) {
   return released;
 }
 
-common::TreeView Mission::view() const {
-  common::TreeView view;
-  for (const tree::NodeView& node : impl_->tree.view())
-    view.push_back({node.id, node.parent, node.name, toString(node.status)});
-  return view;
-}
+const common::TreeView& Mission::view() const { return impl_->live.view(); }
+
+void Mission::continueIntentsOf(const Mission& before) { impl_->last_intent_id = before.impl_->last_intent_id; }
 
 std::optional<double> Mission::maxHeight_m() const { return maxHeightOf_m(impl_->tree); }
 

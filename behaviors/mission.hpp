@@ -29,6 +29,7 @@ class Mission {
   static Mission fromFile(const std::string& path, const MissionLimits& limits);
   /// Messages use `name` as the file.
   static Mission fromText(const std::string& text, const std::string& name);
+  static Mission fromText(const std::string& text, const std::string& name, const MissionLimits& limits);
   Mission(Mission&&) noexcept;
   Mission& operator=(Mission&&) noexcept;
   ~Mission();
@@ -40,7 +41,10 @@ class Mission {
   /// reset.
   bool letGo(Context& context);
 
-  common::TreeView view() const;
+  /// Its nodes with their statuses, ports, reasons and durations. The reference is valid until the next tick or view.
+  const common::TreeView& view() const;
+  /// The ids of its intents rise from where those of the mission that it replaces ended.
+  void continueIntentsOf(const Mission& before);
   /// The mission has an OperatorCommand: goals and home commands are flown instead of refused.
   bool acceptsGoals() const;
   /// The operator's goal or home command that the mission flies to, now or after what it does now.

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "behaviors/flight_leaf.hpp"
+#include "behaviors/mission_warnings.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
@@ -80,7 +81,8 @@ class Walk {
       problems_.push_back({tree_.locationOf(node.id()),
                            std::string(id),
                            "the vehicle stands on the floor here, expected a TakeOff before it",
-                           {}});
+                           {},
+                           tree_.pathOf(node.id())});
     if (id == "Land") return {{true, false}, entry};
     if (id == "OperatorCommand") return {{}, entry};
     return {entry, entry};
@@ -111,7 +113,8 @@ class Walk {
       if (child == node.children().back() || maySkip(*child)) continue;
       problems_.push_back({tree_.locationOf(child->id()), child->name(),
                            "never answers SKIPPED, so that no child below it in the Priority gets the vehicle",
-                           "only a leaf that can be SKIPPED (AvoidObstacle, Hold) may stand above another child"});
+                           "only a leaf that can be SKIPPED (AvoidObstacle, Hold) may stand above another child",
+                           tree_.pathOf(child->id())});
     }
     exits.success = at;
     return exits;
@@ -154,14 +157,15 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
   const double max_height_m = maxHeightOf_m(tree).value_or(limits.max_height_m);
   const auto report = [&](const tree::Node& node, const tree::NodeManifest& manifest, const char* port,
                           std::string message, const char* hint) {
-    problems.push_back({tree.locationOf(node.id(), port), manifest.id + "." + port, std::move(message), hint});
+    problems.push_back(
+        {tree.locationOf(node.id(), port), manifest.id + "." + port, std::move(message), hint, tree.pathOf(node.id())});
   };
   for (const tree::NodeRecord& record : tree.nodes()) {
     if (record.manifest == nullptr) continue;
     const int id = record.node->id();
     if (record.manifest->id == "Localize" && !limits.has_map)
       problems.push_back({tree.locationOf(id), record.manifest->id, "needs a map of the place, and the flight has none",
-                          "give it one: swiftlet fly --map MAP.yaml, or map: in a trial"});
+                          "give it one: swiftlet fly --map MAP.yaml, or map: in a trial", tree.pathOf(id)});
     for (const tree::Value& value : tree.knownValues(id, "clearance_m"))
       if (const auto* clearance_m = std::get_if<double>(&value); clearance_m != nullptr && limits.clearance_problems)
         for (const std::string& problem : limits.clearance_problems(*clearance_m))
@@ -182,9 +186,13 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
   }
 }
 
-std::vector<common::Problem> check(tree::ParseResult parsed, const MissionLimits& limits) {
-  if (!parsed.tree) return toCommon(parsed.problems);
-  return toCommon(semanticProblems(*parsed.tree, limits));
+MissionVerdict verdictOf(tree::ParseResult parsed, const MissionLimits& limits) {
+  if (parsed.tree) {
+    parsed.problems = semanticProblems(*parsed.tree, limits);
+    const std::vector<tree::Problem> found = missionWarnings(*parsed.tree);
+    parsed.warnings.insert(parsed.warnings.end(), found.begin(), found.end());
+  }
+  return {std::move(parsed.problems), std::move(parsed.warnings), {}};
 }
 
 /// "3 of the engine: Sequence, Timeout", one line for each owner that has a node in the tree.
@@ -220,14 +228,23 @@ std::vector<std::string> ownersOf(const tree::Tree& tree, const std::vector<tree
 
 }  // namespace
 
-MockedCheck checkMissionWithMocks(const std::string& path, const MissionLimits& limits) {
+MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits) {
+  return verdictOf(tree::parseFile(path, missionRegistry()), limits);
+}
+
+MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits) {
   const tree::MockedRegistry mocked = tree::withMocks(path, missionRegistry());
-  const tree::ParseResult parsed = tree::parseFile(path, mocked.registry);
-  if (!parsed.tree) return {toCommon(parsed.problems), {}};
-  if (mocked.mocks.empty())
-    if (const auto problems = semanticProblems(*parsed.tree, limits); !problems.empty())
-      return {toCommon(problems), {}};
-  return {{}, ownersOf(*parsed.tree, mocked.mocks)};
+  tree::ParseResult parsed = tree::parseFile(path, mocked.registry);
+  std::vector<std::string> whose;
+  if (parsed.tree) whose = ownersOf(*parsed.tree, mocked.mocks);
+  if (parsed.tree && !mocked.mocks.empty()) return {{}, std::move(parsed.warnings), std::move(whose)};
+  MissionVerdict verdict = verdictOf(std::move(parsed), limits);
+  if (verdict.problems.empty()) verdict.whose = std::move(whose);
+  return verdict;
+}
+
+MissionVerdict judgeMissionText(const std::string& text, const std::string& name, const MissionLimits& limits) {
+  return verdictOf(tree::parseText(text, name, missionRegistry()), limits);
 }
 
 std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems) {
@@ -262,12 +279,12 @@ std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const Missio
 }
 
 std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits) {
-  return check(tree::parseFile(path, missionRegistry()), limits);
+  return toCommon(judgeMission(path, limits).problems);
 }
 
 std::vector<common::Problem> checkMissionText(const std::string& text, const std::string& name,
                                               const MissionLimits& limits) {
-  return check(tree::parseText(text, name, missionRegistry()), limits);
+  return toCommon(judgeMissionText(text, name, limits).problems);
 }
 
 }  // namespace swiftlet::behaviors

@@ -30,17 +30,21 @@ std::optional<double> maxHeightOf_m(const tree::Tree& tree);
 /// the mission is sound.
 std::vector<common::Problem> checkMission(const std::string& path, const MissionLimits& limits = {});
 
-/// A mission of which some types are mocks (behaviors/tree/mocks.hpp).
-struct MockedCheck {
-  std::vector<common::Problem> problems;
-  /// Whose the nodes of the tree are, a line an owner: "3 of the engine: Sequence, Timeout", "1 of Swiftlet: Land" or
-  /// "2 mocks: GoTo, TakeOff (Swiftlet's has no port `height`)". Empty if there are problems.
+/// What can be said of a mission file without flying it.
+struct MissionVerdict {
+  std::vector<tree::Problem> problems;  ///< As checkMission says, with the paths of the nodes.
+  /// What can be flown, but is probably not meant (mission_warnings.hpp), or should be written otherwise.
+  std::vector<tree::Problem> warnings;
+  /// Of a mission with mocks: whose the nodes of the tree are, a line an owner: "3 of the engine: Sequence, Timeout",
+  /// "1 of Swiftlet: Land" or "2 mocks: GoTo, TakeOff (Swiftlet's has no port `height`)". Empty if there are problems.
   std::vector<std::string> whose;
 };
-/// Types that Swiftlet does not have are mocks. With one in the tree only the XML is judged, because nobody knows how a
-/// mock moves the vehicle. Such a mission cannot be flown.
-MockedCheck checkMissionWithMocks(const std::string& path, const MissionLimits& limits = {});
+MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits = {});
+/// Types that Swiftlet does not have are mocks (behaviors/tree/mocks.hpp). With one in the tree only the XML is judged,
+/// because nobody knows how a mock moves the vehicle. Such a mission cannot be flown.
+MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits = {});
 
+MissionVerdict judgeMissionText(const std::string& text, const std::string& name, const MissionLimits& limits = {});
 std::vector<common::Problem> checkMissionText(const std::string& text, const std::string& name,
                                               const MissionLimits& limits = {});
 

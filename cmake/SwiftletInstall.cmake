@@ -22,6 +22,7 @@ set(SWIFTLET_FOUND_BY
   "yaml-cpp|yaml-cpp"
   "PkgConfig::PCL|pkg-config PCL pcl_common"
   "PkgConfig::TURBOJPEG|pkg-config TURBOJPEG libturbojpeg"
+  "PkgConfig::ZMQ|pkg-config ZMQ libzmq"
   "PkgConfig::ZSTD|pkg-config ZSTD libzstd")
 
 # The libraries from outside that `library` links, itself and through others of ours, into `result`.

@@ -13,6 +13,8 @@ struct Describe {
   std::string operator()(const GoalCommand& c) const {
     return fmt::format("goal ({:.2f}, {:.2f})", c.goal_map_m.x(), c.goal_map_m.y());
   }
+  std::string operator()(const StartMissionCommand& c) const { return fmt::format("mission {}", c.name); }
+  std::string operator()(const StopMissionCommand&) const { return "stop the mission"; }
 };
 
 }  // namespace

@@ -18,9 +18,19 @@ struct GoalCommand {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
 };
 
+/// Flies another mission, or the one that waits. The text comes along, so that a recording needs no file.
+struct StartMissionCommand {
+  std::string name;  ///< The file, for messages.
+  std::string xml;
+};
+/// The vehicle holds until another mission is started, or it lands.
+struct StopMissionCommand {};
+
 struct OperatorCommand {
   std::uint64_t id = 0;
-  std::variant<HoldCommand, ResumeCommand, HomeCommand, LandCommand, GoalCommand> kind;
+  std::variant<HoldCommand, ResumeCommand, HomeCommand, LandCommand, GoalCommand, StartMissionCommand,
+               StopMissionCommand>
+      kind;
 };
 
 struct CommandResult {

@@ -17,11 +17,23 @@ struct Builder::Scope {
   std::set<std::string, std::less<>> used;
 };
 
-Builder::Builder(const Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems)
+namespace {
+
+std::size_t countOf(const XmlElement& element) {
+  std::size_t count = 1;
+  for (const XmlElement& child : element.children) count += countOf(child);
+  return count;
+}
+
+}  // namespace
+
+Builder::Builder(const Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems,
+                 CompiledScripts& scripts)
     : documents_(documents),
       registry_(registry),
       options_(options),
       problems_(problems),
+      scripts_(scripts),
       tree_(std::make_unique<TreeParts>()) {
   tree_->name = documents.main_id;
   for (const auto& document : documents.documents) {
@@ -37,6 +49,10 @@ Tree Builder::build() {
   main_scope_ = &scope;
   for (const std::string& entry : options_.host_entries) tree_->flows[find(scope, entry)->id].by_host = true;
   const TreeDefinition& main = *documents_.main;
+  const std::size_t nodes = std::min(countOf(*main.element), static_cast<std::size_t>(options_.limits.nodes));
+  tree_->records.reserve(nodes);
+  tree_->setups.reserve(nodes);
+  tree_->origins.reserve(nodes);
   tree_->root = makeNode({main.document, &main.element->children.front(), -1, 0}, scope);
   if (!gave_up_) checkEntries(*tree_, problems_);
   return Tree(std::move(tree_));
@@ -181,12 +197,12 @@ std::shared_ptr<Conditions> Builder::makeConditions(const Place& place, Scope& s
   return conditions;
 }
 
-/// The text compiles, because Checker has compiled it before.
+/// The text compiles, because Checker has compiled it.
 std::shared_ptr<Script> Builder::makeScript(const Place& place, Scope& scope, const std::string& owner,
-                                            const PortManifest& port, std::string_view text) {
-  ScriptResult result = Script::compile(text, registry_.constants());
+                                            const PortManifest& port, const std::string& text) {
+  ScriptResult result = scripts_.take(text);
   if (!result.script) return nullptr;
-  auto script = std::make_shared<Script>(std::move(*result.script));
+  std::shared_ptr<Script> script = std::move(result.script);
   for (std::size_t i = 0; i < script->entries().size(); ++i) {
     Slot* slot = find(scope, script->entries()[i].name);
     script->bind(i, slot);
@@ -247,7 +263,10 @@ Slot* Builder::makeSlot(const std::string& name) {
   return &slot;
 }
 
-NodeOrigin Builder::originOf(const Place& place) const { return {files_.at(place.document), place.element->offset}; }
+/// Of the node whose record was added last: its children follow when all of it is known.
+NodeOrigin Builder::originOf(const Place& place) const {
+  return {files_.at(place.document), place.element->offset, static_cast<int>(tree_->records.size()) - 1};
+}
 
 bool Builder::tooLarge(const Place& place) {
   if (gave_up_) return true;

@@ -14,6 +14,7 @@
 
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/registry.hpp"
+#include "behaviors/tree/script/compiled_scripts.hpp"
 #include "behaviors/tree/tree.hpp"
 #include "behaviors/tree/tree_parts.hpp"
 
@@ -21,7 +22,9 @@ namespace swiftlet::tree {
 
 class Builder {
  public:
-  Builder(const Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems);
+  /// Takes the scripts that the Checker has compiled.
+  Builder(const Documents& documents, const Registry& registry, const ParseOptions& options, Problems& problems,
+          CompiledScripts& scripts);
   ~Builder();
 
   /// For documents in which Checker found no problem. The tree is valid if there is still none afterwards.
@@ -46,7 +49,7 @@ class Builder {
   void recordRead(std::size_t slot, const NodeOrigin& origin, const std::string& owner, const PortManifest& port);
   std::shared_ptr<Conditions> makeConditions(const Place& place, Scope& scope, const std::string& owner);
   std::shared_ptr<Script> makeScript(const Place& place, Scope& scope, const std::string& owner,
-                                     const PortManifest& port, std::string_view text);
+                                     const PortManifest& port, const std::string& text);
   void recordWrites(const Script& script, const NodeOrigin& origin, const std::string& attribute);
   int addRecord(const Place& place, const NodeManifest* manifest);
   void finishRecord(int id, Node& node);
@@ -59,6 +62,7 @@ class Builder {
   const Registry& registry_;
   const ParseOptions& options_;
   Problems& problems_;
+  CompiledScripts& scripts_;
   std::unique_ptr<TreeParts> tree_;
   std::map<const Document*, std::size_t> files_;
   Scope* main_scope_ = nullptr;

@@ -55,8 +55,8 @@ void collectSubTrees(const Document& document, const XmlElement& element, std::m
 
 }  // namespace
 
-Checker::Checker(const Documents& documents, const Registry& registry, Problems& problems)
-    : documents_(documents), registry_(registry), problems_(problems), node_names_(registry.ids()) {
+Checker::Checker(const Documents& documents, const Registry& registry, Problems& problems, CompiledScripts& scripts)
+    : documents_(documents), registry_(registry), problems_(problems), scripts_(scripts), node_names_(registry.ids()) {
   node_names_.push_back("SubTree");
   for (const auto& [id, tree] : documents.trees) tree_names_.push_back(id);
 }
@@ -85,11 +85,13 @@ void Checker::checkTree(const std::string& id, const TreeDefinition& tree) {
                    {}});
   if (element.text_offset)
     problems_.add({document.source.locate(*element.text_offset), element.name, "text is not expected here", {}});
+  tree_id_ = id;
   for (const XmlElement& child : element.children) checkElement(document, child);
 }
 
 void Checker::checkElement(const Document& document, const XmlElement& element) {
   if (problems_.full()) return;
+  open_.push_back(&element);
   if (isSubTree(element))
     checkSubTree(document, element);
   else if (typeOf(element, registry_) != nullptr)
@@ -97,31 +99,52 @@ void Checker::checkElement(const Document& document, const XmlElement& element) 
   else
     checkUnknown(document, element);
   if (element.text_offset)
-    problems_.add({document.source.locate(*element.text_offset), element.name, "text is not expected here", {}});
+    report({document.source.locate(*element.text_offset), element.name, "text is not expected here", {}});
   for (const XmlElement& child : element.children) checkElement(document, child);
+  open_.pop_back();
+}
+
+void Checker::report(Problem problem) {
+  problem.path = path();
+  problems_.add(std::move(problem));
+}
+
+std::string Checker::path() const {
+  std::string path = tree_id_;
+  for (std::size_t i = 0; i < open_.size(); ++i) {
+    const std::string name = displayNameOf(*open_[i]);
+    path += "/" + name;
+    if (i == 0) continue;
+    int before = 0, all = 0;
+    for (const XmlElement& sibling : open_[i - 1]->children) {
+      if (&sibling == open_[i]) before = all;
+      if (displayNameOf(sibling) == name) ++all;
+    }
+    if (all > 1) path += "[" + std::to_string(before + 1) + "]";
+  }
+  return path;
 }
 
 void Checker::checkSubTree(const Document& document, const XmlElement& element) {
   const std::string* id = element.attribute("ID");
   if (id == nullptr)
-    problems_.add({document.at(element), element.name, "the attribute `ID` is missing", {}});
+    report({document.at(element), element.name, "the attribute `ID` is missing", {}});
   else if (!documents_.trees.contains(*id))
-    problems_.add({document.at(element, "ID"), element.name, "there is no <BehaviorTree ID=\"" + *id + "\">",
-                   didYouMean(*id, tree_names_)});
-  if (!element.children.empty())
-    problems_.add({document.at(element), element.name, "a SubTree has no children here", {}});
+    report({document.at(element, "ID"), element.name, "there is no <BehaviorTree ID=\"" + *id + "\">",
+            didYouMean(*id, tree_names_)});
+  if (!element.children.empty()) report({document.at(element), element.name, "a SubTree has no children here", {}});
   for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, nullptr);
 }
 
 void Checker::checkNode(const Document& document, const XmlElement& element) {
   const NodeManifest& manifest = typeOf(element, registry_)->manifest;
   if (const auto kind = explicitKind(element.name); kind && *kind != manifest.kind)
-    problems_.add({document.at(element), element.name, "`" + manifest.id + "` is not of this kind",
-                   std::string("write <") + toString(manifest.kind) + " ID=\"" + manifest.id + "\">"});
+    report({document.at(element), element.name, "`" + manifest.id + "` is not of this kind",
+            std::string("write <") + toString(manifest.kind) + " ID=\"" + manifest.id + "\">"});
   for (const XmlAttribute& attribute : element.attributes) checkAttribute(document, element, attribute, &manifest);
   for (const PortManifest& port : manifest.ports)
     if (port.required && element.attribute(port.name) == nullptr)
-      problems_.add(
+      report(
           {document.at(element), manifest.id, "port `" + port.name + "` is missing, expected " + expectedOf(port), {}});
   checkChildren(document, element, manifest);
 }
@@ -130,7 +153,7 @@ void Checker::checkUnknown(const Document& document, const XmlElement& element) 
   const bool is_explicit = explicitKind(element.name).has_value();
   const std::string* id = is_explicit ? element.attribute("ID") : &element.name;
   if (id == nullptr) {
-    problems_.add({document.at(element), element.name, "the attribute `ID` is missing", {}});
+    report({document.at(element), element.name, "the attribute `ID` is missing", {}});
     return;
   }
   std::string message = "unknown node `" + *id + "`";
@@ -143,8 +166,8 @@ void Checker::checkUnknown(const Document& document, const XmlElement& element) 
     message = "`" + *id + "` is a node of BehaviorTree.CPP that this engine does not have";
     hint = other->second;
   }
-  problems_.add({is_explicit ? document.at(element, "ID") : document.at(element), element.name, std::move(message),
-                 std::move(hint)});
+  report({is_explicit ? document.at(element, "ID") : document.at(element), element.name, std::move(message),
+          std::move(hint)});
 }
 
 void Checker::checkAttribute(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
@@ -154,31 +177,30 @@ void Checker::checkAttribute(const Document& document, const XmlElement& element
   const std::string owner = manifest == nullptr ? element.name : manifest->id;
   if (isStructural(element, name)) {
     if (name == "_autoremap" && !parseValue(attribute.value, PortType::kBool, {}))
-      problems_.add({place(), owner + "." + name, "`" + attribute.value + "` is not true or false", {}});
+      report({place(), owner + "." + name, "`" + attribute.value + "` is not true or false", {}});
     return;
   }
   if (const auto condition = conditionOf(name)) {
-    checkScript(place(), owner + "." + name, attribute.value, portOf(*condition));
+    checkScript(document, element, attribute, owner + "." + name, portOf(*condition));
     return;
   }
   const PortManifest* port = manifest == nullptr ? nullptr : manifest->findPort(name);
   const bool script = port != nullptr && port->type == PortType::kScript;
   if (const auto entry = entryOf(attribute.value, name); entry && !script && !isEntryName(*entry)) {
-    problems_.add(
-        {place(), owner + "." + name, "`" + attribute.value + "` does not name an entry, expected `{name}`", {}});
+    report({place(), owner + "." + name, "`" + attribute.value + "` does not name an entry, expected `{name}`", {}});
     return;
   }
   if (port != nullptr) {
     checkPort(document, element, attribute, *port);
   } else if (name.starts_with('_')) {
-    problems_.add({place(), owner, "unknown attribute `" + name + "`",
-                   name == "__shared_blackboard" ? "did you mean `_autoremap`?" : ""});
+    report({place(), owner, "unknown attribute `" + name + "`",
+            name == "__shared_blackboard" ? "did you mean `_autoremap`?" : ""});
   } else if (manifest != nullptr) {
     const auto names = portNames(*manifest);
     std::string message = otherUnit(name, *manifest);
     if (message.empty())
       message = "unknown port `" + name + "`, expected " + (names.empty() ? "no ports" : joined(names));
-    problems_.add({place(), owner, std::move(message), didYouMean(name, names)});
+    report({place(), owner, std::move(message), didYouMean(name, names)});
   }
 }
 
@@ -188,27 +210,31 @@ void Checker::checkPort(const Document& document, const XmlElement& element, con
     return (explicitKind(element.name) ? *element.attribute("ID") : element.name) + "." + port.name;
   };
   if (port.type == PortType::kScript) {
-    checkScript(document.at(element, port.name), where(), attribute.value, port);
+    checkScript(document, element, attribute, where(), port);
     return;
   }
   if (entryOf(attribute.value, port.name)) return;
   if (port.direction == Direction::kOutput) {
     // The key of SetBlackboard may be written without braces.
     if (port.type == PortType::kAny && isEntryName(attribute.value)) return;
-    problems_.add(
+    report(
         {document.at(element, port.name), where(), "`" + attribute.value + "` is not an entry, expected `{name}`", {}});
     return;
   }
   std::string problem = readValue(port, attribute.value).problem;
-  if (!problem.empty()) problems_.add({document.at(element, port.name), where(), std::move(problem), {}});
+  if (!problem.empty()) report({document.at(element, port.name), where(), std::move(problem), {}});
 }
 
-void Checker::checkScript(const Location& place, std::string owner, std::string_view text, const PortManifest& port) {
-  const ScriptResult result = Script::compile(text, registry_.constants());
+void Checker::checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
+                          std::string owner, const PortManifest& port) {
+  ScriptResult result = Script::compile(attribute.value, registry_.constants());
   if (!result.script)
-    problems_.add({place, std::move(owner), result.problem, {}});
+    report({document.at(element, attribute.name), std::move(owner), result.problem, {}});
   else if (port.asked && result.script->assigns())
-    problems_.add({place, std::move(owner), "it assigns to an entry, but is only asked", "use == to compare"});
+    report({document.at(element, attribute.name), std::move(owner), "it assigns to an entry, but is only asked",
+            "use == to compare"});
+  else
+    scripts_.keep(attribute.value, std::move(result.script));
 }
 
 void Checker::checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest) {
@@ -217,11 +243,10 @@ void Checker::checkChildren(const Document& document, const XmlElement& element,
   const std::string expected = manifest.kind == NodeKind::kControl     ? "at least 1"
                                : manifest.kind == NodeKind::kDecorator ? "exactly 1"
                                                                        : "none";
-  problems_.add(
-      {document.at(element),
-       manifest.id,
-       "has " + std::to_string(children) + (children == 1 ? " child" : " children") + ", expected " + expected,
-       {}});
+  report({document.at(element),
+          manifest.id,
+          "has " + std::to_string(children) + (children == 1 ? " child" : " children") + ", expected " + expected,
+          {}});
 }
 
 /// Depth-first over "uses". A tree that is reached again while it is open contains itself.

@@ -8,12 +8,14 @@
 
 #include "behaviors/tree/documents.hpp"
 #include "behaviors/tree/registry.hpp"
+#include "behaviors/tree/script/compiled_scripts.hpp"
 
 namespace swiftlet::tree {
 
 class Checker {
  public:
-  Checker(const Documents& documents, const Registry& registry, Problems& problems);
+  /// Scripts that compile are kept in `scripts`.
+  Checker(const Documents& documents, const Registry& registry, Problems& problems, CompiledScripts& scripts);
   void check();
 
  private:
@@ -26,13 +28,20 @@ class Checker {
                       const NodeManifest* manifest);
   void checkPort(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
                  const PortManifest& port);
-  void checkScript(const Location& place, std::string owner, std::string_view text, const PortManifest& port);
+  void checkScript(const Document& document, const XmlElement& element, const XmlAttribute& attribute,
+                   std::string owner, const PortManifest& port);
+  /// With the path of the element that is being checked.
+  void report(Problem problem);
+  std::string path() const;
   void checkChildren(const Document& document, const XmlElement& element, const NodeManifest& manifest);
   void checkRecursion();
 
   const Documents& documents_;
   const Registry& registry_;
   Problems& problems_;
+  CompiledScripts& scripts_;
+  std::string tree_id_;                  ///< Of the tree that is being checked.
+  std::vector<const XmlElement*> open_;  ///< From its root to the element that is being checked.
   std::vector<std::string> node_names_;
   std::vector<std::string> tree_names_;
 };

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "behaviors/tree/version3.hpp"
+
 namespace swiftlet::tree {
 namespace {
 
@@ -40,6 +42,10 @@ void Problems::add(Problem problem) {
   if (full()) return;
   if (list_.size() == limit_) problem = {{}, {}, "there are more problems", {}};
   list_.push_back(std::move(problem));
+}
+
+void Problems::warn(Problem warning) {
+  if (warnings_.size() < limit_) warnings_.push_back(std::move(warning));
 }
 
 Documents::Documents(const ParseOptions& options, Problems& problems)
@@ -99,14 +105,7 @@ bool Documents::checkRoot(const Document& document) {
     problems_.add({document.at(root), root.name, "the outermost element must be <root BTCPP_format=\"4\">", {}});
     return false;
   }
-  const std::string* format = root.attribute("BTCPP_format");
-  if (format == nullptr || *format != "4") {
-    problems_.add({format == nullptr ? document.at(root) : document.at(root, "BTCPP_format"), "root",
-                   format == nullptr ? "BTCPP_format is missing, expected BTCPP_format=\"4\""
-                                     : "BTCPP_format=\"" + *format + "\", expected \"4\"",
-                   "a file of format 3 is brought to format 4 by opening and saving it in Groot2"});
-    return false;
-  }
+  if (!checkFormat(document)) return false;
   const std::vector<std::string> known = {"BTCPP_format", "main_tree_to_execute"};
   for (const XmlAttribute& attribute : root.attributes)
     if (!isForEditors(attribute.name) && std::find(known.begin(), known.end(), attribute.name) == known.end())
@@ -115,6 +114,40 @@ bool Documents::checkRoot(const Document& document) {
   if (root.text_offset)
     problems_.add({document.source.locate(*root.text_offset), "root", "text is not expected here", {}});
   return true;
+}
+
+bool Documents::checkFormat(const Document& document) {
+  const XmlElement& root = document.root;
+  const std::string* format = root.attribute("BTCPP_format");
+  if (format != nullptr && *format == "4") return true;
+  if (format != nullptr && *format != "3") {
+    problems_.add({document.at(root, "BTCPP_format"), "root", "BTCPP_format=\"" + *format + "\", expected \"4\"", {}});
+    return false;
+  }
+  const std::vector<Version3Use> uses = version3Uses(document);
+  const auto readable = [](const Version3Use& use) { return use.readable; };
+  const bool of_version3 = !std::all_of(uses.begin(), uses.end(), readable) ||
+                           (!uses.empty() && !usesVersion4(document)) || format != nullptr;
+  if (of_version3) {
+    reportVersion3(document, format);
+    for (const Version3Use& use : uses)
+      problems_.add({document.at(*use.element, use.attribute), use.element->name, use.message, {}});
+    return false;
+  }
+  problems_.warn({document.at(root), "root",
+                  usesVersion4(document)
+                      ? "BTCPP_format is missing; the file is read as version 4, which its nodes are of"
+                      : "BTCPP_format is missing; the file is read as version 4, in which it means the same as in 3",
+                  "write <root BTCPP_format=\"4\">"});
+  return true;
+}
+
+void Documents::reportVersion3(const Document& document, const std::string* format) {
+  const Location place = format == nullptr ? document.at(document.root) : document.at(document.root, "BTCPP_format");
+  problems_.add({place, "root",
+                 format == nullptr ? "BTCPP_format is missing, and the file is not one of version 4"
+                                   : "BTCPP_format=\"" + *format + "\", expected \"4\"",
+                 "`swiftlet migrate " + document.source.file() + "` rewrites it"});
 }
 
 void Documents::readChildren(const Document& document, const std::string& path) {

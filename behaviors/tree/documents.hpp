@@ -16,7 +16,7 @@
 
 namespace swiftlet::tree {
 
-/// Collects problems up to a limit.
+/// Collects problems and warnings up to a limit.
 class Problems {
  public:
   explicit Problems(int limit) : limit_(static_cast<std::size_t>(limit)) {}
@@ -26,9 +26,14 @@ class Problems {
   bool full() const { return list_.size() > limit_; }
   std::vector<Problem> take() { return std::move(list_); }
 
+  /// What is suspicious but can be used. Further warnings than the limit are dropped.
+  void warn(Problem warning);
+  std::vector<Problem> takeWarnings() { return std::move(warnings_); }
+
  private:
   std::size_t limit_;
   std::vector<Problem> list_;
+  std::vector<Problem> warnings_;
 };
 
 struct Document {
@@ -68,6 +73,9 @@ class Documents {
   bool add(std::string text, const std::string& path, const Document* from, const XmlElement* include);
   void include(const Document& document, const XmlElement& element, const std::string& path);
   bool checkRoot(const Document& document);
+  /// False for a file of another version than 4.
+  bool checkFormat(const Document& document);
+  void reportVersion3(const Document& document, const std::string* format);
   void readChildren(const Document& document, const std::string& path);
   void addTree(const Document& document, const XmlElement& element, bool alone);
   void readModel(const Document& document, const XmlElement& element);

@@ -25,6 +25,12 @@ const NodeType* typeOf(const XmlElement& element, const Registry& registry) {
   return id == nullptr ? nullptr : registry.find(*id);
 }
 
+std::string displayNameOf(const XmlElement& element) {
+  if (const std::string* name = element.attribute("name"); name != nullptr && !name->empty()) return *name;
+  const std::string* id = isSubTree(element) || explicitKind(element.name) ? element.attribute("ID") : nullptr;
+  return id == nullptr ? element.name : *id;
+}
+
 bool isStructural(const XmlElement& element, std::string_view attribute) {
   constexpr std::array<std::string_view, 5> kEverywhere = {"name", "_description", "_uid", "_fullpath", "_fullPath"};
   if (attribute == "ID") return isSubTree(element) || explicitKind(element.name).has_value();

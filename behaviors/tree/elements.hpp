@@ -17,6 +17,9 @@ inline bool isSubTree(const XmlElement& element) { return element.name == "SubTr
 /// The node type that an element names; null if there is no such type.
 const NodeType* typeOf(const XmlElement& element, const Registry& registry);
 
+/// The name of the node that the element makes: the attribute `name`, else its type or the ID of the SubTree.
+std::string displayNameOf(const XmlElement& element);
+
 /// An attribute of the format itself: name, ID of the explicit form, _description and attributes of editors.
 bool isStructural(const XmlElement& element, std::string_view attribute);
 /// `_autoremap="true"` of a SubTree.

@@ -35,11 +35,12 @@ std::string hintFor(const TreeParts& tree, const std::string& name) {
 
 void checkEntry(const TreeParts& tree, std::size_t slot, Problems& problems) {
   const EntryFlow& flow = tree.flows[slot];
+  const auto pathOf = [&](const NodeOrigin& origin) { return tree.pathOf(origin.node); };
   const std::string entry = "{" + tree.slots[slot].name + "}";
   if (!isSet(flow)) {
     const EntryRead& read = flow.reads.front();
     problems.add({tree.locate(read.origin, read.port->name), read.owner + "." + read.port->name,
-                  "nothing sets the entry " + entry, hintFor(tree, tree.slots[slot].name)});
+                  "nothing sets the entry " + entry, hintFor(tree, tree.slots[slot].name), pathOf(read.origin)});
     return;
   }
   for (const EntryRead& read : flow.reads) {
@@ -50,14 +51,16 @@ void checkEntry(const TreeParts& tree, std::size_t slot, Problems& problems) {
             {tree.locate(read.origin, read.port->name),
              reader,
              "the entry " + entry + " is written as " + toString(written) + ", expected " + expectedOf(*read.port),
-             {}});
+             {},
+             pathOf(read.origin)});
     if (read.port->type == PortType::kAny || read.port->type == PortType::kScript) continue;
     for (const LiteralWrite* literal : tree.literalsOf(slot))
       if (const ReadValue value = readValue(*read.port, literal->text); !value.value)
         problems.add({tree.locate(literal->origin, literal->attribute),
                       literal->attribute,
                       value.problem + " (read by " + reader + " from " + entry + ")",
-                      {}});
+                      {},
+                      pathOf(literal->origin)});
   }
 }
 

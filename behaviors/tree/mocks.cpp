@@ -19,10 +19,10 @@ class MockLeaf final : public Leaf {
   MockLeaf(const NodeSetup& setup, const MockAnswer& answer) : Leaf(setup), answer_(answer) {}
 
  private:
-  Status answer() const { return answer_ ? answer_(name()) : Status::kSuccess; }
-  bool onAsked(const TickContext&) const override { return answer() != Status::kSkipped; }
+  Status answer(bool ticked) const { return answer_ ? answer_(*this, ticked) : Status::kSuccess; }
+  bool onAsked(const TickContext&) const override { return answer(false) != Status::kSkipped; }
   Status act(TickContext&) override {
-    const Status status = answer();
+    const Status status = answer(true);
     return status == Status::kSkipped ? Status::kRunning : status;
   }
 
@@ -106,6 +106,10 @@ NodeManifest mockManifest(const std::string& id, const MockFacts& facts) {
 
 }  // namespace
 
+void addMockLeaf(Registry& registry, const NodeManifest& manifest, const MockAnswer& answer) {
+  registry.add(manifest, [answer](const NodeSetup& setup) { return std::make_unique<MockLeaf>(setup, answer); });
+}
+
 MockedRegistry withMocks(const std::string& path, const Registry& base, const ParseOptions& options,
                          const MockAnswer& answer) {
   Problems ignored(options.limits.problems);
@@ -129,8 +133,7 @@ MockedRegistry withMocks(const std::string& path, const Registry& base, const Pa
     if (manifest.minChildren() > 0)
       mocked.registry.add(manifest, [](const NodeSetup& setup) { return std::make_unique<Sequence>(setup); });
     else
-      mocked.registry.add(manifest,
-                          [answer](const NodeSetup& setup) { return std::make_unique<MockLeaf>(setup, answer); });
+      addMockLeaf(mocked.registry, manifest, answer);
   }
   return mocked;
 }

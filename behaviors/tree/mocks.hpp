@@ -13,9 +13,13 @@
 
 namespace swiftlet::tree {
 
-/// The answer of a mock without children at each tick, by its name: RUNNING, SUCCESS, FAILURE or SKIPPED. SKIPPED of a
-/// mock that is RUNNING counts as RUNNING.
-using MockAnswer = std::function<Status(const std::string& name)>;
+/// The answer of a mock without children: RUNNING, SUCCESS, FAILURE or SKIPPED. SKIPPED of a mock that is RUNNING
+/// counts as RUNNING. `ticked` is false where it is only asked whether it wants the vehicle, perhaps several times in a
+/// tick.
+using MockAnswer = std::function<Status(const Node& mock, bool ticked)>;
+
+/// Replaces a type without children by a mock with the same ports.
+void addMockLeaf(Registry& registry, const NodeManifest& manifest, const MockAnswer& answer);
 
 struct Mock {
   std::string id;

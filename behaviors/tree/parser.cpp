@@ -12,13 +12,15 @@ namespace {
 ParseResult finish(const Documents& documents, const Registry& registry, const ParseOptions& options,
                    Problems& problems) {
   ParseResult result;
-  Checker(documents, registry, problems).check();
+  CompiledScripts scripts(registry.constants());
+  Checker(documents, registry, problems, scripts).check();
   // Building requires that subtrees exist and do not contain themselves.
   if (problems.empty() && documents.main != nullptr) {
-    Tree tree = Builder(documents, registry, options, problems).build();
+    Tree tree = Builder(documents, registry, options, problems, scripts).build();
     if (problems.empty()) result.tree = std::move(tree);
   }
   result.problems = problems.take();
+  result.warnings = problems.takeWarnings();
   return result;
 }
 

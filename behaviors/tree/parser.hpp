@@ -4,7 +4,8 @@
 // <TreeNodesModel> (checked; defaults of SubTree ports are used), nodes in compact form (<TakeOff height_m="1"/>) and
 // explicit form (<Action ID="TakeOff" height_m="1"/>), the attributes name, _description, _uid and _fullpath, scripted
 // conditions (_skipIf ...).
-// Refused with a message that says so: format 3, DOCTYPE, ros_pkg.
+// Refused with a message that says so: format 3 (migrate.hpp rewrites it), DOCTYPE, ros_pkg. Without BTCPP_format a
+// file is read as version 4, with a warning, if nothing in it is of version 3.
 //
 // All problems of all files are collected, each with line and column; a tree is returned only if there is none.
 #pragma once
@@ -24,6 +25,7 @@ namespace swiftlet::tree {
 struct ParseResult {
   std::optional<Tree> tree;       ///< Present if `problems` is empty.
   std::vector<Problem> problems;  ///< In the order of the files and lines.
+  std::vector<Problem> warnings;  ///< What can be read, but should be written otherwise.
 };
 
 ParseResult parseFile(const std::string& path, const Registry& registry, const ParseOptions& options = {});

@@ -20,6 +20,7 @@ struct Problem {
   std::string element;  ///< The tag, or "Tag.port".
   std::string message;  ///< What is wrong, with the offending text, and what was expected.
   std::string hint;     ///< "did you mean `x`?"; may be empty.
+  std::string path{};   ///< "Main/Sequence[2]/Land", the node in its tree; empty if it is about no node.
 };
 
 /// "file:line:column: element: message, hint".

@@ -63,10 +63,10 @@ Registry Registry::standard() {
   registry.add<Precondition>();
   registry.add<SkipUnlessUpdated>();
   registry.add<WaitValueUpdate>();
-  for (const auto& [id, element] : {std::pair{"LoopDouble", PortType::kDouble}, std::pair{"LoopInt", PortType::kInt},
-                                    std::pair{"LoopBool", PortType::kBool}, std::pair{"LoopString", PortType::kString}})
-    registry.add(Loop::manifest(id, element),
-                 [element](const NodeSetup& setup) { return std::make_unique<Loop>(setup, element); });
+  for (const auto& loop : {std::pair{"LoopDouble", PortType::kDouble}, std::pair{"LoopInt", PortType::kInt},
+                           std::pair{"LoopBool", PortType::kBool}, std::pair{"LoopString", PortType::kString}})
+    registry.add(Loop::manifest(loop.first, loop.second),
+                 [element = loop.second](const NodeSetup& setup) { return std::make_unique<Loop>(setup, element); });
   registry.add<Repeat>();
   registry.add<RetryUntilSuccessful>();
   registry.add<Timeout>();

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "behaviors/tree/script/script.hpp"
 #include "behaviors/tree/tree_parts.hpp"
 
 namespace swiftlet::tree {
@@ -38,6 +39,34 @@ std::vector<NodeView> Tree::view() const {
   return view;
 }
 
+std::vector<PortView> Tree::portsOf(int id) const {
+  std::vector<PortView> ports;
+  for (const PortBinding& binding : parts_->setups[static_cast<std::size_t>(id)].ports) {
+    const std::string& name = binding.manifest->name;
+    if (binding.script != nullptr)
+      ports.push_back({name, {}, binding.script->text()});
+    else if (binding.literal)
+      ports.push_back({name, {}, toString(*binding.literal)});
+    else if (binding.slot != nullptr)
+      ports.push_back({name, binding.slot->name,
+                       binding.slot->value ? std::optional(toString(*binding.slot->value)) : std::nullopt});
+  }
+  return ports;
+}
+
+std::uint64_t Tree::writesOfPorts(int id) const {
+  std::uint64_t writes = 0;
+  for (const PortBinding& binding : parts_->setups[static_cast<std::size_t>(id)].ports)
+    if (binding.slot != nullptr) writes += 2 * binding.slot->writes + (binding.slot->value ? 1 : 0);
+  return writes;
+}
+
+std::string Tree::pathOf(int id) const { return parts_->pathOf(id); }
+
+const Conditions* Tree::conditionsOf(int id) const {
+  return parts_->setups[static_cast<std::size_t>(id)].conditions.get();
+}
+
 Location Tree::locationOf(int id, std::string_view attribute) const {
   return parts_->locate(parts_->origins[static_cast<std::size_t>(id)], attribute);
 }
@@ -53,6 +82,19 @@ std::vector<Value> Tree::knownValues(int id, std::string_view port) const {
       if (auto value = readValue(*binding.manifest, literal->text).value) values.push_back(std::move(*value));
   }
   return values;
+}
+
+std::string TreeParts::pathOf(int id) const {
+  const NodeRecord& record = records[static_cast<std::size_t>(id)];
+  const std::string& own = record.node->name();
+  if (record.parent < 0) return name + "/" + own;
+  int before = 0, all = 0;
+  for (const auto& sibling : records[static_cast<std::size_t>(record.parent)].node->children()) {
+    if (sibling->name() != own) continue;
+    ++all;
+    before += sibling->id() < id ? 1 : 0;
+  }
+  return pathOf(record.parent) + "/" + own + (all > 1 ? "[" + std::to_string(before + 1) + "]" : "");
 }
 
 Location TreeParts::locate(const NodeOrigin& origin, std::string_view attribute) const {

@@ -1,7 +1,9 @@
 // A built tree: the nodes, their blackboard entries and where each came from.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,13 @@ struct NodeView {
   int parent = -1;  ///< -1 for the root.
   std::string name;
   Status status = Status::kIdle;
+};
+
+/// A bound port of a node, for display.
+struct PortView {
+  std::string name;
+  std::string entry;                 ///< That it is bound to; empty for a literal or a script.
+  std::optional<std::string> value;  ///< The literal, the text of the script, or the entry's value, if that is set.
 };
 
 struct TreeParts;
@@ -44,6 +53,16 @@ class Tree {
   /// In preorder; the id of a node is its index.
   const std::vector<NodeRecord>& nodes() const;
   std::vector<NodeView> view() const;
+
+  std::vector<PortView> portsOf(int id) const;
+  /// Another number whenever an entry of its ports was written or has lost its value.
+  std::uint64_t writesOfPorts(int id) const;
+
+  /// "Main/Priority/Sequence[2]/Land": the names from the main tree down to a node. Siblings of one name are counted
+  /// from 1.
+  std::string pathOf(int id) const;
+  /// The scripted conditions of a node; null without any.
+  const Conditions* conditionsOf(int id) const;
 
   /// The position of a node's element, or of one of its attributes (of the element if the attribute is missing).
   Location locationOf(int id, std::string_view attribute = {}) const;

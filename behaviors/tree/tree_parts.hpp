@@ -12,10 +12,11 @@
 
 namespace swiftlet::tree {
 
-/// The position of a node: a file and an offset in it.
+/// The position of a node: a file and an offset in it, and its id in the tree.
 struct NodeOrigin {
   std::size_t file = 0;
   std::size_t offset = 0;
+  int node = -1;
 };
 
 /// A place that gives an entry a text.
@@ -53,6 +54,8 @@ struct TreeParts {
   std::deque<EntryFlow> flows;  ///< By slot id.
 
   Location locate(const NodeOrigin& origin, std::string_view attribute = {}) const;
+  /// As Tree::pathOf. The tree must be complete.
+  std::string pathOf(int id) const;
   /// Every text that may reach a slot, directly or from slots it is copied from (at most kMaxCopies of them).
   std::vector<const LiteralWrite*> literalsOf(std::size_t slot) const;
   static constexpr std::size_t kMaxCopies = 64;

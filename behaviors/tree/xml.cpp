@@ -45,7 +45,7 @@ class Reader {
   static void onOpen(void* self, const XML_Char* name, const XML_Char** attributes) {
     static_cast<Reader*>(self)->open(name, attributes);
   }
-  static void onClose(void* self, const XML_Char*) { static_cast<Reader*>(self)->open_.pop_back(); }
+  static void onClose(void* self, const XML_Char*) { static_cast<Reader*>(self)->close(); }
   static void onText(void* self, const XML_Char* text, int length) {
     static_cast<Reader*>(self)->text({text, static_cast<std::size_t>(length)});
   }
@@ -64,6 +64,13 @@ class Reader {
     element.offset = offset();
     for (; *attributes != nullptr; attributes += 2) element.attributes.push_back({attributes[0], attributes[1]});
     open_.push_back(&element);
+  }
+
+  void close() {
+    // The end of <Element/> is reported at its own start or end.
+    const std::size_t at = offset();
+    if (std::string_view(source_.text()).substr(at).starts_with("</")) open_.back()->close_offset = at;
+    open_.pop_back();
   }
 
   void text(std::string_view text) {
@@ -125,21 +132,41 @@ Location SourceText::locate(std::size_t offset) const {
 }
 
 Location SourceText::locate(std::size_t element_offset, std::string_view attribute) const {
+  const auto span = spanOf(element_offset, attribute);
+  return locate(span ? span->name : element_offset);
+}
+
+std::optional<AttributeSpan> SourceText::spanOf(std::size_t element_offset, std::string_view attribute) const {
   // The tag was read by expat, so it is well-formed: <name blanks name blanks = blanks quote ... quote ...
   std::size_t at = text_.find_first_of(" \t\r\n/>", element_offset);
   while (at != std::string::npos) {
     at = text_.find_first_not_of(kBlanks, at);
     if (at == std::string::npos || text_[at] == '>' || text_[at] == '/') break;
-    const std::size_t name_end = text_.find_first_of(" \t\r\n=", at);
-    if (name_end == std::string::npos) break;
-    if (std::string_view(text_).substr(at, name_end - at) == attribute) return locate(at);
-    const std::size_t quote = text_.find_first_of("\"'", name_end);
-    if (quote == std::string::npos) break;
-    const std::size_t closing = text_.find(text_[quote], quote + 1);
-    if (closing == std::string::npos) break;
-    at = closing + 1;
+    AttributeSpan span{.name = at};
+    span.name_end = text_.find_first_of(" \t\r\n=", at);
+    if (span.name_end == std::string::npos) break;
+    span.opening_quote = text_.find_first_of("\"'", span.name_end);
+    if (span.opening_quote == std::string::npos) break;
+    span.closing_quote = text_.find(text_[span.opening_quote], span.opening_quote + 1);
+    if (span.closing_quote == std::string::npos) break;
+    if (std::string_view(text_).substr(at, span.name_end - at) == attribute) return span;
+    at = span.closing_quote + 1;
   }
-  return locate(element_offset);
+  return std::nullopt;
+}
+
+std::size_t SourceText::endOfTag(std::size_t tag_offset) const {
+  char quote = '\0';
+  for (std::size_t at = tag_offset; at < text_.size(); ++at) {
+    const char c = text_[at];
+    if (quote != '\0')
+      quote = c == quote ? '\0' : quote;
+    else if (c == '"' || c == '\'')
+      quote = c;
+    else if (c == '>')
+      return at + 1;
+  }
+  return text_.size();
 }
 
 XmlResult parseXml(const SourceText& source, int max_depth) { return Reader(source, max_depth).read(); }

@@ -21,10 +21,17 @@ struct XmlElement {
   std::string name;
   std::vector<XmlAttribute> attributes;
   std::vector<XmlElement> children;
-  std::size_t offset = 0;                  ///< Offset of its "<", in bytes.
-  std::optional<std::size_t> text_offset;  ///< Offset of its first text that is not blank, children excluded.
+  std::size_t offset = 0;                   ///< Offset of its "<", in bytes.
+  std::optional<std::size_t> close_offset;  ///< Offset of the "<" of its closing tag; nothing for <Element/>.
+  std::optional<std::size_t> text_offset;   ///< Offset of its first text that is not blank, children excluded.
 
   const std::string* attribute(std::string_view attribute_name) const;
+};
+
+/// Where an attribute stands in its file, as offsets: of its name, and of the first and last quote of its value.
+struct AttributeSpan {
+  std::size_t name = 0, name_end = 0;
+  std::size_t opening_quote = 0, closing_quote = 0;
 };
 
 /// The text of a file, which converts offsets to lines and columns for messages.
@@ -38,6 +45,10 @@ class SourceText {
   /// Offset of an attribute's name within the tag that starts at `element_offset`; that of the tag if it has no such
   /// attribute.
   Location locate(std::size_t element_offset, std::string_view attribute) const;
+  /// Nothing if the tag that starts at `element_offset` has no such attribute.
+  std::optional<AttributeSpan> spanOf(std::size_t element_offset, std::string_view attribute) const;
+  /// Offset behind the ">" of the tag that starts at `tag_offset`.
+  std::size_t endOfTag(std::size_t tag_offset) const;
 
  private:
   std::string file_;

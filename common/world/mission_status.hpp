@@ -1,21 +1,11 @@
-// The status of the mission and of its tree.
+// The status of the mission.
 #pragma once
 
 #include <string>
-#include <vector>
+
+#include "common/world/tree_view.hpp"
 
 namespace swiftlet::common {
-
-/// One node of the mission tree, for the page.
-struct TreeNodeView {
-  int id = 0;
-  int parent = -1;  ///< -1 for the root.
-  std::string name;
-  std::string status;  ///< IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED, SUSPENDED.
-
-  bool operator==(const TreeNodeView&) const = default;
-};
-using TreeView = std::vector<TreeNodeView>;
 
 /// kStopped: the operator landed the vehicle before the mission's end.
 enum class MissionState { kReady, kRunning, kHeld, kDone, kFailed, kStopped };
@@ -24,6 +14,7 @@ bool isOver(MissionState state);
 
 struct MissionStatus {
   MissionState state = MissionState::kReady;
+  std::string name;    ///< The ID of its tree.
   std::string phase;   ///< The intent in words.
   std::string reason;  ///< Why it failed or holds.
   bool accepts_goals = true;

@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 
+#include <array>
 #include <chrono>
 #include <ctime>
 
@@ -17,6 +18,25 @@ common::Time unixTime() {
           .count());
 }
 
+std::string FakeShelf::list() {
+  return R"([{"file": "missions/hop.xml", "name": "hop", "about": "Up and down.", "parameters": [
+    {"key": "Hop/Sequence/TakeOff.height_m", "node": "TakeOff", "port": "height_m", "value": "1.0",
+     "expected": "a number in metres from 0.3 to 100", "about": "Above the floor.", "choices": []},
+    {"key": "Hop/Sequence/MoveToGoal.mode", "node": "MoveToGoal", "port": "mode", "value": "fast",
+     "expected": "fast, careful or accurate", "about": "How fast.", "choices": ["fast", "careful", "accurate"]}]},
+    {"file": "missions/wait.xml", "name": "wait", "about": "", "parameters": []}])";
+}
+
+tl::expected<common::StartMissionCommand, std::string> FakeShelf::take(
+    const std::string& file, const std::map<std::string, std::string>& parameters) {
+  std::string changed;
+  for (const auto& [key, value] : parameters) {
+    if (value == "999") return tl::unexpected(key + ": `999` is out of range");
+    changed += " " + key + "=" + value;
+  }
+  return common::StartMissionCommand{file, changed};
+}
+
 FakeBackend::FakeBackend(Setup setup) : setup_(std::move(setup)) {
   web::WebServer::Options options;
   options.address = setup_.address;
@@ -28,12 +48,14 @@ FakeBackend::FakeBackend(Setup setup) : setup_(std::move(setup)) {
   options.max_connections = setup_.max_connections;
   options.viewers_bytes_per_s = setup_.viewers_bytes_per_s;
   options.unix_time = unixTime;
+  options.missions = &shelf_;
   server_ =
       std::make_unique<web::WebServer>(io_, options, web::WebServer::Sources{world_, camera_, commands_, results_});
   if (setup_.maps3d) flight_.carryCamera();
   if (setup_.flies) {
     flight_.layers().mission.status.state = common::MissionState::kRunning;
-    world_.post(flight_.advance(setup_.warm_up_s));
+    flight_.layers().mission.status.name = "ExploreAndReturn";
+    postWorld(true, setup_.warm_up_s);
   }
   server_thread_ = std::jthread([this] { io_.run(); });
   if (setup_.flies) flight_thread_ = std::jthread([this](const std::stop_token& stop) { fly(stop); });
@@ -79,11 +101,43 @@ common::CommandResult FakeBackend::carryOut(const common::OperatorCommand& comma
   } else if (std::holds_alternative<common::ResumeCommand>(command.kind)) {
     if (layers.mission.status.state != common::MissionState::kHeld) return {command.id, false, "nothing is on hold"};
     layers.mission.status.state = common::MissionState::kRunning;
+  } else if (const auto* mission = std::get_if<common::StartMissionCommand>(&command.kind)) {
+    layers.mission.status.state = common::MissionState::kRunning;
+    layers.mission.status.name = mission->name + mission->xml;
+  } else if (std::holds_alternative<common::StopMissionCommand>(command.kind)) {
+    layers.mission.status.state = common::MissionState::kReady;
   } else if (std::holds_alternative<common::HomeCommand>(command.kind)) {
     flight_.flyTo(layers.vehicle.home_map.position_m());
   }
   say(common::Severity::kInfo, common::toString(command), "the operator asked");
   return {command.id, true, ""};
+}
+
+void FakeBackend::postWorld(bool moves, double seconds) {
+  if (moves) (void)flight_.advance(seconds);
+  if (setup_.tree_nodes > 0) growTree();
+  world_.post(std::make_shared<const common::World>(flight_.layers().world()));
+}
+
+/// A tree three wide, of which five nodes change in each world, and one that failed.
+void FakeBackend::growTree() {
+  constexpr std::array kStatuses = {"RUNNING", "SUCCESS", "SKIPPED", "SUSPENDED"};
+  if (static_cast<int>(tree_.size()) != setup_.tree_nodes) {
+    for (int i = 0; i < setup_.tree_nodes; ++i)
+      tree_.push_back(
+          {i, i == 0 ? -1 : (i - 1) / 3, fmt::format("node {}", i), "IDLE", i % 20 == 1 ? "SubTree" : "Sequence"});
+    tree_[2].status = "FAILURE";
+    tree_[2].reason = "no path to (3.00, -1.50)";
+    tree_[2].ports = {{"goal", "door", "3;-1.5"}, {"mode", "", "fast"}};
+  }
+  ++worlds_;
+  const double now_s = flight_.layers().stamp.seconds();
+  for (int i = 0; i < 5; ++i) {
+    common::TreeNodeView& node = tree_[static_cast<std::size_t>(3 + (worlds_ * 5 + i) % (setup_.tree_nodes - 3))];
+    node.status = kStatuses[static_cast<std::size_t>(worlds_) % kStatuses.size()];
+    node.began_s = now_s;
+  }
+  flight_.layers().mission.status.tree = tree_;
 }
 
 void FakeBackend::fly(const std::stop_token& stop) {
@@ -99,8 +153,7 @@ void FakeBackend::fly(const std::stop_token& stop) {
       if (setup_.answers) results_.push(carryOut(command));
     }
     const bool held = flight_.layers().mission.status.state == common::MissionState::kHeld;
-    if (!held) world_.post(flight_.advance(period.count()));
-    if (held) world_.post(std::make_shared<const common::World>(flight_.layers().world()));
+    postWorld(!held, period.count());
     camera_s += period.count();
     if (server_->cameraWanted())
       camera_.post(std::make_shared<const common::CameraFrame>(ExampleFlight::cameraFrame(camera_s, 640, 480)));

@@ -9,12 +9,21 @@
 #include <vector>
 
 #include "tests/rendering/example_flight.hpp"
+#include "web/server/mission_shelf.hpp"
 #include "web/server/web_server.hpp"
 
 namespace swiftlet::testing {
 
 /// Seconds since 1970.
 common::Time unixTime();
+
+/// Two missions, one of them with parameters.
+class FakeShelf final : public web::MissionShelf {
+ public:
+  std::string list() override;
+  tl::expected<common::StartMissionCommand, std::string> take(
+      const std::string& file, const std::map<std::string, std::string>& parameters) override;
+};
 
 class FakeBackend {
  public:
@@ -26,6 +35,7 @@ class FakeBackend {
     bool answers = true;  ///< If false, commands are not answered.
     bool flies = true;    ///< If false, no world is ever posted.
     bool maps3d = false;  ///< If true, the vehicle carries an RGB-D camera.
+    int tree_nodes = 0;   ///< If not 0, the mission's tree has so many nodes, and some of them change in each world.
     double stall_timeout_s = 10.0;
     int max_connections = 256;
     double viewers_bytes_per_s = 16e6;
@@ -43,10 +53,15 @@ class FakeBackend {
 
  private:
   void fly(const std::stop_token& stop);
+  void postWorld(bool moves, double seconds);
+  void growTree();
   common::CommandResult carryOut(const common::OperatorCommand& command);
 
   Setup setup_;
+  FakeShelf shelf_;
   ExampleFlight flight_;
+  common::TreeView tree_;
+  int worlds_ = 0;
   common::LatestValue<common::World> world_;
   common::LatestValue<common::CameraFrame> camera_;
   common::LosslessQueue<common::OperatorCommand> commands_;

@@ -1,5 +1,6 @@
 // Serves the operator's page with a made-up flight until its standard input ends: web_fixture [PORT [TOKEN
-// [silent|map3d]]]. `silent`: its commands are never answered. `map3d`: it makes a 3D map.
+// [silent|map3d|tree]]]. `silent`: its commands are never answered. `map3d`: it makes a 3D map. `tree`: its mission has
+// 500 nodes, some of which change in each world.
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
@@ -11,6 +12,7 @@ int main(int count, char** arguments) {
   if (count > 1) setup.port = std::atoi(arguments[1]);
   if (count > 2) setup.token = arguments[2];
   setup.answers = count < 4 || std::string_view(arguments[3]) != "silent";
+  if (count > 3 && std::string_view(arguments[3]) == "tree") setup.tree_nodes = 500;
   setup.maps3d = count > 3 && std::string_view(arguments[3]) == "map3d";
   swiftlet::testing::FakeBackend backend(setup);
   std::cout << backend.server().operatorUrl() << std::endl;

@@ -1,5 +1,5 @@
 // Trees of other projects: BehaviorTree.CPP's examples and fuzzing corpus, Groot's, Nav2's, Aerostack2's. Those of
-// format 4 are read, with their node types registered as the problems name them; all others are refused with a place.
+// version 4 are read, with their node types registered as the problems name them; all others are refused with a place.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -128,8 +128,8 @@ TEST(TreesOfOtherProjects, AreReadOrRefusedWithThePlace) {
     const std::vector<Problem> problems = readByLearning(path, read);
     (read ? read_count : refused)++;
     EXPECT_NE(read, !problems.empty()) << path;
-    const bool format4 = textOf(path).find("BTCPP_format=\"4\"") != std::string::npos;
-    EXPECT_TRUE(format4 || !read) << path << " is not of format 4";
+    const bool version3 = std::regex_search(textOf(path), std::regex("<SequenceStar|<BlackboardCheck|<SubTreePlus"));
+    EXPECT_FALSE(version3 && read) << path << " is of version 3";
     for (const Problem& problem : problems) {
       EXPECT_GT(problem.location.line, 0) << toString(problem);
       EXPECT_FALSE(lineAt(problem.location).empty()) << toString(problem);

@@ -27,8 +27,8 @@ class MockedTree {
  public:
   explicit MockedTree(const std::string& path, const Registry& base = Registry::standard())
       : mocked_(withMocks(path, base, {},
-                          [this](const std::string& name) {
-                            const auto found = answers_.find(name);
+                          [this](const Node& mock, bool) {
+                            const auto found = answers_.find(mock.name());
                             return found == answers_.end() ? Status::kSuccess : found->second;
                           })),
         parsed_(parseFile(path, mocked_.registry)) {}

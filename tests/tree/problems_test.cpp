@@ -195,12 +195,12 @@ TEST(Problems, MistakesInEntriesAreReported) {
 TEST(Problems, MistakesInRootAndTreesAreReported) {
   EXPECT_THAT(problemsOf("<rot BTCPP_format=\"4\"/>"),
               ElementsAre("f.xml:1:1: rot: the outermost element must be <root BTCPP_format=\"4\">"));
-  EXPECT_THAT(problemsOf("<root main_tree_to_execute=\"A\"/>"), ElementsAre(HasSubstr("BTCPP_format is missing")));
-  EXPECT_THAT(
-      problemsOf("<root BTCPP_format=\"3\"/>"),
-      ElementsAre(
-          "f.xml:1:7: root: BTCPP_format=\"3\", expected \"4\", a file of format 3 is brought to format 4 by opening "
-          "and saving it in Groot2"));
+  EXPECT_THAT(problemsOf("<root main_tree_to_execute=\"A\"/>"),
+              ElementsAre("f.xml:1:7: root: there is no <BehaviorTree ID=\"A\">"));
+  EXPECT_THAT(problemsOf("<root BTCPP_format=\"3\"/>"),
+              ElementsAre("f.xml:1:7: root: BTCPP_format=\"3\", expected \"4\", `swiftlet migrate f.xml` rewrites it"));
+  EXPECT_THAT(problemsOf("<root BTCPP_format=\"5\"/>"),
+              ElementsAre("f.xml:1:7: root: BTCPP_format=\"5\", expected \"4\""));
   EXPECT_THAT(problemsOf("<root BTCPP_format=\"4\"/>"), ElementsAre("f.xml:1:1: root: there is no <BehaviorTree>"));
   const std::string two =
       "<BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree>\n<BehaviorTree "

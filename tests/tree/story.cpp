@@ -164,4 +164,10 @@ void Story::Witness::onFailure(const Node& node, std::string_view reason) {
   failures.push_back(node.name() + ": " + std::string(reason));
 }
 
+std::vector<std::string> linesOf(const std::vector<Problem>& problems) {
+  std::vector<std::string> lines;
+  for (const Problem& problem : problems) lines.push_back(toString(problem));
+  return lines;
+}
+
 }  // namespace swiftlet::tree::testing

@@ -72,6 +72,8 @@ class Story {
 
 /// The problems of a tree with that content, one line each.
 std::string problemText(std::string_view inside);
+/// As text, for comparisons.
+std::vector<std::string> linesOf(const std::vector<Problem>& problems);
 std::string file(std::string_view inside, std::string_view more = {});
 
 }  // namespace swiftlet::tree::testing

@@ -63,12 +63,17 @@ TEST(PageSocketTest, SendsEverythingOnceAndThenWhatChanges) {
       EXPECT_EQ(page.json()["from"], trail);
       trail += page.json()["points"].size();
     }
+    if (type == "tree") {
+      EXPECT_EQ(page.json()["whole"], true);
+      EXPECT_EQ(page.json()["nodes"].size(), 9u);
+    }
   }
   EXPECT_EQ(counts["levels"], 1);
   EXPECT_GE(counts["tiles"], 2);
   EXPECT_LT(counts["tiles"], counts["state"]);
   EXPECT_GE(counts["trail"], 2);
-  EXPECT_EQ(page.json()["mission"]["tree"].size(), 9u);
+  EXPECT_EQ(counts["tree"], 1) << "nothing of it changes";
+  EXPECT_FALSE(page.json()["mission"].contains("tree"));
 }
 
 TEST(PageSocketTest, ALatePageGetsTheWholeMapWithinItsBudget) {

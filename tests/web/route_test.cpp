@@ -148,6 +148,28 @@ TEST(RouteTest, GoalsAreReadStrictly) {
   EXPECT_EQ(statusOf(route(post("/api/goal", std::string(4000, '[')), kPolicy)), 400);
 }
 
+TEST(RouteTest, MissionsAreStartedByTheirFileAndParameters) {
+  const auto start = std::get<StartMission>(
+      route(post("/api/mission", R"({"file": "missions/a.xml", "parameters": {"M/Go.height_m": "1.2"}})"), kPolicy));
+  EXPECT_EQ(start.file, "missions/a.xml");
+  EXPECT_EQ(start.parameters, (std::map<std::string, std::string>{{"M/Go.height_m", "1.2"}}));
+  EXPECT_TRUE(std::get<StartMission>(route(post("/api/mission", R"({"file": "a"})"), kPolicy)).parameters.empty());
+  for (const char* bad : {"", "[]", "{}", R"({"file": 3})", R"({"file": "a", "more": {}})",
+                          R"({"file": "a", "parameters": []})", R"({"file": "a", "parameters": {"x": 1.2}})"})
+    EXPECT_EQ(statusOf(route(post("/api/mission", bad), kPolicy)), 400) << bad;
+  const auto stop = std::get<GiveCommand>(route(post("/api/stop"), kPolicy));
+  EXPECT_TRUE(std::holds_alternative<common::StopMissionCommand>(stop.kind));
+  Request foreign = post("/api/mission", R"({"file": "a"})");
+  foreign.authorization.clear();
+  EXPECT_EQ(statusOf(route(foreign, kPolicy)), 401);
+}
+
+TEST(RouteTest, MissionsAreListedForTheOperatorOnly) {
+  EXPECT_TRUE(std::holds_alternative<ListMissions>(route(get("/api/missions?token=secret-token"), kPolicy)));
+  EXPECT_EQ(statusOf(route(get("/api/missions"), kPolicy)), 401);
+  EXPECT_EQ(statusOf(route(post("/api/missions"), kPolicy)), 405);
+}
+
 TEST(RouteTest, NamesTheAllowedMethod) {
   const Action action = route(get("/api/goal"), kPolicy);
   EXPECT_EQ(std::get<Refuse>(action).status, 405);

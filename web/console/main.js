@@ -5,6 +5,8 @@ import { Map3dPanel } from './map3d_panel.js';
 import { MapStore } from './map_store.js';
 import { MapView } from './map_view.js';
 import { endText, fliesItsOwnGoals, hasEnded } from './mission.js';
+import { MissionTree } from './tree.js';
+import { MissionsCard } from './missions.js';
 import { PictureStream } from './picture_stream.js';
 import { forgetEvents, showEvents, showFrontiers, showState, toast } from './panels.js';
 import { forVehicle, offerVehicles } from './vehicle.js';
@@ -12,6 +14,8 @@ import { forVehicle, offerVehicles } from './vehicle.js';
 const element = (id) => document.getElementById(id);
 const commands = new Commands();
 const store = new MapStore();
+const tree = new MissionTree(element('tree'));
+const missions = new MissionsCard(element('missions'), commands, showAnswer);
 const buttons = [...document.querySelectorAll('[data-command]')];
 
 const view = new MapView(element('map'), store, {
@@ -28,16 +32,19 @@ const link = new Link((message) => {
     document.title = message.title ? `${message.title} – Swiftlet` : 'Swiftlet';
     offerVehicles(element('vehicle'), message.vehicles ?? [], message.vehicle);
     forgetEvents();
-    commands.check().then(showAccess);
+    commands.check().then(showAccess).then(() => missions.load()).then(showAccess);
   }
   if (message.type === 'state') {
     showState(message);
+    tree.tell(message.stamp_s);
+    if (element('mission-name').textContent !== message.mission.name) element('mission-name').textContent = message.mission.name;
     offer3d(message.map3d !== null);
     const held = message.mission.state === 'held';
     document.querySelector('[data-command=hold]').setAttribute('aria-pressed', String(held));
   }
   if (message.type === 'hello' || message.type === 'state') showAccess();
   if (message.type === 'frontiers') showFrontiers(message.frontiers);
+  if (message.type === 'tree') tree.take(message);
   if (message.type === 'events') showEvents(message.events);
   view.draw();
   map3d.draw();
@@ -62,6 +69,7 @@ function showAccess() {
   for (const button of buttons) disable(button, nothing, '');
   for (const control of element('goal-form').elements) disable(control, noGoals, why);
   view.canvas.classList.toggle('no-goals', noGoals);
+  missions.allow(!nothing, store.state !== null && ['running', 'held'].includes(store.state.mission.state));
 }
 
 const kOwnGoals = 'This mission flies its own goals.';

@@ -57,27 +57,6 @@ export function showState(state) {
   setText('drift', withUnit(state.drift_m, 2, 'm'));
   setText('realtime', state.realtime_factor === null ? '–' : `${state.realtime_factor.toFixed(1)} ×`);
   setText('age', `${Math.round(1000 * state.age_s)} ms`);
-  showTree(mission.tree);
-}
-
-let shownTree = '';
-
-function showTree(nodes) {
-  const key = JSON.stringify(nodes);
-  if (key === shownTree) return;
-  shownTree = key;
-  const lists = new Map([[-1, make('ul')]]);
-  for (const { id, parent, name, status } of nodes) {
-    const row = make('div', { className: 'node' }, make('span', { textContent: name }),
-      make('small', { textContent: status.toLowerCase() }));
-    row.dataset.status = status;
-    const children = make('ul', { hidden: true });
-    lists.set(id, children);
-    const list = lists.get(parent) ?? lists.get(-1);
-    list.hidden = false;
-    list.append(make('li', {}, row, children));
-  }
-  element('tree').replaceChildren(...lists.get(-1).childNodes);
 }
 
 export function showFrontiers(frontiers) {

@@ -11,6 +11,7 @@
 
 #include "web/server/assets.hpp"
 #include "web/server/map3d_session.hpp"
+#include "web/server/mission_shelf.hpp"
 #include "web/server/page_session.hpp"
 #include "web/server/stream_session.hpp"
 
@@ -155,6 +156,19 @@ class HttpSession : public Connection, public std::enable_shared_from_this<HttpS
   }
 
   void perform(const ConfirmToken&) { send(json(200, {{"accepted", true}, {"reason", ""}})); }
+
+  void perform(const ListMissions&) {
+    Response response = make(200, "application/json");
+    response.body() = core_->options.missions == nullptr ? "[]" : core_->options.missions->list();
+    send(std::move(response));
+  }
+
+  void perform(const StartMission& start) {
+    if (core_->options.missions == nullptr) return sendError(404, "this program offers no missions");
+    auto taken = core_->options.missions->take(start.file, start.parameters);
+    if (!taken) return sendError(409, taken.error());
+    perform(GiveCommand{std::move(*taken), start.vehicle});
+  }
 
   void perform(const GiveCommand& command) {
     const bool given =

@@ -42,6 +42,10 @@ class PageSession final : public WebSocket {
     queuePart(telemetry.levels(), levels_version_, false);
     queuePart(telemetry.frontiers(), frontiers_version_, false);
     collectTrail(telemetry);
+    if (telemetry.tree().version() != tree_version_) {
+      queueText(telemetry.tree().since(tree_version_));
+      tree_version_ = telemetry.tree().version();
+    }
     queuePart(telemetry.laser(), laser_version_, true);
     queue(telemetry.state(), false);
   }
@@ -61,7 +65,7 @@ class PageSession final : public WebSocket {
   WatchedVehicle& vehicle_;
   Beat map_beat_{kMapsPerSecond};
   TileReader tiles_;
-  std::uint64_t frontiers_version_ = 0, levels_version_ = 0, laser_version_ = 0, trail_version_ = 0;
+  std::uint64_t frontiers_version_ = 0, levels_version_ = 0, laser_version_ = 0, trail_version_ = 0, tree_version_ = 0;
   std::size_t trail_sent_ = 0;
   std::uint64_t last_event_ = 0;
 };

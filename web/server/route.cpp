@@ -93,7 +93,27 @@ Action goal(const Request& request, std::size_t vehicle) {
   return GiveCommand{common::GoalCommand{{coordinate(body, "x_m"), coordinate(body, "y_m")}}, vehicle};
 }
 
+/// {"file": "missions/patrol.xml", "parameters": {"Main/Sequence/TakeOff.height_m": "1.2"}}.
+Action mission(const Request& request, std::size_t vehicle) {
+  const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
+  if (!body.is_object() || !body.contains("file") || !body["file"].is_string())
+    refuse(400, "send {\"file\": \"a file of /api/missions\", \"parameters\": {}}");
+  StartMission start{body["file"], {}, vehicle};
+  for (const auto& [key, value] : body.items()) {
+    if (key == "file") continue;
+    if (key != "parameters" || !value.is_object())
+      refuse(400, fmt::format("unknown key {}; send file and parameters", shown(key)));
+    for (const auto& [name, text] : value.items()) {
+      if (!text.is_string()) refuse(400, fmt::format("{}: the value is not a text", shown(name)));
+      start.parameters[name] = text;
+    }
+  }
+  return start;
+}
+
 Action command(const Request& request, const std::string& name, std::size_t vehicle) {
+  if (name == "mission") return mission(request, vehicle);
+  if (name == "stop") return GiveCommand{common::StopMissionCommand{}, vehicle};
   if (name == "goal") return goal(request, vehicle);
   if (name == "hold") return GiveCommand{common::HoldCommand{}, vehicle};
   if (name == "resume") return GiveCommand{common::ResumeCommand{}, vehicle};
@@ -124,7 +144,8 @@ Action decide(const Request& request, const Policy& policy) {
                                                "/api/state",
                                                "/api/ws",
                                                "/api/map3d"};
-  static const std::vector<std::string> kCommands{"/api/goal", "/api/hold", "/api/resume", "/api/home", "/api/land"};
+  static const std::vector<std::string> kCommands{"/api/goal", "/api/hold",    "/api/resume", "/api/home",
+                                                  "/api/land", "/api/mission", "/api/stop"};
   const auto in = [](const std::vector<std::string>& list, const std::string& item) {
     return std::find(list.begin(), list.end(), item) != list.end();
   };
@@ -139,9 +160,10 @@ Action decide(const Request& request, const Policy& policy) {
     checkToken(request, *target, policy);
     return command(request, target->path.substr(5), vehicle);
   }
-  if (target->path == "/api/token") {
+  if (target->path == "/api/token" || target->path == "/api/missions") {
     checkMethod(request, "GET");
     checkToken(request, *target, policy);
+    if (target->path == "/api/missions") return ListMissions{};
     return ConfirmToken{};
   }
   const std::string file = target->path == "/" ? "index.html" : target->path.substr(1);

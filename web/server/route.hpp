@@ -1,6 +1,7 @@
 // Decides what to do with a request. A pure function, so that every refusal can be tested and fuzzed without a socket.
 #pragma once
 
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -36,6 +37,12 @@ struct GiveCommand {
   decltype(common::OperatorCommand::kind) kind;
   std::size_t vehicle = 0;
 };
+struct ListMissions {};
+struct StartMission {
+  std::string file;
+  std::map<std::string, std::string> parameters;
+  std::size_t vehicle = 0;
+};
 struct ConfirmToken {};
 struct Refuse {
   int status = 400;  ///< 400, 401, 403, 404, 405, 426
@@ -43,8 +50,8 @@ struct Refuse {
   std::string allow;  ///< For status 405: the allowed methods.
 };
 
-using Action =
-    std::variant<ServeFile, StreamPictures, SendPicture, SendState, OpenSocket, GiveCommand, ConfirmToken, Refuse>;
+using Action = std::variant<ServeFile, StreamPictures, SendPicture, SendState, OpenSocket, GiveCommand, ListMissions,
+                            StartMission, ConfirmToken, Refuse>;
 
 struct Policy {
   std::string token;

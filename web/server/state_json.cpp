@@ -12,6 +12,7 @@
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
+#include "web/server/tree_json.hpp"
 
 namespace swiftlet::web {
 namespace {
@@ -65,15 +66,12 @@ Json poseOf(const common::VehicleState& state) {
 
 Json missionOf(const common::MissionLayer& layer) {
   const common::MissionStatus& mission = layer.status;
-  Json tree = Json::array();
-  for (const common::TreeNodeView& node : mission.tree)
-    tree.push_back({{"id", node.id}, {"parent", node.parent}, {"name", node.name}, {"status", node.status}});
   return {{"state", common::toString(mission.state)},
+          {"name", mission.name},
           {"phase", mission.phase},
           {"reason", mission.reason},
           {"waiting", layer.waiting.empty() ? Json(nullptr) : Json(layer.waiting)},
-          {"accepts_goals", mission.accepts_goals},
-          {"tree", tree}};
+          {"accepts_goals", mission.accepts_goals}};
 }
 
 Json localizationOf(const std::optional<common::Localization>& localization) {
@@ -218,6 +216,8 @@ std::string completeJson(const common::World& world, const Observation& observat
   Json json = stateOf(world, observation);
   json.erase("type");
   const common::MapLayer& map = *world.map;
+  Json& tree = json["mission"]["tree"] = Json::array();
+  for (const common::TreeNodeView& node : world.mission->status.tree) tree.push_back(nodeJson(node, true));
   json["trail"] = points(world.vehicle->trail.points_map_m());
   json["frontiers"] = frontiersOf(*map.frontiers, map.grid->resolution_m())["frontiers"];
   json["levels"] = levelsOf(*map.levels)["levels"];

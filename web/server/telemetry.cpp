@@ -5,6 +5,7 @@
 
 #include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
+#include "common/world/mission_layer.hpp"
 
 namespace swiftlet::web {
 namespace {
@@ -87,6 +88,8 @@ void Telemetry::encodeParts() {
   if (world_.sequence == encoded_sequence_) return;
   encoded_sequence_ = world_.sequence;
   encodeMap(*world_.value->map);
+  if (encoded_mission_ != world_.value->mission) tree_.update(world_.value->mission->status.tree);
+  encoded_mission_ = world_.value->mission;
   const auto& laser = world_.value->vehicle->laser;
   if (laser && encoded_laser_ != laser) laser_.set(laserBytes(*laser));
   encoded_laser_ = laser;

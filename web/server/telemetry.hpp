@@ -15,6 +15,7 @@
 #include "web/server/state_json.hpp"
 #include "web/server/submap_feed.hpp"
 #include "web/server/tile_feed.hpp"
+#include "web/server/tree_feed.hpp"
 #include "web/server/web_server.hpp"
 
 namespace swiftlet::web {
@@ -70,6 +71,7 @@ class Telemetry {
   const Part& frontiers() const { return frontiers_; }
   const Part& levels() const { return levels_; }
   const TileFeed& tiles() const { return tiles_; }
+  const TreeFeed& tree() const { return tree_; }
   /// encodeMap3d(), which the tick of a page with a 3D view calls, updates it.
   void encodeMap3d();
   const SubmapFeed& submaps() const { return submaps_; }
@@ -101,6 +103,8 @@ class Telemetry {
   std::shared_ptr<const common::MapLayer> encoded_map_;
   std::shared_ptr<const common::LaserPoints> encoded_laser_;
   TileFeed tiles_;
+  TreeFeed tree_;
+  std::shared_ptr<const common::MissionLayer> encoded_mission_;
   SubmapFeed submaps_;
   common::Trail trail_;
   std::uint64_t trail_version_ = 1;

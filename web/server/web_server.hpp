@@ -16,6 +16,9 @@
 //   GET  /api/map.png             the picture of the map; ?width= &height= &scheme=
 //   GET  /api/ws                  WebSocket: the content of /api/state in parts, only changes, and the map's tiles
 //   GET  /api/map3d               WebSocket: the points of the 3D map and their poses, see web/server/submap_feed.hpp
+//   GET  /api/missions            the missions that may be started, with their parameters; with the token
+//   POST /api/mission             starts one, or another in its place: {"file": "...", "parameters": {"KEY": "VALUE"}}
+//   POST /api/stop                the mission lets go; the vehicle holds until one is started, or it lands
 //   GET  /api/token               200 if the token shown is the operator's, else 401
 //   POST /api/goal|hold|resume|home|land    `Authorization: Bearer TOKEN` or ?token=; goal: {"x_m": 1.0, "y_m": 2.0}
 //

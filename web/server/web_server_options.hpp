@@ -14,6 +14,8 @@ struct World;
 
 namespace swiftlet::web {
 
+class MissionShelf;
+
 struct WebServerOptions {
   std::string address = "127.0.0.1";  ///< IPv4 or IPv6 to listen on; "0.0.0.0" is every interface.
   int port = 8080;                    ///< Port; 0 for any free one.
@@ -24,6 +26,7 @@ struct WebServerOptions {
   double stall_timeout_s = 10.0;      ///< A stream's client that takes nothing for this long is dropped.
   int max_connections = 256;          ///< Viewers that watch at the same time; operators are not counted.
   double viewers_bytes_per_s = 16e6;  ///< For all viewers together, so that the operator's page is not starved.
+  MissionShelf* missions = nullptr;   ///< Missions that a page may start; null: none. Outlives IoContext::run().
   /// The present time since 1970, for the age of frames only. Called from the thread that runs the IoContext.
   std::function<common::Time()> unix_time;
 };

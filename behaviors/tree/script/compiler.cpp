@@ -27,6 +27,7 @@ ScriptResult Script::compile(std::string_view text, const Constants& constants) 
 
 ScriptResult ScriptCompiler::compile() {
   if (tokens_.size() > kMostTokens) problem_ = "it is longer than " + std::to_string(kMostTokens) + " words";
+  script_.expressions_.reserve(tokens_.size());
   while (problem_.empty()) {
     while (take(";")) {}
     if (next().kind == TokenKind::kEnd) break;
@@ -34,8 +35,9 @@ ScriptResult ScriptCompiler::compile() {
     if (problem_.empty() && next().kind != TokenKind::kEnd && !at(";")) fail(next(), "an operator or `;`");
   }
   if (problem_.empty() && script_.statements_.empty()) problem_ = "it has no statement";
-  if (!problem_.empty()) return {std::nullopt, problem_};
-  return {std::move(script_), {}};
+  if (!problem_.empty()) return {nullptr, problem_};
+  script_.text_ = text_;
+  return {std::make_unique<Script>(std::move(script_)), {}};
 }
 
 ScriptCompiler::Index ScriptCompiler::statement() {

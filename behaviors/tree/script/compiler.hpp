@@ -42,7 +42,12 @@ class ScriptCompiler {
   void recordWrite(std::size_t entry, bool makes, const Script::Expression& value);
 
   const Token& next() const { return tokens_[position_]; }
-  bool at(std::string_view sign) const { return next().kind == TokenKind::kSign && next().text == sign; }
+  /// Signs have one or two characters.
+  bool at(std::string_view sign) const {
+    const std::string_view text = next().text;
+    return next().kind == TokenKind::kSign && text.size() == sign.size() && text[0] == sign[0] &&
+           (sign.size() == 1 || text[1] == sign[1]);
+  }
   bool take(std::string_view sign);
   /// Keeps the first problem and ends the text, so that every function above returns.
   Index fail(const Token& token, std::string_view expected);

@@ -48,7 +48,9 @@ Token nextToken(std::string_view rest, std::size_t offset) {
     return {TokenKind::kName, rest.substr(0, lengthOf(rest, 1, [](char c) { return isLetter(c) || isDigit(c); })),
             offset};
   if (rest.front() == '\'' || rest.front() == '"') return quoted(rest, offset);
-  const auto* sign = std::find_if(kSigns.begin(), kSigns.end(), [&](auto known) { return rest.starts_with(known); });
+  const auto* sign = std::find_if(kSigns.begin(), kSigns.end(), [&](std::string_view known) {
+    return rest[0] == known[0] && (known.size() == 1 || (rest.size() > 1 && rest[1] == known[1]));
+  });
   if (sign == kSigns.end()) return {TokenKind::kBad, rest.substr(0, 1), offset};
   return {TokenKind::kSign, rest.substr(0, sign->size()), offset};
 }
@@ -57,6 +59,7 @@ Token nextToken(std::string_view rest, std::size_t offset) {
 
 std::vector<Token> tokensOf(std::string_view script) {
   std::vector<Token> tokens;
+  tokens.reserve(script.size() / 3 + 2);
   std::size_t offset = 0;
   while (true) {
     offset = lengthOf(script, offset, [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; });

@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,6 +54,8 @@ class Script {
  public:
   static ScriptResult compile(std::string_view text, const Constants& constants);
 
+  /// As it was compiled.
+  const std::string& text() const { return text_; }
   const std::vector<ScriptEntry>& entries() const { return entries_; }
   const std::vector<ScriptWrite>& writes() const { return writes_; }
   bool assigns() const { return !writes_.empty(); }
@@ -112,6 +115,7 @@ class Script {
   std::optional<bool> truth(std::uint32_t index);
   std::nullopt_t fail(std::string problem);
 
+  std::string text_;
   std::vector<Expression> expressions_;
   std::vector<std::uint32_t> statements_;
   std::vector<Value> constants_;
@@ -122,7 +126,7 @@ class Script {
 };
 
 struct ScriptResult {
-  std::optional<Script> script;
+  std::unique_ptr<Script> script;
   std::string problem;  ///< What is wrong with the text, if there is no script.
 };
 

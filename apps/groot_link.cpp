@@ -1,0 +1,41 @@
+#include "apps/groot_link.hpp"
+
+#include <string>
+
+#include "behaviors/registry.hpp"
+#include "common/world.hpp"
+#include "common/world/mission_layer.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+/// How soon the thread sees that it is to end, and how old a status may be.
+constexpr int kGrootPatience_ms = 50;
+
+/// The element <TreeNodesModel> of the palette.
+std::string grootModels() {
+  const std::string palette = tree::writeTreeNodesModel(behaviors::missionRegistry());
+  const std::string tail = "</TreeNodesModel>";
+  const std::size_t begin = palette.find("<TreeNodesModel>"), end = palette.rfind(tail);
+  return palette.substr(begin, end + tail.size() - begin) + "\n";
+}
+
+}  // namespace
+
+GrootLink::GrootLink(const std::string& address, int port)
+    : server_(address, port), thread_([this](const std::stop_token& stop) { answer(stop); }) {}
+
+void GrootLink::answer(const std::stop_token& stop) {
+  interfaces::GrootMonitor monitor(grootModels());
+  std::uint64_t seen = 0;
+  while (!stop.stop_requested()) {
+    if (const std::uint64_t newest = world_.sequence(); newest != seen) {
+      seen = newest;
+      const auto world = world_.read();
+      monitor.update(world->mission->status.tree, world->stamp);
+    }
+    server_.serve(monitor, kGrootPatience_ms);
+  }
+}
+
+}  // namespace swiftlet::apps

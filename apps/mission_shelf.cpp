@@ -1,0 +1,96 @@
+#include "apps/mission_shelf.hpp"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "behaviors/registry.hpp"
+#include "behaviors/tree/parameters.hpp"
+#include "common/data_paths.hpp"
+#include "common/error.hpp"
+#include "common/read_bytes.hpp"
+
+namespace swiftlet::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostMissionBytes = std::size_t{1} << 20;
+
+/// The first comment of a mission says what it does.
+std::string firstComment(const std::string& text) {
+  const std::size_t begin = text.find("<!--"), end = text.find("-->");
+  if (begin == std::string::npos || end == std::string::npos || end < begin + 4 || begin > text.find("<root"))
+    return {};
+  const std::string comment = text.substr(begin + 4, end - begin - 4);
+  const std::size_t first = comment.find_first_not_of(" \n\r\t"), last = comment.find_last_not_of(" \n\r\t");
+  return first == std::string::npos ? std::string() : comment.substr(first, last - first + 1);
+}
+
+nlohmann::json parametersJson(const std::string& text, const std::string& file) {
+  auto list = nlohmann::json::array();
+  for (const tree::Parameter& parameter : tree::parametersOf(text, file, behaviors::missionRegistry()))
+    list.push_back({{"key", parameter.key},
+                    {"node", parameter.node},
+                    {"port", parameter.port->name},
+                    {"value", parameter.value},
+                    {"expected", tree::expectedOf(*parameter.port)},
+                    {"about", parameter.port->description},
+                    {"choices", parameter.port->choices}});
+  return list;
+}
+
+}  // namespace
+
+/// Found by a file that is always among them.
+fs::path shippedMissions() {
+  try {
+    return common::findData("missions/explore_and_return.xml").parent_path();
+  } catch (const common::InputError&) {
+    return "missions";
+  }
+}
+
+std::vector<fs::path> FolderShelf::files() const {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error))
+    if (entry.path().extension() == ".xml" && !fs::equivalent(entry.path(), first_, error))
+      found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  found.insert(found.begin(), first_);
+  return found;
+}
+
+std::string FolderShelf::list() {
+  auto missions = nlohmann::json::array();
+  for (const fs::path& file : files()) {
+    try {
+      const std::string text = common::readBytes(file, kMostMissionBytes);
+      missions.push_back({{"file", file.string()},
+                          {"name", file.stem().string()},
+                          {"about", firstComment(text)},
+                          {"parameters", parametersJson(text, file.string())}});
+    } catch (const common::InputError&) {
+      // A file that has just gone, or that may not be read, is not offered.
+    }
+  }
+  return missions.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+tl::expected<common::StartMissionCommand, std::string> FolderShelf::take(
+    const std::string& file, const std::map<std::string, std::string>& parameters) {
+  const std::vector<fs::path> offered = files();
+  if (std::find(offered.begin(), offered.end(), fs::path(file)) == offered.end())
+    return tl::unexpected("there is no mission `" + file + "` here");
+  try {
+    tree::Changed changed = tree::withParameters(common::readBytes(file, kMostMissionBytes), file,
+                                                 behaviors::missionRegistry(), parameters);
+    if (!changed.problems.empty()) return tl::unexpected(toString(changed.problems.front()));
+    return common::StartMissionCommand{file, std::move(changed.text)};
+  } catch (const common::InputError& error) {
+    return tl::unexpected(std::string(error.what()));
+  }
+}
+
+}  // namespace swiftlet::apps

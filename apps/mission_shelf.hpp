@@ -1,0 +1,32 @@
+// The mission files of a folder, for the page.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "web/server/mission_shelf.hpp"
+
+namespace swiftlet::apps {
+
+class FolderShelf final : public web::MissionShelf {
+ public:
+  /// `first` is a mission of its own, listed before those of `folder`; a folder that does not exist has none.
+  FolderShelf(std::filesystem::path first, std::filesystem::path folder)
+      : first_(std::move(first)), folder_(std::move(folder)) {}
+
+  std::string list() override;
+  tl::expected<common::StartMissionCommand, std::string> take(
+      const std::string& file, const std::map<std::string, std::string>& parameters) override;
+
+ private:
+  /// Read anew each time, so that a file that was edited is flown as it is.
+  std::vector<std::filesystem::path> files() const;
+
+  std::filesystem::path first_;
+  std::filesystem::path folder_;
+};
+
+/// The folder of missions that findData finds; one that does not exist if there is none.
+std::filesystem::path shippedMissions();
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,97 @@
+#include "behaviors/mission_warnings.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "behaviors/flight_leaf.hpp"
+#include "behaviors/tree/outcomes.hpp"
+
+namespace swiftlet::behaviors {
+namespace {
+
+std::string_view typeOf(const tree::NodeRecord& record) {
+  return record.manifest == nullptr ? std::string_view("SubTree") : std::string_view(record.manifest->id);
+}
+
+/// Whether every value that the port may have is that number.
+bool isAlways(const tree::Tree& tree, const tree::NodeRecord& record, std::string_view port, std::int64_t number) {
+  const std::vector<tree::Value> values = tree.knownValues(record.node->id(), port);
+  return !values.empty() && std::all_of(values.begin(), values.end(), [&](const tree::Value& value) {
+    const auto* whole = std::get_if<std::int64_t>(&value);
+    return whole != nullptr && *whole == number;
+  });
+}
+
+std::optional<tree::Outcomes> outcomesOfLeaf(const tree::Tree& tree, const tree::NodeRecord& leaf) {
+  if (typeOf(leaf) == "LogEvent") return tree::Outcomes{.success = true};
+  if (typeOf(leaf) == "OperatorCommand") return tree::Outcomes{.failure = true};
+  if (typeOf(leaf) == "Patrol" && isAlways(tree, leaf, "rounds", 0)) return tree::Outcomes{.failure = true};
+  return std::nullopt;
+}
+
+class Warnings {
+ public:
+  explicit Warnings(const tree::Tree& tree) : tree_(tree) {}
+
+  std::vector<tree::Problem> find() {
+    const auto outcomes =
+        tree::outcomesOf(tree_, [this](const tree::NodeRecord& leaf) { return outcomesOfLeaf(tree_, leaf); });
+    const std::vector<tree::Unreached> unreached = tree::unreachedNodes(tree_, outcomes);
+    for (const tree::Unreached& node : unreached) warn(node.node, "is never reached: " + node.why, {});
+    for (const tree::NodeRecord& record : tree_.nodes())
+      if (typeOf(record).starts_with("Parallel")) checkParallel(*record.node);
+    checkLanding(unreached);
+    return std::move(warnings_);
+  }
+
+ private:
+  void warn(int node, std::string message, std::string hint) {
+    const tree::NodeRecord& record = tree_.nodes()[static_cast<std::size_t>(node)];
+    warnings_.push_back(
+        {tree_.locationOf(node), std::string(typeOf(record)), std::move(message), std::move(hint), tree_.pathOf(node)});
+  }
+
+  /// The first leaf below that has the vehicle whenever it is ticked; null without one.
+  const tree::Node* flyingLeafIn(const tree::Node& node) const {
+    const tree::NodeManifest* manifest = tree_.nodes()[static_cast<std::size_t>(node.id())].manifest;
+    if (dynamic_cast<const FlightLeaf*>(&node) != nullptr && manifest != nullptr && !manifest->may_skip) return &node;
+    for (const auto& child : node.children())
+      if (const tree::Node* leaf = flyingLeafIn(*child)) return leaf;
+    return nullptr;
+  }
+
+  void checkParallel(const tree::Node& parallel) {
+    std::vector<std::string> flying;
+    for (const auto& child : parallel.children())
+      if (const tree::Node* leaf = flyingLeafIn(*child)) flying.push_back(leaf->name());
+    if (flying.size() < 2) return;
+    warn(parallel.id(),
+         "`" + flying[0] + "` and `" + flying[1] + "` fly in the same tick, and only the last intent is flown",
+         "let one child fly and the others watch");
+  }
+
+  void checkLanding(const std::vector<tree::Unreached>& unreached) {
+    const auto isUnreached = [&](int id) {
+      for (; id >= 0; id = tree_.nodes()[static_cast<std::size_t>(id)].parent)
+        if (std::any_of(unreached.begin(), unreached.end(), [&](const tree::Unreached& u) { return u.node == id; }))
+          return true;
+      return false;
+    };
+    for (const tree::NodeRecord& record : tree_.nodes()) {
+      const std::string_view type = typeOf(record);
+      const bool lands = type.find("Land") != std::string_view::npos || type == "OperatorCommand";
+      if (lands && !isUnreached(record.node->id())) return;
+    }
+    warn(0, "the mission never lands", "end it with a <Land/>");
+  }
+
+  const tree::Tree& tree_;
+  std::vector<tree::Problem> warnings_;
+};
+
+}  // namespace
+
+std::vector<tree::Problem> missionWarnings(const tree::Tree& tree) { return Warnings(tree).find(); }
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,54 @@
+#include "behaviors/tree/migrate.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "behaviors/tree/documents.hpp"
+#include "behaviors/tree/parse_options.hpp"
+#include "behaviors/tree/version3.hpp"
+
+namespace swiftlet::tree {
+namespace {
+
+Edit formatEdit(const Document& document) {
+  const XmlElement& root = document.root;
+  if (const auto span = document.source.spanOf(root.offset, "BTCPP_format"))
+    return {span->opening_quote + 1, span->closing_quote, "4"};
+  const std::size_t name_end = root.offset + 1 + root.name.size();
+  return {name_end, name_end, " BTCPP_format=\"4\""};
+}
+
+std::optional<Problem> migrationRefusal(const Document& document) {
+  const XmlElement& root = document.root;
+  if (root.name != "root") return Problem{document.at(root), root.name, "the outermost element must be <root>", {}};
+  const std::string* format = root.attribute("BTCPP_format");
+  if (format == nullptr || *format == "3" || *format == "4") return std::nullopt;
+  return Problem{document.at(root, "BTCPP_format"), "root", "BTCPP_format=\"" + *format + "\", expected \"3\"", {}};
+}
+
+}  // namespace
+
+Migration migrateToVersion4(std::string text, const std::string& name) {
+  SourceText source(name, std::move(text));
+  XmlResult xml = parseXml(source, ParseLimits{}.depth + 2);
+  if (!xml.root) return {{}, {}, {std::move(*xml.problem)}};
+  const Document document{std::move(source), std::move(*xml.root)};
+  if (auto problem = migrationRefusal(document)) return {{}, {}, {std::move(*problem)}};
+
+  Migration migration;
+  const std::string* format = document.root.attribute("BTCPP_format");
+  if (format != nullptr && *format == "4") {
+    migration.text = document.source.text();
+    return migration;
+  }
+  std::vector<Edit> edits = {formatEdit(document)};
+  migration.changes.push_back({document.at(document.root), "root", "BTCPP_format=\"4\" says the version", {}});
+  for (Version3Use& use : version3Uses(document)) {
+    migration.changes.push_back({document.at(*use.element, use.attribute), use.element->name, use.message, {}});
+    edits.insert(edits.end(), use.edits.begin(), use.edits.end());
+  }
+  migration.text = edited(document.source.text(), std::move(edits));
+  return migration;
+}
+
+}  // namespace swiftlet::tree

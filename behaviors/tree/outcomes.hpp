@@ -1,0 +1,37 @@
+// How the nodes of a tree may end, judged from the file alone, and the children that are therefore never ticked.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "behaviors/tree/tree.hpp"
+
+namespace swiftlet::tree {
+
+/// The statuses that a node may end with; none of them: it runs forever.
+struct Outcomes {
+  bool success = false;
+  bool failure = false;
+  bool skipped = false;
+
+  bool operator==(const Outcomes&) const = default;
+};
+
+/// What an application knows about its own leaves; nothing for a leaf that may end in every way.
+using LeafOutcomes = std::function<std::optional<Outcomes>(const NodeRecord& leaf)>;
+
+/// By node id.
+std::vector<Outcomes> outcomesOf(const Tree& tree, const LeafOutcomes& leaf_outcomes = {});
+
+/// A node that is never ticked.
+struct Unreached {
+  int node = -1;
+  std::string why;  ///< "`AlwaysSuccess` before it never fails".
+};
+
+/// The topmost nodes that are never ticked, in preorder; those below them are not listed.
+std::vector<Unreached> unreachedNodes(const Tree& tree, const std::vector<Outcomes>& outcomes);
+
+}  // namespace swiftlet::tree

@@ -1,0 +1,112 @@
+// What `check` warns of: missions that can be flown, but are probably not meant so.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "behaviors/mission_check.hpp"
+#include "tests/behaviors/flight.hpp"
+
+namespace swiftlet::behaviors::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+MissionVerdict verdictOn(const std::string& inside) {
+  return judgeMissionText("<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">\n<BehaviorTree ID=\"M\">\n" + inside +
+                              "\n</BehaviorTree></root>",
+                          "m.xml");
+}
+
+std::vector<std::string> linesOf(const std::vector<tree::Problem>& problems) {
+  std::vector<std::string> lines;
+  for (const tree::Problem& problem : problems) lines.push_back(toString(problem) + " [" + problem.path + "]");
+  return lines;
+}
+
+std::vector<std::string> warningsOf(const std::string& inside) {
+  const MissionVerdict verdict = verdictOn(inside);
+  EXPECT_THAT(linesOf(verdict.problems), IsEmpty()) << inside;
+  return linesOf(verdict.warnings);
+}
+
+TEST(Warnings, NameNodesThatAreNeverReached) {
+  EXPECT_THAT(warningsOf("<Sequence><TakeOff/>\n<Fallback><AlwaysSuccess/><GoHome/></Fallback><Land/></Sequence>"),
+              ElementsAre("m.xml:4:27: GoHome: is never reached: `AlwaysSuccess` before it never fails "
+                          "[M/Sequence/Fallback/GoHome]"));
+  EXPECT_THAT(warningsOf("<Sequence><TakeOff/>\n<Patrol points=\"1;1|2;2\" rounds=\"0\"/><Land/></Sequence>"),
+              ElementsAre(HasSubstr("4:38: Land: is never reached: `Patrol` before it never succeeds"),
+                          HasSubstr("3:1: Sequence: the mission never lands")));
+  EXPECT_THAT(warningsOf("<Sequence><TakeOff/>\n<OperatorCommand/><Land/></Sequence>"),
+              ElementsAre(HasSubstr("Land: is never reached: `OperatorCommand` before it never succeeds")));
+}
+
+TEST(Warnings, NameAParallelOfTwoThatFly) {
+  EXPECT_THAT(
+      warningsOf("<Sequence><TakeOff/>\n<Parallel><MoveToGoal goal=\"1;1\"/><Sequence><LogEvent text=\"a\"/><Explore "
+                 "name=\"look\"/></Sequence></Parallel><Land/></Sequence>"),
+      ElementsAre("m.xml:4:1: Parallel: `MoveToGoal` and `look` fly in the same tick, and only the last intent is "
+                  "flown, let one child fly and the others watch [M/Sequence/Parallel]"));
+  EXPECT_THAT(warningsOf("<Sequence><TakeOff/><ParallelAll><Explore/><Sequence><IsLost/><LogEvent text=\"a\"/>"
+                         "</Sequence><Hold/></ParallelAll><Land/></Sequence>"),
+              IsEmpty());
+}
+
+TEST(Warnings, NameAMissionThatNeverLands) {
+  EXPECT_THAT(warningsOf("<Sequence><TakeOff/><GoHome/></Sequence>"),
+              ElementsAre("m.xml:3:1: Sequence: the mission never lands, end it with a <Land/> [M/Sequence]"));
+  EXPECT_THAT(warningsOf("<Sequence><TakeOff/><Fallback><Explore/><Land/></Fallback></Sequence>"), IsEmpty());
+  EXPECT_THAT(warningsOf("<Sequence><TakeOff/><OperatorCommand/></Sequence>"), IsEmpty()) << "the operator lands";
+}
+
+TEST(Warnings, NameTheFormatThatIsMissing) {
+  const MissionVerdict verdict = judgeMissionText(
+      "<root><BehaviorTree ID=\"M\"><Sequence><TakeOff/><Land/></Sequence></BehaviorTree></root>", "m.xml");
+  EXPECT_THAT(verdict.problems, IsEmpty());
+  EXPECT_THAT(linesOf(verdict.warnings), ElementsAre(HasSubstr("write <root BTCPP_format=\"4\">")));
+}
+
+TEST(Problems, HaveThePathOfTheirNode) {
+  EXPECT_THAT(linesOf(verdictOn("<Priority><Hold/><Sequence><TakeOff/></Sequence><Sequence><TakeOff "
+                                "height_m=\"-1\"/><MoveToGoal/></Sequence></Priority>")
+                          .problems),
+              ElementsAre(HasSubstr("`-1` is out of range, expected a number in metres from 0.3 to"),
+                          HasSubstr("port `goal` is missing")));
+  const std::vector<tree::Problem> values =
+      verdictOn(
+          "<Priority><Hold/><Sequence><TakeOff/></Sequence><Sequence><TakeOff height_m=\"-1\"/></Sequence>"
+          "</Priority>")
+          .problems;
+  ASSERT_EQ(values.size(), 1U);
+  EXPECT_EQ(values[0].path, "M/Priority/Sequence[2]/TakeOff");
+  const std::vector<tree::Problem> entries =
+      verdictOn("<Sequence><TakeOff/>\n<MoveToGoal goal=\"{door}\"/></Sequence>").problems;
+  EXPECT_THAT(linesOf(entries), ElementsAre("m.xml:4:13: MoveToGoal.goal: nothing sets the entry {door} "
+                                            "[M/Sequence/MoveToGoal]"));
+  const std::vector<tree::Problem> scripted =
+      verdictOn(
+          "<Sequence><Script code=\"far := 9.5\"/><TakeOff/>\n<MoveToGoal goal=\"1;1\" "
+          "tolerance_m=\"{far}\"/></Sequence>")
+          .problems;
+  EXPECT_THAT(linesOf(scripted), ElementsAre(HasSubstr("`9.5` is out of range, expected a number in metres from 0.01 "
+                                                       "to 5 (read by MoveToGoal.tolerance_m from {far}) "
+                                                       "[M/Sequence/Script]")));
+  const std::vector<tree::Problem> floor = verdictOn("<Sequence><GoHome/><TakeOff/></Sequence>").problems;
+  ASSERT_EQ(floor.size(), 1U);
+  EXPECT_EQ(floor[0].path, "M/Sequence/GoHome");
+}
+
+TEST(ShippedMissions, HaveNoWarnings) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(SWIFTLET_SOURCE_DIR) + "/missions")) {
+    if (entry.path().extension() != ".xml") continue;
+    EXPECT_THAT(linesOf(judgeMission(entry.path().string(), {.max_height_m = 3.0}).warnings), IsEmpty());
+    ++count;
+  }
+  EXPECT_GE(count, 5);
+}
+
+}  // namespace
+}  // namespace swiftlet::behaviors::testing

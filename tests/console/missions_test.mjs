@@ -1,0 +1,176 @@
+// The mission on the page, in Chromium: its live tree of 500 nodes, and missions that are started, changed and stopped.
+// node missions_test.mjs WEB_FIXTURE WORK_FOLDER
+import assert from 'node:assert/strict';
+
+import { eventually, kPatience, launch, run, serve } from './browser.mjs';
+
+const [fixture, folder] = process.argv.slice(2);
+const browser = await launch(folder);
+const large = await serve(fixture, 0, 'operator-token', 'tree');
+const small = await serve(fixture);
+
+async function open(url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1180, height: 900 }, hasTouch: true, ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(120_000 * kPatience);
+  page.problems = [];
+  page.on('pageerror', (error) => page.problems.push(error.message));
+  await page.goto(String(url));
+  await page.locator('#link[data-level=good]').waitFor();
+  return page;
+}
+
+const state = async (url) => (await fetch(`${url.origin}/api/state`)).json();
+const node = (page, id) => page.locator(`#tree li[data-id="${id}"]`);
+
+/** Draws the knob from its place by `share` of the way. */
+async function slide(page, share) {
+  const box = await page.locator('#mission-slide').boundingBox();
+  const y = box.y + box.height / 2;
+  await page.mouse.move(box.x + 26, y);
+  await page.mouse.down();
+  for (let i = 1; i <= 20; ++i) await page.mouse.move(box.x + 26 + (box.width - 52) * share * (i / 20), y);
+  await page.mouse.up();
+}
+
+const tests = {
+  async 'the tree shows states, reasons and ports, and opens and closes'() {
+    const page = await open(large.url);
+    await eventually('the nodes', async () => (await page.locator('#tree li').count()) === 500);
+    await page.locator('#tree li[data-id="2"] > .node[data-status=FAILURE]').waitFor();
+    const told = await page.locator('#tree li[data-id="2"] > p').innerText();
+    assert.equal(told, 'no path to (3.00, -1.50) · goal: {door} = 3;-1.5 · mode: fast');
+    const color = (status) => page.locator(`#tree .node[data-status=${status}]`).first()
+      .evaluate((row) => getComputedStyle(row, '::before').backgroundColor);
+    assert.notEqual(await color('FAILURE'), await color('RUNNING'));
+    const root = node(page, 0);
+    assert.equal(await root.getAttribute('aria-expanded'), 'true');
+    await page.screenshot({ path: `${folder}/tree.png` });
+    await root.locator('> .node').tap();
+    assert.equal(await root.getAttribute('aria-expanded'), 'false');
+    assert.equal(await node(page, 2).isVisible(), false);
+    await root.locator('> .node').press('ArrowRight');
+    await node(page, 2).waitFor();
+    await root.locator('> .node').press('ArrowDown');
+    assert.equal(await page.evaluate(() => document.activeElement.closest('li').dataset.id), '1');
+    // A large tree begins with its subtrees closed.
+    assert.equal(await node(page, 1).getAttribute('aria-expanded'), 'false');
+    return page;
+  },
+
+  async 'only nodes that changed are sent and drawn'() {
+    const page = await open(large.url);
+    const sizes = [];
+    page.on('websocket', (socket) => socket.on('framereceived', ({ payload }) => {
+      if (typeof payload === 'string' && payload.includes('"type":"tree"')) sizes.push(payload.length);
+    }));
+    await page.reload();
+    await eventually('a hundred changes', () => sizes.length > 100);
+    const later = sizes.slice(1).sort((a, b) => a - b);
+    assert.ok(later[later.length >> 1] < sizes[0] / 20, `${sizes[0]} bytes whole, then ${later[later.length >> 1]}`);
+    // What is under way shows its duration ten times a second; all else is left alone.
+    const touched = await page.evaluate(() => new Promise((done) => {
+      const items = new Set();
+      const watch = new MutationObserver((changes) => {
+        for (const { target } of changes) items.add((target.closest ? target : target.parentElement).closest('li')?.dataset.id);
+      });
+      watch.observe(document.getElementById('tree'), { subtree: true, childList: true, characterData: true, attributes: true });
+      setTimeout(() => { watch.disconnect(); done([...items]); }, 500);
+    }));
+    assert.ok(touched.length > 5 && !touched.includes('2'), `${touched.length} nodes were drawn`);
+    return page;
+  },
+
+  async 'a tree of 500 nodes does not make the page stutter'() {
+    const page = await open(large.url);
+    await eventually('the nodes', async () => (await page.locator('#tree li').count()) === 500);
+    const work = await page.evaluate(async () => {
+      const { MissionTree } = await import('./tree.js');
+      const list = document.createElement('ul');
+      list.className = 'tree';
+      document.body.append(list);
+      const tree = new MissionTree(list);
+      const nodes = Array.from({ length: 500 }, (_, id) => ({ id, parent: id === 0 ? -1 : Math.floor((id - 1) / 3), name: `n${id}`,
+        type: 'Sequence', status: 'IDLE', ports: {}, reason: '', began_s: null, duration_s: null }));
+      const frame = () => new Promise(requestAnimationFrame);
+      tree.take({ whole: true, nodes });
+      await frame(); await frame();
+      const spent = [];
+      for (let i = 0; i < 60; ++i) {
+        tree.take({ whole: false, nodes: [0, 1, 2, 3, 4].map((k) => ({ ...nodes[(5 * i + k) % 500], status: 'RUNNING', began_s: 1 })) });
+        tree.tell(i / 10);
+        await frame();
+        const begin = performance.now();
+        list.offsetHeight; // Style and layout of what was drawn.
+        tree.show(tree.nodes.get(5 * i % 500));
+        spent.push(performance.now() - begin);
+      }
+      list.remove();
+      return spent.sort((a, b) => a - b);
+    });
+    const [median, most] = [work[work.length >> 1], work.at(-1)];
+    console.log(`        a change of five nodes of 500: median ${median.toFixed(2)} ms, most ${most.toFixed(2)} ms`);
+    assert.ok(median < 16 * kPatience, `${median} ms`);
+    return page;
+  },
+
+  async 'a mission is chosen, changed, and started by a slide'() {
+    const page = await open(small.url);
+    await page.locator('#missions summary').tap();
+    await page.locator('#mission-choice').selectOption('missions/hop.xml');
+    await page.getByText('Up and down.').waitFor();
+    await page.locator('[name="Hop/Sequence/TakeOff.height_m"]').fill('1.4');
+    await page.locator('[name="Hop/Sequence/MoveToGoal.mode"]').selectOption('careful');
+    await page.screenshot({ path: `${folder}/missions.png` });
+    let posts = 0;
+    page.on('request', (request) => { posts += request.method() === 'POST'; });
+    await slide(page, 0.6);
+    const box = await page.locator('#mission-slide').boundingBox();
+    await page.mouse.click(box.x + box.width - 8, box.y + box.height / 2);
+    assert.equal(posts, 0, 'neither half a slide nor a click starts a mission');
+    await slide(page, 1);
+    await page.getByText('Mission started').waitFor();
+    assert.equal(posts, 1);
+    assert.equal((await state(small.url)).mission.name,
+      'missions/hop.xml Hop/Sequence/MoveToGoal.mode=careful Hop/Sequence/TakeOff.height_m=1.4');
+    await page.locator('#mission-stop').tap();
+    await page.getByText('Mission stopped').waitFor();
+    await eventually('the stop', async () => (await state(small.url)).mission.state === 'ready');
+    await page.locator('#mission-stop:disabled').waitFor();
+    return page;
+  },
+
+  async 'a mission that cannot be flown says why'() {
+    const page = await open(small.url);
+    await page.locator('#missions summary').tap();
+    await page.locator('[name="Hop/Sequence/TakeOff.height_m"]').fill('999');
+    await slide(page, 1);
+    await page.getByText('Mission refused').waitFor();
+    await page.getByText('`999` is out of range').waitFor();
+    return page;
+  },
+
+  async 'the knob can be moved by keys'() {
+    const page = await open(small.url);
+    await page.locator('#missions summary').tap();
+    await page.locator('#mission-choice').selectOption('missions/wait.xml');
+    await page.locator('#mission-slide').focus();
+    for (let i = 0; i < 10; ++i) await page.keyboard.press('PageUp');
+    await page.getByText('Mission started').waitFor();
+    return page;
+  },
+
+  async 'a viewer sees no missions'() {
+    const page = await open(small.url.origin);
+    await page.getByText('View only').waitFor();
+    assert.equal(await page.locator('#missions').isVisible(), false);
+    assert.equal((await fetch(`${small.url.origin}/api/missions`)).status, 401);
+    return page;
+  },
+};
+
+const failed = await run(tests);
+await browser.close();
+await large.stop();
+await small.stop();
+process.exit(failed ? 1 : 0);

@@ -1,0 +1,144 @@
+// A tree ticked with scripted answers of its leaves: the script as people write it, and the trace.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "behaviors/tree/dry_run.hpp"
+#include "tests/support/scratch.hpp"
+#include "tests/tree/story.hpp"
+
+namespace swiftlet::tree::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Flying, holding and asking, without anything that flies.
+Registry flyingRegistry() {
+  Registry registry = Registry::standard();
+  const auto build = registry.find("AlwaysSuccess")->build;
+  registry.add({.id = "Fly", .kind = NodeKind::kAction, .ports = {{.name = "goal", .required = true}}}, build);
+  registry.add({.id = "Land", .kind = NodeKind::kAction}, build);
+  registry.add({.id = "Hold", .kind = NodeKind::kAction, .may_skip = true}, build);
+  registry.add({.id = "IsLow", .kind = NodeKind::kCondition}, build);
+  return registry;
+}
+
+class DryRuns : public test_support::Scratch {
+ protected:
+  DryRun run(const std::string& inside, const std::string& script, bool mocks = false) const {
+    return dryRun(write("m.xml", file(inside)), flyingRegistry(), readOutcomeScript(script, "s.txt"), mocks);
+  }
+  /// "RUNNING RUNNING SUCCESS".
+  static std::string answers(const DryRun& run) {
+    std::string text;
+    for (const DryRunTick& tick : run.ticks) text += (text.empty() ? "" : " ") + std::string(toString(tick.answer));
+    return text;
+  }
+};
+
+TEST(OutcomeScripts, AreReadLineByLine) {
+  const OutcomeScript script = readOutcomeScript(
+      "# a comment\n\nticks: 7\n tick_ms: 50\r\nM/Fly: RUNNING x2 , FAILURE\nIsLow: false x 3, true", "s.txt");
+  EXPECT_THAT(linesOf(script.problems), IsEmpty());
+  EXPECT_EQ(script.ticks, 7);
+  EXPECT_EQ(script.tick_ms, 50);
+  ASSERT_EQ(script.leaves.size(), 2U);
+  EXPECT_EQ(script.leaves[0].leaf, "M/Fly");
+  EXPECT_THAT(script.leaves[0].answers, ElementsAre(Status::kRunning, Status::kRunning, Status::kFailure));
+  EXPECT_THAT(script.leaves[1].answers,
+              ElementsAre(Status::kFailure, Status::kFailure, Status::kFailure, Status::kSuccess));
+}
+
+TEST(OutcomeScripts, MistakesHaveAPlace) {
+  const auto problemsOf = [](const char* text) { return linesOf(readOutcomeScript(text, "s.txt").problems); };
+  EXPECT_THAT(problemsOf("Fly RUNNING"), ElementsAre("s.txt:1:1: expected `LEAF: ANSWER, ANSWER x3, ...`"));
+  EXPECT_THAT(problemsOf("\n  Fly: DONE"), ElementsAre(HasSubstr("s.txt:2:3: Fly: `DONE` is not an answer, expected")));
+  for (const char* wrong : {"Fly:", "Fly: RUNNING x0", "Fly: RUNNING 3", "Fly: RUNNING,", "Fly: IDLE", "ticks: 0",
+                            "ticks: many", "tick_ms: -5", "Fly: RUNNING x999999999", ": RUNNING"})
+    EXPECT_EQ(problemsOf(wrong).size(), 1U) << wrong;
+}
+
+TEST_F(DryRuns, TellWhatHappensTickByTick) {
+  const DryRun run =
+      this->run("<Sequence><Fly goal=\"a\"/><Land/></Sequence>", "Fly: RUNNING x2, SUCCESS\ntick_ms: 50");
+  EXPECT_THAT(linesOf(run.problems), IsEmpty());
+  EXPECT_THAT(run.unscripted, ElementsAre("Main/Sequence/Land: SUCCESS"));
+  ASSERT_EQ(answers(run), "RUNNING RUNNING SUCCESS");
+  EXPECT_EQ(run.ticks[1].now_ns, 100'000'000);
+  EXPECT_THAT(run.ticks[0].events, ElementsAre("Main/Sequence/Fly: IDLE -> RUNNING", "Main/Sequence: IDLE -> RUNNING"));
+  EXPECT_THAT(run.ticks[1].events, IsEmpty());
+  EXPECT_THAT(run.ticks[2].events,
+              ElementsAre("Main/Sequence/Fly: RUNNING -> SUCCESS", "Main/Sequence/Land: IDLE -> SUCCESS",
+                          "Main/Sequence: RUNNING -> SUCCESS"));
+}
+
+TEST_F(DryRuns, ALeafIsNamedByPathNameOrType) {
+  const DryRun run =
+      this->run("<Sequence><Fly goal=\"a\"/><Fly goal=\"b\" name=\"second\"/><Fly goal=\"c\"/></Sequence>",
+                "Fly: SUCCESS\nsecond: RUNNING, SUCCESS\nMain/Sequence/Fly[2]: RUNNING x2, FAILURE");
+  EXPECT_THAT(linesOf(run.problems), IsEmpty());
+  EXPECT_EQ(answers(run), "RUNNING RUNNING RUNNING FAILURE");
+}
+
+TEST_F(DryRuns, AnswersGoOnWhereALeafStartsAnew) {
+  EXPECT_EQ(answers(run("<RetryUntilSuccessful num_attempts=\"5\"><Fly goal=\"a\"/></RetryUntilSuccessful>",
+                        "Fly: RUNNING, FAILURE, FAILURE, RUNNING, SUCCESS")),
+            "RUNNING RUNNING RUNNING SUCCESS");
+}
+
+TEST_F(DryRuns, ASkippedAnswerIsUsedUpByATick) {
+  const DryRun run = this->run("<Priority><Hold/><Fly goal=\"a\"/></Priority>",
+                               "Hold: SKIPPED x2, RUNNING, SUCCESS, SKIPPED\nFly: RUNNING x4, SUCCESS");
+  EXPECT_THAT(linesOf(run.problems), IsEmpty());
+  // Fly is ticked in all but the third tick, in which Hold has the vehicle.
+  EXPECT_EQ(answers(run), "RUNNING RUNNING RUNNING RUNNING RUNNING SUCCESS");
+  EXPECT_THAT(run.ticks[2].events, ::testing::Contains(HasSubstr("Hold takes over from Fly")));
+}
+
+TEST_F(DryRuns, AConditionIsAskedByTheTick) {
+  // Were it by question, it would be true in the second tick, in which it is asked for the second time.
+  EXPECT_EQ(
+      answers(run("<Sequence><Fly goal=\"a\"/><IsLow/></Sequence>", "Fly: RUNNING x3, SUCCESS\nIsLow: true x3, false")),
+      "RUNNING RUNNING RUNNING FAILURE");
+}
+
+TEST_F(DryRuns, TheEnginesLeavesAndTimesAreReal) {
+  const DryRun run = this->run(
+      "<Sequence><Script code=\"n := 2\"/><Sleep msec=\"250\"/><ScriptCondition code=\"n == 2\"/>"
+      "<Timeout msec=\"300\"><Fly goal=\"a\"/></Timeout></Sequence>",
+      "Fly: RUNNING");
+  EXPECT_EQ(run.ticks.back().answer, Status::kFailure);
+  EXPECT_THAT(run.ticks.back().events, ::testing::Contains(HasSubstr("Main/Sequence/Timeout fails: ")));
+}
+
+TEST_F(DryRuns, StopAtTheLimit) { EXPECT_EQ(run("<Fly goal=\"a\"/>", "Fly: RUNNING\nticks: 5").ticks.size(), 5U); }
+
+TEST_F(DryRuns, ScriptsThatDoNotFitAreRefused) {
+  const auto problemsOf = [this](const char* script) {
+    const DryRun made =
+        run("<Priority><Hold/><Sequence><IsLow/><Sleep msec=\"1\"/><Land/></Sequence></Priority>", script);
+    EXPECT_THAT(made.ticks, IsEmpty());
+    return linesOf(made.problems);
+  };
+  EXPECT_THAT(problemsOf("Lnd: SUCCESS"),
+              ElementsAre("s.txt:1:1: Lnd: the mission has no such leaf, did you mean `Land`?"));
+  EXPECT_THAT(problemsOf("Sleep: SUCCESS"), ElementsAre(HasSubstr("a node of the engine, which is ticked as it is")));
+  EXPECT_THAT(problemsOf("Land: SKIPPED"), ElementsAre("s.txt:1:1: Land: `Land` is never SKIPPED"));
+  EXPECT_THAT(problemsOf("IsLow: RUNNING"), ElementsAre("s.txt:1:1: IsLow: a condition is true or false"));
+  EXPECT_THAT(problemsOf("Land: SUCCESS\nMain/Priority/Sequence/Land: SUCCESS"),
+              ElementsAre(HasSubstr("s.txt:1:1: Land: other lines name each of these leaves better")));
+}
+
+TEST_F(DryRuns, PortsAreCheckedAsInFlight) {
+  EXPECT_THAT(linesOf(run("<Fly/>", "Fly: SUCCESS").problems), ElementsAre(HasSubstr("port `goal` is missing")));
+  EXPECT_THAT(linesOf(run("<Dive/>", "").problems), ElementsAre(HasSubstr("unknown node `Dive`")));
+}
+
+TEST_F(DryRuns, NodesOfOtherProgramsAnswerToo) {
+  EXPECT_EQ(answers(run("<Sequence><Dive depth=\"3\"/><Land/></Sequence>", "Dive: RUNNING, FAILURE", true)),
+            "RUNNING FAILURE");
+}
+
+}  // namespace
+}  // namespace swiftlet::tree::testing
