@@ -13,6 +13,9 @@ struct Describe {
   std::string operator()(const GoalCommand& c) const {
     return fmt::format("goal ({:.2f}, {:.2f})", c.goal_map_m.x(), c.goal_map_m.y());
   }
+  std::string operator()(const KeepOutCommand& c) const { return "keep-out zone with " + toString(c.area); }
+  std::string operator()(const ClearKeepOutCommand&) const { return "no keep-out zones"; }
+  std::string operator()(const GoOnCommand&) const { return "go on"; }
 };
 
 }  // namespace

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "common/polygon.hpp"
+
 namespace swiftlet::common {
 
 struct HoldCommand {};
@@ -18,9 +20,20 @@ struct GoalCommand {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
 };
 
+/// The vehicle keeps out of the area from now on.
+struct KeepOutCommand {
+  Polygon area;
+};
+/// Takes back all areas of KeepOutCommands; those of the mission stay.
+struct ClearKeepOutCommand {};
+/// What a WaitForOperator of the mission waits for.
+struct GoOnCommand {};
+
 struct OperatorCommand {
   std::uint64_t id = 0;
-  std::variant<HoldCommand, ResumeCommand, HomeCommand, LandCommand, GoalCommand> kind;
+  std::variant<HoldCommand, ResumeCommand, HomeCommand, LandCommand, GoalCommand, KeepOutCommand, ClearKeepOutCommand,
+               GoOnCommand>
+      kind;
 };
 
 struct CommandResult {

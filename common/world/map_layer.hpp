@@ -1,4 +1,4 @@
-// The World's layer of the map: grid, levels, frontiers, and the pose in a given map.
+// The World's layer of the map: grid, levels, frontiers, keep-out zones, and the pose in a given map.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 #include "common/level_map.hpp"
 #include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/polygon.hpp"
 #include "common/world/frontier.hpp"
 
 namespace swiftlet::common {
@@ -19,6 +20,7 @@ struct MapLayer {
   std::shared_ptr<const std::vector<Frontier>> frontiers;
   double explored_area_m2 = 0.0;             ///< Area of known free cells at the last choice of a viewpoint; 0 before.
   std::optional<Localization> localization;  ///< None: the flight was given no map.
+  std::shared_ptr<const std::vector<Polygon>> keep_out = std::make_shared<const std::vector<Polygon>>();
 };
 
 }  // namespace swiftlet::common

@@ -40,7 +40,7 @@ export class Commands {
   }
 
   /**
-   * `name`: goal, hold, resume, home or land. Resolves to {outcome, reason}; never rejects. The outcome is "accepted",
+   * `name`: goal, hold, resume, home, land, keep_out, clear_keep_out or go_on. Resolves to {outcome, reason}; never rejects. The outcome is "accepted",
    * "refused" or "no answer".
    */
   async give(name, body) {

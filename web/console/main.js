@@ -1,5 +1,6 @@
 // The operator's page: wires the link, the map, the panels and the commands.
 import { Commands } from './commands.js';
+import { KeepOutPen } from './keep_out.js';
 import { Link } from './link.js';
 import { Map3dPanel } from './map3d_panel.js';
 import { MapStore } from './map_store.js';
@@ -15,9 +16,12 @@ const store = new MapStore();
 const buttons = [...document.querySelectorAll('[data-command]')];
 
 const view = new MapView(element('map'), store, {
-  onTap: sendGoal,
+  onTap: (place) => pen.tap(place) || sendGoal(place),
   onMode: () => showMode(),
 });
+
+const pen = new KeepOutPen(element('keep-out'), () => view.draw(), sendZone);
+view.pen = pen;
 
 const map3d = new Map3dPanel(element('map3d'), store, (path) => commands.withToken(path));
 
@@ -32,6 +36,8 @@ const link = new Link((message) => {
   }
   if (message.type === 'state') {
     showState(message);
+    element('clear-keep-out').hidden = message.keep_out.length === 0;
+    showQuestion(message.mission.question);
     offer3d(message.map3d !== null);
     const held = message.mission.state === 'held';
     document.querySelector('[data-command=hold]').setAttribute('aria-pressed', String(held));
@@ -62,12 +68,15 @@ function showAccess() {
   for (const button of buttons) disable(button, nothing, '');
   for (const control of element('goal-form').elements) disable(control, noGoals, why);
   view.canvas.classList.toggle('no-goals', noGoals);
+  disable(element('keep-out'), nothing, nothing ? '' : kDraw);
 }
 
+const kDraw = 'Tap the corners of a keep-out zone, then press again.';
 const kOwnGoals = 'This mission flies its own goals.';
 const kNoToken = 'Open the operator’s link, printed when the flight starts, to send goals.';
 const kOldToken = 'The token of this page is wrong, or of an earlier start: open the newest operator’s link.';
-const kTitles = { hold: 'Holding', resume: 'Resumed', home: 'Flying home', land: 'Landing' };
+const kTitles = { hold: 'Holding', resume: 'Resumed', home: 'Flying home', land: 'Landing', go_on: 'Going on',
+  clear_keep_out: 'Zones cleared' };
 
 /** What is not accepted stays on the page for long enough to be read, and "refused" is said only of an answer. */
 function showAnswer(name, title, { outcome, reason }) {
@@ -92,6 +101,16 @@ async function sendGoal(goal) {
   view.showMarker(answer.outcome === 'accepted' ? null : { ...goal, state: 'refused' });
   if (answer.outcome === 'accepted') answer.reason = [where, answer.reason].filter(Boolean).join(', ');
   showAnswer('Goal', 'Goal accepted', answer);
+}
+
+async function sendZone(corners_m) {
+  showAnswer('Keep-out zone', 'Keep-out zone set', await commands.give('keep_out', { corners_m }));
+}
+
+/** What the mission waits for the operator to confirm. */
+function showQuestion(question) {
+  element('question').hidden = !question;
+  if (element('question-text').textContent !== question) element('question-text').textContent = question;
 }
 
 for (const button of buttons) {
