@@ -22,7 +22,7 @@ constexpr double kFarFromGoal_m = 1.0;
 
 /// The reactive layer acts on what is near: at 1.5 m/s and 1 m/s^2 the vehicle stops within 1.1 m, and the hull is 0.3
 /// m.
-constexpr double kCameraReach_m = 2.0;
+constexpr double kNear_m = 2.0;
 
 /// The flight home ends this far above the thrust margin at which the vehicle has to land where it is: 3 % of the
 /// weight, as much as the position controller keeps for the height when it tilts (kKeptForHeight).
@@ -51,6 +51,7 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
       supervisor_(config.supervisor),
       supervisor_intents_(config.execution.clearance_m),
+      requests_(vehicle.hullRadius_m()),
       missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr)),
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
@@ -128,6 +129,7 @@ void Autonomy::take(const common::OperatorCommand& command, Time now) {
       result->reason = "next: " + toString(*next);
     return answer(command, std::move(*result), now);
   }
+  if (auto result = requests_.take(command, *world_)) return answer(command, std::move(*result), now);
   if (std::holds_alternative<common::HomeCommand>(command.kind) && !missions_.mission().acceptsGoals())
     return answer(command, supervisor_.goHome(command), now);
   context_.commands.push_back(command);
@@ -187,6 +189,7 @@ std::vector<common::Event> Autonomy::takeEvents() {
   collect(scan_watch_.takeEvents());
   collect(estimator_.takeEvents());
   collect(supervisor_.takeEvents());
+  collect(requests_.takeEvents());
   collect(executor_.takeEvents());
   collect(controller_.takeEvents());
   std::stable_sort(events_.begin(), events_.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
@@ -219,7 +222,8 @@ void Autonomy::processScan(const common::LaserScan& scan, Time now) {
   const auto& decision =
       reactive_.update({outcome->scan, outcome->T_map_body, state, (now - outcome->scan.stamp).seconds(),
                         estimator_.people().obstacles(), executor_.wantedVelocity_map_m_s(), cost_map.get(),
-                        camera_obstacles_.pointsNear_level_m(outcome->T_map_body, kCameraReach_m)});
+                        camera_obstacles_.pointsNear_level_m(outcome->T_map_body, kNear_m),
+                        requests_.keepOut().edgesNear_level_m(outcome->T_map_body, kNear_m)});
   executor_.react(decision, state);
 
   auto points = std::make_shared<common::LaserPoints>();
@@ -247,7 +251,7 @@ void Autonomy::tickBehaviors(Time now) {
   camera_obstacles_.update(estimator_.map3d(), given_map_.grid(), estimator_.state().T_odom_body.position_m.z());
   executor_.tick(intent_, {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
                            estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(),
-                           drift_m_, supervisor_.takeOffRefusal(energy_)});
+                           drift_m_, supervisor_.takeOffRefusal(energy_), requests_.keepOut().zones()});
 }
 
 /// The supervisor's intent comes before the mission's.
@@ -314,8 +318,10 @@ VehicleCondition Autonomy::condition(common::Time now) const {
 
 void Autonomy::tickMission() {
   context_.intent.reset();
+  context_.answers = requests_.takeAnswers();
   const std::vector<common::OperatorCommand> asked = context_.commands;
   const behaviors::TickResult result = missions_.tick(context_);
+  requests_.take(std::exchange(context_.requests, {}), *world_);
   collect(std::exchange(context_.events, {}));
   std::vector<common::CommandResult> answers = std::exchange(context_.results, {});
   SWIFTLET_CHECK(answers.size() == asked.size(), answers.size(), asked.size());
@@ -344,7 +350,8 @@ void Autonomy::takeSnapshot(Time now) {
                executor_.desk().frontiers(),
                executor_.desk().exploredArea_m2(),
                estimator_.localization(),
-               given_map_.T_map_given()};
+               given_map_.T_map_given(),
+               requests_.keepOut().zones()};
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
   WayHome home{executor_.desk().home_m(), 0.0, 0.0, controller_.landing_s()};

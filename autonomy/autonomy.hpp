@@ -11,6 +11,7 @@
 #include "autonomy/energy_monitor.hpp"
 #include "autonomy/estimator.hpp"
 #include "autonomy/executor.hpp"
+#include "autonomy/flight_requests.hpp"
 #include "autonomy/given_map_overlay.hpp"
 #include "autonomy/imu_watch.hpp"
 #include "autonomy/input.hpp"
@@ -145,6 +146,7 @@ class Autonomy {
   Executor executor_;
   Supervisor supervisor_;
   SupervisorIntents supervisor_intents_;
+  FlightRequests requests_;
   MissionDesk missions_;
   std::unique_ptr<common::JobRunner> jobs_;
 

@@ -33,6 +33,7 @@ class PlanningDesk {
   PlanningDesk(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
                common::JobRunner& jobs, Deliver deliver);
 
+  double hullRadius_m() const { return hull_radius_m_; }
   /// True if no job is outstanding, so that ask() may be called.
   bool free() const { return jobs_.idle("planning"); }
   void ask(const ManeuverInput& input, const PlanningClient& client, PlanningQuestion question);

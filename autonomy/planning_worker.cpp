@@ -22,6 +22,7 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   layers.flown_map_m = flown_map_m_;
   layers.discs = request.discs;
   layers.levels = request.levels.get();
+  if (request.keep_out) layers.keep_out = *request.keep_out;
   map_.update(*request.grid, request.footprint, layers);
 
   PlanningAnswer answer;
@@ -102,6 +103,8 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
   // Nearer, the laser has seen the blockage as well as it can: flying there shows nothing new (decision 005).
   constexpr double kWorth_m = 1.5;
   const auto blocked = planning::blockedPath(map_, map_.cellAt(position_map_m), map_.cellAt(request.goal_map_m));
+  // A keep-out zone stays, however near the vehicle looks at it.
+  if (blocked && map_.isKeptOut(map_.indexOf(blocked->first_lethal))) return std::nullopt;
   const bool person_blocks = blocked && std::any_of(people.begin(), people.end(), [&](const common::Disc& disc) {
                                const double off_m = (map_.centerOf(blocked->first_lethal) - disc.center_map_m).norm();
                                return off_m <= disc.radius_m + map_.footprint().radius_m() + map_.resolution_m();

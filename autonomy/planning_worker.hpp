@@ -13,6 +13,7 @@
 #include "autonomy/executor_config.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/polygon.hpp"
 #include "planning/costs/cost_map.hpp"
 #include "planning/exploration/exploration.hpp"
 #include "planning/exploration/explorer_choice.hpp"
@@ -47,6 +48,7 @@ struct PlanningRequest {
   std::shared_ptr<const common::OccupancyGrid> grid;
   std::shared_ptr<const common::LevelMap> levels;
   std::vector<common::Disc> discs;
+  std::shared_ptr<const std::vector<common::Polygon>> keep_out;  ///< Null: none.
   planning::Footprint footprint;
   common::Pose2 T_map_body;
   PlanningQuestion question;

@@ -35,6 +35,8 @@ struct ReactiveInput {
   const planning::CostMap* cost_map = nullptr;  ///< Null before the first plan.
   /// Obstacles that only a camera has seen, in the level frame of the body.
   std::vector<Eigen::Vector2f> camera_points_level_m = {};
+  /// Of the edges of keep-out zones, in the level frame of the body.
+  std::vector<Eigen::Vector2d> keep_out_points_level_m = {};
 };
 
 /// One thread; update() once a scan.

@@ -24,7 +24,7 @@ bool same(const std::optional<common::Localization>& a, const std::optional<comm
 /// The pointed-to values are immutable, so comparing pointers is enough.
 bool same(const common::MapLayer& a, const common::MapLayer& b) {
   return a.grid == b.grid && a.levels == b.levels && a.frontiers == b.frontiers &&
-         a.explored_area_m2 == b.explored_area_m2 && same(a.localization, b.localization);
+         a.explored_area_m2 == b.explored_area_m2 && a.keep_out == b.keep_out && same(a.localization, b.localization);
 }
 
 template <typename Layer>

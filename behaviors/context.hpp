@@ -11,6 +11,7 @@
 #include "common/event.hpp"
 #include "common/goal.hpp"
 #include "common/intent.hpp"
+#include "common/mission_request.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::common {
@@ -32,13 +33,15 @@ struct Context {
   std::shared_ptr<const common::GoalMap> goal_map;
   /// Goals and home that arrived since the last tick, in order. The mission empties it and answers each in `results`.
   std::vector<common::OperatorCommand> commands;
+  std::vector<common::MissionAnswer> answers;  ///< To requests, since the last tick.
 
   // Out.
   /// The intent of this tick. The ids of one mission rise from 1; the same id is the same intent. None only if nothing
   /// in the tree has the vehicle (the mission has ended, or all of it was skipped).
   std::optional<common::Intent> intent;
-  std::vector<common::Event> events;           ///< The mission appends its events.
-  std::vector<common::CommandResult> results;  ///< The mission appends its answers.
+  std::vector<common::MissionRequest> requests;  ///< The mission appends what it asks for.
+  std::vector<common::Event> events;             ///< The mission appends its events.
+  std::vector<common::CommandResult> results;    ///< The mission appends its answers.
 };
 
 }  // namespace swiftlet::behaviors

@@ -22,6 +22,12 @@ class FlightTick final : public tree::TickContext {
   std::uint64_t newIntentId() { return ++last_intent_id_; }
   void emit(std::uint64_t id, common::IntentKind kind) { flight.intent = common::Intent{id, std::move(kind)}; }
 
+  /// Asks for it; the id of the request, to find its answer.
+  std::uint64_t request(common::MissionRequestKind kind) {
+    flight.requests.push_back({newIntentId(), std::move(kind)});
+    return flight.requests.back().id;
+  }
+
   /// An event of the mission, now.
   void say(common::Severity severity, std::string text, std::string reason) {
     flight.events.push_back({flight.now, severity, "mission", std::move(text), std::move(reason)});

@@ -8,6 +8,7 @@
 
 #include "behaviors/flight_leaf.hpp"
 #include "behaviors/mission_warnings.hpp"
+#include "behaviors/ports.hpp"
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
@@ -180,6 +181,16 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
     };
     for (const tree::Value& value : tree.knownValues(id, "height_m"))
       if (const auto* height_m = std::get_if<double>(&value)) checkGoal("height_m", {.height_m = *height_m});
+    for (const tree::Value& value : tree.knownValues(id, "polygon"))
+      if (const auto* corners = std::get_if<tree::Points>(&value)) {
+        const std::string problem = problemOf(polygonOf(*corners));
+        const bool home = record.manifest->id == "KeepOut" && polygonOf(*corners).contains(Eigen::Vector2d::Zero());
+        if (!problem.empty())
+          report(*record.node, *record.manifest, "polygon", problem, "give the corners in order along the edge");
+        else if (home)
+          report(*record.node, *record.manifest, "polygon", "holds the take-off place 0;0",
+                 "the vehicle could not fly home: leave the place out");
+      }
     for (const tree::Value& value : tree.knownValues(id, "goal"))
       if (const auto* goal = std::get_if<tree::Point>(&value))
         checkGoal("goal", {.place_map_m = {goal->x, goal->y}, .height_m = goal->z});

@@ -9,6 +9,7 @@
 
 #include "behaviors/tree/port.hpp"
 #include "common/flight_mode.hpp"
+#include "common/polygon.hpp"
 
 namespace swiftlet::behaviors {
 
@@ -36,6 +37,20 @@ inline tree::PortManifest placePort(std::string name) {
           .type = tree::PortType::kPoint,
           .required = true,
           .description = "In the map frame, whose origin is the take-off pose; z above the take-off floor."};
+}
+
+/// An area that must be given; `purpose` completes "the area ...".
+inline tree::PortManifest polygonPort(const std::string& purpose) {
+  return {.name = "polygon",
+          .type = tree::PortType::kPoints,
+          .required = true,
+          .description = "Corners, in order, of the area " + purpose +
+                         ", in the map frame, whose origin is the take-off pose; a z is ignored."};
+}
+inline common::Polygon polygonOf(const tree::Points& points) {
+  common::Polygon polygon;
+  for (const tree::Point& point : points.points) polygon.corners_map_m.emplace_back(point.x, point.y);
+  return polygon;
 }
 
 /// A port that takes the names of `values`; chosenOf() reads it.

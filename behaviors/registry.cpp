@@ -6,6 +6,7 @@
 #include "behaviors/follow_path.hpp"
 #include "behaviors/go_home.hpp"
 #include "behaviors/hold.hpp"
+#include "behaviors/keep_out.hpp"
 #include "behaviors/land.hpp"
 #include "behaviors/localize.hpp"
 #include "behaviors/log_event.hpp"
@@ -31,6 +32,7 @@ const tree::Registry& missionRegistry() {
     registry.add<GoHome>();
     registry.add<AvoidObstacle>();
     registry.add<OperatorCommand>();
+    registry.add<KeepOut>();
     registry.add<LogEvent>();
     registry.add<IsBatteryLow>();
     registry.add<IsHomeReachable>();

@@ -15,6 +15,9 @@ struct Describe {
   }
   std::string operator()(const StartMissionCommand& c) const { return fmt::format("mission {}", c.name); }
   std::string operator()(const StopMissionCommand&) const { return "stop the mission"; }
+  std::string operator()(const KeepOutCommand& c) const { return "keep-out zone with " + toString(c.area); }
+  std::string operator()(const ClearKeepOutCommand&) const { return "no keep-out zones"; }
+  std::string operator()(const GoOnCommand&) const { return "go on"; }
 };
 
 }  // namespace

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "common/polygon.hpp"
+
 namespace swiftlet::common {
 
 struct HoldCommand {};
@@ -26,10 +28,19 @@ struct StartMissionCommand {
 /// The vehicle holds until another mission is started, or it lands.
 struct StopMissionCommand {};
 
+/// The vehicle keeps out of the area from now on.
+struct KeepOutCommand {
+  Polygon area;
+};
+/// Takes back all areas of KeepOutCommands; those of the mission stay.
+struct ClearKeepOutCommand {};
+/// What a WaitForOperator of the mission waits for.
+struct GoOnCommand {};
+
 struct OperatorCommand {
   std::uint64_t id = 0;
   std::variant<HoldCommand, ResumeCommand, HomeCommand, LandCommand, GoalCommand, StartMissionCommand,
-               StopMissionCommand>
+               StopMissionCommand, KeepOutCommand, ClearKeepOutCommand, GoOnCommand>
       kind;
 };
 

@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "common/polygon.hpp"
+
 namespace swiftlet::common {
 namespace {
 
 using Reason = GoalRefusal::Reason;
 
-/// No map is this large. Far beyond it the index of a cell would overflow.
-constexpr double kFarthest_m = 1e5;
 /// Share of the tolerance for a substitute place; the rest is left to the controller.
 constexpr double kShareOfTolerance = 0.8;
 constexpr double kReach_m = 3.0;
@@ -23,6 +23,10 @@ std::string inWords(const Eigen::Vector2d& place_m) {
 GoalRefusal refusal(PlaceState state, const Goal& goal, const std::optional<Eigen::Vector2d>& nearest) {
   const std::string place = "goal " + inWords(goal.place_map_m);
   if (state == PlaceState::kOutsideMap) return {Reason::kOutsideMap, place + " is outside the map", nearest};
+  if (state == PlaceState::kKeptOut) {
+    const std::string instead = nearest ? ", the nearest free place is " + inWords(*nearest) : std::string();
+    return {Reason::kKeptOut, fmt::format("{} is in a keep-out zone{}", place, instead), nearest};
+  }
   const auto [reason, why] = state == PlaceState::kObstacle ? std::pair(Reason::kObstacle, "is in an obstacle")
                              : state == PlaceState::kUnseen
                                  ? std::pair(Reason::kUnseen, "is in space never seen")
@@ -41,7 +45,7 @@ Goal goalOf(const GoToIntent& intent) {
 
 tl::expected<Eigen::Vector2d, GoalRefusal> judgeGoal(const Goal& goal, const GoalLimits& limits, const GoalMap* map) {
   const Eigen::Vector2d& place = goal.place_map_m;
-  if (!place.allFinite() || place.cwiseAbs().maxCoeff() > kFarthest_m)
+  if (!place.allFinite() || place.cwiseAbs().maxCoeff() > kGreatestCoordinate_m)
     return tl::unexpected(GoalRefusal{Reason::kNoPlace, "the goal is not a point of the map", std::nullopt});
   if (goal.height_m && !(*goal.height_m <= limits.greatest_height_m))
     return tl::unexpected(GoalRefusal{
@@ -57,7 +61,8 @@ tl::expected<Eigen::Vector2d, GoalRefusal> judgeGoal(const Goal& goal, const Goa
   const PlaceState state = map->stateAt(place, goal.clearance_m);
   if (state == PlaceState::kFree) return place;
   const auto nearest = map->nearestFree(place, kReach_m, goal.clearance_m);
-  if (nearest && (*nearest - place).norm() <= kShareOfTolerance * goal.tolerance_m) return *nearest;
+  if (state != PlaceState::kKeptOut && nearest && (*nearest - place).norm() <= kShareOfTolerance * goal.tolerance_m)
+    return *nearest;
   return tl::unexpected(refusal(state, goal, nearest));
 }
 

@@ -7,9 +7,10 @@
 //   4. It is in observed space.
 //   5. It is not in an obstacle.
 //   6. The hull and its clearance fit there, clear of obstacles, people and unknown space.
+//   7. The hull and its clearance are outside every keep-out zone.
 //
 // If a goal fails 3 to 6, but a free place lies well within its tolerance, the vehicle flies to that place instead.
-// Without a map, 3 to 6 are not checked. Only planning decides whether a path leads there.
+// Without a map, 3 to 7 are not checked. Only planning decides whether a path leads there.
 #pragma once
 
 #include <limits>
@@ -41,7 +42,7 @@ struct GoalLimits {
 };
 
 /// The state of a place for the vehicle's centre, at a clearance.
-enum class PlaceState { kOutsideMap, kUnseen, kObstacle, kTooClose, kFree };
+enum class PlaceState { kOutsideMap, kUnseen, kObstacle, kTooClose, kKeptOut, kFree };
 
 /// The map by which goals are judged. Immutable; safe from any thread.
 class GoalMap {
@@ -54,7 +55,7 @@ class GoalMap {
 };
 
 struct GoalRefusal {
-  enum class Reason { kNoPlace, kHeight, kOutsideMap, kUnseen, kObstacle, kTooClose };
+  enum class Reason { kNoPlace, kHeight, kOutsideMap, kUnseen, kObstacle, kTooClose, kKeptOut };
   Reason reason = Reason::kNoPlace;
   std::string text;  ///< For people, with values.
   /// The nearest place where the vehicle could be instead; none if there is no such place within 3 m.

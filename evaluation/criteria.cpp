@@ -56,6 +56,8 @@ void Criteria::describe(common::config::Fields& fields) {
          "Greatest time from the beginning of a fault until the vehicle holds, lands or stands.");
   fields("home_energy_error_max", home_energy_error_max, kPositive,
          "Greatest relative error of the charge that the vehicle predicts for the flight home when that begins.");
+  fields("keep_out_gap_min_m", keep_out_gap_min_m, {0, 100},
+         "Least distance of the hull from keep-out zones; 0 asks for nothing.");
   fields("end_distance_max_m", end_distance_max_m, kPositive,
          "Greatest horizontal distance from the take-off place at which the vehicle is at the end.");
   fields("unfinished_distance_min_m", unfinished_distance_min_m, {0, 1e5},

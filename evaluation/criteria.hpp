@@ -37,6 +37,7 @@ struct Criteria {
   double touch_down_speed_max_m_s = kAny;
   double safe_action_max_s = kAny;
   double home_energy_error_max = kAny;
+  double keep_out_gap_min_m = 0.0;
   double end_distance_max_m = kAny;
   double unfinished_distance_min_m = 0.0;
   bool all_resumed = true;

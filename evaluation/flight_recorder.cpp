@@ -52,6 +52,7 @@ void FlightRecorder::watch(const std::vector<PhaseConfig>& phases) {
 
 void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleState& estimate) {
   conduct_.tick(truth);
+  behaviors_.tick(truthInMap(truth.T_world_body), truth.airborne);
   for (PhaseRecorder& phase : phases_)
     phase.tick(truth.stamp, truthInMap(truth.T_world_body),
                record_.T_world_map.rotation.conjugate() * truth.velocity_world_m_s, estimate);
@@ -140,6 +141,7 @@ void FlightRecorder::intent(Time now, const common::Intent& intent, const common
 
 void FlightRecorder::world(const common::World& world) {
   conduct_.world(world);
+  behaviors_.world(world);
   ending_.world(world);
   for (PhaseRecorder& phase : phases_) phase.world(world);
   home_map_m_ = world.vehicle->home_map.position_m();
@@ -200,6 +202,7 @@ void FlightRecorder::followLocalization(const common::World& world) {
 FlightRecord FlightRecorder::finish() const {
   FlightRecord record = record_;
   record.conduct = conduct_.finish();
+  record.behaviors = behaviors_.record();
   record.ending = ending_.finish();
   for (const PhaseRecorder& phase : phases_) record.phases.push_back(phase.finish());
   if (!heights_world_m_.empty()) record.cruise_height_world_m = quantile(heights_world_m_, 0.5);

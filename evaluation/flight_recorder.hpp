@@ -18,6 +18,7 @@
 #include "common/trajectory.hpp"
 #include "common/vehicle_state.hpp"
 #include "common/world/mission_status.hpp"
+#include "evaluation/behavior_recorder.hpp"
 #include "evaluation/conduct_recorder.hpp"
 #include "evaluation/ending_recorder.hpp"
 #include "evaluation/operator_script.hpp"
@@ -91,6 +92,7 @@ struct FlightRecord {
   int interruptions = 0;          ///< How often a running behaviour of the mission was suspended.
   int resumed = 0;                ///< How many of the suspended behaviours resumed later.
   ConductRecord conduct;
+  BehaviorRecord behaviors;
   EndingRecord ending;
   std::vector<PhaseScore> phases;
   std::vector<OperatorAnswer> operator_answers;  ///< Of the trial's script; filled in by the flight.
@@ -141,6 +143,7 @@ class FlightRecorder {
 
   FlightRecord record_;
   ConductRecorder conduct_;
+  BehaviorRecorder behaviors_;
   EndingRecorder ending_;
   std::vector<PhaseRecorder> phases_;
   common::Pose2 T_world_given_;

@@ -123,6 +123,12 @@ ConductScore scoreOf(const ConductRecord& record, const TrueWorld& world) {
   return score;
 }
 
+BehaviorScore scoreOf(const BehaviorRecord& record, const TrueWorld& world) {
+  BehaviorScore score;
+  if (record.keep_out_distance_m) score.keep_out_gap_m = *record.keep_out_distance_m - world.vehicle.hullRadius_m();
+  return score;
+}
+
 }  // namespace
 
 FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
@@ -151,6 +157,7 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   scoreMap(record, world, score);
   score.map3d = scoreMap3d(record, world);
   score.conduct = scoreOf(record.conduct, world);
+  score.behaviors = scoreOf(record.behaviors, world);
   if (record.localization) score.localization = scoreOf(*record.localization, criteria.localized_within_m);
   score.phases = record.phases;
   score.operator_answers = record.operator_answers;
@@ -178,6 +185,10 @@ std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const Condu
           {"home_energy_error", score.home_energy_error},
           {"laser_latency_median_s", score.laser_latency_median_s},
           {"laser_latency_p95_s", score.laser_latency_p95_s}};
+}
+
+std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const BehaviorScore& score) {
+  return {{"keep_out_gap_m", score.keep_out_gap_m}};
 }
 
 std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) {
@@ -222,6 +233,7 @@ std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) 
   if (score.reachable_area_m2 > 0) add("reachable_area_m2", score.reachable_area_m2);
   add("collisions", score.collisions);
   for (const auto& [name, figure] : figuresOf(score.conduct)) add(name, figure);
+  for (const auto& [name, figure] : figuresOf(score.behaviors)) add(name, figure);
   for (const PhaseScore& phase : score.phases)
     for (const auto& [name, figure] : phase.figures) figures.emplace_back(phase.name + "." + name, figure);
   return figures;

@@ -41,6 +41,11 @@ struct ConductScore {
   std::optional<double> laser_latency_p95_s;
 };
 
+/// What behaviours promise, by the truth.
+struct BehaviorScore {
+  std::optional<double> keep_out_gap_m;  ///< Least distance of the hull from a keep-out zone, negative inside.
+};
+
 /// An optional figure is none if it could not be measured, for example if no goal was reached.
 struct FlightScore {
   std::int64_t seed = 0;
@@ -74,6 +79,7 @@ struct FlightScore {
   std::optional<double> estimate_rms_raw_m;
   std::optional<double> map_wall_error_median_raw_m;
   ConductScore conduct;
+  BehaviorScore behaviors;
   std::optional<LocalizationScore> localization;  ///< None if the flight was given no map.
   std::optional<Map3dScore> map3d;                ///< None if it made no 3D map.
 
@@ -110,6 +116,8 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
 
 /// The figures of how the vehicle was flown, by their names in results.json.
 std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const ConductScore& score);
+/// Those of the behaviours.
+std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const BehaviorScore& score);
 
 /// The measured figures by their names in results.json, for the report of the flight; coverage is stored separately
 /// there.

@@ -67,6 +67,11 @@ void judgeConduct(const ConductScore& conduct, const Criteria& criteria, bool la
   atMost("error of the energy for the flight home", conduct.home_energy_error, criteria.home_energy_error_max);
 }
 
+/// What behaviours promise is asked of every flight.
+void judgeBehaviors(const BehaviorScore& behaviors, const Criteria& criteria, Judge& judge) {
+  judge.atLeast("distance from keep-out zones, m", behaviors.keep_out_gap_m, criteria.keep_out_gap_min_m);
+}
+
 void judgeDistances(const FlightScore& score, const Criteria& criteria, Judge& judge) {
   judge.atMost("distance from the take-off place at the end, m", score.end_distance_m, criteria.end_distance_max_m);
   if (!score.mission_done)
@@ -82,6 +87,7 @@ std::vector<std::string> missed(const FlightScore& score, const Criteria& criter
   const bool asked_of_mission = score.mission_done || !criteria.verdicts;
   if (asked_of_mission) judgeMission(score, criteria, judge);
   judgeConduct(score.conduct, criteria, asked_of_mission, judge);
+  judgeBehaviors(score.behaviors, criteria, judge);
   judgeDistances(score, criteria, judge);
   judgeSteps(score, judge);
   return judge.failures;

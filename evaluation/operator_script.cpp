@@ -16,6 +16,13 @@ namespace {
 /// The ids of the script's commands. Those of pages count from 1.
 constexpr std::uint64_t kFirstId = std::uint64_t{1} << 62;
 
+common::Polygon polygonOf(const std::vector<double>& flat_map_m) {
+  common::Polygon polygon;
+  for (std::size_t i = 0; i + 1 < flat_map_m.size(); i += 2)
+    polygon.corners_map_m.emplace_back(flat_map_m[i], flat_map_m[i + 1]);
+  return polygon;
+}
+
 common::OperatorCommand commandOf(const OperatorStep& step) {
   switch (step.command) {
     case OperatorAction::kGoal:
@@ -28,6 +35,12 @@ common::OperatorCommand commandOf(const OperatorStep& step) {
       return {0, common::HomeCommand{}};
     case OperatorAction::kLand:
       return {0, common::LandCommand{}};
+    case OperatorAction::kKeepOut:
+      return {0, common::KeepOutCommand{polygonOf(step.polygon_map_m)}};
+    case OperatorAction::kClearKeepOut:
+      return {0, common::ClearKeepOutCommand{}};
+    case OperatorAction::kGoOn:
+      return {0, common::GoOnCommand{}};
   }
   return {0, common::LandCommand{}};
 }
@@ -35,8 +48,11 @@ common::OperatorCommand commandOf(const OperatorStep& step) {
 }  // namespace
 
 void OperatorStep::describe(common::config::Fields& fields) {
-  fields.choice("command", command, {"goal", "hold", "resume", "home", "land"}, "What the operator asks for.");
+  fields.choice("command", command, {"goal", "hold", "resume", "home", "land", "keep_out", "clear_keep_out", "go_on"},
+                "What the operator asks for.");
   fields("goal_map_m", goal_map_m, {-1e4, 1e4}, "For command goal: the place x, y in the vehicle's frame `map`.");
+  fields("polygon_map_m", polygon_map_m, {-1e4, 1e4},
+         "For command keep_out: the corners x, y, x, y ... in the vehicle's frame `map`.");
   fields("at_s", at_s, {0, 1e6}, "Time before which the command is not given.");
   fields(
       "after_phase", after_phase,
@@ -52,9 +68,14 @@ void OperatorStep::describe(common::config::Fields& fields) {
 
 std::vector<std::string> OperatorStep::validate() const {
   const bool is_goal = command == OperatorAction::kGoal;
+  const bool is_zone = command == OperatorAction::kKeepOut;
   return common::Validation()
       .require(!is_goal || goal_map_m.size() == 2, "goal_map_m", "is not one place x, y")
       .require(is_goal || goal_map_m.empty(), "goal_map_m", "is for the command goal alone")
+      .require(!is_zone || polygon_map_m.size() % 2 == 0, "polygon_map_m", "has a corner without y")
+      .require(!is_zone || problemOf(polygonOf(polygon_map_m)).empty(), "polygon_map_m",
+               problemOf(polygonOf(polygon_map_m)))
+      .require(is_zone || polygon_map_m.empty(), "polygon_map_m", "is for the command keep_out alone")
       .problems();
 }
 

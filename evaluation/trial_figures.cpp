@@ -15,8 +15,10 @@ template <auto kMember>
 std::optional<double> of(const FlightScore& flight) {
   if constexpr (requires { flight.*kMember; })
     return flight.*kMember;
-  else
+  else if constexpr (requires { flight.conduct.*kMember; })
     return flight.conduct.*kMember;
+  else
+    return flight.behaviors.*kMember;
 }
 
 std::optional<double> timeIfDone_s(const FlightScore& flight) {
@@ -77,6 +79,7 @@ const std::vector<TrialFigure>& trialFigures() {
       {"thrust_margin_min", kMin, of<&Conduct::thrust_margin_min>},
       {"touch_down_speed_max_m_s", kMax, of<&Conduct::touch_down_speed_m_s>},
       {"safe_action_max_s", kMax, of<&Conduct::safe_action_s>},
+      {"keep_out_gap_min_m", kMin, of<&BehaviorScore::keep_out_gap_m>},
       {"home_energy_error_max", kMax, of<&Conduct::home_energy_error>},
       {"goal_error_max_raw_m", kMax, of<&Score::goal_error_raw_m>},
       {"goal_error_median_raw_m", kMedian, of<&Score::goal_error_raw_m>},

@@ -113,6 +113,8 @@ ordered_json flightJson(const FlightScore& flight) {
       {"resumed", flight.resumed},
       {"realtime_factor", orNull(flight.realtime_factor)}});
   for (const auto& [name, figure] : figuresOf(flight.conduct)) json[name] = orNull(figure);
+  for (const auto& [name, figure] : figuresOf(flight.behaviors))
+    if (figure) json[name] = orNull(figure);
   if (flight.map3d) json["map3d"] = map3dJson(*flight.map3d);
   if (!flight.phases.empty()) json["phases"] = phasesJson(flight);
   if (!flight.operator_answers.empty()) json["operator"] = operatorJson(flight);

@@ -16,6 +16,12 @@ MapPicture pictureOf(const common::World& world, double hull_diameter_m) {
   picture.frontiers = world.map->frontiers;
   if (vehicle.laser) picture.scan_map_m = vehicle.laser->points_map_m;
 
+  for (const common::Polygon& zone : *world.map->keep_out) {
+    MapLine edge{"keep out", {zone.corners_map_m.begin(), zone.corners_map_m.end()}, LineStyle::kReference};
+    edge.points_map_m.push_back(zone.corners_map_m.front());
+    picture.lines.push_back(std::move(edge));
+  }
+
   const auto trail_map_m = vehicle.trail.points_map_m();
   MapLine trail{"trail", {trail_map_m.begin(), trail_map_m.end()}, LineStyle::kTrail};
   trail.points_map_m.push_back(T_map_body.position_m());

@@ -12,10 +12,12 @@ namespace {
 /// A map that does not reach the goal may be about to grow.
 constexpr double kGrowing_s = 2.0;
 
-/// A person who blocks the path may go away, so waiting helps. It does not help for a goal in unknown space.
+/// A person who blocks the path may go away, so waiting helps. It does not help for a goal in unknown space or in a
+/// keep-out zone.
 bool mayPass(const planning::PlanFailure& failure) {
   using Reason = planning::PlanFailure::Reason;
-  return failure.reason != Reason::kGoalUnseen && failure.reason != Reason::kOutsideMap;
+  return failure.reason != Reason::kGoalUnseen && failure.reason != Reason::kOutsideMap &&
+         failure.reason != Reason::kGoalKeptOut;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "common/disc.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/polygon.hpp"
 #include "common/time.hpp"
 #include "common/vehicle_state.hpp"
 #include "planning/avoidance/avoidance.hpp"
@@ -27,6 +28,7 @@ struct ManeuverInput {
   const planning::AvoidanceDecision& avoidance;
   double drift_m = 0.0;               ///< See DriftMonitor.
   std::string take_off_refusal = {};  ///< Why the vehicle must not take off; empty if it may.
+  std::shared_ptr<const std::vector<common::Polygon>> keep_out = {};  ///< Keep-out zones; null: none.
 
   Eigen::Vector2d position_map_m() const { return state.T_map_body_planar().position_m(); }
 };

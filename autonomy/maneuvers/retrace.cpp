@@ -12,9 +12,29 @@ Progress Retrace::step(const ManeuverInput& input) {
   if (setup_.controller.state() != common::FlightState::kFlying) return cannot("fly back", setup_.controller);
   if (setup_.retreat.active()) return Progress::running();
   if (intent_.path_map_m.empty()) return Progress::done("it is there already");
-  if (following_ && setup_.controller.pathFinished()) return Progress::done("back where it came from");
+  if (input.keep_out) keepOut(*input.keep_out);
+  if (following_ && setup_.controller.pathFinished())
+    return Progress::done(cut_ ? "stopped before a keep-out zone" : "back where it came from");
   if (!setup_.controller.followsPath()) follow(input);
   return Progress::running("flying back along the trail");
+}
+
+/// A zone may be newer than the trail that leads through it. Of a zone that the vehicle is in, the path leads out.
+void Retrace::keepOut(const std::vector<common::Polygon>& zones) {
+  auto& path = intent_.path_map_m;
+  const double radius_m = setup_.desk.hullRadius_m();
+  const auto isIn = [&](const common::Polygon& zone, const Eigen::Vector2d& point) {
+    return zone.signedDistance_m(point) < radius_m;
+  };
+  for (const common::Polygon& zone : zones) {
+    const auto out = std::find_if_not(path.begin(), path.end(), [&](const auto& point) { return isIn(zone, point); });
+    const auto in = std::find_if(out, path.end(), [&](const auto& point) { return isIn(zone, point); });
+    if (in == path.end()) continue;
+    path.erase(in, path.end());
+    cut_ = true;
+    following_ = false;
+    setup_.controller.hold();
+  }
 }
 
 /// A retreat or a lost estimate ends the path; what is left of it is flown from the nearest place on.

@@ -1,5 +1,6 @@
 // Retrace: flies back along a path that was flown before. It needs no map and no plan, so it works where the map or the
-// position cannot be trusted; the reactive layer brakes as everywhere.
+// position cannot be trusted; the reactive layer brakes as everywhere. It ends before a keep-out zone that was made
+// after the trail.
 #pragma once
 
 #include <optional>
@@ -17,10 +18,12 @@ class Retrace final : public Maneuver {
 
  private:
   void follow(const ManeuverInput& input);
+  void keepOut(const std::vector<common::Polygon>& zones);
 
   ManeuverSetup setup_;
   common::RetraceIntent intent_;
   bool following_ = false;
+  bool cut_ = false;  ///< The path was cut before a keep-out zone.
 };
 
 }  // namespace swiftlet::autonomy

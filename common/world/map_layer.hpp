@@ -1,4 +1,4 @@
-// The World's layer of the map: grid, levels, frontiers, and the pose in a given map.
+// The World's layer of the map: grid, levels, frontiers, keep-out zones, and the pose in a given map.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 #include "common/level_map.hpp"
 #include "common/localization.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/polygon.hpp"
 #include "common/world/frontier.hpp"
 
 namespace swiftlet::common {
@@ -22,6 +23,7 @@ struct MapLayer {
   std::optional<Localization> localization;  ///< None: the flight was given no map.
   /// The frame of the given map. None without one, and while the vehicle is not localized in it.
   std::optional<Pose2> T_map_given;
+  std::shared_ptr<const std::vector<Polygon>> keep_out = std::make_shared<const std::vector<Polygon>>();
 };
 
 }  // namespace swiftlet::common

@@ -18,6 +18,7 @@ struct MissionStatus {
   std::string phase;   ///< The intent in words.
   std::string reason;  ///< Why it failed or holds.
   bool accepts_goals = true;
+  std::string question;  ///< What the mission waits for the operator to confirm by "go on"; empty if it does not.
   TreeView tree;
 
   bool operator==(const MissionStatus&) const = default;

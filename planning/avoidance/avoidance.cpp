@@ -55,6 +55,8 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
     for (const Bin& bin : sectors)
       if (std::isfinite(bin.range_m)) points.push_back(bin.nearest_level_m);
   }
+  const auto seen_points = static_cast<std::ptrdiff_t>(points.size());
+  points.insert(points.end(), input.keep_out_points_level_m.begin(), input.keep_out_points_level_m.end());
   const std::vector<Threat> around = threats(input, sectors);
   for (const Threat& threat : around) {
     if (!threat.dangerous) continue;
@@ -88,7 +90,8 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
 
   common::AvoidanceStatus& status = decision.status;
   status.nearest_m = kInfinity;
-  for (const Point& p : points) status.nearest_m = std::min(status.nearest_m, p.norm() - hull_radius_m_);
+  for (auto p = points.begin(); p != points.begin() + seen_points; ++p)
+    status.nearest_m = std::min(status.nearest_m, p->norm() - hull_radius_m_);
   const double wanted_m_s = std::max(input.wanted_level_m_s.norm(), speed_m_s);
   status.braking = wanted_m_s > kStill_m_s && decision.speed_limit_m_s < wanted_m_s;
   status.retreating = retreating_;

@@ -32,6 +32,9 @@ struct AvoidanceInput {
   const CostMap* cost_map = nullptr;                   ///< May be null: then nothing counts as mapped.
   std::span<const common::DynamicObstacle> obstacles;  ///< Objects that the map does not explain, usually people.
   double age_s = 0.0;  ///< Of the scan when it was processed; the vehicle has moved on since.
+  /// Points of the edges of keep-out zones. The vehicle brakes before them, and no retreat leads across them, but they
+  /// are never a reason to retreat.
+  std::span<const Eigen::Vector2d> keep_out_points_level_m = {};
 };
 
 struct AvoidanceDecision {

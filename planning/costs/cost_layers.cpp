@@ -1,4 +1,4 @@
-// The layers over the grid of a cost map: flown paths, discs, heights.
+// The layers over the grid of a cost map: flown paths, discs, keep-out zones, heights.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +19,8 @@ void CostMap::applyLayers(const CostLayers& layers) {
   for (std::size_t i = 1; i < layers.flown_map_m.size(); ++i)
     applyFlown(layers.flown_map_m[i - 1], layers.flown_map_m[i]);
   for (const common::Disc& disc : layers.discs) applyDisc(disc);
+  kept_out_.assign(layers.keep_out.empty() ? 0 : size(), 0);
+  for (const common::Polygon& zone : layers.keep_out) applyKeepOut(zone);
   applyHeights(layers.levels);
 
   const int width = rect_.width(), height = rect_.height();
@@ -66,6 +68,19 @@ void CostMap::applyDisc(const common::Disc& disc) {
       const double margin_m = (centerOf({x, y}) - disc.center_map_m).norm() - lethal_m;
       Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
       cost = std::max(cost, costOfMargin(margin_m));
+    }
+  }
+}
+
+void CostMap::applyKeepOut(const common::Polygon& zone) {
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m());
+  const common::CellIndex low = cellAt(zone.min_map_m() - reach), high = cellAt(zone.max_map_m() + reach);
+  for (int y = std::max(low.y, rect_.begin.y); y <= std::min(high.y, rect_.end.y - 1); ++y) {
+    for (int x = std::max(low.x, rect_.begin.x); x <= std::min(high.x, rect_.end.x - 1); ++x) {
+      const double margin_m = zone.signedDistance_m(centerOf({x, y})) - footprint_.radius_m();
+      const auto i = static_cast<std::size_t>(indexOf({x, y}));
+      cost_[i] = std::max(cost_[i], costOfMargin(margin_m));
+      if (margin_m < 0.0) kept_out_[i] = 1;
     }
   }
 }

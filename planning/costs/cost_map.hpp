@@ -16,6 +16,7 @@
 #include "common/disc.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
+#include "common/polygon.hpp"
 #include "planning/costs/cell_state.hpp"
 
 namespace swiftlet::planning {
@@ -36,6 +37,8 @@ struct CostLayers {
   /// The flown trail, in order, in the `map` frame. Near it half the clearance is enough, so that a door that the
   /// vehicle has passed stays open even if its frame grows by a cell in the map.
   std::span<const Eigen::Vector2d> flown_map_m = {};
+  /// Sound polygons (common::problemOf) that the hull and its clearance stay out of, also where they were flown before.
+  std::span<const common::Polygon> keep_out = {};
 };
 
 /// A dense copy of the grid's extent plus one tile of margin, in the `map` frame, on the grid's own cells. It is a
@@ -91,6 +94,8 @@ class CostMap {
   bool isLethal(int index) const { return cost(index) == kLethal; }
   CellState state(int index) const { return state_[static_cast<std::size_t>(index)]; }
   CellState stateAt(common::CellIndex c) const { return contains(c) ? state(indexOf(c)) : CellState::kUnknown; }
+  /// The hull with its clearance would reach into a keep-out zone there.
+  bool isKeptOut(int index) const { return !kept_out_.empty() && kept_out_[static_cast<std::size_t>(index)] != 0; }
   const std::vector<Cost>& costs() const { return cost_; }
   const std::vector<CellState>& states() const { return state_; }
   /// Height of the surface below in cm; empty if there are no levels.
@@ -130,6 +135,7 @@ class CostMap {
   void applyLayers(const CostLayers& layers);
   void applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m);
   void applyDisc(const common::Disc& disc);
+  void applyKeepOut(const common::Polygon& zone);
   void applyHeights(const common::LevelMap* levels);
   Cost costOfMargin(double margin_m) const;
 
@@ -150,6 +156,7 @@ class CostMap {
   std::vector<Cost> static_cost_;  ///< Cost from the grid only.
   std::vector<Cost> cost_;         ///< Cost with the layers.
   std::vector<std::int16_t> height_cm_;
+  std::vector<std::uint8_t> kept_out_;  ///< 1 in keep-out zones; empty without any.
 };
 
 }  // namespace swiftlet::planning

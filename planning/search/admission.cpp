@@ -37,9 +37,10 @@ tl::expected<CellPath, PlanFailure> admit(const CostMap& map, const Point& start
 PlanFailure failureOf(const common::GoalRefusal& refusal) {
   using Refused = common::GoalRefusal::Reason;
   const bool nowhere = refusal.reason == Refused::kNoPlace || refusal.reason == Refused::kOutsideMap;
-  const auto reason = nowhere                              ? PlanFailure::Reason::kOutsideMap
-                      : refusal.reason == Refused::kUnseen ? PlanFailure::Reason::kGoalUnseen
-                                                           : PlanFailure::Reason::kGoalBlocked;
+  const auto reason = nowhere                               ? PlanFailure::Reason::kOutsideMap
+                      : refusal.reason == Refused::kUnseen  ? PlanFailure::Reason::kGoalUnseen
+                      : refusal.reason == Refused::kKeptOut ? PlanFailure::Reason::kGoalKeptOut
+                                                            : PlanFailure::Reason::kGoalBlocked;
   return {reason, refusal.text, refusal.nearest_free_map_m};
 }
 

@@ -16,6 +16,7 @@ struct KeptGoalMap {
 
 bool mayBeAt(const CostMap& map, common::CellIndex cell, double clearance_m) {
   const bool lethal = map.costAt(cell) == CostMap::kLethal;
+  if (map.contains(cell) && map.isKeptOut(map.indexOf(cell))) return false;
   const Footprint& own = map.footprint();
   if (clearance_m == own.clearance_m) return !lethal;
   const double radius_m = std::min(own.hull_radius_m + clearance_m, map.reach_m());
@@ -30,6 +31,7 @@ common::PlaceState CostGoalMap::stateAt(const Eigen::Vector2d& place_map_m, doub
   const common::CellIndex cell = map_.cellAt(place_map_m);
   if (!map_.contains(cell)) return common::PlaceState::kOutsideMap;
   if (mayBeAt(map_, cell, clearance_m)) return common::PlaceState::kFree;
+  if (map_.isKeptOut(map_.indexOf(cell))) return common::PlaceState::kKeptOut;
   switch (map_.stateAt(cell)) {
     case CellState::kOccupied:
       return common::PlaceState::kObstacle;

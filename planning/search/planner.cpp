@@ -21,6 +21,8 @@ const char* toString(PlanFailure::Reason reason) {
       return "goal blocked";
     case PlanFailure::Reason::kGoalUnseen:
       return "goal never seen";
+    case PlanFailure::Reason::kGoalKeptOut:
+      return "goal in a keep-out zone";
     case PlanFailure::Reason::kUnreachable:
       return "unreachable";
     case PlanFailure::Reason::kOutsideMap:

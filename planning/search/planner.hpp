@@ -23,7 +23,7 @@ struct Path {
 
 /// Why there is no path.
 struct PlanFailure {
-  enum class Reason { kStartBlocked, kGoalBlocked, kGoalUnseen, kUnreachable, kOutsideMap };
+  enum class Reason { kStartBlocked, kGoalBlocked, kGoalUnseen, kGoalKeptOut, kUnreachable, kOutsideMap };
   Reason reason = Reason::kUnreachable;
   std::string text;  ///< For people, with values.
   /// The place nearest to a blocked goal where the centre may be; none when there is no such place within 3 m.

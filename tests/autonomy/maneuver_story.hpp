@@ -109,9 +109,17 @@ class ManeuverStory : public testing::Test {
   }
 
   ManeuverInput input() {
-    return {now_,           state_,    std::make_shared<const common::OccupancyGrid>(grid_.snapshot()),
-            nullptr,        surfaces_, discs_,
-            anybody_walks_, decision_};
+    return {now_,
+            state_,
+            std::make_shared<const common::OccupancyGrid>(grid_.snapshot()),
+            nullptr,
+            surfaces_,
+            discs_,
+            anybody_walks_,
+            decision_,
+            0.0,
+            {},
+            keep_out_};
   }
 
   common::Time now_;
@@ -120,6 +128,7 @@ class ManeuverStory : public testing::Test {
   common::OccupancyGrid grid_ = planning::test::room(160, 80);  ///< 8 m by 4 m.
   std::shared_ptr<const common::LevelMap> surfaces_;
   std::vector<common::Disc> discs_;
+  std::shared_ptr<const std::vector<common::Polygon>> keep_out_;
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;
   bool follows_ = true;           ///< The vehicle is at the reference; otherwise the test places it.

@@ -103,8 +103,10 @@ class Story {
     if (live_map && ++scans_ % 4 == 0) mapScan(points_map);
     dynamic_.update(stamp, points_map, at.position_m(), *background_.at(stamp));
     const Eigen::Rotation2Dd to_level(-at.yaw_rad);
+    std::vector<Point> edges_level_m;
+    for (const Point& edge : keep_out_map_m) edges_level_m.push_back(at.inverse() * edge);
     return avoidance_.update({stamp, points, to_level * velocity_map_m_s, to_level * wanted_map_m_s, at, &map_,
-                              dynamic_.obstacles(), (now - stamp).seconds()});
+                              dynamic_.obstacles(), (now - stamp).seconds(), edges_level_m});
   }
 
   /// Senses, obeys with its acceleration, and lets time pass. Returns the smallest gap to any person.
@@ -135,6 +137,7 @@ class Story {
   Point velocity_map_m_s = Point::Zero();
   std::vector<Person> people;
   std::vector<Person> poles;
+  std::vector<Point> keep_out_map_m;  ///< Of the edges of keep-out zones.
   Time now = Time::fromSeconds(10.0);
   double least_gap_m = 1e9;
   double least_wall_m = 1e9;

@@ -40,8 +40,8 @@ export class Commands {
   }
 
   /**
-   * `name`: goal, hold, resume, home, land, mission or stop. Resolves to {outcome, reason}; never rejects. The outcome is "accepted",
-   * "refused" or "no answer".
+   * `name`: goal, hold, resume, home, land, mission, stop, keep_out, clear_keep_out or go_on. Resolves to {outcome, reason};
+   * never rejects. The outcome is "accepted", "refused" or "no answer".
    */
   async give(name, body) {
     try {

@@ -1,5 +1,6 @@
 // The operator's page: wires the link, the map, the panels and the commands.
 import { Commands } from './commands.js';
+import { KeepOutPen } from './keep_out.js';
 import { Link } from './link.js';
 import { Map3dPanel } from './map3d_panel.js';
 import { MapStore } from './map_store.js';
@@ -19,9 +20,12 @@ const missions = new MissionsCard(element('missions'), commands, showAnswer);
 const buttons = [...document.querySelectorAll('[data-command]')];
 
 const view = new MapView(element('map'), store, {
-  onTap: sendGoal,
+  onTap: (place) => pen.tap(place) || sendGoal(place),
   onMode: () => showMode(),
 });
+
+const pen = new KeepOutPen(element('keep-out'), () => view.draw(), sendZone);
+view.pen = pen;
 
 const map3d = new Map3dPanel(element('map3d'), store, (path) => commands.withToken(path));
 
@@ -38,6 +42,8 @@ const link = new Link((message) => {
     showState(message);
     tree.tell(message.stamp_s);
     if (element('mission-name').textContent !== message.mission.name) element('mission-name').textContent = message.mission.name;
+    element('clear-keep-out').hidden = message.keep_out.length === 0;
+    showQuestion(message.mission.question);
     offer3d(message.map3d !== null);
     const held = message.mission.state === 'held';
     document.querySelector('[data-command=hold]').setAttribute('aria-pressed', String(held));
@@ -70,12 +76,15 @@ function showAccess() {
   for (const control of element('goal-form').elements) disable(control, noGoals, why);
   view.canvas.classList.toggle('no-goals', noGoals);
   missions.allow(!nothing, store.state !== null && ['running', 'held'].includes(store.state.mission.state));
+  disable(element('keep-out'), nothing, nothing ? '' : kDraw);
 }
 
+const kDraw = 'Tap the corners of a keep-out zone, then press again.';
 const kOwnGoals = 'This mission flies its own goals.';
 const kNoToken = 'Open the operator’s link, printed when the flight starts, to send goals.';
 const kOldToken = 'The token of this page is wrong, or of an earlier start: open the newest operator’s link.';
-const kTitles = { hold: 'Holding', resume: 'Resumed', home: 'Flying home', land: 'Landing' };
+const kTitles = { hold: 'Holding', resume: 'Resumed', home: 'Flying home', land: 'Landing', go_on: 'Going on',
+  clear_keep_out: 'Zones cleared' };
 
 /** What is not accepted stays on the page for long enough to be read, and "refused" is said only of an answer. */
 function showAnswer(name, title, { outcome, reason }) {
@@ -100,6 +109,16 @@ async function sendGoal(goal) {
   view.showMarker(answer.outcome === 'accepted' ? null : { ...goal, state: 'refused' });
   if (answer.outcome === 'accepted') answer.reason = [where, answer.reason].filter(Boolean).join(', ');
   showAnswer('Goal', 'Goal accepted', answer);
+}
+
+async function sendZone(corners_m) {
+  showAnswer('Keep-out zone', 'Keep-out zone set', await commands.give('keep_out', { corners_m }));
+}
+
+/** What the mission waits for the operator to confirm. */
+function showQuestion(question) {
+  element('question').hidden = !question;
+  if (element('question-text').textContent !== question) element('question-text').textContent = question;
 }
 
 for (const button of buttons) {

@@ -17,6 +17,7 @@ export class MapView {
     this.mode = 'fit';
     this.marker = null; // The goal that the operator asked for: {x_m, y_m, state: "asked" | "refused", since_ms}.
     this.colors = readColors();
+    this.pen = null; // A zone that the operator draws.
     this.wanted = false;
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
       this.colors = readColors();
@@ -120,6 +121,7 @@ export class MapView {
     this.paintLevels();
     this.paintFrontiers();
     this.paintLaser();
+    this.paintZones();
     const { state } = store;
     const pose = store.pose();
     if (state) {
@@ -228,6 +230,24 @@ export class MapView {
       context.rect(x - 1.1, y - 1.1, 2.2, 2.2);
     }
     context.fill();
+  }
+
+  /** The keep-out zones, and the corners of one that is being drawn. */
+  paintZones() {
+    const { context } = this;
+    const drawn = this.pen?.corners_m ?? [];
+    for (const zone of [...(this.store.state?.keep_out ?? []), drawn]) {
+      if (zone.length === 0) continue;
+      context.beginPath();
+      for (const [x, y] of zone) context.lineTo(...this.toScreen(x, y));
+      context.closePath();
+      context.fillStyle = this.colors.frontier.blacklisted;
+      context.globalAlpha = 0.18;
+      context.fill();
+      context.globalAlpha = 1;
+      this.paintLine([...zone, zone[0]], this.colors.frontier.blacklisted, 1.8, [4, 4]);
+    }
+    for (const [x, y] of drawn) this.paintDisc(...this.toScreen(x, y), 4, this.colors.frontier.blacklisted);
   }
 
   paintLine(points, color, width, dash) {

@@ -111,10 +111,31 @@ Action mission(const Request& request, std::size_t vehicle) {
   return start;
 }
 
+Eigen::Vector2d corner(const nlohmann::json& pair) {
+  constexpr const char* kExpected = "corners_m: expected pairs of metres in the map, [[0.0, 1.0], [2.0, 1.0], ...]";
+  if (!pair.is_array() || pair.size() != 2 || !pair[0].is_number() || !pair[1].is_number()) refuse(400, kExpected);
+  return {pair[0].get<double>(), pair[1].get<double>()};
+}
+
+Action keepOut(const Request& request, std::size_t vehicle) {
+  const nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
+  if (!body.is_object() || body.size() != 1 || !body.contains("corners_m") || !body["corners_m"].is_array())
+    refuse(400, "send {\"corners_m\": [[0.0, 1.0], [2.0, 1.0], [2.0, 3.0]]}");
+  if (body["corners_m"].size() > common::kMostCorners)
+    refuse(400, fmt::format("corners_m: more than {} corners", common::kMostCorners));
+  common::KeepOutCommand zone;
+  for (const nlohmann::json& pair : body["corners_m"]) zone.area.corners_map_m.push_back(corner(pair));
+  if (const std::string problem = problemOf(zone.area); !problem.empty()) refuse(400, "corners_m: " + problem);
+  return GiveCommand{std::move(zone), vehicle};
+}
+
 Action command(const Request& request, const std::string& name, std::size_t vehicle) {
   if (name == "mission") return mission(request, vehicle);
   if (name == "stop") return GiveCommand{common::StopMissionCommand{}, vehicle};
   if (name == "goal") return goal(request, vehicle);
+  if (name == "keep_out") return keepOut(request, vehicle);
+  if (name == "clear_keep_out") return GiveCommand{common::ClearKeepOutCommand{}, vehicle};
+  if (name == "go_on") return GiveCommand{common::GoOnCommand{}, vehicle};
   if (name == "hold") return GiveCommand{common::HoldCommand{}, vehicle};
   if (name == "resume") return GiveCommand{common::ResumeCommand{}, vehicle};
   if (name == "home") return GiveCommand{common::HomeCommand{}, vehicle};
@@ -144,8 +165,9 @@ Action decide(const Request& request, const Policy& policy) {
                                                "/api/state",
                                                "/api/ws",
                                                "/api/map3d"};
-  static const std::vector<std::string> kCommands{"/api/goal", "/api/hold",    "/api/resume", "/api/home",
-                                                  "/api/land", "/api/mission", "/api/stop"};
+  static const std::vector<std::string> kCommands{"/api/goal",           "/api/hold",    "/api/resume", "/api/home",
+                                                  "/api/land",           "/api/mission", "/api/stop",   "/api/keep_out",
+                                                  "/api/clear_keep_out", "/api/go_on"};
   const auto in = [](const std::vector<std::string>& list, const std::string& item) {
     return std::find(list.begin(), list.end(), item) != list.end();
   };

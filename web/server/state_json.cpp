@@ -71,7 +71,8 @@ Json missionOf(const common::MissionLayer& layer) {
           {"phase", mission.phase},
           {"reason", mission.reason},
           {"waiting", layer.waiting.empty() ? Json(nullptr) : Json(layer.waiting)},
-          {"accepts_goals", mission.accepts_goals}};
+          {"accepts_goals", mission.accepts_goals},
+          {"question", mission.question}};
 }
 
 Json localizationOf(const std::optional<common::Localization>& localization) {
@@ -100,6 +101,12 @@ Json map3dOf(const std::shared_ptr<const common::Map3dLayer>& map3d) {
   std::size_t points = 0;
   for (const common::Submap3d& submap : *map3d->submaps) points += submap.points->size();
   return {{"submaps", map3d->submaps->size()}, {"points", points}, {"tracked", map3d->tracked}};
+}
+
+Json zonesOf(const std::vector<common::Polygon>& zones) {
+  Json list = Json::array();
+  for (const common::Polygon& zone : zones) list.push_back(points(zone.corners_map_m));
+  return list;
 }
 
 Json stateOf(const common::World& world, const Observation& seen) {
@@ -144,6 +151,7 @@ Json stateOf(const common::World& world, const Observation& seen) {
       {"goal", mission.goal_map_m
                    ? Json{{"x_m", number(mission.goal_map_m->x())}, {"y_m", number(mission.goal_map_m->y())}}
                    : Json(nullptr)},
+      {"keep_out", zonesOf(*world.map->keep_out)},
       {"plan", points(vehicle.plan_map_m)}};
   if (!vehicle.name.empty()) json["vehicle"] = vehicle.name;
   return json;

@@ -1,0 +1,53 @@
+#include "autonomy/flight_requests.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/world/vehicle_layer.hpp"
+
+namespace swiftlet::autonomy {
+
+std::optional<common::CommandResult> FlightRequests::take(const common::OperatorCommand& command,
+                                                          const common::World& world) {
+  if (std::holds_alternative<common::ClearKeepOutCommand>(command.kind)) {
+    const std::size_t count = keep_out_.clearOperators();
+    const std::size_t stay = keep_out_.zones()->size();
+    std::string reason = count == 0 ? "there was none of the operator" : "";
+    if (stay > 0) reason += fmt::format("{}{} of the mission stay", reason.empty() ? "" : "; ", stay);
+    return common::CommandResult{command.id, true, std::move(reason)};
+  }
+  const auto* keep_out = std::get_if<common::KeepOutCommand>(&command.kind);
+  if (keep_out == nullptr) return std::nullopt;
+  std::string refusal = addZone(keep_out->area, KeepOutZones::Owner::kOperator, world);
+  if (!refusal.empty()) return common::CommandResult{command.id, false, std::move(refusal)};
+  const bool inside = keep_out->area.contains(world.vehicle->state.T_map_body_planar().position_m());
+  return common::CommandResult{command.id, true, inside ? "the vehicle is in it, and leaves with its next path" : ""};
+}
+
+void FlightRequests::take(const std::vector<common::MissionRequest>& requests, const common::World& world) {
+  for (const common::MissionRequest& request : requests) {
+    const auto& zone = std::get<common::KeepOutRequest>(request.kind).area;
+    std::string refusal = addZone(zone, KeepOutZones::Owner::kMission, world);
+    answers_.push_back({request.id, refusal.empty(), std::move(refusal)});
+  }
+}
+
+/// Why it is refused; empty if it holds now.
+std::string FlightRequests::addZone(const common::Polygon& zone, KeepOutZones::Owner owner,
+                                    const common::World& world) {
+  std::string refusal = keep_out_.add(zone, owner, world.vehicle->home_map.position_m());
+  if (refusal.empty())
+    say(world.stamp, "keep-out zone with " + toString(zone),
+        owner == KeepOutZones::Owner::kMission ? "of the mission" : "of the operator");
+  return refusal;
+}
+
+std::vector<common::MissionAnswer> FlightRequests::takeAnswers() { return std::exchange(answers_, {}); }
+std::vector<common::Event> FlightRequests::takeEvents() { return std::exchange(events_, {}); }
+
+void FlightRequests::say(common::Time now, std::string text, std::string reason) {
+  events_.push_back({now, common::Severity::kInfo, "flight", std::move(text), std::move(reason)});
+}
+
+}  // namespace swiftlet::autonomy

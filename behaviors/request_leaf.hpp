@@ -1,0 +1,35 @@
+// A behaviour without an intent: it asks the flight for something once and waits for the answer, which is its SUCCESS
+// or FAILURE. It lets go at once; what was asked for is done nevertheless.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "behaviors/flight_tick.hpp"
+#include "behaviors/tree/leaf.hpp"
+
+namespace swiftlet::behaviors {
+
+class RequestLeaf : public tree::Leaf {
+ public:
+  using Leaf::Leaf;
+
+ protected:
+  /// The request, or the reason why there is none.
+  struct RequestOrProblem {
+    std::optional<common::MissionRequestKind> kind;
+    std::string problem;
+  };
+  /// Called once, at the first tick.
+  virtual RequestOrProblem makeRequest(const FlightTick& tick) = 0;
+
+  void onStart(tree::TickContext&) override { id_ = 0; }
+
+ private:
+  tree::Status act(tree::TickContext& context) final;
+
+  std::uint64_t id_ = 0;  ///< 0 before it has asked.
+};
+
+}  // namespace swiftlet::behaviors
