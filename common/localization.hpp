@@ -25,7 +25,7 @@ struct Localization {
   Pose2 T_given_body;                                    ///< At `stamp`; valid only when localized; may jump.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of T_given_body: (x_m, y_m, yaw_rad), axes of `given`.
   double explained = 0.0;  ///< Share of the scan's beams that the map explains from T_given_body, while localized.
-  bool refuted = false;    ///< What is seen has fitted nowhere for so long that the map must be of another place.
+  bool refuted = false;    ///< No place has stood out for so long that the map must be of another place.
   int places = 0;          ///< Number of places that explain the scans; 1 when localized.
 
   bool localized() const { return state == LocalizationState::kLocalized; }

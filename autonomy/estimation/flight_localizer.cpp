@@ -47,7 +47,7 @@ void FlightLocalizer::take(const perception::LocalizationEstimate& estimate, Tim
   localization_.places = estimate.places;
   if (!std::exchange(localization_.refuted, estimate.refuted) && estimate.refuted)
     events_.push_back({now, common::Severity::kWarning, "localization", "this is not the map of this place",
-                       "what is seen fits nowhere in it, again and again"});
+                       "many of its places explain a part of what is seen, and none of them stands out"});
   if (!estimate.event) return;
   const bool lost = estimate.event->state == LocalizationState::kLost;
   std::string text = toString(estimate.event->state);

@@ -10,6 +10,7 @@
 #include "perception/laser_odometry/unknown_step.hpp"
 #include "perception/localization/greatest_sigma.hpp"
 #include "perception/localization/localization_task_data.hpp"
+#include "perception/localization/map_doubt.hpp"
 #include "perception/localization/place_posterior.hpp"
 #include "perception/localization/pose_tracker.hpp"
 #include "perception/localization/search_patience.hpp"
@@ -83,7 +84,7 @@ struct Localizer::Impl {
   SearchPatience patience;
   double nowhere_path_length_m = 0.0;  ///< Path length since which the local map fits nowhere.
   bool fits_nowhere = false;
-  int times_nowhere = 0;  ///< How often what was seen ceased to fit anywhere, since the vehicle was last localized.
+  MapDoubt map_doubt;
 
   // The requested search, and whether one is running.
   struct Question {
@@ -225,6 +226,7 @@ void Localizer::Impl::apply(const LocalizationResult::Data& found) {
 }
 
 void Localizer::Impl::judge(const LocalizationResult::Data& found) {
+  if (!was_localized) map_doubt.add(config, found.places, tracker.path_length_m());
   if (found.places.empty() && !found.complete) {
     places = 0;
     fits_nowhere = false;
@@ -269,10 +271,7 @@ void Localizer::Impl::judge(const LocalizationResult::Data& found) {
 void Localizer::Impl::fitsNowhere() {
   places = 0;
   candidate.reset();
-  if (!fits_nowhere) {
-    nowhere_path_length_m = tracker.path_length_m();
-    ++times_nowhere;
-  }
+  if (!fits_nowhere) nowhere_path_length_m = tracker.path_length_m();
   fits_nowhere = true;
   tracker.particles().spreadOverFreeSpace();
   // The vehicle may have been carried elsewhere, so the local map starts again from here.
@@ -297,7 +296,7 @@ void Localizer::Impl::localize(const LikelyPlace& place, const Pose2& T_odom_mid
   enter(LocalizationState::kLocalized, fmt::format("one place explains {:.0f} % of what was seen over {:.1f} m",
                                                    100.0 * place.explained, local_map.length_m()));
   was_localized = true;
-  times_nowhere = 0;
+  map_doubt.reset();
   local_map.clear();
   question.reset();
   lost_test.reset();
@@ -310,7 +309,7 @@ LocalizationEstimate Localizer::Impl::estimate() {
   estimate.explained = support.explained;
   estimate.event = std::exchange(event, std::nullopt);
   if (estimate.event) estimate.event->stamp = now;
-  estimate.refuted = times_nowhere >= config.refuted_after;
+  estimate.refuted = map_doubt.refuted();
   estimate.places = state == LocalizationState::kLocalized ? 1 : places;
   if (state != LocalizationState::kLocalized) return estimate;
   estimate.T_map_odom = T_map_grid * tracker.T_grid_odom();

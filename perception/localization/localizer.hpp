@@ -53,7 +53,7 @@ struct LocalizationEstimate {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double explained = 0.0;                  ///< Share of the scan that the map explains at the pose.
   int places = 0;                          ///< Number of places that explain the scans; 1 when localized.
-  bool refuted = false;                    ///< What was seen has fitted nowhere `refuted_after` times.
+  bool refuted = false;                    ///< The map is most likely that of another place.
   std::optional<LocalizationEvent> event;  ///< Set when the state changed.
 };
 

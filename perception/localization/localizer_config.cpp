@@ -36,8 +36,14 @@ void LocalizerConfig::describe(common::config::Fields& fields) {
          "A pose is not believed while the map explains a smaller share of the local map.");
   fields("confirm_distance_m", confirm_distance_m, {0, 100},
          "Distance over which a pose must hold before it is believed.");
-  fields("refuted_after", refuted_after, {1, 1000},
-         "The given map is called that of another place when what is seen has ceased to fit anywhere so many times.");
+  fields("refuted_after_m", refuted_after_m, {0, 1000},
+         "From this path length on, a map in which no place stands out is doubted.");
+  fields("refuted_searches", refuted_searches, {1, 1000},
+         "After so many searches in a row in which no place stands out the map is called that of another place.");
+  fields("convincing_explained", convincing_explained, {0, 1},
+         "A place that explains this share of the local map stands out, however many others do.");
+  fields("convincing_probability", convincing_probability, {0, 1},
+         "A place that is this probable stands out, however little it explains.");
   fields("distrust_search_s", distrust_search_s, {0, 100},
          "Time between searches of the whole map while the pose explains too little.");
   fields("elsewhere_nats", elsewhere_nats, {0, 1000},

@@ -159,7 +159,7 @@ TEST_F(CloudMetrics, CriteriaOfTheMapAreJudged) {
   criteria.map3d_aligned_p95_max_m = 0.06;
   criteria.map3d_coverage_min = 0.95;
   EXPECT_EQ(missed(score, criteria).size(), 2U) << "not measured";
-  score.map3d = Map3dScore{1000, 0.05, 0.1, 0.02, 0.05, 0.96};
+  score.map3d = Map3dScore{1000, 0.05, 0.1, 0.02, 0.05, 0.96, {}};
   EXPECT_TRUE(missed(score, criteria).empty());
   score.map3d->coverage = 0.94;
   criteria.map3d_error_max_m = 0.04;
