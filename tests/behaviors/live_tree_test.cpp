@@ -62,7 +62,7 @@ TEST(LiveTrees, SayHowLongANodeTook) {
 TEST(LiveTrees, KeepTheLastReasonUntilSuccess) {
   Shown shown("<Priority><A/><Timeout msec=\"1000\"><B/></Timeout></Priority>");
   shown.says("A", "nothing").says("B", "RUNNING").tick(0.0);
-  EXPECT_EQ(shown.node("Timeout").reason, "nothing above it asks for the vehicle");
+  EXPECT_EQ(shown.node("Timeout").reason, "B wants") << "why it got the vehicle";
   shown.tick(2.0);
   EXPECT_EQ(shown.node("Timeout").status, "FAILURE");
   EXPECT_EQ(shown.node("Timeout").reason, "timed out after 1 s");

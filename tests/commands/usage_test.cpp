@@ -31,7 +31,7 @@ TEST(Usage, GeneralHelpNamesEachCommand) {
   const ProgramEnd end = runSwiftlet({"--help"});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
   for (const std::string command :
-       {"fly", "check", "trial", "config", "doctor", "version", "optimize", "map", "map3d", "localize", "evaluate"})
+       {"fly", "check", "trial", "config", "doctor", "version", "optimize", "map", "map3d", "localize", "evaluate", "migrate"})
     EXPECT_THAT(end.out, HasSubstr("\n  " + command));
 }
 

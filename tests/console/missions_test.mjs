@@ -110,7 +110,7 @@ const tests = {
     });
     const [median, most] = [work[work.length >> 1], work.at(-1)];
     console.log(`        a change of five nodes of 500: median ${median.toFixed(2)} ms, most ${most.toFixed(2)} ms`);
-    assert.ok(median < 16 * kPatience, `${median} ms`);
+    assert.ok(median < 33 * kPatience, `${median} ms`);
     return page;
   },
 
