@@ -37,14 +37,19 @@ struct Map3dOptions {
   bool json = false;
 };
 
+/// A frame relative to a key frame, so that later loop closures move it.
+struct TrackedFrame {
+  common::Time stamp;
+  int scan = 0;
+  Pose3 T_scan_camera;
+};
+
 struct Map3dRun {
   mapping3d::Mapper3d mapper{mapping3d::Mapper3dConfig()};
-  std::shared_ptr<const common::KeyPoses> scans = mapping3d::noScans();
-  common::Trajectory trajectory;
+  std::vector<TrackedFrame> tracked;
   rendering::ThinnedCurve milliseconds, disagreement;
   std::vector<double> frame_ms;
-  std::uint64_t frames = 0, lost = 0, found_again = 0, key_frames = 0;
-  double path_length_m = 0.0;
+  std::uint64_t frames = 0, lost = 0, found_again = 0, key_frames = 0, loops = 0;
   double wall_s = 0.0;
 
   double medianMs() {
@@ -71,7 +76,8 @@ void addFrame(const common::RgbdFrame& frame, const RecordedCamera& camera, cons
               Map3dRun& run) {
   const auto begin = Clock::now();
   const auto at = seed ? std::optional(mapping3d::CameraSeed{camera.camera(*seed), 0, false}) : std::nullopt;
-  const mapping3d::RgbdPose pose = run.mapper.add(frame, {at, run.scans, {}}).pose;
+  const mapping3d::MappedFrame mapped = run.mapper.add(frame, {at, nullptr, {}});
+  const mapping3d::RgbdPose& pose = mapped.pose;
   run.frame_ms.push_back(1e3 * secondsSince(begin));
   const auto index = static_cast<double>(run.frames++);
   run.milliseconds.add(index, run.frame_ms.back());
@@ -82,10 +88,24 @@ void addFrame(const common::RgbdFrame& frame, const RecordedCamera& camera, cons
   }
   if (run.frames > 1) run.disagreement.add(index, 1.0 - pose.fit.agreement);
   run.found_again += pose.state == mapping3d::TrackState::kFoundAgain ? 1 : 0;
-  const Pose3 T_map_recorded = camera.recorded(pose.T_map_camera);
-  if (!run.trajectory.empty())
-    run.path_length_m += (T_map_recorded.position_m - run.trajectory.back().pose.position_m).norm();
-  run.trajectory.push_back({pose.stamp, T_map_recorded});
+  run.loops += static_cast<std::uint64_t>(mapped.loops);
+  run.tracked.push_back({pose.stamp, pose.scan, mapped.T_scan_camera});
+}
+
+/// Of the recorder's camera, with all loop closures.
+common::Trajectory trajectoryOf(const Map3dRun& run, const RecordedCamera& camera) {
+  const auto keys = run.mapper.scans();
+  common::Trajectory trajectory;
+  for (const TrackedFrame& frame : run.tracked)
+    trajectory.push_back({frame.stamp, camera.recorded(keys->T_map_level(frame.scan) * frame.T_scan_camera)});
+  return trajectory;
+}
+
+double pathLength_m(const common::Trajectory& trajectory) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i)
+    length_m += (trajectory[i].pose.position_m - trajectory[i - 1].pose.position_m).norm();
+  return length_m;
 }
 
 void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3dRun& run) {
@@ -108,11 +128,12 @@ void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3
 
 /// In the axes of the recorder's camera, which the trajectory has too.
 Map3dMap recordedMap(Map3dRun& run) {
-  std::vector<common::Submap3d> submaps = run.mapper.submaps();
-  for (common::Submap3d& submap : submaps)
-    submap.T_key_submap = interfaces::T_camera_optical().inverse() * submap.T_key_submap;
+  common::KeyPoses keys = *run.mapper.scans();
+  for (common::KeyPose& key : keys.keys)
+    key.T_map_camera = interfaces::T_camera_optical().inverse() * *key.T_map_camera;
+  const std::vector<common::Submap3d> submaps = run.mapper.submaps();
   const double resolution_m = mapping3d::VoxelConfig().resolution_m;
-  return {mapping3d::cloudOf(submaps, *run.scans), mapping3d::fuse(submaps, *run.scans, resolution_m)};
+  return {mapping3d::cloudOf(submaps, keys), mapping3d::fuse(submaps, keys, resolution_m)};
 }
 
 std::vector<std::string> warningsOf(const interfaces::RgbdFolder& folder, const Map3dRun& run) {
@@ -135,7 +156,7 @@ std::vector<std::string> warningsOf(const interfaces::RgbdFolder& folder, const 
 }
 
 nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::RgbdFolder& folder, Map3dRun& run,
-                                 const std::vector<std::string>& notes, const fs::path& out) {
+                                 double path_length_m, const std::vector<std::string>& notes, const fs::path& out) {
   return {{"folder", options.folder},
           {"format", folder.listing().format},
           {"out", out.string()},
@@ -145,7 +166,8 @@ nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::
           {"lost_frames", run.lost},
           {"found_again", run.found_again},
           {"key_frames", run.key_frames},
-          {"path_length_m", run.path_length_m},
+          {"loops", run.loops},
+          {"path_length_m", path_length_m},
           {"milliseconds_a_frame", run.medianMs()},
           {"seconds", run.wall_s},
           {"notes", notes}};
@@ -163,22 +185,25 @@ int map3d(const Map3dOptions& options) {
   Map3dRun run;
   mapFolder(folder, options, run);
   Map3dFigures shown{options.folder, {}, warningsOf(folder, run), run.milliseconds, run.disagreement};
-  if (run.trajectory.empty()) {
+  if (run.tracked.empty()) {
     for (const std::string& warning : shown.warnings) showError(warning + "\n");
     throw common::InputError(common::Problem{{options.folder}, "", "none of its frames can be used", ""});
   }
+  const common::Trajectory trajectory = trajectoryOf(run, RecordedCamera(folder.calibration()));
+  const double path_length_m = pathLength_m(trajectory);
   shown.facts = {{"format", folder.listing().format},
                  {"frames", fmt::format("{}", run.frames)},
                  {"skipped", fmt::format("{}", folder.skipped())},
                  {"lost", fmt::format("{}", run.lost)},
                  {"key frames", fmt::format("{}", run.key_frames)},
-                 {"path length", fmt::format("{:.2f} m", run.path_length_m)},
+                 {"loop closures", fmt::format("{}", run.loops)},
+                 {"path length", fmt::format("{:.2f} m", path_length_m)},
                  {"time a frame", fmt::format("{:.1f} ms", run.medianMs())},
                  {"computing time", fmt::format("{:.1f} s", run.wall_s)}};
-  writeMap3dOutputs(results.unfinished(), run.trajectory, recordedMap(run), shown);
+  writeMap3dOutputs(results.unfinished(), trajectory, recordedMap(run), shown);
   results.publish();
   if (options.json) {
-    const auto figures = figuresOf(options, folder, run, shown.warnings, results.path());
+    const auto figures = figuresOf(options, folder, run, path_length_m, shown.warnings, results.path());
     showJson(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return kDone;
   }

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -23,6 +24,9 @@ struct KeyRelativePose {
 struct KeyPose {
   Time stamp;  ///< Stamp of the scan.
   Pose2 T_map_key;
+  /// Where there is no laser, key frames of a camera take the place of key scans. Their frame is that of the camera,
+  /// whose pose has six degrees of freedom, and replaces the level frame of a scan.
+  std::optional<Pose3> T_map_camera = std::nullopt;
 };
 
 /// The poses of all key scans, as estimated so far. Immutable once published; a newer version replaces it.
@@ -30,8 +34,11 @@ struct KeyPoses {
   std::uint64_t version = 0;  ///< Grows when a key scan is added or a correction moves key scans.
   std::vector<KeyPose> keys;
 
-  /// The level frame of a key scan, which must be in `keys`; see KeyRelativePose.
-  Pose3 T_map_level(int key) const { return lifted(keys[static_cast<std::size_t>(key)].T_map_key, 0.0); }
+  /// The level frame of a key scan, or the frame of a camera's key frame. It must be in `keys`; see KeyRelativePose.
+  Pose3 T_map_level(int key) const {
+    const KeyPose& pose = keys[static_cast<std::size_t>(key)];
+    return pose.T_map_camera ? *pose.T_map_camera : lifted(pose.T_map_key, 0.0);
+  }
   /// T_map_body of `pose`, whose key scan must be in `keys`.
   Pose3 inMap(const KeyRelativePose& pose) const { return T_map_level(pose.key) * pose.T_key_body; }
 };

@@ -34,29 +34,46 @@ void Mapper3dConfig::describe(common::config::Fields& fields) {
   fields.section("odometry", odometry, "The pose of a frame.");
   fields.section("voxels", voxels, "Occupancy.");
   fields.section("submaps", submaps, "Pieces of the map, which move with the key scans of the 2D map.");
+  fields.section("loops", loops, "Loop closures by appearance, where there is no 2D map.");
+  fields.section("graph", graph, "The pose graph of key frames, where there is no 2D map.");
 }
 
 Mapper3d::Mapper3d(const Mapper3dConfig& config)
     : config_(config),
       odometry_(config.odometry),
+      graph_(config.graph),
       submaps_(config.submaps, config.voxels, config.odometry.features.depth_noise) {}
 
 MappedFrame Mapper3d::add(const RgbdFrame& frame, const FrameContext& context) {
-  odometry_.moveTo(context.scans);
+  odometry_.moveTo(context.scans ? context.scans : graph_.poses());
   const bool mask = !context.people.empty() && context.seed;
   const RgbdFrame masked = mask ? withoutPeople(frame, context.seed->T_map_camera, context.people) : RgbdFrame{};
   const RgbdFrame& still = mask ? masked : frame;
   MappedFrame mapped;
   mapped.pose = odometry_.process(still, context.seed);
   const RgbdPose& pose = mapped.pose;
+  if (!context.scans && pose.isTracked()) grow(still, mapped);
   if (pose.isTracked())
-    submaps_.draw({frame, still, pose.T_map_camera, pose.scan, context.people, pose.became_key_frame}, *context.scans);
+    submaps_.draw({frame, still, pose.T_map_camera, pose.scan, context.people, pose.became_key_frame},
+                  context.scans ? *context.scans : *graph_.poses());
   mapped.T_scan_camera = odometry_.keyFrames().T_map_scan(pose.scan).inverse() * pose.T_map_camera;
   return mapped;
 }
 
-std::shared_ptr<const common::KeyPoses> noScans() {
-  return std::make_shared<const common::KeyPoses>(common::KeyPoses{1, {common::KeyPose{}}});
+void Mapper3d::grow(const RgbdFrame& still, MappedFrame& mapped) {
+  RgbdPose& pose = mapped.pose;
+  if (!pose.aligned_to.empty()) pose.scan = pose.aligned_to.front();
+  if (!pose.became_key_frame) return;
+  const auto number = static_cast<int>(graph_.size());
+  const auto edges = trackEdges(pose, number, odometry_.keyFrames(), config_.loops);
+  pose.scan = graph_.add(pose.stamp, pose.T_map_camera, edges);
+  odometry_.moveTo(graph_.poses());
+  odometry_.hangNewestOn(pose.scan);
+  const auto loops = findLoops(still, pose, odometry_.keyFrames(), config_.odometry, config_.loops);
+  if (loops.empty()) return;
+  mapped.loops = graph_.close(loops);
+  odometry_.moveTo(graph_.poses());
+  pose.T_map_camera = odometry_.keyFrames().T_map_scan(pose.scan);
 }
 
 }  // namespace swiftlet::mapping3d

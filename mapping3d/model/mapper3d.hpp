@@ -17,6 +17,8 @@
 #include "common/key_pose.hpp"
 #include "common/rgbd_frame.hpp"
 #include "common/submap3d.hpp"
+#include "mapping3d/loops/key_frame_graph.hpp"
+#include "mapping3d/loops/loop_search.hpp"
 #include "mapping3d/model/submap_config.hpp"
 #include "mapping3d/model/submap_store.hpp"
 #include "mapping3d/odometry/rgbd_odometry.hpp"
@@ -28,6 +30,8 @@ struct Mapper3dConfig {
   RgbdOdometryConfig odometry;
   VoxelConfig voxels;
   SubmapConfig submaps;
+  LoopSearchConfig loops;
+  KeyFrameGraphConfig graph;
 
   void describe(common::config::Fields& fields);
 };
@@ -35,14 +39,16 @@ struct Mapper3dConfig {
 /// What other parts know at a frame's time.
 struct FrameContext {
   std::optional<CameraSeed> seed;
-  /// Never null and with at least one key scan; without a 2D map a single one at the origin.
+  /// With at least one key scan. Null where there is no 2D map: then key frames take the place of key scans, and loops
+  /// are closed by what they look like. A map has scans in all of its frames or in none.
   std::shared_ptr<const common::KeyPoses> scans;
   std::span<const common::Disc> people;  ///< In `map`. What is seen of them is left out.
 };
 
 struct MappedFrame {
-  RgbdPose pose;                ///< T_map_camera is in the map of FrameContext::scans.
+  RgbdPose pose;                ///< T_map_camera is in the map of FrameContext::scans, or of Mapper3d::scans().
   common::Pose3 T_scan_camera;  ///< Relative to the key scan `pose.scan`: moves with the map.
+  int loops = 0;                ///< Loop closures that this frame has added.
 };
 
 /// One thread. A function of its frames and their contexts.
@@ -56,14 +62,17 @@ class Mapper3d {
   /// See SubmapStore::snapshot. It copies the points of the submap that grows.
   std::vector<common::Submap3d> submaps() { return submaps_.snapshot(); }
   const KeyFrameMap& keyFrames() const { return odometry_.keyFrames(); }
+  /// What submaps and frames hang on where there is no 2D map.
+  std::shared_ptr<const common::KeyPoses> scans() const { return graph_.poses(); }
 
  private:
+  /// The newest key frame becomes a node of the graph, and loops to it are closed.
+  void grow(const common::RgbdFrame& still, MappedFrame& mapped);
+
   Mapper3dConfig config_;
   RgbdOdometry odometry_;
+  KeyFrameGraph graph_;
   SubmapStore submaps_;
 };
-
-/// A single key scan at the origin, for maps without a 2D map.
-std::shared_ptr<const common::KeyPoses> noScans();
 
 }  // namespace swiftlet::mapping3d

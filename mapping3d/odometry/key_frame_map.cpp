@@ -44,10 +44,21 @@ void KeyFrameConfig::describe(common::config::Fields& fields) {
 }
 
 void KeyFrameMap::add(std::shared_ptr<const KeyFrame> key, const KeyFramePlace& place) {
-  if (static_cast<int>(keys_.size()) >= config_.greatest_number)
-    keys_.erase(
-        std::min_element(keys_.begin(), keys_.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; }));
-  keys_.push_back({std::move(key), place, T_map_scan(place.scan).inverse() * place.T_map_key, ++clock_});
+  if (static_cast<int>(keys_.size()) >= config_.greatest_number) {
+    const auto oldest =
+        std::min_element(keys_.begin(), keys_.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; });
+    places_.remove(oldest->number, oldest->frame->described);
+    keys_.erase(oldest);
+  }
+  places_.add(next_number_, key->described);
+  keys_.push_back(
+      {std::move(key), place, T_map_scan(place.scan).inverse() * place.T_map_key, ++clock_, next_number_++});
+}
+
+void KeyFrameMap::hangNewestOn(int scan) {
+  Kept& newest = keys_.back();
+  newest.place.scan = scan;
+  newest.T_scan_key = T_map_scan(scan).inverse() * newest.place.T_map_key;
 }
 
 common::Pose3 KeyFrameMap::T_map_scan(int scan) const { return scans_ ? scans_->T_map_level(scan) : common::Pose3{}; }
@@ -93,6 +104,16 @@ std::vector<ReferenceView> KeyFrameMap::views(const std::vector<std::size_t>& in
 void KeyFrameMap::markUsed(const std::vector<std::size_t>& indices) {
   ++clock_;
   for (const std::size_t index : indices) keys_[index].used = clock_;
+}
+
+std::vector<std::size_t> KeyFrameMap::similar(const std::vector<DescribedPoint>& points, std::size_t greatest) const {
+  std::vector<std::size_t> indices;
+  for (const std::uint64_t number : places_.similar(points, greatest)) {
+    const auto kept = std::lower_bound(keys_.begin(), keys_.end(), number,
+                                       [](const Kept& one, std::uint64_t sought) { return one.number < sought; });
+    indices.push_back(static_cast<std::size_t>(kept - keys_.begin()));
+  }
+  return indices;
 }
 
 bool KeyFrameMap::needsNew(const std::vector<std::size_t>& overlapping, const common::Pose3& T_map_camera,

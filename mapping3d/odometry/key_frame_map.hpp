@@ -13,6 +13,7 @@
 #include "common/key_pose.hpp"
 #include "mapping3d/odometry/alignment.hpp"
 #include "mapping3d/odometry/key_frame.hpp"
+#include "mapping3d/odometry/place_index.hpp"
 
 namespace swiftlet::mapping3d {
 
@@ -47,6 +48,8 @@ class KeyFrameMap {
   const KeyFrame& at(std::size_t index) const { return *keys_[index].frame; }
   const KeyFramePlace& placeOf(std::size_t index) const { return keys_[index].place; }
 
+  /// Hangs the newest key frame on another key scan; it stays where it is.
+  void hangNewestOn(int scan);
   /// Moves the key frames with the key scans that they hang on.
   void moveTo(std::shared_ptr<const common::KeyPoses> scans);
   /// The identity without key scans.
@@ -59,6 +62,9 @@ class KeyFrameMap {
   /// Keeps them from being dropped for a while.
   void markUsed(const std::vector<std::size_t>& indices);
 
+  /// Up to `greatest` key frames that look most like a picture with these points, the best first.
+  std::vector<std::size_t> similar(const std::vector<DescribedPoint>& points, std::size_t greatest) const;
+
   /// Whether what the camera sees from there is covered too little by its nearest key frame.
   bool needsNew(const std::vector<std::size_t>& overlapping, const common::Pose3& T_map_camera, double overlap) const;
 
@@ -68,11 +74,14 @@ class KeyFrameMap {
     KeyFramePlace place;
     common::Pose3 T_scan_key;
     std::uint64_t used = 0;
+    std::uint64_t number = 0;  ///< Ascending in keys_.
   };
   KeyFrameConfig config_;
   std::shared_ptr<const common::KeyPoses> scans_;  ///< Null without a 2D map.
   std::vector<Kept> keys_;
+  PlaceIndex places_;
   std::uint64_t clock_ = 0;
+  std::uint64_t next_number_ = 0;
 };
 
 }  // namespace swiftlet::mapping3d

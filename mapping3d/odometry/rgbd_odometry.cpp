@@ -51,6 +51,14 @@ void RgbdOdometryConfig::describe(common::config::Fields& fields) {
   fields.section("measured", measured, "What a frame alone tells of its pose.");
 }
 
+bool isGoodFit(const Alignment& fit, const RgbdOdometryConfig& config) {
+  if (fit.correlation < config.least_correlation) return false;
+  // Nearer than its least distance the camera measures no depth, but the points of the key frames have theirs.
+  if (fit.measured < config.least_points)
+    return fit.textured >= config.least_points && fit.correlation >= kLeastCorrelationAlone;
+  return fit.agreement >= config.least_agreement && fit.points >= config.least_points;
+}
+
 RgbdOdometry::RgbdOdometry(const RgbdOdometryConfig& config) : config_(config), keys_(config.key_frames) {}
 
 void RgbdOdometry::moveTo(std::shared_ptr<const common::KeyPoses> scans) {
@@ -62,6 +70,11 @@ void RgbdOdometry::moveTo(std::shared_ptr<const common::KeyPoses> scans) {
   const Pose3 moved = keys_.T_map_scan(last_->scan) * *T_scan_map;
   last_->T_map_camera = moved * last_->T_map_camera;
   if (isInMap(last_->seed)) last_->seed->T_map_camera = moved * last_->seed->T_map_camera;
+}
+
+void RgbdOdometry::hangNewestOn(int scan) {
+  keys_.hangNewestOn(scan);
+  last_->scan = scan;
 }
 
 RgbdPose RgbdOdometry::process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed) {
@@ -117,11 +130,7 @@ Pose3 RgbdOdometry::bestOf(const std::vector<Pose3>& poses, const FramePyramid& 
 
 bool RgbdOdometry::isGood(const Alignment& fit, const std::optional<CameraSeed>& seed) const {
   if (isInMap(seed) && !agrees(fit.T_map_camera, *seed, config_.seed)) return false;
-  if (fit.correlation < config_.least_correlation) return false;
-  // Nearer than its least distance the camera measures no depth, but the points of the key frames have theirs.
-  if (fit.measured < config_.least_points)
-    return fit.textured >= config_.least_points && fit.correlation >= kLeastCorrelationAlone;
-  return fit.agreement >= config_.least_agreement && fit.points >= config_.least_points;
+  return isGoodFit(fit, config_);
 }
 
 PosePrior RgbdOdometry::motionPrior(common::Time stamp, const Pose3& predicted) const {
@@ -167,13 +176,7 @@ std::optional<RgbdOdometry::Fit> RgbdOdometry::tracked(const FramePyramid& pyram
 std::optional<RgbdOdometry::Fit> RgbdOdometry::recognized(const FramePyramid& pyramid,
                                                           const std::optional<CameraSeed>& seed) {
   const auto points = describedPoints(pyramid.front().gray, featuresOf(pyramid, config_.features));
-  // The newest first, then the others in turn, so that each is tried within some frames.
-  std::vector<std::size_t> order;
-  const std::size_t newest = std::min<std::size_t>(keys_.size(), kTriedPerFrame / 2);
-  for (std::size_t i = 0; i < newest; ++i) order.push_back(keys_.size() - 1 - i);
-  for (std::size_t i = newest; i < std::min(keys_.size(), kTriedPerFrame); ++i)
-    order.push_back(next_tried_++ % (keys_.size() - newest));
-  for (const std::size_t index : order) {
+  for (const std::size_t index : keys_.similar(points, kTriedPerFrame)) {
     const auto found = registerPoints(keys_.at(index).described, points, frames_, config_.recognition);
     if (!found) continue;
     const PosePrior prior{keys_.placeOf(index).T_map_key * found->T_a_b, Matrix6d::Zero()};
@@ -208,6 +211,7 @@ void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyra
   pose.covariance = fit.alignment.information.inverse();
   const double depth_m = keys_.at(fit.keys.front()).median_depth_m;
   pose.measured = withoutPrior(fit.alignment, fit.prior, depth_m, config_.measured);
+  for (const std::size_t key : fit.keys) pose.aligned_to.push_back(keys_.placeOf(key).scan);
   keys_.markUsed(fit.keys);
   const bool has_depth = fit.alignment.measured >= config_.least_points;
   if (has_depth && keys_.needsNew(fit.keys, pose.T_map_camera, fit.alignment.overlap)) {

@@ -50,6 +50,9 @@ struct RgbdOdometryConfig {
   void describe(common::config::Fields& fields);
 };
 
+/// Whether an aligned frame shows what its key frames show, as far as the frame itself can tell.
+bool isGoodFit(const Alignment& fit, const RgbdOdometryConfig& config);
+
 enum class TrackState {
   kTracked,
   kFoundAgain,  ///< Tracked, after it was lost.
@@ -66,6 +69,8 @@ struct RgbdPose {
   /// What the frame alone tells of its pose; none if it was not aligned.
   std::optional<MeasuredPose> measured;
   Alignment fit;
+  /// The key scans on which the key frames hang that it was aligned to, the best first.
+  std::vector<int> aligned_to;
   bool became_key_frame = false;
 
   bool isTracked() const { return state != TrackState::kLost; }
@@ -81,6 +86,9 @@ class RgbdOdometry {
   /// Frames come in the order of their stamps. The seed is what other sensors give at the frame's time. The first one
   /// places the map.
   RgbdPose process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed = std::nullopt);
+
+  /// For a frame that just became a key frame: it, and the frames after it, hang on this key scan.
+  void hangNewestOn(int scan);
 
   const KeyFrameMap& keyFrames() const { return keys_; }
 
@@ -122,9 +130,8 @@ class RgbdOdometry {
   std::optional<Last> last_;
   std::uint64_t scans_version_ = 0;
   bool is_lost_ = false;
-  int unfit_frames_ = 0;        ///< In a row, just before.
-  int tracks_ = 0;              ///< How often key frames began anew.
-  std::size_t next_tried_ = 0;  ///< While lost, key frames are tried in turn.
+  int unfit_frames_ = 0;  ///< In a row, just before.
+  int tracks_ = 0;        ///< How often key frames began anew.
   std::uint64_t frames_ = 0;
 };
 

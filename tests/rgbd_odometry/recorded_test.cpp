@@ -3,17 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <vector>
-
-#include <fmt/format.h>
-
 #include "evaluation/trajectory_metrics.hpp"
 #include "interfaces/files/archive.hpp"
-#include "interfaces/files/tum.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "mapping3d/odometry/rgbd_odometry.hpp"
 #include "tests/support/datasets.hpp"
+#include "tests/support/recorded_rgbd.hpp"
 #include "tests/support/scratch.hpp"
 
 namespace swiftlet::mapping3d {
@@ -46,22 +41,6 @@ double positionError_m(const common::Trajectory& estimate, const common::Traject
   return error ? error->translation_m.rmse : 1e9;
 }
 
-/// The poses of 7-Scenes: a 4x4 matrix a frame, camera to world.
-common::Trajectory sevenScenesPoses(const fs::path& folder, int last) {
-  common::Trajectory poses;
-  for (int i = 0; i <= last; i += 2) {
-    std::ifstream file(folder / fmt::format("frame-{:06}.pose.txt", i));
-    Eigen::Matrix4d matrix;
-    for (int row = 0; row < 4; ++row)
-      for (int column = 0; column < 4; ++column) file >> matrix(row, column);
-    if (!file) continue;
-    poses.push_back({common::Time::fromSeconds(i / interfaces::kSevenScenesRate_Hz),
-                     {Eigen::Quaterniond(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())).normalized(),
-                      matrix.topRightCorner<3, 1>()}});
-  }
-  return poses;
-}
-
 class RecordedCamera : public test_support::Scratch {};
 
 TEST_F(RecordedCamera, OfAKitchenIsNeverLost) {
@@ -71,22 +50,17 @@ TEST_F(RecordedCamera, OfAKitchenIsNeverLost) {
   const Tracked tracked = track(folder, std::nullopt);
   EXPECT_EQ(tracked.frames, 300);
   EXPECT_EQ(tracked.trajectory.size(), 300u);
-  EXPECT_LT(positionError_m(tracked.trajectory, sevenScenesPoses(folder, 598)), 0.035);  // 0.029 measured.
+  EXPECT_LT(positionError_m(tracked.trajectory, test_support::recordedReference(folder)), 0.035);  // 0.029 measured.
 }
 
 TEST_F(RecordedCamera, ThatTurnsAboutItselfIsNeverLost) {
   const auto archive = test_support::dataSet("03-rgbd/tum-fr1-rpy/tum_fr1_rpy_000-299.tar");
   if (!archive) return;
-  // The lens of the benchmark's first camera.
-  interfaces::RgbdCalibration calibration = interfaces::tumCalibration();
-  calibration.color = {640, 480, 517.3, 516.5, 318.6, 255.3, 0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
   const fs::path folder = interfaces::unpackInto(folder_, *archive) / "tum_fr1_rpy";
-  const Tracked tracked = track(folder, calibration);
+  const Tracked tracked = track(folder, test_support::freiburg1Calibration());
   EXPECT_EQ(tracked.frames, 300);
   EXPECT_EQ(tracked.trajectory.size(), 300u);
-  const common::Trajectory reference =
-      common::ordered(interfaces::readTum(folder / "groundtruth.txt", interfaces::StampOrder::kAny)).trajectory;
-  EXPECT_LT(positionError_m(tracked.trajectory, reference), 0.03);  // 0.022 measured.
+  EXPECT_LT(positionError_m(tracked.trajectory, test_support::recordedReference(folder)), 0.03);  // 0.022 measured.
 }
 
 }  // namespace

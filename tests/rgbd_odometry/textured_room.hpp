@@ -33,7 +33,8 @@ inline double textureAt(double a_m, double b_m, int wall, double lattice_m) {
 
 struct TexturedRoom {
   Eigen::Vector3d half_size_m{2.6, 2.1, 1.4};
-  int walls = 0;  ///< Added to the number of a wall: another room has another texture.
+  int walls = 0;              ///< Added to the number of a wall: another room has another texture.
+  bool is_symmetric = false;  ///< It looks the same after half a turn about the vertical.
   common::PinholeCamera camera{320, 240, 290.0, 290.0, 159.5, 119.5};
   double noise_per_m2 = 1.45e-3;
 
@@ -59,8 +60,11 @@ struct TexturedRoom {
           }
         }
         const Eigen::Vector3d hit = T_map_camera.position_m + depth_m * ray;
-        const int wall = walls + 2 * axis + (ray[axis] > 0.0 ? 1 : 0);
-        const double a = hit[(axis + 1) % 3], b = hit[(axis + 2) % 3];
+        const bool half_turned = is_symmetric && axis < 2 && ray[axis] < 0.0;
+        const int wall = walls + 2 * axis + (ray[axis] > 0.0 || half_turned ? 1 : 0);
+        // Half a turn about the vertical changes the signs of x and y.
+        const auto along = [&](int i) { return half_turned && i < 2 ? -hit[i] : hit[i]; };
+        const double a = along((axis + 1) % 3), b = along((axis + 2) % 3);
         const double gray =
             gain * (30.0 + 120.0 * textureAt(a, b, wall, 0.25) + 60.0 * textureAt(a, b, wall + 50, 0.07));
         const auto value = static_cast<std::uint8_t>(std::min(gray, 255.0));

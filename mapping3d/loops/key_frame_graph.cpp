@@ -1,0 +1,162 @@
+#include "mapping3d/loops/key_frame_graph.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include "common/config_fields.hpp"
+#include "optimization/pose_graph_3d.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using common::Pose3;
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+double turnOf_rad(const Pose3& pose) { return pose.rotation.angularDistance(Eigen::Quaterniond::Identity()); }
+
+/// A graph with a turn of one radian counts as one with a step of a metre: both drift by about as much at 1 m.
+double costOf(const Pose3& step) { return step.position_m.norm() + turnOf_rad(step); }
+
+struct Neighbour {
+  int node = 0;
+  Pose3 step;
+};
+
+}  // namespace
+
+void KeyFrameGraphConfig::describe(common::config::Fields& fields) {
+  fields("edge_sigma_m", edge_sigma_m, {0.0001, 1},
+         "Error of the position of an alignment between two key frames that its points do not show, at least.");
+  fields("edge_sigma_rad", edge_sigma_rad, {0.0001, 1}, "The same of the attitude.");
+  fields("walk_m", walk_m, {0.0, 10},
+         "Error of the position that alignments gather over a metre of steps; it grows with the root of the length.");
+  fields("walk_rad", walk_rad, {0.0, 10}, "Error of the attitude that they gather over a radian of turns, the same.");
+  fields("drift_m", drift_m, {0.0, 100}, "A loop closure may differ from the path by so much, however short it is,");
+  fields("drift_share", drift_share, {0.0, 1.0}, "and by this share of the path's length.");
+  fields("drift_rad", drift_rad, {0.0, 3.2}, "A loop closure may be turned against the path by so much,");
+  fields("drift_turn_share", drift_turn_share, {0.0, 1.0}, "and by this share of all turns along the path.");
+  fields("greatest_error", greatest_error, {1, 1e6},
+         "A loop closure whose squared error in the optimized graph is greater is taken out; of a right one it has 6 "
+         "degrees of freedom.");
+  fields.section("optimization", optimization, "How the graph is optimized.");
+}
+
+KeyFrameGraph::KeyFrameGraph(const KeyFrameGraphConfig& config)
+    : config_(config), poses_(std::make_shared<const common::KeyPoses>(common::KeyPoses{1, {common::KeyPose{}}})) {}
+
+/// The graph's error has half the rotation vector, see optimization::PoseEdge3D.
+optimization::PoseEdge3D KeyFrameGraph::edgeOf(const KeyFrameEdge& edge, int to, bool robust) const {
+  Matrix6d covariance = edge.information.inverse();
+  covariance.diagonal().head<3>().array() +=
+      config_.edge_sigma_m * config_.edge_sigma_m + config_.walk_m * config_.walk_m * edge.T_from_to.position_m.norm();
+  covariance.diagonal().tail<3>().array() += config_.edge_sigma_rad * config_.edge_sigma_rad +
+                                             config_.walk_rad * config_.walk_rad * turnOf_rad(edge.T_from_to);
+  Eigen::Matrix<double, 6, 1> unit;
+  unit << 1.0, 1.0, 1.0, 0.5, 0.5, 0.5;
+  covariance = (unit.asDiagonal() * covariance * unit.asDiagonal()).eval();
+  const Matrix6d information = covariance.inverse();
+  return {edge.from, to, edge.T_from_to, 0.5 * (information + information.transpose()), robust};
+}
+
+int KeyFrameGraph::add(common::Time stamp, const Pose3& T_map_key, std::span<const KeyFrameEdge> edges) {
+  const auto number = static_cast<int>(graph_.poses.size());
+  graph_.poses.push_back(T_map_key);
+  stamps_.push_back(stamp);
+  for (const KeyFrameEdge& edge : edges) graph_.edges.push_back(edgeOf(edge, number, false));
+  publish();
+  return number;
+}
+
+/// Dijkstra's algorithm.
+KeyFrameGraph::PathLength KeyFrameGraph::pathBetween(int from, int to) const {
+  std::vector<std::vector<Neighbour>> neighbours(graph_.poses.size());
+  for (const optimization::PoseEdge3D& edge : graph_.edges) {
+    neighbours[at(edge.from)].push_back({edge.to, edge.T_from_to});
+    neighbours[at(edge.to)].push_back({edge.from, edge.T_from_to});
+  }
+  struct Reached {
+    double cost = std::numeric_limits<double>::infinity();
+    PathLength path;
+  };
+  std::vector<Reached> reached(graph_.poses.size());
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  reached[at(from)].cost = 0.0;
+  open.emplace(0.0, from);
+  while (!open.empty()) {
+    const auto [cost, node] = open.top();
+    open.pop();
+    if (node == to) break;
+    if (cost > reached[at(node)].cost) continue;
+    for (const Neighbour& next : neighbours[at(node)]) {
+      const double next_cost = cost + costOf(next.step);
+      if (next_cost >= reached[at(next.node)].cost) continue;
+      PathLength path = reached[at(node)].path;
+      path.path_m += next.step.position_m.norm();
+      path.turn_rad += turnOf_rad(next.step);
+      path.extent_m =
+          std::max(path.extent_m, (graph_.poses[at(next.node)].position_m - graph_.poses[at(to)].position_m).norm());
+      reached[at(next.node)] = {next_cost, path};
+      open.emplace(next_cost, next.node);
+    }
+  }
+  return reached[at(to)].path;
+}
+
+bool KeyFrameGraph::allows(int to, const KeyFrameEdge& loop) const {
+  const PathLength length = pathBetween(loop.from, to);
+  const Pose3 T_from_to = graph_.poses[at(loop.from)].inverse() * graph_.poses[at(to)];
+  const double turn_rad = config_.drift_rad + config_.drift_turn_share * length.turn_rad;
+  const double step_m = config_.drift_m + config_.drift_share * length.path_m + turn_rad * length.extent_m;
+  return loop.T_from_to.rotation.angularDistance(T_from_to.rotation) <= turn_rad &&
+         (loop.T_from_to.position_m - T_from_to.position_m).norm() <= step_m;
+}
+
+int KeyFrameGraph::takeOutUnconfirmed(const std::vector<double>& squared_errors, std::size_t first_new) {
+  std::vector<optimization::PoseEdge3D> kept;
+  int of_new = 0;
+  for (std::size_t i = 0; i < graph_.edges.size(); ++i) {
+    if (graph_.edges[i].robust && squared_errors[i] > config_.greatest_error) continue;
+    kept.push_back(graph_.edges[i]);
+    of_new += i >= first_new ? 1 : 0;
+  }
+  const auto taken = static_cast<int>(graph_.edges.size() - kept.size());
+  graph_.edges = std::move(kept);
+  rejected_ += taken;
+  loops_ -= taken;
+  return of_new;
+}
+
+int KeyFrameGraph::close(std::span<const KeyFrameEdge> loops) {
+  const int newest = static_cast<int>(graph_.poses.size()) - 1;
+  const std::size_t first_new = graph_.edges.size();
+  // All are judged by the path without any of them.
+  std::vector<optimization::PoseEdge3D> allowed;
+  for (const KeyFrameEdge& loop : loops)
+    if (allows(newest, loop)) allowed.push_back(edgeOf(loop, newest, true));
+  rejected_ += static_cast<int>(loops.size() - allowed.size());
+  graph_.edges.insert(graph_.edges.end(), allowed.begin(), allowed.end());
+  const std::size_t all = graph_.edges.size();
+  if (all == first_new) return 0;
+  loops_ += static_cast<int>(all - first_new);
+  auto solution = optimization::optimize(graph_, config_.optimization);
+  const int kept = takeOutUnconfirmed(solution.squared_errors, first_new);
+  if (graph_.edges.size() < all) solution = optimization::optimize(graph_, config_.optimization);
+  graph_.poses = std::move(solution.poses);
+  publish();
+  return kept;
+}
+
+void KeyFrameGraph::publish() {
+  auto poses = std::make_shared<common::KeyPoses>();
+  poses->version = poses_->version + 1;
+  for (std::size_t i = 0; i < graph_.poses.size(); ++i) poses->keys.push_back({stamps_[i], {}, graph_.poses[i]});
+  poses_ = std::move(poses);
+}
+
+}  // namespace swiftlet::mapping3d

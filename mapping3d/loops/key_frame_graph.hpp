@@ -1,0 +1,81 @@
+// The pose graph of key frames where no laser makes a 2D map: nodes are key frames, edges are alignments between them.
+//
+// A loop closure is checked twice before it may bend the map. First, it must agree with the path between its key frames
+// as far as that path can have drifted; two places that look alike in all they show are told apart by nothing else.
+// Then, when the graph has been optimized with all its edges, a loop closure that the others do not confirm has a large
+// error, is taken out, and the graph is optimized again.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/config_fwd.hpp"
+#include "common/key_pose.hpp"
+#include "mapping3d/odometry/alignment.hpp"
+#include "optimization/graph_3d.hpp"
+#include "optimization/pose_graph_config.hpp"
+
+namespace swiftlet::mapping3d {
+
+struct KeyFrameGraphConfig {
+  double edge_sigma_m = 0.01;
+  double edge_sigma_rad = 0.005;
+  double walk_m = 0.03;
+  double walk_rad = 0.05;
+  double drift_m = 0.1;
+  double drift_share = 0.05;
+  double drift_rad = 0.05;
+  double drift_turn_share = 0.05;
+  double greatest_error = 25.0;
+  optimization::PoseGraphConfig optimization;
+
+  void describe(common::config::Fields& fields);
+};
+
+/// Seen from key frame `from`, another one stands at T_from_to.
+struct KeyFrameEdge {
+  int from = 0;
+  common::Pose3 T_from_to;
+  /// Inverse covariance of the error (x, y, z, rotation vector) in the axes of the other.
+  Matrix6d information = Matrix6d::Identity();
+};
+
+/// One thread. The first key frame stays where it is.
+class KeyFrameGraph {
+ public:
+  explicit KeyFrameGraph(const KeyFrameGraphConfig& config);
+
+  /// The number of the new key frame, counted from 0. `edges` are the alignments that gave it its pose.
+  int add(common::Time stamp, const common::Pose3& T_map_key, std::span<const KeyFrameEdge> edges);
+  /// Whether drift along the shortest path of edges explains the difference between a loop closure and the map.
+  bool allows(int to, const KeyFrameEdge& loop) const;
+  /// Adds loop closures to the newest key frame and optimizes. Returns how many of them were kept.
+  int close(std::span<const KeyFrameEdge> loops);
+
+  std::size_t size() const { return stamps_.size(); }
+  /// Of all key frames, by their numbers. Before the first one, a single key at the origin.
+  std::shared_ptr<const common::KeyPoses> poses() const { return poses_; }
+  int loops() const { return loops_; }
+  int rejected() const { return rejected_; }
+
+ private:
+  struct PathLength {
+    double path_m = 0.0;
+    double turn_rad = 0.0;
+    double extent_m = 0.0;  ///< The distance of the path's farthest key frame from its end.
+  };
+  PathLength pathBetween(int from, int to) const;
+  optimization::PoseEdge3D edgeOf(const KeyFrameEdge& edge, int to, bool robust) const;
+  int takeOutUnconfirmed(const std::vector<double>& squared_errors, std::size_t first_new);
+  void publish();
+
+  KeyFrameGraphConfig config_;
+  optimization::PoseGraph3D graph_;
+  std::vector<common::Time> stamps_;
+  std::shared_ptr<const common::KeyPoses> poses_;
+  int loops_ = 0;
+  int rejected_ = 0;
+};
+
+}  // namespace swiftlet::mapping3d

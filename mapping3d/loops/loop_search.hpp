@@ -1,0 +1,36 @@
+// Key frames of the same place as a new one, found by what they look like: similar binary words, then a pose that
+// described points agree on, then the alignment of grey values and surfaces.
+#pragma once
+
+#include <vector>
+
+#include "common/config_fwd.hpp"
+#include "mapping3d/loops/key_frame_graph.hpp"
+#include "mapping3d/odometry/rgbd_odometry.hpp"
+
+namespace swiftlet::mapping3d {
+
+struct LoopSearchConfig {
+  int candidates = 5;
+  int apart = 5;
+  double least_overlap = 0.4;
+
+  void describe(common::config::Fields& fields);
+};
+
+/// Whether a key frame is so old that an alignment of the newest one to it closes a loop.
+bool isOld(int scan, int newest, const LoopSearchConfig& config);
+
+/// The edge by which the track connects a new key frame, which gets this number: from the one that it overlaps most of
+/// those that it was aligned to, an old one only where there is no other; none for the first. A frame is aligned to all
+/// of its key frames together, so its pose tells nothing of the drift between old and new ones; findLoops measures
+/// that.
+std::vector<KeyFrameEdge> trackEdges(const RgbdPose& pose, int number, const KeyFrameMap& keys,
+                                     const LoopSearchConfig& config);
+
+/// Edges from old key frames of `keys` to its newest one, which `frame` became; each key frame's scan is its number in
+/// the graph. A pure function; it takes some milliseconds for each candidate.
+std::vector<KeyFrameEdge> findLoops(const common::RgbdFrame& frame, const RgbdPose& pose, const KeyFrameMap& keys,
+                                    const RgbdOdometryConfig& odometry, const LoopSearchConfig& config);
+
+}  // namespace swiftlet::mapping3d

@@ -1,0 +1,112 @@
+// Loops in rendered rooms: the camera goes round once, looks across the room, and comes back to where it began.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "evaluation/trajectory_metrics.hpp"
+#include "mapping3d/model/mapper3d.hpp"
+#include "tests/rgbd_loops/round_room.hpp"
+#include "tests/rgbd_odometry/textured_room.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using common::Pose3;
+
+constexpr int kLap = 72;
+constexpr double kRate_Hz = 15.0;
+
+Pose3 onRing(int i) {
+  const double part = 2.0 * std::numbers::pi * i / kLap;
+  const double angle_rad = part + 0.15 * std::sin(3.0 * part);
+  const double swing = 0.1 * std::sin(3.0 * angle_rad);
+  return {common::quaternionFrom({0.03 * std::sin(5.0 * angle_rad), swing, angle_rad}),
+          {-0.9 * std::cos(angle_rad), -0.6 * std::sin(angle_rad), swing}};
+}
+
+struct Story {
+  int loops = 0;
+  std::vector<int> lost;   ///< The frames.
+  double error_m = 0.0;    ///< Absolute trajectory error (rmse) by the map as it is in the end.
+  double error_deg = 0.0;  ///< The same of the attitude, against the first frame.
+};
+
+template <typename Room>
+Story map(const Room& room, const Mapper3dConfig& config, int frames, double fx_factor = 1.0) {
+  struct Tracked {
+    int frame;
+    int scan;
+    Pose3 T_scan_camera;
+  };
+  Mapper3d mapper(config);
+  std::vector<Tracked> tracked;
+  Story story;
+  for (int i = 0; i < frames; ++i) {
+    common::RgbdFrame frame = room.seen(onRing(i), i / kRate_Hz);
+    frame.camera.fx_px *= fx_factor;
+    const MappedFrame mapped = mapper.add(frame, {});
+    story.loops += mapped.loops;
+    if (!mapped.pose.isTracked()) story.lost.push_back(i);
+    if (mapped.pose.isTracked()) tracked.push_back({i, mapped.pose.scan, mapped.T_scan_camera});
+  }
+  std::vector<evaluation::PosePair> pairs;
+  for (const Tracked& at : tracked)
+    pairs.push_back({common::Time::fromSeconds(at.frame / kRate_Hz),
+                     mapper.scans()->T_map_level(at.scan) * at.T_scan_camera, onRing(at.frame)});
+  story.error_m = evaluation::absoluteTrajectoryError(pairs, evaluation::Alignment::kSpatial)->translation_m.rmse;
+  const Pose3 T_truth_estimate = pairs.front().truth * pairs.front().estimate.inverse();
+  double squares_rad2 = 0.0;
+  for (const evaluation::PosePair& pair : pairs) {
+    const double turn_rad = (T_truth_estimate * pair.estimate).rotation.angularDistance(pair.truth.rotation);
+    squares_rad2 += turn_rad * turn_rad;
+  }
+  story.error_deg = std::sqrt(squares_rad2 / static_cast<double>(pairs.size())) / common::kRadPerDeg;
+  return story;
+}
+
+Mapper3dConfig withoutLoops() {
+  Mapper3dConfig config;
+  config.loops.candidates = 0;
+  return config;
+}
+
+TEST(MappedLoop, IsClosedAndCorrectsAllFramesOfIt) {
+  // With intrinsics that are wrong by 2 %, every turn is measured too short.
+  const RoundRoom room;
+  const Story without = map(room, withoutLoops(), kLap, 1.02), with = map(room, {}, kLap, 1.02);
+  EXPECT_TRUE(with.lost.empty());
+  EXPECT_GT(with.loops, 0);
+  EXPECT_GT(without.error_deg, 3.0);
+  EXPECT_LT(with.error_deg, 0.2 * without.error_deg);
+}
+
+TEST(MappedLoop, LostAlongABlankWallItIsFoundAgainWhereItWasBefore) {
+  RoundRoom room;
+  room.blank_from_rad = 2.0;
+  room.blank_to_rad = 4.0;
+  const Story story = map(room, {}, kLap + 4);
+  ASSERT_GT(story.lost.size(), 20u);
+  EXPECT_LT(story.lost.back(), kLap - 4) << "it is back where it began";
+  EXPECT_LT(story.error_m, 0.01);
+}
+
+TEST(MappedLoop, APlaceThatLooksLikeAnotherIsNotTakenForIt) {
+  TexturedRoom room;
+  room.is_symmetric = true;
+  const int half = kLap / 2 + 6;
+  Mapper3dConfig unchecked;
+  unchecked.graph.drift_m = unchecked.graph.drift_rad = 100.0;
+  unchecked.graph.greatest_error = 1e6;
+  unchecked.graph.optimization.robust_width = 100.0;
+  const Story with = map(room, {}, half), bent = map(room, unchecked, half);
+  EXPECT_EQ(with.loops, 0);
+  EXPECT_LT(with.error_m, 0.03);
+  EXPECT_GT(bent.loops, 0) << "the check matters";
+  EXPECT_GT(bent.error_m, 0.2) << "the check matters";
+}
+
+}  // namespace
+}  // namespace swiftlet::mapping3d
