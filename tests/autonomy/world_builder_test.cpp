@@ -19,7 +19,7 @@ class WorldBuilderStory : public ::testing::Test {
     parts_.map.levels = std::make_shared<const common::LevelMap>();
     parts_.map.frontiers = std::make_shared<const std::vector<common::Frontier>>();
     parts_.map.localization.emplace().T_given_odom = {1.0, 2.0, 0.3};
-    parts_.mission.status = {common::MissionState::kRunning, "hold", "", true, {{0, -1, "Hold", "RUNNING"}}};
+    parts_.mission.status = {common::MissionState::kRunning, "hold", "", true, "", {{0, -1, "Hold", "RUNNING"}}};
     parts_.mission.goal_map_m = {3.0, 4.0};
     parts_.energy.battery_voltage_v = 11.1;
   }
