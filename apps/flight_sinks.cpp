@@ -14,6 +14,11 @@ using WorldPtr = std::shared_ptr<const common::World>;
 
 void FolderSink::ticked(const autonomy::TickOutcome& outcome) { folder_.state(outcome.state); }
 void FolderSink::world(const WorldPtr& world) { folder_.world(*world); }
+void FolderSink::file(const autonomy::RunFile& file) {
+  if (const auto* map = std::get_if<autonomy::SavedMap>(&file)) folder_.saveMap(map->name, *map->grid);
+  if (const auto* photo = std::get_if<autonomy::Photo>(&file))
+    folder_.savePhoto(photo->name, *photo->frame, photo->T_map_camera);
+}
 void FolderSink::event(const common::Event& event) { folder_.event(event); }
 
 void TruthSink::input(const autonomy::Input& input) {
@@ -29,6 +34,9 @@ void TruthSink::input(const autonomy::Input& input) {
   if (const auto* scan = std::get_if<std::shared_ptr<const common::LaserScan>>(event)) recorder_.scan((*scan)->stamps);
 }
 void TruthSink::ticked(const autonomy::TickOutcome& outcome) {
+  std::vector<Eigen::Vector2d> people_world_m;
+  for (const simulation::Actor& walker : vehicle_.walkers()) people_world_m.emplace_back(walker.position_world_m);
+  recorder_.people(std::move(people_world_m));
   recorder_.tick(vehicle_.truth(), outcome.state);
   recorder_.intent(outcome.now, outcome.intent, outcome.intent_status);
 }

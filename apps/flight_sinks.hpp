@@ -27,6 +27,7 @@ class FolderSink final : public autonomy::FlightSink {
   explicit FolderSink(interfaces::RunFolder& folder) : folder_(folder) {}
   void ticked(const autonomy::TickOutcome& outcome) override;
   void world(const std::shared_ptr<const common::World>& world) override;
+  void file(const autonomy::RunFile& file) override;
   void event(const common::Event& event) override;
 
  private:

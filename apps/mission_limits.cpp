@@ -12,6 +12,7 @@ behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
     return autonomy.problemsWith(clearance_m);
   };
   limits.has_map = has_map;
+  limits.has_camera = system.rgbd_camera.has_value();
   return limits;
 }
 

@@ -48,10 +48,10 @@ Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& ve
       estimator_(config.estimator, laser, vehicle, given, *jobs, camera),
       reactive_(config_.reactive, vehicle.hullRadius_m()),
       controller_(config.control, vehicle),
-      executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs),
+      executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs, camera),
       supervisor_(config.supervisor),
       supervisor_intents_(config.execution.clearance_m),
-      requests_(vehicle.hullRadius_m()),
+      requests_(vehicle.hullRadius_m(), camera),
       missions_(std::move(mission), limitsOf(config_, vehicle, given != nullptr)),
       jobs_(std::move(jobs)),
       scans_(config.scans, 1.0 / laser.rate_hz),
@@ -95,6 +95,7 @@ void Autonomy::take(const common::SensorEvent& event) {
     take(*scan);
   } else if (const auto* frame = std::get_if<std::shared_ptr<const common::RgbdFrame>>(&event)) {
     estimator_.addFrame(*frame);
+    requests_.addFrame(*frame, estimator_.state());
   } else if (const auto* battery = std::get_if<common::BatterySample>(&event)) {
     if (!supervisor_.batteryArrived(arrived, *battery)) return;
     battery_v_ = battery->voltage_v;
@@ -249,9 +250,10 @@ void Autonomy::tickBehaviors(Time now) {
   if (std::holds_alternative<common::LandIntent>(intent_.kind) && controller_.state() == FlightState::kFlying)
     surfaces = std::make_shared<common::LevelMap>(estimator_.seenSurfaces());
   camera_obstacles_.update(estimator_.map3d(), given_map_.grid(), estimator_.state().T_odom_body.position_m.z());
-  executor_.tick(intent_, {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
-                           estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(),
-                           drift_m_, supervisor_.takeOffRefusal(energy_), requests_.keepOut().zones()});
+  executor_.tick(intent_,
+                 {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
+                  estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(), drift_m_,
+                  supervisor_.takeOffRefusal(energy_), estimator_.people().obstacles(), requests_.keepOut().zones()});
 }
 
 /// The supervisor's intent comes before the mission's.
@@ -318,7 +320,7 @@ VehicleCondition Autonomy::condition(common::Time now) const {
 
 void Autonomy::tickMission() {
   context_.intent.reset();
-  context_.answers = requests_.takeAnswers();
+  context_.answers = requests_.takeAnswers(context_.now);
   const std::vector<common::OperatorCommand> asked = context_.commands;
   const behaviors::TickResult result = missions_.tick(context_);
   requests_.take(std::exchange(context_.requests, {}), *world_);
@@ -330,6 +332,7 @@ void Autonomy::tickMission() {
   mission_status_.state = result.state;
   mission_status_.phase = result.phase;
   mission_status_.reason = result.reason;
+  mission_status_.question = missions_.mission().question();
 }
 
 void Autonomy::takeSnapshot(Time now) {
@@ -354,6 +357,7 @@ void Autonomy::takeSnapshot(Time now) {
                requests_.keepOut().zones()};
   for (const common::Disc& person : estimator_.people().expectedAt(now))
     parts.people.people.push_back({person.center_map_m, person.radius_m});
+  parts.people.followed_map_m = executor_.followedPerson_map_m();
   WayHome home{executor_.desk().home_m(), 0.0, 0.0, controller_.landing_s()};
   if (world_) {
     home.straight_m =

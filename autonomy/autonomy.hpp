@@ -113,6 +113,8 @@ class Autonomy {
 
   std::vector<common::Event> takeEvents();
   std::vector<common::CommandResult> takeResults();
+  /// What the mission asked to be written since the last call.
+  std::vector<RunFile> takeFiles() { return requests_.takeFiles(); }
 
  private:
   void take(const common::SensorEvent& event);

@@ -28,8 +28,10 @@ using common::IntentState;
 using common::Time;
 
 Executor::Executor(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
-                   control::FlightController& controller, common::JobRunner& jobs)
+                   control::FlightController& controller, common::JobRunner& jobs,
+                   const common::RgbdCameraConfig* camera)
     : config_(config),
+      camera_(camera != nullptr ? std::optional(*camera) : std::nullopt),
       controller_(controller),
       desk_(config, vehicle, grid_resolution_m, jobs,
             [this](const PlanningAnswer& answer, Time now) { receive(answer, now); }),
@@ -54,7 +56,9 @@ void Executor::begin(const common::Intent& intent) {
   intent_ = intent;
   status_ = {intent.id, IntentState::kRunning, toString(intent), false};
   if (controller_.state() == common::FlightState::kFlying && !retreat_.active()) controller_.hold();
-  maneuver_ = makeManeuver(intent.kind, {config_, controller_, desk_, retreat_, memory_, client()});
+  controller_.lookAt(std::nullopt);
+  maneuver_ = makeManeuver(intent.kind,
+                           {config_, controller_, desk_, retreat_, memory_, client(), camera_ ? &*camera_ : nullptr});
 }
 
 void Executor::note(const Progress& progress) {
@@ -96,6 +100,10 @@ std::optional<Eigen::Vector2d> Executor::goal_map_m() const {
 
 std::optional<Eigen::Vector2d> Executor::wantsToSee_map_m() const {
   return maneuver_ ? maneuver_->wantsToSee_map_m() : std::nullopt;
+}
+
+std::optional<Eigen::Vector2d> Executor::followedPerson_map_m() const {
+  return maneuver_ && std::holds_alternative<common::FollowIntent>(intent_.kind) ? memory_.person_map_m : std::nullopt;
 }
 
 bool Executor::wallsAround(const common::VehicleState& state) const {

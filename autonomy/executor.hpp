@@ -15,6 +15,7 @@
 #include "common/event.hpp"
 #include "common/intent.hpp"
 #include "common/jobs.hpp"
+#include "common/rgbd_camera_config.hpp"
 #include "common/vehicle_config.hpp"
 #include "control/flight_controller.hpp"
 
@@ -23,8 +24,10 @@ namespace swiftlet::autonomy {
 /// One thread. tick() at the behaviours' rate; react() at the laser rate. Outlives the jobs it submits.
 class Executor {
  public:
+  /// `camera` is its data sheet, or null without one; read only here.
   Executor(const ExecutorConfig& config, const common::VehicleConfig& vehicle, double grid_resolution_m,
-           control::FlightController& controller, common::JobRunner& jobs);
+           control::FlightController& controller, common::JobRunner& jobs,
+           const common::RgbdCameraConfig* camera = nullptr);
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
   ~Executor();
@@ -42,6 +45,8 @@ class Executor {
   std::optional<Eigen::Vector2d> goal_map_m() const;
   /// The unknown place that the vehicle explores, if the intent is to explore.
   std::optional<Eigen::Vector2d> wantsToSee_map_m() const;
+  /// Where the person is believed whom the vehicle follows, or returns to.
+  std::optional<Eigen::Vector2d> followedPerson_map_m() const;
   /// Whether the map has enough walls around the vehicle to know the position there; true without a map.
   bool wallsAround(const common::VehicleState& state) const;
   /// The state of the planning.
@@ -56,6 +61,7 @@ class Executor {
   PlanningClient client() const;
 
   ExecutorConfig config_;
+  std::optional<common::RgbdCameraConfig> camera_;
   control::FlightController& controller_;
   PlanningDesk desk_;
   RetreatFlight retreat_;

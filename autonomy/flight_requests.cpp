@@ -4,9 +4,16 @@
 
 #include <fmt/format.h>
 
+#include "common/world/map_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::autonomy {
+namespace {
+
+/// Ten frames of a camera at 5 Hz, the slowest that is flown.
+constexpr double kFrameComes_s = 2.0;
+
+}  // namespace
 
 std::optional<common::CommandResult> FlightRequests::take(const common::OperatorCommand& command,
                                                           const common::World& world) {
@@ -27,10 +34,34 @@ std::optional<common::CommandResult> FlightRequests::take(const common::Operator
 
 void FlightRequests::take(const std::vector<common::MissionRequest>& requests, const common::World& world) {
   for (const common::MissionRequest& request : requests) {
-    const auto& zone = std::get<common::KeepOutRequest>(request.kind).area;
-    std::string refusal = addZone(zone, KeepOutZones::Owner::kMission, world);
-    answers_.push_back({request.id, refusal.empty(), std::move(refusal)});
+    const auto* photograph = std::get_if<common::PhotographRequest>(&request.kind);
+    if (photograph != nullptr && camera_)
+      photograph_ = {request.id, photograph->name, world.stamp};
+    else
+      answers_.push_back(answerTo(request, world));
   }
+}
+
+common::MissionAnswer FlightRequests::answerTo(const common::MissionRequest& request, const common::World& world) {
+  if (const auto* zone = std::get_if<common::KeepOutRequest>(&request.kind)) {
+    std::string refusal = addZone(zone->area, KeepOutZones::Owner::kMission, world);
+    return {request.id, refusal.empty(), std::move(refusal)};
+  }
+  if (const auto* map = std::get_if<common::SaveMapRequest>(&request.kind)) {
+    files_.push_back(SavedMap{map->name, world.map->grid});
+    say(world.stamp, "map saved as map-" + map->name, "");
+    return {request.id, true, {}};
+  }
+  return {request.id, false, "the vehicle has no RGB-D camera"};
+}
+
+void FlightRequests::addFrame(const std::shared_ptr<const common::RgbdFrame>& frame,
+                              const common::VehicleState& state) {
+  if (!photograph_ || frame->stamps.measured < photograph_->asked) return;
+  files_.push_back(Photo{photograph_->name, frame, state.T_map_body() * *camera_});
+  say(frame->stamps.arrived, "photograph " + photograph_->name, "");
+  answers_.push_back({photograph_->id, true, {}});
+  photograph_.reset();
 }
 
 /// Why it is refused; empty if it holds now.
@@ -43,7 +74,14 @@ std::string FlightRequests::addZone(const common::Polygon& zone, KeepOutZones::O
   return refusal;
 }
 
-std::vector<common::MissionAnswer> FlightRequests::takeAnswers() { return std::exchange(answers_, {}); }
+std::vector<common::MissionAnswer> FlightRequests::takeAnswers(common::Time now) {
+  if (photograph_ && (now - photograph_->asked).seconds() > kFrameComes_s) {
+    answers_.push_back({photograph_->id, false, fmt::format("no frame of the camera for {:.0f} s", kFrameComes_s)});
+    photograph_.reset();
+  }
+  return std::exchange(answers_, {});
+}
+std::vector<RunFile> FlightRequests::takeFiles() { return std::exchange(files_, {}); }
 std::vector<common::Event> FlightRequests::takeEvents() { return std::exchange(events_, {}); }
 
 void FlightRequests::say(common::Time now, std::string text, std::string reason) {

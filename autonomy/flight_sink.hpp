@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "autonomy/input.hpp"
+#include "autonomy/run_files.hpp"
 #include "common/command.hpp"
 #include "common/event.hpp"
 #include "common/intent.hpp"
@@ -26,7 +27,8 @@ struct TickOutcome {
 };
 
 /// Each function is called in the loop's thread, and may be left out. The order is that of the loop: the inputs up to a
-/// tick; then the outcome of the tick, the world if there is a new snapshot, the events, and the answers to commands.
+/// tick; then the outcome of the tick, the world if there is a new snapshot, the files that the mission asked for, the
+/// events, and the answers to commands.
 class FlightSink {
  public:
   virtual ~FlightSink() = default;
@@ -35,6 +37,7 @@ class FlightSink {
   virtual void ticked(const TickOutcome& /*outcome*/) {}
   /// Never null.
   virtual void world(const std::shared_ptr<const common::World>& /*world*/) {}
+  virtual void file(const RunFile& /*file*/) {}
   virtual void event(const common::Event& /*event*/) {}
   virtual void result(const common::CommandResult& /*result*/) {}
 };

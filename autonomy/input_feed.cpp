@@ -29,6 +29,8 @@ void InputFeed::publish(common::Time now, const common::Setpoint& setpoint) {
     last_world_ = world;
     for (FlightSink* sink : sinks_) sink->world(world);
   }
+  for (const RunFile& file : autonomy_.takeFiles())
+    for (FlightSink* sink : sinks_) sink->file(file);
   for (const common::Event& event : autonomy_.takeEvents()) tell(event);
   for (const common::CommandResult& result : autonomy_.takeResults())
     for (FlightSink* sink : sinks_) sink->result(result);

@@ -21,12 +21,12 @@ tree::NodeManifest Explore::manifest() {
       .description = "Flies to frontiers of the map until nothing is left to explore."};
 }
 
-IntentLeaf::IntentOrProblem Explore::makeIntent(const FlightTick&) {
+IntentLeaf::IntentOrProblem Explore::makeIntent(const FlightTick& tick) {
   const auto clearance_m = clearance_m_.get();
   if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
   const auto leave_building = leave_building_.get();
   if (!leave_building) return {std::nullopt, leave_building_.problem()};
-  common::ExploreIntent intent{*clearance_m, std::nullopt, *leave_building};
+  common::ExploreIntent intent{*clearance_m, std::nullopt, *leave_building, tick.mode};
   if (bounds_.given()) {
     const auto bounds = bounds_.get();
     if (!bounds) return {std::nullopt, bounds_.problem()};

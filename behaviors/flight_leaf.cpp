@@ -34,8 +34,8 @@ void FlightLeaf::onResume(tree::TickContext&) { intent_id_ = hold_id_ = 0; }
 Release FlightLeaf::onSuspend(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
   emitHold(tick);
-  const bool stopped = tick.flight.status.id == hold_id_ && tick.flight.status.released;
-  return stopped || tick.flight.world->vehicle->avoidance.retreating ? Release::kReleased : Release::kLettingGo;
+  return holdReleased(tick) || tick.flight.world->vehicle->avoidance.retreating ? Release::kReleased
+                                                                                : Release::kLettingGo;
 }
 
 Release FlightLeaf::onHalt(tree::TickContext& context) { return onSuspend(context); }

@@ -24,6 +24,10 @@ class FlightLeaf : public tree::Leaf {
   common::IntentState intentState(const FlightTick& tick) const;
   /// Emits hold, as the same intent from tick to tick.
   void emitHold(FlightTick& tick);
+  /// The vehicle has stopped for that hold.
+  bool holdReleased(const FlightTick& tick) const {
+    return hold_id_ != 0 && tick.flight.status.id == hold_id_ && tick.flight.status.released;
+  }
 
   void onStart(tree::TickContext& context) override;
   void onResume(tree::TickContext& context) override;

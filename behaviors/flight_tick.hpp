@@ -11,13 +11,24 @@
 
 namespace swiftlet::behaviors {
 
+/// What the mission remembers from tick to tick for its leaves.
+struct MissionMemory {
+  std::uint64_t last_intent_id = 0;
+  /// The newest accepted goal or home command that no OperatorCommand has taken yet.
+  std::optional<common::OperatorCommand> pending_command;
+  common::FlightMode mode = common::FlightMode::kFast;  ///< Of leaves that name none.
+  bool go_on = false;  ///< The operator said so, and no WaitForOperator has taken it yet.
+};
+
 class FlightTick final : public tree::TickContext {
  public:
-  FlightTick(Context& context, std::uint64_t& last_intent_id, std::optional<common::OperatorCommand>& command)
+  FlightTick(Context& context, MissionMemory& memory)
       : tree::TickContext(context.now.nanoseconds()),
         flight(context),
-        pending_command(command),
-        last_intent_id_(last_intent_id) {}
+        pending_command(memory.pending_command),
+        mode(memory.mode),
+        go_on(memory.go_on),
+        last_intent_id_(memory.last_intent_id) {}
 
   std::uint64_t newIntentId() { return ++last_intent_id_; }
   void emit(std::uint64_t id, common::IntentKind kind) { flight.intent = common::Intent{id, std::move(kind)}; }
@@ -34,8 +45,10 @@ class FlightTick final : public tree::TickContext {
   }
 
   Context& flight;
-  /// The newest accepted goal or home command that no OperatorCommand has taken yet.
+  // See MissionMemory.
   std::optional<common::OperatorCommand>& pending_command;
+  common::FlightMode& mode;
+  bool& go_on;
 
  private:
   std::uint64_t& last_intent_id_;

@@ -50,12 +50,12 @@ void PointsLeaf::endLeg() {
   renewIntent();
 }
 
-PointsLeaf::Leg PointsLeaf::flyTo(FlightTick& tick, const tree::Point& point) {
+PointsLeaf::Leg PointsLeaf::flyTo(FlightTick& tick, const tree::Point& point, common::FlightMode present) {
   const auto failed = [this](const std::string& problem) {
     return Leg{Status::kFailure, fmt::format("point {}: {}", at_ + 1, problem)};
   };
   if (!leg_) {
-    const auto leg = go_to_.intentTo(point);
+    const auto leg = go_to_.intentTo(point, present);
     if (!leg) return failed(leg.error());
     const auto verdict = common::judgeGoal(common::goalOf(*leg), tick.flight.goal_limits, nullptr);
     if (!verdict) return failed(verdict.error().text);
@@ -85,8 +85,29 @@ tree::NodeManifest FollowPath::manifest() {
                      .default_value = "0.30",
                      .minimum = 0.01,
                      .maximum = 5.0,
-                     .description = "A point before the last one is passed when nearer than this."}},
+                     .description = "A point before the last one is passed when nearer than this."},
+                    {.name = "modes",
+                     .type = PortType::kString,
+                     .description = "The modes of the legs to the points, `careful | fast`; the last one holds for the "
+                                    "rest. Not given: `mode`."}},
           .description = "Flies through points to the last one."};
+}
+
+tl::expected<std::vector<common::FlightMode>, std::string> modesOf(const std::string& text) {
+  std::vector<common::FlightMode> modes;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.find('|', from), text.size());
+    std::string word = text.substr(from, to - from);
+    word.erase(0, word.find_first_not_of(' '));
+    word.erase(word.find_last_not_of(' ') + 1);
+    const auto known = std::find_if(common::kFlightModes.begin(), common::kFlightModes.end(),
+                                    [&](common::FlightMode mode) { return word == toString(mode); });
+    if (known == common::kFlightModes.end())
+      return tl::unexpected("`" + word + "` is not a flight mode, expected fast, careful or accurate");
+    modes.push_back(*known);
+    from = to + 1;
+  }
+  return modes;
 }
 
 Status FollowPath::act(tree::TickContext& context) {
@@ -95,17 +116,26 @@ Status FollowPath::act(tree::TickContext& context) {
   const auto corner_m = corner_m_.get();
   if (!path) return fail(context, points_.problem());
   if (!corner_m) return fail(context, corner_m_.problem());
+  std::vector<common::FlightMode> modes{tick.mode};
+  if (modes_.given()) {
+    const auto text = modes_.get();
+    if (!text) return fail(context, modes_.problem());
+    const auto given = modesOf(*text);
+    if (!given) return fail(context, given.error());
+    modes = *given;
+  }
+  const auto modeOfLeg = [&] { return modes[std::min(at_, modes.size() - 1)]; };
   const std::size_t last = path->points.size() - 1;
   while (at_ < last && distanceTo_m(tick, path->points[at_]) < *corner_m) {
     ++at_;
     endLeg();
   }
   at_ = std::min(at_, last);
-  Leg leg = flyTo(tick, path->points[at_]);
+  Leg leg = flyTo(tick, path->points[at_], modeOfLeg());
   if (leg.status == Status::kSuccess && at_ < last) {
     ++at_;
     endLeg();
-    leg = flyTo(tick, path->points[at_]);
+    leg = flyTo(tick, path->points[at_], modeOfLeg());
   }
   return leg.status == Status::kFailure ? fail(context, leg.problem) : leg.status;
 }
@@ -157,7 +187,7 @@ Status Patrol::act(tree::TickContext& context) {
   if (!pause) return fail(context, pause_s_.problem());
   at_ = std::min(at_, path->points.size() - 1);
   if (!arrived_) {
-    const Leg leg = flyTo(tick, path->points[at_]);
+    const Leg leg = flyTo(tick, path->points[at_], tick.mode);
     if (leg.status == Status::kRunning) return leg.status;
     if (leg.status == Status::kFailure) {
       if (++left_out_ == path->points.size()) return fail(context, leg.problem);

@@ -9,6 +9,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
 
 #include "behaviors/flight_leaf.hpp"
 #include "behaviors/go_to_ports.hpp"
@@ -27,7 +30,7 @@ class PointsLeaf : public FlightLeaf {
     std::string problem;  ///< Why it is FAILURE: "point 2: no path".
   };
   /// Flies to the point: RUNNING, SUCCESS on arrival, FAILURE.
-  Leg flyTo(FlightTick& tick, const tree::Point& point);
+  Leg flyTo(FlightTick& tick, const tree::Point& point, common::FlightMode present);
   /// The leg ends; the next one begins at the next tick.
   void endLeg();
   void onStart(tree::TickContext& context) override;
@@ -43,13 +46,18 @@ class PointsLeaf : public FlightLeaf {
 
 class FollowPath final : public PointsLeaf {
  public:
-  explicit FollowPath(const tree::NodeSetup& setup) : PointsLeaf(setup), corner_m_(setup, "corner_m") {}
+  explicit FollowPath(const tree::NodeSetup& setup)
+      : PointsLeaf(setup), corner_m_(setup, "corner_m"), modes_(setup, "modes") {}
   static tree::NodeManifest manifest();
 
  private:
   tree::Status act(tree::TickContext& context) override;
   tree::Input<double> corner_m_;
+  tree::Input<std::string> modes_;
 };
+
+/// The modes of a text "careful | fast", or what is wrong with it.
+tl::expected<std::vector<common::FlightMode>, std::string> modesOf(const std::string& text);
 
 class Patrol final : public PointsLeaf {
  public:

@@ -25,6 +25,7 @@ IntentLeaf::IntentOrProblem GoHome::makeIntent(const FlightTick& tick) {
   made_.goal_map_m = tick.flight.world->vehicle->home_map.position_m();
   made_.tolerance_m = *tolerance_m;
   made_.clearance_m = *clearance_m;
+  made_.mode = tick.mode;
   return {made_, {}};
 }
 

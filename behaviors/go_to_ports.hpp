@@ -16,11 +16,12 @@ class GoToPorts {
   explicit GoToPorts(const tree::NodeSetup& setup)
       : tolerance_m_(setup, "tolerance_m"), clearance_m_(setup, "clearance_m"), mode_(setup, "mode") {}
 
-  /// The intent to fly there, or which port has no value. The place is not judged.
-  tl::expected<common::GoToIntent, std::string> intentTo(const tree::Point& place) const {
+  /// The intent to fly there, in the present mode if the port names none, or which port has no value. The place is not
+  /// judged.
+  tl::expected<common::GoToIntent, std::string> intentTo(const tree::Point& place, common::FlightMode present) const {
     const auto tolerance_m = tolerance_m_.get();
     const auto clearance_m = clearance_m_.get();
-    const auto mode = mode_.get();
+    const auto mode = modeOr(mode_, present);
     if (!tolerance_m) return tl::unexpected(tolerance_m_.problem());
     if (!clearance_m) return tl::unexpected(clearance_m_.problem());
     if (!mode) return tl::unexpected(mode_.problem());
@@ -29,7 +30,7 @@ class GoToPorts {
     intent.height_m = place.z;
     intent.tolerance_m = *tolerance_m;
     intent.clearance_m = *clearance_m;
-    intent.mode = chosenOf(common::kFlightModes, *mode);
+    intent.mode = *mode;
     return intent;
   }
 

@@ -21,7 +21,7 @@ Status Localize::act(tree::TickContext& context) {
   if (!localization) return fail(context, "the flight was given no map");
   const auto clearance_m = clearance_m_.get();
   if (!clearance_m) return fail(context, clearance_m_.problem());
-  emitIntent(tick, common::ExploreIntent{*clearance_m, std::nullopt, false});
+  emitIntent(tick, common::ExploreIntent{*clearance_m, std::nullopt, false, tick.mode});
   if (localization->localized()) return Status::kSuccess;
   if (localization->refuted) return fail(context, "the given map is not that of this place");
   switch (intentState(tick)) {

@@ -11,6 +11,7 @@
 #include "behaviors/registry.hpp"
 #include "behaviors/tree/observers.hpp"
 #include "behaviors/tree/parser.hpp"
+#include "behaviors/wait_for_operator.hpp"
 #include "common/check.hpp"
 #include "common/world.hpp"
 #include "common/world/map_layer.hpp"
@@ -28,15 +29,16 @@ struct Mission::Impl {
   std::string refusal(const Context& context, const common::OperatorCommand& command) const;
   std::string refusalOfGoal(const Context& context, const Eigen::Vector2d& goal_map_m) const;
   TickResult resultOf(const Context& context, Status status);
+  std::string question() const;
   static bool holds(const Context& context);
 
   tree::Tree tree;
   Narrator narrator;
   LiveTree live;
   tree::Observers observers;
-  std::uint64_t last_intent_id = 0;
-  std::optional<common::OperatorCommand> pending_command;
-  std::vector<const OperatorCommand*> takers;  ///< The nodes that take goals and home commands.
+  MissionMemory memory;
+  std::vector<const OperatorCommand*> takers;   ///< The nodes that take goals and home commands.
+  std::vector<const WaitForOperator*> waiters;  ///< Those that wait for "go on".
   TickResult result;
 };
 
@@ -59,8 +61,10 @@ tree::Tree flyable(tree::ParseResult parsed, const MissionLimits& limits) {
 }  // namespace
 
 Mission::Mission(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {
-  for (const tree::NodeRecord& record : impl_->tree.nodes())
+  for (const tree::NodeRecord& record : impl_->tree.nodes()) {
     if (const auto* taker = dynamic_cast<const OperatorCommand*>(record.node)) impl_->takers.push_back(taker);
+    if (const auto* waiter = dynamic_cast<const WaitForOperator*>(record.node)) impl_->waiters.push_back(waiter);
+  }
 }
 
 Mission::Mission(Mission&&) noexcept = default;
@@ -90,7 +94,7 @@ TickResult Mission::tick(Context& context) {
   self.answerCommands(context);
   if (common::isOver(self.result.state)) return self.result;
 
-  FlightTick tick(context, self.last_intent_id, self.pending_command);
+  FlightTick tick(context, self.memory);
   tick.observer = &self.observers;
   self.narrator.listen(&tick);
   self.live.setNow(context.now);
@@ -105,14 +109,14 @@ bool Mission::letGo(Context& context) {
   SWIFTLET_CHECK(context.world != nullptr);
   Impl& self = *impl_;
   context.intent.reset();
-  FlightTick tick(context, self.last_intent_id, self.pending_command);
+  FlightTick tick(context, self.memory);
   tick.observer = &self.observers;
   self.narrator.listen(&tick);
   self.live.setNow(context.now);
   const bool released = self.tree.halt(tick) == tree::Release::kReleased;
   self.narrator.listen(nullptr);
   if (released) {
-    self.pending_command.reset();
+    self.memory = {self.memory.last_intent_id, {}, {}, {}};
     self.narrator.forget();
     self.result = {};
   }
@@ -121,17 +125,27 @@ bool Mission::letGo(Context& context) {
 
 const common::TreeView& Mission::view() const { return impl_->live.view(); }
 
-void Mission::continueIntentsOf(const Mission& before) { impl_->last_intent_id = before.impl_->last_intent_id; }
+void Mission::continueIntentsOf(const Mission& before) {
+  impl_->memory.last_intent_id = before.impl_->memory.last_intent_id;
+}
 
 std::optional<double> Mission::maxHeight_m() const { return maxHeightOf_m(impl_->tree); }
 
 bool Mission::acceptsGoals() const { return !impl_->takers.empty(); }
 
 std::optional<common::OperatorCommand> Mission::waitingCommand() const {
-  if (impl_->pending_command) return impl_->pending_command;
+  if (impl_->memory.pending_command) return impl_->memory.pending_command;
   for (const OperatorCommand* taker : impl_->takers)
     if (taker->present()) return taker->present();
   return std::nullopt;
+}
+
+std::string Mission::question() const { return impl_->question(); }
+
+std::string Mission::Impl::question() const {
+  for (const WaitForOperator* waiter : waiters)
+    if (std::string question = waiter->question(); !question.empty()) return question;
+  return {};
 }
 
 const std::string& Mission::name() const { return impl_->tree.name(); }
@@ -140,13 +154,17 @@ void Mission::Impl::answerCommands(Context& context) {
   for (const common::OperatorCommand& command : std::exchange(context.commands, {})) {
     std::string reason = refusal(context, command);
     const bool accepted = reason.empty();
-    if (accepted && context.hold) reason = "flown after the hold: " + context.hold_reason;
+    const bool goes_on = std::holds_alternative<common::GoOnCommand>(command.kind);
+    if (accepted && context.hold && !goes_on) reason = "flown after the hold: " + context.hold_reason;
     context.results.push_back({command.id, accepted, std::move(reason)});
-    if (accepted) pending_command = command;
+    if (accepted && goes_on) memory.go_on = true;
+    if (accepted && !goes_on) memory.pending_command = command;
   }
 }
 
 std::string Mission::Impl::refusal(const Context& context, const common::OperatorCommand& command) const {
+  if (std::holds_alternative<common::GoOnCommand>(command.kind))
+    return question().empty() ? "the mission does not wait for the operator" : "";
   const auto* goal = std::get_if<common::GoalCommand>(&command.kind);
   if (goal == nullptr && !std::holds_alternative<common::HomeCommand>(command.kind))
     return "not a command for the mission";

@@ -49,6 +49,8 @@ class Mission {
   bool acceptsGoals() const;
   /// The operator's goal or home command that the mission flies to, now or after what it does now.
   std::optional<common::OperatorCommand> waitingCommand() const;
+  /// What a WaitForOperator waits for; empty while none waits.
+  std::string question() const;
   /// The greatest height that the mission allows above the take-off floor, if one of its TakeOffs names one.
   std::optional<double> maxHeight_m() const;
   /// The ID of the main tree.

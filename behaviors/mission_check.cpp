@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "behaviors/flight_leaf.hpp"
+#include "behaviors/follow_path.hpp"
 #include "behaviors/mission_warnings.hpp"
 #include "behaviors/ports.hpp"
 #include "behaviors/registry.hpp"
@@ -74,7 +75,7 @@ class Walk {
       takes_off_ = true;
       return {{false, true}, {entry.ground, true}};
     }
-    if (id == "AlwaysSuccess" || id == "SetBlackboard" || id == "LogEvent") return {entry, {}};
+    if (id == "AlwaysSuccess" || id == "SetBlackboard" || id == "LogEvent" || id == "SetFlightMode") return {entry, {}};
     if (id == "AlwaysFailure") return {{}, entry};
     // Leaves that may be SKIPPED ask for the vehicle only in flight.
     const bool flies = dynamic_cast<const FlightLeaf*>(&node) != nullptr && !maySkip(node);
@@ -84,7 +85,7 @@ class Walk {
                            "the vehicle stands on the floor here, expected a TakeOff before it",
                            {},
                            tree_.pathOf(node.id())});
-    if (id == "Land") return {{true, false}, entry};
+    if (id == "Land" || id == "EmergencyLand") return {{true, false}, entry};
     if (id == "OperatorCommand") return {{}, entry};
     return {entry, entry};
   }
@@ -167,6 +168,18 @@ void checkLimits(const tree::Tree& tree, const MissionLimits& limits, std::vecto
     if (record.manifest->id == "Localize" && !limits.has_map)
       problems.push_back({tree.locationOf(id), record.manifest->id, "needs a map of the place, and the flight has none",
                           "give it one: swiftlet fly --map MAP.yaml, or map: in a trial", tree.pathOf(id)});
+    if ((record.manifest->id == "Photograph" || record.manifest->id == "Inspect") && !limits.has_camera)
+      problems.push_back({tree.locationOf(id), record.manifest->id, "needs an RGB-D camera, and the vehicle has none",
+                          "fly with a profile that has one: --system swiftlet_3d, or system: in a trial",
+                          tree.pathOf(id)});
+    const bool names_file = record.manifest->id == "Photograph" || record.manifest->id == "SaveMap";
+    for (const tree::Value& value : tree.knownValues(id, "file"))
+      if (const auto* file = std::get_if<std::string>(&value); names_file && file != nullptr)
+        if (const std::string problem = fileNameProblem(*file); !problem.empty())
+          report(*record.node, *record.manifest, "file", problem, "");
+    for (const tree::Value& value : tree.knownValues(id, "modes"))
+      if (const auto* modes = std::get_if<std::string>(&value))
+        if (const auto read = modesOf(*modes); !read) report(*record.node, *record.manifest, "modes", read.error(), "");
     for (const tree::Value& value : tree.knownValues(id, "clearance_m"))
       if (const auto* clearance_m = std::get_if<double>(&value); clearance_m != nullptr && limits.clearance_problems)
         for (const std::string& problem : limits.clearance_problems(*clearance_m))

@@ -14,7 +14,8 @@ struct MissionLimits {
   std::function<std::vector<std::string>(double clearance_m)> clearance_problems = {};
   /// Above the take-off floor; a TakeOff with `max_height_m` replaces it.
   double max_height_m = 2.0;
-  bool has_map = true;  ///< A map of the place is given; nodes that localize need one.
+  bool has_camera = true;  ///< The vehicle has an RGB-D camera; nodes that take pictures need one.
+  bool has_map = true;     ///< A map of the place is given; nodes that localize need one.
 };
 
 }  // namespace swiftlet::behaviors

@@ -36,7 +36,7 @@ MoveToGoal::MoveToGoal(const tree::NodeSetup& setup)
 IntentLeaf::IntentOrProblem MoveToGoal::makeIntent(const FlightTick& tick) {
   const auto goal = goal_.get();
   if (!goal) return {std::nullopt, goal_.problem()};
-  auto intent = go_to_.intentTo(*goal);
+  auto intent = go_to_.intentTo(*goal, tick.mode);
   if (!intent) return {std::nullopt, intent.error()};
   const auto height_m = height_m_.get();
   const auto yaw_deg = yaw_deg_.get();

@@ -44,6 +44,7 @@ void OperatorCommand::take(FlightTick& tick) {
   command_ = next;
   const auto* point = std::get_if<common::GoalCommand>(&next.kind);
   goal_ = goalTo(point != nullptr ? point->goal_map_m : tick.flight.world->vehicle->home_map.position_m());
+  goal_->mode = tick.mode;
   renewIntent();
 }
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "behaviors/tree/port.hpp"
@@ -69,8 +71,35 @@ Enum chosenOf(const std::array<Enum, N>& values, const std::string& text) {
   return *std::find_if(values.begin(), values.end() - 1, [&](Enum value) { return text == toString(value); });
 }
 
+/// Without a default: see modeOr().
 inline tree::PortManifest modePort() {
-  return choicePort("mode", common::kFlightModes, "How fast and how closely the path is flown.");
+  tree::PortManifest port = choicePort("mode", common::kFlightModes,
+                                       "How fast and how closely the path is flown. Not given: as SetFlightMode says, "
+                                       "at first fast.");
+  port.default_value.reset();
+  return port;
+}
+/// The mode that the port names, or the present one; nothing if the port is given and has no value.
+inline std::optional<common::FlightMode> modeOr(const tree::Input<std::string>& port, common::FlightMode present) {
+  if (!port.given()) return present;
+  const auto text = port.get();
+  return text ? std::optional(chosenOf(common::kFlightModes, *text)) : std::nullopt;
+}
+
+/// The name of a file that the run gets.
+inline tree::PortManifest fileNamePort(std::string default_name) {
+  return {.name = "file",
+          .type = tree::PortType::kString,
+          .default_value = std::move(default_name),
+          .description = "Part of the file's name: letters, digits, - and _, at most 40."};
+}
+/// Empty if it can be part of a file's name.
+inline std::string fileNameProblem(std::string_view name) {
+  const bool good = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+  if (good && !name.empty() && name.size() <= 40) return {};
+  return "`" + std::string(name) + "` cannot name a file, expected letters, digits, - and _, at most 40";
 }
 
 }  // namespace swiftlet::behaviors

@@ -1,19 +1,27 @@
 #include "behaviors/registry.hpp"
 
 #include "behaviors/avoid_obstacle.hpp"
+#include "behaviors/emergency_land.hpp"
 #include "behaviors/explore.hpp"
 #include "behaviors/flight_conditions.hpp"
+#include "behaviors/follow_me.hpp"
 #include "behaviors/follow_path.hpp"
 #include "behaviors/go_home.hpp"
 #include "behaviors/hold.hpp"
+#include "behaviors/inspect.hpp"
 #include "behaviors/keep_out.hpp"
 #include "behaviors/land.hpp"
 #include "behaviors/localize.hpp"
 #include "behaviors/log_event.hpp"
 #include "behaviors/move_to_goal.hpp"
 #include "behaviors/operator_command.hpp"
+#include "behaviors/photograph.hpp"
+#include "behaviors/save_map.hpp"
+#include "behaviors/set_flight_mode.hpp"
+#include "behaviors/survey.hpp"
 #include "behaviors/take_off.hpp"
 #include "behaviors/turn_to.hpp"
+#include "behaviors/wait_for_operator.hpp"
 
 namespace swiftlet::behaviors {
 
@@ -22,6 +30,7 @@ const tree::Registry& missionRegistry() {
     tree::Registry registry = tree::Registry::standard();
     registry.add<TakeOff>();
     registry.add<Land>();
+    registry.add<EmergencyLand>();
     registry.add<Hold>();
     registry.add<Explore>();
     registry.add<Localize>();
@@ -30,9 +39,17 @@ const tree::Registry& missionRegistry() {
     registry.add<FollowPath>();
     registry.add<Patrol>();
     registry.add<GoHome>();
+    registry.add<Survey>();
+    registry.add<Inspect>();
+    registry.add<FollowMe>();
+    registry.add<ReturnToMe>();
     registry.add<AvoidObstacle>();
     registry.add<OperatorCommand>();
     registry.add<KeepOut>();
+    registry.add<SetFlightMode>();
+    registry.add<WaitForOperator>();
+    registry.add<SaveMap>();
+    registry.add<Photograph>();
     registry.add<LogEvent>();
     registry.add<IsBatteryLow>();
     registry.add<IsHomeReachable>();

@@ -24,6 +24,7 @@ IntentLeaf::IntentOrProblem TurnTo::makeIntent(const FlightTick& tick) {
   common::GoToIntent intent;
   intent.goal_map_m = tick.flight.world->vehicle->state.T_map_body_planar().position_m();
   intent.yaw_map_rad = *yaw_deg * common::kRadPerDeg;
+  intent.mode = tick.mode;
   intent.tolerance_m = 0.15;  // A gust may push the vehicle while it turns.
   intent.clearance_m = 0.0;   // It stands here already.
   return {intent, {}};

@@ -15,6 +15,14 @@ struct Describe {
     return fmt::format("go to ({:.2f}, {:.2f}){}", named_m.x(), named_m.y(), i.goal_given_m ? " in the given map" : "");
   }
   std::string operator()(const AvoidIntent&) const { return "avoid obstacle"; }
+  std::string operator()(const EmergencyLandIntent&) const { return "emergency landing"; }
+  std::string operator()(const SurveyIntent& i) const { return "survey an area with " + toString(i.area); }
+  std::string operator()(const InspectIntent& i) const {
+    return fmt::format("inspect ({:.2f}, {:.2f})", i.point_map_m.x(), i.point_map_m.y());
+  }
+  std::string operator()(const FollowIntent& i) const {
+    return i.until_near ? "return to the person" : "follow a person";
+  }
   std::string operator()(const RetraceIntent&) const { return "fly back along the trail"; }
 };
 

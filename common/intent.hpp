@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "common/flight_mode.hpp"
+#include "common/polygon.hpp"
 
 namespace swiftlet::common {
 
@@ -18,6 +19,8 @@ struct TakeOffIntent {
   double height_m = 1.0;  ///< Above the take-off floor.
 };
 struct LandIntent {};
+/// Descend at once where it is, without the position.
+struct EmergencyLandIntent {};
 /// Stop and stay.
 struct HoldIntent {};
 /// A rectangle in the `map` frame.
@@ -33,6 +36,7 @@ struct ExploreIntent {
   std::optional<MapBounds> bounds;  ///< Space outside is left unexplored; none: no limit.
   /// Fly also to where the laser would see too little to fix the position.
   bool leave_building = false;
+  FlightMode mode = FlightMode::kFast;
 };
 struct GoToIntent {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
@@ -53,8 +57,36 @@ struct RetraceIntent {
   std::optional<Eigen::Vector2d> lost_on_the_way_to_map_m;
 };
 
-using IntentKind =
-    std::variant<HoldIntent, TakeOffIntent, LandIntent, ExploreIntent, GoToIntent, AvoidIntent, RetraceIntent>;
+/// Fly over an area in lanes, so that the sensor sees all of it.
+struct SurveyIntent {
+  Polygon area;
+  std::optional<double> spacing_m;  ///< Greatest distance between two lanes; none: by what the sensor sees.
+  std::optional<double> height_m;   ///< Above the take-off floor; none: stay at the present height.
+  double clearance_m = 0.10;        ///< Between hull and obstacle.
+  FlightMode mode = FlightMode::kFast;
+};
+/// Orbit a point with the camera on it, counter-clockwise.
+struct InspectIntent {
+  Eigen::Vector2d point_map_m = Eigen::Vector2d::Zero();
+  std::optional<double> point_height_m;  ///< Above the take-off floor; none: not known.
+  double radius_m = 1.5;
+  double turns = 1.0;
+  /// Of the vehicle; none: where the camera's axis meets the point, or the present one.
+  std::optional<double> height_m;
+  double clearance_m = 0.10;  ///< Between hull and obstacle.
+  FlightMode mode = FlightMode::kFast;
+};
+/// Follow a walking person, or return to the one that was followed.
+struct FollowIntent {
+  double distance_m = 2.0;    ///< Between the vehicle's centre and the person's.
+  double lost_s = 20.0;       ///< Fails when the person was not seen for this long.
+  bool until_near = false;    ///< Fly to where the last person was, and end near him.
+  double clearance_m = 0.10;  ///< Between hull and obstacle.
+  FlightMode mode = FlightMode::kFast;
+};
+
+using IntentKind = std::variant<HoldIntent, TakeOffIntent, LandIntent, ExploreIntent, GoToIntent, AvoidIntent,
+                                RetraceIntent, EmergencyLandIntent, SurveyIntent, InspectIntent, FollowIntent>;
 
 struct Intent {
   std::uint64_t id = 0;  ///< 0: no behaviour has emitted one; the vehicle holds.

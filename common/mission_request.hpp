@@ -15,7 +15,16 @@ struct KeepOutRequest {
   Polygon area;
 };
 
-using MissionRequestKind = std::variant<KeepOutRequest>;
+/// Write the present map into the folder of the run.
+struct SaveMapRequest {
+  std::string name;
+};
+/// Write the next picture of the RGB-D camera into the folder of the run, with the pose of the camera.
+struct PhotographRequest {
+  std::string name;
+};
+
+using MissionRequestKind = std::variant<KeepOutRequest, SaveMapRequest, PhotographRequest>;
 
 struct MissionRequest {
   std::uint64_t id = 0;  ///< The ids of one mission rise from 1.

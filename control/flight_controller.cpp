@@ -55,6 +55,12 @@ tl::expected<void, std::string> FlightController::command(const FlightCommand& c
     return landing;
   }
   if (std::holds_alternative<DisengageMotors>(command)) return apply(FlightInput::kDisengageMotors, "commanded");
+  if (std::holds_alternative<EmergencyLand>(command)) {
+    if (state() == FlightState::kEmergencyLanding) return {};
+    auto landing = apply(FlightInput::kEmergency, "commanded");
+    if (landing) grounded_reason_ = "an emergency landing was commanded";
+    return landing;
+  }
   const double height_m = std::get<TakeOff>(command).height_m;
   const double least_m = last_state_.T_odom_body.position_m.z() + config_.hover_tolerance_m;
   if (!std::isfinite(height_m) || height_m < least_m)
@@ -155,6 +161,8 @@ common::Setpoint FlightController::setpointFor(const FlightTick& tick) {
 }
 
 common::Setpoint FlightController::fly(const FlightTick& tick) {
+  follower_.lookAt(look_at_map_m_ ? std::optional<Eigen::Vector2d>(T_map_odom_.inverse() * *look_at_map_m_)
+                                  : std::nullopt);
   if (tick.pilot_flies) {
     follower_.reset(last_state_.T_odom_body.position_m, common::yawOf(last_state_.T_odom_body.rotation));
     position_.reset();

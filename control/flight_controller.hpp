@@ -33,7 +33,9 @@ struct TakeOff {
 };
 struct Land {};
 struct DisengageMotors {};
-using FlightCommand = std::variant<Prepared, TakeOff, Land, DisengageMotors>;
+/// Descends where it is, by the raw height, and switches the motors off on the ground; from any state in the air.
+struct EmergencyLand {};
+using FlightCommand = std::variant<Prepared, TakeOff, Land, DisengageMotors, EmergencyLand>;
 
 /// A path in `map`. It moves with the map when SLAM corrects T_map_odom.
 struct FlightPath {
@@ -96,6 +98,8 @@ class FlightController {
                                                  double yaw_map_rad);
   /// Stops as fast as the flight mode allows and holds, at that yaw if one is given.
   void hold(std::optional<double> yaw_map_rad = std::nullopt);
+  /// While it is set, the nose faces that point of the map, on paths and while holding; not in a retreat.
+  void lookAt(const std::optional<Eigen::Vector2d>& point_map_m) { look_at_map_m_ = point_map_m; }
   /// Speed limit of the reactive layer; infinity lifts it.
   void setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
 
@@ -172,6 +176,7 @@ class FlightController {
   double standing_height_m_ = 0.0;  ///< Height of the body origin over the take-off floor while standing.
   double standing_raw_m_ = 0.0;     ///< Height that the mirror measures while standing.
   double take_off_height_m_ = 1.0;
+  std::optional<Eigen::Vector2d> look_at_map_m_;
   double max_height_m_;
   double height_reference_m_ = 0.0;  ///< Moved by the controller itself during take-off and landing.
   double climb_reference_m_s_ = 0.0;

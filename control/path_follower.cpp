@@ -216,7 +216,7 @@ double PathFollower::allowedSpeed(double dt_s) const {
   const double length_m = along.norm();
   if (std::abs(along.z()) > 1e-6) speed = std::min(speed, climbSpeed_m_s() * length_m / std::abs(along.z()));
   const double planar_m = along.head<2>().norm();
-  if (faces_travel_ && planar_m > 0.5 * length_m) {
+  if (faces_travel_ && !look_at_odom_m_ && planar_m > 0.5 * length_m) {
     const double off_nose = common::wrapAngle(std::atan2(along.y(), along.x()) - reference_.yaw_odom_rad);
     if (std::abs(off_nose) > config_.turn_first_angle_deg * common::kRadPerDeg)
       speed = std::min(speed, config_.turn_first_speed_m_s);
@@ -244,8 +244,16 @@ void PathFollower::pullReference(const Carrot& carrot, double dt_s) {
 
 void PathFollower::advanceYaw(double dt_s) {
   double wanted_rad = hold_yaw_odom_rad_;
+  double turns_rad_s = 0.0;  // The rate of the bearing of a point that the vehicle flies past.
   const double left_m = remaining_m();
-  if (faces_travel_ && left_m > config_.turn_distance_m) {
+  if (look_at_odom_m_ && !velocity_target_) {
+    const Eigen::Vector2d look = *look_at_odom_m_ - reference_.position_odom_m.head<2>();
+    if (look.norm() > kLeastLook_m) {
+      hold_yaw_odom_rad_ = wanted_rad = std::atan2(look.y(), look.x());
+      const Eigen::Vector3d& velocity = reference_.velocity_odom_m_s;
+      turns_rad_s = (look.y() * velocity.x() - look.x() * velocity.y()) / look.squaredNorm();
+    }
+  } else if (faces_travel_ && left_m > config_.turn_distance_m) {
     const Eigen::Vector3d ahead = pointOn(points_, distances_m_, carrot_m_ + config_.look_ahead_m);
     const Eigen::Vector2d look = (ahead - reference_.position_odom_m).head<2>();
     if (look.norm() > kLeastLook_m) hold_yaw_odom_rad_ = wanted_rad = std::atan2(look.y(), look.x());
@@ -258,8 +266,9 @@ void PathFollower::advanceYaw(double dt_s) {
   const double stoppable = std::sqrt(2.0 * config_.yaw_acceleration_deg_s2 * common::kRadPerDeg * std::abs(error));
   // The last step ends on the goal, so that the carrot does not oscillate about it.
   const double rate = std::min({most_rad_s, stoppable, std::abs(error) / dt_s});
-  reference_.yaw_rate_rad_s = std::clamp(std::copysign(rate, error), reference_.yaw_rate_rad_s - 1.2 * step,
-                                         reference_.yaw_rate_rad_s + 1.2 * step);
+  const double wanted_rad_s = std::clamp(turns_rad_s + std::copysign(rate, error), -most_rad_s, most_rad_s);
+  reference_.yaw_rate_rad_s =
+      std::clamp(wanted_rad_s, reference_.yaw_rate_rad_s - 1.2 * step, reference_.yaw_rate_rad_s + 1.2 * step);
   reference_.yaw_odom_rad = common::wrapAngle(reference_.yaw_odom_rad + reference_.yaw_rate_rad_s * dt_s);
 }
 

@@ -61,6 +61,8 @@ class PathFollower {
   void setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double acceleration_m_s2, double yaw_odom_rad);
   /// Stops as fast as the mode's limits allow and holds there, at that yaw if one is given.
   void stop(std::optional<double> yaw_odom_rad = std::nullopt);
+  /// While it is set, the yaw faces that point on paths and while holding; a velocity has a yaw of its own.
+  void lookAt(const std::optional<Eigen::Vector2d>& point_odom_m) { look_at_odom_m_ = point_odom_m; }
   /// Speed limit of the reactive layer: 0 halts on the path, infinity lifts the limit. It holds until it is changed.
   void setSpeedLimit(double speed_m_s);
   /// Shares in (0, 1] of the mode's speed, from now on, and of the acceleration that paths are planned with, from the
@@ -120,6 +122,7 @@ class PathFollower {
   std::optional<VelocityTarget> velocity_target_;
   double hold_yaw_odom_rad_ = 0.0;
   bool faces_travel_ = false;
+  std::optional<Eigen::Vector2d> look_at_odom_m_;
   Reference reference_;
 };
 

@@ -1,15 +1,31 @@
 #include "evaluation/behavior_recorder.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/world.hpp"
 #include "common/world/map_layer.hpp"
+#include "common/world/people_layer.hpp"
 
 namespace swiftlet::evaluation {
+namespace {
 
-void BehaviorRecorder::tick(const common::Pose3& T_map_truth, bool airborne) {
-  if (!zones_ || !airborne) return;
-  const Eigen::Vector2d position_map_m = T_map_truth.position_m.head<2>();
+constexpr common::Duration kInspectingPeriod = common::Duration::fromMilliseconds(100);
+
+}  // namespace
+
+void BehaviorRecorder::tick(const simulation::Truth& truth, const common::Pose3& T_map_truth,
+                            const common::Pose3& T_world_map) {
+  const double elapsed_s = last_tick_ ? (truth.stamp - *last_tick_).seconds() : 0.0;
+  last_tick_ = truth.stamp;
+  if (!truth.airborne) return;
+  keepOut(T_map_truth.position_m.head<2>());
+  inspect(truth);
+  follow(truth, T_world_map, elapsed_s);
+}
+
+void BehaviorRecorder::keepOut(const Eigen::Vector2d& position_map_m) {
+  if (!zones_) return;
   for (const common::Polygon& zone : *zones_) {
     const double distance_m = zone.signedDistance_m(position_map_m);
     if (std::find(left_.begin(), left_.end(), zone) == left_.end()) {
@@ -20,7 +36,46 @@ void BehaviorRecorder::tick(const common::Pose3& T_map_truth, bool airborne) {
   }
 }
 
+/// From when it has turned to the point.
+void BehaviorRecorder::inspect(const simulation::Truth& truth) {
+  const auto* inspected = std::get_if<common::InspectIntent>(&intent_.kind);
+  const bool inspecting = inspected != nullptr && status_.reason.starts_with("inspecting, ") &&
+                          !status_.reason.starts_with("inspecting, 1 of");
+  if (!inspecting || truth.stamp < next_view_) return;
+  next_view_ = truth.stamp + kInspectingPeriod;
+  record_.inspecting.push_back({truth.T_world_body, inspected->point_map_m, inspected->point_height_m});
+}
+
+void BehaviorRecorder::follow(const simulation::Truth& truth, const common::Pose3& T_world_map, double elapsed_s) {
+  const bool follows = std::holds_alternative<common::FollowIntent>(intent_.kind) && !people_world_m_.empty() &&
+                       followed_map_m_ && status_.state == common::IntentState::kRunning;
+  if (!follows) return;
+  const Eigen::Vector2d person_world_m = people_world_m_.front();
+  const double distance_m = (truth.T_world_body.position_m.head<2>() - person_world_m).norm();
+  const bool in_distance = distance_m >= FollowRecord::kNear_m && distance_m <= FollowRecord::kFar_m;
+  if (!record_.follow && !in_distance) return;
+  if (!record_.follow) record_.follow = FollowRecord{0.0, 0.0, distance_m, distance_m, 0.0};
+  FollowRecord& record = *record_.follow;
+  record.followed_s += elapsed_s;
+  if (in_distance) record.in_distance_s += elapsed_s;
+  record.nearest_m = std::min(record.nearest_m, distance_m);
+  record.farthest_m = std::max(record.farthest_m, distance_m);
+  const Eigen::Vector2d believed_world_m = common::planar(T_world_map) * *followed_map_m_;
+  lost_now_s_ = (believed_world_m - person_world_m).norm() > FollowRecord::kWrong_m ? lost_now_s_ + elapsed_s : 0.0;
+  record.lost_s = std::max(record.lost_s, lost_now_s_);
+}
+
+void BehaviorRecorder::intent(const common::Intent& intent, const common::IntentStatus& status) {
+  const bool was_running = status_.id != status.id || status_.state == common::IntentState::kRunning;
+  const auto* survey = std::get_if<common::SurveyIntent>(&intent.kind);
+  if (survey != nullptr && status.id == intent.id && was_running && status.state == common::IntentState::kSucceeded)
+    record_.surveyed.push_back(survey->area);
+  intent_ = intent;
+  status_ = status;
+}
+
 void BehaviorRecorder::world(const common::World& world) {
+  followed_map_m_ = world.people->followed_map_m;
   if (zones_ == world.map->keep_out) return;
   zones_ = world.map->keep_out;
   std::erase_if(left_, [&](const common::Polygon& zone) {

@@ -1,12 +1,17 @@
-// Records, by the truth, how well the vehicle did what some behaviours promise: keeping out of zones.
+// Records, by the truth, how well the vehicle did what some behaviours promise: keeping out of zones, looking at the
+// point it inspects, seeing all of the area it surveys, and staying behind the person it follows.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "common/geometry.hpp"
+#include "common/intent.hpp"
 #include "common/polygon.hpp"
+#include "simulation/truth.hpp"
 
 namespace swiftlet::common {
 struct World;
@@ -14,25 +19,60 @@ struct World;
 
 namespace swiftlet::evaluation {
 
+/// Where the vehicle truly was while it inspected a point.
+struct InspectingView {
+  common::Pose3 T_world_body;
+  Eigen::Vector2d point_map_m;
+  std::optional<double> point_height_m;  ///< Above the take-off floor; none: not known.
+};
+
+/// How a person was followed, from when the vehicle was first at the right distance.
+struct FollowRecord {
+  double followed_s = 0.0;
+  double in_distance_s = 0.0;  ///< Part of it with the person 1.5 to 3 m from the vehicle's centre.
+  double nearest_m = 0.0;
+  double farthest_m = 0.0;
+  double lost_s = 0.0;  ///< Longest time in which the person was believed more than 1 m from the truth.
+
+  static constexpr double kNear_m = 1.5, kFar_m = 3.0, kWrong_m = 1.0;
+};
+
 struct BehaviorRecord {
   /// Least distance of the true centre of the airborne vehicle from a keep-out zone, negative inside; from when it was
   /// first outside of that zone. None without a zone.
   std::optional<double> keep_out_distance_m;
+  std::vector<InspectingView> inspecting;  ///< At 10 Hz.
+  std::vector<common::Polygon> surveyed;   ///< The areas whose survey succeeded.
+  std::optional<FollowRecord> follow;      ///< None if nobody was followed.
 };
 
 /// Called by the FlightRecorder, whose functions have the same names. Calls come in the order of time.
 class BehaviorRecorder {
  public:
+  /// The true places of the people; the first one is he who is to be followed.
+  void people(std::vector<Eigen::Vector2d> people_world_m) { people_world_m_ = std::move(people_world_m); }
   /// `T_map_truth` is the true pose in the vehicle's `map` frame.
-  void tick(const common::Pose3& T_map_truth, bool airborne);
+  void tick(const simulation::Truth& truth, const common::Pose3& T_map_truth, const common::Pose3& T_world_map);
+  void intent(const common::Intent& intent, const common::IntentStatus& status);
   void world(const common::World& world);
 
   const BehaviorRecord& record() const { return record_; }
 
  private:
+  void keepOut(const Eigen::Vector2d& position_map_m);
+  void inspect(const simulation::Truth& truth);
+  void follow(const simulation::Truth& truth, const common::Pose3& T_world_map, double elapsed_s);
+
   BehaviorRecord record_;
   std::shared_ptr<const std::vector<common::Polygon>> zones_;
   std::vector<common::Polygon> left_;  ///< The zones that the vehicle has been outside of since they were made.
+  common::Intent intent_;
+  common::IntentStatus status_;
+  std::vector<Eigen::Vector2d> people_world_m_;
+  std::optional<Eigen::Vector2d> followed_map_m_;
+  std::optional<common::Time> last_tick_;
+  common::Time next_view_;
+  double lost_now_s_ = 0.0;
 };
 
 }  // namespace swiftlet::evaluation

@@ -58,6 +58,14 @@ void Criteria::describe(common::config::Fields& fields) {
          "Greatest relative error of the charge that the vehicle predicts for the flight home when that begins.");
   fields("keep_out_gap_min_m", keep_out_gap_min_m, {0, 100},
          "Least distance of the hull from keep-out zones; 0 asks for nothing.");
+  fields("inspect_axis_max_deg", inspect_axis_max_deg, kPositive,
+         "Greatest angle between the camera's axis and the point that is inspected.");
+  fields("survey_coverage_min", survey_coverage_min, {0, 1},
+         "Least share of the open floor of a surveyed area that the camera has seen.");
+  fields("follow_share_min", follow_share_min, {0, 1},
+         "Least share of the time of following with the person 1.5 to 3 m away.");
+  fields("follow_lost_max_s", follow_lost_max_s, kPositive,
+         "Greatest time in which the person who is followed was not within 1 m of where he was believed.");
   fields("end_distance_max_m", end_distance_max_m, kPositive,
          "Greatest horizontal distance from the take-off place at which the vehicle is at the end.");
   fields("unfinished_distance_min_m", unfinished_distance_min_m, {0, 1e5},

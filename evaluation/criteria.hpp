@@ -38,6 +38,10 @@ struct Criteria {
   double safe_action_max_s = kAny;
   double home_energy_error_max = kAny;
   double keep_out_gap_min_m = 0.0;
+  double inspect_axis_max_deg = kAny;
+  double survey_coverage_min = 0.0;
+  double follow_share_min = 0.0;
+  double follow_lost_max_s = kAny;
   double end_distance_max_m = kAny;
   double unfinished_distance_min_m = 0.0;
   bool all_resumed = true;

@@ -52,7 +52,7 @@ void FlightRecorder::watch(const std::vector<PhaseConfig>& phases) {
 
 void FlightRecorder::tick(const simulation::Truth& truth, const common::VehicleState& estimate) {
   conduct_.tick(truth);
-  behaviors_.tick(truthInMap(truth.T_world_body), truth.airborne);
+  behaviors_.tick(truth, truthInMap(truth.T_world_body), record_.T_world_map);
   for (PhaseRecorder& phase : phases_)
     phase.tick(truth.stamp, truthInMap(truth.T_world_body),
                record_.T_world_map.rotation.conjugate() * truth.velocity_world_m_s, estimate);
@@ -124,6 +124,7 @@ void FlightRecorder::intent(Time now, const common::Intent& intent, const common
   const bool home = go_to != nullptr && (go_to->goal_map_m - home_map_m_).norm() < kSamePlace_m;
   conduct_.intent(intent, status, home);
   ending_.intent(intent, status);
+  behaviors_.intent(intent, status);
   if (go_to == nullptr || status.id != intent.id || status.state != common::IntentState::kSucceeded) return;
   if (counted_intent_ == intent.id) return;
   const std::optional<Pose3> T_world_body = truthAt(now);

@@ -119,6 +119,8 @@ class FlightRecorder {
   void watch(const std::vector<PhaseConfig>& phases);
   /// Call at every scan that arrives.
   void scan(const common::Stamps& stamps) { conduct_.scan(stamps); }
+  /// Call before tick(): the true places of the people, the one who is to be followed first.
+  void people(std::vector<Eigen::Vector2d> people_world_m) { behaviors_.people(std::move(people_world_m)); }
   /// Call at every control tick. The estimate is compared with the truth at its own stamp, which may be up to a second
   /// old.
   void tick(const simulation::Truth& truth, const common::VehicleState& estimate);

@@ -123,12 +123,6 @@ ConductScore scoreOf(const ConductRecord& record, const TrueWorld& world) {
   return score;
 }
 
-BehaviorScore scoreOf(const BehaviorRecord& record, const TrueWorld& world) {
-  BehaviorScore score;
-  if (record.keep_out_distance_m) score.keep_out_gap_m = *record.keep_out_distance_m - world.vehicle.hullRadius_m();
-  return score;
-}
-
 }  // namespace
 
 FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Criteria& criteria, std::int64_t seed,
@@ -157,7 +151,7 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   scoreMap(record, world, score);
   score.map3d = scoreMap3d(record, world);
   score.conduct = scoreOf(record.conduct, world);
-  score.behaviors = scoreOf(record.behaviors, world);
+  score.behaviors = scoreOf(record.behaviors, world, record.T_world_map, record.T_world_body_views);
   if (record.localization) score.localization = scoreOf(*record.localization, criteria.localized_within_m);
   score.phases = record.phases;
   score.operator_answers = record.operator_answers;
@@ -185,10 +179,6 @@ std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const Condu
           {"home_energy_error", score.home_energy_error},
           {"laser_latency_median_s", score.laser_latency_median_s},
           {"laser_latency_p95_s", score.laser_latency_p95_s}};
-}
-
-std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const BehaviorScore& score) {
-  return {{"keep_out_gap_m", score.keep_out_gap_m}};
 }
 
 std::vector<std::pair<std::string, double>> figuresOf(const FlightScore& score) {

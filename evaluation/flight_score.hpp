@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "evaluation/behavior_score.hpp"
 #include "evaluation/criteria.hpp"
 #include "evaluation/flight_recorder.hpp"
 #include "evaluation/map3d_score.hpp"
@@ -39,11 +40,6 @@ struct ConductScore {
   std::optional<double> home_energy_error;      ///< Their difference over what was needed, without its sign.
   std::optional<double> laser_latency_median_s;
   std::optional<double> laser_latency_p95_s;
-};
-
-/// What behaviours promise, by the truth.
-struct BehaviorScore {
-  std::optional<double> keep_out_gap_m;  ///< Least distance of the hull from a keep-out zone, negative inside.
 };
 
 /// An optional figure is none if it could not be measured, for example if no goal was reached.
@@ -116,8 +112,6 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
 
 /// The figures of how the vehicle was flown, by their names in results.json.
 std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const ConductScore& score);
-/// Those of the behaviours.
-std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const BehaviorScore& score);
 
 /// The measured figures by their names in results.json, for the report of the flight; coverage is stored separately
 /// there.

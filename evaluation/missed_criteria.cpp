@@ -70,6 +70,10 @@ void judgeConduct(const ConductScore& conduct, const Criteria& criteria, bool la
 /// What behaviours promise is asked of every flight.
 void judgeBehaviors(const BehaviorScore& behaviors, const Criteria& criteria, Judge& judge) {
   judge.atLeast("distance from keep-out zones, m", behaviors.keep_out_gap_m, criteria.keep_out_gap_min_m);
+  judge.atMost("angle to the inspected point, deg", behaviors.inspect_axis_max_deg, criteria.inspect_axis_max_deg);
+  judge.atLeast("share of the surveyed floor that was seen", behaviors.survey_coverage, criteria.survey_coverage_min);
+  judge.atLeast("share of the time at the distance of following", behaviors.follow_share, criteria.follow_share_min);
+  judge.atMost("time in which the person was lost, s", behaviors.follow_lost_s, criteria.follow_lost_max_s);
 }
 
 void judgeDistances(const FlightScore& score, const Criteria& criteria, Judge& judge) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/jpeg_encoder.hpp"
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
 #include "common/world/map3d_layer.hpp"
@@ -56,6 +57,9 @@ constexpr std::array<const char*, 17> kFiles = {"mission.json",
                                                 "ground_truth.tum"};
 
 bool isRunFile(const std::string& name) {
+  const auto isNamed = [&](const char* begin, const char* end) { return name.starts_with(begin) && name.ends_with(end); };
+  if (isNamed("map-", ".pgm") || isNamed("map-", ".yaml") || isNamed("photo-", ".jpg") || isNamed("photo-", ".json"))
+    return true;
   // A `.part` file is left of a Swiftlet file if the process was killed.
   return std::any_of(kFiles.begin(), kFiles.end(), [&](const std::string& file) {
     return name == file || (name.starts_with(file + ".") && name.ends_with(".part"));
@@ -205,6 +209,7 @@ struct RunFolder::Impl {
   std::optional<Time> mission_begin, last_flown;
   bool mission_over = false;
   Time last_snapshot;
+  int photos = 0;
   std::optional<std::string> failure;
 };
 
@@ -298,6 +303,25 @@ void RunFolder::world(const common::World& world) {
   if (impl_->failure || !impl_->map_due.due(world.stamp)) return;
   impl_->keep(writeMap(impl_->path, "map", *impl_->grid));
   impl_->writeSummary();
+}
+
+void RunFolder::saveMap(const std::string& name, const common::OccupancyGrid& grid) {
+  if (!impl_->failure) impl_->keep(writeMap(impl_->path, "map-" + name, grid));
+}
+
+void RunFolder::savePhoto(const std::string& name, const common::RgbdFrame& frame, const common::Pose3& T_map_camera) {
+  constexpr int kQuality = 90;
+  const std::string file = fmt::format("photo-{:02}-{}", ++impl_->photos, name);
+  const std::vector<std::uint8_t> jpeg = common::JpegEncoder(common::JpegContent::kPhoto).encode(frame.color, kQuality);
+  const common::RollPitchYaw angles = common::rollPitchYaw(T_map_camera.rotation);
+  const Eigen::Vector3d& at = T_map_camera.position_m;
+  if (impl_->failure) return;
+  impl_->write((file + ".jpg").c_str(), {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
+  impl_->write((file + ".json").c_str(),
+               fmt::format("{{\"stamp_s\": {:.3f}, \"camera_map_m\": [{:.3f}, {:.3f}, {:.3f}], \"roll_rad\": {:.4f}, "
+                           "\"pitch_rad\": {:.4f}, \"yaw_rad\": {:.4f}}}\n",
+                           frame.stamps.measured.seconds(), at.x(), at.y(), at.z(), angles.roll_rad, angles.pitch_rad,
+                           angles.yaw_rad));
 }
 
 void RunFolder::show(ReportPictures pictures) {

@@ -8,6 +8,8 @@
 //   trajectory_camera.tum   with an RGB-D camera: the poses in `map` of the frames that were aligned to the 3D map
 //   cloud.ply, map.bt, map.ot     with an RGB-D camera: the 3D map, replaced every few seconds and at the end
 //   map.pgm, map.yaml, map.png    replaced whole every few seconds and at the end
+//   map-NAME.pgm, map-NAME.yaml    each map that the mission saved
+//   photo-NN-NAME.jpg, photo-NN-NAME.json    each photograph of the mission, and where the camera was
 //   report.html      the same in one page
 //   config.yaml      the settings in force
 //   vehicle_memory_read.yaml, vehicle_memory_learned.yaml    of a flight with a vehicle's memory: before and after it
@@ -21,6 +23,9 @@
 #include <vector>
 
 #include "common/event.hpp"
+#include "common/geometry.hpp"
+#include "common/occupancy_grid.hpp"
+#include "common/rgbd_frame.hpp"
 #include "common/trajectory.hpp"
 #include "common/vehicle_state.hpp"
 #include "interfaces/flight_summary.hpp"
@@ -72,6 +77,10 @@ class RunFolder {
   void event(const common::Event& event);
   /// Call at every snapshot.
   void world(const common::World& world);
+  /// Writes the map as map-NAME.pgm and map-NAME.yaml; a later one of that name replaces it.
+  void saveMap(const std::string& name, const common::OccupancyGrid& grid);
+  /// Writes the picture, with a number that counts from 1, and the pose of the camera.
+  void savePhoto(const std::string& name, const common::RgbdFrame& frame, const common::Pose3& T_map_camera);
   /// The pictures of the next report and map.png; may be called repeatedly.
   void show(ReportPictures pictures);
   /// Replaces the files of the 3D map; may be called repeatedly.

@@ -109,6 +109,10 @@ void WalkerConfig::describe(common::config::Fields& fields) {
   fields("path_world_m", path_world_m, {-kAnywhere_m, kAnywhere_m}, "Points x, y, x, y of its path, for mode path.");
   fields.choice("at_end", at_end, {"stay", "leave", "return", "loop"}, "What it does at the end of its path.");
   fields("speed_m_s", speed_m_s, {0, 20}, "Walking speed.");
+  fields(
+      "speeds_m_s", speeds_m_s, {0.01, 20},
+      "For mode path, the speeds from point to point, again from the first one after the last; empty for speed_m_s.");
+  fields("pause_s", pause_s, {0, 1e4}, "For mode path, how long it stands at each point.");
   fields("radius_m", radius_m, {0.05, 2}, "Radius of the person.");
   fields("height_m", height_m, {0.1, 5}, "Height of the person.");
   fields("start_s", start_s, {0, 1e6}, "Time at which it appears.");
@@ -122,6 +126,8 @@ std::vector<std::string> WalkerConfig::validate() const {
   return common::Validation()
       .require(mode != WalkerMode::kPath || path_world_m.size() >= 2, "path_world_m", "a path needs a point")
       .require(path_world_m.size() % 2 == 0, "path_world_m", noPairs(path_world_m))
+      .require((speeds_m_s.empty() && pause_s == 0.0) || at_end != WalkerEnd::kReturn, "at_end",
+               "return knows neither speeds_m_s nor pause_s")
       .problems();
 }
 

@@ -80,6 +80,8 @@ struct WalkerConfig {
   double distance_m = 2.5;
   double repeat_s = 0.0;
   std::string vehicle = {};
+  std::vector<double> speeds_m_s = {};
+  double pause_s = 0.0;
 
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;

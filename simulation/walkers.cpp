@@ -61,7 +61,7 @@ void Walker::step(common::Time now, const WalkedAround& vehicle, double step_s) 
   if (now_s < config_.start_s) return;
   switch (config_.mode) {
     case WalkerMode::kPath:
-      walkPath(config_.speed_m_s * (now_s - path_start_s_));
+      walkPath(walkedAfter_m(now_s - path_start_s_));
       return;
     case WalkerMode::kCrossPath:
       cross(now_s, vehicle);
@@ -69,6 +69,24 @@ void Walker::step(common::Time now, const WalkedAround& vehicle, double step_s) 
     case WalkerMode::kFollow:
       follow(vehicle, step_s);
       return;
+  }
+}
+
+double Walker::walkedAfter_m(double time_s) const {
+  const std::vector<double>& speeds = config_.speeds_m_s;
+  if (speeds.empty() && config_.pause_s <= 0.0) return config_.speed_m_s * time_s;
+  const bool loops = config_.at_end == WalkerEnd::kLoop && length(path_world_m_) > 0.0;
+  double walked_m = 0.0;
+  for (std::size_t leg = 0;; ++leg) {
+    const std::size_t i = leg % (path_world_m_.size() - 1);
+    if (leg > i && !loops) return std::nextafter(walked_m, kNever);  // Beyond the end.
+    const double speed_m_s = speeds.empty() ? config_.speed_m_s : speeds[i % speeds.size()];
+    const double leg_m = (path_world_m_[i + 1] - path_world_m_[i]).norm();
+    time_s -= config_.pause_s;
+    if (time_s <= 0.0) return walked_m;
+    if (speed_m_s * time_s <= leg_m) return walked_m + speed_m_s * time_s;
+    time_s -= leg_m / speed_m_s;
+    walked_m += leg_m;
   }
 }
 

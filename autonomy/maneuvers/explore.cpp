@@ -22,7 +22,7 @@ constexpr int kDoneAnswers = 2;
 using common::Time;
 
 Explore::Explore(const common::ExploreIntent& intent, const ManeuverSetup& setup)
-    : PathManeuver(setup, "explore", common::FlightMode::kFast), intent_(intent), detour_(setup, flight_) {}
+    : PathManeuver(setup, "explore", intent.mode), intent_(intent), detour_(setup, flight_) {}
 
 std::optional<Eigen::Vector2d> Explore::goal_map_m() const {
   return viewpoint_ ? std::optional(viewpoint_->pose_map.position_m()) : std::nullopt;
@@ -58,7 +58,7 @@ double Explore::reconsiderAfter_s() const {
   double rest_m = 0.0;
   for (std::size_t i = 1; i < rest_map_m.size(); ++i) rest_m += (rest_map_m[i] - rest_map_m[i - 1]).norm();
   return std::max(setup_.config.explore_period_s,
-                  setup_.config.explore_period_share * rest_m / setup_.controller.speed_m_s(common::FlightMode::kFast));
+                  setup_.config.explore_period_share * rest_m / setup_.controller.speed_m_s(intent_.mode));
 }
 
 bool Explore::look(const ManeuverInput& input) {

@@ -24,6 +24,7 @@ struct FlightMemory {
   /// Height of paths over the take-off floor: that of the take-off until a goal names another.
   double cruise_height_m = 1.0;
   ExplorationMemory exploration;
+  std::optional<Eigen::Vector2d> person_map_m;  ///< Where the person who is, or was, followed was last believed.
   std::vector<common::Event> events;
 
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {}) {

@@ -18,6 +18,7 @@
 #include "autonomy/maneuvers/progress.hpp"
 #include "autonomy/maneuvers/retreat_flight.hpp"
 #include "autonomy/planning_desk.hpp"
+#include "common/rgbd_camera_config.hpp"
 #include "control/flight_controller.hpp"
 
 namespace swiftlet::autonomy {
@@ -31,7 +32,8 @@ struct ManeuverSetup {
   PlanningDesk& desk;
   const RetreatFlight& retreat;
   FlightMemory& memory;
-  PlanningClient client;  ///< The client in whose name it asks for plans.
+  PlanningClient client;                             ///< The client in whose name it asks for plans.
+  const common::RgbdCameraConfig* camera = nullptr;  ///< Null without one.
 };
 
 /// The failure of a maneuver that the flight state does not allow. It names what brought the vehicle down, if that is

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/disc.hpp"
+#include "common/dynamic_obstacle.hpp"
 #include "common/level_map.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/polygon.hpp"
@@ -26,8 +27,9 @@ struct ManeuverInput {
   std::vector<common::Disc> discs;  ///< Present and predicted places of people, in `map`.
   bool anybody_walks = false;
   const planning::AvoidanceDecision& avoidance;
-  double drift_m = 0.0;               ///< See DriftMonitor.
-  std::string take_off_refusal = {};  ///< Why the vehicle must not take off; empty if it may.
+  double drift_m = 0.0;                              ///< See DriftMonitor.
+  std::string take_off_refusal = {};                 ///< Why the vehicle must not take off; empty if it may.
+  std::vector<common::DynamicObstacle> people = {};  ///< What the map does not explain, as last seen.
   std::shared_ptr<const std::vector<common::Polygon>> keep_out = {};  ///< Keep-out zones; null: none.
 
   Eigen::Vector2d position_map_m() const { return state.T_map_body_planar().position_m(); }

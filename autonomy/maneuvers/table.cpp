@@ -3,11 +3,15 @@
 #include <variant>
 
 #include "autonomy/maneuvers/avoid.hpp"
+#include "autonomy/maneuvers/emergency_land.hpp"
 #include "autonomy/maneuvers/explore.hpp"
+#include "autonomy/maneuvers/follow.hpp"
 #include "autonomy/maneuvers/go_to.hpp"
 #include "autonomy/maneuvers/hold.hpp"
+#include "autonomy/maneuvers/inspect.hpp"
 #include "autonomy/maneuvers/land.hpp"
 #include "autonomy/maneuvers/retrace.hpp"
+#include "autonomy/maneuvers/survey.hpp"
 #include "autonomy/maneuvers/take_off.hpp"
 
 namespace swiftlet::autonomy {
@@ -25,6 +29,12 @@ struct Made {
   Pointer operator()(const common::GoToIntent& intent) const { return std::make_unique<GoTo>(intent, setup); }
   Pointer operator()(const common::AvoidIntent& intent) const { return std::make_unique<Avoid>(intent, setup); }
   Pointer operator()(const common::RetraceIntent& intent) const { return std::make_unique<Retrace>(intent, setup); }
+  Pointer operator()(const common::SurveyIntent& intent) const { return std::make_unique<Survey>(intent, setup); }
+  Pointer operator()(const common::InspectIntent& intent) const { return std::make_unique<Inspect>(intent, setup); }
+  Pointer operator()(const common::FollowIntent& intent) const { return std::make_unique<Follow>(intent, setup); }
+  Pointer operator()(const common::EmergencyLandIntent& intent) const {
+    return std::make_unique<EmergencyLand>(intent, setup);
+  }
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The World's layer of people: moving objects near the vehicle.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +18,7 @@ struct Person {
 
 struct PeopleLayer {
   std::vector<Person> people;
+  std::optional<Eigen::Vector2d> followed_map_m;  ///< Where the person that is being followed is believed.
 
   bool operator==(const PeopleLayer&) const = default;
 };

@@ -23,7 +23,7 @@ TEST(KeepOutZones, TheOperatorTakesBackHisOwnOnly) {
   FlightRequests requests(0.275);
   const common::World world = test::Layers().world();
   requests.take({{7, common::KeepOutRequest{square(2, 2, 1)}}}, world);
-  const auto answers = requests.takeAnswers();
+  const auto answers = requests.takeAnswers({});
   ASSERT_EQ(answers.size(), 1u);
   EXPECT_EQ(answers[0].id, 7u);
   EXPECT_TRUE(answers[0].done);

@@ -119,6 +119,7 @@ class ManeuverStory : public testing::Test {
             decision_,
             0.0,
             {},
+            people_,
             keep_out_};
   }
 
@@ -128,6 +129,7 @@ class ManeuverStory : public testing::Test {
   common::OccupancyGrid grid_ = planning::test::room(160, 80);  ///< 8 m by 4 m.
   std::shared_ptr<const common::LevelMap> surfaces_;
   std::vector<common::Disc> discs_;
+  std::vector<common::DynamicObstacle> people_;
   std::shared_ptr<const std::vector<common::Polygon>> keep_out_;
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;

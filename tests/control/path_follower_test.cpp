@@ -46,6 +46,28 @@ struct Watch {
   }
 };
 
+TEST(PathFollower, FacesAPointWhileItFliesPastAndWhileItHolds) {
+  Watch watch;
+  watch.follower.lookAt(Eigen::Vector2d(2.0, 1.5));
+  for (int i = 0; i < 300; ++i) watch.step();
+  watch.follower.setPath({{0, 0, 0}, {4, 0, 0}}, FlightMode::kAccurate);
+  double worst_rad = 0.0;
+  while (!watch.follower.finished() && watch.seconds < 60.0) {
+    watch.step();
+    const Eigen::Vector2d look = Eigen::Vector2d(2.0, 1.5) - watch.follower.reference().position_odom_m.head<2>();
+    worst_rad =
+        std::max(worst_rad,
+                 std::abs(common::wrapAngle(std::atan2(look.y(), look.x()) - watch.follower.reference().yaw_odom_rad)));
+  }
+  EXPECT_TRUE(watch.follower.finished());
+  EXPECT_LT(worst_rad, 0.02);
+  EXPECT_LE(watch.worst_speed_m_s, 0.301) << "it does not wait for its nose";
+  watch.follower.lookAt(std::nullopt);
+  watch.follower.setPath({{4, 0, 0}, {0, 0, 0}}, FlightMode::kFast);
+  for (int i = 0; i < 400; ++i) watch.step();
+  EXPECT_GT(std::abs(watch.follower.reference().yaw_odom_rad), 3.0) << "along its path again";
+}
+
 TEST(PathFollower, AStraightLineHasATrapezoidalSpeedProfile) {
   Watch watch;
   watch.follower.setPath({{0, 0, 0}, {4, 0, 0}}, FlightMode::kFast);

@@ -1,9 +1,12 @@
 // What behaviours promise, by the truth.
 #include "evaluation/behavior_recorder.hpp"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "evaluation/flight_score.hpp"
+#include "tests/simulation/fixtures.hpp"
 #include "tests/support/layers.hpp"
 
 namespace swiftlet::evaluation {
@@ -19,9 +22,23 @@ class Behaviors : public testing::Test {
   void at(double x_m, double y_m, bool airborne = true) {
     common::Pose3 pose;
     pose.position_m = {x_m, y_m, 1.0};
-    recorder_.tick(pose, airborne);
+    simulation::Truth truth;
+    truth.stamp = now_;
+    truth.airborne = airborne;
+    truth.T_world_body = pose;
+    recorder_.tick(truth, pose, {});
+    now_ += common::Duration::fromMilliseconds(100);
+  }
+  void intent(common::IntentKind kind, const std::string& reason) {
+    recorder_.intent({1, std::move(kind)}, {1, common::IntentState::kRunning, reason, false});
+  }
+  void believed(double x_m) {
+    test::Layers layers;
+    layers.people.followed_map_m = Eigen::Vector2d(x_m, 0.0);
+    recorder_.world(layers.world());
   }
   BehaviorRecorder recorder_;
+  common::Time now_;
 };
 
 const common::Polygon kSquare{{{1, 1}, {2, 1}, {2, 2}, {1, 2}}};
@@ -40,6 +57,65 @@ TEST_F(Behaviors, TheLeastDistanceFromAZoneCountsFromWhenItWasOutside) {
   EXPECT_NEAR(*recorder_.record().keep_out_distance_m, 0.4, 1e-9);
   at(1.3, 1.5);
   EXPECT_NEAR(*recorder_.record().keep_out_distance_m, -0.3, 1e-9) << "inside";
+}
+
+TEST_F(Behaviors, FollowingCountsFromTheRightDistanceOn) {
+  recorder_.people({{2.0, 0.0}});
+  believed(2.0);
+  at(-4.0, 0.0);
+  EXPECT_FALSE(recorder_.record().follow) << "nobody follows yet";
+  intent(common::FollowIntent{}, "following, 6.0 m");
+  at(-4.0, 0.0);
+  EXPECT_FALSE(recorder_.record().follow) << "still on its way";
+  for (int i = 0; i < 30; ++i) at(0.0, 0.0);
+  believed(3.5);
+  for (int i = 0; i < 20; ++i) at(-1.5, 0.0);
+  ASSERT_TRUE(recorder_.record().follow);
+  EXPECT_NEAR(recorder_.record().follow->followed_s, 5.0, 1e-6);
+  EXPECT_NEAR(recorder_.record().follow->in_distance_s, 3.0, 1e-6);
+  EXPECT_NEAR(recorder_.record().follow->lost_s, 2.0, 1e-6);
+  EXPECT_NEAR(recorder_.record().follow->farthest_m, 3.5, 1e-9);
+}
+
+TEST_F(Behaviors, InspectingCountsOnceItHasTurnedToThePoint) {
+  intent(common::InspectIntent{}, "inspecting, 1 of 25 places");
+  at(1.0, 0.0);
+  EXPECT_TRUE(recorder_.record().inspecting.empty());
+  intent(common::InspectIntent{}, "inspecting, 2 of 25 places");
+  at(1.0, 0.0);
+  EXPECT_EQ(recorder_.record().inspecting.size(), 1u);
+}
+
+/// A floor with a table, and a camera that looks 45 deg down from 1 m.
+class Surveyed : public testing::Test {
+ protected:
+  Surveyed() {
+    world_.rays = &rays_;
+    world_.rgbd_camera.emplace();
+    world_.rgbd_camera->range_min_m = 0.3;
+    world_.T_body_camera.rotation = common::quaternionFrom({0.0, 0.25 * std::numbers::pi, 0.0});
+  }
+  static simulation::WorldModel floor() {
+    simulation::WorldModel world;
+    world.shapes.push_back(simulation::boxShape("floor", {-5, -5, -0.1}, {5, 5, 0}));
+    world.shapes.push_back(simulation::boxShape("table", {1.0, -0.2, 0}, {1.4, 0.2, 0.7}));
+    return world;
+  }
+  common::Pose3 at(double x_m, double yaw_rad) const {
+    return {common::quaternionFrom({0, 0, yaw_rad}), {x_m, 0.0, 1.0}};
+  }
+  simulation::WorldModel model_ = floor();
+  simulation::RayCaster rays_{model_};
+  TrueWorld world_;
+};
+
+TEST_F(Surveyed, WhatTheCameraSeesUnhiddenCountsAndFloorBelowATableDoesNot) {
+  const common::Polygon ahead{{{0.8, -0.3}, {1.2, -0.3}, {1.2, 0.3}, {0.8, 0.3}}};
+  EXPECT_NEAR(*surveyCoverage(ahead, world_, {}, {at(0.0, 0.0)}), 1.0, 1e-9);
+  EXPECT_NEAR(*surveyCoverage(ahead, world_, {}, {at(0.0, std::numbers::pi)}), 0.0, 1e-9) << "it looks away";
+  const common::Polygon behind{{{1.5, -0.1}, {1.9, -0.1}, {1.9, 0.1}, {1.5, 0.1}}};
+  EXPECT_LT(*surveyCoverage(behind, world_, {}, {at(0.3, 0.0)}), 0.5) << "the table hides it";
+  EXPECT_NEAR(*surveyCoverage(behind, world_, {}, {at(0.3, 0.0), at(2.7, std::numbers::pi)}), 1.0, 1e-9);
 }
 
 TEST(BehaviorCriteria, AnUnmeasuredOrLesserDistanceIsAMiss) {

@@ -76,6 +76,31 @@ struct Flight {
   }
 };
 
+TEST(RunFolder, KeepsTheMapsAndPhotographsOfTheMissionAndANewRunRemovesThem) {
+  const ScratchFolder folder;
+  {
+    RunFolder run(folder.path() / "run", kInfo, "");
+    Flight flight;
+    run.saveMap("hall", *flight.layers(MissionState::kRunning, "explore").map.grid);
+    common::RgbdFrame frame;
+    frame.stamps.measured = Time::fromSeconds(12.5);
+    frame.color = {2, 1, {255, 0, 0, 0, 255, 0}};
+    common::Pose3 T_map_camera;
+    T_map_camera.position_m = {1.0, 2.0, 1.5};
+    run.savePhoto("door", frame, T_map_camera);
+    run.savePhoto("door", frame, T_map_camera);
+    EXPECT_FALSE(run.failure());
+  }
+  for (const char* name : {"map-hall.pgm", "map-hall.yaml", "photo-01-door.jpg", "photo-02-door.jpg"})
+    EXPECT_GT(std::filesystem::file_size(folder.path() / "run" / name), 10u) << name;
+  std::ifstream file(folder.path() / "run" / "photo-01-door.json");
+  const json place = json::parse(file);
+  EXPECT_EQ(place.at("stamp_s"), 12.5);
+  EXPECT_EQ(place.at("camera_map_m"), json({1.0, 2.0, 1.5}));
+  RunFolder next(folder.path() / "run", kInfo, "");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "run" / "photo-01-door.jpg"));
+}
+
 TEST(RunFolder, ContainsEveryFile) {
   const ScratchFolder folder;
   const fs::path path = folder / "deep/run";

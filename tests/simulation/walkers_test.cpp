@@ -23,6 +23,26 @@ TEST(Walkers, AWalkerIsBlamedForHittingAHoveringVehicle) {
   EXPECT_NEAR(vehicle.truth().contact_time.seconds(), 4.0 + 3.0 - 0.525, 0.3);
 }
 
+TEST(Walkers, AWalkerStandsAtItsPointsAndChangesItsSpeed) {
+  Scenario scenario;
+  WalkerConfig walker{WalkerMode::kPath, {-2, 3, 0, 3, 0, 2}, WalkerEnd::kLoop, 1.0, 0.25, 1.75, 0.0};
+  walker.speeds_m_s = {1.0, 0.5};
+  walker.pause_s = 2.0;
+  scenario.walkers.push_back(walker);
+  SimulatedVehicle vehicle(boxRoom(), scenario);
+  TruthPilot pilot(vehicle);
+  pilot.flyTo(0, 0, 1);
+  const auto placeAt = [&](double time_s) {
+    EXPECT_TRUE(pilot.fly(time_s - vehicle.now().seconds()));
+    return vehicle.walkers().at(0).position_world_m;
+  };
+  EXPECT_LT((placeAt(1.5) - Eigen::Vector2d(-2, 3)).norm(), 0.02) << "the first pause";
+  EXPECT_LT((placeAt(3.0) - Eigen::Vector2d(-1, 3)).norm(), 0.02) << "1 m/s";
+  EXPECT_LT((placeAt(5.5) - Eigen::Vector2d(0, 3)).norm(), 0.02) << "the second pause";
+  EXPECT_LT((placeAt(7.0) - Eigen::Vector2d(0, 2.5)).norm(), 0.02) << "0.5 m/s";
+  EXPECT_LT((placeAt(9.5) - Eigen::Vector2d(0, 2)).norm(), 0.02) << "the third pause";
+}
+
 TEST(Walkers, TheVehicleIsBlamedForHittingAStandingPerson) {
   Scenario scenario;
   scenario.walkers.push_back({WalkerMode::kPath, {2, 0}, WalkerEnd::kStay});

@@ -123,6 +123,20 @@ TEST(RouteTest, CommandsNeedTheToken) {
   EXPECT_EQ(statusOf(route(post("/api/hold?token="), open)), 401);
 }
 
+TEST(RouteTest, AKeepOutZoneIsAPolygon) {
+  const auto zone = [](const std::string& body) { return route(post("/api/keep_out", body), kPolicy); };
+  const Action good = zone(R"({"corners_m": [[0, 1], [2, 1], [2, 3.5]]})");
+  const auto& area = std::get<common::KeepOutCommand>(std::get<GiveCommand>(good).kind).area;
+  EXPECT_EQ(area, (common::Polygon{{{0, 1}, {2, 1}, {2, 3.5}}}));
+  for (const char* bad :
+       {"", "[]", "{}", R"({"corners_m": 3})", R"({"corners_m": [[0, 1], [2, 1]]})",
+        R"({"corners_m": [[0, 1], [2, 1], [2]]})", R"({"corners_m": [[0, 1], [2, 1], [2, "x"]]})",
+        R"({"corners_m": [[0, 0], [2, 2], [2, 0], [0, 2]]})", R"({"corners_m": [[0, 1], [2, 1], [2, 3]], "x": 1})"})
+    EXPECT_EQ(statusOf(zone(bad)), 400) << bad;
+  EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(post("/api/clear_keep_out"), kPolicy)));
+  EXPECT_TRUE(std::holds_alternative<GiveCommand>(route(post("/api/go_on"), kPolicy)));
+}
+
 TEST(RouteTest, ForeignPagesMayNeitherCommandNorConnect) {
   for (const char* origin : {"http://evil.example", "null", "https://127.0.0.1:8080", "http://127.0.0.1:8081"}) {
     Request request = post("/api/land");

@@ -1,0 +1,39 @@
+// Follow: stays behind a walking person at a distance, with the nose on him. Where the straight line to him is not free
+// it flies along the way that he walked.
+#pragma once
+
+#include <optional>
+
+#include "autonomy/maneuvers/path_maneuver.hpp"
+#include "autonomy/maneuvers/person_watch.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread.
+///
+///   looks for somebody who walks --> follows --> lost: flies to where he was, looks for him --> failed
+///                                       ^----------- seen again -----------+
+///   To return it first flies to where the last person was, and is done when it is near somebody.
+class Follow final : public PathManeuver {
+ public:
+  Follow(const common::FollowIntent& intent, const ManeuverSetup& setup);
+  Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
+  std::optional<Eigen::Vector2d> goal_map_m() const override { return target_map_m_; }
+
+ private:
+  Progress fly(const ManeuverInput& input) override;
+  Progress search(const ManeuverInput& input);
+  Progress progress(const ManeuverInput& input);
+  /// Where it wants to be now; none if it is well where it is.
+  std::optional<Eigen::Vector2d> wanted(const ManeuverInput& input) const;
+  void flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map_m);
+
+  common::FollowIntent intent_;
+  PersonWatch person_;
+  std::optional<Eigen::Vector2d> target_map_m_;
+  std::optional<common::Time> since_, near_since_;
+  common::Time asked_;
+  bool lost_ = false;
+};
+
+}  // namespace swiftlet::autonomy

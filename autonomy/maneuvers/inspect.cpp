@@ -1,0 +1,60 @@
+#include "autonomy/maneuvers/inspect.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/geometry.hpp"
+#include "common/goal.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+/// Places of a full circle: a chord between two is 1 % of the radius off the circle.
+constexpr int kPlaces = 24;
+/// From then on the vehicle may leave its first place.
+constexpr double kTurned_rad = 3.0 * common::kRadPerDeg;
+
+/// The height of the body from which the camera's axis meets the point.
+double heightToSee_m(const Eigen::Vector2d& distance_height_m, const common::Pose3& T_body_camera) {
+  const Eigen::Vector3d axis = T_body_camera.rotation * Eigen::Vector3d::UnitX();
+  const double ahead_m = distance_height_m.x() - T_body_camera.position_m.x();
+  return distance_height_m.y() - ahead_m * axis.z() / std::max(0.1, axis.x()) - T_body_camera.position_m.z();
+}
+
+}  // namespace
+
+Inspect::Inspect(const common::InspectIntent& intent, const ManeuverSetup& setup)
+    : Tour(setup, "inspect a point", intent.mode, 0.15), intent_(intent) {
+  if (intent.height_m)
+    setup.memory.cruise_height_m = *intent.height_m;
+  else if (setup.camera != nullptr && intent.point_height_m)
+    setup.memory.cruise_height_m =
+        std::max(common::kLeastFlightHeight_m,
+                 heightToSee_m({intent.radius_m, *intent.point_height_m}, setup.camera->mount.pose()));
+  setup.controller.lookAt(intent.point_map_m);
+}
+
+std::vector<Eigen::Vector2d> Inspect::lay(const planning::CostMap& map, const ManeuverInput& input) {
+  const Eigen::Vector2d from_point = input.position_map_m() - intent_.point_map_m;
+  const auto placeAt = [&](double angle_rad) -> Eigen::Vector2d {
+    return intent_.point_map_m + intent_.radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  };
+  const double step_rad = 2.0 * std::numbers::pi / kPlaces;
+  double first_rad = std::atan2(from_point.y(), from_point.x());
+  for (int i = 0; i < kPlaces && map.costAt(map.cellAt(placeAt(first_rad))) == planning::CostMap::kLethal; ++i)
+    first_rad += i % 2 == 0 ? (i + 1) * step_rad : -(i + 1) * step_rad;  // Nearest first, to both sides.
+  std::vector<Eigen::Vector2d> places;
+  const int count = static_cast<int>(std::lround(intent_.turns * kPlaces));
+  for (int i = 0; i <= count; ++i) places.push_back(placeAt(first_rad + i * step_rad));
+  return places;
+}
+
+bool Inspect::ready(const ManeuverInput& input) {
+  if (passed() != 1) return true;
+  const Eigen::Vector2d look = intent_.point_map_m - input.position_map_m();
+  return std::abs(common::wrapAngle(std::atan2(look.y(), look.x()) - input.state.T_map_body_planar().yaw_rad)) <
+         kTurned_rad;
+}
+
+}  // namespace swiftlet::autonomy

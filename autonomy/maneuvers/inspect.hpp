@@ -1,0 +1,21 @@
+// Inspect: orbits a point with the nose, and so the camera, on it. First it flies to the nearest place of the circle
+// and turns to the point. Parts of the circle that are not free are left out.
+#pragma once
+
+#include "autonomy/maneuvers/tour.hpp"
+
+namespace swiftlet::autonomy {
+
+class Inspect final : public Tour {
+ public:
+  Inspect(const common::InspectIntent& intent, const ManeuverSetup& setup);
+
+ private:
+  std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) override;
+  bool ready(const ManeuverInput& input) override;
+  std::string doing() const override { return passed() == 0 ? "flying to the circle" : "inspecting"; }
+
+  common::InspectIntent intent_;
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,143 @@
+#include "autonomy/maneuvers/tour.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "planning/search/planner.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+/// A station to which the vehicle has set out so often is left: something that is not mapped keeps it away.
+constexpr int kMostTries = 5;
+
+}  // namespace
+
+using common::Time;
+
+Tour::Tour(const ManeuverSetup& setup, std::string purpose, common::FlightMode mode, double corner_m)
+    : PathManeuver(setup, std::move(purpose), mode), corner_m_(corner_m) {}
+
+std::optional<Eigen::Vector2d> Tour::instead(const planning::CostMap&, const Eigen::Vector2d&) const {
+  return std::nullopt;
+}
+
+std::optional<Eigen::Vector2d> Tour::goal_map_m() const {
+  const auto station = next();
+  return station ? std::optional(stations_[*station].place_map_m) : std::nullopt;
+}
+
+std::size_t Tour::passed() const {
+  return static_cast<std::size_t>(
+      std::count_if(stations_.begin(), stations_.end(), [](const Station& s) { return s.state == State::kPassed; }));
+}
+
+std::optional<std::size_t> Tour::next() const {
+  const auto open =
+      std::find_if(stations_.begin(), stations_.end(), [](const Station& s) { return s.state == State::kOpen; });
+  return open == stations_.end() ? std::nullopt
+                                 : std::optional(static_cast<std::size_t>(std::distance(stations_.begin(), open)));
+}
+
+Progress Tour::fly(const ManeuverInput& input) {
+  const auto map = setup_.desk.costMap();
+  if (!map) return Progress::running("waits for a map");
+  if (stations_.empty()) {
+    for (const Eigen::Vector2d& place : lay(*map, input)) stations_.push_back({place, place});
+    open(*map);
+  }
+  pass(input.position_map_m());
+  leaveBlocked(*map);
+  if (!next() && !std::exchange(second_look_, true)) open(*map);
+  const auto station = next();
+  if (!station) {
+    flight_.abandon();
+    return ended();
+  }
+  (void)flight_.keep(input);
+  if (flight_.mayAsk()) asked_.reset();  // An answer that came during a retreat was dropped.
+  const bool under_way = flight_.plan() != nullptr && !setup_.controller.pathFinished();
+  if (!under_way && !asked_ && ready(input)) flyOn(*map, input, *station);
+  return Progress::running(fmt::format("{}, {} of {} places", doing(), passed(), stations_.size()));
+}
+
+/// Opens the stations that are not passed, where the map has a free place for them.
+void Tour::open(const planning::CostMap& map) {
+  for (Station& station : stations_) {
+    if (station.state == State::kPassed) continue;
+    const bool free = map.costAt(map.cellAt(station.wanted_map_m)) != planning::CostMap::kLethal;
+    const auto place = free ? std::optional(station.wanted_map_m) : instead(map, station.wanted_map_m);
+    station.state = place ? State::kOpen : State::kLeft;
+    station.tries = 0;
+    if (place) station.place_map_m = *place;
+  }
+}
+
+/// The stations that the vehicle comes by in their order.
+void Tour::pass(const Eigen::Vector2d& here_map_m) {
+  while (const auto station = next()) {
+    if ((stations_[*station].place_map_m - here_map_m).norm() >= corner_m_) return;
+    stations_[*station].state = State::kPassed;
+  }
+}
+
+void Tour::leaveBlocked(const planning::CostMap& map) {
+  for (Station& station : stations_)
+    if (station.state == State::kOpen && map.costAt(map.cellAt(station.place_map_m)) == planning::CostMap::kLethal)
+      station.state = State::kLeft;
+}
+
+void Tour::flyOn(const planning::CostMap& map, const ManeuverInput& input, std::size_t station) {
+  if (++stations_[station].tries > kMostTries) {
+    stations_[station].state = State::kLeft;
+    return;
+  }
+  if (planning::Path run = straightRun(map, input.position_map_m(), station); run.points_map_m.size() > 1) {
+    flight_.release();
+    flight_.offer(run, input.now, input.state);
+  } else if (flight_.mayAsk()) {
+    asked_ = station;
+    flight_.ask(input, GoalRequest{stations_[station].place_map_m, 0.0});
+  }
+}
+
+/// Through the open stations from the first on, as far as straight lines are free. The very first one is flown to by
+/// itself.
+planning::Path Tour::straightRun(const planning::CostMap& map, const Eigen::Vector2d& from_map_m,
+                                 std::size_t first) const {
+  planning::Path run{{from_map_m}, 0.0, 0.0};
+  for (std::size_t i = first; i < stations_.size(); ++i) {
+    if (stations_[i].state != State::kOpen) continue;
+    const planning::SegmentCost leg = segmentCost(map, run.points_map_m.back(), stations_[i].place_map_m);
+    if (leg.lethal) break;
+    run.length_m += (stations_[i].place_map_m - run.points_map_m.back()).norm();
+    run.cost_m += leg.cost_m;
+    run.points_map_m.push_back(stations_[i].place_map_m);
+    if (passed() == 0) break;
+  }
+  return run;
+}
+
+Progress Tour::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {
+  if (!answer.path || !asked_) return Progress::running();
+  const std::size_t station = *std::exchange(asked_, std::nullopt);
+  if (*answer.path) {
+    flight_.release();
+    flight_.offer(**answer.path, now, state);
+  } else if (station < stations_.size()) {
+    stations_[station].state = State::kLeft;
+    no_path_ = answer.path->error().text;
+  }
+  return Progress::running();
+}
+
+Progress Tour::ended() const {
+  if (passed() == 0)
+    return Progress::failed(no_path_.empty() ? "none of its places is free"
+                                             : "none of its places is reached: " + no_path_);
+  return Progress::done(fmt::format("{} of {} places, the others are not free", passed(), stations_.size()));
+}
+
+}  // namespace swiftlet::autonomy

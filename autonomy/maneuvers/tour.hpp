@@ -1,0 +1,68 @@
+// Tour: flies through a series of stations in their order, for maneuvers whose way is given by a pattern. Stations in
+// reach along straight lines are flown in one go; to others the planner finds a path. What cannot be reached is left
+// out.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autonomy/maneuvers/path_maneuver.hpp"
+
+namespace swiftlet::autonomy {
+
+/// One thread.
+///
+///   lay the stations --> straight run through the next ones --> at its end: the next run, or a planned path
+///        ^                                                          |  no station is open
+///        +--- once more, for stations that the map has opened ------+--> done, or failed where none was passed
+class Tour : public PathManeuver {
+ public:
+  Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
+  /// The next station.
+  std::optional<Eigen::Vector2d> goal_map_m() const override;
+
+ protected:
+  /// A station is passed when nearer than `corner_m`.
+  Tour(const ManeuverSetup& setup, std::string purpose, common::FlightMode mode, double corner_m);
+
+  /// The places to fly to, in order; a place that is not free is left out. Called when there is a map, and for those
+  /// that were left out a second time.
+  virtual std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) = 0;
+  /// Where a place that is not free may be replaced; none: nowhere.
+  virtual std::optional<Eigen::Vector2d> instead(const planning::CostMap& map,
+                                                 const Eigen::Vector2d& place_map_m) const;
+  /// Whether it may fly on from where it is.
+  virtual bool ready(const ManeuverInput&) { return true; }
+  /// "surveying", for people.
+  virtual std::string doing() const = 0;
+
+  std::size_t passed() const;
+  std::size_t stations() const { return stations_.size(); }
+
+ private:
+  enum class State { kOpen, kPassed, kLeft };
+  struct Station {
+    Eigen::Vector2d wanted_map_m, place_map_m;
+    State state = State::kOpen;
+    int tries = 0;
+  };
+
+  Progress fly(const ManeuverInput& input) final;
+  void open(const planning::CostMap& map);
+  void pass(const Eigen::Vector2d& here_map_m);
+  void leaveBlocked(const planning::CostMap& map);
+  std::optional<std::size_t> next() const;
+  void flyOn(const planning::CostMap& map, const ManeuverInput& input, std::size_t station);
+  planning::Path straightRun(const planning::CostMap& map, const Eigen::Vector2d& from_map_m, std::size_t first) const;
+  Progress ended() const;
+
+  double corner_m_;
+  std::vector<Station> stations_;
+  bool second_look_ = false;
+  std::optional<std::size_t> asked_;  ///< The station that a path is asked for.
+  std::string no_path_;               ///< Why the last station that was not reached was not.
+};
+
+}  // namespace swiftlet::autonomy

@@ -1,0 +1,24 @@
+// EmergencyLand: descends at once where the vehicle is, by the raw height alone, and switches the motors off. SUCCESS
+// on the ground. It cannot be taken back: letting go does not end the descent.
+#pragma once
+
+#include "behaviors/flight_leaf.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::behaviors {
+
+class EmergencyLand final : public IntentLeaf {
+ public:
+  using IntentLeaf::IntentLeaf;
+  static tree::NodeManifest manifest() {
+    return {.id = "EmergencyLand",
+            .kind = tree::NodeKind::kAction,
+            .ports = {},
+            .description = "Descends at once where it is, without the position."};
+  }
+
+ private:
+  IntentOrProblem makeIntent(const FlightTick&) override { return {common::EmergencyLandIntent{}, {}}; }
+};
+
+}  // namespace swiftlet::behaviors

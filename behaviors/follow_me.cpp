@@ -1,0 +1,66 @@
+#include "behaviors/follow_me.hpp"
+
+#include "behaviors/ports.hpp"
+
+namespace swiftlet::behaviors {
+
+using tree::PortType;
+
+namespace {
+
+std::vector<tree::PortManifest> personPorts() {
+  return {{.name = "distance_m",
+           .type = PortType::kDouble,
+           .default_value = "2.0",
+           .minimum = 1.5,
+           .maximum = 3.0,
+           .description = "Between the vehicle's centre and the person."},
+          {.name = "lost_s",
+           .type = PortType::kDuration,
+           .default_value = "20",
+           .minimum = 3.0,
+           .maximum = 3600.0,
+           .description = "Time without seeing anybody after which it fails."},
+          clearancePort(),
+          modePort()};
+}
+
+}  // namespace
+
+tree::NodeManifest FollowMe::manifest() {
+  return {.id = "FollowMe",
+          .kind = tree::NodeKind::kAction,
+          .ports = personPorts(),
+          .description = "Follows the nearest person who walks."};
+}
+
+tree::NodeManifest ReturnToMe::manifest() {
+  return {.id = "ReturnToMe",
+          .kind = tree::NodeKind::kAction,
+          .ports = personPorts(),
+          .description = "Flies back to the person who was followed."};
+}
+
+PersonLeaf::PersonLeaf(const tree::NodeSetup& setup, bool until_near)
+    : IntentLeaf(setup),
+      until_near_(until_near),
+      distance_m_(setup, "distance_m"),
+      lost_s_(setup, "lost_s"),
+      clearance_m_(setup, "clearance_m"),
+      mode_(setup, "mode") {}
+
+IntentLeaf::IntentOrProblem PersonLeaf::makeIntent(const FlightTick& tick) {
+  const auto distance_m = distance_m_.get();
+  const auto lost = lost_s_.get();
+  const auto clearance_m = clearance_m_.get();
+  const auto mode = modeOr(mode_, tick.mode);
+  if (!distance_m) return {std::nullopt, distance_m_.problem()};
+  if (!lost) return {std::nullopt, lost_s_.problem()};
+  if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
+  if (!mode) return {std::nullopt, mode_.problem()};
+  return {common::FollowIntent{*distance_m, 1e-9 * static_cast<double>(lost->nanoseconds), until_near_, *clearance_m,
+                               *mode},
+          {}};
+}
+
+}  // namespace swiftlet::behaviors

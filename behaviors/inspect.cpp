@@ -1,0 +1,60 @@
+#include "behaviors/inspect.hpp"
+
+#include "behaviors/ports.hpp"
+
+namespace swiftlet::behaviors {
+
+using tree::PortType;
+
+tree::NodeManifest Inspect::manifest() {
+  return {.id = "Inspect",
+          .kind = tree::NodeKind::kAction,
+          .ports = {placePort("point"),
+                    {.name = "radius_m",
+                     .type = PortType::kDouble,
+                     .default_value = "1.5",
+                     .minimum = 0.3,
+                     .maximum = 20.0,
+                     .description = "Of the circle about the point, for the vehicle's centre."},
+                    {.name = "turns",
+                     .type = PortType::kDouble,
+                     .default_value = "1",
+                     .minimum = 0.1,
+                     .maximum = 20.0,
+                     .description = "Of the circle, counter-clockwise."},
+                    {.name = "height_m",
+                     .type = PortType::kDouble,
+                     .description = "Of the vehicle above the take-off floor. Not given: where the camera's axis meets "
+                                    "the point, or the present height where the point has no z."},
+                    clearancePort(),
+                    modePort()},
+          .description = "Orbits a point with the camera on it."};
+}
+
+Inspect::Inspect(const tree::NodeSetup& setup)
+    : IntentLeaf(setup),
+      point_(setup, "point"),
+      radius_m_(setup, "radius_m"),
+      turns_(setup, "turns"),
+      height_m_(setup, "height_m"),
+      clearance_m_(setup, "clearance_m"),
+      mode_(setup, "mode") {}
+
+IntentLeaf::IntentOrProblem Inspect::makeIntent(const FlightTick& tick) {
+  const auto point = point_.get();
+  const auto radius_m = radius_m_.get(), turns = turns_.get(), clearance_m = clearance_m_.get();
+  const auto height_m = height_m_.get();
+  const auto mode = modeOr(mode_, tick.mode);
+  if (!point) return {std::nullopt, point_.problem()};
+  if (!radius_m) return {std::nullopt, radius_m_.problem()};
+  if (!turns) return {std::nullopt, turns_.problem()};
+  if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
+  if (height_m_.given() && !height_m) return {std::nullopt, height_m_.problem()};
+  if (!mode) return {std::nullopt, mode_.problem()};
+  common::Goal place{.place_map_m = {point->x, point->y}, .height_m = height_m, .tolerance_m = 0, .clearance_m = 0};
+  const auto verdict = common::judgeGoal(place, tick.flight.goal_limits, nullptr);
+  if (!verdict) return {std::nullopt, verdict.error().text};
+  return {common::InspectIntent{*verdict, point->z, *radius_m, *turns, height_m, *clearance_m, *mode}, {}};
+}
+
+}  // namespace swiftlet::behaviors

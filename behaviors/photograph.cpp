@@ -1,0 +1,37 @@
+#include "behaviors/photograph.hpp"
+
+#include "behaviors/ports.hpp"
+
+namespace swiftlet::behaviors {
+
+tree::NodeManifest Photograph::manifest() {
+  return {.id = "Photograph",
+          .kind = tree::NodeKind::kAction,
+          .ports = {fileNamePort("photo")},
+          .description = "Takes a picture with the camera, with its place."};
+}
+
+void Photograph::onStart(tree::TickContext& context) {
+  FlightLeaf::onStart(context);
+  request_id_ = 0;
+}
+
+void Photograph::onResume(tree::TickContext& context) {
+  FlightLeaf::onResume(context);
+  request_id_ = 0;
+}
+
+tree::Status Photograph::act(tree::TickContext& context) {
+  FlightTick& tick = flightTick(context);
+  const auto file = file_.get();
+  if (!file) return fail(context, file_.problem());
+  if (std::string problem = fileNameProblem(*file); !problem.empty()) return fail(context, problem);
+  emitHold(tick);
+  if (request_id_ == 0 && holdReleased(tick)) request_id_ = tick.request(common::PhotographRequest{*file});
+  for (const common::MissionAnswer& answer : tick.flight.answers)
+    if (request_id_ != 0 && answer.id == request_id_)
+      return answer.done ? tree::Status::kSuccess : fail(context, answer.reason);
+  return tree::Status::kRunning;
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,21 @@
+#include "behaviors/set_flight_mode.hpp"
+
+#include "behaviors/ports.hpp"
+
+namespace swiftlet::behaviors {
+
+tree::NodeManifest SetFlightMode::manifest() {
+  return {.id = "SetFlightMode",
+          .kind = tree::NodeKind::kAction,
+          .ports = {choicePort("mode", common::kFlightModes, "How fast and how closely paths are flown.")},
+          .description = "Sets the flight mode of what follows."};
+}
+
+tree::Status SetFlightMode::act(tree::TickContext& context) {
+  const auto mode = mode_.get();
+  if (!mode) return fail(context, mode_.problem());
+  flightTick(context).mode = chosenOf(common::kFlightModes, *mode);
+  return tree::Status::kSuccess;
+}
+
+}  // namespace swiftlet::behaviors

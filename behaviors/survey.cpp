@@ -1,0 +1,52 @@
+#include "behaviors/survey.hpp"
+
+#include "behaviors/ports.hpp"
+
+namespace swiftlet::behaviors {
+
+using tree::PortType;
+
+tree::NodeManifest Survey::manifest() {
+  return {.id = "Survey",
+          .kind = tree::NodeKind::kAction,
+          .ports = {polygonPort("that is surveyed"),
+                    {.name = "spacing_m",
+                     .type = PortType::kDouble,
+                     .minimum = 0.2,
+                     .maximum = 20.0,
+                     .description = "Greatest distance between two lanes. Not given: from the strip of floor that the "
+                                    "camera sees, with an overlap; 1 m without a camera."},
+                    {.name = "height_m",
+                     .type = PortType::kDouble,
+                     .description = "Above the take-off floor. Not given: the present height."},
+                    clearancePort(),
+                    modePort()},
+          .description = "Flies over an area in lanes."};
+}
+
+Survey::Survey(const tree::NodeSetup& setup)
+    : IntentLeaf(setup),
+      polygon_(setup, "polygon"),
+      spacing_m_(setup, "spacing_m"),
+      height_m_(setup, "height_m"),
+      clearance_m_(setup, "clearance_m"),
+      mode_(setup, "mode") {}
+
+IntentLeaf::IntentOrProblem Survey::makeIntent(const FlightTick& tick) {
+  const auto points = polygon_.get();
+  const auto spacing_m = spacing_m_.get(), height_m = height_m_.get(), clearance_m = clearance_m_.get();
+  const auto mode = modeOr(mode_, tick.mode);
+  if (!points) return {std::nullopt, polygon_.problem()};
+  if (spacing_m_.given() && !spacing_m) return {std::nullopt, spacing_m_.problem()};
+  if (height_m_.given() && !height_m) return {std::nullopt, height_m_.problem()};
+  if (!clearance_m) return {std::nullopt, clearance_m_.problem()};
+  if (!mode) return {std::nullopt, mode_.problem()};
+  const common::Polygon area = polygonOf(*points);
+  if (std::string problem = problemOf(area); !problem.empty()) return {std::nullopt, problem};
+  common::Goal at_height{.place_map_m = area.corners_map_m.front(), .height_m = height_m};
+  const auto verdict = common::judgeGoal(at_height, tick.flight.goal_limits, nullptr);
+  if (!verdict) return {std::nullopt, verdict.error().text};
+  return {common::SurveyIntent{area, spacing_m, height_m, *clearance_m, *mode}, {}};
+}
+
+}  // namespace swiftlet::behaviors

@@ -1,0 +1,24 @@
+// Survey: flies over `polygon` in lanes so that the sensor sees all of it. SUCCESS after the last lane; known obstacles
+// are left out; FAILURE when no place of the lanes is free.
+#pragma once
+
+#include <string>
+
+#include "behaviors/flight_leaf.hpp"
+#include "behaviors/tree/registry.hpp"
+
+namespace swiftlet::behaviors {
+
+class Survey final : public IntentLeaf {
+ public:
+  explicit Survey(const tree::NodeSetup& setup);
+  static tree::NodeManifest manifest();
+
+ private:
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
+  tree::Input<tree::Points> polygon_;
+  tree::Input<double> spacing_m_, height_m_, clearance_m_;
+  tree::Input<std::string> mode_;
+};
+
+}  // namespace swiftlet::behaviors

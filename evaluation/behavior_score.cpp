@@ -1,0 +1,102 @@
+#include "evaluation/behavior_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swiftlet::evaluation {
+namespace {
+
+/// Between two places of the floor that are asked for: half of the smallest thing that a survey is to find.
+constexpr double kFloorStep_m = 0.1;
+/// A surface this little above the take-off floor is the floor.
+constexpr double kFloor_m = 0.05;
+/// A ray that ends this near to a place has met it.
+constexpr double kMet_m = 0.03;
+
+double angleToPoint_rad(const InspectingView& view, const TrueWorld& world, const common::Pose3& T_world_map) {
+  const common::Pose3 T_world_camera = view.T_world_body * world.T_body_camera;
+  const Eigen::Vector3d point_world_m =
+      T_world_map * Eigen::Vector3d(view.point_map_m.x(), view.point_map_m.y(), view.point_height_m.value_or(0.0));
+  Eigen::Vector3d axis = T_world_camera.rotation * Eigen::Vector3d::UnitX();
+  Eigen::Vector3d to_point = point_world_m - T_world_camera.position_m;
+  if (!view.point_height_m) axis.z() = to_point.z() = 0.0;
+  return std::acos(std::clamp(axis.normalized().dot(to_point.normalized()), -1.0, 1.0));
+}
+
+/// The floor of the area that nothing stands on or hangs above below the height of flight.
+std::vector<Eigen::Vector3d> openFloor(const common::Polygon& area, const TrueWorld& world,
+                                       const common::Pose3& T_world_map, double height_m) {
+  std::vector<Eigen::Vector3d> floor_world_m;
+  const Eigen::Vector2d low = area.min_map_m(), high = area.max_map_m();
+  for (double y = low.y() + 0.5 * kFloorStep_m; y < high.y(); y += kFloorStep_m) {
+    for (double x = low.x() + 0.5 * kFloorStep_m; x < high.x(); x += kFloorStep_m) {
+      if (!area.contains({x, y})) continue;
+      const Eigen::Vector3d above = T_world_map * Eigen::Vector3d(x, y, height_m);
+      const auto hit = world.rays->cast(above, {0.0, 0.0, -1.0}, height_m + 1.0);
+      if (std::abs(hit.distance_m - height_m) <= kFloor_m)
+        floor_world_m.push_back(T_world_map * Eigen::Vector3d(x, y, 0.0));
+    }
+  }
+  return floor_world_m;
+}
+
+bool sees(const common::PinholeCamera& camera, const common::RgbdCameraConfig& sheet, const TrueWorld& world,
+          const common::Pose3& T_world_camera, const Eigen::Vector3d& place_world_m) {
+  const Eigen::Vector3d in_camera = T_world_camera.inverse() * place_world_m;
+  if (in_camera.x() < sheet.range_min_m || in_camera.x() > sheet.range_max_m) return false;
+  const Eigen::Vector2d pixel = camera.pixel(in_camera);
+  const bool in_picture =
+      (pixel.array() >= 0.0).all() && pixel.x() <= camera.width_px - 1 && pixel.y() <= camera.height_px - 1;
+  if (!in_picture) return false;
+  const Eigen::Vector3d way = place_world_m - T_world_camera.position_m;
+  return world.rays->cast(T_world_camera.position_m, way.normalized(), way.norm() + 1.0).distance_m >
+         way.norm() - kMet_m;
+}
+
+}  // namespace
+
+std::optional<double> surveyCoverage(const common::Polygon& area, const TrueWorld& world,
+                                     const common::Pose3& T_world_map,
+                                     const std::vector<common::Pose3>& T_world_body_views) {
+  if (!world.rgbd_camera || T_world_body_views.empty()) return std::nullopt;
+  const double height_m = T_world_body_views.back().position_m.z() - T_world_map.position_m.z();
+  std::vector<Eigen::Vector3d> unseen = openFloor(area, world, T_world_map, std::max(0.5, height_m));
+  if (unseen.empty()) return std::nullopt;
+  const auto whole = static_cast<double>(unseen.size());
+  const common::PinholeCamera camera = world.rgbd_camera->camera();
+  for (const common::Pose3& T_world_body : T_world_body_views) {
+    const common::Pose3 T_world_camera = T_world_body * world.T_body_camera;
+    std::erase_if(unseen, [&](const Eigen::Vector3d& place) {
+      return sees(camera, *world.rgbd_camera, world, T_world_camera, place);
+    });
+  }
+  return 1.0 - static_cast<double>(unseen.size()) / whole;
+}
+
+BehaviorScore scoreOf(const BehaviorRecord& record, const TrueWorld& world, const common::Pose3& T_world_map,
+                      const std::vector<common::Pose3>& T_world_body_views) {
+  BehaviorScore score;
+  if (record.keep_out_distance_m) score.keep_out_gap_m = *record.keep_out_distance_m - world.vehicle.hullRadius_m();
+  for (const InspectingView& view : record.inspecting)
+    score.inspect_axis_max_deg = std::max(score.inspect_axis_max_deg.value_or(0.0),
+                                          angleToPoint_rad(view, world, T_world_map) / common::kRadPerDeg);
+  for (const common::Polygon& area : record.surveyed)
+    if (const auto share = surveyCoverage(area, world, T_world_map, T_world_body_views))
+      score.survey_coverage = std::min(*share, score.survey_coverage.value_or(1.0));
+  if (record.follow && record.follow->followed_s > 0.0) {
+    score.follow_share = record.follow->in_distance_s / record.follow->followed_s;
+    score.follow_nearest_m = record.follow->nearest_m;
+    score.follow_farthest_m = record.follow->farthest_m;
+    score.follow_lost_s = record.follow->lost_s;
+  }
+  return score;
+}
+
+std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const BehaviorScore& score) {
+  return {{"keep_out_gap_m", score.keep_out_gap_m},     {"inspect_axis_max_deg", score.inspect_axis_max_deg},
+          {"survey_coverage", score.survey_coverage},   {"follow_share", score.follow_share},
+          {"follow_nearest_m", score.follow_nearest_m}, {"follow_farthest_m", score.follow_farthest_m},
+          {"follow_lost_s", score.follow_lost_s}};
+}
+
+}  // namespace swiftlet::evaluation

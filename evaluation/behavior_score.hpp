@@ -1,0 +1,37 @@
+// The figures of what behaviours promise, by the truth.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "evaluation/behavior_recorder.hpp"
+#include "evaluation/true_world.hpp"
+
+namespace swiftlet::evaluation {
+
+/// A figure is none if it could not be measured.
+struct BehaviorScore {
+  std::optional<double> keep_out_gap_m;        ///< Least distance of the hull from a keep-out zone, negative inside.
+  std::optional<double> inspect_axis_max_deg;  ///< Greatest angle between the camera's axis and the inspected point.
+  /// Least share of the floor of a surveyed area that the camera has seen; floor below obstacles does not count.
+  std::optional<double> survey_coverage;
+  std::optional<double> follow_share;       ///< Of the time of following, with the person 1.5 to 3 m away.
+  std::optional<double> follow_nearest_m;   ///< Least distance between the vehicle's centre and the person's.
+  std::optional<double> follow_farthest_m;  ///< Greatest distance between them.
+  std::optional<double> follow_lost_s;      ///< Longest time in which the person was not where he was believed.
+};
+
+/// `T_world_body_views` are the true poses from which the camera saw.
+BehaviorScore scoreOf(const BehaviorRecord& record, const TrueWorld& world, const common::Pose3& T_world_map,
+                      const std::vector<common::Pose3>& T_world_body_views);
+
+/// The figures by their names in results.json.
+std::vector<std::pair<const char*, std::optional<double>>> figuresOf(const BehaviorScore& score);
+
+/// The share of the floor of the area that the camera saw from one of the views, unhidden and within its range.
+std::optional<double> surveyCoverage(const common::Polygon& area, const TrueWorld& world,
+                                     const common::Pose3& T_world_map,
+                                     const std::vector<common::Pose3>& T_world_body_views);
+
+}  // namespace swiftlet::evaluation
