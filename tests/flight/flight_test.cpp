@@ -28,8 +28,11 @@ std::vector<std::string> shippedMissions() {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(fs::path(SWIFTLET_SOURCE_DIR) / "missions")) {
     if (entry.path().extension() != ".xml") continue;
-    const bool needs_map = readText(entry.path()).find("<Localize") != std::string::npos;  // Flown in FlyWithMap.
-    if (!needs_map) names.push_back(entry.path().stem().string());
+    const std::string text = readText(entry.path());
+    const auto has = [&](const char* leaf) { return text.find(leaf) != std::string::npos; };
+    const bool needs_map = has("<Localize");                     // Flown in FlyWithMap.
+    const bool needs_more = has("<FollowMe") || has("<Survey");  // A person, a camera: flown in MissionInItsTrial.
+    if (!needs_map && !needs_more) names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -83,6 +86,20 @@ TEST_P(ShippedMission, FliesAccuratelyAndWritesItsRun) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, ShippedMission, testing::ValuesIn(missionsThat(false)), kByName);
+
+class MissionInItsTrial : public test_support::Scratch, public testing::WithParamInterface<std::string> {};
+
+// The criteria of those trials are for many seeds; one flight must be done and touch nothing.
+TEST_P(MissionInItsTrial, IsFlownToItsEnd) {
+  const ProgramEnd end = runSwiftlet(
+      {"trial", "trials/" + GetParam() + ".yaml", "--seed", "3", "--repeat", "1", "--json", "--out", path("out")});
+  ASSERT_LE(end.exit_code, 1) << describe(end);
+  const auto flight = nlohmann::json::parse(end.out).at("trials").at(0).at("flights").at(0);
+  EXPECT_TRUE(flight.at("mission_done").get<bool>()) << flight.dump(2);
+  EXPECT_EQ(flight.at("collisions"), 0) << flight.dump(2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, MissionInItsTrial, testing::Values("follow_me", "survey_floor"), kByName);
 
 class WaitingMission : public test_support::Scratch, public testing::WithParamInterface<std::string> {};
 
