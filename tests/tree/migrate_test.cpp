@@ -106,6 +106,9 @@ TEST(Migrate, RewritesSubTrees) {
             open + "<SubTree ID=\"S\" at=\"1;2\" _autoremap='1'></SubTree>" + tail);
   EXPECT_EQ(inside(open + "<SubTree ID=\"S\">\n <remap internal=\"at\" external=\"door\"/>\n</SubTree>" + tail),
             open + "<SubTree at=\"{door}\" ID=\"S\">\n</SubTree>" + tail);
+  EXPECT_EQ(inside(open + "<SubTree ID=\"S\"><remap internal=\"a\" external=\"b\"/></SubTree>" + tail),
+            open + "<SubTree a=\"{b}\" ID=\"S\"></SubTree>" + tail)
+      << "the closing tag right behind the last child is not that of the child";
 }
 
 TEST(Migrate, TurnsChecksOfEntriesIntoPreconditions) {
