@@ -150,6 +150,17 @@ TEST(Migrate, RefusesWhatIsNoTreeOrOfAnotherVersion) {
               ElementsAre("f.xml:1:7: root: BTCPP_format=\"5\", expected \"3\""));
 }
 
+TEST(Migrate, RefusesNamesThatCannotBeAttributes) {
+  for (const char* inside : {"<SubTree ID=\"S\"><remap internal=\"*\" external=\"b\"/></SubTree>",
+                             "<SubTree ID=\"S\" a=\"x\"><remap internal=\"a\" external=\"b\"/></SubTree>",
+                             "<Parallel threshold=\"1\" success_threshold=\"1\"><AlwaysSuccess/></Parallel>"}) {
+    const Migration migration =
+        migrateToVersion4("<root><BehaviorTree ID=\"M\">" + std::string(inside) + "</BehaviorTree></root>", "f.xml");
+    EXPECT_EQ(migration.text, "") << inside;
+    EXPECT_THAT(linesOf(migration.problems), ElementsAre(HasSubstr("the rewritten file would not be XML"))) << inside;
+  }
+}
+
 class MigratedFiles : public test_support::Scratch {};
 
 TEST_F(MigratedFiles, OfOtherProjectsAreReadWithMocks) {
