@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "behaviors/tree/document.hpp"
 #include "behaviors/tree/parse_options.hpp"
 #include "behaviors/tree/problem.hpp"
-#include "behaviors/tree/xml.hpp"
 
 namespace swiftlet::tree {
 
@@ -34,16 +34,6 @@ class Problems {
   std::size_t limit_;
   std::vector<Problem> list_;
   std::vector<Problem> warnings_;
-};
-
-struct Document {
-  SourceText source;
-  XmlElement root;
-
-  Location at(const XmlElement& element) const { return source.locate(element.offset); }
-  Location at(const XmlElement& element, std::string_view attribute) const {
-    return source.locate(element.offset, attribute);
-  }
 };
 
 struct TreeDefinition {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "behaviors/tree/documents.hpp"
+#include "behaviors/tree/document.hpp"
 #include "behaviors/tree/parse_options.hpp"
 #include "behaviors/tree/version3.hpp"
 
@@ -24,6 +24,16 @@ std::optional<Problem> migrationRefusal(const Document& document) {
   const std::string* format = root.attribute("BTCPP_format");
   if (format == nullptr || *format == "3" || *format == "4") return std::nullopt;
   return Problem{document.at(root, "BTCPP_format"), "root", "BTCPP_format=\"" + *format + "\", expected \"3\"", {}};
+}
+
+/// Names that version 3 allowed cannot all become attributes: two may be equal, or hold a character that XML does not
+/// allow.
+std::optional<Problem> whatIsBroken(const Document& document, const std::string& text) {
+  const XmlResult xml = parseXml(SourceText(document.source.file(), text), ParseLimits{}.depth + 2);
+  if (xml.root) return std::nullopt;
+  return Problem{document.at(document.root), "root",
+                 "the rewritten file would not be XML (" + xml.problem->message + ")",
+                 "give its SubTrees and their remaps other names first"};
 }
 
 }  // namespace
@@ -48,6 +58,7 @@ Migration migrateToVersion4(std::string text, const std::string& name) {
     edits.insert(edits.end(), use.edits.begin(), use.edits.end());
   }
   migration.text = edited(document.source.text(), std::move(edits));
+  if (auto problem = whatIsBroken(document, migration.text)) return {{}, {}, {std::move(*problem)}};
   return migration;
 }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "behaviors/tree/documents.hpp"
+#include "behaviors/tree/document.hpp"
 #include "behaviors/tree/elements.hpp"
 #include "behaviors/tree/parse_options.hpp"
 #include "behaviors/tree/version3.hpp"

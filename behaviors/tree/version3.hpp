@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "behaviors/tree/documents.hpp"
+#include "behaviors/tree/document.hpp"
 
 namespace swiftlet::tree {
 

@@ -67,9 +67,11 @@ class Reader {
   }
 
   void close() {
-    // The end of <Element/> is reported at its own start or end.
     const std::size_t at = offset();
-    if (std::string_view(source_.text()).substr(at).starts_with("</")) open_.back()->close_offset = at;
+    const std::string_view text = source_.text();
+    // The end of <Element/> is reported behind it, where the closing tag of its parent may follow.
+    const bool behind_itself = text.substr(0, at).ends_with("/>") && source_.endOfTag(open_.back()->offset) == at;
+    if (text.substr(at).starts_with("</") && !behind_itself) open_.back()->close_offset = at;
     open_.pop_back();
   }
 

@@ -30,8 +30,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, Help,
 TEST(Usage, GeneralHelpNamesEachCommand) {
   const ProgramEnd end = runSwiftlet({"--help"});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
-  for (const std::string command :
-       {"fly", "check", "trial", "config", "doctor", "version", "optimize", "map", "map3d", "localize", "evaluate", "migrate"})
+  for (const std::string command : {"fly", "check", "trial", "config", "doctor", "version", "optimize", "map", "map3d",
+                                    "localize", "evaluate", "migrate"})
     EXPECT_THAT(end.out, HasSubstr("\n  " + command));
 }
 

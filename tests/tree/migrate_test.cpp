@@ -106,6 +106,9 @@ TEST(Migrate, RewritesSubTrees) {
             open + "<SubTree ID=\"S\" at=\"1;2\" _autoremap='1'></SubTree>" + tail);
   EXPECT_EQ(inside(open + "<SubTree ID=\"S\">\n <remap internal=\"at\" external=\"door\"/>\n</SubTree>" + tail),
             open + "<SubTree at=\"{door}\" ID=\"S\">\n</SubTree>" + tail);
+  EXPECT_EQ(inside(open + "<SubTree ID=\"S\"><remap internal=\"a\" external=\"b\"/></SubTree>" + tail),
+            open + "<SubTree a=\"{b}\" ID=\"S\"></SubTree>" + tail)
+      << "the closing tag right behind the last child is not that of the child";
 }
 
 TEST(Migrate, TurnsChecksOfEntriesIntoPreconditions) {
@@ -145,6 +148,17 @@ TEST(Migrate, RefusesWhatIsNoTreeOrOfAnotherVersion) {
   EXPECT_THAT(problemsOf("<tree/>"), ElementsAre("f.xml:1:1: tree: the outermost element must be <root>"));
   EXPECT_THAT(problemsOf("<root BTCPP_format=\"5\"/>"),
               ElementsAre("f.xml:1:7: root: BTCPP_format=\"5\", expected \"3\""));
+}
+
+TEST(Migrate, RefusesNamesThatCannotBeAttributes) {
+  for (const char* inside : {"<SubTree ID=\"S\"><remap internal=\"*\" external=\"b\"/></SubTree>",
+                             "<SubTree ID=\"S\" a=\"x\"><remap internal=\"a\" external=\"b\"/></SubTree>",
+                             "<Parallel threshold=\"1\" success_threshold=\"1\"><AlwaysSuccess/></Parallel>"}) {
+    const Migration migration =
+        migrateToVersion4("<root><BehaviorTree ID=\"M\">" + std::string(inside) + "</BehaviorTree></root>", "f.xml");
+    EXPECT_EQ(migration.text, "") << inside;
+    EXPECT_THAT(linesOf(migration.problems), ElementsAre(HasSubstr("the rewritten file would not be XML"))) << inside;
+  }
 }
 
 class MigratedFiles : public test_support::Scratch {};

@@ -79,7 +79,7 @@ TEST(Parameters, AreWrittenInPlace) {
 
 TEST(Parameters, ThatDoNotFitAreRefused) {
   EXPECT_THAT(changed({{"M/Sequence/Go[1].height_m", "9"}}),
-              HasSubstr("f.xml:5:24: M/Sequence/Go[1].height_m: `9` is out of range, expected a number in metres from "
+              HasSubstr("f.xml:5:23: M/Sequence/Go[1].height_m: `9` is out of range, expected a number in metres from "
                         "0.3 to 5"));
   EXPECT_THAT(changed({{"M/Sequence/Go[1].goal", ""}}), HasSubstr("it is required"));
   EXPECT_THAT(changed({{"M/Sequence/Go[2].gaol", "1;2"}}),

@@ -1,0 +1,20 @@
+// One file of a tree: its text and its elements.
+#pragma once
+
+#include <string_view>
+
+#include "behaviors/tree/xml.hpp"
+
+namespace swiftlet::tree {
+
+struct Document {
+  SourceText source;
+  XmlElement root;
+
+  Location at(const XmlElement& element) const { return source.locate(element.offset); }
+  Location at(const XmlElement& element, std::string_view attribute) const {
+    return source.locate(element.offset, attribute);
+  }
+};
+
+}  // namespace swiftlet::tree
