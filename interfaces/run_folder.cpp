@@ -57,7 +57,9 @@ constexpr std::array<const char*, 17> kFiles = {"mission.json",
                                                 "ground_truth.tum"};
 
 bool isRunFile(const std::string& name) {
-  const auto isNamed = [&](const char* begin, const char* end) { return name.starts_with(begin) && name.ends_with(end); };
+  const auto isNamed = [&](const char* begin, const char* end) {
+    return name.starts_with(begin) && name.ends_with(end);
+  };
   if (isNamed("map-", ".pgm") || isNamed("map-", ".yaml") || isNamed("photo-", ".jpg") || isNamed("photo-", ".json"))
     return true;
   // A `.part` file is left of a Swiftlet file if the process was killed.

@@ -127,7 +127,7 @@ for (const button of buttons) {
     button.setAttribute('aria-busy', 'true');
     const answer = await commands.give(command);
     button.removeAttribute('aria-busy');
-    showAnswer(button.textContent.trim(), kTitles[command], answer);
+    showAnswer(button.textContent.trim() || button.ariaLabel, kTitles[command], answer);
   });
 }
 
