@@ -46,6 +46,33 @@ bool laserSeesNear(const common::OccupancyGrid& grid, common::CellIndex cell) {
   return false;
 }
 
+/// Enlarges the rectangle by the cells that decide whether the laser sees something near this one.
+void include(common::CellIndex cell, common::CellRect& rect) {
+  const common::CellIndex low{cell.x - kNearLaser_cells, cell.y - kNearLaser_cells};
+  const common::CellIndex high{cell.x + kNearLaser_cells + 1, cell.y + kNearLaser_cells + 1};
+  if (rect.empty()) {
+    rect = {low, high};
+    return;
+  }
+  rect.begin = {std::min(rect.begin.x, low.x), std::min(rect.begin.y, low.y)};
+  rect.end = {std::max(rect.end.x, high.x), std::max(rect.end.y, high.y)};
+}
+
+bool isSame(const common::Pose2& a, const common::Pose2& b) {
+  return a.x_m == b.x_m && a.y_m == b.y_m && a.yaw_rad == b.yaw_rad;
+}
+
+/// Whether two snapshots of a grid share their tiles there.
+bool isSame(const common::OccupancyGrid& a, const common::OccupancyGrid& b, const common::CellRect& rect) {
+  constexpr int kTile = common::OccupancyGrid::kTileSize;
+  for (int y = rect.begin.y; y < rect.end.y + kTile; y += kTile)
+    for (int x = rect.begin.x; x < rect.end.x + kTile; x += kTile) {
+      const common::CellIndex cell{std::min(x, rect.end.x - 1), std::min(y, rect.end.y - 1)};
+      if (a.tileIdentity(cell) != b.tileIdentity(cell)) return false;
+    }
+  return true;
+}
+
 }  // namespace
 
 void CameraObstacles::update(const std::shared_ptr<const common::Map3dLayer>& layer,
@@ -77,18 +104,38 @@ void CameraObstacles::readColumns(const std::vector<common::Submap3d>& submaps) 
     const double resolution_m = submaps[i].voxels->resolution_m();
     const double low_m = std::max(*height_m_ - half_hull_m_ - kMargin_m, kFloor_m);
     const double high_m = *height_m_ + half_hull_m_ + kMargin_m;
-    columns_[i] = {submaps[i].voxels, columnsOf(*submaps[i].voxels, static_cast<int>(std::floor(low_m / resolution_m)),
-                                                static_cast<int>(std::floor(high_m / resolution_m)))};
+    columns_[i] = {submaps[i].voxels,
+                   columnsOf(*submaps[i].voxels, static_cast<int>(std::floor(low_m / resolution_m)),
+                             static_cast<int>(std::floor(high_m / resolution_m))),
+                   {},
+                   nullptr,
+                   {},
+                   {}};
+  }
+}
+
+/// Again only if its submap was moved or the laser has changed the grid there, so that a large map costs little.
+void CameraObstacles::findCells(Columns& columns, const common::Pose2& T_map_submap) const {
+  if (columns.laser_grid && isSame(columns.T_map_submap, T_map_submap) &&
+      isSame(*columns.laser_grid, *laser_grid_, columns.around))
+    return;
+  columns.laser_grid = laser_grid_;
+  columns.T_map_submap = T_map_submap;
+  columns.around = {};
+  columns.cells.clear();
+  for (const Eigen::Vector2d& center_submap_m : columns.centers_submap_m) {
+    const common::CellIndex cell = laser_grid_->cellAt(T_map_submap * center_submap_m);
+    include(cell, columns.around);
+    if (!laserSeesNear(*laser_grid_, cell)) columns.cells.push_back(cell);
   }
 }
 
 void CameraObstacles::overlay(const common::Map3dLayer& layer) {
   auto grid = std::make_shared<common::OccupancyGrid>(*laser_grid_);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const common::Pose2 T_map_submap = planar((*layer.submaps)[i].T_map_submap(*layer.keys));
-    for (const Eigen::Vector2d& center_submap_m : columns_[i].centers_submap_m) {
-      const common::CellIndex cell = grid->cellAt(T_map_submap * center_submap_m);
-      if (grid->at(cell) == common::occupancy::kMaxSteps || laserSeesNear(*laser_grid_, cell)) continue;
+    findCells(columns_[i], planar((*layer.submaps)[i].T_map_submap(*layer.keys)));
+    for (const common::CellIndex cell : columns_[i].cells) {
+      if (grid->at(cell) == common::occupancy::kMaxSteps) continue;
       grid->set(cell, common::occupancy::kMaxSteps);
       cells_map_m_.push_back(grid->centerOf(cell));
     }

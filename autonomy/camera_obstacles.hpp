@@ -36,9 +36,15 @@ class CameraObstacles {
   struct Columns {
     std::shared_ptr<const common::VoxelMap> voxels;
     std::vector<Eigen::Vector2d> centers_submap_m;
+    /// Those that the laser does not see, and of what they were made; null before the first time.
+    std::vector<common::CellIndex> cells;
+    std::shared_ptr<const common::OccupancyGrid> laser_grid;
+    common::Pose2 T_map_submap;
+    common::CellRect around;  ///< The cells of the laser grid that were looked at.
   };
   void followHeight(double height_m);
   void readColumns(const std::vector<common::Submap3d>& submaps);
+  void findCells(Columns& columns, const common::Pose2& T_map_submap) const;
   void overlay(const common::Map3dLayer& layer);
 
   double half_hull_m_;

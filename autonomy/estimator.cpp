@@ -107,7 +107,7 @@ void Estimator::mapFrames(Time now) {
   if (scanned_ < *time && now < rgbd_->waitUntil()) return;
   FrameSituation situation;
   situation.at_key = atKey(*time);
-  situation.body = movingBody(*time);
+  situation.body = bodyAt(*time);
   situation.supported = (now - map_seen_).seconds() < kSupported_s;
   situation.keys = map_.keyPoses();
   situation.people = people_.expectedAt(*time);
@@ -251,14 +251,14 @@ std::optional<common::KeyRelativePose> Estimator::atKey(Time time) const {
   return common::KeyRelativePose{odom_at_key_->key, odom_at_key_->T_key_body * *T_odom_body};
 }
 
-/// The filter's pose at a time and its change around it.
-std::optional<mapping3d::MovingBody> Estimator::movingBody(Time time) const {
+/// The filter's attitude at a time, and how its pose changes around it.
+std::optional<BodyAtFrame> Estimator::bodyAt(Time time) const {
   const common::Duration half = common::Duration::fromSeconds(kHalfDifference_s);
   const auto before = filter_.poseAt(time - half), at = filter_.poseAt(time), after = filter_.poseAt(time + half);
   if (!before || !at || !after) return std::nullopt;
   const Pose3 step = before->inverse() * *after;
-  return mapping3d::MovingBody{time, *at, step.position_m / (2.0 * kHalfDifference_s),
-                               common::logSO3(step.rotation) / (2.0 * kHalfDifference_s)};
+  constexpr double kPer_s = 0.5 / kHalfDifference_s;
+  return BodyAtFrame{at->rotation, {time, kPer_s * step.position_m, kPer_s * common::logSO3(step.rotation), 0.0}};
 }
 
 /// The filter's present estimate of the pose at the scan's stamp. If its history does not reach back that far, the pose

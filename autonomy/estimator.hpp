@@ -125,7 +125,7 @@ class Estimator {
   void localize(const LocatedScan& located, common::Time now);
   void fuse(const CameraStep& step, common::Time now);
   std::optional<common::KeyRelativePose> atKey(common::Time time) const;
-  std::optional<mapping3d::MovingBody> movingBody(common::Time time) const;
+  std::optional<BodyAtFrame> bodyAt(common::Time time) const;
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
   void reportHealth(common::Time now);
   void say(common::Time now, common::Severity severity, std::string source, std::string text, std::string reason = {});

@@ -88,13 +88,13 @@ void RgbdPipeline::map(const FrameSituation& situation, Time now) {
                                          situation.at_key->key, situation.supported};
   const bool publish = !submaps_stamp_ || (now - *submaps_stamp_).seconds() >= config_.publish_period_s;
   if (publish) submaps_stamp_ = now;
-  std::optional<mapping3d::MovingBody> body = situation.body;
-  if (body) body->clock_offset_s = calibration_.clockOffset_s();
+  std::optional<BodyAtFrame> body = situation.body;
+  if (body) body->motion.clock_offset_s = calibration_.clockOffset_s();
   jobs_.submit(kMapping3d, now, Duration::fromSeconds(config_.latency_s),
-               [this, mapper = mapper_, frame, time = timeOf(*frame), body, context, people = situation.people,
-                publish]() mutable -> common::JobRunner::Deliver {
+               [this, mapper = mapper_, frame, time = timeOf(*frame), at_key = situation.at_key, body, context,
+                people = situation.people, publish]() mutable -> common::JobRunner::Deliver {
                  context.people = people;
-                 Outcome outcome{frame, time, body, context.scans, mapper->add(*frame, context), {}};
+                 Outcome outcome{frame, time, at_key, body, context.scans, mapper->add(*frame, context), {}};
                  if (publish) outcome.submaps = mapper->submaps();
                  return [this, outcome = std::move(outcome)](Time delivered) { take(outcome, delivered); };
                });
@@ -111,8 +111,8 @@ void RgbdPipeline::take(Outcome outcome, Time delivered) {
     layer_->camera.T_body_camera = calibration_.T_body_camera();
   }
   if (tracked) {
-    const CameraStep step = stepOf(outcome, delivered);
-    if (config_.measure) step_ = step;
+    calibrate(outcome, delivered);
+    if (config_.measure) step_ = stepOf(outcome);
   }
   if (outcome.submaps)
     layer_->submaps = std::make_shared<const std::vector<common::Submap3d>>(std::move(*outcome.submaps));
@@ -123,27 +123,44 @@ void RgbdPipeline::take(Outcome outcome, Time delivered) {
   changed_ = true;
 }
 
-CameraStep RgbdPipeline::stepOf(const Outcome& outcome, Time now) {
+CameraStep RgbdPipeline::stepOf(const Outcome& outcome) {
   const mapping3d::RgbdPose& pose = outcome.mapped.pose;
   CameraStep step;
-  if (reference_ && pose.measured && outcome.body && reference_->body) {
+  if (!outcome.body) return step;
+  if (reference_ && pose.measured) {
     const common::Pose3 T_map_reference = outcome.scans->T_map_level(reference_->scan) * reference_->T_scan_camera;
-    const mapping3d::CameraMotion motion{T_map_reference.inverse() * pose.measured->T_map_camera,
-                                         pose.measured->covariance, *reference_->body, *outcome.body};
-    step.measurement = {reference_->time, outcome.time, calibration_.bodyMotion(motion.T_from_to_camera),
-                        calibration_.bodyCovariance(motion)};
-    // Frames against the same key frame share its errors, so only the last of them counts.
-    if (pose.became_key_frame) calibrate(motion, now);
+    mapping3d::CameraMotion motion;
+    motion.T_from_to_camera = T_map_reference.inverse() * pose.measured->T_map_camera;
+    motion.covariance = pose.measured->covariance;
+    motion.T_from_to_body = calibration_.bodyMotion(motion.T_from_to_camera);
+    motion.from = reference_->motion;
+    motion.to = outcome.body->motion;
+    step.measurement = {reference_->time, outcome.time, motion.T_from_to_body, calibration_.bodyCovariance(motion)};
   }
   if (pose.became_key_frame || !reference_) {
     step.clone_after = outcome.time;
-    reference_ = Reference{outcome.time, pose.scan, outcome.mapped.T_scan_camera, outcome.body};
+    reference_ = Reference{outcome.time, pose.scan, outcome.mapped.T_scan_camera, outcome.body->motion};
   }
   return step;
 }
 
-void RgbdPipeline::calibrate(const mapping3d::CameraMotion& motion, Time now) {
-  calibration_.add(motion);
+/// Rotations are compared with those of the filter, which follow the gyroscopes. Its positions follow the camera, so
+/// translations are compared with those by the 2D map.
+void RgbdPipeline::calibrate(const Outcome& outcome, Time now) {
+  if (!outcome.mapped.pose.became_key_frame) return;
+  const auto from = std::exchange(key_frame_, std::nullopt);
+  if (!outcome.at_key || !outcome.body) return;
+  key_frame_ = BodyAtKeyFrame{outcome.frame->stamps.measured, *outcome.at_key, *outcome.body};
+  const auto& seen = outcome.mapped.pose.motion;
+  if (!from || !seen || seen->from != from->stamp) return;
+  const common::Pose3 T_map_from = outcome.scans->inMap(from->at_key), T_map_to = outcome.scans->inMap(*outcome.at_key);
+  const common::Pose3 T_from_to{from->body.R_odom_body.conjugate() * outcome.body->R_odom_body,
+                                (T_map_from.inverse() * T_map_to).position_m};
+  calibration_.add({seen->T_from_to, seen->covariance, T_from_to, from->body.motion, outcome.body->motion});
+  reportCamera(now);
+}
+
+void RgbdPipeline::reportCamera(Time now) {
   const mapping3d::CameraErrors& errors = calibration_.errors();
   const auto sigma = [&](int i) { return std::sqrt(errors.covariance(i, i)); };
   layer_->camera = {

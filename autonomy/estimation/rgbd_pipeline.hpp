@@ -29,11 +29,17 @@
 
 namespace swiftlet::autonomy {
 
+/// How the body moves at the time of a frame.
+struct BodyAtFrame {
+  Eigen::Quaterniond R_odom_body;
+  mapping3d::MovingBody motion;
+};
+
 /// What the estimator knows at the time of a frame.
 struct FrameSituation {
   /// Pose of the body; none if it is not known.
   std::optional<common::KeyRelativePose> at_key;
-  std::optional<mapping3d::MovingBody> body;  ///< Its motion, the same.
+  std::optional<BodyAtFrame> body;  ///< The same.
   /// Whether a measurement has just supported the position, so that it is a pose in the map and not only predicted.
   bool supported = false;
   std::shared_ptr<const common::KeyPoses> keys;  ///< Never null.
@@ -84,16 +90,18 @@ class RgbdPipeline {
   /// The outcome of the job of a frame.
   struct Outcome {
     std::shared_ptr<const common::RgbdFrame> frame;
-    common::Time time;  ///< That of its pose.
-    std::optional<mapping3d::MovingBody> body;
+    common::Time time;                              ///< That of its pose.
+    std::optional<common::KeyRelativePose> at_key;  ///< As in FrameSituation.
+    std::optional<BodyAtFrame> body;                ///< The same.
     std::shared_ptr<const common::KeyPoses> scans;
     mapping3d::MappedFrame mapped;
     std::optional<std::vector<common::Submap3d>> submaps;  ///< If they were to be published.
   };
   void take(Outcome outcome, common::Time delivered);
   common::Time timeOf(const common::RgbdFrame& frame) const;
-  CameraStep stepOf(const Outcome& outcome, common::Time now);
-  void calibrate(const mapping3d::CameraMotion& motion, common::Time now);
+  CameraStep stepOf(const Outcome& outcome);
+  void calibrate(const Outcome& outcome, common::Time now);
+  void reportCamera(common::Time now);
   void reportTrack(bool tracked, common::Time now);
   void fuse(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
   void say(common::Time now, common::Severity severity, std::string text, std::string reason = {});
@@ -122,8 +130,15 @@ class RgbdPipeline {
     common::Time time;
     int scan = 0;
     common::Pose3 T_scan_camera;
-    std::optional<mapping3d::MovingBody> body;
+    mapping3d::MovingBody motion;
   };
+  /// The body at the last key frame, from which the calibration measures.
+  struct BodyAtKeyFrame {
+    common::Time stamp;
+    common::KeyRelativePose at_key;
+    BodyAtFrame body;
+  };
+  std::optional<BodyAtKeyFrame> key_frame_;
   std::optional<Reference> reference_;
   std::optional<CameraStep> step_;
   std::optional<common::Time> submaps_stamp_;  ///< When the submaps of the layer were taken.

@@ -13,7 +13,7 @@ namespace {
 using common::Pose3;
 using Eigen::Vector3d;
 
-constexpr int kYaw = 5, kClock = 6;
+constexpr int kRoll = 3, kYaw = 5, kClock = 6;
 
 /// From errors of the camera's pose to those of the body's, each in its own axes.
 Matrix6d ofBody(const Matrix6d& covariance_camera, const Pose3& T_body_camera) {
@@ -24,11 +24,10 @@ Matrix6d ofBody(const Matrix6d& covariance_camera, const Pose3& T_body_camera) {
   return adjoint * covariance_camera * adjoint.transpose();
 }
 
-/// The body's pose if the camera's clock has this offset.
-Pose3 poseWith(const MovingBody& body, double clock_offset_s) {
+/// From the body at its time to where it was when the frame was taken, if the camera's clock has this offset.
+Pose3 correctionOf(const MovingBody& body, double clock_offset_s) {
   const double earlier_s = clock_offset_s - body.clock_offset_s;
-  return body.T_odom_body *
-         Pose3{common::expSO3(-earlier_s * body.rate_body_rad_s), -earlier_s * body.velocity_body_m_s};
+  return {common::expSO3(-earlier_s * body.rate_body_rad_s), -earlier_s * body.velocity_body_m_s};
 }
 
 }  // namespace
@@ -92,7 +91,7 @@ bool CameraCalibration::isKnown(int component) const {
 
 CameraErrors::Vector7d CameraCalibration::used() const {
   CameraErrors::Vector7d used = CameraErrors::Vector7d::Zero();
-  for (int i = 0; i < used.size(); ++i) {
+  for (int i = kRoll; i < used.size(); ++i) {
     const double limit = config_.limit_sigma * prior_sigma_[i];
     if (isKnown(i)) used[i] = std::clamp(errors_.mean[i], -limit, limit);
   }
@@ -126,10 +125,10 @@ Pose3 CameraCalibration::mountWith(const CameraErrors::Vector7d& errors) const {
 /// body at `to`.
 CameraCalibration::Vector6d CameraCalibration::residual(const CameraMotion& motion,
                                                         const CameraErrors::Vector7d& errors) const {
-  const Pose3 T_odom_from = poseWith(motion.from, errors[kClock]), T_odom_to = poseWith(motion.to, errors[kClock]);
+  const Pose3 moved = correctionOf(motion.from, errors[kClock]).inverse() * motion.T_from_to_body *
+                      correctionOf(motion.to, errors[kClock]);
   const Pose3 T_body_camera = mountWith(errors);
-  const Pose3 measured = T_body_camera * motion.T_from_to_camera * T_body_camera.inverse();
-  const Pose3 error = T_odom_to.inverse() * T_odom_from * measured;
+  const Pose3 error = moved.inverse() * T_body_camera * motion.T_from_to_camera * T_body_camera.inverse();
   Vector6d residual;
   residual << error.position_m, common::logSO3(error.rotation);
   return residual;

@@ -29,8 +29,8 @@ struct CameraCalibrationConfig {
   double mount_sigma_rad = 0.015;
   double clock_sigma_s = 0.005;
   double clock_walk_s_rts = 0.0002;
-  double step_sigma_m = 0.01;
-  double step_sigma_rad = 0.004;
+  double step_sigma_m = 0.006;
+  double step_sigma_rad = 0.003;
   double gate_sigma = 4.0;
   double known_share = 0.5;
   double limit_sigma = 4.0;
@@ -38,10 +38,9 @@ struct CameraCalibrationConfig {
   void describe(common::config::Fields& fields);
 };
 
-/// The body at the time of a frame, by the other sensors.
+/// How the body moves at the time of a frame, by the other sensors.
 struct MovingBody {
   common::Time time;
-  common::Pose3 T_odom_body;
   Eigen::Vector3d velocity_body_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate_body_rad_s = Eigen::Vector3d::Zero();
   /// The offset of the camera's clock that was taken off the frame's stamp to get this time.
@@ -53,6 +52,7 @@ struct CameraMotion {
   common::Pose3 T_from_to_camera;  ///< As the camera measured it.
   /// Of its error (position, rotation vector), in the axes of the camera at `to`.
   Matrix6d covariance = Matrix6d::Zero();
+  common::Pose3 T_from_to_body;  ///< As the other sensors measured it, between the times of `from` and `to`.
   MovingBody from, to;
 };
 
@@ -75,9 +75,9 @@ class CameraCalibration {
   void add(const CameraMotion& motion);
 
   const CameraErrors& errors() const { return errors_; }
-  /// Whether a component of the errors is known well enough to be used.
+  /// Whether a component of the errors is known well enough.
   bool isKnown(int component) const;
-  /// The mount with those components that are known.
+  /// The mount with those components of its attitude that are known.
   common::Pose3 T_body_camera() const;
   /// The same of the clock; 0 while it is not known.
   double clockOffset_s() const;

@@ -21,6 +21,9 @@ constexpr std::size_t kTriedPerFrame = 8;
 /// Where nothing but the texture tells whether a pose is right, it must fit well: right ones correlate by 0.9 and more,
 /// wrong ones by less than 0.5.
 constexpr double kLeastCorrelationAlone = 0.8;
+/// Errors of neighbouring points are alike, so that a motion without a prior is less certain than independent points
+/// would make it. What a bare wall seems to tell along itself then counts little.
+constexpr double kMotionSigmaFactor = 5.0;
 
 bool isInMap(const std::optional<CameraSeed>& seed) { return seed && seed->is_in_map; }
 
@@ -216,11 +219,29 @@ void RgbdOdometry::take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyra
   const bool has_depth = fit.alignment.measured >= config_.least_points;
   if (has_depth && keys_.needsNew(fit.keys, pose.T_map_camera, fit.alignment.overlap)) {
     const KeyFramePlace place = newPlace(fit, pose, seed);
+    pose.motion = motionSinceKeyFrame(fit, pyramid);
     pose.T_map_camera = place.T_map_key;
     addKeyFrame(pose, place, pyramid);
     pose.became_key_frame = true;
   }
   remember(pose, seed);
+}
+
+/// The places of several key frames follow the seeds, and with them the mount that is believed in. One alone does not.
+/// Without texture nothing is known of the motion along a wall.
+std::optional<KeyFrameMotion> RgbdOdometry::motionSinceKeyFrame(const Fit& fit, const FramePyramid& pyramid) const {
+  const std::size_t newest = keys_.size() - 1;
+  if (std::find(fit.keys.begin(), fit.keys.end(), newest) == fit.keys.end()) return std::nullopt;
+  const PosePrior start{fit.alignment.T_map_camera, Matrix6d::Zero()};
+  const Alignment alone = align(pyramid, keys_.views({newest}), start, fit.alignment.exposure,
+                                config_.features.depth_noise, config_.alignment);
+  if (!isGood(alone, std::nullopt) || alone.textured < config_.least_points) return std::nullopt;
+  MeasuredPoseConfig every_direction = config_.measured;
+  every_direction.least_share = 0.0;
+  every_direction.sigma_factor = kMotionSigmaFactor;
+  const MeasuredPose measured = withoutPrior(alone, start, keys_.at(newest).median_depth_m, every_direction);
+  return KeyFrameMotion{keys_.at(newest).stamp, keys_.placeOf(newest).T_map_key.inverse() * measured.T_map_camera,
+                        measured.covariance};
 }
 
 KeyFramePlace RgbdOdometry::newPlace(const Fit& fit, const RgbdPose& pose,

@@ -59,6 +59,14 @@ enum class TrackState {
   kLost,        ///< The pose is only predicted, or that of the seed.
 };
 
+/// The motion since a key frame, aligned to that one alone and without a prior: what only the pictures tell.
+struct KeyFrameMotion {
+  common::Time from;  ///< The key frame's stamp.
+  common::Pose3 T_from_to;
+  /// Of the error (x, y, z, rotation vector) in the axes of the camera at the end.
+  Matrix6d covariance = Matrix6d::Identity();
+};
+
 struct RgbdPose {
   common::Time stamp;
   TrackState state = TrackState::kLost;
@@ -68,6 +76,9 @@ struct RgbdPose {
   int scan = 0;  ///< The key scan next to it; see CameraSeed.
   /// What the frame alone tells of its pose; none if it was not aligned.
   std::optional<MeasuredPose> measured;
+  /// Of a frame that became a key frame: the motion since the one before. None if they do not overlap, or if there is
+  /// too little texture.
+  std::optional<KeyFrameMotion> motion;
   Alignment fit;
   /// The key scans on which the key frames hang that it was aligned to, the best first.
   std::vector<int> aligned_to;
@@ -120,6 +131,7 @@ class RgbdOdometry {
   bool isGood(const Alignment& fit, const std::optional<CameraSeed>& seed) const;
   void begin(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
   void take(const Fit& fit, RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
+  std::optional<KeyFrameMotion> motionSinceKeyFrame(const Fit& fit, const FramePyramid& pyramid) const;
   KeyFramePlace newPlace(const Fit& fit, const RgbdPose& pose, const std::optional<CameraSeed>& seed) const;
   void lose(RgbdPose& pose, const FramePyramid& pyramid, const std::optional<CameraSeed>& seed);
   void addKeyFrame(const RgbdPose& pose, const KeyFramePlace& place, const FramePyramid& pyramid);

@@ -14,14 +14,15 @@ class CameraObstaclesStory : public testing::Test {
   void mark(const Eigen::Vector3d& point_map_m, int evidence = 40) {
     const Eigen::Vector3d point_m = T_map_submap_.inverse() * point_map_m;
     voxels_.set(voxels_.voxelAt(point_m), static_cast<std::int8_t>(evidence));
+    drawn_ = nullptr;
   }
   void update(double height_m = 1.0) {
+    if (!drawn_) drawn_ = std::make_shared<const common::VoxelMap>(voxels_.snapshot());
     auto layer = std::make_shared<common::Map3dLayer>();
     auto keys = std::make_shared<common::KeyPoses>();
     keys->keys.push_back({{}, {1.0, -2.0, 0.4}});
     common::Submap3d submap{0, common::lifted(keys->keys[0].T_map_key, 0.0).inverse() * T_map_submap_,
-                            std::make_shared<const std::vector<common::SurfacePoint>>(),
-                            std::make_shared<const common::VoxelMap>(voxels_.snapshot())};
+                            std::make_shared<const std::vector<common::SurfacePoint>>(), drawn_};
     layer->submaps = std::make_shared<const std::vector<common::Submap3d>>(1, submap);
     layer->keys = keys;
     obstacles_.update(layer, std::make_shared<const common::OccupancyGrid>(grid_.snapshot()), height_m);
@@ -29,6 +30,7 @@ class CameraObstaclesStory : public testing::Test {
 
   common::Pose3 T_map_submap_{common::expSO3({0.0, 0.0, 0.7}), {0.5, 0.2, 0.0}};
   common::VoxelMap voxels_{0.05};
+  std::shared_ptr<const common::VoxelMap> drawn_;  ///< A snapshot, the same object until something is marked.
   common::OccupancyGrid grid_ = common::makeOccupancyGrid(0.05);
   CameraObstacles obstacles_{0.25};
 };
@@ -71,6 +73,31 @@ TEST_F(CameraObstaclesStory, AWallThatTheLaserSeesTooIsNotWidened) {
   update();
   EXPECT_EQ(obstacles_.cells_map_m().size(), 1u);
   EXPECT_NEAR(obstacles_.cells_map_m()[0].y(), 2.0, 0.06);
+}
+
+TEST_F(CameraObstaclesStory, WhatTheLaserSeesOrForgetsLaterCounts) {
+  grid_.set(grid_.cellAt(2.05, 9.0), 60);  // The tiles are there from the beginning.
+  mark({2.0, 1.0, 1.0});
+  mark({2.0, 9.0, 1.0});
+  update();
+  ASSERT_EQ(obstacles_.cells_map_m().size(), 1u);
+  EXPECT_NEAR(obstacles_.cells_map_m()[0].y(), 1.0, 0.06);
+  grid_.set(grid_.cellAt(2.05, 1.0), 60);
+  update();
+  EXPECT_TRUE(obstacles_.cells_map_m().empty());
+  grid_.set(grid_.cellAt(2.05, 9.0), -60);
+  update();
+  ASSERT_EQ(obstacles_.cells_map_m().size(), 1u);
+  EXPECT_NEAR(obstacles_.cells_map_m()[0].y(), 9.0, 0.06);
+}
+
+TEST_F(CameraObstaclesStory, TheyMoveWithTheirSubmap) {
+  mark({2.0, 1.0, 1.0});
+  update();
+  T_map_submap_.position_m.x() += 0.5;
+  update();
+  ASSERT_EQ(obstacles_.cells_map_m().size(), 1u);
+  EXPECT_NEAR(obstacles_.cells_map_m()[0].x(), 2.5, 0.06);
 }
 
 TEST_F(CameraObstaclesStory, NearOnesAreGivenToTheReactiveLayer) {

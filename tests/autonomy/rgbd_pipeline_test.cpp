@@ -1,6 +1,8 @@
 // Frames on their way into the 3D map: when they are mapped, what they leave, and what is said.
 #include "autonomy/estimation/rgbd_pipeline.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +30,7 @@ class RgbdStory : public testing::Test {
   FrameSituation situation() const {
     FrameSituation situation;
     situation.at_key = common::KeyRelativePose{0, {}};
-    situation.body = mapping3d::MovingBody{};
+    situation.body = BodyAtFrame{Eigen::Quaterniond::Identity(), {}};
     situation.supported = true;
     situation.keys = keys_;
     return situation;
@@ -154,6 +156,28 @@ TEST_F(RgbdStory, NothingIsMappedBeforeThe2DMap) {
   pipeline_.map(situation(), Time::fromSeconds(1.0));
   EXPECT_TRUE(jobs_->idle("mapping3d"));
   EXPECT_EQ(pipeline_.layer(keys_), nullptr);
+}
+
+TEST_F(RgbdStory, TheMountIsFoundInFlight) {
+  room_.camera = {160, 120, 145.0, 145.0, 79.5, 59.5};
+  const common::Pose3 mount{common::expSO3({0.012, -0.014, 0.01}),
+                            Eigen::Vector3d::Zero()};  // The data sheet says the identity.
+  for (double time_s = 1.0; time_s < 13.0; time_s += 0.1) {
+    const common::Pose3 body{common::expSO3({0.0, 0.0, 0.9 * std::sin(0.8 * time_s)}),
+                             {1.4 * std::sin(0.5 * time_s), 0.9 * std::sin(0.7 * time_s), 0.0}};
+    FrameSituation there = situation();
+    there.at_key->T_key_body = body;
+    there.body->R_odom_body = body.rotation;
+    there.body->motion.time = Time::fromSeconds(time_s);
+    pipeline_.add(std::make_shared<const common::RgbdFrame>(room_.seen(body * mount, time_s)));
+    pipeline_.map(there, Time::fromSeconds(time_s));
+    jobs_->deliverDue(Time::fromSeconds(time_s + 0.065));
+  }
+  const common::CameraEstimate& camera = pipeline_.layer(keys_)->camera;
+  EXPECT_LT(camera.T_body_camera.rotation.angularDistance(mount.rotation), 0.2 * common::logSO3(mount.rotation).norm());
+  EXPECT_LT(camera.mount_sigma_rad.maxCoeff(), 0.0075);
+  EXPECT_EQ(camera.clock_offset_s, 0.0) << "no rates, no clock";
+  EXPECT_THAT(texts(), testing::ElementsAre("mount of the camera estimated"));
 }
 
 TEST_F(RgbdStory, TheFirstFrameWaitsForAMeasuredPose) {
