@@ -27,7 +27,7 @@ struct Map3dScore {
     double sheet_rad = 0.0;  ///< The same of the data sheet.
     double clock_s = 0.0;    ///< Of the clock as estimated, without its sign.
   };
-  std::optional<CameraErrors> camera;
+  std::optional<CameraErrors> camera = {};
 };
 
 /// None if the flight has no 3D map, or one without a point.
