@@ -143,6 +143,11 @@ std::vector<std::string> warningsOf(const interfaces::RgbdFolder& folder, const 
   if (run.lost > 0)
     warnings.push_back(fmt::format("the track was lost for {} and found again {}", plural(run.lost, "frame", "frames"),
                                    plural(run.found_again, "time", "times")));
+  if (const auto factor = run.mapper.betterFocalFactor())
+    warnings.push_back(fmt::format(
+        "the map is probably wrong: the frames fit each other better with {:.2f} times the focal length; check the "
+        "calibration (--intrinsics)",
+        *factor));
   if (folder.listing().unpaired > 0)
     warnings.push_back(plural(folder.listing().unpaired, "image has", "images have") + " no partner of the same time");
   for (std::size_t i = 0; i < interfaces::kFrameFaults; ++i) {

@@ -69,11 +69,20 @@ void Mapper3d::grow(const RgbdFrame& still, MappedFrame& mapped) {
   pose.scan = graph_.add(pose.stamp, pose.T_map_camera, edges);
   odometry_.moveTo(graph_.poses());
   odometry_.hangNewestOn(pose.scan);
+  checkFocal(still, pose);
   const auto loops = findLoops(still, pose, odometry_.keyFrames(), config_.odometry, config_.loops);
   if (loops.empty()) return;
   mapped.loops = graph_.close(loops);
   odometry_.moveTo(graph_.poses());
   pose.T_map_camera = odometry_.keyFrames().T_map_scan(pose.scan);
+}
+
+void Mapper3d::checkFocal(const RgbdFrame& still, const RgbdPose& pose) {
+  const KeyFrameMap& keys = odometry_.keyFrames();
+  if (focal_.isDone() || keys.size() < 2) return;
+  const std::size_t before = keys.size() - 2;
+  focal_.add(makePyramid(still, config_.odometry.greatest_width_px, config_.odometry.levels), pose, keys.at(before),
+             keys.placeOf(before).T_map_key, config_.odometry);
 }
 
 }  // namespace swiftlet::mapping3d

@@ -21,6 +21,7 @@
 #include "mapping3d/loops/loop_search.hpp"
 #include "mapping3d/model/submap_config.hpp"
 #include "mapping3d/model/submap_store.hpp"
+#include "mapping3d/odometry/focal_check.hpp"
 #include "mapping3d/odometry/rgbd_odometry.hpp"
 #include "mapping3d/voxels/voxel_config.hpp"
 
@@ -64,14 +65,18 @@ class Mapper3d {
   const KeyFrameMap& keyFrames() const { return odometry_.keyFrames(); }
   /// What submaps and frames hang on where there is no 2D map.
   std::shared_ptr<const common::KeyPoses> scans() const { return graph_.poses(); }
+  /// See FocalCheck; without a 2D map only.
+  std::optional<double> betterFocalFactor() const { return focal_.betterFactor(); }
 
  private:
   /// The newest key frame becomes a node of the graph, and loops to it are closed.
   void grow(const common::RgbdFrame& still, MappedFrame& mapped);
+  void checkFocal(const common::RgbdFrame& still, const RgbdPose& pose);
 
   Mapper3dConfig config_;
   RgbdOdometry odometry_;
   KeyFrameGraph graph_;
+  FocalCheck focal_;
   SubmapStore submaps_;
 };
 

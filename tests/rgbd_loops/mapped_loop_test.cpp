@@ -19,7 +19,7 @@ using common::Pose3;
 constexpr int kLap = 72;
 constexpr double kRate_Hz = 15.0;
 
-Pose3 onRing(int i) {
+Pose3 onRing(double i) {
   const double part = 2.0 * std::numbers::pi * i / kLap;
   const double angle_rad = part + 0.15 * std::sin(3.0 * part);
   const double swing = 0.1 * std::sin(3.0 * angle_rad);
@@ -34,8 +34,24 @@ struct Story {
   double error_deg = 0.0;  ///< The same of the attitude, against the first frame.
 };
 
+/// Voxels are of no interest here and take the most time.
+Mapper3dConfig coarse() {
+  Mapper3dConfig config;
+  config.voxels.resolution_m = 0.4;
+  return config;
+}
+
 template <typename Room>
-Story map(const Room& room, const Mapper3dConfig& config, int frames, double fx_factor = 1.0) {
+std::vector<common::RgbdFrame> lap(const Room& room, int frames, double fx_factor = 1.0) {
+  std::vector<common::RgbdFrame> seen;
+  for (int i = 0; i < frames; ++i) {
+    seen.push_back(room.seen(onRing(i), i / kRate_Hz));
+    seen.back().camera.fx_px *= fx_factor;
+  }
+  return seen;
+}
+
+Story map(const std::vector<common::RgbdFrame>& frames, const Mapper3dConfig& config) {
   struct Tracked {
     int frame;
     int scan;
@@ -44,10 +60,8 @@ Story map(const Room& room, const Mapper3dConfig& config, int frames, double fx_
   Mapper3d mapper(config);
   std::vector<Tracked> tracked;
   Story story;
-  for (int i = 0; i < frames; ++i) {
-    common::RgbdFrame frame = room.seen(onRing(i), i / kRate_Hz);
-    frame.camera.fx_px *= fx_factor;
-    const MappedFrame mapped = mapper.add(frame, {});
+  for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
+    const MappedFrame mapped = mapper.add(frames[static_cast<std::size_t>(i)], {});
     story.loops += mapped.loops;
     if (!mapped.pose.isTracked()) story.lost.push_back(i);
     if (mapped.pose.isTracked()) tracked.push_back({i, mapped.pose.scan, mapped.T_scan_camera});
@@ -68,7 +82,7 @@ Story map(const Room& room, const Mapper3dConfig& config, int frames, double fx_
 }
 
 Mapper3dConfig withoutLoops() {
-  Mapper3dConfig config;
+  Mapper3dConfig config = coarse();
   config.loops.candidates = 0;
   return config;
 }
@@ -76,7 +90,8 @@ Mapper3dConfig withoutLoops() {
 TEST(MappedLoop, IsClosedAndCorrectsAllFramesOfIt) {
   // With intrinsics that are wrong by 2 %, every turn is measured too short.
   const RoundRoom room;
-  const Story without = map(room, withoutLoops(), kLap, 1.02), with = map(room, {}, kLap, 1.02);
+  const auto frames = lap(room, kLap, 1.02);
+  const Story without = map(frames, withoutLoops()), with = map(frames, coarse());
   EXPECT_TRUE(with.lost.empty());
   EXPECT_GT(with.loops, 0);
   EXPECT_GT(without.error_deg, 3.0);
@@ -87,7 +102,7 @@ TEST(MappedLoop, LostAlongABlankWallItIsFoundAgainWhereItWasBefore) {
   RoundRoom room;
   room.blank_from_rad = 2.0;
   room.blank_to_rad = 4.0;
-  const Story story = map(room, {}, kLap + 4);
+  const Story story = map(lap(room, kLap + 4), coarse());
   ASSERT_GT(story.lost.size(), 20u);
   EXPECT_LT(story.lost.back(), kLap - 4) << "it is back where it began";
   EXPECT_LT(story.error_m, 0.01);
@@ -96,16 +111,43 @@ TEST(MappedLoop, LostAlongABlankWallItIsFoundAgainWhereItWasBefore) {
 TEST(MappedLoop, APlaceThatLooksLikeAnotherIsNotTakenForIt) {
   TexturedRoom room;
   room.is_symmetric = true;
-  const int half = kLap / 2 + 6;
-  Mapper3dConfig unchecked;
+  const auto frames = lap(room, kLap / 2 + 6);
+  Mapper3dConfig unchecked = coarse();
   unchecked.graph.drift_m = unchecked.graph.drift_rad = 100.0;
   unchecked.graph.greatest_error = 1e6;
   unchecked.graph.optimization.robust_width = 100.0;
-  const Story with = map(room, {}, half), bent = map(room, unchecked, half);
+  const Story with = map(frames, coarse()), bent = map(frames, unchecked);
   EXPECT_EQ(with.loops, 0);
   EXPECT_LT(with.error_m, 0.03);
   EXPECT_GT(bent.loops, 0) << "the check matters";
   EXPECT_GT(bent.error_m, 0.2) << "the check matters";
+}
+
+TEST(FiveHertz, WhatCannotBeTrackedIsLostAndFoundAgain) {
+  // Steps of up to 10 cm and 6 degrees, with the settings of all other tests; the camera is covered for two seconds.
+  RoundRoom elsewhere;
+  elsewhere.walls = 100;
+  elsewhere.radius_m = 1.6;
+  std::vector<common::RgbdFrame> frames;
+  for (int i = 0; i < kLap; ++i) {
+    const bool is_covered = i >= 40 && i < 50;
+    frames.push_back(is_covered ? elsewhere.seen({}, i / 5.0) : RoundRoom().seen(onRing(i < 40 ? i : 78 - i), i / 5.0));
+  }
+  const Story story = map(frames, coarse());
+  EXPECT_THAT(story.lost, testing::ElementsAre(40, 41, 42, 43, 44, 45, 46, 47, 48, 49));
+}
+
+TEST(FocalCheck, NoticesAFocalLengthThatIsWrongByAQuarter) {
+  for (const double factor : {1.0, 1.25}) {
+    Mapper3d mapper(coarse());
+    for (common::RgbdFrame frame : lap(RoundRoom(), kLap / 2)) {
+      frame.camera.fx_px *= factor;
+      frame.camera.fy_px *= factor;
+      (void)mapper.add(frame, {});
+    }
+    EXPECT_EQ(mapper.betterFocalFactor().has_value(), factor != 1.0);
+    EXPECT_LE(mapper.betterFocalFactor().value_or(1.0), 1.0);
+  }
 }
 
 }  // namespace

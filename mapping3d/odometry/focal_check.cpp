@@ -1,0 +1,63 @@
+#include "mapping3d/odometry/focal_check.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace swiftlet::mapping3d {
+namespace {
+
+/// Fewer pairs of views do not tell.
+constexpr int kLeastAdded = 8;
+/// A right focal length leaves at least 0.95 of what the best other one leaves, on the recordings of decision 041.
+constexpr double kClearlyBetter = 0.85;
+/// Pairs with fewer textured points have no correlation.
+constexpr int kLeastCompared = 300;
+
+/// The points as a camera of another focal length would have measured them.
+std::vector<std::vector<ReferencePoint>> withFocal(std::vector<std::vector<ReferencePoint>> levels, double factor) {
+  const auto k = static_cast<float>(factor);
+  for (std::vector<ReferencePoint>& level : levels)
+    for (ReferencePoint& point : level) {
+      point.point_camera_m.tail<2>() /= k;
+      if (!point.hasNormal()) continue;
+      point.normal_camera.tail<2>() *= k;
+      point.normal_camera.normalize();
+    }
+  return levels;
+}
+
+FramePyramid withFocal(FramePyramid pyramid, double factor) {
+  for (PyramidLevel& level : pyramid) {
+    level.camera.fx_px *= factor;
+    level.camera.fy_px *= factor;
+  }
+  return pyramid;
+}
+
+}  // namespace
+
+void FocalCheck::add(const FramePyramid& frame, const RgbdPose& pose, const KeyFrame& key,
+                     const common::Pose3& T_map_key, const RgbdOdometryConfig& config) {
+  if (isDone()) return;
+  std::array<double, kFactors.size()> unexplained{};
+  for (std::size_t i = 0; i < kFactors.size(); ++i) {
+    const auto levels = withFocal(key.levels, kFactors[i]);
+    const std::vector<ReferenceView> view{{T_map_key, &levels}};
+    const Alignment fit = align(withFocal(frame, kFactors[i]), view, {pose.T_map_camera, Matrix6d::Zero()},
+                                pose.fit.exposure, config.features.depth_noise, config.alignment);
+    if (fit.textured < kLeastCompared) return;
+    unexplained[i] = 1.0 - fit.correlation;
+  }
+  ++added_;
+  for (std::size_t i = 0; i < kFactors.size(); ++i) unexplained_[i] += unexplained[i];
+}
+
+std::optional<double> FocalCheck::betterFactor() const {
+  if (added_ < kLeastAdded) return std::nullopt;
+  const auto best = std::min_element(unexplained_.begin(), unexplained_.end());
+  if (*best > kClearlyBetter * unexplained_.front()) return std::nullopt;
+  return kFactors[static_cast<std::size_t>(best - unexplained_.begin())];
+}
+
+}  // namespace swiftlet::mapping3d

@@ -1,0 +1,37 @@
+// Whether the camera's focal length is the one that its frames show.
+//
+// With a wrong focal length frames still align, and the map is wrong in its scale across the view. It shows in what is
+// left after the alignment: two views of one place fit better with another focal length. So each key frame is aligned
+// to the one before with some other focal lengths too, and what their grey values do not explain is summed.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "mapping3d/odometry/rgbd_odometry.hpp"
+
+namespace swiftlet::mapping3d {
+
+/// One thread. Costs four alignments for each of the first key frames. It notices errors of about 20 %; smaller ones
+/// often change the grey values too little.
+class FocalCheck {
+ public:
+  /// `key` is seen from T_map_key, and `frame` was aligned to it and others with the result `pose`.
+  void add(const FramePyramid& frame, const RgbdPose& pose, const KeyFrame& key, const common::Pose3& T_map_key,
+           const RgbdOdometryConfig& config);
+
+  /// Whether it has seen enough.
+  bool isDone() const { return added_ >= kMostAdded; }
+  /// By what the focal length would have to be multiplied to fit clearly better; none if it fits well, or if too little
+  /// was seen to tell.
+  std::optional<double> betterFactor() const;
+
+ private:
+  static constexpr int kMostAdded = 40;
+  static constexpr std::array kFactors{1.0, 0.8, 0.9, 1.1, 1.25};
+
+  int added_ = 0;
+  std::array<double, kFactors.size()> unexplained_{};  ///< Sums of 1 - correlation.
+};
+
+}  // namespace swiftlet::mapping3d
