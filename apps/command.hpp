@@ -19,5 +19,8 @@ void addVersion(Command& program);
 void addEvaluate(Command& program);
 void addOptimize(Command& program);
 void addConvert(Command& program);
+void addIdentify(Command& program);
+void addPapers(Command& program);
+void addTune(Command& program);
 
 }  // namespace swiftlet::apps

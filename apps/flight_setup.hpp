@@ -31,6 +31,7 @@ struct FlightSetup {
   std::vector<evaluation::OperatorStep> operator_steps = {};
   std::vector<evaluation::PhaseConfig> phases = {};
   VehicleMemorySetup memory;
+  bool control_log = false;  ///< Whether the run keeps control.tsv.
   std::filesystem::path out;
   std::string started;           ///< For the run's records.
   double speed = 0.0;            ///< Times real time; 0: as fast as the machine can.

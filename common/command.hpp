@@ -18,9 +18,14 @@ struct GoalCommand {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
 };
 
+/// Another controller takes over, without a step.
+struct ControllerCommand {
+  std::string controller;  ///< A word of `controller.kind` in a system profile.
+};
+
 struct OperatorCommand {
   std::uint64_t id = 0;
-  std::variant<HoldCommand, ResumeCommand, HomeCommand, LandCommand, GoalCommand> kind;
+  std::variant<HoldCommand, ResumeCommand, HomeCommand, LandCommand, GoalCommand, ControllerCommand> kind;
 };
 
 struct CommandResult {

@@ -28,6 +28,8 @@ common::OperatorCommand commandOf(const OperatorStep& step) {
       return {0, common::HomeCommand{}};
     case OperatorAction::kLand:
       return {0, common::LandCommand{}};
+    case OperatorAction::kController:
+      return {0, common::ControllerCommand{step.controller}};
   }
   return {0, common::LandCommand{}};
 }
@@ -35,8 +37,10 @@ common::OperatorCommand commandOf(const OperatorStep& step) {
 }  // namespace
 
 void OperatorStep::describe(common::config::Fields& fields) {
-  fields.choice("command", command, {"goal", "hold", "resume", "home", "land"}, "What the operator asks for.");
+  fields.choice("command", command, {"goal", "hold", "resume", "home", "land", "controller"},
+                "What the operator asks for.");
   fields("goal_map_m", goal_map_m, {-1e4, 1e4}, "For command goal: the place x, y in the vehicle's frame `map`.");
+  fields("controller", controller, "For command controller: the kind that takes over in flight.");
   fields("at_s", at_s, {0, 1e6}, "Time before which the command is not given.");
   fields(
       "after_phase", after_phase,
@@ -54,6 +58,8 @@ std::vector<std::string> OperatorStep::validate() const {
   const bool is_goal = command == OperatorAction::kGoal;
   return common::Validation()
       .require(!is_goal || goal_map_m.size() == 2, "goal_map_m", "is not one place x, y")
+      .require((command == OperatorAction::kController) == !controller.empty(), "controller",
+               "is for the command controller, which needs it")
       .require(is_goal || goal_map_m.empty(), "goal_map_m", "is for the command goal alone")
       .problems();
 }

@@ -18,13 +18,14 @@ struct World;
 
 namespace swiftlet::evaluation {
 
-enum class OperatorAction { kGoal, kHold, kResume, kHome, kLand };
+enum class OperatorAction { kGoal, kHold, kResume, kHome, kLand, kController };
 enum class ExpectedAnswer { kAccepted, kRefused, kAny };
 
 /// One command of the script.
 struct OperatorStep {
   OperatorAction command = OperatorAction::kHold;
   std::vector<double> goal_map_m;
+  std::string controller = {};
   double at_s = 0.0;
   std::string after_phase;
   std::string after_event;
