@@ -20,5 +20,8 @@ void addEvaluate(Command& program);
 void addOptimize(Command& program);
 void addConvert(Command& program);
 void addMigrate(Command& program);
+void addIdentify(Command& program);
+void addPapers(Command& program);
+void addTune(Command& program);
 
 }  // namespace swiftlet::apps

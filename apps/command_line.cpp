@@ -107,6 +107,10 @@ void Command::option(const std::string& name, std::string& value, const std::str
   if (!value.empty()) option->capture_default_str();
 }
 
+void Command::option(const std::string& name, std::vector<std::string>& values, const std::string& description) {
+  app_->add_option(name, values, description)->allow_extra_args(false);
+}
+
 template <typename Number>
 CLI::Option& Command::number(const std::string& name, Number& value, Within bounds, const std::string& description) {
   return *app_->add_option(name, value, description)->check(numberWithin(bounds));

@@ -55,6 +55,8 @@ class Command {
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& description);
 
   void option(const std::string& name, std::string& value, const std::string& description);
+  /// May be given several times.
+  void option(const std::string& name, std::vector<std::string>& values, const std::string& description);
   void option(const std::string& name, int& value, Within bounds, const std::string& description);
   void option(const std::string& name, std::optional<int>& value, Within bounds, const std::string& description);
   void option(const std::string& name, double& value, Within bounds, const std::string& description);

@@ -43,6 +43,7 @@ struct FlyOptions {
   std::optional<double> battery;
   std::optional<int> seed;
   std::string vehicle_memory;
+  bool control_log = false;
   std::string speed;
   bool headless = false;
   bool wait = false;
@@ -78,6 +79,7 @@ FlightSetup setupOf(const FlyOptions& options) {
   if (!options.vehicle_memory.empty())
     setup.memory = setupOfMemory(options.vehicle_memory, setup.system.vehicle, setup.scenario.vehicles.size(),
                                  MemoryUse::kReadAndWrite);
+  setup.control_log = options.control_log;
   setup.started = startedNow();
   setup.speed = parseSpeed(options.speed.empty() ? (options.headless ? "max" : "1") : options.speed);
   setup.time_limit_s = options.time_limit_s;
@@ -259,6 +261,8 @@ void addFly(Command& program) {
   command.option("--battery", options->battery, {0.01, 1}, "Charge at the start, as a share of the full one.");
   command.option("--vehicle-memory", options->vehicle_memory,
                  "File with what earlier flights learned of the vehicle: read at the start, written at the end.");
+  command.flag("--control-log", options->control_log,
+               "Keep commands, motion and battery at 100 Hz in the run: what `identify` reads.");
   command.option("--seed", options->seed, {0, kGreatestSeed},
                  "Seed of all random numbers. Default: the scenario's, or 1.");
   command.option("--speed", options->speed, "Times real time, or max. Default: 1, headless max.");

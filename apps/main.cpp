@@ -52,6 +52,9 @@ int main(int argc, char** argv) {
   apps::addEvaluate(top);
   apps::addOptimize(top);
   apps::addConvert(top);
+  apps::addIdentify(top);
+  apps::addPapers(top);
+  apps::addTune(top);
 
   try {
     const auto [run, exit_code] = program.parse(argc, argv);

@@ -24,8 +24,8 @@ std::string fileFor(const std::string& name, const std::string& folder) {
 
 /// A data sheet that a profile names. A file of the user is searched for beside the profile first.
 std::string sheetFor(const std::string& name, const std::string& folder, const std::string& key,
-                     const std::filesystem::path& profile) {
-  const std::filesystem::path beside = profile.parent_path() / name;
+                     const common::SourceLocation& place) {
+  const std::filesystem::path beside = std::filesystem::path(place.file).parent_path() / name;
   std::error_code error;
   if (std::filesystem::is_regular_file(beside, error)) return beside.string();
   try {
@@ -34,9 +34,26 @@ std::string sheetFor(const std::string& name, const std::string& folder, const s
     common::Problem problem = e.problems().front();
     problem.message = fmt::format("{}: {}", name, problem.message);
     problem.element = key;
-    problem.location = {profile.string()};
+    problem.location = place;
     throw common::InputError(problem);
   }
+}
+
+/// A flight never starts half configured: a model of another vehicle or battery, or a controller without its model.
+void refuseUnfitModel(const System& system, const common::config::YamlReader& profile) {
+  std::vector<common::Problem> problems;
+  if (system.model)
+    for (const std::string& problem : system.model->problemsFor(system.vehicle))
+      problems.push_back({profile.locationOf("vehicle_model"), "vehicle_model",
+                          fmt::format("{}: {}", system.config.vehicle_model, problem), ""});
+  const bool needs_model = system.config.autonomy.control.controller.kind == control::ControllerKind::kLqr;
+  if (needs_model && !(system.model && system.model->hasAxes()))
+    problems.push_back({profile.locationOf("autonomy.control.controller.kind"), "autonomy.control.controller.kind",
+                        system.model
+                            ? fmt::format("lqr needs every axis, but {} lacks some", system.config.vehicle_model)
+                            : std::string("lqr needs a vehicle_model, and the profile names none"),
+                        fmt::format("`swiftlet identify` makes one from flights of `{}`", system.vehicle.name)});
+  if (!problems.empty()) throw common::InputError(std::move(problems));
 }
 
 /// Puts "# " before every line.
@@ -54,6 +71,9 @@ void SystemConfig::describe(common::config::Fields& fields) {
   fields("laser", laser, "A file of config/sensors, without .yaml, or a path.");
   fields("rgbd_camera", rgbd_camera,
          "A file of config/sensors, without .yaml, or a path; empty without such a camera.");
+  fields("vehicle_model", vehicle_model,
+         "What `swiftlet identify` found of the vehicle: a file of config/models, without .yaml, or a path; empty "
+         "without one.");
   fields.section("autonomy", autonomy, "How the autonomy is set.");
   fields.section("log_motion", log_motion, "Recorded logs: what the next step of the robot is expected to be.");
 }
@@ -72,15 +92,20 @@ System loadSystem(const std::string& name) {
   System system;
   system.name = name;
   const std::string profile = fileFor(name, "systems");
-  system.config = common::config::readFile<SystemConfig>(profile);
+  common::config::YamlReader reader = common::config::YamlReader::fromFile(profile);
+  reader.read(system.config);
   const auto sheet = [&](const std::string& named, const char* folder, const char* key) {
-    return sheetFor(named, folder, key, profile);
+    return sheetFor(named, folder, key, reader.locationOf(key));
   };
   system.vehicle = common::config::readFile<common::VehicleConfig>(sheet(system.config.vehicle, "vehicles", "vehicle"));
   system.laser = common::config::readFile<common::LaserConfig>(sheet(system.config.laser, "sensors", "laser"));
   if (!system.config.rgbd_camera.empty())
     system.rgbd_camera =
         common::config::readFile<common::RgbdCameraConfig>(sheet(system.config.rgbd_camera, "sensors", "rgbd_camera"));
+  if (!system.config.vehicle_model.empty())
+    system.model =
+        common::config::readFile<control::VehicleModel>(sheet(system.config.vehicle_model, "models", "vehicle_model"));
+  refuseUnfitModel(system, reader);
   system.config.autonomy.limitTo(system.laser);
   return system;
 }
@@ -96,6 +121,10 @@ perception::LaserSlamConfig laserSlamOf(const System& system) {
 
 common::LaserConfig loadLaser(const std::string& name) {
   return common::config::readFile<common::LaserConfig>(fileFor(name, "sensors"));
+}
+
+common::VehicleConfig loadVehicle(const std::string& name) {
+  return common::config::readFile<common::VehicleConfig>(fileFor(name, "vehicles"));
 }
 
 std::vector<std::string> systemNames() {

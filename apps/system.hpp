@@ -9,6 +9,7 @@
 #include "common/config_fwd.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/vehicle_config.hpp"
+#include "control/vehicle_model.hpp"
 #include "perception/laser_odometry/motion_prediction.hpp"
 
 namespace swiftlet::perception {
@@ -21,6 +22,7 @@ struct SystemConfig {
   std::string vehicle = "cobra";
   std::string laser = "utm_30lx";
   std::string rgbd_camera = {};
+  std::string vehicle_model = {};
   autonomy::AutonomyConfig autonomy;
   perception::MotionPredictionConfig log_motion;
 
@@ -33,17 +35,22 @@ struct System {
   common::VehicleConfig vehicle;
   common::LaserConfig laser;
   std::optional<common::RgbdCameraConfig> rgbd_camera;
+  std::optional<control::VehicleModel> model;
 
   /// The effective profile as YAML that loadSystem can read; with comments, it includes the data sheets that it names.
   std::string toYaml(bool comments) const;
 };
 
 /// `name` is a profile of config/systems or a file. Field of view and range of the autonomy are limited to those of the
-/// laser. Throws common::InputError.
+/// laser. Throws common::InputError, with the place in the profile, also for a model that does not fit the vehicle and
+/// a controller that lacks its model.
 System loadSystem(const std::string& name);
 
 /// `name` is a data sheet of config/sensors or a file. Throws common::InputError.
 common::LaserConfig loadLaser(const std::string& name);
+
+/// `name` is a data sheet of config/vehicles or a file. Throws common::InputError.
+common::VehicleConfig loadVehicle(const std::string& name);
 
 /// SLAM with a laser that is carried level, with the profile's odometry and SLAM.
 perception::LaserSlamConfig laserSlamOf(const System& system);

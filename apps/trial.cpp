@@ -39,7 +39,8 @@ struct TrialOptions {
   int jobs = 1;
   std::optional<int> seed;  ///< Of the first flight; none: what the trial says.
   std::string system;
-  std::string nature;             ///< Empty: those of the trial.
+  std::string nature;  ///< Empty: those of the trial.
+  bool control_log = false;
   std::string vehicle_memory;     ///< Empty: each flight starts from the data sheet.
   std::optional<double> battery;  ///< None: as the trial says.
   std::string out;
@@ -84,7 +85,8 @@ void flyAll(const TrialConfig& trial, const TrialOptions& options, const Vehicle
     for (int i = next++; i < count && !stop; i = next++) {
       try {
         const int seed = first_seed + i;
-        auto flown = flyOne(trial, map, seed, out / fmt::format("{}-{:03}", trial.name, seed), stop, memory);
+        auto flown = flyOne(trial, map, seed, out / fmt::format("{}-{:03}", trial.name, seed), stop,
+                            {memory, options.control_log});
         const std::scoped_lock lock(mutex);
         if (!options.json)
           for (const evaluation::FlightScore& score : flown) show(flightLine(trial, score) + "\n");
@@ -136,10 +138,9 @@ std::vector<TrialConfig> preparedTrials(const TrialOptions& options) {
   for (TrialConfig& trial : evaluation::readTrials(file_or_folder)) {
     if (!options.nature.empty()) trial.natures = {options.nature};
     if (options.battery) trial.batteries = {*options.battery};
+    if (!options.system.empty()) trial.systems = {options.system};
     for (TrialConfig& one : trial.byCondition()) trials.push_back(std::move(one));
   }
-  if (!options.system.empty())
-    for (TrialConfig& trial : trials) trial.system = options.system;
   prepare(trials, file_or_folder);
   for (TrialConfig& trial : trials)
     trial.scenario.nature = std::make_shared<const simulation::Nature>(simulation::Nature::load(trial.natures.front()));
@@ -199,6 +200,8 @@ void addTrial(Command& program) {
   command.option("--system", options->system, "Profile to fly them all with, instead of their own.");
   command.option("--vehicle-memory", options->vehicle_memory,
                  "File with what earlier flights learned of the vehicle: each flight starts from it, none writes it.");
+  command.flag("--control-log", options->control_log,
+               "Keep commands, motion and battery at 100 Hz in each run: what `identify` reads.");
   command.option("--nature", options->nature, "Nature to fly them all in, instead of their own.");
   command.option("--battery", options->battery, {0.01, 1},
                  "Charge at the start to fly them all with, as a share of the full one.");

@@ -74,14 +74,33 @@ void clearOfOlderResults(const fs::path& out, const TrialResultsProof& proof) {
   fs::remove(report);
 }
 
+/// A controller that the operator switches to in flight must exist and have its model.
+void checkControllers(const TrialConfig& trial, const System& system, std::vector<common::Problem>& problems) {
+  for (const evaluation::OperatorStep& step : trial.operator_steps) {
+    if (step.command != evaluation::OperatorAction::kController) continue;
+    const auto kind = control::controllerNamed(step.controller);
+    const auto add = [&](const std::string& message, const std::string& hint) {
+      problems.push_back({{}, fmt::format("trial {}: operator: controller", trial.name), message, hint});
+    };
+    if (!kind)
+      add(fmt::format("there is no `{}`", step.controller),
+          common::didYouMean(step.controller, control::controllerWords()));
+    else if (*kind == control::ControllerKind::kLqr && !(system.model && system.model->hasAxes()))
+      add(fmt::format("lqr needs a vehicle_model, and the profile {} names none", system.name),
+          "`swiftlet identify` makes one");
+  }
+}
+
 }  // namespace
 
 void prepare(std::vector<TrialConfig>& trials, const fs::path& file_or_folder) {
   std::vector<common::Problem> problems;
-  for (const TrialConfig& trial : trials)
+  for (const TrialConfig& trial : trials) {
+    const System system = loadSystem(trial.system);
     for (const std::string& mission : missionFiles(trial.scenario, trial.mission))
-      for (auto& problem : missionProblems(mission, loadSystem(trial.system), trial.map.given()))
-        problems.push_back(std::move(problem));
+      for (auto& problem : missionProblems(mission, system, trial.map.given())) problems.push_back(std::move(problem));
+    checkControllers(trial, system, problems);
+  }
   if (!problems.empty()) throw common::InputError(std::move(problems));
   for (TrialConfig& trial : trials) {
     findMap(trial, file_or_folder);
@@ -103,7 +122,7 @@ std::shared_ptr<const FlightMap> givenMap(const TrialConfig& trial, const fs::pa
 
 std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std::shared_ptr<const FlightMap>& map,
                                             int seed, const fs::path& folder, const std::atomic<bool>& stop,
-                                            const VehicleMemorySetup& memory) {
+                                            const FlightExtras& extras) {
   std::map<std::string, evaluation::FlightScore> by_name;
   FlightHooks hooks;
   hooks.stop = &stop;
@@ -115,7 +134,8 @@ std::vector<evaluation::FlightScore> flyOne(const TrialConfig& trial, const std:
     for (const auto& [name, value] : evaluation::figuresOf(score)) end.figures.push_back({name, value});
   };
   FlightSetup setup = setupOf(trial, map, seed, folder);
-  setup.memory = memory;
+  setup.memory = extras.memory;
+  setup.control_log = extras.control_log;
   const FlightResult result = flySimulated(setup, soundMissions(setup, map != nullptr), hooks);
   if (const auto failure = result.writeFailure()) throw common::InputError(common::Problem{{}, "", *failure, ""});
   std::vector<evaluation::FlightScore> scores;

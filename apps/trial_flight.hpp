@@ -23,13 +23,19 @@ void prepare(std::vector<evaluation::TrialConfig>& trials, const std::filesystem
 /// `out`.
 std::shared_ptr<const FlightMap> givenMap(const evaluation::TrialConfig& trial, const std::filesystem::path& out);
 
+/// What the flights of a trial have beyond it.
+struct FlightExtras {
+  VehicleMemorySetup memory = {};
+  bool control_log = false;  ///< Whether the runs keep control.tsv.
+};
+
 /// Flies a prepared trial once and returns a score for each vehicle. The run lies in `folder`, and FlightScore::folder
 /// is relative to the folder above it. Safe from several threads. Throws common::InputError if the run cannot be
 /// written.
 std::vector<evaluation::FlightScore> flyOne(const evaluation::TrialConfig& trial,
                                             const std::shared_ptr<const FlightMap>& map, int seed,
                                             const std::filesystem::path& folder, const std::atomic<bool>& stop,
-                                            const VehicleMemorySetup& memory = {});
+                                            const FlightExtras& extras = {});
 
 /// How older results of the same command are recognized.
 struct TrialResultsProof {

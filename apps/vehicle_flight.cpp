@@ -24,7 +24,8 @@ autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const std::string& nam
   }
   return autonomy::Autonomy(setup.system.config.autonomy, setup.system.vehicle, setup.system.laser, std::move(mission),
                             common::makeLockstepJobs(1), given ? &*given : nullptr, name, setup.memory.read.get(),
-                            setup.system.rgbd_camera ? &*setup.system.rgbd_camera : nullptr);
+                            setup.system.rgbd_camera ? &*setup.system.rgbd_camera : nullptr,
+                            setup.system.model ? &*setup.system.model : nullptr);
 }
 
 /// Where the camera was found to be mounted and how late its clock is.
@@ -81,10 +82,12 @@ VehicleFlight::VehicleFlight(const FlightSetup& setup, const FlightHooks& hooks,
       folder_(folder, runInfo(setup, *vehicle_, mission.file), setup.system.toYaml(true)),
       pictures_(folder_, recorder_, setup.system.vehicle.hull_diameter_m),
       map3d_(folder_),
+      control_log_(setup.control_log ? std::make_unique<ControlLogSink>(folder_.path(), *vehicle_) : nullptr),
       sinks_(makeSinks()),
       loop_(*vehicle_, autonomy_, commands(), sinks()) {
   if (setup.wait) autonomy_.waitForStart();
   recorder_.watch(setup.phases);
+  autonomy_.setFilterListener(control_log_.get());
 }
 
 VehicleFlight::~VehicleFlight() = default;
@@ -104,6 +107,7 @@ std::vector<std::unique_ptr<autonomy::FlightSink>> VehicleFlight::makeSinks() {
 std::vector<autonomy::FlightSink*> VehicleFlight::sinks() {
   std::vector<autonomy::FlightSink*> all;
   for (const auto& sink : sinks_) all.push_back(sink.get());
+  if (control_log_) all.push_back(control_log_.get());
   all.push_back(&pictures_);
   all.push_back(&map3d_);
   return all;
@@ -172,6 +176,7 @@ void VehicleFlight::finish(double wall_s) {
   loop_.finish();
   pictures_.drawNow(*autonomy_.world());
   map3d_.writeNow(*autonomy_.world());
+  if (control_log_) control_log_->finish();
   interfaces::FlightEnd end;
   end.outcome = outcome_;
   end.reason = reason_;
@@ -214,7 +219,9 @@ void VehicleFlight::showEnd() const {
 }
 
 VehicleResult VehicleFlight::result() const {
-  return {name_, folder_.summary(), folder_.path(), memory_failure_ ? memory_failure_ : folder_.failure()};
+  std::optional<std::string> failure = memory_failure_ ? memory_failure_ : folder_.failure();
+  if (!failure && control_log_) failure = control_log_->failure();
+  return {name_, folder_.summary(), folder_.path(), failure};
 }
 
 }  // namespace swiftlet::apps

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/control_log_sink.hpp"
 #include "apps/flight_setup.hpp"
 #include "apps/map3d_sink.hpp"
 #include "apps/picture_sink.hpp"
@@ -69,6 +70,7 @@ class VehicleFlight {
   interfaces::RunFolder folder_;
   PictureSink pictures_;
   Map3dSink map3d_;
+  std::unique_ptr<ControlLogSink> control_log_;  ///< Null unless it is asked for.
   std::vector<std::unique_ptr<autonomy::FlightSink>> sinks_;
   common::LosslessQueue<common::OperatorCommand> own_commands_;  ///< Where there is no page.
   autonomy::FlightLoop loop_;

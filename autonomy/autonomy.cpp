@@ -41,13 +41,14 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const common::Ve
 
 Autonomy::Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
                    behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given,
-                   std::string vehicle_name, const VehicleMemory* memory, const common::RgbdCameraConfig* camera)
+                   std::string vehicle_name, const VehicleMemory* memory, const common::RgbdCameraConfig* camera,
+                   const control::VehicleModel* model)
     : config_(config),
       vehicle_(vehicle),
       vehicle_name_(std::move(vehicle_name)),
       estimator_(config.estimator, laser, vehicle, given, *jobs, camera),
       reactive_(config_.reactive, vehicle.hullRadius_m()),
-      controller_(config.control, vehicle),
+      controller_(config.control, vehicle, model),
       executor_(config_.execution, vehicle, config.estimator.slam.grid.resolution_m, controller_, *jobs, camera),
       supervisor_(config.supervisor),
       supervisor_intents_(config.execution.clearance_m),
@@ -124,6 +125,8 @@ void Autonomy::take(const common::OperatorCommand& command, Time now) {
     if (!refusal.empty()) return answer(command, {command.id, false, std::move(refusal)}, now);
   }
   if (auto result = missions_.take(command)) return answer(command, std::move(*result), now);
+  if (const auto* other = std::get_if<common::ControllerCommand>(&command.kind))
+    return answer(command, switchController(command.id, *other), now);
   if (auto result = supervisor_.take(command, now)) {
     const auto next = missions_.mission().waitingCommand();
     if (result->accepted && next && std::holds_alternative<common::ResumeCommand>(command.kind))
@@ -134,6 +137,13 @@ void Autonomy::take(const common::OperatorCommand& command, Time now) {
   if (std::holds_alternative<common::HomeCommand>(command.kind) && !missions_.mission().acceptsGoals())
     return answer(command, supervisor_.goHome(command), now);
   context_.commands.push_back(command);
+}
+
+common::CommandResult Autonomy::switchController(std::uint64_t id, const common::ControllerCommand& command) {
+  const auto kind = control::controllerNamed(command.controller);
+  if (!kind) return {id, false, "there is no controller of that name"};
+  const auto switched = controller_.switchController(*kind);
+  return {id, switched.has_value(), switched ? std::string() : switched.error()};
 }
 
 /// Every command leaves an event, whether it was accepted or refused.
@@ -163,6 +173,7 @@ common::Setpoint Autonomy::tick(Time now) {
   flight.pilot_flies = supervisor_.pilotFlies();
   flight.fusion_diverged = estimator_.health().status == perception::FusionStatus::kDiverged;
   flight.inertial_fault = imu_watch_.fault(now);
+  flight.acceleration_odom_m_s2 = estimator_.accelerationOdom_m_s2();
   const common::Setpoint setpoint = controller_.tick(flight);
   if (controller_.followsPath() && controller_.pathRemaining_m() > kFarFromGoal_m)
     energy_monitor_.followed(flight.state.velocity_odom_m_s.head<2>().norm(), common::kControlPeriod.seconds());

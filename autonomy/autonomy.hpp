@@ -64,11 +64,11 @@ class Autonomy {
   /// `given` is a map to localize in, or null; it is read only in the constructor. `vehicle_name` appears in the
   /// snapshots and in the events of its loop; it is empty if there is only one vehicle. `memory` is what earlier
   /// flights of this vehicle have learned, or null; `camera` is the data sheet of an RGB-D camera, or null without one.
-  /// Both are read only in the constructor.
+  /// `model` is what was identified of the vehicle, or null. All three are read only in the constructor.
   Autonomy(const AutonomyConfig& config, const common::VehicleConfig& vehicle, const common::LaserConfig& laser,
            behaviors::Mission mission, std::unique_ptr<common::JobRunner> jobs, const GivenMap* given = nullptr,
            std::string vehicle_name = {}, const VehicleMemory* memory = nullptr,
-           const common::RgbdCameraConfig* camera = nullptr);
+           const common::RgbdCameraConfig* camera = nullptr, const control::VehicleModel* model = nullptr);
   ~Autonomy();
 
   /// The mission begins when the operator starts it, or another one. Call it before the first input.
@@ -115,11 +115,14 @@ class Autonomy {
   std::vector<common::CommandResult> takeResults();
   /// What the mission asked to be written since the last call.
   std::vector<RunFile> takeFiles() { return requests_.takeFiles(); }
+  /// See Estimator::setFilterListener.
+  void setFilterListener(perception::FilterListener* listener) { estimator_.setFilterListener(listener); }
 
  private:
   void take(const common::SensorEvent& event);
   void take(const std::shared_ptr<const common::LaserScan>& scan);
   void take(const common::OperatorCommand& command, common::Time now);
+  common::CommandResult switchController(std::uint64_t id, const common::ControllerCommand& command);
   void answer(const common::OperatorCommand& command, common::CommandResult result, common::Time now);
   common::Setpoint tick(common::Time now);
   void processDueScans(common::Time now);

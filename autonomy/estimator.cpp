@@ -52,8 +52,20 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       rgbd_(camera ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs) : nullptr) {}
 
 void Estimator::addImu(const common::ImuSample& sample) {
+  hear(sample);
   filter_.predict(sample);
   if (sample.rotation_ahrs_body.coeffs().allFinite()) last_imu_ = sample;
+}
+
+void Estimator::setAtRest(bool at_rest) {
+  if (at_rest != at_rest_) hear(perception::TapedRest{at_rest});
+  at_rest_ = at_rest;
+  filter_.setAtRest(at_rest);
+}
+
+std::optional<Eigen::Vector3d> Estimator::accelerationOdom_m_s2() const {
+  if (!filter_.initialized()) return std::nullopt;
+  return filter_.accelerationOdom_m_s2();
 }
 
 std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Time now) {
@@ -148,6 +160,7 @@ void Estimator::initialize(const common::LaserScan& scan) {
   const auto standing = laser_.project(scan, [&](Time) { return Pose3{R_level_body, Eigen::Vector3d::Zero()}; });
   const double height_m = medianBelow_m(standing).value_or(standing_height_m_);
 
+  hear(perception::TapedStart{height_m});
   const auto initialized = filter_.initialize(height_m);
   if (!initialized) {
     if (!waiting_said_)
@@ -190,19 +203,30 @@ OdometryStep Estimator::match(const perception::ProjectedScan& scan) {
 
 /// True when the step matched and the filter accepts it.
 bool Estimator::fuse(const OdometryStep& step) {
-  if (step.clone_before) (void)filter_.addClone(*step.clone_before);
+  if (step.clone_before) addClone(*step.clone_before);
   bool taken = step.matched;
-  if (const auto& m = step.measurement)
+  if (const auto& m = step.measurement) {
+    hear(perception::TapedRelativePose{m->from, m->to, m->T_from_to, m->covariance, m->unseen_direction});
     taken = filter_.addRelativePose(m->from, m->to, m->T_from_to, m->covariance, m->unseen_direction) ==
             perception::Insertion::kTaken;
-  if (step.clone_after) (void)filter_.addClone(*step.clone_after);
+  }
+  if (step.clone_after) addClone(*step.clone_after);
   return taken;
+}
+
+void Estimator::addClone(Time time) {
+  hear(perception::TapedClone{time});
+  (void)filter_.addClone(time);
 }
 
 void Estimator::fuse(const AltitudeStep& step, Time stamp) {
   if (const auto& m = step.measurement) {
+    hear(perception::TapedHeight{m->stamp, m->height_m, m->variance_m2, m->level_variance_m2});
     (void)filter_.addHeight(m->stamp, m->height_m, m->variance_m2, m->level_variance_m2);
-    if (m->velocity_m_s) (void)filter_.addVerticalSpeed(m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2);
+    if (m->velocity_m_s) {
+      hear(perception::TapedClimb{m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2});
+      (void)filter_.addVerticalSpeed(m->stamp, *m->velocity_m_s, m->velocity_variance_m2_s2);
+    }
   }
   if (step.levels_joined > 0)
     say(stamp, Severity::kInfo, "altitude", fmt::format("{} levels joined", step.levels_joined));
@@ -215,7 +239,7 @@ void Estimator::fuse(const CameraStep& step, Time now) {
     if (taken == Insertion::kTaken) position_seen_ = height_seen_ = now;
     if (taken == Insertion::kUnknownReference) return rgbd_->forgetClone();
   }
-  if (step.clone_after) (void)filter_.addClone(*step.clone_after);
+  if (step.clone_after) addClone(*step.clone_after);
 }
 
 /// What the scan told of the position, for the drift.

@@ -34,6 +34,7 @@
 #include "control/emergency_descent.hpp"
 #include "perception/altitude/multilevel_filter.hpp"
 #include "perception/fusion/error_state_filter.hpp"
+#include "perception/fusion/filter_tape.hpp"
 #include "perception/people/people_tracker.hpp"
 #include "perception/projection/scan_projection.hpp"
 #include "perception/slam2d/slam_method.hpp"
@@ -89,12 +90,16 @@ class Estimator {
   /// See MapPipeline::setFlightHeight.
   void setFlightHeight(double height_m) { map_.setFlightHeight(height_m); }
   /// While true, the filter assumes that the vehicle stands still.
-  void setAtRest(bool at_rest) { filter_.setAtRest(at_rest); }
+  void setAtRest(bool at_rest);
+  /// Hears all that the filter is told from now on; null for none. It must outlive the estimator.
+  void setFilterListener(perception::FilterListener* listener) { listener_ = listener; }
   /// While false, scans are not compared with the given map, because near the floor the laser sees other objects.
   void setAtFlightHeight(bool is) { at_flight_height_ = is; }
 
   /// The state at the newest IMU sample, with T_map_odom.
   common::VehicleState state() const;
+  /// Acceleration at the newest IMU sample, gravity and bias removed; none before the filter has started.
+  std::optional<Eigen::Vector3d> accelerationOdom_m_s2() const;
   perception::FusionHealth health() const { return filter_.health(); }
   const perception::LaserOdometryCounts& odometryCounts() const { return laser_.counts(); }
   const perception::SlamCounts& slamCounts() const { return map_.counts(); }
@@ -118,6 +123,7 @@ class Estimator {
   perception::ProjectedScan withoutPeople(const perception::ProjectedScan& scan, common::Time measured) const;
   bool isWithheld(const perception::ProjectedScan& scan);
   OdometryStep match(const perception::ProjectedScan& scan);
+  void addClone(common::Time time);
   bool fuse(const OdometryStep& step);
   void fuse(const AltitudeStep& step, common::Time stamp);
   PositionFix positionFix(const OdometryStep& step, bool matched, const common::Pose2& T_odom_body,
@@ -129,9 +135,14 @@ class Estimator {
   common::Pose3 T_odom_bodyAt(const perception::ProjectedScan& scan) const;
   void reportHealth(common::Time now);
   void say(common::Time now, common::Severity severity, std::string source, std::string text, std::string reason = {});
+  void hear(const perception::FilterInput& input) {
+    if (listener_ != nullptr) listener_->heard(input);
+  }
 
   double standing_height_m_;  ///< Height of the body when standing, if the mirror sees no floor.
   perception::ErrorStateFilter filter_;
+  perception::FilterListener* listener_ = nullptr;
+  bool at_rest_ = false;
   perception::PeopleTracker people_;
   LaserPipeline laser_;
   AltitudePipeline altitude_;

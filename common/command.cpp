@@ -10,6 +10,7 @@ struct Describe {
   std::string operator()(const ResumeCommand&) const { return "resume"; }
   std::string operator()(const HomeCommand&) const { return "home"; }
   std::string operator()(const LandCommand&) const { return "land"; }
+  std::string operator()(const ControllerCommand& c) const { return "controller " + c.controller; }
   std::string operator()(const GoalCommand& c) const {
     return fmt::format("goal ({:.2f}, {:.2f})", c.goal_map_m.x(), c.goal_map_m.y());
   }

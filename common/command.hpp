@@ -37,10 +37,15 @@ struct ClearKeepOutCommand {};
 /// What a WaitForOperator of the mission waits for.
 struct GoOnCommand {};
 
+/// Another controller takes over, without a step.
+struct ControllerCommand {
+  std::string controller;  ///< A word of `controller.kind` in a system profile.
+};
+
 struct OperatorCommand {
   std::uint64_t id = 0;
   std::variant<HoldCommand, ResumeCommand, HomeCommand, LandCommand, GoalCommand, StartMissionCommand,
-               StopMissionCommand, KeepOutCommand, ClearKeepOutCommand, GoOnCommand>
+               StopMissionCommand, KeepOutCommand, ClearKeepOutCommand, GoOnCommand, ControllerCommand>
       kind;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/config_fields.hpp"
+#include "common/error.hpp"
 
 namespace swiftlet::common::config {
 
@@ -32,6 +33,8 @@ class YamlReader final : public Fields {
 
   /// Paths of the values that the file gives, in the order they were read: "limits.speed_m_s", "walkers[0].mode".
   const std::vector<std::string>& writtenKeys() const;
+  /// Where the file gives the value with that path; without line and column if it does not.
+  SourceLocation locationOf(const std::string& path) const;
 
   using Fields::choice;
   void operator()(std::string_view name, double& value, const Bounds& bounds, std::string_view sentence) override;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <type_traits>
@@ -26,6 +27,7 @@ struct YamlReader::Impl {
   std::vector<std::string> list_names;
   std::vector<Problem> problems;
   std::vector<std::string> written;
+  std::map<std::string, SourceLocation> places;
 
   SourceLocation at(const YAML::Node& node) const {
     const YAML::Mark mark = node.Mark();
@@ -51,6 +53,7 @@ struct YamlReader::Impl {
     YAML::Node value = node[std::string(name)];
     if (!value.IsDefined()) return std::nullopt;
     if (!value.IsMap()) written.push_back(pathOf(name));
+    places[pathOf(name)] = at(value);
     return value;
   }
 
@@ -168,6 +171,11 @@ YamlReader YamlReader::fromText(const std::string& text, const std::string& name
 }
 
 const std::vector<std::string>& YamlReader::writtenKeys() const { return impl_->written; }
+
+SourceLocation YamlReader::locationOf(const std::string& path) const {
+  const auto found = impl_->places.find(path);
+  return found == impl_->places.end() ? SourceLocation{impl_->file} : found->second;
+}
 
 void YamlReader::operator()(std::string_view name, double& value, const Bounds& bounds, std::string_view) {
   impl_->number(name, value, bounds, "a number");

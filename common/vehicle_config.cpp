@@ -68,6 +68,7 @@ Eigen::Vector3d LaserConfig::direction(int beam) const {
 void VehicleConfig::describe(config::Fields& fields) {
   fields("name", name, "Name of the vehicle, for messages.");
   fields("mass_kg", mass_kg, {0.05, 100}, "Take-off mass.");
+  fields("arm_m", arm_m, {0.02, 2}, "Distance from the centre to a rotor's axis.");
   fields("hull_diameter_m", hull_diameter_m, {0.05, 5},
          "Diameter from rotor tip to rotor tip; the hull is an upright cylinder about the body's origin.");
   fields("hull_height_m", hull_height_m, {0.02, 2}, "Height of the hull, half of it above the body's origin.");
@@ -85,6 +86,8 @@ std::vector<std::string> VehicleConfig::validate() const {
   return Validation()
       .require(max_thrust_n >= 1.1 * 9.81 * mass_kg, "max_thrust_n",
                fmt::format("{} is less than 1.1 times the weight of {} kg", max_thrust_n, mass_kg))
+      .require(2.0 * arm_m < hull_diameter_m, "arm_m",
+               fmt::format("{} does not fit into a hull of {} m", arm_m, hull_diameter_m))
       .atMost("battery_empty_v", battery_empty_v, "battery_full_v", battery_full_v)
       .problems();
 }

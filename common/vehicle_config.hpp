@@ -56,6 +56,7 @@ struct LaserConfig {
 struct VehicleConfig {
   std::string name = "cobra";
   double mass_kg = 1.6;
+  double arm_m = 0.165;
   double hull_diameter_m = 0.55;
   double hull_height_m = 0.25;
   double max_thrust_n = 28.0;

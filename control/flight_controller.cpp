@@ -29,11 +29,12 @@ Eigen::Vector3d inFrame(const common::Pose2& T, const Eigen::Vector3d& point_m) 
 
 }  // namespace
 
-FlightController::FlightController(const Config& config, const common::VehicleConfig& vehicle)
+FlightController::FlightController(const Config& config, const common::VehicleConfig& vehicle,
+                                   const VehicleModel* model)
     : config_(config),
       margin_(config.margin),
       follower_(config.path),
-      position_(config.position, vehicle),
+      position_(config.controller, config.position, vehicle, model),
       emergency_(config.emergency),
       dt_s_(common::kControlPeriod.seconds()),
       max_height_m_(vehicle.max_height_m) {}
@@ -196,7 +197,6 @@ common::Setpoint FlightController::descendInEmergency(const FlightTick& tick) {
 }
 
 common::Setpoint FlightController::track(const FlightTick& tick, const Reference& reference, bool on_ground) {
-  using Horizontal = PositionController::Horizontal;
   Reference target = reference;
   if (state() != FlightState::kFlying) {
     target.position_odom_m.z() = height_reference_m_;
@@ -212,7 +212,15 @@ common::Setpoint FlightController::track(const FlightTick& tick, const Reference
     // A velocity that is measured no longer would be damped beyond its end.
     if (!tick.inertial_fault.empty()) horizontal = Horizontal::kLevel;
   }
-  return position_.tick(now_, dt_s_, tick.state, target, tick.battery_v, horizontal, on_ground);
+  const ControlInput input{now_, dt_s_, tick.state, target, tick.acceleration_odom_m_s2, horizontal, on_ground};
+  return position_.tick(input, tick.battery_v);
+}
+
+tl::expected<void, std::string> FlightController::switchController(ControllerKind kind) {
+  const ControllerKind from = position_.kind();
+  if (auto switched = position_.switchTo(kind); !switched) return switched;
+  if (from != kind) say(Severity::kInfo, fmt::format("controller {}", toString(kind)), "switched in flight");
+  return {};
 }
 
 /// Until the vehicle has flown, the margin is only that of the data sheet or of an earlier flight.

@@ -1,4 +1,4 @@
-// The action layer in one object: state machine, path follower, position controller and emergency descent (Tomic 2012,
+// The action layer in one object: state machine, path follower, controller and emergency descent (Tomic 2012,
 // "Action"). Ticked each kControlPeriod; returns the setpoint for the autopilot.
 #pragma once
 
@@ -20,7 +20,7 @@
 #include "control/flight_state_machine.hpp"
 #include "control/margin_limits.hpp"
 #include "control/path_follower.hpp"
-#include "control/position_controller.hpp"
+#include "control/switched_controller.hpp"
 
 namespace swiftlet::control {
 
@@ -56,6 +56,8 @@ struct FlightTick {
   std::string inertial_fault;
   /// The pilot has control: setpoints have no effect, and the references follow the vehicle.
   bool pilot_flies = false;
+  /// By the accelerometer, without gravity and bias; none while it is not known.
+  std::optional<Eigen::Vector3d> acceleration_odom_m_s2 = std::nullopt;
 };
 
 /// One thread. Never throws; a refused command returns its reason.
@@ -82,12 +84,14 @@ class FlightController {
     MarginLimits::Config margin;
     PathFollower::Config path;
     PositionController::Config position;
+    ControllerChoiceConfig controller;
     EmergencyDescent::Config emergency;
 
     void describe(common::config::Fields& fields);
   };
 
-  FlightController(const Config& config, const common::VehicleConfig& vehicle);
+  /// `model` is what was identified of the vehicle, or null; it is read only here.
+  FlightController(const Config& config, const common::VehicleConfig& vehicle, const VehicleModel* model = nullptr);
 
   tl::expected<void, std::string> command(const FlightCommand& command);
   /// Allowed only while flying (Table 1). An empty path stops.
@@ -100,6 +104,9 @@ class FlightController {
   void hold(std::optional<double> yaw_map_rad = std::nullopt);
   /// While it is set, the nose faces that point of the map, on paths and while holding; not in a retreat.
   void lookAt(const std::optional<Eigen::Vector2d>& point_map_m) { look_at_map_m_ = point_map_m; }
+  /// Changes the controller in any state, in flight without a step. Fails, with the reason, for one without its model.
+  tl::expected<void, std::string> switchController(ControllerKind kind);
+  ControllerKind controllerKind() const { return position_.kind(); }
   /// Speed limit of the reactive layer; infinity lifts it.
   void setSpeedLimit(double speed_m_s) { follower_.setSpeedLimit(speed_m_s); }
 
@@ -116,6 +123,7 @@ class FlightController {
   bool stopped() const;
   /// The last path is still being flown: no hold, no lost estimate and no pilot has interrupted it.
   bool followsPath() const { return follower_.followsPath(); }
+  const ThrustModel& thrust() const { return position_.thrust(); }
   /// See ThrustModel::margin().
   double thrustMargin() const { return position_.thrust().margin(); }
   /// What an earlier flight of this vehicle has learned, to be called before the first tick; and what is known now.
@@ -135,7 +143,6 @@ class FlightController {
   const Reference& reference() const { return follower_.reference(); }
   /// The events since the last call.
   std::vector<common::Event> takeEvents();
-  const PositionController& positionController() const { return position_; }
 
  private:
   /// An input that the present state does not accept changes nothing.
@@ -163,7 +170,7 @@ class FlightController {
   FlightStateMachine machine_;
   MarginLimits margin_;
   PathFollower follower_;
-  PositionController position_;
+  SwitchedController position_;
   EmergencyDescent emergency_;
   std::vector<common::Event> events_;
   std::string grounded_reason_;

@@ -34,7 +34,8 @@ void FlightController::Config::describe(common::config::Fields& fields) {
          "The emergency descent begins when inertial samples that cannot be used have been noticed for this long.");
   fields.section("margin", margin, "How speeds and accelerations shrink with the thrust that is left.");
   fields.section("path", path, "References from paths.");
-  fields.section("position", position, "Position controller.");
+  fields.section("position", position, "Settings of the controller swiftlet, and the thrust model of all.");
+  fields.section("controller", controller, "Which controller flies, and the settings of the others.");
   fields.section("emergency", emergency, "Emergency descent.");
 }
 

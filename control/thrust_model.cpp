@@ -31,6 +31,10 @@ double ThrustModel::learn(double correction_m_s2, double dt_s) {
 double ThrustModel::commandFor(double acceleration_up_m_s2, double cos_tilt) const {
   const double command =
       table_.hoverCommand(voltage_v_) * (1.0 + acceleration_up_m_s2 / kGravity_m_s2) / std::max(0.5, cos_tilt);
+  return clamped(command);
+}
+
+double ThrustModel::clamped(double command) const {
   return std::clamp(command, config_.min_thrust, config_.max_thrust);
 }
 

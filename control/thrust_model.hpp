@@ -38,10 +38,12 @@ class ThrustModel {
 
   /// The command that carries the weight and adds `acceleration_up_m_s2` at the given tilt, clamped to the valid range.
   double commandFor(double acceleration_up_m_s2, double cos_tilt) const;
+  /// A command within the valid range.
+  double clamped(double command) const;
   /// Greatest thrust over the weight at the present voltage, by what was learned.
   double margin() const { return marginAt(voltage_v_); }
   double marginAt(double voltage_v) const { return config_.max_thrust / table_.hoverCommand(voltage_v); }
-  /// The present C(U).
+  /// The present C(U); Grzonka 2012, equation 5.
   double hoverCommand() const;
   /// The present hover command over that of the data sheet.
   double correction() const { return table_.hoverCommand(voltage_v_) / table_.sheetCommand(voltage_v_); }

@@ -41,6 +41,8 @@ common::OperatorCommand commandOf(const OperatorStep& step) {
       return {0, common::ClearKeepOutCommand{}};
     case OperatorAction::kGoOn:
       return {0, common::GoOnCommand{}};
+    case OperatorAction::kController:
+      return {0, common::ControllerCommand{step.controller}};
   }
   return {0, common::LandCommand{}};
 }
@@ -48,11 +50,13 @@ common::OperatorCommand commandOf(const OperatorStep& step) {
 }  // namespace
 
 void OperatorStep::describe(common::config::Fields& fields) {
-  fields.choice("command", command, {"goal", "hold", "resume", "home", "land", "keep_out", "clear_keep_out", "go_on"},
+  fields.choice("command", command,
+                {"goal", "hold", "resume", "home", "land", "keep_out", "clear_keep_out", "go_on", "controller"},
                 "What the operator asks for.");
   fields("goal_map_m", goal_map_m, {-1e4, 1e4}, "For command goal: the place x, y in the vehicle's frame `map`.");
   fields("polygon_map_m", polygon_map_m, {-1e4, 1e4},
          "For command keep_out: the corners x, y, x, y ... in the vehicle's frame `map`.");
+  fields("controller", controller, "For command controller: the kind that takes over in flight.");
   fields("at_s", at_s, {0, 1e6}, "Time before which the command is not given.");
   fields(
       "after_phase", after_phase,
@@ -71,6 +75,8 @@ std::vector<std::string> OperatorStep::validate() const {
   const bool is_zone = command == OperatorAction::kKeepOut;
   return common::Validation()
       .require(!is_goal || goal_map_m.size() == 2, "goal_map_m", "is not one place x, y")
+      .require((command == OperatorAction::kController) == !controller.empty(), "controller",
+               "is for the command controller, which needs it")
       .require(is_goal || goal_map_m.empty(), "goal_map_m", "is for the command goal alone")
       .require(!is_zone || polygon_map_m.size() % 2 == 0, "polygon_map_m", "has a corner without y")
       .require(!is_zone || problemOf(polygonOf(polygon_map_m)).empty(), "polygon_map_m",

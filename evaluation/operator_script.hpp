@@ -18,7 +18,7 @@ struct World;
 
 namespace swiftlet::evaluation {
 
-enum class OperatorAction { kGoal, kHold, kResume, kHome, kLand, kKeepOut, kClearKeepOut, kGoOn };
+enum class OperatorAction { kGoal, kHold, kResume, kHome, kLand, kKeepOut, kClearKeepOut, kGoOn, kController };
 enum class ExpectedAnswer { kAccepted, kRefused, kAny };
 
 /// One command of the script.
@@ -26,6 +26,7 @@ struct OperatorStep {
   OperatorAction command = OperatorAction::kHold;
   std::vector<double> goal_map_m;
   std::vector<double> polygon_map_m;
+  std::string controller = {};
   double at_s = 0.0;
   std::string after_phase;
   std::string after_event;

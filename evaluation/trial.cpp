@@ -57,6 +57,8 @@ void TrialConfig::describe(common::config::Fields& fields) {
   fields("description", description, "What is flown and why.");
   fields("mission", mission, "XML file, relative to the root of the software.");
   fields("system", system, "System profile.");
+  fields("systems", systems,
+         "System profiles, instead of `system`: each of them is flown, a paper's and our own for instance.");
   fields("natures", natures,
          "How far the vehicle is from its data sheet: calm, real, harsh, or a file; each of them is flown.");
   fields("batteries", batteries, {0.01, 1},
@@ -85,6 +87,7 @@ std::vector<std::string> TrialConfig::validate() const {
       .require(canBeSeen(name), "name", "is longer than 100 characters or holds some that cannot be seen")
       .require(!mission.empty(), "mission", "is missing")
       .require(!system.empty(), "system", "is missing")
+      .require(std::find(systems.begin(), systems.end(), "") == systems.end(), "systems", "has an empty name")
       .require(!natures.empty(), "natures", "is empty")
       .require(!each_fault || !scenario.faults.empty(), "each_fault", "is set, but the scenario has no faults")
       .require(!scenario.world.empty(), "scenario", "names no `world`")
@@ -93,9 +96,22 @@ std::vector<std::string> TrialConfig::validate() const {
 
 std::vector<TrialConfig> TrialConfig::byCondition() const {
   std::vector<TrialConfig> trials;
-  for (const TrialConfig& in_nature : byNature())
-    for (const TrialConfig& with_charge : in_nature.byCharge())
-      for (TrialConfig& with_fault : with_charge.byFault()) trials.push_back(std::move(with_fault));
+  for (const TrialConfig& with_system : bySystem())
+    for (const TrialConfig& in_nature : with_system.byNature())
+      for (const TrialConfig& with_charge : in_nature.byCharge())
+        for (TrialConfig& with_fault : with_charge.byFault()) trials.push_back(std::move(with_fault));
+  return trials;
+}
+
+std::vector<TrialConfig> TrialConfig::bySystem() const {
+  if (systems.empty()) return {*this};
+  std::vector<TrialConfig> trials;
+  for (const std::string& one : systems) {
+    trials.push_back(*this);
+    trials.back().system = one;
+    trials.back().systems.clear();
+    if (systems.size() > 1) trials.back().name += "-" + fs::path(one).stem().string();
+  }
   return trials;
 }
 

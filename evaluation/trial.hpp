@@ -43,6 +43,7 @@ struct TrialConfig {
   std::string description;
   std::string mission;
   std::string system = "swiftlet";
+  std::vector<std::string> systems;
   std::vector<std::string> natures = {"real"};
   std::vector<double> batteries;
   bool each_fault = false;
@@ -61,9 +62,9 @@ struct TrialConfig {
   void describe(common::config::Fields& fields);
   std::vector<std::string> validate() const;
 
-  /// One trial for each of its natures, in each of them for each of its batteries and, with `each_fault`, for each of
-  /// these for each fault: these are then the only ones, and part of its name where there are several. The charge is
-  /// that of every vehicle, as if the scenario had written it out.
+  /// One trial for each of its systems, with each of them for each of its natures, in each of them for each of its
+  /// batteries and, with `each_fault`, for each of these for each fault: these are then the only ones, and part of its
+  /// name where there are several. The charge is that of every vehicle, as if the scenario had written it out.
   std::vector<TrialConfig> byCondition() const;
 
   /// Makes `world` and `model_paths` of the scenario absolute: below `unpacked`, the content of the archive, if there
@@ -71,6 +72,7 @@ struct TrialConfig {
   void resolvePaths(const std::filesystem::path& unpacked, const std::filesystem::path& root);
 
  private:
+  std::vector<TrialConfig> bySystem() const;
   std::vector<TrialConfig> byNature() const;
   std::vector<TrialConfig> byCharge() const;
   std::vector<TrialConfig> byFault() const;

@@ -38,7 +38,7 @@ constexpr Duration kSamplePeriod = Duration::fromMilliseconds(200);     ///< Bet
 /// Every file that a run may leave; no other file is ever removed.
 constexpr const char* kMemoryRead = "vehicle_memory_read.yaml";
 constexpr const char* kMemoryLearned = "vehicle_memory_learned.yaml";
-constexpr std::array<const char*, 17> kFiles = {"mission.json",
+constexpr std::array<const char*, 19> kFiles = {"mission.json",
                                                 "events.jsonl",
                                                 "trajectory.tum",
                                                 "trajectory_given.tum",
@@ -54,7 +54,9 @@ constexpr std::array<const char*, 17> kFiles = {"mission.json",
                                                 "nature.yaml",
                                                 kMemoryRead,
                                                 kMemoryLearned,
-                                                "ground_truth.tum"};
+                                                "ground_truth.tum",
+                                                "control.tsv",
+                                                "fusion.tsv"};
 
 bool isRunFile(const std::string& name) {
   const auto isNamed = [&](const char* begin, const char* end) {

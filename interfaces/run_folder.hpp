@@ -13,6 +13,8 @@
 //   report.html      the same in one page
 //   config.yaml      the settings in force
 //   vehicle_memory_read.yaml, vehicle_memory_learned.yaml    of a flight with a vehicle's memory: before and after it
+//   control.tsv      with --control-log: commands, motion and battery at 100 Hz (interfaces/control_log.hpp)
+//   fusion.tsv       with it: all that the fusion filter was told (perception/fusion/filter_tape.hpp)
 //   nature.yaml      what a simulated vehicle drew from its nature; none if it draws nothing
 #pragma once
 

@@ -32,13 +32,15 @@ void AutopilotConfig::describe(common::config::Fields& fields) {
   fields("link_timeout_s", link_timeout_s, {0.05, 10},
          "Without a new setpoint for this long the vehicle levels and descends.");
   fields("failsafe_thrust_share", failsafe_thrust_share, {0.5, 1}, "Thrust of that descent, as a share of the weight.");
+  fields("tilt_share", tilt_share, {0.5, 1.5}, "Angle that the autopilot takes, over the commanded one.");
+  fields("tilt_expo", tilt_expo, {0, 0.9}, "Share of the third power in the curve from command to angle.");
   fields.choice("mixing", mixing, {"clamp_each", "attitude_first"},
                 "How motors at their limit are shared: each clamped, or roll and pitch first, then thrust, yaw last.");
 }
 
 Autopilot::Autopilot(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe,
                      const AutopilotConfig& config)
-    : vehicle_(vehicle), airframe_(airframe), config_(config) {}
+    : vehicle_(vehicle), airframe_(scaledTo(vehicle, airframe)), config_(config) {}
 
 void Autopilot::receive(const common::Setpoint& setpoint, common::Time arrived) {
   setpoint_ = setpoint;
@@ -58,12 +60,20 @@ common::Setpoint Autopilot::effective(common::Time now, const AttitudeMeasuremen
                       (vehicle_.max_thrust_n * std::max(0.25, sag * sag));
   }
   const double max_tilt_rad = vehicle_.max_tilt_deg * std::numbers::pi / 180.0;
-  setpoint.roll_rad = std::clamp(finiteOr(setpoint.roll_rad, 0.0), -max_tilt_rad, max_tilt_rad);
-  setpoint.pitch_rad = std::clamp(finiteOr(setpoint.pitch_rad, 0.0), -max_tilt_rad, max_tilt_rad);
+  setpoint.roll_rad = tiltFor(std::clamp(finiteOr(setpoint.roll_rad, 0.0), -max_tilt_rad, max_tilt_rad));
+  setpoint.pitch_rad = tiltFor(std::clamp(finiteOr(setpoint.pitch_rad, 0.0), -max_tilt_rad, max_tilt_rad));
   setpoint.yaw_rate_rad_s =
       std::clamp(finiteOr(setpoint.yaw_rate_rad_s, 0.0), -config_.max_yaw_rate_rad_s, config_.max_yaw_rate_rad_s);
   setpoint.thrust = std::clamp(finiteOr(setpoint.thrust, 0.0), 0.0, 1.0);
   return setpoint;
+}
+
+/// The angle that the autopilot takes for a command: a share of it, bent as the sticks of a remote control are.
+double Autopilot::tiltFor(double command_rad) const {
+  if (config_.tilt_share == 1.0 && config_.tilt_expo == 0.0) return command_rad;
+  const double most_rad = vehicle_.max_tilt_deg * std::numbers::pi / 180.0, share = command_rad / most_rad;
+  return config_.tilt_share * most_rad *
+         ((1.0 - config_.tilt_expo) * share + config_.tilt_expo * share * share * share);
 }
 
 /// The integral removes a constant lean. It does not wind up during a step or against the floor.

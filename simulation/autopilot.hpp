@@ -32,6 +32,8 @@ struct AutopilotConfig {
   double rate_integral_1_s2 = 12.0;
   double link_timeout_s = 0.5;
   double failsafe_thrust_share = 0.93;
+  double tilt_share = 1.0;
+  double tilt_expo = 0.0;
   Mixing mixing = Mixing::kClampEach;
 
   void describe(common::config::Fields& fields);
@@ -53,6 +55,7 @@ class Autopilot {
   /// The motors' throttles; all four arguments are shares of the full throttle.
   std::array<double, 4> mixed(double thrust, double roll, double pitch, double yaw) const;
   void integrate(const Eigen::Vector3d& rate_error, double thrust, double step_s);
+  double tiltFor(double command_rad) const;
   common::Setpoint effective(common::Time now, const AttitudeMeasurement& measured) const;
 
   common::VehicleConfig vehicle_;

@@ -8,7 +8,7 @@
 namespace swiftlet::simulation {
 
 void Battery::Config::describe(common::config::Fields& fields) {
-  fields("capacity_ah", capacity_ah, {0.1, 100}, "Charge of the full battery.");
+  fields("capacity_ah", capacity_ah, {0, 100}, "Charge of the full battery; 0: that of the data sheet.");
   fields("resistance_ohm", resistance_ohm, {0, 1}, "Inner resistance, which makes the voltage sag under load.");
   fields("electronics_w", electronics_w, {0, 1000}, "Power of computer and sensors.");
   fields("power_w_per_n15", power_w_per_n15, {0, 100},
@@ -22,7 +22,9 @@ Battery::Battery(const common::VehicleConfig& vehicle, const Config& config, dou
       full_v_(vehicle.battery_full_v),
       empty_v_(vehicle.battery_empty_v),
       remaining_(std::clamp(remaining, 0.0, 1.0)),
-      voltage_v_(openCircuit_v()) {}
+      voltage_v_(openCircuit_v()) {
+  if (config_.capacity_ah <= 0.0) config_.capacity_ah = vehicle.battery_capacity_ah;
+}
 
 // The curve of a lithium-polymer cell: steep at both ends, flat between them. The empty voltage is that of charge 0.
 double Battery::openCircuit_v() const {

@@ -12,7 +12,7 @@ namespace swiftlet::simulation {
 class Battery {
  public:
   struct Config {
-    double capacity_ah = 5.0;
+    double capacity_ah = 0.0;  ///< 0: that of the data sheet.
     double resistance_ohm = 0.025;
     double electronics_w = 15.0;
     double power_w_per_n15 = 6.0;

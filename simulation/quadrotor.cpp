@@ -9,11 +9,26 @@ namespace swiftlet::simulation {
 
 using Eigen::Vector3d;
 
+QuadrotorConfig scaledTo(const common::VehicleConfig& vehicle, QuadrotorConfig config) {
+  const common::VehicleConfig standard;
+  const double mass = vehicle.mass_kg / standard.mass_kg, size = vehicle.arm_m / standard.arm_m;
+  for (double* inertia :
+       {&config.inertia_xx_kg_m2, &config.inertia_yy_kg_m2, &config.inertia_zz_kg_m2, &config.angular_drag_n_m_s})
+    *inertia *= mass * size * size;
+  config.arm_m *= size;
+  config.linear_drag_n_s_m *= size * size;
+  config.quadratic_drag_n_s2_m2 *= size * size;
+  config.battery.power_w_per_n15 /= size;  // Momentum theory: the induced power goes with 1 / radius.
+  return config;
+}
+
 void QuadrotorConfig::describe(common::config::Fields& fields) {
-  fields("inertia_xx_kg_m2", inertia_xx_kg_m2, {1e-4, 10}, "Moment of inertia about the forward axis.");
+  fields("inertia_xx_kg_m2", inertia_xx_kg_m2, {1e-4, 10},
+         "Moment of inertia about the forward axis, for the mass and arm of the default vehicle; others scale.");
   fields("inertia_yy_kg_m2", inertia_yy_kg_m2, {1e-4, 10}, "Moment of inertia about the left axis.");
   fields("inertia_zz_kg_m2", inertia_zz_kg_m2, {1e-4, 10}, "Moment of inertia about the up axis.");
-  fields("arm_m", arm_m, {0.02, 2}, "Distance from the centre to a rotor's axis.");
+  fields("arm_m", arm_m, {0.02, 2},
+         "Distance from the centre to a rotor's axis, for the arm of the default vehicle; others scale.");
   fields("torque_per_thrust_m", torque_per_thrust_m, {0.001, 0.5},
          "Reaction torque of a rotor about its axis per newton of thrust.");
   fields("motor_lag_s", motor_lag_s, {0.005, 0.5}, "Time constant of a motor's thrust.");
@@ -64,8 +79,9 @@ double groundEffectAt(double rotor_radius_m, double height_m) {
 
 }  // namespace
 
-double thrustOverWeight(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe, double battery_remaining,
+double thrustOverWeight(const common::VehicleConfig& vehicle, const QuadrotorConfig& config, double battery_remaining,
                         double throttle) {
+  const QuadrotorConfig airframe = scaledTo(vehicle, config);
   Battery battery(vehicle, airframe.battery, battery_remaining);
   double thrust_n = 0.0;
   for (int round = 0; round < 50; ++round) {  // Less thrust, less current, less sag: converges in a few rounds.
@@ -84,7 +100,7 @@ double thrustOverWeight(const common::VehicleConfig& vehicle, const QuadrotorCon
 
 Quadrotor::Quadrotor(const common::VehicleConfig& vehicle, const QuadrotorConfig& config,
                      const common::Pose3& T_world_body, double battery_remaining)
-    : vehicle_(vehicle), config_(config), battery_(vehicle, config.battery, battery_remaining) {
+    : vehicle_(vehicle), config_(scaledTo(vehicle, config)), battery_(vehicle, config_.battery, battery_remaining) {
   vehicle_.mass_kg *= config.mass_share;
   state_.T_world_body = T_world_body;
   state_.specific_force_body_m_s2 = kGravity_m_s2 * Vector3d::UnitZ();
@@ -142,6 +158,16 @@ void Quadrotor::step(const std::array<double, 4>& throttles, const Vector3d& win
   const Vector3d felt_world =
       (state_.velocity_world_m_s - velocity_before) / step_s + kGravity_m_s2 * Vector3d::UnitZ();
   state_.specific_force_body_m_s2 = state_.T_world_body.rotation.conjugate() * felt_world;
+}
+
+void Quadrotor::holdOnBench(int axis_body, const Vector3d& place_world_m) {
+  const common::RollPitchYaw angles = common::rollPitchYaw(state_.T_world_body.rotation);
+  const double angle_rad = axis_body == 0 ? angles.roll_rad : angles.pitch_rad;
+  const Vector3d axis = Vector3d::Unit(axis_body);
+  state_.T_world_body = {Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, axis)), place_world_m};
+  state_.velocity_world_m_s.setZero();
+  state_.angular_velocity_body_rad_s = axis * state_.angular_velocity_body_rad_s[axis_body];
+  state_.specific_force_body_m_s2 = state_.T_world_body.rotation.conjugate() * Vector3d(0.0, 0.0, kGravity_m_s2);
 }
 
 double Quadrotor::groundEffect(double floor_world_m) const {

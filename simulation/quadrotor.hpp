@@ -43,6 +43,10 @@ struct QuadrotorConfig {
   void describe(common::config::Fields& fields);
 };
 
+/// The airframe of a vehicle: the inertias, the arm, the drag and the rotors' power of a QuadrotorConfig are those for
+/// the mass and the arm of the default data sheet, and scale with those of another.
+QuadrotorConfig scaledTo(const common::VehicleConfig& vehicle, QuadrotorConfig config);
+
 /// Thrust over weight in steady state: all motors at the same throttle, at the voltage that their current leaves.
 double thrustOverWeight(const common::VehicleConfig& vehicle, const QuadrotorConfig& airframe, double battery_remaining,
                         double throttle);
@@ -80,6 +84,9 @@ class Quadrotor {
   /// A push at the centre of mass, spread over kPush_s, as long as the touch of a hand.
   void push(const Eigen::Vector3d& impulse_world_n_s);
   static constexpr double kPush_s = 0.1;
+
+  /// Holds it on a bench, after each step: it stays where it was, and turns only about x (0) or y (1) of its body.
+  void holdOnBench(int axis_body, const Eigen::Vector3d& place_world_m);
 
   /// How far the gear gives way under the standing vehicle.
   static constexpr double kGearSag_m = 0.004;

@@ -74,7 +74,9 @@ class IntegralImage {
   }
 
  private:
-  std::size_t index(int u, int v) const { return static_cast<std::size_t>(v * stride_ + u); }
+  std::size_t index(int u, int v) const {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(u);
+  }
   int stride_;
   std::vector<int> sums_;
 };

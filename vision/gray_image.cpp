@@ -53,8 +53,8 @@ GrayImage halved(const GrayImage& image) {
   std::uint8_t* out = half.values.data();
   for (int v = 0; v < half.height_px; ++v) {
     const std::uint8_t *upper = image.row(2 * v), *lower = image.row(2 * v + 1);
-    for (int u = 0; u < half.width_px; ++u)
-      *out++ = static_cast<std::uint8_t>((upper[2 * u] + upper[2 * u + 1] + lower[2 * u] + lower[2 * u + 1] + 2) >> 2);
+    for (int u = 0; u < half.width_px; ++u, upper += 2, lower += 2)
+      *out++ = static_cast<std::uint8_t>((upper[0] + upper[1] + lower[0] + lower[1] + 2) >> 2);
   }
   return half;
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "planning/avoidance/retreat.hpp"
+#include "planning/avoidance/retreat_rules.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -195,9 +196,17 @@ Point Avoidance::retreat(const AvoidanceInput& input, const Points& points, cons
                          double latency_s) const {
   // The danger may have passed only for a moment, so the state lasts until it has been gone for `calm_s`.
   if (std::none_of(threats.begin(), threats.end(), [](const Threat& t) { return t.dangerous; })) return Point::Zero();
-  return retreatVelocity(
-      config_, hull_radius_m_,
-      {input.velocity_level_m_s, points, threats, last_retreat_level_, input.T_map_level, input.cost_map, latency_s});
+  const RetreatInput retreat{input.velocity_level_m_s, points,         threats,  last_retreat_level_,
+                             input.T_map_level,        input.cost_map, latency_s};
+  switch (config_.retreat_rule) {
+    case RetreatRule::kOpposite:
+      return oppositeVelocity(config_, hull_radius_m_, retreat);
+    case RetreatRule::kPotentialField:
+      return potentialFieldVelocity(config_, hull_radius_m_, retreat);
+    case RetreatRule::kClearCourse:
+      break;
+  }
+  return retreatVelocity(config_, hull_radius_m_, retreat);
 }
 
 /// The turn that brings the nearest threat and the course of the retreat into the laser's field of view. Outside it, a

@@ -27,6 +27,10 @@ void AvoidanceConfig::describe(common::config::Fields& fields) {
          "An obstacle that approaches more slowly than this does not count as moving.");
   fields("mapped_within_m", mapped_within_m, {0, 1},
          "A return this near to something mapped or unknown is not unmapped.");
+  fields.choice("retreat_rule", retreat_rule, {"clear_course", "opposite", "potential_field"},
+                "How the course of a retreat is chosen.");
+  fields("field_range_m", field_range_m, {0.05, 10},
+         "Distance from the hull within which a return repels, for the rule potential_field.");
   fields("retreat_speed_m_s", retreat_speed_m_s, {0.05, 10}, "Greatest speed of a retreat.");
   fields("retreat_margin_m", retreat_margin_m, {0, 2}, "Distance between hull and obstacle when a retreat has ended.");
   fields("view_margin_deg", view_margin_deg, {0, 180},

@@ -12,6 +12,13 @@ namespace swiftlet::planning {
 /// of three neighbouring beams, which a single stray return does not change.
 enum class AvoidanceBinRange { kMean, kRobustMinimum };
 
+/// How the course of a retreat is chosen.
+enum class RetreatRule {
+  kClearCourse,     ///< Of many courses that end at rest and clear of everything the one farthest from people.
+  kOpposite,        ///< 180 deg from the bin of the collision (Saeedi, III-G).
+  kPotentialField,  ///< The sum of repulsive forces of all returns (Grzonka 2012, IV-E, after Khatib 1986).
+};
+
 struct AvoidanceConfig {
   int bins = 54;
   double field_of_view_deg = 270.0;
@@ -27,6 +34,8 @@ struct AvoidanceConfig {
   double contact_gap_m = 0.20;
   double closing_speed_m_s = 0.15;
   double mapped_within_m = 0.15;
+  RetreatRule retreat_rule = RetreatRule::kClearCourse;
+  double field_range_m = 1.0;
   double retreat_speed_m_s = 0.7;
   double retreat_margin_m = 0.15;
   double view_margin_deg = 30.0;

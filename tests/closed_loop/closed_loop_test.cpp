@@ -10,6 +10,7 @@
 #include "autonomy/estimator.hpp"
 #include "common/config.hpp"
 #include "control/flight_controller.hpp"
+#include "tests/control/controller_fixtures.hpp"
 #include "tests/simulation/fixtures.hpp"
 
 namespace swiftlet {
@@ -20,7 +21,9 @@ using common::Time;
 
 struct Loop {
   explicit Loop(int seed, bool table = false) : Loop(scenario(seed), table) {}
-  explicit Loop(const simulation::Scenario& scenario, bool table = false) : vehicle(room(table), scenario) {}
+  explicit Loop(const simulation::Scenario& scenario, bool table = false,
+                const control::FlightController::Config& config = {}, const control::VehicleModel* model = nullptr)
+      : vehicle(room(table), scenario), controller(config, scenario.vehicle, model) {}
 
   static simulation::WorldModel room(bool table) {
     simulation::WorldModel world = simulation::boxRoom();
@@ -44,7 +47,7 @@ struct Loop {
   simulation::SimulatedVehicle vehicle;
   std::unique_ptr<common::JobRunner> jobs = common::makeLockstepJobs(0);
   autonomy::Estimator estimator{{}, scenario(1).laser, scenario(1).vehicle, nullptr, *jobs};
-  control::FlightController controller{control::FlightController::Config{}, scenario(1).vehicle};
+  control::FlightController controller;
   double battery_v = 0;
   std::optional<control::RawHeight> raw_height;
   std::vector<common::SensorEvent> events;
@@ -76,6 +79,7 @@ struct Loop {
       prepared = controller.command(control::Prepared{}).has_value();
     tick.raw_height = std::exchange(raw_height, std::nullopt);
     tick.battery_v = battery_v;
+    tick.acceleration_odom_m_s2 = estimator.accelerationOdom_m_s2();
     tick.fusion_diverged = estimator.health().status == perception::FusionStatus::kDiverged;
     vehicle.apply(controller.tick(tick));
     if (controller.state() == FlightState::kFlying) {
@@ -127,6 +131,32 @@ TEST(ClosedLoop, HoversOnSimulatedSensors) {
   }
   EXPECT_LT(worst_m, 0.06);  // The paper's figure [MIT].
   EXPECT_LT(worst_height_m, 0.10);
+}
+
+/// Hovers and flies a corner with one of the controllers of the papers; the error of the hover.
+double hoverAndCorner_m(control::ControllerKind kind) {
+  const control::VehicleModel model = control::sheetModel();
+  Loop loop(Loop::scenario(3), false, control::flightConfig(kind), &model);
+  EXPECT_TRUE(loop.hover()) << loop.vehicle.stopReason();
+  loop.until([] { return false; }, 4.0);
+  const Eigen::Vector3d at = loop.controller.reference().position_odom_m;
+  double horizontal2 = 0;
+  constexpr int kTicks = 800;
+  for (int i = 0; i < kTicks && loop.tick(); ++i)
+    horizontal2 += (loop.T_map_body().position_m - at).head<2>().squaredNorm() / kTicks;
+  EXPECT_TRUE(loop.controller.follow({{{0, 0, 1}, {1.5, 0, 1}, {1.5, -1, 1}}, common::FlightMode::kCareful, {}}));
+  EXPECT_TRUE(loop.until([&] { return loop.controller.pathFinished(); }, 20.0)) << loop.vehicle.stopReason();
+  loop.until([] { return false; }, 3.0);
+  EXPECT_LT((loop.T_map_body().position_m - Eigen::Vector3d(1.5, -1, 1)).norm(), 0.2) << toString(kind);
+  std::printf("%s: hover %.3f m RMS\n", toString(kind), std::sqrt(horizontal2));
+  return std::sqrt(horizontal2);
+}
+
+TEST(ClosedLoop, TheControllersOfThePapersHoverAndFlyACornerOnSimulatedSensors) {
+  using control::ControllerKind;
+  for (const ControllerKind kind :
+       {ControllerKind::kCascadedPid, ControllerKind::kVoltagePid, ControllerKind::kLqr, ControllerKind::kSlidingMode})
+    EXPECT_LT(hoverAndCorner_m(kind), 0.06) << toString(kind);
 }
 
 double greatestTiltOfAHover_deg(const simulation::Scenario& scenario) {

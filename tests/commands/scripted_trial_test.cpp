@@ -13,7 +13,8 @@ using test_support::ProgramEnd;
 using test_support::runSwiftlet;
 
 nlohmann::json flownTrial(const std::string& file, const std::string& out) {
-  const ProgramEnd end = runSwiftlet({"trial", file, "--repeat", "1", "--seed", "41", "--json", "--out", out});
+  const ProgramEnd end =
+      runSwiftlet({"trial", file, "--system", "swiftlet", "--repeat", "1", "--seed", "41", "--json", "--out", out});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
   return nlohmann::json::parse(end.out).at("trials").at(0).at("flights").at(0);
 }

@@ -67,7 +67,8 @@ TEST(Shipped, EachTrialLoadsAndNamesExistingFiles) {
   for (const std::string& file : shipped("trials", ".yaml", 1)) {
     const evaluation::TrialConfig trial = evaluation::readTrial(kRoot / file);
     EXPECT_TRUE(fs::exists(kRoot / trial.mission)) << file << ": " << trial.mission;
-    EXPECT_TRUE(fs::exists(kRoot / "config/systems" / (trial.system + ".yaml"))) << file << ": " << trial.system;
+    for (const evaluation::TrialConfig& one : trial.byCondition())
+      EXPECT_TRUE(fs::exists(kRoot / "config/systems" / (one.system + ".yaml"))) << file << ": " << one.system;
     if (trial.archive.empty() && trial.scenario.model_paths.empty()) {
       EXPECT_FALSE(simulation::loadWorld((kRoot / trial.scenario.world).string(), {}).shapes.empty())
           << file << ": " << trial.scenario.world;

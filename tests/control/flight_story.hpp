@@ -27,6 +27,12 @@ struct Flight {
   bool vertical_measured = true;
   double carried_bias_m_s2 = 0.0;
   double carried_s = 0.0;
+  bool accelerometer = true;
+  common::RandomStream accelerometer_noise{1, "accelerometer"};
+
+  Flight() = default;
+  explicit Flight(const FlightController::Config& config, const VehicleModel* identified = nullptr)
+      : controller(config, common::VehicleConfig{}, identified) {}
 
   void tick() {
     FlightTick tick;
@@ -51,6 +57,10 @@ struct Flight {
     if (scan && mirror)
       tick.raw_height = RawHeight{model.now, model.position_m.z() - model.floor_m + model.random.gaussian(0.01)};
     tick.battery_v = model.voltage_v;
+    if (accelerometer) {
+      tick.acceleration_odom_m_s2 = model.acceleration_m_s2;
+      for (int axis = 0; axis < 3; ++axis) (*tick.acceleration_odom_m_s2)[axis] += accelerometer_noise.gaussian(0.3);
+    }
     model.apply(controller.tick(tick));
     model.advance(0.01);
     greatest_tilt_rad = std::max({greatest_tilt_rad, std::abs(model.roll_rad), std::abs(model.pitch_rad)});

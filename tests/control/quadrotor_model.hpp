@@ -33,6 +33,7 @@ struct QuadrotorModel {
   double roll_rad = 0, pitch_rad = 0, yaw_rad = 0, roll_rate = 0, pitch_rate = 0, yaw_rate = 0;
   double horizon_roll_rad = 0, horizon_pitch_rad = 0;
   double thrust_n = 0;
+  Eigen::Vector3d acceleration_m_s2 = Eigen::Vector3d::Zero();
   double hardest_touch_m_s = 0;
   std::deque<common::Setpoint> under_way;
   common::Setpoint in_force;
@@ -66,6 +67,7 @@ struct QuadrotorModel {
     Eigen::Vector3d acceleration =
         rotation() * Eigen::Vector3d(0, 0, thrust_n / vehicle.mass_kg) - Eigen::Vector3d(0, 0, 9.81);
     acceleration -= drag_1_s * (velocity_m_s - wind_m_s);
+    acceleration_m_s2 = acceleration;
     velocity_m_s += kStep_s * acceleration;
     position_m += kStep_s * velocity_m_s;
     if (position_m.z() <= floor_m + kStanding_m) stand();

@@ -18,7 +18,7 @@ TEST(ThrustMargin, LearnsTheHoverThrustOfAWeakAndSaggingVehicle) {
   flight.run(20.0);
   const Rms rms = hoverFor(flight, 40.0, flight.controller.reference().position_odom_m);
   EXPECT_LT(rms.worst_vertical_m, 0.05);
-  EXPECT_NEAR(flight.controller.positionController().thrust().correction(), 1.0 / 0.88, 0.05);
+  EXPECT_NEAR(flight.controller.thrust().correction(), 1.0 / 0.88, 0.05);
 }
 
 /// A flight there and back on a line of 8 m with a battery of that voltage.
@@ -110,10 +110,10 @@ TEST(ThrustMargin, TheGroundTeachesNothing) {
   Flight flight;
   flight.hover();
   flight.run(10.0);
-  const double hover = flight.controller.positionController().thrust().hoverCommand();
+  const double hover = flight.controller.thrust().hoverCommand();
   ASSERT_TRUE(flight.controller.command(Land{}));
   ASSERT_TRUE(flight.until([&] { return flight.controller.state() == FlightState::kLanded; }, 10.0));
-  EXPECT_NEAR(flight.controller.positionController().thrust().hoverCommand(), hover, 0.01 * hover);
+  EXPECT_NEAR(flight.controller.thrust().hoverCommand(), hover, 0.01 * hover);
 }
 
 }  // namespace

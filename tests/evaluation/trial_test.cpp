@@ -117,6 +117,21 @@ TEST_F(Trials, WithSeveralNaturesAreOneTrialForEach) {
   EXPECT_THAT(problemOf(folder_), HasSubstr("natures: is empty"));
 }
 
+TEST_F(Trials, WithSeveralSystemsAreOneTrialForEachInEachNature) {
+  put("hover.yaml", std::string(kSmallest) + "systems: [mit, swiftlet]\nnatures: [mit, mit_delayed]\n");
+  const auto trials = readTrials(folder_).at(0).byCondition();
+  ASSERT_EQ(trials.size(), 4u);
+  EXPECT_EQ(trials[0].name, "hover-mit-mit");
+  EXPECT_EQ(trials[1].name, "hover-mit-mit_delayed");
+  EXPECT_EQ(trials[3].name, "hover-swiftlet-mit_delayed");
+  EXPECT_EQ(trials[2].system, "swiftlet");
+  put("hover.yaml", std::string(kSmallest) + "systems: [dlr]\n");
+  EXPECT_EQ(readTrials(folder_).at(0).byCondition().at(0).name, "hover");
+  EXPECT_EQ(readTrials(folder_).at(0).byCondition().at(0).system, "dlr");
+  put("hover.yaml", std::string(kSmallest) + "systems: [dlr, '']\n");
+  EXPECT_THAT(problemOf(folder_), HasSubstr("systems: has an empty name"));
+}
+
 TEST_F(Trials, WithEachFaultAreOneTrialForEach) {
   const std::string faults =
       "mission: m.xml\nscenario:\n  world: w.sdf\n  faults:\n"

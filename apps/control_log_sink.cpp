@@ -1,0 +1,78 @@
+#include "apps/control_log_sink.hpp"
+
+#include <utility>
+
+#include "common/world.hpp"
+#include "common/world/vehicle_layer.hpp"
+#include "simulation/simulated_vehicle.hpp"
+
+namespace swiftlet::apps {
+
+ControlLogSink::ControlLogSink(const std::filesystem::path& run, const simulation::SimulatedVehicle& vehicle)
+    : vehicle_(vehicle) {
+  auto made = interfaces::ControlLogWriter::create(run / "control.tsv");
+  if (made)
+    writer_ = std::move(*made);
+  else
+    failure_ = made.error().message;
+  auto tape = interfaces::AppendFile::create(run / "fusion.tsv");
+  if (tape)
+    tape_ = std::move(*tape);
+  else
+    failure_ = tape.error().message;
+}
+
+void ControlLogSink::input(const autonomy::Input& input) {
+  const auto* event = std::get_if<common::SensorEvent>(&input);
+  if (event == nullptr) return;
+  if (const auto* battery = std::get_if<common::BatterySample>(event)) battery_v_ = battery->voltage_v;
+}
+
+void ControlLogSink::world(const std::shared_ptr<const common::World>& world) {
+  flying_ = world->vehicle->flight_state == common::FlightState::kFlying;
+}
+
+void ControlLogSink::ticked(const autonomy::TickOutcome& outcome) {
+  if (!writer_ || !common::isFinite(outcome.state.T_odom_body) || !outcome.state.velocity_odom_m_s.allFinite()) return;
+  interfaces::ControlRow row;
+  row.stamp = outcome.now;
+  row.flying = flying_;
+  row.roll_rad = outcome.setpoint.roll_rad;
+  row.pitch_rad = outcome.setpoint.pitch_rad;
+  row.yaw_rate_rad_s = outcome.setpoint.yaw_rate_rad_s;
+  row.thrust = outcome.setpoint.thrust;
+  const common::Pose3& estimate = outcome.state.T_odom_body;
+  row.tilt_cos = (estimate.rotation * Eigen::Vector3d::UnitZ()).z();
+  row.yaw_odom_rad = common::yawOf(estimate.rotation);
+  row.position_odom_m = estimate.position_m;
+  row.velocity_odom_m_s = outcome.state.velocity_odom_m_s;
+  row.battery_v = battery_v_;
+  const common::Pose3 T_map_world = vehicle_.T_world_map().inverse();
+  const common::Pose3 truth = T_map_world * vehicle_.truth().T_world_body;
+  row.has_truth = true;
+  row.true_position_map_m = truth.position_m;
+  row.true_velocity_map_m_s = T_map_world.rotation * vehicle_.truth().velocity_world_m_s;
+  row.true_yaw_map_rad = common::yawOf(truth.rotation);
+  note(writer_->write(row));
+}
+
+void ControlLogSink::heard(const perception::FilterInput& input) {
+  constexpr std::size_t kBlock = 16'384;
+  if (!tape_) return;
+  tape_block_ += perception::toLine(input);
+  if (tape_block_.size() >= kBlock) note(tape_->append(std::exchange(tape_block_, {})));
+}
+
+void ControlLogSink::finish() {
+  if (writer_) note(writer_->flush());
+  if (tape_) note(tape_->append(std::exchange(tape_block_, {})));
+}
+
+void ControlLogSink::note(const interfaces::Written& written) {
+  if (written) return;
+  failure_ = written.error().message;
+  writer_.reset();
+  tape_.reset();
+}
+
+}  // namespace swiftlet::apps

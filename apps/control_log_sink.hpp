@@ -1,0 +1,45 @@
+// The sink that writes control.tsv and fusion.tsv of a simulated flight.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "autonomy/flight_sink.hpp"
+#include "interfaces/control_log.hpp"
+#include "perception/fusion/filter_tape.hpp"
+
+namespace swiftlet::simulation {
+class SimulatedVehicle;
+}
+
+namespace swiftlet::apps {
+
+class ControlLogSink final : public autonomy::FlightSink, public perception::FilterListener {
+ public:
+  /// Refers to the vehicle, which must outlive every call but those of finish() and failure().
+  ControlLogSink(const std::filesystem::path& run, const simulation::SimulatedVehicle& vehicle);
+
+  void input(const autonomy::Input& input) override;
+  void ticked(const autonomy::TickOutcome& outcome) override;
+  void world(const std::shared_ptr<const common::World>& world) override;
+  void heard(const perception::FilterInput& input) override;
+
+  /// Writes what is left.
+  void finish();
+  /// Why something could not be written; none if nothing failed. Nothing is written after that.
+  const std::optional<std::string>& failure() const { return failure_; }
+
+ private:
+  void note(const interfaces::Written& written);
+
+  const simulation::SimulatedVehicle& vehicle_;
+  std::optional<interfaces::ControlLogWriter> writer_;
+  std::optional<interfaces::AppendFile> tape_;
+  std::string tape_block_;
+  std::optional<std::string> failure_;
+  double battery_v_ = 0.0;
+  bool flying_ = false;
+};
+
+}  // namespace swiftlet::apps

@@ -1,0 +1,44 @@
+// The errors that a feedback law acts on, with the parts that may not be used set to zero.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/config_fwd.hpp"
+#include "control/controller.hpp"
+
+namespace swiftlet::control {
+
+/// What the controllers of the papers have in common.
+struct ControlLimits {
+  double max_position_error_m = 0.6;
+  double max_acceleration_up_m_s2 = 4.0;
+  double max_integral_m_s2 = 2.0;
+  double max_yaw_rate_deg_s = 90.0;
+
+  void describe(common::config::Fields& fields);
+};
+
+struct ControlErrors {
+  Eigen::Vector3d position_odom_m = Eigen::Vector3d::Zero();         ///< Reference less state, limited.
+  Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();       ///< Reference less state.
+  Eigen::Vector3d acceleration_odom_m_s2 = Eigen::Vector3d::Zero();  ///< Of the reference.
+  double yaw_rad = 0.0;                                              ///< Reference less state.
+  double heading_rad = 0.0;                                          ///< Yaw of the state.
+};
+
+/// By what `input.horizontal` allows: without a position its error is zero, and without a velocity so is that.
+ControlErrors errorsOf(const ControlInput& input, const ControlLimits& limits);
+
+/// Adds `rate * error * dt` to the integral, within its bound, unless the vehicle was given less than was wanted and
+/// the integral would grow into that.
+void integrate(Eigen::Vector3d& integral_m_s2, const Eigen::Vector3d& rate, const Eigen::Vector3d& error,
+               const Eigen::Vector3d& refused_m_s2, double most_m_s2, double dt_s);
+
+/// Proportional control of the yaw with the reference's rate fed forward; 0 while the position is not held.
+double yawRate_rad_s(const ControlInput& input, const ControlErrors& errors, double gain_1_s,
+                     const ControlLimits& limits);
+
+}  // namespace swiftlet::control

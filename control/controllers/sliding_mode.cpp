@@ -1,0 +1,114 @@
+#include "control/controllers/sliding_mode.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/config_fields.hpp"
+#include "control/actuation.hpp"
+
+namespace swiftlet::control {
+
+using common::config::kPositive;
+
+void SlidingMode::reset() {
+  lagged_.reset();
+  on_surface_ = false;
+  integral_m_s_.setZero();
+  disturbance_m_s2_.setZero();
+  taken_up_m_s2_.setZero();
+}
+
+common::Setpoint SlidingMode::tick(const ControlInput& input, ThrustModel& thrust) {
+  const ControlErrors errors = laggedErrors(input);
+  const Eigen::Vector3d p(config_.horizontal_p_1_s2, config_.horizontal_p_1_s2, config_.vertical_p_1_s2);
+  const Eigen::Vector3d d(config_.horizontal_d_1_s, config_.horizontal_d_1_s, config_.vertical_d_1_s);
+
+  // The nominal control of a double integrator, u0 = Kp e + Kd de/dt, and the surface on which the vehicle behaves as
+  // if there were no disturbance: sigma = de/dt - de/dt(0) + int(u0) dt (Utkin and Shi 1996).
+  const Eigen::Vector3d nominal_m_s2 =
+      p.cwiseProduct(errors.position_odom_m) + d.cwiseProduct(errors.velocity_odom_m_s);
+  if (!on_surface_) integral_m_s_ = -errors.velocity_odom_m_s;
+  on_surface_ = true;
+  // u = a* + u0 + rho sat(sigma / boundary) - d, with d by time-delay estimation.
+  const Eigen::Vector3d wanted_m_s2 = errors.acceleration_odom_m_s2 + slide(nominal_m_s2, errors) - disturbance_m_s2_;
+
+  Actuation actuation =
+      actuate(wanted_m_s2, errors.heading_rad, limits_.max_acceleration_up_m_s2, input.on_ground, vehicle_, thrust);
+  actuation.setpoint.yaw_rate_rad_s = yawRate_rad_s(input, errors, config_.yaw_p_1_s, limits_);
+  advanceSurface(nominal_m_s2, wanted_m_s2 - actuation.given_odom_m_s2, errors, input.dt_s);
+  estimateDisturbance(input, actuation.given_odom_m_s2);
+  // A thrust that has been learned is a disturbance no longer.
+  if (!input.on_ground) disturbance_m_s2_.z() += thrust.learn(trim_odom_m_s2(thrust).z(), input.dt_s);
+  return actuation.setpoint;
+}
+
+/// The reference through the vehicle's translational dynamics, as in the paper.
+ControlErrors SlidingMode::laggedErrors(const ControlInput& input) {
+  if (input.horizontal != Horizontal::kPosition) {
+    lagged_.reset();
+    return errorsOf(input, limits_);
+  }
+  lagged_.advance(input.reference, config_.attitude_lag_s, input.dt_s);
+  ControlInput delayed = input;
+  delayed.reference.position_odom_m.head<2>() = lagged_.point()->position_odom_m;
+  delayed.reference.velocity_odom_m_s.head<2>() = lagged_.point()->velocity_odom_m_s;
+  return errorsOf(delayed, limits_);
+}
+
+Eigen::Vector3d SlidingMode::slide(const Eigen::Vector3d& nominal_m_s2, const ControlErrors& errors) const {
+  const Eigen::Vector3d sigma_m_s = errors.velocity_odom_m_s + integral_m_s_;
+  return nominal_m_s2 + config_.switching_m_s2 * (sigma_m_s / config_.boundary_m_s).cwiseMax(-1.0).cwiseMin(1.0);
+}
+
+/// Within the boundary the switching term is an integral action; beyond it, or while the vehicle gives less than is
+/// wanted, the surface would only wind up.
+void SlidingMode::advanceSurface(const Eigen::Vector3d& nominal_m_s2, const Eigen::Vector3d& refused_m_s2,
+                                 const ControlErrors& errors, double dt_s) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (refused_m_s2[axis] * nominal_m_s2[axis] > 1e-9) continue;
+    const double sigma_m_s = errors.velocity_odom_m_s[axis] + integral_m_s_[axis] + dt_s * nominal_m_s2[axis];
+    integral_m_s_[axis] =
+        std::clamp(sigma_m_s, -config_.boundary_m_s, config_.boundary_m_s) - errors.velocity_odom_m_s[axis];
+  }
+}
+
+/// Time-delay estimation: what the accelerometer measures less what the previous commands explain, both behind the same
+/// filter. The accelerometer shares the horizon of the attitude, so that a wrong horizon is left to the integral.
+void SlidingMode::estimateDisturbance(const ControlInput& input, const Eigen::Vector3d& given_m_s2) {
+  const Eigen::Vector3d lag_s(config_.attitude_lag_s, config_.attitude_lag_s, config_.thrust_lag_s);
+  for (int axis = 0; axis < 3; ++axis)
+    taken_up_m_s2_[axis] += (1.0 - std::exp(-input.dt_s / lag_s[axis])) * (given_m_s2[axis] - taken_up_m_s2_[axis]);
+  if (input.on_ground || !input.acceleration_odom_m_s2 || !input.acceleration_odom_m_s2->allFinite()) return;
+  const double share = 1.0 - std::exp(-input.dt_s / config_.disturbance_filter_s);
+  const Eigen::Vector3d seen_m_s2 = *input.acceleration_odom_m_s2 - taken_up_m_s2_;
+  disturbance_m_s2_ += share * (seen_m_s2 - disturbance_m_s2_);
+  disturbance_m_s2_ = disturbance_m_s2_.cwiseMax(-config_.max_disturbance_m_s2).cwiseMin(config_.max_disturbance_m_s2);
+}
+
+/// The part of sigma beyond the velocity error.
+Eigen::Vector3d SlidingMode::trim_odom_m_s2(const ThrustModel&) const {
+  const double rate_1_s = config_.switching_m_s2 / config_.boundary_m_s;
+  return on_surface_ ? Eigen::Vector3d(rate_1_s * integral_m_s_ - disturbance_m_s2_) : -disturbance_m_s2_;
+}
+
+void SlidingMode::setTrim(const Eigen::Vector3d& trim_odom_m_s2, const ThrustModel&) {
+  reset();
+  disturbance_m_s2_ = -trim_odom_m_s2;
+}
+
+void SlidingMode::Config::describe(common::config::Fields& fields) {
+  fields("horizontal_p_1_s2", horizontal_p_1_s2, {0, 40}, "Horizontal acceleration per position error.");
+  fields("horizontal_d_1_s", horizontal_d_1_s, {0, 20}, "Horizontal acceleration per velocity error.");
+  fields("vertical_p_1_s2", vertical_p_1_s2, {0, 40}, "Vertical acceleration per height error.");
+  fields("vertical_d_1_s", vertical_d_1_s, {0, 20}, "Vertical acceleration per climb speed error.");
+  fields("switching_m_s2", switching_m_s2, {0, 9}, "Greatest acceleration that brings the vehicle to the surface.");
+  fields("boundary_m_s", boundary_m_s, kPositive,
+         "Distance from the surface within which that acceleration is in proportion to it, against chattering.");
+  fields("disturbance_filter_s", disturbance_filter_s, {0.02, 100}, "Time constant of the estimated disturbance.");
+  fields("attitude_lag_s", attitude_lag_s, {0.01, 0.5}, "Time the attitude takes to follow a command.");
+  fields("thrust_lag_s", thrust_lag_s, {0.01, 0.5}, "Time the thrust takes to follow a command.");
+  fields("max_disturbance_m_s2", max_disturbance_m_s2, {0, 9}, "Greatest disturbance that is compensated.");
+  fields("yaw_p_1_s", yaw_p_1_s, {0, 10}, "Yaw rate per yaw error.");
+}
+
+}  // namespace swiftlet::control

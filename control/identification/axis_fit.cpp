@@ -1,0 +1,152 @@
+#include "control/identification/axis_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <Eigen/Dense>
+
+namespace swiftlet::control {
+namespace {
+
+constexpr double k95 = 1.96;  // Of the normal distribution.
+
+/// The equations of all windows: rows of (int u, T, int v) and the changes of velocity.
+struct Equations {
+  Eigen::MatrixXd left;
+  Eigen::VectorXd right;
+};
+
+std::size_t windowOf(const AxisSeries& series, const AxisFitOptions& options) {
+  return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(options.window_s / series.period_s)));
+}
+
+std::vector<double> lagged(const AxisSeries& series, double lag_s) {
+  std::vector<double> taken(series.command.size());
+  const double share = lag_s > 0.0 ? 1.0 - std::exp(-series.period_s / lag_s) : 1.0;
+  double value = series.command.empty() ? 0.0 : series.command.front();
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    value += share * (series.command[i] - value);
+    taken[i] = value;
+  }
+  return taken;
+}
+
+Equations equationsOf(const std::vector<AxisSeries>& flights, double lag_s, bool damped,
+                      const AxisFitOptions& options) {
+  std::vector<std::array<double, 4>> rows;
+  for (const AxisSeries& series : flights) {
+    const std::vector<double> command = lagged(series, lag_s);
+    const std::size_t window = windowOf(series, options);
+    for (std::size_t begin = 0; begin + window < command.size(); begin += window) {
+      std::array<double, 4> row{0.0, static_cast<double>(window) * series.period_s, 0.0,
+                                series.velocity[begin + window] - series.velocity[begin]};
+      for (std::size_t i = begin; i < begin + window; ++i) {
+        row[0] += series.period_s * command[i];
+        row[2] += series.period_s * (series.damped.empty() ? series.velocity[i] : series.damped[i]);
+      }
+      rows.push_back(row);
+    }
+  }
+  Equations equations;
+  equations.left.resize(static_cast<Eigen::Index>(rows.size()), damped ? 3 : 2);
+  equations.right.resize(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    equations.left(at, 0) = rows[i][0];
+    equations.left(at, 1) = rows[i][1];
+    if (damped) equations.left(at, 2) = rows[i][2];
+    equations.right(at) = rows[i][3];
+  }
+  return equations;
+}
+
+struct Solution {
+  Eigen::VectorXd parameters;
+  Eigen::VectorXd intervals;
+  double residual_square = std::numeric_limits<double>::infinity();
+};
+
+/// How much fewer the windows count whose residuals are correlated with their neighbours' (a first-order process).
+double inflation(const Eigen::VectorXd& residuals) {
+  double product = 0.0;
+  for (Eigen::Index i = 1; i < residuals.size(); ++i) product += residuals[i] * residuals[i - 1];
+  const double correlation = std::clamp(product / std::max(residuals.squaredNorm(), 1e-300), 0.0, 0.95);
+  return (1.0 + correlation) / (1.0 - correlation);
+}
+
+Solution solved(const Equations& equations) {
+  Solution solution;
+  const Eigen::MatrixXd normal = equations.left.transpose() * equations.left;
+  const Eigen::LDLT<Eigen::MatrixXd> factored(normal);
+  solution.parameters = factored.solve(equations.left.transpose() * equations.right);
+  const Eigen::VectorXd residuals = equations.right - equations.left * solution.parameters;
+  const auto free = static_cast<double>(equations.right.size() - equations.left.cols());
+  solution.residual_square = residuals.squaredNorm() / std::max(free, 1.0);
+  const Eigen::MatrixXd covariance = solution.residual_square * inflation(residuals) *
+                                     factored.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+  solution.intervals = k95 * covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  return solution;
+}
+
+double deviation(const std::vector<AxisSeries>& flights) {
+  double sum = 0.0, square = 0.0, n = 0.0;
+  for (const AxisSeries& series : flights)
+    for (const double u : series.command) {
+      sum += u;
+      square += u * u;
+      n += 1.0;
+    }
+  return n > 0.0 ? std::sqrt(std::max(0.0, square / n - sum / n * sum / n)) : 0.0;
+}
+
+double duration_s(const std::vector<AxisSeries>& flights) {
+  double seconds = 0.0;
+  for (const AxisSeries& series : flights) seconds += series.period_s * static_cast<double>(series.command.size());
+  return seconds;
+}
+
+}  // namespace
+
+tl::expected<AxisModel, std::string> fitAxis(const std::vector<AxisSeries>& flights, bool damped,
+                                             const AxisFitOptions& options) {
+  const double flown_s = duration_s(flights);
+  if (flown_s < options.shortest_s)
+    return tl::unexpected(
+        fmt::format("{:.1f} s of flight are too few, at least {:g} s are needed", flown_s, options.shortest_s));
+  Solution best;
+  double best_lag_s = 0.0;
+  for (double lag_s = 0.0; lag_s <= options.longest_lag_s + 1e-9; lag_s += options.lag_step_s) {
+    const Solution solution = solved(equationsOf(flights, lag_s, damped, options));
+    if (!(solution.residual_square < best.residual_square)) continue;
+    best = solution;
+    best_lag_s = lag_s;
+  }
+  AxisModel axis;
+  if (best.parameters.size() >= 2 && best.parameters.allFinite()) {
+    axis.gain = best.parameters[0];
+    axis.gain_interval = best.intervals[0];
+    axis.offset = best.parameters[1];
+    axis.offset_interval = best.intervals[1];
+    if (damped) {
+      axis.damping_1_s = best.parameters[2];
+      axis.damping_interval_1_s = best.intervals[2];
+    }
+    axis.lag_s = best_lag_s;
+    axis.residual = std::sqrt(best.residual_square) / options.window_s;
+  }
+  if (!(axis.gain_interval < options.widest_interval * std::abs(axis.gain)))
+    return tl::unexpected(
+        fmt::format("the command moved too little to tell its gain: {:.3g} +- {:.2g}, with a command "
+                    "that varies by {:.3g}; fly with more turns and stops",
+                    axis.gain, axis.gain_interval, deviation(flights)));
+  return axis;
+}
+
+tl::expected<AxisModel, std::string> fitRate(const std::vector<AxisSeries>& flights, const AxisFitOptions& options) {
+  return fitAxis(flights, false, options);
+}
+
+}  // namespace swiftlet::control

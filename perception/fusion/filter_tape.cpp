@@ -1,0 +1,138 @@
+#include "perception/fusion/filter_tape.hpp"
+
+#include <charconv>
+
+#include <fmt/format.h>
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Time;
+
+struct Tell {
+  ErrorStateFilter& filter;
+  void operator()(const common::ImuSample& sample) const { filter.predict(sample); }
+  void operator()(const TapedStart& start) const { (void)filter.initialize(start.height_m); }
+  void operator()(const TapedRest& rest) const { filter.setAtRest(rest.at_rest); }
+  void operator()(const TapedClone& clone) const { (void)filter.addClone(clone.time); }
+  void operator()(const TapedRelativePose& m) const {
+    (void)filter.addRelativePose(m.from, m.to, m.T_from_to, m.covariance, m.unseen_direction);
+  }
+  void operator()(const TapedHeight& m) const {
+    (void)filter.addHeight(m.time, m.height_m, m.variance_m2, m.common_variance_m2);
+  }
+  void operator()(const TapedClimb& m) const { (void)filter.addVerticalSpeed(m.time, m.speed_m_s, m.variance_m2_s2); }
+};
+
+struct Print {
+  std::string operator()(const common::ImuSample& s) const {
+    const auto &w = s.angular_velocity_body_rad_s, &f = s.specific_force_body_m_s2;
+    const auto& q = s.rotation_ahrs_body;
+    return fmt::format("imu {} {} {} {} {} {} {} {} {} {} {} {}\n", s.stamps.measured.nanoseconds(),
+                       s.stamps.arrived.nanoseconds(), w.x(), w.y(), w.z(), f.x(), f.y(), f.z(), q.w(), q.x(), q.y(),
+                       q.z());
+  }
+  std::string operator()(const TapedStart& s) const { return fmt::format("start {}\n", s.height_m); }
+  std::string operator()(const TapedRest& r) const { return fmt::format("rest {:d}\n", r.at_rest); }
+  std::string operator()(const TapedClone& c) const { return fmt::format("clone {}\n", c.time.nanoseconds()); }
+  std::string operator()(const TapedRelativePose& m) const {
+    const Eigen::Vector2d unseen = m.unseen_direction.value_or(Eigen::Vector2d::Zero());
+    const Eigen::Matrix3d& c = m.covariance;
+    return fmt::format("pose {} {} {} {} {} {} {} {} {} {} {} {:d} {} {}\n", m.from.nanoseconds(), m.to.nanoseconds(),
+                       m.T_from_to.x_m, m.T_from_to.y_m, m.T_from_to.yaw_rad, c(0, 0), c(0, 1), c(0, 2), c(1, 1),
+                       c(1, 2), c(2, 2), m.unseen_direction.has_value(), unseen.x(), unseen.y());
+  }
+  std::string operator()(const TapedHeight& m) const {
+    return fmt::format("height {} {} {} {}\n", m.time.nanoseconds(), m.height_m, m.variance_m2, m.common_variance_m2);
+  }
+  std::string operator()(const TapedClimb& m) const {
+    return fmt::format("climb {} {} {}\n", m.time.nanoseconds(), m.speed_m_s, m.variance_m2_s2);
+  }
+};
+
+/// The words behind the first, as numbers.
+class Numbers {
+ public:
+  explicit Numbers(const std::vector<std::string_view>& words) : words_(words) {}
+  bool are(std::size_t count) const { return words_.size() == count + 1; }
+  double number() { return parsed<double>(); }
+  Time time() { return Time::fromNanoseconds(parsed<std::int64_t>()); }
+  bool good() const { return good_; }
+
+ private:
+  template <typename Value>
+  Value parsed() {
+    const std::string_view word = words_[next_++];
+    Value value{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    good_ = good_ && error == std::errc() && end == word.data() + word.size();
+    return value;
+  }
+  const std::vector<std::string_view>& words_;
+  std::size_t next_ = 1;
+  bool good_ = true;
+};
+
+common::ImuSample imuOf(Numbers& n) {
+  common::ImuSample sample;
+  sample.stamps.measured = n.time();
+  sample.stamps.arrived = n.time();
+  for (int i = 0; i < 3; ++i) sample.angular_velocity_body_rad_s[i] = n.number();
+  for (int i = 0; i < 3; ++i) sample.specific_force_body_m_s2[i] = n.number();
+  const double w = n.number(), x = n.number(), y = n.number(), z = n.number();
+  sample.rotation_ahrs_body = Eigen::Quaterniond(w, x, y, z);
+  return sample;
+}
+
+TapedRelativePose poseOf(Numbers& n) {
+  TapedRelativePose m;
+  m.from = n.time();
+  m.to = n.time();
+  m.T_from_to.x_m = n.number();
+  m.T_from_to.y_m = n.number();
+  m.T_from_to.yaw_rad = n.number();
+  for (int row = 0; row < 3; ++row)
+    for (int column = row; column < 3; ++column) m.covariance(row, column) = m.covariance(column, row) = n.number();
+  const bool unseen = n.number() != 0.0;
+  const double x = n.number(), y = n.number();
+  if (unseen) m.unseen_direction = Eigen::Vector2d(x, y);
+  return m;
+}
+
+/// One of the shorter inputs.
+FilterInput shortOf(std::string_view name, Numbers& n) {
+  if (name == "start") return TapedStart{n.number()};
+  if (name == "rest") return TapedRest{n.number() != 0.0};
+  if (name == "clone") return TapedClone{n.time()};
+  const Time time = n.time();
+  const double value = n.number(), variance = n.number();
+  if (name == "climb") return TapedClimb{time, value, variance};
+  return TapedHeight{time, value, variance, n.number()};
+}
+
+}  // namespace
+
+void tell(ErrorStateFilter& filter, const FilterInput& input) { std::visit(Tell{filter}, input); }
+
+std::string toLine(const FilterInput& input) { return std::visit(Print{}, input); }
+
+std::optional<FilterInput> filterInputOf(const std::vector<std::string_view>& words) {
+  struct Form {
+    std::string_view name;
+    std::size_t numbers;
+  };
+  constexpr Form kForms[] = {{"imu", 12},  {"start", 1},  {"rest", 1}, {"clone", 1},
+                             {"pose", 14}, {"height", 4}, {"climb", 3}};
+  if (words.empty()) return std::nullopt;
+  Numbers numbers(words);
+  for (const Form& form : kForms) {
+    if (words[0] != form.name || !numbers.are(form.numbers)) continue;
+    FilterInput input = form.name == "imu"    ? FilterInput(imuOf(numbers))
+                        : form.name == "pose" ? FilterInput(poseOf(numbers))
+                                              : shortOf(form.name, numbers);
+    if (numbers.good()) return input;
+  }
+  return std::nullopt;
+}
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,61 @@
+// Everything that a fusion filter is told, in order: a listener gets it in flight, and another filter that is told the
+// same has the same state. By this the noise parameters are learned from recorded flights (Bachrach 2009, 5.2).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+#include "common/sensor_event.hpp"
+#include "common/time.hpp"
+#include "perception/fusion/error_state_filter.hpp"
+
+namespace swiftlet::perception {
+
+struct TapedStart {
+  double height_m = 0.0;
+};
+struct TapedRest {
+  bool at_rest = false;
+};
+struct TapedClone {
+  common::Time time;
+};
+struct TapedRelativePose {
+  common::Time from, to;
+  common::Pose2 T_from_to;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  std::optional<Eigen::Vector2d> unseen_direction;
+};
+struct TapedHeight {
+  common::Time time;
+  double height_m = 0.0, variance_m2 = 0.0, common_variance_m2 = 0.0;
+};
+struct TapedClimb {
+  common::Time time;
+  double speed_m_s = 0.0, variance_m2_s2 = 0.0;
+};
+/// Relative poses in space, of a camera, are not taped: such flights are replayed without them.
+using FilterInput =
+    std::variant<common::ImuSample, TapedStart, TapedRest, TapedClone, TapedRelativePose, TapedHeight, TapedClimb>;
+
+class FilterListener {
+ public:
+  virtual ~FilterListener() = default;
+  /// Called in the filter's thread, before the filter is told.
+  virtual void heard(const FilterInput& input) = 0;
+};
+
+/// Tells the filter.
+void tell(ErrorStateFilter& filter, const FilterInput& input);
+
+/// One line with its newline: a word that names the input, and its numbers, times in nanoseconds.
+std::string toLine(const FilterInput& input);
+/// The input of a line; none if it is not one.
+std::optional<FilterInput> filterInputOf(const std::vector<std::string_view>& words);
+
+}  // namespace swiftlet::perception

@@ -1,0 +1,125 @@
+// identify, tune and papers: what they make of a flight, and their messages about what they cannot use.
+#include <filesystem>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/config.hpp"
+#include "control/vehicle_model.hpp"
+#include "tests/commands/missions.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/scratch.hpp"
+
+namespace swiftlet::commands {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::describe;
+using test_support::ProgramEnd;
+using test_support::readText;
+using test_support::runSwiftlet;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+class Identify : public test_support::Scratch {
+ protected:
+  /// A short flight with everything that identify and tune read.
+  std::string hop(const std::string& run) const {
+    const ProgramEnd end = runSwiftlet({"fly", write("hop.xml", missionWith(kHop)), "--headless", "--nature", "real",
+                                        "--seed", "4", "--control-log", "--out", path(run)});
+    EXPECT_EQ(end.exit_code, 0) << describe(end);
+    return path(run);
+  }
+  static void expectRefused(const ProgramEnd& end, const std::string& pattern) {
+    EXPECT_EQ(end.exit_code, 2) << describe(end);
+    EXPECT_THAT(end.err, ContainsRegex(pattern));
+  }
+  std::string profile(const std::string& lines) const {
+    return write("mine.yaml", "vehicle: cobra\nlaser: utm_30lx\n" + lines);
+  }
+};
+
+TEST_F(Identify, TellsWhatAFlightIsTooShortFor) {
+  const std::string run = hop("run");
+  EXPECT_TRUE(fs::exists(run + "/control.tsv") && fs::exists(run + "/fusion.tsv"));
+  const ProgramEnd end = runSwiftlet({"identify", run, "--bench", "--out", path("model.yaml")});
+  EXPECT_EQ(end.exit_code, 1) << describe(end);
+  EXPECT_THAT(end.out, HasSubstr("not identified: forward: "));
+  EXPECT_THAT(end.out, HasSubstr("are needed"));
+}
+
+TEST_F(Identify, RefusesWhatIsNoFlightOfThatVehicle) {
+  expectRefused(runSwiftlet({"identify", path("nowhere")}), "nowhere: is no folder of a run");
+  fs::create_directory(path("empty"));
+  expectRefused(runSwiftlet({"identify", path("empty")}), "empty: is not the folder of a run");
+  const std::string run = hop("run");
+  expectRefused(runSwiftlet({"identify", run, "--vehicle", "pelican"}),
+                "`cobra` flew, not `pelican`, give --vehicle cobra");
+  fs::remove(run + "/control.tsv");
+  expectRefused(runSwiftlet({"identify", run}), "has no control.tsv, fly it with --control-log");
+  expectRefused(runSwiftlet({"tune", run}), "--held-out: names no flight");
+}
+
+TEST_F(Identify, TuneRefusesAFlightWithoutTheTruth) {
+  const std::string run = hop("run");
+  const std::string log = readText(run + "/control.tsv");
+  // The 16th word of each line says whether the truth follows.
+  std::string without;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    int number = 0;
+    for (std::string word; words >> word; ++number) without += (number == 15 && line[0] != '#' ? "0" : word) + " ";
+    without += "\n";
+  }
+  write("run/control.tsv", without);
+  expectRefused(runSwiftlet({"tune", run, "--held-out", run}), "control.tsv: has no truth");
+  write("run/control.tsv", log);
+  write("run/fusion.tsv", "imu 1 2 3\n");
+  expectRefused(runSwiftlet({"tune", run, "--held-out", run}), "fusion.tsv:1:1: is no input of the filter");
+}
+
+TEST_F(Identify, AProfileWhoseControllerOrModelDoesNotFitIsRefusedWithItsPlace) {
+  const auto fly = [&](const std::string& profile_lines) {
+    return runSwiftlet({"fly", write("hop.xml", missionWith(kHop)), "--headless", "--system", profile(profile_lines),
+                        "--out", path("run")});
+  };
+  expectRefused(fly("autonomy: {control: {controller: {kind: lqq}}}\n"), "mine.yaml:3:.*did you mean `lqr`");
+  expectRefused(fly("autonomy:\n  control:\n    controller: {kind: lqr}\n"),
+                "mine.yaml:5:24: autonomy.control.controller.kind: lqr needs a vehicle_model.*swiftlet identify");
+  expectRefused(fly("vehicle_model: nowhere\n"), "mine.yaml:3:16: vehicle_model: nowhere: ");
+  control::VehicleModel model;
+  model.version = 1;
+  model.vehicle = "pelican";
+  model.battery_full_v = 16.8;
+  model.thrust = {{11.0, 0.6, 9.0}, {12.0, 0.5, 9.0}};
+  write("model.yaml", common::config::YamlPrinter(common::config::YamlPrinter::Comments::kNo).print(model));
+  const ProgramEnd end = fly("vehicle_model: model.yaml\n");
+  expectRefused(end,
+                "mine.yaml:3:16: vehicle_model: model.yaml: vehicle: the model is of `pelican`, but `cobra` flies");
+  expectRefused(end, "a battery of 16.8 V, but that of `cobra` has 12.6 V");
+  EXPECT_FALSE(fs::exists(path("run")));
+}
+
+TEST_F(Identify, ThePageOfThePapersHasARowForEachExperiment) {
+  const ProgramEnd printed = runSwiftlet({"papers"});
+  ASSERT_EQ(printed.exit_code, 0) << describe(printed);
+  const auto firstCells = [](const std::string& page) {
+    std::string cells;
+    std::istringstream lines(page);
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("| ")) continue;
+      std::size_t end = 0;
+      for (int bar = 0; bar < 4; ++bar) end = line.find(" |", end + 1);
+      cells += line.substr(0, end) + "\n";
+    }
+    return cells;
+  };
+  EXPECT_EQ(firstCells(readText(fs::path(SWIFTLET_SOURCE_DIR) / "docs/papers.md")), firstCells(printed.out))
+      << "update it: swiftlet papers --results RESULTS --write docs/papers.md";
+  expectRefused(runSwiftlet({"papers", "--results", write("results.json", "{}")}), "is not the results.json of trials");
+}
+
+}  // namespace
+}  // namespace swiftlet::commands

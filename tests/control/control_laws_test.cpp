@@ -1,0 +1,209 @@
+// Each law against its equation, and what the controllers share.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/config_check.hpp"
+#include "control/control_errors.hpp"
+#include "tests/control/controller_fixtures.hpp"
+
+namespace swiftlet::control {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A vehicle that rests at the origin, 1 m up, on a full battery.
+struct Bench {
+  common::VehicleConfig vehicle;
+  ThrustModel thrust{{}, vehicle};
+  ControlLimits limits;
+  ControlInput input;
+
+  Bench() {
+    input.state.T_odom_body.position_m = {0, 0, 1};
+    input.reference.position_odom_m = {0, 0, 1};
+    thrust.setLearning(false);
+    thrust.observeVoltage(vehicle.battery_full_v, 0.01);
+  }
+  double hover() const { return vehicle.mass_kg * kGravity_m_s2 / vehicle.max_thrust_n; }
+};
+
+TEST(VoltagePid, IsEquations3To5) {
+  Bench bench;
+  bench.input.reference.position_odom_m = {0.1, -0.2, 1.05};
+  bench.input.reference.yaw_odom_rad = 0.1;
+  bench.input.state.velocity_odom_m_s = {0.05, 0.0, -0.1};
+  VoltagePid pid({.horizontal_p_deg_m = 10,
+                  .horizontal_i_deg_m_s = 0,
+                  .horizontal_d_deg_s_m = 20,
+                  .vertical_p_1_m = 0.5,
+                  .vertical_i_1_m_s = 0,
+                  .vertical_d_s_m = 0.3,
+                  .yaw_p_1_s = 2.0},
+                 bench.limits, bench.vehicle, nullptr);
+  const common::Setpoint setpoint = pid.tick(bench.input, bench.thrust);
+  EXPECT_NEAR(setpoint.pitch_rad / common::kRadPerDeg, 10 * 0.1 - 20 * 0.05, 1e-9);
+  EXPECT_NEAR(setpoint.roll_rad / common::kRadPerDeg, -(10 * -0.2), 1e-9);
+  EXPECT_NEAR(setpoint.yaw_rate_rad_s, 2.0 * 0.1, 1e-9);
+  EXPECT_NEAR(setpoint.thrust, bench.hover() + 0.5 * 0.05 + 0.3 * 0.1, 1e-9);
+}
+
+TEST(VoltagePid, ItsOffsetFollowsTheVoltage) {
+  Bench bench;
+  VoltagePid pid({}, bench.limits, bench.vehicle, nullptr);
+  const double full = pid.tick(bench.input, bench.thrust).thrust;
+  for (int i = 0; i < 1000; ++i) bench.thrust.observeVoltage(11.0, 0.01);
+  const double tired = pid.tick(bench.input, bench.thrust).thrust;
+  EXPECT_NEAR(tired / full, std::pow(12.6 / 11.0, 2), 0.01);
+}
+
+TEST(VoltagePid, CommandsWhatTheBenchSaysForTheAngle) {
+  Bench bench;
+  bench.input.reference.position_odom_m.x() = 0.2;
+  VehicleModel model = sheetModel();
+  model.bench_pitch = {{-20, -10}, {0, 1}, {20, 11}};
+  VoltagePid pid({.horizontal_p_deg_m = 10, .horizontal_i_deg_m_s = 0}, bench.limits, bench.vehicle, &model);
+  EXPECT_NEAR(pid.tick(bench.input, bench.thrust).pitch_rad / common::kRadPerDeg, (2.0 - 1.0) * 2.0, 1e-9);
+}
+
+TEST(CascadedPid, IsAPidOfThePositionThatTiltsTheThrust) {
+  Bench bench;
+  bench.input.reference.position_odom_m = {0.1, 0.0, 1.0};
+  bench.input.reference.velocity_odom_m_s = {0.2, 0.0, 0.0};
+  CascadedPid pid({.horizontal_p_1_s2 = 3, .horizontal_i_1_s3 = 0, .horizontal_d_1_s = 2}, bench.limits, bench.vehicle);
+  const common::Setpoint setpoint = pid.tick(bench.input, bench.thrust);
+  EXPECT_NEAR(std::tan(setpoint.pitch_rad), (3 * 0.1 + 2 * 0.2) / kGravity_m_s2, 1e-9);
+  EXPECT_NEAR(setpoint.thrust, bench.hover() / std::cos(setpoint.pitch_rad), 1e-9);
+}
+
+// For x'' = u and the weights q, q_v and r the continuous Riccati equation leaves K = (sqrt(q / r), sqrt(q_v / r + 2
+// sqrt(q / r))); at 100 Hz the discrete one is within a few percent.
+TEST(Lqr, HasTheGainsOfTheRiccatiEquation) {
+  Lqr::Config config;
+  config.horizontal_integral_m_s = 0.0;
+  config.horizontal_position_m = 0.5;
+  config.horizontal_speed_m_s = 1.0;
+  config.acceleration_m_s2 = 1.0;
+  VehicleModel model = sheetModel();
+  model.forward.lag_s = model.left.lag_s = 0.0;
+  const Lqr lqr(config, {}, {}, model);
+  EXPECT_NEAR(lqr.gains()[0][0], 0.0, 1e-12);
+  EXPECT_NEAR(lqr.gains()[0][1], 2.0, 0.05);
+  EXPECT_NEAR(lqr.gains()[0][2], std::sqrt(1.0 + 2.0 * 2.0), 0.05);
+  EXPECT_NEAR(lqr.gains()[0][3], 0.0, 1e-12);
+  model.forward.damping_1_s = model.left.damping_1_s = -1.0;
+  EXPECT_NEAR(Lqr(config, {}, {}, model).gains()[0][2], -1.0 + std::sqrt(1.0 + 1.0 + 4.0), 0.05);
+}
+
+// A dense oracle: the cost of a simulated flight with these gains is lower than with any gain a little off.
+TEST(Lqr, ItsGainsAreThoseOfTheLeastCost) {
+  AxisMatrix A = AxisMatrix::Identity();
+  A(0, 1) = A(1, 2) = A(2, 3) = 0.01;
+  A(3, 3) = std::exp(-0.05);
+  const AxisVector B(0, 0, 0, 1.0 - std::exp(-0.05));
+  const AxisMatrix Q = AxisVector(2.0, 8.0, 2.0, 0.0).asDiagonal();
+  const auto cost = [&](const Eigen::RowVector4d& K) {
+    double sum = 0.0;
+    AxisVector x(0.1, 0.5, -0.2, 0.3);
+    for (int i = 0; i < 4000; ++i) {
+      const double u = -(K * x)(0);
+      sum += x.dot(Q * x) + u * u;
+      x = A * x + B * u;
+    }
+    return sum;
+  };
+  const LqrGains gains = lqrGains(A, B, Q, 1.0);
+  ASSERT_TRUE(gains.converged);
+  const double least = cost(gains.K);
+  for (int axis = 0; axis < 4; ++axis)
+    for (const double share : {0.97, 1.03}) {
+      Eigen::RowVector4d off = gains.K;
+      off[axis] *= share;
+      EXPECT_GT(cost(off), least) << axis << " times " << share;
+    }
+}
+
+TEST(Lqr, SolvesTheModelForItsCommands) {
+  Bench bench;
+  VehicleModel model = sheetModel();
+  model.forward.gain = 8.0;
+  model.forward.offset = 0.4;
+  model.up.gain = 20.0;
+  Lqr::Config config;
+  config.vertical_integral_m_s = 0.0;
+  Lqr lqr(config, bench.limits, bench.vehicle, model);
+  const common::Setpoint setpoint = lqr.tick(bench.input, bench.thrust);
+  EXPECT_NEAR(setpoint.pitch_rad, -0.4 / 8.0, 1e-9);
+  EXPECT_NEAR(setpoint.thrust, bench.hover() * kGravity_m_s2 / 20.0, 1e-9);
+}
+
+TEST(SlidingMode, ReachesTheSurfaceAndStaysThere) {
+  // A double integrator with a constant disturbance that the accelerometer does not see.
+  Bench bench;
+  SlidingMode controller({}, bench.limits, bench.vehicle);
+  double position_m = 0.3, velocity_m_s = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    bench.input.state.T_odom_body.position_m.x() = position_m;
+    bench.input.state.velocity_odom_m_s.x() = velocity_m_s;
+    const double pitch_rad = controller.tick(bench.input, bench.thrust).pitch_rad;
+    velocity_m_s += 0.01 * (kGravity_m_s2 * std::tan(pitch_rad) - 0.5);
+    position_m += 0.01 * velocity_m_s;
+  }
+  EXPECT_NEAR(position_m, 0.0, 1e-3);
+  EXPECT_NEAR(controller.trim_odom_m_s2(bench.thrust).x(), 0.5, 0.01);
+}
+
+TEST(Controllers, ATrimIsTakenOverWhole) {
+  const VehicleModel model = sheetModel();
+  Bench bench;
+  const Eigen::Vector3d trim_m_s2(0.4, -0.3, 0.2);
+  for (int kind = 0; kind < kControllerKinds; ++kind) {
+    const auto controller = makeController(static_cast<ControllerKind>(kind), {}, {}, bench.vehicle, &model);
+    controller->setTrim(trim_m_s2, bench.thrust);
+    EXPECT_LT((controller->trim_odom_m_s2(bench.thrust) - trim_m_s2).norm(), 1e-9)
+        << toString(static_cast<ControllerKind>(kind));
+    const common::Setpoint setpoint = controller->tick(bench.input, bench.thrust);
+    EXPECT_NEAR(setpoint.pitch_rad, 0.4 / kGravity_m_s2, 0.005) << toString(static_cast<ControllerKind>(kind));
+    EXPECT_NEAR(setpoint.thrust, bench.hover() * (1.0 + 0.2 / kGravity_m_s2), 0.003)
+        << toString(static_cast<ControllerKind>(kind));
+  }
+}
+
+TEST(ControlErrors, UseOnlyWhatMayBeUsed) {
+  ControlInput input;
+  input.state.velocity_odom_m_s = {1, 2, 3};
+  input.reference.position_odom_m = {5, 0, 5};
+  input.reference.velocity_odom_m_s = {4, 4, 4};
+  const ControlLimits limits;
+  EXPECT_NEAR(errorsOf(input, limits).position_odom_m.x(), limits.max_position_error_m, 1e-12);
+  EXPECT_NEAR(errorsOf(input, limits).velocity_odom_m_s.x(), 3.0, 1e-12);
+  input.horizontal = Horizontal::kVelocity;
+  EXPECT_EQ(errorsOf(input, limits).position_odom_m.x(), 0.0);
+  EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.x(), -1.0);
+  input.horizontal = Horizontal::kLevel;
+  EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.x(), 0.0);
+  EXPECT_EQ(errorsOf(input, limits).velocity_odom_m_s.z(), 1.0);
+}
+
+TEST(VehicleModel, SaysWhyItDoesNotFit) {
+  VehicleModel model = sheetModel();
+  const common::VehicleConfig sheet;
+  EXPECT_THAT(model.problemsFor(sheet), IsEmpty());
+  model.vehicle = "pelican";
+  EXPECT_THAT(model.problemsFor(sheet), ElementsAre(HasSubstr("the model is of `pelican`, but `cobra` flies")));
+  model = sheetModel();
+  model.thrust = {{11.0, 0.6, 10.0}, {12.0, 0.5, 10.0}};
+  model.battery_full_v = 16.8;
+  EXPECT_THAT(model.problemsFor(sheet), ElementsAre(HasSubstr("a battery of 16.8 V, but that of `cobra` has 12.6 V")));
+  model.thrust = {{12.0, 0.6, 10.0}, {11.0, 0.5, 10.0}};
+  EXPECT_THAT(common::config::problemsOf(model), ElementsAre(HasSubstr("voltages must rise")));
+  model = sheetModel();
+  model.bench_roll = {{0, 0}, {10, 9}, {20, 8}};
+  EXPECT_THAT(common::config::problemsOf(model), ElementsAre(HasSubstr("must rise from row to row")));
+}
+
+}  // namespace
+}  // namespace swiftlet::control

@@ -1,0 +1,110 @@
+// What a filter was told reads back whole, gives another filter the same state, and teaches it its noise parameters.
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "perception/fusion/noise_tuning.hpp"
+#include "tests/fusion/synthetic_flight.hpp"
+
+namespace swiftlet::perception {
+namespace {
+
+using common::Time;
+
+std::vector<std::string_view> wordsOf(const std::string& line) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0; begin < line.size();) {
+    const std::size_t end = line.find_first_of(" \n", begin);
+    if (end > begin) words.push_back(std::string_view(line).substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+/// A flight whose scans are late by 20 ms, as a tape.
+TapedFlight tapedFlight(std::uint64_t seed, const SensorNoise& noise, double seconds = 20.0) {
+  SyntheticFlight flight(seed, seconds, noise);
+  common::RandomStream random(seed, "tape");
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(1e-4, 1e-4, 1.2e-5).asDiagonal();
+  TapedFlight taped;
+  double reference_s = -1.0, scan_s = 1.0;
+  bool started = false;
+  for (const common::ImuSample& sample : flight.imuSamples()) {
+    taped.inputs.push_back(sample);
+    const double now_s = sample.stamps.arrived.seconds();
+    if (!started && now_s > 0.8) taped.inputs.push_back(TapedStart{flight.motion.pose(0.8).position_m.z()});
+    started = started || now_s > 0.8;
+    for (; started && scan_s + 0.02 <= now_s; scan_s += 0.025) {
+      const Time to = Time::fromSeconds(scan_s);
+      taped.inputs.push_back(
+          TapedHeight{to, flight.motion.pose(scan_s).position_m.z() + random.gaussian(0.01), 1e-4, 0});
+      if (reference_s >= 0.0) {
+        common::Pose2 relative = planar(flight.motion.pose(reference_s)).inverse() * planar(flight.motion.pose(scan_s));
+        relative.x_m += random.gaussian(0.01);
+        relative.y_m += random.gaussian(0.01);
+        taped.inputs.push_back(TapedRelativePose{Time::fromSeconds(reference_s), to, relative, covariance, {}});
+      }
+      if (reference_s < 0.0 || scan_s - reference_s > 0.5) {
+        taped.inputs.push_back(TapedClone{to});
+        reference_s = scan_s;
+      }
+    }
+    if (now_s < 6.0) continue;
+    const Truth truth = flight.motion.truth(now_s);
+    taped.truth.push_back({sample.stamps.arrived, common::yawOf(truth.T_odom_body.rotation), truth.velocity_m_s});
+  }
+  return taped;
+}
+
+TEST(FilterTape, EveryInputReadsBackAsItWas) {
+  TapedFlight flight = tapedFlight(1, {}, 3.0);
+  flight.inputs.push_back(TapedRest{true});
+  flight.inputs.push_back(TapedClimb{Time::fromSeconds(1.5), -0.25, 0.01});
+  flight.inputs.push_back(TapedRelativePose{
+      Time::fromSeconds(1), Time::fromSeconds(2), {1, 2, 0.3}, Eigen::Matrix3d::Identity(), Eigen::Vector2d(0.6, 0.8)});
+  for (const FilterInput& input : flight.inputs) {
+    const std::string line = toLine(input);
+    const auto read = filterInputOf(wordsOf(line));
+    ASSERT_TRUE(read) << line;
+    EXPECT_EQ(toLine(*read), line);
+  }
+  for (const std::string bad : {"", "imu 1 2", "pose a b c", "rest x\n", "clones 12\n", "start 1 2\n"})
+    EXPECT_FALSE(filterInputOf(wordsOf(bad))) << bad;
+}
+
+TEST(FilterTape, AFilterThatIsToldTheSameHasTheSameState) {
+  const TapedFlight flight = tapedFlight(2, {}, 8.0);
+  ErrorStateFilter one(withoutDrag()), other(withoutDrag());
+  for (const FilterInput& input : flight.inputs) {
+    tell(one, input);
+    tell(other, *filterInputOf(wordsOf(toLine(input))));
+  }
+  ASSERT_TRUE(one.initialized());
+  EXPECT_EQ(one.state().T_odom_body.position_m, other.state().T_odom_body.position_m);
+  EXPECT_EQ(one.state().velocity_odom_m_s, other.state().velocity_odom_m_s);
+}
+
+// The parameters start ten times off on the noises that matter; what is learned is judged on other flights.
+TEST(NoiseTuning, LearnsBetterVelocitiesOnFlightsThatItDidNotSee) {
+  std::vector<TapedFlight> flights;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) flights.push_back(tapedFlight(seed, {}));
+  FusionConfig wrong = withoutDrag();
+  wrong.accelerometer_noise_m_s2_rthz = 0.5;
+  wrong.ahrs_sigma_deg = 0.05;
+  wrong.gyroscope_noise_rad_s_rthz = 0.02;
+  TuningOptions options;
+  options.steps = 12;
+  const Tuning tuned = tuneNoise({&flights[0], &flights[1], &flights[2]}, wrong, options);
+  EXPECT_LT(tuned.after_m_s, tuned.before_m_s);
+  const std::vector<const TapedFlight*> held_out{&flights[3], &flights[4]};
+  const double before_m_s = velocityError_m_s(held_out, wrong), after_m_s = velocityError_m_s(held_out, tuned.config);
+  std::printf("velocity on held-out flights: %.4f m/s, learned %.4f m/s\n", before_m_s, after_m_s);
+  EXPECT_LT(after_m_s, 0.9 * before_m_s);
+  EXPECT_EQ(tuneNoise({&flights[0], &flights[1], &flights[2]}, wrong, options).config.ahrs_sigma_deg,
+            tuned.config.ahrs_sigma_deg)
+      << "it is deterministic";
+}
+
+}  // namespace
+}  // namespace swiftlet::perception
