@@ -192,7 +192,8 @@ TEST_F(BadInput, AnUnknownSystemIsRefused) {
 
 TEST_F(BadInput, DataSheetsAreFoundBesideTheProfileThatNamesThem) {
   const std::string system = write("mine.yaml", "vehicle: nimble.yaml\nlaser: utm_30lx\n");
-  expectRefused(runSwiftlet({"config", "--system", system}), "mine\\.yaml: vehicle: nimble\\.yaml: no such file");
+  expectRefused(runSwiftlet({"config", "--system", system}),
+                "mine\\.yaml:[0-9]+:[0-9]+: vehicle: nimble\\.yaml: no such file");
   (void)write("nimble.yaml", "name: nimble\nmass_kg: 1.2\n");
   const ProgramEnd found = runSwiftlet({"config", "--system", system});
   EXPECT_EQ(found.exit_code, 0) << found.err;

@@ -1,4 +1,5 @@
 // What a filter was told reads back whole, gives another filter the same state, and teaches it its noise parameters.
+#include <algorithm>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -15,7 +16,7 @@ using common::Time;
 std::vector<std::string_view> wordsOf(const std::string& line) {
   std::vector<std::string_view> words;
   for (std::size_t begin = 0; begin < line.size();) {
-    const std::size_t end = line.find_first_of(" \n", begin);
+    const std::size_t end = std::min(line.find_first_of(" \n", begin), line.size());
     if (end > begin) words.push_back(std::string_view(line).substr(begin, end - begin));
     begin = end + 1;
   }
