@@ -1,10 +1,12 @@
 // What a mission passes down its tree: the engine's tick with the context of the flight.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "behaviors/context.hpp"
 #include "behaviors/tree/node.hpp"
@@ -18,6 +20,8 @@ struct MissionMemory {
   std::optional<common::OperatorCommand> pending_command;
   common::FlightMode mode = common::FlightMode::kFast;  ///< Of leaves that name none.
   bool go_on = false;  ///< The operator said so, and no WaitForOperator has taken it yet.
+  /// Answers to requests, until the leaf that asked takes its own: it may be suspended when the answer comes.
+  std::vector<common::MissionAnswer> answers;
 };
 
 class FlightTick final : public tree::TickContext {
@@ -28,6 +32,7 @@ class FlightTick final : public tree::TickContext {
         pending_command(memory.pending_command),
         mode(memory.mode),
         go_on(memory.go_on),
+        answers_(memory.answers),
         last_intent_id_(memory.last_intent_id) {}
 
   std::uint64_t newIntentId() { return ++last_intent_id_; }
@@ -37,6 +42,16 @@ class FlightTick final : public tree::TickContext {
   std::uint64_t request(common::MissionRequestKind kind) {
     flight.requests.push_back({newIntentId(), std::move(kind)});
     return flight.requests.back().id;
+  }
+
+  /// The answer to that request, once it has come; taken by this call.
+  std::optional<common::MissionAnswer> takeAnswer(std::uint64_t request_id) {
+    const auto found = std::find_if(answers_.begin(), answers_.end(),
+                                    [&](const common::MissionAnswer& answer) { return answer.id == request_id; });
+    if (found == answers_.end()) return std::nullopt;
+    common::MissionAnswer answer = std::move(*found);
+    answers_.erase(found);
+    return answer;
   }
 
   /// An event of the mission, now.
@@ -51,6 +66,7 @@ class FlightTick final : public tree::TickContext {
   bool& go_on;
 
  private:
+  std::vector<common::MissionAnswer>& answers_;
   std::uint64_t& last_intent_id_;
 };
 

@@ -94,6 +94,8 @@ TickResult Mission::tick(Context& context) {
   self.answerCommands(context);
   if (common::isOver(self.result.state)) return self.result;
 
+  for (common::MissionAnswer& answer : std::exchange(context.answers, {}))
+    self.memory.answers.push_back(std::move(answer));
   FlightTick tick(context, self.memory);
   tick.observer = &self.observers;
   self.narrator.listen(&tick);
@@ -116,7 +118,7 @@ bool Mission::letGo(Context& context) {
   const bool released = self.tree.halt(tick) == tree::Release::kReleased;
   self.narrator.listen(nullptr);
   if (released) {
-    self.memory = {self.memory.last_intent_id, {}, {}, {}};
+    self.memory = {self.memory.last_intent_id, {}, {}, {}, {}};
     self.narrator.forget();
     self.result = {};
   }

@@ -28,10 +28,9 @@ tree::Status Photograph::act(tree::TickContext& context) {
   if (std::string problem = fileNameProblem(*file); !problem.empty()) return fail(context, problem);
   emitHold(tick);
   if (request_id_ == 0 && holdReleased(tick)) request_id_ = tick.request(common::PhotographRequest{*file});
-  for (const common::MissionAnswer& answer : tick.flight.answers)
-    if (request_id_ != 0 && answer.id == request_id_)
-      return answer.done ? tree::Status::kSuccess : fail(context, answer.reason);
-  return tree::Status::kRunning;
+  const auto answer = tick.takeAnswer(request_id_);
+  if (!answer) return tree::Status::kRunning;
+  return answer->done ? tree::Status::kSuccess : fail(context, answer->reason);
 }
 
 }  // namespace swiftlet::behaviors

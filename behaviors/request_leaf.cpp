@@ -12,9 +12,9 @@ tree::Status RequestLeaf::act(tree::TickContext& context) {
     id_ = tick.request(*std::move(made.kind));
     return tree::Status::kRunning;
   }
-  for (const common::MissionAnswer& answer : tick.flight.answers)
-    if (answer.id == id_) return answer.done ? tree::Status::kSuccess : fail(context, answer.reason);
-  return tree::Status::kRunning;
+  const auto answer = tick.takeAnswer(id_);
+  if (!answer) return tree::Status::kRunning;
+  return answer->done ? tree::Status::kSuccess : fail(context, answer->reason);
 }
 
 }  // namespace swiftlet::behaviors

@@ -88,6 +88,16 @@ TEST(SaveMap, AsksForAFileOfThatName) {
               ElementsAre(HasSubstr("SaveMap.file: `../x` cannot")));
 }
 
+TEST(SaveMap, TakesItsAnswerThoughItComesWhileSuspended) {
+  Flight flight(R"(<Priority><Hold/><Sequence><SaveMap file="hall"/><Land/></Sequence></Priority>)");
+  flight.tick();
+  ASSERT_EQ(flight.context.requests.size(), 1u);
+  flight.context.answers = {{flight.context.requests[0].id, true, ""}};
+  flight.holds(true).tick();
+  flight.context.answers.clear();  // The autonomy gives each answer once.
+  EXPECT_TRUE(flight.holds(false).stops().tick().ends_with("land")) << flight.view();
+}
+
 TEST(Photograph, StopsThenAsksAndWaits) {
   Flight flight(R"(<Photograph file="door"/>)");
   EXPECT_EQ(flight.tick(), "RUNNING 1 hold");
