@@ -140,7 +140,7 @@ struct ToText {
     return numberText(r.x_min) + ";" + numberText(r.y_min) + ";" + numberText(r.x_max) + ";" + numberText(r.y_max);
   }
   std::string operator()(const Duration& duration) const {
-    return numberText(static_cast<double>(duration.nanoseconds) * 1e-9) + " s";
+    return numberText(static_cast<double>(duration.nanoseconds) / 1e9) + " s";
   }
 };
 
