@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "autonomy/occupied_near.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 
@@ -37,13 +39,6 @@ std::vector<Eigen::Vector2d> columnsOf(const VoxelMap& voxels, int low, int high
           }
   }
   return centers_m;
-}
-
-bool laserSeesNear(const common::OccupancyGrid& grid, common::CellIndex cell) {
-  for (int dy = -kNearLaser_cells; dy <= kNearLaser_cells; ++dy)
-    for (int dx = -kNearLaser_cells; dx <= kNearLaser_cells; ++dx)
-      if (common::occupancy::isOccupied(grid.at({cell.x + dx, cell.y + dy}))) return true;
-  return false;
 }
 
 /// Enlarges the rectangle by the cells that decide whether the laser sees something near this one.
@@ -126,7 +121,7 @@ void CameraObstacles::findCells(Columns& columns, const common::Pose2& T_map_sub
   for (const Eigen::Vector2d& center_submap_m : columns.centers_submap_m) {
     const common::CellIndex cell = laser_grid_->cellAt(T_map_submap * center_submap_m);
     include(cell, columns.around);
-    if (!laserSeesNear(*laser_grid_, cell)) columns.cells.push_back(cell);
+    if (!occupiedNear(*laser_grid_, cell, kNearLaser_cells)) columns.cells.push_back(cell);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "autonomy/occupied_near.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 
@@ -28,14 +30,6 @@ constexpr double kSameWall_m = 0.20;
 Pose2 between(const Pose2& a, const Pose2& b, double share) {
   return {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m),
           common::wrapAngle(a.yaw_rad + share * common::wrapAngle(b.yaw_rad - a.yaw_rad))};
-}
-
-bool occupiedNear(const OccupancyGrid& grid, CellIndex cell) {
-  const int around = static_cast<int>(std::lround(kSameWall_m / grid.resolution_m()));
-  for (int dy = -around; dy <= around; ++dy)
-    for (int dx = -around; dx <= around; ++dx)
-      if (occupancy::isOccupied(grid.at({cell.x + dx, cell.y + dy}))) return true;
-  return false;
 }
 
 /// A grid in the cells of another frame: each cell that the corners of the source reach takes the value at its centre.
@@ -102,9 +96,11 @@ bool GivenMapOverlay::follow(common::Time now, const Pose2& T_map_body, const Po
 void GivenMapOverlay::lay() {
   grid_ = flown_;
   if (!T_map_given_) return;
+  const int same_wall = static_cast<int>(std::lround(kSameWall_m / flown_->resolution_m()));
   auto both = std::make_shared<OccupancyGrid>(laid_.snapshot());
   laid_.forEachCell([&](CellIndex cell, occupancy::Cell value) {
-    if (occupancy::isOccupied(value) && occupancy::isUnknown(flown_->at(cell)) && occupiedNear(*flown_, cell))
+    if (occupancy::isOccupied(value) && occupancy::isUnknown(flown_->at(cell)) &&
+        occupiedNear(*flown_, cell, same_wall))
       both->set(cell, 0);
   });
   flown_->forEachCell([&](CellIndex cell, occupancy::Cell value) {

@@ -7,6 +7,7 @@
 
 #include "behaviors/tree/leaf.hpp"
 #include "behaviors/tree/parser.hpp"
+#include "tests/tree/scripts_and_ports.hpp"
 
 namespace {
 
@@ -23,37 +24,10 @@ class Busy final : public Leaf {
   Status act(TickContext&) override { return Status::kRunning; }
 };
 
-/// Reads two ports from entries and two literals at each tick.
-class Reads final : public Leaf {
- public:
-  explicit Reads(const NodeSetup& setup)
-      : Leaf(setup), goal_(setup, "goal"), height_m_(setup, "height_m"), tries_(setup, "tries"), mode_(setup, "mode") {}
-  static NodeManifest manifest() {
-    return {.id = "Reads",
-            .kind = NodeKind::kAction,
-            .ports = {{.name = "goal", .type = PortType::kPoint},
-                      {.name = "height_m", .type = PortType::kDouble, .minimum = 0.3, .maximum = 5.0},
-                      {.name = "tries", .type = PortType::kInt},
-                      {.name = "mode", .type = PortType::kString}},
-            .description = "Reads."};
-  }
-
- private:
-  Status act(TickContext&) override {
-    const bool all = goal_.get() && height_m_.get() && tries_.get() && mode_.get();
-    return all ? Status::kSuccess : Status::kFailure;
-  }
-
-  Input<Point> goal_;
-  Input<double> height_m_;
-  Input<std::int64_t> tries_;
-  Input<std::string> mode_;
-};
-
 Registry registryWithBusy() {
   Registry registry = Registry::standard();
   registry.add<Busy>();
-  registry.add<Reads>();
+  registry.add<testing::PortReader>();
   return registry;
 }
 
@@ -68,24 +42,6 @@ const char* const kTwenty = R"(<Sequence>
   <Parallel><AlwaysSuccess/><AlwaysSuccess/><AlwaysSuccess/><AlwaysSuccess/></Parallel>
   <Timeout msec="1000"><Sequence><AlwaysSuccess/><AlwaysSuccess/><AlwaysSuccess/></Sequence></Timeout>
 </Sequence>)";
-
-const char* const kScriptsAndPorts = R"(<Sequence>
-  <Script code="tries := 3; height_m := 1.5"/>
-  <Fallback><AlwaysFailure/><Inverter><AlwaysFailure/></Inverter></Fallback>
-  <ReactiveSequence><ScriptCondition code="tries &lt; 4 &amp;&amp; height_m > 1"/><AlwaysSuccess/><AlwaysSuccess/></ReactiveSequence>
-  <Reads goal="1;2" height_m="{height_m}" tries="{tries}" mode="fast"/>
-  <Parallel><AlwaysSuccess/><AlwaysSuccess/><AlwaysSuccess/></Parallel>
-  <Timeout msec="1000"><Sequence><AlwaysSuccess/><AlwaysSuccess/></Sequence></Timeout>
-  <ForceSuccess><AlwaysFailure/></ForceSuccess>
-</Sequence>)";
-
-class Counter final : public Observer {
- public:
-  void onStatus(const Node&, Status, Status) override { ++changes; }
-  void onSwitch(const Switch&) override { ++changes; }
-  void onFailure(const Node&, std::string_view) override { ++changes; }
-  std::int64_t changes = 0;
-};
 
 void tickFor(benchmark::State& state, const std::string& text, Observer* observer) {
   const Registry registry = registryWithBusy();
@@ -107,7 +63,7 @@ void tickTwentyNodes(benchmark::State& state) { tickFor(state, fileOf(kTwenty), 
 BENCHMARK(tickTwentyNodes);
 
 void tickTwentyNodesObserved(benchmark::State& state) {
-  Counter counter;
+  testing::ChangeCounter counter;
   tickFor(state, fileOf(kTwenty), &counter);
 }
 BENCHMARK(tickTwentyNodesObserved);
@@ -127,44 +83,40 @@ void tickThousandLeaves(benchmark::State& state) {
 }
 BENCHMARK(tickThousandLeaves)->Unit(benchmark::kMicrosecond);
 
-/// 21 nodes with two scripts and four ports, every node of them ticked: what tests/tree/allocations_test.cpp watches.
+/// 21 nodes with two scripts and four ports: tests/tree/allocations_test.cpp watches the same tree.
 void tickScriptsAndPortsObserved(benchmark::State& state) {
-  Counter counter;
-  tickFor(state, fileOf(kScriptsAndPorts), &counter);
+  testing::ChangeCounter counter;
+  tickFor(state, fileOf(testing::kScriptsAndPorts), &counter);
 }
 BENCHMARK(tickScriptsAndPortsObserved);
 
-void readTenThousandScripts(benchmark::State& state) {
+void readFor(benchmark::State& state, const std::string& text) {
   const Registry registry = registryWithBusy();
+  for (auto _ : state) {
+    ParseResult parsed = parseText(text, "benchmark.xml", registry);
+    if (!parsed.tree) state.SkipWithError(toString(parsed.problems).c_str());
+    benchmark::DoNotOptimize(parsed.tree);
+    state.counters["nodes"] = static_cast<double>(parsed.tree->nodes().size());
+  }
+}
+
+void readTenThousandScripts(benchmark::State& state) {
   std::string inside = "<Sequence>\n<Script code=\"n := 1; limit := 3\"/>\n";
   for (int i = 0; i < 2500; ++i)
     inside +=
         "  <Fallback _skipIf=\"n > limit\"><Script code=\"n = n + 1\"/><ScriptCondition code=\"n &lt; 3 &amp;&amp; "
         "limit == 3\"/><AlwaysFailure _onFailure=\"n -= 1\"/></Fallback>\n";
-  const std::string text = fileOf(inside + "</Sequence>");
-  for (auto _ : state) {
-    ParseResult parsed = parseText(text, "benchmark.xml", registry);
-    if (!parsed.tree) state.SkipWithError(toString(parsed.problems).c_str());
-    benchmark::DoNotOptimize(parsed.tree);
-    state.counters["nodes"] = static_cast<double>(parsed.tree->nodes().size());
-  }
+  readFor(state, fileOf(inside + "</Sequence>"));
 }
 BENCHMARK(readTenThousandScripts)->Unit(benchmark::kMillisecond);
 
 void readTenThousandNodes(benchmark::State& state) {
-  const Registry registry = registryWithBusy();
   std::string inside = "<Sequence>\n";
   for (int i = 0; i < 1666; ++i)
     inside += "  <Fallback name=\"f" + std::to_string(i) +
               "\"><Timeout msec=\"500\"><AlwaysFailure/></Timeout><Repeat num_cycles=\"2\"><AlwaysSuccess/></Repeat>"
               "<AlwaysFailure/></Fallback>\n";
-  const std::string text = fileOf(inside + "</Sequence>");
-  for (auto _ : state) {
-    ParseResult parsed = parseText(text, "benchmark.xml", registry);
-    if (!parsed.tree) state.SkipWithError(toString(parsed.problems).c_str());
-    benchmark::DoNotOptimize(parsed.tree);
-    state.counters["nodes"] = static_cast<double>(parsed.tree->nodes().size());
-  }
+  readFor(state, fileOf(inside + "</Sequence>"));
 }
 BENCHMARK(readTenThousandNodes)->Unit(benchmark::kMillisecond);
 

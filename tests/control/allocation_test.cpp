@@ -1,34 +1,16 @@
 // A tick in flight allocates nothing: neither the controllers nor the state machine and the path around them.
-#include <atomic>
-#include <cstdlib>
-#include <new>
+#include <memory>
 
 #include <gtest/gtest.h>
 
 #include "tests/control/controller_fixtures.hpp"
 #include "tests/control/flight_story.hpp"
-
-namespace {
-
-std::atomic<long> allocations{0};
-
-void* counted(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/support/counted_allocations.hpp"
 
 namespace swiftlet::control {
 namespace {
+
+using test_support::allocations;
 
 TEST(Allocation, IsCounted) {
   const long before = allocations;
