@@ -11,7 +11,7 @@ const { origin } = server.url;
 
 /** `prepare(context)` before the page is loaded. */
 async function open(prepare = async () => {}, url = server.url) {
-  const context = await browser.newContext({ viewport: { width: 1180, height: 820 }, hasTouch: true });
+  const context = await browser.newContext({ viewport: { width: 900, height: 640 }, hasTouch: true });
   await prepare(context);
   const page = await context.newPage();
   page.setDefaultTimeout(120_000 * kPatience);
@@ -29,21 +29,26 @@ async function shown3d(page) {
   await eventually('the points', async () => (await drawnPoints(page)) > 20_000);
 }
 
-/** Of the middle of the view, each pixel's colour as a number. */
+/** Of the middle of the view, each pixel's colour as a number. As text, for a list of numbers takes seconds to come over. */
 async function pixels(page) {
   const box = await page.locator('#map3d').boundingBox();
   const clip = { x: box.x + box.width / 4, y: box.y + box.height / 4, width: box.width / 2, height: box.height / 2 };
   const png = (await page.screenshot({ clip })).toString('base64');
-  return page.evaluate(async (data) => {
+  const text = await page.evaluate(async (data) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;
     await image.decode();
     const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
     const context = canvas.getContext('2d');
     context.drawImage(image, 0, 0);
-    const { data: bytes } = context.getImageData(0, 0, image.width, image.height);
-    return Array.from({ length: bytes.length / 4 }, (_, i) => (bytes[4 * i] << 16) | (bytes[4 * i + 1] << 8) | bytes[4 * i + 2]);
+    const bytes = new Blob([context.getImageData(0, 0, image.width, image.height).data]);
+    return new Promise((done) => {
+      const reader = Object.assign(new FileReader(), { onload: () => done(reader.result.split(',')[1]) });
+      reader.readAsDataURL(bytes);
+    });
   }, png);
+  const bytes = Buffer.from(text, 'base64');
+  return Array.from({ length: bytes.length / 4 }, (_, i) => bytes.readUIntBE(4 * i, 3));
 }
 
 /** The mean difference of a channel between the pictures, of blocks of pixels, so that single edges do not count. */

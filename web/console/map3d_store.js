@@ -46,10 +46,12 @@ export class Map3dStore {
     this.poses = [];
     this.camera = null; // {pose, tracked, across, up}
     this.arriving = null;
+    this.messages = 0; // Taken since the reset.
   }
 
   /** Takes a message; {number, first} where a submap has new points from `first` on, else null. Throws where memory fails. */
   take(buffer) {
+    ++this.messages;
     const view = new DataView(buffer);
     const type = view.getUint8(0);
     if (type === 3) return this.takePoints(view, buffer);

@@ -91,9 +91,14 @@ export class Map3dView {
     if (orbit.kind === 'follow' && pose && pose.x_m !== null) orbit.target = [pose.x_m, pose.y_m, pose.z_m ?? 0];
     const eye = orbit.eye();
     const clipFromMap = product(perspective((kUp * width) / height, kUp, kNear_m, kFar_m), lookAt(eye, orbit.target));
+    const lines = linesOf(store, map3d, box, this.colors);
+    // The page's state comes several times a second, also while nothing moves: a picture like the last is not drawn again.
+    const content = JSON.stringify([map3d.messages, width, height, clipFromMap, this.byNormal, lines, this.colors.unknown]);
+    if (content === this.content) return;
+    this.content = content;
     this.gl.begin(rgba(this.colors.unknown));
     this.gl.drawSubmaps(map3d, clipFromMap, eye, height / (2 * kUp), this.byNormal);
-    this.gl.drawLines(linesOf(store, map3d, box, this.colors), clipFromMap);
+    this.gl.drawLines(lines, clipFromMap);
     // For programs that look at the page: what is drawn.
     canvas.dataset.points = map3d.points;
     canvas.dataset.submaps = map3d.poses.length;
