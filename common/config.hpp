@@ -57,7 +57,7 @@ class YamlReader final : public Fields {
  private:
   struct Impl;
   explicit YamlReader(std::unique_ptr<Impl> impl);
-  void finish(std::vector<std::string> problems);
+  void finish(const std::vector<std::string>& problems);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -240,7 +240,7 @@ void YamlReader::endList() {
   impl_->list_names.pop_back();
 }
 
-void YamlReader::finish(std::vector<std::string> problems) {
+void YamlReader::finish(const std::vector<std::string>& problems) {
   impl_->closeLevel(problems);
   if (!impl_->problems.empty()) throw InputError(std::move(impl_->problems));
 }
