@@ -155,6 +155,7 @@ class FlightController {
   void keepPathInMap(const common::VehicleState& state);
   common::Setpoint setpointFor(const FlightTick& tick);
   common::Setpoint takeOff(const FlightTick& tick);
+  std::optional<Eigen::Vector2d> pointToFace() const;
   common::Setpoint fly(const FlightTick& tick);
   common::Setpoint descend(const FlightTick& tick);
   common::Setpoint descendInEmergency(const FlightTick& tick);

@@ -12,6 +12,8 @@ namespace {
 
 /// Places of a full circle: a chord between two is 1 % of the radius off the circle.
 constexpr int kPlaces = 24;
+/// Passing a place this near counts, and the vehicle is on its circle.
+constexpr double kOnCircle_m = 0.15;
 /// From then on the vehicle may leave its first place.
 constexpr double kTurned_rad = 3.0 * common::kRadPerDeg;
 
@@ -25,7 +27,7 @@ double heightToSee_m(const Eigen::Vector2d& distance_height_m, const common::Pos
 }  // namespace
 
 Inspect::Inspect(const common::InspectIntent& intent, const ManeuverSetup& setup)
-    : Tour(setup, "inspect a point", intent.mode, 0.15), intent_(intent) {
+    : Tour(setup, "inspect a point", intent.mode, kOnCircle_m), intent_(intent) {
   if (intent.height_m)
     setup.memory.cruise_height_m = *intent.height_m;
   else if (setup.camera != nullptr && intent.point_height_m)
@@ -48,6 +50,12 @@ std::vector<Eigen::Vector2d> Inspect::lay(const planning::CostMap& map, const Ma
   const int count = static_cast<int>(std::lround(intent_.turns * kPlaces));
   for (int i = 0; i <= count; ++i) places.push_back(placeAt(first_rad + i * step_rad));
   return places;
+}
+
+std::string Inspect::doing(const ManeuverInput& input) const {
+  if (passed() == 0) return "flying to the circle";
+  const double off_m = std::abs((input.position_map_m() - intent_.point_map_m).norm() - intent_.radius_m);
+  return off_m < kOnCircle_m ? "inspecting" : "flying around what stands on the circle";
 }
 
 bool Inspect::ready(const ManeuverInput& input) {

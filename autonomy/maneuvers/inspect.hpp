@@ -13,7 +13,7 @@ class Inspect final : public Tour {
  private:
   std::vector<Eigen::Vector2d> lay(const planning::CostMap& map, const ManeuverInput& input) override;
   bool ready(const ManeuverInput& input) override;
-  std::string doing() const override { return passed() == 0 ? "flying to the circle" : "inspecting"; }
+  std::string doing(const ManeuverInput& input) const override;
 
   common::InspectIntent intent_;
 };

@@ -60,7 +60,7 @@ Progress Tour::fly(const ManeuverInput& input) {
   if (flight_.mayAsk()) asked_.reset();  // An answer that came during a retreat was dropped.
   const bool under_way = flight_.plan() != nullptr && !setup_.controller.pathFinished();
   if (!under_way && !asked_ && ready(input)) flyOn(*map, input, *station);
-  return Progress::running(fmt::format("{}, {} of {} places", doing(), passed(), stations_.size()));
+  return Progress::running(fmt::format("{}, {} of {} places", doing(input), passed(), stations_.size()));
 }
 
 /// Opens the stations that are not passed, where the map has a free place for them.

@@ -36,7 +36,7 @@ class Tour : public PathManeuver {
   /// Whether it may fly on from where it is.
   virtual bool ready(const ManeuverInput&) { return true; }
   /// "surveying", for people.
-  virtual std::string doing() const = 0;
+  virtual std::string doing(const ManeuverInput& input) const = 0;
 
   std::size_t passed() const;
   std::size_t stations() const { return stations_.size(); }
