@@ -261,10 +261,10 @@ void Autonomy::tickBehaviors(Time now) {
   if (std::holds_alternative<common::LandIntent>(intent_.kind) && controller_.state() == FlightState::kFlying)
     surfaces = std::make_shared<common::LevelMap>(estimator_.seenSurfaces());
   camera_obstacles_.update(estimator_.map3d(), given_map_.grid(), estimator_.state().T_odom_body.position_m.z());
-  executor_.tick(intent_,
-                 {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
-                  estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(), drift_m_,
-                  supervisor_.takeOffRefusal(energy_), estimator_.people().obstacles(), requests_.keepOut().zones()});
+  executor_.tick(intent_, {now, estimator_.state(), camera_obstacles_.grid(), estimator_.levels(), std::move(surfaces),
+                           estimator_.people().discs(now), estimator_.people().anyMoves(), reactive_.decision(),
+                           drift_m_, supervisor_.takeOffRefusal(energy_), estimator_.people().obstacles(),
+                           &estimator_.people().seen(), requests_.keepOut().zones()});
 }
 
 /// The supervisor's intent comes before the mission's.

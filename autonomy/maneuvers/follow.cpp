@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "common/geometry.hpp"
+#include "perception/slam2d/grid_ray.hpp"
 #include "planning/search/planner.hpp"
 
 namespace swiftlet::autonomy {
@@ -12,8 +14,8 @@ namespace {
 
 /// The laser tracks people up to 6 m away.
 constexpr double kReach_m = 6.0;
-/// Between two paths: half of it at 0.6 m/s is the way of a step.
-constexpr double kReplan_s = 0.3;
+/// Between two paths, and by how much the place to fly to moves meanwhile: each new path costs speed.
+constexpr double kReplan_s = 0.3, kReplan_m = 0.4;
 /// The place to fly to is that behind the person after this time: a path takes as long to begin and to end.
 constexpr double kLead_s = 0.6;
 /// Nearer to the wanted distance than this it stays where it is.
@@ -21,19 +23,22 @@ constexpr double kSlack_m = 0.2;
 /// Unseen for longer he is lost, also if he is believed to stand still where he was; the vehicle goes to look.
 constexpr double kLost_s = 3.0;
 constexpr double kNear_s = 1.0;
-/// A person who stands for a while is in the map, and no longer an obstacle that it does not explain.
-constexpr double kGone_s = 0.5, kStands_m_s = 0.25, kMapped_m = 0.35;
-
-bool isMapped(const common::OccupancyGrid& grid, const Eigen::Vector2d& place_map_m) {
-  const int reach = static_cast<int>(kMapped_m / grid.resolution_m());
-  const common::CellIndex center = grid.cellAt(place_map_m);
-  for (int y = center.y - reach; y <= center.y + reach; ++y)
-    for (int x = center.x - reach; x <= center.x + reach; ++x)
-      if (common::occupancy::isOccupied(grid.at({x, y}))) return true;
-  return false;
-}
-
+/// While it waits for somebody it turns, for lasers do not see behind themselves.
+constexpr double kLooksAround_rad_s = 25.0 * common::kRadPerDeg;
 constexpr double kPersonTolerance_m = 0.5;
+/// It flies behind him before a corner hides him: the place where he is after this time stays in sight.
+constexpr double kInSight_s = 1.5;
+
+/// Whether nothing that the map shows stands between two places; what is near the second one may be the person.
+bool inSight(const common::OccupancyGrid& grid, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
+  constexpr double kHimself_m = 0.4;
+  const Eigen::Vector2d way_m = to_map_m - from_map_m;
+  const double share = std::max(0.0, 1.0 - kHimself_m / std::max(1e-6, way_m.norm()));
+  const double per_cell = 1.0 / grid.resolution_m();
+  return perception::visitCrossed(
+      per_cell * from_map_m, per_cell * (from_map_m + share * way_m),
+      [&](const common::CellIndex& cell, double, double) { return !common::occupancy::isOccupied(grid.at(cell)); });
+}
 
 }  // namespace
 
@@ -47,16 +52,16 @@ Progress Follow::fly(const ManeuverInput& input) {
   if (!person_.known() && setup_.memory.person_map_m && intent_.until_near)
     person_.remember(*setup_.memory.person_map_m, *since_);
   person_.choose(input.people, input.position_map_m(), kReach_m);
-  person_.update(input.people, input.now);
+  person_.update(input.people, {input.grid, input.seen}, input.now);
   if (!person_.known()) return search(input);
-  if (person_.unseen_s(input.now) > kGone_s && isMapped(*input.grid, person_.place_map_m(input.now)) &&
-      person_.velocity_map_m_s().norm() < kStands_m_s)
-    person_.stands(input.now);
   const Eigen::Vector2d place_map_m = person_.place_map_m(input.now);
   setup_.memory.person_map_m = place_map_m;
   setup_.controller.lookAt(place_map_m);
   (void)flight_.keep(input);
-  if (const auto target = wanted(input); target && (input.now - asked_).seconds() >= kReplan_s) flyTo(input, *target);
+  const auto target = wanted(input);
+  const bool under_way = flight_.plan() != nullptr && !setup_.controller.pathFinished();
+  const bool elsewhere = target && target_map_m_ && (*target - *target_map_m_).norm() > kReplan_m;
+  if (target && (!under_way || elsewhere) && (input.now - asked_).seconds() >= kReplan_s) flyTo(input, *target);
   return progress(input);
 }
 
@@ -64,6 +69,8 @@ Progress Follow::search(const ManeuverInput& input) {
   if (intent_.until_near) return Progress::failed("nobody was followed before");
   if ((input.now - *since_).seconds() > intent_.lost_s)
     return Progress::failed(fmt::format("nobody walks within {:.0f} m for {:.0f} s", kReach_m, intent_.lost_s));
+  const double yaw_rad = kLooksAround_rad_s * (input.now - *since_).seconds();
+  setup_.controller.lookAt(input.position_map_m() + kReach_m * Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad)));
   return Progress::running("waits for somebody who walks");
 }
 
@@ -91,9 +98,16 @@ std::optional<Eigen::Vector2d> Follow::wanted(const ManeuverInput& input) const 
   const Eigen::Vector2d place = person_.place_map_m(input.now) + kLead_s * person_.velocity_map_m_s();
   const Eigen::Vector2d away = here - place;
   const auto map = setup_.desk.costMap();
-  if (!map || away.norm() < 1e-3 || std::abs(away.norm() - intent_.distance_m) < kSlack_m) return std::nullopt;
+  if (!map || away.norm() < 1e-3) return std::nullopt;
+  // Flying to where he may be, the vehicle comes to see whether he is there.
+  if (person_.hidden())
+    return away.norm() > intent_.distance_m || segmentCost(*map, here, place).lethal ? std::optional(place)
+                                                                                     : std::nullopt;
+  const bool soon_hidden =
+      !inSight(*input.grid, here, person_.place_map_m(input.now) + kInSight_s * person_.velocity_map_m_s());
+  if (!soon_hidden && std::abs(away.norm() - intent_.distance_m) < kSlack_m) return std::nullopt;
   const Eigen::Vector2d straight = place + intent_.distance_m * away.normalized();
-  if (!segmentCost(*map, here, straight).lethal || away.norm() < intent_.distance_m) return straight;
+  if (!soon_hidden && (!segmentCost(*map, here, straight).lethal || away.norm() < intent_.distance_m)) return straight;
   // The place on his way that is as far behind him along it.
   const auto& trail = person_.trail_map_m();
   double behind_m = 0.0;

@@ -12,6 +12,7 @@
 #include "common/polygon.hpp"
 #include "common/time.hpp"
 #include "common/vehicle_state.hpp"
+#include "perception/people/people_tracker.hpp"
 #include "planning/avoidance/avoidance.hpp"
 #include "planning/costs/cost_map.hpp"
 
@@ -30,6 +31,7 @@ struct ManeuverInput {
   double drift_m = 0.0;                              ///< See DriftMonitor.
   std::string take_off_refusal = {};                 ///< Why the vehicle must not take off; empty if it may.
   std::vector<common::DynamicObstacle> people = {};  ///< What the map does not explain, as last seen.
+  const perception::SeenPoints* seen = nullptr;      ///< By the newest scan; null before the first one.
   std::shared_ptr<const std::vector<common::Polygon>> keep_out = {};  ///< Keep-out zones; null: none.
 
   Eigen::Vector2d position_map_m() const { return state.T_map_body_planar().position_m(); }

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "autonomy/maneuvers/hidden_person.hpp"
 #include "common/dynamic_obstacle.hpp"
 #include "common/time.hpp"
 
@@ -16,25 +17,25 @@ namespace swiftlet::autonomy {
 /// One thread. In the `map` frame.
 ///
 ///              a moving obstacle is near enough                 his track ends
-///   nobody ------------------------------------> seen ------------------------------> believed: where he was last
-///                                                  ^  an obstacle in reach of it         |
+///   nobody ------------------------------------> seen ------------------------------> hidden: where he may be
+///                                                  ^  an obstacle where he may be        |
 ///                                                  +-------------------------------------+
 class PersonWatch {
  public:
   /// The nearest moving obstacle within `reach_m` of `here_map_m` becomes the person, if there is none yet.
   void choose(std::span<const common::DynamicObstacle> obstacles, const Eigen::Vector2d& here_map_m, double reach_m);
   /// Follows him through the obstacles of the present time.
-  void update(std::span<const common::DynamicObstacle> obstacles, common::Time now);
-  /// Known, and seen to stand where he is believed, by other means than the obstacles.
-  void stands(common::Time now);
-  /// He was last there; for a watch that goes on from an earlier one.
+  void update(std::span<const common::DynamicObstacle> obstacles, const Sight& sight, common::Time now);
+  /// He was last there, and is believed to be until he is seen; for a watch that goes on from an earlier one.
   void remember(const Eigen::Vector2d& place_map_m, common::Time when);
 
   bool known() const { return last_.has_value(); }
-  /// Known: where he is at `now`, at most half a second on from where he was seen.
+  /// Known: where he is at `now`; the likeliest place while he is hidden.
   Eigen::Vector2d place_map_m(common::Time now) const;
-  Eigen::Vector2d velocity_map_m_s() const { return last_->believedVelocity_map_m_s(); }
-  /// Known: the time since he was seen.
+  Eigen::Vector2d velocity_map_m_s() const;
+  /// His track has ended, and the map does not show him where he stood.
+  bool hidden() const { return hidden_ && !hidden_->standsInSight(); }
+  /// Known: the time since he was seen, tracked or standing.
   double unseen_s(common::Time now) const { return (now - last_->last_seen).seconds(); }
   /// Where he walked, the newest place last, at most a few metres.
   const std::vector<Eigen::Vector2d>& trail_map_m() const { return trail_map_m_; }
@@ -43,6 +44,9 @@ class PersonWatch {
   void see(const common::DynamicObstacle& obstacle);
 
   std::optional<common::DynamicObstacle> last_;
+  std::optional<HiddenPerson> hidden_;
+  bool remembered_ = false;
+  std::shared_ptr<const common::OccupancyGrid> grid_while_walking_;  ///< Without him where he stands now.
   std::vector<Eigen::Vector2d> trail_map_m_;
 };
 

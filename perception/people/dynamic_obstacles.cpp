@@ -25,6 +25,39 @@ bool unexplained(const common::OccupancyGrid& background, const Point& point_m, 
   return true;
 }
 
+/// Whether a point lies where nothing was occupied near, and its beam passes a place that was occupied.
+bool revealed(const common::OccupancyGrid& background, const Point& point_m, const Point& sensor_m, int cells) {
+  // In the age of the background a person walks this far at most.
+  constexpr double kGone_m = 1.5;
+  const CellIndex center = background.cellAt(point_m);
+  for (int dy = -cells; dy <= cells; ++dy)
+    for (int dx = -cells; dx <= cells; ++dx)
+      if (common::occupancy::isOccupied(background.at({center.x + dx, center.y + dy}))) return false;
+  const Point towards = (sensor_m - point_m).normalized();
+  for (double back_m = 0.0; back_m <= kGone_m; back_m += background.resolution_m())
+    if (common::occupancy::isOccupied(background.at(background.cellAt(point_m + back_m * towards)))) return true;
+  return false;
+}
+
+/// Whether the beams beside the points from `first` to `last` end well behind them or return nothing. The nearest ones
+/// may be split between both surfaces.
+bool standsByItself(std::span<const Eigen::Vector2f> points_map_m, std::size_t first, std::size_t last,
+                    const Point& sensor_map_m) {
+  constexpr double kBehind_m = 0.3;
+  constexpr std::ptrdiff_t kSplit = 3;
+  const auto range_m = [&](std::ptrdiff_t i) { return (points_map_m[i].cast<double>() - sensor_map_m).norm(); };
+  const auto endsAt = [&](std::size_t edge, std::ptrdiff_t step) {
+    const auto at = static_cast<std::ptrdiff_t>(edge), count = static_cast<std::ptrdiff_t>(points_map_m.size());
+    for (std::ptrdiff_t k = 1; k <= kSplit; ++k) {
+      const std::ptrdiff_t beside = at + k * step;
+      if (beside < 0 || beside >= count) return false;
+      if (!points_map_m[beside].allFinite() || range_m(beside) > range_m(at) + kBehind_m) return true;
+    }
+    return false;
+  };
+  return endsAt(first, -1) && endsAt(last, 1);
+}
+
 /// Whether several beams pass near the middle of the obstacle's predicted place and end well behind it.
 bool violatesFreeSpace(const DynamicObstacle& obstacle, double age_s, std::span<const Eigen::Vector2f> points_map_m,
                        const Point& sensor_map_m) {
@@ -81,9 +114,12 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const
   const int cells = static_cast<int>(std::lround(config_.explained_within_m / background.resolution_m()));
   std::vector<Cluster> clusters;
   std::vector<Point> members;
+  std::size_t first = 0, last = 0;
+  bool is_revealed = false;
   const auto close = [&] {
     if (static_cast<int>(members.size()) >= config_.min_points &&
-        (members.back() - members.front()).norm() <= 2.0 * config_.max_radius_m) {
+        (members.back() - members.front()).norm() <= 2.0 * config_.max_radius_m &&
+        (!is_revealed || standsByItself(points_map_m, first, last, sensor_map_m))) {
       Point mean = Point::Zero();
       for (const Point& p : members) mean += p / static_cast<double>(members.size());
       double extent_m = 0.0;
@@ -93,12 +129,18 @@ std::vector<DynamicObstacles::Cluster> DynamicObstacles::cluster(std::span<const
       clusters.push_back({center, std::clamp(extent_m, config_.assumed_depth_m, config_.max_radius_m)});
     }
     members.clear();
+    is_revealed = false;
   };
-  for (const Eigen::Vector2f& point : points_map_m) {
-    if (!point.allFinite()) continue;
-    const Point p = point.cast<double>();
-    if ((p - sensor_map_m).norm() > config_.max_range_m || !unexplained(background, p, cells)) continue;
+  for (std::size_t i = 0; i < points_map_m.size(); ++i) {
+    if (!points_map_m[i].allFinite()) continue;
+    const Point p = points_map_m[i].cast<double>();
+    if ((p - sensor_map_m).norm() > config_.max_range_m) continue;
+    const bool is_free = unexplained(background, p, cells);
+    if (!is_free && !revealed(background, p, sensor_map_m, cells)) continue;
     if (!members.empty() && (p - members.back()).norm() > config_.cluster_gap_m) close();
+    if (members.empty()) first = i;
+    last = i;
+    is_revealed = is_revealed || !is_free;
     members.push_back(p);
   }
   close();

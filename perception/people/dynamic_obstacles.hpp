@@ -43,7 +43,8 @@ class DynamicObstacles {
 
   /// Takes in one scan. `points_map_m`: its end points in order of bearing, seen from `sensor_map_m`; points that are
   /// not finite are ignored. A point is unexplained when it lies in space that the background knows as free, with
-  /// nothing occupied or unknown near. A point in unknown space is new, not dynamic.
+  /// nothing occupied or unknown near. A point in unknown space is new, not dynamic, unless it is on a thing that
+  /// stands by itself behind a place from which something has gone: a person who walks straight away from the laser.
   void update(common::Time stamp, std::span<const Eigen::Vector2f> points_map_m, const Eigen::Vector2d& sensor_map_m,
               const common::OccupancyGrid& background);
 

@@ -27,6 +27,12 @@ struct HeightBand {
   double below_body_m = 0.25;
 };
 
+/// The end points of a scan in the height band, in order of bearing, and where it was taken; NaN at other heights.
+struct SeenPoints {
+  Eigen::Vector2d from_map_m = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2f> points_map_m;
+};
+
 /// Not thread-safe. Deterministic.
 class PeopleTracker {
  public:
@@ -40,6 +46,8 @@ class PeopleTracker {
 
   /// The current obstacles, each as at its last sighting.
   const std::vector<common::DynamicObstacle>& obstacles() const { return obstacles_.obstacles(); }
+  /// Of the newest scan.
+  const SeenPoints& seen() const { return seen_; }
   /// Whether any obstacle is moving now.
   bool anyMoves() const { return obstacles_.anyMoves(); }
   /// The obstacles seen just before `stamp`, predicted to it. Each disc covers the whole outline of a person.
@@ -51,6 +59,7 @@ class PeopleTracker {
   HeightBand band_;
   BackgroundMap background_;
   common::Pose2 T_map_odom_;
+  SeenPoints seen_;
   DynamicObstacles obstacles_;
 };
 

@@ -120,6 +120,7 @@ class ManeuverStory : public testing::Test {
             0.0,
             {},
             people_,
+            seen_.points_map_m.empty() ? nullptr : &seen_,
             keep_out_};
   }
 
@@ -130,6 +131,7 @@ class ManeuverStory : public testing::Test {
   std::shared_ptr<const common::LevelMap> surfaces_;
   std::vector<common::Disc> discs_;
   std::vector<common::DynamicObstacle> people_;
+  perception::SeenPoints seen_;  ///< Empty: none.
   std::shared_ptr<const std::vector<common::Polygon>> keep_out_;
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;

@@ -69,6 +69,28 @@ TEST_F(MovingObjects, DetectsAWalkerWithinHalfASecondAndAfterAnOcclusion) {
   EXPECT_TRUE(tracker.anyMoves());
 }
 
+/// He stood when the map began, so the map shows him, and nothing behind him. A wall that comes into view where he
+/// stood is not a walker.
+TEST_F(MovingObjects, DetectsOneWhoWalksStraightAwayFromTheLaser) {
+  planning::test::fill(grid, {{138, 70}, {200, 90}}, common::occupancy::kUnknown);
+  planning::test::fill(grid, {{135, 76}, {138, 84}}, planning::test::kWallCell);  // At x = 6.75 m.
+  const auto view = [&](const std::vector<Eigen::Vector2f>& seen) {
+    std::vector<Eigen::Vector2f> points;
+    for (int i = 0; i < 10; ++i) points.push_back({9.99f, 3.0f + 0.05f * static_cast<float>(i)});
+    for (auto point = seen.rbegin(); point != seen.rend(); ++point) points.push_back(*point);
+    for (int i = 0; i < 10; ++i) points.push_back({9.99f, 4.55f + 0.05f * static_cast<float>(i)});
+    return points;
+  };
+  for (int i = 0; i < 60; ++i)
+    tracker.update(at(0.025 * i), view(front({7.0 + 0.0125 * i, 4.0}, 0.25, sensor)), sensor, grid);
+  EXPECT_TRUE(tracker.anyMoves());
+  std::vector<Eigen::Vector2f> wall;
+  for (int i = 0; i < 12; ++i) wall.push_back({7.6f, 3.75f + 0.05f * static_cast<float>(i)});
+  DynamicObstacles other{DynamicObstacles::Config()};
+  for (int i = 0; i < 60; ++i) other.update(at(0.025 * i), wall, sensor, grid);
+  EXPECT_TRUE(other.obstacles().empty());
+}
+
 /// A nodding laser hits a lower object: it appears in one scan of four, each time elsewhere.
 TEST_F(MovingObjects, AnIntermittentObjectIsNotAWalker) {
   for (int i = 0; i < 120; ++i) {

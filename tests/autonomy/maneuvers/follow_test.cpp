@@ -1,4 +1,6 @@
 // Follow: a person who walks, stops, turns a corner, is hidden, and meets another one.
+#include <numbers>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,25 +34,92 @@ TEST(PersonWatch, ChoosesTheNearestWhoWalks) {
   EXPECT_EQ(watch.place_map_m(seenAt(1)), Eigen::Vector2d(2.0, 1.0));
 }
 
-TEST(PersonWatch, KeepsHimThroughANewTrackAndPastAnotherPerson) {
-  PersonWatch watch;
-  watch.choose(std::vector{person(1, 2.0, 0.0, seenAt(1), {0.5, 0})}, {0, 0}, 6.0);
-  // His track ends; a new one is near where he would be, another person comes the other way.
-  const std::vector next{person(7, 2.7, 0.1, seenAt(2), {0.5, 0}), person(8, 2.5, 0.3, seenAt(2), {-0.5, 0})};
-  watch.update(next, seenAt(2));
-  EXPECT_EQ(watch.place_map_m(seenAt(2)), Eigen::Vector2d(2.7, 0.1));
+/// What a laser with a beam a degree sees all around.
+perception::SeenPoints seenFrom(const common::OccupancyGrid& grid, const Eigen::Vector2d& from_map_m) {
+  perception::SeenPoints seen{from_map_m, {}};
+  for (int degree = 0; degree < 360; ++degree) {
+    const double angle_rad = (degree + 0.5) * common::kRadPerDeg - std::numbers::pi;
+    const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
+    double range_m = 0.1;
+    while (common::occupancy::isFree(grid.at(grid.cellAt(from_map_m + range_m * along)))) range_m += 0.02;
+    seen.points_map_m.emplace_back((from_map_m + range_m * along).cast<float>());
+  }
+  return seen;
 }
 
-TEST(PersonWatch, BelievesHimWhereHeStoodWhenTheMapExplainsHim) {
+/// A free hall of 10 x 10 m, seen from its middle all around.
+class PersonInAHall : public testing::Test {
+ protected:
+  void wall(const common::CellRect& cells) { planning::test::fill(grid_, cells, planning::test::kWallCell); }
+  Sight sight() {
+    seen_ = seenFrom(grid_, from_map_m_);
+    return {std::make_shared<common::OccupancyGrid>(grid_.snapshot()), &seen_};
+  }
+  void stepUnseen(PersonWatch& watch, double from_s, double to_s) {
+    const Sight now = sight();
+    for (double t_s = from_s; t_s <= to_s + 1e-9; t_s += 0.05) watch.update({}, now, seenAt(t_s));
+  }
+
+  common::OccupancyGrid grid_ = hall();
+  Eigen::Vector2d from_map_m_{5.0, 5.0};
+  perception::SeenPoints seen_;
+
+ private:
+  static common::OccupancyGrid hall() {
+    common::OccupancyGrid grid = common::makeOccupancyGrid(0.05);
+    planning::test::fill(grid, {{0, 0}, {199, 199}}, planning::test::kFreeCell);
+    return grid;
+  }
+};
+
+TEST_F(PersonInAHall, IsKeptThroughANewTrackAndPastAnotherPerson) {
   PersonWatch watch;
-  watch.choose(std::vector{person(1, 2.0, 0.0, seenAt(1), {0.4, 0})}, {0, 0}, 6.0);
-  watch.update({}, seenAt(6));
-  EXPECT_NEAR(watch.place_map_m(seenAt(6)).x(), 2.2, 1e-9) << "half a second on";
-  EXPECT_NEAR(watch.unseen_s(seenAt(6)), 5.0, 1e-9);
-  watch.update(std::vector{person(4, 2.3, 0.2, seenAt(6.1), {0, 0.5})}, seenAt(6.1));
-  EXPECT_NEAR(watch.unseen_s(seenAt(6.1)), 0.0, 1e-9) << "he walks on";
-  watch.update(std::vector{person(9, 7.0, 3.0, seenAt(6.5), {0, 0.5})}, seenAt(7));
-  EXPECT_NEAR(watch.place_map_m(seenAt(6.1)).x(), 2.3, 0.3) << "nobody jumps 5 m";
+  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.5, 0})}, {5, 5}, 6.0);
+  stepUnseen(watch, 1.05, 1.3);
+  // His track ended; a new one is near where he would be, another person comes the other way.
+  const std::vector next{person(7, 7.3, 5.1, seenAt(1.35), {0.5, 0}), person(8, 7.1, 5.3, seenAt(1.35), {-0.5, 0})};
+  watch.update(next, sight(), seenAt(1.35));
+  EXPECT_EQ(watch.place_map_m(seenAt(1.35)), Eigen::Vector2d(7.3, 5.1));
+}
+
+TEST_F(PersonInAHall, WalksOnBehindAWall) {
+  wall({{120, 60}, {122, 140}});  // At 6 m; he walks behind it, at 7 m, from the middle to its end and beyond.
+  PersonWatch watch;
+  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0, 0.5})}, {5, 5}, 6.0);
+  stepUnseen(watch, 1.05, 3.0);
+  EXPECT_TRUE(watch.hidden());
+  EXPECT_NEAR(watch.place_map_m(seenAt(3)).y(), 6.0, 0.5);
+  EXPECT_NEAR(watch.unseen_s(seenAt(3)), 2.0, 1e-9);
+  watch.update(std::vector{person(9, 2.0, 3.0, seenAt(3), {0, 0.5})}, sight(), seenAt(3.0));
+  EXPECT_GT(watch.place_map_m(seenAt(3)).x(), 6.0) << "nobody walks through a wall, or 5 m in two seconds";
+  watch.update(std::vector{person(4, 7.1, 6.2, seenAt(3.05), {0, 0.5})}, sight(), seenAt(3.05));
+  EXPECT_FALSE(watch.hidden());
+}
+
+TEST_F(PersonInAHall, IsNotWhereNobodyIsSeen) {
+  wall({{120, 60}, {122, 140}});
+  PersonWatch watch;
+  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0, 0.5})}, {5, 5}, 6.0);
+  stepUnseen(watch, 1.05, 2.0);
+  from_map_m_ = {7.0, 2.0};  // The back of the wall is in sight, its front is not.
+  stepUnseen(watch, 2.05, 6.0);
+  const Eigen::Vector2d place = watch.place_map_m(seenAt(6));
+  EXPECT_TRUE((place - from_map_m_).norm() > 5.5 || place.x() < 6.2) << place.transpose();
+}
+
+TEST_F(PersonInAHall, StandsWhereTheMapShowsHimUntilItDoesNot) {
+  PersonWatch watch;
+  watch.choose(std::vector{person(1, 7.0, 5.0, seenAt(1), {0.1, 0})}, {5, 5}, 6.0);
+  stepUnseen(watch, 1.05, 1.05);
+  wall({{138, 97}, {143, 103}});
+  stepUnseen(watch, 1.1, 9.0);
+  EXPECT_FALSE(watch.hidden());
+  EXPECT_LT(watch.unseen_s(seenAt(9)), 0.1);
+  EXPECT_NEAR((watch.place_map_m(seenAt(9)) - Eigen::Vector2d(7, 5)).norm(), 0.0, 0.3);
+  planning::test::fill(grid_, {{138, 97}, {143, 103}}, planning::test::kFreeCell);
+  stepUnseen(watch, 9.05, 12.0);
+  EXPECT_TRUE(watch.hidden());
+  EXPECT_GT(watch.unseen_s(seenAt(12)), 2.5);
 }
 
 class FollowInFlight : public ManeuverInFlight {
@@ -67,10 +136,19 @@ class FollowInFlight : public ManeuverInFlight {
   void stand(double seconds) {
     for (int i = 0; i < std::lround(seconds / 0.05); ++i) show({0, 0});
   }
+  void look() { seen_ = seenFrom(grid_, position_m()); }
+  /// Time passes in which nobody is tracked.
+  void runUnseen(double seconds) {
+    for (int i = 0; i < std::lround(seconds / 0.1); ++i) {
+      look();
+      run(0.1);
+    }
+  }
   void show(const Eigen::Vector2d& velocity) {
     people_ = {person(1, place_.x(), place_.y(), now_, velocity)};
     people_[0].moving = true;
     discs_ = {{place_, 0.25}};
+    look();
     run(0.05);
     const double distance_m = distanceTo_m(place_);
     nearest_m_ = std::min(nearest_m_, distance_m);
@@ -123,19 +201,23 @@ TEST_F(FollowInFlight, BelievesHimWhereHeStandsInTheMap) {
   walk(6.0, 2.0, 0.5);
   stand(1.0);
   people_.clear();
+  runUnseen(0.1);
   planning::test::fill(grid_, {{117, 38}, {122, 43}}, planning::test::kWallCell);
-  run(8.0);
+  runUnseen(8.0);
   EXPECT_EQ(executor_.status().state, IntentState::kRunning);
   EXPECT_THAT(executor_.status().reason, StartsWith("following, "));
   planning::test::fill(grid_, {{117, 38}, {122, 43}}, planning::test::kFreeCell);
+  look();
   EXPECT_EQ(runToTheEnd(8.0), IntentState::kFailed) << "he left unseen";
 }
 
-TEST_F(FollowInFlight, WaitsForSomebodyAndGivesUp) {
+TEST_F(FollowInFlight, LooksAroundForSomebodyAndGivesUp) {
   common::FollowIntent intent;
   intent.lost_s = 3.0;
+  const double yaw_rad = state_.T_map_body_planar().yaw_rad;
   want(intent);
   run(1.0);
+  EXPECT_GT(std::abs(common::wrapAngle(state_.T_map_body_planar().yaw_rad - yaw_rad)), 0.2);
   EXPECT_EQ(executor_.status().reason, "waits for somebody who walks");
   EXPECT_EQ(runToTheEnd(3.0), IntentState::kFailed);
 }

@@ -1,0 +1,181 @@
+#include "autonomy/maneuvers/hidden_person.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "common/geometry.hpp"
+
+namespace swiftlet::autonomy {
+namespace {
+
+constexpr int kParticles = 200;
+/// How well place and velocity of a track are known.
+constexpr double kPlaceSigma_m = 0.1, kVelocitySigma_m_s = 0.15;
+/// So often a person turns or stops where nothing forces him, and so often a turn is a stop.
+constexpr double kTurns_1_s = 0.4, kStopShare = 0.3;
+/// Walking speeds indoors.
+constexpr double kSlow_m_s = 0.3, kFast_m_s = 1.1;
+/// The laser tracks people this far.
+constexpr double kTracked_m = 6.0;
+/// Half of a person's width: what the map shows so near may be himself.
+constexpr double kBody_m = 0.35;
+/// A person in sight is tracked within this time.
+constexpr double kTracked_s = 0.4;
+/// Places so near to each other are one.
+constexpr double kOnePlace_m = 0.6;
+
+/// Whether the map shows something near a place that it did not show before.
+bool appearedNear(const common::OccupancyGrid& grid, const common::OccupancyGrid& before,
+                  const Eigen::Vector2d& place_map_m) {
+  const int reach = static_cast<int>(kBody_m / grid.resolution_m());
+  const common::CellIndex center = grid.cellAt(place_map_m);
+  for (int y = center.y - reach; y <= center.y + reach; ++y)
+    for (int x = center.x - reach; x <= center.x + reach; ++x)
+      if (common::occupancy::isOccupied(grid.at({x, y})) && !common::occupancy::isOccupied(before.at({x, y})))
+        return true;
+  return false;
+}
+
+/// The degree of the bearing.
+std::size_t degreeOf(const Eigen::Vector2d& way_m) {
+  const double degrees = (std::atan2(way_m.y(), way_m.x()) + std::numbers::pi) / common::kRadPerDeg;
+  return std::min<std::size_t>(359, static_cast<std::size_t>(std::max(0.0, degrees)));
+}
+
+}  // namespace
+
+HiddenPerson::HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vector2d& velocity_map_m_s,
+                           common::Time last_seen, std::shared_ptr<const common::OccupancyGrid> before)
+    : before_(std::move(before)),
+      random_(static_cast<std::uint64_t>(last_seen.nanoseconds()), "hidden person"),
+      now_(last_seen),
+      place_map_m_(place_map_m),
+      velocity_map_m_s_(velocity_map_m_s) {
+  const auto scattered = [&](const Eigen::Vector2d& mean, double sigma) {
+    const double x = random_.gaussian(sigma);
+    return Eigen::Vector2d(mean + Eigen::Vector2d(x, random_.gaussian(sigma)));
+  };
+  const bool stands = velocity_map_m_s.norm() < kStands_m_s;
+  for (int i = 0; i < kParticles; ++i) {
+    const Eigen::Vector2d place = scattered(place_map_m, kPlaceSigma_m);
+    const Eigen::Vector2d velocity = scattered(velocity_map_m_s, kVelocitySigma_m_s);
+    particles_.push_back({place, stands ? Eigen::Vector2d(0.0, 0.0) : velocity, stands});
+  }
+}
+
+void HiddenPerson::advance(const Sight& sight, common::Time now) {
+  const double dt_s = (now - now_).seconds();
+  if (dt_s <= 0.0) return;
+  now_ = now;
+  if (sight.seen != nullptr) view_.take(*sight.seen);
+  for (Particle& particle : particles_) {
+    walk(particle, *sight.grid, dt_s);
+    lookFor(particle, *sight.grid, dt_s);
+  }
+  resample();
+  findLikeliest();
+}
+
+void HiddenPerson::walk(Particle& particle, const common::OccupancyGrid& grid, double dt_s) {
+  const auto turn = [&] {
+    const double angle_rad = random_.uniform(-std::numbers::pi, std::numbers::pi);
+    const double speed_m_s = random_.uniform(kSlow_m_s, kFast_m_s);
+    particle.stays = false;
+    particle.velocity_map_m_s = speed_m_s * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  };
+  if (random_.chance(std::min(1.0, kTurns_1_s * dt_s))) {
+    turn();
+    if (random_.chance(kStopShare)) particle.velocity_map_m_s.setZero();
+  }
+  const Eigen::Vector2d step_map_m = particle.place_map_m + dt_s * particle.velocity_map_m_s;
+  // Out of what the map shows at his own place he may walk: it may be himself.
+  const bool blocked = common::occupancy::isOccupied(grid.at(grid.cellAt(step_map_m))) &&
+                       !common::occupancy::isOccupied(grid.at(grid.cellAt(particle.place_map_m)));
+  if (blocked)
+    turn();
+  else
+    particle.place_map_m = step_map_m;
+}
+
+/// Beams that pass a place show that nobody is there. What they end on at the place where he stood is him, if the map
+/// did not show it before: a person who stands long enough is mapped.
+void HiddenPerson::lookFor(Particle& particle, const common::OccupancyGrid& grid, double dt_s) const {
+  const Eigen::Vector2d way_m = particle.place_map_m - view_.from_map_m;
+  const double distance_m = way_m.norm(), range_m = view_.range_m(way_m);
+  particle.shown = false;
+  if (distance_m > kTracked_m || range_m < distance_m - kBody_m) return;  // Out of sight.
+  const bool passed = range_m > distance_m + kBody_m;
+  particle.shown = !passed && particle.stays && appearedNear(grid, *before_, particle.place_map_m);
+  particle.weight *= std::exp((particle.shown ? dt_s : -dt_s) / kTracked_s);
+}
+
+void HiddenPerson::View::take(const perception::SeenPoints& seen) {
+  from_map_m = seen.from_map_m;
+  ranges_m.fill(0.0);
+  for (const Eigen::Vector2f& point : seen.points_map_m) {
+    if (!point.allFinite()) continue;
+    const Eigen::Vector2d way_m = point.cast<double>() - from_map_m;
+    double& range_m = ranges_m[degreeOf(way_m)];
+    range_m = range_m > 0.0 ? std::min(range_m, way_m.norm()) : way_m.norm();
+  }
+}
+
+double HiddenPerson::View::range_m(const Eigen::Vector2d& way_m) const { return ranges_m[degreeOf(way_m)]; }
+
+/// Low variance resampling (Thrun 2005, table 4.4), once half of the particles carry the weight.
+void HiddenPerson::resample() {
+  double sum = 0.0, squares = 0.0;
+  for (const Particle& particle : particles_) {
+    sum += particle.weight;
+    squares += particle.weight * particle.weight;
+  }
+  if (sum < 1e-6 * kParticles) {  // He is nowhere where he could be: the particles spread by walking on.
+    for (Particle& particle : particles_) particle.weight = 1.0;
+    return;
+  }
+  if (sum * sum > 0.5 * kParticles * squares) return;
+  std::vector<Particle> drawn;
+  drawn.reserve(particles_.size());
+  const double step = sum / kParticles;
+  double next = step * random_.uniform(), passed = 0.0;
+  for (const Particle& particle : particles_) {
+    passed += particle.weight;
+    for (; next < passed && drawn.size() < particles_.size(); next += step)
+      drawn.push_back({particle.place_map_m, particle.velocity_map_m_s, particle.stays, particle.shown});
+  }
+  if (!drawn.empty()) particles_ = std::move(drawn);
+}
+
+/// The particle with the most weight around it, of some of them.
+void HiddenPerson::findLikeliest() {
+  constexpr std::size_t kEvery = 8;
+  double most = -1.0;
+  for (std::size_t i = 0; i < particles_.size(); i += kEvery) {
+    double weight = 0.0, shown = 0.0;
+    Eigen::Vector2d place = Eigen::Vector2d::Zero(), velocity = Eigen::Vector2d::Zero();
+    for (const Particle& other : particles_) {
+      if ((other.place_map_m - particles_[i].place_map_m).norm() > kOnePlace_m) continue;
+      weight += other.weight;
+      if (other.shown) shown += other.weight;
+      place += other.weight * other.place_map_m;
+      velocity += other.weight * other.velocity_map_m_s;
+    }
+    if (weight <= most || weight <= 0.0) continue;
+    most = weight;
+    place_map_m_ = place / weight;
+    velocity_map_m_s_ = velocity / weight;
+    stands_in_sight_ = shown > 0.5 * weight;
+  }
+}
+
+double HiddenPerson::distanceTo_m(const Eigen::Vector2d& place_map_m) const {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Particle& particle : particles_)
+    nearest_m = std::min(nearest_m, (particle.place_map_m - place_map_m).norm());
+  return nearest_m;
+}
+
+}  // namespace swiftlet::autonomy

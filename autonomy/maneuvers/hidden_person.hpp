@@ -1,0 +1,77 @@
+// HiddenPerson: where a person may be who is not seen, as particles. They walk on as he did, turn and stop as people
+// do, do not walk through what the map shows, and are not where the vehicle looks and sees nobody. The particle filter
+// of Thrun 2005, chapter 4.3, whose measurement is that nobody is seen.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/occupancy_grid.hpp"
+#include "common/random.hpp"
+#include "common/time.hpp"
+#include "perception/people/people_tracker.hpp"
+
+namespace swiftlet::autonomy {
+
+/// What the vehicle knows and sees.
+struct Sight {
+  std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null.
+  const perception::SeenPoints* seen = nullptr;       ///< Null: nothing is seen.
+};
+
+/// One thread. In the `map` frame.
+class HiddenPerson {
+ public:
+  /// Slower than that he stands.
+  static constexpr double kStands_m_s = 0.25;
+
+  /// He was last seen at that place and time with that velocity. `before` is the map before he stood there.
+  HiddenPerson(const Eigen::Vector2d& place_map_m, const Eigen::Vector2d& velocity_map_m_s, common::Time last_seen,
+               std::shared_ptr<const common::OccupancyGrid> before);
+
+  /// Until `now`, in which he was not seen.
+  void advance(const Sight& sight, common::Time now);
+
+  /// The likeliest place, and how he walks there.
+  const Eigen::Vector2d& place_map_m() const { return place_map_m_; }
+  const Eigen::Vector2d& velocity_map_m_s() const { return velocity_map_m_s_; }
+  /// The map shows him where he stood when he was last seen, and the vehicle sees that place.
+  bool standsInSight() const { return stands_in_sight_; }
+  /// How far a place is from the nearest one where he may be.
+  double distanceTo_m(const Eigen::Vector2d& place_map_m) const;
+
+ private:
+  struct Particle {
+    Eigen::Vector2d place_map_m, velocity_map_m_s;
+    bool stays = false;  ///< It has stood there since he was last seen.
+    bool shown = false;  ///< It stays, in sight, where the map shows something that was not there before him.
+    double weight = 1.0;
+  };
+
+  void walk(Particle& particle, const common::OccupancyGrid& grid, double dt_s);
+  void lookFor(Particle& particle, const common::OccupancyGrid& grid, double dt_s) const;
+  void resample();
+  void findLikeliest();
+
+  /// How far the newest scan sees, degree by degree of the bearing in `map`; 0: not at all.
+  struct View {
+    Eigen::Vector2d from_map_m = Eigen::Vector2d::Zero();
+    std::array<double, 360> ranges_m{};
+
+    void take(const perception::SeenPoints& seen);
+    double range_m(const Eigen::Vector2d& way_m) const;
+  };
+
+  View view_;
+  std::shared_ptr<const common::OccupancyGrid> before_;
+  std::vector<Particle> particles_;
+  common::RandomStream random_;
+  common::Time now_;
+  Eigen::Vector2d place_map_m_, velocity_map_m_s_;
+  bool stands_in_sight_ = false;
+};
+
+}  // namespace swiftlet::autonomy
