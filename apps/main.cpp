@@ -2,6 +2,7 @@
 #include <fcntl.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -33,6 +34,8 @@ int withOutput(int code) {
 int main(int argc, char** argv) {
   using namespace swiftlet;
   openStandardStreams();
+  // Beyond a limit of the shell (ulimit -f) a write then fails, and is told, as on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
 
   apps::Program program("swiftlet", SWIFTLET_VERSION,
                         "Explore, map and fly home indoors: autonomy for small quadrotors.");

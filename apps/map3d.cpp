@@ -2,22 +2,24 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
 #include "apps/map3d_outputs.hpp"
-#include "apps/pose_seeds.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
 #include "apps/wall_clock.hpp"
 #include "common/config.hpp"
+#include "interfaces/files/tum.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "mapping3d/cloud/cloud.hpp"
 #include "mapping3d/model/mapper3d.hpp"
 #include "mapping3d/model/submap_fusion.hpp"
+#include "mapping3d/odometry/recorded_seeds.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -72,12 +74,11 @@ struct RecordedCamera {
   Pose3 T_camera_recorded;
 };
 
-void addFrame(const common::RgbdFrame& frame, const RecordedCamera& camera, const std::optional<Pose3>& seed,
-              Map3dRun& run) {
+void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, Map3dRun& run) {
   const auto begin = Clock::now();
-  const auto at = seed ? std::optional(mapping3d::CameraSeed{camera.camera(*seed), 0, false}) : std::nullopt;
-  const mapping3d::MappedFrame mapped = run.mapper.add(frame, {at, nullptr, {}});
+  const mapping3d::MappedFrame mapped = run.mapper.add(frame, {seeds.at(frame.stamps.measured), nullptr, {}});
   const mapping3d::RgbdPose& pose = mapped.pose;
+  seeds.compare(pose);
   run.frame_ms.push_back(1e3 * secondsSince(begin));
   const auto index = static_cast<double>(run.frames++);
   run.milliseconds.add(index, run.frame_ms.back());
@@ -108,14 +109,21 @@ double pathLength_m(const common::Trajectory& trajectory) {
   return length_m;
 }
 
+/// Empty where none are given.
+mapping3d::RecordedSeeds seedsOf(const Map3dOptions& options, const RecordedCamera& camera) {
+  common::Trajectory poses;
+  if (options.poses != "none")
+    poses = common::ordered(interfaces::readTum(options.poses, interfaces::StampOrder::kAny)).trajectory;
+  for (common::StampedPose& at : poses) at.pose = camera.camera(at.pose);
+  return {std::move(poses), {}};
+}
+
 void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3dRun& run) {
-  std::optional<PoseSeeds> seeds;
-  if (options.poses != "none") seeds.emplace(options.poses);
-  const RecordedCamera camera(folder.calibration());
+  mapping3d::RecordedSeeds seeds = seedsOf(options, RecordedCamera(folder.calibration()));
   const auto begin = Clock::now();
   ProgressLine line(options.json);
   while (const auto frame = folder.next()) {
-    addFrame(*frame, camera, seeds ? seeds->at(frame->stamps.measured) : std::nullopt, run);
+    addFrame(*frame, seeds, run);
     line.update(
         fmt::format("{:3.0f} %  {}, {}, {} lost",
                     100.0 * static_cast<double>(folder.passed()) / static_cast<double>(folder.listing().pairs.size()),

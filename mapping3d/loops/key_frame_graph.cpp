@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "common/check.hpp"
 #include "common/config_fields.hpp"
 #include "optimization/pose_graph_3d.hpp"
 
@@ -61,6 +62,12 @@ optimization::PoseEdge3D KeyFrameGraph::edgeOf(const KeyFrameEdge& edge, int to,
   covariance = (unit.asDiagonal() * covariance * unit.asDiagonal()).eval();
   const Matrix6d information = covariance.inverse();
   return {edge.from, to, edge.T_from_to, 0.5 * (information + information.transpose()), robust};
+}
+
+void KeyFrameGraph::beginAt(const Pose3& T_map_key) {
+  SWIFTLET_CHECK(graph_.poses.empty());
+  poses_ = std::make_shared<const common::KeyPoses>(
+      common::KeyPoses{poses_->version + 1, {common::KeyPose{{}, {}, T_map_key}}});
 }
 
 int KeyFrameGraph::add(common::Time stamp, const Pose3& T_map_key, std::span<const KeyFrameEdge> edges) {

@@ -46,6 +46,8 @@ class KeyFrameGraph {
  public:
   explicit KeyFrameGraph(const KeyFrameGraphConfig& config);
 
+  /// Where the first key frame will stand; before it is added. It is the origin otherwise.
+  void beginAt(const common::Pose3& T_map_key);
   /// The number of the new key frame, counted from 0. `edges` are the alignments that gave it its pose.
   int add(common::Time stamp, const common::Pose3& T_map_key, std::span<const KeyFrameEdge> edges);
   /// Whether drift along the shortest path of edges explains the difference between a loop closure and the map.
@@ -54,7 +56,7 @@ class KeyFrameGraph {
   int close(std::span<const KeyFrameEdge> loops);
 
   std::size_t size() const { return stamps_.size(); }
-  /// Of all key frames, by their numbers. Before the first one, a single key at the origin.
+  /// Of all key frames, by their numbers. Before the first one, a single key where it will stand.
   std::shared_ptr<const common::KeyPoses> poses() const { return poses_; }
   int loops() const { return loops_; }
   int rejected() const { return rejected_; }

@@ -45,6 +45,8 @@ Mapper3d::Mapper3d(const Mapper3dConfig& config)
       submaps_(config.submaps, config.voxels, config.odometry.features.depth_noise) {}
 
 MappedFrame Mapper3d::add(const RgbdFrame& frame, const FrameContext& context) {
+  // What hangs on the first key frame must not move when that becomes a node of the graph.
+  if (!context.scans && context.seed && graph_.size() == 0) graph_.beginAt(context.seed->T_map_camera);
   odometry_.moveTo(context.scans ? context.scans : graph_.poses());
   const bool mask = !context.people.empty() && context.seed;
   const RgbdFrame masked = mask ? withoutPeople(frame, context.seed->T_map_camera, context.people) : RgbdFrame{};

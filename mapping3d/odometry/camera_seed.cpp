@@ -24,6 +24,9 @@ Matrix6d inMapAxes(const Matrix6d& covariance_camera, const Eigen::Quaterniond& 
   return turn * covariance_camera * turn.transpose();
 }
 
+/// Squared error over the expected one of a seed's step beyond which it is an outlier; it has 6 degrees of freedom.
+constexpr double kStepGate = 25.0;
+
 }  // namespace
 
 void CameraSeedConfig::describe(common::config::Fields& fields) {
@@ -64,6 +67,23 @@ PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double g
   prior.T_map_camera = prior.T_map_camera * common::Pose3{common::expSO3(correction.tail<3>()), correction.head<3>()};
   prior.information += measured.inverse();
   return prior;
+}
+
+PosePrior withSeedStep(const PosePrior& motion, const AlignedFrame& last, const CameraSeed& seed, double gap_s) {
+  if (!seed.rate_covariance || gap_s <= 0.0 || motion.information.isZero()) return motion;
+  const common::Pose3 step = last.seed.T_map_camera.inverse() * seed.T_map_camera;
+  const common::Pose3 measured = last.T_map_camera * step;
+  const Matrix6d turned = inMapAxes(*seed.rate_covariance, seed.T_map_camera.rotation.conjugate());
+  const Matrix6d measured_covariance = gap_s * gap_s * turned;
+  const Matrix6d predicted = motion.information.inverse();
+  const common::Pose3 error = motion.T_map_camera.inverse() * measured;
+  Vector6d innovation;
+  innovation << error.position_m, common::logSO3(error.rotation);
+  const Vector6d weighted = (predicted + measured_covariance).llt().solve(innovation);
+  if (innovation.dot(weighted) > kStepGate) return motion;
+  const Vector6d correction = predicted * weighted;
+  return {motion.T_map_camera * common::Pose3{common::expSO3(correction.tail<3>()), correction.head<3>()},
+          motion.information + measured_covariance.inverse()};
 }
 
 KeyFramePlace placeOfNew(const KeyFramePlace& from, const Alignment& fit, const CameraSeed& seed,

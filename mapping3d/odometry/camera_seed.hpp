@@ -7,6 +7,8 @@
 // update: the alignment predicts its pose, with an uncertainty that grew since the last seed, and the seed measures it.
 #pragma once
 
+#include <optional>
+
 #include "common/config_fwd.hpp"
 #include "common/geometry.hpp"
 #include "mapping3d/odometry/alignment.hpp"
@@ -21,6 +23,9 @@ struct CameraSeed {
   /// Whether it is a pose in the map, to which the key frames then keep. Otherwise only its change since the last frame
   /// is used.
   bool is_in_map = true;
+  /// Of a seed that is not in the map: covariance of the velocity and the angular rate that its steps have, per squared
+  /// second, with the axes of the seed's map. Unknown, its steps are only where an alignment may begin.
+  std::optional<Matrix6d> rate_covariance = std::nullopt;
 };
 
 struct CameraSeedConfig {
@@ -53,6 +58,10 @@ struct AlignedFrame {
 /// What is known of a frame's pose before it is aligned: the last frame's pose with the motion of the seeds since then,
 /// and the seed itself if it is a pose in the map.
 PosePrior seededPrior(const AlignedFrame& last, const CameraSeed& seed, double gap_s, const CameraSeedConfig& config);
+
+/// Adds to what is known of a frame's pose the step of a seed that is not in the map, with the weight that its
+/// rate_covariance allows. A step that contradicts the rest is left out, and so is one of unknown covariance.
+PosePrior withSeedStep(const PosePrior& motion, const AlignedFrame& last, const CameraSeed& seed, double gap_s);
 
 /// The place of a new key frame. `from` is the key frame that it was aligned to.
 KeyFramePlace placeOfNew(const KeyFramePlace& from, const Alignment& fit, const CameraSeed& seed,

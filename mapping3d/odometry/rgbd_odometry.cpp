@@ -107,7 +107,7 @@ std::vector<Pose3> RgbdOdometry::predictions(common::Time stamp, const std::opti
   if (gap_s > 0.0 && gap_s < kLongestPrediction_s)
     poses.push_back(last_->T_map_camera *
                     Pose3{common::expSO3(gap_s * last_->rate_camera_rad_s), gap_s * last_->velocity_camera_m_s});
-  if (seed && last_->seed)
+  if (seed && last_->seed && !seed->rate_covariance)
     poses.push_back(last_->T_map_camera * (last_->seed->T_map_camera.inverse() * seed->T_map_camera));
   if (isInMap(seed)) poses.push_back(seed->T_map_camera);
   poses.push_back(last_->T_map_camera);
@@ -153,13 +153,15 @@ PosePrior RgbdOdometry::predicted(const FramePyramid& pyramid, common::Time stam
   const double gap_s = (stamp - last_->stamp).seconds();
   if (isInMap(seed) && isInMap(last_->seed) && gap_s > 0.0)
     return seededPrior({last_->T_map_camera, last_->covariance, *last_->seed}, *seed, gap_s, config_.seed);
-  return motionPrior(stamp, bestOf(predictions(stamp, seed), pyramid));
+  const PosePrior motion = motionPrior(stamp, bestOf(predictions(stamp, seed), pyramid));
+  if (!seed || !last_->seed) return motion;
+  return withSeedStep(motion, {last_->T_map_camera, last_->covariance, *last_->seed}, *seed, gap_s);
 }
 
 std::optional<RgbdOdometry::Fit> RgbdOdometry::findPose(const FramePyramid& pyramid, const PosePrior& prior,
                                                         const std::optional<CameraSeed>& seed) {
   if (isInMap(seed)) return tracked(pyramid, prior, seed);
-  if (!is_lost_)
+  if (!is_lost_ || (seed && seed->rate_covariance))
     if (auto fit = tracked(pyramid, prior, seed)) return fit;
   return recognized(pyramid, seed);
 }

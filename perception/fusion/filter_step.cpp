@@ -32,12 +32,16 @@ FilterStep::FilterStep(const FusionConfig& config)
 void FilterStep::advance(const Slot& before, std::span<const Measurement> measured, Slot& now) const {
   FilterState& state = now.state;
   state = before.state;
-  ImuValue at = before.imu;
+  // A sample is the mean over the time since the one before it. Taken as the value at its end, and averaged with the
+  // one before, it would be late by half a period, and so would the attitude be.
+  ImuValue at = now.imu;
+  at.stamp = before.imu.stamp;
   ImuNoise noise = noise_;
   noise.accelerometer_m_s2_rthz = std::max(noise.accelerometer_m_s2_rthz, now.accelerometer_noise_m_s2_rthz);
   const auto advanceTo = [&](Time time) {
     if (time <= at.stamp) return;
-    const ImuValue next = interpolate(before.imu, now.imu, time);
+    ImuValue next = now.imu;
+    next.stamp = time;
     propagate(state, at, next, noise);
     at = next;
   };

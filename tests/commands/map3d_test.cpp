@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -41,17 +44,44 @@ TEST_F(Map3d, NamesTheSettingOfACalibrationThatIsWrong) {
   EXPECT_THAT(end.err, HasSubstr("did you mean `fx_px`?"));
 }
 
-TEST_F(Map3d, MapsARecordedFolderAndSaysWhatItSkipped) {
+/// The few first frames of the recorded kitchen, if there are data sets here.
+std::optional<fs::path> kitchenFrames(const fs::path& scratch, int frames) {
   const auto archive = test_support::dataSet("03-rgbd/7scenes-redkitchen-a/redkitchen_000-598_step2.tar");
-  if (!archive) return;
-  const fs::path all = interfaces::unpackInto(folder_, *archive);
-  const fs::path some = folder_ / "some";
+  if (!archive) return std::nullopt;
+  const fs::path all = interfaces::unpackInto(scratch, *archive);
+  const fs::path some = scratch / "some";
   fs::create_directories(some);
-  for (int i = 0; i < 40; i += 2)
+  for (int i = 0; i < 2 * frames; i += 2)
     for (const char* kind : {"color.jpg", "depth.png"}) {
       const std::string name = fmt::format("frame-{:06}.{}", i, kind);
       fs::copy_file(all / name, some / name);
     }
+  return some;
+}
+
+TEST_F(Map3d, ADiskThatFillsUpLeavesNothingHalfWrittenAndKeepsOlderResults) {
+  const auto some = kitchenFrames(folder_, 3);
+  if (!some) return;
+  test_support::ProgramOptions full;
+  full.largest_file_bytes = 50'000;
+  const std::vector<std::string> command = {"map3d", some->string(), "--out", path("out")};
+  const ProgramEnd first = runSwiftlet(command, full);
+  EXPECT_EQ(first.exit_code, 2) << describe(first);
+  EXPECT_THAT(first.err, HasSubstr("cloud.ply: File too large"));
+  EXPECT_FALSE(fs::exists(path("out")));
+
+  const ProgramEnd whole = runSwiftlet(command);
+  ASSERT_EQ(whole.exit_code, 0) << describe(whole);
+  const std::string cloud = readText(path("out/cloud.ply"));
+  EXPECT_EQ(runSwiftlet(command, full).exit_code, 2);
+  EXPECT_EQ(readText(path("out/cloud.ply")), cloud);
+  EXPECT_FALSE(fs::exists(path("out/unfinished.part")));
+}
+
+TEST_F(Map3d, MapsARecordedFolderAndSaysWhatItSkipped) {
+  const auto frames = kitchenFrames(folder_, 20);
+  if (!frames) return;
+  const fs::path& some = *frames;
   fs::resize_file(some / "frame-000010.depth.png", 5'000);
   const ProgramEnd end = runSwiftlet({"map3d", some.string(), "--out", path("out"), "--json"});
   ASSERT_EQ(end.exit_code, 0) << describe(end);

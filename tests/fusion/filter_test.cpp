@@ -285,6 +285,28 @@ TEST(ErrorStateFilter, TheAhrsCorrectsAWrongTilt) {
   EXPECT_LT((state.velocity_odom_m_s - flight.motion.truth(state.stamp.seconds()).velocity_m_s).norm(), 0.1);
 }
 
+/// An autopilot's samples are means over the period before them. Taken as values at their stamps, they would make the
+/// attitude late by half a period, which is 3 mrad here.
+TEST(ErrorStateFilter, TheAttitudeIsNotLateBySamplesThatAreMeans) {
+  const SensorNoise none{0, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0, 10.0, 0.01, 0.003, 0.01, 0.01, 0.004};
+  SyntheticFlight flight(17, 8.0, none, 3.0);
+  auto imu = flight.imuSamples();
+  const double period_s = 1.0 / flight.imu_hz;
+  for (auto& sample : imu) {
+    const double t = sample.stamps.measured.seconds();
+    const auto turn = flight.motion.pose(t - period_s).rotation.conjugate() * flight.motion.pose(t).rotation;
+    sample.angular_velocity_body_rad_s = common::logSO3(turn) / period_s;
+  }
+  ErrorStateFilter filter(withoutDrag());
+  double greatest_rad = 0.0;
+  feed(filter, imu, {}, flight.restUntil(), [&](double t) {
+    const double yaw_rad = common::yawOf(filter.state().T_odom_body.rotation);
+    const double error_rad = common::wrapAngle(yaw_rad - common::yawOf(flight.motion.pose(t).rotation));
+    greatest_rad = std::max(greatest_rad, std::abs(error_rad));
+  });
+  EXPECT_LT(greatest_rad, 0.001);
+}
+
 TEST(ErrorStateFilter, InterpolatesPosesOfTheHistory) {
   SyntheticFlight flight(13, 8.0);
   ErrorStateFilter filter(withoutDrag());

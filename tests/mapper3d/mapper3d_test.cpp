@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -49,6 +50,25 @@ CameraSeed noisySeed(double time_s, int scan) {
   };
   const Pose3 truth = flight(time_s);
   return {{truth.rotation * common::expSO3(draw(0.01)), truth.position_m + draw(0.02)}, scan};
+}
+
+/// Without a 2D map the first seed places the map, and with it the first frame, which is a key frame.
+TEST(Mapper3d, TheFirstOfSeedsThatAreNotInTheMapPlacesEachFrame) {
+  const TexturedRoom room;
+  Mapper3d mapper{Mapper3dConfig()};
+  const Pose3 T_seed_map{common::expSO3({0.0, 0.0, 0.7}), {2.0, -1.0, 1.0}};
+  std::vector<MappedFrame> mapped;
+  for (int i = 0; i < 6; ++i) {
+    const double time_s = i / kRate_Hz;
+    mapped.push_back(mapper.add(room.seen(flight(time_s), time_s),
+                                {CameraSeed{T_seed_map * flight(time_s), 0, false}, nullptr, {}}));
+  }
+  for (int i = 0; i < 6; ++i) {
+    const MappedFrame& frame = mapped[static_cast<std::size_t>(i)];
+    ASSERT_TRUE(frame.pose.isTracked()) << i;
+    const Pose3 at = mapper.scans()->T_map_level(frame.pose.scan) * frame.T_scan_camera;
+    EXPECT_LT((at.position_m - (T_seed_map * flight(i / kRate_Hz)).position_m).norm(), 0.01) << i;
+  }
 }
 
 TEST(Mapper3d, MapsTheWallsFromNoisySeeds) {
@@ -218,6 +238,29 @@ TEST(Mapper3d, PeopleAreCutOut) {
     ASSERT_FALSE(people.front().covers(point.position_m.head<2>().cast<double>()));
   EXPECT_EQ(evidenceAt({1.501, 0.0, 0.0}, submaps, *scans), common::VoxelBlock::kUnknown);
   EXPECT_LT(evidenceAt({1.0, 0.0, 0.0}, submaps, *scans), 0);
+}
+
+/// Somebody stands in the view, walks through it and is gone; nothing recognizes a person.
+TEST(Mapper3d, WhereAPersonStoodAndWalkedThereIsFreeSpaceAfterwards) {
+  const TexturedRoom room;
+  Mapper3d mapper{Mapper3dConfig()};
+  const auto scans = scansAt(1, {{}});
+  const Pose3 pose;
+  std::vector<Vector3d> places_m;
+  for (int i = 0; i < 40; ++i) {
+    common::RgbdFrame frame = room.seen(pose, i / kRate_Hz);
+    const int left_px = 20 + 20 * std::max(0, i - 6);
+    if (i < 18) {
+      for (int v = 60; v < 240; ++v)
+        for (int u = left_px; u < left_px + 50; ++u) frame.depth.depth_m[static_cast<std::size_t>(v * 320 + u)] = 1.5F;
+      places_m.push_back(room.camera.point_camera_m(left_px + 25, 120, 1.501));
+    }
+    ASSERT_TRUE(mapper.add(frame, {CameraSeed{pose, 0}, scans, {}}).pose.isTracked()) << i;
+    if (i == 6) {
+      EXPECT_GT(evidenceAt(places_m.front(), mapper.submaps(), *scans), 0);
+    }
+  }
+  for (const Vector3d& place_m : places_m) EXPECT_LT(evidenceAt(place_m, mapper.submaps(), *scans), 0);
 }
 
 TEST(SubmapStore, StaysWithinItsPoints) {

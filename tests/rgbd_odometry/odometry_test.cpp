@@ -7,20 +7,12 @@
 
 #include "mapping3d/odometry/rgbd_odometry.hpp"
 #include "tests/rgbd_odometry/textured_room.hpp"
+#include "tests/rgbd_odometry/walk.hpp"
 
 namespace swiftlet::mapping3d {
 namespace {
 
 using common::Pose3;
-
-constexpr double kRate_Hz = 15.0;
-
-/// A walk in the room with turns of up to 40 deg/s.
-Pose3 walk(double time_s) {
-  const double yaw_rad = 0.9 * std::sin(0.75 * time_s), pitch_rad = 0.15 * std::sin(1.3 * time_s);
-  return {common::quaternionFrom({0.1 * std::sin(0.9 * time_s), pitch_rad, yaw_rad}),
-          {0.4 * std::sin(0.6 * time_s), 0.5 * std::sin(0.5 * time_s), 0.2 * std::sin(0.8 * time_s)}};
-}
 
 double distance_m(const Pose3& a, const Pose3& b) { return (a.position_m - b.position_m).norm(); }
 double turn_deg(const Pose3& a, const Pose3& b) { return a.rotation.angularDistance(b.rotation) / common::kRadPerDeg; }
@@ -30,7 +22,7 @@ TEST(RgbdOdometry, TracksAWalkWithChangingExposure) {
   RgbdOdometry odometry({});
   const Pose3 start = walk(0.0);
   for (int i = 0; i < 60; ++i) {
-    const double time_s = i / kRate_Hz;
+    const double time_s = i / kWalkFrames_Hz;
     const RgbdPose pose = odometry.process(room.seen(walk(time_s), time_s, 1.0 + 0.2 * std::sin(time_s)));
     ASSERT_EQ(pose.state, TrackState::kTracked) << i;
     const Pose3 truth = start.inverse() * walk(time_s);
@@ -85,11 +77,11 @@ TEST(RgbdOdometry, ElsewhereItIsLostAndIsFoundAgainWhereItWasBefore) {
   other.half_size_m = {1.3, 3.0, 1.1};
   RgbdOdometry odometry({});
   double time_s = 0.0;
-  for (; time_s < 2.0; time_s += 1.0 / kRate_Hz)
+  for (; time_s < 2.0; time_s += 1.0 / kWalkFrames_Hz)
     ASSERT_TRUE(odometry.process(room.seen(walk(time_s), time_s)).isTracked());
   const std::size_t keys = odometry.keyFrames().size();
   for (int i = 0; i < 5; ++i) {
-    time_s += 1.0 / kRate_Hz;
+    time_s += 1.0 / kWalkFrames_Hz;
     EXPECT_EQ(odometry.process(other.seen({}, time_s)).state, TrackState::kLost);
   }
   EXPECT_EQ(odometry.keyFrames().size(), keys);

@@ -39,7 +39,6 @@ struct Pipe {
   dup2(out.ends[1], STDOUT_FILENO);
   dup2(err.ends[1], STDERR_FILENO);
   if (options.largest_file_bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);  // Stays ignored in the program: its write fails instead of killing it.
     const rlimit limit{*options.largest_file_bytes, *options.largest_file_bytes};
     setrlimit(RLIMIT_FSIZE, &limit);
   }

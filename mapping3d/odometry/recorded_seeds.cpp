@@ -1,0 +1,158 @@
+#include "mapping3d/odometry/recorded_seeds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "common/config_fields.hpp"
+
+namespace swiftlet::mapping3d {
+namespace {
+
+using common::Pose3;
+
+/// A frame that is less certain of its pose along some direction tells nothing of a seed.
+constexpr double kLeastCertain_m = 0.01;
+constexpr double kLeastCertain_rad = 0.005;
+/// Learning anew after each frame would cost more than it gives.
+constexpr std::uint64_t kLearnEvery = 10;
+/// The standard deviation of a Gaussian by the median of its magnitude.
+constexpr double kSigmaOfMedian = 1.4826;
+
+/// Errors of neighbouring points are alike, so that an alignment is less certain than independent points would make it.
+constexpr double kSigmaFactor = 5.0;
+
+/// By the frame alone, without what was known before.
+bool isCertain(const Alignment& fit) {
+  const Matrix6d covariance = kSigmaFactor * kSigmaFactor * fit.measured_information.inverse();
+  if (!covariance.allFinite()) return false;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shift(covariance.topLeftCorner<3, 3>());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> turn(covariance.bottomRightCorner<3, 3>());
+  return shift.eigenvalues().maxCoeff() < kLeastCertain_m * kLeastCertain_m &&
+         turn.eigenvalues().maxCoeff() < kLeastCertain_rad * kLeastCertain_rad;
+}
+
+struct StepError {
+  Eigen::Vector3d shift_m, turn_rad;  ///< In the axes of the seeds' map.
+};
+
+StepError stepError(const Pose3& tracked_from, const Pose3& tracked_to, const Pose3& seed_from, const Pose3& seed_to) {
+  const Pose3 error = (seed_from.inverse() * seed_to).inverse() * (tracked_from.inverse() * tracked_to);
+  return {seed_to.rotation * error.position_m, seed_to.rotation * common::logSO3(error.rotation)};
+}
+
+double medianOf(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void RecordedSeedsConfig::describe(common::config::Fields& fields) {
+  fields("longest_gap_s", longest_gap_s, {0.01, 10}, "Between poses farther apart, no motion is assumed.");
+  fields("longest_lateness_s", longest_lateness_s, {0.0, 2.0}, "Poses are at most so late, or so early.");
+  fields("lateness_step_s", lateness_step_s, {0.001, 0.1}, "Resolution of the lateness.");
+  fields("lateness_gain", lateness_gain, {0.0, 1.0},
+         "Another lateness must lessen the difference from the track by this share, or it is not believed.");
+  fields("stretch_s", stretch_s, {0.05, 5.0}, "The lateness is searched over steps of this length.");
+  fields("frames", frames, {20, 10'000}, "The last so many tracked frames tell how good the poses are.");
+  fields("least_steps", least_steps, {3, 1000}, "Before so many steps, poses are only where an alignment may begin.");
+  fields("speed_floor_m_s", speed_floor_m_s, {0.0001, 10},
+         "Standard deviation of the speed that a step from pose to pose has, at least.");
+  fields("rate_floor_rad_s", rate_floor_rad_s, {0.0001, 10}, "Standard deviation of its angular rate, at least.");
+}
+
+RecordedSeeds::RecordedSeeds(common::Trajectory poses, const RecordedSeedsConfig& config)
+    : poses_(std::move(poses)), config_(config) {}
+
+std::optional<Pose3> RecordedSeeds::poseAt(common::Time stamp, double lateness_s) const {
+  const common::Time time = stamp + common::Duration::fromSeconds(lateness_s);
+  const auto after = std::lower_bound(poses_.begin(), poses_.end(), time,
+                                      [](const common::StampedPose& pose, common::Time t) { return pose.stamp < t; });
+  if (after == poses_.end()) return std::nullopt;
+  if (after->stamp == time) return after->pose;
+  if (after == poses_.begin()) return std::nullopt;
+  const common::StampedPose& before = *(after - 1);
+  const double gap_s = (after->stamp - before.stamp).seconds();
+  if (gap_s > config_.longest_gap_s) return std::nullopt;
+  const double part = (time - before.stamp).seconds() / gap_s;
+  return Pose3{before.pose.rotation.slerp(part, after->pose.rotation),
+               before.pose.position_m + part * (after->pose.position_m - before.pose.position_m)};
+}
+
+std::optional<CameraSeed> RecordedSeeds::at(common::Time stamp) const {
+  const auto pose = poseAt(stamp, lateness_s_);
+  if (!pose) return std::nullopt;
+  return CameraSeed{*pose, 0, false, rate_covariance_};
+}
+
+void RecordedSeeds::compare(const RgbdPose& pose) {
+  if (!pose.isTracked() || !pose.measured || !isCertain(pose.fit)) return;
+  tracked_.push_back({pose.stamp, pose.T_map_camera});
+  if (tracked_.size() > static_cast<std::size_t>(config_.frames)) tracked_.pop_front();
+  if (++compared_ % kLearnEvery != 0) return;
+  learnLateness();
+  learnSpread();
+}
+
+/// Mean length of the errors over stretches; a turn of one radian counts as one metre.
+std::optional<double> RecordedSeeds::misfit(double lateness_s) const {
+  double sum = 0.0;
+  int steps = 0;
+  std::size_t to = 0;
+  for (const Tracked& from : tracked_) {
+    while (to < tracked_.size() && (tracked_[to].stamp - from.stamp).seconds() < config_.stretch_s) ++to;
+    if (to == tracked_.size()) break;
+    const auto seed_from = poseAt(from.stamp, lateness_s), seed_to = poseAt(tracked_[to].stamp, lateness_s);
+    if (!seed_from || !seed_to) continue;
+    const StepError error = stepError(from.T_map_camera, tracked_[to].T_map_camera, *seed_from, *seed_to);
+    sum += error.shift_m.norm() + error.turn_rad.norm();
+    ++steps;
+  }
+  if (steps < config_.least_steps) return std::nullopt;
+  return sum / steps;
+}
+
+void RecordedSeeds::learnLateness() {
+  const auto now = misfit(lateness_s_);
+  if (!now) return;
+  double least = *now, best_s = lateness_s_;
+  const int half = static_cast<int>(std::lround(config_.longest_lateness_s / config_.lateness_step_s));
+  for (int i = -half; i <= half; ++i) {
+    const double lateness_s = i * config_.lateness_step_s;
+    const auto there = misfit(lateness_s);
+    if (!there || *there >= least) continue;
+    least = *there;
+    best_s = lateness_s;
+  }
+  if (least < (1.0 - config_.lateness_gain) * *now) lateness_s_ = best_s;
+}
+
+void RecordedSeeds::learnSpread() {
+  std::array<std::vector<double>, 6> rates;
+  for (std::size_t i = 1; i < tracked_.size(); ++i) {
+    const double gap_s = (tracked_[i].stamp - tracked_[i - 1].stamp).seconds();
+    const auto from = poseAt(tracked_[i - 1].stamp, lateness_s_), to = poseAt(tracked_[i].stamp, lateness_s_);
+    if (!from || !to || gap_s <= 0.0 || gap_s > config_.longest_gap_s) continue;
+    const StepError error = stepError(tracked_[i - 1].T_map_camera, tracked_[i].T_map_camera, *from, *to);
+    for (int axis = 0; axis < 3; ++axis) {
+      rates[static_cast<std::size_t>(axis)].push_back(std::abs(error.shift_m[axis]) / gap_s);
+      rates[static_cast<std::size_t>(axis + 3)].push_back(std::abs(error.turn_rad[axis]) / gap_s);
+    }
+  }
+  if (rates.front().size() < static_cast<std::size_t>(config_.least_steps)) return;
+  rate_covariance_ = Matrix6d::Zero();
+  for (int axis = 0; axis < 6; ++axis) {
+    const double floor = axis < 3 ? config_.speed_floor_m_s : config_.rate_floor_rad_s;
+    const double sigma = std::max(floor, kSigmaOfMedian * medianOf(rates[static_cast<std::size_t>(axis)]));
+    (*rate_covariance_)(axis, axis) = sigma * sigma;
+  }
+}
+
+}  // namespace swiftlet::mapping3d

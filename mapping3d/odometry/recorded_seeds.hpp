@@ -1,0 +1,66 @@
+// Poses of the camera from other sensors, as a file has them, and how good they are. Nobody says how noisy and how late
+// such poses are, so they are compared with the track: over the steps between frames that tell their pose in all
+// directions by themselves.
+//
+//   poses --> read later by the lateness --> steps --> spread against the tracked steps, each axis of the map by itself
+//
+// A step of a seed then counts as much as its spread allows (withSeedStep). Seeds that know the vertical well and the
+// heading badly keep what they know, because the axes are those of their own map. Deterministic; one thread.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "common/config_fwd.hpp"
+#include "common/trajectory.hpp"
+#include "mapping3d/odometry/rgbd_odometry.hpp"
+
+namespace swiftlet::mapping3d {
+
+struct RecordedSeedsConfig {
+  double longest_gap_s = 0.5;
+  double longest_lateness_s = 0.3;
+  double lateness_step_s = 0.01;
+  double lateness_gain = 0.1;
+  double stretch_s = 0.3;
+  int frames = 300;
+  int least_steps = 10;
+  double speed_floor_m_s = 0.03;
+  double rate_floor_rad_s = 0.02;
+
+  void describe(common::config::Fields& fields);
+};
+
+class RecordedSeeds {
+ public:
+  /// `poses` are those of the camera (axes of `camera`), in a map with z upwards if they know the vertical.
+  RecordedSeeds(common::Trajectory poses, const RecordedSeedsConfig& config);
+
+  /// What the poses say of a frame's time, between two of them at most `longest_gap_s` apart; none elsewhere.
+  std::optional<CameraSeed> at(common::Time stamp) const;
+  /// Learns from a frame that was placed. Frames come in the order of their stamps.
+  void compare(const RgbdPose& pose);
+
+  /// How late the poses are, by their stamps. 0 until it is known.
+  double lateness_s() const { return lateness_s_; }
+
+ private:
+  struct Tracked {
+    common::Time stamp;
+    common::Pose3 T_map_camera;
+  };
+  std::optional<common::Pose3> poseAt(common::Time stamp, double lateness_s) const;
+  std::optional<double> misfit(double lateness_s) const;
+  void learnLateness();
+  void learnSpread();
+
+  common::Trajectory poses_;
+  RecordedSeedsConfig config_;
+  std::deque<Tracked> tracked_;
+  std::uint64_t compared_ = 0;
+  double lateness_s_ = 0.0;
+  std::optional<Matrix6d> rate_covariance_;
+};
+
+}  // namespace swiftlet::mapping3d
