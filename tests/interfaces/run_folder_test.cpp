@@ -101,6 +101,32 @@ TEST(RunFolder, KeepsTheMapsAndPhotographsOfTheMissionAndANewRunRemovesThem) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "run" / "photo-01-door.jpg"));
 }
 
+TEST(RunFolder, ItsReportHasTheTargetsAndThePhotographs) {
+  const ScratchFolder folder;
+  RunFolder run(folder.path() / "run", kInfo, "");
+  Flight flight;
+  test::Layers layers = flight.layers(MissionState::kRunning, "explore");
+  layers.targets.targets.push_back({.id = 4,
+                                    .name = "red",
+                                    .number = 2,
+                                    .position_map_m = {1.25, -2.0, 0.4},
+                                    .views = 5,
+                                    .state = common::TargetState::kFound});
+  common::RgbdFrame frame;
+  frame.color = {2, 1, {255, 0, 0, 0, 255, 0}};
+  run.savePhoto("red_2", frame, {});
+  run.show(ReportPictures{kPng, "", {}});
+  run.world(layers.world());
+  run.finish({});
+  const std::string report = bytesOf(folder / "run/report.html");
+  EXPECT_THAT(report, HasSubstr("red 2"));
+  EXPECT_THAT(report, HasSubstr("(1.25, -2.00, 0.40)"));
+  EXPECT_THAT(report, HasSubstr("src=\"data:image/jpeg;base64,/9j/"));
+  const json mission = json::parse(bytesOf(folder / "run/mission.json"));
+  EXPECT_EQ(mission["targets"][0]["label"], "red 2");
+  EXPECT_EQ(mission["targets"][0]["y_m"], -2.0);
+}
+
 TEST(RunFolder, ContainsEveryFile) {
   const ScratchFolder folder;
   const fs::path path = folder / "deep/run";
